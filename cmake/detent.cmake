@@ -1,0 +1,63 @@
+# Compile options of everything in the project, and the function that declares a floor of the library.
+
+add_library(detent_options INTERFACE)
+target_compile_features(detent_options INTERFACE cxx_std_20)
+target_compile_options(detent_options INTERFACE
+  -fno-exceptions -fno-rtti -ffp-contract=off -fno-math-errno
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Werror)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(i[3-6]86|x86)$")
+  target_compile_options(detent_options INTERFACE -msse2 -mfpmath=sse)  # x87 rounds to 64 bits
+endif()
+
+# What the library's own objects need beyond that: nothing but the compiler's support routines.
+add_library(detent_library_options INTERFACE)
+target_link_libraries(detent_library_options INTERFACE detent_options)
+target_compile_options(detent_library_options INTERFACE
+  -fno-threadsafe-statics -fno-asynchronous-unwind-tables -fno-unwind-tables -ffunction-sections -fdata-sections
+  -fno-strict-overflow)
+if(DETENT_PORTABLE_WIDE)
+  target_compile_definitions(detent_library_options INTERFACE DETENT_PORTABLE_WIDE=1)
+endif()
+if(DETENT_VERIFY)
+  target_compile_definitions(detent_library_options INTERFACE DETENT_VERIFY=1)
+endif()
+
+foreach(config IN LISTS DETENT_CONFIGS)
+  if(NOT config IN_LIST DETENT_ALL_CONFIGS)
+    message(FATAL_ERROR "detent: unknown configuration '${config}'; choose from: ${DETENT_ALL_CONFIGS}")
+  endif()
+  string(TOUPPER ${config} upper)
+  add_library(detent_${config} STATIC)
+  add_library(detent::${config} ALIAS detent_${config})
+  set_target_properties(detent_${config} PROPERTIES EXPORT_NAME ${config} OUTPUT_NAME detent_${config})
+  target_compile_features(detent_${config} PUBLIC cxx_std_20)
+  target_compile_definitions(detent_${config} PUBLIC DETENT_${upper}=1)
+  target_include_directories(detent_${config}
+    PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>
+    PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/lib)
+  target_link_libraries(detent_${config} PRIVATE $<BUILD_INTERFACE:detent_library_options>)
+endforeach()
+if(NOT DETENT_CONFIG IN_LIST DETENT_CONFIGS)
+  message(FATAL_ERROR "detent: DETENT_CONFIG is '${DETENT_CONFIG}', which DETENT_CONFIGS (${DETENT_CONFIGS}) does not build")
+endif()
+add_library(detent::detent ALIAS detent_${DETENT_CONFIG})
+
+# detent_floor(<sources>...): a floor of the library, compiled once for each configuration. Its folder is its name; it may
+# include its own folder and the floors listed before it in lib/CMakeLists.txt (held by tests/floors).
+function(detent_floor)
+  foreach(config IN LISTS DETENT_CONFIGS)
+    foreach(source IN LISTS ARGN)
+      target_sources(detent_${config} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/${source})
+    endforeach()
+  endforeach()
+endfunction()
+
+# detent_per_config(<name> <sources>...): an object library <name>_<config> for each configuration, that sees the public
+# headers and lib/; for adapters and tests that are compiled once per configuration.
+function(detent_per_config name)
+  foreach(config IN LISTS DETENT_CONFIGS)
+    add_library(${name}_${config} OBJECT ${ARGN})
+    target_link_libraries(${name}_${config} PUBLIC detent_${config} PRIVATE detent_options)
+    target_include_directories(${name}_${config} PRIVATE ${PROJECT_SOURCE_DIR}/lib ${PROJECT_SOURCE_DIR})
+  endforeach()
+endfunction()

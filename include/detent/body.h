@@ -1,0 +1,41 @@
+#pragma once
+#include <detent/id.h>
+#include <detent/scaled.h>
+#include <detent/shape.h>
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// Stored in snapshots and recordings: a value is never reused.
+enum class BodyType : uint32_t {
+  fixed = 1,      ///< never moves; infinite mass
+  kinematic = 2,  ///< moves by the velocity it is given, and nothing pushes it
+  dynamic = 3,    ///< moved by forces and contacts
+};
+
+/// How a surface behaves. A pair takes the geometric mean of friction and of rolling resistance, and the larger restitution.
+struct Material {
+  Real friction = 0.6;            ///< Coulomb's coefficient, [0, 16]
+  Real restitution = 0.0;         ///< rebound speed over approach speed, [0, 1]
+  Real rolling_resistance = 0.0;  ///< torque over (normal force x smaller radius), about any axis, [0, 1]
+};
+
+/// What `create_body` makes. Every field has a working default.
+struct BodyDef {
+  BodyType type = BodyType::dynamic;
+  Position position = {0.0, 0.0, 0.0};           ///< of the centre of mass, m, world
+  Quat rotation = {0.0, 0.0, 0.0, 1.0};          ///< local to world; length 1 within 2^-10, normalised on entry
+  Vec3<Real> velocity = {0.0, 0.0, 0.0};         ///< m/s, world; each component within +-16384
+  Vec3<Real> spin = {0.0, 0.0, 0.0};             ///< rad/s, world; |spin| x bounding radius within 16384 m/s
+  Shape shape = {};
+  Material material = {};
+  Scaled density = 1000.0;                       ///< kg/m^3, > 0; used where mass is 0; mass within [2^-60, 2^60] kg
+  Scaled mass = 0.0;                             ///< kg; 0: from the density
+  Real linear_damping = 0.0;                     ///< 1/s, [0, 1024]
+  Real angular_damping = 0.0;                    ///< 1/s, [0, 1024]
+  Real gravity_scale = 1.0;                      ///< [-1024, 1024]
+  uint32_t user_data = 0;                        ///< kept, digested and recorded; never read
+};
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

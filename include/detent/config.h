@@ -1,0 +1,50 @@
+#pragma once
+/// The one switch: which of the four math configurations this translation unit uses.
+///
+/// Define exactly one of DETENT_FX64, DETENT_FX32, DETENT_F32, DETENT_F64 (the CMake targets detent::fx64 ... do), or none
+/// for fx64. Every name lives in an inline namespace of the configuration, so that a program built for one configuration
+/// and linked with the library of another fails to link, and all four can be linked into one program.
+
+#if defined(DETENT_FX64) + defined(DETENT_FX32) + defined(DETENT_F32) + defined(DETENT_F64) > 1
+#error "detent: define one of DETENT_FX64, DETENT_FX32, DETENT_F32, DETENT_F64, not several"
+#endif
+#if defined(DETENT_FX32)
+#define DETENT_NAMESPACE fx32
+#define DETENT_FIXED 1
+#elif defined(DETENT_F32)
+#define DETENT_NAMESPACE f32
+#define DETENT_FIXED 0
+#elif defined(DETENT_F64)
+#define DETENT_NAMESPACE f64
+#define DETENT_FIXED 0
+#else
+#if !defined(DETENT_FX64)
+#define DETENT_FX64 1
+#endif
+#define DETENT_NAMESPACE fx64
+#define DETENT_FIXED 1
+#endif
+
+#include <stdint.h>
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// The configuration as data: the value stored in snapshots and recordings. A value is never reused.
+enum class Config : uint32_t { fx64 = 1, fx32 = 2, f32 = 3, f64 = 4 };
+
+#if defined(DETENT_FX64)
+inline constexpr Config k_config = Config::fx64;
+#elif defined(DETENT_FX32)
+inline constexpr Config k_config = Config::fx32;
+#elif defined(DETENT_F32)
+inline constexpr Config k_config = Config::f32;
+#else
+inline constexpr Config k_config = Config::f64;
+#endif
+
+/// What a tick computes: any change that can alter a digest raises it. Stored in snapshots and recordings.
+inline constexpr uint32_t k_simulation_version = 1;
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,134 @@
+#pragma once
+#include <detent/asset.h>
+#include <detent/body.h>
+#include <detent/status.h>
+
+/// The world: a static pool of bodies and contacts in one block of the caller's memory.
+///
+/// Threads: a world is a value. Calls on different worlds may run beside each other; functions that take `const World&`
+/// may run beside each other on one world; nothing may run beside a call that takes `World&` on the same world.
+/// There is no global state. In f32 and f64 every call that computes sets the rounding mode and flush-to-zero flags it
+/// needs and restores the caller's.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// How many of each kind a world can hold. Fixed for the life of the world; at most 2^20 each.
+struct Capacity {
+  uint32_t bodies = 0;
+  uint32_t contacts = 0;  ///< pairs of bodies in contact
+  uint32_t assets = 0;
+  friend constexpr bool operator==(Capacity a, Capacity b) {
+    return a.bodies == b.bodies && a.contacts == b.contacts && a.assets == b.assets;
+  }
+};
+
+/// What `create_world` makes. Every field but the capacity has a working default.
+struct WorldDef {
+  Capacity capacity = {};
+  Vec3<Real> gravity = {0.0, -9.81, 0.0};  ///< m/s^2; each component within +-1024
+  Real tick = 1.0 / 60.0;                  ///< s, the time of one step, [2^-14, 1/4]
+  uint32_t substeps = 4;                   ///< solver substeps a tick, [1, 64]
+  uint32_t iterations = 1;                 ///< sweeps over the contacts a substep, [1, 64]
+  Real relaxation = 1.0;                   ///< over-relaxation factor of the SOR solver, [1/4, 7/4]
+  Real stiffness = 0.14;                   ///< contact frequency as a fraction of the substep rate, [1/64, 1/4]
+  Real damping_ratio = 10.0;               ///< of the soft contacts, [0, 64]
+  Real restitution_threshold = 0.25;       ///< approach speed below which nothing rebounds, in sqrt(g x smaller extent), [0, 64]
+};
+
+/// Bytes of block that a world of this capacity needs; 0 if the capacity is out of range. The same on every target.
+constexpr uint32_t world_bytes(Capacity capacity);
+
+/// A world in the caller's block. A value of two words and a table: copy it freely; it owns nothing.
+struct World {
+  uint8_t* block = nullptr;
+  AssetTable assets = {};
+};
+
+/// What one step did. Every count is of this step alone.
+struct StepReport {
+  uint64_t tick = 0;                ///< ticks completed since the world was created
+  uint32_t bodies = 0;              ///< bodies in the world
+  uint32_t pairs = 0;               ///< pairs of overlapping bounds
+  uint32_t contacts = 0;            ///< pairs with at least one contact point
+  uint32_t contact_points = 0;
+  uint32_t pairs_dropped = 0;       ///< pairs beyond the pair buffer (the largest keys): their contacts are lost this tick
+  uint32_t contacts_dropped = 0;    ///< contacts beyond the capacity (the largest keys), lost this tick
+  uint32_t saturations = 0;         ///< state components clamped to their range
+  uint32_t colour_overflows = 0;    ///< contacts of bodies that touch more than 64 others, solved after the rest
+  /// True if nothing was lost: no pool overflowed and no value was clamped.
+  constexpr bool complete() const { return pairs_dropped == 0 && contacts_dropped == 0 && saturations == 0; }
+};
+
+/// A world's constant and slowly changing facts.
+struct WorldInfo {
+  Capacity capacity = {};
+  uint64_t tick = 0;
+  uint32_t bodies = 0;
+  uint32_t contacts = 0;
+  uint32_t slots_retired = 0;  ///< body slots whose generation is used up
+};
+
+/// Makes an empty world in `block` (8-byte aligned, at least world_bytes(def.capacity) bytes).
+/// Errors: buffer_too_small, buffer_misaligned, out_of_range.
+Status create_world(uint8_t* block, uint32_t block_bytes, const WorldDef& def, AssetTable assets, World& world);
+
+/// Errors: pool_full, bad_argument, out_of_range, not_normalised.
+Status create_body(World& world, const BodyDef& def, BodyId& id);
+/// Its contacts end at once. Errors: bad_id.
+Status destroy_body(World& world, BodyId id);
+/// Teleports; velocity is kept. Errors: bad_id, out_of_range, not_normalised.
+Status set_pose(World& world, BodyId id, const Position& position, const Quat& rotation);
+/// m/s and rad/s, world frame; ranges as in BodyDef. Errors: bad_id, bad_argument (a fixed body), out_of_range.
+Status set_velocity(World& world, BodyId id, const Vec3<Real>& velocity, const Vec3<Real>& spin);
+/// Adds a force, N, world frame, that acts at the centre of mass during the next step.
+/// Errors: bad_id, bad_argument (not dynamic), out_of_range (the speed it would give leaves its range).
+Status apply_force(World& world, BodyId id, const Vec3<Scaled>& force);
+/// Adds a torque, N m, world frame, that acts during the next step. Errors: as apply_force.
+Status apply_torque(World& world, BodyId id, const Vec3<Scaled>& torque);
+/// Changes the momentum at once, N s, world frame, through the centre of mass. Errors: as apply_force.
+Status apply_impulse(World& world, BodyId id, const Vec3<Scaled>& impulse);
+/// Changes the momentum at once through a point given relative to the centre of mass, m, world axes; each component
+/// within twice the bounding radius. Errors: as apply_force.
+Status apply_impulse_at(World& world, BodyId id, const Vec3<Scaled>& impulse, const Vec3<Real>& arm);
+/// Changes the angular momentum at once, N m s, world frame. Errors: as apply_force.
+Status apply_angular_impulse(World& world, BodyId id, const Vec3<Scaled>& impulse);
+/// Errors: out_of_range.
+Status set_gravity(World& world, const Vec3<Real>& gravity);
+/// Errors: bad_id.
+Status set_user_data(World& world, BodyId id, uint32_t user_data);
+/// Binds the table's asset `index` to the state by its content digest. Errors: asset_missing, out_of_range.
+Status bind_asset(World& world, uint32_t index);
+
+/// Advances the world by one tick. Never fails: what could not be done is counted in the report.
+StepReport step(World& world);
+
+bool is_valid(const World& world, BodyId id);
+/// Errors of the getters: bad_id.
+Status get_pose(const World& world, BodyId id, Pose& pose);
+Status get_velocity(const World& world, BodyId id, Vec3<Real>& velocity, Vec3<Real>& spin);
+/// kg; 0 for fixed and kinematic bodies.
+Status get_mass(const World& world, BodyId id, Scaled& mass);
+Status get_user_data(const World& world, BodyId id, uint32_t& user_data);
+WorldInfo get_info(const World& world);
+/// Visits bodies in slot order: the first valid id after `previous` (null to begin), or null at the end.
+BodyId next_body(const World& world, BodyId previous);
+
+/// 64 bits over every persistent byte, the same on every target and for every capacity. SPEC.md, "Digest".
+uint64_t digest(const World& world);
+
+/// Bytes of a snapshot of a world of this capacity.
+constexpr uint32_t snapshot_bytes(Capacity capacity);
+/// Copies the persistent state into `bytes`. Errors: buffer_too_small.
+Status save(const World& world, uint8_t* bytes, uint32_t byte_count);
+/// Puts back a snapshot that this program saved from a world of the same capacity: one copy, checked only by its header.
+/// Errors: truncated, not_detent, format_unknown, simulation_differs, config_differs, capacity_differs.
+Status restore(World& world, const uint8_t* bytes, uint32_t byte_count);
+/// Puts back a snapshot from outside: every byte is checked before the world is touched. `bytes` is used as work space
+/// (8-byte aligned) and its content is unspecified afterwards.
+/// Errors: as restore, and buffer_misaligned, corrupt, asset_missing, asset_mismatch.
+Status load(World& world, uint8_t* bytes, uint32_t byte_count);
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent
+
+#include <detent/detail/layout.h>
