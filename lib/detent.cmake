@@ -4,6 +4,7 @@ add_library(detent_options INTERFACE)
 target_compile_features(detent_options INTERFACE cxx_std_20)
 target_compile_options(detent_options INTERFACE
   -fno-exceptions -fno-rtti -ffp-contract=off -fno-math-errno
+  -Wno-float-conversion -Wno-implicit-float-conversion
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Werror)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(i[3-6]86|x86)$")
   target_compile_options(detent_options INTERFACE -msse2 -mfpmath=sse)  # x87 rounds to 64 bits
@@ -53,7 +54,7 @@ function(detent_floor)
 endfunction()
 
 # detent_per_config(<name> <sources>...): an object library <name>_<config> for each configuration, that sees the public
-# headers and lib/; for adapters and tests that are compiled once per configuration.
+# headers, lib/ and the repository's root; for adapters, scenes and tests that are compiled once per configuration.
 function(detent_per_config name)
   foreach(config IN LISTS DETENT_CONFIGS)
     add_library(${name}_${config} OBJECT ${ARGN})

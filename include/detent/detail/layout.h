@@ -1,0 +1,84 @@
+#pragma once
+#include <detent/detail/scratch.h>
+#include <detent/world.h>
+
+/// Where everything lies in a block: one list of arrays, persistent first. world_bytes, the snapshot, the digest and the
+/// step all read it from here.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+constexpr uint32_t k_capacity_max = 1u << 20;
+constexpr uint32_t k_pairs_per_contact = 2;  ///< room for pairs whose bounds overlap without contact
+
+/// Byte offsets of the arrays in a block.
+struct Layout {
+  uint32_t header, world, poses, motions, traits, slots, contacts, assets;
+  uint32_t persistent_bytes;  ///< end of the snapshot
+  uint32_t bounds, body_work, body_order, pairs, contact_work, contact_order;
+  uint32_t bytes;
+};
+
+constexpr uint32_t slot_words(uint32_t bodies) { return (bodies + 63) / 64 * 2; }
+
+constexpr bool in_range(Capacity capacity) {
+  return capacity.bodies >= 1 && capacity.bodies <= k_capacity_max && capacity.contacts <= k_capacity_max &&
+         capacity.assets <= k_capacity_max;
+}
+
+/// The layout for a capacity in range; `fits` is false if the block would need 2^32 bytes or more.
+constexpr Layout layout_of(Capacity capacity, bool& fits) {
+  uint64_t end = 0;
+  const auto place = [&end](uint64_t element_bytes, uint64_t count) {
+    const uint64_t start = end;
+    end = (end + element_bytes * count + 7) / 8 * 8;
+    return static_cast<uint32_t>(start);
+  };
+  Layout layout{};
+  layout.header = place(sizeof(BlockHeader), 1);
+  layout.world = place(sizeof(WorldState), 1);
+  layout.poses = place(sizeof(BodyPose), capacity.bodies);
+  layout.motions = place(sizeof(BodyMotion), capacity.bodies);
+  layout.traits = place(sizeof(BodyTraits), capacity.bodies);
+  layout.slots = place(sizeof(uint32_t), slot_words(capacity.bodies));
+  layout.contacts = place(sizeof(ContactState), capacity.contacts);
+  layout.assets = place(sizeof(AssetState), capacity.assets);
+  layout.persistent_bytes = static_cast<uint32_t>(end);
+  layout.bounds = place(sizeof(Bounds), capacity.bodies);
+  layout.body_work = place(sizeof(BodyWork), capacity.bodies);
+  layout.body_order = place(sizeof(uint32_t), capacity.bodies);
+  layout.pairs = place(sizeof(uint64_t), uint64_t{capacity.contacts} * k_pairs_per_contact);
+  layout.contact_work = place(sizeof(ContactWork), capacity.contacts);
+  layout.contact_order = place(sizeof(ContactOrder), capacity.contacts);
+  layout.bytes = static_cast<uint32_t>(end);
+  fits = end <= 0xffffffffu;
+  return layout;
+}
+
+constexpr uint32_t world_bytes(Capacity capacity) {
+  bool fits = false;
+  const uint32_t bytes = in_range(capacity) ? layout_of(capacity, fits).bytes : 0;
+  return fits ? bytes : 0;
+}
+
+constexpr uint32_t snapshot_bytes(Capacity capacity) {
+  bool fits = false;
+  const uint32_t bytes = in_range(capacity) ? layout_of(capacity, fits).persistent_bytes : 0;
+  return fits ? bytes : 0;
+}
+
+/// Memory for a world whose capacity is known at compile time.
+template <Capacity capacity>
+struct WorldStorage {
+  static constexpr uint32_t k_bytes = world_bytes(capacity);
+  static_assert(k_bytes != 0, "detent: capacity out of range");
+  alignas(8) uint8_t block[k_bytes];
+
+  /// As create_world, in this block and with this capacity, whatever `def.capacity` says.
+  Status create(WorldDef def, World& world, AssetTable assets = {}) {
+    def.capacity = capacity;
+    return create_world(block, k_bytes, def, assets, world);
+  }
+};
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,95 @@
+#pragma once
+#include <detent/body.h>
+
+/// The persistent state: what a snapshot holds and the digest covers. Every struct is tiled by its fields without padding
+/// (asserted by lib/world/fields.h), holds no pointer and no size_t, and has the same layout on every target.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// What a block is. Checked by value when a snapshot comes in; not part of the digest.
+struct alignas(8) BlockHeader {
+  uint32_t magic;
+  uint32_t format;
+  uint32_t simulation;
+  Config config;
+  uint32_t capacity_bodies;
+  uint32_t capacity_contacts;
+  uint32_t capacity_assets;
+  uint32_t zero;
+};
+
+struct alignas(8) WorldState {
+  uint64_t tick;             ///< ticks completed
+  uint32_t body_count;       ///< bodies alive
+  uint32_t slots_used;       ///< body slots ever used: the slots beyond are all zero
+  uint32_t free_word;        ///< no slot is free in the words of `slots` before this one
+  uint32_t slots_retired;    ///< body slots whose generation is used up
+  uint32_t contact_count;    ///< contacts, sorted by (body_a, body_b)
+  uint32_t substeps;
+  uint32_t iterations;
+  uint32_t zero;
+  Vec3<Real> gravity;        ///< m/s^2
+  Real tick_time;            ///< s
+  Real relaxation;
+  Real stiffness;
+  Real damping_ratio;
+  Real restitution_threshold;
+};
+
+struct BodyPose {
+  Position position;  ///< of the centre of mass, m
+#if defined(DETENT_FX32)
+  uint16_t remainder[3];  ///< of the position, 2^-32 m: the true coordinate is position + remainder
+  uint16_t zero;
+#endif
+  Quat rotation;  ///< local to world
+};
+
+struct BodyMotion {
+  Vec3<Real> velocity;          ///< m/s
+  Vec3<Real> momentum;          ///< angular momentum / (mass 2^size_exponent), m/s; kinematic: spin 2^size_exponent
+  Vec3<Real> pending_velocity;  ///< what the forces applied since the last step add during the next, m/s
+  Vec3<Real> pending_momentum;  ///< likewise for `momentum`
+};
+
+struct BodyTraits {
+  uint32_t type;        ///< BodyType, or 0: the slot is empty, and all but the generation is zero
+  uint32_t generation;  ///< of the body in the slot, or of the last one
+  uint32_t shape;       ///< ShapeType
+  int32_t size_exponent;  ///< 2^size_exponent m is the body's unit of length: the bounding radius lies in [1/2, 1) of it
+  Vec3<Unit> size;        ///< in that unit: half extents; or (radius, half length, 0)
+  Unit bounding_radius;   ///< in that unit
+  Scaled mass;            ///< kg; 0 if not dynamic
+  Scaled gyration[3];     ///< m (2^size_exponent)^2 / I about each body axis; 0 if not dynamic
+  Scaled friction;
+  Scaled restitution;
+  Scaled rolling_resistance;
+  Scaled linear_damping;   ///< 1/s
+  Scaled angular_damping;  ///< 1/s
+  Scaled gravity_scale;
+  uint32_t user_data;
+  uint32_t zero;
+};
+
+constexpr uint32_t k_manifold_points_max = 4;
+
+/// A pair of bodies in contact and what the next tick starts from.
+struct ContactState {
+  uint32_t body_a;  ///< slot index; body_a < body_b
+  uint32_t body_b;
+  uint32_t age;  ///< ticks in contact before this one
+  uint32_t point_count;
+  uint32_t feature[k_manifold_points_max];     ///< which features touch; distinct; 0 beyond point_count
+  Real normal_impulse[k_manifold_points_max];  ///< impulse / mass of the lighter dynamic body, m/s; 0 beyond point_count
+  Vec3<Real> friction_impulse;                 ///< likewise, on B, world
+  Vec3<Real> angular_impulse;                  ///< likewise, per unit length of the pair, on B, world
+};
+
+struct AssetState {
+  uint64_t digest;
+  uint32_t byte_count;
+  uint32_t bound;  ///< 1 once bound
+};
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,211 @@
+#pragma once
+#include <detent/world.h>
+
+/// Recording and replay: a seed snapshot, every mutating call, and a digest per tick, as a stream of small checked
+/// chunks. Format: docs/recording.md. Neither class allocates, seeks or holds more than the caller's buffer.
+///
+/// Threads: a Recorder or Player is used like the world it is given to: by one thread at a time.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// The layout of the bytes, apart from what a tick computes (`k_simulation_version`).
+inline constexpr uint32_t k_recording_format_version = 1;
+/// The working buffer of a Recorder or a Player: one chunk. No alignment is needed.
+inline constexpr uint32_t k_recording_buffer_bytes = 544;
+
+/// How much the recording says about each tick. Stored: a value is never reused. This version writes and reads level 0.
+enum class TraceLevel : uint32_t {
+  digests = 0,  ///< one digest a tick
+  stages = 1,   ///< reserved: digests per stage and body
+  full = 2,     ///< reserved: the full state in a window of ticks
+};
+
+/// Where a recording goes. `write` takes all of `count` bytes, in order, or returns another status than ok.
+/// A null `write` records nothing: the calls just apply.
+struct Sink {
+  Status (*write)(void* context, const uint8_t* bytes, uint32_t count) = nullptr;
+  void* context = nullptr;
+};
+
+/// Where a recording comes from. `read` gives the next bytes in order: `got` <= count is how many, and fewer than
+/// `count` only at the end. Anything but ok stops the replay as sink_failed.
+struct Source {
+  Status (*read)(void* context, uint8_t* bytes, uint32_t count, uint32_t& got) = nullptr;
+  void* context = nullptr;
+};
+
+struct RecordingDef {
+  uint32_t digest_interval = 1;  ///< a digest after every tick that is a multiple of it; 0: only at the end
+};
+
+/// The header of a recording.
+struct RecordingInfo {
+  uint32_t format_version = 0;
+  uint32_t simulation_version = 0;
+  Config config = k_config;
+  Capacity capacity = {};
+  TraceLevel trace_level = TraceLevel::digests;
+  uint32_t digest_interval = 0;
+  uint64_t tick = 0;            ///< of the seed: ticks that its world had completed when the recording began
+  uint32_t snapshot_bytes = 0;  ///< of the seed
+};
+
+/// Applies calls to a world and logs those that succeeded. Its methods mirror world.h by name, arguments and statuses.
+///
+/// A call that fails changes nothing and is not logged. A failing sink doesn't disturb the world: the calls go on
+/// applying, nothing more is written, and `status` and `end` report it. Between `begin` and `end` the world is changed
+/// through the recorder alone; a change behind its back shows as digest_differs in the replay. In f32 and f64 a
+/// negative zero is applied and logged as zero, and a NaN or infinity is refused (out_of_range) in any field, also in
+/// one that the shape's type doesn't use: what is logged is what was applied.
+class Recorder {
+ public:
+  /// `buffer` and the world must outlive the recorder. The buffer may be null with a null sink.
+  Recorder(World& world, Sink sink, uint8_t* buffer, uint32_t buffer_bytes);
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+
+  /// Writes the header and the world's state as the seed; calls are logged from here on. With a null sink: ok, and
+  /// nothing. Errors: bad_argument (begun before), buffer_too_small (k_recording_buffer_bytes), sink_failed.
+  Status begin(const RecordingDef& def = {});
+  /// Writes what is buffered as a chunk, so that a crash later loses nothing up to here. Errors: sink_failed.
+  Status flush();
+  /// Writes the rest and the end chunk; later calls apply and are not logged. Without `begin`: ok, and nothing.
+  /// Errors: sink_failed, also for a failure since `begin`.
+  Status end();
+  /// ok, or the first failure of `begin` or the sink: from then on the recording is incomplete.
+  Status status() const { return status_; }
+  const World& world() const { return world_; }
+
+  Status create_body(const BodyDef& def, BodyId& id);
+  Status destroy_body(BodyId id);
+  Status set_pose(BodyId id, const Position& position, const Quat& rotation);
+  Status set_velocity(BodyId id, const Vec3<Real>& velocity, const Vec3<Real>& spin);
+  Status apply_force(BodyId id, const Vec3<Scaled>& force);
+  Status apply_torque(BodyId id, const Vec3<Scaled>& torque);
+  Status apply_impulse(BodyId id, const Vec3<Scaled>& impulse);
+  Status apply_impulse_at(BodyId id, const Vec3<Scaled>& impulse, const Vec3<Real>& arm);
+  Status apply_angular_impulse(BodyId id, const Vec3<Scaled>& impulse);
+  Status set_gravity(const Vec3<Real>& gravity);
+  Status set_user_data(BodyId id, uint32_t user_data);
+  Status bind_asset(uint32_t index);
+  /// Steps the world, and logs the tick and, every `digest_interval` ticks, the digest.
+  StepReport step();
+
+ private:
+  enum class State : uint32_t { idle, recording, ended };
+
+  template <class Command>
+  Status apply_and_log(Command& command);
+  template <class Command>
+  void log(Command& command);
+  bool recording() const { return state_ == State::recording && status_ == Status::ok; }
+  void write(const uint8_t* bytes, uint32_t count);
+  void write_header();
+  void write_seed();
+  void write_chunk(uint32_t type, uint32_t payload_count);
+  void flush_records();
+
+  World& world_;
+  Sink sink_;
+  uint8_t* buffer_;
+  uint32_t buffer_bytes_;
+  State state_ = State::idle;
+  Status status_ = Status::ok;
+  uint32_t digest_interval_ = 1;
+  uint32_t sequence_ = 0;       ///< of the next chunk
+  uint32_t payload_count_ = 0;  ///< bytes of records that wait in the buffer
+  uint64_t tick_ = 0;           ///< of the world, now
+  uint64_t chunk_tick_ = 0;     ///< of the world, before the first waiting record
+  uint64_t ticks_ = 0;          ///< logged since `begin`
+};
+
+/// What one tick of a replay showed.
+struct TickResult {
+  bool finished = false;   ///< the end of the recording: no tick was made; `digest` is that of the final state
+  bool compared = false;   ///< the recording holds a digest of this tick (and it is equal, where there is a world)
+  uint64_t tick = 0;       ///< ticks completed since the world was created
+  uint64_t digest = 0;     ///< where `compared`
+  uint32_t calls = 0;      ///< applied before the tick
+  StepReport report = {};  ///< of the step; empty without a world
+};
+
+/// Where and why a replay stopped. `field` and `status_text(status)` make one line for a reader:
+/// "corrupt at byte 1234, tick 17: chunk checksum".
+struct ReplayError {
+  Status status = Status::ok;
+  uint64_t tick = 0;       ///< ticks completed when it stopped
+  uint64_t offset = 0;     ///< of the header field, chunk or record that is wrong, bytes from the recording's start
+  const char* field = "";  ///< what is wrong there; never null
+  uint64_t digest_recorded = 0;  ///< digest_differs at a digest: the recording's
+  uint64_t digest_replayed = 0;  ///< and this machine's
+};
+
+struct Reader;
+
+/// Replays a recording from a stream. Any bytes may come: every length and number is checked before it is used, each
+/// chunk by its CRC-32 before anything in it is read. The first error stays: later calls return it again.
+class Player {
+ public:
+  /// `buffer` must outlive the player.
+  Player(Source source, uint8_t* buffer, uint32_t buffer_bytes);
+  Player(const Player&) = delete;
+  Player& operator=(const Player&) = delete;
+
+  /// Reads the header. `info` is filled once its checksum is right, also if this build refuses it by a later check.
+  /// Errors: buffer_too_small, bad_argument (opened before), sink_failed, truncated, not_detent, format_unknown,
+  /// corrupt, simulation_differs, config_differs.
+  Status open();
+  const RecordingInfo& info() const { return info_; }
+
+  /// Loads the seed into a world that was created with `info().capacity`. On failure the world is left empty.
+  /// Errors: bad_argument (not opened, or started before), capacity_differs, and those of `load`; truncated,
+  /// sink_failed.
+  Status start(World& world);
+  /// Goes on from a state that was saved during this recording, on any machine: passes over all up to the world's tick.
+  /// Errors: as start, and out_of_range (a tick before the seed or after the end).
+  Status start_at(World& world);
+  /// Makes the calls of one tick, steps, and compares the digest; at the end, makes the calls after the last tick and
+  /// compares the final digest. A call that this world refuses, or that gives another id than recorded, is
+  /// digest_differs: the bytes are sound, so the states differ. Errors: bad_argument (not started, or finished),
+  /// truncated, corrupt, digest_differs, sink_failed. `result` is then untouched.
+  Status next_tick(World& world, TickResult& result) { return advance(&world, result); }
+  /// As next_tick, without a world: reads and checks the bytes, and makes no call. After `open`, from the seed on.
+  Status skip_tick(TickResult& result) { return advance(nullptr, result); }
+  const ReplayError& error() const { return error_; }
+  /// Bytes read so far, for a progress display.
+  uint64_t bytes_read() const { return offset_; }
+
+ private:
+  enum class State : uint32_t { closed, opened, playing, finished };
+
+  Status fail(Status status, uint64_t offset, const char* field);
+  Status read(uint8_t* bytes, uint32_t count, const char* field);
+  Status read_chunk();
+  Status read_seed(uint32_t offset, uint8_t* bytes, uint32_t count);
+  static Status read_seed_from(void* player, uint32_t offset, uint8_t* bytes, uint32_t count);
+  Status prepare(const World& world);
+  Status pass_seed();
+  Status end_seed();
+  Status advance(World* world, TickResult& result);
+  Status call(World* world, uint32_t tag, Reader& reader, uint64_t offset);
+  Status finish(const World* world, TickResult& made);
+  Status compare(const World& world, uint64_t recorded, uint64_t offset, const char* field);
+
+  Source source_;
+  uint8_t* buffer_;
+  uint32_t buffer_bytes_;
+  State state_ = State::closed;
+  RecordingInfo info_ = {};
+  ReplayError error_ = {};
+  uint64_t offset_ = 0;        ///< bytes read
+  uint64_t chunk_offset_ = 0;  ///< where the current chunk starts
+  uint32_t chunk_type_ = 0;
+  uint32_t payload_count_ = 0;
+  uint32_t payload_at_ = 0;  ///< bytes of it that are used
+  uint32_t sequence_ = 0;    ///< of the next chunk
+  uint32_t seed_at_ = 0;     ///< bytes of the seed that are used
+  uint64_t tick_ = 0;
+};
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

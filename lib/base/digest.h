@@ -1,0 +1,28 @@
+#pragma once
+#include "base/bytes.h"
+
+/// The digest's arithmetic. Every step is a bijection of the running value for a given word and of the word for a given
+/// running value, so one changed word always changes the result (SPEC.md, "Digest").
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+constexpr uint64_t digest_step(uint64_t running, uint64_t word) {
+  running ^= word * 0x9e3779b97f4a7c15u;
+  running = (running << 29) | (running >> 35);
+  return running * 0xbf58476d1ce4e5b9u + 0x94d049bb133111ebu;
+}
+
+/// Spreads every bit over the whole value.
+constexpr uint64_t digest_finish(uint64_t running) {
+  running ^= running >> 32;
+  running *= 0xd6e8feb86659fd93u;
+  running ^= running >> 29;
+  running *= 0xd6e8feb86659fd93u;
+  return running ^ (running >> 32);
+}
+
+/// The digest of canonical bytes; the last word is filled with zeros, and the count is part of it.
+uint64_t digest_bytes(const uint8_t* bytes, uint32_t byte_count, uint64_t seed);
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

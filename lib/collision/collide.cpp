@@ -1,0 +1,80 @@
+#include "collision/collide.h"
+
+#include "collision/collide_half_space.h"
+#include "collision/collide_shapes.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+ShapeType type_of(const CollisionBody& body) { return static_cast<ShapeType>(body.traits.shape); }
+
+/// The order in which a pair's functions take their shapes: half-space, box, round.
+int rank_of(ShapeType type) { return type == ShapeType::half_space ? 0 : type == ShapeType::box ? 1 : 2; }
+
+Vec3<Unit> scaled(const Vec3<Unit>& v, int power) {
+  return {scale_by_power(v.x, power), scale_by_power(v.y, power), scale_by_power(v.z, power)};
+}
+
+PairShape shape_in(const CollisionBody& body, int exponent) {
+  return {type_of(body), {0.0, 0.0, 0.0}, body.rotation, scaled(body.traits.size, body.traits.size_exponent - exponent)};
+}
+
+/// False if the centres are so far apart that the pair cannot touch.
+bool make_frame(const CollisionBody& first, const CollisionBody& second, Real reach, PairFrame& frame) {
+  const Position& from = first.pose.position;
+  const Position& to = second.pose.position;
+  const Real radii = real_from_unit(first.traits.bounding_radius, first.traits.size_exponent) +
+                     real_from_unit(second.traits.bounding_radius, second.traits.size_exponent);
+  const Real dx = real_difference(to.x, from.x), dy = real_difference(to.y, from.y), dz = real_difference(to.z, from.z);
+  if (max(abs(dx), max(abs(dy), abs(dz))) > radii + reach) return false;
+  frame.exponent = exponent_above(abs(dx) + abs(dy) + abs(dz) + radii + reach);
+  frame.reach = unit_from_real(reach, frame.exponent);
+  frame.a = shape_in(first, frame.exponent);
+  frame.b = shape_in(second, frame.exponent);
+  frame.b.centre = {unit_difference(to.x, from.x, frame.exponent), unit_difference(to.y, from.y, frame.exponent),
+                    unit_difference(to.z, from.z, frame.exponent)};
+  return true;
+}
+
+void collide_ordered(const CollisionBody& first, const CollisionBody& second, Real reach, ContactGeometry& contact) {
+  PairFrame frame;
+  if (!make_frame(first, second, reach, frame)) return;
+  PairManifold manifold;
+  if (frame.b.type == ShapeType::box) collide_boxes(frame, manifold);
+  else if (frame.a.type == ShapeType::box) collide_box_round(frame, manifold);
+  else collide_round(frame, manifold);
+
+  contact.normal = manifold.normal;
+  for (uint32_t i = 0; i < manifold.count; ++i) {
+    const PairPoint& point = manifold.point[i];
+    contact.point[contact.count++] = {
+        scaled(point.point, frame.exponent - first.traits.size_exponent),
+        scaled(point.point - frame.b.centre, frame.exponent - second.traits.size_exponent),
+        real_from_unit(point.separation, frame.exponent), point.feature};
+  }
+}
+
+void swap_bodies(ContactGeometry& contact) {
+  contact.normal = -contact.normal;
+  for (uint32_t i = 0; i < contact.count; ++i) {
+    const Vec3<Unit> arm = contact.point[i].arm_a;
+    contact.point[i].arm_a = contact.point[i].arm_b;
+    contact.point[i].arm_b = arm;
+  }
+}
+
+}  // namespace
+
+void collide(const CollisionBody& a, const CollisionBody& b, Real reach, ContactGeometry& contact) {
+  contact.count = 0;
+  const bool swapped = rank_of(type_of(b)) < rank_of(type_of(a));
+  const CollisionBody& first = swapped ? b : a;
+  const CollisionBody& second = swapped ? a : b;
+  if (type_of(first) == ShapeType::half_space) collide_half_space(first, second, reach, contact);
+  else collide_ordered(first, second, reach, contact);
+  if (swapped && contact.count != 0) swap_bodies(contact);
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

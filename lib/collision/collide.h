@@ -1,0 +1,35 @@
+#pragma once
+#include <detent/detail/state.h>
+
+#include "math/rotation.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+struct ContactGeometryPoint {
+  Vec3<Unit> arm_a, arm_b;  ///< from the centre of mass to midway between the surfaces, in each body's unit of length
+  Real separation;          ///< along the normal, m; negative when overlapping
+  uint32_t feature;         ///< distinct within the contact, stable while the same features meet; never 0
+};
+
+/// Contact of two bodies, world axes.
+struct ContactGeometry {
+  Vec3<Unit> normal;  ///< from A to B
+  uint32_t count = 0;
+  ContactGeometryPoint point[k_manifold_points_max];
+};
+
+/// What collide needs of a body. `rotation` is the matrix of its pose's rotation.
+struct CollisionBody {
+  const BodyPose& pose;
+  const BodyTraits& traits;
+  const Matrix3& rotation;
+};
+
+/// Finds the contact points of a pair no farther apart than `reach`, m; none, and an empty result, if there are none.
+/// Precision: 2^-26 of the larger body's size (fixed), of a half-space of the other body's size and 2^-31 of its distance
+/// from the plane's origin.
+void collide(const CollisionBody& a, const CollisionBody& b, Real reach, ContactGeometry& contact);
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,273 @@
+#include "collision/collide_shapes.h"
+#include "collision/segments.h"
+#include "math/root.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+constexpr Unit k_edge_sine_min = 0x1p-5;  // edges closer to parallel than 1.8 degrees give no axis of their own
+
+struct Half {
+  Unit v[3];
+};
+
+/// What the separating axis test works on: the offset of B from A along all six axes, and their cosines.
+struct AxisTable {
+  Half half_a, half_b;
+  Unit offset_a[3], offset_b[3];
+  Unit cosine[3][3];  ///< A's axis i with B's axis j
+};
+
+enum class AxisKind { face_a, face_b, edges };
+
+struct Axis {
+  AxisKind kind;
+  int i, j;
+  Unit separation;
+};
+
+Half half_of(const Vec3<Unit>& size) { return {{size.x, size.y, size.z}}; }
+
+AxisTable table_of(const PairFrame& frame) {
+  AxisTable table;
+  table.half_a = half_of(frame.a.size);
+  table.half_b = half_of(frame.b.size);
+  for (int i = 0; i < 3; ++i) {
+    table.offset_a[i] = dot(frame.a.rotation.column[i], frame.b.centre);
+    table.offset_b[i] = dot(frame.b.rotation.column[i], frame.b.centre);
+    for (int j = 0; j < 3; ++j) table.cosine[i][j] = dot(frame.a.rotation.column[i], frame.b.rotation.column[j]);
+  }
+  return table;
+}
+
+Unit face_a_separation(const AxisTable& t, int i) {
+  Unit support = t.half_a.v[i];
+  for (int j = 0; j < 3; ++j) support += t.half_b.v[j] * abs(t.cosine[i][j]);
+  return abs(t.offset_a[i]) - support;
+}
+
+Unit face_b_separation(const AxisTable& t, int j) {
+  Unit support = t.half_b.v[j];
+  for (int i = 0; i < 3; ++i) support += t.half_a.v[i] * abs(t.cosine[i][j]);
+  return abs(t.offset_b[j]) - support;
+}
+
+/// False if the edges are too nearly parallel.
+bool edge_separation(const AxisTable& t, int i, int j, Unit& separation) {
+  const Unit sine = square_root(max(Unit(1.0) - t.cosine[i][j] * t.cosine[i][j], Unit(0.0)));
+  if (sine < k_edge_sine_min) return false;
+  const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+  const Unit offset = abs(t.offset_a[i2] * t.cosine[i1][j] - t.offset_a[i1] * t.cosine[i2][j]);
+  const Unit support_a = t.half_a.v[i1] * abs(t.cosine[i2][j]) + t.half_a.v[i2] * abs(t.cosine[i1][j]);
+  const Unit support_b = t.half_b.v[j1] * abs(t.cosine[i][j2]) + t.half_b.v[j2] * abs(t.cosine[i][j1]);
+  // Below -1 the quotient could leave Unit's range; such an overlap is never the least one of shapes in the unit ball.
+  const Unit scaled = offset - support_a - support_b;
+  if (scaled <= -sine) return false;
+  separation = divide(scaled, sine);
+  return true;
+}
+
+/// The axis of largest separation. A's faces are preferred to B's, and faces to edges, by a 64th of the smaller box, so
+/// that a resting pair keeps its features. False if an axis separates the boxes by more than `reach`.
+bool find_axis(const AxisTable& table, Unit reach, Axis& best) {
+  Unit smallest = table.half_a.v[0];
+  for (int i = 0; i < 3; ++i) smallest = min(smallest, min(table.half_a.v[i], table.half_b.v[i]));
+  const Unit preference = scale_by_power(smallest, -6);
+  best = {AxisKind::face_a, 0, 0, -1.5};
+  for (int i = 0; i < 3; ++i) {
+    const Unit separation = face_a_separation(table, i);
+    if (separation > reach) return false;
+    if (separation > best.separation) best = {AxisKind::face_a, i, 0, separation};
+  }
+  Unit to_beat = best.separation + preference;
+  for (int j = 0; j < 3; ++j) {
+    const Unit separation = face_b_separation(table, j);
+    if (separation > reach) return false;
+    if (separation > to_beat) {
+      best = {AxisKind::face_b, 0, j, separation};
+      to_beat = separation;
+    }
+  }
+  to_beat = best.separation + preference;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      Unit separation = 0.0;
+      if (!edge_separation(table, i, j, separation)) continue;
+      if (separation > reach) return false;
+      if (separation > to_beat) {
+        best = {AxisKind::edges, i, j, separation};
+        to_beat = separation;
+      }
+    }
+  }
+  return true;
+}
+
+/// A vertex of the clipped face, in the reference face's axes: u and v across it, w above it.
+struct FaceVertex {
+  Unit u, v, w;
+  uint32_t label;       ///< 0..3 a vertex of the incident face, 4..19 its edge k on side c, 20..23 a corner of the reference
+  uint32_t edge_label;  ///< of the edge to the next vertex: 0..3 of the incident face, 4..7 a side of the reference
+};
+
+constexpr uint32_t k_face_vertices_max = 8;
+
+uint32_t crossing_label(uint32_t edge_label, uint32_t side) {
+  if (edge_label < 4) return 4 + 4 * edge_label + side;
+  // Two sides of the reference face meet in a corner: one bounds u (0, 1), the other v (2, 3).
+  const uint32_t other = edge_label - 4;
+  const uint32_t u_side = side < 2 ? side : other, v_side = side < 2 ? other : side;
+  return 20 + (u_side & 1) + 2 * (v_side & 1);
+}
+
+/// Keeps what lies within `limit` on one side: 0 u <= limit, 1 -u <= limit, 2 v <= limit, 3 -v <= limit.
+uint32_t clip_side(const FaceVertex* in, uint32_t count, uint32_t side, Unit limit, FaceVertex* out) {
+  const auto beyond = [&](const FaceVertex& p) {
+    const Unit across = side < 2 ? p.u : p.v;
+    return ((side & 1) != 0 ? -across : across) - limit;
+  };
+  uint32_t kept = 0;
+  for (uint32_t i = 0; i < count; ++i) {
+    const FaceVertex& p = in[i];
+    const FaceVertex& q = in[i + 1 == count ? 0 : i + 1];
+    const Unit p_beyond = beyond(p), q_beyond = beyond(q);
+    const bool p_inside = p_beyond <= Unit(0.0), q_inside = q_beyond <= Unit(0.0);
+    if (p_inside) out[kept++] = p;
+    if (p_inside == q_inside) continue;
+    const Unit part = divide(p_beyond, p_beyond - q_beyond);
+    FaceVertex crossing = {p.u + (q.u - p.u) * part, p.v + (q.v - p.v) * part, p.w + (q.w - p.w) * part, 0, 0};
+    crossing.label = crossing_label(p.edge_label, side);
+    crossing.edge_label = p_inside ? 4 + side : p.edge_label;
+    out[kept++] = crossing;
+  }
+  return kept;
+}
+
+/// At most four of the vertices: those that reach farthest along the face's four diagonals, in that order. Depth plays no
+/// part, so that a resting pair keeps its points while it trembles. Ties go to the earlier vertex.
+/// Source: the extremes of Moravanszky, Terdiman, "Fast Contact Reduction for Dynamics Simulation", 2004.
+uint32_t choose_corners(const FaceVertex* polygon, uint32_t count, uint32_t chosen[k_manifold_points_max]) {
+  if (count <= k_manifold_points_max) {
+    for (uint32_t i = 0; i < count; ++i) chosen[i] = i;
+    return count;
+  }
+  uint32_t kept = 0;
+  for (uint32_t diagonal = 0; diagonal < 4; ++diagonal) {
+    const auto reach = [&](const FaceVertex& p) {
+      return ((diagonal & 1) != 0 ? -p.u : p.u) + ((diagonal & 2) != 0 ? -p.v : p.v);
+    };
+    uint32_t best = 0;
+    for (uint32_t i = 1; i < count; ++i) {
+      if (reach(polygon[i]) > reach(polygon[best])) best = i;
+    }
+    bool fresh = true;
+    for (uint32_t i = 0; i < kept; ++i) fresh = fresh && chosen[i] != best;
+    if (fresh) chosen[kept++] = best;
+  }
+  return kept;
+}
+
+Unit sign_of(Unit value) { return value < Unit(0.0) ? Unit(-1.0) : Unit(1.0); }
+
+/// Contact of a face of `reference` (axis `face`) with `incident`. `outward` is +1 if the reference is A.
+void collide_face(const PairShape& reference, const PairShape& incident, int face, bool reference_is_a,
+                  const PairFrame& frame, PairManifold& manifold) {
+  const Half half = half_of(reference.size), other = half_of(incident.size);
+  const Vec3<Unit> between = incident.centre - reference.centre;
+  const Vec3<Unit>& axis = reference.rotation.column[face];
+  const bool flipped = dot(axis, between) < Unit(0.0);
+  const Vec3<Unit> normal = flipped ? -axis : axis;
+  const Vec3<Unit>& axis_u = reference.rotation.column[(face + 1) % 3];
+  const Vec3<Unit>& axis_v = reference.rotation.column[(face + 2) % 3];
+  // A vertex barely beyond the face's side is kept as it is: equal boxes stacked flush would else change features, and lose
+  // their impulses, at every tremor.
+  const Unit slack = scale_by_power(min(half.v[(face + 1) % 3], half.v[(face + 2) % 3]), -6);
+  const Unit limit_u = half.v[(face + 1) % 3] + slack, limit_v = half.v[(face + 2) % 3] + slack;
+
+  int opposed = 0;
+  Unit opposition = -1.0;
+  for (int i = 0; i < 3; ++i) {
+    const Unit along = abs(dot(normal, incident.rotation.column[i]));
+    if (along > opposition) {
+      opposition = along;
+      opposed = i;
+    }
+  }
+  const Vec3<Unit>& incident_axis = incident.rotation.column[opposed];
+  const Unit side = -sign_of(dot(normal, incident_axis));
+  const Vec3<Unit> middle = between + incident_axis * (other.v[opposed] * side);
+  const Vec3<Unit> first = incident.rotation.column[(opposed + 1) % 3] * other.v[(opposed + 1) % 3];
+  const Vec3<Unit> second = incident.rotation.column[(opposed + 2) % 3] * other.v[(opposed + 2) % 3];
+  const Vec3<Unit> corner[4] = {middle + first + second, middle - first + second, middle - first - second,
+                                middle + first - second};
+  FaceVertex polygon[k_face_vertices_max], clipped[k_face_vertices_max];
+  for (uint32_t i = 0; i < 4; ++i) {
+    polygon[i] = {dot(axis_u, corner[i]), dot(axis_v, corner[i]), dot(normal, corner[i]) - half.v[face], i, i};
+  }
+  uint32_t count = clip_side(polygon, 4, 0, limit_u, clipped);
+  count = clip_side(clipped, count, 1, limit_u, polygon);
+  count = clip_side(polygon, count, 2, limit_v, clipped);
+  count = clip_side(clipped, count, 3, limit_v, polygon);
+
+  manifold.normal = reference_is_a ? normal : -normal;
+  const uint32_t faces = (reference_is_a ? 0u : 1u) + 2 * (2 * static_cast<uint32_t>(face) + (flipped ? 1u : 0u)) +
+                         12 * (2 * static_cast<uint32_t>(opposed) + (side < Unit(0.0) ? 1u : 0u));
+  uint32_t near = 0;
+  for (uint32_t i = 0; i < count; ++i) {
+    if (polygon[i].w <= frame.reach) polygon[near++] = polygon[i];
+  }
+  uint32_t chosen[k_manifold_points_max];
+  const uint32_t chosen_count = choose_corners(polygon, near, chosen);
+  for (uint32_t i = 0; i < chosen_count; ++i) {
+    const FaceVertex& p = polygon[chosen[i]];
+    const Vec3<Unit> local = axis_u * p.u + axis_v * p.v + normal * (half.v[face] + scale_by_power(p.w, -1));
+    manifold.add({reference.centre + local, p.w, 1 + 32 * faces + p.label});
+  }
+}
+
+/// The edge of the box along axis `edge` that reaches farthest along `direction`.
+Segment support_edge(const PairShape& box, int edge, const Vec3<Unit>& direction, uint32_t& which) {
+  const Half half = half_of(box.size);
+  Segment segment = {box.centre, box.rotation.column[edge], half.v[edge]};
+  which = 4 * static_cast<uint32_t>(edge);
+  for (int k = 1; k < 3; ++k) {
+    const int axis = (edge + k) % 3;
+    const Unit sign = sign_of(dot(direction, box.rotation.column[axis]));
+    segment.centre = segment.centre + box.rotation.column[axis] * (half.v[axis] * sign);
+    if (sign < Unit(0.0)) which += static_cast<uint32_t>(k);
+  }
+  return segment;
+}
+
+void collide_edges(const PairFrame& frame, const Axis& axis, PairManifold& manifold) {
+  Unit size = 0.0;
+  if (!normalise(cross(frame.a.rotation.column[axis.i], frame.b.rotation.column[axis.j]), manifold.normal, size)) return;
+  if (dot(manifold.normal, frame.b.centre) < Unit(0.0)) manifold.normal = -manifold.normal;
+  uint32_t which_a = 0, which_b = 0;
+  const Segment edge_a = support_edge(frame.a, axis.i, manifold.normal, which_a);
+  const Segment edge_b = support_edge(frame.b, axis.j, -manifold.normal, which_b);
+  Unit along_a = 0.0, along_b = 0.0;
+  closest_points(edge_a, edge_b, along_a, along_b);
+  const Vec3<Unit> on_a = point_at(edge_a, along_a), on_b = point_at(edge_b, along_b);
+  const Vec3<Unit> half_way = {scale_by_power(on_b.x - on_a.x, -1), scale_by_power(on_b.y - on_a.y, -1),
+                               scale_by_power(on_b.z - on_a.z, -1)};
+  const Unit separation = dot(on_b - on_a, manifold.normal);
+  if (separation > frame.reach) return;
+  manifold.add({on_a + half_way, separation, 0x10000 + 16 * which_a + which_b});
+}
+
+}  // namespace
+
+void collide_boxes(const PairFrame& frame, PairManifold& manifold) {
+  Axis axis;
+  if (!find_axis(table_of(frame), frame.reach, axis)) return;
+  switch (axis.kind) {
+    case AxisKind::face_a: collide_face(frame.a, frame.b, axis.i, true, frame, manifold); break;
+    case AxisKind::face_b: collide_face(frame.b, frame.a, axis.j, false, frame, manifold); break;
+    case AxisKind::edges: collide_edges(frame, axis, manifold); break;
+  }
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,37 @@
+#include "collision/contact_cache.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+ContactState continued_contact(uint32_t body_a, uint32_t body_b, const ContactGeometry& geometry,
+                               const ContactState* before) {
+  ContactState contact{};
+  contact.body_a = body_a;
+  contact.body_b = body_b;
+  contact.point_count = geometry.count;
+  for (uint32_t i = 0; i < geometry.count; ++i) contact.feature[i] = geometry.point[i].feature;
+  if (before == nullptr) return contact;
+  contact.age = before->age == UINT32_MAX ? UINT32_MAX : before->age + 1;
+  contact.friction_impulse = before->friction_impulse;
+  contact.angular_impulse = before->angular_impulse;
+  for (uint32_t i = 0; i < contact.point_count; ++i) {
+    for (uint32_t j = 0; j < before->point_count; ++j) {
+      if (before->feature[j] == contact.feature[i]) contact.normal_impulse[i] = before->normal_impulse[j];
+    }
+  }
+  return contact;
+}
+
+uint32_t remove_contacts(Span<ContactState> contacts, uint32_t body) {
+  uint32_t kept = 0;
+  for (uint32_t i = 0; i < contacts.count; ++i) {
+    if (contacts[i].body_a == body || contacts[i].body_b == body) continue;
+    if (kept != i) contacts[kept] = contacts[i];
+    ++kept;
+  }
+  for (uint32_t i = kept; i < contacts.count; ++i) contacts[i] = ContactState{};
+  return kept;
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,46 @@
+#pragma once
+#include <detent/detail/state.h>
+
+#include "math/arithmetic.h"
+#include "math/rotation.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// A candidate contact point, in the pair's frame.
+struct PairPoint {
+  Vec3<Unit> point;  ///< midway between the surfaces
+  Unit separation;   ///< along the normal; negative when overlapping
+  uint32_t feature;  ///< which features meet; distinct within a manifold, stable while the same ones meet, never 0
+};
+
+/// Contact of a pair: one normal and up to four points, in the pair's frame.
+struct PairManifold {
+  Vec3<Unit> normal;  ///< from A to B
+  uint32_t count = 0;
+  PairPoint point[k_manifold_points_max];
+
+  void add(const PairPoint& candidate) {
+    DETENT_VERIFY_RANGE(count < k_manifold_points_max);
+    point[count++] = candidate;
+  }
+};
+
+/// One body of a pair: its shape in the pair's frame (world axes, origin at A's centre, unit of length 2^exponent m).
+struct PairShape {
+  ShapeType type;
+  Vec3<Unit> centre;
+  Matrix3 rotation;
+  Vec3<Unit> size;  ///< half extents; or (radius, half length, 0)
+};
+
+/// A pair scaled so that the centres, both shapes and the gap between them lie within the unit ball around A's centre:
+/// every sum of two projections then fits a Unit, and a millimetre and a hundred metres are equally precise.
+struct PairFrame {
+  int exponent;
+  Unit reach;  ///< points farther apart than this are no contact
+  PairShape a, b;
+};
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

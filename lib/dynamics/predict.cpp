@@ -1,0 +1,92 @@
+#include "dynamics/predict.h"
+
+#include "dynamics/spin.h"
+#include "geometry/bounds.h"
+#include "geometry/shape_traits.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+/// 1 / (1 + rate time): implicit damping.
+Scaled kept(Scaled rate, Real time) {
+  const Scaled one = 1.0;
+  return is_positive(rate) ? divide(one, add(one, multiply(rate, scaled_from(time)))) : one;
+}
+
+Vec3<Real> scaled(const Vec3<Real>& v, Scaled factor) {
+  return {multiply(v.x, factor), multiply(v.y, factor), multiply(v.z, factor)};
+}
+
+Real absolute_sum(const Vec3<Real>& v) { return abs(v.x) + abs(v.y) + abs(v.z); }
+
+}  // namespace
+
+void predict(const StepSettings& settings, Span<const BodyPose> poses, Span<const BodyTraits> traits,
+             Span<BodyMotion> motions, Span<BodyWork> work) {
+  const Real zero = 0.0;
+  const Vec3<Real> none = {zero, zero, zero};
+  const Vec3<Real> gravity_push = settings.gravity * settings.time;
+  for (uint32_t slot = 0; slot < traits.count; ++slot) {
+    if (traits[slot].type == 0) continue;
+    const BodyTraits& body = traits[slot];
+    BodyMotion& motion = motions[slot];
+    BodyWork& now = work[slot];
+    now.colours = 0;
+    now.rotation = poses[slot].rotation;
+    now.displacement = none;
+    now.turn = none;
+    now.push = none;
+    now.twist = none;
+    now.linear_kept = now.angular_kept = Scaled(1.0);
+    if (!is_dynamic(body)) continue;
+    now.push = scaled(gravity_push, body.gravity_scale);
+    if (!(motion.pending_velocity == none)) now.push += scaled(motion.pending_velocity, settings.share);
+    if (!(motion.pending_momentum == none)) now.twist = scaled(motion.pending_momentum, settings.share);
+    motion.pending_velocity = motion.pending_momentum = none;
+    now.linear_kept = kept(body.linear_damping, settings.time);
+    now.angular_kept = kept(body.angular_damping, settings.time);
+  }
+}
+
+Real speed_bound(const BodyTraits& traits, const Quat& rotation, const BodyMotion& motion) {
+  const Vec3<Real> spin = spin_of(traits, rotation, motion.momentum);
+  return absolute_sum(motion.velocity) + absolute_sum(spin);
+}
+
+void bound(const StepSettings& settings, Span<const BodyPose> poses, Span<const BodyTraits> traits,
+           Span<const BodyMotion> motions, Span<Bounds> bounds) {
+  const Vec3<Real> fall = settings.gravity * (settings.tick_time * settings.tick_time);
+  for (uint32_t slot = 0; slot < traits.count; ++slot) {
+    const BodyTraits& body = traits[slot];
+    if (body.type == 0) continue;
+    if (static_cast<ShapeType>(body.shape) == ShapeType::half_space) {
+      bounds[slot] = k_everywhere;
+      continue;
+    }
+    const BodyMotion& motion = motions[slot];
+    const Vec3<Real> half = half_bounds(body, matrix_from(poses[slot].rotation));
+    const Real margin = scale_by_power(shape_extent(body), -6);
+    Vec3<Real> reach = {half.x + margin, half.y + margin, half.z + margin};
+    Vec3<Real> move = motion.velocity * settings.tick_time;
+    if (is_dynamic(body)) move += fall;
+    if (!(motion.momentum == Vec3<Real>{Real(0.0), Real(0.0), Real(0.0)})) {
+      // A turning body stays in its bounding ball.
+      const Real ball = real_from_unit(body.bounding_radius, body.size_exponent) + margin;
+      const Real swing = absolute_sum(spin_of(body, poses[slot].rotation, motion.momentum)) * settings.tick_time;
+      reach = {min(reach.x + swing, ball), min(reach.y + swing, ball), min(reach.z + swing, ball)};
+    }
+    const Real zero = 0.0;
+    const Position& at = poses[slot].position;
+    bool beyond = false;  // clamped bounds still contain the body
+    bounds[slot].lower = {coord_advance(at.x, min(move.x, zero) - reach.x, beyond),
+                          coord_advance(at.y, min(move.y, zero) - reach.y, beyond),
+                          coord_advance(at.z, min(move.z, zero) - reach.z, beyond)};
+    bounds[slot].upper = {coord_advance(at.x, max(move.x, zero) + reach.x, beyond),
+                          coord_advance(at.y, max(move.y, zero) + reach.y, beyond),
+                          coord_advance(at.z, max(move.z, zero) + reach.z, beyond)};
+  }
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

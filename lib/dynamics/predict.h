@@ -1,0 +1,23 @@
+#pragma once
+#include <detent/detail/scratch.h>
+
+#include "base/span.h"
+#include "dynamics/step_settings.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// Starts the tick of every body: its work record from its state, and what gravity, forces and damping do in a substep.
+/// The forces are taken over and cleared.
+void predict(const StepSettings& settings, Span<const BodyPose> poses, Span<const BodyTraits> traits,
+             Span<BodyMotion> motions, Span<BodyWork> work);
+
+/// Bounds of every body over its predicted motion of this tick, with a margin of 1/64 of its smallest diameter.
+void bound(const StepSettings& settings, Span<const BodyPose> poses, Span<const BodyTraits> traits,
+           Span<const BodyMotion> motions, Span<Bounds> bounds);
+
+/// Speed of the fastest point of a body's bounding ball, at most sqrt(3) times too much, m/s.
+Real speed_bound(const BodyTraits& traits, const Quat& rotation, const BodyMotion& motion);
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,24 @@
+#pragma once
+#include <detent/detail/scratch.h>
+
+#include "base/span.h"
+#include "dynamics/step_settings.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// The bodies of a step, as the solver moves them.
+struct SolverBodies {
+  Span<const BodyTraits> traits;
+  Span<BodyMotion> motions;
+  Span<BodyWork> work;
+};
+
+/// Runs the substeps: velocities, warm start, soft normals, positions, relaxation with friction; then restitution once.
+/// SOR over the contacts in the given order, in velocity units. Returns the number of values that were clamped.
+/// Source: Macklin and others, "Small Steps in Physics Simulation", 2019; Catto, "Solver2D", 2024 (soft step).
+uint32_t solve(const StepSettings& settings, const SolverBodies& bodies, Span<const ContactOrder> order,
+               Span<ContactWork> contacts);
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

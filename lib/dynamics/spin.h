@@ -1,0 +1,48 @@
+#pragma once
+#include <detent/detail/state.h>
+
+#include "math/arithmetic.h"
+#include "math/rotation.h"
+#include "math/scaled.h"
+
+/// Rotation of a body from its angular momentum. Momentum and spin are in speeds: momentum = L / (m u) and
+/// spin = w u, where u = 2^size_exponent m, so that spin = gyration x momentum whatever the mass and the scale.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+inline constexpr Real k_speed_max = 16384.0;       ///< m/s, of state: each component of velocity and spin
+inline constexpr Real k_speed_work_max = 32768.0;  ///< m/s, within a solve
+
+inline BodyType type_of(const BodyTraits& traits) { return static_cast<BodyType>(traits.type); }
+inline bool is_dynamic(const BodyTraits& traits) { return type_of(traits) == BodyType::dynamic; }
+inline bool is_isotropic(const BodyTraits& traits) {
+  return traits.gyration[0] == traits.gyration[1] && traits.gyration[1] == traits.gyration[2];
+}
+
+/// An arc, m, at radius 2^exponent m, as an angle, rad; `clamped` is set if it had to be held to 2^15 rad.
+inline Real angle_of(Real arc, int exponent, bool& clamped) {
+  const Real limit = real_from_unit(Unit(1.0), exponent > 1 ? 16 : 15 + exponent);
+  const Real held = clamp(arc, -limit, limit);
+  clamped = clamped || !(held == arc);
+  return scale_by_power(held, -exponent);
+}
+
+/// gyration (world) x `momentum`; for a kinematic body the momentum is the spin. m/s, world.
+inline Vec3<Real> spin_of(const BodyTraits& traits, const Quat& rotation, const Vec3<Real>& momentum) {
+  if (!is_dynamic(traits)) return momentum;
+  const auto gyrate = [&](const Vec3<Real>& v) {
+    return Vec3<Real>{multiply(v.x, traits.gyration[0]), multiply(v.y, traits.gyration[1]),
+                      multiply(v.z, traits.gyration[2])};
+  };
+  if (is_isotropic(traits)) return gyrate(momentum);
+  return rotate(rotation, gyrate(rotate_inverse(rotation, momentum)));
+}
+
+/// Turns `rotation` for `time`, s, by the free motion of a body of this momentum: exact for a body whose gyrations are
+/// equal; otherwise by five exact rotations about its axes (Strang splitting), which keep the momentum exactly and the
+/// energy to second order. `spin` is spin_of at the start. Returns false if the angle was clamped, to 2^15 rad.
+/// Source: Dullweber, Leimkuhler, McLachlan, "Symplectic splitting methods for rigid body molecular dynamics", 1997.
+bool turn_freely(const BodyTraits& traits, const Vec3<Real>& momentum, const Vec3<Real>& spin, Real time, Quat& rotation);
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,254 @@
+#pragma once
+#include <detent/math.h>
+
+#include "math/wide.h"
+#if !DETENT_FIXED
+#include "math/float_bits.h"
+#endif
+
+/// Products, quotients and vectors of the roles, with the same names in all configurations.
+///
+/// Fixed: every function forms its sum of products exactly and rounds once, to nearest, ties up. Results outside the
+/// format wrap unless a function says that it saturates; builds with DETENT_VERIFY stop there.
+/// Float: the plain expression, evaluated from left to right, each operation rounded to nearest, ties to even.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+#if DETENT_FIXED
+inline constexpr int k_unit_frac = Unit::k_frac;
+inline constexpr int k_real_frac = Real::k_frac;
+inline constexpr Real k_real_max = Real::from_raw(INT64_MAX);
+inline constexpr Unit k_unit_max = Unit::from_raw(INT32_MAX);
+
+/// A Unit from a 64-bit result. Overflow: wraps; |value| < 2 by every caller's contract.
+constexpr Unit unit_from_raw(int64_t raw) {
+  DETENT_VERIFY_RANGE(raw == static_cast<int32_t>(raw));
+  return Unit::from_raw(static_cast<int32_t>(raw));
+}
+/// A sum of Unit products, Q4.60, as Unit.
+constexpr Unit unit_from_product(uint64_t sum) {
+  return unit_from_raw(static_cast<int64_t>(sum + (uint64_t{1} << (k_unit_frac - 1))) >> k_unit_frac);
+}
+constexpr uint64_t unit_product(Unit a, Unit b) { return static_cast<uint64_t>(int64_t{a.raw} * b.raw); }
+
+/// |a b| < 2.
+constexpr Unit operator*(Unit a, Unit b) { return unit_from_product(unit_product(a, b)); }
+constexpr Real operator*(Real a, Unit b) { return Real::from_raw(Int128::narrow_sum<k_unit_frac>(a.raw, b.raw)); }
+constexpr Real operator*(Unit a, Real b) { return b * a; }
+constexpr Real operator*(Real a, Real b) {
+  return Real::from_raw(Int128::product(a.raw, b.raw).round_shift(k_real_frac));
+}
+#else
+inline constexpr Real k_real_max = Real(131072.0);  ///< the range is that of the fixed configurations
+#endif
+
+/// The step of a Unit near 1, 2^k_unit_step: the unit in which errors of Unit results are stated (docs/numbers.md).
+#if DETENT_FIXED
+inline constexpr int k_unit_step = -30;
+#elif defined(DETENT_F32)
+inline constexpr int k_unit_step = -24;
+#else
+inline constexpr int k_unit_step = -53;
+#endif
+
+/// The common operations on one role. Both arguments equal: `a` is returned, so that signed zeros agree on all targets.
+template <class T>
+constexpr T min(T a, T b) {
+  return b < a ? b : a;
+}
+template <class T>
+constexpr T max(T a, T b) {
+  return a < b ? b : a;
+}
+template <class T>
+constexpr T clamp(T value, T low, T high) {
+  return min(max(value, low), high);
+}
+/// |a|; +0 for both zeros. Overflow: the most negative fixed number wraps to itself.
+template <class T>
+constexpr T abs(T a) {
+  return T(0.0) < a ? a : T(0.0) - a;
+}
+
+template <class T>
+constexpr Vec3<T> operator+(const Vec3<T>& a, const Vec3<T>& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class T>
+constexpr Vec3<T> operator-(const Vec3<T>& a, const Vec3<T>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class T>
+constexpr Vec3<T> operator-(const Vec3<T>& a) {
+  return {-a.x, -a.y, -a.z};
+}
+template <class T>
+constexpr Vec3<T>& operator+=(Vec3<T>& a, const Vec3<T>& b) {
+  return a = a + b;
+}
+template <class T>
+constexpr Vec3<T>& operator-=(Vec3<T>& a, const Vec3<T>& b) {
+  return a = a - b;
+}
+template <class A, class B>
+constexpr auto operator*(const Vec3<A>& a, B b) -> Vec3<decltype(a.x * b)> {
+  return {a.x * b, a.y * b, a.z * b};
+}
+template <class T>
+constexpr Vec3<T> abs(const Vec3<T>& a) {
+  return {abs(a.x), abs(a.y), abs(a.z)};
+}
+
+#if DETENT_FIXED
+/// Range: |result| < 2.
+constexpr Unit dot(const Vec3<Unit>& a, const Vec3<Unit>& b) {
+  return unit_from_product(unit_product(a.x, b.x) + unit_product(a.y, b.y) + unit_product(a.z, b.z));
+}
+constexpr Real dot(const Vec3<Real>& a, const Vec3<Unit>& b) {
+  return Real::from_raw(Int128::narrow_sum<k_unit_frac>(a.x.raw, b.x.raw, a.y.raw, b.y.raw, a.z.raw, b.z.raw));
+}
+constexpr Real dot(const Vec3<Unit>& a, const Vec3<Real>& b) { return dot(b, a); }
+constexpr Real dot(const Vec3<Real>& a, const Vec3<Real>& b) {
+  return Real::from_raw(
+      (Int128::product(a.x.raw, b.x.raw) + Int128::product(a.y.raw, b.y.raw) + Int128::product(a.z.raw, b.z.raw))
+          .round_shift(k_real_frac));
+}
+
+/// Range: each component of the result < 2.
+constexpr Vec3<Unit> cross(const Vec3<Unit>& a, const Vec3<Unit>& b) {
+  return {unit_from_product(unit_product(a.y, b.z) - unit_product(a.z, b.y)),
+          unit_from_product(unit_product(a.z, b.x) - unit_product(a.x, b.z)),
+          unit_from_product(unit_product(a.x, b.y) - unit_product(a.y, b.x))};
+}
+constexpr Vec3<Real> cross(const Vec3<Real>& a, const Vec3<Unit>& b) {
+  constexpr int n = k_unit_frac;
+  return {Real::from_raw(Int128::narrow_sum<n>(a.y.raw, b.z.raw, a.z.raw, -b.y.raw)),
+          Real::from_raw(Int128::narrow_sum<n>(a.z.raw, b.x.raw, a.x.raw, -b.z.raw)),
+          Real::from_raw(Int128::narrow_sum<n>(a.x.raw, b.y.raw, a.y.raw, -b.x.raw))};
+}
+constexpr Vec3<Real> cross(const Vec3<Unit>& a, const Vec3<Real>& b) {
+  constexpr int n = k_unit_frac;
+  return {Real::from_raw(Int128::narrow_sum<n>(b.z.raw, a.y.raw, b.y.raw, -a.z.raw)),
+          Real::from_raw(Int128::narrow_sum<n>(b.x.raw, a.z.raw, b.z.raw, -a.x.raw)),
+          Real::from_raw(Int128::narrow_sum<n>(b.y.raw, a.x.raw, b.x.raw, -a.y.raw))};
+}
+constexpr Vec3<Real> cross(const Vec3<Real>& a, const Vec3<Real>& b) {
+  const auto difference = [](Real p, Real q, Real r, Real s) {
+    return Real::from_raw((Int128::product(p.raw, q.raw) - Int128::product(r.raw, s.raw)).round_shift(k_real_frac));
+  };
+  return {difference(a.y, b.z, a.z, b.y), difference(a.z, b.x, a.x, b.z), difference(a.x, b.y, a.y, b.x)};
+}
+
+/// a / b. Range: b != 0. Overflow: saturates to +-131072.
+Real divide(Real a, Real b);
+/// a / b. Range: b != 0, |a / b| < 2.
+Unit divide(Unit a, Unit b);
+/// 1 / a. Range: a != 0. Overflow: saturates.
+inline Real reciprocal(Real a) { return divide(Real(1.0), a); }
+
+/// x 2^n. Rounding: to nearest, ties up. Overflow: wraps.
+constexpr Real scale_by_power(Real x, int n) { return Real::from_raw(shift_64(x.raw, n)); }
+/// x 2^n. Range: |x 2^n| < 2.
+constexpr Unit scale_by_power(Unit x, int n) { return unit_from_raw(shift_64(x.raw, n)); }
+
+/// The smallest e >= -46 with |x| < 2^e.
+constexpr int exponent_above(Real x) { return bit_length_64(magnitude_64(x.raw)) - k_real_frac; }
+
+/// u 2^e. Rounding: to nearest, ties up. Overflow: wraps; |u 2^e| < 2^17.
+constexpr Real real_from_unit(Unit u, int e) { return Real::from_raw(shift_64(u.raw, e + k_real_frac - k_unit_frac)); }
+/// r 2^-e. Range: |r 2^-e| < 2. Rounding: to nearest, ties up.
+constexpr Unit unit_from_real(Real r, int e) { return unit_from_raw(shift_64(r.raw, k_unit_frac - k_real_frac - e)); }
+
+/// (a - b) 2^-e, the difference exact. Range: |result| < 2. Rounding: to nearest, ties up.
+constexpr Unit unit_difference(Coord a, Coord b, int e) {
+  const int n = e + Coord::k_frac - k_unit_frac;
+  if (n < 2) return unit_from_raw(shift_64(subtract_wrapped(a.raw, b.raw), -n));
+  // Halved first: the 64-bit difference itself can overflow, and the lowest bit cannot alter the rounding.
+  const int64_t half = (int64_t{a.raw} >> 1) - (int64_t{b.raw} >> 1) - (int64_t{b.raw} & ~int64_t{a.raw} & 1);
+  return unit_from_raw(shift_64(half, 1 - n));
+}
+/// a - b, m. Exact within +-131072 m. Overflow: saturates there.
+constexpr Real real_difference(Coord a, Coord b) {
+  constexpr int k_shift = k_real_frac - Coord::k_frac;
+  const int64_t difference = subtract_wrapped(a.raw, b.raw);
+  constexpr int64_t k_limit = INT64_MAX >> k_shift;
+  // A wrapped difference has the wrong sign.
+  if (a.raw < b.raw)
+    return difference >= 0 || difference < -k_limit ? -k_real_max
+                                                    : Real::from_raw(difference * (int64_t{1} << k_shift));
+  return difference < 0 || difference > k_limit ? k_real_max : Real::from_raw(difference << k_shift);
+}
+/// c + d, m. Rounding: to nearest, ties up. Overflow: clamps to Coord's range and sets `saturated` (else untouched).
+constexpr Coord coord_advance(Coord c, Real d, bool& saturated) {
+  using Raw = Coord::Raw;
+  const int64_t step = round_shift_64(d.raw, k_real_frac - Coord::k_frac);
+  const int64_t sum = add_wrapped(c.raw, step);
+  if constexpr (sizeof(Raw) == 8) {
+    if (((c.raw ^ sum) & (step ^ sum)) < 0) {
+      saturated = true;
+      return Coord::from_raw(static_cast<Raw>(step < 0 ? INT64_MIN : INT64_MAX));
+    }
+  } else if (sum != static_cast<Raw>(sum)) {
+    saturated = true;
+    return Coord::from_raw(static_cast<Raw>(sum < 0 ? INT32_MIN : INT32_MAX));
+  }
+  return Coord::from_raw(static_cast<Raw>(sum));
+}
+#else
+constexpr Real dot(const Vec3<Real>& a, const Vec3<Real>& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+constexpr Vec3<Real> cross(const Vec3<Real>& a, const Vec3<Real>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+constexpr Real divide(Real a, Real b) { return a / b; }
+constexpr Real reciprocal(Real a) { return Real(1) / a; }
+
+/// x 2^n. Range: 2^n normal.
+constexpr Real scale_by_power(Real x, int n) { return x * power_of_two<Real>(n); }
+/// The smallest e >= -46 with |x| < 2^e.
+constexpr int exponent_above(Real x) {
+  const FloatParts parts = float_parts(x);
+  const int e = parts.exponent + FloatFormat<Real>::k_fraction_bits + 1;
+  return parts.mantissa == 0 || e < -46 ? -46 : e;
+}
+/// u 2^e.
+constexpr Real real_from_unit(Unit u, int e) { return scale_by_power(u, e); }
+/// r 2^-e.
+constexpr Unit unit_from_real(Real r, int e) { return scale_by_power(r, -e); }
+
+#if defined(DETENT_F32)
+/// (a - b) 2^e, the difference exact, rounded once.
+constexpr float scaled_difference(Coord a, Coord b, int e) {
+  const bool negative = a < b;
+  const uint64_t magnitude = negative ? static_cast<uint64_t>(b.raw) - static_cast<uint64_t>(a.raw)
+                                      : static_cast<uint64_t>(a.raw) - static_cast<uint64_t>(b.raw);
+  return float_from_parts<float>(magnitude, e - Coord::k_frac, negative);
+}
+constexpr Unit unit_difference(Coord a, Coord b, int e) { return scaled_difference(a, b, -e); }
+constexpr Real real_difference(Coord a, Coord b) { return scaled_difference(a, b, 0); }
+/// c + d, m. Rounding: to nearest, ties up. Overflow: clamps to Coord's range and sets `saturated` (else untouched).
+constexpr Coord coord_advance(Coord c, Real d, bool& saturated) {
+  const int64_t step = integer_from_float(d, Coord::k_frac, saturated);
+  const int64_t sum = add_wrapped(c.raw, step);
+  if (((c.raw ^ sum) & (step ^ sum)) < 0) {
+    saturated = true;
+    return Coord::from_raw(step < 0 ? INT64_MIN : INT64_MAX);
+  }
+  return Coord::from_raw(sum);
+}
+#else
+/// The largest |coordinate|, m.
+inline constexpr Coord k_coord_max = 2147483648.0;
+constexpr Unit unit_difference(Coord a, Coord b, int e) { return scale_by_power(a - b, -e); }
+constexpr Real real_difference(Coord a, Coord b) { return a - b; }
+/// c + d, m, clamped to +-k_coord_max; `saturated` is set when clamped, else untouched.
+constexpr Coord coord_advance(Coord c, Real d, bool& saturated) {
+  const Coord sum = c + d;
+  if (abs(sum) <= k_coord_max) return sum;
+  saturated = true;
+  return sum < 0 ? -k_coord_max : k_coord_max;
+}
+#endif
+#endif
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,68 @@
+#pragma once
+#include "math/arithmetic.h"
+
+/// Square roots and lengths.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// The integer part of the square root, exact.
+uint32_t square_root_floor(uint64_t value);
+/// The integer nearest to the square root. Overflow: saturates at 2^32 - 1.
+uint32_t square_root_nearest(uint64_t value);
+/// The integer nearest to the square root of a 128-bit number. Overflow: saturates at 2^64 - 1.
+/// Source: Zimmermann, "Karatsuba Square Root", INRIA RR-3805, 1999 (one step).
+uint64_t square_root_nearest(Words128 value);
+
+/// An approximation of 2^47 / sqrt(value), that is 1/sqrt(value 2^-32) in Q1.31. Range: value in [2^30, 2^32).
+/// Overflow: saturates at 2^32 - 1. Error: k_reciprocal_root_error.
+uint32_t reciprocal_root(uint32_t value);
+inline constexpr double k_reciprocal_root_error = 1.0;  ///< units of 2^-31; the result is in (1, 2]
+
+#if DETENT_FIXED
+/// Range: a >= 0. Rounding: to nearest. Overflow: none.
+Unit square_root(Unit a);
+Real square_root(Real a);
+/// Range: result < 2. Rounding: the exact sum of squares' root, to nearest.
+Unit length(const Vec3<Unit>& v);
+/// m. Rounding: the exact sum of squares' root, to nearest. Overflow: saturates to +131072.
+Real length(const Vec3<Real>& v);
+
+/// n = v / |v| and |v|. False, outputs untouched, if v is zero. Equally precise for the smallest v.
+/// Rounding: each component of n within k_normalise_error of the true direction, | |n| - 1 | <=
+/// k_normalise_length_error, `length` to nearest. Overflow: as length().
+bool normalise(const Vec3<Unit>& v, Vec3<Unit>& n, Unit& length);
+bool normalise(const Vec3<Real>& v, Vec3<Unit>& n, Real& length);
+#else
+/// Correctly rounded, to nearest, ties to even, by integer arithmetic alone. Range: a >= 0 and not NaN.
+float square_root_portable(float a);
+double square_root_portable(double a);
+
+// The compiler's square root only where it is known to be one instruction: elsewhere it would call libm.
+#if defined(__SSE2_MATH__) || defined(__aarch64__) || defined(__riscv_fdiv) || defined(__s390x__) || \
+    (defined(__mips_hard_float) && !defined(__mips_single_float)) || defined(__wasm__) ||            \
+    (defined(__ARM_FP) && !defined(__SOFTFP__) && (__ARM_FP & 4) && (defined(DETENT_F32) || (__ARM_FP & 8)))
+#define DETENT_HARDWARE_SQUARE_ROOT 1
+#else
+#define DETENT_HARDWARE_SQUARE_ROOT 0
+#endif
+
+/// Correctly rounded. Range: a >= 0 and not NaN.
+inline Real square_root(Real a) {
+#if !DETENT_HARDWARE_SQUARE_ROOT
+  return square_root_portable(a);
+#elif defined(DETENT_F32)
+  return __builtin_sqrtf(a);
+#else
+  return __builtin_sqrt(a);
+#endif
+}
+/// Range: components 0 or at least 2^-46 in magnitude, and below 2^40: the squares neither underflow nor overflow.
+inline Real length(const Vec3<Real>& v) { return square_root(dot(v, v)); }
+/// n = v / |v| and |v|. False, outputs untouched, if v is zero. Errors of n as in fixed.
+bool normalise(const Vec3<Real>& v, Vec3<Unit>& n, Real& length);
+#endif
+inline constexpr double k_normalise_error = 2.5;         ///< steps (k_unit_step), of a component
+inline constexpr double k_normalise_length_error = 3.0;  ///< steps, of |n|
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

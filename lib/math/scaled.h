@@ -1,0 +1,62 @@
+#pragma once
+#include <detent/scaled.h>
+
+#include "math/arithmetic.h"
+
+/// Numbers of wide range: masses, densities, forces, impulses.
+///
+/// Fixed. Rounding: the mantissa to nearest, ties away from zero (so that -a mirrors a); relative error of every
+/// function
+/// <= 2^-31. Overflow: clamps to +-(2 - 2^-30) 2^286; below 2^-226: 0.
+/// Float: the plain expression.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+#if DETENT_FIXED
+inline constexpr int k_scaled_exponent_max = 256;
+
+/// mantissa 2^exponent in canonical form. A caller that dropped lower bits sets the mantissa's lowest bit.
+Scaled scaled_from_parts(bool negative, uint64_t mantissa, int exponent);
+
+Scaled scaled_from(Real a);
+Scaled scaled_from(Unit a);
+Scaled multiply(Scaled a, Scaled b);
+/// Range: b != 0.
+Scaled divide(Scaled a, Scaled b);
+Scaled add(Scaled a, Scaled b);
+/// a 2^n, exact.
+Scaled scaled_by_power(Scaled a, int n);
+/// Range: a >= 0.
+Scaled square_root(Scaled a);
+bool less(Scaled a, Scaled b);
+constexpr bool is_positive(Scaled a) { return a.mantissa > 0; }
+constexpr Scaled negate(Scaled a) { return Scaled::from_parts(-a.mantissa, a.exponent); }
+
+/// a b. Range: |b| <= 1. Rounding: to nearest, ties up. Overflow: none.
+Real multiply(Real a, Scaled b);
+/// a b. Rounding: to nearest, ties up. Overflow: clamps to Real's range and sets `saturated` (else untouched).
+Real multiply(Real a, Scaled b, bool& saturated);
+/// As multiply(Real(1.0), a, saturated).
+Real to_real(Scaled a, bool& saturated);
+/// Range: |a| < 2. Rounding: to nearest, ties up.
+Unit to_unit(Scaled a);
+#else
+constexpr Scaled scaled_from(Real a) { return a; }
+constexpr Real multiply(Real a, Scaled b) { return a * b; }
+constexpr Scaled add(Scaled a, Scaled b) { return a + b; }
+constexpr Scaled scaled_by_power(Scaled a, int n) { return scale_by_power(a, n); }
+constexpr bool less(Scaled a, Scaled b) { return a < b; }
+constexpr bool is_positive(Scaled a) { return a > 0; }
+constexpr Scaled negate(Scaled a) { return Scaled(0) - a; }
+/// Clamps to +-k_real_max and sets `saturated` (else untouched).
+constexpr Real to_real(Scaled a, bool& saturated) {
+  if (abs(a) <= k_real_max) return a;
+  saturated = true;
+  return a < 0 ? -k_real_max : k_real_max;
+}
+constexpr Real multiply(Real a, Scaled b, bool& saturated) { return to_real(a * b, saturated); }
+constexpr Unit to_unit(Scaled a) { return a; }
+#endif
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

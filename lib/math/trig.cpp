@@ -1,0 +1,67 @@
+#include "math/trig.h"
+
+#if !defined(DETENT_F64)
+#include "math/trig_integer.h"
+#if !DETENT_FIXED
+#include "math/float_bits.h"
+#endif
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+namespace {
+
+#if DETENT_FIXED
+Unit unit_of(int32_t raw) { return Unit::from_raw(raw); }
+int64_t radians_q46(Real angle) { return angle.raw; }
+#else
+Unit unit_of(int32_t raw) { return float_from_integer<float>(raw, -30); }
+int64_t radians_q46(Real angle) {
+  bool saturated = false;
+  return integer_from_float(angle, 46, saturated);
+}
+#endif
+
+void set(const SineCosineRaw& raw, Unit& sine, Unit& cosine) {
+  sine = unit_of(raw.sine);
+  cosine = unit_of(raw.cosine);
+}
+
+}  // namespace
+
+void sine_cosine(Turn angle, Unit& sine, Unit& cosine) { set(sine_cosine_raw(int64_t{angle.raw} * 4), sine, cosine); }
+
+void sine_cosine_of_half(Turn angle, Unit& sine, Unit& cosine) {
+  set(sine_cosine_raw(int64_t{static_cast<int32_t>(angle.raw)} * 2), sine, cosine);
+}
+
+void sine_cosine_of_half_radians(Real angle, Unit& sine, Unit& cosine) {
+  set(sine_cosine_raw(turns_from_radians_raw(radians_q46(angle), 1)), sine, cosine);
+}
+
+Turn turn_from_radians(Real angle) { return {static_cast<uint32_t>(turns_from_radians_raw(radians_q46(angle), 0))}; }
+
+#if DETENT_FIXED
+Real radians(Turn angle) { return Real::from_raw(radians_raw(static_cast<int32_t>(angle.raw), k_real_frac)); }
+
+Turn arc_tangent(Unit y, Unit x) { return {arc_tangent_raw(y.raw, x.raw)}; }
+#else
+Real radians(Turn angle) {
+  constexpr int k_frac = 60;  // so that the smallest angle keeps 24 bits
+  return float_from_integer<float>(radians_raw(static_cast<int32_t>(angle.raw), k_frac), -k_frac);
+}
+
+Turn arc_tangent(Unit y, Unit x) {
+  // Both on the scale where the larger has 31 bits: what the smaller loses is below 2^-31 rad.
+  const Unit large = max(abs(y), abs(x));
+  const FloatParts parts = float_parts(large);
+  const int frac = 7 - parts.exponent;
+  bool saturated = false;
+  return {arc_tangent_raw(static_cast<int32_t>(integer_from_float(y, frac, saturated)),
+                          static_cast<int32_t>(integer_from_float(x, frac, saturated)))};
+}
+#endif
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent
+#endif

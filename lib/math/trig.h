@@ -1,0 +1,59 @@
+#pragma once
+#include "math/arithmetic.h"
+
+/// Angles and their functions. fx64, fx32 and f32 share integer kernels; f64 has its own, of + - * / alone.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+#if !defined(DETENT_F64)
+/// An angle as a fraction of a turn: raw 2^-32 turns. Sums wrap, as angles do.
+struct Turn {
+  uint32_t raw;
+  friend constexpr bool operator==(Turn a, Turn b) { return a.raw == b.raw; }
+  friend constexpr Turn operator+(Turn a, Turn b) { return {a.raw + b.raw}; }
+  friend constexpr Turn operator-(Turn a, Turn b) { return {a.raw - b.raw}; }
+  friend constexpr Turn operator-(Turn a) { return {uint32_t{0} - a.raw}; }
+};
+#else
+struct Turn {
+  double radians;
+  friend constexpr bool operator==(Turn a, Turn b) { return a.radians == b.radians; }
+  friend constexpr Turn operator+(Turn a, Turn b) { return {a.radians + b.radians}; }
+  friend constexpr Turn operator-(Turn a, Turn b) { return {a.radians - b.radians}; }
+  friend constexpr Turn operator-(Turn a) { return {-a.radians}; }
+};
+#endif
+
+/// Sine and cosine. Exact at quarter turns. Error: k_sine_error.
+void sine_cosine(Turn angle, Unit& sine, Unit& cosine);
+/// Sine and cosine of half the angle, read in [-1/2, 1/2) turn (f64: as it is). Error: k_sine_error.
+void sine_cosine_of_half(Turn angle, Unit& sine, Unit& cosine);
+/// Sine and cosine of half an angle in rad. Range: |angle| <= 2^17. Error: k_sine_error and 2^-34 turns.
+void sine_cosine_of_half_radians(Real angle, Unit& sine, Unit& cosine);
+
+/// The angle, wrapped to a turn. Range: |angle| <= 2^17 rad. Rounding: to nearest, 1/2 of 2^-32 turns and 2^-16 of
+/// that.
+Turn turn_from_radians(Real angle);
+/// rad, in [-pi, pi). Rounding: to nearest.
+Real radians(Turn angle);
+/// The angle of the point (x, y): atan2(y, x), in (-1/2, 1/2] turn. (0, 0) gives 0. Error: k_arc_tangent_error.
+/// Half a turn is the one angle whose `radians` have the other sign.
+Turn arc_tangent(Unit y, Unit x);
+
+#if DETENT_FIXED
+inline constexpr double k_sine_error = 0.75;  ///< steps (k_unit_step)
+#elif defined(DETENT_F32)
+inline constexpr double k_sine_error = 0.52;
+#else
+inline constexpr double k_sine_error = 2.0;
+#endif
+#if DETENT_FIXED
+inline constexpr double k_arc_tangent_error = 0.75;  ///< units of 2^-32 turns
+#elif defined(DETENT_F32)
+inline constexpr double k_arc_tangent_error = 1.0;
+#else
+inline constexpr double k_arc_tangent_error = 6.0;  ///< units of 2^-53 rad
+#endif
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

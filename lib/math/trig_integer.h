@@ -1,0 +1,25 @@
+#pragma once
+#include "math/trig.h"
+
+/// The integer kernels behind the angles of fx64, fx32 and f32.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// Sine and cosine, Q2.30, of an angle of phase 2^-34 turns.
+struct SineCosineRaw {
+  int32_t sine;
+  int32_t cosine;
+};
+SineCosineRaw sine_cosine_raw(int64_t phase);
+
+/// atan2(y, x) in 2^-32 turns; y and x on one scale of the caller's choice. (0, 0) gives 0.
+/// Range: |y|, |x| <= 2^31; the larger at least 2^29 for the full precision (any smaller pair is itself exact).
+uint32_t arc_tangent_raw(int32_t y, int32_t x);
+
+/// angle, Q46 rad, in turns of 2^-(32 + extra_bits). Range: 0 <= extra_bits <= 2.
+int64_t turns_from_radians_raw(int64_t angle, int extra_bits);
+/// 2^-32 turns, signed, in rad with `frac` fraction bits. Range: 28 < frac <= 60. Rounding: to nearest.
+int64_t radians_raw(int32_t turns, int frac);
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

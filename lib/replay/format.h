@@ -1,0 +1,105 @@
+#pragma once
+#include <detent/recording.h>
+
+#include "replay/archive.h"
+
+/// The recording's frame: header, chunks, end (docs/recording.md).
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+constexpr uint32_t k_magic_bytes = 8;
+/// A byte over 127, both line ends and an end-of-file mark: a transfer as text spoils the first eight bytes already.
+inline constexpr uint8_t k_recording_magic[k_magic_bytes] = {0x89, 'D', 'T', 'R', '\r', '\n', 0x1a, '\n'};
+
+constexpr uint32_t k_version_bytes = 4;  ///< the format version: the first thing after the magic, whatever follows
+constexpr uint32_t k_info_bytes = 48;    ///< the header's fields
+constexpr uint32_t k_checksum_bytes = 4;
+constexpr uint32_t k_header_bytes = k_magic_bytes + k_info_bytes + k_checksum_bytes;
+
+/// Where those header fields start that can be refused after the checksum.
+constexpr uint32_t k_simulation_at = 12;
+constexpr uint32_t k_config_at = 16;
+constexpr uint32_t k_capacity_at = 20;
+constexpr uint32_t k_snapshot_bytes_at = 48;
+
+constexpr uint32_t k_chunk_header_bytes = 16;
+constexpr uint32_t k_chunk_payload_bytes_max = 512;
+static_assert(k_chunk_header_bytes + k_chunk_payload_bytes_max + k_checksum_bytes <= k_recording_buffer_bytes);
+
+/// Stored: a value is never reused.
+enum class ChunkType : uint32_t {
+  seed = 1,   ///< a piece of the snapshot, in order
+  calls = 2,  ///< whole records
+  end = 3,
+};
+/// A reader passes over a chunk of an unknown type that has this bit, and refuses one that has it not.
+constexpr uint32_t k_chunk_optional = 0x8000;
+
+struct ChunkHeader {
+  uint64_t type = 0;
+  uint64_t payload_count = 0;
+  uint64_t sequence = 0;  ///< 0 for the first chunk
+  uint64_t tick = 0;      ///< ticks completed before what the chunk holds
+};
+
+template <class Archive>
+void visit(Archive& archive, ChunkHeader& header) {
+  archive.bits("chunk type", header.type, 2);
+  archive.bits("chunk length", header.payload_count, 2);
+  archive.bits("chunk sequence", header.sequence, 4);
+  archive.bits("chunk tick", header.tick, 8);
+}
+
+struct Ending {
+  uint64_t ticks = 0;   ///< in the recording
+  uint64_t digest = 0;  ///< of the final state
+};
+
+template <class Archive>
+void visit(Archive& archive, Ending& ending) {
+  archive.bits("tick count", ending.ticks, 8);
+  archive.bits("final digest", ending.digest, 8);
+}
+
+template <class Archive, class Enum>
+void visit_header_choice(Archive& archive, const char* name, Enum& value, Enum first, Enum last) {
+  uint32_t word = static_cast<uint32_t>(value);
+  visit_word(archive, name, word);
+  archive.require(name, word >= static_cast<uint32_t>(first) && word <= static_cast<uint32_t>(last),
+                  Status::bad_argument);
+  value = static_cast<Enum>(word);
+}
+
+template <class Archive>
+void visit(Archive& archive, RecordingInfo& info) {
+  visit_word(archive, "format version", info.format_version);
+  visit_word(archive, "simulation version", info.simulation_version);
+  visit_header_choice(archive, "configuration", info.config, Config::fx64, Config::f64);
+  visit_word(archive, "body capacity", info.capacity.bodies);
+  visit_word(archive, "contact capacity", info.capacity.contacts);
+  visit_word(archive, "asset capacity", info.capacity.assets);
+  visit_header_choice(archive, "trace level", info.trace_level, TraceLevel::digests, TraceLevel::full);
+  visit_word(archive, "digest interval", info.digest_interval);
+  archive.bits("tick", info.tick, 8);
+  visit_word(archive, "snapshot bytes", info.snapshot_bytes);
+  uint32_t flags = 0;
+  visit_word(archive, "flags", flags);
+  archive.require("flags", flags == 0, Status::bad_argument);
+}
+
+constexpr bool digest_due(uint32_t interval, uint64_t tick) { return interval != 0 && tick % interval == 0; }
+
+/// The CRC-32 at `bytes`, and back.
+inline uint32_t read_checksum(const uint8_t* bytes) {
+  uint32_t checksum = 0;
+  Reader reader{bytes, k_checksum_bytes};
+  visit_word(reader, "checksum", checksum);
+  return checksum;
+}
+inline void write_checksum(uint8_t* bytes, uint32_t checksum) {
+  Writer writer{bytes, k_checksum_bytes};
+  visit_word(writer, "checksum", checksum);
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

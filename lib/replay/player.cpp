@@ -1,0 +1,274 @@
+#include <detent/recording.h>
+#include <string.h>
+
+#include "base/crc.h"
+#include "replay/command.h"
+#include "replay/format.h"
+#include "world/snapshot.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+namespace {
+
+/// The id that a call gave: its only result.
+template <class Command>
+BodyId id_given(const Command&) {
+  return {};
+}
+BodyId id_given(const CreateBody& command) { return command.id; }
+
+}  // namespace
+
+Player::Player(Source source, uint8_t* buffer, uint32_t buffer_bytes)
+    : source_(source), buffer_(buffer), buffer_bytes_(buffer_bytes) {}
+
+Status Player::fail(Status status, uint64_t offset, const char* field) {
+  if (error_.status != Status::ok) return error_.status;
+  error_.status = status;
+  error_.tick = tick_;
+  error_.offset = offset;
+  error_.field = field;
+  return status;
+}
+
+Status Player::read(uint8_t* bytes, uint32_t count, const char* field) {
+  uint32_t got = 0;
+  const Status status = source_.read(source_.context, bytes, count, got);
+  if (status != Status::ok || got > count) return fail(Status::sink_failed, offset_, field);
+  offset_ += got;
+  return got == count ? Status::ok : fail(Status::truncated, offset_, field);
+}
+
+Status Player::open() {
+  if (error_.status != Status::ok) return error_.status;
+  if (state_ != State::closed) return Status::bad_argument;
+  if (source_.read == nullptr) return fail(Status::bad_argument, 0, "source");
+  if (buffer_ == nullptr || buffer_bytes_ < k_recording_buffer_bytes)
+    return fail(Status::buffer_too_small, 0, "buffer");
+
+  // The version says how long the header is, so it is judged before the checksum.
+  constexpr uint32_t k_start_bytes = k_magic_bytes + k_version_bytes;
+  if (read(buffer_, k_magic_bytes, "magic") != Status::ok) return error_.status;
+  if (memcmp(buffer_, k_recording_magic, k_magic_bytes) != 0) return fail(Status::not_detent, 0, "magic");
+  if (read(buffer_ + k_magic_bytes, k_version_bytes, "format version") != Status::ok) return error_.status;
+  Reader version_reader{buffer_ + k_magic_bytes, k_version_bytes};
+  visit_word(version_reader, "format version", info_.format_version);
+  if (info_.format_version != k_recording_format_version) {
+    return fail(Status::format_unknown, k_magic_bytes, "format version");
+  }
+  if (read(buffer_ + k_start_bytes, k_header_bytes - k_start_bytes, "header") != Status::ok) return error_.status;
+  const uint32_t count = k_magic_bytes + k_info_bytes;
+  if (read_checksum(buffer_ + count) != crc32(buffer_, count)) return fail(Status::corrupt, 0, "header checksum");
+
+  Reader reader{buffer_ + k_magic_bytes, k_info_bytes};
+  visit(reader, info_);
+  if (reader.failed != nullptr) return fail(Status::corrupt, k_magic_bytes + reader.failed_at, reader.failed);
+  tick_ = info_.tick;
+  if (info_.simulation_version != k_simulation_version) {
+    return fail(Status::simulation_differs, k_simulation_at, "simulation version");
+  }
+  if (info_.config != k_config) return fail(Status::config_differs, k_config_at, "configuration");
+  if (info_.snapshot_bytes == 0 || info_.snapshot_bytes != snapshot_bytes(info_.capacity)) {
+    return fail(Status::corrupt, k_snapshot_bytes_at, "snapshot bytes");
+  }
+  state_ = State::opened;
+  return Status::ok;
+}
+
+Status Player::read_chunk() {
+  for (;;) {
+    const uint64_t start = offset_;
+    if (read(buffer_, k_chunk_header_bytes, "chunk header") != Status::ok) return error_.status;
+    ChunkHeader header;
+    Reader reader{buffer_, k_chunk_header_bytes};
+    visit(reader, header);
+    if (header.payload_count > k_chunk_payload_bytes_max) return fail(Status::corrupt, start, "chunk length");
+    payload_count_ = static_cast<uint32_t>(header.payload_count);
+    payload_at_ = 0;
+    const uint32_t count = k_chunk_header_bytes + payload_count_;
+    if (read(buffer_ + k_chunk_header_bytes, payload_count_ + k_checksum_bytes, "chunk") != Status::ok) {
+      return error_.status;
+    }
+    if (read_checksum(buffer_ + count) != crc32(buffer_, count)) return fail(Status::corrupt, start, "chunk checksum");
+    if (header.sequence != sequence_) return fail(Status::corrupt, start, "chunk sequence");
+    if (header.tick != tick_) return fail(Status::corrupt, start, "chunk tick");
+    ++sequence_;
+    chunk_type_ = static_cast<uint32_t>(header.type);
+    chunk_offset_ = start;
+    const ChunkType type = static_cast<ChunkType>(chunk_type_);
+    if (type == ChunkType::seed || type == ChunkType::calls || type == ChunkType::end) return Status::ok;
+    if ((chunk_type_ & k_chunk_optional) == 0) return fail(Status::format_unknown, start, "chunk type");
+  }
+}
+
+Status Player::read_seed(uint32_t offset, uint8_t* bytes, uint32_t count) {
+  if (offset != seed_at_ || count > info_.snapshot_bytes - seed_at_) {
+    return fail(Status::corrupt, offset_, "seed length");
+  }
+  while (count != 0) {
+    if (payload_at_ == payload_count_) {
+      if (read_chunk() != Status::ok) return error_.status;
+      if (static_cast<ChunkType>(chunk_type_) != ChunkType::seed) {
+        return fail(Status::corrupt, chunk_offset_, "chunk order");
+      }
+      continue;
+    }
+    const uint32_t left = payload_count_ - payload_at_;
+    const uint32_t piece = left < count ? left : count;
+    if (bytes != nullptr) {
+      memcpy(bytes, buffer_ + k_chunk_header_bytes + payload_at_, piece);
+      bytes += piece;
+    }
+    payload_at_ += piece;
+    seed_at_ += piece;
+    count -= piece;
+  }
+  return Status::ok;
+}
+
+Status Player::read_seed_from(void* player, uint32_t offset, uint8_t* bytes, uint32_t count) {
+  return static_cast<Player*>(player)->read_seed(offset, bytes, count);
+}
+
+Status Player::prepare(const World& world) {
+  if (error_.status != Status::ok) return error_.status;
+  if (state_ != State::opened) return Status::bad_argument;
+  if (!(get_info(world).capacity == info_.capacity)) return fail(Status::capacity_differs, k_capacity_at, "capacity");
+  return Status::ok;
+}
+
+Status Player::end_seed() {
+  if (seed_at_ != info_.snapshot_bytes || payload_at_ != payload_count_) {
+    return fail(Status::corrupt, chunk_offset_, "seed length");
+  }
+  state_ = State::playing;
+  return Status::ok;
+}
+
+Status Player::pass_seed() {
+  if (read_seed(0, nullptr, info_.snapshot_bytes) != Status::ok) return error_.status;
+  return end_seed();
+}
+
+Status Player::start(World& world) {
+  const Status prepared = prepare(world);
+  if (prepared != Status::ok) return prepared;
+  const Status loaded = load_from(world, read_seed_from, this);
+  if (loaded != Status::ok) return fail(loaded, chunk_offset_, "seed");
+  if (get_info(world).tick != info_.tick) return fail(Status::corrupt, chunk_offset_, "seed tick");
+  return end_seed();
+}
+
+Status Player::start_at(World& world) {
+  const Status prepared = prepare(world);
+  if (prepared != Status::ok) return prepared;
+  if (pass_seed() != Status::ok) return error_.status;
+  const uint64_t target = get_info(world).tick;
+  if (target < tick_) return fail(Status::out_of_range, offset_, "tick of the saved state");
+  TickResult result;
+  while (tick_ < target) {
+    const uint64_t at = offset_;
+    if (skip_tick(result) != Status::ok) return error_.status;
+    if (result.finished) return fail(Status::out_of_range, at, "tick of the saved state");
+  }
+  if (result.compared) return compare(world, result.digest, chunk_offset_, "digest of the saved state");
+  return Status::ok;
+}
+
+Status Player::compare(const World& world, uint64_t recorded, uint64_t offset, const char* field) {
+  const uint64_t replayed = digest(world);
+  if (replayed == recorded) return Status::ok;
+  error_.digest_recorded = recorded;
+  error_.digest_replayed = replayed;
+  return fail(Status::digest_differs, offset, field);
+}
+
+Status Player::call(World* world, uint32_t tag, Reader& reader, uint64_t offset) {
+  Status status = Status::ok;
+  const bool known = with_command(static_cast<RecordTag>(tag), [&](auto& command) {
+    visit(reader, command);
+    if (reader.failed != nullptr || world == nullptr) return;
+    const BodyId recorded = id_given(command);
+    status = apply(*world, command);
+    if (status != Status::ok)
+      status = fail(Status::digest_differs, offset, "call refused");
+    else if (!(id_given(command) == recorded))
+      status = fail(Status::digest_differs, offset, "body id given");
+  });
+  return known ? status : fail(Status::corrupt, offset, "record tag");
+}
+
+Status Player::advance(World* world, TickResult& result) {
+  if (error_.status != Status::ok) return error_.status;
+  if (state_ == State::opened && world == nullptr && pass_seed() != Status::ok) return error_.status;
+  if (state_ != State::playing) return Status::bad_argument;
+  TickResult made;
+  for (;; ++made.calls) {
+    while (payload_at_ == payload_count_) {
+      if (read_chunk() != Status::ok) return error_.status;
+      const ChunkType type = static_cast<ChunkType>(chunk_type_);
+      if (type == ChunkType::end) {
+        if (finish(world, made) != Status::ok) return error_.status;
+        result = made;
+        return Status::ok;
+      }
+      if (type != ChunkType::calls) return fail(Status::corrupt, chunk_offset_, "chunk order");
+    }
+    const uint64_t offset = chunk_offset_ + k_chunk_header_bytes + payload_at_;
+    Reader reader{buffer_ + k_chunk_header_bytes, payload_count_, payload_at_};
+    uint64_t tag = 0;
+    reader.bits("record tag", tag, 1);
+    const bool digested = tag == static_cast<uint64_t>(RecordTag::tick_digested);
+    const bool tick = digested || tag == static_cast<uint64_t>(RecordTag::tick);
+    Status status = Status::ok;
+    if (!tick)
+      status = call(world, static_cast<uint32_t>(tag), reader, offset);
+    else if (digested)
+      reader.bits("digest", made.digest, 8);
+    if (reader.failed != nullptr) {
+      return fail(Status::corrupt, chunk_offset_ + k_chunk_header_bytes + reader.failed_at, reader.failed);
+    }
+    if (status != Status::ok) return status;
+    payload_at_ = reader.at;
+    if (!tick) continue;
+
+    if (digested != digest_due(info_.digest_interval, tick_ + 1))
+      return fail(Status::corrupt, offset, "digest interval");
+    if (world != nullptr) made.report = step(*world);
+    made.tick = ++tick_;
+    made.compared = digested;
+    if (digested && world != nullptr && compare(*world, made.digest, offset, "digest") != Status::ok) {
+      return error_.status;
+    }
+    result = made;
+    return Status::ok;
+  }
+}
+
+Status Player::finish(const World* world, TickResult& made) {
+  Ending ending;
+  Reader reader{buffer_ + k_chunk_header_bytes, payload_count_};
+  visit(reader, ending);
+  if (reader.failed != nullptr || reader.at != payload_count_) {
+    return fail(Status::corrupt, chunk_offset_, "end length");
+  }
+  if (ending.ticks != tick_ - info_.tick) return fail(Status::corrupt, chunk_offset_, "tick count");
+  const uint64_t end = offset_;
+  uint8_t extra = 0;
+  uint32_t got = 0;
+  if (source_.read(source_.context, &extra, 1, got) != Status::ok) return fail(Status::sink_failed, end, "end");
+  if (got != 0) return fail(Status::corrupt, end, "bytes after the end");
+  if (world != nullptr && compare(*world, ending.digest, chunk_offset_, "final digest") != Status::ok) {
+    return error_.status;
+  }
+  state_ = State::finished;
+  made.finished = true;
+  made.compared = true;
+  made.tick = tick_;
+  made.digest = ending.digest;
+  return Status::ok;
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

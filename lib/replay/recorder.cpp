@@ -1,0 +1,203 @@
+#include <detent/recording.h>
+#include <string.h>
+
+#include "base/crc.h"
+#include "replay/command.h"
+#include "replay/format.h"
+#include "world/snapshot.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+// A record is at most as long as its command, and always fits an empty chunk.
+static_assert(sizeof(CreateBody) + 1 <= k_chunk_payload_bytes_max);
+
+Recorder::Recorder(World& world, Sink sink, uint8_t* buffer, uint32_t buffer_bytes)
+    : world_(world), sink_(sink), buffer_(buffer), buffer_bytes_(buffer_bytes) {}
+
+Status Recorder::begin(const RecordingDef& def) {
+  if (state_ != State::idle) return Status::bad_argument;
+  if (sink_.write == nullptr) return Status::ok;
+  if (buffer_ == nullptr || buffer_bytes_ < k_recording_buffer_bytes) return status_ = Status::buffer_too_small;
+  state_ = State::recording;
+  status_ = Status::ok;
+  digest_interval_ = def.digest_interval;
+  tick_ = get_info(world_).tick;
+  write_header();
+  write_seed();
+  return status_;
+}
+
+Status Recorder::flush() {
+  if (recording()) flush_records();
+  return status_;
+}
+
+Status Recorder::end() {
+  if (recording()) {
+    flush_records();
+    Ending ending{ticks_, digest(world_)};
+    Writer writer{buffer_ + k_chunk_header_bytes, k_chunk_payload_bytes_max};
+    visit(writer, ending);
+    chunk_tick_ = tick_;
+    write_chunk(static_cast<uint32_t>(ChunkType::end), writer.count);
+  }
+  if (state_ == State::recording) state_ = State::ended;
+  return status_;
+}
+
+void Recorder::write(const uint8_t* bytes, uint32_t count) {
+  if (status_ != Status::ok) return;
+  if (sink_.write(sink_.context, bytes, count) != Status::ok) status_ = Status::sink_failed;
+}
+
+void Recorder::write_header() {
+  const WorldInfo world_info = get_info(world_);
+  RecordingInfo info;
+  info.format_version = k_recording_format_version;
+  info.simulation_version = k_simulation_version;
+  info.capacity = world_info.capacity;
+  info.digest_interval = digest_interval_;
+  info.tick = tick_;
+  info.snapshot_bytes = snapshot_bytes(world_info.capacity);
+  memcpy(buffer_, k_recording_magic, k_magic_bytes);
+  Writer writer{buffer_ + k_magic_bytes, k_info_bytes};
+  visit(writer, info);
+  const uint32_t count = k_magic_bytes + k_info_bytes;
+  write_checksum(buffer_ + count, crc32(buffer_, count));
+  write(buffer_, k_header_bytes);
+}
+
+void Recorder::write_seed() {
+  const uint32_t seed_bytes = snapshot_bytes(get_info(world_).capacity);
+  chunk_tick_ = tick_;
+  for (uint32_t offset = 0; offset < seed_bytes && status_ == Status::ok;) {
+    const uint32_t left = seed_bytes - offset;
+    const uint32_t count = left < k_chunk_payload_bytes_max ? left : k_chunk_payload_bytes_max;
+    if (!snapshot_read(world_, offset, buffer_ + k_chunk_header_bytes, count)) status_ = Status::corrupt;
+    write_chunk(static_cast<uint32_t>(ChunkType::seed), count);
+    offset += count;
+  }
+}
+
+void Recorder::write_chunk(uint32_t type, uint32_t payload_count) {
+  ChunkHeader header{type, payload_count, sequence_++, chunk_tick_};
+  Writer writer{buffer_, k_chunk_header_bytes};
+  visit(writer, header);
+  const uint32_t count = k_chunk_header_bytes + payload_count;
+  write_checksum(buffer_ + count, crc32(buffer_, count));
+  write(buffer_, count + k_checksum_bytes);
+}
+
+void Recorder::flush_records() {
+  if (payload_count_ == 0) return;
+  write_chunk(static_cast<uint32_t>(ChunkType::calls), payload_count_);
+  payload_count_ = 0;
+}
+
+template <class Command>
+void Recorder::log(Command& command) {
+  for (;;) {
+    if (payload_count_ == 0) chunk_tick_ = tick_;
+    Writer writer{buffer_ + k_chunk_header_bytes + payload_count_, k_chunk_payload_bytes_max - payload_count_};
+    uint64_t tag = static_cast<uint64_t>(Command::k_tag);
+    writer.bits("record tag", tag, 1);
+    visit(writer, command);
+    if (!writer.full) {
+      payload_count_ += writer.count;
+      return;
+    }
+    flush_records();
+  }
+}
+
+template <class Command>
+Status Recorder::apply_and_log(Command& command) {
+  Normaliser normaliser;
+  visit(normaliser, command);
+  if (normaliser.status != Status::ok) return normaliser.status;
+  const Status status = apply(world_, command);
+  if (status == Status::ok && recording()) log(command);
+  return status;
+}
+
+Status Recorder::create_body(const BodyDef& def, BodyId& id) {
+  CreateBody command{def, {}};
+  const Status status = apply_and_log(command);
+  if (status == Status::ok) id = command.id;
+  return status;
+}
+
+Status Recorder::destroy_body(BodyId id) {
+  DestroyBody command{id};
+  return apply_and_log(command);
+}
+
+Status Recorder::set_pose(BodyId id, const Position& position, const Quat& rotation) {
+  SetPose command{id, position, rotation};
+  return apply_and_log(command);
+}
+
+Status Recorder::set_velocity(BodyId id, const Vec3<Real>& velocity, const Vec3<Real>& spin) {
+  SetVelocity command{id, velocity, spin};
+  return apply_and_log(command);
+}
+
+Status Recorder::apply_force(BodyId id, const Vec3<Scaled>& force) {
+  ApplyForce command{id, force};
+  return apply_and_log(command);
+}
+
+Status Recorder::apply_torque(BodyId id, const Vec3<Scaled>& torque) {
+  ApplyTorque command{id, torque};
+  return apply_and_log(command);
+}
+
+Status Recorder::apply_impulse(BodyId id, const Vec3<Scaled>& impulse) {
+  ApplyImpulse command{id, impulse};
+  return apply_and_log(command);
+}
+
+Status Recorder::apply_impulse_at(BodyId id, const Vec3<Scaled>& impulse, const Vec3<Real>& arm) {
+  ApplyImpulseAt command{id, impulse, arm};
+  return apply_and_log(command);
+}
+
+Status Recorder::apply_angular_impulse(BodyId id, const Vec3<Scaled>& impulse) {
+  ApplyAngularImpulse command{id, impulse};
+  return apply_and_log(command);
+}
+
+Status Recorder::set_gravity(const Vec3<Real>& gravity) {
+  SetGravity command{gravity};
+  return apply_and_log(command);
+}
+
+Status Recorder::set_user_data(BodyId id, uint32_t user_data) {
+  SetUserData command{id, user_data};
+  return apply_and_log(command);
+}
+
+Status Recorder::bind_asset(uint32_t index) {
+  BindAsset command{index};
+  return apply_and_log(command);
+}
+
+StepReport Recorder::step() {
+  const StepReport report = detent::step(world_);
+  if (!recording()) return report;
+  // Logged before tick_ moves on: a chunk that starts with this record starts before this tick.
+  if (digest_due(digest_interval_, report.tick)) {
+    TickDigested command{digest(world_)};
+    log(command);
+  } else {
+    Tick command;
+    log(command);
+  }
+  tick_ = report.tick;
+  ++ticks_;
+  return report;
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,183 @@
+#include "base/float_environment.h"
+#include "dynamics/spin.h"
+#include "geometry/shape_traits.h"
+#include "world/asset_binding.h"
+#include "world/fields.h"
+#include "world/ranges.h"
+#include "world/slots.h"
+#include "world/snapshot.h"
+#include "world/view.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+using State = StateView<const uint8_t>;
+
+constexpr Real k_impulse_max = 131000.0;
+
+bool is_zero(const uint8_t* bytes, uint32_t count) {
+  for (uint32_t i = 0; i < count; ++i) {
+    if (bytes[i] != 0) return false;
+  }
+  return true;
+}
+template <class T>
+bool is_zero(const T& value) {
+  return is_zero(reinterpret_cast<const uint8_t*>(&value), sizeof value);
+}
+
+bool is_unit_quaternion(const Quat& q) {
+  Quat ignored;
+  return normalise_input(q, ignored);
+}
+
+bool is_pose(const BodyPose& pose) {
+#if defined(DETENT_FX32)
+  if (pose.zero != 0) return false;
+#endif
+  return is_position(pose.position) && is_unit_quaternion(pose.rotation);
+}
+
+bool is_size(Unit value) { return value >= Unit(0.0) && value <= Unit(1.0); }
+
+bool is_shape(const BodyTraits& traits) {
+  if (traits.size_exponent < -14 || traits.size_exponent > 15) return false;
+  if (!is_size(traits.size.x) || !is_size(traits.size.y) || !is_size(traits.size.z)) return false;
+  const Unit zero = 0.0, smallest = 0x1p-16;
+  const Unit bound = traits.bounding_radius;
+  switch (static_cast<ShapeType>(traits.shape)) {
+    case ShapeType::sphere:
+      return traits.size.x >= smallest && bound == traits.size.x && traits.size.y == zero && traits.size.z == zero;
+    case ShapeType::capsule:
+      return traits.size.x >= smallest && bound >= traits.size.y && bound <= Unit(1.0) && traits.size.z == zero;
+    case ShapeType::box:
+      return traits.size.x >= smallest && traits.size.y >= smallest && traits.size.z >= smallest &&
+             bound >= traits.size.x && bound >= traits.size.y && bound >= traits.size.z && bound <= Unit(1.0);
+    case ShapeType::half_space:
+      return traits.type != static_cast<uint32_t>(BodyType::dynamic) && traits.size_exponent == 0 && bound == zero &&
+             traits.size == Vec3<Unit>{zero, zero, zero};
+  }
+  return false;
+}
+
+bool is_mass_of(const BodyTraits& traits) {
+  BodyTraits expected = traits;
+  for (Scaled& gyration : expected.gyration) gyration = Scaled(0.0);
+  if (!is_dynamic(traits)) {
+    return traits.mass == Scaled(0.0) && traits.gyration[0] == expected.gyration[0] &&
+           traits.gyration[1] == expected.gyration[1] && traits.gyration[2] == expected.gyration[2];
+  }
+  set_gyration(expected);
+  return is_mass(traits.mass) && traits.gyration[0] == expected.gyration[0] &&
+         traits.gyration[1] == expected.gyration[1] && traits.gyration[2] == expected.gyration[2];
+}
+
+bool is_body(const BodyTraits& traits) {
+  const Scaled none = 0.0;
+  return traits.type <= static_cast<uint32_t>(BodyType::dynamic) && traits.generation != 0 && is_shape(traits) &&
+         is_mass_of(traits) && is_between(traits.friction, none, scaled_from(k_friction_max)) &&
+         is_between(traits.restitution, none, Scaled(1.0)) && is_between(traits.rolling_resistance, none, Scaled(1.0)) &&
+         is_between(traits.linear_damping, none, scaled_from(k_damping_max)) &&
+         is_between(traits.angular_damping, none, scaled_from(k_damping_max)) &&
+         is_between(traits.gravity_scale, negate(scaled_from(k_gravity_scale_max)), scaled_from(k_gravity_scale_max)) &&
+         traits.zero == 0;
+}
+
+bool is_motion(const BodyTraits& traits, const BodyMotion& motion) {
+  if (type_of(traits) == BodyType::fixed) return is_zero(motion);
+  return within(motion.velocity, k_speed_max) && within(motion.momentum, k_speed_work_max) &&
+         within(motion.pending_velocity, k_speed_max) && within(motion.pending_momentum, k_speed_work_max);
+}
+
+bool is_empty_slot(const State& state, uint32_t slot) {
+  BodyTraits rest = state.traits[slot];
+  rest.generation = 0;
+  return is_zero(rest) && is_zero(state.poses[slot]) && is_zero(state.motions[slot]);
+}
+
+bool are_bodies(const State& state) {
+  uint32_t bodies = 0, retired = 0, used = 0;
+  for (uint32_t slot = 0; slot < state.traits.count; ++slot) {
+    const BodyTraits& traits = state.traits[slot];
+    const bool taken = (state.slots[slot / 32] & slot_bit(slot)) != 0;
+    if (traits.generation != 0) used = slot + 1;
+    if (traits.type == 0) {
+      if (!is_empty_slot(state, slot) || taken != (traits.generation == k_generation_last)) return false;
+      retired += taken ? 1 : 0;
+      continue;
+    }
+    if (!taken || !is_body(traits) || !is_pose(state.poses[slot]) || !is_motion(traits, state.motions[slot])) return false;
+    ++bodies;
+  }
+  return bodies == state.world.body_count && retired == state.world.slots_retired && used == state.world.slots_used;
+}
+
+bool are_slots(const State& state) {
+  for (uint32_t word = 0; word < state.slots.count; ++word) {
+    for (uint32_t bit = 0; bit < 32; ++bit) {
+      const uint32_t slot = word * 32 + bit;
+      const bool taken = (state.slots[word] >> bit & 1) != 0;
+      if (slot >= state.traits.count && taken) return false;
+      if (slot < state.traits.count && word < state.world.free_word && !taken) return false;
+    }
+  }
+  return state.world.free_word < state.slots.count;
+}
+
+bool is_contact(const State& state, const ContactState& contact) {
+  if (contact.body_a >= contact.body_b || contact.body_b >= state.traits.count) return false;
+  const BodyTraits &a = state.traits[contact.body_a], &b = state.traits[contact.body_b];
+  if (a.type == 0 || b.type == 0 || (!is_dynamic(a) && !is_dynamic(b))) return false;
+  if (contact.point_count < 1 || contact.point_count > k_manifold_points_max) return false;
+  for (uint32_t i = 0; i < k_manifold_points_max; ++i) {
+    const bool there = i < contact.point_count;
+    if ((contact.feature[i] != 0) != there || !within(contact.normal_impulse[i], Real(0.0), k_impulse_max)) return false;
+    if (!there && !is_zero(contact.normal_impulse[i])) return false;
+    for (uint32_t k = 0; there && k < i; ++k) {
+      if (contact.feature[k] == contact.feature[i]) return false;
+    }
+  }
+  return within(contact.friction_impulse, k_impulse_max) && within(contact.angular_impulse, k_impulse_max);
+}
+
+bool are_contacts(const State& state) {
+  const uint32_t count = state.world.contact_count;
+  if (count > state.contacts.count) return false;
+  for (uint32_t i = 0; i < count; ++i) {
+    const ContactState& contact = state.contacts[i];
+    if (!is_contact(state, contact)) return false;
+    if (i == 0) continue;
+    const ContactState& before = state.contacts[i - 1];
+    const bool sorted = before.body_a < contact.body_a ||
+                        (before.body_a == contact.body_a && before.body_b < contact.body_b);
+    if (!sorted) return false;
+  }
+  for (uint32_t i = count; i < state.contacts.count; ++i) {
+    if (!is_zero(state.contacts[i])) return false;
+  }
+  return true;
+}
+
+bool are_assets(const State& state) {
+  for (uint32_t i = 0; i < state.assets.count; ++i) {
+    if (state.assets[i].bound > 1 || (state.assets[i].bound == 0 && !is_zero(state.assets[i]))) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Status check_state(const uint8_t* block, Capacity capacity, AssetTable assets) {
+  const State state = view_of(block, capacity);
+  const WorldState& world = state.world;
+  if (world.zero != 0 || !are_settings(world.gravity, world.tick_time, world.substeps, world.iterations, world.relaxation,
+                                       world.stiffness, world.damping_ratio, world.restitution_threshold)) {
+    return Status::corrupt;
+  }
+  if (!are_slots(state) || !are_bodies(state) || !are_contacts(state) || !are_assets(state)) return Status::corrupt;
+  return check_assets(assets, state.assets);
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

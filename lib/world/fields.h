@@ -1,0 +1,138 @@
+#pragma once
+#include <detent/detail/layout.h>
+
+/// The layout table: every array of the persistent state and every field of its elements, once. The big-endian swap, the
+/// digest, the checks of incoming snapshots and the difference tool read it.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// A field: `count` words of `width` bytes from `offset` on.
+struct Field {
+  const char* name;
+  uint32_t offset, width, count;
+};
+
+/// An array of the persistent state.
+struct Section {
+  const char* name;
+  const Field* fields;
+  uint32_t field_count;
+  uint32_t element_bytes;
+  uint32_t Layout::*offset;
+};
+
+template <class T>
+struct WordsOf {
+  static constexpr uint32_t k_width = sizeof(T);
+};
+template <class T>
+struct WordsOf<Vec3<T>> : WordsOf<T> {};
+template <>
+struct WordsOf<Quat> : WordsOf<Unit> {};
+template <class T, unsigned long long n>
+struct WordsOf<T[n]> : WordsOf<T> {};
+#if DETENT_FIXED
+template <>
+struct WordsOf<Scaled> : WordsOf<int32_t> {};
+#endif
+
+#define DETENT_FIELD(type, member)                                                             \
+  {#member, static_cast<uint32_t>(__builtin_offsetof(type, member)), WordsOf<decltype(type::member)>::k_width, \
+   static_cast<uint32_t>(sizeof(type::member) / WordsOf<decltype(type::member)>::k_width)}
+
+inline constexpr Field k_header_fields[] = {
+    DETENT_FIELD(BlockHeader, magic),           DETENT_FIELD(BlockHeader, format),
+    DETENT_FIELD(BlockHeader, simulation),      DETENT_FIELD(BlockHeader, config),
+    DETENT_FIELD(BlockHeader, capacity_bodies), DETENT_FIELD(BlockHeader, capacity_contacts),
+    DETENT_FIELD(BlockHeader, capacity_assets), DETENT_FIELD(BlockHeader, zero),
+};
+inline constexpr Field k_world_fields[] = {
+    DETENT_FIELD(WorldState, tick),          DETENT_FIELD(WorldState, body_count),
+    DETENT_FIELD(WorldState, slots_used),    DETENT_FIELD(WorldState, free_word),
+    DETENT_FIELD(WorldState, slots_retired), DETENT_FIELD(WorldState, contact_count),
+    DETENT_FIELD(WorldState, substeps),      DETENT_FIELD(WorldState, iterations),
+    DETENT_FIELD(WorldState, zero),          DETENT_FIELD(WorldState, gravity),
+    DETENT_FIELD(WorldState, tick_time),     DETENT_FIELD(WorldState, relaxation),
+    DETENT_FIELD(WorldState, stiffness),     DETENT_FIELD(WorldState, damping_ratio),
+    DETENT_FIELD(WorldState, restitution_threshold),
+};
+inline constexpr Field k_pose_fields[] = {
+    DETENT_FIELD(BodyPose, position),
+#if defined(DETENT_FX32)
+    DETENT_FIELD(BodyPose, remainder),
+    DETENT_FIELD(BodyPose, zero),
+#endif
+    DETENT_FIELD(BodyPose, rotation),
+};
+inline constexpr Field k_motion_fields[] = {
+    DETENT_FIELD(BodyMotion, velocity),
+    DETENT_FIELD(BodyMotion, momentum),
+    DETENT_FIELD(BodyMotion, pending_velocity),
+    DETENT_FIELD(BodyMotion, pending_momentum),
+};
+inline constexpr Field k_traits_fields[] = {
+    DETENT_FIELD(BodyTraits, type),           DETENT_FIELD(BodyTraits, generation),
+    DETENT_FIELD(BodyTraits, shape),          DETENT_FIELD(BodyTraits, size_exponent),
+    DETENT_FIELD(BodyTraits, size),           DETENT_FIELD(BodyTraits, bounding_radius),
+    DETENT_FIELD(BodyTraits, mass),           DETENT_FIELD(BodyTraits, gyration),
+    DETENT_FIELD(BodyTraits, friction),       DETENT_FIELD(BodyTraits, restitution),
+    DETENT_FIELD(BodyTraits, rolling_resistance), DETENT_FIELD(BodyTraits, linear_damping),
+    DETENT_FIELD(BodyTraits, angular_damping), DETENT_FIELD(BodyTraits, gravity_scale),
+    DETENT_FIELD(BodyTraits, user_data),      DETENT_FIELD(BodyTraits, zero),
+};
+inline constexpr Field k_slot_fields[] = {{"taken", 0, 4, 1}};
+inline constexpr Field k_contact_fields[] = {
+    DETENT_FIELD(ContactState, body_a),          DETENT_FIELD(ContactState, body_b),
+    DETENT_FIELD(ContactState, age),             DETENT_FIELD(ContactState, point_count),
+    DETENT_FIELD(ContactState, feature),         DETENT_FIELD(ContactState, normal_impulse),
+    DETENT_FIELD(ContactState, friction_impulse), DETENT_FIELD(ContactState, angular_impulse),
+};
+inline constexpr Field k_asset_fields[] = {
+    DETENT_FIELD(AssetState, digest),
+    DETENT_FIELD(AssetState, byte_count),
+    DETENT_FIELD(AssetState, bound),
+};
+#undef DETENT_FIELD
+
+/// True if the fields follow one another without a gap and fill the element: no byte is padding.
+template <uint32_t n>
+constexpr bool tiles(const Field (&fields)[n], uint32_t element_bytes) {
+  uint32_t end = 0;
+  for (const Field& field : fields) {
+    if (field.offset != end || field.offset % field.width != 0) return false;
+    end += field.width * field.count;
+  }
+  return end == element_bytes;
+}
+static_assert(tiles(k_header_fields, sizeof(BlockHeader)) && tiles(k_world_fields, sizeof(WorldState)));
+static_assert(tiles(k_pose_fields, sizeof(BodyPose)) && tiles(k_motion_fields, sizeof(BodyMotion)));
+static_assert(tiles(k_traits_fields, sizeof(BodyTraits)) && tiles(k_slot_fields, sizeof(uint32_t)));
+static_assert(tiles(k_contact_fields, sizeof(ContactState)) && tiles(k_asset_fields, sizeof(AssetState)));
+
+template <uint32_t n>
+constexpr Section section(const char* name, const Field (&fields)[n], uint32_t element_bytes, uint32_t Layout::*offset) {
+  return {name, fields, n, element_bytes, offset};
+}
+inline constexpr Section k_sections[] = {
+    section("header", k_header_fields, sizeof(BlockHeader), &Layout::header),
+    section("world", k_world_fields, sizeof(WorldState), &Layout::world),
+    section("poses", k_pose_fields, sizeof(BodyPose), &Layout::poses),
+    section("motions", k_motion_fields, sizeof(BodyMotion), &Layout::motions),
+    section("traits", k_traits_fields, sizeof(BodyTraits), &Layout::traits),
+    section("slots", k_slot_fields, sizeof(uint32_t), &Layout::slots),
+    section("contacts", k_contact_fields, sizeof(ContactState), &Layout::contacts),
+    section("assets", k_asset_fields, sizeof(AssetState), &Layout::assets),
+};
+inline constexpr uint32_t k_section_count = sizeof k_sections / sizeof k_sections[0];
+
+/// Elements of a section, alignment fill included as further elements or left-over bytes that are always zero.
+inline uint32_t section_bytes(const Layout& layout, uint32_t index) {
+  const uint32_t end = index + 1 < k_section_count ? layout.*k_sections[index + 1].offset : layout.persistent_bytes;
+  return end - layout.*k_sections[index].offset;
+}
+
+/// Reverses the words of one element.
+void swap_element(const Section& section, uint8_t* element);
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

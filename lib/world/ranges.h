@@ -1,0 +1,55 @@
+#pragma once
+#include <detent/detail/state.h>
+
+#include "math/arithmetic.h"
+#include "math/scaled.h"
+
+/// The ranges of what comes from outside: calls, and snapshots. NaN is outside every range.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+inline bool within(Real value, Real low, Real high) { return value >= low && value <= high; }
+inline bool within(const Vec3<Real>& v, Real limit) {
+  return within(v.x, -limit, limit) && within(v.y, -limit, limit) && within(v.z, -limit, limit);
+}
+
+#if DETENT_FIXED
+/// Canonical, and small enough that products of three stay in range.
+inline bool is_number(Scaled value) {
+  if (value.mantissa == 0) return value.exponent == 0;
+  const uint32_t magnitude = magnitude_32(value.mantissa);
+  return magnitude >= (1u << 30) && magnitude < (1u << 31) && value.exponent >= -130 && value.exponent <= 70;
+}
+inline bool is_position(const Position&) { return true; }
+#else
+inline bool is_number(Scaled value) { return value >= Scaled(-0x1p100) && value <= Scaled(0x1p100); }
+#if defined(DETENT_F64)
+inline bool is_position(const Position& p) {
+  return within({p.x, p.y, p.z}, k_coord_max);
+}
+#else
+inline bool is_position(const Position&) { return true; }
+#endif
+#endif
+inline bool is_number(const Vec3<Scaled>& v) { return is_number(v.x) && is_number(v.y) && is_number(v.z); }
+inline bool is_between(Scaled value, Scaled low, Scaled high) {
+  return is_number(value) && !less(value, low) && !less(high, value);
+}
+inline bool is_mass(Scaled value) { return is_between(value, Scaled(0x1p-60), Scaled(0x1p60)); }
+
+inline constexpr Real k_friction_max = 16.0;
+inline constexpr Real k_damping_max = 1024.0;
+inline constexpr Real k_gravity_max = 1024.0;
+inline constexpr Real k_gravity_scale_max = 1024.0;
+
+/// The settings of a world: as documented in WorldDef.
+inline bool are_settings(const Vec3<Real>& gravity, Real tick, uint32_t substeps, uint32_t iterations, Real relaxation,
+                         Real stiffness, Real damping_ratio, Real restitution_threshold) {
+  return within(gravity, k_gravity_max) && within(tick, Real(0x1p-14), Real(0.25)) && substeps >= 1 && substeps <= 64 &&
+         iterations >= 1 && iterations <= 64 && within(relaxation, Real(0.25), Real(1.75)) &&
+         within(stiffness, Real(0x1p-6), Real(0.25)) && within(damping_ratio, Real(0.0), Real(64.0)) &&
+         within(restitution_threshold, Real(0.0), Real(64.0));
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

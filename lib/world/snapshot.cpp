@@ -1,0 +1,135 @@
+#include "world/snapshot.h"
+
+#include "base/bytes.h"
+#include "base/float_environment.h"
+#include "world/fields.h"
+#include "world/view.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+/// Between the machine's byte order and the canonical one, in place. Nothing to do on little-endian machines.
+void swap_state(uint8_t* block, const Layout& layout) {
+  if (!k_big_endian) return;
+  for (uint32_t i = 0; i < k_section_count; ++i) {
+    uint8_t* element = block + layout.*k_sections[i].offset;
+    const uint32_t count = section_bytes(layout, i) / k_sections[i].element_bytes;
+    for (uint32_t k = 0; k < count; ++k, element += k_sections[i].element_bytes) swap_element(k_sections[i], element);
+  }
+}
+
+Layout layout_of(const World& world) { return view_of(world).layout; }
+
+/// Compares a header in the machine's byte order with this build and a capacity.
+Status check_header(const BlockHeader& header, Capacity capacity) {
+  if (header.magic != k_snapshot_magic) return Status::not_detent;
+  if (header.format != k_snapshot_format || header.zero != 0) return Status::format_unknown;
+  if (header.simulation != k_simulation_version) return Status::simulation_differs;
+  if (header.config != k_config) return Status::config_differs;
+  if (!(capacity_of(header) == capacity)) return Status::capacity_differs;
+  return Status::ok;
+}
+
+/// As check_header, for canonical bytes.
+Status check_canonical_header(const uint8_t* bytes, Capacity capacity) {
+  BlockHeader header;
+  memcpy(&header, bytes, sizeof header);
+  if (k_big_endian) swap_element(k_sections[0], reinterpret_cast<uint8_t*>(&header));
+  return check_header(header, capacity);
+}
+
+}  // namespace
+
+void swap_element(const Section& section, uint8_t* element) {
+  for (uint32_t i = 0; i < section.field_count; ++i) {
+    swap_words(element + section.fields[i].offset, section.fields[i].width, section.fields[i].count);
+  }
+}
+
+Status save(const World& world, uint8_t* bytes, uint32_t byte_count) {
+  const Layout layout = layout_of(world);
+  if (bytes == nullptr || byte_count < layout.persistent_bytes) return Status::buffer_too_small;
+  memcpy(bytes, world.block, layout.persistent_bytes);
+  swap_state(bytes, layout);
+  return Status::ok;
+}
+
+Status restore(World& world, const uint8_t* bytes, uint32_t byte_count) {
+  const Layout layout = layout_of(world);
+  if (bytes == nullptr || byte_count < sizeof(BlockHeader)) return Status::truncated;
+  const Status status = check_canonical_header(bytes, capacity_of(view_of(world).header));
+  if (status != Status::ok) return status;
+  if (byte_count < layout.persistent_bytes) return Status::truncated;
+  memcpy(world.block, bytes, layout.persistent_bytes);
+  swap_state(world.block, layout);
+  return Status::ok;
+}
+
+Status load(World& world, uint8_t* bytes, uint32_t byte_count) {
+  const FloatEnvironment environment;
+  const Layout layout = layout_of(world);
+  const Capacity capacity = capacity_of(view_of(world).header);
+  if (bytes == nullptr || byte_count < sizeof(BlockHeader)) return Status::truncated;
+  if (reinterpret_cast<uintptr_t>(bytes) % 8 != 0) return Status::buffer_misaligned;
+  if (const Status status = check_canonical_header(bytes, capacity); status != Status::ok) return status;
+  if (byte_count < layout.persistent_bytes) return Status::truncated;
+  if (byte_count > layout.persistent_bytes) return Status::corrupt;
+  swap_state(bytes, layout);
+  if (const Status status = check_state(bytes, capacity, world.assets); status != Status::ok) return status;
+  memcpy(world.block, bytes, layout.persistent_bytes);
+  return Status::ok;
+}
+
+bool snapshot_read(const World& world, uint32_t offset, uint8_t* bytes, uint32_t count) {
+  const Layout layout = layout_of(world);
+  if (offset > layout.persistent_bytes || count > layout.persistent_bytes - offset) return false;
+  if (!k_big_endian) {
+    memcpy(bytes, world.block + offset, count);
+    return true;
+  }
+  const uint32_t end = offset + count;
+  for (uint32_t i = 0; i < k_section_count; ++i) {
+    const uint32_t start = layout.*k_sections[i].offset;
+    const uint32_t size = k_sections[i].element_bytes;
+    const uint32_t elements = section_bytes(layout, i) / size;
+    const uint32_t first = offset > start ? (offset - start) / size : 0;
+    for (uint32_t k = first; k < elements && start + k * size < end; ++k) {
+      uint8_t element[256];
+      memcpy(element, world.block + start + k * size, size);
+      swap_element(k_sections[i], element);
+      for (uint32_t byte = 0; byte < size; ++byte) {
+        const uint32_t at = start + k * size + byte;
+        if (at >= offset && at < end) bytes[at - offset] = element[byte];
+      }
+    }
+  }
+  return true;
+}
+
+Status load_from(World& world, Status (*read)(void* context, uint32_t offset, uint8_t* bytes, uint32_t count),
+                 void* context) {
+  const FloatEnvironment environment;
+  const Layout layout = layout_of(world);
+  const Capacity capacity = capacity_of(view_of(world).header);
+  const auto fail = [&](Status status) {
+    WorldDef def;
+    def.capacity = capacity;
+    const Status emptied = create_world(world.block, layout.bytes, def, world.assets, world);
+    return emptied == Status::ok ? status : emptied;
+  };
+  constexpr uint32_t k_piece = 256;
+  for (uint32_t offset = 0; offset < layout.persistent_bytes; offset += k_piece) {
+    const uint32_t left = layout.persistent_bytes - offset;
+    const Status status = read(context, offset, world.block + offset, left < k_piece ? left : k_piece);
+    if (status != Status::ok) return fail(status);
+    if (offset != 0) continue;
+    if (const Status header = check_canonical_header(world.block, capacity); header != Status::ok) return fail(header);
+  }
+  swap_state(world.block, layout);
+  if (const Status status = check_state(world.block, capacity, world.assets); status != Status::ok) return fail(status);
+  return Status::ok;
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,79 @@
+#pragma once
+#include <detent/detail/layout.h>
+
+#include "base/span.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+inline constexpr uint32_t k_snapshot_magic = 0x544e5444;  // "DTNT" in canonical bytes
+inline constexpr uint32_t k_snapshot_format = 1;
+
+inline Capacity capacity_of(const BlockHeader& header) {
+  return {header.capacity_bodies, header.capacity_contacts, header.capacity_assets};
+}
+
+/// `T`, const where `Byte` is.
+template <class T, class Byte>
+struct Select {
+  using Type = T;
+};
+template <class T>
+struct Select<T, const uint8_t> {
+  using Type = const T;
+};
+
+/// The persistent arrays of a block, as spans. `Byte` is uint8_t, or const uint8_t for a world that is only read.
+template <class Byte>
+struct StateView {
+  template <class T>
+  using Of = typename Select<T, Byte>::Type;
+
+  Layout layout;
+  Of<BlockHeader>& header;
+  Of<WorldState>& world;
+  Span<Of<BodyPose>> poses;
+  Span<Of<BodyMotion>> motions;
+  Span<Of<BodyTraits>> traits;
+  Span<Of<uint32_t>> slots;
+  Span<Of<ContactState>> contacts;  ///< all of the capacity
+  Span<Of<AssetState>> assets;
+};
+
+template <class T, class Byte>
+typename Select<T, Byte>::Type* at_offset(Byte* block, uint32_t offset) {
+  return reinterpret_cast<typename Select<T, Byte>::Type*>(block + offset);
+}
+
+/// The arrays of a block of the given capacity, which is in range.
+template <class Byte>
+StateView<Byte> view_of(Byte* block, Capacity capacity) {
+  bool fits = false;
+  const Layout layout = layout_of(capacity, fits);
+  return {layout,
+          *at_offset<BlockHeader>(block, layout.header),
+          *at_offset<WorldState>(block, layout.world),
+          {at_offset<BodyPose>(block, layout.poses), capacity.bodies},
+          {at_offset<BodyMotion>(block, layout.motions), capacity.bodies},
+          {at_offset<BodyTraits>(block, layout.traits), capacity.bodies},
+          {at_offset<uint32_t>(block, layout.slots), slot_words(capacity.bodies)},
+          {at_offset<ContactState>(block, layout.contacts), capacity.contacts},
+          {at_offset<AssetState>(block, layout.assets), capacity.assets}};
+}
+inline StateView<uint8_t> view_of(World& world) {
+  return view_of(world.block, capacity_of(*at_offset<BlockHeader>(world.block, 0)));
+}
+inline StateView<const uint8_t> view_of(const World& world) {
+  const uint8_t* block = world.block;
+  return view_of(block, capacity_of(*at_offset<BlockHeader>(block, 0)));
+}
+
+/// The slot of a live body, or false.
+template <class Byte>
+bool find_body(const StateView<Byte>& state, BodyId id, uint32_t& slot) {
+  slot = id.slot - 1;  // null wraps beyond every capacity
+  return slot < state.traits.count && state.traits[slot].type != 0 && state.traits[slot].generation == id.generation;
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,51 @@
+#include <ports/bare/memory.h>
+#include <ports/bare/semihosting.h>
+#include <ports/bare/start.h>
+
+int32_t semihosting(Semihosting operation, const void* argument) {
+  register uint32_t r0 asm("r0") = static_cast<uint32_t>(operation);
+  register const void* r1 asm("r1") = argument;
+  asm volatile("bkpt 0xab" : "+r"(r0) : "r"(r1) : "memory");
+  return static_cast<int32_t>(r0);
+}
+
+extern "C" {
+// Small on purpose: until the floating-point unit is on, no function may save its registers.
+[[noreturn]] void machine_reset() {
+#if defined(__ARM_FP)
+  volatile uint32_t& coprocessor_access = *reinterpret_cast<volatile uint32_t*>(0xE000ED88);
+  coprocessor_access = coprocessor_access | (0xFu << 20);
+  asm volatile("dsb\n isb" ::: "memory");
+#endif
+  machine_start();
+}
+
+// The hardware pushed 8 registers, the seventh of which is the address. The stack starts anew, for it may be what
+// failed.
+[[gnu::naked]] void machine_fault_handler() {
+  asm volatile(
+      "mrs r0, msp\n"
+      "ldr r0, [r0, #24]\n"
+      "ldr r1, =link_stack_top\n"
+      "mov sp, r1\n"
+      "ldr r1, =machine_fault\n"
+      "bx r1\n"
+      ".ltorg\n");
+}
+}
+
+namespace {
+using Handler = void (*)();
+
+struct Vectors {
+  uint8_t* stack_top;
+  Handler handlers[15];
+};
+
+[[gnu::section(".vectors"), gnu::used]] const Vectors vectors = {
+    link_stack_top,
+    {machine_reset, machine_fault_handler, machine_fault_handler, machine_fault_handler, machine_fault_handler,
+     machine_fault_handler, machine_fault_handler, machine_fault_handler, machine_fault_handler, machine_fault_handler,
+     machine_fault_handler, machine_fault_handler, machine_fault_handler, machine_fault_handler,
+     machine_fault_handler}};
+}  // namespace

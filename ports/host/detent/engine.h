@@ -1,0 +1,83 @@
+#pragma once
+#include <stdint.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+/// What the tool asks of one math configuration. The implementation is compiled once per configuration; nothing here
+/// depends on one, so that the program can hold all four and take the one that a recording's header names.
+namespace detent_tool {
+
+struct SceneLine {
+  std::string name;
+  std::string description;
+  uint32_t ticks = 0;
+  uint32_t bodies = 0;    ///< capacity
+  uint32_t contacts = 0;  ///< capacity
+};
+
+/// The header of a recording.
+struct Header {
+  std::string config;
+  uint32_t format_version = 0;
+  uint32_t simulation_version = 0;
+  uint32_t bodies = 0;    ///< capacity
+  uint32_t contacts = 0;  ///< capacity
+  uint32_t assets = 0;    ///< capacity
+  uint32_t trace_level = 0;
+  uint32_t digest_interval = 0;
+  uint64_t first_tick = 0;
+  uint32_t snapshot_bytes = 0;
+};
+
+enum class Verdict : uint32_t {
+  good,
+  refused,  ///< sound as far as it was read, but of another simulation version, configuration or format
+  bad,      ///< damaged, unreadable, or the replay went another way
+};
+
+/// What became of one file.
+struct Outcome {
+  Verdict verdict = Verdict::good;
+  std::string problem;  ///< one line, without the file's name: empty if good
+  std::string status;   ///< the library's words for the problem
+  std::string field;    ///< what is wrong
+  uint64_t offset = 0;  ///< where in the file, bytes
+  uint64_t tick = 0;    ///< after how many completed ticks
+
+  bool header_known = false;
+  bool other_config = false;  ///< refused for its configuration: another engine may hold it
+  Header header;
+  uint64_t file_bytes = 0;
+  uint64_t ticks = 0;    ///< made, or read
+  uint64_t digests = 0;  ///< of ticks: compared and equal, or read, or written
+  uint64_t calls = 0;    ///< besides steps
+  uint64_t digest = 0;   ///< of the final state
+  double seconds = 0;
+};
+
+/// Called now and then during long work.
+using Progress = std::function<void(uint64_t done, uint64_t total)>;
+
+struct RecordRequest {
+  std::string scene;
+  std::string path;
+  uint32_t ticks = 0;  ///< 0: the scene's own
+  uint32_t digest_interval = 1;
+};
+
+struct Engine {
+  const char* config;
+  uint32_t format_version;
+  uint32_t simulation_version;
+  std::vector<SceneLine> (*scenes)();
+  Outcome (*record)(const RecordRequest& request, const Progress& progress);
+  Outcome (*verify)(const std::string& path, const Progress& progress);
+  Outcome (*info)(const std::string& path, const Progress& progress);
+};
+
+/// The engines of this build, in the order fx64, fx32, f32, f64.
+const std::vector<Engine>& engines();
+
+}  // namespace detent_tool

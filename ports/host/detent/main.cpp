@@ -1,0 +1,137 @@
+#include <stdio.h>
+
+#include <CLI/CLI.hpp>
+
+#include "progress.h"
+#include "report.h"
+
+namespace {
+
+using namespace detent_tool;
+
+constexpr int k_exit_good = 0;
+constexpr int k_exit_bad = 1;
+constexpr int k_exit_usage = 2;
+
+std::string version_text() {
+  std::string text = std::string("detent ") + DETENT_VERSION + " (";
+  for (const Engine& engine : engines()) text += std::string(engine.config) + ", ";
+  return text + "simulation version " + std::to_string(engines().front().simulation_version) + ", recording format " +
+         std::to_string(engines().front().format_version) + ")";
+}
+
+/// By the engine whose configuration the header names; by the first that can say anything if none holds it.
+Outcome read_by_its_engine(const std::string& path, Outcome (*Engine::*read)(const std::string&, const Progress&),
+                           const Progress& progress) {
+  Outcome outcome;
+  for (const Engine& engine : engines()) {
+    outcome = (engine.*read)(path, progress);
+    if (!outcome.other_config) return outcome;
+  }
+  return outcome;
+}
+
+const Engine* find_engine(const std::string& config) {
+  for (const Engine& engine : engines()) {
+    if (config == engine.config) return &engine;
+  }
+  return nullptr;
+}
+
+int run_record(const RecordRequest& request, const std::string& config, const Report& report) {
+  ProgressBar bar(request.scene);
+  const Outcome outcome =
+      find_engine(config)->record(request, [&bar](uint64_t done, uint64_t total) { bar.show(done, total); });
+  report.recorded(request, outcome);
+  return outcome.verdict == Verdict::good ? k_exit_good : k_exit_bad;
+}
+
+int run_verify(const std::vector<std::string>& paths, const Report& report) {
+  int code = k_exit_good;
+  for (const std::string& path : paths) {
+    Outcome outcome;
+    {
+      ProgressBar bar(path);
+      outcome =
+          read_by_its_engine(path, &Engine::verify, [&bar](uint64_t done, uint64_t total) { bar.show(done, total); });
+    }
+    report.verified(path, outcome);
+    if (outcome.verdict != Verdict::good) code = k_exit_bad;
+  }
+  return code;
+}
+
+int run_info(const std::vector<std::string>& paths, const Report& report) {
+  int code = k_exit_good;
+  for (const std::string& path : paths) {
+    Outcome outcome;
+    {
+      ProgressBar bar(path);
+      outcome =
+          read_by_its_engine(path, &Engine::info, [&bar](uint64_t done, uint64_t total) { bar.show(done, total); });
+    }
+    report.described(path, outcome);
+    if (outcome.verdict == Verdict::bad) code = k_exit_bad;
+  }
+  return code;
+}
+
+int run_scenes(const Report& report) {
+  for (const SceneLine& line : engines().front().scenes()) report.scene(line);
+  return k_exit_good;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "Records, verifies and describes recordings of the Detent physics library.\n"
+      "Exit code: 0 if every tick of every file agrees, 1 if not, 2 for wrong usage.",
+      "detent");
+  app.set_version_flag("--version", version_text());
+  app.require_subcommand(1);
+  Report report;
+
+  std::vector<std::string> configs;
+  for (const Engine& engine : engines()) configs.push_back(engine.config);
+  std::vector<std::string> scene_names;
+  for (const SceneLine& line : engines().front().scenes()) scene_names.push_back(line.name);
+
+  RecordRequest request;
+  std::string config = configs.front();
+  CLI::App* record = app.add_subcommand("record", "Run a scene and write its recording");
+  record->add_option("scene", request.scene, "The scene's name (see: detent scenes)")
+      ->required()
+      ->check(CLI::IsMember(scene_names));
+  record->add_option("-o,--output", request.path, "The file to write; SCENE.rec if it is not given");
+  record->add_option("--config", config, "The math configuration")
+      ->check(CLI::IsMember(configs))
+      ->capture_default_str();
+  record->add_option("--ticks", request.ticks, "Its length; the scene's own if it is not given")
+      ->check(CLI::Range(1u, 1000000000u));
+  record
+      ->add_option("--digest-interval", request.digest_interval,
+                   "Record a digest every so many ticks; 0: only at the end")
+      ->capture_default_str();
+
+  std::vector<std::string> paths;
+  CLI::App* verify = app.add_subcommand("verify", "Replay recordings and compare every digest");
+  verify->add_option("file", paths, "Recordings")->required();
+  CLI::App* info = app.add_subcommand("info", "Say what recordings hold, without replaying them");
+  info->add_option("file", paths, "Recordings")->required();
+  CLI::App* scenes = app.add_subcommand("scenes", "List the scenes that can be recorded");
+  for (CLI::App* command : {record, verify, info, scenes}) {
+    command->add_flag("--json", report.json, "One JSON object a file, each on one line");
+  }
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? k_exit_good : k_exit_usage;
+  }
+  if (request.path.empty()) request.path = request.scene + ".rec";
+  if (record->parsed()) return run_record(request, config, report);
+  if (verify->parsed()) return run_verify(paths, report);
+  if (info->parsed()) return run_info(paths, report);
+  return run_scenes(report);
+}

@@ -1,0 +1,133 @@
+#include "report.h"
+
+#include <stdio.h>
+
+#include <nlohmann/json.hpp>
+
+#include "text.h"
+
+namespace detent_tool {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double rate(const Outcome& outcome) {
+  return outcome.seconds > 0 ? static_cast<double>(outcome.ticks) / outcome.seconds : 0;
+}
+
+std::string text(uint64_t value) { return std::to_string(value); }
+
+void print(const std::string& line) { printf("%s\n", line.c_str()); }
+
+void print_problem(const std::string& path, const Outcome& outcome) {
+  fprintf(stderr, "%s: %s\n", path.c_str(), outcome.problem.c_str());
+}
+
+/// A path need not be valid UTF-8: bytes that are not are replaced.
+void print_json(const Json& json) { print(json.dump(-1, ' ', false, Json::error_handler_t::replace)); }
+
+Json json_of(const std::string& path, const Outcome& outcome) {
+  Json json;
+  json["file"] = path;
+  json["ok"] = outcome.verdict == Verdict::good;
+  if (outcome.verdict != Verdict::good) {
+    json["problem"] = outcome.problem;
+    json["status"] = outcome.status;
+    if (!outcome.field.empty()) {
+      json["field"] = outcome.field;
+      json["offset"] = outcome.offset;
+      json["tick"] = outcome.tick;
+    }
+  }
+  if (outcome.header_known) {
+    const Header& header = outcome.header;
+    json["config"] = header.config;
+    json["format_version"] = header.format_version;
+    json["simulation_version"] = header.simulation_version;
+    json["capacity"] = {{"bodies", header.bodies}, {"contacts", header.contacts}, {"assets", header.assets}};
+    json["trace_level"] = header.trace_level;
+    json["digest_interval"] = header.digest_interval;
+    json["first_tick"] = header.first_tick;
+    json["snapshot_bytes"] = header.snapshot_bytes;
+  }
+  json["file_bytes"] = outcome.file_bytes;
+  json["ticks"] = outcome.ticks;
+  json["digests"] = outcome.digests;
+  if (outcome.verdict == Verdict::good) json["digest"] = hexadecimal(outcome.digest);
+  return json;
+}
+
+Json timed_json_of(const std::string& path, const Outcome& outcome) {
+  Json json = json_of(path, outcome);
+  json["seconds"] = outcome.seconds;
+  json["ticks_per_second"] = rate(outcome);
+  return json;
+}
+
+}  // namespace
+
+void Report::recorded(const RecordRequest& request, const Outcome& outcome) const {
+  if (json) {
+    Json object = timed_json_of(request.path, outcome);
+    object["scene"] = request.scene;
+    print_json(object);
+  } else if (outcome.verdict != Verdict::good) {
+    print_problem(request.path, outcome);
+  } else {
+    print(request.path + ": " + outcome.header.config + ", " + text(outcome.ticks) + " ticks of " + request.scene +
+          ", " + text(outcome.file_bytes) + " bytes, final digest " + hexadecimal(outcome.digest));
+  }
+}
+
+void Report::verified(const std::string& path, const Outcome& outcome) const {
+  if (json) return print_json(timed_json_of(path, outcome));
+  if (outcome.verdict != Verdict::good) return print_problem(path, outcome);
+  const std::string ticks = outcome.digests == outcome.ticks
+                                ? text(outcome.ticks) + " ticks equal"
+                                : text(outcome.ticks) + " ticks, " + text(outcome.digests) + " digests equal";
+  print(path + ": " + outcome.header.config + ", " + ticks + ", final digest " + hexadecimal(outcome.digest) + ", " +
+        text(static_cast<uint64_t>(rate(outcome))) + " ticks/s");
+}
+
+void Report::described(const std::string& path, const Outcome& outcome) const {
+  if (json) {
+    Json object = json_of(path, outcome);
+    object["calls"] = outcome.calls;
+    return print_json(object);
+  }
+  if (outcome.header_known) {
+    const Header& header = outcome.header;
+    print(path + ":");
+    print("  configuration       " + header.config);
+    print("  simulation version  " + text(header.simulation_version));
+    print("  format version      " + text(header.format_version));
+    print("  capacity            " + text(header.bodies) + " bodies, " + text(header.contacts) + " contacts, " +
+          text(header.assets) + " assets");
+    print("  trace level         " + text(header.trace_level));
+    print("  digest interval     " + text(header.digest_interval));
+    print("  first tick          " + text(header.first_tick));
+    print("  size                " + text(outcome.file_bytes) + " bytes, seed " + text(header.snapshot_bytes));
+    if (outcome.verdict == Verdict::good) {
+      print("  content             " + text(outcome.ticks) + " ticks, " + text(outcome.digests) + " digests, " +
+            text(outcome.calls) + " calls");
+      print("  final digest        " + hexadecimal(outcome.digest));
+    }
+  }
+  fflush(stdout);
+  if (outcome.verdict != Verdict::good) print_problem(path, outcome);
+}
+
+void Report::scene(const SceneLine& line) const {
+  if (json) {
+    Json object;
+    object["name"] = line.name;
+    object["description"] = line.description;
+    object["ticks"] = line.ticks;
+    object["capacity"] = {{"bodies", line.bodies}, {"contacts", line.contacts}};
+    return print_json(object);
+  }
+  printf("%-12s %6u ticks  %s\n", line.name.c_str(), static_cast<unsigned>(line.ticks), line.description.c_str());
+}
+
+}  // namespace detent_tool

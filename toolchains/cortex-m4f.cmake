@@ -1,0 +1,3 @@
+include(${CMAKE_CURRENT_LIST_DIR}/family_cortex_m.cmake)
+detent_cortex_m_target(cortex-m4f "-mcpu=cortex-m4 -mfpu=fpv4-sp-d16 -mfloat-abi=hard"
+  ROM 0x00000000 4M RAM 0x20000000 4M SOFT_DOUBLE_FAULT)
