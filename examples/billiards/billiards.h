@@ -31,7 +31,7 @@ BodyId next_ball(const World& world, BodyId previous);
 /// The number on the ball, [1, 15], or 0 for the cue ball.
 uint32_t ball_number(const World& world, BodyId ball);
 
-inline constexpr Scene k_scene = {"billiards", "a break and five shots on a nine-foot pool table", 40000, world, build,
+inline constexpr Scene k_scene = {"billiards", "a break and seven shots on a nine-foot pool table", 24000, world, build,
                                   before_tick};
 
 }  // namespace billiards

@@ -67,28 +67,31 @@ class Plot {
   Track tracks_[billiards::k_ball_count];
 };
 
-/// A bit for the number of each ball on the table.
-uint32_t balls_on_table(const World& world) {
-  uint32_t balls = 0;
-  for (BodyId ball = billiards::next_ball(world, {}); ball.slot != 0; ball = billiards::next_ball(world, ball)) {
-    balls |= 1u << billiards::ball_number(world, ball);
+/// Says what the last tick did: balls that left the table or came back, and the shot that began.
+class Commentary {
+ public:
+  void add(const World& world, uint32_t tick) {
+    const double time = tick * 0.001;
+    BodyId balls[billiards::k_ball_count];
+    for (BodyId ball = billiards::next_ball(world, {}); ball.slot != 0; ball = billiards::next_ball(world, ball)) {
+      balls[billiards::ball_number(world, ball)] = ball;
+    }
+    for (uint32_t number = 0; number < billiards::k_ball_count; ++number) {
+      if (balls[number] == balls_[number]) continue;
+      if (balls_[number].slot != 0) printf("%7.3f s    ball %" PRIu32 " pocketed\n", time, number);
+      if (balls[number].slot != 0 && tick != 0) printf("%7.3f s    ball %" PRIu32 " put back\n", time, number);
+      balls_[number] = balls[number];
+    }
+    if (billiards::shots_played(world) == shots_) return;
+    const billiards::Shot& shot = billiards::k_shots[shots_++];
+    const double speed = hypot(real_to_host(shot.velocity.x), real_to_host(shot.velocity.z));
+    printf("%7.3f s  %s, %.1f m/s\n", time, shot.name, speed);
   }
-  return balls;
-}
 
-void print_changes(const World& world, uint32_t tick, uint32_t& balls, uint32_t& shots) {
-  const uint32_t balls_now = balls_on_table(world);
-  for (uint32_t number = 0; number < billiards::k_ball_count; ++number) {
-    const uint32_t bit = 1u << number;
-    if ((balls & ~balls_now & bit) != 0) printf("%7.3f s    ball %" PRIu32 " pocketed\n", tick * 0.001, number);
-    if ((balls_now & ~balls & bit) != 0) printf("%7.3f s    ball %" PRIu32 " put back\n", tick * 0.001, number);
-  }
-  balls = balls_now;
-  if (billiards::shots_played(world) == shots) return;
-  const billiards::Shot& shot = billiards::k_shots[shots++];
-  printf("%7.3f s  %s, %.1f m/s\n", tick * 0.001, shot.name,
-         hypot(real_to_host(shot.velocity.x), real_to_host(shot.velocity.z)));
-}
+ private:
+  BodyId balls_[billiards::k_ball_count] = {};
+  uint32_t shots_ = 0;
+};
 
 }  // namespace
 
@@ -119,11 +122,10 @@ int main(int argc, char** argv) {
   if (recorder.begin() != Status::ok) return 1;
 
   Plot plot;
-  uint32_t balls = balls_on_table(world);
-  uint32_t shots = 0;
+  Commentary commentary;
   for (uint32_t tick = 0; tick < scene.ticks; ++tick) {
     scene.before_tick(recorder, tick);
-    print_changes(world, tick, balls, shots);
+    commentary.add(world, tick);
     const StepReport report = recorder.step();
     if (!report.complete()) fprintf(stderr, "tick %" PRIu32 ": something was lost\n", tick);
     if (plot_path != nullptr && tick % 10 == 0) plot.add(world);

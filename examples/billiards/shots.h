@@ -17,8 +17,8 @@ struct Shot {
 /// centre it would slip off (D. Alciatore, "The Lag Shot", Billiards Digest, October 2011: miscue limit 0.5 R).
 ///
 /// The impulse m v at the offset b turns the ball by m v b = 2/5 m r^2 w, so w = 5/2 (v / r) (b / r): about the
-/// horizontal axis up x direction for `above`, and about the vertical one for `right`. That the cue of a ball struck to
-/// the side is pushed aside (squirt) is left out.
+/// horizontal axis across the direction for `above`, about the vertical one for `right`. That the cue of a ball struck
+/// to the side is pushed aside (squirt) is left out.
 consteval Shot stroke(const char* name, double direction_x, double direction_z, double speed, double right,
                       double above) {
   const double square = direction_x * direction_x + direction_z * direction_z;
@@ -28,14 +28,19 @@ consteval Shot stroke(const char* name, double direction_x, double direction_z, 
           vector(spin * above * direction_z, spin * right, -spin * above * direction_x)};
 }
 
-/// The match. Speeds as in D. Alciatore, "typical pool shot speeds" (billiards.colostate.edu/faq/speed/typical): slow
-/// 0.45 to 0.9 m/s, medium to 1.9, fast to 3.2, power to 4.5, a powerful break 11 to 13. Each is played where the one
-/// before left the balls; they were aimed in fx64, and in the other configurations, whose balls lie elsewhere after the
-/// break, the same strokes meet what they meet.
+/// The match. Speeds are within those of D. Alciatore, "How fast does the CB travel for a range of shots?"
+/// (billiards.colostate.edu/faq/speed/typical): slow 0.45 to 0.89 m/s, medium to 1.9, fast to 3.2, power to 4.5, a
+/// powerful break 11 to 13. Each shot is played where the one before left the balls; they were aimed in fx64, and in
+/// the other configurations, whose balls lie elsewhere after the break, the same strokes meet what they meet.
 inline constexpr Shot k_shots[] = {
-    stroke("break", 1.0, 0.0, 8.9, 0.0, 0.1),      stroke("stun", 0.8, 0.6, 2.0, 0.0, 0.0),
-    stroke("draw", 0.6, -0.8, 2.4, 0.0, -0.35),    stroke("follow", 0.96, 0.28, 1.6, 0.0, 0.4),
-    stroke("bank", 0.7071, 0.7071, 2.2, 0.0, 0.2), stroke("right english", -0.8, -0.6, 1.8, 0.4, 0.1),
+    stroke("break", 0.9999, 0.0131, 8.9, 0.0, 0.1),
+    stroke("stun", 0.1392, -0.9903, 2.4, 0.0, 0.0),           // no spin: stops at the ball, or leaves it square
+    stroke("draw", 0.8988, -0.4384, 2.8, 0.0, -0.35),         // back spin: comes back from the ball
+    stroke("follow", 0.7660, 0.6428, 1.3, 0.0, 0.4),          // struck at 2/5 r, it rolls from the start
+    stroke("bank", 0.8526, -0.5225, 2.0, 0.0, 0.2),           // the ball goes to its pocket off a cushion
+    stroke("right english", 0.3090, -0.9511, 1.5, 0.4, 0.1),  // side spin, which bites at a cushion
+    stroke("left english", 0.1736, 0.9848, 1.4, -0.35, 0.2),
+    stroke("drag", 0.5878, 0.8090, 1.6, 0.0, -0.1),  // a little back spin that the cloth takes off
 };
 inline constexpr uint32_t k_shot_count = sizeof(k_shots) / sizeof(k_shots[0]);
 

@@ -23,16 +23,19 @@ inline Real row_spin(const AngularRow& row, const BodyMotion& a, const BodyMotio
 
 inline bool takes_impulses(Scaled share) { return is_positive(share); }
 
+/// impulse x share; the lighter body's share is 1, and most pairs are of a body and the ground, or of equals.
+inline Real shared(Real impulse, Scaled share) { return share == Scaled(1.0) ? impulse : multiply(impulse, share); }
+
 /// Applies `impulse` to B along `direction`, and its opposite to A.
 inline void apply_impulse(const ContactWork& contact, const ContactRow& row, const Vec3<Unit>& direction, Real impulse,
                           BodyMotion& a, BodyMotion& b) {
   if (takes_impulses(contact.share_a)) {
-    const Real part = multiply(impulse, contact.share_a);
+    const Real part = shared(impulse, contact.share_a);
     a.velocity -= direction * part;
     a.momentum -= row.arm_a * part;
   }
   if (takes_impulses(contact.share_b)) {
-    const Real part = multiply(impulse, contact.share_b);
+    const Real part = shared(impulse, contact.share_b);
     b.velocity += direction * part;
     b.momentum += row.arm_b * part;
   }
@@ -42,10 +45,10 @@ inline void apply_impulse(const ContactWork& contact, const ContactRow& row, con
 inline void apply_angular_impulse(const ContactWork& contact, const Vec3<Unit>& axis, Real impulse, BodyMotion& a,
                                   BodyMotion& b) {
   if (takes_impulses(contact.share_a)) {
-    a.momentum -= axis * scale_by_power(multiply(impulse, contact.share_a), contact.shift_a);
+    a.momentum -= axis * scale_by_power(shared(impulse, contact.share_a), contact.shift_a);
   }
   if (takes_impulses(contact.share_b)) {
-    b.momentum += axis * scale_by_power(multiply(impulse, contact.share_b), contact.shift_b);
+    b.momentum += axis * scale_by_power(shared(impulse, contact.share_b), contact.shift_b);
   }
 }
 

@@ -1,7 +1,5 @@
 #include "math/scaled.h"
 
-#include "math/root.h"
-
 #if DETENT_FIXED
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -80,8 +78,7 @@ bool less(Scaled a, Scaled b) {
 }
 
 Real multiply(Real a, Scaled b) {
-  DETENT_VERIFY_RANGE(b.mantissa == 0 || b.exponent < -30 ||
-                      (b.exponent == -30 && magnitude_32(b.mantissa) == 1u << 30));
+  DETENT_VERIFY_RANGE(b.mantissa == 0 || b.exponent < 0);
   const int n = -b.exponent;
   // a b = high 2^32 + low, as in PortableInt128::product_narrow; only the wanted word is formed.
   const int64_t low_product = static_cast<int64_t>(static_cast<uint32_t>(a.raw)) * b.mantissa;

@@ -1,7 +1,7 @@
 #pragma once
 #include <detent/scaled.h>
 
-#include "math/arithmetic.h"
+#include "math/root.h"
 
 /// Numbers of wide range: masses, densities, forces, impulses.
 ///
@@ -32,7 +32,7 @@ bool less(Scaled a, Scaled b);
 constexpr bool is_positive(Scaled a) { return a.mantissa > 0; }
 constexpr Scaled negate(Scaled a) { return Scaled::from_parts(-a.mantissa, a.exponent); }
 
-/// a b. Range: |b| <= 1. Rounding: to nearest, ties up. Overflow: none.
+/// a b. Range: |b| < 2^30. Rounding: to nearest, ties up. Overflow: wraps; none for |b| <= 1.
 Real multiply(Real a, Scaled b);
 /// a b. Rounding: to nearest, ties up. Overflow: clamps to Real's range and sets `saturated` (else untouched).
 Real multiply(Real a, Scaled b, bool& saturated);

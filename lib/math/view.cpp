@@ -15,7 +15,8 @@ float to_float(double value) {
   return float_from_parts<float>(parts.mantissa, parts.exponent, parts.negative);
 }
 float relative(Coord a, Coord camera) { return to_float(a - camera); }
-Coord between(Coord from, Coord to, Unit alpha) { return from * (1.0 - alpha) + to * alpha; }
+/// Exactly `to` at 1, and without jitter where both are the same.
+Coord between(Coord from, Coord to, Unit alpha) { return alpha == 1.0 ? to : from + (to - from) * alpha; }
 #else
 /// a - camera, exact to 65 bits before its one rounding.
 float relative(Coord a, Coord camera) {

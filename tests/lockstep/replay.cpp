@@ -167,6 +167,7 @@ int replay(const Options& options, MachineFile& file) {
   WorldDef def;
   def.capacity = info.capacity;
   World world;
+  print_value("world ", world_bytes(info.capacity));
   if (world_bytes(info.capacity) > sizeof block)
     return fail(options.recording, "its world is larger than this program's");
   const Status created = create_world(block, sizeof block, def, {}, world);
@@ -218,6 +219,7 @@ void print_memory() {
   const MachineMemory memory = machine_memory();
   print_value("flash ", memory.flash_bytes);
   print_value("ram ", memory.ram_bytes);
+  print_value("block ", sizeof block);
   print_value("stack ", memory.stack_bytes);
   print_value("stack_used ", machine_stack_used());
 }

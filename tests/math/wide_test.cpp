@@ -33,7 +33,9 @@ DETENT_TEST(wide, portable_operations_equal_native_ones) {
     EXPECT_EQ(native < native_other, portable < other);
     const int n = static_cast<int>(samples.below(128));
     expect_equal(native.shift_left(n), portable.shift_left(n));
-    if (n >= 1) EXPECT_EQ(native.round_shift(n), portable.round_shift(n)) << n;
+    if (n >= 1) {
+      EXPECT_EQ(native.round_shift(n), portable.round_shift(n)) << n;
+    }
   }
   expect_equal(NativeInt128::product(INT64_MIN, INT64_MIN), PortableInt128::product(INT64_MIN, INT64_MIN));
   expect_equal(NativeInt128::product(INT64_MIN, INT64_MAX), PortableInt128::product(INT64_MIN, INT64_MAX));
@@ -117,7 +119,9 @@ DETENT_TEST(wide, bit_lengths_count_to_the_leading_one) {
   EXPECT_EQ(bit_length_64(0), 0);
   for (int n = 0; n < 64; ++n) {
     EXPECT_EQ(bit_length_64(uint64_t{1} << n), n + 1);
-    if (n < 32) EXPECT_EQ(bit_length_32(uint32_t{1} << n), n + 1);
+    if (n < 32) {
+      EXPECT_EQ(bit_length_32(uint32_t{1} << n), n + 1);
+    }
     EXPECT_EQ(bit_length_128({uint64_t{1} << n, 0}), n + 65);
   }
 }

@@ -18,6 +18,15 @@ struct Parts {
   std::vector<Chunk> chunks;
 };
 
+template <class T>
+void erase_at(std::vector<T>& items, uint32_t index) {
+  items.erase(items.begin() + static_cast<std::ptrdiff_t>(index));
+}
+template <class T>
+void insert_at(std::vector<T>& items, uint32_t index, const T& item) {
+  items.insert(items.begin() + static_cast<std::ptrdiff_t>(index), item);
+}
+
 inline uint64_t little_endian(const uint8_t* bytes, uint32_t count) {
   uint64_t value = 0;
   for (uint32_t i = 0; i < count; ++i) value |= static_cast<uint64_t>(bytes[i]) << (8 * i);

@@ -119,14 +119,14 @@ DETENT_TEST(damage, a_dropped_doubled_or_exchanged_chunk_is_found) {
   for (uint32_t i = 0; i + 1 < count; ++i) {
     Parts dropped = parts;
     std::vector<uint32_t> order = numbers;
-    dropped.chunks.erase(dropped.chunks.begin() + i);
-    order.erase(order.begin() + i);
+    erase_at(dropped.chunks, i);
+    erase_at(order, i);
     expect_refused(put_together(dropped, order), Status::corrupt, "chunk sequence");
 
     Parts doubled = parts;
     order = numbers;
-    doubled.chunks.insert(doubled.chunks.begin() + i, parts.chunks[i]);
-    order.insert(order.begin() + i, i);
+    insert_at(doubled.chunks, i, parts.chunks[i]);
+    insert_at(order, i, i);
     expect_refused(put_together(doubled, order), Status::corrupt, "chunk sequence");
 
     Parts exchanged = parts;
@@ -146,13 +146,13 @@ DETENT_TEST(damage, a_chunk_of_another_tick_is_refused) {
 DETENT_TEST(damage, renumbered_chunks_in_a_wrong_order_are_refused) {
   const Parts parts = take_apart(record_small(2));
   Parts no_calls = parts;
-  no_calls.chunks.erase(no_calls.chunks.begin() + first_of(parts, ChunkType::calls));
+  erase_at(no_calls.chunks, first_of(parts, ChunkType::calls));
   EXPECT_FALSE(replay(put_together(no_calls)).finished);
   Parts no_seed = parts;
-  no_seed.chunks.erase(no_seed.chunks.begin() + (first_of(parts, ChunkType::calls) - 1));
+  erase_at(no_seed.chunks, first_of(parts, ChunkType::calls) - 1);
   expect_refused(put_together(no_seed), Status::corrupt, "chunk order");
   Parts more_seed = parts;
-  more_seed.chunks.insert(more_seed.chunks.begin() + first_of(parts, ChunkType::calls), parts.chunks[0]);
+  insert_at(more_seed.chunks, first_of(parts, ChunkType::calls), parts.chunks[0]);
   expect_refused(put_together(more_seed), Status::corrupt, "chunk order");
   Parts long_seed = parts;
   long_seed.chunks[first_of(parts, ChunkType::calls) - 1].payload.push_back(0);
@@ -167,7 +167,7 @@ DETENT_TEST(damage, an_unknown_chunk_is_passed_over_only_if_it_is_optional) {
     unknown.type = k_chunk_optional | 77;
     unknown.tick = parts.chunks[at].tick;
     unknown.payload.assign(k_chunk_payload_bytes_max, 0xa5);
-    more.chunks.insert(more.chunks.begin() + at, unknown);
+    insert_at(more.chunks, at, unknown);
     EXPECT_TRUE(replay(put_together(more)).finished) << at;
     more.chunks[at].type = 77;
     expect_refused(put_together(more), Status::format_unknown, "chunk type");

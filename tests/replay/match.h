@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
-#include "tests/support/test.h"
 #include "tests/scenes/scene.h"
+#include "tests/support/test.h"
 
 /// Recordings in memory, how to make them, and how to take them apart.
 namespace detent {
