@@ -13,10 +13,18 @@ enum class BodyType : uint32_t {
   dynamic = 3,    ///< moved by forces and contacts
 };
 
-/// How a surface behaves. A pair takes the geometric mean of friction and of rolling resistance, and the larger restitution.
+/// Which of two restitutions a pair takes. Stored in snapshots and recordings: a value is never reused.
+enum class RestitutionRule : uint32_t {
+  larger = 0,   ///< a bouncy ball bounces on anything
+  smaller = 1,  ///< a damping surface damps whatever falls on it; one such material decides for the pair
+};
+
+/// How a surface behaves. A pair takes the geometric mean of friction and of rolling resistance, and the larger
+/// restitution unless one of the two says otherwise.
 struct Material {
-  Real friction = 0.6;            ///< Coulomb's coefficient, [0, 16]
+  Real friction = Real(0.6);      ///< Coulomb's coefficient, [0, 16]
   Real restitution = 0.0;         ///< rebound speed over approach speed, [0, 1]
+  RestitutionRule restitution_rule = RestitutionRule::larger;
   Real rolling_resistance = 0.0;  ///< torque over (normal force x smaller radius), about any axis, [0, 1]
 };
 

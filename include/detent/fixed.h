@@ -29,7 +29,7 @@ constexpr FromDouble fixed_from_double_bits(uint64_t bits, int frac, int int_bit
 /// Sums wrap (the ranges in SPEC.md keep them from it); nothing saturates silently.
 /// A floating-point literal converts at compile time, rounded to nearest; a run-time double enters by `from_host` alone.
 template <class Int, int Frac>
-struct Fixed {
+struct alignas(sizeof(Int)) Fixed {  // also on targets whose structs pack 8-byte members
   static constexpr int k_frac = Frac;
   static constexpr int k_bits = static_cast<int>(sizeof(Int) * 8);
   using Raw = Int;

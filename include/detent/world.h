@@ -25,12 +25,12 @@ struct Capacity {
 /// What `create_world` makes. Every field but the capacity has a working default.
 struct WorldDef {
   Capacity capacity = {};
-  Vec3<Real> gravity = {0.0, -9.81, 0.0};  ///< m/s^2; each component within +-1024
-  Real tick = 1.0 / 60.0;                  ///< s, the time of one step, [2^-14, 1/4]
+  Vec3<Real> gravity = {Real(0.0), Real(-9.81), Real(0.0)};  ///< m/s^2; each component within +-1024
+  Real tick = Real(1.0 / 60.0);            ///< s, the time of one step, [2^-14, 1/4]
   uint32_t substeps = 4;                   ///< solver substeps a tick, [1, 64]
   uint32_t iterations = 1;                 ///< sweeps over the contacts a substep, [1, 64]
   Real relaxation = 1.0;                   ///< over-relaxation factor of the SOR solver, [1/4, 7/4]
-  Real stiffness = 0.14;                   ///< contact frequency as a fraction of the substep rate, [1/64, 1/4]
+  Real stiffness = Real(0.14);             ///< contact frequency as a fraction of the substep rate, [1/64, 1/4]
   Real damping_ratio = 10.0;               ///< of the soft contacts, [0, 64]
   Real restitution_threshold = 0.25;       ///< approach speed below which nothing rebounds, in sqrt(g x smaller extent), [0, 64]
 };

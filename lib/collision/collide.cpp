@@ -16,6 +16,14 @@ Vec3<Unit> scaled(const Vec3<Unit>& v, int power) {
   return {scale_by_power(v.x, power), scale_by_power(v.y, power), scale_by_power(v.z, power)};
 }
 
+/// A contact point as an arm in a body's own unit of length. The middle of a deep overlap with a much larger body may lie
+/// far outside the smaller one: the arm is held to 1.5 units there.
+Vec3<Unit> arm_in(const Vec3<Unit>& point, int power) {
+  const Unit limit = scale_by_power(Unit(1.5), power > 0 ? -power : 0);
+  const Vec3<Unit> held = {clamp(point.x, -limit, limit), clamp(point.y, -limit, limit), clamp(point.z, -limit, limit)};
+  return scaled(held, power);
+}
+
 PairShape shape_in(const CollisionBody& body, int exponent) {
   return {type_of(body), {0.0, 0.0, 0.0}, body.rotation, scaled(body.traits.size, body.traits.size_exponent - exponent)};
 }
@@ -49,8 +57,8 @@ void collide_ordered(const CollisionBody& first, const CollisionBody& second, Re
   for (uint32_t i = 0; i < manifold.count; ++i) {
     const PairPoint& point = manifold.point[i];
     contact.point[contact.count++] = {
-        scaled(point.point, frame.exponent - first.traits.size_exponent),
-        scaled(point.point - frame.b.centre, frame.exponent - second.traits.size_exponent),
+        arm_in(point.point, frame.exponent - first.traits.size_exponent),
+        arm_in(point.point - frame.b.centre, frame.exponent - second.traits.size_exponent),
         real_from_unit(point.separation, frame.exponent), point.feature};
   }
 }

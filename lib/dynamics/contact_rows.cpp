@@ -64,6 +64,12 @@ void make_tangents(const Vec3<Unit>& normal, Vec3<Unit> tangent[2]) {
   tangent[1] = cross(normal, tangent[0]);
 }
 
+Scaled pair_restitution(const BodyTraits& a, const BodyTraits& b) {
+  constexpr uint32_t k_smaller = static_cast<uint32_t>(RestitutionRule::smaller);
+  const bool smaller = a.restitution_rule == k_smaller || b.restitution_rule == k_smaller;
+  return less(a.restitution, b.restitution) == smaller ? a.restitution : b.restitution;
+}
+
 /// Reference mass over each mass.
 void share_mass(const BodyTraits& a, const BodyTraits& b, ContactWork& work) {
   const Scaled none = 0.0, one = 1.0;
@@ -124,7 +130,7 @@ void make_rows(const StepSettings& settings, const RowBody& a, const RowBody& b,
   }
 
   work.friction = square_root(multiply(a.traits.friction, b.traits.friction));
-  work.restitution = less(a.traits.restitution, b.traits.restitution) ? b.traits.restitution : a.traits.restitution;
+  work.restitution = pair_restitution(a.traits, b.traits);
   const Scaled rolling = square_root(multiply(a.traits.rolling_resistance, b.traits.rolling_resistance));
   const Real extent = min(shape_extent(a.traits), shape_extent(b.traits));
   const bool dynamic_a = is_dynamic(a.traits);

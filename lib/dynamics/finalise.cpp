@@ -20,8 +20,8 @@ uint32_t hold_speeds(const BodyTraits& traits, const Quat& rotation, BodyMotion&
   uint32_t clamped = hold(motion.velocity.x) + hold(motion.velocity.y) + hold(motion.velocity.z);
   const Vec3<Real> spin = spin_of(traits, rotation, motion.momentum);
   const Real fastest = max(abs(spin.x), max(abs(spin.y), abs(spin.z)));
-  if (fastest > k_speed_max) {
-    const Real factor = divide(k_speed_max, fastest);
+  if (fastest > k_spin_max) {
+    const Real factor = divide(k_spin_max, fastest);
     motion.momentum = {motion.momentum.x * factor, motion.momentum.y * factor, motion.momentum.z * factor};
     ++clamped;
   }

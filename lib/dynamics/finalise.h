@@ -11,7 +11,7 @@ inline namespace DETENT_NAMESPACE {
 uint32_t finalise(Span<const BodyTraits> traits, Span<const BodyWork> work, Span<BodyPose> poses,
                   Span<BodyMotion> motions);
 
-/// Holds velocity and spin to k_speed_max. Returns the number of components clamped.
+/// Holds velocity to k_speed_max and spin to k_spin_max. Returns the number of components clamped.
 uint32_t hold_speeds(const BodyTraits& traits, const Quat& rotation, BodyMotion& motion);
 
 /// Puts the contacts of this tick in place of those of the last one, whose count was `before`.

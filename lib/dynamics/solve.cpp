@@ -37,7 +37,7 @@ uint32_t integrate_velocities(const SolverBodies& bodies) {
     motion.momentum += now.twist;
     if (!(now.linear_kept == one)) motion.velocity = scaled(motion.velocity, now.linear_kept);
     if (!(now.angular_kept == one)) motion.momentum = scaled(motion.momentum, now.angular_kept);
-    clamped += clamp_vector(motion.velocity, k_speed_work_max) + clamp_vector(motion.momentum, k_speed_work_max);
+    clamped += clamp_vector(motion.velocity, k_speed_work_max) + clamp_vector(motion.momentum, k_spin_work_max);
   }
   return clamped;
 }

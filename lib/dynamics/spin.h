@@ -10,8 +10,10 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-inline constexpr Real k_speed_max = 16384.0;       ///< m/s, of state: each component of velocity and spin
-inline constexpr Real k_speed_work_max = 32768.0;  ///< m/s, within a solve
+inline constexpr Real k_speed_max = 16384.0;       ///< m/s, of state: each component of velocity
+inline constexpr Real k_spin_max = 32768.0;        ///< m/s, of state: likewise of spin; the rim moves at half of it or more
+inline constexpr Real k_speed_work_max = 32768.0;  ///< m/s, of velocity within a solve
+inline constexpr Real k_spin_work_max = 65536.0;   ///< m/s, of momentum within a solve; no gyration is below 1
 
 inline BodyType type_of(const BodyTraits& traits) { return static_cast<BodyType>(traits.type); }
 inline bool is_dynamic(const BodyTraits& traits) { return type_of(traits) == BodyType::dynamic; }

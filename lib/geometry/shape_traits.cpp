@@ -60,7 +60,7 @@ Status set_shape(const Shape& shape, BodyTraits& traits) {
   }
   if (shape.type != ShapeType::half_space && shape.type != ShapeType::sphere) {
     const Real smallest = shape.type == ShapeType::capsule ? size.x : min(min(size.x, size.y), size.z);
-    if (bound > scale_by_power(smallest, 14)) return Status::out_of_range;
+    if (scale_by_power(bound, -14) > smallest) return Status::out_of_range;
   }
   traits.shape = static_cast<uint32_t>(shape.type);
   traits.size_exponent = shape.type == ShapeType::half_space ? 0 : exponent_above(bound);

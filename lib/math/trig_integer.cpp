@@ -16,7 +16,8 @@ SineCosineRaw sine_cosine_raw(int64_t phase) {
   // The nearest quarter turn, and t in [-1/2, 1/2) quarter turns as Q32.
   const uint32_t quarter = static_cast<uint32_t>((phase + 0x80000000) >> 32) & 3;
   const int64_t t = static_cast<int32_t>(phase);
-  const uint32_t s = static_cast<uint32_t>((static_cast<uint64_t>(t * t) + 0x80000000) >> 32);
+  const uint64_t square = static_cast<uint64_t>(t * t);  // Q64
+  const uint32_t s = static_cast<uint32_t>(square >> 32);
 
   // sin = t pi/2 - t s R(s), R minimax of degree 3, Q32: error 2^-38.6. The leading term is kept apart to 64 bits.
   const uint32_t r = 0xa55de72b - high_product(s, 0x1466bb96 - high_product(s, 0x132c9fd - high_product(s, 0xa5cf6)));
@@ -27,7 +28,8 @@ SineCosineRaw sine_cosine_raw(int64_t phase) {
   const uint32_t q =
       0x9de9e64e -
       high_product(s, 0x20783e0f - high_product(s, 0x2aba777 - high_product(s, 0x1e1e86 - high_product(s, 0xd084))));
-  const int64_t cosine = round_shift_64((int64_t{1} << 62) - static_cast<int64_t>((uint64_t{s} * q) >> 1), 32);
+  const uint64_t versed = uint64_t{s} * q + high_product(static_cast<uint32_t>(square), q);  // Q63, all 64 bits of s
+  const int64_t cosine = round_shift_64((int64_t{1} << 62) - static_cast<int64_t>(versed >> 1), 32);
 
   const int32_t a = static_cast<int32_t>(sine);
   const int32_t b = static_cast<int32_t>(cosine);

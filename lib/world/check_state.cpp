@@ -1,6 +1,7 @@
 #include "base/float_environment.h"
 #include "dynamics/spin.h"
 #include "geometry/shape_traits.h"
+#include "math/root.h"
 #include "world/asset_binding.h"
 #include "world/fields.h"
 #include "world/ranges.h"
@@ -41,6 +42,11 @@ bool is_pose(const BodyPose& pose) {
 
 bool is_size(Unit value) { return value >= Unit(0.0) && value <= Unit(1.0); }
 
+/// The bounding radius as `set_shape` gives it, but for the rounding of the sizes.
+bool is_bound(Unit bound, Unit expected) {
+  return bound >= Unit(0.49) && bound <= Unit(1.0) && abs(bound - expected) <= Unit(0x1p-20);
+}
+
 bool is_shape(const BodyTraits& traits) {
   if (traits.size_exponent < -14 || traits.size_exponent > 15) return false;
   if (!is_size(traits.size.x) || !is_size(traits.size.y) || !is_size(traits.size.z)) return false;
@@ -48,12 +54,12 @@ bool is_shape(const BodyTraits& traits) {
   const Unit bound = traits.bounding_radius;
   switch (static_cast<ShapeType>(traits.shape)) {
     case ShapeType::sphere:
-      return traits.size.x >= smallest && bound == traits.size.x && traits.size.y == zero && traits.size.z == zero;
+      return bound == traits.size.x && is_bound(bound, traits.size.x) && traits.size.y == zero && traits.size.z == zero;
     case ShapeType::capsule:
-      return traits.size.x >= smallest && bound >= traits.size.y && bound <= Unit(1.0) && traits.size.z == zero;
+      return traits.size.x >= smallest && is_bound(bound, traits.size.x + traits.size.y) && traits.size.z == zero;
     case ShapeType::box:
       return traits.size.x >= smallest && traits.size.y >= smallest && traits.size.z >= smallest &&
-             bound >= traits.size.x && bound >= traits.size.y && bound >= traits.size.z && bound <= Unit(1.0);
+             is_bound(bound, length(traits.size));
     case ShapeType::half_space:
       return traits.type != static_cast<uint32_t>(BodyType::dynamic) && traits.size_exponent == 0 && bound == zero &&
              traits.size == Vec3<Unit>{zero, zero, zero};
@@ -81,13 +87,13 @@ bool is_body(const BodyTraits& traits) {
          is_between(traits.linear_damping, none, scaled_from(k_damping_max)) &&
          is_between(traits.angular_damping, none, scaled_from(k_damping_max)) &&
          is_between(traits.gravity_scale, negate(scaled_from(k_gravity_scale_max)), scaled_from(k_gravity_scale_max)) &&
-         traits.zero == 0;
+         is_rule(static_cast<RestitutionRule>(traits.restitution_rule));
 }
 
 bool is_motion(const BodyTraits& traits, const BodyMotion& motion) {
   if (type_of(traits) == BodyType::fixed) return is_zero(motion);
-  return within(motion.velocity, k_speed_max) && within(motion.momentum, k_speed_work_max) &&
-         within(motion.pending_velocity, k_speed_max) && within(motion.pending_momentum, k_speed_work_max);
+  return within(motion.velocity, k_speed_max) && within(motion.momentum, k_spin_work_max) &&
+         within(motion.pending_velocity, k_speed_max) && within(motion.pending_momentum, k_spin_work_max);
 }
 
 bool is_empty_slot(const State& state, uint32_t slot) {

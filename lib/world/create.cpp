@@ -26,6 +26,7 @@ Status make_traits(const BodyDef& def, BodyTraits& traits) {
   }
   if (const Status status = set_shape(def.shape, traits); status != Status::ok) return status;
   if (def.type == BodyType::dynamic && def.shape.type == ShapeType::half_space) return Status::bad_argument;
+  if (!is_rule(def.material.restitution_rule)) return Status::bad_argument;
   if (!is_material(def.material) || !within(def.linear_damping, Real(0.0), k_damping_max) ||
       !within(def.angular_damping, Real(0.0), k_damping_max) ||
       !within(def.gravity_scale, -k_gravity_scale_max, k_gravity_scale_max)) {
@@ -47,6 +48,7 @@ Status make_traits(const BodyDef& def, BodyTraits& traits) {
   traits.linear_damping = scaled_from(def.linear_damping);
   traits.angular_damping = scaled_from(def.angular_damping);
   traits.gravity_scale = scaled_from(def.gravity_scale);
+  traits.restitution_rule = static_cast<uint32_t>(def.material.restitution_rule);
   traits.user_data = def.user_data;
   return Status::ok;
 }
@@ -56,14 +58,15 @@ Status make_motion(const BodyTraits& traits, const Quat& rotation, const Vec3<Re
                    BodyMotion& motion) {
   if (!within(velocity, k_speed_max)) return Status::out_of_range;
   const int32_t exponent = traits.size_exponent;
-  // |spin| <= k_speed_max 2^-exponent, or any Real where that is more than a Real holds.
-  const Real limit = exponent < -2 ? k_real_max : scale_by_power(k_speed_max, -exponent);
+  // |spin| <= k_spin_max 2^-exponent, or any Real where that is more than a Real holds.
+  const Real limit = exponent < -1 ? k_real_max : scale_by_power(k_spin_max, -exponent);
   if (!within(spin, limit)) return Status::out_of_range;
   const bool moves = !(velocity == k_still), turns = !(spin == k_still);
   if ((moves || turns) && type_of(traits) == BodyType::fixed) return Status::bad_argument;
   if (turns && static_cast<ShapeType>(traits.shape) == ShapeType::half_space) return Status::bad_argument;
   const Vec3<Real> spin_speed = {scale_by_power(spin.x, exponent), scale_by_power(spin.y, exponent),
                                  scale_by_power(spin.z, exponent)};
+  if (!within(spin_speed * traits.bounding_radius, k_speed_max)) return Status::out_of_range;
   motion.velocity = velocity;
   motion.momentum = spin_speed;
   if (turns && is_dynamic(traits)) {
@@ -87,8 +90,8 @@ Status make_pose(const Position& position, const Quat& rotation, BodyPose& pose)
 }
 
 bool speeds_fit(const BodyTraits& traits, const Quat& rotation, const BodyMotion& motion) {
-  return within(motion.velocity, k_speed_max) && within(motion.momentum, k_speed_max) &&
-         within(spin_of(traits, rotation, motion.momentum), k_speed_max);
+  return within(motion.velocity, k_speed_max) && within(motion.momentum, k_spin_work_max) &&
+         within(spin_of(traits, rotation, motion.momentum), k_spin_max);
 }
 
 /// An impulse, N s, over the mass times a power of two, as a speed. False if it leaves Real's range.

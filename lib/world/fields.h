@@ -78,7 +78,7 @@ inline constexpr Field k_traits_fields[] = {
     DETENT_FIELD(BodyTraits, friction),       DETENT_FIELD(BodyTraits, restitution),
     DETENT_FIELD(BodyTraits, rolling_resistance), DETENT_FIELD(BodyTraits, linear_damping),
     DETENT_FIELD(BodyTraits, angular_damping), DETENT_FIELD(BodyTraits, gravity_scale),
-    DETENT_FIELD(BodyTraits, user_data),      DETENT_FIELD(BodyTraits, zero),
+    DETENT_FIELD(BodyTraits, user_data),      DETENT_FIELD(BodyTraits, restitution_rule),
 };
 inline constexpr Field k_slot_fields[] = {{"taken", 0, 4, 1}};
 inline constexpr Field k_contact_fields[] = {

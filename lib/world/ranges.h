@@ -37,6 +37,10 @@ inline bool is_between(Scaled value, Scaled low, Scaled high) {
 }
 inline bool is_mass(Scaled value) { return is_between(value, Scaled(0x1p-60), Scaled(0x1p60)); }
 
+inline bool is_rule(RestitutionRule rule) {
+  return rule == RestitutionRule::larger || rule == RestitutionRule::smaller;
+}
+
 inline constexpr Real k_friction_max = 16.0;
 inline constexpr Real k_damping_max = 1024.0;
 inline constexpr Real k_gravity_max = 1024.0;

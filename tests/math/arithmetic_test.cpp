@@ -1,7 +1,7 @@
 #include "math/arithmetic.h"
 
 #include "samples.h"
-#include "support/test.h"
+#include "tests/support/test.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

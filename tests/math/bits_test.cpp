@@ -5,7 +5,7 @@
 #include "math/rotation.h"
 #include "math/scaled.h"
 #include "samples.h"
-#include "support/test.h"
+#include "tests/support/test.h"
 
 /// One hash of every kernel's results over the same arguments, equal on every target, compiler and optimisation level.
 namespace detent {
@@ -134,13 +134,13 @@ uint64_t hash_of_rotations() {
 }
 
 #if defined(DETENT_FX64)
-constexpr uint64_t k_expected[] = {0, 0, 0};
+constexpr uint64_t k_expected[] = {0xa5b54eaf9ff199d4u, 0x4a9767f6727f4da8u, 0x454d6f9f99189c48u};
 #elif defined(DETENT_FX32)
-constexpr uint64_t k_expected[] = {0, 0, 0};
+constexpr uint64_t k_expected[] = {0xffaaab2cb15e4149u, 0x4a9767f6727f4da8u, 0x454d6f9f99189c48u};
 #elif defined(DETENT_F32)
-constexpr uint64_t k_expected[] = {0, 0, 0};
+constexpr uint64_t k_expected[] = {0x80c44222e167b0d3u, 0xd8f19739a238f4e0u, 0xf758f219f90b6732u};
 #else
-constexpr uint64_t k_expected[] = {0, 0, 0};
+constexpr uint64_t k_expected[] = {0xd010d3977ba6d4au, 0x7cce222f3fcd9c39u, 0xb957959f82643e26u};
 #endif
 
 DETENT_TEST(bits, arithmetic_is_the_same_on_every_target) { EXPECT_EQ(hash_of_arithmetic(), k_expected[0]); }

@@ -4,7 +4,7 @@
 #include "math/scaled.h"
 #include "oracle.h"
 #include "samples.h"
-#include "support/test.h"
+#include "tests/support/test.h"
 
 /// Every kernel against MPFR: strided over its domain, at its edges and at the worst cases that the exhaustive sweeps
 /// (sweep_test.cpp) found.

@@ -10,7 +10,7 @@ struct Bounds {
 };
 
 /// A body during the substeps.
-struct BodyWork {
+struct alignas(8) BodyWork {
   uint64_t colours;         ///< taken by the contacts of this body
   Quat rotation;            ///< now
   Vec3<Real> displacement;  ///< from the start of the tick, m
@@ -44,14 +44,15 @@ struct AngularRow {
 };
 
 /// A contact during the step. Impulses are over the reference mass: that of the lighter dynamic body.
-struct ContactWork {
+struct alignas(8) ContactWork {
   ContactState state;          ///< becomes the world's contact when the step ends
   Vec3<Unit> normal;           ///< from A to B
   Vec3<Unit> tangent[2];
-  uint32_t angular_rows;       ///< 0; 1: twist; 3: and rolling
   ContactPoint point[k_manifold_points_max];
   ContactRow friction_row[2];
   AngularRow angular_row[3];   ///< about the normal and the tangents
+  uint32_t angular_rows;       ///< 0; 1: twist; 3: and rolling
+  uint32_t static_pair;        ///< 1 if only one of the bodies is dynamic
   int32_t shift_a, shift_b;    ///< the body's unit of length over the pair's, as a power of two
   Real friction_impulse[2];    ///< along the tangents
   Real angular_impulse[3];
@@ -62,11 +63,10 @@ struct ContactWork {
   Scaled rolling_arm;          ///< likewise about the tangents
   Real push_max;               ///< largest separating speed of the position correction, m/s
   Real rebound_min;            ///< approach speed below which nothing rebounds, m/s
-  uint32_t static_pair;        ///< 1 if only one of the bodies is dynamic
 };
 
 /// Where a contact stands in the order of the solve.
-struct ContactOrder {
+struct alignas(8) ContactOrder {
   uint64_t key;  ///< hash of the pair's ids
   uint32_t contact;
   uint32_t colour;

@@ -68,7 +68,7 @@ struct BodyTraits {
   Scaled angular_damping;  ///< 1/s
   Scaled gravity_scale;
   uint32_t user_data;
-  uint32_t zero;
+  uint32_t restitution_rule;  ///< RestitutionRule
 };
 
 constexpr uint32_t k_manifold_points_max = 4;

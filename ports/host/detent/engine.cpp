@@ -128,6 +128,7 @@ Outcome read_recording(const std::string& path, bool with_world, const Progress&
     status = player.start(owned.world);
   }
   const Stopwatch stopwatch;
+  const uint64_t seed_end = player.bytes_read();
   for (TickResult result; status == Status::ok && !result.finished;) {
     status = with_world ? player.next_tick(owned.world, result) : player.skip_tick(result);
     if (status != Status::ok) break;
@@ -136,7 +137,8 @@ Outcome read_recording(const std::string& path, bool with_world, const Progress&
     if (result.finished) break;
     ++outcome.ticks;
     outcome.digests += result.compared ? 1 : 0;
-    if (outcome.ticks % k_ticks_per_progress == 0) progress(player.bytes_read(), outcome.file_bytes);
+    if (outcome.ticks % k_ticks_per_progress == 0)
+      progress(player.bytes_read() - seed_end, outcome.file_bytes - seed_end);
   }
   outcome.seconds = stopwatch.seconds();
   if (status != Status::ok) take_error(outcome, player.error());

@@ -1,0 +1,107 @@
+#include <detent/convert.h>
+#include <detent/recording.h>
+#include <detent/view.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "tests/environment/settings.h"
+#include "tests/scenes/scene.h"
+
+// run [unusual | fast]: prints every digest of some scenes, and what the conversions give. The text must be the same in all
+// floating-point environments. `unusual`: in settings that the program makes first; `fast`: it was linked with -ffast-math,
+// so it must find flush-to-zero on. The exit code is 0 only if the settings were kept by every call.
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+constexpr uint32_t k_ticks = 120;
+
+alignas(8) uint8_t block[1u << 18];
+
+FloatSettings settings;
+
+bool kept(const char* call) {
+  if (float_settings() == settings) return true;
+  fprintf(stderr, "the floating-point settings were changed by %s\n", call);
+  return false;
+}
+
+template <class T>
+void print_bytes(const T& value) {
+  unsigned char bytes[sizeof value];
+  memcpy(bytes, &value, sizeof value);
+  for (const unsigned char byte : bytes) printf("%02x", byte);
+  printf(" ");
+}
+
+bool run_scene(const char* name) {
+  const Scene* const scene = find_scene(name);
+  World world;
+  if (scene == nullptr || create_world(block, sizeof block, scene->world(), {}, world) != Status::ok) return false;
+  Recorder recorder(world, {}, nullptr, 0);
+  scene->build(recorder);
+  bool all_kept = kept("create_body");
+  for (uint32_t tick = 0; tick < k_ticks && all_kept; ++tick) {
+    if (scene->before_tick != nullptr) scene->before_tick(recorder, tick);
+    all_kept = kept("a change of the world");
+    recorder.step();
+    all_kept = all_kept && kept("step");
+    const uint64_t state = digest(world);
+    printf("%s tick %u digest %08lx%08lx\n", name, static_cast<unsigned>(tick + 1),
+           static_cast<unsigned long>(state >> 32), static_cast<unsigned long>(state & 0xffffffffu));
+  }
+  return all_kept;
+}
+
+/// Numbers that the settings would touch: inexact ones, a denormal, a NaN; and poses between and beside others.
+bool convert_and_view() {
+  const uint64_t inputs[] = {0x3fb999999999999a, 0xc00a666666666666, 0x0000000000000123, 0x7ff8000000000000};
+  for (const uint64_t bits : inputs) {
+    double input;
+    memcpy(&input, &bits, sizeof input);
+    Real real = 0.0;
+    Coord coord = 0.0;
+    Scaled scaled = 0.0;
+    printf("%s, %s, %s: ", status_text(real_from_host(input, real)), status_text(coord_from_host(input, coord)),
+           status_text(scaled_from_host(input, scaled)));
+    print_bytes(real_to_host(real));
+    print_bytes(coord_to_host(coord));
+    print_bytes(scaled_to_host(scaled));
+    printf("\n");
+  }
+  Pose from = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}};
+  Pose to = from;
+  if (coord_from_host(0.7, to.position.x) != Status::ok || unit_from_host(0.6, to.rotation.y) != Status::ok ||
+      unit_from_host(0.8, to.rotation.w) != Status::ok || !kept("a conversion")) {
+    return false;
+  }
+  const Pose between = interpolate(from, to, Unit(0.3));
+  const CameraRelative seen = relative_to_camera(between, to.position);
+  for (const float value : seen.position) print_bytes(value);
+  for (const float value : seen.rotation) print_bytes(value);
+  printf("\n");
+  return kept("a view");
+}
+
+bool run() {
+  settings = float_settings();
+  return run_scene("stack") && run_scene("balls") && run_scene("traffic") && convert_and_view();
+}
+
+}  // namespace
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent
+
+int main(int argc, char** argv) {
+  const char* const mode = argc > 1 ? argv[1] : "";
+  if (strcmp(mode, "unusual") == 0 && !set_unusual_floats()) {
+    fprintf(stderr, "the target refused the settings\n");
+    return 1;
+  }
+  if (strcmp(mode, "fast") == 0 && !flushes_to_zero()) {
+    fprintf(stderr, "-ffast-math did not set flush-to-zero: the test would show nothing\n");
+    return 1;
+  }
+  return detent::run() ? 0 : 1;
+}

@@ -1,0 +1,73 @@
+# cmake -DROOT=<repository> -P check_floors.cmake
+# Fails if a file of the library includes what it may not, or uses what the library does without.
+
+cmake_minimum_required(VERSION 3.25)
+
+set(headers_of_the_compiler stdint.h stddef.h string.h)
+set(words_without "new|delete|virtual|throw|try|catch|typeid|dynamic_cast|thread_local|goto")
+
+set(faults "")
+
+# check_file(<path> <floor>...): `floors` are those that the file may include by "<floor>/<file>".
+function(check_file path)
+  list(JOIN ARGN " " floor_names)
+  file(STRINGS ${ROOT}/${path} lines REGEX "^[ \t]*#[ \t]*include")
+  foreach(line IN LISTS lines)
+    if(line MATCHES "<([^>]*)>")
+      set(name ${CMAKE_MATCH_1})
+      if(NOT name MATCHES "^detent/" AND NOT name IN_LIST headers_of_the_compiler)
+        list(APPEND faults "${path} includes <${name}>")
+      endif()
+    elseif(line MATCHES "\"([^/\"]*)/[^/\"]*\"")
+      if(NOT CMAKE_MATCH_1 IN_LIST ARGN)
+        list(APPEND faults "${path} includes \"${CMAKE_MATCH_1}/\", none of its floors (${floor_names})")
+      endif()
+    else()
+      list(APPEND faults "${path} includes neither <file> nor \"floor/file\": ${line}")
+    endif()
+  endforeach()
+
+  file(READ ${ROOT}/${path} text)
+  string(REGEX REPLACE "//[^\n]*" "" text "${text}")
+  string(REGEX REPLACE "#[^\n]*" "" text "${text}")
+  string(REGEX REPLACE "\"[^\"\n]*\"" "" text "${text}")
+  string(REGEX REPLACE "= *delete;" "" text "${text}")
+  if(text MATCHES "(^|[^a-zA-Z0-9_])(${words_without})[^a-zA-Z0-9_]")
+    list(APPEND faults "${path} uses '${CMAKE_MATCH_2}'")
+  endif()
+  set(faults "${faults}" PARENT_SCOPE)
+endfunction()
+
+file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/include/*)
+foreach(path IN LISTS files)
+  check_file(${path})
+endforeach()
+set(checked ${files})
+
+# The list of floors is lib's own list of folders.
+file(STRINGS ${ROOT}/lib/CMakeLists.txt lines REGEX "^add_subdirectory")
+set(floors "")
+foreach(line IN LISTS lines)
+  string(REGEX REPLACE "^add_subdirectory\\(([a-z_]+)\\)$" "\\1" floor ${line})
+  list(APPEND floors ${floor})
+  file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/lib/${floor}/*.h ${ROOT}/lib/${floor}/*.cpp)
+  foreach(path IN LISTS files)
+    check_file(${path} ${floors})
+  endforeach()
+  list(APPEND checked ${files})
+endforeach()
+
+file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/lib/*.h ${ROOT}/lib/*.cpp)
+foreach(path IN LISTS files)
+  if(NOT path IN_LIST checked)
+    list(APPEND faults "${path} lies on no floor")
+  endif()
+endforeach()
+
+list(LENGTH floors floor_count)
+list(LENGTH checked file_count)
+if(faults OR floor_count EQUAL 0 OR file_count EQUAL 0)
+  list(JOIN faults "\n  " faults)
+  message(FATAL_ERROR "${file_count} files on ${floor_count} floors:\n  ${faults}")
+endif()
+message(STATUS "${file_count} files on ${floor_count} floors")

@@ -1,0 +1,109 @@
+#pragma once
+#include <detent/convert.h>
+#include <detent/detail/state.h>
+
+#include "geometry/shape_traits.h"
+#include "math/arithmetic.h"
+#include "tests/math/samples.h"
+#include "tests/oracle/convex.h"
+#include "tests/oracle/effort.h"
+#include "tests/support/test.h"
+
+/// The library's bodies, read into the references without rounding.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+using detent_oracle::Quaternion;
+using detent_oracle::Solid;
+using detent_oracle::Vector;
+
+inline double host(Unit value) { return unit_to_host(value); }
+inline Vector host(const Vec3<Unit>& v) { return {{unit_to_host(v.x), unit_to_host(v.y), unit_to_host(v.z)}}; }
+#if DETENT_FIXED
+inline Vector host(const Vec3<Real>& v) { return {{real_to_host(v.x), real_to_host(v.y), real_to_host(v.z)}}; }
+#endif
+inline Quaternion host(const Quat& q) {
+  return {unit_to_host(q.x), unit_to_host(q.y), unit_to_host(q.z), unit_to_host(q.w)};
+}
+inline double unit_of(const BodyTraits& traits) { return ldexp(1.0, traits.size_exponent); }
+
+/// b - a, m: the exact difference, to the nearest double.
+inline Vector difference(const Position& b, const Position& a) {
+#if defined(DETENT_F64)
+  return {{b.x - a.x, b.y - a.y, b.z - a.z}};
+#else
+  const auto one = [](Coord p, Coord q) { return ldexp(static_cast<double>(p.raw - q.raw), -Coord::k_frac); };
+  return {{one(b.x, a.x), one(b.y, a.y), one(b.z, a.z)}};
+#endif
+}
+
+struct TestBody {
+  BodyPose pose{};
+  BodyTraits traits{};
+};
+
+/// The body as a solid, in world axes around `origin`.
+inline Solid solid_of(const TestBody& body, const Position& origin) {
+  Solid solid;
+  const ShapeType type = static_cast<ShapeType>(body.traits.shape);
+  solid.kind = type == ShapeType::half_space ? detent_oracle::Kind::half_space
+               : type == ShapeType::box      ? detent_oracle::Kind::box
+                                             : detent_oracle::Kind::round;
+  solid.centre = difference(body.pose.position, origin);
+  for (int i = 0; i < 3; ++i) solid.axis[i] = detent_oracle::axis_of(host(body.pose.rotation), i);
+  solid.size = host(body.traits.size) * unit_of(body.traits);
+  return solid;
+}
+
+inline double uniform(Samples& samples, double low, double high) {
+  return low + (high - low) * ldexp(static_cast<double>(samples.bits() >> 11), -53);
+}
+inline Vector any_direction(Samples& samples) {
+  for (;;) {
+    const Vector v = {{uniform(samples, -1, 1), uniform(samples, -1, 1), uniform(samples, -1, 1)}};
+    const double size = length(v);
+    if (size > 0.1 && size < 1) return v * (1 / size);
+  }
+}
+inline Quaternion any_rotation(Samples& samples) {
+  return detent_oracle::rotation_by(any_direction(samples) * uniform(samples, 0, 3.14159265358979));
+}
+
+inline Real real_near(double value) {
+  Real result{};
+  EXPECT_OK(real_from_host(value, result));
+  return result;
+}
+inline Vec3<Real> reals_near(const Vector& v) { return {real_near(v[0]), real_near(v[1]), real_near(v[2])}; }
+inline Quat rotation_near(const Quaternion& q) {
+  Quat result{};
+  EXPECT_OK(unit_from_host(q.x, result.x));
+  EXPECT_OK(unit_from_host(q.y, result.y));
+  EXPECT_OK(unit_from_host(q.z, result.z));
+  EXPECT_OK(unit_from_host(q.w, result.w));
+  return result;
+}
+inline Position position_near(const Vector& v) {
+  Position result{};
+  EXPECT_OK(coord_from_host(v[0], result.x));
+  EXPECT_OK(coord_from_host(v[1], result.y));
+  EXPECT_OK(coord_from_host(v[2], result.z));
+  return result;
+}
+inline BodyTraits traits_of(const Shape& shape) {
+  BodyTraits traits{};
+  traits.type = static_cast<uint32_t>(BodyType::dynamic);
+  EXPECT_OK(set_shape(shape, traits));
+  return traits;
+}
+inline BodyTraits sphere_traits(double radius) { return traits_of(sphere(real_near(radius))); }
+inline BodyTraits capsule_traits(double radius, double half_length) {
+  return traits_of(capsule(real_near(radius), real_near(half_length)));
+}
+inline BodyTraits box_traits(const Vector& half) { return traits_of(box(reals_near(half))); }
+
+/// `count` steps of a Unit near 1.
+inline double unit_steps(double count) { return ldexp(count, k_unit_step); }
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent
