@@ -4,8 +4,8 @@ add_library(detent_options INTERFACE)
 target_compile_features(detent_options INTERFACE cxx_std_20)
 target_compile_options(detent_options INTERFACE
   -fno-exceptions -fno-rtti -ffp-contract=off -fno-math-errno
-  -Wno-float-conversion -Wno-implicit-float-conversion
-  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Werror)
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Werror
+  -Wno-float-conversion -Wno-implicit-float-conversion)  # a literal meant for f32 as for f64 is rounded
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(i[3-6]86|x86)$")
   target_compile_options(detent_options INTERFACE -msse2 -mfpmath=sse)  # x87 rounds to 64 bits
 endif()

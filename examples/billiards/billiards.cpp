@@ -141,9 +141,9 @@ void build(Recorder& recorder) {
   BodyDef def;
   def.type = BodyType::fixed;
   def.shape = half_space();
-  def.material = {Real(k_cloth_friction), Real(0.0), Real(k_cloth_rolling)};
+  def.material = {Real(k_cloth_friction), Real(k_cloth_restitution), Real(k_cloth_rolling), RestitutionRule::smaller};
   make_body(recorder, def);
-  def.material = {Real(k_cushion_friction), Real(0.0), Real(0.0)};
+  def.material = {Real(k_cushion_friction), Real(k_cushion_restitution), Real(0.0), RestitutionRule::smaller};
   for (const Cushion& cushion : k_cushions) {
     def.position = cushion.centre;
     def.shape = box(cushion.half_extents);

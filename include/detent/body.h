@@ -24,8 +24,8 @@ enum class RestitutionRule : uint32_t {
 struct Material {
   Real friction = Real(0.6);      ///< Coulomb's coefficient, [0, 16]
   Real restitution = 0.0;         ///< rebound speed over approach speed, [0, 1]
-  RestitutionRule restitution_rule = RestitutionRule::larger;
   Real rolling_resistance = 0.0;  ///< torque over (normal force x smaller radius), about any axis, [0, 1]
+  RestitutionRule restitution_rule = RestitutionRule::larger;
 };
 
 /// What `create_body` makes. Every field has a working default.

@@ -10,12 +10,12 @@ namespace {
 /// (to - from) . direction, m, exact but for one rounding, clamped to Real's range: the plane's origin may be 10,000 km off.
 #if DETENT_FIXED
 Real distance_along(const Position& from, const Position& to, const Vec3<Unit>& direction) {
-  // Halved, so that the difference of any two 64-bit coordinates fits; the bit lost is 2^-33 m of position.
+  // Each coordinate by itself: the difference of two 64-bit ones need not fit.
   const auto term = [](Coord a, Coord b, Unit d) {
-    return Int128::product_narrow((int64_t{b.raw} >> 1) - (int64_t{a.raw} >> 1), d.raw);
+    return Int128::product_narrow(b.raw, d.raw) - Int128::product_narrow(a.raw, d.raw);
   };
   const Int128 sum = term(from.x, to.x, direction.x) + term(from.y, to.y, direction.y) + term(from.z, to.z, direction.z);
-  constexpr int k_shift = Coord::k_frac - 1 + Unit::k_frac - Real::k_frac;
+  constexpr int k_shift = Coord::k_frac + Unit::k_frac - Real::k_frac;
   constexpr int k_lift = k_shift < 1 ? 1 - k_shift : 0;  // fx32: there are fewer bits than a Real holds
   const Int128 lifted = sum.shift_left(k_lift);
   const Int128 limit = Int128::from(INT64_MAX).shift_left(k_shift + k_lift);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "tests/environment/settings.h"
+#include "tests/scenes/make.h"
 #include "tests/scenes/scene.h"
 
 // run [unusual | fast]: prints every digest of some scenes, and what the conversions give. The text must be the same in all
@@ -15,7 +16,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr uint32_t k_ticks = 120;
+constexpr uint32_t k_ticks = 160;
 
 alignas(8) uint8_t block[1u << 18];
 
@@ -35,8 +36,20 @@ void print_bytes(const T& value) {
   printf(" ");
 }
 
-bool run_scene(const char* name) {
-  const Scene* const scene = find_scene(name);
+WorldDef fading_world() { return world_of(1, 0); }
+
+/// A ball whose speed falls through the denormals of float, and later of double, on its way to zero.
+void build_fading(Recorder& recorder) {
+  BodyDef ball;
+  ball.velocity.x = Real(1.0);
+  ball.linear_damping = Real(1024.0);
+  ball.gravity_scale = Real(0.0);
+  make_body(recorder, ball);
+}
+
+constexpr Scene k_fading = {"fading", "a ball that slows to nothing", k_ticks, fading_world, build_fading, nullptr};
+
+bool run_scene(const Scene* scene) {
   World world;
   if (scene == nullptr || create_world(block, sizeof block, scene->world(), {}, world) != Status::ok) return false;
   Recorder recorder(world, {}, nullptr, 0);
@@ -48,7 +61,7 @@ bool run_scene(const char* name) {
     recorder.step();
     all_kept = all_kept && kept("step");
     const uint64_t state = digest(world);
-    printf("%s tick %u digest %08lx%08lx\n", name, static_cast<unsigned>(tick + 1),
+    printf("%s tick %u digest %08lx%08lx\n", scene->name, static_cast<unsigned>(tick + 1),
            static_cast<unsigned long>(state >> 32), static_cast<unsigned long>(state & 0xffffffffu));
   }
   return all_kept;
@@ -86,7 +99,8 @@ bool convert_and_view() {
 
 bool run() {
   settings = float_settings();
-  return run_scene("stack") && run_scene("balls") && run_scene("traffic") && convert_and_view();
+  return run_scene(find_scene("stack")) && run_scene(find_scene("balls")) && run_scene(find_scene("traffic")) &&
+         run_scene(&k_fading) && convert_and_view();
 }
 
 }  // namespace

@@ -1,0 +1,87 @@
+#pragma once
+#include "collision/collide.h"
+#include "math/root.h"
+#include "tests/oracle/bodies.h"
+
+/// Random pairs of bodies at a chosen separation, and what the library makes of them.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+enum class Form { half_space, box, capsule, sphere };
+
+inline const char* name_of(Form form) {
+  constexpr const char* k_names[] = {"half-space", "box", "capsule", "sphere"};
+  return k_names[static_cast<int>(form)];
+}
+
+/// A shape whose smallest radius or half extent is `size`, m, or up to three times that.
+inline BodyTraits random_traits(Samples& samples, Form form, double size) {
+  const auto some = [&] { return size * uniform(samples, 1, 3); };
+  switch (form) {
+    case Form::half_space: return traits_of(half_space());
+    case Form::box: return box_traits({{some(), some(), some()}});
+    case Form::capsule: return capsule_traits(some(), some());
+    default: return sphere_traits(some());
+  }
+}
+
+struct TestPair {
+  TestBody a, b;
+};
+
+inline ContactGeometry contact_of(const TestBody& a, const TestBody& b, double reach) {
+  const Matrix3 rotation_a = matrix_from(a.pose.rotation), rotation_b = matrix_from(b.pose.rotation);
+  ContactGeometry contact;
+  collide({a.pose, a.traits, rotation_a}, {b.pose, b.traits, rotation_b}, real_near(reach), contact);
+  return contact;
+}
+
+inline double extent_of(const TestPair& pair) {
+  return fmin(real_to_host(shape_extent(pair.a.traits)), real_to_host(shape_extent(pair.b.traits)));
+}
+
+/// Length that one step of a Unit is worth in this pair, m: that of the larger body, the half-space having no size.
+inline double step_of(const TestPair& pair) {
+  const bool plane = static_cast<ShapeType>(pair.a.traits.shape) == ShapeType::half_space;
+  const double unit = plane ? unit_of(pair.b.traits) : fmax(unit_of(pair.a.traits), unit_of(pair.b.traits));
+  return unit * unit_steps(1);
+}
+
+/// B's centre as near to A's along `way` as leaves them `gap` apart, m.
+inline void place(TestPair& pair, const Vector& start, const Vector& way, double gap) {
+  pair.a.pose.position = position_near(start);
+  double near = 0, far = 4 * (unit_of(pair.a.traits) + unit_of(pair.b.traits));
+  Solid a = solid_of(pair.a, pair.a.pose.position), b = solid_of(pair.b, pair.a.pose.position);
+  if (a.kind == detent_oracle::Kind::half_space) {
+    b.centre = way * 0;
+    far = (gap - gap_along(a, b, a.axis[1])) / dot(way, a.axis[1]);
+    near = far;
+  }
+  for (int i = 0; i < 24 && near != far; ++i) {
+    const double middle = (near + far) / 2;
+    b.centre = way * middle;
+    (separation_of(a, b).value < gap ? near : far) = middle;
+  }
+  pair.b.pose.position = position_near(start + way * far);
+}
+
+/// A pair with A of no later form than B, about `gap` times the smaller body's size apart.
+inline TestPair random_pair(Samples& samples, Form form_a, Form form_b, double size_a, double size_b, double gap) {
+  TestPair pair;
+  pair.a.traits = random_traits(samples, form_a, size_a);
+  pair.b.traits = random_traits(samples, form_b, size_b);
+  pair.a.pose.rotation = rotation_near(any_rotation(samples));
+  pair.b.pose.rotation = rotation_near(any_rotation(samples));
+  const double place_size = sizeof(Coord) == 4 ? 8192 : 1e6;
+  const Vector start = any_direction(samples) * uniform(samples, 0, place_size);
+  Vector way = any_direction(samples);
+  if (form_a == Form::half_space) {
+    const Vector up = solid_of(pair.a, pair.a.pose.position).axis[1];
+    way = normalised(way + up * (1.5 - fmin(dot(way, up), 0)));  // above the plane, and away from its origin
+  }
+  place(pair, start, way, gap * extent_of(pair));
+  return pair;
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent
