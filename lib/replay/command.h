@@ -103,11 +103,9 @@ template <class Archive>
 void visit(Archive& archive, Material& material) {
   visit_number(archive, "friction", material.friction);
   visit_number(archive, "restitution", material.restitution);
-  visit_choice(archive, "restitution rule", material.restitution_rule, RestitutionRule::larger,
-               RestitutionRule::smaller);
-  visit_choice(archive, "restitution rule", material.restitution_rule, RestitutionRule::larger,
-               RestitutionRule::smaller);
   visit_number(archive, "rolling resistance", material.rolling_resistance);
+  visit_choice(archive, "restitution rule", material.restitution_rule, RestitutionRule::larger,
+               RestitutionRule::smaller);
 }
 
 template <class Archive>
