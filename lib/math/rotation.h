@@ -2,7 +2,7 @@
 #include "math/root.h"
 #include "math/trig.h"
 
-/// Rotations. A Quat of the state is a unit quaternion within k_quat_length_error.
+/// Rotations. A Quat is of length 1 within k_normalise_quat_error after normalise().
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 

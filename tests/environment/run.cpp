@@ -8,9 +8,9 @@
 #include "tests/scenes/make.h"
 #include "tests/scenes/scene.h"
 
-// run [unusual | fast]: prints every digest of some scenes, and what the conversions give. The text must be the same in all
-// floating-point environments. `unusual`: in settings that the program makes first; `fast`: it was linked with -ffast-math,
-// so it must find flush-to-zero on. The exit code is 0 only if the settings were kept by every call.
+// run [unusual | fast]: prints every digest of some scenes, and what the conversions give. The text must be the same in
+// all floating-point environments. `unusual`: in settings that the program makes first; `fast`: it was linked with
+// -ffast-math, so it must find flush-to-zero on. The exit code is 0 only if the settings were kept by every call.
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

@@ -6,7 +6,9 @@
 struct FloatSettings {
   int rounding;
   uint32_t control;  ///< the control register of the unit that can flush denormals to zero; 0 where there is none
-  friend bool operator==(FloatSettings a, FloatSettings b) { return a.rounding == b.rounding && a.control == b.control; }
+  friend bool operator==(FloatSettings a, FloatSettings b) {
+    return a.rounding == b.rounding && a.control == b.control;
+  }
 };
 
 #if defined(__x86_64__) || defined(__i386__)
@@ -26,9 +28,7 @@ inline uint32_t read_control() {
   __asm__ __volatile__("mrs %0, fpcr" : "=r"(value));
   return static_cast<uint32_t>(value);
 }
-inline void write_control(uint32_t value) {
-  __asm__ __volatile__("msr fpcr, %0" : : "r"(uint64_t{value}) : "memory");
-}
+inline void write_control(uint32_t value) { __asm__ __volatile__("msr fpcr, %0" : : "r"(uint64_t{value}) : "memory"); }
 #elif defined(__arm__)
 inline constexpr uint32_t k_flush = 1u << 24;
 inline constexpr uint32_t k_control_sticky = 0xf800009f;  // and the flags of the last comparison

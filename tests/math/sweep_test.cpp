@@ -84,10 +84,12 @@ DETENT_TEST(sweep, sines_and_cosines_of_all_angles_are_within_their_bound) {
     const long double error = std::max(fabsl(sine - truth.sine * k_scale), fabsl(cosine - truth.cosine * k_scale));
     line.take(static_cast<double>(error), [&] { return show_integer(t); });
   };
-  for (int64_t t = INT32_MIN; t <= INT32_MAX; t += static_cast<int64_t>(stride())) take(t);
+  // f32 rounds the raw numbers that fx64's sweep proves: strided is enough.
+  const uint64_t step = DETENT_FIXED ? stride() : 4099;
+  for (int64_t t = INT32_MIN; t <= INT32_MAX; t += static_cast<int64_t>(step)) take(t);
   // The worst cases of the exhaustive sweep.
   for (const int64_t t : {int64_t{0}}) take(t);
-  line.finish(k_sine_error, how());
+  line.finish(k_sine_error, DETENT_FIXED ? how() : "strided");
 }
 #endif
 
