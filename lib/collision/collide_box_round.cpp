@@ -7,6 +7,9 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 constexpr Unit k_meeting = 0x1p-24;  // cores closer than this have no trustworthy direction between them
+// A normal closer than 2^-13 to a face's is the face's: lengths err by 2^-27, and a capsule that lies across the rim of a
+// face keeps both its points while it trembles.
+constexpr int k_upright_power = -13;
 
 struct Axes {
   Unit v[3];
@@ -158,8 +161,12 @@ void collide_box_round(const PairFrame& frame, PairManifold& manifold) {
   if (normalise(vector_of(excess), normal, distance) && distance > k_meeting) {
     if (distance - radius > frame.reach) return;
     contact = {axes_of(normal), -1, along};
+    const Unit aside = scale_by_power(distance, k_upright_power);
     for (int axis = 0; axis < 3; ++axis) {
-      if (excess.v[(axis + 1) % 3] == zero && excess.v[(axis + 2) % 3] == zero) contact.face = axis;
+      if (abs(excess.v[(axis + 1) % 3]) > aside || abs(excess.v[(axis + 2) % 3]) > aside) continue;
+      contact.face = axis;
+      contact.normal = {{zero, zero, zero}};
+      contact.normal.v[axis] = excess.v[axis] < zero ? Unit(-1.0) : Unit(1.0);
     }
   } else {
     contact = least_overlap(pair);

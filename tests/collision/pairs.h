@@ -18,37 +18,41 @@ inline const char* name_of(Form form) {
 inline BodyTraits random_traits(Samples& samples, Form form, double size) {
   const auto some = [&] { return size * uniform(samples, 1, 3); };
   switch (form) {
-    case Form::half_space: return traits_of(half_space());
-    case Form::box: return box_traits({{some(), some(), some()}});
-    case Form::capsule: return capsule_traits(some(), some());
-    default: return sphere_traits(some());
+    case Form::half_space:
+      return traits_of(half_space());
+    case Form::box:
+      return box_traits({{some(), some(), some()}});
+    case Form::capsule:
+      return capsule_traits(some(), some());
+    default:
+      return sphere_traits(some());
   }
 }
 
-struct TestPair {
-  TestBody a, b;
+struct OraclePair {
+  OracleBody a, b;
 };
 
-inline ContactGeometry contact_of(const TestBody& a, const TestBody& b, double reach) {
+inline ContactGeometry contact_of(const OracleBody& a, const OracleBody& b, double reach) {
   const Matrix3 rotation_a = matrix_from(a.pose.rotation), rotation_b = matrix_from(b.pose.rotation);
   ContactGeometry contact;
   collide({a.pose, a.traits, rotation_a}, {b.pose, b.traits, rotation_b}, real_near(reach), contact);
   return contact;
 }
 
-inline double extent_of(const TestPair& pair) {
+inline double extent_of(const OraclePair& pair) {
   return fmin(real_to_host(shape_extent(pair.a.traits)), real_to_host(shape_extent(pair.b.traits)));
 }
 
 /// Length that one step of a Unit is worth in this pair, m: that of the larger body, the half-space having no size.
-inline double step_of(const TestPair& pair) {
+inline double step_of(const OraclePair& pair) {
   const bool plane = static_cast<ShapeType>(pair.a.traits.shape) == ShapeType::half_space;
   const double unit = plane ? unit_of(pair.b.traits) : fmax(unit_of(pair.a.traits), unit_of(pair.b.traits));
   return unit * unit_steps(1);
 }
 
 /// B's centre as near to A's along `way` as leaves them `gap` apart, m.
-inline void place(TestPair& pair, const Vector& start, const Vector& way, double gap) {
+inline void place(OraclePair& pair, const Vector& start, const Vector& way, double gap) {
   pair.a.pose.position = position_near(start);
   double near = 0, far = 4 * (unit_of(pair.a.traits) + unit_of(pair.b.traits));
   Solid a = solid_of(pair.a, pair.a.pose.position), b = solid_of(pair.b, pair.a.pose.position);
@@ -66,8 +70,8 @@ inline void place(TestPair& pair, const Vector& start, const Vector& way, double
 }
 
 /// A pair with A of no later form than B, about `gap` times the smaller body's size apart.
-inline TestPair random_pair(Samples& samples, Form form_a, Form form_b, double size_a, double size_b, double gap) {
-  TestPair pair;
+inline OraclePair random_pair(Samples& samples, Form form_a, Form form_b, double size_a, double size_b, double gap) {
+  OraclePair pair;
   pair.a.traits = random_traits(samples, form_a, size_a);
   pair.b.traits = random_traits(samples, form_b, size_b);
   pair.a.pose.rotation = rotation_near(any_rotation(samples));

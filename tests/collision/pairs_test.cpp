@@ -54,15 +54,18 @@ double preference_of(const Solid& a, const Solid& b, const Separation& right) {
 }
 
 /// Judges the contact of A and B, A of no later form than B, given from A to B.
-void judge(const TestPair& pair, const ContactGeometry& contact, double reach, Seen& seen) {
+void judge(const OraclePair& pair, const ContactGeometry& contact, double reach, Seen& seen) {
   const Solid a = solid_of(pair.a, pair.a.pose.position), b = solid_of(pair.b, pair.a.pose.position);
   const Separation right = separation_of(a, b);
   const double step = step_of(pair), error = k_error_steps * step;
   const bool boxes = a.kind == Kind::box && b.kind == Kind::box;
   if (contact.count == 0) {
-    if (right.value > reach - error) ++seen.apart;
-    else if (!boxes || right.value < -error) ++seen.missed;
-    else if (detent_oracle::distance_of_boxes(a, b) < reach - error) ++seen.missed_ahead;
+    if (right.value > reach - error)
+      ++seen.apart;
+    else if (!boxes || right.value < -error)
+      ++seen.missed;
+    else if (detent_oracle::distance_of_boxes(a, b) < reach - error)
+      ++seen.missed_ahead;
     return;
   }
   ++seen.touching;
@@ -73,7 +76,10 @@ void judge(const TestPair& pair, const ContactGeometry& contact, double reach, S
   worst(seen.gap, right.value - preference_of(a, b, right) - along);
 
   const double slack = boxes ? side_slack(a, b) : 0;
-  const bool exact_points = a.kind == Kind::half_space || (contact.count == 1 && !right.is_depth);
+  // A tilted capsule is met at its core's ends, where the points may lie within its surface.
+  const bool tilted = b.size[1] > 0 && (a.kind == Kind::half_space || contact.count > 1 ||
+                                        (a.kind == Kind::round && fabs(dot(a.axis[1], b.axis[1])) > 0.99));
+  const bool exact = boxes ? right.value < 0 : !right.is_depth && (!tilted || b.kind == Kind::box);
   double deepest = HUGE_VAL;
   for (uint32_t i = 0; i < contact.count; ++i) {
     const ContactGeometryPoint& point = contact.point[i];
@@ -85,9 +91,10 @@ void judge(const TestPair& pair, const ContactGeometry& contact, double reach, S
     if (a.kind != Kind::half_space) worst(seen.arms, length(host(point.arm_a) * unit_of(pair.a.traits) - at));
     const double on_a = distance_to_surface(a, at - n * (separation / 2));
     const double on_b = distance_to_surface(b, at + n * (separation / 2));
-    if (exact_points || (boxes && right.value < 0)) worst(seen.midway, fmax(fabs(on_a), fabs(on_b)) - slack);
-    // A capsule that lies along a face but tilted is met at its core, within its surface.
-    if (a.kind == Kind::box && !boxes && !right.is_depth) worst(seen.midway, fmax(fabs(on_a), on_b));
+    if (exact)
+      worst(seen.midway, fmax(fabs(on_a), fabs(on_b)) - slack);
+    else if (a.kind != Kind::round && !right.is_depth && !boxes)
+      worst(seen.midway, fmax(fabs(on_a), on_b));
     if (point.feature == 0) ++seen.features_wrong;
     for (uint32_t j = 0; j < i; ++j) seen.features_wrong += contact.point[j].feature == point.feature ? 1 : 0;
   }
@@ -97,14 +104,16 @@ void judge(const TestPair& pair, const ContactGeometry& contact, double reach, S
   }
 }
 
-/// The contact of B and A against that of A and B: the same bits mirrored where the forms differ, and where they are the
-/// same, the same points but for rounding. Two boxes may choose another face; the caller judges that by itself.
+/// The contact of B and A against that of A and B: the same bits mirrored where the library tells A from B by
+/// their forms, and else the same points but for rounding. Two boxes may choose another face; the caller judges that by
+/// itself.
 bool is_mirrored(const ContactGeometry& contact, const ContactGeometry& swapped, bool same_bits, double error) {
   if (contact.count != swapped.count) return !same_bits;  // at the very edge of reach
   for (uint32_t i = 0; i < contact.count; ++i) {
     const ContactGeometryPoint& p = contact.point[i];
     const ContactGeometryPoint& q = swapped.point[i];
-    if (same_bits && !(p.arm_a == q.arm_b && p.arm_b == q.arm_a && p.separation == q.separation && p.feature == q.feature)) {
+    if (same_bits &&
+        !(p.arm_a == q.arm_b && p.arm_b == q.arm_a && p.separation == q.separation && p.feature == q.feature)) {
       return false;
     }
     if (contact.count == 1 && fabs(real_to_host(p.separation) - real_to_host(q.separation)) > error) return false;
@@ -121,23 +130,29 @@ void judge_many(Form form_a, Form form_b, uint64_t seed) {
   const uint32_t count = detent_oracle::rounds(2700);
   for (uint32_t i = 0; i < count; ++i) {
     const double gap = uniform(samples, -0.2, 0.3), part = uniform(samples, 0, 0.25);
-    const TestPair pair = random_pair(samples, form_a, form_b, k_sizes[i % 3], k_sizes[i / 3 % 3], gap);
+    const OraclePair pair = random_pair(samples, form_a, form_b, k_sizes[i % 3], k_sizes[i / 3 % 3], gap);
     const double reach = real_to_host(real_near(part * extent_of(pair)));
     const ContactGeometry contact = contact_of(pair.a, pair.b, reach);
     const ContactGeometry swapped = contact_of(pair.b, pair.a, reach);
     judge(pair, contact, reach, seen);
-    if (!boxes && !is_mirrored(contact, swapped, form_a != form_b, k_error_steps * step_of(pair))) ++seen.mirrored_wrong;
+    const bool same_bits = form_a != form_b && form_a <= Form::box;
+    if (!boxes && !is_mirrored(contact, swapped, same_bits, k_error_steps * step_of(pair))) ++seen.mirrored_wrong;
     if (form_a == form_b) judge({pair.b, pair.a}, swapped, reach, seen);
   }
-  printf("%-10s %-8s gap %5.1f beyond %5.1f too_deep %5.1f deepest %5.1f arms %5.1f midway %5.1f normal %4.1f touching %u apart %u missed %u ahead %u\n", name_of(form_a), name_of(form_b), seen.gap, seen.beyond, seen.too_deep, seen.deepest, seen.arms, seen.midway, seen.normal, seen.touching, seen.apart, seen.missed, seen.missed_ahead);
+  const double largest = fmax(fmax(fmax(seen.gap, seen.too_deep), fmax(seen.deepest, seen.arms)), seen.midway);
+  ::testing::Test::RecordProperty("error_steps", ::testing::PrintToString(largest));
+  ::testing::Test::RecordProperty("missed_ahead", ::testing::PrintToString(seen.missed_ahead));
   EXPECT_LE(seen.gap, k_error_steps);
   EXPECT_LE(seen.beyond, k_error_steps);
   EXPECT_LE(seen.too_deep, k_error_steps);
   EXPECT_LE(seen.deepest, k_error_steps);
   EXPECT_LE(seen.arms, k_error_steps);
   EXPECT_LE(seen.midway, k_error_steps);
-  EXPECT_LE(seen.normal, 8);
+  EXPECT_LE(seen.normal, 12);  // a column of a matrix: twice the quaternion's error and a rounding each
   EXPECT_EQ(seen.missed, 0u);
+  // Two boxes that meet corner to corner or edge to edge while still apart have no face over which to meet: such a pair
+  // gets its points when it overlaps.
+  EXPECT_LE(seen.missed_ahead, count / 100);
   EXPECT_EQ(seen.features_wrong, 0u);
   EXPECT_EQ(seen.mirrored_wrong, 0u);
   EXPECT_GT(seen.touching, count / 2);
@@ -148,7 +163,9 @@ DETENT_TEST(pairs, of_a_half_space_and_a_box_agree_with_the_oracle) { judge_many
 DETENT_TEST(pairs, of_a_half_space_and_a_capsule_agree_with_the_oracle) {
   judge_many(Form::half_space, Form::capsule, 12);
 }
-DETENT_TEST(pairs, of_a_half_space_and_a_sphere_agree_with_the_oracle) { judge_many(Form::half_space, Form::sphere, 13); }
+DETENT_TEST(pairs, of_a_half_space_and_a_sphere_agree_with_the_oracle) {
+  judge_many(Form::half_space, Form::sphere, 13);
+}
 DETENT_TEST(pairs, of_two_boxes_agree_with_the_oracle) { judge_many(Form::box, Form::box, 14); }
 DETENT_TEST(pairs, of_a_box_and_a_capsule_agree_with_the_oracle) { judge_many(Form::box, Form::capsule, 15); }
 DETENT_TEST(pairs, of_a_box_and_a_sphere_agree_with_the_oracle) { judge_many(Form::box, Form::sphere, 16); }

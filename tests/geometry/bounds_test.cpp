@@ -5,11 +5,11 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// half_bounds against the farthest points of the solid along the world's axes: it contains them, and by no more than the
-/// stated rounding. In floats, where nothing is stated, 16 steps.
+/// half_bounds against the farthest points of the solid along the world's axes: it contains them, and by no more than
+/// the stated rounding. In floats, where nothing is stated, 16 steps.
 void expect_tight(const BodyTraits& traits, const Quat& rotation) {
   const double error = unit_of(traits) * (DETENT_FIXED ? 0x1p-28 : unit_steps(16));
-  TestBody body = {{}, traits};
+  OracleBody body = {{}, traits};
   body.pose.rotation = rotation;
   const Solid solid = solid_of(body, body.pose.position);
   const Vec3<Real> half = half_bounds(traits, matrix_from(rotation));

@@ -30,8 +30,7 @@ MassProperties of_discs(double radius, double half_length) {
   };
   const double volume = over([](double square, double) { return k_pi * square; });
   const double along = over([](double square, double) { return k_pi * square * square / 2; });
-  const double across =
-      over([](double square, double y) { return k_pi * square * (square / 4 + y * y); });
+  const double across = over([](double square, double y) { return k_pi * square * (square / 4 + y * y); });
   return {volume, {across / volume, along / volume, across / volume}};
 }
 

@@ -14,12 +14,13 @@ double distance(const Quaternion& q, const Quaternion& r) {
   return fmax(fmax(fabs(q.x - s * r.x), fabs(q.y - s * r.y)), fmax(fabs(q.z - s * r.z), fabs(q.w - s * r.w)));
 }
 
-// What sweep.h states of sweep_end_rotation; in floats, which it does not name, the steps of rotation_from_vector and of
-// the product after it.
+// What sweep.h states of sweep_end_rotation; in floats, which it does not name, the steps of rotation_from_vector and
+// of the product after it.
 constexpr double k_end_error = DETENT_FIXED ? 2.0 : 8.0;
 
-/// Steps within which sweep_end_rotation comes back to the end that the sweep was made from: the errors of rotation_vector
-/// and back again, and the whole turns times the error of their axis' length; half of each, as quaternions are half angles.
+/// Steps within which sweep_end_rotation comes back to the end that the sweep was made from: the errors of
+/// rotation_vector and back again, and the whole turns times the error of their axis' length; half of each, as
+/// quaternions are half angles.
 double goal_error(double angle) {
   const double back_and_forth = (k_rotation_vector_error + k_rotation_error * (DETENT_FIXED ? 1 : 1 + angle)) / 2 + 4;
   return back_and_forth + k_normalise_length_error * angle / 2;
@@ -48,7 +49,8 @@ Worst measure(uint64_t seed, uint32_t count, double turns_low, double turns_high
     const Sweep sweep = sweep_between(start, end, k_still, estimate);
     const Quaternion reached = host(sweep_end_rotation(start, sweep));
     const Quaternion right = detent_oracle::rotation_by(host(sweep.turn)) * normalised(host(start));
-    const double size = sqrt(reached.x * reached.x + reached.y * reached.y + reached.z * reached.z + reached.w * reached.w);
+    const double size =
+        sqrt(reached.x * reached.x + reached.y * reached.y + reached.z * reached.z + reached.w * reached.w);
     const double end_error = unit_steps(k_end_error) * (DETENT_FIXED ? 1 : 1 + angle);
     worst.end = fmax(worst.end, distance(reached, right) / end_error);
     worst.size = fmax(worst.size, fabs(size - 1) / unit_steps(DETENT_FIXED ? 2 : 4));
@@ -118,7 +120,8 @@ DETENT_TEST(sweep, a_hundred_thousand_tiny_motions_add_up) {
   pose.position = origin;
   Vector sum = {{0, 0, 0}};
   for (int i = 0; i < 100000; ++i) {
-    const Vec3<Real> step = reals_near({{uniform(samples, 0, 1e-6), uniform(samples, -1e-6, 0), uniform(samples, -1e-6, 1e-6)}});
+    const Vec3<Real> step =
+        reals_near({{uniform(samples, 0, 1e-6), uniform(samples, -1e-6, 0), uniform(samples, -1e-6, 1e-6)}});
     EXPECT_EQ(sweep_end_position(pose, {step, k_still}), 0u);
     sum = sum + host(step);
   }

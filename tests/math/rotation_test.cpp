@@ -96,6 +96,14 @@ DETENT_TEST(rotation, many_small_rotations_keep_the_length) {
   EXPECT_LE(max(error.x, max(error.y, error.z)), tolerance());
 }
 
+DETENT_TEST(rotation, one_normalisation_restores_a_length_off_by_a_thousandth) {
+  for (const Unit w : {Unit(1.0004), Unit(0.9996)}) {
+    EXPECT_LE(abs(normalise({Unit(0.0), Unit(0.0), Unit(0.0), w}).w - Unit(1.0)), tolerance());
+    EXPECT_LE(abs(normalise_any({Unit(0.0), Unit(0.0), w, Unit(0.0)}).z - Unit(1.0)), tolerance());
+  }
+  EXPECT_LE(abs(normalise_any({Unit(-0.51), Unit(0.0), Unit(0.0), Unit(0.0)}).x + Unit(1.0)), tolerance());
+}
+
 DETENT_TEST(rotation, input_quaternions_are_refused_beyond_their_tolerance) {
   Quat out = {Unit(0.5), Unit(0.5), Unit(0.5), Unit(0.5)};
   const Quat kept = out;

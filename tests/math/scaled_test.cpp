@@ -67,6 +67,18 @@ DETENT_TEST(scaled, the_edges_of_the_exponent_clamp_and_vanish) {
   EXPECT_EQ(multiply(small, small), Scaled::from_parts(0, 0));
 }
 
+DETENT_TEST(scaled, a_product_that_rounds_up_to_the_limit_saturates) {
+  // (2^62 + 2^31 + 1) (2^31 - 1) 2^-30 = 2^63 - 2^-30
+  const Real a = Real::from_raw((int64_t{1} << 62) + (int64_t{1} << 31) + 1);
+  const Scaled b = Scaled::from_parts(INT32_MAX, -30);
+  bool saturated = false;
+  EXPECT_EQ(multiply(a, b, saturated), k_real_max);
+  EXPECT_TRUE(saturated);
+  saturated = false;
+  EXPECT_EQ(multiply(-a, b, saturated).raw, INT64_MIN);
+  EXPECT_FALSE(saturated);
+}
+
 DETENT_TEST(scaled, the_fast_product_equals_the_checked_one_within_one) {
   Samples samples{52};
   for (int i = 0; i < 50000 && !testing::Test::HasFailure(); ++i) {

@@ -37,13 +37,13 @@ inline Vector difference(const Position& b, const Position& a) {
 #endif
 }
 
-struct TestBody {
+struct OracleBody {
   BodyPose pose{};
   BodyTraits traits{};
 };
 
 /// The body as a solid, in world axes around `origin`.
-inline Solid solid_of(const TestBody& body, const Position& origin) {
+inline Solid solid_of(const OracleBody& body, const Position& origin) {
   Solid solid;
   const ShapeType type = static_cast<ShapeType>(body.traits.shape);
   solid.kind = type == ShapeType::half_space ? detent_oracle::Kind::half_space

@@ -79,9 +79,12 @@ inline double distance_to_box(const Solid& box, const Vector& p) {
 /// Signed distance of a point to the solid's surface: below 0 inside.
 inline double distance_to_surface(const Solid& solid, const Vector& p) {
   switch (solid.kind) {
-    case Kind::half_space: return dot(p - solid.centre, solid.axis[1]);
-    case Kind::box: return distance_to_box(solid, p);
-    default: return distance_to_segment(core_of(solid), p) - solid.size[0];
+    case Kind::half_space:
+      return dot(p - solid.centre, solid.axis[1]);
+    case Kind::box:
+      return distance_to_box(solid, p);
+    default:
+      return distance_to_segment(core_of(solid), p) - solid.size[0];
   }
 }
 
