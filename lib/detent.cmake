@@ -34,7 +34,7 @@ foreach(config IN LISTS DETENT_CONFIGS)
   target_compile_features(detent_${config} PUBLIC cxx_std_20)
   target_compile_definitions(detent_${config} PUBLIC DETENT_${upper}=1)
   target_include_directories(detent_${config}
-    PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>
+    PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
     PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/lib)
   target_link_libraries(detent_${config} PRIVATE $<BUILD_INTERFACE:detent_library_options>)
 endforeach()

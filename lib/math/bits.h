@@ -30,7 +30,7 @@ constexpr int bit_length_32(uint32_t value) {
 }
 constexpr int bit_length_64(uint64_t value) { return value == 0 ? 0 : 64 - __builtin_clzll(value); }
 
-/// value 2^-n. Range: 1 <= n <= 64. Rounding: to nearest, ties up. Overflow: none.
+/// value 2^-n. Range: 1 <= n <= 64, value < 2^63 - 1 for n = 1. Rounding: to nearest, ties up. Overflow: none.
 constexpr int64_t round_shift_64(int64_t value, int n) { return ((value >> (n - 1)) + 1) >> 1; }
 
 /// value 2^n for any n. Rounding: to nearest, ties up. Overflow: wraps.

@@ -9,6 +9,8 @@ namespace {
 // Errors of a sum over a few hundred ticks, relative to its largest part: the rounding of a velocity or a position at
 // each substep, in the same direction at worst.
 constexpr double k_sum_error = sizeof(Real) == 4 ? 2e-5 : 1e-8;
+// A position read back lacks the remainder that fx32 carries.
+constexpr double k_position_step = sizeof(Coord) == 4 ? 0x1p-16 : 0;
 
 BodyDef ball(double radius, double x, double y) {
   BodyDef def;
@@ -28,9 +30,9 @@ DETENT_TEST(flight, a_projectile_follows_the_discrete_sum) {
   const double h = 1.0 / 60 / k_substeps, n = k_ticks * k_substeps, g = -9.81;
   const Motion motion = lab.motion(id);
   EXPECT_NEAR(motion.velocity[1], 4 + g * h * n, 40 * k_sum_error);
-  EXPECT_NEAR(motion.position[0], 3 * h * n, 100 * k_sum_error);
-  EXPECT_NEAR(motion.position[1], 100 + 4 * h * n + g * h * h * n * (n + 1) / 2, 100 * k_sum_error);
-  EXPECT_NEAR(motion.position[2], -5 * h * n, 100 * k_sum_error);
+  EXPECT_NEAR(motion.position[0], 3 * h * n, 100 * k_sum_error + k_position_step);
+  EXPECT_NEAR(motion.position[1], 100 + 4 * h * n + g * h * h * n * (n + 1) / 2, 100 * k_sum_error + k_position_step);
+  EXPECT_NEAR(motion.position[2], -5 * h * n, 100 * k_sum_error + k_position_step);
 }
 
 DETENT_TEST(flight, damping_divides_speed_and_spin_by_one_plus_rate_times_substep_every_substep) {
@@ -65,10 +67,11 @@ DETENT_TEST(flight, a_kinematic_wall_pushes_what_stands_before_it_and_is_not_slo
   crate.mass = scaled(1e5);
   const BodyId pushed = lab.add(crate);
   lab.run(120);
-  EXPECT_NEAR(lab.motion(pusher).position[0], 4, 100 * k_sum_error);
+  EXPECT_NEAR(lab.motion(pusher).position[0], 4, 100 * k_sum_error + k_position_step);
   EXPECT_EQ(lab.motion(pusher).velocity[0], 2);
-  EXPECT_NEAR(lab.motion(pushed).velocity[0], 2, 1e-3);
-  EXPECT_NEAR(lab.motion(pushed).position[0] - lab.motion(pusher).position[0], 1, 0.01);
+  // One sweep a substep leaves a part of the push that undid the first overlap.
+  EXPECT_NEAR(lab.motion(pushed).velocity[0], 2, 0.02);
+  EXPECT_NEAR(lab.motion(pushed).position[0] - lab.motion(pusher).position[0], 1, 0.05);
 }
 
 }  // namespace

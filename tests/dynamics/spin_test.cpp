@@ -57,10 +57,28 @@ DETENT_TEST(spin, about_the_middle_axis_flips_as_often_as_euler_says) {
     energy_error = fmax(energy_error, fabs(now.energy / start.energy - 1));
     momentum_error = fmax(momentum_error, length(now.momentum - start.momentum) / length(start.momentum));
   }
-  printf("flips %d energy %g momentum %g\n", flips, energy_error, momentum_error);
-  EXPECT_EQ(flips, 74);
+  ::testing::Test::RecordProperty("flips", ::testing::PrintToString(flips));
+  // How long a flip waits depends on the logarithm of how exactly the spin lies along the axis: a float's rounding, a
+  // millionth of the momentum, shortens it, to 101 flips.
+  EXPECT_NEAR(flips, 74, sizeof(Real) == 4 ? 30 : 0);
   EXPECT_LT(energy_error, 1e-4);
   EXPECT_LT(momentum_error, 1e-4);
+}
+
+DETENT_TEST(spin, is_read_back_as_it_was_set_whatever_the_size) {
+  for (int power = -12; power <= 12; ++power) {
+    Lab lab({2, 1, 0});
+    for (const double radius : {ldexp(1.0, power), ldexp(1.5, power)}) {
+      BodyDef def;
+      def.shape = sphere(real(radius));
+      const double faster = fmin(1, 500 / radius);
+      def.spin = reals(3 * faster, -20 * faster, 7 * faster);
+      const Motion motion = lab.motion(lab.add(def));
+      EXPECT_NEAR(motion.spin[0], 3 * faster, 1e-5 * faster) << radius;
+      EXPECT_NEAR(motion.spin[1], -20 * faster, 1e-5 * faster) << radius;
+      EXPECT_NEAR(motion.spin[2], 7 * faster, 1e-5 * faster) << radius;
+    }
+  }
 }
 
 DETENT_TEST(spin, of_a_ball_never_changes) {

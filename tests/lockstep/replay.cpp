@@ -184,6 +184,7 @@ int replay(const Options& options, MachineFile& file) {
 
   uint64_t ticks = 0;
   uint64_t digests = 0;
+  uint32_t contacts_max = 0;
   bool saved = options.save_path == nullptr;
   TickResult result;
   for (;; ++ticks) {
@@ -198,6 +199,7 @@ int replay(const Options& options, MachineFile& file) {
     }
     if (result.finished) break;
     digests += result.compared ? 1 : 0;
+    if (result.report.contacts > contacts_max) contacts_max = result.report.contacts;
     if (options.each) {
       machine_print("tick ");
       print_decimal(result.tick);
@@ -209,6 +211,7 @@ int replay(const Options& options, MachineFile& file) {
   if (!saved) return fail(options.save_path, "the recording does not pass this tick");
   print_value("ticks ", ticks);
   print_value("equal ", digests);
+  print_value("contacts_max ", contacts_max);
   machine_print("digest ");
   print_hex(result.digest, 16);
   machine_print("\n");

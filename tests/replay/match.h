@@ -103,7 +103,7 @@ inline Bytes record_small(uint32_t ticks, const RecordingDef& def = {}) {
   for (uint32_t tick = 0; tick < ticks; ++tick) {
     if (tick < 2) {
       body = {};
-      body.position.y = tick == 0 ? Coord{0.5} : Coord{1.5};
+      body.position.y = tick == 0 ? Coord(0.5) : Coord(1.5);
       EXPECT_EQ(recorder.create_body(body, id), Status::ok);
     }
     recorder.step();

@@ -16,11 +16,11 @@ void make_tower(Recorder& recorder, uint32_t count) {
   def.position = {0.0, 0.265625, 0.0};
   for (uint32_t i = 0; i < count; ++i) {
     make_body(recorder, def);
-    def.position.y += Coord{0.515625};
+    def.position.y += Coord(0.515625);
     if (i % 2 == 0)
-      def.position.x += Coord{0.03125};
+      def.position.x += Coord(0.03125);
     else
-      def.position.x -= Coord{0.03125};
+      def.position.x -= Coord(0.03125);
   }
 }
 
@@ -52,9 +52,9 @@ void build_capsules(Recorder& recorder) {
     else
       def.rotation = {Unit(0.8), Unit(0.0), Unit(0.0), Unit(0.6)};
     make_body(recorder, def);
-    def.position.y += Coord{0.75};
-    def.position.x += Coord{0.0625};
-    def.position.z -= Coord{0.03125};
+    def.position.y += Coord(0.75);
+    def.position.x += Coord(0.0625);
+    def.position.z -= Coord(0.03125);
   }
 }
 
@@ -68,26 +68,26 @@ void build_balls(Recorder& recorder) {
   slope.position = {4.0, 0.75, 0.0};
   for (uint32_t i = 0; i < 3; ++i) {
     make_body(recorder, slope);
-    slope.position.x += Coord{3.0};
-    slope.position.y += Coord{1.875};
+    slope.position.x += Coord(3.0);
+    slope.position.y += Coord(1.875);
   }
   const Real radii[4] = {Real(0.25), Real(0.375), Real(0.1875), Real(0.5)};
   const Real speeds[3] = {Real(6.0), Real(8.5), Real(4.25)};
   BodyDef ball;
   ball.material.friction = Real(0.375);
   ball.material.restitution = Real(0.5);
-  ball.position.x = Coord{-3.0};
+  ball.position.x = Coord(-3.0);
   for (uint32_t row = 0; row < 5; ++row) {
-    ball.position.y = Coord{1.0};
-    ball.position.y += row % 2 == 0 ? Coord{0.0} : Coord{0.75};
-    ball.position.z = row % 2 == 0 ? Coord{-1.875} : Coord{-1.625};  // else the rows would never meet
+    ball.position.y = Coord(1.0);
+    ball.position.y += row % 2 == 0 ? Coord(0.0) : Coord(0.75);
+    ball.position.z = row % 2 == 0 ? Coord(-1.875) : Coord(-1.625);  // else the rows would never meet
     for (uint32_t column = 0; column < 4; ++column) {
       ball.shape = sphere(radii[(row + column) % 4]);
       ball.velocity = {speeds[(2 * row + column) % 3], Real(1.5), Real(0.0)};
       make_body(recorder, ball);
-      ball.position.z += Coord{1.25};
+      ball.position.z += Coord(1.25);
     }
-    ball.position.x -= Coord{1.25};
+    ball.position.x -= Coord(1.25);
   }
 }
 

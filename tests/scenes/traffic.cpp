@@ -44,7 +44,7 @@ void build(Recorder& recorder) {
   for (uint32_t i = 0; i < k_boxes; ++i) {
     crate.user_data = i;
     make_body(recorder, crate);
-    crate.position.x += Coord{0.75};
+    crate.position.x += Coord(0.75);
   }
 }
 
