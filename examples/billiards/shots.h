@@ -33,14 +33,14 @@ consteval Shot stroke(const char* name, double direction_x, double direction_z, 
 /// powerful break 11 to 13. Each shot is played where the one before left the balls; they were aimed in fx64, and in
 /// the other configurations, whose balls lie elsewhere after the break, the same strokes meet what they meet.
 inline constexpr Shot k_shots[] = {
-    stroke("break", 0.9999, 0.0131, 8.9, 0.0, 0.1),
-    stroke("stun", 0.1392, -0.9903, 2.4, 0.0, 0.0),           // no spin: stops at the ball, or leaves it square
-    stroke("draw", 0.8988, -0.4384, 2.8, 0.0, -0.35),         // back spin: comes back from the ball
-    stroke("follow", 0.7660, 0.6428, 1.3, 0.0, 0.4),          // struck at 2/5 r, it rolls from the start
-    stroke("bank", 0.8526, -0.5225, 2.0, 0.0, 0.2),           // the ball goes to its pocket off a cushion
-    stroke("right english", 0.3090, -0.9511, 1.5, 0.4, 0.1),  // side spin, which bites at a cushion
-    stroke("left english", 0.1736, 0.9848, 1.4, -0.35, 0.2),
-    stroke("drag", 0.5878, 0.8090, 1.6, 0.0, -0.1),  // a little back spin that the cloth takes off
+    stroke("break", 1.0000, 0.0087, 8.9, 0.0, 0.1),
+    stroke("stun", 0.9613, 0.2756, 2.4, 0.0, 0.0),            // no spin: stops at the ball, or leaves it square
+    stroke("draw", -0.9613, -0.2756, 2.8, 0.0, -0.35),        // back spin: comes back from the ball
+    stroke("follow", 0.9781, 0.2079, 1.9, 0.0, 0.4),          // struck at 2/5 r, it rolls from the start
+    stroke("bank", 0.7254, 0.6884, 2.6, 0.0, 0.2),            // the ball goes to its pocket off a cushion
+    stroke("right english", 0.8829, -0.4695, 1.5, 0.4, 0.1),  // side spin, which bites at a cushion
+    stroke("left english", -0.3746, -0.9272, 1.4, -0.35, 0.2),
+    stroke("drag", 0.3090, 0.9511, 1.6, 0.0, -0.1),  // a little back spin that the cloth takes off
 };
 inline constexpr uint32_t k_shot_count = sizeof(k_shots) / sizeof(k_shots[0]);
 
