@@ -31,18 +31,18 @@ struct Material {
 /// What `create_body` makes. Every field has a working default.
 struct BodyDef {
   BodyType type = BodyType::dynamic;
-  Position position = {0.0, 0.0, 0.0};           ///< of the centre of mass, m, world
-  Quat rotation = {0.0, 0.0, 0.0, 1.0};          ///< local to world; length 1 within 2^-10, normalised on entry
-  Vec3<Real> velocity = {0.0, 0.0, 0.0};         ///< m/s, world; each component within +-16384
-  Vec3<Real> spin = {0.0, 0.0, 0.0};             ///< rad/s, world; |spin| x bounding radius within 16384 m/s
+  Position position = {0.0, 0.0, 0.0};    ///< of the centre of mass, m, world
+  Quat rotation = {0.0, 0.0, 0.0, 1.0};   ///< local to world; length 1 within 2^-10, normalised on entry
+  Vec3<Real> velocity = {0.0, 0.0, 0.0};  ///< m/s, world; each component within +-16384
+  Vec3<Real> spin = {0.0, 0.0, 0.0};      ///< rad/s, world; |spin| x bounding radius within 16384 m/s
   Shape shape = {};
   Material material = {};
-  Scaled density = 1000.0;                       ///< kg/m^3, > 0; used where mass is 0; mass within [2^-60, 2^60] kg
-  Scaled mass = 0.0;                             ///< kg; 0: from the density
-  Real linear_damping = 0.0;                     ///< 1/s, [0, 1024]
-  Real angular_damping = 0.0;                    ///< 1/s, [0, 1024]
-  Real gravity_scale = 1.0;                      ///< [-1024, 1024]
-  uint32_t user_data = 0;                        ///< kept, digested and recorded; never read
+  Scaled density = 1000.0;     ///< kg/m^3, > 0; used where mass is 0; mass within [2^-60, 2^60] kg
+  Scaled mass = 0.0;           ///< kg; 0: from the density
+  Real linear_damping = 0.0;   ///< 1/s, [0, 1024]
+  Real angular_damping = 0.0;  ///< 1/s, [0, 1024]
+  Real gravity_scale = 1.0;    ///< [-1024, 1024]
+  uint32_t user_data = 0;      ///< kept, digested and recorded; never read
 };
 
 }  // namespace DETENT_NAMESPACE

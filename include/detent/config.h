@@ -1,9 +1,9 @@
 #pragma once
 /// The one switch: which of the four math configurations this translation unit uses.
 ///
-/// Define exactly one of DETENT_FX64, DETENT_FX32, DETENT_F32, DETENT_F64 (the CMake targets detent::fx64 ... do), or none
-/// for fx64. Every name lives in an inline namespace of the configuration, so that a program built for one configuration
-/// and linked with the library of another fails to link, and all four can be linked into one program.
+/// Define exactly one of DETENT_FX64, DETENT_FX32, DETENT_F32, DETENT_F64 (the CMake targets detent::fx64 ... do), or
+/// none for fx64. Every name lives in an inline namespace of the configuration, so that a program built for one
+/// configuration and linked with the library of another fails to link, and all four can be linked into one program.
 
 #if defined(DETENT_FX64) + defined(DETENT_FX32) + defined(DETENT_F32) + defined(DETENT_F64) > 1
 #error "detent: define one of DETENT_FX64, DETENT_FX32, DETENT_F32, DETENT_F64, not several"

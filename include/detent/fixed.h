@@ -4,8 +4,8 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The bits of an IEEE double (host) rounded to nearest, ties away from zero, at `frac` fraction bits, in a 64-bit integer.
-/// Integer arithmetic only: the caller's rounding mode and flush-to-zero have no effect.
+/// The bits of an IEEE double (host) rounded to nearest, ties away from zero, at `frac` fraction bits, in a 64-bit
+/// integer. Integer arithmetic only: the caller's rounding mode and flush-to-zero have no effect.
 struct FromDouble {
   int64_t raw;
   bool in_range;  ///< false for NaN, infinity and |value| 2^frac >= 2^(bits-1): raw is then 0
@@ -19,15 +19,18 @@ constexpr FromDouble fixed_from_double_bits(uint64_t bits, int frac, int int_bit
   const int shift = biased - 1075 + frac;  // value 2^frac = mantissa 2^shift
   uint64_t magnitude = 0;
   if (shift >= 11) return {0, false};
-  if (shift >= 0) magnitude = mantissa << shift;
-  else if (shift >= -53) magnitude = (mantissa + (uint64_t{1} << (-shift - 1))) >> -shift;
+  if (shift >= 0)
+    magnitude = mantissa << shift;
+  else if (shift >= -53)
+    magnitude = (mantissa + (uint64_t{1} << (-shift - 1))) >> -shift;
   if ((magnitude >> (int_bits - 1)) != 0) return {0, false};
   return {negative ? -static_cast<int64_t>(magnitude) : static_cast<int64_t>(magnitude), true};
 }
 
 /// A two's complement fixed-point number: value = raw 2^-Frac.
 /// Sums wrap (the ranges in SPEC.md keep them from it); nothing saturates silently.
-/// A floating-point literal converts at compile time, rounded to nearest; a run-time double enters by `from_host` alone.
+/// A floating-point literal converts at compile time, rounded to nearest; a run-time double enters by `from_host`
+/// alone.
 template <class Int, int Frac>
 struct alignas(sizeof(Int)) Fixed {  // also on targets whose structs pack 8-byte members
   static constexpr int k_frac = Frac;

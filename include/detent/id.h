@@ -5,7 +5,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// Names a body by value. Null when both members are zero. Valid until the body is destroyed; a later body in the same
-/// slot has another generation. A slot whose generation would wrap is retired, and counted in `WorldInfo::slots_retired`.
+/// slot has another generation. A slot whose generation would wrap is retired, and counted in
+/// `WorldInfo::slots_retired`.
 struct BodyId {
   uint32_t slot = 0;        ///< index + 1; 0 is null
   uint32_t generation = 0;  ///< 1 for the first body of a slot

@@ -28,7 +28,7 @@ struct Scaled {
     const int biased = static_cast<int>((bits >> 52) & 0x7ff);
     if (biased < 1023 - 200 || biased > 1023 + 200) return from_parts(0, 0);
     const uint64_t full = (bits & 0xfffffffffffffu) | 0x10000000000000u;  // 53 bits
-    uint64_t magnitude = (full + (uint64_t{1} << 21)) >> 22;               // 31 bits, or 2^31 after the carry
+    uint64_t magnitude = (full + (uint64_t{1} << 21)) >> 22;              // 31 bits, or 2^31 after the carry
     int32_t exponent = biased - 1023 - 30;
     if ((magnitude >> 31) != 0) {
       magnitude >>= 1;

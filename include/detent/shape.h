@@ -11,8 +11,8 @@ enum class ShapeType : uint32_t { sphere = 1, capsule = 2, box = 3, half_space =
 /// Sizes, m: [2^-14, 2^14] (0.06 mm to 16 km); the ratio of a shape's largest to its smallest size is at most 2^14.
 struct Shape {
   ShapeType type = ShapeType::sphere;
-  Real radius = 0.5;                        ///< m; sphere and capsule
-  Real half_length = 0.0;                   ///< m; capsule: half the length of its core segment along local y
+  Real radius = 0.5;                          ///< m; sphere and capsule
+  Real half_length = 0.0;                     ///< m; capsule: half the length of its core segment along local y
   Vec3<Real> half_extents = {0.5, 0.5, 0.5};  ///< m; box
 };
 

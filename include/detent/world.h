@@ -26,13 +26,14 @@ struct Capacity {
 struct WorldDef {
   Capacity capacity = {};
   Vec3<Real> gravity = {Real(0.0), Real(-9.81), Real(0.0)};  ///< m/s^2; each component within +-1024
-  Real tick = Real(1.0 / 60.0);            ///< s, the time of one step, [2^-14, 1/4]
-  uint32_t substeps = 4;                   ///< solver substeps a tick, [1, 64]
-  uint32_t iterations = 1;                 ///< sweeps over the contacts a substep, [1, 64]
-  Real relaxation = 1.0;                   ///< over-relaxation factor of the SOR solver, [1/4, 7/4]
-  Real stiffness = Real(0.14);             ///< contact frequency as a fraction of the substep rate, [1/64, 1/4]
-  Real damping_ratio = 10.0;               ///< of the soft contacts, [0, 64]
-  Real restitution_threshold = 0.25;       ///< approach speed below which nothing rebounds, in sqrt(g x smaller extent), [0, 64]
+  Real tick = Real(1.0 / 60.0);                              ///< s, the time of one step, [2^-14, 1/4]
+  uint32_t substeps = 4;                                     ///< solver substeps a tick, [1, 64]
+  uint32_t iterations = 1;                                   ///< sweeps over the contacts a substep, [1, 64]
+  Real relaxation = 1.0;                                     ///< over-relaxation factor of the SOR solver, [1/4, 7/4]
+  Real stiffness = Real(0.14);  ///< contact frequency as a fraction of the substep rate, [1/64, 1/4]
+  Real damping_ratio = 10.0;    ///< of the soft contacts, [0, 64]
+  Real restitution_threshold =
+      0.25;  ///< approach speed below which nothing rebounds, in sqrt(g x smaller extent), [0, 64]
 };
 
 /// Bytes of block that a world of this capacity needs; 0 if the capacity is out of range. The same on every target.
@@ -46,15 +47,15 @@ struct World {
 
 /// What one step did. Every count is of this step alone.
 struct StepReport {
-  uint64_t tick = 0;                ///< ticks completed since the world was created
-  uint32_t bodies = 0;              ///< bodies in the world
-  uint32_t pairs = 0;               ///< pairs of overlapping bounds
-  uint32_t contacts = 0;            ///< pairs with at least one contact point
+  uint64_t tick = 0;      ///< ticks completed since the world was created
+  uint32_t bodies = 0;    ///< bodies in the world
+  uint32_t pairs = 0;     ///< pairs of overlapping bounds
+  uint32_t contacts = 0;  ///< pairs with at least one contact point
   uint32_t contact_points = 0;
-  uint32_t pairs_dropped = 0;       ///< pairs beyond the pair buffer (the largest keys): their contacts are lost this tick
-  uint32_t contacts_dropped = 0;    ///< contacts beyond the capacity (the largest keys), lost this tick
-  uint32_t saturations = 0;         ///< state components clamped to their range
-  uint32_t colour_overflows = 0;    ///< contacts of bodies that touch more than 64 others, solved after the rest
+  uint32_t pairs_dropped = 0;  ///< pairs beyond the pair buffer (the largest keys): their contacts are lost this tick
+  uint32_t contacts_dropped = 0;  ///< contacts beyond the capacity (the largest keys), lost this tick
+  uint32_t saturations = 0;       ///< state components clamped to their range
+  uint32_t colour_overflows = 0;  ///< contacts of bodies that touch more than 64 others, solved after the rest
   /// True if nothing was lost: no pool overflowed and no value was clamped.
   constexpr bool complete() const { return pairs_dropped == 0 && contacts_dropped == 0 && saturations == 0; }
 };
@@ -120,8 +121,8 @@ uint64_t digest(const World& world);
 constexpr uint32_t snapshot_bytes(Capacity capacity);
 /// Copies the persistent state into `bytes`. Errors: buffer_too_small.
 Status save(const World& world, uint8_t* bytes, uint32_t byte_count);
-/// Puts back a snapshot that this program saved from a world of the same capacity: one copy, checked only by its header.
-/// Errors: truncated, not_detent, format_unknown, simulation_differs, config_differs, capacity_differs.
+/// Puts back a snapshot that this program saved from a world of the same capacity: one copy, checked only by its
+/// header. Errors: truncated, not_detent, format_unknown, simulation_differs, config_differs, capacity_differs.
 Status restore(World& world, const uint8_t* bytes, uint32_t byte_count);
 /// Puts back a snapshot from outside: every byte is checked before the world is touched. `bytes` is used as work space
 /// (8-byte aligned) and its content is unspecified afterwards.

@@ -40,7 +40,9 @@ inline FloatControl float_control_read() {
   __asm__ __volatile__("vmrs %0, fpscr" : "=r"(value));
   return value;
 }
-inline void float_control_write(FloatControl value) { __asm__ __volatile__("vmsr fpscr, %0" : : "r"(value) : "memory"); }
+inline void float_control_write(FloatControl value) {
+  __asm__ __volatile__("vmsr fpscr, %0" : : "r"(value) : "memory");
+}
 inline constexpr FloatControl k_float_control_ieee = 0;
 #elif defined(__riscv) && defined(__riscv_flen)
 #define DETENT_FLOAT_CONTROL 1

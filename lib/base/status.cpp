@@ -5,25 +5,44 @@ inline namespace DETENT_NAMESPACE {
 
 const char* status_text(Status status) {
   switch (status) {
-    case Status::ok: return "ok";
-    case Status::bad_id: return "no such body";
-    case Status::bad_argument: return "not one of the allowed values";
-    case Status::out_of_range: return "out of range";
-    case Status::not_normalised: return "not of unit length";
-    case Status::pool_full: return "the capacity is used up";
-    case Status::buffer_too_small: return "buffer too small";
-    case Status::buffer_misaligned: return "buffer not aligned to 8 bytes";
-    case Status::asset_missing: return "asset missing";
-    case Status::asset_mismatch: return "asset of another content";
-    case Status::not_detent: return "not a detent file";
-    case Status::format_unknown: return "unknown format version";
-    case Status::simulation_differs: return "made by another simulation version";
-    case Status::config_differs: return "made by another math configuration";
-    case Status::capacity_differs: return "made for another capacity";
-    case Status::corrupt: return "corrupt";
-    case Status::truncated: return "truncated";
-    case Status::digest_differs: return "digest differs";
-    case Status::sink_failed: return "reading or writing failed";
+    case Status::ok:
+      return "ok";
+    case Status::bad_id:
+      return "no such body";
+    case Status::bad_argument:
+      return "not one of the allowed values";
+    case Status::out_of_range:
+      return "out of range";
+    case Status::not_normalised:
+      return "not of unit length";
+    case Status::pool_full:
+      return "the capacity is used up";
+    case Status::buffer_too_small:
+      return "buffer too small";
+    case Status::buffer_misaligned:
+      return "buffer not aligned to 8 bytes";
+    case Status::asset_missing:
+      return "asset missing";
+    case Status::asset_mismatch:
+      return "asset of another content";
+    case Status::not_detent:
+      return "not a detent file";
+    case Status::format_unknown:
+      return "unknown format version";
+    case Status::simulation_differs:
+      return "made by another simulation version";
+    case Status::config_differs:
+      return "made by another math configuration";
+    case Status::capacity_differs:
+      return "made for another capacity";
+    case Status::corrupt:
+      return "corrupt";
+    case Status::truncated:
+      return "truncated";
+    case Status::digest_differs:
+      return "digest differs";
+    case Status::sink_failed:
+      return "reading or writing failed";
   }
   return "unknown status";
 }

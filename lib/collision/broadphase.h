@@ -16,9 +16,10 @@ struct PairCount {
   uint32_t dropped;  ///< pairs beyond the span: those with the largest keys
 };
 
-/// All pairs of live bodies, one of them dynamic, whose bounds overlap, sorted by key. `order` is work space for as many
-/// slots as there are bodies alive. Sort and sweep along x: O(n log n + the pairs that overlap in x).
-PairCount find_pairs(Span<const BodyTraits> traits, Span<const Bounds> bounds, Span<uint32_t> order, Span<uint64_t> pairs);
+/// All pairs of live bodies, one of them dynamic, whose bounds overlap, sorted by key. `order` is work space for as
+/// many slots as there are bodies alive. Sort and sweep along x: O(n log n + the pairs that overlap in x).
+PairCount find_pairs(Span<const BodyTraits> traits, Span<const Bounds> bounds, Span<uint32_t> order,
+                     Span<uint64_t> pairs);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

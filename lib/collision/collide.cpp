@@ -16,8 +16,8 @@ Vec3<Unit> scaled(const Vec3<Unit>& v, int power) {
   return {scale_by_power(v.x, power), scale_by_power(v.y, power), scale_by_power(v.z, power)};
 }
 
-/// A contact point as an arm in a body's own unit of length. The middle of a deep overlap with a much larger body may lie
-/// far outside the smaller one: the arm is held to 1.5 units there.
+/// A contact point as an arm in a body's own unit of length. The middle of a deep overlap with a much larger body may
+/// lie far outside the smaller one: the arm is held to 1.5 units there.
 Vec3<Unit> arm_in(const Vec3<Unit>& point, int power) {
   const Unit limit = scale_by_power(Unit(1.5), power > 0 ? -power : 0);
   const Vec3<Unit> held = {clamp(point.x, -limit, limit), clamp(point.y, -limit, limit), clamp(point.z, -limit, limit)};
@@ -25,7 +25,8 @@ Vec3<Unit> arm_in(const Vec3<Unit>& point, int power) {
 }
 
 PairShape shape_in(const CollisionBody& body, int exponent) {
-  return {type_of(body), {0.0, 0.0, 0.0}, body.rotation, scaled(body.traits.size, body.traits.size_exponent - exponent)};
+  return {
+      type_of(body), {0.0, 0.0, 0.0}, body.rotation, scaled(body.traits.size, body.traits.size_exponent - exponent)};
 }
 
 /// False if the centres are so far apart that the pair cannot touch.
@@ -49,9 +50,12 @@ void collide_ordered(const CollisionBody& first, const CollisionBody& second, Re
   PairFrame frame;
   if (!make_frame(first, second, reach, frame)) return;
   PairManifold manifold;
-  if (frame.b.type == ShapeType::box) collide_boxes(frame, manifold);
-  else if (frame.a.type == ShapeType::box) collide_box_round(frame, manifold);
-  else collide_round(frame, manifold);
+  if (frame.b.type == ShapeType::box)
+    collide_boxes(frame, manifold);
+  else if (frame.a.type == ShapeType::box)
+    collide_box_round(frame, manifold);
+  else
+    collide_round(frame, manifold);
 
   contact.normal = manifold.normal;
   for (uint32_t i = 0; i < manifold.count; ++i) {
@@ -79,8 +83,10 @@ void collide(const CollisionBody& a, const CollisionBody& b, Real reach, Contact
   const bool swapped = rank_of(type_of(b)) < rank_of(type_of(a));
   const CollisionBody& first = swapped ? b : a;
   const CollisionBody& second = swapped ? a : b;
-  if (type_of(first) == ShapeType::half_space) collide_half_space(first, second, reach, contact);
-  else collide_ordered(first, second, reach, contact);
+  if (type_of(first) == ShapeType::half_space)
+    collide_half_space(first, second, reach, contact);
+  else
+    collide_ordered(first, second, reach, contact);
   if (swapped && contact.count != 0) swap_bodies(contact);
 }
 

@@ -27,8 +27,8 @@ struct CollisionBody {
 };
 
 /// Finds the contact points of a pair no farther apart than `reach`, m; none, and an empty result, if there are none.
-/// Precision: 2^-26 of the larger body's size (fixed), of a half-space of the other body's size and 2^-31 of its distance
-/// from the plane's origin.
+/// Precision: 2^-26 of the larger body's bounding diameter (fixed; tests/collision), of a half-space of the other
+/// body's size and 2^-31 of its distance from the plane's origin.
 void collide(const CollisionBody& a, const CollisionBody& b, Real reach, ContactGeometry& contact);
 
 }  // namespace DETENT_NAMESPACE

@@ -7,8 +7,8 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 constexpr Unit k_meeting = 0x1p-24;  // cores closer than this have no trustworthy direction between them
-// A normal closer than 2^-13 to a face's is the face's: lengths err by 2^-27, and a capsule that lies across the rim of a
-// face keeps both its points while it trembles.
+// A normal closer than 2^-13 to a face's is the face's: lengths err by 2^-27, and a capsule that lies across the rim of
+// a face keeps both its points while it trembles.
 constexpr int k_upright_power = -13;
 
 struct Axes {
@@ -32,7 +32,8 @@ struct BoxAndSegment {
     }
     return result;
   }
-  /// Half the derivative of the squared distance along the segment: nondecreasing, linear between the planes of the faces.
+  /// Half the derivative of the squared distance along the segment: nondecreasing, linear between the planes of the
+  /// faces.
   Unit slope(Unit along) const { return dot(vector_of(direction), vector_of(excess(along))); }
 };
 

@@ -107,7 +107,7 @@ bool find_axis(const AxisTable& table, Unit reach, Axis& best) {
 /// A vertex of the clipped face, in the reference face's axes: u and v across it, w above it.
 struct FaceVertex {
   Unit u, v, w;
-  uint32_t label;       ///< 0..3 a vertex of the incident face, 4..19 its edge k on side c, 20..23 a corner of the reference
+  uint32_t label;  ///< 0..3 a vertex of the incident face, 4..19 its edge k on side c, 20..23 a corner of the reference
   uint32_t edge_label;  ///< of the edge to the next vertex: 0..3 of the incident face, 4..7 a side of the reference
 };
 
@@ -144,9 +144,9 @@ uint32_t clip_side(const FaceVertex* in, uint32_t count, uint32_t side, Unit lim
   return kept;
 }
 
-/// At most four of the vertices: those that reach farthest along the face's four diagonals, in that order. Depth plays no
-/// part, so that a resting pair keeps its points while it trembles. Ties go to the earlier vertex.
-/// Source: the extremes of Moravanszky, Terdiman, "Fast Contact Reduction for Dynamics Simulation", 2004.
+/// At most four of the vertices: those that reach farthest along the face's four diagonals, in that order. Depth plays
+/// no part, so that a resting pair keeps its points while it trembles. Ties go to the earlier vertex. Source: the
+/// extremes of Moravanszky, Terdiman, "Fast Contact Reduction for Dynamics Simulation", 2004.
 uint32_t choose_corners(const FaceVertex* polygon, uint32_t count, uint32_t chosen[k_manifold_points_max]) {
   if (count <= k_manifold_points_max) {
     for (uint32_t i = 0; i < count; ++i) chosen[i] = i;
@@ -180,8 +180,8 @@ void collide_face(const PairShape& reference, const PairShape& incident, int fac
   const Vec3<Unit> normal = flipped ? -axis : axis;
   const Vec3<Unit>& axis_u = reference.rotation.column[(face + 1) % 3];
   const Vec3<Unit>& axis_v = reference.rotation.column[(face + 2) % 3];
-  // A vertex barely beyond the face's side is kept as it is: equal boxes stacked flush would else change features, and lose
-  // their impulses, at every tremor.
+  // A vertex barely beyond the face's side is kept as it is: equal boxes stacked flush would else change features, and
+  // lose their impulses, at every tremor.
   const Unit slack = scale_by_power(min(half.v[(face + 1) % 3], half.v[(face + 2) % 3]), -6);
   const Unit limit_u = half.v[(face + 1) % 3] + slack, limit_v = half.v[(face + 2) % 3] + slack;
 
@@ -242,7 +242,8 @@ Segment support_edge(const PairShape& box, int edge, const Vec3<Unit>& direction
 
 void collide_edges(const PairFrame& frame, const Axis& axis, PairManifold& manifold) {
   Unit size = 0.0;
-  if (!normalise(cross(frame.a.rotation.column[axis.i], frame.b.rotation.column[axis.j]), manifold.normal, size)) return;
+  if (!normalise(cross(frame.a.rotation.column[axis.i], frame.b.rotation.column[axis.j]), manifold.normal, size))
+    return;
   if (dot(manifold.normal, frame.b.centre) < Unit(0.0)) manifold.normal = -manifold.normal;
   uint32_t which_a = 0, which_b = 0;
   const Segment edge_a = support_edge(frame.a, axis.i, manifold.normal, which_a);
@@ -263,9 +264,15 @@ void collide_boxes(const PairFrame& frame, PairManifold& manifold) {
   Axis axis;
   if (!find_axis(table_of(frame), frame.reach, axis)) return;
   switch (axis.kind) {
-    case AxisKind::face_a: collide_face(frame.a, frame.b, axis.i, true, frame, manifold); break;
-    case AxisKind::face_b: collide_face(frame.b, frame.a, axis.j, false, frame, manifold); break;
-    case AxisKind::edges: collide_edges(frame, axis, manifold); break;
+    case AxisKind::face_a:
+      collide_face(frame.a, frame.b, axis.i, true, frame, manifold);
+      break;
+    case AxisKind::face_b:
+      collide_face(frame.b, frame.a, axis.j, false, frame, manifold);
+      break;
+    case AxisKind::edges:
+      collide_edges(frame, axis, manifold);
+      break;
   }
 }
 

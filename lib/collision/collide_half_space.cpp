@@ -7,14 +7,16 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// (to - from) . direction, m, exact but for one rounding, clamped to Real's range: the plane's origin may be 10,000 km off.
+/// (to - from) . direction, m, exact but for one rounding, clamped to Real's range: the plane's origin may be 10,000 km
+/// off.
 #if DETENT_FIXED
 Real distance_along(const Position& from, const Position& to, const Vec3<Unit>& direction) {
   // Each coordinate by itself: the difference of two 64-bit ones need not fit.
   const auto term = [](Coord a, Coord b, Unit d) {
     return Int128::product_narrow(b.raw, d.raw) - Int128::product_narrow(a.raw, d.raw);
   };
-  const Int128 sum = term(from.x, to.x, direction.x) + term(from.y, to.y, direction.y) + term(from.z, to.z, direction.z);
+  const Int128 sum =
+      term(from.x, to.x, direction.x) + term(from.y, to.y, direction.y) + term(from.z, to.z, direction.z);
   constexpr int k_shift = Coord::k_frac + Unit::k_frac - Real::k_frac;
   constexpr int k_lift = k_shift < 1 ? 1 - k_shift : 0;  // fx32: there are fewer bits than a Real holds
   const Int128 lifted = sum.shift_left(k_lift);
@@ -80,7 +82,9 @@ void collide_half_space(const CollisionBody& plane, const CollisionBody& body, R
   Collector collector = {contact.normal, distance_along(plane.pose.position, body.pose.position, contact.normal), reach,
                          traits.size_exponent, contact};
   switch (static_cast<ShapeType>(traits.shape)) {
-    case ShapeType::sphere: collector.add(-(contact.normal * traits.size.x), 1); break;
+    case ShapeType::sphere:
+      collector.add(-(contact.normal * traits.size.x), 1);
+      break;
     case ShapeType::capsule: {
       const Vec3<Unit> axis = body.rotation.column[1] * traits.size.y;
       const Vec3<Unit> down = contact.normal * traits.size.x;
@@ -88,8 +92,11 @@ void collide_half_space(const CollisionBody& plane, const CollisionBody& body, R
       collector.add(-axis - down, 2);
       break;
     }
-    case ShapeType::box: collide_box(traits, body.rotation, collector); break;
-    case ShapeType::half_space: break;
+    case ShapeType::box:
+      collide_box(traits, body.rotation, collector);
+      break;
+    case ShapeType::half_space:
+      break;
   }
 }
 

@@ -9,10 +9,11 @@ inline namespace DETENT_NAMESPACE {
 /// Contacts of one colour share no dynamic body. Those that find all colours taken get this one and share freely.
 inline constexpr uint32_t k_colour_overflow = 64;
 
-/// The order of the solve: contacts are visited by the hash of their bodies' ids (ties by the contacts' own order), each
-/// takes the lowest colour free at both its dynamic bodies, and the result is sorted by (colour, hash). It is a total
-/// order that depends on ids alone: any schedule that keeps it within each body gives the same bits. Visiting by hash and
-/// not by creation is what lets a pyramid settle (DESIGN.md, "Order of the solve"). Returns how many found no colour.
+/// The order of the solve: contacts are visited by the hash of their bodies' ids (ties by the contacts' own order),
+/// each takes the lowest colour free at both its dynamic bodies, and the result is sorted by (colour, hash). It is a
+/// total order that depends on ids alone: any schedule that keeps it within each body gives the same bits. Visiting by
+/// hash and not by creation is what lets a pyramid settle (DESIGN.md, "Order of the solve"). Returns how many found no
+/// colour.
 uint32_t order_contacts(Span<const BodyTraits> traits, Span<const ContactWork> contacts, Span<BodyWork> work,
                         Span<ContactOrder> order);
 

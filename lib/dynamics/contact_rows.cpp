@@ -51,8 +51,7 @@ void make_angular_row(const RowBody& a, const RowBody& b, const ContactWork& wor
                       AngularRow& row) {
   const Real turn_a = respond(a, axis, work.shift_a, row.response_a, row.exponent_a);
   const Real turn_b = respond(b, axis, work.shift_b, row.response_b, row.exponent_b);
-  const Scaled inverse =
-      add(multiply(scaled_from(turn_a), work.share_a), multiply(scaled_from(turn_b), work.share_b));
+  const Scaled inverse = add(multiply(scaled_from(turn_a), work.share_a), multiply(scaled_from(turn_b), work.share_b));
   row.inverse_mass = is_positive(inverse) ? divide(Scaled(1.0), inverse) : Scaled(0.0);
 }
 
@@ -78,8 +77,10 @@ void share_mass(const BodyTraits& a, const BodyTraits& b, ContactWork& work) {
   work.share_b = dynamic_b ? one : none;
   work.static_pair = dynamic_a && dynamic_b ? 0 : 1;
   if (!dynamic_a || !dynamic_b) return;
-  if (less(a.mass, b.mass)) work.share_b = divide(a.mass, b.mass);
-  else work.share_a = divide(b.mass, a.mass);
+  if (less(a.mass, b.mass))
+    work.share_b = divide(a.mass, b.mass);
+  else
+    work.share_a = divide(b.mass, a.mass);
 }
 
 /// The pair's unit of length is that of its smaller moving body.

@@ -10,9 +10,8 @@ inline namespace DETENT_NAMESPACE {
 
 /// Relative velocity of B to A along `direction` at the row's point.
 inline Real row_velocity(const ContactRow& row, const Vec3<Unit>& direction, const BodyMotion& a, const BodyMotion& b) {
-  return dot(b.velocity - a.velocity, direction) +
-         (scale_by_power(dot(b.momentum, row.response_b), row.exponent_b) -
-          scale_by_power(dot(a.momentum, row.response_a), row.exponent_a));
+  return dot(b.velocity - a.velocity, direction) + (scale_by_power(dot(b.momentum, row.response_b), row.exponent_b) -
+                                                    scale_by_power(dot(a.momentum, row.response_a), row.exponent_a));
 }
 
 /// Relative spin of B to A about a row's axis, in the pair's unit of length.

@@ -38,7 +38,8 @@ uint32_t finalise(Span<const BodyTraits> traits, Span<const BodyWork> work, Span
     BodyPose& pose = poses[slot];
     bool turns_clamped = false;
     const int exponent = body.size_exponent;
-    const Vec3<Real> turn = {angle_of(now.turn.x, exponent, turns_clamped), angle_of(now.turn.y, exponent, turns_clamped),
+    const Vec3<Real> turn = {angle_of(now.turn.x, exponent, turns_clamped),
+                             angle_of(now.turn.y, exponent, turns_clamped),
                              angle_of(now.turn.z, exponent, turns_clamped)};
     const Sweep sweep = sweep_between(pose.rotation, now.rotation, now.displacement, turn);
     pose.rotation = sweep_end_rotation(pose.rotation, sweep);

@@ -6,8 +6,8 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Ends the tick: each body's sweep from its start to where the substeps brought it, its pose at the sweep's end, and its
-/// velocities held to their range. Returns the number of components that were clamped.
+/// Ends the tick: each body's sweep from its start to where the substeps brought it, its pose at the sweep's end, and
+/// its velocities held to their range. Returns the number of components that were clamped.
 uint32_t finalise(Span<const BodyTraits> traits, Span<const BodyWork> work, Span<BodyPose> poses,
                   Span<BodyMotion> motions);
 

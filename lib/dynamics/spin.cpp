@@ -31,7 +31,8 @@ void turn_about(int axis, const BodyTraits& traits, Real time, BodyFrame& frame,
 
 }  // namespace
 
-bool turn_freely(const BodyTraits& traits, const Vec3<Real>& momentum, const Vec3<Real>& spin, Real time, Quat& rotation) {
+bool turn_freely(const BodyTraits& traits, const Vec3<Real>& momentum, const Vec3<Real>& spin, Real time,
+                 Quat& rotation) {
   const Real zero = 0.0;
   bool clamped = false;
   if (spin == Vec3<Real>{zero, zero, zero}) return true;

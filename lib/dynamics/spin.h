@@ -10,8 +10,8 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-inline constexpr Real k_speed_max = 16384.0;       ///< m/s, of state: each component of velocity
-inline constexpr Real k_spin_max = 32768.0;        ///< m/s, of state: likewise of spin; the rim moves at half of it or more
+inline constexpr Real k_speed_max = 16384.0;  ///< m/s, of state: each component of velocity
+inline constexpr Real k_spin_max = 32768.0;   ///< m/s, of state: likewise of spin; the rim moves at half of it or more
 inline constexpr Real k_speed_work_max = 32768.0;  ///< m/s, of velocity within a solve
 inline constexpr Real k_spin_work_max = 65536.0;   ///< m/s, of momentum within a solve; no gyration is below 1
 
@@ -44,7 +44,8 @@ inline Vec3<Real> spin_of(const BodyTraits& traits, const Quat& rotation, const 
 /// equal; otherwise by five exact rotations about its axes (Strang splitting), which keep the momentum exactly and the
 /// energy to second order. `spin` is spin_of at the start. Returns false if the angle was clamped, to 2^15 rad.
 /// Source: Dullweber, Leimkuhler, McLachlan, "Symplectic splitting methods for rigid body molecular dynamics", 1997.
-bool turn_freely(const BodyTraits& traits, const Vec3<Real>& momentum, const Vec3<Real>& spin, Real time, Quat& rotation);
+bool turn_freely(const BodyTraits& traits, const Vec3<Real>& momentum, const Vec3<Real>& spin, Real time,
+                 Quat& rotation);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -19,13 +19,13 @@ struct Softness {
 struct StepSettings {
   uint32_t substeps;
   uint32_t iterations;
-  Real tick_time;           ///< s
-  Real time;                ///< of a substep, s
-  Scaled rate;              ///< substeps a second
-  Scaled share;             ///< of a tick that a substep is
+  Real tick_time;  ///< s
+  Real time;       ///< of a substep, s
+  Scaled rate;     ///< substeps a second
+  Scaled share;    ///< of a tick that a substep is
   Real relaxation;
-  Vec3<Real> gravity;       ///< m/s^2
-  Real gravity_size;        ///< m/s^2, at least 1: what speeds are measured against
+  Vec3<Real> gravity;  ///< m/s^2
+  Real gravity_size;   ///< m/s^2, at least 1: what speeds are measured against
   Real restitution_threshold;
   Softness dynamic_softness;  ///< of contacts between two dynamic bodies
   Softness static_softness;   ///< of contacts with anything else: twice as stiff, half as damped

@@ -10,7 +10,8 @@ inline namespace DETENT_NAMESPACE {
 #if defined(DETENT_F64)
 inline constexpr Coord k_coord_limit = 0x1p1000;
 #else
-inline constexpr Coord k_coord_limit = Coord::from_raw(sizeof(Coord) == 8 ? static_cast<Coord::Raw>(INT64_MAX) : INT32_MAX);
+inline constexpr Coord k_coord_limit =
+    Coord::from_raw(sizeof(Coord) == 8 ? static_cast<Coord::Raw>(INT64_MAX) : INT32_MAX);
 #endif
 inline constexpr Bounds k_everywhere = {{-k_coord_limit, -k_coord_limit, -k_coord_limit},
                                         {k_coord_limit, k_coord_limit, k_coord_limit}};
@@ -21,7 +22,9 @@ inline Vec3<Real> half_bounds(const BodyTraits& traits, const Matrix3& rotation)
   const Unit zero = 0.0;
   Vec3<Unit> half = {zero, zero, zero};
   switch (static_cast<ShapeType>(traits.shape)) {
-    case ShapeType::sphere: half = {traits.size.x, traits.size.x, traits.size.x}; break;
+    case ShapeType::sphere:
+      half = {traits.size.x, traits.size.x, traits.size.x};
+      break;
     case ShapeType::capsule: {
       const Vec3<Unit>& axis = rotation.column[1];
       half = {abs(axis.x) * traits.size.y + traits.size.x, abs(axis.y) * traits.size.y + traits.size.x,
@@ -35,7 +38,8 @@ inline Vec3<Real> half_bounds(const BodyTraits& traits, const Matrix3& rotation)
               dot(Vec3<Unit>{abs(x.z), abs(y.z), abs(z.z)}, traits.size)};
       break;
     }
-    case ShapeType::half_space: break;
+    case ShapeType::half_space:
+      break;
   }
   return {real_from_unit(half.x, traits.size_exponent), real_from_unit(half.y, traits.size_exponent),
           real_from_unit(half.z, traits.size_exponent)};

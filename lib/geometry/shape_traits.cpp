@@ -55,8 +55,10 @@ Status set_shape(const Shape& shape, BodyTraits& traits) {
       if (!is_size(size.x) || !is_size(size.y) || !is_size(size.z)) return Status::out_of_range;
       bound = length(size);
       break;
-    case ShapeType::half_space: break;
-    default: return Status::bad_argument;
+    case ShapeType::half_space:
+      break;
+    default:
+      return Status::bad_argument;
   }
   if (shape.type != ShapeType::half_space && shape.type != ShapeType::sphere) {
     const Real smallest = shape.type == ShapeType::capsule ? size.x : min(min(size.x, size.y), size.z);
@@ -76,13 +78,17 @@ Scaled shape_volume(const BodyTraits& traits) {
   const Scaled z = scaled_from(traits.size.z);
   Scaled volume = 0.0;
   switch (static_cast<ShapeType>(traits.shape)) {
-    case ShapeType::sphere: volume = multiply(multiply(k_pi, Scaled(4.0 / 3.0)), multiply(x, multiply(x, x))); break;
-    case ShapeType::capsule:
-      volume = multiply(multiply(k_pi, multiply(x, x)),
-                        add(multiply(Scaled(2.0), y), multiply(Scaled(4.0 / 3.0), x)));
+    case ShapeType::sphere:
+      volume = multiply(multiply(k_pi, Scaled(4.0 / 3.0)), multiply(x, multiply(x, x)));
       break;
-    case ShapeType::box: volume = multiply(Scaled(8.0), multiply(x, multiply(y, z))); break;
-    case ShapeType::half_space: break;
+    case ShapeType::capsule:
+      volume = multiply(multiply(k_pi, multiply(x, x)), add(multiply(Scaled(2.0), y), multiply(Scaled(4.0 / 3.0), x)));
+      break;
+    case ShapeType::box:
+      volume = multiply(Scaled(8.0), multiply(x, multiply(y, z)));
+      break;
+    case ShapeType::half_space:
+      break;
   }
   return scaled_by_power(volume, 3 * traits.size_exponent);
 }
@@ -111,7 +117,8 @@ void set_gyration(BodyTraits& traits) {
       traits.gyration[2] = divide(Scaled(3.0), add(xx, yy));
       break;
     }
-    case ShapeType::half_space: break;
+    case ShapeType::half_space:
+      break;
   }
 }
 

@@ -38,7 +38,8 @@ Real multiple(Real value, int32_t count) {
 
 }  // namespace
 
-Sweep sweep_between(const Quat& start, const Quat& end, const Vec3<Real>& displacement, const Vec3<Real>& turn_estimate) {
+Sweep sweep_between(const Quat& start, const Quat& end, const Vec3<Real>& displacement,
+                    const Vec3<Real>& turn_estimate) {
   const Real zero = 0.0;
   const Real bound = abs(turn_estimate.x) + abs(turn_estimate.y) + abs(turn_estimate.z);
   if (bound == zero && start == end) return {displacement, {zero, zero, zero}};

@@ -14,11 +14,13 @@ struct Sweep {
   Vec3<Real> turn;          ///< rotation vector over the step, world, rad
 };
 
-/// The sweep that starts at `start` and ends at rotation `end` after moving by `displacement`. `turn_estimate`, rad, names
-/// the number of whole turns: the rotation vector nearest to it that leads to `end` is taken.
-Sweep sweep_between(const Quat& start, const Quat& end, const Vec3<Real>& displacement, const Vec3<Real>& turn_estimate);
+/// The sweep that starts at `start` and ends at rotation `end` after moving by `displacement`. `turn_estimate`, rad,
+/// names the number of whole turns: the rotation vector nearest to it that leads to `end` is taken.
+Sweep sweep_between(const Quat& start, const Quat& end, const Vec3<Real>& displacement,
+                    const Vec3<Real>& turn_estimate);
 
-/// Rotation at the end of the sweep from `start`. Error: 2^-29 in each component, and of unit length within 2^-29.
+/// Rotation at the end of the sweep from `start`. Error (fixed): 2^-28 in each component, and of unit length within
+/// 2^-29.
 Quat sweep_end_rotation(const Quat& start, const Sweep& sweep);
 
 /// Moves a position to the end of the sweep: rounded to nearest; fx32 carries what the rounding leaves.

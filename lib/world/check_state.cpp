@@ -83,7 +83,8 @@ bool is_body(const BodyTraits& traits) {
   const Scaled none = 0.0;
   return traits.type <= static_cast<uint32_t>(BodyType::dynamic) && traits.generation != 0 && is_shape(traits) &&
          is_mass_of(traits) && is_between(traits.friction, none, scaled_from(k_friction_max)) &&
-         is_between(traits.restitution, none, Scaled(1.0)) && is_between(traits.rolling_resistance, none, Scaled(1.0)) &&
+         is_between(traits.restitution, none, Scaled(1.0)) &&
+         is_between(traits.rolling_resistance, none, Scaled(1.0)) &&
          is_between(traits.linear_damping, none, scaled_from(k_damping_max)) &&
          is_between(traits.angular_damping, none, scaled_from(k_damping_max)) &&
          is_between(traits.gravity_scale, negate(scaled_from(k_gravity_scale_max)), scaled_from(k_gravity_scale_max)) &&
@@ -113,7 +114,8 @@ bool are_bodies(const State& state) {
       retired += taken ? 1 : 0;
       continue;
     }
-    if (!taken || !is_body(traits) || !is_pose(state.poses[slot]) || !is_motion(traits, state.motions[slot])) return false;
+    if (!taken || !is_body(traits) || !is_pose(state.poses[slot]) || !is_motion(traits, state.motions[slot]))
+      return false;
     ++bodies;
   }
   return bodies == state.world.body_count && retired == state.world.slots_retired && used == state.world.slots_used;
@@ -138,7 +140,8 @@ bool is_contact(const State& state, const ContactState& contact) {
   if (contact.point_count < 1 || contact.point_count > k_manifold_points_max) return false;
   for (uint32_t i = 0; i < k_manifold_points_max; ++i) {
     const bool there = i < contact.point_count;
-    if ((contact.feature[i] != 0) != there || !within(contact.normal_impulse[i], Real(0.0), k_impulse_max)) return false;
+    if ((contact.feature[i] != 0) != there || !within(contact.normal_impulse[i], Real(0.0), k_impulse_max))
+      return false;
     if (!there && !is_zero(contact.normal_impulse[i])) return false;
     for (uint32_t k = 0; there && k < i; ++k) {
       if (contact.feature[k] == contact.feature[i]) return false;
@@ -155,8 +158,8 @@ bool are_contacts(const State& state) {
     if (!is_contact(state, contact)) return false;
     if (i == 0) continue;
     const ContactState& before = state.contacts[i - 1];
-    const bool sorted = before.body_a < contact.body_a ||
-                        (before.body_a == contact.body_a && before.body_b < contact.body_b);
+    const bool sorted =
+        before.body_a < contact.body_a || (before.body_a == contact.body_a && before.body_b < contact.body_b);
     if (!sorted) return false;
   }
   for (uint32_t i = count; i < state.contacts.count; ++i) {
@@ -177,8 +180,9 @@ bool are_assets(const State& state) {
 Status check_state(const uint8_t* block, Capacity capacity, AssetTable assets) {
   const State state = view_of(block, capacity);
   const WorldState& world = state.world;
-  if (world.zero != 0 || !are_settings(world.gravity, world.tick_time, world.substeps, world.iterations, world.relaxation,
-                                       world.stiffness, world.damping_ratio, world.restitution_threshold)) {
+  if (world.zero != 0 ||
+      !are_settings(world.gravity, world.tick_time, world.substeps, world.iterations, world.relaxation, world.stiffness,
+                    world.damping_ratio, world.restitution_threshold)) {
     return Status::corrupt;
   }
   if (!are_slots(state) || !are_bodies(state) || !are_contacts(state) || !are_assets(state)) return Status::corrupt;

@@ -14,8 +14,7 @@ namespace {
 constexpr Vec3<Real> k_still = {0.0, 0.0, 0.0};
 
 bool is_material(const Material& material) {
-  return within(material.friction, Real(0.0), k_friction_max) &&
-         within(material.restitution, Real(0.0), Real(1.0)) &&
+  return within(material.friction, Real(0.0), k_friction_max) && within(material.restitution, Real(0.0), Real(1.0)) &&
          within(material.rolling_resistance, Real(0.0), Real(1.0));
 }
 
@@ -120,7 +119,8 @@ struct Push {
   Status commit() {
     const Quat& rotation = state.poses[slot].rotation;
     const BodyMotion pending = {motion.pending_velocity, motion.pending_momentum, k_still, k_still};
-    if (!speeds_fit(traits(), rotation, motion) || !speeds_fit(traits(), rotation, pending)) return Status::out_of_range;
+    if (!speeds_fit(traits(), rotation, motion) || !speeds_fit(traits(), rotation, pending))
+      return Status::out_of_range;
     state.motions[slot] = motion;
     return Status::ok;
   }
@@ -229,7 +229,8 @@ Status apply_torque(World& world, BodyId id, const Vec3<Scaled>& torque) {
   if (const Status status = push.find(id, torque); status != Status::ok) return status;
   Vec3<Real> speed;
   const int exponent = push.traits().size_exponent;
-  if (!speed_from(over_tick(torque, push.state.world), push.traits().mass, exponent, speed)) return Status::out_of_range;
+  if (!speed_from(over_tick(torque, push.state.world), push.traits().mass, exponent, speed))
+    return Status::out_of_range;
   push.motion.pending_momentum += speed;
   return push.commit();
 }

@@ -1,8 +1,8 @@
 #pragma once
 #include <detent/detail/layout.h>
 
-/// The layout table: every array of the persistent state and every field of its elements, once. The big-endian swap, the
-/// digest, the checks of incoming snapshots and the difference tool read it.
+/// The layout table: every array of the persistent state and every field of its elements, once. The big-endian swap,
+/// the digest, the checks of incoming snapshots and the difference tool read it.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -36,9 +36,11 @@ template <>
 struct WordsOf<Scaled> : WordsOf<int32_t> {};
 #endif
 
-#define DETENT_FIELD(type, member)                                                             \
-  {#member, static_cast<uint32_t>(__builtin_offsetof(type, member)), WordsOf<decltype(type::member)>::k_width, \
-   static_cast<uint32_t>(sizeof(type::member) / WordsOf<decltype(type::member)>::k_width)}
+#define DETENT_FIELD(type, member)                                                                                   \
+  {                                                                                                                  \
+#member, static_cast < uint32_t>(__builtin_offsetof(type, member)), WordsOf < decltype(type::member)> ::k_width, \
+        static_cast < uint32_t>(sizeof(type::member) / WordsOf <decltype(type::member)>::k_width)                    \
+  }
 
 inline constexpr Field k_header_fields[] = {
     DETENT_FIELD(BlockHeader, magic),           DETENT_FIELD(BlockHeader, format),
@@ -47,13 +49,20 @@ inline constexpr Field k_header_fields[] = {
     DETENT_FIELD(BlockHeader, capacity_assets), DETENT_FIELD(BlockHeader, zero),
 };
 inline constexpr Field k_world_fields[] = {
-    DETENT_FIELD(WorldState, tick),          DETENT_FIELD(WorldState, body_count),
-    DETENT_FIELD(WorldState, slots_used),    DETENT_FIELD(WorldState, free_word),
-    DETENT_FIELD(WorldState, slots_retired), DETENT_FIELD(WorldState, contact_count),
-    DETENT_FIELD(WorldState, substeps),      DETENT_FIELD(WorldState, iterations),
-    DETENT_FIELD(WorldState, zero),          DETENT_FIELD(WorldState, gravity),
-    DETENT_FIELD(WorldState, tick_time),     DETENT_FIELD(WorldState, relaxation),
-    DETENT_FIELD(WorldState, stiffness),     DETENT_FIELD(WorldState, damping_ratio),
+    DETENT_FIELD(WorldState, tick),
+    DETENT_FIELD(WorldState, body_count),
+    DETENT_FIELD(WorldState, slots_used),
+    DETENT_FIELD(WorldState, free_word),
+    DETENT_FIELD(WorldState, slots_retired),
+    DETENT_FIELD(WorldState, contact_count),
+    DETENT_FIELD(WorldState, substeps),
+    DETENT_FIELD(WorldState, iterations),
+    DETENT_FIELD(WorldState, zero),
+    DETENT_FIELD(WorldState, gravity),
+    DETENT_FIELD(WorldState, tick_time),
+    DETENT_FIELD(WorldState, relaxation),
+    DETENT_FIELD(WorldState, stiffness),
+    DETENT_FIELD(WorldState, damping_ratio),
     DETENT_FIELD(WorldState, restitution_threshold),
 };
 inline constexpr Field k_pose_fields[] = {
@@ -71,21 +80,33 @@ inline constexpr Field k_motion_fields[] = {
     DETENT_FIELD(BodyMotion, pending_momentum),
 };
 inline constexpr Field k_traits_fields[] = {
-    DETENT_FIELD(BodyTraits, type),           DETENT_FIELD(BodyTraits, generation),
-    DETENT_FIELD(BodyTraits, shape),          DETENT_FIELD(BodyTraits, size_exponent),
-    DETENT_FIELD(BodyTraits, size),           DETENT_FIELD(BodyTraits, bounding_radius),
-    DETENT_FIELD(BodyTraits, mass),           DETENT_FIELD(BodyTraits, gyration),
-    DETENT_FIELD(BodyTraits, friction),       DETENT_FIELD(BodyTraits, restitution),
-    DETENT_FIELD(BodyTraits, rolling_resistance), DETENT_FIELD(BodyTraits, linear_damping),
-    DETENT_FIELD(BodyTraits, angular_damping), DETENT_FIELD(BodyTraits, gravity_scale),
-    DETENT_FIELD(BodyTraits, user_data),      DETENT_FIELD(BodyTraits, restitution_rule),
+    DETENT_FIELD(BodyTraits, type),
+    DETENT_FIELD(BodyTraits, generation),
+    DETENT_FIELD(BodyTraits, shape),
+    DETENT_FIELD(BodyTraits, size_exponent),
+    DETENT_FIELD(BodyTraits, size),
+    DETENT_FIELD(BodyTraits, bounding_radius),
+    DETENT_FIELD(BodyTraits, mass),
+    DETENT_FIELD(BodyTraits, gyration),
+    DETENT_FIELD(BodyTraits, friction),
+    DETENT_FIELD(BodyTraits, restitution),
+    DETENT_FIELD(BodyTraits, rolling_resistance),
+    DETENT_FIELD(BodyTraits, linear_damping),
+    DETENT_FIELD(BodyTraits, angular_damping),
+    DETENT_FIELD(BodyTraits, gravity_scale),
+    DETENT_FIELD(BodyTraits, user_data),
+    DETENT_FIELD(BodyTraits, restitution_rule),
 };
 inline constexpr Field k_slot_fields[] = {{"taken", 0, 4, 1}};
 inline constexpr Field k_contact_fields[] = {
-    DETENT_FIELD(ContactState, body_a),          DETENT_FIELD(ContactState, body_b),
-    DETENT_FIELD(ContactState, age),             DETENT_FIELD(ContactState, point_count),
-    DETENT_FIELD(ContactState, feature),         DETENT_FIELD(ContactState, normal_impulse),
-    DETENT_FIELD(ContactState, friction_impulse), DETENT_FIELD(ContactState, angular_impulse),
+    DETENT_FIELD(ContactState, body_a),
+    DETENT_FIELD(ContactState, body_b),
+    DETENT_FIELD(ContactState, age),
+    DETENT_FIELD(ContactState, point_count),
+    DETENT_FIELD(ContactState, feature),
+    DETENT_FIELD(ContactState, normal_impulse),
+    DETENT_FIELD(ContactState, friction_impulse),
+    DETENT_FIELD(ContactState, angular_impulse),
 };
 inline constexpr Field k_asset_fields[] = {
     DETENT_FIELD(AssetState, digest),
@@ -110,7 +131,8 @@ static_assert(tiles(k_traits_fields, sizeof(BodyTraits)) && tiles(k_slot_fields,
 static_assert(tiles(k_contact_fields, sizeof(ContactState)) && tiles(k_asset_fields, sizeof(AssetState)));
 
 template <uint32_t n>
-constexpr Section section(const char* name, const Field (&fields)[n], uint32_t element_bytes, uint32_t Layout::*offset) {
+constexpr Section section(const char* name, const Field (&fields)[n], uint32_t element_bytes,
+                          uint32_t Layout::*offset) {
   return {name, fields, n, element_bytes, offset};
 }
 inline constexpr Section k_sections[] = {

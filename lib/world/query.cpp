@@ -26,7 +26,8 @@ Status get_velocity(const World& world, BodyId id, Vec3<Real>& velocity, Vec3<Re
   const BodyTraits& traits = state.traits[slot];
   const BodyMotion& motion = state.motions[slot];
   const Vec3<Real> speed = spin_of(traits, state.poses[slot].rotation, motion.momentum);
-  // A spin beyond Real's range, which only bodies below 12 cm can have, is held to it, but for what rounding would pass.
+  // A spin beyond Real's range, which only bodies below 12 cm can have, is held to it, but for what rounding would
+  // pass.
   const int exponent = traits.size_exponent;
   const Real limit = exponent < 0 ? scale_by_power(Real(131071.0), exponent) : k_real_max;
   const auto per_radius = [&](Real value) { return scale_by_power(clamp(value, -limit, limit), -exponent); };

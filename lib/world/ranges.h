@@ -24,9 +24,7 @@ inline bool is_position(const Position&) { return true; }
 #else
 inline bool is_number(Scaled value) { return value >= Scaled(-0x1p100) && value <= Scaled(0x1p100); }
 #if defined(DETENT_F64)
-inline bool is_position(const Position& p) {
-  return within({p.x, p.y, p.z}, k_coord_max);
-}
+inline bool is_position(const Position& p) { return within({p.x, p.y, p.z}, k_coord_max); }
 #else
 inline bool is_position(const Position&) { return true; }
 #endif

@@ -8,8 +8,9 @@ inline namespace DETENT_NAMESPACE {
 /// False if they reach beyond its end.
 bool snapshot_read(const World& world, uint32_t offset, uint8_t* bytes, uint32_t count);
 
-/// As `load`, from a reader of the canonical bytes, straight into the world's block. On failure the world is left empty,
-/// with its settings at their defaults. `read` gives all of the bytes [offset, offset + count) or another status than ok.
+/// As `load`, from a reader of the canonical bytes, straight into the world's block. On failure the world is left
+/// empty, with its settings at their defaults. `read` gives all of the bytes [offset, offset + count) or another status
+/// than ok.
 Status load_from(World& world, Status (*read)(void* context, uint32_t offset, uint8_t* bytes, uint32_t count),
                  void* context);
 

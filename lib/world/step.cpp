@@ -33,8 +33,8 @@ Scratch scratch_of(uint8_t* block, const Layout& layout, Capacity capacity) {
           {at_offset<ContactOrder>(block, layout.contact_order), capacity.contacts}};
 }
 
-/// How far apart a pair may be and still be given contact points: a 64th of the smaller body, and what the pair can close
-/// in this tick, up to a quarter of it.
+/// How far apart a pair may be and still be given contact points: a 64th of the smaller body, and what the pair can
+/// close in this tick, up to a quarter of it.
 Real contact_reach(const StepSettings& settings, const RowBody& a, const RowBody& b) {
   const Real extent = min(shape_extent(a.traits), shape_extent(b.traits));
   const Real speed =

@@ -16,7 +16,7 @@ double distance(const Quaternion& q, const Quaternion& r) {
 
 // What sweep.h states of sweep_end_rotation; in floats, which it does not name, the steps of rotation_from_vector and
 // of the product after it.
-constexpr double k_end_error = DETENT_FIXED ? 2.0 : 8.0;
+constexpr double k_end_error = DETENT_FIXED ? 4.0 : 8.0;
 
 /// Steps within which sweep_end_rotation comes back to the end that the sweep was made from: the errors of
 /// rotation_vector and back again, and the whole turns times the error of their axis' length; half of each, as

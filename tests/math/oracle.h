@@ -98,8 +98,8 @@ struct Table {
     file
         << "# Errors of the number layer\n\n"
            "Written by tests/math (`numbers_test`) against MPFR. fx32 computes every line of fx64 with the same bits.\n"
-           "\"exhaustive\": every argument of the domain; \"strided\": a fixed sequence over it, with the worst cases "
-           "found.\n\n"
+           "\"exhaustive\": every argument of the domain; \"strided\": a fixed sequence over it, so the largest error "
+           "seen, no proof for the rest.\n\n"
            "| configuration | kernel | domain | rounding | max error | unit | bound | at | arguments |\n"
            "|---|---|---|---|---|---|---|---|---|\n";
     for (const auto& line : lines) file << line.second << "\n";

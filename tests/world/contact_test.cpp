@@ -86,9 +86,12 @@ DETENT_TEST(contact, nothing_escapes_a_closed_box_of_mixed_shapes) {
   std::vector<BodyId> ids;
   for (int i = 0; i < 60; ++i) {
     BodyDef def;
-    if (i % 3 == 0) def.shape = box(reals(0.3, 0.2, 0.25));
-    else if (i % 3 == 1) def.shape = sphere(real(0.25));
-    else def.shape = capsule(real(0.15), real(0.2));
+    if (i % 3 == 0)
+      def.shape = box(reals(0.3, 0.2, 0.25));
+    else if (i % 3 == 1)
+      def.shape = sphere(real(0.25));
+    else
+      def.shape = capsule(real(0.15), real(0.2));
     def.position = position(i % 5 - 2, i / 25 - 1, i / 5 % 5 - 2);
     def.velocity = reals(i % 7 - 3, i % 5 - 2, i % 3 - 1);
     def.spin = reals(i % 4, -i % 3, 1);

@@ -2,8 +2,8 @@
 #include <detent/detail/scratch.h>
 #include <detent/world.h>
 
-/// Where everything lies in a block: one list of arrays, persistent first. world_bytes, the snapshot, the digest and the
-/// step all read it from here.
+/// Where everything lies in a block: one list of arrays, persistent first. world_bytes, the snapshot, the digest and
+/// the step all read it from here.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 

@@ -45,24 +45,24 @@ struct AngularRow {
 
 /// A contact during the step. Impulses are over the reference mass: that of the lighter dynamic body.
 struct alignas(8) ContactWork {
-  ContactState state;          ///< becomes the world's contact when the step ends
-  Vec3<Unit> normal;           ///< from A to B
+  ContactState state;  ///< becomes the world's contact when the step ends
+  Vec3<Unit> normal;   ///< from A to B
   Vec3<Unit> tangent[2];
   ContactPoint point[k_manifold_points_max];
   ContactRow friction_row[2];
-  AngularRow angular_row[3];   ///< about the normal and the tangents
-  uint32_t angular_rows;       ///< 0; 1: twist; 3: and rolling
-  uint32_t static_pair;        ///< 1 if only one of the bodies is dynamic
-  int32_t shift_a, shift_b;    ///< the body's unit of length over the pair's, as a power of two
-  Real friction_impulse[2];    ///< along the tangents
+  AngularRow angular_row[3];  ///< about the normal and the tangents
+  uint32_t angular_rows;      ///< 0; 1: twist; 3: and rolling
+  uint32_t static_pair;       ///< 1 if only one of the bodies is dynamic
+  int32_t shift_a, shift_b;   ///< the body's unit of length over the pair's, as a power of two
+  Real friction_impulse[2];   ///< along the tangents
   Real angular_impulse[3];
-  Scaled share_a, share_b;     ///< reference mass / mass; 0 if not dynamic
+  Scaled share_a, share_b;  ///< reference mass / mass; 0 if not dynamic
   Scaled friction;
   Scaled restitution;
-  Scaled twist_arm;            ///< limit of the angular impulse about the normal over the normal impulse
-  Scaled rolling_arm;          ///< likewise about the tangents
-  Real push_max;               ///< largest separating speed of the position correction, m/s
-  Real rebound_min;            ///< approach speed below which nothing rebounds, m/s
+  Scaled twist_arm;    ///< limit of the angular impulse about the normal over the normal impulse
+  Scaled rolling_arm;  ///< likewise about the tangents
+  Real push_max;       ///< largest separating speed of the position correction, m/s
+  Real rebound_min;    ///< approach speed below which nothing rebounds, m/s
 };
 
 /// Where a contact stands in the order of the solve.

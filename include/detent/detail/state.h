@@ -1,8 +1,8 @@
 #pragma once
 #include <detent/body.h>
 
-/// The persistent state: what a snapshot holds and the digest covers. Every struct is tiled by its fields without padding
-/// (asserted by lib/world/fields.h), holds no pointer and no size_t, and has the same layout on every target.
+/// The persistent state: what a snapshot holds and the digest covers. Every struct is tiled by its fields without
+/// padding (asserted by lib/world/fields.h), holds no pointer and no size_t, and has the same layout on every target.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -19,17 +19,17 @@ struct alignas(8) BlockHeader {
 };
 
 struct alignas(8) WorldState {
-  uint64_t tick;             ///< ticks completed
-  uint32_t body_count;       ///< bodies alive
-  uint32_t slots_used;       ///< body slots ever used: the slots beyond are all zero
-  uint32_t free_word;        ///< no slot is free in the words of `slots` before this one
-  uint32_t slots_retired;    ///< body slots whose generation is used up
-  uint32_t contact_count;    ///< contacts, sorted by (body_a, body_b)
+  uint64_t tick;           ///< ticks completed
+  uint32_t body_count;     ///< bodies alive
+  uint32_t slots_used;     ///< body slots ever used: the slots beyond are all zero
+  uint32_t free_word;      ///< no slot is free in the words of `slots` before this one
+  uint32_t slots_retired;  ///< body slots whose generation is used up
+  uint32_t contact_count;  ///< contacts, sorted by (body_a, body_b)
   uint32_t substeps;
   uint32_t iterations;
   uint32_t zero;
-  Vec3<Real> gravity;        ///< m/s^2
-  Real tick_time;            ///< s
+  Vec3<Real> gravity;  ///< m/s^2
+  Real tick_time;      ///< s
   Real relaxation;
   Real stiffness;
   Real damping_ratio;
@@ -56,11 +56,12 @@ struct BodyTraits {
   uint32_t type;        ///< BodyType, or 0: the slot is empty, and all but the generation is zero
   uint32_t generation;  ///< of the body in the slot, or of the last one
   uint32_t shape;       ///< ShapeType
-  int32_t size_exponent;  ///< 2^size_exponent m is the body's unit of length: the bounding radius lies in [1/2, 1) of it
-  Vec3<Unit> size;        ///< in that unit: half extents; or (radius, half length, 0)
-  Unit bounding_radius;   ///< in that unit
-  Scaled mass;            ///< kg; 0 if not dynamic
-  Scaled gyration[3];     ///< m (2^size_exponent)^2 / I about each body axis; 0 if not dynamic
+  int32_t
+      size_exponent;     ///< 2^size_exponent m is the body's unit of length: the bounding radius lies in [1/2, 1) of it
+  Vec3<Unit> size;       ///< in that unit: half extents; or (radius, half length, 0)
+  Unit bounding_radius;  ///< in that unit
+  Scaled mass;           ///< kg; 0 if not dynamic
+  Scaled gyration[3];    ///< m (2^size_exponent)^2 / I about each body axis; 0 if not dynamic
   Scaled friction;
   Scaled restitution;
   Scaled rolling_resistance;
@@ -79,10 +80,11 @@ struct ContactState {
   uint32_t body_b;
   uint32_t age;  ///< ticks in contact before this one
   uint32_t point_count;
-  uint32_t feature[k_manifold_points_max];     ///< which features touch; distinct; 0 beyond point_count
-  Real normal_impulse[k_manifold_points_max];  ///< impulse / mass of the lighter dynamic body, m/s; 0 beyond point_count
-  Vec3<Real> friction_impulse;                 ///< likewise, on B, world
-  Vec3<Real> angular_impulse;                  ///< likewise, per unit length of the pair, on B, world
+  uint32_t feature[k_manifold_points_max];  ///< which features touch; distinct; 0 beyond point_count
+  Real
+      normal_impulse[k_manifold_points_max];  ///< impulse / mass of the lighter dynamic body, m/s; 0 beyond point_count
+  Vec3<Real> friction_impulse;                ///< likewise, on B, world
+  Vec3<Real> angular_impulse;                 ///< likewise, per unit length of the pair, on B, world
 };
 
 struct AssetState {
