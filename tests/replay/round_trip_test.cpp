@@ -57,7 +57,7 @@ DETENT_TEST(replay_round_trip, every_command_survives_writing_and_reading) {
   create.def.velocity = k_reals;
   create.def.spin = k_more_reals;
   create.def.shape = capsule(Real(0.75), Real(2.0));
-  create.def.material = {Real(0.25), Real(0.5), RestitutionRule::smaller, Real(0.125)};
+  create.def.material = {Real(0.25), Real(0.5), Real(0.125), RestitutionRule::smaller};
   create.def.density = Scaled(7850.0);
   create.def.mass = Scaled(3e-5);
   create.def.linear_damping = Real(0.5);
