@@ -43,7 +43,11 @@ inline FloatControl float_control_read() {
 inline void float_control_write(FloatControl value) {
   __asm__ __volatile__("vmsr fpscr, %0" : : "r"(value) : "memory");
 }
+#if defined(__ARM_FEATURE_MVE)
+inline constexpr FloatControl k_float_control_ieee = 0x40000;  // LTPSIZE 4: loops of the vector unit have no tail
+#else
 inline constexpr FloatControl k_float_control_ieee = 0;
+#endif
 #elif defined(__riscv) && defined(__riscv_flen)
 #define DETENT_FLOAT_CONTROL 1
 using FloatControl = unsigned long;

@@ -168,6 +168,16 @@ bool are_contacts(const State& state) {
   return true;
 }
 
+/// The bytes that align an array's end.
+bool are_fills(const uint8_t* block, const Layout& layout) {
+  for (uint32_t i = 0; i < k_section_count; ++i) {
+    const uint32_t bytes = section_bytes(layout, i);
+    const uint32_t fill = bytes % k_sections[i].element_bytes;
+    if (!is_zero(block + layout.*k_sections[i].offset + (bytes - fill), fill)) return false;
+  }
+  return true;
+}
+
 bool are_assets(const State& state) {
   for (uint32_t i = 0; i < state.assets.count; ++i) {
     if (state.assets[i].bound > 1 || (state.assets[i].bound == 0 && !is_zero(state.assets[i]))) return false;
@@ -185,7 +195,10 @@ Status check_state(const uint8_t* block, Capacity capacity, AssetTable assets) {
                     world.damping_ratio, world.restitution_threshold)) {
     return Status::corrupt;
   }
-  if (!are_slots(state) || !are_bodies(state) || !are_contacts(state) || !are_assets(state)) return Status::corrupt;
+  if (!are_slots(state) || !are_bodies(state) || !are_contacts(state) || !are_assets(state) ||
+      !are_fills(block, state.layout)) {
+    return Status::corrupt;
+  }
   return check_assets(assets, state.assets);
 }
 

@@ -24,7 +24,7 @@ uint64_t leaf(const Section& section, uint32_t section_index, const uint8_t* ele
   static_assert(sizeof(BodyTraits) <= k_element_bytes_max && sizeof(ContactState) <= k_element_bytes_max &&
                 sizeof(WorldState) <= k_element_bytes_max);
   memcpy(canonical, element, bytes);
-  swap_element(section, canonical);
+  if (bytes == section.element_bytes) swap_element(section, canonical);
   return digest_bytes(canonical, bytes, seed);
 }
 
@@ -36,11 +36,13 @@ uint64_t digest(const World& world) {
   for (uint32_t i = 1; i < k_section_count; ++i) {  // 0 is the header: what the block is, not what it holds
     const Section& section = k_sections[i];
     const uint8_t* element = world.block + state.layout.*section.offset;
-    const uint32_t count = section_bytes(state.layout, i) / section.element_bytes;
+    const uint32_t bytes = section_bytes(state.layout, i);
+    const uint32_t count = bytes / section.element_bytes;
     uint64_t sum = 0;
     for (uint32_t index = 0; index < count; ++index, element += section.element_bytes) {
       sum += leaf(section, i, element, section.element_bytes, index);
     }
+    sum += leaf(section, i, element, bytes % section.element_bytes, count);  // the fill up to the next array: zeros
     running = digest_step(running, sum);
   }
   return digest_finish(running);
