@@ -91,7 +91,7 @@ DETENT_TEST(broadphase, a_buffer_too_small_keeps_the_smallest_keys_and_counts_th
     const uint32_t total = static_cast<uint32_t>(right.size());
     for (const uint32_t capacity : {0u, 1u, 7u, total / 2, total - 1, total}) {
       const Found found = found_in(crowd, capacity);
-      const std::vector<uint64_t> first(right.begin(), right.begin() + capacity);
+      const std::vector<uint64_t> first(right.begin(), right.begin() + static_cast<int>(capacity));
       EXPECT_EQ(found.keys, first);
       EXPECT_EQ(found.dropped, total - capacity);
     }
