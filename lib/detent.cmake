@@ -16,6 +16,11 @@ target_link_libraries(detent_library_options INTERFACE detent_options)
 target_compile_options(detent_library_options INTERFACE
   -fno-threadsafe-statics -fno-asynchronous-unwind-tables -fno-unwind-tables -ffunction-sections -fdata-sections
   -fno-strict-overflow)
+if(WIN32)
+  # On Windows GCC takes an inline function's own copy for the one that the linker keeps, and trusts the registers that copy
+  # leaves alone. The one kept may be a user's, compiled at another level.
+  target_compile_options(detent_library_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-fno-ipa-ra>)
+endif()
 if(DETENT_PORTABLE_WIDE)
   target_compile_definitions(detent_library_options INTERFACE DETENT_PORTABLE_WIDE=1)
 endif()

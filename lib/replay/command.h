@@ -196,38 +196,41 @@ inline Status apply(World& world, SetGravity& command) { return set_gravity(worl
 inline Status apply(World& world, SetUserData& command) { return set_user_data(world, command.id, command.user_data); }
 inline Status apply(World& world, BindAsset& command) { return bind_asset(world, command.index); }
 
+template <class Command, class Visitor>
+bool visit_new(const Visitor& visitor) {
+  Command command = {};
+  visitor(command);
+  return true;
+}
+
 /// Calls `visitor(command)` with a default command of the tag's type. False if no call has this tag.
 template <class Visitor>
 bool with_command(RecordTag tag, const Visitor& visitor) {
-  const auto with = [&visitor](auto command) {
-    visitor(command);
-    return true;
-  };
   switch (tag) {
     case RecordTag::create_body:
-      return with(CreateBody{});
+      return visit_new<CreateBody>(visitor);
     case RecordTag::destroy_body:
-      return with(DestroyBody{});
+      return visit_new<DestroyBody>(visitor);
     case RecordTag::set_pose:
-      return with(SetPose{});
+      return visit_new<SetPose>(visitor);
     case RecordTag::set_velocity:
-      return with(SetVelocity{});
+      return visit_new<SetVelocity>(visitor);
     case RecordTag::apply_force:
-      return with(ApplyForce{});
+      return visit_new<ApplyForce>(visitor);
     case RecordTag::apply_torque:
-      return with(ApplyTorque{});
+      return visit_new<ApplyTorque>(visitor);
     case RecordTag::apply_impulse:
-      return with(ApplyImpulse{});
+      return visit_new<ApplyImpulse>(visitor);
     case RecordTag::apply_impulse_at:
-      return with(ApplyImpulseAt{});
+      return visit_new<ApplyImpulseAt>(visitor);
     case RecordTag::apply_angular_impulse:
-      return with(ApplyAngularImpulse{});
+      return visit_new<ApplyAngularImpulse>(visitor);
     case RecordTag::set_gravity:
-      return with(SetGravity{});
+      return visit_new<SetGravity>(visitor);
     case RecordTag::set_user_data:
-      return with(SetUserData{});
+      return visit_new<SetUserData>(visitor);
     case RecordTag::bind_asset:
-      return with(BindAsset{});
+      return visit_new<BindAsset>(visitor);
     case RecordTag::tick:
     case RecordTag::tick_digested:
       break;
