@@ -5,15 +5,25 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// Stored in snapshots and recordings: a value is never reused.
-enum class ShapeType : uint32_t { sphere = 1, capsule = 2, box = 3, half_space = 4 };
+enum class ShapeType : uint32_t {
+  sphere = 1,
+  capsule = 2,
+  box = 3,
+  half_space = 4,
+  cylinder = 5,
+  cone = 6,
+  hull = 7,      ///< made by make_hull() (convex.h) from cooked bytes
+  triangle = 8,  ///< made by make_triangle() (convex.h)
+};
 
 /// A convex shape in its body's frame, centred on the centre of mass. Build one with the functions below.
 /// Sizes, m: [2^-14, 2^14] (0.06 mm to 16 km); the ratio of a shape's largest to its smallest size is at most 2^14.
 struct Shape {
   ShapeType type = ShapeType::sphere;
-  Real radius = 0.5;                          ///< m; sphere and capsule
-  Real half_length = 0.0;                     ///< m; capsule: half the length of its core segment along local y
+  Real radius = 0.5;                          ///< m; sphere, capsule, cylinder, and a cone's base
+  Real half_length = 0.0;                     ///< m; along local y, half: a capsule's core segment, a cylinder, a cone
   Vec3<Real> half_extents = {0.5, 0.5, 0.5};  ///< m; box
+  Real rounding = 0.0;                        ///< m; box, cylinder, cone: grown by a ball of this radius
 };
 
 /// A ball of the given radius, m.
@@ -36,6 +46,28 @@ constexpr Shape box(Vec3<Real> half_extents) {
   Shape shape;
   shape.type = ShapeType::box;
   shape.half_extents = half_extents;
+  return shape;
+}
+/// The cylinder about local y, of half the height `half_length`, m.
+constexpr Shape cylinder(Real radius, Real half_length) {
+  Shape shape;
+  shape.type = ShapeType::cylinder;
+  shape.radius = radius;
+  shape.half_length = half_length;
+  return shape;
+}
+/// The cone about local y, of half the height `half_length`, m: its base of the given radius at y = -half_length / 2,
+/// its apex at y = 3 half_length / 2, so that the origin is its centre of mass.
+constexpr Shape cone(Real radius, Real half_length) {
+  Shape shape;
+  shape.type = ShapeType::cone;
+  shape.radius = radius;
+  shape.half_length = half_length;
+  return shape;
+}
+/// The shape grown by a ball of radius `rounding`, m; for box, cylinder and cone.
+constexpr Shape rounded(Shape shape, Real rounding) {
+  shape.rounding = rounding;
   return shape;
 }
 /// The solid half-space y <= 0 of the body's frame; for static and kinematic bodies only.

@@ -1,0 +1,36 @@
+#pragma once
+#include <detent/convex.h>
+
+/// Questions about two convex shapes at rest. They need no world.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// What a pair's next query may start from: opaque, all zero when new. It alters how fast an answer comes, and which of
+/// several equally near points is named.
+struct DistanceCache {
+  uint8_t count = 0;
+  uint8_t feature_a[4] = {}, feature_b[4] = {};
+};
+
+struct Closest {
+  bool overlap = false;             ///< the cores or their balls meet: distance 0
+  bool capped = false;              ///< the iteration cap was met: `distance` is still a lower bound
+  Real distance = 0.0;              ///< m, between the surfaces
+  Vec3<Unit> normal = {};           ///< from A to B, world axes; zero if the cores meet
+  Vec3<Real> point_a = {};          ///< on A's surface, m, from A's position, world axes
+  Vec3<Real> point_b = {};          ///< on B's surface, m, from B's position, world axes
+  uint32_t iterations = 0;          ///< support points asked for
+};
+
+/// The distance of two convex shapes, with the closest points.
+/// Precision: k_distance_error of the pair's extent (their core diameters and the distance of their centres).
+/// Range: any poses; beyond 2^17 m of distance it saturates. Errors: bad_argument for two half-spaces; not_normalised.
+Status closest_points(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Closest& result,
+                      DistanceCache* cache = nullptr);
+
+/// Whether the shapes are farther apart than `reach`, m: true is certain, false may err by k_distance_error.
+Status farther_than(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Real reach,
+                    bool& result, DistanceCache* cache = nullptr);
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

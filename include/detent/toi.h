@@ -1,0 +1,42 @@
+#pragma once
+#include <detent/convex.h>
+
+/// Time of impact of two convex shapes that move and turn. It needs no world.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// A part of a step, in [0, 1], in steps of 2^-62.
+using Fraction = Fixed<int64_t, 62>;
+/// Rounded down.
+Real real_from_fraction(Fraction fraction);
+double fraction_to_host(Fraction fraction);
+
+/// A motion over a step: constant velocity of the position and constant spin, world axes.
+struct Motion {
+  Pose start;
+  Vec3<Real> displacement = {};  ///< m over the step
+  Vec3<Real> turn = {};          ///< rotation vector over the step, rad; |turn| <= 2^16
+};
+
+enum class ToiOutcome : uint32_t {
+  clear = 1,      ///< the shapes do not meet during the step
+  hit = 2,        ///< at `time` they are at most the tolerance apart
+  undecided = 3,  ///< a cap was met; up to `time` they do not meet
+};
+
+struct TimeOfImpact {
+  ToiOutcome outcome = ToiOutcome::undecided;
+  Fraction time = 0.0;      ///< never late: up to here the shapes do not meet, unless they did at the start; 1 if clear
+  Vec3<Unit> normal = {};   ///< at `time`, from A to B, world axes; zero where the cores meet at the start
+  uint32_t gjk_calls = 0;
+  uint32_t passes = 0;
+};
+
+/// When two moving shapes first come within the tolerance.
+/// Tolerance: k_toi_tolerance of the larger core diameter, and the ulps stated in SPEC.md.
+/// Errors: not_normalised, out_of_range; bad_argument for two half-spaces.
+Status time_of_impact(const Convex& a, const Motion& motion_a, const Convex& b, const Motion& motion_b,
+                      TimeOfImpact& result);
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent
