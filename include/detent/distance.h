@@ -5,11 +5,11 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// What a pair's next query may start from: opaque, all zero when new. It alters how fast an answer comes, and which of
-/// several equally near points is named.
+/// The vertices where a pair's last query ended, for the next one to start from. Any content is safe: it alters how fast
+/// an answer comes, and which of several equally near points is named.
 struct DistanceCache {
-  uint8_t count = 0;
-  uint8_t feature_a[4] = {}, feature_b[4] = {};
+  uint8_t count = 0;  ///< 0 when new
+  uint8_t vertex_a[4] = {}, vertex_b[4] = {};
 };
 
 struct Closest {

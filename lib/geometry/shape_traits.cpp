@@ -37,6 +37,7 @@ Status set_shape(const Shape& shape, BodyTraits& traits) {
   const Real zero = 0.0;
   Vec3<Real> size = {zero, zero, zero};
   Real bound = zero;
+  if (!(shape.rounding == zero)) return Status::bad_argument;  // a world's bodies are not rounded yet
   switch (shape.type) {
     case ShapeType::sphere:
       if (!is_size(shape.radius)) return Status::out_of_range;
@@ -87,7 +88,7 @@ Scaled shape_volume(const BodyTraits& traits) {
     case ShapeType::box:
       volume = multiply(Scaled(8.0), multiply(x, multiply(y, z)));
       break;
-    case ShapeType::half_space:
+    default:
       break;
   }
   return scaled_by_power(volume, 3 * traits.size_exponent);
@@ -117,7 +118,7 @@ void set_gyration(BodyTraits& traits) {
       traits.gyration[2] = divide(Scaled(3.0), add(xx, yy));
       break;
     }
-    case ShapeType::half_space:
+    default:
       break;
   }
 }

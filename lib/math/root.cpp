@@ -102,19 +102,25 @@ uint64_t square_root_nearest(Words128 value) {
   return (root >> half_shift) + ((root >> (half_shift - 1)) & 1);
 }
 
-#if DETENT_FIXED
-namespace {
-
-/// The unit vector along v, whose largest component is in [2^29, 2^30] in magnitude.
-Vec3<Unit> direction(int32_t x, int32_t y, int32_t z) {
-  const uint64_t square = static_cast<uint64_t>(int64_t{x} * x) + static_cast<uint64_t>(int64_t{y} * y) +
-                          static_cast<uint64_t>(int64_t{z} * z);
+Vec3<int32_t> unit_vector_raw(const Vec3<int32_t>& v) {
+  const uint64_t square = static_cast<uint64_t>(int64_t{v.x} * v.x) + static_cast<uint64_t>(int64_t{v.y} * v.y) +
+                          static_cast<uint64_t>(int64_t{v.z} * v.z);
   const int half_shift = (64 - bit_length_64(square)) / 2;
   const uint64_t head = (((square << (2 * half_shift)) >> 31) + 1) >> 1;
   const int64_t inverse = reciprocal_root(static_cast<uint32_t>(head >> 32 != 0 ? UINT32_MAX : head));
   const int shift = 33 - half_shift;
-  const auto component = [inverse, shift](int32_t a) { return unit_from_raw(round_shift_64(a * inverse, shift)); };
-  return {component(x), component(y), component(z)};
+  const auto component = [inverse, shift](int32_t a) {
+    return static_cast<int32_t>(round_shift_64(a * inverse, shift));
+  };
+  return {component(v.x), component(v.y), component(v.z)};
+}
+
+#if DETENT_FIXED
+namespace {
+
+Vec3<Unit> direction(int32_t x, int32_t y, int32_t z) {
+  const Vec3<int32_t> n = unit_vector_raw({x, y, z});
+  return {Unit::from_raw(n.x), Unit::from_raw(n.y), Unit::from_raw(n.z)};
 }
 
 constexpr uint64_t square_of(Unit a) { return static_cast<uint64_t>(int64_t{a.raw} * a.raw); }

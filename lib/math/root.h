@@ -18,6 +18,10 @@ uint64_t square_root_nearest(Words128 value);
 uint32_t reciprocal_root(uint32_t value);
 inline constexpr double k_reciprocal_root_error = 1.0;  ///< units of 2^-31; the result is in (1, 2]
 
+/// The unit vector along v, Q2.30. Range: the largest component of v within [2^29, 2^30] in magnitude.
+/// Rounding: each component within k_normalise_error; the length within k_normalise_length_error.
+Vec3<int32_t> unit_vector_raw(const Vec3<int32_t>& v);
+
 #if DETENT_FIXED
 /// Range: a >= 0. Rounding: to nearest. Overflow: none.
 Unit square_root(Unit a);

@@ -1,6 +1,3 @@
-#include "math/trig.h"
-
-#if !defined(DETENT_F64)
 #include "math/trig_integer.h"
 
 namespace detent {
@@ -82,4 +79,3 @@ int64_t radians_raw(int32_t turns, int frac) {
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent
-#endif

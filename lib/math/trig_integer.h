@@ -1,7 +1,7 @@
 #pragma once
-#include "math/trig.h"
+#include "math/wide.h"
 
-/// The integer kernels behind the angles of fx64, fx32 and f32.
+/// The integer kernels of angles: those of fx64, fx32 and f32, and of lib/proximity in every configuration.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 

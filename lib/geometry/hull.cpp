@@ -1,0 +1,321 @@
+#include "geometry/hull.h"
+
+#include "base/crc.h"
+#include "math/wide.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+constexpr uint64_t k_one_squared = uint64_t{1} << 60;
+constexpr uint64_t k_unit_vector_slack = uint64_t{1} << 32;  // of the square; rounding four components can make 2^31
+constexpr int32_t k_mantissa_min = 1 << 30;
+constexpr uint32_t k_half_edges_max = 6 * k_hull_vertices_max - 12;
+
+struct Vertex {
+  int32_t x, y, z;
+};
+
+/// Differences of vertices are shorter than 2^31, so each component of the cross product is below 2^62.
+struct Normal {
+  int64_t x, y, z;
+};
+
+Vertex vertex(const HullView& hull, uint32_t i) { return {hull.x(i), hull.y(i), hull.z(i)}; }
+
+/// (b - a) x (c - a), exact.
+Normal cross(const Vertex& a, const Vertex& b, const Vertex& c) {
+  const int64_t bx = int64_t{b.x} - a.x, by = int64_t{b.y} - a.y, bz = int64_t{b.z} - a.z;
+  const int64_t cx = int64_t{c.x} - a.x, cy = int64_t{c.y} - a.y, cz = int64_t{c.z} - a.z;
+  return {by * cz - bz * cy, bz * cx - bx * cz, bx * cy - by * cx};
+}
+
+/// Exact, below 2^94.
+Int128 dot(const Normal& normal, const Vertex& v) {
+  return Int128::product_narrow(normal.x, v.x) + Int128::product_narrow(normal.y, v.y) +
+         Int128::product_narrow(normal.z, v.z);
+}
+
+uint64_t square(int32_t value) { return static_cast<uint64_t>(int64_t{value} * value); }
+
+bool is_zero(const uint8_t* bytes, uint32_t from, uint32_t to) {
+  for (uint32_t i = from; i < to; ++i) {
+    if (bytes[i] != 0) return false;
+  }
+  return true;
+}
+
+bool is_canonical(HullScaled value, int32_t exponent_min, int32_t exponent_max) {
+  return value.mantissa >= k_mantissa_min && value.exponent >= exponent_min && value.exponent <= exponent_max;
+}
+
+bool gaps_are_zero(const HullView& hull) {
+  const HullLayout& at = hull.at;
+  const uint32_t half_edges = 6 * hull.vertex_count - 12;
+  return is_zero(hull.bytes, k_hull_frame_at + 4, k_hull_header_bytes) &&
+         is_zero(hull.bytes, at.loop_offsets + 2 * (hull.face_count + 1), at.loops) &&
+         is_zero(hull.bytes, at.loops + 2 * hull.edge_count, at.neighbour_offsets) &&
+         is_zero(hull.bytes, at.neighbour_offsets + 2 * (hull.vertex_count + 1), at.neighbours) &&
+         is_zero(hull.bytes, at.neighbours + half_edges, at.triangles) &&
+         is_zero(hull.bytes, at.triangles + half_edges, at.edges) &&
+         is_zero(hull.bytes, at.edges + k_hull_edge_bytes * hull.edge_count, at.end);
+}
+
+/// Norms, the core radius, and the padding.
+bool vertices_are_good(const HullView& hull) {
+  uint64_t greatest = 0;
+  for (uint32_t i = 0; i < hull.vertex_count; ++i) {
+    const Vertex v = vertex(hull, i);
+    const uint64_t norm = square(v.x) + square(v.y) + square(v.z);  // at most 3 2^62
+    if (norm >= k_one_squared) return false;
+    if (norm > greatest) greatest = norm;
+  }
+  for (uint32_t i = hull.vertex_count; i < hull.padded_count; ++i) {
+    if (hull.x(i) != hull.x(0) || hull.y(i) != hull.y(0) || hull.z(i) != hull.z(0)) return false;
+  }
+  const int32_t radius = hull.core_radius();
+  // The unit is the least power of two above them all, but for the rounding of a vertex.
+  return radius >= (1 << 29) - 1 && radius <= (1 << 30) && greatest <= square(radius) && greatest > square(radius - 1);
+}
+
+/// `count` ranges, each of at least three values, that together are all `total` of them.
+bool offsets_are_good(const uint8_t* offsets, uint32_t count, uint32_t total) {
+  if (hull_u16(offsets) != 0 || hull_u16(offsets + 2 * count) != total) return false;
+  for (uint32_t i = 0; i < count; ++i) {
+    const uint32_t from = hull_u16(offsets + 2 * i), to = hull_u16(offsets + 2 * i + 2);
+    if (to < from + 3 || to > total) return false;
+  }
+  return true;
+}
+
+/// Where `b` stands in `neighbours`, as a neighbour of `a`; k_half_edges_max if it is none.
+uint32_t half_edge(const HullView& hull, uint32_t a, uint32_t b) {
+  const HullIndices around = hull.neighbours(a);
+  uint32_t low = 0, high = around.count;
+  while (low < high) {
+    const uint32_t middle = (low + high) / 2;
+    if (around.index[middle] < b) {
+      low = middle + 1;
+    } else {
+      high = middle;
+    }
+  }
+  if (low == around.count || around.index[low] != b) return k_half_edges_max;
+  return static_cast<uint32_t>(around.index + low - (hull.bytes + hull.at.neighbours));
+}
+
+bool neighbours_are_good(const HullView& hull) {
+  for (uint32_t a = 0; a < hull.vertex_count; ++a) {
+    const HullIndices around = hull.neighbours(a);
+    for (uint32_t k = 0; k < around.count; ++k) {
+      const uint32_t b = around.index[k];
+      if (b >= hull.vertex_count || b == a || (k != 0 && b <= around.index[k - 1])) return false;
+    }
+  }
+  for (uint32_t a = 0; a < hull.vertex_count; ++a) {
+    const HullIndices around = hull.neighbours(a);
+    for (uint32_t k = 0; k < around.count; ++k) {
+      if (half_edge(hull, around.index[k], a) == k_half_edges_max) return false;
+    }
+  }
+  return true;
+}
+
+/// The triangles are a closed surface whose sides are the neighbours, each plane has every vertex on it or below, and
+/// they enclose the stated volume. Then the triangles about a vertex cover the boundary there, so that a vertex which
+/// is not the furthest along a direction has a neighbour that is further.
+bool triangles_are_good(const HullView& hull) {
+  uint8_t seen[(k_half_edges_max + 7) / 8] = {};
+  const Vertex apex = vertex(hull, 0);
+  Int128 volume = Int128::from(0);  // 6 2^90 times; below 2^95
+  const uint8_t* triangle = hull.bytes + hull.at.triangles;
+  for (uint32_t i = 0; i < 2 * hull.vertex_count - 4; ++i, triangle += 3) {
+    for (uint32_t k = 0; k < 3; ++k) {
+      const uint32_t from = triangle[k], to = triangle[(k + 1) % 3];
+      if (from >= hull.vertex_count || to >= hull.vertex_count) return false;
+      const uint32_t side = half_edge(hull, from, to);
+      if (side == k_half_edges_max || (seen[side / 8] >> (side % 8) & 1) != 0) return false;
+      seen[side / 8] = static_cast<uint8_t>(seen[side / 8] | 1u << (side % 8));
+    }
+    const Vertex a = vertex(hull, triangle[0]);
+    const Normal normal = cross(a, vertex(hull, triangle[1]), vertex(hull, triangle[2]));
+    if (normal.x == 0 && normal.y == 0 && normal.z == 0) return false;
+    const Int128 offset = dot(normal, a);
+    for (uint32_t k = 0; k < hull.vertex_count; ++k) {
+      if (offset < dot(normal, vertex(hull, k))) return false;
+    }
+    volume = volume + (offset - dot(normal, apex));
+  }
+  const HullScaled stated = hull.volume();
+  if (!is_canonical(stated, -130, -28)) return false;
+  const int shift = stated.exponent + 90;  // -40 to 62
+  const Int128 six = Int128::from(int64_t{6} * stated.mantissa).shift_left(shift > 0 ? shift : 0);
+  const Int128 error = six - (shift < 0 ? volume.shift_left(-shift) : volume);  // within one step of the mantissa
+  const Int128 step = Int128::from(6).shift_left(shift > 0 ? shift : 0);
+  return Int128::from(0) < volume && !(step < error) && !(step < -error);
+}
+
+/// Whether the vertices `from` and `to` follow each other in the loop.
+bool has_side(const HullIndices& loop, uint32_t from, uint32_t to) {
+  for (uint32_t k = 0; k < loop.count; ++k) {
+    if (loop.index[k] == from) return loop.index[k + 1 == loop.count ? 0 : k + 1] == to;
+  }
+  return false;
+}
+
+bool has_triangle_side(const HullIndices& triangles, uint32_t from, uint32_t to) {
+  for (uint32_t k = 0; k < triangles.count; ++k) {
+    if (triangles.index[k] == from && triangles.index[k % 3 == 2 ? k - 2 : k + 1] == to) return true;
+  }
+  return false;
+}
+
+/// The face's triangles are bounded by its loop, which passes no vertex twice.
+bool loop_is_good(const HullView& hull, uint32_t face) {
+  const HullIndices loop = hull.face(face), triangles = hull.triangles(face);
+  for (uint32_t k = 0; k < loop.count; ++k) {
+    if (loop.index[k] >= hull.vertex_count) return false;
+    for (uint32_t other = 0; other < k; ++other) {
+      if (loop.index[other] == loop.index[k]) return false;
+    }
+  }
+  for (uint32_t k = 0; k < loop.count; ++k) {
+    if (!has_triangle_side(triangles, loop.index[k], loop.index[k + 1 == loop.count ? 0 : k + 1])) return false;
+  }
+  for (uint32_t k = 0; k < triangles.count; ++k) {
+    const uint32_t from = triangles.index[k], to = triangles.index[k % 3 == 2 ? k - 2 : k + 1];
+    if (!has_side(loop, from, to) && !has_triangle_side(triangles, to, from)) return false;
+  }
+  return true;
+}
+
+/// No vertex lies above the face's plane, none of its own more than the slack below or outside a side.
+bool plane_is_good(const HullView& hull, uint32_t face) {
+  const HullPlane plane = hull.plane(face);
+  const auto& n = plane.normal;
+  const uint64_t norm = square(n[0]) + square(n[1]) + square(n[2]);
+  if (norm < k_one_squared - k_unit_vector_slack || norm > k_one_squared + k_unit_vector_slack) return false;
+  const auto height = [&](const Vertex& v) { return int64_t{n[0]} * v.x + int64_t{n[1]} * v.y + int64_t{n[2]} * v.z; };
+  constexpr int64_t k_one = int64_t{1} << 30;
+  const int64_t top = plane.offset * k_one;
+  for (uint32_t i = 0; i < hull.vertex_count; ++i) {
+    if (height(vertex(hull, i)) > top) return false;
+  }
+  const HullIndices loop = hull.face(face);
+  for (uint32_t k = 0; k < loop.count; ++k) {
+    const Vertex a = vertex(hull, loop.index[k]);
+    if (height(a) < top - k_hull_face_slack * k_one) return false;
+    const Vertex b = vertex(hull, loop.index[k + 1 == loop.count ? 0 : k + 1]);
+    uint64_t side = magnitude_64(int64_t{b.x} - a.x);  // its longest component: at most its length
+    if (magnitude_64(int64_t{b.y} - a.y) > side) side = magnitude_64(int64_t{b.y} - a.y);
+    if (magnitude_64(int64_t{b.z} - a.z) > side) side = magnitude_64(int64_t{b.z} - a.z);
+    const Int128 least = -Int128::product(static_cast<int64_t>(side) * k_hull_face_slack, k_one);
+    for (uint32_t other = 0; other < loop.count; ++other) {
+      const Normal area = cross(a, b, vertex(hull, loop.index[other]));
+      if (dot(area, {n[0], n[1], n[2]}) < least) return false;
+    }
+  }
+  return true;
+}
+
+/// Ascending, each between two faces that pass it in opposite directions; together with their number, all of them.
+bool edges_are_good(const HullView& hull) {
+  uint32_t last = 0;
+  for (uint32_t i = 0; i < hull.edge_count; ++i) {
+    const HullEdge edge = hull.edge(i);
+    const uint32_t key = uint32_t{edge.a} << 8 | edge.b;
+    if (edge.a >= edge.b || key <= last || edge.left >= hull.face_count || edge.right >= hull.face_count) return false;
+    if (!has_side(hull.face(edge.left), edge.a, edge.b) || !has_side(hull.face(edge.right), edge.b, edge.a))
+      return false;
+    last = key;
+  }
+  return true;
+}
+
+bool is_finite(uint64_t double_bits) { return (double_bits >> 52 & 0x7ff) != 0x7ff; }
+
+bool frame_is_good(const HullView& hull) {
+  const bool principal = hull.frame() == HullFrame::principal;
+  if (!principal && hull.frame() != HullFrame::source) return false;
+  for (uint32_t axis = 0; axis < 3; ++axis) {
+    const HullScaled gyration = hull.gyration(axis);  // above 1, for no vertex is a unit away; below 2^70
+    if (principal && !is_canonical(gyration, -30, 40)) return false;
+    if (!principal && (gyration.mantissa != 0 || gyration.exponent != 0)) return false;
+    const uint64_t origin = load_u64(hull.bytes + k_hull_origin_at + 8 * axis);
+    if (principal ? !is_finite(origin) : origin != 0) return false;
+  }
+  uint64_t norm = 0;
+  for (uint32_t k = 0; k < 4; ++k) {
+    const int32_t component = hull_i32(hull.bytes + k_hull_rotation_at + 4 * k);
+    if (component < -k_mantissa_min || component > k_mantissa_min) return false;
+    if (!principal && component != (k == 3 ? k_mantissa_min : 0)) return false;
+    norm += square(component);
+  }
+  return norm >= k_one_squared - k_unit_vector_slack && norm <= k_one_squared + k_unit_vector_slack;
+}
+
+}  // namespace
+
+Status read_hull(const Asset& asset, HullView& hull) {
+  if (asset.bytes == nullptr) return Status::truncated;
+  if (reinterpret_cast<uintptr_t>(asset.bytes) % 8 != 0) return Status::buffer_misaligned;
+  const uint8_t* const bytes = asset.bytes;
+  const uint32_t magic_count = asset.byte_count < sizeof k_hull_magic ? asset.byte_count : sizeof k_hull_magic;
+  if (memcmp(bytes, k_hull_magic, magic_count) != 0) return Status::not_detent;
+  if (asset.byte_count < k_hull_version_at + 4) return Status::truncated;
+  if (hull_u32(bytes + k_hull_version_at) != k_hull_format_version) return Status::format_unknown;
+  if (asset.byte_count < k_hull_header_bytes || asset.byte_count < hull_u32(bytes + k_hull_byte_count_at)) {
+    return Status::truncated;
+  }
+  if (asset.byte_count > hull_u32(bytes + k_hull_byte_count_at)) return Status::corrupt;
+  const uint32_t checksum = crc32(bytes + k_hull_checksum_at + 4, asset.byte_count - k_hull_checksum_at - 4,
+                                  crc32(bytes, k_hull_checksum_at));
+  if (hull_u32(bytes + k_hull_checksum_at) != checksum) return Status::corrupt;
+
+  const uint32_t vertices = hull_u32(bytes + k_hull_vertex_count_at);
+  const uint32_t faces = hull_u32(bytes + k_hull_face_count_at);
+  if (vertices < k_hull_vertices_min || vertices > k_hull_vertices_max || faces < 4 || faces > 2 * vertices - 4 ||
+      hull_u32(bytes + k_hull_edge_count_at) != vertices + faces - 2) {  // Euler: also the number of triangles
+    return Status::corrupt;
+  }
+  const HullView view = hull_view(bytes);
+  if (view.at.end != asset.byte_count) return Status::corrupt;
+  if (view.exponent() < k_hull_exponent_min || view.exponent() > k_hull_exponent_max) return Status::out_of_range;
+
+  // In this order: each relies on those before it.
+  if (!gaps_are_zero(view) || !frame_is_good(view) || !vertices_are_good(view) ||
+      !offsets_are_good(bytes + view.at.loop_offsets, faces, 2 * view.edge_count) ||
+      !offsets_are_good(bytes + view.at.neighbour_offsets, vertices, 6 * vertices - 12) || !neighbours_are_good(view) ||
+      !triangles_are_good(view)) {
+    return Status::corrupt;
+  }
+  for (uint32_t face = 0; face < faces; ++face) {
+    if (!loop_is_good(view, face) || !plane_is_good(view, face)) return Status::corrupt;
+  }
+  if (!edges_are_good(view)) return Status::corrupt;
+  hull = view;
+  return Status::ok;
+}
+
+Status hull_info(const Asset& asset, HullInfo& info) {
+  HullView hull;
+  const Status status = read_hull(asset, hull);
+  if (status != Status::ok) return status;
+  info.vertex_count = hull.vertex_count;
+  info.face_count = hull.face_count;
+  info.edge_count = hull.edge_count;
+  info.frame = hull.frame();
+  info.exponent = hull.exponent();
+  info.core_radius = hull.core_radius();
+  info.volume_mantissa = hull.volume().mantissa;
+  info.volume_exponent = hull.volume().exponent + 3 * hull.exponent();
+  for (uint32_t axis = 0; axis < 3; ++axis) {
+    const uint64_t bits = load_u64(hull.bytes + k_hull_origin_at + 8 * axis);
+    memcpy(&info.origin[axis], &bits, sizeof bits);
+  }
+  for (uint32_t k = 0; k < 4; ++k) info.rotation[k] = hull_i32(hull.bytes + k_hull_rotation_at + 4 * k);
+  return Status::ok;
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

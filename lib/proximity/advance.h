@@ -1,0 +1,50 @@
+#pragma once
+#include "proximity/moving_pair.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// How a certified axis is moved along. All are never late; they differ in how far one axis leads.
+enum class ToiMethod {
+  paper,         ///< Coumans' Algorithm 1: the bound n.v + |wA| rA + |wB| rB on the approach, one step an axis
+  first_order,   ///< |n x w| times the radius about the spin, one step an axis
+  second_order,  ///< the concave bound along an axis fixed in the world, until it leads no farther
+  corotating,    ///< likewise, the axis turning with the body that owns the face or edge
+  constant_spin, ///< likewise, an edge's axis turning so that it is right at contact too
+};
+inline constexpr int k_toi_methods = 5;
+
+/// More intervals than this are not certified along one axis.
+inline constexpr int k_passes_max = 24;
+
+/// The motion of a pair over a horizon, a part of the step: everything per horizon.
+struct Horizon {
+  int64_t start, length;  ///< of the step
+  Vec32 way;              ///< of B relative to A, Q29 of the pair's unit
+  Vec32 spin_a, spin_b;   ///< rad, Q29
+
+  /// The time at `part`, Q30, of the horizon, rounded down.
+  int64_t time_at(int64_t part) const {
+    if (part >= int64_t{1} << 30) return start + length;
+    const Int128 product = Int128::product(length, part);
+    return start + static_cast<int64_t>((static_cast<uint64_t>(product.high_word()) << 34) | (product.low_word() >> 30));
+  }
+};
+/// From `start` on, at most `length` of the step and at most so long that both bodies together turn by `turn` quarter radians.
+Horizon horizon_from(const MovingPair& pair, int64_t start, int64_t length, int turn_quarters);
+
+/// How far from the horizon's start the shapes are certain to stay `floor` ulps apart, by the axis
+/// n(t) = exp(t spin) normal: a part of the horizon, Q30. 0 if they are not even so at the start.
+/// Range: |spin_x - spin| + 1 < 4 for both bodies, |spin| < 3. Derivation: DESIGN.md, "Never late".
+int32_t advance(const MovingPair& pair, const Horizon& horizon, const Vec32& normal, const Vec32& spin, int32_t floor,
+                uint32_t& passes);
+
+/// The same by one step of the paper's bound, or of the first-order one.
+int32_t advance_once(const MovingPair& pair, const Horizon& horizon, const Vec32& normal, bool tight, int32_t floor,
+                     uint32_t& passes);
+
+/// The axis at `part` of a horizon over which it turns by `spin`: a unit vector within 2^-28.
+Vec32 turned(const Vec32& normal, const Vec32& spin, int32_t part);
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

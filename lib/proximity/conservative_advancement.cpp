@@ -1,0 +1,97 @@
+#include "proximity/conservative_advancement.h"
+
+#include "proximity/features.h"
+#include "proximity/gjk.h"
+#include "proximity/pair.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+constexpr Vec32 k_still = {0, 0, 0};
+constexpr int k_turn_quarters = 8;  ///< a horizon of 2 rad: the formats of advance() hold 3
+
+/// An axis is foreseen only where the plain ones have not led there.
+constexpr int k_plain_iterations = 3;
+
+/// How far the axis of `nearest` is certain to lead.
+int64_t next_time(const MovingPair& pair, ToiMethod method, int64_t time, const Simplex& simplex,
+                  const GjkResult& nearest, int iteration, int32_t floor, uint32_t& passes) {
+  const Features features(simplex);
+  const bool turns = pair.turning_a.turns || pair.turning_b.turns;
+  if (method == ToiMethod::constant_spin && turns && !features.has_face() && !pair.planar &&
+      iteration >= k_plain_iterations) {
+    return advance_tracking(pair, time, features, nearest.normal, nearest.upper, floor, passes);
+  }
+  const Horizon horizon = horizon_from(pair, time, pair.to - time, k_turn_quarters);
+  Vec32 spin = k_still;
+  switch (method) {
+    case ToiMethod::paper:
+    case ToiMethod::first_order:
+      return horizon.time_at(
+          advance_once(pair, horizon, nearest.normal, method == ToiMethod::first_order, floor, passes));
+    case ToiMethod::second_order:
+      break;
+    case ToiMethod::corotating:
+    case ToiMethod::constant_spin:
+      if (pair.planar)
+        spin = pair.a->type == ShapeType::half_space ? horizon.spin_a : horizon.spin_b;
+      else
+        spin = features.base_spin(horizon);
+      break;
+  }
+  return horizon.time_at(advance(pair, horizon, nearest.normal, spin, floor, passes));
+}
+
+}  // namespace
+
+void conservative_advancement(const MovingPair& pair, ToiMethod method, TimeOfImpact& result) {
+  result = {};
+  if (pair.from > pair.to) {
+    result.outcome = ToiOutcome::clear;
+    result.time = Fraction(1.0);
+    return;
+  }
+  const int32_t touching = pair.radius + pair.tolerance;
+  const int32_t floor = pair.radius + pair.tolerance / 4;
+  int64_t time = pair.from;
+  Simplex simplex;
+  for (int iteration = 0; iteration < k_toi_iterations_max; ++iteration) {
+    const Placed a = place(*pair.a, pair.turning_a.at(time), pair.exponent);
+    const Placed b = place(*pair.b, pair.turning_b.at(time), pair.exponent);
+    const GjkResult nearest = gjk(a, b, pair.offset_at(time), simplex, {touching, INT32_MAX, 62});
+    result.gjk_calls += nearest.iterations > 0 ? 1 : 0;
+    result.time = Fraction::from_raw(time);
+    result.normal = units_from_raw(nearest.normal);
+    if (nearest.outcome == GjkOutcome::overlap || nearest.upper <= touching) {
+      result.outcome = ToiOutcome::hit;
+      return;
+    }
+    const int64_t next = next_time(pair, method, time, simplex, nearest, iteration, floor, result.passes);
+    if (next >= pair.to) {
+      result.outcome = ToiOutcome::clear;
+      result.time = Fraction(1.0);
+      return;
+    }
+    if (next == time) break;
+    time = next;
+    result.time = Fraction::from_raw(time);
+  }
+  result.outcome = ToiOutcome::undecided;
+}
+
+Status time_of_impact_by(ToiMethod method, const Convex& a, const Motion& motion_a, const Convex& b,
+                         const Motion& motion_b, TimeOfImpact& result) {
+  MovingPair pair;
+  if (const Status status = prepare(a, motion_a, b, motion_b, pair); status != Status::ok) return status;
+  conservative_advancement(pair, method, result);
+  return Status::ok;
+}
+
+Status time_of_impact(const Convex& a, const Motion& motion_a, const Convex& b, const Motion& motion_b,
+                      TimeOfImpact& result) {
+  return time_of_impact_by(ToiMethod::constant_spin, a, motion_a, b, motion_b, result);
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,155 @@
+#include "proximity/features.h"
+
+#include "math/root.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+constexpr int64_t k_one = int64_t{1} << 30;
+constexpr int k_tries_max = 3;
+constexpr int k_tracking_quarters = 4;  ///< a foreseen spin is worth nothing over more than 1 rad
+constexpr int32_t k_spin_max = 3 << 28;  ///< 1.5 rad, Q29, relative to the base: what the formats of advance() hold
+
+/// Where the features are at a time: the axis between them, and how far they are apart along it.
+struct Axis {
+  Vec32 normal;  ///< Q30
+  int64_t gap;   ///< ulps
+};
+
+/// False if the features have no axis there: they touch, or their edges are parallel. `side`: of the edges' cross
+/// product, 0 to take the one along `towards` and note it.
+bool axis_at(const MovingPair& pair, const Features& features, int64_t time, const Vec32& towards, int& side,
+             Axis& axis) {
+  const Placed a = place(*pair.a, pair.turning_a.at(time), pair.exponent);
+  const Placed b = place(*pair.b, pair.turning_b.at(time), pair.exponent);
+  const Vec32 from = a.point(features.a[0]);
+  const Vec32 to = add(pair.offset_at(time), b.point(features.b[0]));
+  const Vec32 way = subtract(to, from);
+  Vec64 across;
+  if (features.count_a == 2 && features.count_b == 2) {
+    const Vec32 edge_a = subtract(a.point(features.a[1]), from);
+    const Vec32 edge_b = subtract(b.point(features.b[1]), b.point(features.b[0]));
+    across = cross(edge_a, edge_b);
+    if (is_zero(across)) return false;
+    if (side == 0) side = dot(scaled_to_30_bits(across), towards) < 0 ? -1 : 1;
+    if (side < 0) across = negate(across);
+  } else if (features.count_a == 2 || features.count_b == 2) {
+    const Vec32 edge = features.count_a == 2 ? subtract(a.point(features.a[1]), from)
+                                             : subtract(b.point(features.b[1]), b.point(features.b[0]));
+    const Vec64 moment = cross(edge, way);
+    if (is_zero(moment)) return false;
+    across = cross(scaled_to_30_bits(moment), edge);
+  } else {
+    across = {way.x, way.y, way.z};
+  }
+  if (is_zero(across)) return false;
+  axis.normal = unit_vector_raw(scaled_to_30_bits(across));
+  axis.gap = dot(axis.normal, way) >> 30;
+  return true;
+}
+
+/// The speed at which the gap closes now, ulps over the horizon.
+int64_t closing_speed(const MovingPair& pair, const Features& features, const Horizon& horizon, const Vec32& normal) {
+  const auto rim_speed = [&](const Convex& convex, const Turning& turning, const Vec32& spin, const Vec32& local) {
+    if (is_zero(spin)) return int64_t{0};
+    const Placed placed = place(convex, turning.at(horizon.start), pair.exponent);
+    return dot(round_shift(cross(normal, spin), 30), placed.point(local)) >> 29;
+  };
+  return -(dot(normal, horizon.way) >> 29) + rim_speed(*pair.a, pair.turning_a, horizon.spin_a, features.a[0]) -
+         rim_speed(*pair.b, pair.turning_b, horizon.spin_b, features.b[0]);
+}
+
+/// numerator / denominator as Q30, at most 1. Range: denominator > 0.
+int64_t ratio(int64_t numerator, int64_t denominator) {
+  return numerator >= denominator ? k_one : (numerator << 30) / denominator;
+}
+
+/// Range: a, b >= 0.
+int64_t geometric_mean(int64_t a, int64_t b) {
+  const Int128 square = Int128::product(a, b);
+  return static_cast<int64_t>(
+      square_root_nearest(Words128{static_cast<uint64_t>(square.high_word()), square.low_word()}));
+}
+
+int64_t part_of(int64_t duration, int64_t part) {
+  return static_cast<int64_t>(Int128::product(duration, part).round_shift(30));
+}
+
+}  // namespace
+
+Features::Features(const Simplex& simplex) {
+  const auto count_distinct = [&](CorePoint SimplexVertex::* of, Vec32(&points)[2]) {
+    int count = 0;
+    for (int i = 0; i < simplex.count(); ++i) {
+      const Vec32& point = (simplex.vertex(i).*of).local;
+      bool fresh = true;
+      for (int j = 0; j < i; ++j) fresh = fresh && !(point == (simplex.vertex(j).*of).local);
+      if (!fresh) continue;
+      if (count < 2) points[count] = point;
+      ++count;
+    }
+    return count;
+  };
+  count_a = count_distinct(&SimplexVertex::a, a);
+  count_b = count_distinct(&SimplexVertex::b, b);
+}
+
+Vec32 Features::base_spin(const Horizon& horizon) const {
+  if (count_a >= 3) return horizon.spin_a;
+  if (count_b >= 3) return horizon.spin_b;
+  if (count_a == 2) return horizon.spin_a;
+  if (count_b == 2) return horizon.spin_b;
+  return {0, 0, 0};
+}
+
+int64_t advance_tracking(const MovingPair& pair, int64_t time, const Features& features, const Vec32& normal,
+                         int32_t distance, int32_t floor, uint32_t& passes) {
+  const Horizon widest = horizon_from(pair, time, pair.to - time, k_tracking_quarters);
+  int64_t length = widest.length;
+  const bool edges = features.count_a == 2 && features.count_b == 2;
+  const int64_t kept = !edges && distance * 3 / 10 > floor ? distance * 3 / 10 : floor;
+  const int64_t speed = closing_speed(pair, features, widest, normal);
+  if (speed > 0) length = part_of(widest.length, ratio(distance - kept, speed));
+  int side = 0;
+  Axis now, then = {normal, 0};
+  bool foreseen = axis_at(pair, features, time, normal, side, now);
+  for (int round = 0; round < 2 && foreseen; ++round) {
+    foreseen = axis_at(pair, features, time + length, normal, side, then);
+    if (!foreseen) break;
+    if (dot(then.normal, normal) >> 30 < k_one * 3 / 10) {
+      length /= 2;
+      foreseen = axis_at(pair, features, time + length, normal, side, then);
+    } else if (then.gap > kept && then.gap < distance) {
+      const int64_t covered = distance - then.gap, wanted = distance - kept;  // wanted > covered
+      const int64_t longer = wanted < 2 * covered ? length + part_of(length, ratio(wanted - covered, covered)) : 2 * length;
+      length = longer < widest.length ? longer : widest.length;
+    }
+  }
+  int64_t best = time;
+  for (int attempt = 0; attempt < k_tries_max; ++attempt) {
+    const bool last = attempt == k_tries_max - 1 || !foreseen;
+    Horizon horizon = horizon_from(pair, time, last ? pair.to - time : length, last ? 8 : k_tracking_quarters);
+    Vec32 spin = features.base_spin(horizon);
+    if (!last && axis_at(pair, features, time + horizon.length, normal, side, then)) {
+      const Vec32 base = spin;
+      for (int round = 0; round < 3; ++round) {
+        spin = add(spin, round_shift(cross(turned(normal, spin, static_cast<int32_t>(k_one)), then.normal), 31));
+      }
+      const Vec32 more = subtract(spin, base);
+      if (dot(more, more) > int64_t{k_spin_max} * k_spin_max) spin = base;
+    }
+    const int64_t reached = horizon.time_at(advance(pair, horizon, normal, spin, floor, passes));
+    if (reached > best) best = reached;
+    if (last || best >= pair.to || best - time >= part_of(length, k_one * 3 / 5)) break;
+    const int64_t progress = best - time > length / 100 ? best - time : length / 100;
+    if (2 * progress > length)
+      length /= 2;
+    else
+      length = geometric_mean(progress, length);
+  }
+  return best;
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,85 @@
+#include "proximity/gjk.h"
+
+#include "math/root.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+Vec32 difference_of(const Placed& a, const Placed& b, const Vec32& offset, const SimplexVertex& vertex) {
+  return add(offset, subtract(b.point(vertex.b.local), a.point(vertex.a.local)));
+}
+
+int32_t floor_30(int64_t value) { return static_cast<int32_t>(value >> 30); }
+int32_t ceiling_30(int64_t value) { return static_cast<int32_t>((value + (int64_t{1} << 30) - 1) >> 30); }
+
+const SimplexVertex& newest(const Simplex& simplex) { return simplex.vertex(simplex.count() - 1); }
+
+/// Only the plane's normal can part a half-space from the other shape.
+GjkResult half_space_gjk(const Placed& a, const Placed& b, const Vec32& offset, Simplex& simplex) {
+  const bool plane_is_a = a.convex->type == ShapeType::half_space;
+  const Vec32 up = (plane_is_a ? a : b).rotation.column[1];
+  const Vec32 normal = plane_is_a ? up : negate(up);
+  const SupportPoint on_a = support(a, normal), on_b = support(b, negate(normal));
+  const SimplexVertex vertex = {add(offset, subtract(on_b.point, on_a.point)), on_a.core, on_b.core};
+  simplex.clear();
+  simplex.insert(vertex);
+  const int64_t gap = dot(normal, vertex.difference);
+  const GjkOutcome outcome = gap <= 0 ? GjkOutcome::overlap : GjkOutcome::apart;
+  return {outcome, normal, ceiling_30(gap), floor_30(gap), 1};
+}
+
+}  // namespace
+
+GjkResult gjk(const Placed& a, const Placed& b, const Vec32& offset, Simplex& simplex, const GjkLimits& limits) {
+  if (a.convex->type == ShapeType::half_space || b.convex->type == ShapeType::half_space) {
+    return half_space_gjk(a, b, offset, simplex);
+  }
+  GjkResult result = {GjkOutcome::apart, {0, 0, 0}, INT32_MAX, 0, 0};
+  const Simplex warm = simplex;
+  simplex.clear();
+  for (int i = 0; i < warm.count() && !simplex.holds_origin(); ++i) {
+    SimplexVertex vertex = warm.vertex(i);
+    vertex.difference = difference_of(a, b, offset, vertex);
+    simplex.insert(vertex);
+  }
+  Vec32 direction = is_zero(offset) ? Vec32{1 << 30, 0, 0} : scaled_to_30_bits(offset);
+  for (;;) {
+    int64_t reach = 0;  // of the nearest point along the direction
+    if (simplex.count() != 0) {
+      if (simplex.holds_origin()) {
+        result.outcome = GjkOutcome::overlap;
+        result.upper = 0;
+        return result;
+      }
+      direction = simplex.direction();
+      reach = dot(direction, newest(simplex).difference);
+      // |direction| lies within [2^29, sqrt(3) 2^30]: the shift tells when it is worth knowing better.
+      if (reach >> 31 <= limits.below) {
+        result.normal = unit_vector_raw(direction);
+        result.upper = ceiling_30(dot(result.normal, newest(simplex).difference));
+        if (result.upper <= limits.below) return result;
+      }
+    }
+    const SupportPoint on_a = support(a, direction), on_b = support(b, negate(direction));
+    ++result.iterations;
+    const SimplexVertex vertex = {add(offset, subtract(on_b.point, on_a.point)), on_a.core, on_b.core};
+    const int64_t floor = dot(direction, vertex.difference);
+    const int64_t progress = reach - floor;
+    const bool precise = simplex.count() != 0 && (progress <= int64_t{1} << 30 || progress <= reach >> limits.precision);
+    const bool separate = floor >> 29 > limits.above &&
+                          floor_30(dot(unit_vector_raw(direction), vertex.difference)) > limits.above;
+    const bool last = result.iterations == k_gjk_iterations_max;
+    if (!precise && !separate && !last && simplex.insert(vertex)) continue;
+
+    if (last && !precise && !separate) result.outcome = GjkOutcome::capped;
+    if (simplex.count() == 0) simplex.insert(vertex);
+    result.normal = unit_vector_raw(direction);
+    result.lower = floor_30(dot(result.normal, vertex.difference));
+    result.upper = ceiling_30(dot(result.normal, newest(simplex).difference));
+    return result;
+  }
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,166 @@
+#include "proximity/moving_pair.h"
+
+#include "math/root.h"
+#include "math/trig_integer.h"
+#include "proximity/pair.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+constexpr int64_t k_turn_max = int64_t{1} << (k_metre_bits + 16);  ///< rad
+/// Rounding of all that a certified axis adds up, ulps of the block: derived in DESIGN.md.
+constexpr int32_t k_budget = 24;
+
+Status set_turning(const Convex& convex, const Motion& motion, Turning& turning) {
+  if (!raw_from_quat(motion.start.rotation, turning.start)) return Status::not_normalised;
+  if (!raw_from_real(motion.turn, turning.turn)) return Status::out_of_range;
+  const Vec64& turn = turning.turn;
+  if (magnitude_64(turn.x) > k_turn_max || magnitude_64(turn.y) > k_turn_max || magnitude_64(turn.z) > k_turn_max) {
+    return Status::out_of_range;
+  }
+  turning.start_matrix = matrix_from(turning.start);
+  turning.turns = !is_zero(turn) && (convex.core_radius != 0 || convex.type == ShapeType::half_space);
+  if (!turning.turns) {
+    turning.turn = {0, 0, 0};
+    turning.angle = turning.rate = 0;
+    turning.axis = {0, 0, 0};
+    return Status::ok;
+  }
+  turning.axis = unit_vector_raw(scaled_to_30_bits(turn));
+  turning.angle = length_above(turn);
+  constexpr int64_t k_inverse_two_pi = 2935890503282001226;  // Q64
+  turning.rate = Int128::product(turning.angle - 1, k_inverse_two_pi).round_shift(64);
+  return Status::ok;
+}
+
+/// Has the leading bit of the largest component.
+uint64_t magnitudes(const Vec64& v) { return magnitude_64(v.x) | magnitude_64(v.y) | magnitude_64(v.z); }
+
+/// From centre to centre, 2^-46 m, rounded up.
+int64_t distance_at(const MovingPair& pair, int64_t time) {
+  return length_above(add(pair.offset, over_time(pair.displacement, time)));
+}
+
+/// The root of a 128-bit number, rounded up.
+int64_t root_above(Int128 value) {
+  return static_cast<int64_t>(
+             square_root_nearest(Words128{static_cast<uint64_t>(value.high_word()), value.low_word()})) + 1;
+}
+
+/// numerator / denominator as a time, rounded down; k_time_end if it is not below 1. Range: both >= 0, denominator > 0.
+int64_t time_quotient(int64_t numerator, int64_t denominator) {
+  if (numerator >= denominator) return k_time_end;
+  const uint64_t n = static_cast<uint64_t>(numerator);
+  uint64_t remainder = 0;
+  return static_cast<int64_t>(
+      divide_128_by_64({n >> (64 - k_time_bits), n << k_time_bits}, static_cast<uint64_t>(denominator), remainder));
+}
+
+/// The window in which |offset + t displacement| <= reach, 2^-46 m; widened by all rounding.
+void set_window(MovingPair& pair, int64_t reach) {
+  const Vec64 &c = pair.offset, &d = pair.displacement;
+  const int length = bit_length_64(static_cast<uint64_t>(reach) | magnitudes(c) | magnitudes(d));
+  const int n = length > 29 ? length - 29 : 0;  // components below 2^29, norms below 2^30
+  const Vec32 from = round_shift(c, n), way = round_shift(d, n);
+  const int64_t r = (reach >> n) + 4;  // what offset and displacement lost, and this
+  const int64_t square = dot(way, way), along = dot(from, way), rest = dot(from, from) - r * r;
+  pair.from = 0;
+  pair.to = k_time_end;
+  if (rest <= 0) {
+    if (square == 0) return;
+  } else {
+    if (along >= 0) {
+      pair.from = 1;
+      pair.to = 0;
+      return;
+    }
+  }
+  const Int128 discriminant = Int128::product(along, along) - Int128::product(square, rest);
+  if (discriminant.high_word() < 0) {
+    pair.from = 1;
+    pair.to = 0;
+    return;
+  }
+  const int64_t root = root_above(discriminant);
+  if (rest > 0) {
+    pair.from = time_quotient(rest, root - along);
+    if (pair.from == k_time_end) {
+      pair.from = 1;
+      pair.to = 0;
+      return;
+    }
+  }
+  const int64_t leave = root - along;  // over `square`; rounded up by the root
+  if (leave >= 0 && leave < square) {
+    const int64_t to = time_quotient(leave, square);
+    if (to < k_time_end - 1) pair.to = to + 1;
+  }
+}
+
+int32_t ulps_above(int64_t raw, int exponent) {
+  const int n = exponent + 16;
+  return static_cast<int32_t>((raw + (int64_t{1} << n) - 1) >> n);
+}
+
+}  // namespace
+
+Matrix32 Turning::at(int64_t time) const {
+  if (!turns) return start_matrix;
+  const SineCosineRaw half = sine_cosine_raw(over_time(rate, time) >> 13);
+  const int64_t s = half.sine;
+  const Quat32 turned = {round_30(s * axis.x), round_30(s * axis.y), round_30(s * axis.z), half.cosine};
+  return matrix_from(multiply(turned, start));
+}
+
+Status prepare(const Convex& a, const Motion& motion_a, const Convex& b, const Motion& motion_b, MovingPair& pair) {
+  const bool plane_a = a.type == ShapeType::half_space, plane_b = b.type == ShapeType::half_space;
+  if (plane_a && plane_b) return Status::bad_argument;
+  if (const Status status = set_turning(a, motion_a, pair.turning_a); status != Status::ok) return status;
+  if (const Status status = set_turning(b, motion_b, pair.turning_b); status != Status::ok) return status;
+  Vec64 way_a, way_b;
+  if (!raw_from_real(motion_a.displacement, way_a) || !raw_from_real(motion_b.displacement, way_b)) {
+    return Status::out_of_range;
+  }
+  if (((magnitudes(way_a) | magnitudes(way_b)) >> 61) != 0) return Status::out_of_range;
+  pair.a = &a;
+  pair.b = &b;
+  pair.planar = plane_a || plane_b;
+  pair.offset = raw_difference(motion_b.start.position, motion_a.start.position);
+  pair.displacement = add(way_b, negate(way_a));
+  const Turning& plane = plane_a ? pair.turning_a : pair.turning_b;
+  if (pair.planar && !plane.turns) {
+    const Vec32& up = plane.start_matrix.column[1];
+    pair.offset = component_along(pair.offset, up);
+    pair.displacement = component_along(pair.displacement, up);
+  }
+  const int64_t cores = raw_core_radius(a) + raw_core_radius(b), balls = raw_radius(a) + raw_radius(b);
+  const int64_t close = cores + balls + ((cores + balls) >> 18) + 64;
+  int64_t reach = close;
+  if (pair.planar) {
+    // A plane is everywhere: the whole step, in a block that holds both ends of the way.
+    pair.from = 0;
+    pair.to = k_time_end;
+    const int64_t begins = distance_at(pair, 0), ends = distance_at(pair, k_time_end);
+    reach = (begins > ends ? begins : ends) + close;
+  } else {
+    set_window(pair, close);
+    if (pair.from > pair.to) return Status::ok;
+    // A coarse window, of a fast and far body, begins and ends outside the spheres.
+    const int64_t begins = distance_at(pair, pair.from), ends = distance_at(pair, pair.to);
+    const int64_t distance = begins > ends ? begins : ends;
+    if (distance > close) reach = distance + 64;
+  }
+  pair.exponent = raw_exponent_above(reach + cores + 64);
+  pair.core_a = ulps_above(raw_core_radius(a), pair.exponent);
+  pair.core_b = ulps_above(raw_core_radius(b), pair.exponent);
+  pair.radius = ulps_above(balls, pair.exponent);
+  // 0.9 2^-20 of the larger core's diameter, and no less than four times what rounding may take.
+  const int64_t larger = pair.core_a > pair.core_b ? pair.core_a : pair.core_b;
+  const int32_t wanted = static_cast<int32_t>((larger * 59) >> 25);
+  pair.tolerance = wanted > 4 * k_budget ? wanted : 4 * k_budget;
+  return Status::ok;
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

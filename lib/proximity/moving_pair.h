@@ -1,0 +1,67 @@
+#pragma once
+#include <detent/toi.h>
+
+#include "proximity/support.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// Times are parts of the step in 2^-62.
+inline constexpr int k_time_bits = 62;
+inline constexpr int64_t k_time_end = int64_t{1} << k_time_bits;
+
+/// value time, with the step as the unit of time. Rounding: down.
+constexpr int64_t over_time(int64_t value, int64_t time) {
+  const Int128 product = Int128::product(value, time);
+  return static_cast<int64_t>((static_cast<uint64_t>(product.high_word()) << 2) | (product.low_word() >> k_time_bits));
+}
+
+constexpr Vec64 over_time(const Vec64& v, int64_t time) {
+  return {over_time(v.x, time), over_time(v.y, time), over_time(v.z, time)};
+}
+
+/// How a body's axes turn during the step.
+struct Turning {
+  Quat32 start;
+  Matrix32 start_matrix;
+  bool turns;    ///< false also if the core is a point
+  Vec32 axis;    ///< of the spin, world, Q30
+  int64_t rate;  ///< 2^-46 turns over the step
+  Vec64 turn;    ///< rotation vector, 2^-46 rad over the step
+  int64_t angle; ///< |turn|, rounded up
+
+  /// Error: k_turning_error for a unit vector.
+  Matrix32 at(int64_t time) const;
+};
+inline constexpr double k_turning_error = 12.0;  ///< 2^-30; derived in DESIGN.md
+
+/// Two shapes in motion, in a block in which every pose of the window fits.
+struct MovingPair {
+  const Convex* a;
+  const Convex* b;
+  Turning turning_a, turning_b;
+  Vec64 offset;        ///< from A's position to B's at the start, 2^-46 m
+  Vec64 displacement;  ///< of B relative to A over the step, 2^-46 m
+  bool planar;         ///< one of the two is a half-space
+  int64_t from, to;    ///< only in this window can they meet; from > to: never
+  int exponent;        ///< 2^exponent m is the pair's unit of length; the block's ulp is 2^-30 of it
+  int32_t core_a, core_b;  ///< core radii, ulps of the block, rounded up
+  int32_t radius;      ///< of both balls, ulps, rounded up
+  int32_t tolerance;   ///< ulps: closer than radius + tolerance is a hit
+
+  /// From A's centre to B's, in the block. Error: 1 ulp in each component.
+  Vec32 offset_at(int64_t time) const {
+    const auto component = [&](int64_t c, int64_t d) {
+      return static_cast<int32_t>(round_shift_64(c + over_time(d, time), exponent + 16));
+    };
+    return {component(offset.x, displacement.x), component(offset.y, displacement.y),
+            component(offset.z, displacement.z)};
+  }
+};
+
+/// Reads the poses, finds the window in which the bounding spheres touch, and the block.
+/// Errors: as time_of_impact().
+Status prepare(const Convex& a, const Motion& motion_a, const Convex& b, const Motion& motion_b, MovingPair& pair);
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,121 @@
+#include "proximity/pair.h"
+
+#include "math/arithmetic.h"
+#include "math/float_bits.h"
+#include "math/root.h"
+#include "math/rotation.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+#if DETENT_FIXED
+bool raw_from_real(const Vec3<Real>& v, Vec64& raw) {
+  raw = {v.x.raw, v.y.raw, v.z.raw};
+  return true;
+}
+
+Real real_from_raw(int64_t raw) { return Real::from_raw(raw); }
+
+bool raw_from_quat(const Quat& q, Quat32& raw) {
+  Quat unit;
+  if (!normalise_input(q, unit)) return false;
+  raw = {unit.x.raw, unit.y.raw, unit.z.raw, unit.w.raw};
+  return true;
+}
+
+Vec3<Unit> units_from_raw(const Vec32& v) { return {Unit::from_raw(v.x), Unit::from_raw(v.y), Unit::from_raw(v.z)}; }
+#else
+bool raw_from_real(const Vec3<Real>& v, Vec64& raw) {
+  bool out_of_range = false;
+  raw = {integer_from_float(v.x, k_metre_bits, out_of_range), integer_from_float(v.y, k_metre_bits, out_of_range),
+         integer_from_float(v.z, k_metre_bits, out_of_range)};
+  return !out_of_range;
+}
+
+Real real_from_raw(int64_t raw) { return float_from_integer<Real>(raw, -k_metre_bits); }
+
+bool raw_from_quat(const Quat& q, Quat32& raw) {
+  Quat unit;
+  if (!normalise_input(q, unit)) return false;
+  bool saturated = false;
+  const auto component = [&](Unit a) { return static_cast<int32_t>(integer_from_float(a, 30, saturated)); };
+  raw = normalise(Quat32{component(unit.x), component(unit.y), component(unit.z), component(unit.w)});
+  return true;
+}
+
+Vec3<Unit> units_from_raw(const Vec32& v) {
+  return {float_from_integer<Unit>(v.x, -30), float_from_integer<Unit>(v.y, -30), float_from_integer<Unit>(v.z, -30)};
+}
+#endif
+
+namespace {
+
+/// The leading `bits` of a number >= 0.
+int64_t truncated(int64_t value, int bits) {
+  const int drop = bit_length_64(static_cast<uint64_t>(value)) - bits;
+  return drop <= 0 ? value : (value >> drop) << drop;
+}
+
+#if defined(DETENT_F64)
+int64_t difference_of(Coord a, Coord b) {
+  bool saturated = false;
+  return integer_from_float(a - b, k_metre_bits, saturated);
+}
+#else
+int64_t difference_of(Coord a, Coord b) {
+  constexpr int k_shift = k_metre_bits - Coord::k_frac;
+  const int64_t difference = subtract_wrapped(a.raw, b.raw);
+  constexpr int64_t k_limit = INT64_MAX >> k_shift;
+  if (a.raw < b.raw) {  // a wrapped difference has the wrong sign
+    return difference >= 0 || difference < -k_limit ? -INT64_MAX : difference * (int64_t{1} << k_shift);
+  }
+  return difference < 0 || difference > k_limit ? INT64_MAX : difference << k_shift;
+}
+#endif
+
+}  // namespace
+
+int64_t length_above(const Vec64& v) {
+  const Int128 square = dot(v, v);
+  const uint64_t root =
+      square_root_nearest(Words128{static_cast<uint64_t>(square.high_word()), square.low_word()});
+  return root >= static_cast<uint64_t>(INT64_MAX) ? INT64_MAX : static_cast<int64_t>(root) + 1;
+}
+
+int raw_exponent_above(int64_t raw) {
+  const int e = bit_length_64(static_cast<uint64_t>(raw)) - k_metre_bits;
+  return e < -14 ? -14 : e;
+}
+
+Vec64 component_along(const Vec64& v, const Vec32& n) {
+  const int64_t along = dot(v, n).round_shift(30);
+  const auto component = [along](int32_t a) { return Int128::product_narrow(along, a).round_shift(30); };
+  return {component(n.x), component(n.y), component(n.z)};
+}
+
+int64_t raw_core_radius(const Convex& convex) {
+  return int64_t{convex.core_radius} << (k_metre_bits - 30 + convex.exponent);
+}
+int64_t raw_radius(const Convex& convex) {
+  return int64_t{convex.radius} << (k_metre_bits - 30 + convex.radius_exponent);
+}
+
+Vec64 raw_difference(const Position& a, const Position& b) {
+  return {difference_of(a.x, b.x), difference_of(a.y, b.y), difference_of(a.z, b.z)};
+}
+
+#if DETENT_FIXED
+Real real_from_fraction(Fraction fraction) { return Real::from_raw(fraction.raw >> (Fraction::k_frac - k_metre_bits)); }
+#else
+Real real_from_fraction(Fraction fraction) {
+  constexpr int k_bits = FloatFormat<Real>::k_fraction_bits + 1;
+  return float_from_integer<Real>(truncated(fraction.raw, k_bits), -Fraction::k_frac);
+}
+#endif
+
+double fraction_to_host(Fraction fraction) {
+  return float_from_integer<double>(truncated(fraction.raw, 53), -Fraction::k_frac);
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

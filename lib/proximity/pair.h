@@ -1,0 +1,33 @@
+#pragma once
+#include <detent/toi.h>
+
+#include "math/rotation_integer.h"
+
+/// The one place where poses and motions of a configuration become the integers of lib/proximity.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// Lengths in 2^-46 m, as fixed Real has.
+inline constexpr int k_metre_bits = 46;
+
+/// v 2^46. Fixed: exact. Float: to nearest, or saturated. NaN and infinity: false.
+bool raw_from_real(const Vec3<Real>& v, Vec64& raw);
+Real real_from_raw(int64_t raw);
+/// a - b, 2^-46 m. Fixed positions: exact within 2^17 m, saturated there. f64: to nearest.
+Vec64 raw_difference(const Position& a, const Position& b);
+/// Q30, of length 1 within 2^-29. False unless | |q| - 1 | <= 2^-10.
+bool raw_from_quat(const Quat& q, Quat32& raw);
+Vec3<Unit> units_from_raw(const Vec32& v);
+
+/// |v|, rounded up.
+int64_t length_above(const Vec64& v);
+/// The least e >= -14 with raw 2^-46 m < 2^e m.
+int raw_exponent_above(int64_t raw);
+/// (v.n) n for a unit vector n, Q30.
+Vec64 component_along(const Vec64& v, const Vec32& n);
+/// Of the core and of the ball, 2^-46 m.
+int64_t raw_core_radius(const Convex& convex);
+int64_t raw_radius(const Convex& convex);
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,160 @@
+#include "encode.h"
+
+#include <math.h>
+#include <string.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "base/crc.h"
+#include "geometry/hull.h"
+
+namespace detent_cook {
+namespace {
+
+/// A block of zeros to be filled, little-endian.
+class Writer {
+ public:
+  explicit Writer(uint32_t byte_count) : bytes_(byte_count) {}
+
+  template <class Int>
+  void put(uint32_t at, Int value) {
+    const auto bits = static_cast<uint64_t>(value);
+    for (uint32_t k = 0; k < sizeof value; ++k) bytes_[at + k] = static_cast<uint8_t>(bits >> (8 * k));
+  }
+  /// As a 31-bit mantissa and an exponent, rounded to nearest; 0 as zeros.
+  void put_scaled(uint32_t at, double value) {
+    if (value == 0) return;
+    int exponent = 0;
+    double mantissa = floor(ldexp(frexp(value, &exponent), 31) + 0.5);
+    if (mantissa == 0x1p31) {
+      mantissa = 0x1p30;
+      ++exponent;
+    }
+    put(at, static_cast<int32_t>(mantissa));
+    put(at + 4, int32_t{exponent - 31});
+  }
+  std::vector<uint8_t>& bytes() { return bytes_; }
+
+ private:
+  std::vector<uint8_t> bytes_;
+};
+
+int32_t core_radius(const std::vector<GridPoint>& vertices) {
+  uint64_t greatest = 0;
+  for (const GridPoint& v : vertices) {
+    greatest = std::max(greatest, static_cast<uint64_t>(int64_t{v.x} * v.x + int64_t{v.y} * v.y + int64_t{v.z} * v.z));
+  }
+  uint64_t radius = static_cast<uint64_t>(sqrt(static_cast<double>(greatest)));  // to a step; then exactly
+  while (radius * radius < greatest) ++radius;
+  while (radius > 0 && (radius - 1) * (radius - 1) >= greatest) --radius;
+  return static_cast<int32_t>(radius);
+}
+
+void put_faces(Writer& writer, const detent::HullLayout& at, const std::vector<PolygonFace>& faces) {
+  uint32_t loop_at = 0, triangle_at = at.triangles;
+  for (uint32_t i = 0; i < faces.size(); ++i) {
+    const PolygonFace& face = faces[i];
+    const uint32_t plane_at = at.planes + detent::k_hull_plane_bytes * i;
+    for (uint32_t k = 0; k < 3; ++k) writer.put(plane_at + 4 * k, face.normal[k]);
+    writer.put(plane_at + 12, face.offset);
+    writer.put(at.loop_offsets + 2 * i, static_cast<uint16_t>(loop_at));
+    for (const uint32_t vertex : face.loop) writer.put(at.loops + loop_at++, static_cast<uint8_t>(vertex));
+    for (const Triangle& triangle : face.triangles) {
+      for (const uint32_t vertex : triangle) writer.put(triangle_at++, static_cast<uint8_t>(vertex));
+    }
+  }
+  writer.put(at.loop_offsets + 2 * static_cast<uint32_t>(faces.size()), static_cast<uint16_t>(loop_at));
+}
+
+void put_neighbours(Writer& writer, const detent::HullLayout& at, uint32_t vertex_count,
+                    const std::vector<PolygonFace>& faces) {
+  std::vector<std::set<uint32_t>> around(vertex_count);
+  for (const PolygonFace& face : faces) {
+    for (const Triangle& t : face.triangles) {
+      for (size_t k = 0; k < 3; ++k) around[t[k]].insert(t[(k + 1) % 3]);
+    }
+  }
+  uint32_t count = 0;
+  for (uint32_t i = 0; i < vertex_count; ++i) {
+    writer.put(at.neighbour_offsets + 2 * i, static_cast<uint16_t>(count));
+    for (const uint32_t other : around[i]) writer.put(at.neighbours + count++, static_cast<uint8_t>(other));
+  }
+  writer.put(at.neighbour_offsets + 2 * vertex_count, static_cast<uint16_t>(count));
+}
+
+void put_edges(Writer& writer, const detent::HullLayout& at, const std::vector<PolygonFace>& faces) {
+  std::map<std::pair<uint32_t, uint32_t>, uint16_t> face_of;
+  for (size_t i = 0; i < faces.size(); ++i) {
+    const std::vector<uint32_t>& loop = faces[i].loop;
+    for (size_t k = 0; k < loop.size(); ++k) {
+      face_of[{loop[k], loop[(k + 1) % loop.size()]}] = static_cast<uint16_t>(i);
+    }
+  }
+  uint32_t edge_at = at.edges;
+  for (const auto& [side, left] : face_of) {
+    if (side.first > side.second) continue;
+    writer.put(edge_at, static_cast<uint8_t>(side.first));
+    writer.put(edge_at + 1, static_cast<uint8_t>(side.second));
+    writer.put(edge_at + 2, left);
+    writer.put(edge_at + 4, face_of[{side.second, side.first}]);
+    edge_at += detent::k_hull_edge_bytes;
+  }
+}
+
+}  // namespace
+
+std::vector<uint8_t> encode_hull(const std::vector<GridPoint>& vertices, const std::vector<PolygonFace>& faces,
+                                 const HullHeader& header) {
+  const uint32_t vertex_count = static_cast<uint32_t>(vertices.size());
+  const uint32_t face_count = static_cast<uint32_t>(faces.size());
+  const uint32_t edge_count = vertex_count + face_count - 2;
+  const detent::HullLayout at = detent::hull_layout(vertex_count, face_count, edge_count);
+  Writer writer(at.end);
+
+  for (uint32_t k = 0; k < sizeof detent::k_hull_magic; ++k) writer.put(k, detent::k_hull_magic[k]);
+  writer.put(detent::k_hull_version_at, detent::k_hull_format_version);
+  writer.put(detent::k_hull_byte_count_at, at.end);
+  writer.put(detent::k_hull_exponent_at, header.exponent);
+  writer.put(detent::k_hull_core_radius_at, core_radius(vertices));
+  writer.put(detent::k_hull_vertex_count_at, vertex_count);
+  writer.put(detent::k_hull_face_count_at, face_count);
+  writer.put(detent::k_hull_edge_count_at, edge_count);
+  writer.put_scaled(detent::k_hull_volume_at, header.volume);
+  for (uint32_t axis = 0; axis < 3; ++axis) {
+    writer.put_scaled(detent::k_hull_gyration_at + 8 * axis, header.gyration[axis]);
+    uint64_t bits;
+    memcpy(&bits, &header.origin[axis], sizeof bits);
+    writer.put(detent::k_hull_origin_at + 8 * axis, bits);
+  }
+  for (uint32_t k = 0; k < 4; ++k) writer.put(detent::k_hull_rotation_at + 4 * k, header.rotation[k]);
+  writer.put(detent::k_hull_frame_at,
+             static_cast<uint32_t>(header.principal ? detent::HullFrame::principal : detent::HullFrame::source));
+
+  for (uint32_t i = 0; i < detent::hull_padded_count(vertex_count); ++i) {
+    const GridPoint& v = vertices[i < vertex_count ? i : 0];
+    writer.put(at.x + 4 * i, v.x);
+    writer.put(at.y + 4 * i, v.y);
+    writer.put(at.z + 4 * i, v.z);
+  }
+  put_faces(writer, at, faces);
+  put_neighbours(writer, at, vertex_count, faces);
+  put_edges(writer, at, faces);
+
+  const uint8_t* bytes = writer.bytes().data();
+  constexpr uint32_t k_from = detent::k_hull_checksum_at;
+  const uint32_t checksum = detent::crc32(bytes + k_from + 4, at.end - k_from - 4, detent::crc32(bytes, k_from));
+  writer.put(k_from, checksum);
+  return writer.bytes();
+}
+
+const char* check_hull(const std::vector<uint8_t>& bytes) {
+  std::vector<uint64_t> aligned((bytes.size() + 7) / 8);
+  memcpy(aligned.data(), bytes.data(), bytes.size());
+  detent::HullView hull;
+  const detent::Asset asset = {reinterpret_cast<const uint8_t*>(aligned.data()), static_cast<uint32_t>(bytes.size())};
+  return detent::status_text(detent::read_hull(asset, hull));
+}
+
+}  // namespace detent_cook

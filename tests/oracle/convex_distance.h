@@ -1,0 +1,56 @@
+#pragma once
+#include "tests/oracle/convex_solid.h"
+
+/// The distance and the depth of two convex solids, with a certificate.
+///
+/// What is certified, and how. Every figure is an upper or a lower bound by itself, whatever path found it:
+/// - `distance` is that of two points of the cores, given with it (convex combinations of support points): the true
+///   core distance is not above it.
+/// - `separation` is n.offset + min over B of n.b - max over A of n.a for the unit axis n: the plain separating axis,
+///   from support points alone. The true core distance is not below it; if negative, the depth is not above its negative.
+/// - `depth_floor`: the faces of a polytope of Minkowski points around the origin are no nearer than this, so the depth
+///   is not below it.
+/// Both hold to the rounding of a handful of `long double` operations, rounding_of() (64 2^-64 of the coordinates).
+/// The search is GJK, then, where cores overlap, the expanding polytope. It runs in `long double`, and if upper and
+/// lower bound stay apart, again in __float128 where there is one. No tolerance decides what is apart and what overlaps:
+/// nearer than 2^-60 of the coordinates the two answers meet.
+///
+/// What it cannot do: the minimal depth of curved cores is approached by cutting planes, so its bounds may stay 1e-12 of
+/// the size apart; `gap` then is the upper bound of the depth (of all axes tried).
+namespace detent_oracle {
+
+struct Separation {
+  bool overlap = false;    ///< the cores
+  Number distance = 0;     ///< m, of the cores' points below: upper bound; 0 if they overlap
+  Number separation = 0;   ///< m, of the cores along `axis`: lower bound; minus the depth's upper bound if they overlap
+  Number depth_floor = 0;  ///< m, lower bound of the depth if they overlap
+  Number gap = 0;          ///< m, of the rounded solids: distance less both roundings; minus depth and roundings if overlapped
+  Number gap_floor = 0;    ///< m, the gap's lower bound
+  Number slack = 0;        ///< m, upper less lower bound
+  Arrow axis = {};         ///< unit, from A to B, world axes
+  Arrow point_a = {};      ///< on A's core, from A's position, m, world axes; if they overlap of no meaning
+  Arrow point_b = {};      ///< on B's core, from B's position, m, world axes; if they overlap of no meaning
+  int iterations = 0;      ///< support points asked for
+  bool quadruple = false;  ///< long double did not decide
+};
+
+/// How narrow the bounds shall be: absolute, m, or a part of the gap, whichever is wider.
+struct Accuracy {
+  Number absolute = 0;  ///< 0: rounding_of() or 1e-16 of the size, the best that is meaningful
+  Number relative = 0;
+};
+
+/// The rounding errors' bound of one separating axis, m.
+Number rounding_of(const ConvexSolid& a, const ConvexSolid& b, const Arrow& offset);
+
+/// The separation of the cores along a unit axis (half-spaces: along their own normal only), m.
+Number separation_along(const ConvexSolid& a, const ConvexSolid& b, const Placement& placement, const Arrow& axis);
+
+/// The least distance or depth. `hint` is an axis to start from, of any length; zero for none.
+Separation separation_of(const ConvexSolid& a, const ConvexSolid& b, const Placement& placement,
+                         const Accuracy& accuracy = {}, const Arrow& hint = {0, 0, 0});
+
+/// The same at the start of a query.
+Separation separation_of(const detent_queries::Query& query);
+
+}  // namespace detent_oracle
