@@ -95,7 +95,7 @@ void collide_half_space(const CollisionBody& plane, const CollisionBody& body, R
     case ShapeType::box:
       collide_box(traits, body.rotation, collector);
       break;
-    case ShapeType::half_space:
+    default:
       break;
   }
 }

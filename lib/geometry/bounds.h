@@ -38,7 +38,7 @@ inline Vec3<Real> half_bounds(const BodyTraits& traits, const Matrix3& rotation)
               dot(Vec3<Unit>{abs(x.z), abs(y.z), abs(z.z)}, traits.size)};
       break;
     }
-    case ShapeType::half_space:
+    default:
       break;
   }
   return {real_from_unit(half.x, traits.size_exponent), real_from_unit(half.y, traits.size_exponent),

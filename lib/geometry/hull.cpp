@@ -104,26 +104,10 @@ uint32_t half_edge(const HullView& hull, uint32_t a, uint32_t b) {
   return static_cast<uint32_t>(around.index + low - (hull.bytes + hull.at.neighbours));
 }
 
-bool neighbours_are_good(const HullView& hull) {
-  for (uint32_t a = 0; a < hull.vertex_count; ++a) {
-    const HullIndices around = hull.neighbours(a);
-    for (uint32_t k = 0; k < around.count; ++k) {
-      const uint32_t b = around.index[k];
-      if (b >= hull.vertex_count || b == a || (k != 0 && b <= around.index[k - 1])) return false;
-    }
-  }
-  for (uint32_t a = 0; a < hull.vertex_count; ++a) {
-    const HullIndices around = hull.neighbours(a);
-    for (uint32_t k = 0; k < around.count; ++k) {
-      if (half_edge(hull, around.index[k], a) == k_half_edges_max) return false;
-    }
-  }
-  return true;
-}
-
 /// The triangles are a closed surface whose sides are the neighbours, each plane has every vertex on it or below, and
 /// they enclose the stated volume. Then the triangles about a vertex cover the boundary there, so that a vertex which
-/// is not the furthest along a direction has a neighbour that is further.
+/// is not the furthest along a direction has a neighbour that is further. There are as many sides as neighbours: if
+/// each is found, and none twice, then the neighbours are in range, ascending, and no others.
 bool triangles_are_good(const HullView& hull) {
   uint8_t seen[(k_half_edges_max + 7) / 8] = {};
   const Vertex apex = vertex(hull, 0);
@@ -134,7 +118,8 @@ bool triangles_are_good(const HullView& hull) {
       const uint32_t from = triangle[k], to = triangle[(k + 1) % 3];
       if (from >= hull.vertex_count || to >= hull.vertex_count) return false;
       const uint32_t side = half_edge(hull, from, to);
-      if (side == k_half_edges_max || (seen[side / 8] >> (side % 8) & 1) != 0) return false;
+      if (side == k_half_edges_max || half_edge(hull, to, from) == k_half_edges_max) return false;
+      if ((seen[side / 8] >> (side % 8) & 1) != 0) return false;
       seen[side / 8] = static_cast<uint8_t>(seen[side / 8] | 1u << (side % 8));
     }
     const Vertex a = vertex(hull, triangle[0]);
@@ -285,8 +270,7 @@ Status read_hull(const Asset& asset, HullView& hull) {
   // In this order: each relies on those before it.
   if (!gaps_are_zero(view) || !frame_is_good(view) || !vertices_are_good(view) ||
       !offsets_are_good(bytes + view.at.loop_offsets, faces, 2 * view.edge_count) ||
-      !offsets_are_good(bytes + view.at.neighbour_offsets, vertices, 6 * vertices - 12) || !neighbours_are_good(view) ||
-      !triangles_are_good(view)) {
+      !offsets_are_good(bytes + view.at.neighbour_offsets, vertices, 6 * vertices - 12) || !triangles_are_good(view)) {
     return Status::corrupt;
   }
   for (uint32_t face = 0; face < faces; ++face) {

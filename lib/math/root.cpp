@@ -29,9 +29,7 @@ uint32_t root_of_normal(uint64_t value, uint64_t& remainder) {
 
 uint32_t reciprocal_root(uint32_t value) {
   DETENT_VERIFY_RANGE(value >= uint32_t{1} << 30);
-  // A minimax cubic, Q3.29, relative error 2^-7.1.
-  const uint32_t cubic =
-      0x639898a5 - high_product(value, 0xbd264567 - high_product(value, 0xc75be3d4 - high_product(value, 0x4e07e417)));
+  const uint32_t cubic = reciprocal_root_guess(value);
   // A third-order step y (1 + e/2 + 3 e^2/8) with e = 1 - value y^2: relative error below 2^-19.
   const uint32_t first = cubic * 2;  // Q2.30, at most 2.02
   const int32_t error =

@@ -11,9 +11,8 @@ namespace {
 
 constexpr int64_t k_one = int64_t{1} << 30;
 
-int32_t length_above(const Vec32& v) {
-  return static_cast<int32_t>(square_root_floor(static_cast<uint64_t>(dot(v, v)))) + 1;
-}
+/// At least the length, and at most 1.6 % and 2 more.
+int64_t length_bound(const Vec32& v) { return square_root_bound(static_cast<uint64_t>(dot(v, v))); }
 
 /// n x u, Q29, of n in Q30 and u in Q29.
 Vec32 cross_29(const Vec32& n, const Vec32& u) { return round_shift(cross(n, u), 30); }
@@ -21,96 +20,7 @@ Vec32 cross_29(const Vec32& n, const Vec32& u) { return round_shift(cross(n, u),
 /// a b 2^-n, rounded up, of numbers >= 0.
 int64_t product_above(int64_t a, int64_t b, int n) { return ((a * b) >> n) + 1; }
 
-/// What does not change along one axis: bounds of the second derivatives.
-struct Curvature {
-  bool turning;
-  int32_t relative_a, relative_b;  ///< |u|, Q29
-  int64_t twist_a, twist_b;        ///< |w x spin|, Q29
-  int32_t tilt;                    ///< |n x spin|, Q29
-  int64_t centre;                  ///< bound of |(n.C)''|, Q26
-
-  /// K, Q26, over `rest`, Q30, of the horizon.
-  int64_t bound(const MovingPair& pair, const Vec32& slope_a, const Vec32& slope_b, int64_t rest) const {
-    if (!turning) return 0;
-    return centre + of_body(pair.core_a, slope_a, relative_a, twist_a, rest) +
-           of_body(pair.core_b, slope_b, relative_b, twist_b, rest);
-  }
-
- private:
-  /// rho (|n x u| |u| + |w x spin|); |n x u| now is |slope|, and grows by at most |n x spin| |u| in the unit of time.
-  int64_t of_body(int64_t core, const Vec32& slope, int32_t relative, int64_t twist, int64_t rest) const {
-    if (core == 0) return 0;
-    int64_t across = relative;
-    if (tilt != 0 || relative != 0) {
-      const int64_t grown = length_above(slope) + product_above(product_above(tilt, relative, 29), rest, 30);
-      across = grown < across ? grown : across;
-    }
-    return product_above(product_above(across, relative, 29) + twist, core, 33);
-  }
-};
-
-Curvature curvature_of(const MovingPair& pair, const Horizon& horizon, const Vec32& normal, const Vec32& spin) {
-  Curvature result = {};
-  result.turning = !is_zero(spin) || !is_zero(horizon.spin_a) || !is_zero(horizon.spin_b);
-  if (!result.turning) return result;
-  const Vec32 u_a = subtract(horizon.spin_a, spin), u_b = subtract(horizon.spin_b, spin);
-  result.relative_a = is_zero(u_a) ? 0 : length_above(u_a);
-  result.relative_b = is_zero(u_b) ? 0 : length_above(u_b);
-  if (is_zero(spin)) return result;
-  const auto twist = [&](const Vec32& w) {
-    return is_zero(w) || w == spin ? int64_t{0} : int64_t{length_above(round_shift(cross(w, spin), 29))};
-  };
-  result.twist_a = twist(horizon.spin_a);
-  result.twist_b = twist(horizon.spin_b);
-  result.tilt = length_above(cross_29(normal, spin));
-  const Vec32 from = pair.offset_at(horizon.start), to = pair.offset_at(horizon.start + horizon.length);
-  const int64_t near = length_above(from), far = length_above(to);
-  // |n x spin| (2 |V| + |spin| max |C|)
-  const int64_t speed = 2 * int64_t{length_above(horizon.way)} + product_above(length_above(spin), near > far ? near : far, 30);
-  result.centre = product_above(result.tilt, speed, 32);
-  return result;
-}
-
-/// The separation along the axis as a concave function of the time from a pass's start.
-struct Pass {
-  const MovingPair& pair;
-  Vec32 normal_a, slope_a, normal_b, slope_b;  ///< n and n x u, Q29, in the bodies' axes
-  int64_t centre;                              ///< n.C less the floor, Q56
-  int64_t centre_slope;                        ///< Q30
-  int64_t curvature;                           ///< K, Q26
-
-  struct Value {
-    int64_t separation;  ///< Q56
-    int64_t slope;       ///< at this time and with the points that are farthest here, less K x; Q30
-  };
-  Value at(int64_t x) const {
-    const Vec32 support_a = along(normal_a, slope_a, x), support_b = along(normal_b, slope_b, x);
-    Value value = {centre + ((centre_slope * x) >> 4), centre_slope};
-    if (pair.core_a != 0) {
-      const Vec32 p = local_support(*pair.a, support_a).local;
-      value.separation -= dot(support_a, p) >> (3 + shift_of(*pair.a));
-      value.slope -= dot(slope_a, p) >> (29 + shift_of(*pair.a));
-    }
-    if (pair.core_b != 0) {
-      const Vec32 p = local_support(*pair.b, negate(support_b)).local;
-      value.separation += dot(support_b, p) >> (3 + shift_of(*pair.b));
-      value.slope += dot(slope_b, p) >> (29 + shift_of(*pair.b));
-    }
-    if (curvature != 0) {
-      value.separation -= (curvature * (((x * x) >> 30) + 1)) >> 1;
-      value.slope -= (curvature * x) >> 26;
-    }
-    return value;
-  }
-
- private:
-  int shift_of(const Convex& convex) const { return pair.exponent - convex.exponent; }
-  static Vec32 along(const Vec32& n, const Vec32& m, int64_t x) {
-    const auto component = [x](int32_t p, int32_t q) { return p + static_cast<int32_t>((q * x) >> 30); };
-    return {component(n.x, m.x), component(n.y, m.y), component(n.z, m.z)};
-  }
-};
-
+/// The image of v in a body's axes, one bit less.
 Vec32 to_local_29(const Matrix32& rotation, const Vec32& v) {
   const auto component = [&](const Vec32& column) {
     return static_cast<int32_t>((dot(v, column) + (int64_t{1} << 30)) >> 31);
@@ -118,32 +28,132 @@ Vec32 to_local_29(const Matrix32& rotation, const Vec32& v) {
   return {component(rotation.column[0]), component(rotation.column[1]), component(rotation.column[2])};
 }
 
-Pass pass_at(const MovingPair& pair, const Horizon& horizon, const Vec32& normal, const Vec32& spin, int64_t part,
-             int32_t floor, const Curvature& curvature) {
-  const int64_t time = horizon.time_at(part);
-  const Vec32 offset = pair.offset_at(time);
-  Pass pass = {pair, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0, 0, 0};
-  pass.centre = (dot(normal, offset) >> 4) - (int64_t{floor} << 26);
-  pass.centre_slope = dot(normal, horizon.way) >> 29;
-  Vec32 slope_a = {0, 0, 0}, slope_b = {0, 0, 0};
-  if (curvature.turning) {
-    slope_a = cross_29(normal, subtract(horizon.spin_a, spin));
-    slope_b = cross_29(normal, subtract(horizon.spin_b, spin));
-    pass.centre_slope += dot(cross_29(spin, normal), offset) >> 29;
-    pass.curvature = curvature.bound(pair, slope_a, slope_b, k_one - part);
+/// One body as an axis that turns by `spin` sees it: its share of the separation, and of the bound K of its curvature.
+class Side {
+ public:
+  /// `sign`: 1 for B, whose farthest point against the axis counts, -1 for A.
+  Side(const Convex& convex, const Turning& turning, const Vec32& own_spin, const Vec32& spin, int32_t core,
+       int pair_exponent, int sign)
+      : convex_(convex), turning_(turning), core_(core), shift_(pair_exponent - convex.exponent), sign_(sign) {
+    present_ = core != 0;
+    relative_ = subtract(own_spin, spin);
+    still_ = is_zero(relative_);
+    if (!present_ || still_) return;
+    speed_ = length_bound(relative_);
+    // |w x spin| = |u x spin|
+    twist_ = is_zero(own_spin) || is_zero(spin) ? 0 : length_bound(round_shift(cross(relative_, spin), 29));
   }
-  if (pair.core_a != 0) {
-    const Matrix32 rotation = pair.turning_a.at(time);
-    pass.normal_a = to_local_29(rotation, normal);
-    pass.slope_a = rotate_inverse(rotation, slope_a);
+
+  /// Takes the axis at a pass's start. For a body at rest with the axis the first one holds for ever.
+  void look(const Matrix32& rotation, const Vec32& normal) {
+    normal_ = to_local_29(rotation, normal);
+    if (still_) {
+      value_ = share({0, 0, 0}, 0).value;
+      return;
+    }
+    const Vec32 slope = cross_29(normal, relative_);
+    across_ = length_bound(slope);
+    slope_ = rotate_inverse(rotation, slope);
   }
-  if (pair.core_b != 0) {
-    const Matrix32 rotation = pair.turning_b.at(time);
-    pass.normal_b = to_local_29(rotation, normal);
-    pass.slope_b = rotate_inverse(rotation, slope_b);
+  bool moves() const { return present_ && !still_; }
+  bool present() const { return present_; }
+  Matrix32 rotation_at(int64_t time) const { return turning_.at(time); }
+
+  /// rho (|n x u| |u| + |w x spin|), Q26; |n x u| grows by at most |n x spin| |u| in the unit of time.
+  int64_t curvature(int64_t tilt, int64_t rest) const {
+    if (!moves()) return 0;
+    const int64_t grown = across_ + (tilt == 0 ? 0 : product_above(product_above(tilt, speed_, 29), rest, 30));
+    return product_above(product_above(grown < speed_ ? grown : speed_, speed_, 29) + twist_, core_, 33);
   }
-  return pass;
-}
+
+  struct Share {
+    int64_t value;  ///< Q56
+    int64_t slope;  ///< Q30
+  };
+  Share at(int64_t x) const {
+    if (!present_) return {0, 0};
+    return still_ ? Share{value_, 0} : share(slope_, x);
+  }
+
+ private:
+  Share share(const Vec32& slope, int64_t x) const {
+    const auto along = [&](int32_t n, int32_t m) { return n + static_cast<int32_t>((m * x) >> 30); };
+    const Vec32 direction = {along(normal_.x, slope.x), along(normal_.y, slope.y), along(normal_.z, slope.z)};
+    const SupportValue farthest = sign_ < 0 ? support_value(convex_, direction, slope)
+                                            : support_value(convex_, negate(direction), negate(slope));
+    return {-(farthest.value >> (3 + shift_)), -(farthest.rate >> (29 + shift_))};
+  }
+
+  const Convex& convex_;
+  const Turning& turning_;
+  int64_t core_;
+  int shift_, sign_;
+  bool present_, still_;
+  Vec32 relative_;                                ///< u = w - spin, Q29
+  int64_t speed_ = 0, twist_ = 0, across_ = 0;    ///< |u|, |w x spin|, |n x u|, Q29
+  Vec32 normal_ = {0, 0, 0}, slope_ = {0, 0, 0};  ///< n and n x u, Q29, in the body's axes
+  int64_t value_ = 0;
+};
+
+/// The separation along a turning axis, certified from the start of one pass.
+class Separation {
+ public:
+  Separation(const MovingPair& pair, const Horizon& horizon, const Vec32& normal, const Vec32& spin, int32_t floor)
+      : pair_(pair),
+        horizon_(horizon),
+        spin_(spin),
+        floor_(floor),
+        a_(*pair.a, pair.turning_a, horizon.spin_a, spin, pair.core_a, pair.exponent, -1),
+        b_(*pair.b, pair.turning_b, horizon.spin_b, spin, pair.core_b, pair.exponent, 1) {
+    if (is_zero(spin)) return;
+    tilt_ = length_bound(cross_29(normal, spin));
+    // |n x spin| (2 |V| + |spin| max |C|)
+    const int64_t speed = 2 * length_bound(horizon.way) + product_above(length_bound(spin), pair.reach, 30);
+    centre_curvature_ = product_above(tilt_, speed, 32);
+  }
+
+  void start(const Frames& frames, const Vec32& normal) {
+    if (a_.present()) a_.look(frames.a, normal);
+    if (b_.present()) b_.look(frames.b, normal);
+    set_centre(frames.offset, normal, 0);
+  }
+  void go_on(int64_t part, const Vec32& normal) {
+    const int64_t time = horizon_.time_at(part);
+    if (a_.moves()) a_.look(a_.rotation_at(time), normal);
+    if (b_.moves()) b_.look(b_.rotation_at(time), normal);
+    set_centre(pair_.offset_at(time), normal, part);
+  }
+
+  /// K, Q26.
+  int64_t curvature() const { return curvature_; }
+
+  struct Value {
+    int64_t separation;  ///< less the floor, Q56
+    int64_t slope;       ///< at this time and with the points that are farthest here; Q30
+  };
+  /// `x`, Q30 of the horizon, after the pass's start.
+  Value at(int64_t x) const {
+    const Side::Share a = a_.at(x), b = b_.at(x);
+    return {centre_ + ((centre_slope_ * x) >> 4) + a.value + b.value - ((curvature_ * (((x * x) >> 30) + 1)) >> 1),
+            centre_slope_ + a.slope + b.slope - ((curvature_ * x) >> 26)};
+  }
+
+ private:
+  void set_centre(const Vec32& offset, const Vec32& normal, int64_t part) {
+    centre_ = (dot(normal, offset) >> 4) - (int64_t{floor_} << 26);
+    centre_slope_ = dot(normal, horizon_.way) >> 29;
+    if (!is_zero(spin_)) centre_slope_ += dot(cross_29(spin_, normal), offset) >> 29;
+    curvature_ = centre_curvature_ + a_.curvature(tilt_, k_one - part) + b_.curvature(tilt_, k_one - part);
+  }
+
+  const MovingPair& pair_;
+  const Horizon& horizon_;
+  Vec32 spin_;
+  int32_t floor_;
+  Side a_, b_;
+  int64_t tilt_ = 0, centre_curvature_ = 0, curvature_ = 0;
+  int64_t centre_ = 0, centre_slope_ = 0;  ///< n.C less the floor, Q56; Q30
+};
 
 /// Where separation + slope x - K x^2/2 ends, Q30, or `limit` if that comes first. Only a proposal.
 int64_t parabola_root(int64_t separation, int64_t slope, int64_t curvature, int64_t limit) {
@@ -173,36 +183,44 @@ Horizon horizon_from(const MovingPair& pair, int64_t start, int64_t length, int 
   return horizon;
 }
 
-Vec32 turned(const Vec32& normal, const Vec32& spin, int32_t part) {
-  if (part == 0 || is_zero(spin)) return normal;
-  const Vec32 axis = unit_vector_raw(scaled_to_30_bits(spin));
-  const int64_t angle = (int64_t{length_above(spin)} * part) >> 30;  // Q29 rad
-  const SineCosineRaw full = sine_cosine_raw((angle * 2734261103) >> 29);  // 2^34 / 2 pi
-  const int64_t along = ((dot(axis, normal) >> 30) * (k_one - full.cosine)) >> 30;
-  const Vec64 across = cross(axis, normal);
-  const auto component = [&](int32_t n, int64_t c, int32_t k) {
-    return static_cast<int32_t>((int64_t{n} * full.cosine + ((c + (k_one >> 1)) >> 30) * full.sine + along * k +
-                                 (k_one >> 1)) >> 30);
-  };
-  return unit_vector_raw(scaled_to_30_bits(Vec32{component(normal.x, across.x, axis.x),
-                                                 component(normal.y, across.y, axis.y),
-                                                 component(normal.z, across.z, axis.z)}));
+TurningAxis::TurningAxis(const Vec32& normal, const Vec32& spin) : normal_(normal), turns_(!is_zero(spin)) {
+  if (!turns_) return;
+  axis_ = unit_vector_raw(scaled_to_30_bits(spin));
+  rate_ = dot(axis_, spin) >> 30;  // |axis| errs by 2^-28: so does the angle, of 3 rad at most
+  along_ = static_cast<int32_t>(dot(axis_, normal) >> 30);
+  across_ = round_shift(cross(axis_, normal), 30);
 }
 
-int32_t advance(const MovingPair& pair, const Horizon& horizon, const Vec32& normal, const Vec32& spin, int32_t floor,
-                uint32_t& passes) {
-  const Curvature curvature = curvature_of(pair, horizon, normal, spin);
+Vec32 TurningAxis::at(int64_t part) const {
+  if (!turns_ || part == 0) return normal_;
+  constexpr int64_t k_radian = 2734261103;                                             // 2^34 / 2 pi
+  const SineCosineRaw full = sine_cosine_raw((((rate_ * part) >> 30) * k_radian) >> 29);
+  const int64_t kept = (along_ * (k_one - full.cosine)) >> 30;
+  const auto component = [&](int64_t n, int64_t c, int64_t k) {
+    return round_30(n * full.cosine + c * full.sine + kept * k);
+  };
+  return {component(normal_.x, across_.x, axis_.x), component(normal_.y, across_.y, axis_.y),
+          component(normal_.z, across_.z, axis_.z)};
+}
+
+int32_t advance(const MovingPair& pair, const Frames& frames, const Horizon& horizon, const Vec32& normal,
+                const Vec32& spin, int32_t floor, uint32_t& passes) {
+  Separation separation(pair, horizon, normal, spin, floor);
+  const TurningAxis axis(normal, spin);
   const int64_t enough = int64_t{pair.tolerance} << 24;  // a quarter of the tolerance, Q56
   int64_t part = 0;
   for (int count = 0; count < k_passes_max; ++count) {
     ++passes;
-    const Pass pass =
-        pass_at(pair, horizon, turned(normal, spin, static_cast<int32_t>(part)), spin, part, floor, curvature);
-    const Pass::Value first = pass.at(0);
+    if (count == 0)
+      separation.start(frames, normal);
+    else
+      separation.go_on(part, axis.at(part));
+    const Separation::Value first = separation.at(0);
     if (first.separation <= (count == 0 ? 0 : enough)) break;
-    int64_t x = parabola_root(first.separation, first.slope, pass.curvature, k_one - part);
+    const int64_t curvature = separation.curvature();
+    int64_t x = parabola_root(first.separation, first.slope, curvature, k_one - part);
     for (int step = 0;; ++step) {
-      const Pass::Value value = pass.at(x);
+      const Separation::Value value = separation.at(x);
       if (value.separation >= 0) break;
       if (step == 4 || value.slope >= 0) {  // the chord from the start lies below the concave function
         x = x * (first.separation >> 26) / ((first.separation - value.separation + (int64_t{1} << 26)) >> 26);
@@ -213,25 +231,24 @@ int32_t advance(const MovingPair& pair, const Horizon& horizon, const Vec32& nor
     }
     part += x;
     if (part >= k_one) return static_cast<int32_t>(k_one);
-    if ((pass.curvature * ((x * x) >> 30)) >> 1 <= enough) break;
+    if ((curvature * ((x * x) >> 30)) >> 1 <= enough) break;
   }
   return static_cast<int32_t>(part);
 }
 
-int32_t advance_once(const MovingPair& pair, const Horizon& horizon, const Vec32& normal, bool tight, int32_t floor,
-                     uint32_t& passes) {
+int32_t advance_once(const MovingPair& pair, const Frames& frames, const Horizon& horizon, const Vec32& normal,
+                     bool tight, int32_t floor, uint32_t& passes) {
   ++passes;
-  const Vec32 still = {0, 0, 0};
-  const Pass pass = pass_at(pair, horizon, normal, still, 0, floor, curvature_of(pair, horizon, normal, still));
-  const int64_t separation = pass.at(0).separation;
-  if (separation <= 0) return 0;
+  Separation at_rest(pair, horizon, normal, {0, 0, 0}, floor);
+  at_rest.start(frames, normal);
+  const int64_t room = at_rest.at(0).separation >> 26;  // Q30
+  if (room <= 0) return 0;
   const auto turning = [&](const Vec32& spin, int32_t core) {
     if (is_zero(spin) || core == 0) return int64_t{0};
-    return product_above(length_above(tight ? cross_29(normal, spin) : spin), core, 29);
+    return product_above(length_bound(tight ? cross_29(normal, spin) : spin), core, 29);
   };
   const int64_t approach =
       -(dot(normal, horizon.way) >> 29) + 1 + turning(horizon.spin_a, pair.core_a) + turning(horizon.spin_b, pair.core_b);
-  const int64_t room = separation >> 26;  // Q30
   if (approach <= 0 || room >= approach) return static_cast<int32_t>(k_one);
   return static_cast<int32_t>((room << 30) / approach);
 }

@@ -34,17 +34,28 @@ struct Horizon {
 Horizon horizon_from(const MovingPair& pair, int64_t start, int64_t length, int turn_quarters);
 
 /// How far from the horizon's start the shapes are certain to stay `floor` ulps apart, by the axis
-/// n(t) = exp(t spin) normal: a part of the horizon, Q30. 0 if they are not even so at the start.
+/// n(t) = exp(t spin) normal; `frames` are those at its start: a part of the horizon, Q30. 0 if they are not even so at the start.
 /// Range: |spin_x - spin| + 1 < 4 for both bodies, |spin| < 3. Derivation: DESIGN.md, "Never late".
-int32_t advance(const MovingPair& pair, const Horizon& horizon, const Vec32& normal, const Vec32& spin, int32_t floor,
-                uint32_t& passes);
+int32_t advance(const MovingPair& pair, const Frames& frames, const Horizon& horizon, const Vec32& normal,
+                const Vec32& spin, int32_t floor, uint32_t& passes);
 
 /// The same by one step of the paper's bound, or of the first-order one.
-int32_t advance_once(const MovingPair& pair, const Horizon& horizon, const Vec32& normal, bool tight, int32_t floor,
-                     uint32_t& passes);
+int32_t advance_once(const MovingPair& pair, const Frames& frames, const Horizon& horizon, const Vec32& normal,
+                     bool tight, int32_t floor, uint32_t& passes);
 
-/// The axis at `part` of a horizon over which it turns by `spin`: a unit vector within 2^-28.
-Vec32 turned(const Vec32& normal, const Vec32& spin, int32_t part);
+/// An axis that turns by `spin`, Q29, over a horizon.
+class TurningAxis {
+ public:
+  TurningAxis(const Vec32& normal, const Vec32& spin);
+  /// At a part of the horizon, Q30. Of length 1 within k_turning_axis_error.
+  Vec32 at(int64_t part) const;
+
+ private:
+  Vec32 normal_, axis_, across_;  ///< across_ = axis x normal
+  int64_t rate_, along_;          ///< |spin|, Q29; axis . normal
+  bool turns_;
+};
+inline constexpr double k_turning_axis_error = 8.0;  ///< 2^-30
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -15,13 +15,14 @@ constexpr int k_turn_quarters = 8;  ///< a horizon of 2 rad: the formats of adva
 constexpr int k_plain_iterations = 3;
 
 /// How far the axis of `nearest` is certain to lead.
-int64_t next_time(const MovingPair& pair, ToiMethod method, int64_t time, const Simplex& simplex,
+int64_t next_time(const MovingPair& pair, ToiMethod method, const Frames& frames, const Simplex& simplex,
                   const GjkResult& nearest, int iteration, int32_t floor, uint32_t& passes) {
+  const int64_t time = frames.time;
   const Features features(simplex);
   const bool turns = pair.turning_a.turns || pair.turning_b.turns;
   if (method == ToiMethod::constant_spin && turns && !features.has_face() && !pair.planar &&
       iteration >= k_plain_iterations) {
-    return advance_tracking(pair, time, features, nearest.normal, nearest.upper, floor, passes);
+    return advance_tracking(pair, frames, features, nearest.normal, nearest.upper, floor, passes);
   }
   const Horizon horizon = horizon_from(pair, time, pair.to - time, k_turn_quarters);
   Vec32 spin = k_still;
@@ -29,7 +30,7 @@ int64_t next_time(const MovingPair& pair, ToiMethod method, int64_t time, const 
     case ToiMethod::paper:
     case ToiMethod::first_order:
       return horizon.time_at(
-          advance_once(pair, horizon, nearest.normal, method == ToiMethod::first_order, floor, passes));
+          advance_once(pair, frames, horizon, nearest.normal, method == ToiMethod::first_order, floor, passes));
     case ToiMethod::second_order:
       break;
     case ToiMethod::corotating:
@@ -40,7 +41,7 @@ int64_t next_time(const MovingPair& pair, ToiMethod method, int64_t time, const 
         spin = features.base_spin(horizon);
       break;
   }
-  return horizon.time_at(advance(pair, horizon, nearest.normal, spin, floor, passes));
+  return horizon.time_at(advance(pair, frames, horizon, nearest.normal, spin, floor, passes));
 }
 
 }  // namespace
@@ -57,9 +58,9 @@ void conservative_advancement(const MovingPair& pair, ToiMethod method, TimeOfIm
   int64_t time = pair.from;
   Simplex simplex;
   for (int iteration = 0; iteration < k_toi_iterations_max; ++iteration) {
-    const Placed a = place(*pair.a, pair.turning_a.at(time), pair.exponent);
-    const Placed b = place(*pair.b, pair.turning_b.at(time), pair.exponent);
-    const GjkResult nearest = gjk(a, b, pair.offset_at(time), simplex, {touching, INT32_MAX, 62});
+    const Frames frames = pair.at(time);
+    const Placed a = place(*pair.a, frames.a, pair.exponent), b = place(*pair.b, frames.b, pair.exponent);
+    const GjkResult nearest = gjk(a, b, frames.offset, simplex, {touching, INT32_MAX, 62});
     result.gjk_calls += nearest.iterations > 0 ? 1 : 0;
     result.time = Fraction::from_raw(time);
     result.normal = units_from_raw(nearest.normal);
@@ -67,7 +68,7 @@ void conservative_advancement(const MovingPair& pair, ToiMethod method, TimeOfIm
       result.outcome = ToiOutcome::hit;
       return;
     }
-    const int64_t next = next_time(pair, method, time, simplex, nearest, iteration, floor, result.passes);
+    const int64_t next = next_time(pair, method, frames, simplex, nearest, iteration, floor, result.passes);
     if (next >= pair.to) {
       result.outcome = ToiOutcome::clear;
       result.time = Fraction(1.0);

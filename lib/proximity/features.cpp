@@ -103,8 +103,9 @@ Vec32 Features::base_spin(const Horizon& horizon) const {
   return {0, 0, 0};
 }
 
-int64_t advance_tracking(const MovingPair& pair, int64_t time, const Features& features, const Vec32& normal,
+int64_t advance_tracking(const MovingPair& pair, const Frames& frames, const Features& features, const Vec32& normal,
                          int32_t distance, int32_t floor, uint32_t& passes) {
+  const int64_t time = frames.time;
   const Horizon widest = horizon_from(pair, time, pair.to - time, k_tracking_quarters);
   int64_t length = widest.length;
   const bool edges = features.count_a == 2 && features.count_b == 2;
@@ -134,12 +135,12 @@ int64_t advance_tracking(const MovingPair& pair, int64_t time, const Features& f
     if (!last && axis_at(pair, features, time + horizon.length, normal, side, then)) {
       const Vec32 base = spin;
       for (int round = 0; round < 3; ++round) {
-        spin = add(spin, round_shift(cross(turned(normal, spin, static_cast<int32_t>(k_one)), then.normal), 31));
+        spin = add(spin, round_shift(cross(TurningAxis(normal, spin).at(k_one), then.normal), 31));
       }
       const Vec32 more = subtract(spin, base);
       if (dot(more, more) > int64_t{k_spin_max} * k_spin_max) spin = base;
     }
-    const int64_t reached = horizon.time_at(advance(pair, horizon, normal, spin, floor, passes));
+    const int64_t reached = horizon.time_at(advance(pair, frames, horizon, normal, spin, floor, passes));
     if (reached > best) best = reached;
     if (last || best >= pair.to || best - time >= part_of(length, k_one * 3 / 5)) break;
     const int64_t progress = best - time > length / 100 ? best - time : length / 100;

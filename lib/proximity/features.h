@@ -20,7 +20,7 @@ struct Features {
 
 /// Like advance(), with a spin foreseen from where the features will be: right at contact too, for edges and vertices.
 /// Returns how far it is certain that the cores stay `floor` apart, as a time. `distance`: of the cores now, ulps.
-int64_t advance_tracking(const MovingPair& pair, int64_t time, const Features& features, const Vec32& normal,
+int64_t advance_tracking(const MovingPair& pair, const Frames& frames, const Features& features, const Vec32& normal,
                          int32_t distance, int32_t floor, uint32_t& passes);
 
 }  // namespace DETENT_NAMESPACE

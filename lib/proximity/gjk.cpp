@@ -10,10 +10,27 @@ Vec32 difference_of(const Placed& a, const Placed& b, const Vec32& offset, const
   return add(offset, subtract(b.point(vertex.b.local), a.point(vertex.a.local)));
 }
 
+/// Four ulps along a direction of at least 2^29: more than what its rounding and the supports' may take.
+constexpr int64_t k_touching = int64_t{4} << 31;
+
 int32_t floor_30(int64_t value) { return static_cast<int32_t>(value >> 30); }
 int32_t ceiling_30(int64_t value) { return static_cast<int32_t>((value + (int64_t{1} << 30) - 1) >> 30); }
 
 const SimplexVertex& newest(const Simplex& simplex) { return simplex.vertex(simplex.count() - 1); }
+
+/// The vertex of the placed core that is farthest along the simplex' nearest point v (`sign` -1: against it), exactly. The
+/// core point is left as it is where the core has no vertices.
+void exact_support(const Placed& placed, const Simplex& simplex, int sign, CorePoint& core) {
+  CorePoint vertex;
+  Int128 most = Int128::from(0);
+  for (uint32_t i = 0; i < k_no_feature && core_vertex(*placed.convex, static_cast<uint8_t>(i), vertex); ++i) {
+    const Int128 along = simplex.reach(placed.point(vertex.local));
+    const Int128 reach = sign < 0 ? -along : along;
+    if (i != 0 && !(most < reach)) continue;
+    most = reach;
+    core = vertex;
+  }
+}
 
 /// Only the plane's normal can part a half-space from the other shape.
 GjkResult half_space_gjk(const Placed& a, const Placed& b, const Vec32& offset, Simplex& simplex) {
@@ -63,14 +80,24 @@ GjkResult gjk(const Placed& a, const Placed& b, const Vec32& offset, Simplex& si
     }
     const SupportPoint on_a = support(a, direction), on_b = support(b, negate(direction));
     ++result.iterations;
-    const SimplexVertex vertex = {add(offset, subtract(on_b.point, on_a.point)), on_a.core, on_b.core};
+    SimplexVertex vertex = {add(offset, subtract(on_b.point, on_a.point)), on_a.core, on_b.core};
     const int64_t floor = dot(direction, vertex.difference);
     const int64_t progress = reach - floor;
-    const bool precise = simplex.count() != 0 && (progress <= int64_t{1} << 30 || progress <= reach >> limits.precision);
+    // Nearer than this to touching, only exact tests decide: whether the cores meet is never a matter of rounding.
+    const bool touching = floor <= k_touching;
+    const bool precise = simplex.count() != 0 && !touching && (progress <= int64_t{1} << 30 || progress <= reach >> limits.precision);
     const bool separate = floor >> 29 > limits.above &&
                           floor_30(dot(unit_vector_raw(direction), vertex.difference)) > limits.above;
     const bool last = result.iterations == k_gjk_iterations_max;
-    if (!precise && !separate && !last && simplex.insert(vertex)) continue;
+    if (!precise && !separate && !last) {
+      if (simplex.insert(vertex)) continue;
+      if (touching) {
+        exact_support(a, simplex, 1, vertex.a);
+        exact_support(b, simplex, -1, vertex.b);
+        vertex.difference = difference_of(a, b, offset, vertex);
+        if (simplex.insert(vertex)) continue;
+      }
+    }
 
     if (last && !precise && !separate) result.outcome = GjkOutcome::capped;
     if (simplex.count() == 0) simplex.insert(vertex);

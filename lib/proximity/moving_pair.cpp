@@ -28,9 +28,12 @@ Status set_turning(const Convex& convex, const Motion& motion, Turning& turning)
     return Status::ok;
   }
   turning.axis = unit_vector_raw(scaled_to_30_bits(turn));
-  turning.angle = length_above(turn);
+  // |turn| = axis . turn / |axis|, whose square is 1 + excess: the axis' own rounding drops out to the second order.
+  const int64_t excess = dot(turning.axis, turning.axis) - (int64_t{1} << 60);
+  const int64_t along = dot(turn, turning.axis).round_shift(30);
+  turning.angle = along - Int128::product(along, excess).round_shift(61);
   constexpr int64_t k_inverse_two_pi = 2935890503282001226;  // Q64
-  turning.rate = Int128::product(turning.angle - 1, k_inverse_two_pi).round_shift(64);
+  turning.rate = Int128::product(turning.angle, k_inverse_two_pi).round_shift(64);
   return Status::ok;
 }
 
@@ -58,29 +61,31 @@ int64_t time_quotient(int64_t numerator, int64_t denominator) {
 }
 
 /// The window in which |offset + t displacement| <= reach, 2^-46 m; widened by all rounding.
-void set_window(MovingPair& pair, int64_t reach) {
+/// Returns by how much the window is wider than that, at most.
+int64_t set_window(MovingPair& pair, int64_t reach) {
   const Vec64 &c = pair.offset, &d = pair.displacement;
   const int length = bit_length_64(static_cast<uint64_t>(reach) | magnitudes(c) | magnitudes(d));
   const int n = length > 29 ? length - 29 : 0;  // components below 2^29, norms below 2^30
   const Vec32 from = round_shift(c, n), way = round_shift(d, n);
   const int64_t r = (reach >> n) + 4;  // what offset and displacement lost, and this
   const int64_t square = dot(way, way), along = dot(from, way), rest = dot(from, from) - r * r;
+  const int64_t rounding = int64_t{12} << n;
   pair.from = 0;
   pair.to = k_time_end;
   if (rest <= 0) {
-    if (square == 0) return;
+    if (square == 0) return rounding;
   } else {
     if (along >= 0) {
       pair.from = 1;
       pair.to = 0;
-      return;
+      return 0;
     }
   }
   const Int128 discriminant = Int128::product(along, along) - Int128::product(square, rest);
   if (discriminant.high_word() < 0) {
     pair.from = 1;
     pair.to = 0;
-    return;
+    return 0;
   }
   const int64_t root = root_above(discriminant);
   if (rest > 0) {
@@ -88,7 +93,7 @@ void set_window(MovingPair& pair, int64_t reach) {
     if (pair.from == k_time_end) {
       pair.from = 1;
       pair.to = 0;
-      return;
+      return 0;
     }
   }
   const int64_t leave = root - along;  // over `square`; rounded up by the root
@@ -96,6 +101,7 @@ void set_window(MovingPair& pair, int64_t reach) {
     const int64_t to = time_quotient(leave, square);
     if (to < k_time_end - 1) pair.to = to + 1;
   }
+  return rounding;
 }
 
 int32_t ulps_above(int64_t raw, int exponent) {
@@ -144,14 +150,12 @@ Status prepare(const Convex& a, const Motion& motion_a, const Convex& b, const M
     const int64_t begins = distance_at(pair, 0), ends = distance_at(pair, k_time_end);
     reach = (begins > ends ? begins : ends) + close;
   } else {
-    set_window(pair, close);
+    const int64_t rounding = set_window(pair, close);
     if (pair.from > pair.to) return Status::ok;
-    // A coarse window, of a fast and far body, begins and ends outside the spheres.
-    const int64_t begins = distance_at(pair, pair.from), ends = distance_at(pair, pair.to);
-    const int64_t distance = begins > ends ? begins : ends;
-    if (distance > close) reach = distance + 64;
+    reach += rounding;
   }
   pair.exponent = raw_exponent_above(reach + cores + 64);
+  pair.reach = ulps_above(reach, pair.exponent);
   pair.core_a = ulps_above(raw_core_radius(a), pair.exponent);
   pair.core_b = ulps_above(raw_core_radius(b), pair.exponent);
   pair.radius = ulps_above(balls, pair.exponent);

@@ -35,6 +35,13 @@ struct Turning {
 };
 inline constexpr double k_turning_error = 12.0;  ///< 2^-30; derived in DESIGN.md
 
+/// Where the bodies of a pair are at a time.
+struct Frames {
+  int64_t time;
+  Matrix32 a, b;
+  Vec32 offset;  ///< from A's centre to B's, in the block. Error: 1 ulp in each component.
+};
+
 /// Two shapes in motion, in a block in which every pose of the window fits.
 struct MovingPair {
   const Convex* a;
@@ -46,10 +53,11 @@ struct MovingPair {
   int64_t from, to;    ///< only in this window can they meet; from > to: never
   int exponent;        ///< 2^exponent m is the pair's unit of length; the block's ulp is 2^-30 of it
   int32_t core_a, core_b;  ///< core radii, ulps of the block, rounded up
+  int64_t reach;       ///< ulps; the centres are never farther apart in the window
   int32_t radius;      ///< of both balls, ulps, rounded up
   int32_t tolerance;   ///< ulps: closer than radius + tolerance is a hit
 
-  /// From A's centre to B's, in the block. Error: 1 ulp in each component.
+  Frames at(int64_t time) const { return {time, turning_a.at(time), turning_b.at(time), offset_at(time)}; }
   Vec32 offset_at(int64_t time) const {
     const auto component = [&](int64_t c, int64_t d) {
       return static_cast<int32_t>(round_shift_64(c + over_time(d, time), exponent + 16));

@@ -143,6 +143,13 @@ Vec32 Simplex::direction() const {
   }
 }
 
+Int128 Simplex::reach(const Vec32& p) const {
+  const Vec32& a = vertex_[count_ - 1].difference;
+  if (count_ == 1) return Int128::from(dot(a, p));
+  if (count_ == 2) return Int128::product(edge_square_, dot(a, p)) + Int128::product(along_, dot(edge_, p));
+  return dot(normal_, p);
+}
+
 void Simplex::weights(int32_t (&weight)[4]) const {
   constexpr int64_t k_one = int64_t{1} << 30;
   for (int32_t& w : weight) w = 0;

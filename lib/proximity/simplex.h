@@ -38,6 +38,9 @@ class Simplex {
   /// to a relative 2^-29. Range: not holds_origin(), count > 0.
   Vec32 direction() const;
 
+  /// v . p for the nearest point v, exactly, times a positive number. Range: not holds_origin(), |p| < 2^30.
+  Int128 reach(const Vec32& p) const;
+
   /// The weights of the vertices in the nearest point, Q30, of sum 2^30 but for rounding; if the origin is held, any.
   void weights(int32_t (&weight)[4]) const;
 

@@ -120,6 +120,28 @@ CorePoint local_support(const Convex& convex, const Vec32& direction) {
   return {{0, 0, 0}, 0};
 }
 
+SupportValue support_value(const Convex& convex, const Vec32& direction, const Vec32& rate) {
+  switch (convex.type) {
+    case ShapeType::sphere:
+    case ShapeType::half_space:
+      return {0, 0};
+    case ShapeType::capsule: {
+      const int64_t y = direction.y < 0 ? -convex.size[1] : convex.size[1];
+      return {y * direction.y, y * rate.y};
+    }
+    case ShapeType::box: {
+      const int64_t x = direction.x < 0 ? -convex.size[0] : convex.size[0];
+      const int64_t y = direction.y < 0 ? -convex.size[1] : convex.size[1];
+      const int64_t z = direction.z < 0 ? -convex.size[2] : convex.size[2];
+      return {x * direction.x + y * direction.y + z * direction.z, x * rate.x + y * rate.y + z * rate.z};
+    }
+    default: {
+      const Vec32 point = local_support(convex, direction).local;
+      return {dot(direction, point), dot(rate, point)};
+    }
+  }
+}
+
 Placed place(const Convex& convex, const Matrix32& rotation, int pair_exponent) {
   Placed placed;
   placed.convex = &convex;
@@ -157,7 +179,7 @@ Vec32 Placed::point(const Vec32& local) const {
 
 SupportPoint support(const Placed& placed, const Vec32& direction) {
   const Convex& convex = *placed.convex;
-  const Vec32* column = placed.rotation.column;
+  const Vec32* axis = placed.axis;
   CorePoint core;
   switch (convex.type) {
     case ShapeType::sphere:
@@ -165,11 +187,10 @@ SupportPoint support(const Placed& placed, const Vec32& direction) {
       core = {{0, 0, 0}, 0};
       break;
     case ShapeType::capsule:
-      core = capsule_end(convex, dot(direction, column[1]) < 0);
+      core = capsule_end(convex, dot(direction, axis[1]) < 0);
       break;
     case ShapeType::box:
-      core = box_vertex(convex, dot(direction, column[0]) < 0, dot(direction, column[1]) < 0,
-                        dot(direction, column[2]) < 0);
+      core = box_vertex(convex, dot(direction, axis[0]) < 0, dot(direction, axis[1]) < 0, dot(direction, axis[2]) < 0);
       break;
     default:
       core = local_support(convex, rotate_inverse(placed.rotation, direction));

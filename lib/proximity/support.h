@@ -35,6 +35,12 @@ struct Placed {
 };
 inline constexpr double k_placing_error = 1.5;  ///< ulps of the block: a box's point is the sum of three rounded axes
 
+/// The largest value of direction . p over the core, and rate . p for the p that has it; both in the shape's axes.
+struct SupportValue {
+  int64_t value, rate;
+};
+SupportValue support_value(const Convex& convex, const Vec32& direction, const Vec32& rate);
+
 Placed place(const Convex& convex, const Matrix32& rotation, int pair_exponent);
 
 struct SupportPoint {

@@ -63,8 +63,9 @@ bool is_shape(const BodyTraits& traits) {
     case ShapeType::half_space:
       return traits.type != static_cast<uint32_t>(BodyType::dynamic) && traits.size_exponent == 0 && bound == zero &&
              traits.size == Vec3<Unit>{zero, zero, zero};
+    default:
+      return false;
   }
-  return false;
 }
 
 bool is_mass_of(const BodyTraits& traits) {
