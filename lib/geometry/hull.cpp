@@ -135,9 +135,10 @@ bool triangles_are_good(const HullView& hull) {
   if (!is_canonical(stated, -130, -28)) return false;
   const int shift = stated.exponent + 90;  // -40 to 62
   const Int128 six = Int128::from(int64_t{6} * stated.mantissa).shift_left(shift > 0 ? shift : 0);
-  const Int128 error = six - (shift < 0 ? volume.shift_left(-shift) : volume);  // within one step of the mantissa
+  const Int128 error =
+      six - (shift < 0 ? volume.shift_left(-shift) : volume);  // within one step of the mantissa: so it is positive
   const Int128 step = Int128::from(6).shift_left(shift > 0 ? shift : 0);
-  return Int128::from(0) < volume && !(step < error) && !(step < -error);
+  return !(step < error) && !(step < -error);
 }
 
 /// Whether the vertices `from` and `to` follow each other in the loop.

@@ -11,53 +11,64 @@ constexpr int k_tries_max = 3;
 constexpr int k_tracking_quarters = 4;  ///< a foreseen spin is worth nothing over more than 1 rad
 constexpr int32_t k_spin_max = 3 << 28;  ///< 1.5 rad, Q29, relative to the base: what the formats of advance() hold
 
-/// Where the features are at a time: the axis between them, and how far they are apart along it.
+/// The axis between them, and how far they are apart along it.
 struct Axis {
   Vec32 normal;  ///< Q30
   int64_t gap;   ///< ulps
 };
 
-/// False if the features have no axis there: they touch, or their edges are parallel. `side`: of the edges' cross
-/// product, 0 to take the one along `towards` and note it.
-bool axis_at(const MovingPair& pair, const Features& features, int64_t time, const Vec32& towards, int& side,
-             Axis& axis) {
-  const Placed a = place(*pair.a, pair.turning_a.at(time), pair.exponent);
-  const Placed b = place(*pair.b, pair.turning_b.at(time), pair.exponent);
-  const Vec32 from = a.point(features.a[0]);
-  const Vec32 to = add(pair.offset_at(time), b.point(features.b[0]));
-  const Vec32 way = subtract(to, from);
-  Vec64 across;
-  if (features.count_a == 2 && features.count_b == 2) {
-    const Vec32 edge_a = subtract(a.point(features.a[1]), from);
-    const Vec32 edge_b = subtract(b.point(features.b[1]), b.point(features.b[0]));
-    across = cross(edge_a, edge_b);
-    if (is_zero(across)) return false;
-    if (side == 0) side = dot(scaled_to_30_bits(across), towards) < 0 ? -1 : 1;
-    if (side < 0) across = negate(across);
-  } else if (features.count_a == 2 || features.count_b == 2) {
-    const Vec32 edge = features.count_a == 2 ? subtract(a.point(features.a[1]), from)
-                                             : subtract(b.point(features.b[1]), b.point(features.b[0]));
-    const Vec64 moment = cross(edge, way);
-    if (is_zero(moment)) return false;
-    across = cross(scaled_to_30_bits(moment), edge);
-  } else {
-    across = {way.x, way.y, way.z};
-  }
-  if (is_zero(across)) return false;
-  axis.normal = unit_vector_raw(scaled_to_30_bits(across));
-  axis.gap = dot(axis.normal, way) >> 30;
-  return true;
+/// A core point in the block, from its shape's centre.
+Vec32 placed_point(const MovingPair& pair, const Convex& convex, const Matrix32& rotation, const Vec32& local) {
+  return round_shift(multiply(rotation, local), 30 + pair.exponent - convex.exponent);
 }
 
+/// The features, world axes.
+struct PlacedFeatures {
+  Vec32 way;             ///< from A's first point to B's
+  Vec32 edge_a, edge_b;  ///< zero for a vertex
+
+  PlacedFeatures(const MovingPair& pair, const Features& features, const Frames& frames) {
+    const Vec32 from = placed_point(pair, *pair.a, frames.a, features.a[0]);
+    const Vec32 to = placed_point(pair, *pair.b, frames.b, features.b[0]);
+    way = subtract(add(frames.offset, to), from);
+    edge_a = edge_b = {0, 0, 0};
+    if (features.count_a == 2) edge_a = subtract(placed_point(pair, *pair.a, frames.a, features.a[1]), from);
+    if (features.count_b == 2) edge_b = subtract(placed_point(pair, *pair.b, frames.b, features.b[1]), to);
+  }
+
+  /// The axis between them. False if they touch, or their edges are parallel. Of two edges the one that had the side
+  /// `side` of `towards`; 0 to find out which.
+  bool axis(const Vec32& towards, int& side, Axis& axis) const {
+    Vec64 across;
+    if (!is_zero(edge_a) && !is_zero(edge_b)) {
+      across = cross(edge_a, edge_b);
+      if (is_zero(across)) return false;
+      if (side == 0) side = dot(scaled_to_30_bits(across), towards) < 0 ? -1 : 1;
+      if (side < 0) across = negate(across);
+    } else if (is_zero(edge_a) && is_zero(edge_b)) {
+      across = {way.x, way.y, way.z};
+    } else {
+      const Vec32& edge = is_zero(edge_a) ? edge_b : edge_a;
+      const Vec64 moment = cross(edge, way);
+      if (is_zero(moment)) return false;
+      across = cross(scaled_to_30_bits(moment), edge);
+    }
+    if (is_zero(across)) return false;
+    axis.normal = unit_vector_raw(scaled_to_30_bits(across));
+    axis.gap = dot(axis.normal, way) >> 30;
+    return true;
+  }
+};
+
 /// The speed at which the gap closes now, ulps over the horizon.
-int64_t closing_speed(const MovingPair& pair, const Features& features, const Horizon& horizon, const Vec32& normal) {
-  const auto rim_speed = [&](const Convex& convex, const Turning& turning, const Vec32& spin, const Vec32& local) {
+int64_t closing_speed(const MovingPair& pair, const Features& features, const Frames& frames, const Horizon& horizon,
+                      const Vec32& normal) {
+  const auto rim_speed = [&](const Convex& convex, const Matrix32& rotation, const Vec32& spin, const Vec32& local) {
     if (is_zero(spin)) return int64_t{0};
-    const Placed placed = place(convex, turning.at(horizon.start), pair.exponent);
-    return dot(round_shift(cross(normal, spin), 30), placed.point(local)) >> 29;
+    return dot(round_shift(cross(normal, spin), 30), placed_point(pair, convex, rotation, local)) >> 29;
   };
-  return -(dot(normal, horizon.way) >> 29) + rim_speed(*pair.a, pair.turning_a, horizon.spin_a, features.a[0]) -
-         rim_speed(*pair.b, pair.turning_b, horizon.spin_b, features.b[0]);
+  return -(dot(normal, horizon.way) >> 29) + rim_speed(*pair.a, frames.a, horizon.spin_a, features.a[0]) -
+         rim_speed(*pair.b, frames.b, horizon.spin_b, features.b[0]);
 }
 
 /// numerator / denominator as Q30, at most 1. Range: denominator > 0.
@@ -110,29 +121,35 @@ int64_t advance_tracking(const MovingPair& pair, const Frames& frames, const Fea
   int64_t length = widest.length;
   const bool edges = features.count_a == 2 && features.count_b == 2;
   const int64_t kept = !edges && distance * 3 / 10 > floor ? distance * 3 / 10 : floor;
-  const int64_t speed = closing_speed(pair, features, widest, normal);
+  const int64_t speed = closing_speed(pair, features, frames, widest, normal);
   if (speed > 0) length = part_of(widest.length, ratio(distance - kept, speed));
   int side = 0;
-  Axis now, then = {normal, 0};
-  bool foreseen = axis_at(pair, features, time, normal, side, now);
+  Axis then = {normal, 0};
+  bool foreseen = PlacedFeatures(pair, features, frames).axis(normal, side, then);
+  const auto foresee = [&] {
+    foreseen = foreseen && PlacedFeatures(pair, features, pair.at(time + length)).axis(normal, side, then);
+  };
+  foresee();
   for (int round = 0; round < 2 && foreseen; ++round) {
-    foreseen = axis_at(pair, features, time + length, normal, side, then);
-    if (!foreseen) break;
     if (dot(then.normal, normal) >> 30 < k_one * 3 / 10) {
       length /= 2;
-      foreseen = axis_at(pair, features, time + length, normal, side, then);
     } else if (then.gap > kept && then.gap < distance) {
       const int64_t covered = distance - then.gap, wanted = distance - kept;  // wanted > covered
       const int64_t longer = wanted < 2 * covered ? length + part_of(length, ratio(wanted - covered, covered)) : 2 * length;
+      if (longer >= widest.length && length == widest.length) break;
       length = longer < widest.length ? longer : widest.length;
+    } else {
+      break;
     }
+    foresee();
   }
   int64_t best = time;
   for (int attempt = 0; attempt < k_tries_max; ++attempt) {
     const bool last = attempt == k_tries_max - 1 || !foreseen;
     Horizon horizon = horizon_from(pair, time, last ? pair.to - time : length, last ? 8 : k_tracking_quarters);
     Vec32 spin = features.base_spin(horizon);
-    if (!last && axis_at(pair, features, time + horizon.length, normal, side, then)) {
+    if (attempt > 0 && !last) foresee();
+    if (!last && foreseen) {
       const Vec32 base = spin;
       for (int round = 0; round < 3; ++round) {
         spin = add(spin, round_shift(cross(TurningAxis(normal, spin).at(k_one), then.normal), 31));

@@ -39,8 +39,10 @@ struct Engine {
 
 using EngineList = std::vector<Engine>;
 
-/// What the module of a peer exports, under the name k_peer_symbol.
-using PeerFunction = void (*)(EngineList& engines);
+/// What the module of a peer exports, under the name k_peer_symbol: it calls `add` for each of its engines. A module
+/// has a heap of its own: what it makes, it frees.
+using AddEngine = void (*)(const Engine& engine, void* list);
+using PeerFunction = void (*)(AddEngine add, void* list);
 inline constexpr const char* k_peer_symbol = "detent_bench_peer";
 
 }  // namespace detent_bench

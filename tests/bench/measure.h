@@ -19,8 +19,7 @@ detent_queries::Query seen_by(const Engine& engine, const detent_queries::Query&
 using Progress = std::function<void(size_t done, size_t total)>;
 
 /// [engine][query]. Query by query all engines take turns, in an order that rotates, after one run that is not timed.
-std::vector<std::vector<Measured>> measure(const EngineList& engines,
-                                           const std::vector<detent_queries::Query>& queries, uint32_t repetitions,
-                                           const Progress& progress);
+std::vector<std::vector<Measured>> measure(const EngineList& engines, const std::vector<detent_queries::Query>& queries,
+                                           uint32_t repetitions, const Progress& progress);
 
 }  // namespace detent_bench

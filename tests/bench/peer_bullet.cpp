@@ -15,8 +15,8 @@
 #include "tests/bench/engine.h"
 #include "tests/bench/pose.h"
 
-/// Bullet, compiled once in float and once in double. Its settings are its own but for the margin of polyhedra, which is
-/// 0: it would round their corners off.
+/// Bullet, compiled once in float and once in double. Its settings are its own but for the margin of polyhedra, which
+/// is 0: it would round their corners off.
 namespace {
 
 using namespace detent_bench;
@@ -35,8 +35,8 @@ btVector3 vector_of(const Triple& v) {
 
 btTransform transform_of(const PoseAt& pose) {
   const Rotation& q = pose.rotation;
-  return btTransform(btQuaternion(static_cast<btScalar>(q[0]), static_cast<btScalar>(q[1]),
-                                  static_cast<btScalar>(q[2]), static_cast<btScalar>(q[3])),
+  return btTransform(btQuaternion(static_cast<btScalar>(q[0]), static_cast<btScalar>(q[1]), static_cast<btScalar>(q[2]),
+                                  static_cast<btScalar>(q[3])),
                      vector_of(pose.position));
 }
 
@@ -208,10 +208,10 @@ std::unique_ptr<Prepared> prepare(const Query& query) {
 
 }  // namespace
 
-extern "C" void detent_bench_peer(EngineList& engines) {
-  engines.push_back({Task::toi, "btContinuousConvexCollision", k_config, 0, 0, prepare_continuous});
-  engines.push_back({Task::toi, "btContinuousConvexCollision in parts", k_config, 0, 0, prepare_substeps});
-  engines.push_back({Task::toi, "btSubsimplexConvexCast", k_config, 0, 0, prepare<LinearCast<btSubsimplexConvexCast>>});
-  engines.push_back({Task::toi, "btGjkConvexCast", k_config, 0, 0, prepare<LinearCast<btGjkConvexCast>>});
-  engines.push_back({Task::distance, "btGjkPairDetector", k_config, 0, 0, prepare<PairDistance>});
+extern "C" void detent_bench_peer(AddEngine add, void* list) {
+  add({Task::toi, "btContinuousConvexCollision", k_config, 0, 0, prepare_continuous}, list);
+  add({Task::toi, "btContinuousConvexCollision in parts", k_config, 0, 0, prepare_substeps}, list);
+  add({Task::toi, "btSubsimplexConvexCast", k_config, 0, 0, prepare<LinearCast<btSubsimplexConvexCast>>}, list);
+  add({Task::toi, "btGjkConvexCast", k_config, 0, 0, prepare<LinearCast<btGjkConvexCast>>}, list);
+  add({Task::distance, "btGjkPairDetector", k_config, 0, 0, prepare<PairDistance>}, list);
 }

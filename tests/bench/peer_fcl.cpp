@@ -134,10 +134,10 @@ std::unique_ptr<Prepared> prepare(const Query& query) {
 
 }  // namespace
 
-extern "C" void detent_bench_peer(EngineList& engines) {
+extern "C" void detent_bench_peer(AddEngine add, void* list) {
   using fcl::GST_INDEP, fcl::GST_LIBCCD;
-  engines.push_back({Task::toi, "conservative advancement, libccd", "fcl", 0, 0, prepare<Advancement, GST_LIBCCD>});
-  engines.push_back({Task::toi, "conservative advancement, indep", "fcl", 0, 0, prepare<Advancement, GST_INDEP>});
-  engines.push_back({Task::distance, "distance, libccd", "fcl", 0, 0, prepare<PairDistance, GST_LIBCCD>});
-  engines.push_back({Task::distance, "distance, indep", "fcl", 0, 0, prepare<PairDistance, GST_INDEP>});
+  add({Task::toi, "conservative advancement, libccd", "fcl", 0, 0, prepare<Advancement, GST_LIBCCD>}, list);
+  add({Task::toi, "conservative advancement, indep", "fcl", 0, 0, prepare<Advancement, GST_INDEP>}, list);
+  add({Task::distance, "distance, libccd", "fcl", 0, 0, prepare<PairDistance, GST_LIBCCD>}, list);
+  add({Task::distance, "distance, indep", "fcl", 0, 0, prepare<PairDistance, GST_INDEP>}, list);
 }

@@ -1,7 +1,10 @@
 #include "tests/oracle/convex_distance.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
+#include <queue>
+#include <utility>
 
 namespace detent_oracle {
 
@@ -270,25 +273,103 @@ bool grow(Difference<T>& difference, Gjk<T>& simplex, T rounding, Vector3<T>& no
   return true;
 }
 
+/// A polytope of points of the difference around the origin.
 template <class T>
-struct Facet {
-  int vertex[3];
-  Vector3<T> normal;  ///< outwards
-  T distance;         ///< of its plane from the origin; huge if it has no area
-};
-template <class T>
-Facet<T> facet_of(const std::vector<Vertex<T>>& points, int i, int j, int k) {
-  const Vector3<T>& p = points[static_cast<size_t>(i)].w;
-  const Vector3<T> e = points[static_cast<size_t>(j)].w - p, f = points[static_cast<size_t>(k)].w - p;
-  const Vector3<T> n = cross(e, f);
-  const T size = norm(n);
-  // Under this the normal has no digits.
-  if (!(size > T(8) * std::numeric_limits<Number>::epsilon() * norm(e) * norm(f) / 1024)) {
-    return {{i, j, k}, {0, 0, 0}, T(1e300)};
+class Polytope {
+ public:
+  struct Facet {
+    int vertex[3];
+    int neighbour[3];   ///< across the edge from vertex k to vertex k + 1
+    Vector3<T> normal;  ///< outwards
+    T distance;         ///< of its plane from the origin
+    bool sliver;        ///< no area: its normal has no digits
+    bool gone;
+  };
+
+  explicit Polytope(const Vertex<T> (&tetrahedron)[4]) : points_(tetrahedron, tetrahedron + 4) {
+    const Vector3<T>& p = points_[0].w;
+    const Vector3<T> normal = cross(points_[1].w - p, points_[2].w - p);
+    if (dot(normal, points_[3].w - p) > 0) std::swap(points_[1], points_[2]);
+    add(0, 1, 2, {1, 3, 2});
+    add(0, 3, 1, {2, 3, 0});
+    add(0, 2, 3, {0, 3, 1});
+    add(1, 3, 2, {1, 2, 0});
   }
-  const Vector3<T> normal = n * (1 / size);
-  return {{i, j, k}, normal, dot(normal, p)};
-}
+
+  /// The facet whose plane is nearest, or -1.
+  int nearest() {
+    while (!queue_.empty() && facets_[queue_.top().second].gone) queue_.pop();
+    return queue_.empty() ? -1 : static_cast<int>(queue_.top().second);
+  }
+  const Facet& facet(int index) const { return facets_[static_cast<size_t>(index)]; }
+  bool has_corner(int index, const Vertex<T>& vertex) const {
+    for (const int i : facet(index).vertex) {
+      const Vertex<T>& corner = points_[static_cast<size_t>(i)];
+      if (same(corner.a, vertex.a) && same(corner.b, vertex.b)) return true;
+    }
+    return false;
+  }
+
+  /// Takes in a point beyond the facet `seen`. False if what would be left is no polytope.
+  bool enlarge(int seen, const Vertex<T>& vertex, T rounding) {
+    horizon_.clear();
+    at(seen).gone = true;
+    for (int k = 0; k < 3; ++k) look(seen, k, vertex.w, rounding);
+    if (horizon_.size() < 3) return false;
+    const int apex = static_cast<int>(points_.size()), first = static_cast<int>(facets_.size());
+    const int count = static_cast<int>(horizon_.size());
+    points_.push_back(vertex);
+    for (int i = 0; i < count; ++i) {
+      const auto [from, to, beyond, edge] = horizon_[static_cast<size_t>(i)];
+      if (to != horizon_[static_cast<size_t>((i + 1) % count)][0]) return false;
+      at(beyond).neighbour[edge] = first + i;
+      add(from, to, apex, {beyond, first + (i + 1) % count, first + (i + count - 1) % count});
+    }
+    return true;
+  }
+
+ private:
+  Facet& at(int index) { return facets_[static_cast<size_t>(index)]; }
+
+  void add(int i, int j, int k, const std::array<int, 3>& neighbours) {
+    const auto point = [this](int index) { return points_[static_cast<size_t>(index)].w; };
+    Facet f = {{i, j, k}, {neighbours[0], neighbours[1], neighbours[2]}, {0, 0, 0}, 0, true, false};
+    const Vector3<T> e = point(j) - point(i), g = point(k) - point(i), n = cross(e, g);
+    const T size = norm(n), rough = norm(e) * norm(g);
+    if (size > rough * T(1e-17L)) {
+      f.sliver = false;
+      f.normal = n * (1 / size);
+      f.distance = dot(f.normal, point(i));
+      queue_.push({f.distance, facets_.size()});
+    }
+    facets_.push_back(f);
+  }
+
+  /// Goes on across edge k of a facet that the point sees; the horizon comes out in order.
+  void look(int from, int k, const Vector3<T>& w, T rounding) {
+    const int index = facet(from).neighbour[k];
+    if (facet(index).gone) return;
+    // Two facets may share two edges: this is the one that runs the other way.
+    int entry = 0;
+    while (entry < 2 && (facet(index).neighbour[entry] != from ||
+                         facet(index).vertex[entry] != facet(from).vertex[(k + 1) % 3])) {
+      ++entry;
+    }
+    const Facet& f = facet(index);
+    if (f.sliver || dot(f.normal, w - points_[static_cast<size_t>(f.vertex[0])].w) > rounding) {
+      at(index).gone = true;
+      look(index, (entry + 1) % 3, w, rounding);
+      look(index, (entry + 2) % 3, w, rounding);
+    } else {
+      horizon_.push_back({facet(from).vertex[k], facet(from).vertex[(k + 1) % 3], index, entry});
+    }
+  }
+
+  std::vector<Vertex<T>> points_;
+  std::vector<Facet> facets_;
+  std::vector<std::array<int, 4>> horizon_;  ///< from, to, the facet beyond and its edge
+  std::priority_queue<std::pair<T, size_t>, std::vector<std::pair<T, size_t>>, std::greater<>> queue_;
+};
 
 template <class T>
 struct Depth {
@@ -296,36 +377,26 @@ struct Depth {
   Vector3<T> axis = {};  ///< from A to B: pushing B this far along it separates the cores
 };
 
-/// Expanding polytope: around the origin, of points of the difference.
+/// Expanding polytope, from a simplex that holds the origin.
 template <class T>
 Depth<T> expand(Difference<T>& difference, Gjk<T>& start, T rounding, T absolute, T relative) {
-  static const int k_expansions = getenv("KE")?atoi(getenv("KE")):600;
+  constexpr int k_expansions = 400;
   Depth<T> depth;
   Vector3<T> flat = {};
   if (start.count < 4 && !grow(difference, start, rounding, flat)) {
-    depth.axis = flat;
     const T one = -dot(flat, difference.nearest_along(flat).w);
     const T other = dot(flat, difference.nearest_along(-flat).w);
-    depth.most = one < other ? one : other;
-    if (other < one) depth.axis = -flat;
+    depth.axis = other < one ? -flat : flat;
+    depth.most = other < one ? other : one;
     if (depth.most < 0) depth.most = 0;
     return depth;
   }
-  std::vector<Vertex<T>> points(start.simplex, start.simplex + 4);
-  std::vector<Facet<T>> facets;
-  const bool turn = dot(cross(points[1].w - points[0].w, points[2].w - points[0].w), points[3].w - points[0].w) > 0;
-  if (turn) std::swap(points[1], points[2]);
-  const int corners[4][3] = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
-  for (const auto& c : corners) facets.push_back(facet_of(points, c[0], c[1], c[2]));
+  Polytope<T> polytope(start.simplex);
   depth.most = T(1e300);
-  std::vector<std::array<int, 2>> edges;
   for (int expansion = 0; expansion < k_expansions; ++expansion) {
-    size_t nearest = 0;
-    for (size_t i = 1; i < facets.size(); ++i) {
-      if (facets[i].distance < facets[nearest].distance) nearest = i;
-    }
-    const Facet<T> facet = facets[nearest];
-    if (facet.distance >= T(1e299)) return depth;  // nothing but slivers: the axes so far are what there is
+    const int nearest = polytope.nearest();
+    if (nearest < 0) return depth;
+    const auto& facet = polytope.facet(nearest);
     const Vertex<T> vertex = difference.nearest_along(-facet.normal);
     const T reach = dot(facet.normal, vertex.w);
     if (reach < depth.most) {
@@ -335,34 +406,7 @@ Depth<T> expand(Difference<T>& difference, Gjk<T>& start, T rounding, T absolute
     depth.least = facet.distance > 0 ? facet.distance : T(0);
     const T wide = relative * depth.most;
     if (depth.most - depth.least <= (wide > absolute ? wide : absolute)) return depth;
-    bool known = false;
-    for (const int i : facet.vertex) {
-      const Vertex<T>& corner = points[static_cast<size_t>(i)];
-      known = known || (same(corner.a, vertex.a) && same(corner.b, vertex.b));
-    }
-    if (known) return depth;
-    const int added = static_cast<int>(points.size());
-    points.push_back(vertex);
-    edges.clear();
-    size_t left = 0;
-    for (size_t i = 0; i < facets.size(); ++i) {
-      const Facet<T>& f = facets[i];
-      if (i == nearest || dot(f.normal, vertex.w - points[static_cast<size_t>(f.vertex[0])].w) > rounding) {
-        for (int k = 0; k < 3; ++k) {
-          const int from = f.vertex[k], to = f.vertex[(k + 1) % 3];
-          const auto twin = std::find(edges.begin(), edges.end(), std::array<int, 2>{to, from});
-          if (twin != edges.end()) {
-            edges.erase(twin);
-          } else {
-            edges.push_back({from, to});
-          }
-        }
-      } else {
-        facets[left++] = f;
-      }
-    }
-    facets.resize(left);
-    for (const auto& edge : edges) facets.push_back(facet_of(points, edge[0], edge[1], added));
+    if (polytope.has_corner(nearest, vertex) || !polytope.enlarge(nearest, vertex, rounding)) return depth;
   }
   return depth;
 }
@@ -385,7 +429,8 @@ Separation solve(const ConvexSolid& a, const ConvexSolid& b, const Placement& pl
     result.point_b = cast<Number>(found.point_b);
     result.slack = static_cast<Number>(found.distance - found.separation);
   } else {
-    const Depth<T> depth = expand<T>(difference, found, tiny, absolute, relative);
+    const T coarse = static_cast<T>(k_depth_relative);
+    const Depth<T> depth = expand<T>(difference, found, tiny, absolute, relative > coarse ? relative : coarse);
     result.separation = static_cast<Number>(-depth.most);
     result.depth_floor = static_cast<Number>(depth.least);
     result.axis = cast<Number>(depth.axis);
@@ -437,8 +482,10 @@ Separation separation_of(const ConvexSolid& a, const ConvexSolid& b, const Place
     Accuracy wanted = accuracy;
     if (!(wanted.absolute > 0)) wanted.absolute = std::max(rounding, 1e-16L * size);
     result = solve<Number>(a, b, placement, wanted, hint, rounding);
-    const Number enough = std::max(16 * wanted.absolute, wanted.relative * fabsl(result.overlap ? result.separation : result.distance - a.rounding - b.rounding));
-    if (!getenv("NOQ") && !(result.slack <= enough)) {
+    const Number gap = result.overlap ? result.separation : result.distance - a.rounding - b.rounding;
+    Number enough = std::max(16 * wanted.absolute, wanted.relative * fabsl(gap));
+    if (result.overlap) enough = std::max(enough, -16 * k_depth_relative * result.separation);
+    if (!(result.slack <= enough) && !(result.overlap && a.rounding + b.rounding > 0)) {
       const int iterations = result.iterations;
       const Separation again = solve<Wide>(a, b, placement, wanted, result.axis, rounding);
       if (!(again.slack > result.slack)) result = again;

@@ -15,9 +15,11 @@
 /// lower bound stay apart, again in __float128 where there is one. No tolerance decides what is apart and what overlaps:
 /// nearer than 2^-60 of the coordinates the two answers meet.
 ///
-/// What it cannot do: the minimal depth of curved cores is approached by cutting planes, so its bounds may stay 1e-12 of
-/// the size apart; `gap` then is the upper bound of the depth (of all axes tried).
+/// A depth is only sought to k_depth_relative of itself (polytopes end at the exact one), so that it is sharp where it
+/// matters, at contact; `gap` then is minus the depth's upper bound, of all axes tried.
 namespace detent_oracle {
+
+constexpr Number k_depth_relative = 1e-6L;
 
 struct Separation {
   bool overlap = false;    ///< the cores

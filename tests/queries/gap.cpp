@@ -10,8 +10,11 @@ using detent_oracle::Encounter;
 using detent_oracle::Separation;
 
 Separation separation_at(const Encounter& encounter, double time) {
-  const detent_oracle::Accuracy accuracy = {1e-13L * encounter.size, 1e-9L};
-  return separation_of(encounter.a, encounter.b, placement_at(encounter, static_cast<long double>(time)), accuracy);
+  const detent_oracle::Placement placement = placement_at(encounter, static_cast<long double>(time));
+  const detent_oracle::Number fine = 1e-13L * encounter.size;
+  const Separation coarse = separation_of(encounter.a, encounter.b, placement, {fine, 1e-2L});
+  if (coarse.gap < 0) return coarse;  // a depth of round solids to more digits takes long
+  return separation_of(encounter.a, encounter.b, placement, {fine, 1e-9L}, coarse.axis);
 }
 
 double gap_at(const Encounter& encounter, double time) {

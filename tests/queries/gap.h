@@ -2,7 +2,7 @@
 #include "tests/queries/query.h"
 
 /// The gap of a query's solids as the generators need it: by the oracle (tests/oracle), to 1e-13 of the size or 1e-9
-/// of the gap.
+/// of the gap; of a depth only to a hundredth.
 namespace detent_queries {
 
 /// Distance of the surfaces at `time` of the step, m; less than 0 if they overlap.

@@ -11,8 +11,8 @@ namespace detent_queries {
 namespace {
 
 const std::vector<Drawn> k_mixed = {Drawn::sphere, Drawn::capsule, Drawn::box, Drawn::ellipsoid, Drawn::prism};
-const std::vector<Drawn> k_all = {Drawn::sphere, Drawn::capsule,  Drawn::box,     Drawn::ellipsoid,
-                                  Drawn::prism,  Drawn::cylinder, Drawn::cylinder, Drawn::cone,     Drawn::cone};
+const std::vector<Drawn> k_all = {Drawn::sphere,   Drawn::capsule,  Drawn::box,  Drawn::ellipsoid, Drawn::prism,
+                                  Drawn::cylinder, Drawn::cylinder, Drawn::cone, Drawn::cone};
 constexpr double k_extent_min = 0.1, k_extent_max = 1.2;
 constexpr double k_degree = 3.14159265358979323846 / 180;
 
@@ -279,8 +279,6 @@ std::vector<Query> make_queries(const Set& set, uint64_t seed, uint32_t count, c
   return queries;
 }
 
-bool turns(const Query& query) {
-  return length(query.path_a.turn) != 0 || length(query.path_b.turn) != 0;
-}
+bool turns(const Query& query) { return length(query.path_a.turn) != 0 || length(query.path_b.turn) != 0; }
 
 }  // namespace detent_queries

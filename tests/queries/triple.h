@@ -16,7 +16,8 @@ inline Triple cross(const Triple& a, const Triple& b) {
 }
 inline double length(const Triple& a) { return sqrt(dot(a, a)); }
 
-/// The nearest float. Not inlined: GCC 12 drops the rounding of a pair of numbers that it makes one vector of (x86-64, -O2).
+/// The nearest float. Not inlined: GCC 12 drops the rounding of a pair of numbers that it makes one vector of (x86-64,
+/// -O2).
 [[gnu::noinline]] inline double to_float(double value) { return static_cast<double>(static_cast<float>(value)); }
 inline Triple to_float(const Triple& a) { return {to_float(a[0]), to_float(a[1]), to_float(a[2])}; }
 

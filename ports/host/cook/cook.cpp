@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "describe.h"
 #include "encode.h"
 
 namespace detent_cook {
@@ -277,12 +278,12 @@ CookResult cook_hull(const std::vector<Point>& points, const CookOptions& option
   for (const int32_t joined_within : {tolerance, -1}) {
     faces = join_faces(body.grid.points, body.hull, joined_within);
     result.bytes = encode_hull(body.grid.points, faces, header);
-    reason = check_hull(result.bytes);
-    if (reason == "ok") break;
+    reason = describe_hull(result.bytes).problem;
+    if (reason.empty()) break;
   }
-  if (reason != "ok") {
+  if (!reason.empty()) {
     result.bytes.clear();
-    return refused("the cooked bytes are refused (" + reason + "): please report this");
+    return refused("the library refuses the cooked hull (" + reason + "): please report this");
   }
 
   const double unit = ldexp(1, body.grid.exponent);

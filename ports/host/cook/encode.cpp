@@ -149,12 +149,4 @@ std::vector<uint8_t> encode_hull(const std::vector<GridPoint>& vertices, const s
   return writer.bytes();
 }
 
-const char* check_hull(const std::vector<uint8_t>& bytes) {
-  std::vector<uint64_t> aligned((bytes.size() + 7) / 8);
-  memcpy(aligned.data(), bytes.data(), bytes.size());
-  detent::HullView hull;
-  const detent::Asset asset = {reinterpret_cast<const uint8_t*>(aligned.data()), static_cast<uint32_t>(bytes.size())};
-  return detent::status_text(detent::read_hull(asset, hull));
-}
-
 }  // namespace detent_cook

@@ -18,7 +18,4 @@ struct HullHeader {
 std::vector<uint8_t> encode_hull(const std::vector<GridPoint>& vertices, const std::vector<PolygonFace>& faces,
                                  const HullHeader& header);
 
-/// What the library says of these bytes: "ok", or why it refuses them.
-const char* check_hull(const std::vector<uint8_t>& bytes);
-
 }  // namespace detent_cook

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "command.h"
 #include "progress.h"
 #include "report.h"
 
@@ -64,6 +65,10 @@ int run_verify(const std::vector<std::string>& paths, const Report& report) {
 int run_info(const std::vector<std::string>& paths, const Report& report) {
   int code = k_exit_good;
   for (const std::string& path : paths) {
+    if (is_hull_file(path)) {
+      if (!describe_hull_file(path, report.json)) code = k_exit_bad;
+      continue;
+    }
     Outcome outcome;
     {
       ProgressBar bar(path);
@@ -85,8 +90,8 @@ int run_scenes(const Report& report) {
 
 int main(int argc, char** argv) {
   CLI::App app(
-      "Records, verifies and describes recordings of the Detent physics library.\n"
-      "Exit code: 0 if every tick of every file agrees, 1 if not, 2 for wrong usage.",
+      "Records, verifies and describes recordings of the Detent physics library, and cooks hulls for it.\n"
+      "Exit code: 0 if all is well and every tick of every file agrees, 1 if not, 2 for wrong usage.",
       "detent");
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
@@ -117,10 +122,32 @@ int main(int argc, char** argv) {
   std::vector<std::string> paths;
   CLI::App* verify = app.add_subcommand("verify", "Replay recordings and compare every digest");
   verify->add_option("file", paths, "Recordings")->required();
-  CLI::App* info = app.add_subcommand("info", "Say what recordings hold, without replaying them");
-  info->add_option("file", paths, "Recordings")->required();
+  CLI::App* info = app.add_subcommand("info", "Say what recordings and hulls hold, without replaying them");
+  info->add_option("file", paths, "Recordings and hulls")->required();
   CLI::App* scenes = app.add_subcommand("scenes", "List the scenes that can be recorded");
-  for (CLI::App* command : {record, verify, info, scenes}) {
+
+  CookRequest cooking;
+  std::string frame = "principal";
+  bool refuse_more = false;
+  CLI::App* cook = app.add_subcommand("cook", "Make a convex hull of points ready for the library");
+  cook->add_option("input", cooking.input, "An OBJ, for its vertices; or clouds of points, by a name that ends in .bin")
+      ->required();
+  cook->add_option("output", cooking.output, "The .hull to write")->required();
+  cook->add_option(
+          "--frame", frame,
+          "principal: for bodies, about the centre of mass along the principal axes; source: as the points are")
+      ->check(CLI::IsMember({"principal", "source"}))
+      ->capture_default_str();
+  cook->add_option("--weld", cooking.options.weld, "Leave out a point this near to another, m")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  cook->add_option("--vertices", cooking.options.vertex_limit, "Reduce the hull to so many vertices")
+      ->check(CLI::Range(4u, 255u))
+      ->capture_default_str();
+  cook->add_flag("--exact", refuse_more, "Refuse a hull of more vertices, instead of reducing it");
+  cook->add_option("--index", cooking.index, "Which of the clouds of a .bin, from 0 on")->capture_default_str();
+
+  for (CLI::App* command : {record, verify, info, scenes, cook}) {
     command->add_flag("--json", report.json, "One JSON object a file, each on one line");
   }
 
@@ -133,5 +160,10 @@ int main(int argc, char** argv) {
   if (record->parsed()) return run_record(request, config, report);
   if (verify->parsed()) return run_verify(paths, report);
   if (info->parsed()) return run_info(paths, report);
+  if (cook->parsed()) {
+    cooking.options.frame = frame == "source" ? detent_cook::Frame::source : detent_cook::Frame::principal;
+    cooking.options.reduce = !refuse_more;
+    return cook_file(cooking, report.json) ? k_exit_good : k_exit_bad;
+  }
   return run_scenes(report);
 }

@@ -1,0 +1,126 @@
+#include "command.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "describe.h"
+#include "file.h"
+#include "read_points.h"
+
+namespace detent_tool {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+bool read_file(const std::string& path, std::vector<uint8_t>& bytes, size_t bytes_max) {
+  const File file = open_file(path, "rb");
+  if (file == nullptr) return false;
+  uint8_t piece[4096];
+  while (bytes.size() < bytes_max) {
+    const size_t count = fread(piece, 1, sizeof piece, file.get());
+    bytes.insert(bytes.end(), piece, piece + count);
+    if (count < sizeof piece) break;
+  }
+  return ferror(file.get()) == 0;
+}
+
+bool write_file(const std::string& path, const std::vector<uint8_t>& bytes) {
+  File file = open_file(path, "wb");
+  if (file == nullptr) return false;
+  const bool written = fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
+  return fclose(file.release()) == 0 && written;
+}
+
+/// A path need not be valid UTF-8: bytes that are not are replaced.
+void print_json(const Json& json) { printf("%s\n", json.dump(-1, ' ', false, Json::error_handler_t::replace).c_str()); }
+
+bool fail(const std::string& path, const std::string& problem, bool json) {
+  if (json) {
+    print_json({{"file", path}, {"ok", false}, {"problem", problem}});
+  } else {
+    fprintf(stderr, "%s: %s\n", path.c_str(), problem.c_str());
+  }
+  return false;
+}
+
+Json json_of(const std::string& path, const detent_cook::HullDescription& hull) {
+  Json json = {{"file", path}, {"ok", true}};
+  json["vertices"] = hull.vertex_count;
+  json["faces"] = hull.face_count;
+  json["edges"] = hull.edge_count;
+  json["frame"] = hull.principal ? "principal" : "source";
+  json["unit"] = ldexp(1.0, hull.exponent);
+  json["radius"] = hull.radius;
+  json["volume"] = hull.volume;
+  json["origin"] = hull.origin;
+  json["rotation"] = hull.rotation;
+  return json;
+}
+
+void print_text(const std::string& path, const detent_cook::HullDescription& hull) {
+  printf("%s: %u vertices, %u faces, %u edges, radius %.6g m, volume %.6g m^3, ", path.c_str(), hull.vertex_count,
+         hull.face_count, hull.edge_count, hull.radius, hull.volume);
+  if (hull.principal) {
+    printf("centre of mass at (%.6g, %.6g, %.6g) m of the source, axes turned by (%.6g, %.6g, %.6g, %.6g)",
+           hull.origin[0], hull.origin[1], hull.origin[2], hull.rotation[0], hull.rotation[1], hull.rotation[2],
+           hull.rotation[3]);
+  } else {
+    printf("in the source's frame");
+  }
+}
+
+}  // namespace
+
+bool cook_file(const CookRequest& request, bool json) {
+  std::vector<uint8_t> text;
+  if (!read_file(request.input, text, SIZE_MAX)) return fail(request.input, "cannot be read", json);
+  const detent_cook::PointsRead read =
+      detent_cook::read_points(request.input, {reinterpret_cast<const char*>(text.data()), text.size()}, request.index);
+  if (!read.problem.empty()) return fail(request.input, read.problem, json);
+  const detent_cook::CookResult result = detent_cook::cook_hull(read.points, request.options);
+  if (result.bytes.empty()) return fail(request.input, result.reason, json);
+  if (!write_file(request.output, result.bytes)) return fail(request.output, "cannot be written", json);
+
+  const detent_cook::HullDescription hull = detent_cook::describe_hull(result.bytes);
+  if (json) {
+    Json object = json_of(request.output, hull);
+    object["points"] = read.points.size();
+    object["centre"] = result.centre;
+    object["reduced"] = result.reduced;
+    object["error"] = result.error;
+    object["bytes"] = result.bytes.size();
+    print_json(object);
+    return true;
+  }
+  print_text(request.output, hull);
+  if (!hull.principal) {
+    printf(", centre of mass at (%.6g, %.6g, %.6g) m", result.centre[0], result.centre[1], result.centre[2]);
+  }
+  printf(", %s%zu points, error %.3g m, %zu bytes\n", result.reduced ? "reduced from " : "from ", read.points.size(),
+         result.error, result.bytes.size());
+  return true;
+}
+
+bool is_hull_file(const std::string& path) {
+  std::vector<uint8_t> bytes;
+  return read_file(path, bytes, 1) && detent_cook::is_hull(bytes);
+}
+
+bool describe_hull_file(const std::string& path, bool json) {
+  std::vector<uint8_t> bytes;
+  if (!read_file(path, bytes, size_t{1} << 20)) return fail(path, "cannot be read", json);
+  const detent_cook::HullDescription hull = detent_cook::describe_hull(bytes);
+  if (!hull.problem.empty()) return fail(path, hull.problem, json);
+  if (json) {
+    print_json(json_of(path, hull));
+  } else {
+    print_text(path, hull);
+    printf("\n");
+  }
+  return true;
+}
+
+}  // namespace detent_tool

@@ -1,0 +1,28 @@
+#pragma once
+#include <stdint.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace detent_cook {
+
+/// What the library reads from a .hull.
+struct HullDescription {
+  std::string problem{};  ///< why the library refuses it; empty if it does not
+  uint32_t vertex_count = 0, face_count = 0, edge_count = 0;
+  bool principal = true;
+  int32_t exponent = 0;                           ///< of the unit of length, 2^exponent m
+  double radius = 0;                              ///< m; greatest distance of a vertex from the origin
+  double volume = 0;                              ///< m^3
+  std::array<double, 3> origin{};                 ///< m; the body's, in the source frame
+  std::array<double, 4> rotation = {0, 0, 0, 1};  ///< x, y, z, w: from the body to the source frame
+};
+
+/// Describes the bytes of a file, after the library's every check.
+HullDescription describe_hull(const std::vector<uint8_t>& bytes);
+
+/// Whether the bytes begin as a .hull does.
+bool is_hull(const std::vector<uint8_t>& bytes);
+
+}  // namespace detent_cook
