@@ -173,7 +173,12 @@ int64_t parabola_root(int64_t separation, int64_t slope, int64_t curvature, int6
 
 Horizon horizon_from(const MovingPair& pair, int64_t start, int64_t length, int turn_quarters) {
   const int64_t limit = int64_t{turn_quarters} << 44;  // 2^-46 rad
-  while (over_time(pair.turning_a.angle + pair.turning_b.angle, length) > limit) length >>= 1;
+  const int64_t angle = pair.turning_a.angle + pair.turning_b.angle;
+  if (over_time(angle, length) > limit) length = time_quotient(limit, angle);
+  return horizon_over(pair, start, length);
+}
+
+Horizon horizon_over(const MovingPair& pair, int64_t start, int64_t length) {
   Horizon horizon;
   horizon.start = start;
   horizon.length = length;
@@ -234,6 +239,27 @@ int32_t advance(const MovingPair& pair, const Frames& frames, const Horizon& hor
     if ((curvature * ((x * x) >> 30)) >> 1 <= enough) break;
   }
   return static_cast<int32_t>(part);
+}
+
+int64_t advance_on(const MovingPair& pair, const Frames& frames, const Horizon& horizon, const Vec32& normal,
+                   const Vec32& spin, int32_t floor, uint32_t& passes) {
+  Frames at = frames;
+  Horizon ahead = horizon;
+  Vec32 axis = normal, turn = spin;
+  for (int count = 0; count < k_horizons_max; ++count) {
+    const int32_t part = advance(pair, at, ahead, axis, turn, floor, passes);
+    const int64_t reached = ahead.time_at(part);
+    if (part < k_one || reached >= pair.to) return reached;
+    axis = TurningAxis(axis, turn).at(k_one);
+    at = pair.at(reached);
+    const int64_t rest = pair.to - reached, length = rest < horizon.length ? rest : horizon.length;
+    ahead = horizon_over(pair, reached, length);
+    if (length < horizon.length) {
+      const int64_t share = time_quotient(length, horizon.length);
+      turn = round_shift(over_time(Vec64{spin.x, spin.y, spin.z}, share), 0);
+    }
+  }
+  return at.time;
 }
 
 int32_t advance_once(const MovingPair& pair, const Frames& frames, const Horizon& horizon, const Vec32& normal,

@@ -33,11 +33,19 @@ struct Horizon {
 /// From `start` on, at most `length` of the step and at most so long that both bodies together turn by `turn` quarter radians.
 Horizon horizon_from(const MovingPair& pair, int64_t start, int64_t length, int turn_quarters);
 
+/// From `start` on, exactly `length` of the step.
+Horizon horizon_over(const MovingPair& pair, int64_t start, int64_t length);
+
 /// How far from the horizon's start the shapes are certain to stay `floor` ulps apart, by the axis
 /// n(t) = exp(t spin) normal; `frames` are those at its start: a part of the horizon, Q30. 0 if they are not even so at the start.
 /// Range: |spin_x - spin| + 1 < 4 for both bodies, |spin| < 3. Derivation: DESIGN.md, "Never late".
 int32_t advance(const MovingPair& pair, const Frames& frames, const Horizon& horizon, const Vec32& normal,
                 const Vec32& spin, int32_t floor, uint32_t& passes);
+
+/// The same on and on, horizon after horizon of the same length, until the axis leads no farther: a time.
+int64_t advance_on(const MovingPair& pair, const Frames& frames, const Horizon& horizon, const Vec32& normal,
+                   const Vec32& spin, int32_t floor, uint32_t& passes);
+inline constexpr int k_horizons_max = 8;
 
 /// The same by one step of the paper's bound, or of the first-order one.
 int32_t advance_once(const MovingPair& pair, const Frames& frames, const Horizon& horizon, const Vec32& normal,

@@ -12,17 +12,17 @@ constexpr Vec32 k_still = {0, 0, 0};
 constexpr int k_turn_quarters = 8;  ///< a horizon of 2 rad: the formats of advance() hold 3
 
 /// An axis is foreseen only where the plain ones have not led there.
-constexpr int k_plain_iterations = 3;
+constexpr int k_plain_iterations = 1;
 
 /// How far the axis of `nearest` is certain to lead.
 int64_t next_time(const MovingPair& pair, ToiMethod method, const Frames& frames, const Simplex& simplex,
-                  const GjkResult& nearest, int iteration, int32_t floor, uint32_t& passes) {
+                  const GjkResult& nearest, int iteration, int32_t floor, TimeOfImpact& result) {
   const int64_t time = frames.time;
   const Features features(simplex);
   const bool turns = pair.turning_a.turns || pair.turning_b.turns;
   if (method == ToiMethod::constant_spin && turns && !features.has_face() && !pair.planar &&
       iteration >= k_plain_iterations) {
-    return advance_tracking(pair, frames, features, nearest.normal, nearest.upper, floor, passes);
+    return advance_tracking(pair, frames, simplex, features, nearest, floor, result);
   }
   const Horizon horizon = horizon_from(pair, time, pair.to - time, k_turn_quarters);
   Vec32 spin = k_still;
@@ -30,7 +30,7 @@ int64_t next_time(const MovingPair& pair, ToiMethod method, const Frames& frames
     case ToiMethod::paper:
     case ToiMethod::first_order:
       return horizon.time_at(
-          advance_once(pair, frames, horizon, nearest.normal, method == ToiMethod::first_order, floor, passes));
+          advance_once(pair, frames, horizon, nearest.normal, method == ToiMethod::first_order, floor, result.passes));
     case ToiMethod::second_order:
       break;
     case ToiMethod::corotating:
@@ -41,7 +41,7 @@ int64_t next_time(const MovingPair& pair, ToiMethod method, const Frames& frames
         spin = features.base_spin(horizon);
       break;
   }
-  return horizon.time_at(advance(pair, frames, horizon, nearest.normal, spin, floor, passes));
+  return advance_on(pair, frames, horizon, nearest.normal, spin, floor, result.passes);
 }
 
 }  // namespace
@@ -68,7 +68,7 @@ void conservative_advancement(const MovingPair& pair, ToiMethod method, TimeOfIm
       result.outcome = ToiOutcome::hit;
       return;
     }
-    const int64_t next = next_time(pair, method, frames, simplex, nearest, iteration, floor, result.passes);
+    const int64_t next = next_time(pair, method, frames, simplex, nearest, iteration, floor, result);
     if (next >= pair.to) {
       result.outcome = ToiOutcome::clear;
       result.time = Fraction(1.0);

@@ -67,8 +67,8 @@ int64_t closing_speed(const MovingPair& pair, const Features& features, const Fr
     if (is_zero(spin)) return int64_t{0};
     return dot(round_shift(cross(normal, spin), 30), placed_point(pair, convex, rotation, local)) >> 29;
   };
-  return -(dot(normal, horizon.way) >> 29) + rim_speed(*pair.a, frames.a, horizon.spin_a, features.a[0]) -
-         rim_speed(*pair.b, frames.b, horizon.spin_b, features.b[0]);
+  return -(dot(normal, horizon.way) >> 29) + rim_speed(*pair.a, frames.a, horizon.spin_a, features.nearest_a) -
+         rim_speed(*pair.b, frames.b, horizon.spin_b, features.nearest_b);
 }
 
 /// numerator / denominator as Q30, at most 1. Range: denominator > 0.
@@ -94,6 +94,7 @@ Features::Features(const Simplex& simplex) {
     int count = 0;
     for (int i = 0; i < simplex.count(); ++i) {
       const Vec32& point = (simplex.vertex(i).*of).local;
+      curved = curved || (simplex.vertex(i).*of).feature == k_no_feature;
       bool fresh = true;
       for (int j = 0; j < i; ++j) fresh = fresh && !(point == (simplex.vertex(j).*of).local);
       if (!fresh) continue;
@@ -102,6 +103,18 @@ Features::Features(const Simplex& simplex) {
     }
     return count;
   };
+  int32_t weight[4];
+  simplex.weights(weight);
+  const auto nearest = [&](CorePoint SimplexVertex::* of) {
+    Vec64 sum = {0, 0, 0};
+    for (int i = 0; i < simplex.count(); ++i) {
+      const Vec32& p = (simplex.vertex(i).*of).local;
+      sum = add(sum, Vec64{int64_t{p.x} * weight[i], int64_t{p.y} * weight[i], int64_t{p.z} * weight[i]});
+    }
+    return round_shift(sum, 30);
+  };
+  nearest_a = nearest(&SimplexVertex::a);
+  nearest_b = nearest(&SimplexVertex::b);
   count_a = count_distinct(&SimplexVertex::a, a);
   count_b = count_distinct(&SimplexVertex::b, b);
 }
@@ -114,9 +127,11 @@ Vec32 Features::base_spin(const Horizon& horizon) const {
   return {0, 0, 0};
 }
 
-int64_t advance_tracking(const MovingPair& pair, const Frames& frames, const Features& features, const Vec32& normal,
-                         int32_t distance, int32_t floor, uint32_t& passes) {
+int64_t advance_tracking(const MovingPair& pair, const Frames& frames, const Simplex& simplex,
+                         const Features& features, const GjkResult& nearest, int32_t floor, TimeOfImpact& result) {
   const int64_t time = frames.time;
+  const Vec32& normal = nearest.normal;
+  const int64_t distance = nearest.upper;
   const Horizon widest = horizon_from(pair, time, pair.to - time, k_tracking_quarters);
   int64_t length = widest.length;
   const bool edges = features.count_a == 2 && features.count_b == 2;
@@ -125,9 +140,23 @@ int64_t advance_tracking(const MovingPair& pair, const Frames& frames, const Fea
   if (speed > 0) length = part_of(widest.length, ratio(distance - kept, speed));
   int side = 0;
   Axis then = {normal, 0};
-  bool foreseen = PlacedFeatures(pair, features, frames).axis(normal, side, then);
+  bool foreseen = features.curved || PlacedFeatures(pair, features, frames).axis(normal, side, then);
   const auto foresee = [&] {
-    foreseen = foreseen && PlacedFeatures(pair, features, pair.at(time + length)).axis(normal, side, then);
+    if (!foreseen) return;
+    const Frames ahead = pair.at(time + length);
+    if (!features.curved) {
+      foreseen = PlacedFeatures(pair, features, ahead).axis(normal, side, then);
+      return;
+    }
+    // A rim's nearest point moves along it: only GJK tells where to.
+    Simplex warm = simplex;
+    const GjkResult there = gjk(place(*pair.a, ahead.a, pair.exponent), place(*pair.b, ahead.b, pair.exponent),
+                                ahead.offset, warm, {});
+    ++result.gjk_calls;
+    if (there.outcome == GjkOutcome::overlap)
+      then = {{0, 0, 0}, 0};
+    else
+      then = {there.normal, there.upper};
   };
   foresee();
   for (int round = 0; round < 2 && foreseen; ++round) {
@@ -157,7 +186,7 @@ int64_t advance_tracking(const MovingPair& pair, const Frames& frames, const Fea
       const Vec32 more = subtract(spin, base);
       if (dot(more, more) > int64_t{k_spin_max} * k_spin_max) spin = base;
     }
-    const int64_t reached = horizon.time_at(advance(pair, frames, horizon, normal, spin, floor, passes));
+    const int64_t reached = advance_on(pair, frames, horizon, normal, spin, floor, result.passes);
     if (reached > best) best = reached;
     if (last || best >= pair.to || best - time >= part_of(length, k_one * 3 / 5)) break;
     const int64_t progress = best - time > length / 100 ? best - time : length / 100;

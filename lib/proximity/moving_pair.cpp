@@ -51,15 +51,6 @@ int64_t root_above(Int128 value) {
              square_root_nearest(Words128{static_cast<uint64_t>(value.high_word()), value.low_word()})) + 1;
 }
 
-/// numerator / denominator as a time, rounded down; k_time_end if it is not below 1. Range: both >= 0, denominator > 0.
-int64_t time_quotient(int64_t numerator, int64_t denominator) {
-  if (numerator >= denominator) return k_time_end;
-  const uint64_t n = static_cast<uint64_t>(numerator);
-  uint64_t remainder = 0;
-  return static_cast<int64_t>(
-      divide_128_by_64({n >> (64 - k_time_bits), n << k_time_bits}, static_cast<uint64_t>(denominator), remainder));
-}
-
 /// The window in which |offset + t displacement| <= reach, 2^-46 m; widened by all rounding.
 /// Returns by how much the window is wider than that, at most.
 int64_t set_window(MovingPair& pair, int64_t reach) {
@@ -110,6 +101,14 @@ int32_t ulps_above(int64_t raw, int exponent) {
 }
 
 }  // namespace
+
+int64_t time_quotient(int64_t numerator, int64_t denominator) {
+  if (numerator >= denominator) return k_time_end;
+  const uint64_t n = static_cast<uint64_t>(numerator);
+  uint64_t remainder = 0;
+  return static_cast<int64_t>(
+      divide_128_by_64({n >> (64 - k_time_bits), n << k_time_bits}, static_cast<uint64_t>(denominator), remainder));
+}
 
 Matrix32 Turning::at(int64_t time) const {
   if (!turns) return start_matrix;

@@ -20,6 +20,9 @@ constexpr Vec64 over_time(const Vec64& v, int64_t time) {
   return {over_time(v.x, time), over_time(v.y, time), over_time(v.z, time)};
 }
 
+/// numerator / denominator as a time, rounded down; k_time_end if it is not below 1. Range: both >= 0, denominator > 0.
+int64_t time_quotient(int64_t numerator, int64_t denominator);
+
 /// How a body's axes turn during the step.
 struct Turning {
   Quat32 start;
