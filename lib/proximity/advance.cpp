@@ -34,7 +34,7 @@ class Side {
   /// `sign`: 1 for B, whose farthest point against the axis counts, -1 for A.
   Side(const Convex& convex, const Turning& turning, const Vec32& own_spin, const Vec32& spin, int32_t core,
        int pair_exponent, int sign)
-      : convex_(convex), turning_(turning), core_(core), shift_(pair_exponent - convex.exponent), sign_(sign) {
+      : convex_(convex), hull_(hull_of(convex)), turning_(turning), core_(core), shift_(pair_exponent - convex.exponent), sign_(sign) {
     present_ = core != 0;
     relative_ = subtract(own_spin, spin);
     still_ = is_zero(relative_);
@@ -79,12 +79,14 @@ class Side {
   Share share(const Vec32& slope, int64_t x) const {
     const auto along = [&](int32_t n, int32_t m) { return n + static_cast<int32_t>((m * x) >> 30); };
     const Vec32 direction = {along(normal_.x, slope.x), along(normal_.y, slope.y), along(normal_.z, slope.z)};
-    const SupportValue farthest = sign_ < 0 ? support_value(convex_, direction, slope)
-                                            : support_value(convex_, negate(direction), negate(slope));
+    const SupportValue farthest = sign_ < 0
+                                      ? support_value(convex_, hull_, direction, slope, start_)
+                                      : support_value(convex_, hull_, negate(direction), negate(slope), start_);
     return {-(farthest.value >> (3 + shift_)), -(farthest.rate >> (29 + shift_))};
   }
 
   const Convex& convex_;
+  const HullView hull_;
   const Turning& turning_;
   int64_t core_;
   int shift_, sign_;
@@ -93,6 +95,7 @@ class Side {
   int64_t speed_ = 0, twist_ = 0, across_ = 0;    ///< |u|, |w x spin|, |n x u|, Q29
   Vec32 normal_ = {0, 0, 0}, slope_ = {0, 0, 0};  ///< n and n x u, Q29, in the body's axes
   int64_t value_ = 0;
+  mutable uint8_t start_ = 0;
 };
 
 /// The separation along a turning axis, certified from the start of one pass.

@@ -36,7 +36,7 @@ Status rest(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& po
   if (a.type == half_space || b.type == half_space) {
     offset = component_along(offset, (a.type == half_space ? matrix_a : matrix_b).column[1]);
   }
-  const int64_t reach = length_above(offset) + raw_core_radius(a) + raw_core_radius(b) + 64;
+  const int64_t reach = saturated_sum(length_bound(offset), raw_core_radius(a) + raw_core_radius(b) + 64);
   pair.exponent = raw_exponent_above(reach);
   pair.offset = round_shift(offset, k_metre_bits - 30 + pair.exponent);
   pair.a = place(a, matrix_a, pair.exponent);
@@ -65,20 +65,24 @@ void save(const Simplex& simplex, DistanceCache& cache) {
   }
 }
 
-/// The point of `placed` that the simplex' nearest point is made of, in the block, from the shape's centre.
-Vec64 witness(const Placed& placed, const Simplex& simplex, bool of_b) {
+/// The points that the simplex' nearest point is the difference of, in the block, each from its shape's centre.
+void witnesses(const RestingPair& pair, const Simplex& simplex, Vec32& on_a, Vec32& on_b) {
   int32_t weight[4];
   simplex.weights(weight);
-  Vec64 sum = {0, 0, 0};
-  for (int i = 0; i < simplex.count() && i < 4; ++i) {
-    const SimplexVertex& vertex = simplex.vertex(i);
-    const Vec32 p = placed.point((of_b ? vertex.b : vertex.a).local);
-    sum = add(sum, Vec64{int64_t{p.x} * weight[i], int64_t{p.y} * weight[i], int64_t{p.z} * weight[i]});
-  }
-  return {round_shift_64(sum.x, 30), round_shift_64(sum.y, 30), round_shift_64(sum.z, 30)};
+  const auto weighted = [&](const Placed& placed, CorePoint SimplexVertex::* of) {
+    if (simplex.count() == 1) return placed.point((simplex.vertex(0).*of).local);
+    Vec64 sum = {0, 0, 0};
+    for (int i = 0; i < simplex.count(); ++i) {
+      const Vec32 p = placed.point((simplex.vertex(i).*of).local);
+      sum = add(sum, Vec64{int64_t{p.x} * weight[i], int64_t{p.y} * weight[i], int64_t{p.z} * weight[i]});
+    }
+    return round_shift(sum, 30);
+  };
+  on_a = weighted(pair.a, &SimplexVertex::a);
+  on_b = weighted(pair.b, &SimplexVertex::b);
 }
 
-Vec3<Real> surface_point(const RestingPair& pair, const Vec64& core, const Vec32& normal, int64_t radius) {
+Vec3<Real> surface_point(const RestingPair& pair, const Vec32& core, const Vec32& normal, int64_t radius) {
   const auto component = [&](int64_t at, int32_t n) {
     return real_from_raw(saturated_sum(pair.metres(at), Int128::product_narrow(radius, n).round_shift(30)));
   };
@@ -105,8 +109,10 @@ Status closest_points(const Convex& a, const Pose& pose_a, const Convex& b, cons
     made.overlap = gap <= 0;
     made.distance = real_from_raw(gap > 0 ? gap : 0);
     made.normal = units_from_raw(found.normal);
-    made.point_a = surface_point(pair, witness(pair.a, simplex, false), found.normal, pair.radius_a);
-    made.point_b = surface_point(pair, witness(pair.b, simplex, true), negate(found.normal), pair.radius_b);
+    Vec32 on_a, on_b;
+    witnesses(pair, simplex, on_a, on_b);
+    made.point_a = surface_point(pair, on_a, found.normal, pair.radius_a);
+    made.point_b = surface_point(pair, on_b, negate(found.normal), pair.radius_b);
   }
   result = made;
   return Status::ok;

@@ -16,13 +16,13 @@ constexpr int k_plain_iterations = 1;
 
 /// How far the axis of `nearest` is certain to lead.
 int64_t next_time(const MovingPair& pair, ToiMethod method, const Frames& frames, const Simplex& simplex,
-                  const GjkResult& nearest, int iteration, int32_t floor, TimeOfImpact& result) {
+                  const GjkResult& nearest, int iteration, int32_t floor, int64_t& progress, TimeOfImpact& result) {
   const int64_t time = frames.time;
   const Features features(simplex);
   const bool turns = pair.turning_a.turns || pair.turning_b.turns;
   if (method == ToiMethod::constant_spin && turns && !features.has_face() && !pair.planar &&
       iteration >= k_plain_iterations) {
-    return advance_tracking(pair, frames, simplex, features, nearest, floor, result);
+    return advance_tracking(pair, frames, simplex, features, nearest, floor, progress, result);
   }
   const Horizon horizon = horizon_from(pair, time, pair.to - time, k_turn_quarters);
   Vec32 spin = k_still;
@@ -56,6 +56,7 @@ void conservative_advancement(const MovingPair& pair, ToiMethod method, TimeOfIm
   const int32_t touching = pair.radius + pair.tolerance;
   const int32_t floor = pair.radius + pair.tolerance / 4;
   int64_t time = pair.from;
+  int64_t progress = k_time_end;  // of the last foreseen axis
   Simplex simplex;
   for (int iteration = 0; iteration < k_toi_iterations_max; ++iteration) {
     const Frames frames = pair.at(time);
@@ -68,13 +69,14 @@ void conservative_advancement(const MovingPair& pair, ToiMethod method, TimeOfIm
       result.outcome = ToiOutcome::hit;
       return;
     }
-    const int64_t next = next_time(pair, method, frames, simplex, nearest, iteration, floor, result);
+    const int64_t next = next_time(pair, method, frames, simplex, nearest, iteration, floor, progress, result);
     if (next >= pair.to) {
       result.outcome = ToiOutcome::clear;
       result.time = Fraction(1.0);
       return;
     }
-    if (next == time) break;
+    // On a rim the supports have no end: where the cap left too coarse an axis, the next round goes on from its simplex.
+    if (next == time && nearest.outcome != GjkOutcome::capped) break;
     time = next;
     result.time = Fraction::from_raw(time);
   }

@@ -128,7 +128,8 @@ Vec32 Features::base_spin(const Horizon& horizon) const {
 }
 
 int64_t advance_tracking(const MovingPair& pair, const Frames& frames, const Simplex& simplex,
-                         const Features& features, const GjkResult& nearest, int32_t floor, TimeOfImpact& result) {
+                         const Features& features, const GjkResult& nearest, int32_t floor, int64_t& progress,
+                         TimeOfImpact& result) {
   const int64_t time = frames.time;
   const Vec32& normal = nearest.normal;
   const int64_t distance = nearest.upper;
@@ -138,6 +139,9 @@ int64_t advance_tracking(const MovingPair& pair, const Frames& frames, const Sim
   const int64_t kept = !edges && distance * 3 / 10 > floor ? distance * 3 / 10 : floor;
   const int64_t speed = closing_speed(pair, features, frames, widest, normal);
   if (speed > 0) length = part_of(widest.length, ratio(distance - kept, speed));
+  // Past a close approach no speed tells how long an axis will do.
+  const int64_t hope = 4 * progress + (int64_t{1} << 20);
+  if (progress < widest.length / 4 && length > hope) length = hope;
   int side = 0;
   Axis then = {normal, 0};
   bool foreseen = features.curved || PlacedFeatures(pair, features, frames).axis(normal, side, then);
@@ -189,12 +193,10 @@ int64_t advance_tracking(const MovingPair& pair, const Frames& frames, const Sim
     const int64_t reached = advance_on(pair, frames, horizon, normal, spin, floor, result.passes);
     if (reached > best) best = reached;
     if (last || best >= pair.to || best - time >= part_of(length, k_one * 3 / 5)) break;
-    const int64_t progress = best - time > length / 100 ? best - time : length / 100;
-    if (2 * progress > length)
-      length /= 2;
-    else
-      length = geometric_mean(progress, length);
+    const int64_t reach = best - time > length / 100 ? best - time : length / 100;
+    length = 2 * reach > length ? length / 2 : geometric_mean(reach, length);
   }
+  progress = best - time;
   return best;
 }
 

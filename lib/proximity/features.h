@@ -22,9 +22,11 @@ struct Features {
 };
 
 /// Like advance(), with a spin foreseen from where the features will be: right at contact too, for edges and vertices.
-/// Returns how far it is certain that the cores stay `floor` apart, as a time. Counts passes and calls of gjk().
+/// Returns how far it is certain that the cores stay `floor` apart, as a time. Counts passes and calls of gjk(). `progress`: of the last call, renewed; what
+/// it led to is what the next one may hope for.
 int64_t advance_tracking(const MovingPair& pair, const Frames& frames, const Simplex& simplex,
-                         const Features& features, const GjkResult& nearest, int32_t floor, TimeOfImpact& result);
+                         const Features& features, const GjkResult& nearest, int32_t floor, int64_t& progress,
+                         TimeOfImpact& result);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

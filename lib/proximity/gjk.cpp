@@ -10,6 +10,17 @@ Vec32 difference_of(const Placed& a, const Placed& b, const Vec32& offset, const
   return add(offset, subtract(b.point(vertex.b.local), a.point(vertex.a.local)));
 }
 
+/// Places the core points of the simplex anew.
+void restart(const Placed& a, const Placed& b, const Vec32& offset, Simplex& simplex) {
+  const Simplex last = simplex;
+  simplex.clear();
+  for (int i = 0; i < last.count() && !simplex.holds_origin(); ++i) {
+    SimplexVertex vertex = last.vertex(i);
+    vertex.difference = difference_of(a, b, offset, vertex);
+    simplex.insert(vertex);
+  }
+}
+
 /// Four ulps along a direction of at least 2^29: more than what its rounding and the supports' may take.
 constexpr int64_t k_touching = int64_t{4} << 31;
 
@@ -53,12 +64,11 @@ GjkResult gjk(const Placed& a, const Placed& b, const Vec32& offset, Simplex& si
     return half_space_gjk(a, b, offset, simplex);
   }
   GjkResult result = {GjkOutcome::apart, {0, 0, 0}, INT32_MAX, 0, 0};
-  const Simplex warm = simplex;
-  simplex.clear();
-  for (int i = 0; i < warm.count() && !simplex.holds_origin(); ++i) {
-    SimplexVertex vertex = warm.vertex(i);
-    vertex.difference = difference_of(a, b, offset, vertex);
-    simplex.insert(vertex);
+  uint8_t start_a = 0, start_b = 0;
+  if (simplex.count() != 0) {
+    restart(a, b, offset, simplex);
+    start_a = newest(simplex).a.feature;
+    start_b = newest(simplex).b.feature;
   }
   Vec32 direction = is_zero(offset) ? Vec32{1 << 30, 0, 0} : scaled_to_30_bits(offset);
   for (;;) {
@@ -78,7 +88,9 @@ GjkResult gjk(const Placed& a, const Placed& b, const Vec32& offset, Simplex& si
         if (result.upper <= limits.below) return result;
       }
     }
-    const SupportPoint on_a = support(a, direction), on_b = support(b, negate(direction));
+    const SupportPoint on_a = support(a, direction, start_a), on_b = support(b, negate(direction), start_b);
+    start_a = on_a.core.feature;
+    start_b = on_b.core.feature;
     ++result.iterations;
     SimplexVertex vertex = {add(offset, subtract(on_b.point, on_a.point)), on_a.core, on_b.core};
     const int64_t floor = dot(direction, vertex.difference);

@@ -40,9 +40,9 @@ Status set_turning(const Convex& convex, const Motion& motion, Turning& turning)
 /// Has the leading bit of the largest component.
 uint64_t magnitudes(const Vec64& v) { return magnitude_64(v.x) | magnitude_64(v.y) | magnitude_64(v.z); }
 
-/// From centre to centre, 2^-46 m, rounded up.
+/// At least the distance from centre to centre, 2^-46 m.
 int64_t distance_at(const MovingPair& pair, int64_t time) {
-  return length_above(add(pair.offset, over_time(pair.displacement, time)));
+  return length_bound(add(pair.offset, over_time(pair.displacement, time)));
 }
 
 /// The root of a 128-bit number, rounded up.

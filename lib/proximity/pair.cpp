@@ -9,6 +9,17 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 #if DETENT_FIXED
+namespace {
+
+/// Of length 1 within 2^-29: as every rotation is that the library made.
+bool is_unit(const Quat32& q) {
+  const uint64_t square = static_cast<uint64_t>(int64_t{q.x} * q.x) + static_cast<uint64_t>(int64_t{q.y} * q.y) +
+                          static_cast<uint64_t>(int64_t{q.z} * q.z) + static_cast<uint64_t>(int64_t{q.w} * q.w);
+  return square - ((uint64_t{1} << 60) - (uint64_t{1} << 32)) <= uint64_t{1} << 33;
+}
+
+}  // namespace
+
 bool raw_from_real(const Vec3<Real>& v, Vec64& raw) {
   raw = {v.x.raw, v.y.raw, v.z.raw};
   return true;
@@ -17,6 +28,8 @@ bool raw_from_real(const Vec3<Real>& v, Vec64& raw) {
 Real real_from_raw(int64_t raw) { return Real::from_raw(raw); }
 
 bool raw_from_quat(const Quat& q, Quat32& raw) {
+  raw = {q.x.raw, q.y.raw, q.z.raw, q.w.raw};
+  if (is_unit(raw)) return true;
   Quat unit;
   if (!normalise_input(q, unit)) return false;
   raw = {unit.x.raw, unit.y.raw, unit.z.raw, unit.w.raw};
@@ -80,6 +93,14 @@ int64_t length_above(const Vec64& v) {
   const uint64_t root =
       square_root_nearest(Words128{static_cast<uint64_t>(square.high_word()), square.low_word()});
   return root >= static_cast<uint64_t>(INT64_MAX) ? INT64_MAX : static_cast<int64_t>(root) + 1;
+}
+
+int64_t length_bound(const Vec64& v) {
+  const int length = bit_length_64(magnitude_64(v.x) | magnitude_64(v.y) | magnitude_64(v.z));
+  const int n = length > 29 ? length - 29 : 0;
+  const Vec32 head = round_shift(v, n);
+  const int64_t bound = int64_t{square_root_bound(static_cast<uint64_t>(dot(head, head)))} + 2;
+  return n > 31 ? INT64_MAX : bound << n;
 }
 
 int raw_exponent_above(int64_t raw) {

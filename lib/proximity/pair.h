@@ -21,6 +21,8 @@ Vec3<Unit> units_from_raw(const Vec32& v);
 
 /// |v|, rounded up.
 int64_t length_above(const Vec64& v);
+/// At least |v|, and at most 1.6 % and a few 2^-30 more; INT64_MAX where that is more than 2^62. Cheap.
+int64_t length_bound(const Vec64& v);
 /// The least e >= -14 with raw 2^-46 m < 2^e m.
 int raw_exponent_above(int64_t raw);
 /// (v.n) n for a unit vector n, Q30.

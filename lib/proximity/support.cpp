@@ -27,13 +27,6 @@ Vec32 corner_of(const Convex& triangle, int i) {
   return {triangle.corner[i][0], triangle.corner[i][1], triangle.corner[i][2]};
 }
 
-/// A box's vertex by the signs of its coordinates: bit i of the feature is set where coordinate i is negative.
-CorePoint box_vertex(const Convex& box, bool x, bool y, bool z) {
-  const int32_t* size = box.size;
-  return {{x ? -size[0] : size[0], y ? -size[1] : size[1], z ? -size[2] : size[2]},
-          static_cast<uint8_t>((x ? 1 : 0) | (y ? 2 : 0) | (z ? 4 : 0))};
-}
-
 CorePoint capsule_end(const Convex& capsule, bool back) {
   return {{0, back ? -capsule.size[1] : capsule.size[1], 0}, static_cast<uint8_t>(back ? 1 : 0)};
 }
@@ -42,13 +35,36 @@ CorePoint hull_vertex(const HullView& hull, uint32_t i) {
   return {{hull.x(i), hull.y(i), hull.z(i)}, static_cast<uint8_t>(i)};
 }
 
-CorePoint hull_support(const HullView& hull, const Vec32& direction) {
-  const int64_t dx = direction.x, dy = direction.y, dz = direction.z;
-  const uint32_t count = hull.vertex_count;
+int64_t reach(const HullView& hull, uint32_t i, const Vec32& direction) {
+  return int64_t{hull.x(i)} * direction.x + int64_t{hull.y(i)} * direction.y + int64_t{hull.z(i)} * direction.z;
+}
+
+/// From vertex to vertex as long as a neighbour lies farther: on a convex hull the last one lies farthest.
+uint32_t climb(const HullView& hull, const Vec32& direction, uint32_t start) {
+  uint32_t best = start < hull.vertex_count ? start : 0;
+  int64_t best_value = reach(hull, best, direction);
+  for (uint32_t step = 0; step < hull.vertex_count; ++step) {
+    const HullIndices around = hull.neighbours(best);
+    uint32_t next = best;
+    for (uint32_t k = 0; k < around.count; ++k) {
+      const int64_t value = reach(hull, around.index[k], direction);
+      if (value > best_value) {
+        best_value = value;
+        next = around.index[k];
+      }
+    }
+    if (next == best) break;
+    best = next;
+  }
+  return best;
+}
+
+CorePoint hull_support(const HullView& hull, const Vec32& direction, uint32_t start) {
+  if (hull.vertex_count > k_climbing_vertices) return hull_vertex(hull, climb(hull, direction, start));
   uint32_t best = 0;
   int64_t best_value = INT64_MIN;
-  for (uint32_t i = 0; i < count; ++i) {
-    const int64_t value = dx * hull.x(i) + dy * hull.y(i) + dz * hull.z(i);
+  for (uint32_t i = 0; i < hull.vertex_count; ++i) {
+    const int64_t value = reach(hull, i, direction);
     if (value > best_value) {
       best_value = value;
       best = i;
@@ -68,7 +84,7 @@ bool core_vertex(const Convex& convex, uint8_t feature, CorePoint& point) {
       point = capsule_end(convex, feature == 1);
       return feature < 2;
     case ShapeType::box:
-      point = box_vertex(convex, (feature & 1) != 0, (feature & 2) != 0, (feature & 4) != 0);
+      point = box_vertex(convex, -(feature & 1), -(feature >> 1 & 1), -(feature >> 2 & 1));
       return feature < 8;
     case ShapeType::triangle:
       if (feature >= 3) return false;
@@ -83,13 +99,13 @@ bool core_vertex(const Convex& convex, uint8_t feature, CorePoint& point) {
   }
 }
 
-CorePoint local_support(const Convex& convex, const Vec32& direction) {
+CorePoint local_support(const Convex& convex, const HullView& hull, const Vec32& direction, uint8_t start) {
   const int32_t* size = convex.size;
   switch (convex.type) {
     case ShapeType::capsule:
       return capsule_end(convex, direction.y < 0);
     case ShapeType::box:
-      return box_vertex(convex, direction.x < 0, direction.y < 0, direction.z < 0);
+      return box_vertex(convex, direction.x >> 31, direction.y >> 31, direction.z >> 31);
     case ShapeType::cylinder:
       return rim_point(size[0], direction.y < 0 ? -size[1] : size[1], direction, length_across(direction));
     case ShapeType::cone: {
@@ -100,7 +116,7 @@ CorePoint local_support(const Convex& convex, const Vec32& direction) {
       return rim_point(size[0], -(size[1] / 2), direction, across);
     }
     case ShapeType::hull:
-      return hull_support(hull_view(convex.hull), direction);
+      return hull_support(hull, direction, start);
     case ShapeType::triangle: {
       int best = 0;
       int64_t best_value = INT64_MIN;
@@ -120,7 +136,8 @@ CorePoint local_support(const Convex& convex, const Vec32& direction) {
   return {{0, 0, 0}, 0};
 }
 
-SupportValue support_value(const Convex& convex, const Vec32& direction, const Vec32& rate) {
+SupportValue support_value(const Convex& convex, const HullView& hull, const Vec32& direction, const Vec32& rate,
+                           uint8_t& start) {
   switch (convex.type) {
     case ShapeType::sphere:
     case ShapeType::half_space:
@@ -136,8 +153,9 @@ SupportValue support_value(const Convex& convex, const Vec32& direction, const V
       return {x * direction.x + y * direction.y + z * direction.z, x * rate.x + y * rate.y + z * rate.z};
     }
     default: {
-      const Vec32 point = local_support(convex, direction).local;
-      return {dot(direction, point), dot(rate, point)};
+      const CorePoint point = local_support(convex, hull, direction, start);
+      start = point.feature;
+      return {dot(direction, point.local), dot(rate, point.local)};
     }
   }
 }
@@ -145,6 +163,7 @@ SupportValue support_value(const Convex& convex, const Vec32& direction, const V
 Placed place(const Convex& convex, const Matrix32& rotation, int pair_exponent) {
   Placed placed;
   placed.convex = &convex;
+  placed.hull = hull_of(convex);
   placed.rotation = rotation;
   placed.shift = pair_exponent - convex.exponent;
   DETENT_VERIFY_RANGE(placed.shift >= 0 || convex.core_radius == 0);
@@ -159,44 +178,16 @@ Placed place(const Convex& convex, const Matrix32& rotation, int pair_exponent) 
   return placed;
 }
 
-Vec32 Placed::point(const Vec32& local) const {
+Vec32 Placed::other_point(const Vec32& local) const {
   switch (convex->type) {
     case ShapeType::sphere:
     case ShapeType::half_space:
       return {0, 0, 0};
     case ShapeType::capsule:
       return local.y < 0 ? negate(axis[1]) : axis[1];
-    case ShapeType::box: {
-      const Vec32 x = local.x < 0 ? negate(axis[0]) : axis[0];
-      const Vec32 y = local.y < 0 ? negate(axis[1]) : axis[1];
-      const Vec32 z = local.z < 0 ? negate(axis[2]) : axis[2];
-      return add(add(x, y), z);
-    }
     default:
       return shift > 32 ? Vec32{0, 0, 0} : round_shift(multiply(rotation, local), 30 + shift);
   }
-}
-
-SupportPoint support(const Placed& placed, const Vec32& direction) {
-  const Convex& convex = *placed.convex;
-  const Vec32* axis = placed.axis;
-  CorePoint core;
-  switch (convex.type) {
-    case ShapeType::sphere:
-    case ShapeType::half_space:
-      core = {{0, 0, 0}, 0};
-      break;
-    case ShapeType::capsule:
-      core = capsule_end(convex, dot(direction, axis[1]) < 0);
-      break;
-    case ShapeType::box:
-      core = box_vertex(convex, dot(direction, axis[0]) < 0, dot(direction, axis[1]) < 0, dot(direction, axis[2]) < 0);
-      break;
-    default:
-      core = local_support(convex, rotate_inverse(placed.rotation, direction));
-      break;
-  }
-  return {placed.point(core.local), core};
 }
 
 }  // namespace DETENT_NAMESPACE
