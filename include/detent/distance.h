@@ -12,6 +12,9 @@ struct DistanceCache {
   uint8_t vertex_a[4] = {}, vertex_b[4] = {};
 };
 
+/// The error of a distance, in parts of the pair's extent: the core diameters and the distance of the centres.
+inline constexpr double k_distance_error = 0x1p-25;
+
 struct Closest {
   bool overlap = false;             ///< the cores or their balls meet: distance 0
   bool capped = false;              ///< the iteration cap was met: `distance` is still a lower bound
@@ -27,6 +30,10 @@ struct Closest {
 /// Range: any poses; beyond 2^17 m of distance it saturates. Errors: bad_argument for two half-spaces; not_normalised.
 Status closest_points(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Closest& result,
                       DistanceCache* cache = nullptr);
+
+/// Whether the shapes meet or touch. Exact for the shapes' own integers, of which placing errs by k_distance_error.
+Status overlap(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, bool& result,
+               DistanceCache* cache = nullptr);
 
 /// Whether the shapes are farther apart than `reach`, m: true is certain, false may err by k_distance_error.
 Status farther_than(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Real reach,

@@ -28,9 +28,13 @@ struct TimeOfImpact {
   ToiOutcome outcome = ToiOutcome::undecided;
   Fraction time = 0.0;      ///< never late: up to here the shapes do not meet, unless they did at the start; 1 if clear
   Vec3<Unit> normal = {};   ///< at `time`, from A to B, world axes; zero where the cores meet at the start
+  Vec3<Real> point = {};    ///< of a hit, on A's surface, m, from A's position at `time`, world axes
   uint32_t gjk_calls = 0;
   uint32_t passes = 0;
 };
+
+/// A hit is at most this part of the larger core diameter early in gap, beside the ulps stated in SPEC.md.
+inline constexpr double k_toi_tolerance = 1e-6;
 
 /// When two moving shapes first come within the tolerance.
 /// Tolerance: k_toi_tolerance of the larger core diameter, and the ulps stated in SPEC.md.

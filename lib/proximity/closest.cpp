@@ -14,15 +14,7 @@ struct RestingPair {
   Vec32 offset;  ///< from A's centre to B's, in the block
   Placed a, b;
   int64_t radius_a, radius_b;  ///< of the balls, 2^-46 m
-
-  int64_t metres(int64_t block) const {
-    const int n = exponent + k_metre_bits - 30;
-    const int64_t limit = INT64_MAX >> n;
-    return block > limit ? INT64_MAX : block < -limit ? -INT64_MAX : block * (int64_t{1} << n);
-  }
 };
-
-int64_t saturated_sum(int64_t a, int64_t b) { return a > INT64_MAX - b ? INT64_MAX : a + b; }
 
 Status rest(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, RestingPair& pair) {
   if (a.type == ShapeType::half_space && b.type == ShapeType::half_space) return Status::bad_argument;
@@ -31,7 +23,8 @@ Status rest(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& po
     return Status::not_normalised;
   }
   const Matrix32 matrix_a = matrix_from(rotation_a), matrix_b = matrix_from(rotation_b);
-  Vec64 offset = raw_difference(pose_b.position, pose_a.position);
+  Vec64 offset;
+  if (!raw_difference(pose_b.position, pose_a.position, offset)) return Status::out_of_range;
   const ShapeType half_space = ShapeType::half_space;
   if (a.type == half_space || b.type == half_space) {
     offset = component_along(offset, (a.type == half_space ? matrix_a : matrix_b).column[1]);
@@ -65,28 +58,23 @@ void save(const Simplex& simplex, DistanceCache& cache) {
   }
 }
 
-/// The points that the simplex' nearest point is the difference of, in the block, each from its shape's centre.
-void witnesses(const RestingPair& pair, const Simplex& simplex, Vec32& on_a, Vec32& on_b) {
-  int32_t weight[4];
-  simplex.weights(weight);
-  const auto weighted = [&](const Placed& placed, CorePoint SimplexVertex::* of) {
-    if (simplex.count() == 1) return placed.point((simplex.vertex(0).*of).local);
-    Vec64 sum = {0, 0, 0};
-    for (int i = 0; i < simplex.count(); ++i) {
-      const Vec32 p = placed.point((simplex.vertex(i).*of).local);
-      sum = add(sum, Vec64{int64_t{p.x} * weight[i], int64_t{p.y} * weight[i], int64_t{p.z} * weight[i]});
-    }
-    return round_shift(sum, 30);
-  };
-  on_a = weighted(pair.a, &SimplexVertex::a);
-  on_b = weighted(pair.b, &SimplexVertex::b);
-}
-
-Vec3<Real> surface_point(const RestingPair& pair, const Vec32& core, const Vec32& normal, int64_t radius) {
-  const auto component = [&](int64_t at, int32_t n) {
-    return real_from_raw(saturated_sum(pair.metres(at), Int128::product_narrow(radius, n).round_shift(30)));
-  };
-  return {component(core.x, normal.x), component(core.y, normal.y), component(core.z, normal.z)};
+/// Whether the distance is certainly more than `reach`, 2^-46 m, and `slack` ulps of the block.
+Status farther_by(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, int64_t reach, int32_t slack,
+                  bool& result, DistanceCache* cache) {
+  RestingPair pair;
+  if (const Status status = rest(a, pose_a, b, pose_b, pair); status != Status::ok) return status;
+  // In the block, rounded up; beyond it nothing is that far.
+  const int64_t needed = saturated_sum(saturated_sum(reach, pair.radius_a), pair.radius_b);
+  const int64_t ulps = (needed >> (k_metre_bits - 30 + pair.exponent)) + (needed > 0 ? 1 : 0) + slack;
+  result = false;
+  if (ulps >= INT32_MAX) return Status::ok;
+  const int32_t above = static_cast<int32_t>(ulps);
+  Simplex simplex;
+  if (cache != nullptr) load(*cache, a, b, simplex);
+  const GjkResult found = gjk(pair.a, pair.b, pair.offset, simplex, {above, above, 62});
+  if (cache != nullptr) save(simplex, *cache);
+  result = found.outcome != GjkOutcome::overlap && (above == 0 || found.lower > above);
+  return Status::ok;
 }
 
 }  // namespace
@@ -105,39 +93,31 @@ Status closest_points(const Convex& a, const Pose& pose_a, const Convex& b, cons
   if (found.outcome == GjkOutcome::overlap) {
     made.overlap = true;
   } else {
-    const int64_t gap = pair.metres(made.capped ? found.lower - k_gjk_slack : found.upper) - pair.radius_a - pair.radius_b;
+    const int64_t gap = raw_from_block(made.capped ? found.lower - k_gjk_slack : found.upper, pair.exponent) - pair.radius_a - pair.radius_b;
     made.overlap = gap <= 0;
     made.distance = real_from_raw(gap > 0 ? gap : 0);
     made.normal = units_from_raw(found.normal);
-    Vec32 on_a, on_b;
-    witnesses(pair, simplex, on_a, on_b);
-    made.point_a = surface_point(pair, on_a, found.normal, pair.radius_a);
-    made.point_b = surface_point(pair, on_b, negate(found.normal), pair.radius_b);
+    const NearestPoints nearest = nearest_points(pair.a, pair.b, simplex);
+    made.point_a = surface_point(nearest.on_a, pair.exponent, found.normal, pair.radius_a);
+    made.point_b = surface_point(nearest.on_b, pair.exponent, negate(found.normal), pair.radius_b);
   }
   result = made;
   return Status::ok;
 }
 
+Status overlap(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, bool& result,
+               DistanceCache* cache) {
+  bool farther = false;
+  if (const Status status = farther_by(a, pose_a, b, pose_b, 0, 0, farther, cache); status != Status::ok) return status;
+  result = !farther;
+  return Status::ok;
+}
+
 Status farther_than(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Real reach, bool& result,
                     DistanceCache* cache) {
-  RestingPair pair;
-  if (const Status status = rest(a, pose_a, b, pose_b, pair); status != Status::ok) return status;
   Vec64 raw;
   if (!raw_from_real({reach, Real(0.0), Real(0.0)}, raw) || raw.x < 0) return Status::out_of_range;
-  // In the block, rounded up; beyond it nothing is that far.
-  const int n = k_metre_bits - 30 + pair.exponent;
-  const int64_t needed = saturated_sum(saturated_sum(raw.x, pair.radius_a), pair.radius_b) >> n;
-  if (needed >= INT32_MAX - 2 * k_gjk_slack) {
-    result = false;
-    return Status::ok;
-  }
-  const int32_t above = static_cast<int32_t>(needed) + 1 + k_gjk_slack;
-  Simplex simplex;
-  if (cache != nullptr) load(*cache, a, b, simplex);
-  const GjkResult found = gjk(pair.a, pair.b, pair.offset, simplex, {above, above, 62});
-  if (cache != nullptr) save(simplex, *cache);
-  result = found.outcome != GjkOutcome::overlap && found.lower > above;
-  return Status::ok;
+  return farther_by(a, pose_a, b, pose_b, raw.x, k_gjk_slack, result, cache);
 }
 
 }  // namespace DETENT_NAMESPACE

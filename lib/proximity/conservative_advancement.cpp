@@ -67,6 +67,7 @@ void conservative_advancement(const MovingPair& pair, ToiMethod method, TimeOfIm
     result.normal = units_from_raw(nearest.normal);
     if (nearest.outcome == GjkOutcome::overlap || nearest.upper <= touching) {
       result.outcome = ToiOutcome::hit;
+      result.point = surface_point(nearest_points(a, b, simplex).on_a, pair.exponent, nearest.normal, pair.radius_a);
       return;
     }
     const int64_t next = next_time(pair, method, frames, simplex, nearest, iteration, floor, progress, result);
@@ -93,7 +94,7 @@ Status time_of_impact_by(ToiMethod method, const Convex& a, const Motion& motion
 
 Status time_of_impact(const Convex& a, const Motion& motion_a, const Convex& b, const Motion& motion_b,
                       TimeOfImpact& result) {
-  return time_of_impact_by(ToiMethod::constant_spin, a, motion_a, b, motion_b, result);
+  return time_of_impact_by(k_toi_method, a, motion_a, b, motion_b, result);
 }
 
 }  // namespace DETENT_NAMESPACE

@@ -4,6 +4,13 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
+/// The library's own method: the one that is never far from the best on any kind of query (docs/bench).
+#if defined(DETENT_TOI_METHOD)
+inline constexpr ToiMethod k_toi_method = ToiMethod::DETENT_TOI_METHOD;
+#else
+inline constexpr ToiMethod k_toi_method = ToiMethod::constant_spin;
+#endif
+
 /// More axes than this are not looked for.
 inline constexpr int k_toi_iterations_max = 24;
 

@@ -120,5 +120,20 @@ GjkResult gjk(const Placed& a, const Placed& b, const Vec32& offset, Simplex& si
   }
 }
 
+NearestPoints nearest_points(const Placed& a, const Placed& b, const Simplex& simplex) {
+  int32_t weight[4];
+  simplex.weights(weight);
+  const auto weighted = [&](const Placed& placed, CorePoint SimplexVertex::* of) {
+    if (simplex.count() == 1) return placed.point((simplex.vertex(0).*of).local);
+    Vec64 sum = {0, 0, 0};
+    for (int i = 0; i < simplex.count(); ++i) {
+      const Vec32 p = placed.point((simplex.vertex(i).*of).local);
+      sum = add(sum, Vec64{int64_t{p.x} * weight[i], int64_t{p.y} * weight[i], int64_t{p.z} * weight[i]});
+    }
+    return round_shift(sum, 30);
+  };
+  return {weighted(a, &SimplexVertex::a), weighted(b, &SimplexVertex::b)};
+}
+
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -34,6 +34,12 @@ struct GjkLimits {
 /// exact simplex. Starts from the core points in `simplex` (may be empty) and leaves the last one there.
 GjkResult gjk(const Placed& a, const Placed& b, const Vec32& offset, Simplex& simplex, const GjkLimits& limits);
 
+/// The points that the simplex' nearest point is the difference of, in the block, each from its shape's centre.
+struct NearestPoints {
+  Vec32 on_a, on_b;
+};
+NearestPoints nearest_points(const Placed& a, const Placed& b, const Simplex& simplex);
+
 /// Ulps of the block by which `lower` may exceed the least distance of the true cores along the normal: placing (1.5
 /// sqrt 3 each core), the normal's and the local direction's rounding, and the support's choice. Derived in DESIGN.md.
 inline constexpr int k_gjk_slack = 16;

@@ -19,14 +19,12 @@ Status set_turning(const Convex& convex, const Motion& motion, Turning& turning)
   if (magnitude_64(turn.x) > k_turn_max || magnitude_64(turn.y) > k_turn_max || magnitude_64(turn.z) > k_turn_max) {
     return Status::out_of_range;
   }
-  turning.start_matrix = matrix_from(turning.start);
-  turning.turns = !is_zero(turn) && (convex.core_radius != 0 || convex.type == ShapeType::half_space);
-  if (!turning.turns) {
-    turning.turn = {0, 0, 0};
-    turning.angle = turning.rate = 0;
-    turning.axis = {0, 0, 0};
-    return Status::ok;
-  }
+  const Vec64 way = turn;
+  const bool turns = !is_zero(way) && (convex.core_radius != 0 || convex.type == ShapeType::half_space);
+  turning = still(turning.start);
+  if (!turns) return Status::ok;
+  turning.turns = true;
+  turning.turn = way;
   turning.axis = unit_vector_raw(scaled_to_30_bits(turn));
   // |turn| = axis . turn / |axis|, whose square is 1 + excess: the axis' own rounding drops out to the second order.
   const int64_t excess = dot(turning.axis, turning.axis) - (int64_t{1} << 60);
@@ -119,21 +117,33 @@ Matrix32 Turning::at(int64_t time) const {
 }
 
 Status prepare(const Convex& a, const Motion& motion_a, const Convex& b, const Motion& motion_b, MovingPair& pair) {
-  const bool plane_a = a.type == ShapeType::half_space, plane_b = b.type == ShapeType::half_space;
-  if (plane_a && plane_b) return Status::bad_argument;
+  if (a.type == ShapeType::half_space && b.type == ShapeType::half_space) return Status::bad_argument;
+  pair.a = &a;
+  pair.b = &b;
   if (const Status status = set_turning(a, motion_a, pair.turning_a); status != Status::ok) return status;
   if (const Status status = set_turning(b, motion_b, pair.turning_b); status != Status::ok) return status;
   Vec64 way_a, way_b;
   if (!raw_from_real(motion_a.displacement, way_a) || !raw_from_real(motion_b.displacement, way_b)) {
     return Status::out_of_range;
   }
-  if (((magnitudes(way_a) | magnitudes(way_b)) >> 61) != 0) return Status::out_of_range;
-  pair.a = &a;
-  pair.b = &b;
-  pair.planar = plane_a || plane_b;
-  pair.offset = raw_difference(motion_b.start.position, motion_a.start.position);
-  pair.displacement = add(way_b, negate(way_a));
-  const Turning& plane = plane_a ? pair.turning_a : pair.turning_b;
+  if (((magnitudes(way_a) | magnitudes(way_b)) >> 60) != 0) return Status::out_of_range;
+  Vec64 offset;
+  if (!raw_difference(motion_b.start.position, motion_a.start.position, offset)) return Status::out_of_range;
+  return set_block(offset, add(way_b, negate(way_a)), pair);
+}
+
+Turning still(const Quat32& rotation) {
+  return {rotation, matrix_from(rotation), false, {0, 0, 0}, 0, {0, 0, 0}, 0};
+}
+
+Status set_block(const Vec64& offset, const Vec64& displacement, MovingPair& pair) {
+  const Convex &a = *pair.a, &b = *pair.b;
+  pair.offset = offset;
+  pair.displacement = displacement;
+  const bool plane_is_a = a.type == ShapeType::half_space;
+  if (magnitudes(displacement) >> 61 != 0) return Status::out_of_range;
+  pair.planar = plane_is_a || b.type == ShapeType::half_space;
+  const Turning& plane = plane_is_a ? pair.turning_a : pair.turning_b;
   if (pair.planar && !plane.turns) {
     const Vec32& up = plane.start_matrix.column[1];
     pair.offset = component_along(pair.offset, up);
@@ -141,22 +151,32 @@ Status prepare(const Convex& a, const Motion& motion_a, const Convex& b, const M
   }
   const int64_t cores = raw_core_radius(a) + raw_core_radius(b), balls = raw_radius(a) + raw_radius(b);
   const int64_t close = cores + balls + ((cores + balls) >> 18) + 64;
+  if (magnitudes(pair.offset) >> 62 != 0) {
+    // Sums would overflow: too far to meet, or too far to tell.
+    const auto parted = [close](int64_t c, int64_t d) { return magnitude_64(c) > magnitude_64(d) + static_cast<uint64_t>(close); };
+    const Vec64 &c = pair.offset, &d = pair.displacement;
+    if (pair.planar || !(parted(c.x, d.x) || parted(c.y, d.y) || parted(c.z, d.z))) return Status::out_of_range;
+    pair.from = 1;
+    pair.to = 0;
+    return Status::ok;
+  }
   int64_t reach = close;
   if (pair.planar) {
     // A plane is everywhere: the whole step, in a block that holds both ends of the way.
     pair.from = 0;
     pair.to = k_time_end;
     const int64_t begins = distance_at(pair, 0), ends = distance_at(pair, k_time_end);
-    reach = (begins > ends ? begins : ends) + close;
+    reach = saturated_sum(begins > ends ? begins : ends, close);
   } else {
     const int64_t rounding = set_window(pair, close);
     if (pair.from > pair.to) return Status::ok;
     reach += rounding;
   }
-  pair.exponent = raw_exponent_above(reach + cores + 64);
+  pair.exponent = raw_exponent_above(saturated_sum(reach, cores + 64));
   pair.reach = ulps_above(reach, pair.exponent);
   pair.core_a = ulps_above(raw_core_radius(a), pair.exponent);
   pair.core_b = ulps_above(raw_core_radius(b), pair.exponent);
+  pair.radius_a = raw_radius(a);
   pair.radius = ulps_above(balls, pair.exponent);
   // 0.9 2^-20 of the larger core's diameter, and no less than four times what rounding may take.
   const int64_t larger = pair.core_a > pair.core_b ? pair.core_a : pair.core_b;

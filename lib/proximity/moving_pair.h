@@ -57,6 +57,7 @@ struct MovingPair {
   int exponent;        ///< 2^exponent m is the pair's unit of length; the block's ulp is 2^-30 of it
   int32_t core_a, core_b;  ///< core radii, ulps of the block, rounded up
   int64_t reach;       ///< ulps; the centres are never farther apart in the window
+  int64_t radius_a;    ///< of A's ball, 2^-46 m
   int32_t radius;      ///< of both balls, ulps, rounded up
   int32_t tolerance;   ///< ulps: closer than radius + tolerance is a hit
 
@@ -70,8 +71,13 @@ struct MovingPair {
   }
 };
 
-/// Reads the poses, finds the window in which the bounding spheres touch, and the block.
-/// Errors: as time_of_impact().
+/// Of a pair whose shapes and turnings are set: finds the window in which the bounding spheres touch, and the block.
+/// `offset` and `displacement`, both of B from A: 2^-46 m. Errors: out_of_range for a displacement of 2^15 m, or if the
+/// centres are 2^16 m apart and the spheres may touch all the same.
+Status set_block(const Vec64& offset, const Vec64& displacement, MovingPair& pair);
+/// A body that does not turn.
+Turning still(const Quat32& rotation);
+/// Reads the poses and sets the block. Errors: as time_of_impact().
 Status prepare(const Convex& a, const Motion& motion_a, const Convex& b, const Motion& motion_b, MovingPair& pair);
 
 }  // namespace DETENT_NAMESPACE

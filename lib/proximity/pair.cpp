@@ -74,6 +74,7 @@ int64_t difference_of(Coord a, Coord b) {
   bool saturated = false;
   return integer_from_float(a - b, k_metre_bits, saturated);
 }
+bool is_finite(Coord a) { return float_parts(a).finite; }
 #else
 int64_t difference_of(Coord a, Coord b) {
   constexpr int k_shift = k_metre_bits - Coord::k_frac;
@@ -84,6 +85,7 @@ int64_t difference_of(Coord a, Coord b) {
   }
   return difference < 0 || difference > k_limit ? INT64_MAX : difference << k_shift;
 }
+bool is_finite(Coord) { return true; }
 #endif
 
 }  // namespace
@@ -101,6 +103,19 @@ int64_t length_bound(const Vec64& v) {
   const Vec32 head = round_shift(v, n);
   const int64_t bound = int64_t{square_root_bound(static_cast<uint64_t>(dot(head, head)))} + 2;
   return n > 31 ? INT64_MAX : bound << n;
+}
+
+int64_t raw_from_block(int64_t ulps, int exponent) {
+  const int n = exponent + k_metre_bits - 30;
+  const int64_t limit = INT64_MAX >> n;
+  return ulps > limit ? INT64_MAX : ulps < -limit ? -INT64_MAX : ulps * (int64_t{1} << n);
+}
+
+Vec3<Real> surface_point(const Vec32& core, int exponent, const Vec32& normal, int64_t radius) {
+  const auto component = [&](int64_t at, int32_t n) {
+    return real_from_raw(saturated_sum(raw_from_block(at, exponent), Int128::product_narrow(radius, n).round_shift(30)));
+  };
+  return {component(core.x, normal.x), component(core.y, normal.y), component(core.z, normal.z)};
 }
 
 int raw_exponent_above(int64_t raw) {
@@ -121,8 +136,11 @@ int64_t raw_radius(const Convex& convex) {
   return int64_t{convex.radius} << (k_metre_bits - 30 + convex.radius_exponent);
 }
 
-Vec64 raw_difference(const Position& a, const Position& b) {
-  return {difference_of(a.x, b.x), difference_of(a.y, b.y), difference_of(a.z, b.z)};
+bool raw_difference(const Position& a, const Position& b, Vec64& raw) {
+  if (!is_finite(a.x) || !is_finite(a.y) || !is_finite(a.z)) return false;
+  if (!is_finite(b.x) || !is_finite(b.y) || !is_finite(b.z)) return false;
+  raw = {difference_of(a.x, b.x), difference_of(a.y, b.y), difference_of(a.z, b.z)};
+  return true;
 }
 
 #if DETENT_FIXED

@@ -13,8 +13,8 @@ inline constexpr int k_metre_bits = 46;
 /// v 2^46. Fixed: exact. Float: to nearest, or saturated. NaN and infinity: false.
 bool raw_from_real(const Vec3<Real>& v, Vec64& raw);
 Real real_from_raw(int64_t raw);
-/// a - b, 2^-46 m. Fixed positions: exact within 2^17 m, saturated there. f64: to nearest.
-Vec64 raw_difference(const Position& a, const Position& b);
+/// a - b, 2^-46 m. Fixed positions: exact within 2^17 m, saturated there. f64: to nearest. NaN and infinity: false.
+bool raw_difference(const Position& a, const Position& b, Vec64& raw);
 /// Q30, of length 1 within 2^-29. False unless | |q| - 1 | <= 2^-10.
 bool raw_from_quat(const Quat& q, Quat32& raw);
 Vec3<Unit> units_from_raw(const Vec32& v);
@@ -23,6 +23,12 @@ Vec3<Unit> units_from_raw(const Vec32& v);
 int64_t length_above(const Vec64& v);
 /// At least |v|, and at most 1.6 % and a few 2^-30 more; INT64_MAX where that is more than 2^62. Cheap.
 int64_t length_bound(const Vec64& v);
+constexpr int64_t saturated_sum(int64_t a, int64_t b) { return b > 0 && a > INT64_MAX - b ? INT64_MAX : a + b; }
+/// Ulps of a block whose unit of length is 2^exponent m, in 2^-46 m. Overflow: saturates.
+int64_t raw_from_block(int64_t ulps, int exponent);
+/// A point of a core, in such a block, and `radius`, 2^-46 m, along the unit vector `normal`: m.
+Vec3<Real> surface_point(const Vec32& core, int exponent, const Vec32& normal, int64_t radius);
+
 /// The least e >= -14 with raw 2^-46 m < 2^e m.
 int raw_exponent_above(int64_t raw);
 /// (v.n) n for a unit vector n, Q30.

@@ -3,7 +3,8 @@
 #include "math/root.h"
 
 // Degrees and widths, with |vertex| < 2^30 and |edge| < 2^31: a face's normal below 2^62 (64 bits); its product with a
-// way between vertices below 2^93, the weight of a vertex in its face below 2^122 (128 bits).
+// vertex below 2^92, its own square, the weight of a vertex in its face, and what a distance is the quotient of, below
+// 2^124 (128 bits).
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -13,6 +14,17 @@ constexpr int64_t k_ulp = int64_t{1} << 30;  ///< in Q30
 constexpr int k_vertices_max = k_penetration_vertices_max;
 constexpr int k_faces_max = 2 * k_vertices_max - 4;
 static_assert(k_vertices_max <= 64, "edges are rows of 64 bits");
+
+/// How far the plane through `point` across `normal` lies from the origin, Q30 ulps, towards the normal. Rounding: the
+/// exact quotient within a relative 2^-62, to nearest.
+int64_t plane_distance(const Vec64& normal, const Vec32& point) {
+  const Int128 square = dot(normal, normal);
+  const int half_shift = (126 - bit_length_128(magnitude_128(square))) / 2;
+  const Int128 scaled = square.shift_left(2 * half_shift);
+  const uint64_t length = square_root_nearest(Words128{static_cast<uint64_t>(scaled.high_word()), scaled.low_word()});
+  return divide_rounded(dot(normal, point).shift_left(30 + half_shift), static_cast<int64_t>(length));
+}
+constexpr int64_t k_tie = 4;  ///< Q30 ulps: planes nearer to each other may be taken for one another
 
 /// Of the Minkowski difference B - A.
 struct Vertex {
@@ -44,7 +56,10 @@ struct Polytope {
   void add_face(int i, int j, int k);
   /// Takes the last vertex in. Points in a face's plane don't see it, so whole facets go and no triangle is ever flat.
   void grow();
-  int nearest_face() const;
+  /// The point of the face's plane nearest to the origin lies in the face.
+  bool holds_foot(const Face& f) const;
+  /// The face nearest to the origin, and the least distance of all, but for rounding.
+  const Face& nearest_face(int64_t& least) const;
 };
 static_assert(sizeof(Polytope) <= 4096);
 
@@ -52,7 +67,7 @@ void Polytope::add_face(int i, int j, int k) {
   DETENT_VERIFY_RANGE(face_count < k_faces_max);  // by Euler
   Face& f = face[face_count++];
   f = {{static_cast<uint8_t>(i), static_cast<uint8_t>(j), static_cast<uint8_t>(k)}, 0};
-  f.distance = dot(unit_vector_raw(scaled_to_30_bits(normal_of(f))), at(f, 0));
+  f.distance = plane_distance(normal_of(f), at(f, 0));
 }
 
 void Polytope::grow() {
@@ -75,12 +90,26 @@ void Polytope::grow() {
   }
 }
 
-int Polytope::nearest_face() const {
+bool Polytope::holds_foot(const Face& f) const {
+  const Vec64 normal = normal_of(f);
+  for (int i = 0; i < 3; ++i) {
+    if (sign_of(dot(normal, cross(at(f, i), at(f, i == 2 ? 0 : i + 1)))) < 0) return false;
+  }
+  return true;
+}
+
+const Face& Polytope::nearest_face(int64_t& least) const {
   int best = 0;
   for (int i = 1; i < face_count; ++i) {
     if (face[i].distance < face[best].distance) best = i;
   }
-  return best;
+  least = face[best].distance;
+  // The nearest plane's foot lies in the polytope: where rounding can't tell planes apart, and among the triangles of a
+  // facet, that decides.
+  for (int i = 0; i < face_count; ++i) {
+    if (face[i].distance <= least + k_tie && holds_foot(face[i])) return face[i];
+  }
+  return face[best];
 }
 
 /// The vertex of the placed core farthest along `normal`, exactly, where `found` is nearly that. Left as it is where the
@@ -128,7 +157,6 @@ class Search {
   bool add_where(const Vec64& direction, const Test& test);
   void start();
   void expand();
-  int facet_at_origin() const;
   Penetration flat(const Simplex& simplex, const Vec64& across) const;
   Penetration answer() const;
   Vertex vertex_of(const SupportPoint& on_a, const SupportPoint& on_b) const {
@@ -217,9 +245,9 @@ void Search::expand() {
   const bool curved = is_curved(a_) || is_curved(b_);
   uint8_t start_a = 0, start_b = 0;
   for (;;) {
-    const Face face = polytope_.face[polytope_.nearest_face()];
+    const Face face = polytope_.nearest_face(lower_);
     const Vec64 normal = polytope_.normal_of(face);
-    const Vec32 direction = scaled_to_30_bits(normal), unit = unit_vector_raw(direction);
+    const Vec32 direction = scaled_to_30_bits(normal);
     SupportPoint on_a = support(a_, negate(direction), start_a), on_b = support(b_, direction, start_b);
     start_a = on_a.core.feature;
     start_b = on_b.core.feature;
@@ -231,14 +259,12 @@ void Search::expand() {
       vertex = vertex_of(on_a, on_b);
     }
     const bool beyond = polytope_.faces(face, vertex.difference);
-    const int64_t along = dot(unit, vertex.difference);
-    const int64_t reach = along > face.distance ? along : face.distance;
+    const int64_t reach = beyond ? plane_distance(normal, vertex.difference) : face.distance;
     const bool done = !beyond || (curved && reach - face.distance <= k_penetration_gap * k_ulp);
-    lower_ = face.distance;
     if (reach < reach_ || !beyond) {
       reach_ = reach;
       best_ = face;
-      outward_ = unit;
+      outward_ = unit_vector_raw(direction);
     }
     if (done) return;
     if (polytope_.vertex_count == k_vertices_max) {
@@ -260,26 +286,8 @@ int64_t fraction(Int128 part, Int128 whole) {
   return leading(part) * k_ulp / leading(whole);
 }
 
-/// Like the best face, one that the origin lies straight above, if there is one: a facet is several triangles.
-int Search::facet_at_origin() const {
-  for (int n = 0; n < polytope_.face_count; ++n) {
-    const Face& f = polytope_.face[n];
-    if (f.distance > reach_ + k_penetration_slack * k_ulp) continue;
-    const Vec64 normal = polytope_.normal_of(f);
-    // Of the same facet within 2^-13.
-    if (dot(unit_vector_raw(scaled_to_30_bits(normal)), outward_) >> 30 < k_ulp - 16) continue;
-    bool holds = true;
-    for (int i = 0; i < 3 && holds; ++i) {
-      holds = sign_of(dot(normal, cross(polytope_.at(f, i), polytope_.at(f, i == 2 ? 0 : i + 1)))) >= 0;
-    }
-    if (holds) return n;
-  }
-  return -1;
-}
-
 Penetration Search::answer() const {
-  const int n = facet_at_origin();
-  const Face& face = n < 0 ? best_ : polytope_.face[n];
+  const Face& face = best_;
   const Vec64 normal = polytope_.normal_of(face);
   const Int128 whole = dot(normal, normal);
   int64_t rest = k_ulp;

@@ -17,8 +17,8 @@ struct Penetration {
 /// The polytope holds at most so many vertices. Polytopes of few faces need far fewer (tests/proximity).
 inline constexpr int k_penetration_vertices_max = 64;
 
-/// Ulps of the block. The placed vertices are exact; a unit normal of them errs by up to k_normalise_error in each
-/// component and by k_normalise_length_error in length, together below 8 2^-30 of a vertex shorter than 2^30.
+/// Ulps of the block. `depth` and `lower` are those of the placed vertices, rounded up and down; the normal errs by up to
+/// k_normalise_error in each component, together below 6 2^-30, and so does the place of a vertex shorter than 2^30 along it.
 inline constexpr int k_penetration_slack = 8;
 
 /// For a cylinder or cone, the search ends when `depth - lower` is at most so many ulps: their supports err by as much.

@@ -1,0 +1,312 @@
+#include "proximity/contact_feature.h"
+
+#include "math/root.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+constexpr int32_t k_one = 1 << 30;
+constexpr uint32_t k_line = 16;  ///< of a cylinder or cone: the edge, and the upper of its ends; 0 to 15 are rim corners
+constexpr uint32_t k_unpaired_edge = 768;  ///< a hull has at most 759 edges: those that a reduced face adds come after
+constexpr int k_tilt_power = 5;  ///< from a tilt of 2^-5 on the lowest corner of a round face is the lowest point
+
+Vec32 unit(const Vec64& v) { return unit_vector_raw(scaled_to_30_bits(v)); }
+
+/// Round the y axis in eighths, Q30; the first towards x.
+constexpr int32_t k_diagonal = 759250125;  // 2^30 / sqrt 2
+constexpr Vec32 k_eighth[8] = {{k_one, 0, 0},  {k_diagonal, 0, k_diagonal},   {0, 0, k_one},  {-k_diagonal, 0, k_diagonal},
+                               {-k_one, 0, 0}, {-k_diagonal, 0, -k_diagonal}, {0, 0, -k_one}, {k_diagonal, 0, -k_diagonal}};
+
+int64_t length_across(const Vec32& d) {
+  return square_root_nearest(static_cast<uint64_t>(int64_t{d.x} * d.x) + static_cast<uint64_t>(int64_t{d.z} * d.z));
+}
+
+/// The flat side at the top or bottom of a cylinder or cone, seen along `d` (local).
+void round_face(const Placed& placed, const Vec32& d, bool bottom, Feature& face) {
+  const Vec32 level = {d.x, 0, d.z};
+  const int64_t tilt = length_across(d), shift = tilt << k_tilt_power;
+  int lowest = 0;
+  for (int i = 1; i < 8; ++i) {
+    if (dot(k_eighth[i], level) > dot(k_eighth[lowest], level)) lowest = i;
+  }
+  for (int n = 0; n < 8; ++n) {
+    const int i = bottom ? n : 7 - n;  // from x to z is clockwise from above
+    Vec32 way = k_eighth[i];
+    if (i == lowest && shift >= k_one) {
+      way = level;
+    } else if (i == lowest) {
+      const int64_t rest = k_one - shift;
+      way = {static_cast<int32_t>((way.x * rest >> 30) + (int64_t{d.x} << k_tilt_power)), 0,
+             static_cast<int32_t>((way.z * rest >> 30) + (int64_t{d.z} << k_tilt_power))};
+    }
+    way.y = bottom ? -k_one : 1;
+    face.add(placed.point(local_support(*placed.convex, way).local), static_cast<uint32_t>(i) + (bottom ? 8 : 0));
+  }
+  const Vec32& up = placed.rotation.column[1];
+  face.normal = bottom ? negate(up) : up;
+  face.along = placed.rotation.column[0];
+  face.index = bottom ? 1 : 0;
+}
+
+/// The points where a polygon of many is farthest along 32 directions in its plane.
+void reduce(const Placed& placed, const HullIndices& loop, const Vec32& normal, Feature& face) {
+  constexpr int32_t k_sine[9] = {0, 195, 383, 556, 707, 831, 924, 981, 1000};
+  const auto vertex = [&](uint32_t i) {
+    const uint32_t v = loop.index[i];
+    return Vec32{placed.hull.x(v), placed.hull.y(v), placed.hull.z(v)};
+  };
+  const Vec32 u = unit(cross(normal, magnitude_32(normal.x) < (1u << 29) ? Vec32{k_one, 0, 0} : Vec32{0, k_one, 0}));
+  const Vec32 w = round_shift(cross(normal, u), 30);
+  bool taken[256] = {};
+  for (int i = 0; i < 32; ++i) {
+    const int quarter = i / 8, part = i % 8;
+    const int32_t c = k_sine[8 - part], s = k_sine[part];
+    const int64_t x = quarter == 0 ? c : quarter == 1 ? -s : quarter == 2 ? -c : s;
+    const int64_t y = quarter == 0 ? s : quarter == 1 ? c : quarter == 2 ? -s : -c;
+    uint32_t best = 0;
+    int64_t most = INT64_MIN;
+    for (uint32_t n = 0; n < loop.count; ++n) {
+      const int64_t reach = (dot(u, vertex(n)) >> 30) * x + (dot(w, vertex(n)) >> 30) * y;
+      if (reach > most) {
+        most = reach;
+        best = n;
+      }
+    }
+    taken[best] = true;
+  }
+  for (uint32_t n = 0; n < loop.count; ++n) {
+    if (taken[n]) face.add(placed.point(vertex(n)), loop.index[n]);
+  }
+}
+
+void hull_face(const Placed& placed, const Vec32& d, Feature& face) {
+  const HullView& hull = placed.hull;
+  const uint8_t farthest = local_support(*placed.convex, hull, d, 0).feature;
+  int64_t most = INT64_MIN;
+  for (uint32_t f = 0; f < hull.face_count; ++f) {
+    const int64_t along = dot(hull.plane_normal(f), d);
+    if (along <= most) continue;
+    const HullIndices loop = hull.face(f);
+    bool meets = false;
+    for (uint32_t i = 0; i < loop.count; ++i) meets = meets || loop.index[i] == farthest;
+    if (!meets) continue;
+    most = along;
+    face.index = f;
+  }
+  const HullIndices loop = hull.face(face.index);
+  const Vec32 normal = hull.plane_normal(face.index);
+  if (loop.count > k_feature_points_max) {
+    reduce(placed, loop, normal, face);
+  } else {
+    for (uint32_t i = 0; i < loop.count; ++i) {
+      const uint32_t v = loop.index[i];
+      face.add(placed.point({hull.x(v), hull.y(v), hull.z(v)}), v);
+    }
+  }
+  face.normal = unit(multiply(placed.rotation, normal));
+  face.along = unit(Vec64{face.point[1].x - face.point[0].x, face.point[1].y - face.point[0].y,
+                          face.point[1].z - face.point[0].z});
+}
+
+void box_face(const Placed& placed, const Vec32& d, Feature& face) {
+  const int64_t part[3] = {magnitude_32(d.x), magnitude_32(d.y), magnitude_32(d.z)};
+  const int x = part[1] > part[0] ? (part[2] > part[1] ? 2 : 1) : part[2] > part[0] ? 2 : 0;
+  const int y = (x + 1) % 3, z = (x + 2) % 3;
+  const int32_t at[3] = {d.x, d.y, d.z};
+  const bool back = at[x] < 0;
+  for (int i = 0; i < 4; ++i) {
+    const int n = back ? 3 - i : i;
+    const uint32_t name = (back ? 1u << x : 0) | (n == 1 || n == 2 ? 1u << y : 0) | (n >= 2 ? 1u << z : 0);
+    const auto sign = [&](int bit) { return (name >> bit & 1) != 0 ? -1 : 0; };
+    face.add(placed.box_point(sign(0), sign(1), sign(2)), name);
+  }
+  const Vec32& axis = placed.rotation.column[x];
+  face.normal = back ? negate(axis) : axis;
+  face.along = placed.rotation.column[y];
+  face.index = static_cast<uint32_t>(2 * x + (back ? 1 : 0));
+}
+
+bool triangle_face(const Placed& placed, const Vec32& direction, Feature& face) {
+  CorePoint corner[3];
+  for (uint8_t i = 0; i < 3; ++i) core_vertex(*placed.convex, i, corner[i]);
+  const Vec32 p = placed.point(corner[0].local), q = placed.point(corner[1].local), r = placed.point(corner[2].local);
+  const Vec64 across = cross(subtract(q, p), subtract(r, p));
+  if (is_zero(across)) return false;
+  face.normal = unit(across);
+  const bool back = dot(face.normal, direction) < 0;
+  if (back) face.normal = negate(face.normal);
+  face.add(p, 0);
+  face.add(back ? r : q, back ? 2 : 1);
+  face.add(back ? q : r, back ? 1 : 2);
+  const Vec32 edge = subtract(q, p);
+  face.along = unit(Vec64{edge.x, edge.y, edge.z});
+  face.index = back ? 1 : 0;
+  return true;
+}
+
+/// The line on a cylinder's or cone's round side that touches a plane across `d` (local).
+void round_line(const Placed& placed, const Vec32& d, Feature& edge) {
+  const Convex& convex = *placed.convex;
+  const bool is_cone = convex.type == ShapeType::cone;
+  const Vec32 up = is_cone ? Vec32{0, k_one, 0} : Vec32{d.x, 1, d.z};
+  edge.add(placed.point(local_support(convex, up).local), k_line);
+  edge.add(placed.point(local_support(convex, {d.x, -k_one, d.z}).local), k_line + 1);
+  edge.index = k_line;
+}
+
+int64_t slope_of(const Vec32& from, const Vec32& to, const Vec32& direction) {
+  const Vec32 way = subtract(to, from);
+  if (is_zero(way)) return k_one;
+  const int64_t slope = dot(unit(Vec64{way.x, way.y, way.z}), direction) >> 30;
+  return slope < 0 ? -slope : slope;
+}
+
+}  // namespace
+
+uint32_t Feature::name() const {
+  if (count == 1) return feature_name(FeatureKind::vertex, vertex[0]);
+  return feature_name(count == 2 ? FeatureKind::edge : FeatureKind::face, index);
+}
+
+bool supporting_face(const Placed& placed, const Vec32& direction, Feature& face) {
+  const Convex& convex = *placed.convex;
+  face.count = 0;
+  const Vec32 d = rotate_inverse(placed.rotation, direction);
+  switch (convex.type) {
+    case ShapeType::box:
+      box_face(placed, d, face);
+      return true;
+    case ShapeType::hull:
+      hull_face(placed, d, face);
+      return true;
+    case ShapeType::triangle:
+      return triangle_face(placed, direction, face);
+    case ShapeType::cylinder:
+      if (magnitude_32(d.y) < static_cast<uint64_t>(length_across(d))) return false;
+      round_face(placed, d, d.y < 0, face);
+      return true;
+    case ShapeType::cone: {
+      // The round side's normal at d is (2 half lengths, radius), unnormalised.
+      const int64_t radius = convex.size[0], height = 2 * int64_t{convex.size[1]}, across = length_across(d);
+      const int64_t length = square_root_nearest(static_cast<uint64_t>(radius * radius + height * height));
+      if (d.y >= 0 || -d.y < (height * across + radius * d.y) / length) return false;
+      round_face(placed, d, true, face);
+      return true;
+    }
+    default:
+      return false;
+  }
+}
+
+void supporting_edge(const Placed& placed, const Vec32& direction, int64_t slope_max, Feature& edge) {
+  const Convex& convex = *placed.convex;
+  const Vec32 d = rotate_inverse(placed.rotation, direction);
+  const SupportPoint farthest = support(placed, direction);
+  edge.count = 0;
+  if (convex.type == ShapeType::cylinder || convex.type == ShapeType::cone) {
+    round_line(placed, d, edge);
+    if (slope_of(edge.point[0], edge.point[1], direction) <= slope_max) return;
+    const bool second = dot(direction, edge.point[1]) > dot(direction, edge.point[0]);
+    edge.count = 0;
+    edge.add(farthest.point, second ? k_line + 1 : k_line);
+    return;
+  }
+  const uint32_t from = farthest.core.feature;
+  uint32_t best = from;
+  int64_t least = INT64_MAX;
+  const auto consider = [&](uint32_t to) {
+    CorePoint core;
+    if (!core_vertex(convex, static_cast<uint8_t>(to), core)) return;
+    const int64_t slope = slope_of(farthest.core.local, core.local, d);
+    if (slope >= least) return;
+    least = slope;
+    best = to;
+  };
+  switch (convex.type) {
+    case ShapeType::capsule:
+      if (convex.size[1] > 0) consider(from ^ 1);
+      break;
+    case ShapeType::box:
+      for (uint32_t axis = 0; axis < 3; ++axis) consider(from ^ (1u << axis));
+      break;
+    case ShapeType::triangle:
+      for (uint32_t i = 1; i < 3; ++i) consider((from + i) % 3);
+      break;
+    case ShapeType::hull:
+      for (uint32_t i = 0; i < placed.hull.edge_count; ++i) {
+        const HullEdge e = placed.hull.edge(i);
+        if (e.a == from || e.b == from) consider(e.a == from ? e.b : e.a);
+      }
+      break;
+    default:
+      break;
+  }
+  if (least > slope_max) {
+    edge.add(farthest.point, from);
+    return;
+  }
+  for (const uint32_t v : {from < best ? from : best, from < best ? best : from}) {
+    CorePoint core;
+    core_vertex(convex, static_cast<uint8_t>(v), core);
+    edge.add(placed.point(core.local), v);
+  }
+  edge.index = edge_index(placed, from, best);
+}
+
+uint32_t edge_index(const Placed& placed, uint32_t vertex_a, uint32_t vertex_b) {
+  switch (placed.convex->type) {
+    case ShapeType::box: {
+      const uint32_t across = vertex_a ^ vertex_b, axis = across == 1 ? 0 : across == 2 ? 1 : 2;
+      const uint32_t both = vertex_a & vertex_b;
+      return 4 * axis + (both >> ((axis + 1) % 3) & 1) + 2 * (both >> ((axis + 2) % 3) & 1);
+    }
+    case ShapeType::triangle:
+      return vertex_a + vertex_b - 1;
+    case ShapeType::hull: {
+      const uint32_t low = vertex_a < vertex_b ? vertex_a : vertex_b, high = vertex_a < vertex_b ? vertex_b : vertex_a;
+      for (uint32_t i = 0; i < placed.hull.edge_count; ++i) {
+        const HullEdge e = placed.hull.edge(i);
+        if (e.a == low && e.b == high) return i;
+      }
+      return k_unpaired_edge + vertex_a;
+    }
+    case ShapeType::cylinder:
+    case ShapeType::cone: {
+      if (vertex_a >= k_line) return k_line;
+      const bool follows = ((vertex_a + 1) & 7) == (vertex_b & 7);
+      return follows ? vertex_a : vertex_b;
+    }
+    default:
+      return 0;
+  }
+}
+
+int32_t half_thickness(const Placed& placed) {
+  const Convex& convex = *placed.convex;
+  const int32_t* size = convex.size;
+  int32_t least = 0;
+  switch (convex.type) {
+    case ShapeType::box:
+      least = size[0] < size[1] ? size[0] : size[1];
+      least = size[2] < least ? size[2] : least;
+      break;
+    case ShapeType::cylinder:
+    case ShapeType::cone:
+      least = size[0] < size[1] ? size[0] : size[1];
+      break;
+    case ShapeType::hull:
+      least = convex.core_radius;
+      for (uint32_t f = 0; f < placed.hull.face_count; ++f) {
+        const int32_t offset = placed.hull.plane(f).offset;
+        if (offset < least) least = offset;
+      }
+      break;
+    default:
+      break;
+  }
+  return least <= 0 || placed.shift > 30 ? 0 : least >> placed.shift;
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent
