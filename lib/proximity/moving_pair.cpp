@@ -10,7 +10,7 @@ namespace {
 
 constexpr int64_t k_turn_max = int64_t{1} << (k_metre_bits + 16);  ///< rad
 /// Rounding of all that a certified axis adds up, ulps of the block: derived in DESIGN.md.
-constexpr int32_t k_budget = 24;
+constexpr int32_t k_budget = 32;
 
 Status set_turning(const Convex& convex, const Motion& motion, Turning& turning) {
   if (!raw_from_quat(motion.start.rotation, turning.start)) return Status::not_normalised;

@@ -36,7 +36,7 @@ struct Turning {
   /// Error: k_turning_error for a unit vector.
   Matrix32 at(int64_t time) const;
 };
-inline constexpr double k_turning_error = 12.0;  ///< 2^-30; derived in DESIGN.md
+inline constexpr double k_turning_error = 16.0;  ///< 2^-30 (tests/proximity)
 
 /// Where the bodies of a pair are at a time.
 struct Frames {

@@ -151,7 +151,7 @@ std::unique_ptr<Prepared> prepare(const Query& query) {
 void add_bench_engines(EngineList& engines) {
   // fx32 rounds a position to 2^-16 m as it enters: it is asked, and judged, about the rounded query. The others' grid
   // is finer than what is asked: its ulps widen the tolerance.
-  constexpr double k_position_step = k_config == Config::fx32 ? 0x1p-16 : 0;
+  constexpr double k_position_step = k_config == Config::fx32 ? 0x1p-16 : k_config == Config::f64 ? 0 : 0x1p-32;
   constexpr double k_slack = k_config == Config::f64 ? 0 : 4 * 0x1p-32;
   const char* const config = DETENT_BENCH_TEXT(DETENT_NAMESPACE);
   const auto toi = [&](const char* method, auto prepare_it) {

@@ -21,6 +21,22 @@ constexpr int k_exit_good = 0;
 constexpr int k_exit_bad = 1;
 constexpr int k_exit_usage = 2;
 
+constexpr const char* k_help =
+    R"(Times this library's narrow phase and its peers on seeded sets of queries, side by side, and judges each answer
+by an oracle of higher precision. Gaps and errors are in units of size, the larger core extent of the pair.
+  queries    that the engine had an answer to
+  hits       of those, in truth
+  FN         hits called clear or undecided; deep: those of them that are deeper than 1e-3
+  FP         hits or undecided where the truth stays farther off than 1e-6 and the ulps of position
+  late       how deep they come by the reported time of a hit, at most
+  early      the gap at the reported time of a hit that is one, or comes within the tolerance
+  gjk        GJK calls (distance: support points) of a query
+  ns         of a query: the least of its repetitions, each right after a run that is not timed
+  ratio      of the mean times and of their 99th percentiles, to btContinuousConvexCollision in double; where nothing
+             turns to btSubsimplexConvexCast, of distances to btGjkPairDetector
+A set's queries are also shown by whether they turn (rotating) or not (linear). fx32 is asked, and judged, about
+positions rounded to its grid.)";
+
 struct Options {
   Task task = Task::toi;
   std::vector<std::string> sets, methods, configs;
@@ -91,6 +107,11 @@ std::vector<Row> run_set(const detent_queries::Set& set, const Options& options,
     Line line(name + ", truth");
     variant.truths = truth_of(variant.queries, options.task == Task::toi, options.cache, key,
                               [&line](size_t done, size_t total) { line.show(done, total); });
+    const auto uncertain = [](const Truth& truth) { return !truth.certain; };
+    const auto count = std::count_if(variant.truths.begin(), variant.truths.end(), uncertain);
+    if (count != 0)
+      fprintf(stderr, "bench: %s: the oracle is not certain of %d queries%s\n", name.c_str(), static_cast<int>(count),
+              engine.position_step == 0 ? "" : " on the grid");
     variants.push_back(std::move(variant));
   }
 
@@ -125,9 +146,10 @@ bool draw(const Options& options, const std::vector<Row>& rows) {
   std::filesystem::create_directories(options.plot, error);
   const std::string file = options.plot + "/rows.json";
   std::ofstream(file) << json_of(rows);
-  const pid_t child = fork();
+  const pid_t child = fork();  // Debian's Python: another one in the path would not have its packages
   if (child == 0) {
-    execlp("python3", "python3", DETENT_BENCH_PLOT, file.c_str(), options.plot.c_str(), static_cast<char*>(nullptr));
+    execl("/usr/bin/python3", "python3", DETENT_BENCH_PLOT, file.c_str(), options.plot.c_str(),
+          static_cast<char*>(nullptr));
     _exit(127);
   }
   int status = -1;
@@ -179,20 +201,7 @@ int run(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app(
-      "Times this library's narrow phase and its peers on seeded sets of queries, side by side, and judges each answer "
-      "by\n"
-      "an oracle of higher precision. Gaps and errors are in units of size, the larger core extent of the pair.\n"
-      "FN: a hit called clear or undecided; deep: of those the ones deeper than 1e-3. FP: a hit or undecided where "
-      "the\n"
-      "truth stays farther off than 1e-6 and the ulps of position. late: how deep they are at the reported time at "
-      "most.\n"
-      "early: the gap at the reported time of a hit that is one. Times: ns, the least of the repetitions of each "
-      "query.\n"
-      "ratio: of mean times, to btContinuousConvexCollision in double; where nothing turns, to "
-      "btSubsimplexConvexCast.\n"
-      "fx32 is asked, and judged, about positions rounded to its grid.",
-      "bench");
+  CLI::App app(k_help, "bench");
   app.require_subcommand(1);
   Options options;
   CLI::App* toi = app.add_subcommand("toi", "Time of impact");

@@ -66,12 +66,12 @@ std::vector<std::vector<Measured>> measure(const EngineList& engines, const std:
       prepared[e] = engines[e].prepare(seen_by(engines[e], queries[q]));
       least[e] = UINT64_MAX;
     }
-    for (uint32_t repetition = 0; repetition <= repetitions; ++repetition) {
+    for (uint32_t repetition = 0; repetition < repetitions; ++repetition) {
       for (size_t i = 0; i < count; ++i) {
         const size_t e = (i + q + repetition) % count;
         if (prepared[e] == nullptr) continue;
-        const uint64_t taken = time_of(*prepared[e], all[e][q].answer);
-        if (repetition > 0) least[e] = std::min(least[e], taken);
+        prepared[e]->run(all[e][q].answer);
+        least[e] = std::min(least[e], time_of(*prepared[e], all[e][q].answer));
       }
     }
     for (size_t e = 0; e < count; ++e) {

@@ -18,7 +18,9 @@ detent_queries::Query seen_by(const Engine& engine, const detent_queries::Query&
 
 using Progress = std::function<void(size_t done, size_t total)>;
 
-/// [engine][query]. Query by query all engines take turns, in an order that rotates, after one run that is not timed.
+/// [engine][query]. Query by query all engines take turns, in an order that rotates. Just before each run that is timed
+/// comes one that is not, for an engine's time must not depend on which other, perhaps of the same code, came before
+/// it.
 std::vector<std::vector<Measured>> measure(const EngineList& engines, const std::vector<detent_queries::Query>& queries,
                                            uint32_t repetitions, const Progress& progress);
 

@@ -61,6 +61,11 @@ fcl::Transform3d transform_of(const Solid& solid, const PoseAt& pose) {
   return transform;
 }
 
+/// Made by hand: continuousCollide() of two pairs of poses leaves a motion's reference point uninitialised (FCL 0.7).
+fcl::InterpMotion<double> motion_of(const fcl::Transform3d& from, const fcl::Transform3d& to) {
+  return {from.linear(), from.translation(), to.linear(), to.translation(), fcl::Vector3d(0, 0, 0)};
+}
+
 class Advancement : public Prepared {
  public:
   bool make(const Query& query, fcl::GJKSolverType solver) {
@@ -83,9 +88,10 @@ class Advancement : public Prepared {
     answer = {};
     const size_t parts = poses_a_.size() - 1;
     for (size_t i = 0; i < parts; ++i) {
+      const fcl::InterpMotion<double> motion_a = motion_of(poses_a_[i], poses_a_[i + 1]);
+      const fcl::InterpMotion<double> motion_b = motion_of(poses_b_[i], poses_b_[i + 1]);
       fcl::ContinuousCollisionResultd result;
-      fcl::continuousCollide(a_.get(), poses_a_[i], poses_a_[i + 1], b_.get(), poses_b_[i], poses_b_[i + 1], request_,
-                             result);
+      fcl::continuousCollide(a_.get(), &motion_a, b_.get(), &motion_b, request_, result);
       if (!result.is_collide) continue;
       answer.outcome = Outcome::hit;
       answer.time = (static_cast<double>(i) + result.time_of_contact) / static_cast<double>(parts);

@@ -15,7 +15,8 @@ using detent_queries::Query;
 
 namespace {
 
-constexpr uint64_t k_version = 1;  ///< of the file and of the oracle's answers
+constexpr uint64_t k_version = 1 ^ DETENT_BENCH_ORACLE;  ///< of the file, and a hash of the oracle's sources
+constexpr size_t k_numbers = 6;                          ///< of a truth, in the file
 
 struct Header {
   uint64_t version = k_version;
@@ -69,12 +70,12 @@ bool load(const std::string& path, const Header& expected, std::vector<Truth>& t
   Header header;
   if (!file.read(reinterpret_cast<char*>(&header), sizeof header) || memcmp(&header, &expected, sizeof header) != 0)
     return false;
-  std::vector<double> numbers(5 * expected.count);
+  std::vector<double> numbers(k_numbers * expected.count);
   const auto bytes = static_cast<std::streamsize>(numbers.size() * sizeof(double));
   if (!file.read(reinterpret_cast<char*>(numbers.data()), bytes)) return false;
   for (size_t i = 0; i < expected.count; ++i) {
-    const double* n = &numbers[5 * i];
-    truths.push_back({n[0], n[1], n[2] != 0, n[3], n[4]});
+    const double* n = &numbers[k_numbers * i];
+    truths.push_back({n[0], n[1], n[2] != 0, n[3], n[4], n[5] != 0});
   }
   return true;
 }
@@ -82,7 +83,8 @@ bool load(const std::string& path, const Header& expected, std::vector<Truth>& t
 void save(const std::string& path, const Header& header, const std::vector<Truth>& truths) {
   std::vector<double> numbers;
   for (const Truth& truth : truths) {
-    for (const double number : {truth.size, truth.start_gap, truth.hit ? 1.0 : 0.0, truth.time, truth.gap_min})
+    for (const double number :
+         {truth.size, truth.start_gap, truth.hit ? 1.0 : 0.0, truth.time, truth.gap_min, truth.certain ? 1.0 : 0.0})
       numbers.push_back(number);
   }
   // Under another name first: a run that is stopped leaves no half of a file behind.
@@ -105,6 +107,7 @@ Truth truth_of(const Query& query, bool moving) {
   truth.hit = verdict.hit;
   truth.time = static_cast<double>(verdict.time);
   truth.gap_min = static_cast<double>(verdict.gap_min);
+  truth.certain = verdict.certain && verdict.complete;
   return truth;
 }
 

@@ -11,8 +11,9 @@ struct Truth {
   double size = 0;       ///< m; the larger of the two core extents
   double start_gap = 0;  ///< m
   bool hit = false;
-  double time = 1;     ///< of a hit
-  double gap_min = 0;  ///< m, over the step; of a hit the depth, less than 0, as far as the oracle looked for it
+  double time = 1;      ///< of a hit
+  double gap_min = 0;   ///< m, over the step; of a hit the depth, less than 0, as far as the oracle looked for it
+  bool certain = true;  ///< the oracle is, of hit or clear
 };
 
 /// The truth of every query; of the start alone if not `moving`. Kept in the folder `cache` under `key` and taken from

@@ -26,7 +26,8 @@ TEST(cook_refuses, fewer_than_four_points) {
 
 TEST(cook_refuses, equal_collinear_and_coplanar_points) {
   EXPECT_EQ(reason(Cloud(10, {1, 2, 3})), "all points are equal: the hull has no volume");
-  EXPECT_EQ(reason({{0, 0, 0}, {1, 2, 3}, {2, 4, 6}, {-1, -2, -3}}), "all points lie on one line: the hull has no volume");
+  EXPECT_EQ(reason({{0, 0, 0}, {1, 2, 3}, {2, 4, 6}, {-1, -2, -3}}),
+            "all points lie on one line: the hull has no volume");
   EXPECT_EQ(reason({{0, 0, 5}, {1, 0, 5}, {0, 1, 5}, {1, 1, 5}}), k_flat);
   EXPECT_EQ(reason({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1e-300, 0, 0}}), k_flat);
   EXPECT_EQ(reason({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {1, 0, 0}}), k_flat);
@@ -37,7 +38,8 @@ TEST(cook_refuses, a_plane_turned_any_way_however_rounded) {
   for (int round = 0; round < 300; ++round) {
     Cloud cloud;
     const double size = exp2(random.uniform(-12, 12));
-    for (int k = 0; k < 4 + round % 20; ++k) cloud.push_back({random.uniform(-size, size), random.uniform(-size, size), 0});
+    for (int k = 0; k < 4 + round % 20; ++k)
+      cloud.push_back({random.uniform(-size, size), random.uniform(-size, size), 0});
     cloud = placed(cloud, {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1), 1}, {size, 0, 0});
     EXPECT_TRUE(begins(reason(cloud), "all points lie in one plane")) << reason(cloud);
     CookOptions options;

@@ -96,7 +96,7 @@ Cloud placed(const Cloud& cloud, const std::array<double, 4>& rotation, const st
 }
 
 Cloud shuffled(Random& random, Cloud cloud) {
-  for (size_t i = cloud.size(); i > 1; --i) std::swap(cloud[i - 1], cloud[random.bits() % i]);
+  for (size_t i = cloud.size(); i > 1; --i) std::swap(cloud[i - 1], cloud[static_cast<size_t>(random.bits() % i)]);
   return cloud;
 }
 
@@ -109,15 +109,15 @@ Integrals integrals_of(const std::vector<uint8_t>& bytes) {
     for (uint32_t t = 0; t < triangles.count; t += 3) {
       const auto a = reader.vertex(triangles.index[t]), b = reader.vertex(triangles.index[t + 1]),
                  c = reader.vertex(triangles.index[t + 2]);
-      // Over a triangle, a polynomial of degree 2 is the mean of its values at the middles of the sides; of degree 3, this
-      // rule of four points (Strang, Fix 1973): (25 at the points (3, 1, 1) / 5, less 27 at the centroid) / 48.
-      const std::array<long double, 3> normal = {
-          ((b[1] - a[1]) * (c[2] - a[2]) - (b[2] - a[2]) * (c[1] - a[1])) / 2,
-          ((b[2] - a[2]) * (c[0] - a[0]) - (b[0] - a[0]) * (c[2] - a[2])) / 2,
-          ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2};
-      const long double weights[4][4] = {
-          {1 / 3.0L, 1 / 3.0L, 1 / 3.0L, -27 / 48.0L}, {0.6L, 0.2L, 0.2L, 25 / 48.0L},
-          {0.2L, 0.6L, 0.2L, 25 / 48.0L},              {0.2L, 0.2L, 0.6L, 25 / 48.0L}};
+      // Over a triangle, a polynomial of degree 2 is the mean of its values at the middles of the sides; of degree 3,
+      // this rule of four points (Strang, Fix 1973): (25 at the points (3, 1, 1) / 5, less 27 at the centroid) / 48.
+      const std::array<long double, 3> normal = {((b[1] - a[1]) * (c[2] - a[2]) - (b[2] - a[2]) * (c[1] - a[1])) / 2,
+                                                 ((b[2] - a[2]) * (c[0] - a[0]) - (b[0] - a[0]) * (c[2] - a[2])) / 2,
+                                                 ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2};
+      const long double weights[4][4] = {{1 / 3.0L, 1 / 3.0L, 1 / 3.0L, -27 / 48.0L},
+                                         {0.6L, 0.2L, 0.2L, 25 / 48.0L},
+                                         {0.2L, 0.6L, 0.2L, 25 / 48.0L},
+                                         {0.2L, 0.2L, 0.6L, 25 / 48.0L}};
       for (const auto& weight : weights) {
         std::array<long double, 3> p;
         for (size_t i = 0; i < 3; ++i) p[i] = weight[0] * a[i] + weight[1] * b[i] + weight[2] * c[i];
@@ -157,7 +157,8 @@ double stored_volume(const std::vector<uint8_t>& bytes) {
 Cloud source_vertices(const std::vector<uint8_t>& bytes) {
   const Reader reader(bytes);
   detent::HullInfo info;
-  if (detent::hull_info({reader.hull.bytes, static_cast<uint32_t>(bytes.size())}, info) != detent::Status::ok) return {};
+  if (detent::hull_info({reader.hull.bytes, static_cast<uint32_t>(bytes.size())}, info) != detent::Status::ok)
+    return {};
   Cloud local;
   for (uint32_t i = 0; i < reader.hull.vertex_count; ++i) {
     const auto v = reader.vertex(i);

@@ -1,4 +1,5 @@
 #pragma once
+#include <stddef.h>
 #include <stdint.h>
 
 #include <array>
@@ -35,10 +36,10 @@ Cloud shuffled(Random& random, Cloud cloud);
 
 /// Of the cooked bytes, read anew and by other formulae than the cook's: by the divergence theorem about the origin.
 struct Integrals {
-  long double volume = 0;                     ///< m^3
-  std::array<long double, 3> centre{};        ///< m, in the hull's frame
-  std::array<long double, 3> inertia{};       ///< about the hull's axes through the origin, over the volume, m^2
-  std::array<long double, 3> products{};      ///< mean of y z, z x, x y, m^2
+  long double volume = 0;                 ///< m^3
+  std::array<long double, 3> centre{};    ///< m, in the hull's frame
+  std::array<long double, 3> inertia{};   ///< about the hull's axes through the origin, over the volume, m^2
+  std::array<long double, 3> products{};  ///< mean of y z, z x, x y, m^2
 };
 Integrals integrals_of(const std::vector<uint8_t>& bytes);
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 #include <queue>
+#include <type_traits>
 #include <utility>
 
 namespace detent_oracle {
@@ -28,6 +29,11 @@ Wide root(Wide value) {
   return guess > 0 ? (guess + value / guess) / 2 : guess;
 }
 #endif
+/// The unit of rounding, or a little more.
+template <class T>
+T unit() {
+  return std::is_same_v<T, Number> ? T(std::numeric_limits<Number>::epsilon()) : T(0x1p-110L);
+}
 template <class T>
 T norm(const Vector3<T>& v) {
   return root(dot(v, v));
@@ -41,11 +47,10 @@ Vector3<T> cast(const Vector3<From>& v) {
 template <class T>
 Vector3<T> support_point(const ConvexSolid& solid, const Vector3<T>& direction) {
   const T half = static_cast<T>(solid.half_length), radius = static_cast<T>(solid.radius);
-  const T across = solid.core == CoreKind::points
-                       ? T(0)
-                       : root(T(direction.x * direction.x + direction.z * direction.z));
-  const Vector3<T> rim = across > 0 ? Vector3<T>{direction.x / across * radius, 0, direction.z / across * radius}
-                                    : Vector3<T>{0, 0, 0};
+  const T across =
+      solid.core == CoreKind::points ? T(0) : root(T(direction.x * direction.x + direction.z * direction.z));
+  const Vector3<T> rim =
+      across > 0 ? Vector3<T>{direction.x / across * radius, 0, direction.z / across * radius} : Vector3<T>{0, 0, 0};
   switch (solid.core) {
     case CoreKind::cylinder:
       return {rim.x, direction.y < 0 ? -half : half, rim.z};
@@ -139,8 +144,20 @@ void consider_edge(const Vertex<T>* s, int i, int j, Nearest<T>& best) {
   v = v - e * (dot(v, e) / square);
   consider(best, {2, {i, j, 0}, {1 - t, t, 0}, v, dot(v, v)});
 }
+/// Turns a triangle until its longest edge is opposite its first corner: a thin one's normal then has the most digits.
 template <class T>
-void consider_face(const Vertex<T>* s, int i, int j, int k, Nearest<T>& best) {
+std::array<int, 3> best_corners(const Vertex<T>* s, int i, int j, int k) {
+  const auto square = [s](int p, int q) {
+    const Vector3<T> e = s[q].w - s[p].w;
+    return dot(e, e);
+  };
+  const T opposite_i = square(j, k), opposite_j = square(k, i), opposite_k = square(i, j);
+  if (opposite_i >= opposite_j && opposite_i >= opposite_k) return {i, j, k};
+  return opposite_j >= opposite_k ? std::array<int, 3>{j, k, i} : std::array<int, 3>{k, i, j};
+}
+template <class T>
+void consider_face(const Vertex<T>* s, int first, int second, int third, Nearest<T>& best) {
+  const auto [i, j, k] = best_corners(s, first, second, third);
   const Vector3<T> e = s[j].w - s[i].w, f = s[k].w - s[i].w, n = cross(e, f);
   const T square = dot(n, n);
   if (!(square > 0)) return;
@@ -150,14 +167,17 @@ void consider_face(const Vertex<T>* s, int i, int j, int k, Nearest<T>& best) {
   const T along = dot(n, s[i].w) / square;
   consider(best, {3, {i, j, k}, {1 - u - v, u, v}, n * along, along * along * square});
 }
-/// Whether the origin is strictly inside a tetrahedron.
+/// Whether the origin is inside a tetrahedron beyond doubt: by determinants larger than their rounding errors. (Cores
+/// that all but touch make tetrahedra without thickness, whose signs are noise.)
 template <class T>
 bool encloses_origin(const Vertex<T>* s) {
+  const T noise = 16 * unit<T>() * (16 * unit<T>());
   for (int l = 0; l < 4; ++l) {
-    const Vector3<T>&p = s[(l + 1) & 3].w, &q = s[(l + 2) & 3].w, &r = s[(l + 3) & 3].w;
-    const Vector3<T> n = cross(q - p, r - p);
-    const T origin = -dot(n, p), opposite = dot(n, s[l].w - p);
-    if (!((origin > 0 && opposite > 0) || (origin < 0 && opposite < 0))) return false;
+    const Vector3<T>& p = s[(l + 1) & 3].w;
+    const Vector3<T> e = s[(l + 2) & 3].w - p, f = s[(l + 3) & 3].w - p, g = s[l].w - p, n = cross(e, f);
+    const T origin = -dot(n, p), opposite = dot(n, g), rough = noise * dot(e, e) * dot(f, f);
+    if (!(origin * origin > rough * dot(p, p) && opposite * opposite > rough * dot(g, g))) return false;
+    if ((origin > 0) != (opposite > 0)) return false;
   }
   return true;
 }
@@ -273,7 +293,10 @@ bool grow(Difference<T>& difference, Gjk<T>& simplex, T rounding, Vector3<T>& no
   return true;
 }
 
-/// A polytope of points of the difference around the origin.
+/// A closed surface of triangles around the origin, all in the difference. A facet gives way to a new point only if the
+/// point is in front of it beyond doubt; then what is added can only wind around the origin once more, never less, and
+/// the nearest plane is a lower bound of the depth even if rounding leaves a dent. Slivers have no front: they go with
+/// their neighbours, and if the origin might have been between one and the new point, the bound is given up.
 template <class T>
 class Polytope {
  public:
@@ -282,7 +305,9 @@ class Polytope {
     int neighbour[3];   ///< across the edge from vertex k to vertex k + 1
     Vector3<T> normal;  ///< outwards
     T distance;         ///< of its plane from the origin
-    bool sliver;        ///< no area: its normal has no digits
+    T tilt;             ///< error of the normal
+    T error;            ///< of the distance
+    bool sliver;        ///< no area: its normal has no digits; it lies within rounding of its neighbours
     bool gone;
   };
 
@@ -296,7 +321,7 @@ class Polytope {
     add(1, 3, 2, {1, 2, 0});
   }
 
-  /// The facet whose plane is nearest, or -1.
+  /// The facet whose plane may be nearest, or -1.
   int nearest() {
     while (!queue_.empty() && facets_[queue_.top().second].gone) queue_.pop();
     return queue_.empty() ? -1 : static_cast<int>(queue_.top().second);
@@ -310,9 +335,17 @@ class Polytope {
     return false;
   }
 
+  /// Lower bound of the depth, if facet `index` is nearest().
+  T floor(int index) const {
+    const Facet& f = facet(index);
+    return doubtful_ || !(f.distance > f.error) ? T(0) : T(f.distance - f.error);
+  }
+
   /// Takes in a point beyond the facet `seen`. False if what would be left is no polytope.
   bool enlarge(int seen, const Vertex<T>& vertex, T rounding) {
     horizon_.clear();
+    if (!in_front(facet(seen), vertex.w, rounding)) return false;
+    seen_normal_ = facet(seen).normal;
     at(seen).gone = true;
     for (int k = 0; k < 3; ++k) look(seen, k, vertex.w, rounding);
     if (horizon_.size() < 3) return false;
@@ -333,16 +366,40 @@ class Polytope {
 
   void add(int i, int j, int k, const std::array<int, 3>& neighbours) {
     const auto point = [this](int index) { return points_[static_cast<size_t>(index)].w; };
-    Facet f = {{i, j, k}, {neighbours[0], neighbours[1], neighbours[2]}, {0, 0, 0}, 0, true, false};
-    const Vector3<T> e = point(j) - point(i), g = point(k) - point(i), n = cross(e, g);
-    const T size = norm(n), rough = norm(e) * norm(g);
-    if (size > rough * T(1e-17L)) {
+    Facet f = {{i, j, k}, {neighbours[0], neighbours[1], neighbours[2]}, {0, 0, 0}, 0, 0, 0, true, false};
+    const auto [p, q, r] = best_corners(points_.data(), i, j, k);
+    const Vector3<T> e = point(q) - point(p), g = point(r) - point(p), n = cross(e, g);
+    const T size = norm(n), rough = norm(e) * norm(g) * unit<T>();
+    if (size > 64 * rough) {
       f.sliver = false;
       f.normal = n * (1 / size);
-      f.distance = dot(f.normal, point(i));
-      queue_.push({f.distance, facets_.size()});
+      Vector3<T> corner = point(i);
+      for (const int other : {j, k}) {
+        if (dot(point(other), point(other)) < dot(corner, corner)) corner = point(other);
+      }
+      f.distance = dot(f.normal, corner);
+      f.tilt = 16 * rough / size;
+      f.error = f.tilt * norm(corner);
+      queue_.push({f.distance - f.error, facets_.size()});
     }
     facets_.push_back(f);
+  }
+
+  bool in_front(const Facet& f, const Vector3<T>& w, T rounding) const {
+    Vector3<T> arm = w - points_[static_cast<size_t>(f.vertex[0])].w;
+    for (const int i : f.vertex) {
+      const Vector3<T> other = w - points_[static_cast<size_t>(i)].w;
+      if (dot(other, other) < dot(arm, arm)) arm = other;
+    }
+    const T beyond = dot(f.normal, arm) - rounding;
+    return beyond > 0 && beyond * beyond > f.tilt * f.tilt * dot(arm, arm);
+  }
+  /// Whether the origin may lie between a facet and a point: surely not if all are before the nearest facet's plane
+  /// moved to the origin.
+  bool may_hold_origin(const Facet& f, const Vector3<T>& w, T rounding) const {
+    bool before = dot(seen_normal_, w) > rounding;
+    for (const int i : f.vertex) before = before && dot(seen_normal_, points_[static_cast<size_t>(i)].w) > rounding;
+    return !before;
   }
 
   /// Goes on across edge k of a facet that the point sees; the horizon comes out in order.
@@ -351,12 +408,13 @@ class Polytope {
     if (facet(index).gone) return;
     // Two facets may share two edges: this is the one that runs the other way.
     int entry = 0;
-    while (entry < 2 && (facet(index).neighbour[entry] != from ||
-                         facet(index).vertex[entry] != facet(from).vertex[(k + 1) % 3])) {
+    while (entry < 2 &&
+           (facet(index).neighbour[entry] != from || facet(index).vertex[entry] != facet(from).vertex[(k + 1) % 3])) {
       ++entry;
     }
     const Facet& f = facet(index);
-    if (f.sliver || dot(f.normal, w - points_[static_cast<size_t>(f.vertex[0])].w) > rounding) {
+    if (f.sliver || in_front(f, w, rounding)) {
+      if (f.sliver) doubtful_ = doubtful_ || may_hold_origin(f, w, rounding);
       at(index).gone = true;
       look(index, (entry + 1) % 3, w, rounding);
       look(index, (entry + 2) % 3, w, rounding);
@@ -365,6 +423,8 @@ class Polytope {
     }
   }
 
+  Vector3<T> seen_normal_ = {};
+  bool doubtful_ = false;
   std::vector<Vertex<T>> points_;
   std::vector<Facet> facets_;
   std::vector<std::array<int, 4>> horizon_;  ///< from, to, the facet beyond and its edge
@@ -403,7 +463,7 @@ Depth<T> expand(Difference<T>& difference, Gjk<T>& start, T rounding, T absolute
       depth.most = reach;
       depth.axis = -facet.normal;
     }
-    depth.least = facet.distance > 0 ? facet.distance : T(0);
+    depth.least = polytope.floor(nearest);
     const T wide = relative * depth.most;
     if (depth.most - depth.least <= (wide > absolute ? wide : absolute)) return depth;
     if (polytope.has_corner(nearest, vertex) || !polytope.enlarge(nearest, vertex, rounding)) return depth;

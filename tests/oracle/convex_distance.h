@@ -7,14 +7,16 @@
 /// - `distance` is that of two points of the cores, given with it (convex combinations of support points): the true
 ///   core distance is not above it.
 /// - `separation` is n.offset + min over B of n.b - max over A of n.a for the unit axis n: the plain separating axis,
-///   from support points alone. The true core distance is not below it; if negative, the depth is not above its negative.
-/// - `depth_floor`: the faces of a polytope of Minkowski points around the origin are no nearer than this, so the depth
-///   is not below it.
-/// Both hold to the rounding of a handful of `long double` operations, rounding_of() (64 2^-64 of the coordinates).
-/// The search is GJK, then, where cores overlap, the expanding polytope. It runs in `long double`, and if upper and
-/// lower bound stay apart, again in __float128 where there is one. No tolerance decides what is apart and what overlaps:
-/// nearer than 2^-60 of the coordinates the two answers meet.
+///   from support points alone. The true core distance is not below it; if negative, the depth is not above its
+///   negative.
+/// - `depth_floor`: a closed surface of triangles in the Minkowski difference winds around the origin, and no plane of
+///   theirs, less the error of its normal, is nearer than this: the depth is not below it. (The surface begins with a
+///   tetrahedron and grows by tetrahedra, whose orientations are larger than their rounding errors.)
+/// All hold to the rounding of a handful of `long double` operations on the coordinates, rounding_of().
 ///
+/// The search is GJK, then, where cores overlap, the expanding polytope. It runs in `long double`, and if upper and
+/// lower bound stay apart, again in __float128 where there is one. What the cores are, apart or overlapped, is what the
+/// bounds say: nearer than rounding_of() both answers are right, and `gap` is continuous between them.
 /// A depth is only sought to k_depth_relative of itself (polytopes end at the exact one), so that it is sharp where it
 /// matters, at contact; `gap` then is minus the depth's upper bound, of all axes tried.
 namespace detent_oracle {
@@ -26,7 +28,7 @@ struct Separation {
   Number distance = 0;     ///< m, of the cores' points below: upper bound; 0 if they overlap
   Number separation = 0;   ///< m, of the cores along `axis`: lower bound; minus the depth's upper bound if they overlap
   Number depth_floor = 0;  ///< m, lower bound of the depth if they overlap
-  Number gap = 0;          ///< m, of the rounded solids: distance less both roundings; minus depth and roundings if overlapped
+  Number gap = 0;  ///< m, of the rounded solids: distance less both roundings; minus depth and roundings if overlapped
   Number gap_floor = 0;    ///< m, the gap's lower bound
   Number slack = 0;        ///< m, upper less lower bound
   Arrow axis = {};         ///< unit, from A to B, world axes

@@ -10,9 +10,7 @@ namespace {
 
 Arrow arrow_of(const detent_queries::Triple& v) { return {v[0], v[1], v[2]}; }
 /// Exact for the neighbouring numbers that matter; else to 2^-64 of the result.
-Arrow difference(const detent_queries::Triple& b, const detent_queries::Triple& a) {
-  return arrow_of(b) - arrow_of(a);
-}
+Arrow difference(const detent_queries::Triple& b, const detent_queries::Triple& a) { return arrow_of(b) - arrow_of(a); }
 
 }  // namespace
 

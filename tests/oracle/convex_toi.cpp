@@ -7,8 +7,8 @@ namespace detent_oracle {
 
 namespace {
 
-constexpr Number k_contact = 1e-15L;      ///< of the size
-constexpr Number k_dip = 1e-12L;          ///< of the size: how deep the gap may be unseen before a hit
+constexpr Number k_contact = 1e-15L;                ///< of the size
+constexpr Number k_dip = 1e-12L;                    ///< of the size: how deep the gap may be unseen before a hit
 constexpr Number k_near_parts[] = {0.99L, 0.999L};  ///< of the least gap found: what the floor of a clear step comes to
 constexpr int k_samples_hit = 50000;
 constexpr int k_samples_near[] = {20000, 400};
@@ -49,6 +49,7 @@ class Search {
         velocity_(length(e_.displacement)) {
     rounding_ = std::max(rounding_of(e_.a, e_.b, e_.offset), rounding_of(e_.a, e_.b, e_.offset + e_.displacement));
     contact_ = std::max(k_contact * e_.size, rounding_);
+    dip_ = std::max(k_dip * e_.size, 4 * rounding_);
     // A half-space's far points move as fast as one likes; that nearest to B moves so fast at most.
     const Number far = half_space_ ? length(e_.offset) + velocity_ : 0;
     speed_ = velocity_ + spin_a_.rate * (half_space_a_ ? far + e_.b.reach : spin_a_.reach_axis) +
@@ -83,8 +84,7 @@ class Search {
       const Arrow u = spin->turn - omega;
       const Number size = length(u);
       const Number sine = std::min(size, length(cross(axis, u)) + (to - from) * across * size);
-      sum += rate > 0 ? spin->reach * (sine * size + length(cross(spin->turn, omega)))
-                      : spin->reach_axis * sine * size;
+      sum += rate > 0 ? spin->reach * (sine * size + length(cross(spin->turn, omega))) : spin->reach_axis * sine * size;
     }
     return sum;
   }
@@ -97,14 +97,14 @@ class Search {
 
   Sample first_contact(Sample above, Sample below);
   bool descend(std::vector<std::pair<Sample, Sample>> todo, int budget);
-  Number floor_of_least() const { return near_part_ * least_.is.gap - 1e-13L * e_.size; }
+  Number floor_of_least() const { return near_part_ * least_.is.gap - dip_ / 10; }
   void polish();
   Sample deepest_after(const Sample& contact);
 
   const Encounter& e_;
   Spin spin_a_, spin_b_;
   bool half_space_a_, half_space_;
-  Number radii_, velocity_, rounding_ = 0, contact_ = 0, speed_ = 0;
+  Number radii_, velocity_, rounding_ = 0, contact_ = 0, dip_ = 0, speed_ = 0;
   int samples_ = 0;
   std::vector<std::pair<Number, Number>> gaps_{};  ///< time and gap of all samples
   Number near_part_ = 0;                           ///< the least gap is sought, else the first contact
@@ -222,7 +222,8 @@ Span Search::uncovered(Number level, const Sample& x, const Sample& y) const {
   return open;
 }
 
-/// A contact between a sample apart and one in contact or overlap: regula falsi (Illinois), bisecting where that is slow.
+/// A contact between a sample apart and one in contact or overlap: regula falsi (Illinois), bisecting where that is
+/// slow.
 Sample Search::first_contact(Sample above, Sample below) {
   Number high = above.is.gap, low = below.is.gap;
   int side = 0;
@@ -247,14 +248,14 @@ Sample Search::first_contact(Sample above, Sample below) {
   return below;
 }
 
-/// Cuts intervals until all is covered. For the first contact the level is -k_dip, and a sample in contact ends the step
-/// there; for the least gap it follows the least sample. Returns whether the budget sufficed.
+/// Cuts intervals until all is covered. For the first contact the level is -dip_, and a sample in contact ends the
+/// step there; for the least gap it follows the least sample. Returns whether the budget sufficed.
 bool Search::descend(std::vector<std::pair<Sample, Sample>> todo, int budget) {
   while (!todo.empty()) {
     auto [x, y] = std::move(todo.back());
     todo.pop_back();
     if (samples_ > budget) return false;
-    const Number level = near_part_ > 0 ? floor_of_least() : -k_dip * e_.size;
+    const Number level = near_part_ > 0 ? floor_of_least() : -dip_;
     const Span open = uncovered(level, x, y);
     if (!(open.from < open.to)) continue;
     const Number width = open.to - open.from;
@@ -389,7 +390,7 @@ Verdict Search::run() {
       todo.push_back({start, end});
     }
     verdict.complete = descend(todo, k_samples_hit);
-    verdict.gap_min_floor = -k_dip * e_.size;
+    verdict.gap_min_floor = -dip_;
     if (!met_) {
       const auto least = std::min_element(gaps_.begin(), gaps_.end(),
                                           [](const auto& p, const auto& q) { return p.second < q.second; });
@@ -410,7 +411,7 @@ Verdict Search::run() {
     const Sample deepest = deepest_after(contact_sample_);
     verdict.gap_min = deepest.is.gap;
     verdict.gap_min_time = deepest.time;
-    verdict.certain = verdict.complete && deepest.is.gap < -k_dip * e_.size;
+    verdict.certain = verdict.complete && deepest.is.gap < -dip_;
   } else {
     verdict.gap_min = least_.is.gap;
     verdict.gap_min_time = least_.time;

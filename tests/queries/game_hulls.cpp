@@ -4,6 +4,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "tests/queries/gap.h"
 #include "tests/queries/sets.h"
 
 namespace detent_queries {
@@ -11,6 +12,7 @@ namespace detent_queries {
 namespace {
 
 constexpr size_t k_points_max = 255;
+constexpr double k_extreme = 1e-7;  ///< of the hull's length: nearer to the others' hull, a point is not one of its own
 
 bool read_word(const std::vector<char>& bytes, size_t& offset, uint32_t& word) {
   if (bytes.size() - offset < 4) return false;
@@ -47,6 +49,7 @@ bool read_game_hulls(const std::string& path, std::vector<Solid>& hulls) {
     std::sort(points.begin(), points.end());
     points.erase(std::unique(points.begin(), points.end()), points.end());
     if (points.size() < 4 || points.size() > k_points_max) continue;
+    keep_extreme(points, k_extreme * length(high - low));
     Solid solid;
     solid.kind = Kind::hull;
     solid.points = std::move(points);

@@ -1,5 +1,7 @@
 #include "tests/queries/gap.h"
 
+#include <stddef.h>
+
 #include "tests/oracle/convex_distance.h"
 
 namespace detent_queries {
@@ -30,6 +32,17 @@ Triple gap_normal(const Query& query, double time) {
   return {static_cast<double>(axis.x), static_cast<double>(axis.y), static_cast<double>(axis.z)};
 }
 
+void keep_extreme(std::vector<Triple>& points, double slack) {
+  Query query;
+  query.b.kind = Kind::hull;
+  for (size_t i = points.size(); i-- > 0 && points.size() > 4;) {
+    query.path_a.position = points[i];
+    query.b.points = points;
+    query.b.points.erase(query.b.points.begin() + static_cast<ptrdiff_t>(i));
+    if (gap_at(query, 0) <= slack) points = query.b.points;
+  }
+}
+
 Approach closest_approach(const Query& query) {
   const Encounter encounter = detent_oracle::encounter_of(query);
   constexpr int k_samples = 24;
@@ -44,7 +57,7 @@ Approach closest_approach(const Query& query) {
   Approach left = {low + k_golden * (high - low), 0}, right = {high - k_golden * (high - low), 0};
   left.gap = gap_at(encounter, left.time);
   right.gap = gap_at(encounter, right.time);
-  while (high - low > 1e-7) {
+  while (high - low > 1e-9) {
     if (left.gap < right.gap) {
       high = right.time;
       right = left;

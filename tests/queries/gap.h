@@ -11,6 +11,9 @@ double gap_at(const Query& query, double time);
 /// The direction in which to move B so that the gap at `time` grows fastest, of length 1. The solids must be apart.
 Triple gap_normal(const Query& query, double time);
 
+/// Drops every point that lies within `slack`, m, of the hull of the others.
+void keep_extreme(std::vector<Triple>& points, double slack);
+
 struct Approach {
   double time = 0;
   double gap = 0;  ///< m

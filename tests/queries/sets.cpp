@@ -193,7 +193,7 @@ Query degenerate_of(Random& random, bool round) {
       case 3:
         return prism(extent / 2, extent / 2 * random.uniform(0.25, 1), 2 * (2 + random.below(7)));
       default:
-        return draw_thin(random, random.chance(0.5), extent, random.log_uniform(1e-3, 1e-1));
+        return draw_thin(random, random.chance(0.5), std::max(extent, 0.2), random.log_uniform(1e-3, 1e-1));
     }
   };
   const Solid a = one();

@@ -35,8 +35,8 @@ std::vector<Query> make_queries(const Set& set, uint64_t seed, uint32_t count, c
 bool turns(const Query& query);
 
 /// Reads point clouds (a little-endian count, then x, y, z as floats; again to the end of the file), each moved so that
-/// the middle of its bounds is at the origin, without duplicates; those of more than 255 points are left out. False if
-/// the file cannot be read.
+/// the middle of its bounds is at the origin, its extreme points alone; those of more than 255 points are left out.
+/// False if the file cannot be read.
 bool read_game_hulls(const std::string& path, std::vector<Solid>& hulls);
 
 }  // namespace detent_queries

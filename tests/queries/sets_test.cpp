@@ -80,6 +80,25 @@ TEST(sets, a_query_depends_on_its_seed_and_index_alone) {
   });
 }
 
+TEST(sets, every_point_of_a_hull_is_extreme) {
+  for_each_set([](const Set&, const std::vector<Query>& queries) {
+    for (const Query& query : queries) {
+      for (const Solid* solid : {&query.a, &query.b}) {
+        if (solid->kind != Kind::hull) continue;
+        std::vector<Triple> points = solid->points;
+        keep_extreme(points, 1e-7 * bound_of(*solid));
+        EXPECT_EQ(points.size(), solid->points.size());
+      }
+    }
+  });
+}
+
+TEST(sets, a_point_within_a_hull_is_not_extreme) {
+  std::vector<Triple> points = {{0, 0, 0}, {0.25, 0.25, 0.25}, {1, 0, 0}, {0, 1, 0}, {0.5, 0.5, 0}, {0, 0, 1}};
+  keep_extreme(points, 1e-12);
+  EXPECT_EQ(points, (std::vector<Triple>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}));
+}
+
 TEST(sets, no_query_starts_overlapped) {
   for_each_set([](const Set&, const std::vector<Query>& queries) {
     for (const Query& query : queries) EXPECT_GT(gap_at(query, 0), 0);

@@ -53,13 +53,13 @@ struct GridCloud {
 /// The cloud in the body's frame, in steps of 2^-30 of its unit, the least power of two above them all after rounding.
 GridCloud to_grid(const std::vector<Point>& cloud, const Placement& placement) {
   std::vector<Point> local;
-  double radius = 0;
+  double greatest = 0;
   for (const Point& p : cloud) {
     local.push_back(placement.to_body(p));
-    radius = std::max(radius, length(local.back()));
+    for (const double value : local.back()) greatest = std::max(greatest, fabs(value));
   }
   GridCloud grid;
-  frexp(radius, &grid.exponent);  // radius < 2^exponent
+  frexp(greatest, &grid.exponent);  // below 2^exponent, which is the unit or half of it
   std::vector<std::pair<GridPoint, Point>> pairs;
   for (bool fits = false; !fits; grid.exponent += fits ? 0 : 1) {
     fits = true;
@@ -199,6 +199,26 @@ void drop_others(Body& body) {
   body.grid.source.clear();
 }
 
+/// Moves the origin to the point of the grid that is nearest to the centre of mass. The vertices keep their places: to
+/// round them anew would move the centre of a thin hull again. Where one would leave the unit, nothing is moved.
+void centre(Body& body) {
+  std::array<int32_t, 3> steps;
+  for (size_t k = 0; k < 3; ++k) steps[k] = static_cast<int32_t>(floor(body.moments.centre[k] * k_one + 0.5));
+  std::vector<GridPoint> moved;
+  for (const GridPoint& v : body.grid.points) {
+    moved.push_back({v.x - steps[0], v.y - steps[1], v.z - steps[2]});
+    const int64_t x = moved.back().x, y = moved.back().y, z = moved.back().z;
+    if (x * x + y * y + z * z >= int64_t{1} << 60) return;
+  }
+  body.grid.points = moved;
+  const Matrix axes = matrix_from(body.placement.rotation);
+  for (size_t i = 0; i < 3; ++i) {
+    const double shift = axes[i][0] * steps[0] + axes[i][1] * steps[1] + axes[i][2] * steps[2];
+    body.placement.origin[i] += ldexp(shift, body.grid.exponent - 30);
+    body.moments.centre[i] -= steps[i] / k_one;
+  }
+}
+
 double greatest_error(const std::vector<Point>& cloud, const Body& body, const std::vector<PolygonFace>& faces) {
   double greatest = 0;
   const double scale = ldexp(k_one, -body.grid.exponent);
@@ -269,6 +289,7 @@ CookResult cook_hull(const std::vector<Point>& points, const CookOptions& option
   reason = reason_against(body.grid, body.hull);
   if (!reason.empty()) return refused(reason);
   drop_others(body);
+  if (principal) centre(body);
 
   const double width = least_depth(body.grid.points, body.hull);
   const int32_t tolerance = static_cast<int32_t>(std::clamp(width / 1024, 4.0, 1024.0));

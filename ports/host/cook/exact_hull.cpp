@@ -4,12 +4,11 @@
 
 #include <algorithm>
 
-#include "math/wide.h"
+#include "integers.h"
 
 namespace detent_cook {
 namespace {
 
-using detent::Int128;
 constexpr uint32_t k_none = ~uint32_t{0};
 
 /// Its sign is exact; its size is the volume of a parallelepiped, below 2^94.
@@ -26,10 +25,6 @@ struct Plane {
 
 bool is_positive(Int128 value) { return Int128::from(0) < value; }
 bool is_zero(Int128 value) { return value == Int128::from(0); }
-double to_double(Int128 value) {
-  return static_cast<double>(value.high_word()) * 0x1p64 + static_cast<double>(value.low_word());
-}
-
 Plane plane_through(const GridPoint& a, const GridPoint& b, const GridPoint& c) {
   Plane plane = {area_normal(a, b, c), Int128::from(0), 0};
   plane.offset = plane.height(a);

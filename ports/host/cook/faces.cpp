@@ -7,12 +7,11 @@
 #include <map>
 #include <numeric>
 
-#include "math/wide.h"
+#include "integers.h"
 
 namespace detent_cook {
 namespace {
 
-using detent::Int128;
 constexpr int64_t k_one = int64_t{1} << 30;
 
 using Side = std::pair<uint32_t, uint32_t>;  ///< from one vertex to another
@@ -104,8 +103,7 @@ std::vector<Seam> seams_of(const std::vector<GridPoint>& points, const ExactHull
       const Int128 out = Int128::product(normal[0], int64_t{p.x} - a.x) +
                          Int128::product(normal[1], int64_t{p.y} - a.y) +
                          Int128::product(normal[2], int64_t{p.z} - a.z);
-      const double value = static_cast<double>(out.high_word()) * 0x1p64 + static_cast<double>(out.low_word());
-      deepest = std::max(deepest, -value / length);
+      deepest = std::max(deepest, -to_double(out) / length);
     }
     return deepest;
   };
@@ -157,7 +155,10 @@ std::vector<PolygonFace> join_faces(const std::vector<GridPoint>& points, const 
     set_plane(points, hull, group);  // again, for the sum's rounding depends on the order
     faces.push_back(group);
   }
-  std::sort(faces.begin(), faces.end(), [](const PolygonFace& a, const PolygonFace& b) { return a.loop < b.loop; });
+  // Not by the vectors' own <: on a big-endian machine GCC 12's compares but a quarter of their bytes.
+  std::sort(faces.begin(), faces.end(), [](const PolygonFace& a, const PolygonFace& b) {
+    return std::lexicographical_compare(a.loop.begin(), a.loop.end(), b.loop.begin(), b.loop.end());
+  });
   return faces;
 }
 

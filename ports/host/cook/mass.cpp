@@ -4,18 +4,13 @@
 
 #include <utility>
 
-#include "math/wide.h"
+#include "integers.h"
 
 namespace detent_cook {
 namespace {
 
-using detent::Int128;
 constexpr double k_product_least = 0x1p-22;
 constexpr double k_one = 0x1p30;
-
-double to_double(Int128 value) {
-  return static_cast<double>(value.high_word()) * 0x1p64 + static_cast<double>(value.low_word());
-}
 
 }  // namespace
 

@@ -22,7 +22,7 @@ std::string_view next_word(std::string_view& line) {
 
 /// The whole word as a finite number; whatever the locale.
 bool number_from(std::string_view word, double& value) {
-  if (!word.empty() && word[0] == '+') word.remove_prefix(1);
+  if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   return error == std::errc() && end == word.data() + word.size() && isfinite(value);
 }
