@@ -80,12 +80,17 @@ void reduce(const Placed& placed, const HullIndices& loop, const Vec32& normal, 
   }
 }
 
+Vec32 plane_normal(const HullView& hull, uint32_t face) {
+  const HullPlane plane = hull.plane(face);
+  return {plane.normal[0], plane.normal[1], plane.normal[2]};
+}
+
 void hull_face(const Placed& placed, const Vec32& d, Feature& face) {
   const HullView& hull = placed.hull;
   const uint8_t farthest = local_support(*placed.convex, hull, d, 0).feature;
   int64_t most = INT64_MIN;
   for (uint32_t f = 0; f < hull.face_count; ++f) {
-    const int64_t along = dot(hull.plane_normal(f), d);
+    const int64_t along = dot(plane_normal(hull, f), d);
     if (along <= most) continue;
     const HullIndices loop = hull.face(f);
     bool meets = false;
@@ -95,7 +100,7 @@ void hull_face(const Placed& placed, const Vec32& d, Feature& face) {
     face.index = f;
   }
   const HullIndices loop = hull.face(face.index);
-  const Vec32 normal = hull.plane_normal(face.index);
+  const Vec32 normal = plane_normal(hull, face.index);
   if (loop.count > k_feature_points_max) {
     reduce(placed, loop, normal, face);
   } else {
@@ -246,7 +251,8 @@ void supporting_edge(const Placed& placed, const Vec32& direction, int64_t slope
     edge.add(farthest.point, from);
     return;
   }
-  for (const uint32_t v : {from < best ? from : best, from < best ? best : from}) {
+  for (int i = 0; i < 2; ++i) {
+    const uint32_t v = (from < best) == (i == 0) ? from : best;
     CorePoint core;
     core_vertex(convex, static_cast<uint8_t>(v), core);
     edge.add(placed.point(core.local), v);

@@ -1,6 +1,5 @@
 #include "proximity/contact_pair.h"
 
-#include "proximity/pair.h"
 #include "proximity/penetration.h"
 
 namespace detent {
@@ -39,12 +38,6 @@ bool axis_by_pushing(const ContactPair& pair, const Vec32& normal, ContactAxis& 
 
 }  // namespace
 
-int64_t ContactPair::metres(int64_t block) const {
-  const int n = exponent + k_metre_bits - 30;
-  const int64_t limit = INT64_MAX >> n;
-  return block > limit ? INT64_MAX : block < -limit ? -INT64_MAX : block * (int64_t{1} << n);
-}
-
 int32_t ContactPair::block_above(int64_t raw) const {
   const int64_t block = raw >> (k_metre_bits - 30 + exponent);
   return block >= INT32_MAX - 1 ? INT32_MAX : static_cast<int32_t>(block) + 1;
@@ -58,11 +51,11 @@ Status make_contact_pair(const Convex& a, const Pose& pose_a, const Convex& b, c
     return Status::not_normalised;
   }
   const Matrix32 matrix_a = matrix_from(rotation_a), matrix_b = matrix_from(rotation_b);
-  pair.offset_metres = raw_difference(pose_b.position, pose_a.position);
+  if (!raw_difference(pose_b.position, pose_a.position, pair.offset_metres)) return Status::out_of_range;
   Vec64 offset = pair.offset_metres;
   if (plane_is_a || plane_is_b) offset = component_along(offset, (plane_is_a ? matrix_a : matrix_b).column[1]);
-  const int64_t cores = raw_core_radius(a) + raw_core_radius(b) + 64, apart = length_above(offset);
-  pair.exponent = raw_exponent_above(apart > INT64_MAX - cores ? INT64_MAX : apart + cores);
+  const int64_t cores = raw_core_radius(a) + raw_core_radius(b) + 64, apart = length_bound(offset);
+  pair.exponent = raw_exponent_above(saturated_sum(apart, cores));
   pair.offset = round_shift(offset, k_metre_bits - 30 + pair.exponent);
   pair.a = place(a, matrix_a, pair.exponent);
   pair.b = place(b, matrix_b, pair.exponent);

@@ -2,6 +2,7 @@
 #include <detent/contact.h>
 
 #include "proximity/gjk.h"
+#include "proximity/pair.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -16,12 +17,12 @@ struct ContactPair {
 
   bool planar() const { return a.convex->type == ShapeType::half_space || b.convex->type == ShapeType::half_space; }
   /// 2^-46 m. Overflow: saturates.
-  int64_t metres(int64_t block) const;
+  int64_t metres(int64_t block) const { return raw_from_block(block, exponent); }
   /// Ulps of the block, rounded up; at most INT32_MAX. Range: raw >= 0.
   int32_t block_above(int64_t raw) const;
 };
 
-/// Errors: bad_argument for two half-spaces; not_normalised.
+/// Errors: bad_argument for two half-spaces; not_normalised; out_of_range for NaN.
 Status make_contact_pair(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, ContactPair& pair);
 
 /// The simplex that a cache holds for the pair, for gjk() to start from; and back.

@@ -23,7 +23,11 @@ Vec3<Unit> units_from_raw(const Vec32& v);
 int64_t length_above(const Vec64& v);
 /// At least |v|, and at most 1.6 % and a few 2^-30 more; INT64_MAX where that is more than 2^62. Cheap.
 int64_t length_bound(const Vec64& v);
-constexpr int64_t saturated_sum(int64_t a, int64_t b) { return b > 0 && a > INT64_MAX - b ? INT64_MAX : a + b; }
+/// Overflow: saturates at +-INT64_MAX.
+constexpr int64_t saturated_sum(int64_t a, int64_t b) {
+  if (b > 0) return a > INT64_MAX - b ? INT64_MAX : a + b;
+  return a < -INT64_MAX - b ? -INT64_MAX : a + b;
+}
 /// Ulps of a block whose unit of length is 2^exponent m, in 2^-46 m. Overflow: saturates.
 int64_t raw_from_block(int64_t ulps, int exponent);
 /// A point of a core, in such a block, and `radius`, 2^-46 m, along the unit vector `normal`: m.

@@ -1,0 +1,84 @@
+#pragma once
+#include "proximity/contact_feature.h"
+
+/// The area where a reference feature (a face or an edge) and an incident one face each other.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// A corner of the area, in the reference's axes: u and v in it, w above it. Ulps of the block.
+struct AreaPoint {
+  int64_t u, v, w;
+  /// Made of: a vertex of the incident feature and the reference; an incident edge and a side of the reference; a corner
+  /// of the reference and the incident face.
+  enum class Kind : uint8_t { vertex, crossing, corner } kind;
+  uint8_t incident, side;  ///< the incident point, or where the edge starts; the side, or the corner where it starts
+};
+
+/// Keeps up to four of any number of points: all of four; of more those that reach farthest along four diagonals, so
+/// that depth, which trembles, does not choose, but for the deepest, which takes the nearest one's place if all are
+/// higher by more than `drop`. Of equal ones the earlier.
+/// Source: Moravanszky, Terdiman, "Fast Contact Reduction for Dynamics Simulation", 2004.
+class AreaChoice {
+ public:
+  /// Points above `reach` are left out.
+  AreaChoice(int64_t reach, int64_t drop) : reach_(reach), drop_(drop) {}
+  void add(const AreaPoint& point);
+  /// The points chosen, distinct; returns their count.
+  int choose(AreaPoint (&chosen)[4]) const;
+
+ private:
+  static constexpr int k_diagonals = 4;
+  int64_t reach_, drop_;
+  uint32_t count_ = 0;
+  AreaPoint first_[4], farthest_[k_diagonals], deepest_;
+};
+
+/// A reference feature with its sides, and axes: `up` is the normal, from it to the other shape.
+class Reference {
+ public:
+  /// `centre`: of the shape, in the block. `size`: of the incident shape, ulps: the sides are moved out by a 64th of it
+  /// or of the face, whichever is smaller, so that what lies flush stays inside.
+  Reference(const Placed& placed, const Vec32& centre, const Feature& feature, const Vec32& up, int32_t size);
+  /// The plane of a half-space; `foot`: any point near the contact.
+  Reference(const Placed& half_space, const Vec32& centre, const Vec32& foot);
+
+  /// Offers the corners of the area to `choice`.
+  void clip(const Vec32& centre, const Feature& incident, AreaChoice& choice) const;
+
+  /// Of a point of the area: twice the middle between the two cores, in the block.
+  Vec64 twice_middle(const AreaPoint& point) const;
+  const Vec32& up() const { return up_; }
+  uint32_t name_on_reference(const AreaPoint& point) const;
+  uint32_t name_on_incident(const Placed& placed, const Feature& incident, const AreaPoint& point) const;
+
+ private:
+  struct Side {
+    int32_t u, v;   ///< outward, Q30; 0 for a side of no length
+    int64_t limit;  ///< Q30 ulps
+  };
+  struct Flat {
+    int64_t u, v, w;
+  };
+  Flat flat(const Vec32& point) const;
+  void set_axes(const Vec32& along);
+  void add_sides(const Vec32& centre, int32_t size);
+  void clip_edge(const Flat& p, const Flat& q, uint8_t from, bool closed, AreaChoice& choice) const;
+  void offer_corners(const Flat* points, const Feature& incident, AreaChoice& choice) const;
+  int64_t beyond(const Flat& p, int side) const {
+    return side_[side].u * p.u + side_[side].v * p.v - side_[side].limit;
+  }
+
+  const Placed& placed_;
+  const Feature* feature_ = nullptr;  ///< none of a half-space
+  uint32_t name_;
+  Vec32 origin_, u_, v_, up_;
+  int64_t height_ = 0;  ///< of the reference above the origin
+  int64_t slope_ = 0;   ///< Q30; of an edge, along u
+  int64_t slack_ = 0;
+  int side_count_ = 0;
+  Side side_[k_feature_points_max];
+  Flat corner_[k_feature_points_max];  ///< where each side starts
+};
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,220 @@
+#include <detent/contact.h>
+
+#include "base/float_environment.h"
+#include "math/root.h"
+#include "proximity/contact_clip.h"
+#include "proximity/contact_pair.h"
+#include "proximity/pair.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+constexpr int32_t k_one = 1 << 30;
+constexpr int k_face_power = 6;       ///< a face is preferred to edges, and to the axis as it is, by a 64th of the thinner core
+constexpr int64_t k_upright = k_one >> 13;  ///< a normal nearer to a face's than this, rad, is the face's
+constexpr int64_t k_level = k_one >> 5;     ///< edges nearer than this to parallel touch along a line
+constexpr int k_drop_power = 10;  ///< of the smaller core's radius: the deepest point is at most so much deeper than all chosen
+
+int64_t smaller_but_0(int64_t a, int64_t b) { return a == 0 ? b : b == 0 || a < b ? a : b; }
+int32_t radius_in_block(const Placed& placed) { return placed.shift > 30 ? 0 : placed.convex->core_radius >> placed.shift; }
+
+/// |a x b| <= limit, for unit vectors, all Q30.
+bool is_parallel(const Vec32& a, const Vec32& b, int64_t limit) {
+  const Vec32 sine = round_shift(cross(a, b), 30);
+  return dot(sine, sine) <= limit * limit;
+}
+
+/// a + b of any sign.
+int64_t saturated(int64_t a, int64_t b) { return b < 0 ? -saturated_sum(-a, -b) : saturated_sum(a, b); }
+
+/// One of the two shapes, seen from the other.
+struct Half {
+  const Placed& placed;
+  Vec32 centre;   ///< in the block
+  Vec32 outward;  ///< the axis towards the other shape, Q30
+};
+
+class Builder {
+ public:
+  Builder(const ContactPair& pair, const ContactAxis& axis, int64_t reach)
+      : pair_(pair),
+        axis_(axis),
+        reach_(reach),
+        half_a_{pair.a, {0, 0, 0}, axis.normal},
+        half_b_{pair.b, pair.offset, negate(axis.normal)} {
+    const int64_t thickness = smaller_but_0(half_thickness(pair.a), half_thickness(pair.b));
+    const int64_t radius = smaller_but_0(radius_in_block(pair.a), radius_in_block(pair.b));
+    preference_ = (thickness != 0 ? thickness : radius) >> k_face_power;
+    drop_ = radius >> k_drop_power;
+  }
+
+  void build(ContactManifold& manifold) const;
+
+ private:
+  bool find_face(const Half& half, const Half& other, Feature& face) const;
+  bool build_on_half_space(ContactManifold& manifold) const;
+  bool build_on_face(ContactManifold& manifold) const;
+  bool build_on_edge(ContactManifold& manifold) const;
+  void build_on_axis(ContactManifold& manifold) const;
+  bool fill(const Reference& reference, bool reference_is_a, const Feature& incident, ContactManifold& manifold) const;
+  void add_point(const Vec32& normal, const Vec64& twice_middle, int64_t separation, uint32_t on_a, uint32_t on_b,
+                 ContactManifold& manifold) const;
+  /// Where two features would do, the one of the lower shape along a direction that is no one's axis. It does not matter
+  /// which shape is A.
+  bool a_comes_first() const { return dot(axis_.normal, Vec32{493921240, 848256040, 440234144}) > 0; }
+  static void find_incident(const Half& half, const Vec32& towards, Feature& incident) {
+    if (!supporting_face(half.placed, towards, incident)) supporting_edge(half.placed, towards, k_one, incident);
+  }
+
+  const ContactPair& pair_;
+  const ContactAxis& axis_;
+  int64_t reach_;  ///< 2^-46 m
+  Half half_a_, half_b_;
+  int64_t preference_, drop_;
+};
+
+/// The face of `half` that the contact is on, if it is on one.
+bool Builder::find_face(const Half& half, const Half& other, Feature& face) const {
+  if (!supporting_face(half.placed, half.outward, face)) return false;
+  const Vec32 normal = face.normal;
+  if (dot(normal, half.outward) <= 0) return false;
+  if (!is_parallel(normal, half.outward, k_upright)) {
+    if (axis_.separation > preference_) return false;
+    const Vec32 top = add(half.centre, support(half.placed, normal).point);
+    const Vec32 bottom = add(other.centre, support(other.placed, negate(normal)).point);
+    if (dot(normal, subtract(bottom, top)) >> 30 < axis_.separation - preference_) return false;
+  }
+  return normal == half.outward || supporting_face(half.placed, normal, face);
+}
+
+/// `normal` from A to B, `twice_middle` of the cores, in the block.
+void Builder::add_point(const Vec32& normal, const Vec64& twice_middle, int64_t separation, uint32_t on_a,
+                        uint32_t on_b, ContactManifold& manifold) const {
+  const int64_t ahead = (pair_.radius_a - pair_.radius_b) / 2;
+  const auto component = [&](int64_t twice, int32_t n) {
+    return pair_.metres(twice) / 2 + Int128::product_narrow(ahead, n).round_shift(30);
+  };
+  const Vec64& m = twice_middle;
+  const Vec32& o = pair_.offset;
+  Vec64 from_a = {component(m.x, normal.x), component(m.y, normal.y), component(m.z, normal.z)};
+  Vec64 from_b = {component(m.x - 2 * int64_t{o.x}, normal.x), component(m.y - 2 * int64_t{o.y}, normal.y),
+                  component(m.z - 2 * int64_t{o.z}, normal.z)};
+  // A half-space's position may lie anywhere in its plane, too far away for the block.
+  const Vec64& way = pair_.offset_metres;
+  if (pair_.a.convex->type == ShapeType::half_space)
+    from_a = {saturated(from_b.x, way.x), saturated(from_b.y, way.y), saturated(from_b.z, way.z)};
+  else if (pair_.b.convex->type == ShapeType::half_space)
+    from_b = {saturated(from_a.x, -way.x), saturated(from_a.y, -way.y), saturated(from_a.z, -way.z)};
+  ManifoldPoint& point = manifold.point[manifold.count++];
+  point.from_a = {real_from_raw(from_a.x), real_from_raw(from_a.y), real_from_raw(from_a.z)};
+  point.from_b = {real_from_raw(from_b.x), real_from_raw(from_b.y), real_from_raw(from_b.z)};
+  point.separation = real_from_raw(separation);
+  point.feature = on_a | on_b << 12;
+}
+
+/// False if nothing of the area is within reach.
+bool Builder::fill(const Reference& reference, bool reference_is_a, const Feature& incident,
+                   ContactManifold& manifold) const {
+  const Half& other = reference_is_a ? half_b_ : half_a_;
+  const int64_t radii = pair_.radius_a + pair_.radius_b;
+  AreaChoice choice(pair_.block_above(saturated_sum(reach_, radii)), drop_);
+  reference.clip(other.centre, incident, choice);
+  const Vec32 normal = reference_is_a ? reference.up() : negate(reference.up());
+  AreaPoint chosen[4];
+  const int count = choice.choose(chosen);
+  for (int i = 0; i < count; ++i) {
+    const int64_t separation = pair_.metres(chosen[i].w) - radii;
+    if (separation > reach_) continue;
+    const uint32_t on_reference = reference.name_on_reference(chosen[i]);
+    const uint32_t on_incident = reference.name_on_incident(other.placed, incident, chosen[i]);
+    add_point(normal, reference.twice_middle(chosen[i]), separation, reference_is_a ? on_reference : on_incident,
+              reference_is_a ? on_incident : on_reference, manifold);
+  }
+  if (manifold.count > 0) manifold.normal = units_from_raw(normal);
+  return manifold.count > 0;
+}
+
+bool Builder::build_on_half_space(ContactManifold& manifold) const {
+  const bool plane_is_a = pair_.a.convex->type == ShapeType::half_space;
+  const Half &plane = plane_is_a ? half_a_ : half_b_, &other = plane_is_a ? half_b_ : half_a_;
+  Feature incident;
+  find_incident(other, negate(plane.placed.rotation.column[1]), incident);
+  return fill(Reference(plane.placed, plane.centre, other.centre), plane_is_a, incident, manifold);
+}
+
+bool Builder::build_on_face(ContactManifold& manifold) const {
+  Feature face, incident;
+  bool is_a = a_comes_first();
+  for (int attempt = 0; attempt < 2; ++attempt, is_a = !is_a) {
+    const Half &half = is_a ? half_a_ : half_b_, &other = is_a ? half_b_ : half_a_;
+    if (!find_face(half, other, face)) continue;
+    find_incident(other, negate(face.normal), incident);
+    const Reference reference(half.placed, half.centre, face, face.normal, radius_in_block(other.placed));
+    if (fill(reference, is_a, incident, manifold)) return true;
+  }
+  return false;
+}
+
+bool Builder::build_on_edge(ContactManifold& manifold) const {
+  Feature edge_a, edge_b;
+  supporting_edge(pair_.a, half_a_.outward, k_level, edge_a);
+  supporting_edge(pair_.b, half_b_.outward, k_level, edge_b);
+  if (edge_a.count != 2 || edge_b.count != 2) return false;
+  const auto direction = [](const Feature& edge) {
+    const Vec32 way = subtract(edge.point[1], edge.point[0]);
+    return is_zero(way) ? way : unit_vector_raw(scaled_to_30_bits(way));
+  };
+  const Vec32 along_a = direction(edge_a), along_b = direction(edge_b);
+  if (is_zero(along_a) || is_zero(along_b) || !is_parallel(along_a, along_b, k_level)) return false;
+  const bool is_a = a_comes_first();
+  const Half &half = is_a ? half_a_ : half_b_, &other = is_a ? half_b_ : half_a_;
+  const Reference reference(half.placed, half.centre, is_a ? edge_a : edge_b, half.outward,
+                            radius_in_block(other.placed));
+  return fill(reference, is_a, is_a ? edge_b : edge_a, manifold);
+}
+
+void Builder::build_on_axis(ContactManifold& manifold) const {
+  const int64_t separation = pair_.metres(axis_.separation) - pair_.radius_a - pair_.radius_b;
+  if (separation > reach_) return;
+  Feature edge_a, edge_b;
+  supporting_edge(pair_.a, half_a_.outward, k_level, edge_a);
+  supporting_edge(pair_.b, half_b_.outward, k_level, edge_b);
+  const auto twice = [](int32_t a, int32_t b, int32_t offset) { return int64_t{a} + b + offset; };
+  const Vec32 &a = axis_.point_a, &b = axis_.point_b, &offset = pair_.offset;
+  add_point(axis_.normal, {twice(a.x, b.x, offset.x), twice(a.y, b.y, offset.y), twice(a.z, b.z, offset.z)}, separation,
+            edge_a.name(), edge_b.name(), manifold);
+  manifold.normal = units_from_raw(axis_.normal);
+}
+
+void Builder::build(ContactManifold& manifold) const {
+  manifold.capped = axis_.capped;
+  if (pair_.planar()) {
+    if (!build_on_half_space(manifold)) build_on_axis(manifold);
+  } else if (!build_on_face(manifold) && !build_on_edge(manifold)) {
+    build_on_axis(manifold);
+  }
+}
+
+}  // namespace
+
+Status contact_points(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Real reach,
+                      ContactManifold& manifold, DistanceCache* cache) {
+  const FloatEnvironment environment;
+  ContactPair pair;
+  if (const Status status = make_contact_pair(a, pose_a, b, pose_b, pair); status != Status::ok) return status;
+  Vec64 raw;
+  if (!raw_from_real({reach, Real(0.0), Real(0.0)}, raw) || raw.x < 0) return Status::out_of_range;
+  const int64_t radii = pair.radius_a + pair.radius_b;
+  const int32_t needed = pair.block_above(saturated_sum(raw.x, radii));
+  ContactManifold made;
+  ContactAxis axis;
+  if (find_contact_axis(pair, needed >= INT32_MAX - k_gjk_slack ? INT32_MAX : needed + k_gjk_slack, cache, axis)) {
+    Builder(pair, axis, raw.x).build(made);
+  }
+  manifold = made;
+  return Status::ok;
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent
