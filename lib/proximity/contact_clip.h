@@ -45,6 +45,8 @@ class Reference {
   /// Offers the corners of the area to `choice`.
   void clip(const Vec32& centre, const Feature& incident, AreaChoice& choice) const;
 
+  /// How high a point is above the reference, in the block.
+  int64_t height_of(const Vec32& point) const { return flat(point).w; }
   /// Of a point of the area: twice the middle between the two cores, in the block.
   Vec64 twice_middle(const AreaPoint& point) const;
   const Vec32& up() const { return up_; }

@@ -9,6 +9,9 @@ inline namespace DETENT_NAMESPACE {
 enum class FeatureKind : uint32_t { vertex = 1, edge = 2, face = 3 };
 constexpr uint32_t feature_name(FeatureKind kind, uint32_t index) { return static_cast<uint32_t>(kind) << 10 | index; }
 
+/// The name of a contact of a feature of A with one of B.
+constexpr uint32_t feature_pair(uint32_t on_a, uint32_t on_b) { return on_a | on_b << 12; }
+
 inline constexpr int k_feature_points_max = 32;
 
 /// A flat convex polygon (its points counter-clockwise from outside), an edge or a vertex of a placed core.

@@ -8,6 +8,7 @@ namespace {
 
 /// Cores nearer than so many ulps: the direction between two points of the block may be mere rounding.
 constexpr int32_t k_meeting = 64;
+constexpr int32_t k_push = 4 * k_meeting;  ///< deep enough for a direction
 
 /// v length, for a unit vector v.
 Vec32 scaled(const Vec32& v, int64_t length) { return round_shift(Vec64{v.x * length, v.y * length, v.z * length}, 30); }
@@ -25,9 +26,10 @@ ContactAxis axis_of(const Penetration& found) {
   return {found.normal, -int64_t{found.depth}, found.point_a, found.point_b, found.capped};
 }
 
-/// The axis of cores that all but touch: B is pushed into A, and the least way out found.
-bool axis_by_pushing(const ContactPair& pair, const Vec32& normal, ContactAxis& axis) {
-  const int64_t push = 4 * k_meeting;
+/// The axis of cores at most `distance` ulps apart where gjk() has none that can be trusted: B is pushed into A, and the
+/// least way out found. False if they don't meet even then.
+bool axis_by_pushing(const ContactPair& pair, const Vec32& normal, int32_t distance, ContactAxis& axis) {
+  const int64_t push = int64_t{distance} + k_push;
   const Vec32 offset = subtract(pair.offset, scaled(normal, push));
   Simplex simplex;
   if (gjk(pair.a, pair.b, offset, simplex, {}).outcome != GjkOutcome::overlap) return false;
@@ -95,11 +97,14 @@ bool find_contact_axis(const ContactPair& pair, int32_t above, DistanceCache* ca
     return true;
   }
   if (found.lower > above) return false;
-  if (found.upper <= k_meeting && !pair.planar() && axis_by_pushing(pair, found.normal, axis)) return true;
+  const bool capped = found.outcome == GjkOutcome::capped;
+  if ((capped || found.upper <= k_meeting) && !pair.planar() && axis_by_pushing(pair, found.normal, found.upper, axis)) {
+    return true;
+  }
   int32_t weight[4];
   simplex.weights(weight);
   axis = {found.normal, found.upper, weighted(pair.a, simplex, weight, &SimplexVertex::a),
-          weighted(pair.b, simplex, weight, &SimplexVertex::b), found.outcome == GjkOutcome::capped};
+          weighted(pair.b, simplex, weight, &SimplexVertex::b), capped};
   if (pair.planar()) {  // the point of the plane is the foot of the other's
     const Vec32 way = subtract(add(pair.offset, axis.point_b), axis.point_a);
     const int64_t height = dot(axis.normal, way) >> 30;

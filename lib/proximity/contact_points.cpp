@@ -56,7 +56,7 @@ class Builder {
   bool build_on_half_space(ContactManifold& manifold) const;
   bool build_on_face(ContactManifold& manifold) const;
   bool build_on_edge(ContactManifold& manifold) const;
-  void build_on_axis(ContactManifold& manifold) const;
+  void add_on_axis(const Vec32& normal, int64_t separation, ContactManifold& manifold) const;
   bool fill(const Reference& reference, bool reference_is_a, const Feature& incident, ContactManifold& manifold) const;
   void add_point(const Vec32& normal, const Vec64& twice_middle, int64_t separation, uint32_t on_a, uint32_t on_b,
                  ContactManifold& manifold) const;
@@ -110,7 +110,22 @@ void Builder::add_point(const Vec32& normal, const Vec64& twice_middle, int64_t 
   point.from_a = {real_from_raw(from_a.x), real_from_raw(from_a.y), real_from_raw(from_a.z)};
   point.from_b = {real_from_raw(from_b.x), real_from_raw(from_b.y), real_from_raw(from_b.z)};
   point.separation = real_from_raw(separation);
-  point.feature = on_a | on_b << 12;
+  point.feature = feature_pair(on_a, on_b);
+}
+
+/// The point on the axis itself, between whatever edges or vertices are there.
+void Builder::add_on_axis(const Vec32& normal, int64_t separation, ContactManifold& manifold) const {
+  Feature edge_a, edge_b;
+  supporting_edge(pair_.a, half_a_.outward, k_level, edge_a);
+  supporting_edge(pair_.b, half_b_.outward, k_level, edge_b);
+  const uint32_t on_a = edge_a.name(), on_b = edge_b.name();
+  for (uint32_t i = 0; i < manifold.count; ++i) {
+    if (manifold.point[i].feature == feature_pair(on_a, on_b)) return;
+  }
+  const Vec32 &a = axis_.point_a, &b = axis_.point_b, &offset = pair_.offset;
+  const auto twice = [](int32_t on_a_core, int32_t on_b_core, int32_t way) { return int64_t{on_a_core} + on_b_core + way; };
+  add_point(normal, {twice(a.x, b.x, offset.x), twice(a.y, b.y, offset.y), twice(a.z, b.z, offset.z)}, separation, on_a,
+            on_b, manifold);
 }
 
 /// False if nothing of the area is within reach.
@@ -122,7 +137,15 @@ bool Builder::fill(const Reference& reference, bool reference_is_a, const Featur
   reference.clip(other.centre, incident, choice);
   const Vec32 normal = reference_is_a ? reference.up() : negate(reference.up());
   AreaPoint chosen[4];
-  const int count = choice.choose(chosen);
+  int count = choice.choose(chosen);
+  if (count == 0) return false;
+  // A round face's polygon may miss the place on the axis.
+  int deepest = 0;
+  for (int i = 1; i < count; ++i) deepest = chosen[i].w < chosen[deepest].w ? i : deepest;
+  const Vec32 nearest = add(other.centre, reference_is_a ? axis_.point_b : axis_.point_a);
+  const int64_t height = reference.height_of(nearest);
+  const bool missed = height + drop_ < chosen[deepest].w;
+  if (missed && count == 4) --count;
   for (int i = 0; i < count; ++i) {
     const int64_t separation = pair_.metres(chosen[i].w) - radii;
     if (separation > reach_) continue;
@@ -131,6 +154,7 @@ bool Builder::fill(const Reference& reference, bool reference_is_a, const Featur
     add_point(normal, reference.twice_middle(chosen[i]), separation, reference_is_a ? on_reference : on_incident,
               reference_is_a ? on_incident : on_reference, manifold);
   }
+  if (missed) add_on_axis(normal, pair_.metres(height) - radii, manifold);
   if (manifold.count > 0) manifold.normal = units_from_raw(normal);
   return manifold.count > 0;
 }
@@ -174,26 +198,13 @@ bool Builder::build_on_edge(ContactManifold& manifold) const {
   return fill(reference, is_a, is_a ? edge_b : edge_a, manifold);
 }
 
-void Builder::build_on_axis(ContactManifold& manifold) const {
+void Builder::build(ContactManifold& manifold) const {
   const int64_t separation = pair_.metres(axis_.separation) - pair_.radius_a - pair_.radius_b;
   if (separation > reach_) return;
-  Feature edge_a, edge_b;
-  supporting_edge(pair_.a, half_a_.outward, k_level, edge_a);
-  supporting_edge(pair_.b, half_b_.outward, k_level, edge_b);
-  const auto twice = [](int32_t a, int32_t b, int32_t offset) { return int64_t{a} + b + offset; };
-  const Vec32 &a = axis_.point_a, &b = axis_.point_b, &offset = pair_.offset;
-  add_point(axis_.normal, {twice(a.x, b.x, offset.x), twice(a.y, b.y, offset.y), twice(a.z, b.z, offset.z)}, separation,
-            edge_a.name(), edge_b.name(), manifold);
-  manifold.normal = units_from_raw(axis_.normal);
-}
-
-void Builder::build(ContactManifold& manifold) const {
   manifold.capped = axis_.capped;
-  if (pair_.planar()) {
-    if (!build_on_half_space(manifold)) build_on_axis(manifold);
-  } else if (!build_on_face(manifold) && !build_on_edge(manifold)) {
-    build_on_axis(manifold);
-  }
+  if (pair_.planar() ? build_on_half_space(manifold) : build_on_face(manifold) || build_on_edge(manifold)) return;
+  add_on_axis(axis_.normal, separation, manifold);
+  manifold.normal = units_from_raw(axis_.normal);
 }
 
 }  // namespace

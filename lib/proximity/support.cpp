@@ -35,36 +35,55 @@ CorePoint hull_vertex(const HullView& hull, uint32_t i) {
   return {{hull.x(i), hull.y(i), hull.z(i)}, static_cast<uint8_t>(i)};
 }
 
-int64_t reach(const HullView& hull, uint32_t i, const Vec32& direction) {
-  return int64_t{hull.x(i)} * direction.x + int64_t{hull.y(i)} * direction.y + int64_t{hull.z(i)} * direction.z;
-}
+/// How far the vertices of a hull lie along a direction.
+class Reach {
+ public:
+  Reach(const HullView& hull, const Vec32& direction)
+      : x_(hull.bytes + hull.at.x),
+        y_(hull.bytes + hull.at.y),
+        z_(hull.bytes + hull.at.z),
+        dx_(direction.x),
+        dy_(direction.y),
+        dz_(direction.z) {}
+  int64_t of(uint32_t i) const {
+    return dx_ * hull_i32(x_ + 4 * i) + dy_ * hull_i32(y_ + 4 * i) + dz_ * hull_i32(z_ + 4 * i);
+  }
+
+ private:
+  const uint8_t *x_, *y_, *z_;
+  int64_t dx_, dy_, dz_;
+};
 
 /// From vertex to vertex as long as a neighbour lies farther: on a convex hull the last one lies farthest.
-uint32_t climb(const HullView& hull, const Vec32& direction, uint32_t start) {
-  uint32_t best = start < hull.vertex_count ? start : 0;
-  int64_t best_value = reach(hull, best, direction);
+uint32_t climb(const HullView& hull, const Reach& reach, uint32_t start) {
+  uint32_t best = start < hull.vertex_count ? start : 0, last = best;
+  int64_t best_value = reach.of(best);
   for (uint32_t step = 0; step < hull.vertex_count; ++step) {
     const HullIndices around = hull.neighbours(best);
     uint32_t next = best;
     for (uint32_t k = 0; k < around.count; ++k) {
-      const int64_t value = reach(hull, around.index[k], direction);
+      const uint32_t i = around.index[k];
+      if (i == last) continue;
+      const int64_t value = reach.of(i);
       if (value > best_value) {
         best_value = value;
-        next = around.index[k];
+        next = i;
       }
     }
     if (next == best) break;
+    last = best;
     best = next;
   }
   return best;
 }
 
 CorePoint hull_support(const HullView& hull, const Vec32& direction, uint32_t start) {
-  if (hull.vertex_count > k_climbing_vertices) return hull_vertex(hull, climb(hull, direction, start));
+  const Reach reach(hull, direction);
+  if (hull.vertex_count > k_climbing_vertices) return hull_vertex(hull, climb(hull, reach, start));
   uint32_t best = 0;
   int64_t best_value = INT64_MIN;
   for (uint32_t i = 0; i < hull.vertex_count; ++i) {
-    const int64_t value = reach(hull, i, direction);
+    const int64_t value = reach.of(i);
     if (value > best_value) {
       best_value = value;
       best = i;

@@ -33,7 +33,7 @@ inline CorePoint local_support(const Convex& convex, const Vec32& direction) {
   return local_support(convex, hull_of(convex), direction, 0);
 }
 /// Hulls of more vertices are climbed, not searched through.
-inline constexpr uint32_t k_climbing_vertices = 16;
+inline constexpr uint32_t k_climbing_vertices = 8;
 
 /// A core in a block, relative to its own centre.
 class Placed {
