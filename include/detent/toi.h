@@ -13,7 +13,7 @@ double fraction_to_host(Fraction fraction);
 
 /// A motion over a step: constant velocity of the position and constant spin, world axes.
 struct Motion {
-  Pose start;
+  Pose start = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}};
   Vec3<Real> displacement = {};  ///< m over the step
   Vec3<Real> turn = {};          ///< rotation vector over the step, rad; |turn| <= 2^16
 };
