@@ -7,10 +7,10 @@ inline namespace DETENT_NAMESPACE {
 
 struct CastHit {
   bool hit = false;
-  bool undecided = false;    ///< the cap was met: nothing is hit up to `time`, and beyond it is not known
-  Fraction time = 0.0;       ///< the part of the way until the hit, never late; 1 if there is none
-  Vec3<Real> point = {};     ///< of the hit on the shape, m, from its position, world axes
-  Vec3<Unit> normal = {};    ///< of the shape there, outward, world axes; zero where the cast starts inside
+  bool undecided = false;  ///< the cap was met: nothing is hit up to `time`, and beyond it is not known
+  Fraction time = 0.0;     ///< the part of the way until the hit, never late; 1 if there is none
+  Vec3<Real> point = {};   ///< of the hit on the shape, m, from its position, world axes
+  Vec3<Unit> normal = {};  ///< of the shape there, outward, world axes; zero where the cast starts inside
 };
 
 /// Where the segment from `origin` (m, from the shape's position, world axes) along `way` (m) enters the shape.

@@ -5,8 +5,8 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The vertices where a pair's last query ended, for the next one to start from. Any content is safe: it alters how fast
-/// an answer comes, and which of several equally near points is named.
+/// The vertices where a pair's last query ended, for the next one to start from. Any content is safe: it alters how
+/// fast an answer comes, and which of several equally near points is named.
 struct DistanceCache {
   uint8_t count = 0;  ///< 0 when new
   uint8_t vertex_a[4] = {}, vertex_b[4] = {};
@@ -16,13 +16,13 @@ struct DistanceCache {
 inline constexpr double k_distance_error = 0x1p-25;
 
 struct Closest {
-  bool overlap = false;             ///< the cores or their balls meet: distance 0
-  bool capped = false;              ///< the iteration cap was met: `distance` is still a lower bound
-  Real distance = 0.0;              ///< m, between the surfaces
-  Vec3<Unit> normal = {};           ///< from A to B, world axes; zero if the cores meet
-  Vec3<Real> point_a = {};          ///< on A's surface, m, from A's position, world axes
-  Vec3<Real> point_b = {};          ///< on B's surface, m, from B's position, world axes
-  uint32_t iterations = 0;          ///< support points asked for
+  bool overlap = false;     ///< the cores or their balls meet: distance 0
+  bool capped = false;      ///< the iteration cap was met: `distance` is still a lower bound
+  Real distance = 0.0;      ///< m, between the surfaces
+  Vec3<Unit> normal = {};   ///< from A to B, world axes; zero if the cores meet
+  Vec3<Real> point_a = {};  ///< on A's surface, m, from A's position, world axes
+  Vec3<Real> point_b = {};  ///< on B's surface, m, from B's position, world axes
+  uint32_t iterations = 0;  ///< support points asked for
 };
 
 /// The distance of two convex shapes, with the closest points.
@@ -36,8 +36,8 @@ Status overlap(const Convex& a, const Pose& pose_a, const Convex& b, const Pose&
                DistanceCache* cache = nullptr);
 
 /// Whether the shapes are farther apart than `reach`, m: true is certain, false may err by k_distance_error.
-Status farther_than(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Real reach,
-                    bool& result, DistanceCache* cache = nullptr);
+Status farther_than(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Real reach, bool& result,
+                    DistanceCache* cache = nullptr);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -26,9 +26,9 @@ enum class ToiOutcome : uint32_t {
 
 struct TimeOfImpact {
   ToiOutcome outcome = ToiOutcome::undecided;
-  Fraction time = 0.0;      ///< never late: up to here the shapes do not meet, unless they did at the start; 1 if clear
-  Vec3<Unit> normal = {};   ///< at `time`, from A to B, world axes; zero where the cores meet at the start
-  Vec3<Real> point = {};    ///< of a hit, on A's surface, m, from A's position at `time`, world axes
+  Fraction time = 0.0;     ///< never late: up to here the shapes do not meet, unless they did at the start; 1 if clear
+  Vec3<Unit> normal = {};  ///< at `time`, from A to B, world axes; zero where the cores meet at the start
+  Vec3<Real> point = {};   ///< of a hit, on A's surface, m, from A's position at `time`, world axes
   uint32_t gjk_calls = 0;
   uint32_t passes = 0;
 };

@@ -34,7 +34,12 @@ class Side {
   /// `sign`: 1 for B, whose farthest point against the axis counts, -1 for A.
   Side(const Convex& convex, const Turning& turning, const Vec32& own_spin, const Vec32& spin, int32_t core,
        int pair_exponent, int sign)
-      : convex_(convex), hull_(hull_of(convex)), turning_(turning), core_(core), shift_(pair_exponent - convex.exponent), sign_(sign) {
+      : convex_(convex),
+        hull_(hull_of(convex)),
+        turning_(turning),
+        core_(core),
+        shift_(pair_exponent - convex.exponent),
+        sign_(sign) {
     present_ = core != 0;
     relative_ = subtract(own_spin, spin);
     still_ = is_zero(relative_);
@@ -79,9 +84,8 @@ class Side {
   Share share(const Vec32& slope, int64_t x) const {
     const auto along = [&](int32_t n, int32_t m) { return n + static_cast<int32_t>((m * x) >> 30); };
     const Vec32 direction = {along(normal_.x, slope.x), along(normal_.y, slope.y), along(normal_.z, slope.z)};
-    const SupportValue farthest = sign_ < 0
-                                      ? support_value(convex_, hull_, direction, slope, start_)
-                                      : support_value(convex_, hull_, negate(direction), negate(slope), start_);
+    const SupportValue farthest = sign_ < 0 ? support_value(convex_, hull_, direction, slope, start_)
+                                            : support_value(convex_, hull_, negate(direction), negate(slope), start_);
     return {-(farthest.value >> (3 + shift_)), -(farthest.rate >> (29 + shift_))};
   }
 
@@ -160,9 +164,9 @@ class Separation {
 
 /// Where separation + slope x - K x^2/2 ends, Q30, or `limit` if that comes first. Only a proposal.
 int64_t parabola_root(int64_t separation, int64_t slope, int64_t curvature, int64_t limit) {
-  const int64_t s = separation >> 28;                          // Q28
-  const int64_t b = slope >> 4;                                // Q26
-  const int64_t k = curvature;                                 // Q26
+  const int64_t s = separation >> 28;                                         // Q28
+  const int64_t b = slope >> 4;                                               // Q26
+  const int64_t k = curvature;                                                // Q26
   const uint64_t square = static_cast<uint64_t>(b * b + ((2 * k * s) >> 2));  // Q52
   const int64_t denominator = int64_t{square_root_floor(square)} - b;         // Q26
   if (denominator <= 0) return limit;
@@ -201,7 +205,7 @@ TurningAxis::TurningAxis(const Vec32& normal, const Vec32& spin) : normal_(norma
 
 Vec32 TurningAxis::at(int64_t part) const {
   if (!turns_ || part == 0) return normal_;
-  constexpr int64_t k_radian = 2734261103;                                             // 2^34 / 2 pi
+  constexpr int64_t k_radian = 2734261103;  // 2^34 / 2 pi
   const SineCosineRaw full = sine_cosine_raw((((rate_ * part) >> 30) * k_radian) >> 29);
   const int64_t kept = (along_ * (k_one - full.cosine)) >> 30;
   const auto component = [&](int64_t n, int64_t c, int64_t k) {
@@ -277,8 +281,8 @@ int32_t advance_once(const MovingPair& pair, const Frames& frames, const Horizon
     if (is_zero(spin) || core == 0) return int64_t{0};
     return product_above(length_bound(tight ? cross_29(normal, spin) : spin), core, 29);
   };
-  const int64_t approach =
-      -(dot(normal, horizon.way) >> 29) + 1 + turning(horizon.spin_a, pair.core_a) + turning(horizon.spin_b, pair.core_b);
+  const int64_t approach = -(dot(normal, horizon.way) >> 29) + 1 + turning(horizon.spin_a, pair.core_a) +
+                           turning(horizon.spin_b, pair.core_b);
   if (approach <= 0 || room >= approach) return static_cast<int32_t>(k_one);
   return static_cast<int32_t>((room << 30) / approach);
 }

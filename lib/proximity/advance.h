@@ -6,11 +6,11 @@ inline namespace DETENT_NAMESPACE {
 
 /// How a certified axis is moved along. All are never late; they differ in how far one axis leads.
 enum class ToiMethod {
-  paper,         ///< Coumans' Algorithm 1: the bound n.v + |wA| rA + |wB| rB on the approach, one step an axis
-  first_order,   ///< |n x w| times the radius about the spin, one step an axis
-  second_order,  ///< the concave bound along an axis fixed in the world, until it leads no farther
-  corotating,    ///< likewise, the axis turning with the body that owns the face or edge
-  constant_spin, ///< likewise, an edge's axis turning so that it is right at contact too
+  paper,          ///< Coumans' Algorithm 1: the bound n.v + |wA| rA + |wB| rB on the approach, one step an axis
+  first_order,    ///< |n x w| times the radius about the spin, one step an axis
+  second_order,   ///< the concave bound along an axis fixed in the world, until it leads no farther
+  corotating,     ///< likewise, the axis turning with the body that owns the face or edge
+  constant_spin,  ///< likewise, an edge's axis turning so that it is right at contact too
 };
 inline constexpr int k_toi_methods = 5;
 
@@ -27,18 +27,20 @@ struct Horizon {
   int64_t time_at(int64_t part) const {
     if (part >= int64_t{1} << 30) return start + length;
     const Int128 product = Int128::product(length, part);
-    return start + static_cast<int64_t>((static_cast<uint64_t>(product.high_word()) << 34) | (product.low_word() >> 30));
+    return start +
+           static_cast<int64_t>((static_cast<uint64_t>(product.high_word()) << 34) | (product.low_word() >> 30));
   }
 };
-/// From `start` on, at most `length` of the step and at most so long that both bodies together turn by `turn` quarter radians.
+/// From `start` on, at most `length` of the step and at most so long that both bodies together turn by `turn` quarter
+/// radians.
 Horizon horizon_from(const MovingPair& pair, int64_t start, int64_t length, int turn_quarters);
 
 /// From `start` on, exactly `length` of the step.
 Horizon horizon_over(const MovingPair& pair, int64_t start, int64_t length);
 
 /// How far from the horizon's start the shapes are certain to stay `floor` ulps apart, by the axis
-/// n(t) = exp(t spin) normal; `frames` are those at its start: a part of the horizon, Q30. 0 if they are not even so at the start.
-/// Range: |spin_x - spin| + 1 < 4 for both bodies, |spin| < 3. Derivation: DESIGN.md, "Never late".
+/// n(t) = exp(t spin) normal; `frames` are those at its start: a part of the horizon, Q30. 0 if they are not even so at
+/// the start. Range: |spin_x - spin| + 1 < 4 for both bodies, |spin| < 3. Derivation: DESIGN.md, "Never late".
 int32_t advance(const MovingPair& pair, const Frames& frames, const Horizon& horizon, const Vec32& normal,
                 const Vec32& spin, int32_t floor, uint32_t& passes);
 

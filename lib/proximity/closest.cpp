@@ -43,7 +43,8 @@ void load(const DistanceCache& cache, const Convex& a, const Convex& b, Simplex&
   // Only the core points matter: gjk() places them anew.
   for (int i = 0; i < cache.count && i < 4; ++i) {
     SimplexVertex vertex = {{0, 0, 0}, {}, {}};
-    if (core_vertex(a, cache.vertex_a[i], vertex.a) && core_vertex(b, cache.vertex_b[i], vertex.b)) simplex.start(vertex);
+    if (core_vertex(a, cache.vertex_a[i], vertex.a) && core_vertex(b, cache.vertex_b[i], vertex.b))
+      simplex.start(vertex);
   }
 }
 
@@ -59,8 +60,8 @@ void save(const Simplex& simplex, DistanceCache& cache) {
 }
 
 /// Whether the distance is certainly more than `reach`, 2^-46 m, and `slack` ulps of the block.
-Status farther_by(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, int64_t reach, int32_t slack,
-                  bool& result, DistanceCache* cache) {
+Status farther_by(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, int64_t reach,
+                  int32_t slack, bool& result, DistanceCache* cache) {
   RestingPair pair;
   if (const Status status = rest(a, pose_a, b, pose_b, pair); status != Status::ok) return status;
   // In the block, rounded up; beyond it nothing is that far.
@@ -93,7 +94,8 @@ Status closest_points(const Convex& a, const Pose& pose_a, const Convex& b, cons
   if (found.outcome == GjkOutcome::overlap) {
     made.overlap = true;
   } else {
-    const int64_t gap = raw_from_block(made.capped ? found.lower - k_gjk_slack : found.upper, pair.exponent) - pair.radius_a - pair.radius_b;
+    const int64_t gap = raw_from_block(made.capped ? found.lower - k_gjk_slack : found.upper, pair.exponent) -
+                        pair.radius_a - pair.radius_b;
     made.overlap = gap <= 0;
     made.distance = real_from_raw(gap > 0 ? gap : 0);
     made.normal = units_from_raw(found.normal);

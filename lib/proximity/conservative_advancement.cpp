@@ -76,7 +76,8 @@ void conservative_advancement(const MovingPair& pair, ToiMethod method, TimeOfIm
       result.time = Fraction(1.0);
       return;
     }
-    // On a rim the supports have no end: where the cap left too coarse an axis, the next round goes on from its simplex.
+    // On a rim the supports have no end: where the cap left too coarse an axis, the next round goes on from its
+    // simplex.
     if (next == time && nearest.outcome != GjkOutcome::capped) break;
     time = next;
     result.time = Fraction::from_raw(time);

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int64_t k_one = int64_t{1} << 30;
 constexpr int k_tries_max = 3;
-constexpr int k_tracking_quarters = 4;  ///< a foreseen spin is worth nothing over more than 1 rad
+constexpr int k_tracking_quarters = 4;   ///< a foreseen spin is worth nothing over more than 1 rad
 constexpr int32_t k_spin_max = 3 << 28;  ///< 1.5 rad, Q29, relative to the base: what the formats of advance() hold
 
 /// The axis between them, and how far they are apart along it.
@@ -90,7 +90,7 @@ int64_t part_of(int64_t duration, int64_t part) {
 }  // namespace
 
 Features::Features(const Simplex& simplex) {
-  const auto count_distinct = [&](CorePoint SimplexVertex::* of, Vec32(&points)[2]) {
+  const auto count_distinct = [&](CorePoint SimplexVertex::*of, Vec32(&points)[2]) {
     int count = 0;
     for (int i = 0; i < simplex.count(); ++i) {
       const Vec32& point = (simplex.vertex(i).*of).local;
@@ -105,7 +105,7 @@ Features::Features(const Simplex& simplex) {
   };
   int32_t weight[4];
   simplex.weights(weight);
-  const auto nearest = [&](CorePoint SimplexVertex::* of) {
+  const auto nearest = [&](CorePoint SimplexVertex::*of) {
     Vec64 sum = {0, 0, 0};
     for (int i = 0; i < simplex.count(); ++i) {
       const Vec32& p = (simplex.vertex(i).*of).local;
@@ -127,9 +127,8 @@ Vec32 Features::base_spin(const Horizon& horizon) const {
   return {0, 0, 0};
 }
 
-int64_t advance_tracking(const MovingPair& pair, const Frames& frames, const Simplex& simplex,
-                         const Features& features, const GjkResult& nearest, int32_t floor, int64_t& progress,
-                         TimeOfImpact& result) {
+int64_t advance_tracking(const MovingPair& pair, const Frames& frames, const Simplex& simplex, const Features& features,
+                         const GjkResult& nearest, int32_t floor, int64_t& progress, TimeOfImpact& result) {
   const int64_t time = frames.time;
   const Vec32& normal = nearest.normal;
   const int64_t distance = nearest.upper;
@@ -154,8 +153,8 @@ int64_t advance_tracking(const MovingPair& pair, const Frames& frames, const Sim
     }
     // A rim's nearest point moves along it: only GJK tells where to.
     Simplex warm = simplex;
-    const GjkResult there = gjk(place(*pair.a, ahead.a, pair.exponent), place(*pair.b, ahead.b, pair.exponent),
-                                ahead.offset, warm, {});
+    const GjkResult there =
+        gjk(place(*pair.a, ahead.a, pair.exponent), place(*pair.b, ahead.b, pair.exponent), ahead.offset, warm, {});
     ++result.gjk_calls;
     if (there.outcome == GjkOutcome::overlap)
       then = {{0, 0, 0}, 0};
@@ -168,7 +167,8 @@ int64_t advance_tracking(const MovingPair& pair, const Frames& frames, const Sim
       length /= 2;
     } else if (then.gap > kept && then.gap < distance) {
       const int64_t covered = distance - then.gap, wanted = distance - kept;  // wanted > covered
-      const int64_t longer = wanted < 2 * covered ? length + part_of(length, ratio(wanted - covered, covered)) : 2 * length;
+      const int64_t longer =
+          wanted < 2 * covered ? length + part_of(length, ratio(wanted - covered, covered)) : 2 * length;
       if (longer >= widest.length && length == widest.length) break;
       length = longer < widest.length ? longer : widest.length;
     } else {

@@ -11,7 +11,7 @@ struct Features {
   Vec32 a[2], b[2];              ///< the first two of each, local
   Vec32 nearest_a, nearest_b;    ///< the points of the cores that are nearest, local
 
-  bool curved = false;           ///< one of the points lies on a rim, and will be another one soon
+  bool curved = false;  ///< one of the points lies on a rim, and will be another one soon
 
   explicit Features(const Simplex& simplex);
 
@@ -22,11 +22,10 @@ struct Features {
 };
 
 /// Like advance(), with a spin foreseen from where the features will be: right at contact too, for edges and vertices.
-/// Returns how far it is certain that the cores stay `floor` apart, as a time. Counts passes and calls of gjk(). `progress`: of the last call, renewed; what
-/// it led to is what the next one may hope for.
-int64_t advance_tracking(const MovingPair& pair, const Frames& frames, const Simplex& simplex,
-                         const Features& features, const GjkResult& nearest, int32_t floor, int64_t& progress,
-                         TimeOfImpact& result);
+/// Returns how far it is certain that the cores stay `floor` apart, as a time. Counts passes and calls of gjk().
+/// `progress`: of the last call, renewed; what it led to is what the next one may hope for.
+int64_t advance_tracking(const MovingPair& pair, const Frames& frames, const Simplex& simplex, const Features& features,
+                         const GjkResult& nearest, int32_t floor, int64_t& progress, TimeOfImpact& result);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -29,8 +29,8 @@ int32_t ceiling_30(int64_t value) { return static_cast<int32_t>((value + (int64_
 
 const SimplexVertex& newest(const Simplex& simplex) { return simplex.vertex(simplex.count() - 1); }
 
-/// The vertex of the placed core that is farthest along the simplex' nearest point v (`sign` -1: against it), exactly. The
-/// core point is left as it is where the core has no vertices.
+/// The vertex of the placed core that is farthest along the simplex' nearest point v (`sign` -1: against it), exactly.
+/// The core point is left as it is where the core has no vertices.
 void exact_support(const Placed& placed, const Simplex& simplex, int sign, CorePoint& core) {
   CorePoint vertex;
   Int128 most = Int128::from(0);
@@ -97,9 +97,10 @@ GjkResult gjk(const Placed& a, const Placed& b, const Vec32& offset, Simplex& si
     const int64_t progress = reach - floor;
     // Nearer than this to touching, only exact tests decide: whether the cores meet is never a matter of rounding.
     const bool touching = floor <= k_touching;
-    const bool precise = simplex.count() != 0 && !touching && (progress <= int64_t{1} << 30 || progress <= reach >> limits.precision);
-    const bool separate = floor >> 29 > limits.above &&
-                          floor_30(dot(unit_vector_raw(direction), vertex.difference)) > limits.above;
+    const bool precise =
+        simplex.count() != 0 && !touching && (progress <= int64_t{1} << 30 || progress <= reach >> limits.precision);
+    const bool separate =
+        floor >> 29 > limits.above && floor_30(dot(unit_vector_raw(direction), vertex.difference)) > limits.above;
     const bool last = result.iterations == k_gjk_iterations_max;
     if (!precise && !separate && !last) {
       if (simplex.insert(vertex)) continue;
@@ -123,7 +124,7 @@ GjkResult gjk(const Placed& a, const Placed& b, const Vec32& offset, Simplex& si
 NearestPoints nearest_points(const Placed& a, const Placed& b, const Simplex& simplex) {
   int32_t weight[4];
   simplex.weights(weight);
-  const auto weighted = [&](const Placed& placed, CorePoint SimplexVertex::* of) {
+  const auto weighted = [&](const Placed& placed, CorePoint SimplexVertex::*of) {
     if (simplex.count() == 1) return placed.point((simplex.vertex(0).*of).local);
     Vec64 sum = {0, 0, 0};
     for (int i = 0; i < simplex.count(); ++i) {

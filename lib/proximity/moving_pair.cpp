@@ -46,7 +46,8 @@ int64_t distance_at(const MovingPair& pair, int64_t time) {
 /// The root of a 128-bit number, rounded up.
 int64_t root_above(Int128 value) {
   return static_cast<int64_t>(
-             square_root_nearest(Words128{static_cast<uint64_t>(value.high_word()), value.low_word()})) + 1;
+             square_root_nearest(Words128{static_cast<uint64_t>(value.high_word()), value.low_word()})) +
+         1;
 }
 
 /// The window in which |offset + t displacement| <= reach, 2^-46 m; widened by all rounding.
@@ -132,9 +133,7 @@ Status prepare(const Convex& a, const Motion& motion_a, const Convex& b, const M
   return set_block(offset, add(way_b, negate(way_a)), pair);
 }
 
-Turning still(const Quat32& rotation) {
-  return {rotation, matrix_from(rotation), false, {0, 0, 0}, 0, {0, 0, 0}, 0};
-}
+Turning still(const Quat32& rotation) { return {rotation, matrix_from(rotation), false, {0, 0, 0}, 0, {0, 0, 0}, 0}; }
 
 Status set_block(const Vec64& offset, const Vec64& displacement, MovingPair& pair) {
   const Convex &a = *pair.a, &b = *pair.b;
@@ -153,7 +152,9 @@ Status set_block(const Vec64& offset, const Vec64& displacement, MovingPair& pai
   const int64_t close = cores + balls + ((cores + balls) >> 18) + 64;
   if (magnitudes(pair.offset) >> 62 != 0) {
     // Sums would overflow: too far to meet, or too far to tell.
-    const auto parted = [close](int64_t c, int64_t d) { return magnitude_64(c) > magnitude_64(d) + static_cast<uint64_t>(close); };
+    const auto parted = [close](int64_t c, int64_t d) {
+      return magnitude_64(c) > magnitude_64(d) + static_cast<uint64_t>(close);
+    };
     const Vec64 &c = pair.offset, &d = pair.displacement;
     if (pair.planar || !(parted(c.x, d.x) || parted(c.y, d.y) || parted(c.z, d.z))) return Status::out_of_range;
     pair.from = 1;

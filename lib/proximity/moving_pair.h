@@ -27,11 +27,11 @@ int64_t time_quotient(int64_t numerator, int64_t denominator);
 struct Turning {
   Quat32 start;
   Matrix32 start_matrix;
-  bool turns;    ///< false also if the core is a point
-  Vec32 axis;    ///< of the spin, world, Q30
-  int64_t rate;  ///< 2^-46 turns over the step
-  Vec64 turn;    ///< rotation vector, 2^-46 rad over the step
-  int64_t angle; ///< |turn|, rounded up
+  bool turns;     ///< false also if the core is a point
+  Vec32 axis;     ///< of the spin, world, Q30
+  int64_t rate;   ///< 2^-46 turns over the step
+  Vec64 turn;     ///< rotation vector, 2^-46 rad over the step
+  int64_t angle;  ///< |turn|, rounded up
 
   /// Error: k_turning_error for a unit vector.
   Matrix32 at(int64_t time) const;
@@ -50,16 +50,16 @@ struct MovingPair {
   const Convex* a;
   const Convex* b;
   Turning turning_a, turning_b;
-  Vec64 offset;        ///< from A's position to B's at the start, 2^-46 m
-  Vec64 displacement;  ///< of B relative to A over the step, 2^-46 m
-  bool planar;         ///< one of the two is a half-space
-  int64_t from, to;    ///< only in this window can they meet; from > to: never
-  int exponent;        ///< 2^exponent m is the pair's unit of length; the block's ulp is 2^-30 of it
+  Vec64 offset;            ///< from A's position to B's at the start, 2^-46 m
+  Vec64 displacement;      ///< of B relative to A over the step, 2^-46 m
+  bool planar;             ///< one of the two is a half-space
+  int64_t from, to;        ///< only in this window can they meet; from > to: never
+  int exponent;            ///< 2^exponent m is the pair's unit of length; the block's ulp is 2^-30 of it
   int32_t core_a, core_b;  ///< core radii, ulps of the block, rounded up
-  int64_t reach;       ///< ulps; the centres are never farther apart in the window
-  int64_t radius_a;    ///< of A's ball, 2^-46 m
-  int32_t radius;      ///< of both balls, ulps, rounded up
-  int32_t tolerance;   ///< ulps: closer than radius + tolerance is a hit
+  int64_t reach;           ///< ulps; the centres are never farther apart in the window
+  int64_t radius_a;        ///< of A's ball, 2^-46 m
+  int32_t radius;          ///< of both balls, ulps, rounded up
+  int32_t tolerance;       ///< ulps: closer than radius + tolerance is a hit
 
   Frames at(int64_t time) const { return {time, turning_a.at(time), turning_b.at(time), offset_at(time)}; }
   Vec32 offset_at(int64_t time) const {

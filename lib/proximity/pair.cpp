@@ -92,8 +92,7 @@ bool is_finite(Coord) { return true; }
 
 int64_t length_above(const Vec64& v) {
   const Int128 square = dot(v, v);
-  const uint64_t root =
-      square_root_nearest(Words128{static_cast<uint64_t>(square.high_word()), square.low_word()});
+  const uint64_t root = square_root_nearest(Words128{static_cast<uint64_t>(square.high_word()), square.low_word()});
   return root >= static_cast<uint64_t>(INT64_MAX) ? INT64_MAX : static_cast<int64_t>(root) + 1;
 }
 
@@ -113,7 +112,8 @@ int64_t raw_from_block(int64_t ulps, int exponent) {
 
 Vec3<Real> surface_point(const Vec32& core, int exponent, const Vec32& normal, int64_t radius) {
   const auto component = [&](int64_t at, int32_t n) {
-    return real_from_raw(saturated_sum(raw_from_block(at, exponent), Int128::product_narrow(radius, n).round_shift(30)));
+    return real_from_raw(
+        saturated_sum(raw_from_block(at, exponent), Int128::product_narrow(radius, n).round_shift(30)));
   };
   return {component(core.x, normal.x), component(core.y, normal.y), component(core.z, normal.z)};
 }

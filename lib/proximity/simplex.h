@@ -28,10 +28,10 @@ class Simplex {
   void start(const SimplexVertex& vertex) {
     if (count_ < 4) vertex_[count_++] = vertex;
   }
-  /// Takes `vertex` in, and drops what the nearest point does not need. False, and nothing changed, unless `vertex` lies
-  /// strictly on the origin's side of the plane through the nearest point that is perpendicular to it: then the nearest
-  /// point comes strictly nearer. As the vertices of two polytopes are finitely many, no sequence of insertions is
-  /// endless. Range: not holds_origin().
+  /// Takes `vertex` in, and drops what the nearest point does not need. False, and nothing changed, unless `vertex`
+  /// lies strictly on the origin's side of the plane through the nearest point that is perpendicular to it: then the
+  /// nearest point comes strictly nearer. As the vertices of two polytopes are finitely many, no sequence of insertions
+  /// is endless. Range: not holds_origin().
   bool insert(const SimplexVertex& vertex);
 
   /// A vector along the nearest point, from the origin, its largest component within [2^29, 2^30] in magnitude: rounded
@@ -66,8 +66,9 @@ class Simplex {
   Vec64 normal_;
 };
 
-// Degrees and widths, with |a| < 2^30 and |b - a| < 2^31: dot and cross products below 2^62 (64 bits); a determinant below
-// 2^92, the weight of a vertex in a triangle below 2^122, the test of a vertex against an edge below 2^125 (128 bits).
+// Degrees and widths, with |a| < 2^30 and |b - a| < 2^31: dot and cross products below 2^62 (64 bits); a determinant
+// below 2^92, the weight of a vertex in a triangle below 2^122, the test of a vertex against an edge below 2^125 (128
+// bits).
 
 /// The sign of v.(y - a), v the point of the edge from a nearest to the origin, times the edge's square.
 inline int side_of_edge(const Vec32& a, const Vec32& edge, int64_t square, int64_t along, const Vec32& y) {

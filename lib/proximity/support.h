@@ -4,8 +4,8 @@
 #include "geometry/hull.h"
 #include "math/rotation_integer.h"
 
-/// Support mappings. A pair of shapes is placed in a *block*: world axes, integers in 2^-30 of the pair's unit of length,
-/// which is so large that the Minkowski difference of the cores lies within 2^30 of the origin.
+/// Support mappings. A pair of shapes is placed in a *block*: world axes, integers in 2^-30 of the pair's unit of
+/// length, which is so large that the Minkowski difference of the cores lies within 2^30 of the origin.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -41,8 +41,8 @@ class Placed {
   const Convex* convex;
   HullView hull;  ///< hull_of(*convex)
   Matrix32 rotation;
-  int shift;       ///< own coordinates lose this many bits in the block, >= 0
-  Vec32 axis[3];   ///< box and capsule: the columns times the half extents
+  int shift;      ///< own coordinates lose this many bits in the block, >= 0
+  Vec32 axis[3];  ///< box and capsule: the columns times the half extents
 
   /// Where a local core point lies. Error: k_placing_error in each component.
   Vec32 point(const Vec32& local) const {

@@ -6,7 +6,8 @@
 #include "tests/support/test.h"
 
 #if defined(__SIZEOF_INT128__)
-// Integer polytopes, axis-parallel, so that a block holds them exactly: what gjk() says of them is proven from all vertices.
+// Integer polytopes, axis-parallel, so that a block holds them exactly: what gjk() says of them is proven from all
+// vertices.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
