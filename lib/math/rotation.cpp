@@ -1,35 +1,27 @@
 #include "math/rotation.h"
 
+#if DETENT_FIXED
+#include "math/rotation_integer.h"
+#endif
+
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 namespace {
-
-/// a b + c d + e f + g h. Fixed: rounded once. Range: |result| < 2.
-#if DETENT_FIXED
-constexpr Unit sum_of_products(Unit a, Unit b, Unit c, Unit d, Unit e, Unit f, Unit g, Unit h) {
-  return unit_from_product(unit_product(a, b) + unit_product(c, d) + unit_product(e, f) + unit_product(g, h));
-}
-#else
-constexpr Unit sum_of_products(Unit a, Unit b, Unit c, Unit d, Unit e, Unit f, Unit g, Unit h) {
-  return a * b + c * d + e * f + g * h;
-}
-#endif
 
 constexpr Vec3<Unit> vector_part(const Quat& q) { return {q.x, q.y, q.z}; }
 constexpr Quat quat_from(const Vec3<Unit>& v, Unit w) { return {v.x, v.y, v.z, w}; }
 
 }  // namespace
 
-Quat multiply(const Quat& a, const Quat& b) {
-  return {sum_of_products(a.w, b.x, a.x, b.w, a.y, b.z, -a.z, b.y),
-          sum_of_products(a.w, b.y, -a.x, b.z, a.y, b.w, a.z, b.x),
-          sum_of_products(a.w, b.z, a.x, b.y, -a.y, b.x, a.z, b.w),
-          sum_of_products(a.w, b.w, -a.x, b.x, -a.y, b.y, -a.z, b.z)};
-}
-
 #if DETENT_FIXED
 namespace {
+
+constexpr Quat32 raw_of(const Quat& q) { return {q.x.raw, q.y.raw, q.z.raw, q.w.raw}; }
+constexpr Quat quat_of(const Quat32& q) {
+  return {Unit::from_raw(q.x), Unit::from_raw(q.y), Unit::from_raw(q.z), Unit::from_raw(q.w)};
+}
+constexpr Vec3<Unit> units_of(const Vec32& v) { return {Unit::from_raw(v.x), Unit::from_raw(v.y), Unit::from_raw(v.z)}; }
 
 constexpr uint64_t k_one_squared = uint64_t{1} << (2 * k_unit_frac);
 
@@ -39,14 +31,9 @@ uint64_t square_of(const Quat& q) {
 
 }  // namespace
 
-Quat normalise(const Quat& q) {
-  // 1 / sqrt(1 + d) = 1 - (d/2 - 3 d^2/8) + O(d^3)
-  const int64_t d = round_shift_64(static_cast<int64_t>(square_of(q) - k_one_squared), k_unit_frac);  // Q30
-  DETENT_VERIFY_RANGE(-(1 << 22) <= d && d <= 1 << 22);
-  const int64_t factor = (int64_t{1} << 31) - d + round_shift_64(3 * d * d, k_unit_frac + 2);  // Q31
-  const auto scaled = [factor](Unit a) { return unit_from_raw(round_shift_64(a.raw * factor, 31)); };
-  return {scaled(q.x), scaled(q.y), scaled(q.z), scaled(q.w)};
-}
+Quat multiply(const Quat& a, const Quat& b) { return quat_of(multiply(raw_of(a), raw_of(b))); }
+
+Quat normalise(const Quat& q) { return quat_of(normalise(raw_of(q))); }
 
 Quat normalise_any(const Quat& q) {
   const uint64_t square = square_of(q);
@@ -94,23 +81,26 @@ Vec3<Real> rotate(const Quat& q, const Vec3<Real>& v) {
 Vec3<Real> rotate_inverse(const Quat& q, const Vec3<Real>& v) { return rotate(conjugate(q), v); }
 
 Matrix3 matrix_from(const Quat& q) {
-  const auto diagonal = [](Unit a, Unit b) {
-    return unit_from_product(k_one_squared - 2 * (unit_product(a, a) + unit_product(b, b)));
-  };
-  const auto sum = [](Unit a, Unit b, Unit c, Unit d) {
-    return unit_from_product(2 * (unit_product(a, b) + unit_product(c, d)));
-  };
-  return {{{diagonal(q.y, q.z), sum(q.x, q.y, q.w, q.z), sum(q.x, q.z, -q.w, q.y)},
-           {sum(q.x, q.y, -q.w, q.z), diagonal(q.x, q.z), sum(q.y, q.z, q.w, q.x)},
-           {sum(q.x, q.z, q.w, q.y), sum(q.y, q.z, -q.w, q.x), diagonal(q.x, q.y)}}};
+  const Matrix32 m = matrix_from(raw_of(q));
+  return {{units_of(m.column[0]), units_of(m.column[1]), units_of(m.column[2])}};
 }
 #else
 namespace {
 
+constexpr Unit sum_of_products(Unit a, Unit b, Unit c, Unit d, Unit e, Unit f, Unit g, Unit h) {
+  return a * b + c * d + e * f + g * h;
+}
 Unit square_of(const Quat& q) { return sum_of_products(q.x, q.x, q.y, q.y, q.z, q.z, q.w, q.w); }
 Quat scaled(const Quat& q, Unit factor) { return {q.x * factor, q.y * factor, q.z * factor, q.w * factor}; }
 
 }  // namespace
+
+Quat multiply(const Quat& a, const Quat& b) {
+  return {sum_of_products(a.w, b.x, a.x, b.w, a.y, b.z, -a.z, b.y),
+          sum_of_products(a.w, b.y, -a.x, b.z, a.y, b.w, a.z, b.x),
+          sum_of_products(a.w, b.z, a.x, b.y, -a.y, b.x, a.z, b.w),
+          sum_of_products(a.w, b.w, -a.x, b.x, -a.y, b.y, -a.z, b.z)};
+}
 
 Quat normalise_any(const Quat& q) { return scaled(q, Unit(1) / square_root(square_of(q))); }
 

@@ -1,7 +1,7 @@
 #pragma once
 #include "math/vector_integer.h"
 
-/// Rotations in integers, Q2.30: those of lib/proximity in every configuration.
+/// Rotations in integers, Q2.30: those of the fixed configurations, and of lib/proximity in every configuration.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -29,6 +29,7 @@ constexpr Quat32 normalise(const Quat32& q) {
   const uint64_t square = static_cast<uint64_t>(int64_t{q.x} * q.x) + static_cast<uint64_t>(int64_t{q.y} * q.y) +
                           static_cast<uint64_t>(int64_t{q.z} * q.z) + static_cast<uint64_t>(int64_t{q.w} * q.w);
   const int64_t d = round_shift_64(static_cast<int64_t>(square - (uint64_t{1} << 60)), 30);
+  DETENT_VERIFY_RANGE(-(1 << 22) <= d && d <= 1 << 22);
   const int64_t factor = (int64_t{1} << 31) - d + round_shift_64(3 * d * d, 32);  // Q31
   const auto scaled = [factor](int32_t a) { return static_cast<int32_t>(round_shift_64(a * factor, 31)); };
   return {scaled(q.x), scaled(q.y), scaled(q.z), scaled(q.w)};

@@ -290,28 +290,14 @@ uint32_t edge_index(const Placed& placed, uint32_t vertex_a, uint32_t vertex_b) 
 
 int32_t half_thickness(const Placed& placed) {
   const Convex& convex = *placed.convex;
-  const int32_t* size = convex.size;
-  int32_t least = 0;
-  switch (convex.type) {
-    case ShapeType::box:
-      least = size[0] < size[1] ? size[0] : size[1];
-      least = size[2] < least ? size[2] : least;
-      break;
-    case ShapeType::cylinder:
-    case ShapeType::cone:
-      least = size[0] < size[1] ? size[0] : size[1];
-      break;
-    case ShapeType::hull:
-      least = convex.core_radius;
-      for (uint32_t f = 0; f < placed.hull.face_count; ++f) {
-        const int32_t offset = placed.hull.plane(f).offset;
-        if (offset < least) least = offset;
-      }
-      break;
-    default:
-      break;
+  int32_t least = convex.core_radius;
+  const auto consider = [&](int32_t extent) { least = extent > 0 && extent < least ? extent : least; };
+  const bool is_box = convex.type == ShapeType::box;
+  if (is_box || convex.type == ShapeType::cylinder || convex.type == ShapeType::cone) {
+    for (int i = 0; i < (is_box ? 3 : 2); ++i) consider(convex.size[i]);
   }
-  return least <= 0 || placed.shift > 30 ? 0 : least >> placed.shift;
+  for (uint32_t f = 0; f < placed.hull.face_count; ++f) consider(placed.hull.plane(f).offset);
+  return placed.shift > 30 ? 0 : least >> placed.shift;
 }
 
 }  // namespace DETENT_NAMESPACE

@@ -45,7 +45,8 @@ void supporting_edge(const Placed& placed, const Vec32& direction, int64_t slope
 /// The index of the edge between two vertices that are neighbours in a face, or are an edge's.
 uint32_t edge_index(const Placed& placed, uint32_t vertex_a, uint32_t vertex_b);
 
-/// The least half extent of a core that has faces, ulps of the block; 0 for others.
+/// The least half extent of a core that has faces (of a hull the least distance of a face from the centre, faces that the
+/// centre lies beyond left out); of others the greatest. Ulps of the block.
 int32_t half_thickness(const Placed& placed);
 
 }  // namespace DETENT_NAMESPACE

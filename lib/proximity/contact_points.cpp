@@ -43,10 +43,8 @@ class Builder {
         reach_(reach),
         half_a_{pair.a, {0, 0, 0}, axis.normal},
         half_b_{pair.b, pair.offset, negate(axis.normal)} {
-    const int64_t thickness = smaller_but_0(half_thickness(pair.a), half_thickness(pair.b));
-    const int64_t radius = smaller_but_0(radius_in_block(pair.a), radius_in_block(pair.b));
-    preference_ = (thickness != 0 ? thickness : radius) >> k_face_power;
-    drop_ = radius >> k_drop_power;
+    preference_ = smaller_but_0(half_thickness(pair.a), half_thickness(pair.b)) >> k_face_power;
+    drop_ = smaller_but_0(radius_in_block(pair.a), radius_in_block(pair.b)) >> k_drop_power;
   }
 
   void build(ContactManifold& manifold) const;
