@@ -11,7 +11,8 @@ namespace {
 /// A pair at rest in its block.
 struct RestingPair {
   int exponent;  ///< 2^exponent m is the pair's unit of length
-  Vec32 offset;  ///< from A's centre to B's, in the block
+  Vec64 offset_whole;  ///< from A's position to B's, 2^-46 m
+  Vec32 offset;        ///< the same in the block; of a half-space only the part along its normal
   Placed a, b;
   int64_t radius_a, radius_b;  ///< of the balls, 2^-46 m
 };
@@ -25,6 +26,7 @@ Status rest(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& po
   const Matrix32 matrix_a = matrix_from(rotation_a), matrix_b = matrix_from(rotation_b);
   Vec64 offset;
   if (!raw_difference(pose_b.position, pose_a.position, offset)) return Status::out_of_range;
+  pair.offset_whole = offset;
   const ShapeType half_space = ShapeType::half_space;
   if (a.type == half_space || b.type == half_space) {
     offset = component_along(offset, (a.type == half_space ? matrix_a : matrix_b).column[1]);
@@ -100,8 +102,13 @@ Status closest_points(const Convex& a, const Pose& pose_a, const Convex& b, cons
     made.distance = real_from_raw(gap > 0 ? gap : 0);
     made.normal = units_from_raw(found.normal);
     const NearestPoints nearest = nearest_points(pair.a, pair.b, simplex);
-    made.point_a = surface_point(nearest.on_a, pair.exponent, found.normal, pair.radius_a);
-    made.point_b = surface_point(nearest.on_b, pair.exponent, negate(found.normal), pair.radius_b);
+    const Vec32 back = negate(found.normal);
+    made.point_a = a.type == ShapeType::half_space
+                       ? half_space_point(pair.offset_whole, nearest.on_b, pair.exponent, found.normal, found.upper)
+                       : surface_point(nearest.on_a, pair.exponent, found.normal, pair.radius_a);
+    made.point_b = b.type == ShapeType::half_space
+                       ? half_space_point(negate(pair.offset_whole), nearest.on_a, pair.exponent, back, found.upper)
+                       : surface_point(nearest.on_b, pair.exponent, back, pair.radius_b);
   }
   result = made;
   return Status::ok;

@@ -14,6 +14,16 @@ constexpr int k_turn_quarters = 8;  ///< a horizon of 2 rad: the formats of adva
 /// An axis is foreseen only where the plain ones have not led there.
 constexpr int k_plain_iterations = 1;
 
+Vec3<Real> point_on_a(const MovingPair& pair, const Placed& a, const Placed& b, const Simplex& simplex,
+                      const GjkResult& nearest, int64_t time) {
+  const NearestPoints points = nearest_points(a, b, simplex);
+  if (pair.a->type != ShapeType::half_space) {
+    return surface_point(points.on_a, pair.exponent, nearest.normal, pair.radius_a);
+  }
+  const Vec64 offset = add(pair.offset_whole, over_time(pair.displacement_whole, time));
+  return half_space_point(offset, points.on_b, pair.exponent, nearest.normal, nearest.upper);
+}
+
 /// How far the axis of `nearest` is certain to lead.
 int64_t next_time(const MovingPair& pair, ToiMethod method, const Frames& frames, const Simplex& simplex,
                   const GjkResult& nearest, int iteration, int32_t floor, int64_t& progress, TimeOfImpact& result) {
@@ -67,7 +77,7 @@ void conservative_advancement(const MovingPair& pair, ToiMethod method, TimeOfIm
     result.normal = units_from_raw(nearest.normal);
     if (nearest.outcome == GjkOutcome::overlap || nearest.upper <= touching) {
       result.outcome = ToiOutcome::hit;
-      result.point = surface_point(nearest_points(a, b, simplex).on_a, pair.exponent, nearest.normal, pair.radius_a);
+      result.point = point_on_a(pair, a, b, simplex, nearest, time);
       return;
     }
     const int64_t next = next_time(pair, method, frames, simplex, nearest, iteration, floor, progress, result);

@@ -39,13 +39,14 @@ Status make_convex(const Shape& shape, Convex& convex) {
   const int64_t radius = raw.x, half_length = raw.y, rounding = raw.z;
   Convex made;
   made.type = shape.type;
-  int64_t bound = 0, smallest = INT64_MAX, ball = rounding;
+  int64_t bound = 0, smallest = INT64_MAX, largest = 0, ball = rounding;
   Vec64 size = {0, 0, 0};
   if (!is_rounding(rounding)) return Status::out_of_range;
   switch (shape.type) {
     case ShapeType::sphere:
     case ShapeType::capsule:
       if (!is_size(radius)) return Status::out_of_range;
+      if (rounding != 0) return Status::bad_argument;
       ball = radius;
       if (shape.type == ShapeType::sphere) break;
       if (half_length < 0 || half_length > k_size_max) return Status::out_of_range;
@@ -57,12 +58,15 @@ Status make_convex(const Shape& shape, Convex& convex) {
       bound = length_above(half);
       smallest = half.x < half.y ? half.x : half.y;
       smallest = half.z < smallest ? half.z : smallest;
+      largest = half.x > half.y ? half.x : half.y;
+      largest = half.z > largest ? half.z : largest;
       break;
     case ShapeType::cylinder:
     case ShapeType::cone: {
       if (!is_size(radius) || !is_size(half_length)) return Status::out_of_range;
       size = {radius, half_length, 0};
       smallest = radius < half_length ? radius : half_length;
+      largest = radius > half_length ? radius : half_length;
       const bool is_cone = shape.type == ShapeType::cone;
       bound = length_above({radius, is_cone ? half_length / 2 : half_length, 0});
       const int64_t apex = half_length + half_length / 2 + 1;
@@ -70,12 +74,12 @@ Status make_convex(const Shape& shape, Convex& convex) {
       break;
     }
     case ShapeType::half_space:
-      ball = 0;
+      if (rounding != 0) return Status::bad_argument;
       break;
     default:
       return Status::bad_argument;
   }
-  if (bound >> 14 > smallest) return Status::out_of_range;
+  if ((largest + (1 << 14) - 1) >> 14 > smallest) return Status::out_of_range;
   if (bound > 0) set_core(bound, made);
   for (int i = 0; i < 3; ++i) made.size[i] = in_units(i == 0 ? size.x : i == 1 ? size.y : size.z, made.exponent);
   set_ball(ball, made);

@@ -19,6 +19,9 @@ Status set_turning(const Convex& convex, const Motion& motion, Turning& turning)
   if (magnitude_64(turn.x) > k_turn_max || magnitude_64(turn.y) > k_turn_max || magnitude_64(turn.z) > k_turn_max) {
     return Status::out_of_range;
   }
+  // Components below 2^62: the square fits 128 bits.
+  const Int128 longest = Int128::product(k_turn_max, k_turn_max);
+  if (longest < dot(turn, turn)) return Status::out_of_range;
   const Vec64 way = turn;
   const bool turns = !is_zero(way) && (convex.core_radius != 0 || convex.type == ShapeType::half_space);
   turning = still(turning.start);
@@ -137,8 +140,8 @@ Turning still(const Quat32& rotation) { return {rotation, matrix_from(rotation),
 
 Status set_block(const Vec64& offset, const Vec64& displacement, MovingPair& pair) {
   const Convex &a = *pair.a, &b = *pair.b;
-  pair.offset = offset;
-  pair.displacement = displacement;
+  pair.offset = pair.offset_whole = offset;
+  pair.displacement = pair.displacement_whole = displacement;
   const bool plane_is_a = a.type == ShapeType::half_space;
   if (magnitudes(displacement) >> 61 != 0) return Status::out_of_range;
   pair.planar = plane_is_a || b.type == ShapeType::half_space;

@@ -52,6 +52,7 @@ struct MovingPair {
   Turning turning_a, turning_b;
   Vec64 offset;            ///< from A's position to B's at the start, 2^-46 m
   Vec64 displacement;      ///< of B relative to A over the step, 2^-46 m
+  Vec64 offset_whole, displacement_whole;  ///< before the part along a resting half-space was left out
   bool planar;             ///< one of the two is a half-space
   int64_t from, to;        ///< only in this window can they meet; from > to: never
   int exponent;            ///< 2^exponent m is the pair's unit of length; the block's ulp is 2^-30 of it

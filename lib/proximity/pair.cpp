@@ -118,6 +118,15 @@ Vec3<Real> surface_point(const Vec32& core, int exponent, const Vec32& normal, i
   return {component(core.x, normal.x), component(core.y, normal.y), component(core.z, normal.z)};
 }
 
+Vec3<Real> half_space_point(const Vec64& offset, const Vec32& on_other, int exponent, const Vec32& up, int32_t gap) {
+  const auto component = [&](int64_t from, int64_t at, int32_t n) {
+    const int64_t core = raw_from_block(at - ((int64_t{n} * gap + (int64_t{1} << 29)) >> 30), exponent);
+    return real_from_raw(saturated_sum(from, core));
+  };
+  return {component(offset.x, on_other.x, up.x), component(offset.y, on_other.y, up.y),
+          component(offset.z, on_other.z, up.z)};
+}
+
 int raw_exponent_above(int64_t raw) {
   const int e = bit_length_64(static_cast<uint64_t>(raw)) - k_metre_bits;
   return e < -14 ? -14 : e;

@@ -33,6 +33,10 @@ int64_t raw_from_block(int64_t ulps, int exponent);
 /// A point of a core, in such a block, and `radius`, 2^-46 m, along the unit vector `normal`: m.
 Vec3<Real> surface_point(const Vec32& core, int exponent, const Vec32& normal, int64_t radius);
 
+/// The point of a half-space below the other body's point `on_other`, `gap` ulps down `up`: m, from the half-space's
+/// position, `offset` to the other body's.
+Vec3<Real> half_space_point(const Vec64& offset, const Vec32& on_other, int exponent, const Vec32& up, int32_t gap);
+
 /// The least e >= -14 with raw 2^-46 m < 2^e m.
 int raw_exponent_above(int64_t raw);
 /// (v.n) n for a unit vector n, Q30.
