@@ -74,8 +74,9 @@ void conservative_advancement(const MovingPair& pair, ToiMethod method, TimeOfIm
     const GjkResult nearest = gjk(a, b, frames.offset, simplex, {touching, INT32_MAX, 62});
     result.gjk_calls += nearest.iterations > 0 ? 1 : 0;
     result.time = Fraction::from_raw(time);
-    result.normal = units_from_raw(nearest.normal);
-    if (nearest.outcome == GjkOutcome::overlap || nearest.upper <= touching) {
+    const bool meet = nearest.outcome == GjkOutcome::overlap;
+    result.normal = units_from_raw(meet ? Vec32{0, 0, 0} : nearest.normal);
+    if (meet || nearest.upper <= touching) {
       result.outcome = ToiOutcome::hit;
       result.point = point_on_a(pair, a, b, simplex, nearest, time);
       return;

@@ -7,20 +7,22 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// The rim point of a disc of radius `radius` in the direction (x, z), at height y.
-CorePoint rim_point(int32_t radius, int32_t y, const Vec32& direction, int64_t across) {
-  if (across == 0) return {{0, y, 0}, k_no_feature};
-  const auto part = [&](int32_t a) {
-    const int64_t product = int64_t{radius} * a;
-    const int64_t half = across / 2;
-    return static_cast<int32_t>((product + (product < 0 ? -half : half)) / across);
-  };
-  return {{part(direction.x), y, part(direction.z)}, k_no_feature};
-}
-
 int64_t length_across(const Vec32& direction) {
   return square_root_nearest(static_cast<uint64_t>(int64_t{direction.x} * direction.x) +
                              static_cast<uint64_t>(int64_t{direction.z} * direction.z));
+}
+
+/// The rim point of a disc of radius `radius` in the direction (x, z), at height y.
+CorePoint rim_point(int32_t radius, int32_t y, const Vec32& direction) {
+  if ((direction.x | direction.z) == 0) return {{0, y, 0}, k_no_feature};
+  const Vec32 across = scaled_to_30_bits(Vec32{direction.x, 0, direction.z});  // a small one's length would be coarse
+  const int64_t length = length_across(across);
+  const auto part = [&](int32_t a) {
+    const int64_t product = int64_t{radius} * a;
+    const int64_t half = length / 2;
+    return static_cast<int32_t>((product + (product < 0 ? -half : half)) / length);
+  };
+  return {{part(across.x), y, part(across.z)}, k_no_feature};
 }
 
 Vec32 corner_of(const Convex& triangle, int i) {
@@ -126,13 +128,13 @@ CorePoint local_support(const Convex& convex, const HullView& hull, const Vec32&
     case ShapeType::box:
       return box_vertex(convex, direction.x >> 31, direction.y >> 31, direction.z >> 31);
     case ShapeType::cylinder:
-      return rim_point(size[0], direction.y < 0 ? -size[1] : size[1], direction, length_across(direction));
+      return rim_point(size[0], direction.y < 0 ? -size[1] : size[1], direction);
     case ShapeType::cone: {
       const int64_t across = length_across(direction);
       if (2 * int64_t{size[1]} * direction.y >= int64_t{size[0]} * across) {
         return {{0, size[1] + size[1] / 2, 0}, k_no_feature};
       }
-      return rim_point(size[0], -(size[1] / 2), direction, across);
+      return rim_point(size[0], -(size[1] / 2), direction);
     }
     case ShapeType::hull:
       return hull_support(hull, direction, start);
