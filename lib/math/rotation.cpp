@@ -21,7 +21,9 @@ constexpr Quat32 raw_of(const Quat& q) { return {q.x.raw, q.y.raw, q.z.raw, q.w.
 constexpr Quat quat_of(const Quat32& q) {
   return {Unit::from_raw(q.x), Unit::from_raw(q.y), Unit::from_raw(q.z), Unit::from_raw(q.w)};
 }
-constexpr Vec3<Unit> units_of(const Vec32& v) { return {Unit::from_raw(v.x), Unit::from_raw(v.y), Unit::from_raw(v.z)}; }
+constexpr Vec3<Unit> units_of(const Vec32& v) {
+  return {Unit::from_raw(v.x), Unit::from_raw(v.y), Unit::from_raw(v.z)};
+}
 
 constexpr uint64_t k_one_squared = uint64_t{1} << (2 * k_unit_frac);
 
@@ -46,13 +48,9 @@ Quat normalise_any(const Quat& q) {
 }
 
 bool normalise_input(const Quat& q, Quat& out) {
-  constexpr uint64_t k_low = uint64_t{(1 << 20) - (1 << 10)} * ((1 << 20) - (1 << 10));
-  constexpr uint64_t k_high = uint64_t{(1 << 20) + (1 << 10)} * ((1 << 20) + (1 << 10));
-  // Quarters of the squares, so that four of any size have a sum below 2^63.
-  const uint64_t quarter = (unit_product(q.x, q.x) >> 2) + (unit_product(q.y, q.y) >> 2) +
-                           (unit_product(q.z, q.z) >> 2) + (unit_product(q.w, q.w) >> 2);
-  if (quarter < k_low << 18 || quarter > k_high << 18) return false;
-  out = normalise(normalise(q));
+  Quat32 raw = raw_of(q);
+  if (!normalise_input(raw)) return false;
+  out = quat_of(raw);
   return true;
 }
 

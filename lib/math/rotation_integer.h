@@ -35,6 +35,18 @@ constexpr Quat32 normalise(const Quat32& q) {
   return {scaled(q.x), scaled(q.y), scaled(q.z), scaled(q.w)};
 }
 
+/// Brings the length of a rotation that a user gives to 1. False, and nothing changed, unless | |q| - 1 | <= 2^-10.
+constexpr bool normalise_input(Quat32& q) {
+  constexpr uint64_t k_low = uint64_t{(1 << 20) - (1 << 10)} * ((1 << 20) - (1 << 10));
+  constexpr uint64_t k_high = uint64_t{(1 << 20) + (1 << 10)} * ((1 << 20) + (1 << 10));
+  // Quarters of the squares, so that four of any size have a sum below 2^63.
+  const auto quarter = [](int64_t a) { return static_cast<uint64_t>(a * a) >> 2; };
+  const uint64_t sum = quarter(q.x) + quarter(q.y) + quarter(q.z) + quarter(q.w);
+  if (sum < k_low << 18 || sum > k_high << 18) return false;
+  q = normalise(normalise(q));
+  return true;
+}
+
 constexpr Matrix32 matrix_from(const Quat32& q) {
   const int64_t x = q.x, y = q.y, z = q.z, w = q.w;
   constexpr int64_t k_half = int64_t{1} << 59;  // half of 1, doubled with the products

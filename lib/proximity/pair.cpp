@@ -1,25 +1,14 @@
 #include "proximity/pair.h"
 
+#include "base/float_environment.h"
 #include "math/arithmetic.h"
 #include "math/float_bits.h"
 #include "math/root.h"
-#include "math/rotation.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 #if DETENT_FIXED
-namespace {
-
-/// Of length 1 within 2^-29: as every rotation is that the library made.
-bool is_unit(const Quat32& q) {
-  const uint64_t square = static_cast<uint64_t>(int64_t{q.x} * q.x) + static_cast<uint64_t>(int64_t{q.y} * q.y) +
-                          static_cast<uint64_t>(int64_t{q.z} * q.z) + static_cast<uint64_t>(int64_t{q.w} * q.w);
-  return square - ((uint64_t{1} << 60) - (uint64_t{1} << 32)) <= uint64_t{1} << 33;
-}
-
-}  // namespace
-
 bool raw_from_real(const Vec3<Real>& v, Vec64& raw) {
   raw = {v.x.raw, v.y.raw, v.z.raw};
   return true;
@@ -27,14 +16,14 @@ bool raw_from_real(const Vec3<Real>& v, Vec64& raw) {
 
 Real real_from_raw(int64_t raw) { return Real::from_raw(raw); }
 
-bool raw_from_quat(const Quat& q, Quat32& raw) {
+namespace {
+
+bool quat_bits(const Quat& q, Quat32& raw) {
   raw = {q.x.raw, q.y.raw, q.z.raw, q.w.raw};
-  if (is_unit(raw)) return true;
-  Quat unit;
-  if (!normalise_input(q, unit)) return false;
-  raw = {unit.x.raw, unit.y.raw, unit.z.raw, unit.w.raw};
   return true;
 }
+
+}  // namespace
 
 Vec3<Unit> units_from_raw(const Vec32& v) { return {Unit::from_raw(v.x), Unit::from_raw(v.y), Unit::from_raw(v.z)}; }
 #else
@@ -47,19 +36,35 @@ bool raw_from_real(const Vec3<Real>& v, Vec64& raw) {
 
 Real real_from_raw(int64_t raw) { return float_from_integer<Real>(raw, -k_metre_bits); }
 
-bool raw_from_quat(const Quat& q, Quat32& raw) {
-  Quat unit;
-  if (!normalise_input(q, unit)) return false;
-  bool saturated = false;
-  const auto component = [&](Unit a) { return static_cast<int32_t>(integer_from_float(a, 30, saturated)); };
-  raw = normalise(Quat32{component(unit.x), component(unit.y), component(unit.z), component(unit.w)});
-  return true;
+namespace {
+
+bool quat_bits(const Quat& q, Quat32& raw) {
+  bool out_of_range = false;
+  const auto component = [&](Unit a) {
+    const int64_t bits = integer_from_float(a, 30, out_of_range);
+    out_of_range = out_of_range || bits != static_cast<int32_t>(bits);
+    return static_cast<int32_t>(bits);
+  };
+  raw = {component(q.x), component(q.y), component(q.z), component(q.w)};
+  return !out_of_range;
 }
+
+}  // namespace
 
 Vec3<Unit> units_from_raw(const Vec32& v) {
   return {float_from_integer<Unit>(v.x, -30), float_from_integer<Unit>(v.y, -30), float_from_integer<Unit>(v.z, -30)};
 }
 #endif
+
+bool raw_from_quat(const Quat& q, Quat32& raw) {
+  if (!quat_bits(q, raw)) return false;
+  const uint64_t square = static_cast<uint64_t>(int64_t{raw.x} * raw.x) +
+                          static_cast<uint64_t>(int64_t{raw.y} * raw.y) +
+                          static_cast<uint64_t>(int64_t{raw.z} * raw.z) + static_cast<uint64_t>(int64_t{raw.w} * raw.w);
+  // Of length 1 within 2^-29, as every rotation is that the library made.
+  if (square - ((uint64_t{1} << 60) - (uint64_t{1} << 32)) <= uint64_t{1} << 33) return true;
+  return normalise_input(raw);
+}
 
 namespace {
 
@@ -71,6 +76,7 @@ int64_t truncated(int64_t value, int bits) {
 
 #if defined(DETENT_F64)
 int64_t difference_of(Coord a, Coord b) {
+  const FloatEnvironment environment;  // for the one operation here that isn't integer
   bool saturated = false;
   return integer_from_float(a - b, k_metre_bits, saturated);
 }
