@@ -10,9 +10,11 @@ enum class ToiMethod {
   first_order,    ///< |n x w| times the radius about the spin, one step an axis
   second_order,   ///< the concave bound along an axis fixed in the world, until it leads no farther
   corotating,     ///< likewise, the axis turning with the body that owns the face or edge
+  world_space,    ///< as constant_spin, each body moved by itself; the others move B relative to A (Coumans'
+                  ///< formulations)
   constant_spin,  ///< likewise, an edge's axis turning so that it is right at contact too
 };
-inline constexpr int k_toi_methods = 5;
+inline constexpr int k_toi_methods = 6;
 
 /// More intervals than this are not certified along one axis.
 inline constexpr int k_passes_max = 24;

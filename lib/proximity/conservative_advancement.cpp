@@ -30,7 +30,7 @@ int64_t next_time(const MovingPair& pair, ToiMethod method, const Frames& frames
   const int64_t time = frames.time;
   const Features features(simplex);
   const bool turns = pair.turning_a.turns || pair.turning_b.turns;
-  if (method == ToiMethod::constant_spin && turns && !features.has_face() && !pair.planar &&
+  if (method >= ToiMethod::world_space && turns && !features.has_face() && !pair.planar &&
       iteration >= k_plain_iterations) {
     return advance_tracking(pair, frames, simplex, features, nearest, floor, progress, result);
   }
@@ -44,6 +44,7 @@ int64_t next_time(const MovingPair& pair, ToiMethod method, const Frames& frames
     case ToiMethod::second_order:
       break;
     case ToiMethod::corotating:
+    case ToiMethod::world_space:
     case ToiMethod::constant_spin:
       if (pair.planar)
         spin = pair.a->type == ShapeType::half_space ? horizon.spin_a : horizon.spin_b;
@@ -68,7 +69,8 @@ void conservative_advancement(const MovingPair& pair, ToiMethod method, TimeOfIm
   int64_t time = pair.from;
   int64_t progress = k_time_end;  // of the last foreseen axis
   Simplex simplex;
-  for (int iteration = 0; iteration < k_toi_iterations_max; ++iteration) {
+  const int iterations_max = method >= ToiMethod::world_space ? k_toi_iterations_max : k_toi_iterations_compared_max;
+  for (int iteration = 0; iteration < iterations_max; ++iteration) {
     const Frames frames = pair.at(time);
     const Placed a = place(*pair.a, frames.a, pair.exponent), b = place(*pair.b, frames.b, pair.exponent);
     const GjkResult nearest = gjk(a, b, frames.offset, simplex, {touching, INT32_MAX, 62});
@@ -100,6 +102,7 @@ Status time_of_impact_by(ToiMethod method, const Convex& a, const Motion& motion
                          const Motion& motion_b, TimeOfImpact& result) {
   MovingPair pair;
   if (const Status status = prepare(a, motion_a, b, motion_b, pair); status != Status::ok) return status;
+  pair.absolute = method == ToiMethod::world_space && !pair.planar;
   conservative_advancement(pair, method, result);
   return Status::ok;
 }

@@ -11,8 +11,9 @@ inline constexpr ToiMethod k_toi_method = ToiMethod::DETENT_TOI_METHOD;
 inline constexpr ToiMethod k_toi_method = ToiMethod::constant_spin;
 #endif
 
-/// More axes than this are not looked for.
+/// More axes than this are not looked for. The other methods, there for comparison, need many on hard queries.
 inline constexpr int k_toi_iterations_max = 24;
+inline constexpr int k_toi_iterations_compared_max = 256;
 
 /// The time of impact of a prepared pair by conservative advancement along axes of the method's kind.
 void conservative_advancement(const MovingPair& pair, ToiMethod method, TimeOfImpact& result);

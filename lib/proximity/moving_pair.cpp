@@ -131,6 +131,7 @@ Status prepare(const Convex& a, const Motion& motion_a, const Convex& b, const M
     return Status::out_of_range;
   }
   if (((magnitudes(way_a) | magnitudes(way_b)) >> 60) != 0) return Status::out_of_range;
+  pair.way_a = way_a;
   Vec64 offset;
   if (!raw_difference(motion_b.start.position, motion_a.start.position, offset)) return Status::out_of_range;
   return set_block(offset, add(way_b, negate(way_a)), pair);

@@ -50,11 +50,13 @@ struct MovingPair {
   const Convex* a;
   const Convex* b;
   Turning turning_a, turning_b;
-  Vec64 offset;            ///< from A's position to B's at the start, 2^-46 m
-  Vec64 displacement;      ///< of B relative to A over the step, 2^-46 m
+  Vec64 offset;                            ///< from A's position to B's at the start, 2^-46 m
+  Vec64 displacement;                      ///< of B relative to A over the step, 2^-46 m
+  bool absolute = false;                   ///< A and B are moved one by one, and only then is the difference taken
+  Vec64 way_a;                             ///< of A over the step, along what the pair's offset is along, 2^-46 m
   Vec64 offset_whole, displacement_whole;  ///< before the part along a resting half-space was left out
-  bool planar;             ///< one of the two is a half-space
-  int64_t from, to;        ///< only in this window can they meet; from > to: never
+  bool planar;                             ///< one of the two is a half-space
+  int64_t from, to;                        ///< only in this window can they meet; from > to: never
   int exponent;            ///< 2^exponent m is the pair's unit of length; the block's ulp is 2^-30 of it
   int32_t core_a, core_b;  ///< core radii, ulps of the block, rounded up
   int64_t reach;           ///< ulps; the centres are never farther apart in the window
@@ -64,11 +66,16 @@ struct MovingPair {
 
   Frames at(int64_t time) const { return {time, turning_a.at(time), turning_b.at(time), offset_at(time)}; }
   Vec32 offset_at(int64_t time) const {
-    const auto component = [&](int64_t c, int64_t d) {
-      return static_cast<int32_t>(round_shift_64(c + over_time(d, time), exponent + 16));
-    };
-    return {component(offset.x, displacement.x), component(offset.y, displacement.y),
-            component(offset.z, displacement.z)};
+    if (!absolute) return in_block(add(offset, over_time(displacement, time)));
+    const Vec64 moved_a = over_time(way_a, time), moved_b = over_time(add(displacement, way_a), time);
+    return subtract(in_block(add(offset, moved_b)), in_block(moved_a));
+  }
+
+ private:
+  Vec32 in_block(const Vec64& v) const {
+    return {static_cast<int32_t>(round_shift_64(v.x, exponent + 16)),
+            static_cast<int32_t>(round_shift_64(v.y, exponent + 16)),
+            static_cast<int32_t>(round_shift_64(v.z, exponent + 16))};
   }
 };
 

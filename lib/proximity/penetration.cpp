@@ -60,8 +60,6 @@ struct Polytope {
   bool holds_foot(const Face& f) const;
   /// The face nearest to the origin, and the least distance of all, but for rounding.
   const Face& nearest_face(int64_t& least) const;
-  /// The newest face no farther than `distance`. Range: there is one.
-  const Face& newest_face(int64_t distance) const;
 };
 static_assert(sizeof(Polytope) <= 4096);
 
@@ -112,12 +110,6 @@ const Face& Polytope::nearest_face(int64_t& least) const {
     if (face[i].distance <= least + k_tie && holds_foot(face[i])) return face[i];
   }
   return face[best];
-}
-
-const Face& Polytope::newest_face(int64_t distance) const {
-  int i = face_count - 1;
-  while (face[i].distance > distance) --i;
-  return face[i];
 }
 
 /// The vertex of the placed core farthest along `normal`, exactly, where `found` is nearly that. Left as it is where the
@@ -178,7 +170,7 @@ class Search {
   // The face whose plane, moved out to the difference's farthest point, was the nearest.
   Face best_;
   Vec32 outward_;
-  int64_t reach_ = INT64_MAX;
+  int64_t reach_ = INT64_MAX / 2;
   int64_t lower_ = 0;
   int supports_ = 0;
   bool capped_ = false;
@@ -253,13 +245,8 @@ void Search::expand() {
   const bool curved = is_curved(a_) || is_curved(b_);
   uint8_t start_a = 0, start_b = 0;
   for (;;) {
-    Face face = polytope_.nearest_face(lower_);
-    if (curved && reach_ != INT64_MAX) {
-      const int64_t between = reach_ - lower_;
-      if (between <= k_penetration_gap * k_ulp) return;
-      // Where all directions around are nearly as good, as on a cone's axis, it is better to pursue one than to go round.
-      face = polytope_.newest_face(lower_ + between / 4);
-    }
+    const Face face = polytope_.nearest_face(lower_);
+    if (curved && reach_ - lower_ <= k_penetration_gap * k_ulp) return;
     const Vec64 normal = polytope_.normal_of(face);
     const Vec32 direction = scaled_to_30_bits(normal);
     SupportPoint on_a = support(a_, negate(direction), start_a), on_b = support(b_, direction, start_b);
@@ -274,14 +261,12 @@ void Search::expand() {
     }
     const bool beyond = polytope_.faces(face, vertex.difference);
     const int64_t reach = beyond ? plane_distance(normal, vertex.difference) : face.distance;
-    const bool done = !beyond && !curved;  // the nearest face is one of the difference's
-    if (reach < reach_ || done) {
+    if (reach < reach_ || !beyond) {
       reach_ = reach;
       best_ = face;
       outward_ = unit_vector_raw(direction);
     }
-    if (done) return;
-    if (!beyond) continue;
+    if (!beyond) return;  // a face of the difference itself
     if (polytope_.vertex_count == k_vertices_max) {
       capped_ = true;
       return;

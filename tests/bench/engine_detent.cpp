@@ -162,6 +162,7 @@ void add_bench_engines(EngineList& engines) {
   toi("first_order", prepare<DetentToi<by_method<ToiMethod::first_order>>>);
   toi("second_order", prepare<DetentToi<by_method<ToiMethod::second_order>>>);
   toi("corotating", prepare<DetentToi<by_method<ToiMethod::corotating>>>);
+  toi("world_space", prepare<DetentToi<by_method<ToiMethod::world_space>>>);
   toi("constant_spin", prepare<DetentToi<by_method<ToiMethod::constant_spin>>>);
   engines.push_back({Task::distance, "closest_points", config, k_position_step, k_slack, prepare<DetentDistance>});
 }
