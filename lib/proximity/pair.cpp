@@ -112,14 +112,16 @@ int64_t length_bound(const Vec64& v) {
 
 int64_t raw_from_block(int64_t ulps, int exponent) {
   const int n = exponent + k_metre_bits - 30;
+  if (n < 31 && ulps == static_cast<int32_t>(ulps)) return ulps * (int64_t{1} << n);
   const int64_t limit = INT64_MAX >> n;
   return ulps > limit ? INT64_MAX : ulps < -limit ? -INT64_MAX : ulps * (int64_t{1} << n);
 }
 
 Vec3<Real> surface_point(const Vec32& core, int exponent, const Vec32& normal, int64_t radius) {
   const auto component = [&](int64_t at, int32_t n) {
-    return real_from_raw(
-        saturated_sum(raw_from_block(at, exponent), Int128::product_narrow(radius, n).round_shift(30)));
+    const int64_t raw = raw_from_block(at, exponent);
+    if (radius == 0) return real_from_raw(raw);
+    return real_from_raw(saturated_sum(raw, Int128::product_narrow(radius, n).round_shift(30)));
   };
   return {component(core.x, normal.x), component(core.y, normal.y), component(core.z, normal.z)};
 }
