@@ -25,8 +25,6 @@ constexpr Vec3<Unit> units_of(const Vec32& v) {
   return {Unit::from_raw(v.x), Unit::from_raw(v.y), Unit::from_raw(v.z)};
 }
 
-constexpr uint64_t k_one_squared = uint64_t{1} << (2 * k_unit_frac);
-
 uint64_t square_of(const Quat& q) {
   return unit_product(q.x, q.x) + unit_product(q.y, q.y) + unit_product(q.z, q.z) + unit_product(q.w, q.w);
 }
@@ -39,7 +37,7 @@ Quat normalise(const Quat& q) { return quat_of(normalise(raw_of(q))); }
 
 Quat normalise_any(const Quat& q) {
   const uint64_t square = square_of(q);
-  DETENT_VERIFY_RANGE(square >= k_one_squared / 4);
+  DETENT_VERIFY_RANGE(square >= uint64_t{1} << 58);
   const int half_shift = (64 - bit_length_64(square)) / 2;
   const int64_t inverse = reciprocal_root(static_cast<uint32_t>((square << (2 * half_shift)) >> 32));
   const int shift = 33 - half_shift;
