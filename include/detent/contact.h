@@ -12,8 +12,9 @@ struct ManifoldPoint {
   Vec3<Real> from_a = {};  ///< midway between the surfaces, m, from A's position, world axes
   Vec3<Real> from_b = {};  ///< the same place from B's position
   Real separation = 0.0;   ///< m, along the normal; negative where the shapes overlap
-  uint32_t feature = 0;    ///< which features of A and B meet here: never 0, distinct within a manifold, the same as long as
-                           ///< the same ones meet, and the same but for its halves when A and B change places
+  /// Which features of A and B meet here. Never 0; distinct within a manifold; the same as long as the same ones meet,
+  /// and but for its halves when A and B change places.
+  uint32_t feature = 0;
 };
 
 struct ContactManifold {
@@ -24,14 +25,18 @@ struct ContactManifold {
 };
 
 /// Where two convex shapes touch or are within `reach`, m, of it: the normal, and up to four points of the area.
-/// The normal is that of the closest points, or of the least translation that parts overlapping cores. Near a face's own
-/// normal it is the face's: within 2^-13 rad, and for cores at most a 64th of the thinner one's least half extent apart or
-/// overlapping where the face parts them by as much, less that 64th. The points are corners of the area where the two
-/// supporting faces, edges or vertices face each other, at most a 64th of the smaller one beyond the face's sides; of more
-/// than four those farthest along four diagonals, whatever their depth, and always one within 2^-10 of the smaller core's
-/// radius of the deepest. A face of more than 32 vertices counts by 32 extremes, the flat side of a cylinder or cone by 8
-/// points of its rim.
-/// Precision: as closest_points(). Errors: bad_argument for two half-spaces; not_normalised; out_of_range for reach < 0.
+///
+/// The normal is that of the closest points, or of the least translation that parts overlapping cores. It is a face's
+/// own within 2^-13 rad of that; and, of cores that overlap or are nearly touching, where the face parts them as well
+/// but for a 64th of the thinner one's least half extent.
+///
+/// The points are corners of the area where the two supporting faces or edges face each other, which may reach a 64th
+/// of the smaller one beyond its sides. Of more than four, those farthest along four diagonals whatever their depth,
+/// and one within 2^-10 of the smaller core's radius of the deepest. A face of more than 32 vertices counts by 32
+/// extremes, the flat side of a cylinder or cone by 8 points of its rim and the one that is deepest.
+///
+/// Precision: as closest_points(). Errors: bad_argument for two half-spaces; not_normalised; out_of_range for reach < 0
+/// and NaN.
 Status contact_points(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Real reach,
                       ContactManifold& manifold, DistanceCache* cache = nullptr);
 

@@ -2,8 +2,8 @@
 
 #include "math/root.h"
 
-// Widths: all points lie within 2^30 of the block's origin, so what is between two of them is below 2^31 and its products
-// with Q30 below 2^61; cross products in the plane below 2^62, also of corners moved out by a 64th.
+// Widths: all points lie within 2^30 of the block's origin, so what is between two of them is below 2^31 and its
+// products with Q30 below 2^61; cross products in the plane below 2^62, also of corners moved out by a 64th.
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -65,7 +65,8 @@ int AreaChoice::choose(AreaPoint (&chosen)[4]) const {
 Reference::Reference(const Placed& placed, const Vec32& centre, const Feature& feature, const Vec32& up, int32_t size)
     : placed_(placed), feature_(&feature), name_(feature.name()), up_(up) {
   Vec64 sum = {0, 0, 0};
-  for (int i = 0; i < feature.count; ++i) sum = add(sum, Vec64{feature.point[i].x, feature.point[i].y, feature.point[i].z});
+  for (int i = 0; i < feature.count; ++i)
+    sum = add(sum, Vec64{feature.point[i].x, feature.point[i].y, feature.point[i].z});
   origin_ = add(centre, Vec32{static_cast<int32_t>(sum.x / feature.count), static_cast<int32_t>(sum.y / feature.count),
                               static_cast<int32_t>(sum.z / feature.count)});
   if (feature.is_face()) {
@@ -162,7 +163,7 @@ void Reference::clip_edge(const Flat& p, const Flat& q, uint8_t from, bool close
     choice.add({q.u, q.v, q.w, AreaPoint::Kind::vertex, static_cast<uint8_t>(from + 1), 0});
 }
 
-/// The corners of the reference, moved out with its sides, that lie over the incident face.
+/// The corners of the reference that, moved out with its sides, lie over the incident face.
 void Reference::offer_corners(const Flat* points, const Feature& incident, AreaChoice& choice) const {
   constexpr int64_t k_edge_on = k_one >> 6;  // a face seen so much from its edge has no corner above it
   const int64_t nu = dot(incident.normal, u_) >> 30, nv = dot(incident.normal, v_) >> 30,
@@ -173,13 +174,13 @@ void Reference::offer_corners(const Flat* points, const Feature& incident, AreaC
     const int64_t turn = k_one + ((int64_t{side.u} * last.u + int64_t{side.v} * last.v) >> 30);
     if (turn < k_one >> 10) continue;
     // Where the last side and this one meet, once moved out.
-    Flat corner = corner_[i];
-    corner.u += slack_ * (int64_t{side.u} + last.u) / turn;
-    corner.v += slack_ * (int64_t{side.v} + last.v) / turn;
+    const Flat& corner = corner_[i];
+    const int64_t u = corner.u + slack_ * (int64_t{side.u} + last.u) / turn;
+    const int64_t v = corner.v + slack_ * (int64_t{side.v} + last.v) / turn;
     bool inside = true;
     for (int k = 0; k < incident.count && inside; ++k) {
       const Flat &p = points[k], &q = points[k + 1 == incident.count ? 0 : k + 1];
-      inside = (q.u - p.u) * (corner.v - p.v) - (q.v - p.v) * (corner.u - p.u) <= 0;  // clockwise from here
+      inside = (q.u - p.u) * (v - p.v) - (q.v - p.v) * (u - p.u) <= 0;  // clockwise from here
     }
     if (!inside) continue;
     const int64_t w = (nu * (points[0].u - corner.u) + nv * (points[0].v - corner.v)) / nw + points[0].w;

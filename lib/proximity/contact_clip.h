@@ -8,8 +8,8 @@ inline namespace DETENT_NAMESPACE {
 /// A corner of the area, in the reference's axes: u and v in it, w above it. Ulps of the block.
 struct AreaPoint {
   int64_t u, v, w;
-  /// Made of: a vertex of the incident feature and the reference; an incident edge and a side of the reference; a corner
-  /// of the reference and the incident face.
+  /// Made of: a vertex of the incident feature and the reference; an incident edge and a side of the reference; a
+  /// corner of the reference and the incident face.
   enum class Kind : uint8_t { vertex, crossing, corner } kind;
   uint8_t incident, side;  ///< the incident point, or where the edge starts; the side, or the corner where it starts
 };

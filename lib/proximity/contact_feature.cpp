@@ -7,40 +7,27 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 constexpr int32_t k_one = 1 << 30;
-constexpr uint32_t k_line = 16;  ///< of a cylinder or cone: the edge, and the upper of its ends; 0 to 15 are rim corners
+constexpr uint32_t k_line =
+    16;  ///< of a cylinder or cone: the edge, and the upper of its ends; 0 to 15 are rim corners
 constexpr uint32_t k_unpaired_edge = 768;  ///< a hull has at most 759 edges: those that a reduced face adds come after
-constexpr int k_tilt_power = 5;  ///< from a tilt of 2^-5 on the lowest corner of a round face is the lowest point
 
 Vec32 unit(const Vec64& v) { return unit_vector_raw(scaled_to_30_bits(v)); }
 
 /// Round the y axis in eighths, Q30; the first towards x.
 constexpr int32_t k_diagonal = 759250125;  // 2^30 / sqrt 2
-constexpr Vec32 k_eighth[8] = {{k_one, 0, 0},  {k_diagonal, 0, k_diagonal},   {0, 0, k_one},  {-k_diagonal, 0, k_diagonal},
-                               {-k_one, 0, 0}, {-k_diagonal, 0, -k_diagonal}, {0, 0, -k_one}, {k_diagonal, 0, -k_diagonal}};
+constexpr Vec32 k_eighth[8] = {
+    {k_one, 0, 0},  {k_diagonal, 0, k_diagonal},   {0, 0, k_one},  {-k_diagonal, 0, k_diagonal},
+    {-k_one, 0, 0}, {-k_diagonal, 0, -k_diagonal}, {0, 0, -k_one}, {k_diagonal, 0, -k_diagonal}};
 
 int64_t length_across(const Vec32& d) {
   return square_root_nearest(static_cast<uint64_t>(int64_t{d.x} * d.x) + static_cast<uint64_t>(int64_t{d.z} * d.z));
 }
 
-/// The flat side at the top or bottom of a cylinder or cone, seen along `d` (local).
-void round_face(const Placed& placed, const Vec32& d, bool bottom, Feature& face) {
-  const Vec32 level = {d.x, 0, d.z};
-  const int64_t tilt = length_across(d), shift = tilt << k_tilt_power;
-  int lowest = 0;
-  for (int i = 1; i < 8; ++i) {
-    if (dot(k_eighth[i], level) > dot(k_eighth[lowest], level)) lowest = i;
-  }
+/// The flat side at the top or bottom of a cylinder or cone.
+void round_face(const Placed& placed, bool bottom, Feature& face) {
   for (int n = 0; n < 8; ++n) {
     const int i = bottom ? n : 7 - n;  // from x to z is clockwise from above
-    Vec32 way = k_eighth[i];
-    if (i == lowest && shift >= k_one) {
-      way = level;
-    } else if (i == lowest) {
-      const int64_t rest = k_one - shift;
-      way = {static_cast<int32_t>((way.x * rest >> 30) + (int64_t{d.x} << k_tilt_power)), 0,
-             static_cast<int32_t>((way.z * rest >> 30) + (int64_t{d.z} << k_tilt_power))};
-    }
-    way.y = bottom ? -k_one : 1;
+    const Vec32 way = {k_eighth[i].x, bottom ? -k_one : 1, k_eighth[i].z};
     face.add(placed.point(local_support(*placed.convex, way).local), static_cast<uint32_t>(i) + (bottom ? 8 : 0));
   }
   const Vec32& up = placed.rotation.column[1];
@@ -110,8 +97,8 @@ void hull_face(const Placed& placed, const Vec32& d, Feature& face) {
     }
   }
   face.normal = unit(multiply(placed.rotation, normal));
-  face.along = unit(Vec64{face.point[1].x - face.point[0].x, face.point[1].y - face.point[0].y,
-                          face.point[1].z - face.point[0].z});
+  face.along = unit(
+      Vec64{face.point[1].x - face.point[0].x, face.point[1].y - face.point[0].y, face.point[1].z - face.point[0].z});
 }
 
 void box_face(const Placed& placed, const Vec32& d, Feature& face) {
@@ -189,14 +176,14 @@ bool supporting_face(const Placed& placed, const Vec32& direction, Feature& face
       return triangle_face(placed, direction, face);
     case ShapeType::cylinder:
       if (magnitude_32(d.y) < static_cast<uint64_t>(length_across(d))) return false;
-      round_face(placed, d, d.y < 0, face);
+      round_face(placed, d.y < 0, face);
       return true;
     case ShapeType::cone: {
       // The round side's normal at d is (2 half lengths, radius), unnormalised.
       const int64_t radius = convex.size[0], height = 2 * int64_t{convex.size[1]}, across = length_across(d);
       const int64_t length = square_root_nearest(static_cast<uint64_t>(radius * radius + height * height));
       if (d.y >= 0 || -d.y < (height * across + radius * d.y) / length) return false;
-      round_face(placed, d, true, face);
+      round_face(placed, true, face);
       return true;
     }
     default:
@@ -288,6 +275,10 @@ uint32_t edge_index(const Placed& placed, uint32_t vertex_a, uint32_t vertex_b) 
   }
 }
 
+int32_t in_block(const Placed& placed, int32_t length) {
+  return length == 0 || placed.shift > 30 ? 0 : length >> placed.shift;  // only a point's shift may be negative
+}
+
 int32_t half_thickness(const Placed& placed) {
   const Convex& convex = *placed.convex;
   int32_t least = convex.core_radius;
@@ -297,7 +288,7 @@ int32_t half_thickness(const Placed& placed) {
     for (int i = 0; i < (is_box ? 3 : 2); ++i) consider(convex.size[i]);
   }
   for (uint32_t f = 0; f < placed.hull.face_count; ++f) consider(placed.hull.plane(f).offset);
-  return placed.shift > 30 ? 0 : least >> placed.shift;
+  return in_block(placed, least);
 }
 
 }  // namespace DETENT_NAMESPACE

@@ -33,20 +33,22 @@ struct Feature {
 
 /// The face that looks along `direction` (world, Q30) most, of those with the core's farthest point. False if the core
 /// has none there: a round side, or an edge's or vertex' own core.
-/// The flat side of a cylinder or cone is an octagon in its rim. The more it is tilted (all the way from 1/32 on), the
-/// farther one of the corners is shifted along the rim to the farthest point.
+/// The flat side of a cylinder or cone is an octagon in its rim.
 bool supporting_face(const Placed& placed, const Vec32& direction, Feature& face);
 
 /// Of the core's edges at its farthest point along `direction` the one most perpendicular to it; on a round side the
-/// line that touches; the farthest vertex where that edge's slope (dot of its unit vector with `direction`, Q30) is above
-/// `slope_max` or there are no edges.
+/// line that touches; the farthest vertex where that edge's slope (dot of its unit vector with `direction`, Q30) is
+/// above `slope_max` or there are no edges.
 void supporting_edge(const Placed& placed, const Vec32& direction, int64_t slope_max, Feature& edge);
 
 /// The index of the edge between two vertices that are neighbours in a face, or are an edge's.
 uint32_t edge_index(const Placed& placed, uint32_t vertex_a, uint32_t vertex_b);
 
-/// The least half extent of a core that has faces (of a hull the least distance of a face from the centre, faces that the
-/// centre lies beyond left out); of others the greatest. Ulps of the block.
+/// A length of the core's in ulps of the block, rounded down.
+int32_t in_block(const Placed& placed, int32_t length);
+
+/// The least half extent of a core that has faces (of a hull the least distance of a face from the centre, faces that
+/// the centre lies beyond left out); of others the greatest. Ulps of the block.
 int32_t half_thickness(const Placed& placed);
 
 }  // namespace DETENT_NAMESPACE

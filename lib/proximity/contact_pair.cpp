@@ -6,14 +6,14 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Cores nearer than so many ulps: the direction between two points of the block may be mere rounding.
-constexpr int32_t k_meeting = 64;
-constexpr int32_t k_push = 4 * k_meeting;  ///< deep enough for a direction
+constexpr int32_t k_push = 256;  ///< ulps; deep enough for a direction
 
 /// v length, for a unit vector v.
-Vec32 scaled(const Vec32& v, int64_t length) { return round_shift(Vec64{v.x * length, v.y * length, v.z * length}, 30); }
+Vec32 scaled(const Vec32& v, int64_t length) {
+  return round_shift(Vec64{v.x * length, v.y * length, v.z * length}, 30);
+}
 
-Vec32 weighted(const Placed& placed, const Simplex& simplex, const int32_t (&weight)[4], CorePoint SimplexVertex::* of) {
+Vec32 weighted(const Placed& placed, const Simplex& simplex, const int32_t (&weight)[4], CorePoint SimplexVertex::*of) {
   Vec64 sum = {0, 0, 0};
   for (int i = 0; i < simplex.count(); ++i) {
     const Vec32 p = placed.point((simplex.vertex(i).*of).local);
@@ -26,8 +26,8 @@ ContactAxis axis_of(const Penetration& found) {
   return {found.normal, -int64_t{found.depth}, found.point_a, found.point_b, found.capped};
 }
 
-/// The axis of cores at most `distance` ulps apart where gjk() has none that can be trusted: B is pushed into A, and the
-/// least way out found. False if they don't meet even then.
+/// The axis of round cores, at most `distance` ulps apart, where gjk() met its cap: B is pushed into A, and the least
+/// way out found. False if they don't meet even then.
 bool axis_by_pushing(const ContactPair& pair, const Vec32& normal, int32_t distance, ContactAxis& axis) {
   const int64_t push = int64_t{distance} + k_push;
   const Vec32 offset = subtract(pair.offset, scaled(normal, push));
@@ -98,9 +98,7 @@ bool find_contact_axis(const ContactPair& pair, int32_t above, DistanceCache* ca
   }
   if (found.lower > above) return false;
   const bool capped = found.outcome == GjkOutcome::capped;
-  if ((capped || found.upper <= k_meeting) && !pair.planar() && axis_by_pushing(pair, found.normal, found.upper, axis)) {
-    return true;
-  }
+  if (capped && axis_by_pushing(pair, found.normal, found.upper, axis)) return true;
   int32_t weight[4];
   simplex.weights(weight);
   axis = {found.normal, found.upper, weighted(pair.a, simplex, weight, &SimplexVertex::a),

@@ -31,9 +31,9 @@ void save_cache(const Simplex& simplex, DistanceCache& cache);
 
 /// What the normal and the deepest place of a contact are. Lengths in ulps, of the cores.
 struct ContactAxis {
-  Vec32 normal;             ///< from A to B, Q30
-  int64_t separation;       ///< negative where the cores overlap
-  Vec32 point_a, point_b;   ///< nearest, or deepest, each from its own centre
+  Vec32 normal;            ///< from A to B, Q30
+  int64_t separation;      ///< negative where the cores overlap
+  Vec32 point_a, point_b;  ///< nearest, or deepest, each from its own centre
   bool capped;
 };
 

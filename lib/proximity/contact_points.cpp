@@ -11,13 +11,15 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 constexpr int32_t k_one = 1 << 30;
-constexpr int k_face_power = 6;       ///< a face is preferred to edges, and to the axis as it is, by a 64th of the thinner core
+/// A face is preferred to edges, and to the axis as it is, by a 64th of the thinner core.
+constexpr int k_face_power = 6;
+/// Of the smaller core's radius: the deepest point is at most so much deeper than all chosen.
+constexpr int k_drop_power = 10;
 constexpr int64_t k_upright = k_one >> 13;  ///< a normal nearer to a face's than this, rad, is the face's
-constexpr int64_t k_level = k_one >> 5;     ///< edges nearer than this to parallel touch along a line
-constexpr int k_drop_power = 10;  ///< of the smaller core's radius: the deepest point is at most so much deeper than all chosen
+constexpr int64_t k_level = k_one >> 5;     ///< edges nearer than this to parallel, rad, touch along a line
 
 int64_t smaller_but_0(int64_t a, int64_t b) { return a == 0 ? b : b == 0 || a < b ? a : b; }
-int32_t radius_in_block(const Placed& placed) { return placed.shift > 30 ? 0 : placed.convex->core_radius >> placed.shift; }
+int32_t radius_in_block(const Placed& placed) { return in_block(placed, placed.convex->core_radius); }
 
 /// |a x b| <= limit, for unit vectors, all Q30.
 bool is_parallel(const Vec32& a, const Vec32& b, int64_t limit) {
@@ -58,8 +60,8 @@ class Builder {
   bool fill(const Reference& reference, bool reference_is_a, const Feature& incident, ContactManifold& manifold) const;
   void add_point(const Vec32& normal, const Vec64& twice_middle, int64_t separation, uint32_t on_a, uint32_t on_b,
                  ContactManifold& manifold) const;
-  /// Where two features would do, the one of the lower shape along a direction that is no one's axis. It does not matter
-  /// which shape is A.
+  /// Where two features would do, the one of the lower shape along a direction that is no one's axis. It does not
+  /// matter which shape is A.
   bool a_comes_first() const { return dot(axis_.normal, Vec32{493921240, 848256040, 440234144}) > 0; }
   static void find_incident(const Half& half, const Vec32& towards, Feature& incident) {
     if (!supporting_face(half.placed, towards, incident)) supporting_edge(half.placed, towards, k_one, incident);
@@ -75,7 +77,7 @@ class Builder {
 /// The face of `half` that the contact is on, if it is on one.
 bool Builder::find_face(const Half& half, const Half& other, Feature& face) const {
   if (!supporting_face(half.placed, half.outward, face)) return false;
-  const Vec32 normal = face.normal;
+  const Vec32& normal = face.normal;
   if (dot(normal, half.outward) <= 0) return false;
   if (!is_parallel(normal, half.outward, k_upright)) {
     if (axis_.separation > preference_) return false;
@@ -83,7 +85,7 @@ bool Builder::find_face(const Half& half, const Half& other, Feature& face) cons
     const Vec32 bottom = add(other.centre, support(other.placed, negate(normal)).point);
     if (dot(normal, subtract(bottom, top)) >> 30 < axis_.separation - preference_) return false;
   }
-  return normal == half.outward || supporting_face(half.placed, normal, face);
+  return true;
 }
 
 /// `normal` from A to B, `twice_middle` of the cores, in the block.
@@ -121,7 +123,9 @@ void Builder::add_on_axis(const Vec32& normal, int64_t separation, ContactManifo
     if (manifold.point[i].feature == feature_pair(on_a, on_b)) return;
   }
   const Vec32 &a = axis_.point_a, &b = axis_.point_b, &offset = pair_.offset;
-  const auto twice = [](int32_t on_a_core, int32_t on_b_core, int32_t way) { return int64_t{on_a_core} + on_b_core + way; };
+  const auto twice = [](int32_t on_a_core, int32_t on_b_core, int32_t way) {
+    return int64_t{on_a_core} + on_b_core + way;
+  };
   add_point(normal, {twice(a.x, b.x, offset.x), twice(a.y, b.y, offset.y), twice(a.z, b.z, offset.z)}, separation, on_a,
             on_b, manifold);
 }

@@ -112,8 +112,8 @@ const Face& Polytope::nearest_face(int64_t& least) const {
   return face[best];
 }
 
-/// The vertex of the placed core farthest along `normal`, exactly, where `found` is nearly that. Left as it is where the
-/// core has no vertices.
+/// The vertex of the placed core farthest along `normal`, exactly, where `found` is nearly that. Left as it is where
+/// the core has no vertices.
 void exact_support(const Placed& placed, const Vec64& normal, SupportPoint& found) {
   if (found.core.feature == k_no_feature) return;
   // Beyond this, 2^-30 of the shape's unit times the direction, rounding cannot make a vertex the farthest: 4 ulps of
@@ -212,7 +212,8 @@ bool Search::complete(const Simplex& simplex, Vec64& across) {
     const Vec32 edge = subtract(p(1), p(0));
     const auto aside = [&](const Vec32& q) { return !is_zero(cross(edge, subtract(q, p(0)))); };
     const uint32_t x = magnitude_32(edge.x), y = magnitude_32(edge.y), z = magnitude_32(edge.z);
-    // Across the edge and the axis that it runs along least; y before the others, so that what lies level is parted upwards.
+    // Across the edge and the axis that it runs along least; y before the others, so that what lies level is parted
+    // upwards.
     const Vec32 axis = y <= x && y <= z ? Vec32{0, 1, 0} : x <= z ? Vec32{1, 0, 0} : Vec32{0, 0, 1};
     const Vec64 level = cross(edge, axis);
     across = cross(scaled_to_30_bits(level), scaled_to_30_bits(edge));
@@ -308,8 +309,13 @@ Penetration Search::answer() const {
   const Vec32 point_a = round_shift(on_a, 30);
   const int64_t depth = (reach_ + k_ulp - 1) >> 30;
   const int64_t lower = lower_ >> 30;
-  return {negate(outward_), static_cast<int32_t>(depth > 0 ? depth : 0), static_cast<int32_t>(lower > 0 ? lower : 0),
-          point_a, subtract(add(point_a, round_shift(difference, 30)), offset_), supports_, capped_};
+  return {negate(outward_),
+          static_cast<int32_t>(depth > 0 ? depth : 0),
+          static_cast<int32_t>(lower > 0 ? lower : 0),
+          point_a,
+          subtract(add(point_a, round_shift(difference, 30)), offset_),
+          supports_,
+          capped_};
 }
 
 Penetration Search::flat(const Simplex& simplex, const Vec64& across) const {
@@ -343,8 +349,13 @@ Penetration half_space_penetration(const Placed& a, const Placed& b, const Vec32
   const int64_t depth = height < 0 ? (-height + k_ulp - 1) >> 30 : 0;
   const int64_t below = round_shift_64(height, 30);
   const Vec32 foot = subtract(add(way, deepest), round_shift(Vec64{below * up.x, below * up.y, below * up.z}, 30));
-  return {normal, static_cast<int32_t>(depth), static_cast<int32_t>(depth), plane_is_a ? foot : deepest,
-          plane_is_a ? deepest : foot, 1, false};
+  return {normal,
+          static_cast<int32_t>(depth),
+          static_cast<int32_t>(depth),
+          plane_is_a ? foot : deepest,
+          plane_is_a ? deepest : foot,
+          1,
+          false};
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
 #include <math.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "proximity/gjk.h"
@@ -8,47 +9,49 @@
 #include "tests/math/samples.h"
 #include "tests/support/test.h"
 
-/// Random placed cores for the tests of lib/proximity, and what all their vertices say in long double.
+/// Random placed cores for the tests of lib/proximity, and how deep all their vertices say they are.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 struct Arrow {
-  long double x, y, z;
+  double x, y, z;
 };
 inline Arrow arrow(const Vec32& v) {
-  return {static_cast<long double>(v.x), static_cast<long double>(v.y), static_cast<long double>(v.z)};
+  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
 }
 inline Arrow operator-(const Arrow& a, const Arrow& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline long double dot(const Arrow& a, const Arrow& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline double dot(const Arrow& a, const Arrow& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 inline Arrow cross(const Arrow& a, const Arrow& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-inline long double length(const Arrow& a) { return sqrtl(dot(a, a)); }
+inline double length(const Arrow& a) { return sqrt(dot(a, a)); }
 
 /// A placed polytope: its vertices in the block from its own centre, its edges and its faces' normals (any length).
 struct Solid {
-  std::vector<Arrow> vertices, edges, normals;
+  std::vector<Vec32> vertices, edges;
+  std::vector<Vec64> normals;
 };
 
 inline Solid solid_of(const Placed& placed) {
   Solid solid;
   CorePoint core;
   for (int i = 0; i < 255 && core_vertex(*placed.convex, static_cast<uint8_t>(i), core); ++i) {
-    solid.vertices.push_back(arrow(placed.point(core.local)));
+    solid.vertices.push_back(placed.point(core.local));
   }
   const auto& v = solid.vertices;
   const auto add_triangle = [&](uint32_t i, uint32_t j, uint32_t k) {
-    solid.edges.insert(solid.edges.end(), {v[j] - v[i], v[k] - v[j], v[i] - v[k]});
-    solid.normals.push_back(cross(v[j] - v[i], v[k] - v[i]));
+    for (const Vec32& edge : {subtract(v[j], v[i]), subtract(v[k], v[j]), subtract(v[i], v[k])})
+      solid.edges.push_back(edge);
+    solid.normals.push_back(cross(subtract(v[j], v[i]), subtract(v[k], v[i])));
   };
   switch (placed.convex->type) {
     case ShapeType::capsule:
-      solid.edges = {v[1] - v[0]};
+      solid.edges = {subtract(v[1], v[0])};
       break;
     case ShapeType::box:
-      solid.edges = {v[1] - v[0], v[2] - v[0], v[4] - v[0]};
-      for (int i = 0; i < 3; ++i) solid.normals.push_back(cross(solid.edges[static_cast<size_t>(i)],
-                                                                solid.edges[static_cast<size_t>((i + 1) % 3)]));
+      solid.edges = {subtract(v[1], v[0]), subtract(v[2], v[0]), subtract(v[4], v[0])};
+      solid.normals = {cross(solid.edges[0], solid.edges[1]), cross(solid.edges[1], solid.edges[2]),
+                       cross(solid.edges[2], solid.edges[0])};
       break;
     case ShapeType::triangle:
       add_triangle(0, 1, 2);
@@ -67,26 +70,29 @@ inline Solid solid_of(const Placed& placed) {
   return solid;
 }
 
-/// How far B must move against `normal` to leave A: the greatest normal.(b + offset - a) over the vertices, over |normal|.
-inline long double reach_along(const Solid& a, const Solid& b, const Vec32& offset, const Arrow& normal) {
-  long double most_b = -HUGE_VALL, least_a = HUGE_VALL;
-  for (const Arrow& v : b.vertices) most_b = std::max(most_b, dot(normal, v));
-  for (const Arrow& v : a.vertices) least_a = std::min(least_a, dot(normal, v));
+/// How far B must move against `normal` to leave A: the greatest normal.(b + offset - a) over the vertices, over
+/// |normal|.
+inline double reach_along(const Solid& a, const Solid& b, const Vec32& offset, const Arrow& normal) {
+  double most_b = -HUGE_VAL, least_a = HUGE_VAL;
+  for (const Vec32& v : b.vertices) most_b = std::max(most_b, dot(normal, arrow(v)));
+  for (const Vec32& v : a.vertices) least_a = std::min(least_a, dot(normal, arrow(v)));
   return (most_b - least_a + dot(normal, arrow(offset))) / length(normal);
 }
 
-/// The least way out, tried along every face's normal and every pair of edges. HUGE_VALL if there are none.
-inline long double least_depth(const Solid& a, const Solid& b, const Vec32& offset) {
-  long double least = HUGE_VALL;
-  const auto consider = [&](const Arrow& normal) {
-    if (length(normal) == 0) return;
-    least = std::min(least, reach_along(a, b, offset, normal));
-    least = std::min(least, reach_along(a, b, offset, {-normal.x, -normal.y, -normal.z}));
+/// The least way out, tried along every face's normal and every pair of edges; HUGE_VAL if there are none. The normals
+/// are exact before they become doubles, so that it errs by less than 1e-5 ulps however thin the shapes are.
+inline double least_depth(const Solid& a, const Solid& b, const Vec32& offset) {
+  double least = HUGE_VAL;
+  const auto consider = [&](const Vec64& normal) {
+    if (is_zero(normal)) return;
+    const Arrow n = {static_cast<double>(normal.x), static_cast<double>(normal.y), static_cast<double>(normal.z)};
+    least = std::min(least, reach_along(a, b, offset, n));
+    least = std::min(least, reach_along(a, b, offset, {-n.x, -n.y, -n.z}));
   };
-  for (const Arrow& n : a.normals) consider(n);
-  for (const Arrow& n : b.normals) consider(n);
-  for (const Arrow& e : a.edges) {
-    for (const Arrow& f : b.edges) consider(cross(e, f));
+  for (const Vec64& n : a.normals) consider(n);
+  for (const Vec64& n : b.normals) consider(n);
+  for (const Vec32& e : a.edges) {
+    for (const Vec32& f : b.edges) consider(cross(e, f));
   }
   return least;
 }
@@ -95,11 +101,11 @@ inline Matrix32 random_rotation(Samples& samples) {
   for (;;) {
     const auto component = [&] { return static_cast<int64_t>(samples.bits() >> 33) - (1 << 30); };
     const int64_t q[4] = {component(), component(), component(), component()};
-    long double square = 0;
-    for (const int64_t c : q) square += static_cast<long double>(c) * static_cast<long double>(c);
-    const long double size = sqrtl(square) / 0x1p30L;
-    if (size > 1 || size < 0.1L) continue;
-    const auto scaled = [&](int64_t c) { return static_cast<int32_t>(llroundl(static_cast<long double>(c) / size)); };
+    double square = 0;
+    for (const int64_t c : q) square += static_cast<double>(c) * static_cast<double>(c);
+    const double size = sqrt(square) / 0x1p30;
+    if (size > 1 || size < 0.1) continue;
+    const auto scaled = [&](int64_t c) { return static_cast<int32_t>(llround(static_cast<double>(c) / size)); };
     return matrix_from(normalise(Quat32{scaled(q[0]), scaled(q[1]), scaled(q[2]), scaled(q[3])}));
   }
 }

@@ -1,0 +1,267 @@
+#include <detent/cast.h>
+#include <detent/contact.h>
+#include <detent/distance.h>
+#include <ports/machine.h>
+#include <ports/print.h>
+#include <string.h>
+
+#include "base/digest.h"
+#include "narrow_phase_pairs.h"
+#include "proximity/conservative_advancement.h"
+
+/// The questions of the narrow phase on any target, a microcontroller too: no allocation, no C library beyond string.h.
+///
+///   narrow_phase [QUESTION[=DIGEST]]...
+///
+/// Asks seeded pairs each question, or only those named, and prints a digest of every bit of the answers:
+/// "narrow_phase <configuration> <question> <pairs> <digest>". Each question is asked twice, the second time on a stack
+/// that was scribbled on before every call. Exit code 0 only if both digests agree, and are DIGEST where one is given;
+/// 1 if not, 2 for wrong usage.
+
+namespace {
+
+using namespace detent;
+using namespace detent_lockstep;
+
+constexpr int k_exit_good = 0;
+constexpr int k_exit_bad = 1;
+constexpr int k_exit_usage = 2;
+
+constexpr uint32_t k_pairs = 4000;
+constexpr uint64_t k_seed = 0x6e6172726f77;
+constexpr uint32_t k_scribbled_bytes = DETENT_SCRIBBLED_BYTES;
+
+/// The digest so far. Numbers enter by their own bits, one word each.
+class Answers {
+ public:
+  void add(uint64_t word) { digest_ = digest_step(digest_, word); }
+  void add(Status status) { add(uint64_t{static_cast<uint32_t>(status)}); }
+  template <class T>
+  void number(T value) {
+    add(bits_of(value));
+  }
+  template <class T>
+  void vector(const Vec3<T>& v) {
+    number(v.x);
+    number(v.y);
+    number(v.z);
+  }
+  uint64_t digest() const { return digest_finish(digest_); }
+
+ private:
+  template <class Int, int Frac>
+  static uint64_t bits_of(Fixed<Int, Frac> value) {
+    return static_cast<uint64_t>(int64_t{value.raw});
+  }
+  static uint64_t bits_of(float value) { return __builtin_bit_cast(uint32_t, value); }
+  static uint64_t bits_of(double value) { return __builtin_bit_cast(uint64_t, value); }
+
+  uint64_t digest_ = k_seed;
+};
+
+/// Asks, adds the answer, and says whether the pair meets. `cache`: null for none; the others have none.
+using Ask = bool (*)(const Pair& pair, DistanceCache* cache, Answers& answers);
+
+bool ask_closest(const Pair& pair, DistanceCache* cache, Answers& answers) {
+  Closest closest;
+  answers.add(closest_points(pair.a, pair.motion_a.start, pair.b, pair.motion_b.start, closest, cache));
+  answers.add(uint64_t{closest.overlap});
+  answers.add(uint64_t{closest.capped});
+  answers.number(closest.distance);
+  answers.vector(closest.normal);
+  answers.vector(closest.point_a);
+  answers.vector(closest.point_b);
+  answers.add(uint64_t{closest.iterations});
+  return closest.overlap;
+}
+
+bool ask_overlap(const Pair& pair, DistanceCache* cache, Answers& answers) {
+  bool meet = false;
+  answers.add(overlap(pair.a, pair.motion_a.start, pair.b, pair.motion_b.start, meet, cache));
+  answers.add(uint64_t{meet});
+  return meet;
+}
+
+bool ask_farther(const Pair& pair, DistanceCache* cache, Answers& answers) {
+  bool farther = false;
+  answers.add(farther_than(pair.a, pair.motion_a.start, pair.b, pair.motion_b.start, pair.reach, farther, cache));
+  answers.add(uint64_t{farther});
+  return !farther;
+}
+
+bool ask_contact(const Pair& pair, DistanceCache* cache, Answers& answers) {
+  ContactManifold manifold;
+  answers.add(contact_points(pair.a, pair.motion_a.start, pair.b, pair.motion_b.start, pair.reach, manifold, cache));
+  answers.vector(manifold.normal);
+  answers.add(uint64_t{manifold.count});
+  answers.add(uint64_t{manifold.capped});
+  for (uint32_t i = 0; i < manifold.count; ++i) {
+    const ManifoldPoint& point = manifold.point[i];
+    answers.vector(point.from_a);
+    answers.vector(point.from_b);
+    answers.number(point.separation);
+    answers.add(uint64_t{point.feature});
+  }
+  return manifold.count > 0;
+}
+
+template <ToiMethod method>
+bool ask_toi(const Pair& pair, DistanceCache*, Answers& answers) {
+  TimeOfImpact impact;
+  answers.add(time_of_impact_by(method, pair.a, pair.motion_a, pair.b, pair.motion_b, impact));
+  answers.add(uint64_t{static_cast<uint32_t>(impact.outcome)});
+  answers.number(impact.time);
+  answers.vector(impact.normal);
+  answers.vector(impact.point);
+  answers.add(uint64_t{impact.gjk_calls});
+  answers.add(uint64_t{impact.passes});
+  return impact.outcome == ToiOutcome::hit;
+}
+
+bool add_hit(const CastHit& hit, Answers& answers) {
+  answers.add(uint64_t{hit.hit});
+  answers.add(uint64_t{hit.undecided});
+  answers.number(hit.time);
+  answers.vector(hit.point);
+  answers.vector(hit.normal);
+  return hit.hit;
+}
+
+bool ask_ray(const Pair& pair, DistanceCache*, Answers& answers) {
+  CastHit hit;
+  answers.add(cast_ray(pair.a, pair.motion_a.start, pair.offset, pair.way, hit));
+  return add_hit(hit, answers);
+}
+
+bool ask_shape(const Pair& pair, DistanceCache*, Answers& answers) {
+  CastHit hit;
+  answers.add(cast_shape(pair.b, pair.motion_b.start, pair.way, pair.a, pair.motion_a.start, hit));
+  return add_hit(hit, answers);
+}
+
+struct Question {
+  const char* name;
+  Ask ask;
+  bool caches;
+};
+constexpr Question k_questions[] = {
+    {"closest_points", ask_closest, true},
+    {"overlap", ask_overlap, true},
+    {"farther_than", ask_farther, true},
+    {"contact_points", ask_contact, true},
+    {"toi_paper", ask_toi<ToiMethod::paper>, false},
+    {"toi_first_order", ask_toi<ToiMethod::first_order>, false},
+    {"toi_second_order", ask_toi<ToiMethod::second_order>, false},
+    {"toi_corotating", ask_toi<ToiMethod::corotating>, false},
+    {"toi_constant_spin", ask_toi<ToiMethod::constant_spin>, false},
+    {"cast_ray", ask_ray, false},
+    {"cast_shape", ask_shape, false},
+};
+
+/// What the next call of this depth finds on its stack.
+__attribute__((noinline)) void scribble(uint32_t word) {
+  volatile uint32_t stack[k_scribbled_bytes / sizeof(uint32_t)];
+  for (volatile uint32_t& place : stack) place = word;
+}
+
+struct Outcome {
+  uint64_t digest;
+  uint32_t met;  ///< pairs that meet
+};
+
+Outcome ask_all(const Question& question, const Hulls& hulls, bool scribbles) {
+  Random random(k_seed), noise(k_seed + 1);
+  Answers answers;
+  uint32_t met = 0;
+  DistanceCache cache;  // each pair's is the last pair's: any content is safe
+  Pair pair;
+  for (uint32_t i = 0; i < k_pairs; ++i) {
+    make_pair(random, hulls, pair);
+    if (scribbles) scribble(static_cast<uint32_t>(noise.bits()));
+    met += question.ask(pair, nullptr, answers) ? 1u : 0u;
+    if (!question.caches) continue;
+    if (scribbles) scribble(static_cast<uint32_t>(noise.bits()));
+    question.ask(pair, &cache, answers);
+    answers.add(uint64_t{cache.count});
+    for (int k = 0; k < 4; ++k) answers.add(uint64_t{cache.vertex_a[k]} << 8 | cache.vertex_b[k]);
+  }
+  return {answers.digest(), met};
+}
+
+void print_digest(const char* name, uint64_t digest) {
+  machine_print("narrow_phase " DETENT_CONFIG_TEXT " ");
+  machine_print(name);
+  machine_print(" ");
+  print_decimal(k_pairs);
+  machine_print(" ");
+  print_hex(digest, 16);
+  machine_print("\n");
+}
+
+bool fail(const char* name, const char* problem) {
+  machine_print(name);
+  machine_print(": ");
+  machine_print(problem);
+  machine_print("\n");
+  return false;
+}
+
+bool is_text_of(const char* text, uint64_t digest) {
+  constexpr int k_digits = 16;
+  for (int i = 0; i < k_digits; ++i) {
+    if (text[i] != "0123456789abcdef"[digest >> (4 * (k_digits - 1 - i)) & 15]) return false;
+  }
+  return text[k_digits] == '\0';
+}
+
+/// `expected`: null for any.
+bool examine(const Question& question, const Hulls& hulls, const char* expected) {
+  const Outcome outcome = ask_all(question, hulls, false);
+  print_digest(question.name, outcome.digest);
+  const Outcome again = ask_all(question, hulls, true);
+  if (again.digest != outcome.digest) {
+    print_digest(question.name, again.digest);
+    return fail(question.name, "the answers depend on what lay on the stack");
+  }
+  // Where few pairs meet, or few do not, the digest would show little.
+  constexpr uint32_t k_met_min = k_pairs / 8;
+  if (outcome.met < k_met_min) return fail(question.name, "too few pairs meet");
+  if (outcome.met > k_pairs - k_met_min) return fail(question.name, "too few pairs do not meet");
+  if (expected != nullptr && !is_text_of(expected, outcome.digest)) {
+    return fail(question.name, "another digest is recorded");
+  }
+  return true;
+}
+
+/// The question that an argument names, and the digest it expects. Errors: null.
+const Question* find_question(const char* argument, const char*& expected) {
+  for (const Question& question : k_questions) {
+    const size_t length = strlen(question.name);
+    if (strncmp(argument, question.name, length) != 0) continue;
+    if (argument[length] != '\0' && argument[length] != '=') continue;
+    expected = argument[length] == '=' ? argument + length + 1 : nullptr;
+    return &question;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+int machine_main(int argc, char** argv) {
+  static Hulls hulls;
+  make_hulls(hulls);
+  bool good = true;
+  if (argc == 1) {
+    for (const Question& question : k_questions) good = examine(question, hulls, nullptr) && good;
+  }
+  for (int i = 1; i < argc; ++i) {
+    const char* expected = nullptr;
+    const Question* question = find_question(argv[i], expected);
+    if (question == nullptr) {
+      fail(argv[i], "no such question; usage: narrow_phase [QUESTION[=DIGEST]]...");
+      return k_exit_usage;
+    }
+    good = examine(*question, hulls, expected) && good;
+  }
+  return good ? k_exit_good : k_exit_bad;
+}

@@ -1,0 +1,44 @@
+#pragma once
+#include <detent/contact.h>
+#include <detent/toi.h>
+
+/// Seeded pairs of convex shapes whose every number is exact in each configuration: an integer below 2^24 times a power
+/// of two no finer than fx32's positions. Rotations are exact too, until the library brings them to length 1.
+namespace detent_lockstep {
+
+using namespace detent;
+
+/// SplitMix64.
+class Random {
+ public:
+  explicit Random(uint64_t seed) : state_(seed) {}
+  uint64_t bits();
+  /// Of [0, count).
+  int32_t below(int32_t count);
+  /// Of [-limit, limit].
+  int32_t within(int32_t limit) { return below(2 * limit + 1) - limit; }
+  bool one_in(int32_t count) { return below(count) == 0; }
+
+ private:
+  uint64_t state_;
+};
+
+/// The cooked hulls, made ready once: the checks of their bytes take longer than a query.
+struct Hulls {
+  static constexpr int k_count = 3;
+  Convex sharp[k_count], round[k_count];
+};
+/// Panics if the library refuses one.
+void make_hulls(Hulls& hulls);
+
+struct Pair {
+  Convex a, b;
+  Motion motion_a, motion_b;  ///< relative to A's, B's displacement is mostly towards A
+  Vec3<Real> offset;          ///< from A's position to B's, m
+  Vec3<Real> way;             ///< B's displacement relative to A, m
+  Real reach;                 ///< m
+};
+/// All types, rounded and not, in all rotations or along the axes; some exactly touching, some far from the origin.
+void make_pair(Random& random, const Hulls& hulls, Pair& pair);
+
+}  // namespace detent_lockstep
