@@ -1,9 +1,8 @@
 #include <detent/contact.h>
 
-#include "base/float_environment.h"
 #include "math/root.h"
+#include "proximity/contact_axis.h"
 #include "proximity/contact_clip.h"
-#include "proximity/contact_pair.h"
 #include "proximity/pair.h"
 
 namespace detent {
@@ -39,7 +38,7 @@ struct Half {
 
 class Builder {
  public:
-  Builder(const ContactPair& pair, const ContactAxis& axis, int64_t reach)
+  Builder(const RestingPair& pair, const ContactAxis& axis, int64_t reach)
       : pair_(pair),
         axis_(axis),
         reach_(reach),
@@ -67,7 +66,7 @@ class Builder {
     if (!supporting_face(half.placed, towards, incident)) supporting_edge(half.placed, towards, k_one, incident);
   }
 
-  const ContactPair& pair_;
+  const RestingPair& pair_;
   const ContactAxis& axis_;
   int64_t reach_;  ///< 2^-46 m
   Half half_a_, half_b_;
@@ -213,9 +212,8 @@ void Builder::build(ContactManifold& manifold) const {
 
 Status contact_points(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Real reach,
                       ContactManifold& manifold, DistanceCache* cache) {
-  const FloatEnvironment environment;
-  ContactPair pair;
-  if (const Status status = make_contact_pair(a, pose_a, b, pose_b, pair); status != Status::ok) return status;
+  RestingPair pair;
+  if (const Status status = rest(a, pose_a, b, pose_b, pair); status != Status::ok) return status;
   Vec64 raw;
   if (!raw_from_real({reach, Real(0.0), Real(0.0)}, raw) || raw.x < 0) return Status::out_of_range;
   const int64_t radii = pair.radius_a + pair.radius_b;

@@ -428,6 +428,34 @@ DETENT_TEST(distance, of_far_bodies_holds_and_saturates_beyond_2_to_the_17_m) {
 #endif
 }
 
+#if !defined(DETENT_FX32)
+DETENT_TEST(distance, DISABLED_beyond_2_to_the_17_m_has_a_normal_towards_the_other_body) {
+  const KnownShape ball = known(sphere(1.0)), cube = known(box({0.5, 0.5, 0.5}));
+  for (const double distance : {0x1p17, 0x1p18, 1e9}) {
+    for (const Vector& way : {Vector{{1, 0, 0}}, Vector{{-0.6, 0.8, 0}}, Vector{{0.6, 0.64, 0.48}}}) {
+      const Pair pair = {ball, cube, {way * (-distance / 2)}, {way * (distance / 2)}};
+      EXPECT_GT(dot(host_units(pair.closest().normal), way), 0.5)
+          << way[0] << ' ' << way[1] << ' ' << way[2] << " times " << distance;
+    }
+  }
+}
+
+DETENT_TEST(distance, DISABLED_of_a_ball_far_above_or_below_a_half_space_is_not_taken_for_the_other) {
+  const KnownShape ball = known(sphere(1.0)), ground = known(half_space());
+  Samples samples{8};
+  for (uint32_t i = 0; i < rounds(200); ++i) {
+    const BodyAt plane = held({{{0, 0, 0}}, random_quaternion(samples)});
+    const Vector up = axis_of(plane.rotation, 1);
+    const double height = pow(2, uniform(samples, 15, 28));
+    const Pair above = {ground, ball, plane, held({up * height})}, below = {ground, ball, plane, held({up * -height})};
+    EXPECT_FALSE(above.closest().overlap) << height;
+    EXPECT_TRUE(below.closest().overlap) << height;
+    EXPECT_GE(host(above.closest().distance), std::min(height - 2, 0x1p16)) << height;
+    if (HasFailure()) return;
+  }
+}
+#endif
+
 #if !defined(DETENT_F64)
 DETENT_TEST(distance, is_the_same_to_the_bit_wherever_the_pair_is) {
   Samples samples{6};

@@ -515,6 +515,27 @@ DETENT_TEST(toi, has_the_same_outcome_with_the_bodies_swapped) {
   }
 }
 
+#if !defined(DETENT_FX32)
+DETENT_TEST(toi, DISABLED_of_a_ball_far_above_or_below_a_plane_is_not_taken_for_the_other) {
+  const KnownShape ball = known(sphere(1.0)), ground = known(half_space());
+  Samples samples{9};
+  for (uint32_t i = 0; i < rounds(200); ++i) {
+    const BodyAt plane = held({{{0, 0, 0}}, random_quaternion(samples)});
+    const double height = pow(2, uniform(samples, 15, 28));
+    const Vector up = axis_of(plane.rotation, 1);
+    for (const double sign : {1.0, -1.0}) {
+      TimeOfImpact impact;
+      const Status status =
+          time_of_impact(ground.convex, motion_of(plane), ball.convex, motion_of({up * (sign * height)}), impact);
+      if (status == Status::out_of_range) continue;
+      EXPECT_EQ(status, Status::ok);
+      EXPECT_EQ(impact.outcome, sign > 0 ? ToiOutcome::clear : ToiOutcome::hit) << sign * height;
+    }
+    if (HasFailure()) return;
+  }
+}
+#endif
+
 #if !defined(DETENT_F64)
 DETENT_TEST(toi, is_the_same_to_the_bit_wherever_the_pair_is) {
   Samples samples{7};

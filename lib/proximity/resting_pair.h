@@ -1,5 +1,5 @@
 #pragma once
-#include <detent/contact.h>
+#include <detent/distance.h>
 
 #include "proximity/gjk.h"
 #include "proximity/pair.h"
@@ -8,7 +8,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// A pair at rest in its block, A's centre at the origin.
-struct ContactPair {
+struct RestingPair {
   int exponent;  ///< 2^exponent m is the pair's unit of length
   Vec32 offset;  ///< from A's centre to B's, in the block; to or from a half-space its component along the normal
   Placed a, b;
@@ -23,22 +23,11 @@ struct ContactPair {
 };
 
 /// Errors: bad_argument for two half-spaces; not_normalised; out_of_range for NaN.
-Status make_contact_pair(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, ContactPair& pair);
+Status rest(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, RestingPair& pair);
 
 /// The simplex that a cache holds for the pair, for gjk() to start from; and back.
-void load_cache(const DistanceCache& cache, const ContactPair& pair, Simplex& simplex);
+void load_cache(const DistanceCache& cache, const RestingPair& pair, Simplex& simplex);
 void save_cache(const Simplex& simplex, DistanceCache& cache);
-
-/// What the normal and the deepest place of a contact are. Lengths in ulps, of the cores.
-struct ContactAxis {
-  Vec32 normal;            ///< from A to B, Q30
-  int64_t separation;      ///< negative where the cores overlap
-  Vec32 point_a, point_b;  ///< nearest, or deepest, each from its own centre
-  bool capped;
-};
-
-/// False if the cores are certain to be farther apart than `above` ulps.
-bool find_contact_axis(const ContactPair& pair, int32_t above, DistanceCache* cache, ContactAxis& axis);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent
