@@ -27,7 +27,9 @@ struct Closest {
 
 /// The distance of two convex shapes, with the closest points.
 /// Precision: k_distance_error of the pair's extent (their core diameters and the distance of their centres).
-/// Range: any poses; beyond 2^17 m of distance it saturates. Errors: bad_argument for two half-spaces; not_normalised.
+/// Range: any poses; beyond 2^17 m of distance it saturates.
+/// Errors: bad_argument for two half-spaces; not_normalised; out_of_range for NaN, and for a half-space whose position is
+/// 2^16 m from the other shape's.
 Status closest_points(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Closest& result,
                       DistanceCache* cache = nullptr);
 

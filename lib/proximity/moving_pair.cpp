@@ -38,9 +38,6 @@ Status set_turning(const Convex& convex, const Motion& motion, Turning& turning)
   return Status::ok;
 }
 
-/// Has the leading bit of the largest component.
-uint64_t magnitudes(const Vec64& v) { return magnitude_64(v.x) | magnitude_64(v.y) | magnitude_64(v.z); }
-
 /// At least the distance from centre to centre, 2^-46 m.
 int64_t distance_at(const MovingPair& pair, int64_t time) {
   return length_bound(add(pair.offset, over_time(pair.displacement, time)));
@@ -177,7 +174,8 @@ Status set_block(const Vec64& offset, const Vec64& displacement, MovingPair& pai
     if (pair.from > pair.to) return Status::ok;
     reach += rounding;
   }
-  pair.exponent = raw_exponent_above(saturated_sum(reach, cores + 64));
+  const int64_t whole = saturated_sum(reach, cores + 64);
+  pair.exponent = whole == INT64_MAX ? k_exponent_max : raw_exponent_above(whole);
   pair.reach = ulps_above(reach, pair.exponent);
   pair.core_a = ulps_above(raw_core_radius(a), pair.exponent);
   pair.core_b = ulps_above(raw_core_radius(b), pair.exponent);

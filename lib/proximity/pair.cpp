@@ -156,7 +156,13 @@ int64_t raw_radius(const Convex& convex) {
 bool raw_difference(const Position& a, const Position& b, Vec64& raw) {
   if (!is_finite(a.x) || !is_finite(a.y) || !is_finite(a.z)) return false;
   if (!is_finite(b.x) || !is_finite(b.y) || !is_finite(b.z)) return false;
-  raw = {difference_of(a.x, b.x), difference_of(a.y, b.y), difference_of(a.z, b.z)};
+  // Short of the ends, so that rounding to a block never overflows.
+  constexpr int64_t k_limit = INT64_MAX - (int64_t{1} << 36);
+  const auto component = [](Coord p, Coord q) {
+    const int64_t difference = difference_of(p, q);
+    return difference > k_limit ? k_limit : difference < -k_limit ? -k_limit : difference;
+  };
+  raw = {component(a.x, b.x), component(a.y, b.y), component(a.z, b.z)};
   return true;
 }
 

@@ -19,6 +19,11 @@ bool raw_difference(const Position& a, const Position& b, Vec64& raw);
 bool raw_from_quat(const Quat& q, Quat32& raw);
 Vec3<Unit> units_from_raw(const Vec32& v);
 
+/// A pair's greatest exponent: differences saturated in all components, and the largest cores, lie within 2^19 m.
+inline constexpr int k_exponent_max = 19;
+/// Has the leading bit of the largest component.
+constexpr uint64_t magnitudes(const Vec64& v) { return magnitude_64(v.x) | magnitude_64(v.y) | magnitude_64(v.z); }
+
 /// |v|, rounded up.
 int64_t length_above(const Vec64& v);
 /// At least |v|, and at most 1.6 % and a few 2^-30 more; INT64_MAX where that is more than 2^62. Cheap.

@@ -18,9 +18,13 @@ Status rest(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& po
   const Matrix32 matrix_a = matrix_from(rotation_a), matrix_b = matrix_from(rotation_b);
   if (!raw_difference(pose_b.position, pose_a.position, pair.offset_metres)) return Status::out_of_range;
   Vec64 offset = pair.offset_metres;
-  if (plane_is_a || plane_is_b) offset = component_along(offset, (plane_is_a ? matrix_a : matrix_b).column[1]);
+  if (plane_is_a || plane_is_b) {
+    if (magnitudes(offset) >> 62 != 0) return Status::out_of_range;
+    offset = component_along(offset, (plane_is_a ? matrix_a : matrix_b).column[1]);
+  }
   const int64_t cores = raw_core_radius(a) + raw_core_radius(b) + 64, apart = length_bound(offset);
-  pair.exponent = raw_exponent_above(saturated_sum(apart, cores));
+  const int64_t reach = saturated_sum(apart, cores);
+  pair.exponent = reach == INT64_MAX ? k_exponent_max : raw_exponent_above(reach);
   pair.offset = round_shift(offset, k_metre_bits - 30 + pair.exponent);
   pair.a = place(a, matrix_a, pair.exponent);
   pair.b = place(b, matrix_b, pair.exponent);
