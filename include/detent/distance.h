@@ -17,7 +17,7 @@ inline constexpr double k_distance_error = 0x1p-25;
 
 struct Closest {
   bool overlap = false;     ///< the cores or their balls meet: distance 0
-  bool capped = false;      ///< the iteration cap was met: `distance` is still a lower bound
+  bool capped = false;      ///< the cap was met: `distance` is a lower bound; 0 leaves open whether they meet
   Real distance = 0.0;      ///< m, between the surfaces
   Vec3<Unit> normal = {};   ///< from A to B, world axes; zero if the cores meet
   Vec3<Real> point_a = {};  ///< on A's surface, m, from A's position, world axes
@@ -28,12 +28,13 @@ struct Closest {
 /// The distance of two convex shapes, with the closest points.
 /// Precision: k_distance_error of the pair's extent (their core diameters and the distance of their centres).
 /// Range: any poses; beyond 2^17 m of distance it saturates.
-/// Errors: bad_argument for two half-spaces; not_normalised; out_of_range for NaN, and for a half-space whose position is
-/// 2^16 m from the other shape's.
+/// Errors: bad_argument for two half-spaces; not_normalised; out_of_range for NaN, and for a half-space whose position
+/// is 2^16 m from the other shape's.
 Status closest_points(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Closest& result,
                       DistanceCache* cache = nullptr);
 
-/// Whether the shapes meet or touch. Exact for the shapes' own integers, of which placing errs by k_distance_error.
+/// Whether the shapes meet or touch. Of polytopes exact but for their placing, which errs by k_distance_error; where a
+/// cap or the rounding of balls leaves it open, true.
 Status overlap(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, bool& result,
                DistanceCache* cache = nullptr);
 

@@ -179,9 +179,9 @@ int64_t parabola_root(int64_t separation, int64_t slope, int64_t curvature, int6
 }  // namespace
 
 Horizon horizon_from(const MovingPair& pair, int64_t start, int64_t length, int turn_quarters) {
-  const int64_t limit = int64_t{turn_quarters} << 44;  // 2^-46 rad
-  const int64_t angle = pair.turning_a.angle + pair.turning_b.angle;
-  if (over_time(angle, length) > limit) length = time_quotient(limit, angle);
+  const int64_t half_limit = int64_t{turn_quarters} << 43;  // 2^-46 rad
+  const int64_t half_angle = pair.turning_a.angle / 2 + pair.turning_b.angle / 2 + 1;
+  if (over_time(half_angle, length) > half_limit) length = time_quotient(half_limit, half_angle);
   return horizon_over(pair, start, length);
 }
 

@@ -19,9 +19,12 @@ Status farther_by(const Convex& a, const Pose& pose_a, const Convex& b, const Po
   const int32_t above = static_cast<int32_t>(ulps);
   Simplex simplex;
   if (cache != nullptr) load_cache(*cache, pair, simplex);
-  const GjkResult found = gjk(pair.a, pair.b, pair.offset, simplex, {above, above, 62});
+  const GjkResult found = gjk_on(pair.a, pair.b, pair.offset, simplex, {above, above, 62});
   if (cache != nullptr) save_cache(simplex, *cache);
-  result = found.outcome != GjkOutcome::overlap && (above == 0 || found.lower > above);
+  if (found.outcome == GjkOutcome::apart && above == 0)
+    result = true;
+  else
+    result = found.outcome != GjkOutcome::overlap && found.lower > above + (slack == 0 ? k_gjk_slack : 0);
   return Status::ok;
 }
 
@@ -33,7 +36,7 @@ Status closest_points(const Convex& a, const Pose& pose_a, const Convex& b, cons
   if (const Status status = rest(a, pose_a, b, pose_b, pair); status != Status::ok) return status;
   Simplex simplex;
   if (cache != nullptr) load_cache(*cache, pair, simplex);
-  const GjkResult found = gjk(pair.a, pair.b, pair.offset, simplex, {});
+  const GjkResult found = gjk_on(pair.a, pair.b, pair.offset, simplex, {});
   if (cache != nullptr) save_cache(simplex, *cache);
   Closest made;
   made.iterations = static_cast<uint32_t>(found.iterations);
@@ -43,7 +46,7 @@ Status closest_points(const Convex& a, const Pose& pose_a, const Convex& b, cons
   } else {
     const int64_t gap = raw_from_block(made.capped ? found.lower - k_gjk_slack : found.upper, pair.exponent) -
                         pair.radius_a - pair.radius_b;
-    made.overlap = gap <= 0;
+    made.overlap = gap <= 0 && !made.capped;
     made.distance = real_from_raw(gap > 0 ? gap : 0);
     made.normal = units_from_raw(found.normal);
     const NearestPoints nearest = nearest_points(pair.a, pair.b, simplex);

@@ -35,6 +35,10 @@ int64_t next_time(const MovingPair& pair, ToiMethod method, const Frames& frames
     return advance_tracking(pair, frames, simplex, features, nearest, floor, progress, result);
   }
   const Horizon horizon = horizon_from(pair, time, pair.to - time, k_turn_quarters);
+  if (pair.planar) {  // no other axis than the plane's can part them
+    const Vec32& plane = pair.a->type == ShapeType::half_space ? horizon.spin_a : horizon.spin_b;
+    return advance_on(pair, frames, horizon, nearest.normal, plane, floor, result.passes);
+  }
   Vec32 spin = k_still;
   switch (method) {
     case ToiMethod::paper:
@@ -46,10 +50,7 @@ int64_t next_time(const MovingPair& pair, ToiMethod method, const Frames& frames
     case ToiMethod::corotating:
     case ToiMethod::world_space:
     case ToiMethod::constant_spin:
-      if (pair.planar)
-        spin = pair.a->type == ShapeType::half_space ? horizon.spin_a : horizon.spin_b;
-      else
-        spin = features.base_spin(horizon);
+      spin = features.base_spin(horizon);
       break;
   }
   return advance_on(pair, frames, horizon, nearest.normal, spin, floor, result.passes);
@@ -73,12 +74,12 @@ void conservative_advancement(const MovingPair& pair, ToiMethod method, TimeOfIm
   for (int iteration = 0; iteration < iterations_max; ++iteration) {
     const Frames frames = pair.at(time);
     const Placed a = place(*pair.a, frames.a, pair.exponent), b = place(*pair.b, frames.b, pair.exponent);
-    const GjkResult nearest = gjk(a, b, frames.offset, simplex, {touching, INT32_MAX, 62});
-    result.gjk_calls += nearest.iterations > 0 ? 1 : 0;
+    const GjkResult nearest = gjk(a, b, frames.offset, simplex, {});
     result.time = Fraction::from_raw(time);
-    const bool meet = nearest.outcome == GjkOutcome::overlap;
+    const bool meet = nearest.outcome == GjkOutcome::overlap, hit = meet || nearest.upper <= touching;
+    result.gjk_calls += nearest.iterations > (hit && iteration > 0 ? 1 : 0) ? 1 : 0;  // one may but confirm the hit
     result.normal = units_from_raw(meet ? Vec32{0, 0, 0} : nearest.normal);
-    if (meet || nearest.upper <= touching) {
+    if (hit) {
       result.outcome = ToiOutcome::hit;
       result.point = point_on_a(pair, a, b, simplex, nearest, time);
       return;

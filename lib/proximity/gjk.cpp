@@ -121,6 +121,16 @@ GjkResult gjk(const Placed& a, const Placed& b, const Vec32& offset, Simplex& si
   }
 }
 
+GjkResult gjk_on(const Placed& a, const Placed& b, const Vec32& offset, Simplex& simplex, const GjkLimits& limits) {
+  GjkResult result = gjk(a, b, offset, simplex, limits);
+  for (int round = 1; round < k_gjk_rounds_max && result.outcome == GjkOutcome::capped; ++round) {
+    const int iterations = result.iterations;
+    result = gjk(a, b, offset, simplex, limits);
+    result.iterations += iterations;
+  }
+  return result;
+}
+
 NearestPoints nearest_points(const Placed& a, const Placed& b, const Simplex& simplex) {
   int32_t weight[4];
   simplex.weights(weight);

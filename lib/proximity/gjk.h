@@ -35,6 +35,10 @@ struct GjkLimits {
 /// exact simplex. Starts from the core points in `simplex` (may be empty) and leaves the last one there.
 GjkResult gjk(const Placed& a, const Placed& b, const Vec32& offset, Simplex& simplex, const GjkLimits& limits);
 
+/// As gjk(), and where the cap was met again from there: on rims that nearly touch, 24 supports may not do.
+GjkResult gjk_on(const Placed& a, const Placed& b, const Vec32& offset, Simplex& simplex, const GjkLimits& limits);
+inline constexpr int k_gjk_rounds_max = 4;
+
 /// The points that the simplex' nearest point is the difference of, in the block, each from its shape's centre.
 struct NearestPoints {
   Vec32 on_a, on_b;

@@ -143,6 +143,7 @@ Status set_block(const Vec64& offset, const Vec64& displacement, MovingPair& pai
   const bool plane_is_a = a.type == ShapeType::half_space;
   if (magnitudes(displacement) >> 61 != 0) return Status::out_of_range;
   pair.planar = plane_is_a || b.type == ShapeType::half_space;
+  if (pair.planar && magnitudes(offset) >> 62 != 0) return Status::out_of_range;
   const Turning& plane = plane_is_a ? pair.turning_a : pair.turning_b;
   if (pair.planar && !plane.turns) {
     const Vec32& up = plane.start_matrix.column[1];
