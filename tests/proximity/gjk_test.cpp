@@ -1,9 +1,7 @@
 #include "proximity/gjk.h"
 
-#include "tests/geometry/hull_bytes.h"
-#include "tests/math/samples.h"
 #include "tests/oracle/effort.h"
-#include "tests/support/test.h"
+#include "tests/proximity/placed_pairs.h"
 
 #if defined(__SIZEOF_INT128__)
 // Integer polytopes, axis-parallel, so that a block holds them exactly: what gjk() says of them is proven from all
@@ -54,53 +52,6 @@ bool holds_origin(const Point* p, int count) {
 constexpr ShapeType k_types[] = {ShapeType::sphere, ShapeType::capsule, ShapeType::box, ShapeType::triangle,
                                  ShapeType::hull};
 constexpr int k_type_count = 5;
-constexpr int k_exponent = 2;  ///< of the block, so that the hulls fit into it
-
-/// A coordinate from a small grid, where points coincide and planes are shared, or of any size.
-int32_t coordinate(Samples& samples, int kind, int bits) {
-  const int32_t grid = static_cast<int32_t>(samples.below(5)) - 2;
-  if (kind == 0) return grid;
-  if (kind == 1) return grid * (1 << (bits - 3)) + static_cast<int32_t>(samples.below(3)) - 1;  // nearly on the grid
-  return static_cast<int32_t>(samples.integer(bits - 1));
-}
-
-Convex random_convex(Samples& samples, ShapeType type, int kind) {
-  constexpr int k_bits = 27;
-  Convex convex;
-  if (type == ShapeType::hull) {
-    const bool small = samples.below(2) == 0;
-    const Asset asset = small ? Asset{detent_hulls::k_tetrahedron, sizeof detent_hulls::k_tetrahedron}
-                              : Asset{detent_hulls::k_prism, sizeof detent_hulls::k_prism};
-    EXPECT_OK(make_hull(asset, Real(0.0), convex));
-    return convex;
-  }
-  convex.type = type;
-  convex.exponent = k_exponent;
-  convex.core_radius = 1;
-  const auto size = [&] {
-    const int32_t value = coordinate(samples, kind, k_bits);
-    return value < 0 ? -value : value == 0 ? 1 : value;
-  };
-  for (int32_t& s : convex.size) s = size();
-  for (auto& corner : convex.corner) {
-    for (int32_t& c : corner) c = coordinate(samples, kind, k_bits);
-  }
-  if (type == ShapeType::triangle && samples.below(8) == 0) {  // a segment
-    for (int i = 0; i < 3; ++i) convex.corner[2][i] = convex.corner[1][i];
-  }
-  return convex;
-}
-
-/// One of the 24 rotations that permute the axes.
-Matrix32 random_quarter_turns(Samples& samples) {
-  const int first = static_cast<int>(samples.below(3)), second = (first + 1 + static_cast<int>(samples.below(2))) % 3;
-  const auto unit = [&](int axis) {
-    const int32_t one = samples.below(2) == 0 ? 1 << 30 : -(1 << 30);
-    return Vec32{axis == 0 ? one : 0, axis == 1 ? one : 0, axis == 2 ? one : 0};
-  };
-  const Vec32 x = unit(first), y = unit(second);
-  return {{x, y, round_shift(detent::cross(x, y), 30)}};
-}
 
 struct Outcome {
   int iterations = 0;

@@ -97,6 +97,42 @@ inline double least_depth(const Solid& a, const Solid& b, const Vec32& offset) {
   return least;
 }
 
+inline constexpr int k_exponent = 2;  ///< of the block, so that the hulls fit into it
+
+/// A coordinate from a small grid, where points coincide and planes are shared, next to one, or of any size.
+inline int32_t coordinate(Samples& samples, int kind, int bits) {
+  const int32_t grid = static_cast<int32_t>(samples.below(5)) - 2;
+  if (kind == 0) return grid;
+  if (kind == 1) return grid * (1 << (bits - 3)) + static_cast<int32_t>(samples.below(3)) - 1;
+  return static_cast<int32_t>(samples.integer(bits - 1));
+}
+
+/// A core with axis-parallel integers that a block holds exactly.
+inline Convex random_convex(Samples& samples, ShapeType type, int kind) {
+  Convex convex;
+  if (type == ShapeType::hull) {
+    const bool small = samples.below(2) == 0;
+    const Asset asset = small ? Asset{detent_hulls::k_tetrahedron, sizeof detent_hulls::k_tetrahedron}
+                              : Asset{detent_hulls::k_prism, sizeof detent_hulls::k_prism};
+    EXPECT_OK(make_hull(asset, Real(0.0), convex));
+    return convex;
+  }
+  convex.type = type;
+  convex.exponent = k_exponent;
+  convex.core_radius = 1;
+  for (int32_t& s : convex.size) {
+    s = coordinate(samples, kind, 27);
+    s = s < 0 ? -s : s == 0 ? 1 : s;
+  }
+  for (auto& corner : convex.corner) {
+    for (int32_t& c : corner) c = coordinate(samples, kind, 27);
+  }
+  if (type == ShapeType::triangle && samples.below(8) == 0) {  // a segment
+    for (int i = 0; i < 3; ++i) convex.corner[2][i] = convex.corner[1][i];
+  }
+  return convex;
+}
+
 inline Matrix32 random_rotation(Samples& samples) {
   for (;;) {
     const auto component = [&] { return static_cast<int64_t>(samples.bits() >> 33) - (1 << 30); };
