@@ -239,7 +239,10 @@ int32_t advance(const MovingPair& pair, const Frames& frames, const Horizon& hor
         x = x * (first.separation >> 26) / ((first.separation - value.separation + (int64_t{1} << 26)) >> 26);
         break;
       }
-      const int64_t back = (-value.separation >> 26) * k_one / -value.slope + 1;
+      // |separation| < 32 (tests/proofs): from 2 on in coarser steps, so that the product fits.
+      const int coarse = -value.separation >> 57 != 0 ? 4 : 0;
+      const int64_t fall = -value.slope >> coarse;
+      const int64_t back = (-value.separation >> (26 + coarse)) * k_one / (fall > 0 ? fall : 1) + 1;
       x = back < x ? x - back : 0;
     }
     part += x;
