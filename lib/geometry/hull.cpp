@@ -247,7 +247,9 @@ Status read_hull(const Asset& asset, HullView& hull) {
   if (reinterpret_cast<uintptr_t>(asset.bytes) % 8 != 0) return Status::buffer_misaligned;
   const uint8_t* const bytes = asset.bytes;
   const uint32_t magic_count = asset.byte_count < sizeof k_hull_magic ? asset.byte_count : sizeof k_hull_magic;
-  if (memcmp(bytes, k_hull_magic, magic_count) != 0) return Status::not_detent;
+  for (uint32_t i = 0; i < magic_count; ++i) {  // memcmp would be bcmp to clang, which no bare target has
+    if (bytes[i] != k_hull_magic[i]) return Status::not_detent;
+  }
   if (asset.byte_count < k_hull_version_at + 4) return Status::truncated;
   if (hull_u32(bytes + k_hull_version_at) != k_hull_format_version) return Status::format_unknown;
   if (asset.byte_count < k_hull_header_bytes || asset.byte_count < hull_u32(bytes + k_hull_byte_count_at)) {
