@@ -189,7 +189,7 @@ void Reference::offer_corners(const Flat* points, const Feature& incident, AreaC
 }
 
 void Reference::clip(const Vec32& centre, const Feature& incident, AreaChoice& choice) const {
-  Flat points[k_feature_points_max];
+  Flat points[k_feature_points_max] = {};
   for (int i = 0; i < incident.count; ++i) points[i] = flat(add(centre, incident.point[i]));
   if (incident.count == 1) {
     bool inside = true;
