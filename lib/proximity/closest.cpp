@@ -19,7 +19,7 @@ Status farther_by(const Convex& a, const Pose& pose_a, const Convex& b, const Po
   const int32_t above = static_cast<int32_t>(ulps);
   Simplex simplex;
   if (cache != nullptr) load_cache(*cache, pair, simplex);
-  const GjkResult found = gjk_on(pair.a, pair.b, pair.offset, simplex, {above, above, 62});
+  const GjkResult found = gjk_on(pair.a, pair.b, pair.offset, simplex, {above, above});
   if (cache != nullptr) save_cache(simplex, *cache);
   if (found.outcome == GjkOutcome::apart && above == 0)
     result = true;

@@ -34,7 +34,7 @@ bool axis_by_pushing(const RestingPair& pair, const Vec32& normal, int32_t dista
 bool find_contact_axis(const RestingPair& pair, int32_t above, DistanceCache* cache, ContactAxis& axis) {
   Simplex simplex;
   if (cache != nullptr) load_cache(*cache, pair, simplex);
-  const GjkResult found = gjk_on(pair.a, pair.b, pair.offset, simplex, {-1, above, 62});
+  const GjkResult found = gjk_on(pair.a, pair.b, pair.offset, simplex, {-1, above});
   if (cache != nullptr) save_cache(simplex, *cache);
   if (found.outcome == GjkOutcome::overlap) {
     axis = axis_of(penetration(pair.a, pair.b, pair.offset, simplex));

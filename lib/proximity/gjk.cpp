@@ -97,8 +97,7 @@ GjkResult gjk(const Placed& a, const Placed& b, const Vec32& offset, Simplex& si
     const int64_t progress = reach - floor;
     // Nearer than this to touching, only exact tests decide: whether the cores meet is never a matter of rounding.
     const bool touching = floor <= k_touching;
-    const bool precise =
-        simplex.count() != 0 && !touching && (progress <= int64_t{1} << 30 || progress <= reach >> limits.precision);
+    const bool precise = simplex.count() != 0 && !touching && progress <= int64_t{1} << 30;
     const bool separate =
         floor >> 29 > limits.above && floor_30(dot(unit_vector_raw(direction), vertex.difference)) > limits.above;
     const bool last = result.iterations == k_gjk_iterations_max;

@@ -28,7 +28,6 @@ struct GjkResult {
 struct GjkLimits {
   int32_t below = -1;         ///< stop once upper <= below
   int32_t above = INT32_MAX;  ///< stop once lower > above
-  int precision = 62;         ///< stop once upper - lower <= upper 2^-precision
 };
 
 /// Where the cores of A at the block's origin and B at `offset` are nearest (Gilbert, Johnson, Keerthi 1988), on the
