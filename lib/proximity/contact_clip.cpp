@@ -73,10 +73,11 @@ Reference::Reference(const Placed& placed, const Vec32& centre, const Feature& f
     set_axes(feature.along);
     height_ = dot(up, subtract(add(centre, support(placed, up).point), origin_)) >> 30;
   } else {
-    const Vec32 way = subtract(feature.point[1], feature.point[0]);
-    u_ = unit_vector_raw(scaled_to_30_bits(way));
-    v_ = unit_vector_raw(scaled_to_30_bits(cross(up, u_)));
-    slope_ = dot(up, u_) >> 30;
+    // Across the normal, as a face's axes are: heights are along the normal, however far away the other core is.
+    const Vec32 along = unit_vector_raw(scaled_to_30_bits(subtract(feature.point[1], feature.point[0])));
+    set_axes(along);
+    const int64_t run = dot(u_, along) >> 30;
+    slope_ = run > 0 ? dot(up, along) / run : 0;
   }
   add_sides(centre, size);
 }
@@ -99,6 +100,14 @@ Reference::Flat Reference::flat(const Vec32& point) const {
   const Vec32 p = subtract(point, origin_);
   const int64_t u = dot(u_, p) >> 30;
   return {u, dot(v_, p) >> 30, (dot(up_, p) >> 30) - height_ - ((u * slope_) >> 30)};
+}
+
+int64_t Reference::height_of(const Vec32& point) const {
+  const Flat p = flat(point);
+  if (feature_ == nullptr || feature_->is_face()) return p.w;
+  const int64_t first = -(side_[0].limit >> 30), last = side_[1].limit >> 30;
+  const int64_t beyond_end = p.u < first ? p.u - first : p.u > last ? p.u - last : 0;
+  return p.w + ((beyond_end * slope_) >> 30);
 }
 
 void Reference::add_sides(const Vec32& centre, int32_t size) {
@@ -169,6 +178,8 @@ void Reference::offer_corners(const Flat* points, const Feature& incident, AreaC
   const int64_t nu = dot(incident.normal, u_) >> 30, nv = dot(incident.normal, v_) >> 30,
                 nw = dot(incident.normal, up_) >> 30;
   if (nw > -k_edge_on) return;
+  int64_t lowest = points[0].w;
+  for (int k = 1; k < incident.count; ++k) lowest = points[k].w < lowest ? points[k].w : lowest;
   for (int i = 0; i < side_count_; ++i) {
     const Side &side = side_[i], &last = side_[i == 0 ? side_count_ - 1 : i - 1];
     const int64_t turn = k_one + ((int64_t{side.u} * last.u + int64_t{side.v} * last.v) >> 30);
@@ -183,8 +194,10 @@ void Reference::offer_corners(const Flat* points, const Feature& incident, AreaC
       inside = (q.u - p.u) * (v - p.v) - (q.v - p.v) * (u - p.u) <= 0;  // clockwise from here
     }
     if (!inside) continue;
-    const int64_t w = (nu * (points[0].u - corner.u) + nv * (points[0].v - corner.v)) / nw + points[0].w;
-    choice.add({corner.u, corner.v, w, AreaPoint::Kind::corner, 0, static_cast<uint8_t>(i)});
+    // The corner itself may lie beside a steep face, over lower ground than there is.
+    const int64_t plane = (nu * (points[0].u - corner.u) + nv * (points[0].v - corner.v)) / nw + points[0].w;
+    choice.add(
+        {corner.u, corner.v, plane < lowest ? lowest : plane, AreaPoint::Kind::corner, 0, static_cast<uint8_t>(i)});
   }
 }
 
@@ -207,7 +220,8 @@ void Reference::clip(const Vec32& centre, const Feature& incident, AreaChoice& c
 Vec64 Reference::twice_middle(const AreaPoint& point) const {
   const bool is_edge = feature_ != nullptr && !feature_->is_face();
   // Over an edge the reference's point is on it, and the other aside: the middle is half way.
-  const int64_t u = 2 * point.u, v = is_edge ? point.v : 2 * point.v, w = 2 * height_ + point.w;
+  const int64_t u = 2 * point.u, v = is_edge ? point.v : 2 * point.v;
+  const int64_t w = 2 * (height_ + ((point.u * slope_) >> 30)) + point.w;
   const auto component = [&](int32_t o, int32_t a, int32_t b, int32_t c) {
     return 2 * int64_t{o} + round_shift_64(u * a, 30) + round_shift_64(v * b, 30) + round_shift_64(w * c, 30);
   };

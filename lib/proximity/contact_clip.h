@@ -5,7 +5,8 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// A corner of the area, in the reference's axes: u and v in it, w above it. Ulps of the block.
+/// A corner of the area, in the reference's axes: u and v across its normal, w above it along the normal. Ulps of the
+/// block.
 struct AreaPoint {
   int64_t u, v, w;
   /// Made of: a vertex of the incident feature and the reference; an incident edge and a side of the reference; a
@@ -45,8 +46,8 @@ class Reference {
   /// Offers the corners of the area to `choice`.
   void clip(const Vec32& centre, const Feature& incident, AreaChoice& choice) const;
 
-  /// How high a point is above the reference, in the block.
-  int64_t height_of(const Vec32& point) const { return flat(point).w; }
+  /// How high a point is above the reference, and beyond an edge's end above that, in the block.
+  int64_t height_of(const Vec32& point) const;
   /// Of a point of the area: twice the middle between the two cores, in the block.
   Vec64 twice_middle(const AreaPoint& point) const;
   const Vec32& up() const { return up_; }
@@ -75,7 +76,7 @@ class Reference {
   uint32_t name_;
   Vec32 origin_, u_, v_, up_;
   int64_t height_ = 0;  ///< of the reference above the origin
-  int64_t slope_ = 0;   ///< Q30; of an edge, along u
+  int64_t slope_ = 0;   ///< Q30; of an edge: its rise along u
   int64_t slack_ = 0;
   int side_count_ = 0;
   Side side_[k_feature_points_max];

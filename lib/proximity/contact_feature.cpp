@@ -150,8 +150,8 @@ void round_line(const Placed& placed, const Vec32& d, Feature& edge) {
 int64_t slope_of(const Vec32& from, const Vec32& to, const Vec32& direction) {
   const Vec32 way = subtract(to, from);
   if (is_zero(way)) return k_one;
-  const int64_t slope = dot(unit(Vec64{way.x, way.y, way.z}), direction) >> 30;
-  return slope < 0 ? -slope : slope;
+  const int64_t rise = dot(unit(Vec64{way.x, way.y, way.z}), direction);
+  return (rise < 0 ? -rise : rise) >> 30;
 }
 
 }  // namespace

@@ -52,6 +52,7 @@ class Builder {
 
  private:
   bool find_face(const Half& half, const Half& other, Feature& face) const;
+  static uint32_t name_on_axis(const Half& half);
   bool build_on_half_space(ContactManifold& manifold) const;
   bool build_on_face(ContactManifold& manifold) const;
   bool build_on_edge(ContactManifold& manifold) const;
@@ -112,12 +113,18 @@ void Builder::add_point(const Vec32& normal, const Vec64& twice_middle, int64_t 
   point.feature = feature_pair(on_a, on_b);
 }
 
-/// The point on the axis itself, between whatever edges or vertices are there.
+/// What of the shape the axis meets. All edges of a face across it are level but for noise, which must not choose.
+uint32_t Builder::name_on_axis(const Half& half) {
+  Feature feature;
+  if (supporting_face(half.placed, half.outward, feature) && is_parallel(feature.normal, half.outward, k_upright))
+    return feature.name();
+  supporting_edge(half.placed, half.outward, k_level, feature);
+  return feature.name();
+}
+
+/// The point on the axis itself, between whatever is there.
 void Builder::add_on_axis(const Vec32& normal, int64_t separation, ContactManifold& manifold) const {
-  Feature edge_a, edge_b;
-  supporting_edge(pair_.a, half_a_.outward, k_level, edge_a);
-  supporting_edge(pair_.b, half_b_.outward, k_level, edge_b);
-  const uint32_t on_a = edge_a.name(), on_b = edge_b.name();
+  const uint32_t on_a = name_on_axis(half_a_), on_b = name_on_axis(half_b_);
   for (uint32_t i = 0; i < manifold.count; ++i) {
     if (manifold.point[i].feature == feature_pair(on_a, on_b)) return;
   }

@@ -152,19 +152,21 @@ Body hull_body(bool prism, double rounding) {
 }
 
 Body random_body(Samples& samples, ShapeType type) {
-  const auto size = [&] { return real(uniform(samples, 0.2, 1)); };
+  // Drawn in one order by every compiler, so that all targets see the same shapes.
+  const Real first = real(uniform(samples, 0.2, 1)), second = real(uniform(samples, 0.2, 1)),
+             third = real(uniform(samples, 0.2, 1));
   const double rounding = samples.below(2) == 0 ? 0 : uniform(samples, 0.01, 0.2);
   switch (type) {
     case ShapeType::sphere:
-      return body_of(sphere(size()));
+      return body_of(sphere(first));
     case ShapeType::capsule:
-      return body_of(capsule(size(), size()));
+      return body_of(capsule(first, second));
     case ShapeType::box:
-      return body_of(rounded(box({size(), size(), size()}), real(rounding)));
+      return body_of(rounded(box({first, second, third}), real(rounding)));
     case ShapeType::cylinder:
-      return body_of(rounded(cylinder(size(), size()), real(rounding)));
+      return body_of(rounded(cylinder(first, second), real(rounding)));
     case ShapeType::cone:
-      return body_of(rounded(cone(size(), size()), real(rounding)));
+      return body_of(rounded(cone(first, second), real(rounding)));
     case ShapeType::hull:
       return hull_body(samples.below(2) == 0, rounding);
     default: {
@@ -287,7 +289,8 @@ void report(ShapeType type_a, ShapeType type_b, const Tally& tally, uint32_t rou
   EXPECT_GT(tally.contacts, rounds / 20);
   EXPECT_LE(tally.mirrored_less, tally.contacts / 100);
   const auto curved = [](ShapeType type) { return type == ShapeType::cylinder || type == ShapeType::cone; };
-  EXPECT_LE(tally.capped, curved(type_a) && curved(type_b) ? tally.contacts / 10 : 0);
+  const int count = (curved(type_a) ? 1 : 0) + (curved(type_b) ? 1 : 0);
+  EXPECT_LE(tally.capped, count == 2 ? tally.contacts / 10 : count == 1 ? tally.contacts / 1000 : 0);
   EXPECT_EQ(tally.shallow, 0u);
 }
 
@@ -398,6 +401,25 @@ DETENT_TEST(contact, of_faces_and_sides_that_meet_flush_or_nearly_is_of_several_
       report(type_a, type_b, tally, rounds);
     }
   }
+}
+
+/// The cores are far apart against their lengths: whatever a sloping edge's height gets wrong is wrong by much.
+DETENT_TEST(contact, of_fat_capsules_nearly_parallel_is_as_deep_as_they_are) {
+  Samples samples{9};
+  const Body a = body_of(capsule(1.0, 0.25)), b = body_of(capsule(0.75, 0.375));
+  Tally tally;
+  for (uint32_t i = 0; i < detent_oracle::rounds(2000); ++i) {
+    const Arrow tilt = {uniform(samples, -0.02, 0.02), 0, uniform(samples, -0.02, 0.02)};
+    const Placement at_a = turned({0.25, -1, 3}, tilt * -0.5);
+    Placement at_b = turned(at_a.position + Arrow{0, uniform(samples, -0.3, 0.3), 0}, tilt);
+    const double angle = uniform(samples, 0, 6.28);
+    const Arrow way = {cos(angle), 0, sin(angle)};
+    at_b.position = at_b.position + way * (uniform(samples, -0.02, 0.02) - gap_along(a, at_a, b, at_b, way));
+    settle(at_b);
+    check_manifold(a, at_a, b, at_b, 0.05, samples, tally);
+    ASSERT_FALSE(HasFatalFailure()) << "round " << i;
+  }
+  EXPECT_GT(tally.points, 3 * tally.contacts / 2);
 }
 
 struct Resting {
@@ -543,11 +565,11 @@ DETENT_TEST(contact, with_a_half_space_is_where_the_shape_reaches_lowest) {
         }
       }
       ASSERT_GE(least, separation - k_far);
-      above_max = std::max(above_max, (least - separation) / body.size);
+      above_max = std::max(above_max, (least - separation - k_far) / body.size);
     }
     printf("%u: %u points, the deepest at most %.1e of size too high\n", static_cast<uint32_t>(type), points,
            above_max);
-    EXPECT_LE(above_max, 0x1p-10 + 1e-5);
+    EXPECT_LE(above_max, 0x1p-10);
   }
 }
 
