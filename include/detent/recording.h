@@ -86,6 +86,8 @@ class Recorder {
   Status apply_impulse_at(BodyId id, const Vec3<Scaled>& impulse, const Vec3<Real>& arm);
   Status apply_angular_impulse(BodyId id, const Vec3<Scaled>& impulse);
   Status set_gravity(const Vec3<Real>& gravity);
+  Status wake_body(BodyId id);
+  Status put_to_sleep(BodyId id);
   Status set_user_data(BodyId id, uint32_t user_data);
   Status bind_asset(uint32_t index);
   /// Steps the world, and logs the tick and, every `digest_interval` ticks, the digest.

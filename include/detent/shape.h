@@ -12,18 +12,20 @@ enum class ShapeType : uint32_t {
   half_space = 4,
   cylinder = 5,
   cone = 6,
-  hull = 7,      ///< made by make_hull() (convex.h) from cooked bytes
+  hull = 7,      ///< cooked bytes: an asset of the world; or made by make_hull() (convex.h)
   triangle = 8,  ///< made by make_triangle() (convex.h)
 };
 
 /// A convex shape in its body's frame, centred on the centre of mass. Build one with the functions below.
 /// Sizes, m: [2^-14, 2^14] (0.06 mm to 16 km); the ratio of a shape's largest to its smallest size is at most 2^14.
+/// In a world the bounding radius, `rounding` included, is below 2^15 m and at most 2^14 times the least size.
 struct Shape {
   ShapeType type = ShapeType::sphere;
   Real radius = 0.5;                          ///< m; sphere, capsule, cylinder, and a cone's base
   Real half_length = 0.0;                     ///< m; along local y, half: a capsule's core segment, a cylinder, a cone
   Vec3<Real> half_extents = {0.5, 0.5, 0.5};  ///< m; box
-  Real rounding = 0.0;                        ///< m; box, cylinder, cone: grown by a ball of this radius
+  Real rounding = 0.0;  ///< m; box, cylinder, cone, hull: grown by a ball of this radius; 0, or a size
+  uint32_t asset = 0;   ///< hull: index in the world's asset table
 };
 
 /// A ball of the given radius, m.
@@ -65,7 +67,15 @@ constexpr Shape cone(Real radius, Real half_length) {
   shape.half_length = half_length;
   return shape;
 }
-/// The shape grown by a ball of radius `rounding`, m; for box, cylinder and cone.
+/// The cooked hull (docs/hull.md) that the world's asset `asset` holds, once bind_asset() has bound it. Its origin is
+/// the body's; a dynamic body takes one of the principal frame. For create_body(); without a world: make_hull().
+constexpr Shape hull(uint32_t asset) {
+  Shape shape;
+  shape.type = ShapeType::hull;
+  shape.asset = asset;
+  return shape;
+}
+/// The shape grown by a ball of radius `rounding`, m; for box, cylinder, cone and hull.
 constexpr Shape rounded(Shape shape, Real rounding) {
   shape.rounding = rounding;
   return shape;

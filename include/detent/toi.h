@@ -1,15 +1,10 @@
 #pragma once
 #include <detent/convex.h>
+#include <detent/fraction.h>
 
 /// Time of impact of two convex shapes that move and turn. It needs no world.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
-
-/// A part of a step, in [0, 1], in steps of 2^-62.
-using Fraction = Fixed<int64_t, 62>;
-/// Rounded down.
-Real real_from_fraction(Fraction fraction);
-double fraction_to_host(Fraction fraction);
 
 /// A motion over a step: constant velocity of the position and constant spin, world axes.
 struct Motion {

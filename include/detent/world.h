@@ -1,6 +1,7 @@
 #pragma once
 #include <detent/asset.h>
 #include <detent/body.h>
+#include <detent/event.h>
 #include <detent/status.h>
 
 /// The world: a static pool of bodies and contacts in one block of the caller's memory.
@@ -27,37 +28,62 @@ struct WorldDef {
   Capacity capacity = {};
   Vec3<Real> gravity = {Real(0.0), Real(-9.81), Real(0.0)};  ///< m/s^2; each component within +-1024
   Real tick = Real(1.0 / 60.0);                              ///< s, the time of one step, [2^-14, 1/4]
-  uint32_t substeps = 4;                                     ///< solver substeps a tick, [1, 64]
-  uint32_t iterations = 1;                                   ///< sweeps over the contacts a substep, [1, 64]
-  Real relaxation = 1.0;                                     ///< over-relaxation factor of the SOR solver, [1/4, 7/4]
+  uint32_t substeps = 0;        ///< solver substeps a tick, [1, 64]; 0: chosen for each island by what it carries
+  uint32_t substeps_max = 32;   ///< of those chosen, [1, 64]
+  uint32_t iterations = 1;      ///< sweeps over the contacts a substep, [1, 64]
+  Real relaxation = 1.0;        ///< over-relaxation factor of the SOR solver, [1/4, 7/4]
   Real stiffness = Real(0.14);  ///< contact frequency as a fraction of the substep rate, [1/64, 1/4]
   Real damping_ratio = 10.0;    ///< of the soft contacts, [0, 64]
   Real restitution_threshold =
-      0.25;  ///< approach speed below which nothing rebounds, in sqrt(g x smaller extent), [0, 64]
+      0.25;                ///< approach speed below which nothing rebounds, in sqrt(g x smaller extent), [0, 64]
+  bool continuous = true;  ///< bodies meet at the time of impact, however fast: nothing passes through anything
+  bool sleeping = true;    ///< islands that have come to rest are left out of the step until something wakes them
 };
 
 /// Bytes of block that a world of this capacity needs; 0 if the capacity is out of range. The same on every target.
 constexpr uint32_t world_bytes(Capacity capacity);
 
-/// A world in the caller's block. A value of two words and a table: copy it freely; it owns nothing.
+/// A world in the caller's block. A value of a few words: copy it freely; it owns nothing.
 struct World {
   uint8_t* block = nullptr;
   AssetTable assets = {};
+  ContactEventBuffer contact_events = {};  ///< filled by each step, from its front; none by default
 };
 
 /// What one step did. Every count is of this step alone.
 struct StepReport {
-  uint64_t tick = 0;      ///< ticks completed since the world was created
-  uint32_t bodies = 0;    ///< bodies in the world
-  uint32_t pairs = 0;     ///< pairs of overlapping bounds
-  uint32_t contacts = 0;  ///< pairs with at least one contact point
+  uint64_t tick = 0;              ///< ticks completed since the world was created
+  uint32_t bodies = 0;            ///< bodies in the world
+  uint32_t awake = 0;             ///< dynamic bodies that took part in the step
+  uint32_t islands = 0;           ///< groups of awake bodies in contact, single bodies included
+  uint32_t substeps_max = 0;      ///< of any island
+  uint32_t fell_asleep = 0;       ///< bodies, at the end of the step
+  uint32_t woke = 0;              ///< bodies that were touched
+  uint64_t contact_substeps = 0;  ///< contacts times their islands' substeps: the work of the solver
+  uint32_t pairs = 0;             ///< pairs of overlapping bounds
+  uint32_t contacts = 0;          ///< pairs with at least one contact point
   uint32_t contact_points = 0;
+  uint32_t contacts_capped = 0;  ///< found by a search that met its cap (the normal may not be the least way out), or
+                                 ///< not found for want of a hull's bytes
+  uint32_t contact_events = 0;   ///< in the world's buffer
+  uint32_t contact_events_dropped = 0;  ///< beyond its capacity; not counted where there is no buffer
   uint32_t pairs_dropped = 0;  ///< pairs beyond the pair buffer (the largest keys): their contacts are lost this tick
-  uint32_t contacts_dropped = 0;  ///< contacts beyond the capacity (the largest keys), lost this tick
-  uint32_t saturations = 0;       ///< state components clamped to their range
-  uint32_t colour_overflows = 0;  ///< contacts of bodies that touch more than 64 others, solved after the rest
-  /// True if nothing was lost: no pool overflowed and no value was clamped.
-  constexpr bool complete() const { return pairs_dropped == 0 && contacts_dropped == 0 && saturations == 0; }
+  uint32_t contacts_dropped = 0;   ///< contacts beyond the capacity (the largest keys), lost this tick
+  uint32_t saturations = 0;        ///< state components clamped to their range
+  uint32_t impacts = 0;            ///< times at which bodies met within the tick and were made to part
+  uint32_t impacts_undecided = 0;  ///< times of impact found in part, or that could not be asked for
+  uint32_t impacts_dropped = 0;    ///< for want of room, that of contacts: their bodies stayed behind
+  uint32_t overlaps_left = 0;      ///< pairs too deep within each other for continuous collision
+  uint32_t bodies_stopped = 0;     ///< bodies that stayed behind in this tick: too many impacts, or no room for one
+  Real lost_time = 0.0;            ///< sum of the parts of the tick that those missed
+  uint32_t toi_tests = 0;          ///< times of impact asked for
+  uint32_t toi_skipped = 0;        ///< pairs too slow to meet
+  uint32_t colour_overflows = 0;   ///< contacts of bodies that touch more than 64 others, solved after the rest
+  /// True if nothing was lost: no pool overflowed, no search was capped and no value was clamped.
+  constexpr bool complete() const {
+    return pairs_dropped == 0 && contacts_dropped == 0 && contacts_capped == 0 && saturations == 0 &&
+           bodies_stopped == 0;
+  }
 };
 
 /// A world's constant and slowly changing facts.
@@ -73,7 +99,7 @@ struct WorldInfo {
 /// Errors: buffer_too_small, buffer_misaligned, out_of_range.
 Status create_world(uint8_t* block, uint32_t block_bytes, const WorldDef& def, AssetTable assets, World& world);
 
-/// Errors: pool_full, bad_argument, out_of_range, not_normalised.
+/// Errors: pool_full, bad_argument, out_of_range, not_normalised; asset_missing (a hull that is not bound).
 Status create_body(World& world, const BodyDef& def, BodyId& id);
 /// Its contacts end at once. Errors: bad_id.
 Status destroy_body(World& world, BodyId id);
@@ -95,9 +121,15 @@ Status apply_impulse_at(World& world, BodyId id, const Vec3<Scaled>& impulse, co
 Status apply_angular_impulse(World& world, BodyId id, const Vec3<Scaled>& impulse);
 /// Errors: out_of_range.
 Status set_gravity(World& world, const Vec3<Real>& gravity);
+/// Wakes the body and all that it fell asleep with. Calls that move or push a body do so by themselves.
+/// Errors: bad_id, bad_argument (not dynamic).
+Status wake_body(World& world, BodyId id);
+/// Stops the body and leaves it out of the step until something wakes it. Errors: bad_id, bad_argument (not dynamic).
+Status put_to_sleep(World& world, BodyId id);
 /// Errors: bad_id.
 Status set_user_data(World& world, BodyId id, uint32_t user_data);
-/// Binds the table's asset `index` to the state by its content digest. Errors: asset_missing, out_of_range.
+/// Binds the table's asset `index` to the state by its content digest; a cooked hull is checked in full.
+/// Errors: asset_missing, out_of_range, asset_mismatch (bodies have the hull that it was).
 Status bind_asset(World& world, uint32_t index);
 
 /// Advances the world by one tick. Never fails: what could not be done is counted in the report.
@@ -110,6 +142,8 @@ Status get_velocity(const World& world, BodyId id, Vec3<Real>& velocity, Vec3<Re
 /// kg; 0 for fixed and kinematic bodies.
 Status get_mass(const World& world, BodyId id, Scaled& mass);
 Status get_user_data(const World& world, BodyId id, uint32_t& user_data);
+/// Fixed bodies, and kinematic ones that stand still, are never awake. Errors: bad_id.
+Status is_awake(const World& world, BodyId id, bool& awake);
 WorldInfo get_info(const World& world);
 /// Visits bodies in slot order: the first valid id after `previous` (null to begin), or null at the end.
 BodyId next_body(const World& world, BodyId previous);

@@ -16,10 +16,11 @@ struct PairCount {
   uint32_t dropped;  ///< pairs beyond the span: those with the largest keys
 };
 
-/// All pairs of live bodies, one of them dynamic, whose bounds overlap, sorted by key. `order` is work space for as
-/// many slots as there are bodies alive. Sort and sweep along x: O(n log n + the pairs that overlap in x).
-PairCount find_pairs(Span<const BodyTraits> traits, Span<const Bounds> bounds, Span<uint32_t> order,
-                     Span<uint64_t> pairs);
+/// All pairs of live bodies, one of them dynamic, whose bounds overlap, sorted by key. Sort and sweep along the axis in
+/// which the bodies lie farthest apart: O(n + the pairs that overlap in it). `keys` and `spare` are work space for as
+/// many bodies as there are alive, `pair_spare` for as many pairs as `pairs`.
+PairCount find_pairs(Span<const BodyTraits> traits, Span<const Bounds> bounds, Span<BoundsKey> keys,
+                     Span<BoundsKey> spare, Span<uint64_t> pair_spare, Span<uint64_t> pairs);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -1,5 +1,6 @@
 #include "collision/collide.h"
 
+#include "collision/collide_convex.h"
 #include "collision/collide_half_space.h"
 #include "collision/collide_shapes.h"
 
@@ -14,6 +15,13 @@ int rank_of(ShapeType type) { return type == ShapeType::half_space ? 0 : type ==
 
 Vec3<Unit> scaled(const Vec3<Unit>& v, int power) {
   return {scale_by_power(v.x, power), scale_by_power(v.y, power), scale_by_power(v.z, power)};
+}
+
+/// A shape that has ways of its own to meet the others of them.
+bool is_simple(const BodyTraits& traits) {
+  const ShapeType type = static_cast<ShapeType>(traits.shape);
+  return type == ShapeType::sphere || type == ShapeType::capsule || type == ShapeType::half_space ||
+         (type == ShapeType::box && traits.rounding == Unit(0.0));
 }
 
 /// A contact point as an arm in a body's own unit of length. The middle of a deep overlap with a much larger body may
@@ -78,8 +86,14 @@ void swap_bodies(ContactGeometry& contact) {
 
 }  // namespace
 
-void collide(const CollisionBody& a, const CollisionBody& b, Real reach, ContactGeometry& contact) {
+void collide(const CollisionBody& a, const CollisionBody& b, Real reach, ContactGeometry& contact,
+             const AssetTable& assets) {
   contact.count = 0;
+  contact.capped = false;
+  if (!is_simple(a.traits) || !is_simple(b.traits)) {
+    collide_convex(a, b, reach, assets, contact);
+    return;
+  }
   const bool swapped = rank_of(type_of(b)) < rank_of(type_of(a));
   const CollisionBody& first = swapped ? b : a;
   const CollisionBody& second = swapped ? a : b;

@@ -1,4 +1,5 @@
 #pragma once
+#include <detent/asset.h>
 #include <detent/detail/state.h>
 
 #include "math/rotation.h"
@@ -16,6 +17,7 @@ struct ContactGeometryPoint {
 struct ContactGeometry {
   Vec3<Unit> normal;  ///< from A to B
   uint32_t count = 0;
+  bool capped = false;  ///< a search met its cap, or a hull's bytes are missing
   ContactGeometryPoint point[k_manifold_points_max];
 };
 
@@ -27,9 +29,11 @@ struct CollisionBody {
 };
 
 /// Finds the contact points of a pair no farther apart than `reach`, m; none, and an empty result, if there are none.
+/// Spheres, capsules, sharp boxes and half-spaces have ways of their own; the rest go through contact_points().
 /// Precision: 2^-26 of the larger body's bounding diameter (fixed; tests/collision), of a half-space of the other
 /// body's size and 2^-31 of its distance from the plane's origin.
-void collide(const CollisionBody& a, const CollisionBody& b, Real reach, ContactGeometry& contact);
+void collide(const CollisionBody& a, const CollisionBody& b, Real reach, ContactGeometry& contact,
+             const AssetTable& assets = {});
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -5,10 +5,7 @@
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
-namespace {
 
-/// (to - from) . direction, m, exact but for one rounding, clamped to Real's range: the plane's origin may be 10,000 km
-/// off.
 #if DETENT_FIXED
 Real distance_along(const Position& from, const Position& to, const Vec3<Unit>& direction) {
   // Each coordinate by itself: the difference of two 64-bit ones need not fit.
@@ -31,6 +28,8 @@ Real distance_along(const Position& from, const Position& to, const Vec3<Unit>& 
          real_difference(to.z, from.z) * direction.z;
 }
 #endif
+
+namespace {
 
 /// Collects points of the body, given from its centre in its unit of length, that lie within reach of the plane.
 struct Collector {

@@ -11,9 +11,11 @@ ContactState continued_contact(uint32_t body_a, uint32_t body_b, const ContactGe
   contact.point_count = geometry.count;
   for (uint32_t i = 0; i < geometry.count; ++i) contact.feature[i] = geometry.point[i].feature;
   if (before == nullptr) return contact;
-  contact.age = before->age == UINT32_MAX ? UINT32_MAX : before->age + 1;
+  contact.age = before->age == UINT16_MAX ? before->age : static_cast<uint16_t>(before->age + 1);
+  contact.touching = before->touching;
   contact.friction_impulse = before->friction_impulse;
   contact.angular_impulse = before->angular_impulse;
+  contact.load = before->load;
   for (uint32_t i = 0; i < contact.point_count; ++i) {
     for (uint32_t j = 0; j < before->point_count; ++j) {
       if (before->feature[j] == contact.feature[i]) contact.normal_impulse[i] = before->normal_impulse[j];

@@ -1,8 +1,8 @@
 #include "dynamics/contact_order.h"
 
 #include "base/digest.h"
-#include "base/heap.h"
-#include "dynamics/spin.h"
+#include "base/radix_sort.h"
+#include "dynamics/island.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -14,40 +14,45 @@ uint64_t id_word(Span<const BodyTraits> traits, uint32_t slot) {
   return (uint64_t{traits[slot].generation} << 32) | (slot + 1);
 }
 
-uint64_t pair_hash(Span<const BodyTraits> traits, const ContactState& contact) {
+uint32_t pair_hash(Span<const BodyTraits> traits, const ContactState& contact) {
   const uint64_t low = digest_step(k_order_seed, id_word(traits, contact.body_a));
-  return digest_finish(digest_step(low, id_word(traits, contact.body_b)));
+  return static_cast<uint32_t>(digest_finish(digest_step(low, id_word(traits, contact.body_b))) >> 32);
+}
+
+/// The lowest colour free at both bodies, taken; or k_colour_overflow.
+uint32_t take_colour(Span<const BodyTraits> traits, const ContactState& contact, Span<BodyWork> work) {
+  const bool colours_a = is_dynamic(traits[contact.body_a]), colours_b = is_dynamic(traits[contact.body_b]);
+  uint64_t taken = 0;
+  if (colours_a) taken |= work[contact.body_a].colours;
+  if (colours_b) taken |= work[contact.body_b].colours;
+  if (taken == UINT64_MAX) return k_colour_overflow;
+  const uint32_t colour = static_cast<uint32_t>(__builtin_ctzll(~taken));
+  const uint64_t mark = uint64_t{1} << colour;
+  if (colours_a) work[contact.body_a].colours |= mark;
+  if (colours_b) work[contact.body_b].colours |= mark;
+  return colour;
 }
 
 }  // namespace
 
-uint32_t order_contacts(Span<const BodyTraits> traits, Span<const ContactWork> contacts, Span<BodyWork> work,
-                        Span<ContactOrder> order) {
-  for (uint32_t i = 0; i < contacts.count; ++i) order[i] = {pair_hash(traits, contacts[i].state), i, 0};
-  const auto by_key = [](const ContactOrder& a, const ContactOrder& b) {
-    return a.key < b.key || (a.key == b.key && a.contact < b.contact);
-  };
-  heap_sort(order, by_key);
+uint32_t order_contacts(Span<const BodyTraits> traits, Span<const ContactWork> contacts, Span<const Island> islands,
+                        Span<BodyWork> work, Span<ContactOrder> spare, Span<ContactOrder> order) {
+  for (uint32_t i = 0; i < contacts.count; ++i) {
+    order[i] = {pair_hash(traits, contacts[i].state), i, 0, island_of(traits, work, contacts[i].state)};
+  }
+  radix_sort(
+      order, spare, [](const ContactOrder& entry, int digit) { return entry.key >> (8 * digit) & 255; }, 4);
   uint32_t overflows = 0;
   for (ContactOrder& entry : order) {
-    const ContactState& contact = contacts[entry.contact].state;
-    const bool colours_a = is_dynamic(traits[contact.body_a]), colours_b = is_dynamic(traits[contact.body_b]);
-    uint64_t taken = 0;
-    if (colours_a) taken |= work[contact.body_a].colours;
-    if (colours_b) taken |= work[contact.body_b].colours;
-    if (taken == UINT64_MAX) {
-      entry.colour = k_colour_overflow;
-      ++overflows;
-      continue;
-    }
-    entry.colour = static_cast<uint32_t>(__builtin_ctzll(~taken));
-    const uint64_t mark = uint64_t{1} << entry.colour;
-    if (colours_a) work[contact.body_a].colours |= mark;
-    if (colours_b) work[contact.body_b].colours |= mark;
+    entry.colour = take_colour(traits, contacts[entry.contact].state, work);
+    overflows += entry.colour == k_colour_overflow ? 1 : 0;
   }
-  heap_sort(order, [&](const ContactOrder& a, const ContactOrder& b) {
-    return a.colour < b.colour || (a.colour == b.colour && by_key(a, b));
-  });
+  radix_sort(
+      order, spare, [](const ContactOrder& entry, int) { return entry.colour; }, 1);
+  // Each island's have their place; what is before it in this order stays before it.
+  for (uint32_t i = 0; i < order.count; ++i) spare[i] = order[i];
+  for (uint32_t i = 0; i < islands.count; ++i) work[i].run = islands[i].first_contact;
+  for (const ContactOrder& entry : spare.first(order.count)) order[work[entry.island].run++] = entry;
   return overflows;
 }
 

@@ -28,30 +28,55 @@ uint32_t hold_speeds(const BodyTraits& traits, const Quat& rotation, BodyMotion&
   return clamped;
 }
 
-uint32_t finalise(Span<const BodyTraits> traits, Span<const BodyWork> work, Span<BodyPose> poses,
-                  Span<BodyMotion> motions) {
+uint32_t make_sweeps(Span<const BodyTraits> traits, Span<const BodyWork> work, Span<const BodyPose> poses,
+                     Span<BodySweep> sweeps) {
   uint32_t clamped = 0;
   for (uint32_t slot = 0; slot < traits.count; ++slot) {
     const BodyTraits& body = traits[slot];
+    sweeps[slot] = {};
     if (body.type == 0 || type_of(body) == BodyType::fixed) continue;
     const BodyWork& now = work[slot];
-    BodyPose& pose = poses[slot];
     bool turns_clamped = false;
     const int exponent = body.size_exponent;
     const Vec3<Real> turn = {angle_of(now.turn.x, exponent, turns_clamped),
                              angle_of(now.turn.y, exponent, turns_clamped),
                              angle_of(now.turn.z, exponent, turns_clamped)};
-    const Sweep sweep = sweep_between(pose.rotation, now.rotation, now.displacement, turn);
-    pose.rotation = sweep_end_rotation(pose.rotation, sweep);
-    clamped += sweep_end_position(pose, sweep) + (turns_clamped ? 1 : 0);
+    const Sweep sweep = sweep_between(poses[slot].rotation, now.rotation, now.displacement, turn);
+    sweeps[slot].displacement = sweep.displacement;
+    sweeps[slot].turn = sweep.turn;
+    clamped += turns_clamped ? 1 : 0;
+  }
+  return clamped;
+}
+
+uint32_t finalise(Span<const BodyTraits> traits, Span<const BodySweep> sweeps, Span<BodyPose> poses,
+                  Span<BodyMotion> motions) {
+  uint32_t clamped = 0;
+  for (uint32_t slot = 0; slot < traits.count; ++slot) {
+    const BodyTraits& body = traits[slot];
+    if (body.type == 0 || type_of(body) == BodyType::fixed) continue;
+    BodyPose& pose = poses[slot];
+    const Sweep rest = rest_of_tick(sweeps[slot]);
+    pose.rotation = sweep_end_rotation(pose.rotation, rest);
+    clamped += sweep_end_position(pose, rest);
     if (is_dynamic(body)) clamped += hold_speeds(body, pose.rotation, motions[slot]);
   }
   return clamped;
 }
 
-void store_contacts(Span<const ContactWork> work, Span<ContactState> contacts, uint32_t before) {
-  for (uint32_t i = 0; i < work.count; ++i) contacts[i] = work[i].state;
-  for (uint32_t i = work.count; i < before; ++i) contacts[i] = ContactState{};
+void store_contacts(Span<const ContactWork> work, uint32_t sleeping, uint32_t before, Span<ContactState> contacts) {
+  const auto precedes = [](const ContactState& a, const ContactState& b) {
+    return a.body_a < b.body_a || (a.body_a == b.body_a && a.body_b < b.body_b);
+  };
+  const uint32_t count = sleeping + work.count;
+  uint32_t left = work.count;
+  for (uint32_t place = count; left > 0; --place) {
+    const ContactState& state = work[left - 1].state;
+    const bool sleeps = sleeping > 0 && precedes(state, contacts[sleeping - 1]);
+    contacts[place - 1] = sleeps ? contacts[--sleeping] : state;
+    left -= sleeps ? 0 : 1;
+  }
+  for (uint32_t i = count; i < before; ++i) contacts[i] = ContactState{};
 }
 
 }  // namespace DETENT_NAMESPACE

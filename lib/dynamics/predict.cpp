@@ -22,25 +22,27 @@ Real absolute_sum(const Vec3<Real>& v) { return abs(v.x) + abs(v.y) + abs(v.z); 
 
 }  // namespace
 
-void predict(const StepSettings& settings, Span<const BodyPose> poses, Span<const BodyTraits> traits,
+void start_bodies(Span<const BodyPose> poses, Span<BodyWork> work) {
+  const Real zero = 0.0;
+  const Vec3<Real> none = {zero, zero, zero};
+  for (uint32_t slot = 0; slot < poses.count; ++slot) {
+    work[slot].rotation = poses[slot].rotation;
+    work[slot].displacement = none;
+    work[slot].turn = none;
+  }
+}
+
+void predict(const StepSettings& settings, Span<const BodyTraits> traits, Span<const uint32_t> bodies,
              Span<BodyMotion> motions, Span<BodyWork> work) {
   const Real zero = 0.0;
   const Vec3<Real> none = {zero, zero, zero};
   const Vec3<Real> gravity_push = settings.gravity * settings.time;
-  for (uint32_t slot = 0; slot < traits.count; ++slot) {
-    if (traits[slot].type == 0) continue;
+  for (const uint32_t slot : bodies) {
     const BodyTraits& body = traits[slot];
     BodyMotion& motion = motions[slot];
     BodyWork& now = work[slot];
-    now.colours = 0;
-    now.rotation = poses[slot].rotation;
-    now.displacement = none;
-    now.turn = none;
-    now.push = none;
-    now.twist = none;
-    now.linear_kept = now.angular_kept = Scaled(1.0);
-    if (!is_dynamic(body)) continue;
     now.push = scaled(gravity_push, body.gravity_scale);
+    now.twist = none;
     if (!(motion.pending_velocity == none)) now.push += scaled(motion.pending_velocity, settings.share);
     if (!(motion.pending_momentum == none)) now.twist = scaled(motion.pending_momentum, settings.share);
     motion.pending_velocity = motion.pending_momentum = none;

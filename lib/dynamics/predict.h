@@ -7,9 +7,11 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Starts the tick of every body: its work record from its state, and what gravity, forces and damping do in a substep.
-/// The forces are taken over and cleared.
-void predict(const StepSettings& settings, Span<const BodyPose> poses, Span<const BodyTraits> traits,
+/// Starts the tick of every body: it has not moved yet.
+void start_bodies(Span<const BodyPose> poses, Span<BodyWork> work);
+
+/// What gravity, forces and damping do to the bodies of an island in a substep. The forces are taken over and cleared.
+void predict(const StepSettings& settings, Span<const BodyTraits> traits, Span<const uint32_t> bodies,
              Span<BodyMotion> motions, Span<BodyWork> work);
 
 /// Bounds of every body over its predicted motion of this tick, with a margin of 1/64 of its smallest diameter.

@@ -14,11 +14,19 @@ struct SolverBodies {
   Span<BodyWork> work;
 };
 
-/// Runs the substeps: velocities, warm start, soft normals, positions, relaxation with friction; then restitution once.
-/// SOR over the contacts in the given order, in velocity units. Returns the number of values that were clamped.
+/// Runs an island's substeps: velocities, warm start, soft normals, positions, relaxation with friction; then
+/// restitution once. SOR over the contacts in the given order, in velocity units. `settings` has the island's substeps.
+/// Returns the number of values that were clamped.
 /// Source: Macklin and others, "Small Steps in Physics Simulation", 2019; Catto, "Solver2D", 2024 (soft step).
-uint32_t solve(const StepSettings& settings, const SolverBodies& bodies, Span<const ContactOrder> order,
-               Span<ContactWork> contacts);
+uint32_t solve(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> island,
+               Span<const ContactOrder> order, Span<ContactWork> contacts);
+
+/// Moves an island without contacts: under constant acceleration its centre's way is exact, and each body's turning is
+/// split in four (spin.h).
+uint32_t fly(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> island);
+
+/// Moves the kinematic bodies through the tick.
+uint32_t carry(const StepSettings& settings, const SolverBodies& bodies);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -11,10 +11,13 @@ struct BodyFrame {
   Real momentum[3];  ///< in the body's axes
 };
 
-/// The exact motion for `time` of a body that has a moment of inertia about one axis alone.
-void turn_about(int axis, const BodyTraits& traits, Real time, BodyFrame& frame, bool& clamped) {
-  const Real spin = multiply(frame.momentum[axis], traits.gyration[axis]);
-  const Real angle = angle_of(spin * time, traits.size_exponent, clamped);
+/// Turns the frame about one of its axes at `rate` times the momentum about it for `time`; the momentum stays as it is
+/// in the world.
+void turn_about(int axis, Scaled rate, int exponent, Real time, BodyFrame& frame, bool& clamped) {
+  bool saturated = false;
+  const Real spin = multiply(frame.momentum[axis], rate, saturated);
+  const Real angle = angle_of(spin * time, exponent, clamped);
+  clamped = clamped || saturated;
   Unit sine = 0.0, cosine = 1.0;
   sine_cosine_of_half_radians(angle, sine, cosine);
   Unit part[3] = {0.0, 0.0, 0.0};
@@ -29,29 +32,55 @@ void turn_about(int axis, const BodyTraits& traits, Real time, BodyFrame& frame,
   next = turned;
 }
 
+Scaled difference(Scaled a, Scaled b) { return add(a, negate(b)); }
+Scaled distance(Scaled a, Scaled b) { return less(a, b) ? difference(b, a) : difference(a, b); }
+
+/// The axis whose gyration is farthest from the other two.
+int odd_axis(const Scaled (&gyration)[3]) {
+  const Scaled apart[3] = {distance(gyration[1], gyration[2]), distance(gyration[2], gyration[0]),
+                           distance(gyration[0], gyration[1])};
+  const int least = less(apart[1], apart[0]) ? 1 : 0;
+  return less(apart[2], apart[least]) ? 2 : least;
+}
+
+/// Turns by `spin`, m/s at the radius 2^exponent m, for `time` about a world axis.
+Quat turned(const Quat& rotation, const Vec3<Real>& spin, int exponent, Real time, bool& clamped) {
+  const Vec3<Real> angle = {angle_of(spin.x * time, exponent, clamped), angle_of(spin.y * time, exponent, clamped),
+                            angle_of(spin.z * time, exponent, clamped)};
+  return normalise(multiply(rotation_from_vector(angle), rotation));
+}
+
 }  // namespace
 
-bool turn_freely(const BodyTraits& traits, const Vec3<Real>& momentum, const Vec3<Real>& spin, Real time,
+bool turn_freely(const BodyTraits& traits, const Vec3<Real>& momentum, const Vec3<Real>& spin, Real time, int halvings,
                  Quat& rotation) {
   const Real zero = 0.0;
   bool clamped = false;
   if (spin == Vec3<Real>{zero, zero, zero}) return true;
+  const int exponent = traits.size_exponent;
   if (!is_dynamic(traits) || is_isotropic(traits)) {
-    const Vec3<Real> angle = {angle_of(spin.x * time, traits.size_exponent, clamped),
-                              angle_of(spin.y * time, traits.size_exponent, clamped),
-                              angle_of(spin.z * time, traits.size_exponent, clamped)};
-    rotation = normalise(multiply(rotation_from_vector(angle), rotation));
+    rotation = turned(rotation, spin, exponent, time, clamped);
     return !clamped;
   }
+  const int a = odd_axis(traits.gyration), b = (a + 1) % 3, c = (a + 2) % 3;
+  const Scaled common = traits.gyration[b], rest = difference(traits.gyration[c], common);
+  const Scaled odd = difference(traits.gyration[a], common);
   const Vec3<Real> local = rotate_inverse(rotation, momentum);
   BodyFrame frame = {rotation, {local.x, local.y, local.z}};
-  const Real half = scale_by_power(time, -1);
-  turn_about(0, traits, half, frame, clamped);
-  turn_about(1, traits, half, frame, clamped);
-  turn_about(2, traits, time, frame, clamped);
-  turn_about(1, traits, half, frame, clamped);
-  turn_about(0, traits, half, frame, clamped);
-  rotation = normalise(frame.rotation);
+  // The turn about the momentum goes with all others: it is made once, at the end.
+  if (rest == Scaled(0.0)) {
+    turn_about(a, odd, exponent, time, frame, clamped);
+  } else {
+    const Real part = scale_by_power(time, -halvings), half = scale_by_power(part, -1);
+    const int steps = 1 << halvings;
+    for (int step = 0; step < steps; ++step) {
+      turn_about(c, rest, exponent, step == 0 ? half : part, frame, clamped);
+      turn_about(a, odd, exponent, part, frame, clamped);
+    }
+    turn_about(c, rest, exponent, half, frame, clamped);
+  }
+  const Vec3<Real> about = {multiply(momentum.x, common), multiply(momentum.y, common), multiply(momentum.z, common)};
+  rotation = turned(frame.rotation, about, exponent, time, clamped);
   return !clamped;
 }
 

@@ -40,11 +40,14 @@ inline Vec3<Real> spin_of(const BodyTraits& traits, const Quat& rotation, const 
   return rotate(rotation, gyrate(rotate_inverse(rotation, momentum)));
 }
 
-/// Turns `rotation` for `time`, s, by the free motion of a body of this momentum: exact for a body whose gyrations are
-/// equal; otherwise by five exact rotations about its axes (Strang splitting), which keep the momentum exactly and the
-/// energy to second order. `spin` is spin_of at the start. Returns false if the angle was clamped, to 2^15 rad.
-/// Source: Dullweber, Leimkuhler, McLachlan, "Symplectic splitting methods for rigid body molecular dynamics", 1997.
-bool turn_freely(const BodyTraits& traits, const Vec3<Real>& momentum, const Vec3<Real>& spin, Real time,
+/// Turns `rotation` for `time`, s, by the free motion of a body of this momentum. With 1/I of two axes, b and c, near
+/// each other and that of the third, a, apart, the energy is |L|^2 / 2I_b, whose motion is a turn about L, and the
+/// rest: (1/I_a - 1/I_b) L_a^2 / 2 and (1/I_c - 1/I_b) L_c^2 / 2, whose motions are turns about those axes. Each is
+/// exact; the last is split in two halves about the other (Strang), so the momentum is kept exactly and the energy to
+/// second order in 1/I_c - 1/I_b: a symmetric body, however slender, moves exactly. `spin` is spin_of at the start.
+/// Returns false if an angle was clamped, to 2^15 rad. Source: Dullweber, Leimkuhler, McLachlan, "Symplectic splitting
+/// methods for rigid body molecular dynamics", 1997.
+bool turn_freely(const BodyTraits& traits, const Vec3<Real>& momentum, const Vec3<Real>& spin, Real time, int halvings,
                  Quat& rotation);
 
 }  // namespace DETENT_NAMESPACE

@@ -18,9 +18,18 @@ Softness softness(Real stiffness, Real damping_ratio) {
   return {unit_from_real(divide(phase, a1), 0), unit_from_real(a2 * inverse, 0), unit_from_real(inverse, 0)};
 }
 
+/// The least e with a < 2^e. Range: a > 0.
+int exponent_of(Scaled a) {
+#if DETENT_FIXED
+  return a.exponent + 31;
+#else
+  return exponent_above(a);
+#endif
+}
+
 Real real_from(uint32_t count) {
   Real sum = 0.0;
-  for (int bit = 0; bit < 8; ++bit) {
+  for (int bit = 0; bit < 17; ++bit) {
     if ((count >> bit & 1) != 0) sum += scale_by_power(Real(1.0), bit);
   }
   return sum;
@@ -30,19 +39,40 @@ Real real_from(uint32_t count) {
 
 StepSettings step_settings(const WorldState& world) {
   StepSettings settings;
-  settings.substeps = world.substeps;
+  settings.substeps_fixed = world.substeps;
+  settings.substeps_max = world.substeps_max;
   settings.iterations = world.iterations;
   settings.tick_time = world.tick_time;
-  settings.time = divide(world.tick_time, real_from(world.substeps));
-  settings.share = divide(Scaled(1.0), scaled_from(real_from(world.substeps)));
-  settings.rate = divide(Scaled(1.0), scaled_from(settings.time));
-  settings.relaxation = world.relaxation;
+  settings.sleeping = world.sleeping != 0;
+  const Scaled rate = divide(scaled_from(world.tick_time), scaled_from(k_two_pi * world.stiffness));
+  settings.substeps_per_rate = multiply(rate, rate);
+  set_substeps(world.substeps == 0 ? 1 : world.substeps, settings);
+  settings.relaxation = unit_from_real(world.relaxation, 0);
   settings.gravity = world.gravity;
   settings.gravity_size = max(length(world.gravity), Real(1.0));
   settings.restitution_threshold = world.restitution_threshold;
   settings.dynamic_softness = softness(world.stiffness, world.damping_ratio);
   settings.static_softness = softness(scale_by_power(world.stiffness, 1), scale_by_power(world.damping_ratio, -1));
   return settings;
+}
+
+Real fall_speed(const StepSettings& settings, Real extent) {
+  return scale_by_power(square_root(scale_by_power(settings.gravity_size, -10) * extent), 5);
+}
+
+void set_substeps(uint32_t substeps, StepSettings& settings) {
+  settings.substeps = substeps;
+  settings.time = divide(settings.tick_time, real_from(substeps));
+  settings.share = divide(Scaled(1.0), scaled_from_count(substeps));
+  settings.rate = divide(Scaled(1.0), scaled_from(settings.time));
+  settings.gap_max = settings.time * Real(32768.0);
+  settings.rate_exponent = exponent_of(settings.rate);
+  settings.rate_mantissa = to_unit(scaled_by_power(settings.rate, -settings.rate_exponent));
+}
+
+Scaled scaled_from_count(uint32_t count) {
+  constexpr uint32_t k_most = (1u << 17) - 1;
+  return scaled_from(real_from(count < k_most ? count : k_most));
 }
 
 }  // namespace DETENT_NAMESPACE

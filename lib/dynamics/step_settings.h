@@ -17,13 +17,20 @@ struct Softness {
 
 /// The world's settings as the stages use them, derived once a step.
 struct StepSettings {
-  uint32_t substeps;
+  uint32_t substeps_fixed;  ///< 0: each island has its own
+  uint32_t substeps_max;
+  Scaled substeps_per_rate;  ///< (substeps / contact frequency, rad/s)^2: of contacts between dynamic bodies, s^2
   uint32_t iterations;
-  Real tick_time;  ///< s
-  Real time;       ///< of a substep, s
-  Scaled rate;     ///< substeps a second
-  Scaled share;    ///< of a tick that a substep is
-  Real relaxation;
+  bool sleeping;
+  Real tick_time;      ///< s
+  uint32_t substeps;   ///< as set_substeps() has it, like the next three
+  Real time;           ///< of a substep, s
+  Scaled rate;         ///< substeps a second
+  Scaled share;        ///< of a tick that a substep is
+  Unit rate_mantissa;  ///< rate = rate_mantissa 2^rate_exponent
+  int32_t rate_exponent;
+  Real gap_max;  ///< what a speed of 2^15 m/s closes in a substep, m
+  Unit relaxation;
   Vec3<Real> gravity;  ///< m/s^2
   Real gravity_size;   ///< m/s^2, at least 1: what speeds are measured against
   Real restitution_threshold;
@@ -32,6 +39,17 @@ struct StepSettings {
 };
 
 StepSettings step_settings(const WorldState& world);
+/// A length that is made up for in a substep, as a speed, m/s; held to +-2^15 m/s.
+inline Real speed_over(const StepSettings& settings, Real length) {
+  return scale_by_power(clamp(length, -settings.gap_max, settings.gap_max) * settings.rate_mantissa,
+                        settings.rate_exponent);
+}
+/// The speed of a fall by `extent`, m/s: what speeds are measured against. Range: extent <= 2^15 m.
+Real fall_speed(const StepSettings& settings, Real extent);
+/// Makes them those of an island of so many substeps. Range: [1, 64].
+void set_substeps(uint32_t substeps, StepSettings& settings);
+/// Held to 2^17 - 1.
+Scaled scaled_from_count(uint32_t count);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

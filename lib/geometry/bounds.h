@@ -2,6 +2,7 @@
 #include <detent/detail/scratch.h>
 
 #include "math/arithmetic.h"
+#include "math/root.h"
 #include "math/rotation.h"
 
 namespace detent {
@@ -16,7 +17,8 @@ inline constexpr Coord k_coord_limit =
 inline constexpr Bounds k_everywhere = {{-k_coord_limit, -k_coord_limit, -k_coord_limit},
                                         {k_coord_limit, k_coord_limit, k_coord_limit}};
 
-/// Half the size of the shape's axis-aligned bounds, m, world axes. Not for a half-space.
+/// The least half size of axis-aligned bounds around the body's position that hold the shape, m, world axes. Not for a
+/// half-space. A hull's hold the box of its half extents, or its bounding ball where that is less.
 /// Rounding: within 2^-28 of the body's unit of length.
 inline Vec3<Real> half_bounds(const BodyTraits& traits, const Matrix3& rotation) {
   const Unit zero = 0.0;
@@ -31,6 +33,7 @@ inline Vec3<Real> half_bounds(const BodyTraits& traits, const Matrix3& rotation)
               abs(axis.z) * traits.size.y + traits.size.x};
       break;
     }
+    case ShapeType::hull:
     case ShapeType::box: {
       const Vec3<Unit>&x = rotation.column[0], &y = rotation.column[1], &z = rotation.column[2];
       half = {dot(Vec3<Unit>{abs(x.x), abs(y.x), abs(z.x)}, traits.size),
@@ -38,8 +41,25 @@ inline Vec3<Real> half_bounds(const BodyTraits& traits, const Matrix3& rotation)
               dot(Vec3<Unit>{abs(x.z), abs(y.z), abs(z.z)}, traits.size)};
       break;
     }
+    case ShapeType::cylinder:
+    case ShapeType::cone: {
+      const Vec3<Unit>&x = rotation.column[0], &y = rotation.column[1], &z = rotation.column[2];
+      const auto disc = [&](Unit a, Unit b) { return length(Vec3<Unit>{a, b, zero}) * traits.size.x; };
+      const Vec3<Unit> rim = {disc(x.x, z.x), disc(x.y, z.y), disc(x.z, z.z)};
+      const Vec3<Unit> axis = {abs(y.x) * traits.size.y, abs(y.y) * traits.size.y, abs(y.z) * traits.size.y};
+      half = rim + axis;
+      if (static_cast<ShapeType>(traits.shape) == ShapeType::cylinder) break;
+      const auto cone = [](Unit a, Unit r) { return max(a + scale_by_power(a, -1), scale_by_power(a, -1) + r); };
+      half = {cone(axis.x, rim.x), cone(axis.y, rim.y), cone(axis.z, rim.z)};
+      break;
+    }
     default:
       break;
+  }
+  if (!(traits.rounding == zero)) half += Vec3<Unit>{traits.rounding, traits.rounding, traits.rounding};
+  if (static_cast<ShapeType>(traits.shape) == ShapeType::hull) {
+    const Unit ball = traits.bounding_radius;
+    half = {min(half.x, ball), min(half.y, ball), min(half.z, ball)};
   }
   return {real_from_unit(half.x, traits.size_exponent), real_from_unit(half.y, traits.size_exponent),
           real_from_unit(half.z, traits.size_exponent)};

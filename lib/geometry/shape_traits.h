@@ -1,21 +1,57 @@
 #pragma once
+#include <detent/asset.h>
 #include <detent/detail/state.h>
 #include <detent/status.h>
+
+#include "geometry/hull.h"
+#include "math/root.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Fills shape, size_exponent, size and bounding_radius of `traits`. Errors: bad_argument, out_of_range.
-Status set_shape(const Shape& shape, BodyTraits& traits);
+inline ShapeType shape_of(const BodyTraits& traits) { return static_cast<ShapeType>(traits.shape); }
 
-/// Volume of the shape, m^3. Relative error below 2^-26. 0 for a half-space.
-Scaled shape_volume(const BodyTraits& traits);
+/// The greatest distance of a point of the core from the origin; not for a hull. T: Real or Unit, of both sides.
+template <class T>
+T core_bound(ShapeType type, const Vec3<T>& size) {
+  const T zero = 0.0;
+  switch (type) {
+    case ShapeType::sphere:
+      return size.x;
+    case ShapeType::capsule:
+      return size.x + size.y;
+    case ShapeType::box:
+    case ShapeType::cylinder:
+      return length(size);
+    case ShapeType::cone: {
+      const T base = scale_by_power(size.y, -1);
+      return max(length(Vec3<T>{size.x, base, zero}), size.y + base);
+    }
+    default:
+      return zero;
+  }
+}
+
+/// The greatest |x|, |y| and |z| of the vertices, in the unit 2^exponent m, which is at least the hull's own.
+Vec3<Unit> hull_half_extents(const HullView& hull, int32_t exponent);
+/// The hull's core radius, in the unit 2^exponent m.
+Unit hull_radius(const HullView& hull, int32_t exponent);
+
+/// Fills shape, size_exponent, size, bounding_radius, rounding and asset of `traits`. A hull is that of the table,
+/// whose bytes read_hull() has accepted. Errors: bad_argument, out_of_range, asset_missing.
+Status set_shape(const Shape& shape, BodyTraits& traits, const AssetTable& assets = {});
+
+/// Volume of the shape, m^3. Relative error below 2^-26. 0 for a half-space. A rounded shape counts as the sharp one
+/// whose sizes (of a hull: half extents, by which it is stretched) are greater by the rounding.
+Scaled shape_volume(const BodyTraits& traits, const AssetTable& assets = {});
 
 /// m (2^size_exponent)^2 / I about the body's axes, for uniform density: it does not depend on mass or scale.
-/// Relative error below 2^-24. Source: the standard moments of the box, ball, cylinder and half-ball.
-void set_gyration(BodyTraits& traits);
+/// Relative error below 2^-24; a hull's is its file's. Rounded shapes as in shape_volume().
+/// Source: the standard moments of the box, ball, cylinder, cone and half-ball.
+void set_gyration(BodyTraits& traits, const AssetTable& assets = {});
 
-/// Smallest diameter of the shape, m; what tolerances of a pair are fractions of. 2^14 for a half-space.
+/// Smallest diameter of the shape, m; what tolerances of a pair are fractions of. 2^14 for a half-space. Of a cone the
+/// lesser of height and base, up to 12 % too much; of a hull twice the least half extent, up to 50 %.
 Real shape_extent(const BodyTraits& traits);
 
 }  // namespace DETENT_NAMESPACE

@@ -97,5 +97,61 @@ uint32_t sweep_end_position(BodyPose& pose, const Sweep& sweep) {
   return clamped;
 }
 
+namespace {
+
+#if DETENT_FIXED
+Real part_of(Real whole, Fraction part) {
+  return Real::from_raw(Int128::product(whole.raw, part.raw).round_shift(Fraction::k_frac));
+}
+#else
+Real part_of(Real whole, Fraction part) { return whole * float_from_integer<Real>(part.raw, -Fraction::k_frac); }
+#endif
+
+#if defined(DETENT_F32)
+/// The product of the two in full: a float's error over a long way is more than positions have.
+bool advance_part(Coord& coordinate, Real whole, Fraction part) {
+  constexpr int k_bits = 46;
+  bool saturated = false;
+  const int64_t way = integer_from_float(whole, k_bits, saturated);
+  const int64_t step = Int128::product(way, part.raw).round_shift(Fraction::k_frac + k_bits - Coord::k_frac);
+  const int64_t sum = add_wrapped(coordinate.raw, step);
+  if (((coordinate.raw ^ sum) & (step ^ sum)) < 0) {
+    saturated = true;
+    coordinate = Coord::from_raw(step < 0 ? INT64_MIN : INT64_MAX);
+  } else {
+    coordinate = Coord::from_raw(sum);
+  }
+  return saturated;
+}
+#endif
+
+}  // namespace
+
+Sweep sweep_part(const Sweep& sweep, Fraction part) {
+  const auto of = [part](const Vec3<Real>& v) {
+    return Vec3<Real>{part_of(v.x, part), part_of(v.y, part), part_of(v.z, part)};
+  };
+  return {of(sweep.displacement), of(sweep.turn)};
+}
+
+uint32_t advance_along(const Sweep& sweep, Fraction part, BodyPose& pose) {
+  const Sweep now = sweep_part(sweep, part);
+  pose.rotation = sweep_end_rotation(pose.rotation, now);
+#if defined(DETENT_F32)
+  const bool x = advance_part(pose.position.x, sweep.displacement.x, part);
+  const bool y = advance_part(pose.position.y, sweep.displacement.y, part);
+  const bool z = advance_part(pose.position.z, sweep.displacement.z, part);
+  return (x ? 1u : 0u) + (y ? 1u : 0u) + (z ? 1u : 0u);
+#else
+  return sweep_end_position(pose, now);
+#endif
+}
+
+Fraction fraction_product(Fraction a, Fraction b) {
+  const Int128 product = Int128::product(a.raw, b.raw);
+  return Fraction::from_raw(static_cast<int64_t>((static_cast<uint64_t>(product.high_word()) << 2) |
+                                                 (product.low_word() >> Fraction::k_frac)));
+}
+
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -24,6 +24,8 @@ enum class RecordTag : uint8_t {
   bind_asset = 12,
   tick = 13,           ///< a step
   tick_digested = 14,  ///< a step, and the digest after it
+  wake_body = 15,
+  put_to_sleep = 16,
 };
 
 struct CreateBody {
@@ -31,10 +33,15 @@ struct CreateBody {
   BodyDef def = {};
   BodyId id = {};  ///< what the call gave
 };
-struct DestroyBody {
-  static constexpr RecordTag k_tag = RecordTag::destroy_body;
+/// The calls that need no more than a body.
+template <RecordTag tag, Status (*call)(World&, BodyId)>
+struct OnBody {
+  static constexpr RecordTag k_tag = tag;
   BodyId id = {};
 };
+using DestroyBody = OnBody<RecordTag::destroy_body, destroy_body>;
+using WakeBody = OnBody<RecordTag::wake_body, wake_body>;
+using PutToSleep = OnBody<RecordTag::put_to_sleep, put_to_sleep>;
 struct SetPose {
   static constexpr RecordTag k_tag = RecordTag::set_pose;
   BodyId id = {};
@@ -93,10 +100,12 @@ void visit(Archive& archive, BodyId& id) {
 
 template <class Archive>
 void visit(Archive& archive, Shape& shape) {
-  visit_choice(archive, "shape type", shape.type, ShapeType::sphere, ShapeType::half_space);
+  visit_choice(archive, "shape type", shape.type, ShapeType::sphere, ShapeType::hull);
   visit_number(archive, "radius", shape.radius);
   visit_number(archive, "half length", shape.half_length);
   visit_number(archive, "half extents", shape.half_extents);
+  visit_number(archive, "rounding", shape.rounding);
+  visit_word(archive, "shape asset", shape.asset);
 }
 
 template <class Archive>
@@ -130,8 +139,8 @@ void visit(Archive& archive, CreateBody& command) {
   visit(archive, command.def);
   visit(archive, command.id);
 }
-template <class Archive>
-void visit(Archive& archive, DestroyBody& command) {
+template <class Archive, RecordTag tag, Status (*call)(World&, BodyId)>
+void visit(Archive& archive, OnBody<tag, call>& command) {
   visit(archive, command.id);
 }
 template <class Archive>
@@ -178,7 +187,10 @@ void visit(Archive& archive, TickDigested& command) {
 }
 
 inline Status apply(World& world, CreateBody& command) { return create_body(world, command.def, command.id); }
-inline Status apply(World& world, DestroyBody& command) { return destroy_body(world, command.id); }
+template <RecordTag tag, Status (*call)(World&, BodyId)>
+Status apply(World& world, OnBody<tag, call>& command) {
+  return call(world, command.id);
+}
 inline Status apply(World& world, SetPose& command) {
   return set_pose(world, command.id, command.position, command.rotation);
 }
@@ -231,6 +243,10 @@ bool with_command(RecordTag tag, const Visitor& visitor) {
       return visit_new<SetUserData>(visitor);
     case RecordTag::bind_asset:
       return visit_new<BindAsset>(visitor);
+    case RecordTag::wake_body:
+      return visit_new<WakeBody>(visitor);
+    case RecordTag::put_to_sleep:
+      return visit_new<PutToSleep>(visitor);
     case RecordTag::tick:
     case RecordTag::tick_digested:
       break;

@@ -173,6 +173,16 @@ Status Recorder::set_gravity(const Vec3<Real>& gravity) {
   return apply_and_log(command);
 }
 
+Status Recorder::wake_body(BodyId id) {
+  WakeBody command{id};
+  return apply_and_log(command);
+}
+
+Status Recorder::put_to_sleep(BodyId id) {
+  PutToSleep command{id};
+  return apply_and_log(command);
+}
+
 Status Recorder::set_user_data(BodyId id, uint32_t user_data) {
   SetUserData command{id, user_data};
   return apply_and_log(command);

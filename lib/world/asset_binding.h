@@ -7,6 +7,13 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
+inline bool is_in(AssetTable table, uint32_t index) {
+  return index < table.count && table.assets[index].bytes != nullptr;
+}
+inline bool is_hull_of(const BodyTraits& body, uint32_t asset) {
+  return body.type != 0 && static_cast<ShapeType>(body.shape) == ShapeType::hull && body.asset == asset;
+}
+
 /// What the state keeps of the table's asset `index`. Errors: asset_missing.
 Status describe_asset(AssetTable table, uint32_t index, AssetState& description);
 

@@ -1,5 +1,6 @@
 #include "base/float_environment.h"
-#include "dynamics/spin.h"
+#include "dynamics/activity.h"
+#include "dynamics/substeps.h"
 #include "geometry/shape_traits.h"
 #include "math/root.h"
 #include "world/asset_binding.h"
@@ -42,24 +43,57 @@ bool is_pose(const BodyPose& pose) {
 
 bool is_size(Unit value) { return value >= Unit(0.0) && value <= Unit(1.0); }
 
-/// The bounding radius as `set_shape` gives it, but for the rounding of the sizes.
+/// The bounding radius as `set_shape` gives it, but for the rounding of the sizes: body_convex() allows for so much.
 bool is_bound(Unit bound, Unit expected) {
-  return bound >= Unit(0.49) && bound <= Unit(1.0) && abs(bound - expected) <= Unit(0x1p-20);
+  constexpr Unit k_error = sizeof(Unit) == 4 && !DETENT_FIXED ? 0x1p-23 : 0x1p-28;
+  return bound >= Unit(0.49) && bound <= Unit(1.0) && abs(bound - expected) <= k_error;
 }
 
-bool is_shape(const BodyTraits& traits) {
-  if (traits.size_exponent < -14 || traits.size_exponent > 15) return false;
+/// Of a core and its rounding, whose sum need not fit a Unit.
+bool is_bound_of(Unit core, const BodyTraits& traits) {
+  return core <= Unit(1.5) - traits.rounding && is_bound(traits.bounding_radius, core + traits.rounding);
+}
+
+bool is_bound_of_core(const BodyTraits& traits) {
+  return is_bound_of(core_bound(shape_of(traits), traits.size), traits);
+}
+
+/// `assets`: as check_assets() has found them.
+bool is_hull(const BodyTraits& traits, AssetTable assets, Span<const AssetState> bound) {
+  if (traits.asset >= bound.count || bound[traits.asset].kind != static_cast<uint32_t>(AssetKind::hull)) return false;
+  const HullView hull = hull_view(assets.assets[traits.asset].bytes);
+  if (is_dynamic(traits) && hull.frame() != HullFrame::principal) return false;
+  if (traits.size_exponent < hull.exponent()) return false;
+  return hull_half_extents(hull, traits.size_exponent) == traits.size &&
+         is_bound_of(hull_radius(hull, traits.size_exponent), traits);
+}
+
+bool is_shape(const BodyTraits& traits, AssetTable assets, Span<const AssetState> bound_assets) {
+  if (traits.size_exponent < -14 || traits.size_exponent > 15 || traits.zero != 0) return false;
   if (!is_size(traits.size.x) || !is_size(traits.size.y) || !is_size(traits.size.z)) return false;
   const Unit zero = 0.0, smallest = 0x1p-16;
   const Unit bound = traits.bounding_radius;
-  switch (static_cast<ShapeType>(traits.shape)) {
+  const ShapeType shape = shape_of(traits);
+  const bool rounds =
+      shape == ShapeType::box || shape == ShapeType::cylinder || shape == ShapeType::cone || shape == ShapeType::hull;
+  const bool sharp = traits.rounding == zero;
+  if (!sharp && (!rounds || !is_size(traits.rounding) || traits.rounding < smallest)) return false;
+  if (shape != ShapeType::hull && traits.asset != 0) return false;
+  switch (shape) {
     case ShapeType::sphere:
       return bound == traits.size.x && is_bound(bound, traits.size.x) && traits.size.y == zero && traits.size.z == zero;
     case ShapeType::capsule:
       return traits.size.x >= smallest && is_bound(bound, traits.size.x + traits.size.y) && traits.size.z == zero;
+    case ShapeType::cylinder:
+    case ShapeType::cone:
+      return traits.size.x >= smallest && traits.size.y >= smallest && traits.size.z == zero &&
+             is_bound_of_core(traits);
     case ShapeType::box:
       return traits.size.x >= smallest && traits.size.y >= smallest && traits.size.z >= smallest &&
-             is_bound(bound, length(traits.size));
+             is_bound_of_core(traits);
+    case ShapeType::hull:
+      return traits.size.x >= smallest && traits.size.y >= smallest && traits.size.z >= smallest &&
+             is_hull(traits, assets, bound_assets);
     case ShapeType::half_space:
       return traits.type != static_cast<uint32_t>(BodyType::dynamic) && traits.size_exponent == 0 && bound == zero &&
              traits.size == Vec3<Unit>{zero, zero, zero};
@@ -68,22 +102,26 @@ bool is_shape(const BodyTraits& traits) {
   }
 }
 
-bool is_mass_of(const BodyTraits& traits) {
+bool is_mass_of(const BodyTraits& traits, AssetTable assets) {
   BodyTraits expected = traits;
   for (Scaled& gyration : expected.gyration) gyration = Scaled(0.0);
   if (!is_dynamic(traits)) {
     return traits.mass == Scaled(0.0) && traits.gyration[0] == expected.gyration[0] &&
            traits.gyration[1] == expected.gyration[1] && traits.gyration[2] == expected.gyration[2];
   }
-  set_gyration(expected);
+  set_gyration(expected, assets);
+  for (const Scaled gyration : expected.gyration) {
+    if (!is_gyration(gyration)) return false;
+  }
   return is_mass(traits.mass) && traits.gyration[0] == expected.gyration[0] &&
          traits.gyration[1] == expected.gyration[1] && traits.gyration[2] == expected.gyration[2];
 }
 
-bool is_body(const BodyTraits& traits) {
+bool is_body(const BodyTraits& traits, AssetTable assets, Span<const AssetState> bound) {
   const Scaled none = 0.0;
-  return traits.type <= static_cast<uint32_t>(BodyType::dynamic) && traits.generation != 0 && is_shape(traits) &&
-         is_mass_of(traits) && is_between(traits.friction, none, scaled_from(k_friction_max)) &&
+  return traits.type <= static_cast<uint32_t>(BodyType::dynamic) && traits.generation != 0 &&
+         is_shape(traits, assets, bound) && is_mass_of(traits, assets) &&
+         is_between(traits.friction, none, scaled_from(k_friction_max)) &&
          is_between(traits.restitution, none, Scaled(1.0)) &&
          is_between(traits.rolling_resistance, none, Scaled(1.0)) &&
          is_between(traits.linear_damping, none, scaled_from(k_damping_max)) &&
@@ -101,10 +139,27 @@ bool is_motion(const BodyTraits& traits, const BodyMotion& motion) {
 bool is_empty_slot(const State& state, uint32_t slot) {
   BodyTraits rest = state.traits[slot];
   rest.generation = 0;
-  return is_zero(rest) && is_zero(state.poses[slot]) && is_zero(state.motions[slot]);
+  return is_zero(rest) && is_zero(state.poses[slot]) && is_zero(state.motions[slot]) && is_zero(state.activities[slot]);
 }
 
-bool are_bodies(const State& state) {
+/// A group of sleepers is named after a body that sleeps in it.
+bool is_activity(const State& state, uint32_t slot) {
+  const BodyActivity& activity = state.activities[slot];
+  if (!is_dynamic(state.traits[slot])) return is_zero(activity);
+  if (activity.substeps > 64 || activity.calm_ticks > k_calm_ticks || activity.still_ticks > k_still_ticks)
+    return false;
+  if (activity.asleep == 0) return true;
+  return activity.asleep <= state.activities.count && state.activities[activity.asleep - 1].asleep == activity.asleep;
+}
+
+bool is_idle(const State& state) {
+  for (uint32_t slot = 0; slot < state.world.slots_used; ++slot) {
+    if (is_moving(state.traits[slot], state.motions[slot], state.activities[slot])) return false;
+  }
+  return true;
+}
+
+bool are_bodies(const State& state, AssetTable assets) {
   uint32_t bodies = 0, retired = 0, used = 0;
   for (uint32_t slot = 0; slot < state.traits.count; ++slot) {
     const BodyTraits& traits = state.traits[slot];
@@ -115,7 +170,8 @@ bool are_bodies(const State& state) {
       retired += taken ? 1 : 0;
       continue;
     }
-    if (!taken || !is_body(traits) || !is_pose(state.poses[slot]) || !is_motion(traits, state.motions[slot]))
+    if (!taken || !is_body(traits, assets, state.assets) || !is_pose(state.poses[slot]) ||
+        !is_motion(traits, state.motions[slot]) || !is_activity(state, slot))
       return false;
     ++bodies;
   }
@@ -138,7 +194,7 @@ bool is_contact(const State& state, const ContactState& contact) {
   if (contact.body_a >= contact.body_b || contact.body_b >= state.traits.count) return false;
   const BodyTraits &a = state.traits[contact.body_a], &b = state.traits[contact.body_b];
   if (a.type == 0 || b.type == 0 || (!is_dynamic(a) && !is_dynamic(b))) return false;
-  if (contact.point_count < 1 || contact.point_count > k_manifold_points_max) return false;
+  if (contact.touching > 1 || contact.point_count < 1 || contact.point_count > k_manifold_points_max) return false;
   for (uint32_t i = 0; i < k_manifold_points_max; ++i) {
     const bool there = i < contact.point_count;
     if ((contact.feature[i] != 0) != there || !within(contact.normal_impulse[i], Real(0.0), k_impulse_max))
@@ -148,7 +204,8 @@ bool is_contact(const State& state, const ContactState& contact) {
       if (contact.feature[k] == contact.feature[i]) return false;
     }
   }
-  return within(contact.friction_impulse, k_impulse_max) && within(contact.angular_impulse, k_impulse_max);
+  return within(contact.load, Real(0.0), k_real_max) && within(contact.friction_impulse, k_impulse_max) &&
+         within(contact.angular_impulse, k_impulse_max);
 }
 
 bool are_contacts(const State& state) {
@@ -181,7 +238,8 @@ bool are_fills(const uint8_t* block, const Layout& layout) {
 
 bool are_assets(const State& state) {
   for (uint32_t i = 0; i < state.assets.count; ++i) {
-    if (state.assets[i].bound > 1 || (state.assets[i].bound == 0 && !is_zero(state.assets[i]))) return false;
+    const AssetState& asset = state.assets[i];
+    if (asset.kind > static_cast<uint32_t>(AssetKind::hull) || (asset.kind == 0 && !is_zero(asset))) return false;
   }
   return true;
 }
@@ -191,16 +249,18 @@ bool are_assets(const State& state) {
 Status check_state(const uint8_t* block, Capacity capacity, AssetTable assets) {
   const State state = view_of(block, capacity);
   const WorldState& world = state.world;
-  if (world.zero != 0 ||
-      !are_settings(world.gravity, world.tick_time, world.substeps, world.iterations, world.relaxation, world.stiffness,
-                    world.damping_ratio, world.restitution_threshold)) {
+  if (world.zero != 0 || world.sleeping > 1 || world.continuous > 1 || world.idle > 1 ||
+      !are_settings(world.gravity, world.tick_time, world.substeps, world.substeps_max, world.iterations,
+                    world.relaxation, world.stiffness, world.damping_ratio, world.restitution_threshold)) {
     return Status::corrupt;
   }
-  if (!are_slots(state) || !are_bodies(state) || !are_contacts(state) || !are_assets(state) ||
-      !are_fills(block, state.layout)) {
+  if (!are_slots(state) || !are_assets(state) || !are_fills(block, state.layout)) return Status::corrupt;
+  // Before the bodies, which are checked against the hulls that they have.
+  if (const Status status = check_assets(assets, state.assets); status != Status::ok) return status;
+  if (!are_bodies(state, assets) || !are_contacts(state) || (world.idle != 0 && !is_idle(state))) {
     return Status::corrupt;
   }
-  return check_assets(assets, state.assets);
+  return Status::ok;
 }
 
 }  // namespace DETENT_NAMESPACE

@@ -1,6 +1,6 @@
 #include "base/digest.h"
 #include "base/float_environment.h"
-#include "dynamics/spin.h"
+#include "dynamics/activity.h"
 #include "geometry/shape_traits.h"
 #include "world/asset_binding.h"
 #include "world/ranges.h"
@@ -18,12 +18,26 @@ bool is_material(const Material& material) {
          within(material.rolling_resistance, Real(0.0), Real(1.0));
 }
 
+/// A hull that the state vouches for and the table holds. Errors: out_of_range, asset_missing, bad_argument.
+Status find_hull(const World& world, uint32_t asset, BodyType type) {
+  const Span<const AssetState> bound = view_of(world).assets;
+  if (asset >= bound.count) return Status::out_of_range;
+  const AssetKind kind = static_cast<AssetKind>(bound[asset].kind);
+  if (kind == AssetKind::none || !is_in(world.assets, asset)) return Status::asset_missing;
+  if (kind != AssetKind::hull) return Status::bad_argument;
+  const bool principal = hull_view(world.assets.assets[asset].bytes).frame() == HullFrame::principal;
+  return type == BodyType::dynamic && !principal ? Status::bad_argument : Status::ok;
+}
+
 /// Everything about a body that is not where it is and how it moves.
-Status make_traits(const BodyDef& def, BodyTraits& traits) {
+Status make_traits(const World& world, const BodyDef& def, BodyTraits& traits) {
   if (def.type != BodyType::fixed && def.type != BodyType::kinematic && def.type != BodyType::dynamic) {
     return Status::bad_argument;
   }
-  if (const Status status = set_shape(def.shape, traits); status != Status::ok) return status;
+  if (def.shape.type == ShapeType::hull) {
+    if (const Status status = find_hull(world, def.shape.asset, def.type); status != Status::ok) return status;
+  }
+  if (const Status status = set_shape(def.shape, traits, world.assets); status != Status::ok) return status;
   if (def.type == BodyType::dynamic && def.shape.type == ShapeType::half_space) return Status::bad_argument;
   if (!is_rule(def.material.restitution_rule)) return Status::bad_argument;
   if (!is_material(def.material) || !within(def.linear_damping, Real(0.0), k_damping_max) ||
@@ -36,10 +50,13 @@ Status make_traits(const BodyDef& def, BodyTraits& traits) {
     traits.mass = def.mass;
     if (def.mass == Scaled(0.0)) {
       if (!is_mass(def.density)) return Status::out_of_range;
-      traits.mass = multiply(def.density, shape_volume(traits));
+      traits.mass = multiply(def.density, shape_volume(traits, world.assets));
     }
     if (!is_mass(traits.mass)) return Status::out_of_range;
-    set_gyration(traits);
+    set_gyration(traits, world.assets);
+    if (!is_gyration(traits.gyration[0]) || !is_gyration(traits.gyration[1]) || !is_gyration(traits.gyration[2])) {
+      return Status::out_of_range;
+    }
   }
   traits.friction = scaled_from(def.material.friction);
   traits.restitution = scaled_from(def.material.restitution);
@@ -88,6 +105,20 @@ Status make_pose(const Position& position, const Quat& rotation, BodyPose& pose)
   return Status::ok;
 }
 
+/// What changes a body from outside wakes it.
+void rouse(StateView<uint8_t>& state, uint32_t slot) {
+  state.world.idle = 0;
+  wake_all_with(slot, state.activities);
+  state.activities[slot].still_ticks = 0;
+}
+/// And what takes it away wakes those it touches.
+void rouse_neighbours(StateView<uint8_t>& state, uint32_t slot) {
+  for (const ContactState& contact : state.contacts.first(state.world.contact_count)) {
+    if (contact.body_a == slot) rouse(state, contact.body_b);
+    if (contact.body_b == slot) rouse(state, contact.body_a);
+  }
+}
+
 bool speeds_fit(const BodyTraits& traits, const Quat& rotation, const BodyMotion& motion) {
   return within(motion.velocity, k_speed_max) && within(motion.momentum, k_spin_work_max) &&
          within(spin_of(traits, rotation, motion.momentum), k_spin_max);
@@ -122,6 +153,7 @@ struct Push {
     if (!speeds_fit(traits(), rotation, motion) || !speeds_fit(traits(), rotation, pending))
       return Status::out_of_range;
     state.motions[slot] = motion;
+    rouse(state, slot);
     return Status::ok;
   }
 };
@@ -135,8 +167,8 @@ Vec3<Scaled> over_tick(const Vec3<Scaled>& force, const WorldState& world) {
 
 Status create_world(uint8_t* block, uint32_t block_bytes, const WorldDef& def, AssetTable assets, World& world) {
   const FloatEnvironment environment;
-  if (!are_settings(def.gravity, def.tick, def.substeps, def.iterations, def.relaxation, def.stiffness,
-                    def.damping_ratio, def.restitution_threshold)) {
+  if (!are_settings(def.gravity, def.tick, def.substeps, def.substeps_max, def.iterations, def.relaxation,
+                    def.stiffness, def.damping_ratio, def.restitution_threshold)) {
     return Status::out_of_range;
   }
   const uint32_t bytes = world_bytes(def.capacity);
@@ -146,9 +178,12 @@ Status create_world(uint8_t* block, uint32_t block_bytes, const WorldDef& def, A
   memset(block, 0, bytes);
   *at_offset<BlockHeader>(block, 0) = {k_snapshot_magic,    k_snapshot_format,     k_simulation_version, k_config,
                                        def.capacity.bodies, def.capacity.contacts, def.capacity.assets,  0};
-  world = {block, assets};
+  world = {block, assets, {}};
   WorldState& state = view_of(world).world;
   state.substeps = def.substeps;
+  state.substeps_max = def.substeps_max;
+  state.sleeping = def.sleeping ? 1 : 0;
+  state.continuous = def.continuous ? 1 : 0;
   state.iterations = def.iterations;
   state.gravity = def.gravity;
   state.tick_time = def.tick;
@@ -164,7 +199,7 @@ Status create_body(World& world, const BodyDef& def, BodyId& id) {
   BodyTraits traits{};
   BodyPose pose{};
   BodyMotion motion{};
-  if (const Status status = make_traits(def, traits); status != Status::ok) return status;
+  if (const Status status = make_traits(world, def, traits); status != Status::ok) return status;
   if (const Status status = make_pose(def.position, def.rotation, pose); status != Status::ok) return status;
   if (const Status status = make_motion(traits, pose.rotation, def.velocity, def.spin, motion); status != Status::ok) {
     return status;
@@ -176,6 +211,7 @@ Status create_body(World& world, const BodyDef& def, BodyId& id) {
   state.traits[slot] = traits;
   state.poses[slot] = pose;
   state.motions[slot] = motion;
+  state.world.idle = 0;
   id = {slot + 1, traits.generation};
   return Status::ok;
 }
@@ -184,10 +220,13 @@ Status destroy_body(World& world, BodyId id) {
   StateView<uint8_t> state = view_of(world);
   uint32_t slot = 0;
   if (!find_body(state, id, slot)) return Status::bad_id;
+  rouse(state, slot);
+  rouse_neighbours(state, slot);
   state.world.contact_count = remove_contacts(state.contacts.first(state.world.contact_count), slot);
   const uint32_t generation = state.traits[slot].generation;
   state.poses[slot] = BodyPose{};
   state.motions[slot] = BodyMotion{};
+  state.activities[slot] = BodyActivity{};
   state.traits[slot] = BodyTraits{};
   state.traits[slot].generation = generation;
   give_slot_back(state, slot);
@@ -199,7 +238,11 @@ Status set_pose(World& world, BodyId id, const Position& position, const Quat& r
   StateView<uint8_t> state = view_of(world);
   uint32_t slot = 0;
   if (!find_body(state, id, slot)) return Status::bad_id;
-  return make_pose(position, rotation, state.poses[slot]);
+  const Status status = make_pose(position, rotation, state.poses[slot]);
+  if (status != Status::ok) return status;
+  rouse(state, slot);
+  rouse_neighbours(state, slot);
+  return Status::ok;
 }
 
 Status set_velocity(World& world, BodyId id, const Vec3<Real>& velocity, const Vec3<Real>& spin) {
@@ -209,8 +252,10 @@ Status set_velocity(World& world, BodyId id, const Vec3<Real>& velocity, const V
   if (!find_body(state, id, slot)) return Status::bad_id;
   BodyMotion motion = state.motions[slot];
   const Status status = make_motion(state.traits[slot], state.poses[slot].rotation, velocity, spin, motion);
-  if (status == Status::ok) state.motions[slot] = motion;
-  return status;
+  if (status != Status::ok) return status;
+  state.motions[slot] = motion;
+  rouse(state, slot);
+  return Status::ok;
 }
 
 Status apply_force(World& world, BodyId id, const Vec3<Scaled>& force) {
@@ -270,7 +315,32 @@ Status apply_angular_impulse(World& world, BodyId id, const Vec3<Scaled>& impuls
 
 Status set_gravity(World& world, const Vec3<Real>& gravity) {
   if (!within(gravity, k_gravity_max)) return Status::out_of_range;
-  view_of(world).world.gravity = gravity;
+  StateView<uint8_t> state = view_of(world);
+  state.world.gravity = gravity;
+  state.world.idle = 0;
+  for (BodyActivity& activity : state.activities.first(state.world.slots_used))
+    activity.asleep = activity.still_ticks = 0;
+  return Status::ok;
+}
+
+Status wake_body(World& world, BodyId id) {
+  StateView<uint8_t> state = view_of(world);
+  uint32_t slot = 0;
+  if (!find_body(state, id, slot)) return Status::bad_id;
+  if (!is_dynamic(state.traits[slot])) return Status::bad_argument;
+  rouse(state, slot);
+  return Status::ok;
+}
+
+Status put_to_sleep(World& world, BodyId id) {
+  StateView<uint8_t> state = view_of(world);
+  uint32_t slot = 0;
+  if (!find_body(state, id, slot)) return Status::bad_id;
+  if (!is_dynamic(state.traits[slot])) return Status::bad_argument;
+  if (state.activities[slot].asleep != 0) return Status::ok;
+  state.motions[slot] = BodyMotion{};
+  state.activities[slot].still_ticks = k_still_ticks;
+  state.activities[slot].asleep = slot + 1;
   return Status::ok;
 }
 
@@ -287,7 +357,13 @@ Status bind_asset(World& world, uint32_t index) {
   if (index >= state.assets.count) return Status::out_of_range;
   AssetState bound{};
   if (const Status status = describe_asset(world.assets, index, bound); status != Status::ok) return status;
-  state.assets[index] = bound;
+  AssetState& before = state.assets[index];
+  if (before.digest != bound.digest || before.byte_count != bound.byte_count) {
+    for (const BodyTraits& body : state.traits) {
+      if (is_hull_of(body, index)) return Status::asset_mismatch;
+    }
+  }
+  before = bound;
   return Status::ok;
 }
 

@@ -56,7 +56,11 @@ inline constexpr Field k_world_fields[] = {
     DETENT_FIELD(WorldState, slots_retired),
     DETENT_FIELD(WorldState, contact_count),
     DETENT_FIELD(WorldState, substeps),
+    DETENT_FIELD(WorldState, substeps_max),
     DETENT_FIELD(WorldState, iterations),
+    DETENT_FIELD(WorldState, sleeping),
+    DETENT_FIELD(WorldState, continuous),
+    DETENT_FIELD(WorldState, idle),
     DETENT_FIELD(WorldState, zero),
     DETENT_FIELD(WorldState, gravity),
     DETENT_FIELD(WorldState, tick_time),
@@ -86,6 +90,7 @@ inline constexpr Field k_traits_fields[] = {
     DETENT_FIELD(BodyTraits, size_exponent),
     DETENT_FIELD(BodyTraits, size),
     DETENT_FIELD(BodyTraits, bounding_radius),
+    DETENT_FIELD(BodyTraits, rounding),
     DETENT_FIELD(BodyTraits, mass),
     DETENT_FIELD(BodyTraits, gyration),
     DETENT_FIELD(BodyTraits, friction),
@@ -96,22 +101,32 @@ inline constexpr Field k_traits_fields[] = {
     DETENT_FIELD(BodyTraits, gravity_scale),
     DETENT_FIELD(BodyTraits, user_data),
     DETENT_FIELD(BodyTraits, restitution_rule),
+    DETENT_FIELD(BodyTraits, asset),
+    DETENT_FIELD(BodyTraits, zero),
+};
+inline constexpr Field k_activity_fields[] = {
+    DETENT_FIELD(BodyActivity, substeps),
+    DETENT_FIELD(BodyActivity, calm_ticks),
+    DETENT_FIELD(BodyActivity, still_ticks),
+    DETENT_FIELD(BodyActivity, asleep),
 };
 inline constexpr Field k_slot_fields[] = {{"taken", 0, 4, 1}};
 inline constexpr Field k_contact_fields[] = {
     DETENT_FIELD(ContactState, body_a),
     DETENT_FIELD(ContactState, body_b),
     DETENT_FIELD(ContactState, age),
+    DETENT_FIELD(ContactState, touching),
     DETENT_FIELD(ContactState, point_count),
     DETENT_FIELD(ContactState, feature),
     DETENT_FIELD(ContactState, normal_impulse),
     DETENT_FIELD(ContactState, friction_impulse),
     DETENT_FIELD(ContactState, angular_impulse),
+    DETENT_FIELD(ContactState, load),
 };
 inline constexpr Field k_asset_fields[] = {
     DETENT_FIELD(AssetState, digest),
     DETENT_FIELD(AssetState, byte_count),
-    DETENT_FIELD(AssetState, bound),
+    DETENT_FIELD(AssetState, kind),
 };
 #undef DETENT_FIELD
 
@@ -128,6 +143,7 @@ constexpr bool tiles(const Field (&fields)[n], uint32_t element_bytes) {
 static_assert(tiles(k_header_fields, sizeof(BlockHeader)) && tiles(k_world_fields, sizeof(WorldState)));
 static_assert(tiles(k_pose_fields, sizeof(BodyPose)) && tiles(k_motion_fields, sizeof(BodyMotion)));
 static_assert(tiles(k_traits_fields, sizeof(BodyTraits)) && tiles(k_slot_fields, sizeof(uint32_t)));
+static_assert(tiles(k_activity_fields, sizeof(BodyActivity)));
 static_assert(tiles(k_contact_fields, sizeof(ContactState)) && tiles(k_asset_fields, sizeof(AssetState)));
 
 template <uint32_t n>
@@ -141,6 +157,7 @@ inline constexpr Section k_sections[] = {
     section("poses", k_pose_fields, sizeof(BodyPose), &Layout::poses),
     section("motions", k_motion_fields, sizeof(BodyMotion), &Layout::motions),
     section("traits", k_traits_fields, sizeof(BodyTraits), &Layout::traits),
+    section("activities", k_activity_fields, sizeof(BodyActivity), &Layout::activities),
     section("slots", k_slot_fields, sizeof(uint32_t), &Layout::slots),
     section("contacts", k_contact_fields, sizeof(ContactState), &Layout::contacts),
     section("assets", k_asset_fields, sizeof(AssetState), &Layout::assets),

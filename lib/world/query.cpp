@@ -1,5 +1,5 @@
 #include "base/float_environment.h"
-#include "dynamics/spin.h"
+#include "dynamics/activity.h"
 #include "world/view.h"
 
 namespace detent {
@@ -49,6 +49,14 @@ Status get_user_data(const World& world, BodyId id, uint32_t& user_data) {
   uint32_t slot = 0;
   if (!find_body(state, id, slot)) return Status::bad_id;
   user_data = state.traits[slot].user_data;
+  return Status::ok;
+}
+
+Status is_awake(const World& world, BodyId id, bool& awake) {
+  const StateView<const uint8_t> state = view_of(world);
+  uint32_t slot = 0;
+  if (!find_body(state, id, slot)) return Status::bad_id;
+  awake = is_moving(state.traits[slot], state.motions[slot], state.activities[slot]);
   return Status::ok;
 }
 

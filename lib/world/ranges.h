@@ -35,6 +35,9 @@ inline bool is_between(Scaled value, Scaled low, Scaled high) {
 }
 inline bool is_mass(Scaled value) { return is_between(value, Scaled(0x1p-60), Scaled(0x1p60)); }
 
+/// Of a dynamic body: no solid's is below 1, and spin_of() takes what is below 2^30.
+inline bool is_gyration(Scaled value) { return is_between(value, Scaled(1.0), Scaled(0x1.fffffffcp29)); }
+
 inline bool is_rule(RestitutionRule rule) {
   return rule == RestitutionRule::larger || rule == RestitutionRule::smaller;
 }
@@ -45,12 +48,13 @@ inline constexpr Real k_gravity_max = 1024.0;
 inline constexpr Real k_gravity_scale_max = 1024.0;
 
 /// The settings of a world: as documented in WorldDef.
-inline bool are_settings(const Vec3<Real>& gravity, Real tick, uint32_t substeps, uint32_t iterations, Real relaxation,
-                         Real stiffness, Real damping_ratio, Real restitution_threshold) {
-  return within(gravity, k_gravity_max) && within(tick, Real(0x1p-14), Real(0.25)) && substeps >= 1 && substeps <= 64 &&
-         iterations >= 1 && iterations <= 64 && within(relaxation, Real(0.25), Real(1.75)) &&
-         within(stiffness, Real(0x1p-6), Real(0.25)) && within(damping_ratio, Real(0.0), Real(64.0)) &&
-         within(restitution_threshold, Real(0.0), Real(64.0));
+inline bool are_settings(const Vec3<Real>& gravity, Real tick, uint32_t substeps, uint32_t substeps_max,
+                         uint32_t iterations, Real relaxation, Real stiffness, Real damping_ratio,
+                         Real restitution_threshold) {
+  return within(gravity, k_gravity_max) && within(tick, Real(0x1p-14), Real(0.25)) && substeps <= 64 &&
+         substeps_max >= 1 && substeps_max <= 64 && iterations >= 1 && iterations <= 64 &&
+         within(relaxation, Real(0.25), Real(1.75)) && within(stiffness, Real(0x1p-6), Real(0.25)) &&
+         within(damping_ratio, Real(0.0), Real(64.0)) && within(restitution_threshold, Real(0.0), Real(64.0));
 }
 
 }  // namespace DETENT_NAMESPACE

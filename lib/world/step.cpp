@@ -1,13 +1,19 @@
 #include "base/float_environment.h"
 #include "collision/broadphase.h"
 #include "collision/contact_cache.h"
+#include "dynamics/activity.h"
 #include "dynamics/contact_order.h"
 #include "dynamics/contact_rows.h"
 #include "dynamics/finalise.h"
+#include "dynamics/impact.h"
+#include "dynamics/island.h"
 #include "dynamics/predict.h"
 #include "dynamics/solve.h"
 #include "dynamics/spin.h"
+#include "dynamics/substeps.h"
 #include "geometry/shape_traits.h"
+#include "world/events.h"
+#include "world/step_probe.h"
 #include "world/view.h"
 
 namespace detent {
@@ -18,19 +24,32 @@ namespace {
 struct Scratch {
   Span<Bounds> bounds;
   Span<BodyWork> bodies;
-  Span<uint32_t> body_order;
-  Span<uint64_t> pairs;
+  Span<BoundsKey> bounds_keys, bounds_sort;
+  Span<uint64_t> pairs, pair_sort;
   Span<ContactWork> contacts;
-  Span<ContactOrder> contact_order;
+  Span<ContactOrder> contact_order, contact_sort;
+  Span<Island> islands;
+  Span<uint32_t> island_bodies;
+  Span<BodySweep> sweeps;
+  Span<ImpactPair> impact_pairs;
+  Span<ImpactHit> impact_hits;
 };
 
 Scratch scratch_of(uint8_t* block, const Layout& layout, Capacity capacity) {
   return {{at_offset<Bounds>(block, layout.bounds), capacity.bodies},
           {at_offset<BodyWork>(block, layout.body_work), capacity.bodies},
-          {at_offset<uint32_t>(block, layout.body_order), capacity.bodies},
+          {at_offset<BoundsKey>(block, layout.bounds_keys), capacity.bodies},
+          {at_offset<BoundsKey>(block, layout.bounds_sort), capacity.bodies},
           {at_offset<uint64_t>(block, layout.pairs), capacity.contacts * k_pairs_per_contact},
+          {at_offset<uint64_t>(block, layout.pair_sort), capacity.contacts * k_pairs_per_contact},
           {at_offset<ContactWork>(block, layout.contact_work), capacity.contacts},
-          {at_offset<ContactOrder>(block, layout.contact_order), capacity.contacts}};
+          {at_offset<ContactOrder>(block, layout.contact_order), capacity.contacts},
+          {at_offset<ContactOrder>(block, layout.contact_sort), capacity.contacts},
+          {at_offset<Island>(block, layout.islands), capacity.bodies},
+          {at_offset<uint32_t>(block, layout.island_bodies), capacity.bodies},
+          {at_offset<BodySweep>(block, layout.sweeps), capacity.bodies},
+          {at_offset<ImpactPair>(block, layout.impact_pairs), capacity.contacts},
+          {at_offset<ImpactHit>(block, layout.impact_hits), capacity.contacts}};
 }
 
 /// How far apart a pair may be and still be given contact points: a 64th of the smaller body, and what the pair can
@@ -42,84 +61,240 @@ Real contact_reach(const StepSettings& settings, const RowBody& a, const RowBody
   return scale_by_power(extent, -6) + min(scale_by_power(extent, -2), speed * settings.tick_time);
 }
 
+/// The bodies of a step, as the stages before the solve read them.
+struct Bodies {
+  Span<const BodyPose> poses;
+  Span<const BodyTraits> traits;
+  Span<const BodyMotion> motions;
+  Span<BodyActivity> activities;
+  AssetTable assets;
+
+  RowBody at(uint32_t slot) const { return {traits[slot], poses[slot], motions[slot]}; }
+  bool awake(uint32_t slot) const { return is_awake(traits[slot], activities[slot]); }
+  bool moving(uint32_t slot) const { return is_moving(traits[slot], motions[slot], activities[slot]); }
+  bool asleep(uint32_t slot) const { return activities[slot].asleep != 0; }
+};
+
+void collide_pair(const StepSettings& settings, const RowBody& a, const RowBody& b, const AssetTable& assets,
+                  ContactGeometry& geometry) {
+  const Matrix3 rotation_a = matrix_from(a.pose.rotation), rotation_b = matrix_from(b.pose.rotation);
+  collide({a.pose, a.traits, rotation_a}, {b.pose, b.traits, rotation_b}, contact_reach(settings, a, b), geometry,
+          assets);
+}
+
+/// Wakes whoever is touched by a body that moves, and whoever they touch. Returns how many woke.
+uint32_t wake_touched(const StepSettings& settings, const Bodies& bodies, Span<const uint64_t> pairs) {
+  uint32_t woke = 0;
+  for (bool again = true; again;) {  // each round but the last wakes somebody
+    again = false;
+    for (const uint64_t key : pairs) {
+      const uint32_t low = pair_low(key), high = pair_high(key);
+      const bool wakes_low = bodies.asleep(low) && bodies.moving(high);
+      if (!wakes_low && !(bodies.asleep(high) && bodies.moving(low))) continue;
+      ContactGeometry geometry;
+      collide_pair(settings, bodies.at(low), bodies.at(high), bodies.assets, geometry);
+      if (geometry.count == 0) continue;
+      woke += wake_all_with(wakes_low ? low : high, bodies.activities);
+      again = true;
+    }
+  }
+  return woke;
+}
+
+Real depth_of(const ContactWork& contact) {
+  Real least = contact.point[0].separation;
+  for (uint32_t i = 1; i < contact.state.point_count; ++i) least = min(least, contact.point[i].separation);
+  return -least;
+}
+
+/// Leaves out the shallowest contact, the last of equals, if it is shallower than `depth`, keeping the others' order:
+/// the last place is free then.
+bool leave_out_shallowest(Span<ContactWork> contacts, Real depth) {
+  uint32_t shallowest = contacts.count;
+  for (uint32_t i = 0; i < contacts.count; ++i) {
+    const Real other = depth_of(contacts[i]);
+    if (other > depth || (other == depth && shallowest == contacts.count)) continue;
+    depth = other;
+    shallowest = i;
+  }
+  if (shallowest == contacts.count) return false;
+  for (uint32_t i = shallowest; i + 1 < contacts.count; ++i) contacts[i] = contacts[i + 1];
+  return true;
+}
+
 struct ContactCount {
   uint32_t contacts = 0;
   uint32_t points = 0;
   uint32_t dropped = 0;
+  uint32_t capped = 0;
 };
 
-/// Collides every pair and makes the rows of those that touch, in the order of the pairs. `before` is sorted alike.
-ContactCount collide_pairs(const StepSettings& settings, Span<const uint64_t> pairs, Span<const BodyPose> poses,
-                           Span<const BodyTraits> traits, Span<const BodyMotion> motions,
+/// Collides every pair with an awake body and makes the rows of those that touch, in the order of the pairs. `before`
+/// is sorted alike.
+ContactCount collide_pairs(const StepSettings& settings, const Bodies& bodies, Span<const uint64_t> pairs,
                            Span<const ContactState> before, Span<ContactWork> contacts) {
   ContactCount count;
   uint32_t next = 0;
   for (const uint64_t key : pairs) {
     const uint32_t slot_a = pair_low(key), slot_b = pair_high(key);
+    if (!bodies.awake(slot_a) && !bodies.awake(slot_b)) continue;
     while (next < before.count && pair_key(before[next].body_a, before[next].body_b) < key) ++next;
     const bool continued = next < before.count && pair_key(before[next].body_a, before[next].body_b) == key;
-    const RowBody a = {traits[slot_a], poses[slot_a], motions[slot_a]};
-    const RowBody b = {traits[slot_b], poses[slot_b], motions[slot_b]};
-    const Matrix3 rotation_a = matrix_from(a.pose.rotation), rotation_b = matrix_from(b.pose.rotation);
+    const RowBody a = bodies.at(slot_a), b = bodies.at(slot_b);
     ContactGeometry geometry;
-    collide({a.pose, a.traits, rotation_a}, {b.pose, b.traits, rotation_b}, contact_reach(settings, a, b), geometry);
+    collide_pair(settings, a, b, bodies.assets, geometry);
+    count.capped += geometry.capped ? 1 : 0;
     if (geometry.count == 0) continue;
     if (count.contacts == contacts.count) {
       ++count.dropped;
-      continue;
+      Real least = geometry.point[0].separation;
+      for (uint32_t i = 1; i < geometry.count; ++i) least = min(least, geometry.point[i].separation);
+      if (!leave_out_shallowest(contacts, -least)) continue;
+      --count.contacts;
     }
     ContactWork& work = contacts[count.contacts++];
     work.state = continued_contact(slot_a, slot_b, geometry, continued ? &before[next] : nullptr);
     make_rows(settings, a, b, geometry, work);
-    count.points += geometry.count;
   }
+  for (const ContactWork& contact : contacts.first(count.contacts)) count.points += contact.state.point_count;
   return count;
+}
+
+uint32_t count_sleeping(const Bodies& bodies, Span<const ContactState> contacts) {
+  uint32_t count = 0;
+  for (const ContactState& contact : contacts)
+    count += bodies.awake(contact.body_a) || bodies.awake(contact.body_b) ? 0u : 1u;
+  return count;
+}
+
+/// Contacts between bodies that sleep stay as they are: moves them to the front. Returns their count.
+uint32_t keep_sleeping(const Bodies& bodies, Span<ContactState> contacts) {
+  uint32_t kept = 0;
+  for (const ContactState& contact : contacts) {
+    if (!bodies.awake(contact.body_a) && !bodies.awake(contact.body_b)) contacts[kept++] = contact;
+  }
+  return kept;
+}
+
+uint32_t solve_islands(StepSettings settings, const SolverBodies& bodies, Span<const Island> islands,
+                       const Scratch& scratch, Span<ContactWork> contacts, StepReport& report) {
+  uint32_t clamped = 0;
+  for (const Island& island : islands) {
+    const Span<const uint32_t> slots = {scratch.island_bodies.data + island.first_body, island.body_count};
+    const Span<const ContactOrder> order = {scratch.contact_order.data + island.first_contact, island.contact_count};
+    if (island.substeps != settings.substeps) set_substeps(island.substeps, settings);
+    predict(settings, bodies.traits, slots, bodies.motions, bodies.work);
+    if (order.count == 0)
+      clamped += fly(settings, bodies, slots);
+    else
+      clamped += solve(settings, bodies, slots, order, contacts);
+    for (const ContactOrder& entry : order) {
+      store_load(settings, contacts[entry.contact]);
+      store_impulses(contacts[entry.contact]);
+    }
+    report.contact_substeps += uint64_t{island.substeps} * island.contact_count;
+    report.substeps_max = island.substeps > report.substeps_max ? island.substeps : report.substeps_max;
+    report.awake += island.body_count;
+  }
+  return clamped;
+}
+
+void report_impacts(const ImpactReport& impacts, StepReport& report) {
+  report.impacts = impacts.impacts;
+  report.impacts_undecided = impacts.undecided;
+  report.impacts_dropped = impacts.pairs_dropped;
+  report.overlaps_left = impacts.overlaps_left;
+  report.bodies_stopped = impacts.bodies_stopped;
+  report.lost_time = impacts.lost_time;
+  report.toi_tests = impacts.tests;
+  report.toi_skipped = impacts.skipped;
+  report.woke += impacts.woke;
+  report.saturations += impacts.clamped;
 }
 
 /// The stages of a step, in order. Separate from `step`, so that nothing of it moves across the change of the
 /// floating-point environment.
-__attribute__((noinline)) void run_stages(World& world, StepReport& report) {
+__attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, StepReport& report) {
   const StateView<uint8_t> state = view_of(world);
   const Scratch scratch = scratch_of(world.block, state.layout, capacity_of(state.header));
   const uint32_t used = state.world.slots_used, before = state.world.contact_count;
   const Span<BodyPose> poses = state.poses.first(used);
   const Span<BodyMotion> motions = state.motions.first(used);
   const Span<BodyTraits> traits = state.traits.first(used);
-  const Span<BodyWork> bodies = scratch.bodies.first(used);
+  const Span<BodyActivity> activities = state.activities.first(used);
+  const Span<BodyWork> work = scratch.bodies.first(used);
   const Span<Bounds> bounds = scratch.bounds.first(used);
   const StepSettings settings = step_settings(state.world);
+  const Bodies bodies = {poses, traits, motions, activities, world.assets};
+  const SolverBodies solver_bodies = {traits, motions, work};
 
-  predict(settings, poses, traits, motions, bodies);
   bound(settings, poses, traits, motions, bounds);
-  const PairCount pairs = find_pairs(traits, bounds, scratch.body_order, scratch.pairs);
-  const ContactCount count = collide_pairs(settings, scratch.pairs.first(pairs.kept), poses, traits, motions,
-                                           state.contacts.first(before), scratch.contacts);
+  const PairCount pair_count =
+      find_pairs(traits, bounds, scratch.bounds_keys, scratch.bounds_sort, scratch.pair_sort, scratch.pairs);
+  const Span<const uint64_t> pairs = scratch.pairs.first(pair_count.kept);
+  report.woke = wake_touched(settings, bodies, pairs);
+  const uint32_t room = state.contacts.count - count_sleeping(bodies, state.contacts.first(before));
+  const ContactCount count =
+      collide_pairs(settings, bodies, pairs, state.contacts.first(before), scratch.contacts.first(room));
   const Span<ContactWork> contacts = scratch.contacts.first(count.contacts);
   const Span<ContactOrder> order = scratch.contact_order.first(count.contacts);
-  report.colour_overflows = order_contacts(traits, contacts, bodies, order);
-  report.saturations = solve(settings, {traits, motions, bodies}, order, contacts);
-  report.saturations += finalise(traits, bodies, poses, motions);
-  store_contacts(contacts, state.contacts, before);
 
-  state.world.contact_count = count.contacts;
-  ++state.world.tick;
-  report.tick = state.world.tick;
-  report.bodies = state.world.body_count;
-  report.pairs = pairs.kept + pairs.dropped;
-  report.pairs_dropped = pairs.dropped;
+  start_bodies(poses, work);
+  report.islands = find_islands(traits, activities, contacts, work, scratch.islands, scratch.island_bodies);
+  const Span<Island> islands = scratch.islands.first(report.islands);
+  report.colour_overflows = order_contacts(traits, contacts, islands, work, scratch.contact_sort, order);
+  estimate_loads(settings, poses, traits, scratch.island_bodies, islands, order, scratch.contact_sort, work, contacts);
+  choose_substeps(settings, traits, work, scratch.island_bodies, order, islands, contacts, activities);
+  report.saturations = solve_islands(settings, solver_bodies, islands, scratch, contacts, report);
+  report.saturations += carry(settings, solver_bodies);
+  const Span<ContactEvent> events = {world.contact_events.data, world.contact_events.capacity};
+  EventCount event_count = raise_events(poses, traits, activities, state.contacts.first(before), contacts, events);
+  const uint32_t sleeping = keep_sleeping(bodies, state.contacts.first(before));
+  const Span<BodySweep> sweeps = scratch.sweeps.first(used);
+  report.saturations += make_sweeps(traits, work, poses, sweeps);
+  if (state.world.continuous != 0) {
+    const ImpactPairs known = {pairs, contacts, pair_count.dropped == 0 && count.dropped == 0};
+    const ImpactReport impacts =
+        advance_to_impacts(settings, world.assets, known, {traits, poses, motions, sweeps, activities}, bounds,
+                           scratch.impact_pairs, scratch.impact_hits, probe);
+    report_impacts(impacts, report);
+    add_hits(traits, scratch.impact_hits.first(impacts.hits), events, event_count);
+    event_count.dropped += impacts.hits_dropped;
+  }
+  report.contact_events = event_count.kept;
+  report.contact_events_dropped = events.count == 0 ? 0 : event_count.dropped;
+  report.saturations += finalise(traits, sweeps, poses, motions);
+  if (settings.sleeping)
+    report.fell_asleep = fall_asleep(settings, traits, poses, islands, scratch.island_bodies, motions, activities);
+  store_contacts(contacts, sleeping, before, state.contacts);
+
+  state.world.contact_count = sleeping + count.contacts;
+  report.pairs = pair_count.kept + pair_count.dropped;
+  report.pairs_dropped = pair_count.dropped;
   report.contacts = count.contacts;
   report.contact_points = count.points;
   report.contacts_dropped = count.dropped;
+  report.contacts_capped = count.capped;
+  bool moves = false;
+  for (uint32_t slot = 0; slot < used; ++slot) moves = moves || bodies.moving(slot);
+  state.world.idle = moves ? 0 : 1;
+}
+
+StepReport step_with(World& world, ImpactProbe* probe) {
+  const FloatEnvironment environment;
+  StepReport report;
+  WorldState& state = view_of(world).world;
+  if (state.idle == 0) run_stages(world, probe, report);
+  ++state.tick;
+  report.tick = state.tick;
+  report.bodies = state.body_count;
+  return report;
 }
 
 }  // namespace
 
-StepReport step(World& world) {
-  const FloatEnvironment environment;
-  StepReport report;
-  run_stages(world, report);
-  return report;
-}
+StepReport step(World& world) { return step_with(world, nullptr); }
+StepReport step_probed(World& world, ImpactProbe& probe) { return step_with(world, &probe); }
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -35,6 +35,7 @@ struct StateView {
   Span<Of<BodyPose>> poses;
   Span<Of<BodyMotion>> motions;
   Span<Of<BodyTraits>> traits;
+  Span<Of<BodyActivity>> activities;
   Span<Of<uint32_t>> slots;
   Span<Of<ContactState>> contacts;  ///< all of the capacity
   Span<Of<AssetState>> assets;
@@ -56,6 +57,7 @@ StateView<Byte> view_of(Byte* block, Capacity capacity) {
           {at_offset<BodyPose>(block, layout.poses), capacity.bodies},
           {at_offset<BodyMotion>(block, layout.motions), capacity.bodies},
           {at_offset<BodyTraits>(block, layout.traits), capacity.bodies},
+          {at_offset<BodyActivity>(block, layout.activities), capacity.bodies},
           {at_offset<uint32_t>(block, layout.slots), slot_words(capacity.bodies)},
           {at_offset<ContactState>(block, layout.contacts), capacity.contacts},
           {at_offset<AssetState>(block, layout.assets), capacity.assets}};

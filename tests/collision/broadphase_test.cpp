@@ -60,10 +60,11 @@ struct Found {
 
 Found found_in(const Crowd& crowd, uint32_t capacity) {
   const uint32_t count = static_cast<uint32_t>(crowd.traits.size());
-  std::vector<uint32_t> order(count);
-  std::vector<uint64_t> keys(capacity + 1, 77);
-  const PairCount pairs = find_pairs({crowd.traits.data(), count}, {crowd.bounds.data(), count}, {order.data(), count},
-                                     {keys.data(), capacity});
+  std::vector<BoundsKey> bounds_keys(count), bounds_spare(count);
+  std::vector<uint64_t> keys(capacity + 1, 77), spare(capacity);
+  const PairCount pairs =
+      find_pairs({crowd.traits.data(), count}, {crowd.bounds.data(), count}, {bounds_keys.data(), count},
+                 {bounds_spare.data(), count}, {spare.data(), capacity}, {keys.data(), capacity});
   EXPECT_EQ(keys[capacity], 77u) << "written beyond the buffer";
   keys.resize(pairs.kept);
   return {keys, pairs.dropped};

@@ -35,7 +35,7 @@ DETENT_TEST(incline, a_box_slides_when_friction_is_one_percent_too_small_and_sta
     if (part < 1) {
       // The first substep has no friction yet, so speed is gained from the first second on.
       EXPECT_NEAR(motion.velocity[0] - speed, 3 * k_gravity * (sin(k_slope) - friction * cos(k_slope)), 0.001);
-      EXPECT_NEAR(speed, k_gravity * (sin(k_slope) - friction * cos(k_slope)), k_gravity * sin(k_slope) / 240);
+      EXPECT_NEAR(speed, k_gravity * (sin(k_slope) - friction * cos(k_slope)), k_gravity * sin(k_slope) / 120);
     } else {
       EXPECT_NEAR(motion.velocity[0], 0, 1e-4);
       EXPECT_NEAR(motion.position[0], 0, 0.01);
@@ -44,7 +44,9 @@ DETENT_TEST(incline, a_box_slides_when_friction_is_one_percent_too_small_and_sta
 }
 
 DETENT_TEST(incline, a_sliding_box_brakes_by_friction_and_stops) {
-  Lab lab({2, 2, 0});
+  WorldDef world;
+  world.substeps = 4;  // until the first of them ends there is less friction
+  Lab lab({2, 2, 0}, world);
   lab.add_ground(0.5);
   BodyDef def;
   def.shape = box(reals(0.5, 0.25, 0.5));

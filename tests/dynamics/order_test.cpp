@@ -1,9 +1,12 @@
 #include <string.h>
+
 #include <algorithm>
+#include <array>
 
 #include "collision/broadphase.h"
 #include "dynamics/contact_order.h"
 #include "dynamics/contact_rows.h"
+#include "dynamics/island.h"
 #include "dynamics/predict.h"
 #include "dynamics/solve.h"
 #include "tests/oracle/bodies.h"
@@ -18,6 +21,8 @@ struct Graph {
   std::vector<BodyTraits> traits;
   std::vector<ContactWork> contacts;
   std::vector<ContactOrder> order;
+  std::vector<Island> islands;
+  std::vector<uint32_t> island_bodies;
   uint32_t overflows = 0;
 
   explicit Graph(uint32_t bodies) : traits(bodies) {
@@ -33,15 +38,25 @@ struct Graph {
     contacts.push_back(work);
   }
   void colour() {
-    std::vector<BodyWork> work(traits.size(), BodyWork{});
-    order.resize(contacts.size());
     const uint32_t body_count = static_cast<uint32_t>(traits.size()), count = static_cast<uint32_t>(contacts.size());
-    overflows = order_contacts({traits.data(), body_count}, {contacts.data(), count}, {work.data(), body_count},
-                               {order.data(), count});
+    std::vector<BodyWork> work(body_count, BodyWork{});
+    std::vector<BodyActivity> activities(body_count, BodyActivity{});
+    std::vector<ContactOrder> spare(count);
+    order.resize(count);
+    islands.resize(body_count);
+    island_bodies.resize(body_count);
+    const Span<const BodyTraits> all = {traits.data(), body_count};
+    const Span<ContactWork> contact_span = {contacts.data(), count};
+    for (ContactWork& contact : contacts)
+      contact.static_pair = is_dynamic(contact.state.body_a) && is_dynamic(contact.state.body_b) ? 0 : 1;
+    islands.resize(find_islands(all, {activities.data(), body_count}, contact_span, {work.data(), body_count},
+                                {islands.data(), body_count}, {island_bodies.data(), body_count}));
+    overflows = order_contacts(all, contact_span, {islands.data(), static_cast<uint32_t>(islands.size())},
+                               {work.data(), body_count}, {spare.data(), count}, {order.data(), count});
   }
   bool is_dynamic(uint32_t body) const { return traits[body].type == static_cast<uint32_t>(BodyType::dynamic); }
-  /// Every contact once, sorted by (colour, key), no dynamic body twice in a colour but the overflow's, which is
-  /// counted.
+  /// Every contact once, sorted by (island, colour, key), no dynamic body twice in a colour but the overflow's, which is
+  /// counted. Bodies in contact are of one island, and each awake one is listed once.
   void expect_right() const {
     std::vector<uint32_t> seen(contacts.size(), 0);
     std::vector<std::vector<uint32_t>> users(k_colour_overflow);
@@ -49,9 +64,10 @@ struct Graph {
     for (size_t i = 0; i < order.size(); ++i) {
       ++seen[order[i].contact];
       if (i > 0) {
-        const bool rises = order[i - 1].colour < order[i].colour ||
-                           (order[i - 1].colour == order[i].colour && order[i - 1].key <= order[i].key);
-        EXPECT_TRUE(rises);
+        const auto rank = [](const ContactOrder& entry) {
+          return std::array<uint32_t, 3>{entry.island, entry.colour, entry.key};
+        };
+        EXPECT_LE(rank(order[i - 1]), rank(order[i]));
       }
       if (order[i].colour == k_colour_overflow) {
         ++overflowed;
@@ -67,6 +83,20 @@ struct Graph {
     }
     for (const uint32_t times : seen) EXPECT_EQ(times, 1u);
     EXPECT_EQ(overflowed, overflows);
+    std::vector<uint32_t> island(traits.size(), UINT32_MAX);
+    for (uint32_t i = 0; i < islands.size(); ++i) {
+      for (uint32_t k = 0; k < islands[i].body_count; ++k) {
+        const uint32_t body = island_bodies[islands[i].first_body + k];
+        EXPECT_TRUE(is_dynamic(body));
+        EXPECT_EQ(island[body], UINT32_MAX);
+        island[body] = i;
+      }
+      for (uint32_t k = 0; k < islands[i].contact_count; ++k) {
+        const ContactState& state = contacts[order[islands[i].first_contact + k].contact].state;
+        for (const uint32_t body : {state.body_a, state.body_b}) EXPECT_TRUE(!is_dynamic(body) || island[body] == i);
+      }
+    }
+    for (uint32_t body = 0; body < traits.size(); ++body) EXPECT_EQ(island[body] != UINT32_MAX, is_dynamic(body));
   }
 };
 
@@ -143,6 +173,8 @@ struct Scene {
   std::vector<BodyWork> work;
   std::vector<ContactWork> contacts;
   std::vector<ContactOrder> order;
+  std::vector<BodyActivity> activities;
+  std::vector<uint32_t> slots;  ///< of all islands
   StepSettings settings;
 
   uint32_t body_count() const { return static_cast<uint32_t>(traits.size()); }
@@ -156,7 +188,8 @@ struct Scene {
     motions.assign(state.motions.data, state.motions.data + used);
     work.resize(used, BodyWork{});
     settings = step_settings(state.world);
-    predict(settings, {poses.data(), used}, {traits.data(), used}, {motions.data(), used}, {work.data(), used});
+    set_substeps(4, settings);
+    activities.assign(state.activities.data, state.activities.data + used);
     for (uint32_t i = 0; i < state.world.contact_count; ++i) {
       const ContactState& before = state.contacts[i];
       const uint32_t a = before.body_a, b = before.body_b;
@@ -171,14 +204,27 @@ struct Scene {
       contacts.push_back(contact);
     }
     order.resize(contacts.size());
-    EXPECT_EQ(order_contacts({traits.data(), used}, {contacts.data(), contact_count()}, {work.data(), used},
-                             {order.data(), contact_count()}),
+    std::vector<ContactOrder> spare(contacts.size());
+    std::vector<Island> islands(used);
+    slots.resize(used);
+    start_bodies({poses.data(), used}, {work.data(), used});
+    const Span<const BodyTraits> all = {traits.data(), used};
+    const Span<ContactWork> contact_span = {contacts.data(), contact_count()};
+    const uint32_t count = find_islands(all, {activities.data(), used}, contact_span, {work.data(), used},
+                                        {islands.data(), used}, {slots.data(), used});
+    EXPECT_EQ(order_contacts(all, contact_span, {islands.data(), count}, {work.data(), used},
+                             {spare.data(), contact_count()}, {order.data(), contact_count()}),
               0u);
+    slots.resize(islands[count - 1].first_body + islands[count - 1].body_count);
+    predict(settings, all, {slots.data(), static_cast<uint32_t>(slots.size())}, {motions.data(), used},
+            {work.data(), used});
   }
+  /// All islands at once: they do not touch.
   void run() {
     const SolverBodies bodies = {
         {traits.data(), body_count()}, {motions.data(), body_count()}, {work.data(), body_count()}};
-    solve(settings, bodies, {order.data(), contact_count()}, {contacts.data(), contact_count()});
+    solve(settings, bodies, {slots.data(), static_cast<uint32_t>(slots.size())}, {order.data(), contact_count()},
+          {contacts.data(), contact_count()});
   }
   /// The motions and the contacts' states, all bytes.
   std::vector<uint8_t> result() const {

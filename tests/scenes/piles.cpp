@@ -26,7 +26,7 @@ void make_tower(Recorder& recorder, uint32_t count) {
 
 }  // namespace
 
-WorldDef tiny_world() { return world_of(5, 6); }
+WorldDef tiny_world() { return world_of(5, 4); }
 void build_tiny(Recorder& recorder) {
   make_ground(recorder);
   make_tower(recorder, 4);

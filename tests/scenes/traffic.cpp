@@ -80,7 +80,11 @@ void before_tick(Recorder& recorder, uint32_t tick) {
     case 5:
       must(recorder.set_user_data(box, tick));
       break;
+    case 6:
+      must(recorder.put_to_sleep(box));
+      break;
     default:
+      must(recorder.wake_body(box));
       break;
   }
   if (tick == 150) must(recorder.set_gravity({0.0, -4.0, 0.5}));

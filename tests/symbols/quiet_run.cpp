@@ -16,8 +16,8 @@ namespace {
 constexpr uint32_t k_ticks = 100;
 constexpr uint32_t k_save_interval = 10;
 
-alignas(8) uint8_t block[1u << 16];
-alignas(8) uint8_t block_loaded[1u << 16];
+alignas(8) uint8_t block[1u << 17];
+alignas(8) uint8_t block_loaded[1u << 17];
 alignas(8) uint8_t snapshot[1u << 16];
 
 /// A recording in memory.

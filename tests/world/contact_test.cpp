@@ -19,7 +19,8 @@ DETENT_TEST(contact, a_resting_box_keeps_its_four_points_and_its_age_counts) {
   lab.run(1);
   for (uint32_t i = 0; i < 4; ++i) {
     EXPECT_EQ(contact.feature[i], before.feature[i]);
-    EXPECT_NEAR(real_to_host(contact.normal_impulse[i]), 9.81 / 60 / 4 / 4, 1e-4);  // of a substep and a corner
+    const double substeps = view_of(lab.world).activities[1].substeps;
+    EXPECT_NEAR(real_to_host(contact.normal_impulse[i]), 9.81 / 60 / substeps / 4, 1e-4);  // of a substep and a corner
   }
 }
 
@@ -49,7 +50,7 @@ DETENT_TEST(contact, a_hit_rebounds_by_the_larger_restitution) {
   def.material.restitution = real(0.5);
   const BodyId id = lab.add(def);
   lab.run(1);
-  EXPECT_NEAR(lab.motion(id).velocity[1], 2, 1e-3);
+  EXPECT_NEAR(lab.motion(id).velocity[1], sqrt(16 + 2 * 9.81 * 0.02) / 2, 1e-3);  // it falls through the gap first
 }
 
 DETENT_TEST(contact, the_same_calls_give_the_same_bits_and_another_order_of_creation_stands_as_well) {

@@ -40,8 +40,10 @@ struct Motion {
 
 class Lab {
  public:
-  explicit Lab(Capacity capacity, WorldDef def = {}) {
+  /// Nothing falls asleep unless `sleeping` says so.
+  explicit Lab(Capacity capacity, WorldDef def = {}, bool sleeping = false) {
     def.capacity = capacity;
+    def.sleeping = sleeping;
     words_.resize(world_bytes(capacity) / 8);
     EXPECT_OK(create_world(block(), world_bytes(capacity), def, {}, world));
   }

@@ -114,13 +114,13 @@ DETENT_TEST(pool, contacts_beyond_the_capacity_are_counted_and_the_same_ones_are
     Lab lab({9, contacts, 0});
     lab.add_ground();
     for (int i = 0; i < 8; ++i) lab.add_box(0.5, 3.0 * i, 0.5, 0);
-    const StepReport report = lab.run(3);
+    const StepReport report = lab.run(1);
     EXPECT_EQ(report.contacts + report.contacts_dropped + report.pairs_dropped, 8u);
     EXPECT_EQ(report.complete(), contacts >= 8);
     EXPECT_EQ(get_info(lab.world).contacts, report.contacts);
     for (const ContactState& contact : view_of(lab.world).contacts.first(report.contacts)) {
       EXPECT_EQ(contact.body_a, 0u);
-      EXPECT_LE(contact.body_b, contacts) << "the lowest pairs are kept";
+      EXPECT_LE(contact.body_b, contacts) << "the lowest of equally deep pairs are kept";
     }
     return digest(lab.world);
   };
@@ -128,6 +128,20 @@ DETENT_TEST(pool, contacts_beyond_the_capacity_are_counted_and_the_same_ones_are
   run(2);
   run(0);
   run(8);
+}
+
+DETENT_TEST(pool, of_contacts_beyond_the_capacity_the_deepest_are_kept) {
+  for (const bool deepest_first : {false, true}) {
+    Lab lab({9, 3, 0});
+    lab.add_ground();
+    for (int i = 0; i < 8; ++i) lab.add_box(0.5, 3.0 * i, 0.5 - (deepest_first ? 7 - i : i) / 64.0, 0);
+    const StepReport report = lab.run(1);
+    // There is room for six pairs, and what finds none is the last.
+    EXPECT_EQ(report.pairs_dropped, 2u);
+    EXPECT_EQ(report.contacts_dropped, 3u);
+    ASSERT_EQ(report.contacts, 3u);
+    for (uint32_t i = 0; i < 3; ++i) EXPECT_EQ(view_of(lab.world).contacts[i].body_b, deepest_first ? 1 + i : 4 + i);
+  }
 }
 
 DETENT_TEST(pool, a_destroyed_body_takes_its_contacts_along) {

@@ -148,17 +148,17 @@ DETENT_TEST(state, a_snapshot_reads_the_same_in_pieces_of_any_size) {
 DETENT_TEST(state, the_layout_is_the_same_on_every_target) {
   constexpr Capacity k_capacity = {10, 20, 3};
 #if defined(DETENT_FX64)
-  EXPECT_EQ(snapshot_bytes(k_capacity), 4992u);
-  EXPECT_EQ(world_bytes(k_capacity), 24792u);
+  EXPECT_EQ(snapshot_bytes(k_capacity), 5448u);
+  EXPECT_EQ(world_bytes(k_capacity), 33408u);
 #elif defined(DETENT_FX32)
-  EXPECT_EQ(snapshot_bytes(k_capacity), 4952u);
-  EXPECT_EQ(world_bytes(k_capacity), 24512u);
+  EXPECT_EQ(snapshot_bytes(k_capacity), 5408u);
+  EXPECT_EQ(world_bytes(k_capacity), 32808u);
 #elif defined(DETENT_F32)
-  EXPECT_EQ(snapshot_bytes(k_capacity), 3280u);
-  EXPECT_EQ(world_bytes(k_capacity), 19160u);
+  EXPECT_EQ(snapshot_bytes(k_capacity), 3656u);
+  EXPECT_EQ(world_bytes(k_capacity), 26416u);
 #else
-  EXPECT_EQ(snapshot_bytes(k_capacity), 5312u);
-  EXPECT_EQ(world_bytes(k_capacity), 33272u);
+  EXPECT_EQ(snapshot_bytes(k_capacity), 5808u);
+  EXPECT_EQ(world_bytes(k_capacity), 44168u);
 #endif
 }
 

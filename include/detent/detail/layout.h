@@ -12,9 +12,11 @@ constexpr uint32_t k_pairs_per_contact = 2;  ///< room for pairs whose bounds ov
 
 /// Byte offsets of the arrays in a block.
 struct Layout {
-  uint32_t header, world, poses, motions, traits, slots, contacts, assets;
+  uint32_t header, world, poses, motions, traits, activities, slots, contacts, assets;
   uint32_t persistent_bytes;  ///< end of the snapshot
-  uint32_t bounds, body_work, body_order, pairs, contact_work, contact_order;
+  uint32_t bounds, body_work, bounds_keys, bounds_sort, pairs, pair_sort, contact_work, contact_order, contact_sort,
+      islands, island_bodies;
+  uint32_t sweeps, impact_pairs, impact_hits;
   uint32_t bytes;
 };
 
@@ -39,16 +41,25 @@ constexpr Layout layout_of(Capacity capacity, bool& fits) {
   layout.poses = place(sizeof(BodyPose), capacity.bodies);
   layout.motions = place(sizeof(BodyMotion), capacity.bodies);
   layout.traits = place(sizeof(BodyTraits), capacity.bodies);
+  layout.activities = place(sizeof(BodyActivity), capacity.bodies);
   layout.slots = place(sizeof(uint32_t), slot_words(capacity.bodies));
   layout.contacts = place(sizeof(ContactState), capacity.contacts);
   layout.assets = place(sizeof(AssetState), capacity.assets);
   layout.persistent_bytes = static_cast<uint32_t>(end);
   layout.bounds = place(sizeof(Bounds), capacity.bodies);
   layout.body_work = place(sizeof(BodyWork), capacity.bodies);
-  layout.body_order = place(sizeof(uint32_t), capacity.bodies);
+  layout.bounds_keys = place(sizeof(BoundsKey), capacity.bodies);
+  layout.bounds_sort = place(sizeof(BoundsKey), capacity.bodies);
   layout.pairs = place(sizeof(uint64_t), uint64_t{capacity.contacts} * k_pairs_per_contact);
+  layout.pair_sort = place(sizeof(uint64_t), uint64_t{capacity.contacts} * k_pairs_per_contact);
   layout.contact_work = place(sizeof(ContactWork), capacity.contacts);
   layout.contact_order = place(sizeof(ContactOrder), capacity.contacts);
+  layout.contact_sort = place(sizeof(ContactOrder), capacity.contacts);
+  layout.islands = place(sizeof(Island), capacity.bodies);
+  layout.island_bodies = place(sizeof(uint32_t), capacity.bodies);
+  layout.sweeps = place(sizeof(BodySweep), capacity.bodies);
+  layout.impact_pairs = place(sizeof(ImpactPair), capacity.contacts);
+  layout.impact_hits = place(sizeof(ImpactHit), capacity.contacts);
   layout.bytes = static_cast<uint32_t>(end);
   fits = end <= 0xffffffffu;
   return layout;

@@ -1,5 +1,6 @@
 #pragma once
 #include <detent/detail/state.h>
+#include <detent/fraction.h>
 
 /// Work space of a step, in the block behind the persistent state. Nothing in it outlives a step.
 namespace detent {
@@ -9,15 +10,31 @@ struct Bounds {
   Position lower, upper;
 };
 
+/// A body's bounds in the sort and sweep, rounded down to a grid over all bodies: what is apart in it is apart.
+struct BoundsKey {
+  uint32_t lower, upper;  ///< along the axis of the sweep
+  uint32_t slot;
+  uint32_t is_dynamic;
+  uint16_t across_lower[2], across_upper[2];  ///< along the other two
+};
+
 /// A body during the substeps.
 struct alignas(8) BodyWork {
-  uint64_t colours;         ///< taken by the contacts of this body
-  Quat rotation;            ///< now
-  Vec3<Real> displacement;  ///< from the start of the tick, m
-  Vec3<Real> turn;          ///< sum of spin x substep x 2^size_exponent from the start of the tick, m
-  Vec3<Real> push;          ///< velocity that gravity and forces add in a substep, m/s
-  Vec3<Real> twist;         ///< momentum that torques add in a substep, m/s
-  Scaled linear_kept;       ///< share of the velocity that damping leaves in a substep
+  uint64_t colours;          ///< taken by the contacts of this body
+  uint32_t island;           ///< while islands are found: a body on the way to the island's first; then the island
+  uint32_t run;              ///< likewise, of the row of bodies with no more than two contacts each that it is part of
+  uint32_t run_length;       ///< bodies in that row, at its first
+  uint32_t contacts;         ///< of this body
+  uint32_t supports;         ///< contacts that carry it, while loads are estimated
+  Scaled carried;            ///< its own mass and what rests on it, kg, likewise
+  Real height;               ///< against gravity, over the island's first body, m, likewise
+  Quat rotation;             ///< now
+  Vec3<Real> displacement;   ///< from the start of the tick, m
+  Vec3<Real> turn;           ///< sum of spin x substep x 2^size_exponent from the start of the tick, m
+  Vec3<Real> push;           ///< velocity that gravity and forces add in a substep, m/s
+  Vec3<Real> free_velocity;  ///< of this substep, before any contact has acted, m/s
+  Vec3<Real> twist;          ///< momentum that torques add in a substep, m/s
+  Scaled linear_kept;        ///< share of the velocity that damping leaves in a substep
   Scaled angular_kept;
 };
 
@@ -25,8 +42,8 @@ struct alignas(8) BodyWork {
 struct ContactRow {
   Vec3<Unit> arm_a, arm_b;            ///< (contact point - centre) x direction, in the body's unit of length
   Vec3<Unit> response_a, response_b;  ///< gyration (world) x arm, 2^-exponent
-  int32_t exponent_a, exponent_b;
-  Unit inverse_mass;  ///< effective mass over the pair's reference mass, in (0, 1]
+  int32_t exponent_a, exponent_b;     ///< the same for all points of a contact, and for both its directions of friction
+  Unit inverse_mass;                  ///< effective mass over the pair's reference mass, in (0, 1]
 };
 
 struct ContactPoint {
@@ -34,6 +51,7 @@ struct ContactPoint {
   Real separation;   ///< at the start of the tick, m
   Real approach;     ///< normal velocity at the start of the tick, m/s; negative when closing
   Real impulse_max;  ///< largest normal impulse of this tick, m/s
+  uint32_t apart;    ///< 1 unless it meets in the substep
 };
 
 /// As ContactRow, for a spin about an axis of the contact: the arm is the axis, 2^-shift.
@@ -48,10 +66,15 @@ struct alignas(8) ContactWork {
   ContactState state;  ///< becomes the world's contact when the step ends
   Vec3<Unit> normal;   ///< from A to B
   Vec3<Unit> tangent[2];
+  Vec3<Unit> middle_a, middle_b;  ///< of the points, from each centre of mass, in the body's unit of length
   ContactPoint point[k_manifold_points_max];
   ContactRow friction_row[2];
   AngularRow angular_row[3];  ///< about the normal and the tangents
   uint32_t angular_rows;      ///< 0; 1: twist; 3: and rolling
+  Unit coupling[k_manifold_points_max]
+               [k_manifold_points_max];  ///< what an impulse at one point adds to the speed at another, 2^-exponent
+  int32_t coupling_exponent;
+  uint32_t moves_a, moves_b;  ///< 1 unless the body is fixed
   uint32_t static_pair;       ///< 1 if only one of the bodies is dynamic
   int32_t shift_a, shift_b;   ///< the body's unit of length over the pair's, as a power of two
   Real friction_impulse[2];   ///< along the tangents
@@ -66,10 +89,61 @@ struct alignas(8) ContactWork {
 };
 
 /// Where a contact stands in the order of the solve.
-struct alignas(8) ContactOrder {
-  uint64_t key;  ///< hash of the pair's ids
+struct ContactOrder {
+  uint32_t key;  ///< hash of the pair's ids
   uint32_t contact;
   uint32_t colour;
+  uint32_t island;
+};
+
+/// Awake bodies in contact with each other, directly or through others, and their contacts.
+struct Island {
+  uint32_t first_body, body_count;        ///< of the list of bodies by island
+  uint32_t first_contact, contact_count;  ///< of the order of the solve
+  uint32_t substeps;
+  uint32_t still;  ///< 1 once it has been at rest for long enough to fall asleep
+};
+
+/// The motion of a body for the rest of the tick, from its pose at `from`: constant velocity and constant world spin.
+struct BodySweep {
+  Fraction from;
+  Vec3<Real> displacement;  ///< m, in a whole tick at this velocity
+  Vec3<Real> turn;          ///< rad, likewise
+  Real reach;               ///< no point of the surface moves farther in the tick, m, unless the body is struck
+  uint32_t impacts;         ///< that the body has had in this tick
+  uint32_t marks;           ///< of the impact stage
+};
+
+/// A pair of bodies that meets in this tick, or has met.
+struct ImpactPair {
+  uint64_t key;       ///< pair_key() of the slots
+  Fraction time;      ///< of what comes next
+  Fraction last;      ///< of the last impact
+  Vec3<Real> point;   ///< of the next impact, on A's surface, m, from A's position then, world axes
+  Vec3<Unit> normal;  ///< of the next impact, from A to B
+  uint8_t next;       ///< what comes next: nothing, an impact, a time found in part, or a look from farther out
+  uint8_t impacts;    ///< so far
+  uint8_t looks;      ///< so far
+  uint8_t zero;
+};
+
+/// An impact that changed how two bodies move, for contact events.
+struct ImpactHit {
+  uint64_t key;       ///< pair_key() of the slots
+  Fraction time;      ///< part of the tick
+  Position point;     ///< m, world
+  Vec3<Unit> normal;  ///< from A to B
+  Real approach;      ///< speed at which the surfaces came together, m/s
+};
+
+/// A stretch of a body's motion in a tick, until its next one begins or the tick ends; for tests.
+struct SweepSegment {
+  uint32_t body;  ///< slot
+  uint32_t zero;
+  Fraction from;
+  BodyPose start;           ///< at `from`
+  Vec3<Real> displacement;  ///< from `from` to the end of the tick, m
+  Vec3<Real> turn;          ///< likewise, rad
 };
 
 }  // namespace DETENT_NAMESPACE

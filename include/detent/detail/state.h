@@ -25,8 +25,12 @@ struct alignas(8) WorldState {
   uint32_t free_word;      ///< no slot is free in the words of `slots` before this one
   uint32_t slots_retired;  ///< body slots whose generation is used up
   uint32_t contact_count;  ///< contacts, sorted by (body_a, body_b)
-  uint32_t substeps;
+  uint32_t substeps;       ///< 0: chosen for each island
+  uint32_t substeps_max;
   uint32_t iterations;
+  uint32_t sleeping;    ///< 1 if islands at rest fall asleep
+  uint32_t continuous;  ///< 1 if bodies meet at the time of impact
+  uint32_t idle;        ///< 1 if nothing is awake: a step has nothing to do
   uint32_t zero;
   Vec3<Real> gravity;  ///< m/s^2
   Real tick_time;      ///< s
@@ -57,9 +61,10 @@ struct BodyTraits {
   uint32_t generation;  ///< of the body in the slot, or of the last one
   uint32_t shape;       ///< ShapeType
   int32_t
-      size_exponent;     ///< 2^size_exponent m is the body's unit of length: the bounding radius lies in [1/2, 1) of it
-  Vec3<Unit> size;       ///< in that unit: half extents; or (radius, half length, 0)
-  Unit bounding_radius;  ///< in that unit
+      size_exponent;  ///< 2^size_exponent m is the body's unit of length: the bounding radius lies in [1/2, 1) of it
+  Vec3<Unit> size;    ///< in that unit: half extents; (radius, half length, 0); or of a hull the greatest |x|, |y|, |z|
+  Unit bounding_radius;  ///< in that unit, `rounding` included
+  Unit rounding;         ///< in that unit: radius of the ball that rounds a box, cylinder, cone or hull, else 0
   Scaled mass;           ///< kg; 0 if not dynamic
   Scaled gyration[3];    ///< m (2^size_exponent)^2 / I about each body axis; 0 if not dynamic
   Scaled friction;
@@ -70,6 +75,16 @@ struct BodyTraits {
   Scaled gravity_scale;
   uint32_t user_data;
   uint32_t restitution_rule;  ///< RestitutionRule
+  uint32_t asset;             ///< of a hull: its index in the world's table; else 0
+  uint32_t zero;
+};
+
+/// What a body's island does with its time. All zero for what is not dynamic.
+struct BodyActivity {
+  uint32_t substeps;     ///< of the last tick; 0 before the first one and without contacts
+  uint32_t calm_ticks;   ///< ticks in which fewer substeps would have done
+  uint32_t still_ticks;  ///< ticks at rest
+  uint32_t asleep;       ///< slot + 1 of the first body it fell asleep with; 0: awake
 };
 
 constexpr uint32_t k_manifold_points_max = 4;
@@ -78,19 +93,28 @@ constexpr uint32_t k_manifold_points_max = 4;
 struct ContactState {
   uint32_t body_a;  ///< slot index; body_a < body_b
   uint32_t body_b;
-  uint32_t age;  ///< ticks in contact before this one
+  uint16_t age;       ///< ticks in contact before this one, at most 65535
+  uint16_t touching;  ///< 1 if they pushed each other in the last tick
   uint32_t point_count;
   uint32_t feature[k_manifold_points_max];  ///< which features touch; distinct; 0 beyond point_count
   Real
       normal_impulse[k_manifold_points_max];  ///< impulse / mass of the lighter dynamic body, m/s; 0 beyond point_count
   Vec3<Real> friction_impulse;                ///< likewise, on B, world
   Vec3<Real> angular_impulse;                 ///< likewise, per unit length of the pair, on B, world
+  Real load;  ///< normal force / mass of the lighter dynamic body that the island's substeps are chosen by, m/s^2
+};
+
+/// What a bound asset's bytes are. Stored: a value is never reused.
+enum class AssetKind : uint32_t {
+  none = 0,   ///< not bound
+  other = 1,  ///< nothing that the library reads
+  hull = 2,   ///< a cooked hull, checked in full
 };
 
 struct AssetState {
   uint64_t digest;
   uint32_t byte_count;
-  uint32_t bound;  ///< 1 once bound
+  uint32_t kind;  ///< AssetKind
 };
 
 }  // namespace DETENT_NAMESPACE

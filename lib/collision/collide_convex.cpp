@@ -1,0 +1,86 @@
+#include "collision/collide_convex.h"
+
+#include <detent/contact.h>
+
+#include "collision/body_convex.h"
+#include "collision/collide_half_space.h"
+#include "math/arithmetic.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+bool is_half_space(const CollisionBody& body) {
+  return static_cast<ShapeType>(body.traits.shape) == ShapeType::half_space;
+}
+
+/// In the body's own unit of length. The middle of a deep overlap with a much larger body may lie far outside the
+/// smaller one: the arm is held to 1.5 units there.
+Vec3<Unit> arm_in(const Vec3<Real>& arm, int32_t exponent) {
+  const Real limit = real_from_unit(Unit(1.5), exponent);
+  const auto component = [&](Real a) { return unit_from_real(clamp(a, -limit, limit), exponent); };
+  return {component(arm.x), component(arm.y), component(arm.z)};
+}
+
+void add_points(const CollisionBody& a, const CollisionBody& b, const ContactManifold& manifold,
+                ContactGeometry& contact) {
+  contact.normal = manifold.normal;
+  contact.capped = manifold.capped;
+  for (uint32_t i = 0; i < manifold.count; ++i) {
+    const ManifoldPoint& point = manifold.point[i];
+    contact.point[contact.count++] = {arm_in(point.from_a, a.traits.size_exponent),
+                                      arm_in(point.from_b, b.traits.size_exponent), point.separation, point.feature};
+  }
+}
+
+Real bounding_radius(const BodyTraits& traits) { return real_from_unit(traits.bounding_radius, traits.size_exponent); }
+
+/// The plane is asked about where it is nearest to the body: its origin may be too far off for contact_points(). What
+/// the place's rounding to a coordinate takes from the distance is added to it again.
+Status meet_half_space(const CollisionBody& plane, const CollisionBody& body, const Convex& convex, bool plane_is_a,
+                       Real reach, ContactManifold& manifold) {
+  const Vec3<Unit>& up = plane.rotation.column[1];
+  const Real height = distance_along(plane.pose.position, body.pose.position, up);
+  const Real radius = bounding_radius(body.traits);
+  if (height > radius + reach) return Status::ok;
+  // Far below, the least that keeps the whole body under the plane.
+  const Real down = clamp(height, scale_by_power(-radius, 1), radius + reach);
+  const Position centre = {0.0, 0.0, 0.0};
+  Position foot = centre;
+  bool saturated = false;  // never: a body's size
+  foot.x = coord_advance(foot.x, -(down * up.x), saturated);
+  foot.y = coord_advance(foot.y, -(down * up.y), saturated);
+  foot.z = coord_advance(foot.z, -(down * up.z), saturated);
+  const Real missing = height - distance_along(foot, centre, up);
+  Convex ground;
+  ground.type = ShapeType::half_space;
+  const Pose pose_ground = {foot, plane.pose.rotation}, pose_body = {centre, body.pose.rotation};
+  const Real asked = max(reach - missing, Real(0.0));
+  const Status status = plane_is_a ? contact_points(ground, pose_ground, convex, pose_body, asked, manifold)
+                                   : contact_points(convex, pose_body, ground, pose_ground, asked, manifold);
+  for (uint32_t i = 0; i < manifold.count; ++i) {
+    ManifoldPoint& point = manifold.point[i];
+    point.separation += missing;
+    (plane_is_a ? point.from_a : point.from_b) = {0.0, 0.0, 0.0};  // a plane's arm turns nothing
+  }
+  return status;
+}
+
+}  // namespace
+
+void collide_convex(const CollisionBody& a, const CollisionBody& b, Real reach, const AssetTable& assets,
+                    ContactGeometry& contact) {
+  Convex convex_a, convex_b;
+  contact.capped = !body_convex(a.traits, assets, convex_a) || !body_convex(b.traits, assets, convex_b);
+  if (contact.capped) return;
+  ContactManifold manifold;
+  const Status status = is_half_space(a)   ? meet_half_space(a, b, convex_b, true, reach, manifold)
+                        : is_half_space(b) ? meet_half_space(b, a, convex_a, false, reach, manifold)
+                                           : contact_points(convex_a, {a.pose.position, a.pose.rotation}, convex_b,
+                                                            {b.pose.position, b.pose.rotation}, reach, manifold);
+  add_points(a, b, manifold, contact);
+  contact.capped = contact.capped || status != Status::ok;
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

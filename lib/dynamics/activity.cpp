@@ -1,0 +1,61 @@
+#include "dynamics/activity.h"
+
+#include "dynamics/predict.h"
+#include "geometry/shape_traits.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+constexpr Vec3<Real> k_still = {0.0, 0.0, 0.0};
+constexpr int k_rest_power = -6;
+
+}  // namespace
+
+bool is_moving(const BodyTraits& traits, const BodyMotion& motion, const BodyActivity& activity) {
+  if (is_dynamic(traits)) return activity.asleep == 0;
+  return type_of(traits) == BodyType::kinematic && !(motion.velocity == k_still && motion.momentum == k_still);
+}
+
+uint32_t wake_all_with(uint32_t slot, Span<BodyActivity> activities) {
+  const uint32_t group = activities[slot].asleep;
+  if (group == 0) return 0;
+  uint32_t count = 0;
+  for (BodyActivity& activity : activities) {
+    if (activity.asleep != group) continue;
+    activity.asleep = 0;
+    activity.still_ticks = 0;
+    ++count;
+  }
+  return count;
+}
+
+uint32_t fall_asleep(const StepSettings& settings, Span<const BodyTraits> traits, Span<const BodyPose> poses,
+                     Span<const Island> islands, Span<const uint32_t> bodies, Span<BodyMotion> motions,
+                     Span<BodyActivity> activities) {
+  uint32_t asleep = 0;
+  for (const Island& island : islands) {
+    bool still = true;
+    for (uint32_t i = 0; i < island.body_count; ++i) {
+      const uint32_t slot = bodies[island.first_body + i];
+      const Real fall = fall_speed(settings, shape_extent(traits[slot]));
+      const bool rests =
+          speed_bound(traits[slot], poses[slot].rotation, motions[slot]) < scale_by_power(fall, k_rest_power);
+      uint32_t& ticks = activities[slot].still_ticks;
+      ticks = !rests ? 0 : ticks < k_still_ticks ? ticks + 1 : ticks;
+      still = still && ticks == k_still_ticks;
+    }
+    if (!still) continue;
+    const uint32_t group = bodies[island.first_body] + 1;
+    for (uint32_t i = 0; i < island.body_count; ++i) {
+      const uint32_t slot = bodies[island.first_body + i];
+      motions[slot].velocity = motions[slot].momentum = k_still;
+      activities[slot].asleep = group;
+    }
+    asleep += island.body_count;
+  }
+  return asleep;
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,32 @@
+#pragma once
+#include <detent/detail/scratch.h>
+
+#include "base/span.h"
+#include "dynamics/spin.h"
+#include "dynamics/step_settings.h"
+
+/// Which bodies take part in a step, and when an island rests.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+inline constexpr uint32_t k_still_ticks = 30;  ///< at rest before an island falls asleep
+
+inline bool is_awake(const BodyTraits& traits, const BodyActivity& activity) {
+  return is_dynamic(traits) && activity.asleep == 0;
+}
+
+/// A body that moves, or may be moved, in this step: an awake dynamic one, or a kinematic one that has a velocity.
+bool is_moving(const BodyTraits& traits, const BodyMotion& motion, const BodyActivity& activity);
+
+/// Wakes all bodies that fell asleep with the one in `slot`. Returns how many.
+uint32_t wake_all_with(uint32_t slot, Span<BodyActivity> activities);
+
+/// Counts the ticks that each body has been at rest, and puts islands of which all bodies have been for k_still_ticks
+/// to sleep: they stop. Returns how many bodies fell asleep.
+/// At rest is a point of the body's rim slower than a 64th of the speed of a fall by its smallest diameter.
+uint32_t fall_asleep(const StepSettings& settings, Span<const BodyTraits> traits, Span<const BodyPose> poses,
+                     Span<const Island> islands, Span<const uint32_t> bodies, Span<BodyMotion> motions,
+                     Span<BodyActivity> activities);
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,656 @@
+#include "dynamics/impact.h"
+
+#include "collision/broadphase.h"
+#include "dynamics/activity.h"
+#include "dynamics/impact_pair.h"
+#include "dynamics/impact_response.h"
+#include "dynamics/spin.h"
+#include "geometry/bounds.h"
+#include "geometry/shape_traits.h"
+#include "math/root.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+constexpr Real k_zero = 0.0;
+constexpr Vec3<Real> k_none = {k_zero, k_zero, k_zero};
+
+// What comes next of a pair.
+constexpr uint8_t k_next_none = 0;
+constexpr uint8_t k_next_impact = 1;
+constexpr uint8_t k_next_undecided = 2;  ///< up to there it is clear
+constexpr uint8_t k_next_look = 3;       ///< it is tested again, from farther out on the ladder if it has parted
+
+/// Of a pair that touches after an impact: until it is looked at again, twice as long each time.
+constexpr int k_look_power = -10;
+constexpr uint32_t k_looks_max = 16;
+constexpr int k_rounds_max = 64;  ///< of passing a blow on
+
+// Marks of a body's sweep.
+constexpr uint32_t k_mark_stopped = 1;  ///< it stays where it is
+constexpr uint32_t k_mark_changed = 2;  ///< its new sweep is yet to be tested
+constexpr uint32_t k_mark_struck = 8;   ///< its momentum goes with its sweep
+constexpr uint32_t k_mark_slept = 16;   ///< it was asleep when the tick began
+constexpr uint32_t k_mark_strayed = 4;  ///< its sweep leaves the bounds that the pairs were found by
+
+bool is_half_space(const BodyTraits& traits) { return static_cast<ShapeType>(traits.shape) == ShapeType::half_space; }
+bool is_at_rest(const BodySweep& sweep) { return sweep.displacement == k_none && sweep.turn == k_none; }
+
+bool holds(const Bounds& outer, const Bounds& inner) {
+  return outer.lower.x <= inner.lower.x && inner.upper.x <= outer.upper.x && outer.lower.y <= inner.lower.y &&
+         inner.upper.y <= outer.upper.y && outer.lower.z <= inner.lower.z && inner.upper.z <= outer.upper.z;
+}
+
+/// Bounds of a body over a sweep, with a margin below that of the bounds that pairs are found by.
+Bounds bounds_over(const BodyTraits& traits, const BodyPose& pose, const Sweep& sweep) {
+  if (is_half_space(traits)) return k_everywhere;
+  const Real margin = scale_by_power(shape_extent(traits), -8);
+  Vec3<Real> reach = half_bounds(traits, matrix_from(pose.rotation));
+  if (!(sweep.turn == k_none)) {
+    const Real ball = real_from_unit(traits.bounding_radius, traits.size_exponent);
+    const Real swing = ball * min(length(sweep.turn), Real(4.0));
+    reach = {min(reach.x + swing, ball), min(reach.y + swing, ball), min(reach.z + swing, ball)};
+  }
+  reach += {margin, margin, margin};
+  const Vec3<Real>& way = sweep.displacement;
+  bool beyond = false;  // clamped bounds still contain the body
+  const Position& at = pose.position;
+  return {{coord_advance(at.x, min(way.x, k_zero) - reach.x, beyond),
+           coord_advance(at.y, min(way.y, k_zero) - reach.y, beyond),
+           coord_advance(at.z, min(way.z, k_zero) - reach.z, beyond)},
+          {coord_advance(at.x, max(way.x, k_zero) + reach.x, beyond),
+           coord_advance(at.y, max(way.y, k_zero) + reach.y, beyond),
+           coord_advance(at.z, max(way.z, k_zero) + reach.z, beyond)}};
+}
+
+uint64_t key_of(uint32_t a, uint32_t b) { return a < b ? pair_key(a, b) : pair_key(b, a); }
+
+/// The contact of a pair, or none.
+const ContactWork* find_contact(Span<const ContactWork> contacts, uint64_t key) {
+  uint32_t low = 0, high = contacts.count;
+  while (low < high) {
+    const uint32_t middle = low + (high - low) / 2;
+    const ContactState& state = contacts[middle].state;
+    if (pair_key(state.body_a, state.body_b) < key)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  if (low == contacts.count) return nullptr;
+  const ContactState& state = contacts[low].state;
+  return pair_key(state.body_a, state.body_b) == key ? &contacts[low] : nullptr;
+}
+
+bool contains(Span<const uint64_t> keys, uint64_t key) {
+  uint32_t low = 0, high = keys.count;
+  while (low < high) {
+    const uint32_t middle = low + (high - low) / 2;
+    if (keys[middle] < key)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low < keys.count && keys[low] == key;
+}
+
+struct Stage {
+  const StepSettings& settings;
+  const AssetTable& assets;
+  const ImpactPairs& known;
+  const ImpactBodies& bodies;
+  Span<Bounds> bounds;
+  Span<ImpactPair> met;
+  Span<ImpactHit> hits;
+  ImpactProbe* probe;
+  Scaled tick_rate;
+  bool filters;
+  uint32_t met_count = 0;
+  uint32_t changed_count = 0;
+  Real first_approach = 0.0;  ///< of the impact that is being resolved, m/s
+  ImpactReport report = {};
+
+  SweptBody body(uint32_t slot) const { return {bodies.traits[slot], bodies.poses[slot], bodies.sweeps[slot]}; }
+  bool dynamic(uint32_t slot) const { return is_dynamic(bodies.traits[slot]); }
+
+  void write_down(uint32_t slot) {
+    if (probe == nullptr) return;
+    const uint32_t at = probe->segment_count++;
+    if (at >= probe->segments.count) return;
+    const BodySweep& sweep = bodies.sweeps[slot];
+    const Sweep rest = rest_of(sweep, sweep.from);
+    probe->segments[at] = {slot, 0, sweep.from, bodies.poses[slot], rest.displacement, rest.turn};
+  }
+
+  void set_bounds(uint32_t slot) {
+    const BodySweep& sweep = bodies.sweeps[slot];
+    bounds[slot] = bounds_over(bodies.traits[slot], bodies.poses[slot], rest_of(sweep, sweep.from));
+  }
+
+  /// The body's sweep begins anew at `time`, as it was.
+  void move_to(uint32_t slot, Fraction time) {
+    BodySweep& sweep = bodies.sweeps[slot];
+    const bool struck = (sweep.marks & k_mark_struck) != 0;
+    sweep.marks |= k_mark_struck;
+    // The solver's momentum is that of the tick's end.
+    const Quat from = struck ? bodies.poses[slot].rotation : end_rotation(slot);
+    if (time > sweep.from) bodies.poses[slot] = pose_at(body(slot), time);
+    sweep.from = time;
+    Vec3<Real>& momentum = bodies.motions[slot].momentum;
+    momentum = carried_momentum(bodies.traits[slot], from, bodies.poses[slot].rotation, momentum);
+  }
+
+  Quat end_rotation(uint32_t slot) const {
+    const BodySweep& sweep = bodies.sweeps[slot];
+    return sweep_end_rotation(bodies.poses[slot].rotation, rest_of(sweep, sweep.from));
+  }
+
+  /// Brings the momentum of the bodies that were struck to the end of the tick.
+  void carry_to_end() {
+    for (uint32_t slot = 0; slot < bodies.traits.count; ++slot) {
+      if ((bodies.sweeps[slot].marks & k_mark_struck) == 0) continue;
+      Vec3<Real>& momentum = bodies.motions[slot].momentum;
+      momentum = carried_momentum(bodies.traits[slot], bodies.poses[slot].rotation, end_rotation(slot), momentum);
+    }
+  }
+
+  /// The body, which is at `time`, now moves in another way: what was found of it no longer holds.
+  void change(uint32_t slot) {
+    BodySweep& sweep = bodies.sweeps[slot];
+    set_bounds(slot);
+    write_down(slot);
+    if ((sweep.marks & k_mark_changed) == 0) ++changed_count;
+    sweep.marks |= k_mark_changed;
+    for (uint32_t i = 0; i < met_count; ++i) {
+      if (pair_low(met[i].key) == slot || pair_high(met[i].key) == slot) met[i].next = k_next_none;
+    }
+  }
+
+  /// The body stays where it is until the tick ends.
+  void stop(uint32_t slot, Fraction time) {
+    BodySweep& sweep = bodies.sweeps[slot];
+    if (!dynamic(slot) || (sweep.marks & k_mark_stopped) != 0) return;
+    move_to(slot, time);
+    sweep.displacement = sweep.turn = k_none;
+    sweep.marks |= k_mark_stopped;
+    ++report.bodies_stopped;
+    report.lost_time += sweep_part({{Real(1.0), k_zero, k_zero}, k_none}, k_whole_step - time).displacement.x;
+    change(slot);
+  }
+
+  ImpactPair* find_met(uint64_t key) {
+    for (uint32_t i = 0; i < met_count; ++i) {
+      if (met[i].key == key) return &met[i];
+    }
+    return nullptr;
+  }
+
+  /// True if the point of an impact that is found at once isn't about to come closer.
+  bool parts(const SweptBody& a, const SweptBody& b, const TimeOfImpact& impact) const {
+    const BodyPose pose_a = pose_at(a, impact.time), pose_b = pose_at(b, impact.time);
+    const Vec3<Real> offset = offset_of(pose_a, pose_b);
+    const Vec3<Real> way = b.sweep.displacement - a.sweep.displacement;
+    const Vec3<Real> arm_b = impact.point - offset;
+    const Real swing_a = dot(cross(impact.point, impact.normal), a.sweep.turn);
+    const Real swing_b = dot(cross(arm_b, impact.normal), b.sweep.turn);
+    // What is slower does not come through the next rung in this tick.
+    const Real slow = scale_by_power(min(shape_extent(a.traits), shape_extent(b.traits)), -12);
+    return dot(way, impact.normal) + (swing_b - swing_a) >= -slow;
+  }
+
+  /// Whether the solver has pushed a pair apart in this tick.
+  bool is_pushed(uint64_t key) const {
+    const ContactWork* contact = find_contact(known.contacts, key);
+    if (contact == nullptr) return false;
+    bool pushed = false;
+    for (uint32_t i = 0; i < contact->state.point_count; ++i) pushed = pushed || contact->point[i].impulse_max > k_zero;
+    return pushed;
+  }
+
+  Real extent_of(uint64_t key) const {
+    return min(shape_extent(bodies.traits[pair_low(key)]), shape_extent(bodies.traits[pair_high(key)]));
+  }
+
+  bool is_ball(uint32_t slot) const { return bodies.traits[slot].shape == static_cast<uint32_t>(ShapeType::sphere); }
+
+  /// On which rung of the ladder a pair starts, and by how much at least its inset bodies are apart, m.
+  Real first_inset(uint64_t key, Real& apart) const {
+    const Real extent = extent_of(key);
+    const ContactWork* contact = known.contacts.count == 0 ? nullptr : find_contact(known.contacts, key);
+    if (contact == nullptr) {
+      apart = known.complete ? scale_by_power(extent, -6) : k_zero;
+      return k_zero;
+    }
+    Real least = contact->point[0].separation;
+    for (uint32_t i = 1; i < contact->state.point_count; ++i) least = min(least, contact->point[i].separation);
+    if (least > scale_by_power(extent, -10)) {
+      apart = scale_by_power(least, -1);
+      // A ball that the solver has let bounce touches when the tick ends: within a query's tolerance that would be an
+      // impact. Of other shapes another place may come first.
+      const bool bounces = is_ball(pair_low(key)) || is_ball(pair_high(key));
+      return bounces && is_positive(contact->restitution) && is_pushed(key) ? next_inset(extent, k_zero) : k_zero;
+    }
+    const Real inset = contact_inset(extent, -least);
+    apart = least + inset;  // but one of the two insets: the points of a contact need not show all of its depth
+    return inset;
+  }
+
+  /// The pair's entry, made if there is none; null if there is no room.
+  ImpactPair* entry_of(uint64_t key, ImpactPair* entry) {
+    if (entry != nullptr) return entry;
+    if (met_count == met.count) return nullptr;
+    entry = &met[met_count++];
+    *entry = {};
+    entry->key = key;
+    return entry;
+  }
+
+  /// Finds when a pair meets next, and keeps it if it does. `inset`: the rung to begin at; `entry`: the pair's, or
+  /// null.
+  void test(uint64_t key, Fraction time, Real inset, ImpactPair* entry) {
+    const SweptBody a = body(pair_low(key)), b = body(pair_high(key));
+    const bool resolved = entry != nullptr && entry->impacts != 0 && entry->last == time;
+    const Real first = inset, extent = extent_of(key);
+    TimeOfImpact impact;
+    if (entry != nullptr) entry->next = k_next_none;
+    for (;; inset = next_inset(extent, inset)) {
+      if (inset > last_inset(extent)) {
+        ++report.overlaps_left;
+        return;
+      }
+      ++report.tests;
+      if (!pair_impact(assets, a, b, time, inset, impact)) {
+        ++report.undecided;
+        return;
+      }
+      if (impact.outcome == ToiOutcome::clear || impact.time > time) break;
+      if (impact.outcome == ToiOutcome::undecided && !resolved) break;
+      // They touch now. Cores that overlap have no normal.
+      const bool overlap = impact.normal == Vec3<Unit>{Unit(0.0), Unit(0.0), Unit(0.0)};
+      if (!resolved && !overlap && !parts(a, b, impact)) break;
+    }
+    const Fraction look = look_after(time, inset == first ? 0 : 1 + (entry == nullptr ? 0 : entry->looks));
+    const bool meets = impact.outcome != ToiOutcome::clear, looks = look < k_whole_step && first == k_zero;
+    if (!meets && !looks) return;
+    entry = entry_of(key, entry);
+    if (entry == nullptr) {
+      if (!meets) return;
+      ++report.pairs_dropped;
+      stop(pair_low(key), time);
+      stop(pair_high(key), time);
+      return;
+    }
+    if (looks && (!meets || look < impact.time)) {
+      ++entry->looks;
+      entry->next = k_next_look;
+      entry->time = look;
+      return;
+    }
+    entry->next = impact.outcome == ToiOutcome::undecided ? k_next_undecided : k_next_impact;
+    entry->time = impact.time;
+    entry->normal = impact.normal;
+    entry->point = impact.point;
+  }
+
+  /// When to look again at a pair that was `looks` times found touching; 1 for never.
+  static Fraction look_after(Fraction time, uint32_t looks) {
+    if (looks == 0 || looks > k_looks_max) return k_whole_step;
+    const uint32_t power = looks < 10 ? looks - 1 : 9;
+    const int64_t after = (int64_t{1} << (Fraction::k_frac + k_look_power)) << power;
+    return after < k_whole_step.raw - time.raw ? Fraction::from_raw(time.raw + after) : k_whole_step;
+  }
+
+  /// Tests a pair from the start of the tick, unless it is sure to be clear.
+  void test_at_start(uint64_t key) {
+    const uint32_t low = pair_low(key), high = pair_high(key);
+    if (!dynamic(low) && !dynamic(high)) return;
+    if (is_at_rest(bodies.sweeps[low]) && is_at_rest(bodies.sweeps[high])) return;
+    if (!overlap(bounds[low], bounds[high])) return;
+    Real apart = k_zero, closing = k_zero;
+    const Real inset = first_inset(key, apart);
+    const Fraction start = 0.0;
+    // The sum of both motions is cheap, and mostly enough.
+    const bool slow = bodies.sweeps[low].reach + bodies.sweeps[high].reach < apart;
+    if (filters && (slow || (closing_bound(body(low), body(high), start, closing) && closing < apart))) {
+      ++report.skipped;
+      return;
+    }
+    test(key, start, inset, nullptr);
+  }
+
+  void find_first() {
+    const uint32_t count = bodies.traits.count;
+    for (uint32_t slot = 0; slot < count; ++slot) {
+      BodySweep& sweep = bodies.sweeps[slot];
+      sweep.from = Fraction(0.0);
+      sweep.impacts = sweep.marks = 0;
+      sweep.reach = k_zero;
+      if (bodies.traits[slot].type == 0) continue;
+      if (!is_at_rest(sweep)) {
+        const Bounds found_by = bounds[slot];
+        set_bounds(slot);
+        write_down(slot);
+        if (!holds(found_by, bounds[slot])) sweep.marks |= k_mark_strayed;
+        if (!motion_bound(body(slot), sweep.from, sweep.reach)) sweep.reach = scale_by_power(k_real_max, -2);
+      }
+      if (!filters || !known.complete) sweep.marks |= k_mark_strayed;
+    }
+    for (const uint64_t key : known.pairs) test_at_start(key);
+    for (uint32_t a = 0; a < count; ++a) {
+      if ((bodies.sweeps[a].marks & k_mark_strayed) == 0) continue;
+      for (uint32_t b = 0; b < count; ++b) {
+        if (b == a || bodies.traits[b].type == 0 || !overlap(bounds[a], bounds[b])) continue;
+        if (b < a && (bodies.sweeps[b].marks & k_mark_strayed) != 0) continue;
+        if (!contains(known.pairs, key_of(a, b))) test_at_start(key_of(a, b));
+      }
+    }
+  }
+
+  /// Tests the new sweep of a body against all others.
+  void test_changed(uint32_t slot, Fraction time) {
+    bodies.sweeps[slot].marks &= ~k_mark_changed;
+    --changed_count;
+    for (uint32_t other = 0; other < bodies.traits.count; ++other) {
+      if (other == slot || bodies.traits[other].type == 0 || !overlap(bounds[slot], bounds[other])) continue;
+      if (is_at_rest(bodies.sweeps[slot]) && is_at_rest(bodies.sweeps[other])) continue;
+      const uint64_t key = key_of(slot, other);
+      ImpactPair* entry = find_met(key);
+      Real apart = k_zero;
+      test(key, time, first_inset(key, apart), entry);
+    }
+  }
+
+  void test_all_changed(Fraction time) {
+    while (changed_count != 0) {
+      for (uint32_t slot = 0; slot < bodies.traits.count && changed_count != 0; ++slot) {
+        if ((bodies.sweeps[slot].marks & k_mark_changed) != 0) test_changed(slot, time);
+      }
+    }
+  }
+
+  ImpactPair* next() {
+    ImpactPair* best = nullptr;
+    for (uint32_t i = 0; i < met_count; ++i) {
+      ImpactPair& pair = met[i];
+      if (pair.next == k_next_none) continue;
+      if (best == nullptr || pair.time < best->time || (pair.time == best->time && pair.key < best->key)) best = &pair;
+    }
+    return best;
+  }
+
+  /// The contact points of the bodies themselves; none where they do not agree with the time of impact: deep within a
+  /// thin body the least way out may lead through it.
+  void find_points(const ImpactPair& pair, const BodyPose& pose_a, const BodyPose& pose_b, ContactGeometry& geometry) {
+    const BodyTraits &a = bodies.traits[pair_low(pair.key)], &b = bodies.traits[pair_high(pair.key)];
+    const Matrix3 rotation_a = matrix_from(pose_a.rotation), rotation_b = matrix_from(pose_b.rotation);
+    const Real reach = scale_by_power(extent_of(pair.key), -10);
+    collide({pose_a, a, rotation_a}, {pose_b, b, rotation_b}, reach, geometry, assets);
+    if (has_normal(pair) && geometry.count != 0 && !(dot(geometry.normal, pair.normal) > Unit(0.0))) geometry.count = 0;
+  }
+
+  /// The point that the time of impact was found by.
+  void take_point(const ImpactPair& pair, const BodyPose& pose_a, const BodyPose& pose_b, ContactGeometry& geometry) {
+    const BodyTraits &a = bodies.traits[pair_low(pair.key)], &b = bodies.traits[pair_high(pair.key)];
+    const auto arm = [](const BodyTraits& traits, const Vec3<Real>& point) {
+      const Unit zero = 0.0;
+      if (is_half_space(traits)) return Vec3<Unit>{zero, zero, zero};
+      const Real limit = real_from_unit(Unit(1.5), traits.size_exponent);
+      const auto component = [&](Real value) {
+        return unit_from_real(clamp(value, -limit, limit), traits.size_exponent);
+      };
+      return Vec3<Unit>{component(point.x), component(point.y), component(point.z)};
+    };
+    geometry.count = 1;
+    geometry.normal = pair.normal;
+    geometry.point[0] = {arm(a, pair.point), arm(b, pair.point - offset_of(pose_a, pose_b)), k_zero, 1};
+  }
+  static bool has_normal(const ImpactPair& pair) {
+    return !(pair.normal == Vec3<Unit>{Unit(0.0), Unit(0.0), Unit(0.0)});
+  }
+
+  void wake(uint32_t slot) {
+    if (bodies.activities[slot].asleep == 0) return;
+    bodies.sweeps[slot].marks |= k_mark_slept;
+    report.woke += wake_all_with(slot, bodies.activities);
+  }
+
+  /// The velocity that gravity has yet to give a body after `time`.
+  Vec3<Real> fall_after(uint32_t slot, Fraction time) const {
+    const BodyTraits& traits = bodies.traits[slot];
+    if (!is_dynamic(traits) || (bodies.sweeps[slot].marks & k_mark_slept) != 0) return k_none;
+    const Vec3<Real> fall = settings.gravity * settings.tick_time;
+    bool saturated = false;
+    const Vec3<Real> own = {multiply(fall.x, traits.gravity_scale, saturated),
+                            multiply(fall.y, traits.gravity_scale, saturated),
+                            multiply(fall.z, traits.gravity_scale, saturated)};
+    return sweep_part({own, k_none}, k_whole_step - time).displacement;
+  }
+
+  /// The speed, m/s, at which a pair parts on its sweeps at least. An overlap is made good; and what has met before in
+  /// this tick, as what turns or rolls on an edge does again and again, hops, the farther the more often, so that a few
+  /// impacts see it through the tick. The bodies' own velocities know nothing of it.
+  Real parting_speed(const ImpactPair& pair, const ContactWork& contact, uint32_t count) const {
+    bool saturated = false;
+    Real depth = k_zero, approach = k_zero;
+    for (uint32_t i = 0; i < count; ++i) {
+      depth = max(depth, -contact.point[i].separation);
+      approach = max(approach, -contact.point[i].approach);
+    }
+    const Real half_in_a_tick = scale_by_power(multiply(depth, tick_rate, saturated), -1);
+    if (pair.impacts == 0)
+      return max(half_in_a_tick, min(scale_by_power(half_in_a_tick, 6), scale_by_power(approach, -2)));
+    const int power = pair.impacts < 2 ? -2 : pair.impacts < 5 ? -1 : 0;
+    return max(max(half_in_a_tick, scale_by_power(approach, power)), bend_speed(pair));
+  }
+
+  /// What the turning of both bodies brings them together by in the rest of the tick, however they part, as a speed,
+  /// m/s: a 16th of it where they have met twice, and up to all of it later on.
+  Real bend_speed(const ImpactPair& pair) const {
+    const uint32_t a = pair_low(pair.key), b = pair_high(pair.key);
+    const auto radius = [&](uint32_t slot) {
+      const BodyTraits& traits = bodies.traits[slot];
+      return real_from_unit(traits.bounding_radius, traits.size_exponent);
+    };
+    const BodySweep &sweep_a = bodies.sweeps[a], &sweep_b = bodies.sweeps[b];
+    constexpr Real k_turn = 2.0;  // beyond it they have turned away
+    const Real turn_a = min(length(sweep_a.turn), k_turn), turn_b = min(length(sweep_b.turn), k_turn);
+    const Real way = length(sweep_b.displacement - sweep_a.displacement);
+    const Real bend = turn_a * turn_a * radius(a) + turn_b * turn_b * radius(b) + (turn_a + turn_b) * way;
+    const Real part = sweep_part({{bend, k_zero, k_zero}, k_none}, k_whole_step - pair.time).displacement.x;
+    const int power = (pair.impacts < 5 ? pair.impacts : 5) - 5;
+    bool saturated = false;
+    return multiply(scale_by_power(part, power), tick_rate, saturated);
+  }
+
+  /// Lets the bodies of a pair part.
+  void resolve(ImpactPair& pair, bool undecided, const BodyPose& pose_a, const BodyPose& pose_b) {
+    ContactGeometry geometry;
+    find_points(pair, pose_a, pose_b, geometry);
+    if (geometry.count != 0 && resolve_at(pair, geometry, pose_a, pose_b, false)) return;
+    if (undecided || !has_normal(pair)) return;
+    take_point(pair, pose_a, pose_b, geometry);
+    resolve_at(pair, geometry, pose_a, pose_b, false);
+  }
+
+  /// Passes a blow on to what the bodies of a pair touch since an impact of this tick, and back, until all part: a body
+  /// between two others would else be struck to and fro without end. Pairs are taken by their keys.
+  void pass_on(const ImpactPair& first, Fraction time) {
+    const uint64_t first_key = first.key;
+    for (int round = 0; round < k_rounds_max; ++round) {
+      bool again = false;
+      uint64_t after = 0;
+      while (ImpactPair* pair = next_touching(first_key, after)) {
+        after = pair->key;
+        if (round == 0 && after == first_key) continue;
+        again = meet_again(*pair, time) || again;
+      }
+      if (!again) break;
+    }
+  }
+
+  /// The pair of the least key above `after` that has met in this tick and shares a dynamic body with the first one.
+  ImpactPair* next_touching(uint64_t first_key, uint64_t after) {
+    ImpactPair* best = nullptr;
+    for (uint32_t i = 0; i < met_count; ++i) {
+      ImpactPair& pair = met[i];
+      if (pair.impacts == 0 || pair.key <= after || (best != nullptr && pair.key > best->key)) continue;
+      const uint32_t a = pair_low(pair.key), b = pair_high(pair.key);
+      const auto shared = [&](uint32_t slot) {
+        return dynamic(slot) && (slot == pair_low(first_key) || slot == pair_high(first_key));
+      };
+      if (shared(a) || shared(b)) best = &pair;
+    }
+    return best;
+  }
+
+  /// Resolves a pair that may still touch. False if it does not, or does not come together.
+  bool meet_again(ImpactPair& pair, Fraction time) {
+    const uint32_t slots[2] = {pair_low(pair.key), pair_high(pair.key)};
+    const BodyPose pose_a = pose_at(body(slots[0]), time), pose_b = pose_at(body(slots[1]), time);
+    ContactGeometry geometry;
+    const Fraction next_time = pair.time;
+    pair.time = time;
+    find_points(pair, pose_a, pose_b, geometry);
+    for (const uint32_t slot : slots) {
+      if (geometry.count != 0 && dynamic(slot)) move_to(slot, time);
+    }
+    if (geometry.count == 0 || !resolve_at(pair, geometry, pose_a, pose_b, true)) {
+      pair.time = next_time;
+      return false;
+    }
+    pair.last = time;
+    for (const uint32_t slot : slots) {
+      if (dynamic(slot)) change(slot);
+    }
+    return true;
+  }
+
+  /// Likewise, at the given points. False, and nothing changed, if the bodies do not come together there. `again`: the
+  /// blow has been counted.
+  bool resolve_at(ImpactPair& pair, const ContactGeometry& geometry, const BodyPose& pose_a, const BodyPose& pose_b,
+                  bool again) {
+    const uint32_t a = pair_low(pair.key), b = pair_high(pair.key);
+    const BodyTraits &traits_a = bodies.traits[a], &traits_b = bodies.traits[b];
+    const BodyMotion before_a = motion_of_sweep(traits_a, pose_a.rotation, bodies.sweeps[a], tick_rate);
+    const BodyMotion before_b = motion_of_sweep(traits_b, pose_b.rotation, bodies.sweeps[b], tick_rate);
+    ContactWork contact;
+    contact.state = {};
+    make_rows(settings, {traits_a, pose_a, before_a}, {traits_b, pose_b, before_b}, geometry, contact);
+    BodyMotion after_a = before_a, after_b = before_b;
+    Real approach = k_zero;
+    const Real parting = again ? k_zero : parting_speed(pair, contact, geometry.count);
+    const Real least = again ? scale_by_power(first_approach, -12) : k_zero;
+    if (!resolve_impact(contact, geometry.count, least, parting, after_a, after_b, approach)) return false;
+    wake(a);
+    wake(b);
+    report.clamped += hold_spin(traits_a, pose_a.rotation, after_a) + hold_spin(traits_b, pose_b.rotation, after_b);
+    const auto change_sweep = [&](uint32_t slot, const BodyPose& pose, const BodyMotion& before,
+                                  const BodyMotion& after) {
+      if (!dynamic(slot) || (bodies.sweeps[slot].marks & k_mark_stopped) != 0) return;
+      report.clamped +=
+          add_to_sweep(bodies.traits[slot], pose.rotation, before, after, settings.tick_time, bodies.sweeps[slot]);
+    };
+    change_sweep(a, pose_a, before_a, after_a);
+    change_sweep(b, pose_b, before_b, after_b);
+
+    const Vec3<Real> fall_a = fall_after(a, pair.time), fall_b = fall_after(b, pair.time);
+    BodyMotion motion_a = bodies.motions[a], motion_b = bodies.motions[b];
+    motion_a.velocity -= fall_a;
+    motion_b.velocity -= fall_b;
+    Real approach_of_state = k_zero;
+    // A slow rest of what the solver has pushed is left to it: it goes on in the next tick.
+    const Real least_of_state = is_pushed(pair.key) ? contact.rebound_min : k_zero;
+    if (resolve_impact(contact, geometry.count, least_of_state, k_zero, motion_a, motion_b, approach_of_state)) {
+      motion_a.velocity += fall_a;
+      motion_b.velocity += fall_b;
+      report.clamped += hold_spin(traits_a, pose_a.rotation, motion_a) + hold_spin(traits_b, pose_b.rotation, motion_b);
+      if (dynamic(a)) bodies.motions[a] = motion_a;
+      if (dynamic(b)) bodies.motions[b] = motion_b;
+    }
+
+    if (again) return true;
+    first_approach = approach;
+    ++report.impacts;
+    if (pair.impacts < UINT8_MAX) ++pair.impacts;
+    if (report.hits < hits.count)
+      hits[report.hits++] = {pair.key, pair.time, point_of(geometry, pose_a, pose_b, traits_a, traits_b),
+                             geometry.normal, approach};
+    else
+      ++report.hits_dropped;
+    return true;
+  }
+
+  /// The middle of the points, world.
+  static Position point_of(const ContactGeometry& geometry, const BodyPose& pose_a, const BodyPose& pose_b,
+                           const BodyTraits& a, const BodyTraits& b) {
+    static constexpr Unit k_share[k_manifold_points_max] = {1.0, 0.5, 1.0 / 3.0, 0.25};
+    const bool by_b = is_half_space(a);  // which has no arms
+    const int exponent = by_b ? b.size_exponent : a.size_exponent;
+    Vec3<Real> sum = k_none;
+    for (uint32_t i = 0; i < geometry.count; ++i) {
+      const Vec3<Unit> arm = (by_b ? geometry.point[i].arm_b : geometry.point[i].arm_a) * k_share[geometry.count - 1];
+      sum += {real_from_unit(arm.x, exponent), real_from_unit(arm.y, exponent), real_from_unit(arm.z, exponent)};
+    }
+    return moved((by_b ? pose_b : pose_a).position, sum);
+  }
+  static Vec3<Real> offset_of(const BodyPose& a, const BodyPose& b) {
+    return {real_difference(b.position.x, a.position.x), real_difference(b.position.y, a.position.y),
+            real_difference(b.position.z, a.position.z)};
+  }
+
+  void go_on(ImpactPair& pair) {
+    const Fraction time = pair.time;
+    const bool undecided = pair.next == k_next_undecided;
+    if (pair.next == k_next_look) {
+      test(pair.key, time, k_zero, &pair);
+      test_all_changed(time);
+      return;
+    }
+    const uint32_t slots[2] = {pair_low(pair.key), pair_high(pair.key)};
+    pair.next = k_next_none;
+    pair.last = time;
+    report.undecided += undecided ? 1 : 0;
+    for (const uint32_t slot : slots) {
+      if (!dynamic(slot)) continue;
+      move_to(slot, time);
+      report.clamped += hold_turn(bodies.traits[slot], settings.tick_time, bodies.sweeps[slot]);
+    }
+    const BodyPose pose_a = pose_at(body(slots[0]), time), pose_b = pose_at(body(slots[1]), time);
+    first_approach = k_zero;
+    resolve(pair, undecided, pose_a, pose_b);
+    if (first_approach > k_zero) pass_on(pair, time);
+    if (pair.impacts == 0) pair.impacts = 1;
+    for (const uint32_t slot : slots) {
+      if (!dynamic(slot)) continue;
+      BodySweep& sweep = bodies.sweeps[slot];
+      if (++sweep.impacts >= k_impacts_max) stop(slot, time);
+      if ((sweep.marks & k_mark_changed) == 0) change(slot);
+    }
+    test_all_changed(time);
+  }
+};
+
+}  // namespace
+
+ImpactReport advance_to_impacts(const StepSettings& settings, const AssetTable& assets, const ImpactPairs& pairs,
+                                const ImpactBodies& bodies, Span<Bounds> bounds, Span<ImpactPair> met,
+                                Span<ImpactHit> hits, ImpactProbe* probe) {
+  Stage stage = {settings,
+                 assets,
+                 pairs,
+                 bodies,
+                 bounds,
+                 met,
+                 hits,
+                 probe,
+                 divide(Scaled(1.0), scaled_from(settings.tick_time)),
+                 probe == nullptr || probe->filters};
+  stage.find_first();
+  stage.test_all_changed(Fraction(0.0));
+  while (ImpactPair* pair = stage.next()) stage.go_on(*pair);
+  stage.carry_to_end();
+  return stage.report;
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

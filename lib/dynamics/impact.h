@@ -1,0 +1,69 @@
+#pragma once
+#include <detent/asset.h>
+#include <detent/detail/scratch.h>
+
+#include "base/span.h"
+#include "dynamics/step_settings.h"
+
+/// Continuous collision: bodies that would meet on their sweeps meet at the time of impact, and what they then do is
+/// resolved at once.
+///
+/// Events of the whole world are taken in the order of their times, ties by the pair's slots. Both bodies are moved to
+/// the time of impact, an impulse lets them part, and the rest of both sweeps is tested against all others again. The
+/// impulse is found twice: from the velocities of the sweeps, for the rest of the tick, and from those of the bodies'
+/// state then, so that what the solver has resolved already is not resolved again. Each acts on both bodies alike.
+///
+/// A pair that meets again at once touches for the rest of the tick: it is tested from rung to rung of a ladder of
+/// depths (impact_pair.h), so that it slides on. A body that meets more than k_impacts_max times, or for whose next
+/// impact there is no room, stays where it is certain to be free until the tick ends; this lost time is reported.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+inline constexpr uint32_t k_impacts_max = 16;  ///< of a body in a tick
+
+/// For tests: what is written down of the stage, and whether pairs that cannot meet are left out.
+struct ImpactProbe {
+  bool filters = true;
+  Span<SweepSegment> segments;  ///< of all bodies that move, in the order in which they begin; no more than fit
+  uint32_t segment_count = 0;   ///< also of those that did not fit
+};
+
+struct ImpactReport {
+  uint32_t impacts = 0;         ///< that changed how bodies move
+  uint32_t undecided = 0;       ///< times of impact that were found in part, or could not be asked for
+  uint32_t overlaps_left = 0;   ///< pairs too deep within each other to be tested
+  uint32_t bodies_stopped = 0;  ///< that stayed behind until the end of the tick
+  uint32_t pairs_dropped = 0;   ///< impacts for which there was no room: they stopped their bodies
+  uint32_t hits_dropped = 0;    ///< impacts for which there was no room in `hits`
+  uint32_t hits = 0;            ///< written
+  uint32_t tests = 0;           ///< times of impact asked for
+  uint32_t skipped = 0;         ///< pairs that cannot meet by their speeds
+  uint32_t woke = 0;            ///< bodies that slept, and those that they slept with
+  uint32_t clamped = 0;         ///< components held to their range
+  Real lost_time = 0.0;         ///< sum of the parts of the tick that stopped bodies missed
+};
+
+/// The bodies of the stage. Their poses are those of sweep.from, and follow it.
+struct ImpactBodies {
+  Span<const BodyTraits> traits;
+  Span<BodyPose> poses;
+  Span<BodyMotion> motions;
+  Span<BodySweep> sweeps;
+  Span<BodyActivity> activities;
+};
+
+/// What the stages before know of the pairs of bodies.
+struct ImpactPairs {
+  Span<const uint64_t> pairs;        ///< all that may meet while both bodies stay in their bounds, ascending
+  Span<const ContactWork> contacts;  ///< those with contact points at the start of the tick, likewise
+  bool complete;                     ///< none of them was dropped
+};
+
+/// `bounds`: as the pairs were found; becomes the bounds of the sweeps. `met` is work space, `hits` is filled in the
+/// order of the impacts.
+ImpactReport advance_to_impacts(const StepSettings& settings, const AssetTable& assets, const ImpactPairs& pairs,
+                                const ImpactBodies& bodies, Span<Bounds> bounds, Span<ImpactPair> met,
+                                Span<ImpactHit> hits, ImpactProbe* probe = nullptr);
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

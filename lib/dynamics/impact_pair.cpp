@@ -1,0 +1,131 @@
+#include "dynamics/impact_pair.h"
+
+#include "collision/body_convex.h"
+#include "dynamics/spin.h"
+#include "geometry/shape_traits.h"
+#include "math/root.h"
+#include "proximity/pair.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+ShapeType shape_type(const BodyTraits& traits) { return static_cast<ShapeType>(traits.shape); }
+
+/// `depth` in 2^-30 2^exponent m, rounded up.
+int32_t in_units(int64_t depth, int exponent) {
+  return static_cast<int32_t>(shift_64(depth, 30 - k_metre_bits - exponent)) + 1;
+}
+
+int32_t less_depth(int32_t size, int32_t depth, int32_t least) { return size - least > depth ? size - depth : least; }
+
+/// Makes the shape smaller by `depth`, 2^-46 m, on all sides. A hull or cone, which has no such core of its own kind,
+/// is halved on the rungs of contacts and left as it is before.
+void shrink(int64_t depth, bool halve, Convex& convex) {
+  switch (convex.type) {
+    case ShapeType::sphere:
+    case ShapeType::capsule:
+      convex.radius = less_depth(convex.radius, in_units(depth, convex.radius_exponent), 0);
+      break;
+    case ShapeType::box:
+      for (int32_t& size : convex.size) size = less_depth(size, in_units(depth, convex.exponent), 1);
+      break;
+    case ShapeType::cylinder:
+      for (int i = 0; i < 2; ++i) {
+        convex.size[i] = less_depth(convex.size[i], in_units(depth, convex.exponent), 1);
+      }
+      break;
+    case ShapeType::cone:
+    case ShapeType::hull:
+      if (halve) --convex.exponent;
+      break;
+    default:
+      break;
+  }
+}
+
+/// How far from its centre the part of a body lies that its turning moves, m. A ball looks the same however it turns.
+Real swing_radius(const BodyTraits& traits) {
+  switch (shape_type(traits)) {
+    case ShapeType::sphere:
+      return Real(0.0);
+    case ShapeType::capsule:
+      return real_from_unit(traits.size.y, traits.size_exponent);
+    default:
+      return real_from_unit(traits.bounding_radius, traits.size_exponent);
+  }
+}
+
+Real swing(const BodyTraits& traits, const Vec3<Real>& turn, bool& bounded) {
+  const Real zero = 0.0, angle = length(turn);
+  if (angle == zero) return zero;
+  if (shape_type(traits) == ShapeType::half_space) bounded = false;
+  // Half a turn moves a point by no more than the diameter; and so the product stays in range.
+  return swing_radius(traits) * min(angle, Real(4.0));
+}
+
+}  // namespace
+
+Real next_inset(Real extent, Real inset) {
+  if (inset == Real(0.0)) return scale_by_power(extent, -10);
+  if (inset < scale_by_power(extent, -4)) return scale_by_power(inset, 2);
+  return inset + scale_by_power(extent, -5);
+}
+
+Real contact_inset(Real extent, Real depth) {
+  return max(scale_by_power(extent, -3), scale_by_power(depth + scale_by_power(extent, -5), -1));
+}
+
+Real last_inset(Real extent) { return scale_by_power(extent, -1); }
+
+Sweep rest_of(const BodySweep& sweep, Fraction time) {
+  const Sweep whole = {sweep.displacement, sweep.turn};
+  return time.raw == 0 ? whole : sweep_part(whole, k_whole_step - time);
+}
+
+BodyPose pose_at(const SweptBody& body, Fraction time) {
+  BodyPose pose = body.pose;
+  if (time > body.sweep.from) {
+    advance_along({body.sweep.displacement, body.sweep.turn}, time - body.sweep.from, pose);
+  }
+  return pose;
+}
+
+bool motion_bound(const SweptBody& body, Fraction time, Real& bound) {
+  const Sweep rest = rest_of(body.sweep, time);
+  bool bounded = true;
+  bound = length(rest.displacement) + swing(body.traits, rest.turn, bounded);
+  return bounded;
+}
+
+bool closing_bound(const SweptBody& a, const SweptBody& b, Fraction time, Real& bound) {
+  const Sweep rest_a = rest_of(a.sweep, time), rest_b = rest_of(b.sweep, time);
+  bool bounded = true;
+  bound = length(rest_b.displacement - rest_a.displacement) + swing(a.traits, rest_a.turn, bounded) +
+          swing(b.traits, rest_b.turn, bounded);
+  return bounded;
+}
+
+bool pair_impact(const AssetTable& assets, const SweptBody& a, const SweptBody& b, Fraction time, Real inset,
+                 TimeOfImpact& impact) {
+  Convex convex_a, convex_b;
+  if (!body_convex(a.traits, assets, convex_a) || !body_convex(b.traits, assets, convex_b)) return false;
+  if (const Real zero = 0.0; inset > zero) {
+    const Real halving = scale_by_power(min(shape_extent(a.traits), shape_extent(b.traits)), -4);
+    Vec64 raw;
+    if (!raw_from_real({inset, zero, zero}, raw)) return false;
+    shrink(raw.x, inset > halving, convex_a);
+    shrink(raw.x, inset > halving, convex_b);
+  }
+  const BodyPose from_a = pose_at(a, time), from_b = pose_at(b, time);
+  const Sweep rest_a = rest_of(a.sweep, time), rest_b = rest_of(b.sweep, time);
+  const Status status =
+      time_of_impact(convex_a, {{from_a.position, from_a.rotation}, rest_a.displacement, rest_a.turn}, convex_b,
+                     {{from_b.position, from_b.rotation}, rest_b.displacement, rest_b.turn}, impact);
+  if (status != Status::ok) return false;
+  impact.time = time + fraction_product(k_whole_step - time, impact.time);
+  return true;
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,47 @@
+#pragma once
+#include <detent/asset.h>
+#include <detent/detail/scratch.h>
+#include <detent/toi.h>
+
+#include "geometry/sweep.h"
+
+/// When the bodies of a pair meet in the rest of a tick.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// How far within their surfaces the bodies of a pair are tested, m, as rungs of a ladder: at the surface; by the least
+/// that parts again what has met in this tick; and farther in where a tick begins in contact, so that what rests or
+/// slides isn't stopped, and yet cannot pass. `extent` is the smaller body's smallest diameter.
+///
+/// From the surface the rungs are a 1024th of the extent, four times that as far as a 16th, and then a 32nd each.
+Real next_inset(Real extent, Real inset);
+/// The rung of a pair that starts the tick in contact, `depth` deep: an eighth, and so that it cannot sink more than a
+/// 32nd where it is deeper.
+Real contact_inset(Real extent, Real depth);
+/// Beyond it bodies are so deep within each other that nothing is tested: half of the extent.
+Real last_inset(Real extent);
+
+/// A body as the stage sees it.
+struct SweptBody {
+  const BodyTraits& traits;
+  const BodyPose& pose;  ///< at sweep.from
+  const BodySweep& sweep;
+};
+
+/// The sweep of a body from `time` on, and its pose then.
+BodyPose pose_at(const SweptBody& body, Fraction time);
+Sweep rest_of(const BodySweep& sweep, Fraction time);
+
+/// A bound of how far a point of the body's surface moves in the rest of the tick, m; false if there is none.
+bool motion_bound(const SweptBody& body, Fraction time, Real& bound);
+
+/// A bound of how much nearer the surfaces of two bodies can come in the rest of the tick, m; false if there is none.
+bool closing_bound(const SweptBody& a, const SweptBody& b, Fraction time, Real& bound);
+
+/// When the bodies, made smaller by `inset` on all sides, meet from `time` on; the answer's time is a part of the whole
+/// tick. False if it could not be asked: a shape is not known, or lies out of the query's range.
+bool pair_impact(const AssetTable& assets, const SweptBody& a, const SweptBody& b, Fraction time, Real inset,
+                 TimeOfImpact& impact);
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

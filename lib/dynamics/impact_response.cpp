@@ -1,0 +1,176 @@
+#include "dynamics/impact_response.h"
+
+#include "dynamics/contact_velocity.h"
+#include "dynamics/spin.h"
+#include "math/root.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+constexpr Real k_zero = 0.0;
+constexpr int k_sweeps_max = 64;
+constexpr int k_last_sweeps = 8;  ///< over the normals alone
+
+Vec3<Real> scaled(const Vec3<Real>& v, Scaled factor) {
+  bool saturated = false;
+  return {multiply(v.x, factor, saturated), multiply(v.y, factor, saturated), multiply(v.z, factor, saturated)};
+}
+
+Vec3<Real> scaled(const Vec3<Real>& v, int power) {
+  return {scale_by_power(v.x, power), scale_by_power(v.y, power), scale_by_power(v.z, power)};
+}
+
+uint32_t hold(Vec3<Real>& v, Real limit) {
+  const Vec3<Real> held = {clamp(v.x, -limit, limit), clamp(v.y, -limit, limit), clamp(v.z, -limit, limit)};
+  const bool clamped = !(held == v);
+  v = held;
+  return clamped ? 1 : 0;
+}
+
+/// The momentum that has this spin: the inverse of spin_of().
+Vec3<Real> momentum_of(const BodyTraits& traits, const Quat& rotation, const Vec3<Real>& spin) {
+  if (!is_dynamic(traits)) return spin;
+  const Vec3<Real> local = is_isotropic(traits) ? spin : rotate_inverse(rotation, spin);
+  const auto divided = [&](Real value, int i) { return multiply(value, divide(Scaled(1.0), traits.gyration[i])); };
+  const Vec3<Real> momentum = {divided(local.x, 0), divided(local.y, 1), divided(local.z, 2)};
+  return is_isotropic(traits) ? momentum : rotate(rotation, momentum);
+}
+
+/// Twice the energy of turning over the mass, by the momentum in the body's axes.
+Scaled energy_of(const BodyTraits& traits, const Vec3<Real>& local) {
+  const auto term = [&](Real value, int i) {
+    const Scaled factor = scaled_from(value);
+    return multiply(multiply(factor, factor), traits.gyration[i]);
+  };
+  return add(term(local.x, 0), add(term(local.y, 1), term(local.z, 2)));
+}
+
+struct Impact {
+  const ContactWork& contact;
+  uint32_t count;
+  BodyMotion& a;
+  BodyMotion& b;
+  Real wanted[k_manifold_points_max];  ///< normal velocity after the impact
+  Real normal_impulse[k_manifold_points_max];
+  Real friction_impulse[2];
+  Real largest;  ///< change of an impulse in a sweep
+
+  Real velocity(uint32_t i) const { return row_velocity(contact.point[i].row, contact.normal, a, b); }
+
+  void push(uint32_t i) {
+    const ContactRow& row = contact.point[i].row;
+    const Real after = max(normal_impulse[i] + (wanted[i] - velocity(i)) * row.inverse_mass, k_zero);
+    const Real change = after - normal_impulse[i];
+    normal_impulse[i] = after;
+    largest = max(largest, abs(change));
+    if (!(change == k_zero)) apply_impulse(contact, row, contact.normal, change, a, b);
+  }
+
+  void rub() {
+    Real normal = k_zero;
+    for (uint32_t i = 0; i < count; ++i) normal += normal_impulse[i];
+    bool saturated = false;
+    const Real limit = multiply(normal, contact.friction, saturated);
+    Real after[2];
+    for (int i = 0; i < 2; ++i) {
+      const ContactRow& row = contact.friction_row[i];
+      after[i] = friction_impulse[i] - row_velocity(row, contact.tangent[i], a, b) * row.inverse_mass;
+    }
+    const Real size = length(Vec3<Real>{after[0], after[1], k_zero});
+    const bool slides = size > limit;
+    const Real factor = slides ? divide(limit, size) : k_zero;
+    for (int i = 0; i < 2; ++i) {
+      const Real held = slides ? after[i] * factor : after[i];
+      const Real change = held - friction_impulse[i];
+      friction_impulse[i] = held;
+      largest = max(largest, abs(change));
+      if (!(change == k_zero)) apply_impulse(contact, contact.friction_row[i], contact.tangent[i], change, a, b);
+    }
+  }
+};
+
+}  // namespace
+
+uint32_t hold_turn(const BodyTraits& traits, Real tick_time, BodySweep& sweep) {
+  bool clamped = false;
+  const Real limit = angle_of(k_spin_max * tick_time, traits.size_exponent, clamped);
+  const Real fastest = max(abs(sweep.turn.x), max(abs(sweep.turn.y), abs(sweep.turn.z)));
+  if (fastest <= limit) return 0;
+  const Real factor = divide(limit, fastest);
+  sweep.turn = {sweep.turn.x * factor, sweep.turn.y * factor, sweep.turn.z * factor};
+  return 1;
+}
+
+BodyMotion motion_of_sweep(const BodyTraits& traits, const Quat& rotation, const BodySweep& sweep, Scaled tick_rate) {
+  const Vec3<Real> none = {k_zero, k_zero, k_zero};
+  // In the order in which nothing leaves its range.
+  const int power = traits.size_exponent;
+  const Vec3<Real> spin =
+      power < 0 ? scaled(scaled(sweep.turn, power), tick_rate) : scaled(scaled(sweep.turn, tick_rate), power);
+  return {scaled(sweep.displacement, tick_rate), momentum_of(traits, rotation, spin), none, none};
+}
+
+Vec3<Real> carried_momentum(const BodyTraits& traits, const Quat& from, const Quat& to, const Vec3<Real>& momentum) {
+  if (is_isotropic(traits) || from == to) return momentum;
+  const Vec3<Real> before = rotate_inverse(from, momentum), after = rotate_inverse(to, momentum);
+  const Scaled energy = energy_of(traits, before);
+  const Scaled limit = add(energy, scaled_by_power(energy, -6));
+  return less(limit, energy_of(traits, after)) ? rotate(to, before) : momentum;
+}
+
+uint32_t hold_spin(const BodyTraits& traits, const Quat& rotation, BodyMotion& motion) {
+  if (!is_dynamic(traits)) return 0;
+  const Vec3<Real> local = rotate_inverse(rotation, motion.momentum);
+  bool saturated = false;
+  const auto spin = [&](Real value, int i) { return abs(multiply(value, traits.gyration[i], saturated)); };
+  const Real fastest = max(spin(local.x, 0), max(spin(local.y, 1), spin(local.z, 2)));
+  if (fastest <= k_spin_max) return 0;
+  const auto held = [&](Real value, int i) {
+    const Real limit = multiply(k_spin_max, divide(Scaled(1.0), traits.gyration[i]));
+    return clamp(value, -limit, limit);
+  };
+  motion.momentum = rotate(rotation, Vec3<Real>{held(local.x, 0), held(local.y, 1), held(local.z, 2)});
+  return 1;
+}
+
+uint32_t add_to_sweep(const BodyTraits& traits, const Quat& rotation, const BodyMotion& before, const BodyMotion& after,
+                      Real tick_time, BodySweep& sweep) {
+  const Vec3<Real> spin = spin_of(traits, rotation, after.momentum - before.momentum);
+  bool turns_clamped = false;
+  const auto angle = [&](Real value) { return angle_of(value * tick_time, traits.size_exponent, turns_clamped); };
+  sweep.displacement += (after.velocity - before.velocity) * tick_time;
+  sweep.turn += {angle(spin.x), angle(spin.y), angle(spin.z)};
+  // Of the state's range, of which time_of_impact() takes twice as much.
+  constexpr Real k_turn_max = 32768.0, k_way_max = 8192.0;
+  return hold(sweep.displacement, k_way_max) + hold(sweep.turn, k_turn_max) + (turns_clamped ? 1 : 0);
+}
+
+bool resolve_impact(const ContactWork& contact, uint32_t count, Real least, Real parting, BodyMotion& a, BodyMotion& b,
+                    Real& approach) {
+  Impact impact = {contact, count, a, b, {}, {}, {k_zero, k_zero}, k_zero};
+  approach = k_zero;
+  for (uint32_t i = 0; i < count; ++i) {
+    const Real velocity = impact.velocity(i);
+    const bool rebounds = is_positive(contact.restitution) && velocity <= -contact.rebound_min;
+    impact.wanted[i] = rebounds ? max(-multiply(velocity, contact.restitution), parting) : parting;
+    impact.normal_impulse[i] = k_zero;
+    approach = max(approach, -velocity);
+  }
+  if (approach <= least) return false;
+  const Real enough = scale_by_power(approach, -28);
+  for (int sweep = 0; sweep < k_sweeps_max; ++sweep) {
+    impact.largest = k_zero;
+    for (uint32_t i = 0; i < count; ++i) impact.push(i);
+    impact.rub();
+    if (impact.largest <= enough) break;
+  }
+  // Friction had the last word: what is left may be a slow approach.
+  for (int sweep = 0; sweep < k_last_sweeps; ++sweep) {
+    for (uint32_t i = 0; i < count; ++i) impact.push(i);
+  }
+  return true;
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

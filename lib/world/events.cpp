@@ -1,0 +1,125 @@
+#include "world/events.h"
+
+#include "collision/broadphase.h"
+#include "dynamics/activity.h"
+#include "geometry/sweep.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+constexpr Real k_zero = 0.0;
+
+uint64_t key_of(const ContactState& contact) { return pair_key(contact.body_a, contact.body_b); }
+
+/// The greatest closing speed of the points that were pushed.
+Real approach_of(const ContactWork& contact) {
+  Real least = k_zero;
+  for (uint32_t i = 0; i < contact.state.point_count; ++i) {
+    const ContactPoint& point = contact.point[i];
+    if (point.impulse_max > k_zero) least = min(least, point.approach);
+  }
+  return -least;
+}
+
+bool pushes(const ContactWork& contact) {
+  bool result = false;
+  for (uint32_t i = 0; i < contact.state.point_count; ++i) result = result || contact.point[i].impulse_max > k_zero;
+  return result;
+}
+
+struct Writer {
+  Span<const BodyPose> poses;
+  Span<const BodyTraits> traits;
+  Span<ContactEvent> events;
+  EventCount count = {};
+
+  BodyId id_of(uint32_t slot) const { return {slot + 1, traits[slot].generation}; }
+  void add(const ContactEvent& event) {
+    if (count.kept == events.count)
+      ++count.dropped;
+    else
+      events[count.kept++] = event;
+  }
+  ContactEvent event_of(ContactEventType type, uint32_t a, uint32_t b) const {
+    ContactEvent event;
+    event.type = type;
+    event.a = id_of(a);
+    event.b = id_of(b);
+    event.approach_speed = k_zero;
+    return event;
+  }
+  void add_contact(const ContactWork& contact, bool touched) {
+    const ContactState& state = contact.state;
+    const bool from_a = is_dynamic(traits[state.body_a]);
+    const uint32_t body = from_a ? state.body_a : state.body_b;
+    const Vec3<Unit>& arm = from_a ? contact.middle_a : contact.middle_b;
+    const int exponent = traits[body].size_exponent;
+    ContactEvent event =
+        event_of(touched ? ContactEventType::touch : ContactEventType::begin, state.body_a, state.body_b);
+    event.normal = contact.normal;
+    event.point = moved(poses[body].position, {real_from_unit(arm.x, exponent), real_from_unit(arm.y, exponent),
+                                               real_from_unit(arm.z, exponent)});
+    add(event);
+    const Real approach = approach_of(contact);
+    if (approach < contact.rebound_min) return;
+    event.type = ContactEventType::hit;
+    event.approach_speed = approach;
+    add(event);
+  }
+};
+
+}  // namespace
+
+EventCount raise_events(Span<const BodyPose> poses, Span<const BodyTraits> traits, Span<const BodyActivity> activities,
+                        Span<const ContactState> before, Span<ContactWork> contacts, Span<ContactEvent> events) {
+  Writer writer = {poses, traits, events};
+  uint32_t old = 0;
+  const auto end_up_to = [&](uint64_t key) {
+    for (; old < before.count && key_of(before[old]) < key; ++old) {
+      const ContactState& state = before[old];
+      const bool sleeps = !is_awake(traits[state.body_a], activities[state.body_a]) &&
+                          !is_awake(traits[state.body_b], activities[state.body_b]);
+      if (state.touching != 0 && !sleeps)
+        writer.add(writer.event_of(ContactEventType::end, state.body_a, state.body_b));
+    }
+  };
+  for (ContactWork& contact : contacts) {
+    const uint64_t key = key_of(contact.state);
+    end_up_to(key);
+    if (old < before.count && key_of(before[old]) == key) ++old;
+    const bool touched = contact.state.touching != 0, touches = pushes(contact);
+    contact.state.touching = touches ? 1 : 0;
+    if (touches)
+      writer.add_contact(contact, touched);
+    else if (touched)
+      writer.add(writer.event_of(ContactEventType::end, contact.state.body_a, contact.state.body_b));
+  }
+  end_up_to(UINT64_MAX);
+  return writer.count;
+}
+
+void add_hits(Span<const BodyTraits> traits, Span<const ImpactHit> hits, Span<ContactEvent> events, EventCount& count) {
+  const auto comes_before = [](const ContactEvent& a, const ContactEvent& b) {
+    if (a.a.slot != b.a.slot) return a.a.slot < b.a.slot;
+    if (a.b.slot != b.b.slot) return a.b.slot < b.b.slot;
+    return a.type < b.type;
+  };
+  for (const ImpactHit& hit : hits) {
+    const uint32_t a = pair_low(hit.key), b = pair_high(hit.key);
+    const ContactEvent event = {
+        ContactEventType::hit, {a + 1, traits[a].generation}, {b + 1, traits[b].generation}, hit.normal, hit.point,
+        hit.approach};
+    uint32_t place = count.kept;
+    while (place > 0 && comes_before(event, events[place - 1])) --place;
+    const bool full = count.kept == events.count;
+    count.dropped += full ? 1 : 0;
+    if (place == events.count) continue;
+    count.kept += full ? 0 : 1;
+    for (uint32_t i = count.kept - 1; i > place; --i) events[i] = events[i - 1];
+    events[place] = event;
+  }
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,25 @@
+#pragma once
+#include <detent/detail/scratch.h>
+#include <detent/event.h>
+
+#include "base/span.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+struct EventCount {
+  uint32_t kept = 0;
+  uint32_t dropped = 0;
+};
+
+/// Compares the contacts of the last step with those of this one, both sorted by their bodies, and writes what began,
+/// went on, ended and hit. `poses` are those of the start of the step. Contacts `before` of which neither body is awake
+/// are passed over. Sets the contacts' `touching`.
+EventCount raise_events(Span<const BodyPose> poses, Span<const BodyTraits> traits, Span<const BodyActivity> activities,
+                        Span<const ContactState> before, Span<ContactWork> contacts, Span<ContactEvent> events);
+
+/// Puts the impacts of continuous collision, which come in the order of their times, among the events.
+void add_hits(Span<const BodyTraits> traits, Span<const ImpactHit> hits, Span<ContactEvent> events, EventCount& count);
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent
