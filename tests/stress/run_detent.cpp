@@ -1,0 +1,249 @@
+#include "tests/stress/run_detent.h"
+
+#include <detent/convert.h>
+#include <detent/world.h>
+#include <string.h>
+
+#include <type_traits>
+
+#include "base/digest.h"
+#include "tests/stress/icosahedron.h"
+
+#define DETENT_STRESS_TEXT_OF(name) #name
+#define DETENT_STRESS_TEXT(name) DETENT_STRESS_TEXT_OF(name)
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+using detent_stress::BodyState;
+using detent_stress::CookedIcosahedron;
+using detent_stress::Counts;
+using detent_stress::Role;
+using detent_stress::Settings;
+using detent_stress::Solid;
+using detent_stress::Stage;
+using detent_stress::StageBody;
+using detent_stress::States;
+
+// What not every version of the library has: settings, counts and shapes are used where they are declared.
+
+template <class Def>
+void set_policies(const Stage& stage, const Settings& settings, Def& def) {
+  if constexpr (requires { def.sleeping; }) def.sleeping = stage.sleeping;
+  if constexpr (requires { def.continuous; }) def.continuous = settings.continuous;
+}
+template <class Report>
+void count_more(const Report& report, Counts& counts) {
+  if constexpr (requires { report.substeps_max; }) counts.substeps_max = report.substeps_max;
+  if constexpr (requires { report.awake; }) counts.awake = report.awake;
+  if constexpr (requires { report.lost_time; }) counts.lost_time = real_to_host(report.lost_time);
+}
+template <class Index>
+constexpr bool takes_hulls(Index index) {
+  return requires { hull(index); };
+}
+template <class Index>
+Shape hull_shape(Index index) {
+  if constexpr (requires { hull(index); })
+    return hull(index);
+  else
+    return {};
+}
+constexpr bool k_takes_hulls = takes_hulls(uint32_t{0});
+
+bool to_vector(const double (&v)[3], Vec3<Real>& result) {
+  return real_from_host(v[0], result.x) == Status::ok && real_from_host(v[1], result.y) == Status::ok &&
+         real_from_host(v[2], result.z) == Status::ok;
+}
+bool to_position(const double (&v)[3], Position& result) {
+  return coord_from_host(v[0], result.x) == Status::ok && coord_from_host(v[1], result.y) == Status::ok &&
+         coord_from_host(v[2], result.z) == Status::ok;
+}
+bool to_rotation(const double (&q)[4], Quat& result) {
+  return unit_from_host(q[0], result.x) == Status::ok && unit_from_host(q[1], result.y) == Status::ok &&
+         unit_from_host(q[2], result.z) == Status::ok && unit_from_host(q[3], result.w) == Status::ok;
+}
+void from_vector(const Vec3<Real>& v, double (&result)[3]) {
+  result[0] = real_to_host(v.x);
+  result[1] = real_to_host(v.y);
+  result[2] = real_to_host(v.z);
+}
+
+/// a b of rotations x, y, z, w; `sign` -1 takes the inverse of b.
+void turn(const double (&a)[4], const std::array<double, 4>& b, double sign, double (&result)[4]) {
+  const double x = sign * b[0], y = sign * b[1], z = sign * b[2], w = b[3];
+  const double product[4] = {a[3] * x + a[0] * w + a[1] * z - a[2] * y, a[3] * y - a[0] * z + a[1] * w + a[2] * x,
+                             a[3] * z + a[0] * y - a[1] * x + a[2] * w, a[3] * w - a[0] * x - a[1] * y - a[2] * z};
+  memcpy(result, product, sizeof product);
+}
+
+/// The bits of a number that a digest reads.
+template <class T>
+uint64_t bits_of(T value) {
+  if constexpr (std::is_floating_point_v<T>) {
+    uint64_t bits = 0;
+    memcpy(&bits, &value, sizeof value);
+    return bits;
+  } else {
+    return static_cast<uint64_t>(value.raw);
+  }
+}
+
+class DetentRun : public detent_stress::Run {
+ public:
+  Status make(const Stage& stage, const Settings& settings) {
+    WorldDef def;
+    def.capacity.bodies = static_cast<uint32_t>(stage.bodies.size());
+    // A body in a heap touches some 12 others, each pair counted once; in a row of boxes it has 2 more that are near.
+    def.capacity.contacts = 8 * def.capacity.bodies + 16;
+    for (const StageBody& body : stage.bodies) {
+      if (body.solid == Solid::icosahedron) hulls_.push_back(detent_stress::cook_icosahedron(body.size[0]));
+    }
+    for (const CookedIcosahedron& hull : hulls_)
+      assets_.push_back({reinterpret_cast<const uint8_t*>(hull.words.data()), hull.byte_count});
+    def.capacity.assets = static_cast<uint32_t>(assets_.size());
+    Vec3<Real> gravity;
+    if (!to_vector({0, -stage.gravity, 0}, gravity)) return Status::out_of_range;
+    def.gravity = gravity;
+    if (const Status status = real_from_host(stage.tick, def.tick); status != Status::ok) return status;
+    if (settings.substeps) def.substeps = *settings.substeps;
+    if (settings.iterations) def.iterations = *settings.iterations;
+    set_policies(stage, settings, def);
+    words_.resize((world_bytes(def.capacity) + 7) / 8);
+    Status status = create_world(reinterpret_cast<uint8_t*>(words_.data()), world_bytes(def.capacity), def,
+                                 {assets_.data(), def.capacity.assets}, world_);
+    for (uint32_t i = 0; i < def.capacity.assets && status == Status::ok; ++i) status = bind_asset(world_, i);
+    uint32_t next_hull = 0;
+    for (const StageBody& body : stage.bodies) {
+      if (status != Status::ok) break;
+      status = add(body, next_hull);
+      movable_ += body.role != Role::fixed ? 1 : 0;
+    }
+    return status;
+  }
+
+  Counts step() override {
+    const StepReport report = detent::step(world_);
+    Counts counts;
+    counts.contacts = report.contacts;
+    counts.contact_points = report.contact_points;
+    counts.awake = movable_;
+    counts.lost = report.pairs_dropped + report.contacts_dropped;
+    counts.saturations = report.saturations;
+    count_more(report, counts);
+    return counts;
+  }
+
+  States states() const override {
+    States states;
+    for (const Body& body : bodies_) {
+      Pose pose;
+      Vec3<Real> velocity, spin;
+      BodyState state;
+      if (get_pose(world_, body.id, pose) == Status::ok &&
+          get_velocity(world_, body.id, velocity, spin) == Status::ok) {
+        const Quat& q = pose.rotation;
+        state.position[0] = coord_to_host(pose.position.x);
+        state.position[1] = coord_to_host(pose.position.y);
+        state.position[2] = coord_to_host(pose.position.z);
+        const double rotation[4] = {unit_to_host(q.x), unit_to_host(q.y), unit_to_host(q.z), unit_to_host(q.w)};
+        turn(rotation, body.cooked, -1, state.rotation);
+        from_vector(velocity, state.velocity);
+        from_vector(spin, state.spin);
+      }
+      states.push_back(state);
+    }
+    return states;
+  }
+
+  uint64_t digest() const override { return detent::digest(world_); }
+
+  uint64_t relative_digest() const override {
+    uint64_t running = 0;
+    const auto add = [&running](auto value) { running = digest_step(running, bits_of(value)); };
+    Pose origin, pose;
+    for (const Body& body : bodies_) {
+      Vec3<Real> velocity, spin;
+      if (get_pose(world_, bodies_[0].id, origin) != Status::ok || get_pose(world_, body.id, pose) != Status::ok ||
+          get_velocity(world_, body.id, velocity, spin) != Status::ok)
+        continue;
+      add(pose.position.x - origin.position.x);
+      add(pose.position.y - origin.position.y);
+      add(pose.position.z - origin.position.z);
+      for (const Unit value : {pose.rotation.x, pose.rotation.y, pose.rotation.z, pose.rotation.w}) add(value);
+      for (const Real value : {velocity.x, velocity.y, velocity.z, spin.x, spin.y, spin.z}) add(value);
+    }
+    return digest_finish(running);
+  }
+
+  uint32_t bytes() const override { return world_bytes(get_info(world_).capacity); }
+
+ private:
+  struct Body {
+    BodyId id;
+    std::array<double, 4> cooked = {0, 0, 0, 1};  ///< from the library's axes of the body to the stage's
+  };
+
+  Status add(const StageBody& body, uint32_t& next_hull) {
+    BodyDef def;
+    Body made;
+    Vec3<Real> size;
+    if (!to_vector(body.size, size)) return Status::out_of_range;
+    switch (body.solid) {
+      case Solid::box:
+        def.shape = box(size);
+        break;
+      case Solid::sphere:
+        def.shape = sphere(size.x);
+        break;
+      case Solid::capsule:
+        def.shape = capsule(size.x, size.y);
+        break;
+      case Solid::icosahedron:
+        if (!k_takes_hulls) return Status::bad_argument;
+        made.cooked = hulls_[next_hull].rotation;
+        def.shape = hull_shape(next_hull++);
+        break;
+    }
+    def.type = body.role == Role::fixed       ? BodyType::fixed
+               : body.role == Role::kinematic ? BodyType::kinematic
+                                              : BodyType::dynamic;
+    double rotation[4];
+    turn(body.rotation, made.cooked, 1, rotation);
+    if (!to_position(body.position, def.position) || !to_rotation(rotation, def.rotation) ||
+        !to_vector(body.velocity, def.velocity) || !to_vector(body.spin, def.spin))
+      return Status::out_of_range;
+    for (const Status status : {scaled_from_host(body.density, def.density), scaled_from_host(body.mass, def.mass),
+                                real_from_host(body.friction, def.material.friction),
+                                real_from_host(body.restitution, def.material.restitution)}) {
+      if (status != Status::ok) return status;
+    }
+    const Status status = create_body(world_, def, made.id);
+    bodies_.push_back(made);
+    return status;
+  }
+
+  std::vector<CookedIcosahedron> hulls_;
+  std::vector<Asset> assets_;
+  std::vector<uint64_t> words_;
+  std::vector<Body> bodies_;
+  uint32_t movable_ = 0;
+  World world_;
+};
+
+std::unique_ptr<detent_stress::Run> make_run(const Stage& stage, const Settings& settings, std::string& problem) {
+  std::unique_ptr<DetentRun> run(new DetentRun);
+  if (const Status status = run->make(stage, settings); status != Status::ok) {
+    problem = stage.name + " cannot be made: " + status_text(status);
+    return nullptr;
+  }
+  return run;
+}
+
+}  // namespace
+
+detent_stress::Engine stress_engine() { return {DETENT_STRESS_TEXT(DETENT_NAMESPACE), k_takes_hulls, make_run}; }
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent
