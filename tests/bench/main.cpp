@@ -1,15 +1,15 @@
 #include <stdio.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
 
 #include "tests/bench/cooked.h"
+#include "tests/bench/draw.h"
 #include "tests/bench/engines.h"
 #include "tests/bench/report.h"
+#include "tests/bench/terminal.h"
+#include "tests/bench/world/command.h"
 #include "tests/queries/sets.h"
 
 namespace {
@@ -50,30 +50,6 @@ bool wanted(const std::vector<std::string>& filters, const std::string& name) {
            return name.find(filter) != std::string::npos;
          });
 }
-
-/// A line on standard error, on a terminal only, renewed as work goes on.
-class Line {
- public:
-  explicit Line(std::string label) : label_(std::move(label)) {}
-  ~Line() {
-    if (shown_) fputs("\r\x1b[K", stderr);
-  }
-  Line(const Line&) = delete;
-  Line& operator=(const Line&) = delete;
-  void show(size_t done, size_t total) {
-    const int percent = static_cast<int>(done * 100 / total);
-    if (percent == percent_ || isatty(STDERR_FILENO) == 0) return;
-    percent_ = percent;
-    shown_ = true;
-    fprintf(stderr, "\r\x1b[K%s: %d %%", label_.c_str(), percent);
-    fflush(stderr);
-  }
-
- private:
-  std::string label_;
-  int percent_ = -1;
-  bool shown_ = false;
-};
 
 /// The queries as an engine sees them and their truth: one for each grid of positions.
 struct Variant {
@@ -141,21 +117,6 @@ std::vector<Row> run_set(const detent_queries::Set& set, const Options& options,
   return rows;
 }
 
-bool draw(const Options& options, const std::vector<Row>& rows) {
-  std::error_code error;
-  std::filesystem::create_directories(options.plot, error);
-  const std::string file = options.plot + "/rows.json";
-  std::ofstream(file) << json_of(rows);
-  const pid_t child = fork();  // Debian's Python: another one in the path would not have its packages
-  if (child == 0) {
-    execl("/usr/bin/python3", "python3", DETENT_BENCH_PLOT, file.c_str(), options.plot.c_str(),
-          static_cast<char*>(nullptr));
-    _exit(127);
-  }
-  int status = -1;
-  return child > 0 && waitpid(child, &status, 0) == child && status == 0;
-}
-
 int run(const Options& options) {
   std::string problem;
   EngineList engines;
@@ -191,7 +152,7 @@ int run(const Options& options) {
     fprintf(stderr, "bench: %s cannot be written\n", options.json.c_str());
     return k_exit_bad;
   }
-  if (!options.plot.empty() && !draw(options, rows)) {
+  if (!options.plot.empty() && !draw(options.plot, "rows.json", json_of(rows))) {
     fprintf(stderr, "bench: the plots could not be drawn (Debian: python3-matplotlib)\n");
     return k_exit_bad;
   }
@@ -207,6 +168,8 @@ int main(int argc, char** argv) {
   CLI::App* toi = app.add_subcommand("toi", "Time of impact");
   CLI::App* distance = app.add_subcommand("distance", "Distance, of the poses at the start");
   CLI::App* list = app.add_subcommand("sets", "List the sets");
+  WorldOptions world_options;
+  CLI::App* world = add_world_command(app, world_options);
   std::vector<std::string> names;
   for (const detent_queries::Set& set : detent_queries::all_sets()) names.emplace_back(set.name);
   for (CLI::App* command : {toi, distance}) {
@@ -232,6 +195,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? k_exit_good : k_exit_usage;
   }
+  if (world->parsed()) return run_world(world_options);
   if (list->parsed()) {
     for (const detent_queries::Set& set : detent_queries::all_sets()) printf("%-5s %s\n", set.name, set.text);
     return k_exit_good;

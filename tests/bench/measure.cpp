@@ -4,18 +4,13 @@
 
 #include <algorithm>
 
-#include "tests/bench/timer.h"
+#include "tests/bench/clock.h"
 
 namespace detent_bench {
 
 using detent_queries::Query;
 
 namespace {
-
-struct Clock {
-  double ns_per_tick = 1;
-  uint64_t overhead = 0;  ///< ticks, of a measurement of nothing
-};
 
 class Nothing : public Prepared {
  public:
@@ -28,18 +23,10 @@ uint64_t time_of(Prepared& prepared, Answer& answer) {
   return ticks() - start;
 }
 
-Clock calibrated_clock() {
-  constexpr uint64_t k_span = 50000000;  // ns
-  Clock clock;
-  const uint64_t start_ns = monotonic_ns(), start = ticks();
-  while (monotonic_ns() - start_ns < k_span) {
-  }
-  clock.ns_per_tick = static_cast<double>(monotonic_ns() - start_ns) / static_cast<double>(ticks() - start);
-  clock.overhead = UINT64_MAX;
+Clock clock_of_queries() {
   const std::unique_ptr<Prepared> nothing = std::make_unique<Nothing>();
   Answer answer;
-  for (int i = 0; i < 10000; ++i) clock.overhead = std::min(clock.overhead, time_of(*nothing, answer));
-  return clock;
+  return calibrated_clock([&] { return time_of(*nothing, answer); });
 }
 
 }  // namespace
@@ -56,7 +43,7 @@ Query seen_by(const Engine& engine, const Query& query) {
 
 std::vector<std::vector<Measured>> measure(const EngineList& engines, const std::vector<Query>& queries,
                                            uint32_t repetitions, const Progress& progress) {
-  const Clock clock = calibrated_clock();
+  const Clock clock = clock_of_queries();
   const size_t count = engines.size();
   std::vector<std::vector<Measured>> all(count, std::vector<Measured>(queries.size()));
   std::vector<std::unique_ptr<Prepared>> prepared(count);
@@ -77,7 +64,7 @@ std::vector<std::vector<Measured>> measure(const EngineList& engines, const std:
     for (size_t e = 0; e < count; ++e) {
       if (prepared[e] == nullptr) continue;
       all[e][q].asked = true;
-      all[e][q].ns = static_cast<double>(least[e] - std::min(least[e], clock.overhead)) * clock.ns_per_tick;
+      all[e][q].ns = clock.ns(least[e]);
     }
     progress(q + 1, queries.size());
   }

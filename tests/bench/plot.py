@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws the rows of a benchmark (./bench --json) as time against error, an SVG for each set.
+"""Draws the rows of a benchmark (./bench --json) as SVG: time against error for each set, or the scenes of a world.
 
 usage: plot.py ROWS.json FOLDER
 """
@@ -15,6 +15,8 @@ matplotlib.rcParams["svg.hashsalt"] = "detent"  # the same drawing for the same 
 matplotlib.rcParams["svg.fonttype"] = "none"  # text as text
 matplotlib.rcParams["font.size"] = 8
 import matplotlib.pyplot as plt
+
+from plot_world import draw_world
 
 FLOOR = 1e-9  # of size; smaller errors are drawn here
 COLOURS = {"fx64": "tab:blue", "fx32": "tab:cyan", "f32": "tab:olive", "f64": "tab:green", "bullet-double": "tab:red",
@@ -62,6 +64,9 @@ def main():
     rows = json.loads(Path(sys.argv[1]).read_text())
     folder = Path(sys.argv[2])
     folder.mkdir(parents=True, exist_ok=True)
+    if "scene" in rows[0]:
+        draw_world(rows, folder)
+        return
     for name in dict.fromkeys(row["set"] for row in rows):
         of_set = [row for row in rows if row["set"] == name]
         kind = "distance" if "error_max" in of_set[0] else "toi"
