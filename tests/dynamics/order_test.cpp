@@ -55,8 +55,8 @@ struct Graph {
                                {work.data(), body_count}, {spare.data(), count}, {order.data(), count});
   }
   bool is_dynamic(uint32_t body) const { return traits[body].type == static_cast<uint32_t>(BodyType::dynamic); }
-  /// Every contact once, sorted by (island, colour, key), no dynamic body twice in a colour but the overflow's, which is
-  /// counted. Bodies in contact are of one island, and each awake one is listed once.
+  /// Every contact once, sorted by (island, colour, key), no dynamic body twice in a colour but the overflow's, which
+  /// is counted. Bodies in contact are of one island, and each awake one is listed once.
   void expect_right() const {
     std::vector<uint32_t> seen(contacts.size(), 0);
     std::vector<std::vector<uint32_t>> users(k_colour_overflow);
