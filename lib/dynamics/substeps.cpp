@@ -11,7 +11,6 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 constexpr uint32_t k_notches[] = {2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64};
-constexpr uint32_t k_notch_count = sizeof k_notches / sizeof k_notches[0];
 /// Fewer substeps are in reserve if this part of what they hold would do.
 constexpr Scaled k_in_hand = 0.6;
 /// A row of no more bodies than this does not buckle before it sinks.

@@ -66,7 +66,9 @@ inline Vector any_direction(Samples& samples) {
   }
 }
 inline Quaternion any_rotation(Samples& samples) {
-  return detent_oracle::rotation_by(any_direction(samples) * uniform(samples, 0, 3.14159265358979));
+  // Drawn one by one: as arguments every compiler would take them in an order of its own.
+  const double angle = uniform(samples, 0, 3.14159265358979);
+  return detent_oracle::rotation_by(any_direction(samples) * angle);
 }
 
 inline Real real_near(double value) {
