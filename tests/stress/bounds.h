@@ -68,40 +68,30 @@ struct Gap {
 };
 
 inline constexpr Gap k_gaps[] = {
-    // A rod that turns end over end gains energy as it flies, for the products of its turns about its three axes are
-    // far
-    // from its motion: it spins about its length until that is clamped.
-    {"rod", "", 0, "energy", 1500},
-    {"wall_rod", "", 0, "saturations", 3000},
-    {"plate_rod", "", 0, "saturations", 3000},
-    {"wall_rod", "", 0.0125, "energy_gained", 4000},
-    {"plate_rod", "", 0.0125, "energy_gained", 4000},
-    {"wall_rod", "", 0, "energy_gained", 130},
-    {"plate_rod", "", 0, "energy_gained", 130},
-    {"wall_rod", "", 0, "lost_time", 40},
-    {"plate_rod", "", 0, "lost_time", 40},
-    {"wall_rod", "", 0, "through", 5},
-    {"plate_rod", "", 0, "through", 5},
-    {"wall_rod", "", 0, "wrong_side", 5},
-    {"plate_rod", "", 0, "wrong_side", 5},
-    {"plate_rod", "", 0, "momentum", 3e-6},
-    // A contact that is yet to close rebounds at once, up to a tick's way above the surface.
-    {"bounce", "", 0, "apex", 5},
-    {"collision", "", 0, "oblique", 0.06},
+    // A thin rod that is hit spins about its length faster than the range of a spin, which is that of its rim if it
+    // were
+    // as thick as it is long.
+    {"wall_rod", "", 0, "saturations", 300},
+    {"plate_rod", "", 0, "saturations", 300},
+    // Where that range holds it: a rod that turns by tens of radians between two impacts of a tick. A sweep's spin is
+    // constant, and a tumbling rod's is not.
+    {"wall_rod", "", 0.0125, "energy_gained", 4},
+    {"plate_rod", "", 0.0125, "energy_gained", 4},
+    // Floats: momenta of a rod and a plate that meet several times in a tick.
+    {"plate_rod", "f32", 0, "momentum", 3e-6},
     // The scene starts 3e-8 of its energy from where it would never flip: a rotation is kept in steps of 1e-9.
-    {"spin", "fx64", 0, "flips", 12},
-    {"spin", "fx32", 0, "flips", 12},
+    {"spin", "fx64", 0, "flips", 6},
+    {"spin", "fx32", 0, "flips", 6},
     {"spin", "f32", 0, "flips", 46},
     // A float of a pose's rotation turns the slope's normal.
-    {"incline_holds", "f32", 0, "creep", 2e-5},
-    // A position in steps of 1.5e-5 m: of boxes of 1 m, and of 1 cm.
-    {"tower_20", "fx32", 1, "speed", 0.004},
-    {"tower_40", "fx32", 1, "speed", 0.002},
-    {"tower_40", "fx32", 0.01, "drift", 0.2},
-    {"tower", "fx32", 0.01, "speed_settling", 0.05},
-    {"incline_holds", "fx32", 0.01, "creep", 0.3},
-    {"incline_slides", "fx32", 0.01, "distance", 1.5},
+    {"incline_holds", "f32", 0, "creep", 1e-5},
+    // A position in steps of 1.5e-5 m, of boxes of 1 cm.
     {"wall_ball", "fx32", 0.0125, "rebound", 0.04},
+    {"tower_40", "fx32", 0.01, "drift", 0.3},
+    {"tower", "fx32", 0.01, "speed_settling", 0.07},
+    {"incline_holds", "fx32", 0.01, "creep", 0.2},
+    {"incline_slides", "fx32", 0.01, "distance", 1.5},
+    {"bounce", "fx32", 0.01, "apex", 0.0015},
     // Doubles are coarser far from the origin.
     {"far", "f64", 0, "ticks_differ", 600},
 };

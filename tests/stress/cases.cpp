@@ -11,7 +11,7 @@
 namespace detent_stress {
 
 Ride::Ride(const Trial& trial, const Stage& stage, Outcome& outcome)
-    : stage_(scaled(trial.engine.hulls ? stage : without(stage, Solid::icosahedron), trial.scale)), outcome_(outcome) {
+    : stage_(scaled(stage, trial.scale)), outcome_(outcome) {
   run_ = trial.engine.make(stage_, trial.settings, outcome.problem);
 }
 

@@ -45,7 +45,6 @@ using Maker = std::function<std::unique_ptr<Run>(const Stage& stage, const Setti
 
 struct Engine {
   std::string config;
-  bool hulls = false;  ///< it takes icosahedra
   Maker make;
 };
 

@@ -26,32 +26,6 @@ using detent_stress::Stage;
 using detent_stress::StageBody;
 using detent_stress::States;
 
-// What not every version of the library has: settings, counts and shapes are used where they are declared.
-
-template <class Def>
-void set_policies(const Stage& stage, const Settings& settings, Def& def) {
-  if constexpr (requires { def.sleeping; }) def.sleeping = stage.sleeping;
-  if constexpr (requires { def.continuous; }) def.continuous = settings.continuous;
-}
-template <class Report>
-void count_more(const Report& report, Counts& counts) {
-  if constexpr (requires { report.substeps_max; }) counts.substeps_max = report.substeps_max;
-  if constexpr (requires { report.awake; }) counts.awake = report.awake;
-  if constexpr (requires { report.lost_time; }) counts.lost_time = real_to_host(report.lost_time);
-}
-template <class Index>
-constexpr bool takes_hulls(Index index) {
-  return requires { hull(index); };
-}
-template <class Index>
-Shape hull_shape(Index index) {
-  if constexpr (requires { hull(index); })
-    return hull(index);
-  else
-    return {};
-}
-constexpr bool k_takes_hulls = takes_hulls(uint32_t{0});
-
 bool to_vector(const double (&v)[3], Vec3<Real>& result) {
   return real_from_host(v[0], result.x) == Status::ok && real_from_host(v[1], result.y) == Status::ok &&
          real_from_host(v[2], result.z) == Status::ok;
@@ -109,7 +83,8 @@ class DetentRun : public detent_stress::Run {
     if (const Status status = real_from_host(stage.tick, def.tick); status != Status::ok) return status;
     if (settings.substeps) def.substeps = *settings.substeps;
     if (settings.iterations) def.iterations = *settings.iterations;
-    set_policies(stage, settings, def);
+    def.sleeping = stage.sleeping;
+    def.continuous = settings.continuous;
     words_.resize((world_bytes(def.capacity) + 7) / 8);
     Status status = create_world(reinterpret_cast<uint8_t*>(words_.data()), world_bytes(def.capacity), def,
                                  {assets_.data(), def.capacity.assets}, world_);
@@ -118,7 +93,6 @@ class DetentRun : public detent_stress::Run {
     for (const StageBody& body : stage.bodies) {
       if (status != Status::ok) break;
       status = add(body, next_hull);
-      movable_ += body.role != Role::fixed ? 1 : 0;
     }
     return status;
   }
@@ -128,10 +102,11 @@ class DetentRun : public detent_stress::Run {
     Counts counts;
     counts.contacts = report.contacts;
     counts.contact_points = report.contact_points;
-    counts.awake = movable_;
+    counts.awake = report.awake;
     counts.lost = report.pairs_dropped + report.contacts_dropped;
     counts.saturations = report.saturations;
-    count_more(report, counts);
+    counts.substeps_max = report.substeps_max;
+    counts.lost_time = real_to_host(report.lost_time);
     return counts;
   }
 
@@ -201,9 +176,8 @@ class DetentRun : public detent_stress::Run {
         def.shape = capsule(size.x, size.y);
         break;
       case Solid::icosahedron:
-        if (!k_takes_hulls) return Status::bad_argument;
         made.cooked = hulls_[next_hull].rotation;
-        def.shape = hull_shape(next_hull++);
+        def.shape = hull(next_hull++);
         break;
     }
     def.type = body.role == Role::fixed       ? BodyType::fixed
@@ -228,7 +202,6 @@ class DetentRun : public detent_stress::Run {
   std::vector<Asset> assets_;
   std::vector<uint64_t> words_;
   std::vector<Body> bodies_;
-  uint32_t movable_ = 0;
   World world_;
 };
 
@@ -243,7 +216,7 @@ std::unique_ptr<detent_stress::Run> make_run(const Stage& stage, const Settings&
 
 }  // namespace
 
-detent_stress::Engine stress_engine() { return {DETENT_STRESS_TEXT(DETENT_NAMESPACE), k_takes_hulls, make_run}; }
+detent_stress::Engine stress_engine() { return {DETENT_STRESS_TEXT(DETENT_NAMESPACE), make_run}; }
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -115,15 +115,6 @@ Stage varied(const Stage& stage, uint64_t seed) {
   return result;
 }
 
-Stage without(const Stage& stage, Solid solid) {
-  Stage result = stage;
-  result.bodies.clear();
-  for (const StageBody& body : stage.bodies) {
-    if (body.solid != solid) result.bodies.push_back(body);
-  }
-  return result;
-}
-
 double mass_of(const StageBody& body) { return body.mass != 0 ? body.mass : body.density * volume_of(body); }
 
 std::array<double, 3> gyration_of(const StageBody& body) {

@@ -61,8 +61,6 @@ Stage moved(const Stage& stage, double distance);
 /// The same scene as another: what can move in a random order of creation, all of it turned about y by a random angle.
 /// Seed 0 leaves it as it is.
 Stage varied(const Stage& stage, uint64_t seed);
-/// Without the bodies of this solid.
-Stage without(const Stage& stage, Solid solid);
 
 /// kg; of any role.
 double mass_of(const StageBody& body);
