@@ -115,7 +115,7 @@ Vec3<Real> carried_momentum(const BodyTraits& traits, const Quat& from, const Qu
   if (is_isotropic(traits) || from == to) return momentum;
   const Vec3<Real> before = rotate_inverse(from, momentum), after = rotate_inverse(to, momentum);
   const Scaled energy = energy_of(traits, before);
-  const Scaled limit = add(energy, scaled_by_power(energy, -6));
+  const Scaled limit = add(energy, scaled_by_power(energy, -16));
   return less(limit, energy_of(traits, after)) ? rotate(to, before) : momentum;
 }
 
