@@ -18,7 +18,7 @@ struct Listener {
   }
   std::vector<ContactEvent> run() {
     report = lab.run(1);
-    return {buffer.begin(), buffer.begin() + report.contact_events};
+    return {buffer.data(), buffer.data() + report.contact_events};
   }
 };
 
