@@ -89,7 +89,7 @@ Soak soak(uint32_t ticks, uint32_t contacts) {
         const uint32_t which = random.below(static_cast<uint32_t>(ids.size()));
         EXPECT_OK(destroy_body(lab.world, ids[which]));
         EXPECT_FALSE(is_valid(lab.world, ids[which]));
-        ids.erase(ids.begin() + which);
+        ids.erase(ids.begin() + static_cast<std::ptrdiff_t>(which));
       }
     }
     const StepReport report = lab.run(1);
