@@ -4,21 +4,39 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
+/// Sorts ascending by the digit that `digit_of(element)` gives, below 256; equal elements keep their order. 1 KB of
+/// stack, which small machines, whose spans are short, need not have.
+template <class T, class DigitOf>
+__attribute__((noinline)) void sort_by_digit(Span<T> items, Span<T> spare, const DigitOf& digit_of) {
+  uint32_t place[256] = {};
+  for (const T& item : items) ++place[digit_of(item)];
+  uint32_t next = 0;
+  for (uint32_t& count : place) {
+    const uint32_t start = next;
+    next += count;
+    count = start;
+  }
+  for (const T& item : items) spare[place[digit_of(item)]++] = item;
+  for (uint32_t i = 0; i < items.count; ++i) items[i] = spare[i];
+}
+
 /// Sorts ascending by `digits` digits, the least first; equal elements keep their order. `digit_of(element, digit)` is
-/// below 256. `spare` is work space of as many elements. 1 KB of stack; no recursion.
+/// below 256. `spare` is work space of as many elements. No recursion.
 template <class T, class DigitOf>
 void radix_sort(Span<T> items, Span<T> spare, const DigitOf& digit_of, int digits) {
+  constexpr uint32_t k_few = 32;
   for (int digit = 0; digit < digits; ++digit) {
-    uint32_t place[256] = {};
-    for (const T& item : items) ++place[digit_of(item, digit)];
-    uint32_t next = 0;
-    for (uint32_t& count : place) {
-      const uint32_t start = next;
-      next += count;
-      count = start;
+    const auto by = [&](const T& item) { return digit_of(item, digit); };
+    if (items.count > k_few) {
+      sort_by_digit(items, spare, by);
+      continue;
     }
-    for (const T& item : items) spare[place[digit_of(item, digit)]++] = item;
-    for (uint32_t i = 0; i < items.count; ++i) items[i] = spare[i];
+    for (uint32_t i = 1; i < items.count; ++i) {
+      const T item = items[i];
+      uint32_t hole = i;
+      for (; hole > 0 && by(items[hole - 1]) > by(item); --hole) items[hole] = items[hole - 1];
+      items[hole] = item;
+    }
   }
 }
 
