@@ -263,7 +263,7 @@ void expect_stops(bool rod, bool plate) {
     for (const double restitution : {0.0, 0.5}) {
       Samples samples = {static_cast<uint64_t>(speed) + (rod ? 7 : 0) + (plate ? 3 : 0)};
       Outcome outcome;
-      const uint32_t shots = getenv("DETENT_FULL") != nullptr ? 1000 : getenv("DETENT_EMULATED") != nullptr ? 20 : 200;
+      const uint32_t shots = getenv("DETENT_FULL") != nullptr ? 1000 : getenv("DETENT_EMULATED") != nullptr ? 6 : 200;
       for (uint32_t i = 0; i < shots; ++i) shoot({rod, plate, speed, restitution}, samples, outcome);
       SCOPED_TRACE(std::string(rod ? "rod" : "ball") + (plate ? " at a plate, " : " at a wall, ") +
                    std::to_string(speed) + " m/s, restitution " + std::to_string(restitution));
