@@ -2,7 +2,8 @@
 #include <detent/detail/state.h>
 #include <detent/fraction.h>
 
-/// Work space of a step, in the block behind the persistent state. Nothing in it outlives a step.
+/// Work space of a step, in the block behind the persistent state. Nothing in it outlives a step. Aligned by hand where
+/// i686 would pack a double.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -20,33 +21,33 @@ struct BoundsKey {
 
 /// A body during the substeps.
 struct alignas(8) BodyWork {
-  uint64_t colours;          ///< taken by the contacts of this body
-  uint32_t island;           ///< while islands are found: a body on the way to the island's first; then the island
-  uint32_t run;              ///< likewise, of the row of bodies with no more than two contacts each that it is part of
-  uint32_t run_length;       ///< bodies in that row, at its first
-  uint32_t contacts;         ///< of this body
-  uint32_t supports;         ///< contacts that carry it, while loads are estimated
-  Scaled carried;            ///< its own mass and what rests on it, kg, likewise
-  Real height;               ///< against gravity, over the island's first body, m, likewise
-  Quat rotation;             ///< now
-  Vec3<Real> displacement;   ///< from the start of the tick, m
-  Vec3<Real> turn;           ///< sum of spin x substep x 2^size_exponent from the start of the tick, m
-  Vec3<Real> push;           ///< velocity that gravity and forces add in a substep, m/s
-  Vec3<Real> free_velocity;  ///< of this substep, before any contact has acted, m/s
-  Vec3<Real> twist;          ///< momentum that torques add in a substep, m/s
-  Scaled linear_kept;        ///< share of the velocity that damping leaves in a substep
+  uint64_t colours;     ///< taken by the contacts of this body
+  uint32_t island;      ///< while islands are found: a body on the way to the island's first; then the island
+  uint32_t run;         ///< likewise, of the row of bodies with no more than two contacts each that it is part of
+  uint32_t run_length;  ///< bodies in that row, at its first
+  uint32_t contacts;    ///< of this body
+  uint32_t supports;    ///< contacts that carry it, while loads are estimated
+  alignas(sizeof(Real)) Scaled carried;  ///< its own mass and what rests on it, kg, likewise
+  Real height;                           ///< against gravity, over the island's first body, m, likewise
+  Quat rotation;                         ///< now
+  Vec3<Real> displacement;               ///< from the start of the tick, m
+  Vec3<Real> turn;                       ///< sum of spin x substep x 2^size_exponent from the start of the tick, m
+  Vec3<Real> push;                       ///< velocity that gravity and forces add in a substep, m/s
+  Vec3<Real> free_velocity;              ///< of this substep, before any contact has acted, m/s
+  Vec3<Real> twist;                      ///< momentum that torques add in a substep, m/s
+  Scaled linear_kept;                    ///< share of the velocity that damping leaves in a substep
   Scaled angular_kept;
 };
 
 /// One direction of a contact: how an impulse along it acts on both bodies, and how their motion shows along it.
-struct ContactRow {
+struct alignas(sizeof(Unit)) ContactRow {
   Vec3<Unit> arm_a, arm_b;            ///< (contact point - centre) x direction, in the body's unit of length
   Vec3<Unit> response_a, response_b;  ///< gyration (world) x arm, 2^-exponent
   int32_t exponent_a, exponent_b;     ///< the same for all points of a contact, and for both its directions of friction
   Unit inverse_mass;                  ///< effective mass over the pair's reference mass, in (0, 1]
 };
 
-struct ContactPoint {
+struct alignas(sizeof(Real)) ContactPoint {
   ContactRow row;
   Real separation;   ///< at the start of the tick, m
   Real approach;     ///< normal velocity at the start of the tick, m/s; negative when closing
@@ -55,7 +56,7 @@ struct ContactPoint {
 };
 
 /// As ContactRow, for a spin about an axis of the contact: the arm is the axis, 2^-shift.
-struct AngularRow {
+struct alignas(sizeof(Unit)) AngularRow {
   Vec3<Unit> response_a, response_b;
   int32_t exponent_a, exponent_b;
   Scaled inverse_mass;
@@ -74,10 +75,10 @@ struct alignas(8) ContactWork {
   Unit coupling[k_manifold_points_max]
                [k_manifold_points_max];  ///< what an impulse at one point adds to the speed at another, 2^-exponent
   int32_t coupling_exponent;
-  uint32_t moves_a, moves_b;  ///< 1 unless the body is fixed
-  uint32_t static_pair;       ///< 1 if only one of the bodies is dynamic
-  int32_t shift_a, shift_b;   ///< the body's unit of length over the pair's, as a power of two
-  Real friction_impulse[2];   ///< along the tangents
+  uint32_t moves_a, moves_b;                       ///< 1 unless the body is fixed
+  uint32_t static_pair;                            ///< 1 if only one of the bodies is dynamic
+  int32_t shift_a, shift_b;                        ///< the body's unit of length over the pair's, as a power of two
+  alignas(sizeof(Real)) Real friction_impulse[2];  ///< along the tangents
   Real angular_impulse[3];
   Scaled share_a, share_b;  ///< reference mass / mass; 0 if not dynamic
   Scaled friction;
