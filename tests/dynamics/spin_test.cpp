@@ -1,4 +1,5 @@
 #include "tests/oracle/bodies.h"
+#include "tests/oracle/effort.h"
 #include "tests/world/lab.h"
 
 namespace detent {
@@ -34,6 +35,8 @@ SpinState spin_of_box(Lab& lab, BodyId id, const Vector& half) {
 }
 
 constexpr int k_racket_ticks = 10000;
+/// A quarter of them under an emulator.
+int racket_ticks() { return detent_oracle::rounds(4) < 4 ? k_racket_ticks / 4 : k_racket_ticks; }
 
 /// Flips about the middle axis that Euler's equations give, by a fourth-order integration with a 50th of the step.
 int flips_by_euler(const Vector& half, double aside) {
@@ -48,7 +51,8 @@ int flips_by_euler(const Vector& half, double aside) {
   };
   constexpr double k_step = 1.0 / 60 / 50;
   int flips = 0, side = 1;
-  for (int step = 0; step < 50 * k_racket_ticks; ++step) {
+  const int steps = 50 * racket_ticks();
+  for (int step = 0; step < steps; ++step) {
     double slope[4][3], at[3];
     rate(spin, slope[0]);
     for (int n = 1; n < 4; ++n) {
@@ -76,7 +80,8 @@ void throw_racket(double aside, int tolerance) {
   const SpinState start = spin_of_box(lab, id, half);
   int flips = 0, side = 1;
   double energy_error = 0, momentum_error = 0;
-  for (int tick = 0; tick < k_racket_ticks; ++tick) {
+  const int ticks = racket_ticks();
+  for (int tick = 0; tick < ticks; ++tick) {
     lab.run(1);
     const SpinState now = spin_of_box(lab, id, half);
     if (now.local[1] * side < -5) {
@@ -92,15 +97,15 @@ void throw_racket(double aside, int tolerance) {
   EXPECT_LT(momentum_error, 1e-4);
 }
 
-DETENT_TEST(spin, about_the_middle_axis_flips_as_often_as_euler_says) {
-  throw_racket(0.5, sizeof(Real) == 4 ? 1 : 0);
-}
+DETENT_TEST(spin, about_the_middle_axis_flips_as_often_as_euler_says) { throw_racket(0.5, sizeof(Real) == 4 ? 1 : 0); }
 
 /// How long a flip waits depends on the logarithm of how exactly the spin lies along the axis. Thrown so exactly that
 /// its energy is 3e-8 from never flipping, a rotation kept to 2^-31 decides: 74 flips come out as 68 to 80 from one
 /// direction to another, with a float's as 74 to 104; with doubles they are 74.
 DETENT_TEST(spin, about_the_middle_axis_flips_though_thrown_almost_exactly) {
-  EXPECT_EQ(flips_by_euler({{0.5, 0.2, 0.05}}, 0.01), 74);
+  if (racket_ticks() == k_racket_ticks) {
+    EXPECT_EQ(flips_by_euler({{0.5, 0.2, 0.05}}, 0.01), 74);
+  }
   throw_racket(0.01, sizeof(Real) == 4 ? 30 : DETENT_FIXED ? 6 : 0);
 }
 
