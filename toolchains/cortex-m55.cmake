@@ -1,5 +1,5 @@
 include(${CMAKE_CURRENT_LIST_DIR}/family_cortex_m.cmake)
 # The vector unit's float operations flush denormals to zero, whatever the mode, and the compiler uses them at -O2: leave
-# them out (nomve.fp). Its integer operations are exact and stay, but not in loops: GCC 12 ends in an internal error there.
-detent_cortex_m_target(cortex-m55 "-mcpu=cortex-m55+nomve.fp -mfpu=auto -mfloat-abi=hard -fno-tree-loop-vectorize"
+# them out (nomve.fp). Its integer operations are exact, but GCC 12 ends in internal errors where it puts them in by itself.
+detent_cortex_m_target(cortex-m55 "-mcpu=cortex-m55+nomve.fp -mfpu=auto -mfloat-abi=hard -fno-tree-vectorize"
   ROM 0x00000000 512K RAM 0x20000000 512K)
