@@ -2,29 +2,40 @@
 #include <detent/detail/scratch.h>
 
 #include "math/arithmetic.h"
+#include "math/root.h"
+#include "math/scaled.h"
 
-/// Block floating point for the rows of one contact. The numbers of a contact in a pass (speeds, or lengths) share one
-/// power of two, chosen from the largest, so that a product is one of 32 by 32 bits. State stays in Real: a block's
-/// answers are multiples of its ulp, added to both bodies exactly, so what a block rounds moves no momentum.
+/// Block floating point for one contact. The numbers of a contact in a pass (speeds, impulses, or lengths) share one
+/// power of two, chosen from the largest, so that a product is one of 32 by 32 bits. State stays in Real: an impulse is
+/// rounded to the block once and then acts on both bodies, so what a block rounds moves no momentum.
 /// In float the same code works on plain numbers.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 #if DETENT_FIXED
 
-/// A number of a block: 2^shift steps of Real. Range: within +-2^33 unless a function says otherwise.
+/// A number of a block: 2^shift steps of Real.
 using Ulps = int64_t;
-/// Within +-2^28.
-struct Mantissas {
-  int32_t x, y, z;
-};
-/// A sum of up to nine products of a mantissa and a Unit, 2^-30 ulps.
+/// One that can be multiplied: within +-2^30, so that a sum of two products with Units is below 2^62.
+using Factor = int32_t;
+/// A sum of products of factors and Units, 2^-30 ulps.
 using UlpSum = int64_t;
+struct Mantissas {
+  Factor x, y, z;
+};
 
-inline constexpr int k_mantissa_bits = 28;
-inline constexpr int k_number_bits = 31;
-inline constexpr Ulps k_ulps_max = int64_t{1} << 32;
-inline constexpr int k_shift_min = 8;  ///< steps finer than 2^-38 are no one's business
+inline constexpr int64_t k_factor_max = int64_t{1} << 30;
+inline constexpr int k_mantissa_bits = 27;  ///< of motions: a sum of five stays below 2^30
+inline constexpr int k_number_bits = 28;    ///< of impulses: the sum of four is a factor
+inline constexpr int k_wrench_bits = 28;    ///< of each part of a wrench: so its torque on a body stays below 2^30
+inline constexpr int k_shift_min = 8;       ///< steps finer than 2^-38 are no one's business
+/// Spins of the solver are kept 2^-8: a slender body's leaves Real's range long before its momentum does.
+inline constexpr int k_spin_power = 8;
+
+/// Held to the range of a factor.
+inline Factor held(Ulps a) {
+  return static_cast<Factor>(a < -k_factor_max ? -k_factor_max : a > k_factor_max ? k_factor_max : a);
+}
 
 class Block {
  public:
@@ -44,21 +55,27 @@ class Block {
     return {static_cast<int32_t>(shift_64(v.x.raw, -n)), static_cast<int32_t>(shift_64(v.y.raw, -n)),
             static_cast<int32_t>(shift_64(v.z.raw, -n))};
   }
-  /// Held to +-2^31.
-  Ulps held(Real value) const {
-    const int64_t ulps = value.raw >> shift_;
-    constexpr int64_t k_limit = int64_t{1} << k_number_bits;
-    return ulps < -k_limit ? -k_limit : ulps > k_limit ? k_limit : ulps;
-  }
+  /// Rounded down.
+  Factor held(Real value) const { return detent::held(value.raw >> shift_); }
   /// Rounded down.
   Ulps number(Real value) const { return value.raw >> shift_; }
   Real real(Ulps ulps) const { return Real::from_raw(static_cast<int64_t>(static_cast<uint64_t>(ulps) << shift_)); }
-  Real real_from_sum(UlpSum sum) const { return Real::from_raw(shift_64(sum, shift_ - k_unit_frac)); }
-  /// The least power of two that makes all `parts` fit a product, so many of them: they are rounded to it.
-  void coarsen(Ulps (&parts)[k_manifold_points_max]) {
+  /// v x share 2^exponent.
+  Vec3<Real> real(const Mantissas& v, Scaled share, int exponent) const {
+    const int64_t x = int64_t{v.x} * share.mantissa, y = int64_t{v.y} * share.mantissa,
+                  z = int64_t{v.z} * share.mantissa;
+    const int n = -(shift_ + share.exponent + exponent);
+    if (n > 0 && n < 64)
+      return {Real::from_raw(round_shift_64(x, n)), Real::from_raw(round_shift_64(y, n)),
+              Real::from_raw(round_shift_64(z, n))};
+    return {Real::from_raw(shift_64(x, -n)), Real::from_raw(shift_64(y, -n)), Real::from_raw(shift_64(z, -n))};
+  }
+  /// The least power of two that makes all `parts` fit a wrench: they are rounded to it.
+  template <unsigned count>
+  void coarsen(Ulps (&parts)[count]) {
     uint64_t all = 0;
     for (const Ulps part : parts) all |= magnitude_64(part);
-    const int n = bit_length_64(all) - (k_number_bits - 2);
+    const int n = bit_length_64(all) - k_wrench_bits;
     if (n <= 0) return;
     for (Ulps& part : parts) part = round_shift_64(part, n);
     shift_ += n;
@@ -69,42 +86,83 @@ class Block {
   int shift_ = k_shift_min;
 };
 
-inline Ulps times(Ulps a, Unit b) { return round_shift_64(a * b.raw, k_unit_frac); }
-/// a b 2^exponent. Range: exponent < 30.
-inline Ulps times_scaled(Ulps a, Unit b, int exponent) { return round_shift_64(a * b.raw, k_unit_frac - exponent); }
-/// Held to +-2^32, so that it can be a factor.
-inline Ulps held(Ulps a) { return a < -k_ulps_max ? -k_ulps_max : a > k_ulps_max ? k_ulps_max : a; }
-inline UlpSum product(Ulps a, Unit b) { return a * b.raw; }
-inline UlpSum dot(const Mantissas& a, const Vec3<Unit>& b) {
-  return int64_t{a.x} * b.x.raw + int64_t{a.y} * b.y.raw + int64_t{a.z} * b.z.raw;
-}
+inline UlpSum product(Factor a, Unit b) { return int64_t{a} * b.raw; }
 inline Ulps rounded(UlpSum sum) { return round_shift_64(sum, k_unit_frac); }
+inline Ulps times(Factor a, Unit b) { return rounded(product(a, b)); }
+/// a b 2^exponent. Range: exponent < 30.
+inline Ulps times_scaled(Factor a, Unit b, int exponent) {
+  return round_shift_64(product(a, b), k_unit_frac - exponent);
+}
+/// Sums of products with Units 2^exponent, and what they stand for. Range: exponent < 30.
+inline UlpSum sum_from(Ulps a, int exponent) {
+  return static_cast<int64_t>(static_cast<uint64_t>(a) << (k_unit_frac - exponent));
+}
+inline Ulps rounded(UlpSum sum, int exponent) { return round_shift_64(sum, k_unit_frac - exponent); }
+/// a b. Range: b >= 0.
+inline Factor times(Factor a, Scaled b) {
+  if (b.exponent >= 0) return b.mantissa == 0 ? 0 : held(shift_64(a, 32));
+  return b.exponent < -63 ? 0 : held(round_shift_64(int64_t{a} * b.mantissa, -b.exponent));
+}
+inline UlpSum dot(const Mantissas& a, const Vec3<Unit>& b) {
+  return product(a.x, b.x) + product(a.y, b.y) + product(a.z, b.z);
+}
+inline Mantissas rounded(UlpSum x, UlpSum y, UlpSum z) {
+  return {static_cast<Factor>(rounded(x)), static_cast<Factor>(rounded(y)), static_cast<Factor>(rounded(z))};
+}
 inline constexpr Ulps k_no_ulps = 0;
+
+/// Brings a vector into a circle. Range: limit >= 0.
+inline void hold_to_circle(Factor (&v)[2], Factor limit) {
+  const uint64_t x = magnitude_32(v[0]), y = magnitude_32(v[1]), radius = static_cast<uint32_t>(limit);
+  if (x + y <= radius) return;
+  const uint64_t square = x * x + y * y;
+  if (square <= radius * radius) return;
+  const uint64_t size = uint64_t{square_root_floor(square)} + 1;
+  const Unit factor = Unit::from_raw(static_cast<int32_t>((radius << k_unit_frac) / size));
+  v[0] = static_cast<Factor>(times(v[0], factor));
+  v[1] = static_cast<Factor>(times(v[1], factor));
+}
 
 #else
 
 using Ulps = Real;
-using Mantissas = Vec3<Real>;
+using Factor = Real;
 using UlpSum = Real;
+using Mantissas = Vec3<Real>;
+
+inline constexpr int k_spin_power = 0;
 
 class Block {
  public:
   void include(const Vec3<Real>&, int) {}
   void include(Real) {}
   Mantissas mantissas(const Vec3<Real>& v, int) const { return v; }
-  Ulps held(Real value) const { return value; }
+  Factor held(Real value) const { return value; }
   Ulps number(Real value) const { return value; }
   Real real(Ulps ulps) const { return ulps; }
-  Real real_from_sum(UlpSum sum) const { return sum; }
-  void coarsen(Ulps (&)[k_manifold_points_max]) {}
+  Vec3<Real> real(const Mantissas& v, Scaled share, int) const { return {v.x * share, v.y * share, v.z * share}; }
+  template <unsigned count>
+  void coarsen(Ulps (&)[count]) {}
 };
 
-inline Ulps times(Ulps a, Unit b) { return a * b; }
-inline Ulps times_scaled(Ulps a, Unit b, int) { return a * b; }
-inline Ulps held(Ulps a) { return a; }
+inline Factor held(Ulps a) { return a; }
 inline UlpSum product(Ulps a, Unit b) { return a * b; }
 inline Ulps rounded(UlpSum sum) { return sum; }
+inline Ulps times(Ulps a, Unit b) { return a * b; }
+inline Ulps times_scaled(Ulps a, Unit b, int) { return a * b; }
+inline UlpSum sum_from(Ulps a, int) { return a; }
+inline Ulps rounded(UlpSum sum, int) { return sum; }
+inline Mantissas rounded(UlpSum x, UlpSum y, UlpSum z) { return {x, y, z}; }
 inline constexpr Ulps k_no_ulps = 0;
+
+inline void hold_to_circle(Factor (&v)[2], Factor limit) {
+  if (abs(v[0]) + abs(v[1]) <= limit) return;
+  const Real square = v[0] * v[0] + v[1] * v[1];
+  if (square <= limit * limit) return;
+  const Real factor = limit / square_root(square);
+  v[0] = v[0] * factor;
+  v[1] = v[1] * factor;
+}
 
 #endif
 

@@ -1,6 +1,8 @@
 #include "dynamics/contact_rows.h"
 
-#include "dynamics/contact_velocity.h"
+#include "base/unroll.h"
+#include "dynamics/contact_motion.h"
+#include "dynamics/gyration.h"
 #include "dynamics/spin.h"
 #include "geometry/shape_traits.h"
 #include "math/root.h"
@@ -9,108 +11,130 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr Vec3<Unit> k_no_vector = {0.0, 0.0, 0.0};
+/// The exponent of mantissas up to `value` that leaves room for the sum of four; float needs none.
+int32_t exponent_for(Real value) { return DETENT_FIXED ? exponent_above(value) + 2 : 0; }
 
-/// The exponent of mantissas up to `value` that leaves room for a dot product; float needs none.
-int32_t exponent_for(Real value) { return DETENT_FIXED ? exponent_above(value) + 1 : 0; }
+#if DETENT_FIXED
+Real real_part(Unit mantissa, int exponent) { return real_from_unit(mantissa, exponent); }
+#endif
+Real real_part(Real value, int) { return value; }
 
-/// A vector of speeds per unit of momentum as a mantissa and an exponent.
-void store_response(const Vec3<Real>& response, Vec3<Unit>& mantissa, int32_t& exponent) {
-  exponent = exponent_for(max(abs(response.x), max(abs(response.y), abs(response.z))));
-  mantissa = {unit_from_real(response.x, exponent), unit_from_real(response.y, exponent),
-              unit_from_real(response.z, exponent)};
-}
-
-Vec3<Real> real_vector(const Vec3<Unit>& v, int exponent) {
-  return {real_from_unit(v.x, exponent), real_from_unit(v.y, exponent), real_from_unit(v.z, exponent)};
-}
-
-/// What a unit of `arm` shows of the body's spin, and how much of the pair's inverse effective mass it adds.
-/// A kinematic body's momentum is its spin, and a fixed body has none.
-Real respond(const RowBody& body, const Vec3<Unit>& arm, int arm_exponent, Vec3<Unit>& response, int32_t& exponent) {
-  if (type_of(body.traits) == BodyType::fixed) {
-    response = k_no_vector;
-    exponent = 0;
-    return Real(0.0);
-  }
-  store_response(spin_of(body.traits, body.pose.rotation, real_vector(arm, arm_exponent)), response, exponent);
-  return real_from_unit(dot(arm, response), exponent + arm_exponent);
-}
-
-/// `direction` with both arms of the point gives the row.
-void make_row(const RowBody& a, const RowBody& b, const ContactWork& work, const Vec3<Unit>& direction,
-              const Vec3<Unit>& point_a, const Vec3<Unit>& point_b, ContactRow& row) {
-  row.arm_a = cross(point_a, direction);
-  row.arm_b = cross(point_b, direction);
-  const Real one = 1.0;
-  const Real turn_a = respond(a, row.arm_a, 0, row.response_a, row.exponent_a);
-  const Real turn_b = respond(b, row.arm_b, 0, row.response_b, row.exponent_b);
-  // The lighter body's share is 1, so the sum is at least 1 but for rounding.
-  const Real inverse = multiply(one + turn_a, work.share_a) + multiply(one + turn_b, work.share_b);
-  row.inverse_mass = unit_from_real(reciprocal(max(inverse, one)), 0);
-}
-
-void raise_exponent(int32_t to, Vec3<Unit>& mantissa, int32_t& exponent) {
-  const int power = exponent - to;
-  if (power == 0) return;
-  mantissa = {scale_by_power(mantissa.x, power), scale_by_power(mantissa.y, power), scale_by_power(mantissa.z, power)};
-  exponent = to;
-}
-
-/// Gives rows of one direction the largest of their exponents; `row(i)` is one of `count`.
-template <class RowAt>
-void share_exponents(uint32_t count, const RowAt& row) {
-  int32_t most_a = row(0).exponent_a, most_b = row(0).exponent_b;
-  for (uint32_t i = 1; i < count; ++i) {
-    most_a = row(i).exponent_a > most_a ? row(i).exponent_a : most_a;
-    most_b = row(i).exponent_b > most_b ? row(i).exponent_b : most_b;
-  }
-  for (uint32_t i = 0; i < count; ++i) {
-    raise_exponent(most_a, row(i).response_a, row(i).exponent_a);
-    raise_exponent(most_b, row(i).response_b, row(i).exponent_b);
+/// What a wrench on one body adds to the pair's motion, to `response`. `turning`: gyration in the contact's frame, in
+/// Real, or as mantissas 2^-exponent.
+template <class Number>
+void add_response(const ContactWork& work, const Number (&turning)[3][3], int exponent, const Vec3<Unit>& arm,
+                  Unit unit, Scaled share, PairResponse& response) {
+  const Unit reach[3] = {dot(arm, work.normal), dot(arm, work.tangent[0]), dot(arm, work.tangent[1])};
+  const bool whole = share == Scaled(1.0);
+  const auto add_part = [&](int i, int k, Number part, bool moves) {
+    Real value = real_part(part, exponent);
+    if (moves) value += Real(1.0);
+    response.part[response_index(i, k)] += whole ? value : multiply(value, share);
+  };
+  DETENT_UNROLL
+  for (int k = 0; k < 3; ++k) {
+    // A force along axis k turns the body about the two others.
+    const int next = (k + 1) % 3, last = (k + 2) % 3;
+    Number spin[3];
+    DETENT_UNROLL
+    for (int i = 0; i < 3; ++i) {
+      spin[i] = turning[i][next] * reach[last] - turning[i][last] * reach[next];
+      add_part(i + 3, k, spin[i] * unit, false);
+    }
+    DETENT_UNROLL
+    for (int i = 0; i < 3; ++i) {
+      if (i > k) continue;
+      const int after = (i + 1) % 3, before = (i + 2) % 3;
+      add_part(i, k, spin[after] * reach[before] - spin[before] * reach[after], i == k);
+      add_part(i + 3, k + 3, (turning[i][k] * unit) * unit, false);
+    }
   }
 }
 
-/// What an impulse along the normal at each point does to the normal speed at each.
-void couple(ContactWork& work) {
+PairResponse respond(const RowBody& a, const RowBody& b, const ContactWork& work) {
+  PairResponse response = {};
+  const auto add_body = [&](const RowBody& body, const Vec3<Unit>& arm, Unit unit, Scaled share) {
+    if (!is_positive(share)) return;
+    const Vec3<Unit>* const axis[3] = {&work.normal, &work.tangent[0], &work.tangent[1]};
+    Unit turning[3][3];
+    DETENT_UNROLL
+    for (int k = 0; k < 3; ++k) {
+      const Vec3<Unit> turned = multiply(body.gyration, *axis[k]);
+      for (int i = 0; i <= k; ++i) turning[i][k] = turning[k][i] = dot(*axis[i], turned);
+    }
+    add_response(work, turning, body.gyration.exponent, arm, unit, share, response);
+  };
+  add_body(a, work.middle_a, work.unit_a, work.share_a);
+  add_body(b, work.middle_b, work.unit_b, work.share_b);
+  return response;
+}
+
+/// Effective mass of a direction: the lighter body's share is 1, so `response` is at least 1 but for rounding.
+Unit mass_of(Real response) {
+  if (!(response > Real(1.0))) return 1.0;
+#if DETENT_FIXED
+  // 2^(2 x 30) over the response as a mantissa of 31 bits.
+  const int power = bit_length_64(magnitude_64(response.raw)) - 31;
+  const uint64_t quotient = (uint64_t{1} << 60) / static_cast<uint64_t>(response.raw >> power);
+  return Unit::from_raw(
+      static_cast<int32_t>(shift_64(static_cast<int64_t>(quotient), k_real_frac - k_unit_frac - power)));
+#else
+  return Real(1.0) / response;
+#endif
+}
+Scaled angular_mass_of(Real response) {
+  return response > Real(0.0) ? divide(Scaled(1.0), scaled_from(response)) : Scaled(0.0);
+}
+
+/// What an impulse along the normal at each point does to the normal speed at each, and its effective mass.
+void couple(const PairResponse& response, ContactWork& work) {
+  const auto part = [&](Part i, Part k) { return response.part[response_index(i, k)]; };
   const uint32_t count = work.state.point_count;
-  const Real one = 1.0;
   Real coupling[k_manifold_points_max][k_manifold_points_max];
   Real most = 1.0;
   for (uint32_t i = 0; i < count; ++i) {
+    ContactPoint& point = work.point[i];
+    const auto shows = [&](Part in) {
+      return part(in, k_along_normal) + (part(in, k_about_first) * point.y - part(in, k_about_second) * point.x);
+    };
+    const Real along = shows(k_along_normal), first = shows(k_about_first), second = shows(k_about_second);
     for (uint32_t k = 0; k <= i; ++k) {
-      const ContactRow &row = work.point[i].row, &other = work.point[k].row;
-      Real sum = 0.0;
-      if (is_positive(work.share_a))
-        sum += multiply(one + real_from_unit(dot(other.arm_a, row.response_a), row.exponent_a), work.share_a);
-      if (is_positive(work.share_b))
-        sum += multiply(one + real_from_unit(dot(other.arm_b, row.response_b), row.exponent_b), work.share_b);
+      const Real sum = along + (first * work.point[k].y - second * work.point[k].x);
       coupling[i][k] = coupling[k][i] = sum;
       most = max(most, abs(sum));
     }
+    point.inverse_mass = mass_of(coupling[i][i]);
   }
   constexpr int32_t k_most = 29;  // a thin body hit far from its centre; beyond it the sweep converges more slowly
   const int32_t exponent = exponent_for(most);
   work.coupling_exponent = exponent < k_most ? exponent : k_most;
   for (uint32_t i = 0; i < count; ++i) {
-    for (uint32_t k = 0; k < count; ++k) work.coupling[i][k] = unit_from_real(coupling[i][k], work.coupling_exponent);
+    for (uint32_t k = 0; k < k_manifold_points_max; ++k)
+      work.coupling[i][k] = k < count ? unit_from_real(coupling[i][k], work.coupling_exponent) : Unit(0.0);
   }
 }
 
-void make_angular_row(const RowBody& a, const RowBody& b, const ContactWork& work, const Vec3<Unit>& axis,
-                      AngularRow& row) {
-  const Real turn_a = respond(a, axis, work.shift_a, row.response_a, row.exponent_a);
-  const Real turn_b = respond(b, axis, work.shift_b, row.response_b, row.exponent_b);
-  const Scaled inverse = add(multiply(scaled_from(turn_a), work.share_a), multiply(scaled_from(turn_b), work.share_b));
-  row.inverse_mass = is_positive(inverse) ? divide(Scaled(1.0), inverse) : Scaled(0.0);
+/// Two directions that make a right-handed frame with the normal.
+/// Source: Duff and others, "Building an Orthonormal Basis, Revisited", JCGT 2017.
+void make_tangents(const Vec3<Unit>& n, Vec3<Unit> tangent[2]) {
+  const Unit zero = 0.0, one = 1.0;
+  const bool down = n.z < zero;
+#if DETENT_FIXED
+  const uint64_t sum = static_cast<uint64_t>(one.raw) + magnitude_32(n.z.raw);
+  const Unit part = Unit::from_raw(static_cast<int32_t>(((uint64_t{1} << 60) + sum / 2) / sum));
+#else
+  const Unit part = one / (one + abs(n.z));
+#endif
+  const Unit both = zero - (n.x * n.y) * part;
+  const Unit first = one - (n.x * n.x) * part, second = one - (n.y * n.y) * part;
+  tangent[0] = {first, both, down ? n.x : zero - n.x};
+  tangent[1] = {down ? zero - both : both, down ? zero - second : second, zero - n.y};
 }
 
-void make_tangents(const Vec3<Unit>& normal, Vec3<Unit> tangent[2]) {
-  const Vec3<Unit> x = {1.0, 0.0, 0.0}, y = {0.0, 1.0, 0.0};
-  Unit size = 0.0;
-  tangent[0] = x;
-  normalise(cross(normal, abs(normal.x) < Unit(0.5) ? x : y), tangent[0], size);
-  tangent[1] = cross(normal, tangent[0]);
+/// The mean of two coefficients that counts by their ratio.
+Scaled geometric_mean(Scaled a, Scaled b) {
+  if (a == b) return a;
+  return is_positive(a) && is_positive(b) ? square_root(multiply(a, b)) : Scaled(0.0);
 }
 
 Scaled pair_restitution(const BodyTraits& a, const BodyTraits& b) {
@@ -126,22 +150,24 @@ void share_mass(const BodyTraits& a, const BodyTraits& b, ContactWork& work) {
   work.share_a = dynamic_a ? one : none;
   work.share_b = dynamic_b ? one : none;
   work.static_pair = dynamic_a && dynamic_b ? 0 : 1;
-  work.moves_a = type_of(a) != BodyType::fixed ? 1 : 0;
-  work.moves_b = type_of(b) != BodyType::fixed ? 1 : 0;
-  if (!dynamic_a || !dynamic_b) return;
+  if (!dynamic_a || !dynamic_b || a.mass == b.mass) return;
   if (less(a.mass, b.mass))
     work.share_b = divide(a.mass, b.mass);
   else
     work.share_a = divide(b.mass, a.mass);
 }
 
-/// The pair's unit of length is that of its smaller moving body.
-void share_length(const BodyTraits& a, const BodyTraits& b, ContactWork& work) {
+/// The pair's unit of length as a power of two, m, and in those of the bodies.
+int32_t share_length(const BodyTraits& a, const BodyTraits& b, ContactWork& work) {
   const bool moves_a = type_of(a) != BodyType::fixed, moves_b = type_of(b) != BodyType::fixed;
   int32_t unit = moves_a ? a.size_exponent : b.size_exponent;
   if (moves_b && b.size_exponent < unit) unit = b.size_exponent;
-  work.shift_a = moves_a ? unit - a.size_exponent : 0;
-  work.shift_b = moves_b ? unit - b.size_exponent : 0;
+  const auto in_unit_of = [unit](bool moves, const BodyTraits& body) {
+    return moves ? scale_by_power(Unit(1.0), unit - body.size_exponent) : Unit(0.0);
+  };
+  work.unit_a = in_unit_of(moves_a, a);
+  work.unit_b = in_unit_of(moves_b, b);
+  return unit;
 }
 
 Real gravity_along(const StepSettings& settings, const BodyTraits& body, const Vec3<Unit>& normal) {
@@ -158,19 +184,36 @@ Real approach_at_touch(Real velocity, Real separation, Real pull) {
   return -square_root(velocity * velocity - gain);
 }
 
+/// What each of so many points counts in a mean.
+Unit share_of_points(uint32_t count) {
+  constexpr Unit k_share[k_manifold_points_max] = {1.0, 0.5, 1.0 / 3.0, 0.25};
+  return k_share[count - 1];
+}
+
 Vec3<Unit> mean(const ContactGeometry& geometry, Vec3<Unit> ContactGeometryPoint::*arm) {
-  static constexpr Unit k_share[k_manifold_points_max] = {1.0, 0.5, 1.0 / 3.0, 0.25};
-  const Unit share = k_share[geometry.count - 1];
-  Vec3<Unit> sum = k_no_vector;
+  const Unit share = share_of_points(geometry.count);
+  Vec3<Unit> sum = {0.0, 0.0, 0.0};
   for (uint32_t i = 0; i < geometry.count; ++i) sum += geometry.point[i].*arm * share;
   return sum;
 }
 
-/// Mean distance of the contact points from their middle, in the body's unit of length.
-Unit patch_radius(const ContactGeometry& geometry, Vec3<Unit> ContactGeometryPoint::*arm, const Vec3<Unit>& middle) {
-  Unit sum = 0.0;
-  for (uint32_t i = 0; i < geometry.count; ++i) sum += scale_by_power(length(geometry.point[i].*arm - middle), -2);
-  return sum;
+/// Places the points about their middle by a body whose unit is the pair's, and returns the root of their mean squared
+/// distance from it.
+Unit place_points(const ContactGeometry& geometry, Vec3<Unit> ContactGeometryPoint::*arm, const Vec3<Unit>& middle,
+                  ContactWork& work) {
+  const Unit share = share_of_points(geometry.count);
+  Unit sum = 0.0;  // a quarter of the mean square
+  for (uint32_t i = 0; i < k_manifold_points_max; ++i) {
+    ContactPoint& point = work.point[i];
+    point.x = point.y = Unit(0.0);
+    if (i >= geometry.count) continue;
+    const Vec3<Unit> offset = geometry.point[i].*arm - middle;
+    point.x = dot(offset, work.tangent[0]);
+    point.y = dot(offset, work.tangent[1]);
+    const Unit x = scale_by_power(point.x, -1), y = scale_by_power(point.y, -1);
+    sum += (x * x + y * y) * share;
+  }
+  return scale_by_power(square_root(max(sum, Unit(0.0))), 1);
 }
 
 }  // namespace
@@ -180,52 +223,75 @@ void make_rows(const StepSettings& settings, const RowBody& a, const RowBody& b,
   work.normal = geometry.normal;
   make_tangents(work.normal, work.tangent);
   share_mass(a.traits, b.traits, work);
-  share_length(a.traits, b.traits, work);
+  const int32_t unit = share_length(a.traits, b.traits, work);
+  work.middle_a = mean(geometry, &ContactGeometryPoint::arm_a);
+  work.middle_b = mean(geometry, &ContactGeometryPoint::arm_b);
+  work.lever_a = cross(work.middle_a, work.normal);
+  work.lever_b = cross(work.middle_b, work.normal);
+  const Unit patch = work.unit_a == Unit(1.0)
+                         ? place_points(geometry, &ContactGeometryPoint::arm_a, work.middle_a, work)
+                         : place_points(geometry, &ContactGeometryPoint::arm_b, work.middle_b, work);
+
+  const PairResponse response = respond(a, b, work);
+  const auto own = [&](Part part) { return response.part[response_index(part, part)]; };
+  Real most = 1.0;
+  for (const Real& part : response.part) most = max(most, abs(part));
+  work.response_exponent = exponent_for(most);
+  for (int i = 0; i < k_responses; ++i) work.response[i] = unit_from_real(response.part[i], work.response_exponent);
+  couple(response, work);
+  work.friction_mass[0] = mass_of(own(k_along_first));
+  work.friction_mass[1] = mass_of(own(k_along_second));
+
   const Real pull = gravity_along(settings, b.traits, work.normal) - gravity_along(settings, a.traits, work.normal);
+  const PairMotion motion(Block(), b.motion.velocity - a.motion.velocity, a.spin, b.spin, k_spin_power);
+  const NormalMotion start(motion, work);
   for (uint32_t i = 0; i < geometry.count; ++i) {
-    const ContactGeometryPoint& from = geometry.point[i];
     ContactPoint& point = work.point[i];
-    make_row(a, b, work, work.normal, from.arm_a, from.arm_b, point.row);
-    point.separation = from.separation;
-    point.approach =
-        approach_at_touch(row_velocity(point.row, work.normal, a.motion, b.motion), point.separation, pull);
+    point.separation = geometry.point[i].separation;
+    point.approach = approach_at_touch(motion.block.real(start.at(point)), point.separation, pull);
     point.impulse_max = Real(0.0);
   }
-  share_exponents(geometry.count, [&](uint32_t i) -> ContactRow& { return work.point[i].row; });
-  couple(work);
-  const Vec3<Unit> middle_a = work.middle_a = mean(geometry, &ContactGeometryPoint::arm_a);
-  const Vec3<Unit> middle_b = work.middle_b = mean(geometry, &ContactGeometryPoint::arm_b);
-  for (int i = 0; i < 2; ++i) {
-    make_row(a, b, work, work.tangent[i], middle_a, middle_b, work.friction_row[i]);
-    work.friction_impulse[i] = dot(work.state.friction_impulse, work.tangent[i]);
-  }
+  for (int i = 0; i < 2; ++i) work.friction_impulse[i] = dot(work.state.friction_impulse, work.tangent[i]);
 
-  share_exponents(2, [&](uint32_t i) -> ContactRow& { return work.friction_row[i]; });
-
-  work.friction = square_root(multiply(a.traits.friction, b.traits.friction));
+  work.friction = geometric_mean(a.traits.friction, b.traits.friction);
   work.restitution = pair_restitution(a.traits, b.traits);
-  const Scaled rolling = square_root(multiply(a.traits.rolling_resistance, b.traits.rolling_resistance));
+  const Scaled rolling = geometric_mean(a.traits.rolling_resistance, b.traits.rolling_resistance);
   const Real extent = min(shape_extent(a.traits), shape_extent(b.traits));
-  const bool dynamic_a = is_dynamic(a.traits);
-  const BodyTraits& some = dynamic_a ? a.traits : b.traits;
-  const int32_t unit = some.size_exponent + (dynamic_a ? work.shift_a : work.shift_b);
-  const Unit patch = dynamic_a ? patch_radius(geometry, &ContactGeometryPoint::arm_a, middle_a)
-                               : patch_radius(geometry, &ContactGeometryPoint::arm_b, middle_b);
   work.rolling_arm = multiply(rolling, scaled_by_power(scaled_from(extent), -1 - unit));
-  const Scaled patch_arm = scaled_by_power(scaled_from(patch), dynamic_a ? -work.shift_a : -work.shift_b);
-  work.twist_arm = add(multiply(work.friction, patch_arm), work.rolling_arm);
+  work.twist_arm = add(multiply(work.friction, scaled_from(patch)), work.rolling_arm);
   work.angular_rows = is_positive(work.rolling_arm) ? 3 : is_positive(work.twist_arm) ? 1 : 0;
   const Vec3<Unit>* axes[3] = {&work.normal, &work.tangent[0], &work.tangent[1]};
   for (uint32_t i = 0; i < 3; ++i) {
     work.angular_impulse[i] = Real(0.0);
     if (i >= work.angular_rows) continue;
-    make_angular_row(a, b, work, *axes[i], work.angular_row[i]);
+    work.angular_mass[i] = angular_mass_of(own(static_cast<Part>(k_about_normal + i)));
     work.angular_impulse[i] = dot(work.state.angular_impulse, *axes[i]);
   }
   // Speeds are measured against that of a fall by the smaller body's diameter.
   const Real fall = fall_speed(settings, extent);
   work.push_max = scale_by_power(fall, -1);
   work.rebound_min = settings.restitution_threshold * fall;
+}
+
+PairResponse respond_exactly(const BodyTraits& a, const Quat& rotation_a, const BodyTraits& b, const Quat& rotation_b,
+                             const ContactWork& work) {
+  PairResponse response = {};
+  const auto add_body = [&](const BodyTraits& traits, const Quat& rotation, const Vec3<Unit>& arm, Unit unit,
+                            Scaled share) {
+    if (!is_positive(share)) return;
+    const Vec3<Unit>* const axis[3] = {&work.normal, &work.tangent[0], &work.tangent[1]};
+    Real turning[3][3];
+    for (int k = 0; k < 3; ++k) {
+      const Vec3<Real> momentum = {real_from_unit(axis[k]->x, 0), real_from_unit(axis[k]->y, 0),
+                                   real_from_unit(axis[k]->z, 0)};
+      const Vec3<Real> turned = spin_of(traits, rotation, momentum);
+      for (int i = 0; i <= k; ++i) turning[i][k] = turning[k][i] = dot(turned, *axis[i]);
+    }
+    add_response(work, turning, 0, arm, unit, share, response);
+  };
+  add_body(a, rotation_a, work.middle_a, work.unit_a, work.share_a);
+  add_body(b, rotation_b, work.middle_b, work.unit_b, work.share_b);
+  return response;
 }
 
 void store_impulses(ContactWork& work) {

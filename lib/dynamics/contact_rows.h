@@ -3,22 +3,35 @@
 
 #include "base/span.h"
 #include "collision/collide.h"
+#include "dynamics/contact_motion.h"
 #include "dynamics/step_settings.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// One body of a contact, as the rows see it.
+/// One body of a contact, as the rows see it: its gyration and its spin, 2^-k_spin_power m/s, are in world axes.
 struct RowBody {
   const BodyTraits& traits;
   const BodyPose& pose;
   const BodyMotion& motion;
+  const WorldGyration& gyration;
+  const Vec3<Real>& spin;
 };
 
 /// Fills the rows of `work`, whose `state` is set, from the geometry: arms, responses, effective masses, limits and the
 /// approach speeds of the start of the tick. Impulses of the state are taken over.
 void make_rows(const StepSettings& settings, const RowBody& a, const RowBody& b, const ContactGeometry& geometry,
                ContactWork& work);
+
+/// What a wrench does to the motion of a pair, by response_index().
+struct PairResponse {
+  Real part[k_responses];
+};
+
+/// As precise as Real allows: what make_rows() has in the work is rounded to 2^-30 of the largest part, which of a
+/// slender body is much.
+PairResponse respond_exactly(const BodyTraits& a, const Quat& rotation_a, const BodyTraits& b, const Quat& rotation_b,
+                             const ContactWork& work);
 
 /// Puts the impulses of the solve back into `work.state`.
 void store_impulses(ContactWork& work);

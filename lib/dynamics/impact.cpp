@@ -2,6 +2,7 @@
 
 #include "collision/broadphase.h"
 #include "dynamics/activity.h"
+#include "dynamics/gyration.h"
 #include "dynamics/impact_pair.h"
 #include "dynamics/impact_response.h"
 #include "dynamics/spin.h"
@@ -535,12 +536,23 @@ struct Stage {
     const BodyMotion before_b = motion_of_sweep(traits_b, pose_b.rotation, bodies.sweeps[b], tick_rate);
     ContactWork contact;
     contact.state = {};
-    make_rows(settings, {traits_a, pose_a, before_a}, {traits_b, pose_b, before_b}, geometry, contact);
+    contact.state.point_count = geometry.count;
+    const WorldGyration gyration_a = world_gyration(traits_a, matrix_from(pose_a.rotation));
+    const WorldGyration gyration_b = world_gyration(traits_b, matrix_from(pose_b.rotation));
+    const Vec3<Real> spin_a = world_spin(traits_a, gyration_a, before_a.momentum, -k_spin_power);
+    const Vec3<Real> spin_b = world_spin(traits_b, gyration_b, before_b.momentum, -k_spin_power);
+    make_rows(settings, {traits_a, pose_a, before_a, gyration_a, spin_a},
+              {traits_b, pose_b, before_b, gyration_b, spin_b}, geometry, contact);
     BodyMotion after_a = before_a, after_b = before_b;
     Real approach = k_zero;
     const Real parting = again ? k_zero : parting_speed(pair, contact, geometry.count);
     const Real least = again ? scale_by_power(first_approach, -12) : k_zero;
-    if (!resolve_impact(contact, geometry.count, least, parting, after_a, after_b, approach)) return false;
+    const auto resolves = [&](Real least_approach, Real leave, BodyMotion& motion_a, BodyMotion& motion_b,
+                              Real& found) {
+      return resolve_impact(contact, geometry.count, least_approach, leave, {traits_a, pose_a.rotation, motion_a},
+                            {traits_b, pose_b.rotation, motion_b}, found);
+    };
+    if (!resolves(least, parting, after_a, after_b, approach)) return false;
     wake(a);
     wake(b);
     report.clamped += hold_spin(traits_a, pose_a.rotation, after_a) + hold_spin(traits_b, pose_b.rotation, after_b);
@@ -560,7 +572,7 @@ struct Stage {
     Real approach_of_state = k_zero;
     // A slow rest of what the solver has pushed is left to it: it goes on in the next tick.
     const Real least_of_state = is_pushed(pair.key) ? contact.rebound_min : k_zero;
-    if (resolve_impact(contact, geometry.count, least_of_state, k_zero, motion_a, motion_b, approach_of_state)) {
+    if (resolves(least_of_state, k_zero, motion_a, motion_b, approach_of_state)) {
       motion_a.velocity += fall_a;
       motion_b.velocity += fall_b;
       report.clamped += hold_spin(traits_a, pose_a.rotation, motion_a) + hold_spin(traits_b, pose_b.rotation, motion_b);

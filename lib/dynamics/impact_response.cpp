@@ -1,6 +1,7 @@
 #include "dynamics/impact_response.h"
 
-#include "dynamics/contact_velocity.h"
+#include "dynamics/contact_motion.h"
+#include "dynamics/gyration.h"
 #include "dynamics/spin.h"
 #include "math/root.h"
 
@@ -11,6 +12,7 @@ namespace {
 constexpr Real k_zero = 0.0;
 constexpr int k_sweeps_max = 64;
 constexpr int k_last_sweeps = 8;  ///< over the normals alone
+constexpr int k_rounds = 2;
 
 Vec3<Real> scaled(const Vec3<Real>& v, Scaled factor) {
   bool saturated = false;
@@ -46,25 +48,60 @@ Scaled energy_of(const BodyTraits& traits, const Vec3<Real>& local) {
   return add(term(local.x, 0), add(term(local.y, 1), term(local.z, 2)));
 }
 
+/// The solve of an impact: the pair's motion and its wrench in the contact's frame, as in contact_motion.h, but in
+/// Real.
 struct Impact {
   const ContactWork& contact;
   uint32_t count;
-  BodyMotion& a;
-  BodyMotion& b;
+  PairResponse response;
+  Real motion[k_parts];
+  Real wrench[k_parts] = {k_zero, k_zero, k_zero, k_zero, k_zero, k_zero};
   Real wanted[k_manifold_points_max];  ///< normal velocity after the impact
   Real normal_impulse[k_manifold_points_max];
-  Real friction_impulse[2];
-  Real largest;  ///< change of an impulse in a sweep
+  Real friction_impulse[2] = {k_zero, k_zero};
+  Real largest = k_zero;  ///< change of an impulse in a sweep
 
-  Real velocity(uint32_t i) const { return row_velocity(contact.point[i].row, contact.normal, a, b); }
+  Impact(const ContactWork& of_pair, uint32_t points, const ImpactBody& a, const ImpactBody& b)
+      : contact(of_pair),
+        count(points),
+        response(respond_exactly(a.traits, a.rotation, b.traits, b.rotation, of_pair)) {
+    look(a, b);
+  }
+
+  /// Reads the motion off the bodies.
+  void look(const ImpactBody& a, const ImpactBody& b) {
+    const Vec3<Real> spin_a = spin_of(a.traits, a.rotation, a.motion.momentum);
+    const Vec3<Real> spin_b = spin_of(b.traits, b.rotation, b.motion.momentum);
+    const Vec3<Real> velocity =
+        (b.motion.velocity - a.motion.velocity) + (cross(spin_b, contact.middle_b) - cross(spin_a, contact.middle_a));
+    const Vec3<Real> turning = spin_b * contact.unit_b - spin_a * contact.unit_a;
+    for (int i = 0; i < 3; ++i) {
+      motion[i] = dot(velocity, axis(i));
+      motion[i + 3] = dot(turning, axis(i));
+    }
+  }
+
+  const Vec3<Unit>& axis(int i) const { return i == 0 ? contact.normal : contact.tangent[i - 1]; }
+  Real velocity(uint32_t i) const {
+    const ContactPoint& point = contact.point[i];
+    return motion[k_along_normal] + (motion[k_about_first] * point.y - motion[k_about_second] * point.x);
+  }
+  Real shown(int i, Part k) const { return response.part[response_index(i, k)]; }
 
   void push(uint32_t i) {
-    const ContactRow& row = contact.point[i].row;
-    const Real after = max(normal_impulse[i] + (wanted[i] - velocity(i)) * row.inverse_mass, k_zero);
+    const ContactPoint& point = contact.point[i];
+    const Real after = max(normal_impulse[i] + (wanted[i] - velocity(i)) * point.inverse_mass, k_zero);
     const Real change = after - normal_impulse[i];
+    if (change == k_zero) return;
     normal_impulse[i] = after;
     largest = max(largest, abs(change));
-    if (!(change == k_zero)) apply_impulse(contact, row, contact.normal, change, a, b);
+    wrench[k_along_normal] += change;
+    wrench[k_about_first] += change * point.y;
+    wrench[k_about_second] -= change * point.x;
+    for (int k = 0; k < k_parts; ++k) {
+      motion[k] += change * (shown(k, k_along_normal) +
+                             (shown(k, k_about_first) * point.y - shown(k, k_about_second) * point.x));
+    }
   }
 
   void rub() {
@@ -73,20 +110,36 @@ struct Impact {
     bool saturated = false;
     const Real limit = multiply(normal, contact.friction, saturated);
     Real after[2];
-    for (int i = 0; i < 2; ++i) {
-      const ContactRow& row = contact.friction_row[i];
-      after[i] = friction_impulse[i] - row_velocity(row, contact.tangent[i], a, b) * row.inverse_mass;
-    }
+    for (int i = 0; i < 2; ++i) after[i] = friction_impulse[i] - motion[k_along_first + i] * contact.friction_mass[i];
     const Real size = length(Vec3<Real>{after[0], after[1], k_zero});
     const bool slides = size > limit;
     const Real factor = slides ? divide(limit, size) : k_zero;
     for (int i = 0; i < 2; ++i) {
+      const Part part = i == 0 ? k_along_first : k_along_second;
       const Real held = slides ? after[i] * factor : after[i];
       const Real change = held - friction_impulse[i];
       friction_impulse[i] = held;
       largest = max(largest, abs(change));
-      if (!(change == k_zero)) apply_impulse(contact, contact.friction_row[i], contact.tangent[i], change, a, b);
+      wrench[part] += change;
+      for (int k = 0; k < k_parts; ++k) motion[k] += change * shown(k, part);
     }
+  }
+
+  /// Puts on the bodies what has not been put on them yet.
+  void act(const ImpactBody& a, const ImpactBody& b) {
+    const auto in_world = [&](int first) {
+      return axis(0) * wrench[first] + (axis(1) * wrench[first + 1] + axis(2) * wrench[first + 2]);
+    };
+    const Vec3<Real> force = in_world(k_along_normal), turn = in_world(k_about_normal);
+    if (is_positive(contact.share_a)) {
+      a.motion.velocity -= scaled(force, contact.share_a);
+      a.motion.momentum -= scaled(cross(contact.middle_a, force) + turn * contact.unit_a, contact.share_a);
+    }
+    if (is_positive(contact.share_b)) {
+      b.motion.velocity += scaled(force, contact.share_b);
+      b.motion.momentum += scaled(cross(contact.middle_b, force) + turn * contact.unit_b, contact.share_b);
+    }
+    for (Real& part : wrench) part = k_zero;
   }
 };
 
@@ -146,9 +199,9 @@ uint32_t add_to_sweep(const BodyTraits& traits, const Quat& rotation, const Body
   return hold(sweep.displacement, k_way_max) + hold(sweep.turn, k_turn_max) + (turns_clamped ? 1 : 0);
 }
 
-bool resolve_impact(const ContactWork& contact, uint32_t count, Real least, Real parting, BodyMotion& a, BodyMotion& b,
-                    Real& approach) {
-  Impact impact = {contact, count, a, b, {}, {}, {k_zero, k_zero}, k_zero};
+bool resolve_impact(const ContactWork& contact, uint32_t count, Real least, Real parting, const ImpactBody& a,
+                    const ImpactBody& b, Real& approach) {
+  Impact impact(contact, count, a, b);
   approach = k_zero;
   for (uint32_t i = 0; i < count; ++i) {
     const Real velocity = impact.velocity(i);
@@ -165,9 +218,14 @@ bool resolve_impact(const ContactWork& contact, uint32_t count, Real least, Real
     impact.rub();
     if (impact.largest <= enough) break;
   }
-  // Friction had the last word: what is left may be a slow approach.
-  for (int sweep = 0; sweep < k_last_sweeps; ++sweep) {
-    for (uint32_t i = 0; i < count; ++i) impact.push(i);
+  // Friction had the last word: what is left may be a slow approach. Then the impulses are put on the
+  // bodies, and what rounding shows of them is made up for.
+  for (int round = 0; round < k_rounds; ++round) {
+    for (int sweep = 0; sweep < k_last_sweeps; ++sweep) {
+      for (uint32_t i = 0; i < count; ++i) impact.push(i);
+    }
+    impact.act(a, b);
+    impact.look(a, b);
   }
   return true;
 }

@@ -28,12 +28,19 @@ uint32_t add_to_sweep(const BodyTraits& traits, const Quat& rotation, const Body
 /// a rod's edge may ask for more. Returns the number of components clamped.
 uint32_t hold_spin(const BodyTraits& traits, const Quat& rotation, BodyMotion& motion);
 
+/// A body that meets another.
+struct ImpactBody {
+  const BodyTraits& traits;
+  const Quat& rotation;
+  BodyMotion& motion;
+};
+
 /// Lets the points of the contact part: Newton's law of impact along the normal above the pair's threshold, Coulomb's
 /// friction, by sequential impulses until no point approaches, and each parts at no less than `parting`, m/s.
 /// `approach` becomes the greatest closing speed of before, m/s; false, and nothing changed, if no point closes faster
 /// than `least`.
-bool resolve_impact(const ContactWork& contact, uint32_t count, Real least, Real parting, BodyMotion& a, BodyMotion& b,
-                    Real& approach);
+bool resolve_impact(const ContactWork& contact, uint32_t count, Real least, Real parting, const ImpactBody& a,
+                    const ImpactBody& b, Real& approach);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

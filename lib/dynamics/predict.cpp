@@ -1,5 +1,7 @@
 #include "dynamics/predict.h"
 
+#include "dynamics/block.h"
+#include "dynamics/gyration.h"
 #include "dynamics/spin.h"
 #include "geometry/bounds.h"
 #include "geometry/shape_traits.h"
@@ -22,13 +24,18 @@ Real absolute_sum(const Vec3<Real>& v) { return abs(v.x) + abs(v.y) + abs(v.z); 
 
 }  // namespace
 
-void start_bodies(Span<const BodyPose> poses, Span<BodyWork> work) {
+void start_bodies(Span<const BodyTraits> traits, Span<const BodyPose> poses, Span<const BodyMotion> motions,
+                  Span<const BodyActivity> activities, Span<BodyWork> work) {
   const Real zero = 0.0;
   const Vec3<Real> none = {zero, zero, zero};
   for (uint32_t slot = 0; slot < poses.count; ++slot) {
-    work[slot].rotation = poses[slot].rotation;
-    work[slot].displacement = none;
-    work[slot].turn = none;
+    BodyWork& now = work[slot];
+    now.rotation = poses[slot].rotation;
+    now.displacement = none;
+    now.turn = none;
+    if (activities[slot].asleep != 0) continue;
+    now.gyration = world_gyration(traits[slot], matrix_from(now.rotation));
+    now.spin = world_spin(traits[slot], now.gyration, motions[slot].momentum, -k_spin_power);
   }
 }
 

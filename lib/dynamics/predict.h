@@ -7,8 +7,9 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Starts the tick of every body: it has not moved yet.
-void start_bodies(Span<const BodyPose> poses, Span<BodyWork> work);
+/// Starts the tick of every body: it has not moved yet. Those asleep get no gyration and no spin.
+void start_bodies(Span<const BodyTraits> traits, Span<const BodyPose> poses, Span<const BodyMotion> motions,
+                  Span<const BodyActivity> activities, Span<BodyWork> work);
 
 /// What gravity, forces and damping do to the bodies of an island in a substep. The forces are taken over and cleared.
 void predict(const StepSettings& settings, Span<const BodyTraits> traits, Span<const uint32_t> bodies,

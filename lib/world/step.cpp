@@ -67,9 +67,12 @@ struct Bodies {
   Span<const BodyTraits> traits;
   Span<const BodyMotion> motions;
   Span<BodyActivity> activities;
+  Span<BodyWork> work;
   AssetTable assets;
 
-  RowBody at(uint32_t slot) const { return {traits[slot], poses[slot], motions[slot]}; }
+  RowBody at(uint32_t slot) const {
+    return {traits[slot], poses[slot], motions[slot], work[slot].gyration, work[slot].spin};
+  }
   bool awake(uint32_t slot) const { return is_awake(traits[slot], activities[slot]); }
   bool moving(uint32_t slot) const { return is_moving(traits[slot], motions[slot], activities[slot]); }
   bool asleep(uint32_t slot) const { return activities[slot].asleep != 0; }
@@ -225,7 +228,7 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   const Span<BodyWork> work = scratch.bodies.first(used);
   const Span<Bounds> bounds = scratch.bounds.first(used);
   const StepSettings settings = step_settings(state.world);
-  const Bodies bodies = {poses, traits, motions, activities, world.assets};
+  const Bodies bodies = {poses, traits, motions, activities, work, world.assets};
   const SolverBodies solver_bodies = {traits, motions, work};
 
   bound(settings, poses, traits, motions, bounds);
@@ -233,13 +236,13 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
       find_pairs(traits, bounds, scratch.bounds_keys, scratch.bounds_sort, scratch.pair_sort, scratch.pairs);
   const Span<const uint64_t> pairs = scratch.pairs.first(pair_count.kept);
   report.woke = wake_touched(settings, bodies, pairs);
+  start_bodies(traits, poses, motions, activities, work);
   const uint32_t room = state.contacts.count - count_sleeping(bodies, state.contacts.first(before));
   const ContactCount count =
       collide_pairs(settings, bodies, pairs, state.contacts.first(before), scratch.contacts.first(room));
   const Span<ContactWork> contacts = scratch.contacts.first(count.contacts);
   const Span<ContactOrder> order = scratch.contact_order.first(count.contacts);
 
-  start_bodies(poses, work);
   report.islands = find_islands(traits, activities, contacts, work, scratch.islands, scratch.island_bodies);
   const Span<Island> islands = scratch.islands.first(report.islands);
   report.colour_overflows = order_contacts(traits, contacts, islands, work, scratch.contact_sort, order);

@@ -190,6 +190,8 @@ struct Scene {
     settings = step_settings(state.world);
     set_substeps(4, settings);
     activities.assign(state.activities.data, state.activities.data + used);
+    start_bodies({traits.data(), used}, {poses.data(), used}, {motions.data(), used}, {activities.data(), used},
+                 {work.data(), used});
     for (uint32_t i = 0; i < state.world.contact_count; ++i) {
       const ContactState& before = state.contacts[i];
       const uint32_t a = before.body_a, b = before.body_b;
@@ -200,14 +202,14 @@ struct Scene {
       ContactWork contact{};
       contact.state = before;
       contact.state.point_count = geometry.count;
-      make_rows(settings, {traits[a], poses[a], motions[a]}, {traits[b], poses[b], motions[b]}, geometry, contact);
+      make_rows(settings, {traits[a], poses[a], motions[a], work[a].gyration, work[a].spin},
+                {traits[b], poses[b], motions[b], work[b].gyration, work[b].spin}, geometry, contact);
       contacts.push_back(contact);
     }
     order.resize(contacts.size());
     std::vector<ContactOrder> spare(contacts.size());
     std::vector<Island> islands(used);
     slots.resize(used);
-    start_bodies({poses.data(), used}, {work.data(), used});
     const Span<const BodyTraits> all = {traits.data(), used};
     const Span<ContactWork> contact_span = {contacts.data(), contact_count()};
     const uint32_t count = find_islands(all, {activities.data(), used}, contact_span, {work.data(), used},

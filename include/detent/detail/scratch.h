@@ -19,6 +19,12 @@ struct BoundsKey {
   uint16_t across_lower[2], across_upper[2];  ///< along the other two
 };
 
+/// A body's gyration in world axes: spin = gyration x momentum. Symmetric; 2^-exponent.
+struct alignas(sizeof(Unit)) WorldGyration {
+  Vec3<Unit> row[3];
+  int32_t exponent;
+};
+
 /// A body during the substeps.
 struct alignas(8) BodyWork {
   uint64_t colours;     ///< taken by the contacts of this body
@@ -30,57 +36,49 @@ struct alignas(8) BodyWork {
   alignas(sizeof(Real)) Scaled carried;  ///< its own mass and what rests on it, kg, likewise
   Real height;                           ///< against gravity, over the island's first body, m, likewise
   Quat rotation;                         ///< now
+  WorldGyration gyration;                ///< at the start of the tick
   Vec3<Real> displacement;               ///< from the start of the tick, m
   Vec3<Real> turn;                       ///< sum of spin x substep x 2^size_exponent from the start of the tick, m
+  Vec3<Real> spin;                       ///< gyration x momentum, or that of a kinematic body, 2^-k_spin_power m/s
   Vec3<Real> push;                       ///< velocity that gravity and forces add in a substep, m/s
-  Vec3<Real> free_velocity;              ///< of this substep, before any contact has acted, m/s
   Vec3<Real> twist;                      ///< momentum that torques add in a substep, m/s
+  Vec3<Real> contact_velocity;           ///< what contacts add in this substep, m/s: in float the sum so far, in fixed
+  Vec3<Real> contact_momentum;           ///< point, where differences are exact, less the motion; see contact_motion.h
   Scaled linear_kept;                    ///< share of the velocity that damping leaves in a substep
   Scaled angular_kept;
 };
 
-/// One direction of a contact: how an impulse along it acts on both bodies, and how their motion shows along it.
-struct alignas(sizeof(Unit)) ContactRow {
-  Vec3<Unit> arm_a, arm_b;            ///< (contact point - centre) x direction, in the body's unit of length
-  Vec3<Unit> response_a, response_b;  ///< gyration (world) x arm, 2^-exponent
-  int32_t exponent_a, exponent_b;     ///< the same for all points of a contact, and for both its directions of friction
-  Unit inverse_mass;                  ///< effective mass over the pair's reference mass, in (0, 1]
-};
-
 struct alignas(sizeof(Real)) ContactPoint {
-  ContactRow row;
-  Real separation;   ///< at the start of the tick, m
-  Real approach;     ///< normal velocity at the start of the tick, m/s; negative when closing
-  Real impulse_max;  ///< largest normal impulse of this tick, m/s
-  uint32_t apart;    ///< 1 unless it meets in the substep
+  Unit x, y;          ///< from the middle of the points along the tangents, in the pair's unit of length
+  Unit inverse_mass;  ///< effective mass over the pair's reference mass, in (0, 1]
+  uint32_t apart;     ///< 1 unless it meets in the substep
+  Real separation;    ///< at the start of the tick, m
+  Real approach;      ///< normal velocity at the start of the tick, m/s; negative when closing
+  Real impulse_max;   ///< largest normal impulse of this tick, m/s
 };
 
-/// As ContactRow, for a spin about an axis of the contact: the arm is the axis, 2^-shift.
-struct alignas(sizeof(Unit)) AngularRow {
-  Vec3<Unit> response_a, response_b;
-  int32_t exponent_a, exponent_b;
-  Scaled inverse_mass;
-};
-
-/// A contact during the step. Impulses are over the reference mass: that of the lighter dynamic body.
+/// A contact during the step. Impulses are over the reference mass: that of the lighter dynamic body. The pair's unit
+/// of length is that of its smaller moving body.
 struct alignas(8) ContactWork {
   ContactState state;  ///< becomes the world's contact when the step ends
   Vec3<Unit> normal;   ///< from A to B
   Vec3<Unit> tangent[2];
   Vec3<Unit> middle_a, middle_b;  ///< of the points, from each centre of mass, in the body's unit of length
-  ContactPoint point[k_manifold_points_max];
-  ContactRow friction_row[2];
-  AngularRow angular_row[3];  ///< about the normal and the tangents
-  uint32_t angular_rows;      ///< 0; 1: twist; 3: and rolling
+  Vec3<Unit> lever_a, lever_b;    ///< middle x normal
+  Unit unit_a, unit_b;            ///< the pair's unit of length in the body's
+  Unit response[21];              ///< of the pair's motion to a wrench, by response_index(), 2^-response_exponent
+  int32_t response_exponent;
   Unit coupling[k_manifold_points_max]
                [k_manifold_points_max];  ///< what an impulse at one point adds to the speed at another, 2^-exponent
   int32_t coupling_exponent;
-  uint32_t moves_a, moves_b;                       ///< 1 unless the body is fixed
-  uint32_t static_pair;                            ///< 1 if only one of the bodies is dynamic
-  int32_t shift_a, shift_b;                        ///< the body's unit of length over the pair's, as a power of two
-  alignas(sizeof(Real)) Real friction_impulse[2];  ///< along the tangents
-  Real angular_impulse[3];
-  Scaled share_a, share_b;  ///< reference mass / mass; 0 if not dynamic
+  Unit friction_mass[2];  ///< effective masses along the tangents, like those of the points
+  uint32_t angular_rows;  ///< 0; 1: twist; 3: and rolling
+  uint32_t static_pair;   ///< 1 if only one of the bodies is dynamic
+  ContactPoint point[k_manifold_points_max];
+  Real friction_impulse[2];  ///< along the tangents
+  Real angular_impulse[3];   ///< about the normal and the tangents
+  Scaled angular_mass[3];    ///< effective masses about them
+  Scaled share_a, share_b;   ///< reference mass / mass; 0 if not dynamic
   Scaled friction;
   Scaled restitution;
   Scaled twist_arm;    ///< limit of the angular impulse about the normal over the normal impulse
@@ -102,7 +100,6 @@ struct Island {
   uint32_t first_body, body_count;        ///< of the list of bodies by island
   uint32_t first_contact, contact_count;  ///< of the order of the solve
   uint32_t substeps;
-  uint32_t still;  ///< 1 once it has been at rest for long enough to fall asleep
 };
 
 /// The motion of a body for the rest of the tick, from its pose at `from`: constant velocity and constant world spin.
