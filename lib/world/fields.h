@@ -46,7 +46,7 @@ inline constexpr Field k_header_fields[] = {
     DETENT_FIELD(BlockHeader, magic),           DETENT_FIELD(BlockHeader, format),
     DETENT_FIELD(BlockHeader, simulation),      DETENT_FIELD(BlockHeader, config),
     DETENT_FIELD(BlockHeader, capacity_bodies), DETENT_FIELD(BlockHeader, capacity_contacts),
-    DETENT_FIELD(BlockHeader, capacity_assets), DETENT_FIELD(BlockHeader, zero),
+    DETENT_FIELD(BlockHeader, capacity_assets), DETENT_FIELD(BlockHeader, left_out),
 };
 inline constexpr Field k_world_fields[] = {
     DETENT_FIELD(WorldState, tick),
