@@ -15,7 +15,7 @@ void swap_state(uint8_t* block, const Layout& layout) {
   for (uint32_t i = 0; i < k_section_count; ++i) {
     uint8_t* element = block + layout.*k_sections[i].offset;
     const uint32_t count = section_bytes(layout, i) / k_sections[i].element_bytes;
-    for (uint32_t k = 0; k < count; ++k, element += k_sections[i].element_bytes) swap_element(k_sections[i], element);
+    for (uint32_t k = 0; k < count; ++k, element += k_sections[i].element_bytes) swap_element(i, element);
   }
 }
 
@@ -38,7 +38,7 @@ Status check_header(const BlockHeader& header, Capacity capacity, const FeatureT
 Status check_canonical_header(const uint8_t* bytes, Capacity capacity, const FeatureTable& features) {
   BlockHeader header;
   memcpy(&header, bytes, sizeof header);
-  if (k_big_endian) swap_element(k_sections[0], reinterpret_cast<uint8_t*>(&header));
+  if (k_big_endian) swap_element(0, reinterpret_cast<uint8_t*>(&header));
   return check_header(header, capacity, features);
 }
 
@@ -47,7 +47,8 @@ void take_over(World& world) { view_of(world).header.left_out = left_out(*world.
 
 }  // namespace
 
-void swap_element(const Section& section, uint8_t* element) {
+void swap_element(uint32_t section_index, uint8_t* element) {
+  const SectionFields& section = k_section_fields[section_index];
   for (uint32_t i = 0; i < section.field_count; ++i) {
     swap_words(element + section.fields[i].offset, section.fields[i].width, section.fields[i].count);
   }
@@ -108,7 +109,7 @@ bool snapshot_read(const World& world, uint32_t offset, uint8_t* bytes, uint32_t
     for (uint32_t k = first; k < elements && start + k * size < end; ++k) {
       uint8_t element[256];
       memcpy(element, world.block + start + k * size, size);
-      swap_element(k_sections[i], element);
+      swap_element(i, element);
       for (uint32_t byte = 0; byte < size; ++byte) {
         const uint32_t at = start + k * size + byte;
         if (at >= offset && at < end) bytes[at - offset] = element[byte];

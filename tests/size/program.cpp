@@ -14,7 +14,7 @@ constexpr Features k_features = DETENT_SIZE_FEATURES;
 constexpr bool k_recording = DETENT_SIZE_RECORDING;
 constexpr bool has(Features feature) { return contains(k_features, feature); }
 
-constexpr Capacity k_capacity = {8, 8, 1};
+constexpr Capacity k_capacity = {8, 7, 1};
 constexpr uint32_t k_ticks = 40;
 
 void print_value(const char* name, uint32_t value) {
@@ -57,7 +57,7 @@ bool run(Calls& calls) {
   ground.shape = half_space();
   BodyId id;
   bool good = calls.create_body(ground, id) == Status::ok;
-  if constexpr (has(Features::sphere)) good = good && add(calls, sphere(0.5), -3.0) && add(calls, sphere(0.5), -2.5);
+  if constexpr (has(Features::sphere)) good = good && add(calls, sphere(0.5), -3.75) && add(calls, sphere(0.5), -2.5);
   if constexpr (has(Features::capsule)) good = good && add(calls, capsule(0.25, 0.25), -1.25);
   if constexpr (has(Features::box)) good = good && add(calls, box({0.25, 0.25, 0.25}), -0.5);
   if constexpr (has(Features::cylinder)) good = good && add(calls, cylinder(0.25, 0.25), 0.5);
