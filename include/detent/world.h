@@ -2,6 +2,7 @@
 #include <detent/asset.h>
 #include <detent/body.h>
 #include <detent/event.h>
+#include <detent/features.h>
 #include <detent/status.h>
 
 /// The world: a static pool of bodies and contacts in one block of the caller's memory.
@@ -48,6 +49,7 @@ struct World {
   uint8_t* block = nullptr;
   AssetTable assets = {};
   ContactEventBuffer contact_events = {};  ///< filled by each step, from its front; none by default
+  const FeatureTable* features = nullptr;  ///< what create_world() was given
 };
 
 /// What one step did. Every count is of this step alone.
@@ -96,10 +98,13 @@ struct WorldInfo {
 };
 
 /// Makes an empty world in `block` (8-byte aligned, at least world_bytes(def.capacity) bytes).
-/// Errors: buffer_too_small, buffer_misaligned, out_of_range.
-Status create_world(uint8_t* block, uint32_t block_bytes, const WorldDef& def, AssetTable assets, World& world);
+/// `features`: what the world can do, and so what the program links (features.h); all by default.
+/// Errors: buffer_too_small, buffer_misaligned, out_of_range, feature_missing.
+Status create_world(uint8_t* block, uint32_t block_bytes, const WorldDef& def, AssetTable assets, World& world,
+                    const FeatureTable& features = feature_table<Features::all>);
 
-/// Errors: pool_full, bad_argument, out_of_range, not_normalised; asset_missing (a hull that is not bound).
+/// Errors: pool_full, bad_argument, out_of_range, not_normalised; asset_missing (a hull that is not bound);
+/// feature_missing.
 Status create_body(World& world, const BodyDef& def, BodyId& id);
 /// Its contacts end at once. Errors: bad_id.
 Status destroy_body(World& world, BodyId id);
@@ -124,12 +129,13 @@ Status set_gravity(World& world, const Vec3<Real>& gravity);
 /// Wakes the body and all that it fell asleep with. Calls that move or push a body do so by themselves.
 /// Errors: bad_id, bad_argument (not dynamic).
 Status wake_body(World& world, BodyId id);
-/// Stops the body and leaves it out of the step until something wakes it. Errors: bad_id, bad_argument (not dynamic).
+/// Stops the body and leaves it out of the step until something wakes it.
+/// Errors: bad_id, bad_argument (not dynamic), feature_missing.
 Status put_to_sleep(World& world, BodyId id);
 /// Errors: bad_id.
 Status set_user_data(World& world, BodyId id, uint32_t user_data);
 /// Binds the table's asset `index` to the state by its content digest; a cooked hull is checked in full.
-/// Errors: asset_missing, out_of_range, asset_mismatch (bodies have the hull that it was).
+/// Errors: asset_missing, out_of_range, asset_mismatch (bodies have the hull that it was), feature_missing (hulls).
 Status bind_asset(World& world, uint32_t index);
 
 /// Advances the world by one tick. Never fails: what could not be done is counted in the report.
@@ -156,7 +162,8 @@ constexpr uint32_t snapshot_bytes(Capacity capacity);
 /// Copies the persistent state into `bytes`. Errors: buffer_too_small.
 Status save(const World& world, uint8_t* bytes, uint32_t byte_count);
 /// Puts back a snapshot that this program saved from a world of the same capacity: one copy, checked only by its
-/// header. Errors: truncated, not_detent, format_unknown, simulation_differs, config_differs, capacity_differs.
+/// header. Errors: truncated, not_detent, format_unknown, simulation_differs, config_differs, capacity_differs,
+/// feature_missing (the world that saved it had one that this world has not).
 Status restore(World& world, const uint8_t* bytes, uint32_t byte_count);
 /// Puts back a snapshot from outside: every byte is checked before the world is touched. `bytes` is used as work space
 /// (8-byte aligned) and its content is unspecified afterwards.

@@ -41,6 +41,8 @@ const char* status_text(Status status) {
       return "truncated";
     case Status::digest_differs:
       return "digest differs";
+    case Status::feature_missing:
+      return "a feature that is not linked";
     case Status::sink_failed:
       return "reading or writing failed";
   }

@@ -54,16 +54,17 @@ bool make_frame(const CollisionBody& first, const CollisionBody& second, Real re
   return true;
 }
 
-void collide_ordered(const CollisionBody& first, const CollisionBody& second, Real reach, ContactGeometry& contact) {
+const PairCode& code_of(const FeatureTable& features, const PairFrame& frame) {
+  if (frame.b.type == ShapeType::box) return *features.box_pair;
+  return frame.a.type == ShapeType::box ? *features.box_round_pair : *features.round_pair;
+}
+
+void collide_ordered(const CollisionBody& first, const CollisionBody& second, Real reach, const FeatureTable& features,
+                     ContactGeometry& contact) {
   PairFrame frame;
   if (!make_frame(first, second, reach, frame)) return;
   PairManifold manifold;
-  if (frame.b.type == ShapeType::box)
-    collide_boxes(frame, manifold);
-  else if (frame.a.type == ShapeType::box)
-    collide_box_round(frame, manifold);
-  else
-    collide_round(frame, manifold);
+  code_of(features, frame).collide(frame, manifold);
 
   contact.normal = manifold.normal;
   for (uint32_t i = 0; i < manifold.count; ++i) {
@@ -87,20 +88,20 @@ void swap_bodies(ContactGeometry& contact) {
 }  // namespace
 
 void collide(const CollisionBody& a, const CollisionBody& b, Real reach, ContactGeometry& contact,
-             const AssetTable& assets) {
+             const AssetTable& assets, const FeatureTable& features) {
   contact.count = 0;
   contact.capped = false;
   if (!is_simple(a.traits) || !is_simple(b.traits)) {
-    collide_convex(a, b, reach, assets, contact);
+    features.convex->collide(a, b, reach, assets, contact);
     return;
   }
   const bool swapped = rank_of(type_of(b)) < rank_of(type_of(a));
   const CollisionBody& first = swapped ? b : a;
   const CollisionBody& second = swapped ? a : b;
   if (type_of(first) == ShapeType::half_space)
-    collide_half_space(first, second, reach, contact);
+    features.half_space->collide(first, second, reach, contact);
   else
-    collide_ordered(first, second, reach, contact);
+    collide_ordered(first, second, reach, features, contact);
   if (swapped && contact.count != 0) swap_bodies(contact);
 }
 

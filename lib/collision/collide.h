@@ -1,6 +1,7 @@
 #pragma once
 #include <detent/asset.h>
 #include <detent/detail/state.h>
+#include <detent/features.h>
 
 #include "math/rotation.h"
 
@@ -30,10 +31,11 @@ struct CollisionBody {
 
 /// Finds the contact points of a pair no farther apart than `reach`, m; none, and an empty result, if there are none.
 /// Spheres, capsules, sharp boxes and half-spaces have ways of their own; the rest go through contact_points().
-/// Precision: 2^-26 of the larger body's bounding diameter (fixed; tests/collision), of a half-space of the other
-/// body's size and 2^-31 of its distance from the plane's origin.
+/// Their features are linked, and `rounding` where one is rounded. Precision: 2^-26 of the larger body's bounding
+/// diameter (fixed; tests/collision), of a half-space of the other body's size and 2^-31 of its distance from the
+/// plane's origin.
 void collide(const CollisionBody& a, const CollisionBody& b, Real reach, ContactGeometry& contact,
-             const AssetTable& assets = {});
+             const AssetTable& assets = {}, const FeatureTable& features = feature_table<Features::all>);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

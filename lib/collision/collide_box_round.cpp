@@ -200,5 +200,7 @@ void collide_box_round(const PairFrame& frame, PairManifold& manifold) {
   add(contact.along, surface, 64);
 }
 
+const PairCode k_box_round_pair_code = {collide_box_round};
+
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

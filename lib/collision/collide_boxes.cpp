@@ -276,5 +276,7 @@ void collide_boxes(const PairFrame& frame, PairManifold& manifold) {
   }
 }
 
+const PairCode k_box_pair_code = {collide_boxes};
+
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -82,5 +82,7 @@ void collide_convex(const CollisionBody& a, const CollisionBody& b, Real reach, 
   contact.capped = contact.capped || status != Status::ok;
 }
 
+const ConvexCode k_convex_code = {collide_convex};
+
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -4,6 +4,10 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
+struct HalfSpaceCode {
+  void (*collide)(const CollisionBody& plane, const CollisionBody& body, Real reach, ContactGeometry& contact);
+};
+
 /// (to - from) . direction, m, exact but for one rounding, clamped to Real's range: the plane's origin may be 10,000 km
 /// off.
 Real distance_along(const Position& from, const Position& to, const Vec3<Unit>& direction);

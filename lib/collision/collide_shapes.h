@@ -1,10 +1,17 @@
 #pragma once
+#include <detent/features.h>
+
 #include "collision/manifold.h"
 
 /// Contact of two shapes of given kinds, in the pair's frame. Each fills an empty manifold, or leaves it empty if the
 /// shapes are farther apart than `frame.reach`. Lengths err by at most 2^-26 of the pair's unit of length.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
+
+/// One of the functions below, for a feature table.
+struct PairCode {
+  void (*collide)(const PairFrame& frame, PairManifold& manifold);
+};
 
 /// Spheres and capsules with each other: closest points of their cores.
 void collide_round(const PairFrame& frame, PairManifold& manifold);

@@ -1,5 +1,6 @@
 #pragma once
 #include <detent/detail/scratch.h>
+#include <detent/features.h>
 
 #include "base/span.h"
 #include "dynamics/spin.h"
@@ -27,6 +28,11 @@ uint32_t wake_all_with(uint32_t slot, Span<BodyActivity> activities);
 uint32_t fall_asleep(const StepSettings& settings, Span<const BodyTraits> traits, Span<const BodyPose> poses,
                      Span<const Island> islands, Span<const uint32_t> bodies, Span<BodyMotion> motions,
                      Span<BodyActivity> activities);
+
+/// For a feature table.
+struct SleepingCode {
+  decltype(&fall_asleep) end_step;
+};
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

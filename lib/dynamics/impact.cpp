@@ -98,6 +98,7 @@ bool contains(Span<const uint64_t> keys, uint64_t key) {
 struct Stage {
   const StepSettings& settings;
   const AssetTable& assets;
+  const FeatureTable& features;
   const ImpactPairs& known;
   const ImpactBodies& bodies;
   Span<Bounds> bounds;
@@ -385,7 +386,7 @@ struct Stage {
     const BodyTraits &a = bodies.traits[pair_low(pair.key)], &b = bodies.traits[pair_high(pair.key)];
     const Matrix3 rotation_a = matrix_from(pose_a.rotation), rotation_b = matrix_from(pose_b.rotation);
     const Real reach = scale_by_power(extent_of(pair.key), -10);
-    collide({pose_a, a, rotation_a}, {pose_b, b, rotation_b}, reach, geometry, assets);
+    collide({pose_a, a, rotation_a}, {pose_b, b, rotation_b}, reach, geometry, assets, features);
     if (has_normal(pair) && geometry.count != 0 && !(dot(geometry.normal, pair.normal) > Unit(0.0))) geometry.count = 0;
   }
 
@@ -644,11 +645,12 @@ struct Stage {
 
 }  // namespace
 
-ImpactReport advance_to_impacts(const StepSettings& settings, const AssetTable& assets, const ImpactPairs& pairs,
-                                const ImpactBodies& bodies, Span<Bounds> bounds, Span<ImpactPair> met,
-                                Span<ImpactHit> hits, ImpactProbe* probe) {
+ImpactReport advance_to_impacts(const StepSettings& settings, const AssetTable& assets, const FeatureTable& features,
+                                const ImpactPairs& pairs, const ImpactBodies& bodies, Span<Bounds> bounds,
+                                Span<ImpactPair> met, Span<ImpactHit> hits, ImpactProbe* probe) {
   Stage stage = {settings,
                  assets,
+                 features,
                  pairs,
                  bodies,
                  bounds,
@@ -663,6 +665,8 @@ ImpactReport advance_to_impacts(const StepSettings& settings, const AssetTable& 
   stage.carry_to_end();
   return stage.report;
 }
+
+const ContinuousCode k_continuous_code = {advance_to_impacts};
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

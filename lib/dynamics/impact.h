@@ -1,6 +1,7 @@
 #pragma once
 #include <detent/asset.h>
 #include <detent/detail/scratch.h>
+#include <detent/features.h>
 
 #include "base/span.h"
 #include "dynamics/step_settings.h"
@@ -61,9 +62,14 @@ struct ImpactPairs {
 
 /// `bounds`: as the pairs were found; becomes the bounds of the sweeps. `met` is work space, `hits` is filled in the
 /// order of the impacts.
-ImpactReport advance_to_impacts(const StepSettings& settings, const AssetTable& assets, const ImpactPairs& pairs,
-                                const ImpactBodies& bodies, Span<Bounds> bounds, Span<ImpactPair> met,
-                                Span<ImpactHit> hits, ImpactProbe* probe = nullptr);
+ImpactReport advance_to_impacts(const StepSettings& settings, const AssetTable& assets, const FeatureTable& features,
+                                const ImpactPairs& pairs, const ImpactBodies& bodies, Span<Bounds> bounds,
+                                Span<ImpactPair> met, Span<ImpactHit> hits, ImpactProbe* probe = nullptr);
+
+/// For a feature table.
+struct ContinuousCode {
+  decltype(&advance_to_impacts) advance;
+};
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -284,6 +284,8 @@ Status read_hull(const Asset& asset, HullView& hull) {
   return Status::ok;
 }
 
+const HullCode k_hull_code = {read_hull};
+
 Status hull_info(const Asset& asset, HullInfo& info) {
   HullView hull;
   const Status status = read_hull(asset, hull);

@@ -1,4 +1,5 @@
 #pragma once
+#include <detent/features.h>
 #include <detent/hull.h>
 
 #include "base/bytes.h"
@@ -179,6 +180,11 @@ inline HullView hull_view(const uint8_t* bytes) {
 /// origin and rotation, beyond their ranges. Takes about 2 V^2 exact plane tests. Errors: buffer_misaligned (8),
 /// not_detent, format_unknown, truncated, corrupt, out_of_range (the exponent).
 Status read_hull(const Asset& asset, HullView& hull);
+
+/// For a feature table.
+struct HullCode {
+  decltype(&read_hull) read;
+};
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

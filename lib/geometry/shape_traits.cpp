@@ -15,6 +15,9 @@ constexpr Scaled k_pi = 3.14159265358979323846;
 
 bool is_size(Real value) { return value >= k_size_min && value <= k_size_max; }
 
+/// A triangle is none.
+bool is_world_shape(ShapeType type) { return type >= ShapeType::sphere && type <= ShapeType::hull; }
+
 bool can_be_rounded(ShapeType type) {
   return type == ShapeType::box || type == ShapeType::cylinder || type == ShapeType::cone || type == ShapeType::hull;
 }
@@ -80,153 +83,206 @@ Unit hull_radius(const HullView& hull, int32_t exponent) {
   return scale_by_power(unit_from_steps(hull.core_radius()), hull.exponent() - exponent);
 }
 
-Status set_shape(const Shape& shape, BodyTraits& traits, const AssetTable& assets) {
+namespace {
+
+using Sizes = Vec3<Scaled>;
+
+Sizes grown_sizes(const BodyTraits& traits) {
+  return {grown(traits, traits.size.x), grown(traits, traits.size.y), grown(traits, traits.size.z)};
+}
+Sizes squares_of(const Sizes& sizes) { return {square(sizes.x), square(sizes.y), square(sizes.z)}; }
+
+Status measure_sphere(const Shape& shape, const AssetTable&, ShapeMeasure& measure) {
+  if (!is_size(shape.radius)) return Status::out_of_range;
+  measure.size.x = measure.bound = shape.radius;
+  return Status::ok;
+}
+Scaled sphere_volume(const BodyTraits&, const Sizes& size, const AssetTable&) {
+  return multiply(multiply(k_pi, Scaled(4.0 / 3.0)), multiply(size.x, multiply(size.x, size.x)));
+}
+void set_sphere_gyration(BodyTraits& traits, const Sizes& squares, const AssetTable&) {
+  traits.gyration[0] = traits.gyration[1] = traits.gyration[2] = divide(Scaled(2.5), squares.x);
+}
+
+Status measure_capsule(const Shape& shape, const AssetTable&, ShapeMeasure& measure) {
   const Real zero = 0.0;
-  Vec3<Real> size = {zero, zero, zero};
-  Real smallest = k_size_max, bound = zero;
-  int32_t exponent_min = -14;
+  if (!is_size(shape.radius) || !(shape.half_length >= zero && shape.half_length <= k_size_max)) {
+    return Status::out_of_range;
+  }
+  measure.size = {shape.radius, shape.half_length, zero};
+  measure.smallest = shape.radius;
+  measure.bound = core_bound(ShapeType::capsule, measure.size);
+  return Status::ok;
+}
+Scaled capsule_volume(const BodyTraits&, const Sizes& size, const AssetTable&) {
+  const Scaled &x = size.x, &y = size.y;
+  return multiply(multiply(k_pi, multiply(x, x)), add(multiply(Scaled(2.0), y), multiply(Scaled(4.0 / 3.0), x)));
+}
+void set_capsule_gyration(BodyTraits& traits, const Sizes&, const AssetTable&) {
+  Scaled along, across;
+  capsule_moments(traits.size.x, traits.size.y, along, across);
+  traits.gyration[0] = traits.gyration[2] = divide(Scaled(1.0), across);
+  traits.gyration[1] = divide(Scaled(1.0), along);
+}
+
+Status measure_box(const Shape& shape, const AssetTable&, ShapeMeasure& measure) {
+  const Vec3<Real>& size = measure.size = shape.half_extents;
+  if (!is_size(size.x) || !is_size(size.y) || !is_size(size.z)) return Status::out_of_range;
+  measure.smallest = min(measure.smallest, min(min(size.x, size.y), size.z));
+  measure.bound = core_bound(ShapeType::box, size);
+  return Status::ok;
+}
+Scaled box_volume(const BodyTraits&, const Sizes& size, const AssetTable&) {
+  return multiply(Scaled(8.0), multiply(size.x, multiply(size.y, size.z)));
+}
+void set_box_gyration(BodyTraits& traits, const Sizes& squares, const AssetTable&) {
+  traits.gyration[0] = divide(Scaled(3.0), add(squares.y, squares.z));
+  traits.gyration[1] = divide(Scaled(3.0), add(squares.z, squares.x));
+  traits.gyration[2] = divide(Scaled(3.0), add(squares.x, squares.y));
+}
+
+template <ShapeType type>
+Status measure_upright(const Shape& shape, const AssetTable&, ShapeMeasure& measure) {
+  if (!is_size(shape.radius) || !is_size(shape.half_length)) return Status::out_of_range;
+  measure.size = {shape.radius, shape.half_length, Real(0.0)};
+  measure.smallest = min(measure.smallest, min(shape.radius, shape.half_length));
+  measure.bound = core_bound(type, measure.size);
+  return Status::ok;
+}
+Scaled cylinder_volume(const BodyTraits&, const Sizes& size, const AssetTable&) {
+  return multiply(multiply(k_pi, Scaled(2.0)), multiply(size.y, multiply(size.x, size.x)));
+}
+Scaled cone_volume(const BodyTraits&, const Sizes& size, const AssetTable&) {
+  return multiply(multiply(k_pi, Scaled(2.0 / 3.0)), multiply(size.y, multiply(size.x, size.x)));
+}
+/// (3 r^2 + 4 h^2) / 12 across, r^2 / 2 along.
+void set_cylinder_gyration(BodyTraits& traits, const Sizes& squares, const AssetTable&) {
+  traits.gyration[0] = traits.gyration[2] =
+      divide(Scaled(12.0), add(multiply(Scaled(3.0), squares.x), multiply(Scaled(4.0), squares.y)));
+  traits.gyration[1] = divide(Scaled(2.0), squares.x);
+}
+/// 3 (r^2 + h^2) / 20 across, 3 r^2 / 10 along, for the height 2 h.
+void set_cone_gyration(BodyTraits& traits, const Sizes& squares, const AssetTable&) {
+  traits.gyration[0] = traits.gyration[2] = divide(Scaled(20.0 / 3.0), add(squares.x, squares.y));
+  traits.gyration[1] = divide(Scaled(10.0 / 3.0), squares.x);
+}
+
+Status measure_hull(const Shape& shape, const AssetTable& assets, ShapeMeasure& measure) {
+  if (shape.asset >= assets.count || assets.assets[shape.asset].bytes == nullptr) return Status::asset_missing;
+  const HullView hull = hull_of(assets, shape.asset);
+  const int32_t exponent = measure.exponent_min = hull.exponent();
+  const Vec3<Unit> half = hull_half_extents(hull, exponent);
+  measure.bound = real_from_unit(hull_radius(hull, exponent), exponent);
+  measure.smallest = min(measure.smallest, real_from_unit(min(min(half.x, half.y), half.z), exponent));
+  return Status::ok;
+}
+void set_hull_size(const Shape& shape, const AssetTable& assets, BodyTraits& traits) {
+  traits.size = hull_half_extents(hull_of(assets, shape.asset), traits.size_exponent);
+  traits.asset = shape.asset;
+}
+Scaled hull_volume(const BodyTraits& traits, const Sizes& size, const AssetTable& assets) {
+  const HullView hull = hull_of(assets, traits.asset);
+  Scaled volume = scaled_by_power(scaled_from_hull(hull.volume()), 3 * (hull.exponent() - traits.size_exponent));
+  if (traits.rounding == Unit(0.0)) return volume;
+  volume = multiply(volume, divide(size.x, scaled_from(traits.size.x)));
+  volume = multiply(volume, divide(size.y, scaled_from(traits.size.y)));
+  return multiply(volume, divide(size.z, scaled_from(traits.size.z)));
+}
+void set_hull_gyration(BodyTraits& traits, const Sizes& grown_squares, const AssetTable& assets) {
+  const HullView hull = hull_of(assets, traits.asset);
+  const auto sums = [](const Sizes& s, Scaled(&sum)[3]) {
+    sum[0] = add(s.y, s.z);
+    sum[1] = add(s.z, s.x);
+    sum[2] = add(s.x, s.y);
+  };
+  Scaled round[3], sharp[3];
+  sums(grown_squares, round);
+  sums(squares_of({scaled_from(traits.size.x), scaled_from(traits.size.y), scaled_from(traits.size.z)}), sharp);
+  for (uint32_t axis = 0; axis < 3; ++axis) {
+    Scaled& gyration = traits.gyration[axis];
+    gyration = scaled_by_power(scaled_from_hull(hull.gyration(axis)), 2 * (traits.size_exponent - hull.exponent()));
+    if (!(traits.rounding == Unit(0.0))) gyration = multiply(gyration, divide(sharp[axis], round[axis]));
+  }
+}
+
+Status measure_half_space(const Shape&, const AssetTable&, ShapeMeasure&) { return Status::ok; }
+
+}  // namespace
+
+const ShapeCode k_sphere_code = {measure_sphere, nullptr, sphere_volume, set_sphere_gyration};
+const ShapeCode k_capsule_code = {measure_capsule, nullptr, capsule_volume, set_capsule_gyration};
+const ShapeCode k_box_code = {measure_box, nullptr, box_volume, set_box_gyration};
+const ShapeCode k_cylinder_code = {measure_upright<ShapeType::cylinder>, nullptr, cylinder_volume,
+                                   set_cylinder_gyration};
+const ShapeCode k_cone_code = {measure_upright<ShapeType::cone>, nullptr, cone_volume, set_cone_gyration};
+const ShapeCode k_hull_shape_code = {measure_hull, set_hull_size, hull_volume, set_hull_gyration};
+const ShapeCode k_half_space_shape_code = {measure_half_space, nullptr, nullptr, nullptr};
+
+const ShapeCode* code_of(const FeatureTable& features, ShapeType type) {
+  switch (type) {
+    case ShapeType::sphere:
+      return features.sphere;
+    case ShapeType::capsule:
+      return features.capsule;
+    case ShapeType::box:
+      return features.box;
+    case ShapeType::half_space:
+      return features.half_space_shape;
+    case ShapeType::cylinder:
+      return features.cylinder;
+    case ShapeType::cone:
+      return features.cone;
+    case ShapeType::hull:
+      return features.hull_shape;
+    default:
+      return nullptr;
+  }
+}
+
+Status set_shape(const Shape& shape, BodyTraits& traits, const AssetTable& assets, const FeatureTable& features) {
+  const Real zero = 0.0;
+  ShapeMeasure measure = {{zero, zero, zero}, k_size_max, zero, -14};
+  if (!is_world_shape(shape.type)) return Status::bad_argument;
+  Features needed = feature_of(shape.type);
   if (!(shape.rounding == zero)) {
     if (!can_be_rounded(shape.type)) return Status::bad_argument;
     if (!is_size(shape.rounding)) return Status::out_of_range;
-    smallest = shape.rounding;
+    measure.smallest = shape.rounding;
+    needed = needed | Features::rounding;
   }
-  switch (shape.type) {
-    case ShapeType::sphere:
-      if (!is_size(shape.radius)) return Status::out_of_range;
-      size.x = shape.radius;
-      break;
-    case ShapeType::capsule:
-      if (!is_size(shape.radius) || !(shape.half_length >= zero && shape.half_length <= k_size_max)) {
-        return Status::out_of_range;
-      }
-      size = {shape.radius, shape.half_length, zero};
-      smallest = size.x;
-      break;
-    case ShapeType::cylinder:
-    case ShapeType::cone:
-      if (!is_size(shape.radius) || !is_size(shape.half_length)) return Status::out_of_range;
-      size = {shape.radius, shape.half_length, zero};
-      smallest = min(smallest, min(size.x, size.y));
-      break;
-    case ShapeType::box:
-      size = shape.half_extents;
-      if (!is_size(size.x) || !is_size(size.y) || !is_size(size.z)) return Status::out_of_range;
-      smallest = min(smallest, min(min(size.x, size.y), size.z));
-      break;
-    case ShapeType::hull: {
-      if (shape.asset >= assets.count || assets.assets[shape.asset].bytes == nullptr) return Status::asset_missing;
-      const HullView hull = hull_of(assets, shape.asset);
-      exponent_min = hull.exponent();
-      const Vec3<Unit> half = hull_half_extents(hull, exponent_min);
-      bound = real_from_unit(hull_radius(hull, exponent_min), exponent_min);
-      smallest = min(smallest, real_from_unit(min(min(half.x, half.y), half.z), exponent_min));
-      break;
-    }
-    case ShapeType::half_space:
-      break;
-    default:
-      return Status::bad_argument;
-  }
+  if (!contains(features.features, needed)) return Status::feature_missing;
+  const ShapeCode& code = *code_of(features, shape.type);
+  if (const Status status = code.measure(shape, assets, measure); status != Status::ok) return status;
   const bool bounded = shape.type != ShapeType::half_space;
-  if (shape.type != ShapeType::hull) bound = core_bound(shape.type, size);
-  bound += shape.rounding;
+  const Real bound = measure.bound + shape.rounding;
   if (bound >= k_bound_limit) return Status::out_of_range;
-  if (bounded && shape.type != ShapeType::sphere && scale_by_power(bound, -14) > smallest) return Status::out_of_range;
+  if (bounded && shape.type != ShapeType::sphere && scale_by_power(bound, -14) > measure.smallest) {
+    return Status::out_of_range;
+  }
   int32_t exponent = bounded ? exponent_above(bound) : 0;
-  if (bounded && exponent < exponent_min) exponent = exponent_min;
+  if (bounded && exponent < measure.exponent_min) exponent = measure.exponent_min;
+  const Vec3<Real>& size = measure.size;
   traits.shape = static_cast<uint32_t>(shape.type);
   traits.size_exponent = exponent;
   traits.size = {unit_from_real(size.x, exponent), unit_from_real(size.y, exponent), unit_from_real(size.z, exponent)};
-  if (shape.type == ShapeType::hull) traits.size = hull_half_extents(hull_of(assets, shape.asset), exponent);
   traits.bounding_radius = unit_from_real(bound, exponent);
   traits.rounding = unit_from_real(shape.rounding, exponent);
-  traits.asset = shape.type == ShapeType::hull ? shape.asset : 0;
+  traits.asset = 0;
+  if (code.set_size != nullptr) code.set_size(shape, assets, traits);
   return Status::ok;
 }
 
-Scaled shape_volume(const BodyTraits& traits, const AssetTable& assets) {
-  const Scaled x = grown(traits, traits.size.x);
-  const Scaled y = grown(traits, traits.size.y);
-  const Scaled z = grown(traits, traits.size.z);
-  Scaled volume = 0.0;
-  switch (shape_of(traits)) {
-    case ShapeType::sphere:
-      volume = multiply(multiply(k_pi, Scaled(4.0 / 3.0)), multiply(x, multiply(x, x)));
-      break;
-    case ShapeType::capsule:
-      volume = multiply(multiply(k_pi, multiply(x, x)), add(multiply(Scaled(2.0), y), multiply(Scaled(4.0 / 3.0), x)));
-      break;
-    case ShapeType::box:
-      volume = multiply(Scaled(8.0), multiply(x, multiply(y, z)));
-      break;
-    case ShapeType::cylinder:
-      volume = multiply(multiply(k_pi, Scaled(2.0)), multiply(y, multiply(x, x)));
-      break;
-    case ShapeType::cone:
-      volume = multiply(multiply(k_pi, Scaled(2.0 / 3.0)), multiply(y, multiply(x, x)));
-      break;
-    case ShapeType::hull: {
-      const HullView hull = hull_of(assets, traits.asset);
-      volume = scaled_by_power(scaled_from_hull(hull.volume()), 3 * (hull.exponent() - traits.size_exponent));
-      if (traits.rounding == Unit(0.0)) break;
-      volume = multiply(volume, divide(x, scaled_from(traits.size.x)));
-      volume = multiply(volume, divide(y, scaled_from(traits.size.y)));
-      volume = multiply(volume, divide(z, scaled_from(traits.size.z)));
-      break;
-    }
-    default:
-      break;
-  }
-  return scaled_by_power(volume, 3 * traits.size_exponent);
+Scaled shape_volume(const BodyTraits& traits, const AssetTable& assets, const FeatureTable& features) {
+  const ShapeCode* code = code_of(features, shape_of(traits));
+  const Scaled none = 0.0;
+  if (code == nullptr || code->volume == nullptr) return none;
+  return scaled_by_power(code->volume(traits, grown_sizes(traits), assets), 3 * traits.size_exponent);
 }
 
-void set_gyration(BodyTraits& traits, const AssetTable& assets) {
-  const Scaled one = 1.0;
-  const Scaled xx = square(grown(traits, traits.size.x));
-  const Scaled yy = square(grown(traits, traits.size.y));
-  const Scaled zz = square(grown(traits, traits.size.z));
-  switch (shape_of(traits)) {
-    case ShapeType::sphere:
-      traits.gyration[0] = traits.gyration[1] = traits.gyration[2] = divide(Scaled(2.5), xx);
-      break;
-    case ShapeType::capsule: {
-      Scaled along, across;
-      capsule_moments(traits.size.x, traits.size.y, along, across);
-      traits.gyration[0] = traits.gyration[2] = divide(one, across);
-      traits.gyration[1] = divide(one, along);
-      break;
-    }
-    case ShapeType::box:
-      traits.gyration[0] = divide(Scaled(3.0), add(yy, zz));
-      traits.gyration[1] = divide(Scaled(3.0), add(zz, xx));
-      traits.gyration[2] = divide(Scaled(3.0), add(xx, yy));
-      break;
-    case ShapeType::cylinder:  // (3 r^2 + 4 h^2) / 12 across, r^2 / 2 along
-      traits.gyration[0] = traits.gyration[2] =
-          divide(Scaled(12.0), add(multiply(Scaled(3.0), xx), multiply(Scaled(4.0), yy)));
-      traits.gyration[1] = divide(Scaled(2.0), xx);
-      break;
-    case ShapeType::cone:  // 3 (r^2 + h^2) / 20 across, 3 r^2 / 10 along, for the height 2 h
-      traits.gyration[0] = traits.gyration[2] = divide(Scaled(20.0 / 3.0), add(xx, yy));
-      traits.gyration[1] = divide(Scaled(10.0 / 3.0), xx);
-      break;
-    case ShapeType::hull: {
-      const HullView hull = hull_of(assets, traits.asset);
-      const Scaled grown_squares[3] = {add(yy, zz), add(zz, xx), add(xx, yy)};
-      const Scaled x = square(scaled_from(traits.size.x)), y = square(scaled_from(traits.size.y)),
-                   z = square(scaled_from(traits.size.z));
-      const Scaled squares[3] = {add(y, z), add(z, x), add(x, y)};
-      for (uint32_t axis = 0; axis < 3; ++axis) {
-        Scaled& gyration = traits.gyration[axis];
-        gyration = scaled_by_power(scaled_from_hull(hull.gyration(axis)), 2 * (traits.size_exponent - hull.exponent()));
-        if (traits.rounding == Unit(0.0)) continue;
-        gyration = multiply(gyration, divide(squares[axis], grown_squares[axis]));
-      }
-      break;
-    }
-    default:
-      break;
-  }
+void set_gyration(BodyTraits& traits, const AssetTable& assets, const FeatureTable& features) {
+  const ShapeCode* code = code_of(features, shape_of(traits));
+  if (code == nullptr || code->set_gyration == nullptr) return;
+  code->set_gyration(traits, squares_of(grown_sizes(traits)), assets);
 }
 
 Real shape_extent(const BodyTraits& traits) {

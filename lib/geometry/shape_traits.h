@@ -1,6 +1,7 @@
 #pragma once
 #include <detent/asset.h>
 #include <detent/detail/state.h>
+#include <detent/features.h>
 #include <detent/status.h>
 
 #include "geometry/hull.h"
@@ -37,18 +38,40 @@ Vec3<Unit> hull_half_extents(const HullView& hull, int32_t exponent);
 /// The hull's core radius, in the unit 2^exponent m.
 Unit hull_radius(const HullView& hull, int32_t exponent);
 
+/// What a shape's sizes come to, m.
+struct ShapeMeasure {
+  Vec3<Real> size;  ///< as BodyTraits::size
+  Real smallest;    ///< of its sizes, and of the rounding
+  Real bound;       ///< the greatest distance of a point of the core from the origin
+  int32_t exponent_min;
+};
+
+/// One shape's own part of set_shape(), shape_volume() and set_gyration(): the linker keeps those that a table names.
+struct ShapeCode {
+  Status (*measure)(const Shape& shape, const AssetTable& assets, ShapeMeasure& measure);
+  void (*set_size)(const Shape& shape, const AssetTable& assets, BodyTraits& traits);  ///< null: from the measure
+  Scaled (*volume)(const BodyTraits& traits, const Vec3<Scaled>& sizes, const AssetTable& assets);  ///< null: none
+  void (*set_gyration)(BodyTraits& traits, const Vec3<Scaled>& squares, const AssetTable& assets);
+};
+
+/// Null if the shape is not linked.
+const ShapeCode* code_of(const FeatureTable& features, ShapeType type);
+
 /// Fills shape, size_exponent, size, bounding_radius, rounding and asset of `traits`. A hull is that of the table,
-/// whose bytes read_hull() has accepted. Errors: bad_argument, out_of_range, asset_missing.
-Status set_shape(const Shape& shape, BodyTraits& traits, const AssetTable& assets = {});
+/// whose bytes read_hull() has accepted. Errors: bad_argument, out_of_range, asset_missing, feature_missing.
+Status set_shape(const Shape& shape, BodyTraits& traits, const AssetTable& assets = {},
+                 const FeatureTable& features = feature_table<Features::all>);
 
 /// Volume of the shape, m^3. Relative error below 2^-26. 0 for a half-space. A rounded shape counts as the sharp one
 /// whose sizes (of a hull: half extents, by which it is stretched) are greater by the rounding.
-Scaled shape_volume(const BodyTraits& traits, const AssetTable& assets = {});
+Scaled shape_volume(const BodyTraits& traits, const AssetTable& assets = {},
+                    const FeatureTable& features = feature_table<Features::all>);
 
 /// m (2^size_exponent)^2 / I about the body's axes, for uniform density: it does not depend on mass or scale.
 /// Relative error below 2^-24; a hull's is its file's. Rounded shapes as in shape_volume().
 /// Source: the standard moments of the box, ball, cylinder, cone and half-ball.
-void set_gyration(BodyTraits& traits, const AssetTable& assets = {});
+void set_gyration(BodyTraits& traits, const AssetTable& assets = {},
+                  const FeatureTable& features = feature_table<Features::all>);
 
 /// Smallest diameter of the shape, m; what tolerances of a pair are fractions of. 2^14 for a half-space. Of a cone the
 /// lesser of height and base, up to 12 % too much; of a hull twice the least half extent, up to 50 %.

@@ -28,7 +28,7 @@ Vec3<Real> point_on_a(const MovingPair& pair, const Placed& a, const Placed& b, 
 int64_t next_time(const MovingPair& pair, ToiMethod method, const Frames& frames, const Simplex& simplex,
                   const GjkResult& nearest, int iteration, int32_t floor, int64_t& progress, TimeOfImpact& result) {
   const int64_t time = frames.time;
-  const Features features(simplex);
+  const NearFeatures features(simplex);
   const bool turns = pair.turning_a.turns || pair.turning_b.turns;
   if (method >= ToiMethod::world_space && turns && !features.has_face() && !pair.planar &&
       iteration >= k_plain_iterations) {

@@ -27,7 +27,7 @@ struct PlacedFeatures {
   Vec32 way;             ///< from A's first point to B's
   Vec32 edge_a, edge_b;  ///< zero for a vertex
 
-  PlacedFeatures(const MovingPair& pair, const Features& features, const Frames& frames) {
+  PlacedFeatures(const MovingPair& pair, const NearFeatures& features, const Frames& frames) {
     const Vec32 from = placed_point(pair, *pair.a, frames.a, features.a[0]);
     const Vec32 to = placed_point(pair, *pair.b, frames.b, features.b[0]);
     way = subtract(add(frames.offset, to), from);
@@ -61,8 +61,8 @@ struct PlacedFeatures {
 };
 
 /// The speed at which the gap closes now, ulps over the horizon.
-int64_t closing_speed(const MovingPair& pair, const Features& features, const Frames& frames, const Horizon& horizon,
-                      const Vec32& normal) {
+int64_t closing_speed(const MovingPair& pair, const NearFeatures& features, const Frames& frames,
+                      const Horizon& horizon, const Vec32& normal) {
   const auto rim_speed = [&](const Convex& convex, const Matrix32& rotation, const Vec32& spin, const Vec32& local) {
     if (is_zero(spin)) return int64_t{0};
     return dot(round_shift(cross(normal, spin), 30), placed_point(pair, convex, rotation, local)) >> 29;
@@ -89,7 +89,7 @@ int64_t part_of(int64_t duration, int64_t part) {
 
 }  // namespace
 
-Features::Features(const Simplex& simplex) {
+NearFeatures::NearFeatures(const Simplex& simplex) {
   const auto count_distinct = [&](CorePoint SimplexVertex::*of, Vec32(&points)[2]) {
     int count = 0;
     for (int i = 0; i < simplex.count(); ++i) {
@@ -119,7 +119,7 @@ Features::Features(const Simplex& simplex) {
   count_b = count_distinct(&SimplexVertex::b, b);
 }
 
-Vec32 Features::base_spin(const Horizon& horizon) const {
+Vec32 NearFeatures::base_spin(const Horizon& horizon) const {
   if (count_a >= 3) return horizon.spin_a;
   if (count_b >= 3) return horizon.spin_b;
   if (count_a == 2) return horizon.spin_a;
@@ -127,8 +127,9 @@ Vec32 Features::base_spin(const Horizon& horizon) const {
   return {0, 0, 0};
 }
 
-int64_t advance_tracking(const MovingPair& pair, const Frames& frames, const Simplex& simplex, const Features& features,
-                         const GjkResult& nearest, int32_t floor, int64_t& progress, TimeOfImpact& result) {
+int64_t advance_tracking(const MovingPair& pair, const Frames& frames, const Simplex& simplex,
+                         const NearFeatures& features, const GjkResult& nearest, int32_t floor, int64_t& progress,
+                         TimeOfImpact& result) {
   const int64_t time = frames.time;
   const Vec32& normal = nearest.normal;
   const int64_t distance = nearest.upper;

@@ -6,14 +6,14 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// The features of two cores that are nearest: a vertex, an edge or a face of each.
-struct Features {
+struct NearFeatures {
   int count_a = 0, count_b = 0;  ///< distinct points of A and of B: 1 a vertex, 2 an edge, 3 a face
   Vec32 a[2], b[2];              ///< the first two of each, local
   Vec32 nearest_a, nearest_b;    ///< the points of the cores that are nearest, local
 
   bool curved = false;  ///< one of the points lies on a rim, and will be another one soon
 
-  explicit Features(const Simplex& simplex);
+  explicit NearFeatures(const Simplex& simplex);
 
   /// The axis belongs to a face, and turns with it.
   bool has_face() const { return !curved && (count_a >= 3 || count_b >= 3); }
@@ -24,8 +24,9 @@ struct Features {
 /// Like advance(), with a spin foreseen from where the features will be: right at contact too, for edges and vertices.
 /// Returns how far it is certain that the cores stay `floor` apart, as a time. Counts passes and calls of gjk().
 /// `progress`: of the last call, renewed; what it led to is what the next one may hope for.
-int64_t advance_tracking(const MovingPair& pair, const Frames& frames, const Simplex& simplex, const Features& features,
-                         const GjkResult& nearest, int32_t floor, int64_t& progress, TimeOfImpact& result);
+int64_t advance_tracking(const MovingPair& pair, const Frames& frames, const Simplex& simplex,
+                         const NearFeatures& features, const GjkResult& nearest, int32_t floor, int64_t& progress,
+                         TimeOfImpact& result);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

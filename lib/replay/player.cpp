@@ -191,7 +191,9 @@ Status Player::call(World* world, uint32_t tag, Reader& reader, uint64_t offset)
     if (reader.failed != nullptr || world == nullptr) return;
     const BodyId recorded = id_given(command);
     status = apply(*world, command);
-    if (status != Status::ok)
+    if (status == Status::feature_missing)
+      status = fail(status, offset, "call");
+    else if (status != Status::ok)
       status = fail(Status::digest_differs, offset, "call refused");
     else if (!(id_given(command) == recorded))
       status = fail(Status::digest_differs, offset, "body id given");

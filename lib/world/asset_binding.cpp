@@ -1,7 +1,6 @@
 #include "world/asset_binding.h"
 
 #include "base/digest.h"
-#include "geometry/hull.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -9,21 +8,22 @@ namespace {
 constexpr uint64_t k_asset_seed = 0x6173736574u;
 }
 
-Status describe_asset(AssetTable table, uint32_t index, AssetState& description) {
+Status describe_asset(AssetTable table, uint32_t index, const HullCode& hulls, AssetState& description) {
   if (!is_in(table, index)) return Status::asset_missing;
   const Asset& asset = table.assets[index];
   HullView hull;
-  const AssetKind kind = read_hull(asset, hull) == Status::ok ? AssetKind::hull : AssetKind::other;
+  const AssetKind kind = hulls.read(asset, hull) == Status::ok ? AssetKind::hull : AssetKind::other;
   description = {digest_bytes(asset.bytes, asset.byte_count, k_asset_seed), asset.byte_count,
                  static_cast<uint32_t>(kind)};
   return Status::ok;
 }
 
-Status check_assets(AssetTable table, Span<const AssetState> bound) {
+Status check_assets(AssetTable table, const FeatureTable& features, Span<const AssetState> bound) {
   for (uint32_t i = 0; i < bound.count; ++i) {
     if (bound[i].kind == static_cast<uint32_t>(AssetKind::none)) continue;
+    if (features.hull == nullptr) return Status::feature_missing;
     AssetState found{};
-    if (const Status status = describe_asset(table, i, found); status != Status::ok) return status;
+    if (const Status status = describe_asset(table, i, *features.hull, found); status != Status::ok) return status;
     if (found.digest != bound[i].digest || found.byte_count != bound[i].byte_count || found.kind != bound[i].kind) {
       return Status::asset_mismatch;
     }

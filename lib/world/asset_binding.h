@@ -3,6 +3,7 @@
 #include <detent/world.h>
 
 #include "base/span.h"
+#include "geometry/hull.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -15,10 +16,10 @@ inline bool is_hull_of(const BodyTraits& body, uint32_t asset) {
 }
 
 /// What the state keeps of the table's asset `index`. Errors: asset_missing.
-Status describe_asset(AssetTable table, uint32_t index, AssetState& description);
+Status describe_asset(AssetTable table, uint32_t index, const HullCode& hulls, AssetState& description);
 
-/// Compares every bound asset with the table. Errors: asset_missing, asset_mismatch.
-Status check_assets(AssetTable table, Span<const AssetState> bound);
+/// Compares every bound asset with the table. Errors: asset_missing, asset_mismatch; feature_missing (hulls).
+Status check_assets(AssetTable table, const FeatureTable& features, Span<const AssetState> bound);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -102,14 +102,14 @@ bool is_shape(const BodyTraits& traits, AssetTable assets, Span<const AssetState
   }
 }
 
-bool is_mass_of(const BodyTraits& traits, AssetTable assets) {
+bool is_mass_of(const BodyTraits& traits, AssetTable assets, const FeatureTable& features) {
   BodyTraits expected = traits;
   for (Scaled& gyration : expected.gyration) gyration = Scaled(0.0);
   if (!is_dynamic(traits)) {
     return traits.mass == Scaled(0.0) && traits.gyration[0] == expected.gyration[0] &&
            traits.gyration[1] == expected.gyration[1] && traits.gyration[2] == expected.gyration[2];
   }
-  set_gyration(expected, assets);
+  set_gyration(expected, assets, features);
   for (const Scaled gyration : expected.gyration) {
     if (!is_gyration(gyration)) return false;
   }
@@ -117,10 +117,21 @@ bool is_mass_of(const BodyTraits& traits, AssetTable assets) {
          traits.gyration[1] == expected.gyration[1] && traits.gyration[2] == expected.gyration[2];
 }
 
-bool is_body(const BodyTraits& traits, AssetTable assets, Span<const AssetState> bound) {
+/// What the world that the state is of has linked.
+Features features_of(const State& state) {
+  return without(Features::all, static_cast<Features>(state.header.left_out));
+}
+
+bool is_linked(const State& state, const BodyTraits& traits) {
+  const bool sharp = traits.rounding == Unit(0.0);
+  const Features needed = feature_of(shape_of(traits)) | (sharp ? Features::none : Features::rounding);
+  return contains(features_of(state), needed);
+}
+
+bool is_body(const State& state, const BodyTraits& traits, AssetTable assets, const FeatureTable& features) {
   const Scaled none = 0.0;
   return traits.type <= static_cast<uint32_t>(BodyType::dynamic) && traits.generation != 0 &&
-         is_shape(traits, assets, bound) && is_mass_of(traits, assets) &&
+         is_shape(traits, assets, state.assets) && is_linked(state, traits) && is_mass_of(traits, assets, features) &&
          is_between(traits.friction, none, scaled_from(k_friction_max)) &&
          is_between(traits.restitution, none, Scaled(1.0)) &&
          is_between(traits.rolling_resistance, none, Scaled(1.0)) &&
@@ -149,6 +160,7 @@ bool is_activity(const State& state, uint32_t slot) {
   if (activity.substeps > 64 || activity.calm_ticks > k_calm_ticks || activity.still_ticks > k_still_ticks)
     return false;
   if (activity.asleep == 0) return true;
+  if (!contains(features_of(state), Features::sleeping)) return false;
   return activity.asleep <= state.activities.count && state.activities[activity.asleep - 1].asleep == activity.asleep;
 }
 
@@ -159,7 +171,7 @@ bool is_idle(const State& state) {
   return true;
 }
 
-bool are_bodies(const State& state, AssetTable assets) {
+bool are_bodies(const State& state, AssetTable assets, const FeatureTable& features) {
   uint32_t bodies = 0, retired = 0, used = 0;
   for (uint32_t slot = 0; slot < state.traits.count; ++slot) {
     const BodyTraits& traits = state.traits[slot];
@@ -170,7 +182,7 @@ bool are_bodies(const State& state, AssetTable assets) {
       retired += taken ? 1 : 0;
       continue;
     }
-    if (!taken || !is_body(traits, assets, state.assets) || !is_pose(state.poses[slot]) ||
+    if (!taken || !is_body(state, traits, assets, features) || !is_pose(state.poses[slot]) ||
         !is_motion(traits, state.motions[slot]) || !is_activity(state, slot))
       return false;
     ++bodies;
@@ -246,7 +258,7 @@ bool are_assets(const State& state) {
 
 }  // namespace
 
-Status check_state(const uint8_t* block, Capacity capacity, AssetTable assets) {
+Status check_state(const uint8_t* block, Capacity capacity, AssetTable assets, const FeatureTable& features) {
   const State state = view_of(block, capacity);
   const WorldState& world = state.world;
   if (world.zero != 0 || world.sleeping > 1 || world.continuous > 1 || world.idle > 1 ||
@@ -254,10 +266,11 @@ Status check_state(const uint8_t* block, Capacity capacity, AssetTable assets) {
                     world.relaxation, world.stiffness, world.damping_ratio, world.restitution_threshold)) {
     return Status::corrupt;
   }
+  if (!contains(features_of(state), features_of(world.continuous != 0, world.sleeping != 0))) return Status::corrupt;
   if (!are_slots(state) || !are_assets(state) || !are_fills(block, state.layout)) return Status::corrupt;
   // Before the bodies, which are checked against the hulls that they have.
-  if (const Status status = check_assets(assets, state.assets); status != Status::ok) return status;
-  if (!are_bodies(state, assets) || !are_contacts(state) || (world.idle != 0 && !is_idle(state))) {
+  if (const Status status = check_assets(assets, features, state.assets); status != Status::ok) return status;
+  if (!are_bodies(state, assets, features) || !are_contacts(state) || (world.idle != 0 && !is_idle(state))) {
     return Status::corrupt;
   }
   return Status::ok;

@@ -37,7 +37,8 @@ Status make_traits(const World& world, const BodyDef& def, BodyTraits& traits) {
   if (def.shape.type == ShapeType::hull) {
     if (const Status status = find_hull(world, def.shape.asset, def.type); status != Status::ok) return status;
   }
-  if (const Status status = set_shape(def.shape, traits, world.assets); status != Status::ok) return status;
+  if (const Status status = set_shape(def.shape, traits, world.assets, *world.features); status != Status::ok)
+    return status;
   if (def.type == BodyType::dynamic && def.shape.type == ShapeType::half_space) return Status::bad_argument;
   if (!is_rule(def.material.restitution_rule)) return Status::bad_argument;
   if (!is_material(def.material) || !within(def.linear_damping, Real(0.0), k_damping_max) ||
@@ -50,10 +51,10 @@ Status make_traits(const World& world, const BodyDef& def, BodyTraits& traits) {
     traits.mass = def.mass;
     if (def.mass == Scaled(0.0)) {
       if (!is_mass(def.density)) return Status::out_of_range;
-      traits.mass = multiply(def.density, shape_volume(traits, world.assets));
+      traits.mass = multiply(def.density, shape_volume(traits, world.assets, *world.features));
     }
     if (!is_mass(traits.mass)) return Status::out_of_range;
-    set_gyration(traits, world.assets);
+    set_gyration(traits, world.assets, *world.features);
     if (!is_gyration(traits.gyration[0]) || !is_gyration(traits.gyration[1]) || !is_gyration(traits.gyration[2])) {
       return Status::out_of_range;
     }
@@ -165,20 +166,23 @@ Vec3<Scaled> over_tick(const Vec3<Scaled>& force, const WorldState& world) {
 
 }  // namespace
 
-Status create_world(uint8_t* block, uint32_t block_bytes, const WorldDef& def, AssetTable assets, World& world) {
+Status create_world(uint8_t* block, uint32_t block_bytes, const WorldDef& def, AssetTable assets, World& world,
+                    const FeatureTable& features) {
   const FloatEnvironment environment;
   if (!are_settings(def.gravity, def.tick, def.substeps, def.substeps_max, def.iterations, def.relaxation,
                     def.stiffness, def.damping_ratio, def.restitution_threshold)) {
     return Status::out_of_range;
   }
+  if (!contains(features.features, features_of(def.continuous, def.sleeping))) return Status::feature_missing;
   const uint32_t bytes = world_bytes(def.capacity);
   if (bytes == 0) return Status::out_of_range;
   if (block == nullptr || block_bytes < bytes) return Status::buffer_too_small;
   if (reinterpret_cast<uintptr_t>(block) % 8 != 0) return Status::buffer_misaligned;
   memset(block, 0, bytes);
-  *at_offset<BlockHeader>(block, 0) = {k_snapshot_magic,    k_snapshot_format,     k_simulation_version, k_config,
-                                       def.capacity.bodies, def.capacity.contacts, def.capacity.assets,  0};
-  world = {block, assets, {}};
+  *at_offset<BlockHeader>(block, 0) = {
+      k_snapshot_magic,    k_snapshot_format,     k_simulation_version, k_config,
+      def.capacity.bodies, def.capacity.contacts, def.capacity.assets,  left_out(features)};
+  world = {block, assets, {}, &features};
   WorldState& state = view_of(world).world;
   state.substeps = def.substeps;
   state.substeps_max = def.substeps_max;
@@ -337,6 +341,7 @@ Status put_to_sleep(World& world, BodyId id) {
   uint32_t slot = 0;
   if (!find_body(state, id, slot)) return Status::bad_id;
   if (!is_dynamic(state.traits[slot])) return Status::bad_argument;
+  if (!contains(world.features->features, Features::sleeping)) return Status::feature_missing;
   if (state.activities[slot].asleep != 0) return Status::ok;
   state.motions[slot] = BodyMotion{};
   state.activities[slot].still_ticks = k_still_ticks;
@@ -356,7 +361,9 @@ Status bind_asset(World& world, uint32_t index) {
   StateView<uint8_t> state = view_of(world);
   if (index >= state.assets.count) return Status::out_of_range;
   AssetState bound{};
-  if (const Status status = describe_asset(world.assets, index, bound); status != Status::ok) return status;
+  if (world.features->hull == nullptr) return Status::feature_missing;
+  if (const Status status = describe_asset(world.assets, index, *world.features->hull, bound); status != Status::ok)
+    return status;
   AssetState& before = state.assets[index];
   if (before.digest != bound.digest || before.byte_count != bound.byte_count) {
     for (const BodyTraits& body : state.traits) {

@@ -24,7 +24,7 @@ uint64_t leaf(const Section& section, uint32_t section_index, const uint8_t* ele
   static_assert(sizeof(BodyTraits) <= k_element_bytes_max && sizeof(ContactState) <= k_element_bytes_max &&
                 sizeof(WorldState) <= k_element_bytes_max);
   memcpy(canonical, element, bytes);
-  if (bytes == section.element_bytes) swap_element(section, canonical);
+  if (bytes == section.element_bytes) swap_element(section_index, canonical);
   return digest_bytes(canonical, bytes, seed);
 }
 

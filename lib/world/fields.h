@@ -14,11 +14,15 @@ struct Field {
 
 /// An array of the persistent state.
 struct Section {
+  uint32_t element_bytes;
+  uint32_t Layout::*offset;
+};
+
+/// What its elements are made of. Apart, for a little-endian program needs none of it in its flash.
+struct SectionFields {
   const char* name;
   const Field* fields;
   uint32_t field_count;
-  uint32_t element_bytes;
-  uint32_t Layout::*offset;
 };
 
 template <class T>
@@ -46,7 +50,7 @@ inline constexpr Field k_header_fields[] = {
     DETENT_FIELD(BlockHeader, magic),           DETENT_FIELD(BlockHeader, format),
     DETENT_FIELD(BlockHeader, simulation),      DETENT_FIELD(BlockHeader, config),
     DETENT_FIELD(BlockHeader, capacity_bodies), DETENT_FIELD(BlockHeader, capacity_contacts),
-    DETENT_FIELD(BlockHeader, capacity_assets), DETENT_FIELD(BlockHeader, zero),
+    DETENT_FIELD(BlockHeader, capacity_assets), DETENT_FIELD(BlockHeader, left_out),
 };
 inline constexpr Field k_world_fields[] = {
     DETENT_FIELD(WorldState, tick),
@@ -146,23 +150,26 @@ static_assert(tiles(k_traits_fields, sizeof(BodyTraits)) && tiles(k_slot_fields,
 static_assert(tiles(k_activity_fields, sizeof(BodyActivity)));
 static_assert(tiles(k_contact_fields, sizeof(ContactState)) && tiles(k_asset_fields, sizeof(AssetState)));
 
-template <uint32_t n>
-constexpr Section section(const char* name, const Field (&fields)[n], uint32_t element_bytes,
-                          uint32_t Layout::*offset) {
-  return {name, fields, n, element_bytes, offset};
-}
 inline constexpr Section k_sections[] = {
-    section("header", k_header_fields, sizeof(BlockHeader), &Layout::header),
-    section("world", k_world_fields, sizeof(WorldState), &Layout::world),
-    section("poses", k_pose_fields, sizeof(BodyPose), &Layout::poses),
-    section("motions", k_motion_fields, sizeof(BodyMotion), &Layout::motions),
-    section("traits", k_traits_fields, sizeof(BodyTraits), &Layout::traits),
-    section("activities", k_activity_fields, sizeof(BodyActivity), &Layout::activities),
-    section("slots", k_slot_fields, sizeof(uint32_t), &Layout::slots),
-    section("contacts", k_contact_fields, sizeof(ContactState), &Layout::contacts),
-    section("assets", k_asset_fields, sizeof(AssetState), &Layout::assets),
+    {sizeof(BlockHeader), &Layout::header}, {sizeof(WorldState), &Layout::world},
+    {sizeof(BodyPose), &Layout::poses},     {sizeof(BodyMotion), &Layout::motions},
+    {sizeof(BodyTraits), &Layout::traits},  {sizeof(BodyActivity), &Layout::activities},
+    {sizeof(uint32_t), &Layout::slots},     {sizeof(ContactState), &Layout::contacts},
+    {sizeof(AssetState), &Layout::assets},
 };
 inline constexpr uint32_t k_section_count = sizeof k_sections / sizeof k_sections[0];
+
+template <uint32_t n>
+constexpr SectionFields section_fields(const char* name, const Field (&fields)[n]) {
+  return {name, fields, n};
+}
+inline constexpr SectionFields k_section_fields[k_section_count] = {
+    section_fields("header", k_header_fields), section_fields("world", k_world_fields),
+    section_fields("poses", k_pose_fields),    section_fields("motions", k_motion_fields),
+    section_fields("traits", k_traits_fields), section_fields("activities", k_activity_fields),
+    section_fields("slots", k_slot_fields),    section_fields("contacts", k_contact_fields),
+    section_fields("assets", k_asset_fields),
+};
 
 /// Elements of a section, alignment fill included as further elements or left-over bytes that are always zero.
 inline uint32_t section_bytes(const Layout& layout, uint32_t index) {
@@ -171,7 +178,7 @@ inline uint32_t section_bytes(const Layout& layout, uint32_t index) {
 }
 
 /// Reverses the words of one element.
-void swap_element(const Section& section, uint8_t* element);
+void swap_element(uint32_t section_index, uint8_t* element);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -15,33 +15,40 @@ void swap_state(uint8_t* block, const Layout& layout) {
   for (uint32_t i = 0; i < k_section_count; ++i) {
     uint8_t* element = block + layout.*k_sections[i].offset;
     const uint32_t count = section_bytes(layout, i) / k_sections[i].element_bytes;
-    for (uint32_t k = 0; k < count; ++k, element += k_sections[i].element_bytes) swap_element(k_sections[i], element);
+    for (uint32_t k = 0; k < count; ++k, element += k_sections[i].element_bytes) swap_element(i, element);
   }
 }
 
 Layout layout_of(const World& world) { return view_of(world).layout; }
 
-/// Compares a header in the machine's byte order with this build and a capacity.
-Status check_header(const BlockHeader& header, Capacity capacity) {
+/// Compares a header in the machine's byte order with this build and the world that is to take the state.
+Status check_header(const BlockHeader& header, Capacity capacity, const FeatureTable& features) {
   if (header.magic != k_snapshot_magic) return Status::not_detent;
-  if (header.format != k_snapshot_format || header.zero != 0) return Status::format_unknown;
+  if (header.format != k_snapshot_format) return Status::format_unknown;
   if (header.simulation != k_simulation_version) return Status::simulation_differs;
   if (header.config != k_config) return Status::config_differs;
   if (!(capacity_of(header) == capacity)) return Status::capacity_differs;
+  const Features left_out = static_cast<Features>(header.left_out);
+  if (!contains(Features::all, left_out)) return Status::format_unknown;
+  if (!contains(features.features, without(Features::all, left_out))) return Status::feature_missing;
   return Status::ok;
 }
 
 /// As check_header, for canonical bytes.
-Status check_canonical_header(const uint8_t* bytes, Capacity capacity) {
+Status check_canonical_header(const uint8_t* bytes, Capacity capacity, const FeatureTable& features) {
   BlockHeader header;
   memcpy(&header, bytes, sizeof header);
-  if (k_big_endian) swap_element(k_sections[0], reinterpret_cast<uint8_t*>(&header));
-  return check_header(header, capacity);
+  if (k_big_endian) swap_element(0, reinterpret_cast<uint8_t*>(&header));
+  return check_header(header, capacity, features);
 }
+
+/// What the block now holds is the state of a world that may have had fewer features.
+void take_over(World& world) { view_of(world).header.left_out = left_out(*world.features); }
 
 }  // namespace
 
-void swap_element(const Section& section, uint8_t* element) {
+void swap_element(uint32_t section_index, uint8_t* element) {
+  const SectionFields& section = k_section_fields[section_index];
   for (uint32_t i = 0; i < section.field_count; ++i) {
     swap_words(element + section.fields[i].offset, section.fields[i].width, section.fields[i].count);
   }
@@ -58,11 +65,12 @@ Status save(const World& world, uint8_t* bytes, uint32_t byte_count) {
 Status restore(World& world, const uint8_t* bytes, uint32_t byte_count) {
   const Layout layout = layout_of(world);
   if (bytes == nullptr || byte_count < sizeof(BlockHeader)) return Status::truncated;
-  const Status status = check_canonical_header(bytes, capacity_of(view_of(world).header));
+  const Status status = check_canonical_header(bytes, capacity_of(view_of(world).header), *world.features);
   if (status != Status::ok) return status;
   if (byte_count < layout.persistent_bytes) return Status::truncated;
   memcpy(world.block, bytes, layout.persistent_bytes);
   swap_state(world.block, layout);
+  take_over(world);
   return Status::ok;
 }
 
@@ -72,12 +80,15 @@ Status load(World& world, uint8_t* bytes, uint32_t byte_count) {
   const Capacity capacity = capacity_of(view_of(world).header);
   if (bytes == nullptr || byte_count < sizeof(BlockHeader)) return Status::truncated;
   if (reinterpret_cast<uintptr_t>(bytes) % 8 != 0) return Status::buffer_misaligned;
-  if (const Status status = check_canonical_header(bytes, capacity); status != Status::ok) return status;
+  if (const Status status = check_canonical_header(bytes, capacity, *world.features); status != Status::ok)
+    return status;
   if (byte_count < layout.persistent_bytes) return Status::truncated;
   if (byte_count > layout.persistent_bytes) return Status::corrupt;
   swap_state(bytes, layout);
-  if (const Status status = check_state(bytes, capacity, world.assets); status != Status::ok) return status;
+  if (const Status status = check_state(bytes, capacity, world.assets, *world.features); status != Status::ok)
+    return status;
   memcpy(world.block, bytes, layout.persistent_bytes);
+  take_over(world);
   return Status::ok;
 }
 
@@ -98,7 +109,7 @@ bool snapshot_read(const World& world, uint32_t offset, uint8_t* bytes, uint32_t
     for (uint32_t k = first; k < elements && start + k * size < end; ++k) {
       uint8_t element[256];
       memcpy(element, world.block + start + k * size, size);
-      swap_element(k_sections[i], element);
+      swap_element(i, element);
       for (uint32_t byte = 0; byte < size; ++byte) {
         const uint32_t at = start + k * size + byte;
         if (at >= offset && at < end) bytes[at - offset] = element[byte];
@@ -116,7 +127,9 @@ Status load_from(World& world, Status (*read)(void* context, uint32_t offset, ui
   const auto fail = [&](Status status) {
     WorldDef def;
     def.capacity = capacity;
-    const Status emptied = create_world(world.block, layout.bytes, def, world.assets, world);
+    def.continuous = world.features->continuous != nullptr;
+    def.sleeping = world.features->sleeping != nullptr;
+    const Status emptied = create_world(world.block, layout.bytes, def, world.assets, world, *world.features);
     return emptied == Status::ok ? status : emptied;
   };
   constexpr uint32_t k_piece = 256;
@@ -125,10 +138,13 @@ Status load_from(World& world, Status (*read)(void* context, uint32_t offset, ui
     const Status status = read(context, offset, world.block + offset, left < k_piece ? left : k_piece);
     if (status != Status::ok) return fail(status);
     if (offset != 0) continue;
-    if (const Status header = check_canonical_header(world.block, capacity); header != Status::ok) return fail(header);
+    const Status header = check_canonical_header(world.block, capacity, *world.features);
+    if (header != Status::ok) return fail(header);
   }
   swap_state(world.block, layout);
-  if (const Status status = check_state(world.block, capacity, world.assets); status != Status::ok) return fail(status);
+  const Status status = check_state(world.block, capacity, world.assets, *world.features);
+  if (status != Status::ok) return fail(status);
+  take_over(world);
   return Status::ok;
 }
 

@@ -69,6 +69,7 @@ struct Bodies {
   Span<BodyActivity> activities;
   Span<BodyWork> work;
   AssetTable assets;
+  const FeatureTable& features;
 
   RowBody at(uint32_t slot) const {
     return {traits[slot], poses[slot], motions[slot], work[slot].gyration, work[slot].spin};
@@ -78,11 +79,11 @@ struct Bodies {
   bool asleep(uint32_t slot) const { return activities[slot].asleep != 0; }
 };
 
-void collide_pair(const StepSettings& settings, const RowBody& a, const RowBody& b, const AssetTable& assets,
+void collide_pair(const StepSettings& settings, const RowBody& a, const RowBody& b, const Bodies& bodies,
                   ContactGeometry& geometry) {
   const Matrix3 rotation_a = matrix_from(a.pose.rotation), rotation_b = matrix_from(b.pose.rotation);
   collide({a.pose, a.traits, rotation_a}, {b.pose, b.traits, rotation_b}, contact_reach(settings, a, b), geometry,
-          assets);
+          bodies.assets, bodies.features);
 }
 
 /// Wakes whoever is touched by a body that moves, and whoever they touch. Returns how many woke.
@@ -95,7 +96,7 @@ uint32_t wake_touched(const StepSettings& settings, const Bodies& bodies, Span<c
       const bool wakes_low = bodies.asleep(low) && bodies.moving(high);
       if (!wakes_low && !(bodies.asleep(high) && bodies.moving(low))) continue;
       ContactGeometry geometry;
-      collide_pair(settings, bodies.at(low), bodies.at(high), bodies.assets, geometry);
+      collide_pair(settings, bodies.at(low), bodies.at(high), bodies, geometry);
       if (geometry.count == 0) continue;
       woke += wake_all_with(wakes_low ? low : high, bodies.activities);
       again = true;
@@ -145,7 +146,7 @@ ContactCount collide_pairs(const StepSettings& settings, const Bodies& bodies, S
     const bool continued = next < before.count && pair_key(before[next].body_a, before[next].body_b) == key;
     const RowBody a = bodies.at(slot_a), b = bodies.at(slot_b);
     ContactGeometry geometry;
-    collide_pair(settings, a, b, bodies.assets, geometry);
+    collide_pair(settings, a, b, bodies, geometry);
     count.capped += geometry.capped ? 1 : 0;
     if (geometry.count == 0) continue;
     if (count.contacts == contacts.count) {
@@ -228,7 +229,7 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   const Span<BodyWork> work = scratch.bodies.first(used);
   const Span<Bounds> bounds = scratch.bounds.first(used);
   const StepSettings settings = step_settings(state.world);
-  const Bodies bodies = {poses, traits, motions, activities, work, world.assets};
+  const Bodies bodies = {poses, traits, motions, activities, work, world.assets, *world.features};
   const SolverBodies solver_bodies = {traits, motions, work};
 
   bound(settings, poses, traits, motions, bounds);
@@ -257,9 +258,9 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   report.saturations += make_sweeps(traits, work, poses, sweeps);
   if (state.world.continuous != 0) {
     const ImpactPairs known = {pairs, contacts, pair_count.dropped == 0 && count.dropped == 0};
-    const ImpactReport impacts =
-        advance_to_impacts(settings, world.assets, known, {traits, poses, motions, sweeps, activities}, bounds,
-                           scratch.impact_pairs, scratch.impact_hits, probe);
+    const ImpactReport impacts = world.features->continuous->advance(
+        settings, world.assets, *world.features, known, {traits, poses, motions, sweeps, activities}, bounds,
+        scratch.impact_pairs, scratch.impact_hits, probe);
     report_impacts(impacts, report);
     add_hits(traits, scratch.impact_hits.first(impacts.hits), events, event_count);
     event_count.dropped += impacts.hits_dropped;
@@ -268,7 +269,8 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   report.contact_events_dropped = events.count == 0 ? 0 : event_count.dropped;
   report.saturations += finalise(traits, sweeps, poses, motions);
   if (settings.sleeping)
-    report.fell_asleep = fall_asleep(settings, traits, poses, islands, scratch.island_bodies, motions, activities);
+    report.fell_asleep = world.features->sleeping->end_step(settings, traits, poses, islands, scratch.island_bodies,
+                                                            motions, activities);
   store_contacts(contacts, sleeping, before, state.contacts);
 
   state.world.contact_count = sleeping + count.contacts;

@@ -9,6 +9,15 @@ inline namespace DETENT_NAMESPACE {
 inline constexpr uint32_t k_snapshot_magic = 0x544e5444;  // "DTNT" in canonical bytes
 inline constexpr uint32_t k_snapshot_format = 1;
 
+/// BlockHeader::left_out of a world that has this table.
+inline uint32_t left_out(const FeatureTable& features) {
+  return static_cast<uint32_t>(without(Features::all, features.features));
+}
+/// What a world's settings need.
+inline Features features_of(bool continuous, bool sleeping) {
+  return (continuous ? Features::continuous : Features::none) | (sleeping ? Features::sleeping : Features::none);
+}
+
 inline Capacity capacity_of(const BlockHeader& header) {
   return {header.capacity_bodies, header.capacity_contacts, header.capacity_assets};
 }

@@ -26,6 +26,7 @@ DETENT_TEST(state, every_bit_of_it_is_in_the_digest) {
 
 DETENT_TEST(state, no_bit_of_a_snapshot_can_be_flipped_into_a_crash_and_those_of_the_header_are_refused) {
   Lab lab = make_pile();
+  const uint64_t before = digest(lab.world);
   const std::vector<uint64_t> good = lab.snapshot();
   Lab other(get_info(lab.world).capacity);
   uint32_t loaded = 0;
@@ -33,7 +34,8 @@ DETENT_TEST(state, no_bit_of_a_snapshot_can_be_flipped_into_a_crash_and_those_of
     std::vector<uint64_t> bytes = good;
     bytes_of(bytes)[bit / 8] ^= static_cast<uint8_t>(1 << (bit % 8));
     const Status status = load(other.world, bytes_of(bytes), byte_count(bytes));
-    if (bit / 8 < sizeof(BlockHeader)) {
+    const bool features = bit / 32 == offsetof(BlockHeader, left_out) / 4;  // one that no body uses may be left out
+    if (bit / 8 < sizeof(BlockHeader) && !(features && status == Status::ok && digest(other.world) == before)) {
       EXPECT_NE(status, Status::ok) << "bit " << bit;
     }
     if (status != Status::ok) continue;

@@ -85,9 +85,10 @@ struct WorldStorage {
   alignas(8) uint8_t block[k_bytes];
 
   /// As create_world, in this block and with this capacity, whatever `def.capacity` says.
-  Status create(WorldDef def, World& world, AssetTable assets = {}) {
+  Status create(WorldDef def, World& world, AssetTable assets = {},
+                const FeatureTable& features = feature_table<Features::all>) {
     def.capacity = capacity;
-    return create_world(block, k_bytes, def, assets, world);
+    return create_world(block, k_bytes, def, assets, world, features);
   }
 };
 

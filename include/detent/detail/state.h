@@ -15,7 +15,7 @@ struct alignas(8) BlockHeader {
   uint32_t capacity_bodies;
   uint32_t capacity_contacts;
   uint32_t capacity_assets;
-  uint32_t zero;
+  uint32_t left_out;  ///< of Features::all, what the world's table lacks; 0: nothing
 };
 
 struct alignas(8) WorldState {

@@ -1,0 +1,99 @@
+#pragma once
+#include <detent/shape.h>
+
+/// What a program links. A world calls the code of shapes, of continuous collision and of sleeping through a table that
+/// names only what is asked for, so that the linker drops the rest from the plain library (-Wl,--gc-sections).
+///
+///     create_world(block, bytes, def, assets, world, feature_table<Features::sphere | Features::half_space>);
+///
+/// What is not linked is refused by its status, feature_missing; it never alters what a tick computes.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// Combine with |. Stored in snapshots and recordings: a bit is never reused.
+enum class Features : uint32_t {
+  none = 0,
+  sphere = 1u << static_cast<uint32_t>(ShapeType::sphere),
+  capsule = 1u << static_cast<uint32_t>(ShapeType::capsule),
+  box = 1u << static_cast<uint32_t>(ShapeType::box),
+  half_space = 1u << static_cast<uint32_t>(ShapeType::half_space),
+  cylinder = 1u << static_cast<uint32_t>(ShapeType::cylinder),
+  cone = 1u << static_cast<uint32_t>(ShapeType::cone),
+  hull = 1u << static_cast<uint32_t>(ShapeType::hull),
+  rounding = 1u << 16,    ///< of boxes, cylinders, cones and hulls
+  continuous = 1u << 17,  ///< WorldDef::continuous
+  sleeping = 1u << 18,    ///< WorldDef::sleeping, put_to_sleep()
+  shapes = sphere | capsule | box | half_space | cylinder | cone | hull | rounding,
+  all = shapes | continuous | sleeping,
+};
+constexpr Features operator|(Features a, Features b) {
+  return static_cast<Features>(static_cast<uint32_t>(a) | static_cast<uint32_t>(b));
+}
+constexpr Features operator&(Features a, Features b) {
+  return static_cast<Features>(static_cast<uint32_t>(a) & static_cast<uint32_t>(b));
+}
+/// Those of `a` that are not in `b`.
+constexpr Features without(Features a, Features b) {
+  return static_cast<Features>(static_cast<uint32_t>(a) & ~static_cast<uint32_t>(b));
+}
+constexpr bool contains(Features all, Features some) { return without(some, all) == Features::none; }
+constexpr Features feature_of(ShapeType type) { return static_cast<Features>(1u << static_cast<uint32_t>(type)); }
+
+// The library's own: each is the way into the code of one feature.
+struct ShapeCode;
+struct PairCode;
+struct HalfSpaceCode;
+struct ConvexCode;
+struct HullCode;
+struct ContinuousCode;
+struct SleepingCode;
+extern const ShapeCode k_sphere_code, k_capsule_code, k_box_code, k_half_space_shape_code, k_cylinder_code, k_cone_code,
+    k_hull_shape_code;
+extern const PairCode k_round_pair_code, k_box_round_pair_code, k_box_pair_code;
+extern const HalfSpaceCode k_half_space_code;
+extern const ConvexCode k_convex_code;
+extern const HullCode k_hull_code;
+extern const ContinuousCode k_continuous_code;
+extern const SleepingCode k_sleeping_code;
+
+/// What a world calls, null where it is not linked. Made by feature_table; must outlive its worlds.
+struct FeatureTable {
+  Features features;
+  const ShapeCode *sphere, *capsule, *box, *half_space_shape, *cylinder, *cone, *hull_shape;
+  const PairCode *round_pair, *box_round_pair, *box_pair;
+  const HalfSpaceCode* half_space;
+  const ConvexCode* convex;  ///< pairs of which one is a cylinder, cone, hull or rounded
+  const HullCode* hull;
+  const ContinuousCode* continuous;
+  const SleepingCode* sleeping;
+};
+
+constexpr FeatureTable make_feature_table(Features features) {
+  const auto any = [features](Features some) { return (features & some) != Features::none; };
+  const bool box = any(Features::box), round = any(Features::sphere | Features::capsule);
+  FeatureTable table{};
+  table.features = features & Features::all;
+  if (any(Features::sphere)) table.sphere = &k_sphere_code;
+  if (any(Features::capsule)) table.capsule = &k_capsule_code;
+  if (box) table.box = &k_box_code;
+  if (any(Features::half_space)) table.half_space_shape = &k_half_space_shape_code;
+  if (any(Features::cylinder)) table.cylinder = &k_cylinder_code;
+  if (any(Features::cone)) table.cone = &k_cone_code;
+  if (any(Features::hull)) table.hull_shape = &k_hull_shape_code;
+  if (round) table.round_pair = &k_round_pair_code;
+  if (box && round) table.box_round_pair = &k_box_round_pair_code;
+  if (box) table.box_pair = &k_box_pair_code;
+  if (any(Features::half_space)) table.half_space = &k_half_space_code;
+  if (any(Features::cylinder | Features::cone | Features::hull | Features::rounding)) table.convex = &k_convex_code;
+  if (any(Features::hull)) table.hull = &k_hull_code;
+  if (any(Features::continuous)) table.continuous = &k_continuous_code;
+  if (any(Features::sleeping)) table.sleeping = &k_sleeping_code;
+  return table;
+}
+
+/// The table of these features, for create_world().
+template <Features features>
+inline constexpr FeatureTable feature_table = make_feature_table(features);
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

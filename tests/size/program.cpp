@@ -1,0 +1,104 @@
+#include <detent/recording.h>
+#include <ports/machine.h>
+#include <ports/print.h>
+#include <string.h>
+
+// A minimal program of some features (options.csv): one body of each of their shapes falls onto a plane. It prints what
+// the table of sizes needs beside the linker's figures.
+
+namespace {
+
+using namespace detent;
+
+constexpr Features k_features = DETENT_SIZE_FEATURES;
+constexpr bool k_recording = DETENT_SIZE_RECORDING;
+constexpr bool has(Features feature) { return contains(k_features, feature); }
+
+constexpr Capacity k_capacity = {8, 7, 1};
+constexpr uint32_t k_ticks = 40;
+
+void print_value(const char* name, uint32_t value) {
+  machine_print(name);
+  machine_print(" ");
+  print_decimal(value);
+  machine_print("\n");
+}
+
+#if DETENT_SIZE_WORLD
+WorldStorage<k_capacity> storage;
+
+/// Where a recording goes: nobody keeps it, but it is made. A replay of it ends at once.
+Status forget(void*, const uint8_t*, uint32_t) { return Status::ok; }
+Status nothing(void*, uint8_t*, uint32_t, uint32_t& got) {
+  got = 0;
+  return Status::ok;
+}
+
+template <class Calls>
+bool add(Calls& calls, const Shape& shape, Coord x) {
+  BodyDef def;
+  def.shape = shape;
+  def.position = {x, Coord(0.75), Coord(0.0)};
+  BodyId id;
+  return calls.create_body(def, id) == Status::ok;
+}
+
+/// The world's own calls, named as the recorder's are.
+struct Direct {
+  World& world;
+  Status create_body(const BodyDef& def, BodyId& id) { return detent::create_body(world, def, id); }
+  StepReport step() { return detent::step(world); }
+};
+
+template <class Calls>
+bool run(Calls& calls) {
+  BodyDef ground;
+  ground.type = BodyType::fixed;
+  ground.shape = half_space();
+  BodyId id;
+  bool good = calls.create_body(ground, id) == Status::ok;
+  if constexpr (has(Features::sphere)) good = good && add(calls, sphere(0.5), -3.75) && add(calls, sphere(0.5), -2.5);
+  if constexpr (has(Features::capsule)) good = good && add(calls, capsule(0.25, 0.25), -1.25);
+  if constexpr (has(Features::box)) good = good && add(calls, box({0.25, 0.25, 0.25}), -0.5);
+  if constexpr (has(Features::cylinder)) good = good && add(calls, cylinder(0.25, 0.25), 0.5);
+  if constexpr (has(Features::cone)) good = good && add(calls, cone(0.25, 0.25), 1.5);
+  if constexpr (has(Features::rounding)) good = good && add(calls, rounded(box({0.25, 0.25, 0.25}), 0.125), 2.5);
+  for (uint32_t tick = 0; tick < k_ticks; ++tick) good = good && calls.step().complete();
+  return good;
+}
+
+bool run() {
+  World world;
+  WorldDef def;
+  def.continuous = has(Features::continuous);
+  def.sleeping = has(Features::sleeping);
+  if (storage.create(def, world, {}, feature_table<k_features>) != Status::ok) return false;
+  if constexpr (has(Features::hull)) {
+    if (bind_asset(world, 0) != Status::asset_missing) return false;  // there is none, but its code is linked
+  }
+  bool good = false;
+  if constexpr (k_recording) {
+    uint8_t buffer[k_recording_buffer_bytes];
+    Recorder recorder(world, {forget, nullptr}, buffer, sizeof buffer);
+    good = recorder.begin() == Status::ok && run(recorder) && recorder.end() == Status::ok;
+    Player player({nothing, nullptr}, buffer, sizeof buffer);
+    TickResult result;
+    good = good && player.open() == Status::truncated && player.start(world) == Status::truncated &&
+           player.next_tick(world, result) == Status::truncated;
+  } else {
+    Direct direct = {world};
+    good = run(direct);
+  }
+  return good && get_info(world).contacts != 0 && digest(world) != 0;
+}
+#else
+bool run() { return true; }
+#endif
+
+}  // namespace
+
+int machine_main(int, char**) {
+  const bool good = run();
+  print_value("stack", machine_stack_used());
+  return good ? 0 : 1;
+}
