@@ -50,6 +50,8 @@ struct World {
   AssetTable assets = {};
   ContactEventBuffer contact_events = {};  ///< filled by each step, from its front; none by default
   const FeatureTable* features = nullptr;  ///< what create_world() was given
+  uint32_t lanes =
+      1;  ///< contacts that the solver takes at once, 1 or as many as this machine can: the bits are the same
 };
 
 /// What one step did. Every count is of this step alone.

@@ -28,7 +28,7 @@ inline constexpr int64_t k_factor_max = int64_t{1} << 30;
 inline constexpr int k_mantissa_bits = 27;  ///< of motions: a sum of five stays below 2^30
 inline constexpr int k_number_bits = 28;    ///< of impulses: the sum of four is a factor
 inline constexpr int k_wrench_bits = 28;    ///< of each part of a wrench: so its torque on a body stays below 2^30
-inline constexpr int k_shift_min = 8;       ///< steps finer than 2^-38 are no one's business
+inline constexpr int k_shift_min = 9;       ///< steps finer than 2^-37 are no one's business; beyond k_spin_power
 /// Spins of the solver are kept 2^-8: a slender body's leaves Real's range long before its momentum does.
 inline constexpr int k_spin_power = 8;
 
@@ -44,8 +44,13 @@ class Block {
     const uint64_t all = magnitude_64(v.x.raw) | magnitude_64(v.y.raw) | magnitude_64(v.z.raw);
     if (all != 0) include_bits(bit_length_64(all) + exponent - k_mantissa_bits);
   }
-  /// Makes room for a number.
-  void include(Real value) { include_bits(bit_length_64(magnitude_64(value.raw)) - k_number_bits); }
+  /// Makes room for the first `used` as numbers.
+  template <unsigned count>
+  void include(const Real (&values)[count], uint32_t used) {
+    uint64_t all = 0;
+    for (uint32_t i = 0; i < used; ++i) all |= magnitude_64(values[i].raw);
+    include_bits(bit_length_64(all) - k_number_bits);
+  }
 
   Mantissas mantissas(const Vec3<Real>& v, int exponent) const {
     const int n = shift_ - exponent;
@@ -60,6 +65,12 @@ class Block {
   /// Rounded down.
   Ulps number(Real value) const { return value.raw >> shift_; }
   Real real(Ulps ulps) const { return Real::from_raw(static_cast<int64_t>(static_cast<uint64_t>(ulps) << shift_)); }
+  /// A number of another block times 2^exponent as one of this, held to the range of a factor.
+  Factor converted(Factor ulps, const Block& from, int exponent) const {
+    const int n = from.shift_ + exponent - shift_;
+    if (n < 0) return detent::held(round_shift_64(ulps, n < -63 ? 63 : -n));
+    return detent::held(int64_t{ulps} << (n < 31 ? n : 31));
+  }
   /// v x share 2^exponent.
   Vec3<Real> real(const Mantissas& v, Scaled share, int exponent) const {
     const int64_t x = int64_t{v.x} * share.mantissa, y = int64_t{v.y} * share.mantissa,
@@ -87,6 +98,7 @@ class Block {
 };
 
 inline UlpSum product(Factor a, Unit b) { return int64_t{a} * b.raw; }
+inline UlpSum whole(Factor a) { return int64_t{a} << k_unit_frac; }
 inline Ulps rounded(UlpSum sum) { return round_shift_64(sum, k_unit_frac); }
 inline Ulps times(Factor a, Unit b) { return rounded(product(a, b)); }
 /// a b 2^exponent. Range: exponent < 30.
@@ -135,18 +147,21 @@ inline constexpr int k_spin_power = 0;
 class Block {
  public:
   void include(const Vec3<Real>&, int) {}
-  void include(Real) {}
+  template <unsigned count>
+  void include(const Real (&)[count], uint32_t) {}
   Mantissas mantissas(const Vec3<Real>& v, int) const { return v; }
   Factor held(Real value) const { return value; }
   Ulps number(Real value) const { return value; }
   Real real(Ulps ulps) const { return ulps; }
   Vec3<Real> real(const Mantissas& v, Scaled share, int) const { return {v.x * share, v.y * share, v.z * share}; }
+  Factor converted(Factor value, const Block&, int exponent) const { return scale_by_power(value, exponent); }
   template <unsigned count>
   void coarsen(Ulps (&)[count]) {}
 };
 
 inline Factor held(Ulps a) { return a; }
 inline UlpSum product(Ulps a, Unit b) { return a * b; }
+inline UlpSum whole(Factor a) { return a; }
 inline Ulps rounded(UlpSum sum) { return sum; }
 inline Ulps times(Ulps a, Unit b) { return a * b; }
 inline Ulps times_scaled(Ulps a, Unit b, int) { return a * b; }
@@ -165,6 +180,12 @@ inline void hold_to_circle(Factor (&v)[2], Factor limit) {
 }
 
 #endif
+
+inline bool any(bool mask) { return mask; }
+template <class T>
+T select(bool mask, T a, T b) {
+  return mask ? a : b;
+}
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -7,7 +7,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// Contacts of one colour share no dynamic body. Those that find all colours taken get this one and share freely.
-inline constexpr uint32_t k_colour_overflow = 64;
+inline constexpr uint16_t k_colour_overflow = 64;
 
 /// The order of the solve: contacts are visited by the hash of their bodies' ids (ties by the contacts' own order),
 /// each takes the lowest colour free at both its dynamic bodies, and the result is sorted by (island, colour, hash). It

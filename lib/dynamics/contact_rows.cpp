@@ -93,17 +93,16 @@ void couple(const PairResponse& response, ContactWork& work) {
   Real coupling[k_manifold_points_max][k_manifold_points_max];
   Real most = 1.0;
   for (uint32_t i = 0; i < count; ++i) {
-    ContactPoint& point = work.point[i];
     const auto shows = [&](Part in) {
-      return part(in, k_along_normal) + (part(in, k_about_first) * point.y - part(in, k_about_second) * point.x);
+      return part(in, k_along_normal) + (part(in, k_about_first) * work.y[i] - part(in, k_about_second) * work.x[i]);
     };
     const Real along = shows(k_along_normal), first = shows(k_about_first), second = shows(k_about_second);
     for (uint32_t k = 0; k <= i; ++k) {
-      const Real sum = along + (first * work.point[k].y - second * work.point[k].x);
+      const Real sum = along + (first * work.y[k] - second * work.x[k]);
       coupling[i][k] = coupling[k][i] = sum;
       most = max(most, abs(sum));
     }
-    point.inverse_mass = mass_of(coupling[i][i]);
+    work.inverse_mass[i] = mass_of(coupling[i][i]);
   }
   constexpr int32_t k_most = 29;  // a thin body hit far from its centre; beyond it the sweep converges more slowly
   const int32_t exponent = exponent_for(most);
@@ -204,13 +203,12 @@ Unit place_points(const ContactGeometry& geometry, Vec3<Unit> ContactGeometryPoi
   const Unit share = share_of_points(geometry.count);
   Unit sum = 0.0;  // a quarter of the mean square
   for (uint32_t i = 0; i < k_manifold_points_max; ++i) {
-    ContactPoint& point = work.point[i];
-    point.x = point.y = Unit(0.0);
+    work.x[i] = work.y[i] = work.inverse_mass[i] = Unit(0.0);
     if (i >= geometry.count) continue;
     const Vec3<Unit> offset = geometry.point[i].*arm - middle;
-    point.x = dot(offset, work.tangent[0]);
-    point.y = dot(offset, work.tangent[1]);
-    const Unit x = scale_by_power(point.x, -1), y = scale_by_power(point.y, -1);
+    work.x[i] = dot(offset, work.tangent[0]);
+    work.y[i] = dot(offset, work.tangent[1]);
+    const Unit x = scale_by_power(work.x[i], -1), y = scale_by_power(work.y[i], -1);
     sum += (x * x + y * y) * share;
   }
   return scale_by_power(square_root(max(sum, Unit(0.0))), 1);
@@ -243,13 +241,12 @@ void make_rows(const StepSettings& settings, const RowBody& a, const RowBody& b,
   work.friction_mass[1] = mass_of(own(k_along_second));
 
   const Real pull = gravity_along(settings, b.traits, work.normal) - gravity_along(settings, a.traits, work.normal);
-  const PairMotion motion(Block(), b.motion.velocity - a.motion.velocity, a.spin, b.spin, k_spin_power);
-  const NormalMotion start(motion, work);
+  const PairMotion<One> motion(Block(), b.motion.velocity - a.motion.velocity, a.spin, b.spin, k_spin_power);
+  const NormalMotion<One> start(motion, work);
   for (uint32_t i = 0; i < geometry.count; ++i) {
-    ContactPoint& point = work.point[i];
-    point.separation = geometry.point[i].separation;
-    point.approach = approach_at_touch(motion.block.real(start.at(point)), point.separation, pull);
-    point.impulse_max = Real(0.0);
+    work.separation[i] = geometry.point[i].separation;
+    work.approach[i] = approach_at_touch(motion.block.real(start.at(work, i)), work.separation[i], pull);
+    work.impulse_max[i] = Real(0.0);
   }
   for (int i = 0; i < 2; ++i) work.friction_impulse[i] = dot(work.state.friction_impulse, work.tangent[i]);
 

@@ -205,7 +205,7 @@ struct Stage {
     const ContactWork* contact = find_contact(known.contacts, key);
     if (contact == nullptr) return false;
     bool pushed = false;
-    for (uint32_t i = 0; i < contact->state.point_count; ++i) pushed = pushed || contact->point[i].impulse_max > k_zero;
+    for (uint32_t i = 0; i < contact->state.point_count; ++i) pushed = pushed || contact->impulse_max[i] > k_zero;
     return pushed;
   }
 
@@ -223,8 +223,8 @@ struct Stage {
       apart = known.complete ? scale_by_power(extent, -6) : k_zero;
       return k_zero;
     }
-    Real least = contact->point[0].separation;
-    for (uint32_t i = 1; i < contact->state.point_count; ++i) least = min(least, contact->point[i].separation);
+    Real least = contact->separation[0];
+    for (uint32_t i = 1; i < contact->state.point_count; ++i) least = min(least, contact->separation[i]);
     if (least > scale_by_power(extent, -10)) {
       apart = scale_by_power(least, -1);
       // A ball that the solver has let bounce touches when the tick ends: within a query's tolerance that would be an
@@ -435,8 +435,8 @@ struct Stage {
     bool saturated = false;
     Real depth = k_zero, approach = k_zero;
     for (uint32_t i = 0; i < count; ++i) {
-      depth = max(depth, -contact.point[i].separation);
-      approach = max(approach, -contact.point[i].approach);
+      depth = max(depth, -contact.separation[i]);
+      approach = max(approach, -contact.approach[i]);
     }
     const Real half_in_a_tick = scale_by_power(multiply(depth, tick_rate, saturated), -1);
     if (pair.impacts == 0)

@@ -83,24 +83,22 @@ struct Impact {
 
   const Vec3<Unit>& axis(int i) const { return i == 0 ? contact.normal : contact.tangent[i - 1]; }
   Real velocity(uint32_t i) const {
-    const ContactPoint& point = contact.point[i];
-    return motion[k_along_normal] + (motion[k_about_first] * point.y - motion[k_about_second] * point.x);
+    return motion[k_along_normal] + (motion[k_about_first] * contact.y[i] - motion[k_about_second] * contact.x[i]);
   }
   Real shown(int i, Part k) const { return response.part[response_index(i, k)]; }
 
   void push(uint32_t i) {
-    const ContactPoint& point = contact.point[i];
-    const Real after = max(normal_impulse[i] + (wanted[i] - velocity(i)) * point.inverse_mass, k_zero);
+    const Real after = max(normal_impulse[i] + (wanted[i] - velocity(i)) * contact.inverse_mass[i], k_zero);
     const Real change = after - normal_impulse[i];
     if (change == k_zero) return;
     normal_impulse[i] = after;
     largest = max(largest, abs(change));
     wrench[k_along_normal] += change;
-    wrench[k_about_first] += change * point.y;
-    wrench[k_about_second] -= change * point.x;
+    wrench[k_about_first] += change * contact.y[i];
+    wrench[k_about_second] -= change * contact.x[i];
     for (int k = 0; k < k_parts; ++k) {
       motion[k] += change * (shown(k, k_along_normal) +
-                             (shown(k, k_about_first) * point.y - shown(k, k_about_second) * point.x));
+                             (shown(k, k_about_first) * contact.y[i] - shown(k, k_about_second) * contact.x[i]));
     }
   }
 

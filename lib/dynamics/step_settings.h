@@ -22,6 +22,7 @@ struct StepSettings {
   Scaled substeps_per_rate;  ///< (substeps / contact frequency, rad/s)^2: of contacts between dynamic bodies, s^2
   uint32_t iterations;
   bool sleeping;
+  bool quads;          ///< four contacts at once where they may; the caller's choice, of no consequence for the result
   Real tick_time;      ///< s
   uint32_t substeps;   ///< as set_substeps() has it, like the next three
   Real time;           ///< of a substep, s

@@ -26,7 +26,7 @@ Scaled needed(const StepSettings& settings, const ContactWork& contact, const Bo
               uint32_t run) {
   Scaled stiffness = 0.0;
   for (uint32_t i = 0; i < contact.state.point_count; ++i)
-    stiffness = add(stiffness, scaled_from(contact.point[i].inverse_mass));
+    stiffness = add(stiffness, scaled_from(contact.inverse_mass[i]));
   if (contact.static_pair != 0) stiffness = scaled_by_power(stiffness, 2);  // of twice the frequency
   if (!is_positive(stiffness)) return Scaled(0.0);
   const Scaled extent = scaled_from(min(shape_extent(a), shape_extent(b)));

@@ -1,6 +1,7 @@
 #include "base/digest.h"
 #include "base/float_environment.h"
 #include "dynamics/activity.h"
+#include "dynamics/solve_quads.h"
 #include "geometry/shape_traits.h"
 #include "world/asset_binding.h"
 #include "world/ranges.h"
@@ -182,7 +183,7 @@ Status create_world(uint8_t* block, uint32_t block_bytes, const WorldDef& def, A
   *at_offset<BlockHeader>(block, 0) = {
       k_snapshot_magic,    k_snapshot_format,     k_simulation_version, k_config,
       def.capacity.bodies, def.capacity.contacts, def.capacity.assets,  left_out(features)};
-  world = {block, assets, {}, &features};
+  world = {block, assets, {}, &features, has_quads() ? 4u : 1u};
   WorldState& state = view_of(world).world;
   state.substeps = def.substeps;
   state.substeps_max = def.substeps_max;

@@ -16,15 +16,14 @@ uint64_t key_of(const ContactState& contact) { return pair_key(contact.body_a, c
 Real approach_of(const ContactWork& contact) {
   Real least = k_zero;
   for (uint32_t i = 0; i < contact.state.point_count; ++i) {
-    const ContactPoint& point = contact.point[i];
-    if (point.impulse_max > k_zero) least = min(least, point.approach);
+    if (contact.impulse_max[i] > k_zero) least = min(least, contact.approach[i]);
   }
   return -least;
 }
 
 bool pushes(const ContactWork& contact) {
   bool result = false;
-  for (uint32_t i = 0; i < contact.state.point_count; ++i) result = result || contact.point[i].impulse_max > k_zero;
+  for (uint32_t i = 0; i < contact.state.point_count; ++i) result = result || contact.impulse_max[i] > k_zero;
   return result;
 }
 

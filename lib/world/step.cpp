@@ -106,8 +106,8 @@ uint32_t wake_touched(const StepSettings& settings, const Bodies& bodies, Span<c
 }
 
 Real depth_of(const ContactWork& contact) {
-  Real least = contact.point[0].separation;
-  for (uint32_t i = 1; i < contact.state.point_count; ++i) least = min(least, contact.point[i].separation);
+  Real least = contact.separation[0];
+  for (uint32_t i = 1; i < contact.state.point_count; ++i) least = min(least, contact.separation[i]);
   return -least;
 }
 
@@ -228,7 +228,8 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   const Span<BodyActivity> activities = state.activities.first(used);
   const Span<BodyWork> work = scratch.bodies.first(used);
   const Span<Bounds> bounds = scratch.bounds.first(used);
-  const StepSettings settings = step_settings(state.world);
+  StepSettings settings = step_settings(state.world);
+  settings.quads = world.lanes == 4;
   const Bodies bodies = {poses, traits, motions, activities, work, world.assets, *world.features};
   const SolverBodies solver_bodies = {traits, motions, work};
 

@@ -48,50 +48,51 @@ struct alignas(8) BodyWork {
   Scaled angular_kept;
 };
 
-struct alignas(sizeof(Real)) ContactPoint {
-  Unit x, y;          ///< from the middle of the points along the tangents, in the pair's unit of length
-  Unit inverse_mass;  ///< effective mass over the pair's reference mass, in (0, 1]
-  uint32_t apart;     ///< 1 unless it meets in the substep
-  Real separation;    ///< at the start of the tick, m
-  Real approach;      ///< normal velocity at the start of the tick, m/s; negative when closing
-  Real impulse_max;   ///< largest normal impulse of this tick, m/s
-};
-
 /// A contact during the step. Impulses are over the reference mass: that of the lighter dynamic body. The pair's unit
-/// of length is that of its smaller moving body.
+/// of length is that of its smaller moving body. The solver reads four contacts at once, in fours of words and of
+/// Reals: what a pass over the normals needs lies before what friction needs (lib/dynamics/quad_contact.h).
 struct alignas(8) ContactWork {
   ContactState state;  ///< becomes the world's contact when the step ends
-  Vec3<Unit> normal;   ///< from A to B
+
+  Vec3<Unit> normal;  ///< from A to B
   Vec3<Unit> tangent[2];
-  Vec3<Unit> middle_a, middle_b;  ///< of the points, from each centre of mass, in the body's unit of length
-  Vec3<Unit> lever_a, lever_b;    ///< middle x normal
-  Unit unit_a, unit_b;            ///< the pair's unit of length in the body's
-  Unit response[21];              ///< of the pair's motion to a wrench, by response_index(), 2^-response_exponent
-  int32_t response_exponent;
+  Vec3<Unit> lever_a, lever_b;  ///< middle x normal
+  Unit unit_a, unit_b;          ///< the pair's unit of length in the body's
   Unit coupling[k_manifold_points_max]
                [k_manifold_points_max];  ///< what an impulse at one point adds to the speed at another, 2^-exponent
   int32_t coupling_exponent;
+  // Of the points, from the middle along the tangents, in the pair's unit of length; 0 beyond their count.
+  Unit x[k_manifold_points_max], y[k_manifold_points_max];
+  Unit inverse_mass[k_manifold_points_max];  ///< effective masses over the reference mass, in (0, 1]
+  uint32_t apart[k_manifold_points_max];     ///< 1 unless it meets in the substep
+  uint32_t static_pair;                      ///< 1 if only one of the bodies is dynamic
+  uint32_t angular_rows;                     ///< 0; 1: twist; 3: and rolling
+  Scaled share_a, share_b;                   ///< reference mass / mass; 0 if not dynamic
+
+  Vec3<Unit> middle_a, middle_b;  ///< of the points, from each centre of mass, in the body's unit of length
+  Unit response[21];              ///< of the pair's motion to a wrench, by response_index(), 2^-response_exponent
+  int32_t response_exponent;
   Unit friction_mass[2];  ///< effective masses along the tangents, like those of the points
-  uint32_t angular_rows;  ///< 0; 1: twist; 3: and rolling
-  uint32_t static_pair;   ///< 1 if only one of the bodies is dynamic
-  ContactPoint point[k_manifold_points_max];
-  Real friction_impulse[2];  ///< along the tangents
-  Real angular_impulse[3];   ///< about the normal and the tangents
-  Scaled angular_mass[3];    ///< effective masses about them
-  Scaled share_a, share_b;   ///< reference mass / mass; 0 if not dynamic
   Scaled friction;
+  Scaled twist_arm;        ///< limit of the angular impulse about the normal over the normal impulse
+  Scaled rolling_arm;      ///< likewise about the tangents
+  Scaled angular_mass[3];  ///< effective masses about the normal and the tangents
   Scaled restitution;
-  Scaled twist_arm;    ///< limit of the angular impulse about the normal over the normal impulse
-  Scaled rolling_arm;  ///< likewise about the tangents
-  Real push_max;       ///< largest separating speed of the position correction, m/s
-  Real rebound_min;    ///< approach speed below which nothing rebounds, m/s
+
+  alignas(sizeof(Real)) Real separation[k_manifold_points_max];  ///< at the start of the tick, m
+  Real impulse_max[k_manifold_points_max];                       ///< largest normal impulse of this tick, m/s
+  Real friction_impulse[2];                                      ///< along the tangents
+  Real angular_impulse[3];                                       ///< about the normal and the tangents
+  Real push_max;                         ///< largest separating speed of the position correction, m/s
+  Real rebound_min;                      ///< approach speed below which nothing rebounds, m/s
+  Real approach[k_manifold_points_max];  ///< normal velocity at the start of the tick, m/s; negative when closing
 };
 
 /// Where a contact stands in the order of the solve.
 struct ContactOrder {
   uint32_t key;  ///< hash of the pair's ids
   uint32_t contact;
-  uint32_t colour;
+  uint16_t colour, kind;
   uint32_t island;
 };
 

@@ -1,0 +1,23 @@
+#pragma once
+#include "dynamics/solve.h"
+
+/// The passes of the solver over four contacts at once, where the machine has registers for it. Lane by lane the
+/// operations are those of one contact, so the bits are the same (tests/dynamics/quads_test.cpp).
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+#if DETENT_QUADS
+/// True if this machine can.
+bool has_quads();
+
+/// As the passes of ContactSolver<One>. Range: no dynamic body twice; equal counts of points and of angular rows.
+void soften_quad(const StepSettings& settings, const SolverBodies& bodies, ContactWork* const (&contacts)[4]);
+void relax_quad(const StepSettings& settings, const SolverBodies& bodies, ContactWork* const (&contacts)[4]);
+#else
+constexpr bool has_quads() { return false; }
+inline void soften_quad(const StepSettings&, const SolverBodies&, ContactWork* const (&)[4]) {}
+inline void relax_quad(const StepSettings&, const SolverBodies&, ContactWork* const (&)[4]) {}
+#endif
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent
