@@ -99,7 +99,6 @@ struct Stage {
   const AssetTable& assets;
   const ImpactPairs& known;
   const ImpactBodies& bodies;
-  Span<Bounds> bounds;
   Span<ImpactPair> met;
   Span<ImpactHit> hits;
   ImpactProbe* probe;
@@ -124,11 +123,33 @@ struct Stage {
 
   void set_bounds(uint32_t slot) {
     const BodySweep& sweep = bodies.sweeps[slot];
-    bounds[slot] = bounds_over(bodies.traits[slot], bodies.poses[slot], rest_of(sweep, sweep.from));
+    bodies.bounds[slot] = bounds_over(bodies.traits[slot], bodies.poses[slot], rest_of(sweep, sweep.from));
+  }
+
+  /// The body no longer rests, or not where it did.
+  void leave_rest(uint32_t slot) {
+    bodies.visits.set(slot);
+    if (bodies.resting.has(slot)) bodies.resting.remove(slot);
+  }
+
+  /// Visits the bodies whose bounds overlap those of `slot`, of which one moves, in the order of their slots.
+  template <class Visit>
+  void for_each_near(uint32_t slot, const Visit& visit) {
+    const Bounds box = bodies.bounds[slot];
+    bodies.resting.for_each_near(box, [&](uint32_t other) { bodies.candidates.set(other); });
+    bodies.visits.for_each([&](uint32_t other) {
+      if (overlap(box, bodies.bounds[other])) bodies.candidates.set(other);
+    });
+    bodies.candidates.for_each([&](uint32_t other) {
+      bodies.candidates.clear(other);
+      // What went before may have stopped either.
+      if (other != slot && overlap(bodies.bounds[slot], bodies.bounds[other])) visit(other);
+    });
   }
 
   /// The body's sweep begins anew at `time`, as it was.
   void move_to(uint32_t slot, Fraction time) {
+    leave_rest(slot);
     BodySweep& sweep = bodies.sweeps[slot];
     const bool struck = (sweep.marks & k_mark_struck) != 0;
     sweep.marks |= k_mark_struck;
@@ -147,11 +168,11 @@ struct Stage {
 
   /// Brings the momentum of the bodies that were struck to the end of the tick.
   void carry_to_end() {
-    for (uint32_t slot = 0; slot < bodies.traits.count; ++slot) {
-      if ((bodies.sweeps[slot].marks & k_mark_struck) == 0) continue;
+    bodies.visits.for_each([&](uint32_t slot) {
+      if ((bodies.sweeps[slot].marks & k_mark_struck) == 0) return;
       Vec3<Real>& momentum = bodies.motions[slot].momentum;
       momentum = carried_momentum(bodies.traits[slot], bodies.poses[slot].rotation, end_rotation(slot), momentum);
-    }
+    });
   }
 
   /// The body, which is at `time`, now moves in another way: what was found of it no longer holds.
@@ -305,7 +326,7 @@ struct Stage {
     const uint32_t low = pair_low(key), high = pair_high(key);
     if (!dynamic(low) && !dynamic(high)) return;
     if (is_at_rest(bodies.sweeps[low]) && is_at_rest(bodies.sweeps[high])) return;
-    if (!overlap(bounds[low], bounds[high])) return;
+    if (!overlap(bodies.bounds[low], bodies.bounds[high])) return;
     Real apart = k_zero, closing = k_zero;
     const Real inset = first_inset(key, apart);
     const Fraction start = 0.0;
@@ -319,52 +340,45 @@ struct Stage {
   }
 
   void find_first() {
-    const uint32_t count = bodies.traits.count;
-    for (uint32_t slot = 0; slot < count; ++slot) {
+    bodies.visits.for_each([&](uint32_t slot) {
       BodySweep& sweep = bodies.sweeps[slot];
-      sweep.from = Fraction(0.0);
-      sweep.impacts = sweep.marks = 0;
-      sweep.reach = k_zero;
-      if (bodies.traits[slot].type == 0) continue;
       if (!is_at_rest(sweep)) {
-        const Bounds found_by = bounds[slot];
+        const Bounds found_by = bodies.bounds[slot];
         set_bounds(slot);
         write_down(slot);
-        if (!holds(found_by, bounds[slot])) sweep.marks |= k_mark_strayed;
+        if (!holds(found_by, bodies.bounds[slot])) sweep.marks |= k_mark_strayed;
         if (!motion_bound(body(slot), sweep.from, sweep.reach)) sweep.reach = scale_by_power(k_real_max, -2);
       }
       if (!filters || !known.complete) sweep.marks |= k_mark_strayed;
-    }
+    });
     for (const uint64_t key : known.pairs) test_at_start(key);
-    for (uint32_t a = 0; a < count; ++a) {
-      if ((bodies.sweeps[a].marks & k_mark_strayed) == 0) continue;
-      for (uint32_t b = 0; b < count; ++b) {
-        if (b == a || bodies.traits[b].type == 0 || !overlap(bounds[a], bounds[b])) continue;
-        if (b < a && (bodies.sweeps[b].marks & k_mark_strayed) != 0) continue;
+    bodies.visits.for_each([&](uint32_t a) {
+      if ((bodies.sweeps[a].marks & k_mark_strayed) == 0) return;
+      for_each_near(a, [&](uint32_t b) {
+        if (b < a && (bodies.sweeps[b].marks & k_mark_strayed) != 0) return;
         if (!contains(known.pairs, key_of(a, b))) test_at_start(key_of(a, b));
-      }
-    }
+      });
+    });
   }
 
   /// Tests the new sweep of a body against all others.
   void test_changed(uint32_t slot, Fraction time) {
     bodies.sweeps[slot].marks &= ~k_mark_changed;
     --changed_count;
-    for (uint32_t other = 0; other < bodies.traits.count; ++other) {
-      if (other == slot || bodies.traits[other].type == 0 || !overlap(bounds[slot], bounds[other])) continue;
-      if (is_at_rest(bodies.sweeps[slot]) && is_at_rest(bodies.sweeps[other])) continue;
+    for_each_near(slot, [&](uint32_t other) {
+      if (is_at_rest(bodies.sweeps[slot]) && is_at_rest(bodies.sweeps[other])) return;
       const uint64_t key = key_of(slot, other);
       ImpactPair* entry = find_met(key);
       Real apart = k_zero;
       test(key, time, first_inset(key, apart), entry);
-    }
+    });
   }
 
   void test_all_changed(Fraction time) {
     while (changed_count != 0) {
-      for (uint32_t slot = 0; slot < bodies.traits.count && changed_count != 0; ++slot) {
+      bodies.visits.for_each([&](uint32_t slot) {
         if ((bodies.sweeps[slot].marks & k_mark_changed) != 0) test_changed(slot, time);
-      }
+      });
     }
   }
 
@@ -411,7 +425,7 @@ struct Stage {
   void wake(uint32_t slot) {
     if (bodies.activities[slot].asleep == 0) return;
     bodies.sweeps[slot].marks |= k_mark_slept;
-    report.woke += wake_all_with(slot, bodies.activities);
+    report.woke += wake_all_with(slot, bodies.activities, bodies.visits);
   }
 
   /// The velocity that gravity has yet to give a body after `time`.
@@ -633,13 +647,12 @@ struct Stage {
 }  // namespace
 
 ImpactReport advance_to_impacts(const StepSettings& settings, const AssetTable& assets, const ImpactPairs& pairs,
-                                const ImpactBodies& bodies, Span<Bounds> bounds, Span<ImpactPair> met,
-                                Span<ImpactHit> hits, ImpactProbe* probe) {
+                                const ImpactBodies& bodies, Span<ImpactPair> met, Span<ImpactHit> hits,
+                                ImpactProbe* probe) {
   Stage stage = {settings,
                  assets,
                  pairs,
                  bodies,
-                 bounds,
                  met,
                  hits,
                  probe,

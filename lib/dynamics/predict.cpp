@@ -22,14 +22,12 @@ Real absolute_sum(const Vec3<Real>& v) { return abs(v.x) + abs(v.y) + abs(v.z); 
 
 }  // namespace
 
-void start_bodies(Span<const BodyPose> poses, Span<BodyWork> work) {
+void start_body(const BodyPose& pose, BodyWork& work) {
   const Real zero = 0.0;
   const Vec3<Real> none = {zero, zero, zero};
-  for (uint32_t slot = 0; slot < poses.count; ++slot) {
-    work[slot].rotation = poses[slot].rotation;
-    work[slot].displacement = none;
-    work[slot].turn = none;
-  }
+  work.rotation = pose.rotation;
+  work.displacement = none;
+  work.turn = none;
 }
 
 void predict(const StepSettings& settings, Span<const BodyTraits> traits, Span<const uint32_t> bodies,
@@ -57,11 +55,10 @@ Real speed_bound(const BodyTraits& traits, const Quat& rotation, const BodyMotio
 }
 
 void bound(const StepSettings& settings, Span<const BodyPose> poses, Span<const BodyTraits> traits,
-           Span<const BodyMotion> motions, Span<Bounds> bounds) {
+           Span<const BodyMotion> motions, Span<const uint32_t> bodies, Span<Bounds> bounds) {
   const Vec3<Real> fall = settings.gravity * (settings.tick_time * settings.tick_time);
-  for (uint32_t slot = 0; slot < traits.count; ++slot) {
+  for (const uint32_t slot : bodies) {
     const BodyTraits& body = traits[slot];
-    if (body.type == 0) continue;
     if (static_cast<ShapeType>(body.shape) == ShapeType::half_space) {
       bounds[slot] = k_everywhere;
       continue;

@@ -3,7 +3,7 @@
 #include "base/bytes.h"
 #include "base/float_environment.h"
 #include "world/fields.h"
-#include "world/view.h"
+#include "world/step_cache.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -63,6 +63,7 @@ Status restore(World& world, const uint8_t* bytes, uint32_t byte_count) {
   if (byte_count < layout.persistent_bytes) return Status::truncated;
   memcpy(world.block, bytes, layout.persistent_bytes);
   swap_state(world.block, layout);
+  forget_steps(world);
   return Status::ok;
 }
 
@@ -78,6 +79,7 @@ Status load(World& world, uint8_t* bytes, uint32_t byte_count) {
   swap_state(bytes, layout);
   if (const Status status = check_state(bytes, capacity, world.assets); status != Status::ok) return status;
   memcpy(world.block, bytes, layout.persistent_bytes);
+  forget_steps(world);
   return Status::ok;
 }
 
@@ -119,6 +121,7 @@ Status load_from(World& world, Status (*read)(void* context, uint32_t offset, ui
     const Status emptied = create_world(world.block, layout.bytes, def, world.assets, world);
     return emptied == Status::ok ? status : emptied;
   };
+  forget_steps(world);
   constexpr uint32_t k_piece = 256;
   for (uint32_t offset = 0; offset < layout.persistent_bytes; offset += k_piece) {
     const uint32_t left = layout.persistent_bytes - offset;
