@@ -268,6 +268,58 @@ DETENT_TEST(impact_stage, impacts_without_room_stop_their_bodies_and_are_counted
   for (const BodyId id : balls) EXPECT_LT(lab.motion(id).position[0], 0) << "none passes";
 }
 
+DETENT_TEST(impact_stage, nothing_passes_through_a_wall_for_want_of_room_for_pairs) {
+  uint32_t pairs_dropped = 0, stopped = 0;
+  for (const uint32_t contacts : {0u, 1u, 2u, 5u, 100u}) {
+    for (const bool target_sleeps : {false, true}) {
+      Lab lab({20, contacts, 0}, weightless(), true);
+      lab.add(wall(0));
+      // A heap of bodies within each other takes all room that there is.
+      for (int i = 0; i < 8; ++i) lab.add_box(0.5, -20 + i * 0.05, 20, 0);
+      std::vector<BodyId> shots;
+      for (int i = 0; i < 4; ++i) {
+        BodyDef def = ball(0.05, -4, 500, 0.5);
+        def.position = position(-4, i - 1.5, 0);
+        shots.push_back(lab.add(def));
+      }
+      const BodyId target = lab.add(ball(0.05, -0.5, 0, 0));
+      ASSERT_OK(set_pose(lab.world, target, position(-0.5, 0.5, 0), {0.0, 0.0, 0.0, 1.0}));
+      if (target_sleeps) {
+        ASSERT_OK(put_to_sleep(lab.world, target));
+      }
+      shots.push_back(target);
+      for (int tick = 0; tick < 30; ++tick) {
+        const StepReport report = lab.run(1);
+        pairs_dropped += report.pairs_dropped;
+        stopped += report.bodies_stopped;
+        EXPECT_EQ(report.complete(), report.pairs_dropped == 0 && report.contacts_dropped == 0 &&
+                                         report.contacts_capped == 0 && report.bodies_stopped == 0);
+        EXPECT_LE(report.impacts_dropped == 0 ? 0u : 1u, report.bodies_stopped);
+        for (const BodyId id : shots)
+          ASSERT_LT(lab.motion(id).position[0], 0) << contacts << " contacts, tick " << tick;
+      }
+    }
+  }
+  EXPECT_GT(pairs_dropped, 0u);
+  EXPECT_GT(stopped, 0u);
+}
+
+DETENT_TEST(impact_stage, of_what_sleeps_only_what_is_struck_is_looked_at_and_it_strikes_others_in_turn) {
+  // A row of sleepers, each within reach of the next one's flight alone; the blow passes through all of them in a tick.
+  Lab lab({7, 40, 0}, weightless(), true);
+  std::vector<BodyId> balls;
+  for (int i = 0; i < 6; ++i) balls.push_back(lab.add(ball(0.1, i, 0, 1)));
+  for (const BodyId id : balls) ASSERT_OK(put_to_sleep(lab.world, id));
+  lab.run(2);
+  balls.push_back(lab.add(ball(0.1, -1, 900, 1)));
+  const StepReport report = lab.run(1);
+  EXPECT_EQ(report.impacts, 6u);
+  EXPECT_EQ(report.woke, 6u);
+  EXPECT_TRUE(report.complete());
+  EXPECT_NEAR(lab.motion(balls[5]).velocity[0], 900, 1e-2);
+  EXPECT_EQ(lab.run(1).awake, 7u);
+}
+
 }  // namespace
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent
