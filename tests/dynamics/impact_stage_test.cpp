@@ -295,6 +295,7 @@ DETENT_TEST(impact_stage, nothing_passes_through_a_wall_for_want_of_room_for_pai
         EXPECT_EQ(report.complete(), report.pairs_dropped == 0 && report.contacts_dropped == 0 &&
                                          report.contacts_capped == 0 && report.bodies_stopped == 0);
         EXPECT_LE(report.impacts_dropped == 0 ? 0u : 1u, report.bodies_stopped);
+        ASSERT_LT(lab.motion(shots[2]).position[0], lab.motion(target).position[0]);
         for (const BodyId id : shots)
           ASSERT_LT(lab.motion(id).position[0], 0) << contacts << " contacts, tick " << tick;
       }
@@ -318,6 +319,45 @@ DETENT_TEST(impact_stage, of_what_sleeps_only_what_is_struck_is_looked_at_and_it
   EXPECT_TRUE(report.complete());
   EXPECT_NEAR(lab.motion(balls[5]).velocity[0], 900, 1e-2);
   EXPECT_EQ(lab.run(1).awake, 7u);
+}
+
+DETENT_TEST(impact_stage, a_sleeper_that_is_struck_without_room_is_still_there_in_the_next_tick) {
+  Lab lab({2, 0, 0}, weightless(), true);
+  const BodyId target = lab.add(ball(0.1, 0, 0, 1)), shot = lab.add(ball(0.1, -1, 900, 1));
+  ASSERT_OK(put_to_sleep(lab.world, target));
+  for (int tick = 0; tick < 3; ++tick) {
+    const StepReport report = lab.run(1);
+    EXPECT_EQ(report.bodies_stopped, 2u);
+    EXPECT_EQ(report.impacts_dropped, 1u);
+    EXPECT_FALSE(report.complete());
+    EXPECT_LT(lab.motion(shot).position[0], -0.2);
+    EXPECT_EQ(lab.motion(target).position[0], 0);
+  }
+}
+
+DETENT_TEST(impact_stage, a_stack_that_is_struck_in_its_sleep_goes_on_with_its_contacts) {
+  Lab lab({6, 20, 0}, {}, true);
+  lab.add_ground();
+  for (int i = 0; i < 4; ++i) lab.add_box(0.5, 0, 0.5 + i, 0);
+  lab.run(240);
+  BodyDef shot = ball(0.1, -8, 300, 0);
+  shot.position = position(-8, 3.5, 0);
+  lab.add(shot);
+  uint32_t woke = 0;
+  for (int tick = 0; tick < 60; ++tick) {
+    // No contact can be there twice: load() checks that.
+    std::vector<uint64_t> snapshot = lab.snapshot();
+    Lab other({6, 20, 0});
+    ASSERT_OK(load(other.world, bytes_of(snapshot), byte_count(snapshot)));
+    const StepReport report = lab.run(1);
+    if (woke == 4 && tick < 8) {
+      EXPECT_GE(report.contacts, 3u);
+    }
+    woke += report.woke;
+    other.run(1);
+    ASSERT_EQ(digest(lab.world), digest(other.world)) << "tick " << tick;
+  }
+  EXPECT_EQ(woke, 4u);
 }
 
 }  // namespace
