@@ -33,9 +33,15 @@ struct Grid {
 
 bool is_everywhere(const Bounds& bounds) { return bounds.lower.x == -k_coord_limit && bounds.upper.x == k_coord_limit; }
 
+/// A bit above each of the two coordinates across: it is borrowed from where an upper end lies below a lower one.
+constexpr uint32_t k_across_bits = 15, k_across_guards = 0x80008000;
+
+uint32_t across(uint32_t first, uint32_t second) { return first << (k_across_bits + 1) | second; }
+
 bool are_apart(const BoundsKey& a, const BoundsKey& b) {
-  return a.across_upper[0] < b.across_lower[0] || b.across_upper[0] < a.across_lower[0] ||
-         a.across_upper[1] < b.across_lower[1] || b.across_upper[1] < a.across_lower[1];
+  const uint32_t left = ((a.across_upper | k_across_guards) - b.across_lower) &
+                        ((b.across_upper | k_across_guards) - a.across_lower) & k_across_guards;
+  return left != k_across_guards;
 }
 
 bool is_dynamic_type(const BodyTraits& traits) { return traits.type == static_cast<uint32_t>(BodyType::dynamic); }
@@ -99,7 +105,7 @@ void find_pairs(Span<const uint32_t> moving, const RestingTree& resting, Span<Bo
   grid[0] = grid[widest];
   grid[widest] = swap;
   grid[0].divide(32);
-  for (int i = 1; i < 3; ++i) grid[i].divide(16);
+  for (int i = 1; i < 3; ++i) grid[i].divide(k_across_bits);
 
   uint32_t count = 0, everywhere = 0;
   for (const uint32_t slot : moving) {
@@ -114,13 +120,8 @@ void find_pairs(Span<const uint32_t> moving, const RestingTree& resting, Span<Bo
            grid[0].cell_of(at.upper.*grid[0].axis),
            slot,
            is_dynamic_type(pool.traits[slot]) ? 1u : 0u,
-           {},
-           {}};
-    for (int i = 0; i < 2; ++i) {
-      const Grid& across = grid[i + 1];
-      key.across_lower[i] = static_cast<uint16_t>(across.cell_of(at.lower.*across.axis));
-      key.across_upper[i] = static_cast<uint16_t>(across.cell_of(at.upper.*across.axis));
-    }
+           across(grid[1].cell_of(at.lower.*grid[1].axis), grid[2].cell_of(at.lower.*grid[2].axis)),
+           across(grid[1].cell_of(at.upper.*grid[1].axis), grid[2].cell_of(at.upper.*grid[2].axis))};
   }
 
   for (uint32_t i = 0; i < everywhere; ++i) {

@@ -66,20 +66,19 @@ Bounds bounds_over(const BodyTraits& traits, const BodyPose& pose, const Sweep& 
 
 uint64_t key_of(uint32_t a, uint32_t b) { return a < b ? pair_key(a, b) : pair_key(b, a); }
 
+uint64_t key_of(const ContactState& contact) { return pair_key(contact.body_a, contact.body_b); }
+
 /// The contact of a pair, or none.
 const ContactWork* find_contact(Span<const ContactWork> contacts, uint64_t key) {
   uint32_t low = 0, high = contacts.count;
   while (low < high) {
     const uint32_t middle = low + (high - low) / 2;
-    const ContactState& state = contacts[middle].state;
-    if (pair_key(state.body_a, state.body_b) < key)
+    if (key_of(contacts[middle].state) < key)
       low = middle + 1;
     else
       high = middle;
   }
-  if (low == contacts.count) return nullptr;
-  const ContactState& state = contacts[low].state;
-  return pair_key(state.body_a, state.body_b) == key ? &contacts[low] : nullptr;
+  return low < contacts.count && key_of(contacts[low].state) == key ? &contacts[low] : nullptr;
 }
 
 bool contains(Span<const uint64_t> keys, uint64_t key) {
@@ -234,10 +233,10 @@ struct Stage {
 
   bool is_ball(uint32_t slot) const { return bodies.traits[slot].shape == static_cast<uint32_t>(ShapeType::sphere); }
 
-  /// On which rung of the ladder a pair starts, and by how much at least its inset bodies are apart, m.
-  Real first_inset(uint64_t key, Real& apart) const {
+  /// On which rung of the ladder a pair with this contact, or none, starts, and by how much at least its inset bodies
+  /// are apart, m.
+  Real first_inset(uint64_t key, const ContactWork* contact, Real& apart) const {
     const Real extent = extent_of(key);
-    const ContactWork* contact = known.contacts.count == 0 ? nullptr : find_contact(known.contacts, key);
     if (contact == nullptr) {
       apart = known.complete ? scale_by_power(extent, -6) : k_zero;
       return k_zero;
@@ -322,13 +321,13 @@ struct Stage {
   }
 
   /// Tests a pair from the start of the tick, unless it is sure to be clear.
-  void test_at_start(uint64_t key) {
+  void test_at_start(uint64_t key, const ContactWork* contact) {
     const uint32_t low = pair_low(key), high = pair_high(key);
     if (!dynamic(low) && !dynamic(high)) return;
     if (is_at_rest(bodies.sweeps[low]) && is_at_rest(bodies.sweeps[high])) return;
     if (!overlap(bodies.bounds[low], bodies.bounds[high])) return;
     Real apart = k_zero, closing = k_zero;
-    const Real inset = first_inset(key, apart);
+    const Real inset = first_inset(key, contact, apart);
     const Fraction start = 0.0;
     // The sum of both motions is cheap, and mostly enough.
     const bool slow = bodies.sweeps[low].reach + bodies.sweeps[high].reach < apart;
@@ -351,12 +350,18 @@ struct Stage {
       }
       if (!filters || !known.complete) sweep.marks |= k_mark_strayed;
     });
-    for (const uint64_t key : known.pairs) test_at_start(key);
+    const ContactWork* contact = known.contacts.begin();
+    for (const uint64_t key : known.pairs) {
+      while (contact != known.contacts.end() && key_of(contact->state) < key) ++contact;
+      const bool touches = contact != known.contacts.end() && key_of(contact->state) == key;
+      test_at_start(key, touches ? contact : nullptr);
+    }
     bodies.visits.for_each([&](uint32_t a) {
       if ((bodies.sweeps[a].marks & k_mark_strayed) == 0) return;
       for_each_near(a, [&](uint32_t b) {
         if (b < a && (bodies.sweeps[b].marks & k_mark_strayed) != 0) return;
-        if (!contains(known.pairs, key_of(a, b))) test_at_start(key_of(a, b));
+        const uint64_t key = key_of(a, b);
+        if (!contains(known.pairs, key)) test_at_start(key, find_contact(known.contacts, key));
       });
     });
   }
@@ -370,7 +375,7 @@ struct Stage {
       const uint64_t key = key_of(slot, other);
       ImpactPair* entry = find_met(key);
       Real apart = k_zero;
-      test(key, time, first_inset(key, apart), entry);
+      test(key, time, first_inset(key, find_contact(known.contacts, key), apart), entry);
     });
   }
 

@@ -42,7 +42,7 @@ struct BoundsKey {
   uint32_t lower, upper;  ///< along the axis of the sweep
   uint32_t slot;
   uint32_t is_dynamic;
-  uint16_t across_lower[2], across_upper[2];  ///< along the other two
+  uint32_t across_lower, across_upper;  ///< along the other two, 15 bits each
 };
 
 /// A body during the substeps.
