@@ -2,6 +2,7 @@
 
 #include "base/radix_sort.h"
 #include "collision/bounds_integer.h"
+#include "collision/collide_half_space.h"
 #include "math/bits.h"
 
 namespace detent {
@@ -46,10 +47,39 @@ bool are_apart(const BoundsKey& a, const BoundsKey& b) {
 
 bool is_dynamic_type(const BodyTraits& traits) { return traits.type == static_cast<uint32_t>(BodyType::dynamic); }
 
+bool is_half_space(const BodyTraits& traits) { return static_cast<ShapeType>(traits.shape) == ShapeType::half_space; }
+
+/// A length in steps of a coordinate.
+int64_t steps_of(Real length) {
+#if DETENT_FIXED
+  return length.raw >> (Real::k_frac - Coord::k_frac);
+#else
+  bool saturated = false;
+#if defined(DETENT_F64)
+  return integer_from_float(length, 20, saturated);
+#else
+  return integer_from_float(length, Coord::k_frac, saturated);
+#endif
+#endif
+}
+
+/// How far bounds reach below a half-space's surface; 0 if they do not.
+uint64_t depth_within(const BodyPose& half_space, const Bounds& box) {
+  const Vec3<Unit> up = matrix_from(half_space.rotation).column[1];
+  const Unit zero = 0.0;
+  const Position lowest = {up.x > zero ? box.lower.x : box.upper.x, up.y > zero ? box.lower.y : box.upper.y,
+                           up.z > zero ? box.lower.z : box.upper.z};
+  const int64_t height = steps_of(distance_along(half_space.position, lowest, up));
+  return height < 0 ? static_cast<uint64_t>(-height) : 0;
+}
+
 }  // namespace
 
 uint64_t DeeperPair::depth(uint64_t key) const {
-  const Bounds &a = bounds[pair_low(key)], &b = bounds[pair_high(key)];
+  const uint32_t low = pair_low(key), high = pair_high(key);
+  if (is_half_space(traits[low])) return depth_within(poses[low], bounds[high]);
+  if (is_half_space(traits[high])) return depth_within(poses[high], bounds[low]);
+  const Bounds &a = bounds[low], &b = bounds[high];
   uint64_t least = UINT64_MAX;
   for (const auto axis : k_axes) {
     const int64_t upper_a = integer_from(a.upper.*axis), upper_b = integer_from(b.upper.*axis);

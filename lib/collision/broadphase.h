@@ -14,8 +14,10 @@ constexpr uint32_t pair_low(uint64_t key) { return static_cast<uint32_t>(key >> 
 constexpr uint32_t pair_high(uint64_t key) { return static_cast<uint32_t>(key); }
 
 /// Whether a pair is kept before another: that whose bounds overlap deeper, of equals the lower key. The depth is the
-/// least overlap along an axis, in steps of a coordinate (f64: 2^-20 m).
+/// least overlap along an axis, or how far the bounds reach into a half-space, in steps of a coordinate (f64: 2^-20 m).
 struct DeeperPair {
+  Span<const BodyPose> poses;
+  Span<const BodyTraits> traits;
   Span<const Bounds> bounds;
 
   uint64_t depth(uint64_t key) const;
@@ -29,9 +31,12 @@ struct PairPool {
   Span<uint64_t> spare;  ///< work space as large as the pool
   SmallestOf<uint64_t, DeeperPair> found;
 
-  PairPool(Span<const BodyTraits> body_traits, Span<const Bounds> body_bounds, Span<uint64_t> sort_space,
-           Span<uint64_t> storage)
-      : traits(body_traits), bounds(body_bounds), spare(sort_space), found{storage, {body_bounds}} {}
+  PairPool(Span<const BodyPose> body_poses, Span<const BodyTraits> body_traits, Span<const Bounds> body_bounds,
+           Span<uint64_t> sort_space, Span<uint64_t> storage)
+      : traits(body_traits),
+        bounds(body_bounds),
+        spare(sort_space),
+        found{storage, {body_poses, body_traits, body_bounds}} {}
 
   /// The pairs that are kept, once sorted by key.
   Span<const uint64_t> pairs() const { return found.storage.first(found.count); }

@@ -253,7 +253,7 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   const SolverBodies solver_bodies = {traits, motions, work};
 
   Span<const uint32_t> moving = sort_out(cache, settings, state, scratch.sweeps, scratch.moving_bodies);
-  PairPool pool = {traits, cache.bounds, scratch.pair_sort, scratch.pairs};
+  PairPool pool = {poses, traits, cache.bounds, scratch.pair_sort, scratch.pairs};
   find_pairs(moving, cache.tree, scratch.bounds_keys, scratch.bounds_sort, pool);
   pool.sort();
   report.woke = wake_touched(settings, bodies, cache, pool);

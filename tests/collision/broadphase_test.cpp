@@ -119,8 +119,11 @@ Found found_in(const Crowd& crowd, const RestingTree& tree, uint32_t capacity) {
   for (uint32_t slot = 0; slot < count; ++slot) {
     if (crowd.traits[slot].type != 0 && !crowd.rests[slot]) moving.push_back(slot);
   }
-  PairPool pool = {
-      {crowd.traits.data(), count}, {crowd.bounds.data(), count}, {spare.data(), capacity}, {keys.data(), capacity}};
+  PairPool pool = {{},
+                   {crowd.traits.data(), count},
+                   {crowd.bounds.data(), count},
+                   {spare.data(), capacity},
+                   {keys.data(), capacity}};
   find_pairs({moving.data(), static_cast<uint32_t>(moving.size())}, tree, {bounds_keys.data(), count},
              {bounds_spare.data(), count}, pool);
   pool.sort();
@@ -172,8 +175,11 @@ DETENT_TEST(broadphase, pairs_found_after_sorting_are_kept_by_depth_alike) {
     const std::vector<uint64_t> right = all_pairs(crowd);
     const uint32_t count = 100, capacity = static_cast<uint32_t>(right.size() / 3);
     std::vector<uint64_t> keys(capacity), spare(capacity);
-    PairPool pool = {
-        {crowd.traits.data(), count}, {crowd.bounds.data(), count}, {spare.data(), capacity}, {keys.data(), capacity}};
+    PairPool pool = {{},
+                     {crowd.traits.data(), count},
+                     {crowd.bounds.data(), count},
+                     {spare.data(), capacity},
+                     {keys.data(), capacity}};
     for (const uint64_t key : right) {
       pool.consider(pair_high(key), pair_low(key));
       if (samples.below(10) != 0) continue;

@@ -91,7 +91,7 @@ std::vector<uint64_t> pairs_of_next_step(World world) {
   std::vector<uint64_t> pairs(20000), pairs_spare(20000);
   const Span<const uint32_t> moving = sort_out(cache, step_settings(state.world), state,
                                                {sweeps.data(), capacity.bodies}, {slots.data(), capacity.bodies});
-  PairPool pool = {state.traits, cache.bounds, {pairs_spare.data(), 20000}, {pairs.data(), 20000}};
+  PairPool pool = {state.poses, state.traits, cache.bounds, {pairs_spare.data(), 20000}, {pairs.data(), 20000}};
   find_pairs(moving, cache.tree, {keys.data(), capacity.bodies}, {keys_spare.data(), capacity.bodies}, pool);
   pool.sort();
   return {pool.pairs().begin(), pool.pairs().end()};
