@@ -131,14 +131,19 @@ struct Stage {
     if (bodies.resting.has(slot)) bodies.resting.remove(slot);
   }
 
-  /// Visits the bodies whose bounds overlap those of `slot`, of which one moves, in the order of their slots.
-  template <class Visit>
-  void for_each_near(uint32_t slot, const Visit& visit) {
-    const Bounds box = bodies.bounds[slot];
+  /// Makes candidates of all bodies whose bounds overlap those of `slot`.
+  __attribute__((noinline)) void find_near(uint32_t slot) {
+    const Bounds& box = bodies.bounds[slot];
     bodies.resting.for_each_near(box, [&](uint32_t other) { bodies.candidates.set(other); });
     bodies.visits.for_each([&](uint32_t other) {
       if (overlap(box, bodies.bounds[other])) bodies.candidates.set(other);
     });
+  }
+
+  /// Visits all other bodies whose bounds overlap those of `slot`, in the order of their slots.
+  template <class Visit>
+  void for_each_near(uint32_t slot, const Visit& visit) {
+    find_near(slot);
     bodies.candidates.for_each([&](uint32_t other) {
       bodies.candidates.clear(other);
       // What went before may have stopped either.
