@@ -64,15 +64,16 @@ struct StepReport {
   uint32_t fell_asleep = 0;       ///< bodies, at the end of the step
   uint32_t woke = 0;              ///< bodies that were touched
   uint64_t contact_substeps = 0;  ///< contacts times their islands' substeps: the work of the solver
-  uint32_t pairs = 0;             ///< pairs of overlapping bounds
+  uint32_t pairs = 0;             ///< pairs of overlapping bounds of which a body moves
   uint32_t contacts = 0;          ///< pairs with at least one contact point
   uint32_t contact_points = 0;
   uint32_t contacts_capped = 0;  ///< found by a search that met its cap (the normal may not be the least way out), or
                                  ///< not found for want of a hull's bytes
   uint32_t contact_events = 0;   ///< in the world's buffer
   uint32_t contact_events_dropped = 0;  ///< beyond its capacity; not counted where there is no buffer
-  uint32_t pairs_dropped = 0;  ///< pairs beyond the pair buffer (the largest keys): their contacts are lost this tick
-  uint32_t contacts_dropped = 0;   ///< contacts beyond the capacity (the largest keys), lost this tick
+  uint32_t pairs_dropped = 0;  ///< pairs beyond the pair buffer (the shallowest): their contacts are lost this tick, but
+                               ///< continuous collision tries them all
+  uint32_t contacts_dropped = 0;   ///< contacts beyond the capacity (the shallowest), lost this tick
   uint32_t saturations = 0;        ///< state components clamped to their range
   uint32_t impacts = 0;            ///< times at which bodies met within the tick and were made to part
   uint32_t impacts_undecided = 0;  ///< times of impact found in part, or that could not be asked for

@@ -1,8 +1,10 @@
 #pragma once
-#include <detent/detail/scratch.h>
-
+#include "base/heap.h"
 #include "base/span.h"
+#include "collision/resting_tree.h"
 
+/// Which bodies are near each other. Those that move are sorted and swept among themselves; each of them asks the tree
+/// of those that rest.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -11,16 +13,50 @@ constexpr uint64_t pair_key(uint32_t low, uint32_t high) { return (uint64_t{low}
 constexpr uint32_t pair_low(uint64_t key) { return static_cast<uint32_t>(key >> 32); }
 constexpr uint32_t pair_high(uint64_t key) { return static_cast<uint32_t>(key); }
 
-struct PairCount {
-  uint32_t kept;
-  uint32_t dropped;  ///< pairs beyond the span: those with the largest keys
+/// Whether a pair is kept before another: that whose bounds overlap deeper, of equals the lower key. The depth is the
+/// least overlap along an axis, or how far the bounds reach into a half-space, in steps of a coordinate (f64: 2^-20 m).
+struct DeeperPair {
+  Span<const BodyPose> poses;
+  Span<const BodyTraits> traits;
+  Span<const Bounds> bounds;
+
+  uint64_t depth(uint64_t key) const;
+  bool operator()(uint64_t a, uint64_t b) const;
 };
 
-/// All pairs of live bodies, one of them dynamic, whose bounds overlap, sorted by key. Sort and sweep along the axis in
-/// which the bodies lie farthest apart: O(n + the pairs that overlap in it). `keys` and `spare` are work space for as
-/// many bodies as there are alive, `pair_spare` for as many pairs as `pairs`.
-PairCount find_pairs(Span<const BodyTraits> traits, Span<const Bounds> bounds, Span<BoundsKey> keys,
-                     Span<BoundsKey> spare, Span<uint64_t> pair_spare, Span<uint64_t> pairs);
+/// The pairs of a step. Where there are more than it has room for the deepest are kept, in whatever order they come.
+struct PairPool {
+  Span<const BodyTraits> traits;
+  Span<const Bounds> bounds;
+  Span<uint64_t> spare;  ///< work space as large as the pool
+  SmallestOf<uint64_t, DeeperPair> found;
+
+  PairPool(Span<const BodyPose> body_poses, Span<const BodyTraits> body_traits, Span<const Bounds> body_bounds,
+           Span<uint64_t> sort_space, Span<uint64_t> storage)
+      : traits(body_traits),
+        bounds(body_bounds),
+        spare(sort_space),
+        found{storage, {body_poses, body_traits, body_bounds}} {}
+
+  /// The pairs that are kept, once sorted by key.
+  Span<const uint64_t> pairs() const { return found.storage.first(found.count); }
+  uint32_t dropped() const { return found.dropped; }
+
+  /// Takes the pair if one of the two is dynamic and their bounds overlap.
+  void consider(uint32_t a, uint32_t b);
+  void sort();
+  /// Between sort() and the next pairs.
+  void go_on();
+};
+
+/// Finds all pairs of moving bodies with each other and with those in the tree. Sort and sweep along the axis in which
+/// they lie farthest apart: O(n + the pairs that overlap in it). `keys` and `spare` are work space for as many bodies
+/// as move.
+void find_pairs(Span<const uint32_t> moving, const RestingTree& resting, Span<BoundsKey> keys, Span<BoundsKey> spare,
+                PairPool& pool);
+
+/// Finds all pairs of a body with those in the tree.
+void find_resting_near(uint32_t slot, const RestingTree& resting, PairPool& pool);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -17,14 +17,16 @@ bool is_moving(const BodyTraits& traits, const BodyMotion& motion, const BodyAct
   return type_of(traits) == BodyType::kinematic && !(motion.velocity == k_still && motion.momentum == k_still);
 }
 
-uint32_t wake_all_with(uint32_t slot, Span<BodyActivity> activities) {
+uint32_t wake_all_with(uint32_t slot, Span<BodyActivity> activities, BitSet visits) {
   const uint32_t group = activities[slot].asleep;
   if (group == 0) return 0;
   uint32_t count = 0;
-  for (BodyActivity& activity : activities) {
+  for (uint32_t other = 0; other < activities.count; ++other) {
+    BodyActivity& activity = activities[other];
     if (activity.asleep != group) continue;
     activity.asleep = 0;
     activity.still_ticks = 0;
+    visits.set(other);
     ++count;
   }
   return count;

@@ -2,7 +2,7 @@
 #include <detent/detail/scratch.h>
 #include <detent/features.h>
 
-#include "base/span.h"
+#include "base/bit_set.h"
 #include "dynamics/spin.h"
 #include "dynamics/step_settings.h"
 
@@ -19,8 +19,8 @@ inline bool is_awake(const BodyTraits& traits, const BodyActivity& activity) {
 /// A body that moves, or may be moved, in this step: an awake dynamic one, or a kinematic one that has a velocity.
 bool is_moving(const BodyTraits& traits, const BodyMotion& motion, const BodyActivity& activity);
 
-/// Wakes all bodies that fell asleep with the one in `slot`. Returns how many.
-uint32_t wake_all_with(uint32_t slot, Span<BodyActivity> activities);
+/// Wakes all bodies that fell asleep with the one in `slot`, and sets their bits in `visits`. Returns how many.
+uint32_t wake_all_with(uint32_t slot, Span<BodyActivity> activities, BitSet visits);
 
 /// Counts the ticks that each body has been at rest, and puts islands of which all bodies have been for k_still_ticks
 /// to sleep: they stop. Returns how many bodies fell asleep.

@@ -28,20 +28,18 @@ uint32_t hold_speeds(const BodyTraits& traits, const Quat& rotation, BodyMotion&
   return clamped;
 }
 
-uint32_t make_sweeps(Span<const BodyTraits> traits, Span<const BodyWork> work, Span<const BodyPose> poses,
-                     Span<BodySweep> sweeps) {
+uint32_t make_sweeps(Span<const uint32_t> slots, Span<const BodyTraits> traits, Span<const BodyWork> work,
+                     Span<const BodyPose> poses, Span<BodySweep> sweeps) {
   uint32_t clamped = 0;
-  for (uint32_t slot = 0; slot < traits.count; ++slot) {
-    const BodyTraits& body = traits[slot];
-    sweeps[slot] = {};
-    if (body.type == 0 || type_of(body) == BodyType::fixed) continue;
+  for (const uint32_t slot : slots) {
     const BodyWork& now = work[slot];
     bool turns_clamped = false;
-    const int exponent = body.size_exponent;
+    const int exponent = traits[slot].size_exponent;
     const Vec3<Real> turn = {angle_of(now.turn.x, exponent, turns_clamped),
                              angle_of(now.turn.y, exponent, turns_clamped),
                              angle_of(now.turn.z, exponent, turns_clamped)};
     const Sweep sweep = sweep_between(poses[slot].rotation, now.rotation, now.displacement, turn);
+    sweeps[slot] = {};
     sweeps[slot].displacement = sweep.displacement;
     sweeps[slot].turn = sweep.turn;
     clamped += turns_clamped ? 1 : 0;
@@ -49,32 +47,42 @@ uint32_t make_sweeps(Span<const BodyTraits> traits, Span<const BodyWork> work, S
   return clamped;
 }
 
-uint32_t finalise(Span<const BodyTraits> traits, Span<const BodySweep> sweeps, Span<BodyPose> poses,
-                  Span<BodyMotion> motions) {
-  uint32_t clamped = 0;
-  for (uint32_t slot = 0; slot < traits.count; ++slot) {
-    const BodyTraits& body = traits[slot];
-    if (body.type == 0 || type_of(body) == BodyType::fixed) continue;
-    BodyPose& pose = poses[slot];
-    const Sweep rest = rest_of_tick(sweeps[slot]);
-    pose.rotation = sweep_end_rotation(pose.rotation, rest);
-    clamped += sweep_end_position(pose, rest);
-    if (is_dynamic(body)) clamped += hold_speeds(body, pose.rotation, motions[slot]);
-  }
-  return clamped;
+uint32_t finalise(const BodyTraits& traits, const BodySweep& sweep, BodyPose& pose, BodyMotion& motion) {
+  const Sweep rest = rest_of_tick(sweep);
+  pose.rotation = sweep_end_rotation(pose.rotation, rest);
+  const uint32_t clamped = sweep_end_position(pose, rest);
+  return is_dynamic(traits) ? clamped + hold_speeds(traits, pose.rotation, motion) : clamped;
 }
 
-void store_contacts(Span<const ContactWork> work, uint32_t sleeping, uint32_t before, Span<ContactState> contacts) {
+void store_contacts(Span<const ContactWork> work, uint32_t awake_count, uint32_t before, Span<ContactState> contacts,
+                    Span<uint32_t> awake) {
   const auto precedes = [](const ContactState& a, const ContactState& b) {
     return a.body_a < b.body_a || (a.body_a == b.body_a && a.body_b < b.body_b);
   };
-  const uint32_t count = sleeping + work.count;
+  // Up to the first that is new or gone each goes where it was.
+  uint32_t same = 0;
+  for (; same < work.count && same < awake_count; ++same) {
+    const ContactState& state = work[same].state;
+    ContactState& place = contacts[awake[same]];
+    if (place.body_a != state.body_a || place.body_b != state.body_b) break;
+    place = state;
+  }
+  // Those that sleep close ranks, from where the first of the others was.
+  uint32_t kept = same < awake_count ? awake[same] : before;
+  for (uint32_t i = same; i < awake_count; ++i) {
+    const uint32_t end = i + 1 < awake_count ? awake[i + 1] : before;
+    for (uint32_t place = awake[i] + 1; place < end; ++place) contacts[kept++] = contacts[place];
+  }
+  const uint32_t count = kept + (work.count - same);
   uint32_t left = work.count;
-  for (uint32_t place = count; left > 0; --place) {
+  for (uint32_t place = count; left > same; --place) {
     const ContactState& state = work[left - 1].state;
-    const bool sleeps = sleeping > 0 && precedes(state, contacts[sleeping - 1]);
-    contacts[place - 1] = sleeps ? contacts[--sleeping] : state;
-    left -= sleeps ? 0 : 1;
+    if (kept > 0 && precedes(state, contacts[kept - 1])) {
+      contacts[place - 1] = contacts[--kept];
+      continue;
+    }
+    contacts[place - 1] = state;
+    awake[--left] = place - 1;
   }
   for (uint32_t i = count; i < before; ++i) contacts[i] = ContactState{};
 }

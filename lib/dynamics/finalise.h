@@ -7,10 +7,10 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Each body's sweep of the tick, from its start to where the substeps brought it. Returns the number of components
-/// that were clamped.
-uint32_t make_sweeps(Span<const BodyTraits> traits, Span<const BodyWork> work, Span<const BodyPose> poses,
-                     Span<BodySweep> sweeps);
+/// The sweep of the tick of each of `slots`, from its start to where the substeps brought it. Returns the number of
+/// components that were clamped.
+uint32_t make_sweeps(Span<const uint32_t> slots, Span<const BodyTraits> traits, Span<const BodyWork> work,
+                     Span<const BodyPose> poses, Span<BodySweep> sweeps);
 
 /// What of a body's sweep is left when it begins.
 inline Sweep rest_of_tick(const BodySweep& sweep) {
@@ -18,17 +18,18 @@ inline Sweep rest_of_tick(const BodySweep& sweep) {
   return sweep.from.raw == 0 ? whole : sweep_part(whole, k_whole_step - sweep.from);
 }
 
-/// Ends the tick: each body's pose at the end of its sweep, and its velocities held to their range. Returns the number
-/// of components that were clamped.
-uint32_t finalise(Span<const BodyTraits> traits, Span<const BodySweep> sweeps, Span<BodyPose> poses,
-                  Span<BodyMotion> motions);
+/// Ends the tick of a body that may have moved: its pose is that of the end of its sweep, and its velocities are held
+/// to their range. Returns the number of components that were clamped.
+uint32_t finalise(const BodyTraits& traits, const BodySweep& sweep, BodyPose& pose, BodyMotion& motion);
 
 /// Holds velocity to k_speed_max and spin to k_spin_max. Returns the number of components clamped.
 uint32_t hold_speeds(const BodyTraits& traits, const Quat& rotation, BodyMotion& motion);
 
-/// Puts the contacts of this tick among those that sleep, the first `sleeping` of `contacts`; both are sorted. There
-/// were `before` in the last tick: places no longer needed become zero.
-void store_contacts(Span<const ContactWork> work, uint32_t sleeping, uint32_t before, Span<ContactState> contacts);
+/// Puts the contacts of this tick in the place of those of the last one that are listed in `awake`; all are sorted, and
+/// the others, which sleep, stay. There were `before` in all: places no longer needed become zero. `awake` then lists
+/// the new ones, and must have room for them.
+void store_contacts(Span<const ContactWork> work, uint32_t awake_count, uint32_t before, Span<ContactState> contacts,
+                    Span<uint32_t> awake);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

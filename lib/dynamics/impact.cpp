@@ -67,20 +67,19 @@ Bounds bounds_over(const BodyTraits& traits, const BodyPose& pose, const Sweep& 
 
 uint64_t key_of(uint32_t a, uint32_t b) { return a < b ? pair_key(a, b) : pair_key(b, a); }
 
+uint64_t key_of(const ContactState& contact) { return pair_key(contact.body_a, contact.body_b); }
+
 /// The contact of a pair, or none.
 const ContactWork* find_contact(Span<const ContactWork> contacts, uint64_t key) {
   uint32_t low = 0, high = contacts.count;
   while (low < high) {
     const uint32_t middle = low + (high - low) / 2;
-    const ContactState& state = contacts[middle].state;
-    if (pair_key(state.body_a, state.body_b) < key)
+    if (key_of(contacts[middle].state) < key)
       low = middle + 1;
     else
       high = middle;
   }
-  if (low == contacts.count) return nullptr;
-  const ContactState& state = contacts[low].state;
-  return pair_key(state.body_a, state.body_b) == key ? &contacts[low] : nullptr;
+  return low < contacts.count && key_of(contacts[low].state) == key ? &contacts[low] : nullptr;
 }
 
 bool contains(Span<const uint64_t> keys, uint64_t key) {
@@ -101,7 +100,6 @@ struct Stage {
   const FeatureTable& features;
   const ImpactPairs& known;
   const ImpactBodies& bodies;
-  Span<Bounds> bounds;
   Span<ImpactPair> met;
   Span<ImpactHit> hits;
   ImpactProbe* probe;
@@ -126,11 +124,38 @@ struct Stage {
 
   void set_bounds(uint32_t slot) {
     const BodySweep& sweep = bodies.sweeps[slot];
-    bounds[slot] = bounds_over(bodies.traits[slot], bodies.poses[slot], rest_of(sweep, sweep.from));
+    bodies.bounds[slot] = bounds_over(bodies.traits[slot], bodies.poses[slot], rest_of(sweep, sweep.from));
+  }
+
+  /// The body no longer rests, or not where it did.
+  void leave_rest(uint32_t slot) {
+    bodies.visits.set(slot);
+    if (bodies.resting.has(slot)) bodies.resting.remove(slot);
+  }
+
+  /// Makes candidates of all bodies whose bounds overlap those of `slot`.
+  __attribute__((noinline)) void find_near(uint32_t slot) {
+    const Bounds& box = bodies.bounds[slot];
+    bodies.resting.for_each_near(box, [&](uint32_t other) { bodies.candidates.set(other); });
+    bodies.visits.for_each([&](uint32_t other) {
+      if (overlap(box, bodies.bounds[other])) bodies.candidates.set(other);
+    });
+  }
+
+  /// Visits all other bodies whose bounds overlap those of `slot`, in the order of their slots.
+  template <class Visit>
+  void for_each_near(uint32_t slot, const Visit& visit) {
+    find_near(slot);
+    bodies.candidates.for_each([&](uint32_t other) {
+      bodies.candidates.clear(other);
+      // What went before may have stopped either.
+      if (other != slot && overlap(bodies.bounds[slot], bodies.bounds[other])) visit(other);
+    });
   }
 
   /// The body's sweep begins anew at `time`, as it was.
   void move_to(uint32_t slot, Fraction time) {
+    leave_rest(slot);
     BodySweep& sweep = bodies.sweeps[slot];
     const bool struck = (sweep.marks & k_mark_struck) != 0;
     sweep.marks |= k_mark_struck;
@@ -149,11 +174,11 @@ struct Stage {
 
   /// Brings the momentum of the bodies that were struck to the end of the tick.
   void carry_to_end() {
-    for (uint32_t slot = 0; slot < bodies.traits.count; ++slot) {
-      if ((bodies.sweeps[slot].marks & k_mark_struck) == 0) continue;
+    bodies.visits.for_each([&](uint32_t slot) {
+      if ((bodies.sweeps[slot].marks & k_mark_struck) == 0) return;
       Vec3<Real>& momentum = bodies.motions[slot].momentum;
       momentum = carried_momentum(bodies.traits[slot], bodies.poses[slot].rotation, end_rotation(slot), momentum);
-    }
+    });
   }
 
   /// The body, which is at `time`, now moves in another way: what was found of it no longer holds.
@@ -215,10 +240,10 @@ struct Stage {
 
   bool is_ball(uint32_t slot) const { return bodies.traits[slot].shape == static_cast<uint32_t>(ShapeType::sphere); }
 
-  /// On which rung of the ladder a pair starts, and by how much at least its inset bodies are apart, m.
-  Real first_inset(uint64_t key, Real& apart) const {
+  /// On which rung of the ladder a pair with this contact, or none, starts, and by how much at least its inset bodies
+  /// are apart, m.
+  Real first_inset(uint64_t key, const ContactWork* contact, Real& apart) const {
     const Real extent = extent_of(key);
-    const ContactWork* contact = known.contacts.count == 0 ? nullptr : find_contact(known.contacts, key);
     if (contact == nullptr) {
       apart = known.complete ? scale_by_power(extent, -6) : k_zero;
       return k_zero;
@@ -303,13 +328,13 @@ struct Stage {
   }
 
   /// Tests a pair from the start of the tick, unless it is sure to be clear.
-  void test_at_start(uint64_t key) {
+  void test_at_start(uint64_t key, const ContactWork* contact) {
     const uint32_t low = pair_low(key), high = pair_high(key);
     if (!dynamic(low) && !dynamic(high)) return;
     if (is_at_rest(bodies.sweeps[low]) && is_at_rest(bodies.sweeps[high])) return;
-    if (!overlap(bounds[low], bounds[high])) return;
+    if (!overlap(bodies.bounds[low], bodies.bounds[high])) return;
     Real apart = k_zero, closing = k_zero;
-    const Real inset = first_inset(key, apart);
+    const Real inset = first_inset(key, contact, apart);
     const Fraction start = 0.0;
     // The sum of both motions is cheap, and mostly enough.
     const bool slow = bodies.sweeps[low].reach + bodies.sweeps[high].reach < apart;
@@ -321,52 +346,51 @@ struct Stage {
   }
 
   void find_first() {
-    const uint32_t count = bodies.traits.count;
-    for (uint32_t slot = 0; slot < count; ++slot) {
+    bodies.visits.for_each([&](uint32_t slot) {
       BodySweep& sweep = bodies.sweeps[slot];
-      sweep.from = Fraction(0.0);
-      sweep.impacts = sweep.marks = 0;
-      sweep.reach = k_zero;
-      if (bodies.traits[slot].type == 0) continue;
       if (!is_at_rest(sweep)) {
-        const Bounds found_by = bounds[slot];
+        const Bounds found_by = bodies.bounds[slot];
         set_bounds(slot);
         write_down(slot);
-        if (!holds(found_by, bounds[slot])) sweep.marks |= k_mark_strayed;
+        if (!holds(found_by, bodies.bounds[slot])) sweep.marks |= k_mark_strayed;
         if (!motion_bound(body(slot), sweep.from, sweep.reach)) sweep.reach = scale_by_power(k_real_max, -2);
       }
       if (!filters || !known.complete) sweep.marks |= k_mark_strayed;
+    });
+    const ContactWork* contact = known.contacts.begin();
+    for (const uint64_t key : known.pairs) {
+      while (contact != known.contacts.end() && key_of(contact->state) < key) ++contact;
+      const bool touches = contact != known.contacts.end() && key_of(contact->state) == key;
+      test_at_start(key, touches ? contact : nullptr);
     }
-    for (const uint64_t key : known.pairs) test_at_start(key);
-    for (uint32_t a = 0; a < count; ++a) {
-      if ((bodies.sweeps[a].marks & k_mark_strayed) == 0) continue;
-      for (uint32_t b = 0; b < count; ++b) {
-        if (b == a || bodies.traits[b].type == 0 || !overlap(bounds[a], bounds[b])) continue;
-        if (b < a && (bodies.sweeps[b].marks & k_mark_strayed) != 0) continue;
-        if (!contains(known.pairs, key_of(a, b))) test_at_start(key_of(a, b));
-      }
-    }
+    bodies.visits.for_each([&](uint32_t a) {
+      if ((bodies.sweeps[a].marks & k_mark_strayed) == 0) return;
+      for_each_near(a, [&](uint32_t b) {
+        if (b < a && (bodies.sweeps[b].marks & k_mark_strayed) != 0) return;
+        const uint64_t key = key_of(a, b);
+        if (!contains(known.pairs, key)) test_at_start(key, find_contact(known.contacts, key));
+      });
+    });
   }
 
   /// Tests the new sweep of a body against all others.
   void test_changed(uint32_t slot, Fraction time) {
     bodies.sweeps[slot].marks &= ~k_mark_changed;
     --changed_count;
-    for (uint32_t other = 0; other < bodies.traits.count; ++other) {
-      if (other == slot || bodies.traits[other].type == 0 || !overlap(bounds[slot], bounds[other])) continue;
-      if (is_at_rest(bodies.sweeps[slot]) && is_at_rest(bodies.sweeps[other])) continue;
+    for_each_near(slot, [&](uint32_t other) {
+      if (is_at_rest(bodies.sweeps[slot]) && is_at_rest(bodies.sweeps[other])) return;
       const uint64_t key = key_of(slot, other);
       ImpactPair* entry = find_met(key);
       Real apart = k_zero;
-      test(key, time, first_inset(key, apart), entry);
-    }
+      test(key, time, first_inset(key, find_contact(known.contacts, key), apart), entry);
+    });
   }
 
   void test_all_changed(Fraction time) {
     while (changed_count != 0) {
-      for (uint32_t slot = 0; slot < bodies.traits.count && changed_count != 0; ++slot) {
+      bodies.visits.for_each([&](uint32_t slot) {
         if ((bodies.sweeps[slot].marks & k_mark_changed) != 0) test_changed(slot, time);
-      }
+      });
     }
   }
 
@@ -413,7 +437,7 @@ struct Stage {
   void wake(uint32_t slot) {
     if (bodies.activities[slot].asleep == 0) return;
     bodies.sweeps[slot].marks |= k_mark_slept;
-    report.woke += wake_all_with(slot, bodies.activities);
+    report.woke += wake_all_with(slot, bodies.activities, bodies.visits);
   }
 
   /// The velocity that gravity has yet to give a body after `time`.
@@ -646,14 +670,13 @@ struct Stage {
 }  // namespace
 
 ImpactReport advance_to_impacts(const StepSettings& settings, const AssetTable& assets, const FeatureTable& features,
-                                const ImpactPairs& pairs, const ImpactBodies& bodies, Span<Bounds> bounds,
-                                Span<ImpactPair> met, Span<ImpactHit> hits, ImpactProbe* probe) {
+                                const ImpactPairs& pairs, const ImpactBodies& bodies, Span<ImpactPair> met,
+                                Span<ImpactHit> hits, ImpactProbe* probe) {
   Stage stage = {settings,
                  assets,
                  features,
                  pairs,
                  bodies,
-                 bounds,
                  met,
                  hits,
                  probe,

@@ -3,7 +3,8 @@
 #include <detent/detail/scratch.h>
 #include <detent/features.h>
 
-#include "base/span.h"
+#include "base/bit_set.h"
+#include "collision/resting_tree.h"
 #include "dynamics/step_settings.h"
 
 /// Continuous collision: bodies that would meet on their sweeps meet at the time of impact, and what they then do is
@@ -49,8 +50,12 @@ struct ImpactBodies {
   Span<const BodyTraits> traits;
   Span<BodyPose> poses;
   Span<BodyMotion> motions;
-  Span<BodySweep> sweeps;
+  Span<BodySweep> sweeps;  ///< of a body that rests: zero
   Span<BodyActivity> activities;
+  Span<Bounds> bounds;  ///< as the pairs were found; become the bounds of the sweeps
+  RestingTree resting;  ///< what is struck leaves it
+  BitSet visits;        ///< the bodies that move, and those that are struck or woken
+  BitSet candidates;    ///< work space, zero before and after
 };
 
 /// What the stages before know of the pairs of bodies.
@@ -60,11 +65,10 @@ struct ImpactPairs {
   bool complete;                     ///< none of them was dropped
 };
 
-/// `bounds`: as the pairs were found; becomes the bounds of the sweeps. `met` is work space, `hits` is filled in the
-/// order of the impacts.
+/// `met` is work space, `hits` is filled in the order of the impacts.
 ImpactReport advance_to_impacts(const StepSettings& settings, const AssetTable& assets, const FeatureTable& features,
-                                const ImpactPairs& pairs, const ImpactBodies& bodies, Span<Bounds> bounds,
-                                Span<ImpactPair> met, Span<ImpactHit> hits, ImpactProbe* probe = nullptr);
+                                const ImpactPairs& pairs, const ImpactBodies& bodies, Span<ImpactPair> met,
+                                Span<ImpactHit> hits, ImpactProbe* probe = nullptr);
 
 /// For a feature table.
 struct ContinuousCode {

@@ -27,10 +27,10 @@ bool join(Span<BodyWork> work, uint32_t BodyWork::*link, uint32_t a, uint32_t b,
 
 }  // namespace
 
-uint32_t find_islands(Span<const BodyTraits> traits, Span<const BodyActivity> activities,
+uint32_t find_islands(Span<const uint32_t> slots, Span<const BodyTraits> traits, Span<const BodyActivity> activities,
                       Span<const ContactWork> contacts, Span<BodyWork> work, Span<Island> islands,
                       Span<uint32_t> bodies) {
-  for (uint32_t slot = 0; slot < traits.count; ++slot) {
+  for (const uint32_t slot : slots) {
     BodyWork& now = work[slot];
     now.island = now.run = slot;
     now.run_length = 1;
@@ -51,12 +51,12 @@ uint32_t find_islands(Span<const BodyTraits> traits, Span<const BodyActivity> ac
   }
 
   // Every body is linked to the first of its set, which is visited before it and has by then the island's number.
-  for (uint32_t slot = 0; slot < traits.count; ++slot) {
+  for (const uint32_t slot : slots) {
     work[slot].island = first_of(work, &BodyWork::island, slot);
     work[slot].run_length = work[first_of(work, &BodyWork::run, slot)].run_length;
   }
   uint32_t count = 0;
-  for (uint32_t slot = 0; slot < traits.count; ++slot) {
+  for (const uint32_t slot : slots) {
     if (!is_awake(traits[slot], activities[slot])) continue;
     uint32_t& island = work[slot].island;
     if (island == slot) {
@@ -76,7 +76,7 @@ uint32_t find_islands(Span<const BodyTraits> traits, Span<const BodyActivity> ac
     first_contact += island.contact_count;
     island.body_count = 0;
   }
-  for (uint32_t slot = 0; slot < traits.count; ++slot) {
+  for (const uint32_t slot : slots) {
     if (!is_awake(traits[slot], activities[slot])) continue;
     Island& island = islands[work[slot].island];
     bodies[island.first_body + island.body_count++] = slot;

@@ -24,19 +24,14 @@ Real absolute_sum(const Vec3<Real>& v) { return abs(v.x) + abs(v.y) + abs(v.z); 
 
 }  // namespace
 
-void start_bodies(Span<const BodyTraits> traits, Span<const BodyPose> poses, Span<const BodyMotion> motions,
-                  Span<const BodyActivity> activities, Span<BodyWork> work) {
+void start_body(const BodyTraits& traits, const BodyPose& pose, const BodyMotion& motion, BodyWork& work) {
   const Real zero = 0.0;
   const Vec3<Real> none = {zero, zero, zero};
-  for (uint32_t slot = 0; slot < poses.count; ++slot) {
-    BodyWork& now = work[slot];
-    now.rotation = poses[slot].rotation;
-    now.displacement = none;
-    now.turn = none;
-    if (activities[slot].asleep != 0) continue;
-    now.gyration = world_gyration(traits[slot], matrix_from(now.rotation));
-    now.spin = world_spin(traits[slot], now.gyration, motions[slot].momentum, -k_spin_power);
-  }
+  work.rotation = pose.rotation;
+  work.displacement = none;
+  work.turn = none;
+  work.gyration = world_gyration(traits, matrix_from(pose.rotation));
+  work.spin = world_spin(traits, work.gyration, motion.momentum, -k_spin_power);
 }
 
 void predict(const StepSettings& settings, Span<const BodyTraits> traits, Span<const uint32_t> bodies,
@@ -64,11 +59,10 @@ Real speed_bound(const BodyTraits& traits, const Quat& rotation, const BodyMotio
 }
 
 void bound(const StepSettings& settings, Span<const BodyPose> poses, Span<const BodyTraits> traits,
-           Span<const BodyMotion> motions, Span<Bounds> bounds) {
+           Span<const BodyMotion> motions, Span<const uint32_t> bodies, Span<Bounds> bounds) {
   const Vec3<Real> fall = settings.gravity * (settings.tick_time * settings.tick_time);
-  for (uint32_t slot = 0; slot < traits.count; ++slot) {
+  for (const uint32_t slot : bodies) {
     const BodyTraits& body = traits[slot];
-    if (body.type == 0) continue;
     if (static_cast<ShapeType>(body.shape) == ShapeType::half_space) {
       bounds[slot] = k_everywhere;
       continue;

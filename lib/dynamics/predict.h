@@ -7,17 +7,16 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Starts the tick of every body: it has not moved yet. Those asleep get no gyration and no spin.
-void start_bodies(Span<const BodyTraits> traits, Span<const BodyPose> poses, Span<const BodyMotion> motions,
-                  Span<const BodyActivity> activities, Span<BodyWork> work);
+/// Starts the tick of a body: it has not moved yet.
+void start_body(const BodyTraits& traits, const BodyPose& pose, const BodyMotion& motion, BodyWork& work);
 
 /// What gravity, forces and damping do to the bodies of an island in a substep. The forces are taken over and cleared.
 void predict(const StepSettings& settings, Span<const BodyTraits> traits, Span<const uint32_t> bodies,
              Span<BodyMotion> motions, Span<BodyWork> work);
 
-/// Bounds of every body over its predicted motion of this tick, with a margin of 1/64 of its smallest diameter.
+/// Bounds of bodies over their predicted motion of this tick, with a margin of 1/64 of their smallest diameter.
 void bound(const StepSettings& settings, Span<const BodyPose> poses, Span<const BodyTraits> traits,
-           Span<const BodyMotion> motions, Span<Bounds> bounds);
+           Span<const BodyMotion> motions, Span<const uint32_t> bodies, Span<Bounds> bounds);
 
 /// Speed of the fastest point of a body's bounding ball, at most sqrt(3) times too much, m/s.
 Real speed_bound(const BodyTraits& traits, const Quat& rotation, const BodyMotion& motion);

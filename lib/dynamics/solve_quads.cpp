@@ -1,10 +1,8 @@
 #include "dynamics/solve_quads.h"
 
 #if DETENT_QUADS
+#include "base/processor.h"
 #include "dynamics/quad_contact.h"
-#if defined(__x86_64__)
-#include <cpuid.h>
-#endif
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -259,13 +257,7 @@ Bodies bodies_of(const SolverBodies& bodies, Contacts contacts, uint32_t Contact
 
 bool has_quads() {
 #if defined(__x86_64__)
-  unsigned a = 0, b = 0, c = 0, d = 0;
-  constexpr unsigned k_saves_state = 1u << 27, k_avx2 = 1u << 5, k_wide_registers = 6;
-  if (__get_cpuid(1, &a, &b, &c, &d) == 0 || (c & k_saves_state) == 0) return false;
-  unsigned low = 0, high = 0;
-  __asm__("xgetbv" : "=a"(low), "=d"(high) : "c"(0));  // what the operating system keeps for us
-  if ((low & k_wide_registers) != k_wide_registers) return false;
-  return __get_cpuid_count(7, 0, &a, &b, &c, &d) != 0 && (b & k_avx2) != 0;
+  return has_avx2();
 #else
   return true;
 #endif

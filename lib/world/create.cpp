@@ -6,7 +6,7 @@
 #include "world/asset_binding.h"
 #include "world/ranges.h"
 #include "world/slots.h"
-#include "world/view.h"
+#include "world/step_cache.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -109,9 +109,11 @@ Status make_pose(const Position& position, const Quat& rotation, BodyPose& pose)
 
 /// What changes a body from outside wakes it.
 void rouse(StateView<uint8_t>& state, uint32_t slot) {
+  const StepCacheView step = cache_of(state);
   state.world.idle = 0;
-  wake_all_with(slot, state.activities);
+  if (wake_all_with(slot, state.activities, step.visits) != 0) step.cache.contacts_known = 0;
   state.activities[slot].still_ticks = 0;
+  step.visits.set(slot);
 }
 /// And what takes it away wakes those it touches.
 void rouse_neighbours(StateView<uint8_t>& state, uint32_t slot) {
@@ -217,6 +219,7 @@ Status create_body(World& world, const BodyDef& def, BodyId& id) {
   state.poses[slot] = pose;
   state.motions[slot] = motion;
   state.world.idle = 0;
+  cache_of(state).visits.set(slot);
   id = {slot + 1, traits.generation};
   return Status::ok;
 }
@@ -228,6 +231,7 @@ Status destroy_body(World& world, BodyId id) {
   rouse(state, slot);
   rouse_neighbours(state, slot);
   state.world.contact_count = remove_contacts(state.contacts.first(state.world.contact_count), slot);
+  cache_of(state).cache.contacts_known = 0;
   const uint32_t generation = state.traits[slot].generation;
   state.poses[slot] = BodyPose{};
   state.motions[slot] = BodyMotion{};
@@ -323,8 +327,13 @@ Status set_gravity(World& world, const Vec3<Real>& gravity) {
   StateView<uint8_t> state = view_of(world);
   state.world.gravity = gravity;
   state.world.idle = 0;
-  for (BodyActivity& activity : state.activities.first(state.world.slots_used))
+  const StepCacheView step = cache_of(state);
+  step.cache.contacts_known = 0;
+  for (uint32_t slot = 0; slot < state.world.slots_used; ++slot) {
+    BodyActivity& activity = state.activities[slot];
+    if (activity.asleep != 0) step.visits.set(slot);
     activity.asleep = activity.still_ticks = 0;
+  }
   return Status::ok;
 }
 

@@ -1,7 +1,7 @@
 #include "world/events.h"
 
 #include "collision/broadphase.h"
-#include "dynamics/activity.h"
+#include "dynamics/spin.h"
 #include "geometry/sweep.h"
 
 namespace detent {
@@ -70,23 +70,20 @@ struct Writer {
 
 }  // namespace
 
-EventCount raise_events(Span<const BodyPose> poses, Span<const BodyTraits> traits, Span<const BodyActivity> activities,
+EventCount raise_events(Span<const BodyPose> poses, Span<const BodyTraits> traits, Span<const uint32_t> awake,
                         Span<const ContactState> before, Span<ContactWork> contacts, Span<ContactEvent> events) {
   Writer writer = {poses, traits, events};
   uint32_t old = 0;
   const auto end_up_to = [&](uint64_t key) {
-    for (; old < before.count && key_of(before[old]) < key; ++old) {
-      const ContactState& state = before[old];
-      const bool sleeps = !is_awake(traits[state.body_a], activities[state.body_a]) &&
-                          !is_awake(traits[state.body_b], activities[state.body_b]);
-      if (state.touching != 0 && !sleeps)
-        writer.add(writer.event_of(ContactEventType::end, state.body_a, state.body_b));
+    for (; old < awake.count && key_of(before[awake[old]]) < key; ++old) {
+      const ContactState& state = before[awake[old]];
+      if (state.touching != 0) writer.add(writer.event_of(ContactEventType::end, state.body_a, state.body_b));
     }
   };
   for (ContactWork& contact : contacts) {
     const uint64_t key = key_of(contact.state);
     end_up_to(key);
-    if (old < before.count && key_of(before[old]) == key) ++old;
+    if (old < awake.count && key_of(before[awake[old]]) == key) ++old;
     const bool touched = contact.state.touching != 0, touches = pushes(contact);
     contact.state.touching = touches ? 1 : 0;
     if (touches)

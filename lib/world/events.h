@@ -13,9 +13,9 @@ struct EventCount {
 };
 
 /// Compares the contacts of the last step with those of this one, both sorted by their bodies, and writes what began,
-/// went on, ended and hit. `poses` are those of the start of the step. Contacts `before` of which neither body is awake
-/// are passed over. Sets the contacts' `touching`.
-EventCount raise_events(Span<const BodyPose> poses, Span<const BodyTraits> traits, Span<const BodyActivity> activities,
+/// went on, ended and hit. `poses` are those of the start of the step. Of the contacts `before` those that sleep are
+/// passed over: `awake` lists the others. Sets the contacts' `touching`.
+EventCount raise_events(Span<const BodyPose> poses, Span<const BodyTraits> traits, Span<const uint32_t> awake,
                         Span<const ContactState> before, Span<ContactWork> contacts, Span<ContactEvent> events);
 
 /// Puts the impacts of continuous collision, which come in the order of their times, among the events.

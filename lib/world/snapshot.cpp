@@ -3,7 +3,7 @@
 #include "base/bytes.h"
 #include "base/float_environment.h"
 #include "world/fields.h"
-#include "world/view.h"
+#include "world/step_cache.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -42,8 +42,11 @@ Status check_canonical_header(const uint8_t* bytes, Capacity capacity, const Fea
   return check_header(header, capacity, features);
 }
 
-/// What the block now holds is the state of a world that may have had fewer features.
-void take_over(World& world) { view_of(world).header.left_out = left_out(*world.features); }
+/// What the block now holds is the state of another world, which may have had fewer features.
+void take_over(World& world) {
+  view_of(world).header.left_out = left_out(*world.features);
+  forget_steps(world);
+}
 
 }  // namespace
 
@@ -132,6 +135,7 @@ Status load_from(World& world, Status (*read)(void* context, uint32_t offset, ui
     const Status emptied = create_world(world.block, layout.bytes, def, world.assets, world, *world.features);
     return emptied == Status::ok ? status : emptied;
   };
+  forget_steps(world);
   constexpr uint32_t k_piece = 256;
   for (uint32_t offset = 0; offset < layout.persistent_bytes; offset += k_piece) {
     const uint32_t left = layout.persistent_bytes - offset;

@@ -13,8 +13,8 @@
 #include "dynamics/substeps.h"
 #include "geometry/shape_traits.h"
 #include "world/events.h"
+#include "world/step_cache.h"
 #include "world/step_probe.h"
-#include "world/view.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -22,7 +22,8 @@ namespace {
 
 /// The work space of a block, as spans over its capacity.
 struct Scratch {
-  Span<Bounds> bounds;
+  Span<uint32_t> moving_bodies;
+  BitSet candidates;
   Span<BodyWork> bodies;
   Span<BoundsKey> bounds_keys, bounds_sort;
   Span<uint64_t> pairs, pair_sort;
@@ -36,7 +37,8 @@ struct Scratch {
 };
 
 Scratch scratch_of(uint8_t* block, const Layout& layout, Capacity capacity) {
-  return {{at_offset<Bounds>(block, layout.bounds), capacity.bodies},
+  return {{at_offset<uint32_t>(block, layout.moving_bodies), capacity.bodies},
+          {{at_offset<uint32_t>(block, layout.candidates), slot_words(capacity.bodies)}},
           {at_offset<BodyWork>(block, layout.body_work), capacity.bodies},
           {at_offset<BoundsKey>(block, layout.bounds_keys), capacity.bodies},
           {at_offset<BoundsKey>(block, layout.bounds_sort), capacity.bodies},
@@ -68,12 +70,14 @@ struct Bodies {
   Span<const BodyMotion> motions;
   Span<BodyActivity> activities;
   Span<BodyWork> work;
+  BitSet visits;  ///< of those that move
   AssetTable assets;
   const FeatureTable& features;
 
   RowBody at(uint32_t slot) const {
     return {traits[slot], poses[slot], motions[slot], work[slot].gyration, work[slot].spin};
   }
+  void start(uint32_t slot) const { start_body(traits[slot], poses[slot], motions[slot], work[slot]); }
   bool awake(uint32_t slot) const { return is_awake(traits[slot], activities[slot]); }
   bool moving(uint32_t slot) const { return is_moving(traits[slot], motions[slot], activities[slot]); }
   bool asleep(uint32_t slot) const { return activities[slot].asleep != 0; }
@@ -86,23 +90,30 @@ void collide_pair(const StepSettings& settings, const RowBody& a, const RowBody&
           bodies.assets, bodies.features);
 }
 
-/// Wakes whoever is touched by a body that moves, and whoever they touch. Returns how many woke.
-uint32_t wake_touched(const StepSettings& settings, const Bodies& bodies, Span<const uint64_t> pairs) {
-  uint32_t woke = 0;
-  for (bool again = true; again;) {  // each round but the last wakes somebody
-    again = false;
-    for (const uint64_t key : pairs) {
+/// Wakes whoever is touched by a body that moves, and whoever they touch: they leave the tree, and their pairs are
+/// found. Returns how many woke.
+uint32_t wake_touched(const StepSettings& settings, const Bodies& bodies, const StepCacheView& cache, PairPool& pool) {
+  for (uint32_t woke = 0;;) {
+    const uint32_t woken_before = woke;
+    for (const uint64_t key : pool.pairs()) {
       const uint32_t low = pair_low(key), high = pair_high(key);
       const bool wakes_low = bodies.asleep(low) && bodies.moving(high);
       if (!wakes_low && !(bodies.asleep(high) && bodies.moving(low))) continue;
       ContactGeometry geometry;
       collide_pair(settings, bodies.at(low), bodies.at(high), bodies, geometry);
       if (geometry.count == 0) continue;
-      woke += wake_all_with(wakes_low ? low : high, bodies.activities);
-      again = true;
+      woke += wake_all_with(wakes_low ? low : high, bodies.activities, cache.visits);
     }
+    if (woke == woken_before) return woke;
+    cache.cache.contacts_known = 0;
+    pool.go_on();
+    cache.visits.for_each([&](uint32_t slot) {
+      if (!cache.tree.has(slot)) return;
+      cache.tree.remove(slot);
+      find_resting_near(slot, cache.tree, pool);
+    });
+    pool.sort();
   }
-  return woke;
 }
 
 Real depth_of(const ContactWork& contact) {
@@ -126,6 +137,8 @@ bool leave_out_shallowest(Span<ContactWork> contacts, Real depth) {
   return true;
 }
 
+uint64_t key_of(const ContactState& contact) { return pair_key(contact.body_a, contact.body_b); }
+
 struct ContactCount {
   uint32_t contacts = 0;
   uint32_t points = 0;
@@ -133,17 +146,17 @@ struct ContactCount {
   uint32_t capped = 0;
 };
 
-/// Collides every pair with an awake body and makes the rows of those that touch, in the order of the pairs. `before`
-/// is sorted alike.
+/// Collides every pair with an awake body and makes the rows of those that touch, in the order of the pairs. The
+/// contacts `before` are sorted alike; `awake` lists those of them that may go on.
 ContactCount collide_pairs(const StepSettings& settings, const Bodies& bodies, Span<const uint64_t> pairs,
-                           Span<const ContactState> before, Span<ContactWork> contacts) {
+                           Span<const uint32_t> awake, Span<const ContactState> before, Span<ContactWork> contacts) {
   ContactCount count;
   uint32_t next = 0;
   for (const uint64_t key : pairs) {
     const uint32_t slot_a = pair_low(key), slot_b = pair_high(key);
     if (!bodies.awake(slot_a) && !bodies.awake(slot_b)) continue;
-    while (next < before.count && pair_key(before[next].body_a, before[next].body_b) < key) ++next;
-    const bool continued = next < before.count && pair_key(before[next].body_a, before[next].body_b) == key;
+    while (next < awake.count && key_of(before[awake[next]]) < key) ++next;
+    const bool continued = next < awake.count && key_of(before[awake[next]]) == key;
     const RowBody a = bodies.at(slot_a), b = bodies.at(slot_b);
     ContactGeometry geometry;
     collide_pair(settings, a, b, bodies, geometry);
@@ -156,28 +169,31 @@ ContactCount collide_pairs(const StepSettings& settings, const Bodies& bodies, S
       if (!leave_out_shallowest(contacts, -least)) continue;
       --count.contacts;
     }
+    if (!bodies.visits.has(slot_a)) bodies.start(slot_a);
+    if (!bodies.visits.has(slot_b)) bodies.start(slot_b);
     ContactWork& work = contacts[count.contacts++];
-    work.state = continued_contact(slot_a, slot_b, geometry, continued ? &before[next] : nullptr);
+    work.state = continued_contact(slot_a, slot_b, geometry, continued ? &before[awake[next]] : nullptr);
     make_rows(settings, a, b, geometry, work);
   }
   for (const ContactWork& contact : contacts.first(count.contacts)) count.points += contact.state.point_count;
   return count;
 }
 
-uint32_t count_sleeping(const Bodies& bodies, Span<const ContactState> contacts) {
+/// The bodies that move, once some have been woken.
+Span<const uint32_t> list_moving(BitSet visits, Span<uint32_t> slots) {
   uint32_t count = 0;
-  for (const ContactState& contact : contacts)
-    count += bodies.awake(contact.body_a) || bodies.awake(contact.body_b) ? 0u : 1u;
-  return count;
+  visits.for_each([&](uint32_t slot) { slots[count++] = slot; });
+  return slots.first(count);
 }
 
-/// Contacts between bodies that sleep stay as they are: moves them to the front. Returns their count.
-uint32_t keep_sleeping(const Bodies& bodies, Span<ContactState> contacts) {
-  uint32_t kept = 0;
-  for (const ContactState& contact : contacts) {
-    if (!bodies.awake(contact.body_a) && !bodies.awake(contact.body_b)) contacts[kept++] = contact;
+/// Moves the kinematic bodies among those that move.
+uint32_t carry_all(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> moving) {
+  uint32_t clamped = 0;
+  for (const uint32_t slot : moving) {
+    if (is_dynamic(bodies.traits[slot])) continue;
+    clamped += carry(settings, {{&bodies.traits[slot], 1}, {&bodies.motions[slot], 1}, {&bodies.work[slot], 1}});
   }
-  return kept;
+  return clamped;
 }
 
 uint32_t solve_islands(StepSettings settings, const SolverBodies& bodies, Span<const Island> islands,
@@ -227,62 +243,69 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   const Span<BodyTraits> traits = state.traits.first(used);
   const Span<BodyActivity> activities = state.activities.first(used);
   const Span<BodyWork> work = scratch.bodies.first(used);
-  const Span<Bounds> bounds = scratch.bounds.first(used);
+  const Span<BodySweep> sweeps = scratch.sweeps.first(used);
   StepSettings settings = step_settings(state.world);
   settings.quads = world.lanes == 4;
-  const Bodies bodies = {poses, traits, motions, activities, work, world.assets, *world.features};
+  const StepCacheView cache = cache_of(world.block, state.layout, capacity_of(state.header));
+  const Bodies bodies = {poses, traits, motions, activities, work, cache.visits, world.assets, *world.features};
   const SolverBodies solver_bodies = {traits, motions, work};
 
-  bound(settings, poses, traits, motions, bounds);
-  const PairCount pair_count =
-      find_pairs(traits, bounds, scratch.bounds_keys, scratch.bounds_sort, scratch.pair_sort, scratch.pairs);
-  const Span<const uint64_t> pairs = scratch.pairs.first(pair_count.kept);
-  report.woke = wake_touched(settings, bodies, pairs);
-  start_bodies(traits, poses, motions, activities, work);
-  const uint32_t room = state.contacts.count - count_sleeping(bodies, state.contacts.first(before));
+  Span<const uint32_t> moving = sort_out(cache, settings, state, scratch.sweeps, scratch.moving_bodies);
+  PairPool pool = {poses, traits, cache.bounds, scratch.pair_sort, scratch.pairs};
+  find_pairs(moving, cache.tree, scratch.bounds_keys, scratch.bounds_sort, pool);
+  pool.sort();
+  report.woke = wake_touched(settings, bodies, cache, pool);
+  if (report.woke != 0) moving = list_moving(cache.visits, scratch.moving_bodies);
+  for (const uint32_t slot : moving) bodies.start(slot);
+  const Span<const uint64_t> pairs = pool.pairs();
+  const Span<const uint32_t> awake_contacts = list_awake_contacts(cache, state);
+  const uint32_t room = state.contacts.count - (before - awake_contacts.count);
   const ContactCount count =
-      collide_pairs(settings, bodies, pairs, state.contacts.first(before), scratch.contacts.first(room));
+      collide_pairs(settings, bodies, pairs, awake_contacts, state.contacts, scratch.contacts.first(room));
   const Span<ContactWork> contacts = scratch.contacts.first(count.contacts);
   const Span<ContactOrder> order = scratch.contact_order.first(count.contacts);
 
-  report.islands = find_islands(traits, activities, contacts, work, scratch.islands, scratch.island_bodies);
+  report.islands = find_islands(moving, traits, activities, contacts, work, scratch.islands, scratch.island_bodies);
   const Span<Island> islands = scratch.islands.first(report.islands);
   report.colour_overflows = order_contacts(traits, contacts, islands, work, scratch.contact_sort, order);
   estimate_loads(settings, poses, traits, scratch.island_bodies, islands, order, scratch.contact_sort, work, contacts);
   choose_substeps(settings, traits, work, scratch.island_bodies, order, islands, contacts, activities);
   report.saturations = solve_islands(settings, solver_bodies, islands, scratch, contacts, report);
-  report.saturations += carry(settings, solver_bodies);
+  report.saturations += carry_all(settings, solver_bodies, moving);
   const Span<ContactEvent> events = {world.contact_events.data, world.contact_events.capacity};
-  EventCount event_count = raise_events(poses, traits, activities, state.contacts.first(before), contacts, events);
-  const uint32_t sleeping = keep_sleeping(bodies, state.contacts.first(before));
-  const Span<BodySweep> sweeps = scratch.sweeps.first(used);
-  report.saturations += make_sweeps(traits, work, poses, sweeps);
+  EventCount event_count = raise_events(poses, traits, awake_contacts, state.contacts, contacts, events);
+  report.saturations += make_sweeps(moving, traits, work, poses, sweeps);
   if (state.world.continuous != 0) {
-    const ImpactPairs known = {pairs, contacts, pair_count.dropped == 0 && count.dropped == 0};
-    const ImpactReport impacts = world.features->continuous->advance(
-        settings, world.assets, *world.features, known, {traits, poses, motions, sweeps, activities}, bounds,
-        scratch.impact_pairs, scratch.impact_hits, probe);
+    const ImpactPairs known = {pairs, contacts, pool.dropped() == 0 && count.dropped == 0};
+    const ImpactBodies impact_bodies = {traits,     poses,        motions,           sweeps, activities, cache.bounds,
+                                        cache.tree, cache.visits, scratch.candidates};
+    const ImpactReport impacts =
+        world.features->continuous->advance(settings, world.assets, *world.features, known, impact_bodies,
+                                            scratch.impact_pairs, scratch.impact_hits, probe);
     report_impacts(impacts, report);
+    if (impacts.woke != 0) cache.cache.contacts_known = 0;
     add_hits(traits, scratch.impact_hits.first(impacts.hits), events, event_count);
     event_count.dropped += impacts.hits_dropped;
   }
   report.contact_events = event_count.kept;
   report.contact_events_dropped = events.count == 0 ? 0 : event_count.dropped;
-  report.saturations += finalise(traits, sweeps, poses, motions);
+  cache.visits.for_each(
+      [&](uint32_t slot) { report.saturations += finalise(traits[slot], sweeps[slot], poses[slot], motions[slot]); });
   if (settings.sleeping)
     report.fell_asleep = world.features->sleeping->end_step(settings, traits, poses, islands, scratch.island_bodies,
                                                             motions, activities);
-  store_contacts(contacts, sleeping, before, state.contacts);
+  store_contacts(contacts, awake_contacts.count, before, state.contacts, cache.awake_contacts);
+  cache.cache.awake_contact_count = contacts.count;
 
-  state.world.contact_count = sleeping + count.contacts;
-  report.pairs = pair_count.kept + pair_count.dropped;
-  report.pairs_dropped = pair_count.dropped;
+  state.world.contact_count = before - awake_contacts.count + contacts.count;
+  report.pairs = pairs.count + pool.dropped();
+  report.pairs_dropped = pool.dropped();
   report.contacts = count.contacts;
   report.contact_points = count.points;
   report.contacts_dropped = count.dropped;
   report.contacts_capped = count.capped;
   bool moves = false;
-  for (uint32_t slot = 0; slot < used; ++slot) moves = moves || bodies.moving(slot);
+  cache.visits.for_each([&](uint32_t slot) { moves = moves || bodies.moving(slot); });
   state.world.idle = moves ? 0 : 1;
 }
 

@@ -268,6 +268,98 @@ DETENT_TEST(impact_stage, impacts_without_room_stop_their_bodies_and_are_counted
   for (const BodyId id : balls) EXPECT_LT(lab.motion(id).position[0], 0) << "none passes";
 }
 
+DETENT_TEST(impact_stage, nothing_passes_through_a_wall_for_want_of_room_for_pairs) {
+  uint32_t pairs_dropped = 0, stopped = 0;
+  for (const uint32_t contacts : {0u, 1u, 2u, 5u, 100u}) {
+    for (const bool target_sleeps : {false, true}) {
+      Lab lab({20, contacts, 0}, weightless(), true);
+      lab.add(wall(0));
+      // A heap of bodies within each other takes all room that there is.
+      for (int i = 0; i < 8; ++i) lab.add_box(0.5, -20 + i * 0.05, 20, 0);
+      std::vector<BodyId> shots;
+      for (int i = 0; i < 4; ++i) {
+        BodyDef def = ball(0.05, -4, 500, 0.5);
+        def.position = position(-4, i - 1.5, 0);
+        shots.push_back(lab.add(def));
+      }
+      const BodyId target = lab.add(ball(0.05, -0.5, 0, 0));
+      ASSERT_OK(set_pose(lab.world, target, position(-0.5, 0.5, 0), {0.0, 0.0, 0.0, 1.0}));
+      if (target_sleeps) {
+        ASSERT_OK(put_to_sleep(lab.world, target));
+      }
+      shots.push_back(target);
+      for (int tick = 0; tick < 30; ++tick) {
+        const StepReport report = lab.run(1);
+        pairs_dropped += report.pairs_dropped;
+        stopped += report.bodies_stopped;
+        EXPECT_EQ(report.complete(), report.pairs_dropped == 0 && report.contacts_dropped == 0 &&
+                                         report.contacts_capped == 0 && report.bodies_stopped == 0);
+        EXPECT_LE(report.impacts_dropped == 0 ? 0u : 1u, report.bodies_stopped);
+        ASSERT_LT(lab.motion(shots[2]).position[0], lab.motion(target).position[0]);
+        for (const BodyId id : shots)
+          ASSERT_LT(lab.motion(id).position[0], 0) << contacts << " contacts, tick " << tick;
+      }
+    }
+  }
+  EXPECT_GT(pairs_dropped, 0u);
+  EXPECT_GT(stopped, 0u);
+}
+
+DETENT_TEST(impact_stage, of_what_sleeps_only_what_is_struck_is_looked_at_and_it_strikes_others_in_turn) {
+  // A row of sleepers, each within reach of the next one's flight alone; the blow passes through all of them in a tick.
+  Lab lab({7, 40, 0}, weightless(), true);
+  std::vector<BodyId> balls;
+  for (int i = 0; i < 6; ++i) balls.push_back(lab.add(ball(0.1, i, 0, 1)));
+  for (const BodyId id : balls) ASSERT_OK(put_to_sleep(lab.world, id));
+  lab.run(2);
+  balls.push_back(lab.add(ball(0.1, -1, 900, 1)));
+  const StepReport report = lab.run(1);
+  EXPECT_EQ(report.impacts, 6u);
+  EXPECT_EQ(report.woke, 6u);
+  EXPECT_TRUE(report.complete());
+  EXPECT_NEAR(lab.motion(balls[5]).velocity[0], 900, 1e-2);
+  EXPECT_EQ(lab.run(1).awake, 7u);
+}
+
+DETENT_TEST(impact_stage, a_sleeper_that_is_struck_without_room_is_still_there_in_the_next_tick) {
+  Lab lab({2, 0, 0}, weightless(), true);
+  const BodyId target = lab.add(ball(0.1, 0, 0, 1)), shot = lab.add(ball(0.1, -1, 900, 1));
+  ASSERT_OK(put_to_sleep(lab.world, target));
+  for (int tick = 0; tick < 3; ++tick) {
+    const StepReport report = lab.run(1);
+    EXPECT_EQ(report.bodies_stopped, 2u);
+    EXPECT_EQ(report.impacts_dropped, 1u);
+    EXPECT_FALSE(report.complete());
+    EXPECT_LT(lab.motion(shot).position[0], -0.2);
+    EXPECT_EQ(lab.motion(target).position[0], 0);
+  }
+}
+
+DETENT_TEST(impact_stage, a_stack_that_is_struck_in_its_sleep_goes_on_with_its_contacts) {
+  Lab lab({6, 20, 0}, {}, true);
+  lab.add_ground();
+  for (int i = 0; i < 4; ++i) lab.add_box(0.5, 0, 0.5 + i, 0);
+  lab.run(240);
+  BodyDef shot = ball(0.1, -8, 300, 0);
+  shot.position = position(-8, 3.5, 0);
+  lab.add(shot);
+  uint32_t woke = 0;
+  for (int tick = 0; tick < 60; ++tick) {
+    // No contact can be there twice: load() checks that.
+    std::vector<uint64_t> snapshot = lab.snapshot();
+    Lab other({6, 20, 0});
+    ASSERT_OK(load(other.world, bytes_of(snapshot), byte_count(snapshot)));
+    const StepReport report = lab.run(1);
+    if (woke == 4 && tick < 8) {
+      EXPECT_GE(report.contacts, 3u);
+    }
+    woke += report.woke;
+    other.run(1);
+    ASSERT_EQ(digest(lab.world), digest(other.world)) << "tick " << tick;
+  }
+  EXPECT_EQ(woke, 4u);
+}
+
 }  // namespace
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -49,8 +49,11 @@ struct Graph {
     const Span<ContactWork> contact_span = {contacts.data(), count};
     for (ContactWork& contact : contacts)
       contact.static_pair = is_dynamic(contact.state.body_a) && is_dynamic(contact.state.body_b) ? 0 : 1;
-    islands.resize(find_islands(all, {activities.data(), body_count}, contact_span, {work.data(), body_count},
-                                {islands.data(), body_count}, {island_bodies.data(), body_count}));
+    std::vector<uint32_t> slots(body_count);
+    for (uint32_t slot = 0; slot < body_count; ++slot) slots[slot] = slot;
+    islands.resize(find_islands({slots.data(), body_count}, all, {activities.data(), body_count}, contact_span,
+                                {work.data(), body_count}, {islands.data(), body_count},
+                                {island_bodies.data(), body_count}));
     overflows = order_contacts(all, contact_span, {islands.data(), static_cast<uint32_t>(islands.size())},
                                {work.data(), body_count}, {spare.data(), count}, {order.data(), count});
   }
@@ -190,8 +193,7 @@ struct Scene {
     settings = step_settings(state.world);
     set_substeps(4, settings);
     activities.assign(state.activities.data, state.activities.data + used);
-    start_bodies({traits.data(), used}, {poses.data(), used}, {motions.data(), used}, {activities.data(), used},
-                 {work.data(), used});
+    for (uint32_t slot = 0; slot < used; ++slot) start_body(traits[slot], poses[slot], motions[slot], work[slot]);
     for (uint32_t i = 0; i < state.world.contact_count; ++i) {
       const ContactState& before = state.contacts[i];
       const uint32_t a = before.body_a, b = before.body_b;
@@ -210,10 +212,12 @@ struct Scene {
     std::vector<ContactOrder> spare(contacts.size());
     std::vector<Island> islands(used);
     slots.resize(used);
+    std::vector<uint32_t> every(used);
+    for (uint32_t slot = 0; slot < used; ++slot) every[slot] = slot;
     const Span<const BodyTraits> all = {traits.data(), used};
     const Span<ContactWork> contact_span = {contacts.data(), contact_count()};
-    const uint32_t count = find_islands(all, {activities.data(), used}, contact_span, {work.data(), used},
-                                        {islands.data(), used}, {slots.data(), used});
+    const uint32_t count = find_islands({every.data(), used}, all, {activities.data(), used}, contact_span,
+                                        {work.data(), used}, {islands.data(), used}, {slots.data(), used});
     EXPECT_EQ(order_contacts(all, contact_span, {islands.data(), count}, {work.data(), used},
                              {spare.data(), contact_count()}, {order.data(), contact_count()}),
               0u);

@@ -136,11 +136,32 @@ DETENT_TEST(pool, of_contacts_beyond_the_capacity_the_deepest_are_kept) {
     lab.add_ground();
     for (int i = 0; i < 8; ++i) lab.add_box(0.5, 3.0 * i, 0.5 - (deepest_first ? 7 - i : i) / 64.0, 0);
     const StepReport report = lab.run(1);
-    // There is room for six pairs, and what finds none is the last.
+    // There is room for six pairs.
     EXPECT_EQ(report.pairs_dropped, 2u);
     EXPECT_EQ(report.contacts_dropped, 3u);
     ASSERT_EQ(report.contacts, 3u);
-    for (uint32_t i = 0; i < 3; ++i) EXPECT_EQ(view_of(lab.world).contacts[i].body_b, deepest_first ? 1 + i : 4 + i);
+    for (uint32_t i = 0; i < 3; ++i) EXPECT_EQ(view_of(lab.world).contacts[i].body_b, deepest_first ? 1 + i : 6 + i);
+  }
+}
+
+DETENT_TEST(pool, of_pairs_beyond_the_capacity_those_high_above_the_ground_give_way) {
+  for (const bool flying_first : {false, true}) {
+    Lab lab({11, 2, 0});
+    lab.add_ground();
+    const auto add_flying = [&] {
+      for (int i = 0; i < 6; ++i) lab.add_box(0.5, 3.0 * i, 50, 0);
+    };
+    if (flying_first) add_flying();
+    const BodyId low = lab.add_box(0.5, 0, 0.5, 0), high = lab.add_box(0.5, 0, 1.5, 0);
+    if (!flying_first) add_flying();
+    const StepReport report = lab.run(1);
+    EXPECT_EQ(report.pairs, 9u);
+    EXPECT_EQ(report.pairs_dropped, 5u);
+    ASSERT_EQ(report.contacts, 2u);
+    const Span<ContactState> contacts = view_of(lab.world).contacts;
+    EXPECT_EQ(contacts[0].body_b, low.slot - 1);
+    EXPECT_EQ(contacts[1].body_a, low.slot - 1);
+    EXPECT_EQ(contacts[1].body_b, high.slot - 1);
   }
 }
 

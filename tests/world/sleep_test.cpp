@@ -70,14 +70,30 @@ DETENT_TEST(sleep, a_body_thrown_at_a_stack_wakes_all_of_it_in_the_tick_it_touch
   ball.position = position(-4, 1.5, 0);
   ball.velocity = reals(8, 1, 0);
   stacks.lab.add(ball);
-  uint32_t woke = 0;
+  uint32_t woke = 0, contacts = 0;
   for (int i = 0; i < 60 && woke == 0; ++i) {
     stacks.expect(false, false);
-    woke = stacks.lab.run(1).woke;
+    const StepReport report = stacks.lab.run(1);
+    woke = report.woke;
+    contacts = report.contacts;
   }
   EXPECT_EQ(woke, 3u);
+  EXPECT_GE(contacts, 4u) << "what stands on each other still does";
   stacks.expect(true, false);
   EXPECT_GT(stacks.lab.motion(stacks.left[1]).velocity[0], 0.01) << "nothing of the blow is lost";
+}
+
+DETENT_TEST(sleep, bodies_that_fell_asleep_apart_wake_each_other_within_a_tick) {
+  Stacks stacks;
+  for (const BodyId id : stacks.left) ASSERT_OK(wake_body(stacks.lab.world, id));
+  for (const BodyId id : stacks.left) ASSERT_OK(put_to_sleep(stacks.lab.world, id));
+  stacks.expect(false, false);
+  stacks.lab.run(1);
+  ASSERT_OK(wake_body(stacks.lab.world, stacks.left[0]));
+  const StepReport report = stacks.lab.run(1);
+  EXPECT_EQ(report.woke, 2u);
+  EXPECT_EQ(report.contacts, 3u);
+  stacks.expect(true, false);
 }
 
 DETENT_TEST(sleep, a_kinematic_body_that_moves_wakes_what_it_touches) {

@@ -14,6 +14,7 @@ constexpr uint32_t k_pairs_per_contact = 2;  ///< room for pairs whose bounds ov
 struct Layout {
   uint32_t header, world, poses, motions, traits, activities, slots, contacts, assets;
   uint32_t persistent_bytes;  ///< end of the snapshot
+  uint32_t cache, tree_nodes, tree_parents, visits, candidates, moving_bodies, awake_contacts;
   uint32_t bounds, body_work, bounds_keys, bounds_sort, pairs, pair_sort, contact_work, contact_order, contact_sort,
       islands, island_bodies;
   uint32_t sweeps, impact_pairs, impact_hits;
@@ -46,13 +47,25 @@ constexpr Layout layout_of(Capacity capacity, bool& fits) {
   layout.contacts = place(sizeof(ContactState), capacity.contacts);
   layout.assets = place(sizeof(AssetState), capacity.assets);
   layout.persistent_bytes = static_cast<uint32_t>(end);
+  layout.cache = place(sizeof(StepCache), 1);
+  layout.tree_nodes = place(sizeof(TreeNode), capacity.bodies);
+  layout.tree_parents = place(sizeof(uint32_t), capacity.bodies);
+  layout.visits = place(sizeof(uint32_t), slot_words(capacity.bodies));
+  layout.candidates = place(sizeof(uint32_t), slot_words(capacity.bodies));
+  layout.moving_bodies = place(sizeof(uint32_t), capacity.bodies);
+  layout.awake_contacts = place(sizeof(uint32_t), capacity.contacts);
   layout.bounds = place(sizeof(Bounds), capacity.bodies);
   layout.body_work = place(sizeof(BodyWork), capacity.bodies);
+  layout.pairs = place(sizeof(uint64_t), uint64_t{capacity.contacts} * k_pairs_per_contact);
+  // Once the pairs are found their work space is that of the contacts.
+  const uint64_t shared = end;
   layout.bounds_keys = place(sizeof(BoundsKey), capacity.bodies);
   layout.bounds_sort = place(sizeof(BoundsKey), capacity.bodies);
-  layout.pairs = place(sizeof(uint64_t), uint64_t{capacity.contacts} * k_pairs_per_contact);
   layout.pair_sort = place(sizeof(uint64_t), uint64_t{capacity.contacts} * k_pairs_per_contact);
+  const uint64_t pairs_end = end;
+  end = shared;
   layout.contact_work = place(sizeof(ContactWork), capacity.contacts);
+  end = end > pairs_end ? end : pairs_end;
   layout.contact_order = place(sizeof(ContactOrder), capacity.contacts);
   layout.contact_sort = place(sizeof(ContactOrder), capacity.contacts);
   layout.islands = place(sizeof(Island), capacity.bodies);

@@ -2,8 +2,8 @@
 #include <detent/detail/state.h>
 #include <detent/fraction.h>
 
-/// Work space of a step, in the block behind the persistent state. Nothing in it outlives a step. Aligned by hand where
-/// i686 would pack a double.
+/// Work space of a step, in the block behind the persistent state. What outlives a step is a cache of what the state
+/// says (StepCache). Aligned by hand where i686 would pack a double.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -11,12 +11,38 @@ struct Bounds {
   Position lower, upper;
 };
 
+/// A node of the tree of resting bodies (lib/collision/resting_tree.h).
+struct TreeNode {
+  Bounds bounds;  ///< of all that is below
+  uint32_t child[2];
+  uint32_t parent;  ///< of a node that is free: the next free one
+  uint32_t bit;     ///< of the keys below, the first that differs: the second child's is 1
+};
+
+struct alignas(8) TreeRoot {
+  uint32_t link;  ///< to the uppermost node or leaf; 0 if the tree is empty
+  uint32_t free;  ///< index + 1 of a node that was given back; 0 if there is none
+  uint32_t nodes_used;
+  uint32_t visited;  ///< nodes and leaves looked at in the last step
+};
+
+/// What steps keep from tick to tick so as not to look at what rests: the tree, the bounds of the bodies in it, their
+/// sweeps, which are zero, the bodies that the next step must look at, and the awake contacts. All of it follows from
+/// the state.
+struct alignas(8) StepCache {
+  uint32_t fresh;           ///< 0: all of it is to be made anew
+  uint32_t contacts_known;  ///< 1: none but the listed contacts can have an awake body
+  uint32_t awake_contact_count;
+  uint32_t zero;
+  TreeRoot tree;
+};
+
 /// A body's bounds in the sort and sweep, rounded down to a grid over all bodies: what is apart in it is apart.
 struct BoundsKey {
   uint32_t lower, upper;  ///< along the axis of the sweep
   uint32_t slot;
   uint32_t is_dynamic;
-  uint16_t across_lower[2], across_upper[2];  ///< along the other two
+  uint32_t across_lower, across_upper;  ///< along the other two, 15 bits each
 };
 
 /// A body's gyration in world axes: spin = gyration x momentum. Symmetric; 2^-exponent.

@@ -53,7 +53,7 @@ WorldEngineList chosen(const WorldEngineList& engines, const WorldOptions& optio
 
 bool scene_chosen(const std::vector<std::string>& names, const std::string& name) {
   return std::any_of(names.begin(), names.end(),
-                     [&](const std::string& wanted) { return name == wanted || name == wanted + "-asleep"; });
+                     [&](const std::string& wanted) { return name == wanted || name.rfind(wanted + "-", 0) == 0; });
 }
 
 /// As they are, and for a study as they might be.
@@ -82,7 +82,8 @@ CLI::App* add_world_command(CLI::App& app, WorldOptions& options) {
   for (const WorldScene& scene : world_scenes()) names.emplace_back(scene.name);
   command
       ->add_option("--scenes", options.scenes,
-                   "Only these, separated by commas; S10 stands for S10-asleep too (default: all; of a study S1)")
+                   "Only these, separated by commas; S10 stands for S10-asleep and S10-one-awake too (default: all; of "
+                   "a study S1)")
       ->delimiter(',')
       ->check(CLI::IsMember(names));
   command->add_option("--engines", options.engines, "Only these")

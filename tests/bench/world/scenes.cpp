@@ -13,6 +13,18 @@ Stage stage_4() { return detent_stress::pit(1000, k_pit_seed); }
 Stage stage_8() { return detent_stress::dominoes(200); }
 Stage stage_10() { return detent_stress::sleep_stacks(1000, 5, false); }
 Stage stage_10_asleep() { return detent_stress::sleep_stacks(1000, 5, true); }
+/// And a ball that rolls along the middle aisle and never stops.
+Stage stage_10_one_awake() {
+  Stage stage = stage_10_asleep();
+  detent_stress::StageBody ball;
+  ball.solid = detent_stress::Solid::sphere;
+  ball.size[0] = ball.position[1] = 0.25;
+  ball.position[0] = -46;
+  ball.velocity[0] = 2;
+  ball.spin[2] = -8;
+  stage.bodies.push_back(ball);
+  return stage;
+}
 
 }  // namespace
 
@@ -23,6 +35,10 @@ const std::vector<WorldScene>& world_scenes() {
       {"S8", "200 dominoes", stage_8, {{"S8", 0, 1800}}},
       {"S10", "5,000 boxes in stacks, awake", stage_10, {{"S10", 600, 900}}},
       {"S10-asleep", "the same, with sleeping on", stage_10_asleep, {{"S10-asleep", 600, 900}}},
+      {"S10-one-awake",
+       "the same, and a ball that rolls between the stacks",
+       stage_10_one_awake,
+       {{"S10-one-awake", 600, 900}}},
   };
   return scenes;
 }

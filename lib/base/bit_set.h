@@ -1,0 +1,31 @@
+#pragma once
+#include "base/span.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// Bits in words of 32, numbered from the lowest of the first word on. Visited in ascending order.
+struct BitSet {
+  Span<uint32_t> words;
+
+  bool has(uint32_t bit) const { return (words[bit / 32] >> bit % 32 & 1) != 0; }
+  void set(uint32_t bit) const { words[bit / 32] |= 1u << bit % 32; }
+  void clear(uint32_t bit) const { words[bit / 32] &= ~(1u << bit % 32); }
+
+  /// Visits the bits that are set. Those that `visit` itself sets are seen if they come after the one it is called
+  /// with.
+  template <class Visit>
+  void for_each(const Visit& visit) const {
+    for (uint32_t word = 0; word < words.count; ++word) {
+      uint32_t later = UINT32_MAX;
+      while ((words[word] & later) != 0) {
+        const uint32_t bit = static_cast<uint32_t>(__builtin_ctz(words[word] & later));
+        later = bit == 31 ? 0 : UINT32_MAX << (bit + 1);
+        visit(word * 32 + bit);
+      }
+    }
+  }
+};
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

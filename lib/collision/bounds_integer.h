@@ -1,0 +1,22 @@
+#pragma once
+#include <detent/detail/scratch.h>
+
+#include "math/float_bits.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// A coordinate as an integer that rises with it.
+inline int64_t integer_from(Coord x) {
+#if defined(DETENT_F64)
+  bool saturated = false;
+  return integer_from_float(x, 20, saturated);
+#else
+  return x.raw;
+#endif
+}
+
+inline constexpr Coord Position::*k_axes[] = {&Position::x, &Position::y, &Position::z};
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent
