@@ -64,7 +64,9 @@ uint32_t finalise(Span<const BodyTraits> traits, Span<const BodySweep> sweeps, S
   return clamped;
 }
 
-void store_contacts(Span<const ContactWork> work, uint32_t sleeping, uint32_t before, Span<ContactState> contacts) {
+void store_contacts(Span<const ContactWork> work, Span<const ManifoldState> manifold_work, uint32_t sleeping,
+                    uint32_t before, Span<ContactState> contacts, Span<ManifoldState> manifolds) {
+  const bool has_manifolds = manifolds.count != 0;
   const auto precedes = [](const ContactState& a, const ContactState& b) {
     return a.body_a < b.body_a || (a.body_a == b.body_a && a.body_b < b.body_b);
   };
@@ -73,10 +75,15 @@ void store_contacts(Span<const ContactWork> work, uint32_t sleeping, uint32_t be
   for (uint32_t place = count; left > 0; --place) {
     const ContactState& state = work[left - 1].state;
     const bool sleeps = sleeping > 0 && precedes(state, contacts[sleeping - 1]);
-    contacts[place - 1] = sleeps ? contacts[--sleeping] : state;
+    contacts[place - 1] = sleeps ? contacts[sleeping - 1] : state;
+    if (has_manifolds) manifolds[place - 1] = sleeps ? manifolds[sleeping - 1] : manifold_work[left - 1];
+    sleeping -= sleeps ? 1 : 0;
     left -= sleeps ? 0 : 1;
   }
-  for (uint32_t i = count; i < before; ++i) contacts[i] = ContactState{};
+  for (uint32_t i = count; i < before; ++i) {
+    contacts[i] = ContactState{};
+    if (has_manifolds) manifolds[i] = ManifoldState{};
+  }
 }
 
 }  // namespace DETENT_NAMESPACE

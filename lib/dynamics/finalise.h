@@ -26,9 +26,10 @@ uint32_t finalise(Span<const BodyTraits> traits, Span<const BodySweep> sweeps, S
 /// Holds velocity to k_speed_max and spin to k_spin_max. Returns the number of components clamped.
 uint32_t hold_speeds(const BodyTraits& traits, const Quat& rotation, BodyMotion& motion);
 
-/// Puts the contacts of this tick among those that sleep, the first `sleeping` of `contacts`; both are sorted. There
-/// were `before` in the last tick: places no longer needed become zero.
-void store_contacts(Span<const ContactWork> work, uint32_t sleeping, uint32_t before, Span<ContactState> contacts);
+/// Puts the contacts of this tick, and their manifolds if there are any, among those that sleep, the first `sleeping`
+/// of `contacts`; both are sorted. There were `before` in the last tick: places no longer needed become zero.
+void store_contacts(Span<const ContactWork> work, Span<const ManifoldState> manifold_work, uint32_t sleeping,
+                    uint32_t before, Span<ContactState> contacts, Span<ManifoldState> manifolds);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

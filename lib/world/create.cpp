@@ -168,7 +168,7 @@ Vec3<Scaled> over_tick(const Vec3<Scaled>& force, const WorldState& world) {
 Status create_world(uint8_t* block, uint32_t block_bytes, const WorldDef& def, AssetTable assets, World& world) {
   const FloatEnvironment environment;
   if (!are_settings(def.gravity, def.tick, def.substeps, def.substeps_max, def.iterations, def.relaxation,
-                    def.stiffness, def.damping_ratio, def.restitution_threshold)) {
+                    def.stiffness, def.damping_ratio, def.restitution_threshold, def.breaking, def.reuse)) {
     return Status::out_of_range;
   }
   const uint32_t bytes = world_bytes(def.capacity);
@@ -176,8 +176,9 @@ Status create_world(uint8_t* block, uint32_t block_bytes, const WorldDef& def, A
   if (block == nullptr || block_bytes < bytes) return Status::buffer_too_small;
   if (reinterpret_cast<uintptr_t>(block) % 8 != 0) return Status::buffer_misaligned;
   memset(block, 0, bytes);
-  *at_offset<BlockHeader>(block, 0) = {k_snapshot_magic,    k_snapshot_format,     k_simulation_version, k_config,
-                                       def.capacity.bodies, def.capacity.contacts, def.capacity.assets,  0};
+  *at_offset<BlockHeader>(block, 0) = {
+      k_snapshot_magic,    k_snapshot_format,     k_simulation_version, k_config,
+      def.capacity.bodies, def.capacity.contacts, def.capacity.assets,  def.capacity.manifolds ? 1u : 0u};
   world = {block, assets, {}};
   WorldState& state = view_of(world).world;
   state.substeps = def.substeps;
@@ -191,6 +192,8 @@ Status create_world(uint8_t* block, uint32_t block_bytes, const WorldDef& def, A
   state.stiffness = def.stiffness;
   state.damping_ratio = def.damping_ratio;
   state.restitution_threshold = def.restitution_threshold;
+  state.breaking = def.breaking;
+  state.reuse = def.capacity.manifolds ? def.reuse : Real(0.0);
   return Status::ok;
 }
 
@@ -222,7 +225,7 @@ Status destroy_body(World& world, BodyId id) {
   if (!find_body(state, id, slot)) return Status::bad_id;
   rouse(state, slot);
   rouse_neighbours(state, slot);
-  state.world.contact_count = remove_contacts(state.contacts.first(state.world.contact_count), slot);
+  state.world.contact_count = remove_contacts(slot, state.contacts.first(state.world.contact_count), state.manifolds);
   const uint32_t generation = state.traits[slot].generation;
   state.poses[slot] = BodyPose{};
   state.motions[slot] = BodyMotion{};

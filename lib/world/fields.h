@@ -46,7 +46,7 @@ inline constexpr Field k_header_fields[] = {
     DETENT_FIELD(BlockHeader, magic),           DETENT_FIELD(BlockHeader, format),
     DETENT_FIELD(BlockHeader, simulation),      DETENT_FIELD(BlockHeader, config),
     DETENT_FIELD(BlockHeader, capacity_bodies), DETENT_FIELD(BlockHeader, capacity_contacts),
-    DETENT_FIELD(BlockHeader, capacity_assets), DETENT_FIELD(BlockHeader, zero),
+    DETENT_FIELD(BlockHeader, capacity_assets), DETENT_FIELD(BlockHeader, manifolds),
 };
 inline constexpr Field k_world_fields[] = {
     DETENT_FIELD(WorldState, tick),
@@ -68,6 +68,8 @@ inline constexpr Field k_world_fields[] = {
     DETENT_FIELD(WorldState, stiffness),
     DETENT_FIELD(WorldState, damping_ratio),
     DETENT_FIELD(WorldState, restitution_threshold),
+    DETENT_FIELD(WorldState, breaking),
+    DETENT_FIELD(WorldState, reuse),
 };
 inline constexpr Field k_pose_fields[] = {
     DETENT_FIELD(BodyPose, position),
@@ -128,6 +130,10 @@ inline constexpr Field k_asset_fields[] = {
     DETENT_FIELD(AssetState, byte_count),
     DETENT_FIELD(AssetState, kind),
 };
+inline constexpr Field k_manifold_fields[] = {
+    DETENT_FIELD(ManifoldState, normal), DETENT_FIELD(ManifoldState, offset), DETENT_FIELD(ManifoldState, rotation),
+    DETENT_FIELD(ManifoldState, height), DETENT_FIELD(ManifoldState, anchor),
+};
 #undef DETENT_FIELD
 
 /// True if the fields follow one another without a gap and fill the element: no byte is padding.
@@ -145,6 +151,7 @@ static_assert(tiles(k_pose_fields, sizeof(BodyPose)) && tiles(k_motion_fields, s
 static_assert(tiles(k_traits_fields, sizeof(BodyTraits)) && tiles(k_slot_fields, sizeof(uint32_t)));
 static_assert(tiles(k_activity_fields, sizeof(BodyActivity)));
 static_assert(tiles(k_contact_fields, sizeof(ContactState)) && tiles(k_asset_fields, sizeof(AssetState)));
+static_assert(tiles(k_manifold_fields, sizeof(ManifoldState)));
 
 template <uint32_t n>
 constexpr Section section(const char* name, const Field (&fields)[n], uint32_t element_bytes,
@@ -161,6 +168,7 @@ inline constexpr Section k_sections[] = {
     section("slots", k_slot_fields, sizeof(uint32_t), &Layout::slots),
     section("contacts", k_contact_fields, sizeof(ContactState), &Layout::contacts),
     section("assets", k_asset_fields, sizeof(AssetState), &Layout::assets),
+    section("manifolds", k_manifold_fields, sizeof(ManifoldState), &Layout::manifolds),
 };
 inline constexpr uint32_t k_section_count = sizeof k_sections / sizeof k_sections[0];
 

@@ -1,6 +1,7 @@
 #include "base/float_environment.h"
 #include "collision/broadphase.h"
 #include "collision/contact_cache.h"
+#include "collision/manifold_reuse.h"
 #include "dynamics/activity.h"
 #include "dynamics/contact_order.h"
 #include "dynamics/contact_rows.h"
@@ -33,6 +34,7 @@ struct Scratch {
   Span<BodySweep> sweeps;
   Span<ImpactPair> impact_pairs;
   Span<ImpactHit> impact_hits;
+  Span<ManifoldState> manifolds;
 };
 
 Scratch scratch_of(uint8_t* block, const Layout& layout, Capacity capacity) {
@@ -49,16 +51,23 @@ Scratch scratch_of(uint8_t* block, const Layout& layout, Capacity capacity) {
           {at_offset<uint32_t>(block, layout.island_bodies), capacity.bodies},
           {at_offset<BodySweep>(block, layout.sweeps), capacity.bodies},
           {at_offset<ImpactPair>(block, layout.impact_pairs), capacity.contacts},
-          {at_offset<ImpactHit>(block, layout.impact_hits), capacity.contacts}};
+          {at_offset<ImpactHit>(block, layout.impact_hits), capacity.contacts},
+          {at_offset<ManifoldState>(block, layout.manifold_work), manifold_count(capacity)}};
 }
 
-/// How far apart a pair may be and still be given contact points: a 64th of the smaller body, and what the pair can
-/// close in this tick, up to a quarter of it.
-Real contact_reach(const StepSettings& settings, const RowBody& a, const RowBody& b) {
+/// Lengths of a pair, m.
+struct PairLengths {
+  Real at_rest;  ///< how far apart it has contact points if it does not move
+  Real reach;    ///< and as it moves: what it can close in this tick is added, up to a quarter of the smaller body
+  Real reuse;    ///< how far it may move until its contact points are found anew
+};
+
+PairLengths lengths_of(const StepSettings& settings, const RowBody& a, const RowBody& b) {
   const Real extent = min(shape_extent(a.traits), shape_extent(b.traits));
   const Real speed =
       speed_bound(a.traits, a.pose.rotation, a.motion) + speed_bound(b.traits, b.pose.rotation, b.motion);
-  return scale_by_power(extent, -6) + min(scale_by_power(extent, -2), speed * settings.tick_time);
+  const Real at_rest = extent * settings.breaking;
+  return {at_rest, at_rest + min(scale_by_power(extent, -2), speed * settings.tick_time), extent * settings.reuse};
 }
 
 /// The bodies of a step, as the stages before the solve read them.
@@ -75,11 +84,27 @@ struct Bodies {
   bool asleep(uint32_t slot) const { return activities[slot].asleep != 0; }
 };
 
+/// A contact of the last tick; `manifold` null where none are kept.
+struct ContactBefore {
+  const ContactState* contact = nullptr;
+  const ManifoldState* manifold = nullptr;
+};
+
+/// Contact points of a pair: those of the last tick where they will do, which sets `reused`, or else new ones. Fills
+/// `manifold`, unless it is null, with what is kept of them.
 void collide_pair(const StepSettings& settings, const RowBody& a, const RowBody& b, const AssetTable& assets,
-                  ContactGeometry& geometry) {
+                  const ContactBefore& before, ContactGeometry& geometry, ManifoldState* manifold, bool& reused) {
   const Matrix3 rotation_a = matrix_from(a.pose.rotation), rotation_b = matrix_from(b.pose.rotation);
-  collide({a.pose, a.traits, rotation_a}, {b.pose, b.traits, rotation_b}, contact_reach(settings, a, b), geometry,
-          assets);
+  const CollisionBody body_a = {a.pose, a.traits, rotation_a}, body_b = {b.pose, b.traits, rotation_b};
+  const PairLengths lengths = lengths_of(settings, a, b);
+  // A point that was out of reach then is still farther off than the pair can close in this tick.
+  const bool slow = lengths.reach + lengths.reuse <= scale_by_power(lengths.at_rest, 1);
+  reused = before.manifold != nullptr && manifold != nullptr && slow &&
+           reuse_manifold(body_a, body_b, *before.manifold, before.contact->feature, before.contact->point_count,
+                          lengths.reuse, lengths.reach, geometry, *manifold);
+  if (reused) return;
+  collide(body_a, body_b, lengths.reach, geometry, assets);
+  if (manifold != nullptr) *manifold = slow ? kept_manifold(body_a, body_b, geometry) : ManifoldState{};
 }
 
 /// Wakes whoever is touched by a body that moves, and whoever they touch. Returns how many woke.
@@ -92,7 +117,8 @@ uint32_t wake_touched(const StepSettings& settings, const Bodies& bodies, Span<c
       const bool wakes_low = bodies.asleep(low) && bodies.moving(high);
       if (!wakes_low && !(bodies.asleep(high) && bodies.moving(low))) continue;
       ContactGeometry geometry;
-      collide_pair(settings, bodies.at(low), bodies.at(high), bodies.assets, geometry);
+      bool reused = false;
+      collide_pair(settings, bodies.at(low), bodies.at(high), bodies.assets, {}, geometry, nullptr, reused);
       if (geometry.count == 0) continue;
       woke += wake_all_with(wakes_low ? low : high, bodies.activities);
       again = true;
@@ -109,7 +135,7 @@ Real depth_of(const ContactWork& contact) {
 
 /// Leaves out the shallowest contact, the last of equals, if it is shallower than `depth`, keeping the others' order:
 /// the last place is free then.
-bool leave_out_shallowest(Span<ContactWork> contacts, Real depth) {
+bool leave_out_shallowest(Span<ContactWork> contacts, Span<ManifoldState> manifolds, Real depth) {
   uint32_t shallowest = contacts.count;
   for (uint32_t i = 0; i < contacts.count; ++i) {
     const Real other = depth_of(contacts[i]);
@@ -119,6 +145,7 @@ bool leave_out_shallowest(Span<ContactWork> contacts, Real depth) {
   }
   if (shallowest == contacts.count) return false;
   for (uint32_t i = shallowest; i + 1 < contacts.count; ++i) contacts[i] = contacts[i + 1];
+  for (uint32_t i = shallowest; i + 1 < manifolds.count; ++i) manifolds[i] = manifolds[i + 1];
   return true;
 }
 
@@ -127,12 +154,21 @@ struct ContactCount {
   uint32_t points = 0;
   uint32_t dropped = 0;
   uint32_t capped = 0;
+  uint32_t reused = 0;
+};
+
+/// The contacts of a tick and, if they are kept, their manifolds.
+struct KeptContacts {
+  Span<const ContactState> contacts;
+  Span<const ManifoldState> manifolds;
 };
 
 /// Collides every pair with an awake body and makes the rows of those that touch, in the order of the pairs. `before`
-/// is sorted alike.
+/// is sorted alike. `manifolds` has as many places as `contacts`, or none.
 ContactCount collide_pairs(const StepSettings& settings, const Bodies& bodies, Span<const uint64_t> pairs,
-                           Span<const ContactState> before, Span<ContactWork> contacts) {
+                           const KeptContacts& kept, Span<ContactWork> contacts, Span<ManifoldState> manifolds) {
+  const Span<const ContactState> before = kept.contacts;
+  const bool reuses = kept.manifolds.count != 0;
   ContactCount count;
   uint32_t next = 0;
   for (const uint64_t key : pairs) {
@@ -142,18 +178,24 @@ ContactCount collide_pairs(const StepSettings& settings, const Bodies& bodies, S
     const bool continued = next < before.count && pair_key(before[next].body_a, before[next].body_b) == key;
     const RowBody a = bodies.at(slot_a), b = bodies.at(slot_b);
     ContactGeometry geometry;
-    collide_pair(settings, a, b, bodies.assets, geometry);
+    ManifoldState manifold;
+    ContactBefore last;
+    if (continued) last = {&before[next], reuses ? &kept.manifolds[next] : nullptr};
+    bool reused = false;
+    collide_pair(settings, a, b, bodies.assets, last, geometry, reuses ? &manifold : nullptr, reused);
     count.capped += geometry.capped ? 1 : 0;
+    count.reused += reused ? 1 : 0;
     if (geometry.count == 0) continue;
     if (count.contacts == contacts.count) {
       ++count.dropped;
       Real least = geometry.point[0].separation;
       for (uint32_t i = 1; i < geometry.count; ++i) least = min(least, geometry.point[i].separation);
-      if (!leave_out_shallowest(contacts, -least)) continue;
+      if (!leave_out_shallowest(contacts, manifolds, -least)) continue;
       --count.contacts;
     }
+    if (reuses) manifolds[count.contacts] = manifold;
     ContactWork& work = contacts[count.contacts++];
-    work.state = continued_contact(slot_a, slot_b, geometry, continued ? &before[next] : nullptr);
+    work.state = continued_contact(slot_a, slot_b, geometry, last.contact);
     make_rows(settings, a, b, geometry, work);
   }
   for (const ContactWork& contact : contacts.first(count.contacts)) count.points += contact.state.point_count;
@@ -167,11 +209,14 @@ uint32_t count_sleeping(const Bodies& bodies, Span<const ContactState> contacts)
   return count;
 }
 
-/// Contacts between bodies that sleep stay as they are: moves them to the front. Returns their count.
-uint32_t keep_sleeping(const Bodies& bodies, Span<ContactState> contacts) {
+/// Contacts between bodies that sleep stay as they are: moves them and their manifolds, if there are any, to the front.
+/// Returns their count.
+uint32_t keep_sleeping(const Bodies& bodies, Span<ContactState> contacts, Span<ManifoldState> manifolds) {
   uint32_t kept = 0;
-  for (const ContactState& contact : contacts) {
-    if (!bodies.awake(contact.body_a) && !bodies.awake(contact.body_b)) contacts[kept++] = contact;
+  for (uint32_t i = 0; i < contacts.count; ++i) {
+    if (bodies.awake(contacts[i].body_a) || bodies.awake(contacts[i].body_b)) continue;
+    if (manifolds.count != 0) manifolds[kept] = manifolds[i];
+    contacts[kept++] = contacts[i];
   }
   return kept;
 }
@@ -234,8 +279,11 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   const Span<const uint64_t> pairs = scratch.pairs.first(pair_count.kept);
   report.woke = wake_touched(settings, bodies, pairs);
   const uint32_t room = state.contacts.count - count_sleeping(bodies, state.contacts.first(before));
-  const ContactCount count =
-      collide_pairs(settings, bodies, pairs, state.contacts.first(before), scratch.contacts.first(room));
+  const bool reuses = settings.reuse > Real(0.0);
+  const Span<ManifoldState> manifolds = state.manifolds.first(reuses ? state.manifolds.count : 0);
+  const Span<ManifoldState> manifold_work = scratch.manifolds.first(reuses ? room : 0);
+  const ContactCount count = collide_pairs(settings, bodies, pairs, {state.contacts.first(before), manifolds},
+                                           scratch.contacts.first(room), manifold_work);
   const Span<ContactWork> contacts = scratch.contacts.first(count.contacts);
   const Span<ContactOrder> order = scratch.contact_order.first(count.contacts);
 
@@ -249,7 +297,7 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   report.saturations += carry(settings, solver_bodies);
   const Span<ContactEvent> events = {world.contact_events.data, world.contact_events.capacity};
   EventCount event_count = raise_events(poses, traits, activities, state.contacts.first(before), contacts, events);
-  const uint32_t sleeping = keep_sleeping(bodies, state.contacts.first(before));
+  const uint32_t sleeping = keep_sleeping(bodies, state.contacts.first(before), manifolds);
   const Span<BodySweep> sweeps = scratch.sweeps.first(used);
   report.saturations += make_sweeps(traits, work, poses, sweeps);
   if (state.world.continuous != 0) {
@@ -266,13 +314,14 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   report.saturations += finalise(traits, sweeps, poses, motions);
   if (settings.sleeping)
     report.fell_asleep = fall_asleep(settings, traits, poses, islands, scratch.island_bodies, motions, activities);
-  store_contacts(contacts, sleeping, before, state.contacts);
+  store_contacts(contacts, manifold_work, sleeping, before, state.contacts, manifolds);
 
   state.world.contact_count = sleeping + count.contacts;
   report.pairs = pair_count.kept + pair_count.dropped;
   report.pairs_dropped = pair_count.dropped;
   report.contacts = count.contacts;
   report.contact_points = count.points;
+  report.contacts_reused = count.reused;
   report.contacts_dropped = count.dropped;
   report.contacts_capped = count.capped;
   bool moves = false;

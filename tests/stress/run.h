@@ -13,6 +13,7 @@ namespace detent_stress {
 /// What a run sets otherwise than the library's defaults.
 struct Settings {
   std::optional<uint32_t> substeps, iterations;
+  std::optional<double> reuse;
   bool continuous = true;
 };
 
