@@ -44,7 +44,8 @@ struct ReusePair {
   const CollisionBody& other;
   bool base_is_a;
   int exponent;
-  Vec3<Unit> offset = {};  ///< of the other's centre, world axes
+  Vec3<Real> way = {};     ///< from the base's centre to the other's, world axes, m
+  Vec3<Unit> offset = {};  ///< likewise
 
   ReusePair(const CollisionBody& a, const CollisionBody& b, bool a_is_base)
       : base(a_is_base ? a : b),
@@ -55,8 +56,7 @@ struct ReusePair {
   /// False if the bodies are too far apart to touch.
   bool place() {
     const Position &from = base.pose.position, &to = other.pose.position;
-    const Vec3<Real> way = {real_difference(to.x, from.x), real_difference(to.y, from.y),
-                            real_difference(to.z, from.z)};
+    way = {real_difference(to.x, from.x), real_difference(to.y, from.y), real_difference(to.z, from.z)};
     const Real limit = real_from_unit(Unit(0.625), exponent);
     if (max(abs(way.x), max(abs(way.y), abs(way.z))) > limit) return false;
     offset = {unit_from_real(way.x, exponent), unit_from_real(way.y, exponent), unit_from_real(way.z, exponent)};
@@ -68,6 +68,10 @@ struct ReusePair {
   Vec3<Unit> arm_at(const int16_t (&anchor)[3]) const {
     return multiply(other.rotation,
                     Vec3<Unit>{unit_from_anchor(anchor[0]), unit_from_anchor(anchor[1]), unit_from_anchor(anchor[2])});
+  }
+  /// How far a point of the other body is along the normal, m. From exact positions: what is rounded trembles.
+  Real place_along(const Vec3<Unit>& normal, const Vec3<Unit>& arm) const {
+    return dot(way, normal) + real_from_unit(dot(normal, arm), other.traits.size_exponent);
   }
   /// From the base's centre, world axes.
   Vec3<Unit> point_at(const Vec3<Unit>& arm) const {
@@ -118,8 +122,8 @@ ManifoldState kept_manifold(const CollisionBody& a, const CollisionBody& b, cons
     anchor[1] = anchor_from_unit(local.y);
     anchor[2] = anchor_from_unit(local.z);
     // From the anchor as it is kept: its rounding is no motion.
-    const Vec3<Unit> place = pair.point_at(pair.arm_at(anchor));
-    kept.height[i] = unit_from_real(point.separation, pair.exponent) - dot(normal, place);
+    const Real place = pair.place_along(normal, pair.arm_at(anchor));
+    kept.height[i] = unit_from_real(point.separation - place, pair.exponent);
   }
   kept.normal = multiply_transposed(pair.base.rotation, normal);
   kept.offset = pair.offset_in_base();
@@ -141,7 +145,7 @@ bool reuse_manifold(const CollisionBody& a, const CollisionBody& b, const Manifo
   for (uint32_t i = 0; i < count; ++i) {
     const Vec3<Unit> arm_other = pair.arm_at(before.anchor[i]);
     const Vec3<Unit> place = pair.point_at(arm_other);
-    const Real separation = real_from_unit(before.height[i] + dot(normal, place), pair.exponent);
+    const Real separation = real_from_unit(before.height[i], pair.exponent) + pair.place_along(normal, arm_other);
     if (separation > reach) continue;
     const Vec3<Unit> arm_base = scaled(place, pair.exponent - pair.base.traits.size_exponent);
     after.height[contact.count] = before.height[i];
