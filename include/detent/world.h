@@ -2,6 +2,7 @@
 #include <detent/asset.h>
 #include <detent/body.h>
 #include <detent/event.h>
+#include <detent/reduction.h>
 #include <detent/status.h>
 
 /// The world: a static pool of bodies and contacts in one block of the caller's memory.
@@ -46,6 +47,7 @@ struct WorldDef {
   /// A pair's contact points are used again, and not found anew, until it has moved by this part of its smaller extent;
   /// [0, 1/64]; taken as 0 where the capacity has no room for manifolds.
   Real reuse = Real(1.0 / 256);
+  ManifoldReduction reduction = ManifoldReduction::projected_extremes;
 };
 
 /// Bytes of block that a world of this capacity needs; 0 if the capacity is out of range. The same on every target.
@@ -105,7 +107,7 @@ struct WorldInfo {
 };
 
 /// Makes an empty world in `block` (8-byte aligned, at least world_bytes(def.capacity) bytes).
-/// Errors: buffer_too_small, buffer_misaligned, out_of_range.
+/// Errors: buffer_too_small, buffer_misaligned, out_of_range, bad_argument (a reduction that is none).
 Status create_world(uint8_t* block, uint32_t block_bytes, const WorldDef& def, AssetTable assets, World& world);
 
 /// Errors: pool_full, bad_argument, out_of_range, not_normalised; asset_missing (a hull that is not bound).

@@ -54,8 +54,10 @@ bool make_frame(const CollisionBody& first, const CollisionBody& second, Real re
   return true;
 }
 
-void collide_ordered(const CollisionBody& first, const CollisionBody& second, Real reach, ContactGeometry& contact) {
+void collide_ordered(const CollisionBody& first, const CollisionBody& second, Real reach, ManifoldReduction reduction,
+                     ContactGeometry& contact) {
   PairFrame frame;
+  frame.reduction = reduction;
   if (!make_frame(first, second, reach, frame)) return;
   PairManifold manifold;
   if (frame.b.type == ShapeType::box)
@@ -87,11 +89,11 @@ void swap_bodies(ContactGeometry& contact) {
 }  // namespace
 
 void collide(const CollisionBody& a, const CollisionBody& b, Real reach, ContactGeometry& contact,
-             const AssetTable& assets) {
+             const AssetTable& assets, ManifoldReduction reduction) {
   contact.count = 0;
   contact.capped = false;
   if (!is_simple(a.traits) || !is_simple(b.traits)) {
-    collide_convex(a, b, reach, assets, contact);
+    collide_convex(a, b, reach, assets, reduction, contact);
     return;
   }
   const bool swapped = rank_of(type_of(b)) < rank_of(type_of(a));
@@ -100,7 +102,7 @@ void collide(const CollisionBody& a, const CollisionBody& b, Real reach, Contact
   if (type_of(first) == ShapeType::half_space)
     collide_half_space(first, second, reach, contact);
   else
-    collide_ordered(first, second, reach, contact);
+    collide_ordered(first, second, reach, reduction, contact);
   if (swapped && contact.count != 0) swap_bodies(contact);
 }
 

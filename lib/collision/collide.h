@@ -1,6 +1,7 @@
 #pragma once
 #include <detent/asset.h>
 #include <detent/detail/state.h>
+#include <detent/reduction.h>
 
 #include "math/rotation.h"
 
@@ -33,7 +34,7 @@ struct CollisionBody {
 /// Precision: 2^-26 of the larger body's bounding diameter (fixed; tests/collision), of a half-space of the other
 /// body's size and 2^-31 of its distance from the plane's origin.
 void collide(const CollisionBody& a, const CollisionBody& b, Real reach, ContactGeometry& contact,
-             const AssetTable& assets = {});
+             const AssetTable& assets = {}, ManifoldReduction reduction = ManifoldReduction::projected_extremes);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -53,6 +53,7 @@ StepSettings step_settings(const WorldState& world) {
   settings.restitution_threshold = world.restitution_threshold;
   settings.breaking = world.breaking;
   settings.reuse = world.reuse;
+  settings.reduction = static_cast<ManifoldReduction>(world.reduction);
   settings.dynamic_softness = softness(world.stiffness, world.damping_ratio);
   settings.static_softness = softness(scale_by_power(world.stiffness, 1), scale_by_power(world.damping_ratio, -1));
   return settings;

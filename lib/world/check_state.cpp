@@ -263,7 +263,8 @@ bool are_assets(const State& state) {
 Status check_state(const uint8_t* block, Capacity capacity, AssetTable assets) {
   const State state = view_of(block, capacity);
   const WorldState& world = state.world;
-  if (world.zero != 0 || world.sleeping > 1 || world.continuous > 1 || world.idle > 1 ||
+  if (!is_reduction(static_cast<ManifoldReduction>(world.reduction)) || world.sleeping > 1 || world.continuous > 1 ||
+      world.idle > 1 ||
       !are_settings(world.gravity, world.tick_time, world.substeps, world.substeps_max, world.iterations,
                     world.relaxation, world.stiffness, world.damping_ratio, world.restitution_threshold, world.breaking,
                     world.reuse)) {

@@ -171,6 +171,7 @@ Status create_world(uint8_t* block, uint32_t block_bytes, const WorldDef& def, A
                     def.stiffness, def.damping_ratio, def.restitution_threshold, def.breaking, def.reuse)) {
     return Status::out_of_range;
   }
+  if (!is_reduction(def.reduction)) return Status::bad_argument;
   const uint32_t bytes = world_bytes(def.capacity);
   if (bytes == 0) return Status::out_of_range;
   if (block == nullptr || block_bytes < bytes) return Status::buffer_too_small;
@@ -192,6 +193,7 @@ Status create_world(uint8_t* block, uint32_t block_bytes, const WorldDef& def, A
   state.stiffness = def.stiffness;
   state.damping_ratio = def.damping_ratio;
   state.restitution_threshold = def.restitution_threshold;
+  state.reduction = static_cast<uint32_t>(def.reduction);
   state.breaking = def.breaking;
   state.reuse = def.capacity.manifolds ? def.reuse : Real(0.0);
   return Status::ok;

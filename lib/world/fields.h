@@ -61,7 +61,7 @@ inline constexpr Field k_world_fields[] = {
     DETENT_FIELD(WorldState, sleeping),
     DETENT_FIELD(WorldState, continuous),
     DETENT_FIELD(WorldState, idle),
-    DETENT_FIELD(WorldState, zero),
+    DETENT_FIELD(WorldState, reduction),
     DETENT_FIELD(WorldState, gravity),
     DETENT_FIELD(WorldState, tick_time),
     DETENT_FIELD(WorldState, relaxation),

@@ -1,5 +1,6 @@
 #pragma once
 #include <detent/detail/state.h>
+#include <detent/reduction.h>
 
 #include "math/arithmetic.h"
 #include "math/scaled.h"
@@ -40,6 +41,10 @@ inline bool is_gyration(Scaled value) { return is_between(value, Scaled(1.0), Sc
 
 inline bool is_rule(RestitutionRule rule) {
   return rule == RestitutionRule::larger || rule == RestitutionRule::smaller;
+}
+
+inline bool is_reduction(ManifoldReduction reduction) {
+  return reduction == ManifoldReduction::projected_extremes || reduction == ManifoldReduction::deepest_area;
 }
 
 inline constexpr Real k_friction_max = 16.0;

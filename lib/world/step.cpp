@@ -103,7 +103,7 @@ void collide_pair(const StepSettings& settings, const RowBody& a, const RowBody&
            reuse_manifold(body_a, body_b, *before.manifold, before.contact->feature, before.contact->point_count,
                           lengths.reuse, lengths.reach, geometry, *manifold);
   if (reused) return;
-  collide(body_a, body_b, lengths.reach, geometry, assets);
+  collide(body_a, body_b, lengths.reach, geometry, assets, settings.reduction);
   if (manifold != nullptr) *manifold = slow ? kept_manifold(body_a, body_b, geometry) : ManifoldState{};
 }
 

@@ -14,6 +14,7 @@ namespace detent_stress {
 struct Settings {
   std::optional<uint32_t> substeps, iterations;
   std::optional<double> reuse;
+  std::optional<uint32_t> reduction;  ///< a ManifoldReduction
   bool continuous = true;
 };
 

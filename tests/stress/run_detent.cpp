@@ -86,6 +86,7 @@ class DetentRun : public detent_stress::Run {
     if (settings.reuse) {
       if (const Status status = real_from_host(*settings.reuse, def.reuse); status != Status::ok) return status;
     }
+    if (settings.reduction) def.reduction = static_cast<ManifoldReduction>(*settings.reduction);
     def.sleeping = stage.sleeping;
     def.continuous = settings.continuous;
     words_.resize((world_bytes(def.capacity) + 7) / 8);

@@ -161,6 +161,9 @@ DETENT_TEST(arguments, a_world_needs_its_block_and_sound_settings) {
   EXPECT_EQ(make([](WorldDef& d) { d.breaking = real(0); }), Status::out_of_range);
   EXPECT_EQ(make([](WorldDef& d) { d.breaking = real(0.07); }), Status::out_of_range);
   EXPECT_OK(make([](WorldDef& d) { d.capacity.manifolds = false; }));
+  EXPECT_OK(make([](WorldDef& d) { d.reduction = ManifoldReduction::deepest_area; }));
+  EXPECT_EQ(make([](WorldDef& d) { d.reduction = static_cast<ManifoldReduction>(0); }), Status::bad_argument);
+  EXPECT_EQ(make([](WorldDef& d) { d.reduction = static_cast<ManifoldReduction>(3); }), Status::bad_argument);
   WorldDef def;
   def.capacity = {2, 2, 0};
   EXPECT_EQ(create_world(block + 4, sizeof block - 4, def, {}, world), Status::buffer_misaligned);
