@@ -105,6 +105,8 @@ OraclePair moved(const OraclePair& pair, Samples& samples, double part) {
   const Vector spin = any_direction(samples) * (uniform(samples, 0, part) * extent_of(pair) / bound);
   const Vector shift = any_direction(samples) * (uniform(samples, 0, part) * extent_of(pair));
   smaller = moved(smaller, place_of(smaller), detent_oracle::rotation_by(spin), shift);
+  Quat& q = smaller.pose.rotation;
+  if (samples.below(2) == 0) q = {-q.x, -q.y, -q.z, -q.w};  // the same rotation
   return now;
 }
 

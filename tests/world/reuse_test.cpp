@@ -133,6 +133,16 @@ DETENT_TEST(reuse, a_box_pushed_slowly_over_an_edge_falls_as_it_does_without) {
   EXPECT_NEAR(fell[1], fell[0], 3);
 }
 
+DETENT_TEST(reuse, a_pair_that_may_close_what_was_out_of_reach_is_found_anew) {
+  for (const bool fast : {false, true}) {
+    Lab lab = make_tower(2);
+    lab.run(60);
+    ASSERT_EQ(lab.run(1).contacts_reused, 2u);
+    ASSERT_OK(set_velocity(lab.world, {3, 1}, reals(fast ? 1.0 : 0.3, 0, 0), reals(0, 0, 0)));
+    EXPECT_EQ(lab.run(1).contacts_reused, fast ? 1u : 2u);
+  }
+}
+
 /// A slab of half size 20 m whose far part carries a box, tilted and turned by its own motion.
 DETENT_TEST(reuse, a_large_body_that_turns_carries_what_stands_far_out) {
   for (const bool about_y : {false, true}) {
