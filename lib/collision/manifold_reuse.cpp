@@ -31,7 +31,11 @@ int16_t anchor_from_unit(Unit value) {
 #endif
 }
 
-bool is_within(const Vec3<Unit>& v, Unit limit) { return abs(v.x) < limit && abs(v.y) < limit && abs(v.z) < limit; }
+/// Not by |.|, which the most negative number has not.
+bool is_within(Unit value, Unit limit) { return -limit < value && value < limit; }
+bool is_within(const Vec3<Unit>& v, Unit limit) {
+  return is_within(v.x, limit) && is_within(v.y, limit) && is_within(v.z, limit);
+}
 Real absolute_sum(const Vec3<Unit>& v, int exponent) {
   return real_from_unit(abs(v.x), exponent) + real_from_unit(abs(v.y), exponent) + real_from_unit(abs(v.z), exponent);
 }
@@ -171,14 +175,13 @@ bool is_manifold(const BodyTraits& a, const BodyTraits& b, uint32_t count, const
     return false;
   const BodyTraits &base = a_is_base(a, b) ? a : b, &other = a_is_base(a, b) ? b : a;
   const int power = other.size_exponent - base.size_exponent - 2;
-  const Unit half = 0.5;
   for (uint32_t i = 0; i < count; ++i) {
     const int16_t(&anchor)[3] = manifold.anchor[i];
     const Vec3<Unit> arm = {unit_from_anchor(anchor[0]), unit_from_anchor(anchor[1]), unit_from_anchor(anchor[2])};
-    if (!is_within(arm, Unit(0.991)) || !(abs(manifold.height[i]) < Unit(1.0))) return false;
+    if (!is_within(arm, Unit(0.991)) || !is_within(manifold.height[i], Unit(1.0))) return false;
     const Vec3<Unit> place = manifold.offset + scaled(rotate(manifold.rotation, arm), power);
     if (!(length(place) < Unit(0.48))) return false;
-    if (!(abs(manifold.height[i] + dot(manifold.normal, place)) < half + Unit(0.02))) return false;
+    if (!is_within(manifold.height[i] + dot(manifold.normal, place), Unit(0.52))) return false;
   }
   return true;
 }
