@@ -157,7 +157,7 @@ bool reuse_manifold(const CollisionBody& a, const CollisionBody& b, const Manifo
     contact.point[contact.count++] = {pair.base_is_a ? arm_base : arm_other, pair.base_is_a ? arm_other : arm_base,
                                       separation, feature[i]};
   }
-  return contact.count != 0;
+  return contact.count >= k_points_min;
 }
 
 bool is_manifold(const BodyTraits& a, const BodyTraits& b, uint32_t count, const ManifoldState& manifold) {

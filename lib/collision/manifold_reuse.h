@@ -11,8 +11,9 @@ ManifoldState kept_manifold(const CollisionBody& a, const CollisionBody& b, cons
 
 /// The contact of `before`, whose features are `feature`, with its points moved along: normal and base's surface go
 /// with the base, the points with the other body, and separations follow the motion along the normal. Points farther
-/// apart than `reach`, m, are left out, of `after` too. False if no point of the smaller body may have moved, as the
-/// larger one sees it, by more than `tolerance`, m, or nothing is left: the pair is to be collided anew.
+/// apart than `reach`, m, are left out, of `after` too. False if a point of the smaller body may have moved, as the
+/// larger one sees it, by more than `tolerance`, m, or fewer than three points are left: the pair is to be collided
+/// anew.
 ///
 /// Precision: as collide(), and 2^-17 of the motion; always from what was kept, so that nothing adds up. The normal's
 /// direction is within the pair's turn since then, at most 2 tolerance / the smaller body's bounding diameter.

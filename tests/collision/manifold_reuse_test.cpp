@@ -256,16 +256,16 @@ DETENT_TEST(manifold_reuse, a_point_that_parts_is_left_out_and_a_pair_that_parts
   pair.kept = kept_of(pair.bodies, pair.found);
   ASSERT_EQ(pair.found.count, 4u);
   OraclePair now = pair.bodies;
-  now.b.pose.rotation = rotation_near(detent_oracle::rotation_by({{0, 0, 0.002}}));
+  now.b.pose.rotation = rotation_near(detent_oracle::rotation_by({{0.001, 0, 0.001}}));
   const Reuse tipped = reuse_of(pair, now, 1, 0.0005);
   ASSERT_TRUE(tipped.used);
-  ASSERT_EQ(tipped.contact.count, 2u);
-  for (uint32_t k = 0; k < 2; ++k) {
-    EXPECT_LT(real_to_host(tipped.contact.point[k].separation), -0.0005);
-    EXPECT_LT(host(tipped.contact.point[k].arm_b.x), 0);
-  }
-  EXPECT_TRUE(is_manifold(now.a.traits, now.b.traits, 2, tipped.after));
-  EXPECT_FALSE(is_manifold(now.a.traits, now.b.traits, 1, tipped.after));
+  ASSERT_EQ(tipped.contact.count, 3u);  // over a corner
+  for (uint32_t k = 0; k < 3; ++k) EXPECT_LT(real_to_host(tipped.contact.point[k].separation), 0.0001);
+  EXPECT_TRUE(is_manifold(now.a.traits, now.b.traits, 3, tipped.after));
+  EXPECT_FALSE(is_manifold(now.a.traits, now.b.traits, 2, tipped.after));
+  now.b.pose.rotation = rotation_near(detent_oracle::rotation_by({{0, 0, 0.002}}));
+  EXPECT_FALSE(reuse_of(pair, now, 1, 0.0005).used);  // over an edge, about which it turns
+  EXPECT_TRUE(reuse_of(pair, now, 1, 0.002).used);
   now = pair.bodies;
   now.b.pose.position = position_near({{0, 1.001, 0}});
   EXPECT_FALSE(reuse_of(pair, now, 1, 0.0005).used);
