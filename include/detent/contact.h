@@ -1,5 +1,6 @@
 #pragma once
 #include <detent/distance.h>
+#include <detent/reduction.h>
 
 /// Contact of two convex shapes at rest. It needs no world.
 namespace detent {
@@ -31,14 +32,15 @@ struct ContactManifold {
 /// but for a 64th of the thinner one's least half extent.
 ///
 /// The points are corners of the area where the two supporting faces or edges face each other, which may reach a 64th
-/// of the smaller one beyond its sides. Of more than four, those farthest along four diagonals whatever their depth,
-/// and one within 2^-10 of the smaller core's radius of the deepest. A face of more than 32 vertices counts by 32
-/// extremes, the flat side of a cylinder or cone by 8 points of its rim and the one that is deepest.
+/// of the smaller one beyond its sides. Of more than four, those that `reduction` names. A face of more than 32
+/// vertices counts by 32 extremes, the flat side of a cylinder or cone by 8 points of its rim and the one that is
+/// deepest.
 ///
 /// Precision: as closest_points(). Errors: bad_argument for two half-spaces; not_normalised; out_of_range for reach < 0
 /// and NaN.
 Status contact_points(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Real reach,
-                      ContactManifold& manifold, DistanceCache* cache = nullptr);
+                      ContactManifold& manifold, DistanceCache* cache = nullptr,
+                      ManifoldReduction reduction = ManifoldReduction::projected_extremes);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

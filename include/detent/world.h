@@ -3,6 +3,7 @@
 #include <detent/body.h>
 #include <detent/event.h>
 #include <detent/features.h>
+#include <detent/reduction.h>
 #include <detent/status.h>
 
 /// The world: a static pool of bodies and contacts in one block of the caller's memory.
@@ -14,13 +15,15 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// How many of each kind a world can hold. Fixed for the life of the world; at most 2^20 each.
+/// How much of each kind a world can hold. Fixed for the life of the world; at most 2^20 each.
 struct Capacity {
   uint32_t bodies = 0;
   uint32_t contacts = 0;  ///< pairs of bodies in contact
   uint32_t assets = 0;
+  bool manifolds =
+      true;  ///< room to use contact points again (WorldDef::reuse), which takes 160 bytes a contact (f64 272)
   friend constexpr bool operator==(Capacity a, Capacity b) {
-    return a.bodies == b.bodies && a.contacts == b.contacts && a.assets == b.assets;
+    return a.bodies == b.bodies && a.contacts == b.contacts && a.assets == b.assets && a.manifolds == b.manifolds;
   }
 };
 
@@ -39,6 +42,13 @@ struct WorldDef {
       0.25;                ///< approach speed below which nothing rebounds, in sqrt(g x smaller extent), [0, 64]
   bool continuous = true;  ///< bodies meet at the time of impact, however fast: nothing passes through anything
   bool sleeping = true;    ///< islands that have come to rest are left out of the step until something wakes them
+  /// How far apart a pair at rest has contact points, over its smaller extent, [2^-10, 2^-4]; what the pair can close
+  /// in a tick is added to it.
+  Real breaking = Real(1.0 / 64);
+  /// A pair's contact points are used again, and not found anew, until it has moved by this part of its smaller extent;
+  /// [0, 1/64]; taken as 0 where the capacity has no room for manifolds.
+  Real reuse = Real(1.0 / 256);
+  ManifoldReduction reduction = ManifoldReduction::projected_extremes;
 };
 
 /// Bytes of block that a world of this capacity needs; 0 if the capacity is out of range. The same on every target.
@@ -67,12 +77,13 @@ struct StepReport {
   uint32_t pairs = 0;             ///< pairs of overlapping bounds of which a body moves
   uint32_t contacts = 0;          ///< pairs with at least one contact point
   uint32_t contact_points = 0;
+  uint32_t contacts_reused = 0;  ///< whose points were not found anew, for the pair has hardly moved
   uint32_t contacts_capped = 0;  ///< found by a search that met its cap (the normal may not be the least way out), or
                                  ///< not found for want of a hull's bytes
   uint32_t contact_events = 0;   ///< in the world's buffer
   uint32_t contact_events_dropped = 0;  ///< beyond its capacity; not counted where there is no buffer
-  uint32_t pairs_dropped = 0;  ///< pairs beyond the pair buffer (the shallowest): their contacts are lost this tick, but
-                               ///< continuous collision tries them all
+  uint32_t pairs_dropped = 0;  ///< pairs beyond the pair buffer (the shallowest): their contacts are lost this tick,
+                               ///< but continuous collision tries them all
   uint32_t contacts_dropped = 0;   ///< contacts beyond the capacity (the shallowest), lost this tick
   uint32_t saturations = 0;        ///< state components clamped to their range
   uint32_t impacts = 0;            ///< times at which bodies met within the tick and were made to part
@@ -102,7 +113,7 @@ struct WorldInfo {
 
 /// Makes an empty world in `block` (8-byte aligned, at least world_bytes(def.capacity) bytes).
 /// `features`: what the world can do, and so what the program links (features.h); all by default.
-/// Errors: buffer_too_small, buffer_misaligned, out_of_range, feature_missing.
+/// Errors: buffer_too_small, buffer_misaligned, out_of_range, bad_argument (a reduction that is none), feature_missing.
 Status create_world(uint8_t* block, uint32_t block_bytes, const WorldDef& def, AssetTable assets, World& world,
                     const FeatureTable& features = feature_table<Features::all>);
 

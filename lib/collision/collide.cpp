@@ -59,9 +59,10 @@ const PairCode& code_of(const FeatureTable& features, const PairFrame& frame) {
   return frame.a.type == ShapeType::box ? *features.box_round_pair : *features.round_pair;
 }
 
-void collide_ordered(const CollisionBody& first, const CollisionBody& second, Real reach, const FeatureTable& features,
-                     ContactGeometry& contact) {
+void collide_ordered(const CollisionBody& first, const CollisionBody& second, Real reach, ManifoldReduction reduction,
+                     const FeatureTable& features, ContactGeometry& contact) {
   PairFrame frame;
+  frame.reduction = reduction;
   if (!make_frame(first, second, reach, frame)) return;
   PairManifold manifold;
   code_of(features, frame).collide(frame, manifold);
@@ -88,11 +89,11 @@ void swap_bodies(ContactGeometry& contact) {
 }  // namespace
 
 void collide(const CollisionBody& a, const CollisionBody& b, Real reach, ContactGeometry& contact,
-             const AssetTable& assets, const FeatureTable& features) {
+             const AssetTable& assets, ManifoldReduction reduction, const FeatureTable& features) {
   contact.count = 0;
   contact.capped = false;
   if (!is_simple(a.traits) || !is_simple(b.traits)) {
-    features.convex->collide(a, b, reach, assets, contact);
+    features.convex->collide(a, b, reach, assets, reduction, contact);
     return;
   }
   const bool swapped = rank_of(type_of(b)) < rank_of(type_of(a));
@@ -101,7 +102,7 @@ void collide(const CollisionBody& a, const CollisionBody& b, Real reach, Contact
   if (type_of(first) == ShapeType::half_space)
     features.half_space->collide(first, second, reach, contact);
   else
-    collide_ordered(first, second, reach, features, contact);
+    collide_ordered(first, second, reach, reduction, features, contact);
   if (swapped && contact.count != 0) swap_bodies(contact);
 }
 

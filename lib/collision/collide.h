@@ -2,6 +2,7 @@
 #include <detent/asset.h>
 #include <detent/detail/state.h>
 #include <detent/features.h>
+#include <detent/reduction.h>
 
 #include "math/rotation.h"
 
@@ -35,7 +36,8 @@ struct CollisionBody {
 /// diameter (fixed; tests/collision), of a half-space of the other body's size and 2^-31 of its distance from the
 /// plane's origin.
 void collide(const CollisionBody& a, const CollisionBody& b, Real reach, ContactGeometry& contact,
-             const AssetTable& assets = {}, const FeatureTable& features = feature_table<Features::all>);
+             const AssetTable& assets = {}, ManifoldReduction reduction = ManifoldReduction::projected_extremes,
+             const FeatureTable& features = feature_table<Features::all>);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

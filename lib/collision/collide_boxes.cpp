@@ -1,6 +1,7 @@
 #include "collision/collide_shapes.h"
 #include "collision/segments.h"
 #include "math/root.h"
+#include "proximity/contact_clip.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -144,14 +145,39 @@ uint32_t clip_side(const FaceVertex* in, uint32_t count, uint32_t side, Unit lim
   return kept;
 }
 
-/// At most four of the vertices: those that reach farthest along the face's four diagonals, in that order. Depth plays
-/// no part, so that a resting pair keeps its points while it trembles. Ties go to the earlier vertex. Source: the
-/// extremes of Moravanszky, Terdiman, "Fast Contact Reduction for Dynamics Simulation", 2004.
-uint32_t choose_corners(const FaceVertex* polygon, uint32_t count, uint32_t chosen[k_manifold_points_max]) {
+int64_t raw_from(Unit value) {
+#if DETENT_FIXED
+  return value.raw;
+#else
+  bool saturated = false;  // never: |value| < 2
+  return integer_from_float(value, 30, saturated);
+#endif
+}
+
+uint32_t choose_by_area(const FaceVertex* polygon, uint32_t count, uint32_t chosen[k_manifold_points_max]) {
+  AreaChoice choice(INT64_MAX, 0, ManifoldReduction::deepest_area);
+  do {
+    for (uint32_t i = 0; i < count; ++i) {
+      const FaceVertex& p = polygon[i];
+      choice.add({raw_from(p.u), raw_from(p.v), raw_from(p.w), AreaPoint::Kind::vertex, static_cast<uint8_t>(i), 0});
+    }
+  } while (choice.again());
+  AreaPoint corner[k_manifold_points_max];
+  const int kept = choice.choose(corner);
+  for (int i = 0; i < kept; ++i) chosen[i] = corner[i].incident;
+  return static_cast<uint32_t>(kept);
+}
+
+/// At most four of the vertices. Of projected extremes those that reach farthest along the face's four diagonals, in
+/// that order, and the deepest instead of the nearest of them if it is deeper than all by more than `drop`. Ties go to
+/// the earlier vertex.
+uint32_t choose_corners(const FaceVertex* polygon, uint32_t count, ManifoldReduction reduction, Unit drop,
+                        uint32_t chosen[k_manifold_points_max]) {
   if (count <= k_manifold_points_max) {
     for (uint32_t i = 0; i < count; ++i) chosen[i] = i;
     return count;
   }
+  if (reduction == ManifoldReduction::deepest_area) return choose_by_area(polygon, count, chosen);
   uint32_t kept = 0;
   for (uint32_t diagonal = 0; diagonal < 4; ++diagonal) {
     const auto reach = [&](const FaceVertex& p) {
@@ -165,6 +191,17 @@ uint32_t choose_corners(const FaceVertex* polygon, uint32_t count, uint32_t chos
     for (uint32_t i = 0; i < kept; ++i) fresh = fresh && chosen[i] != best;
     if (fresh) chosen[kept++] = best;
   }
+  uint32_t deepest = 0, nearest = 0;
+  for (uint32_t i = 1; i < count; ++i) {
+    if (polygon[i].w < polygon[deepest].w) deepest = i;
+  }
+  const FaceVertex& low = polygon[deepest];
+  const auto aside = [&](uint32_t i) { return abs(polygon[chosen[i]].u - low.u) + abs(polygon[chosen[i]].v - low.v); };
+  for (uint32_t i = 0; i < kept; ++i) {
+    if (polygon[chosen[i]].w <= low.w + drop) return kept;
+    if (aside(i) < aside(nearest)) nearest = i;
+  }
+  chosen[kept < k_manifold_points_max ? kept++ : nearest] = deepest;
   return kept;
 }
 
@@ -218,7 +255,10 @@ void collide_face(const PairShape& reference, const PairShape& incident, int fac
     if (polygon[i].w <= frame.reach) polygon[near++] = polygon[i];
   }
   uint32_t chosen[k_manifold_points_max];
-  const uint32_t chosen_count = choose_corners(polygon, near, chosen);
+  Unit smallest = half.v[0];
+  for (int i = 0; i < 3; ++i) smallest = min(smallest, min(half.v[i], other.v[i]));
+  const Unit drop = scale_by_power(smallest, -10);
+  const uint32_t chosen_count = choose_corners(polygon, near, frame.reduction, drop, chosen);
   for (uint32_t i = 0; i < chosen_count; ++i) {
     const FaceVertex& p = polygon[chosen[i]];
     const Vec3<Unit> local = axis_u * p.u + axis_v * p.v + normal * (half.v[face] + scale_by_power(p.w, -1));

@@ -38,7 +38,7 @@ Real bounding_radius(const BodyTraits& traits) { return real_from_unit(traits.bo
 /// The plane is asked about where it is nearest to the body: its origin may be too far off for contact_points(). What
 /// the place's rounding to a coordinate takes from the distance is added to it again.
 Status meet_half_space(const CollisionBody& plane, const CollisionBody& body, const Convex& convex, bool plane_is_a,
-                       Real reach, ContactManifold& manifold) {
+                       Real reach, ManifoldReduction reduction, ContactManifold& manifold) {
   const Vec3<Unit>& up = plane.rotation.column[1];
   const Real height = distance_along(plane.pose.position, body.pose.position, up);
   const Real radius = bounding_radius(body.traits);
@@ -56,8 +56,9 @@ Status meet_half_space(const CollisionBody& plane, const CollisionBody& body, co
   ground.type = ShapeType::half_space;
   const Pose pose_ground = {foot, plane.pose.rotation}, pose_body = {centre, body.pose.rotation};
   const Real asked = max(reach - missing, Real(0.0));
-  const Status status = plane_is_a ? contact_points(ground, pose_ground, convex, pose_body, asked, manifold)
-                                   : contact_points(convex, pose_body, ground, pose_ground, asked, manifold);
+  const Status status =
+      plane_is_a ? contact_points(ground, pose_ground, convex, pose_body, asked, manifold, nullptr, reduction)
+                 : contact_points(convex, pose_body, ground, pose_ground, asked, manifold, nullptr, reduction);
   for (uint32_t i = 0; i < manifold.count; ++i) {
     ManifoldPoint& point = manifold.point[i];
     point.separation += missing;
@@ -69,15 +70,16 @@ Status meet_half_space(const CollisionBody& plane, const CollisionBody& body, co
 }  // namespace
 
 void collide_convex(const CollisionBody& a, const CollisionBody& b, Real reach, const AssetTable& assets,
-                    ContactGeometry& contact) {
+                    ManifoldReduction reduction, ContactGeometry& contact) {
   Convex convex_a, convex_b;
   contact.capped = !body_convex(a.traits, assets, convex_a) || !body_convex(b.traits, assets, convex_b);
   if (contact.capped) return;
   ContactManifold manifold;
-  const Status status = is_half_space(a)   ? meet_half_space(a, b, convex_b, true, reach, manifold)
-                        : is_half_space(b) ? meet_half_space(b, a, convex_a, false, reach, manifold)
-                                           : contact_points(convex_a, {a.pose.position, a.pose.rotation}, convex_b,
-                                                            {b.pose.position, b.pose.rotation}, reach, manifold);
+  const Status status = is_half_space(a) ? meet_half_space(a, b, convex_b, true, reach, reduction, manifold)
+                        : is_half_space(b)
+                            ? meet_half_space(b, a, convex_a, false, reach, reduction, manifold)
+                            : contact_points(convex_a, {a.pose.position, a.pose.rotation}, convex_b,
+                                             {b.pose.position, b.pose.rotation}, reach, manifold, nullptr, reduction);
   add_points(a, b, manifold, contact);
   contact.capped = contact.capped || status != Status::ok;
 }

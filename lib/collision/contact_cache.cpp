@@ -24,14 +24,21 @@ ContactState continued_contact(uint32_t body_a, uint32_t body_b, const ContactGe
   return contact;
 }
 
-uint32_t remove_contacts(Span<ContactState> contacts, uint32_t body) {
+uint32_t remove_contacts(uint32_t body, Span<ContactState> contacts, Span<ManifoldState> manifolds) {
+  const bool has_manifolds = manifolds.count != 0;
   uint32_t kept = 0;
   for (uint32_t i = 0; i < contacts.count; ++i) {
     if (contacts[i].body_a == body || contacts[i].body_b == body) continue;
-    if (kept != i) contacts[kept] = contacts[i];
+    if (kept != i) {
+      contacts[kept] = contacts[i];
+      if (has_manifolds) manifolds[kept] = manifolds[i];
+    }
     ++kept;
   }
-  for (uint32_t i = kept; i < contacts.count; ++i) contacts[i] = ContactState{};
+  for (uint32_t i = kept; i < contacts.count; ++i) {
+    contacts[i] = ContactState{};
+    if (has_manifolds) manifolds[i] = ManifoldState{};
+  }
   return kept;
 }
 

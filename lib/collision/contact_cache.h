@@ -12,8 +12,9 @@ inline namespace DETENT_NAMESPACE {
 ContactState continued_contact(uint32_t body_a, uint32_t body_b, const ContactGeometry& geometry,
                                const ContactState* before);
 
-/// Removes the contacts of a body, keeping the order of the rest. Returns how many are left; the slots freed are zero.
-uint32_t remove_contacts(Span<ContactState> contacts, uint32_t body);
+/// Removes the contacts of a body and their manifolds, if there are any, keeping the order of the rest. Returns how
+/// many are left; the slots freed are zero.
+uint32_t remove_contacts(uint32_t body, Span<ContactState> contacts, Span<ManifoldState> manifolds);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

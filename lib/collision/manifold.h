@@ -1,5 +1,6 @@
 #pragma once
 #include <detent/detail/state.h>
+#include <detent/reduction.h>
 
 #include "math/arithmetic.h"
 #include "math/rotation.h"
@@ -39,6 +40,7 @@ struct PairShape {
 struct PairFrame {
   int exponent;
   Unit reach;  ///< points farther apart than this are no contact
+  ManifoldReduction reduction;
   PairShape a, b;
 };
 

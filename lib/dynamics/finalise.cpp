@@ -54,8 +54,17 @@ uint32_t finalise(const BodyTraits& traits, const BodySweep& sweep, BodyPose& po
   return is_dynamic(traits) ? clamped + hold_speeds(traits, pose.rotation, motion) : clamped;
 }
 
-void store_contacts(Span<const ContactWork> work, uint32_t awake_count, uint32_t before, Span<ContactState> contacts,
-                    Span<uint32_t> awake) {
+void store_contacts(Span<const ContactWork> work, Span<const ManifoldState> manifold_work, uint32_t awake_count,
+                    uint32_t before, Span<ContactState> contacts, Span<ManifoldState> manifolds, Span<uint32_t> awake) {
+  const bool has_manifolds = manifolds.count != 0;
+  const auto move = [&](uint32_t from, uint32_t to) {
+    contacts[to] = contacts[from];
+    if (has_manifolds) manifolds[to] = manifolds[from];
+  };
+  const auto put = [&](uint32_t from, uint32_t to) {
+    contacts[to] = work[from].state;
+    if (has_manifolds) manifolds[to] = manifold_work[from];
+  };
   const auto precedes = [](const ContactState& a, const ContactState& b) {
     return a.body_a < b.body_a || (a.body_a == b.body_a && a.body_b < b.body_b);
   };
@@ -63,28 +72,31 @@ void store_contacts(Span<const ContactWork> work, uint32_t awake_count, uint32_t
   uint32_t same = 0;
   for (; same < work.count && same < awake_count; ++same) {
     const ContactState& state = work[same].state;
-    ContactState& place = contacts[awake[same]];
+    const ContactState& place = contacts[awake[same]];
     if (place.body_a != state.body_a || place.body_b != state.body_b) break;
-    place = state;
+    put(same, awake[same]);
   }
   // Those that sleep close ranks, from where the first of the others was.
   uint32_t kept = same < awake_count ? awake[same] : before;
   for (uint32_t i = same; i < awake_count; ++i) {
     const uint32_t end = i + 1 < awake_count ? awake[i + 1] : before;
-    for (uint32_t place = awake[i] + 1; place < end; ++place) contacts[kept++] = contacts[place];
+    for (uint32_t place = awake[i] + 1; place < end; ++place) move(place, kept++);
   }
   const uint32_t count = kept + (work.count - same);
   uint32_t left = work.count;
   for (uint32_t place = count; left > same; --place) {
     const ContactState& state = work[left - 1].state;
     if (kept > 0 && precedes(state, contacts[kept - 1])) {
-      contacts[place - 1] = contacts[--kept];
+      move(--kept, place - 1);
       continue;
     }
-    contacts[place - 1] = state;
-    awake[--left] = place - 1;
+    put(--left, place - 1);
+    awake[left] = place - 1;
   }
-  for (uint32_t i = count; i < before; ++i) contacts[i] = ContactState{};
+  for (uint32_t i = count; i < before; ++i) {
+    contacts[i] = ContactState{};
+    if (has_manifolds) manifolds[i] = ManifoldState{};
+  }
 }
 
 }  // namespace DETENT_NAMESPACE

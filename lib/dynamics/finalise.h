@@ -25,11 +25,11 @@ uint32_t finalise(const BodyTraits& traits, const BodySweep& sweep, BodyPose& po
 /// Holds velocity to k_speed_max and spin to k_spin_max. Returns the number of components clamped.
 uint32_t hold_speeds(const BodyTraits& traits, const Quat& rotation, BodyMotion& motion);
 
-/// Puts the contacts of this tick in the place of those of the last one that are listed in `awake`; all are sorted, and
-/// the others, which sleep, stay. There were `before` in all: places no longer needed become zero. `awake` then lists
-/// the new ones, and must have room for them.
-void store_contacts(Span<const ContactWork> work, uint32_t awake_count, uint32_t before, Span<ContactState> contacts,
-                    Span<uint32_t> awake);
+/// Puts the contacts of this tick, with their manifolds if there are any, in the place of those of the last one that
+/// are listed in `awake`; all are sorted, and the others, which sleep, stay. There were `before` in all: places no
+/// longer needed become zero. `awake` then lists the new ones, and must have room for them.
+void store_contacts(Span<const ContactWork> work, Span<const ManifoldState> manifold_work, uint32_t awake_count,
+                    uint32_t before, Span<ContactState> contacts, Span<ManifoldState> manifolds, Span<uint32_t> awake);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -410,7 +410,7 @@ struct Stage {
     const BodyTraits &a = bodies.traits[pair_low(pair.key)], &b = bodies.traits[pair_high(pair.key)];
     const Matrix3 rotation_a = matrix_from(pose_a.rotation), rotation_b = matrix_from(pose_b.rotation);
     const Real reach = scale_by_power(extent_of(pair.key), -10);
-    collide({pose_a, a, rotation_a}, {pose_b, b, rotation_b}, reach, geometry, assets, features);
+    collide({pose_a, a, rotation_a}, {pose_b, b, rotation_b}, reach, geometry, assets, settings.reduction, features);
     if (has_normal(pair) && geometry.count != 0 && !(dot(geometry.normal, pair.normal) > Unit(0.0))) geometry.count = 0;
   }
 

@@ -52,6 +52,9 @@ StepSettings step_settings(const WorldState& world) {
   settings.gravity = world.gravity;
   settings.gravity_size = max(length(world.gravity), Real(1.0));
   settings.restitution_threshold = world.restitution_threshold;
+  settings.breaking = world.breaking;
+  settings.reuse = world.reuse;
+  settings.reduction = static_cast<ManifoldReduction>(world.reduction);
   settings.dynamic_softness = softness(world.stiffness, world.damping_ratio);
   settings.static_softness = softness(scale_by_power(world.stiffness, 1), scale_by_power(world.damping_ratio, -1));
   return settings;

@@ -1,5 +1,6 @@
 #pragma once
 #include <detent/detail/state.h>
+#include <detent/reduction.h>
 
 #include "math/arithmetic.h"
 #include "math/scaled.h"
@@ -35,6 +36,9 @@ struct StepSettings {
   Vec3<Real> gravity;  ///< m/s^2
   Real gravity_size;   ///< m/s^2, at least 1: what speeds are measured against
   Real restitution_threshold;
+  ManifoldReduction reduction;
+  Real breaking;              ///< of the smaller extent, like the next one
+  Real reuse;                 ///< 0: contact points are found anew in each tick
   Softness dynamic_softness;  ///< of contacts between two dynamic bodies
   Softness static_softness;   ///< of contacts with anything else: twice as stiff, half as damped
 };

@@ -20,6 +20,11 @@ int64_t distance(const AreaPoint& p, const AreaPoint& q) {
   return static_cast<int64_t>(magnitude_64(p.u - q.u) + magnitude_64(p.v - q.v));
 }
 
+/// Twice the area of a triangle, signed. Widths: |.| < 2^62.
+int64_t twice_area(const AreaPoint& p, const AreaPoint& q, const AreaPoint& r) {
+  return (q.u - p.u) * (r.v - p.v) - (q.v - p.v) * (r.u - p.u);
+}
+
 /// Turned a little from the diagonals of a square, so that even octagons and dodecagons have one extreme along each.
 int64_t reach_along(const AreaPoint& p, int diagonal) {
   const int64_t along = (diagonal & 1) == 0 ? 4 * p.u + 5 * p.v : 4 * p.v - 5 * p.u;
@@ -30,6 +35,14 @@ int64_t reach_along(const AreaPoint& p, int diagonal) {
 
 void AreaChoice::add(const AreaPoint& point) {
   if (point.w > reach_) return;
+  if (corner_count_ > 0) {
+    const int64_t gain = gain_of(point);
+    if (gain > most_) {
+      most_ = gain;
+      next_ = point;
+    }
+    return;
+  }
   if (count_ < 4) first_[count_] = point;
   for (int i = 0; i < k_diagonals; ++i) {
     if (count_ == 0 || reach_along(point, i) > reach_along(farthest_[i], i)) farthest_[i] = point;
@@ -38,7 +51,34 @@ void AreaChoice::add(const AreaPoint& point) {
   ++count_;
 }
 
+int64_t AreaChoice::gain_of(const AreaPoint& point) const {
+  const AreaPoint* c = corner_;
+  if (corner_count_ == 1) {
+    const int64_t u = point.u - c[0].u, v = point.v - c[0].v;
+    return u * u + v * v;
+  }
+  const int64_t first = twice_area(c[0], c[1], point);
+  if (corner_count_ == 2) return first < 0 ? -first : first;
+  const bool left = twice_area(c[0], c[1], c[2]) > 0;
+  const int64_t beyond[3] = {first, twice_area(c[1], c[2], point), twice_area(c[2], c[0], point)};
+  int64_t gain = 0;
+  for (const int64_t area : beyond) gain = left ? (-area > gain ? -area : gain) : (area > gain ? area : gain);
+  return gain;
+}
+
+bool AreaChoice::again() {
+  if (reduction_ != ManifoldReduction::deepest_area || count_ <= 4) return false;
+  if (corner_count_ > 0 && most_ == 0) return false;  // all on a line
+  corner_[corner_count_] = corner_count_ == 0 ? deepest_ : next_;
+  most_ = 0;
+  return ++corner_count_ < 4;
+}
+
 int AreaChoice::choose(AreaPoint (&chosen)[4]) const {
+  if (corner_count_ > 0) {
+    for (int i = 0; i < corner_count_; ++i) chosen[i] = corner_[i];
+    return corner_count_;
+  }
   const auto same = [](const AreaPoint& p, const AreaPoint& q) {
     return p.kind == q.kind && p.incident == q.incident && p.side == q.side;
   };

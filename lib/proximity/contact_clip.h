@@ -1,4 +1,6 @@
 #pragma once
+#include <detent/reduction.h>
+
 #include "proximity/contact_feature.h"
 
 /// The area where a reference feature (a face or an edge) and an incident one face each other.
@@ -15,22 +17,29 @@ struct AreaPoint {
   uint8_t incident, side;  ///< the incident point, or where the edge starts; the side, or the corner where it starts
 };
 
-/// Keeps up to four of any number of points: all of four; of more those that reach farthest along four diagonals, so
-/// that depth, which trembles, does not choose, but for the deepest, which takes the nearest one's place if all are
-/// higher by more than `drop`. Of equal ones the earlier.
-/// Source: Moravanszky, Terdiman, "Fast Contact Reduction for Dynamics Simulation", 2004.
+/// Keeps up to four of any number of points: all of four; of more those that the reduction names. Of projected extremes
+/// the deepest takes the nearest one's place if all are higher by more than `drop`. Of equal ones the earlier.
 class AreaChoice {
  public:
   /// Points above `reach` are left out.
-  AreaChoice(int64_t reach, int64_t drop) : reach_(reach), drop_(drop) {}
+  AreaChoice(int64_t reach, int64_t drop, ManifoldReduction reduction)
+      : reach_(reach), drop_(drop), reduction_(reduction) {}
   void add(const AreaPoint& point);
+  /// True if all points are to be added once more, in the same order: there may be many, and they are not held.
+  bool again();
   /// The points chosen, distinct; returns their count.
   int choose(AreaPoint (&chosen)[4]) const;
 
  private:
   static constexpr int k_diagonals = 4;
+  /// How much the next corner is worth, on the way to the largest area.
+  int64_t gain_of(const AreaPoint& point) const;
   int64_t reach_, drop_;
+  ManifoldReduction reduction_;
   uint32_t count_ = 0;
+  int corner_count_ = 0;
+  int64_t most_ = 0;  ///< gained by next_
+  AreaPoint corner_[4], next_;
   AreaPoint first_[4], farthest_[k_diagonals], deepest_;
 };
 

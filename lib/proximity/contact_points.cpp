@@ -38,10 +38,11 @@ struct Half {
 
 class Builder {
  public:
-  Builder(const RestingPair& pair, const ContactAxis& axis, int64_t reach)
+  Builder(const RestingPair& pair, const ContactAxis& axis, int64_t reach, ManifoldReduction reduction)
       : pair_(pair),
         axis_(axis),
         reach_(reach),
+        reduction_(reduction),
         half_a_{pair.a, {0, 0, 0}, axis.normal},
         half_b_{pair.b, pair.offset, negate(axis.normal)} {
     preference_ = smaller_but_0(half_thickness(pair.a), half_thickness(pair.b)) >> k_face_power;
@@ -70,6 +71,7 @@ class Builder {
   const RestingPair& pair_;
   const ContactAxis& axis_;
   int64_t reach_;  ///< 2^-46 m
+  ManifoldReduction reduction_;
   Half half_a_, half_b_;
   int64_t preference_, drop_;
 };
@@ -141,8 +143,9 @@ bool Builder::fill(const Reference& reference, bool reference_is_a, const Featur
                    ContactManifold& manifold) const {
   const Half& other = reference_is_a ? half_b_ : half_a_;
   const int64_t radii = pair_.radius_a + pair_.radius_b;
-  AreaChoice choice(pair_.block_above(saturated_sum(reach_, radii)), drop_);
-  reference.clip(other.centre, incident, choice);
+  AreaChoice choice(pair_.block_above(saturated_sum(reach_, radii)), drop_, reduction_);
+  do reference.clip(other.centre, incident, choice);
+  while (choice.again());
   const Vec32 normal = reference_is_a ? reference.up() : negate(reference.up());
   AreaPoint chosen[4];
   int count = choice.choose(chosen);
@@ -218,7 +221,7 @@ void Builder::build(ContactManifold& manifold) const {
 }  // namespace
 
 Status contact_points(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Real reach,
-                      ContactManifold& manifold, DistanceCache* cache) {
+                      ContactManifold& manifold, DistanceCache* cache, ManifoldReduction reduction) {
   RestingPair pair;
   if (const Status status = rest(a, pose_a, b, pose_b, pair); status != Status::ok) return status;
   Vec64 raw;
@@ -228,7 +231,7 @@ Status contact_points(const Convex& a, const Pose& pose_a, const Convex& b, cons
   ContactManifold made;
   ContactAxis axis;
   if (find_contact_axis(pair, needed >= INT32_MAX - k_gjk_slack ? INT32_MAX : needed + k_gjk_slack, cache, axis)) {
-    Builder(pair, axis, raw.x).build(made);
+    Builder(pair, axis, raw.x, reduction).build(made);
   }
   manifold = made;
   return Status::ok;

@@ -82,9 +82,11 @@ void visit(Archive& archive, RecordingInfo& info) {
   visit_word(archive, "digest interval", info.digest_interval);
   archive.bits("tick", info.tick, 8);
   visit_word(archive, "snapshot bytes", info.snapshot_bytes);
-  uint32_t flags = 0;
+  constexpr uint32_t k_no_manifolds = 1;
+  uint32_t flags = info.capacity.manifolds ? 0 : k_no_manifolds;
   visit_word(archive, "flags", flags);
-  archive.require("flags", flags == 0, Status::bad_argument);
+  archive.require("flags", flags <= k_no_manifolds, Status::bad_argument);
+  info.capacity.manifolds = (flags & k_no_manifolds) == 0;
 }
 
 constexpr bool digest_due(uint32_t interval, uint64_t tick) { return interval != 0 && tick % interval == 0; }

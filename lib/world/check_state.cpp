@@ -1,4 +1,5 @@
 #include "base/float_environment.h"
+#include "collision/manifold_reuse.h"
 #include "dynamics/activity.h"
 #include "dynamics/substeps.h"
 #include "geometry/shape_traits.h"
@@ -238,6 +239,19 @@ bool are_contacts(const State& state) {
   return true;
 }
 
+bool are_manifolds(const State& state) {
+  const bool reuses = state.world.reuse > Real(0.0);
+  for (uint32_t i = 0; i < state.manifolds.count; ++i) {
+    const ManifoldState& manifold = state.manifolds[i];
+    if (is_zero(manifold)) continue;
+    if (!reuses || i >= state.world.contact_count) return false;
+    const ContactState& contact = state.contacts[i];
+    if (!is_manifold(state.traits[contact.body_a], state.traits[contact.body_b], contact.point_count, manifold))
+      return false;
+  }
+  return !reuses || state.manifolds.count == state.contacts.count;
+}
+
 /// The bytes that align an array's end.
 bool are_fills(const uint8_t* block, const Layout& layout) {
   for (uint32_t i = 0; i < k_section_count; ++i) {
@@ -261,16 +275,19 @@ bool are_assets(const State& state) {
 Status check_state(const uint8_t* block, Capacity capacity, AssetTable assets, const FeatureTable& features) {
   const State state = view_of(block, capacity);
   const WorldState& world = state.world;
-  if (world.zero != 0 || world.sleeping > 1 || world.continuous > 1 || world.idle > 1 ||
+  if (!is_reduction(static_cast<ManifoldReduction>(world.reduction)) || world.sleeping > 1 || world.continuous > 1 ||
+      world.idle > 1 ||
       !are_settings(world.gravity, world.tick_time, world.substeps, world.substeps_max, world.iterations,
-                    world.relaxation, world.stiffness, world.damping_ratio, world.restitution_threshold)) {
+                    world.relaxation, world.stiffness, world.damping_ratio, world.restitution_threshold, world.breaking,
+                    world.reuse)) {
     return Status::corrupt;
   }
   if (!contains(features_of(state), features_of(world.continuous != 0, world.sleeping != 0))) return Status::corrupt;
   if (!are_slots(state) || !are_assets(state) || !are_fills(block, state.layout)) return Status::corrupt;
   // Before the bodies, which are checked against the hulls that they have.
   if (const Status status = check_assets(assets, features, state.assets); status != Status::ok) return status;
-  if (!are_bodies(state, assets, features) || !are_contacts(state) || (world.idle != 0 && !is_idle(state))) {
+  if (!are_bodies(state, assets, features) || !are_contacts(state) || !are_manifolds(state) ||
+      (world.idle != 0 && !is_idle(state))) {
     return Status::corrupt;
   }
   return Status::ok;

@@ -173,18 +173,26 @@ Status create_world(uint8_t* block, uint32_t block_bytes, const WorldDef& def, A
                     const FeatureTable& features) {
   const FloatEnvironment environment;
   if (!are_settings(def.gravity, def.tick, def.substeps, def.substeps_max, def.iterations, def.relaxation,
-                    def.stiffness, def.damping_ratio, def.restitution_threshold)) {
+                    def.stiffness, def.damping_ratio, def.restitution_threshold, def.breaking, def.reuse)) {
     return Status::out_of_range;
   }
+  if (!is_reduction(def.reduction)) return Status::bad_argument;
   if (!contains(features.features, features_of(def.continuous, def.sleeping))) return Status::feature_missing;
   const uint32_t bytes = world_bytes(def.capacity);
   if (bytes == 0) return Status::out_of_range;
   if (block == nullptr || block_bytes < bytes) return Status::buffer_too_small;
   if (reinterpret_cast<uintptr_t>(block) % 8 != 0) return Status::buffer_misaligned;
   memset(block, 0, bytes);
-  *at_offset<BlockHeader>(block, 0) = {
-      k_snapshot_magic,    k_snapshot_format,     k_simulation_version, k_config,
-      def.capacity.bodies, def.capacity.contacts, def.capacity.assets,  left_out(features)};
+  *at_offset<BlockHeader>(block, 0) = {k_snapshot_magic,
+                                       k_snapshot_format,
+                                       k_simulation_version,
+                                       k_config,
+                                       def.capacity.bodies,
+                                       def.capacity.contacts,
+                                       def.capacity.assets,
+                                       left_out(features),
+                                       def.capacity.manifolds ? 1u : 0u,
+                                       0};
   world = {block, assets, {}, &features, has_quads() ? 4u : 1u};
   WorldState& state = view_of(world).world;
   state.substeps = def.substeps;
@@ -198,6 +206,9 @@ Status create_world(uint8_t* block, uint32_t block_bytes, const WorldDef& def, A
   state.stiffness = def.stiffness;
   state.damping_ratio = def.damping_ratio;
   state.restitution_threshold = def.restitution_threshold;
+  state.reduction = static_cast<uint32_t>(def.reduction);
+  state.breaking = def.breaking;
+  state.reuse = def.capacity.manifolds ? def.reuse : Real(0.0);
   return Status::ok;
 }
 
@@ -230,7 +241,7 @@ Status destroy_body(World& world, BodyId id) {
   if (!find_body(state, id, slot)) return Status::bad_id;
   rouse(state, slot);
   rouse_neighbours(state, slot);
-  state.world.contact_count = remove_contacts(state.contacts.first(state.world.contact_count), slot);
+  state.world.contact_count = remove_contacts(slot, state.contacts.first(state.world.contact_count), state.manifolds);
   cache_of(state).cache.contacts_known = 0;
   const uint32_t generation = state.traits[slot].generation;
   state.poses[slot] = BodyPose{};

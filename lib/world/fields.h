@@ -51,6 +51,7 @@ inline constexpr Field k_header_fields[] = {
     DETENT_FIELD(BlockHeader, simulation),      DETENT_FIELD(BlockHeader, config),
     DETENT_FIELD(BlockHeader, capacity_bodies), DETENT_FIELD(BlockHeader, capacity_contacts),
     DETENT_FIELD(BlockHeader, capacity_assets), DETENT_FIELD(BlockHeader, left_out),
+    DETENT_FIELD(BlockHeader, manifolds),       DETENT_FIELD(BlockHeader, zero),
 };
 inline constexpr Field k_world_fields[] = {
     DETENT_FIELD(WorldState, tick),
@@ -65,13 +66,15 @@ inline constexpr Field k_world_fields[] = {
     DETENT_FIELD(WorldState, sleeping),
     DETENT_FIELD(WorldState, continuous),
     DETENT_FIELD(WorldState, idle),
-    DETENT_FIELD(WorldState, zero),
+    DETENT_FIELD(WorldState, reduction),
     DETENT_FIELD(WorldState, gravity),
     DETENT_FIELD(WorldState, tick_time),
     DETENT_FIELD(WorldState, relaxation),
     DETENT_FIELD(WorldState, stiffness),
     DETENT_FIELD(WorldState, damping_ratio),
     DETENT_FIELD(WorldState, restitution_threshold),
+    DETENT_FIELD(WorldState, breaking),
+    DETENT_FIELD(WorldState, reuse),
 };
 inline constexpr Field k_pose_fields[] = {
     DETENT_FIELD(BodyPose, position),
@@ -132,6 +135,10 @@ inline constexpr Field k_asset_fields[] = {
     DETENT_FIELD(AssetState, byte_count),
     DETENT_FIELD(AssetState, kind),
 };
+inline constexpr Field k_manifold_fields[] = {
+    DETENT_FIELD(ManifoldState, normal), DETENT_FIELD(ManifoldState, offset), DETENT_FIELD(ManifoldState, rotation),
+    DETENT_FIELD(ManifoldState, height), DETENT_FIELD(ManifoldState, anchor),
+};
 #undef DETENT_FIELD
 
 /// True if the fields follow one another without a gap and fill the element: no byte is padding.
@@ -149,13 +156,14 @@ static_assert(tiles(k_pose_fields, sizeof(BodyPose)) && tiles(k_motion_fields, s
 static_assert(tiles(k_traits_fields, sizeof(BodyTraits)) && tiles(k_slot_fields, sizeof(uint32_t)));
 static_assert(tiles(k_activity_fields, sizeof(BodyActivity)));
 static_assert(tiles(k_contact_fields, sizeof(ContactState)) && tiles(k_asset_fields, sizeof(AssetState)));
+static_assert(tiles(k_manifold_fields, sizeof(ManifoldState)));
 
 inline constexpr Section k_sections[] = {
     {sizeof(BlockHeader), &Layout::header}, {sizeof(WorldState), &Layout::world},
     {sizeof(BodyPose), &Layout::poses},     {sizeof(BodyMotion), &Layout::motions},
     {sizeof(BodyTraits), &Layout::traits},  {sizeof(BodyActivity), &Layout::activities},
     {sizeof(uint32_t), &Layout::slots},     {sizeof(ContactState), &Layout::contacts},
-    {sizeof(AssetState), &Layout::assets},
+    {sizeof(AssetState), &Layout::assets},  {sizeof(ManifoldState), &Layout::manifolds},
 };
 inline constexpr uint32_t k_section_count = sizeof k_sections / sizeof k_sections[0];
 
@@ -168,7 +176,7 @@ inline constexpr SectionFields k_section_fields[k_section_count] = {
     section_fields("poses", k_pose_fields),    section_fields("motions", k_motion_fields),
     section_fields("traits", k_traits_fields), section_fields("activities", k_activity_fields),
     section_fields("slots", k_slot_fields),    section_fields("contacts", k_contact_fields),
-    section_fields("assets", k_asset_fields),
+    section_fields("assets", k_asset_fields),  section_fields("manifolds", k_manifold_fields),
 };
 
 /// Elements of a section, alignment fill included as further elements or left-over bytes that are always zero.

@@ -1,6 +1,7 @@
 #include "base/float_environment.h"
 #include "collision/broadphase.h"
 #include "collision/contact_cache.h"
+#include "collision/manifold_reuse.h"
 #include "dynamics/activity.h"
 #include "dynamics/contact_order.h"
 #include "dynamics/contact_rows.h"
@@ -34,6 +35,7 @@ struct Scratch {
   Span<BodySweep> sweeps;
   Span<ImpactPair> impact_pairs;
   Span<ImpactHit> impact_hits;
+  Span<ManifoldState> manifolds;
 };
 
 Scratch scratch_of(uint8_t* block, const Layout& layout, Capacity capacity) {
@@ -51,16 +53,23 @@ Scratch scratch_of(uint8_t* block, const Layout& layout, Capacity capacity) {
           {at_offset<uint32_t>(block, layout.island_bodies), capacity.bodies},
           {at_offset<BodySweep>(block, layout.sweeps), capacity.bodies},
           {at_offset<ImpactPair>(block, layout.impact_pairs), capacity.contacts},
-          {at_offset<ImpactHit>(block, layout.impact_hits), capacity.contacts}};
+          {at_offset<ImpactHit>(block, layout.impact_hits), capacity.contacts},
+          {at_offset<ManifoldState>(block, layout.manifold_work), manifold_count(capacity)}};
 }
 
-/// How far apart a pair may be and still be given contact points: a 64th of the smaller body, and what the pair can
-/// close in this tick, up to a quarter of it.
-Real contact_reach(const StepSettings& settings, const RowBody& a, const RowBody& b) {
+/// Lengths of a pair, m.
+struct PairLengths {
+  Real at_rest;  ///< how far apart it has contact points if it does not move
+  Real reach;    ///< and as it moves: what it can close in this tick is added, up to a quarter of the smaller body
+  Real reuse;    ///< how far it may move until its contact points are found anew
+};
+
+PairLengths lengths_of(const StepSettings& settings, const RowBody& a, const RowBody& b) {
   const Real extent = min(shape_extent(a.traits), shape_extent(b.traits));
   const Real speed =
       speed_bound(a.traits, a.pose.rotation, a.motion) + speed_bound(b.traits, b.pose.rotation, b.motion);
-  return scale_by_power(extent, -6) + min(scale_by_power(extent, -2), speed * settings.tick_time);
+  const Real at_rest = extent * settings.breaking;
+  return {at_rest, at_rest + min(scale_by_power(extent, -2), speed * settings.tick_time), extent * settings.reuse};
 }
 
 /// The bodies of a step, as the stages before the solve read them.
@@ -83,11 +92,27 @@ struct Bodies {
   bool asleep(uint32_t slot) const { return activities[slot].asleep != 0; }
 };
 
+/// A contact of the last tick; `manifold` null where none are kept.
+struct ContactBefore {
+  const ContactState* contact = nullptr;
+  const ManifoldState* manifold = nullptr;
+};
+
+/// Contact points of a pair: those of the last tick where they will do, which sets `reused`, or else new ones. Fills
+/// `manifold`, unless it is null, with what is kept of them.
 void collide_pair(const StepSettings& settings, const RowBody& a, const RowBody& b, const Bodies& bodies,
-                  ContactGeometry& geometry) {
+                  const ContactBefore& before, ContactGeometry& geometry, ManifoldState* manifold, bool& reused) {
   const Matrix3 rotation_a = matrix_from(a.pose.rotation), rotation_b = matrix_from(b.pose.rotation);
-  collide({a.pose, a.traits, rotation_a}, {b.pose, b.traits, rotation_b}, contact_reach(settings, a, b), geometry,
-          bodies.assets, bodies.features);
+  const CollisionBody body_a = {a.pose, a.traits, rotation_a}, body_b = {b.pose, b.traits, rotation_b};
+  const PairLengths lengths = lengths_of(settings, a, b);
+  // A point that was out of reach then is still farther off than the pair can close in this tick.
+  const bool slow = lengths.reach + lengths.reuse <= scale_by_power(lengths.at_rest, 1);
+  reused = before.manifold != nullptr && manifold != nullptr && slow &&
+           reuse_manifold(body_a, body_b, *before.manifold, before.contact->feature, before.contact->point_count,
+                          lengths.reuse, lengths.reach, geometry, *manifold);
+  if (reused) return;
+  collide(body_a, body_b, lengths.reach, geometry, bodies.assets, settings.reduction, bodies.features);
+  if (manifold != nullptr) *manifold = slow ? kept_manifold(body_a, body_b, geometry) : ManifoldState{};
 }
 
 /// Wakes whoever is touched by a body that moves, and whoever they touch: they leave the tree, and their pairs are
@@ -100,7 +125,8 @@ uint32_t wake_touched(const StepSettings& settings, const Bodies& bodies, const 
       const bool wakes_low = bodies.asleep(low) && bodies.moving(high);
       if (!wakes_low && !(bodies.asleep(high) && bodies.moving(low))) continue;
       ContactGeometry geometry;
-      collide_pair(settings, bodies.at(low), bodies.at(high), bodies, geometry);
+      bool reused = false;
+      collide_pair(settings, bodies.at(low), bodies.at(high), bodies, {}, geometry, nullptr, reused);
       if (geometry.count == 0) continue;
       woke += wake_all_with(wakes_low ? low : high, bodies.activities, cache.visits);
     }
@@ -124,7 +150,7 @@ Real depth_of(const ContactWork& contact) {
 
 /// Leaves out the shallowest contact, the last of equals, if it is shallower than `depth`, keeping the others' order:
 /// the last place is free then.
-bool leave_out_shallowest(Span<ContactWork> contacts, Real depth) {
+bool leave_out_shallowest(Span<ContactWork> contacts, Span<ManifoldState> manifolds, Real depth) {
   uint32_t shallowest = contacts.count;
   for (uint32_t i = 0; i < contacts.count; ++i) {
     const Real other = depth_of(contacts[i]);
@@ -134,6 +160,7 @@ bool leave_out_shallowest(Span<ContactWork> contacts, Real depth) {
   }
   if (shallowest == contacts.count) return false;
   for (uint32_t i = shallowest; i + 1 < contacts.count; ++i) contacts[i] = contacts[i + 1];
+  for (uint32_t i = shallowest; i + 1 < manifolds.count; ++i) manifolds[i] = manifolds[i + 1];
   return true;
 }
 
@@ -144,12 +171,23 @@ struct ContactCount {
   uint32_t points = 0;
   uint32_t dropped = 0;
   uint32_t capped = 0;
+  uint32_t reused = 0;
 };
 
-/// Collides every pair with an awake body and makes the rows of those that touch, in the order of the pairs. The
-/// contacts `before` are sorted alike; `awake` lists those of them that may go on.
+/// The contacts of a tick and, if they are kept, their manifolds.
+struct KeptContacts {
+  Span<const ContactState> contacts;
+  Span<const ManifoldState> manifolds;
+};
+
+/// Collides every pair with an awake body and makes the rows of those that touch, in the order of the pairs. Those
+/// `kept` are sorted alike; `awake` lists those of them that may go on. `manifolds` has as many places as `contacts`,
+/// or none.
 ContactCount collide_pairs(const StepSettings& settings, const Bodies& bodies, Span<const uint64_t> pairs,
-                           Span<const uint32_t> awake, Span<const ContactState> before, Span<ContactWork> contacts) {
+                           Span<const uint32_t> awake, const KeptContacts& kept, Span<ContactWork> contacts,
+                           Span<ManifoldState> manifolds) {
+  const Span<const ContactState> before = kept.contacts;
+  const bool reuses = kept.manifolds.count != 0;
   ContactCount count;
   uint32_t next = 0;
   for (const uint64_t key : pairs) {
@@ -159,20 +197,26 @@ ContactCount collide_pairs(const StepSettings& settings, const Bodies& bodies, S
     const bool continued = next < awake.count && key_of(before[awake[next]]) == key;
     const RowBody a = bodies.at(slot_a), b = bodies.at(slot_b);
     ContactGeometry geometry;
-    collide_pair(settings, a, b, bodies, geometry);
+    ManifoldState manifold;
+    ContactBefore last;
+    if (continued) last = {&before[awake[next]], reuses ? &kept.manifolds[awake[next]] : nullptr};
+    bool reused = false;
+    collide_pair(settings, a, b, bodies, last, geometry, reuses ? &manifold : nullptr, reused);
     count.capped += geometry.capped ? 1 : 0;
+    count.reused += reused ? 1 : 0;
     if (geometry.count == 0) continue;
     if (count.contacts == contacts.count) {
       ++count.dropped;
       Real least = geometry.point[0].separation;
       for (uint32_t i = 1; i < geometry.count; ++i) least = min(least, geometry.point[i].separation);
-      if (!leave_out_shallowest(contacts, -least)) continue;
+      if (!leave_out_shallowest(contacts, manifolds, -least)) continue;
       --count.contacts;
     }
     if (!bodies.visits.has(slot_a)) bodies.start(slot_a);
     if (!bodies.visits.has(slot_b)) bodies.start(slot_b);
+    if (reuses) manifolds[count.contacts] = manifold;
     ContactWork& work = contacts[count.contacts++];
-    work.state = continued_contact(slot_a, slot_b, geometry, continued ? &before[awake[next]] : nullptr);
+    work.state = continued_contact(slot_a, slot_b, geometry, last.contact);
     make_rows(settings, a, b, geometry, work);
   }
   for (const ContactWork& contact : contacts.first(count.contacts)) count.points += contact.state.point_count;
@@ -260,8 +304,11 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   const Span<const uint64_t> pairs = pool.pairs();
   const Span<const uint32_t> awake_contacts = list_awake_contacts(cache, state);
   const uint32_t room = state.contacts.count - (before - awake_contacts.count);
-  const ContactCount count =
-      collide_pairs(settings, bodies, pairs, awake_contacts, state.contacts, scratch.contacts.first(room));
+  const bool reuses = settings.reuse > Real(0.0);
+  const Span<ManifoldState> manifolds = state.manifolds.first(reuses ? state.manifolds.count : 0);
+  const Span<ManifoldState> manifold_work = scratch.manifolds.first(reuses && state.manifolds.count != 0 ? room : 0);
+  const ContactCount count = collide_pairs(settings, bodies, pairs, awake_contacts, {state.contacts, manifolds},
+                                           scratch.contacts.first(room), manifold_work);
   const Span<ContactWork> contacts = scratch.contacts.first(count.contacts);
   const Span<ContactOrder> order = scratch.contact_order.first(count.contacts);
 
@@ -294,7 +341,8 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   if (settings.sleeping)
     report.fell_asleep = world.features->sleeping->end_step(settings, traits, poses, islands, scratch.island_bodies,
                                                             motions, activities);
-  store_contacts(contacts, awake_contacts.count, before, state.contacts, cache.awake_contacts);
+  store_contacts(contacts, manifold_work, awake_contacts.count, before, state.contacts, manifolds,
+                 cache.awake_contacts);
   cache.cache.awake_contact_count = contacts.count;
 
   state.world.contact_count = before - awake_contacts.count + contacts.count;
@@ -302,6 +350,7 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   report.pairs_dropped = pool.dropped();
   report.contacts = count.contacts;
   report.contact_points = count.points;
+  report.contacts_reused = count.reused;
   report.contacts_dropped = count.dropped;
   report.contacts_capped = count.capped;
   bool moves = false;

@@ -89,6 +89,32 @@ DETENT_TEST(stability, equal_boxes_stacked_flush_keep_their_features_whichever_w
   }
 }
 
+DETENT_TEST(stability, the_deepest_point_of_two_boxes_is_kept_by_either_reduction) {
+  Samples samples = {28};
+  uint32_t reduced = 0;
+  for (uint32_t i = 0; i < detent_oracle::rounds(3000); ++i) {
+    OraclePair pair = resting_pair(samples, Form::box, Form::box);
+    const Quaternion tilt = detent_oracle::rotation_by(any_direction(samples) * 0.02);
+    pair.b.pose.rotation = rotation_near(normalised(tilt * normalised(host(pair.b.pose.rotation))));
+    const Matrix3 rotation_a = matrix_from(pair.a.pose.rotation), rotation_b = matrix_from(pair.b.pose.rotation);
+    double least[2] = {};
+    uint32_t count[2] = {};
+    for (const ManifoldReduction reduction : {ManifoldReduction::projected_extremes, ManifoldReduction::deepest_area}) {
+      const int which = reduction == ManifoldReduction::deepest_area ? 1 : 0;
+      ContactGeometry contact;
+      collide({pair.a.pose, pair.a.traits, rotation_a}, {pair.b.pose, pair.b.traits, rotation_b}, real_near(0.5),
+              contact, {}, reduction);
+      count[which] = contact.count;
+      for (uint32_t k = 0; k < contact.count; ++k)
+        least[which] = fmin(least[which], real_to_host(contact.point[k].separation));
+    }
+    EXPECT_NEAR(least[0], least[1], extent_of(pair) / 2048);
+    EXPECT_EQ(count[0] >= 3, count[1] >= 3);
+    reduced += count[0] == 4 ? 1u : 0u;
+  }
+  EXPECT_GT(reduced, 0u);
+}
+
 DETENT_TEST(stability, parallel_capsules_keep_their_features) {
   Samples samples = {27};
   OraclePair pair;

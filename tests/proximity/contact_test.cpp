@@ -575,11 +575,11 @@ DETENT_TEST(contact, with_a_half_space_is_where_the_shape_reaches_lowest) {
 }
 
 DETENT_TEST(contact, keeps_the_deepest_of_many_points_in_place_of_the_nearest) {
-  AreaChoice choice(1000, 10);
+  AreaChoice choice(1000, 10, ManifoldReduction::projected_extremes);
   constexpr int64_t k_ring[12][2] = {{100, 0},  {87, 50},   {50, 87},   {0, 100},  {-50, 87}, {-87, 50},
                                      {-100, 0}, {-87, -50}, {-50, -87}, {0, -100}, {50, -87}, {87, -50}};
   const auto ring = [&](int64_t low) {
-    AreaChoice made(1000, 10);
+    AreaChoice made(1000, 10, ManifoldReduction::projected_extremes);
     for (uint8_t i = 0; i < 12; ++i) {
       made.add({k_ring[i][0], k_ring[i][1], i == 0 ? low : 0, AreaPoint::Kind::vertex, i, 0});
     }
@@ -599,6 +599,55 @@ DETENT_TEST(contact, keeps_the_deepest_of_many_points_in_place_of_the_nearest) {
   }
   EXPECT_EQ(kept, 3);
   EXPECT_TRUE(has_deepest);
+}
+
+DETENT_TEST(contact, keeps_the_deepest_and_the_largest_area_where_that_is_asked_for) {
+  Samples samples{18};
+  for (uint32_t i = 0; i < detent_oracle::rounds(2000); ++i) {
+    std::vector<AreaPoint> points;
+    const uint32_t count = 5 + samples.below(20);
+    const int length = 4 + static_cast<int>(samples.below(26));
+    const bool on_a_line = samples.below(8) == 0;
+    for (uint32_t k = 0; k < count; ++k) {
+      const int64_t u = samples.integer(length), v = on_a_line ? u : samples.integer(length);
+      points.push_back({u, v, samples.integer(8), AreaPoint::Kind::vertex, static_cast<uint8_t>(k), 0});
+    }
+    AreaChoice choice(INT64_MAX, 0, ManifoldReduction::deepest_area);
+    do {
+      for (const AreaPoint& point : points) choice.add(point);
+    } while (choice.again());
+    AreaPoint chosen[4];
+    const int kept = choice.choose(chosen);
+    ASSERT_GE(kept, 1);
+    const auto distance = [](const AreaPoint& p, const AreaPoint& q) {
+      return hypot(static_cast<double>(p.u - q.u), static_cast<double>(p.v - q.v));
+    };
+    const auto area = [](const AreaPoint& p, const AreaPoint& q, const AreaPoint& r) {
+      return static_cast<double>(q.u - p.u) * static_cast<double>(r.v - p.v) -
+             static_cast<double>(q.v - p.v) * static_cast<double>(r.u - p.u);
+    };
+    constexpr double k_less = 1 - 1e-9;
+    const double triangle = kept > 2 ? area(chosen[0], chosen[1], chosen[2]) : 0;
+    const auto beyond = [&](const AreaPoint& p) {
+      double most = 0;
+      for (int side = 0; side < 3; ++side) {
+        const double inside = area(chosen[side], chosen[(side + 1) % 3], p);
+        most = fmax(most, triangle > 0 ? -inside : inside);
+      }
+      return most;
+    };
+    for (const AreaPoint& point : points) {
+      EXPECT_GE(point.w, chosen[0].w);
+      if (kept > 1) {
+        EXPECT_LE(distance(chosen[0], point) * k_less, distance(chosen[0], chosen[1]));
+      }
+      EXPECT_LE(kept > 2 ? fabs(area(chosen[0], chosen[1], point)) * k_less : 0, fabs(triangle));
+      EXPECT_LE(kept > 2 ? beyond(point) * k_less : 0, kept > 3 ? beyond(chosen[3]) : 0);
+    }
+    if (on_a_line) {
+      EXPECT_LE(kept, 2);
+    }
+  }
 }
 
 DETENT_TEST(contact, scales_exactly_by_powers_of_two) {

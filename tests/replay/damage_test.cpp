@@ -99,7 +99,7 @@ DETENT_TEST(damage, another_version_configuration_or_flag_is_refused_by_name) {
       {20, 0xffffffff, Status::corrupt, "snapshot bytes"},
       {32, 3, Status::corrupt, "trace level"},
       {48, 0, Status::corrupt, "snapshot bytes"},
-      {52, 1, Status::corrupt, "flags"},
+      {52, 2, Status::corrupt, "flags"},
   };
   for (const Case& changed : cases) {
     Parts other = parts;

@@ -13,6 +13,8 @@ namespace detent_stress {
 /// What a run sets otherwise than the library's defaults.
 struct Settings {
   std::optional<uint32_t> substeps, iterations;
+  std::optional<double> reuse;
+  std::optional<uint32_t> reduction;  ///< a ManifoldReduction
   bool continuous = true;
 };
 

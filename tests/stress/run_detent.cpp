@@ -83,6 +83,10 @@ class DetentRun : public detent_stress::Run {
     if (const Status status = real_from_host(stage.tick, def.tick); status != Status::ok) return status;
     if (settings.substeps) def.substeps = *settings.substeps;
     if (settings.iterations) def.iterations = *settings.iterations;
+    if (settings.reuse) {
+      if (const Status status = real_from_host(*settings.reuse, def.reuse); status != Status::ok) return status;
+    }
+    if (settings.reduction) def.reduction = static_cast<ManifoldReduction>(*settings.reduction);
     def.sleeping = stage.sleeping;
     def.continuous = settings.continuous;
     words_.resize((world_bytes(def.capacity) + 7) / 8);

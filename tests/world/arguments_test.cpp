@@ -156,6 +156,14 @@ DETENT_TEST(arguments, a_world_needs_its_block_and_sound_settings) {
   EXPECT_EQ(make([](WorldDef& d) { d.relaxation = real(2); }), Status::out_of_range);
   EXPECT_EQ(make([](WorldDef& d) { d.stiffness = real(0.5); }), Status::out_of_range);
   EXPECT_EQ(make([](WorldDef& d) { d.gravity = reals(0, 2000, 0); }), Status::out_of_range);
+  EXPECT_EQ(make([](WorldDef& d) { d.reuse = real(-0.001); }), Status::out_of_range);
+  EXPECT_EQ(make([](WorldDef& d) { d.reuse = real(0.016); }), Status::out_of_range);
+  EXPECT_EQ(make([](WorldDef& d) { d.breaking = real(0); }), Status::out_of_range);
+  EXPECT_EQ(make([](WorldDef& d) { d.breaking = real(0.07); }), Status::out_of_range);
+  EXPECT_OK(make([](WorldDef& d) { d.capacity.manifolds = false; }));
+  EXPECT_OK(make([](WorldDef& d) { d.reduction = ManifoldReduction::deepest_area; }));
+  EXPECT_EQ(make([](WorldDef& d) { d.reduction = static_cast<ManifoldReduction>(0); }), Status::bad_argument);
+  EXPECT_EQ(make([](WorldDef& d) { d.reduction = static_cast<ManifoldReduction>(3); }), Status::bad_argument);
   WorldDef def;
   def.capacity = {2, 2, 0};
   EXPECT_EQ(create_world(block + 4, sizeof block - 4, def, {}, world), Status::buffer_misaligned);

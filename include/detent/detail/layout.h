@@ -12,14 +12,18 @@ constexpr uint32_t k_pairs_per_contact = 2;  ///< room for pairs whose bounds ov
 
 /// Byte offsets of the arrays in a block.
 struct Layout {
-  uint32_t header, world, poses, motions, traits, activities, slots, contacts, assets;
+  uint32_t header, world, poses, motions, traits, activities, slots, contacts, assets, manifolds;
   uint32_t persistent_bytes;  ///< end of the snapshot
   uint32_t cache, tree_nodes, tree_parents, visits, candidates, moving_bodies, awake_contacts;
   uint32_t bounds, body_work, bounds_keys, bounds_sort, pairs, pair_sort, contact_work, contact_order, contact_sort,
       islands, island_bodies;
   uint32_t sweeps, impact_pairs, impact_hits;
+  uint32_t manifold_work;
   uint32_t bytes;
 };
+
+/// Contacts whose manifolds there is room for.
+constexpr uint32_t manifold_count(Capacity capacity) { return capacity.manifolds ? capacity.contacts : 0; }
 
 constexpr uint32_t slot_words(uint32_t bodies) { return (bodies + 63) / 64 * 2; }
 
@@ -46,6 +50,7 @@ constexpr Layout layout_of(Capacity capacity, bool& fits) {
   layout.slots = place(sizeof(uint32_t), slot_words(capacity.bodies));
   layout.contacts = place(sizeof(ContactState), capacity.contacts);
   layout.assets = place(sizeof(AssetState), capacity.assets);
+  layout.manifolds = place(sizeof(ManifoldState), manifold_count(capacity));
   layout.persistent_bytes = static_cast<uint32_t>(end);
   layout.cache = place(sizeof(StepCache), 1);
   layout.tree_nodes = place(sizeof(TreeNode), capacity.bodies);
@@ -73,6 +78,7 @@ constexpr Layout layout_of(Capacity capacity, bool& fits) {
   layout.sweeps = place(sizeof(BodySweep), capacity.bodies);
   layout.impact_pairs = place(sizeof(ImpactPair), capacity.contacts);
   layout.impact_hits = place(sizeof(ImpactHit), capacity.contacts);
+  layout.manifold_work = place(sizeof(ManifoldState), manifold_count(capacity));
   layout.bytes = static_cast<uint32_t>(end);
   fits = end <= 0xffffffffu;
   return layout;

@@ -15,7 +15,9 @@ struct alignas(8) BlockHeader {
   uint32_t capacity_bodies;
   uint32_t capacity_contacts;
   uint32_t capacity_assets;
-  uint32_t left_out;  ///< of Features::all, what the world's table lacks; 0: nothing
+  uint32_t left_out;   ///< of Features::all, what the world's table lacks; 0: nothing
+  uint32_t manifolds;  ///< 1 if the block has room for them
+  uint32_t zero;
 };
 
 struct alignas(8) WorldState {
@@ -31,13 +33,15 @@ struct alignas(8) WorldState {
   uint32_t sleeping;    ///< 1 if islands at rest fall asleep
   uint32_t continuous;  ///< 1 if bodies meet at the time of impact
   uint32_t idle;        ///< 1 if nothing is awake: a step has nothing to do
-  uint32_t zero;
-  Vec3<Real> gravity;  ///< m/s^2
-  Real tick_time;      ///< s
+  uint32_t reduction;   ///< ManifoldReduction
+  Vec3<Real> gravity;   ///< m/s^2
+  Real tick_time;       ///< s
   Real relaxation;
   Real stiffness;
   Real damping_ratio;
   Real restitution_threshold;
+  Real breaking;  ///< of a contact, over the smaller extent
+  Real reuse;     ///< motion, over the smaller extent, within which contact points are used again
 };
 
 struct BodyPose {
@@ -102,6 +106,17 @@ struct ContactState {
   Vec3<Real> friction_impulse;                ///< likewise, on B, world
   Vec3<Real> angular_impulse;                 ///< likewise, per unit length of the pair, on B, world
   Real load;  ///< normal force / mass of the lighter dynamic body that the island's substeps are chosen by, m/s^2
+};
+
+/// What the points of a contact were found from, so that they can be used again while the pair hardly moves. All zero
+/// for a contact that is found anew in each tick. The *base* is the larger body by its bounding radius, of equals A;
+/// its unit of length, times 4, is that of the lengths here.
+struct ManifoldState {
+  Vec3<Unit> normal;                         ///< from the base to the other body, in the base's axes
+  Vec3<Unit> offset;                         ///< of the other's centre from the base's, in the base's axes
+  Quat rotation;                             ///< of the other body in the base's axes
+  Unit height[k_manifold_points_max];        ///< what makes a point's place along the normal its separation
+  int16_t anchor[k_manifold_points_max][3];  ///< the points, from the other's centre, in its axes; 2^-15 of its unit
 };
 
 /// What a bound asset's bytes are. Stored: a value is never reused.
