@@ -88,15 +88,20 @@ struct Sliding {
   NormalMotion<Kind> normal() const {
     return {held(part[k_along_normal]), held(part[k_about_first]), held(part[k_about_second])};
   }
-  /// Brings an impulse to `after` wherever it is kept.
+  /// An impulse that the motion is to show.
   template <Part by>
-  void bring(Factor after, typename Kind::Real& impulse) {
-    const Factor more = held(after - block.number(impulse));
-    impulse += block.real(Number(more));
+  void act(Factor more) {
     wrench[by] += more;
     DETENT_UNROLL
     for (int i = 0; i < k_parts; ++i)
       part[i] += times_scaled(more, contact.response[response_index(i, by)], contact.response_exponent);
+  }
+  /// Brings an impulse to `after`.
+  template <Part by>
+  void bring(Factor after, typename Kind::Real& impulse) {
+    const Factor more = held(after - block.number(impulse));
+    impulse += block.real(Number(more));
+    act<by>(more);
   }
 };
 
@@ -167,17 +172,12 @@ struct ContactSolver {
     apply_normal<Kind>(contact, block, along, about_first, about_second, a, b);
   }
 
-  /// Takes the springs' speed out again, with friction.
+  /// Takes the springs' speed out again, and solves friction.
   void relax() {
     typename Kind::Block room;
     include_impulses(room);
     const PairMotion<Kind> motion = relative_motion(room);
     Sliding<Kind> sliding(contact, motion);
-    const Factor normal = normal_impulse(motion.block);
-    if (contact.angular_rows == 3) roll(normal, sliding);
-    if (contact.angular_rows != 0) twist(normal, sliding);
-    rub(normal, sliding);
-
     Normals<Kind> normals(contact, motion.block, sliding.normal());
     const Number none = Number(Kind::number_of(0));
     // Points that do not meet in this substep go on closing their gap.
@@ -197,10 +197,17 @@ struct ContactSolver {
       }
     }
     normals.store(motion.block, contact);
-    Number about_first, about_second;
-    normals.put(sliding.wrench[k_along_normal], about_first, about_second);
-    sliding.wrench[k_about_first] += about_first;
-    sliding.wrench[k_about_second] += about_second;
+    Number along, about_first, about_second;
+    normals.put(along, about_first, about_second);
+    sliding.template act<k_along_normal>(held(along));
+    sliding.template act<k_about_first>(held(about_first));
+    sliding.template act<k_about_second>(held(about_second));
+
+    // Friction has the last word: what a slope's normals push along it would otherwise creep.
+    const Factor normal = normal_impulse(motion.block);
+    if (contact.angular_rows == 3) roll(normal, sliding);
+    if (contact.angular_rows != 0) twist(normal, sliding);
+    rub(normal, sliding);
     apply_wrench<Kind>(contact, motion.block, sliding.wrench, a, b);
   }
 
