@@ -27,14 +27,27 @@ struct Capacity {
   }
 };
 
+/// How overlap is undone. Stored: a value is never reused.
+enum class Stabilisation : uint32_t {
+  soft = 1,  ///< contacts are damped springs, whose speed a relaxation takes out again: what stands tall needs it
+  /// Contacts are rigid, and when the substeps are done the bodies are moved apart by what they still overlap, half of
+  /// it in a tick, without a change of speed. Source: Cline, Pai, "Post-stabilization for rigid body simulation with
+  /// contact and constraints", ICRA 2003.
+  post = 2,
+};
+
 /// What `create_world` makes. Every field but the capacity has a working default.
 struct WorldDef {
   Capacity capacity = {};
   Vec3<Real> gravity = {Real(0.0), Real(-9.81), Real(0.0)};  ///< m/s^2; each component within +-1024
   Real tick = Real(1.0 / 60.0);                              ///< s, the time of one step, [2^-14, 1/4]
-  uint32_t substeps = 0;        ///< solver substeps a tick, [1, 64]; 0: chosen for each island by what it carries
-  uint32_t substeps_max = 32;   ///< of those chosen, [1, 64]
-  uint32_t iterations = 1;      ///< sweeps over the contacts a substep, [1, 64]
+  uint32_t substeps = 0;       ///< solver substeps a tick, [1, 64]; 0: chosen for each island by what it carries
+  uint32_t substeps_max = 32;  ///< of those chosen, [1, 64]
+  uint32_t iterations = 1;     ///< sweeps over the contacts a substep, [1, 64]
+  /// The sweeps of a substep end early when the last one changed no velocity by more than 2^-convergence of what
+  /// gravity adds in the substep; [0, 30].
+  uint32_t convergence = 12;
+  Stabilisation stabilisation = Stabilisation::soft;
   Real relaxation = 1.0;        ///< over-relaxation factor of the SOR solver, [1/4, 7/4]
   Real stiffness = Real(0.14);  ///< contact frequency as a fraction of the substep rate, [1/64, 1/4]
   Real damping_ratio = 10.0;    ///< of the soft contacts, [0, 64]
@@ -73,6 +86,7 @@ struct StepReport {
   uint32_t substeps_max = 0;      ///< of any island
   uint32_t fell_asleep = 0;       ///< bodies, at the end of the step
   uint32_t woke = 0;              ///< bodies that were touched
+  uint32_t sweeps_saved = 0;      ///< over the contacts of an island, as WorldDef::convergence lets it
   uint64_t contact_substeps = 0;  ///< contacts times their islands' substeps: the work of the solver
   uint32_t pairs = 0;             ///< pairs of overlapping bounds of which a body moves
   uint32_t contacts = 0;          ///< pairs with at least one contact point
@@ -82,11 +96,11 @@ struct StepReport {
                                  ///< not found for want of a hull's bytes
   uint32_t contact_events = 0;   ///< in the world's buffer
   uint32_t contact_events_dropped = 0;  ///< beyond its capacity; not counted where there is no buffer
-  uint32_t pairs_dropped = 0;  ///< pairs beyond the pair buffer (the shallowest): their contacts are lost this tick,
-                               ///< but continuous collision tries them all
-  uint32_t contacts_dropped = 0;   ///< contacts beyond the capacity (the shallowest), lost this tick
-  uint32_t saturations = 0;        ///< state components clamped to their range
-  uint32_t impacts = 0;            ///< times at which bodies met within the tick and were made to part
+  uint32_t pairs_dropped = 0;     ///< pairs beyond the pair buffer (the shallowest): their contacts are lost this tick,
+                                  ///< but continuous collision tries them all
+  uint32_t contacts_dropped = 0;  ///< contacts beyond the capacity (the shallowest), lost this tick
+  uint32_t saturations = 0;       ///< state components clamped to their range
+  uint32_t impacts = 0;           ///< times at which bodies met within the tick and were made to part
   uint32_t impacts_undecided = 0;  ///< times of impact found in part, or that could not be asked for
   uint32_t impacts_dropped = 0;    ///< for want of room, that of contacts: their bodies stayed behind
   uint32_t overlaps_left = 0;      ///< pairs too deep within each other for continuous collision
@@ -113,7 +127,8 @@ struct WorldInfo {
 
 /// Makes an empty world in `block` (8-byte aligned, at least world_bytes(def.capacity) bytes).
 /// `features`: what the world can do, and so what the program links (features.h); all by default.
-/// Errors: buffer_too_small, buffer_misaligned, out_of_range, bad_argument (a reduction that is none), feature_missing.
+/// Errors: buffer_too_small, buffer_misaligned, out_of_range, bad_argument (a reduction or stabilisation that is none),
+/// feature_missing.
 Status create_world(uint8_t* block, uint32_t block_bytes, const WorldDef& def, AssetTable assets, World& world,
                     const FeatureTable& features = feature_table<Features::all>);
 

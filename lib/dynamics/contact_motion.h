@@ -25,6 +25,16 @@ struct SolvedBody {
   const Vec3<Real>&displacement, &turn;
   const WorldGyration& gyration;
 
+  SolvedBody(Vec3<Real>& of_velocity, Vec3<Real>& of_momentum, Vec3<Real>& of_spin, Vec3<Real>& from_contacts,
+             Vec3<Real>& turned_by_contacts, const Vec3<Real>& way, const Vec3<Real>& turned, const WorldGyration& own)
+      : velocity(of_velocity),
+        momentum(of_momentum),
+        spin(of_spin),
+        contact_velocity(from_contacts),
+        contact_momentum(turned_by_contacts),
+        displacement(way),
+        turn(turned),
+        gyration(own) {}
   SolvedBody(BodyMotion& motion, BodyWork& work)
       : velocity(motion.velocity),
         momentum(motion.momentum),

@@ -3,6 +3,7 @@
 #include "dynamics/contact_order.h"
 #include "dynamics/contact_solver.h"
 #include "dynamics/gyration.h"
+#include "dynamics/post_stabilise.h"
 #include "dynamics/solve_quads.h"
 #include "dynamics/spin.h"
 
@@ -104,6 +105,20 @@ void rebound(ContactSolver<One>& solver) {
   }
 }
 
+/// Keeps the velocities of before a sweep, in a place that only the sweeps use.
+void remember(const SolverBodies& bodies, Span<const uint32_t> island) {
+  for (const uint32_t slot : island) bodies.work[slot].velocity_before = bodies.motions[slot].velocity;
+}
+
+/// True if the last sweep changed no velocity by more than `enough`.
+bool has_settled(const SolverBodies& bodies, Span<const uint32_t> island, Real enough) {
+  for (const uint32_t slot : island) {
+    const Vec3<Real> change = bodies.motions[slot].velocity - bodies.work[slot].velocity_before;
+    if (max(abs(change.x), max(abs(change.y), abs(change.z))) > enough) return false;
+  }
+  return true;
+}
+
 /// One pass over contacts in their order: `one` of them, or `four` that may be solved at once.
 template <class TakeOne, class TakeFour>
 void pass(const StepSettings& settings, const SolverBodies& bodies, Span<const ContactOrder> order,
@@ -138,16 +153,30 @@ void place_kinematic(const BodyTraits& traits, const BodyMotion& motion, Real ti
 
 }  // namespace
 
-uint32_t solve(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> island,
-               Span<const ContactOrder> order, Span<ContactWork> contacts) {
+SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> island,
+                 Span<const ContactOrder> order, Span<ContactWork> contacts) {
   using Solver = ContactSolver<One>;
-  uint32_t clamped = 0;
+  SolveCount count;
   Real elapsed = 0.0;
   StepSettings one_by_one = settings;
   one_by_one.quads = false;
   const auto each = [&](const auto& visit) { pass(one_by_one, bodies, order, contacts, visit, soften_quad); };
+  const Real enough = scale_by_power(settings.gravity_size * settings.time, -static_cast<int>(settings.convergence));
+  /// Sweeps until nothing changes by more than that.
+  const auto sweep = [&](const auto& one, const auto& four) {
+    for (uint32_t iteration = 1;; ++iteration) {
+      const bool last = iteration == settings.iterations;
+      if (!last) remember(bodies, island);
+      pass(settings, bodies, order, contacts, one, four);
+      if (last) return;
+      if (has_settled(bodies, island, enough)) {
+        count.sweeps_saved += settings.iterations - iteration;
+        return;
+      }
+    }
+  };
   for (uint32_t substep = 0; substep < settings.substeps; ++substep) {
-    clamped += integrate_velocities(bodies, island, substep == 0);
+    count.clamped += integrate_velocities(bodies, island, substep == 0);
     if (substep == 0) each([](Solver& contact) { contact.warm_start(); });
     for (const ContactOrder& entry : order) {
       const ContactWork& contact = contacts[entry.contact];
@@ -156,19 +185,14 @@ uint32_t solve(const StepSettings& settings, const SolverBodies& bodies, Span<co
       place_kinematic(bodies.traits[a], bodies.motions[a], elapsed, bodies.work[a]);
       place_kinematic(bodies.traits[b], bodies.motions[b], elapsed, bodies.work[b]);
     }
-    for (uint32_t iteration = 0; iteration < settings.iterations; ++iteration) {
-      pass(
-          settings, bodies, order, contacts, [](Solver& contact) { contact.soften(); }, soften_quad);
-    }
-    clamped += integrate_positions(bodies, island, settings.time);
-    for (uint32_t iteration = 0; iteration < settings.iterations; ++iteration) {
-      pass(
-          settings, bodies, order, contacts, [](Solver& contact) { contact.relax(); }, relax_quad);
-    }
+    sweep([](Solver& contact) { contact.soften(); }, soften_quad);
+    count.clamped += integrate_positions(bodies, island, settings.time);
+    sweep([](Solver& contact) { contact.relax(); }, relax_quad);
     elapsed += settings.time;
   }
   each(rebound);
-  return clamped;
+  if (settings.post_stabilises) count.clamped += post_stabilise(settings, bodies, island, order, contacts);
+  return count;
 }
 
 uint32_t fly(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> island) {

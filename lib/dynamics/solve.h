@@ -14,12 +14,16 @@ struct SolverBodies {
   Span<BodyWork> work;
 };
 
+struct SolveCount {
+  uint32_t clamped = 0;       ///< values
+  uint32_t sweeps_saved = 0;  ///< over the island's contacts, since the ones before changed nothing any more
+};
+
 /// Runs an island's substeps: velocities, warm start, soft normals, positions, relaxation with friction; then
 /// restitution once. SOR over the contacts in the given order, in velocity units. `settings` has the island's substeps.
-/// Returns the number of values that were clamped.
 /// Source: Macklin and others, "Small Steps in Physics Simulation", 2019; Catto, "Solver2D", 2024 (soft step).
-uint32_t solve(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> island,
-               Span<const ContactOrder> order, Span<ContactWork> contacts);
+SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> island,
+                 Span<const ContactOrder> order, Span<ContactWork> contacts);
 
 /// Moves an island without contacts: under constant acceleration its centre's way is exact, and each body's turning is
 /// split in four (spin.h).

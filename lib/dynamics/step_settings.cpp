@@ -1,5 +1,7 @@
 #include "dynamics/step_settings.h"
 
+#include <detent/world.h>
+
 #include "math/root.h"
 
 namespace detent {
@@ -55,6 +57,12 @@ StepSettings step_settings(const WorldState& world) {
   settings.breaking = world.breaking;
   settings.reuse = world.reuse;
   settings.reduction = static_cast<ManifoldReduction>(world.reduction);
+  settings.convergence = world.convergence;
+  settings.post_stabilises = static_cast<Stabilisation>(world.stabilisation) == Stabilisation::post;
+  if (settings.post_stabilises) {
+    settings.dynamic_softness = settings.static_softness = {Unit(0.0), Unit(1.0), Unit(0.0)};
+    return settings;
+  }
   settings.dynamic_softness = softness(world.stiffness, world.damping_ratio);
   settings.static_softness = softness(scale_by_power(world.stiffness, 1), scale_by_power(world.damping_ratio, -1));
   return settings;

@@ -22,6 +22,8 @@ struct StepSettings {
   uint32_t substeps_max;
   Scaled substeps_per_rate;  ///< (substeps / contact frequency, rad/s)^2: of contacts between dynamic bodies, s^2
   uint32_t iterations;
+  uint32_t convergence;
+  bool post_stabilises;
   bool sleeping;
   bool quads;          ///< four contacts at once where they may; the caller's choice, of no consequence for the result
   Real tick_time;      ///< s

@@ -275,11 +275,12 @@ bool are_assets(const State& state) {
 Status check_state(const uint8_t* block, Capacity capacity, AssetTable assets, const FeatureTable& features) {
   const State state = view_of(block, capacity);
   const WorldState& world = state.world;
-  if (!is_reduction(static_cast<ManifoldReduction>(world.reduction)) || world.sleeping > 1 || world.continuous > 1 ||
-      world.idle > 1 ||
+  if (!is_reduction(static_cast<ManifoldReduction>(world.reduction)) ||
+      !is_stabilisation(static_cast<Stabilisation>(world.stabilisation)) || world.sleeping > 1 ||
+      world.continuous > 1 || world.idle > 1 ||
       !are_settings(world.gravity, world.tick_time, world.substeps, world.substeps_max, world.iterations,
-                    world.relaxation, world.stiffness, world.damping_ratio, world.restitution_threshold, world.breaking,
-                    world.reuse)) {
+                    world.convergence, world.relaxation, world.stiffness, world.damping_ratio,
+                    world.restitution_threshold, world.breaking, world.reuse)) {
     return Status::corrupt;
   }
   if (!contains(features_of(state), features_of(world.continuous != 0, world.sleeping != 0))) return Status::corrupt;

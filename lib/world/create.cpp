@@ -172,11 +172,12 @@ Vec3<Scaled> over_tick(const Vec3<Scaled>& force, const WorldState& world) {
 Status create_world(uint8_t* block, uint32_t block_bytes, const WorldDef& def, AssetTable assets, World& world,
                     const FeatureTable& features) {
   const FloatEnvironment environment;
-  if (!are_settings(def.gravity, def.tick, def.substeps, def.substeps_max, def.iterations, def.relaxation,
-                    def.stiffness, def.damping_ratio, def.restitution_threshold, def.breaking, def.reuse)) {
+  if (!are_settings(def.gravity, def.tick, def.substeps, def.substeps_max, def.iterations, def.convergence,
+                    def.relaxation, def.stiffness, def.damping_ratio, def.restitution_threshold, def.breaking,
+                    def.reuse)) {
     return Status::out_of_range;
   }
-  if (!is_reduction(def.reduction)) return Status::bad_argument;
+  if (!is_reduction(def.reduction) || !is_stabilisation(def.stabilisation)) return Status::bad_argument;
   if (!contains(features.features, features_of(def.continuous, def.sleeping))) return Status::feature_missing;
   const uint32_t bytes = world_bytes(def.capacity);
   if (bytes == 0) return Status::out_of_range;
@@ -200,6 +201,8 @@ Status create_world(uint8_t* block, uint32_t block_bytes, const WorldDef& def, A
   state.sleeping = def.sleeping ? 1 : 0;
   state.continuous = def.continuous ? 1 : 0;
   state.iterations = def.iterations;
+  state.convergence = def.convergence;
+  state.stabilisation = static_cast<uint32_t>(def.stabilisation);
   state.gravity = def.gravity;
   state.tick_time = def.tick;
   state.relaxation = def.relaxation;

@@ -67,6 +67,8 @@ inline constexpr Field k_world_fields[] = {
     DETENT_FIELD(WorldState, continuous),
     DETENT_FIELD(WorldState, idle),
     DETENT_FIELD(WorldState, reduction),
+    DETENT_FIELD(WorldState, stabilisation),
+    DETENT_FIELD(WorldState, convergence),
     DETENT_FIELD(WorldState, gravity),
     DETENT_FIELD(WorldState, tick_time),
     DETENT_FIELD(WorldState, relaxation),

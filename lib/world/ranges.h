@@ -43,6 +43,10 @@ inline bool is_rule(RestitutionRule rule) {
   return rule == RestitutionRule::larger || rule == RestitutionRule::smaller;
 }
 
+inline bool is_stabilisation(Stabilisation stabilisation) {
+  return stabilisation == Stabilisation::soft || stabilisation == Stabilisation::post;
+}
+
 inline bool is_reduction(ManifoldReduction reduction) {
   return reduction == ManifoldReduction::projected_extremes || reduction == ManifoldReduction::deepest_area;
 }
@@ -54,10 +58,10 @@ inline constexpr Real k_gravity_scale_max = 1024.0;
 
 /// The settings of a world: as documented in WorldDef.
 inline bool are_settings(const Vec3<Real>& gravity, Real tick, uint32_t substeps, uint32_t substeps_max,
-                         uint32_t iterations, Real relaxation, Real stiffness, Real damping_ratio,
+                         uint32_t iterations, uint32_t convergence, Real relaxation, Real stiffness, Real damping_ratio,
                          Real restitution_threshold, Real breaking, Real reuse) {
   return within(gravity, k_gravity_max) && within(tick, Real(0x1p-14), Real(0.25)) && substeps <= 64 &&
-         substeps_max >= 1 && substeps_max <= 64 && iterations >= 1 && iterations <= 64 &&
+         substeps_max >= 1 && substeps_max <= 64 && iterations >= 1 && iterations <= 64 && convergence <= 30 &&
          within(relaxation, Real(0.25), Real(1.75)) && within(stiffness, Real(0x1p-6), Real(0.25)) &&
          within(damping_ratio, Real(0.0), Real(64.0)) && within(restitution_threshold, Real(0.0), Real(64.0)) &&
          within(breaking, Real(0x1p-10), Real(0x1p-4)) && within(reuse, Real(0.0), Real(0x1p-6));

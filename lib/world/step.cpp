@@ -248,10 +248,13 @@ uint32_t solve_islands(StepSettings settings, const SolverBodies& bodies, Span<c
     const Span<const ContactOrder> order = {scratch.contact_order.data + island.first_contact, island.contact_count};
     if (island.substeps != settings.substeps) set_substeps(island.substeps, settings);
     predict(settings, bodies.traits, slots, bodies.motions, bodies.work);
-    if (order.count == 0)
+    if (order.count == 0) {
       clamped += fly(settings, bodies, slots);
-    else
-      clamped += solve(settings, bodies, slots, order, contacts);
+    } else {
+      const SolveCount count = solve(settings, bodies, slots, order, contacts);
+      clamped += count.clamped;
+      report.sweeps_saved += count.sweeps_saved;
+    }
     for (const ContactOrder& entry : order) {
       store_load(settings, contacts[entry.contact]);
       store_impulses(contacts[entry.contact]);

@@ -156,6 +156,8 @@ DETENT_TEST(arguments, a_world_needs_its_block_and_sound_settings) {
   EXPECT_EQ(make([](WorldDef& d) { d.relaxation = real(2); }), Status::out_of_range);
   EXPECT_EQ(make([](WorldDef& d) { d.stiffness = real(0.5); }), Status::out_of_range);
   EXPECT_EQ(make([](WorldDef& d) { d.gravity = reals(0, 2000, 0); }), Status::out_of_range);
+  EXPECT_EQ(make([](WorldDef& d) { d.convergence = 31; }), Status::out_of_range);
+  EXPECT_EQ(make([](WorldDef& d) { d.stabilisation = static_cast<Stabilisation>(3); }), Status::bad_argument);
   EXPECT_EQ(make([](WorldDef& d) { d.reuse = real(-0.001); }), Status::out_of_range);
   EXPECT_EQ(make([](WorldDef& d) { d.reuse = real(0.016); }), Status::out_of_range);
   EXPECT_EQ(make([](WorldDef& d) { d.breaking = real(0); }), Status::out_of_range);

@@ -70,6 +70,7 @@ struct alignas(8) BodyWork {
   Vec3<Real> twist;                      ///< momentum that torques add in a substep, m/s
   Vec3<Real> contact_velocity;           ///< what contacts add in this substep, m/s: in float the sum so far, in fixed
   Vec3<Real> contact_momentum;           ///< point, where differences are exact, less the motion; see contact_motion.h
+  Vec3<Real> velocity_before;            ///< of the last sweep, where there are several, m/s
   Scaled linear_kept;                    ///< share of the velocity that damping leaves in a substep
   Scaled angular_kept;
 };

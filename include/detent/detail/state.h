@@ -30,12 +30,14 @@ struct alignas(8) WorldState {
   uint32_t substeps;       ///< 0: chosen for each island
   uint32_t substeps_max;
   uint32_t iterations;
-  uint32_t sleeping;    ///< 1 if islands at rest fall asleep
-  uint32_t continuous;  ///< 1 if bodies meet at the time of impact
-  uint32_t idle;        ///< 1 if nothing is awake: a step has nothing to do
-  uint32_t reduction;   ///< ManifoldReduction
-  Vec3<Real> gravity;   ///< m/s^2
-  Real tick_time;       ///< s
+  uint32_t sleeping;       ///< 1 if islands at rest fall asleep
+  uint32_t continuous;     ///< 1 if bodies meet at the time of impact
+  uint32_t idle;           ///< 1 if nothing is awake: a step has nothing to do
+  uint32_t reduction;      ///< ManifoldReduction
+  uint32_t stabilisation;  ///< Stabilisation
+  uint32_t convergence;    ///< the sweeps of a substep end when the last one changed less than 2^-convergence
+  Vec3<Real> gravity;      ///< m/s^2
+  Real tick_time;          ///< s
   Real relaxation;
   Real stiffness;
   Real damping_ratio;
