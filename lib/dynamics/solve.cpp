@@ -1,5 +1,6 @@
 #include "dynamics/solve.h"
 
+#include "base/processor.h"
 #include "dynamics/contact_order.h"
 #include "dynamics/contact_solver.h"
 #include "dynamics/gyration.h"
@@ -152,6 +153,16 @@ void place_kinematic(const BodyTraits& traits, const BodyMotion& motion, Real ti
 }
 
 }  // namespace
+
+#if DETENT_QUADS
+bool has_quads() {
+#if defined(__x86_64__)
+  return has_avx2();
+#else
+  return true;
+#endif
+}
+#endif
 
 SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> island,
                  Span<const ContactOrder> order, Span<ContactWork> contacts) {

@@ -1,7 +1,6 @@
 #include "dynamics/solve_quads.h"
 
 #if DETENT_QUADS
-#include "base/processor.h"
 #include "dynamics/quad_contact.h"
 
 namespace detent {
@@ -254,14 +253,6 @@ Bodies bodies_of(const SolverBodies& bodies, Contacts contacts, uint32_t Contact
 }
 
 }  // namespace
-
-bool has_quads() {
-#if defined(__x86_64__)
-  return has_avx2();
-#else
-  return true;
-#endif
-}
 
 void soften_quad(const StepSettings& settings, const SolverBodies& bodies, Contacts contacts) {
   const Bodies all_a = bodies_of(bodies, contacts, &ContactState::body_a);

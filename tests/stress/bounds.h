@@ -84,8 +84,9 @@ inline constexpr Gap k_gaps[] = {
     {"spin", "fx32", 0, "flips", 6},
     {"spin", "f32", 0, "flips", 46},
     // A float of a pose's rotation turns the slope's normal.
-    {"incline_holds", "f32", 0, "creep", 1e-5},
-    // A position in steps of 1.5e-5 m, of boxes of 1 cm.
+    {"incline_holds", "f32", 0, "creep", 1.5e-6},
+    // A position in steps of 1.5e-5 m, of which it may take one; of boxes of 1 cm.
+    {"incline_holds", "fx32", 1, "creep", 1.6e-5},
     {"wall_ball", "fx32", 0.0125, "rebound", 0.04},
     {"tower_40", "fx32", 0.01, "drift", 0.3},
     {"tower", "fx32", 0.01, "speed_settling", 0.07},

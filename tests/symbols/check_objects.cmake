@@ -1,6 +1,6 @@
 # cmake -DNM=<nm> -DARCHIVE=<library> -DPROCESSOR=<processor> -DCONFIG=<configuration> -P check_objects.cmake
-# Fails if an object of the library needs a function that is neither the library's own nor allowed.csv's, or holds data that
-# can be written or that is made at start-up.
+# Fails if an object of the library needs a function that is neither the library's own nor allowed.csv's, holds data that
+# can be written or that is made at start-up, or offers functions that another machine than the caller's could run.
 
 cmake_minimum_required(VERSION 3.25)
 
@@ -58,6 +58,10 @@ foreach(line IN LISTS lines)
     list(APPEND needed "${symbol}|${object}")
   elseif(class MATCHES "^[A-Zu]$")
     list(APPEND defined ${symbol})
+  endif()
+  # Compiled for a machine that not every caller has: the linker may take a weak function of it for another object's.
+  if(object MATCHES "^solve_quads" AND class STREQUAL "W" AND NOT symbol MATCHES "4Four|Quad")
+    list(APPEND faults "${object}: ${symbol} may run on a machine without its instructions")
   endif()
   if(symbol MATCHES "^_GLOBAL__sub_I_")
     list(APPEND faults "${object}: ${symbol} runs before the program")

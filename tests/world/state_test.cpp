@@ -150,17 +150,17 @@ DETENT_TEST(state, a_snapshot_reads_the_same_in_pieces_of_any_size) {
 DETENT_TEST(state, the_layout_is_the_same_on_every_target) {
   constexpr Capacity k_capacity = {10, 20, 3};
 #if defined(DETENT_FX64)
-  EXPECT_EQ(snapshot_bytes(k_capacity), 7064u);
-  EXPECT_EQ(world_bytes(k_capacity), 36624u);
+  EXPECT_EQ(snapshot_bytes(k_capacity), 7080u);
+  EXPECT_EQ(world_bytes(k_capacity), 31048u);
 #elif defined(DETENT_FX32)
-  EXPECT_EQ(snapshot_bytes(k_capacity), 7024u);
-  EXPECT_EQ(world_bytes(k_capacity), 36024u);
+  EXPECT_EQ(snapshot_bytes(k_capacity), 7040u);
+  EXPECT_EQ(world_bytes(k_capacity), 30208u);
 #elif defined(DETENT_F32)
-  EXPECT_EQ(snapshot_bytes(k_capacity), 5264u);
-  EXPECT_EQ(world_bytes(k_capacity), 29624u);
+  EXPECT_EQ(snapshot_bytes(k_capacity), 5280u);
+  EXPECT_EQ(world_bytes(k_capacity), 24528u);
 #else
-  EXPECT_EQ(snapshot_bytes(k_capacity), 8544u);
-  EXPECT_EQ(world_bytes(k_capacity), 49624u);
+  EXPECT_EQ(snapshot_bytes(k_capacity), 8560u);
+  EXPECT_EQ(world_bytes(k_capacity), 40768u);
 #endif
 }
 
