@@ -20,6 +20,11 @@ struct Quat {
   }
 };
 
+/// A rotation by columns: the images of the local axes.
+struct Matrix3 {
+  Vec3<Unit> column[3];
+};
+
 /// Where a body is: the world position of its centre of mass, m, and its rotation from local to world.
 struct Pose {
   Position position;

@@ -171,7 +171,9 @@ int32_t share_length(const BodyTraits& a, const BodyTraits& b, ContactWork& work
 
 Real gravity_along(const StepSettings& settings, const BodyTraits& body, const Vec3<Unit>& normal) {
   bool saturated = false;
-  return is_dynamic(body) ? multiply(dot(settings.gravity, normal), body.gravity_scale, saturated) : Real(0.0);
+  if (!is_dynamic(body)) return 0.0;
+  const Real whole = dot(settings.gravity, normal);
+  return body.gravity_scale == Scaled(1.0) ? whole : multiply(whole, body.gravity_scale, saturated);
 }
 
 /// The normal velocity with which a point that approaches at `velocity` closes its gap under the relative acceleration
@@ -253,7 +255,7 @@ void make_rows(const StepSettings& settings, const RowBody& a, const RowBody& b,
   work.friction = geometric_mean(a.traits.friction, b.traits.friction);
   work.restitution = pair_restitution(a.traits, b.traits);
   const Scaled rolling = geometric_mean(a.traits.rolling_resistance, b.traits.rolling_resistance);
-  const Real extent = min(shape_extent(a.traits), shape_extent(b.traits));
+  const Real extent = min(a.extent, b.extent);
   work.rolling_arm = multiply(rolling, scaled_by_power(scaled_from(extent), -1 - unit));
   work.twist_arm = add(multiply(work.friction, scaled_from(patch)), work.rolling_arm);
   work.angular_rows = is_positive(work.rolling_arm) ? 3 : is_positive(work.twist_arm) ? 1 : 0;
@@ -265,7 +267,7 @@ void make_rows(const StepSettings& settings, const RowBody& a, const RowBody& b,
     work.angular_impulse[i] = dot(work.state.angular_impulse, *axes[i]);
   }
   // Speeds are measured against that of a fall by the smaller body's diameter.
-  const Real fall = fall_speed(settings, extent);
+  const Real fall = min(a.fall, b.fall);
   work.push_max = scale_by_power(fall, -1);
   work.rebound_min = settings.restitution_threshold * fall;
 }

@@ -9,13 +9,15 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// One body of a contact, as the rows see it: its gyration and its spin, 2^-k_spin_power m/s, are in world axes.
+/// One body of a contact, as the rows see it: its gyration and its spin, 2^-k_spin_power m/s, are in world axes; its
+/// extent, m, and the speed of a fall by it, m/s.
 struct RowBody {
   const BodyTraits& traits;
   const BodyPose& pose;
   const BodyMotion& motion;
   const WorldGyration& gyration;
   const Vec3<Real>& spin;
+  Real extent, fall;
 };
 
 /// Fills the rows of `work`, whose `state` is set, from the geometry: arms, responses, effective masses, limits and the

@@ -566,8 +566,10 @@ struct Stage {
     const WorldGyration gyration_b = world_gyration(traits_b, matrix_from(pose_b.rotation));
     const Vec3<Real> spin_a = world_spin(traits_a, gyration_a, before_a.momentum, -k_spin_power);
     const Vec3<Real> spin_b = world_spin(traits_b, gyration_b, before_b.momentum, -k_spin_power);
-    make_rows(settings, {traits_a, pose_a, before_a, gyration_a, spin_a},
-              {traits_b, pose_b, before_b, gyration_b, spin_b}, geometry, contact);
+    const Real extent_a = shape_extent(traits_a), extent_b = shape_extent(traits_b);
+    make_rows(settings, {traits_a, pose_a, before_a, gyration_a, spin_a, extent_a, fall_speed(settings, extent_a)},
+              {traits_b, pose_b, before_b, gyration_b, spin_b, extent_b, fall_speed(settings, extent_b)}, geometry,
+              contact);
     BodyMotion after_a = before_a, after_b = before_b;
     Real approach = k_zero;
     const Real parting = again ? k_zero : parting_speed(pair, contact, geometry.count);

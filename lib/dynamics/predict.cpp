@@ -24,13 +24,18 @@ Real absolute_sum(const Vec3<Real>& v) { return abs(v.x) + abs(v.y) + abs(v.z); 
 
 }  // namespace
 
-void start_body(const BodyTraits& traits, const BodyPose& pose, const BodyMotion& motion, BodyWork& work) {
+void start_body(const StepSettings& settings, const BodyTraits& traits, const BodyPose& pose, const BodyMotion& motion,
+                BodyWork& work) {
   const Real zero = 0.0;
   const Vec3<Real> none = {zero, zero, zero};
   work.rotation = pose.rotation;
   work.displacement = none;
   work.turn = none;
-  work.gyration = world_gyration(traits, matrix_from(pose.rotation));
+  work.axes = matrix_from(pose.rotation);
+  work.gyration = world_gyration(traits, work.axes);
+  work.extent = shape_extent(traits);
+  work.fall = fall_speed(settings, work.extent);
+  work.speed = speed_bound(traits, pose.rotation, motion);
   work.spin = world_spin(traits, work.gyration, motion.momentum, -k_spin_power);
 }
 

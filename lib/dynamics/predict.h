@@ -8,7 +8,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// Starts the tick of a body: it has not moved yet.
-void start_body(const BodyTraits& traits, const BodyPose& pose, const BodyMotion& motion, BodyWork& work);
+void start_body(const StepSettings& settings, const BodyTraits& traits, const BodyPose& pose, const BodyMotion& motion,
+                BodyWork& work);
 
 /// What gravity, forces and damping do to the bodies of an island in a substep. The forces are taken over and cleared.
 void predict(const StepSettings& settings, Span<const BodyTraits> traits, Span<const uint32_t> bodies,

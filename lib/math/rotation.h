@@ -28,10 +28,6 @@ Vec3<Real> rotate(const Quat& q, const Vec3<Real>& v);
 Vec3<Real> rotate_inverse(const Quat& q, const Vec3<Real>& v);
 #endif
 
-/// A rotation by columns: the images of the local axes.
-struct Matrix3 {
-  Vec3<Unit> column[3];
-};
 Matrix3 matrix_from(const Quat& q);
 
 /// m v.

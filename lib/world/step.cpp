@@ -64,10 +64,8 @@ struct PairLengths {
   Real reuse;    ///< how far it may move until its contact points are found anew
 };
 
-PairLengths lengths_of(const StepSettings& settings, const RowBody& a, const RowBody& b) {
-  const Real extent = min(shape_extent(a.traits), shape_extent(b.traits));
-  const Real speed =
-      speed_bound(a.traits, a.pose.rotation, a.motion) + speed_bound(b.traits, b.pose.rotation, b.motion);
+PairLengths lengths_of(const StepSettings& settings, const BodyWork& a, const BodyWork& b) {
+  const Real extent = min(a.extent, b.extent), speed = a.speed + b.speed;
   const Real at_rest = extent * settings.breaking;
   return {at_rest, at_rest + min(scale_by_power(extent, -2), speed * settings.tick_time), extent * settings.reuse};
 }
@@ -84,9 +82,13 @@ struct Bodies {
   const FeatureTable& features;
 
   RowBody at(uint32_t slot) const {
-    return {traits[slot], poses[slot], motions[slot], work[slot].gyration, work[slot].spin};
+    const BodyWork& now = work[slot];
+    return {traits[slot], poses[slot], motions[slot], now.gyration, now.spin, now.extent, now.fall};
   }
-  void start(uint32_t slot) const { start_body(traits[slot], poses[slot], motions[slot], work[slot]); }
+  CollisionBody collider(uint32_t slot) const { return {poses[slot], traits[slot], work[slot].axes}; }
+  void start(const StepSettings& settings, uint32_t slot) const {
+    start_body(settings, traits[slot], poses[slot], motions[slot], work[slot]);
+  }
   bool awake(uint32_t slot) const { return is_awake(traits[slot], activities[slot]); }
   bool moving(uint32_t slot) const { return is_moving(traits[slot], motions[slot], activities[slot]); }
   bool asleep(uint32_t slot) const { return activities[slot].asleep != 0; }
@@ -98,13 +100,12 @@ struct ContactBefore {
   const ManifoldState* manifold = nullptr;
 };
 
-/// Contact points of a pair: those of the last tick where they will do, which sets `reused`, or else new ones. Fills
-/// `manifold`, unless it is null, with what is kept of them.
-void collide_pair(const StepSettings& settings, const RowBody& a, const RowBody& b, const Bodies& bodies,
+/// Contact points of a pair of bodies that have been started: those of the last tick where they will do, which sets
+/// `reused`, or else new ones. Fills `manifold`, unless it is null, with what is kept of them.
+void collide_pair(const StepSettings& settings, uint32_t slot_a, uint32_t slot_b, const Bodies& bodies,
                   const ContactBefore& before, ContactGeometry& geometry, ManifoldState* manifold, bool& reused) {
-  const Matrix3 rotation_a = matrix_from(a.pose.rotation), rotation_b = matrix_from(b.pose.rotation);
-  const CollisionBody body_a = {a.pose, a.traits, rotation_a}, body_b = {b.pose, b.traits, rotation_b};
-  const PairLengths lengths = lengths_of(settings, a, b);
+  const CollisionBody body_a = bodies.collider(slot_a), body_b = bodies.collider(slot_b);
+  const PairLengths lengths = lengths_of(settings, bodies.work[slot_a], bodies.work[slot_b]);
   // A point that was out of reach then is still farther off than the pair can close in this tick.
   const bool slow = lengths.reach + lengths.reuse <= scale_by_power(lengths.at_rest, 1);
   reused = before.manifold != nullptr && manifold != nullptr && slow &&
@@ -126,7 +127,8 @@ uint32_t wake_touched(const StepSettings& settings, const Bodies& bodies, const 
       if (!wakes_low && !(bodies.asleep(high) && bodies.moving(low))) continue;
       ContactGeometry geometry;
       bool reused = false;
-      collide_pair(settings, bodies.at(low), bodies.at(high), bodies, {}, geometry, nullptr, reused);
+      bodies.start(settings, wakes_low ? low : high);
+      collide_pair(settings, low, high, bodies, {}, geometry, nullptr, reused);
       if (geometry.count == 0) continue;
       woke += wake_all_with(wakes_low ? low : high, bodies.activities, cache.visits);
     }
@@ -189,19 +191,26 @@ ContactCount collide_pairs(const StepSettings& settings, const Bodies& bodies, S
   const Span<const ContactState> before = kept.contacts;
   const bool reuses = kept.manifolds.count != 0;
   ContactCount count;
-  uint32_t next = 0;
+  uint32_t next = 0, last_started = UINT32_MAX;
   for (const uint64_t key : pairs) {
     const uint32_t slot_a = pair_low(key), slot_b = pair_high(key);
     if (!bodies.awake(slot_a) && !bodies.awake(slot_b)) continue;
     while (next < awake.count && key_of(before[awake[next]]) < key) ++next;
     const bool continued = next < awake.count && key_of(before[awake[next]]) == key;
-    const RowBody a = bodies.at(slot_a), b = bodies.at(slot_b);
+    // One that rests is started when its pairs come; those of the ground come one after the other.
+    const auto start = [&](uint32_t slot) {
+      if (bodies.visits.has(slot) || slot == last_started) return;
+      bodies.start(settings, slot);
+      last_started = slot;
+    };
+    start(slot_a);
+    start(slot_b);
     ContactGeometry geometry;
     ManifoldState manifold;
     ContactBefore last;
     if (continued) last = {&before[awake[next]], reuses ? &kept.manifolds[awake[next]] : nullptr};
     bool reused = false;
-    collide_pair(settings, a, b, bodies, last, geometry, reuses ? &manifold : nullptr, reused);
+    collide_pair(settings, slot_a, slot_b, bodies, last, geometry, reuses ? &manifold : nullptr, reused);
     count.capped += geometry.capped ? 1 : 0;
     count.reused += reused ? 1 : 0;
     if (geometry.count == 0) continue;
@@ -212,12 +221,10 @@ ContactCount collide_pairs(const StepSettings& settings, const Bodies& bodies, S
       if (!leave_out_shallowest(contacts, manifolds, -least)) continue;
       --count.contacts;
     }
-    if (!bodies.visits.has(slot_a)) bodies.start(slot_a);
-    if (!bodies.visits.has(slot_b)) bodies.start(slot_b);
     if (reuses) manifolds[count.contacts] = manifold;
     ContactWork& work = contacts[count.contacts++];
     work.state = continued_contact(slot_a, slot_b, geometry, last.contact);
-    make_rows(settings, a, b, geometry, work);
+    make_rows(settings, bodies.at(slot_a), bodies.at(slot_b), geometry, work);
   }
   for (const ContactWork& contact : contacts.first(count.contacts)) count.points += contact.state.point_count;
   return count;
@@ -301,9 +308,12 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   PairPool pool = {poses, traits, cache.bounds, scratch.pair_sort, scratch.pairs};
   find_pairs(moving, cache.tree, scratch.bounds_keys, scratch.bounds_sort, pool);
   pool.sort();
+  for (const uint32_t slot : moving) bodies.start(settings, slot);
   report.woke = wake_touched(settings, bodies, cache, pool);
-  if (report.woke != 0) moving = list_moving(cache.visits, scratch.moving_bodies);
-  for (const uint32_t slot : moving) bodies.start(slot);
+  if (report.woke != 0) {
+    moving = list_moving(cache.visits, scratch.moving_bodies);
+    for (const uint32_t slot : moving) bodies.start(settings, slot);
+  }
   const Span<const uint64_t> pairs = pool.pairs();
   const Span<const uint32_t> awake_contacts = list_awake_contacts(cache, state);
   const uint32_t room = state.contacts.count - (before - awake_contacts.count);

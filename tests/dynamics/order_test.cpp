@@ -193,7 +193,8 @@ struct Scene {
     settings = step_settings(state.world);
     set_substeps(4, settings);
     activities.assign(state.activities.data, state.activities.data + used);
-    for (uint32_t slot = 0; slot < used; ++slot) start_body(traits[slot], poses[slot], motions[slot], work[slot]);
+    for (uint32_t slot = 0; slot < used; ++slot)
+      start_body(settings, traits[slot], poses[slot], motions[slot], work[slot]);
     for (uint32_t i = 0; i < state.world.contact_count; ++i) {
       const ContactState& before = state.contacts[i];
       const uint32_t a = before.body_a, b = before.body_b;
@@ -204,8 +205,10 @@ struct Scene {
       ContactWork contact{};
       contact.state = before;
       contact.state.point_count = geometry.count;
-      make_rows(settings, {traits[a], poses[a], motions[a], work[a].gyration, work[a].spin},
-                {traits[b], poses[b], motions[b], work[b].gyration, work[b].spin}, geometry, contact);
+      make_rows(settings,
+                {traits[a], poses[a], motions[a], work[a].gyration, work[a].spin, work[a].extent, work[a].fall},
+                {traits[b], poses[b], motions[b], work[b].gyration, work[b].spin, work[b].extent, work[b].fall},
+                geometry, contact);
       contacts.push_back(contact);
     }
     order.resize(contacts.size());

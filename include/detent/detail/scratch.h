@@ -62,16 +62,20 @@ struct alignas(8) BodyWork {
   alignas(sizeof(Real)) Scaled carried;  ///< its own mass and what rests on it, kg, likewise
   Real height;                           ///< against gravity, over the island's first body, m, likewise
   Quat rotation;                         ///< now
-  WorldGyration gyration;                ///< at the start of the tick
-  Vec3<Real> displacement;               ///< from the start of the tick, m
-  Vec3<Real> turn;                       ///< sum of spin x substep x 2^size_exponent from the start of the tick, m
-  Vec3<Real> spin;                       ///< gyration x momentum, or that of a kinematic body, 2^-k_spin_power m/s
-  Vec3<Real> push;                       ///< velocity that gravity and forces add in a substep, m/s
-  Vec3<Real> twist;                      ///< momentum that torques add in a substep, m/s
-  Vec3<Real> contact_velocity;           ///< what contacts add in this substep, m/s: in float the sum so far, in fixed
-  Vec3<Real> contact_momentum;           ///< point, where differences are exact, less the motion; see contact_motion.h
-  Vec3<Real> velocity_before;            ///< of the last sweep, where there are several, m/s
-  Scaled linear_kept;                    ///< share of the velocity that damping leaves in a substep
+  Matrix3 axes;                          ///< at the start of the tick, like all up to `speed`
+  WorldGyration gyration;
+  Real extent;                  ///< shape_extent(), m
+  Real fall;                    ///< fall_speed() of it, m/s
+  Real speed;                   ///< speed_bound(), m/s
+  Vec3<Real> displacement;      ///< from the start of the tick, m
+  Vec3<Real> turn;              ///< sum of spin x substep x 2^size_exponent from the start of the tick, m
+  Vec3<Real> spin;              ///< gyration x momentum, or that of a kinematic body, 2^-k_spin_power m/s
+  Vec3<Real> push;              ///< velocity that gravity and forces add in a substep, m/s
+  Vec3<Real> twist;             ///< momentum that torques add in a substep, m/s
+  Vec3<Real> contact_velocity;  ///< what contacts add in this substep, m/s: in float the sum so far, in fixed
+  Vec3<Real> contact_momentum;  ///< point, where differences are exact, less the motion; see contact_motion.h
+  Vec3<Real> velocity_before;   ///< of the last sweep, where there are several, m/s
+  Scaled linear_kept;           ///< share of the velocity that damping leaves in a substep
   Scaled angular_kept;
 };
 
