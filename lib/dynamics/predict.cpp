@@ -33,6 +33,7 @@ void start_body(const StepSettings& settings, const BodyTraits& traits, const Bo
   work.turn = none;
   work.axes = matrix_from(pose.rotation);
   work.gyration = world_gyration(traits, work.axes);
+  work.free_turn = free_turn_of(traits);
   work.extent = shape_extent(traits);
   work.fall = fall_speed(settings, work.extent);
   work.speed = speed_bound(traits, pose.rotation, motion);

@@ -60,9 +60,10 @@ uint32_t integrate_velocities(const SolverBodies& bodies, Span<const uint32_t> i
 
 uint32_t turn(const BodyTraits& traits, const BodyMotion& motion, Real time, int halvings, BodyWork& now) {
   if (motion.momentum == Vec3<Real>{k_zero, k_zero, k_zero}) return 0;
-  const Vec3<Real> spin = spin_of(traits, now.rotation, motion.momentum);
+  Vec3<Real> spin;
+  const bool whole = turn_freely(traits, now.free_turn, motion.momentum, time, halvings, now.rotation, spin);
   now.turn += spin * time;
-  return turn_freely(traits, motion.momentum, spin, time, halvings, now.rotation) ? 0 : 1;
+  return whole ? 0 : 1;
 }
 
 uint32_t integrate_positions(const SolverBodies& bodies, Span<const uint32_t> island, Real time, int halvings = 0) {
@@ -223,8 +224,8 @@ uint32_t carry(const StepSettings& settings, const SolverBodies& bodies) {
     if (type_of(traits) != BodyType::kinematic) continue;
     BodyWork& now = bodies.work[slot];
     place_kinematic(traits, bodies.motions[slot], settings.tick_time, now);
-    if (!turn_freely(traits, bodies.motions[slot].momentum, bodies.motions[slot].momentum, settings.tick_time, 0,
-                     now.rotation))
+    Vec3<Real> spin;
+    if (!turn_freely(traits, now.free_turn, bodies.motions[slot].momentum, settings.tick_time, 0, now.rotation, spin))
       ++clamped;
   }
   return clamped;

@@ -52,34 +52,46 @@ Quat turned(const Quat& rotation, const Vec3<Real>& spin, int exponent, Real tim
 
 }  // namespace
 
-bool turn_freely(const BodyTraits& traits, const Vec3<Real>& momentum, const Vec3<Real>& spin, Real time, int halvings,
-                 Quat& rotation) {
+FreeTurn free_turn_of(const BodyTraits& traits) {
+  FreeTurn free = {0, Scaled(0.0), Scaled(0.0), Scaled(0.0)};
+  if (!is_dynamic(traits) || is_isotropic(traits)) return free;
+  free.odd = odd_axis(traits.gyration);
+  free.common = traits.gyration[(free.odd + 1) % 3];
+  free.odd_rate = difference(traits.gyration[free.odd], free.common);
+  free.rest = difference(traits.gyration[(free.odd + 2) % 3], free.common);
+  return free;
+}
+
+bool turn_freely(const BodyTraits& traits, const FreeTurn& free, const Vec3<Real>& momentum, Real time, int halvings,
+                 Quat& rotation, Vec3<Real>& spin) {
   const Real zero = 0.0;
-  bool clamped = false;
-  if (spin == Vec3<Real>{zero, zero, zero}) return true;
+  const Vec3<Real> none = {zero, zero, zero};
   const int exponent = traits.size_exponent;
+  bool clamped = false;
   if (!is_dynamic(traits) || is_isotropic(traits)) {
-    rotation = turned(rotation, spin, exponent, time, clamped);
+    spin = spin_of(traits, rotation, momentum);
+    if (!(spin == none)) rotation = turned(rotation, spin, exponent, time, clamped);
     return !clamped;
   }
-  const int a = odd_axis(traits.gyration), b = (a + 1) % 3, c = (a + 2) % 3;
-  const Scaled common = traits.gyration[b], rest = difference(traits.gyration[c], common);
-  const Scaled odd = difference(traits.gyration[a], common);
   const Vec3<Real> local = rotate_inverse(rotation, momentum);
+  spin = rotate(rotation, gyrate(traits, local));
+  if (spin == none) return true;
+  const int a = free.odd, c = (a + 2) % 3;
   BodyFrame frame = {rotation, {local.x, local.y, local.z}};
   // The turn about the momentum goes with all others: it is made once, at the end.
-  if (rest == Scaled(0.0)) {
-    turn_about(a, odd, exponent, time, frame, clamped);
+  if (free.rest == Scaled(0.0)) {
+    turn_about(a, free.odd_rate, exponent, time, frame, clamped);
   } else {
     const Real part = scale_by_power(time, -halvings), half = scale_by_power(part, -1);
     const int steps = 1 << halvings;
     for (int step = 0; step < steps; ++step) {
-      turn_about(c, rest, exponent, step == 0 ? half : part, frame, clamped);
-      turn_about(a, odd, exponent, part, frame, clamped);
+      turn_about(c, free.rest, exponent, step == 0 ? half : part, frame, clamped);
+      turn_about(a, free.odd_rate, exponent, part, frame, clamped);
     }
-    turn_about(c, rest, exponent, half, frame, clamped);
+    turn_about(c, free.rest, exponent, half, frame, clamped);
   }
-  const Vec3<Real> about = {multiply(momentum.x, common), multiply(momentum.y, common), multiply(momentum.z, common)};
+  const Vec3<Real> about = {multiply(momentum.x, free.common), multiply(momentum.y, free.common),
+                            multiply(momentum.z, free.common)};
   rotation = turned(frame.rotation, about, exponent, time, clamped);
   return !clamped;
 }

@@ -1,5 +1,5 @@
 #pragma once
-#include <detent/detail/state.h>
+#include <detent/detail/scratch.h>
 
 #include "math/arithmetic.h"
 #include "math/rotation.h"
@@ -29,26 +29,29 @@ inline Real angle_of(Real arc, int exponent, bool& clamped) {
   return scale_by_power(held, -exponent);
 }
 
+/// gyration x v, in the body's axes.
+inline Vec3<Real> gyrate(const BodyTraits& traits, const Vec3<Real>& v) {
+  return {multiply(v.x, traits.gyration[0]), multiply(v.y, traits.gyration[1]), multiply(v.z, traits.gyration[2])};
+}
+
 /// gyration (world) x `momentum`; for a kinematic body the momentum is the spin. m/s, world.
 inline Vec3<Real> spin_of(const BodyTraits& traits, const Quat& rotation, const Vec3<Real>& momentum) {
   if (!is_dynamic(traits)) return momentum;
-  const auto gyrate = [&](const Vec3<Real>& v) {
-    return Vec3<Real>{multiply(v.x, traits.gyration[0]), multiply(v.y, traits.gyration[1]),
-                      multiply(v.z, traits.gyration[2])};
-  };
-  if (is_isotropic(traits)) return gyrate(momentum);
-  return rotate(rotation, gyrate(rotate_inverse(rotation, momentum)));
+  if (is_isotropic(traits)) return gyrate(traits, momentum);
+  return rotate(rotation, gyrate(traits, rotate_inverse(rotation, momentum)));
 }
 
 /// Turns `rotation` for `time`, s, by the free motion of a body of this momentum. With 1/I of two axes, b and c, near
 /// each other and that of the third, a, apart, the energy is |L|^2 / 2I_b, whose motion is a turn about L, and the
 /// rest: (1/I_a - 1/I_b) L_a^2 / 2 and (1/I_c - 1/I_b) L_c^2 / 2, whose motions are turns about those axes. Each is
 /// exact; the last is split in two halves about the other (Strang), so the momentum is kept exactly and the energy to
-/// second order in 1/I_c - 1/I_b: a symmetric body, however slender, moves exactly. `spin` is spin_of at the start.
-/// Returns false if an angle was clamped, to 2^15 rad. Source: Dullweber, Leimkuhler, McLachlan, "Symplectic splitting
-/// methods for rigid body molecular dynamics", 1997.
-bool turn_freely(const BodyTraits& traits, const Vec3<Real>& momentum, const Vec3<Real>& spin, Real time, int halvings,
-                 Quat& rotation);
+/// second order in 1/I_c - 1/I_b: a symmetric body, however slender, moves exactly. `spin` becomes spin_of at the
+/// start. Returns false if an angle was clamped, to 2^15 rad. Source: Dullweber, Leimkuhler, McLachlan, "Symplectic
+/// splitting methods for rigid body molecular dynamics", 1997.
+bool turn_freely(const BodyTraits& traits, const FreeTurn& free, const Vec3<Real>& momentum, Real time, int halvings,
+                 Quat& rotation, Vec3<Real>& spin);
+
+FreeTurn free_turn_of(const BodyTraits& traits);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -51,6 +51,14 @@ struct alignas(sizeof(Unit)) WorldGyration {
   int32_t exponent;
 };
 
+/// How a body turns freely: its gyrations as that of two axes near each other and what the others differ from it by.
+struct alignas(sizeof(Unit)) FreeTurn {
+  int32_t odd;      ///< the axis whose gyration is farthest from the other two
+  Scaled common;    ///< of the axis after it
+  Scaled odd_rate;  ///< of the odd one, less `common`
+  Scaled rest;      ///< of the third, less `common`
+};
+
 /// A body during the substeps.
 struct alignas(8) BodyWork {
   uint64_t colours;     ///< taken by the contacts of this body
@@ -64,6 +72,7 @@ struct alignas(8) BodyWork {
   Quat rotation;                         ///< now
   Matrix3 axes;                          ///< at the start of the tick, like all up to `speed`
   WorldGyration gyration;
+  FreeTurn free_turn;
   Real extent;                  ///< shape_extent(), m
   Real fall;                    ///< fall_speed() of it, m/s
   Real speed;                   ///< speed_bound(), m/s
