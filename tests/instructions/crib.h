@@ -35,7 +35,7 @@ inline Status build_crib(World& world) {
   Status status = create_body(world, ground, id);
   BodyDef plank;
   // All numbers are exact in every configuration.
-  const Real half_length = 0.453125, half_thickness = 0.0625;
+  const Real half_length = 0.5, half_thickness = 0.0625;
   Coord height = Coord(0.0625);
   bool along_x = true;
   for (const uint32_t layer : k_crib_layers) {
