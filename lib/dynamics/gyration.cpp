@@ -40,7 +40,11 @@ WorldGyration world_gyration(const BodyTraits& traits, const Matrix3& rotation) 
 Vec3<Real> world_spin(const BodyTraits& traits, const WorldGyration& gyration, const Vec3<Real>& momentum, int power) {
   const bool turns = is_dynamic(traits);
   if (turns) power += gyration.exponent;
-  const Real limit = power > 0 ? scale_by_power(k_real_max, -power) : k_real_max;
+#if DETENT_FIXED
+  const Real limit = Real::from_raw(k_real_max.raw >> (power > 0 ? power : 0));  // rounded to nearest, half of it wraps
+#else
+  const Real limit = k_real_max;  // exponents are 0
+#endif
   const auto part = [&](Real own, const Vec3<Unit>& row) {
     return scale_by_power(clamp(turns ? dot(momentum, row) : own, -limit, limit), power);
   };

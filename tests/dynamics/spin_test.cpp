@@ -130,6 +130,27 @@ DETENT_TEST(spin, of_a_slender_rod_keeps_its_energy) {
   }
 }
 
+DETENT_TEST(spin, of_a_plank_at_rest_stays_none_however_slender_it_is) {
+  // So that the greatest gyration, 1.5 / half^2, takes every power of two.
+  const double thickness[] = {0.5, 0.42, 0.35, 0.3};
+  for (int halvings = 0; halvings < 5; ++halvings) {
+    for (const double part : thickness) {
+      const double half = part / (1 << halvings);
+      SCOPED_TRACE(half);
+      Lab lab({2, 1, 0});
+      lab.add_ground();
+      BodyDef plank;
+      plank.shape = box(reals(0.75, half, half));
+      plank.position = position(0, half, 0);
+      const BodyId id = lab.add(plank);
+      for (int tick = 0; tick < 60; ++tick) EXPECT_EQ(lab.run(1).saturations, 0u);
+      const Motion motion = lab.motion(id);
+      EXPECT_NEAR(motion.position[1], half, 0.05 * half);
+      for (int i = 0; i < 3; ++i) EXPECT_NEAR(motion.spin[i], 0, 0.05);
+    }
+  }
+}
+
 DETENT_TEST(spin, is_read_back_as_it_was_set_whatever_the_size) {
   for (int power = -12; power <= 12; ++power) {
     Lab lab({2, 1, 0});

@@ -15,9 +15,8 @@ struct Layout {
   uint32_t header, world, poses, motions, traits, activities, slots, contacts, assets, manifolds;
   uint32_t persistent_bytes;  ///< end of the snapshot
   uint32_t cache, tree_nodes, tree_parents, visits, candidates, moving_bodies, awake_contacts;
-  uint32_t bounds, body_work, bounds_keys, bounds_sort, pairs, pair_sort, contact_work, contact_order, contact_sort,
-      islands, island_bodies;
-  uint32_t sweeps, impact_pairs, impact_hits;
+  uint32_t bounds, bounds_keys, bounds_sort, pairs, pair_sort, contact_work, islands, island_bodies, sweeps;
+  uint32_t body_work, contact_order, contact_sort, impact_pairs, impact_hits;
   uint32_t manifold_work;
   uint32_t bytes;
 };
@@ -60,7 +59,6 @@ constexpr Layout layout_of(Capacity capacity, bool& fits) {
   layout.moving_bodies = place(sizeof(uint32_t), capacity.bodies);
   layout.awake_contacts = place(sizeof(uint32_t), capacity.contacts);
   layout.bounds = place(sizeof(Bounds), capacity.bodies);
-  layout.body_work = place(sizeof(BodyWork), capacity.bodies);
   layout.pairs = place(sizeof(uint64_t), uint64_t{capacity.contacts} * k_pairs_per_contact);
   // Once the pairs are found their work space is that of the contacts.
   const uint64_t shared = end;
@@ -71,13 +69,19 @@ constexpr Layout layout_of(Capacity capacity, bool& fits) {
   end = shared;
   layout.contact_work = place(sizeof(ContactWork), capacity.contacts);
   end = end > pairs_end ? end : pairs_end;
-  layout.contact_order = place(sizeof(ContactOrder), capacity.contacts);
-  layout.contact_sort = place(sizeof(ContactOrder), capacity.contacts);
   layout.islands = place(sizeof(Island), capacity.bodies);
   layout.island_bodies = place(sizeof(uint32_t), capacity.bodies);
   layout.sweeps = place(sizeof(BodySweep), capacity.bodies);
+  // Once the sweeps are made the space of the substeps is that of the impacts.
+  const uint64_t moved = end;
+  layout.body_work = place(sizeof(BodyWork), capacity.bodies);
+  layout.contact_order = place(sizeof(ContactOrder), capacity.contacts);
+  layout.contact_sort = place(sizeof(ContactOrder), capacity.contacts);
+  const uint64_t substeps_end = end;
+  end = moved;
   layout.impact_pairs = place(sizeof(ImpactPair), capacity.contacts);
   layout.impact_hits = place(sizeof(ImpactHit), capacity.contacts);
+  end = end > substeps_end ? end : substeps_end;
   layout.manifold_work = place(sizeof(ManifoldState), manifold_count(capacity));
   layout.bytes = static_cast<uint32_t>(end);
   fits = end <= 0xffffffffu;

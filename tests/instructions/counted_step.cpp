@@ -1,0 +1,88 @@
+#include "counted_step.h"
+
+// All that the step includes comes first: only its own calls are to be counted.
+#include "base/float_environment.h"
+#include "collision/broadphase.h"
+#include "collision/collide.h"
+#include "collision/contact_cache.h"
+#include "collision/manifold_reuse.h"
+#include "dynamics/activity.h"
+#include "dynamics/contact_order.h"
+#include "dynamics/contact_rows.h"
+#include "dynamics/finalise.h"
+#include "dynamics/impact.h"
+#include "dynamics/island.h"
+#include "dynamics/predict.h"
+#include "dynamics/solve.h"
+#include "dynamics/spin.h"
+#include "dynamics/substeps.h"
+#include "geometry/shape_traits.h"
+#include "timer.h"
+#include "world/events.h"
+#include "world/step_cache.h"
+#include "world/step_probe.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+StageTicks stage_ticks;
+
+namespace {
+
+/// From its making to its end.
+class Counted {
+ public:
+  explicit Counted(Stage stage) : stage_(static_cast<uint32_t>(stage)), start_(timer_value()) {}
+  ~Counted() {
+    stage_ticks.ticks[stage_] += start_ - timer_value();
+    ++stage_ticks.calls[stage_];
+  }
+  Counted(const Counted&) = delete;
+  Counted& operator=(const Counted&) = delete;
+
+ private:
+  uint32_t stage_, start_;
+};
+
+ImpactReport counted_advance(const StepSettings& settings, const AssetTable& assets, const FeatureTable& features,
+                             const ImpactPairs& pairs, const ImpactBodies& bodies, Span<ImpactPair> met,
+                             Span<ImpactHit> hits, ImpactProbe* probe) {
+  const Counted counted(Stage::impacts);
+  return advance_to_impacts(settings, assets, features, pairs, bodies, met, hits, probe);
+}
+constexpr ContinuousCode k_counted_continuous_code = {counted_advance};
+
+constexpr FeatureTable counted_features() {
+  FeatureTable table = feature_table<Features::box | Features::half_space | Features::continuous>;
+  table.continuous = &k_counted_continuous_code;
+  return table;
+}
+
+}  // namespace
+
+constexpr FeatureTable k_counted_features = counted_features();
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent
+
+#define DETENT_COUNTED(stage, function, ...) \
+  ([&] {                                     \
+    const Counted counted_(Stage::stage);    \
+    return (function)(__VA_ARGS__);          \
+  }())
+#define sort_out(...) DETENT_COUNTED(pairs, sort_out, __VA_ARGS__)
+#define find_pairs(...) DETENT_COUNTED(pairs, find_pairs, __VA_ARGS__)
+#define collide(...) DETENT_COUNTED(collide, collide, __VA_ARGS__)
+#define make_rows(...) DETENT_COUNTED(rows, make_rows, __VA_ARGS__)
+#define find_islands(...) DETENT_COUNTED(islands, find_islands, __VA_ARGS__)
+#define order_contacts(...) DETENT_COUNTED(islands, order_contacts, __VA_ARGS__)
+#define estimate_loads(...) DETENT_COUNTED(islands, estimate_loads, __VA_ARGS__)
+#define choose_substeps(...) DETENT_COUNTED(islands, choose_substeps, __VA_ARGS__)
+#define predict(...) DETENT_COUNTED(predict, predict, __VA_ARGS__)
+#define solve(...) DETENT_COUNTED(solve, solve, __VA_ARGS__)
+#define fly(...) DETENT_COUNTED(solve, fly, __VA_ARGS__)
+#define make_sweeps(...) DETENT_COUNTED(finalise, make_sweeps, __VA_ARGS__)
+#define finalise(...) DETENT_COUNTED(finalise, finalise, __VA_ARGS__)
+#define step counted_step
+#define step_probed counted_step_probed
+#include "world/step.cpp"
