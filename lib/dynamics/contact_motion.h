@@ -59,7 +59,7 @@ struct One {
   using Contact = ContactWork;
   using Body = SolvedBody;
 
-  static Factor number_of(int value) { return static_cast<Factor>(value); }
+  static Factor zero() { return k_no_ulps; }
   static Unit unit(Unit value) { return value; }
   static bool takes_impulses(Scaled share) { return is_positive(share); }
   static uint32_t flag(bool mask) { return mask ? 1 : 0; }

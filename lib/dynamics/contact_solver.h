@@ -27,20 +27,20 @@ struct Normals {
     for (uint32_t i = 0; i < k_manifold_points_max; ++i) {
       velocity[i] = sum_from(motion.at(contact, i), contact.coupling_exponent);
       impulse[i] = block.number(contact.state.normal_impulse[i]);
-      added[i] = Kind::number_of(0);
+      added[i] = Kind::zero();
     }
   }
   Number speed(uint32_t i) const { return rounded(velocity[i], contact.coupling_exponent); }
   /// Takes so much from the impulse at a point, or all of it.
   void change(uint32_t i, Number less) {
-    const Factor more = held(max(impulse[i] - less, Number(Kind::number_of(0))) - impulse[i]);
+    const Factor more = held(max(impulse[i] - less, Number(Kind::zero())) - impulse[i]);
     impulse[i] += more;
     added[i] += more;
     DETENT_UNROLL
     for (uint32_t k = 0; k < k_manifold_points_max; ++k) velocity[k] += product(more, contact.coupling[i][k]);
   }
   void store(const typename Kind::Block& block, typename Kind::Contact& to) const {
-    const auto zero = block.real(Number(Kind::number_of(0)));
+    const auto zero = block.real(Number(Kind::zero()));
     DETENT_UNROLL
     for (uint32_t i = 0; i < k_manifold_points_max; ++i) {
       if (i >= count) break;
@@ -51,7 +51,7 @@ struct Normals {
   }
   /// What has been added, as an impulse at the middle and one about each tangent.
   void put(Number& along, Number& about_first, Number& about_second) const {
-    along = about_first = about_second = Number(Kind::number_of(0));
+    along = about_first = about_second = Number(Kind::zero());
     DETENT_UNROLL
     for (uint32_t i = 0; i < k_manifold_points_max; ++i) {
       if (i >= count) break;
@@ -83,7 +83,7 @@ struct Sliding {
     part[k_about_first] = rounded(dot(turning, contact.tangent[0]));
     part[k_about_second] = rounded(dot(turning, contact.tangent[1]));
     DETENT_UNROLL
-    for (int i = 0; i < k_parts; ++i) wrench[i] = Number(Kind::number_of(0));
+    for (int i = 0; i < k_parts; ++i) wrench[i] = Number(Kind::zero());
   }
   NormalMotion<Kind> normal() const {
     return {held(part[k_along_normal]), held(part[k_about_first]), held(part[k_about_second])};
@@ -121,7 +121,7 @@ struct ContactSolver {
     include_impulses(block);
     const uint32_t count = contact.state.point_count;
     Number wrench[k_parts];
-    wrench[k_along_normal] = Number(Kind::number_of(0));
+    wrench[k_along_normal] = Number(Kind::zero());
     wrench[k_along_first] = block.number(contact.friction_impulse[0]);
     wrench[k_along_second] = block.number(contact.friction_impulse[1]);
     wrench[k_about_normal] = block.number(contact.angular_impulse[0]);
@@ -147,7 +147,7 @@ struct ContactSolver {
     const PairMotion<Kind> motion = relative_motion(room);
     const typename Kind::Block& block = motion.block;
     Normals<Kind> normals(contact, block, NormalMotion<Kind>(motion, contact));
-    const Factor none = Kind::number_of(0), push_max = block.held(contact.push_max);
+    const Factor none = Kind::zero(), push_max = block.held(contact.push_max);
     const Factor arrival = held(times(push_max, Kind::unit(k_arrival)));
     const auto soft = Kind::softness(settings, contact);
     DETENT_UNROLL
@@ -179,7 +179,7 @@ struct ContactSolver {
     const PairMotion<Kind> motion = relative_motion(room);
     Sliding<Kind> sliding(contact, motion);
     Normals<Kind> normals(contact, motion.block, sliding.normal());
-    const Number none = Number(Kind::number_of(0));
+    const Number none = Number(Kind::zero());
     // Points that do not meet in this substep go on closing their gap.
     const auto stop = [&](uint32_t i) {
       const auto meets = Kind::is_unset(contact.apart[i]) | (normals.impulse[i] > none);
@@ -222,7 +222,7 @@ struct ContactSolver {
     block.include(contact.angular_impulse, contact.angular_rows);
   }
   Factor normal_impulse(const typename Kind::Block& block) const {
-    Number sum = Number(Kind::number_of(0));
+    Number sum = Number(Kind::zero());
     for (uint32_t i = 0; i < contact.state.point_count; ++i) sum += block.number(contact.state.normal_impulse[i]);
     return held(sum);
   }

@@ -147,7 +147,7 @@ struct Four {
   using Contact = QuadContact;
   using Body = QuadBody;
 
-  DETENT_QUAD_INLINE static Quad number_of(int value) { return quad_of(static_cast<QuadNumber>(value)); }
+  DETENT_QUAD_INLINE static Quad zero() { return quad_of(QuadNumber{0}); }
   DETENT_QUAD_INLINE static Quad unit(detent::Unit value) { return quad_of(value); }
   /// What is not dynamic has a share of 0, and is not written back.
   DETENT_QUAD_INLINE static bool takes_impulses(const QuadScaled&) { return true; }

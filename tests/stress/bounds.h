@@ -76,8 +76,10 @@ inline constexpr Gap k_gaps[] = {
     // axis, and what is held to that along some axes has another energy. Its flight is that of its momentum.
     {"wall_rod", "", 0.0125, "energy_gained", 100},
     {"plate_rod", "", 0.0125, "energy_gained", 100},
-    // And of 1 m, a few of 1,000 at 100 m/s leave a contact spinning about their length: a rod that tumbles while it
-    // touches has the gyration of the tick's start. (To renew it in the tick, but not the contacts' response, is worse.)
+    // And of 1 m, a few of 1,000 at 100 m/s leave a contact spinning about their length. Inferred, not proven: one that
+    // tumbles while it
+    // touches has the gyration of the tick's start. (To renew it in the tick, but not the contacts' response, is
+    // worse.)
     {"wall_rod", "", 1, "energy_gained", 20},
     {"plate_rod", "", 1, "energy_gained", 20},
     // Floats: momenta of a rod and a plate that meet several times in a tick.
