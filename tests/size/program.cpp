@@ -10,13 +10,6 @@ namespace {
 
 using namespace detent;
 
-constexpr Features k_features = DETENT_SIZE_FEATURES;
-constexpr bool k_recording = DETENT_SIZE_RECORDING;
-constexpr bool has(Features feature) { return contains(k_features, feature); }
-
-constexpr Capacity k_capacity = {8, 7, 1};
-constexpr uint32_t k_ticks = 40;
-
 void print_value(const char* name, uint32_t value) {
   machine_print(name);
   machine_print(" ");
@@ -25,6 +18,13 @@ void print_value(const char* name, uint32_t value) {
 }
 
 #if DETENT_SIZE_WORLD
+constexpr Features k_features = DETENT_SIZE_FEATURES;
+constexpr bool k_recording = DETENT_SIZE_RECORDING;
+constexpr bool has(Features feature) { return contains(k_features, feature); }
+
+constexpr Capacity k_capacity = {8, 7, 1};
+constexpr uint32_t k_ticks = 40;
+
 WorldStorage<k_capacity> storage;
 
 /// Where a recording goes: nobody keeps it, but it is made. A replay of it ends at once.
