@@ -71,7 +71,7 @@ std::vector<uint64_t> all_pairs(const Crowd& crowd) {
 
 /// The deepest, in the order of the keys.
 std::vector<uint64_t> deepest(const Crowd& crowd, std::vector<uint64_t> keys, uint32_t count) {
-  const auto depth = [&](uint64_t key) { return depth_of(crowd.bounds[key >> 32], crowd.bounds[key & UINT32_MAX]); };
+  const auto depth = [&](uint64_t key) { return depth_of(crowd.bounds[pair_low(key)], crowd.bounds[pair_high(key)]); };
   std::stable_sort(keys.begin(), keys.end(), [&](uint64_t a, uint64_t b) { return depth(a) > depth(b); });
   keys.resize(count);
   std::sort(keys.begin(), keys.end());
