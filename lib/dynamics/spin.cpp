@@ -53,7 +53,7 @@ Quat turned(const Quat& rotation, const Vec3<Real>& spin, int exponent, Real tim
 }  // namespace
 
 FreeTurn free_turn_of(const BodyTraits& traits) {
-  FreeTurn free = {0, Scaled(0.0), Scaled(0.0), Scaled(0.0)};
+  FreeTurn free = {Scaled(0.0), Scaled(0.0), Scaled(0.0), 0};
   if (!is_dynamic(traits) || is_isotropic(traits)) return free;
   free.odd = odd_axis(traits.gyration);
   free.common = traits.gyration[(free.odd + 1) % 3];

@@ -53,10 +53,10 @@ struct alignas(sizeof(Unit)) WorldGyration {
 
 /// How a body turns freely: its gyrations as that of two axes near each other and what the others differ from it by.
 struct alignas(sizeof(Unit)) FreeTurn {
-  int32_t odd;      ///< the axis whose gyration is farthest from the other two
-  Scaled common;    ///< of the axis after it
+  Scaled common;    ///< of the axis after the odd one
   Scaled odd_rate;  ///< of the odd one, less `common`
   Scaled rest;      ///< of the third, less `common`
+  int32_t odd;      ///< the axis whose gyration is farthest from the other two
 };
 
 /// A body during the substeps.
@@ -102,17 +102,19 @@ struct alignas(8) ContactWork {
                [k_manifold_points_max];  ///< what an impulse at one point adds to the speed at another, 2^-exponent
   int32_t coupling_exponent;
   // Of the points, from the middle along the tangents, in the pair's unit of length; 0 beyond their count.
-  Unit x[k_manifold_points_max], y[k_manifold_points_max];
+  alignas(sizeof(Unit)) Unit x[k_manifold_points_max];
+  Unit y[k_manifold_points_max];
   Unit inverse_mass[k_manifold_points_max];  ///< effective masses over the reference mass, in (0, 1]
   uint32_t apart[k_manifold_points_max];     ///< 1 unless it meets in the substep
   uint32_t static_pair;                      ///< 1 if only one of the bodies is dynamic
   uint32_t angular_rows;                     ///< 0; 1: twist; 3: and rolling
-  Scaled share_a, share_b;                   ///< reference mass / mass; 0 if not dynamic
+  alignas(sizeof(Unit)) Scaled share_a;
+  Scaled share_b;  ///< reference mass / mass; 0 if not dynamic
 
   Vec3<Unit> middle_a, middle_b;  ///< of the points, from each centre of mass, in the body's unit of length
   Unit response[21];              ///< of the pair's motion to a wrench, by response_index(), 2^-response_exponent
   int32_t response_exponent;
-  Unit friction_mass[2];  ///< effective masses along the tangents, like those of the points
+  alignas(sizeof(Unit)) Unit friction_mass[2];  ///< effective masses along the tangents, like those of the points
   Scaled friction;
   Scaled twist_arm;        ///< limit of the angular impulse about the normal over the normal impulse
   Scaled rolling_arm;      ///< likewise about the tangents
