@@ -8,9 +8,9 @@ inline namespace DETENT_NAMESPACE {
 
 typedef int32_t QuadInt32 __attribute__((vector_size(16)));
 
-#if DETENT_FIXED
-
 #define DETENT_QUAD_INLINE inline __attribute__((always_inline))
+
+#if DETENT_FIXED
 
 typedef int64_t QuadInt64 __attribute__((vector_size(32)));
 typedef uint64_t QuadUint64 __attribute__((vector_size(32)));
@@ -27,9 +27,26 @@ struct QuadScaled {
 };
 
 DETENT_QUAD_INLINE Quad quad_of(int64_t value) { return {QuadInt64{value, value, value, value}}; }
+
+#else
+
+typedef Real QuadFloat __attribute__((vector_size(4 * sizeof(Real))));
+
+struct Quad {
+  QuadFloat v;
+};
+using QuadMaskBits = decltype(QuadFloat{} > QuadFloat{});
+struct QuadMask {
+  QuadMaskBits v;
+};
+using QuadScaled = Quad;
+
+DETENT_QUAD_INLINE Quad quad_of(Real value) { return {QuadFloat{value, value, value, value}}; }
+
+#endif
+
 DETENT_QUAD_INLINE Quad operator+(Quad a, Quad b) { return {a.v + b.v}; }
 DETENT_QUAD_INLINE Quad operator-(Quad a, Quad b) { return {a.v - b.v}; }
-DETENT_QUAD_INLINE Quad operator-(Quad a, int b) { return a - quad_of(b); }
 DETENT_QUAD_INLINE Quad operator-(Quad a) { return {-a.v}; }
 DETENT_QUAD_INLINE Quad& operator+=(Quad& a, Quad b) { return a = a + b; }
 DETENT_QUAD_INLINE Quad& operator-=(Quad& a, Quad b) { return a = a - b; }
@@ -41,6 +58,10 @@ DETENT_QUAD_INLINE bool any(QuadMask mask) { return (mask.v[0] | mask.v[1] | mas
 DETENT_QUAD_INLINE Quad max(Quad a, Quad b) { return select(b > a, b, a); }
 DETENT_QUAD_INLINE Quad min(Quad a, Quad b) { return select(a > b, b, a); }
 DETENT_QUAD_INLINE Quad clamp(Quad value, Quad low, Quad high) { return min(max(value, low), high); }
+
+#if DETENT_FIXED
+
+DETENT_QUAD_INLINE Quad operator-(Quad a, int b) { return a - quad_of(b); }
 
 /// value 2^-n. Range: 0 <= n <= 63.
 DETENT_QUAD_INLINE Quad shifted_down(Quad value, Quad n) {
@@ -145,34 +166,6 @@ class QuadBlock {
 };
 
 #else
-
-#define DETENT_QUAD_INLINE inline __attribute__((always_inline))
-
-typedef Real QuadFloat __attribute__((vector_size(4 * sizeof(Real))));
-
-struct Quad {
-  QuadFloat v;
-};
-using QuadMaskBits = decltype(QuadFloat{} > QuadFloat{});
-struct QuadMask {
-  QuadMaskBits v;
-};
-using QuadScaled = Quad;
-
-DETENT_QUAD_INLINE Quad quad_of(Real value) { return {QuadFloat{value, value, value, value}}; }
-DETENT_QUAD_INLINE Quad operator+(Quad a, Quad b) { return {a.v + b.v}; }
-DETENT_QUAD_INLINE Quad operator-(Quad a, Quad b) { return {a.v - b.v}; }
-DETENT_QUAD_INLINE Quad operator-(Quad a) { return {-a.v}; }
-DETENT_QUAD_INLINE Quad& operator+=(Quad& a, Quad b) { return a = a + b; }
-DETENT_QUAD_INLINE Quad& operator-=(Quad& a, Quad b) { return a = a - b; }
-DETENT_QUAD_INLINE QuadMask operator>(Quad a, Quad b) { return {a.v > b.v}; }
-DETENT_QUAD_INLINE QuadMask operator&(QuadMask a, QuadMask b) { return {a.v & b.v}; }
-DETENT_QUAD_INLINE QuadMask operator|(QuadMask a, QuadMask b) { return {a.v | b.v}; }
-DETENT_QUAD_INLINE Quad select(QuadMask mask, Quad a, Quad b) { return {mask.v ? a.v : b.v}; }
-DETENT_QUAD_INLINE bool any(QuadMask mask) { return (mask.v[0] | mask.v[1] | mask.v[2] | mask.v[3]) != 0; }
-DETENT_QUAD_INLINE Quad max(Quad a, Quad b) { return select(b > a, b, a); }
-DETENT_QUAD_INLINE Quad min(Quad a, Quad b) { return select(a > b, b, a); }
-DETENT_QUAD_INLINE Quad clamp(Quad value, Quad low, Quad high) { return min(max(value, low), high); }
 
 DETENT_QUAD_INLINE Quad held(Quad a) { return a; }
 DETENT_QUAD_INLINE Quad product(Quad a, Quad b) { return {a.v * b.v}; }

@@ -6,6 +6,19 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
+/// Rows become columns, of four numbers of 32 bits.
+template <class Row>
+DETENT_QUAD_INLINE void transpose_words(Row (&row)[4]) {
+  const Row low_01 = __builtin_shufflevector(row[0], row[1], 0, 4, 1, 5);
+  const Row low_23 = __builtin_shufflevector(row[2], row[3], 0, 4, 1, 5);
+  const Row high_01 = __builtin_shufflevector(row[0], row[1], 2, 6, 3, 7);
+  const Row high_23 = __builtin_shufflevector(row[2], row[3], 2, 6, 3, 7);
+  row[0] = __builtin_shufflevector(low_01, low_23, 0, 1, 4, 5);
+  row[1] = __builtin_shufflevector(low_01, low_23, 2, 3, 6, 7);
+  row[2] = __builtin_shufflevector(high_01, high_23, 0, 1, 4, 5);
+  row[3] = __builtin_shufflevector(high_01, high_23, 2, 3, 6, 7);
+}
+
 /// The first `count` words of four arrays, word by word. Range: count is a multiple of 4, and as many can be read.
 template <unsigned count>
 DETENT_QUAD_INLINE void read_words(const void* const (&from)[4], QuadInt32 (&words)[count]) {
@@ -13,14 +26,9 @@ DETENT_QUAD_INLINE void read_words(const void* const (&from)[4], QuadInt32 (&wor
     QuadInt32 row[4];
     DETENT_UNROLL
     for (int k = 0; k < 4; ++k) __builtin_memcpy(&row[k], static_cast<const int32_t*>(from[k]) + i, sizeof(row[k]));
-    const QuadInt32 low_01 = __builtin_shufflevector(row[0], row[1], 0, 4, 1, 5);
-    const QuadInt32 low_23 = __builtin_shufflevector(row[2], row[3], 0, 4, 1, 5);
-    const QuadInt32 high_01 = __builtin_shufflevector(row[0], row[1], 2, 6, 3, 7);
-    const QuadInt32 high_23 = __builtin_shufflevector(row[2], row[3], 2, 6, 3, 7);
-    words[i] = __builtin_shufflevector(low_01, low_23, 0, 1, 4, 5);
-    words[i + 1] = __builtin_shufflevector(low_01, low_23, 2, 3, 6, 7);
-    words[i + 2] = __builtin_shufflevector(high_01, high_23, 0, 1, 4, 5);
-    words[i + 3] = __builtin_shufflevector(high_01, high_23, 2, 3, 6, 7);
+    transpose_words(row);
+    DETENT_UNROLL
+    for (unsigned k = 0; k < 4; ++k) words[i + k] = row[k];
   }
 }
 
@@ -60,14 +68,7 @@ DETENT_QUAD_INLINE void transpose(QuadRow (&row)[4]) {
   row[2] = __builtin_shufflevector(low_01, low_23, 2, 3, 6, 7);
   row[3] = __builtin_shufflevector(high_01, high_23, 2, 3, 6, 7);
 #else
-  const QuadRow low_01 = __builtin_shufflevector(row[0], row[1], 0, 4, 1, 5);
-  const QuadRow low_23 = __builtin_shufflevector(row[2], row[3], 0, 4, 1, 5);
-  const QuadRow high_01 = __builtin_shufflevector(row[0], row[1], 2, 6, 3, 7);
-  const QuadRow high_23 = __builtin_shufflevector(row[2], row[3], 2, 6, 3, 7);
-  row[0] = __builtin_shufflevector(low_01, low_23, 0, 1, 4, 5);
-  row[1] = __builtin_shufflevector(low_01, low_23, 2, 3, 6, 7);
-  row[2] = __builtin_shufflevector(high_01, high_23, 0, 1, 4, 5);
-  row[3] = __builtin_shufflevector(high_01, high_23, 2, 3, 6, 7);
+  transpose_words(row);
 #endif
 }
 

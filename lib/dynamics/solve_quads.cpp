@@ -252,40 +252,38 @@ Bodies bodies_of(const SolverBodies& bodies, Contacts contacts, uint32_t Contact
   return result;
 }
 
+/// Reads four contacts and their bodies, lets `solve` work on them, and writes back what contacts and bodies share;
+/// `read` and `write` take the rest of the contacts.
+template <class Read, class Solve, class Write>
+DETENT_QUAD_INLINE void pass(const StepSettings& settings, const SolverBodies& bodies, Contacts contacts, bool with_way,
+                             const Read& read, const Solve& solve, const Write& write) {
+  const Bodies all_a = bodies_of(bodies, contacts, &ContactState::body_a);
+  const Bodies all_b = bodies_of(bodies, contacts, &ContactState::body_b);
+  QuadContact contact;
+  QuadBody a, b;
+  read_contact(settings, contacts, contact);
+  read(contacts, contact);
+  all_a.read(a, with_way);
+  all_b.read(b, with_way);
+  ContactSolver<Four> solver = {settings, contact, a, b};
+  solve(solver);
+  all_a.write(a, contacts, &ContactWork::share_a);
+  all_b.write(b, contacts, &ContactWork::share_b);
+  write_normals(contact, contacts);
+  write(contact, contacts);
+}
+
 }  // namespace
 
 void soften_quad(const StepSettings& settings, const SolverBodies& bodies, Contacts contacts) {
-  const Bodies all_a = bodies_of(bodies, contacts, &ContactState::body_a);
-  const Bodies all_b = bodies_of(bodies, contacts, &ContactState::body_b);
-  QuadContact contact;
-  QuadBody a, b;
-  read_contact(settings, contacts, contact);
-  read_gaps(contacts, contact);
-  all_a.read(a, true);
-  all_b.read(b, true);
-  ContactSolver<Four> solver = {settings, contact, a, b};
-  solver.soften();
-  all_a.write(a, contacts, &ContactWork::share_a);
-  all_b.write(b, contacts, &ContactWork::share_b);
-  write_normals(contact, contacts);
-  write_apart(contact, contacts);
+  pass(
+      settings, bodies, contacts, true, read_gaps, [](ContactSolver<Four>& solver) { solver.soften(); }, write_apart);
 }
 
 void relax_quad(const StepSettings& settings, const SolverBodies& bodies, Contacts contacts) {
-  const Bodies all_a = bodies_of(bodies, contacts, &ContactState::body_a);
-  const Bodies all_b = bodies_of(bodies, contacts, &ContactState::body_b);
-  QuadContact contact;
-  QuadBody a, b;
-  read_contact(settings, contacts, contact);
-  read_friction(contacts, contact);
-  all_a.read(a, false);
-  all_b.read(b, false);
-  ContactSolver<Four> solver = {settings, contact, a, b};
-  solver.relax();
-  all_a.write(a, contacts, &ContactWork::share_a);
-  all_b.write(b, contacts, &ContactWork::share_b);
-  write_normals(contact, contacts);
-  write_friction(contact, contacts);
+  pass(
+      settings, bodies, contacts, false, read_friction, [](ContactSolver<Four>& solver) { solver.relax(); },
+      write_friction);
 }
 
 }  // namespace DETENT_NAMESPACE
