@@ -232,13 +232,18 @@ struct ContactSolver {
   Factor stopped(const Sliding<Kind>& sliding, Part by, const typename Kind::Real& impulse, const Mass& mass) const {
     return held(sliding.block.number(impulse) - relaxed(times(held(sliding.part[by]), mass)));
   }
-  /// Spin about the tangents, within a circle.
+  /// Stops two parts of the motion, with impulses within a circle.
+  template <Part first, Part second, class Mass>
+  void stop_in_circle(typename Kind::Real* impulse, const Mass* mass, Factor radius, Sliding<Kind>& sliding) {
+    Factor after[2] = {stopped(sliding, first, impulse[0], mass[0]), stopped(sliding, second, impulse[1], mass[1])};
+    hold_to_circle(after, radius);
+    sliding.template bring<first>(after[0], impulse[0]);
+    sliding.template bring<second>(after[1], impulse[1]);
+  }
+  /// Spin about the tangents.
   void roll(Factor normal, Sliding<Kind>& sliding) {
-    Factor after[2] = {stopped(sliding, k_about_first, contact.angular_impulse[1], contact.angular_mass[1]),
-                       stopped(sliding, k_about_second, contact.angular_impulse[2], contact.angular_mass[2])};
-    hold_to_circle(after, Factor(times(normal, contact.rolling_arm)));
-    sliding.template bring<k_about_first>(after[0], contact.angular_impulse[1]);
-    sliding.template bring<k_about_second>(after[1], contact.angular_impulse[2]);
+    stop_in_circle<k_about_first, k_about_second>(contact.angular_impulse + 1, contact.angular_mass + 1,
+                                                  times(normal, contact.rolling_arm), sliding);
   }
   /// Spin about the normal, within its limit.
   void twist(Factor normal, Sliding<Kind>& sliding) {
@@ -248,11 +253,8 @@ struct ContactSolver {
   }
   /// Sliding, within the friction cone.
   void rub(Factor normal, Sliding<Kind>& sliding) {
-    Factor after[2] = {stopped(sliding, k_along_first, contact.friction_impulse[0], contact.friction_mass[0]),
-                       stopped(sliding, k_along_second, contact.friction_impulse[1], contact.friction_mass[1])};
-    hold_to_circle(after, Factor(times(normal, contact.friction)));
-    sliding.template bring<k_along_first>(after[0], contact.friction_impulse[0]);
-    sliding.template bring<k_along_second>(after[1], contact.friction_impulse[1]);
+    stop_in_circle<k_along_first, k_along_second>(contact.friction_impulse, contact.friction_mass,
+                                                  times(normal, contact.friction), sliding);
   }
 
   Number relaxed(Number change) const {
