@@ -3,6 +3,7 @@
 #include "collision/collide_convex.h"
 #include "collision/collide_half_space.h"
 #include "collision/collide_shapes.h"
+#include "collision/contact_arm.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -22,14 +23,6 @@ bool is_simple(const BodyTraits& traits) {
   const ShapeType type = static_cast<ShapeType>(traits.shape);
   return type == ShapeType::sphere || type == ShapeType::capsule || type == ShapeType::half_space ||
          (type == ShapeType::box && traits.rounding == Unit(0.0));
-}
-
-/// A contact point as an arm in a body's own unit of length. The middle of a deep overlap with a much larger body may
-/// lie far outside the smaller one: the arm is held to 1.5 units there.
-Vec3<Unit> arm_in(const Vec3<Unit>& point, int power) {
-  const Unit limit = scale_by_power(Unit(1.5), power > 0 ? -power : 0);
-  const Vec3<Unit> held = {clamp(point.x, -limit, limit), clamp(point.y, -limit, limit), clamp(point.z, -limit, limit)};
-  return scaled(held, power);
 }
 
 PairShape shape_in(const CollisionBody& body, int exponent) {
@@ -71,8 +64,8 @@ void collide_ordered(const CollisionBody& first, const CollisionBody& second, Re
   for (uint32_t i = 0; i < manifold.count; ++i) {
     const PairPoint& point = manifold.point[i];
     contact.point[contact.count++] = {
-        arm_in(point.point, frame.exponent - first.traits.size_exponent),
-        arm_in(point.point - frame.b.centre, frame.exponent - second.traits.size_exponent),
+        arm_of_point(point.point, frame.exponent - first.traits.size_exponent),
+        arm_of_point(point.point - frame.b.centre, frame.exponent - second.traits.size_exponent),
         real_from_unit(point.separation, frame.exponent), point.feature};
   }
 }

@@ -4,6 +4,7 @@
 
 #include "collision/body_convex.h"
 #include "collision/collide_half_space.h"
+#include "collision/contact_arm.h"
 #include "math/arithmetic.h"
 
 namespace detent {
@@ -14,22 +15,15 @@ bool is_half_space(const CollisionBody& body) {
   return static_cast<ShapeType>(body.traits.shape) == ShapeType::half_space;
 }
 
-/// In the body's own unit of length. The middle of a deep overlap with a much larger body may lie far outside the
-/// smaller one: the arm is held to 1.5 units there.
-Vec3<Unit> arm_in(const Vec3<Real>& arm, int32_t exponent) {
-  const Real limit = real_from_unit(Unit(1.5), exponent);
-  const auto component = [&](Real a) { return unit_from_real(clamp(a, -limit, limit), exponent); };
-  return {component(arm.x), component(arm.y), component(arm.z)};
-}
-
 void add_points(const CollisionBody& a, const CollisionBody& b, const ContactManifold& manifold,
                 ContactGeometry& contact) {
   contact.normal = manifold.normal;
   contact.capped = manifold.capped;
   for (uint32_t i = 0; i < manifold.count; ++i) {
     const ManifoldPoint& point = manifold.point[i];
-    contact.point[contact.count++] = {arm_in(point.from_a, a.traits.size_exponent),
-                                      arm_in(point.from_b, b.traits.size_exponent), point.separation, point.feature};
+    contact.point[contact.count++] = {arm_of_way(point.from_a, a.traits.size_exponent),
+                                      arm_of_way(point.from_b, b.traits.size_exponent), point.separation,
+                                      point.feature};
   }
 }
 

@@ -1,5 +1,6 @@
 #include "collision/collide_half_space.h"
 
+#include "collision/contact_arm.h"
 #include "math/arithmetic.h"
 #include "math/wide.h"
 
@@ -42,10 +43,10 @@ struct Collector {
   void add(const Vec3<Unit>& offset, uint32_t feature) {
     const Real separation = height + real_from_unit(dot(normal, offset), exponent);
     if (separation > reach) return;
-    // A body far below the plane is still in contact; its arms then stay within its own bounds.
+    // A body far below the plane is still in contact.
     const Real unit = real_from_unit(Unit(1.0), exponent);
     const Unit half = unit_from_real(scale_by_power(max(separation, -unit), -1), exponent);
-    contact.point[contact.count++] = {{0.0, 0.0, 0.0}, offset - normal * half, separation, feature};
+    contact.point[contact.count++] = {{0.0, 0.0, 0.0}, arm_of_point(offset - normal * half, 0), separation, feature};
   }
 };
 

@@ -1,5 +1,6 @@
 #include "collision/manifold_reuse.h"
 
+#include "collision/contact_arm.h"
 #include "math/arithmetic.h"
 #include "math/root.h"
 
@@ -9,6 +10,7 @@ namespace {
 
 constexpr uint32_t k_points_min = 3;
 constexpr int k_anchor_frac = 15;
+constexpr Unit k_kept_arm_max = k_arm_max + Unit(0x1p-7);  ///< with what rounding adds to one that was held
 
 Vec3<Unit> scaled(const Vec3<Unit>& v, int power) {
   return {scale_by_power(v.x, power), scale_by_power(v.y, power), scale_by_power(v.z, power)};
@@ -118,7 +120,6 @@ ManifoldState kept_manifold(const CollisionBody& a, const CollisionBody& b, cons
     const Vec3<Unit>& arm_base = pair.base_is_a ? point.arm_a : point.arm_b;
     const Vec3<Unit> local = multiply_transposed(pair.other.rotation, pair.base_is_a ? point.arm_b : point.arm_a);
     const Real deepest = real_from_unit(Unit(0.5), pair.exponent);
-    // However the bodies turn together, no arm then leaves a Unit's range.
     if (!is_within(local, Unit(0.99)) || !is_within(arm_base, Unit(1.1)) || abs(point.separation) > deepest)
       return none;
     int16_t(&anchor)[3] = kept.anchor[i];
@@ -178,9 +179,10 @@ bool is_manifold(const BodyTraits& a, const BodyTraits& b, uint32_t count, const
   for (uint32_t i = 0; i < count; ++i) {
     const int16_t(&anchor)[3] = manifold.anchor[i];
     const Vec3<Unit> arm = {unit_from_anchor(anchor[0]), unit_from_anchor(anchor[1]), unit_from_anchor(anchor[2])};
-    if (!is_within(arm, Unit(0.991)) || !is_within(manifold.height[i], Unit(1.0))) return false;
+    if (!is_within(arm, Unit(0.991)) || !(length(arm) < k_kept_arm_max)) return false;
+    if (!is_within(manifold.height[i], Unit(1.0))) return false;
     const Vec3<Unit> place = manifold.offset + scaled(rotate(manifold.rotation, arm), power);
-    if (!(length(place) < Unit(0.48))) return false;
+    if (!(length(place) < scale_by_power(k_kept_arm_max, -2))) return false;
     if (!is_within(manifold.height[i] + dot(manifold.normal, place), Unit(0.52))) return false;
   }
   return true;

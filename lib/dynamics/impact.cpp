@@ -1,6 +1,7 @@
 #include "dynamics/impact.h"
 
 #include "collision/broadphase.h"
+#include "collision/contact_arm.h"
 #include "dynamics/activity.h"
 #include "dynamics/gyration.h"
 #include "dynamics/impact_pair.h"
@@ -420,11 +421,7 @@ struct Stage {
     const auto arm = [](const BodyTraits& traits, const Vec3<Real>& point) {
       const Unit zero = 0.0;
       if (is_half_space(traits)) return Vec3<Unit>{zero, zero, zero};
-      const Real limit = real_from_unit(Unit(1.5), traits.size_exponent);
-      const auto component = [&](Real value) {
-        return unit_from_real(clamp(value, -limit, limit), traits.size_exponent);
-      };
-      return Vec3<Unit>{component(point.x), component(point.y), component(point.z)};
+      return arm_of_way(point, traits.size_exponent);
     };
     geometry.count = 1;
     geometry.normal = pair.normal;

@@ -99,6 +99,29 @@ ContactGeometry collided(const OracleBody& a, const OracleBody& b, double reach,
   return contact;
 }
 
+/// The middle of a body's overlap with one that is up to 1,000 times larger lies anywhere.
+DETENT_TEST(convex_pairs, hold_the_arms_of_a_body_deep_in_another) {
+  Samples samples = {37};
+  uint32_t points = 0, held = 0;
+  for (uint32_t i = 0; i < detent_oracle::rounds(4000); ++i) {
+    const double size = exp2(uniform(samples, 0, 10));
+    OracleBody a = body_of(random_shape(samples, samples.below(5), size, 0.2));
+    OracleBody b = body_of(random_shape(samples, samples.below(7), 1, 0.2));
+    a.pose.rotation = rotation_near(any_rotation(samples));
+    b.pose.rotation = rotation_near(any_rotation(samples));
+    a.pose.position = position_near({{1, 2, 3}});
+    b.pose.position = position_near(Vector{{1, 2, 3}} + any_direction(samples) * (size * uniform(samples, 0, 1)));
+    const ContactGeometry contact = collided(a, b, 0.01), turned = collided(b, a, 0.01);
+    for (uint32_t k = 0; k < turned.count; ++k) expect_arms_held(turned.point[k]);
+    for (uint32_t k = 0; k < contact.count; ++k, ++points) {
+      expect_arms_held(contact.point[k]);
+      held += length(host(contact.point[k].arm_b)) > 1.24 ? 1u : 0u;
+    }
+  }
+  EXPECT_GT(points, held);
+  EXPECT_GT(held, detent_oracle::rounds(4000) / 4);
+}
+
 /// Every pair that has no way of its own gives what contact_points() gives of the two shapes.
 DETENT_TEST(convex_pairs, agree_with_contact_points_of_the_same_shapes) {
   Samples samples = {32};

@@ -1,5 +1,6 @@
 #pragma once
 #include "collision/collide.h"
+#include "collision/contact_arm.h"
 #include "math/root.h"
 #include "tests/oracle/bodies.h"
 
@@ -38,6 +39,13 @@ inline ContactGeometry contact_of(const OracleBody& a, const OracleBody& b, doub
   ContactGeometry contact;
   collide({a.pose, a.traits, rotation_a}, {b.pose, b.traits, rotation_b}, real_near(reach), contact);
   return contact;
+}
+
+/// The solver's ranges have room for no longer ones.
+inline void expect_arms_held(const ContactGeometryPoint& point) {
+  const double most = host(k_arm_max) + unit_steps(4);
+  EXPECT_LE(length(host(point.arm_a)), most);
+  EXPECT_LE(length(host(point.arm_b)), most);
 }
 
 inline double extent_of(const OraclePair& pair) {
