@@ -110,7 +110,8 @@ DETENT_TEST(convex_pairs, hold_the_arms_of_a_body_deep_in_another) {
     a.pose.rotation = rotation_near(any_rotation(samples));
     b.pose.rotation = rotation_near(any_rotation(samples));
     a.pose.position = position_near({{1, 2, 3}});
-    b.pose.position = position_near(Vector{{1, 2, 3}} + any_direction(samples) * (size * uniform(samples, 0, 1)));
+    const Vector direction = any_direction(samples);  // drawn in one order by every compiler
+    b.pose.position = position_near(Vector{{1, 2, 3}} + direction * (size * uniform(samples, 0, 1)));
     const ContactGeometry contact = collided(a, b, 0.01), turned = collided(b, a, 0.01);
     for (uint32_t k = 0; k < turned.count; ++k) expect_arms_held(turned.point[k]);
     for (uint32_t k = 0; k < contact.count; ++k, ++points) {
