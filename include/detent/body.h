@@ -3,10 +3,12 @@
 #include <detent/scaled.h>
 #include <detent/shape.h>
 
+/// @file
+/// What a body is made from.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Stored in snapshots and recordings: a value is never reused.
+/// What moves a body. Stored in snapshots and recordings: a value is never reused.
 enum class BodyType : uint32_t {
   fixed = 1,      ///< never moves; infinite mass
   kinematic = 2,  ///< moves by the velocity it is given, and nothing pushes it
@@ -25,17 +27,21 @@ struct Material {
   Real friction = Real(0.6);      ///< Coulomb's coefficient, [0, 16]
   Real restitution = 0.0;         ///< rebound speed over approach speed, [0, 1]
   Real rolling_resistance = 0.0;  ///< torque over (normal force x smaller radius), about any axis, [0, 1]
+  /// One material that says `smaller` decides for the pair.
   RestitutionRule restitution_rule = RestitutionRule::larger;
 };
 
 /// What `create_body` makes. Every field has a working default.
 struct BodyDef {
+  /// What moves the body; a half-space is fixed or kinematic.
   BodyType type = BodyType::dynamic;
   Position position = {0.0, 0.0, 0.0};    ///< of the centre of mass, m, world
   Quat rotation = {0.0, 0.0, 0.0, 1.0};   ///< local to world; length 1 within 2^-10, normalised on entry
   Vec3<Real> velocity = {0.0, 0.0, 0.0};  ///< m/s, world; each component within +-16384
   Vec3<Real> spin = {0.0, 0.0, 0.0};      ///< rad/s, world; |spin| x bounding radius within 16384 m/s
+  /// In the body's frame, around its centre of mass.
   Shape shape = {};
+  /// Of the whole surface.
   Material material = {};
   Scaled density = 1000.0;     ///< kg/m^3, > 0; used where mass is 0; mass within [2^-60, 2^60] kg
   Scaled mass = 0.0;           ///< kg; 0: from the density

@@ -1,12 +1,14 @@
 #pragma once
 #include <detent/toi.h>
 
+/// @file
 /// Casts against one convex shape at rest. They need no world.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
+/// What a cast met.
 struct CastHit {
-  bool hit = false;
+  bool hit = false;        ///< the shape is met within the way
   bool undecided = false;  ///< the cap was met: nothing is hit up to `time`, and beyond it is not known
   Fraction time = 0.0;     ///< the part of the way until the hit, never late; 1 if there is none
   Vec3<Real> point = {};   ///< of the hit on the shape, m, from its position, world axes

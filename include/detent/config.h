@@ -1,4 +1,5 @@
 #pragma once
+/// @file
 /// The one switch: which of the four math configurations this translation unit uses.
 ///
 /// Define exactly one of DETENT_FX64, DETENT_FX32, DETENT_F32, DETENT_F64 (the CMake targets detent::fx64 ... do), or
@@ -8,6 +9,7 @@
 #if defined(DETENT_FX64) + defined(DETENT_FX32) + defined(DETENT_F32) + defined(DETENT_F64) > 1
 #error "detent: define one of DETENT_FX64, DETENT_FX32, DETENT_F32, DETENT_F64, not several"
 #endif
+/// @cond
 #if defined(DETENT_FX32)
 #define DETENT_NAMESPACE fx32
 #define DETENT_FIXED 1
@@ -24,6 +26,7 @@
 #define DETENT_NAMESPACE fx64
 #define DETENT_FIXED 1
 #endif
+/// @endcond
 
 #include <stdint.h>
 
@@ -31,8 +34,14 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// The configuration as data: the value stored in snapshots and recordings. A value is never reused.
-enum class Config : uint32_t { fx64 = 1, fx32 = 2, f32 = 3, f64 = 4 };
+enum class Config : uint32_t {
+  fx64 = 1,  ///< fixed point, positions of 64 bits
+  fx32 = 2,  ///< fixed point, positions of 32 bits
+  f32 = 3,   ///< float, positions of 64 bits in fixed point
+  f64 = 4,   ///< double
+};
 
+/// The configuration that this translation unit uses.
 #if defined(DETENT_FX64)
 inline constexpr Config k_config = Config::fx64;
 #elif defined(DETENT_FX32)

@@ -2,10 +2,12 @@
 #include <detent/distance.h>
 #include <detent/reduction.h>
 
+/// @file
 /// Contact of two convex shapes at rest. It needs no world.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
+/// Points that a manifold holds.
 inline constexpr uint32_t k_contact_points_max = 4;
 
 /// Where two surfaces face each other along a manifold's normal.
@@ -18,11 +20,12 @@ struct ManifoldPoint {
   uint32_t feature = 0;
 };
 
+/// Where two shapes touch: one normal and up to four points.
 struct ContactManifold {
   Vec3<Unit> normal = {};  ///< from A to B, world axes; zero if there are no points
-  uint32_t count = 0;
-  bool capped = false;  ///< an iteration cap was met: the normal may be another than the least way out
-  ManifoldPoint point[k_contact_points_max];
+  uint32_t count = 0;      ///< of the points, at most k_contact_points_max
+  bool capped = false;     ///< an iteration cap was met: the normal may be another than the least way out
+  ManifoldPoint point[k_contact_points_max];  ///< the first `count` are in use
 };
 
 /// Where two convex shapes touch or are within `reach`, m, of it: the normal, and up to four points of the area.

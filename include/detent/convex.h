@@ -3,6 +3,8 @@
 #include <detent/shape.h>
 #include <detent/status.h>
 
+/// @file
+/// Shapes made ready for questions without a world.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -11,8 +13,8 @@ inline namespace DETENT_NAMESPACE {
 /// of two above the greatest distance of a core point from the origin. Make one with the functions below; the fields
 /// are theirs.
 struct Convex {
-  ShapeType type = ShapeType::sphere;
-  int32_t exponent = 0;  ///< of the unit of length, m
+  ShapeType type = ShapeType::sphere;  ///< what it was made from
+  int32_t exponent = 0;                ///< of the unit of length, m
   int32_t size[3] = {};  ///< box: half extents; capsule: (0, half length, 0); cylinder, cone: (radius, half length, 0)
   int32_t core_radius = 0;        ///< greatest distance of a core point from the origin, rounded up
   int32_t radius = 0;             ///< of the ball, in 2^-30 2^radius_exponent m

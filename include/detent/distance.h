@@ -1,6 +1,7 @@
 #pragma once
 #include <detent/convex.h>
 
+/// @file
 /// Questions about two convex shapes at rest. They need no world.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -8,13 +9,15 @@ inline namespace DETENT_NAMESPACE {
 /// The vertices where a pair's last query ended, for the next one to start from. Any content is safe: it alters how
 /// fast an answer comes, and which of several equally near points is named.
 struct DistanceCache {
-  uint8_t count = 0;  ///< 0 when new
-  uint8_t vertex_a[4] = {}, vertex_b[4] = {};
+  uint8_t count = 0;         ///< 0 when new
+  uint8_t vertex_a[4] = {};  ///< of A, the first `count` in use
+  uint8_t vertex_b[4] = {};  ///< of B
 };
 
 /// The error of a distance, in parts of the pair's extent: the core diameters and the distance of the centres.
 inline constexpr double k_distance_error = 0x1p-25;
 
+/// The closest points of two shapes.
 struct Closest {
   bool overlap = false;     ///< the cores or their balls meet: distance 0
   bool capped = false;      ///< the cap was met: `distance` is a lower bound; 0 leaves open whether they meet

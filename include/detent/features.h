@@ -1,6 +1,7 @@
 #pragma once
 #include <detent/shape.h>
 
+/// @file
 /// What a program links. A world calls the code of shapes, of continuous collision and of sleeping through a table that
 /// names only what is asked for, so that the linker drops the rest from the plain library (-Wl,--gc-sections).
 ///
@@ -10,9 +11,11 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Combine with |. Stored in snapshots and recordings: a bit is never reused.
+/// What a world can do. Combine with |. Stored in snapshots and recordings: a bit is never reused.
 enum class Features : uint32_t {
-  none = 0,
+  none = 0,  ///< a world without bodies
+  /// The shape of this name.
+  /// @{
   sphere = 1u << static_cast<uint32_t>(ShapeType::sphere),
   capsule = 1u << static_cast<uint32_t>(ShapeType::capsule),
   box = 1u << static_cast<uint32_t>(ShapeType::box),
@@ -20,15 +23,20 @@ enum class Features : uint32_t {
   cylinder = 1u << static_cast<uint32_t>(ShapeType::cylinder),
   cone = 1u << static_cast<uint32_t>(ShapeType::cone),
   hull = 1u << static_cast<uint32_t>(ShapeType::hull),
+  /// @}
   rounding = 1u << 16,    ///< of boxes, cylinders, cones and hulls
   continuous = 1u << 17,  ///< WorldDef::continuous
   sleeping = 1u << 18,    ///< WorldDef::sleeping, put_to_sleep()
+  /// Every shape.
   shapes = sphere | capsule | box | half_space | cylinder | cone | hull | rounding,
+  /// The default of create_world().
   all = shapes | continuous | sleeping,
 };
+/// Those in either.
 constexpr Features operator|(Features a, Features b) {
   return static_cast<Features>(static_cast<uint32_t>(a) | static_cast<uint32_t>(b));
 }
+/// Those in both.
 constexpr Features operator&(Features a, Features b) {
   return static_cast<Features>(static_cast<uint32_t>(a) & static_cast<uint32_t>(b));
 }
@@ -36,9 +44,12 @@ constexpr Features operator&(Features a, Features b) {
 constexpr Features without(Features a, Features b) {
   return static_cast<Features>(static_cast<uint32_t>(a) & ~static_cast<uint32_t>(b));
 }
+/// Whether `all` has each of `some`.
 constexpr bool contains(Features all, Features some) { return without(some, all) == Features::none; }
+/// The feature that a shape needs.
 constexpr Features feature_of(ShapeType type) { return static_cast<Features>(1u << static_cast<uint32_t>(type)); }
 
+/// @cond
 // The library's own: each is the way into the code of one feature.
 struct ShapeCode;
 struct PairCode;
@@ -55,10 +66,12 @@ extern const ConvexCode k_convex_code;
 extern const HullCode k_hull_code;
 extern const ContinuousCode k_continuous_code;
 extern const SleepingCode k_sleeping_code;
+/// @endcond
 
 /// What a world calls, null where it is not linked. Made by feature_table; must outlive its worlds.
 struct FeatureTable {
-  Features features;
+  Features features;  ///< what it names
+  /// @cond
   const ShapeCode *sphere, *capsule, *box, *half_space_shape, *cylinder, *cone, *hull_shape;
   const PairCode *round_pair, *box_round_pair, *box_pair;
   const HalfSpaceCode* half_space;
@@ -66,8 +79,10 @@ struct FeatureTable {
   const HullCode* hull;
   const ContinuousCode* continuous;
   const SleepingCode* sleeping;
+  /// @endcond
 };
 
+/// What feature_table is made by.
 constexpr FeatureTable make_feature_table(Features features) {
   const auto any = [features](Features some) { return (features & some) != Features::none; };
   const bool box = any(Features::box), round = any(Features::sphere | Features::capsule);

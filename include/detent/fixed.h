@@ -1,15 +1,18 @@
 #pragma once
 #include <detent/config.h>
 
+/// @file
+/// The fixed-point number.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// The bits of an IEEE double (host) rounded to nearest, ties away from zero, at `frac` fraction bits, in a 64-bit
 /// integer. Integer arithmetic only: the caller's rounding mode and flush-to-zero have no effect.
 struct FromDouble {
-  int64_t raw;
+  int64_t raw;    ///< value 2^frac, rounded
   bool in_range;  ///< false for NaN, infinity and |value| 2^frac >= 2^(bits-1): raw is then 0
 };
+/// See FromDouble. Range: 0 <= frac <= 62; int_bits: of the integer that is to hold it, sign included, at most 64.
 constexpr FromDouble fixed_from_double_bits(uint64_t bits, int frac, int int_bits) {
   const bool negative = (bits >> 63) != 0;
   const int biased = static_cast<int>((bits >> 52) & 0x7ff);
@@ -33,30 +36,43 @@ constexpr FromDouble fixed_from_double_bits(uint64_t bits, int frac, int int_bit
 /// alone.
 template <class Int, int Frac>
 struct alignas(sizeof(Int)) Fixed {  // also on targets whose structs pack 8-byte members
+  /// Bits after the point.
   static constexpr int k_frac = Frac;
+  /// All bits, sign included.
   static constexpr int k_bits = static_cast<int>(sizeof(Int) * 8);
+  /// The integer it is.
   using Raw = Int;
+  /// value 2^Frac
   Int raw;
 
+  /// Not initialised; `{}` is zero.
   Fixed() = default;
+  /// A literal, rounded to nearest, ties away from zero; one out of range does not compile.
   // NOLINTNEXTLINE(google-explicit-constructor): a literal is meant to convert
   consteval Fixed(double literal) : raw(literal_raw(literal)) {}
+  /// The number raw_value 2^-Frac.
   static constexpr Fixed from_raw(Int raw_value) {
     Fixed result;
     result.raw = raw_value;
     return result;
   }
 
+  /// Compares the values; exact.
+  /// @{
   friend constexpr bool operator==(Fixed a, Fixed b) { return a.raw == b.raw; }
   friend constexpr bool operator<(Fixed a, Fixed b) { return a.raw < b.raw; }
   friend constexpr bool operator>(Fixed a, Fixed b) { return a.raw > b.raw; }
   friend constexpr bool operator<=(Fixed a, Fixed b) { return a.raw <= b.raw; }
   friend constexpr bool operator>=(Fixed a, Fixed b) { return a.raw >= b.raw; }
+  /// @}
+  /// Exact within the format's range. Overflow: wraps.
+  /// @{
   friend constexpr Fixed operator+(Fixed a, Fixed b) { return wrapped(bits(a) + bits(b)); }
   friend constexpr Fixed operator-(Fixed a, Fixed b) { return wrapped(bits(a) - bits(b)); }
   friend constexpr Fixed operator-(Fixed a) { return wrapped(uint64_t{0} - bits(a)); }
   constexpr Fixed& operator+=(Fixed b) { return *this = *this + b; }
   constexpr Fixed& operator-=(Fixed b) { return *this = *this - b; }
+  /// @}
 
  private:
   static constexpr uint64_t bits(Fixed a) { return static_cast<uint64_t>(static_cast<int64_t>(a.raw)); }

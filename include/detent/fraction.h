@@ -1,13 +1,16 @@
 #pragma once
 #include <detent/scalar.h>
 
+/// @file
+/// A part of a step.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// A part of a step, in [0, 1], in steps of 2^-62.
 using Fraction = Fixed<int64_t, 62>;
-/// Rounded down.
+/// The fraction as a Real. Rounding: down.
 Real real_from_fraction(Fraction fraction);
+/// The nearest double, ties to even.
 double fraction_to_host(Fraction fraction);
 
 }  // namespace DETENT_NAMESPACE

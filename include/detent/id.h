@@ -1,6 +1,8 @@
 #pragma once
 #include <detent/config.h>
 
+/// @file
+/// Names of bodies.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -10,6 +12,7 @@ inline namespace DETENT_NAMESPACE {
 struct BodyId {
   uint32_t slot = 0;        ///< index + 1; 0 is null
   uint32_t generation = 0;  ///< 1 for the first body of a slot
+  /// Whether both name the same body.
   friend constexpr bool operator==(BodyId a, BodyId b) { return a.slot == b.slot && a.generation == b.generation; }
 };
 

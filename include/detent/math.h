@@ -1,20 +1,31 @@
 #pragma once
 #include <detent/scalar.h>
 
+/// @file
+/// Vectors, rotations, poses.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
+/// Three components along right-handed axes.
 template <class T>
 struct Vec3 {
-  T x, y, z;
+  T x;  ///< along the first axis
+  T y;  ///< along the second axis
+  T z;  ///< along the third axis
+  /// Equal in each component.
   friend constexpr bool operator==(const Vec3& a, const Vec3& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 };
 
+/// A place in the world, m.
 using Position = Vec3<Coord>;
 
 /// A rotation as a unit quaternion, w + xi + yj + zk, from local to world: v_world = q v_local q*.
 struct Quat {
-  Unit x, y, z, w;
+  Unit x;  ///< of i
+  Unit y;  ///< of j
+  Unit z;  ///< of k
+  Unit w;  ///< the real part
+  /// Equal in each component; q and -q, the same rotation, are not.
   friend constexpr bool operator==(const Quat& a, const Quat& b) {
     return a.x == b.x && a.y == b.y && a.z == b.z && a.w == b.w;
   }
@@ -22,13 +33,13 @@ struct Quat {
 
 /// A rotation by columns: the images of the local axes.
 struct Matrix3 {
-  Vec3<Unit> column[3];
+  Vec3<Unit> column[3];  ///< column[i] is the image of local axis i
 };
 
 /// Where a body is: the world position of its centre of mass, m, and its rotation from local to world.
 struct Pose {
-  Position position;
-  Quat rotation;
+  Position position;  ///< of the centre of mass, m, world
+  Quat rotation;      ///< local to world, of length 1
 };
 
 }  // namespace DETENT_NAMESPACE

@@ -1,6 +1,7 @@
 #pragma once
 #include <detent/world.h>
 
+/// @file
 /// Recording and replay: a seed snapshot, every mutating call, and a digest per tick, as a stream of small checked
 /// chunks. Format: docs/recording.md. Neither class allocates, seeks or holds more than the caller's buffer.
 ///
@@ -23,29 +24,32 @@ enum class TraceLevel : uint32_t {
 /// Where a recording goes. `write` takes all of `count` bytes, in order, or returns another status than ok.
 /// A null `write` records nothing: the calls just apply.
 struct Sink {
+  /// Takes `count` bytes.
   Status (*write)(void* context, const uint8_t* bytes, uint32_t count) = nullptr;
-  void* context = nullptr;
+  void* context = nullptr;  ///< handed to `write`
 };
 
 /// Where a recording comes from. `read` gives the next bytes in order: `got` <= count is how many, and fewer than
 /// `count` only at the end. Anything but ok stops the replay as sink_failed.
 struct Source {
+  /// Gives up to `count` bytes.
   Status (*read)(void* context, uint8_t* bytes, uint32_t count, uint32_t& got) = nullptr;
-  void* context = nullptr;
+  void* context = nullptr;  ///< handed to `read`
 };
 
+/// What a recording is to hold.
 struct RecordingDef {
   uint32_t digest_interval = 1;  ///< a digest after every tick that is a multiple of it; 0: only at the end
 };
 
 /// The header of a recording.
 struct RecordingInfo {
-  uint32_t format_version = 0;
-  uint32_t simulation_version = 0;
-  Config config = k_config;
-  Capacity capacity = {};
-  TraceLevel trace_level = TraceLevel::digests;
-  uint32_t digest_interval = 0;
+  uint32_t format_version = 0;                   ///< k_recording_format_version of the recorder
+  uint32_t simulation_version = 0;               ///< k_simulation_version of the recorder
+  Config config = k_config;                      ///< of the recorded world
+  Capacity capacity = {};                        ///< of the recorded world, and of the one to replay in
+  TraceLevel trace_level = TraceLevel::digests;  ///< how much it says about each tick
+  uint32_t digest_interval = 0;                  ///< RecordingDef::digest_interval
   uint64_t tick = 0;            ///< of the seed: ticks that its world had completed when the recording began
   uint32_t snapshot_bytes = 0;  ///< of the seed
 };
@@ -74,8 +78,11 @@ class Recorder {
   Status end();
   /// ok, or the first failure of `begin` or the sink: from then on the recording is incomplete.
   Status status() const { return status_; }
+  /// The world that the calls go to.
   const World& world() const { return world_; }
 
+  /// As the function of this name in world.h, with its arguments and errors; logged if it succeeds.
+  /// @{
   Status create_body(const BodyDef& def, BodyId& id);
   Status destroy_body(BodyId id);
   Status set_pose(BodyId id, const Position& position, const Quat& rotation);
@@ -90,6 +97,7 @@ class Recorder {
   Status put_to_sleep(BodyId id);
   Status set_user_data(BodyId id, uint32_t user_data);
   Status bind_asset(uint32_t index);
+  /// @}
   /// Steps the world, and logs the tick and, every `digest_interval` ticks, the digest.
   StepReport step();
 
@@ -134,15 +142,17 @@ struct TickResult {
 /// Where and why a replay stopped. `field` and `status_text(status)` make one line for a reader:
 /// "corrupt at byte 1234, tick 17: chunk checksum".
 struct ReplayError {
-  Status status = Status::ok;
-  uint64_t tick = 0;       ///< ticks completed when it stopped
-  uint64_t offset = 0;     ///< of the header field, chunk or record that is wrong, bytes from the recording's start
-  const char* field = "";  ///< what is wrong there; never null
+  Status status = Status::ok;  ///< what the failing call returned
+  uint64_t tick = 0;           ///< ticks completed when it stopped
+  uint64_t offset = 0;         ///< of the header field, chunk or record that is wrong, bytes from the recording's start
+  const char* field = "";      ///< what is wrong there; never null
   uint64_t digest_recorded = 0;  ///< digest_differs at a digest: the recording's
   uint64_t digest_replayed = 0;  ///< and this machine's
 };
 
+/// @cond
 struct Reader;
+/// @endcond
 
 /// Replays a recording from a stream. Any bytes may come: every length and number is checked before it is used, each
 /// chunk by its CRC-32 before anything in it is read. The first error stays: later calls return it again.
@@ -157,6 +167,7 @@ class Player {
   /// Errors: buffer_too_small, bad_argument (opened before), sink_failed, truncated, not_detent, format_unknown,
   /// corrupt, simulation_differs, config_differs.
   Status open();
+  /// The header, once `open` has read it.
   const RecordingInfo& info() const { return info_; }
 
   /// Loads the seed into a world that was created with `info().capacity`. On failure the world is left empty.
@@ -173,6 +184,7 @@ class Player {
   Status next_tick(World& world, TickResult& result) { return advance(&world, result); }
   /// As next_tick, without a world: reads and checks the bytes, and makes no call. After `open`, from the seed on.
   Status skip_tick(TickResult& result) { return advance(nullptr, result); }
+  /// Where and why the replay stopped; `status` is ok as long as it has not.
   const ReplayError& error() const { return error_; }
   /// Bytes read so far, for a progress display.
   uint64_t bytes_read() const { return offset_; }

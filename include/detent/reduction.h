@@ -1,6 +1,8 @@
 #pragma once
 #include <detent/config.h>
 
+/// @file
+/// Which contact points are kept.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 

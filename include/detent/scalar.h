@@ -1,6 +1,7 @@
 #pragma once
 #include <detent/fixed.h>
 
+/// @file
 /// The roles of numbers. Everything above lib/math is written in these names and compiled once per configuration.
 /// Ranges, resolutions and their derivation: SPEC.md, "Numbers".
 namespace detent {

@@ -1,6 +1,8 @@
 #pragma once
 #include <detent/scalar.h>
 
+/// @file
+/// The number of wide range.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -9,14 +11,17 @@ inline namespace DETENT_NAMESPACE {
 /// Canonical: the mantissa is 0 (and then the exponent 0), or 2^30 <= |mantissa| < 2^31. |exponent| <= 256.
 /// Relative resolution 2^-30. A floating-point literal converts at compile time; a run-time double by `from_host`.
 struct Scaled {
-  int32_t mantissa;
-  int32_t exponent;
+  int32_t mantissa;  ///< 0, or 2^30 <= |mantissa| < 2^31
+  int32_t exponent;  ///< within +-256; 0 where the mantissa is
 
+  /// Not initialised; `{}` is zero.
   Scaled() = default;
+  /// A literal, rounded to nearest, ties away from zero; one outside 0 and [2^-200, 2^200] does not compile.
   // NOLINTNEXTLINE(google-explicit-constructor): a literal is meant to convert
   consteval Scaled(double literal) : Scaled(from_double_bits(__builtin_bit_cast(uint64_t, literal))) {
     if (mantissa == 0 && literal != 0) __builtin_trap();  // at compile time: NaN, infinite or out of range
   }
+  /// The number mantissa 2^exponent, which must be canonical.
   static constexpr Scaled from_parts(int32_t mantissa, int32_t exponent) {
     Scaled result;
     result.mantissa = mantissa;
@@ -37,9 +42,11 @@ struct Scaled {
     const int32_t mantissa = static_cast<int32_t>(magnitude);
     return from_parts((bits >> 63) != 0 ? -mantissa : mantissa, exponent);
   }
+  /// Equal in value.
   friend constexpr bool operator==(Scaled a, Scaled b) { return a.mantissa == b.mantissa && a.exponent == b.exponent; }
 };
 #else
+/// A number of wide range: in float configurations a Real.
 using Scaled = Real;
 #endif
 

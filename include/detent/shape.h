@@ -1,26 +1,28 @@
 #pragma once
 #include <detent/math.h>
 
+/// @file
+/// Convex shapes.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Stored in snapshots and recordings: a value is never reused.
+/// Which shape a Shape is. Stored in snapshots and recordings: a value is never reused.
 enum class ShapeType : uint32_t {
-  sphere = 1,
-  capsule = 2,
-  box = 3,
-  half_space = 4,
-  cylinder = 5,
-  cone = 6,
-  hull = 7,      ///< cooked bytes: an asset of the world; or made by make_hull() (convex.h)
-  triangle = 8,  ///< made by make_triangle() (convex.h)
+  sphere = 1,      ///< sphere()
+  capsule = 2,     ///< capsule()
+  box = 3,         ///< box()
+  half_space = 4,  ///< half_space()
+  cylinder = 5,    ///< cylinder()
+  cone = 6,        ///< cone()
+  hull = 7,        ///< cooked bytes: an asset of the world; or made by make_hull() (convex.h)
+  triangle = 8,    ///< made by make_triangle() (convex.h)
 };
 
 /// A convex shape in its body's frame, centred on the centre of mass. Build one with the functions below.
 /// Sizes, m: [2^-14, 2^14] (0.06 mm to 16 km); the ratio of a shape's largest to its smallest size is at most 2^14.
 /// In a world the bounding radius, `rounding` included, is below 2^15 m and at most 2^14 times the least size.
 struct Shape {
-  ShapeType type = ShapeType::sphere;
+  ShapeType type = ShapeType::sphere;         ///< which of the sizes below count
   Real radius = 0.5;                          ///< m; sphere, capsule, cylinder, and a cone's base
   Real half_length = 0.0;                     ///< m; along local y, half: a capsule's core segment, a cylinder, a cone
   Vec3<Real> half_extents = {0.5, 0.5, 0.5};  ///< m; box

@@ -1,12 +1,14 @@
 #pragma once
 #include <detent/config.h>
 
+/// @file
+/// What a call returns.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// The outcome of a call. On anything but ok no output is written and no state is changed.
 enum class [[nodiscard]] Status : uint32_t{
-    ok = 0,
+    ok = 0,              ///< done
     bad_id,              ///< null, never given out, or its slot has been destroyed or reused
     bad_argument,        ///< an enumeration or flag outside its list
     out_of_range,        ///< NaN, infinity, or outside the range that the field states

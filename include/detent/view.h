@@ -1,6 +1,7 @@
 #pragma once
 #include <detent/math.h>
 
+/// @file
 /// Poses for rendering. These read poses and never touch a world, and they are as deterministic as the rest.
 namespace detent {
 inline namespace DETENT_NAMESPACE {

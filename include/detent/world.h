@@ -6,6 +6,7 @@
 #include <detent/reduction.h>
 #include <detent/status.h>
 
+/// @file
 /// The world: a static pool of bodies and contacts in one block of the caller's memory.
 ///
 /// Threads: a world is a value. Calls on different worlds may run beside each other; functions that take `const World&`
@@ -17,11 +18,12 @@ inline namespace DETENT_NAMESPACE {
 
 /// How much of each kind a world can hold. Fixed for the life of the world; at most 2^20 each.
 struct Capacity {
-  uint32_t bodies = 0;
+  uint32_t bodies = 0;    ///< at least 1
   uint32_t contacts = 0;  ///< pairs of bodies in contact
-  uint32_t assets = 0;
+  uint32_t assets = 0;    ///< assets that can be bound
   bool manifolds =
       true;  ///< room to use contact points again (WorldDef::reuse), which takes 160 bytes a contact (f64 272)
+  /// Equal in every kind.
   friend constexpr bool operator==(Capacity a, Capacity b) {
     return a.bodies == b.bodies && a.contacts == b.contacts && a.assets == b.assets && a.manifolds == b.manifolds;
   }
@@ -38,6 +40,7 @@ enum class Stabilisation : uint32_t {
 
 /// What `create_world` makes. Every field but the capacity has a working default.
 struct WorldDef {
+  /// Room for bodies, contacts, assets.
   Capacity capacity = {};
   Vec3<Real> gravity = {Real(0.0), Real(-9.81), Real(0.0)};  ///< m/s^2; each component within +-1024
   Real tick = Real(1.0 / 60.0);                              ///< s, the time of one step, [2^-14, 1/4]
@@ -47,6 +50,7 @@ struct WorldDef {
   /// The sweeps of a substep end early when the last one changed no velocity by more than 2^-convergence of what
   /// gravity adds in the substep; [0, 30].
   uint32_t convergence = 12;
+  /// How overlap is undone.
   Stabilisation stabilisation = Stabilisation::soft;
   Real relaxation = 1.0;        ///< over-relaxation factor of the SOR solver, [1/4, 7/4]
   Real stiffness = Real(0.14);  ///< contact frequency as a fraction of the substep rate, [1/64, 1/4]
@@ -61,7 +65,7 @@ struct WorldDef {
   /// A pair's contact points are used again, and not found anew, until it has moved by this part of its smaller extent;
   /// [0, 1/64]; taken as 0 where the capacity has no room for manifolds.
   Real reuse = Real(1.0 / 256);
-  ManifoldReduction reduction = ManifoldReduction::projected_extremes;
+  ManifoldReduction reduction = ManifoldReduction::projected_extremes;  ///< which of more than four points are kept
 };
 
 /// Bytes of block that a world of this capacity needs; 0 if the capacity is out of range. The same on every target.
@@ -69,8 +73,8 @@ constexpr uint32_t world_bytes(Capacity capacity);
 
 /// A world in the caller's block. A value of a few words: copy it freely; it owns nothing.
 struct World {
-  uint8_t* block = nullptr;
-  AssetTable assets = {};
+  uint8_t* block = nullptr;                ///< what create_world() was given
+  AssetTable assets = {};                  ///< what create_world() was given
   ContactEventBuffer contact_events = {};  ///< filled by each step, from its front; none by default
   const FeatureTable* features = nullptr;  ///< what create_world() was given
   uint32_t lanes =
@@ -90,6 +94,7 @@ struct StepReport {
   uint64_t contact_substeps = 0;  ///< contacts times their islands' substeps: the work of the solver
   uint32_t pairs = 0;             ///< pairs of overlapping bounds of which a body moves
   uint32_t contacts = 0;          ///< pairs with at least one contact point
+  /// Of all contacts, at most four each.
   uint32_t contact_points = 0;
   uint32_t contacts_reused = 0;  ///< whose points were not found anew, for the pair has hardly moved
   uint32_t contacts_capped = 0;  ///< found by a search that met its cap (the normal may not be the least way out), or
@@ -118,10 +123,10 @@ struct StepReport {
 
 /// A world's constant and slowly changing facts.
 struct WorldInfo {
-  Capacity capacity = {};
-  uint64_t tick = 0;
-  uint32_t bodies = 0;
-  uint32_t contacts = 0;
+  Capacity capacity = {};      ///< what the world was created with
+  uint64_t tick = 0;           ///< ticks completed since the world was created
+  uint32_t bodies = 0;         ///< bodies in the world
+  uint32_t contacts = 0;       ///< pairs in contact after the last step, those asleep included
   uint32_t slots_retired = 0;  ///< body slots whose generation is used up
 };
 
@@ -132,14 +137,17 @@ struct WorldInfo {
 Status create_world(uint8_t* block, uint32_t block_bytes, const WorldDef& def, AssetTable assets, World& world,
                     const FeatureTable& features = feature_table<Features::all>);
 
+/// Makes a body in the lowest free slot; it takes part in the next step.
 /// Errors: pool_full, bad_argument, out_of_range, not_normalised; asset_missing (a hull that is not bound);
 /// feature_missing.
 Status create_body(World& world, const BodyDef& def, BodyId& id);
-/// Its contacts end at once. Errors: bad_id.
+/// Takes a body away; its contacts end at once, and whom it touched wakes. Errors: bad_id.
 Status destroy_body(World& world, BodyId id);
-/// Teleports; velocity is kept. Errors: bad_id, out_of_range, not_normalised.
+/// Puts a body elsewhere, m, world; nothing is met on the way, and its velocity is kept. Errors: bad_id, out_of_range,
+/// not_normalised.
 Status set_pose(World& world, BodyId id, const Position& position, const Quat& rotation);
-/// m/s and rad/s, world frame; ranges as in BodyDef. Errors: bad_id, bad_argument (a fixed body), out_of_range.
+/// Gives a body a velocity, m/s, and a spin, rad/s, world frame; ranges as in BodyDef. Errors: bad_id, bad_argument (a
+/// fixed body), out_of_range.
 Status set_velocity(World& world, BodyId id, const Vec3<Real>& velocity, const Vec3<Real>& spin);
 /// Adds a force, N, world frame, that acts at the centre of mass during the next step.
 /// Errors: bad_id, bad_argument (not dynamic), out_of_range (the speed it would give leaves its range).
@@ -153,7 +161,7 @@ Status apply_impulse(World& world, BodyId id, const Vec3<Scaled>& impulse);
 Status apply_impulse_at(World& world, BodyId id, const Vec3<Scaled>& impulse, const Vec3<Real>& arm);
 /// Changes the angular momentum at once, N m s, world frame. Errors: as apply_force.
 Status apply_angular_impulse(World& world, BodyId id, const Vec3<Scaled>& impulse);
-/// Errors: out_of_range.
+/// Gives the world another gravity, m/s^2, each component within +-1024, and wakes all bodies. Errors: out_of_range.
 Status set_gravity(World& world, const Vec3<Real>& gravity);
 /// Wakes the body and all that it fell asleep with. Calls that move or push a body do so by themselves.
 /// Errors: bad_id, bad_argument (not dynamic).
@@ -161,7 +169,7 @@ Status wake_body(World& world, BodyId id);
 /// Stops the body and leaves it out of the step until something wakes it.
 /// Errors: bad_id, bad_argument (not dynamic), feature_missing.
 Status put_to_sleep(World& world, BodyId id);
-/// Errors: bad_id.
+/// Gives a body another BodyDef::user_data; wakes nobody. Errors: bad_id.
 Status set_user_data(World& world, BodyId id, uint32_t user_data);
 /// Binds the table's asset `index` to the state by its content digest; a cooked hull is checked in full.
 /// Errors: asset_missing, out_of_range, asset_mismatch (bodies have the hull that it was), feature_missing (hulls).
@@ -170,15 +178,21 @@ Status bind_asset(World& world, uint32_t index);
 /// Advances the world by one tick. Never fails: what could not be done is counted in the report.
 StepReport step(World& world);
 
+/// Whether the id names a body of this world.
 bool is_valid(const World& world, BodyId id);
-/// Errors of the getters: bad_id.
+/// Where a body is. Errors: bad_id.
 Status get_pose(const World& world, BodyId id, Pose& pose);
+/// The velocity of the centre of mass, m/s, and the spin, rad/s, world frame. Overflow: a component of the spin beyond
+/// Real, which only bodies below 12 cm can have, is held to its range. Errors: bad_id.
 Status get_velocity(const World& world, BodyId id, Vec3<Real>& velocity, Vec3<Real>& spin);
-/// kg; 0 for fixed and kinematic bodies.
+/// The mass, kg; 0 for fixed and kinematic bodies. Errors: bad_id.
 Status get_mass(const World& world, BodyId id, Scaled& mass);
+/// BodyDef::user_data, or what set_user_data() made of it. Errors: bad_id.
 Status get_user_data(const World& world, BodyId id, uint32_t& user_data);
-/// Fixed bodies, and kinematic ones that stand still, are never awake. Errors: bad_id.
+/// Whether a body takes part in the next step. Fixed bodies, and kinematic ones that stand still, are never awake.
+/// Errors: bad_id.
 Status is_awake(const World& world, BodyId id, bool& awake);
+/// The world's facts, as they are now.
 WorldInfo get_info(const World& world);
 /// Visits bodies in slot order: the first valid id after `previous` (null to begin), or null at the end.
 BodyId next_body(const World& world, BodyId previous);
@@ -202,4 +216,4 @@ Status load(World& world, uint8_t* bytes, uint32_t byte_count);
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent
 
-#include <detent/detail/layout.h>
+#include <detent/storage.h>

@@ -100,20 +100,5 @@ constexpr uint32_t snapshot_bytes(Capacity capacity) {
   return fits ? bytes : 0;
 }
 
-/// Memory for a world whose capacity is known at compile time.
-template <Capacity capacity>
-struct WorldStorage {
-  static constexpr uint32_t k_bytes = world_bytes(capacity);
-  static_assert(k_bytes != 0, "detent: capacity out of range");
-  alignas(8) uint8_t block[k_bytes];
-
-  /// As create_world, in this block and with this capacity, whatever `def.capacity` says.
-  Status create(WorldDef def, World& world, AssetTable assets = {},
-                const FeatureTable& features = feature_table<Features::all>) {
-    def.capacity = capacity;
-    return create_world(block, k_bytes, def, assets, world, features);
-  }
-};
-
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent
