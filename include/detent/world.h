@@ -3,6 +3,7 @@
 #include <detent/body.h>
 #include <detent/event.h>
 #include <detent/features.h>
+#include <detent/profile.h>
 #include <detent/reduction.h>
 #include <detent/status.h>
 
@@ -75,6 +76,7 @@ struct World {
   const FeatureTable* features = nullptr;  ///< what create_world() was given
   uint32_t lanes =
       1;  ///< contacts that the solver takes at once, 1 or as many as this machine can: the bits are the same
+  Profile* profile = nullptr;  ///< times of the stages of each step (profile.h)
 };
 
 /// What one step did. Every count is of this step alone.
@@ -174,7 +176,7 @@ bool is_valid(const World& world, BodyId id);
 /// Errors of the getters: bad_id.
 Status get_pose(const World& world, BodyId id, Pose& pose);
 Status get_velocity(const World& world, BodyId id, Vec3<Real>& velocity, Vec3<Real>& spin);
-/// kg; 0 for fixed and kinematic bodies.
+/// kg; 0 for fixed and kinematic bodies. What else a definition sets: body_access.h, world_access.h.
 Status get_mass(const World& world, BodyId id, Scaled& mass);
 Status get_user_data(const World& world, BodyId id, uint32_t& user_data);
 /// Fixed bodies, and kinematic ones that stand still, are never awake. Errors: bad_id.
