@@ -339,7 +339,7 @@ class Game {
         wrong = body != nullptr && body->type != BodyType::kinematic;
         const Position to = place();
         const Quat turned = rotation(wrong);
-        judge("move_kinematic", recorder.move_kinematic(id, to, turned), body, wrong || plane);
+        judge("move_kinematic", recorder.move_kinematic(id, to, turned), body, wrong || plane, true);
         break;
       }
       case 3:
