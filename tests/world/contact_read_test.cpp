@@ -82,6 +82,25 @@ DETENT_TEST(contacts, of_a_stack_carry_what_lies_above_whatever_the_substeps_and
   }
 }
 
+DETENT_TEST(contacts, of_unequal_bodies_carry_the_weight_of_the_upper_one) {
+  for (const bool heavy_below : {true, false}) {
+    Lab lab({3, 4, 0});
+    lab.add_ground();
+    const double mass[] = {heavy_below ? 1000.0 : 50.0, heavy_below ? 50.0 : 1000.0};
+    for (int i = 0; i < 2; ++i) {
+      BodyDef def;
+      def.shape = box(reals(0.5, 0.5, 0.5));
+      def.position = position(0, 0.5 + i, 0);
+      def.mass = scaled(mass[i]);
+      lab.add(def);
+    }
+    lab.run(240);
+    ASSERT_EQ(get_info(lab.world).contacts, 2u);
+    EXPECT_NEAR(scaled_to_host(read(lab.world, 0).normal_force), 1050 * 9.81, 105);
+    EXPECT_NEAR(scaled_to_host(read(lab.world, 1).normal_force) / (mass[1] * 9.81), 1, 0.01);
+  }
+}
+
 DETENT_TEST(contacts, of_one_body_are_found_in_order) {
   Lab lab = make_pile();
   const uint32_t count = get_info(lab.world).contacts;

@@ -1,7 +1,10 @@
 #include <detent/body_access.h>
 #include <math.h>
 
+#include "dynamics/gyration.h"
+#include "math/rotation.h"
 #include "tests/world/lab.h"
+#include "world/view.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -109,6 +112,42 @@ DETENT_TEST(locks, can_be_set_and_taken_off_in_motion) {
   ASSERT_OK(set_turn_locks(lab.world, id, k_turn_locks_all));
   EXPECT_EQ(lab.motion(id).spin[2], 0);
   EXPECT_EQ(set_turn_locks(lab.world, id, 8), Status::bad_argument);
+}
+
+DETENT_TEST(locks, what_pushed_about_a_locked_axis_is_not_stored_up) {
+  Lab lab({2, 4, 0});
+  BodyDef table;
+  table.type = BodyType::fixed;
+  table.shape = box(reals(1, 0.25, 1));
+  lab.add(table);
+  BodyDef def;
+  def.shape = box(reals(0.75, 0.25, 0.25));
+  def.position = position(1.25, 0.5, 0);  // its middle is beyond the edge
+  for (const uint32_t locks : {k_turn_lock_z, k_turn_locks_all}) {
+    def.turn_locks = locks;
+    const BodyId id = lab.add(def);
+    lab.run(60);
+    EXPECT_NEAR(lab.motion(id).position[1], 0.5, 0.02);
+    ASSERT_OK(set_turn_locks(lab.world, id, 0));
+    for (const double spin : lab.motion(id).spin) EXPECT_NEAR(spin, 0, 1e-6);
+    lab.run(30);
+    EXPECT_LT(lab.motion(id).position[1], 0.4) << "and then it falls";
+    ASSERT_OK(destroy_body(lab.world, id));
+  }
+}
+
+DETENT_TEST(locks, leave_the_gyration_about_the_other_axes_as_precise_as_it_was) {
+  Lab lab({2, 1, 0});
+  lab.add(locked(0));
+  lab.add(locked(k_turn_lock_x | k_turn_lock_z));
+  const Span<BodyTraits> traits = view_of(lab.world).traits;
+  const Matrix3 axes = matrix_from(k_identity);
+  double about_y[2];
+  for (size_t i = 0; i < 2; ++i) {
+    const WorldGyration gyration = world_gyration(traits[static_cast<uint32_t>(i)], axes);
+    about_y[i] = ldexp(unit_to_host(gyration.row[1].y), gyration.exponent);
+  }
+  EXPECT_NEAR(about_y[1] / about_y[0], 1, 1e-6);
 }
 
 DETENT_TEST(locks, a_snapshot_whose_gyration_does_not_fit_its_locks_is_refused) {
