@@ -2,6 +2,7 @@
 #include <detent/world_access.h>
 #include <math.h>
 
+#include "tests/geometry/hull_bytes.h"
 #include "tests/world/lab.h"
 
 /// What definitions set can be read back and changed.
@@ -367,6 +368,39 @@ DETENT_TEST(access, bad_arguments_get_their_status_and_change_nothing) {
   settings.stabilisation = static_cast<Stabilisation>(0);
   EXPECT_EQ(set_settings(world, settings), Status::bad_argument);
   EXPECT_EQ(digest(world), before);
+}
+
+DETENT_TEST(access, a_shape_is_refused_where_its_code_or_its_bytes_are_missing) {
+  static WorldStorage<Capacity{2, 2, 2}> storage;
+  const Asset assets[] = {{detent_hulls::k_tetrahedron, sizeof detent_hulls::k_tetrahedron},
+                          {detent_hulls::k_prism, sizeof detent_hulls::k_prism}};
+  World world;
+  WorldDef def;
+  def.continuous = def.sleeping = false;
+  ASSERT_OK(storage.create(def, world, {assets, 2}, feature_table<Features::sphere | Features::hull>));
+  BodyId id;
+  ASSERT_OK(create_body(world, {}, id));
+  ASSERT_OK(bind_asset(world, 1));
+  const uint64_t before = digest(world);
+  EXPECT_EQ(set_shape(world, id, box(reals(1, 1, 1))), Status::feature_missing);
+  EXPECT_EQ(set_shape(world, id, rounded(hull(1), real(0.1))), Status::feature_missing);
+  EXPECT_EQ(set_shape(world, id, hull(0)), Status::asset_missing);
+  EXPECT_EQ(set_shape(world, id, hull(2)), Status::out_of_range);
+  EXPECT_EQ(digest(world), before);
+  ASSERT_OK(set_shape(world, id, hull(1)));
+  Shape shape;
+  ASSERT_OK(get_shape(world, id, shape));
+  EXPECT_EQ(shape.type, ShapeType::hull);
+  EXPECT_EQ(shape.asset, 1u);
+  Scaled mass{};
+  ASSERT_OK(set_density(world, id, scaled(1)));
+  ASSERT_OK(get_mass(world, id, mass));
+  ASSERT_OK(set_type(world, id, BodyType::fixed));
+  ASSERT_OK(set_type(world, id, BodyType::dynamic));
+  Scaled again{};
+  ASSERT_OK(get_mass(world, id, again));
+  EXPECT_TRUE(mass == again);
+  EXPECT_EQ(bind_asset(world, 0), Status::ok);
 }
 
 DETENT_TEST(access, a_fast_spin_that_a_larger_shape_cannot_have_is_refused) {
