@@ -6,7 +6,8 @@
 #include <detent/world_access.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
+
+#include <chrono>
 using namespace detent;
 
 namespace {
@@ -19,9 +20,8 @@ void must(Status status) {
 }
 
 uint64_t nanoseconds(void*) {
-  timespec now;
-  timespec_get(&now, TIME_UTC);
-  return static_cast<uint64_t>(now.tv_sec) * 1000000000u + static_cast<uint64_t>(now.tv_nsec);
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();
+  return static_cast<uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count());
 }
 
 void print_line(void* lines, const Position&, const Position&, DrawKind) { ++*static_cast<int*>(lines); }
