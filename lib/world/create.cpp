@@ -2,7 +2,6 @@
 #include "base/float_environment.h"
 #include "dynamics/activity.h"
 #include "dynamics/solve_quads.h"
-#include "geometry/shape_traits.h"
 #include "world/asset_binding.h"
 #include "world/body_change.h"
 #include "world/ranges.h"

@@ -122,6 +122,28 @@ DETENT_TEST(contacts, of_one_body_are_found_in_order) {
   EXPECT_EQ(next_contact(lab.world, next_body(lab.world, {}), UINT32_MAX), count);
 }
 
+DETENT_TEST(contacts, of_bodies_that_are_far_apart_by_now_can_be_read) {
+  const Shape shapes[] = {sphere(real(0.5)), box(reals(0.5, 0.5, 0.5)), cylinder(real(0.5), real(0.5)),
+                          rounded(cone(real(0.5), real(0.5)), real(0.1))};
+  for (const Shape& shape : shapes) {
+    Lab lab({3, 6, 0});
+    lab.add_ground();
+    BodyDef def;
+    def.shape = shape;
+    BodyId id;
+    for (int i = 0; i < 2; ++i) {
+      def.position = position(0, 0.4 + 0.6 * i, 0);
+      id = lab.add(def);
+    }
+    lab.run(2);
+    ASSERT_LT(next_contact(lab.world, id, 0), get_info(lab.world).contacts);
+    ASSERT_OK(set_pose(lab.world, id, position(-30000, 30000, 30000), {0.0, 0.0, 0.0, 1.0}));
+    for (uint32_t i = next_contact(lab.world, id, 0); i < get_info(lab.world).contacts;
+         i = next_contact(lab.world, id, i + 1))
+      EXPECT_EQ(read(lab.world, i).point_count, 0u);
+  }
+}
+
 DETENT_TEST(contacts, of_bodies_that_have_parted_since_have_no_points) {
   Lab lab({2, 4, 0});
   lab.add_ground();

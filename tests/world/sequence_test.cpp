@@ -99,7 +99,7 @@ class Game {
   bool bad() { return random_.chance(0.1); }
   Real wild() {
 #if DETENT_FIXED
-    return random_.chance(0.5) ? Real::from_raw(INT64_MAX) : Real::from_raw(INT64_MIN);
+    return Real::from_raw(INT64_MIN);  // the largest of all is a spin that a small body may have
 #else
     return random_.chance(0.5) ? std::numeric_limits<Real>::quiet_NaN() : std::numeric_limits<Real>::infinity();
 #endif
