@@ -3,6 +3,7 @@
 #include "base/float_environment.h"
 #include "geometry/shape_traits.h"
 #include "world/body_change.h"
+#include "world/body_parts.h"
 #include "world/ranges.h"
 
 namespace detent {

@@ -4,6 +4,7 @@
 #include "dynamics/solve_quads.h"
 #include "world/asset_binding.h"
 #include "world/body_change.h"
+#include "world/body_parts.h"
 #include "world/ranges.h"
 #include "world/settings.h"
 #include "world/slots.h"

@@ -2,6 +2,7 @@
 
 #include "base/float_environment.h"
 #include "world/body_change.h"
+#include "world/body_parts.h"
 #include "world/ranges.h"
 
 namespace detent {

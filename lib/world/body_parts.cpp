@@ -1,5 +1,6 @@
-#include "world/body_change.h"
+#include "world/body_parts.h"
 
+#include "dynamics/spin.h"
 #include "geometry/shape_traits.h"
 #include "world/asset_binding.h"
 #include "world/ranges.h"
