@@ -31,6 +31,10 @@ struct Material {
   RestitutionRule restitution_rule = RestitutionRule::larger;
 };
 
+/// Axes of a dynamic body about which nothing turns it, as if its inertia about them were infinite: add them up. Spin
+/// about them is dropped. With two locked the third keeps its direction in the world: an upright figure locks x and z.
+inline constexpr uint32_t k_turn_lock_x = 1, k_turn_lock_y = 2, k_turn_lock_z = 4, k_turn_locks_all = 7;
+
 /// What `create_body` makes. Every field has a working default.
 struct BodyDef {
   /// What moves the body; a half-space is fixed or kinematic.
@@ -44,11 +48,12 @@ struct BodyDef {
   /// Of the whole surface.
   Material material = {};
   Scaled density = 1000.0;     ///< kg/m^3, > 0; used where mass is 0; mass within [2^-60, 2^60] kg
-  Scaled mass = 0.0;           ///< kg; 0: from the density
+  Scaled mass = 0.0;           ///< kg; 0: from the density. What is not dynamic keeps it for when it is.
   Real linear_damping = 0.0;   ///< 1/s, [0, 1024]
   Real angular_damping = 0.0;  ///< 1/s, [0, 1024]
   Real gravity_scale = 1.0;    ///< [-1024, 1024]
   uint32_t user_data = 0;      ///< kept, digested and recorded; never read
+  uint32_t turn_locks = 0;     ///< k_turn_lock_x, ...: axes of the body about which it does not turn
 };
 
 }  // namespace DETENT_NAMESPACE

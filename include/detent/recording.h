@@ -1,5 +1,7 @@
 #pragma once
-#include <detent/world.h>
+#include <detent/body_access.h>
+#include <detent/forces.h>
+#include <detent/world_access.h>
 
 /// @file
 /// Recording and replay: a seed snapshot, every mutating call, and a digest per tick, as a stream of small checked
@@ -54,7 +56,8 @@ struct RecordingInfo {
   uint32_t snapshot_bytes = 0;  ///< of the seed
 };
 
-/// Applies calls to a world and logs those that succeeded. Its methods mirror world.h by name, arguments and statuses.
+/// Applies calls to a world and logs those that succeeded. Its methods mirror world.h, body_access.h,
+/// world_access.h and forces.h by name, arguments and statuses.
 ///
 /// A call that fails changes nothing and is not logged. A failing sink doesn't disturb the world: the calls go on
 /// applying, nothing more is written, and `status` and `end` report it. Between `begin` and `end` the world is changed
@@ -97,6 +100,20 @@ class Recorder {
   Status put_to_sleep(BodyId id);
   Status set_user_data(BodyId id, uint32_t user_data);
   Status bind_asset(uint32_t index);
+  Status set_type(BodyId id, BodyType type);
+  Status set_shape(BodyId id, const Shape& shape);
+  Status set_mass(BodyId id, Scaled mass);
+  Status set_density(BodyId id, Scaled density);
+  Status set_material(BodyId id, const Material& material);
+  Status set_damping(BodyId id, Real linear, Real angular);
+  Status set_gravity_scale(BodyId id, Real scale);
+  Status set_turn_locks(BodyId id, uint32_t locks);
+  Status set_settings(const WorldDef& def);
+  Status apply_force_at(BodyId id, const Vec3<Scaled>& force, const Vec3<Real>& arm);
+  Status apply_force_at_point(BodyId id, const Vec3<Scaled>& force, const Position& point);
+  Status apply_impulse_at_point(BodyId id, const Vec3<Scaled>& impulse, const Position& point);
+  Status explode(const Explosion& explosion);
+  Status move_kinematic(BodyId id, const Position& position, const Quat& rotation);
   /// @}
   /// Steps the world, and logs the tick and, every `digest_interval` ticks, the digest.
   StepReport step();

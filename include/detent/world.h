@@ -3,6 +3,7 @@
 #include <detent/body.h>
 #include <detent/event.h>
 #include <detent/features.h>
+#include <detent/profile.h>
 #include <detent/reduction.h>
 #include <detent/status.h>
 
@@ -79,6 +80,7 @@ struct World {
   const FeatureTable* features = nullptr;  ///< what create_world() was given
   uint32_t lanes =
       1;  ///< contacts that the solver takes at once, 1 or as many as this machine can: the bits are the same
+  Profile* profile = nullptr;  ///< times of the stages of each step (profile.h)
 };
 
 /// What one step did. Every count is of this step alone.
@@ -185,7 +187,8 @@ Status get_pose(const World& world, BodyId id, Pose& pose);
 /// The velocity of the centre of mass, m/s, and the spin, rad/s, world frame. Overflow: a component of the spin beyond
 /// Real, which only bodies below 12 cm can have, is held to its range. Errors: bad_id.
 Status get_velocity(const World& world, BodyId id, Vec3<Real>& velocity, Vec3<Real>& spin);
-/// The mass, kg; 0 for fixed and kinematic bodies. Errors: bad_id.
+/// The mass, kg; 0 for fixed and kinematic bodies. What else a definition sets: body_access.h, world_access.h.
+/// Errors: bad_id.
 Status get_mass(const World& world, BodyId id, Scaled& mass);
 /// BodyDef::user_data, or what set_user_data() made of it. Errors: bad_id.
 Status get_user_data(const World& world, BodyId id, uint32_t& user_data);

@@ -51,7 +51,9 @@ uint32_t finalise(const BodyTraits& traits, const BodySweep& sweep, BodyPose& po
   const Sweep rest = rest_of_tick(sweep);
   pose.rotation = sweep_end_rotation(pose.rotation, rest);
   const uint32_t clamped = sweep_end_position(pose, rest);
-  return is_dynamic(traits) ? clamped + hold_speeds(traits, pose.rotation, motion) : clamped;
+  if (!is_dynamic(traits)) return clamped;
+  motion.momentum = without_locked(traits, pose.rotation, motion.momentum);
+  return clamped + hold_speeds(traits, pose.rotation, motion);
 }
 
 void store_contacts(Span<const ContactWork> work, Span<const ManifoldState> manifold_work, uint32_t awake_count,

@@ -11,6 +11,7 @@ WorldGyration world_gyration(const BodyTraits& traits, const Matrix3& rotation) 
   if (!is_dynamic(traits)) return world;
 #if DETENT_FIXED
   for (const Scaled& axis : traits.gyration) {
+    if (axis.mantissa == 0) continue;  // locked
     const int above = axis.exponent + 31;
     world.exponent = above > world.exponent ? above : world.exponent;
   }

@@ -30,15 +30,6 @@ uint32_t hold(Vec3<Real>& v, Real limit) {
   return clamped ? 1 : 0;
 }
 
-/// The momentum that has this spin: the inverse of spin_of().
-Vec3<Real> momentum_of(const BodyTraits& traits, const Quat& rotation, const Vec3<Real>& spin) {
-  if (!is_dynamic(traits)) return spin;
-  const Vec3<Real> local = is_isotropic(traits) ? spin : rotate_inverse(rotation, spin);
-  const auto divided = [&](Real value, int i) { return multiply(value, divide(Scaled(1.0), traits.gyration[i])); };
-  const Vec3<Real> momentum = {divided(local.x, 0), divided(local.y, 1), divided(local.z, 2)};
-  return is_isotropic(traits) ? momentum : rotate(rotation, momentum);
-}
-
 /// Twice the energy of turning over the mass, by the momentum in the body's axes.
 Scaled energy_of(const BodyTraits& traits, const Vec3<Real>& local) {
   const auto term = [&](Real value, int i) {
@@ -178,7 +169,7 @@ uint32_t hold_spin(const BodyTraits& traits, const Quat& rotation, BodyMotion& m
   const Real fastest = max(spin(local.x, 0), max(spin(local.y, 1), spin(local.z, 2)));
   if (fastest <= k_spin_max) return 0;
   const auto held = [&](Real value, int i) {
-    const Real limit = multiply(k_spin_max, divide(Scaled(1.0), traits.gyration[i]));
+    const Real limit = multiply(k_spin_max, inertia_about(traits, i));
     return clamp(value, -limit, limit);
   };
   motion.momentum = rotate(rotation, Vec3<Real>{held(local.x, 0), held(local.y, 1), held(local.z, 2)});

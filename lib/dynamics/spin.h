@@ -41,6 +41,31 @@ inline Vec3<Real> spin_of(const BodyTraits& traits, const Quat& rotation, const 
   return rotate(rotation, gyrate(traits, rotate_inverse(rotation, momentum)));
 }
 
+/// 1 / gyration about a body axis: its share of the spin as momentum; 0 if it is locked.
+inline Scaled inertia_about(const BodyTraits& traits, int axis) {
+  return is_positive(traits.gyration[axis]) ? divide(Scaled(1.0), traits.gyration[axis]) : Scaled(0.0);
+}
+
+/// The momentum that has this spin: the inverse of spin_of().
+inline Vec3<Real> momentum_of(const BodyTraits& traits, const Quat& rotation, const Vec3<Real>& spin) {
+  if (!is_dynamic(traits)) return spin;
+  const Vec3<Real> local = is_isotropic(traits) ? spin : rotate_inverse(rotation, spin);
+  const Vec3<Real> momentum = {multiply(local.x, inertia_about(traits, 0)), multiply(local.y, inertia_about(traits, 1)),
+                               multiply(local.z, inertia_about(traits, 2))};
+  return is_isotropic(traits) ? momentum : rotate(rotation, momentum);
+}
+
+/// What the turn locks leave of a momentum: contacts push about a locked axis too, and nothing comes of it.
+inline Vec3<Real> without_locked(const BodyTraits& traits, const Quat& rotation, const Vec3<Real>& momentum) {
+  if (traits.turn_locks == 0 || !is_dynamic(traits)) return momentum;
+  const Real zero = 0.0;
+  if (traits.turn_locks == k_turn_locks_all) return {zero, zero, zero};
+  const Vec3<Real> local = rotate_inverse(rotation, momentum);
+  return rotate(rotation, Vec3<Real>{(traits.turn_locks & k_turn_lock_x) != 0 ? zero : local.x,
+                                     (traits.turn_locks & k_turn_lock_y) != 0 ? zero : local.y,
+                                     (traits.turn_locks & k_turn_lock_z) != 0 ? zero : local.z});
+}
+
 /// Turns `rotation` for `time`, s, by the free motion of a body of this momentum. With 1/I of two axes, b and c, near
 /// each other and that of the third, a, apart, the energy is |L|^2 / 2I_b, whose motion is a turn about L, and the
 /// rest: (1/I_a - 1/I_b) L_a^2 / 2 and (1/I_c - 1/I_b) L_c^2 / 2, whose motions are turns about those axes. Each is

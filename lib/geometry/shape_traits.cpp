@@ -283,6 +283,9 @@ void set_gyration(BodyTraits& traits, const AssetTable& assets, const FeatureTab
   const ShapeCode* code = code_of(features, shape_of(traits));
   if (code == nullptr || code->set_gyration == nullptr) return;
   code->set_gyration(traits, squares_of(grown_sizes(traits)), assets);
+  for (uint32_t axis = 0; axis < 3; ++axis) {
+    if ((traits.turn_locks >> axis & 1) != 0) traits.gyration[axis] = Scaled(0.0);
+  }
 }
 
 Real shape_extent(const BodyTraits& traits) {

@@ -67,7 +67,8 @@ Status set_shape(const Shape& shape, BodyTraits& traits, const AssetTable& asset
 Scaled shape_volume(const BodyTraits& traits, const AssetTable& assets = {},
                     const FeatureTable& features = feature_table<Features::all>);
 
-/// m (2^size_exponent)^2 / I about the body's axes, for uniform density: it does not depend on mass or scale.
+/// m (2^size_exponent)^2 / I about the body's axes, for uniform density: it does not depend on mass or scale. 0 about a
+/// locked axis.
 /// Relative error below 2^-24; a hull's is its file's. Rounded shapes as in shape_volume().
 /// Source: the standard moments of the box, ball, cylinder, cone and half-ball.
 void set_gyration(BodyTraits& traits, const AssetTable& assets = {},

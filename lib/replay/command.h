@@ -1,9 +1,11 @@
 #pragma once
-#include <detent/world.h>
+#include <detent/body_access.h>
+#include <detent/forces.h>
+#include <detent/world_access.h>
 
 #include "replay/archive.h"
 
-/// Every mutating call of world.h as a value. Each command lists its fields once (`visit`), for writing and reading
+/// Every mutating call as a value. Each command lists its fields once (`visit`), for writing and reading
 /// alike, and says how it is made (`apply`).
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -26,6 +28,20 @@ enum class RecordTag : uint8_t {
   tick_digested = 14,  ///< a step, and the digest after it
   wake_body = 15,
   put_to_sleep = 16,
+  set_type = 32,
+  set_shape = 33,
+  set_mass = 34,
+  set_density = 35,
+  set_material = 36,
+  set_damping = 37,
+  set_gravity_scale = 38,
+  set_turn_locks = 39,
+  set_settings = 40,
+  apply_force_at = 41,
+  apply_force_at_point = 42,
+  apply_impulse_at_point = 43,
+  explode = 44,
+  move_kinematic = 45,
 };
 
 struct CreateBody {
@@ -42,24 +58,34 @@ struct OnBody {
 using DestroyBody = OnBody<RecordTag::destroy_body, destroy_body>;
 using WakeBody = OnBody<RecordTag::wake_body, wake_body>;
 using PutToSleep = OnBody<RecordTag::put_to_sleep, put_to_sleep>;
-struct SetPose {
-  static constexpr RecordTag k_tag = RecordTag::set_pose;
+/// The calls that put a body somewhere.
+template <RecordTag tag, Status (*call)(World&, BodyId, const Position&, const Quat&)>
+struct ToPose {
+  static constexpr RecordTag k_tag = tag;
   BodyId id = {};
   Position position = {};
   Quat rotation = {};
 };
+using SetPose = ToPose<RecordTag::set_pose, set_pose>;
+using MoveKinematic = ToPose<RecordTag::move_kinematic, move_kinematic>;
 struct SetVelocity {
   static constexpr RecordTag k_tag = RecordTag::set_velocity;
   BodyId id = {};
   Vec3<Real> velocity = {};
   Vec3<Real> spin = {};
 };
-struct ApplyImpulseAt {
-  static constexpr RecordTag k_tag = RecordTag::apply_impulse_at;
+/// The calls that push a body at a place: a vector from its centre of mass, or a point of the world.
+template <RecordTag tag, class Place, Status (*call)(World&, BodyId, const Vec3<Scaled>&, const Place&)>
+struct PushAt {
+  static constexpr RecordTag k_tag = tag;
   BodyId id = {};
-  Vec3<Scaled> impulse = {};
-  Vec3<Real> arm = {};
+  Vec3<Scaled> push = {};
+  Place place = {};
 };
+using ApplyImpulseAt = PushAt<RecordTag::apply_impulse_at, Vec3<Real>, apply_impulse_at>;
+using ApplyForceAt = PushAt<RecordTag::apply_force_at, Vec3<Real>, apply_force_at>;
+using ApplyImpulseAtPoint = PushAt<RecordTag::apply_impulse_at_point, Position, apply_impulse_at_point>;
+using ApplyForceAtPoint = PushAt<RecordTag::apply_force_at_point, Position, apply_force_at_point>;
 /// The four calls that push a body by one vector.
 template <RecordTag tag, Status (*call)(World&, BodyId, const Vec3<Scaled>&)>
 struct Push {
@@ -75,10 +101,34 @@ struct SetGravity {
   static constexpr RecordTag k_tag = RecordTag::set_gravity;
   Vec3<Real> gravity = {};
 };
-struct SetUserData {
-  static constexpr RecordTag k_tag = RecordTag::set_user_data;
+/// The calls that give a body one value.
+template <RecordTag tag, class Value, auto call>
+struct SetValue {
+  static constexpr RecordTag k_tag = tag;
   BodyId id = {};
-  uint32_t user_data = 0;
+  Value value = {};
+};
+using SetUserData = SetValue<RecordTag::set_user_data, uint32_t, set_user_data>;
+using SetType = SetValue<RecordTag::set_type, BodyType, set_type>;
+using SetShape = SetValue<RecordTag::set_shape, Shape, set_shape>;
+using SetMass = SetValue<RecordTag::set_mass, Scaled, set_mass>;
+using SetDensity = SetValue<RecordTag::set_density, Scaled, set_density>;
+using SetMaterial = SetValue<RecordTag::set_material, Material, set_material>;
+using SetGravityScale = SetValue<RecordTag::set_gravity_scale, Real, set_gravity_scale>;
+using SetTurnLocks = SetValue<RecordTag::set_turn_locks, uint32_t, set_turn_locks>;
+struct SetDamping {
+  static constexpr RecordTag k_tag = RecordTag::set_damping;
+  BodyId id = {};
+  Real linear = {};
+  Real angular = {};
+};
+struct SetSettings {
+  static constexpr RecordTag k_tag = RecordTag::set_settings;
+  WorldDef def = {};
+};
+struct Explode {
+  static constexpr RecordTag k_tag = RecordTag::explode;
+  Explosion explosion = {};
 };
 struct BindAsset {
   static constexpr RecordTag k_tag = RecordTag::bind_asset;
@@ -132,6 +182,44 @@ void visit(Archive& archive, BodyDef& def) {
   visit_number(archive, "angular damping", def.angular_damping);
   visit_number(archive, "gravity scale", def.gravity_scale);
   visit_word(archive, "user data", def.user_data);
+  visit_word(archive, "turn locks", def.turn_locks);
+}
+
+template <class Archive>
+void visit(Archive& archive, bool& flag, const char* name) {
+  uint64_t bits = flag ? 1 : 0;
+  archive.bits(name, bits, 1);
+  archive.require(name, bits <= 1, Status::bad_argument);
+  flag = bits == 1;
+}
+
+/// All but the capacity, which is the recording's.
+template <class Archive>
+void visit(Archive& archive, WorldDef& def) {
+  visit_number(archive, "gravity", def.gravity);
+  visit_number(archive, "tick", def.tick);
+  visit_word(archive, "substeps", def.substeps);
+  visit_word(archive, "most substeps", def.substeps_max);
+  visit_word(archive, "iterations", def.iterations);
+  visit_word(archive, "convergence", def.convergence);
+  visit_choice(archive, "stabilisation", def.stabilisation, Stabilisation::soft, Stabilisation::post);
+  visit_number(archive, "relaxation", def.relaxation);
+  visit_number(archive, "stiffness", def.stiffness);
+  visit_number(archive, "damping ratio", def.damping_ratio);
+  visit_number(archive, "restitution threshold", def.restitution_threshold);
+  visit(archive, def.continuous, "continuous");
+  visit(archive, def.sleeping, "sleeping");
+  visit_number(archive, "breaking", def.breaking);
+  visit_number(archive, "reuse", def.reuse);
+  visit_choice(archive, "reduction", def.reduction, ManifoldReduction::projected_extremes,
+               ManifoldReduction::deepest_area);
+}
+
+template <class Archive>
+void visit(Archive& archive, Explosion& explosion) {
+  visit_number(archive, "centre", explosion.centre);
+  visit_number(archive, "radius", explosion.radius);
+  visit_number(archive, "impulse", explosion.impulse);
 }
 
 template <class Archive>
@@ -143,8 +231,8 @@ template <class Archive, RecordTag tag, Status (*call)(World&, BodyId)>
 void visit(Archive& archive, OnBody<tag, call>& command) {
   visit(archive, command.id);
 }
-template <class Archive>
-void visit(Archive& archive, SetPose& command) {
+template <class Archive, RecordTag tag, Status (*call)(World&, BodyId, const Position&, const Quat&)>
+void visit(Archive& archive, ToPose<tag, call>& command) {
   visit(archive, command.id);
   visit_number(archive, "position", command.position);
   visit_number(archive, "rotation", command.rotation);
@@ -155,11 +243,11 @@ void visit(Archive& archive, SetVelocity& command) {
   visit_number(archive, "velocity", command.velocity);
   visit_number(archive, "spin", command.spin);
 }
-template <class Archive>
-void visit(Archive& archive, ApplyImpulseAt& command) {
+template <class Archive, RecordTag tag, class Place, Status (*call)(World&, BodyId, const Vec3<Scaled>&, const Place&)>
+void visit(Archive& archive, PushAt<tag, Place, call>& command) {
   visit(archive, command.id);
-  visit_number(archive, "impulse", command.impulse);
-  visit_number(archive, "arm", command.arm);
+  visit_number(archive, "push", command.push);
+  visit_number(archive, "place", command.place);
 }
 template <class Archive, RecordTag tag, Status (*call)(World&, BodyId, const Vec3<Scaled>&)>
 void visit(Archive& archive, Push<tag, call>& command) {
@@ -170,10 +258,34 @@ template <class Archive>
 void visit(Archive& archive, SetGravity& command) {
   visit_number(archive, "gravity", command.gravity);
 }
-template <class Archive>
-void visit(Archive& archive, SetUserData& command) {
+inline void visit_value(auto& archive, uint32_t& value) { visit_word(archive, "value", value); }
+inline void visit_value(auto& archive, BodyType& type) {
+  visit_choice(archive, "body type", type, BodyType::fixed, BodyType::dynamic);
+}
+inline void visit_value(auto& archive, Shape& shape) { visit(archive, shape); }
+inline void visit_value(auto& archive, Material& material) { visit(archive, material); }
+inline void visit_value(auto& archive, Real& value) { visit_number(archive, "value", value); }
+#if DETENT_FIXED
+inline void visit_value(auto& archive, Scaled& value) { visit_number(archive, "value", value); }
+#endif
+template <class Archive, RecordTag tag, class Value, auto call>
+void visit(Archive& archive, SetValue<tag, Value, call>& command) {
   visit(archive, command.id);
-  visit_word(archive, "user data", command.user_data);
+  visit_value(archive, command.value);
+}
+template <class Archive>
+void visit(Archive& archive, SetDamping& command) {
+  visit(archive, command.id);
+  visit_number(archive, "linear damping", command.linear);
+  visit_number(archive, "angular damping", command.angular);
+}
+template <class Archive>
+void visit(Archive& archive, SetSettings& command) {
+  visit(archive, command.def);
+}
+template <class Archive>
+void visit(Archive& archive, Explode& command) {
+  visit(archive, command.explosion);
 }
 template <class Archive>
 void visit(Archive& archive, BindAsset& command) {
@@ -191,21 +303,31 @@ template <RecordTag tag, Status (*call)(World&, BodyId)>
 Status apply(World& world, OnBody<tag, call>& command) {
   return call(world, command.id);
 }
-inline Status apply(World& world, SetPose& command) {
-  return set_pose(world, command.id, command.position, command.rotation);
+template <RecordTag tag, Status (*call)(World&, BodyId, const Position&, const Quat&)>
+Status apply(World& world, ToPose<tag, call>& command) {
+  return call(world, command.id, command.position, command.rotation);
 }
 inline Status apply(World& world, SetVelocity& command) {
   return set_velocity(world, command.id, command.velocity, command.spin);
 }
-inline Status apply(World& world, ApplyImpulseAt& command) {
-  return apply_impulse_at(world, command.id, command.impulse, command.arm);
+template <RecordTag tag, class Place, Status (*call)(World&, BodyId, const Vec3<Scaled>&, const Place&)>
+Status apply(World& world, PushAt<tag, Place, call>& command) {
+  return call(world, command.id, command.push, command.place);
 }
 template <RecordTag tag, Status (*call)(World&, BodyId, const Vec3<Scaled>&)>
 Status apply(World& world, Push<tag, call>& command) {
   return call(world, command.id, command.push);
 }
 inline Status apply(World& world, SetGravity& command) { return set_gravity(world, command.gravity); }
-inline Status apply(World& world, SetUserData& command) { return set_user_data(world, command.id, command.user_data); }
+template <RecordTag tag, class Value, auto call>
+Status apply(World& world, SetValue<tag, Value, call>& command) {
+  return call(world, command.id, command.value);
+}
+inline Status apply(World& world, SetDamping& command) {
+  return set_damping(world, command.id, command.linear, command.angular);
+}
+inline Status apply(World& world, SetSettings& command) { return set_settings(world, command.def); }
+inline Status apply(World& world, Explode& command) { return explode(world, command.explosion); }
 inline Status apply(World& world, BindAsset& command) { return bind_asset(world, command.index); }
 
 template <class Command, class Visitor>
@@ -247,6 +369,34 @@ bool with_command(RecordTag tag, const Visitor& visitor) {
       return visit_new<WakeBody>(visitor);
     case RecordTag::put_to_sleep:
       return visit_new<PutToSleep>(visitor);
+    case RecordTag::set_type:
+      return visit_new<SetType>(visitor);
+    case RecordTag::set_shape:
+      return visit_new<SetShape>(visitor);
+    case RecordTag::set_mass:
+      return visit_new<SetMass>(visitor);
+    case RecordTag::set_density:
+      return visit_new<SetDensity>(visitor);
+    case RecordTag::set_material:
+      return visit_new<SetMaterial>(visitor);
+    case RecordTag::set_damping:
+      return visit_new<SetDamping>(visitor);
+    case RecordTag::set_gravity_scale:
+      return visit_new<SetGravityScale>(visitor);
+    case RecordTag::set_turn_locks:
+      return visit_new<SetTurnLocks>(visitor);
+    case RecordTag::set_settings:
+      return visit_new<SetSettings>(visitor);
+    case RecordTag::apply_force_at:
+      return visit_new<ApplyForceAt>(visitor);
+    case RecordTag::apply_force_at_point:
+      return visit_new<ApplyForceAtPoint>(visitor);
+    case RecordTag::apply_impulse_at_point:
+      return visit_new<ApplyImpulseAtPoint>(visitor);
+    case RecordTag::explode:
+      return visit_new<Explode>(visitor);
+    case RecordTag::move_kinematic:
+      return visit_new<MoveKinematic>(visitor);
     case RecordTag::tick:
     case RecordTag::tick_digested:
       break;

@@ -193,6 +193,76 @@ Status Recorder::bind_asset(uint32_t index) {
   return apply_and_log(command);
 }
 
+Status Recorder::set_type(BodyId id, BodyType type) {
+  SetType command{id, type};
+  return apply_and_log(command);
+}
+
+Status Recorder::set_shape(BodyId id, const Shape& shape) {
+  SetShape command{id, shape};
+  return apply_and_log(command);
+}
+
+Status Recorder::set_mass(BodyId id, Scaled mass) {
+  SetMass command{id, mass};
+  return apply_and_log(command);
+}
+
+Status Recorder::set_density(BodyId id, Scaled density) {
+  SetDensity command{id, density};
+  return apply_and_log(command);
+}
+
+Status Recorder::set_material(BodyId id, const Material& material) {
+  SetMaterial command{id, material};
+  return apply_and_log(command);
+}
+
+Status Recorder::set_damping(BodyId id, Real linear, Real angular) {
+  SetDamping command{id, linear, angular};
+  return apply_and_log(command);
+}
+
+Status Recorder::set_gravity_scale(BodyId id, Real scale) {
+  SetGravityScale command{id, scale};
+  return apply_and_log(command);
+}
+
+Status Recorder::set_turn_locks(BodyId id, uint32_t locks) {
+  SetTurnLocks command{id, locks};
+  return apply_and_log(command);
+}
+
+Status Recorder::set_settings(const WorldDef& def) {
+  SetSettings command{def};
+  return apply_and_log(command);
+}
+
+Status Recorder::apply_force_at(BodyId id, const Vec3<Scaled>& force, const Vec3<Real>& arm) {
+  ApplyForceAt command{id, force, arm};
+  return apply_and_log(command);
+}
+
+Status Recorder::apply_force_at_point(BodyId id, const Vec3<Scaled>& force, const Position& point) {
+  ApplyForceAtPoint command{id, force, point};
+  return apply_and_log(command);
+}
+
+Status Recorder::apply_impulse_at_point(BodyId id, const Vec3<Scaled>& impulse, const Position& point) {
+  ApplyImpulseAtPoint command{id, impulse, point};
+  return apply_and_log(command);
+}
+
+Status Recorder::explode(const Explosion& explosion) {
+  Explode command{explosion};
+  return apply_and_log(command);
+}
+
+Status Recorder::move_kinematic(BodyId id, const Position& position, const Quat& rotation) {
+  MoveKinematic command{id, position, rotation};
+  return apply_and_log(command);
+}
+
 StepReport Recorder::step() {
   const StepReport report = detent::step(world_);
   if (!recording()) return report;

@@ -70,7 +70,7 @@ bool is_hull(const BodyTraits& traits, AssetTable assets, Span<const AssetState>
 }
 
 bool is_shape(const BodyTraits& traits, AssetTable assets, Span<const AssetState> bound_assets) {
-  if (traits.size_exponent < -14 || traits.size_exponent > 15 || traits.zero != 0) return false;
+  if (traits.size_exponent < -14 || traits.size_exponent > 15 || traits.turn_locks > k_turn_locks_all) return false;
   if (!is_size(traits.size.x) || !is_size(traits.size.y) || !is_size(traits.size.z)) return false;
   const Unit zero = 0.0, smallest = 0x1p-16;
   const Unit bound = traits.bounding_radius;
@@ -107,14 +107,11 @@ bool is_mass_of(const BodyTraits& traits, AssetTable assets, const FeatureTable&
   BodyTraits expected = traits;
   for (Scaled& gyration : expected.gyration) gyration = Scaled(0.0);
   if (!is_dynamic(traits)) {
-    return traits.mass == Scaled(0.0) && traits.gyration[0] == expected.gyration[0] &&
+    return (traits.mass == Scaled(0.0) || is_mass(traits.mass)) && traits.gyration[0] == expected.gyration[0] &&
            traits.gyration[1] == expected.gyration[1] && traits.gyration[2] == expected.gyration[2];
   }
   set_gyration(expected, assets, features);
-  for (const Scaled gyration : expected.gyration) {
-    if (!is_gyration(gyration)) return false;
-  }
-  return is_mass(traits.mass) && traits.gyration[0] == expected.gyration[0] &&
+  return are_gyrations(expected) && is_mass(traits.mass) && traits.gyration[0] == expected.gyration[0] &&
          traits.gyration[1] == expected.gyration[1] && traits.gyration[2] == expected.gyration[2];
 }
 

@@ -111,7 +111,7 @@ inline constexpr Field k_traits_fields[] = {
     DETENT_FIELD(BodyTraits, user_data),
     DETENT_FIELD(BodyTraits, restitution_rule),
     DETENT_FIELD(BodyTraits, asset),
-    DETENT_FIELD(BodyTraits, zero),
+    DETENT_FIELD(BodyTraits, turn_locks),
 };
 inline constexpr Field k_activity_fields[] = {
     DETENT_FIELD(BodyActivity, substeps),

@@ -40,7 +40,7 @@ Status get_mass(const World& world, BodyId id, Scaled& mass) {
   const StateView<const uint8_t> state = view_of(world);
   uint32_t slot = 0;
   if (!find_body(state, id, slot)) return Status::bad_id;
-  mass = state.traits[slot].mass;
+  mass = is_dynamic(state.traits[slot]) ? state.traits[slot].mass : Scaled(0.0);
   return Status::ok;
 }
 

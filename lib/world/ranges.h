@@ -39,6 +39,18 @@ inline bool is_mass(Scaled value) { return is_between(value, Scaled(0x1p-60), Sc
 /// Of a dynamic body: no solid's is below 1, and spin_of() takes what is below 2^30.
 inline bool is_gyration(Scaled value) { return is_between(value, Scaled(1.0), Scaled(0x1.fffffffcp29)); }
 
+inline bool are_gyrations(const BodyTraits& traits) {
+  for (uint32_t axis = 0; axis < 3; ++axis) {
+    const bool locked = (traits.turn_locks >> axis & 1) != 0;
+    if (locked ? !(traits.gyration[axis] == Scaled(0.0)) : !is_gyration(traits.gyration[axis])) return false;
+  }
+  return true;
+}
+
+inline bool is_type(BodyType type) {
+  return type == BodyType::fixed || type == BodyType::kinematic || type == BodyType::dynamic;
+}
+
 inline bool is_rule(RestitutionRule rule) {
   return rule == RestitutionRule::larger || rule == RestitutionRule::smaller;
 }

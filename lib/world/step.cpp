@@ -14,6 +14,7 @@
 #include "dynamics/substeps.h"
 #include "geometry/shape_traits.h"
 #include "world/events.h"
+#include "world/stage_clock.h"
 #include "world/step_cache.h"
 #include "world/step_probe.h"
 
@@ -289,6 +290,7 @@ void report_impacts(const ImpactReport& impacts, StepReport& report) {
 /// The stages of a step, in order. Separate from `step`, so that nothing of it moves across the change of the
 /// floating-point environment.
 __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, StepReport& report) {
+  StageClock clock(world.profile);
   const StateView<uint8_t> state = view_of(world);
   const Scratch scratch = scratch_of(world.block, state.layout, capacity_of(state.header));
   const uint32_t used = state.world.slots_used, before = state.world.contact_count;
@@ -314,6 +316,7 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
     moving = list_moving(cache.visits, scratch.moving_bodies);
     for (const uint32_t slot : moving) bodies.start(settings, slot);
   }
+  clock.end(StepStage::find_pairs);
   const Span<const uint64_t> pairs = pool.pairs();
   const Span<const uint32_t> awake_contacts = list_awake_contacts(cache, state);
   const uint32_t room = state.contacts.count - (before - awake_contacts.count);
@@ -324,16 +327,20 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
                                            scratch.contacts.first(room), manifold_work);
   const Span<ContactWork> contacts = scratch.contacts.first(count.contacts);
   const Span<ContactOrder> order = scratch.contact_order.first(count.contacts);
+  clock.end(StepStage::collide);
 
   report.islands = find_islands(moving, traits, activities, contacts, work, scratch.islands, scratch.island_bodies);
   const Span<Island> islands = scratch.islands.first(report.islands);
   report.colour_overflows = order_contacts(traits, contacts, islands, work, scratch.contact_sort, order);
   estimate_loads(settings, poses, traits, scratch.island_bodies, islands, order, scratch.contact_sort, work, contacts);
   choose_substeps(settings, traits, work, scratch.island_bodies, order, islands, contacts, activities);
+  clock.end(StepStage::islands);
   report.saturations = solve_islands(settings, solver_bodies, islands, scratch, contacts, report);
   report.saturations += carry_all(settings, solver_bodies, moving);
+  clock.end(StepStage::solve);
   const Span<ContactEvent> events = {world.contact_events.data, world.contact_events.capacity};
   EventCount event_count = raise_events(poses, traits, awake_contacts, state.contacts, contacts, events);
+  clock.end(StepStage::events);
   report.saturations += make_sweeps(moving, traits, work, poses, sweeps);
   if (state.world.continuous != 0) {
     const ImpactPairs known = {pairs, contacts, pool.dropped() == 0 && count.dropped == 0};
@@ -347,10 +354,12 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
     add_hits(traits, scratch.impact_hits.first(impacts.hits), events, event_count);
     event_count.dropped += impacts.hits_dropped;
   }
+  clock.end(StepStage::advance);
   report.contact_events = event_count.kept;
   report.contact_events_dropped = events.count == 0 ? 0 : event_count.dropped;
   cache.visits.for_each(
       [&](uint32_t slot) { report.saturations += finalise(traits[slot], sweeps[slot], poses[slot], motions[slot]); });
+  clock.end(StepStage::finalise);
   if (settings.sleeping)
     report.fell_asleep = world.features->sleeping->end_step(settings, traits, poses, islands, scratch.island_bodies,
                                                             motions, activities);
@@ -369,6 +378,7 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   bool moves = false;
   cache.visits.for_each([&](uint32_t slot) { moves = moves || bodies.moving(slot); });
   state.world.idle = moves ? 0 : 1;
+  clock.end(StepStage::store);
 }
 
 StepReport step_with(World& world, ImpactProbe* probe) {

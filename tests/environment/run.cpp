@@ -1,6 +1,10 @@
+#include <detent/body_access.h>
+#include <detent/contacts.h>
 #include <detent/convert.h>
+#include <detent/forces.h>
 #include <detent/recording.h>
 #include <detent/view.h>
+#include <detent/world_access.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -97,10 +101,66 @@ bool convert_and_view() {
   return kept("a view");
 }
 
+/// Changes, pushes and reads that the scenes don't use.
+bool change_and_read() {
+  World world;
+  BodyId ground, crate, lift;
+  BodyDef plane, body;
+  plane.type = BodyType::fixed;
+  plane.shape = half_space();
+  body.position.y = Coord(0.5);
+  body.shape = box({0.5, 0.5, 0.5});
+  body.spin = {0.1, 0.2, 0.3};
+  if (create_world(block, sizeof block, world_of(3, 9), {}, world) != Status::ok ||
+      create_body(world, plane, ground) != Status::ok || create_body(world, body, crate) != Status::ok) {
+    return false;
+  }
+  body.type = BodyType::kinematic;
+  body.position.x = Coord(5.0);
+  if (create_body(world, body, lift) != Status::ok) return false;
+  WorldDef changed = get_settings(world);
+  changed.tick = Real(0.013);
+  const Quat turned = {0.0, 0.6, 0.0, 0.8};
+  for (uint32_t tick = 0; tick < 20; ++tick) {
+    const bool done =
+        apply_force_at(world, crate, {0.7, 0.1, 0.0}, {0.1, 0.2, 0.3}) == Status::ok &&
+        apply_impulse_at_point(world, crate, {0.3, 0.1, 0.0}, {0.0, 0.45, 0.1}) == Status::ok &&
+        explode(world, {{0.1, -0.3, 0.2}, 3.3, 0.7}) == Status::ok &&
+        move_kinematic(world, lift, {5.1, 0.3, 0.7}, turned) == Status::ok &&
+        set_shape(world, lift, cone(0.3, 0.7)) == Status::ok && set_density(world, crate, 3.3) == Status::ok &&
+        set_turn_locks(world, crate, tick % 8) == Status::ok &&
+        set_type(world, lift, tick % 2 == 0 ? BodyType::dynamic : BodyType::kinematic) == Status::ok &&
+        set_type(world, lift, BodyType::kinematic) == Status::ok && set_settings(world, changed) == Status::ok;
+    if (!done || !kept("a change of a body")) return false;
+    step(world);
+    const uint64_t state = digest(world);
+    printf("changed tick %u digest %08lx%08lx", static_cast<unsigned>(tick + 1),
+           static_cast<unsigned long>(state >> 32), static_cast<unsigned long>(state & 0xffffffffu));
+    BodyDef def;
+    Vec3<Scaled> inertia;
+    Vec3<Real> velocity;
+    Contact contact;
+    if (get_body_def(world, crate, def) != Status::ok || get_inertia(world, crate, inertia) != Status::ok ||
+        get_velocity_at(world, crate, {0.1, 0.2, 0.3}, velocity) != Status::ok || !kept("a getter")) {
+      return false;
+    }
+    print_bytes(def.spin);
+    print_bytes(inertia);
+    print_bytes(velocity);
+    if (get_info(world).contacts != 0 && get_contact(world, 0, contact) == Status::ok) {
+      print_bytes(contact.normal);
+      print_bytes(contact.point[0].position);
+      print_bytes(contact.normal_force);
+    }
+    printf("\n");
+  }
+  return kept("a contact read");
+}
+
 bool run() {
   settings = float_settings();
   return run_scene(find_scene("stack")) && run_scene(find_scene("balls")) && run_scene(find_scene("traffic")) &&
-         run_scene(&k_fading) && convert_and_view();
+         run_scene(&k_fading) && change_and_read() && convert_and_view();
 }
 
 }  // namespace

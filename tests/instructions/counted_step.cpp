@@ -19,6 +19,7 @@
 #include "geometry/shape_traits.h"
 #include "timer.h"
 #include "world/events.h"
+#include "world/stage_clock.h"
 #include "world/step_cache.h"
 #include "world/step_probe.h"
 

@@ -64,6 +64,7 @@ DETENT_TEST(replay_round_trip, every_command_survives_writing_and_reading) {
   create.def.angular_damping = Real(1.5);
   create.def.gravity_scale = Real(-2.0);
   create.def.user_data = 0xdeadbeef;
+  create.def.turn_locks = 6;
   expect_round_trip(create);
   create.def.shape = rounded(hull(0x12345678), Real(0.375));
   expect_round_trip(create);
@@ -80,12 +81,33 @@ DETENT_TEST(replay_round_trip, every_command_survives_writing_and_reading) {
   expect_round_trip(BindAsset{0x12345678});
   expect_round_trip(WakeBody{k_id});
   expect_round_trip(PutToSleep{k_id});
+  expect_round_trip(SetType{k_id, BodyType::kinematic});
+  expect_round_trip(SetShape{k_id, rounded(box({Real(0.25), Real(0.5), Real(2.0)}), Real(0.125))});
+  expect_round_trip(SetMass{k_id, Scaled(1e-9)});
+  expect_round_trip(SetDensity{k_id, Scaled(7850.0)});
+  expect_round_trip(SetMaterial{k_id, {Real(0.25), Real(0.5), Real(0.125), RestitutionRule::smaller}});
+  expect_round_trip(SetDamping{k_id, Real(0.5), Real(0.25)});
+  expect_round_trip(SetGravityScale{k_id, Real(-2.0)});
+  expect_round_trip(SetTurnLocks{k_id, 5});
+  WorldDef def;
+  def.gravity = k_reals;
+  def.substeps = 0x01020304;
+  def.stabilisation = Stabilisation::post;
+  def.continuous = false;
+  def.reduction = ManifoldReduction::deepest_area;
+  expect_round_trip(SetSettings{def});
+  expect_round_trip(ApplyForceAt{k_id, k_scaled, k_more_reals});
+  expect_round_trip(ApplyForceAtPoint{k_id, k_scaled, k_position});
+  expect_round_trip(ApplyImpulseAtPoint{k_id, k_scaled, k_position});
+  expect_round_trip(Explode{{k_position, Real(3.0), Scaled(-50.0)}});
+  expect_round_trip(MoveKinematic{k_id, k_position, k_rotation});
 }
 
 DETENT_TEST(replay_round_trip, a_tag_of_no_call_is_unknown) {
   const auto nothing = [](auto&) {};
   for (uint32_t tag = 0; tag < 256; ++tag) {
-    EXPECT_EQ(with_command(static_cast<RecordTag>(tag), nothing), (tag >= 1 && tag <= 12) || tag == 15 || tag == 16)
+    EXPECT_EQ(with_command(static_cast<RecordTag>(tag), nothing),
+              (tag >= 1 && tag <= 12) || tag == 15 || tag == 16 || (tag >= 32 && tag <= 45))
         << tag;
   }
 }

@@ -277,7 +277,7 @@ DETENT_TEST(world_shapes, a_snapshot_whose_shapes_are_not_what_create_body_makes
   EXPECT_TRUE(refused(k_prism, [](BodyTraits& body) { body.asset = 2; })) << "not bound";
   EXPECT_TRUE(refused(k_prism, [](BodyTraits& body) { body.asset = 3; })) << "beyond the table";
   EXPECT_TRUE(refused(k_prism, [](BodyTraits& body) { body.asset = 0xffffffff; }));
-  EXPECT_TRUE(refused(k_prism, [](BodyTraits& body) { body.zero = 1; }));
+  EXPECT_TRUE(refused(k_prism, [](BodyTraits& body) { body.turn_locks = 1; })) << "whose gyration is not 0";
   EXPECT_TRUE(refused(k_prism, [](BodyTraits& body) { ++body.size_exponent; }));
   EXPECT_TRUE(refused(k_prism, [](BodyTraits& body) { --body.size_exponent; }));
   EXPECT_TRUE(refused(k_prism, [](BodyTraits& body) { body.size.x = body.size.y; }));

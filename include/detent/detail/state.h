@@ -71,8 +71,8 @@ struct BodyTraits {
   Vec3<Unit> size;    ///< in that unit: half extents; (radius, half length, 0); or of a hull the greatest |x|, |y|, |z|
   Unit bounding_radius;  ///< in that unit, `rounding` included
   Unit rounding;         ///< in that unit: radius of the ball that rounds a box, cylinder, cone or hull, else 0
-  Scaled mass;           ///< kg; 0 if not dynamic
-  Scaled gyration[3];    ///< m (2^size_exponent)^2 / I about each body axis; 0 if not dynamic
+  Scaled mass;           ///< kg; if not dynamic what it would have, or 0
+  Scaled gyration[3];    ///< m (2^size_exponent)^2 / I about each body axis; 0 if locked or not dynamic
   Scaled friction;
   Scaled restitution;
   Scaled rolling_resistance;
@@ -82,7 +82,7 @@ struct BodyTraits {
   uint32_t user_data;
   uint32_t restitution_rule;  ///< RestitutionRule
   uint32_t asset;             ///< of a hull: its index in the world's table; else 0
-  uint32_t zero;
+  uint32_t turn_locks;        ///< k_turn_lock_x, ...: body axes about which it does not turn, whose gyration is 0
 };
 
 /// What a body's island does with its time. All zero for what is not dynamic.

@@ -1,0 +1,39 @@
+#pragma once
+#include <detent/world.h>
+
+/// Shows a world through the caller's functions. Not linked unless called; reads the world only.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// What is drawn: the caller chooses the colours.
+enum class DrawKind : uint32_t { fixed, kinematic, awake, asleep, bounds, contact, normal, velocity };
+
+/// Null functions are left out.
+struct DebugDraw {
+  void* user = nullptr;  ///< given to each function
+  void (*solid)(void* user, BodyId id, const Shape& shape, const Pose& pose, DrawKind kind) = nullptr;
+  void (*line)(void* user, const Position& from, const Position& to, DrawKind kind) = nullptr;
+  void (*point)(void* user, const Position& point, DrawKind kind) = nullptr;
+};
+
+/// Combine with |.
+enum class DrawFlags : uint32_t {
+  none = 0,
+  bodies = 1,      ///< each a solid, of kind fixed, kinematic, awake or asleep
+  bounds = 2,      ///< the twelve edges of each body's axis-aligned bounds; of a half-space none
+  contacts = 4,    ///< each point, and a line along the normal as long as a quarter of the smaller body
+  velocities = 8,  ///< a line from each body that moves to where its centre would be in a tenth of a second
+  all = 15,
+};
+constexpr DrawFlags operator|(DrawFlags a, DrawFlags b) {
+  return static_cast<DrawFlags>(static_cast<uint32_t>(a) | static_cast<uint32_t>(b));
+}
+constexpr bool contains(DrawFlags all, DrawFlags some) {
+  return (static_cast<uint32_t>(some) & ~static_cast<uint32_t>(all)) == 0;
+}
+
+/// Bodies come in slot order, contacts in that of contacts.h.
+void draw(const World& world, const DebugDraw& to, DrawFlags flags = DrawFlags::all);
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

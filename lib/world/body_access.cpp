@@ -1,0 +1,298 @@
+#include <detent/body_access.h>
+
+#include "base/float_environment.h"
+#include "geometry/shape_traits.h"
+#include "world/body_change.h"
+#include "world/body_parts.h"
+#include "world/ranges.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+constexpr Scaled k_default_density = 1000.0;
+
+/// The body for a getter, or null.
+struct Read {
+  StateView<const uint8_t> state;
+  const BodyTraits* traits = nullptr;
+  uint32_t slot = 0;
+
+  Read(const World& world, BodyId id) : state(view_of(world)) {
+    if (find_body(state, id, slot)) traits = &state.traits[slot];
+  }
+};
+
+Real real_from(Scaled value) {
+  bool saturated = false;
+  return to_real(value, saturated);
+}
+
+Shape shape_from(const BodyTraits& traits) {
+  const auto size = [&](Unit value) { return real_from_unit(value, traits.size_exponent); };
+  Shape shape;
+  shape.type = shape_of(traits);
+  shape.rounding = size(traits.rounding);
+  switch (shape.type) {
+    case ShapeType::sphere:
+      shape.radius = size(traits.size.x);
+      break;
+    case ShapeType::capsule:
+    case ShapeType::cylinder:
+    case ShapeType::cone:
+      shape.radius = size(traits.size.x);
+      shape.half_length = size(traits.size.y);
+      break;
+    case ShapeType::box:
+      shape.half_extents = {size(traits.size.x), size(traits.size.y), size(traits.size.z)};
+      break;
+    case ShapeType::hull:
+      shape.asset = traits.asset;
+      break;
+    default:
+      break;
+  }
+  return shape;
+}
+
+Material material_from(const BodyTraits& traits) {
+  return {real_from(traits.friction), real_from(traits.restitution), real_from(traits.rolling_resistance),
+          static_cast<RestitutionRule>(traits.restitution_rule)};
+}
+
+/// A body and its traits as they are to be, checked before it is changed.
+struct Change {
+  StateView<uint8_t> state;
+  bool found = false;
+  uint32_t slot = 0;
+  BodyTraits traits = {};
+  BodyMotion motion = {};
+
+  Change(World& world, BodyId id) : state(view_of(world)) {
+    found = find_body(state, id, slot);
+    if (!found) return;
+    traits = state.traits[slot];
+    motion = state.motions[slot];
+  }
+  const Quat& rotation() const { return state.poses[slot].rotation; }
+  /// Gives the changed traits this spin, in their own unit. Errors: bad_argument, out_of_range.
+  Status turn_with(const Vec3<Real>& spin) {
+    const Real zero = 0.0;
+    const bool turns = !(spin == Vec3<Real>{zero, zero, zero});
+    if (turns && shape_of(traits) == ShapeType::half_space) return Status::bad_argument;
+    if (!within(spin, k_spin_max)) return Status::out_of_range;
+    if (!is_dynamic(traits) && !within(spin * traits.bounding_radius, k_speed_max)) return Status::out_of_range;
+    motion.momentum = momentum_of(traits, rotation(), spin);
+    return Status::ok;
+  }
+  void make() {
+    rouse(state, slot);
+    rouse_neighbours(state, slot);
+    state.traits[slot] = traits;
+    state.motions[slot] = motion;
+  }
+  /// As make(), for a body that is another one to its contacts.
+  void make_anew() {
+    end_contacts(state, slot);
+    make();
+  }
+  Status make_if(Status status) {
+    if (status == Status::ok) make();
+    return status;
+  }
+};
+
+/// v 2^power. False if it leaves Real's range.
+bool scale(int power, Vec3<Real>& v) {
+  bool saturated = false;
+  const auto scaled = [&](Real value) { return to_real(scaled_by_power(scaled_from(value), power), saturated); };
+  v = {scaled(v.x), scaled(v.y), scaled(v.z)};
+  return !saturated;
+}
+
+}  // namespace
+
+Status get_body_def(const World& world, BodyId id, BodyDef& def) {
+  const FloatEnvironment environment;
+  const Read body(world, id);
+  if (body.traits == nullptr) return Status::bad_id;
+  const BodyTraits& traits = *body.traits;
+  BodyDef made;
+  if (const Status status = get_velocity(world, id, made.velocity, made.spin); status != Status::ok) return status;
+  made.type = type_of(traits);
+  made.position = body.state.poses[body.slot].position;
+  made.rotation = body.state.poses[body.slot].rotation;
+  made.shape = shape_from(traits);
+  made.material = material_from(traits);
+  made.mass = traits.mass;
+  made.linear_damping = real_from(traits.linear_damping);
+  made.angular_damping = real_from(traits.angular_damping);
+  made.gravity_scale = real_from(traits.gravity_scale);
+  made.user_data = traits.user_data;
+  made.turn_locks = traits.turn_locks;
+  def = made;
+  return Status::ok;
+}
+
+Status get_type(const World& world, BodyId id, BodyType& type) {
+  const Read body(world, id);
+  if (body.traits == nullptr) return Status::bad_id;
+  type = type_of(*body.traits);
+  return Status::ok;
+}
+
+Status get_shape(const World& world, BodyId id, Shape& shape) {
+  const FloatEnvironment environment;
+  const Read body(world, id);
+  if (body.traits == nullptr) return Status::bad_id;
+  shape = shape_from(*body.traits);
+  return Status::ok;
+}
+
+Status get_material(const World& world, BodyId id, Material& material) {
+  const Read body(world, id);
+  if (body.traits == nullptr) return Status::bad_id;
+  material = material_from(*body.traits);
+  return Status::ok;
+}
+
+Status get_damping(const World& world, BodyId id, Real& linear, Real& angular) {
+  const Read body(world, id);
+  if (body.traits == nullptr) return Status::bad_id;
+  linear = real_from(body.traits->linear_damping);
+  angular = real_from(body.traits->angular_damping);
+  return Status::ok;
+}
+
+Status get_gravity_scale(const World& world, BodyId id, Real& gravity_scale) {
+  const Read body(world, id);
+  if (body.traits == nullptr) return Status::bad_id;
+  gravity_scale = real_from(body.traits->gravity_scale);
+  return Status::ok;
+}
+
+Status get_turn_locks(const World& world, BodyId id, uint32_t& locks) {
+  const Read body(world, id);
+  if (body.traits == nullptr) return Status::bad_id;
+  locks = body.traits->turn_locks;
+  return Status::ok;
+}
+
+Status get_inertia(const World& world, BodyId id, Vec3<Scaled>& inertia) {
+  const FloatEnvironment environment;
+  const Read body(world, id);
+  if (body.traits == nullptr) return Status::bad_id;
+  const Scaled scaled_mass = scaled_by_power(body.traits->mass, 2 * body.traits->size_exponent);
+  const auto about = [&](int axis) { return multiply(scaled_mass, inertia_about(*body.traits, axis)); };
+  inertia = {about(0), about(1), about(2)};
+  return Status::ok;
+}
+
+Status get_velocity_at(const World& world, BodyId id, const Vec3<Real>& arm, Vec3<Real>& velocity) {
+  const FloatEnvironment environment;
+  const Read body(world, id);
+  if (body.traits == nullptr) return Status::bad_id;
+  const int exponent = body.traits->size_exponent + 1;  // in halves of the unit: twice the radius fits a Unit
+  if (!within(arm, real_from_unit(body.traits->bounding_radius, exponent))) return Status::out_of_range;
+  const BodyMotion& motion = body.state.motions[body.slot];
+  const Vec3<Unit> halved = {unit_from_real(arm.x, exponent), unit_from_real(arm.y, exponent),
+                             unit_from_real(arm.z, exponent)};
+  const Vec3<Real> half = cross(spin_of(*body.traits, body.state.poses[body.slot].rotation, motion.momentum), halved);
+  if (!within(half, Real(56000.0))) return Status::out_of_range;  // of which twice, and a velocity, is a Real
+  velocity =
+      motion.velocity + Vec3<Real>{scale_by_power(half.x, 1), scale_by_power(half.y, 1), scale_by_power(half.z, 1)};
+  return Status::ok;
+}
+
+Status set_type(World& world, BodyId id, BodyType type) {
+  const FloatEnvironment environment;
+  Change change(world, id);
+  if (!change.found) return Status::bad_id;
+  BodyTraits& traits = change.traits;
+  if (const Status status = suits(world, shape_of(traits), traits.asset, type); status != Status::ok) return status;
+  if (type == type_of(traits)) return Status::ok;
+  const Vec3<Real> none = {0.0, 0.0, 0.0};
+  const Vec3<Real> spin = type == BodyType::fixed ? none : spin_of(traits, change.rotation(), change.motion.momentum);
+  traits.type = static_cast<uint32_t>(type);
+  if (is_dynamic(traits) && traits.mass == Scaled(0.0)) {
+    if (const Status status = set_body_density(world, k_default_density, traits); status != Status::ok) return status;
+  }
+  if (const Status status = set_body_gyration(world, traits); status != Status::ok) return status;
+  if (const Status status = change.turn_with(spin); status != Status::ok) return status;
+  if (type == BodyType::fixed) change.motion.velocity = none;
+  change.motion.pending_velocity = change.motion.pending_momentum = none;
+  change.make_anew();
+  change.state.activities[change.slot] = BodyActivity{};
+  return Status::ok;
+}
+
+Status set_shape(World& world, BodyId id, const Shape& shape) {
+  const FloatEnvironment environment;
+  Change change(world, id);
+  if (!change.found) return Status::bad_id;
+  BodyTraits& traits = change.traits;
+  const int before = traits.size_exponent;
+  Vec3<Real> spin = spin_of(traits, change.rotation(), change.motion.momentum);
+  if (const Status status = set_body_shape(world, shape, type_of(traits), traits); status != Status::ok) return status;
+  if (const Status status = set_body_gyration(world, traits); status != Status::ok) return status;
+  Vec3<Real>& torque = change.motion.pending_momentum;
+  if (!scale(traits.size_exponent - before, spin) || !scale(before - traits.size_exponent, torque) ||
+      !within(torque, k_spin_work_max) || !within(spin_of(traits, change.rotation(), torque), k_spin_max)) {
+    return Status::out_of_range;
+  }
+  if (const Status status = change.turn_with(spin); status != Status::ok) return status;
+  change.make_anew();
+  return Status::ok;
+}
+
+Status set_mass(World& world, BodyId id, Scaled mass) {
+  Change change(world, id);
+  if (!change.found) return Status::bad_id;
+  if (!is_mass(mass)) return Status::out_of_range;
+  change.traits.mass = mass;
+  change.make();
+  return Status::ok;
+}
+
+Status set_density(World& world, BodyId id, Scaled density) {
+  const FloatEnvironment environment;
+  Change change(world, id);
+  if (!change.found) return Status::bad_id;
+  if (shape_of(change.traits) == ShapeType::half_space) return Status::bad_argument;
+  return change.make_if(set_body_density(world, density, change.traits));
+}
+
+Status set_material(World& world, BodyId id, const Material& material) {
+  Change change(world, id);
+  if (!change.found) return Status::bad_id;
+  return change.make_if(set_body_material(material, change.traits));
+}
+
+Status set_damping(World& world, BodyId id, Real linear, Real angular) {
+  Change change(world, id);
+  if (!change.found) return Status::bad_id;
+  return change.make_if(set_body_damping(linear, angular, change.traits));
+}
+
+Status set_gravity_scale(World& world, BodyId id, Real gravity_scale) {
+  Change change(world, id);
+  if (!change.found) return Status::bad_id;
+  return change.make_if(set_body_gravity_scale(gravity_scale, change.traits));
+}
+
+Status set_turn_locks(World& world, BodyId id, uint32_t locks) {
+  const FloatEnvironment environment;
+  Change change(world, id);
+  if (!change.found) return Status::bad_id;
+  BodyTraits& traits = change.traits;
+  if (const Status status = set_body_turn_locks(locks, traits); status != Status::ok) return status;
+  if (const Status status = set_body_gyration(world, traits); status != Status::ok) return status;
+  BodyMotion& motion = change.motion;
+  motion.momentum = without_locked(traits, change.rotation(), motion.momentum);
+  motion.pending_momentum = without_locked(traits, change.rotation(), motion.pending_momentum);
+  change.make();
+  return Status::ok;
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

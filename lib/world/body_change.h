@@ -1,0 +1,45 @@
+#pragma once
+#include "collision/contact_cache.h"
+#include "dynamics/activity.h"
+#include "world/step_cache.h"
+
+/// What a call that changes bodies between steps owes to the steps.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// What changes a body from outside wakes it.
+inline void rouse(StateView<uint8_t>& state, uint32_t slot) {
+  const StepCacheView step = cache_of(state);
+  state.world.idle = 0;
+  if (wake_all_with(slot, state.activities, step.visits) != 0) step.cache.contacts_known = 0;
+  state.activities[slot].still_ticks = 0;
+  step.visits.set(slot);
+}
+/// And what takes it away wakes those it touches.
+inline void rouse_neighbours(StateView<uint8_t>& state, uint32_t slot) {
+  for (const ContactState& contact : state.contacts.first(state.world.contact_count)) {
+    if (contact.body_a == slot) rouse(state, contact.body_b);
+    if (contact.body_b == slot) rouse(state, contact.body_a);
+  }
+}
+/// Wakes all, for what they rest by has changed.
+inline void rouse_world(StateView<uint8_t>& state) {
+  state.world.idle = 0;
+  const StepCacheView step = cache_of(state);
+  step.cache.contacts_known = 0;
+  for (uint32_t slot = 0; slot < state.world.slots_used; ++slot) {
+    BodyActivity& activity = state.activities[slot];
+    if (activity.asleep != 0) step.visits.set(slot);
+    activity.asleep = activity.still_ticks = 0;
+  }
+}
+/// The body is no longer what its contacts were made with.
+inline void end_contacts(StateView<uint8_t>& state, uint32_t slot) {
+  rouse(state, slot);
+  rouse_neighbours(state, slot);
+  state.world.contact_count = remove_contacts(slot, state.contacts.first(state.world.contact_count), state.manifolds);
+  cache_of(state).cache.contacts_known = 0;
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,35 @@
+#pragma once
+#include <detent/world.h>
+
+#include "world/view.h"
+
+/// The parts of a body, checked: what creating one and changing one share.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// Whether a body of this type may have the shape. Errors: bad_argument; of a hull out_of_range, asset_missing.
+Status suits(const World& world, ShapeType shape, uint32_t asset, BodyType type);
+/// The shape's part of `traits` for a body of this type. Errors: bad_argument, out_of_range, asset_missing,
+/// feature_missing.
+Status set_body_shape(const World& world, const Shape& shape, BodyType type, BodyTraits& traits);
+/// Sets the gyration, by the shape, the type and the turn locks. Errors: out_of_range.
+Status set_body_gyration(const World& world, BodyTraits& traits);
+/// The mass of the shape at `density`. Errors: out_of_range.
+Status set_body_density(const World& world, Scaled density, BodyTraits& traits);
+/// Errors: bad_argument, out_of_range.
+Status set_body_material(const Material& material, BodyTraits& traits);
+Status set_body_damping(Real linear, Real angular, BodyTraits& traits);
+Status set_body_gravity_scale(Real scale, BodyTraits& traits);
+Status set_body_turn_locks(uint32_t locks, BodyTraits& traits);
+
+/// Errors: out_of_range, not_normalised.
+Status make_pose(const Position& position, const Quat& rotation, BodyPose& pose);
+/// Sets the motion of a body from what a user gives. Errors: bad_argument, out_of_range.
+Status make_motion(const BodyTraits& traits, const Quat& rotation, const Vec3<Real>& velocity, const Vec3<Real>& spin,
+                   BodyMotion& motion);
+
+/// True of a dynamic body's motion that state may hold.
+bool speeds_fit(const BodyTraits& traits, const Quat& rotation, const BodyMotion& motion);
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

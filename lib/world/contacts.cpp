@@ -1,0 +1,92 @@
+#include <detent/contacts.h>
+
+#include "base/float_environment.h"
+#include "collision/collide.h"
+#include "dynamics/spin.h"
+#include "dynamics/step_settings.h"
+#include "geometry/shape_traits.h"
+#include "geometry/sweep.h"
+#include "world/view.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+/// Of the lighter dynamic body: what the impulses of a contact are over.
+Scaled reference_mass(const BodyTraits& a, const BodyTraits& b) {
+  if (!is_dynamic(a)) return b.mass;
+  return is_dynamic(b) && less(b.mass, a.mass) ? b.mass : a.mass;
+}
+
+/// Where the points are now: those that may have parted a little in the last step too.
+ContactGeometry geometry_of(const World& world, const StateView<const uint8_t>& state, const ContactState& contact) {
+  const BodyPose &pose_a = state.poses[contact.body_a], &pose_b = state.poses[contact.body_b];
+  const BodyTraits &a = state.traits[contact.body_a], &b = state.traits[contact.body_b];
+  const Matrix3 axes_a = matrix_from(pose_a.rotation), axes_b = matrix_from(pose_b.rotation);
+  const Real reach = scale_by_power(min(shape_extent(a), shape_extent(b)), -2);
+  ContactGeometry geometry;
+  collide({pose_a, a, axes_a}, {pose_b, b, axes_b}, reach, geometry, world.assets,
+          static_cast<ManifoldReduction>(state.world.reduction), *world.features);
+  return geometry;
+}
+
+}  // namespace
+
+Status get_contact(const World& world, uint32_t index, Contact& contact) {
+  const FloatEnvironment environment;
+  const StateView<const uint8_t> state = view_of(world);
+  if (index >= state.world.contact_count) return Status::out_of_range;
+  const ContactState& from = state.contacts[index];
+  const BodyTraits &a = state.traits[from.body_a], &b = state.traits[from.body_b];
+  const uint32_t mover = is_dynamic(a) ? from.body_a : from.body_b;
+  const uint32_t substeps = state.activities[mover].substeps;
+  const Scaled none = 0.0, scale = multiply(reference_mass(a, b), scaled_from_count(substeps));
+  const auto impulse = [&](Real speed) { return multiply(scaled_from(speed), scale); };
+
+  Contact made;
+  made.a = {from.body_a + 1, a.generation};
+  made.b = {from.body_b + 1, b.generation};
+  made.touching = from.touching != 0;
+  made.age = from.age;
+  made.friction_impulse = {impulse(from.friction_impulse.x), impulse(from.friction_impulse.y),
+                           impulse(from.friction_impulse.z)};
+  made.normal_impulse = none;
+  for (uint32_t i = 0; i < from.point_count; ++i)
+    made.normal_impulse = add(made.normal_impulse, impulse(from.normal_impulse[i]));
+  made.normal_force = divide(made.normal_impulse, scaled_from(state.world.tick_time));
+
+  const ContactGeometry geometry = geometry_of(world, state, from);
+  const bool by_a = is_dynamic(a);  // whose centre the points are written from: a half-space's may be far
+  const Position& centre = state.poses[mover].position;
+  const int exponent = state.traits[mover].size_exponent;
+  if (geometry.count != 0) made.normal = geometry.normal;
+  made.point_count = geometry.count;
+  for (uint32_t i = 0; i < geometry.count; ++i) {
+    const Vec3<Unit>& arm = by_a ? geometry.point[i].arm_a : geometry.point[i].arm_b;
+    ContactPoint& point = made.point[i];
+    point.position = moved(
+        centre, {real_from_unit(arm.x, exponent), real_from_unit(arm.y, exponent), real_from_unit(arm.z, exponent)});
+    point.separation = geometry.point[i].separation;
+    point.feature = geometry.point[i].feature;
+    point.normal_impulse = none;
+    for (uint32_t k = 0; k < from.point_count; ++k) {
+      if (from.feature[k] == point.feature) point.normal_impulse = impulse(from.normal_impulse[k]);
+    }
+  }
+  contact = made;
+  return Status::ok;
+}
+
+uint32_t next_contact(const World& world, BodyId id, uint32_t index) {
+  const StateView<const uint8_t> state = view_of(world);
+  const uint32_t count = state.world.contact_count;
+  uint32_t slot = 0;
+  if (!find_body(state, id, slot)) return count;
+  for (; index < count; ++index) {
+    if (state.contacts[index].body_a == slot || state.contacts[index].body_b == slot) return index;
+  }
+  return count;
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

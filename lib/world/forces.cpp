@@ -1,0 +1,233 @@
+#include <detent/forces.h>
+
+#include "base/float_environment.h"
+#include "world/body_change.h"
+#include "world/body_parts.h"
+#include "world/ranges.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+constexpr Vec3<Real> k_still = {0.0, 0.0, 0.0};
+
+/// An impulse, N s, over the mass times a power of two, as a speed. False if it leaves Real's range.
+bool speed_from(const Vec3<Scaled>& impulse, Scaled mass, int exponent, Vec3<Real>& speed) {
+  bool saturated = false;
+  const Scaled over = scaled_by_power(mass, exponent);
+  speed = {to_real(divide(impulse.x, over), saturated), to_real(divide(impulse.y, over), saturated),
+           to_real(divide(impulse.z, over), saturated)};
+  return !saturated;
+}
+
+/// A dynamic body and its change of motion, checked before it is made.
+struct Push {
+  StateView<uint8_t> state;
+  uint32_t slot = 0;
+  BodyMotion motion = {};
+
+  Status find(BodyId id, const Vec3<Scaled>& cause) {
+    if (!find_body(state, id, slot)) return Status::bad_id;
+    if (!is_dynamic(state.traits[slot])) return Status::bad_argument;
+    if (!is_number(cause)) return Status::out_of_range;
+    motion = state.motions[slot];
+    return Status::ok;
+  }
+  const BodyTraits& traits() const { return state.traits[slot]; }
+  /// A change of velocity at `arm`, m from the centre of mass, world axes. Errors: out_of_range.
+  Status push_at(const Vec3<Real>& speed, const Vec3<Real>& arm, Vec3<Real>& velocity, Vec3<Real>& momentum) const {
+    const int exponent = traits().size_exponent;
+    if (!within(arm, real_from_unit(traits().bounding_radius, exponent + 1))) return Status::out_of_range;
+    if (!within(speed, k_speed_work_max)) return Status::out_of_range;
+    // In halves of the unit of length, so that an arm of twice the radius fits a Unit.
+    const Vec3<Unit> arm_halved = {unit_from_real(arm.x, exponent + 1), unit_from_real(arm.y, exponent + 1),
+                                   unit_from_real(arm.z, exponent + 1)};
+    const Vec3<Real> turn = cross(arm_halved, speed);
+    velocity += speed;
+    momentum += Vec3<Real>{scale_by_power(turn.x, 1), scale_by_power(turn.y, 1), scale_by_power(turn.z, 1)};
+    return Status::ok;
+  }
+  Vec3<Real> arm_to(const Position& point) const {
+    const Position& at = state.poses[slot].position;
+    return {real_difference(point.x, at.x), real_difference(point.y, at.y), real_difference(point.z, at.z)};
+  }
+  bool fits() {
+    const Quat& rotation = state.poses[slot].rotation;
+    motion.momentum = without_locked(traits(), rotation, motion.momentum);
+    motion.pending_momentum = without_locked(traits(), rotation, motion.pending_momentum);
+    const BodyMotion pending = {motion.pending_velocity, motion.pending_momentum, k_still, k_still};
+    return speeds_fit(traits(), rotation, motion) && speeds_fit(traits(), rotation, pending);
+  }
+  void make() {
+    state.motions[slot] = motion;
+    rouse(state, slot);
+  }
+  Status commit() {
+    if (!fits()) return Status::out_of_range;
+    make();
+    return Status::ok;
+  }
+};
+
+Vec3<Scaled> over_tick(const Vec3<Scaled>& force, const WorldState& world) {
+  const Scaled time = scaled_from(world.tick_time);
+  return {multiply(force.x, time), multiply(force.y, time), multiply(force.z, time)};
+}
+
+Status impulse_at(Push& push, const Vec3<Scaled>& impulse, const Vec3<Real>& arm) {
+  Vec3<Real> speed;
+  if (!speed_from(impulse, push.traits().mass, 0, speed)) return Status::out_of_range;
+  const Status status = push.push_at(speed, arm, push.motion.velocity, push.motion.momentum);
+  return status == Status::ok ? push.commit() : status;
+}
+
+Status force_at(Push& push, const Vec3<Scaled>& force, const Vec3<Real>& arm) {
+  Vec3<Real> speed;
+  if (!speed_from(over_tick(force, push.state.world), push.traits().mass, 0, speed)) return Status::out_of_range;
+  const Status status = push.push_at(speed, arm, push.motion.pending_velocity, push.motion.pending_momentum);
+  return status == Status::ok ? push.commit() : status;
+}
+
+/// What an explosion gives a dynamic body, N s; zero if it does not reach it.
+Vec3<Scaled> blast(const Explosion& explosion, const BodyTraits& traits, const Vec3<Real>& way) {
+  const Scaled none = 0.0, pi = 3.14159265358979323846;
+  const Real zero = 0.0, ball = real_from_unit(traits.bounding_radius, traits.size_exponent);
+  Vec3<Unit> direction;
+  Real distance = zero;
+  // Far components first: their length would not fit.
+  if (!within(way, explosion.radius + ball) || !normalise(way, direction, distance)) return {none, none, none};
+  const Real gap = max(distance - ball, zero);
+  if (gap >= explosion.radius) return {none, none, none};
+  const Scaled area = multiply(pi, multiply(scaled_from(ball), scaled_from(ball)));
+  const Scaled share = divide(scaled_from(explosion.radius - gap), scaled_from(explosion.radius));
+  const Scaled size = multiply(multiply(explosion.impulse, area), share);
+  return {multiply(size, scaled_from(direction.x)), multiply(size, scaled_from(direction.y)),
+          multiply(size, scaled_from(direction.z))};
+}
+
+}  // namespace
+
+Status apply_force(World& world, BodyId id, const Vec3<Scaled>& force) {
+  const FloatEnvironment environment;
+  Push push = {view_of(world)};
+  if (const Status status = push.find(id, force); status != Status::ok) return status;
+  Vec3<Real> speed;
+  if (!speed_from(over_tick(force, push.state.world), push.traits().mass, 0, speed)) return Status::out_of_range;
+  push.motion.pending_velocity += speed;
+  return push.commit();
+}
+
+Status apply_torque(World& world, BodyId id, const Vec3<Scaled>& torque) {
+  const FloatEnvironment environment;
+  Push push = {view_of(world)};
+  if (const Status status = push.find(id, torque); status != Status::ok) return status;
+  Vec3<Real> speed;
+  const int exponent = push.traits().size_exponent;
+  if (!speed_from(over_tick(torque, push.state.world), push.traits().mass, exponent, speed))
+    return Status::out_of_range;
+  push.motion.pending_momentum += speed;
+  return push.commit();
+}
+
+Status apply_impulse(World& world, BodyId id, const Vec3<Scaled>& impulse) {
+  const Vec3<Real> centre = {0.0, 0.0, 0.0};
+  return apply_impulse_at(world, id, impulse, centre);
+}
+
+Status apply_impulse_at(World& world, BodyId id, const Vec3<Scaled>& impulse, const Vec3<Real>& arm) {
+  const FloatEnvironment environment;
+  Push push = {view_of(world)};
+  if (const Status status = push.find(id, impulse); status != Status::ok) return status;
+  return impulse_at(push, impulse, arm);
+}
+
+Status apply_impulse_at_point(World& world, BodyId id, const Vec3<Scaled>& impulse, const Position& point) {
+  const FloatEnvironment environment;
+  Push push = {view_of(world)};
+  if (const Status status = push.find(id, impulse); status != Status::ok) return status;
+  return is_position(point) ? impulse_at(push, impulse, push.arm_to(point)) : Status::out_of_range;
+}
+
+Status apply_force_at(World& world, BodyId id, const Vec3<Scaled>& force, const Vec3<Real>& arm) {
+  const FloatEnvironment environment;
+  Push push = {view_of(world)};
+  if (const Status status = push.find(id, force); status != Status::ok) return status;
+  return force_at(push, force, arm);
+}
+
+Status apply_force_at_point(World& world, BodyId id, const Vec3<Scaled>& force, const Position& point) {
+  const FloatEnvironment environment;
+  Push push = {view_of(world)};
+  if (const Status status = push.find(id, force); status != Status::ok) return status;
+  return is_position(point) ? force_at(push, force, push.arm_to(point)) : Status::out_of_range;
+}
+
+Status apply_angular_impulse(World& world, BodyId id, const Vec3<Scaled>& impulse) {
+  const FloatEnvironment environment;
+  Push push = {view_of(world)};
+  if (const Status status = push.find(id, impulse); status != Status::ok) return status;
+  Vec3<Real> speed;
+  if (!speed_from(impulse, push.traits().mass, push.traits().size_exponent, speed)) return Status::out_of_range;
+  push.motion.momentum += speed;
+  return push.commit();
+}
+
+Status explode(World& world, const Explosion& explosion) {
+  const FloatEnvironment environment;
+  if (!is_position(explosion.centre) || !within(explosion.radius, Real(0x1p-14), Real(0x1p14)) ||
+      !is_number(explosion.impulse)) {
+    return Status::out_of_range;
+  }
+  const StateView<uint8_t> state = view_of(world);
+  // Once to see whether all speeds stay in range, and then to push.
+  for (int round = 0; round < 2; ++round) {
+    for (uint32_t slot = 0; slot < state.world.slots_used; ++slot) {
+      const BodyTraits& traits = state.traits[slot];
+      if (!is_dynamic(traits)) continue;
+      Push push = {state, slot, state.motions[slot]};
+      const Vec3<Scaled> impulse = blast(explosion, traits, -push.arm_to(explosion.centre));
+      if (impulse == Vec3<Scaled>{Scaled(0.0), Scaled(0.0), Scaled(0.0)}) continue;
+      Vec3<Real> speed;
+      if (!speed_from(impulse, traits.mass, 0, speed) || !within(speed, k_speed_work_max)) return Status::out_of_range;
+      push.motion.velocity += speed;
+      if (!push.fits()) return Status::out_of_range;
+      if (round == 1) push.make();
+    }
+  }
+  return Status::ok;
+}
+
+Status move_kinematic(World& world, BodyId id, const Position& position, const Quat& rotation) {
+  const FloatEnvironment environment;
+  StateView<uint8_t> state = view_of(world);
+  uint32_t slot = 0;
+  if (!find_body(state, id, slot)) return Status::bad_id;
+  const BodyTraits& traits = state.traits[slot];
+  if (type_of(traits) != BodyType::kinematic) return Status::bad_argument;
+  BodyPose target{};
+  if (const Status status = make_pose(position, rotation, target); status != Status::ok) return status;
+  const BodyPose& pose = state.poses[slot];
+  Vec3<Real> way = {real_difference(position.x, pose.position.x), real_difference(position.y, pose.position.y),
+                    real_difference(position.z, pose.position.z)};
+#if defined(DETENT_FX32)
+  const auto rest = [&](int i) {
+    return Real::from_raw(static_cast<int64_t>(pose.remainder[i]) << (Real::k_frac - 32));
+  };
+  way -= Vec3<Real>{rest(0), rest(1), rest(2)};
+#endif
+  const Quat turn = multiply(target.rotation, conjugate(pose.rotation));
+  const Vec3<Real> angle = target.rotation == pose.rotation ? k_still : rotation_vector(turn);
+  const auto over_time = [&](const Vec3<Real>& v) {
+    const Real time = state.world.tick_time;
+    return Vec3<Real>{divide(v.x, time), divide(v.y, time), divide(v.z, time)};
+  };
+  BodyMotion motion = state.motions[slot];
+  const Status status = make_motion(traits, pose.rotation, over_time(way), over_time(angle), motion);
+  if (status != Status::ok) return status;
+  state.motions[slot] = motion;
+  rouse(state, slot);
+  return Status::ok;
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent
