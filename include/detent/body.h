@@ -1,4 +1,5 @@
 #pragma once
+#include <detent/filter.h>
 #include <detent/id.h>
 #include <detent/scaled.h>
 #include <detent/shape.h>
@@ -42,7 +43,8 @@ struct BodyDef {
   Real linear_damping = 0.0;   ///< 1/s, [0, 1024]
   Real angular_damping = 0.0;  ///< 1/s, [0, 1024]
   Real gravity_scale = 1.0;    ///< [-1024, 1024]
-  uint32_t user_data = 0;      ///< kept, digested and recorded; never read
+  uint32_t user_data = 0;      ///< kept, digested and recorded; read by filter rules alone
+  Filter filter = {};
 };
 
 }  // namespace DETENT_NAMESPACE

@@ -89,6 +89,7 @@ class Recorder {
   Status wake_body(BodyId id);
   Status put_to_sleep(BodyId id);
   Status set_user_data(BodyId id, uint32_t user_data);
+  Status set_filter(BodyId id, const Filter& filter);
   Status bind_asset(uint32_t index);
   /// Steps the world, and logs the tick and, every `digest_interval` ticks, the digest.
   StepReport step();

@@ -26,6 +26,8 @@ enum class RecordTag : uint8_t {
   tick_digested = 14,  ///< a step, and the digest after it
   wake_body = 15,
   put_to_sleep = 16,
+  set_filter = 48,
+  query = 49,  ///< a query and the digest of its answer (lib/replay/query_command.h), after their length
 };
 
 struct CreateBody {
@@ -80,6 +82,11 @@ struct SetUserData {
   BodyId id = {};
   uint32_t user_data = 0;
 };
+struct SetFilter {
+  static constexpr RecordTag k_tag = RecordTag::set_filter;
+  BodyId id = {};
+  Filter filter = {};
+};
 struct BindAsset {
   static constexpr RecordTag k_tag = RecordTag::bind_asset;
   uint32_t index = 0;
@@ -118,6 +125,16 @@ void visit(Archive& archive, Material& material) {
 }
 
 template <class Archive>
+void visit(Archive& archive, Filter& filter) {
+  visit_word(archive, "category", filter.category);
+  visit_word(archive, "mask", filter.mask);
+  uint32_t group = static_cast<uint32_t>(filter.group);
+  visit_word(archive, "group", group);
+  filter.group = static_cast<int32_t>(group);
+  visit_word(archive, "rule", filter.rule);
+}
+
+template <class Archive>
 void visit(Archive& archive, BodyDef& def) {
   visit_choice(archive, "body type", def.type, BodyType::fixed, BodyType::dynamic);
   visit_number(archive, "position", def.position);
@@ -132,6 +149,7 @@ void visit(Archive& archive, BodyDef& def) {
   visit_number(archive, "angular damping", def.angular_damping);
   visit_number(archive, "gravity scale", def.gravity_scale);
   visit_word(archive, "user data", def.user_data);
+  visit(archive, def.filter);
 }
 
 template <class Archive>
@@ -176,6 +194,11 @@ void visit(Archive& archive, SetUserData& command) {
   visit_word(archive, "user data", command.user_data);
 }
 template <class Archive>
+void visit(Archive& archive, SetFilter& command) {
+  visit(archive, command.id);
+  visit(archive, command.filter);
+}
+template <class Archive>
 void visit(Archive& archive, BindAsset& command) {
   visit_word(archive, "asset index", command.index);
 }
@@ -206,6 +229,7 @@ Status apply(World& world, Push<tag, call>& command) {
 }
 inline Status apply(World& world, SetGravity& command) { return set_gravity(world, command.gravity); }
 inline Status apply(World& world, SetUserData& command) { return set_user_data(world, command.id, command.user_data); }
+inline Status apply(World& world, SetFilter& command) { return set_filter(world, command.id, command.filter); }
 inline Status apply(World& world, BindAsset& command) { return bind_asset(world, command.index); }
 
 template <class Command, class Visitor>
@@ -247,6 +271,9 @@ bool with_command(RecordTag tag, const Visitor& visitor) {
       return visit_new<WakeBody>(visitor);
     case RecordTag::put_to_sleep:
       return visit_new<PutToSleep>(visitor);
+    case RecordTag::set_filter:
+      return visit_new<SetFilter>(visitor);
+    case RecordTag::query:
     case RecordTag::tick:
     case RecordTag::tick_digested:
       break;

@@ -188,6 +188,11 @@ Status Recorder::set_user_data(BodyId id, uint32_t user_data) {
   return apply_and_log(command);
 }
 
+Status Recorder::set_filter(BodyId id, const Filter& filter) {
+  SetFilter command{id, filter};
+  return apply_and_log(command);
+}
+
 Status Recorder::bind_asset(uint32_t index) {
   BindAsset command{index};
   return apply_and_log(command);

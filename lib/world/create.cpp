@@ -1,5 +1,6 @@
 #include "base/digest.h"
 #include "base/float_environment.h"
+#include "collision/pair_filter.h"
 #include "dynamics/activity.h"
 #include "dynamics/solve_quads.h"
 #include "geometry/shape_traits.h"
@@ -17,6 +18,13 @@ constexpr Vec3<Real> k_still = {0.0, 0.0, 0.0};
 bool is_material(const Material& material) {
   return within(material.friction, Real(0.0), k_friction_max) && within(material.restitution, Real(0.0), Real(1.0)) &&
          within(material.rolling_resistance, Real(0.0), Real(1.0));
+}
+
+void set_filter(const Filter& filter, BodyTraits& traits) {
+  traits.category = filter.category;
+  traits.mask = filter.mask;
+  traits.group = filter.group;
+  traits.rule = filter.rule;
 }
 
 /// A hull that the state vouches for and the table holds. Errors: out_of_range, asset_missing, bad_argument.
@@ -47,6 +55,8 @@ Status make_traits(const World& world, const BodyDef& def, BodyTraits& traits) {
       !within(def.gravity_scale, -k_gravity_scale_max, k_gravity_scale_max)) {
     return Status::out_of_range;
   }
+  if (!has_rule(world.filter_rules, def.filter.rule)) return Status::rule_missing;
+  set_filter(def.filter, traits);
   traits.type = static_cast<uint32_t>(def.type);
   if (def.type == BodyType::dynamic) {
     traits.mass = def.mass;
@@ -120,6 +130,16 @@ void rouse_neighbours(StateView<uint8_t>& state, uint32_t slot) {
   for (const ContactState& contact : state.contacts.first(state.world.contact_count)) {
     if (contact.body_a == slot) rouse(state, contact.body_b);
     if (contact.body_b == slot) rouse(state, contact.body_a);
+  }
+}
+
+/// A contact that has become forbidden ends when the step does not find its pair: both bodies must be awake for it.
+void rouse_forbidden(const World& world, StateView<uint8_t>& state, uint32_t slot) {
+  const PairFilter filter = {state.traits, world.filter_rules};
+  for (const ContactState& contact : state.contacts.first(state.world.contact_count)) {
+    if ((contact.body_a != slot && contact.body_b != slot) || filter.allows(contact.body_a, contact.body_b)) continue;
+    rouse(state, contact.body_a);
+    rouse(state, contact.body_b);
   }
 }
 
@@ -378,6 +398,18 @@ Status set_user_data(World& world, BodyId id, uint32_t user_data) {
   uint32_t slot = 0;
   if (!find_body(state, id, slot)) return Status::bad_id;
   state.traits[slot].user_data = user_data;
+  if (world.filter_rules.count != 0) rouse_forbidden(world, state, slot);
+  return Status::ok;
+}
+
+Status set_filter(World& world, BodyId id, const Filter& filter) {
+  StateView<uint8_t> state = view_of(world);
+  uint32_t slot = 0;
+  if (!find_body(state, id, slot)) return Status::bad_id;
+  if (!has_rule(world.filter_rules, filter.rule)) return Status::rule_missing;
+  set_filter(filter, state.traits[slot]);
+  rouse(state, slot);
+  rouse_forbidden(world, state, slot);
   return Status::ok;
 }
 

@@ -88,7 +88,7 @@ Status load(World& world, uint8_t* bytes, uint32_t byte_count) {
   if (byte_count < layout.persistent_bytes) return Status::truncated;
   if (byte_count > layout.persistent_bytes) return Status::corrupt;
   swap_state(bytes, layout);
-  if (const Status status = check_state(bytes, capacity, world.assets, *world.features); status != Status::ok)
+  if (const Status status = check_state(bytes, capacity, world.assets, *world.features, world.filter_rules); status != Status::ok)
     return status;
   memcpy(world.block, bytes, layout.persistent_bytes);
   take_over(world);
@@ -146,7 +146,7 @@ Status load_from(World& world, Status (*read)(void* context, uint32_t offset, ui
     if (header != Status::ok) return fail(header);
   }
   swap_state(world.block, layout);
-  const Status status = check_state(world.block, capacity, world.assets, *world.features);
+  const Status status = check_state(world.block, capacity, world.assets, *world.features, world.filter_rules);
   if (status != Status::ok) return fail(status);
   take_over(world);
   return Status::ok;
