@@ -1,5 +1,5 @@
 #pragma once
-#include <detent/world.h>
+#include <detent/query.h>
 
 /// Recording and replay: a seed snapshot, every mutating call, and a digest per tick, as a stream of small checked
 /// chunks. Format: docs/recording.md. Neither class allocates, seeks or holds more than the caller's buffer.
@@ -91,6 +91,14 @@ class Recorder {
   Status set_user_data(BodyId id, uint32_t user_data);
   Status set_filter(BodyId id, const Filter& filter);
   Status bind_asset(uint32_t index);
+
+  /// The queries change nothing, and are logged with the digest of their answer.
+  Status query_ray(const RayQuery& query, QueryHits hits, QueryReport& report);
+  Status query_cast(const CastQuery& query, QueryHits hits, QueryReport& report);
+  Status query_overlap(const OverlapQuery& query, QueryHits hits, QueryReport& report);
+  Status query_bounds(const BoundsQuery& query, QueryHits hits, QueryReport& report);
+  Status query_closest(const ClosestQuery& query, QueryHits hits, QueryReport& report);
+
   /// Steps the world, and logs the tick and, every `digest_interval` ticks, the digest.
   StepReport step();
 
@@ -99,6 +107,8 @@ class Recorder {
 
   template <class Command>
   Status apply_and_log(Command& command);
+  template <class Command>
+  Status ask_and_log(Command& command, QueryHits hits, QueryReport& report);
   template <class Command>
   void log(Command& command);
   bool recording() const { return state_ == State::recording && status_ == Status::ok; }
@@ -145,6 +155,10 @@ struct ReplayError {
 
 struct Reader;
 
+// The library's own: the way into the code that asks recorded queries again.
+struct QueryRepeater;
+extern const QueryRepeater k_query_repeater;
+
 /// Replays a recording from a stream. Any bytes may come: every length and number is checked before it is used, each
 /// chunk by its CRC-32 before anything in it is read. The first error stays: later calls return it again.
 class Player {
@@ -153,6 +167,10 @@ class Player {
   Player(Source source, uint8_t* buffer, uint32_t buffer_bytes);
   Player(const Player&) = delete;
   Player& operator=(const Player&) = delete;
+
+  /// From now on asks the recorded queries again as well: another answer than the recorded one is digest_differs. If it
+  /// is never called they are passed over, and the program links none of their code.
+  void repeat_queries() { repeater_ = &k_query_repeater; }
 
   /// Reads the header. `info` is filled once its checksum is right, also if this build refuses it by a later check.
   /// Errors: buffer_too_small, bad_argument (opened before), sink_failed, truncated, not_detent, format_unknown,
@@ -191,12 +209,14 @@ class Player {
   Status end_seed();
   Status advance(World* world, TickResult& result);
   Status call(World* world, uint32_t tag, Reader& reader, uint64_t offset);
+  Status query(const World* world, Reader& reader, uint64_t offset);
   Status finish(const World* world, TickResult& made);
   Status compare(const World& world, uint64_t recorded, uint64_t offset, const char* field);
 
   Source source_;
   uint8_t* buffer_;
   uint32_t buffer_bytes_;
+  const QueryRepeater* repeater_ = nullptr;
   State state_ = State::closed;
   RecordingInfo info_ = {};
   ReplayError error_ = {};

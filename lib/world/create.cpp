@@ -27,17 +27,6 @@ void set_filter(const Filter& filter, BodyTraits& traits) {
   traits.rule = filter.rule;
 }
 
-/// A hull that the state vouches for and the table holds. Errors: out_of_range, asset_missing, bad_argument.
-Status find_hull(const World& world, uint32_t asset, BodyType type) {
-  const Span<const AssetState> bound = view_of(world).assets;
-  if (asset >= bound.count) return Status::out_of_range;
-  const AssetKind kind = static_cast<AssetKind>(bound[asset].kind);
-  if (kind == AssetKind::none || !is_in(world.assets, asset)) return Status::asset_missing;
-  if (kind != AssetKind::hull) return Status::bad_argument;
-  const bool principal = hull_view(world.assets.assets[asset].bytes).frame() == HullFrame::principal;
-  return type == BodyType::dynamic && !principal ? Status::bad_argument : Status::ok;
-}
-
 /// Everything about a body that is not where it is and how it moves.
 Status make_traits(const World& world, const BodyDef& def, BodyTraits& traits) {
   if (def.type != BodyType::fixed && def.type != BodyType::kinematic && def.type != BodyType::dynamic) {
