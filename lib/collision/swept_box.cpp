@@ -1,5 +1,6 @@
 #include "collision/swept_box.h"
 
+#include "base/unroll.h"
 #include "math/bits.h"
 #include "proximity/pair.h"
 
@@ -18,6 +19,7 @@ constexpr int k_tolerance_bits = 18;
 
 int64_t grains_of(Coord x) { return integer_from(x) >> k_grain_steps_bits; }
 
+/// Beyond the limit nothing is asked about: the way is shorter.
 int64_t held(int64_t value) {
   return value < -k_place_limit ? -k_place_limit : value > k_place_limit ? k_place_limit : value;
 }
@@ -44,10 +46,21 @@ SweptBox::SweptBox(const Position& centre, const Vec64& half, const Vec64& way, 
   }
   axis_ = k_axes[widest];
   forward_ = ways[widest] > 0;
+  shorten(1.0);
+}
+
+void SweptBox::shorten(Fraction end) {
+  const int64_t part = (end.raw + (int64_t{1} << 32) - 1) >> 32;  // 2^-30, rounded up
+  for (int i = 0; i < 3; ++i) {
+    const int64_t way = way_[i] * part;
+    from_[i] = way < 0 ? way >> 30 : 0;
+    to_[i] = way > 0 ? (way + (int64_t{1} << 30) - 1) >> 30 : 0;
+  }
 }
 
 SweptBox::Place SweptBox::place_of(const Bounds& bounds) const {
   int64_t low[3], high[3], longest = 0;
+  DETENT_UNROLL
   for (int i = 0; i < 3; ++i) {
     // Two grains for the rounding of centre, bounds and positions.
     low[i] = (grains_of(bounds.lower.*k_axes[i]) - centre_[i] - 2) >> grain_shift_;
@@ -57,27 +70,32 @@ SweptBox::Place SweptBox::place_of(const Bounds& bounds) const {
   }
   const int64_t margin = (longest >> k_tolerance_bits) + 1;
   Place place;
+  DETENT_UNROLL
   for (int i = 0; i < 3; ++i) {
-    place.low[i] = held(low[i] - margin - half_[i]);
-    place.high[i] = held(high[i] + margin + half_[i]);
+    place.low[i] = low[i] - margin - half_[i];
+    place.high[i] = high[i] + margin + half_[i];
   }
   return place;
 }
 
-bool SweptBox::meets(const Place& place, Fraction end) const {
-  const int64_t part = (end.raw + (int64_t{1} << 32) - 1) >> 32;  // 2^-30, rounded up
+bool SweptBox::meets(const Place& place) const {
+  DETENT_UNROLL
   for (int i = 0; i < 3; ++i) {
-    const int64_t way = way_[i] * part;
-    const int64_t from = way < 0 ? way >> 30 : 0, to = way > 0 ? (way + (int64_t{1} << 30) - 1) >> 30 : 0;
-    if (to < place.low[i] || place.high[i] < from) return false;
+    if (to_[i] < place.low[i] || place.high[i] < from_[i]) return false;
   }
   // Of the whole line: its distance from the middle across each axis and the way, in halves of a cell.
+  int64_t sum[3], side[3];
+  DETENT_UNROLL
+  for (int i = 0; i < 3; ++i) {
+    const int64_t low = held(place.low[i]), high = held(place.high[i]);
+    sum[i] = low + high;
+    side[i] = high - low;
+  }
+  DETENT_UNROLL
   for (int i = 0; i < 3; ++i) {
     const int y = i == 2 ? 0 : i + 1, z = 3 - i - y;
-    const int64_t across = way_[y] * (place.low[z] + place.high[z]) - way_[z] * (place.low[y] + place.high[y]);
-    const uint64_t room = magnitude_64(way_[y]) * static_cast<uint64_t>(place.high[z] - place.low[z]) +
-                          magnitude_64(way_[z]) * static_cast<uint64_t>(place.high[y] - place.low[y]);
-    if (magnitude_64(across) > room) return false;
+    const uint64_t across = magnitude_64(way_[y] * sum[z] - way_[z] * sum[y]);
+    if (across > magnitude_64(way_[y] * side[z]) + magnitude_64(way_[z] * side[y])) return false;
   }
   return true;
 }
@@ -86,7 +104,7 @@ Fraction SweptBox::entry(const Place& place) const {
   constexpr int k_bits = 33;
   uint64_t latest = 0;
   for (int i = 0; i < 3; ++i) {
-    const int64_t ahead = way_[i] > 0 ? place.low[i] : -place.high[i];
+    const int64_t ahead = held(way_[i] > 0 ? place.low[i] : -place.high[i]);
     if (way_[i] == 0 || ahead <= 0) continue;
     const uint64_t part = (static_cast<uint64_t>(ahead) << k_bits) / magnitude_64(way_[i]);
     latest = part > latest ? part : latest;

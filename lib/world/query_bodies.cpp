@@ -55,6 +55,15 @@ Pose pose_near(const BodyTraits& traits, const BodyPose& pose, const Position& p
   return {moved(place, up * -height), pose.rotation};
 }
 
+Bounds QueryBodies::ball_bounds_of(uint32_t slot) const {
+  const BodyTraits& traits = state.traits[slot];
+  if (shape_of(traits) == ShapeType::half_space) return k_everywhere;
+  const Real ball = real_from_unit(traits.bounding_radius, traits.size_exponent);
+  const Real room = ball + scale_by_power(ball, -20);  // for the rounding of bounds
+  const Vec3<Real> half = {room, room, room};
+  return {moved(state.poses[slot].position, -half), moved(state.poses[slot].position, half)};
+}
+
 Bounds QueryBodies::bounds_of(uint32_t slot) const {
   const BodyTraits& traits = state.traits[slot];
   if (shape_of(traits) == ShapeType::half_space) return k_everywhere;

@@ -42,23 +42,26 @@ struct QueryBodies {
         filter(query_filter) {}
 
   BodyId id_of(uint32_t slot) const { return {slot + 1, state.traits[slot].generation}; }
+  /// Of the body as it is now.
   Bounds bounds_of(uint32_t slot) const;
+  /// Larger, and cheap.
+  Bounds ball_bounds_of(uint32_t slot) const;
 
   /// Visits the bodies that may be at bounds of which `meets` is true; it may become stricter on the way. Only reads
   /// the world: what lies in the tree is found there, if it is up to date, but for what has changed since.
   template <class Meets, class Swaps, class Visit>
   void for_each(const Meets& meets, const Swaps& swaps, const Visit& visit) const {
-    const auto visit_there = [&](uint32_t slot) {
-      if (asks(slot)) visit(slot);
+    const auto look_at = [&](uint32_t slot) {
+      if (asks(slot) && meets(ball_bounds_of(slot))) visit(slot);
     };
     if (cache.cache.fresh == 0) {
-      for (uint32_t slot = 0; slot < state.world.slots_used; ++slot) visit_there(slot);
+      for (uint32_t slot = 0; slot < state.world.slots_used; ++slot) look_at(slot);
       return;
     }
     cache.tree.walk(meets, swaps, [&](uint32_t slot) {
-      if (!cache.visits.has(slot)) visit_there(slot);
+      if (!cache.visits.has(slot) && asks(slot)) visit(slot);
     });
-    cache.visits.for_each(visit_there);
+    cache.visits.for_each(look_at);
   }
 
  private:

@@ -62,17 +62,18 @@ Status cast(const World& world, const QueryShape& shape, const Motion& motion, c
   if (!normalise_input(motion.start.rotation, unit)) return Status::not_normalised;
   Vec64 way;
   if (!raw_from_real(motion.displacement, way)) return Status::out_of_range;
-  const SweptBox box(motion.start.position, half_of(shape, motion, unit), way, 0);
+  SweptBox box(motion.start.position, half_of(shape, motion, unit), way, 0);
   const QueryBodies bodies(world, filter);
   HitCollector hits(all, out, k_whole_step, Real(0.0));
-  bodies.for_each([&](const Bounds& bounds) { return box.meets(box.place_of(bounds), hits.end()); },
+  bodies.for_each([&](const Bounds& bounds) { return box.meets(box.place_of(bounds)); },
                   [&](const Bounds& a, const Bounds& b) { return box.is_ahead(a, b); },
                   [&](uint32_t slot) {
                     if (hits.rules_out(slot)) return;
                     const SweptBox::Place place = box.place_of(bodies.bounds_of(slot));
                     QueryHit hit;
-                    if (!box.meets(place, hits.end())) return;
-                    if (cast_at(bodies, slot, shape, motion, box.entry(place), hit)) hits.add(hit);
+                    if (!box.meets(place) || !cast_at(bodies, slot, shape, motion, box.entry(place), hit)) return;
+                    hits.add(hit);
+                    box.shorten(hits.end());
                   });
   hits.finish(report);
   return Status::ok;

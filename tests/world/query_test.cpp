@@ -507,7 +507,7 @@ DETENT_TEST(query, a_ray_over_a_thousand_resting_bodies_looks_at_few_of_them) {
   cache.tree.walk(
       [&](const Bounds& bounds) {
         ++looks;
-        return box_there.meets(box_there.place_of(bounds), 1.0);
+        return box_there.meets(box_there.place_of(bounds));
       },
       [&](const Bounds& a, const Bounds& b) { return box_there.is_ahead(a, b); }, [&](uint32_t) { ++found; });
   EXPECT_LT(looks, 400u);
