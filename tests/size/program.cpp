@@ -103,6 +103,9 @@ bool run() {
     Recorder recorder(world, {forget, nullptr}, buffer, sizeof buffer);
     good = recorder.begin() == Status::ok && run(recorder) && recorder.end() == Status::ok;
     Player player({nothing, nullptr}, buffer, sizeof buffer);
+#if DETENT_SIZE_QUERIES
+    player.repeat_queries();
+#endif
     TickResult result;
     good = good && player.open() == Status::truncated && player.start(world) == Status::truncated &&
            player.next_tick(world, result) == Status::truncated;
