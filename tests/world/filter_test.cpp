@@ -165,6 +165,33 @@ DETENT_TEST(filter, what_may_not_touch_is_no_pair_and_takes_no_room) {
   EXPECT_EQ(report.contacts, 0u);
 }
 
+DETENT_TEST(filter, what_rebounds_within_a_tick_passes_through_what_it_may_not_touch) {
+  WorldDef world;
+  world.gravity = {0.0, 0.0, 0.0};
+  const auto end_of = [&](uint32_t mask) {
+    Lab lab({3, 8, 0}, world);
+    const double planes[] = {0, -5};
+    for (const double x : planes) {
+      BodyDef plane;
+      plane.type = BodyType::fixed;
+      plane.shape = box(reals(0.01, 4, 4));
+      plane.position = position(x, 0, 0);
+      plane.filter.mask = x < 0 ? mask : ~0u;
+      lab.add(plane);
+    }
+    BodyDef ball;
+    ball.shape = sphere(real(0.125));
+    ball.position = position(-2, 1, 0.5);
+    ball.velocity = reals(600, 0, 0);
+    ball.material.restitution = real(1);
+    const BodyId id = lab.add(ball);
+    lab.run(1);
+    return lab.motion(id).position[0];
+  };
+  EXPECT_GT(end_of(1), -5);
+  EXPECT_NEAR(end_of(2), -8, 0.5);
+}
+
 DETENT_TEST(filter, a_sleeper_is_not_woken_by_what_may_not_touch_it) {
   Sleepers sleepers;
   BodyDef def = box_at(0.5, {2, ~0u, 0, 0});
