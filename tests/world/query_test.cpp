@@ -343,6 +343,103 @@ DETENT_TEST(query, what_is_grazed_within_the_tolerance_is_never_ruled_out_by_its
   EXPECT_GT(misses, 50u * detent_oracle::rounds(600) / 600);
 }
 
+DETENT_TEST(query, an_undecided_answer_does_not_depend_on_what_the_world_keeps_either) {
+  const Capacity capacity = {40, 1, 0};
+  uint32_t undecided = 0, decided = 0;
+  for (uint32_t round = 0; round < detent_oracle::rounds(12); ++round) {
+    Samples samples = {900 + round};
+    Place kept(capacity), forgets(capacity);
+    for (int i = 0; i < 30; ++i) {
+      BodyDef def;
+      def.type = BodyType::fixed;
+      def.shape = box(reals_near({{0.01, 2, 0.01}}));
+      def.position = any_position(samples, 5);
+      def.rotation = rotation_near(any_rotation(samples));
+      kept.add(def);
+    }
+    step(kept.world);
+    forgets.words = kept.words;
+    forget_steps(forgets.world);
+    for (int i = 0; i < 20; ++i) {
+      // Rods that turn hundreds of times on their way meet the caps.
+      CastQuery cast;
+      cast.shape = box(reals_near({{0.01, 1, 0.01}}));
+      cast.position = any_position(samples, 8);
+      cast.rotation = rotation_near(any_rotation(samples));
+      cast.way = reals_near(any_direction(samples) * uniform(samples, 0, 16));
+      cast.turn = reals_near(any_direction(samples) * uniform(samples, 1000, 30000));
+      const Answer all = ask(query_cast, kept.world, cast), first = ask(query_cast, kept.world, cast, false);
+      EXPECT_EQ(all.report.digest, ask(query_cast, forgets.world, cast).report.digest);
+      EXPECT_EQ(first.report.digest, ask(query_cast, forgets.world, cast, false).report.digest);
+      ASSERT_EQ(first.hits.empty(), all.hits.empty());
+      if (all.hits.empty()) continue;
+      EXPECT_TRUE(same(first.hits[0], all.hits[0]));
+      undecided += first.report.undecided;
+      decided += 1 - first.report.undecided;
+    }
+  }
+  EXPECT_GT(undecided, 3 * detent_oracle::rounds(12));
+  EXPECT_GT(decided, 0u);
+}
+
+/// Draws without a libm.
+uint64_t digest_of_fixed_answers() {
+  Samples samples = {4711};
+  const Quat rotations[] = {{Unit(0.0), Unit(0.0), Unit(0.0), Unit(1.0)},
+                            {Unit(0.6), Unit(0.0), Unit(0.8), Unit(0.0)},
+                            {Unit(0.48), Unit(0.6), Unit(0.0), Unit(0.64)},
+                            {Unit(-0.5), Unit(0.5), Unit(0.5), Unit(0.5)}};
+  const Shape shapes[] = {sphere(Real(0.375)),
+                          capsule(Real(0.25), Real(0.5)),
+                          box({Real(0.5), Real(0.25), Real(0.75)}),
+                          cylinder(Real(0.5), Real(0.25)),
+                          cone(Real(0.5), Real(0.5)),
+                          hull(0),
+                          rounded(hull(1), Real(0.125))};
+  const auto place = [&] {
+    const double x = samples.below(320) / 32.0, y = samples.below(320) / 32.0, z = samples.below(320) / 32.0;
+    return Vector{{x, y, z}};
+  };
+  Place world({60, 1, 2});
+  BodyDef def;
+  def.type = BodyType::fixed;
+  for (int i = 0; i < 60; ++i) {
+    def.shape = shapes[samples.below(7)];
+    def.rotation = rotations[samples.below(4)];
+    def.position = position_near(place());
+    world.add(def);
+  }
+  uint64_t sum = 0;
+  for (int i = 0; i < 60; ++i) {
+    CastQuery cast;
+    cast.shape = shapes[samples.below(7)];
+    cast.rotation = rotations[samples.below(4)];
+    const Vector from = place(), to = place();
+    cast.position = position_near(from);
+    cast.way = reals_near(to - from);
+    if (i % 2 == 0) cast.turn = reals_near(place() * 0.25);
+    sum = sum * 31 + ask(query_cast, world.world, cast).report.digest;
+    sum = sum * 31 + ask(query_ray, world.world, RayQuery{cast.position, cast.way}, i % 4 != 0).report.digest;
+    sum = sum * 31 +
+          ask(query_overlap, world.world, OverlapQuery{cast.shape, cast.position, cast.rotation}).report.digest;
+    sum = sum * 31 + ask(query_closest, world.world, ClosestQuery{cast.shape, cast.position, cast.rotation, Real(2.5)})
+                         .report.digest;
+  }
+  return sum;
+}
+
+DETENT_TEST(query, answers_are_the_same_on_every_target) {
+#if defined(DETENT_FX64)
+  EXPECT_EQ(digest_of_fixed_answers(), 0u);
+#elif defined(DETENT_FX32)
+  EXPECT_EQ(digest_of_fixed_answers(), 0u);
+#elif defined(DETENT_F32)
+  EXPECT_EQ(digest_of_fixed_answers(), 0u);
+#else
+  EXPECT_EQ(digest_of_fixed_answers(), 0u);
+#endif
+}
+
 /// Boxes in a row along x, at 2, 4, 6 and so on.
 Place make_row(uint32_t count) {
   Place place({count, 1, 2});
