@@ -51,7 +51,7 @@ void HitCollector::add(const QueryHit& hit) {
   first_ = hit;
   count_ = 1;
   undecided_ = hit.undecided ? 1 : 0;
-  // One that is undecided rules out nothing: of those that lie behind it what is told depends on their bounds.
+  // One that is undecided rules out nothing: it comes after others that are as near.
   if (hit.undecided) return;
   end_ = hit.fraction;
   reach_ = hit.distance;
