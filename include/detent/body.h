@@ -1,4 +1,5 @@
 #pragma once
+#include <detent/filter.h>
 #include <detent/id.h>
 #include <detent/scaled.h>
 #include <detent/shape.h>
@@ -54,6 +55,8 @@ struct BodyDef {
   Real gravity_scale = 1.0;    ///< [-1024, 1024]
   uint32_t user_data = 0;      ///< kept, digested and recorded; never read
   uint32_t turn_locks = 0;     ///< k_turn_lock_x, ...: axes of the body about which it does not turn
+  uint32_t user_data = 0;      ///< kept, digested and recorded; read by filter rules alone
+  Filter filter = {};
 };
 
 }  // namespace DETENT_NAMESPACE

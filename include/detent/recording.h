@@ -2,6 +2,7 @@
 #include <detent/body_access.h>
 #include <detent/forces.h>
 #include <detent/world_access.h>
+#include <detent/query.h>
 
 /// @file
 /// Recording and replay: a seed snapshot, every mutating call, and a digest per tick, as a stream of small checked
@@ -99,6 +100,7 @@ class Recorder {
   Status wake_body(BodyId id);
   Status put_to_sleep(BodyId id);
   Status set_user_data(BodyId id, uint32_t user_data);
+  Status set_filter(BodyId id, const Filter& filter);
   Status bind_asset(uint32_t index);
   Status set_type(BodyId id, BodyType type);
   Status set_shape(BodyId id, const Shape& shape);
@@ -123,6 +125,8 @@ class Recorder {
 
   template <class Command>
   Status apply_and_log(Command& command);
+  template <class Command>
+  Status ask_and_log(Command& command, QueryHits hits, QueryReport& report);
   template <class Command>
   void log(Command& command);
   bool recording() const { return state_ == State::recording && status_ == Status::ok; }
@@ -171,6 +175,10 @@ struct ReplayError {
 struct Reader;
 /// @endcond
 
+// The library's own: the way into the code that asks recorded queries again.
+struct QueryRepeater;
+extern const QueryRepeater k_query_repeater;
+
 /// Replays a recording from a stream. Any bytes may come: every length and number is checked before it is used, each
 /// chunk by its CRC-32 before anything in it is read. The first error stays: later calls return it again.
 class Player {
@@ -179,6 +187,10 @@ class Player {
   Player(Source source, uint8_t* buffer, uint32_t buffer_bytes);
   Player(const Player&) = delete;
   Player& operator=(const Player&) = delete;
+
+  /// From now on asks the recorded queries again as well: another answer than the recorded one is digest_differs. If it
+  /// is never called they are passed over, and the program links none of their code.
+  void repeat_queries() { repeater_ = &k_query_repeater; }
 
   /// Reads the header. `info` is filled once its checksum is right, also if this build refuses it by a later check.
   /// Errors: buffer_too_small, bad_argument (opened before), sink_failed, truncated, not_detent, format_unknown,
@@ -219,12 +231,14 @@ class Player {
   Status end_seed();
   Status advance(World* world, TickResult& result);
   Status call(World* world, uint32_t tag, Reader& reader, uint64_t offset);
+  Status query(const World* world, Reader& reader, uint64_t offset);
   Status finish(const World* world, TickResult& made);
   Status compare(const World& world, uint64_t recorded, uint64_t offset, const char* field);
 
   Source source_;
   uint8_t* buffer_;
   uint32_t buffer_bytes_;
+  const QueryRepeater* repeater_ = nullptr;
   State state_ = State::closed;
   RecordingInfo info_ = {};
   ReplayError error_ = {};

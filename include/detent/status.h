@@ -28,6 +28,7 @@ enum class [[nodiscard]] Status : uint32_t{
     digest_differs,      ///< replayed to another state than the recorded one
     sink_failed,         ///< the caller's sink or source reported failure
     feature_missing,     ///< needs what this world's feature table leaves out (features.h)
+    rule_missing,        ///< names a filter rule that World::filter_rules does not hold
 };
 
 /// A few words in English that name the status, for messages. Never null.

@@ -80,6 +80,7 @@ struct World {
   const FeatureTable* features = nullptr;  ///< what create_world() was given
   uint32_t lanes =
       1;  ///< contacts that the solver takes at once, 1 or as many as this machine can: the bits are the same
+  FilterRuleTable filter_rules = {};  ///< what Filter::rule means; none by default. Set it before any body names one
   Profile* profile = nullptr;  ///< times of the stages of each step (profile.h)
 };
 
@@ -141,7 +142,7 @@ Status create_world(uint8_t* block, uint32_t block_bytes, const WorldDef& def, A
 
 /// Makes a body in the lowest free slot; it takes part in the next step.
 /// Errors: pool_full, bad_argument, out_of_range, not_normalised; asset_missing (a hull that is not bound);
-/// feature_missing.
+/// feature_missing; rule_missing.
 Status create_body(World& world, const BodyDef& def, BodyId& id);
 /// Takes a body away; its contacts end at once, and whom it touched wakes. Errors: bad_id.
 Status destroy_body(World& world, BodyId id);
@@ -173,6 +174,9 @@ Status wake_body(World& world, BodyId id);
 Status put_to_sleep(World& world, BodyId id);
 /// Gives a body another BodyDef::user_data; wakes nobody. Errors: bad_id.
 Status set_user_data(World& world, BodyId id, uint32_t user_data);
+/// Wakes the body. Contacts that are no longer allowed end in the next step, and the other bodies in them wake.
+/// Errors: bad_id, rule_missing.
+Status set_filter(World& world, BodyId id, const Filter& filter);
 /// Binds the table's asset `index` to the state by its content digest; a cooked hull is checked in full.
 /// Errors: asset_missing, out_of_range, asset_mismatch (bodies have the hull that it was), feature_missing (hulls).
 Status bind_asset(World& world, uint32_t index);
@@ -192,6 +196,8 @@ Status get_velocity(const World& world, BodyId id, Vec3<Real>& velocity, Vec3<Re
 Status get_mass(const World& world, BodyId id, Scaled& mass);
 /// BodyDef::user_data, or what set_user_data() made of it. Errors: bad_id.
 Status get_user_data(const World& world, BodyId id, uint32_t& user_data);
+Status get_filter(const World& world, BodyId id, Filter& filter);
+/// Fixed bodies, and kinematic ones that stand still, are never awake. Errors: bad_id.
 /// Whether a body takes part in the next step. Fixed bodies, and kinematic ones that stand still, are never awake.
 /// Errors: bad_id.
 Status is_awake(const World& world, BodyId id, bool& awake);
@@ -213,7 +219,7 @@ Status save(const World& world, uint8_t* bytes, uint32_t byte_count);
 Status restore(World& world, const uint8_t* bytes, uint32_t byte_count);
 /// Puts back a snapshot from outside: every byte is checked before the world is touched. `bytes` is used as work space
 /// (8-byte aligned) and its content is unspecified afterwards.
-/// Errors: as restore, and buffer_misaligned, corrupt, asset_missing, asset_mismatch.
+/// Errors: as restore, and buffer_misaligned, corrupt, asset_missing, asset_mismatch, rule_missing.
 Status load(World& world, uint8_t* bytes, uint32_t byte_count);
 
 }  // namespace DETENT_NAMESPACE

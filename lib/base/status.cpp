@@ -43,6 +43,8 @@ const char* status_text(Status status) {
       return "digest differs";
     case Status::feature_missing:
       return "a feature that is not linked";
+    case Status::rule_missing:
+      return "filter rule missing";
     case Status::sink_failed:
       return "reading or writing failed";
   }

@@ -16,6 +16,13 @@ inline int64_t integer_from(Coord x) {
 #endif
 }
 
+/// Its step is 2^-k_coord_bits m.
+#if defined(DETENT_F64)
+inline constexpr int k_coord_bits = 20;
+#else
+inline constexpr int k_coord_bits = Coord::k_frac;
+#endif
+
 inline constexpr Coord Position::*k_axes[] = {&Position::x, &Position::y, &Position::z};
 
 }  // namespace DETENT_NAMESPACE

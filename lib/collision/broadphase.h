@@ -1,6 +1,7 @@
 #pragma once
 #include "base/heap.h"
 #include "base/span.h"
+#include "collision/pair_filter.h"
 #include "collision/resting_tree.h"
 
 /// Which bodies are near each other. Those that move are sorted and swept among themselves; each of them asks the tree
@@ -27,13 +28,15 @@ struct DeeperPair {
 /// The pairs of a step. Where there are more than it has room for the deepest are kept, in whatever order they come.
 struct PairPool {
   Span<const BodyTraits> traits;
+  PairFilter filter;
   Span<const Bounds> bounds;
   Span<uint64_t> spare;  ///< work space as large as the pool
   SmallestOf<uint64_t, DeeperPair> found;
 
   PairPool(Span<const BodyPose> body_poses, Span<const BodyTraits> body_traits, Span<const Bounds> body_bounds,
-           Span<uint64_t> sort_space, Span<uint64_t> storage)
+           Span<uint64_t> sort_space, Span<uint64_t> storage, const FilterRuleTable& rules = {})
       : traits(body_traits),
+        filter{body_traits, rules},
         bounds(body_bounds),
         spare(sort_space),
         found{storage, {body_poses, body_traits, body_bounds}} {}
@@ -42,7 +45,7 @@ struct PairPool {
   Span<const uint64_t> pairs() const { return found.storage.first(found.count); }
   uint32_t dropped() const { return found.dropped; }
 
-  /// Takes the pair if one of the two is dynamic and their bounds overlap.
+  /// Takes the pair if one of the two is dynamic, their bounds overlap and they may touch.
   void consider(uint32_t a, uint32_t b);
   void sort();
   /// Between sort() and the next pairs.

@@ -33,13 +33,28 @@ struct RestingTree {
   /// Visits the slots of all bodies whose bounds overlap `box`. `visit` must leave the tree as it is.
   template <class Visit>
   void for_each_near(const Bounds& box, const Visit& visit) const {
+    const auto meets = [&](const Bounds& bounds_there) {
+      ++root.visited;
+      return overlap(bounds_there, box);
+    };
+    walk(
+        meets, [](const Bounds&, const Bounds&) { return false; }, visit);
+  }
+
+  /// Visits the slots of all bodies that `meets(bounds)`, asked of all that is around them as well, does not rule out,
+  /// and changes nothing. Of two branches the second comes first if `swaps(bounds of the first, of the second)`, which
+  /// must always say the same.
+  template <class Meets, class Swaps, class Visit>
+  void walk(const Meets& meets, const Swaps& swaps, const Visit& visit) const {
     if (root.link == 0) return;
+    const auto first_of = [&](const TreeNode& node) {
+      return node.child[swaps(bounds_of(node.child[0]), bounds_of(node.child[1])) ? 1 : 0];
+    };
     uint32_t link = root.link;
     for (;;) {
-      ++root.visited;
-      if (overlap(bounds_of(link), box)) {
+      if (meets(bounds_of(link))) {
         if (!is_leaf(link)) {
-          link = nodes[index_of(link)].child[0];
+          link = first_of(nodes[index_of(link)]);
           continue;
         }
         visit(index_of(link));
@@ -48,8 +63,8 @@ struct RestingTree {
         const uint32_t parent = parent_of(link);
         if (parent == k_above_root) return;
         const TreeNode& node = nodes[parent - k_first_parent];
-        const bool was_first = node.child[0] == link;
-        link = was_first ? node.child[1] : node_link(parent - k_first_parent);
+        const bool was_first = first_of(node) == link;
+        link = was_first ? node.child[node.child[0] == link ? 1 : 0] : node_link(parent - k_first_parent);
         if (was_first) break;
       }
     }

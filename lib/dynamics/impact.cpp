@@ -143,14 +143,15 @@ struct Stage {
     });
   }
 
-  /// Visits all other bodies whose bounds overlap those of `slot`, in the order of their slots.
+  /// Visits all other bodies that may touch `slot` and whose bounds overlap its, in the order of their slots.
   template <class Visit>
   void for_each_near(uint32_t slot, const Visit& visit) {
     find_near(slot);
     bodies.candidates.for_each([&](uint32_t other) {
       bodies.candidates.clear(other);
       // What went before may have stopped either.
-      if (other != slot && overlap(bodies.bounds[slot], bodies.bounds[other])) visit(other);
+      if (other == slot || !overlap(bodies.bounds[slot], bodies.bounds[other])) return;
+      if (PairFilter{bodies.traits, bodies.filter_rules}.allows(slot, other)) visit(other);
     });
   }
 

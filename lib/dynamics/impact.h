@@ -2,6 +2,7 @@
 #include <detent/asset.h>
 #include <detent/detail/scratch.h>
 #include <detent/features.h>
+#include <detent/filter.h>
 
 #include "base/bit_set.h"
 #include "collision/resting_tree.h"
@@ -56,6 +57,7 @@ struct ImpactBodies {
   RestingTree resting;  ///< what is struck leaves it
   BitSet visits;        ///< the bodies that move, and those that are struck or woken
   BitSet candidates;    ///< work space, zero before and after
+  FilterRuleTable filter_rules = {};
 };
 
 /// What the stages before know of the pairs of bodies.

@@ -42,6 +42,8 @@ enum class RecordTag : uint8_t {
   apply_impulse_at_point = 43,
   explode = 44,
   move_kinematic = 45,
+  set_filter = 48,
+  query = 49,  ///< a query and the digest of its answer (lib/replay/query_command.h), after their length
 };
 
 struct CreateBody {
@@ -130,6 +132,11 @@ struct Explode {
   static constexpr RecordTag k_tag = RecordTag::explode;
   Explosion explosion = {};
 };
+struct SetFilter {
+  static constexpr RecordTag k_tag = RecordTag::set_filter;
+  BodyId id = {};
+  Filter filter = {};
+};
 struct BindAsset {
   static constexpr RecordTag k_tag = RecordTag::bind_asset;
   uint32_t index = 0;
@@ -168,6 +175,16 @@ void visit(Archive& archive, Material& material) {
 }
 
 template <class Archive>
+void visit(Archive& archive, Filter& filter) {
+  visit_word(archive, "category", filter.category);
+  visit_word(archive, "mask", filter.mask);
+  uint32_t group = static_cast<uint32_t>(filter.group);
+  visit_word(archive, "group", group);
+  filter.group = static_cast<int32_t>(group);
+  visit_word(archive, "rule", filter.rule);
+}
+
+template <class Archive>
 void visit(Archive& archive, BodyDef& def) {
   visit_choice(archive, "body type", def.type, BodyType::fixed, BodyType::dynamic);
   visit_number(archive, "position", def.position);
@@ -182,6 +199,7 @@ void visit(Archive& archive, BodyDef& def) {
   visit_number(archive, "angular damping", def.angular_damping);
   visit_number(archive, "gravity scale", def.gravity_scale);
   visit_word(archive, "user data", def.user_data);
+  visit(archive, def.filter);
   visit_word(archive, "turn locks", def.turn_locks);
 }
 
@@ -288,6 +306,11 @@ void visit(Archive& archive, Explode& command) {
   visit(archive, command.explosion);
 }
 template <class Archive>
+void visit(Archive& archive, SetFilter& command) {
+  visit(archive, command.id);
+  visit(archive, command.filter);
+}
+template <class Archive>
 void visit(Archive& archive, BindAsset& command) {
   visit_word(archive, "asset index", command.index);
 }
@@ -328,6 +351,8 @@ inline Status apply(World& world, SetDamping& command) {
 }
 inline Status apply(World& world, SetSettings& command) { return set_settings(world, command.def); }
 inline Status apply(World& world, Explode& command) { return explode(world, command.explosion); }
+inline Status apply(World& world, SetUserData& command) { return set_user_data(world, command.id, command.user_data); }
+inline Status apply(World& world, SetFilter& command) { return set_filter(world, command.id, command.filter); }
 inline Status apply(World& world, BindAsset& command) { return bind_asset(world, command.index); }
 
 template <class Command, class Visitor>
@@ -397,6 +422,9 @@ bool with_command(RecordTag tag, const Visitor& visitor) {
       return visit_new<Explode>(visitor);
     case RecordTag::move_kinematic:
       return visit_new<MoveKinematic>(visitor);
+    case RecordTag::set_filter:
+      return visit_new<SetFilter>(visitor);
+    case RecordTag::query:
     case RecordTag::tick:
     case RecordTag::tick_digested:
       break;

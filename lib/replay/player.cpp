@@ -4,6 +4,7 @@
 #include "base/crc.h"
 #include "replay/command.h"
 #include "replay/format.h"
+#include "replay/query_command.h"
 #include "world/snapshot.h"
 
 namespace detent {
@@ -184,14 +185,39 @@ Status Player::compare(const World& world, uint64_t recorded, uint64_t offset, c
   return fail(Status::digest_differs, offset, field);
 }
 
+Status Player::query(const World* world, Reader& reader, uint64_t offset) {
+  uint64_t length = 0;
+  reader.bits("query length", length, 2);
+  reader.require("query length", length <= reader.count - reader.at, Status::corrupt);
+  if (reader.failed != nullptr) return Status::ok;
+  Reader question{reader.bytes, reader.at + static_cast<uint32_t>(length), reader.at};
+  reader.at = question.count;
+  if (repeater_ == nullptr || world == nullptr) return Status::ok;
+  uint64_t recorded = 0, replayed = 0;
+  const Status status = repeater_->repeat(*world, question, recorded, replayed);
+  question.require("query length", question.at == question.count, Status::corrupt);
+  if (question.failed != nullptr) {
+    reader.failed = question.failed;
+    reader.failed_at = question.failed_at;
+    return Status::ok;
+  }
+  if (status == Status::feature_missing) return fail(status, offset, "query");
+  if (status != Status::ok) return fail(Status::digest_differs, offset, "query refused");
+  if (recorded == replayed) return Status::ok;
+  error_.digest_recorded = recorded;
+  error_.digest_replayed = replayed;
+  return fail(Status::digest_differs, offset, "query answer");
+}
+
 Status Player::call(World* world, uint32_t tag, Reader& reader, uint64_t offset) {
+  if (static_cast<RecordTag>(tag) == RecordTag::query) return query(world, reader, offset);
   Status status = Status::ok;
   const bool known = with_command(static_cast<RecordTag>(tag), [&](auto& command) {
     visit(reader, command);
     if (reader.failed != nullptr || world == nullptr) return;
     const BodyId recorded = id_given(command);
     status = apply(*world, command);
-    if (status == Status::feature_missing)
+    if (status == Status::feature_missing || status == Status::rule_missing)
       status = fail(status, offset, "call");
     else if (status != Status::ok)
       status = fail(Status::digest_differs, offset, "call refused");

@@ -4,6 +4,7 @@
 #include "base/crc.h"
 #include "replay/command.h"
 #include "replay/format.h"
+#include "replay/query_command.h"
 #include "world/snapshot.h"
 
 namespace detent {
@@ -11,6 +12,7 @@ inline namespace DETENT_NAMESPACE {
 
 // A record is at most as long as its command, and always fits an empty chunk.
 static_assert(sizeof(CreateBody) + 1 <= k_chunk_payload_bytes_max);
+static_assert(sizeof(CastCommand) + 4 <= k_chunk_payload_bytes_max);
 
 Recorder::Recorder(World& world, Sink sink, uint8_t* buffer, uint32_t buffer_bytes)
     : world_(world), sink_(sink), buffer_(buffer), buffer_bytes_(buffer_bytes) {}
@@ -121,6 +123,18 @@ Status Recorder::apply_and_log(Command& command) {
   return status;
 }
 
+template <class Command>
+Status Recorder::ask_and_log(Command& command, QueryHits hits, QueryReport& report) {
+  Normaliser normaliser;
+  visit(normaliser, command);
+  if (normaliser.status != Status::ok) return normaliser.status;
+  const Status status = Command::k_call(world_, command.query, hits, report);
+  if (status != Status::ok || !recording()) return status;
+  command.digest = report.digest;
+  log(command);
+  return status;
+}
+
 Status Recorder::create_body(const BodyDef& def, BodyId& id) {
   CreateBody command{def, {}};
   const Status status = apply_and_log(command);
@@ -185,6 +199,11 @@ Status Recorder::put_to_sleep(BodyId id) {
 
 Status Recorder::set_user_data(BodyId id, uint32_t user_data) {
   SetUserData command{id, user_data};
+  return apply_and_log(command);
+}
+
+Status Recorder::set_filter(BodyId id, const Filter& filter) {
+  SetFilter command{id, filter};
   return apply_and_log(command);
 }
 
@@ -261,6 +280,29 @@ Status Recorder::explode(const Explosion& explosion) {
 Status Recorder::move_kinematic(BodyId id, const Position& position, const Quat& rotation) {
   MoveKinematic command{id, position, rotation};
   return apply_and_log(command);
+Status Recorder::query_ray(const RayQuery& query, QueryHits hits, QueryReport& report) {
+  RayCommand command{query};
+  return ask_and_log(command, hits, report);
+}
+
+Status Recorder::query_cast(const CastQuery& query, QueryHits hits, QueryReport& report) {
+  CastCommand command{query};
+  return ask_and_log(command, hits, report);
+}
+
+Status Recorder::query_overlap(const OverlapQuery& query, QueryHits hits, QueryReport& report) {
+  OverlapCommand command{query};
+  return ask_and_log(command, hits, report);
+}
+
+Status Recorder::query_bounds(const BoundsQuery& query, QueryHits hits, QueryReport& report) {
+  BoundsCommand command{query};
+  return ask_and_log(command, hits, report);
+}
+
+Status Recorder::query_closest(const ClosestQuery& query, QueryHits hits, QueryReport& report) {
+  ClosestCommand command{query};
+  return ask_and_log(command, hits, report);
 }
 
 StepReport Recorder::step() {

@@ -1,6 +1,7 @@
 #include "world/asset_binding.h"
 
 #include "base/digest.h"
+#include "world/view.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -29,6 +30,16 @@ Status check_assets(AssetTable table, const FeatureTable& features, Span<const A
     }
   }
   return Status::ok;
+}
+
+Status find_hull(const World& world, uint32_t asset, BodyType type) {
+  const Span<const AssetState> bound = view_of(world).assets;
+  if (asset >= bound.count) return Status::out_of_range;
+  const AssetKind kind = static_cast<AssetKind>(bound[asset].kind);
+  if (kind == AssetKind::none || !is_in(world.assets, asset)) return Status::asset_missing;
+  if (kind != AssetKind::hull) return Status::bad_argument;
+  const bool principal = hull_view(world.assets.assets[asset].bytes).frame() == HullFrame::principal;
+  return type == BodyType::dynamic && !principal ? Status::bad_argument : Status::ok;
 }
 
 }  // namespace DETENT_NAMESPACE

@@ -21,5 +21,9 @@ Status describe_asset(AssetTable table, uint32_t index, const HullCode& hulls, A
 /// Compares every bound asset with the table. Errors: asset_missing, asset_mismatch; feature_missing (hulls).
 Status check_assets(AssetTable table, const FeatureTable& features, Span<const AssetState> bound);
 
+/// A hull that the state vouches for and the table holds, for a body of this type.
+/// Errors: out_of_range, asset_missing, bad_argument.
+Status find_hull(const World& world, uint32_t asset, BodyType type);
+
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

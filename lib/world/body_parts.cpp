@@ -16,17 +16,6 @@ bool is_material(const Material& material) {
          within(material.rolling_resistance, Real(0.0), Real(1.0));
 }
 
-/// A hull that the state vouches for and the table holds. Errors: out_of_range, asset_missing, bad_argument.
-Status find_hull(const World& world, uint32_t asset, BodyType type) {
-  const Span<const AssetState> bound = view_of(world).assets;
-  if (asset >= bound.count) return Status::out_of_range;
-  const AssetKind kind = static_cast<AssetKind>(bound[asset].kind);
-  if (kind == AssetKind::none || !is_in(world.assets, asset)) return Status::asset_missing;
-  if (kind != AssetKind::hull) return Status::bad_argument;
-  const bool principal = hull_view(world.assets.assets[asset].bytes).frame() == HullFrame::principal;
-  return type == BodyType::dynamic && !principal ? Status::bad_argument : Status::ok;
-}
-
 }  // namespace
 
 Status suits(const World& world, ShapeType shape, uint32_t asset, BodyType type) {

@@ -1,4 +1,5 @@
 #include "base/float_environment.h"
+#include "collision/pair_filter.h"
 #include "collision/manifold_reuse.h"
 #include "dynamics/activity.h"
 #include "dynamics/substeps.h"
@@ -269,7 +270,8 @@ bool are_assets(const State& state) {
 
 }  // namespace
 
-Status check_state(const uint8_t* block, Capacity capacity, AssetTable assets, const FeatureTable& features) {
+Status check_state(const uint8_t* block, Capacity capacity, AssetTable assets, const FeatureTable& features,
+                   const FilterRuleTable& rules) {
   const State state = view_of(block, capacity);
   const WorldState& world = state.world;
   if (!is_reduction(static_cast<ManifoldReduction>(world.reduction)) ||
@@ -287,6 +289,9 @@ Status check_state(const uint8_t* block, Capacity capacity, AssetTable assets, c
   if (!are_bodies(state, assets, features) || !are_contacts(state) || !are_manifolds(state) ||
       (world.idle != 0 && !is_idle(state))) {
     return Status::corrupt;
+  }
+  for (const BodyTraits& traits : state.traits) {
+    if (!has_rule(rules, traits.rule)) return Status::rule_missing;
   }
   return Status::ok;
 }

@@ -1,5 +1,6 @@
 #include "base/digest.h"
 #include "base/float_environment.h"
+#include "collision/pair_filter.h"
 #include "dynamics/activity.h"
 #include "dynamics/solve_quads.h"
 #include "world/asset_binding.h"
@@ -13,6 +14,13 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
+void set_filter(const Filter& filter, BodyTraits& traits) {
+  traits.category = filter.category;
+  traits.mask = filter.mask;
+  traits.group = filter.group;
+  traits.rule = filter.rule;
+}
+
 /// Everything about a body that is not where it is and how it moves.
 Status make_traits(const World& world, const BodyDef& def, BodyTraits& traits) {
   if (const Status status = set_body_shape(world, def.shape, def.type, traits); status != Status::ok) return status;
@@ -21,6 +29,8 @@ Status make_traits(const World& world, const BodyDef& def, BodyTraits& traits) {
     return status;
   if (const Status status = set_body_gravity_scale(def.gravity_scale, traits); status != Status::ok) return status;
   if (const Status status = set_body_turn_locks(def.turn_locks, traits); status != Status::ok) return status;
+  if (!has_rule(world.filter_rules, def.filter.rule)) return Status::rule_missing;
+  set_filter(def.filter, traits);
   traits.type = static_cast<uint32_t>(def.type);
   if (!(def.mass == Scaled(0.0))) {
     if (!is_mass(def.mass)) return Status::out_of_range;
@@ -31,6 +41,16 @@ Status make_traits(const World& world, const BodyDef& def, BodyTraits& traits) {
   if (const Status status = set_body_gyration(world, traits); status != Status::ok) return status;
   traits.user_data = def.user_data;
   return Status::ok;
+}
+
+/// A contact that has become forbidden ends when the step does not find its pair: both bodies must be awake for it.
+void rouse_forbidden(const World& world, StateView<uint8_t>& state, uint32_t slot) {
+  const PairFilter filter = {state.traits, world.filter_rules};
+  for (const ContactState& contact : state.contacts.first(state.world.contact_count)) {
+    if ((contact.body_a != slot && contact.body_b != slot) || filter.allows(contact.body_a, contact.body_b)) continue;
+    rouse(state, contact.body_a);
+    rouse(state, contact.body_b);
+  }
 }
 
 }  // namespace
@@ -149,6 +169,18 @@ Status set_user_data(World& world, BodyId id, uint32_t user_data) {
   uint32_t slot = 0;
   if (!find_body(state, id, slot)) return Status::bad_id;
   state.traits[slot].user_data = user_data;
+  if (world.filter_rules.count != 0) rouse_forbidden(world, state, slot);
+  return Status::ok;
+}
+
+Status set_filter(World& world, BodyId id, const Filter& filter) {
+  StateView<uint8_t> state = view_of(world);
+  uint32_t slot = 0;
+  if (!find_body(state, id, slot)) return Status::bad_id;
+  if (!has_rule(world.filter_rules, filter.rule)) return Status::rule_missing;
+  set_filter(filter, state.traits[slot]);
+  rouse(state, slot);
+  rouse_forbidden(world, state, slot);
   return Status::ok;
 }
 

@@ -1,4 +1,5 @@
 #include "base/float_environment.h"
+#include "collision/pair_filter.h"
 #include "dynamics/activity.h"
 #include "world/view.h"
 
@@ -49,6 +50,14 @@ Status get_user_data(const World& world, BodyId id, uint32_t& user_data) {
   uint32_t slot = 0;
   if (!find_body(state, id, slot)) return Status::bad_id;
   user_data = state.traits[slot].user_data;
+  return Status::ok;
+}
+
+Status get_filter(const World& world, BodyId id, Filter& filter) {
+  const StateView<const uint8_t> state = view_of(world);
+  uint32_t slot = 0;
+  if (!find_body(state, id, slot)) return Status::bad_id;
+  filter = filter_of(state.traits[slot]);
   return Status::ok;
 }
 

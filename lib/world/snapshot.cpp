@@ -88,7 +88,8 @@ Status load(World& world, uint8_t* bytes, uint32_t byte_count) {
   if (byte_count < layout.persistent_bytes) return Status::truncated;
   if (byte_count > layout.persistent_bytes) return Status::corrupt;
   swap_state(bytes, layout);
-  if (const Status status = check_state(bytes, capacity, world.assets, *world.features); status != Status::ok)
+  if (const Status status = check_state(bytes, capacity, world.assets, *world.features, world.filter_rules);
+      status != Status::ok)
     return status;
   memcpy(world.block, bytes, layout.persistent_bytes);
   take_over(world);
@@ -132,7 +133,8 @@ Status load_from(World& world, Status (*read)(void* context, uint32_t offset, ui
     def.capacity = capacity;
     def.continuous = world.features->continuous != nullptr;
     def.sleeping = world.features->sleeping != nullptr;
-    const Status emptied = create_world(world.block, layout.bytes, def, world.assets, world, *world.features);
+    World same;  // what the caller has bound to the handle stays
+    const Status emptied = create_world(world.block, layout.bytes, def, world.assets, same, *world.features);
     return emptied == Status::ok ? status : emptied;
   };
   forget_steps(world);
@@ -146,7 +148,7 @@ Status load_from(World& world, Status (*read)(void* context, uint32_t offset, ui
     if (header != Status::ok) return fail(header);
   }
   swap_state(world.block, layout);
-  const Status status = check_state(world.block, capacity, world.assets, *world.features);
+  const Status status = check_state(world.block, capacity, world.assets, *world.features, world.filter_rules);
   if (status != Status::ok) return fail(status);
   take_over(world);
   return Status::ok;

@@ -16,7 +16,8 @@ Status load_from(World& world, Status (*read)(void* context, uint32_t offset, ui
 
 /// Checks persistent state in the machine's byte order: every value in its range and consistent with the rest, so that
 /// no call on it can misbehave. Errors: as `load`.
-Status check_state(const uint8_t* block, Capacity capacity, AssetTable assets, const FeatureTable& features);
+Status check_state(const uint8_t* block, Capacity capacity, AssetTable assets, const FeatureTable& features,
+                   const FilterRuleTable& rules);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -307,7 +307,7 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   const SolverBodies solver_bodies = {traits, motions, work};
 
   Span<const uint32_t> moving = sort_out(cache, settings, state, scratch.sweeps, scratch.moving_bodies);
-  PairPool pool = {poses, traits, cache.bounds, scratch.pair_sort, scratch.pairs};
+  PairPool pool = {poses, traits, cache.bounds, scratch.pair_sort, scratch.pairs, world.filter_rules};
   find_pairs(moving, cache.tree, scratch.bounds_keys, scratch.bounds_sort, pool);
   pool.sort();
   for (const uint32_t slot : moving) bodies.start(settings, slot);
@@ -344,8 +344,16 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   report.saturations += make_sweeps(moving, traits, work, poses, sweeps);
   if (state.world.continuous != 0) {
     const ImpactPairs known = {pairs, contacts, pool.dropped() == 0 && count.dropped == 0};
-    const ImpactBodies impact_bodies = {traits,     poses,        motions,           sweeps, activities, cache.bounds,
-                                        cache.tree, cache.visits, scratch.candidates};
+    const ImpactBodies impact_bodies = {traits,
+                                        poses,
+                                        motions,
+                                        sweeps,
+                                        activities,
+                                        cache.bounds,
+                                        cache.tree,
+                                        cache.visits,
+                                        scratch.candidates,
+                                        world.filter_rules};
     const ImpactReport impacts =
         world.features->continuous->advance(settings, world.assets, *world.features, known, impact_bodies,
                                             scratch.impact_pairs, scratch.impact_hits, probe);

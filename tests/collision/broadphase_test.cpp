@@ -23,6 +23,12 @@ Crowd random_crowd(Samples& samples, uint32_t count, double room) {
   Crowd crowd;
   for (uint32_t i = 0; i < count; ++i) {
     BodyTraits traits{};
+    traits.category = traits.mask = 1;
+    if (samples.below(4) == 0) {
+      traits.category = 1 + samples.below(3);
+      traits.mask = samples.below(4);
+      traits.group = static_cast<int32_t>(samples.below(5)) - 2;
+    }
     traits.type = samples.below(8) == 0 ? 0 : samples.below(4) == 0 ? 1 + samples.below(2) : 3;
     const auto edge = [&] { return floor(uniform(samples, -room, room) * 4) / 4; };
     const Vector low = {{edge(), edge(), edge()}};
@@ -44,6 +50,12 @@ bool meet(const Bounds& a, const Bounds& b) {
          along(a.lower.z, a.upper.z, b.lower.z, b.upper.z);
 }
 
+/// As filter.h has it.
+bool may_touch(const BodyTraits& a, const BodyTraits& b) {
+  if (a.group != 0 && a.group == b.group) return a.group > 0;
+  return (a.category & b.mask) != 0 && (b.category & a.mask) != 0;
+}
+
 /// The least overlap along an axis, as the specification has it.
 uint64_t depth_of(const Bounds& a, const Bounds& b) {
   uint64_t least = UINT64_MAX;
@@ -63,6 +75,7 @@ std::vector<uint64_t> all_pairs(const Crowd& crowd) {
       if (crowd.traits[a].type == 0 || crowd.traits[b].type == 0) continue;
       if (crowd.rests[a] && crowd.rests[b]) continue;
       if (crowd.traits[a].type != 3 && crowd.traits[b].type != 3) continue;
+      if (!may_touch(crowd.traits[a], crowd.traits[b])) continue;
       if (meet(crowd.bounds[a], crowd.bounds[b])) keys.push_back(uint64_t{a} << 32 | b);
     }
   }

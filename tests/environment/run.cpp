@@ -53,6 +53,27 @@ void build_fading(Recorder& recorder) {
 
 constexpr Scene k_fading = {"fading", "a ball that slows to nothing", k_ticks, fading_world, build_fading, nullptr};
 
+/// A ray, a cast that turns and what is nearest: their answers.
+bool ask(const World& world) {
+  CastQuery cast;
+  cast.shape = box({Real(0.3), Real(0.1), Real(0.7)});
+  cast.position = {Coord(0.1), Coord(8.3), Coord(-0.2)};
+  cast.way = {Real(0.7), Real(-9.1), Real(0.3)};
+  cast.turn = {Real(0.1), Real(1.3), Real(-0.7)};
+  ClosestQuery closest;
+  closest.shape = cast.shape;
+  closest.position = cast.position;
+  closest.all = cast.all = true;
+  QueryReport ray, hit, near;
+  if (query_ray(world, {cast.position, cast.way}, {}, ray) != Status::ok ||
+      query_cast(world, cast, {}, hit) != Status::ok || query_closest(world, closest, {}, near) != Status::ok)
+    return false;
+  const uint64_t sum = ray.digest + 3 * hit.digest + 5 * near.digest;
+  printf("answers %08lx%08lx, %u\n", static_cast<unsigned long>(sum >> 32),
+         static_cast<unsigned long>(sum & 0xffffffffu), static_cast<unsigned>(hit.dropped));
+  return kept("a query");
+}
+
 bool run_scene(const Scene* scene) {
   World world;
   if (scene == nullptr || create_world(block, sizeof block, scene->world(), {}, world) != Status::ok) return false;
@@ -63,7 +84,7 @@ bool run_scene(const Scene* scene) {
     if (scene->before_tick != nullptr) scene->before_tick(recorder, tick);
     all_kept = kept("a change of the world");
     recorder.step();
-    all_kept = all_kept && kept("step");
+    all_kept = all_kept && kept("step") && (tick % 16 != 0 || ask(world));
     const uint64_t state = digest(world);
     printf("%s tick %u digest %08lx%08lx\n", scene->name, static_cast<unsigned>(tick + 1),
            static_cast<unsigned long>(state >> 32), static_cast<unsigned long>(state & 0xffffffffu));

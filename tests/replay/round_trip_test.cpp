@@ -65,6 +65,7 @@ DETENT_TEST(replay_round_trip, every_command_survives_writing_and_reading) {
   create.def.gravity_scale = Real(-2.0);
   create.def.user_data = 0xdeadbeef;
   create.def.turn_locks = 6;
+  create.def.filter = {6, 0x80000001, -7, 3};
   expect_round_trip(create);
   create.def.shape = rounded(hull(0x12345678), Real(0.375));
   expect_round_trip(create);
@@ -81,6 +82,7 @@ DETENT_TEST(replay_round_trip, every_command_survives_writing_and_reading) {
   expect_round_trip(BindAsset{0x12345678});
   expect_round_trip(WakeBody{k_id});
   expect_round_trip(PutToSleep{k_id});
+  expect_round_trip(SetFilter{k_id, {6, 0x80000001, INT32_MIN, 3}});
   expect_round_trip(SetType{k_id, BodyType::kinematic});
   expect_round_trip(SetShape{k_id, rounded(box({Real(0.25), Real(0.5), Real(2.0)}), Real(0.125))});
   expect_round_trip(SetMass{k_id, Scaled(1e-9)});
@@ -107,7 +109,7 @@ DETENT_TEST(replay_round_trip, a_tag_of_no_call_is_unknown) {
   const auto nothing = [](auto&) {};
   for (uint32_t tag = 0; tag < 256; ++tag) {
     EXPECT_EQ(with_command(static_cast<RecordTag>(tag), nothing),
-              (tag >= 1 && tag <= 12) || tag == 15 || tag == 16 || (tag >= 32 && tag <= 45))
+              (tag >= 1 && tag <= 12) || tag == 15 || tag == 16 || (tag >= 32 && tag <= 45) || tag == 48)
         << tag;
   }
 }

@@ -1,3 +1,4 @@
+#include <detent/query.h>
 #include <detent/recording.h>
 #include <ports/machine.h>
 #include <ports/print.h>
@@ -50,6 +51,26 @@ struct Direct {
   StepReport step() { return detent::step(world); }
 };
 
+#if DETENT_SIZE_QUERIES
+bool ask(const World& world) {
+  QueryHit hit;
+  QueryReport report;
+  const QueryHits out = {&hit, 1};
+  const Position above = {0.0, 8.0, 0.0};
+  const Vec3<Real> down = {0.0, -16.0, 0.0};
+  CastQuery cast;
+  cast.position = above;
+  cast.way = down;
+  return query_ray(world, {above, down}, out, report) == Status::ok && report.hits == 1 &&
+         query_cast(world, cast, out, report) == Status::ok && report.hits == 1 &&
+         query_overlap(world, {}, out, report) == Status::ok && report.hits == 1 &&
+         query_bounds(world, {}, out, report) == Status::ok && report.hits == 1 &&
+         query_closest(world, {}, out, report) == Status::ok && report.hits == 1;
+}
+#else
+bool ask(const World&) { return true; }
+#endif
+
 template <class Calls>
 bool run(Calls& calls) {
   BodyDef ground;
@@ -82,6 +103,9 @@ bool run() {
     Recorder recorder(world, {forget, nullptr}, buffer, sizeof buffer);
     good = recorder.begin() == Status::ok && run(recorder) && recorder.end() == Status::ok;
     Player player({nothing, nullptr}, buffer, sizeof buffer);
+#if DETENT_SIZE_QUERIES
+    player.repeat_queries();
+#endif
     TickResult result;
     good = good && player.open() == Status::truncated && player.start(world) == Status::truncated &&
            player.next_tick(world, result) == Status::truncated;
@@ -89,7 +113,7 @@ bool run() {
     Direct direct = {world};
     good = run(direct);
   }
-  return good && get_info(world).contacts != 0 && digest(world) != 0;
+  return good && ask(world) && get_info(world).contacts != 0 && digest(world) != 0;
 }
 #else
 bool run() { return true; }

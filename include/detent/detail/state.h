@@ -68,6 +68,10 @@ struct BodyTraits {
   uint32_t shape;       ///< ShapeType
   int32_t
       size_exponent;  ///< 2^size_exponent m is the body's unit of length: the bounding radius lies in [1/2, 1) of it
+  uint32_t category;  ///< these four: of the body's Filter
+  uint32_t mask;
+  int32_t group;
+  uint32_t rule;
   Vec3<Unit> size;    ///< in that unit: half extents; (radius, half length, 0); or of a hull the greatest |x|, |y|, |z|
   Unit bounding_radius;  ///< in that unit, `rounding` included
   Unit rounding;         ///< in that unit: radius of the ball that rounds a box, cylinder, cone or hull, else 0

@@ -125,6 +125,7 @@ Outcome read_recording(const std::string& path, bool with_world, const Progress&
     WorldDef def;
     def.capacity = player.info().capacity;
     if (owned.create(def) != Status::ok) return failed("not enough memory for its world");
+    player.repeat_queries();
     status = player.start(owned.world);
   }
   const Stopwatch stopwatch;

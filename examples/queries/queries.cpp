@@ -1,0 +1,68 @@
+#include <detent/convert.h>
+#include <detent/query.h>
+#include <stdio.h>
+using namespace detent;
+
+// Who is what: a ray that looks for guards passes through ghosts.
+constexpr uint32_t k_wall = 1, k_guard = 2, k_ghost = 4;
+
+// Ghosts touch what has the same user data, and nothing else. A pure function: replays ask it again.
+bool haunts(const FilterBody& own, const FilterBody& other) { return own.user_data == other.user_data; }
+constexpr FilterRule k_rules[] = {haunts};
+
+int main() {
+  static WorldStorage<Capacity{.bodies = 8, .contacts = 16}> storage;
+  World world;
+  BodyId ground, wall, guard, ghost;
+  if (storage.create({}, world) != Status::ok) return 1;
+  world.filter_rules = {k_rules, 1};
+  BodyDef def = {.type = BodyType::fixed, .shape = half_space()};
+  if (create_body(world, def, ground) != Status::ok) return 1;
+  def = {.type = BodyType::fixed, .position = {4.0, 1.0, 0.0}, .shape = box({0.25, 1.0, 2.0})};
+  if (create_body(world, def, wall) != Status::ok) return 1;
+  def = {.position = {8.0, 1.0, 0.0}, .shape = capsule(0.5, 0.5), .filter = {.category = k_guard}};
+  if (create_body(world, def, guard) != Status::ok) return 1;
+  def = {.position = {2.0, 2.0, 0.0},
+         .shape = sphere(0.5),
+         .gravity_scale = 0.0,
+         .user_data = 13,
+         .filter = {.category = k_ghost, .rule = 1}};
+  if (create_body(world, def, ghost) != Status::ok) return 1;
+  step(world);
+
+  // What is in sight: the first hit, but for ghosts.
+  QueryHit hit;
+  QueryReport report;
+  RayQuery sight = {.origin = {0.0, 1.5, 0.0}, .way = {16.0, 0.0, 0.0}, .filter = {.mask = k_wall | k_guard}};
+  if (query_ray(world, sight, {&hit, 1}, report) != Status::ok || report.hits == 0) return 1;
+  printf("in sight: body %u at %.2f m\n", hit.body.slot, 16 * fraction_to_host(hit.fraction));
+
+  // All that a bullet would go through, the nearest first; an undecided hit would count as one.
+  QueryHit hits[4];
+  sight.all = true;
+  sight.origin.y = 1.75;
+  sight.filter = {};
+  if (query_ray(world, sight, {hits, 4}, report) != Status::ok) return 1;
+  for (uint32_t i = 0; i < report.hits; ++i)
+    printf("  %u. body %u at %.2f m\n", i + 1, hits[i].body.slot, 16 * fraction_to_host(hits[i].fraction));
+
+  // How far a crate can be thrown that turns on its way.
+  const CastQuery crate = {.shape = box({0.3, 0.2, 0.4}),
+                           .position = {0.0, 1.0, 1.0},
+                           .way = {8.0, 0.0, 0.0},
+                           .turn = {0.0, 0.0, 5.0},
+                           .filter = {.mask = k_wall}};
+  if (query_cast(world, crate, {&hit, 1}, report) != Status::ok || report.hits == 0) return 1;
+  printf("the crate meets body %u after %.2f m, normal (%.1f, %.1f, %.1f)\n", hit.body.slot,
+         8 * fraction_to_host(hit.fraction), unit_to_host(hit.normal.x), unit_to_host(hit.normal.y),
+         unit_to_host(hit.normal.z));
+
+  // Whom a blast reaches, and who is nearest to a point.
+  const OverlapQuery blast = {.shape = sphere(4.5), .position = {5.0, 5.0, 0.0}, .all = true};
+  if (query_overlap(world, blast, {hits, 4}, report) != Status::ok) return 1;
+  printf("the blast reaches %u bodies\n", report.hits);
+  const ClosestQuery nearest = {
+      .shape = sphere(0.0), .position = {7.0, 3.0, 0.0}, .reach = 8.0, .filter = {.mask = k_guard}};
+  if (query_closest(world, nearest, {&hit, 1}, report) != Status::ok || report.hits == 0) return 1;
+  printf("the nearest guard is %.2f m away\n", real_to_host(hit.distance));
+}

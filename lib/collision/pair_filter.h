@@ -1,0 +1,42 @@
+#pragma once
+#include <detent/detail/state.h>
+#include <detent/filter.h>
+
+#include "base/span.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// Of Filter and of QueryFilter.
+constexpr bool masks_meet(uint32_t category_a, uint32_t mask_a, uint32_t category_b, uint32_t mask_b) {
+  return (category_a & mask_b) != 0 && (category_b & mask_a) != 0;
+}
+
+inline Filter filter_of(const BodyTraits& traits) { return {traits.category, traits.mask, traits.group, traits.rule}; }
+
+inline bool has_rule(const FilterRuleTable& table, uint32_t rule) {
+  return rule == 0 || (rule <= table.count && table.rules[rule - 1] != nullptr);
+}
+
+/// Whether two bodies may touch: all that finds pairs asks here.
+struct PairFilter {
+  Span<const BodyTraits> traits;
+  FilterRuleTable rules;
+
+  bool allows(uint32_t slot_a, uint32_t slot_b) const {
+    const BodyTraits &a = traits[slot_a], &b = traits[slot_b];
+    const bool grouped = a.group != 0 && a.group == b.group;
+    if (grouped ? a.group < 0 : !masks_meet(a.category, a.mask, b.category, b.mask)) return false;
+    return (a.rule | b.rule) == 0 || (rule_allows(a, b) && rule_allows(b, a));
+  }
+
+ private:
+  /// A rule that the table lacks forbids nothing: create_body(), set_filter() and load() let none in.
+  bool rule_allows(const BodyTraits& own, const BodyTraits& other) const {
+    if (own.rule == 0 || !has_rule(rules, own.rule)) return true;
+    return rules.rules[own.rule - 1]({own.user_data, filter_of(own)}, {other.user_data, filter_of(other)});
+  }
+};
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,76 @@
+#include "world/query_bodies.h"
+
+#include "collision/body_convex.h"
+#include "collision/collide_half_space.h"
+#include "geometry/bounds.h"
+#include "geometry/shape_traits.h"
+#include "geometry/sweep.h"
+#include "proximity/pair.h"
+#include "world/asset_binding.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+QueryShape query_point() {
+  QueryShape point{};
+  point.traits.shape = static_cast<uint32_t>(ShapeType::sphere);
+  point.convex.type = ShapeType::sphere;
+  return point;
+}
+
+Status make_query_shape(const World& world, const Shape& shape, QueryShape& made) {
+  if (shape.type == ShapeType::sphere && shape.radius == Real(0.0) && shape.rounding == Real(0.0)) {
+    made = query_point();
+    return Status::ok;
+  }
+  if (shape.type == ShapeType::half_space) return Status::bad_argument;
+  if (shape.type == ShapeType::hull) {
+    if (const Status status = find_hull(world, shape.asset, BodyType::fixed); status != Status::ok) return status;
+  }
+  QueryShape shaped{};
+  if (const Status status = set_shape(shape, shaped.traits, world.assets, *world.features); status != Status::ok)
+    return status;
+  if (!body_convex(shaped.traits, world.assets, shaped.convex)) return Status::asset_missing;
+  made = shaped;
+  return Status::ok;
+}
+
+Vec64 query_half(const QueryShape& shape, const Quat& rotation) {
+  Vec64 raw;
+  if (!raw_from_real(half_bounds(shape.traits, matrix_from(rotation)), raw)) return {0, 0, 0};  // never: it is finite
+  return raw;
+}
+
+Pose pose_near(const BodyTraits& traits, const BodyPose& pose, const Position& place) {
+  const Pose whole = {pose.position, pose.rotation};
+  constexpr Real k_near = 32768.0;
+  if (shape_of(traits) != ShapeType::half_space) return whole;
+  if (abs(real_difference(place.x, pose.position.x)) < k_near &&
+      abs(real_difference(place.y, pose.position.y)) < k_near &&
+      abs(real_difference(place.z, pose.position.z)) < k_near)
+    return whole;
+  // Farther from the surface than a query reaches the height is of no weight.
+  const Vec3<Unit> up = matrix_from(pose.rotation).column[1];
+  const Real height = clamp(distance_along(pose.position, place, up), -k_near, k_near);
+  return {moved(place, up * -height), pose.rotation};
+}
+
+Bounds QueryBodies::ball_bounds_of(uint32_t slot) const {
+  const BodyTraits& traits = state.traits[slot];
+  if (shape_of(traits) == ShapeType::half_space) return k_everywhere;
+  const Real ball = real_from_unit(traits.bounding_radius, traits.size_exponent);
+  const Real room = ball + scale_by_power(ball, -20);  // for the rounding of bounds
+  const Vec3<Real> half = {room, room, room};
+  return {moved(state.poses[slot].position, -half), moved(state.poses[slot].position, half)};
+}
+
+Bounds QueryBodies::bounds_of(uint32_t slot) const {
+  const BodyTraits& traits = state.traits[slot];
+  if (shape_of(traits) == ShapeType::half_space) return k_everywhere;
+  const BodyPose& pose = state.poses[slot];
+  const Vec3<Real> half = half_bounds(traits, matrix_from(pose.rotation));
+  return {moved(pose.position, -half), moved(pose.position, half)};
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent
