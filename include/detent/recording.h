@@ -9,7 +9,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// The layout of the bytes, apart from what a tick computes (`k_simulation_version`).
-inline constexpr uint32_t k_recording_format_version = 1;
+inline constexpr uint32_t k_recording_format_version = 2;
 /// The working buffer of a Recorder or a Player: one chunk. No alignment is needed.
 inline constexpr uint32_t k_recording_buffer_bytes = 544;
 
@@ -90,6 +90,9 @@ class Recorder {
   Status put_to_sleep(BodyId id);
   Status set_user_data(BodyId id, uint32_t user_data);
   Status bind_asset(uint32_t index);
+  Status create_joint(const JointDef& def, JointId& id);
+  Status destroy_joint(JointId id);
+  Status set_joint(JointId id, const JointDef& def);
   /// Steps the world, and logs the tick and, every `digest_interval` ticks, the digest.
   StepReport step();
 

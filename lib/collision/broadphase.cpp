@@ -98,7 +98,9 @@ bool DeeperPair::operator()(uint64_t a, uint64_t b) const {
 
 void PairPool::consider(uint32_t a, uint32_t b) {
   if (!is_dynamic_type(traits[a]) && !is_dynamic_type(traits[b])) return;
-  if (overlap(bounds[a], bounds[b])) found.add(a < b ? pair_key(a, b) : pair_key(b, a));
+  if (!overlap(bounds[a], bounds[b])) return;
+  const uint64_t key = a < b ? pair_key(a, b) : pair_key(b, a);
+  if (apart.count == 0 || !has_pair(apart, key)) found.add(key);
 }
 
 /// By the higher slot, then by the lower one: only as many digits as slots have.

@@ -13,6 +13,19 @@ constexpr uint64_t pair_key(uint32_t low, uint32_t high) { return (uint64_t{low}
 constexpr uint32_t pair_low(uint64_t key) { return static_cast<uint32_t>(key >> 32); }
 constexpr uint32_t pair_high(uint64_t key) { return static_cast<uint32_t>(key); }
 
+/// Whether a sorted list has the pair.
+inline bool has_pair(Span<const uint64_t> keys, uint64_t key) {
+  uint32_t low = 0, high = keys.count;
+  while (low < high) {
+    const uint32_t middle = low + (high - low) / 2;
+    if (keys[middle] < key)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low < keys.count && keys[low] == key;
+}
+
 /// Whether a pair is kept before another: that whose bounds overlap deeper, of equals the lower key. The depth is the
 /// least overlap along an axis, or how far the bounds reach into a half-space, in steps of a coordinate (f64: 2^-20 m).
 struct DeeperPair {
@@ -29,13 +42,15 @@ struct PairPool {
   Span<const BodyTraits> traits;
   Span<const Bounds> bounds;
   Span<uint64_t> spare;  ///< work space as large as the pool
+  Span<const uint64_t> apart;  ///< pairs that are not to meet, sorted
   SmallestOf<uint64_t, DeeperPair> found;
 
   PairPool(Span<const BodyPose> body_poses, Span<const BodyTraits> body_traits, Span<const Bounds> body_bounds,
-           Span<uint64_t> sort_space, Span<uint64_t> storage)
+           Span<uint64_t> sort_space, Span<uint64_t> storage, Span<const uint64_t> kept_apart = {})
       : traits(body_traits),
         bounds(body_bounds),
         spare(sort_space),
+        apart(kept_apart),
         found{storage, {body_poses, body_traits, body_bounds}} {}
 
   /// The pairs that are kept, once sorted by key.

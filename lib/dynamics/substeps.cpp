@@ -129,7 +129,8 @@ void choose_substeps(const StepSettings& settings, Span<const BodyTraits> traits
                      Span<const uint32_t> bodies, Span<const ContactOrder> order, Span<Island> islands,
                      Span<ContactWork> contacts, Span<BodyActivity> activities) {
   for (Island& island : islands) {
-    Scaled need = 0.0;
+    const uint32_t for_joints = island.substeps < settings.substeps_max ? island.substeps : settings.substeps_max;
+    Scaled need = for_joints == 0 ? Scaled(0.0) : square_of(for_joints);
     for (uint32_t i = 0; i < island.contact_count; ++i) {
       const ContactWork& contact = contacts[order[island.first_contact + i].contact];
       const uint32_t a = contact.state.body_a, b = contact.state.body_b;
@@ -146,10 +147,10 @@ void choose_substeps(const StepSettings& settings, Span<const BodyTraits> traits
     }
     uint32_t now = settings.substeps_fixed;
     if (now == 0 && island.contact_count == 0) {
-      now = 1;
+      now = for_joints == 0 ? 1 : for_joints;
       before = calm = 0;
     } else if (now == 0) {
-      const uint32_t most = most_for(settings, island.contact_count);
+      const uint32_t share = most_for(settings, island.contact_count), most = share < for_joints ? for_joints : share;
       now = notch_for(need, most);
       before = before < most ? before : most;
       const uint32_t lower = next_below(before);

@@ -67,6 +67,14 @@ void visit_word(Archive& archive, const char* name, uint32_t& value) {
 }
 
 /// One byte; the enumeration's values are `first` to `last`.
+template <class Archive>
+void visit_flag(Archive& archive, const char* name, bool& value) {
+  uint32_t word = value ? 1 : 0;
+  visit_word(archive, name, word);
+  archive.require(name, word <= 1, Status::bad_argument);
+  value = word != 0;
+}
+
 template <class Archive, class Enum>
 void visit_choice(Archive& archive, const char* name, Enum& value, Enum first, Enum last) {
   uint64_t bits = static_cast<uint64_t>(value);

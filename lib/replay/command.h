@@ -26,6 +26,9 @@ enum class RecordTag : uint8_t {
   tick_digested = 14,  ///< a step, and the digest after it
   wake_body = 15,
   put_to_sleep = 16,
+  create_joint = 64,
+  destroy_joint = 65,
+  set_joint = 66,
 };
 
 struct CreateBody {
@@ -84,6 +87,20 @@ struct BindAsset {
   static constexpr RecordTag k_tag = RecordTag::bind_asset;
   uint32_t index = 0;
 };
+struct CreateJoint {
+  static constexpr RecordTag k_tag = RecordTag::create_joint;
+  JointDef def = {};
+  JointId id = {};  ///< what the call gave
+};
+struct DestroyJoint {
+  static constexpr RecordTag k_tag = RecordTag::destroy_joint;
+  JointId id = {};
+};
+struct SetJoint {
+  static constexpr RecordTag k_tag = RecordTag::set_joint;
+  JointId id = {};
+  JointDef def = {};
+};
 struct Tick {
   static constexpr RecordTag k_tag = RecordTag::tick;
 };
@@ -134,6 +151,55 @@ void visit(Archive& archive, BodyDef& def) {
   visit_word(archive, "user data", def.user_data);
 }
 
+template <class Archive>
+void visit(Archive& archive, JointId& id) {
+  visit_word(archive, "joint slot", id.slot);
+  visit_word(archive, "joint generation", id.generation);
+}
+
+template <class Archive>
+void visit(Archive& archive, JointAxis& axis) {
+  visit_flag(archive, "limited", axis.limited);
+  visit_number(archive, "lower limit", axis.lower);
+  visit_number(archive, "upper limit", axis.upper);
+  visit_number(archive, "frequency", axis.frequency);
+  visit_number(archive, "damping ratio", axis.damping_ratio);
+  visit_number(archive, "target", axis.target);
+  visit_number(archive, "speed", axis.speed);
+  visit_number(archive, "greatest force", axis.force_max);
+}
+
+template <class Archive>
+void visit(Archive& archive, JointDef& def) {
+  visit_choice(archive, "joint type", def.type, JointType::ball, JointType::wheel);
+  visit(archive, def.a);
+  visit(archive, def.b);
+  visit_number(archive, "anchor of A", def.anchor_a);
+  visit_number(archive, "anchor of B", def.anchor_b);
+  visit_number(archive, "frame of A", def.frame_a);
+  visit_number(archive, "frame of B", def.frame_b);
+  visit(archive, def.axis);
+  visit(archive, def.second);
+  visit_flag(archive, "collide", def.collide);
+  visit_number(archive, "breaking force", def.break_force);
+  visit_number(archive, "breaking torque", def.break_torque);
+  visit_word(archive, "user data", def.user_data);
+}
+
+template <class Archive>
+void visit(Archive& archive, CreateJoint& command) {
+  visit(archive, command.def);
+  visit(archive, command.id);
+}
+template <class Archive>
+void visit(Archive& archive, DestroyJoint& command) {
+  visit(archive, command.id);
+}
+template <class Archive>
+void visit(Archive& archive, SetJoint& command) {
+  visit(archive, command.id);
+  visit(archive, command.def);
+}
 template <class Archive>
 void visit(Archive& archive, CreateBody& command) {
   visit(archive, command.def);
@@ -186,6 +252,9 @@ void visit(Archive& archive, TickDigested& command) {
   archive.bits("digest", command.digest, 8);
 }
 
+inline Status apply(World& world, CreateJoint& command) { return create_joint(world, command.def, command.id); }
+inline Status apply(World& world, DestroyJoint& command) { return destroy_joint(world, command.id); }
+inline Status apply(World& world, SetJoint& command) { return set_joint(world, command.id, command.def); }
 inline Status apply(World& world, CreateBody& command) { return create_body(world, command.def, command.id); }
 template <RecordTag tag, Status (*call)(World&, BodyId)>
 Status apply(World& world, OnBody<tag, call>& command) {
@@ -247,6 +316,12 @@ bool with_command(RecordTag tag, const Visitor& visitor) {
       return visit_new<WakeBody>(visitor);
     case RecordTag::put_to_sleep:
       return visit_new<PutToSleep>(visitor);
+    case RecordTag::create_joint:
+      return visit_new<CreateJoint>(visitor);
+    case RecordTag::destroy_joint:
+      return visit_new<DestroyJoint>(visitor);
+    case RecordTag::set_joint:
+      return visit_new<SetJoint>(visitor);
     case RecordTag::tick:
     case RecordTag::tick_digested:
       break;

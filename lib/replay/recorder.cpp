@@ -193,6 +193,23 @@ Status Recorder::bind_asset(uint32_t index) {
   return apply_and_log(command);
 }
 
+Status Recorder::create_joint(const JointDef& def, JointId& id) {
+  CreateJoint command{def, {}};
+  const Status status = apply_and_log(command);
+  if (status == Status::ok) id = command.id;
+  return status;
+}
+
+Status Recorder::destroy_joint(JointId id) {
+  DestroyJoint command{id};
+  return apply_and_log(command);
+}
+
+Status Recorder::set_joint(JointId id, const JointDef& def) {
+  SetJoint command{id, def};
+  return apply_and_log(command);
+}
+
 StepReport Recorder::step() {
   const StepReport report = detent::step(world_);
   if (!recording()) return report;

@@ -1,12 +1,12 @@
 #include "base/digest.h"
 #include "base/float_environment.h"
-#include "dynamics/activity.h"
 #include "dynamics/solve_quads.h"
 #include "geometry/shape_traits.h"
 #include "world/asset_binding.h"
+#include "world/body_change.h"
+#include "world/joints.h"
 #include "world/ranges.h"
 #include "world/slots.h"
-#include "world/step_cache.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -107,22 +107,6 @@ Status make_pose(const Position& position, const Quat& rotation, BodyPose& pose)
   return Status::ok;
 }
 
-/// What changes a body from outside wakes it.
-void rouse(StateView<uint8_t>& state, uint32_t slot) {
-  const StepCacheView step = cache_of(state);
-  state.world.idle = 0;
-  if (wake_all_with(slot, state.activities, step.visits) != 0) step.cache.contacts_known = 0;
-  state.activities[slot].still_ticks = 0;
-  step.visits.set(slot);
-}
-/// And what takes it away wakes those it touches.
-void rouse_neighbours(StateView<uint8_t>& state, uint32_t slot) {
-  for (const ContactState& contact : state.contacts.first(state.world.contact_count)) {
-    if (contact.body_a == slot) rouse(state, contact.body_b);
-    if (contact.body_b == slot) rouse(state, contact.body_a);
-  }
-}
-
 bool speeds_fit(const BodyTraits& traits, const Quat& rotation, const BodyMotion& motion) {
   return within(motion.velocity, k_speed_max) && within(motion.momentum, k_spin_work_max) &&
          within(spin_of(traits, rotation, motion.momentum), k_spin_max);
@@ -193,8 +177,8 @@ Status create_world(uint8_t* block, uint32_t block_bytes, const WorldDef& def, A
                                        def.capacity.assets,
                                        left_out(features),
                                        def.capacity.manifolds ? 1u : 0u,
-                                       0};
-  world = {block, assets, {}, &features, has_quads() ? 4u : 1u};
+                                       def.capacity.joints};
+  world = {block, assets, {}, {}, &features, has_quads() ? 4u : 1u};
   WorldState& state = view_of(world).world;
   state.substeps = def.substeps;
   state.substeps_max = def.substeps_max;
@@ -244,6 +228,7 @@ Status destroy_body(World& world, BodyId id) {
   if (!find_body(state, id, slot)) return Status::bad_id;
   rouse(state, slot);
   rouse_neighbours(state, slot);
+  remove_joints_of(state, slot);
   state.world.contact_count = remove_contacts(slot, state.contacts.first(state.world.contact_count), state.manifolds);
   cache_of(state).cache.contacts_known = 0;
   const uint32_t generation = state.traits[slot].generation;
