@@ -65,8 +65,9 @@ struct JointCode {
 bool is_angular(JointType type, int motion);
 /// Makes the rows of a joint as its bodies are now.
 void make_joint_rows(const StepSettings& settings, const JointStage& stage, JointWork& work);
-/// Chooses how the free motions are driven, before anything is solved; or after, if what was chosen cannot be.
-void choose_drives(const JointState& joint, JointWork& work);
+/// Chooses how the free motions are driven, before anything is solved: a limit that the bodies would pass in this
+/// substep holds. Or after, if what was chosen cannot be.
+void choose_drives(const StepSettings& settings, const JointStage& stage, JointWork& work);
 enum class Revision { none, made };
 Revision revise_drives(const JointState& joint, Scaled share, JointWork& work);
 /// Adds the rows of the free motions that are driven, or notes what pushes without one.

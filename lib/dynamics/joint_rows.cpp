@@ -1,5 +1,6 @@
 #include "dynamics/gyration.h"
 #include "dynamics/joint.h"
+#include "dynamics/spin.h"
 #include "math/root.h"
 #include "math/scaled.h"
 
@@ -47,6 +48,8 @@ struct RowMaker {
     const Real limit = real_from_unit(Unit(1.0), work.exponent > 14 ? 14 : work.exponent);
     return -scale_by_power(speed_over(settings, clamp(error, -limit, limit)), k_correction_power);
   }
+  /// What is within a limit may go as far as that; what is beyond comes back.
+  Real up_to_limit(Real over, bool within) const { return within ? -speed_over(settings, over) : correction(over); }
   /// A row that acts along `axis` at B's anchor, whichever way off A's is.
   JointRow linear(const Vec3<Unit>& axis) const {
     const Vec3<Unit> way = held(in_metres(work.arm[0], a.exponent) + gap, a.exponent);
@@ -207,16 +210,23 @@ void make_joint_rows(const StepSettings& settings, const JointStage& stage, Join
   work.rows_held = work.rows;
 }
 
-void choose_drives(const JointState& joint, JointWork& work) {
+void choose_drives(const StepSettings& settings, const JointStage& stage, JointWork& work) {
+  const JointState& joint = stage.joints[work.joint];
   for (int i = 0; i < 2; ++i) {
     work.mode[i] = free_mode(joint, i);
     if (joint.limited[i] == 0) continue;
-    const int power = is_angular(static_cast<JointType>(joint.type), i) ? work.exponent : 0;
-    if (joint.lower[i] == joint.upper[i])
+    if (joint.lower[i] == joint.upper[i]) {
       work.mode[i] = DriveMode::held;
-    else if (work.value[i] <= scale_by_power(joint.lower[i], power))
+      continue;
+    }
+    const int power = is_angular(static_cast<JointType>(joint.type), i) ? work.exponent : 0;
+    const JointBody &a = stage.bodies[work.body[0]], &b = stage.bodies[work.body[1]];
+    const JointRow& row = work.free_row[i];
+    const Real speed = dot(b.velocity - a.velocity, row.axis) + dot(b.spin, row.arm[1]) - dot(a.spin, row.arm[0]);
+    const Real reach = clamp(speed, -k_speed_work_max, k_speed_work_max) * settings.time;
+    if (work.value[i] + min(reach, k_zero) <= scale_by_power(joint.lower[i], power))
       work.mode[i] = DriveMode::lower;
-    else if (work.value[i] >= scale_by_power(joint.upper[i], power))
+    else if (work.value[i] + max(reach, k_zero) >= scale_by_power(joint.upper[i], power))
       work.mode[i] = DriveMode::upper;
   }
 }
@@ -238,10 +248,12 @@ void add_driven_rows(const StepSettings& settings, const SolverBodies& bodies, c
     const int power = is_angular(static_cast<JointType>(joint.type), i) ? work.exponent : 0;
     const Real lower = scale_by_power(joint.lower[i], power), upper = scale_by_power(joint.upper[i], power);
     bool saturated = false;
-    if (mode == DriveMode::held || mode == DriveMode::lower) {
+    if (mode == DriveMode::held) {
       work.wanted[row] = make.correction(work.value[i] - lower);
+    } else if (mode == DriveMode::lower) {
+      work.wanted[row] = make.up_to_limit(work.value[i] - lower, work.value[i] > lower);
     } else if (mode == DriveMode::upper) {
-      work.wanted[row] = make.correction(work.value[i] - upper);
+      work.wanted[row] = make.up_to_limit(work.value[i] - upper, work.value[i] < upper);
     } else {
       work.wanted[row] = scale_by_power(joint.speed[i], power);
     }

@@ -174,14 +174,16 @@ struct Solver {
     }
   }
 
+  void load_motion(JointBody& body) {
+    const BodyMotion& motion = bodies.motions[body.slot];
+    body.velocity = motion.velocity;
+    body.spin = world_spin(bodies.traits[body.slot], bodies.work[body.slot].gyration, motion.momentum, body.above);
+  }
   /// A body as it is now, without its joints.
   void load(JointBody& body) {
-    const BodyTraits& traits = bodies.traits[body.slot];
-    BodyMotion& motion = bodies.motions[body.slot];
-    BodyWork& now = bodies.work[body.slot];
-    body.velocity = motion.velocity;
+    const BodyWork& now = bodies.work[body.slot];
     body.force = body.torque = body.given_force = body.given_torque = k_none;
-    body.spin = world_spin(traits, now.gyration, motion.momentum, body.above);
+    load_motion(body);
     const Scaled turn = scaled_by_power(body.share, now.gyration.exponent + 2 * body.above);
     bool saturated = false;
     const Real share = to_real(body.share, saturated);
@@ -361,6 +363,7 @@ struct Solver {
       BodyWork& now = bodies.work[body.slot];
       set(body, now.rotation, now.displacement);
       now.gyration = world_gyration(bodies.traits[body.slot], body.axes);
+      load_motion(body);
     });
     const auto place_still = [&](Span<const uint32_t> joints) {
       for (const uint32_t index : joints) {
@@ -391,7 +394,7 @@ struct Solver {
     for (const uint32_t index : joints) {
       JointWork& work = stage.work[index];
       make_joint_rows(settings, stage, work);
-      choose_drives(stage.joints[work.joint], work);
+      choose_drives(settings, stage, work);
     }
   }
 
