@@ -1,3 +1,4 @@
+#include "base/unroll.h"
 #include "dynamics/contact_motion.h"
 #include "dynamics/gyration.h"
 #include "dynamics/joint.h"
@@ -28,34 +29,33 @@ Vec3<Real> scaled(const Vec3<Real>& v, Scaled factor) {
 Vec3<Real> real_from(const Vec3<Unit>& v) {
   return {real_from_unit(v.x, 0), real_from_unit(v.y, 0), real_from_unit(v.z, 0)};
 }
-Real& part(Vec3<Real>& v, uint32_t i) { return i == 0 ? v.x : i == 1 ? v.y : v.z; }
 
 bool is_linear(const JointRow& row) { return !(row.axis == Vec3<Unit>{Unit(0.0), Unit(0.0), Unit(0.0)}); }
 
-/// Response of a body to the rows of a joint: [row][0..2] of its velocity, [3..5] of its spin.
-struct Reply {
-  Vec3<Real> row[k_joint_rows_max][2];
-};
+/// What a body's velocity and spin become for each row's unit of impulse.
+using Reply = Real[k_joint_rows_max][6];
+
+Vec3<Real> first_three(const Real (&six)[6]) { return {six[0], six[1], six[2]}; }
+Vec3<Real> last_three(const Real (&six)[6]) { return {six[3], six[4], six[5]}; }
 
 template <bool only_points>
 void respond(const JointWork& work, const JointBody& body, uint32_t end, Reply& reply) {
   if (only_points || work.points != 0) {
-    const Vec3<Unit>& arm = work.arm[end];
-    Vec3<Real> by[6];
-    for (int i = 0; i < 6; ++i) by[i] = body.response[i][0] + cross(body.response[i][1], arm);
-    reply.row[0][0] = {by[0].x, by[1].x, by[2].x};
-    reply.row[0][1] = {by[3].x, by[4].x, by[5].x};
-    reply.row[1][0] = {by[0].y, by[1].y, by[2].y};
-    reply.row[1][1] = {by[3].y, by[4].y, by[5].y};
-    reply.row[2][0] = {by[0].z, by[1].z, by[2].z};
-    reply.row[2][1] = {by[3].z, by[4].z, by[5].z};
+    const Vec3<Unit> arm = work.arm[end];
+    DETENT_UNROLL
+    for (int i = 0; i < 6; ++i) {
+      const Vec3<Real> by = first_three(body.response[i]) + cross(last_three(body.response[i]), arm);
+      reply[0][i] = by.x;
+      reply[1][i] = by.y;
+      reply[2][i] = by.z;
+    }
   }
   if (only_points) return;
   for (uint32_t k = work.points != 0 ? 3 : 0; k < work.rows; ++k) {
-    const Vec3<Unit>&axis = work.row[k].axis, &arm = work.row[k].arm[end];
-    const auto answer = [&](int i) { return dot(body.response[i][0], axis) + dot(body.response[i][1], arm); };
-    reply.row[k][0] = {answer(0), answer(1), answer(2)};
-    reply.row[k][1] = {answer(3), answer(4), answer(5)};
+    const Vec3<Unit> axis = work.row[k].axis, arm = work.row[k].arm[end];
+    DETENT_UNROLL
+    for (int i = 0; i < 6; ++i)
+      reply[k][i] = dot(first_three(body.response[i]), axis) + dot(last_three(body.response[i]), arm);
   }
 }
 
@@ -63,20 +63,20 @@ void respond(const JointWork& work, const JointBody& body, uint32_t end, Reply& 
 template <bool only_points>
 void couple(const JointWork& work, uint32_t end, const Reply& reply,
             Real (&response)[k_joint_rows_max][k_joint_rows_max]) {
-  const uint32_t rows = only_points ? 3 : work.rows;
   if (only_points || work.points != 0) {
-    for (uint32_t by = 0; by < 3; ++by) {
-      const Vec3<Real> shown = reply.row[by][0] + cross(reply.row[by][1], work.arm[end]);
+    DETENT_UNROLL
+    for (int by = 0; by < 3; ++by) {
+      const Vec3<Real> shown = first_three(reply[by]) + cross(last_three(reply[by]), work.arm[end]);
       if (by == 0) response[0][0] += shown.x;
       if (by <= 1) response[1][by] += shown.y;
       response[2][by] += shown.z;
     }
   }
   if (only_points) return;
-  for (uint32_t k = work.points != 0 ? 3 : 0; k < rows; ++k) {
+  for (uint32_t k = work.points != 0 ? 3 : 0; k < work.rows; ++k) {
     const Vec3<Unit>&axis = work.row[k].axis, &arm = work.row[k].arm[end];
     for (uint32_t by = 0; by <= k; ++by)
-      response[k][by] += dot(reply.row[by][0], axis) + dot(reply.row[by][1], arm);
+      response[k][by] += dot(first_three(reply[by]), axis) + dot(last_three(reply[by]), arm);
   }
 }
 
@@ -136,20 +136,19 @@ void factor(Real (&response)[k_joint_rows_max][k_joint_rows_max], JointWork& wor
 /// What is left of the parent's response once the joint is held: less the rows' replies over their pivots.
 template <bool only_points>
 void take_from(const JointWork& work, JointBody& parent) {
-  const uint32_t rows = only_points ? 3 : work.rows;
-  for (uint32_t i = 0; i < 6; ++i) {
-    for (uint32_t j = 0; j <= i; ++j) {
+  DETENT_UNROLL
+  for (int i = 0; i < 6; ++i) {
+    DETENT_UNROLL
+    for (int j = 0; j <= i; ++j) {
       Real sum = k_zero;
       if (only_points) {
         const Vec3<Real> reply = {work.reply[0][i], work.reply[1][i], work.reply[2][i]};
         const Vec3<Real> over = {work.reply_scaled[0][j], work.reply_scaled[1][j], work.reply_scaled[2][j]};
         sum = dot(reply, over);
       } else {
-        for (uint32_t k = 0; k < rows; ++k) sum += work.reply[k][i] * work.reply_scaled[k][j];
+        for (uint32_t k = 0; k < work.rows; ++k) sum += work.reply[k][i] * work.reply_scaled[k][j];
       }
-      const Real left = part(parent.response[i][j / 3], j % 3) - sum;
-      part(parent.response[i][j / 3], j % 3) = left;
-      part(parent.response[j][i / 3], i % 3) = left;
+      parent.response[j][i] = parent.response[i][j] -= sum;
     }
   }
 }
@@ -187,11 +186,16 @@ struct Solver {
     const Scaled turn = scaled_by_power(body.share, now.gyration.exponent + 2 * body.above);
     bool saturated = false;
     const Real share = to_real(body.share, saturated);
+    DETENT_UNROLL
     for (int i = 0; i < 3; ++i) {
-      body.response[i][0] = body.response[i][1] = body.response[i + 3][0] = k_none;
-      body.response[i + 3][1] = scaled(real_from(now.gyration.row[i]), turn);
+      const Vec3<Real> row = scaled(real_from(now.gyration.row[i]), turn);
+      DETENT_UNROLL
+      for (int j = 0; j < 6; ++j) body.response[i][j] = body.response[i + 3][j] = k_zero;
+      body.response[i][i] = share;
+      body.response[i + 3][3] = row.x;
+      body.response[i + 3][4] = row.y;
+      body.response[i + 3][5] = row.z;
     }
-    body.response[0][0].x = body.response[1][0].y = body.response[2][0].z = share;
   }
 
   /// A wrench that acts without a row, on one body.
@@ -200,7 +204,8 @@ struct Solver {
     body.given_force += force;
     body.given_torque += torque;
     body.velocity += scaled(force, body.share);
-    for (uint32_t i = 0; i < 3; ++i) part(body.spin, i) += dot(body.response[i + 3][1], torque);
+    body.spin += Vec3<Real>{dot(last_three(body.response[3]), torque), dot(last_three(body.response[4]), torque),
+                            dot(last_three(body.response[5]), torque)};
   }
 
   /// Motors at their limit push without a row.
@@ -246,28 +251,22 @@ struct Solver {
     for (uint32_t k = 0; k < rows; ++k) {
       for (uint32_t m = 0; m <= k; ++m) response[k][m] = k_zero;
     }
-    Reply reply;
     if (child.mobile != 0) {
-      respond<only_points>(work, child, 1 - work.parent, reply);
-      couple<only_points>(work, 1 - work.parent, reply, response);
+      respond<only_points>(work, child, 1 - work.parent, work.reply);
+      couple<only_points>(work, 1 - work.parent, work.reply, response);
     }
-    respond<only_points>(work, parent, work.parent, reply);
-    couple<only_points>(work, work.parent, reply, response);
+    respond<only_points>(work, parent, work.parent, work.reply);
+    couple<only_points>(work, work.parent, work.reply, response);
     factor<only_points>(response, work);
+    DETENT_UNROLL
     for (uint32_t k = 0; k < rows; ++k) {
-      Vec3<Real> left[2] = {reply.row[k][0], reply.row[k][1]};
       for (uint32_t m = 0; m < k; ++m) {
         const Real share = work.lower[k][m];
-        const Real* const done = work.reply[m];
-        left[0] -= Vec3<Real>{done[0], done[1], done[2]} * share;
-        left[1] -= Vec3<Real>{done[3], done[4], done[5]} * share;
+        DETENT_UNROLL
+        for (int i = 0; i < 6; ++i) work.reply[k][i] -= work.reply[m][i] * share;
       }
-      const Vec3<Real> over[2] = {scaled(left[0], work.inverse[k]), scaled(left[1], work.inverse[k])};
-      for (uint32_t i = 0; i < 6; ++i) {
-        work.reply[k][i] = part(left[i / 3], i % 3);
-        work.reply_scaled[k][i] = i < 3 ? (i == 0 ? over[0].x : i == 1 ? over[0].y : over[0].z)
-                                        : (i == 3 ? over[1].x : i == 4 ? over[1].y : over[1].z);
-      }
+      DETENT_UNROLL
+      for (int i = 0; i < 6; ++i) work.reply_scaled[k][i] = multiply(work.reply[k][i], work.inverse[k]);
     }
     take_from<only_points>(work, parent);
   }
@@ -280,9 +279,8 @@ struct Solver {
     const bool to_b = work.parent == 1;
     for (uint32_t k = 0; k < (only_points ? 3 : work.rows); ++k) {
       const Real impulse = to_b ? work.start[k] : -work.start[k];
-      const Real* const reply = work.reply[k];
-      parent.velocity += Vec3<Real>{reply[0], reply[1], reply[2]} * impulse;
-      parent.spin += Vec3<Real>{reply[3], reply[4], reply[5]} * impulse;
+      parent.velocity += first_three(work.reply[k]) * impulse;
+      parent.spin += last_three(work.reply[k]) * impulse;
     }
   }
 
@@ -293,9 +291,8 @@ struct Solver {
     JointBody &parent = end_of(work, work.parent), &child = end_of(work, 1 - work.parent);
     const bool parent_is_b = work.parent == 1;
     for (uint32_t k = 0; k < rows; ++k) {
-      const Real* const over = work.reply_scaled[k];
-      const Real from_above = dot(parent.force, Vec3<Real>{over[0], over[1], over[2]}) +
-                              dot(parent.torque, Vec3<Real>{over[3], over[4], over[5]});
+      const Real from_above =
+          dot(parent.force, first_three(work.reply_scaled[k])) + dot(parent.torque, last_three(work.reply_scaled[k]));
       work.impulse[k] = parent_is_b ? work.start[k] - from_above : work.start[k] + from_above;
     }
     for (uint32_t k = rows; k-- > 0;) {

@@ -9,7 +9,7 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 /// Substeps squared over g tick^2 / length: of a joint without and with contacts beside it.
-constexpr uint32_t k_substeps_min = 4;
+constexpr uint32_t k_substeps_min = 3;
 constexpr uint32_t k_substeps_with_contacts = 8;
 
 Real absolute_sum(const Vec3<Real>& v) { return abs(v.x) + abs(v.y) + abs(v.z); }

@@ -163,7 +163,7 @@ struct alignas(8) JointBody {
   Matrix3 axes;                        ///< likewise
   Vec3<Real> place;                    ///< of its centre, from where it was at the start of the tick, m
   Vec3<Real> velocity, spin;           ///< as the joints eliminated so far leave them, m/s
-  Vec3<Real> response[6][2];           ///< of velocity and spin to a force and a torque on it, likewise
+  Real response[6][6];                 ///< of velocity and spin to a force and a torque on it; symmetric
   Vec3<Real> force, torque;            ///< what joints above or eliminated later give it
   Vec3<Real> given_force, given_torque;  ///< what acts without a row: motors at their limit
 };
