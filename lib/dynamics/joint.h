@@ -20,6 +20,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 inline constexpr uint32_t k_no_link = UINT32_MAX;
+inline constexpr Real k_joint_impulse_max = 8192.0;  ///< of a row, m/s
 
 /// A length or speed in units of 2^exponent, held within what a Unit holds.
 Unit unit_held(Real value, int exponent);
@@ -67,7 +68,8 @@ bool is_angular(JointType type, int motion);
 void make_joint_rows(const StepSettings& settings, const JointStage& stage, JointWork& work);
 /// Chooses how the free motions are driven, before anything is solved: a limit that the bodies would pass in this
 /// substep holds. Or after, if what was chosen cannot be.
-void choose_drives(const StepSettings& settings, const JointStage& stage, JointWork& work);
+void choose_drives(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage,
+                   JointWork& work);
 enum class Revision { none, made };
 Revision revise_drives(const JointState& joint, Scaled share, JointWork& work);
 /// Adds the rows of the free motions that are driven, or notes what pushes without one.

@@ -12,7 +12,9 @@ constexpr Unit k_none = 0.0;
 constexpr Real k_zero = 0.0;
 constexpr Real k_two_pi = 6.28318530717958647693;
 
-/// A substep makes up for half of what the joint has given way.
+/// A substep makes up for half of what the joint has given way. By w^2/2 of its length a joint gives way when it turns by
+/// w in a substep; what is left of it and what is made up for then balance where the half of that is the speed inwards
+/// that the chord of the way asks for: a swing keeps its height. Any other share would gain or lose.
 constexpr int k_correction_power = -1;
 
 Vec3<Unit> scaled(const Vec3<Unit>& v, int power) {
@@ -135,9 +137,51 @@ Scaled own_response(const SolverBodies& bodies, const JointStage& stage, const J
   return sum;
 }
 
+/// A damped spring whose stiffness is that of the frequency with the two bodies alone. Source: Catto, "Soft
+/// Constraints", GDC 2011.
+struct Spring {
+  Scaled rate;     ///< rad/s
+  Scaled phase;    ///< rate x substep
+  Scaled damping;  ///< 2 damping ratio + phase
+
+  Spring(const StepSettings& settings, const JointState& joint, int i)
+      : rate(scaled_from(k_two_pi * joint.frequency[i])),
+        phase(multiply(rate, scaled_from(settings.time))),
+        damping(add(scaled_by_power(scaled_from(joint.damping_ratio[i]), 1), phase)) {}
+  /// What it gives in a substep over what would stop the motion at once.
+  Scaled stiffness() const { return multiply(phase, damping); }
+};
+
 DriveMode free_mode(const JointState& joint, int i) {
   if (joint.frequency[i] > k_zero) return DriveMode::spring;
   return is_positive(joint.force_max[i]) ? DriveMode::rigid : DriveMode::idle;
+}
+
+/// How fast a free motion goes before anything is solved, m/s.
+Real speed_of(const JointStage& stage, const JointWork& work, int i) {
+  const JointBody &a = stage.bodies[work.body[0]], &b = stage.bodies[work.body[1]];
+  const JointRow& row = work.free_row[i];
+  return dot(b.velocity - a.velocity, row.axis) + dot(b.spin, row.arm[1]) - dot(a.spin, row.arm[0]);
+}
+
+/// A spring that is soft beside the substep needs no row: it pushes by where it is, which loses nothing of its swing.
+void push_softly(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, int i,
+                 JointWork& work) {
+  const JointState& joint = stage.joints[work.joint];
+  const Spring spring(settings, joint, i);
+  if (!less(spring.stiffness(), Scaled(0.25))) return;
+  const int power = is_angular(static_cast<JointType>(joint.type), i) ? work.exponent : 0;
+  const Real off = work.value[i] - scale_by_power(joint.target[i], power);
+  const Real fast = speed_of(stage, work, i) - scale_by_power(joint.speed[i], power);
+  const Scaled pull = multiply(multiply(spring.rate, spring.phase), scaled_from(off));
+  const Scaled drag = multiply(multiply(spring.phase, scaled_by_power(scaled_from(joint.damping_ratio[i]), 1)),
+                               scaled_from(fast));
+  const Scaled response = own_response(bodies, stage, work, work.free_row[i]);
+  if (!is_positive(response)) return;
+  const Real most = is_positive(joint.force_max[i]) ? multiply(work.bound[i], settings.share) : k_joint_impulse_max;
+  bool saturated = false;
+  work.constant[i] = clamp(-to_real(divide(add(pull, drag), response), saturated), -most, most);
+  work.mode[i] = DriveMode::constant;
 }
 
 }  // namespace
@@ -151,7 +195,7 @@ void make_joint_rows(const StepSettings& settings, const JointStage& stage, Join
   const JointBody &a = stage.bodies[work.body[0]], &b = stage.bodies[work.body[1]];
   const JointType type = static_cast<JointType>(joint.type);
   work.rows = work.points = 0;
-  for (Scaled& softness : work.softness) softness = Scaled(0.0);
+  for (Real& softness : work.softness) softness = k_zero;
   work.arm[0] = multiply(a.axes, held(joint.anchor_a, a.exponent));
   work.arm[1] = multiply(b.axes, held(joint.anchor_b, b.exponent));
   RowMaker make = {settings, joint, a, b, work};
@@ -210,20 +254,18 @@ void make_joint_rows(const StepSettings& settings, const JointStage& stage, Join
   work.rows_held = work.rows;
 }
 
-void choose_drives(const StepSettings& settings, const JointStage& stage, JointWork& work) {
+void choose_drives(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, JointWork& work) {
   const JointState& joint = stage.joints[work.joint];
   for (int i = 0; i < 2; ++i) {
     work.mode[i] = free_mode(joint, i);
+    if (work.mode[i] == DriveMode::spring) push_softly(settings, bodies, stage, i, work);
     if (joint.limited[i] == 0) continue;
     if (joint.lower[i] == joint.upper[i]) {
       work.mode[i] = DriveMode::held;
       continue;
     }
     const int power = is_angular(static_cast<JointType>(joint.type), i) ? work.exponent : 0;
-    const JointBody &a = stage.bodies[work.body[0]], &b = stage.bodies[work.body[1]];
-    const JointRow& row = work.free_row[i];
-    const Real speed = dot(b.velocity - a.velocity, row.axis) + dot(b.spin, row.arm[1]) - dot(a.spin, row.arm[0]);
-    const Real reach = clamp(speed, -k_speed_work_max, k_speed_work_max) * settings.time;
+    const Real reach = clamp(speed_of(stage, work, i), -k_speed_work_max, k_speed_work_max) * settings.time;
     if (work.value[i] + min(reach, k_zero) <= scale_by_power(joint.lower[i], power))
       work.mode[i] = DriveMode::lower;
     else if (work.value[i] + max(reach, k_zero) >= scale_by_power(joint.upper[i], power))
@@ -244,10 +286,9 @@ void add_driven_rows(const StepSettings& settings, const SolverBodies& bodies, c
     const uint32_t row = work.rows++;
     work.driven[i] = row;
     work.row[row] = work.free_row[i];
-    work.softness[row] = Scaled(0.0);
+    work.softness[row] = k_zero;
     const int power = is_angular(static_cast<JointType>(joint.type), i) ? work.exponent : 0;
     const Real lower = scale_by_power(joint.lower[i], power), upper = scale_by_power(joint.upper[i], power);
-    bool saturated = false;
     if (mode == DriveMode::held) {
       work.wanted[row] = make.correction(work.value[i] - lower);
     } else if (mode == DriveMode::lower) {
@@ -258,15 +299,12 @@ void add_driven_rows(const StepSettings& settings, const SolverBodies& bodies, c
       work.wanted[row] = scale_by_power(joint.speed[i], power);
     }
     if (mode != DriveMode::spring) continue;
-    // A damped spring, solved implicitly (Catto, "Soft Constraints", GDC 2011), whose stiffness is that of the frequency
-    // with the two bodies alone.
-    const Real rate = k_two_pi * joint.frequency[i];
-    const Scaled phase = scaled_from(rate * settings.time);
-    const Scaled damping = add(scaled_by_power(scaled_from(joint.damping_ratio[i]), 1), phase);
+    const Spring spring(settings, joint, i);
+    bool saturated = false;
     const Real off = work.value[i] - scale_by_power(joint.target[i], power);
-    work.wanted[row] -= multiply(off, divide(scaled_from(rate), damping), saturated);
-    work.softness[row] =
-        divide(own_response(bodies, stage, work, work.free_row[i]), multiply(phase, damping));
+    work.wanted[row] -= multiply(off, divide(spring.rate, spring.damping), saturated);
+    const Scaled response = own_response(bodies, stage, work, work.free_row[i]);
+    work.softness[row] = to_real(divide(response, spring.stiffness()), saturated);
   }
 }
 

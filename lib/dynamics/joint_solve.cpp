@@ -13,13 +13,6 @@ namespace {
 constexpr Real k_zero = 0.0;
 constexpr Vec3<Real> k_none = {k_zero, k_zero, k_zero};
 
-/// A row whose response is less than this of what it would be without all other joints is held by those already.
-#if defined(DETENT_F32)
-constexpr int k_redundant_power = -17;
-#else
-constexpr int k_redundant_power = -28;
-#endif
-constexpr Real k_impulse_max = 8192.0;  ///< of a row, m/s
 constexpr uint32_t k_decisions = 4;     ///< tries to solve with limits and motors as they must be
 constexpr uint32_t k_loop_sweeps = 6;
 
@@ -116,15 +109,13 @@ template <bool only_points>
 void factor(Real (&response)[k_joint_rows_max][k_joint_rows_max], JointWork& work) {
   const uint32_t rows = only_points ? 3 : work.rows;
   for (uint32_t k = 0; k < rows; ++k) {
-    const bool linear = (k < 3 && work.points != 0) || is_linear(work.row[k]);
-    const Scaled own = scaled_from(response[k][k]);
-    const Scaled least = scaled_by_power(work.base[linear ? 0 : 1], k_redundant_power);
-    const Scaled soft = only_points ? Scaled(0.0) : work.softness[k];
-    const bool redundant = !less(least, own);
-    if (redundant && !is_positive(soft))
-      work.inverse[k] = Scaled(0.0);
+    const bool linear = only_points || (k < 3 && work.points != 0) || is_linear(work.row[k]);
+    const Real own = response[k][k], least = work.least[linear ? 0 : 1];
+    const Real soft = only_points ? k_zero : work.softness[k];
+    if (own > least || soft > k_zero)
+      work.inverse[k] = scaled_reciprocal(max(own, least) + soft);
     else
-      work.inverse[k] = divide(Scaled(1.0), add(redundant ? least : own, soft));
+      work.inverse[k] = Scaled(0.0);
     for (uint32_t l = k + 1; l < rows; ++l) {
       const Real of_pivot = multiply(response[l][k], work.inverse[k]);
       work.lower[l][k] = of_pivot;
@@ -159,6 +150,7 @@ struct Solver {
   const SolverBodies& bodies;
   JointStage& stage;
   Span<const uint32_t> trees, loops;  ///< of the work, from the roots up
+  bool touches;                       ///< the island has contacts, which read the bodies' spins
   uint32_t clamped = 0;
 
   JointBody& end_of(const JointWork& work, uint32_t end) const { return stage.bodies[work.body[end]]; }
@@ -238,7 +230,7 @@ struct Solver {
     for (uint32_t k = 0; k < rows; ++k) {
       for (uint32_t m = 0; m < k; ++m) missing[k] -= work.lower[k][m] * missing[m];
       bool saturated = false;
-      work.start[k] = clamp(multiply(missing[k], work.inverse[k], saturated), -k_impulse_max, k_impulse_max);
+      work.start[k] = clamp(multiply(missing[k], work.inverse[k], saturated), -k_joint_impulse_max, k_joint_impulse_max);
       if (saturated) ++clamped;
     }
   }
@@ -298,7 +290,7 @@ struct Solver {
     for (uint32_t k = rows; k-- > 0;) {
       Real& impulse = work.impulse[k];
       for (uint32_t m = k + 1; m < rows; ++m) impulse -= work.lower[m][k] * work.impulse[m];
-      const Real within = clamp(impulse, -k_impulse_max, k_impulse_max);
+      const Real within = clamp(impulse, -k_joint_impulse_max, k_joint_impulse_max);
       if (!(within == impulse)) ++clamped;
       impulse = within;
     }
@@ -391,7 +383,7 @@ struct Solver {
     for (const uint32_t index : joints) {
       JointWork& work = stage.work[index];
       make_joint_rows(settings, stage, work);
-      choose_drives(settings, stage, work);
+      choose_drives(settings, bodies, stage, work);
     }
   }
 
@@ -469,7 +461,7 @@ struct Solver {
     for (Real& impulse : work.impulse) impulse = none[0];
     eliminate<false>(work);
     for (uint32_t k = 0; k < work.rows; ++k) {
-      if (is_positive(work.softness[k])) work.wanted[k] -= multiply(work.total[k], work.softness[k]);
+      work.wanted[k] -= work.total[k] * work.softness[k];
     }
     load_ends(work);
     start_impulses<false>(work);
@@ -491,7 +483,7 @@ struct Solver {
   Real bound_of(const JointWork& work, int i) const {
     const bool bounded = (work.mode[i] == DriveMode::rigid || work.mode[i] == DriveMode::spring) &&
                          is_positive(stage.joints[work.joint].force_max[i]);
-    return bounded ? multiply(work.bound[i], settings.share) : k_impulse_max;
+    return bounded ? multiply(work.bound[i], settings.share) : k_joint_impulse_max;
   }
 
   /// What the joints have given the bodies becomes their motion. Both bodies of a joint got the same impulse.
@@ -503,12 +495,11 @@ struct Solver {
     const Vec3<Real> momentum = scaled(torque, scaled_by_power(body.share, body.above));
     motion.velocity += velocity;
     motion.momentum += momentum;
-    // Joints start each substep from nothing: their directions are others by then.
-    if (DETENT_FIXED) {
+    if (DETENT_FIXED) {  // it is not the contacts' (contact_motion.h)
       now.contact_velocity -= velocity;
       now.contact_momentum -= momentum;
     }
-    now.spin = world_spin(bodies.traits[body.slot], now.gyration, motion.momentum, -k_spin_power);
+    if (touches) now.spin = world_spin(bodies.traits[body.slot], now.gyration, motion.momentum, -k_spin_power);
     body.force = body.torque = body.given_force = body.given_torque = k_none;
   }
 };
@@ -519,7 +510,7 @@ uint32_t solve_joints(const StepSettings& settings, const SolverBodies& bodies, 
                       JointStage& stage, uint32_t& undecided) {
   const Span<const uint32_t> trees = {stage.order.data + island.first_joint, island.joint_count};
   const Span<const uint32_t> loops = {stage.order.data + island.first_joint + island.joint_count, island.loop_count};
-  Solver solver = {settings, bodies, stage, trees, loops};
+  Solver solver = {settings, bodies, stage, trees, loops, island.contact_count != 0};
   solver.place(elapsed);
   solver.make_rows(trees);
   solver.make_rows(loops);

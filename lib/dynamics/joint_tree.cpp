@@ -8,8 +8,15 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Substeps squared over g tick^2 / length: of a joint without and with contacts beside it.
-constexpr uint32_t k_substeps_min = 3;
+/// A row whose response is less than this of what it would be without all other joints is held by those already.
+#if defined(DETENT_F32)
+constexpr int k_redundant_power = -17;
+#else
+constexpr int k_redundant_power = -28;
+#endif
+
+/// Of an island without and with contacts.
+constexpr uint32_t k_substeps_min = 4;
 constexpr uint32_t k_substeps_with_contacts = 8;
 
 Real absolute_sum(const Vec3<Real>& v) { return abs(v.x) + abs(v.y) + abs(v.z); }
@@ -180,8 +187,8 @@ void grow_trees(const StepSettings& settings, const SolverBodies& bodies, Span<c
     island.joint_count = grower.placed - first;
     island.loop_count = loops;
     first = grower.placed + loops;
-    if (island.joint_count + loops == 0) continue;
-    island.substeps = island.contact_count == 0 ? k_substeps_min : k_substeps_with_contacts;
+    if (island.joint_count + loops != 0)
+      island.substeps = island.contact_count == 0 ? k_substeps_min : k_substeps_with_contacts;
   }
   for (JointWork& work : stage.work.first(stage.count)) {
     const JointBody &a = stage.bodies[work.body[0]], &b = stage.bodies[work.body[1]];
@@ -189,8 +196,9 @@ void grow_trees(const StepSettings& settings, const SolverBodies& bodies, Span<c
     const auto angular = [&](const JointBody& body) {
       return scaled_by_power(body.share, 2 * (work.exponent - body.exponent + body.above));
     };
-    work.base[0] = add(a.share, b.share);
-    work.base[1] = add(angular(a), angular(b));
+    bool saturated = false;
+    work.least[0] = to_real(scaled_by_power(add(a.share, b.share), k_redundant_power), saturated);
+    work.least[1] = to_real(scaled_by_power(add(angular(a), angular(b)), k_redundant_power), saturated);
     const JointState& joint = stage.joints[work.joint];
     const JointBody& mobile = a.mobile != 0 ? a : b;
     const Scaled reference = multiply(bodies.traits[mobile.slot].mass, mobile.share);
@@ -198,7 +206,6 @@ void grow_trees(const StepSettings& settings, const SolverBodies& bodies, Span<c
       // Torques are over 2^exponent m besides.
       const int power = is_angular(static_cast<JointType>(joint.type), i) ? -work.exponent : 0;
       const Scaled impulse = scaled_by_power(multiply(joint.force_max[i], scaled_from(settings.tick_time)), power);
-      bool saturated = false;
       work.bound[i] = to_real(divide(impulse, reference), saturated);
     }
   }

@@ -191,9 +191,9 @@ struct alignas(8) JointWork {
   Vec3<Unit> arm[2];                               ///< the anchors, from the bodies' centres, in their units
   int32_t exponent;                                ///< 2^exponent m: how far angular rows reach
   JointRow row[k_joint_rows_max];                  ///< those beyond the points
-  alignas(sizeof(Real)) Scaled base[2];            ///< response of a linear and an angular row without all other joints
-  Scaled softness[k_joint_rows_max];               ///< what a spring adds to a row's response
-  Scaled inverse[k_joint_rows_max];                ///< of the pivots
+  alignas(sizeof(Real)) Scaled inverse[k_joint_rows_max];  ///< of the pivots
+  Real least[2];                                   ///< what of a linear and an angular row's response counts
+  Real softness[k_joint_rows_max];                 ///< what a spring adds to a row's response
   Real wanted[k_joint_rows_max];                   ///< speed of each row, m/s
   Real lower[k_joint_rows_max][k_joint_rows_max];  ///< L of L D L^T
   Real reply[k_joint_rows_max][6];                 ///< L^-1 of what the rows do to the parent
