@@ -27,10 +27,11 @@ enum class Features : uint32_t {
   rounding = 1u << 16,    ///< of boxes, cylinders, cones and hulls
   continuous = 1u << 17,  ///< WorldDef::continuous
   sleeping = 1u << 18,    ///< WorldDef::sleeping, put_to_sleep()
+  joints = 1u << 19,      ///< create_joint()
   /// Every shape.
   shapes = sphere | capsule | box | half_space | cylinder | cone | hull | rounding,
   /// The default of create_world().
-  all = shapes | continuous | sleeping,
+  all = shapes | continuous | sleeping | joints,
 };
 /// Those in either.
 constexpr Features operator|(Features a, Features b) {
@@ -58,6 +59,7 @@ struct ConvexCode;
 struct HullCode;
 struct ContinuousCode;
 struct SleepingCode;
+struct JointCode;
 extern const ShapeCode k_sphere_code, k_capsule_code, k_box_code, k_half_space_shape_code, k_cylinder_code, k_cone_code,
     k_hull_shape_code;
 extern const PairCode k_round_pair_code, k_box_round_pair_code, k_box_pair_code;
@@ -66,6 +68,7 @@ extern const ConvexCode k_convex_code;
 extern const HullCode k_hull_code;
 extern const ContinuousCode k_continuous_code;
 extern const SleepingCode k_sleeping_code;
+extern const JointCode k_joint_code;
 /// @endcond
 
 /// What a world calls, null where it is not linked. Made by feature_table; must outlive its worlds.
@@ -79,6 +82,7 @@ struct FeatureTable {
   const HullCode* hull;
   const ContinuousCode* continuous;
   const SleepingCode* sleeping;
+  const JointCode* joints;
   /// @endcond
 };
 
@@ -103,6 +107,7 @@ constexpr FeatureTable make_feature_table(Features features) {
   if (any(Features::hull)) table.hull = &k_hull_code;
   if (any(Features::continuous)) table.continuous = &k_continuous_code;
   if (any(Features::sleeping)) table.sleeping = &k_sleeping_code;
+  if (any(Features::joints)) table.joints = &k_joint_code;
   return table;
 }
 

@@ -13,7 +13,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// The layout of the bytes, apart from what a tick computes (`k_simulation_version`).
-inline constexpr uint32_t k_recording_format_version = 1;
+inline constexpr uint32_t k_recording_format_version = 2;
 /// The working buffer of a Recorder or a Player: one chunk. No alignment is needed.
 inline constexpr uint32_t k_recording_buffer_bytes = 544;
 
@@ -102,6 +102,9 @@ class Recorder {
   Status set_user_data(BodyId id, uint32_t user_data);
   Status set_filter(BodyId id, const Filter& filter);
   Status bind_asset(uint32_t index);
+  Status create_joint(const JointDef& def, JointId& id);
+  Status destroy_joint(JointId id);
+  Status set_joint(JointId id, const JointDef& def);
   Status set_type(BodyId id, BodyType type);
   Status set_shape(BodyId id, const Shape& shape);
   Status set_mass(BodyId id, Scaled mass);

@@ -3,6 +3,7 @@
 #include <detent/body.h>
 #include <detent/event.h>
 #include <detent/features.h>
+#include <detent/joint.h>
 #include <detent/profile.h>
 #include <detent/reduction.h>
 #include <detent/status.h>
@@ -24,9 +25,11 @@ struct Capacity {
   uint32_t assets = 0;    ///< assets that can be bound
   bool manifolds =
       true;  ///< room to use contact points again (WorldDef::reuse), which takes 160 bytes a contact (f64 272)
+  uint32_t joints = 0;  ///< joints
   /// Equal in every kind.
   friend constexpr bool operator==(Capacity a, Capacity b) {
-    return a.bodies == b.bodies && a.contacts == b.contacts && a.assets == b.assets && a.manifolds == b.manifolds;
+    return a.bodies == b.bodies && a.contacts == b.contacts && a.assets == b.assets && a.manifolds == b.manifolds &&
+           a.joints == b.joints;
   }
 };
 
@@ -77,6 +80,7 @@ struct World {
   uint8_t* block = nullptr;                ///< what create_world() was given
   AssetTable assets = {};                  ///< what create_world() was given
   ContactEventBuffer contact_events = {};  ///< filled by each step, from its front; none by default
+  JointEventBuffer joint_events = {};      ///< likewise
   const FeatureTable* features = nullptr;  ///< what create_world() was given
   uint32_t lanes =
       1;  ///< contacts that the solver takes at once, 1 or as many as this machine can: the bits are the same
@@ -108,6 +112,11 @@ struct StepReport {
                                   ///< but continuous collision tries them all
   uint32_t contacts_dropped = 0;  ///< contacts beyond the capacity (the shallowest), lost this tick
   uint32_t saturations = 0;       ///< state components clamped to their range
+  uint32_t joints = 0;                 ///< of which a body is awake
+  uint32_t joints_broken = 0;          ///< and gone
+  uint32_t joint_events = 0;           ///< in the world's buffer
+  uint32_t joint_events_dropped = 0;   ///< beyond the capacity of the world's buffer
+  uint32_t joint_decisions_left = 0;   ///< limits and motors still undecided after the last try of a substep
   uint32_t impacts = 0;           ///< times at which bodies met within the tick and were made to part
   uint32_t impacts_undecided = 0;  ///< times of impact found in part, or that could not be asked for
   uint32_t impacts_dropped = 0;    ///< for want of room, that of contacts: their bodies stayed behind
@@ -130,6 +139,7 @@ struct WorldInfo {
   uint64_t tick = 0;           ///< ticks completed since the world was created
   uint32_t bodies = 0;         ///< bodies in the world
   uint32_t contacts = 0;       ///< pairs in contact after the last step, those asleep included
+  uint32_t joints = 0;         ///< joints in the world
   uint32_t slots_retired = 0;  ///< body slots whose generation is used up
 };
 

@@ -99,7 +99,7 @@ bool DeeperPair::operator()(uint64_t a, uint64_t b) const {
 void PairPool::consider(uint32_t a, uint32_t b) {
   if (!is_dynamic_type(traits[a]) && !is_dynamic_type(traits[b])) return;
   if (!overlap(bounds[a], bounds[b]) || !filter.allows(a, b)) return;
-  found.add(a < b ? pair_key(a, b) : pair_key(b, a));
+  found.add(key_of_pair(a, b));
 }
 
 /// By the higher slot, then by the lower one: only as many digits as slots have.

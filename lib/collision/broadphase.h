@@ -9,11 +9,6 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// A pair of body slots as one sortable word: the lower slot in the high half.
-constexpr uint64_t pair_key(uint32_t low, uint32_t high) { return (uint64_t{low} << 32) | high; }
-constexpr uint32_t pair_low(uint64_t key) { return static_cast<uint32_t>(key >> 32); }
-constexpr uint32_t pair_high(uint64_t key) { return static_cast<uint32_t>(key); }
-
 /// Whether a pair is kept before another: that whose bounds overlap deeper, of equals the lower key. The depth is the
 /// least overlap along an axis, or how far the bounds reach into a half-space, in steps of a coordinate (f64: 2^-20 m).
 struct DeeperPair {
@@ -34,9 +29,10 @@ struct PairPool {
   SmallestOf<uint64_t, DeeperPair> found;
 
   PairPool(Span<const BodyPose> body_poses, Span<const BodyTraits> body_traits, Span<const Bounds> body_bounds,
-           Span<uint64_t> sort_space, Span<uint64_t> storage, const FilterRuleTable& rules = {})
+           Span<uint64_t> sort_space, Span<uint64_t> storage, const FilterRuleTable& rules = {},
+           Span<const uint64_t> apart = {})
       : traits(body_traits),
-        filter{body_traits, rules},
+        filter{body_traits, rules, apart},
         bounds(body_bounds),
         spare(sort_space),
         found{storage, {body_poses, body_traits, body_bounds}} {}

@@ -3,6 +3,7 @@
 #include <detent/filter.h>
 
 #include "base/span.h"
+#include "collision/pair_key.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -22,11 +23,13 @@ inline bool has_rule(const FilterRuleTable& table, uint32_t rule) {
 struct PairFilter {
   Span<const BodyTraits> traits;
   FilterRuleTable rules;
+  Span<const uint64_t> apart = {};  ///< pairs that joints keep apart, ascending
 
   bool allows(uint32_t slot_a, uint32_t slot_b) const {
     const BodyTraits &a = traits[slot_a], &b = traits[slot_b];
     const bool grouped = a.group != 0 && a.group == b.group;
     if (grouped ? a.group < 0 : !masks_meet(a.category, a.mask, b.category, b.mask)) return false;
+    if (apart.count != 0 && has_pair(apart, key_of_pair(slot_a, slot_b))) return false;
     return (a.rule | b.rule) == 0 || (rule_allows(a, b) && rule_allows(b, a));
   }
 

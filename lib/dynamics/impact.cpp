@@ -66,8 +66,6 @@ Bounds bounds_over(const BodyTraits& traits, const BodyPose& pose, const Sweep& 
            coord_advance(at.z, max(way.z, k_zero) + reach.z, beyond)}};
 }
 
-uint64_t key_of(uint32_t a, uint32_t b) { return a < b ? pair_key(a, b) : pair_key(b, a); }
-
 uint64_t key_of(const ContactState& contact) { return pair_key(contact.body_a, contact.body_b); }
 
 /// The contact of a pair, or none.
@@ -81,18 +79,6 @@ const ContactWork* find_contact(Span<const ContactWork> contacts, uint64_t key) 
       high = middle;
   }
   return low < contacts.count && key_of(contacts[low].state) == key ? &contacts[low] : nullptr;
-}
-
-bool contains(Span<const uint64_t> keys, uint64_t key) {
-  uint32_t low = 0, high = keys.count;
-  while (low < high) {
-    const uint32_t middle = low + (high - low) / 2;
-    if (keys[middle] < key)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return low < keys.count && keys[low] == key;
 }
 
 struct Stage {
@@ -150,8 +136,7 @@ struct Stage {
     bodies.candidates.for_each([&](uint32_t other) {
       bodies.candidates.clear(other);
       // What went before may have stopped either.
-      if (other == slot || !overlap(bodies.bounds[slot], bodies.bounds[other])) return;
-      if (PairFilter{bodies.traits, bodies.filter_rules}.allows(slot, other)) visit(other);
+      if (other != slot && overlap(bodies.bounds[slot], bodies.bounds[other]) && may_meet(slot, other)) visit(other);
     });
   }
 
@@ -207,6 +192,17 @@ struct Stage {
     change(slot);
   }
 
+  bool jointed(uint32_t slot) const { return bodies.sweeps[slot].marks >= k_mark_jointed; }
+
+  /// False for pairs that filters or joints keep apart, and for those of one tree of joints; and where joints hold one, for
+  /// half-spaces, which contacts alone keep anything from passing: a body that stops alone tears at its joints.
+  bool may_meet(uint32_t a, uint32_t b) const {
+    if (!PairFilter{bodies.traits, bodies.filter_rules, known.apart}.allows(a, b)) return false;
+    if (!jointed(a) && !jointed(b)) return true;
+    if (is_half_space(bodies.traits[a]) || is_half_space(bodies.traits[b])) return false;
+    return bodies.sweeps[a].marks / k_mark_jointed != bodies.sweeps[b].marks / k_mark_jointed;
+  }
+
   ImpactPair* find_met(uint64_t key) {
     for (uint32_t i = 0; i < met_count; ++i) {
       if (met[i].key == key) return &met[i];
@@ -243,8 +239,15 @@ struct Stage {
   bool is_ball(uint32_t slot) const { return bodies.traits[slot].shape == static_cast<uint32_t>(ShapeType::sphere); }
 
   /// On which rung of the ladder a pair with this contact, or none, starts, and by how much at least its inset bodies
-  /// are apart, m.
+  /// are apart, m. Where joints hold one it is so far in that it meets only what it would have passed.
   Real first_inset(uint64_t key, const ContactWork* contact, Real& apart) const {
+    const Real inset = free_inset(key, contact, apart);
+    if (!jointed(pair_low(key)) && !jointed(pair_high(key))) return inset;
+    const Real held = max(inset, scale_by_power(extent_of(key), -2) + scale_by_power(extent_of(key), -3));
+    apart += held - inset;
+    return held;
+  }
+  Real free_inset(uint64_t key, const ContactWork* contact, Real& apart) const {
     const Real extent = extent_of(key);
     if (contact == nullptr) {
       apart = known.complete ? scale_by_power(extent, -6) : k_zero;
@@ -334,7 +337,7 @@ struct Stage {
     const uint32_t low = pair_low(key), high = pair_high(key);
     if (!dynamic(low) && !dynamic(high)) return;
     if (is_at_rest(bodies.sweeps[low]) && is_at_rest(bodies.sweeps[high])) return;
-    if (!overlap(bodies.bounds[low], bodies.bounds[high])) return;
+    if (!overlap(bodies.bounds[low], bodies.bounds[high]) || !may_meet(low, high)) return;
     Real apart = k_zero, closing = k_zero;
     const Real inset = first_inset(key, contact, apart);
     const Fraction start = 0.0;
@@ -369,8 +372,8 @@ struct Stage {
       if ((bodies.sweeps[a].marks & k_mark_strayed) == 0) return;
       for_each_near(a, [&](uint32_t b) {
         if (b < a && (bodies.sweeps[b].marks & k_mark_strayed) != 0) return;
-        const uint64_t key = key_of(a, b);
-        if (!contains(known.pairs, key)) test_at_start(key, find_contact(known.contacts, key));
+        const uint64_t key = key_of_pair(a, b);
+        if (!has_pair(known.pairs, key)) test_at_start(key, find_contact(known.contacts, key));
       });
     });
   }
@@ -381,7 +384,7 @@ struct Stage {
     --changed_count;
     for_each_near(slot, [&](uint32_t other) {
       if (is_at_rest(bodies.sweeps[slot]) && is_at_rest(bodies.sweeps[other])) return;
-      const uint64_t key = key_of(slot, other);
+      const uint64_t key = key_of_pair(slot, other);
       ImpactPair* entry = find_met(key);
       Real apart = k_zero;
       test(key, time, first_inset(key, find_contact(known.contacts, key), apart), entry);

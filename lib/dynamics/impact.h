@@ -23,6 +23,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 inline constexpr uint32_t k_impacts_max = 16;  ///< of a body in a tick
+/// A mark of a body's sweep, times the number of the tree of joints that holds it, from 1 on. All other marks are less.
+inline constexpr uint32_t k_mark_jointed = 32;
 
 /// For tests: what is written down of the stage, and whether pairs that cannot meet are left out.
 struct ImpactProbe {
@@ -65,6 +67,7 @@ struct ImpactPairs {
   Span<const uint64_t> pairs;        ///< all that may meet while both bodies stay in their bounds, ascending
   Span<const ContactWork> contacts;  ///< those with contact points at the start of the tick, likewise
   bool complete;                     ///< none of them was dropped
+  Span<const uint64_t> apart;        ///< pairs that are not to meet, ascending
 };
 
 /// `met` is work space, `hits` is filled in the order of the impacts.

@@ -28,8 +28,8 @@ bool join(Span<BodyWork> work, uint32_t BodyWork::*link, uint32_t a, uint32_t b,
 }  // namespace
 
 uint32_t find_islands(Span<const uint32_t> slots, Span<const BodyTraits> traits, Span<const BodyActivity> activities,
-                      Span<const ContactWork> contacts, Span<BodyWork> work, Span<Island> islands,
-                      Span<uint32_t> bodies) {
+                      Span<const ContactWork> contacts, const JointStage& joints, Span<BodyWork> work,
+                      Span<Island> islands, Span<uint32_t> bodies) {
   for (const uint32_t slot : slots) {
     BodyWork& now = work[slot];
     now.island = now.run = slot;
@@ -48,6 +48,11 @@ uint32_t find_islands(Span<const uint32_t> slots, Span<const BodyTraits> traits,
     join(work, &BodyWork::island, a, b, first, other);
     if (work[a].contacts > 2 || work[b].contacts > 2) continue;
     if (join(work, &BodyWork::run, a, b, first, other)) work[first].run_length += work[other].run_length;
+  }
+  for (const JointWork& joint : joints.work.first(joints.count)) {
+    const JointBody &a = joints.bodies[joint.body[0]], &b = joints.bodies[joint.body[1]];
+    uint32_t first = 0, other = 0;
+    if (a.mobile != 0 && b.mobile != 0) join(work, &BodyWork::island, a.slot, b.slot, first, other);
   }
 
   // Every body is linked to the first of its set, which is visited before it and has by then the island's number.

@@ -28,6 +28,7 @@ void start_body(const StepSettings& settings, const BodyTraits& traits, const Bo
                 BodyWork& work) {
   const Real zero = 0.0;
   const Vec3<Real> none = {zero, zero, zero};
+  work.joint_body = UINT32_MAX;
   work.rotation = pose.rotation;
   work.displacement = none;
   work.turn = none;

@@ -4,6 +4,7 @@
 #include "dynamics/contact_order.h"
 #include "dynamics/contact_solver.h"
 #include "dynamics/gyration.h"
+#include "dynamics/joint.h"
 #include "dynamics/post_stabilise.h"
 #include "dynamics/solve_quads.h"
 #include "dynamics/spin.h"
@@ -71,8 +72,9 @@ uint32_t integrate_positions(const SolverBodies& bodies, Span<const uint32_t> is
   for (const uint32_t slot : island) {
     const BodyMotion& motion = bodies.motions[slot];
     BodyWork& now = bodies.work[slot];
-    // What no contact acts on is in free flight: at the mean of its velocities before and after the push.
-    const bool flies = added_by_contacts(motion.velocity, now.contact_velocity) == k_still;
+    // What no contact or joint acts on is in free flight: at the mean of its velocities before and after the push.
+    const bool flies =
+        now.joint_body == k_no_link && added_by_contacts(motion.velocity, now.contact_velocity) == k_still;
     now.displacement += (flies ? motion.velocity - halved(now.push) : motion.velocity) * time;
     clamped += turn(bodies.traits[slot], motion, time, halvings, now);
   }
@@ -166,7 +168,7 @@ bool has_quads() {
 #endif
 
 SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> island,
-                 Span<const ContactOrder> order, Span<ContactWork> contacts) {
+                 Span<const ContactOrder> order, Span<ContactWork> contacts, const IslandJoints& joints) {
   using Solver = ContactSolver<One>;
   SolveCount count;
   Real elapsed = 0.0;
@@ -198,6 +200,9 @@ SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<
       place_kinematic(bodies.traits[b], bodies.motions[b], elapsed, bodies.work[b]);
     }
     sweep([](Solver& contact) { contact.soften(); }, soften_quad);
+    if (joints.code != nullptr)
+      count.clamped +=
+          joints.code->solve(settings, bodies, *joints.island, elapsed, *joints.stage, *joints.undecided);
     count.clamped += integrate_positions(bodies, island, settings.time);
     sweep([](Solver& contact) { contact.relax(); }, relax_quad);
     elapsed += settings.time;

@@ -48,7 +48,7 @@ uint32_t notch_for(Scaled need, uint32_t most) {
 }
 
 uint32_t most_for(const StepSettings& settings, uint32_t contacts) {
-  const uint32_t share = k_contact_substeps / contacts;
+  const uint32_t share = contacts == 0 ? k_contact_substeps : k_contact_substeps / contacts;
   const uint32_t most = share < k_pile_substeps ? k_pile_substeps : share;
   return most < settings.substeps_max ? most : settings.substeps_max;
 }
@@ -129,7 +129,8 @@ void choose_substeps(const StepSettings& settings, Span<const BodyTraits> traits
                      Span<const uint32_t> bodies, Span<const ContactOrder> order, Span<Island> islands,
                      Span<ContactWork> contacts, Span<BodyActivity> activities) {
   for (Island& island : islands) {
-    Scaled need = 0.0;
+    const uint32_t for_joints = island.substeps < settings.substeps_max ? island.substeps : settings.substeps_max;
+    Scaled need = for_joints == 0 ? Scaled(0.0) : square_of(for_joints);
     for (uint32_t i = 0; i < island.contact_count; ++i) {
       const ContactWork& contact = contacts[order[island.first_contact + i].contact];
       const uint32_t a = contact.state.body_a, b = contact.state.body_b;
@@ -145,11 +146,11 @@ void choose_substeps(const StepSettings& settings, Span<const BodyTraits> traits
       calm = activity.calm_ticks < calm ? activity.calm_ticks : calm;
     }
     uint32_t now = settings.substeps_fixed;
-    if (now == 0 && island.contact_count == 0) {
+    if (now == 0 && island.contact_count == 0 && for_joints == 0) {
       now = 1;
       before = calm = 0;
     } else if (now == 0) {
-      const uint32_t most = most_for(settings, island.contact_count);
+      const uint32_t share = most_for(settings, island.contact_count), most = share < for_joints ? for_joints : share;
       now = notch_for(need, most);
       before = before < most ? before : most;
       const uint32_t lower = next_below(before);
@@ -170,7 +171,7 @@ void choose_substeps(const StepSettings& settings, Span<const BodyTraits> traits
     }
     for (uint32_t i = 0; i < island.body_count; ++i) {
       BodyActivity& activity = activities[bodies[island.first_body + i]];
-      activity.substeps = island.contact_count == 0 ? 0 : now;
+      activity.substeps = island.contact_count + for_joints == 0 ? 0 : now;
       activity.calm_ticks = calm;
     }
   }

@@ -20,7 +20,8 @@ inline constexpr uint32_t k_contact_substeps = 2048;
 inline constexpr uint32_t k_pile_substeps = 4;
 inline constexpr uint32_t k_calm_ticks = 60;  ///< in which fewer substeps would have done, before they are taken
 
-/// Sets the islands' substeps, and those of their bodies' activities, from the contacts' loads. More are taken at once,
+/// Sets the islands' substeps, and those of their bodies' activities, from the contacts' loads and from what their
+/// joints ask for, which `islands` has. More are taken at once,
 /// fewer one notch at a time and after k_calm_ticks. Impulses carried over from a tick with other substeps are scaled.
 void choose_substeps(const StepSettings& settings, Span<const BodyTraits> traits, Span<const BodyWork> work,
                      Span<const uint32_t> bodies, Span<const ContactOrder> order, Span<Island> islands,

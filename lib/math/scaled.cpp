@@ -77,6 +77,18 @@ bool less(Scaled a, Scaled b) {
   return a.mantissa < b.mantissa;
 }
 
+Scaled scaled_reciprocal(Real a) {
+  DETENT_VERIFY_RANGE(a.raw > 0);
+  const uint64_t raw = static_cast<uint64_t>(a.raw);
+  const int length = bit_length_64(raw);
+  const uint64_t head = length > 32 ? raw >> (length - 32) : raw << (32 - length);  // [2^31, 2^32)
+  const uint64_t quotient = (uint64_t{1} << 62) / head;                             // (2^30, 2^31]
+  constexpr int k_exponent = k_real_frac + 32 - 62;
+  if (quotient >> 31 != 0) return Scaled::from_parts(1 << 30, k_exponent - length + 1);
+  return Scaled::from_parts(static_cast<int32_t>(quotient), k_exponent - length);
+}
+
+#if !DETENT_NATIVE_WIDE
 Real multiply(Real a, Scaled b) {
   DETENT_VERIFY_RANGE(b.mantissa == 0 || b.exponent < 0);
   const int n = -b.exponent;
@@ -88,6 +100,7 @@ Real multiply(Real a, Scaled b) {
   const int64_t low = low_product & 0xffffffff;
   return Real::from_raw(static_cast<int64_t>(static_cast<uint64_t>(high) << (32 - n)) + round_shift_64(low, n));
 }
+#endif
 
 Real multiply(Real a, Scaled b, bool& saturated) {
   const Int128 product = Int128::product_narrow(a.raw, b.mantissa);

@@ -33,7 +33,18 @@ constexpr bool is_positive(Scaled a) { return a.mantissa > 0; }
 constexpr Scaled negate(Scaled a) { return Scaled::from_parts(-a.mantissa, a.exponent); }
 
 /// a b. Range: |b| < 2^30. Rounding: to nearest, ties up. Overflow: wraps; none for |b| <= 1.
+#if DETENT_NATIVE_WIDE
+inline Real multiply(Real a, Scaled b) {
+  DETENT_VERIFY_RANGE(b.mantissa == 0 || b.exponent < 0);
+  // The product is below 2^95; only 0 has an exponent of 0 here.
+  if (b.exponent >= 0 || b.exponent < -120) return Real(0.0);
+  return Real::from_raw(Int128::product(a.raw, b.mantissa).round_shift(-b.exponent));
+}
+#else
 Real multiply(Real a, Scaled b);
+#endif
+/// 1 / a. Range: a > 0. Rounding: relative error <= 2^-29. Overflow: none.
+Scaled scaled_reciprocal(Real a);
 /// a b. Rounding: to nearest, ties up. Overflow: clamps to Real's range and sets `saturated` (else untouched).
 Real multiply(Real a, Scaled b, bool& saturated);
 /// As multiply(Real(1.0), a, saturated).
@@ -42,6 +53,7 @@ Real to_real(Scaled a, bool& saturated);
 Unit to_unit(Scaled a);
 #else
 constexpr Scaled scaled_from(Real a) { return a; }
+constexpr Scaled scaled_reciprocal(Real a) { return Real(1) / a; }
 constexpr Real multiply(Real a, Scaled b) { return a * b; }
 constexpr Scaled add(Scaled a, Scaled b) { return a + b; }
 constexpr Scaled scaled_by_power(Scaled a, int n) { return scale_by_power(a, n); }

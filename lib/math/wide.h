@@ -162,8 +162,10 @@ struct NativeInt128 {
 
 // wasm has the type, but multiplies it by a library call.
 #if defined(__SIZEOF_INT128__) && !defined(__wasm__) && !defined(DETENT_PORTABLE_WIDE)
+#define DETENT_NATIVE_WIDE 1
 using Int128 = NativeInt128;
 #else
+#define DETENT_NATIVE_WIDE 0
 using Int128 = PortableInt128;
 #endif
 

@@ -66,6 +66,15 @@ void visit_word(Archive& archive, const char* name, uint32_t& value) {
   value = static_cast<uint32_t>(bits);
 }
 
+/// One byte, 0 or 1.
+template <class Archive>
+void visit_flag(Archive& archive, const char* name, bool& value) {
+  uint64_t bits = value ? 1 : 0;
+  archive.bits(name, bits, 1);
+  archive.require(name, bits <= 1, Status::bad_argument);
+  value = bits == 1;
+}
+
 /// One byte; the enumeration's values are `first` to `last`.
 template <class Archive, class Enum>
 void visit_choice(Archive& archive, const char* name, Enum& value, Enum first, Enum last) {

@@ -44,6 +44,9 @@ enum class RecordTag : uint8_t {
   move_kinematic = 45,
   set_filter = 48,
   query = 49,  ///< a query and the digest of its answer (lib/replay/query_command.h), after their length
+  create_joint = 64,
+  destroy_joint = 65,
+  set_joint = 66,
 };
 
 struct CreateBody {
@@ -141,6 +144,20 @@ struct BindAsset {
   static constexpr RecordTag k_tag = RecordTag::bind_asset;
   uint32_t index = 0;
 };
+struct CreateJoint {
+  static constexpr RecordTag k_tag = RecordTag::create_joint;
+  JointDef def = {};
+  JointId id = {};  ///< what the call gave
+};
+struct DestroyJoint {
+  static constexpr RecordTag k_tag = RecordTag::destroy_joint;
+  JointId id = {};
+};
+struct SetJoint {
+  static constexpr RecordTag k_tag = RecordTag::set_joint;
+  JointId id = {};
+  JointDef def = {};
+};
 struct Tick {
   static constexpr RecordTag k_tag = RecordTag::tick;
 };
@@ -203,14 +220,6 @@ void visit(Archive& archive, BodyDef& def) {
   visit_word(archive, "turn locks", def.turn_locks);
 }
 
-template <class Archive>
-void visit(Archive& archive, bool& flag, const char* name) {
-  uint64_t bits = flag ? 1 : 0;
-  archive.bits(name, bits, 1);
-  archive.require(name, bits <= 1, Status::bad_argument);
-  flag = bits == 1;
-}
-
 /// All but the capacity, which is the recording's.
 template <class Archive>
 void visit(Archive& archive, WorldDef& def) {
@@ -225,8 +234,8 @@ void visit(Archive& archive, WorldDef& def) {
   visit_number(archive, "stiffness", def.stiffness);
   visit_number(archive, "damping ratio", def.damping_ratio);
   visit_number(archive, "restitution threshold", def.restitution_threshold);
-  visit(archive, def.continuous, "continuous");
-  visit(archive, def.sleeping, "sleeping");
+  visit_flag(archive, "continuous", def.continuous);
+  visit_flag(archive, "sleeping", def.sleeping);
   visit_number(archive, "breaking", def.breaking);
   visit_number(archive, "reuse", def.reuse);
   visit_choice(archive, "reduction", def.reduction, ManifoldReduction::projected_extremes,
@@ -240,6 +249,55 @@ void visit(Archive& archive, Explosion& explosion) {
   visit_number(archive, "impulse", explosion.impulse);
 }
 
+template <class Archive>
+void visit(Archive& archive, JointId& id) {
+  visit_word(archive, "joint slot", id.slot);
+  visit_word(archive, "joint generation", id.generation);
+}
+
+template <class Archive>
+void visit(Archive& archive, JointAxis& axis) {
+  visit_flag(archive, "limited", axis.limited);
+  visit_number(archive, "lower limit", axis.lower);
+  visit_number(archive, "upper limit", axis.upper);
+  visit_number(archive, "frequency", axis.frequency);
+  visit_number(archive, "damping ratio", axis.damping_ratio);
+  visit_number(archive, "target", axis.target);
+  visit_number(archive, "speed", axis.speed);
+  visit_number(archive, "greatest force", axis.force_max);
+}
+
+template <class Archive>
+void visit(Archive& archive, JointDef& def) {
+  visit_choice(archive, "joint type", def.type, JointType::ball, JointType::wheel);
+  visit(archive, def.a);
+  visit(archive, def.b);
+  visit_number(archive, "anchor of A", def.anchor_a);
+  visit_number(archive, "anchor of B", def.anchor_b);
+  visit_number(archive, "frame of A", def.frame_a);
+  visit_number(archive, "frame of B", def.frame_b);
+  visit(archive, def.axis);
+  visit(archive, def.second);
+  visit_flag(archive, "collide", def.collide);
+  visit_number(archive, "breaking force", def.break_force);
+  visit_number(archive, "breaking torque", def.break_torque);
+  visit_word(archive, "user data", def.user_data);
+}
+
+template <class Archive>
+void visit(Archive& archive, CreateJoint& command) {
+  visit(archive, command.def);
+  visit(archive, command.id);
+}
+template <class Archive>
+void visit(Archive& archive, DestroyJoint& command) {
+  visit(archive, command.id);
+}
+template <class Archive>
+void visit(Archive& archive, SetJoint& command) {
+  visit(archive, command.id);
+  visit(archive, command.def);
+}
 template <class Archive>
 void visit(Archive& archive, CreateBody& command) {
   visit(archive, command.def);
@@ -321,6 +379,9 @@ void visit(Archive& archive, TickDigested& command) {
   archive.bits("digest", command.digest, 8);
 }
 
+inline Status apply(World& world, CreateJoint& command) { return create_joint(world, command.def, command.id); }
+inline Status apply(World& world, DestroyJoint& command) { return destroy_joint(world, command.id); }
+inline Status apply(World& world, SetJoint& command) { return set_joint(world, command.id, command.def); }
 inline Status apply(World& world, CreateBody& command) { return create_body(world, command.def, command.id); }
 template <RecordTag tag, Status (*call)(World&, BodyId)>
 Status apply(World& world, OnBody<tag, call>& command) {
@@ -425,6 +486,12 @@ bool with_command(RecordTag tag, const Visitor& visitor) {
     case RecordTag::set_filter:
       return visit_new<SetFilter>(visitor);
     case RecordTag::query:
+    case RecordTag::create_joint:
+      return visit_new<CreateJoint>(visitor);
+    case RecordTag::destroy_joint:
+      return visit_new<DestroyJoint>(visitor);
+    case RecordTag::set_joint:
+      return visit_new<SetJoint>(visitor);
     case RecordTag::tick:
     case RecordTag::tick_digested:
       break;

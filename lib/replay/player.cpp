@@ -18,6 +18,7 @@ BodyId id_given(const Command&) {
   return {};
 }
 BodyId id_given(const CreateBody& command) { return command.id; }
+BodyId id_given(const CreateJoint& command) { return {command.id.slot, command.id.generation}; }
 
 }  // namespace
 

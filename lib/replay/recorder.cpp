@@ -305,6 +305,23 @@ Status Recorder::query_closest(const ClosestQuery& query, QueryHits hits, QueryR
   return ask_and_log(command, hits, report);
 }
 
+Status Recorder::create_joint(const JointDef& def, JointId& id) {
+  CreateJoint command{def, {}};
+  const Status status = apply_and_log(command);
+  if (status == Status::ok) id = command.id;
+  return status;
+}
+
+Status Recorder::destroy_joint(JointId id) {
+  DestroyJoint command{id};
+  return apply_and_log(command);
+}
+
+Status Recorder::set_joint(JointId id, const JointDef& def) {
+  SetJoint command{id, def};
+  return apply_and_log(command);
+}
+
 StepReport Recorder::step() {
   const StepReport report = detent::step(world_);
   if (!recording()) return report;

@@ -1,6 +1,7 @@
 #include <detent/body_access.h>
 
 #include "base/float_environment.h"
+#include "collision/pair_filter.h"
 #include "geometry/shape_traits.h"
 #include "world/body_change.h"
 #include "world/body_parts.h"
@@ -130,6 +131,7 @@ Status get_body_def(const World& world, BodyId id, BodyDef& def) {
   made.gravity_scale = real_from(traits.gravity_scale);
   made.user_data = traits.user_data;
   made.turn_locks = traits.turn_locks;
+  made.filter = filter_of(traits);
   def = made;
   return Status::ok;
 }

@@ -15,11 +15,16 @@ inline void rouse(StateView<uint8_t>& state, uint32_t slot) {
   state.activities[slot].still_ticks = 0;
   step.visits.set(slot);
 }
-/// And what takes it away wakes those it touches.
+/// And what takes it away wakes those that it touches or is joined to.
 inline void rouse_neighbours(StateView<uint8_t>& state, uint32_t slot) {
   for (const ContactState& contact : state.contacts.first(state.world.contact_count)) {
     if (contact.body_a == slot) rouse(state, contact.body_b);
     if (contact.body_b == slot) rouse(state, contact.body_a);
+  }
+  for (const JointState& joint : state.joints.first(state.world.joints_used)) {
+    if (joint.type == 0) continue;
+    if (joint.body_a == slot) rouse(state, joint.body_b);
+    if (joint.body_b == slot) rouse(state, joint.body_a);
   }
 }
 /// Wakes all, for what they rest by has changed.

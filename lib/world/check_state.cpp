@@ -7,6 +7,7 @@
 #include "math/root.h"
 #include "world/asset_binding.h"
 #include "world/fields.h"
+#include "world/joints.h"
 #include "world/ranges.h"
 #include "world/slots.h"
 #include "world/snapshot.h"
@@ -19,17 +20,6 @@ namespace {
 using State = StateView<const uint8_t>;
 
 constexpr Real k_impulse_max = 131000.0;
-
-bool is_zero(const uint8_t* bytes, uint32_t count) {
-  for (uint32_t i = 0; i < count; ++i) {
-    if (bytes[i] != 0) return false;
-  }
-  return true;
-}
-template <class T>
-bool is_zero(const T& value) {
-  return is_zero(reinterpret_cast<const uint8_t*>(&value), sizeof value);
-}
 
 bool is_unit_quaternion(const Quat& q) {
   Quat ignored;
@@ -287,7 +277,7 @@ Status check_state(const uint8_t* block, Capacity capacity, AssetTable assets, c
   // Before the bodies, which are checked against the hulls that they have.
   if (const Status status = check_assets(assets, features, state.assets); status != Status::ok) return status;
   if (!are_bodies(state, assets, features) || !are_contacts(state) || !are_manifolds(state) ||
-      (world.idle != 0 && !is_idle(state))) {
+      !are_joints(state) || (world.idle != 0 && !is_idle(state))) {
     return Status::corrupt;
   }
   for (const BodyTraits& traits : state.traits) {

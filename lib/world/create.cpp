@@ -6,6 +6,7 @@
 #include "world/asset_binding.h"
 #include "world/body_change.h"
 #include "world/body_parts.h"
+#include "world/joints.h"
 #include "world/ranges.h"
 #include "world/settings.h"
 #include "world/slots.h"
@@ -73,8 +74,8 @@ Status create_world(uint8_t* block, uint32_t block_bytes, const WorldDef& def, A
                                        def.capacity.assets,
                                        left_out(features),
                                        def.capacity.manifolds ? 1u : 0u,
-                                       0};
-  world = {block, assets, {}, &features, has_quads() ? 4u : 1u};
+                                       def.capacity.joints};
+  world = {block, assets, {}, {}, &features, has_quads() ? 4u : 1u};
   store_settings(def, view_of(world).world, def.capacity.manifolds);
   return Status::ok;
 }
@@ -106,6 +107,7 @@ Status destroy_body(World& world, BodyId id) {
   StateView<uint8_t> state = view_of(world);
   uint32_t slot = 0;
   if (!find_body(state, id, slot)) return Status::bad_id;
+  remove_joints_of(state, slot);
   end_contacts(state, slot);
   const uint32_t generation = state.traits[slot].generation;
   state.poses[slot] = BodyPose{};

@@ -51,7 +51,7 @@ inline constexpr Field k_header_fields[] = {
     DETENT_FIELD(BlockHeader, simulation),      DETENT_FIELD(BlockHeader, config),
     DETENT_FIELD(BlockHeader, capacity_bodies), DETENT_FIELD(BlockHeader, capacity_contacts),
     DETENT_FIELD(BlockHeader, capacity_assets), DETENT_FIELD(BlockHeader, left_out),
-    DETENT_FIELD(BlockHeader, manifolds),       DETENT_FIELD(BlockHeader, zero),
+    DETENT_FIELD(BlockHeader, manifolds),       DETENT_FIELD(BlockHeader, capacity_joints),
 };
 inline constexpr Field k_world_fields[] = {
     DETENT_FIELD(WorldState, tick),
@@ -60,6 +60,8 @@ inline constexpr Field k_world_fields[] = {
     DETENT_FIELD(WorldState, free_word),
     DETENT_FIELD(WorldState, slots_retired),
     DETENT_FIELD(WorldState, contact_count),
+    DETENT_FIELD(WorldState, joint_count),
+    DETENT_FIELD(WorldState, joints_used),
     DETENT_FIELD(WorldState, substeps),
     DETENT_FIELD(WorldState, substeps_max),
     DETENT_FIELD(WorldState, iterations),
@@ -145,6 +147,20 @@ inline constexpr Field k_manifold_fields[] = {
     DETENT_FIELD(ManifoldState, normal), DETENT_FIELD(ManifoldState, offset), DETENT_FIELD(ManifoldState, rotation),
     DETENT_FIELD(ManifoldState, height), DETENT_FIELD(ManifoldState, anchor),
 };
+inline constexpr Field k_joint_fields[] = {
+    DETENT_FIELD(JointState, type),          DETENT_FIELD(JointState, generation),
+    DETENT_FIELD(JointState, body_a),        DETENT_FIELD(JointState, body_b),
+    DETENT_FIELD(JointState, collide),       DETENT_FIELD(JointState, user_data),
+    DETENT_FIELD(JointState, anchor_a),      DETENT_FIELD(JointState, anchor_b),
+    DETENT_FIELD(JointState, frame_a),       DETENT_FIELD(JointState, frame_b),
+    DETENT_FIELD(JointState, lower),         DETENT_FIELD(JointState, upper),
+    DETENT_FIELD(JointState, frequency),     DETENT_FIELD(JointState, damping_ratio),
+    DETENT_FIELD(JointState, target),        DETENT_FIELD(JointState, speed),
+    DETENT_FIELD(JointState, force_max),     DETENT_FIELD(JointState, limited),
+    DETENT_FIELD(JointState, break_force),   DETENT_FIELD(JointState, break_torque),
+    DETENT_FIELD(JointState, force),         DETENT_FIELD(JointState, torque),
+    DETENT_FIELD(JointState, impulse),
+};
 #undef DETENT_FIELD
 
 /// True if the fields follow one another without a gap and fill the element: no byte is padding.
@@ -162,7 +178,7 @@ static_assert(tiles(k_pose_fields, sizeof(BodyPose)) && tiles(k_motion_fields, s
 static_assert(tiles(k_traits_fields, sizeof(BodyTraits)) && tiles(k_slot_fields, sizeof(uint32_t)));
 static_assert(tiles(k_activity_fields, sizeof(BodyActivity)));
 static_assert(tiles(k_contact_fields, sizeof(ContactState)) && tiles(k_asset_fields, sizeof(AssetState)));
-static_assert(tiles(k_manifold_fields, sizeof(ManifoldState)));
+static_assert(tiles(k_manifold_fields, sizeof(ManifoldState)) && tiles(k_joint_fields, sizeof(JointState)));
 
 inline constexpr Section k_sections[] = {
     {sizeof(BlockHeader), &Layout::header}, {sizeof(WorldState), &Layout::world},
@@ -170,6 +186,7 @@ inline constexpr Section k_sections[] = {
     {sizeof(BodyTraits), &Layout::traits},  {sizeof(BodyActivity), &Layout::activities},
     {sizeof(uint32_t), &Layout::slots},     {sizeof(ContactState), &Layout::contacts},
     {sizeof(AssetState), &Layout::assets},  {sizeof(ManifoldState), &Layout::manifolds},
+    {sizeof(JointState), &Layout::joints},
 };
 inline constexpr uint32_t k_section_count = sizeof k_sections / sizeof k_sections[0];
 
@@ -183,6 +200,7 @@ inline constexpr SectionFields k_section_fields[k_section_count] = {
     section_fields("traits", k_traits_fields), section_fields("activities", k_activity_fields),
     section_fields("slots", k_slot_fields),    section_fields("contacts", k_contact_fields),
     section_fields("assets", k_asset_fields),  section_fields("manifolds", k_manifold_fields),
+    section_fields("joints", k_joint_fields),
 };
 
 /// Elements of a section, alignment fill included as further elements or left-over bytes that are always zero.

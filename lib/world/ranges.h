@@ -9,6 +9,17 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
+inline bool is_zero(const uint8_t* bytes, uint32_t count) {
+  for (uint32_t i = 0; i < count; ++i) {
+    if (bytes[i] != 0) return false;
+  }
+  return true;
+}
+template <class T>
+bool is_zero(const T& value) {
+  return is_zero(reinterpret_cast<const uint8_t*>(&value), sizeof value);
+}
+
 inline bool within(Real value, Real low, Real high) { return value >= low && value <= high; }
 inline bool within(const Vec3<Real>& v, Real limit) {
   return within(v.x, -limit, limit) && within(v.y, -limit, limit) && within(v.z, -limit, limit);

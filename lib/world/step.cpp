@@ -8,12 +8,14 @@
 #include "dynamics/finalise.h"
 #include "dynamics/impact.h"
 #include "dynamics/island.h"
+#include "dynamics/joint.h"
 #include "dynamics/predict.h"
 #include "dynamics/solve.h"
 #include "dynamics/spin.h"
 #include "dynamics/substeps.h"
 #include "geometry/shape_traits.h"
 #include "world/events.h"
+#include "world/joints.h"
 #include "world/stage_clock.h"
 #include "world/step_cache.h"
 #include "world/step_probe.h"
@@ -37,6 +39,10 @@ struct Scratch {
   Span<ImpactPair> impact_pairs;
   Span<ImpactHit> impact_hits;
   Span<ManifoldState> manifolds;
+  Span<JointWork> joints;
+  Span<JointBody> joint_bodies;
+  Span<uint32_t> joint_order;
+  Span<uint64_t> apart;
 };
 
 Scratch scratch_of(uint8_t* block, const Layout& layout, Capacity capacity) {
@@ -55,20 +61,28 @@ Scratch scratch_of(uint8_t* block, const Layout& layout, Capacity capacity) {
           {at_offset<BodySweep>(block, layout.sweeps), capacity.bodies},
           {at_offset<ImpactPair>(block, layout.impact_pairs), capacity.contacts},
           {at_offset<ImpactHit>(block, layout.impact_hits), capacity.contacts},
-          {at_offset<ManifoldState>(block, layout.manifold_work), manifold_count(capacity)}};
+          {at_offset<ManifoldState>(block, layout.manifold_work), manifold_count(capacity)},
+          {at_offset<JointWork>(block, layout.joint_work), capacity.joints},
+          {at_offset<JointBody>(block, layout.joint_bodies), joint_body_count(capacity)},
+          {at_offset<uint32_t>(block, layout.joint_order), capacity.joints},
+          {at_offset<uint64_t>(block, layout.apart), capacity.joints}};
 }
 
 /// Lengths of a pair, m.
 struct PairLengths {
   Real at_rest;  ///< how far apart it has contact points if it does not move
-  Real reach;    ///< and as it moves: what it can close in this tick is added, up to a quarter of the smaller body
+  Real reach;    ///< and as it moves: what it can close in this tick is added, up to a quarter of the smaller body, or
+                 ///< twice that body where joints hold one
   Real reuse;    ///< how far it may move until its contact points are found anew
 };
 
 PairLengths lengths_of(const StepSettings& settings, const BodyWork& a, const BodyWork& b) {
   const Real extent = min(a.extent, b.extent), speed = a.speed + b.speed;
   const Real at_rest = extent * settings.breaking;
-  return {at_rest, at_rest + min(scale_by_power(extent, -2), speed * settings.tick_time), extent * settings.reuse};
+  // What joints hold is not stopped on its way (impact.h): its contacts foresee more.
+  const bool jointed = a.joint_body != k_no_link || b.joint_body != k_no_link;
+  const Real reach_max = scale_by_power(extent, jointed ? 1 : -2);
+  return {at_rest, at_rest + min(reach_max, speed * settings.tick_time), extent * settings.reuse};
 }
 
 /// The bodies of a step, as the stages before the solve read them.
@@ -249,17 +263,20 @@ uint32_t carry_all(const StepSettings& settings, const SolverBodies& bodies, Spa
 }
 
 uint32_t solve_islands(StepSettings settings, const SolverBodies& bodies, Span<const Island> islands,
-                       const Scratch& scratch, Span<ContactWork> contacts, StepReport& report) {
+                       const Scratch& scratch, Span<ContactWork> contacts, const JointCode* joint_code,
+                       JointStage& joints, StepReport& report) {
   uint32_t clamped = 0;
   for (const Island& island : islands) {
     const Span<const uint32_t> slots = {scratch.island_bodies.data + island.first_body, island.body_count};
     const Span<const ContactOrder> order = {scratch.contact_order.data + island.first_contact, island.contact_count};
     if (island.substeps != settings.substeps) set_substeps(island.substeps, settings);
     predict(settings, bodies.traits, slots, bodies.motions, bodies.work);
-    if (order.count == 0) {
+    const bool jointed = island.joint_count + island.loop_count != 0;
+    const IslandJoints island_joints = {jointed ? joint_code : nullptr, &island, &joints, &report.joint_decisions_left};
+    if (order.count == 0 && !jointed) {
       clamped += fly(settings, bodies, slots);
     } else {
-      const SolveCount count = solve(settings, bodies, slots, order, contacts);
+      const SolveCount count = solve(settings, bodies, slots, order, contacts, island_joints);
       clamped += count.clamped;
       report.sweeps_saved += count.sweeps_saved;
     }
@@ -306,15 +323,36 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   const Bodies bodies = {poses, traits, motions, activities, work, cache.visits, world.assets, *world.features};
   const SolverBodies solver_bodies = {traits, motions, work};
 
+  const JointCode* const joint_code = state.world.joint_count == 0 ? nullptr : world.features->joints;
+  JointStage joints = {state.joints.first(joint_code == nullptr ? 0 : state.world.joints_used),
+                       poses,
+                       activities,
+                       scratch.joints,
+                       scratch.joint_bodies,
+                       scratch.joint_order};
+  report.woke = wake_jointed(joints.joints, traits, motions, activities, cache);
+  const Span<const uint64_t> apart = list_apart(joints.joints, scratch.apart);
   Span<const uint32_t> moving = sort_out(cache, settings, state, scratch.sweeps, scratch.moving_bodies);
-  PairPool pool = {poses, traits, cache.bounds, scratch.pair_sort, scratch.pairs, world.filter_rules};
+  PairPool pool = {poses, traits, cache.bounds, scratch.pair_sort, scratch.pairs, world.filter_rules, apart};
   find_pairs(moving, cache.tree, scratch.bounds_keys, scratch.bounds_sort, pool);
   pool.sort();
   for (const uint32_t slot : moving) bodies.start(settings, slot);
-  report.woke = wake_touched(settings, bodies, cache, pool);
-  if (report.woke != 0) {
+  const uint32_t touched = wake_touched(settings, bodies, cache, pool);
+  report.woke += touched;
+  if (touched != 0) {
     moving = list_moving(cache.visits, scratch.moving_bodies);
     for (const uint32_t slot : moving) bodies.start(settings, slot);
+  }
+  if (joint_code != nullptr) {
+    for (const JointState& joint : joints.joints) {
+      if (joint.type == 0) continue;
+      const uint32_t ends[2] = {joint.body_a, joint.body_b};
+      for (const uint32_t slot : ends) {
+        if (!cache.visits.has(slot)) bodies.start(settings, slot);
+      }
+    }
+    joint_code->collect(solver_bodies, joints);
+    report.joints = joints.count;
   }
   clock.end(StepStage::find_pairs);
   const Span<const uint64_t> pairs = pool.pairs();
@@ -329,21 +367,29 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   const Span<ContactOrder> order = scratch.contact_order.first(count.contacts);
   clock.end(StepStage::collide);
 
-  report.islands = find_islands(moving, traits, activities, contacts, work, scratch.islands, scratch.island_bodies);
+  report.islands = find_islands(moving, traits, activities, contacts, joints, work, scratch.islands,
+                                scratch.island_bodies);
   const Span<Island> islands = scratch.islands.first(report.islands);
   report.colour_overflows = order_contacts(traits, contacts, islands, work, scratch.contact_sort, order);
   estimate_loads(settings, poses, traits, scratch.island_bodies, islands, order, scratch.contact_sort, work, contacts);
+  if (joint_code != nullptr) joint_code->grow(settings, solver_bodies, scratch.island_bodies, islands, joints);
   choose_substeps(settings, traits, work, scratch.island_bodies, order, islands, contacts, activities);
   clock.end(StepStage::islands);
-  report.saturations = solve_islands(settings, solver_bodies, islands, scratch, contacts, report);
+  report.saturations = solve_islands(settings, solver_bodies, islands, scratch, contacts, joint_code, joints, report);
   report.saturations += carry_all(settings, solver_bodies, moving);
   clock.end(StepStage::solve);
   const Span<ContactEvent> events = {world.contact_events.data, world.contact_events.capacity};
   EventCount event_count = raise_events(poses, traits, awake_contacts, state.contacts, contacts, events);
   clock.end(StepStage::events);
   report.saturations += make_sweeps(moving, traits, work, poses, sweeps);
+  if (joint_code != nullptr) {
+    joint_code->store(settings, solver_bodies, joints);
+    for (const JointBody& body : joints.bodies.first(joints.body_count)) {
+      if (body.mobile != 0) sweeps[body.slot].marks = k_mark_jointed * (work[body.slot].island + 1);
+    }
+  }
   if (state.world.continuous != 0) {
-    const ImpactPairs known = {pairs, contacts, pool.dropped() == 0 && count.dropped == 0};
+    const ImpactPairs known = {pairs, contacts, pool.dropped() == 0 && count.dropped == 0, apart};
     const ImpactBodies impact_bodies = {traits,
                                         poses,
                                         motions,
@@ -376,6 +422,7 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   cache.cache.awake_contact_count = contacts.count;
 
   state.world.contact_count = before - awake_contacts.count + contacts.count;
+  if (joint_code != nullptr) break_joints(world, report);
   report.pairs = pairs.count + pool.dropped();
   report.pairs_dropped = pool.dropped();
   report.contacts = count.contacts;

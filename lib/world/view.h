@@ -7,7 +7,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 inline constexpr uint32_t k_snapshot_magic = 0x544e5444;  // "DTNT" in canonical bytes
-inline constexpr uint32_t k_snapshot_format = 2;
+inline constexpr uint32_t k_snapshot_format = 3;
 
 /// BlockHeader::left_out of a world that has this table.
 inline uint32_t left_out(const FeatureTable& features) {
@@ -19,7 +19,8 @@ inline Features features_of(bool continuous, bool sleeping) {
 }
 
 inline Capacity capacity_of(const BlockHeader& header) {
-  return {header.capacity_bodies, header.capacity_contacts, header.capacity_assets, header.manifolds != 0};
+  return {header.capacity_bodies, header.capacity_contacts, header.capacity_assets, header.manifolds != 0,
+          header.capacity_joints};
 }
 
 /// `T`, const where `Byte` is.
@@ -49,6 +50,7 @@ struct StateView {
   Span<Of<ContactState>> contacts;  ///< all of the capacity
   Span<Of<AssetState>> assets;
   Span<Of<ManifoldState>> manifolds;  ///< of the contacts, if there is room for them
+  Span<Of<JointState>> joints;        ///< all of the capacity
 };
 
 template <class T, class Byte>
@@ -71,7 +73,8 @@ StateView<Byte> view_of(Byte* block, Capacity capacity) {
           {at_offset<uint32_t>(block, layout.slots), slot_words(capacity.bodies)},
           {at_offset<ContactState>(block, layout.contacts), capacity.contacts},
           {at_offset<AssetState>(block, layout.assets), capacity.assets},
-          {at_offset<ManifoldState>(block, layout.manifolds), manifold_count(capacity)}};
+          {at_offset<ManifoldState>(block, layout.manifolds), manifold_count(capacity)},
+          {at_offset<JointState>(block, layout.joints), capacity.joints}};
 }
 inline StateView<uint8_t> view_of(World& world) {
   return view_of(world.block, capacity_of(*at_offset<BlockHeader>(world.block, 0)));

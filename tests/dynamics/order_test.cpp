@@ -52,7 +52,7 @@ struct Graph {
     std::vector<uint32_t> slots(body_count);
     for (uint32_t slot = 0; slot < body_count; ++slot) slots[slot] = slot;
     islands.resize(find_islands({slots.data(), body_count}, all, {activities.data(), body_count}, contact_span,
-                                {work.data(), body_count}, {islands.data(), body_count},
+                                {}, {work.data(), body_count}, {islands.data(), body_count},
                                 {island_bodies.data(), body_count}));
     overflows = order_contacts(all, contact_span, {islands.data(), static_cast<uint32_t>(islands.size())},
                                {work.data(), body_count}, {spare.data(), count}, {order.data(), count});
@@ -220,7 +220,7 @@ struct Scene {
     const Span<const BodyTraits> all = {traits.data(), used};
     const Span<ContactWork> contact_span = {contacts.data(), contact_count()};
     const uint32_t count = find_islands({every.data(), used}, all, {activities.data(), used}, contact_span,
-                                        {work.data(), used}, {islands.data(), used}, {slots.data(), used});
+                                        {}, {work.data(), used}, {islands.data(), used}, {slots.data(), used});
     EXPECT_EQ(order_contacts(all, contact_span, {islands.data(), count}, {work.data(), used},
                              {spare.data(), contact_count()}, {order.data(), contact_count()}),
               0u);
@@ -233,7 +233,7 @@ struct Scene {
     const SolverBodies bodies = {
         {traits.data(), body_count()}, {motions.data(), body_count()}, {work.data(), body_count()}};
     solve(settings, bodies, {slots.data(), static_cast<uint32_t>(slots.size())}, {order.data(), contact_count()},
-          {contacts.data(), contact_count()});
+          {contacts.data(), contact_count()}, {});
   }
   /// The motions and the contacts' states, all bytes.
   std::vector<uint8_t> result() const {

@@ -83,6 +83,22 @@ DETENT_TEST(replay_round_trip, every_command_survives_writing_and_reading) {
   expect_round_trip(WakeBody{k_id});
   expect_round_trip(PutToSleep{k_id});
   expect_round_trip(SetFilter{k_id, {6, 0x80000001, INT32_MIN, 3}});
+  JointDef joint;
+  joint.type = JointType::wheel;
+  joint.a = {7, 8};
+  joint.b = {9, 10};
+  joint.anchor_a = k_reals;
+  joint.anchor_b = k_more_reals;
+  joint.frame_a = k_rotation;
+  joint.axis = {true, Real(-0.5), Real(0.75), Real(2.0), Real(0.5), Real(0.25), Real(-3.0), Scaled(1e9)};
+  joint.second = {false, Real(0.0), Real(1.0), Real(0.0), Real(1.0), Real(0.0), Real(40.0), Scaled(50.0)};
+  joint.collide = true;
+  joint.break_force = 1e6;
+  joint.break_torque = 1e-6;
+  joint.user_data = 0xfeedbeef;
+  expect_round_trip(CreateJoint{joint, {11, 12}});
+  expect_round_trip(DestroyJoint{{11, 12}});
+  expect_round_trip(SetJoint{{11, 12}, joint});
   expect_round_trip(SetType{k_id, BodyType::kinematic});
   expect_round_trip(SetShape{k_id, rounded(box({Real(0.25), Real(0.5), Real(2.0)}), Real(0.125))});
   expect_round_trip(SetMass{k_id, Scaled(1e-9)});
@@ -109,7 +125,7 @@ DETENT_TEST(replay_round_trip, a_tag_of_no_call_is_unknown) {
   const auto nothing = [](auto&) {};
   for (uint32_t tag = 0; tag < 256; ++tag) {
     EXPECT_EQ(with_command(static_cast<RecordTag>(tag), nothing),
-              (tag >= 1 && tag <= 12) || tag == 15 || tag == 16 || (tag >= 32 && tag <= 45) || tag == 48)
+              (tag >= 1 && tag <= 12) || tag == 15 || tag == 16 || (tag >= 32 && tag <= 45) || tag == 48 || (tag >= 64 && tag <= 66))
         << tag;
   }
 }

@@ -12,23 +12,28 @@ constexpr uint32_t k_pairs_per_contact = 2;  ///< room for pairs whose bounds ov
 
 /// Byte offsets of the arrays in a block.
 struct Layout {
-  uint32_t header, world, poses, motions, traits, activities, slots, contacts, assets, manifolds;
+  uint32_t header, world, poses, motions, traits, activities, slots, contacts, assets, manifolds, joints;
   uint32_t persistent_bytes;  ///< end of the snapshot
   uint32_t cache, tree_nodes, tree_parents, visits, candidates, moving_bodies, awake_contacts;
   uint32_t bounds, bounds_keys, bounds_sort, pairs, pair_sort, contact_work, islands, island_bodies, sweeps;
   uint32_t body_work, contact_order, contact_sort, impact_pairs, impact_hits;
-  uint32_t manifold_work;
+  uint32_t manifold_work, joint_work, joint_bodies, joint_order, apart;
   uint32_t bytes;
 };
 
 /// Contacts whose manifolds there is room for.
 constexpr uint32_t manifold_count(Capacity capacity) { return capacity.manifolds ? capacity.contacts : 0; }
 
+/// Bodies that joints can hold in a step.
+constexpr uint32_t joint_body_count(Capacity capacity) {
+  return 2 * capacity.joints < capacity.bodies ? 2 * capacity.joints : capacity.bodies;
+}
+
 constexpr uint32_t slot_words(uint32_t bodies) { return (bodies + 63) / 64 * 2; }
 
 constexpr bool in_range(Capacity capacity) {
   return capacity.bodies >= 1 && capacity.bodies <= k_capacity_max && capacity.contacts <= k_capacity_max &&
-         capacity.assets <= k_capacity_max;
+         capacity.assets <= k_capacity_max && capacity.joints <= k_capacity_max;
 }
 
 /// The layout for a capacity in range; `fits` is false if the block would need 2^32 bytes or more.
@@ -50,6 +55,7 @@ constexpr Layout layout_of(Capacity capacity, bool& fits) {
   layout.contacts = place(sizeof(ContactState), capacity.contacts);
   layout.assets = place(sizeof(AssetState), capacity.assets);
   layout.manifolds = place(sizeof(ManifoldState), manifold_count(capacity));
+  layout.joints = place(sizeof(JointState), capacity.joints);
   layout.persistent_bytes = static_cast<uint32_t>(end);
   layout.cache = place(sizeof(StepCache), 1);
   layout.tree_nodes = place(sizeof(TreeNode), capacity.bodies);
@@ -83,6 +89,10 @@ constexpr Layout layout_of(Capacity capacity, bool& fits) {
   layout.impact_hits = place(sizeof(ImpactHit), capacity.contacts);
   end = end > substeps_end ? end : substeps_end;
   layout.manifold_work = place(sizeof(ManifoldState), manifold_count(capacity));
+  layout.joint_work = place(sizeof(JointWork), capacity.joints);
+  layout.joint_bodies = place(sizeof(JointBody), joint_body_count(capacity));
+  layout.joint_order = place(sizeof(uint32_t), capacity.joints);
+  layout.apart = place(sizeof(uint64_t), capacity.joints);
   layout.bytes = static_cast<uint32_t>(end);
   fits = end <= 0xffffffffu;
   return layout;

@@ -17,7 +17,7 @@ struct alignas(8) BlockHeader {
   uint32_t capacity_assets;
   uint32_t left_out;   ///< of Features::all, what the world's table lacks; 0: nothing
   uint32_t manifolds;  ///< 1 if the block has room for them
-  uint32_t zero;
+  uint32_t capacity_joints;
 };
 
 struct alignas(8) WorldState {
@@ -27,6 +27,8 @@ struct alignas(8) WorldState {
   uint32_t free_word;      ///< no slot is free in the words of `slots` before this one
   uint32_t slots_retired;  ///< body slots whose generation is used up
   uint32_t contact_count;  ///< contacts, sorted by (body_a, body_b)
+  uint32_t joint_count;    ///< joints alive
+  uint32_t joints_used;    ///< joint slots ever used: the slots beyond are all zero
   uint32_t substeps;       ///< 0: chosen for each island
   uint32_t substeps_max;
   uint32_t iterations;
@@ -123,6 +125,35 @@ struct ManifoldState {
   Quat rotation;                             ///< of the other body in the base's axes
   Unit height[k_manifold_points_max];        ///< what makes a point's place along the normal its separation
   int16_t anchor[k_manifold_points_max][3];  ///< the points, from the other's centre, in its axes; 2^-15 of its unit
+};
+
+inline constexpr uint32_t k_joint_rows_max = 6;
+
+/// A joint, by what its definition says (joint.h). Of the two free motions the first is JointDef::axis.
+struct alignas(8) JointState {
+  uint32_t type;        ///< JointType, or 0: the slot is empty, and all but the generation is zero
+  uint32_t generation;  ///< of the joint in the slot, or of the last one
+  uint32_t body_a;      ///< slot index
+  uint32_t body_b;
+  uint32_t collide;  ///< 1 if the two collide with each other
+  uint32_t user_data;
+  Vec3<Real> anchor_a;  ///< m, in the body's axes
+  Vec3<Real> anchor_b;
+  Quat frame_a;
+  Quat frame_b;
+  Real lower[2];  ///< rad or m
+  Real upper[2];
+  Real frequency[2];
+  Real damping_ratio[2];
+  Real target[2];
+  Real speed[2];
+  Scaled force_max[2];
+  uint32_t limited[2];
+  Scaled break_force;
+  Scaled break_torque;
+  Vec3<Scaled> force;   ///< on B in the last tick, N, world
+  Vec3<Scaled> torque;  ///< N m
+  Real impulse[k_joint_rows_max];  ///< of a joint that closes a loop: what it starts from, m/s; else 0
 };
 
 /// What a bound asset's bytes are. Stored: a value is never reused.

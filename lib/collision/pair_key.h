@@ -1,0 +1,29 @@
+#pragma once
+#include "base/span.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// A pair of body slots as one sortable word: the lower slot in the high half.
+constexpr uint64_t pair_key(uint32_t low, uint32_t high) { return (uint64_t{low} << 32) | high; }
+constexpr uint32_t pair_low(uint64_t key) { return static_cast<uint32_t>(key >> 32); }
+constexpr uint32_t pair_high(uint64_t key) { return static_cast<uint32_t>(key); }
+
+/// The key of two slots in whichever order.
+constexpr uint64_t key_of_pair(uint32_t a, uint32_t b) { return a < b ? pair_key(a, b) : pair_key(b, a); }
+
+/// Whether a sorted list has the pair.
+inline bool has_pair(Span<const uint64_t> keys, uint64_t key) {
+  uint32_t low = 0, high = keys.count;
+  while (low < high) {
+    const uint32_t middle = low + (high - low) / 2;
+    if (keys[middle] < key)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low < keys.count && keys[low] == key;
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

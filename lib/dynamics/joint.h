@@ -1,0 +1,80 @@
+#pragma once
+#include <detent/detail/scratch.h>
+#include <detent/features.h>
+#include <detent/joint.h>
+
+#include "base/span.h"
+#include "dynamics/solve.h"
+
+/// The joints of a step. A joint's row holds the speed
+///
+///     axis . (velocity B - velocity A) + arm B . spin B - arm A . spin A
+///
+/// and its impulse goes the same way back. Joints make trees of the bodies that move; those of a tree are solved at once,
+/// by elimination from the leaves: a body whose joints below are held answers to a wrench with less than its own
+/// response, and that is all that the joint above needs to know. What does not move has no response and joins no trees:
+/// a chain between two walls is a tree. The few joints that close loops are solved in turn with the trees.
+/// Source: Baraff, "Linear-time dynamics using Lagrange multipliers", SIGGRAPH 1996; Featherstone, "Rigid Body Dynamics
+/// Algorithms", 2008, chapter 7.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+inline constexpr uint32_t k_no_link = UINT32_MAX;
+inline constexpr Real k_joint_impulse_max = 8192.0;  ///< of a row, m/s
+
+/// A length or speed in units of 2^exponent, held within what a Unit holds.
+Unit unit_held(Real value, int exponent);
+
+struct JointStage {
+  Span<JointState> joints;  ///< the slots that were ever used
+  Span<const BodyPose> poses;
+  Span<const BodyActivity> activities;
+  Span<JointWork> work;      ///< of those at work, in the order of their slots
+  Span<JointBody> bodies;    ///< that they hold
+  Span<uint32_t> order;      ///< of `work`: island by island, from the roots up
+  uint32_t count = 0;        ///< of `work`
+  uint32_t body_count = 0;   ///< of `bodies`
+};
+
+/// Takes up all joints that hold a body that is awake, and the bodies that they hold, which have been started
+/// (predict.h). Fills `work`, `bodies`.
+void collect_joints(const SolverBodies& bodies, JointStage& stage);
+
+/// Grows the trees of every island whose bodies `slots` lists, and says how many substeps its joints need.
+void grow_trees(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
+                Span<Island> islands, JointStage& stage);
+
+/// Solves the joints of an island once, `elapsed` after the start of the tick: where the bodies are now, for where they
+/// will be at the end of the substep. Returns how many values were clamped, and adds to `undecided`.
+uint32_t solve_joints(const StepSettings& settings, const SolverBodies& bodies, const Island& island, Real elapsed,
+                      JointStage& stage, uint32_t& undecided);
+
+/// Stores the reactions of the tick.
+void store_reactions(const StepSettings& settings, const SolverBodies& bodies, JointStage& stage);
+
+/// For a feature table.
+struct JointCode {
+  decltype(&collect_joints) collect;
+  decltype(&grow_trees) grow;
+  decltype(&solve_joints) solve;
+  decltype(&store_reactions) store;
+};
+
+// Of the stages above.
+
+/// Whether a free motion, 0 or 1, is an angle.
+bool is_angular(JointType type, int motion);
+/// Makes the rows of a joint as its bodies are now.
+void make_joint_rows(const StepSettings& settings, const JointStage& stage, JointWork& work);
+/// Chooses how the free motions are driven, before anything is solved: a limit that the bodies would pass in this
+/// substep holds. Or after, if what was chosen cannot be.
+void choose_drives(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage,
+                   JointWork& work);
+enum class Revision { none, made };
+Revision revise_drives(const JointState& joint, Scaled share, JointWork& work);
+/// Adds the rows of the free motions that are driven, or notes what pushes without one.
+void add_driven_rows(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage,
+                     JointWork& work);
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,332 @@
+#include "dynamics/gyration.h"
+#include "dynamics/joint.h"
+#include "dynamics/spin.h"
+#include "math/root.h"
+#include "math/scaled.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+constexpr Unit k_none = 0.0;
+constexpr Real k_zero = 0.0;
+constexpr Real k_two_pi = 6.28318530717958647693;
+
+/// A substep makes up for half of what the joint has given way. By w^2/2 of its length a joint gives way when it turns by
+/// w in a substep; what is left of it and what is made up for then balance where the half of that is the speed inwards
+/// that the chord of the way asks for: a swing keeps its height. Any other share would gain or lose.
+constexpr int k_correction_power = -1;
+
+Vec3<Unit> scaled(const Vec3<Unit>& v, int power) {
+  return {scale_by_power(v.x, power), scale_by_power(v.y, power), scale_by_power(v.z, power)};
+}
+
+Vec3<Real> in_metres(const Vec3<Unit>& v, int exponent) {
+  return {real_from_unit(v.x, exponent), real_from_unit(v.y, exponent), real_from_unit(v.z, exponent)};
+}
+
+Vec3<Unit> held(const Vec3<Real>& v, int exponent) {
+  return {unit_held(v.x, exponent), unit_held(v.y, exponent), unit_held(v.z, exponent)};
+}
+
+/// The angle of a turn about an axis by twice atan2 of these, rad, in [-pi, pi].
+Real twist_of(Unit sine, Unit cosine) {
+  const bool turned = cosine < k_none;  // q and -q are the same turn
+  return scale_by_power(radians(turned ? arc_tangent(-sine, -cosine) : arc_tangent(sine, cosine)), 1);
+}
+
+/// A joint's bodies as they are now, and the rows made of them.
+struct RowMaker {
+  const StepSettings& settings;
+  const JointState& joint;
+  const JointBody& a;
+  const JointBody& b;
+  JointWork& work;
+  Vec3<Real> gap = {};  ///< from A's anchor to B's, m
+  Matrix3 frame = {};   ///< of A, in the world
+  Quat relative = {};   ///< B's frame in A's
+
+  Real correction(Real error) const {
+    const Real limit = real_from_unit(Unit(1.0), work.exponent > 14 ? 14 : work.exponent);
+    return -scale_by_power(speed_over(settings, clamp(error, -limit, limit)), k_correction_power);
+  }
+  /// What is within a limit may go as far as that; what is beyond comes back.
+  Real up_to_limit(Real over, bool within) const { return within ? -speed_over(settings, over) : correction(over); }
+  /// A row that acts along `axis` at B's anchor, whichever way off A's is.
+  JointRow linear(const Vec3<Unit>& axis) const {
+    const Vec3<Unit> way = held(in_metres(work.arm[0], a.exponent) + gap, a.exponent);
+    return {axis, {held_cross(way, axis), held_cross(work.arm[1], axis)}};
+  }
+  JointRow angular(const Vec3<Unit>& axis) const {
+    return {{k_none, k_none, k_none},
+            {scaled(axis, work.exponent - a.exponent), scaled(axis, work.exponent - b.exponent)}};
+  }
+  Real length_of(Real angle) const { return scale_by_power(angle, work.exponent); }
+
+  void hold(const JointRow& row, Real error) {
+    work.wanted[work.rows] = correction(error);
+    work.row[work.rows++] = row;
+  }
+  void hold_points() {
+    work.points = 1;
+    work.wanted[0] = correction(gap.x);
+    work.wanted[1] = correction(gap.y);
+    work.wanted[2] = correction(gap.z);
+    work.rows = 3;
+  }
+  /// Twice the vector part of the relative turn is the turn where it is small.
+  void hold_turn(int axis, Unit part) {
+    const Unit sine = relative.w < k_none ? -part : part;
+    hold(angular(frame.column[axis]), length_of(scale_by_power(real_from_unit(sine, 0), 1)));
+  }
+  /// Keeps A's axis `axis` on B's: two rows, about A's next two.
+  void hold_axis(int axis) {
+    const int next = (axis + 1) % 3, last = (axis + 2) % 3;
+    const Matrix3 turned = matrix_from(relative);
+    const Unit along[3] = {turned.column[axis].x, turned.column[axis].y, turned.column[axis].z};
+    hold(angular(frame.column[next]), length_of(real_from_unit(-along[last], 0)));
+    hold(angular(frame.column[last]), length_of(real_from_unit(along[next], 0)));
+  }
+  void free_motion(int i, const JointRow& row, Real value) {
+    work.free_row[i] = row;
+    work.value[i] = value;
+  }
+  void free_slide(int i) { free_motion(i, linear(frame.column[0]), dot(gap, frame.column[0])); }
+  void free_turn(int i, int axis, Unit sine) {
+    free_motion(i, angular(frame.column[axis]), length_of(twist_of(sine, relative.w)));
+  }
+  /// How far B's x leans off A's, about the axis that it leans about.
+  void free_lean(int i) {
+    const Vec3<Unit> x = {Unit(1.0), k_none, k_none}, leaning = rotate(relative, x);
+    const Vec3<Real> about = {k_zero, real_from_unit(-leaning.z, 0), real_from_unit(leaning.y, 0)};
+    Vec3<Unit> axis;
+    Real sine = k_zero;
+    if (!normalise(about, axis, sine)) axis = {k_none, k_none, Unit(1.0)};
+    const Vec3<Unit> in_world = multiply(frame, axis);
+    free_motion(i, angular(in_world), length_of(radians(arc_tangent(unit_from_real(sine, 0), leaning.x))));
+  }
+  void free_distance() {
+    Vec3<Unit> axis;
+    Real apart = k_zero;
+    if (!normalise(gap, axis, apart)) axis = {Unit(1.0), k_none, k_none};
+    // Each end is pulled at its own anchor.
+    const JointRow row = {axis, {held_cross(work.arm[0], axis), held_cross(work.arm[1], axis)}};
+    free_motion(0, row, apart);
+  }
+
+ private:
+  static Vec3<Unit> held_cross(const Vec3<Unit>& arm, const Vec3<Unit>& axis) {
+    const Vec3<Real> product = cross(in_metres(arm, 0), axis);
+    return held(product, 0);
+  }
+};
+
+/// The response of a row with no joint but this one, over the reference mass.
+Scaled own_response(const SolverBodies& bodies, const JointStage& stage, const JointWork& work, const JointRow& row) {
+  Scaled sum = Scaled(0.0);
+  for (int end = 0; end < 2; ++end) {
+    const JointBody& body = stage.bodies[work.body[end]];
+    if (body.mobile == 0) continue;
+    const WorldGyration& gyration = bodies.work[body.slot].gyration;
+    const Vec3<Unit>& arm = row.arm[end];
+    const Unit turn = scale_by_power(dot(scaled(multiply(gyration, scaled(arm, -1)), -1), arm), 0);
+    const Scaled angular = scaled_by_power(scaled_from(turn), gyration.exponent + 2 * body.above + 2);
+    const Scaled linear = scaled_from(dot(scaled(row.axis, -1), row.axis));
+    sum = add(sum, multiply(body.share, add(scaled_by_power(linear, 1), angular)));
+  }
+  return sum;
+}
+
+/// A damped spring whose stiffness is that of the frequency with the two bodies alone. Source: Catto, "Soft
+/// Constraints", GDC 2011.
+struct Spring {
+  Scaled rate;     ///< rad/s
+  Scaled phase;    ///< rate x substep
+  Scaled damping;  ///< 2 damping ratio + phase
+
+  Spring(const StepSettings& settings, const JointState& joint, int i)
+      : rate(scaled_from(k_two_pi * joint.frequency[i])),
+        phase(multiply(rate, scaled_from(settings.time))),
+        damping(add(scaled_by_power(scaled_from(joint.damping_ratio[i]), 1), phase)) {}
+  /// What it gives in a substep over what would stop the motion at once.
+  Scaled stiffness() const { return multiply(phase, damping); }
+};
+
+DriveMode free_mode(const JointState& joint, int i) {
+  if (joint.frequency[i] > k_zero) return DriveMode::spring;
+  return is_positive(joint.force_max[i]) ? DriveMode::rigid : DriveMode::idle;
+}
+
+/// How fast a free motion goes before anything is solved, m/s.
+Real speed_of(const JointStage& stage, const JointWork& work, int i) {
+  const JointBody &a = stage.bodies[work.body[0]], &b = stage.bodies[work.body[1]];
+  const JointRow& row = work.free_row[i];
+  return dot(b.velocity - a.velocity, row.axis) + dot(b.spin, row.arm[1]) - dot(a.spin, row.arm[0]);
+}
+
+/// A spring that is soft beside the substep needs no row: it pushes by where it is, which loses nothing of its swing.
+void push_softly(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, int i,
+                 JointWork& work) {
+  const JointState& joint = stage.joints[work.joint];
+  const Spring spring(settings, joint, i);
+  if (!less(spring.stiffness(), Scaled(0.25))) return;
+  const int power = is_angular(static_cast<JointType>(joint.type), i) ? work.exponent : 0;
+  const Real off = work.value[i] - scale_by_power(joint.target[i], power);
+  const Real fast = speed_of(stage, work, i) - scale_by_power(joint.speed[i], power);
+  const Scaled pull = multiply(multiply(spring.rate, spring.phase), scaled_from(off));
+  const Scaled drag = multiply(multiply(spring.phase, scaled_by_power(scaled_from(joint.damping_ratio[i]), 1)),
+                               scaled_from(fast));
+  const Scaled response = own_response(bodies, stage, work, work.free_row[i]);
+  if (!is_positive(response)) return;
+  const Real most = is_positive(joint.force_max[i]) ? multiply(work.bound[i], settings.share) : k_joint_impulse_max;
+  bool saturated = false;
+  work.constant[i] = clamp(-to_real(divide(add(pull, drag), response), saturated), -most, most);
+  work.mode[i] = DriveMode::constant;
+}
+
+}  // namespace
+
+bool is_angular(JointType type, int motion) {
+  return motion == 1 || type == JointType::hinge || type == JointType::cone_twist;
+}
+
+void make_joint_rows(const StepSettings& settings, const JointStage& stage, JointWork& work) {
+  const JointState& joint = stage.joints[work.joint];
+  const JointBody &a = stage.bodies[work.body[0]], &b = stage.bodies[work.body[1]];
+  const JointType type = static_cast<JointType>(joint.type);
+  work.rows = work.points = 0;
+  for (Real& softness : work.softness) softness = k_zero;
+  work.arm[0] = multiply(a.axes, held(joint.anchor_a, a.exponent));
+  work.arm[1] = multiply(b.axes, held(joint.anchor_b, b.exponent));
+  RowMaker make = {settings, joint, a, b, work};
+  const Position &from = stage.poses[a.slot].position, &to = stage.poses[b.slot].position;
+  const Vec3<Real> between = {real_difference(to.x, from.x), real_difference(to.y, from.y),
+                              real_difference(to.z, from.z)};
+  make.gap =
+      between + (b.place - a.place) + (in_metres(work.arm[1], b.exponent) - in_metres(work.arm[0], a.exponent));
+  if (type != JointType::ball && type != JointType::distance) {
+    const Quat frame_a = multiply(a.rotation, joint.frame_a);
+    make.frame = matrix_from(frame_a);
+    make.relative = multiply(conjugate(frame_a), multiply(b.rotation, joint.frame_b));
+  }
+  const Quat& relative = make.relative;
+  switch (type) {
+    case JointType::ball:
+      make.hold_points();
+      break;
+    case JointType::hinge:
+      make.hold_points();
+      make.hold_axis(0);
+      make.free_turn(0, 0, relative.x);
+      break;
+    case JointType::slider:
+      make.hold(make.linear(make.frame.column[1]), dot(make.gap, make.frame.column[1]));
+      make.hold(make.linear(make.frame.column[2]), dot(make.gap, make.frame.column[2]));
+      make.hold_turn(0, relative.x);
+      make.hold_turn(1, relative.y);
+      make.hold_turn(2, relative.z);
+      make.free_slide(0);
+      break;
+    case JointType::distance:
+      make.free_distance();
+      break;
+    case JointType::fixed:
+      make.hold_points();
+      make.hold_turn(0, relative.x);
+      make.hold_turn(1, relative.y);
+      make.hold_turn(2, relative.z);
+      break;
+    case JointType::cone_twist:
+      make.hold_points();
+      make.free_turn(0, 0, relative.x);
+      make.free_lean(1);
+      break;
+    case JointType::wheel:
+      make.hold(make.linear(make.frame.column[1]), dot(make.gap, make.frame.column[1]));
+      make.hold(make.linear(make.frame.column[2]), dot(make.gap, make.frame.column[2]));
+      make.hold_axis(2);
+      make.free_slide(0);
+      make.free_turn(1, 2, relative.z);
+      break;
+    default:
+      break;
+  }
+  work.rows_held = work.rows;
+}
+
+void choose_drives(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, JointWork& work) {
+  const JointState& joint = stage.joints[work.joint];
+  for (int i = 0; i < 2; ++i) {
+    work.mode[i] = free_mode(joint, i);
+    if (work.mode[i] == DriveMode::spring) push_softly(settings, bodies, stage, i, work);
+    if (joint.limited[i] == 0) continue;
+    if (joint.lower[i] == joint.upper[i]) {
+      work.mode[i] = DriveMode::held;
+      continue;
+    }
+    const int power = is_angular(static_cast<JointType>(joint.type), i) ? work.exponent : 0;
+    const Real reach = clamp(speed_of(stage, work, i), -k_speed_work_max, k_speed_work_max) * settings.time;
+    if (work.value[i] + min(reach, k_zero) <= scale_by_power(joint.lower[i], power))
+      work.mode[i] = DriveMode::lower;
+    else if (work.value[i] + max(reach, k_zero) >= scale_by_power(joint.upper[i], power))
+      work.mode[i] = DriveMode::upper;
+  }
+}
+
+void add_driven_rows(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage,
+                     JointWork& work) {
+  const JointState& joint = stage.joints[work.joint];
+  const JointBody &a = stage.bodies[work.body[0]], &b = stage.bodies[work.body[1]];
+  const RowMaker make = {settings, joint, a, b, work};
+  work.rows = work.rows_held;
+  for (int i = 0; i < 2; ++i) {
+    work.driven[i] = k_joint_rows_max;
+    const DriveMode mode = work.mode[i];
+    if (mode == DriveMode::idle || mode == DriveMode::constant) continue;
+    const uint32_t row = work.rows++;
+    work.driven[i] = row;
+    work.row[row] = work.free_row[i];
+    work.softness[row] = k_zero;
+    const int power = is_angular(static_cast<JointType>(joint.type), i) ? work.exponent : 0;
+    const Real lower = scale_by_power(joint.lower[i], power), upper = scale_by_power(joint.upper[i], power);
+    if (mode == DriveMode::held) {
+      work.wanted[row] = make.correction(work.value[i] - lower);
+    } else if (mode == DriveMode::lower) {
+      work.wanted[row] = make.up_to_limit(work.value[i] - lower, work.value[i] > lower);
+    } else if (mode == DriveMode::upper) {
+      work.wanted[row] = make.up_to_limit(work.value[i] - upper, work.value[i] < upper);
+    } else {
+      work.wanted[row] = scale_by_power(joint.speed[i], power);
+    }
+    if (mode != DriveMode::spring) continue;
+    const Spring spring(settings, joint, i);
+    bool saturated = false;
+    const Real off = work.value[i] - scale_by_power(joint.target[i], power);
+    work.wanted[row] -= multiply(off, divide(spring.rate, spring.damping), saturated);
+    const Scaled response = own_response(bodies, stage, work, work.free_row[i]);
+    work.softness[row] = to_real(divide(response, spring.stiffness()), saturated);
+  }
+}
+
+Revision revise_drives(const JointState& joint, Scaled share, JointWork& work) {
+  Revision revision = Revision::none;
+  for (int i = 0; i < 2; ++i) {
+    DriveMode& mode = work.mode[i];
+    const uint32_t row = work.driven[i];
+    const Real impulse = row < k_joint_rows_max ? work.impulse[row] : k_zero;
+    if ((mode == DriveMode::lower && impulse < k_zero) || (mode == DriveMode::upper && impulse > k_zero)) {
+      mode = free_mode(joint, i);
+      revision = Revision::made;
+    } else if ((mode == DriveMode::rigid || mode == DriveMode::spring) && is_positive(joint.force_max[i])) {
+      const Real bound = multiply(work.bound[i], share);
+      if (impulse <= bound && impulse >= -bound) continue;
+      work.constant[i] = impulse > k_zero ? bound : -bound;
+      mode = DriveMode::constant;
+      revision = Revision::made;
+    }
+  }
+  return revision;
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent
