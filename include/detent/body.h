@@ -53,10 +53,9 @@ struct BodyDef {
   Real linear_damping = 0.0;   ///< 1/s, [0, 1024]
   Real angular_damping = 0.0;  ///< 1/s, [0, 1024]
   Real gravity_scale = 1.0;    ///< [-1024, 1024]
-  uint32_t user_data = 0;      ///< kept, digested and recorded; never read
-  uint32_t turn_locks = 0;     ///< k_turn_lock_x, ...: axes of the body about which it does not turn
   uint32_t user_data = 0;      ///< kept, digested and recorded; read by filter rules alone
-  Filter filter = {};
+  uint32_t turn_locks = 0;     ///< k_turn_lock_x, ...: axes of the body about which it does not turn
+  Filter filter = {};          ///< what it collides with
 };
 
 }  // namespace DETENT_NAMESPACE

@@ -120,6 +120,15 @@ class Recorder {
   Status explode(const Explosion& explosion);
   Status move_kinematic(BodyId id, const Position& position, const Quat& rotation);
   /// @}
+  /// The queries change nothing, and are logged with the digest of their answer.
+  /// @{
+  Status query_ray(const RayQuery& query, QueryHits hits, QueryReport& report);
+  Status query_cast(const CastQuery& query, QueryHits hits, QueryReport& report);
+  Status query_overlap(const OverlapQuery& query, QueryHits hits, QueryReport& report);
+  Status query_bounds(const BoundsQuery& query, QueryHits hits, QueryReport& report);
+  Status query_closest(const ClosestQuery& query, QueryHits hits, QueryReport& report);
+  /// @}
+
   /// Steps the world, and logs the tick and, every `digest_interval` ticks, the digest.
   StepReport step();
 

@@ -216,8 +216,8 @@ void visit(Archive& archive, BodyDef& def) {
   visit_number(archive, "angular damping", def.angular_damping);
   visit_number(archive, "gravity scale", def.gravity_scale);
   visit_word(archive, "user data", def.user_data);
-  visit(archive, def.filter);
   visit_word(archive, "turn locks", def.turn_locks);
+  visit(archive, def.filter);
 }
 
 /// All but the capacity, which is the recording's.
@@ -412,7 +412,6 @@ inline Status apply(World& world, SetDamping& command) {
 }
 inline Status apply(World& world, SetSettings& command) { return set_settings(world, command.def); }
 inline Status apply(World& world, Explode& command) { return explode(world, command.explosion); }
-inline Status apply(World& world, SetUserData& command) { return set_user_data(world, command.id, command.user_data); }
 inline Status apply(World& world, SetFilter& command) { return set_filter(world, command.id, command.filter); }
 inline Status apply(World& world, BindAsset& command) { return bind_asset(world, command.index); }
 

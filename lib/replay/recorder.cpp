@@ -280,6 +280,8 @@ Status Recorder::explode(const Explosion& explosion) {
 Status Recorder::move_kinematic(BodyId id, const Position& position, const Quat& rotation) {
   MoveKinematic command{id, position, rotation};
   return apply_and_log(command);
+}
+
 Status Recorder::query_ray(const RayQuery& query, QueryHits hits, QueryReport& report) {
   RayCommand command{query};
   return ask_and_log(command, hits, report);
