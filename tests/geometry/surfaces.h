@@ -1,5 +1,4 @@
 #pragma once
-#include <detent/asset.h>
 #include <string.h>
 
 #include <functional>
