@@ -240,10 +240,26 @@ bool SurfacePair::allows(const Side& side, const Vec32& normal) const {
   return allows_at_corner(side.index, corner[top], normal);
 }
 
+/// Whether the shape, or with `lowest` its lowest point alone, lies farther beyond a side than `clear`, 2^-46 m, and at
+/// most four times that: certain, but not sharp.
+bool SurfacePair::is_beside(const Side& side, bool lowest, int64_t clear) const {
+  for (uint32_t k = 0; k < 3; ++k) {
+    const Vec32 &a = side.triangle.corner[k], &b = side.triangle.corner[(k + 1) % 3];
+    const Vec32 out = scaled_to_30_bits(cross(scaled_to_30_bits(subtract(b, a)), side.normal));  // 2^29 to 2^31 long
+    const int64_t nearest = dot(out, support(alone_, negate(lowest ? side.normal : out)).point) >> 31;
+    const int64_t beyond = raw_from_block(nearest, shape_.exponent) - dot(from_centre(a), out).round_shift(31);
+    if (beyond > clear) return true;
+  }
+  return false;
+}
+
 bool SurfacePair::touch(uint32_t index, SurfaceTouch& touch) const {
   const Side side = side_of(index);
   const bool one_sided = surface_.one_sided();
   if ((side.behind && one_sided) || side.height > reach_) return false;
+  const bool free = side.has_free_edge();
+  const int64_t size = saturated_sum(raw_core_radius(shape_), radius_);
+  if (is_beside(side, false, saturated_sum(size >> k_level_power, free ? saturated_sum(radius_, reach_) : 0))) return false;
   Convex convex;
   RestingPair pair;
   if (!make_pair(side, convex, pair)) return false;
@@ -268,7 +284,9 @@ bool SurfacePair::touch(uint32_t index, SurfaceTouch& touch) const {
   contact_points_over_face(pair, face, reach_, ManifoldReduction::projected_extremes, touch.manifold);
   touch.deepest = deepest_of(touch.manifold);
   const bool over = touch.manifold.count > 0, shallow = touch.deepest > -(thickness_ >> k_shallow_power);
-  if (!side.has_free_edge() && (!over || shallow)) return over;
+  if (!free && over && shallow) return true;
+  // On a ridge too flat to be one, the lowest point along each of the two normals lies beyond the edge.
+  if (!free && !over && is_beside(side, true, size >> k_level_power)) return false;
   if (over && touch.deepest >= 0 && touch.deepest <= side.height + (thickness_ >> k_drop_power)) return true;
   if (over && shallow && touch.deepest <= side.height + (thickness_ >> k_drop_power) &&
       !has_nearer_way(side, touch.deepest)) {
@@ -287,7 +305,7 @@ bool SurfacePair::touch(uint32_t index, SurfaceTouch& touch) const {
     return false;
   } else if (!allows(side, searched.normal)) {
     touch.doubtful = !shallow;
-    return over;
+    return over && (shallow || deepest_of(searched) <= 0);  // or only what lies beside it is deep
   }
   touch.on_face = facing >= k_upright_cosine;
   touch.manifold = searched;

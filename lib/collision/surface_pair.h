@@ -65,6 +65,7 @@ class SurfacePair {
   Vec64 from_centre(const Vec32& point) const;
   int64_t height(const Vec32& normal, const Vec32& corner) const;
   bool make_pair(const Side& side, Convex& convex, RestingPair& pair) const;
+  bool is_beside(const Side& side, bool lowest, int64_t clear) const;
   bool has_nearer_way(const Side& side, int64_t deepest) const;
   bool allows(const Side& side, const Vec32& normal) const;
   bool allows_at_corner(uint32_t triangle, const Vec32& corner, const Vec32& normal) const;

@@ -161,6 +161,27 @@ DETENT_TEST(mesh_contact, a_box_lying_on_a_tessellated_plane_has_its_four_corner
   }
 }
 
+/// Its edges are all too flat to count as edges; the true contact is on one, or on a corner.
+DETENT_TEST(mesh_contact, a_ball_on_a_finely_tessellated_dome_does_not_fall_between_the_triangles) {
+  const double sizes[] = {0.04, 0.1};
+  for (const double size : sizes) {
+    const double radius = 16;
+    const Ground dome(ground(40, size, [&](double x, double z) { return sqrt(radius * radius - x * x - z * z) - radius; }), true);
+    for (uint32_t kind = 0; kind < 7; ++kind) {
+      OracleBody body = body_of(shape_of(kind));
+      body.pose.rotation = kind == 3 || kind == 5 ? rotation_near(turn_about({{1, 0.2, 0.1}}, 0.4)) : Quat{0.0, 0.0, 0.0, 1.0};
+      const double depth = depth_below(body);
+      for (uint32_t step = 0; step < detent_oracle::rounds(40); ++step) {
+        body.pose.position = position_near({{0.01 * size * step, depth - 0.001, 0.007 * size * step}});
+        const SurfaceContacts contacts = contacts_of(dome, body);
+        ASSERT_EQ(contacts.count, 1u) << size << " " << kind << " " << step;
+        EXPECT_NEAR(deepest_of(contacts), -0.001, 1e-3) << size << " " << kind << " " << step;
+        EXPECT_LE(normal_error(contacts.contact[0], {{0, 1, 0}}), 0.02);
+      }
+    }
+  }
+}
+
 DETENT_TEST(mesh_contact, a_real_edge_gives_what_the_box_itself_gives) {
   const Ground ground(box_surface(1, 1, 1, 4), true);
   OracleBody block = body_of(box({1.0, 1.0, 1.0}));
@@ -351,11 +372,11 @@ DETENT_TEST(mesh_contact, over_rough_ground_the_deepest_point_is_as_near_as_the_
 DETENT_TEST(mesh_contact, what_finds_no_room_is_counted_and_the_deepest_stay) {
   // Narrow ridges side by side under one large box.
   const Ground ground(detent_surfaces::ground(24, 0.1, [](double x, double z) {
-    return 0.03 * sin(37 * x + 1.3 * z) + 0.02 * sin(29 * z) - 0.01 * x;
+    return 0.03 * sin(37 * x + 11 * z) + 0.02 * sin(29 * z + 3 * x) - 0.01 * x;
   }));
   OracleBody body = body_of(box({1.0, 0.25, 1.0}));
   body.pose.rotation = {0.0, 0.0, 0.0, 1.0};
-  body.pose.position = position_near({{0, 0.25 + 0.06, 0}});
+  body.pose.position = position_near({{0, 0.25 + 0.065, 0}});
   const SurfaceContacts contacts = contacts_of(ground, body, 0.2);
   EXPECT_EQ(contacts.count, k_surface_manifolds_max);
   EXPECT_GT(contacts.dropped, 0u);
