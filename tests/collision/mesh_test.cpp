@@ -174,9 +174,11 @@ DETENT_TEST(mesh_contact, a_ball_on_a_finely_tessellated_dome_does_not_fall_betw
       for (uint32_t step = 0; step < detent_oracle::rounds(40); ++step) {
         body.pose.position = position_near({{0.01 * size * step, depth - 0.001, 0.007 * size * step}});
         const SurfaceContacts contacts = contacts_of(dome, body);
-        ASSERT_EQ(contacts.count, 1u) << size << " " << kind << " " << step;
+        ASSERT_GE(contacts.count, 1u) << size << " " << kind << " " << step;
         EXPECT_NEAR(deepest_of(contacts), -0.001, 1e-3) << size << " " << kind << " " << step;
-        EXPECT_LE(normal_error(contacts.contact[0], {{0, 1, 0}}), 0.02);
+        for (uint32_t i = 0; i < contacts.count; ++i) {
+          EXPECT_LE(normal_error(contacts.contact[i], {{0, 1, 0}}), 0.06);  // of a flat side as far as it is in reach
+        }
       }
     }
   }
