@@ -18,10 +18,8 @@ void put_contact(const SurfaceManifold& manifold, const Matrix32& rotation, cons
     const SurfaceManifold::Point& point = manifold.point[i];
     const Vec64 way = rotate(rotation, point.from_shape);
     const Vec3<Real> from_body = {real_from_raw(way.x), real_from_raw(way.y), real_from_raw(way.z)};
-    contact.geometry.point[contact.geometry.count++] = {{0.0, 0.0, 0.0},
-                                                        arm_of_way(from_body, traits.size_exponent),
-                                                        real_from_raw(point.separation),
-                                                        point.feature};
+    contact.geometry.point[contact.geometry.count++] = {
+        {0.0, 0.0, 0.0}, arm_of_way(from_body, traits.size_exponent), real_from_raw(point.separation), point.feature};
   }
 }
 
@@ -50,7 +48,8 @@ void collide_mesh(const Surface& surface, const Pose& pose, const CollisionBody&
   contacts.count = found.finish(manifold);
   contacts.dropped = found.dropped();
   contacts.capped = found.capped();
-  for (uint32_t i = 0; i < contacts.count; ++i) put_contact(manifold[i], place.surface, body.traits, contacts.contact[i]);
+  for (uint32_t i = 0; i < contacts.count; ++i)
+    put_contact(manifold[i], place.surface, body.traits, contacts.contact[i]);
 }
 
 }  // namespace DETENT_NAMESPACE

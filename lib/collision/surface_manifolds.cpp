@@ -170,7 +170,8 @@ void SurfaceManifolds::choose(const Group& group, SurfaceManifold& manifold) con
     }
     if (taken[best]) continue;
     taken[best] = true;
-    deep = deep || group.point[best].contact.separation <= group.point[deepest].contact.separation + (size_ >> k_drop_power);
+    deep = deep ||
+           group.point[best].contact.separation <= group.point[deepest].contact.separation + (size_ >> k_drop_power);
     if (count == 0 || distance(best) < distance(nearest)) nearest = best;
     ++count;
   }
@@ -213,7 +214,9 @@ uint32_t SurfaceManifolds::finish(SurfaceManifold (&manifold)[k_surface_manifold
     --count_;
   }
   // By key; planes of one name by their height.
-  const auto key_of = [](const Group& group) { return group.on_face ? name_of(group.normal) : k_edge_key | group.first; };
+  const auto key_of = [](const Group& group) {
+    return group.on_face ? name_of(group.normal) : k_edge_key | group.first;
+  };
   for (uint32_t i = 1; i < count_; ++i) {
     for (uint32_t k = i; k > 0; --k) {
       Group &low = group_[k - 1], &high = group_[k];

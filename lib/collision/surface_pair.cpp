@@ -8,7 +8,7 @@ namespace {
 
 constexpr int32_t k_one = 1 << 30;
 constexpr int k_shallow_power = 3;  ///< a contact no deeper than this part of the half thickness is on its face
-constexpr int k_drop_power = 10;    ///< of the half thickness: points no higher than this above the lowest are the lowest
+constexpr int k_drop_power = 10;  ///< of the half thickness: points no higher than this above the lowest are the lowest
 constexpr int k_allowed_power = 7;  ///< an allowed normal may look this angle, rad, into what is about it
 constexpr int k_level_power = 6;    ///< edges whose slope is less, rad, lie along the contact
 constexpr uint32_t k_fan_max = 64;  ///< triangles about a corner that are looked at
@@ -73,7 +73,8 @@ Vec64 rotate(const Matrix32& m, const Vec64& v) {
 }
 
 Vec64 rotate_back(const Matrix32& m, const Vec64& v) {
-  return {dot(v, m.column[0]).round_shift(30), dot(v, m.column[1]).round_shift(30), dot(v, m.column[2]).round_shift(30)};
+  return {dot(v, m.column[0]).round_shift(30), dot(v, m.column[1]).round_shift(30),
+          dot(v, m.column[2]).round_shift(30)};
 }
 
 int64_t bound_of(const Vec64 (&corner)[3]) {
@@ -259,7 +260,8 @@ bool SurfacePair::touch(uint32_t index, SurfaceTouch& touch) const {
   if ((side.behind && one_sided) || side.height > reach_) return false;
   const bool free = side.has_free_edge();
   const int64_t size = saturated_sum(raw_core_radius(shape_), radius_);
-  if (is_beside(side, false, saturated_sum(size >> k_level_power, free ? saturated_sum(radius_, reach_) : 0))) return false;
+  if (is_beside(side, false, saturated_sum(size >> k_level_power, free ? saturated_sum(radius_, reach_) : 0)))
+    return false;
   Convex convex;
   RestingPair pair;
   if (!make_pair(side, convex, pair)) return false;

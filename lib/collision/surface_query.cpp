@@ -87,7 +87,8 @@ bool meets_triangle(const Segment& segment, const SurfaceTriangle& triangle, int
   // The neighbour finds the same number, negated, for a side that they share: nothing passes between them.
   int left = 0, right = 0;
   for (int k = 0; k < 3; ++k) {
-    const Vec32 a = subtract(triangle.corner[k], segment.from), b = subtract(triangle.corner[(k + 1) % 3], segment.from);
+    const Vec32 a = subtract(triangle.corner[k], segment.from),
+                b = subtract(triangle.corner[(k + 1) % 3], segment.from);
     const int sign = sign_of(dot(cross(a, b), way));
     left += sign > 0 ? 1 : 0;
     right += sign < 0 ? 1 : 0;
@@ -143,9 +144,9 @@ Status cast_ray_on_surface(const Surface& surface, const Pose& pose, const Vec3<
                  const Vec32 n = normal_of(triangle.corner[0], triangle.corner[1], triangle.corner[2]);
                  found.normal = units_from_raw(round_shift(multiply(matrix, behind ? negate(n) : n), 30));
                  const Vec32 d = subtract(whole.to, whole.from);
-                 rest.to = add(whole.from, Vec32{static_cast<int32_t>(part_of(d.x, time)),
-                                                 static_cast<int32_t>(part_of(d.y, time)),
-                                                 static_cast<int32_t>(part_of(d.z, time))});
+                 rest.to = add(whole.from,
+                               Vec32{static_cast<int32_t>(part_of(d.x, time)), static_cast<int32_t>(part_of(d.y, time)),
+                                     static_cast<int32_t>(part_of(d.z, time))});
                });
   if (found.hit) found.time = Fraction::from_raw(from + part_of(to - from, best));
   hit = found;

@@ -14,11 +14,11 @@ struct SurfaceHit {
   uint8_t material;
 };
 
-/// The first triangle of a surface at `pose` that the segment from `origin` (m, from the surface's position, world axes)
-/// along `way` (m) meets; of equals the one of the lower index. One-sided surfaces let through what comes from behind.
-/// No ray gets through an edge between two triangles: sides are exact, of ends rounded to the grid, so that the hit
-/// errs by a step of it. A ray in a triangle's plane does not meet it.
-/// Errors: not_normalised; out_of_range, also for components of 2^15 m.
+/// The first triangle of a surface at `pose` that the segment from `origin` (m, from the surface's position, world
+/// axes) along `way` (m) meets; of equals the one of the lower index. One-sided surfaces let through what comes from
+/// behind. No ray gets through an edge between two triangles: sides are exact, of ends rounded to the grid, so that the
+/// hit errs by a step of it. A ray in a triangle's plane does not meet it. Errors: not_normalised; out_of_range, also
+/// for components of 2^15 m.
 Status cast_ray_on_surface(const Surface& surface, const Pose& pose, const Vec3<Real>& origin, const Vec3<Real>& way,
                            SurfaceHit& hit);
 

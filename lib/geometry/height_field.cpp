@@ -78,7 +78,12 @@ SurfaceTriangle HeightFieldView::triangle(uint32_t index) const {
     uint32_t other = index ^ 1;
     if (k < 2) {
       const uint32_t side = sides[k];
-      const uint32_t column = side == 0 ? i - 1 : side == 2 ? i + 1 : i, row = side == 3 ? j - 1 : side == 1 ? j + 1 : j;
+      const uint32_t column = side == 0   ? i - 1
+                              : side == 2 ? i + 1
+                                          : i,
+                     row = side == 3   ? j - 1
+                           : side == 1 ? j + 1
+                                       : j;
       const bool inside = column < columns && row < rows && (cell(column, row) & k_cell_hole) == 0;
       other = inside ? triangle_at_side(column, row, side ^ 2) : k_no_triangle;
     }

@@ -18,14 +18,14 @@ inline constexpr uint32_t k_height_field_exponent_at = 20;
 inline constexpr uint32_t k_height_field_columns_at = 24;
 inline constexpr uint32_t k_height_field_rows_at = 28;
 inline constexpr uint32_t k_height_field_flags_at = 32;
-inline constexpr uint32_t k_height_field_origin_at = 36;   ///< three int32
-inline constexpr uint32_t k_height_field_spacing_at = 48;  ///< two int32: along x, along z
-inline constexpr uint32_t k_height_field_step_at = 56;     ///< int32
+inline constexpr uint32_t k_height_field_origin_at = 36;     ///< three int32
+inline constexpr uint32_t k_height_field_spacing_at = 48;    ///< two int32: along x, along z
+inline constexpr uint32_t k_height_field_step_at = 56;       ///< int32
 inline constexpr uint32_t k_height_field_header_bytes = 64;  ///< zero from 60 on
 
-inline constexpr uint32_t k_height_field_one_sided = 1;  ///< of the flags
+inline constexpr uint32_t k_height_field_one_sided = 1;     ///< of the flags
 inline constexpr uint32_t k_height_field_cells_max = 4096;  ///< along a side
-inline constexpr uint8_t k_cell_hole = 0x80;              ///< no triangles
+inline constexpr uint8_t k_cell_hole = 0x80;                ///< no triangles
 inline constexpr uint8_t k_cell_turned = 0x40;  ///< the diagonal runs from (i + 1, j) to (i, j + 1), not from (i, j)
 inline constexpr uint8_t k_cell_material = 0x3f;
 
@@ -44,9 +44,7 @@ struct HeightFieldView {
   int32_t spacing_x = 0, spacing_z = 0, step = 0;
 
   int32_t exponent() const { return cooked_i32(bytes + k_height_field_exponent_at); }
-  bool one_sided() const {
-    return (cooked_u32(bytes + k_height_field_flags_at) & k_height_field_one_sided) != 0;
-  }
+  bool one_sided() const { return (cooked_u32(bytes + k_height_field_flags_at) & k_height_field_one_sided) != 0; }
   uint32_t triangle_count() const { return 2 * columns * rows; }
   int32_t height(uint32_t i, uint32_t j) const {
     DETENT_VERIFY_RANGE(i <= columns && j <= rows);
@@ -56,9 +54,7 @@ struct HeightFieldView {
     DETENT_VERIFY_RANGE(i < columns && j < rows);
     return bytes[cells_at + j * columns + i];
   }
-  Vec32 vertex(uint32_t i, uint32_t j) const {
-    return {x(i), origin.y + height(i, j) * step, z(j)};
-  }
+  Vec32 vertex(uint32_t i, uint32_t j) const { return {x(i), origin.y + height(i, j) * step, z(j)}; }
   int32_t x(uint32_t i) const { return origin.x + static_cast<int32_t>(i) * spacing_x; }
   int32_t z(uint32_t j) const { return origin.z + static_cast<int32_t>(j) * spacing_z; }
 
@@ -85,7 +81,8 @@ struct HeightFieldView {
   }
   GridBox bounds() const { return node_bounds(level_count - 1, 0, 0); }
 
-  /// Calls visit(triangle) for each triangle whose bounds meet, always in the same order. `meets` is asked of a GridBox.
+  /// Calls visit(triangle) for each triangle whose bounds meet, always in the same order. `meets` is asked of a
+  /// GridBox.
   template <class Meets, class Visit>
   void walk(Meets&& meets, Visit&& visit) const;
 

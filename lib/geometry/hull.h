@@ -126,7 +126,8 @@ struct HullView {
   HullEdge edge(uint32_t i) const {
     DETENT_VERIFY_RANGE(i < edge_count);
     const uint8_t* words = bytes + at.edges + k_hull_edge_bytes * i;
-    return {words[0], words[1], static_cast<uint16_t>(cooked_u16(words + 2)), static_cast<uint16_t>(cooked_u16(words + 4))};
+    return {words[0], words[1], static_cast<uint16_t>(cooked_u16(words + 2)),
+            static_cast<uint16_t>(cooked_u16(words + 4))};
   }
 
   int32_t exponent() const { return cooked_i32(bytes + k_hull_exponent_at); }

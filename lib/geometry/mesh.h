@@ -17,8 +17,8 @@ inline constexpr uint32_t k_mesh_exponent_at = 20;
 inline constexpr uint32_t k_mesh_vertex_count_at = 24;
 inline constexpr uint32_t k_mesh_triangle_count_at = 28;
 inline constexpr uint32_t k_mesh_flags_at = 32;
-inline constexpr uint32_t k_mesh_low_at = 36;     ///< three int32: the least coordinates of the vertices
-inline constexpr uint32_t k_mesh_shift_at = 48;   ///< bounds of nodes are in 2^shift grid steps from `low`
+inline constexpr uint32_t k_mesh_low_at = 36;        ///< three int32: the least coordinates of the vertices
+inline constexpr uint32_t k_mesh_shift_at = 48;      ///< bounds of nodes are in 2^shift grid steps from `low`
 inline constexpr uint32_t k_mesh_header_bytes = 64;  ///< zero from 52 on
 
 inline constexpr uint32_t k_mesh_one_sided = 1;  ///< of the flags

@@ -34,8 +34,8 @@ Surface surface_view(const uint8_t* bytes) {
 
 Status read_surface(const Asset& asset, Surface& surface) {
   Surface read;
-  read.is_mesh = asset.bytes != nullptr && asset.byte_count > k_letter_at &&
-                 asset.bytes[k_letter_at] == k_mesh_magic[k_letter_at];
+  read.is_mesh =
+      asset.bytes != nullptr && asset.byte_count > k_letter_at && asset.bytes[k_letter_at] == k_mesh_magic[k_letter_at];
   const Status status = read.is_mesh ? read_mesh(asset, read.mesh) : read_height_field(asset, read.field);
   if (status == Status::ok) surface = read;
   return status;

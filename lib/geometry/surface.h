@@ -16,7 +16,8 @@ struct Surface {
   GridBox bounds() const { return is_mesh ? mesh.bounds() : field.bounds(); }
   SurfaceTriangle triangle(uint32_t i) const { return is_mesh ? mesh.triangle(i) : field.triangle(i); }
 
-  /// Calls visit(triangle) for each triangle whose bounds meet, always in the same order. `meets` is asked of a GridBox.
+  /// Calls visit(triangle) for each triangle whose bounds meet, always in the same order. `meets` is asked of a
+  /// GridBox.
   template <class Meets, class Visit>
   void walk(Meets&& meets, Visit&& visit) const {
     if (is_mesh)

@@ -60,8 +60,8 @@ inline Vec64 area_vector(const Vec32& a, const Vec32& b, const Vec32& c) {
 /// The unit normal, Q30. Range: the corners are not on a line.
 Vec32 normal_of(const Vec32& a, const Vec32& b, const Vec32& c);
 
-/// The kind of the edge from a to b between the triangles (a, b, c) and (b, a, d). Whether it is convex is exact; a fold
-/// back onto itself counts as convex.
+/// The kind of the edge from a to b between the triangles (a, b, c) and (b, a, d). Whether it is convex is exact; a
+/// fold back onto itself counts as convex.
 EdgeKind edge_kind(const Vec32& a, const Vec32& b, const Vec32& c, const Vec32& d);
 
 }  // namespace DETENT_NAMESPACE

@@ -245,8 +245,8 @@ void contact_points_over_face(const RestingPair& pair, const Feature& face, int6
   const Vec32 nearest = support(pair.b, negate(face.normal)).point;
   const int64_t height = dot(face.normal, subtract(add(pair.offset, nearest), face.point[0])) >> 30;
   const Vec32 foot =
-      subtract(add(pair.offset, nearest), round_shift(Vec64{face.normal.x * height, face.normal.y * height,
-                                                            face.normal.z * height}, 30));
+      subtract(add(pair.offset, nearest),
+               round_shift(Vec64{face.normal.x * height, face.normal.y * height, face.normal.z * height}, 30));
   const ContactAxis axis = {face.normal, height, foot, nearest, false};
   Builder(pair, axis, reach, reduction).build_over_face(face, manifold);
 }

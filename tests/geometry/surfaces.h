@@ -15,7 +15,8 @@ using Source = detent_cook::MeshSource;
 /// Bytes at an address that is a multiple of 8, of their own size alone, so that a sanitizer sees what lies beyond.
 class Bytes {
  public:
-  explicit Bytes(const std::vector<uint8_t>& from) : byte_count_(static_cast<uint32_t>(from.size())), words_(from.size() / 8) {
+  explicit Bytes(const std::vector<uint8_t>& from)
+      : byte_count_(static_cast<uint32_t>(from.size())), words_(from.size() / 8) {
     if (!from.empty()) memcpy(data(), from.data(), from.size());
   }
   uint8_t* data() { return reinterpret_cast<uint8_t*>(words_.data()); }

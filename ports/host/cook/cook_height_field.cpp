@@ -68,7 +68,8 @@ HeightFieldResult cook_height_field(const HeightFieldSource& source) {
   if (!result.reason.empty()) return result;
   double greatest = 0, highest = 0;
   const Point& o = source.origin;
-  for (const double value : {o[0], o[1], o[2], o[0] + source.columns * source.spacing_x, o[2] + source.rows * source.spacing_z}) {
+  for (const double value :
+       {o[0], o[1], o[2], o[0] + source.columns * source.spacing_x, o[2] + source.rows * source.spacing_z}) {
     greatest = std::max(greatest, fabs(value));
   }
   for (const double height : source.heights) {

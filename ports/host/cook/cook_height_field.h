@@ -5,10 +5,10 @@ namespace detent_cook {
 
 /// Heights above a grid in x and z.
 struct HeightFieldSource {
-  uint32_t columns = 0, rows = 0;   ///< cells along x and z
-  std::vector<double> heights{};    ///< m; (columns + 1) (rows + 1) of them, x first
-  std::vector<uint8_t> cells{};     ///< columns rows of them, as docs/height_field.md; none: all of material 0
-  Point origin{};                   ///< m; where the first sample lies, but for its height
+  uint32_t columns = 0, rows = 0;       ///< cells along x and z
+  std::vector<double> heights{};        ///< m; (columns + 1) (rows + 1) of them, x first
+  std::vector<uint8_t> cells{};         ///< columns rows of them, as docs/height_field.md; none: all of material 0
+  Point origin{};                       ///< m; where the first sample lies, but for its height
   double spacing_x = 1, spacing_z = 1;  ///< m
   bool one_sided = true;
 };

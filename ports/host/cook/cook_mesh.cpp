@@ -42,7 +42,8 @@ std::string reason_against(const MeshSource& source, const MeshOptions& options)
   if (source.vertices.size() > 0xffffffffu / 2) return "there are too many vertices";
   for (size_t i = 0; i < source.triangles.size(); ++i) {
     for (const uint32_t vertex : source.triangles[i].vertex) {
-      if (vertex >= source.vertices.size()) return "triangle " + std::to_string(i + 1) + " names a vertex that is missing";
+      if (vertex >= source.vertices.size())
+        return "triangle " + std::to_string(i + 1) + " names a vertex that is missing";
     }
   }
   return {};
@@ -226,7 +227,8 @@ void put_triangles(const GridMesh& mesh, const detent::MeshView& view, Writer& w
     const uint32_t at = view.triangles_at + detent::k_mesh_triangle_bytes * i;
     for (uint32_t k = 0; k < 3; ++k) {
       writer.put(at + 4 * k, v[k] | (k == 0 ? uint32_t{mesh.faces[i].material} << 24 : 0));
-      writer.put(at + 12 + 4 * k, detent::k_mesh_index_mask | uint32_t{static_cast<uint8_t>(detent::EdgeKind::open)} << 24);
+      writer.put(at + 12 + 4 * k,
+                 detent::k_mesh_index_mask | uint32_t{static_cast<uint8_t>(detent::EdgeKind::open)} << 24);
       const uint32_t next = v[(k + 1) % 3];
       passages.push_back({std::min(v[k], next), std::max(v[k], next), v[k] < next, i, k});
     }
@@ -243,7 +245,8 @@ void put_triangles(const GridMesh& mesh, const detent::MeshView& view, Writer& w
                other.face | uint32_t{static_cast<uint8_t>(kind)} << 24);
   };
   for (size_t from = 0, to = 0; from < passages.size(); from = to) {
-    while (to < passages.size() && passages[to].low == passages[from].low && passages[to].high == passages[from].high) ++to;
+    while (to < passages.size() && passages[to].low == passages[from].low && passages[to].high == passages[from].high)
+      ++to;
     if (to - from == 2 && passages[from].forward != passages[from + 1].forward) {
       put_neighbour(passages[from], passages[from + 1]);
       put_neighbour(passages[from + 1], passages[from]);

@@ -35,8 +35,8 @@ Transform transform_of(const tinygltf::Node& node) {
     for (size_t i = 0; i < 16; ++i) m[i] = node.matrix[i];
     return m;
   }
-  const double x = component(node.rotation, 0, 0), y = component(node.rotation, 1, 0), z = component(node.rotation, 2, 0),
-               w = component(node.rotation, 3, 1);
+  const double x = component(node.rotation, 0, 0), y = component(node.rotation, 1, 0),
+               z = component(node.rotation, 2, 0), w = component(node.rotation, 3, 1);
   const double turn[3][3] = {{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
                              {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
                              {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}};
@@ -78,7 +78,8 @@ class Reader {
 
   /// The bytes of element i, `size` of them; null if they are not all there.
   const unsigned char* element(const tinygltf::Accessor& accessor, size_t i, size_t size) const {
-    if (accessor.bufferView < 0 || static_cast<size_t>(accessor.bufferView) >= model_.bufferViews.size()) return nullptr;
+    if (accessor.bufferView < 0 || static_cast<size_t>(accessor.bufferView) >= model_.bufferViews.size())
+      return nullptr;
     const tinygltf::BufferView& view = model_.bufferViews[static_cast<size_t>(accessor.bufferView)];
     if (view.buffer < 0 || static_cast<size_t>(view.buffer) >= model_.buffers.size()) return nullptr;
     const std::vector<unsigned char>& data = model_.buffers[static_cast<size_t>(view.buffer)].data;
@@ -110,13 +111,16 @@ class Reader {
       result.mesh.vertices.push_back(at);
     }
     const bool indexed = primitive.indices >= 0;
-    if (indexed && static_cast<size_t>(primitive.indices) >= model_.accessors.size()) return fail("indices that are missing");
-    const tinygltf::Accessor& indices = model_.accessors[static_cast<size_t>(indexed ? primitive.indices : position->second)];
+    if (indexed && static_cast<size_t>(primitive.indices) >= model_.accessors.size())
+      return fail("indices that are missing");
+    const tinygltf::Accessor& indices =
+        model_.accessors[static_cast<size_t>(indexed ? primitive.indices : position->second)];
     const auto material = static_cast<uint8_t>(primitive.material < 0 ? 0 : primitive.material & 255);
     // A mirrored node turns its triangles round.
     const Transform& m = place;
-    const bool mirrored = m[0] * (m[5] * m[10] - m[9] * m[6]) - m[4] * (m[1] * m[10] - m[9] * m[2]) +
-                              m[8] * (m[1] * m[6] - m[5] * m[2]) < 0;
+    const bool mirrored =
+        m[0] * (m[5] * m[10] - m[9] * m[6]) - m[4] * (m[1] * m[10] - m[9] * m[2]) + m[8] * (m[1] * m[6] - m[5] * m[2]) <
+        0;
     for (size_t i = 0; i + 2 < indices.count; i += 3) {
       MeshSource::Triangle triangle;
       for (size_t k = 0; k < 3; ++k) {

@@ -58,8 +58,10 @@ MeshRead read_obj_mesh(std::string_view text, const CookProgress& progress) {
       problem = read_face(line, material, result.mesh);
     } else if (kind == "usemtl") {
       const std::string_view name = next_word(line);
-      if (materials.size() == 256 && materials.count(name) == 0) problem = "there are more than 256 materials";
-      else material = materials.emplace(name, static_cast<uint8_t>(materials.size())).first->second;
+      if (materials.size() == 256 && materials.count(name) == 0)
+        problem = "there are more than 256 materials";
+      else
+        material = materials.emplace(name, static_cast<uint8_t>(materials.size())).first->second;
     }
     if (!problem.empty()) return {{}, at_line(number, problem)};
   }

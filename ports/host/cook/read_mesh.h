@@ -14,8 +14,8 @@ struct MeshRead {
 /// that `usemtl` names are numbered from 0 on, as they come. All other lines are passed over.
 MeshRead read_obj_mesh(std::string_view text, const CookProgress& progress = {});
 
-/// All triangles of a glTF's scene (the default one; all nodes if it has none), placed by the nodes. `path`: of the file
-/// that the bytes are of; its buffers may lie beside it. Materials keep their numbers. Not in every build: see
+/// All triangles of a glTF's scene (the default one; all nodes if it has none), placed by the nodes. `path`: of the
+/// file that the bytes are of; its buffers may lie beside it. Materials keep their numbers. Not in every build: see
 /// k_reads_gltf.
 MeshRead read_gltf_mesh(const std::string& path);
 extern const bool k_reads_gltf;
