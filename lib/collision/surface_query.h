@@ -8,10 +8,10 @@ inline namespace DETENT_NAMESPACE {
 
 struct SurfaceHit {
   bool hit = false;
-  Fraction time = 0.0;  ///< the part of the way; 1 if there is none
-  Vec3<Unit> normal;    ///< of the triangle, towards where the ray came from, world axes
-  uint32_t triangle;
-  uint8_t material;
+  Fraction time = 0.0;     ///< the part of the way; 1 if there is none
+  Vec3<Unit> normal = {};  ///< of the triangle, towards where the ray came from, world axes
+  uint32_t triangle = k_no_triangle;
+  uint8_t material = 0;
 };
 
 /// The first triangle of a surface at `pose` that the segment from `origin` (m, from the surface's position, world

@@ -179,7 +179,7 @@ class Orderer {
   /// `span`: of triangles in a full node of this level.
   void split(uint32_t from, uint32_t to, uint32_t span) {
     if (span <= detent::k_mesh_leaf_triangles) {
-      std::sort(order_.begin() + from, order_.begin() + to);
+      std::sort(order_.data() + from, order_.data() + to);
       if (progress_ != nullptr && from % 4096 == 0) progress_(from, order_.size());
       return;
     }
@@ -188,7 +188,7 @@ class Orderer {
       const auto before = [&](uint32_t a, uint32_t b) {
         return std::make_pair(centre_[a][axis], a) < std::make_pair(centre_[b][axis], b);
       };
-      std::sort(order_.begin() + from, order_.begin() + to, before);
+      std::sort(order_.data() + from, order_.data() + to, before);
       split(from + span / 2, to, span / 2);
       to = from + span / 2;
     }
