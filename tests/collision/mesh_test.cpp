@@ -390,6 +390,54 @@ DETENT_TEST(mesh_contact, what_finds_no_room_is_counted_and_the_deepest_stay) {
   EXPECT_NEAR(deepest_of(contacts), right, 1e-3);
 }
 
+DETENT_TEST(mesh_contact, sizes_of_any_kind_together_stay_in_range) {
+  Samples samples = {31};
+  uint32_t met = 0;
+  const double least = sizeof(Coord) == 4 ? -3 : -11;
+  for (uint32_t n = 0; n < detent_oracle::rounds(300); ++n) {
+    const double size = exp2(uniform(samples, least, 11)), body_size = exp2(uniform(samples, least, 12));
+    Ground ground(detent_surfaces::ground(4, size, [&](double, double) { return size * uniform(samples, -0.3, 0.3); }));
+    ground.pose.rotation = rotation_near(any_rotation(samples));
+    OracleBody body = body_of(n % 3 == 0   ? sphere(real_near(body_size))
+                              : n % 3 == 1 ? box(reals_near(Vector{{1, 0.5, 0.7}} * body_size))
+                                           : cylinder(real_near(body_size), real_near(body_size)));
+    body.pose.rotation = rotation_near(any_rotation(samples));
+    const double far = n % 4 == 0 ? 4 : uniform(samples, 0, 1.2);
+    body.pose.position = position_near(any_direction(samples) * (far * (size + body_size)));
+    const SurfaceContacts contacts = contacts_of(ground, body, body_size / 16);
+    EXPECT_LE(contacts.count, k_surface_manifolds_max);
+    for (uint32_t i = 0; i < contacts.count; ++i) {
+      const ContactGeometry& geometry = contacts.contact[i].geometry;
+      EXPECT_NEAR(length(host(geometry.normal)), 1, 1e-5);
+      ASSERT_GE(geometry.count, 1u);
+      for (uint32_t k = 0; k < geometry.count; ++k) {
+        EXPECT_NE(geometry.point[k].feature, 0u);
+        EXPECT_LE(real_to_host(geometry.point[k].separation), body_size / 16 * 1.0001);
+        for (uint32_t other = 0; other < k; ++other)
+          EXPECT_NE(geometry.point[k].feature, geometry.point[other].feature);
+        expect_arms_held(geometry.point[k]);
+      }
+      for (uint32_t other = 0; other < i; ++other) EXPECT_NE(contacts.contact[i].key, contacts.contact[other].key);
+    }
+    met += contacts.count > 0 ? 1u : 0u;
+  }
+  EXPECT_GT(met, 20u);
+}
+
+DETENT_TEST(mesh_contact, a_small_body_rests_on_a_triangle_of_many_kilometres) {
+  const Ground ground(plane(1, 16000));
+  OracleBody body = body_of(box({0.25, 0.25, 0.25}));
+  body.pose.rotation = {0.0, 0.0, 0.0, 1.0};
+  for (uint32_t step = 0; step < 20; ++step) {
+    body.pose.position = position_near({{-7000 + 700.0 * step, 0.249, 0.31 * step}});
+    const SurfaceContacts contacts = contacts_of(ground, body);
+    ASSERT_EQ(contacts.count, 1u);
+    EXPECT_EQ(contacts.contact[0].geometry.count, 4u) << step;
+    EXPECT_LE(normal_error(contacts.contact[0], {{0, 1, 0}}), 1e-4);
+    EXPECT_NEAR(deepest_of(contacts), -0.001, 1e-4);
+  }
+}
+
 DETENT_TEST(mesh_contact, a_turned_and_moved_surface_gives_turned_and_moved_contacts) {
   Ground ground(plane(16, 0.25));
   Samples samples = {19};
