@@ -34,12 +34,11 @@ Vec64 rotate_back(const Matrix32& m, const Vec64& v);
 struct SurfaceTouch {
   uint32_t triangle;
   uint8_t material;
-  bool on_face;            ///< the normal is the triangle's own
-  bool doubtful;           ///< so deep that another way out is the right one, if there is one
-  BlockManifold manifold;  ///< the triangle is A, with the shape's centre for its origin; surface's axes
-  int64_t deepest;         ///< the least separation
-  uint32_t
-      corner_name[3];  ///< of the triangle's corners, as the manifold counts them: the same from all about a corner
+  bool on_face;             ///< the normal is the triangle's own
+  bool doubtful;            ///< so deep that another way out is the right one, if there is one
+  BlockManifold manifold;   ///< the triangle is A, with the shape's centre for its origin; surface's axes
+  int64_t deepest;          ///< the least separation
+  uint32_t corner_name[3];  ///< of the triangle's corners: the same from all triangles about a corner
 };
 
 /// A convex shape over a surface: finds what it touches, triangle by triangle, in the surface's axes.

@@ -19,33 +19,35 @@ bool lengths_are_good(const HeightFieldView& field) {
 }
 
 bool node_is_good(const HeightFieldView& field, uint32_t level, uint32_t i, uint32_t j) {
-  int32_t low = INT32_MAX, high = INT32_MIN;
-  if (level == 0) {
-    height_block_ends(field, i, j, low, high);
-  } else {
-    for (uint32_t child = 0; child < 4; ++child) {
-      const uint32_t column = 2 * i + (child & 1), row = 2 * j + (child >> 1);
-      if (column >= field.level_columns(level - 1) || row >= field.level_rows(level - 1)) continue;
-      const uint8_t* ends = field.node(level - 1, column, row);
-      low = cooked_i16(ends) < low ? cooked_i16(ends) : low;
-      high = cooked_i16(ends + 2) > high ? cooked_i16(ends + 2) : high;
-    }
-  }
+  int32_t low = 0, high = 0;
+  height_node(field, level, i, j, low, high);
   const uint8_t* stored = field.node(level, i, j);
   return cooked_i16(stored) == low && cooked_i16(stored + 2) == high;
 }
 
 }  // namespace
 
-void height_block_ends(const HeightFieldView& field, uint32_t i, uint32_t j, int32_t& low, int32_t& high) {
-  constexpr uint32_t k_size = 1u << k_height_block_bits;
+void height_node(const HeightFieldView& field, uint32_t level, uint32_t i, uint32_t j, int32_t& low, int32_t& high) {
   low = INT32_MAX;
   high = INT32_MIN;
+  const auto take = [&](int32_t least, int32_t most) {
+    low = least < low ? least : low;
+    high = most > high ? most : high;
+  };
+  if (level > 0) {
+    for (uint32_t child = 0; child < 4; ++child) {
+      const uint32_t column = 2 * i + (child & 1), row = 2 * j + (child >> 1);
+      if (column >= field.level_columns(level - 1) || row >= field.level_rows(level - 1)) continue;
+      const uint8_t* ends = field.node(level - 1, column, row);
+      take(cooked_i16(ends), cooked_i16(ends + 2));
+    }
+    return;
+  }
+  constexpr uint32_t k_size = 1u << k_height_block_bits;
   for (uint32_t row = j * k_size; row <= (j + 1) * k_size && row <= field.rows; ++row) {
     for (uint32_t column = i * k_size; column <= (i + 1) * k_size && column <= field.columns; ++column) {
       const int32_t height = field.height(column, row);
-      low = height < low ? height : low;
-      high = height > high ? height : high;
+      take(height, height);
     }
   }
 }

@@ -101,8 +101,8 @@ struct HeightFieldView {
 /// The height field at `bytes`, which read_height_field() has accepted: no checks.
 HeightFieldView height_field_view(const uint8_t* bytes);
 
-/// The least and the greatest height of the samples of a node of level 0.
-void height_block_ends(const HeightFieldView& field, uint32_t i, uint32_t j, int32_t& low, int32_t& high);
+/// What is to be stored of a node: the least and the greatest height of its samples, or of the nodes below.
+void height_node(const HeightFieldView& field, uint32_t level, uint32_t i, uint32_t j, int32_t& low, int32_t& high);
 
 /// Checks bytes from anywhere. Errors: buffer_misaligned (8), not_detent, format_unknown, truncated, corrupt,
 /// out_of_range (the exponent).

@@ -52,31 +52,12 @@ bool edge_is_good(const MeshView& mesh, uint32_t i, uint32_t k) {
   return false;
 }
 
-/// What a node's bounds are made of: its triangles', or the nodes below.
 bool node_is_good(const MeshView& mesh, uint32_t level, uint32_t i) {
   const uint8_t* stored = mesh.bytes + mesh.nodes_at + k_mesh_node_bytes * (mesh.level_start[level] + i);
-  uint16_t right[6];
-  if (level == 0) {
-    GridBox box = mesh.triangle_bounds(k_mesh_leaf_triangles * i);
-    for (uint32_t k = 1; k < k_mesh_leaf_triangles; ++k) {
-      const uint32_t triangle = k_mesh_leaf_triangles * i + k;
-      if (triangle >= mesh.triangle_count) break;
-      const GridBox more = mesh.triangle_bounds(triangle);
-      include(more.low, box);
-      include(more.high, box);
-    }
-    put_mesh_node(mesh, box, right);
-  } else {
-    const uint8_t* child = mesh.bytes + mesh.nodes_at + k_mesh_node_bytes * (mesh.level_start[level - 1] + 2 * i);
-    const bool both = 2 * i + 1 < mesh.level_size(level - 1);
-    for (uint32_t k = 0; k < 6; ++k) {
-      const uint32_t first = cooked_u16(child + 2 * k);
-      const uint32_t second = both ? cooked_u16(child + k_mesh_node_bytes + 2 * k) : first;
-      right[k] = static_cast<uint16_t>((k < 3) == (first < second) ? first : second);
-    }
-  }
+  uint16_t node[6];
+  mesh_node(mesh, level, i, node);
   for (uint32_t k = 0; k < 6; ++k) {
-    if (cooked_u16(stored + 2 * k) != right[k]) return false;
+    if (cooked_u16(stored + 2 * k) != node[k]) return false;
   }
   return true;
 }
@@ -105,14 +86,32 @@ MeshView mesh_view(const uint8_t* bytes) {
   return mesh;
 }
 
-void put_mesh_node(const MeshView& mesh, const GridBox& box, uint16_t (&node)[6]) {
-  const auto at = [&](int32_t value, int32_t low) { return static_cast<uint16_t>((value - low) >> mesh.shift); };
-  node[0] = at(box.low.x, mesh.low.x);
-  node[1] = at(box.low.y, mesh.low.y);
-  node[2] = at(box.low.z, mesh.low.z);
-  node[3] = at(box.high.x, mesh.low.x);
-  node[4] = at(box.high.y, mesh.low.y);
-  node[5] = at(box.high.z, mesh.low.z);
+void mesh_node(const MeshView& mesh, uint32_t level, uint32_t i, uint16_t (&node)[6]) {
+  if (level == 0) {
+    GridBox box = mesh.triangle_bounds(k_mesh_leaf_triangles * i);
+    for (uint32_t k = 1; k < k_mesh_leaf_triangles; ++k) {
+      const uint32_t triangle = k_mesh_leaf_triangles * i + k;
+      if (triangle >= mesh.triangle_count) break;
+      const GridBox more = mesh.triangle_bounds(triangle);
+      include(more.low, box);
+      include(more.high, box);
+    }
+    const auto at = [&](int32_t value, int32_t low) { return static_cast<uint16_t>((value - low) >> mesh.shift); };
+    node[0] = at(box.low.x, mesh.low.x);
+    node[1] = at(box.low.y, mesh.low.y);
+    node[2] = at(box.low.z, mesh.low.z);
+    node[3] = at(box.high.x, mesh.low.x);
+    node[4] = at(box.high.y, mesh.low.y);
+    node[5] = at(box.high.z, mesh.low.z);
+    return;
+  }
+  const uint8_t* child = mesh.bytes + mesh.nodes_at + k_mesh_node_bytes * (mesh.level_start[level - 1] + 2 * i);
+  const bool both = 2 * i + 1 < mesh.level_size(level - 1);
+  for (uint32_t k = 0; k < 6; ++k) {
+    const uint32_t first = cooked_u16(child + 2 * k);
+    const uint32_t second = both ? cooked_u16(child + k_mesh_node_bytes + 2 * k) : first;
+    node[k] = static_cast<uint16_t>((k < 3) == (first < second) ? first : second);
+  }
 }
 
 Status read_mesh(const Asset& asset, MeshView& mesh) {

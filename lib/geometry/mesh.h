@@ -93,8 +93,8 @@ struct MeshView {
 /// The mesh at `bytes`, which read_mesh() has accepted: no checks.
 MeshView mesh_view(const uint8_t* bytes);
 
-/// What a node's bounds are stored as: those of some grid box, from the mesh's `low`, in steps of 2^shift.
-void put_mesh_node(const MeshView& mesh, const GridBox& box, uint16_t (&node)[6]);
+/// What is to be stored of a node: the bounds of its triangles, or of the nodes below, in steps of 2^shift from `low`.
+void mesh_node(const MeshView& mesh, uint32_t level, uint32_t i, uint16_t (&node)[6]);
 
 /// Checks bytes from anywhere: of what is accepted every index is good, neighbours are mutual, edges are of the kind
 /// that the corners tell, and the tree's bounds are the least ones. Errors: buffer_misaligned (8), not_detent,

@@ -43,15 +43,8 @@ void put_nodes(const detent::HeightFieldView& view, Writer& writer) {
   for (uint32_t level = 0; level < view.level_count; ++level) {
     for (uint32_t j = 0; j < view.level_rows(level); ++j) {
       for (uint32_t i = 0; i < view.level_columns(level); ++i) {
-        int32_t low = INT32_MAX, high = INT32_MIN;
-        if (level == 0) height_block_ends(view, i, j, low, high);
-        for (uint32_t child = 0; level > 0 && child < 4; ++child) {
-          const uint32_t column = 2 * i + (child & 1), row = 2 * j + (child >> 1);
-          if (column >= view.level_columns(level - 1) || row >= view.level_rows(level - 1)) continue;
-          const uint8_t* ends = view.node(level - 1, column, row);
-          low = std::min(low, detent::cooked_i16(ends));
-          high = std::max(high, detent::cooked_i16(ends + 2));
-        }
+        int32_t low = 0, high = 0;
+        detent::height_node(view, level, i, j, low, high);
         const uint32_t at = static_cast<uint32_t>(view.node(level, i, j) - view.bytes);
         writer.put(at, static_cast<int16_t>(low));
         writer.put(at + 2, static_cast<int16_t>(high));

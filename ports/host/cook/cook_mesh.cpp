@@ -257,31 +257,13 @@ void put_triangles(const GridMesh& mesh, const detent::MeshView& view, Writer& w
   }
 }
 
-/// The nodes are put from the leaves up, each read back for the one above.
+/// From the leaves up, each read back for the one above.
 void put_nodes(const detent::MeshView& view, Writer& writer) {
   for (uint32_t level = 0; level < view.level_count; ++level) {
     for (uint32_t i = 0; i < view.level_size(level); ++i) {
-      const uint32_t at = view.nodes_at + detent::k_mesh_node_bytes * (view.level_start[level] + i);
       uint16_t node[6];
-      if (level == 0) {
-        const uint32_t from = detent::k_mesh_leaf_triangles * i;
-        detent::GridBox box = view.triangle_bounds(from);
-        for (uint32_t k = from; k < view.triangle_count && k < from + detent::k_mesh_leaf_triangles; ++k) {
-          const detent::GridBox more = view.triangle_bounds(k);
-          include(more.low, box);
-          include(more.high, box);
-        }
-        detent::put_mesh_node(view, box, node);
-      } else {
-        const uint8_t* child =
-            view.bytes + view.nodes_at + detent::k_mesh_node_bytes * (view.level_start[level - 1] + 2 * i);
-        const bool both = 2 * i + 1 < view.level_size(level - 1);
-        for (uint32_t k = 0; k < 6; ++k) {
-          const uint32_t first = detent::cooked_u16(child + 2 * k);
-          const uint32_t second = both ? detent::cooked_u16(child + detent::k_mesh_node_bytes + 2 * k) : first;
-          node[k] = static_cast<uint16_t>(k < 3 ? std::min(first, second) : std::max(first, second));
-        }
-      }
+      detent::mesh_node(view, level, i, node);
+      const uint32_t at = view.nodes_at + detent::k_mesh_node_bytes * (view.level_start[level] + i);
       for (uint32_t k = 0; k < 6; ++k) writer.put(at + 2 * k, node[k]);
     }
   }
