@@ -11,6 +11,7 @@ constexpr int k_shallow_power = 3;  ///< a contact no deeper than this part of t
 constexpr int k_drop_power = 10;  ///< of the half thickness: points no higher than this above the lowest are the lowest
 constexpr int k_allowed_power = 7;  ///< an allowed normal may look this angle, rad, into what is about it
 constexpr int k_level_power = 6;    ///< edges whose slope is less, rad, lie along the contact
+constexpr int k_mild_power = 3;     ///< edges that turn by less, rad, are met along the faces' normals
 constexpr uint32_t k_fan_max = 64;  ///< triangles about a corner that are looked at
 
 constexpr uint64_t longest(const Vec32& v) {
@@ -178,6 +179,24 @@ bool SurfacePair::make_pair(const Side& side, Convex& convex, RestingPair& pair)
   return true;
 }
 
+/// Of the neighbour beyond a convex edge, seen from the side that the shape is on.
+Vec32 SurfacePair::normal_beyond(const Side& side, uint32_t edge) const {
+  const SurfaceTriangle beyond = surface_.triangle(side.triangle.neighbour[edge]);
+  const Vec32 normal = normal_of(beyond.corner[0], beyond.corner[1], beyond.corner[2]);
+  return side.behind ? negate(normal) : normal;
+}
+
+/// Whether an edge is open, or convex and turns by more than k_mild_power.
+bool SurfacePair::has_sharp_edge(const Side& side) const {
+  constexpr int64_t k_mild_cosine = (int64_t{1} << 60) - (int64_t{1} << (59 - 2 * k_mild_power));
+  for (uint32_t k = 0; k < 3; ++k) {
+    const EdgeKind kind = side.triangle.kind[k];
+    if (kind == EdgeKind::open) return true;
+    if (kind == EdgeKind::convex && dot(side.normal, normal_beyond(side, k)) < k_mild_cosine) return true;
+  }
+  return false;
+}
+
 /// Whether beyond a convex or open edge the shape overlaps less than `deepest`.
 bool SurfacePair::has_nearer_way(const Side& side, int64_t deepest) const {
   for (uint32_t k = 0; k < 3; ++k) {
@@ -189,9 +208,7 @@ bool SurfacePair::has_nearer_way(const Side& side, int64_t deepest) const {
       const Vec32 along = unit_vector_raw(scaled_to_30_bits(subtract(b, a)));
       other = unit_vector_raw(scaled_to_30_bits(cross(along, side.normal)));
     } else {
-      const SurfaceTriangle beyond = surface_.triangle(t.neighbour[k]);
-      other = normal_of(beyond.corner[0], beyond.corner[1], beyond.corner[2]);
-      if (side.behind) other = negate(other);
+      other = normal_beyond(side, k);
     }
     if (height(other, a) > deepest) return true;
   }
@@ -286,9 +303,10 @@ bool SurfacePair::touch(uint32_t index, SurfaceTouch& touch) const {
   contact_points_over_face(pair, face, reach_, ManifoldReduction::projected_extremes, touch.manifold);
   touch.deepest = deepest_of(touch.manifold);
   const bool over = touch.manifold.count > 0, shallow = touch.deepest > -(thickness_ >> k_shallow_power);
-  if (!free && over && shallow) return true;
-  // On a ridge too flat to be one, the lowest point along each of the two normals lies beyond the edge.
-  if (!free && !over && is_beside(side, true, size >> k_level_power)) return false;
+  const bool sharp = free && has_sharp_edge(side);
+  if (!sharp && over && shallow) return true;
+  // On a mild ridge the lowest point along each of the two normals lies beyond the edge.
+  if (!sharp && !over && is_beside(side, true, size >> (free ? k_mild_power : k_level_power))) return false;
   if (over && touch.deepest >= 0 && touch.deepest <= side.height + (thickness_ >> k_drop_power)) return true;
   if (over && shallow && touch.deepest <= side.height + (thickness_ >> k_drop_power) &&
       !has_nearer_way(side, touch.deepest)) {

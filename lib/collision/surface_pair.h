@@ -56,7 +56,8 @@ class SurfacePair {
   ///
   /// A normal is one that the surface allows: between flat and concave edges the triangle's own, at a convex or open
   /// edge or a corner also what lies between the normals about it. Contact points over the triangle along its own
-  /// normal need no search; it is made only near an edge that allows another one.
+  /// normal need no search; it is made only near a sharp edge, on a mild ridge beside its triangles, and where it is
+  /// deep.
   bool touch(uint32_t triangle, SurfaceTouch& touch) const;
 
  private:
@@ -66,6 +67,8 @@ class SurfacePair {
   int64_t height(const Vec32& normal, const Vec32& corner) const;
   bool make_pair(const Side& side, Convex& convex, RestingPair& pair) const;
   bool is_beside(const Side& side, bool lowest, int64_t clear) const;
+  Vec32 normal_beyond(const Side& side, uint32_t edge) const;
+  bool has_sharp_edge(const Side& side) const;
   bool has_nearer_way(const Side& side, int64_t deepest) const;
   bool allows(const Side& side, const Vec32& normal) const;
   bool allows_at_corner(uint32_t triangle, const Vec32& corner, const Vec32& normal) const;
