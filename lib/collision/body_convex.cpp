@@ -53,9 +53,9 @@ bool body_convex(const BodyTraits& traits, const AssetTable& assets, Convex& con
     case ShapeType::hull: {
       if (traits.asset >= assets.count || assets.assets[traits.asset].bytes == nullptr) return false;
       made.hull = assets.assets[traits.asset].bytes;
-      made.exponent = hull_i32(made.hull + k_hull_exponent_at);
-      made.core_radius = hull_i32(made.hull + k_hull_core_radius_at);
-      made.vertex_count = hull_u32(made.hull + k_hull_vertex_count_at);
+      made.exponent = cooked_i32(made.hull + k_hull_exponent_at);
+      made.core_radius = cooked_i32(made.hull + k_hull_core_radius_at);
+      made.vertex_count = cooked_u32(made.hull + k_hull_vertex_count_at);
       break;
     }
     case ShapeType::sphere:

@@ -1,6 +1,5 @@
 #include "geometry/hull.h"
 
-#include "base/crc.h"
 #include "math/wide.h"
 
 namespace detent {
@@ -38,13 +37,6 @@ Int128 dot(const Normal& normal, const Vertex& v) {
 
 uint64_t square(int32_t value) { return static_cast<uint64_t>(int64_t{value} * value); }
 
-bool is_zero(const uint8_t* bytes, uint32_t from, uint32_t to) {
-  for (uint32_t i = from; i < to; ++i) {
-    if (bytes[i] != 0) return false;
-  }
-  return true;
-}
-
 bool is_canonical(HullScaled value, int32_t exponent_min, int32_t exponent_max) {
   return value.mantissa >= k_mantissa_min && value.exponent >= exponent_min && value.exponent <= exponent_max;
 }
@@ -52,13 +44,13 @@ bool is_canonical(HullScaled value, int32_t exponent_min, int32_t exponent_max) 
 bool gaps_are_zero(const HullView& hull) {
   const HullLayout& at = hull.at;
   const uint32_t half_edges = 6 * hull.vertex_count - 12;
-  return is_zero(hull.bytes, k_hull_frame_at + 4, k_hull_header_bytes) &&
-         is_zero(hull.bytes, at.loop_offsets + 2 * (hull.face_count + 1), at.loops) &&
-         is_zero(hull.bytes, at.loops + 2 * hull.edge_count, at.neighbour_offsets) &&
-         is_zero(hull.bytes, at.neighbour_offsets + 2 * (hull.vertex_count + 1), at.neighbours) &&
-         is_zero(hull.bytes, at.neighbours + half_edges, at.triangles) &&
-         is_zero(hull.bytes, at.triangles + half_edges, at.edges) &&
-         is_zero(hull.bytes, at.edges + k_hull_edge_bytes * hull.edge_count, at.end);
+  return cooked_is_zero(hull.bytes, k_hull_frame_at + 4, k_hull_header_bytes) &&
+         cooked_is_zero(hull.bytes, at.loop_offsets + 2 * (hull.face_count + 1), at.loops) &&
+         cooked_is_zero(hull.bytes, at.loops + 2 * hull.edge_count, at.neighbour_offsets) &&
+         cooked_is_zero(hull.bytes, at.neighbour_offsets + 2 * (hull.vertex_count + 1), at.neighbours) &&
+         cooked_is_zero(hull.bytes, at.neighbours + half_edges, at.triangles) &&
+         cooked_is_zero(hull.bytes, at.triangles + half_edges, at.edges) &&
+         cooked_is_zero(hull.bytes, at.edges + k_hull_edge_bytes * hull.edge_count, at.end);
 }
 
 /// Norms, the core radius, and the padding.
@@ -80,9 +72,9 @@ bool vertices_are_good(const HullView& hull) {
 
 /// `count` ranges, each of at least three values, that together are all `total` of them.
 bool offsets_are_good(const uint8_t* offsets, uint32_t count, uint32_t total) {
-  if (hull_u16(offsets) != 0 || hull_u16(offsets + 2 * count) != total) return false;
+  if (cooked_u16(offsets) != 0 || cooked_u16(offsets + 2 * count) != total) return false;
   for (uint32_t i = 0; i < count; ++i) {
-    const uint32_t from = hull_u16(offsets + 2 * i), to = hull_u16(offsets + 2 * i + 2);
+    const uint32_t from = cooked_u16(offsets + 2 * i), to = cooked_u16(offsets + 2 * i + 2);
     if (to < from + 3 || to > total) return false;
   }
   return true;
@@ -232,7 +224,7 @@ bool frame_is_good(const HullView& hull) {
   }
   uint64_t norm = 0;
   for (uint32_t k = 0; k < 4; ++k) {
-    const int32_t component = hull_i32(hull.bytes + k_hull_rotation_at + 4 * k);
+    const int32_t component = cooked_i32(hull.bytes + k_hull_rotation_at + 4 * k);
     if (component < -k_mantissa_min || component > k_mantissa_min) return false;
     if (!principal && component != (k == 3 ? k_mantissa_min : 0)) return false;
     norm += square(component);
@@ -243,27 +235,15 @@ bool frame_is_good(const HullView& hull) {
 }  // namespace
 
 Status read_hull(const Asset& asset, HullView& hull) {
-  if (asset.bytes == nullptr) return Status::truncated;
-  if (reinterpret_cast<uintptr_t>(asset.bytes) % 8 != 0) return Status::buffer_misaligned;
+  if (const Status status = check_cooked(asset, k_hull_magic, k_hull_format_version, k_hull_header_bytes);
+      status != Status::ok) {
+    return status;
+  }
   const uint8_t* const bytes = asset.bytes;
-  const uint32_t magic_count = asset.byte_count < sizeof k_hull_magic ? asset.byte_count : sizeof k_hull_magic;
-  for (uint32_t i = 0; i < magic_count; ++i) {  // memcmp would be bcmp to clang, which no bare target has
-    if (bytes[i] != k_hull_magic[i]) return Status::not_detent;
-  }
-  if (asset.byte_count < k_hull_version_at + 4) return Status::truncated;
-  if (hull_u32(bytes + k_hull_version_at) != k_hull_format_version) return Status::format_unknown;
-  if (asset.byte_count < k_hull_header_bytes || asset.byte_count < hull_u32(bytes + k_hull_byte_count_at)) {
-    return Status::truncated;
-  }
-  if (asset.byte_count > hull_u32(bytes + k_hull_byte_count_at)) return Status::corrupt;
-  const uint32_t checksum = crc32(bytes + k_hull_checksum_at + 4, asset.byte_count - k_hull_checksum_at - 4,
-                                  crc32(bytes, k_hull_checksum_at));
-  if (hull_u32(bytes + k_hull_checksum_at) != checksum) return Status::corrupt;
-
-  const uint32_t vertices = hull_u32(bytes + k_hull_vertex_count_at);
-  const uint32_t faces = hull_u32(bytes + k_hull_face_count_at);
+  const uint32_t vertices = cooked_u32(bytes + k_hull_vertex_count_at);
+  const uint32_t faces = cooked_u32(bytes + k_hull_face_count_at);
   if (vertices < k_hull_vertices_min || vertices > k_hull_vertices_max || faces < 4 || faces > 2 * vertices - 4 ||
-      hull_u32(bytes + k_hull_edge_count_at) != vertices + faces - 2) {  // Euler: also the number of triangles
+      cooked_u32(bytes + k_hull_edge_count_at) != vertices + faces - 2) {  // Euler: also the number of triangles
     return Status::corrupt;
   }
   const HullView view = hull_view(bytes);
@@ -302,7 +282,7 @@ Status hull_info(const Asset& asset, HullInfo& info) {
     const uint64_t bits = load_u64(hull.bytes + k_hull_origin_at + 8 * axis);
     memcpy(&info.origin[axis], &bits, sizeof bits);
   }
-  for (uint32_t k = 0; k < 4; ++k) info.rotation[k] = hull_i32(hull.bytes + k_hull_rotation_at + 4 * k);
+  for (uint32_t k = 0; k < 4; ++k) info.rotation[k] = cooked_i32(hull.bytes + k_hull_rotation_at + 4 * k);
   return Status::ok;
 }
 

@@ -2,8 +2,8 @@
 #include <detent/features.h>
 #include <detent/hull.h>
 
-#include "base/bytes.h"
 #include "base/check.h"
+#include "geometry/cooked.h"
 
 /// A cooked convex hull as it lies in flash or a file: docs/hull.md is the format, these are its offsets and readers.
 namespace detent {
@@ -74,19 +74,6 @@ constexpr HullLayout hull_layout(uint32_t vertex_count, uint32_t face_count, uin
   return at;
 }
 
-/// The little-endian integer at `bytes`, which are aligned to its size.
-inline uint32_t hull_u32(const uint8_t* bytes) {
-  uint32_t value;
-  memcpy(&value, __builtin_assume_aligned(bytes, 4), sizeof value);
-  return k_big_endian ? __builtin_bswap32(value) : value;
-}
-inline int32_t hull_i32(const uint8_t* bytes) { return static_cast<int32_t>(hull_u32(bytes)); }
-inline uint32_t hull_u16(const uint8_t* bytes) {
-  uint16_t value;
-  memcpy(&value, __builtin_assume_aligned(bytes, 2), sizeof value);
-  return k_big_endian ? __builtin_bswap16(value) : value;
-}
-
 /// An outward face plane: every vertex has normal . vertex <= offset 2^30, exactly.
 struct HullPlane {
   int32_t normal[3];  ///< in 2^-30; of length 1 within 2^-29 (its square within 2^-28)
@@ -127,24 +114,25 @@ struct HullView {
   HullPlane plane(uint32_t face) const {
     DETENT_VERIFY_RANGE(face < face_count);
     const uint8_t* words = bytes + at.planes + k_hull_plane_bytes * face;
-    return {{hull_i32(words), hull_i32(words + 4), hull_i32(words + 8)}, hull_i32(words + 12)};
+    return {{cooked_i32(words), cooked_i32(words + 4), cooked_i32(words + 8)}, cooked_i32(words + 12)};
   }
   /// The face's part of the exact hull's triangles: three indices each, counter-clockwise from outside.
   HullIndices triangles(uint32_t face) const {
     DETENT_VERIFY_RANGE(face < face_count);
     const uint8_t* offsets = bytes + at.loop_offsets + 2 * face;
-    const uint32_t from = hull_u16(offsets), to = hull_u16(offsets + 2);
+    const uint32_t from = cooked_u16(offsets), to = cooked_u16(offsets + 2);
     return {bytes + at.triangles + 3 * (from - 2 * face), 3 * (to - from - 2)};
   }
   HullEdge edge(uint32_t i) const {
     DETENT_VERIFY_RANGE(i < edge_count);
     const uint8_t* words = bytes + at.edges + k_hull_edge_bytes * i;
-    return {words[0], words[1], static_cast<uint16_t>(hull_u16(words + 2)), static_cast<uint16_t>(hull_u16(words + 4))};
+    return {words[0], words[1], static_cast<uint16_t>(cooked_u16(words + 2)),
+            static_cast<uint16_t>(cooked_u16(words + 4))};
   }
 
-  int32_t exponent() const { return hull_i32(bytes + k_hull_exponent_at); }
-  int32_t core_radius() const { return hull_i32(bytes + k_hull_core_radius_at); }
-  HullFrame frame() const { return static_cast<HullFrame>(hull_u32(bytes + k_hull_frame_at)); }
+  int32_t exponent() const { return cooked_i32(bytes + k_hull_exponent_at); }
+  int32_t core_radius() const { return cooked_i32(bytes + k_hull_core_radius_at); }
+  HullFrame frame() const { return static_cast<HullFrame>(cooked_u32(bytes + k_hull_frame_at)); }
   /// In unit^3.
   HullScaled volume() const { return scaled(k_hull_volume_at); }
   /// m unit^2 / I about the body's axis (0 to 2), for uniform density; 0 in the source frame.
@@ -153,24 +141,24 @@ struct HullView {
  private:
   int32_t coordinate(uint32_t column, uint32_t i) const {
     DETENT_VERIFY_RANGE(i < padded_count);
-    return hull_i32(bytes + column + 4 * i);
+    return cooked_i32(bytes + column + 4 * i);
   }
   HullIndices range(uint32_t offsets_at, uint32_t values_at, uint32_t i) const {
     const uint8_t* offsets = bytes + offsets_at + 2 * i;
-    const uint32_t from = hull_u16(offsets);
-    return {bytes + values_at + from, hull_u16(offsets + 2) - from};
+    const uint32_t from = cooked_u16(offsets);
+    return {bytes + values_at + from, cooked_u16(offsets + 2) - from};
   }
-  HullScaled scaled(uint32_t field) const { return {hull_i32(bytes + field), hull_i32(bytes + field + 4)}; }
+  HullScaled scaled(uint32_t field) const { return {cooked_i32(bytes + field), cooked_i32(bytes + field + 4)}; }
 };
 
 /// The hull at `bytes`, which read_hull() has accepted: no checks.
 inline HullView hull_view(const uint8_t* bytes) {
   HullView hull;
   hull.bytes = bytes;
-  hull.vertex_count = hull_u32(bytes + k_hull_vertex_count_at);
+  hull.vertex_count = cooked_u32(bytes + k_hull_vertex_count_at);
   hull.padded_count = hull_padded_count(hull.vertex_count);
-  hull.face_count = hull_u32(bytes + k_hull_face_count_at);
-  hull.edge_count = hull_u32(bytes + k_hull_edge_count_at);
+  hull.face_count = cooked_u32(bytes + k_hull_face_count_at);
+  hull.edge_count = cooked_u32(bytes + k_hull_edge_count_at);
   hull.at = hull_layout(hull.vertex_count, hull.face_count, hull.edge_count);
   return hull;
 }

@@ -142,6 +142,14 @@ Reference::Flat Reference::flat(const Vec32& point) const {
   return {u, dot(v_, p) >> 30, (dot(up_, p) >> 30) - height_ - ((u * slope_) >> 30)};
 }
 
+bool Reference::holds(const Vec32& point) const {
+  const Flat p = flat(point);
+  for (int i = 0; i < side_count_; ++i) {
+    if (beyond(p, i) > 0) return false;
+  }
+  return true;
+}
+
 int64_t Reference::height_of(const Vec32& point) const {
   const Flat p = flat(point);
   if (feature_ == nullptr || feature_->is_face()) return p.w;

@@ -55,6 +55,8 @@ class Reference {
   /// Offers the corners of the area to `choice`.
   void clip(const Vec32& centre, const Feature& incident, AreaChoice& choice) const;
 
+  /// Whether a point in the block is over the reference, as clip() counts it.
+  bool holds(const Vec32& point) const;
   /// How high a point is above the reference, and beyond an edge's end above that, in the block.
   int64_t height_of(const Vec32& point) const;
   /// Of a point of the area: twice the middle between the two cores, in the block.

@@ -1,4 +1,4 @@
-#include <detent/contact.h>
+#include "proximity/contact_points.h"
 
 #include "math/root.h"
 #include "proximity/contact_axis.h"
@@ -49,18 +49,20 @@ class Builder {
     drop_ = smaller_but_0(radius_in_block(pair.a), radius_in_block(pair.b)) >> k_drop_power;
   }
 
-  void build(ContactManifold& manifold) const;
+  void build(BlockManifold& manifold) const;
+  /// Between A's face and what B has over it alone.
+  void build_over_face(const Feature& face, BlockManifold& manifold);
 
  private:
   bool find_face(const Half& half, const Half& other, Feature& face) const;
   static uint32_t name_on_axis(const Half& half);
-  bool build_on_half_space(ContactManifold& manifold) const;
-  bool build_on_face(ContactManifold& manifold) const;
-  bool build_on_edge(ContactManifold& manifold) const;
-  void add_on_axis(const Vec32& normal, int64_t separation, ContactManifold& manifold) const;
-  bool fill(const Reference& reference, bool reference_is_a, const Feature& incident, ContactManifold& manifold) const;
+  bool build_on_half_space(BlockManifold& manifold) const;
+  bool build_on_face(BlockManifold& manifold) const;
+  bool build_on_edge(BlockManifold& manifold) const;
+  void add_on_axis(const Vec32& normal, int64_t separation, BlockManifold& manifold) const;
+  bool fill(const Reference& reference, bool reference_is_a, const Feature& incident, BlockManifold& manifold) const;
   void add_point(const Vec32& normal, const Vec64& twice_middle, int64_t separation, uint32_t on_a, uint32_t on_b,
-                 ContactManifold& manifold) const;
+                 BlockManifold& manifold) const;
   /// Where two features would do, the one of the lower shape along a direction that is no one's axis. It does not
   /// matter which shape is A.
   bool a_comes_first() const { return dot(axis_.normal, Vec32{493921240, 848256040, 440234144}) > 0; }
@@ -74,6 +76,7 @@ class Builder {
   ManifoldReduction reduction_;
   Half half_a_, half_b_;
   int64_t preference_, drop_;
+  bool only_over_ = false;  ///< what is not over the reference is no part of the contact
 };
 
 /// The face of `half` that the contact is on, if it is on one.
@@ -92,7 +95,7 @@ bool Builder::find_face(const Half& half, const Half& other, Feature& face) cons
 
 /// `normal` from A to B, `twice_middle` of the cores, in the block.
 void Builder::add_point(const Vec32& normal, const Vec64& twice_middle, int64_t separation, uint32_t on_a,
-                        uint32_t on_b, ContactManifold& manifold) const {
+                        uint32_t on_b, BlockManifold& manifold) const {
   const int64_t ahead = (pair_.radius_a - pair_.radius_b) / 2;
   const auto component = [&](int64_t twice, int32_t n) {
     return pair_.metres(twice) / 2 + Int128::product_narrow(ahead, n).round_shift(30);
@@ -108,11 +111,7 @@ void Builder::add_point(const Vec32& normal, const Vec64& twice_middle, int64_t 
     from_a = {saturated(from_b.x, way.x), saturated(from_b.y, way.y), saturated(from_b.z, way.z)};
   else if (pair_.b.convex->type == ShapeType::half_space)
     from_b = {saturated(from_a.x, -way.x), saturated(from_a.y, -way.y), saturated(from_a.z, -way.z)};
-  ManifoldPoint& point = manifold.point[manifold.count++];
-  point.from_a = {real_from_raw(from_a.x), real_from_raw(from_a.y), real_from_raw(from_a.z)};
-  point.from_b = {real_from_raw(from_b.x), real_from_raw(from_b.y), real_from_raw(from_b.z)};
-  point.separation = real_from_raw(separation);
-  point.feature = feature_pair(on_a, on_b);
+  manifold.point[manifold.count++] = {from_a, from_b, separation, feature_pair(on_a, on_b)};
 }
 
 /// What of the shape the axis meets. All edges of a face across it are level but for noise, which must not choose.
@@ -125,7 +124,7 @@ uint32_t Builder::name_on_axis(const Half& half) {
 }
 
 /// The point on the axis itself, between whatever is there.
-void Builder::add_on_axis(const Vec32& normal, int64_t separation, ContactManifold& manifold) const {
+void Builder::add_on_axis(const Vec32& normal, int64_t separation, BlockManifold& manifold) const {
   const uint32_t on_a = name_on_axis(half_a_), on_b = name_on_axis(half_b_);
   for (uint32_t i = 0; i < manifold.count; ++i) {
     if (manifold.point[i].feature == feature_pair(on_a, on_b)) return;
@@ -140,7 +139,7 @@ void Builder::add_on_axis(const Vec32& normal, int64_t separation, ContactManifo
 
 /// False if nothing of the area is within reach.
 bool Builder::fill(const Reference& reference, bool reference_is_a, const Feature& incident,
-                   ContactManifold& manifold) const {
+                   BlockManifold& manifold) const {
   const Half& other = reference_is_a ? half_b_ : half_a_;
   const int64_t radii = pair_.radius_a + pair_.radius_b;
   AreaChoice choice(pair_.block_above(saturated_sum(reach_, radii)), drop_, reduction_);
@@ -155,7 +154,7 @@ bool Builder::fill(const Reference& reference, bool reference_is_a, const Featur
   for (int i = 1; i < count; ++i) deepest = chosen[i].w < chosen[deepest].w ? i : deepest;
   const Vec32 nearest = add(other.centre, reference_is_a ? axis_.point_b : axis_.point_a);
   const int64_t height = reference.height_of(nearest);
-  const bool missed = height + drop_ < chosen[deepest].w;
+  const bool missed = height + drop_ < chosen[deepest].w && (!only_over_ || reference.holds(nearest));
   if (missed && count == 4) --count;
   for (int i = 0; i < count; ++i) {
     const int64_t separation = pair_.metres(chosen[i].w) - radii;
@@ -166,11 +165,11 @@ bool Builder::fill(const Reference& reference, bool reference_is_a, const Featur
               reference_is_a ? on_incident : on_reference, manifold);
   }
   if (missed) add_on_axis(normal, pair_.metres(height) - radii, manifold);
-  if (manifold.count > 0) manifold.normal = units_from_raw(normal);
+  if (manifold.count > 0) manifold.normal = normal;
   return manifold.count > 0;
 }
 
-bool Builder::build_on_half_space(ContactManifold& manifold) const {
+bool Builder::build_on_half_space(BlockManifold& manifold) const {
   const bool plane_is_a = pair_.a.convex->type == ShapeType::half_space;
   const Half &plane = plane_is_a ? half_a_ : half_b_, &other = plane_is_a ? half_b_ : half_a_;
   Feature incident;
@@ -178,7 +177,7 @@ bool Builder::build_on_half_space(ContactManifold& manifold) const {
   return fill(Reference(plane.placed, plane.centre, other.centre), plane_is_a, incident, manifold);
 }
 
-bool Builder::build_on_face(ContactManifold& manifold) const {
+bool Builder::build_on_face(BlockManifold& manifold) const {
   Feature face, incident;
   bool is_a = a_comes_first();
   for (int attempt = 0; attempt < 2; ++attempt, is_a = !is_a) {
@@ -191,7 +190,7 @@ bool Builder::build_on_face(ContactManifold& manifold) const {
   return false;
 }
 
-bool Builder::build_on_edge(ContactManifold& manifold) const {
+bool Builder::build_on_edge(BlockManifold& manifold) const {
   Feature edge_a, edge_b;
   supporting_edge(pair_.a, half_a_.outward, k_level, edge_a);
   supporting_edge(pair_.b, half_b_.outward, k_level, edge_b);
@@ -209,16 +208,48 @@ bool Builder::build_on_edge(ContactManifold& manifold) const {
   return fill(reference, is_a, is_a ? edge_b : edge_a, manifold);
 }
 
-void Builder::build(ContactManifold& manifold) const {
+void Builder::build(BlockManifold& manifold) const {
   const int64_t separation = pair_.metres(axis_.separation) - pair_.radius_a - pair_.radius_b;
   if (separation > reach_) return;
   manifold.capped = axis_.capped;
   if (pair_.planar() ? build_on_half_space(manifold) : build_on_face(manifold) || build_on_edge(manifold)) return;
   add_on_axis(axis_.normal, separation, manifold);
-  manifold.normal = units_from_raw(axis_.normal);
+  manifold.normal = axis_.normal;
+}
+
+void Builder::build_over_face(const Feature& face, BlockManifold& manifold) {
+  only_over_ = true;
+  Feature incident;
+  find_incident(half_b_, negate(face.normal), incident);
+  // A ball's slack is of its own size, or it might fall between two faces.
+  const int64_t size = int64_t{radius_in_block(pair_.b)} + pair_.block_above(pair_.radius_b);
+  const int32_t held = size > k_one ? k_one : static_cast<int32_t>(size);
+  fill(Reference(pair_.a, half_a_.centre, face, face.normal, held), true, incident, manifold);
 }
 
 }  // namespace
+
+void find_contact_points(const RestingPair& pair, int64_t reach, DistanceCache* cache, ManifoldReduction reduction,
+                         BlockManifold& manifold) {
+  manifold = {};
+  const int32_t needed = pair.block_above(saturated_sum(reach, pair.radius_a + pair.radius_b));
+  ContactAxis axis;
+  if (find_contact_axis(pair, needed >= INT32_MAX - k_gjk_slack ? INT32_MAX : needed + k_gjk_slack, cache, axis)) {
+    Builder(pair, axis, reach, reduction).build(manifold);
+  }
+}
+
+void contact_points_over_face(const RestingPair& pair, const Feature& face, int64_t reach, ManifoldReduction reduction,
+                              BlockManifold& manifold) {
+  manifold = {};
+  const Vec32 nearest = support(pair.b, negate(face.normal)).point;
+  const int64_t height = dot(face.normal, subtract(add(pair.offset, nearest), face.point[0])) >> 30;
+  const Vec32 foot =
+      subtract(add(pair.offset, nearest),
+               round_shift(Vec64{face.normal.x * height, face.normal.y * height, face.normal.z * height}, 30));
+  const ContactAxis axis = {face.normal, height, foot, nearest, false};
+  Builder(pair, axis, reach, reduction).build_over_face(face, manifold);
+}
 
 Status contact_points(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Real reach,
                       ContactManifold& manifold, DistanceCache* cache, ManifoldReduction reduction) {
@@ -226,12 +257,18 @@ Status contact_points(const Convex& a, const Pose& pose_a, const Convex& b, cons
   if (const Status status = rest(a, pose_a, b, pose_b, pair); status != Status::ok) return status;
   Vec64 raw;
   if (!raw_from_real({reach, Real(0.0), Real(0.0)}, raw) || raw.x < 0) return Status::out_of_range;
-  const int64_t radii = pair.radius_a + pair.radius_b;
-  const int32_t needed = pair.block_above(saturated_sum(raw.x, radii));
+  BlockManifold found;
+  find_contact_points(pair, raw.x, cache, reduction, found);
   ContactManifold made;
-  ContactAxis axis;
-  if (find_contact_axis(pair, needed >= INT32_MAX - k_gjk_slack ? INT32_MAX : needed + k_gjk_slack, cache, axis)) {
-    Builder(pair, axis, raw.x, reduction).build(made);
+  made.count = found.count;
+  made.capped = found.capped;
+  if (found.count > 0) made.normal = units_from_raw(found.normal);
+  const auto real = [](const Vec64& v) {
+    return Vec3<Real>{real_from_raw(v.x), real_from_raw(v.y), real_from_raw(v.z)};
+  };
+  for (uint32_t i = 0; i < found.count; ++i) {
+    const BlockPoint& point = found.point[i];
+    made.point[i] = {real(point.from_a), real(point.from_b), real_from_raw(point.separation), point.feature};
   }
   manifold = made;
   return Status::ok;

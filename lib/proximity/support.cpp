@@ -48,7 +48,7 @@ class Reach {
         dy_(direction.y),
         dz_(direction.z) {}
   int64_t of(uint32_t i) const {
-    return dx_ * hull_i32(x_ + 4 * i) + dy_ * hull_i32(y_ + 4 * i) + dz_ * hull_i32(z_ + 4 * i);
+    return dx_ * cooked_i32(x_ + 4 * i) + dy_ * cooked_i32(y_ + 4 * i) + dz_ * cooked_i32(z_ + 4 * i);
   }
 
  private:

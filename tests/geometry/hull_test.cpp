@@ -250,7 +250,7 @@ DETENT_TEST(hull, with_a_hostile_header_and_a_right_checksum_is_refused_or_keeps
   for (uint32_t at = 0; at < k_hull_header_bytes; at += 4) {
     for (const uint32_t value : k_values) {
       Bytes bytes(k_prism);
-      if (hull_u32(bytes.data() + at) == value) continue;
+      if (cooked_u32(bytes.data() + at) == value) continue;
       bytes.put(at, value);
       bytes.seal();
       if (bytes.read(hull) != Status::ok) continue;
@@ -335,14 +335,14 @@ DETENT_TEST(hull, mirrored_or_with_a_vertex_pushed_in_is_refused) {
   ASSERT_OK(bytes.read(hull));
   const HullLayout at = hull.at;
   for (uint32_t i = 0; i < hull.padded_count; ++i)
-    bytes.put(at.x + 4 * i, static_cast<uint32_t>(-hull_i32(bytes.data() + at.x + 4 * i)));
+    bytes.put(at.x + 4 * i, static_cast<uint32_t>(-cooked_i32(bytes.data() + at.x + 4 * i)));
   bytes.seal();
   EXPECT_EQ(bytes.read(hull), Status::corrupt);
   for (uint32_t vertex = 1; vertex < 12; ++vertex) {
     Bytes dented(k_prism);
     for (const uint32_t column : {at.x, at.y, at.z}) {
       dented.put(column + 4 * vertex,
-                 static_cast<uint32_t>(hull_i32(dented.data() + column + 4 * vertex) / 1024 * 1023));
+                 static_cast<uint32_t>(cooked_i32(dented.data() + column + 4 * vertex) / 1024 * 1023));
     }
     dented.seal();
     EXPECT_EQ(dented.read(hull), Status::corrupt) << vertex;
@@ -385,17 +385,17 @@ DETENT_TEST(hull, with_a_right_checksum_but_wrong_contents_is_refused) {
                  [&](Bytes& bytes, const HullLayout& at) { swap_bytes(bytes, at.loops, at.loops + 2, 1); });
   expect_corrupt("a normal of half the length", [](Bytes& bytes, const HullLayout& at) {
     for (uint32_t k = 0; k < 16; k += 4) {
-      bytes.put(at.planes + k, static_cast<uint32_t>((hull_i32(bytes.data() + at.planes + k) + 1) / 2));
+      bytes.put(at.planes + k, static_cast<uint32_t>((cooked_i32(bytes.data() + at.planes + k) + 1) / 2));
     }
   });
   expect_corrupt("planes of two faces exchanged", [&](Bytes& bytes, const HullLayout& at) {
     swap_bytes(bytes, at.planes, at.planes + k_hull_plane_bytes, k_hull_plane_bytes);
   });
   expect_corrupt("a plane too low", [](Bytes& bytes, const HullLayout& at) {
-    bytes.put(at.planes + 12, hull_u32(bytes.data() + at.planes + 12) - 8);
+    bytes.put(at.planes + 12, cooked_u32(bytes.data() + at.planes + 12) - 8);
   });
   expect_corrupt("a plane too high", [](Bytes& bytes, const HullLayout& at) {
-    bytes.put(at.planes + 12, hull_u32(bytes.data() + at.planes + 12) + k_hull_face_slack + 1);
+    bytes.put(at.planes + 12, cooked_u32(bytes.data() + at.planes + 12) + k_hull_face_slack + 1);
   });
   expect_corrupt("two vertices exchanged", [&](Bytes& bytes, const HullLayout& at) {
     for (const uint32_t column : {at.x, at.y, at.z}) swap_bytes(bytes, column + 4, column + 8, 4);
@@ -425,10 +425,10 @@ DETENT_TEST(hull, with_a_right_checksum_but_wrong_contents_is_refused) {
     bytes.put(k_hull_rotation_at + 12, 1u << 30);
   });
   expect_corrupt("a volume a step off", [](Bytes& bytes, const HullLayout&) {
-    bytes.put(k_hull_volume_at, hull_u32(bytes.data() + k_hull_volume_at) + 2);
+    bytes.put(k_hull_volume_at, cooked_u32(bytes.data() + k_hull_volume_at) + 2);
   });
   expect_corrupt("a core radius a step too large", [](Bytes& bytes, const HullLayout&) {
-    bytes.put(k_hull_core_radius_at, hull_u32(bytes.data() + k_hull_core_radius_at) + 1);
+    bytes.put(k_hull_core_radius_at, cooked_u32(bytes.data() + k_hull_core_radius_at) + 1);
   });
 }
 
@@ -441,12 +441,12 @@ DETENT_TEST(hull, with_vertices_moved_by_a_few_steps_is_refused_or_exactly_conve
     for (uint32_t vertex = 1; vertex < 12; ++vertex) {
       for (const uint32_t column : {hull_layout(12, 8, 18).x, hull_layout(12, 8, 18).y, hull_layout(12, 8, 18).z}) {
         uint8_t* const word = bytes.data() + column + 4 * vertex;
-        if (samples.below(8) == 0) bytes.put(column + 4 * vertex, hull_u32(word) + samples.below(5) - 2);
+        if (samples.below(8) == 0) bytes.put(column + 4 * vertex, cooked_u32(word) + samples.below(5) - 2);
       }
     }
     for (uint32_t face = 0; face < 8; ++face) {  // so that only the seams can be wrong
       const uint32_t at = hull_layout(12, 8, 18).planes + k_hull_plane_bytes * face + 12;
-      bytes.put(at, hull_u32(bytes.data() + at) + 8);
+      bytes.put(at, cooked_u32(bytes.data() + at) + 8);
     }
     bytes.seal();
     if (bytes.read(hull) != Status::ok) {

@@ -8,6 +8,7 @@
 
 #include "describe.h"
 #include "file.h"
+#include "read_mesh.h"
 #include "read_points.h"
 
 namespace detent_tool {
@@ -72,7 +73,89 @@ void print_text(const std::string& path, const detent_cook::HullDescription& hul
   }
 }
 
+Json json_of(const std::string& path, const detent_cook::SurfaceDescription& surface) {
+  Json json = {{"file", path}, {"ok", true}};
+  json["kind"] = surface.is_mesh ? "mesh" : "height field";
+  json["vertices"] = surface.vertex_count;
+  json["triangles"] = surface.triangle_count;
+  if (surface.is_mesh) {
+    json["nodes"] = surface.node_count;
+    json["flat"] = surface.edges[0];
+    json["convex"] = surface.edges[1];
+    json["concave"] = surface.edges[2];
+    json["open"] = surface.edges[3];
+  } else {
+    json["columns"] = surface.columns;
+    json["rows"] = surface.rows;
+  }
+  json["one_sided"] = surface.one_sided;
+  json["step"] = surface.step;
+  json["low"] = surface.low;
+  json["high"] = surface.high;
+  return json;
+}
+
+void print_text(const std::string& path, const detent_cook::SurfaceDescription& surface) {
+  printf("%s: ", path.c_str());
+  if (surface.is_mesh) {
+    printf("%u triangles, %u vertices, sides: %u flat, %u convex, %u concave, %u open", surface.triangle_count,
+           surface.vertex_count, surface.edges[0], surface.edges[1], surface.edges[2], surface.edges[3]);
+  } else {
+    printf("%u by %u cells, %u triangles", surface.columns, surface.rows, surface.triangle_count);
+  }
+  printf(", %s, from (%.6g, %.6g, %.6g) to (%.6g, %.6g, %.6g) m, step %.3g m",
+         surface.one_sided ? "one-sided" : "two-sided", surface.low[0], surface.low[1], surface.low[2], surface.high[0],
+         surface.high[1], surface.high[2], surface.step);
+}
+
 }  // namespace
+
+bool cook_mesh_file(const MeshRequest& request, bool json, const detent_cook::CookProgress& progress) {
+  std::vector<uint8_t> text;
+  if (!read_file(request.input, text, SIZE_MAX)) return fail(request.input, "cannot be read", json);
+  const detent_cook::MeshRead read =
+      detent_cook::read_mesh_file(request.input, {reinterpret_cast<const char*>(text.data()), text.size()}, progress);
+  if (!read.problem.empty()) return fail(request.input, read.problem, json);
+  const detent_cook::MeshResult result = detent_cook::cook_mesh(read.mesh, request.options, progress);
+  if (result.bytes.empty()) return fail(request.input, result.reason, json);
+  if (!write_file(request.output, result.bytes)) return fail(request.output, "cannot be written", json);
+
+  const detent_cook::SurfaceDescription surface = detent_cook::describe_surface(result.bytes);
+  if (json) {
+    Json object = json_of(request.output, surface);
+    object["welded"] = result.welded;
+    object["degenerate"] = result.degenerate;
+    object["repeated"] = result.repeated;
+    object["forked"] = result.forked_edges;
+    object["bytes"] = result.bytes.size();
+    print_json(object);
+    return true;
+  }
+  print_text(request.output, surface);
+  printf("; of %zu triangles %u degenerate and %u repeated left out, %u vertices welded, %u edges forked, %zu bytes\n",
+         read.mesh.triangles.size(), result.degenerate, result.repeated, result.welded, result.forked_edges,
+         result.bytes.size());
+  return true;
+}
+
+bool is_surface_file(const std::string& path) {
+  std::vector<uint8_t> bytes;
+  return read_file(path, bytes, 1) && detent_cook::is_surface(bytes);
+}
+
+bool describe_surface_file(const std::string& path, bool json) {
+  std::vector<uint8_t> bytes;
+  if (!read_file(path, bytes, UINT32_MAX)) return fail(path, "cannot be read", json);
+  const detent_cook::SurfaceDescription surface = detent_cook::describe_surface(bytes);
+  if (!surface.problem.empty()) return fail(path, surface.problem, json);
+  if (json) {
+    print_json(json_of(path, surface));
+  } else {
+    print_text(path, surface);
+    printf("\n");
+  }
+  return true;
+}
 
 bool cook_file(const CookRequest& request, bool json) {
   std::vector<uint8_t> text;

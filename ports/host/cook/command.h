@@ -1,7 +1,8 @@
 #pragma once
 #include "cook.h"
+#include "cook_mesh.h"
 
-/// The tool's commands on hulls.
+/// The tool's commands on cooked shapes.
 namespace detent_tool {
 
 struct CookRequest {
@@ -14,6 +15,20 @@ struct CookRequest {
 /// Reads the points, cooks them, writes the .hull and says what it is. False if any of that failed; nothing is then
 /// written but a line to standard error.
 bool cook_file(const CookRequest& request, bool json);
+
+struct MeshRequest {
+  std::string input;
+  std::string output;
+  detent_cook::MeshOptions options;
+};
+
+/// Reads the triangles, cooks them, writes the .mesh and says what it is. False as for cook_file().
+bool cook_mesh_file(const MeshRequest& request, bool json, const detent_cook::CookProgress& progress);
+
+/// Whether the file begins as a .mesh or .field does.
+bool is_surface_file(const std::string& path);
+/// Says what the .mesh or .field holds. False if the library refuses it.
+bool describe_surface_file(const std::string& path, bool json);
 
 /// Whether the file begins as a .hull does.
 bool is_hull_file(const std::string& path);

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "geometry/hull.h"
+#include "geometry/surface.h"
 
 namespace detent_cook {
 
@@ -28,6 +29,56 @@ HullDescription describe_hull(const std::vector<uint8_t>& bytes) {
   for (size_t k = 0; k < 3; ++k) description.origin[k] = info.origin[k];
   for (size_t k = 0; k < 4; ++k) description.rotation[k] = ldexp(info.rotation[k], -30);
   return description;
+}
+
+SurfaceDescription describe_surface(const std::vector<uint8_t>& bytes) {
+  SurfaceDescription description;
+  std::vector<uint64_t> aligned(bytes.size() / 8 + 1);
+  if (!bytes.empty()) memcpy(aligned.data(), bytes.data(), bytes.size());
+  const detent::Asset asset = {reinterpret_cast<const uint8_t*>(aligned.data()), static_cast<uint32_t>(bytes.size())};
+  detent::Surface surface;
+  const detent::Status status = detent::read_surface(asset, surface);
+  if (status != detent::Status::ok) {
+    description.problem = detent::status_text(status);
+    return description;
+  }
+  description.is_mesh = surface.is_mesh;
+  description.one_sided = surface.one_sided();
+  description.step = ldexp(1.0, surface.exponent() - 30);
+  detent::GridBox box = surface.bounds();
+  if (surface.is_mesh) {
+    const detent::MeshView& mesh = surface.mesh;
+    description.vertex_count = mesh.vertex_count;
+    description.triangle_count = mesh.triangle_count;
+    description.node_count = mesh.level_start[mesh.level_count];
+    box = {mesh.low, mesh.low};
+    for (uint32_t i = 0; i < mesh.vertex_count; ++i) include(mesh.vertex(i), box);
+    for (uint32_t i = 0; i < mesh.triangle_count; ++i) {
+      for (uint32_t k = 0; k < 3; ++k) ++description.edges[static_cast<size_t>(mesh.kind(i, k))];
+    }
+  } else {
+    const detent::HeightFieldView& field = surface.field;
+    description.columns = field.columns;
+    description.rows = field.rows;
+    description.vertex_count = (field.columns + 1) * (field.rows + 1);
+    for (uint32_t j = 0; j < field.rows; ++j) {
+      for (uint32_t i = 0; i < field.columns; ++i) {
+        description.triangle_count += (field.cell(i, j) & detent::k_cell_hole) == 0 ? 2u : 0u;
+      }
+    }
+  }
+  const auto metres = [&](const detent::Vec32& v) {
+    return std::array<double, 3>{v.x * description.step, v.y * description.step, v.z * description.step};
+  };
+  description.low = metres(box.low);
+  description.high = metres(box.high);
+  return description;
+}
+
+bool is_surface(const std::vector<uint8_t>& bytes) {
+  return bytes.size() >= sizeof detent::k_mesh_magic &&
+         (memcmp(bytes.data(), detent::k_mesh_magic, sizeof detent::k_mesh_magic) == 0 ||
+          memcmp(bytes.data(), detent::k_height_field_magic, sizeof detent::k_height_field_magic) == 0);
 }
 
 bool is_hull(const std::vector<uint8_t>& bytes) {

@@ -22,6 +22,25 @@ struct HullDescription {
 /// Describes the bytes of a file, after the library's every check.
 HullDescription describe_hull(const std::vector<uint8_t>& bytes);
 
+/// What the library reads from a .mesh or a .field.
+struct SurfaceDescription {
+  std::string problem{};  ///< why the library refuses it; empty if it does not
+  bool is_mesh = true;    ///< or a height field
+  uint32_t vertex_count = 0, triangle_count = 0;
+  uint32_t node_count = 0;          ///< of a mesh
+  uint32_t columns = 0, rows = 0;   ///< of a height field
+  std::array<uint32_t, 4> edges{};  ///< of a mesh: sides of triangles that are flat, convex, concave and open
+  bool one_sided = false;
+  double step = 0;                      ///< m; of the grid
+  std::array<double, 3> low{}, high{};  ///< m
+};
+
+/// Describes the bytes of a file, after the library's every check.
+SurfaceDescription describe_surface(const std::vector<uint8_t>& bytes);
+
+/// Whether the bytes begin as a .mesh or .field does.
+bool is_surface(const std::vector<uint8_t>& bytes);
+
 /// Whether the bytes begin as a .hull does.
 bool is_hull(const std::vector<uint8_t>& bytes);
 

@@ -7,39 +7,11 @@
 #include <map>
 #include <set>
 
-#include "base/crc.h"
 #include "geometry/hull.h"
+#include "writer.h"
 
 namespace detent_cook {
 namespace {
-
-/// A block of zeros to be filled, little-endian.
-class Writer {
- public:
-  explicit Writer(uint32_t byte_count) : bytes_(byte_count) {}
-
-  template <class Int>
-  void put(uint32_t at, Int value) {
-    const auto bits = static_cast<uint64_t>(value);
-    for (uint32_t k = 0; k < sizeof value; ++k) bytes_[at + k] = static_cast<uint8_t>(bits >> (8 * k));
-  }
-  /// As a 31-bit mantissa and an exponent, rounded to nearest; 0 as zeros.
-  void put_scaled(uint32_t at, double value) {
-    if (value == 0) return;
-    int exponent = 0;
-    double mantissa = floor(ldexp(frexp(value, &exponent), 31) + 0.5);
-    if (mantissa == 0x1p31) {
-      mantissa = 0x1p30;
-      ++exponent;
-    }
-    put(at, static_cast<int32_t>(mantissa));
-    put(at + 4, int32_t{exponent - 31});
-  }
-  std::vector<uint8_t>& bytes() { return bytes_; }
-
- private:
-  std::vector<uint8_t> bytes_;
-};
 
 int32_t core_radius(const std::vector<GridPoint>& vertices) {
   uint64_t greatest = 0;
@@ -113,9 +85,7 @@ std::vector<uint8_t> encode_hull(const std::vector<GridPoint>& vertices, const s
   const detent::HullLayout at = detent::hull_layout(vertex_count, face_count, edge_count);
   Writer writer(at.end);
 
-  for (uint32_t k = 0; k < sizeof detent::k_hull_magic; ++k) writer.put(k, detent::k_hull_magic[k]);
-  writer.put(detent::k_hull_version_at, detent::k_hull_format_version);
-  writer.put(detent::k_hull_byte_count_at, at.end);
+  writer.put_magic(detent::k_hull_magic, detent::k_hull_format_version);
   writer.put(detent::k_hull_exponent_at, header.exponent);
   writer.put(detent::k_hull_core_radius_at, core_radius(vertices));
   writer.put(detent::k_hull_vertex_count_at, vertex_count);
@@ -142,11 +112,7 @@ std::vector<uint8_t> encode_hull(const std::vector<GridPoint>& vertices, const s
   put_neighbours(writer, at, vertex_count, faces);
   put_edges(writer, at, faces);
 
-  const uint8_t* bytes = writer.bytes().data();
-  constexpr uint32_t k_from = detent::k_hull_checksum_at;
-  const uint32_t checksum = detent::crc32(bytes + k_from + 4, at.end - k_from - 4, detent::crc32(bytes, k_from));
-  writer.put(k_from, checksum);
-  return writer.bytes();
+  return writer.sealed();
 }
 
 }  // namespace detent_cook

@@ -1,42 +1,11 @@
 #include "read_points.h"
 
-#include <math.h>
 #include <string.h>
 
-#include <charconv>
+#include "words.h"
 
 namespace detent_cook {
 namespace {
-
-constexpr std::string_view k_blanks = " \t\r\f\v";
-
-/// Takes the next word off the line; empty if there is none.
-std::string_view next_word(std::string_view& line) {
-  const size_t from = line.find_first_not_of(k_blanks);
-  if (from == std::string_view::npos) return {};
-  const size_t to = line.find_first_of(k_blanks, from);
-  const std::string_view word = line.substr(from, to == std::string_view::npos ? to : to - from);
-  line.remove_prefix(to == std::string_view::npos ? line.size() : to);
-  return word;
-}
-
-/// The whole word as a finite number; whatever the locale.
-bool number_from(std::string_view word, double& value) {
-  if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  return error == std::errc() && end == word.data() + word.size() && isfinite(value);
-}
-
-std::string at_line(size_t number, const std::string& problem) {
-  return "line " + std::to_string(number) + ": " + problem;
-}
-
-/// A word of the file for a message: without what would not print.
-std::string quoted(std::string_view word) {
-  std::string text = "'";
-  for (const char letter : word.substr(0, 40)) text += letter >= ' ' && letter <= '~' ? letter : '?';
-  return text + "'";
-}
 
 uint32_t u32_at(std::string_view bytes, size_t at) {
   uint32_t value = 0;
@@ -46,19 +15,22 @@ uint32_t u32_at(std::string_view bytes, size_t at) {
 
 }  // namespace
 
+std::string read_vertex(std::string_view& line, Point& point) {
+  for (double& value : point) {
+    const std::string_view word = next_word(line);
+    if (word.empty()) return "a vertex needs three numbers";
+    if (!number_from(word, value)) return quoted(word) + " is no finite number";
+  }
+  return {};
+}
+
 PointsRead read_obj(std::string_view text) {
   PointsRead result;
   for (size_t number = 1; !text.empty(); ++number) {
-    const size_t end = text.find('\n');
-    std::string_view line = text.substr(0, end);
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    std::string_view line = next_line(text);
     if (next_word(line) != "v") continue;
     Point point{};
-    for (double& value : point) {
-      const std::string_view word = next_word(line);
-      if (word.empty()) return {{}, at_line(number, "a vertex needs three numbers")};
-      if (!number_from(word, value)) return {{}, at_line(number, quoted(word) + " is no finite number")};
-    }
+    if (const std::string problem = read_vertex(line, point); !problem.empty()) return {{}, at_line(number, problem)};
     result.points.push_back(point);
   }
   if (result.points.empty()) result.problem = "no line starts with 'v': this is no OBJ with vertices";

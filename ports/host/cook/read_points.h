@@ -10,6 +10,9 @@ struct PointsRead {
   std::string problem{};  ///< one line, with the line's number where there is one; empty if all is well
 };
 
+/// The three numbers of an OBJ's vertex, off its line; or the problem with them.
+std::string read_vertex(std::string_view& line, Point& point);
+
 /// The vertices of a Wavefront OBJ: lines of `v` and three numbers or more. All other lines are passed over.
 PointsRead read_obj(std::string_view text);
 

@@ -69,6 +69,10 @@ int run_info(const std::vector<std::string>& paths, const Report& report) {
       if (!describe_hull_file(path, report.json)) code = k_exit_bad;
       continue;
     }
+    if (is_surface_file(path)) {
+      if (!describe_surface_file(path, report.json)) code = k_exit_bad;
+      continue;
+    }
     Outcome outcome;
     {
       ProgressBar bar(path);
@@ -81,6 +85,13 @@ int run_info(const std::vector<std::string>& paths, const Report& report) {
   return code;
 }
 
+int run_cook_mesh(const MeshRequest& request, const Report& report) {
+  ProgressBar bar(request.input);
+  const bool good =
+      cook_mesh_file(request, report.json, [&bar](uint64_t done, uint64_t total) { bar.show(done, total); });
+  return good ? k_exit_good : k_exit_bad;
+}
+
 int run_scenes(const Report& report) {
   for (const SceneLine& line : engines().front().scenes()) report.scene(line);
   return k_exit_good;
@@ -90,7 +101,7 @@ int run_scenes(const Report& report) {
 
 int main(int argc, char** argv) {
   CLI::App app(
-      "Records, verifies and describes recordings of the Detent physics library, and cooks hulls for it.\n"
+      "Records, verifies and describes recordings of the Detent physics library, and cooks hulls and meshes for it.\n"
       "Exit code: 0 if all is well and every tick of every file agrees, 1 if not, 2 for wrong usage.",
       "detent");
   app.set_version_flag("--version", version_text());
@@ -122,17 +133,26 @@ int main(int argc, char** argv) {
   std::vector<std::string> paths;
   CLI::App* verify = app.add_subcommand("verify", "Replay recordings and compare every digest");
   verify->add_option("file", paths, "Recordings")->required();
-  CLI::App* info = app.add_subcommand("info", "Say what recordings and hulls hold, without replaying them");
-  info->add_option("file", paths, "Recordings and hulls")->required();
+  CLI::App* info =
+      app.add_subcommand("info", "Say what recordings, hulls, meshes and height fields hold, without replaying them");
+  info->add_option("file", paths, "Recordings and cooked shapes")->required();
   CLI::App* scenes = app.add_subcommand("scenes", "List the scenes that can be recorded");
 
   CookRequest cooking;
+  std::string kind = "hull";
   std::string frame = "principal";
   bool refuse_more = false;
-  CLI::App* cook = app.add_subcommand("cook", "Make a convex hull of points ready for the library");
-  cook->add_option("input", cooking.input, "An OBJ, for its vertices; or clouds of points, by a name that ends in .bin")
+  CLI::App* cook =
+      app.add_subcommand("cook", "Make a convex hull of points, or a mesh of triangles, ready for the library");
+  cook->add_option("--kind", kind, "hull: of the vertices; mesh: of the faces")
+      ->check(CLI::IsMember({"hull", "mesh"}))
+      ->capture_default_str();
+  cook->add_option("input", cooking.input,
+                   "An OBJ; clouds of points, by a name that ends in .bin; a mesh also as .gltf or .glb")
       ->required();
-  cook->add_option("output", cooking.output, "The .hull to write")->required();
+  cook->add_option("output", cooking.output, "The .hull or .mesh to write")->required();
+  bool one_sided = false;
+  cook->add_flag("--one-sided", one_sided, "Of a mesh: met only from the side that sees its faces counter-clockwise");
   cook->add_option(
           "--frame", frame,
           "principal: for bodies, about the centre of mass along the principal axes; source: as the points are")
@@ -160,6 +180,9 @@ int main(int argc, char** argv) {
   if (record->parsed()) return run_record(request, config, report);
   if (verify->parsed()) return run_verify(paths, report);
   if (info->parsed()) return run_info(paths, report);
+  if (cook->parsed() && kind == "mesh") {
+    return run_cook_mesh({cooking.input, cooking.output, {cooking.options.weld, one_sided}}, report);
+  }
   if (cook->parsed()) {
     cooking.options.frame = frame == "source" ? detent_cook::Frame::source : detent_cook::Frame::principal;
     cooking.options.reduce = !refuse_more;

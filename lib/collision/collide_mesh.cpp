@@ -1,0 +1,56 @@
+#include "collision/collide_mesh.h"
+
+#include "collision/body_convex.h"
+#include "collision/contact_arm.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+void put_contact(const SurfaceManifold& manifold, const Matrix32& rotation, const BodyTraits& traits,
+                 SurfaceContact& contact) {
+  contact.key = manifold.key;
+  contact.triangle = manifold.triangle;
+  contact.material = manifold.material;
+  contact.geometry = {};
+  contact.geometry.normal = units_from_raw(round_shift(multiply(rotation, manifold.normal), 30));
+  for (uint32_t i = 0; i < manifold.count; ++i) {
+    const SurfaceManifold::Point& point = manifold.point[i];
+    const Vec64 way = rotate(rotation, point.from_shape);
+    const Vec3<Real> from_body = {real_from_raw(way.x), real_from_raw(way.y), real_from_raw(way.z)};
+    contact.geometry.point[contact.geometry.count++] = {
+        {0.0, 0.0, 0.0}, arm_of_way(from_body, traits.size_exponent), real_from_raw(point.separation), point.feature};
+  }
+}
+
+}  // namespace
+
+void collide_mesh(const Surface& surface, const Pose& pose, const CollisionBody& body, Real reach,
+                  const AssetTable& assets, SurfaceContacts& contacts) {
+  contacts.count = 0;
+  contacts.dropped = 0;
+  contacts.capped = true;
+  Convex shape;
+  SurfacePlace place;
+  Vec64 raw;
+  if (!body_convex(body.traits, assets, shape) || !raw_from_real({reach, Real(0.0), Real(0.0)}, raw) ||
+      place_on_surface(pose, {body.pose.position, body.pose.rotation}, place) != Status::ok) {
+    return;
+  }
+  const SurfacePair pair(surface, place, shape, raw.x);
+  SurfaceManifolds found(pair.half_thickness());
+  surface.walk([&](const GridBox& box) { return meet(box, pair.box()); },
+               [&](uint32_t triangle) {
+                 SurfaceTouch touch;
+                 if (pair.touch(triangle, touch)) found.add(touch);
+               });
+  SurfaceManifold manifold[k_surface_manifolds_max];
+  contacts.count = found.finish(manifold);
+  contacts.dropped = found.dropped();
+  contacts.capped = found.capped();
+  for (uint32_t i = 0; i < contacts.count; ++i)
+    put_contact(manifold[i], place.surface, body.traits, contacts.contact[i]);
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

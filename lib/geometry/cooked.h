@@ -1,0 +1,38 @@
+#pragma once
+#include <detent/asset.h>
+#include <detent/status.h>
+
+#include "base/bytes.h"
+
+/// What the formats of cooked data have in common: little-endian integers, and a header that begins with a magic of 8
+/// bytes, the format's version, the count of all bytes and their checksum.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+inline constexpr uint32_t k_cooked_version_at = 8;
+inline constexpr uint32_t k_cooked_byte_count_at = 12;
+inline constexpr uint32_t k_cooked_checksum_at = 16;  ///< CRC-32 of all bytes but these four
+
+/// The little-endian integer at `bytes`, which are aligned to its size.
+inline uint32_t cooked_u32(const uint8_t* bytes) {
+  uint32_t value;
+  memcpy(&value, __builtin_assume_aligned(bytes, 4), sizeof value);
+  return k_big_endian ? __builtin_bswap32(value) : value;
+}
+inline int32_t cooked_i32(const uint8_t* bytes) { return static_cast<int32_t>(cooked_u32(bytes)); }
+inline uint32_t cooked_u16(const uint8_t* bytes) {
+  uint16_t value;
+  memcpy(&value, __builtin_assume_aligned(bytes, 2), sizeof value);
+  return k_big_endian ? __builtin_bswap16(value) : value;
+}
+inline int32_t cooked_i16(const uint8_t* bytes) { return static_cast<int16_t>(cooked_u16(bytes)); }
+
+/// Whether the bytes from `from` up to `to` are zero.
+bool cooked_is_zero(const uint8_t* bytes, uint32_t from, uint32_t to);
+
+/// Checks alignment, magic, version, count and checksum: after it the header may be read. `header_bytes` > 20.
+/// Errors: buffer_misaligned (8), not_detent, format_unknown, truncated, corrupt.
+Status check_cooked(const Asset& asset, const uint8_t (&magic)[8], uint32_t version, uint32_t header_bytes);
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,85 @@
+#include "read_mesh.h"
+
+#include <map>
+
+#include "read_points.h"
+#include "words.h"
+
+namespace detent_cook {
+namespace {
+
+/// An OBJ's number of a vertex: from 1 on, or backwards from -1; what follows a slash is passed over.
+bool index_from(std::string_view word, size_t vertex_count, uint32_t& index) {
+  word = word.substr(0, word.find('/'));
+  int64_t number = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  if (error != std::errc() || end != word.data() + word.size()) return false;
+  const auto count = static_cast<int64_t>(vertex_count);
+  if (number == 0 || number > count || number < -count) return false;
+  index = static_cast<uint32_t>(number > 0 ? number - 1 : count + number);
+  return true;
+}
+
+bool ends_with(const std::string& path, std::string_view end) {
+  return path.size() >= end.size() && path.compare(path.size() - end.size(), end.size(), end) == 0;
+}
+
+std::string read_face(std::string_view& line, uint8_t material, MeshSource& mesh) {
+  std::vector<uint32_t> corners;
+  for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) {
+    uint32_t index = 0;
+    if (!index_from(word, mesh.vertices.size(), index)) return quoted(word) + " names no vertex before this line";
+    corners.push_back(index);
+  }
+  if (corners.size() < 3) return "a face needs three vertices";
+  for (size_t k = 2; k < corners.size(); ++k) {
+    mesh.triangles.push_back({{corners[0], corners[k - 1], corners[k]}, material});
+  }
+  return {};
+}
+
+}  // namespace
+
+MeshRead read_obj_mesh(std::string_view text, const CookProgress& progress) {
+  MeshRead result;
+  std::map<std::string_view, uint8_t> materials;
+  uint8_t material = 0;
+  const size_t total = text.size();
+  for (size_t number = 1; !text.empty(); ++number) {
+    if (progress != nullptr && number % 65536 == 0) progress(total - text.size(), total);
+    std::string_view line = next_line(text);
+    const std::string_view kind = next_word(line);
+    std::string problem;
+    if (kind == "v") {
+      Point point{};
+      problem = read_vertex(line, point);
+      result.mesh.vertices.push_back(point);
+    } else if (kind == "f") {
+      problem = read_face(line, material, result.mesh);
+    } else if (kind == "usemtl") {
+      const std::string_view name = next_word(line);
+      if (materials.size() == 256 && materials.count(name) == 0)
+        problem = "there are more than 256 materials";
+      else
+        material = materials.emplace(name, static_cast<uint8_t>(materials.size())).first->second;
+    }
+    if (!problem.empty()) return {{}, at_line(number, problem)};
+  }
+  if (result.mesh.triangles.empty()) result.problem = "no line starts with 'f': this is no OBJ with faces";
+  return result;
+}
+
+MeshRead read_mesh_file(const std::string& path, std::string_view bytes, const CookProgress& progress) {
+  if (ends_with(path, ".gltf") || ends_with(path, ".glb")) return read_gltf_mesh(path);
+  return read_obj_mesh(bytes, progress);
+}
+
+#if !DETENT_HAS_GLTF
+const bool k_reads_gltf = false;
+
+MeshRead read_gltf_mesh(const std::string&) {
+  return {{}, "glTF is not read by this build: it was made without tinygltf (Debian: libtinygltf-dev)"};
+}
+#endif
+
+}  // namespace detent_cook
