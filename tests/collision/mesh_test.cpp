@@ -1,15 +1,11 @@
 #include "collision/collide_mesh.h"
 
 #include <detent/contact.h>
-#include <detent/distance.h>
 
 #include <algorithm>
 
 #include "collision/body_convex.h"
-#include "collision/surface_query.h"
-#include "tests/collision/pairs.h"
-#include "tests/geometry/hull_bytes.h"
-#include "tests/geometry/surfaces.h"
+#include "tests/collision/ground.h"
 
 /// Bodies against meshes and height fields.
 namespace detent {
@@ -18,46 +14,10 @@ namespace {
 
 using namespace detent_surfaces;
 
-const Asset k_assets[] = {{detent_hulls::k_prism, sizeof detent_hulls::k_prism}};
-const AssetTable k_table = {k_assets, 1};
-constexpr double k_reach = 0.05;
 constexpr double k_normal_error = sizeof(Unit) == 4 && !DETENT_FIXED ? 0x1p-22 : 0x1p-26;
 constexpr double k_length_error = sizeof(Coord) == 4                   ? 0x1p-16  // a position's step
                                   : sizeof(Unit) == 4 && !DETENT_FIXED ? 0x1p-20
                                                                        : 0x1p-24;
-
-/// A surface, its bytes and a pose of it.
-struct Ground {
-  Bytes bytes;
-  Surface surface;
-  Pose pose = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}};
-
-  explicit Ground(const Bytes& from) : bytes(from) { EXPECT_OK(read_surface({bytes.data(), bytes.count()}, surface)); }
-  explicit Ground(const Source& source, bool one_sided = false) : Ground(cooked(source, one_sided)) {}
-};
-
-OracleBody body_of(const Shape& shape) {
-  OracleBody body;
-  EXPECT_OK(set_shape(shape, body.traits, k_table));
-  body.traits.type = static_cast<uint32_t>(BodyType::dynamic);
-  return body;
-}
-
-SurfaceContacts contacts_of(const Ground& ground, const OracleBody& body, double reach = k_reach) {
-  const Matrix3 rotation = matrix_from(body.pose.rotation);
-  SurfaceContacts contacts;
-  collide_mesh(ground.surface, ground.pose, {body.pose, body.traits, rotation}, real_near(reach), k_table, contacts);
-  return contacts;
-}
-
-double deepest_of(const SurfaceContacts& contacts) {
-  double least = 1e9;
-  for (uint32_t i = 0; i < contacts.count; ++i) {
-    const ContactGeometry& geometry = contacts.contact[i].geometry;
-    for (uint32_t k = 0; k < geometry.count; ++k) least = fmin(least, real_to_host(geometry.point[k].separation));
-  }
-  return least;
-}
 
 double normal_error(const SurfaceContact& contact, const Vector& right) {
   return length(host(contact.geometry.normal) - right);
@@ -324,24 +284,6 @@ DETENT_TEST(mesh_contact, a_height_field_is_the_mesh_of_its_triangles) {
     EXPECT_EQ(a.count == 0, b.count == 0);
     EXPECT_EQ(deepest_of(a), deepest_of(b)) << n;
   }
-}
-
-/// The distance of the body from all triangles, and the normal from the nearest.
-double distance_from(const Ground& ground, const OracleBody& body, Vector& normal) {
-  Convex shape;
-  EXPECT_TRUE(body_convex(body.traits, k_table, shape));
-  double least = 1e9;
-  for (uint32_t i = 0; i < ground.surface.mesh.triangle_count; ++i) {
-    Convex triangle;
-    Pose placed;
-    EXPECT_OK(surface_convex(ground.surface, ground.pose, i, placed, triangle));
-    Closest closest;
-    EXPECT_OK(closest_points(triangle, placed, shape, {body.pose.position, body.pose.rotation}, closest));
-    if (real_to_host(closest.distance) >= least) continue;
-    least = real_to_host(closest.distance);
-    normal = host(closest.normal);
-  }
-  return least;
 }
 
 DETENT_TEST(mesh_contact, over_rough_ground_the_deepest_point_is_as_near_as_the_nearest_triangle) {
