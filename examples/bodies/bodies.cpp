@@ -86,8 +86,8 @@ int main() {
 
   // Draw
   int lines = 0;
-  const DebugDraw callbacks = {.user = &lines, .solid = print_solid, .line = print_line};
   printf("the world:\n");
+  const DebugDraw callbacks = {.user = &lines, .solid = print_solid, .line = print_line};
   draw(world, callbacks, DrawFlags::bodies | DrawFlags::bounds);
   printf("  and %d edges of bounds\n", lines);
 

@@ -34,7 +34,10 @@ struct Material {
 
 /// Axes of a dynamic body about which nothing turns it, as if its inertia about them were infinite: add them up. Spin
 /// about them is dropped. With two locked the third keeps its direction in the world: an upright figure locks x and z.
-inline constexpr uint32_t k_turn_lock_x = 1, k_turn_lock_y = 2, k_turn_lock_z = 4, k_turn_locks_all = 7;
+inline constexpr uint32_t k_turn_lock_x = 1;
+inline constexpr uint32_t k_turn_lock_y = 2;     ///< likewise
+inline constexpr uint32_t k_turn_lock_z = 4;     ///< likewise
+inline constexpr uint32_t k_turn_locks_all = 7;  ///< it does not turn at all
 
 /// What `create_body` makes. Every field has a working default.
 struct BodyDef {

@@ -9,13 +9,17 @@ inline namespace DETENT_NAMESPACE {
 /// A definition that creates the same body here and now. Numbers come back as the state keeps them: rounded by less
 /// than 2^-30 of their size; of a non-dynamic body that never had a mass, `mass` is 0.
 Status get_body_def(const World& world, BodyId id, BodyDef& def);
+/// BodyDef::type.
 Status get_type(const World& world, BodyId id, BodyType& type);
 /// Sizes that the shape's type does not use are those of a default shape.
 Status get_shape(const World& world, BodyId id, Shape& shape);
+/// BodyDef::material.
 Status get_material(const World& world, BodyId id, Material& material);
 /// 1/s.
 Status get_damping(const World& world, BodyId id, Real& linear, Real& angular);
+/// BodyDef::gravity_scale.
 Status get_gravity_scale(const World& world, BodyId id, Real& scale);
+/// BodyDef::turn_locks.
 Status get_turn_locks(const World& world, BodyId id, uint32_t& locks);
 /// The moments of inertia about the body's axes, kg m^2; 0 for fixed and kinematic bodies and about locked axes.
 Status get_inertia(const World& world, BodyId id, Vec3<Scaled>& inertia);

@@ -11,6 +11,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
+/// Where two bodies touch.
 struct ContactPoint {
   Position position = {0.0, 0.0, 0.0};  ///< midway between the surfaces, m, world
   Real separation = 0.0;                ///< m; negative where they overlap
@@ -18,15 +19,17 @@ struct ContactPoint {
   Scaled normal_impulse = 0.0;          ///< N s, of the last tick
 };
 
-/// Impulses and forces are those of the last substep, taken for the whole tick: the bodies' state holds no others. They
-/// are what rests on what; a blow shows in its event (event.h). Bodies that sleep keep theirs.
+/// A pair of bodies in contact. Impulses and forces are those of the last substep, taken for the whole tick: the
+/// bodies' state holds no others. They are what rests on what; a blow shows in its event (event.h). Bodies that sleep
+/// keep theirs.
 struct Contact {
-  BodyId a, b;               ///< a has the lower slot
-  Vec3<Unit> normal = {};    ///< from A to B, world; zero where there is no point
-  bool touching = false;     ///< they pushed each other in the last step
-  uint32_t age = 0;          ///< ticks in contact before the last one, at most 65535
-  uint32_t point_count = 0;  ///< at most 4
-  ContactPoint point[4] = {};
+  BodyId a;                            ///< the body of the lower slot
+  BodyId b;                            ///< the other
+  Vec3<Unit> normal = {};              ///< from A to B, world; zero where there is no point
+  bool touching = false;               ///< they pushed each other in the last step
+  uint32_t age = 0;                    ///< ticks in contact before the last one, at most 65535
+  uint32_t point_count = 0;            ///< at most 4
+  ContactPoint point[4] = {};          ///< the first `point_count`
   Vec3<Scaled> friction_impulse = {};  ///< on B, N s, world, of the last tick
   Scaled normal_impulse = 0.0;         ///< of all points, N s
   Scaled normal_force = 0.0;           ///< mean over the tick, N

@@ -13,6 +13,7 @@ struct Filter {
   uint32_t mask = ~0u;    ///< bits: the categories that it touches
   int32_t group = 0;      ///< 0: none
   uint32_t rule = 0;      ///< 0: none; else the number, from 1 on, of a rule in World::filter_rules
+  /// Equal in everything.
   friend constexpr bool operator==(const Filter& a, const Filter& b) {
     return a.category == b.category && a.mask == b.mask && a.group == b.group && a.rule == b.rule;
   }
@@ -20,8 +21,8 @@ struct Filter {
 
 /// What a rule may know of a body.
 struct FilterBody {
-  uint32_t user_data = 0;
-  Filter filter = {};
+  uint32_t user_data = 0;  ///< BodyDef::user_data
+  Filter filter = {};      ///< its filter
 };
 
 /// Whether `own`, whose rule it is, may touch `other`. A function of its arguments alone: it may be asked at any time,
@@ -31,8 +32,8 @@ using FilterRule = bool (*)(const FilterBody& own, const FilterBody& other);
 /// The rules of a world, in an order of the caller's choice that is the same on every machine: rule n is rules[n - 1].
 /// The state holds the numbers alone.
 struct FilterRuleTable {
-  const FilterRule* rules = nullptr;
-  uint32_t count = 0;
+  const FilterRule* rules = nullptr;  ///< the first rule
+  uint32_t count = 0;                 ///< rules
 };
 
 }  // namespace DETENT_NAMESPACE

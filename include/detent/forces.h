@@ -13,6 +13,7 @@ Status apply_force_at_point(World& world, BodyId id, const Vec3<Scaled>& force, 
 /// As apply_impulse_at, at a point of the world within the same range of the body. Errors: as apply_force.
 Status apply_impulse_at_point(World& world, BodyId id, const Vec3<Scaled>& impulse, const Position& point);
 
+/// What explode() does.
 struct Explosion {
   Position centre = {0.0, 0.0, 0.0};  ///< m, world
   Real radius = 10.0;                 ///< m, [2^-14, 2^14]; nothing farther off is pushed

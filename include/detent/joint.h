@@ -23,37 +23,40 @@ enum class JointType : uint32_t {
 /// The limits, spring and motor of one free motion x of a joint: an angle, rad, in (-pi, pi), or a length, m.
 /// A limit goes before a spring or motor that pushes into it.
 struct JointAxis {
-  bool limited = false;
-  Real lower = 0.0, upper = 0.0;  ///< lower <= x <= upper, where limited; equal: held there
-  Real frequency = 0.0;           ///< Hz, [0, 1024]: of the spring towards `target`, as if only the two bodies were
-                                  ///< there; 0: no spring
-  Real damping_ratio = 1.0;       ///< of the spring, [0, 64]; 1 is critical
-  Real target = 0.0;              ///< rad or m
-  Real speed = 0.0;               ///< of the motor, or of the spring's target, rad/s or m/s; within +-1024
-  Scaled force_max = 0.0;         ///< N or N m, >= 0: the motor's, 0: no motor; of a spring the limit, 0: none
+  bool limited = false;      ///< whether `lower` and `upper` count
+  Real lower = 0.0;          ///< x is at least this
+  Real upper = 0.0;          ///< and at most this; held there if both are equal
+  Real frequency = 0.0;      ///< Hz, 0 or [2^-10, 1024]: of the spring towards `target`, as if only the two bodies were
+                             ///< there; 0: no spring
+  Real damping_ratio = 1.0;  ///< of the spring, [0, 64]; 1 is critical
+  Real target = 0.0;         ///< rad or m
+  Real speed = 0.0;          ///< of the motor, or of the spring's target, rad/s or m/s; within +-1024
+  Scaled force_max = 0.0;    ///< N or N m, >= 0: the motor's, 0: no motor; of a spring the limit, 0: none
 };
 
 /// What `create_joint` makes. Names two bodies, of which one at least is dynamic.
 struct JointDef {
-  JointType type = JointType::ball;
-  BodyId a, b;
+  JointType type = JointType::ball;       ///< what it leaves free
+  BodyId a;                               ///< one body
+  BodyId b;                               ///< the other
   Vec3<Real> anchor_a = {0.0, 0.0, 0.0};  ///< from A's centre of mass, m, A's axes; each component within
                                           ///< +-4096 and 1024 times the bounding radius
-  Vec3<Real> anchor_b = {0.0, 0.0, 0.0};
-  Quat frame_a = {0.0, 0.0, 0.0, 1.0};  ///< from the frame's axes to A's; length 1 within 2^-10, normalised on entry
-  Quat frame_b = {0.0, 0.0, 0.0, 1.0};
-  JointAxis axis = {};
-  JointAxis second = {};
-  bool collide = false;         ///< whether A and B collide with each other
-  Scaled break_force = 0.0;     ///< N, >= 0: the joint breaks when its mean force over a tick exceeds it; 0: never
-  Scaled break_torque = 0.0;    ///< N m, likewise
-  uint32_t user_data = 0;       ///< kept, digested and recorded; never read
+  Vec3<Real> anchor_b = {0.0, 0.0, 0.0};  ///< likewise of B
+  Quat frame_a = {0.0, 0.0, 0.0, 1.0};    ///< from the frame's axes to A's; length 1 within 2^-10, normalised on entry
+  Quat frame_b = {0.0, 0.0, 0.0, 1.0};    ///< likewise of B
+  JointAxis axis = {};                    ///< of the first free motion
+  JointAxis second = {};                  ///< of the second one, where the type has two
+  bool collide = false;                   ///< whether A and B collide with each other
+  Scaled break_force = 0.0;   ///< N, >= 0: the joint breaks when its mean force over a tick exceeds it; 0: never
+  Scaled break_torque = 0.0;  ///< N m, likewise
+  uint32_t user_data = 0;     ///< kept, digested and recorded; never read
 };
 
 /// Names a joint by value, as a BodyId names a body.
 struct JointId {
   uint32_t slot = 0;        ///< index + 1; 0 is null
   uint32_t generation = 0;  ///< 1 for the first joint of a slot
+  /// The same joint.
   friend constexpr bool operator==(JointId a, JointId b) { return a.slot == b.slot && a.generation == b.generation; }
 };
 
@@ -65,17 +68,18 @@ struct JointReaction {
 
 /// A joint that broke in a step, and is gone.
 struct JointEvent {
-  JointId joint;
-  BodyId a, b;
-  uint32_t user_data = 0;
-  JointReaction reaction = {};
+  JointId joint;                ///< the name it had
+  BodyId a;                     ///< one body
+  BodyId b;                     ///< the other
+  uint32_t user_data = 0;       ///< JointDef::user_data
+  JointReaction reaction = {};  ///< what broke it
 };
 
 /// Where a step puts its joint events, in the order of the joints' slots. The caller's memory: it must outlive the
 /// world's use of it. Beyond `capacity` they are dropped and counted in the report; the joints break all the same.
 struct JointEventBuffer {
-  JointEvent* data = nullptr;
-  uint32_t capacity = 0;
+  JointEvent* data = nullptr;  ///< the first place
+  uint32_t capacity = 0;       ///< places
 };
 
 struct World;
@@ -89,9 +93,11 @@ Status destroy_joint(World& world, JointId id);
 /// Makes the joint anew from `def` under the same name: motors, limits, steering. The bodies stay: `def.a`, `def.b` are
 /// not read. Wakes both. Errors: as create_joint.
 Status set_joint(World& world, JointId id, const JointDef& def);
-/// Errors of the getters: bad_id.
+/// A definition that creates the same joint. Errors: bad_id.
 Status get_joint(const World& world, JointId id, JointDef& def);
+/// What the joint bore in the last step that it took part in. Errors: bad_id.
 Status get_joint_reaction(const World& world, JointId id, JointReaction& reaction);
+/// Whether the id names a joint of this world.
 bool is_valid(const World& world, JointId id);
 /// Visits joints in slot order: the first valid id after `previous` (null to begin), or null at the end.
 JointId next_joint(const World& world, JointId previous);

@@ -17,13 +17,14 @@ enum class StepStage : uint32_t {
   finalise,    ///< new poses
   store,       ///< who falls asleep; the contacts for the next tick
 };
-inline constexpr uint32_t k_step_stage_count = 8;
+inline constexpr uint32_t k_step_stage_count = 8;  ///< how many stages there are
 /// The enumerator's name. Never null.
 const char* stage_name(StepStage stage);
 
+/// Times of the stages, summed over steps.
 struct Profile {
-  uint64_t (*now)(void* user) = nullptr;  ///< never goes back; must not touch the world
-  void* user = nullptr;
+  uint64_t (*now)(void* user) = nullptr;    ///< never goes back; must not touch the world
+  void* user = nullptr;                     ///< given to `now`
   uint64_t ticks[k_step_stage_count] = {};  ///< of the clock, in each stage, summed over steps; reset it as you like
   uint64_t steps = 0;                       ///< that were not idle
 };

@@ -19,14 +19,14 @@ inline namespace DETENT_NAMESPACE {
 /// Which bodies are asked: those whose category has a bit in `mask`, and whose mask has one of `category`. Groups and
 /// rules have no part in it.
 struct QueryFilter {
-  uint32_t category = 1;
-  uint32_t mask = ~0u;
-  BodyId ignore = {};  ///< but for this one; null: none
+  uint32_t category = 1;  ///< bits: what the question is
+  uint32_t mask = ~0u;    ///< bits: the categories that it asks
+  BodyId ignore = {};     ///< but for this one; null: none
 };
 
 /// A body that a query found.
 struct QueryHit {
-  BodyId body = {};
+  BodyId body = {};        ///< which
   bool undecided = false;  ///< what follows is a bound: there may be no hit, but none is sooner; point and normal are 0
   Fraction fraction = 0.0;  ///< of a cast: the part of the way until the hit, never late
   Real distance = 0.0;      ///< of query_closest(): between the surfaces, m; 0 where they overlap
@@ -36,10 +36,11 @@ struct QueryHit {
 
 /// Where hits go: the caller's memory. Those beyond it are dropped after all have been sorted, and counted.
 struct QueryHits {
-  QueryHit* data = nullptr;
-  uint32_t capacity = 0;
+  QueryHit* data = nullptr;  ///< the first place
+  uint32_t capacity = 0;     ///< places
 };
 
+/// What a query found, in numbers.
 struct QueryReport {
   uint32_t hits = 0;       ///< written
   uint32_t dropped = 0;    ///< for want of room
@@ -51,46 +52,47 @@ struct QueryReport {
 struct RayQuery {
   Position origin = {0.0, 0.0, 0.0};  ///< m, world
   Vec3<Real> way = {0.0, 0.0, 0.0};   ///< m, world; each component within 2^14
-  QueryFilter filter = {};
-  bool all = false;  ///< every body that it meets, and not only the first
+  QueryFilter filter = {};            ///< whom it asks
+  bool all = false;                   ///< every body that it meets, and not only the first
 };
 
 /// A shape on its way, which turns at a constant rate about a constant axis. `shape`: as of a body, or a sphere of
 /// radius 0, which is a point; not a half-space.
 struct CastQuery {
-  Shape shape = {};
+  Shape shape = {};                      ///< as of a body, or a point
   Position position = {0.0, 0.0, 0.0};   ///< at the start, m, world
   Quat rotation = {0.0, 0.0, 0.0, 1.0};  ///< at the start, local to world
   Vec3<Real> way = {0.0, 0.0, 0.0};      ///< m, world; each component within 2^14
   Vec3<Real> turn = {0.0, 0.0, 0.0};     ///< rotation vector, world, rad; |turn| <= 2^16
-  QueryFilter filter = {};
-  bool all = false;
+  QueryFilter filter = {};               ///< whom it asks
+  bool all = false;                      ///< every body found, and not only the first
 };
 
 /// A shape at rest, as CastQuery has it.
 struct OverlapQuery {
-  Shape shape = {};
+  Shape shape = {};                      ///< as of a body, or a point
   Position position = {0.0, 0.0, 0.0};   ///< m, world
   Quat rotation = {0.0, 0.0, 0.0, 1.0};  ///< local to world
-  QueryFilter filter = {};
-  bool all = false;
+  QueryFilter filter = {};               ///< whom it asks
+  bool all = false;                      ///< every body found, and not only the first
 };
 
 /// A box along the axes, which need only overlap that of a body. Cheap. A half-space is everywhere.
 struct BoundsQuery {
-  Position lower = {0.0, 0.0, 0.0}, upper = {0.0, 0.0, 0.0};  ///< m, world; lower <= upper
-  QueryFilter filter = {};
-  bool all = false;
+  Position lower = {0.0, 0.0, 0.0};  ///< m, world
+  Position upper = {0.0, 0.0, 0.0};  ///< m, world; not below `lower`
+  QueryFilter filter = {};           ///< whom it asks
+  bool all = false;                  ///< every body found, and not only the first
 };
 
 /// A shape at rest, as CastQuery has it, and how far around it is looked.
 struct ClosestQuery {
-  Shape shape = {};
+  Shape shape = {};                      ///< as of a body, or a point
   Position position = {0.0, 0.0, 0.0};   ///< m, world
   Quat rotation = {0.0, 0.0, 0.0, 1.0};  ///< local to world
   Real reach = 16.0;                     ///< between the surfaces, m, [0, 2^14]
-  QueryFilter filter = {};
-  bool all = false;
+  QueryFilter filter = {};               ///< whom it asks
+  bool all = false;                      ///< every body found, and not only the first
 };
 
 /// What the ray hits. A body that holds the origin is hit at fraction 0.

@@ -1,8 +1,8 @@
 #pragma once
 #include <detent/body_access.h>
 #include <detent/forces.h>
-#include <detent/world_access.h>
 #include <detent/query.h>
+#include <detent/world_access.h>
 
 /// @file
 /// Recording and replay: a seed snapshot, every mutating call, and a digest per tick, as a stream of small checked
@@ -185,11 +185,10 @@ struct ReplayError {
 
 /// @cond
 struct Reader;
-/// @endcond
-
 // The library's own: the way into the code that asks recorded queries again.
 struct QueryRepeater;
 extern const QueryRepeater k_query_repeater;
+/// @endcond
 
 /// Replays a recording from a stream. Any bytes may come: every length and number is checked before it is used, each
 /// chunk by its CRC-32 before anything in it is read. The first error stays: later calls return it again.

@@ -11,8 +11,9 @@ inline namespace DETENT_NAMESPACE {
 Position to_world(const Pose& pose, const Vec3<Real>& point);
 /// The reverse: from the centre of mass, m, in the body's axes. Range: within 2^15 m of the body in each coordinate.
 Vec3<Real> to_local(const Pose& pose, const Position& point);
-/// A direction or a vector, from the body's axes to the world's, and back.
+/// A direction or a vector, from the body's axes to the world's.
 Vec3<Real> vector_to_world(const Quat& rotation, const Vec3<Real>& vector);
+/// The reverse of vector_to_world().
 Vec3<Real> vector_to_local(const Quat& rotation, const Vec3<Real>& vector);
 /// `rotation`, and then a turn by |turn| rad about the world's direction of `turn`. Of length 1.
 Quat turned_by(const Quat& rotation, const Vec3<Real>& turn);

@@ -85,7 +85,7 @@ struct World {
   uint32_t lanes =
       1;  ///< contacts that the solver takes at once, 1 or as many as this machine can: the bits are the same
   FilterRuleTable filter_rules = {};  ///< what Filter::rule means; none by default. Set it before any body names one
-  Profile* profile = nullptr;  ///< times of the stages of each step (profile.h)
+  Profile* profile = nullptr;         ///< times of the stages of each step (profile.h)
 };
 
 /// What one step did. Every count is of this step alone.
@@ -112,20 +112,20 @@ struct StepReport {
                                   ///< but continuous collision tries them all
   uint32_t contacts_dropped = 0;  ///< contacts beyond the capacity (the shallowest), lost this tick
   uint32_t saturations = 0;       ///< state components clamped to their range
-  uint32_t joints = 0;                 ///< of which a body is awake
-  uint32_t joints_broken = 0;          ///< and gone
-  uint32_t joint_events = 0;           ///< in the world's buffer
-  uint32_t joint_events_dropped = 0;   ///< beyond the capacity of the world's buffer
-  uint32_t joint_decisions_left = 0;   ///< limits and motors still undecided after the last try of a substep
-  uint32_t impacts = 0;           ///< times at which bodies met within the tick and were made to part
-  uint32_t impacts_undecided = 0;  ///< times of impact found in part, or that could not be asked for
-  uint32_t impacts_dropped = 0;    ///< for want of room, that of contacts: their bodies stayed behind
-  uint32_t overlaps_left = 0;      ///< pairs too deep within each other for continuous collision
-  uint32_t bodies_stopped = 0;     ///< bodies that stayed behind in this tick: too many impacts, or no room for one
-  Real lost_time = 0.0;            ///< sum of the parts of the tick that those missed
-  uint32_t toi_tests = 0;          ///< times of impact asked for
-  uint32_t toi_skipped = 0;        ///< pairs too slow to meet
-  uint32_t colour_overflows = 0;   ///< contacts of bodies that touch more than 64 others, solved after the rest
+  uint32_t joints = 0;            ///< of which a body is awake
+  uint32_t joints_broken = 0;     ///< and gone
+  uint32_t joint_events = 0;      ///< in the world's buffer
+  uint32_t joint_events_dropped = 0;  ///< beyond the capacity of the world's buffer
+  uint32_t joint_decisions_left = 0;  ///< limits and motors still undecided after the last try of a substep
+  uint32_t impacts = 0;               ///< times at which bodies met within the tick and were made to part
+  uint32_t impacts_undecided = 0;     ///< times of impact found in part, or that could not be asked for
+  uint32_t impacts_dropped = 0;       ///< for want of room, that of contacts: their bodies stayed behind
+  uint32_t overlaps_left = 0;         ///< pairs too deep within each other for continuous collision
+  uint32_t bodies_stopped = 0;        ///< bodies that stayed behind in this tick: too many impacts, or no room for one
+  Real lost_time = 0.0;               ///< sum of the parts of the tick that those missed
+  uint32_t toi_tests = 0;             ///< times of impact asked for
+  uint32_t toi_skipped = 0;           ///< pairs too slow to meet
+  uint32_t colour_overflows = 0;      ///< contacts of bodies that touch more than 64 others, solved after the rest
   /// True if nothing was lost: no pool overflowed, no search was capped and no value was clamped.
   constexpr bool complete() const {
     return pairs_dropped == 0 && contacts_dropped == 0 && contacts_capped == 0 && saturations == 0 &&
@@ -206,8 +206,8 @@ Status get_velocity(const World& world, BodyId id, Vec3<Real>& velocity, Vec3<Re
 Status get_mass(const World& world, BodyId id, Scaled& mass);
 /// BodyDef::user_data, or what set_user_data() made of it. Errors: bad_id.
 Status get_user_data(const World& world, BodyId id, uint32_t& user_data);
+/// What the body collides with. Errors: bad_id.
 Status get_filter(const World& world, BodyId id, Filter& filter);
-/// Fixed bodies, and kinematic ones that stand still, are never awake. Errors: bad_id.
 /// Whether a body takes part in the next step. Fixed bodies, and kinematic ones that stand still, are never awake.
 /// Errors: bad_id.
 Status is_awake(const World& world, BodyId id, bool& awake);

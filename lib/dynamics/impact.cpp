@@ -194,8 +194,8 @@ struct Stage {
 
   bool jointed(uint32_t slot) const { return bodies.sweeps[slot].marks >= k_mark_jointed; }
 
-  /// False for pairs that filters or joints keep apart, and for those of one tree of joints; and where joints hold one, for
-  /// half-spaces, which contacts alone keep anything from passing: a body that stops alone tears at its joints.
+  /// False for pairs that filters or joints keep apart, and for those of one tree of joints; and where joints hold one,
+  /// for half-spaces, which contacts alone keep anything from passing: a body that stops alone tears at its joints.
   bool may_meet(uint32_t a, uint32_t b) const {
     if (!PairFilter{bodies.traits, bodies.filter_rules, known.apart}.allows(a, b)) return false;
     if (!jointed(a) && !jointed(b)) return true;

@@ -10,8 +10,8 @@
 ///
 ///     axis . (velocity B - velocity A) + arm B . spin B - arm A . spin A
 ///
-/// and its impulse goes the same way back. Joints make trees of the bodies that move; those of a tree are solved at once,
-/// by elimination from the leaves: a body whose joints below are held answers to a wrench with less than its own
+/// and its impulse goes the same way back. Joints make trees of the bodies that move; those of a tree are solved at
+/// once, by elimination from the leaves: a body whose joints below are held answers to a wrench with less than its own
 /// response, and that is all that the joint above needs to know. What does not move has no response and joins no trees:
 /// a chain between two walls is a tree. The few joints that close loops are solved in turn with the trees.
 /// Source: Baraff, "Linear-time dynamics using Lagrange multipliers", SIGGRAPH 1996; Featherstone, "Rigid Body Dynamics
@@ -29,11 +29,11 @@ struct JointStage {
   Span<JointState> joints;  ///< the slots that were ever used
   Span<const BodyPose> poses;
   Span<const BodyActivity> activities;
-  Span<JointWork> work;      ///< of those at work, in the order of their slots
-  Span<JointBody> bodies;    ///< that they hold
-  Span<uint32_t> order;      ///< of `work`: island by island, from the roots up
-  uint32_t count = 0;        ///< of `work`
-  uint32_t body_count = 0;   ///< of `bodies`
+  Span<JointWork> work;     ///< of those at work, in the order of their slots
+  Span<JointBody> bodies;   ///< that they hold
+  Span<uint32_t> order;     ///< of `work`: island by island, from the roots up
+  uint32_t count = 0;       ///< of `work`
+  uint32_t body_count = 0;  ///< of `bodies`
 };
 
 /// Takes up all joints that hold a body that is awake, and the bodies that they hold, which have been started
@@ -68,8 +68,7 @@ bool is_angular(JointType type, int motion);
 void make_joint_rows(const StepSettings& settings, const JointStage& stage, JointWork& work);
 /// Chooses how the free motions are driven, before anything is solved: a limit that the bodies would pass in this
 /// substep holds. Or after, if what was chosen cannot be.
-void choose_drives(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage,
-                   JointWork& work);
+void choose_drives(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, JointWork& work);
 enum class Revision { none, made };
 Revision revise_drives(const JointState& joint, Scaled share, JointWork& work);
 /// Adds the rows of the free motions that are driven, or notes what pushes without one.

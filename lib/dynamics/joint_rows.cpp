@@ -12,9 +12,9 @@ constexpr Unit k_none = 0.0;
 constexpr Real k_zero = 0.0;
 constexpr Real k_two_pi = 6.28318530717958647693;
 
-/// A substep makes up for half of what the joint has given way. By w^2/2 of its length a joint gives way when it turns by
-/// w in a substep; what is left of it and what is made up for then balance where the half of that is the speed inwards
-/// that the chord of the way asks for: a swing keeps its height. Any other share would gain or lose.
+/// A substep makes up for half of what the joint has given way. By w^2/2 of its length a joint gives way when it turns
+/// by w in a substep; what is left of it and what is made up for then balance where the half of that is the speed
+/// inwards that the chord of the way asks for: a swing keeps its height. Any other share would gain or lose.
 constexpr int k_correction_power = -1;
 
 Vec3<Unit> scaled(const Vec3<Unit>& v, int power) {
@@ -174,8 +174,8 @@ void push_softly(const StepSettings& settings, const SolverBodies& bodies, const
   const Real off = work.value[i] - scale_by_power(joint.target[i], power);
   const Real fast = speed_of(stage, work, i) - scale_by_power(joint.speed[i], power);
   const Scaled pull = multiply(multiply(spring.rate, spring.phase), scaled_from(off));
-  const Scaled drag = multiply(multiply(spring.phase, scaled_by_power(scaled_from(joint.damping_ratio[i]), 1)),
-                               scaled_from(fast));
+  const Scaled drag =
+      multiply(multiply(spring.phase, scaled_by_power(scaled_from(joint.damping_ratio[i]), 1)), scaled_from(fast));
   const Scaled response = own_response(bodies, stage, work, work.free_row[i]);
   if (!is_positive(response)) return;
   const Real most = is_positive(joint.force_max[i]) ? multiply(work.bound[i], settings.share) : k_joint_impulse_max;
@@ -202,8 +202,7 @@ void make_joint_rows(const StepSettings& settings, const JointStage& stage, Join
   const Position &from = stage.poses[a.slot].position, &to = stage.poses[b.slot].position;
   const Vec3<Real> between = {real_difference(to.x, from.x), real_difference(to.y, from.y),
                               real_difference(to.z, from.z)};
-  make.gap =
-      between + (b.place - a.place) + (in_metres(work.arm[1], b.exponent) - in_metres(work.arm[0], a.exponent));
+  make.gap = between + (b.place - a.place) + (in_metres(work.arm[1], b.exponent) - in_metres(work.arm[0], a.exponent));
   if (type != JointType::ball && type != JointType::distance) {
     const Quat frame_a = multiply(a.rotation, joint.frame_a);
     make.frame = matrix_from(frame_a);

@@ -13,7 +13,7 @@ namespace {
 constexpr Real k_zero = 0.0;
 constexpr Vec3<Real> k_none = {k_zero, k_zero, k_zero};
 
-constexpr uint32_t k_decisions = 4;     ///< tries to solve with limits and motors as they must be
+constexpr uint32_t k_decisions = 4;  ///< tries to solve with limits and motors as they must be
 constexpr uint32_t k_loop_sweeps = 6;
 
 Vec3<Real> scaled(const Vec3<Real>& v, Scaled factor) {
@@ -230,7 +230,8 @@ struct Solver {
     for (uint32_t k = 0; k < rows; ++k) {
       for (uint32_t m = 0; m < k; ++m) missing[k] -= work.lower[k][m] * missing[m];
       bool saturated = false;
-      work.start[k] = clamp(multiply(missing[k], work.inverse[k], saturated), -k_joint_impulse_max, k_joint_impulse_max);
+      work.start[k] =
+          clamp(multiply(missing[k], work.inverse[k], saturated), -k_joint_impulse_max, k_joint_impulse_max);
       if (saturated) ++clamped;
     }
   }

@@ -201,8 +201,7 @@ SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<
     }
     sweep([](Solver& contact) { contact.soften(); }, soften_quad);
     if (joints.code != nullptr)
-      count.clamped +=
-          joints.code->solve(settings, bodies, *joints.island, elapsed, *joints.stage, *joints.undecided);
+      count.clamped += joints.code->solve(settings, bodies, *joints.island, elapsed, *joints.stage, *joints.undecided);
     count.clamped += integrate_positions(bodies, island, settings.time);
     sweep([](Solver& contact) { contact.relax(); }, relax_quad);
     elapsed += settings.time;

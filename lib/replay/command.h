@@ -484,13 +484,13 @@ bool with_command(RecordTag tag, const Visitor& visitor) {
       return visit_new<MoveKinematic>(visitor);
     case RecordTag::set_filter:
       return visit_new<SetFilter>(visitor);
-    case RecordTag::query:
     case RecordTag::create_joint:
       return visit_new<CreateJoint>(visitor);
     case RecordTag::destroy_joint:
       return visit_new<DestroyJoint>(visitor);
     case RecordTag::set_joint:
       return visit_new<SetJoint>(visitor);
+    case RecordTag::query:
     case RecordTag::tick:
     case RecordTag::tick_digested:
       break;

@@ -1,6 +1,6 @@
 #include "base/float_environment.h"
-#include "collision/pair_filter.h"
 #include "collision/manifold_reuse.h"
+#include "collision/pair_filter.h"
 #include "dynamics/activity.h"
 #include "dynamics/substeps.h"
 #include "geometry/shape_traits.h"
@@ -276,8 +276,8 @@ Status check_state(const uint8_t* block, Capacity capacity, AssetTable assets, c
   if (!are_slots(state) || !are_assets(state) || !are_fills(block, state.layout)) return Status::corrupt;
   // Before the bodies, which are checked against the hulls that they have.
   if (const Status status = check_assets(assets, features, state.assets); status != Status::ok) return status;
-  if (!are_bodies(state, assets, features) || !are_contacts(state) || !are_manifolds(state) ||
-      !are_joints(state) || (world.idle != 0 && !is_idle(state))) {
+  if (!are_bodies(state, assets, features) || !are_contacts(state) || !are_manifolds(state) || !are_joints(state) ||
+      (world.idle != 0 && !is_idle(state))) {
     return Status::corrupt;
   }
   for (const BodyTraits& traits : state.traits) {

@@ -22,7 +22,8 @@ uint64_t leaf(const Section& section, uint32_t section_index, const uint8_t* ele
   if (!k_big_endian) return digest_bytes(element, bytes, seed);
   uint8_t canonical[k_element_bytes_max];
   static_assert(sizeof(BodyTraits) <= k_element_bytes_max && sizeof(ContactState) <= k_element_bytes_max &&
-                sizeof(WorldState) <= k_element_bytes_max && sizeof(ManifoldState) <= k_element_bytes_max && sizeof(JointState) <= k_element_bytes_max);
+                sizeof(WorldState) <= k_element_bytes_max && sizeof(ManifoldState) <= k_element_bytes_max &&
+                sizeof(JointState) <= k_element_bytes_max);
   memcpy(canonical, element, bytes);
   if (bytes == section.element_bytes) swap_element(section_index, canonical);
   return digest_bytes(canonical, bytes, seed);

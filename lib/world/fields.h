@@ -148,18 +148,14 @@ inline constexpr Field k_manifold_fields[] = {
     DETENT_FIELD(ManifoldState, height), DETENT_FIELD(ManifoldState, anchor),
 };
 inline constexpr Field k_joint_fields[] = {
-    DETENT_FIELD(JointState, type),          DETENT_FIELD(JointState, generation),
-    DETENT_FIELD(JointState, body_a),        DETENT_FIELD(JointState, body_b),
-    DETENT_FIELD(JointState, collide),       DETENT_FIELD(JointState, user_data),
-    DETENT_FIELD(JointState, anchor_a),      DETENT_FIELD(JointState, anchor_b),
-    DETENT_FIELD(JointState, frame_a),       DETENT_FIELD(JointState, frame_b),
-    DETENT_FIELD(JointState, lower),         DETENT_FIELD(JointState, upper),
-    DETENT_FIELD(JointState, frequency),     DETENT_FIELD(JointState, damping_ratio),
-    DETENT_FIELD(JointState, target),        DETENT_FIELD(JointState, speed),
-    DETENT_FIELD(JointState, force_max),     DETENT_FIELD(JointState, limited),
-    DETENT_FIELD(JointState, break_force),   DETENT_FIELD(JointState, break_torque),
-    DETENT_FIELD(JointState, force),         DETENT_FIELD(JointState, torque),
-    DETENT_FIELD(JointState, impulse),
+    DETENT_FIELD(JointState, type),        DETENT_FIELD(JointState, generation),    DETENT_FIELD(JointState, body_a),
+    DETENT_FIELD(JointState, body_b),      DETENT_FIELD(JointState, collide),       DETENT_FIELD(JointState, user_data),
+    DETENT_FIELD(JointState, anchor_a),    DETENT_FIELD(JointState, anchor_b),      DETENT_FIELD(JointState, frame_a),
+    DETENT_FIELD(JointState, frame_b),     DETENT_FIELD(JointState, lower),         DETENT_FIELD(JointState, upper),
+    DETENT_FIELD(JointState, frequency),   DETENT_FIELD(JointState, damping_ratio), DETENT_FIELD(JointState, target),
+    DETENT_FIELD(JointState, speed),       DETENT_FIELD(JointState, force_max),     DETENT_FIELD(JointState, limited),
+    DETENT_FIELD(JointState, break_force), DETENT_FIELD(JointState, break_torque),  DETENT_FIELD(JointState, force),
+    DETENT_FIELD(JointState, torque),      DETENT_FIELD(JointState, impulse),
 };
 #undef DETENT_FIELD
 

@@ -31,9 +31,8 @@ bool is_axis(const JointState& joint, int i) {
   const Real most = angle ? k_angle_max : k_axis_max;
   const bool frequency = joint.frequency[i] == k_zero || within(joint.frequency[i], k_frequency_min, k_frequency_max);
   return joint.limited[i] <= 1 && within(joint.lower[i], -most, most) && within(joint.upper[i], -most, most) &&
-         joint.lower[i] <= joint.upper[i] && frequency &&
-         within(joint.damping_ratio[i], k_zero, k_damping_ratio_max) && within(joint.target[i], -most, most) &&
-         within(joint.speed[i], -k_joint_speed_max, k_joint_speed_max) &&
+         joint.lower[i] <= joint.upper[i] && frequency && within(joint.damping_ratio[i], k_zero, k_damping_ratio_max) &&
+         within(joint.target[i], -most, most) && within(joint.speed[i], -k_joint_speed_max, k_joint_speed_max) &&
          is_between(joint.force_max[i], Scaled(0.0), k_force_max);
 }
 
@@ -63,7 +62,7 @@ void set_axis(const JointAxis& axis, int i, JointState& joint) {
 }
 
 JointAxis axis_of(const JointState& joint, int i) {
-  return {joint.limited[i] != 0, joint.lower[i],  joint.upper[i], joint.frequency[i],
+  return {joint.limited[i] != 0,  joint.lower[i],  joint.upper[i], joint.frequency[i],
           joint.damping_ratio[i], joint.target[i], joint.speed[i], joint.force_max[i]};
 }
 
@@ -119,7 +118,9 @@ Scaled size_of(const Vec3<Scaled>& v) {
 }
 
 bool is_broken(const JointState& joint) {
-  const auto over = [](const Vec3<Scaled>& load, Scaled most) { return is_positive(most) && less(most, size_of(load)); };
+  const auto over = [](const Vec3<Scaled>& load, Scaled most) {
+    return is_positive(most) && less(most, size_of(load));
+  };
   return over(joint.force, joint.break_force) || over(joint.torque, joint.break_torque);
 }
 

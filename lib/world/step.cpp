@@ -367,8 +367,8 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   const Span<ContactOrder> order = scratch.contact_order.first(count.contacts);
   clock.end(StepStage::collide);
 
-  report.islands = find_islands(moving, traits, activities, contacts, joints, work, scratch.islands,
-                                scratch.island_bodies);
+  report.islands =
+      find_islands(moving, traits, activities, contacts, joints, work, scratch.islands, scratch.island_bodies);
   const Span<Island> islands = scratch.islands.first(report.islands);
   report.colour_overflows = order_contacts(traits, contacts, islands, work, scratch.contact_sort, order);
   estimate_loads(settings, poses, traits, scratch.island_bodies, islands, order, scratch.contact_sort, work, contacts);

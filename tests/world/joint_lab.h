@@ -68,8 +68,7 @@ inline JointEnds joint_ends(const World& world, JointId id) {
   return {joint_end(world, def.a, def.anchor_a, def.frame_a), joint_end(world, def.b, def.anchor_b, def.frame_b)};
 }
 
-inline BodyId add_shape(Lab& lab, const Shape& shape, double x, double y, double z,
-                        BodyType type = BodyType::dynamic) {
+inline BodyId add_shape(Lab& lab, const Shape& shape, double x, double y, double z, BodyType type = BodyType::dynamic) {
   BodyDef def;
   def.type = type;
   def.shape = shape;

@@ -148,23 +148,23 @@ struct Island {
   uint32_t loop_count;                ///< of them, the last ones: those that close loops
 };
 
-/// A body that joints hold, while joints are solved. Its *unit* is a power of two that holds its joints' arms; spins and
-/// momenta are those of that unit (spin.h). What does not move for the solver takes no part but by its motion.
+/// A body that joints hold, while joints are solved. Its *unit* is a power of two that holds its joints' arms; spins
+/// and momenta are those of that unit (spin.h). What does not move for the solver takes no part but by its motion.
 struct alignas(8) JointBody {
   uint32_t slot;
-  uint32_t mobile;       ///< 1 if it is dynamic and awake
-  uint32_t first, last;  ///< of its joints, as 2 x joint + end; UINT32_MAX: none
-  uint32_t met;          ///< 1 once its tree has been grown to it
-  int32_t exponent;      ///< of the unit, m
-  int32_t above;         ///< by how much that is more than the body's own
-  uint32_t owner;        ///< the joint of its tree that it is visited with
-  alignas(sizeof(Real)) Scaled share;  ///< reference mass / mass; 0 if it takes no part
-  Quat rotation;                       ///< now
-  Matrix3 axes;                        ///< likewise
-  Vec3<Real> place;                    ///< of its centre, from where it was at the start of the tick, m
-  Vec3<Real> velocity, spin;           ///< as the joints eliminated so far leave them, m/s
-  Real response[6][6];                 ///< of velocity and spin to a force and a torque on it; symmetric
-  Vec3<Real> force, torque;            ///< what joints above or eliminated later give it
+  uint32_t mobile;                       ///< 1 if it is dynamic and awake
+  uint32_t first, last;                  ///< of its joints, as 2 x joint + end; UINT32_MAX: none
+  uint32_t met;                          ///< 1 once its tree has been grown to it
+  int32_t exponent;                      ///< of the unit, m
+  int32_t above;                         ///< by how much that is more than the body's own
+  uint32_t owner;                        ///< the joint of its tree that it is visited with
+  alignas(sizeof(Real)) Scaled share;    ///< reference mass / mass; 0 if it takes no part
+  Quat rotation;                         ///< now
+  Matrix3 axes;                          ///< likewise
+  Vec3<Real> place;                      ///< of its centre, from where it was at the start of the tick, m
+  Vec3<Real> velocity, spin;             ///< as the joints eliminated so far leave them, m/s
+  Real response[6][6];                   ///< of velocity and spin to a force and a torque on it; symmetric
+  Vec3<Real> force, torque;              ///< what joints above or eliminated later give it
   Vec3<Real> given_force, given_torque;  ///< what acts without a row: motors at their limit
 };
 
@@ -178,34 +178,34 @@ struct JointRow {
 enum class DriveMode : uint8_t { idle, held, lower, upper, rigid, spring, constant };
 
 struct alignas(8) JointWork {
-  uint32_t joint;      ///< slot
-  uint32_t body[2];    ///< places of A and B
-  uint32_t next[2];    ///< of the joints of A, of B: 2 x joint + end
-  uint32_t parent;     ///< the end that is solved last
-  uint32_t placed;     ///< 1 once it is in the order
-  uint32_t rows_held;  ///< always
-  uint32_t rows;       ///< and driven, in this substep
-  uint32_t points;     ///< 1 if the first three rows hold the anchors together
-  uint32_t driven[2];  ///< the row of each free motion that is driven now, or k_joint_rows_max
-  alignas(4) DriveMode mode[2];                    ///< of each free motion
-  Vec3<Unit> arm[2];                               ///< the anchors, from the bodies' centres, in their units
-  int32_t exponent;                                ///< 2^exponent m: how far angular rows reach
-  JointRow row[k_joint_rows_max];                  ///< those beyond the points
+  uint32_t joint;                  ///< slot
+  uint32_t body[2];                ///< places of A and B
+  uint32_t next[2];                ///< of the joints of A, of B: 2 x joint + end
+  uint32_t parent;                 ///< the end that is solved last
+  uint32_t placed;                 ///< 1 once it is in the order
+  uint32_t rows_held;              ///< always
+  uint32_t rows;                   ///< and driven, in this substep
+  uint32_t points;                 ///< 1 if the first three rows hold the anchors together
+  uint32_t driven[2];              ///< the row of each free motion that is driven now, or k_joint_rows_max
+  alignas(4) DriveMode mode[2];    ///< of each free motion
+  Vec3<Unit> arm[2];               ///< the anchors, from the bodies' centres, in their units
+  int32_t exponent;                ///< 2^exponent m: how far angular rows reach
+  JointRow row[k_joint_rows_max];  ///< those beyond the points
   alignas(sizeof(Real)) Scaled inverse[k_joint_rows_max];  ///< of the pivots
-  Real least[2];                                   ///< what of a linear and an angular row's response counts
-  Real softness[k_joint_rows_max];                 ///< what a spring adds to a row's response
-  Real wanted[k_joint_rows_max];                   ///< speed of each row, m/s
-  Real lower[k_joint_rows_max][k_joint_rows_max];  ///< L of L D L^T
-  Real reply[k_joint_rows_max][6];                 ///< L^-1 of what the rows do to the parent
-  Real reply_scaled[k_joint_rows_max][6];          ///< times the inverse pivots
-  Real start[k_joint_rows_max];                    ///< the impulses, but for what comes from above, before L^-T
-  Real impulse[k_joint_rows_max];                  ///< of this solve
-  Real total[k_joint_rows_max];                    ///< of this substep: of a joint that closes a loop
-  Real value[2];                                   ///< of the free motions, m (angles: times 2^exponent)
-  Real bound[2];                                   ///< largest impulse of a motor or spring, m/s
-  Real constant[2];                                ///< that acts instead of a row, m/s
-  JointRow free_row[2];                            ///< of the free motions
-  Vec3<Real> force_sum, torque_sum;                ///< of the tick, m/s, torques over 2^exponent m
+  Real least[2];                                           ///< what of a linear and an angular row's response counts
+  Real softness[k_joint_rows_max];                         ///< what a spring adds to a row's response
+  Real wanted[k_joint_rows_max];                           ///< speed of each row, m/s
+  Real lower[k_joint_rows_max][k_joint_rows_max];          ///< L of L D L^T
+  Real reply[k_joint_rows_max][6];                         ///< L^-1 of what the rows do to the parent
+  Real reply_scaled[k_joint_rows_max][6];                  ///< times the inverse pivots
+  Real start[k_joint_rows_max];                            ///< the impulses, but for what comes from above, before L^-T
+  Real impulse[k_joint_rows_max];                          ///< of this solve
+  Real total[k_joint_rows_max];                            ///< of this substep: of a joint that closes a loop
+  Real value[2];                                           ///< of the free motions, m (angles: times 2^exponent)
+  Real bound[2];                                           ///< largest impulse of a motor or spring, m/s
+  Real constant[2];                                        ///< that acts instead of a row, m/s
+  JointRow free_row[2];                                    ///< of the free motions
+  Vec3<Real> force_sum, torque_sum;                        ///< of the tick, m/s, torques over 2^exponent m
 };
 
 /// The motion of a body for the rest of the tick, from its pose at `from`: constant velocity and constant world spin.

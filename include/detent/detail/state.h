@@ -74,7 +74,7 @@ struct BodyTraits {
   uint32_t mask;
   int32_t group;
   uint32_t rule;
-  Vec3<Unit> size;    ///< in that unit: half extents; (radius, half length, 0); or of a hull the greatest |x|, |y|, |z|
+  Vec3<Unit> size;  ///< in that unit: half extents; (radius, half length, 0); or of a hull the greatest |x|, |y|, |z|
   Unit bounding_radius;  ///< in that unit, `rounding` included
   Unit rounding;         ///< in that unit: radius of the ball that rounds a box, cylinder, cone or hull, else 0
   Scaled mass;           ///< kg; if not dynamic what it would have, or 0
@@ -151,8 +151,8 @@ struct alignas(8) JointState {
   uint32_t limited[2];
   Scaled break_force;
   Scaled break_torque;
-  Vec3<Scaled> force;   ///< on B in the last tick, N, world
-  Vec3<Scaled> torque;  ///< N m
+  Vec3<Scaled> force;              ///< on B in the last tick, N, world
+  Vec3<Scaled> torque;             ///< N m
   Real impulse[k_joint_rows_max];  ///< of a joint that closes a loop: what it starts from, m/s; else 0
 };
 
