@@ -1,7 +1,7 @@
 #pragma once
 #include "tests/scenes/scene.h"
 
-/// Every mutating call of the world during the match: a kinematic mover, pushes of each kind, bodies that come and go.
+/// Calls of world.h during the match: a kinematic mover, pushes of each kind, bodies that come and go.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace traffic {
@@ -11,7 +11,7 @@ void build(Recorder& recorder);
 void before_tick(Recorder& recorder, uint32_t tick);
 
 inline constexpr Scene k_scene = {
-    "traffic", "every call: a mover, pushes of each kind, bodies that come and go", 300, world, build, before_tick};
+    "traffic", "calls: a mover, pushes of each kind, bodies that come and go", 300, world, build, before_tick};
 
 }  // namespace traffic
 }  // namespace DETENT_NAMESPACE
