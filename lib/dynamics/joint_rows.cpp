@@ -17,6 +17,8 @@ constexpr Real k_two_pi = 6.28318530717958647693;
 /// inwards that the chord of the way asks for: a swing keeps its height. Any other share would gain or lose.
 constexpr int k_correction_power = -1;
 
+constexpr Real k_twist_rate_min = 0.75;
+
 Vec3<Unit> scaled(const Vec3<Unit>& v, int power) {
   return {scale_by_power(v.x, power), scale_by_power(v.y, power), scale_by_power(v.z, power)};
 }
@@ -90,10 +92,26 @@ struct RowMaker {
   void free_motion(int i, const JointRow& row, Real value) {
     work.free_row[i] = row;
     work.value[i] = value;
+    work.shown[i] = Real(1.0);
   }
   void free_slide(int i) { free_motion(i, linear(frame.column[0]), dot(gap, frame.column[0])); }
   void free_turn(int i, int axis, Unit sine) {
     free_motion(i, angular(frame.column[axis]), length_of(twist_of(sine, relative.w)));
+  }
+  /// The twist about x that is left of the turn once x has leaned the shortest way: it goes with the spin about the sum
+  /// of the two x, over 1 and the cosine of the lean. Where that grows beyond an arm's range the row shows a part of
+  /// it.
+  void free_twist(int i) {
+    const Vec3<Unit> x = {Unit(1.0), k_none, k_none}, leaning = rotate(relative, x);
+    const Vec3<Unit> own = frame.column[0], other = multiply(frame, leaning);
+    const Real rate = real_from_unit(leaning.x, 0) + Real(1.0);
+    const Scaled share = scaled_reciprocal(max(rate, k_twist_rate_min));
+    const auto sum = [&](Unit of_a, Unit of_b) {
+      return unit_held(multiply(real_from_unit(of_a, 0) + real_from_unit(of_b, 0), share), 0);
+    };
+    const Vec3<Unit> axis = {sum(own.x, other.x), sum(own.y, other.y), sum(own.z, other.z)};
+    free_motion(i, angular(axis), length_of(twist_of(relative.x, relative.w)));
+    if (rate < k_twist_rate_min) work.shown[i] = max(multiply(rate, share), k_zero);
   }
   /// How far B's x leans off A's, about the axis that it leans about.
   void free_lean(int i) {
@@ -237,7 +255,7 @@ void make_joint_rows(const StepSettings& settings, const JointStage& stage, Join
       break;
     case JointType::cone_twist:
       make.hold_points();
-      make.free_turn(0, 0, relative.x);
+      make.free_twist(0);
       make.free_lean(1);
       break;
     case JointType::wheel:
@@ -297,13 +315,15 @@ void add_driven_rows(const StepSettings& settings, const SolverBodies& bodies, c
     } else {
       work.wanted[row] = scale_by_power(joint.speed[i], power);
     }
-    if (mode != DriveMode::spring) continue;
-    const Spring spring(settings, joint, i);
-    bool saturated = false;
-    const Real off = work.value[i] - scale_by_power(joint.target[i], power);
-    work.wanted[row] -= multiply(off, divide(spring.rate, spring.damping), saturated);
-    const Scaled response = own_response(bodies, stage, work, work.free_row[i]);
-    work.softness[row] = to_real(divide(response, spring.stiffness()), saturated);
+    if (mode == DriveMode::spring) {
+      const Spring spring(settings, joint, i);
+      bool saturated = false;
+      const Real off = work.value[i] - scale_by_power(joint.target[i], power);
+      work.wanted[row] -= multiply(off, divide(spring.rate, spring.damping), saturated);
+      const Scaled response = own_response(bodies, stage, work, work.free_row[i]);
+      work.softness[row] = to_real(divide(response, spring.stiffness()), saturated);
+    }
+    work.wanted[row] = work.wanted[row] * work.shown[i];
   }
 }
 

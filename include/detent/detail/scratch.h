@@ -204,6 +204,7 @@ struct alignas(8) JointWork {
   Real value[2];                                           ///< of the free motions, m (angles: times 2^exponent)
   Real bound[2];                                           ///< largest impulse of a motor or spring, m/s
   Real constant[2];                                        ///< that acts instead of a row, m/s
+  Real shown[2];                                   ///< what of a free motion's speed its row shows
   JointRow free_row[2];                                    ///< of the free motions
   Vec3<Real> force_sum, torque_sum;                        ///< of the tick, m/s, torques over 2^exponent m
 };
