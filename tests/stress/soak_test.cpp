@@ -141,13 +141,13 @@ struct Ending {
   uint64_t digest;
 };
 #if defined(DETENT_FX64)
-constexpr Ending k_endings[] = {{10000, 0x797ec18e98821848}, {1000000, 0x2bb9597be21193e9}};
+constexpr Ending k_endings[] = {{10000, 0x6816d95f1e421103}, {1000000, 0x2bb9597be21193e9}};
 #elif defined(DETENT_FX32)
-constexpr Ending k_endings[] = {{10000, 0x9ad5f16babab6230}, {1000000, 0x899c4af40423e392}};
+constexpr Ending k_endings[] = {{10000, 0x399c4ced7a8afdb3}, {1000000, 0x899c4af40423e392}};
 #elif defined(DETENT_F32)
-constexpr Ending k_endings[] = {{10000, 0xac3adc3e932cad12}};
+constexpr Ending k_endings[] = {{10000, 0x757cff35cd4eebab}};
 #else
-constexpr Ending k_endings[] = {{10000, 0xbea73786ec361a0f}};
+constexpr Ending k_endings[] = {{10000, 0xb95585d6e5e88644}};
 #endif
 
 /// A million ticks where time does not matter.
