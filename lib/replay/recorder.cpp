@@ -12,6 +12,7 @@ inline namespace DETENT_NAMESPACE {
 
 // A record is at most as long as its command, and always fits an empty chunk.
 static_assert(sizeof(CreateBody) + 1 <= k_chunk_payload_bytes_max);
+static_assert(sizeof(SetJoint) + 1 <= k_chunk_payload_bytes_max);
 static_assert(sizeof(CastCommand) + 4 <= k_chunk_payload_bytes_max);
 
 Recorder::Recorder(World& world, Sink sink, uint8_t* buffer, uint32_t buffer_bytes)

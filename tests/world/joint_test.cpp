@@ -372,6 +372,22 @@ DETENT_TEST(joint, a_body_hangs_from_a_kinematic_one_as_that_turns) {
   EXPECT_LE(worst, 2e-3);
 }
 
+DETENT_TEST(joint, a_pendulum_keeps_its_energy) {
+  Lab lab(room(2, 1));
+  const BodyId ground = add_shape(lab, box(reals(0.1, 0.1, 0.1)), 0, 0, 0, BodyType::fixed);
+  const BodyId bob = add_shape(lab, sphere(real(0.1)), 1, 0, 0);
+  add_joint(lab, JointType::ball, ground, bob, 0, 0, 0);
+  double worst = 0;
+  for (int tick = 0; tick < 1800; ++tick) {
+    lab.run(1);
+    const Motion motion = lab.motion(bob);
+    const Vector velocity = {motion.velocity[0], motion.velocity[1], motion.velocity[2]};
+    const double energy = dot(velocity, velocity) / 2 * (1 + 0.4 * 0.01) + 9.81 * motion.position[1];
+    worst = std::max(worst, std::abs(energy) / 9.81);
+  }
+  EXPECT_LE(worst, 0.02) << "of what it falls through";
+}
+
 DETENT_TEST(joint, bodies_that_it_connects_collide_only_if_it_says_so) {
   for (const bool collide : {false, true}) {
     Lab lab(room(2, 1), weightless());
