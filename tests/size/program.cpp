@@ -23,7 +23,7 @@ constexpr Features k_features = DETENT_SIZE_FEATURES;
 constexpr bool k_recording = DETENT_SIZE_RECORDING;
 constexpr bool has(Features feature) { return contains(k_features, feature); }
 
-constexpr Capacity k_capacity = {8, 7, 1};
+constexpr Capacity k_capacity = {8, 7, 1, true, has(Features::joints) ? 1 : 0};
 constexpr uint32_t k_ticks = 40;
 
 WorldStorage<k_capacity> storage;
@@ -48,6 +48,7 @@ bool add(Calls& calls, const Shape& shape, Coord x) {
 struct Direct {
   World& world;
   Status create_body(const BodyDef& def, BodyId& id) { return detent::create_body(world, def, id); }
+  Status create_joint(const JointDef& def, JointId& id) { return detent::create_joint(world, def, id); }
   StepReport step() { return detent::step(world); }
 };
 
@@ -71,6 +72,19 @@ bool ask(const World& world) {
 bool ask(const World&) { return true; }
 #endif
 
+/// A rod of 1.25 m between the two balls.
+template <class Calls>
+bool join(Calls& calls) {
+  JointDef def;
+  def.type = JointType::distance;
+  def.a = {2, 1};
+  def.b = {3, 1};
+  def.axis.limited = true;
+  def.axis.lower = def.axis.upper = Real(1.25);
+  JointId id;
+  return calls.create_joint(def, id) == Status::ok;
+}
+
 template <class Calls>
 bool run(Calls& calls) {
   BodyDef ground;
@@ -84,6 +98,7 @@ bool run(Calls& calls) {
   if constexpr (has(Features::cylinder)) good = good && add(calls, cylinder(0.25, 0.25), 0.5);
   if constexpr (has(Features::cone)) good = good && add(calls, cone(0.25, 0.25), 1.5);
   if constexpr (has(Features::rounding)) good = good && add(calls, rounded(box({0.25, 0.25, 0.25}), 0.125), 2.5);
+  if constexpr (has(Features::joints)) good = good && join(calls);
   for (uint32_t tick = 0; tick < k_ticks; ++tick) good = good && calls.step().complete();
   return good;
 }

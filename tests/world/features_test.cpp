@@ -6,7 +6,7 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 constexpr Features k_balls = Features::sphere | Features::half_space;
-constexpr Capacity k_capacity = {12, 24, 1};
+constexpr Capacity k_capacity = {12, 24, 1, true, 1};
 
 /// A world of few features, in memory of its own.
 struct Lean {
@@ -34,6 +34,14 @@ struct Lean {
     def.velocity = reals(type == BodyType::dynamic ? -x : 0, 0, 0);
     BodyId id;
     return create_body(world, def, id);
+  }
+  /// A ball joint between the first two bodies.
+  Status join() {
+    JointDef def;
+    def.a = next_body(world, {});
+    def.b = next_body(world, def.a);
+    JointId id;
+    return create_joint(world, def, id);
   }
   std::vector<uint64_t> saved() {
     std::vector<uint64_t> bytes(snapshot_bytes(k_capacity) / 8);
@@ -129,6 +137,19 @@ DETENT_TEST(features, a_policy_that_is_left_out_is_refused) {
   EXPECT_EQ(put_to_sleep(lean.world, next_body(lean.world, {})), Status::feature_missing);
 }
 
+DETENT_TEST(features, joints_that_are_left_out_are_refused_and_change_nothing) {
+  Lean lean(feature_table<k_balls>), jointed(feature_table<k_balls | Features::joints>);
+  for (Lean* world : {&lean, &jointed}) {
+    for (const double x : {0.0, 2.0}) EXPECT_OK(world->add(sphere(real(0.5)), x, 1));
+  }
+  const uint64_t before = digest(lean.world);
+  EXPECT_EQ(before, digest(jointed.world));
+  EXPECT_EQ(lean.join(), Status::feature_missing);
+  EXPECT_EQ(digest(lean.world), before);
+  EXPECT_OK(jointed.join());
+  EXPECT_EQ(step(jointed.world).joints, 1u);
+}
+
 DETENT_TEST(features, a_snapshot_goes_to_a_world_that_has_all_that_its_own_had) {
   Lean lean(feature_table<k_balls>), all(feature_table<Features::all>, Lean::def_of(feature_table<k_balls>));
   EXPECT_OK(all.status);
@@ -154,12 +175,15 @@ DETENT_TEST(features, a_snapshot_goes_to_a_world_that_has_all_that_its_own_had) 
 DETENT_TEST(features, a_snapshot_that_uses_what_it_says_was_left_out_is_corrupt) {
   Lean all(feature_table<Features::all>);
   EXPECT_OK(all.add(rounded(box(reals(0.25, 0.25, 0.25)), real(0.125)), 0, 1));
+  EXPECT_OK(all.add(rounded(box(reals(0.25, 0.25, 0.25)), real(0.125)), 2, 1));
+  EXPECT_OK(all.join());
   const std::vector<uint64_t> good = all.saved();
   for (uint32_t bit = 0; bit < 32; ++bit) {
     std::vector<uint64_t> bytes = good;
     bytes_of(bytes)[offsetof(BlockHeader, left_out) + bit / 8] ^= static_cast<uint8_t>(1u << bit % 8);
     const Features left_out = static_cast<Features>(1u << bit);
-    const Features used = Features::box | Features::rounding | Features::continuous | Features::sleeping;
+    const Features used =
+        Features::box | Features::rounding | Features::continuous | Features::sleeping | Features::joints;
     const Status expected = !contains(Features::all, left_out) ? Status::format_unknown
                             : contains(used, left_out)         ? Status::corrupt
                                                                : Status::ok;

@@ -1,5 +1,6 @@
 #include <detent/body_access.h>
 #include <detent/contacts.h>
+#include <detent/query.h>
 #include <detent/world_access.h>
 
 #include <limits>
@@ -9,7 +10,7 @@
 #include "tests/oracle/effort.h"
 #include "tests/queries/random.h"
 #include "tests/replay/match.h"
-#include "tests/world/lab.h"
+#include "tests/world/joint_lab.h"
 
 /// Random calls, good and bad, against a model of what their documentation says: statuses, what getters return, that a
 /// call that fails changes nothing, that every state can be loaded, and that a recording of the calls replays.
@@ -19,7 +20,7 @@ namespace {
 
 using Random = detent_queries::Random;
 
-constexpr uint32_t k_bodies = 10, k_calls = 40, k_segments = 3;
+constexpr uint32_t k_bodies = 10, k_joints = 6, k_calls = 40, k_segments = 3;
 
 /// What is known of a body without asking.
 struct Known {
@@ -29,17 +30,22 @@ struct Known {
   Real linear_damping = 0.0, angular_damping = 0.0, gravity_scale = 1.0;
   Scaled mass = 0.0;  ///< 0: not known
   uint32_t user_data = 0, turn_locks = 0;
+  Filter filter = {};
 };
 
 struct Model {
   std::map<uint32_t, std::pair<BodyId, Known>> bodies;  ///< by slot
   std::vector<BodyId> gone;
+  std::map<uint32_t, std::pair<JointId, JointDef>> joints;  ///< by slot
+  std::vector<JointId> joints_gone;
 };
 
 class Game {
  public:
   /// Every fourth is of sizes and speeds of all orders, whose ranges may be left.
-  explicit Game(uint64_t seed) : random_(seed), wide_(seed % 4 == 0), owned_(settings()) {}
+  explicit Game(uint64_t seed) : random_(seed), wide_(seed % 4 == 0), owned_(settings()) {
+    world().joint_events = {broken_, k_joints};
+  }
 
   /// Calls in segments: each is recorded, and replayed at its end; between them the world may go back.
   void play() {
@@ -63,7 +69,7 @@ class Game {
   static bool failed() { return testing::Test::HasFailure(); }
   static WorldDef settings() {
     WorldDef def;
-    def.capacity = {k_bodies, 24, 1, true};
+    def.capacity = {k_bodies, 24, 1, true, k_joints};
     return def;
   }
   World& world() { return owned_.world; }
@@ -83,6 +89,7 @@ class Game {
     for (uint32_t i = 0; i < k_calls && !failed(); ++i) {
       call();
       check_bodies();
+      check_joints();
     }
     EXPECT_OK(recorder.end());
     const Replay outcome = replay(memory.bytes);
@@ -150,6 +157,52 @@ class Game {
         return half_space();
     }
   }
+  Filter filter() {
+    Filter made;
+    made.category = 1u << random_.below(3);
+    made.mask = random_.chance(0.5) ? ~0u : random_.below(8);
+    made.group = static_cast<int32_t>(random_.below(5)) - 2;
+    return made;
+  }
+  JointAxis joint_axis(bool& wrong) {
+    JointAxis axis;
+    axis.limited = random_.chance(0.5);
+    axis.lower = number(-2, 0, wrong);
+    axis.upper = random_.chance(0.2) ? axis.lower : number(0, 2, wrong);
+    if (random_.chance(0.02)) {
+      axis.lower = real(2.5);
+      wrong = true;
+    }
+    if (random_.chance(0.4)) axis.frequency = number(0.5, 30, wrong);
+    axis.damping_ratio = number(0, 2, wrong);
+    axis.target = number(-1, 1, wrong);
+    axis.speed = number(-5, 5, wrong);
+    if (random_.chance(0.5)) axis.force_max = scaled(random_.log_uniform(0.1, 1000));
+    if (random_.chance(0.02)) {
+      axis.force_max = scaled(-1);
+      wrong = true;
+    }
+    return axis;
+  }
+  void place_anyhow(JointDef& def, bool& wrong) {
+    def.anchor_a = vector(0.5, wrong);
+    def.anchor_b = vector(0.5, wrong);
+    def.frame_a = rotation(wrong);
+    def.frame_b = rotation(wrong);
+  }
+  /// All but the bodies and the place.
+  JointDef joint(bool& wrong) {
+    JointDef def;
+    def.type = static_cast<JointType>(bad() ? 8 : 1 + random_.below(7));
+    wrong = wrong || def.type > JointType::wheel;
+    def.axis = joint_axis(wrong);
+    def.second = joint_axis(wrong);
+    def.collide = random_.chance(0.5);
+    if (random_.chance(0.3)) def.break_force = scaled(random_.log_uniform(1, 10000));
+    if (random_.chance(0.3)) def.break_torque = scaled(random_.log_uniform(1, 10000));
+    def.user_data = static_cast<uint32_t>(random_.next());
+    return def;
+  }
   Material material(bool& wrong) {
     const Real friction = number(0, 2, wrong), restitution = number(0, 1, wrong), rolling = number(0, 0.2, wrong);
     Material made = {friction, restitution, rolling, RestitutionRule::larger};
@@ -181,6 +234,16 @@ class Game {
     auto body = model_.bodies.begin();
     std::advance(body, random_.below(static_cast<uint32_t>(model_.bodies.size())));
     return body->second.first;
+  }
+  JointId pick_joint() {
+    if (model_.joints.empty() || bad()) {
+      if (!model_.joints_gone.empty() && random_.chance(0.5))
+        return model_.joints_gone[random_.below(static_cast<uint32_t>(model_.joints_gone.size()))];
+      return random_.chance(0.5) ? JointId{} : JointId{random_.below(12), 1000 + random_.below(3)};
+    }
+    auto joint = model_.joints.begin();
+    std::advance(joint, random_.below(static_cast<uint32_t>(model_.joints.size())));
+    return joint->second.first;
   }
   Known* find(BodyId id) {
     const auto body = model_.bodies.find(id.slot);
@@ -225,6 +288,7 @@ class Game {
     def.gravity_scale = number(-1, 2, wrong);
     def.mass = scaled(random_.log_uniform(0.1, 100));
     def.turn_locks = random_.chance(0.5) ? 0 : locks(wrong);
+    def.filter = filter();
     def.user_data = static_cast<uint32_t>(random_.next());
     BodyId id = {99, 99};
     const Status status = recorder_->create_body(def, id);
@@ -240,7 +304,7 @@ class Game {
     }
     EXPECT_EQ(model_.bodies.count(id.slot), 0u);
     Known known = {def.type,          def.shape.type, def.material,  def.linear_damping, def.angular_damping,
-                   def.gravity_scale, def.mass,       def.user_data, def.turn_locks};
+                   def.gravity_scale, def.mass,       def.user_data, def.turn_locks,     def.filter};
     model_.bodies[id.slot] = {id, known};
   }
 
@@ -249,6 +313,139 @@ class Game {
     if (!made) return;
     model_.bodies.erase(id.slot);
     model_.gone.push_back(id);
+    for (auto joint = model_.joints.begin(); joint != model_.joints.end();) {
+      const auto& [joint_id, def] = (joint++)->second;
+      if (def.a == id || def.b == id) forget(joint_id);
+    }
+  }
+
+  void forget(JointId id) {
+    model_.joints_gone.push_back(id);
+    model_.joints.erase(id.slot);
+  }
+
+  void create_any_joint() {
+    bool wrong = false;
+    JointDef def = joint(wrong);
+    def.a = pick();
+    def.b = pick();
+    const Known *a = find(def.a), *b = find(def.b);
+    if (random_.chance(0.7)) {
+      const Position point = place();
+      bool frame_wrong = false;
+      const Quat frame = rotation(frame_wrong);
+      const Status status = place_joint(world(), point, frame, def);
+      if (a == nullptr || b == nullptr) {
+        EXPECT_EQ(status, Status::bad_id);
+      } else if (frame_wrong) {
+        EXPECT_EQ(status, Status::not_normalised);
+      } else {
+        EXPECT_TRUE(status == Status::ok || wide_) << status_text(status);
+      }
+    } else {
+      place_anyhow(def, wrong);
+    }
+    const auto dynamic = [](const Known& body) { return body.type == BodyType::dynamic; };
+    if (a != nullptr && b != nullptr) wrong = wrong || def.a == def.b || (!dynamic(*a) && !dynamic(*b));
+    JointId id = {99, 99};
+    const Status status = recorder_->create_joint(def, id);
+    if (!wrong && a != nullptr && b != nullptr && status == Status::pool_full) {
+      EXPECT_EQ(model_.joints.size(), k_joints);
+    } else {
+      judge("create_joint", status, a != nullptr ? b : a, wrong, true);
+    }
+    if (status != Status::ok) {
+      EXPECT_EQ(digest(world()), before_);
+      EXPECT_TRUE((id == JointId{99, 99}));
+      return;
+    }
+    EXPECT_EQ(model_.joints.count(id.slot), 0u);
+    model_.joints[id.slot] = {id, def};
+  }
+
+  void change_joint() {
+    const JointId id = pick_joint();
+    const auto known = model_.joints.find(id.slot);
+    const bool there = known != model_.joints.end() && known->second.first == id;
+    const Known any, *const found = there ? &any : nullptr;
+    if (random_.chance(0.3)) {
+      if (judge("destroy_joint", recorder_->destroy_joint(id), found, false)) forget(id);
+      return;
+    }
+    bool wrong = false;
+    JointDef def = joint(wrong);
+    place_anyhow(def, wrong);
+    if (!judge("set_joint", recorder_->set_joint(id, def), found, wrong, true)) return;
+    def.a = known->second.second.a;
+    def.b = known->second.second.b;
+    known->second.second = def;
+  }
+
+  void query() {
+    bool wrong = false;
+    QueryHit hit[4];
+    QueryReport report;
+    QueryFilter filter;
+    filter.mask = random_.chance(0.5) ? ~0u : random_.below(8);
+    filter.ignore = pick();
+    const Position from = place();
+    const Vec3<Real> way = vector(8, wrong);
+    const bool all = random_.chance(0.5);
+    const bool ray = random_.chance(0.5);
+    const QueryHits hits = {hit, 4};
+    const Status status =
+        ray ? recorder_->query_ray({from, way, filter, all}, hits, report)
+            : recorder_->query_overlap({sphere(real(1.5)), from, BodyDef().rotation, filter, all}, hits, report);
+    EXPECT_EQ(digest(world()), before_);
+    EXPECT_EQ(status, ray && wrong ? Status::out_of_range : Status::ok) << status_text(status);
+    if (status != Status::ok) return;
+    EXPECT_LE(report.hits, all ? 4u : 1u);
+    for (uint32_t i = 0; i < report.hits; ++i) {
+      const Known* body = find(hit[i].body);
+      ASSERT_NE(body, nullptr);
+      EXPECT_TRUE((body->filter.category & filter.mask) != 0 && (body->filter.mask & filter.category) != 0);
+      EXPECT_FALSE(hit[i].body == filter.ignore);
+      if (i != 0) {
+        EXPECT_TRUE(!ray || !(hit[i].fraction < hit[i - 1].fraction));
+      }
+    }
+  }
+
+  /// A step: what breaks has borne too much, and nothing touches that may not.
+  void step_once() {
+    const StepReport report = recorder_->step();
+    EXPECT_EQ(report.joint_events, report.joints_broken);
+    for (uint32_t i = 0; i < report.joint_events; ++i) {
+      const JointEvent& event = broken_[i];
+      const auto known = model_.joints.find(event.joint.slot);
+      ASSERT_TRUE(known != model_.joints.end() && known->second.first == event.joint);
+      const JointDef& def = known->second.second;
+      EXPECT_TRUE(event.a == def.a && event.b == def.b && event.user_data == def.user_data);
+      const auto over = [](const Vec3<Scaled>& load, Scaled most) {
+        const double bound = scaled_to_host(most);
+        const Vector borne = {scaled_to_host(load.x), scaled_to_host(load.y), scaled_to_host(load.z)};
+        return bound > 0 && length(borne) > bound * (1 - 1e-5);
+      };
+      EXPECT_TRUE(over(event.reaction.force, def.break_force) || over(event.reaction.torque, def.break_torque));
+      forget(event.joint);
+    }
+    for (uint32_t i = 0; i < get_info(world()).contacts; ++i) {
+      Contact contact;
+      ASSERT_OK(get_contact(world(), i, contact));
+      const Known *a = find(contact.a), *b = find(contact.b);
+      ASSERT_TRUE(a != nullptr && b != nullptr);
+      const Filter &of_a = a->filter, &of_b = b->filter;
+      if (of_a.group != 0 && of_a.group == of_b.group) {
+        EXPECT_GT(of_a.group, 0);
+      } else {
+        EXPECT_TRUE((of_a.category & of_b.mask) != 0 && (of_b.category & of_a.mask) != 0);
+      }
+      for (const auto& [slot, known] : model_.joints) {
+        const JointDef& def = known.second;
+        const bool same = (def.a == contact.a && def.b == contact.b) || (def.a == contact.b && def.b == contact.a);
+        EXPECT_TRUE(def.collide || !same) << "joint " << slot;
+      }
+    }
   }
 
   void change(BodyId id, uint32_t which) {
@@ -308,6 +505,18 @@ class Game {
       case 7: {
         const uint32_t to = locks(wrong);
         if (judge("set_turn_locks", recorder.set_turn_locks(id, to), body, wrong)) body->turn_locks = to;
+        break;
+      }
+      case 8: {
+        Filter to = filter();
+        if (bad()) {  // no world here has rules
+          to.rule = 1;
+          const Status status = recorder.set_filter(id, to);
+          EXPECT_EQ(status, body != nullptr ? Status::rule_missing : Status::bad_id) << status_text(status);
+          EXPECT_EQ(digest(world()), before_);
+          break;
+        }
+        if (judge("set_filter", recorder.set_filter(id, to), body, false)) body->filter = to;
         break;
       }
       default: {
@@ -421,15 +630,18 @@ class Game {
 
   void call() {
     before_ = digest(world());
-    const uint32_t which = random_.below(10);
+    const uint32_t which = random_.below(13);
     if (which < 2) return create();
     if (which == 2) return change_world();
+    if (which == 10) return create_any_joint();
+    if (which == 11) return change_joint();
+    if (which == 12) return query();
     const BodyId id = pick();
     if (which == 3 && random_.chance(0.4)) return destroy(id);
-    if (which < 6) return change(id, random_.below(9));
+    if (which < 6) return change(id, random_.below(10));
     if (which < 8) return move(id, random_.below(12));
     const uint32_t ticks = 1 + random_.below(4);
-    for (uint32_t tick = 0; tick < ticks; ++tick) recorder_->step();
+    for (uint32_t tick = 0; tick < ticks; ++tick) step_once();
   }
 
   static void expect_near(Real a, Real b) { EXPECT_NEAR(real_to_host(a), real_to_host(b), 1e-6); }
@@ -441,6 +653,7 @@ class Game {
     EXPECT_EQ(def.shape.type, known.shape);
     EXPECT_EQ(def.user_data, known.user_data);
     EXPECT_EQ(def.turn_locks, known.turn_locks);
+    EXPECT_TRUE(def.filter == known.filter);
     expect_near(def.material.friction, known.material.friction);
     expect_near(def.material.restitution, known.material.restitution);
     expect_near(def.material.rolling_resistance, known.material.rolling_resistance);
@@ -454,6 +667,30 @@ class Game {
     if (known.type == BodyType::fixed) {
       EXPECT_TRUE((def.velocity == Vec3<Real>{Real(0.0), Real(0.0), Real(0.0)}));
     }
+  }
+
+  void check_joints() {
+    EXPECT_EQ(get_info(world()).joints, model_.joints.size());
+    JointId id = next_joint(world(), {});
+    for (const auto& [slot, joint] : model_.joints) {
+      EXPECT_TRUE(joint.first == id) << "joints come in the order of their slots";
+      JointDef def;
+      ASSERT_OK(get_joint(world(), joint.first, def));
+      const JointDef& known = joint.second;
+      EXPECT_TRUE(def.type == known.type && def.a == known.a && def.b == known.b);
+      EXPECT_TRUE(def.anchor_a == known.anchor_a && def.anchor_b == known.anchor_b);
+      for (const auto axis : {&JointDef::axis, &JointDef::second}) {
+        const JointAxis &is = def.*axis, &was = known.*axis;
+        EXPECT_TRUE(is.limited == was.limited && is.lower == was.lower && is.upper == was.upper);
+        EXPECT_TRUE(is.frequency == was.frequency && is.damping_ratio == was.damping_ratio);
+        EXPECT_TRUE(is.target == was.target && is.speed == was.speed && is.force_max == was.force_max);
+      }
+      EXPECT_TRUE(def.collide == known.collide && def.user_data == known.user_data);
+      EXPECT_TRUE(def.break_force == known.break_force && def.break_torque == known.break_torque);
+      id = next_joint(world(), id);
+    }
+    EXPECT_TRUE(id == JointId{});
+    for (const JointId gone : model_.joints_gone) EXPECT_FALSE(is_valid(world(), gone));
   }
 
   void check_bodies() {
@@ -480,6 +717,7 @@ class Game {
   Recorder* recorder_ = nullptr;
   Model model_;
   uint64_t before_ = 0;
+  JointEvent broken_[k_joints];
 };
 
 DETENT_TEST(sequence, random_calls_do_what_is_written_of_them) {

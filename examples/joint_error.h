@@ -1,0 +1,19 @@
+#pragma once
+#include <detent/convert.h>
+#include <detent/transform.h>
+#include <detent/world.h>
+#include <math.h>
+
+/// How far a joint has given way, m: how far B's anchor is from A's, but for where it may slide. Not for `distance`.
+inline double joint_error(const detent::World& world, detent::JointId id) {
+  using namespace detent;
+  JointDef joint;
+  Pose a, b;
+  if (get_joint(world, id, joint) != Status::ok || get_pose(world, joint.a, a) != Status::ok ||
+      get_pose(world, joint.b, b) != Status::ok)
+    return INFINITY;
+  const Pose anchor_a = {to_world(a, joint.anchor_a), a.rotation};
+  const Vec3<Real> gap = vector_to_local(joint.frame_a, to_local(anchor_a, to_world(b, joint.anchor_b)));
+  const bool slides = joint.type == JointType::slider || joint.type == JointType::wheel;
+  return hypot(slides ? 0 : real_to_host(gap.x), hypot(real_to_host(gap.y), real_to_host(gap.z)));
+}
