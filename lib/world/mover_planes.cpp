@@ -59,6 +59,11 @@ Vec3<Real> way_between(Span<const MoverPlane> planes, const Vec3<Real>& wish, co
   for (uint32_t i = 0; i < planes.count; ++i) {
     if (pushes[i].pushed > k_mover_still) met |= 1u << i;
   }
+  // In a narrow wedge the sweeps end on the way there.
+  for (const MoverPlane& plane : planes) {
+    const Real closing = -dot(way, plane.normal), room = max(plane.room, k_zero);
+    if (closing > room + k_mover_still) way = way * divide(room, closing);
+  }
   return way;
 }
 
