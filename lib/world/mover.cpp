@@ -26,6 +26,7 @@ constexpr Real k_radius_min = 0x1p-10;
 bool are_settings(const MoverSettings& settings) {
   const Real radius = settings.radius;
   return within(radius, k_radius_min, Real(1024.0)) && within(settings.half_length, k_zero, Real(1024.0)) &&
+         scale_by_power(settings.half_length, -10) <= radius &&
          within(settings.gap, scale_by_power(radius, -7), scale_by_power(radius, -2)) &&
          within(settings.step_height, k_zero, Real(256.0)) && within(settings.snap, k_zero, Real(256.0)) &&
          settings.slope_cosine >= Unit(0.125) && settings.slope_cosine <= Unit(1.0) &&
@@ -42,7 +43,8 @@ Vec3<Real> way_from(const Position& from, const Position& to) {
   return {real_difference(to.x, from.x), real_difference(to.y, from.y), real_difference(to.z, from.z)};
 }
 
-/// Where the ground's motion since the last call takes the mover's place; farther than a wish may go it does not follow.
+/// Where the ground's motion since the last call takes the mover's place; farther than a wish may go it does not
+/// follow.
 Vec3<Real> way_of_ground(const Mover& mover, const Pose& now) {
   const Pose& then = mover.ground_pose;
   Vec3<Real> way = way_from(then.position, now.position);

@@ -27,8 +27,7 @@ bool way_out(const World& world, BodyId body, const Shape& core, const Pose& at,
   Convex convex;
   QueryShape shape;
   ContactManifold manifold;
-  if (make_query_shape(world, core, shape) != Status::ok ||
-      !body_convex(state.traits[slot], world.assets, convex) ||
+  if (make_query_shape(world, core, shape) != Status::ok || !body_convex(state.traits[slot], world.assets, convex) ||
       contact_points(convex, pose_near(state.traits[slot], state.poses[slot], at.position), shape.convex, at, k_zero,
                      manifold) != Status::ok ||
       manifold.count == 0)
@@ -54,16 +53,12 @@ MoverMotion::MoverMotion(const World& world, const MoverSettings& settings, cons
       free_radius_(settings.radius) {}
 
 template <class Query>
-uint32_t MoverMotion::ask(Status (*call)(const World&, const Query&, QueryHits, QueryReport&), const Query& query,
-                          QueryHits hits) {
+QueryReport MoverMotion::ask(Status (*call)(const World&, const Query&, QueryHits, QueryReport&), const Query& query,
+                             QueryHits hits) {
   QueryReport answer;
   ++report_.queries;
-  if (const Status status = call(world_, query, hits, answer); status != Status::ok) {
-    status_ = status;
-    return 0;
-  }
-  if (query.all) report_.hits_dropped += answer.dropped;
-  return answer.hits;
+  if (const Status status = call(world_, query, hits, answer); status != Status::ok) status_ = status;
+  return answer;
 }
 
 /// No part of it is free to go.
@@ -114,9 +109,10 @@ void MoverMotion::look_around() {
   query.filter = settings_.filter;
   query.all = true;
   QueryHit hits[k_mover_near_max];
-  const uint32_t count = ask(query_closest, query, {hits, k_mover_near_max});
+  const QueryReport answer = ask(query_closest, query, {hits, k_mover_near_max});
+  report_.hits_dropped += answer.dropped;
   Real nearest = query.reach;
-  for (uint32_t i = 0; i < count; ++i) {
+  for (uint32_t i = 0; i < answer.hits; ++i) {
     if (hits[i].body == passed_) continue;
     nearest = min(nearest, hits[i].distance);
     if (hits[i].undecided)
@@ -137,7 +133,7 @@ void MoverMotion::step_along(const Vec3<Real>& way) {
   query.filter = settings_.filter;
   query.all = passed_.slot != 0;  // to look beyond it
   QueryHit hits[2];
-  const uint32_t count = ask(query_cast, query, {hits, query.all ? 2u : 1u});
+  const uint32_t count = ask(query_cast, query, {hits, query.all ? 2u : 1u}).hits;
   if (status_ != Status::ok) return;
   known_ = false;
   const uint32_t first = count != 0 && hits[0].body == passed_ ? 1 : 0;
@@ -172,7 +168,7 @@ void MoverMotion::find_footing(MoverPlane& plane) {
   query.way = up_ * scale_by_power(-over, 1);
   query.filter = settings_.filter;
   QueryHit hit;
-  if (ask(query_ray, query, {&hit, 1}) == 0) return;
+  if (ask(query_ray, query, {&hit, 1}).hits == 0) return;
   if (hit.undecided) ++report_.undecided;
   if (!hit.undecided && dot(hit.normal, up_) >= settings_.slope_cosine) plane.footing = Footing::edge;
 }

@@ -55,7 +55,8 @@ class MoverMotion {
   void find_footing(MoverPlane& plane);
   void note(uint32_t met);
   template <class Query>
-  uint32_t ask(Status (*call)(const World&, const Query&, QueryHits, QueryReport&), const Query& query, QueryHits hits);
+  QueryReport ask(Status (*call)(const World&, const Query&, QueryHits, QueryReport&), const Query& query,
+                  QueryHits hits);
 
   const World& world_;
   const MoverSettings& settings_;

@@ -38,10 +38,10 @@ inline constexpr Real k_mover_still = Real(0x1p-15);
 inline constexpr Real k_mover_still = Real(0x1p-20);
 #endif
 
-/// The way nearest to `wish` that leaves no plane's gap; 0 always does. Floors move it along `up`, which keeps its level
-/// part; other planes as the gait says. Bit i of `met` is set for a plane that turned it.
-/// Source: Hildreth, "A quadratic programming procedure", 1957; Cottle, Pang, Stone, "The Linear Complementarity Problem",
-/// 5.2, for pushes that are not along the normal.
+/// The way nearest to `wish` that leaves no plane's gap; 0 always does. Floors move it along `up`, which keeps its
+/// level part; other planes as the gait says. Bit i of `met` is set for a plane that turned it. Source: Hildreth, "A
+/// quadratic programming procedure", 1957; Cottle, Pang, Stone, "The Linear Complementarity Problem", 5.2, for pushes
+/// that are not along the normal.
 Vec3<Real> way_between(Span<const MoverPlane> planes, const Vec3<Real>& wish, const Vec3<Unit>& up, MoverGait gait,
                        uint32_t& met);
 
