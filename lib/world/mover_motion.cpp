@@ -73,8 +73,6 @@ void MoverMotion::go_back(const Place& place) {
   known_ = false;
 }
 
-Real MoverMotion::height_over(const Position& position) const { return dot(way_from(position, position_), up_); }
-
 MoverPlane MoverMotion::plane_at(const QueryHit& hit, Real room) const {
   const bool floor = dot(hit.normal, up_) >= settings_.slope_cosine;
   return {hit.normal, room, floor ? Footing::floor : Footing::unknown, hit.body, hit.point};
@@ -262,21 +260,23 @@ const MoverPlane* MoverMotion::find_floor() {
 bool MoverMotion::climb(const Vec3<Real>& rest) {
   const Place start = place();
   const Real half_gap = scale_by_power(settings_.gap, -1);
+  const auto rise = [&] { return dot(way_from(start.position, position_), up_); };
   Vec3<Unit> forward;
   Real size = k_zero;
   if (!normalise(rest, forward, size)) return false;
+  const auto gets_on = [&] { return dot(way_from(start.position, position_), forward) >= scale_by_power(size, -2); };
   go(up_ * settings_.step_height);
-  const Real rise = height_over(start.position);
-  // Far enough to come to rest on the edge, and not in the gap before it.
-  if (rise > half_gap) {
+  if (rise() > half_gap) {
+    // Far enough to come to rest on the edge, and not in the gap before it.
     slide(forward * max(size, scale_by_power(settings_.gap, 1)), MoverGait::walk);
-    go(up_ * -height_over(start.position));
-    const Real progress = dot(way_from(start.position, position_), forward);
-    const MoverPlane* floor = find_floor();
-    if (floor != nullptr && height_over(start.position) > half_gap && progress >= scale_by_power(size, -2)) {
-      // An edge may be far up the foot's side.
-      const Real top = dot(way_from(start.position, floor->point), up_) + settings_.half_length + settings_.radius;
-      if (top <= settings_.step_height) return true;
+    if (gets_on()) {
+      go(up_ * -rise());
+      const MoverPlane* floor = find_floor();
+      if (floor != nullptr && rise() > half_gap && gets_on()) {
+        // An edge may be far up the foot's side.
+        const Real top = dot(way_from(start.position, floor->point), up_) + settings_.half_length + settings_.radius;
+        if (top <= settings_.step_height) return true;
+      }
     }
   }
   go_back(start);

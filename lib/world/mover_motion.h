@@ -46,7 +46,6 @@ class MoverMotion {
   };
   Place place() const { return {position_, report_.contact_count, report_.contacts_dropped}; }
   void go_back(const Place& place);
-  Real height_over(const Position& position) const;
   bool caught() const;
   MoverPlane plane_at(const QueryHit& hit, Real room) const;
   void look_around();
