@@ -552,7 +552,57 @@ Mover roam(uint64_t seed, int ticks, uint32_t& cut) {
   return stage.mover;
 }
 
+/// A room whose things are thrown about, against the mover too.
+void be_thrown_at(uint64_t seed, uint32_t& pressed) {
+  Stage stage;
+  Samples samples = {seed};
+  furnish(stage, samples);
+  for (int i = 0; i < 8; ++i) {
+    BodyDef def;
+    const double size = between(samples, 0.1, 0.5);
+    def.type = i < 3 ? BodyType::kinematic : BodyType::dynamic;
+    def.shape = samples.below(2) == 0 ? box(reals(size, size, size)) : sphere(real(size));
+    const double x = between(samples, 2, 4) * (samples.below(2) == 0 ? 1 : -1), y = between(samples, 0.5, 2);
+    def.position = position(x, y, between(samples, -4, 4));
+    const double speed = between(samples, 0.5, 5), side = between(samples, -1, 1);
+    def.velocity = reals(x > 0 ? -speed : speed, 0, side);
+    stage.lab.add(def);
+  }
+  double x = 0, z = 0;
+  for (int tick = 0; tick < 120; ++tick) {
+    if (tick % 20 == 0) {
+      x = between(samples, -6, 6);
+      z = between(samples, -6, 6);
+    }
+    stage.lab.run(1);
+    stage.walk(x, z);
+    for (uint32_t i = 0; i < stage.report.contact_count; ++i) {
+      const MoverContact& contact = stage.report.contacts[i];
+      if (contact.impulse == scaleds(0, 0, 0)) continue;
+      ASSERT_OK(apply_impulse_at_point(stage.lab.world, contact.body, contact.impulse, contact.point));
+    }
+    if (stage.report.overlap == Real(0.0)) {
+      ASSERT_FALSE(stage.overlaps(0.001)) << "seed " << seed << " tick " << tick;
+    } else {
+      ++pressed;
+    }
+    ASSERT_LT(fabs(stage.x()), 4.5) << "seed " << seed << " tick " << tick;
+    ASSERT_LT(fabs(stage.z()), 4.5) << "seed " << seed << " tick " << tick;
+    ASSERT_GT(stage.y(), 0.6) << "seed " << seed << " tick " << tick;
+  }
+}
+
 }  // namespace
+
+DETENT_TEST(mover, says_where_it_is_pressed_and_leaves_no_room_for_it) {
+  const uint64_t rooms = getenv("ROOMS") != nullptr             ? strtoull(getenv("ROOMS"), nullptr, 10)
+                         : getenv("DETENT_EMULATED") != nullptr ? 10
+                                                                : 40;
+  uint32_t pressed = 0;
+  for (uint64_t seed = 1; seed <= rooms; ++seed) be_thrown_at(seed, pressed);
+  EXPECT_LT(pressed, rooms * 6);
+  printf("%u\n", (unsigned)pressed);
+}
 
 DETENT_TEST(mover, is_never_in_anything_in_200_rooms_and_ends_at_the_same_bits_again) {
   const uint64_t rooms = getenv("DETENT_EMULATED") != nullptr ? 50 : 200;
