@@ -17,6 +17,7 @@ constexpr Footing k_footings[] = {Footing::floor, Footing::edge};  // what is be
 /// Bodies are looked at from a thin capsule within: so a depth of up to 7/8 of the radius is a distance.
 constexpr int k_core_power = -3;
 constexpr uint32_t k_recoveries = 4;
+constexpr uint32_t k_hits_passed = 3;  ///< by a cast
 /// Of an edge to stand on: the least part of its normal along up.
 constexpr Unit k_edge_cosine = 0.125;
 
@@ -121,28 +122,43 @@ void MoverMotion::look_around() {
   free_radius_ = min(settings_.radius, query.shape.radius + nearest - half_gap);
 }
 
-/// Goes along `way`, not shorter than k_mover_still, until the gap to what it meets, and keeps the plane there.
+/// Whether the part of the mover that is cast goes on through what it hit: it is not there for it, or it is within it.
+bool MoverMotion::passes(const QueryHit& hit, const Vec3<Real>& way) const {
+  if (hit.body == passed_) return true;
+  return caught() && hit.fraction.raw == 0 && !hit.undecided && dot(way, hit.normal) >= k_zero;
+}
+
+/// Goes along `way`, not shorter than k_mover_still, until the gap to what it meets, and keeps the plane there. If no
+/// part of it is free, then with its core.
 void MoverMotion::step_along(const Vec3<Real>& way) {
+  const Real core = scale_by_power(settings_.radius, k_core_power);
   CastQuery query;
-  query.shape = capsule(free_radius_, settings_.half_length);
+  query.shape = capsule(max(free_radius_, core), settings_.half_length);
   query.position = position_;
   query.rotation = settings_.rotation;
   query.way = way;
   query.filter = settings_.filter;
-  query.all = passed_.slot != 0;  // to look beyond it
-  QueryHit hits[2];
-  const uint32_t count = ask(query_cast, query, {hits, query.all ? 2u : 1u}).hits;
+  query.all = caught() || passed_.slot != 0;  // to look beyond what it passes
+  QueryHit hits[k_hits_passed + 1];
+  const uint32_t room_for = query.all ? k_hits_passed + 1 : 1;
+  const uint32_t count = ask(query_cast, query, {hits, room_for}).hits;
   if (status_ != Status::ok) return;
+  uint32_t first = 0;
+  while (first < count && passes(hits[first], way)) ++first;
+  if (first == room_for) {  // what is behind these is not known
+    ++report_.hits_dropped;
+    return;
+  }
   known_ = false;
-  const uint32_t first = count != 0 && hits[0].body == passed_ ? 1 : 0;
   const Position from = position_;
-  if (first >= count) {
+  if (first == count) {
     position_ = moved(position_, way);
   } else {
     const QueryHit& hit = hits[first];
     const Real fraction = real_from_fraction(hit.fraction);
     const Real closing = -dot(way, hit.normal);
-    const Real room = fraction * closing - (settings_.radius - free_radius_) - settings_.gap;
+    const Real wall = caught() ? k_zero : settings_.radius - free_radius_;
+    const Real room = fraction * closing - wall - settings_.gap;
     const bool straight = closing > k_mover_still;  // never so of what is undecided: it has no normal
     const Real part = straight ? divide(room, closing) : fraction - divide(settings_.gap, length(way));
     position_ = moved(position_, way * clamp(part, k_zero, fraction));
@@ -231,12 +247,7 @@ void MoverMotion::recover() {
     const Real size = length(way), most = scale_by_power(settings_.radius, -1);
     if (size > most) way = way * divide(most, size);
     if (within(way, k_mover_still)) break;
-    if (caught()) {
-      position_ = moved(position_, way);
-      known_ = false;
-    } else {
-      step_along(way);
-    }
+    step_along(way);
   }
 }
 

@@ -50,6 +50,7 @@ class MoverMotion {
   MoverPlane plane_at(const QueryHit& hit, Real room) const;
   void look_around();
   void add_near(const QueryHit& hit, const Shape& core);
+  bool passes(const QueryHit& hit, const Vec3<Real>& way) const;
   void step_along(const Vec3<Real>& way);
   void find_footing(MoverPlane& plane);
   void note(uint32_t met);

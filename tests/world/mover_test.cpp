@@ -594,14 +594,14 @@ void be_thrown_at(uint64_t seed, uint32_t& pressed) {
 
 }  // namespace
 
-DETENT_TEST(mover, says_where_it_is_pressed_and_leaves_no_room_for_it) {
-  const uint64_t rooms = getenv("ROOMS") != nullptr             ? strtoull(getenv("ROOMS"), nullptr, 10)
-                         : getenv("DETENT_EMULATED") != nullptr ? 10
-                                                                : 40;
+DETENT_TEST(mover, says_where_it_is_pressed_and_is_never_pressed_through_a_wall) {
+  const uint64_t rooms = getenv("DETENT_EMULATED") != nullptr ? 10 : 40;
   uint32_t pressed = 0;
   for (uint64_t seed = 1; seed <= rooms; ++seed) be_thrown_at(seed, pressed);
   EXPECT_LT(pressed, rooms * 6);
-  printf("%u\n", (unsigned)pressed);
+  if (rooms == 40) {
+    EXPECT_GT(pressed, 0u);
+  }
 }
 
 DETENT_TEST(mover, is_never_in_anything_in_200_rooms_and_ends_at_the_same_bits_again) {
