@@ -1,3 +1,4 @@
+#include <detent/mover.h>
 #include <detent/query.h>
 #include <detent/recording.h>
 #include <ports/machine.h>
@@ -85,6 +86,17 @@ bool join(Calls& calls) {
   return calls.create_joint(def, id) == Status::ok;
 }
 
+#if DETENT_SIZE_MOVER
+bool walk(const World& world) {
+  MoverReport report;
+  Mover mover;
+  mover.position = {Coord(0.0), Coord(8.0), Coord(4.0)};
+  return move_mover(world, {}, {Real(0.0), Real(-8.0), Real(0.0)}, mover, report) == Status::ok && report.on_ground;
+}
+#else
+bool walk(const World&) { return true; }
+#endif
+
 template <class Calls>
 bool run(Calls& calls) {
   BodyDef ground;
@@ -128,7 +140,7 @@ bool run() {
     Direct direct = {world};
     good = run(direct);
   }
-  return good && ask(world) && get_info(world).contacts != 0 && digest(world) != 0;
+  return good && ask(world) && walk(world) && get_info(world).contacts != 0 && digest(world) != 0;
 }
 #else
 bool run() { return true; }
