@@ -23,15 +23,15 @@ enum class JointType : uint32_t {
 /// The limits, spring and motor of one free motion x of a joint: an angle, rad, in (-pi, pi), or a length, m.
 /// A limit goes before a spring or motor that pushes into it.
 struct JointAxis {
-  bool limited = false;           ///< whether the limits hold
-  Real lower = 0.0;               ///< rad or m, lower <= x; a length is within +-16384
-  Real upper = 0.0;               ///< x <= upper, not below `lower`; equal: held there
-  Real frequency = 0.0;           ///< Hz, [0, 1024]: of the spring towards `target`, as if only the two bodies were
-                                  ///< there; 0: no spring
-  Real damping_ratio = 1.0;       ///< of the spring, [0, 64]; 1 is critical
-  Real target = 0.0;              ///< rad or m
-  Real speed = 0.0;               ///< of the motor, or of the spring's target, rad/s or m/s; within +-1024
-  Scaled force_max = 0.0;         ///< N or N m, >= 0: the motor's, 0: no motor; of a spring the limit, 0: none
+  bool limited = false;      ///< whether the limits hold
+  Real lower = 0.0;          ///< rad or m, lower <= x; a length is within +-16384
+  Real upper = 0.0;          ///< x <= upper, not below `lower`; equal: held there
+  Real frequency = 0.0;      ///< Hz, [0, 1024]: of the spring towards `target`, as if only the two bodies were
+                             ///< there; 0: no spring
+  Real damping_ratio = 1.0;  ///< of the spring, [0, 64]; 1 is critical
+  Real target = 0.0;         ///< rad or m
+  Real speed = 0.0;          ///< of the motor, or of the spring's target, rad/s or m/s; within +-1024
+  Scaled force_max = 0.0;    ///< N or N m, >= 0: the motor's, 0: no motor; of a spring the limit, 0: none
 };
 
 /// What `create_joint` makes. Names two bodies, of which one at least is dynamic.
@@ -42,14 +42,14 @@ struct JointDef {
   Vec3<Real> anchor_a = {0.0, 0.0, 0.0};  ///< from A's centre of mass, m, A's axes; each component within
                                           ///< +-4096 and 1024 times the bounding radius
   Vec3<Real> anchor_b = {0.0, 0.0, 0.0};  ///< likewise, from B's, in B's axes
-  Quat frame_a = {0.0, 0.0, 0.0, 1.0};  ///< from the frame's axes to A's; length 1 within 2^-10, normalised on entry
-  Quat frame_b = {0.0, 0.0, 0.0, 1.0};  ///< likewise, to B's
-  JointAxis axis = {};                  ///< of the first free motion (JointType)
-  JointAxis second = {};                ///< of the second
-  bool collide = false;         ///< whether A and B collide with each other
-  Scaled break_force = 0.0;     ///< N, >= 0: the joint breaks when its mean force over a tick exceeds it; 0: never
-  Scaled break_torque = 0.0;    ///< N m, likewise
-  uint32_t user_data = 0;       ///< kept, digested and recorded; never read
+  Quat frame_a = {0.0, 0.0, 0.0, 1.0};    ///< from the frame's axes to A's; length 1 within 2^-10, normalised on entry
+  Quat frame_b = {0.0, 0.0, 0.0, 1.0};    ///< likewise, to B's
+  JointAxis axis = {};                    ///< of the first free motion (JointType)
+  JointAxis second = {};                  ///< of the second
+  bool collide = false;                   ///< whether A and B collide with each other
+  Scaled break_force = 0.0;   ///< N, >= 0: the joint breaks when its mean force over a tick exceeds it; 0: never
+  Scaled break_torque = 0.0;  ///< N m, likewise
+  uint32_t user_data = 0;     ///< kept, digested and recorded; never read
 };
 
 /// Names a joint by value, as a BodyId names a body.
@@ -84,9 +84,9 @@ struct JointEventBuffer {
 
 struct World;
 
-/// Makes a joint in the lowest free slot, and wakes both bodies. Bodies that a joint with `collide` false connects do not touch each other.
-/// Errors: pool_full, bad_id, bad_argument (a type that is none, one body twice, no dynamic body),
-/// out_of_range, not_normalised, feature_missing.
+/// Makes a joint in the lowest free slot, and wakes both bodies. Bodies that a joint with `collide` false connects do
+/// not touch each other. Errors: pool_full, bad_id, bad_argument (a type that is none, one body twice, no dynamic
+/// body), out_of_range, not_normalised, feature_missing.
 Status create_joint(World& world, const JointDef& def, JointId& id);
 /// Takes a joint away, and wakes both bodies. A body that is destroyed takes its joints with it. Errors: bad_id.
 Status destroy_joint(World& world, JointId id);
