@@ -95,6 +95,18 @@ struct RowMaker {
   void free_turn(int i, int axis, Unit sine) {
     free_motion(i, angular(frame.column[axis]), length_of(twist_of(sine, relative.w)));
   }
+  /// The twist about x that is left of the turn once x has leaned the shortest way: it goes with the spin about the
+  /// middle of the two x, over the cosine of half the lean.
+  void free_twist(int i) {
+    const Vec3<Unit> x = {Unit(1.0), k_none, k_none}, leaning = rotate(relative, x);
+    const Vec3<Unit> own = frame.column[0], other = multiply(frame, leaning);
+    const Scaled share = scaled_reciprocal(max(real_from_unit(leaning.x, 0) + Real(1.0), Real(0.75)));
+    const auto mean = [&](Unit of_a, Unit of_b) {
+      return unit_held(multiply(real_from_unit(of_a, 0) + real_from_unit(of_b, 0), share), 0);
+    };
+    const Vec3<Unit> axis = {mean(own.x, other.x), mean(own.y, other.y), mean(own.z, other.z)};
+    free_motion(i, angular(axis), length_of(twist_of(relative.x, relative.w)));
+  }
   /// How far B's x leans off A's, about the axis that it leans about.
   void free_lean(int i) {
     const Vec3<Unit> x = {Unit(1.0), k_none, k_none}, leaning = rotate(relative, x);
@@ -238,7 +250,7 @@ void make_joint_rows(const StepSettings& settings, const JointStage& stage, Join
       break;
     case JointType::cone_twist:
       make.hold_points();
-      make.free_turn(0, 0, relative.x);
+      make.free_twist(0);
       make.free_lean(1);
       break;
     case JointType::wheel:

@@ -292,6 +292,37 @@ DETENT_TEST(joint, a_cone_leans_no_farther_and_twists_no_farther_than_it_may) {
   }
 }
 
+DETENT_TEST(joint, what_swings_round_a_wide_cone_gains_nothing_from_the_limits_of_its_twist) {
+  JointDef rest;
+  rest.second.limited = rest.axis.limited = true;
+  rest.second.upper = real(1.4);
+  rest.axis.lower = real(-0.3);
+  rest.axis.upper = real(0.3);
+  Lab lab(room(2, 1), weightless());
+  const BodyId ground = add_shape(lab, box(reals(0.1, 0.1, 0.1)), 0, 0, 0, BodyType::fixed);
+  const BodyId arm = add_shape(lab, sphere(real(0.2)), 0.5, 0, 0);
+  add_joint(lab, JointType::cone_twist, ground, arm, 0, 0, 0, rest);
+  Samples samples = {9};
+  const auto energy = [&](const Motion& motion) {  // over half the mass, m^2/s^2
+    const Vector velocity = {motion.velocity[0], motion.velocity[1], motion.velocity[2]};
+    const Vector spin = {motion.spin[0], motion.spin[1], motion.spin[2]};
+    return dot(velocity, velocity) + 0.4 * 0.04 * dot(spin, spin);
+  };
+  for (int round = 0; round < 20; ++round) {
+    const auto draw = [&] { return (samples.below(6001) - 3000.0) / 300; };
+    const double x = draw(), y = draw(), z = draw();
+    const Motion now = lab.motion(arm);
+    const Vector spin = {x, y, z}, way = {now.position[0], now.position[1], now.position[2]};
+    const Vector velocity = cross(spin, way);
+    ASSERT_OK(set_velocity(lab.world, arm, reals(velocity.x, velocity.y, velocity.z), reals(x, y, z)));
+    const double start = energy(lab.motion(arm));
+    for (int tick = 0; tick < 60; ++tick) {
+      lab.run(1);
+      ASSERT_LE(energy(lab.motion(arm)), 1.05 * start) << "round " << round << ", tick " << tick;
+    }
+  }
+}
+
 DETENT_TEST(joint, a_chain_between_two_walls_is_held_at_both_ends) {
   Lab lab(room(12, 11));
   const BodyId left = add_shape(lab, box(reals(0.1, 0.1, 0.1)), -0.5, 0, 0, BodyType::fixed);
