@@ -196,6 +196,12 @@ void push_softly(const StepSettings& settings, const SolverBodies& bodies, const
   work.mode[i] = DriveMode::constant;
 }
 
+/// What is set of the others has no meaning.
+int free_motion_count(JointType type) {
+  if (type == JointType::ball || type == JointType::fixed) return 0;
+  return type == JointType::cone_twist || type == JointType::wheel ? 2 : 1;
+}
+
 }  // namespace
 
 bool is_angular(JointType type, int motion) {
@@ -268,7 +274,8 @@ void make_joint_rows(const StepSettings& settings, const JointStage& stage, Join
 
 void choose_drives(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, JointWork& work) {
   const JointState& joint = stage.joints[work.joint];
-  for (int i = 0; i < 2; ++i) {
+  work.mode[0] = work.mode[1] = DriveMode::idle;
+  for (int i = 0; i < free_motion_count(static_cast<JointType>(joint.type)); ++i) {
     work.mode[i] = free_mode(joint, i);
     if (work.mode[i] == DriveMode::spring) push_softly(settings, bodies, stage, i, work);
     if (joint.limited[i] == 0) continue;
