@@ -529,7 +529,10 @@ uint32_t solve_joints(const StepSettings& settings, const SolverBodies& bodies, 
     JointWork& work = stage.work[index];
     solver.add_up(work, work.total);
     JointState& joint = stage.joints[work.joint];
-    for (uint32_t k = 0; k < work.rows_held; ++k) joint.impulse[k] = work.total[k];
+    for (uint32_t k = 0; k < work.rows_held; ++k) {
+      joint.impulse[k] = clamp(work.total[k], -k_joint_impulse_max, k_joint_impulse_max);
+      if (!(joint.impulse[k] == work.total[k])) ++solver.clamped;
+    }
   }
   return solver.clamped;
 }
