@@ -23,10 +23,10 @@ enum class JointType : uint32_t {
 /// The limits, spring and motor of one free motion x of a joint: an angle, rad, in (-pi, pi), or a length, m.
 /// A limit goes before a spring or motor that pushes into it.
 struct JointAxis {
-  bool limited = false;      ///< whether `lower` and `upper` count
-  Real lower = 0.0;          ///< x is at least this
-  Real upper = 0.0;          ///< and at most this; held there if both are equal
-  Real frequency = 0.0;      ///< Hz, 0 or [2^-10, 1024]: of the spring towards `target`, as if only the two bodies were
+  bool limited = false;      ///< whether the limits hold
+  Real lower = 0.0;          ///< rad or m, lower <= x; a length is within +-16384
+  Real upper = 0.0;          ///< x <= upper, not below `lower`; equal: held there
+  Real frequency = 0.0;      ///< Hz, [0, 1024]: of the spring towards `target`, as if only the two bodies were
                              ///< there; 0: no spring
   Real damping_ratio = 1.0;  ///< of the spring, [0, 64]; 1 is critical
   Real target = 0.0;         ///< rad or m
@@ -37,15 +37,15 @@ struct JointAxis {
 /// What `create_joint` makes. Names two bodies, of which one at least is dynamic.
 struct JointDef {
   JointType type = JointType::ball;       ///< what it leaves free
-  BodyId a;                               ///< one body
-  BodyId b;                               ///< the other
+  BodyId a;                               ///< the first body: of a wheel the chassis
+  BodyId b;                               ///< the second: what turns or slides on A
   Vec3<Real> anchor_a = {0.0, 0.0, 0.0};  ///< from A's centre of mass, m, A's axes; each component within
-                                          ///< +-4096 and 1024 times the bounding radius
-  Vec3<Real> anchor_b = {0.0, 0.0, 0.0};  ///< likewise of B
+                                          ///< +-4096
+  Vec3<Real> anchor_b = {0.0, 0.0, 0.0};  ///< likewise, from B's, in B's axes
   Quat frame_a = {0.0, 0.0, 0.0, 1.0};    ///< from the frame's axes to A's; length 1 within 2^-10, normalised on entry
-  Quat frame_b = {0.0, 0.0, 0.0, 1.0};    ///< likewise of B
-  JointAxis axis = {};                    ///< of the first free motion
-  JointAxis second = {};                  ///< of the second one, where the type has two
+  Quat frame_b = {0.0, 0.0, 0.0, 1.0};    ///< likewise, to B's
+  JointAxis axis = {};                    ///< of the first free motion (JointType)
+  JointAxis second = {};                  ///< of the second
   bool collide = false;                   ///< whether A and B collide with each other
   Scaled break_force = 0.0;   ///< N, >= 0: the joint breaks when its mean force over a tick exceeds it; 0: never
   Scaled break_torque = 0.0;  ///< N m, likewise
@@ -68,32 +68,32 @@ struct JointReaction {
 
 /// A joint that broke in a step, and is gone.
 struct JointEvent {
-  JointId joint;                ///< the name it had
-  BodyId a;                     ///< one body
-  BodyId b;                     ///< the other
+  JointId joint;                ///< names nothing any more
+  BodyId a;                     ///< JointDef::a
+  BodyId b;                     ///< JointDef::b
   uint32_t user_data = 0;       ///< JointDef::user_data
-  JointReaction reaction = {};  ///< what broke it
+  JointReaction reaction = {};  ///< of the step in which it broke
 };
 
 /// Where a step puts its joint events, in the order of the joints' slots. The caller's memory: it must outlive the
 /// world's use of it. Beyond `capacity` they are dropped and counted in the report; the joints break all the same.
 struct JointEventBuffer {
-  JointEvent* data = nullptr;  ///< the first place
-  uint32_t capacity = 0;       ///< places
+  JointEvent* data = nullptr;  ///< filled from its front
+  uint32_t capacity = 0;       ///< events that `data` has room for
 };
 
 struct World;
 
-/// Wakes both bodies. Bodies that a joint with `collide` false connects do not touch each other.
-/// Errors: pool_full, bad_id, bad_argument (a type that is none, one body twice, no dynamic body),
-/// out_of_range, not_normalised, feature_missing.
+/// Makes a joint in the lowest free slot, and wakes both bodies. Bodies that a joint with `collide` false connects do
+/// not touch each other. Errors: pool_full, bad_id, bad_argument (a type that is none, one body twice, no dynamic
+/// body), out_of_range, not_normalised, feature_missing.
 Status create_joint(World& world, const JointDef& def, JointId& id);
-/// Wakes both bodies. A body that is destroyed takes its joints with it. Errors: bad_id.
+/// Takes a joint away, and wakes both bodies. A body that is destroyed takes its joints with it. Errors: bad_id.
 Status destroy_joint(World& world, JointId id);
 /// Makes the joint anew from `def` under the same name: motors, limits, steering. The bodies stay: `def.a`, `def.b` are
 /// not read. Wakes both. Errors: as create_joint.
 Status set_joint(World& world, JointId id, const JointDef& def);
-/// A definition that creates the same joint. Errors: bad_id.
+/// A definition that creates the same joint between the same bodies. Errors: bad_id.
 Status get_joint(const World& world, JointId id, JointDef& def);
 /// What the joint bore in the last step that it took part in. Errors: bad_id.
 Status get_joint_reaction(const World& world, JointId id, JointReaction& reaction);

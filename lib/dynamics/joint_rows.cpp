@@ -202,6 +202,34 @@ void push_softly(const StepSettings& settings, const SolverBodies& bodies, const
   work.mode[i] = DriveMode::constant;
 }
 
+/// What is set of the others has no meaning.
+int free_motion_count(JointType type) {
+  if (type == JointType::ball || type == JointType::fixed) return 0;
+  return type == JointType::cone_twist || type == JointType::wheel ? 2 : 1;
+}
+
+/// What a motor or spring gives beside a limit that holds, if it pushes away from it: then the limit bears the rest, or
+/// is let go.
+Real push_off_limit(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, int i,
+                    const JointWork& work) {
+  const JointState& joint = stage.joints[work.joint];
+  const bool up = work.mode[i] == DriveMode::lower;
+  const Real most = is_positive(joint.force_max[i]) ? multiply(work.bound[i], settings.share) : k_joint_impulse_max;
+  Real push = k_zero;
+  if (free_mode(joint, i) == DriveMode::rigid) {
+    push = joint.speed[i] > k_zero ? most : joint.speed[i] < k_zero ? -most : k_zero;
+  } else if (free_mode(joint, i) == DriveMode::spring) {
+    const int power = is_angular(static_cast<JointType>(joint.type), i) ? work.exponent : 0;
+    const Spring spring(settings, joint, i);
+    const Scaled pull = multiply(multiply(spring.rate, spring.phase),
+                                 scaled_from(scale_by_power(joint.target[i], power) - work.value[i]));
+    const Scaled response = own_response(bodies, stage, work, work.free_row[i]);
+    bool saturated = false;
+    if (is_positive(response)) push = clamp(to_real(divide(pull, response), saturated), -most, most);
+  }
+  return up ? max(push, k_zero) : min(push, k_zero);
+}
+
 }  // namespace
 
 bool is_angular(JointType type, int motion) {
@@ -273,12 +301,15 @@ void make_joint_rows(const StepSettings& settings, const JointStage& stage, Join
 
 void choose_drives(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, JointWork& work) {
   const JointState& joint = stage.joints[work.joint];
-  for (int i = 0; i < 2; ++i) {
+  work.mode[0] = work.mode[1] = DriveMode::idle;
+  work.constant[0] = work.constant[1] = k_zero;
+  for (int i = 0; i < free_motion_count(static_cast<JointType>(joint.type)); ++i) {
     work.mode[i] = free_mode(joint, i);
     if (work.mode[i] == DriveMode::spring) push_softly(settings, bodies, stage, i, work);
     if (joint.limited[i] == 0) continue;
     if (joint.lower[i] == joint.upper[i]) {
       work.mode[i] = DriveMode::held;
+      work.constant[i] = k_zero;
       continue;
     }
     const int power = is_angular(static_cast<JointType>(joint.type), i) ? work.exponent : 0;
@@ -287,6 +318,9 @@ void choose_drives(const StepSettings& settings, const SolverBodies& bodies, con
       work.mode[i] = DriveMode::lower;
     else if (work.value[i] + max(reach, k_zero) >= scale_by_power(joint.upper[i], power))
       work.mode[i] = DriveMode::upper;
+    else
+      continue;
+    work.constant[i] = push_off_limit(settings, bodies, stage, i, work);
   }
 }
 
@@ -335,6 +369,7 @@ Revision revise_drives(const JointState& joint, Scaled share, JointWork& work) {
     const Real impulse = row < k_joint_rows_max ? work.impulse[row] : k_zero;
     if ((mode == DriveMode::lower && impulse < k_zero) || (mode == DriveMode::upper && impulse > k_zero)) {
       mode = free_mode(joint, i);
+      work.constant[i] = k_zero;
       revision = Revision::made;
     } else if ((mode == DriveMode::rigid || mode == DriveMode::spring) && is_positive(joint.force_max[i])) {
       const Real bound = multiply(work.bound[i], share);

@@ -200,10 +200,10 @@ struct Solver {
                             dot(last_three(body.response[5]), torque)};
   }
 
-  /// Motors at their limit push without a row.
+  /// Motors at their greatest force, and soft springs, push without a row.
   void push(const JointWork& work) {
     for (int i = 0; i < 2; ++i) {
-      if (work.mode[i] != DriveMode::constant) continue;
+      if (work.constant[i] == k_zero) continue;
       const JointRow& row = work.free_row[i];
       const Real impulse = work.constant[i];
       give(end_of(work, 1), real_from(row.axis) * impulse, real_from(row.arm[1]) * impulse);
@@ -412,8 +412,7 @@ struct Solver {
     if (work.points != 0) work.force_sum += Vec3<Real>{impulse[0], impulse[1], impulse[2]};
     for (uint32_t k = work.points != 0 ? 3 : 0; k < work.rows; ++k) add_row(work, work.row[k], impulse[k]);
     for (int i = 0; i < 2; ++i) {
-      if (work.mode[i] == DriveMode::constant && work.driven[i] == k_joint_rows_max)
-        add_row(work, work.free_row[i], work.constant[i]);
+      if (!(work.constant[i] == k_zero)) add_row(work, work.free_row[i], work.constant[i]);
     }
   }
   static void add_row(JointWork& work, const JointRow& row, Real impulse) {
@@ -530,7 +529,10 @@ uint32_t solve_joints(const StepSettings& settings, const SolverBodies& bodies, 
     JointWork& work = stage.work[index];
     solver.add_up(work, work.total);
     JointState& joint = stage.joints[work.joint];
-    for (uint32_t k = 0; k < work.rows_held; ++k) joint.impulse[k] = work.total[k];
+    for (uint32_t k = 0; k < work.rows_held; ++k) {
+      joint.impulse[k] = clamp(work.total[k], -k_joint_impulse_max, k_joint_impulse_max);
+      if (!(joint.impulse[k] == work.total[k])) ++solver.clamped;
+    }
   }
   return solver.clamped;
 }

@@ -273,6 +273,7 @@ Status check_state(const uint8_t* block, Capacity capacity, AssetTable assets, c
     return Status::corrupt;
   }
   if (!contains(features_of(state), features_of(world.continuous != 0, world.sleeping != 0))) return Status::corrupt;
+  if (world.joint_count != 0 && !contains(features_of(state), Features::joints)) return Status::corrupt;
   if (!are_slots(state) || !are_assets(state) || !are_fills(block, state.layout)) return Status::corrupt;
   // Before the bodies, which are checked against the hulls that they have.
   if (const Status status = check_assets(assets, features, state.assets); status != Status::ok) return status;

@@ -15,8 +15,7 @@ namespace {
 
 constexpr Real k_zero = 0.0;
 constexpr Real k_anchor_max = 4096.0;
-constexpr int k_anchor_power_max = 10;  ///< over the body's unit of length
-constexpr Real k_axis_max = 16384.0;    ///< m, of a limit or target
+constexpr Real k_axis_max = 16384.0;  ///< m, of a limit or target
 constexpr Real k_angle_max = 3.14159265358979323846;
 constexpr Real k_frequency_min = 0x1p-10;
 constexpr Real k_frequency_max = 1024.0;
@@ -36,16 +35,10 @@ bool is_axis(const JointState& joint, int i) {
          is_between(joint.force_max[i], Scaled(0.0), k_force_max);
 }
 
-bool is_anchor(const BodyTraits& body, const Vec3<Real>& anchor) {
-  const int exponent = body.size_exponent + k_anchor_power_max;
-  const Real most = exponent < 12 ? real_from_unit(Unit(1.0), exponent) : k_anchor_max;
-  return within(anchor, is_dynamic(body) ? most : k_anchor_max);
-}
-
 /// All but the bodies and what steps leave.
-bool is_joint(const JointState& joint, const BodyTraits& a, const BodyTraits& b) {
-  return is_type(static_cast<JointType>(joint.type)) && joint.collide <= 1 && is_anchor(a, joint.anchor_a) &&
-         is_anchor(b, joint.anchor_b) && is_axis(joint, 0) && is_axis(joint, 1) &&
+bool is_joint(const JointState& joint) {
+  return is_type(static_cast<JointType>(joint.type)) && joint.collide <= 1 && within(joint.anchor_a, k_anchor_max) &&
+         within(joint.anchor_b, k_anchor_max) && is_axis(joint, 0) && is_axis(joint, 1) &&
          is_between(joint.break_force, Scaled(0.0), k_force_max) &&
          is_between(joint.break_torque, Scaled(0.0), k_force_max);
 }
@@ -67,7 +60,7 @@ JointAxis axis_of(const JointState& joint, int i) {
 }
 
 /// A joint of two bodies that are there. Errors: bad_argument, out_of_range, not_normalised.
-Status make_joint(const StateView<uint8_t>& state, const JointDef& def, uint32_t a, uint32_t b, JointState& joint) {
+Status make_joint(const JointDef& def, uint32_t a, uint32_t b, JointState& joint) {
   if (!is_type(def.type)) return Status::bad_argument;
   joint.type = static_cast<uint32_t>(def.type);
   joint.body_a = a;
@@ -82,7 +75,7 @@ Status make_joint(const StateView<uint8_t>& state, const JointDef& def, uint32_t
   set_axis(def.second, 1, joint);
   joint.break_force = def.break_force;
   joint.break_torque = def.break_torque;
-  return is_joint(joint, state.traits[a], state.traits[b]) ? Status::ok : Status::out_of_range;
+  return is_joint(joint) ? Status::ok : Status::out_of_range;
 }
 
 template <class Byte>
@@ -212,7 +205,7 @@ bool are_joints(const StateView<const uint8_t>& state) {
     const BodyTraits &a = state.traits[joint.body_a], &b = state.traits[joint.body_b];
     Quat ignored;
     if (a.type == 0 || b.type == 0 || !normalise_input(joint.frame_a, ignored) ||
-        !normalise_input(joint.frame_b, ignored) || !is_joint(joint, a, b) || !is_number(joint.force) ||
+        !normalise_input(joint.frame_b, ignored) || !is_joint(joint) || !is_number(joint.force) ||
         !is_number(joint.torque))
       return false;
     for (const Real impulse : joint.impulse) {
@@ -230,7 +223,7 @@ Status create_joint(World& world, const JointDef& def, JointId& id) {
   if (!find_body(state, def.a, a) || !find_body(state, def.b, b)) return Status::bad_id;
   if (a == b || (!is_dynamic(state.traits[a]) && !is_dynamic(state.traits[b]))) return Status::bad_argument;
   JointState joint{};
-  if (const Status status = make_joint(state, def, a, b, joint); status != Status::ok) return status;
+  if (const Status status = make_joint(def, a, b, joint); status != Status::ok) return status;
   if (!take_joint_slot(state, slot)) return Status::pool_full;
   joint.generation = state.joints[slot].generation + 1;
   state.joints[slot] = joint;
@@ -255,8 +248,7 @@ Status set_joint(World& world, JointId id, const JointDef& def) {
   if (!find_joint(state, id, slot)) return Status::bad_id;
   JointState& before = state.joints[slot];
   JointState joint{};
-  if (const Status status = make_joint(state, def, before.body_a, before.body_b, joint); status != Status::ok)
-    return status;
+  if (const Status status = make_joint(def, before.body_a, before.body_b, joint); status != Status::ok) return status;
   joint.generation = before.generation;
   joint.force = before.force;
   joint.torque = before.torque;

@@ -1,3 +1,5 @@
+#include <detent/body_access.h>
+
 #include <algorithm>
 #include <vector>
 
@@ -241,6 +243,56 @@ DETENT_TEST(joint, limits_stop_what_they_limit_and_push_only_one_way) {
   EXPECT_NEAR(least, -0.5, 0.001);
 }
 
+DETENT_TEST(joint, motors_and_springs_leave_a_limit_that_they_start_from) {
+  for (const bool spring : {false, true}) {
+    for (const double way : {1.0, -1.0}) {
+      JointAxis axis;
+      axis.limited = true;
+      axis.lower = real(way > 0 ? 0 : -1);
+      axis.upper = real(way > 0 ? 1 : 0);
+      if (spring) {
+        axis.frequency = real(1);
+        axis.target = real(0.5 * way);
+      } else {
+        axis.speed = real(way);
+        axis.force_max = scaled(1000);
+      }
+      Flywheel flywheel(axis);
+      flywheel.lab.run(30);
+      EXPECT_GT(flywheel.angle() * way, 0.3) << spring << way;
+    }
+  }
+}
+
+DETENT_TEST(joint, what_a_type_does_not_leave_free_is_not_driven) {
+  for (const JointType type : k_types) {
+    JointDef rest;
+    JointAxis* const axes[2] = {&rest.axis, &rest.second};
+    for (JointAxis* axis : axes) {
+      axis->limited = true;
+      axis->lower = real(-0.5);
+      axis->upper = real(0.5);
+      axis->frequency = real(30);
+      axis->speed = real(3);
+      axis->force_max = scaled(100);
+    }
+    Pair pair(type, rest);
+    for (int tick = 0; tick < 60; ++tick) EXPECT_EQ(pair.lab.run(1).saturations, 0u);
+  }
+}
+
+DETENT_TEST(joint, an_anchor_far_outside_a_body_that_shrinks_is_still_loaded_and_stepped) {
+  Lab lab(room(2, 1));
+  const BodyId ground = add_shape(lab, box(reals(0.1, 0.1, 0.1)), 0, 0, 0, BodyType::fixed);
+  const BodyId ball = add_shape(lab, sphere(real(0.5)), 0, -4, 0);
+  const JointId joint = add_joint(lab, JointType::ball, ground, ball, 0, 0, 0);
+  ASSERT_OK(set_shape(lab.world, ball, sphere(real(0.125))));
+  std::vector<uint64_t> saved = lab.snapshot();
+  ASSERT_OK(load(lab.world, bytes_of(saved), byte_count(saved)));
+  for (int tick = 0; tick < 60; ++tick) EXPECT_EQ(lab.run(1).saturations, 0u);
+  EXPECT_LE(length(joint_ends(lab.world, joint).gap()), 1e-3);
+}
+
 DETENT_TEST(joint, a_rope_is_slack_until_it_is_taut) {
   Lab lab(room(2, 1));
   const BodyId ground = add_shape(lab, box(reals(0.1, 0.1, 0.1)), 0, 0, 0, BodyType::fixed);
@@ -288,6 +340,37 @@ DETENT_TEST(joint, a_cone_leans_no_farther_and_twists_no_farther_than_it_may) {
       const JointEnds ends = joint_ends(lab.world, joint);
       EXPECT_LE(ends.between(0), 0.4 + 0.02);
       EXPECT_LE(length(ends.gap()), 5e-3);
+    }
+  }
+}
+
+DETENT_TEST(joint, what_swings_round_a_wide_cone_gains_nothing_from_the_limits_of_its_twist) {
+  JointDef rest;
+  rest.second.limited = rest.axis.limited = true;
+  rest.second.upper = real(1.4);
+  rest.axis.lower = real(-0.3);
+  rest.axis.upper = real(0.3);
+  Lab lab(room(2, 1), weightless());
+  const BodyId ground = add_shape(lab, box(reals(0.1, 0.1, 0.1)), 0, 0, 0, BodyType::fixed);
+  const BodyId arm = add_shape(lab, sphere(real(0.2)), 0.5, 0, 0);
+  add_joint(lab, JointType::cone_twist, ground, arm, 0, 0, 0, rest);
+  Samples samples = {9};
+  const auto energy = [&](const Motion& motion) {  // over half the mass, m^2/s^2
+    const Vector velocity = {motion.velocity[0], motion.velocity[1], motion.velocity[2]};
+    const Vector spin = {motion.spin[0], motion.spin[1], motion.spin[2]};
+    return dot(velocity, velocity) + 0.4 * 0.04 * dot(spin, spin);
+  };
+  for (int round = 0; round < 20; ++round) {
+    const auto draw = [&] { return (samples.below(6001) - 3000.0) / 300; };
+    const double x = draw(), y = draw(), z = draw();
+    const Motion now = lab.motion(arm);
+    const Vector spin = {x, y, z}, way = {now.position[0], now.position[1], now.position[2]};
+    const Vector velocity = cross(spin, way);
+    ASSERT_OK(set_velocity(lab.world, arm, reals(velocity.x, velocity.y, velocity.z), reals(x, y, z)));
+    const double start = energy(lab.motion(arm));
+    for (int tick = 0; tick < 60; ++tick) {
+      lab.run(1);
+      ASSERT_LE(energy(lab.motion(arm)), 1.05 * start) << "round " << round << ", tick " << tick;
     }
   }
 }
