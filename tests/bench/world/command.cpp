@@ -28,6 +28,8 @@ constexpr const char* k_help =
   losses    contacts and values lost to full pools since the start, where the engine tells
   drift     m, the farthest that a body went along the floor (dominoes: sideways); sag: likewise, downwards
   penetration  m, of the exact shapes of the pairs that overlap, by this library's contact points
+  stretch   of a chain: how much longer it is than its links, over their length; at most, and late: the mean of the
+            last third
   speed     m/s, of the bodies, mean over the window
   energy    J/kg, of motion and height, gained since the start by the window's end
 Of a step during which another process had the core, the thread's own time counts.
