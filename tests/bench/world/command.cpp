@@ -85,7 +85,7 @@ CLI::App* add_world_command(CLI::App& app, WorldOptions& options) {
   command
       ->add_option("--scenes", options.scenes,
                    "Only these, separated by commas; S10 stands for S10-asleep and S10-one-awake too (default: all; of "
-                   "a study S1)")
+                   "a study S1 and S6)")
       ->delimiter(',')
       ->check(CLI::IsMember(names));
   command->add_option("--engines", options.engines, "Only these")
@@ -110,7 +110,7 @@ CLI::App* add_world_command(CLI::App& app, WorldOptions& options) {
 int run_world(WorldOptions options) {
   if (options.scenes.empty()) {
     for (const WorldScene& scene : world_scenes()) options.scenes.emplace_back(scene.name);
-    if (options.study) options.scenes = {"S1"};
+    if (options.study) options.scenes = {"S1", "S6"};
   }
   std::string problem;
   const WorldEngineList engines = chosen(all_world_engines(problem), options);

@@ -78,9 +78,9 @@ void Watch::begin_window() {
 }
 
 void Watch::sample(const States& states) {
+  if (!stage_.collisions) return;  // what hangs together swings and overlaps as it should
   ++samples_;
   speed_sum_ += speed_mean(stage_, states);
-  if (!stage_.collisions) return;
   const detent_stress::Depths depths = depths_.measure(states);
   depth_sum_ += depths.mean * depths.pairs;
   depth_pairs_ += depths.pairs;
@@ -106,8 +106,8 @@ std::vector<std::pair<std::string, double>> Watch::measures(const States& states
   if (stage_.collisions) {
     add("penetration_mean", depth_pairs_ == 0 ? 0 : depth_sum_ / static_cast<double>(depth_pairs_));
     add("penetration_max", depth_max_);
+    add("speed_mean", samples_ == 0 ? 0 : speed_sum_ / samples_);
   }
-  add("speed_mean", samples_ == 0 ? 0 : speed_sum_ / samples_);
   add("energy", (energy_of(stage_, states) - energy_) / mass_);
   if (stage_.sleeping) add("ticks_until_asleep", ticks_until_still_);
   return result;

@@ -84,7 +84,7 @@ TEST(watch, a_scene_is_asleep_after_the_last_tick_that_moved_a_body) {
   EXPECT_EQ(measure(watch, states, "ticks_until_asleep"), 5);
 }
 
-TEST(watch, a_chain_is_judged_by_its_stretch_and_not_by_depths) {
+TEST(watch, a_chain_is_judged_by_its_stretch_alone) {
   const Stage stage = detent_stress::chain(4, 10);
   const DepthMeter depths(stage);
   Watch watch(stage, depths);
