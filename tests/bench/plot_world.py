@@ -5,6 +5,7 @@ COLOURS = {"fx64": "tab:blue", "f32": "tab:olive", "f64": "tab:green", "fx32": "
            "bullet float": "tab:orange", "ode double": "tab:purple"}
 MARKERS = {0: "*", 1: "o", 2: "s", 4: "^"}
 ERRORS = {"penetration_mean": "mean penetration of overlapping pairs, m", "drift": "greatest drift, m",
+          "stretch_max": "stretch at most, of the length", "stretch_late": "stretch late, of the length",
           "energy": "energy gained or lost, J/kg", "speed_mean": "mean speed, m/s"}
 FLOOR = 1e-7  # smaller errors are drawn here
 

@@ -41,6 +41,8 @@ inline constexpr Wanted k_wanted[] = {
     {"plate", "lost_time", 0},
     {"plate", "energy_gained", 1e-3},
     {"plate", "momentum", 1e-6},
+    {"chain", "stretch_max", 0.05},
+    {"chain", "stretch_late", 0.01},
     {"spin", "flips", 0},
     {"spin", "energy", 1e-4},
     {"spin", "momentum", 1e-4},

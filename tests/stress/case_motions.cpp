@@ -5,6 +5,19 @@
 
 namespace detent_stress {
 
+void run_chain(const Trial& trial, Outcome& outcome, double ratio) {
+  const Stage stage = varied(chain(30, ratio), trial.seed);
+  Ride ride(trial, stage, outcome);
+  if (!ride.good()) return;
+  std::vector<double> stretches(trial.pick(stage.ticks, 600, 180));
+  for (double& each : stretches) {
+    ride.step();
+    each = stretch(ride.stage(), ride.states());
+  }
+  outcome.add("stretch_max", *std::max_element(stretches.begin(), stretches.end()));
+  outcome.add("stretch_late", late_mean(stretches));
+}
+
 void run_spin(const Trial& trial, Outcome& outcome) {
   constexpr double k_flips = 74, k_degree = 3.14159265358979 / 180;
   const Stage stage = varied(free_spin(), trial.seed);

@@ -75,6 +75,10 @@ std::vector<Case> make_cases() {
       }
     }
   }
+  for (const uint32_t ratio : {100u, 10u, 1u}) {
+    add("S6", "chain_" + std::to_string(ratio) + ":1",
+        [ratio](const Trial& trial, Outcome& outcome) { run_chain(trial, outcome, ratio); });
+  }
   add("S7", "spin", run_spin);
   add("S8", "dominoes", [](const Trial& trial, Outcome& outcome) { run_dominoes(trial, outcome, 200); });
   add("S9", "incline_holds", [](const Trial& trial, Outcome& outcome) { run_incline(trial, outcome, 0.99); });

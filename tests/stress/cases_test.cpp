@@ -61,6 +61,9 @@ DETENT_TEST(stress, a_pit_keeps_what_falls_into_it_at_100_m) { expect_reached("S
 DETENT_TEST(stress, nothing_passes_through_paper) { expect_reached("S5", 1); }
 DETENT_TEST(stress, nothing_passes_through_paper_at_1_cm) { expect_reached("S5", k_small_wall); }
 DETENT_TEST(stress, nothing_passes_through_paper_at_100_m) { expect_reached("S5", k_large); }
+DETENT_TEST(stress, a_chain_holds_a_weight) { expect_reached("S6", 1); }
+DETENT_TEST(stress, a_chain_holds_a_weight_at_1_cm) { expect_reached("S6", k_small); }
+DETENT_TEST(stress, a_chain_holds_a_weight_at_100_m) { expect_reached("S6", k_large); }
 DETENT_TEST(stress, a_thrown_racket_flips_as_euler_says) { expect_reached("S7", 1); }
 DETENT_TEST(stress, a_thrown_racket_flips_as_euler_says_at_1_cm) { expect_reached("S7", k_small); }
 DETENT_TEST(stress, a_thrown_racket_flips_as_euler_says_at_100_m) { expect_reached("S7", k_large); }

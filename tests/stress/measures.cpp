@@ -65,6 +65,23 @@ double speed_mean(const Stage& stage, const States& states) {
   return count != 0 ? sum / count : 0;
 }
 
+double stretch(const Stage& stage, const States& states) {
+  double gaps = 0, links = 0;
+  for (size_t i = 0; i < stage.joints.size(); ++i) {
+    const StageJoint& joint = stage.joints[i];
+    gaps += length(point_of(states[joint.b], joint.anchor_b) - point_of(states[joint.a], joint.anchor_a));
+    if (i != 0) links += length(triple(joint.anchor_a) - triple(stage.joints[i - 1].anchor_b));
+  }
+  return gaps / links;
+}
+
+double late_mean(const std::vector<double>& values) {
+  const size_t first = values.size() - (values.size() + 2) / 3;
+  double sum = 0;
+  for (size_t i = first; i < values.size(); ++i) sum += values[i];
+  return sum / static_cast<double>(values.size() - first);
+}
+
 Sums sums_of(const Stage& stage, const States& states) {
   Sums sums;
   for (size_t i = 0; i < states.size(); ++i) {

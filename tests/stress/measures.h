@@ -13,6 +13,12 @@ double sag(const Stage& stage, const States& states);
 /// Of the bodies' centres, m/s.
 double speed_mean(const Stage& stage, const States& states);
 
+/// Of a chain, whose joints are in its order: by how much the way along its anchors is longer than between those of
+/// each body, over the latter.
+double stretch(const Stage& stage, const States& states);
+/// The mean of the last third of a run; of S6's 30 s the last 10.
+double late_mean(const std::vector<double>& values);
+
 struct Sums {
   std::array<double, 3> linear = {};   ///< momentum, kg m/s
   std::array<double, 3> angular = {};  ///< about the origin, kg m^2/s

@@ -173,6 +173,32 @@ DETENT_TEST(measures, a_varied_scene_has_the_same_bodies_at_the_same_distances) 
   EXPECT_NE(other.bodies[1].position[1], other.bodies[2].position[1]) << "the order is another";
 }
 
+DETENT_TEST(measures, a_chain_begins_closed_scaled_and_varied_too) {
+  for (const double scale : {1.0, 0.01, 100.0}) {
+    for (const uint64_t seed : {0u, 1u, 2u}) {
+      const Stage stage = scaled(varied(detent_stress::chain(5, 10), seed), scale);
+      EXPECT_EQ(stage.joints.size(), 6u);
+      EXPECT_NEAR(stretch(stage, states_at_start(stage)), 0, 1e-14) << seed;
+    }
+  }
+}
+
+DETENT_TEST(measures, stretch_is_the_sum_of_the_gaps_over_the_links) {
+  const Stage stage = detent_stress::chain(4, 10);
+  EXPECT_NEAR(mass_of(stage.bodies[5]) / mass_of(stage.bodies[1]), 10, 1e-12);
+  States states = states_at_start(stage);
+  states[5].position[1] -= 0.3;
+  EXPECT_NEAR(stretch(stage, states), 0.15, 1e-12);
+  states[2].position[2] += 0.1;
+  EXPECT_NEAR(stretch(stage, states), 0.25, 1e-12);
+}
+
+DETENT_TEST(measures, late_is_the_last_third) {
+  EXPECT_EQ(detent_stress::late_mean({9, 9, 9, 9, 1, 3}), 2);
+  EXPECT_EQ(detent_stress::late_mean({9, 1, 3, 2}), 2.5);
+  EXPECT_EQ(detent_stress::late_mean({4}), 4);
+}
+
 }  // namespace
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

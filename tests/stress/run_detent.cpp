@@ -24,6 +24,7 @@ using detent_stress::Settings;
 using detent_stress::Solid;
 using detent_stress::Stage;
 using detent_stress::StageBody;
+using detent_stress::StageJoint;
 using detent_stress::States;
 
 bool to_vector(const double (&v)[3], Vec3<Real>& result) {
@@ -71,6 +72,7 @@ class DetentRun : public detent_stress::Run {
     def.capacity.bodies = static_cast<uint32_t>(stage.bodies.size());
     // A body in a heap touches some 12 others, each pair counted once; in a row of boxes it has 2 more that are near.
     def.capacity.contacts = 8 * def.capacity.bodies + 16;
+    def.capacity.joints = static_cast<uint32_t>(stage.joints.size());
     for (const StageBody& body : stage.bodies) {
       if (body.solid == Solid::icosahedron) hulls_.push_back(detent_stress::cook_icosahedron(body.size[0]));
     }
@@ -96,7 +98,11 @@ class DetentRun : public detent_stress::Run {
     uint32_t next_hull = 0;
     for (const StageBody& body : stage.bodies) {
       if (status != Status::ok) break;
-      status = add(body, next_hull);
+      status = add(body, stage.collisions, next_hull);
+    }
+    for (const StageJoint& joint : stage.joints) {
+      if (status != Status::ok) break;
+      status = add(joint);
     }
     return status;
   }
@@ -164,8 +170,9 @@ class DetentRun : public detent_stress::Run {
     std::array<double, 4> cooked = {0, 0, 0, 1};  ///< from the library's axes of the body to the stage's
   };
 
-  Status add(const StageBody& body, uint32_t& next_hull) {
+  Status add(const StageBody& body, bool collides, uint32_t& next_hull) {
     BodyDef def;
+    if (!collides) def.filter.group = -1;
     Body made;
     Vec3<Real> size;
     if (!to_vector(body.size, size)) return Status::out_of_range;
@@ -200,6 +207,17 @@ class DetentRun : public detent_stress::Run {
     const Status status = create_body(world_, def, made.id);
     bodies_.push_back(made);
     return status;
+  }
+
+  Status add(const StageJoint& joint) {
+    JointDef def;
+    def.type = JointType::ball;
+    def.a = bodies_[joint.a].id;
+    def.b = bodies_[joint.b].id;
+    if (!to_vector(joint.anchor_a, def.anchor_a) || !to_vector(joint.anchor_b, def.anchor_b))
+      return Status::out_of_range;
+    JointId id;
+    return create_joint(world_, def, id);
   }
 
   std::vector<CookedIcosahedron> hulls_;

@@ -197,6 +197,40 @@ Stage paper_shot(Target target, Projectile projectile, double speed, uint64_t se
   return stage;
 }
 
+Stage chain(uint32_t links, double ratio) {
+  constexpr double k_half = 0.25;        // of a link's length, m
+  constexpr double k_weight_half = 0.3;  // m
+  constexpr double k_root = 0.70710678118654752440;
+  Stage stage;
+  stage.name = "chain";
+  stage.ticks = 1800;
+  stage.collisions = false;
+  StageBody hook = body_of(Solid::sphere, {0.1, 0, 0}, {0, 0, 0});
+  hook.role = Role::fixed;
+  stage.bodies.push_back(hook);
+  /// Hangs the body's point on the last one's.
+  const auto hang = [&stage](const StageBody& body, const Triple& anchor_last, const Triple& anchor) {
+    StageJoint joint;
+    joint.a = static_cast<uint32_t>(stage.bodies.size() - 1);
+    joint.b = joint.a + 1;
+    set(joint.anchor_a, anchor_last);
+    set(joint.anchor_b, anchor);
+    stage.joints.push_back(joint);
+    stage.bodies.push_back(body);
+  };
+  StageBody link = body_of(Solid::capsule, {0.05, 0.2, 0}, {});
+  set(link.rotation, Rotation{0, 0, -k_root, k_root});  // its y along x
+  for (uint32_t i = 0; i < links; ++i) {
+    set(link.position, Triple{(2 * i + 1) * k_half, 0, 0});
+    hang(link, {0, i == 0 ? 0 : k_half, 0}, {0, -k_half, 0});
+  }
+  StageBody weight =
+      body_of(Solid::box, {k_weight_half, k_weight_half, k_weight_half}, {2 * links * k_half + k_weight_half, 0, 0});
+  weight.mass = ratio * mass_of(link);
+  hang(weight, {0, k_half, 0}, {-k_weight_half, 0, 0});
+  return stage;
+}
+
 Stage free_spin() {
   Stage stage;
   stage.name = "free_spin";

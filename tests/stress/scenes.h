@@ -21,6 +21,9 @@ enum class Projectile : uint32_t { ball, rod };
 /// S5: body 0 is the target, a slab whose normal is its local z; body 1 is shot at it.
 Stage paper_shot(Target target, Projectile projectile, double speed, uint64_t seed);
 
+/// S6: links of 0.5 m along x, hung from a fixed ball at the origin, and a cube of `ratio` times a link's mass at the
+/// end. 30 s.
+Stage chain(uint32_t links, double ratio);
 /// S7: one box thrown about its middle axis.
 Stage free_spin();
 /// S8: in a row along x, the first tilted towards the second.

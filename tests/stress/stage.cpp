@@ -2,9 +2,12 @@
 
 #include <math.h>
 
+#include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "tests/queries/random.h"
+#include "tests/queries/triple.h"
 
 namespace detent_stress {
 
@@ -59,6 +62,12 @@ States states_at_start(const Stage& stage) {
   return states;
 }
 
+std::array<double, 3> point_of(const BodyState& state, const double (&point)[3]) {
+  const double(&q)[4] = state.rotation;
+  const auto arm = detent_queries::rotate({q[0], q[1], q[2], q[3]}, {point[0], point[1], point[2]});
+  return {state.position[0] + arm[0], state.position[1] + arm[1], state.position[2] + arm[2]};
+}
+
 Stage scaled(const Stage& stage, double factor) {
   Stage result = stage;
   const double root = sqrt(factor);
@@ -72,6 +81,10 @@ Stage scaled(const Stage& stage, double factor) {
       body.spin[i] /= root;
     }
     body.mass *= cube(factor);
+  }
+  for (StageJoint& joint : result.joints) {
+    for (double& coordinate : joint.anchor_a) coordinate *= factor;
+    for (double& coordinate : joint.anchor_b) coordinate *= factor;
   }
   return result;
 }
@@ -90,9 +103,16 @@ Stage varied(const Stage& stage, uint64_t seed) {
   detent_queries::Random random(seed);
   size_t first = 0;
   while (first < result.bodies.size() && result.bodies[first].role != Role::dynamic) ++first;
+  std::vector<uint32_t> was(result.bodies.size());  // of each body, which one it was
+  std::iota(was.begin(), was.end(), 0);
   for (size_t i = result.bodies.size(); i > first + 1; --i) {
     const size_t other = first + random.below(static_cast<uint32_t>(i - first));
     std::swap(result.bodies[i - 1], result.bodies[other]);
+    std::swap(was[i - 1], was[other]);
+  }
+  for (StageJoint& joint : result.joints) {
+    for (uint32_t* body : {&joint.a, &joint.b})
+      *body = static_cast<uint32_t>(std::find(was.begin(), was.end(), *body) - was.begin());
   }
   double s = 0, c = 0;  // of half the angle
   for (double square = 0; square < 0.01 || square > 1;) {

@@ -32,12 +32,21 @@ struct StageBody {
   double restitution = 0;             ///< of any pair: the larger of both
 };
 
+/// A ball joint: two points, one of each body, stay one.
+struct StageJoint {
+  uint32_t a = 0, b = 0;           ///< indices of bodies, of which one at least is dynamic
+  double anchor_a[3] = {0, 0, 0};  ///< from A's centre of mass, m, A's axes
+  double anchor_b[3] = {0, 0, 0};  ///< likewise of B
+};
+
 struct Stage {
   std::string name;
   std::vector<StageBody> bodies;  ///< those that do not move first
-  double gravity = 9.81;          ///< m/s^2, downwards
-  double tick = 1.0 / 60;         ///< s
-  double unit = 1;                ///< m: the scale of the scene, 1 as scenes.md has it
+  std::vector<StageJoint> joints;
+  bool collisions = true;  ///< whether any two bodies touch
+  double gravity = 9.81;   ///< m/s^2, downwards
+  double tick = 1.0 / 60;  ///< s
+  double unit = 1;         ///< m: the scale of the scene, 1 as scenes.md has it
   uint32_t ticks = 600;
   bool sleeping = false;
 };
@@ -51,6 +60,8 @@ struct BodyState {
 };
 using States = std::vector<BodyState>;
 States states_at_start(const Stage& stage);
+/// Where a point of a body is, m, world: given from its centre of mass, m, in its axes.
+std::array<double, 3> point_of(const BodyState& state, const double (&point)[3]);
 
 /// Every length and position times `factor`, and every speed (and with it the time scale) times its root, so that the
 /// same motion is seen under the same gravity; the tick is scaled alike.

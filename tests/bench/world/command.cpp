@@ -28,6 +28,8 @@ constexpr const char* k_help =
   losses    contacts and values lost to full pools since the start, where the engine tells
   drift     m, the farthest that a body went along the floor (dominoes: sideways); sag: likewise, downwards
   penetration  m, of the exact shapes of the pairs that overlap, by this library's contact points
+  stretch   of a chain: how much longer it is than its links, over their length; at most, and late: the mean of the
+            last third
   speed     m/s, of the bodies, mean over the window
   energy    J/kg, of motion and height, gained since the start by the window's end
 Of a step during which another process had the core, the thread's own time counts.
@@ -83,7 +85,7 @@ CLI::App* add_world_command(CLI::App& app, WorldOptions& options) {
   command
       ->add_option("--scenes", options.scenes,
                    "Only these, separated by commas; S10 stands for S10-asleep and S10-one-awake too (default: all; of "
-                   "a study S1)")
+                   "a study S1 and S6)")
       ->delimiter(',')
       ->check(CLI::IsMember(names));
   command->add_option("--engines", options.engines, "Only these")
@@ -108,7 +110,7 @@ CLI::App* add_world_command(CLI::App& app, WorldOptions& options) {
 int run_world(WorldOptions options) {
   if (options.scenes.empty()) {
     for (const WorldScene& scene : world_scenes()) options.scenes.emplace_back(scene.name);
-    if (options.study) options.scenes = {"S1"};
+    if (options.study) options.scenes = {"S1", "S6"};
   }
   std::string problem;
   const WorldEngineList engines = chosen(all_world_engines(problem), options);

@@ -15,6 +15,7 @@ using detent_stress::Role;
 using detent_stress::Solid;
 using detent_stress::Stage;
 using detent_stress::StageBody;
+using detent_stress::StageJoint;
 
 /// How hard an engine tries. 0: as it does by default, a peer as it is recommended.
 struct Effort {

@@ -51,6 +51,8 @@ WorldRun* make(const Stage& stage, const Effort& effort, const char*& problem) {
   // The digest of the settings is that of a new world with them and with one body, always the same.
   Stage alone = stage;
   alone.bodies.assign(1, {});
+  alone.joints.clear();
+  alone.collisions = true;
   const auto with_settings = engine.make(alone, settings_of(effort), reason);
   if (run == nullptr || with_settings == nullptr) {
     problem = reason.c_str();

@@ -61,9 +61,11 @@ class BulletRun : public WorldRun {
     world_->setGravity({0, scalar(-stage.gravity), 0});
     world_->getSolverInfo().m_numIterations = static_cast<int>(iterations);
     snprintf(settings_, sizeof settings_, "%u iterations", iterations);
-    for (const StageBody& body : stage.bodies) add(body, stage.sleeping);
+    for (const StageBody& body : stage.bodies) add(body, stage);
+    for (const StageJoint& joint : stage.joints) add(joint);
   }
   ~BulletRun() override {
+    for (const auto& joint : joints_) world_->removeConstraint(joint.get());
     for (const auto& body : bodies_) world_->removeRigidBody(body.get());
   }
 
@@ -95,7 +97,7 @@ class BulletRun : public WorldRun {
   const char* settings() const override { return settings_; }
 
  private:
-  void add(const StageBody& given, bool sleeping) {
+  void add(const StageBody& given, const Stage& stage) {
     shapes_.push_back(shape_of(given));
     const double mass = given.role == Role::dynamic ? detent_stress::mass_of(given) : 0;
     const auto gyration = detent_stress::gyration_of(given);
@@ -112,9 +114,18 @@ class BulletRun : public WorldRun {
       body->setCollisionFlags(body->getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
     body->setLinearVelocity(vector_of(given.velocity));
     body->setAngularVelocity(vector_of(given.spin));
-    if (!sleeping) body->setActivationState(DISABLE_DEACTIVATION);
-    world_->addRigidBody(body.get());
+    if (!stage.sleeping) body->setActivationState(DISABLE_DEACTIVATION);
+    if (stage.collisions)
+      world_->addRigidBody(body.get());
+    else
+      world_->addRigidBody(body.get(), 0, 0);
     bodies_.push_back(std::move(body));
+  }
+
+  void add(const StageJoint& given) {
+    joints_.push_back(std::make_unique<btPoint2PointConstraint>(*bodies_[given.a], *bodies_[given.b],
+                                                                vector_of(given.anchor_a), vector_of(given.anchor_b)));
+    world_->addConstraint(joints_.back().get());
   }
 
   btScalar tick_;
@@ -127,6 +138,7 @@ class BulletRun : public WorldRun {
   std::unique_ptr<btDiscreteDynamicsWorld> world_;
   std::vector<std::unique_ptr<btCollisionShape>> shapes_;
   std::vector<std::unique_ptr<btRigidBody>> bodies_;
+  std::vector<std::unique_ptr<btTypedConstraint>> joints_;
 };
 
 WorldRun* make(const Stage& stage, const Effort& effort, const char*& problem) {

@@ -80,7 +80,14 @@ class OdeRun : public WorldRun {
     dWorldSetAutoDisableFlag(world_, stage.sleeping ? 1 : 0);
     surfaces_.reserve(stage.bodies.size());
     convexes_.reserve(stage.bodies.size());
-    for (const StageBody& body : stage.bodies) add(body);
+    for (const StageBody& body : stage.bodies) add(body, stage.collisions);
+    const auto states = detent_stress::states_at_start(stage);
+    for (const StageJoint& given : stage.joints) {
+      const dJointID joint = dJointCreateBall(world_, nullptr);
+      dJointAttach(joint, dGeomGetBody(geoms_[given.a]), dGeomGetBody(geoms_[given.b]));
+      const auto at = detent_stress::point_of(states[given.a], given.anchor_a);  // of both, at the start
+      dJointSetBallAnchor(joint, at[0], at[1], at[2]);
+    }
   }
   ~OdeRun() override {
     dJointGroupDestroy(group_);
@@ -177,12 +184,16 @@ class OdeRun : public WorldRun {
     return nullptr;
   }
 
-  void add(const StageBody& given) {
+  void add(const StageBody& given, bool collides) {
     const dGeomID geom = geom_of(given);
     geoms_.push_back(geom);
     along_z_.push_back(given.solid == Solid::capsule);
     surfaces_.push_back({given.friction, given.restitution});
     dGeomSetData(geom, &surfaces_.back());
+    if (!collides) {
+      dGeomSetCategoryBits(geom, 0);
+      dGeomSetCollideBits(geom, 0);
+    }
     if (given.role != Role::fixed) {
       const dBodyID body = dBodyCreate(world_);
       dMass mass;

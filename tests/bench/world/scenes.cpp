@@ -10,6 +10,7 @@ constexpr uint64_t k_pit_seed = 1;
 
 Stage stage_1() { return detent_stress::pyramid(20); }
 Stage stage_4() { return detent_stress::pit(1000, k_pit_seed); }
+Stage stage_6() { return detent_stress::chain(30, 100); }
 Stage stage_8() { return detent_stress::dominoes(200); }
 Stage stage_10() { return detent_stress::sleep_stacks(1000, 5, false); }
 Stage stage_10_asleep() { return detent_stress::sleep_stacks(1000, 5, true); }
@@ -32,6 +33,7 @@ const std::vector<WorldScene>& world_scenes() {
   static const std::vector<WorldScene> scenes = {
       {"S1", "pyramid of 210 boxes", stage_1, {{"S1", 60, 600}}},
       {"S4", "pit of 1,000 mixed shapes", stage_4, {{"S4-falling", 0, 300}, {"S4", 450, 600}}},
+      {"S6", "chain of 30 links, a weight of 100 at its end", stage_6, {{"S6", 0, 1800}}},
       {"S8", "200 dominoes", stage_8, {{"S8", 0, 1800}}},
       {"S10", "5,000 boxes in stacks, awake", stage_10, {{"S10", 600, 900}}},
       {"S10-asleep", "the same, with sleeping on", stage_10_asleep, {{"S10-asleep", 600, 900}}},

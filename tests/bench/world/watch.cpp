@@ -56,6 +56,7 @@ void Watch::begin(const States& states) {
   last_ = states;
   energy_ = energy_of(stage_, states);
   fallen_.assign(states.size(), false);
+  stretches_.clear();
 }
 
 void Watch::tick(const States& states, uint32_t tick) {
@@ -67,6 +68,7 @@ void Watch::tick(const States& states, uint32_t tick) {
     ticks_until_fallen_ = tick + 1;
   }
   last_ = states;
+  if (!stage_.joints.empty()) stretches_.push_back(stretch(stage_, states));
 }
 
 void Watch::begin_window() {
@@ -76,6 +78,7 @@ void Watch::begin_window() {
 }
 
 void Watch::sample(const States& states) {
+  if (!stage_.collisions) return;  // what hangs together swings and overlaps as it should
   ++samples_;
   speed_sum_ += speed_mean(stage_, states);
   const detent_stress::Depths depths = depths_.measure(states);
@@ -93,13 +96,18 @@ std::vector<std::pair<std::string, double>> Watch::measures(const States& states
     add("drift", sideways(stage_, states));
     add("fallen", static_cast<double>(std::count(fallen_.begin(), fallen_.end(), true)));
     add("last_fall_s", ticks_until_fallen_ * stage_.tick);
+  } else if (stage_.name == "chain") {
+    add("stretch_max", *std::max_element(stretches_.begin(), stretches_.end()));
+    add("stretch_late", detent_stress::late_mean(stretches_));
   } else {
     add("drift", drift(stage_, states));
     add("sag", sag(stage_, states));
   }
-  add("penetration_mean", depth_pairs_ == 0 ? 0 : depth_sum_ / static_cast<double>(depth_pairs_));
-  add("penetration_max", depth_max_);
-  add("speed_mean", samples_ == 0 ? 0 : speed_sum_ / samples_);
+  if (stage_.collisions) {
+    add("penetration_mean", depth_pairs_ == 0 ? 0 : depth_sum_ / static_cast<double>(depth_pairs_));
+    add("penetration_max", depth_max_);
+    add("speed_mean", samples_ == 0 ? 0 : speed_sum_ / samples_);
+  }
   add("energy", (energy_of(stage_, states) - energy_) / mass_);
   if (stage_.sleeping) add("ticks_until_asleep", ticks_until_still_);
   return result;

@@ -32,6 +32,7 @@ class Watch {
   uint32_t samples_ = 0;
   double speed_sum_ = 0, depth_sum_ = 0, depth_max_ = 0;
   uint64_t depth_pairs_ = 0;
+  std::vector<double> stretches_;  ///< after each tick, where there are joints
 };
 
 }  // namespace detent_bench

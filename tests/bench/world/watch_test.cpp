@@ -84,6 +84,21 @@ TEST(watch, a_scene_is_asleep_after_the_last_tick_that_moved_a_body) {
   EXPECT_EQ(measure(watch, states, "ticks_until_asleep"), 5);
 }
 
+TEST(watch, a_chain_is_judged_by_its_stretch_alone) {
+  const Stage stage = detent_stress::chain(4, 10);
+  const DepthMeter depths(stage);
+  Watch watch(stage, depths);
+  States states = states_at_start(stage);
+  watch.begin(states);
+  for (const double gap : {0.0, 0.2, 0.3, 0.1, 0.02, 0.04}) {
+    states[5].position[1] = -gap;
+    watch.tick(states, 0);
+  }
+  EXPECT_NEAR(measure(watch, states, "stretch_max"), 0.15, 1e-12);
+  EXPECT_NEAR(measure(watch, states, "stretch_late"), 0.015, 1e-12);
+  EXPECT_TRUE(isnan(measure(watch, states, "penetration_max")));
+}
+
 TEST(watch, depths_and_speeds_are_of_the_window_alone) {
   const Stage stage = detent_stress::tower(2, 0);
   const DepthMeter depths(stage);
