@@ -24,7 +24,10 @@ constexpr Features k_features = DETENT_SIZE_FEATURES;
 constexpr bool k_recording = DETENT_SIZE_RECORDING;
 constexpr bool has(Features feature) { return contains(k_features, feature); }
 
-constexpr Capacity k_capacity = {8, 7, 1, true, has(Features::joints) ? 1 : 0};
+// So much fits a machine of 16 KB; a joint takes the place of two contacts and of the manifolds.
+constexpr bool k_joint = has(Features::joints);
+constexpr Capacity k_capacity = {8, k_joint ? 5 : 7, 1, !k_joint, k_joint ? 1 : 0};
+constexpr Coord k_near = 0.75, k_above = 8.0;  ///< the ground: what lands within the ticks, and what does not
 constexpr uint32_t k_ticks = 40;
 
 WorldStorage<k_capacity> storage;
@@ -37,10 +40,10 @@ WorldStorage<k_capacity> storage;
 }
 
 template <class Calls>
-bool add(Calls& calls, const Shape& shape, Coord x) {
+bool add(Calls& calls, const Shape& shape, Coord x, Coord y = k_near) {
   BodyDef def;
   def.shape = shape;
-  def.position = {x, Coord(0.75), Coord(0.0)};
+  def.position = {x, y, Coord(0.0)};
   BodyId id;
   return calls.create_body(def, id) == Status::ok;
 }
@@ -108,8 +111,9 @@ bool run(Calls& calls) {
   if constexpr (has(Features::capsule)) good = good && add(calls, capsule(0.25, 0.25), -1.25);
   if constexpr (has(Features::box)) good = good && add(calls, box({0.25, 0.25, 0.25}), -0.5);
   if constexpr (has(Features::cylinder)) good = good && add(calls, cylinder(0.25, 0.25), 0.5);
-  if constexpr (has(Features::cone)) good = good && add(calls, cone(0.25, 0.25), 1.5);
-  if constexpr (has(Features::rounding)) good = good && add(calls, rounded(box({0.25, 0.25, 0.25}), 0.125), 2.5);
+  if constexpr (has(Features::cone)) good = good && add(calls, cone(0.25, 0.25), 1.5, k_joint ? k_above : k_near);
+  if constexpr (has(Features::rounding))
+    good = good && add(calls, rounded(box({0.25, 0.25, 0.25}), 0.125), 2.5, k_joint ? k_above : k_near);
   if constexpr (has(Features::joints)) good = good && join(calls);
   for (uint32_t tick = 0; tick < k_ticks; ++tick) good = good && calls.step().complete();
   return good;
