@@ -9,7 +9,7 @@ using namespace detent;
 namespace {
 
 constexpr uint32_t k_bumps = 18, k_wheels = 4, k_ticks = 900, k_turn_ticks = 90;
-constexpr Real k_radius = Real(0.35), k_half_track = Real(0.75), k_half_base = Real(1.3);  // m
+constexpr Real k_half_track = Real(0.75), k_half_base = Real(1.3);  // m
 constexpr Quat k_upright = {Unit(0.0), Unit(0.0), Unit(0.0), Unit(1.0)};
 constexpr Quat k_across = {Unit(0.70710678118), Unit(0.0), Unit(0.0), Unit(0.70710678118)};  ///< y to z
 /// The frame of a wheel's joint: x, the suspension, is up; z, the axle, lies across.
