@@ -3,8 +3,8 @@
 set(DETENT_TOOLCHAINS ${CMAKE_CURRENT_LIST_DIR})
 
 # detent_target(<name>): reads the target's facts from targets.csv into DETENT_TARGET (its name), DETENT_TARGET_KIND (hosted
-# or bare), DETENT_TARGET_BYTE_ORDER and DETENT_TARGET_WORD_BITS; sets the emulator that ctest puts before its programs, the
-# configurations that the target's arithmetic can build, those whose unit tests it runs, and -O2. A cache entry or -D of the user wins over each default.
+# or bare), DETENT_TESTED_CONFIGS (whose unit tests it runs, or none), DETENT_TARGET_BYTE_ORDER and DETENT_TARGET_WORD_BITS; sets the emulator that ctest puts before its programs, the
+# configurations that the target's arithmetic can build, and -O2. A cache entry or -D of the user wins over each default.
 macro(detent_target name)
   file(STRINGS ${DETENT_TOOLCHAINS}/targets.csv detent_row REGEX "^${name},")
   if(NOT detent_row)
@@ -21,8 +21,7 @@ macro(detent_target name)
 
   string(REPLACE " " ";" detent_configs "${detent_configs}")
   set(DETENT_CONFIGS "${detent_configs}" CACHE STRING "The configurations to build, as a list")
-  string(REPLACE " " ";" detent_tested "${detent_tested}")
-  set(DETENT_TESTED_CONFIGS "${detent_tested}" CACHE STRING "Those of them whose unit tests are built, as a list")
+  string(REPLACE " " ";" DETENT_TESTED_CONFIGS "${detent_tested}")
   list(GET detent_configs 0 detent_configs)
   set(DETENT_CONFIG ${detent_configs} CACHE STRING "The configuration that detent::detent stands for")
   set(CMAKE_BUILD_TYPE Release CACHE STRING "")

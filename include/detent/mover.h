@@ -38,7 +38,7 @@ static_assert(sizeof(Mover) == sizeof(Position) * 2 + sizeof(BodyId) + sizeof(Qu
 
 /// A body that stood in the way.
 struct MoverContact {
-  BodyId body = {};
+  BodyId body = {};        ///< whom it met
   Position point = {};     ///< on its surface, m, world
   Vec3<Unit> normal = {};  ///< of the body there, outward, world
   /// For apply_impulse_at_point(), N s, world: what gives a dynamic body the speed of the wish, but no more than

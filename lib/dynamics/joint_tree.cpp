@@ -15,6 +15,9 @@ constexpr int k_redundant_power = -17;
 constexpr int k_redundant_power = -28;
 #endif
 
+/// And at least so much, so that its reciprocal is one that multiply() takes.
+constexpr Real k_response_min = 0x1p-29;
+
 /// Of an island without and with contacts.
 constexpr uint32_t k_substeps_min = 4;
 constexpr uint32_t k_substeps_with_contacts = 8;
@@ -197,8 +200,11 @@ void grow_trees(const StepSettings& settings, const SolverBodies& bodies, Span<c
       return scaled_by_power(body.share, 2 * (work.exponent - body.exponent + body.above));
     };
     bool saturated = false;
-    work.least[0] = to_real(scaled_by_power(add(a.share, b.share), k_redundant_power), saturated);
-    work.least[1] = to_real(scaled_by_power(add(angular(a), angular(b)), k_redundant_power), saturated);
+    const auto least = [&](Scaled response) {
+      return max(to_real(scaled_by_power(response, k_redundant_power), saturated), k_response_min);
+    };
+    work.least[0] = least(add(a.share, b.share));
+    work.least[1] = least(add(angular(a), angular(b)));
     const JointState& joint = stage.joints[work.joint];
     const JointBody& mobile = a.mobile != 0 ? a : b;
     const Scaled reference = multiply(bodies.traits[mobile.slot].mass, mobile.share);
