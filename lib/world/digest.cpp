@@ -8,7 +8,6 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 constexpr uint64_t k_world_seed = 0x646574656e74u;
-constexpr uint32_t k_element_bytes_max = 384;
 
 /// The leaf of one element: its canonical bytes under its section and index; 0 for an element of zeros, so that unused
 /// capacity does not count.
@@ -21,9 +20,6 @@ uint64_t leaf(const Section& section, uint32_t section_index, const uint8_t* ele
   const uint64_t seed = digest_step(digest_step(k_world_seed, section_index), index);
   if (!k_big_endian) return digest_bytes(element, bytes, seed);
   uint8_t canonical[k_element_bytes_max];
-  static_assert(sizeof(BodyTraits) <= k_element_bytes_max && sizeof(ContactState) <= k_element_bytes_max &&
-                sizeof(WorldState) <= k_element_bytes_max && sizeof(ManifoldState) <= k_element_bytes_max &&
-                sizeof(JointState) <= k_element_bytes_max);
   memcpy(canonical, element, bytes);
   if (bytes == section.element_bytes) swap_element(section_index, canonical);
   return digest_bytes(canonical, bytes, seed);

@@ -186,6 +186,13 @@ inline constexpr Section k_sections[] = {
 };
 inline constexpr uint32_t k_section_count = sizeof k_sections / sizeof k_sections[0];
 
+/// Of the largest element.
+inline constexpr uint32_t k_element_bytes_max = [] {
+  uint32_t most = 0;
+  for (const Section& section : k_sections) most = section.element_bytes > most ? section.element_bytes : most;
+  return most;
+}();
+
 template <uint32_t n>
 constexpr SectionFields section_fields(const char* name, const Field (&fields)[n]) {
   return {name, fields, n};

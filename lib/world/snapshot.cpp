@@ -111,7 +111,7 @@ bool snapshot_read(const World& world, uint32_t offset, uint8_t* bytes, uint32_t
     const uint32_t elements = section_bytes(layout, i) / size;
     const uint32_t first = offset > start ? (offset - start) / size : 0;
     for (uint32_t k = first; k < elements && start + k * size < end; ++k) {
-      uint8_t element[256];
+      uint8_t element[k_element_bytes_max];
       memcpy(element, world.block + start + k * size, size);
       swap_element(i, element);
       for (uint32_t byte = 0; byte < size; ++byte) {
