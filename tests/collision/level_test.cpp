@@ -40,10 +40,11 @@ OracleBody body_near(Samples& samples, const Surface& surface, uint32_t kind, do
 }
 
 DETENT_TEST(level, bodies_beside_real_levels_are_as_far_from_them_as_from_the_nearest_triangle) {
-  uint32_t met = 0;
+  uint32_t met = 0, levels = 0;
   for (const char* name : {"building.obj", "stairs.obj", "conveyor.obj", "test_map01.obj", "voxel_mesh_01.obj"}) {
     const std::string text = level_file(name);
     if (text.empty()) continue;
+    ++levels;
     const detent_cook::MeshRead read = detent_cook::read_obj_mesh(text);
     ASSERT_EQ(read.problem, "") << name;
     const Ground level(read.mesh);
@@ -66,7 +67,9 @@ DETENT_TEST(level, bodies_beside_real_levels_are_as_far_from_them_as_from_the_ne
       EXPECT_TRUE(found) << name << " " << n;
     }
   }
-  if (met == 0) GTEST_SKIP() << "no meshes under DETENT_DATA";
+  if (levels == 0) GTEST_SKIP() << "no meshes under DETENT_DATA";
+  EXPECT_EQ(levels, 5u);
+  EXPECT_GT(met, 0u);
 }
 
 }  // namespace
