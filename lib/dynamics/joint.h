@@ -67,10 +67,11 @@ bool is_angular(JointType type, int motion);
 /// Makes the rows of a joint as its bodies are now.
 void make_joint_rows(const StepSettings& settings, const JointStage& stage, JointWork& work);
 /// Chooses how the free motions are driven, before anything is solved: a limit that the bodies would pass in this
-/// substep holds. Or after, if what was chosen cannot be.
+/// substep holds. Nothing has acted in it yet.
 void choose_drives(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, JointWork& work);
-enum class Revision { none, made };
-Revision revise_drives(const JointState& joint, Scaled share, JointWork& work);
+/// Whether, with the impulses that were found, a limit would pull or a motor or spring do more than it can in the
+/// substep. If `changes`, they are then driven otherwise.
+bool revise_drives(const JointState& joint, Scaled share, bool changes, JointWork& work);
 /// Adds the rows of the free motions that are driven, or notes what pushes without one.
 void add_driven_rows(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage,
                      JointWork& work);

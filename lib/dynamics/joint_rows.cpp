@@ -302,7 +302,8 @@ void make_joint_rows(const StepSettings& settings, const JointStage& stage, Join
 void choose_drives(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, JointWork& work) {
   const JointState& joint = stage.joints[work.joint];
   work.mode[0] = work.mode[1] = DriveMode::idle;
-  work.constant[0] = work.constant[1] = k_zero;
+  work.constant[0] = work.constant[1] = work.driven_total[0] = work.driven_total[1] = k_zero;
+  work.given[0] = work.given[1] = k_zero;
   for (int i = 0; i < free_motion_count(static_cast<JointType>(joint.type)); ++i) {
     work.mode[i] = free_mode(joint, i);
     if (work.mode[i] == DriveMode::spring) push_softly(settings, bodies, stage, i, work);
@@ -361,25 +362,30 @@ void add_driven_rows(const StepSettings& settings, const SolverBodies& bodies, c
   }
 }
 
-Revision revise_drives(const JointState& joint, Scaled share, JointWork& work) {
-  Revision revision = Revision::none;
+bool revise_drives(const JointState& joint, Scaled share, bool changes, JointWork& work) {
+  bool wrong = false;
   for (int i = 0; i < 2; ++i) {
     DriveMode& mode = work.mode[i];
     const uint32_t row = work.driven[i];
-    const Real impulse = row < k_joint_rows_max ? work.impulse[row] : k_zero;
+    if (row == k_joint_rows_max) continue;
+    const Real impulse = work.driven_total[i] + work.impulse[row], all = impulse + work.given[i];
     if ((mode == DriveMode::lower && impulse < k_zero) || (mode == DriveMode::upper && impulse > k_zero)) {
+      wrong = true;
+      if (!changes) continue;
       mode = free_mode(joint, i);
       work.constant[i] = k_zero;
-      revision = Revision::made;
+      work.given[i] += work.driven_total[i];
+      work.driven_total[i] = k_zero;
     } else if ((mode == DriveMode::rigid || mode == DriveMode::spring) && is_positive(joint.force_max[i])) {
       const Real bound = multiply(work.bound[i], share);
-      if (impulse <= bound && impulse >= -bound) continue;
-      work.constant[i] = impulse > k_zero ? bound : -bound;
+      if (all <= bound && all >= -bound) continue;
+      wrong = true;
+      if (!changes) continue;
+      work.constant[i] = (all > k_zero ? bound : -bound) - (work.driven_total[i] + work.given[i]);
       mode = DriveMode::constant;
-      revision = Revision::made;
     }
   }
-  return revision;
+  return wrong;
 }
 
 }  // namespace DETENT_NAMESPACE

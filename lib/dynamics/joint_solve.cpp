@@ -219,6 +219,11 @@ struct Solver {
     show<only_points>(work, 1, b.velocity, b.spin, of_b);
     const uint32_t rows = only_points ? 3 : work.rows;
     for (uint32_t k = 0; k < rows; ++k) missing[k] = work.wanted[k] - (of_b[k] - of_a[k]);
+    if (only_points) return;
+    for (int i = 0; i < 2; ++i) {
+      const uint32_t row = work.driven[i];
+      if (row != k_joint_rows_max) missing[row] -= work.softness[row] * work.driven_total[i];
+    }
   }
 
   /// L^-1 of the missing speeds, over the pivots.
@@ -333,13 +338,13 @@ struct Solver {
     }
   }
 
-  bool revise() {
-    bool made = false;
+  bool revise(bool changes) {
+    bool wrong = false;
     for (const uint32_t index : trees) {
       JointWork& work = stage.work[index];
-      if (revise_drives(stage.joints[work.joint], settings.share, work) == Revision::made) made = true;
+      if (revise_drives(stage.joints[work.joint], settings.share, changes, work)) wrong = true;
     }
-    return made;
+    return wrong;
   }
 
   /// Where the bodies are now.
@@ -384,35 +389,47 @@ struct Solver {
     for (const uint32_t index : joints) {
       JointWork& work = stage.work[index];
       make_joint_rows(settings, stage, work);
+      for (Real& total : work.total) total = k_zero;
       choose_drives(settings, bodies, stage, work);
     }
   }
 
-  /// The trees from the bodies' motions, until all limits and motors are as they were taken to be.
+  /// Holds the trees, until all limits and motors are as they were taken to be.
   void solve_held(uint32_t& undecided) {
     for (uint32_t decision = 1;; ++decision) {
       for (const uint32_t index : trees) add_driven_rows(settings, bodies, stage, stage.work[index]);
       each_body([&](JointBody& body) { load(body); });
       for (const uint32_t index : trees) push(stage.work[index]);
       solve_trees();
-      if (!revise()) return;
-      if (decision == k_decisions) {
-        ++undecided;
-        return;
-      }
+      const bool last = decision == k_decisions;
+      if (!revise(!last)) break;
+      if (!last) continue;
+      ++undecided;
+      break;
+    }
+    each_body([&](JointBody& body) { apply(body); });
+    for (const uint32_t index : trees) count_in(stage.work[index]);
+  }
+
+  /// What has acted counts among what the joint gives in this substep.
+  static void count_in(JointWork& work) {
+    for (uint32_t k = 0; k < work.rows_held; ++k) work.total[k] += work.impulse[k];
+    for (int i = 0; i < 2; ++i) {
+      if (work.driven[i] != k_joint_rows_max) work.driven_total[i] += work.impulse[work.driven[i]];
+      work.given[i] += work.constant[i];
+      work.constant[i] = k_zero;
     }
   }
 
-  void apply_all() {
-    each_body([&](JointBody& body) { apply(body); });
-  }
-
   /// The reactions of a joint.
-  void add_up(JointWork& work, const Real (&impulse)[k_joint_rows_max]) {
-    if (work.points != 0) work.force_sum += Vec3<Real>{impulse[0], impulse[1], impulse[2]};
-    for (uint32_t k = work.points != 0 ? 3 : 0; k < work.rows; ++k) add_row(work, work.row[k], impulse[k]);
+  static void add_up(JointWork& work) {
+    if (work.points != 0) work.force_sum += Vec3<Real>{work.total[0], work.total[1], work.total[2]};
+    for (uint32_t k = work.points != 0 ? 3 : 0; k < work.rows_held; ++k) add_row(work, work.row[k], work.total[k]);
     for (int i = 0; i < 2; ++i) {
-      if (!(work.constant[i] == k_zero)) add_row(work, work.free_row[i], work.constant[i]);
+      if (!(work.driven_total[i] == k_zero)) add_row(work, work.free_row[i], work.driven_total[i]);
+    }
+    for (int i = 0; i < 2; ++i) {
+      if (!(work.given[i] == k_zero)) add_row(work, work.free_row[i], work.given[i]);
     }
   }
   static void add_row(JointWork& work, const JointRow& row, Real impulse) {
@@ -428,11 +445,9 @@ struct Solver {
       JointWork& work = stage.work[index];
       add_driven_rows(settings, bodies, stage, work);
       const JointState& joint = stage.joints[work.joint];
-      for (uint32_t k = 0; k < k_joint_rows_max; ++k) {
-        work.total[k] = k < work.rows_held ? joint.impulse[k] : k_zero;
-        work.impulse[k] = work.total[k];
-      }
+      for (uint32_t k = 0; k < work.rows; ++k) work.impulse[k] = k < work.rows_held ? joint.impulse[k] : k_zero;
       load_ends(work);
+      push(work);
       put_on(work);
     }
   }
@@ -441,7 +456,7 @@ struct Solver {
       if (end_of(work, end).mobile != 0) load(end_of(work, end));
     }
   }
-  /// The impulses of a joint by itself, at once.
+  /// The impulses of a joint by itself become its bodies' motion.
   void put_on(JointWork& work) {
     for (uint32_t end = 0; end < 2; ++end) {
       JointBody& body = end_of(work, end);
@@ -453,16 +468,12 @@ struct Solver {
       }
       apply(body);
     }
+    count_in(work);
   }
   /// Holds a joint by itself, as its bodies move now.
   void hold_loop(JointWork& work) {
     load_ends(work);
-    const Real none[k_joint_rows_max] = {};
-    for (Real& impulse : work.impulse) impulse = none[0];
     eliminate<false>(work);
-    for (uint32_t k = 0; k < work.rows; ++k) {
-      work.wanted[k] -= work.total[k] * work.softness[k];
-    }
     load_ends(work);
     start_impulses<false>(work);
     for (uint32_t k = work.rows; k-- > 0;) {
@@ -473,11 +484,13 @@ struct Solver {
       const uint32_t row = work.driven[i];
       if (row == k_joint_rows_max) continue;
       // Limits push one way, motors no more than they can.
-      const Real most = work.mode[i] == DriveMode::upper ? k_zero : bound_of(work, i);
-      const Real least = work.mode[i] == DriveMode::lower ? k_zero : -bound_of(work, i);
-      work.impulse[row] = clamp(work.total[row] + work.impulse[row], least, most) - work.total[row];
+      const DriveMode mode = work.mode[i];
+      const bool limits = mode == DriveMode::lower || mode == DriveMode::upper;
+      const Real before = limits ? work.driven_total[i] : work.driven_total[i] + work.given[i];
+      const Real most = mode == DriveMode::upper ? k_zero : bound_of(work, i);
+      const Real least = mode == DriveMode::lower ? k_zero : -bound_of(work, i);
+      work.impulse[row] = clamp(before + work.impulse[row], least, most) - before;
     }
-    for (uint32_t k = 0; k < work.rows; ++k) work.total[k] += work.impulse[k];
     put_on(work);
   }
   Real bound_of(const JointWork& work, int i) const {
@@ -516,18 +529,14 @@ uint32_t solve_joints(const StepSettings& settings, const SolverBodies& bodies, 
   solver.make_rows(loops);
   solver.start_loops();
   solver.solve_held(undecided);
-  solver.apply_all();
-  for (const uint32_t index : trees) solver.add_up(stage.work[index], stage.work[index].impulse);
-  if (loops.count == 0) return solver.clamped;
-  for (uint32_t sweep = 0; sweep < k_loop_sweeps; ++sweep) {
+  for (uint32_t sweep = 0; sweep < k_loop_sweeps && loops.count != 0; ++sweep) {
     for (const uint32_t index : loops) solver.hold_loop(stage.work[index]);
     solver.solve_held(undecided);
-    solver.apply_all();
-    for (const uint32_t index : trees) solver.add_up(stage.work[index], stage.work[index].impulse);
   }
+  for (const uint32_t index : trees) solver.add_up(stage.work[index]);
   for (const uint32_t index : loops) {
     JointWork& work = stage.work[index];
-    solver.add_up(work, work.total);
+    solver.add_up(work);
     JointState& joint = stage.joints[work.joint];
     for (uint32_t k = 0; k < work.rows_held; ++k) {
       joint.impulse[k] = clamp(work.total[k], -k_joint_impulse_max, k_joint_impulse_max);

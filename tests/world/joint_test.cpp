@@ -461,6 +461,50 @@ DETENT_TEST(joint, a_ring_of_links_stays_closed) {
   EXPECT_LE(worst, 0.02);
 }
 
+/// A wheel on an axle whose bearing is held at both of its ends, so that one joint closes a loop; `driven` says which
+/// of the two hinges has the axis.
+struct Axle {
+  Lab lab = Lab(room(3, 3), weightless());
+  BodyId frame = add_shape(lab, box(reals(1, 0.2, 1)), 0, -1, 0);
+  BodyId bearing = add_shape(lab, box(reals(0.1, 0.1, 0.5)), 0, 0, 0);
+  BodyId wheel = add_shape(lab, sphere(real(0.5)), 0, 2, 0);
+  JointId joint;
+
+  Axle(const JointAxis& axis, bool loop) {
+    JointDef driven;
+    driven.axis = axis;
+    add_joint(lab, JointType::hinge, frame, bearing, 0, 0, -0.5, {}, k_x_to_z);
+    const JointId second =
+        add_joint(lab, JointType::hinge, frame, bearing, 0, 0, 0.5, loop ? driven : JointDef{}, k_x_to_z);
+    joint = loop ? second : add_joint(lab, JointType::hinge, bearing, wheel, 0, 2, 0, driven, k_x_to_z);
+  }
+};
+
+DETENT_TEST(joint, a_motor_gives_no_more_than_it_can_beside_a_loop) {
+  JointAxis axis;
+  axis.speed = real(1000);
+  axis.force_max = scaled(20);
+  Axle axle(axis, false);
+  Scaled mass;
+  ASSERT_OK(get_mass(axle.lab.world, axle.wheel, mass));
+  axle.lab.run(60);
+  const double gained = 20 / (0.4 * scaled_to_host(mass) * 0.25);
+  EXPECT_NEAR(axle.lab.motion(axle.wheel).spin[2], gained, 0.02 * gained);
+  JointReaction reaction;
+  ASSERT_OK(get_joint_reaction(axle.lab.world, axle.joint, reaction));
+  EXPECT_NEAR(scaled_to_host(reaction.torque.z), 20, 0.4);
+}
+
+DETENT_TEST(joint, a_soft_spring_acts_in_a_joint_that_closes_a_loop) {
+  JointAxis axis;
+  axis.frequency = real(0.5);
+  axis.damping_ratio = real(1);
+  axis.target = real(0.5);
+  Axle axle(axis, true);
+  axle.lab.run(180);
+  EXPECT_NEAR(std::abs(joint_ends(axle.lab.world, axle.joint).turned(0)), 0.5, 0.05);
+}
+
 DETENT_TEST(joint, a_body_hangs_from_a_kinematic_one_as_that_turns) {
   Lab lab(room(2, 1));
   BodyDef arm;

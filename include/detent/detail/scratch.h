@@ -200,11 +200,13 @@ struct alignas(8) JointWork {
   Real reply_scaled[k_joint_rows_max][6];                  ///< times the inverse pivots
   Real start[k_joint_rows_max];                            ///< the impulses, but for what comes from above, before L^-T
   Real impulse[k_joint_rows_max];                          ///< of this solve
-  Real total[k_joint_rows_max];                            ///< of this substep: of a joint that closes a loop
+  Real total[k_joint_rows_max];                            ///< of the rows always held, in this substep
   Real value[2];                                           ///< of the free motions, m (angles: times 2^exponent)
   Real bound[2];                                           ///< largest impulse of a motor or spring, m/s
-  Real constant[2];                                        ///< that acts instead of a row, m/s
-  Real shown[2];                                   ///< what of a free motion's speed its row shows
+  Real constant[2];                                        ///< that is to act instead of a row, m/s
+  Real driven_total[2];                                    ///< of the rows of the free motions, in this substep
+  Real given[2];                                           ///< and without rows
+  Real shown[2];                                           ///< what of a free motion's speed its row shows
   JointRow free_row[2];                                    ///< of the free motions
   Vec3<Real> force_sum, torque_sum;                        ///< of the tick, m/s, torques over 2^exponent m
 };
