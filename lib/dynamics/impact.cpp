@@ -300,6 +300,10 @@ struct Stage {
     for (;; inset = next_inset(extent, inset)) {
       if (inset > last_inset(extent)) {
         ++report.overlaps_left;
+        // What is this deep since it met within the tick would go through.
+        if (!resolved) return;
+        stop(pair_low(key), time);
+        stop(pair_high(key), time);
         return;
       }
       ++report.tests;

@@ -21,8 +21,8 @@ int32_t in_units(int64_t depth, int exponent) {
 int32_t less_depth(int32_t size, int32_t depth, int32_t least) { return size - least > depth ? size - depth : least; }
 
 /// Makes the shape smaller by `depth`, 2^-46 m, on all sides. A hull or cone, which has no such core of its own kind,
-/// is halved on the rungs of contacts and left as it is before.
-void shrink(int64_t depth, bool halve, Convex& convex) {
+/// is halved so many times.
+void shrink(int64_t depth, int halvings, Convex& convex) {
   switch (convex.type) {
     case ShapeType::sphere:
     case ShapeType::capsule:
@@ -38,7 +38,7 @@ void shrink(int64_t depth, bool halve, Convex& convex) {
       break;
     case ShapeType::cone:
     case ShapeType::hull:
-      if (halve) --convex.exponent;
+      convex.exponent -= halvings;
       break;
     default:
       break;
@@ -119,7 +119,9 @@ bool inset_convex(const AssetTable& assets, const BodyTraits& traits, Real inset
   if (const Real zero = 0.0; inset > zero) {
     Vec64 raw;
     if (!raw_from_real({inset, zero, zero}, raw)) return false;
-    shrink(raw.x, inset > scale_by_power(extent, -4), made);
+    // On the rungs of contacts, and the deeper ones.
+    const int halvings = (inset > scale_by_power(extent, -4) ? 1 : 0) + (inset > scale_by_power(extent, -2) ? 1 : 0);
+    shrink(raw.x, halvings, made);
   }
   convex = made;
   return true;

@@ -126,7 +126,7 @@ DETENT_TEST(surfaces, let_nothing_through) {
   lab.add_surface();
   detent_queries::Random random(17);
   const std::vector<Resting> kinds = shapes();
-  const uint32_t rounds = detent_oracle::rounds(12);
+  const uint32_t rounds = detent_oracle::rounds(60);
   for (uint32_t round = 0; round < rounds; ++round) {
     std::vector<BodyId> ids;
     for (uint32_t i = 0; i < 10; ++i) {
@@ -172,7 +172,7 @@ DETENT_TEST(surfaces, touch_in_several_places_at_once) {
   // A valley: the box's lower edges lie on both slopes.
   SurfaceLab lab(detent_surfaces::cooked(detent_surfaces::ground(8, 1, [](double x, double) { return fabs(x); })));
   const BodyId ground = lab.add_surface();
-  const BodyId ball = lab.add_shape(sphere(real(0.5)), 0, 0.5 * sqrt(2.0) + 0.01, 0.2);
+  const BodyId ball = lab.add_shape(sphere(real(0.5)), 0, 0.5 * sqrt(2.0) + 0.01, 0.2, 0);
   ContactEvent events[8];
   lab.world.contact_events = {events, 8};
   uint32_t begun = 0;
