@@ -140,7 +140,7 @@ DETENT_TEST(sensor, a_bullet_stopped_by_a_wall_enters_what_is_before_it_and_not_
 
 DETENT_TEST(sensor, one_that_is_reached_only_by_rebound_is_entered_in_the_same_step) {
   Trap trap(room_for(3));
-  const BodyId gate = trap.lab.add(sensor_def(box(reals(0.005, 1, 1)), 0, 3));
+  const BodyId gate = trap.lab.add(sensor_def(box(reals(1, 0.005, 1)), 0, 2));
   BodyDef wall;
   wall.type = BodyType::fixed;
   wall.shape = box(reals(1, 0.1, 1));
@@ -178,7 +178,7 @@ DETENT_TEST(sensor, one_that_is_passed_on_the_way_to_a_rebound_is_not_missed) {
 }
 
 DETENT_TEST(sensor, what_rests_within_stays_within_also_asleep_and_is_not_kept_awake) {
-  Trap trap(room_for(3), {}, true);
+  Trap trap(room_for(4), {}, true);
   trap.lab.add_ground();
   const BodyId gate = trap.lab.add(sensor_def(box(reals(1, 1, 1))));
   const BodyId crate = trap.lab.add_box(0.25, 0, 0.25, 0);
@@ -313,14 +313,14 @@ DETENT_TEST(sensor, one_that_moves_or_turns_finds_what_rests) {
   BodyDef thin = sensor_def(box(reals(0.005, 1, 1)), -3, 5, 0, BodyType::kinematic);
   thin.velocity = reals(500, 0, 0);
   const BodyId wave = trap.lab.add(thin);
-  BodyDef post = ball_def(0.0625, 1, 0, 1);
+  BodyDef post = ball_def(0.0625, 1, 0, -1);
   post.type = BodyType::kinematic;
   const BodyId low = trap.lab.add(post);
   std::vector<SensorEvent> events = trap.run();
   ASSERT_EQ(events.size(), 2u);
   EXPECT_TRUE(is_event(events[0], k_enter, blade, low));
   EXPECT_TRUE(is_event(events[1], k_leave, blade, low));
-  EXPECT_OK(set_pose(trap.lab.world, wave, position(-3, 0, 1), {0.0, 0.0, 0.0, 1.0}));
+  EXPECT_OK(set_pose(trap.lab.world, wave, position(-3, 0, -1), {0.0, 0.0, 0.0, 1.0}));
   events = trap.run();
   uint32_t waves = 0;
   for (const SensorEvent& event : events) waves += event.sensor == wave ? 1u : 0u;
@@ -424,7 +424,7 @@ struct Fair {
     std::mt19937 random(seed);
     const auto draw = [&](double low, double high) { return low + (high - low) * (static_cast<double>(random()) * 0x1p-32); };
     solids.push_back(lab.add_ground());
-    for (int i = 0; i < 16; ++i) {
+    for (int i = 0; i < 24; ++i) {
       const double size = draw(0.1, 0.3), x = draw(-3, 3), y = draw(0.5, 5), z = draw(-3, 3);
       BodyDef def = ball_def(size, x, y, z);
       if (i % 3 == 1) def.shape = box(reals(size, size / 2, size));
@@ -438,9 +438,9 @@ struct Fair {
     }
     if (!with_sensors) return;
     for (int i = 0; i < 6; ++i) {
-      const double x = draw(-3, 3), y = draw(0, 2), z = draw(-3, 3), thin = draw(0.005, 0.3);
+      const double x = draw(-3, 3), y = draw(0, 2), z = draw(-3, 3), thin = draw(0.005, 0.5), wide = draw(1, 3);
       const BodyType types[] = {BodyType::fixed, BodyType::kinematic, BodyType::dynamic};
-      BodyDef def = sensor_def(box(reals(thin, draw(0.5, 1.5), 1)), x, y, z, types[i % 3]);
+      BodyDef def = sensor_def(box(reals(thin, wide, 2)), x, y, z, types[i % 3]);
       if (i % 3 == 1) def.spin = reals(0, 3, 1);
       if (i % 3 == 1) def.velocity = reals(-x, 0.25, -z);
       if (i == 2) def.gravity_scale = real(0);
