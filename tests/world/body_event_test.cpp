@@ -65,6 +65,8 @@ DETENT_TEST(body_event, who_is_put_to_sleep_by_a_call_raises_none_and_wakes_with
   EXPECT_OK(wake_body(watch.lab.world, ball));
   EXPECT_OK(put_to_sleep(watch.lab.world, ball));
   EXPECT_TRUE(watch.run().empty());
+  std::vector<uint64_t> bytes = watch.lab.snapshot();
+  EXPECT_OK(load(watch.lab.world, bytes_of(bytes), byte_count(bytes)));  // no news of a sleeper
   EXPECT_OK(set_gravity(watch.lab.world, reals(0, -1, 0)));
   const std::vector<BodyEvent> events = watch.run();
   ASSERT_EQ(events.size(), 1u);
