@@ -26,6 +26,7 @@ constexpr uint64_t sensed_key(uint32_t sensor, uint32_t body, bool through) {
 /// What the stage reads and finds. Poses are those of sweep.from, and follow it.
 struct SensorStage {
   AssetTable assets;
+  const FeatureTable& features;
   PairFilter filter;
   Span<const BodyTraits> traits;
   Span<const BodyPose> poses;
