@@ -85,10 +85,10 @@ struct World {
   const FeatureTable* features = nullptr;  ///< what create_world() was given
   uint32_t lanes =
       1;  ///< contacts that the solver takes at once, 1 or as many as this machine can: the bits are the same
-  FilterRuleTable filter_rules = {};  ///< what Filter::rule means; none by default. Set it before any body names one
-  Profile* profile = nullptr;         ///< times of the stages of each step (profile.h)
-  SensorEventBuffer sensor_events = {};      ///< as contact_events
-  BodyEventBuffer body_events = {};          ///< likewise
+  FilterRuleTable filter_rules = {};     ///< what Filter::rule means; none by default. Set it before any body names one
+  Profile* profile = nullptr;            ///< times of the stages of each step (profile.h)
+  SensorEventBuffer sensor_events = {};  ///< as contact_events
+  BodyEventBuffer body_events = {};      ///< likewise
   CapacityEventBuffer capacity_events = {};  ///< likewise
 };
 
@@ -119,24 +119,24 @@ struct StepReport {
   uint32_t joints = 0;            ///< of which a body is awake
   uint32_t joints_broken = 0;     ///< and gone
   uint32_t joint_events = 0;      ///< in the world's buffer
-  uint32_t joint_events_dropped = 0;  ///< beyond the capacity of the world's buffer
-  uint32_t joint_decisions_left = 0;  ///< limits and motors still undecided after the last try of a substep
-  uint32_t impacts = 0;               ///< times at which bodies met within the tick and were made to part
-  uint32_t impacts_undecided = 0;     ///< times of impact found in part, or that could not be asked for
-  uint32_t impacts_dropped = 0;       ///< for want of room, that of contacts: their bodies stayed behind
-  uint32_t overlaps_left = 0;         ///< pairs too deep within each other for continuous collision
-  uint32_t bodies_stopped = 0;        ///< bodies that stayed behind in this tick: too many impacts, or no room for one
-  Real lost_time = 0.0;               ///< sum of the parts of the tick that those missed
-  uint32_t toi_tests = 0;             ///< times of impact asked for
-  uint32_t toi_skipped = 0;           ///< pairs too slow to meet
-  uint32_t sensor_events = 0;         ///< in the world's buffer
+  uint32_t joint_events_dropped = 0;   ///< beyond the capacity of the world's buffer
+  uint32_t joint_decisions_left = 0;   ///< limits and motors still undecided after the last try of a substep
+  uint32_t impacts = 0;                ///< times at which bodies met within the tick and were made to part
+  uint32_t impacts_undecided = 0;      ///< times of impact found in part, or that could not be asked for
+  uint32_t impacts_dropped = 0;        ///< for want of room, that of contacts: their bodies stayed behind
+  uint32_t overlaps_left = 0;          ///< pairs too deep within each other for continuous collision
+  uint32_t bodies_stopped = 0;         ///< bodies that stayed behind in this tick: too many impacts, or no room for one
+  Real lost_time = 0.0;                ///< sum of the parts of the tick that those missed
+  uint32_t toi_tests = 0;              ///< times of impact asked for
+  uint32_t toi_skipped = 0;            ///< pairs too slow to meet
+  uint32_t sensor_events = 0;          ///< in the world's buffer
   uint32_t sensor_events_dropped = 0;  ///< beyond its capacity; not counted where there is no buffer
-  uint32_t sensed_dropped = 0;         ///< bodies in or through a sensor beyond Capacity::sensed: it does not know of them
-  uint32_t sensed_undecided = 0;   ///< bodies that count as within or through a sensor for they could not be told apart
-  uint32_t body_events = 0;        ///< in the world's buffer
+  uint32_t sensed_dropped = 0;    ///< bodies in or through a sensor beyond Capacity::sensed: it does not know of them
+  uint32_t sensed_undecided = 0;  ///< bodies that count as within or through a sensor for they could not be told apart
+  uint32_t body_events = 0;       ///< in the world's buffer
   uint32_t body_events_dropped = 0;  ///< beyond its capacity; not counted where there is no buffer
   uint32_t capacity_events = 0;      ///< in the world's buffer
-  uint32_t colour_overflows = 0;      ///< contacts of bodies that touch more than 64 others, solved after the rest
+  uint32_t colour_overflows = 0;     ///< contacts of bodies that touch more than 64 others, solved after the rest
   /// True if nothing was lost: no pool overflowed, no search was capped and no value was clamped.
   constexpr bool complete() const {
     return pairs_dropped == 0 && contacts_dropped == 0 && contacts_capped == 0 && saturations == 0 &&

@@ -4,8 +4,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 void Losses::add(CapacityEventType type, uint32_t slot_a, uint32_t slot_b) {
-  const CapacityEvent event = {
-      type, {slot_a + 1, traits[slot_a].generation}, {slot_b + 1, traits[slot_b].generation}};
+  const CapacityEvent event = {type, {slot_a + 1, traits[slot_a].generation}, {slot_b + 1, traits[slot_b].generation}};
   const auto order = [](const CapacityEvent& a, const CapacityEvent& b) {  // below 0: a comes first
     if (a.type != b.type) return a.type < b.type ? -1 : 1;
     if (a.a.slot != b.a.slot) return a.a.slot < b.a.slot ? -1 : 1;

@@ -295,8 +295,7 @@ Status check_state(const uint8_t* block, Capacity capacity, AssetTable assets, c
   // Before the bodies, which are checked against the hulls that they have.
   if (const Status status = check_assets(assets, features, state.assets); status != Status::ok) return status;
   if (!are_bodies(state, assets, features) || !are_contacts(state) || !are_manifolds(state) || !are_joints(state) ||
-      !are_sensed(state) ||
-      (world.idle != 0 && !is_idle(state))) {
+      !are_sensed(state) || (world.idle != 0 && !is_idle(state))) {
     return Status::corrupt;
   }
   for (const BodyTraits& traits : state.traits) {

@@ -124,10 +124,8 @@ inline constexpr Field k_traits_fields[] = {
     DETENT_FIELD(BodyTraits, sensor),
 };
 inline constexpr Field k_activity_fields[] = {
-    DETENT_FIELD(BodyActivity, substeps),
-    DETENT_FIELD(BodyActivity, calm_ticks),
-    DETENT_FIELD(BodyActivity, still_ticks),
-    DETENT_FIELD(BodyActivity, news),
+    DETENT_FIELD(BodyActivity, substeps),    DETENT_FIELD(BodyActivity, calm_ticks),
+    DETENT_FIELD(BodyActivity, still_ticks), DETENT_FIELD(BodyActivity, news),
     DETENT_FIELD(BodyActivity, asleep),
 };
 inline constexpr Field k_slot_fields[] = {{"taken", 0, 4, 1}};

@@ -68,8 +68,7 @@ struct QueryBodies {
   bool asks(uint32_t slot) const {
     const BodyTraits& traits = state.traits[slot];
     return traits.type != 0 && traits.sensor == 0 &&
-           masks_meet(traits.category, traits.mask, filter.category, filter.mask) &&
-           !(id_of(slot) == filter.ignore);
+           masks_meet(traits.category, traits.mask, filter.category, filter.mask) && !(id_of(slot) == filter.ignore);
   }
 };
 

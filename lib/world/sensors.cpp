@@ -125,7 +125,8 @@ bool meets(SensorStage& stage, uint32_t sensor, uint32_t body, Fraction until) {
   bring_near(b, pose_a, pose_b);
   const BodySweep& sweep = stage.sweeps[body];
   TimeOfImpact impact;
-  if (!pair_impact(stage.assets, stage.features, {a, pose_a, stage.sweeps[sensor]}, {b, pose_b, sweep}, sweep.from, k_zero, impact)) {
+  if (!pair_impact(stage.assets, stage.features, {a, pose_a, stage.sweeps[sensor]}, {b, pose_b, sweep}, sweep.from,
+                   k_zero, impact)) {
     ++stage.undecided;
     return true;
   }

@@ -19,8 +19,8 @@ inline Features features_of(bool continuous, bool sleeping) {
 }
 
 inline Capacity capacity_of(const BlockHeader& header) {
-  return {header.capacity_bodies, header.capacity_contacts, header.capacity_assets, header.manifolds != 0,
-          header.capacity_joints, header.capacity_sensed};
+  return {header.capacity_bodies, header.capacity_contacts, header.capacity_assets,
+          header.manifolds != 0,  header.capacity_joints,   header.capacity_sensed};
 }
 
 /// `T`, const where `Byte` is.

@@ -126,8 +126,9 @@ DETENT_TEST(replay_round_trip, every_command_survives_writing_and_reading) {
 DETENT_TEST(replay_round_trip, a_tag_of_no_call_is_unknown) {
   const auto nothing = [](auto&) {};
   for (uint32_t tag = 0; tag < 256; ++tag) {
-    EXPECT_EQ(with_command(static_cast<RecordTag>(tag), nothing),
-              (tag >= 1 && tag <= 12) || tag == 15 || tag == 16 || (tag >= 32 && tag <= 46) || tag == 48 || (tag >= 64 && tag <= 66))
+    EXPECT_EQ(with_command(static_cast<RecordTag>(tag), nothing), (tag >= 1 && tag <= 12) || tag == 15 || tag == 16 ||
+                                                                      (tag >= 32 && tag <= 46) || tag == 48 ||
+                                                                      (tag >= 64 && tag <= 66))
         << tag;
   }
 }

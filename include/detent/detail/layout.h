@@ -12,8 +12,7 @@ constexpr uint32_t k_pairs_per_contact = 2;  ///< room for pairs whose bounds ov
 
 /// Byte offsets of the arrays in a block.
 struct Layout {
-  uint32_t header, world, poses, motions, traits, activities, slots, contacts, assets, manifolds, joints,
-      sensed;
+  uint32_t header, world, poses, motions, traits, activities, slots, contacts, assets, manifolds, joints, sensed;
   uint32_t persistent_bytes;  ///< end of the snapshot
   uint32_t cache, tree_nodes, tree_parents, visits, candidates, moving_bodies, awake_contacts;
   uint32_t bounds, bounds_keys, bounds_sort, pairs, pair_sort, contact_work, islands, island_bodies, sweeps;
@@ -35,8 +34,7 @@ constexpr uint32_t slot_words(uint32_t bodies) { return (bodies + 63) / 64 * 2; 
 
 constexpr bool in_range(Capacity capacity) {
   return capacity.bodies >= 1 && capacity.bodies <= k_capacity_max && capacity.contacts <= k_capacity_max &&
-         capacity.assets <= k_capacity_max && capacity.joints <= k_capacity_max &&
-         capacity.sensed <= k_capacity_max;
+         capacity.assets <= k_capacity_max && capacity.joints <= k_capacity_max && capacity.sensed <= k_capacity_max;
 }
 
 /// The layout for a capacity in range; `fits` is false if the block would need 2^32 bytes or more.
