@@ -119,24 +119,25 @@ struct StepReport {
   uint32_t joints = 0;            ///< of which a body is awake
   uint32_t joints_broken = 0;     ///< and gone
   uint32_t joint_events = 0;      ///< in the world's buffer
-  uint32_t joint_events_dropped = 0;   ///< beyond the capacity of the world's buffer
-  uint32_t joint_decisions_left = 0;   ///< limits and motors still undecided after the last try of a substep
-  uint32_t impacts = 0;                ///< times at which bodies met within the tick and were made to part
-  uint32_t impacts_undecided = 0;      ///< times of impact found in part, or that could not be asked for
-  uint32_t impacts_dropped = 0;        ///< for want of room, that of contacts: their bodies stayed behind
-  uint32_t overlaps_left = 0;          ///< pairs too deep within each other for continuous collision
-  uint32_t bodies_stopped = 0;         ///< bodies that stayed behind in this tick: too many impacts, or no room for one
-  Real lost_time = 0.0;                ///< sum of the parts of the tick that those missed
-  uint32_t toi_tests = 0;              ///< times of impact asked for
-  uint32_t toi_skipped = 0;            ///< pairs too slow to meet
-  uint32_t sensor_events = 0;          ///< in the world's buffer
+  uint32_t joint_events_dropped = 0;  ///< beyond the capacity of the world's buffer
+  uint32_t joint_decisions_left = 0;  ///< limits and motors still undecided after the last try of a substep
+  uint32_t impacts = 0;               ///< times at which bodies met within the tick and were made to part
+  uint32_t impacts_undecided = 0;     ///< times of impact found in part, or that could not be asked for
+  uint32_t impacts_dropped = 0;       ///< for want of room, that of contacts: their bodies stayed behind
+  uint32_t overlaps_left = 0;         ///< pairs too deep within each other for continuous collision
+  uint32_t bodies_stopped = 0;        ///< bodies that stayed behind in this tick: too many impacts, or no room for one
+  Real lost_time = 0.0;               ///< sum of the parts of the tick that those missed
+  uint32_t toi_tests = 0;             ///< times of impact asked for
+  uint32_t toi_skipped = 0;           ///< pairs too slow to meet
+  uint32_t colour_overflows = 0;      ///< contacts of bodies that touch more than 64 others, solved after the rest
+  /// Of sensors (sensor.h), and the other events in the world's buffers.
+  uint32_t sensor_events = 0;
   uint32_t sensor_events_dropped = 0;  ///< beyond its capacity; not counted where there is no buffer
-  uint32_t sensed_dropped = 0;    ///< bodies in or through a sensor beyond Capacity::sensed: it does not know of them
-  uint32_t sensed_undecided = 0;  ///< bodies that count as within or through a sensor for they could not be told apart
-  uint32_t body_events = 0;       ///< in the world's buffer
-  uint32_t body_events_dropped = 0;  ///< beyond its capacity; not counted where there is no buffer
-  uint32_t capacity_events = 0;      ///< in the world's buffer
-  uint32_t colour_overflows = 0;     ///< contacts of bodies that touch more than 64 others, solved after the rest
+  uint32_t sensed_dropped = 0;    ///< bodies in or through a sensor beyond Capacity::sensed, which it does not know of
+  uint32_t sensed_undecided = 0;  ///< bodies that count as in or through a sensor, for it could not be decided
+  uint32_t body_events = 0;       ///< who fell asleep or woke
+  uint32_t body_events_dropped = 0;  ///< likewise
+  uint32_t capacity_events = 0;      ///< whom there was no room for
   /// True if nothing was lost: no pool overflowed, no search was capped and no value was clamped.
   constexpr bool complete() const {
     return pairs_dropped == 0 && contacts_dropped == 0 && contacts_capped == 0 && saturations == 0 &&
@@ -164,8 +165,7 @@ Status create_world(uint8_t* block, uint32_t block_bytes, const WorldDef& def, A
 
 /// Makes a body in the lowest free slot; it takes part in the next step.
 /// Errors: pool_full (also a sensor where Capacity::sensed is 0), bad_argument, out_of_range, not_normalised;
-/// asset_missing (a hull that is not bound);
-/// feature_missing; rule_missing.
+/// asset_missing (a hull that is not bound); feature_missing; rule_missing.
 Status create_body(World& world, const BodyDef& def, BodyId& id);
 /// Takes a body away; its contacts end at once, and whom it touched wakes. Errors: bad_id.
 Status destroy_body(World& world, BodyId id);

@@ -7,6 +7,8 @@
 #include <random>
 
 #include "collision/body_convex.h"
+#include "collision/pair_filter.h"
+#include "geometry/shape_traits.h"
 #include "geometry/sweep.h"
 #include "tests/world/sensor_lab.h"
 #include "world/step_probe.h"
@@ -22,9 +24,11 @@ struct Fair {
   Lab lab;
   std::vector<BodyId> solids;
 
-  Fair(bool with_sensors, uint32_t seed) : lab({40, 160, 0, true, 0, 64}, {}, true) {
+  Fair(bool with_sensors, uint32_t seed) : lab({40, 160, 0, true, 0, 256}, {}, true) {
     std::mt19937 random(seed);
-    const auto draw = [&](double low, double high) { return low + (high - low) * (static_cast<double>(random()) * 0x1p-32); };
+    const auto draw = [&](double low, double high) {
+      return low + (high - low) * (static_cast<double>(random()) * 0x1p-32);
+    };
     solids.push_back(lab.add_ground());
     for (int i = 0; i < 24; ++i) {
       const double size = draw(0.1, 0.3), x = draw(-3, 3), y = draw(0.5, 5), z = draw(-3, 3);
@@ -94,6 +98,91 @@ DETENT_TEST(sensor, a_world_put_back_in_mid_overlap_goes_on_with_the_same_events
   EXPECT_GT(told, 40u);
 }
 
+/// Asked of all pairs, from the poses alone.
+std::vector<BodyId> near_by_force(const World& world, BodyId sensor) {
+  const StateView<const uint8_t> state = view_of(world);
+  std::vector<BodyId> found;
+  const auto of = [&](uint32_t slot, Convex& convex, Pose& pose) {
+    EXPECT_TRUE(body_convex(state.traits[slot], {}, convex));
+    pose = {state.poses[slot].position, state.poses[slot].rotation};
+  };
+  const uint32_t slot = sensor.slot - 1;
+  const BodyTraits& traits = state.traits[slot];
+  const PairFilter filter = {state.traits, {}};
+  for (uint32_t other = 0; other < state.traits.count; ++other) {
+    const BodyTraits& body = state.traits[other];
+    const bool senses_fixed = static_cast<BodyType>(traits.type) == BodyType::dynamic;
+    if (body.type == 0 || body.sensor != 0 || !filter.lets_through(slot, other)) continue;
+    if (static_cast<BodyType>(body.type) == BodyType::fixed && !senses_fixed) continue;
+    Convex a, b;
+    Pose pose_a, pose_b;
+    of(slot, a, pose_a);
+    of(other, b, pose_b);
+    const Real reach = scale_by_power(min(shape_extent(traits), shape_extent(body)), -14);
+    bool farther = true;
+    EXPECT_OK(farther_than(a, pose_a, b, pose_b, reach, farther));
+    if (!farther) found.push_back({other + 1, body.generation});
+  }
+  return found;
+}
+
+DETENT_TEST(sensor, whatever_is_called_who_is_within_is_who_overlaps_also_after_a_load) {
+  Fair fair(true, 23);
+  World& world = fair.lab.world;
+  Lab other(get_info(world).capacity, {}, true);
+  std::mt19937 random(3);
+  const auto draw = [&](double low, double high) {
+    return low + (high - low) * (static_cast<double>(random()) * 0x1p-32);
+  };
+  const auto below = [&](uint32_t end) { return static_cast<uint32_t>(random()) % end; };
+  const int ticks = getenv("DETENT_EMULATED") == nullptr ? 600 : 150;
+  uint32_t most = 0;
+  for (int tick = 0; tick < ticks; ++tick) {
+    for (uint32_t calls = below(3); calls != 0; --calls) {
+      const uint32_t slot = below(31), kind = below(9);
+      const double x = draw(-3, 3), y = draw(0, 2), z = draw(-3, 3), size = draw(0.1, 0.6);
+      const uint32_t choice = below(3) + 1;
+      const StateView<const uint8_t> state = view_of(static_cast<const World&>(world));
+      const BodyId id = {slot + 1, state.traits[slot].generation};
+      const bool ground = slot == 0, sensor = state.traits[slot].sensor != 0;
+      Status status = Status::ok;  // what is refused changes nothing
+      if (kind == 0 && !ground) status = set_pose(world, id, position(x, y, z), {0.0, 0.0, 0.0, 1.0});
+      if (kind == 1) status = set_velocity(world, id, reals(20 * x, 20 * y, 20 * z), reals(x, y, z));
+      if (kind == 2 && !ground) status = set_sensor(world, id, !sensor);
+      if (kind == 3 && !ground) status = set_type(world, id, static_cast<BodyType>(choice));
+      if (kind == 4 && !ground) status = set_shape(world, id, box(reals(size, size / 2, size)));
+      if (kind == 5) status = set_filter(world, id, {choice, choice == 1 ? ~0u : 3u, 0, 0});
+      if (kind == 6 && !ground) status = destroy_body(world, id);
+      if (kind == 7) status = put_to_sleep(world, id);
+      if (kind == 8) {
+        BodyDef def = ball_def(size, x, y, z);
+        def.sensor = choice == 1;
+        BodyId made;
+        status = create_body(world, def, made);
+      }
+      EXPECT_NE(status, Status::feature_missing);
+    }
+    std::vector<uint64_t> bytes = fair.lab.snapshot();
+    ASSERT_OK(load(other.world, bytes_of(bytes), byte_count(bytes))) << tick;
+    const StepReport report = fair.lab.run(1);
+    other.run(1);
+    ASSERT_EQ(digest(world), digest(other.world)) << "tick " << tick;
+    EXPECT_EQ(report.sensed_dropped, 0u);
+    if (view_of(static_cast<const World&>(world)).world.idle != 0) continue;
+    for (BodyId id = next_body(world, {}); !(id == BodyId{}); id = next_body(world, id)) {
+      bool sensor = false;
+      ASSERT_OK(get_sensor(world, id, sensor));
+      if (!sensor) continue;
+      BodyId within[40];
+      uint32_t count = 0;
+      ASSERT_OK(get_sensed(world, id, within, 40, count));
+      EXPECT_EQ(std::vector<BodyId>(within, within + count), near_by_force(world, id)) << "tick " << tick;
+      most = count > most ? count : most;
+    }
+  }
+  EXPECT_GE(most, 5u);
+}
+
 DETENT_TEST(sensor, no_bit_of_who_is_within_can_be_flipped_into_a_crash) {
   Fair fair(true, 11);
   fair.lab.run(40);
@@ -154,7 +243,8 @@ DETENT_TEST(sensor, a_replay_makes_and_unmakes_the_same_sensors) {
 }
 
 /// How deep two bodies overlap at least when their rounded poses do, for certain.
-bool overlap_by(const BodyTraits& a, const BodyPose& pose_a, const BodyTraits& b, const BodyPose& pose_b, double depth) {
+bool overlap_by(const BodyTraits& a, const BodyPose& pose_a, const BodyTraits& b, const BodyPose& pose_b,
+                double depth) {
   Convex convex_a, convex_b;
   EXPECT_TRUE(body_convex(a, {}, convex_a) && body_convex(b, {}, convex_b));
   // The balls made smaller: only shapes that have one are asked like that.
@@ -168,7 +258,9 @@ bool overlap_by(const BodyTraits& a, const BodyPose& pose_a, const BodyTraits& b
 
 DETENT_TEST(sensor, no_throw_whose_way_overlaps_goes_unnoticed) {
   std::mt19937 random(5);
-  const auto draw = [&](double low, double high) { return low + (high - low) * (static_cast<double>(random()) * 0x1p-32); };
+  const auto draw = [&](double low, double high) {
+    return low + (high - low) * (static_cast<double>(random()) * 0x1p-32);
+  };
   const int rounds = getenv("DETENT_EMULATED") == nullptr ? 240 : 60;
   int passes = 0, grazes = 0;
   for (int round = 0; round < rounds; ++round) {
