@@ -4,13 +4,12 @@
 #include <detent/sensor.h>
 
 #include "collision/body_convex.h"
-#include "collision/surface_code.h"
+#include "collision/surface_distance.h"
 #include "dynamics/finalise.h"
 #include "dynamics/impact_pair.h"
 #include "dynamics/spin.h"
 #include "geometry/bounds.h"
 #include "geometry/shape_traits.h"
-#include "proximity/pair.h"
 #include "world/query_bodies.h"
 
 namespace detent {
@@ -57,45 +56,6 @@ void bring_near(const BodyTraits& traits, const BodyPose& other, BodyPose& pose)
   pose.position = pose_near(traits, pose, other.position).position;
 }
 
-/// A body and the triangles of a surface.
-struct NearSurface {
-  const SurfaceCode& code;
-  Surface surface;
-  Pose ground, pose;
-  Convex convex;
-  Real reach;
-  bool asked = true, farther = true;
-
-  void ask(uint32_t triangle) {
-    Pose placed;
-    Convex made;
-    if (!asked || !farther) return;
-    asked = code.convex(surface, ground, triangle, placed, made) == Status::ok &&
-            farther_than(made, placed, convex, pose, reach, farther) == Status::ok;
-  }
-};
-
-/// As farther_than(), of a body and one that has a surface. False if it could not be asked.
-bool farther_than_surface(const SensorStage& stage, const BodyTraits& ground, const Pose& ground_pose,
-                          const BodyTraits& body, const Pose& pose, Real reach, bool& farther) {
-  SurfacePlace place;
-  Vec64 room;
-  Convex convex;
-  const Real ball = real_from_unit(body.bounding_radius, body.size_exponent);
-  if (!is_in(stage.assets, ground.asset) || !body_convex(body, stage.assets, convex) ||
-      place_on_surface(ground_pose, pose, place) != Status::ok ||
-      !raw_from_real({ball + scale_by_power(ball, -8), k_zero, k_zero}, room))
-    return false;
-  const SurfaceCode& code = *stage.features.surface;
-  NearSurface near = {code, surface_of(ground, stage.assets), ground_pose, pose, convex, reach};
-  const Vec64 half = {room.x, room.x, room.x};
-  code.visit(
-      near.surface, place.centre - half, place.centre + half,
-      [](void* context, uint32_t triangle) { static_cast<NearSurface*>(context)->ask(triangle); }, &near);
-  farther = near.farther;
-  return near.asked;
-}
-
 bool is_within(SensorStage& stage, uint32_t sensor, uint32_t body) {
   const BodyTraits &a = stage.traits[sensor], &b = stage.traits[body];
   BodyPose end_a = end_pose(stage, sensor), end_b = end_pose(stage, body);
@@ -105,9 +65,9 @@ bool is_within(SensorStage& stage, uint32_t sensor, uint32_t body) {
   const Real reach = scale_by_power(min(shape_extent(a), shape_extent(b)), k_within_power);
   bool asked = false, farther = false;
   if (is_surface(a)) {
-    asked = farther_than_surface(stage, a, pose_a, b, pose_b, reach, farther);
+    asked = stage.features.surface_distance->farther(stage.assets, a, pose_a, b, pose_b, reach, farther);
   } else if (is_surface(b)) {
-    asked = farther_than_surface(stage, b, pose_b, a, pose_a, reach, farther);
+    asked = stage.features.surface_distance->farther(stage.assets, b, pose_b, a, pose_a, reach, farther);
   } else {
     Convex convex_a, convex_b;
     asked = body_convex(a, stage.assets, convex_a) && body_convex(b, stage.assets, convex_b) &&
