@@ -1,5 +1,6 @@
 #pragma once
 #include <detent/detail/scratch.h>
+#include <detent/detail/shared.h>
 #include <detent/world.h>
 
 /// Where everything lies in a block: one list of arrays, persistent first. world_bytes, the snapshot, the digest and
@@ -37,7 +38,7 @@ constexpr bool in_range(Capacity capacity) {
 }
 
 /// The layout for a capacity in range; `fits` is false if the block would need 2^32 bytes or more.
-constexpr Layout layout_of(Capacity capacity, bool& fits) {
+DETENT_SHARED constexpr Layout layout_of(Capacity capacity, bool& fits) {
   uint64_t end = 0;
   const auto place = [&end](uint64_t element_bytes, uint64_t count) {
     const uint64_t start = end;
