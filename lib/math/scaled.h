@@ -15,20 +15,49 @@ inline namespace DETENT_NAMESPACE {
 #if DETENT_FIXED
 inline constexpr int k_scaled_exponent_max = 256;
 
-/// mantissa 2^exponent in canonical form. A caller that dropped lower bits sets the mantissa's lowest bit.
-Scaled scaled_from_parts(bool negative, uint64_t mantissa, int exponent);
+/// The functions below as they are called: numbers in words, for most calling conventions pass structs of two words
+/// through memory. A Scaled is returned with its mantissa in the low half, a Real as its bits.
+namespace words {
+uint64_t scaled_from_parts(bool negative, uint64_t mantissa, int exponent);
+uint64_t scaled_from(int64_t raw, int frac);
+uint64_t multiply(int32_t a, int32_t a_exponent, int32_t b, int32_t b_exponent);
+uint64_t divide(int32_t a, int32_t a_exponent, int32_t b, int32_t b_exponent);
+uint64_t add(int32_t a, int32_t a_exponent, int32_t b, int32_t b_exponent);
+bool less(int32_t a, int32_t a_exponent, int32_t b, int32_t b_exponent);
+uint64_t square_root(int32_t a, int32_t exponent);
+uint64_t scaled_reciprocal(int64_t raw);
+int64_t multiply(int64_t raw, int32_t b, int32_t b_exponent);
+int64_t multiply(int64_t raw, int32_t b, int32_t b_exponent, bool& saturated);
 
-Scaled scaled_from(Real a);
-Scaled scaled_from(Unit a);
-Scaled multiply(Scaled a, Scaled b);
+constexpr Scaled to_scaled(uint64_t words) {
+  return Scaled::from_parts(static_cast<int32_t>(words), static_cast<int32_t>(words >> 32));
+}
+}  // namespace words
+
+/// mantissa 2^exponent in canonical form. A caller that dropped lower bits sets the mantissa's lowest bit.
+inline Scaled scaled_from_parts(bool negative, uint64_t mantissa, int exponent) {
+  return words::to_scaled(words::scaled_from_parts(negative, mantissa, exponent));
+}
+
+inline Scaled scaled_from(Real a) { return words::to_scaled(words::scaled_from(a.raw, k_real_frac)); }
+inline Scaled scaled_from(Unit a) { return words::to_scaled(words::scaled_from(a.raw, k_unit_frac)); }
+inline Scaled multiply(Scaled a, Scaled b) {
+  return words::to_scaled(words::multiply(a.mantissa, a.exponent, b.mantissa, b.exponent));
+}
 /// Range: b != 0.
-Scaled divide(Scaled a, Scaled b);
-Scaled add(Scaled a, Scaled b);
+inline Scaled divide(Scaled a, Scaled b) {
+  return words::to_scaled(words::divide(a.mantissa, a.exponent, b.mantissa, b.exponent));
+}
+inline Scaled add(Scaled a, Scaled b) {
+  return words::to_scaled(words::add(a.mantissa, a.exponent, b.mantissa, b.exponent));
+}
 /// a 2^n, exact.
-Scaled scaled_by_power(Scaled a, int n);
+inline Scaled scaled_by_power(Scaled a, int n) {
+  return scaled_from_parts(a.mantissa < 0, magnitude_32(a.mantissa), a.exponent + n);
+}
 /// Range: a >= 0.
-Scaled square_root(Scaled a);
-bool less(Scaled a, Scaled b);
+inline Scaled square_root(Scaled a) { return words::to_scaled(words::square_root(a.mantissa, a.exponent)); }
+inline bool less(Scaled a, Scaled b) { return words::less(a.mantissa, a.exponent, b.mantissa, b.exponent); }
 constexpr bool is_positive(Scaled a) { return a.mantissa > 0; }
 constexpr Scaled negate(Scaled a) { return Scaled::from_parts(-a.mantissa, a.exponent); }
 
@@ -41,14 +70,16 @@ inline Real multiply(Real a, Scaled b) {
   return Real::from_raw(Int128::product(a.raw, b.mantissa).round_shift(-b.exponent));
 }
 #else
-Real multiply(Real a, Scaled b);
+inline Real multiply(Real a, Scaled b) { return Real::from_raw(words::multiply(a.raw, b.mantissa, b.exponent)); }
 #endif
 /// 1 / a. Range: a > 0. Rounding: relative error <= 2^-29. Overflow: none.
-Scaled scaled_reciprocal(Real a);
+inline Scaled scaled_reciprocal(Real a) { return words::to_scaled(words::scaled_reciprocal(a.raw)); }
 /// a b. Rounding: to nearest, ties up. Overflow: clamps to Real's range and sets `saturated` (else untouched).
-Real multiply(Real a, Scaled b, bool& saturated);
+inline Real multiply(Real a, Scaled b, bool& saturated) {
+  return Real::from_raw(words::multiply(a.raw, b.mantissa, b.exponent, saturated));
+}
 /// As multiply(Real(1.0), a, saturated).
-Real to_real(Scaled a, bool& saturated);
+inline Real to_real(Scaled a, bool& saturated) { return multiply(Real(1.0), a, saturated); }
 /// Range: |a| < 2. Rounding: to nearest, ties up.
 Unit to_unit(Scaled a);
 #else
