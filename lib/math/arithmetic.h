@@ -1,4 +1,5 @@
 #pragma once
+#include <detent/detail/shared.h>
 #include <detent/math.h>
 
 #include "math/wide.h"
@@ -32,12 +33,28 @@ constexpr Unit unit_from_product(uint64_t sum) {
 constexpr uint64_t unit_product(Unit a, Unit b) { return static_cast<uint64_t>(int64_t{a.raw} * b.raw); }
 
 /// |a b| < 2.
-constexpr Unit operator*(Unit a, Unit b) { return unit_from_product(unit_product(a, b)); }
-constexpr Real operator*(Real a, Unit b) { return Real::from_raw(Int128::narrow_sum<k_unit_frac>(a.raw, b.raw)); }
-constexpr Real operator*(Unit a, Real b) { return b * a; }
-constexpr Real operator*(Real a, Real b) {
-  return Real::from_raw(Int128::product(a.raw, b.raw).round_shift(k_real_frac));
+DETENT_SHARED constexpr Unit operator*(Unit a, Unit b) { return unit_from_product(unit_product(a, b)); }
+
+/// Real results as they are called, as raw integers: most calling conventions of 32-bit machines return those in
+/// registers, but a struct in memory.
+namespace raw {
+DETENT_SHARED constexpr int64_t multiply(int64_t a, int32_t unit) { return Int128::narrow_sum<k_unit_frac>(a, unit); }
+DETENT_SHARED constexpr int64_t multiply(int64_t a, int64_t b) {
+  return Int128::product(a, b).round_shift(k_real_frac);
 }
+DETENT_SHARED constexpr int64_t dot(const Vec3<Real>& a, const Vec3<Unit>& b) {
+  return Int128::narrow_sum<k_unit_frac>(a.x.raw, b.x.raw, a.y.raw, b.y.raw, a.z.raw, b.z.raw);
+}
+DETENT_SHARED constexpr int64_t dot(const Vec3<Real>& a, const Vec3<Real>& b) {
+  return (Int128::product(a.x.raw, b.x.raw) + Int128::product(a.y.raw, b.y.raw) + Int128::product(a.z.raw, b.z.raw))
+      .round_shift(k_real_frac);
+}
+int64_t divide(int64_t a, int64_t b);
+}  // namespace raw
+
+constexpr Real operator*(Real a, Unit b) { return Real::from_raw(raw::multiply(a.raw, b.raw)); }
+constexpr Real operator*(Unit a, Real b) { return b * a; }
+constexpr Real operator*(Real a, Real b) { return Real::from_raw(raw::multiply(a.raw, b.raw)); }
 #else
 inline constexpr Real k_real_max = Real(131072.0);  ///< the range is that of the fixed configurations
 #endif
@@ -66,73 +83,67 @@ constexpr T clamp(T value, T low, T high) {
 }
 /// |a|; +0 for both zeros. Overflow: the most negative fixed number wraps to itself.
 template <class T>
-constexpr T abs(T a) {
+DETENT_SHARED constexpr T abs(T a) {
   return T(0.0) < a ? a : T(0.0) - a;
 }
 
 template <class T>
-constexpr Vec3<T> operator+(const Vec3<T>& a, const Vec3<T>& b) {
+DETENT_SHARED constexpr Vec3<T> operator+(const Vec3<T>& a, const Vec3<T>& b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
 template <class T>
-constexpr Vec3<T> operator-(const Vec3<T>& a, const Vec3<T>& b) {
+DETENT_SHARED constexpr Vec3<T> operator-(const Vec3<T>& a, const Vec3<T>& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 template <class T>
-constexpr Vec3<T> operator-(const Vec3<T>& a) {
+DETENT_SHARED constexpr Vec3<T> operator-(const Vec3<T>& a) {
   return {-a.x, -a.y, -a.z};
 }
 template <class T>
-constexpr Vec3<T>& operator+=(Vec3<T>& a, const Vec3<T>& b) {
+DETENT_SHARED constexpr Vec3<T>& operator+=(Vec3<T>& a, const Vec3<T>& b) {
   return a = a + b;
 }
 template <class T>
-constexpr Vec3<T>& operator-=(Vec3<T>& a, const Vec3<T>& b) {
+DETENT_SHARED constexpr Vec3<T>& operator-=(Vec3<T>& a, const Vec3<T>& b) {
   return a = a - b;
 }
 template <class A, class B>
-constexpr auto operator*(const Vec3<A>& a, B b) -> Vec3<decltype(a.x * b)> {
+DETENT_SHARED constexpr auto operator*(const Vec3<A>& a, B b) -> Vec3<decltype(a.x * b)> {
   return {a.x * b, a.y * b, a.z * b};
 }
 template <class T>
-constexpr Vec3<T> abs(const Vec3<T>& a) {
+DETENT_SHARED constexpr Vec3<T> abs(const Vec3<T>& a) {
   return {abs(a.x), abs(a.y), abs(a.z)};
 }
 
 #if DETENT_FIXED
 /// Range: |result| < 2.
-constexpr Unit dot(const Vec3<Unit>& a, const Vec3<Unit>& b) {
+DETENT_SHARED constexpr Unit dot(const Vec3<Unit>& a, const Vec3<Unit>& b) {
   return unit_from_product(unit_product(a.x, b.x) + unit_product(a.y, b.y) + unit_product(a.z, b.z));
 }
-constexpr Real dot(const Vec3<Real>& a, const Vec3<Unit>& b) {
-  return Real::from_raw(Int128::narrow_sum<k_unit_frac>(a.x.raw, b.x.raw, a.y.raw, b.y.raw, a.z.raw, b.z.raw));
-}
+constexpr Real dot(const Vec3<Real>& a, const Vec3<Unit>& b) { return Real::from_raw(raw::dot(a, b)); }
 constexpr Real dot(const Vec3<Unit>& a, const Vec3<Real>& b) { return dot(b, a); }
-constexpr Real dot(const Vec3<Real>& a, const Vec3<Real>& b) {
-  return Real::from_raw(
-      (Int128::product(a.x.raw, b.x.raw) + Int128::product(a.y.raw, b.y.raw) + Int128::product(a.z.raw, b.z.raw))
-          .round_shift(k_real_frac));
-}
+constexpr Real dot(const Vec3<Real>& a, const Vec3<Real>& b) { return Real::from_raw(raw::dot(a, b)); }
 
 /// Range: each component of the result < 2.
-constexpr Vec3<Unit> cross(const Vec3<Unit>& a, const Vec3<Unit>& b) {
+DETENT_SHARED constexpr Vec3<Unit> cross(const Vec3<Unit>& a, const Vec3<Unit>& b) {
   return {unit_from_product(unit_product(a.y, b.z) - unit_product(a.z, b.y)),
           unit_from_product(unit_product(a.z, b.x) - unit_product(a.x, b.z)),
           unit_from_product(unit_product(a.x, b.y) - unit_product(a.y, b.x))};
 }
-constexpr Vec3<Real> cross(const Vec3<Real>& a, const Vec3<Unit>& b) {
+DETENT_SHARED constexpr Vec3<Real> cross(const Vec3<Real>& a, const Vec3<Unit>& b) {
   constexpr int n = k_unit_frac;
   return {Real::from_raw(Int128::narrow_sum<n>(a.y.raw, b.z.raw, a.z.raw, -b.y.raw)),
           Real::from_raw(Int128::narrow_sum<n>(a.z.raw, b.x.raw, a.x.raw, -b.z.raw)),
           Real::from_raw(Int128::narrow_sum<n>(a.x.raw, b.y.raw, a.y.raw, -b.x.raw))};
 }
-constexpr Vec3<Real> cross(const Vec3<Unit>& a, const Vec3<Real>& b) {
+DETENT_SHARED constexpr Vec3<Real> cross(const Vec3<Unit>& a, const Vec3<Real>& b) {
   constexpr int n = k_unit_frac;
   return {Real::from_raw(Int128::narrow_sum<n>(b.z.raw, a.y.raw, b.y.raw, -a.z.raw)),
           Real::from_raw(Int128::narrow_sum<n>(b.x.raw, a.z.raw, b.z.raw, -a.x.raw)),
           Real::from_raw(Int128::narrow_sum<n>(b.y.raw, a.x.raw, b.x.raw, -a.y.raw))};
 }
-constexpr Vec3<Real> cross(const Vec3<Real>& a, const Vec3<Real>& b) {
+DETENT_SHARED constexpr Vec3<Real> cross(const Vec3<Real>& a, const Vec3<Real>& b) {
   const auto difference = [](Real p, Real q, Real r, Real s) {
     return Real::from_raw((Int128::product(p.raw, q.raw) - Int128::product(r.raw, s.raw)).round_shift(k_real_frac));
   };
@@ -140,7 +151,7 @@ constexpr Vec3<Real> cross(const Vec3<Real>& a, const Vec3<Real>& b) {
 }
 
 /// a / b. Range: b != 0. Overflow: saturates to +-131072.
-Real divide(Real a, Real b);
+inline Real divide(Real a, Real b) { return Real::from_raw(raw::divide(a.raw, b.raw)); }
 /// a / b. Range: b != 0, |a / b| < 2.
 Unit divide(Unit a, Unit b);
 /// 1 / a. Range: a != 0. Overflow: saturates.

@@ -68,6 +68,10 @@ bool less(int32_t a, int32_t a_exponent, int32_t b, int32_t b_exponent) {
   return a < b;
 }
 
+uint64_t scaled_by_power(int32_t a, int32_t exponent, int n) {
+  return scaled_from_parts(a < 0, magnitude_32(a), exponent + n);
+}
+
 uint64_t square_root(int32_t a, int32_t exponent) {
   DETENT_VERIFY_RANGE(a >= 0);
   const int shift = (exponent & 1) != 0 ? 33 : 32;

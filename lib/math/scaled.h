@@ -24,6 +24,7 @@ uint64_t multiply(int32_t a, int32_t a_exponent, int32_t b, int32_t b_exponent);
 uint64_t divide(int32_t a, int32_t a_exponent, int32_t b, int32_t b_exponent);
 uint64_t add(int32_t a, int32_t a_exponent, int32_t b, int32_t b_exponent);
 bool less(int32_t a, int32_t a_exponent, int32_t b, int32_t b_exponent);
+uint64_t scaled_by_power(int32_t a, int32_t exponent, int n);
 uint64_t square_root(int32_t a, int32_t exponent);
 uint64_t scaled_reciprocal(int64_t raw);
 int64_t multiply(int64_t raw, int32_t b, int32_t b_exponent);
@@ -53,7 +54,7 @@ inline Scaled add(Scaled a, Scaled b) {
 }
 /// a 2^n, exact.
 inline Scaled scaled_by_power(Scaled a, int n) {
-  return scaled_from_parts(a.mantissa < 0, magnitude_32(a.mantissa), a.exponent + n);
+  return words::to_scaled(words::scaled_by_power(a.mantissa, a.exponent, n));
 }
 /// Range: a >= 0.
 inline Scaled square_root(Scaled a) { return words::to_scaled(words::square_root(a.mantissa, a.exponent)); }
