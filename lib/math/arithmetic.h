@@ -50,6 +50,15 @@ DETENT_SHARED constexpr int64_t dot(const Vec3<Real>& a, const Vec3<Real>& b) {
       .round_shift(k_real_frac);
 }
 int64_t divide(int64_t a, int64_t b);
+/// Of coordinates; see real_difference().
+DETENT_SHARED constexpr int64_t difference(Coord::Raw a, Coord::Raw b) {
+  constexpr int k_shift = k_real_frac - Coord::k_frac;
+  const int64_t difference = subtract_wrapped(a, b);
+  constexpr int64_t k_limit = INT64_MAX >> k_shift;
+  // A wrapped difference has the wrong sign.
+  if (a < b) return difference >= 0 || difference < -k_limit ? -INT64_MAX : difference * (int64_t{1} << k_shift);
+  return difference < 0 || difference > k_limit ? INT64_MAX : difference << k_shift;
+}
 }  // namespace raw
 
 constexpr Real operator*(Real a, Unit b) { return Real::from_raw(raw::multiply(a.raw, b.raw)); }
@@ -163,7 +172,7 @@ constexpr Real scale_by_power(Real x, int n) { return Real::from_raw(shift_64(x.
 constexpr Unit scale_by_power(Unit x, int n) { return unit_from_raw(shift_64(x.raw, n)); }
 
 /// The smallest e >= -46 with |x| < 2^e.
-constexpr int exponent_above(Real x) { return bit_length_64(magnitude_64(x.raw)) - k_real_frac; }
+DETENT_SHARED constexpr int exponent_above(Real x) { return bit_length_64(magnitude_64(x.raw)) - k_real_frac; }
 
 /// u 2^e. Rounding: to nearest, ties up. Overflow: wraps; |u 2^e| < 2^17.
 constexpr Real real_from_unit(Unit u, int e) { return Real::from_raw(shift_64(u.raw, e + k_real_frac - k_unit_frac)); }
@@ -171,7 +180,7 @@ constexpr Real real_from_unit(Unit u, int e) { return Real::from_raw(shift_64(u.
 constexpr Unit unit_from_real(Real r, int e) { return unit_from_raw(shift_64(r.raw, k_unit_frac - k_real_frac - e)); }
 
 /// (a - b) 2^-e, the difference exact. Range: |result| < 2. Rounding: to nearest, ties up.
-constexpr Unit unit_difference(Coord a, Coord b, int e) {
+DETENT_SHARED constexpr Unit unit_difference(Coord a, Coord b, int e) {
   const int n = e + Coord::k_frac - k_unit_frac;
   if (n < 2) return unit_from_raw(shift_64(subtract_wrapped(a.raw, b.raw), -n));
   // Halved first: the 64-bit difference itself can overflow, and the lowest bit cannot alter the rounding.
@@ -179,16 +188,7 @@ constexpr Unit unit_difference(Coord a, Coord b, int e) {
   return unit_from_raw(shift_64(half, 1 - n));
 }
 /// a - b, m. Exact within +-131072 m. Overflow: saturates there.
-constexpr Real real_difference(Coord a, Coord b) {
-  constexpr int k_shift = k_real_frac - Coord::k_frac;
-  const int64_t difference = subtract_wrapped(a.raw, b.raw);
-  constexpr int64_t k_limit = INT64_MAX >> k_shift;
-  // A wrapped difference has the wrong sign.
-  if (a.raw < b.raw)
-    return difference >= 0 || difference < -k_limit ? -k_real_max
-                                                    : Real::from_raw(difference * (int64_t{1} << k_shift));
-  return difference < 0 || difference > k_limit ? k_real_max : Real::from_raw(difference << k_shift);
-}
+constexpr Real real_difference(Coord a, Coord b) { return Real::from_raw(raw::difference(a.raw, b.raw)); }
 /// c + d, m. Rounding: to nearest, ties up. Overflow: clamps to Coord's range and sets `saturated` (else untouched).
 constexpr Coord coord_advance(Coord c, Real d, bool& saturated) {
   using Raw = Coord::Raw;
@@ -216,7 +216,7 @@ constexpr Real reciprocal(Real a) { return Real(1) / a; }
 /// x 2^n. Range: 2^n normal.
 constexpr Real scale_by_power(Real x, int n) { return x * power_of_two<Real>(n); }
 /// The smallest e >= -46 with |x| < 2^e.
-constexpr int exponent_above(Real x) {
+DETENT_SHARED constexpr int exponent_above(Real x) {
   const FloatParts parts = float_parts(x);
   const int e = parts.exponent + FloatFormat<Real>::k_fraction_bits + 1;
   return parts.mantissa == 0 || e < -46 ? -46 : e;
