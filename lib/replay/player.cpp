@@ -1,3 +1,4 @@
+#include <detent/detail/shared.h>
 #include <detent/recording.h>
 #include <string.h>
 
@@ -25,7 +26,7 @@ BodyId id_given(const CreateJoint& command) { return {command.id.slot, command.i
 Player::Player(Source source, uint8_t* buffer, uint32_t buffer_bytes)
     : source_(source), buffer_(buffer), buffer_bytes_(buffer_bytes) {}
 
-Status Player::fail(Status status, uint64_t offset, const char* field) {
+DETENT_SHARED Status Player::fail(Status status, uint64_t offset, const char* field) {
   if (error_.status != Status::ok) return error_.status;
   error_.status = status;
   error_.tick = tick_;
