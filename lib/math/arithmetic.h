@@ -261,5 +261,10 @@ constexpr Coord coord_advance(Coord c, Real d, bool& saturated) {
 #endif
 #endif
 
+/// a - b, m: as real_difference() of each component.
+DETENT_SHARED constexpr Vec3<Real> real_difference(const Position& a, const Position& b) {
+  return {real_difference(a.x, b.x), real_difference(a.y, b.y), real_difference(a.z, b.z)};
+}
+
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

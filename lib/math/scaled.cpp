@@ -6,14 +6,18 @@ inline namespace DETENT_NAMESPACE {
 namespace words {
 namespace {
 
-constexpr uint64_t words_of(int32_t mantissa, int32_t exponent) {
+constexpr Result words_of(int32_t mantissa, int32_t exponent) {
+#if UINTPTR_MAX > 0xffffffff
+  return Scaled::from_parts(mantissa, exponent);
+#else
   return static_cast<uint32_t>(mantissa) | static_cast<uint64_t>(exponent) << 32;
+#endif
 }
 
 }  // namespace
 
-uint64_t scaled_from_parts(bool negative, uint64_t mantissa, int exponent) {
-  if (mantissa == 0) return 0;
+Result scaled_from_parts(bool negative, uint64_t mantissa, int exponent) {
+  if (mantissa == 0) return words_of(0, 0);
   const int drop = bit_length_64(mantissa) - 31;
   // Ties away from zero; a carry to 2^31 is 2^30 with the next exponent.
   uint64_t rounded = drop <= 0 ? mantissa << -drop : ((mantissa >> (drop - 1)) + 1) >> 1;
@@ -22,7 +26,7 @@ uint64_t scaled_from_parts(bool negative, uint64_t mantissa, int exponent) {
     rounded >>= 1;
     ++exponent;
   }
-  if (exponent < -k_scaled_exponent_max) return 0;
+  if (exponent < -k_scaled_exponent_max) return words_of(0, 0);
   if (exponent > k_scaled_exponent_max) {
     rounded = INT32_MAX;
     exponent = k_scaled_exponent_max;
@@ -31,14 +35,14 @@ uint64_t scaled_from_parts(bool negative, uint64_t mantissa, int exponent) {
   return words_of(negative ? -size : size, exponent);
 }
 
-uint64_t scaled_from(int64_t raw, int frac) { return scaled_from_parts(raw < 0, magnitude_64(raw), -frac); }
+Result scaled_from(int64_t raw, int frac) { return scaled_from_parts(raw < 0, magnitude_64(raw), -frac); }
 
-uint64_t multiply(int32_t a, int32_t a_exponent, int32_t b, int32_t b_exponent) {
+Result multiply(int32_t a, int32_t a_exponent, int32_t b, int32_t b_exponent) {
   const int64_t product = int64_t{a} * b;
   return scaled_from_parts(product < 0, magnitude_64(product), a_exponent + b_exponent);
 }
 
-uint64_t divide(int32_t a, int32_t a_exponent, int32_t b, int32_t b_exponent) {
+Result divide(int32_t a, int32_t a_exponent, int32_t b, int32_t b_exponent) {
   DETENT_VERIFY_RANGE(b != 0);
   const uint64_t numerator = uint64_t{magnitude_32(a)} << 32;
   const uint64_t divisor = magnitude_32(b);
@@ -47,7 +51,7 @@ uint64_t divide(int32_t a, int32_t a_exponent, int32_t b, int32_t b_exponent) {
   return scaled_from_parts((a < 0) != (b < 0), (quotient << 1) | sticky, a_exponent - b_exponent - 33);
 }
 
-uint64_t add(int32_t a, int32_t a_exponent, int32_t b, int32_t b_exponent) {
+Result add(int32_t a, int32_t a_exponent, int32_t b, int32_t b_exponent) {
   if (a == 0) return words_of(b, b_exponent);
   if (b == 0) return words_of(a, a_exponent);
   if (a_exponent < b_exponent) return add(b, b_exponent, a, a_exponent);
@@ -68,11 +72,11 @@ bool less(int32_t a, int32_t a_exponent, int32_t b, int32_t b_exponent) {
   return a < b;
 }
 
-uint64_t scaled_by_power(int32_t a, int32_t exponent, int n) {
+Result scaled_by_power(int32_t a, int32_t exponent, int n) {
   return scaled_from_parts(a < 0, magnitude_32(a), exponent + n);
 }
 
-uint64_t square_root(int32_t a, int32_t exponent) {
+Result square_root(int32_t a, int32_t exponent) {
   DETENT_VERIFY_RANGE(a >= 0);
   const int shift = (exponent & 1) != 0 ? 33 : 32;
   const uint64_t square = static_cast<uint64_t>(a) << shift;
@@ -81,7 +85,7 @@ uint64_t square_root(int32_t a, int32_t exponent) {
   return scaled_from_parts(false, (root << 1) | sticky, (exponent - shift) / 2 - 1);
 }
 
-uint64_t scaled_reciprocal(int64_t raw) {
+Result scaled_reciprocal(int64_t raw) {
   DETENT_VERIFY_RANGE(raw > 0);
   const uint64_t size = static_cast<uint64_t>(raw);
   const int length = bit_length_64(size);

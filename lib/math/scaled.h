@@ -15,24 +15,29 @@ inline namespace DETENT_NAMESPACE {
 #if DETENT_FIXED
 inline constexpr int k_scaled_exponent_max = 256;
 
-/// The functions below as they are called: numbers in words, for most calling conventions pass structs of two words
-/// through memory. A Scaled is returned with its mantissa in the low half, a Real as its bits.
+/// The functions below as they are called: numbers in words, for most calling conventions of 32-bit machines pass
+/// structs of two words through memory.
 namespace words {
-uint64_t scaled_from_parts(bool negative, uint64_t mantissa, int exponent);
-uint64_t scaled_from(int64_t raw, int frac);
-uint64_t multiply(int32_t a, int32_t a_exponent, int32_t b, int32_t b_exponent);
-uint64_t divide(int32_t a, int32_t a_exponent, int32_t b, int32_t b_exponent);
-uint64_t add(int32_t a, int32_t a_exponent, int32_t b, int32_t b_exponent);
-bool less(int32_t a, int32_t a_exponent, int32_t b, int32_t b_exponent);
-uint64_t scaled_by_power(int32_t a, int32_t exponent, int n);
-uint64_t square_root(int32_t a, int32_t exponent);
-uint64_t scaled_reciprocal(int64_t raw);
-int64_t multiply(int64_t raw, int32_t b, int32_t b_exponent);
-int64_t multiply(int64_t raw, int32_t b, int32_t b_exponent, bool& saturated);
-
-constexpr Scaled to_scaled(uint64_t words) {
+#if UINTPTR_MAX > 0xffffffff
+using Result = Scaled;
+constexpr Scaled to_scaled(Result words) { return words; }
+#else
+using Result = uint64_t;  ///< the mantissa in the low half
+constexpr Scaled to_scaled(Result words) {
   return Scaled::from_parts(static_cast<int32_t>(words), static_cast<int32_t>(words >> 32));
 }
+#endif
+Result scaled_from_parts(bool negative, uint64_t mantissa, int exponent);
+Result scaled_from(int64_t raw, int frac);
+Result multiply(int32_t a, int32_t a_exponent, int32_t b, int32_t b_exponent);
+Result divide(int32_t a, int32_t a_exponent, int32_t b, int32_t b_exponent);
+Result add(int32_t a, int32_t a_exponent, int32_t b, int32_t b_exponent);
+bool less(int32_t a, int32_t a_exponent, int32_t b, int32_t b_exponent);
+Result scaled_by_power(int32_t a, int32_t exponent, int n);
+Result square_root(int32_t a, int32_t exponent);
+Result scaled_reciprocal(int64_t raw);
+int64_t multiply(int64_t raw, int32_t b, int32_t b_exponent);
+int64_t multiply(int64_t raw, int32_t b, int32_t b_exponent, bool& saturated);
 }  // namespace words
 
 /// mantissa 2^exponent in canonical form. A caller that dropped lower bits sets the mantissa's lowest bit.
@@ -101,6 +106,11 @@ constexpr Real to_real(Scaled a, bool& saturated) {
 constexpr Real multiply(Real a, Scaled b, bool& saturated) { return to_real(a * b, saturated); }
 constexpr Unit to_unit(Scaled a) { return a; }
 #endif
+
+/// Each component of v times a, as multiply(v.x, a).
+DETENT_SHARED inline Vec3<Real> multiply(const Vec3<Real>& v, Scaled a) {
+  return {multiply(v.x, a), multiply(v.y, a), multiply(v.z, a)};
+}
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent
