@@ -49,6 +49,9 @@ DETENT_SHARED constexpr int64_t dot(const Vec3<Real>& a, const Vec3<Real>& b) {
   return (Int128::product(a.x.raw, b.x.raw) + Int128::product(a.y.raw, b.y.raw) + Int128::product(a.z.raw, b.z.raw))
       .round_shift(k_real_frac);
 }
+DETENT_SHARED constexpr int64_t min(int64_t a, int64_t b) { return b < a ? b : a; }
+DETENT_SHARED constexpr int64_t max(int64_t a, int64_t b) { return a < b ? b : a; }
+DETENT_SHARED constexpr int64_t abs(int64_t a) { return 0 < a ? a : subtract_wrapped(0, a); }
 int64_t divide(int64_t a, int64_t b);
 /// Of coordinates; see real_difference().
 DETENT_SHARED constexpr int64_t difference(Coord::Raw a, Coord::Raw b) {
@@ -61,9 +64,9 @@ DETENT_SHARED constexpr int64_t difference(Coord::Raw a, Coord::Raw b) {
 }
 }  // namespace raw
 
-constexpr Real operator*(Real a, Unit b) { return Real::from_raw(raw::multiply(a.raw, b.raw)); }
-constexpr Real operator*(Unit a, Real b) { return b * a; }
-constexpr Real operator*(Real a, Real b) { return Real::from_raw(raw::multiply(a.raw, b.raw)); }
+DETENT_PASSING constexpr Real operator*(Real a, Unit b) { return Real::from_raw(raw::multiply(a.raw, b.raw)); }
+DETENT_PASSING constexpr Real operator*(Unit a, Real b) { return b * a; }
+DETENT_PASSING constexpr Real operator*(Real a, Real b) { return Real::from_raw(raw::multiply(a.raw, b.raw)); }
 #else
 inline constexpr Real k_real_max = Real(131072.0);  ///< the range is that of the fixed configurations
 #endif
@@ -86,15 +89,23 @@ template <class T>
 constexpr T max(T a, T b) {
   return a < b ? b : a;
 }
+#if DETENT_FIXED
+DETENT_PASSING constexpr Real min(Real a, Real b) { return Real::from_raw(raw::min(a.raw, b.raw)); }
+DETENT_PASSING constexpr Real max(Real a, Real b) { return Real::from_raw(raw::max(a.raw, b.raw)); }
+#endif
 template <class T>
 constexpr T clamp(T value, T low, T high) {
   return min(max(value, low), high);
 }
 /// |a|; +0 for both zeros. Overflow: the most negative fixed number wraps to itself.
 template <class T>
-DETENT_SHARED constexpr T abs(T a) {
+constexpr T abs(T a) {
   return T(0.0) < a ? a : T(0.0) - a;
 }
+
+#if DETENT_FIXED
+DETENT_PASSING constexpr Real abs(Real a) { return Real::from_raw(raw::abs(a.raw)); }
+#endif
 
 template <class T>
 DETENT_SHARED constexpr Vec3<T> operator+(const Vec3<T>& a, const Vec3<T>& b) {
@@ -130,9 +141,9 @@ DETENT_SHARED constexpr Vec3<T> abs(const Vec3<T>& a) {
 DETENT_SHARED constexpr Unit dot(const Vec3<Unit>& a, const Vec3<Unit>& b) {
   return unit_from_product(unit_product(a.x, b.x) + unit_product(a.y, b.y) + unit_product(a.z, b.z));
 }
-constexpr Real dot(const Vec3<Real>& a, const Vec3<Unit>& b) { return Real::from_raw(raw::dot(a, b)); }
-constexpr Real dot(const Vec3<Unit>& a, const Vec3<Real>& b) { return dot(b, a); }
-constexpr Real dot(const Vec3<Real>& a, const Vec3<Real>& b) { return Real::from_raw(raw::dot(a, b)); }
+DETENT_PASSING constexpr Real dot(const Vec3<Real>& a, const Vec3<Unit>& b) { return Real::from_raw(raw::dot(a, b)); }
+DETENT_PASSING constexpr Real dot(const Vec3<Unit>& a, const Vec3<Real>& b) { return dot(b, a); }
+DETENT_PASSING constexpr Real dot(const Vec3<Real>& a, const Vec3<Real>& b) { return Real::from_raw(raw::dot(a, b)); }
 
 /// Range: each component of the result < 2.
 DETENT_SHARED constexpr Vec3<Unit> cross(const Vec3<Unit>& a, const Vec3<Unit>& b) {
@@ -160,24 +171,28 @@ DETENT_SHARED constexpr Vec3<Real> cross(const Vec3<Real>& a, const Vec3<Real>& 
 }
 
 /// a / b. Range: b != 0. Overflow: saturates to +-131072.
-inline Real divide(Real a, Real b) { return Real::from_raw(raw::divide(a.raw, b.raw)); }
+DETENT_PASSING inline Real divide(Real a, Real b) { return Real::from_raw(raw::divide(a.raw, b.raw)); }
 /// a / b. Range: b != 0, |a / b| < 2.
 Unit divide(Unit a, Unit b);
 /// 1 / a. Range: a != 0. Overflow: saturates.
-inline Real reciprocal(Real a) { return divide(Real(1.0), a); }
+DETENT_PASSING inline Real reciprocal(Real a) { return divide(Real(1.0), a); }
 
 /// x 2^n. Rounding: to nearest, ties up. Overflow: wraps.
-constexpr Real scale_by_power(Real x, int n) { return Real::from_raw(shift_64(x.raw, n)); }
+DETENT_PASSING constexpr Real scale_by_power(Real x, int n) { return Real::from_raw(shift_64(x.raw, n)); }
 /// x 2^n. Range: |x 2^n| < 2.
-constexpr Unit scale_by_power(Unit x, int n) { return unit_from_raw(shift_64(x.raw, n)); }
+DETENT_PASSING constexpr Unit scale_by_power(Unit x, int n) { return unit_from_raw(shift_64(x.raw, n)); }
 
 /// The smallest e >= -46 with |x| < 2^e.
 DETENT_SHARED constexpr int exponent_above(Real x) { return bit_length_64(magnitude_64(x.raw)) - k_real_frac; }
 
 /// u 2^e. Rounding: to nearest, ties up. Overflow: wraps; |u 2^e| < 2^17.
-constexpr Real real_from_unit(Unit u, int e) { return Real::from_raw(shift_64(u.raw, e + k_real_frac - k_unit_frac)); }
+DETENT_PASSING constexpr Real real_from_unit(Unit u, int e) {
+  return Real::from_raw(shift_64(u.raw, e + k_real_frac - k_unit_frac));
+}
 /// r 2^-e. Range: |r 2^-e| < 2. Rounding: to nearest, ties up.
-constexpr Unit unit_from_real(Real r, int e) { return unit_from_raw(shift_64(r.raw, k_unit_frac - k_real_frac - e)); }
+DETENT_PASSING constexpr Unit unit_from_real(Real r, int e) {
+  return unit_from_raw(shift_64(r.raw, k_unit_frac - k_real_frac - e));
+}
 
 /// (a - b) 2^-e, the difference exact. Range: |result| < 2. Rounding: to nearest, ties up.
 DETENT_SHARED constexpr Unit unit_difference(Coord a, Coord b, int e) {
@@ -188,7 +203,9 @@ DETENT_SHARED constexpr Unit unit_difference(Coord a, Coord b, int e) {
   return unit_from_raw(shift_64(half, 1 - n));
 }
 /// a - b, m. Exact within +-131072 m. Overflow: saturates there.
-constexpr Real real_difference(Coord a, Coord b) { return Real::from_raw(raw::difference(a.raw, b.raw)); }
+DETENT_PASSING constexpr Real real_difference(Coord a, Coord b) {
+  return Real::from_raw(raw::difference(a.raw, b.raw));
+}
 /// c + d, m. Rounding: to nearest, ties up. Overflow: clamps to Coord's range and sets `saturated` (else untouched).
 constexpr Coord coord_advance(Coord c, Real d, bool& saturated) {
   using Raw = Coord::Raw;

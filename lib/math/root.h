@@ -43,11 +43,11 @@ int64_t length(const Vec3<Real>& v);
 }  // namespace raw
 /// Range: a >= 0. Rounding: to nearest. Overflow: none.
 Unit square_root(Unit a);
-inline Real square_root(Real a) { return Real::from_raw(raw::square_root(a.raw)); }
+DETENT_PASSING inline Real square_root(Real a) { return Real::from_raw(raw::square_root(a.raw)); }
 /// Range: result < 2. Rounding: the exact sum of squares' root, to nearest.
 Unit length(const Vec3<Unit>& v);
 /// m. Rounding: the exact sum of squares' root, to nearest. Overflow: saturates to +131072.
-inline Real length(const Vec3<Real>& v) { return Real::from_raw(raw::length(v)); }
+DETENT_PASSING inline Real length(const Vec3<Real>& v) { return Real::from_raw(raw::length(v)); }
 
 /// n = v / |v| and |v|. False, outputs untouched, if v is zero. Equally precise for the smallest v.
 /// Rounding: each component of n within k_normalise_error of the true direction, | |n| - 1 | <=

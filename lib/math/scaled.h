@@ -20,10 +20,10 @@ inline constexpr int k_scaled_exponent_max = 256;
 namespace words {
 #if UINTPTR_MAX > 0xffffffff
 using Result = Scaled;
-constexpr Scaled to_scaled(Result words) { return words; }
+DETENT_PASSING constexpr Scaled to_scaled(Result words) { return words; }
 #else
 using Result = uint64_t;  ///< the mantissa in the low half
-constexpr Scaled to_scaled(Result words) {
+DETENT_PASSING constexpr Scaled to_scaled(Result words) {
   return Scaled::from_parts(static_cast<int32_t>(words), static_cast<int32_t>(words >> 32));
 }
 #endif
@@ -41,29 +41,33 @@ int64_t multiply(int64_t raw, int32_t b, int32_t b_exponent, bool& saturated);
 }  // namespace words
 
 /// mantissa 2^exponent in canonical form. A caller that dropped lower bits sets the mantissa's lowest bit.
-inline Scaled scaled_from_parts(bool negative, uint64_t mantissa, int exponent) {
+DETENT_PASSING inline Scaled scaled_from_parts(bool negative, uint64_t mantissa, int exponent) {
   return words::to_scaled(words::scaled_from_parts(negative, mantissa, exponent));
 }
 
-inline Scaled scaled_from(Real a) { return words::to_scaled(words::scaled_from(a.raw, k_real_frac)); }
-inline Scaled scaled_from(Unit a) { return words::to_scaled(words::scaled_from(a.raw, k_unit_frac)); }
-inline Scaled multiply(Scaled a, Scaled b) {
+DETENT_PASSING inline Scaled scaled_from(Real a) { return words::to_scaled(words::scaled_from(a.raw, k_real_frac)); }
+DETENT_PASSING inline Scaled scaled_from(Unit a) { return words::to_scaled(words::scaled_from(a.raw, k_unit_frac)); }
+DETENT_PASSING inline Scaled multiply(Scaled a, Scaled b) {
   return words::to_scaled(words::multiply(a.mantissa, a.exponent, b.mantissa, b.exponent));
 }
 /// Range: b != 0.
-inline Scaled divide(Scaled a, Scaled b) {
+DETENT_PASSING inline Scaled divide(Scaled a, Scaled b) {
   return words::to_scaled(words::divide(a.mantissa, a.exponent, b.mantissa, b.exponent));
 }
-inline Scaled add(Scaled a, Scaled b) {
+DETENT_PASSING inline Scaled add(Scaled a, Scaled b) {
   return words::to_scaled(words::add(a.mantissa, a.exponent, b.mantissa, b.exponent));
 }
 /// a 2^n, exact.
-inline Scaled scaled_by_power(Scaled a, int n) {
+DETENT_PASSING inline Scaled scaled_by_power(Scaled a, int n) {
   return words::to_scaled(words::scaled_by_power(a.mantissa, a.exponent, n));
 }
 /// Range: a >= 0.
-inline Scaled square_root(Scaled a) { return words::to_scaled(words::square_root(a.mantissa, a.exponent)); }
-inline bool less(Scaled a, Scaled b) { return words::less(a.mantissa, a.exponent, b.mantissa, b.exponent); }
+DETENT_PASSING inline Scaled square_root(Scaled a) {
+  return words::to_scaled(words::square_root(a.mantissa, a.exponent));
+}
+DETENT_PASSING inline bool less(Scaled a, Scaled b) {
+  return words::less(a.mantissa, a.exponent, b.mantissa, b.exponent);
+}
 constexpr bool is_positive(Scaled a) { return a.mantissa > 0; }
 constexpr Scaled negate(Scaled a) { return Scaled::from_parts(-a.mantissa, a.exponent); }
 
@@ -76,16 +80,18 @@ inline Real multiply(Real a, Scaled b) {
   return Real::from_raw(Int128::product(a.raw, b.mantissa).round_shift(-b.exponent));
 }
 #else
-inline Real multiply(Real a, Scaled b) { return Real::from_raw(words::multiply(a.raw, b.mantissa, b.exponent)); }
+DETENT_PASSING inline Real multiply(Real a, Scaled b) {
+  return Real::from_raw(words::multiply(a.raw, b.mantissa, b.exponent));
+}
 #endif
 /// 1 / a. Range: a > 0. Rounding: relative error <= 2^-29. Overflow: none.
-inline Scaled scaled_reciprocal(Real a) { return words::to_scaled(words::scaled_reciprocal(a.raw)); }
+DETENT_PASSING inline Scaled scaled_reciprocal(Real a) { return words::to_scaled(words::scaled_reciprocal(a.raw)); }
 /// a b. Rounding: to nearest, ties up. Overflow: clamps to Real's range and sets `saturated` (else untouched).
-inline Real multiply(Real a, Scaled b, bool& saturated) {
+DETENT_PASSING inline Real multiply(Real a, Scaled b, bool& saturated) {
   return Real::from_raw(words::multiply(a.raw, b.mantissa, b.exponent, saturated));
 }
 /// As multiply(Real(1.0), a, saturated).
-inline Real to_real(Scaled a, bool& saturated) { return multiply(Real(1.0), a, saturated); }
+DETENT_PASSING inline Real to_real(Scaled a, bool& saturated) { return multiply(Real(1.0), a, saturated); }
 /// Range: |a| < 2. Rounding: to nearest, ties up.
 Unit to_unit(Scaled a);
 #else
