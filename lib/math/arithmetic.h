@@ -206,21 +206,26 @@ DETENT_SHARED constexpr Unit unit_difference(Coord a, Coord b, int e) {
 DETENT_PASSING constexpr Real real_difference(Coord a, Coord b) {
   return Real::from_raw(raw::difference(a.raw, b.raw));
 }
-/// c + d, m. Rounding: to nearest, ties up. Overflow: clamps to Coord's range and sets `saturated` (else untouched).
-constexpr Coord coord_advance(Coord c, Real d, bool& saturated) {
+namespace raw {
+DETENT_SHARED constexpr Coord::Raw advance(Coord::Raw c, int64_t d, bool& saturated) {
   using Raw = Coord::Raw;
-  const int64_t step = round_shift_64(d.raw, k_real_frac - Coord::k_frac);
-  const int64_t sum = add_wrapped(c.raw, step);
+  const int64_t step = round_shift_64(d, k_real_frac - Coord::k_frac);
+  const int64_t sum = add_wrapped(c, step);
   if constexpr (sizeof(Raw) == 8) {
-    if (((c.raw ^ sum) & (step ^ sum)) < 0) {
+    if (((c ^ sum) & (step ^ sum)) < 0) {
       saturated = true;
-      return Coord::from_raw(static_cast<Raw>(step < 0 ? INT64_MIN : INT64_MAX));
+      return static_cast<Raw>(step < 0 ? INT64_MIN : INT64_MAX);
     }
   } else if (sum != static_cast<Raw>(sum)) {
     saturated = true;
-    return Coord::from_raw(static_cast<Raw>(sum < 0 ? INT32_MIN : INT32_MAX));
+    return static_cast<Raw>(sum < 0 ? INT32_MIN : INT32_MAX);
   }
-  return Coord::from_raw(static_cast<Raw>(sum));
+  return static_cast<Raw>(sum);
+}
+}  // namespace raw
+/// c + d, m. Rounding: to nearest, ties up. Overflow: clamps to Coord's range and sets `saturated` (else untouched).
+DETENT_PASSING constexpr Coord coord_advance(Coord c, Real d, bool& saturated) {
+  return Coord::from_raw(raw::advance(c.raw, d.raw, saturated));
 }
 #else
 constexpr Real dot(const Vec3<Real>& a, const Vec3<Real>& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
