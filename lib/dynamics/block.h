@@ -62,9 +62,9 @@ class Block {
             static_cast<int32_t>(shift_64(v.z.raw, -n))};
   }
   /// Rounded down.
-  Factor held(Real value) const { return detent::held(value.raw >> shift_); }
+  Factor held(Real value) const { return detent::held(floor_shift_64(value.raw, shift_)); }
   /// Rounded down.
-  Ulps number(Real value) const { return value.raw >> shift_; }
+  Ulps number(Real value) const { return floor_shift_64(value.raw, shift_); }
   Real real(Ulps ulps) const { return Real::from_raw(static_cast<int64_t>(static_cast<uint64_t>(ulps) << shift_)); }
   /// A number of another block times 2^exponent as one of this, held to the range of a factor.
   DETENT_SHARED Factor converted(Factor ulps, const Block& from, int exponent) const {

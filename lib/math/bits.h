@@ -40,6 +40,9 @@ DETENT_SHARED constexpr int64_t shift_64(int64_t value, int n) {
   return n < -64 ? 0 : round_shift_64(value, -n);
 }
 
+/// value 2^-n. Range: 0 <= n <= 63. Rounding: down.
+DETENT_SHARED constexpr int64_t floor_shift_64(int64_t value, int n) { return value >> n; }
+
 constexpr int64_t add_wrapped(int64_t a, int64_t b) {
   return static_cast<int64_t>(static_cast<uint64_t>(a) + static_cast<uint64_t>(b));
 }
