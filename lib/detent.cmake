@@ -16,6 +16,9 @@ target_link_libraries(detent_library_options INTERFACE detent_options)
 target_compile_options(detent_library_options INTERFACE
   -fno-threadsafe-statics -fno-asynchronous-unwind-tables -fno-unwind-tables -ffunction-sections -fdata-sections
   -fno-strict-overflow)
+# What they hoist and reorder is kept in registers that Arm's small cores have not: it is spilled.
+target_compile_options(detent_library_options INTERFACE
+  "$<$<AND:$<CXX_COMPILER_ID:GNU>,$<CONFIG:MinSizeRel>>:-fno-move-loop-invariants;-fno-schedule-insns2>")
 if(WIN32)
   # On Windows GCC takes an inline function's own copy for the one that the linker keeps, and trusts the registers that copy
   # leaves alone. The one kept may be a user's, compiled at another level.
