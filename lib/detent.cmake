@@ -1,5 +1,10 @@
 # Compile options of everything in the project, and the function that declares a floor of the library.
 
+if(DETENT_SANITIZE)
+  add_compile_options(-fsanitize=address,undefined,float-cast-overflow -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=address,undefined)
+endif()
+
 add_library(detent_options INTERFACE)
 target_compile_features(detent_options INTERFACE cxx_std_20)
 target_compile_options(detent_options INTERFACE
@@ -15,7 +20,7 @@ add_library(detent_library_options INTERFACE)
 target_link_libraries(detent_library_options INTERFACE detent_options)
 target_compile_options(detent_library_options INTERFACE
   -fno-threadsafe-statics -fno-asynchronous-unwind-tables -fno-unwind-tables -ffunction-sections -fdata-sections
-  -fno-strict-overflow)
+  $<$<NOT:$<BOOL:${DETENT_SANITIZE}>>:-fno-strict-overflow>)  # which would hide overflow from the sanitizer
 if(WIN32)
   # On Windows GCC takes an inline function's own copy for the one that the linker keeps, and trusts the registers that copy
   # leaves alone. The one kept may be a user's, compiled at another level.
