@@ -228,7 +228,8 @@ ContactCount collide_pairs(const StepSettings& settings, const Bodies& bodies, S
     collide_pair(settings, slot_a, slot_b, bodies, last, geometry, reuses ? &manifold : nullptr, reused);
     count.capped += geometry.capped ? 1 : 0;
     count.reused += reused ? 1 : 0;
-    if (geometry.count == 0) continue;
+    // Who sleeps still was not touched when it could wake; points used again may tell otherwise, within their tolerance.
+    if (geometry.count == 0 || bodies.asleep(slot_a) || bodies.asleep(slot_b)) continue;
     if (count.contacts == contacts.count) {
       ++count.dropped;
       Real least = geometry.point[0].separation;
@@ -336,14 +337,9 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   PairPool pool = {poses, traits, cache.bounds, scratch.pair_sort, scratch.pairs, world.filter_rules, apart};
   find_pairs(moving, cache.tree, scratch.bounds_keys, scratch.bounds_sort, pool);
   pool.sort();
-  for (const uint32_t slot : moving) bodies.start(settings, slot);
-  const uint32_t touched = wake_touched(settings, bodies, cache, pool);
-  report.woke += touched;
-  if (touched != 0) {
-    moving = list_moving(cache.visits, scratch.moving_bodies);
+  const auto start_moving = [&] {
     for (const uint32_t slot : moving) bodies.start(settings, slot);
-  }
-  if (joint_code != nullptr) {
+    if (joint_code == nullptr) return;
     for (const JointState& joint : joints.joints) {
       if (joint.type == 0) continue;
       const uint32_t ends[2] = {joint.body_a, joint.body_b};
@@ -353,6 +349,14 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
     }
     joint_code->collect(solver_bodies, joints);
     report.joints = joints.count;
+  };
+  start_moving();
+  // Whoever wakes and is held by joints reaches farther (lengths_of), and may touch more.
+  while (const uint32_t touched = wake_touched(settings, bodies, cache, pool)) {
+    report.woke += touched;
+    moving = list_moving(cache.visits, scratch.moving_bodies);
+    start_moving();
+    if (joint_code == nullptr) break;
   }
   clock.end(StepStage::find_pairs);
   const Span<const uint64_t> pairs = pool.pairs();

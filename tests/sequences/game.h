@@ -60,6 +60,7 @@ class Game {
   // joints.cpp
   JointId pick_joint();
   void create_joint_anyhow();
+  bool is_far(BodyId id, const Position& point);
   void place(JointDef& def, bool& wrong);
   void change_joint();
   void check_joints();
@@ -67,7 +68,7 @@ class Game {
   // steps.cpp
   void step_once();
   void check_broken(uint32_t count);
-  void check_contacts();
+  void check_contacts(bool woken_late);
   void check_events(const StepReport& report);
   bool may_touch(BodyId a, BodyId b);
 

@@ -1,3 +1,5 @@
+#include <math.h>
+
 #include "tests/sequences/game.h"
 
 namespace detent {
@@ -25,6 +27,16 @@ JointId Game::pick_joint() {
   return joint->second.first;
 }
 
+/// Whether a body is too far from a point for a joint there, or nearly.
+bool Game::is_far(BodyId id, const Position& point) {
+  Pose pose;
+  EXPECT_OK(get_pose(world(), id, pose));
+  const double x = coord_to_host(point.x) - coord_to_host(pose.position.x);
+  const double y = coord_to_host(point.y) - coord_to_host(pose.position.y);
+  const double z = coord_to_host(point.z) - coord_to_host(pose.position.z);
+  return sqrt(x * x + y * y + z * z) > 4095;
+}
+
 /// Where its bodies are now.
 void Game::place(JointDef& def, bool& wrong) {
   const Position point = draw_.place();
@@ -37,7 +49,8 @@ void Game::place(JointDef& def, bool& wrong) {
   } else if (frame_wrong) {
     EXPECT_EQ(status, Status::not_normalised);
   } else {
-    EXPECT_TRUE(status == Status::ok || draw_.wide()) << status_text(status);
+    EXPECT_TRUE(status == Status::ok || draw_.wide() || is_far(def.a, point) || is_far(def.b, point))
+        << status_text(status);
   }
   if (status != Status::ok) draw_.joint_place(def, wrong);
 }

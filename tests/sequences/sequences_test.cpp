@@ -16,10 +16,9 @@ namespace {
 constexpr uint32_t k_block = 100;  ///< sequences of one digest
 constexpr char k_name[] = DETENT_TEXT(DETENT_NAMESPACE);
 
-/// Of the sequences from `first` on.
-uint64_t play_block(uint32_t first) {
+uint64_t play(uint32_t first, uint32_t count) {
   uint64_t running = 0;
-  for (uint32_t seed = first; seed < first + k_block; ++seed) {
+  for (uint32_t seed = first; seed < first + count; ++seed) {
     running = digest_step(running, Game(seed).play());
     if (testing::Test::HasFailure()) {
       ADD_FAILURE() << "sequence " << seed;
@@ -40,8 +39,9 @@ DETENT_TEST(sequences, random_calls_do_what_is_written_of_them_and_have_the_reco
   const bool printed = getenv("DETENT_SEQUENCES") != nullptr;
   const uint32_t count = number_of("DETENT_SEQUENCES", detent_oracle::rounds(400));
   const uint32_t first = number_of("DETENT_SEQUENCES_FIRST", 1);
-  for (uint32_t at = first; at < first + count; at += k_block) {
-    const uint64_t digest = play_block(at);
+  for (uint32_t done = 0; done < count; done += k_block) {
+    const uint32_t at = first + done, left = count - done;
+    const uint64_t digest = play(at, left < k_block ? left : k_block);
     if (HasFailure()) return;
     if (printed) {
       printf("sequences %s %" PRIu32 " %016" PRIx64 "\n", k_name, at, digest);

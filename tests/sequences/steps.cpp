@@ -34,7 +34,7 @@ void Game::step_once() {
   check_broken(report.joint_events);
   EXPECT_EQ(report.joint_events, report.joints_broken);
   check_events(report);
-  check_contacts();
+  check_contacts(report.impacts != 0);
   note(digest(world()));
 }
 
@@ -65,7 +65,8 @@ bool Game::may_touch(BodyId a, BodyId b) {
   return (of_a.category & of_b.mask) != 0 && (of_b.category & of_a.mask) != 0;
 }
 
-void Game::check_contacts() {
+/// `woken_late`: an impact on the way may have woken some, when contacts had been found.
+void Game::check_contacts(bool woken_late) {
   for (uint32_t i = 0; i < get_info(world()).contacts; ++i) {
     Contact contact;
     ASSERT_OK(get_contact(world(), i, contact));
@@ -85,6 +86,10 @@ void Game::check_contacts() {
     EXPECT_OK(is_awake(world(), contact.b, awake_b));
     if (!awake_a && !awake_b) continue;  // put to sleep before the step that would have ended it
     EXPECT_TRUE(may_touch(contact.a, contact.b));
+    const auto dynamic = [&](BodyId id) { return model_.find(id)->type == BodyType::dynamic; };
+    if (!woken_late && dynamic(contact.a) && dynamic(contact.b)) {
+      EXPECT_EQ(awake_a, awake_b) << "who is touched wakes, and who touches falls asleep together";
+    }
   }
 }
 
