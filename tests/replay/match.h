@@ -50,7 +50,7 @@ struct OwnedWorld {
   std::unique_ptr<uint64_t[]> block;
   World world;
 
-  explicit OwnedWorld(const WorldDef& def, AssetTable assets = {}) {
+  explicit OwnedWorld(const WorldDef& def, AssetTable assets = scene_assets()) {
     const uint32_t bytes = world_bytes(def.capacity);
     block.reset(new uint64_t[(bytes + 7) / 8]());
     EXPECT_EQ(create_world(reinterpret_cast<uint8_t*>(block.get()), bytes, def, assets, world), Status::ok);

@@ -27,6 +27,9 @@ void expect_same(const Shape& is, const Shape& was) {
     case ShapeType::hull:
       EXPECT_EQ(is.asset, was.asset);
       break;
+    case ShapeType::surface:
+      EXPECT_EQ(is.asset, was.asset);
+      return;
     case ShapeType::half_space:
     case ShapeType::triangle:
       return;
@@ -54,9 +57,11 @@ BodyId Game::pick() {
   return body->second.first;
 }
 
-/// Only the first two assets are hulls.
+/// Assets 0 and 1 are surfaces, 2 and 3 hulls.
 bool Game::lacks_asset(const Shape& shape) const {
-  return shape.type == ShapeType::hull && (shape.asset >= 2 || (model_.bound >> shape.asset & 1) == 0);
+  const bool is_surface = shape.type == ShapeType::surface;
+  if (!is_surface && shape.type != ShapeType::hull) return false;
+  return shape.asset / 2 != (is_surface ? 0u : 1u) || (model_.bound >> shape.asset & 1) == 0;
 }
 
 void Game::create() {
@@ -71,7 +76,8 @@ void Game::create() {
   }
   bool size_wrong = false;
   def.shape = draw_.shape(size_wrong);
-  wrong = wrong || lacks_asset(def.shape) || (def.shape.type == ShapeType::half_space && def.type != BodyType::fixed);
+  wrong = wrong || lacks_asset(def.shape) || (def.shape.type == ShapeType::half_space && def.type != BodyType::fixed) ||
+          (def.shape.type == ShapeType::surface && def.type == BodyType::dynamic);
   def.material = draw_.material(wrong);
   def.linear_damping = draw_.number(0, 2, wrong);
   def.angular_damping = draw_.number(0, 2, wrong);
@@ -113,7 +119,7 @@ void Game::change(BodyId id, uint32_t which) {
   switch (which) {
     case 0: {
       const BodyType to = draw_.type(wrong);
-      wrong = wrong || (there && body->plane() && to == BodyType::dynamic);
+      wrong = wrong || (there && body->open() && to == BodyType::dynamic);
       if (judge("set_type", recorder.set_type(id, to), there, wrong, true)) body->type = to;
       break;
     }
@@ -127,7 +133,7 @@ void Game::change(BodyId id, uint32_t which) {
     }
     case 3: {
       const Scaled density = scaled(draw_.chance(0.1) ? 0 : draw_.order(0.1, 10000));
-      wrong = scaled_to_host(density) == 0 || (there && body->plane());
+      wrong = scaled_to_host(density) == 0 || (there && body->open());
       if (judge("set_density", recorder.set_density(id, density), there, wrong, true)) body->mass = Scaled(0.0);
       break;
     }
@@ -169,7 +175,8 @@ void Game::change_shape(BodyId id) {
   bool size_wrong = false;
   const Shape to = draw_.shape(size_wrong);
   const bool plane = to.type == ShapeType::half_space;
-  const bool wrong = lacks_asset(to) || (plane && body != nullptr && body->type == BodyType::dynamic);
+  const bool open = plane || to.type == ShapeType::surface;
+  const bool wrong = lacks_asset(to) || (open && body != nullptr && body->type == BodyType::dynamic);
   const Status status = recorder_->set_shape(id, to);
   if (size_wrong || (plane && !wrong)) {  // a size out of use, or a spin that no plane may have
     note(static_cast<uint64_t>(status));

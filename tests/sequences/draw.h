@@ -61,12 +61,12 @@ class Draw {
     wrong = wrong || length < 1;
     return {unit(q[0] * length), unit(q[1] * length), unit(q[2] * length), unit(q[3] * length)};
   }
-  /// A hull may be one that is not bound, or no hull, or beyond the table.
+  /// A hull or surface may be one that is not bound, or none, or beyond the table.
   Shape shape(bool& wrong) {
     const double size = wide_ ? order(0.1, 50) : 1;
     const Real a = number(0.2 * size, size, wrong), b = number(0.2 * size, size, wrong),
                c = number(0.2 * size, size, wrong);
-    switch (random_.below(8)) {
+    switch (random_.below(9)) {
       case 0:
         return sphere(a);
       case 1:
@@ -78,9 +78,11 @@ class Draw {
       case 4:
         return rounded(cone(a, b), c);
       case 5:
-        return hull(random_.below(2));
+        return hull(bad() ? random_.below(7) : 2 + random_.below(2));
       case 6:
-        return bad() ? hull(2 + random_.below(3)) : rounded(hull(1), c);
+        return rounded(hull(3), c);
+      case 7:
+        return surface(bad() ? random_.below(7) : random_.below(2));
       default:
         return half_space();
     }

@@ -9,11 +9,18 @@ namespace {
 constexpr uint32_t k_calls = 40, k_segments = 3;
 
 alignas(8) constexpr uint8_t k_no_hull[16] = {1, 2, 3};
-const Asset k_table[] = {{detent_hulls::k_tetrahedron, sizeof detent_hulls::k_tetrahedron},
-                         {detent_hulls::k_prism, sizeof detent_hulls::k_prism},
-                         {k_no_hull, sizeof k_no_hull}};
 
 }  // namespace
+
+/// A mesh, a height field, two hulls, and what is none of these.
+AssetTable Game::assets() {
+  static const Asset table[k_assets] = {scene_assets().assets[k_asset_valley],
+                                        scene_assets().assets[k_asset_hills],
+                                        scene_assets().assets[k_asset_round],
+                                        {detent_hulls::k_tetrahedron, sizeof detent_hulls::k_tetrahedron},
+                                        {k_no_hull, sizeof k_no_hull}};
+  return {table, k_assets};
+}
 
 WorldDef Game::settings() {
   WorldDef def;
@@ -21,7 +28,7 @@ WorldDef Game::settings() {
   return def;
 }
 
-Game::Game(uint64_t seed) : draw_(seed, seed % 4 == 0), owned_(settings(), {k_table, k_assets}) {
+Game::Game(uint64_t seed) : draw_(seed, seed % 4 == 0), owned_(settings(), assets()) {
   world().joint_events = {broken_, k_joints};
   world().contact_events = {events_, k_events};
 }
@@ -72,7 +79,7 @@ void Game::replay_recorded(const Bytes& bytes) {
   uint8_t buffer[k_recording_buffer_bytes];
   Player player(memory.source(), buffer, sizeof buffer);
   player.repeat_queries();
-  OwnedWorld other(settings(), {k_table, k_assets});
+  OwnedWorld other(settings(), assets());
   ASSERT_OK(player.open());
   ASSERT_OK(player.start(other.world));
   TickResult result;

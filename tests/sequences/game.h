@@ -8,6 +8,7 @@
 #include "base/digest.h"
 #include "tests/replay/match.h"
 #include "tests/sequences/draw.h"
+#include "tests/scenes/scene.h"
 #include "tests/sequences/model.h"
 
 /// Random calls, good and bad, against a model of what their documentation says: statuses, what getters return, that a
@@ -24,8 +25,9 @@ class Game {
   uint64_t play();
 
  private:
-  static constexpr uint32_t k_bodies = 10, k_contacts = 24, k_assets = 3, k_joints = 6, k_events = 12;
+  static constexpr uint32_t k_bodies = 10, k_contacts = 24, k_assets = 5, k_joints = 6, k_events = 12;
   static WorldDef settings();
+  static AssetTable assets();
   static bool failed() { return testing::Test::HasFailure(); }
   World& world() { return owned_.world; }
 

@@ -20,6 +20,8 @@ struct Known {
   Filter filter = {};
 
   bool plane() const { return shape.type == ShapeType::half_space; }
+  /// Without a volume, and so never dynamic.
+  bool open() const { return plane() || shape.type == ShapeType::surface; }
 };
 
 /// A world, as the documentation of the calls made so far has it.

@@ -18,7 +18,7 @@ void Game::query() {
   const bool shaped = which == 1 || which == 2 || which == 4;
   const Shape shape = shaped ? draw_.shape(size_wrong) : Shape();
   const Quat turned = shaped ? draw_.rotation(wrong) : Quat{0.0, 0.0, 0.0, 1.0};
-  wrong = wrong || shape.type == ShapeType::half_space || lacks_asset(shape);
+  wrong = wrong || shape.type == ShapeType::half_space || shape.type == ShapeType::surface || lacks_asset(shape);
   Status status = Status::ok;
   switch (which) {
     case 0:
