@@ -86,6 +86,7 @@ void Game::create() {
   def.turn_locks = draw_.chance(0.5) ? 0 : draw_.locks(wrong);
   def.filter = draw_.filter();
   def.user_data = draw_.word();
+  def.sensor = draw_.chance(0.15);
   BodyId id = {99, 99};
   const Status status = recorder_->create_body(def, id);
   note(static_cast<uint64_t>(status));
@@ -102,8 +103,8 @@ void Game::create() {
   }
   EXPECT_EQ(model_.bodies.count(id.slot), 0u);
   for (uint32_t slot = 1; slot < id.slot; ++slot) EXPECT_EQ(model_.bodies.count(slot), 1u) << "the lowest free slot";
-  Known known = {def.type,          def.shape, def.material,  def.linear_damping, def.angular_damping,
-                 def.gravity_scale, def.mass,  def.user_data, def.turn_locks,     def.filter};
+  Known known = {def.type, def.shape,     def.material,   def.linear_damping, def.angular_damping, def.gravity_scale,
+                 def.mass, def.user_data, def.turn_locks, def.filter,         def.sensor};
   model_.bodies[id.slot] = {id, known};
 }
 
@@ -117,6 +118,11 @@ void Game::change(BodyId id, uint32_t which) {
   const bool there = body != nullptr;
   bool wrong = false;
   switch (which) {
+    case 9: {
+      const bool to = draw_.chance(0.5);
+      if (judge("set_sensor", recorder.set_sensor(id, to), there, false)) body->sensor = to;
+      break;
+    }
     case 0: {
       const BodyType to = draw_.type(wrong);
       wrong = wrong || (there && body->open() && to == BodyType::dynamic);
@@ -283,6 +289,24 @@ void Game::push(BodyId id) {
   }
 }
 
+/// Who is within it.
+void Game::read_sensor(BodyId id) {
+  const Known* body = model_.find(id);
+  BodyId within[k_sensed];
+  uint32_t count = 0;
+  const Status status = get_sensed(world(), id, within, k_sensed, count);
+  EXPECT_EQ(status, body == nullptr ? Status::bad_id : body->sensor ? Status::ok : Status::bad_argument);
+  if (status != Status::ok) return;
+  ASSERT_LE(count, k_sensed);
+  for (uint32_t i = 0; i < count; ++i) {
+    const Known* other = model_.find(within[i]);
+    ASSERT_NE(other, nullptr);
+    EXPECT_FALSE(other->sensor || within[i] == id);
+    EXPECT_TRUE(i == 0 || within[i - 1].slot < within[i].slot);
+    note(within[i]);
+  }
+}
+
 /// What else can be asked of a body.
 void Game::read(BodyId id) {
   const Known* body = model_.find(id);
@@ -323,6 +347,7 @@ void Game::read(BodyId id) {
     ++count;
   }
   note(uint64_t{count});
+  EXPECT_TRUE(count == 0 || !body->sensor);
 }
 
 void Game::check(BodyId id, const Known& known) {
@@ -332,7 +357,7 @@ void Game::check(BodyId id, const Known& known) {
   expect_same(def.shape, known.shape);
   EXPECT_EQ(def.user_data, known.user_data);
   EXPECT_EQ(def.turn_locks, known.turn_locks);
-  EXPECT_TRUE(def.filter == known.filter);
+  EXPECT_TRUE(def.filter == known.filter && def.sensor == known.sensor);
   expect_near(def.material.friction, known.material.friction);
   expect_near(def.material.restitution, known.material.restitution);
   expect_near(def.material.rolling_resistance, known.material.rolling_resistance);

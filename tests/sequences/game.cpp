@@ -24,13 +24,15 @@ AssetTable Game::assets() {
 
 WorldDef Game::settings() {
   WorldDef def;
-  def.capacity = {k_bodies, k_contacts, k_assets, true, k_joints};
+  def.capacity = {k_bodies, k_contacts, k_assets, true, k_joints, k_sensed};
   return def;
 }
 
 Game::Game(uint64_t seed) : draw_(seed, seed % 4 == 0), owned_(settings(), assets()) {
   world().joint_events = {broken_, k_joints};
   world().contact_events = {events_, k_events};
+  world().sensor_events = {sensor_events_, k_events};
+  world().body_events = {body_events_, k_events};
 }
 
 uint64_t Game::play() {
@@ -144,7 +146,7 @@ void Game::call() {
       return draw_.chance(0.4) ? destroy(id) : change_world();
     case 3:
     case 4:
-      return change(id, draw_.below(10));
+      return change(id, draw_.below(11));
     case 5:
       return move(id);
     case 6:
@@ -158,6 +160,7 @@ void Game::call() {
     case 10:
       return move_character();
     case 11:
+      read_sensor(id);
       return read(id);
     case 12:
       return bind();

@@ -1,14 +1,15 @@
 #pragma once
 #include <detent/contacts.h>
 #include <detent/mover.h>
+#include <detent/sensor.h>
 #include <string.h>
 
 #include <type_traits>
 
 #include "base/digest.h"
 #include "tests/replay/match.h"
-#include "tests/sequences/draw.h"
 #include "tests/scenes/scene.h"
+#include "tests/sequences/draw.h"
 #include "tests/sequences/model.h"
 
 /// Random calls, good and bad, against a model of what their documentation says: statuses, what getters return, that a
@@ -25,7 +26,7 @@ class Game {
   uint64_t play();
 
  private:
-  static constexpr uint32_t k_bodies = 10, k_contacts = 24, k_assets = 5, k_joints = 6, k_events = 12;
+  static constexpr uint32_t k_bodies = 10, k_contacts = 24, k_assets = 5, k_joints = 6, k_sensed = 6, k_events = 12;
   static WorldDef settings();
   static AssetTable assets();
   static bool failed() { return testing::Test::HasFailure(); }
@@ -56,6 +57,7 @@ class Game {
   void move(BodyId id);
   void push(BodyId id);
   void read(BodyId id);
+  void read_sensor(BodyId id);
   void check(BodyId id, const Known& known);
   void check_bodies();
 
@@ -72,6 +74,7 @@ class Game {
   void check_broken(uint32_t count);
   void check_contacts(bool woken_late);
   void check_events(const StepReport& report);
+  void check_sensors(const StepReport& report);
   bool may_touch(BodyId a, BodyId b);
 
   // queries.cpp
@@ -110,6 +113,8 @@ class Game {
   uint64_t heard_ = 0;
   JointEvent broken_[k_joints];
   ContactEvent events_[k_events];
+  SensorEvent sensor_events_[k_events];
+  BodyEvent body_events_[k_events];
 };
 
 }  // namespace DETENT_NAMESPACE

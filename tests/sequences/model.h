@@ -18,6 +18,7 @@ struct Known {
   Scaled mass = 0.0;  ///< 0: not known
   uint32_t user_data = 0, turn_locks = 0;
   Filter filter = {};
+  bool sensor = false;
 
   bool plane() const { return shape.type == ShapeType::half_space; }
   /// Without a volume, and so never dynamic.

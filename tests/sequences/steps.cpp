@@ -34,6 +34,7 @@ void Game::step_once() {
   check_broken(report.joint_events);
   EXPECT_EQ(report.joint_events, report.joints_broken);
   check_events(report);
+  check_sensors(report);
   check_contacts(report.impacts != 0);
   note(digest(world()));
 }
@@ -73,6 +74,7 @@ void Game::check_contacts(bool woken_late) {
     ASSERT_TRUE(model_.find(contact.a) != nullptr && model_.find(contact.b) != nullptr);
     EXPECT_LE(contact.point_count, 4u);
     EXPECT_LT(contact.a.slot, contact.b.slot);
+    EXPECT_FALSE(model_.find(contact.a)->sensor || model_.find(contact.b)->sensor);
     for (uint32_t point = 0; point < contact.point_count; ++point) {
       EXPECT_GE(scaled_to_host(contact.point[point].normal_impulse), 0);
       note_number(contact.point[point].separation);
@@ -118,6 +120,33 @@ void Game::check_events(const StepReport& report) {
     note(static_cast<uint64_t>(event.type));
     note_number(event.approach_speed);
   }
+}
+
+/// Sensors tell of bodies that are none, and bodies of their sleep, in the order of their slots.
+void Game::check_sensors(const StepReport& report) {
+  ASSERT_TRUE(report.sensor_events <= k_events && report.body_events <= k_events);
+  for (uint32_t i = 0; i < report.sensor_events; ++i) {
+    const SensorEvent& event = sensor_events_[i];
+    const Known *sensor = model_.find(event.sensor), *body = model_.find(event.body);
+    ASSERT_TRUE(sensor != nullptr && body != nullptr);
+    EXPECT_TRUE(sensor->sensor && !body->sensor);
+    const auto key = [](const SensorEvent& of) { return std::tuple(of.sensor.slot, of.body.slot, of.type); };
+    EXPECT_TRUE(i == 0 || key(sensor_events_[i - 1]) < key(event));
+    note(event.sensor);
+    note(event.body);
+    note(static_cast<uint64_t>(event.type));
+  }
+  for (uint32_t i = 0; i < report.body_events; ++i) {
+    const BodyEvent& event = body_events_[i];
+    const Known* body = model_.find(event.body);
+    ASSERT_NE(body, nullptr);
+    EXPECT_EQ(body->type, BodyType::dynamic);
+    EXPECT_TRUE(i == 0 || body_events_[i - 1].body.slot <= event.body.slot);
+    note(event.body);
+    note(static_cast<uint64_t>(event.type));
+  }
+  note(uint64_t{get_info(world()).sensed});
+  EXPECT_LE(get_info(world()).sensed, k_sensed);
 }
 
 }  // namespace DETENT_NAMESPACE
