@@ -2,61 +2,16 @@
 #include <detent/contacts.h>
 #include <math.h>
 
-#include "tests/geometry/surfaces.h"
 #include "tests/oracle/effort.h"
 #include "tests/queries/random.h"
-#include "tests/world/lab.h"
+#include "tests/world/surface_lab.h"
 
 /// Bodies made of meshes and height fields.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-using detent_surfaces::Bytes;
 using detent_surfaces::Source;
-
-Asset asset_of(const Bytes& bytes) { return {bytes.data(), bytes.count()}; }
-
-/// A world whose asset 0 is a surface.
-class SurfaceLab : public Lab {
- public:
-  explicit SurfaceLab(const Bytes& bytes, WorldDef def = {}, bool sleeping = false)
-      : Lab({32, 256, 1}, def, sleeping), bytes_(bytes), asset_(asset_of(bytes_)) {
-    world.assets = {&asset_, 1};
-    EXPECT_OK(bind_asset(world, 0));
-  }
-  BodyDef ground_def(double friction = 0.6) const {
-    BodyDef def;
-    def.type = BodyType::fixed;
-    def.shape = surface(0);
-    def.material.friction = real(friction);
-    return def;
-  }
-  BodyId add_surface(double friction = 0.6) { return add(ground_def(friction)); }
-  BodyId add_shape(const Shape& shape, double x, double y, double z, double friction = 0.6) {
-    BodyDef def;
-    def.shape = shape;
-    def.position = position(x, y, z);
-    def.material.friction = real(friction);
-    return add(def);
-  }
-
- private:
-  Bytes bytes_;
-  Asset asset_;
-};
-
-Bytes field_of(uint32_t n, double size, double (*height)(double, double), bool one_sided) {
-  detent_cook::HeightFieldSource source;
-  source.columns = source.rows = n;
-  source.origin = {-0.5 * n * size, 0, -0.5 * n * size};
-  source.spacing_x = source.spacing_z = size;
-  source.one_sided = one_sided;
-  for (uint32_t j = 0; j <= n; ++j) {
-    for (uint32_t i = 0; i <= n; ++i) source.heights.push_back(height((i - n / 2.0) * size, (j - n / 2.0) * size));
-  }
-  return Bytes(detent_cook::cook_height_field(source).bytes);
-}
 
 double flat(double, double) { return 0; }
 
