@@ -23,22 +23,36 @@ struct TriangleSearch {
   const AskedSurface& ground;
   const QueryShape& shape;
   SurfacePlace place = {};
-  int64_t radius = 0;  ///< of the ball about the shape and the tolerance, 2^-46 m
+  Placed alone = {};          ///< the shape in a block of its own unit
+  int64_t ball = 0;           ///< about a shape that turns; else 0. 2^-46 m, as what follows
+  int64_t radius = 0;         ///< of the shape's rounding, and the tolerance
+  Vec64 low = {}, high = {};  ///< of the shape, from its centre
   QueryHit best = {};
   bool found = false;
   Status status = Status::ok;
 
-  TriangleSearch(const AskedSurface& surface, const QueryShape& asked, const Pose& at)
+  TriangleSearch(const AskedSurface& surface, const QueryShape& asked, const Pose& at, bool turns)
       : ground(surface), shape(asked), status(place_on_surface(surface.pose, at, place)) {
-    const int64_t ball = raw_length(real_from_unit(shape.traits.bounding_radius, shape.traits.size_exponent));
+    if (status != Status::ok) return;
     const GridBox box = surface.surface.bounds();
-    const auto most = [&](int32_t low, int32_t high) { return to_raw(low > -high ? high : -low); };
+    const auto most = [&](int32_t least, int32_t greatest) { return to_raw(greatest > -least ? greatest : -least); };
     const int64_t size = saturated_sum(most(box.low.x, box.high.x),
                                        saturated_sum(most(box.low.y, box.high.y), most(box.low.z, box.high.z)));
+    const int64_t whole = raw_length(real_from_unit(shape.traits.bounding_radius, shape.traits.size_exponent));
+    ball = turns ? whole : 0;
+    radius = raw_radius(shape.convex) + (whole >> 10) + (size >> k_tolerance_power) + 64;
+    alone = detent::place(shape.convex, place.rotation, shape.convex.exponent);
+    constexpr int32_t k_one = 1 << 30;
+    low = {lowest({k_one, 0, 0}), lowest({0, k_one, 0}), lowest({0, 0, k_one})};
+    high = {-lowest({-k_one, 0, 0}), -lowest({0, -k_one, 0}), -lowest({0, 0, -k_one})};
     if (length_bound(place.centre) > int64_t{1} << 62) status = Status::out_of_range;  // what follows fits 63 bits
-    radius = ball + (ball >> 10) + (size >> k_tolerance_power) + 64;
   }
 
+  /// Of the shape along an axis of the surface, from its centre.
+  int64_t lowest(const Vec32& axis) const {
+    if (ball != 0) return -ball - radius;
+    return raw_from_block(dot(axis, support(alone, negate(axis)).point) >> 30, shape.convex.exponent) - radius;
+  }
   int64_t to_raw(int32_t steps) const { return steps * (int64_t{1} << grid_shift(ground.surface)); }
   Vec64 from_corner(const Vec32& corner) const {
     return {place.centre.x - to_raw(corner.x), place.centre.y - to_raw(corner.y), place.centre.z - to_raw(corner.z)};
@@ -80,7 +94,7 @@ struct CastSearch : TriangleSearch {
   Vec64 way = {0, 0, 0};  ///< of the centre, in the surface's axes, 2^-46 m
 
   CastSearch(const AskedSurface& surface, const QueryShape& asked, const Motion& along)
-      : TriangleSearch(surface, asked, along.start), motion(along) {
+      : TriangleSearch(surface, asked, along.start, !(along.turn == k_still)), motion(along) {
     Vec64 raw;
     if (status != Status::ok) return;
     if (!raw_from_real(motion.displacement, raw))
@@ -89,11 +103,12 @@ struct CastSearch : TriangleSearch {
       way = rotate_back(place.surface, raw);
   }
 
-  /// Whether the ball about the shape stays on one side of the plane.
+  /// Whether the shape stays on one side of the plane.
   bool passes_by(const SurfaceTriangle& t, const Vec32& normal) const {
     const int64_t start = height(t, normal), end = start + dot(way, normal).round_shift(30);
-    const int64_t clear = radius + height_error(t) + (length_bound(way) >> 26);
-    return (start > clear && end > clear) || (start < -clear && end < -clear);
+    const int64_t error = height_error(t) + (length_bound(way) >> 26);
+    const int64_t over = -lowest(normal) + error, under = -lowest(negate(normal)) + error;
+    return (start > over && end > over) || (start < -under && end < -under);
   }
 
   void ask(uint32_t index) {
@@ -121,16 +136,17 @@ struct CastSearch : TriangleSearch {
 
   /// One piece of the way after the other, until the next would begin after a hit.
   void run() {
+    const Vec64 extent = {high.x - low.x, high.y - low.y, high.z - low.z};
     int power = 0;
-    while (power<k_pieces_power&& static_cast<int64_t>(magnitudes(way) >> (power + 2))> radius) ++power;
+    while (power < k_pieces_power && magnitudes(way) >> (power + 1) > magnitudes(extent)) ++power;
     const Vec64 piece = {way.x >> power, way.y >> power, way.z >> power};
-    const int64_t reach = radius + (int64_t{1} << power);  // for the pieces' rounding
+    const int64_t rounding = int64_t{1} << power;
     Vec64 from = place.centre;
     for (int64_t i = 1; i <= int64_t{1} << power; ++i) {
-      const auto low = [reach](int64_t at, int64_t along) { return at + (along < 0 ? along : 0) - reach; };
-      const auto high = [reach](int64_t at, int64_t along) { return at + (along > 0 ? along : 0) + reach; };
-      visit(*this, {low(from.x, piece.x), low(from.y, piece.y), low(from.z, piece.z)},
-            {high(from.x, piece.x), high(from.y, piece.y), high(from.z, piece.z)});
+      const auto least = [&](int64_t at, int64_t along) { return at + (along < 0 ? along : 0) - rounding; };
+      const auto most = [&](int64_t at, int64_t along) { return at + (along > 0 ? along : 0) + rounding; };
+      visit(*this, {least(from.x + low.x, piece.x), least(from.y + low.y, piece.y), least(from.z + low.z, piece.z)},
+            {most(from.x + high.x, piece.x), most(from.y + high.y, piece.y), most(from.z + high.z, piece.z)});
       if (found && best.fraction.raw <= i << (Fraction::k_frac - power)) return;
       from = add(from, piece);
     }
@@ -142,20 +158,22 @@ struct NearSearch : TriangleSearch {
   int64_t reach = 0;  ///< up to which it is looked, 2^-46 m
 
   NearSearch(const AskedSurface& surface, const QueryShape& asked, const Pose& where)
-      : TriangleSearch(surface, asked, where), at(where) {}
+      : TriangleSearch(surface, asked, where, false), at(where) {}
 
   /// Whether the triangle's plane or box is farther away than what was found.
   bool is_beyond(const SurfaceTriangle& t, const Vec32& normal) const {
-    const int64_t most = found ? raw_length(best.distance) : reach;
-    const int64_t clear = saturated_sum(most + (most >> k_tolerance_power), radius + height_error(t));
+    const int64_t nearest = found ? raw_length(best.distance) : reach;
+    const int64_t room = nearest + (nearest >> k_tolerance_power), error = height_error(t);
     const int64_t over = height(t, normal);
-    if (over > clear || over < -clear) return true;
-    const auto apart = [&](int32_t Vec32::*axis, int64_t centre) {
+    if (over > room + error - lowest(normal) || -over > room + error - lowest(negate(normal))) return true;
+    const auto apart = [&](int32_t Vec32::*axis, int64_t centre, int64_t least, int64_t most) {
       const int32_t a = t.corner[0].*axis, b = t.corner[1].*axis, c = t.corner[2].*axis;
-      const int32_t low = a < b ? (a < c ? a : c) : (b < c ? b : c), high = a > b ? (a > c ? a : c) : (b > c ? b : c);
-      return to_raw(low) - centre > clear || centre - to_raw(high) > clear;
+      const int32_t first = a < b ? (a < c ? a : c) : (b < c ? b : c), last = a > b ? (a > c ? a : c) : (b > c ? b : c);
+      return to_raw(first) - centre > room + most || centre - to_raw(last) > room - least;
     };
-    return apart(&Vec32::x, place.centre.x) || apart(&Vec32::y, place.centre.y) || apart(&Vec32::z, place.centre.z);
+    const Vec64& c = place.centre;
+    return apart(&Vec32::x, c.x, low.x, high.x) || apart(&Vec32::y, c.y, low.y, high.y) ||
+           apart(&Vec32::z, c.z, low.z, high.z);
   }
 
   void ask(uint32_t index) {
@@ -185,10 +203,10 @@ struct NearSearch : TriangleSearch {
   void run(int64_t farthest) {
     for (int power = farthest > 0 ? k_reaches_power : 0; power >= 0; --power) {
       reach = farthest >> power;
-      const int64_t room = saturated_sum(reach + (reach >> k_tolerance_power), radius);
+      const int64_t room = reach + (reach >> k_tolerance_power);
       const Vec64& c = place.centre;
-      visit(*this, {saturated_sum(c.x, -room), saturated_sum(c.y, -room), saturated_sum(c.z, -room)},
-            {saturated_sum(c.x, room), saturated_sum(c.y, room), saturated_sum(c.z, room)});
+      visit(*this, {c.x + low.x - room, c.y + low.y - room, c.z + low.z - room},
+            {c.x + high.x + room, c.y + high.y + room, c.z + high.z + room});
       if (found && raw_length(best.distance) <= reach) return;
     }
   }
@@ -237,7 +255,7 @@ Status near_on_surface(const AskedSurface& ground, const QueryShape& shape, cons
 
 Status side_of_triangle(const AskedSurface& ground, uint32_t triangle, const Pose& at, Vec3<Unit>& normal,
                         Real& height) {
-  const TriangleSearch search(ground, query_point(), at);
+  const TriangleSearch search(ground, query_point(), at, false);
   if (search.status != Status::ok) return search.status;
   const SurfaceTriangle t = ground.code.triangle(ground.surface, triangle);
   const Vec32 front = normal_of(t.corner[0], t.corner[1], t.corner[2]);
