@@ -59,6 +59,7 @@ struct HalfSpaceCode;
 struct ConvexCode;
 struct HullCode;
 struct SurfaceCode;
+struct SurfaceImpactCode;
 struct ContinuousCode;
 struct SleepingCode;
 struct JointCode;
@@ -69,6 +70,7 @@ extern const HalfSpaceCode k_half_space_code;
 extern const ConvexCode k_convex_code;
 extern const HullCode k_hull_code;
 extern const SurfaceCode k_surface_code;
+extern const SurfaceImpactCode k_surface_impact_code;
 extern const ContinuousCode k_continuous_code;
 extern const SleepingCode k_sleeping_code;
 extern const JointCode k_joint_code;
@@ -84,6 +86,7 @@ struct FeatureTable {
   const ConvexCode* convex;  ///< pairs of which one is a cylinder, cone, hull or rounded
   const HullCode* hull;
   const SurfaceCode* surface;
+  const SurfaceImpactCode* surface_impact;
   const ContinuousCode* continuous;
   const SleepingCode* sleeping;
   const JointCode* joints;
@@ -111,6 +114,7 @@ constexpr FeatureTable make_feature_table(Features features) {
   if (any(Features::cylinder | Features::cone | Features::hull | Features::rounding)) table.convex = &k_convex_code;
   if (any(Features::hull)) table.hull = &k_hull_code;
   if (any(Features::surface)) table.surface = &k_surface_code;
+  if (any(Features::surface) && any(Features::continuous)) table.surface_impact = &k_surface_impact_code;
   if (any(Features::continuous)) table.continuous = &k_continuous_code;
   if (any(Features::sleeping)) table.sleeping = &k_sleeping_code;
   if (any(Features::joints)) table.joints = &k_joint_code;

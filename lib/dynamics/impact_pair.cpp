@@ -131,7 +131,7 @@ bool pair_impact(const AssetTable& assets, const FeatureTable& features, const S
                  Fraction time, Real inset, TimeOfImpact& impact) {
   const Real extent = min(shape_extent(a.traits), shape_extent(b.traits));
   if (is_surface(a.traits) || is_surface(b.traits)) {
-    if (!surface_impact(assets, *features.surface, a, b, time, inset, impact)) return false;
+    if (!features.surface_impact->impact(assets, *features.surface, a, b, time, inset, impact)) return false;
   } else {
     Convex convex_a, convex_b;
     if (!inset_convex(assets, a.traits, inset, extent, convex_a) ||

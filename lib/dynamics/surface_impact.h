@@ -11,5 +11,10 @@ inline namespace DETENT_NAMESPACE {
 bool surface_impact(const AssetTable& assets, const SurfaceCode& code, const SweptBody& a, const SweptBody& b,
                     Fraction time, Real inset, TimeOfImpact& impact);
 
+/// For a feature table.
+struct SurfaceImpactCode {
+  decltype(&surface_impact) impact;
+};
+
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent
