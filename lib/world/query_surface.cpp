@@ -32,7 +32,7 @@ struct TriangleSearch {
   Status status = Status::ok;
 
   TriangleSearch(const AskedSurface& surface, const QueryShape& asked, const Pose& at, bool turns)
-      : ground(surface), shape(asked), status(place_on_surface(surface.pose, at, place)) {
+      : ground(surface), shape(asked), status(surface.code.place(surface.pose, at, place)) {
     if (status != Status::ok) return;
     const GridBox box = surface.surface.bounds();
     const auto most = [&](int32_t least, int32_t greatest) { return to_raw(greatest > -least ? greatest : -least); };

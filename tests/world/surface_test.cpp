@@ -1,5 +1,7 @@
 #include <detent/body_access.h>
 #include <detent/contacts.h>
+#include <detent/debug_draw.h>
+#include <detent/triangles.h>
 #include <math.h>
 
 #include "tests/oracle/effort.h"
@@ -237,6 +239,51 @@ DETENT_TEST(surfaces, are_refused_where_they_cannot_be) {
   Lab plain({4, 4, 1});
   plain.world.features = &feature_table<without(Features::all, Features::surface | Features::hull)>;
   EXPECT_EQ(bind_asset(plain.world, 0), Status::feature_missing);
+}
+
+/// Renderers get every triangle, and a drawing of lines alone shows them.
+DETENT_TEST(surfaces, are_shown_where_they_are) {
+  SurfaceLab lab(detent_surfaces::cooked(detent_surfaces::box_surface(2, 1, 3, 2)));
+  BodyDef def = lab.ground_def();
+  def.position = position(5, 0, 0);
+  def.rotation = {unit(0), unit(sqrt(0.5)), unit(0), unit(sqrt(0.5))};  // x to -z
+  const BodyId id = lab.add(def);
+  const BodyId ball = lab.add_shape(sphere(real(0.5)), 0, 0, 0);
+  struct Shown {
+    uint32_t triangles = 0, lines = 0, solids = 0, materials = 0;
+    double low = 0, high = 0;
+  } shown;
+  const auto visit = [](void* user, const BodyTriangle& triangle) {
+    Shown& all = *static_cast<Shown*>(user);
+    EXPECT_EQ(triangle.index, all.triangles++);
+    all.materials |= 1u << triangle.material;
+    for (const Position& at : triangle.corner) {
+      all.low = fmin(all.low, coord_to_host(at.x));
+      all.high = fmax(all.high, coord_to_host(at.x));
+    }
+  };
+  ASSERT_OK(visit_triangles(lab.world, id, &shown, visit));
+  EXPECT_EQ(shown.triangles, 48u);
+  EXPECT_EQ(shown.materials, 63u);
+  EXPECT_NEAR(shown.high, 8, 1e-4);
+  EXPECT_EQ(visit_triangles(lab.world, ball, &shown, visit), Status::bad_argument);
+  EXPECT_EQ(visit_triangles(lab.world, {}, &shown, visit), Status::bad_id);
+  EXPECT_EQ(visit_triangles(lab.world, id, &shown, nullptr), Status::bad_argument);
+
+  DebugDraw to;
+  to.user = &shown;
+  to.line = [](void* user, const Position&, const Position&, DrawKind kind) {
+    EXPECT_EQ(kind, DrawKind::fixed);
+    ++static_cast<Shown*>(user)->lines;
+  };
+  draw(lab.world, to, DrawFlags::bodies);
+  EXPECT_EQ(shown.lines, 3 * 48u);
+  to.solid = [](void* user, BodyId, const Shape&, const Pose&, DrawKind) { ++static_cast<Shown*>(user)->solids; };
+  draw(lab.world, to, DrawFlags::bodies);
+  EXPECT_EQ(shown.lines, 3 * 48u);
+  EXPECT_EQ(shown.solids, 2u);
+  lab.world.assets = {};
+  EXPECT_EQ(visit_triangles(lab.world, id, &shown, visit), Status::asset_missing);
 }
 
 }  // namespace
