@@ -136,7 +136,7 @@ DETENT_TEST(levels, are_walked_through) {
     }
   }
   if (levels == 0) GTEST_SKIP() << "no meshes under DETENT_DATA";
-  EXPECT_GT(moves, levels * 1000);
+  EXPECT_GT(moves, levels * detent_oracle::rounds(1000));
   EXPECT_GT(grounded, moves / 4);
 }
 
