@@ -16,7 +16,8 @@ void collide_surface(const CollisionBody& a, const CollisionBody& b, Real reach,
   for (uint32_t i = 0; swapped && i < contacts.count; ++i) swap_bodies(contacts.contact[i].geometry);
 }
 
-const SurfaceCode k_surface_code = {read_surface, collide_surface, visit_surface, surface_convex};
+const SurfaceCode k_surface_code = {read_surface,     collide_surface, visit_surface,    surface_convex,
+                                    place_on_surface, surface_view,    surface_triangle, cast_ray_on_surface};
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

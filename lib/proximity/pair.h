@@ -13,6 +13,11 @@ inline constexpr int k_metre_bits = 46;
 /// v 2^46. Fixed: exact. Float: to nearest, or saturated. NaN and infinity: false.
 bool raw_from_real(const Vec3<Real>& v, Vec64& raw);
 Real real_from_raw(int64_t raw);
+/// Of a finite length, m, 2^-46 m.
+inline int64_t raw_length(Real length) {
+  Vec64 raw = {0, 0, 0};
+  return raw_from_real({length, Real(0.0), Real(0.0)}, raw) ? raw.x : 0;
+}
 /// a - b, 2^-46 m. Fixed positions: exact within 2^17 m, saturated there. f64: to nearest. NaN and infinity: false.
 bool raw_difference(const Position& a, const Position& b, Vec64& raw);
 /// Q30, of length 1 within 2^-29. False unless | |q| - 1 | <= 2^-10.
