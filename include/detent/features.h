@@ -83,7 +83,8 @@ extern const JointCode k_joint_code;
 struct FeatureTable {
   Features features;  ///< what it names
   /// @cond
-  const ShapeCode *sphere, *capsule, *box, *half_space_shape, *cylinder, *cone, *hull_shape, *surface_shape, *compound_shape;
+  const ShapeCode *sphere, *capsule, *box, *half_space_shape, *cylinder, *cone, *hull_shape, *surface_shape,
+      *compound_shape;
   const PairCode *round_pair, *box_round_pair, *box_pair;
   const HalfSpaceCode* half_space;
   const ConvexCode* convex;  ///< pairs of which one is a cylinder, cone, hull or rounded

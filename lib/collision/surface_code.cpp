@@ -28,7 +28,8 @@ void collide_part_with_surface(const CollisionBody& a, const CollisionBody& b, c
   for (uint32_t i = 0; swapped && i < contacts.count; ++i) swap_bodies(contacts.contact[i].geometry);
 }
 
-const SurfaceCode k_surface_code = {read_surface, collide_surface, collide_part_with_surface, visit_surface, surface_convex};
+const SurfaceCode k_surface_code = {read_surface, collide_surface, collide_part_with_surface, visit_surface,
+                                    surface_convex};
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

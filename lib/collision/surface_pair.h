@@ -7,9 +7,9 @@ inline namespace DETENT_NAMESPACE {
 
 /// Where a shape lies in a surface's axes.
 struct SurfacePlace {
-  Matrix32 surface;   ///< from the surface's axes to the world's
-  Matrix32 rotation;  ///< from the shape's axes to the surface's
-  Vec64 centre;       ///< of the shape, in the surface's axes, 2^-46 m
+  Matrix32 surface;          ///< from the surface's axes to the world's
+  Matrix32 rotation;         ///< from the shape's axes to the surface's
+  Vec64 centre;              ///< of the shape, in the surface's axes, 2^-46 m
   Vec64 middle = {0, 0, 0};  ///< of what is met, from there, likewise: which side of a triangle it is on
 };
 

@@ -147,8 +147,7 @@ ChildMeasure measure_child(const CompoundChild& child, const HullView& hull, int
 }
 
 Status read_compound(const Asset& asset, CompoundView& compound) {
-  if (const Status status =
-          check_cooked(asset, k_compound_magic, k_compound_format_version, k_compound_header_bytes);
+  if (const Status status = check_cooked(asset, k_compound_magic, k_compound_format_version, k_compound_header_bytes);
       status != Status::ok) {
     return status;
   }

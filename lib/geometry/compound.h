@@ -84,7 +84,9 @@ struct CompoundView {
   }
 
  private:
-  static Vec32 vector(const uint8_t* words) { return {cooked_i32(words), cooked_i32(words + 4), cooked_i32(words + 8)}; }
+  static Vec32 vector(const uint8_t* words) {
+    return {cooked_i32(words), cooked_i32(words + 4), cooked_i32(words + 8)};
+  }
   HullScaled scaled(uint32_t field) const { return {cooked_i32(bytes + field), cooked_i32(bytes + field + 4)}; }
 };
 

@@ -23,8 +23,8 @@ inline bool is_ground(const BodyTraits& traits) {
   return shape_of(traits) == ShapeType::half_space || is_surface(traits);
 }
 
-/// The greatest distance of a point of the core from the origin; not for hulls, surfaces and compounds. T: Real or Unit, of both
-/// sides.
+/// The greatest distance of a point of the core from the origin; not for hulls, surfaces and compounds. T: Real or
+/// Unit, of both sides.
 template <class T>
 T core_bound(ShapeType type, const Vec3<T>& size) {
   const T zero = 0.0;
@@ -71,8 +71,8 @@ struct ShapeCode {
 const ShapeCode* code_of(const FeatureTable& features, ShapeType type);
 
 /// Fills shape, size_exponent, size, bounding_radius, rounding and asset of `traits`. A hull, surface or
-/// compound is that of the table, whose bytes read_hull(), read_surface() or read_compound() has accepted. Errors: bad_argument, out_of_range,
-/// asset_missing, feature_missing.
+/// compound is that of the table, whose bytes read_hull(), read_surface() or read_compound() has accepted. Errors:
+/// bad_argument, out_of_range, asset_missing, feature_missing.
 Status set_shape(const Shape& shape, BodyTraits& traits, const AssetTable& assets = {},
                  const FeatureTable& features = feature_table<Features::all>);
 

@@ -10,8 +10,8 @@ inline namespace DETENT_NAMESPACE {
 
 /// What of an asset a shape needs; none for shapes without.
 inline AssetKind asset_kind_of(ShapeType shape) {
-  return shape == ShapeType::hull      ? AssetKind::hull
-         : shape == ShapeType::surface ? AssetKind::surface
+  return shape == ShapeType::hull       ? AssetKind::hull
+         : shape == ShapeType::surface  ? AssetKind::surface
          : shape == ShapeType::compound ? AssetKind::compound
                                         : AssetKind::none;
 }

@@ -19,7 +19,8 @@ Scaled reference_mass(const BodyTraits& a, const BodyTraits& b) {
 }
 
 __attribute__((noinline)) ContactGeometry part_geometry(const CollisionBody& a, const CollisionBody& b, Real reach,
-                                                        ManifoldReduction reduction, const World& world, uint32_t part) {
+                                                        ManifoldReduction reduction, const World& world,
+                                                        uint32_t part) {
   SurfaceContacts contacts;
   collide_parts(a, b, reach, world.assets, reduction, *world.features, contacts);
   for (uint32_t i = 0; i < contacts.count; ++i) {

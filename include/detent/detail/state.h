@@ -80,8 +80,8 @@ struct BodyTraits {
   /// In that unit: radius of the ball that rounds a box, cylinder, cone or hull; of a compound the least half thickness
   /// of a child; else 0.
   Unit rounding;
-  Scaled mass;           ///< kg; if not dynamic what it would have, or 0
-  Scaled gyration[3];    ///< m (2^size_exponent)^2 / I about each body axis; 0 if locked or not dynamic
+  Scaled mass;         ///< kg; if not dynamic what it would have, or 0
+  Scaled gyration[3];  ///< m (2^size_exponent)^2 / I about each body axis; 0 if locked or not dynamic
   Scaled friction;
   Scaled restitution;
   Scaled rolling_resistance;
@@ -162,10 +162,10 @@ struct alignas(8) JointState {
 
 /// What a bound asset's bytes are. Stored: a value is never reused.
 enum class AssetKind : uint32_t {
-  none = 0,     ///< not bound
-  other = 1,    ///< nothing that the library reads
-  hull = 2,     ///< a cooked hull, checked in full
-  surface = 3,  ///< a cooked mesh or height field, checked in full
+  none = 0,      ///< not bound
+  other = 1,     ///< nothing that the library reads
+  hull = 2,      ///< a cooked hull, checked in full
+  surface = 3,   ///< a cooked mesh or height field, checked in full
   compound = 4,  ///< a cooked compound, checked in full
 };
 
