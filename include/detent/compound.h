@@ -1,5 +1,6 @@
 #pragma once
 #include <detent/asset.h>
+#include <detent/shape.h>
 #include <detent/status.h>
 
 /// @file
@@ -23,6 +24,19 @@ struct CompoundInfo {
 /// Describes a cooked compound, after every check. Errors: buffer_misaligned (8), not_detent, format_unknown,
 /// truncated, corrupt, out_of_range (an exponent).
 Status compound_info(const Asset& asset, CompoundInfo& info);
+
+/// A part of a cooked compound, in the body's axes, m: to draw it.
+struct CompoundPart {
+  ShapeType type = ShapeType::hull;  ///< sphere, capsule or hull
+  double radius = 0;                 ///< m; of a hull that of the ball that rounds it
+  double from[3] = {};               ///< m; a sphere's centre, or a capsule's end; of a hull 0
+  double to[3] = {};                 ///< m; the sphere's centre again, or the other end
+  Asset hull = {};                   ///< of a hull: its bytes within the compound's, for hull_info() and make_hull()
+};
+
+/// The part `index` of a compound that compound_info() accepts, which is not asked again: its child_count there are.
+/// Errors: out_of_range (the index).
+Status compound_part(const Asset& asset, uint32_t index, CompoundPart& part);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -1,5 +1,6 @@
 #include "geometry/compound.h"
 
+#include "math/float_bits.h"
 #include "math/root.h"
 
 namespace detent {
@@ -202,6 +203,30 @@ Status compound_info(const Asset& asset, CompoundInfo& info) {
     memcpy(&info.origin[axis], &bits, sizeof bits);
   }
   for (uint32_t k = 0; k < 4; ++k) info.rotation[k] = cooked_i32(compound.bytes + k_compound_rotation_at + 4 * k);
+  return Status::ok;
+}
+
+Status compound_part(const Asset& asset, uint32_t index, CompoundPart& part) {
+  const CompoundView compound = compound_view(asset.bytes);
+  if (index >= compound.child_count) return Status::out_of_range;
+  const CompoundChild child = compound.child(index);
+  const auto metres = [&](int32_t steps) { return float_from_integer<double>(steps, compound.exponent() - 30); };
+  CompoundPart made;
+  made.type = child.kind == ChildKind::hull   ? ShapeType::hull
+              : child.kind == ChildKind::ball ? ShapeType::sphere
+                                              : ShapeType::capsule;
+  made.radius = metres(child.radius);
+  if (child.kind == ChildKind::hull) {
+    const uint8_t* const bytes = asset.bytes + child.hull_at;
+    made.hull = {bytes, cooked_u32(bytes + k_hull_byte_count_at)};
+  } else {
+    const int32_t from[3] = {child.low.x, child.low.y, child.low.z}, to[3] = {child.high.x, child.high.y, child.high.z};
+    for (uint32_t k = 0; k < 3; ++k) {
+      made.from[k] = metres(from[k]);
+      made.to[k] = metres(to[k]);
+    }
+  }
+  part = made;
   return Status::ok;
 }
 
