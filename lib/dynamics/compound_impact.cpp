@@ -55,7 +55,8 @@ struct Search {
     for (uint32_t i = 0; i < parts.count(); ++i) {
       Convex convex;
       TimeOfImpact found;
-      if (!inset_part(body, parts, i, convex) || !surface_impact(assets, *features.surface, a, b, convex, time, found))
+      if (!inset_part(body, parts, i, convex) ||
+          !features.surface_impact->impact(assets, *features.surface, a, b, convex, time, found))
         return false;
       take(found);
     }

@@ -145,7 +145,7 @@ bool pair_impact(const AssetTable& assets, const FeatureTable& features, const S
     const BodyTraits& body = (is_surface(a.traits) ? b : a).traits;
     Convex convex;
     if (!inset_convex(assets, body, inset, shape_extent(body), convex) ||
-        !surface_impact(assets, *features.surface, a, b, convex, time, impact))
+        !features.surface_impact->impact(assets, *features.surface, a, b, convex, time, impact))
       return false;
   } else {
     Convex convex_a, convex_b;

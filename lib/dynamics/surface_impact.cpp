@@ -155,5 +155,7 @@ bool surface_impact(const AssetTable& assets, const SurfaceCode& code, const Swe
   return true;
 }
 
+const SurfaceImpactCode k_surface_impact_code = {surface_impact};
+
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent
