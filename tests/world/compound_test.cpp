@@ -1,5 +1,7 @@
 #include <detent/body_access.h>
 #include <detent/contacts.h>
+#include <detent/event.h>
+#include <detent/query.h>
 #include <detent/transform.h>
 #include <math.h>
 
@@ -262,6 +264,96 @@ DETENT_TEST(compounds, tell_which_parts_touch) {
     EXPECT_EQ(contact.part, i + 2);  // the legs
     EXPECT_EQ(contact.point_count, 4u);
   }
+}
+
+/// Its centre lies within the ridge: each ball is on the side where it is itself.
+DETENT_TEST(compounds, stand_astride_a_ridge) {
+  const Bytes ridge =
+      detent_surfaces::cooked(detent_surfaces::ground(8, 1, [](double x, double) { return 1 - fabs(x); }));
+  const Parts arch = {detent_compounds::ball(-1, 0, -0.5, 0.2), detent_compounds::ball(1, 0, -0.5, 0.2),
+                      detent_compounds::ball(-1, 0, 0.5, 0.2), detent_compounds::ball(1, 0, 0.5, 0.2),
+                      detent_compounds::capsule({-1, 1.2, 0}, {1, 1.2, 0}, 0.1)};
+  CompoundLab lab(arch, ridge);
+  BodyDef ground;
+  ground.type = BodyType::fixed;
+  ground.shape = surface(1);
+  ground.material.friction = real(1);
+  lab.add(ground);
+  const double rest = 0.2 * sqrt(2.0);
+  BodyDef def = lab.compound_def(0, rest + 0.01, 0.1);
+  def.material.friction = real(1);
+  const BodyId id = lab.add(def);
+  EXPECT_LT(rest + lab.info.origin[1], 1);
+  lab.run(120);
+  EXPECT_NEAR(lab.motion(id).position[1], rest + lab.info.origin[1], 0.01);
+  EXPECT_EQ(get_info(lab.world).contacts, 4u);
+}
+
+DETENT_TEST(compounds, are_one_body_in_what_is_told) {
+  CompoundLab lab(detent_compounds::table());
+  lab.add_ground();
+  lab.add_compound(0, 0.02, 0);
+  ContactEvent events[16];
+  lab.world.contact_events = {events, 16};
+  uint32_t begun = 0;
+  for (int tick = 0; tick < 60; ++tick) {
+    const StepReport report = lab.run(1);
+    for (uint32_t i = 0; i < report.contact_events; ++i) begun += events[i].type == ContactEventType::begin ? 1 : 0;
+  }
+  EXPECT_EQ(begun, 1u);
+}
+
+DETENT_TEST(compounds, are_asked_part_by_part) {
+  CompoundLab lab(detent_compounds::table(), weightless());
+  const BodyId id = lab.add_compound(0, 0, 0);
+  QueryHit hit[1];
+  QueryReport report;
+  RayQuery ray;
+  ray.origin = position(-5, 0.45, 0.5);
+  ray.way = reals(10, 0, 0);
+  EXPECT_OK(query_ray(lab.world, ray, {hit, 1}, report));
+  EXPECT_EQ(report.hits, 0u);
+  ray.origin = position(-5, 0.45, 0.95);
+  EXPECT_OK(query_ray(lab.world, ray, {hit, 1}, report));
+  ASSERT_EQ(report.hits, 1u);
+  EXPECT_TRUE(hit[0].body == id);
+  EXPECT_NEAR(coord_to_host(hit[0].point.x), -1, 1e-4);
+  ClosestQuery closest;
+  closest.shape = sphere(real(0.1));
+  closest.position = position(0.2, 0.5, 0.1);
+  EXPECT_OK(query_closest(lab.world, closest, {hit, 1}, report));
+  ASSERT_EQ(report.hits, 1u);
+  EXPECT_NEAR(real_to_host(hit[0].distance), 0.3, 1e-4);  // to the top
+  OverlapQuery overlap;
+  overlap.shape = box(reals(0.8, 0.3, 0.8));
+  overlap.position = position(0, 0.5, 0);
+  EXPECT_OK(query_overlap(lab.world, overlap, {hit, 1}, report));
+  EXPECT_EQ(report.hits, 0u);
+  overlap.position = position(0.2, 0.5, 0.2);
+  EXPECT_OK(query_overlap(lab.world, overlap, {hit, 1}, report));
+  EXPECT_EQ(report.hits, 1u);
+  overlap.shape = compound(0);
+  EXPECT_EQ(query_overlap(lab.world, overlap, {hit, 1}, report), Status::bad_argument);
+}
+
+DETENT_TEST(compounds, give_their_parts_to_draw) {
+  const Bytes bytes = detent_compounds::cooked(detent_compounds::dumbbell());
+  const Asset asset = {bytes.data(), bytes.count()};
+  CompoundPart part;
+  EXPECT_OK(compound_part(asset, 1, part));
+  EXPECT_EQ(part.type, ShapeType::sphere);
+  EXPECT_NEAR(part.radius, 0.5, 1e-9);
+  EXPECT_NEAR(hypot(hypot(part.from[0], part.from[1]), part.from[2]), 1, 1e-9);
+  EXPECT_OK(compound_part(asset, 2, part));
+  EXPECT_EQ(part.type, ShapeType::capsule);
+  EXPECT_NEAR(hypot(hypot(part.from[0] - part.to[0], part.from[1] - part.to[1]), part.from[2] - part.to[2]), 2, 1e-8);
+  EXPECT_EQ(compound_part(asset, 3, part), Status::out_of_range);
+  const Bytes table = detent_compounds::cooked(detent_compounds::table());
+  EXPECT_OK(compound_part({table.data(), table.count()}, 0, part));
+  EXPECT_EQ(part.type, ShapeType::hull);
+  HullInfo hull;
+  EXPECT_OK(hull_info(part.hull, hull));
+  EXPECT_EQ(hull.vertex_count, 8u);
 }
 
 DETENT_TEST(compounds, are_saved_restored_and_loaded) {
