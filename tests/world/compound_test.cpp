@@ -266,6 +266,64 @@ DETENT_TEST(compounds, tell_which_parts_touch) {
   }
 }
 
+/// What is hollow hooks into its like: a pile of them comes to rest within its walls.
+DETENT_TEST(compounds, come_to_rest_in_a_pile) {
+  const Parts kinds[] = {detent_compounds::jack(0.4, 0.1), detent_compounds::letter_l(), detent_compounds::dumbbell()};
+  for (const Parts& parts : kinds) {
+    CompoundLab lab(parts);
+    lab.add_ground();
+    for (int side = 0; side < 4; ++side) {
+      BodyDef wall;
+      wall.type = BodyType::fixed;
+      wall.shape = side < 2 ? box(reals(1, 10, 5)) : box(reals(5, 10, 1));
+      const double at = side % 2 == 0 ? 3 : -3;
+      wall.position = side < 2 ? position(at, 10, 0) : position(0, 10, at);
+      lab.add(wall);
+    }
+    detent_queries::Random random(9);
+    std::vector<BodyId> ids;
+    for (int i = 0; i < 12; ++i) {
+      const double x = random.uniform(-0.8, 0.8), z = random.uniform(-0.8, 0.8), turn = random.uniform(-1, 1);
+      BodyDef def = lab.compound_def(x, 1.5 + 1.8 * i, z);
+      def.spin = reals(turn, 0.7, -turn);
+      ids.push_back(lab.add(def));
+    }
+    uint32_t dropped = 0, capped = 0;
+    for (int tick = 0; tick < 900; ++tick) {
+      const StepReport report = lab.run(1);
+      dropped += report.contacts_dropped;
+      capped += report.contacts_capped;
+    }
+    EXPECT_EQ(dropped, 0u);
+    EXPECT_EQ(capped, 0u);
+    for (const BodyId id : ids) {
+      const Motion motion = lab.motion(id);
+      EXPECT_LT(fabs(motion.position[0]), 2);
+      EXPECT_LT(fabs(motion.position[2]), 2);
+      EXPECT_GT(motion.position[1], 0.05);
+      EXPECT_LT(speed_of(motion), 0.3);
+    }
+  }
+}
+
+/// A ball, however it is stored, touches in one point.
+DETENT_TEST(compounds, of_balls_touch_in_single_points) {
+  CompoundLab lab(detent_compounds::dumbbell());
+  BodyDef floor;
+  floor.type = BodyType::fixed;
+  floor.shape = box(reals(3, 0.5, 3));
+  floor.position = position(0, -0.5, 0);
+  lab.add(floor);
+  lab.add_compound(0, 0.5, 0);
+  lab.run(30);
+  ASSERT_EQ(get_info(lab.world).contacts, 2u);
+  for (uint32_t i = 0; i < 2; ++i) {
+    Contact contact;
+    ASSERT_OK(get_contact(lab.world, i, contact));
+    EXPECT_EQ(contact.point_count, 1u);
+  }
+}
+
 /// Its centre lies within the ridge: each ball is on the side where it is itself.
 DETENT_TEST(compounds, stand_astride_a_ridge) {
   const Bytes ridge =
