@@ -169,7 +169,7 @@ bool is_manifold(const BodyTraits& a, const BodyTraits& b, uint32_t count, const
   }
   if (none) return is_zero(manifold.normal) && is_zero(manifold.offset);
   Quat ignored;
-  if (is_ground(a) || is_ground(b) || !normalise_input(manifold.rotation, ignored)) return false;
+  if (is_ground(a) || is_ground(b) || has_parts(a, b) || !normalise_input(manifold.rotation, ignored)) return false;
   if (!is_within(manifold.normal, Unit(1.01)) || !(abs(length(manifold.normal) - Unit(1.0)) < Unit(0x1p-10)) ||
       !is_within(manifold.offset, Unit(0.625)) || !(length(manifold.offset) < Unit(0.66)))
     return false;

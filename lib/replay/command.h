@@ -175,7 +175,7 @@ inline void visit(Archive& archive, BodyId& id) {
 }
 
 inline void visit(Archive& archive, Shape& shape) {
-  visit_choice(archive, "shape type", shape.type, ShapeType::sphere, ShapeType::surface);
+  visit_choice(archive, "shape type", shape.type, ShapeType::sphere, ShapeType::compound);
   visit_number(archive, "radius", shape.radius);
   visit_number(archive, "half length", shape.half_length);
   visit_number(archive, "half extents", shape.half_extents);

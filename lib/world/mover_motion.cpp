@@ -2,7 +2,7 @@
 
 #include <detent/contact.h>
 
-#include "collision/body_convex.h"
+#include "collision/compound_code.h"
 #include "geometry/sweep.h"
 #include "world/query_surface.h"
 #include "world/ranges.h"
@@ -36,22 +36,30 @@ bool way_out_of_surface(const World& world, const QueryHit& hit, const Shape& co
   return true;
 }
 
-/// The way out of a body that even the core is in.
+/// The way out of a body that even the core is in; of a compound that of the part that it is in deepest.
 bool way_out(const World& world, BodyId body, const Shape& core, const Pose& at, Vec3<Unit>& normal, Real& depth) {
   const StateView<const uint8_t> state = view_of(world);
-  const uint32_t slot = body.slot - 1;
-  Convex convex;
+  const BodyTraits& traits = state.traits[body.slot - 1];
+  const Pose pose = pose_near(traits, state.poses[body.slot - 1], at.position);
+  const ConvexParts parts(traits, world.assets);
   QueryShape shape;
-  ContactManifold manifold;
-  if (make_query_shape(world, core, shape) != Status::ok || !body_convex(state.traits[slot], world.assets, convex) ||
-      contact_points(convex, pose_near(state.traits[slot], state.poses[slot], at.position), shape.convex, at, k_zero,
-                     manifold) != Status::ok ||
-      manifold.count == 0)
-    return false;
-  normal = manifold.normal;
+  if (make_query_shape(world, core, shape) != Status::ok) return false;
+  bool found = false;
   depth = k_zero;
-  for (uint32_t i = 0; i < manifold.count; ++i) depth = max(depth, -manifold.point[i].separation);
-  return true;
+  for (uint32_t i = 0; i < parts.count(); ++i) {
+    Convex convex;
+    ContactManifold manifold;
+    if (!parts.convex(i, false, convex) ||
+        contact_points(convex, pose, shape.convex, at, k_zero, manifold) != Status::ok || manifold.count == 0)
+      continue;
+    Real deepest = k_zero;
+    for (uint32_t k = 0; k < manifold.count; ++k) deepest = max(deepest, -manifold.point[k].separation);
+    if (found && !(deepest > depth)) continue;
+    found = true;
+    normal = manifold.normal;
+    depth = deepest;
+  }
+  return found;
 }
 
 }  // namespace
