@@ -175,7 +175,7 @@ struct Solver {
     const BodyWork& now = bodies.work[body.slot];
     body.force = body.torque = body.given_force = body.given_torque = k_none;
     load_motion(body);
-    const Scaled turn = scaled_by_power(body.share, now.gyration.exponent + 2 * body.above);
+    const Scaled turn = scaled_by_power(body.turn_share, now.gyration.exponent + body.above);
     bool saturated = false;
     const Real share = to_real(body.share, saturated);
     DETENT_UNROLL
@@ -439,6 +439,18 @@ struct Solver {
       work.torque_sum += real_from(row.arm[1]) * impulse;
   }
 
+  /// What the next substep starts from.
+  void keep(const JointWork& work) {
+    Real(&kept)[k_joint_rows_max] = stage.joints[work.joint].impulse;
+    const auto store = [&](uint32_t k, Real impulse) {
+      kept[k] = clamp(impulse, -k_joint_impulse_max, k_joint_impulse_max);
+      if (!(kept[k] == impulse)) ++clamped;
+    };
+    for (uint32_t k = 0; k < work.rows_held; ++k) store(k, work.total[k]);
+    for (uint32_t i = 0; i < 2 && work.rows_held + i < k_joint_rows_max; ++i)
+      store(work.rows_held + i, work.driven_total[i]);
+  }
+
   /// Puts on what the joints that close loops gave in the last substep.
   void start_loops() {
     for (const uint32_t index : loops) {
@@ -505,7 +517,7 @@ struct Solver {
     BodyMotion& motion = bodies.motions[body.slot];
     BodyWork& now = bodies.work[body.slot];
     const Vec3<Real> velocity = scaled(force, body.share);
-    const Vec3<Real> momentum = scaled(torque, scaled_by_power(body.share, body.above));
+    const Vec3<Real> momentum = scaled(torque, body.turn_share);
     motion.velocity += velocity;
     motion.momentum += momentum;
     if (DETENT_FIXED) {  // it is not the contacts' (contact_motion.h)
@@ -527,21 +539,18 @@ uint32_t solve_joints(const StepSettings& settings, const SolverBodies& bodies, 
   solver.place(elapsed);
   solver.make_rows(trees);
   solver.make_rows(loops);
+  const Span<const uint32_t> all = {trees.data, trees.count + loops.count};
+  hold_sway(settings, bodies, all, stage);
   solver.start_loops();
   solver.solve_held(undecided);
   for (uint32_t sweep = 0; sweep < k_loop_sweeps && loops.count != 0; ++sweep) {
     for (const uint32_t index : loops) solver.hold_loop(stage.work[index]);
     solver.solve_held(undecided);
   }
-  for (const uint32_t index : trees) solver.add_up(stage.work[index]);
-  for (const uint32_t index : loops) {
+  for (const uint32_t index : all) {
     JointWork& work = stage.work[index];
     solver.add_up(work);
-    JointState& joint = stage.joints[work.joint];
-    for (uint32_t k = 0; k < work.rows_held; ++k) {
-      joint.impulse[k] = clamp(work.total[k], -k_joint_impulse_max, k_joint_impulse_max);
-      if (!(joint.impulse[k] == work.total[k])) ++solver.clamped;
-    }
+    solver.keep(work);
   }
   return solver.clamped;
 }

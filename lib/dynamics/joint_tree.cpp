@@ -18,9 +18,16 @@ constexpr int k_redundant_power = -28;
 /// And at least so much, so that its reciprocal is one that multiply() takes.
 constexpr Real k_response_min = 0x1p-29;
 
-/// Of an island without and with contacts.
-constexpr uint32_t k_substeps_min = 4;
+/// Of an island with contacts.
 constexpr uint32_t k_substeps_with_contacts = 8;
+/// One without takes these, but many joints no more than make so many joint substeps.
+constexpr uint32_t k_substeps_max = 4, k_substeps_min = 2, k_joint_substeps = 64;
+
+uint32_t substeps_of(const Island& island) {
+  if (island.contact_count != 0) return k_substeps_with_contacts;
+  const uint32_t share = k_joint_substeps / (island.joint_count + island.loop_count);
+  return share < k_substeps_min ? k_substeps_min : share > k_substeps_max ? k_substeps_max : share;
+}
 
 Real absolute_sum(const Vec3<Real>& v) { return abs(v.x) + abs(v.y) + abs(v.z); }
 
@@ -35,7 +42,7 @@ uint32_t place_of(const SolverBodies& bodies, uint32_t slot, JointStage& stage) 
   body.mobile = is_dynamic(bodies.traits[slot]) && stage.activities[slot].asleep == 0 ? 1 : 0;
   body.first = body.last = body.owner = k_no_link;
   body.exponent = bodies.traits[slot].size_exponent;
-  body.share = Scaled(0.0);
+  body.share = body.turn_share = Scaled(0.0);
   return place;
 }
 
@@ -190,8 +197,7 @@ void grow_trees(const StepSettings& settings, const SolverBodies& bodies, Span<c
     island.joint_count = grower.placed - first;
     island.loop_count = loops;
     first = grower.placed + loops;
-    if (island.joint_count + loops != 0)
-      island.substeps = island.contact_count == 0 ? k_substeps_min : k_substeps_with_contacts;
+    if (island.joint_count + loops != 0) island.substeps = substeps_of(island);
   }
   for (JointWork& work : stage.work.first(stage.count)) {
     const JointBody &a = stage.bodies[work.body[0]], &b = stage.bodies[work.body[1]];

@@ -159,10 +159,12 @@ struct alignas(8) JointBody {
   int32_t above;                         ///< by how much that is more than the body's own
   uint32_t owner;                        ///< the joint of its tree that it is visited with
   alignas(sizeof(Real)) Scaled share;    ///< reference mass / mass; 0 if it takes no part
+  Scaled turn_share;                     ///< what a torque gives the momentum (joint_sway.cpp)
   Quat rotation;                         ///< now
   Matrix3 axes;                          ///< likewise
   Vec3<Real> place;                      ///< of its centre, from where it was at the start of the tick, m
   Vec3<Real> velocity, spin;             ///< as the joints eliminated so far leave them, m/s
+  Real stiffness;                        ///< against turning, of the pulls of its joints (joint_sway.cpp)
   Real response[6][6];                   ///< of velocity and spin to a force and a torque on it; symmetric
   Vec3<Real> force, torque;              ///< what joints above or eliminated later give it
   Vec3<Real> given_force, given_torque;  ///< what acts without a row: motors at their limit
