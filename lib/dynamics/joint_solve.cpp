@@ -2,6 +2,7 @@
 #include "dynamics/contact_motion.h"
 #include "dynamics/gyration.h"
 #include "dynamics/joint.h"
+#include "dynamics/joint_anchor.h"
 #include "dynamics/spin.h"
 #include "math/rotation.h"
 #include "math/scaled.h"
@@ -74,16 +75,14 @@ void couple(const JointWork& work, uint32_t end, const Reply& reply,
 }
 
 /// The speeds of the rows that a body's motion gives.
-template <bool only_points>
 void show(const JointWork& work, uint32_t end, const Vec3<Real>& velocity, const Vec3<Real>& spin,
           Real (&speed)[k_joint_rows_max]) {
-  if (only_points || work.points != 0) {
+  if (work.points != 0) {
     const Vec3<Real> at_point = velocity + cross(spin, work.arm[end]);
     speed[0] = at_point.x;
     speed[1] = at_point.y;
     speed[2] = at_point.z;
   }
-  if (only_points) return;
   for (uint32_t k = work.points != 0 ? 3 : 0; k < work.rows; ++k)
     speed[k] = dot(velocity, work.row[k].axis) + dot(spin, work.row[k].arm[end]);
 }
@@ -144,6 +143,21 @@ void take_from(const JointWork& work, JointBody& parent) {
   }
 }
 
+/// Makes the replies L^-1 of theirs, and over the pivots.
+template <int width>
+void substitute(uint32_t rows, JointWork& work) {
+  DETENT_UNROLL
+  for (uint32_t k = 0; k < rows; ++k) {
+    for (uint32_t m = 0; m < k; ++m) {
+      const Real share = work.lower[k][m];
+      DETENT_UNROLL
+      for (int i = 0; i < width; ++i) work.reply[k][i] -= work.reply[m][i] * share;
+    }
+    DETENT_UNROLL
+    for (int i = 0; i < width; ++i) work.reply_scaled[k][i] = multiply(work.reply[k][i], work.inverse[k]);
+  }
+}
+
 /// Solves one island's joints.
 struct Solver {
   const StepSettings& settings;
@@ -175,9 +189,8 @@ struct Solver {
     const BodyWork& now = bodies.work[body.slot];
     body.force = body.torque = body.given_force = body.given_torque = k_none;
     load_motion(body);
-    const Scaled turn = scaled_by_power(body.turn_share, now.gyration.exponent + body.above);
-    bool saturated = false;
-    const Real share = to_real(body.share, saturated);
+    const Scaled turn = turn_of(body);
+    const Real share = share_of(body);
     DETENT_UNROLL
     for (int i = 0; i < 3; ++i) {
       const Vec3<Real> row = scaled(real_from(now.gyration.row[i]), turn);
@@ -188,6 +201,28 @@ struct Solver {
       body.response[i + 3][4] = row.y;
       body.response[i + 3][5] = row.z;
     }
+  }
+
+  /// Likewise a body that points hold, by what it shows at its owner's anchor.
+  void load_by_anchor(JointBody& body) {
+    body.force = body.torque = body.given_force = body.given_torque = k_none;
+    load_motion(body);
+    const Vec3<Unit>& arm = owner_arm(body);
+    body.anchor_velocity = body.velocity + cross(body.spin, arm);
+    show_at_itself(TurnByForce(bodies.work[body.slot].gyration, arm), arm, share_of(body), turn_of(body),
+                   body.response);
+  }
+  static Real share_of(const JointBody& body) {
+    bool saturated = false;
+    return to_real(body.share, saturated);
+  }
+  /// What a torque gives the spin, over gyration.
+  Scaled turn_of(const JointBody& body) const {
+    return scaled_by_power(body.turn_share, bodies.work[body.slot].gyration.exponent + body.above);
+  }
+  const Vec3<Unit>& owner_arm(const JointBody& body) const {
+    const JointWork& owner = stage.work[body.owner];
+    return owner.arm[&end_of(owner, 1) == &body ? 1 : 0];
   }
 
   /// A wrench that acts without a row, on one body.
@@ -211,15 +246,12 @@ struct Solver {
     }
   }
 
-  template <bool only_points>
   void missing_speeds(const JointWork& work, Real (&missing)[k_joint_rows_max]) {
     Real of_a[k_joint_rows_max], of_b[k_joint_rows_max];
     const JointBody &a = end_of(work, 0), &b = end_of(work, 1);
-    show<only_points>(work, 0, a.velocity, a.spin, of_a);
-    show<only_points>(work, 1, b.velocity, b.spin, of_b);
-    const uint32_t rows = only_points ? 3 : work.rows;
-    for (uint32_t k = 0; k < rows; ++k) missing[k] = work.wanted[k] - (of_b[k] - of_a[k]);
-    if (only_points) return;
+    show(work, 0, a.velocity, a.spin, of_a);
+    show(work, 1, b.velocity, b.spin, of_b);
+    for (uint32_t k = 0; k < work.rows; ++k) missing[k] = work.wanted[k] - (of_b[k] - of_a[k]);
     for (int i = 0; i < 2; ++i) {
       const uint32_t row = work.driven[i];
       if (row != k_joint_rows_max) missing[row] -= work.softness[row] * work.driven_total[i];
@@ -228,10 +260,9 @@ struct Solver {
 
   /// L^-1 of the missing speeds, over the pivots.
   template <bool only_points>
-  void start_impulses(JointWork& work) {
-    Real missing[k_joint_rows_max];
-    missing_speeds<only_points>(work, missing);
+  void start_impulses(JointWork& work, Real (&missing)[k_joint_rows_max]) {
     const uint32_t rows = only_points ? 3 : work.rows;
+    DETENT_UNROLL
     for (uint32_t k = 0; k < rows; ++k) {
       for (uint32_t m = 0; m < k; ++m) missing[k] -= work.lower[k][m] * missing[m];
       bool saturated = false;
@@ -241,42 +272,123 @@ struct Solver {
     }
   }
 
-  template <bool only_points>
   void eliminate(JointWork& work) {
-    const uint32_t rows = only_points ? 3 : work.rows;
     JointBody &parent = end_of(work, work.parent), &child = end_of(work, 1 - work.parent);
     Real response[k_joint_rows_max][k_joint_rows_max];
-    for (uint32_t k = 0; k < rows; ++k) {
+    for (uint32_t k = 0; k < work.rows; ++k) {
       for (uint32_t m = 0; m <= k; ++m) response[k][m] = k_zero;
     }
     if (child.mobile != 0) {
-      respond<only_points>(work, child, 1 - work.parent, work.reply);
-      couple<only_points>(work, 1 - work.parent, work.reply, response);
+      respond<false>(work, child, 1 - work.parent, work.reply);
+      couple<false>(work, 1 - work.parent, work.reply, response);
     }
-    respond<only_points>(work, parent, work.parent, work.reply);
-    couple<only_points>(work, work.parent, work.reply, response);
-    factor<only_points>(response, work);
+    respond<false>(work, parent, work.parent, work.reply);
+    couple<false>(work, work.parent, work.reply, response);
+    factor<false>(response, work);
+    substitute<6>(work.rows, work);
+    take_from<false>(work, parent);
+  }
+
+  /// Likewise of a joint that holds a point alone.
+  void eliminate_point(uint32_t index) {
+    JointWork& work = stage.work[index];
+    JointBody &parent = end_of(work, work.parent), &child = end_of(work, 1 - work.parent);
+    Real response[k_joint_rows_max][k_joint_rows_max];
     DETENT_UNROLL
-    for (uint32_t k = 0; k < rows; ++k) {
-      for (uint32_t m = 0; m < k; ++m) {
-        const Real share = work.lower[k][m];
-        DETENT_UNROLL
-        for (int i = 0; i < 6; ++i) work.reply[k][i] -= work.reply[m][i] * share;
-      }
-      DETENT_UNROLL
-      for (int i = 0; i < 6; ++i) work.reply_scaled[k][i] = multiply(work.reply[k][i], work.inverse[k]);
+    for (int k = 0; k < 3; ++k) {
+      for (int m = 0; m <= k; ++m) response[k][m] = k_zero;
     }
-    take_from<only_points>(work, parent);
+    const auto add = [&](const auto& shown) {
+      DETENT_UNROLL
+      for (int k = 0; k < 3; ++k) {
+        DETENT_UNROLL
+        for (int m = 0; m <= k; ++m) response[k][m] += shown[k][m];
+      }
+    };
+    const auto add_whole = [&](JointBody& body, uint32_t end) {
+      respond<true>(work, body, end, work.reply);
+      couple<true>(work, end, work.reply, response);
+    };
+    if (child.mobile != 0) {
+      if (child.by_anchor != 0)
+        add(child.response);
+      else
+        add_whole(child, 1 - work.parent);
+    }
+    work.width = 0;
+    if (parent.mobile != 0) {
+      if (parent.by_anchor == 0) {
+        work.width = 6;
+        add_whole(parent, work.parent);
+      } else if (parent.owner == index) {
+        add(parent.response);
+      } else {
+        work.width = 3;
+        const Vec3<Unit>& arm = work.arm[work.parent];
+        const TurnByForce turn(bodies.work[parent.slot].gyration, arm);
+        const Real share = share_of(parent);
+        const Scaled turn_share = turn_of(parent);
+        Real shown[3][3];
+        show_at_itself(turn, arm, share, turn_share, shown);
+        add(shown);
+        show_at(turn, owner_arm(parent), share, turn_share, work.reply);
+      }
+    }
+    factor<true>(response, work);
+    if (work.width == 6) {
+      substitute<6>(3, work);
+      take_from<true>(work, parent);
+    } else if (work.width == 3) {
+      substitute<3>(3, work);
+      DETENT_UNROLL
+      for (int i = 0; i < 3; ++i) {
+        DETENT_UNROLL
+        for (int j = 0; j <= i; ++j)
+          parent.response[i][j] -= dot(replies(work.reply, i), replies(work.reply_scaled, j));
+      }
+    }
+  }
+  static Vec3<Real> replies(const Reply& reply, int i) { return {reply[0][i], reply[1][i], reply[2][i]}; }
+
+  /// The velocity of a point's end as the joints eliminated so far leave it.
+  Vec3<Real> velocity_of(const JointWork& work, uint32_t index, uint32_t end) const {
+    const JointBody& body = end_of(work, end);
+    if (body.by_anchor != 0 && body.owner == index) return body.anchor_velocity;
+    return body.velocity + cross(body.spin, work.arm[end]);
   }
 
   /// The parent moves as the joint, held, moves it.
-  template <bool only_points>
   void take_up(JointWork& work) {
-    start_impulses<only_points>(work);
+    Real missing[k_joint_rows_max];
+    missing_speeds(work, missing);
+    start_impulses<false>(work, missing);
+    move_parent(work.rows, work);
+  }
+  void take_up_point(uint32_t index) {
+    JointWork& work = stage.work[index];
+    const Vec3<Real> apart = velocity_of(work, index, 1) - velocity_of(work, index, 0);
+    Real missing[k_joint_rows_max];
+    missing[0] = work.wanted[0] - apart.x;
+    missing[1] = work.wanted[1] - apart.y;
+    missing[2] = work.wanted[2] - apart.z;
+    start_impulses<true>(work, missing);
+    if (work.width == 6) {
+      move_parent(3, work);
+    } else if (work.width == 3) {
+      JointBody& parent = end_of(work, work.parent);
+      const Vec3<Real> start = {work.start[0], work.start[1], work.start[2]};
+      const Vec3<Real> moved = {dot(replies(work.reply, 0), start), dot(replies(work.reply, 1), start),
+                                dot(replies(work.reply, 2), start)};
+      if (work.parent == 1)
+        parent.anchor_velocity += moved;
+      else
+        parent.anchor_velocity -= moved;
+    }
+  }
+  void move_parent(uint32_t rows, const JointWork& work) {
     JointBody& parent = end_of(work, work.parent);
-    const bool to_b = work.parent == 1;
-    for (uint32_t k = 0; k < (only_points ? 3 : work.rows); ++k) {
-      const Real impulse = to_b ? work.start[k] : -work.start[k];
+    for (uint32_t k = 0; k < rows; ++k) {
+      const Real impulse = work.parent == 1 ? work.start[k] : -work.start[k];
       parent.velocity += first_three(work.reply[k]) * impulse;
       parent.spin += last_three(work.reply[k]) * impulse;
     }
@@ -288,9 +400,12 @@ struct Solver {
     const uint32_t rows = only_points ? 3 : work.rows;
     JointBody &parent = end_of(work, work.parent), &child = end_of(work, 1 - work.parent);
     const bool parent_is_b = work.parent == 1;
+    const uint32_t width = only_points ? work.width : 6;
+    DETENT_UNROLL
     for (uint32_t k = 0; k < rows; ++k) {
-      const Real from_above =
-          dot(parent.force, first_three(work.reply_scaled[k])) + dot(parent.torque, last_three(work.reply_scaled[k]));
+      Real from_above = k_zero;
+      if (width != 0) from_above = dot(parent.force, first_three(work.reply_scaled[k]));
+      if (width == 6) from_above += dot(parent.torque, last_three(work.reply_scaled[k]));
       work.impulse[k] = parent_is_b ? work.start[k] - from_above : work.start[k] + from_above;
     }
     for (uint32_t k = rows; k-- > 0;) {
@@ -318,15 +433,25 @@ struct Solver {
 
   static bool is_only_points(const JointWork& work) { return work.points != 0 && work.rows == 3; }
 
+  /// Which bodies points alone hold, and nothing else pushes.
+  void find_by_anchor() {
+    each_body([](JointBody& body) { body.by_anchor = body.links <= 2 ? 1 : 0; });
+    for (const uint32_t index : trees) {
+      const JointWork& work = stage.work[index];
+      if (is_only_points(work) && work.constant[0] == k_zero && work.constant[1] == k_zero) continue;
+      end_of(work, 0).by_anchor = end_of(work, 1).by_anchor = 0;
+    }
+  }
+
   void solve_trees() {
     for (uint32_t k = trees.count; k-- > 0;) {
       JointWork& work = stage.work[trees[k]];
       if (is_only_points(work)) {
-        eliminate<true>(work);
-        take_up<true>(work);
+        eliminate_point(trees[k]);
+        take_up_point(trees[k]);
       } else if (work.rows != 0) {
-        eliminate<false>(work);
-        take_up<false>(work);
+        eliminate(work);
+        take_up(work);
       }
     }
     for (const uint32_t index : trees) {
@@ -398,7 +523,13 @@ struct Solver {
   void solve_held(uint32_t& undecided) {
     for (uint32_t decision = 1;; ++decision) {
       for (const uint32_t index : trees) add_driven_rows(settings, bodies, stage, stage.work[index]);
-      each_body([&](JointBody& body) { load(body); });
+      find_by_anchor();
+      each_body([&](JointBody& body) {
+        if (body.by_anchor != 0)
+          load_by_anchor(body);
+        else
+          load(body);
+      });
       for (const uint32_t index : trees) push(stage.work[index]);
       solve_trees();
       const bool last = decision == k_decisions;
@@ -485,9 +616,11 @@ struct Solver {
   /// Holds a joint by itself, as its bodies move now.
   void hold_loop(JointWork& work) {
     load_ends(work);
-    eliminate<false>(work);
+    eliminate(work);
     load_ends(work);
-    start_impulses<false>(work);
+    Real missing[k_joint_rows_max];
+    missing_speeds(work, missing);
+    start_impulses<false>(work, missing);
     for (uint32_t k = work.rows; k-- > 0;) {
       work.impulse[k] = work.start[k];
       for (uint32_t m = k + 1; m < work.rows; ++m) work.impulse[k] -= work.lower[m][k] * work.impulse[m];

@@ -141,6 +141,8 @@ struct Grower {
         continue;
       }
       stage.order[placed++] = index;
+      ++stage.bodies[place].links;
+      ++other.links;
       JointBody& own = stage.bodies[place];
       if (own.owner == k_no_link) own.owner = index;
       if (other.mobile == 0) continue;
