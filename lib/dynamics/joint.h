@@ -24,6 +24,9 @@ inline constexpr Real k_joint_impulse_max = 8192.0;  ///< of a row, m/s
 
 /// A length or speed in units of 2^exponent, held within what a Unit holds.
 Unit unit_held(Real value, int exponent);
+inline Vec3<Unit> unit_held(const Vec3<Real>& v, int exponent) {
+  return {unit_held(v.x, exponent), unit_held(v.y, exponent), unit_held(v.z, exponent)};
+}
 
 struct JointStage {
   Span<JointState> joints;  ///< the slots that were ever used

@@ -166,6 +166,7 @@ struct Solver {
   Span<const uint32_t> trees, loops;  ///< of the work, from the roots up
   bool touches;                       ///< the island has contacts, which read the bodies' spins
   uint32_t clamped = 0;
+  bool loaded = false;  ///< the bodies' motions are
 
   JointBody& end_of(const JointWork& work, uint32_t end) const { return stage.bodies[work.body[end]]; }
   /// Visits the bodies of the trees, each once.
@@ -188,7 +189,7 @@ struct Solver {
   void load(JointBody& body) {
     const BodyWork& now = bodies.work[body.slot];
     body.force = body.torque = body.given_force = body.given_torque = k_none;
-    load_motion(body);
+    if (!loaded) load_motion(body);
     const Scaled turn = turn_of(body);
     const Real share = share_of(body);
     DETENT_UNROLL
@@ -206,7 +207,7 @@ struct Solver {
   /// Likewise a body that points hold, by what it shows at its owner's anchor.
   void load_by_anchor(JointBody& body) {
     body.force = body.torque = body.given_force = body.given_torque = k_none;
-    load_motion(body);
+    if (!loaded) load_motion(body);
     const Vec3<Unit>& arm = owner_arm(body);
     body.anchor_velocity = body.velocity + cross(body.spin, arm);
     show_at_itself(TurnByForce(bodies.work[body.slot].gyration, arm), arm, share_of(body), turn_of(body),
@@ -530,6 +531,7 @@ struct Solver {
         else
           load(body);
       });
+      loaded = false;
       for (const uint32_t index : trees) push(stage.work[index]);
       solve_trees();
       const bool last = decision == k_decisions;
@@ -670,6 +672,7 @@ uint32_t solve_joints(const StepSettings& settings, const SolverBodies& bodies, 
   const Span<const uint32_t> loops = {stage.order.data + island.first_joint + island.joint_count, island.loop_count};
   Solver solver = {settings, bodies, stage, trees, loops, island.contact_count != 0};
   solver.place(elapsed);
+  solver.loaded = loops.count == 0;
   solver.make_rows(trees);
   solver.make_rows(loops);
   const Span<const uint32_t> all = {trees.data, trees.count + loops.count};

@@ -92,18 +92,20 @@ void collect_joints(const SolverBodies& bodies, JointStage& stage) {
     link_to(stage, index, 0);
     link_to(stage, index, 1);
     JointBody &a = stage.bodies[work.body[0]], &b = stage.bodies[work.body[1]];
+    const Position &from = stage.poses[joint.body_a].position, &to = stage.poses[joint.body_b].position;
+    work.between = {real_difference(to.x, from.x), real_difference(to.y, from.y), real_difference(to.z, from.z)};
     Real way = Real(0.0);
-    if (takes_way(joint)) {
-      const Position &from = stage.poses[joint.body_a].position, &to = stage.poses[joint.body_b].position;
-      const Vec3<Real> between = {real_difference(to.x, from.x), real_difference(to.y, from.y),
-                                  real_difference(to.z, from.z)};
-      way = scale_by_power(absolute_sum(between) + absolute_sum(joint.anchor_b), 1);
-    }
+    if (takes_way(joint)) way = scale_by_power(absolute_sum(work.between) + absolute_sum(joint.anchor_b), 1);
     reach_out(a, max(absolute_sum(joint.anchor_a), way));
     reach_out(b, absolute_sum(joint.anchor_b));
   }
   for (JointBody& body : stage.bodies.first(stage.body_count))
     body.above = body.exponent - bodies.traits[body.slot].size_exponent;
+  for (JointWork& work : stage.work.first(stage.count)) {
+    const JointState& joint = stage.joints[work.joint];
+    work.anchor[0] = unit_held(joint.anchor_a, stage.bodies[work.body[0]].exponent);
+    work.anchor[1] = unit_held(joint.anchor_b, stage.bodies[work.body[1]].exponent);
+  }
 }
 
 namespace {
@@ -180,7 +182,8 @@ void grow_trees(const StepSettings& settings, const SolverBodies& bodies, Span<c
       const auto weigh = [&](uint32_t index) {
         for (const uint32_t at : stage.work[index].body) {
           JointBody& body = stage.bodies[at];
-          if (body.mobile != 0) body.share = divide(reference, bodies.traits[body.slot].mass);
+          if (body.mobile != 0 && body.share == Scaled(0.0))
+            body.share = divide(reference, bodies.traits[body.slot].mass);
         }
       };
       for (uint32_t k = from; k < grower.placed; ++k) weigh(stage.order[k]);
@@ -217,6 +220,7 @@ void grow_trees(const StepSettings& settings, const SolverBodies& bodies, Span<c
     const JointBody& mobile = a.mobile != 0 ? a : b;
     const Scaled reference = multiply(bodies.traits[mobile.slot].mass, mobile.share);
     for (int i = 0; i < 2; ++i) {
+      if (!is_positive(joint.force_max[i])) continue;
       // Torques are over 2^exponent m besides.
       const int power = is_angular(static_cast<JointType>(joint.type), i) ? -work.exponent : 0;
       const Scaled impulse = scaled_by_power(multiply(joint.force_max[i], scaled_from(settings.tick_time)), power);

@@ -57,10 +57,6 @@ Scaled add(Scaled a, Scaled b) {
   return scaled_from_parts(sum < 0, magnitude_64(sum), large.exponent - 31);
 }
 
-Scaled scaled_by_power(Scaled a, int n) {
-  return scaled_from_parts(a.mantissa < 0, magnitude_32(a.mantissa), a.exponent + n);
-}
-
 Scaled square_root(Scaled a) {
   DETENT_VERIFY_RANGE(a.mantissa >= 0);
   const int shift = (a.exponent & 1) != 0 ? 33 : 32;
@@ -103,6 +99,10 @@ Real multiply(Real a, Scaled b) {
 #endif
 
 Real multiply(Real a, Scaled b, bool& saturated) {
+  // The most that the product can be long; what is far from the limits is not looked at closer.
+  const int most = bit_length_64(magnitude_64(a.raw)) + 31 + b.exponent;
+  if (most <= 62 && b.exponent < 0 && b.exponent >= -120)
+    return Real::from_raw(Int128::product_narrow(a.raw, b.mantissa).round_shift(-b.exponent));
   const Int128 product = Int128::product_narrow(a.raw, b.mantissa);
   const Words128 size = magnitude_128(product);
   const int length = bit_length_128(size);

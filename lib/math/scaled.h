@@ -25,7 +25,12 @@ Scaled multiply(Scaled a, Scaled b);
 Scaled divide(Scaled a, Scaled b);
 Scaled add(Scaled a, Scaled b);
 /// a 2^n, exact.
-Scaled scaled_by_power(Scaled a, int n);
+inline Scaled scaled_by_power(Scaled a, int n) {
+  const int exponent = a.exponent + n;
+  if (a.mantissa != 0 && exponent >= -k_scaled_exponent_max && exponent <= k_scaled_exponent_max)
+    return Scaled::from_parts(a.mantissa, exponent);
+  return scaled_from_parts(a.mantissa < 0, magnitude_32(a.mantissa), exponent);
+}
 /// Range: a >= 0.
 Scaled square_root(Scaled a);
 bool less(Scaled a, Scaled b);

@@ -195,7 +195,8 @@ struct alignas(8) JointWork {
   uint32_t width;                  ///< of `reply`: 6, or by anchor 3: at the owner's, 0: there is no other
   uint32_t driven[2];              ///< the row of each free motion that is driven now, or k_joint_rows_max
   alignas(4) DriveMode mode[2];    ///< of each free motion
-  Vec3<Unit> arm[2];               ///< the anchors, from the bodies' centres, in their units
+  Vec3<Unit> anchor[2];            ///< in the bodies' axes and units
+  Vec3<Unit> arm[2];               ///< likewise, now, in world axes
   int32_t exponent;                ///< 2^exponent m: how far angular rows reach
   JointRow row[k_joint_rows_max];  ///< those beyond the points
   alignas(sizeof(Real)) Scaled inverse[k_joint_rows_max];  ///< of the pivots
@@ -209,6 +210,7 @@ struct alignas(8) JointWork {
   Real impulse[k_joint_rows_max];                          ///< of this solve
   Real total[k_joint_rows_max];                            ///< of the rows always held, in this substep
   Real value[2];                                           ///< of the free motions, m (angles: times 2^exponent)
+  Vec3<Real> between;                                      ///< from A's centre to B's at the start of the tick, m
   Real bound[2];                                           ///< largest impulse of a motor or spring, m/s
   Real constant[2];                                        ///< that is to act instead of a row, m/s
   Real driven_total[2];                                    ///< of the rows of the free motions, in this substep
