@@ -185,41 +185,31 @@ struct Solver {
     body.velocity = motion.velocity;
     body.spin = world_spin(bodies.traits[body.slot], bodies.work[body.slot].gyration, motion.momentum, body.above);
   }
-  /// A body as it is now, without its joints.
+  /// A body as it is now, without its joints; by anchor, what it shows at its owner's.
   void load(JointBody& body) {
     const BodyWork& now = bodies.work[body.slot];
     body.force = body.torque = body.given_force = body.given_torque = k_none;
     if (!loaded) load_motion(body);
-    const Scaled turn = turn_of(body);
-    const Real share = share_of(body);
+    const Scaled turn = scaled_by_power(body.turn_share, now.gyration.exponent + body.above);
+    bool saturated = false;
+    body.pushed = to_real(body.share, saturated);
+    DETENT_UNROLL
+    for (int i = 0; i < 3; ++i) body.turned[i] = scaled(real_from(now.gyration.row[i]), turn);
+    if (body.by_anchor != 0) {
+      const Vec3<Unit>& arm = owner_arm(body);
+      body.anchor_velocity = body.velocity + cross(body.spin, arm);
+      show_at_itself(body, TurnByForce(body, arm), arm, body.response);
+      return;
+    }
     DETENT_UNROLL
     for (int i = 0; i < 3; ++i) {
-      const Vec3<Real> row = scaled(real_from(now.gyration.row[i]), turn);
       DETENT_UNROLL
       for (int j = 0; j < 6; ++j) body.response[i][j] = body.response[i + 3][j] = k_zero;
-      body.response[i][i] = share;
-      body.response[i + 3][3] = row.x;
-      body.response[i + 3][4] = row.y;
-      body.response[i + 3][5] = row.z;
+      body.response[i][i] = body.pushed;
+      body.response[i + 3][3] = body.turned[i].x;
+      body.response[i + 3][4] = body.turned[i].y;
+      body.response[i + 3][5] = body.turned[i].z;
     }
-  }
-
-  /// Likewise a body that points hold, by what it shows at its owner's anchor.
-  void load_by_anchor(JointBody& body) {
-    body.force = body.torque = body.given_force = body.given_torque = k_none;
-    if (!loaded) load_motion(body);
-    const Vec3<Unit>& arm = owner_arm(body);
-    body.anchor_velocity = body.velocity + cross(body.spin, arm);
-    show_at_itself(TurnByForce(bodies.work[body.slot].gyration, arm), arm, share_of(body), turn_of(body),
-                   body.response);
-  }
-  static Real share_of(const JointBody& body) {
-    bool saturated = false;
-    return to_real(body.share, saturated);
-  }
-  /// What a torque gives the spin, over gyration.
-  Scaled turn_of(const JointBody& body) const {
-    return scaled_by_power(body.turn_share, bodies.work[body.slot].gyration.exponent + body.above);
   }
   const Vec3<Unit>& owner_arm(const JointBody& body) const {
     const JointWork& owner = stage.work[body.owner];
@@ -326,13 +316,11 @@ struct Solver {
       } else {
         work.width = 3;
         const Vec3<Unit>& arm = work.arm[work.parent];
-        const TurnByForce turn(bodies.work[parent.slot].gyration, arm);
-        const Real share = share_of(parent);
-        const Scaled turn_share = turn_of(parent);
+        const TurnByForce turn(parent, arm);
         Real shown[3][3];
-        show_at_itself(turn, arm, share, turn_share, shown);
+        show_at_itself(parent, turn, arm, shown);
         add(shown);
-        show_at(turn, owner_arm(parent), share, turn_share, work.reply);
+        show_at(parent, turn, owner_arm(parent), work.reply);
       }
     }
     factor<true>(response, work);
@@ -525,12 +513,7 @@ struct Solver {
     for (uint32_t decision = 1;; ++decision) {
       for (const uint32_t index : trees) add_driven_rows(settings, bodies, stage, stage.work[index]);
       find_by_anchor();
-      each_body([&](JointBody& body) {
-        if (body.by_anchor != 0)
-          load_by_anchor(body);
-        else
-          load(body);
-      });
+      each_body([&](JointBody& body) { load(body); });
       loaded = false;
       for (const uint32_t index : trees) push(stage.work[index]);
       solve_trees();

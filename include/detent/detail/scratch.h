@@ -167,6 +167,8 @@ struct alignas(8) JointBody {
   Vec3<Real> place;                      ///< of its centre, from where it was at the start of the tick, m
   Vec3<Real> velocity, spin;             ///< as the joints eliminated so far leave them, m/s
   Vec3<Real> anchor_velocity;            ///< likewise, by anchor: of its owner's anchor
+  Real pushed;                           ///< velocity by a unit force
+  Vec3<Real> turned[3];                  ///< spin by a torque: the rows of a symmetric matrix
   Real stiffness;                        ///< against turning, of the pulls of its joints (joint_sway.cpp)
   Real response[6][6];                   ///< of velocity and spin to a force and a torque on it; symmetric. By anchor:
                                          ///< the lower 3 x 3 is that of the owner's anchor
