@@ -19,13 +19,14 @@ struct ContactPoint {
   Scaled normal_impulse = 0.0;          ///< N s, of the last tick
 };
 
-/// A pair of bodies in contact. Impulses and forces are those of the last substep, taken for the whole tick: the
-/// bodies' state holds no others. They are what rests on what; a blow shows in its event (event.h). Bodies that sleep
-/// keep theirs.
+/// A pair of bodies in contact, or one of its contacts with a surface, on which a body may have up to eight. Impulses
+/// and forces are those of the last substep, taken for the whole tick: the bodies' state holds no others. They are what
+/// rests on what; a blow shows in its event (event.h). Bodies that sleep keep theirs.
 struct Contact {
   BodyId a;                            ///< the body of the lower slot
   BodyId b;                            ///< the other
   Vec3<Unit> normal = {};              ///< from A to B, world; zero where there is no point
+  uint32_t part = 0;                   ///< 0 between convex bodies; else another one for each contact of the pair
   bool touching = false;               ///< they pushed each other in the last step
   uint32_t age = 0;                    ///< ticks in contact before the last one, at most 65535
   uint32_t point_count = 0;            ///< at most 4
@@ -35,10 +36,10 @@ struct Contact {
   Scaled normal_force = 0.0;           ///< mean over the tick, N
 };
 
-/// The contact `index` of the get_info(world).contacts there are, in the order of (a.slot, b.slot). Points are found
-/// anew where the bodies are now, which takes what colliding the pair takes; there are none if they have parted since.
-/// A point that meets with a feature that the last step did not know has no impulse.
-/// Errors: out_of_range (the index).
+/// The contact `index` of the get_info(world).contacts there are, in the order of (a.slot, b.slot, part). Points are
+/// found anew where the bodies are now, which takes what colliding the pair takes; there are none if they have parted
+/// since. A point that meets with a feature that the last step did not know has no impulse. Errors: out_of_range (the
+/// index).
 Status get_contact(const World& world, uint32_t index, Contact& contact);
 /// The first index, from `index` on, of a contact of this body; the number of contacts if there is none.
 uint32_t next_contact(const World& world, BodyId id, uint32_t index);

@@ -23,13 +23,14 @@ enum class Features : uint32_t {
   cylinder = 1u << static_cast<uint32_t>(ShapeType::cylinder),
   cone = 1u << static_cast<uint32_t>(ShapeType::cone),
   hull = 1u << static_cast<uint32_t>(ShapeType::hull),
+  surface = 1u << static_cast<uint32_t>(ShapeType::surface),
   /// @}
   rounding = 1u << 16,    ///< of boxes, cylinders, cones and hulls
   continuous = 1u << 17,  ///< WorldDef::continuous
   sleeping = 1u << 18,    ///< WorldDef::sleeping, put_to_sleep()
   joints = 1u << 19,      ///< create_joint()
   /// Every shape.
-  shapes = sphere | capsule | box | half_space | cylinder | cone | hull | rounding,
+  shapes = sphere | capsule | box | half_space | cylinder | cone | hull | surface | rounding,
   /// The default of create_world().
   all = shapes | continuous | sleeping | joints,
 };
@@ -57,15 +58,19 @@ struct PairCode;
 struct HalfSpaceCode;
 struct ConvexCode;
 struct HullCode;
+struct SurfaceCode;
+struct SurfaceImpactCode;
 struct ContinuousCode;
 struct SleepingCode;
 struct JointCode;
 extern const ShapeCode k_sphere_code, k_capsule_code, k_box_code, k_half_space_shape_code, k_cylinder_code, k_cone_code,
-    k_hull_shape_code;
+    k_hull_shape_code, k_surface_shape_code;
 extern const PairCode k_round_pair_code, k_box_round_pair_code, k_box_pair_code;
 extern const HalfSpaceCode k_half_space_code;
 extern const ConvexCode k_convex_code;
 extern const HullCode k_hull_code;
+extern const SurfaceCode k_surface_code;
+extern const SurfaceImpactCode k_surface_impact_code;
 extern const ContinuousCode k_continuous_code;
 extern const SleepingCode k_sleeping_code;
 extern const JointCode k_joint_code;
@@ -75,11 +80,13 @@ extern const JointCode k_joint_code;
 struct FeatureTable {
   Features features;  ///< what it names
   /// @cond
-  const ShapeCode *sphere, *capsule, *box, *half_space_shape, *cylinder, *cone, *hull_shape;
+  const ShapeCode *sphere, *capsule, *box, *half_space_shape, *cylinder, *cone, *hull_shape, *surface_shape;
   const PairCode *round_pair, *box_round_pair, *box_pair;
   const HalfSpaceCode* half_space;
   const ConvexCode* convex;  ///< pairs of which one is a cylinder, cone, hull or rounded
   const HullCode* hull;
+  const SurfaceCode* surface;
+  const SurfaceImpactCode* surface_impact;
   const ContinuousCode* continuous;
   const SleepingCode* sleeping;
   const JointCode* joints;
@@ -99,12 +106,15 @@ constexpr FeatureTable make_feature_table(Features features) {
   if (any(Features::cylinder)) table.cylinder = &k_cylinder_code;
   if (any(Features::cone)) table.cone = &k_cone_code;
   if (any(Features::hull)) table.hull_shape = &k_hull_shape_code;
+  if (any(Features::surface)) table.surface_shape = &k_surface_shape_code;
   if (round) table.round_pair = &k_round_pair_code;
   if (box && round) table.box_round_pair = &k_box_round_pair_code;
   if (box) table.box_pair = &k_box_pair_code;
   if (any(Features::half_space)) table.half_space = &k_half_space_code;
   if (any(Features::cylinder | Features::cone | Features::hull | Features::rounding)) table.convex = &k_convex_code;
   if (any(Features::hull)) table.hull = &k_hull_code;
+  if (any(Features::surface)) table.surface = &k_surface_code;
+  if (any(Features::surface) && any(Features::continuous)) table.surface_impact = &k_surface_impact_code;
   if (any(Features::continuous)) table.continuous = &k_continuous_code;
   if (any(Features::sleeping)) table.sleeping = &k_sleeping_code;
   if (any(Features::joints)) table.joints = &k_joint_code;

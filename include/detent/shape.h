@@ -2,7 +2,7 @@
 #include <detent/math.h>
 
 /// @file
-/// Convex shapes.
+/// Shapes: convex ones, and surfaces.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -16,9 +16,10 @@ enum class ShapeType : uint32_t {
   cone = 6,        ///< cone()
   hull = 7,        ///< cooked bytes: an asset of the world; or made by make_hull() (convex.h)
   triangle = 8,    ///< made by make_triangle() (convex.h)
+  surface = 9,     ///< surface()
 };
 
-/// A convex shape in its body's frame, centred on the centre of mass. Build one with the functions below.
+/// A shape in its body's frame, centred on the centre of mass. Build one with the functions below.
 /// Sizes, m: [2^-14, 2^14] (0.06 mm to 16 km); the ratio of a shape's largest to its smallest size is at most 2^14.
 /// In a world the bounding radius, `rounding` included, is below 2^15 m and at most 2^14 times the least size.
 struct Shape {
@@ -27,7 +28,7 @@ struct Shape {
   Real half_length = 0.0;                     ///< m; along local y, half: a capsule's core segment, a cylinder, a cone
   Vec3<Real> half_extents = {0.5, 0.5, 0.5};  ///< m; box
   Real rounding = 0.0;  ///< m; box, cylinder, cone, hull: grown by a ball of this radius; 0, or a size
-  uint32_t asset = 0;   ///< hull: index in the world's asset table
+  uint32_t asset = 0;   ///< hull, surface: index in the world's asset table
 };
 
 /// A ball of the given radius, m.
@@ -80,6 +81,15 @@ constexpr Shape hull(uint32_t asset) {
 /// The shape grown by a ball of radius `rounding`, m; for box, cylinder, cone and hull.
 constexpr Shape rounded(Shape shape, Real rounding) {
   shape.rounding = rounding;
+  return shape;
+}
+/// The triangle mesh (docs/mesh.md) or height field (docs/height_field.md) that the world's asset `asset` holds, once
+/// bind_asset() has bound it; for static and kinematic bodies only. Its origin is the body's. It has no inside: what
+/// comes to lie beyond it is pushed out on that side, or from behind a one-sided one not at all.
+constexpr Shape surface(uint32_t asset) {
+  Shape shape;
+  shape.type = ShapeType::surface;
+  shape.asset = asset;
   return shape;
 }
 /// The solid half-space y <= 0 of the body's frame; for static and kinematic bodies only.

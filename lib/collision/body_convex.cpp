@@ -51,7 +51,7 @@ bool body_convex(const BodyTraits& traits, const AssetTable& assets, Convex& con
       set_core(size, raw_from_unit(traits.bounding_radius) - made.radius + k_bound_slack, traits.size_exponent, made);
       break;
     case ShapeType::hull: {
-      if (traits.asset >= assets.count || assets.assets[traits.asset].bytes == nullptr) return false;
+      if (!is_in(assets, traits.asset)) return false;
       made.hull = assets.assets[traits.asset].bytes;
       made.exponent = cooked_i32(made.hull + k_hull_exponent_at);
       made.core_radius = cooked_i32(made.hull + k_hull_core_radius_at);

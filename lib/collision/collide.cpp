@@ -70,6 +70,8 @@ void collide_ordered(const CollisionBody& first, const CollisionBody& second, Re
   }
 }
 
+}  // namespace
+
 void swap_bodies(ContactGeometry& contact) {
   contact.normal = -contact.normal;
   for (uint32_t i = 0; i < contact.count; ++i) {
@@ -78,8 +80,6 @@ void swap_bodies(ContactGeometry& contact) {
     contact.point[i].arm_b = arm;
   }
 }
-
-}  // namespace
 
 void collide(const CollisionBody& a, const CollisionBody& b, Real reach, ContactGeometry& contact,
              const AssetTable& assets, ManifoldReduction reduction, const FeatureTable& features) {

@@ -39,5 +39,8 @@ void collide(const CollisionBody& a, const CollisionBody& b, Real reach, Contact
              const AssetTable& assets = {}, ManifoldReduction reduction = ManifoldReduction::projected_extremes,
              const FeatureTable& features = feature_table<Features::all>);
 
+/// The same contact, with A for B.
+void swap_bodies(ContactGeometry& contact);
+
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -7,8 +7,11 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-void put_contact(const SurfaceManifold& manifold, const Matrix32& rotation, const BodyTraits& traits,
-                 SurfaceContact& contact) {
+void put_contact(const SurfaceManifold& manifold, const Matrix32& rotation, const CollisionBody& ground,
+                 const CollisionBody& body, SurfaceContact& contact) {
+  const Position &from = ground.pose.position, &to = body.pose.position;
+  const Vec3<Real> offset = {real_difference(to.x, from.x), real_difference(to.y, from.y),
+                             real_difference(to.z, from.z)};
   contact.key = manifold.key;
   contact.triangle = manifold.triangle;
   contact.material = manifold.material;
@@ -18,14 +21,15 @@ void put_contact(const SurfaceManifold& manifold, const Matrix32& rotation, cons
     const SurfaceManifold::Point& point = manifold.point[i];
     const Vec64 way = rotate(rotation, point.from_shape);
     const Vec3<Real> from_body = {real_from_raw(way.x), real_from_raw(way.y), real_from_raw(way.z)};
-    contact.geometry.point[contact.geometry.count++] = {
-        {0.0, 0.0, 0.0}, arm_of_way(from_body, traits.size_exponent), real_from_raw(point.separation), point.feature};
+    contact.geometry.point[contact.geometry.count++] = {arm_of_way(offset + from_body, ground.traits.size_exponent),
+                                                        arm_of_way(from_body, body.traits.size_exponent),
+                                                        real_from_raw(point.separation), point.feature};
   }
 }
 
 }  // namespace
 
-void collide_mesh(const Surface& surface, const Pose& pose, const CollisionBody& body, Real reach,
+void collide_mesh(const Surface& surface, const CollisionBody& ground, const CollisionBody& body, Real reach,
                   const AssetTable& assets, SurfaceContacts& contacts) {
   contacts.count = 0;
   contacts.dropped = 0;
@@ -34,7 +38,8 @@ void collide_mesh(const Surface& surface, const Pose& pose, const CollisionBody&
   SurfacePlace place;
   Vec64 raw;
   if (!body_convex(body.traits, assets, shape) || !raw_from_real({reach, Real(0.0), Real(0.0)}, raw) ||
-      place_on_surface(pose, {body.pose.position, body.pose.rotation}, place) != Status::ok) {
+      place_on_surface({ground.pose.position, ground.pose.rotation}, {body.pose.position, body.pose.rotation}, place) !=
+          Status::ok) {
     return;
   }
   const SurfacePair pair(surface, place, shape, raw.x);
@@ -49,7 +54,7 @@ void collide_mesh(const Surface& surface, const Pose& pose, const CollisionBody&
   contacts.dropped = found.dropped();
   contacts.capped = found.capped();
   for (uint32_t i = 0; i < contacts.count; ++i)
-    put_contact(manifold[i], place.surface, body.traits, contacts.contact[i]);
+    put_contact(manifold[i], place.surface, ground, body, contacts.contact[i]);
 }
 
 }  // namespace DETENT_NAMESPACE

@@ -7,7 +7,7 @@ inline namespace DETENT_NAMESPACE {
 
 /// One flat contact of a body with a mesh or height field.
 struct SurfaceContact {
-  ContactGeometry geometry;  ///< A is the surface, whose arms are 0; `normal` from it to the body
+  ContactGeometry geometry;  ///< A is the surface; `normal` from it to the body
   uint32_t key;              ///< the same while the body stays on the same plane or edge; distinct, never 0
   uint32_t triangle;         ///< the one met deepest
   uint8_t material;          ///< its own
@@ -20,9 +20,9 @@ struct SurfaceContacts {
   SurfaceContact contact[k_surface_manifolds_max];
 };
 
-/// Finds where a body touches a surface at `pose`, no farther apart than `reach`, m. Not for half-spaces.
+/// Finds where a body touches a surface's body, no farther apart than `reach`, m. Not for half-spaces and surfaces.
 /// Precision: 2^-28 of the body's size and the extent of the triangle together. Stack: 16 KB.
-void collide_mesh(const Surface& surface, const Pose& pose, const CollisionBody& body, Real reach,
+void collide_mesh(const Surface& surface, const CollisionBody& ground, const CollisionBody& body, Real reach,
                   const AssetTable& assets, SurfaceContacts& contacts);
 
 }  // namespace DETENT_NAMESPACE

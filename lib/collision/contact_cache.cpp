@@ -3,12 +3,13 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-ContactState continued_contact(uint32_t body_a, uint32_t body_b, const ContactGeometry& geometry,
+ContactState continued_contact(uint32_t body_a, uint32_t body_b, uint32_t part, const ContactGeometry& geometry,
                                const ContactState* before) {
   ContactState contact{};
   contact.body_a = body_a;
   contact.body_b = body_b;
-  contact.point_count = geometry.count;
+  contact.part = part;
+  contact.point_count = static_cast<uint8_t>(geometry.count);
   for (uint32_t i = 0; i < geometry.count; ++i) contact.feature[i] = geometry.point[i].feature;
   if (before == nullptr) return contact;
   contact.age = before->age == UINT16_MAX ? before->age : static_cast<uint16_t>(before->age + 1);

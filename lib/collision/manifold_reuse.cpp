@@ -1,6 +1,7 @@
 #include "collision/manifold_reuse.h"
 
 #include "collision/contact_arm.h"
+#include "geometry/shape_traits.h"
 #include "math/arithmetic.h"
 #include "math/root.h"
 
@@ -91,8 +92,6 @@ bool is_none(const ManifoldState& manifold) {
   return manifold.rotation == Quat{Unit(0.0), Unit(0.0), Unit(0.0), Unit(0.0)};
 }
 
-bool is_planar(const BodyTraits& traits) { return static_cast<ShapeType>(traits.shape) == ShapeType::half_space; }
-
 /// A bound of how far any point of the other body has moved as the base sees it, m.
 Real motion_since(const ReusePair& pair, const ManifoldState& before) {
   const Vec3<Unit> shift = pair.offset_in_base() - before.offset;
@@ -110,7 +109,7 @@ Real motion_since(const ReusePair& pair, const ManifoldState& before) {
 
 ManifoldState kept_manifold(const CollisionBody& a, const CollisionBody& b, const ContactGeometry& contact) {
   const ManifoldState none = {};
-  if (contact.count < k_points_min || contact.capped || is_planar(a.traits) || is_planar(b.traits)) return none;
+  if (contact.count < k_points_min || contact.capped || is_ground(a.traits) || is_ground(b.traits)) return none;
   ReusePair pair(a, b, a_is_base(a.traits, b.traits));
   if (!pair.place()) return none;
   const Vec3<Unit> normal = pair.base_is_a ? contact.normal : -contact.normal;
@@ -170,7 +169,7 @@ bool is_manifold(const BodyTraits& a, const BodyTraits& b, uint32_t count, const
   }
   if (none) return is_zero(manifold.normal) && is_zero(manifold.offset);
   Quat ignored;
-  if (is_planar(a) || is_planar(b) || !normalise_input(manifold.rotation, ignored)) return false;
+  if (is_ground(a) || is_ground(b) || !normalise_input(manifold.rotation, ignored)) return false;
   if (!is_within(manifold.normal, Unit(1.01)) || !(abs(length(manifold.normal) - Unit(1.0)) < Unit(0x1p-10)) ||
       !is_within(manifold.offset, Unit(0.625)) || !(length(manifold.offset) < Unit(0.66)))
     return false;

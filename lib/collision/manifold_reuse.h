@@ -5,8 +5,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// What of a pair's contact is kept, so that it can be used again. All zero where it is not: contacts of fewer than
-/// three points, about which a body turns or rolls; those with a half-space, which are found as fast; capped searches;
-/// and bodies deep in each other.
+/// three points, about which a body turns or rolls; those with a half-space, which are found as fast; those with
+/// surfaces; capped searches; and bodies deep in each other.
 ManifoldState kept_manifold(const CollisionBody& a, const CollisionBody& b, const ContactGeometry& contact);
 
 /// The contact of `before`, whose features are `feature`, with its points moved along: normal and base's surface go

@@ -16,7 +16,9 @@ uint64_t id_word(Span<const BodyTraits> traits, uint32_t slot) {
 
 uint32_t pair_hash(Span<const BodyTraits> traits, const ContactState& contact) {
   const uint64_t low = digest_step(k_order_seed, id_word(traits, contact.body_a));
-  return static_cast<uint32_t>(digest_finish(digest_step(low, id_word(traits, contact.body_b))) >> 32);
+  uint64_t pair = digest_step(low, id_word(traits, contact.body_b));
+  if (contact.part != 0) pair = digest_step(pair, contact.part);
+  return static_cast<uint32_t>(digest_finish(pair) >> 32);
 }
 
 /// Contacts of one colour may be solved in any order: those alike in work lie together, to be solved four at once.

@@ -1,5 +1,6 @@
 #include "dynamics/finalise.h"
 
+#include "collision/pair_key.h"
 #include "dynamics/spin.h"
 #include "geometry/sweep.h"
 
@@ -68,14 +69,15 @@ void store_contacts(Span<const ContactWork> work, Span<const ManifoldState> mani
     if (has_manifolds) manifolds[to] = manifold_work[from];
   };
   const auto precedes = [](const ContactState& a, const ContactState& b) {
-    return a.body_a < b.body_a || (a.body_a == b.body_a && a.body_b < b.body_b);
+    const uint64_t key_a = pair_key(a.body_a, a.body_b), key_b = pair_key(b.body_a, b.body_b);
+    return key_a < key_b || (key_a == key_b && a.part < b.part);
   };
   // Up to the first that is new or gone each goes where it was.
   uint32_t same = 0;
   for (; same < work.count && same < awake_count; ++same) {
     const ContactState& state = work[same].state;
     const ContactState& place = contacts[awake[same]];
-    if (place.body_a != state.body_a || place.body_b != state.body_b) break;
+    if (place.body_a != state.body_a || place.body_b != state.body_b || place.part != state.part) break;
     put(same, awake[same]);
   }
   // Those that sleep close ranks, from where the first of the others was.

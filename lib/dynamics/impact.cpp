@@ -2,6 +2,7 @@
 
 #include "collision/broadphase.h"
 #include "collision/contact_arm.h"
+#include "collision/surface_code.h"
 #include "dynamics/activity.h"
 #include "dynamics/gyration.h"
 #include "dynamics/impact_pair.h"
@@ -36,7 +37,7 @@ constexpr uint32_t k_mark_struck = 8;   ///< its momentum goes with its sweep
 constexpr uint32_t k_mark_slept = 16;   ///< it was asleep when the tick began
 constexpr uint32_t k_mark_strayed = 4;  ///< its sweep leaves the bounds that the pairs were found by
 
-bool is_half_space(const BodyTraits& traits) { return static_cast<ShapeType>(traits.shape) == ShapeType::half_space; }
+bool is_half_space(const BodyTraits& traits) { return shape_of(traits) == ShapeType::half_space; }
 bool is_at_rest(const BodySweep& sweep) { return sweep.displacement == k_none && sweep.turn == k_none; }
 
 bool holds(const Bounds& outer, const Bounds& inner) {
@@ -47,7 +48,7 @@ bool holds(const Bounds& outer, const Bounds& inner) {
 /// Bounds of a body over a sweep, with a margin below that of the bounds that pairs are found by.
 Bounds bounds_over(const BodyTraits& traits, const BodyPose& pose, const Sweep& sweep) {
   if (is_half_space(traits)) return k_everywhere;
-  const Real margin = scale_by_power(shape_extent(traits), -8);
+  const Real margin = scale_by_power(bounds_extent(traits), -8);
   Vec3<Real> reach = half_bounds(traits, matrix_from(pose.rotation));
   if (!(sweep.turn == k_none)) {
     const Real ball = real_from_unit(traits.bounding_radius, traits.size_exponent);
@@ -68,8 +69,15 @@ Bounds bounds_over(const BodyTraits& traits, const BodyPose& pose, const Sweep& 
 
 uint64_t key_of(const ContactState& contact) { return pair_key(contact.body_a, contact.body_b); }
 
-/// The contact of a pair, or none.
-const ContactWork* find_contact(Span<const ContactWork> contacts, uint64_t key) {
+/// The contacts of a pair from the first one on.
+Span<const ContactWork> pair_contacts(Span<const ContactWork> from, uint64_t key) {
+  uint32_t count = 0;
+  while (count < from.count && key_of(from[count].state) == key) ++count;
+  return from.first(count);
+}
+
+/// The contacts of a pair.
+Span<const ContactWork> find_contacts(Span<const ContactWork> contacts, uint64_t key) {
   uint32_t low = 0, high = contacts.count;
   while (low < high) {
     const uint32_t middle = low + (high - low) / 2;
@@ -78,7 +86,7 @@ const ContactWork* find_contact(Span<const ContactWork> contacts, uint64_t key) 
     else
       high = middle;
   }
-  return low < contacts.count && key_of(contacts[low].state) == key ? &contacts[low] : nullptr;
+  return pair_contacts({contacts.data + low, contacts.count - low}, key);
 }
 
 struct Stage {
@@ -225,10 +233,10 @@ struct Stage {
 
   /// Whether the solver has pushed a pair apart in this tick.
   bool is_pushed(uint64_t key) const {
-    const ContactWork* contact = find_contact(known.contacts, key);
-    if (contact == nullptr) return false;
     bool pushed = false;
-    for (uint32_t i = 0; i < contact->state.point_count; ++i) pushed = pushed || contact->impulse_max[i] > k_zero;
+    for (const ContactWork& contact : find_contacts(known.contacts, key)) {
+      for (uint32_t i = 0; i < contact.state.point_count; ++i) pushed = pushed || contact.impulse_max[i] > k_zero;
+    }
     return pushed;
   }
 
@@ -238,29 +246,33 @@ struct Stage {
 
   bool is_ball(uint32_t slot) const { return bodies.traits[slot].shape == static_cast<uint32_t>(ShapeType::sphere); }
 
-  /// On which rung of the ladder a pair with this contact, or none, starts, and by how much at least its inset bodies
+  /// On which rung of the ladder a pair with these contacts, or none, starts, and by how much at least its inset bodies
   /// are apart, m. Where joints hold one it is so far in that it meets only what it would have passed.
-  Real first_inset(uint64_t key, const ContactWork* contact, Real& apart) const {
-    const Real inset = free_inset(key, contact, apart);
+  Real first_inset(uint64_t key, Span<const ContactWork> contacts, Real& apart) const {
+    const Real inset = free_inset(key, contacts, apart);
     if (!jointed(pair_low(key)) && !jointed(pair_high(key))) return inset;
     const Real held = max(inset, scale_by_power(extent_of(key), -2) + scale_by_power(extent_of(key), -3));
     apart += held - inset;
     return held;
   }
-  Real free_inset(uint64_t key, const ContactWork* contact, Real& apart) const {
+  Real free_inset(uint64_t key, Span<const ContactWork> contacts, Real& apart) const {
     const Real extent = extent_of(key);
-    if (contact == nullptr) {
+    if (contacts.count == 0) {
       apart = known.complete ? scale_by_power(extent, -6) : k_zero;
       return k_zero;
     }
-    Real least = contact->separation[0];
-    for (uint32_t i = 1; i < contact->state.point_count; ++i) least = min(least, contact->separation[i]);
+    Real least = contacts[0].separation[0];
+    bool rebounds = false;
+    for (const ContactWork& contact : contacts) {
+      for (uint32_t i = 0; i < contact.state.point_count; ++i) least = min(least, contact.separation[i]);
+      rebounds = rebounds || is_positive(contact.restitution);
+    }
     if (least > scale_by_power(extent, -10)) {
       apart = scale_by_power(least, -1);
       // A ball that the solver has let bounce touches when the tick ends: within a query's tolerance that would be an
       // impact. Of other shapes another place may come first.
       const bool bounces = is_ball(pair_low(key)) || is_ball(pair_high(key));
-      return bounces && is_positive(contact->restitution) && is_pushed(key) ? next_inset(extent, k_zero) : k_zero;
+      return bounces && rebounds && is_pushed(key) ? next_inset(extent, k_zero) : k_zero;
     }
     const Real inset = contact_inset(extent, -least);
     apart = least + inset;  // but one of the two insets: the points of a contact need not show all of its depth
@@ -288,10 +300,14 @@ struct Stage {
     for (;; inset = next_inset(extent, inset)) {
       if (inset > last_inset(extent)) {
         ++report.overlaps_left;
+        // What is this deep since it met within the tick would go through.
+        if (!resolved) return;
+        stop(pair_low(key), time);
+        stop(pair_high(key), time);
         return;
       }
       ++report.tests;
-      if (!pair_impact(assets, a, b, time, inset, impact)) {
+      if (!pair_impact(assets, features, a, b, time, inset, impact)) {
         ++report.undecided;
         return;
       }
@@ -333,13 +349,13 @@ struct Stage {
   }
 
   /// Tests a pair from the start of the tick, unless it is sure to be clear.
-  void test_at_start(uint64_t key, const ContactWork* contact) {
+  void test_at_start(uint64_t key, Span<const ContactWork> contacts) {
     const uint32_t low = pair_low(key), high = pair_high(key);
     if (!dynamic(low) && !dynamic(high)) return;
     if (is_at_rest(bodies.sweeps[low]) && is_at_rest(bodies.sweeps[high])) return;
     if (!overlap(bodies.bounds[low], bodies.bounds[high]) || !may_meet(low, high)) return;
     Real apart = k_zero, closing = k_zero;
-    const Real inset = first_inset(key, contact, apart);
+    const Real inset = first_inset(key, contacts, apart);
     const Fraction start = 0.0;
     // The sum of both motions is cheap, and mostly enough.
     const bool slow = bodies.sweeps[low].reach + bodies.sweeps[high].reach < apart;
@@ -362,18 +378,18 @@ struct Stage {
       }
       if (!filters || !known.complete) sweep.marks |= k_mark_strayed;
     });
-    const ContactWork* contact = known.contacts.begin();
+    Span<const ContactWork> rest = known.contacts;
+    const auto go_on = [&rest](uint32_t count) { rest = {rest.data + count, rest.count - count}; };
     for (const uint64_t key : known.pairs) {
-      while (contact != known.contacts.end() && key_of(contact->state) < key) ++contact;
-      const bool touches = contact != known.contacts.end() && key_of(contact->state) == key;
-      test_at_start(key, touches ? contact : nullptr);
+      while (rest.count != 0 && key_of(rest[0].state) < key) go_on(1);
+      test_at_start(key, pair_contacts(rest, key));
     }
     bodies.visits.for_each([&](uint32_t a) {
       if ((bodies.sweeps[a].marks & k_mark_strayed) == 0) return;
       for_each_near(a, [&](uint32_t b) {
         if (b < a && (bodies.sweeps[b].marks & k_mark_strayed) != 0) return;
         const uint64_t key = key_of_pair(a, b);
-        if (!has_pair(known.pairs, key)) test_at_start(key, find_contact(known.contacts, key));
+        if (!has_pair(known.pairs, key)) test_at_start(key, find_contacts(known.contacts, key));
       });
     });
   }
@@ -387,7 +403,7 @@ struct Stage {
       const uint64_t key = key_of_pair(slot, other);
       ImpactPair* entry = find_met(key);
       Real apart = k_zero;
-      test(key, time, first_inset(key, find_contact(known.contacts, key), apart), entry);
+      test(key, time, first_inset(key, find_contacts(known.contacts, key), apart), entry);
     });
   }
 
@@ -415,8 +431,31 @@ struct Stage {
     const BodyTraits &a = bodies.traits[pair_low(pair.key)], &b = bodies.traits[pair_high(pair.key)];
     const Matrix3 rotation_a = matrix_from(pose_a.rotation), rotation_b = matrix_from(pose_b.rotation);
     const Real reach = scale_by_power(extent_of(pair.key), -10);
-    collide({pose_a, a, rotation_a}, {pose_b, b, rotation_b}, reach, geometry, assets, settings.reduction, features);
+    const CollisionBody body_a = {pose_a, a, rotation_a}, body_b = {pose_b, b, rotation_b};
+    if (is_surface(a) || is_surface(b))
+      find_part_points(pair, body_a, body_b, reach, geometry);
+    else
+      collide(body_a, body_b, reach, geometry, assets, settings.reduction, features);
     if (has_normal(pair) && geometry.count != 0 && !(dot(geometry.normal, pair.normal) > Unit(0.0))) geometry.count = 0;
+  }
+
+  /// Of the part whose normal is nearest to that of the impact, or if that has none of the deepest.
+  __attribute__((noinline)) void find_part_points(const ImpactPair& pair, const CollisionBody& a,
+                                                  const CollisionBody& b, Real reach, ContactGeometry& geometry) {
+    SurfaceContacts contacts;
+    features.surface->collide(a, b, reach, assets, contacts);
+    const SurfaceContact* best = nullptr;
+    Real most = k_zero;
+    for (uint32_t i = 0; i < contacts.count; ++i) {
+      const ContactGeometry& found = contacts.contact[i].geometry;
+      Real rank = real_from_unit(dot(found.normal, pair.normal), 0);
+      for (uint32_t k = 0; !has_normal(pair) && k < found.count; ++k) rank = max(rank, -found.point[k].separation);
+      if (best != nullptr && !(rank > most)) continue;
+      best = &contacts.contact[i];
+      most = rank;
+    }
+    geometry.count = 0;
+    if (best != nullptr) geometry = best->geometry;
   }
 
   /// The point that the time of impact was found by.
@@ -562,7 +601,7 @@ struct Stage {
     const BodyMotion before_b = motion_of_sweep(traits_b, pose_b.rotation, bodies.sweeps[b], tick_rate);
     ContactWork contact;
     contact.state = {};
-    contact.state.point_count = geometry.count;
+    contact.state.point_count = static_cast<uint8_t>(geometry.count);
     const WorldGyration gyration_a = world_gyration(traits_a, matrix_from(pose_a.rotation));
     const WorldGyration gyration_b = world_gyration(traits_b, matrix_from(pose_b.rotation));
     const Vec3<Real> spin_a = world_spin(traits_a, gyration_a, before_a.momentum, -k_spin_power);
@@ -624,7 +663,7 @@ struct Stage {
   static Position point_of(const ContactGeometry& geometry, const BodyPose& pose_a, const BodyPose& pose_b,
                            const BodyTraits& a, const BodyTraits& b) {
     static constexpr Unit k_share[k_manifold_points_max] = {1.0, 0.5, 1.0 / 3.0, 0.25};
-    const bool by_b = is_half_space(a);  // which has no arms
+    const bool by_b = is_ground(a);  // which may be large, or has no arms
     const int exponent = by_b ? b.size_exponent : a.size_exponent;
     Vec3<Real> sum = k_none;
     for (uint32_t i = 0; i < geometry.count; ++i) {

@@ -2,6 +2,7 @@
 
 #include "collision/body_convex.h"
 #include "dynamics/spin.h"
+#include "dynamics/surface_impact.h"
 #include "geometry/shape_traits.h"
 #include "math/root.h"
 #include "proximity/pair.h"
@@ -20,8 +21,8 @@ int32_t in_units(int64_t depth, int exponent) {
 int32_t less_depth(int32_t size, int32_t depth, int32_t least) { return size - least > depth ? size - depth : least; }
 
 /// Makes the shape smaller by `depth`, 2^-46 m, on all sides. A hull or cone, which has no such core of its own kind,
-/// is halved on the rungs of contacts and left as it is before.
-void shrink(int64_t depth, bool halve, Convex& convex) {
+/// is halved so many times.
+void shrink(int64_t depth, int halvings, Convex& convex) {
   switch (convex.type) {
     case ShapeType::sphere:
     case ShapeType::capsule:
@@ -37,7 +38,7 @@ void shrink(int64_t depth, bool halve, Convex& convex) {
       break;
     case ShapeType::cone:
     case ShapeType::hull:
-      if (halve) --convex.exponent;
+      convex.exponent -= halvings;
       break;
     default:
       break;
@@ -91,6 +92,12 @@ BodyPose pose_at(const SweptBody& body, Fraction time) {
   return pose;
 }
 
+Motion motion_from(const SweptBody& body, Fraction time) {
+  const BodyPose from = pose_at(body, time);
+  const Sweep rest = rest_of(body.sweep, time);
+  return {{from.position, from.rotation}, rest.displacement, rest.turn};
+}
+
 bool motion_bound(const SweptBody& body, Fraction time, Real& bound) {
   const Sweep rest = rest_of(body.sweep, time);
   bool bounded = true;
@@ -106,23 +113,33 @@ bool closing_bound(const SweptBody& a, const SweptBody& b, Fraction time, Real& 
   return bounded;
 }
 
-bool pair_impact(const AssetTable& assets, const SweptBody& a, const SweptBody& b, Fraction time, Real inset,
-                 TimeOfImpact& impact) {
-  Convex convex_a, convex_b;
-  if (!body_convex(a.traits, assets, convex_a) || !body_convex(b.traits, assets, convex_b)) return false;
+bool inset_convex(const AssetTable& assets, const BodyTraits& traits, Real inset, Real extent, Convex& convex) {
+  Convex made;
+  if (!body_convex(traits, assets, made)) return false;
   if (const Real zero = 0.0; inset > zero) {
-    const Real halving = scale_by_power(min(shape_extent(a.traits), shape_extent(b.traits)), -4);
     Vec64 raw;
     if (!raw_from_real({inset, zero, zero}, raw)) return false;
-    shrink(raw.x, inset > halving, convex_a);
-    shrink(raw.x, inset > halving, convex_b);
+    // On the rungs of contacts, and the deeper ones.
+    const int halvings = (inset > scale_by_power(extent, -4) ? 1 : 0) + (inset > scale_by_power(extent, -2) ? 1 : 0);
+    shrink(raw.x, halvings, made);
   }
-  const BodyPose from_a = pose_at(a, time), from_b = pose_at(b, time);
-  const Sweep rest_a = rest_of(a.sweep, time), rest_b = rest_of(b.sweep, time);
-  const Status status =
-      time_of_impact(convex_a, {{from_a.position, from_a.rotation}, rest_a.displacement, rest_a.turn}, convex_b,
-                     {{from_b.position, from_b.rotation}, rest_b.displacement, rest_b.turn}, impact);
-  if (status != Status::ok) return false;
+  convex = made;
+  return true;
+}
+
+bool pair_impact(const AssetTable& assets, const FeatureTable& features, const SweptBody& a, const SweptBody& b,
+                 Fraction time, Real inset, TimeOfImpact& impact) {
+  const Real extent = min(shape_extent(a.traits), shape_extent(b.traits));
+  if (is_surface(a.traits) || is_surface(b.traits)) {
+    if (!features.surface_impact->impact(assets, *features.surface, a, b, time, inset, impact)) return false;
+  } else {
+    Convex convex_a, convex_b;
+    if (!inset_convex(assets, a.traits, inset, extent, convex_a) ||
+        !inset_convex(assets, b.traits, inset, extent, convex_b))
+      return false;
+    const Status status = time_of_impact(convex_a, motion_from(a, time), convex_b, motion_from(b, time), impact);
+    if (status != Status::ok) return false;
+  }
   impact.time = time + fraction_product(k_whole_step - time, impact.time);
   return true;
 }

@@ -1,6 +1,7 @@
 #pragma once
 #include <detent/asset.h>
 #include <detent/detail/scratch.h>
+#include <detent/features.h>
 #include <detent/toi.h>
 
 #include "geometry/sweep.h"
@@ -32,16 +33,22 @@ struct SweptBody {
 BodyPose pose_at(const SweptBody& body, Fraction time);
 Sweep rest_of(const BodySweep& sweep, Fraction time);
 
+/// Both, for time_of_impact().
+Motion motion_from(const SweptBody& body, Fraction time);
+
 /// A bound of how far a point of the body's surface moves in the rest of the tick, m; false if there is none.
 bool motion_bound(const SweptBody& body, Fraction time, Real& bound);
 
 /// A bound of how much nearer the surfaces of two bodies can come in the rest of the tick, m; false if there is none.
 bool closing_bound(const SweptBody& a, const SweptBody& b, Fraction time, Real& bound);
 
+/// The body's shape made smaller by `inset`, m, on all sides; `extent`: of the pair. False if it is not known.
+bool inset_convex(const AssetTable& assets, const BodyTraits& traits, Real inset, Real extent, Convex& convex);
+
 /// When the bodies, made smaller by `inset` on all sides, meet from `time` on; the answer's time is a part of the whole
 /// tick. False if it could not be asked: a shape is not known, or lies out of the query's range.
-bool pair_impact(const AssetTable& assets, const SweptBody& a, const SweptBody& b, Fraction time, Real inset,
-                 TimeOfImpact& impact);
+bool pair_impact(const AssetTable& assets, const FeatureTable& features, const SweptBody& a, const SweptBody& b,
+                 Fraction time, Real inset, TimeOfImpact& impact);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

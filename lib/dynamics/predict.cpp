@@ -76,7 +76,7 @@ void bound(const StepSettings& settings, Span<const BodyPose> poses, Span<const 
     }
     const BodyMotion& motion = motions[slot];
     const Vec3<Real> half = half_bounds(body, matrix_from(poses[slot].rotation));
-    const Real margin = shape_extent(body) * settings.breaking;
+    const Real margin = bounds_extent(body) * settings.breaking;
     Vec3<Real> reach = {half.x + margin, half.y + margin, half.z + margin};
     Vec3<Real> move = motion.velocity * settings.tick_time;
     if (is_dynamic(body)) move += fall;

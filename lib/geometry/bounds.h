@@ -18,7 +18,7 @@ inline constexpr Bounds k_everywhere = {{-k_coord_limit, -k_coord_limit, -k_coor
                                         {k_coord_limit, k_coord_limit, k_coord_limit}};
 
 /// The least half size of axis-aligned bounds around the body's position that hold the shape, m, world axes. Not for a
-/// half-space. A hull's hold the box of its half extents, or its bounding ball where that is less.
+/// half-space. A hull's and a surface's hold the box of its half extents, or its bounding ball where that is less.
 /// Rounding: within 2^-28 of the body's unit of length.
 inline Vec3<Real> half_bounds(const BodyTraits& traits, const Matrix3& rotation) {
   const Unit zero = 0.0;
@@ -34,6 +34,7 @@ inline Vec3<Real> half_bounds(const BodyTraits& traits, const Matrix3& rotation)
       break;
     }
     case ShapeType::hull:
+    case ShapeType::surface:
     case ShapeType::box: {
       const Vec3<Unit>&x = rotation.column[0], &y = rotation.column[1], &z = rotation.column[2];
       half = {dot(Vec3<Unit>{abs(x.x), abs(y.x), abs(z.x)}, traits.size),
@@ -57,7 +58,8 @@ inline Vec3<Real> half_bounds(const BodyTraits& traits, const Matrix3& rotation)
       break;
   }
   if (!(traits.rounding == zero)) half += Vec3<Unit>{traits.rounding, traits.rounding, traits.rounding};
-  if (static_cast<ShapeType>(traits.shape) == ShapeType::hull) {
+  const ShapeType shape = static_cast<ShapeType>(traits.shape);
+  if (shape == ShapeType::hull || shape == ShapeType::surface) {
     const Unit ball = traits.bounding_radius;
     half = {min(half.x, ball), min(half.y, ball), min(half.z, ball)};
   }

@@ -13,6 +13,10 @@ inline constexpr uint32_t k_cooked_version_at = 8;
 inline constexpr uint32_t k_cooked_byte_count_at = 12;
 inline constexpr uint32_t k_cooked_checksum_at = 16;  ///< CRC-32 of all bytes but these four
 
+inline bool is_in(const AssetTable& table, uint32_t index) {
+  return index < table.count && table.assets[index].bytes != nullptr;
+}
+
 /// The little-endian integer at `bytes`, which are aligned to its size.
 inline uint32_t cooked_u32(const uint8_t* bytes) {
   uint32_t value;

@@ -1,5 +1,6 @@
 #include "geometry/shape_traits.h"
 
+#include "geometry/surface.h"
 #include "math/arithmetic.h"
 #include "math/root.h"
 #include "math/scaled.h"
@@ -16,7 +17,9 @@ constexpr Scaled k_pi = 3.14159265358979323846;
 bool is_size(Real value) { return value >= k_size_min && value <= k_size_max; }
 
 /// A triangle is none.
-bool is_world_shape(ShapeType type) { return type >= ShapeType::sphere && type <= ShapeType::hull; }
+bool is_world_shape(ShapeType type) {
+  return (type >= ShapeType::sphere && type <= ShapeType::hull) || type == ShapeType::surface;
+}
 
 bool can_be_rounded(ShapeType type) {
   return type == ShapeType::box || type == ShapeType::cylinder || type == ShapeType::cone || type == ShapeType::hull;
@@ -168,7 +171,7 @@ void set_cone_gyration(BodyTraits& traits, const Sizes& squares, const AssetTabl
 }
 
 Status measure_hull(const Shape& shape, const AssetTable& assets, ShapeMeasure& measure) {
-  if (shape.asset >= assets.count || assets.assets[shape.asset].bytes == nullptr) return Status::asset_missing;
+  if (!is_in(assets, shape.asset)) return Status::asset_missing;
   const HullView hull = hull_of(assets, shape.asset);
   const int32_t exponent = measure.exponent_min = hull.exponent();
   const Vec3<Unit> half = hull_half_extents(hull, exponent);
@@ -205,6 +208,22 @@ void set_hull_gyration(BodyTraits& traits, const Sizes& grown_squares, const Ass
   }
 }
 
+/// The greatest |x|, |y| and |z| of the vertices.
+Vec3<Real> surface_half_extents(const Surface& surface) {
+  const GridBox box = surface.bounds();
+  const auto most = [&](int32_t low, int32_t high) {
+    return real_from_unit(unit_from_steps(-low > high ? -low : high), surface.exponent());
+  };
+  return {most(box.low.x, box.high.x), most(box.low.y, box.high.y), most(box.low.z, box.high.z)};
+}
+Status measure_surface(const Shape& shape, const AssetTable& assets, ShapeMeasure& measure) {
+  if (!is_in(assets, shape.asset)) return Status::asset_missing;
+  measure.size = surface_half_extents(surface_view(assets.assets[shape.asset].bytes));
+  measure.bound = length(measure.size);
+  return measure.bound < k_size_min ? Status::out_of_range : Status::ok;
+}
+void set_surface_asset(const Shape& shape, const AssetTable&, BodyTraits& traits) { traits.asset = shape.asset; }
+
 Status measure_half_space(const Shape&, const AssetTable&, ShapeMeasure&) { return Status::ok; }
 
 }  // namespace
@@ -216,6 +235,7 @@ const ShapeCode k_cylinder_code = {measure_upright<ShapeType::cylinder>, nullptr
                                    set_cylinder_gyration};
 const ShapeCode k_cone_code = {measure_upright<ShapeType::cone>, nullptr, cone_volume, set_cone_gyration};
 const ShapeCode k_hull_shape_code = {measure_hull, set_hull_size, hull_volume, set_hull_gyration};
+const ShapeCode k_surface_shape_code = {measure_surface, set_surface_asset, nullptr, nullptr};
 const ShapeCode k_half_space_shape_code = {measure_half_space, nullptr, nullptr, nullptr};
 
 const ShapeCode* code_of(const FeatureTable& features, ShapeType type) {
@@ -234,6 +254,8 @@ const ShapeCode* code_of(const FeatureTable& features, ShapeType type) {
       return features.cone;
     case ShapeType::hull:
       return features.hull_shape;
+    case ShapeType::surface:
+      return features.surface_shape;
     default:
       return nullptr;
   }
@@ -256,7 +278,8 @@ Status set_shape(const Shape& shape, BodyTraits& traits, const AssetTable& asset
   const bool bounded = shape.type != ShapeType::half_space;
   const Real bound = measure.bound + shape.rounding;
   if (bound >= k_bound_limit) return Status::out_of_range;
-  if (bounded && shape.type != ShapeType::sphere && scale_by_power(bound, -14) > measure.smallest) {
+  if (bounded && shape.type != ShapeType::sphere && shape.type != ShapeType::surface &&
+      scale_by_power(bound, -14) > measure.smallest) {
     return Status::out_of_range;
   }
   int32_t exponent = bounded ? exponent_above(bound) : 0;
@@ -292,6 +315,7 @@ Real shape_extent(const BodyTraits& traits) {
   Unit smallest = traits.size.x;
   switch (shape_of(traits)) {
     case ShapeType::half_space:
+    case ShapeType::surface:
       return k_size_max;
     case ShapeType::cylinder:
     case ShapeType::cone:
@@ -305,6 +329,11 @@ Real shape_extent(const BodyTraits& traits) {
       break;
   }
   return real_from_unit(smallest + traits.rounding, traits.size_exponent + 1);
+}
+
+Real bounds_extent(const BodyTraits& traits) {
+  if (!is_surface(traits)) return shape_extent(traits);
+  return real_from_unit(traits.bounding_radius, traits.size_exponent - 8);
 }
 
 }  // namespace DETENT_NAMESPACE

@@ -12,7 +12,14 @@ inline namespace DETENT_NAMESPACE {
 
 inline ShapeType shape_of(const BodyTraits& traits) { return static_cast<ShapeType>(traits.shape); }
 
-/// The greatest distance of a point of the core from the origin; not for a hull. T: Real or Unit, of both sides.
+inline bool is_surface(const BodyTraits& traits) { return shape_of(traits) == ShapeType::surface; }
+/// Whether a body has no thickness that the motion of others could be measured by.
+inline bool is_ground(const BodyTraits& traits) {
+  return shape_of(traits) == ShapeType::half_space || is_surface(traits);
+}
+
+/// The greatest distance of a point of the core from the origin; not for hulls and surfaces. T: Real or Unit, of both
+/// sides.
 template <class T>
 T core_bound(ShapeType type, const Vec3<T>& size) {
   const T zero = 0.0;
@@ -57,13 +64,14 @@ struct ShapeCode {
 /// Null if the shape is not linked.
 const ShapeCode* code_of(const FeatureTable& features, ShapeType type);
 
-/// Fills shape, size_exponent, size, bounding_radius, rounding and asset of `traits`. A hull is that of the table,
-/// whose bytes read_hull() has accepted. Errors: bad_argument, out_of_range, asset_missing, feature_missing.
+/// Fills shape, size_exponent, size, bounding_radius, rounding and asset of `traits`. A hull or surface is
+/// that of the table, whose bytes read_hull() or read_surface() has accepted. Errors: bad_argument, out_of_range,
+/// asset_missing, feature_missing.
 Status set_shape(const Shape& shape, BodyTraits& traits, const AssetTable& assets = {},
                  const FeatureTable& features = feature_table<Features::all>);
 
-/// Volume of the shape, m^3. Relative error below 2^-26. 0 for a half-space. A rounded shape counts as the sharp one
-/// whose sizes (of a hull: half extents, by which it is stretched) are greater by the rounding.
+/// Volume of the shape, m^3. Relative error below 2^-26. 0 for half-spaces and surfaces. A rounded shape counts as the
+/// sharp one whose sizes (of a hull: half extents, by which it is stretched) are greater by the rounding.
 Scaled shape_volume(const BodyTraits& traits, const AssetTable& assets = {},
                     const FeatureTable& features = feature_table<Features::all>);
 
@@ -74,9 +82,11 @@ Scaled shape_volume(const BodyTraits& traits, const AssetTable& assets = {},
 void set_gyration(BodyTraits& traits, const AssetTable& assets = {},
                   const FeatureTable& features = feature_table<Features::all>);
 
-/// Smallest diameter of the shape, m; what tolerances of a pair are fractions of. 2^14 for a half-space. Of a cone the
-/// lesser of height and base, up to 12 % too much; of a hull twice the least half extent, up to 50 %.
+/// Smallest diameter of the shape, m; what tolerances of a pair are fractions of. 2^14 for half-spaces and surfaces. Of
+/// a cone the lesser of height and base, up to 12 % too much; of a hull twice the least half extent, up to 50 %.
 Real shape_extent(const BodyTraits& traits);
+/// What the margins of the shape's bounds are parts of, m: its extent; of a surface 2^-8 of its bounding radius.
+Real bounds_extent(const BodyTraits& traits);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -174,7 +174,7 @@ void visit(Archive& archive, BodyId& id) {
 
 template <class Archive>
 void visit(Archive& archive, Shape& shape) {
-  visit_choice(archive, "shape type", shape.type, ShapeType::sphere, ShapeType::hull);
+  visit_choice(archive, "shape type", shape.type, ShapeType::sphere, ShapeType::surface);
   visit_number(archive, "radius", shape.radius);
   visit_number(archive, "half length", shape.half_length);
   visit_number(archive, "half extents", shape.half_extents);

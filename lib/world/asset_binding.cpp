@@ -1,6 +1,8 @@
 #include "world/asset_binding.h"
 
 #include "base/digest.h"
+#include "collision/surface_code.h"
+#include "geometry/hull.h"
 #include "world/view.h"
 
 namespace detent {
@@ -9,11 +11,15 @@ namespace {
 constexpr uint64_t k_asset_seed = 0x6173736574u;
 }
 
-Status describe_asset(AssetTable table, uint32_t index, const HullCode& hulls, AssetState& description) {
+Status describe_asset(AssetTable table, uint32_t index, const FeatureTable& features, AssetState& description) {
+  if (features.hull == nullptr && features.surface == nullptr) return Status::feature_missing;
   if (!is_in(table, index)) return Status::asset_missing;
   const Asset& asset = table.assets[index];
   HullView hull;
-  const AssetKind kind = hulls.read(asset, hull) == Status::ok ? AssetKind::hull : AssetKind::other;
+  Surface surface;
+  AssetKind kind = AssetKind::other;
+  if (features.hull != nullptr && features.hull->read(asset, hull) == Status::ok) kind = AssetKind::hull;
+  if (features.surface != nullptr && features.surface->read(asset, surface) == Status::ok) kind = AssetKind::surface;
   description = {digest_bytes(asset.bytes, asset.byte_count, k_asset_seed), asset.byte_count,
                  static_cast<uint32_t>(kind)};
   return Status::ok;
@@ -22,9 +28,8 @@ Status describe_asset(AssetTable table, uint32_t index, const HullCode& hulls, A
 Status check_assets(AssetTable table, const FeatureTable& features, Span<const AssetState> bound) {
   for (uint32_t i = 0; i < bound.count; ++i) {
     if (bound[i].kind == static_cast<uint32_t>(AssetKind::none)) continue;
-    if (features.hull == nullptr) return Status::feature_missing;
     AssetState found{};
-    if (const Status status = describe_asset(table, i, *features.hull, found); status != Status::ok) return status;
+    if (const Status status = describe_asset(table, i, features, found); status != Status::ok) return status;
     if (found.digest != bound[i].digest || found.byte_count != bound[i].byte_count || found.kind != bound[i].kind) {
       return Status::asset_mismatch;
     }
@@ -32,12 +37,13 @@ Status check_assets(AssetTable table, const FeatureTable& features, Span<const A
   return Status::ok;
 }
 
-Status find_hull(const World& world, uint32_t asset, BodyType type) {
+Status find_shape(const World& world, ShapeType shape, uint32_t asset, BodyType type) {
   const Span<const AssetState> bound = view_of(world).assets;
   if (asset >= bound.count) return Status::out_of_range;
   const AssetKind kind = static_cast<AssetKind>(bound[asset].kind);
   if (kind == AssetKind::none || !is_in(world.assets, asset)) return Status::asset_missing;
-  if (kind != AssetKind::hull) return Status::bad_argument;
+  if (kind != asset_kind_of(shape)) return Status::bad_argument;
+  if (kind != AssetKind::hull) return Status::ok;
   const bool principal = hull_view(world.assets.assets[asset].bytes).frame() == HullFrame::principal;
   return type == BodyType::dynamic && !principal ? Status::bad_argument : Status::ok;
 }

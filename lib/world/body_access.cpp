@@ -48,6 +48,7 @@ Shape shape_from(const BodyTraits& traits) {
       shape.half_extents = {size(traits.size.x), size(traits.size.y), size(traits.size.z)};
       break;
     case ShapeType::hull:
+    case ShapeType::surface:
       shape.asset = traits.asset;
       break;
     default:

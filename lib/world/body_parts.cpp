@@ -20,8 +20,9 @@ bool is_material(const Material& material) {
 
 Status suits(const World& world, ShapeType shape, uint32_t asset, BodyType type) {
   if (!is_type(type)) return Status::bad_argument;
-  if (shape == ShapeType::half_space && type == BodyType::dynamic) return Status::bad_argument;
-  return shape == ShapeType::hull ? find_hull(world, asset, type) : Status::ok;
+  const bool is_ground = shape == ShapeType::half_space || shape == ShapeType::surface;
+  if (is_ground && type == BodyType::dynamic) return Status::bad_argument;
+  return asset_kind_of(shape) == AssetKind::none ? Status::ok : find_shape(world, shape, asset, type);
 }
 
 Status set_body_shape(const World& world, const Shape& shape, BodyType type, BodyTraits& traits) {

@@ -7,7 +7,8 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Whether a body of this type may have the shape. Errors: bad_argument; of a hull out_of_range, asset_missing.
+/// Whether a body of this type may have the shape. Errors: bad_argument; of a hull or surface out_of_range,
+/// asset_missing.
 Status suits(const World& world, ShapeType shape, uint32_t asset, BodyType type);
 /// The shape's part of `traits` for a body of this type. Errors: bad_argument, out_of_range, asset_missing,
 /// feature_missing.

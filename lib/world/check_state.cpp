@@ -1,6 +1,7 @@
 #include "base/float_environment.h"
 #include "collision/manifold_reuse.h"
 #include "collision/pair_filter.h"
+#include "collision/pair_key.h"
 #include "dynamics/activity.h"
 #include "dynamics/substeps.h"
 #include "geometry/shape_traits.h"
@@ -60,7 +61,18 @@ bool is_hull(const BodyTraits& traits, AssetTable assets, Span<const AssetState>
          is_bound_of(hull_radius(hull, traits.size_exponent), traits);
 }
 
-bool is_shape(const BodyTraits& traits, AssetTable assets, Span<const AssetState> bound_assets) {
+bool is_surface_of(const BodyTraits& traits, AssetTable assets, const FeatureTable& features,
+                   Span<const AssetState> bound) {
+  if (is_dynamic(traits) || traits.asset >= bound.count ||
+      bound[traits.asset].kind != static_cast<uint32_t>(AssetKind::surface))
+    return false;
+  BodyTraits expected = traits;
+  return set_shape(surface(traits.asset), expected, assets, features) == Status::ok && expected.size == traits.size &&
+         expected.size_exponent == traits.size_exponent && expected.bounding_radius == traits.bounding_radius;
+}
+
+bool is_shape(const BodyTraits& traits, AssetTable assets, const FeatureTable& features,
+              Span<const AssetState> bound_assets) {
   if (traits.size_exponent < -14 || traits.size_exponent > 15 || traits.turn_locks > k_turn_locks_all) return false;
   if (!is_size(traits.size.x) || !is_size(traits.size.y) || !is_size(traits.size.z)) return false;
   const Unit zero = 0.0, smallest = 0x1p-16;
@@ -70,7 +82,7 @@ bool is_shape(const BodyTraits& traits, AssetTable assets, Span<const AssetState
       shape == ShapeType::box || shape == ShapeType::cylinder || shape == ShapeType::cone || shape == ShapeType::hull;
   const bool sharp = traits.rounding == zero;
   if (!sharp && (!rounds || !is_size(traits.rounding) || traits.rounding < smallest)) return false;
-  if (shape != ShapeType::hull && traits.asset != 0) return false;
+  if (asset_kind_of(shape) == AssetKind::none && traits.asset != 0) return false;
   switch (shape) {
     case ShapeType::sphere:
       return bound == traits.size.x && is_bound(bound, traits.size.x) && traits.size.y == zero && traits.size.z == zero;
@@ -86,6 +98,8 @@ bool is_shape(const BodyTraits& traits, AssetTable assets, Span<const AssetState
     case ShapeType::hull:
       return traits.size.x >= smallest && traits.size.y >= smallest && traits.size.z >= smallest &&
              is_hull(traits, assets, bound_assets);
+    case ShapeType::surface:
+      return is_surface_of(traits, assets, features, bound_assets);
     case ShapeType::half_space:
       return traits.type != static_cast<uint32_t>(BodyType::dynamic) && traits.size_exponent == 0 && bound == zero &&
              traits.size == Vec3<Unit>{zero, zero, zero};
@@ -120,8 +134,8 @@ bool is_linked(const State& state, const BodyTraits& traits) {
 bool is_body(const State& state, const BodyTraits& traits, AssetTable assets, const FeatureTable& features) {
   const Scaled none = 0.0;
   return traits.type <= static_cast<uint32_t>(BodyType::dynamic) && traits.generation != 0 &&
-         is_shape(traits, assets, state.assets) && is_linked(state, traits) && is_mass_of(traits, assets, features) &&
-         is_between(traits.friction, none, scaled_from(k_friction_max)) &&
+         is_shape(traits, assets, features, state.assets) && is_linked(state, traits) &&
+         is_mass_of(traits, assets, features) && is_between(traits.friction, none, scaled_from(k_friction_max)) &&
          is_between(traits.restitution, none, Scaled(1.0)) &&
          is_between(traits.rolling_resistance, none, Scaled(1.0)) &&
          is_between(traits.linear_damping, none, scaled_from(k_damping_max)) &&
@@ -217,9 +231,8 @@ bool are_contacts(const State& state) {
     if (!is_contact(state, contact)) return false;
     if (i == 0) continue;
     const ContactState& before = state.contacts[i - 1];
-    const bool sorted =
-        before.body_a < contact.body_a || (before.body_a == contact.body_a && before.body_b < contact.body_b);
-    if (!sorted) return false;
+    const uint64_t last = pair_key(before.body_a, before.body_b), key = pair_key(contact.body_a, contact.body_b);
+    if (last > key || (last == key && before.part >= contact.part)) return false;
   }
   for (uint32_t i = count; i < state.contacts.count; ++i) {
     if (!is_zero(state.contacts[i])) return false;
@@ -253,7 +266,7 @@ bool are_fills(const uint8_t* block, const Layout& layout) {
 bool are_assets(const State& state) {
   for (uint32_t i = 0; i < state.assets.count; ++i) {
     const AssetState& asset = state.assets[i];
-    if (asset.kind > static_cast<uint32_t>(AssetKind::hull) || (asset.kind == 0 && !is_zero(asset))) return false;
+    if (asset.kind > static_cast<uint32_t>(AssetKind::surface) || (asset.kind == 0 && !is_zero(asset))) return false;
   }
   return true;
 }

@@ -1,7 +1,7 @@
 #include <detent/contacts.h>
 
 #include "base/float_environment.h"
-#include "collision/collide.h"
+#include "collision/surface_code.h"
 #include "dynamics/spin.h"
 #include "dynamics/step_settings.h"
 #include "geometry/shape_traits.h"
@@ -18,15 +18,27 @@ Scaled reference_mass(const BodyTraits& a, const BodyTraits& b) {
   return is_dynamic(b) && less(b.mass, a.mass) ? b.mass : a.mass;
 }
 
+__attribute__((noinline)) ContactGeometry part_geometry(const CollisionBody& a, const CollisionBody& b, Real reach,
+                                                        const World& world, uint32_t part) {
+  SurfaceContacts contacts;
+  world.features->surface->collide(a, b, reach, world.assets, contacts);
+  for (uint32_t i = 0; i < contacts.count; ++i) {
+    if (contacts.contact[i].key == part) return contacts.contact[i].geometry;
+  }
+  return {};
+}
+
 /// Where the points are now: those that may have parted a little in the last step too.
 ContactGeometry geometry_of(const World& world, const StateView<const uint8_t>& state, const ContactState& contact) {
   const BodyPose &pose_a = state.poses[contact.body_a], &pose_b = state.poses[contact.body_b];
   const BodyTraits &a = state.traits[contact.body_a], &b = state.traits[contact.body_b];
   const Matrix3 axes_a = matrix_from(pose_a.rotation), axes_b = matrix_from(pose_b.rotation);
   const Real reach = scale_by_power(min(shape_extent(a), shape_extent(b)), -2);
+  const CollisionBody body_a = {pose_a, a, axes_a}, body_b = {pose_b, b, axes_b};
+  if (is_surface(a) || is_surface(b)) return part_geometry(body_a, body_b, reach, world, contact.part);
   ContactGeometry geometry;
-  collide({pose_a, a, axes_a}, {pose_b, b, axes_b}, reach, geometry, world.assets,
-          static_cast<ManifoldReduction>(state.world.reduction), *world.features);
+  collide(body_a, body_b, reach, geometry, world.assets, static_cast<ManifoldReduction>(state.world.reduction),
+          *world.features);
   return geometry;
 }
 
@@ -46,6 +58,7 @@ Status get_contact(const World& world, uint32_t index, Contact& contact) {
   Contact made;
   made.a = {from.body_a + 1, a.generation};
   made.b = {from.body_b + 1, b.generation};
+  made.part = from.part;
   made.touching = from.touching != 0;
   made.age = from.age;
   made.friction_impulse = {impulse(from.friction_impulse.x), impulse(from.friction_impulse.y),

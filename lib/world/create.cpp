@@ -190,13 +190,12 @@ Status bind_asset(World& world, uint32_t index) {
   StateView<uint8_t> state = view_of(world);
   if (index >= state.assets.count) return Status::out_of_range;
   AssetState bound{};
-  if (world.features->hull == nullptr) return Status::feature_missing;
-  if (const Status status = describe_asset(world.assets, index, *world.features->hull, bound); status != Status::ok)
+  if (const Status status = describe_asset(world.assets, index, *world.features, bound); status != Status::ok)
     return status;
   AssetState& before = state.assets[index];
   if (before.digest != bound.digest || before.byte_count != bound.byte_count) {
     for (const BodyTraits& body : state.traits) {
-      if (is_hull_of(body, index)) return Status::asset_mismatch;
+      if (is_shape_of(body, index)) return Status::asset_mismatch;
     }
   }
   before = bound;

@@ -74,22 +74,36 @@ EventCount raise_events(Span<const BodyPose> poses, Span<const BodyTraits> trait
                         Span<const ContactState> before, Span<ContactWork> contacts, Span<ContactEvent> events) {
   Writer writer = {poses, traits, events};
   uint32_t old = 0;
+  const auto old_contact = [&]() -> const ContactState& { return before[awake[old]]; };
+  /// Passes over the contacts of one pair, its parts. True if one of them touched.
+  const auto pass_pair = [&] {
+    const uint64_t key = key_of(old_contact());
+    bool touched = false;
+    for (; old < awake.count && key_of(old_contact()) == key; ++old) touched = touched || old_contact().touching != 0;
+    return touched;
+  };
   const auto end_up_to = [&](uint64_t key) {
-    for (; old < awake.count && key_of(before[awake[old]]) < key; ++old) {
-      const ContactState& state = before[awake[old]];
-      if (state.touching != 0) writer.add(writer.event_of(ContactEventType::end, state.body_a, state.body_b));
+    while (old < awake.count && key_of(old_contact()) < key) {
+      const ContactState& state = old_contact();
+      if (pass_pair()) writer.add(writer.event_of(ContactEventType::end, state.body_a, state.body_b));
     }
   };
-  for (ContactWork& contact : contacts) {
-    const uint64_t key = key_of(contact.state);
+  for (uint32_t i = 0; i < contacts.count;) {
+    const ContactState& state = contacts[i].state;
+    const uint64_t key = key_of(state);
     end_up_to(key);
-    if (old < awake.count && key_of(before[awake[old]]) == key) ++old;
-    const bool touched = contact.state.touching != 0, touches = pushes(contact);
-    contact.state.touching = touches ? 1 : 0;
-    if (touches)
-      writer.add_contact(contact, touched);
+    const bool touched = old < awake.count && key_of(old_contact()) == key && pass_pair();
+    const ContactWork* hardest = nullptr;
+    for (; i < contacts.count && key_of(contacts[i].state) == key; ++i) {
+      ContactWork& contact = contacts[i];
+      contact.state.touching = pushes(contact) ? 1 : 0;
+      if (contact.state.touching == 0) continue;
+      if (hardest == nullptr || approach_of(contact) > approach_of(*hardest)) hardest = &contact;
+    }
+    if (hardest != nullptr)
+      writer.add_contact(*hardest, touched);
     else if (touched)
-      writer.add(writer.event_of(ContactEventType::end, contact.state.body_a, contact.state.body_b));
+      writer.add(writer.event_of(ContactEventType::end, state.body_a, state.body_b));
   }
   end_up_to(UINT64_MAX);
   return writer.count;

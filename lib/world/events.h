@@ -13,8 +13,9 @@ struct EventCount {
 };
 
 /// Compares the contacts of the last step with those of this one, both sorted by their bodies, and writes what began,
-/// went on, ended and hit. `poses` are those of the start of the step. Of the contacts `before` those that sleep are
-/// passed over: `awake` lists the others. Sets the contacts' `touching`.
+/// went on, ended and hit; of a pair whose parts touch in several places the hardest. `poses` are those of the start of
+/// the step. Of the contacts `before` those that sleep are passed over: `awake` lists the others. Sets the contacts'
+/// `touching`.
 EventCount raise_events(Span<const BodyPose> poses, Span<const BodyTraits> traits, Span<const uint32_t> awake,
                         Span<const ContactState> before, Span<ContactWork> contacts, Span<ContactEvent> events);
 

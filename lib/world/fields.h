@@ -129,6 +129,7 @@ inline constexpr Field k_slot_fields[] = {{"taken", 0, 4, 1}};
 inline constexpr Field k_contact_fields[] = {
     DETENT_FIELD(ContactState, body_a),
     DETENT_FIELD(ContactState, body_b),
+    DETENT_FIELD(ContactState, part),
     DETENT_FIELD(ContactState, age),
     DETENT_FIELD(ContactState, touching),
     DETENT_FIELD(ContactState, point_count),

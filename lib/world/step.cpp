@@ -2,6 +2,7 @@
 #include "collision/broadphase.h"
 #include "collision/contact_cache.h"
 #include "collision/manifold_reuse.h"
+#include "collision/surface_code.h"
 #include "dynamics/activity.h"
 #include "dynamics/contact_order.h"
 #include "dynamics/contact_rows.h"
@@ -107,6 +108,10 @@ struct Bodies {
   bool awake(uint32_t slot) const { return is_awake(traits[slot], activities[slot]); }
   bool moving(uint32_t slot) const { return is_moving(traits[slot], motions[slot], activities[slot]); }
   bool asleep(uint32_t slot) const { return activities[slot].asleep != 0; }
+  /// Whether a pair can have more contacts than one.
+  bool has_parts(uint32_t slot_a, uint32_t slot_b) const {
+    return is_surface(traits[slot_a]) || is_surface(traits[slot_b]);
+  }
 };
 
 /// A contact of the last tick; `manifold` null where none are kept.
@@ -131,6 +136,29 @@ void collide_pair(const StepSettings& settings, uint32_t slot_a, uint32_t slot_b
   if (manifold != nullptr) *manifold = slow ? kept_manifold(body_a, body_b, geometry) : ManifoldState{};
 }
 
+/// Likewise the contacts of the parts of a pair. Apart, for what it needs of the stack.
+void collide_parts(const StepSettings& settings, uint32_t slot_a, uint32_t slot_b, const Bodies& bodies,
+                   SurfaceContacts& contacts) {
+  const PairLengths lengths = lengths_of(settings, bodies.work[slot_a], bodies.work[slot_b]);
+  bodies.features.surface->collide(bodies.collider(slot_a), bodies.collider(slot_b), lengths.reach, bodies.assets,
+                                   contacts);
+}
+
+__attribute__((noinline)) bool parts_touch(const StepSettings& settings, uint32_t slot_a, uint32_t slot_b,
+                                           const Bodies& bodies) {
+  SurfaceContacts contacts;
+  collide_parts(settings, slot_a, slot_b, bodies, contacts);
+  return contacts.count != 0;
+}
+
+bool touch(const StepSettings& settings, uint32_t slot_a, uint32_t slot_b, const Bodies& bodies) {
+  if (bodies.has_parts(slot_a, slot_b)) return parts_touch(settings, slot_a, slot_b, bodies);
+  ContactGeometry geometry;
+  bool reused = false;
+  collide_pair(settings, slot_a, slot_b, bodies, {}, geometry, nullptr, reused);
+  return geometry.count != 0;
+}
+
 /// Wakes whoever is touched by a body that moves, and whoever they touch: they leave the tree, and their pairs are
 /// found. Returns how many woke.
 uint32_t wake_touched(const StepSettings& settings, const Bodies& bodies, const StepCacheView& cache, PairPool& pool) {
@@ -140,11 +168,8 @@ uint32_t wake_touched(const StepSettings& settings, const Bodies& bodies, const 
       const uint32_t low = pair_low(key), high = pair_high(key);
       const bool wakes_low = bodies.asleep(low) && bodies.moving(high);
       if (!wakes_low && !(bodies.asleep(high) && bodies.moving(low))) continue;
-      ContactGeometry geometry;
-      bool reused = false;
       bodies.start(settings, wakes_low ? low : high);
-      collide_pair(settings, low, high, bodies, {}, geometry, nullptr, reused);
-      if (geometry.count == 0) continue;
+      if (!touch(settings, low, high, bodies)) continue;
       woke += wake_all_with(wakes_low ? low : high, bodies.activities, cache.visits);
     }
     if (woke == woken_before) return woke;
@@ -187,6 +212,7 @@ struct ContactCount {
   uint32_t contacts = 0;
   uint32_t points = 0;
   uint32_t dropped = 0;
+  uint32_t parts_dropped = 0;  ///< shallower than those that their pairs keep
   uint32_t capped = 0;
   uint32_t reused = 0;
 };
@@ -197,51 +223,87 @@ struct KeptContacts {
   Span<const ManifoldState> manifolds;
 };
 
-/// Collides every pair with an awake body and makes the rows of those that touch, in the order of the pairs. Those
-/// `kept` are sorted alike; `awake` lists those of them that may go on. `manifolds` has as many places as `contacts`,
-/// or none.
-ContactCount collide_pairs(const StepSettings& settings, const Bodies& bodies, Span<const uint64_t> pairs,
-                           Span<const uint32_t> awake, const KeptContacts& kept, Span<ContactWork> contacts,
-                           Span<ManifoldState> manifolds) {
-  const Span<const ContactState> before = kept.contacts;
-  const bool reuses = kept.manifolds.count != 0;
-  ContactCount count;
-  uint32_t next = 0, last_started = UINT32_MAX;
-  for (const uint64_t key : pairs) {
+/// Collides pairs in ascending order and makes the rows of those that touch, sorted by pair and part.
+struct Collider {
+  const StepSettings& settings;
+  const Bodies& bodies;
+  Span<const uint32_t> awake;  ///< those of the contacts kept that may go on
+  KeptContacts kept;           ///< sorted alike
+  Span<ContactWork> contacts;
+  Span<ManifoldState> manifolds;  ///< as many places as `contacts`, or none
+  ContactCount count = {};
+  uint32_t next = 0;
+  uint32_t last_started = UINT32_MAX;
+
+  bool reuses() const { return kept.manifolds.count != 0; }
+
+  void collide(uint64_t key) {
     const uint32_t slot_a = pair_low(key), slot_b = pair_high(key);
-    if (!bodies.awake(slot_a) && !bodies.awake(slot_b)) continue;
-    while (next < awake.count && key_of(before[awake[next]]) < key) ++next;
-    const bool continued = next < awake.count && key_of(before[awake[next]]) == key;
-    // One that rests is started when its pairs come; those of the ground come one after the other.
-    const auto start = [&](uint32_t slot) {
-      if (bodies.visits.has(slot) || slot == last_started) return;
-      bodies.start(settings, slot);
-      last_started = slot;
-    };
+    if (!bodies.awake(slot_a) && !bodies.awake(slot_b)) return;
     start(slot_a);
     start(slot_b);
+    if (bodies.has_parts(slot_a, slot_b)) {
+      collide_all_parts(key);
+      return;
+    }
     ContactGeometry geometry;
     ManifoldState manifold;
-    ContactBefore last;
-    if (continued) last = {&before[awake[next]], reuses ? &kept.manifolds[awake[next]] : nullptr};
     bool reused = false;
-    collide_pair(settings, slot_a, slot_b, bodies, last, geometry, reuses ? &manifold : nullptr, reused);
+    const ContactBefore last = find_before(key, 0);
+    collide_pair(settings, slot_a, slot_b, bodies, last, geometry, reuses() ? &manifold : nullptr, reused);
     count.capped += geometry.capped ? 1 : 0;
     count.reused += reused ? 1 : 0;
-    if (geometry.count == 0) continue;
+    if (geometry.count != 0) add(key, 0, geometry, manifold, last.contact);
+  }
+
+ private:
+  /// One that rests is started when its pairs come; those of the ground come one after the other.
+  void start(uint32_t slot) {
+    if (bodies.visits.has(slot) || slot == last_started) return;
+    bodies.start(settings, slot);
+    last_started = slot;
+  }
+
+  ContactBefore find_before(uint64_t key, uint32_t part) {
+    const auto contact = [&]() -> const ContactState& { return kept.contacts[awake[next]]; };
+    while (next < awake.count && (key_of(contact()) < key || (key_of(contact()) == key && contact().part < part)))
+      ++next;
+    if (next == awake.count || key_of(contact()) != key || contact().part != part) return {};
+    return {&contact(), reuses() ? &kept.manifolds[awake[next]] : nullptr};
+  }
+
+  __attribute__((noinline)) void collide_all_parts(uint64_t key) {
+    SurfaceContacts found;
+    collide_parts(settings, pair_low(key), pair_high(key), bodies, found);
+    count.capped += found.capped ? 1 : 0;
+    count.parts_dropped += found.dropped;
+    for (uint32_t i = 0; i < found.count; ++i) {
+      const SurfaceContact& contact = found.contact[i];
+      add(key, contact.key, contact.geometry, {}, find_before(key, contact.key).contact);
+    }
+  }
+
+  void add(uint64_t key, uint32_t part, const ContactGeometry& geometry, const ManifoldState& manifold,
+           const ContactState* before) {
+    const uint32_t slot_a = pair_low(key), slot_b = pair_high(key);
     if (count.contacts == contacts.count) {
       ++count.dropped;
       Real least = geometry.point[0].separation;
       for (uint32_t i = 1; i < geometry.count; ++i) least = min(least, geometry.point[i].separation);
-      if (!leave_out_shallowest(contacts, manifolds, -least)) continue;
+      if (!leave_out_shallowest(contacts, manifolds, -least)) return;
       --count.contacts;
     }
-    if (reuses) manifolds[count.contacts] = manifold;
+    if (reuses()) manifolds[count.contacts] = manifold;
     ContactWork& work = contacts[count.contacts++];
-    work.state = continued_contact(slot_a, slot_b, geometry, last.contact);
+    work.state = continued_contact(slot_a, slot_b, part, geometry, before);
     make_rows(settings, bodies.at(slot_a), bodies.at(slot_b), geometry, work);
   }
-  for (const ContactWork& contact : contacts.first(count.contacts)) count.points += contact.state.point_count;
+};
+
+ContactCount collide_pairs(Collider collider, Span<const uint64_t> pairs) {
+  for (const uint64_t key : pairs) collider.collide(key);
+  ContactCount& count = collider.count;
+  for (const ContactWork& contact : collider.contacts.first(count.contacts)) count.points += contact.state.point_count;
   return count;
 }
 
@@ -361,8 +423,9 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   const bool reuses = settings.reuse > Real(0.0);
   const Span<ManifoldState> manifolds = state.manifolds.first(reuses ? state.manifolds.count : 0);
   const Span<ManifoldState> manifold_work = scratch.manifolds.first(reuses && state.manifolds.count != 0 ? room : 0);
-  const ContactCount count = collide_pairs(settings, bodies, pairs, awake_contacts, {state.contacts, manifolds},
-                                           scratch.contacts.first(room), manifold_work);
+  const ContactCount count = collide_pairs(
+      {settings, bodies, awake_contacts, {state.contacts, manifolds}, scratch.contacts.first(room), manifold_work},
+      pairs);
   const Span<ContactWork> contacts = scratch.contacts.first(count.contacts);
   const Span<ContactOrder> order = scratch.contact_order.first(count.contacts);
   clock.end(StepStage::collide);
@@ -428,7 +491,7 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   report.contacts = count.contacts;
   report.contact_points = count.points;
   report.contacts_reused = count.reused;
-  report.contacts_dropped = count.dropped;
+  report.contacts_dropped = count.dropped + count.parts_dropped;
   report.contacts_capped = count.capped;
   bool moves = false;
   cache.visits.for_each([&](uint32_t slot) { moves = moves || bodies.moving(slot); });

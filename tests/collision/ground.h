@@ -39,7 +39,13 @@ inline OracleBody body_of(const Shape& shape) {
 inline SurfaceContacts contacts_of(const Ground& ground, const OracleBody& body, double reach = k_reach) {
   const Matrix3 rotation = matrix_from(body.pose.rotation);
   SurfaceContacts contacts;
-  collide_mesh(ground.surface, ground.pose, {body.pose, body.traits, rotation}, real_near(reach), k_table, contacts);
+  BodyTraits traits{};
+  traits.size_exponent = 15;
+  BodyPose pose{};
+  pose.position = ground.pose.position;
+  pose.rotation = ground.pose.rotation;
+  const CollisionBody surface_body = {pose, traits, matrix_from(pose.rotation)};
+  collide_mesh(ground.surface, surface_body, {body.pose, body.traits, rotation}, real_near(reach), k_table, contacts);
   return contacts;
 }
 

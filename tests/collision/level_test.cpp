@@ -1,25 +1,10 @@
-#include <stdio.h>
-#include <stdlib.h>
-
-#include "ports/host/cook/read_mesh.h"
 #include "tests/collision/ground.h"
+#include "tests/geometry/levels.h"
 
 /// Bodies against real levels.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
-
-/// A file of meshes/ under $DETENT_DATA; else empty.
-std::string level_file(const char* name) {
-  const char* folder = getenv("DETENT_DATA");
-  std::string text;
-  if (FILE* file = fopen((std::string(folder != nullptr ? folder : "") + "/meshes/" + name).c_str(), "rb")) {
-    char piece[4096];
-    for (size_t count = 1; (count = fread(piece, 1, sizeof piece, file)) > 0;) text.append(piece, count);
-    fclose(file);
-  }
-  return text;
-}
 
 /// A body of about `size`, m, near some place of the surface.
 OracleBody body_near(Samples& samples, const Surface& surface, uint32_t kind, double size) {
@@ -41,13 +26,11 @@ OracleBody body_near(Samples& samples, const Surface& surface, uint32_t kind, do
 
 DETENT_TEST(level, bodies_beside_real_levels_are_as_far_from_them_as_from_the_nearest_triangle) {
   uint32_t met = 0, levels = 0;
-  for (const char* name : {"building.obj", "stairs.obj", "conveyor.obj", "test_map01.obj", "voxel_mesh_01.obj"}) {
-    const std::string text = level_file(name);
-    if (text.empty()) continue;
+  for (const char* name : detent_surfaces::k_levels) {
+    Source source;
+    if (!detent_surfaces::read_level(name, source)) continue;
     ++levels;
-    const detent_cook::MeshRead read = detent_cook::read_obj_mesh(text);
-    ASSERT_EQ(read.problem, "") << name;
-    const Ground level(read.mesh);
+    const Ground level(source);
     const double size = level.surface.exponent() > 8 ? 100 : 1, reach = 0.1 * size;
     Samples samples = {37};
     for (uint32_t n = 0; n < detent_oracle::rounds(100); ++n) {

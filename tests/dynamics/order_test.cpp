@@ -204,7 +204,7 @@ struct Scene {
       if (geometry.count == 0) continue;
       ContactWork contact{};
       contact.state = before;
-      contact.state.point_count = geometry.count;
+      contact.state.point_count = static_cast<uint8_t>(geometry.count);
       make_rows(settings,
                 {traits[a], poses[a], motions[a], work[a].gyration, work[a].spin, work[a].extent, work[a].fall},
                 {traits[b], poses[b], motions[b], work[b].gyration, work[b].spin, work[b].extent, work[b].fall},

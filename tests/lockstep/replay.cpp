@@ -3,6 +3,7 @@
 #include <ports/print.h>
 #include <string.h>
 
+#include "tests/scenes/scene.h"
 #include "world/snapshot.h"
 
 /// Replays a recording on any target, a microcontroller too: no allocation, no C library beyond memcpy and strcmp.
@@ -170,7 +171,7 @@ int replay(const Options& options, MachineFile& file) {
   print_value("world ", world_bytes(info.capacity));
   if (world_bytes(info.capacity) > sizeof block)
     return fail(options.recording, "its world is larger than this program's");
-  const Status created = create_world(block, sizeof block, def, {}, world);
+  const Status created = create_world(block, sizeof block, def, scene_assets(), world);
   if (created != Status::ok) return fail(options.recording, status_text(created));
 
   if (options.load_path != nullptr) {

@@ -1,5 +1,32 @@
-# DETENT_SCENE_SOURCES: what makes scenes(), for detent_per_config and other targets that see the repository's root.
+# DETENT_SCENE_ASSETS: the source of scene_assets(); DETENT_SCENE_SOURCES: that and what makes scenes(), for detent_per_config and other targets that see the repository's root.
+set(assets "")
+set(table "")
+foreach(file assets/valley.mesh assets/hills.field ../lockstep/round.hull)
+  cmake_path(GET file FILENAME name)
+  cmake_path(ABSOLUTE_PATH file BASE_DIRECTORY ${CMAKE_CURRENT_LIST_DIR} NORMALIZE)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+  file(READ ${file} bytes HEX)
+  string(REGEX REPLACE "(..)" "0x\\1," bytes "${bytes}")
+  string(REPLACE "." "_" name ${name})
+  string(APPEND assets "alignas(8) constexpr uint8_t k_${name}[] = {${bytes}};\n")
+  string(APPEND table "{k_${name}, sizeof k_${name}}, ")
+endforeach()
+set(DETENT_SCENE_ASSETS ${PROJECT_BINARY_DIR}/scene_assets.cpp)
+file(CONFIGURE OUTPUT ${DETENT_SCENE_ASSETS} @ONLY CONTENT "#include \"tests/scenes/scene.h\"
+namespace {
+@assets@}
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+AssetTable scene_assets() {
+  static constexpr Asset table[] = {@table@};
+  return {table, sizeof table / sizeof table[0]};
+}
+}
+}
+")
 set(DETENT_SCENE_SOURCES
+  ${DETENT_SCENE_ASSETS}
+  ${CMAKE_CURRENT_LIST_DIR}/terrain.cpp
   ${CMAKE_CURRENT_LIST_DIR}/scenes.cpp
   ${CMAKE_CURRENT_LIST_DIR}/piles.cpp
   ${CMAKE_CURRENT_LIST_DIR}/traffic.cpp

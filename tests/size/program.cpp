@@ -125,7 +125,7 @@ bool run() {
   def.continuous = has(Features::continuous);
   def.sleeping = has(Features::sleeping);
   if (storage.create(def, world, {}, feature_table<k_features>) != Status::ok) return false;
-  if constexpr (has(Features::hull)) {
+  if constexpr (has(Features::hull) || has(Features::surface)) {
     if (bind_asset(world, 0) != Status::asset_missing) return false;  // there is none, but its code is linked
   }
   bool good = false;

@@ -26,7 +26,7 @@ struct alignas(8) WorldState {
   uint32_t slots_used;     ///< body slots ever used: the slots beyond are all zero
   uint32_t free_word;      ///< no slot is free in the words of `slots` before this one
   uint32_t slots_retired;  ///< body slots whose generation is used up
-  uint32_t contact_count;  ///< contacts, sorted by (body_a, body_b)
+  uint32_t contact_count;  ///< contacts, sorted by (body_a, body_b, part)
   uint32_t joint_count;    ///< joints alive
   uint32_t joints_used;    ///< joint slots ever used: the slots beyond are all zero
   uint32_t substeps;       ///< 0: chosen for each island
@@ -74,7 +74,8 @@ struct BodyTraits {
   uint32_t mask;
   int32_t group;
   uint32_t rule;
-  Vec3<Unit> size;  ///< in that unit: half extents; (radius, half length, 0); or of a hull the greatest |x|, |y|, |z|
+  Vec3<Unit> size;  ///< in that unit: half extents; (radius, half length, 0); or of a hull or surface the greatest |x|,
+                    ///< |y|, |z|
   Unit bounding_radius;  ///< in that unit, `rounding` included
   Unit rounding;         ///< in that unit: radius of the ball that rounds a box, cylinder, cone or hull, else 0
   Scaled mass;           ///< kg; if not dynamic what it would have, or 0
@@ -87,7 +88,7 @@ struct BodyTraits {
   Scaled gravity_scale;
   uint32_t user_data;
   uint32_t restitution_rule;  ///< RestitutionRule
-  uint32_t asset;             ///< of a hull: its index in the world's table; else 0
+  uint32_t asset;             ///< of a hull or surface: its index in the world's table; else 0
   uint32_t turn_locks;        ///< k_turn_lock_x, ...: body axes about which it does not turn, whose gyration is 0
 };
 
@@ -101,13 +102,14 @@ struct BodyActivity {
 
 constexpr uint32_t k_manifold_points_max = 4;
 
-/// A pair of bodies in contact and what the next tick starts from.
+/// A contact of two bodies, or of a part of one, and what the next tick starts from.
 struct ContactState {
   uint32_t body_a;  ///< slot index; body_a < body_b
   uint32_t body_b;
-  uint16_t age;       ///< ticks in contact before this one, at most 65535
-  uint16_t touching;  ///< 1 if they pushed each other in the last tick
-  uint32_t point_count;
+  uint32_t part;     ///< which parts of them touch; 0 where both are convex. Distinct among a pair's contacts
+  uint16_t age;      ///< ticks in contact before this one, at most 65535
+  uint8_t touching;  ///< 1 if they pushed each other in the last tick
+  uint8_t point_count;
   uint32_t feature[k_manifold_points_max];  ///< which features touch; distinct; 0 beyond point_count
   Real
       normal_impulse[k_manifold_points_max];  ///< impulse / mass of the lighter dynamic body, m/s; 0 beyond point_count
@@ -158,9 +160,10 @@ struct alignas(8) JointState {
 
 /// What a bound asset's bytes are. Stored: a value is never reused.
 enum class AssetKind : uint32_t {
-  none = 0,   ///< not bound
-  other = 1,  ///< nothing that the library reads
-  hull = 2,   ///< a cooked hull, checked in full
+  none = 0,     ///< not bound
+  other = 1,    ///< nothing that the library reads
+  hull = 2,     ///< a cooked hull, checked in full
+  surface = 3,  ///< a cooked mesh or height field, checked in full
 };
 
 struct AssetState {

@@ -8,6 +8,7 @@
 
 #include "describe.h"
 #include "file.h"
+#include "read_heights.h"
 #include "read_mesh.h"
 #include "read_points.h"
 
@@ -135,6 +136,30 @@ bool cook_mesh_file(const MeshRequest& request, bool json, const detent_cook::Co
   printf("; of %zu triangles %u degenerate and %u repeated left out, %u vertices welded, %u edges forked, %zu bytes\n",
          read.mesh.triangles.size(), result.degenerate, result.repeated, result.welded, result.forked_edges,
          result.bytes.size());
+  return true;
+}
+
+bool cook_height_field_file(const HeightFieldRequest& request, bool json) {
+  std::vector<uint8_t> picture;
+  if (!read_file(request.input, picture, SIZE_MAX)) return fail(request.input, "cannot be read", json);
+  detent_cook::HeightsRead read = detent_cook::read_pgm({reinterpret_cast<const char*>(picture.data()), picture.size()},
+                                                        request.spacing, request.height);
+  if (!read.problem.empty()) return fail(request.input, read.problem, json);
+  read.field.one_sided = request.one_sided;
+  const detent_cook::HeightFieldResult result = detent_cook::cook_height_field(read.field);
+  if (result.bytes.empty()) return fail(request.input, result.reason, json);
+  if (!write_file(request.output, result.bytes)) return fail(request.output, "cannot be written", json);
+
+  const detent_cook::SurfaceDescription surface = detent_cook::describe_surface(result.bytes);
+  if (json) {
+    Json object = json_of(request.output, surface);
+    object["height_step"] = result.height_step;
+    object["bytes"] = result.bytes.size();
+    print_json(object);
+    return true;
+  }
+  print_text(request.output, surface);
+  printf("; heights in steps of %.3g m, %zu bytes\n", result.height_step, result.bytes.size());
   return true;
 }
 

@@ -25,6 +25,17 @@ struct MeshRequest {
 /// Reads the triangles, cooks them, writes the .mesh and says what it is. False as for cook_file().
 bool cook_mesh_file(const MeshRequest& request, bool json, const detent_cook::CookProgress& progress);
 
+struct HeightFieldRequest {
+  std::string input;
+  std::string output;
+  double spacing = 1;  ///< of the samples, m
+  double height = 1;   ///< of the brightest, m
+  bool one_sided = true;
+};
+
+/// Reads the picture, cooks it, writes the .field and says what it is. False as for cook_file().
+bool cook_height_field_file(const HeightFieldRequest& request, bool json);
+
 /// Whether the file begins as a .mesh or .field does.
 bool is_surface_file(const std::string& path);
 /// Says what the .mesh or .field holds. False if the library refuses it.

@@ -31,12 +31,12 @@ struct OwnedWorld {
   std::unique_ptr<uint64_t[]> block;
   World world;
 
-  Status create(const WorldDef& def) {
+  Status create(const WorldDef& def, const AssetTable& assets) {
     const uint32_t bytes = world_bytes(def.capacity);
     if (bytes == 0) return Status::out_of_range;
     block.reset(new (std::nothrow) uint64_t[(bytes + 7) / 8]);
     if (block == nullptr) return Status::buffer_too_small;
-    return create_world(reinterpret_cast<uint8_t*>(block.get()), bytes, def, {}, world);
+    return create_world(reinterpret_cast<uint8_t*>(block.get()), bytes, def, assets, world);
   }
 };
 
@@ -103,7 +103,7 @@ Status write_file(void* file, const uint8_t* bytes, uint32_t count) {
 }
 
 /// Reads the recording to its end, with a world or without.
-Outcome read_recording(const std::string& path, bool with_world, const Progress& progress) {
+Outcome read_recording(const std::string& path, bool with_world, const Assets& assets, const Progress& progress) {
   const File file = open_file(path, "rb");
   if (file == nullptr) return failed("cannot be opened");
   Outcome outcome;
@@ -114,6 +114,7 @@ Outcome read_recording(const std::string& path, bool with_world, const Progress&
   take_header(outcome, player.info());
 
   OwnedWorld owned;
+  std::vector<Asset> table;
   if (status == Status::ok && with_world) {
     // A hostile header could ask for gigabytes: the seed is as large as the capacity says, so a small file can't.
     if (outcome.file_bytes < player.info().snapshot_bytes) {
@@ -124,7 +125,11 @@ Outcome read_recording(const std::string& path, bool with_world, const Progress&
     }
     WorldDef def;
     def.capacity = player.info().capacity;
-    if (owned.create(def) != Status::ok) return failed("not enough memory for its world");
+    for (const AssetBytes& asset : assets)
+      table.push_back({reinterpret_cast<const uint8_t*>(asset.words.data()), asset.byte_count});
+    const AssetTable given = {table.data(), static_cast<uint32_t>(table.size())};
+    if (owned.create(def, table.empty() ? scene_assets() : given) != Status::ok)
+      return failed("not enough memory for its world");
     player.repeat_queries();
     status = player.start(owned.world);
   }
@@ -146,14 +151,18 @@ Outcome read_recording(const std::string& path, bool with_world, const Progress&
   return outcome;
 }
 
-Outcome verify(const std::string& path, const Progress& progress) { return read_recording(path, true, progress); }
-Outcome info(const std::string& path, const Progress& progress) { return read_recording(path, false, progress); }
+Outcome verify(const std::string& path, const Assets& assets, const Progress& progress) {
+  return read_recording(path, true, assets, progress);
+}
+Outcome info(const std::string& path, const Assets& assets, const Progress& progress) {
+  return read_recording(path, false, assets, progress);
+}
 
 Outcome record(const RecordRequest& request, const Progress& progress) {
   const Scene* scene = find_scene(request.scene.c_str());
   if (scene == nullptr) return failed("no such scene: " + request.scene);
   OwnedWorld owned;
-  const Status created = owned.create(scene->world());
+  const Status created = owned.create(scene->world(), scene_assets());
   if (created != Status::ok) return failed(std::string("its world cannot be made: ") + status_text(created));
   File file = open_file(request.path, "wb");
   if (file == nullptr) return failed("cannot be opened for writing");

@@ -67,14 +67,23 @@ struct RecordRequest {
   uint32_t digest_interval = 1;
 };
 
+/// The bytes of cooked files, at addresses that are multiples of 8.
+struct AssetBytes {
+  std::vector<uint64_t> words;
+  uint32_t byte_count = 0;
+};
+using Assets = std::vector<AssetBytes>;
+bool read_asset(const std::string& path, AssetBytes& asset);
+
 struct Engine {
   const char* config;
   uint32_t format_version;
   uint32_t simulation_version;
   std::vector<SceneLine> (*scenes)();
   Outcome (*record)(const RecordRequest& request, const Progress& progress);
-  Outcome (*verify)(const std::string& path, const Progress& progress);
-  Outcome (*info)(const std::string& path, const Progress& progress);
+  /// `assets`: of the recorded world; those of the scenes if there are none.
+  Outcome (*verify)(const std::string& path, const Assets& assets, const Progress& progress);
+  Outcome (*info)(const std::string& path, const Assets& assets, const Progress& progress);
 };
 
 /// The engines of this build, in the order fx64, fx32, f32, f64.

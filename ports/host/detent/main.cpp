@@ -22,11 +22,12 @@ std::string version_text() {
 }
 
 /// By the engine whose configuration the header names; by the first that can say anything if none holds it.
-Outcome read_by_its_engine(const std::string& path, Outcome (*Engine::*read)(const std::string&, const Progress&),
+Outcome read_by_its_engine(const std::string& path, const Assets& assets,
+                           Outcome (*Engine::*read)(const std::string&, const Assets&, const Progress&),
                            const Progress& progress) {
   Outcome outcome;
   for (const Engine& engine : engines()) {
-    outcome = (engine.*read)(path, progress);
+    outcome = (engine.*read)(path, assets, progress);
     if (!outcome.other_config) return outcome;
   }
   return outcome;
@@ -47,14 +48,28 @@ int run_record(const RecordRequest& request, const std::string& config, const Re
   return outcome.verdict == Verdict::good ? k_exit_good : k_exit_bad;
 }
 
-int run_verify(const std::vector<std::string>& paths, const Report& report) {
+/// False, and a line to standard error, if one cannot be read.
+bool read_assets(const std::vector<std::string>& paths, Assets& assets) {
+  for (const std::string& path : paths) {
+    assets.push_back({});
+    if (read_asset(path, assets.back())) continue;
+    fprintf(stderr, "%s: cannot be read\n", path.c_str());
+    return false;
+  }
+  return true;
+}
+
+int run_verify(const std::vector<std::string>& paths, const std::vector<std::string>& asset_paths,
+               const Report& report) {
+  Assets assets;
+  if (!read_assets(asset_paths, assets)) return k_exit_bad;
   int code = k_exit_good;
   for (const std::string& path : paths) {
     Outcome outcome;
     {
       ProgressBar bar(path);
-      outcome =
-          read_by_its_engine(path, &Engine::verify, [&bar](uint64_t done, uint64_t total) { bar.show(done, total); });
+      outcome = read_by_its_engine(path, assets, &Engine::verify,
+                                   [&bar](uint64_t done, uint64_t total) { bar.show(done, total); });
     }
     report.verified(path, outcome);
     if (outcome.verdict != Verdict::good) code = k_exit_bad;
@@ -77,7 +92,7 @@ int run_info(const std::vector<std::string>& paths, const Report& report) {
     {
       ProgressBar bar(path);
       outcome =
-          read_by_its_engine(path, &Engine::info, [&bar](uint64_t done, uint64_t total) { bar.show(done, total); });
+          read_by_its_engine(path, {}, &Engine::info, [&bar](uint64_t done, uint64_t total) { bar.show(done, total); });
     }
     report.described(path, outcome);
     if (outcome.verdict == Verdict::bad) code = k_exit_bad;
@@ -133,6 +148,12 @@ int main(int argc, char** argv) {
   std::vector<std::string> paths;
   CLI::App* verify = app.add_subcommand("verify", "Replay recordings and compare every digest");
   verify->add_option("file", paths, "Recordings")->required();
+  std::vector<std::string> asset_paths;
+  verify
+      ->add_option(
+          "--asset", asset_paths,
+          "A cooked file of the recorded world's asset table, from its first on; the scenes' own if none is given")
+      ->allow_extra_args(false);
   CLI::App* info =
       app.add_subcommand("info", "Say what recordings, hulls, meshes and height fields hold, without replaying them");
   info->add_option("file", paths, "Recordings and cooked shapes")->required();
@@ -142,17 +163,25 @@ int main(int argc, char** argv) {
   std::string kind = "hull";
   std::string frame = "principal";
   bool refuse_more = false;
-  CLI::App* cook =
-      app.add_subcommand("cook", "Make a convex hull of points, or a mesh of triangles, ready for the library");
-  cook->add_option("--kind", kind, "hull: of the vertices; mesh: of the faces")
-      ->check(CLI::IsMember({"hull", "mesh"}))
+  CLI::App* cook = app.add_subcommand(
+      "cook", "Make a convex hull of points, a mesh of triangles or a field of heights, ready for the library");
+  cook->add_option("--kind", kind, "hull: of the vertices; mesh: of the faces; height-field: of a PGM's pixels")
+      ->check(CLI::IsMember({"hull", "mesh", "height-field"}))
       ->capture_default_str();
-  cook->add_option("input", cooking.input,
-                   "An OBJ; clouds of points, by a name that ends in .bin; a mesh also as .gltf or .glb")
+  cook->add_option(
+          "input", cooking.input,
+          "An OBJ; clouds of points, by a name that ends in .bin; a mesh also as .gltf or .glb; heights as .pgm")
       ->required();
-  cook->add_option("output", cooking.output, "The .hull or .mesh to write")->required();
+  cook->add_option("output", cooking.output, "The .hull, .mesh or .field to write")->required();
   bool one_sided = false;
   cook->add_flag("--one-sided", one_sided, "Of a mesh: met only from the side that sees its faces counter-clockwise");
+  bool two_sided = false;
+  HeightFieldRequest heights;
+  cook->add_flag("--two-sided", two_sided, "Of a height field: met from below, too");
+  cook->add_option("--spacing", heights.spacing, "Of a height field: from sample to sample, m")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  cook->add_option("--height", heights.height, "Of a height field: of the brightest pixel, m")->capture_default_str();
   cook->add_option(
           "--frame", frame,
           "principal: for bodies, about the centre of mass along the principal axes; source: as the points are")
@@ -178,10 +207,16 @@ int main(int argc, char** argv) {
   }
   if (request.path.empty()) request.path = request.scene + ".rec";
   if (record->parsed()) return run_record(request, config, report);
-  if (verify->parsed()) return run_verify(paths, report);
+  if (verify->parsed()) return run_verify(paths, asset_paths, report);
   if (info->parsed()) return run_info(paths, report);
   if (cook->parsed() && kind == "mesh") {
     return run_cook_mesh({cooking.input, cooking.output, {cooking.options.weld, one_sided}}, report);
+  }
+  if (cook->parsed() && kind == "height-field") {
+    heights.input = cooking.input;
+    heights.output = cooking.output;
+    heights.one_sided = !two_sided;
+    return cook_height_field_file(heights, report.json) ? k_exit_good : k_exit_bad;
   }
   if (cook->parsed()) {
     cooking.options.frame = frame == "source" ? detent_cook::Frame::source : detent_cook::Frame::principal;

@@ -1,0 +1,18 @@
+#pragma once
+#include <string_view>
+
+#include "cook_height_field.h"
+
+namespace detent_cook {
+
+struct HeightsRead {
+  HeightFieldSource field{};
+  std::string problem{};  ///< one line; empty if all is well
+};
+
+/// The picture of a PGM (P2 or P5, of 8 or 16 bits): a sample a pixel, rows from north (-z) to south; black is height 0
+/// and the brightest possible pixel `height`, m. The picture's middle lies over the origin; `spacing`: of the pixels,
+/// m.
+HeightsRead read_pgm(std::string_view bytes, double spacing, double height);
+
+}  // namespace detent_cook

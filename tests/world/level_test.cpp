@@ -1,0 +1,81 @@
+#include <detent/storage.h>
+#include <detent/world.h>
+#include <math.h>
+
+#include "tests/collision/ground.h"
+#include "tests/geometry/levels.h"
+#include "tests/queries/random.h"
+
+/// Bodies on real levels.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+/// Real levels, shot at from beside their triangles: no centre ever comes to lie behind what it was before.
+DETENT_TEST(levels, are_stood_rolled_and_shot_at) {
+  uint32_t levels = 0, hit = 0;
+  for (const char* name : detent_surfaces::k_levels) {
+    Source source;
+    if (!detent_surfaces::read_level(name, source)) continue;
+    ++levels;
+    WorldDef def;
+    def.tick = real_near(1.0 / 240);
+    def.capacity = {2, 8, 1};
+    const detent_surfaces::Bytes bytes = detent_surfaces::cooked(source);
+    const Asset asset = {bytes.data(), bytes.count()};
+    World world;
+    WorldStorage<Capacity{2, 8, 1}> storage;
+    ASSERT_OK(storage.create(def, world, {&asset, 1}));
+    ASSERT_OK(bind_asset(world, 0));
+    BodyDef ground;
+    ground.type = BodyType::fixed;
+    ground.shape = surface(0);
+    BodyId id;
+    ASSERT_OK(create_body(world, ground, id));
+    const Surface level = surface_view(asset.bytes);
+    const double size = level.exponent() > 8 ? 50 : 0.5, grid = ldexp(1.0, level.exponent() - 30);
+    detent_queries::Random random(5);
+    for (uint32_t n = 0; n < detent_oracle::rounds(40); ++n) {
+      const SurfaceTriangle t = level.triangle(random.below(level.mesh.triangle_count));
+      const Vec32 normal = normal_of(t.corner[0], t.corner[1], t.corner[2]);
+      const double side = random.sign(), away = random.uniform(1, 3) * size, speed = random.uniform(0, 200) * size;
+      const double n_x = side * normal.x / 0x1p30, n_y = side * normal.y / 0x1p30, n_z = side * normal.z / 0x1p30;
+      const auto at = [&](int32_t Vec32::*c, double along) {
+        return grid * (t.corner[0].*c / 3.0 + t.corner[1].*c / 3.0 + t.corner[2].*c / 3.0) + along * away;
+      };
+      BodyDef body;
+      body.shape = n % 3 == 0   ? sphere(real_near(0.4 * size))
+                   : n % 3 == 1 ? box(reals_near(Vector{{0.4 * size, 0.25 * size, 0.3 * size}}))
+                                : capsule(real_near(0.25 * size), real_near(0.4 * size));
+      body.position = position_near(Vector{{at(&Vec32::x, n_x), at(&Vec32::y, n_y), at(&Vec32::z, n_z)}});
+      body.velocity = reals_near(Vector{{-speed * n_x, -speed * n_y, -speed * n_z}});
+      body.gravity_scale = real_near(size);
+      ASSERT_OK(create_body(world, body, id));
+      const Pose origin = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}};
+      Pose before;
+      EXPECT_OK(get_pose(world, id, before));
+      for (int tick = 0; tick < 240; ++tick) {
+        const StepReport report = step(world);
+        hit += report.impacts != 0 || report.contacts != 0 ? 1 : 0;
+        if (report.overlaps_left != 0 && tick == 0) break;  // it was made within the level
+        Pose now;
+        EXPECT_OK(get_pose(world, id, now));
+        const auto way = [](Coord from, Coord to) { return real_near(coord_to_host(to) - coord_to_host(from)); };
+        const Position &p = before.position, &q = now.position, &o = origin.position;
+        SurfaceHit found;
+        ASSERT_OK(cast_ray_on_surface(level, origin, {way(o.x, p.x), way(o.y, p.y), way(o.z, p.z)},
+                                      {way(p.x, q.x), way(p.y, q.y), way(p.z, q.z)}, found));
+        EXPECT_FALSE(found.hit) << name << ", body " << n << ", tick " << tick;
+        if (found.hit) break;
+        before = now;
+      }
+      EXPECT_OK(destroy_body(world, id));
+    }
+  }
+  if (levels == 0) GTEST_SKIP() << "no meshes under DETENT_DATA";
+  EXPECT_GT(hit, 1000u);
+}
+
+}  // namespace
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent
