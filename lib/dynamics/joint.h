@@ -70,7 +70,7 @@ bool is_angular(JointType type, int motion);
 /// Heavy pulls at a light body make it sway faster than a substep can follow, and each one would add to it: such a body
 /// is slowed. The rows of the joints are made; sets `turn_share` of the bodies they own.
 /// Source: Tournier, Nesme, Gilles, Faure, "Stable constrained dynamics", 2015; that only what is too stiff is damped:
-/// Andrews, Teichmann, Koevecses, "Geometric stiffness for real-time constrained multibody dynamics", 2017.
+/// Andrews, Teichmann, Kry, "Geometric stiffness for real-time constrained multibody dynamics", 2017.
 void hold_sway(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> joints,
                JointStage& stage);
 /// Makes the rows of a joint as its bodies are now.
