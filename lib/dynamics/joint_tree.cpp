@@ -21,7 +21,7 @@ constexpr Real k_response_min = 0x1p-29;
 /// Of an island with contacts.
 constexpr uint32_t k_substeps_with_contacts = 8;
 /// One without takes these, but many joints no more than make so many joint substeps.
-constexpr uint32_t k_substeps_max = 4, k_substeps_min = 2, k_joint_substeps = 64;
+constexpr uint32_t k_substeps_max = 4, k_substeps_min = 1, k_joint_substeps = 60;
 
 uint32_t substeps_of(const Island& island) {
   if (island.contact_count != 0) return k_substeps_with_contacts;
