@@ -59,6 +59,8 @@ struct BodyDef {
   uint32_t user_data = 0;      ///< kept, digested and recorded; read by filter rules alone
   uint32_t turn_locks = 0;     ///< k_turn_lock_x, ...: axes of the body about which it does not turn
   Filter filter = {};          ///< what it collides with
+  /// It pushes nothing, nothing pushes it, and queries and movers do not meet it; it tells who is within it (sensor.h).
+  bool sensor = false;
 };
 
 }  // namespace DETENT_NAMESPACE

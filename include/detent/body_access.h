@@ -21,6 +21,8 @@ Status get_damping(const World& world, BodyId id, Real& linear, Real& angular);
 Status get_gravity_scale(const World& world, BodyId id, Real& scale);
 /// BodyDef::turn_locks.
 Status get_turn_locks(const World& world, BodyId id, uint32_t& locks);
+/// BodyDef::sensor.
+Status get_sensor(const World& world, BodyId id, bool& sensor);
 /// The moments of inertia about the body's axes, kg m^2; 0 for fixed and kinematic bodies and about locked axes.
 Status get_inertia(const World& world, BodyId id, Vec3<Scaled>& inertia);
 /// The velocity of the body's point `arm` from its centre of mass, m, world axes, each component within twice the
@@ -49,6 +51,9 @@ Status set_damping(World& world, BodyId id, Real linear, Real angular);
 Status set_gravity_scale(World& world, BodyId id, Real scale);
 /// BodyDef::turn_locks. Spin about the other axes stays. Errors: bad_argument.
 Status set_turn_locks(World& world, BodyId id, uint32_t locks);
+/// BodyDef::sensor. Its contacts end at once, and who was within whom is forgotten. Errors: pool_full
+/// (Capacity::sensed is 0), feature_missing.
+Status set_sensor(World& world, BodyId id, bool sensor);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

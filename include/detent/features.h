@@ -29,10 +29,11 @@ enum class Features : uint32_t {
   continuous = 1u << 17,  ///< WorldDef::continuous
   sleeping = 1u << 18,    ///< WorldDef::sleeping, put_to_sleep()
   joints = 1u << 19,      ///< create_joint()
+  sensors = 1u << 20,     ///< BodyDef::sensor
   /// Every shape.
   shapes = sphere | capsule | box | half_space | cylinder | cone | hull | surface | rounding,
   /// The default of create_world().
-  all = shapes | continuous | sleeping | joints,
+  all = shapes | continuous | sleeping | joints | sensors,
 };
 /// Those in either.
 constexpr Features operator|(Features a, Features b) {
@@ -60,9 +61,11 @@ struct ConvexCode;
 struct HullCode;
 struct SurfaceCode;
 struct SurfaceImpactCode;
+struct SurfaceDistanceCode;
 struct ContinuousCode;
 struct SleepingCode;
 struct JointCode;
+struct SensorCode;
 extern const ShapeCode k_sphere_code, k_capsule_code, k_box_code, k_half_space_shape_code, k_cylinder_code, k_cone_code,
     k_hull_shape_code, k_surface_shape_code;
 extern const PairCode k_round_pair_code, k_box_round_pair_code, k_box_pair_code;
@@ -71,9 +74,11 @@ extern const ConvexCode k_convex_code;
 extern const HullCode k_hull_code;
 extern const SurfaceCode k_surface_code;
 extern const SurfaceImpactCode k_surface_impact_code;
+extern const SurfaceDistanceCode k_surface_distance_code;
 extern const ContinuousCode k_continuous_code;
 extern const SleepingCode k_sleeping_code;
 extern const JointCode k_joint_code;
+extern const SensorCode k_sensor_code;
 /// @endcond
 
 /// What a world calls, null where it is not linked. Made by feature_table; must outlive its worlds.
@@ -87,9 +92,11 @@ struct FeatureTable {
   const HullCode* hull;
   const SurfaceCode* surface;
   const SurfaceImpactCode* surface_impact;
+  const SurfaceDistanceCode* surface_distance;
   const ContinuousCode* continuous;
   const SleepingCode* sleeping;
   const JointCode* joints;
+  const SensorCode* sensors;
   /// @endcond
 };
 
@@ -114,10 +121,13 @@ constexpr FeatureTable make_feature_table(Features features) {
   if (any(Features::cylinder | Features::cone | Features::hull | Features::rounding)) table.convex = &k_convex_code;
   if (any(Features::hull)) table.hull = &k_hull_code;
   if (any(Features::surface)) table.surface = &k_surface_code;
-  if (any(Features::surface) && any(Features::continuous)) table.surface_impact = &k_surface_impact_code;
+  if (any(Features::surface) && any(Features::continuous | Features::sensors))
+    table.surface_impact = &k_surface_impact_code;
+  if (any(Features::surface) && any(Features::sensors)) table.surface_distance = &k_surface_distance_code;
   if (any(Features::continuous)) table.continuous = &k_continuous_code;
   if (any(Features::sleeping)) table.sleeping = &k_sleeping_code;
   if (any(Features::joints)) table.joints = &k_joint_code;
+  if (any(Features::sensors)) table.sensors = &k_sensor_code;
   return table;
 }
 

@@ -113,6 +113,7 @@ class Recorder {
   Status set_damping(BodyId id, Real linear, Real angular);
   Status set_gravity_scale(BodyId id, Real scale);
   Status set_turn_locks(BodyId id, uint32_t locks);
+  Status set_sensor(BodyId id, bool sensor);
   Status set_settings(const WorldDef& def);
   Status apply_force_at(BodyId id, const Vec3<Scaled>& force, const Vec3<Real>& arm);
   Status apply_force_at_point(BodyId id, const Vec3<Scaled>& force, const Position& point);

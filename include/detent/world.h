@@ -26,10 +26,11 @@ struct Capacity {
   bool manifolds =
       true;  ///< room to use contact points again (WorldDef::reuse), which takes 160 bytes a contact (f64 272)
   uint32_t joints = 0;  ///< joints
+  uint32_t sensed = 0;  ///< bodies within sensors: pairs of both; 0: no sensors
   /// Equal in every kind.
   friend constexpr bool operator==(Capacity a, Capacity b) {
     return a.bodies == b.bodies && a.contacts == b.contacts && a.assets == b.assets && a.manifolds == b.manifolds &&
-           a.joints == b.joints;
+           a.joints == b.joints && a.sensed == b.sensed;
   }
 };
 
@@ -84,8 +85,11 @@ struct World {
   const FeatureTable* features = nullptr;  ///< what create_world() was given
   uint32_t lanes =
       1;  ///< contacts that the solver takes at once, 1 or as many as this machine can: the bits are the same
-  FilterRuleTable filter_rules = {};  ///< what Filter::rule means; none by default. Set it before any body names one
-  Profile* profile = nullptr;         ///< times of the stages of each step (profile.h)
+  FilterRuleTable filter_rules = {};     ///< what Filter::rule means; none by default. Set it before any body names one
+  Profile* profile = nullptr;            ///< times of the stages of each step (profile.h)
+  SensorEventBuffer sensor_events = {};  ///< as contact_events
+  BodyEventBuffer body_events = {};      ///< likewise
+  CapacityEventBuffer capacity_events = {};  ///< likewise
 };
 
 /// What one step did. Every count is of this step alone.
@@ -126,10 +130,18 @@ struct StepReport {
   uint32_t toi_tests = 0;             ///< times of impact asked for
   uint32_t toi_skipped = 0;           ///< pairs too slow to meet
   uint32_t colour_overflows = 0;      ///< contacts of bodies that touch more than 64 others, solved after the rest
+  /// Of sensors (sensor.h), and the other events in the world's buffers.
+  uint32_t sensor_events = 0;
+  uint32_t sensor_events_dropped = 0;  ///< beyond its capacity; not counted where there is no buffer
+  uint32_t sensed_dropped = 0;    ///< bodies in or through a sensor beyond Capacity::sensed, which it does not know of
+  uint32_t sensed_undecided = 0;  ///< bodies that count as in or through a sensor, for it could not be decided
+  uint32_t body_events = 0;       ///< who fell asleep or woke
+  uint32_t body_events_dropped = 0;  ///< likewise
+  uint32_t capacity_events = 0;      ///< whom there was no room for
   /// True if nothing was lost: no pool overflowed, no search was capped and no value was clamped.
   constexpr bool complete() const {
     return pairs_dropped == 0 && contacts_dropped == 0 && contacts_capped == 0 && saturations == 0 &&
-           bodies_stopped == 0;
+           bodies_stopped == 0 && sensed_dropped == 0;
   }
 };
 
@@ -140,6 +152,7 @@ struct WorldInfo {
   uint32_t bodies = 0;         ///< bodies in the world
   uint32_t contacts = 0;       ///< pairs in contact after the last step, those asleep included
   uint32_t joints = 0;         ///< joints in the world
+  uint32_t sensed = 0;         ///< bodies within sensors after the last step: pairs of both
   uint32_t slots_retired = 0;  ///< body slots whose generation is used up
 };
 
@@ -151,8 +164,8 @@ Status create_world(uint8_t* block, uint32_t block_bytes, const WorldDef& def, A
                     const FeatureTable& features = feature_table<Features::all>);
 
 /// Makes a body in the lowest free slot; it takes part in the next step.
-/// Errors: pool_full, bad_argument, out_of_range, not_normalised; asset_missing (a hull that is not bound);
-/// feature_missing; rule_missing.
+/// Errors: pool_full (also a sensor where Capacity::sensed is 0), bad_argument, out_of_range, not_normalised;
+/// asset_missing (a hull that is not bound); feature_missing; rule_missing.
 Status create_body(World& world, const BodyDef& def, BodyId& id);
 /// Takes a body away; its contacts end at once, and whom it touched wakes. Errors: bad_id.
 Status destroy_body(World& world, BodyId id);

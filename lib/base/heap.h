@@ -47,13 +47,23 @@ struct SmallestOf {
   uint32_t dropped = 0;
 
   void add(const T& value) {
+    T lost;
+    add(value, lost);
+  }
+  /// True if there is no room for one: `lost` is the largest then.
+  bool add(const T& value, T& lost) {
     if (count < storage.count) {
       storage[count++] = value;
       if (count == storage.count) heap_make(storage, less);
-      return;
+      return false;
     }
     ++dropped;
-    if (count != 0 && less(value, storage[0])) heap_sift_down(storage, 0, value, less);
+    lost = value;
+    if (count != 0 && less(value, storage[0])) {
+      lost = storage[0];
+      heap_sift_down(storage, 0, value, less);
+    }
+    return true;
   }
 };
 

@@ -99,7 +99,9 @@ bool DeeperPair::operator()(uint64_t a, uint64_t b) const {
 void PairPool::consider(uint32_t a, uint32_t b) {
   if (!is_dynamic_type(traits[a]) && !is_dynamic_type(traits[b])) return;
   if (!overlap(bounds[a], bounds[b]) || !filter.allows(a, b)) return;
-  found.add(key_of_pair(a, b));
+  uint64_t lost;
+  if (found.add(key_of_pair(a, b), lost) && losses != nullptr)
+    losses->add(CapacityEventType::pair, pair_low(lost), pair_high(lost));
 }
 
 /// By the higher slot, then by the lower one: only as many digits as slots have.

@@ -1,6 +1,7 @@
 #pragma once
 #include "base/heap.h"
 #include "base/span.h"
+#include "collision/losses.h"
 #include "collision/pair_filter.h"
 #include "collision/resting_tree.h"
 
@@ -27,6 +28,7 @@ struct PairPool {
   Span<const Bounds> bounds;
   Span<uint64_t> spare;  ///< work space as large as the pool
   SmallestOf<uint64_t, DeeperPair> found;
+  Losses* losses = nullptr;  ///< where those that are not kept are written down
 
   PairPool(Span<const BodyPose> body_poses, Span<const BodyTraits> body_traits, Span<const Bounds> body_bounds,
            Span<uint64_t> sort_space, Span<uint64_t> storage, const FilterRuleTable& rules = {},

@@ -19,13 +19,17 @@ inline bool has_rule(const FilterRuleTable& table, uint32_t rule) {
   return rule == 0 || (rule <= table.count && table.rules[rule - 1] != nullptr);
 }
 
-/// Whether two bodies may touch: all that finds pairs asks here.
+/// Whether two bodies may touch, which sensors never do: all that finds pairs asks here.
 struct PairFilter {
   Span<const BodyTraits> traits;
   FilterRuleTable rules;
   Span<const uint64_t> apart = {};  ///< pairs that joints keep apart, ascending
 
   bool allows(uint32_t slot_a, uint32_t slot_b) const {
+    return (traits[slot_a].sensor | traits[slot_b].sensor) == 0 && lets_through(slot_a, slot_b);
+  }
+  /// Whether filters and joints let the two know of each other, one of which may be a sensor.
+  bool lets_through(uint32_t slot_a, uint32_t slot_b) const {
     const BodyTraits &a = traits[slot_a], &b = traits[slot_b];
     const bool grouped = a.group != 0 && a.group == b.group;
     if (grouped ? a.group < 0 : !masks_meet(a.category, a.mask, b.category, b.mask)) return false;

@@ -26,6 +26,7 @@ uint32_t wake_all_with(uint32_t slot, Span<BodyActivity> activities, BitSet visi
     if (activity.asleep != group) continue;
     activity.asleep = 0;
     activity.still_ticks = 0;
+    activity.news = static_cast<uint16_t>(BodyEventType::woke);
     visits.set(other);
     ++count;
   }
@@ -43,8 +44,8 @@ uint32_t fall_asleep(const StepSettings& settings, Span<const BodyTraits> traits
       const Real fall = fall_speed(settings, shape_extent(traits[slot]));
       const bool rests =
           speed_bound(traits[slot], poses[slot].rotation, motions[slot]) < scale_by_power(fall, k_rest_power);
-      uint32_t& ticks = activities[slot].still_ticks;
-      ticks = !rests ? 0 : ticks < k_still_ticks ? ticks + 1 : ticks;
+      uint16_t& ticks = activities[slot].still_ticks;
+      ticks = static_cast<uint16_t>(!rests ? 0 : ticks < k_still_ticks ? ticks + 1 : ticks);
       still = still && ticks == k_still_ticks;
     }
     if (!still) continue;
@@ -53,6 +54,7 @@ uint32_t fall_asleep(const StepSettings& settings, Span<const BodyTraits> traits
       const uint32_t slot = bodies[island.first_body + i];
       motions[slot].velocity = motions[slot].momentum = k_still;
       activities[slot].asleep = group;
+      activities[slot].news = static_cast<uint16_t>(BodyEventType::fell_asleep);
     }
     asleep += island.body_count;
   }

@@ -1,5 +1,6 @@
 #pragma once
 #include <detent/detail/scratch.h>
+#include <detent/event.h>
 #include <detent/features.h>
 
 #include "base/bit_set.h"
@@ -10,7 +11,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-inline constexpr uint32_t k_still_ticks = 30;  ///< at rest before an island falls asleep
+inline constexpr uint16_t k_still_ticks = 30;  ///< at rest before an island falls asleep
 
 inline bool is_awake(const BodyTraits& traits, const BodyActivity& activity) {
   return is_dynamic(traits) && activity.asleep == 0;
@@ -19,7 +20,8 @@ inline bool is_awake(const BodyTraits& traits, const BodyActivity& activity) {
 /// A body that moves, or may be moved, in this step: an awake dynamic one, or a kinematic one that has a velocity.
 bool is_moving(const BodyTraits& traits, const BodyMotion& motion, const BodyActivity& activity);
 
-/// Wakes all bodies that fell asleep with the one in `slot`, and sets their bits in `visits`. Returns how many.
+/// Wakes all bodies that fell asleep with the one in `slot`, sets their bits in `visits`, and leaves word of
+/// it. Returns how many.
 uint32_t wake_all_with(uint32_t slot, Span<BodyActivity> activities, BitSet visits);
 
 /// Counts the ticks that each body has been at rest, and puts islands of which all bodies have been for k_still_ticks

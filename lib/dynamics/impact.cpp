@@ -156,7 +156,10 @@ struct Stage {
     sweep.marks |= k_mark_struck;
     // The solver's momentum is that of the tick's end.
     const Quat from = struck ? bodies.poses[slot].rotation : end_rotation(slot);
-    if (time > sweep.from) bodies.poses[slot] = pose_at(body(slot), time);
+    if (time > sweep.from) {
+      if (bodies.listener.ended != nullptr) bodies.listener.ended(bodies.listener.context, slot, time);
+      bodies.poses[slot] = pose_at(body(slot), time);
+    }
     sweep.from = time;
     Vec3<Real>& momentum = bodies.motions[slot].momentum;
     momentum = carried_momentum(bodies.traits[slot], from, bodies.poses[slot].rotation, momentum);

@@ -48,6 +48,12 @@ struct ImpactReport {
   Real lost_time = 0.0;         ///< sum of the parts of the tick that stopped bodies missed
 };
 
+/// Is told of each stretch of a body's sweep that ends before the tick does, while the body is still at its start.
+struct StretchListener {
+  void (*ended)(void* context, uint32_t slot, Fraction until) = nullptr;  ///< null: nobody listens
+  void* context = nullptr;
+};
+
 /// The bodies of the stage. Their poses are those of sweep.from, and follow it.
 struct ImpactBodies {
   Span<const BodyTraits> traits;
@@ -60,6 +66,7 @@ struct ImpactBodies {
   BitSet visits;        ///< the bodies that move, and those that are struck or woken
   BitSet candidates;    ///< work space, zero before and after
   FilterRuleTable filter_rules = {};
+  StretchListener listener = {};
 };
 
 /// What the stages before know of the pairs of bodies.

@@ -42,6 +42,7 @@ enum class RecordTag : uint8_t {
   apply_impulse_at_point = 43,
   explode = 44,
   move_kinematic = 45,
+  set_sensor = 46,
   set_filter = 48,
   query = 49,  ///< a query and the digest of its answer (lib/replay/query_command.h), after their length
   create_joint = 64,
@@ -121,6 +122,7 @@ using SetDensity = SetValue<RecordTag::set_density, Scaled, set_density>;
 using SetMaterial = SetValue<RecordTag::set_material, Material, set_material>;
 using SetGravityScale = SetValue<RecordTag::set_gravity_scale, Real, set_gravity_scale>;
 using SetTurnLocks = SetValue<RecordTag::set_turn_locks, uint32_t, set_turn_locks>;
+using SetSensor = SetValue<RecordTag::set_sensor, bool, set_sensor>;
 struct SetDamping {
   static constexpr RecordTag k_tag = RecordTag::set_damping;
   BodyId id = {};
@@ -218,6 +220,7 @@ void visit(Archive& archive, BodyDef& def) {
   visit_word(archive, "user data", def.user_data);
   visit_word(archive, "turn locks", def.turn_locks);
   visit(archive, def.filter);
+  visit_flag(archive, "sensor", def.sensor);
 }
 
 /// All but the capacity, which is the recording's.
@@ -335,6 +338,7 @@ void visit(Archive& archive, SetGravity& command) {
   visit_number(archive, "gravity", command.gravity);
 }
 inline void visit_value(auto& archive, uint32_t& value) { visit_word(archive, "value", value); }
+inline void visit_value(auto& archive, bool& value) { visit_flag(archive, "value", value); }
 inline void visit_value(auto& archive, BodyType& type) {
   visit_choice(archive, "body type", type, BodyType::fixed, BodyType::dynamic);
 }
@@ -470,6 +474,8 @@ bool with_command(RecordTag tag, const Visitor& visitor) {
       return visit_new<SetGravityScale>(visitor);
     case RecordTag::set_turn_locks:
       return visit_new<SetTurnLocks>(visitor);
+    case RecordTag::set_sensor:
+      return visit_new<SetSensor>(visitor);
     case RecordTag::set_settings:
       return visit_new<SetSettings>(visitor);
     case RecordTag::apply_force_at:

@@ -12,7 +12,7 @@ constexpr uint32_t k_magic_bytes = 8;
 inline constexpr uint8_t k_recording_magic[k_magic_bytes] = {0x89, 'D', 'T', 'R', '\r', '\n', 0x1a, '\n'};
 
 constexpr uint32_t k_version_bytes = 4;  ///< the format version: the first thing after the magic, whatever follows
-constexpr uint32_t k_info_bytes = 52;    ///< the header's fields
+constexpr uint32_t k_info_bytes = 56;    ///< the header's fields
 constexpr uint32_t k_checksum_bytes = 4;
 constexpr uint32_t k_header_bytes = k_magic_bytes + k_info_bytes + k_checksum_bytes;
 
@@ -88,6 +88,7 @@ void visit(Archive& archive, RecordingInfo& info) {
   archive.require("flags", flags <= k_no_manifolds, Status::bad_argument);
   info.capacity.manifolds = (flags & k_no_manifolds) == 0;
   visit_word(archive, "joint capacity", info.capacity.joints);
+  visit_word(archive, "sensed capacity", info.capacity.sensed);
 }
 
 constexpr bool digest_due(uint32_t interval, uint64_t tick) { return interval != 0 && tick % interval == 0; }

@@ -253,6 +253,11 @@ Status Recorder::set_turn_locks(BodyId id, uint32_t locks) {
   return apply_and_log(command);
 }
 
+Status Recorder::set_sensor(BodyId id, bool sensor) {
+  SetSensor command{id, sensor};
+  return apply_and_log(command);
+}
+
 Status Recorder::set_settings(const WorldDef& def) {
   SetSettings command{def};
   return apply_and_log(command);

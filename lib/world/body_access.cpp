@@ -6,6 +6,7 @@
 #include "world/body_change.h"
 #include "world/body_parts.h"
 #include "world/ranges.h"
+#include "world/sensors.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -133,6 +134,7 @@ Status get_body_def(const World& world, BodyId id, BodyDef& def) {
   made.user_data = traits.user_data;
   made.turn_locks = traits.turn_locks;
   made.filter = filter_of(traits);
+  made.sensor = traits.sensor != 0;
   def = made;
   return Status::ok;
 }
@@ -178,6 +180,13 @@ Status get_turn_locks(const World& world, BodyId id, uint32_t& locks) {
   const Read body(world, id);
   if (body.traits == nullptr) return Status::bad_id;
   locks = body.traits->turn_locks;
+  return Status::ok;
+}
+
+Status get_sensor(const World& world, BodyId id, bool& sensor) {
+  const Read body(world, id);
+  if (body.traits == nullptr) return Status::bad_id;
+  sensor = body.traits->sensor != 0;
   return Status::ok;
 }
 
@@ -281,6 +290,21 @@ Status set_gravity_scale(World& world, BodyId id, Real gravity_scale) {
   Change change(world, id);
   if (!change.found) return Status::bad_id;
   return change.make_if(set_body_gravity_scale(gravity_scale, change.traits));
+}
+
+Status set_sensor(World& world, BodyId id, bool sensor) {
+  const FloatEnvironment environment;
+  Change change(world, id);
+  if (!change.found) return Status::bad_id;
+  if (sensor == (change.traits.sensor != 0)) return Status::ok;
+  if (sensor) {
+    if (const Status status = check_sensors(world); status != Status::ok) return status;
+  }
+  change.traits.sensor = sensor ? 1 : 0;
+  change.state.world.sensor_count += sensor ? 1u : UINT32_MAX;
+  change.make_anew();
+  forget_sensed(change.state, change.slot);
+  return Status::ok;
 }
 
 Status set_turn_locks(World& world, BodyId id, uint32_t locks) {

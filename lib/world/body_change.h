@@ -15,6 +15,11 @@ inline void rouse(StateView<uint8_t>& state, uint32_t slot) {
   state.activities[slot].still_ticks = 0;
   step.visits.set(slot);
 }
+/// The next step looks at the body anew, which sleeps on.
+inline void look_at_again(StateView<uint8_t>& state, uint32_t slot) {
+  state.world.idle = 0;
+  cache_of(state).visits.set(slot);
+}
 /// And what takes it away wakes those that it touches or is joined to.
 inline void rouse_neighbours(StateView<uint8_t>& state, uint32_t slot) {
   for (const ContactState& contact : state.contacts.first(state.world.contact_count)) {
@@ -34,8 +39,11 @@ inline void rouse_world(StateView<uint8_t>& state) {
   step.cache.contacts_known = 0;
   for (uint32_t slot = 0; slot < state.world.slots_used; ++slot) {
     BodyActivity& activity = state.activities[slot];
-    if (activity.asleep != 0) step.visits.set(slot);
-    activity.asleep = activity.still_ticks = 0;
+    activity.still_ticks = 0;
+    if (activity.asleep == 0) continue;
+    step.visits.set(slot);
+    activity.asleep = 0;
+    activity.news = static_cast<uint16_t>(BodyEventType::woke);
   }
 }
 /// The body is no longer what its contacts were made with.

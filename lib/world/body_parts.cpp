@@ -69,7 +69,7 @@ Status set_body_gravity_scale(Real scale, BodyTraits& traits) {
 
 Status set_body_turn_locks(uint32_t locks, BodyTraits& traits) {
   if (locks > k_turn_locks_all) return Status::bad_argument;
-  traits.turn_locks = locks;
+  traits.turn_locks = static_cast<uint16_t>(locks);
   return Status::ok;
 }
 

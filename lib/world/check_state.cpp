@@ -10,6 +10,7 @@
 #include "world/fields.h"
 #include "world/joints.h"
 #include "world/ranges.h"
+#include "world/sensors.h"
 #include "world/slots.h"
 #include "world/snapshot.h"
 #include "world/view.h"
@@ -133,7 +134,7 @@ bool is_linked(const State& state, const BodyTraits& traits) {
 
 bool is_body(const State& state, const BodyTraits& traits, AssetTable assets, const FeatureTable& features) {
   const Scaled none = 0.0;
-  return traits.type <= static_cast<uint32_t>(BodyType::dynamic) && traits.generation != 0 &&
+  return traits.type <= static_cast<uint32_t>(BodyType::dynamic) && traits.generation != 0 && traits.sensor <= 1 &&
          is_shape(traits, assets, features, state.assets) && is_linked(state, traits) &&
          is_mass_of(traits, assets, features) && is_between(traits.friction, none, scaled_from(k_friction_max)) &&
          is_between(traits.restitution, none, Scaled(1.0)) &&
@@ -161,6 +162,8 @@ bool is_activity(const State& state, uint32_t slot) {
   const BodyActivity& activity = state.activities[slot];
   if (!is_dynamic(state.traits[slot])) return is_zero(activity);
   if (activity.substeps > 64 || activity.calm_ticks > k_calm_ticks || activity.still_ticks > k_still_ticks)
+    return false;
+  if (activity.news != 0 && (activity.news != static_cast<uint16_t>(BodyEventType::woke) || activity.asleep != 0))
     return false;
   if (activity.asleep == 0) return true;
   if (!contains(features_of(state), Features::sleeping)) return false;
@@ -287,11 +290,12 @@ Status check_state(const uint8_t* block, Capacity capacity, AssetTable assets, c
   }
   if (!contains(features_of(state), features_of(world.continuous != 0, world.sleeping != 0))) return Status::corrupt;
   if (world.joint_count != 0 && !contains(features_of(state), Features::joints)) return Status::corrupt;
+  if (world.sensor_count != 0 && !contains(features_of(state), Features::sensors)) return Status::corrupt;
   if (!are_slots(state) || !are_assets(state) || !are_fills(block, state.layout)) return Status::corrupt;
   // Before the bodies, which are checked against the hulls that they have.
   if (const Status status = check_assets(assets, features, state.assets); status != Status::ok) return status;
   if (!are_bodies(state, assets, features) || !are_contacts(state) || !are_manifolds(state) || !are_joints(state) ||
-      (world.idle != 0 && !is_idle(state))) {
+      !are_sensed(state) || (world.idle != 0 && !is_idle(state))) {
     return Status::corrupt;
   }
   for (const BodyTraits& traits : state.traits) {

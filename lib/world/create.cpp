@@ -8,6 +8,7 @@
 #include "world/body_parts.h"
 #include "world/joints.h"
 #include "world/ranges.h"
+#include "world/sensors.h"
 #include "world/settings.h"
 #include "world/slots.h"
 
@@ -40,6 +41,10 @@ Status make_traits(const World& world, const BodyDef& def, BodyTraits& traits) {
     if (const Status status = set_body_density(world, def.density, traits); status != Status::ok) return status;
   }
   if (const Status status = set_body_gyration(world, traits); status != Status::ok) return status;
+  if (def.sensor) {
+    if (const Status status = check_sensors(world); status != Status::ok) return status;
+    traits.sensor = 1;
+  }
   traits.user_data = def.user_data;
   return Status::ok;
 }
@@ -74,7 +79,9 @@ Status create_world(uint8_t* block, uint32_t block_bytes, const WorldDef& def, A
                                        def.capacity.assets,
                                        left_out(features),
                                        def.capacity.manifolds ? 1u : 0u,
-                                       def.capacity.joints};
+                                       def.capacity.joints,
+                                       def.capacity.sensed,
+                                       0};
   world = {block, assets, {}, {}, &features, has_quads() ? 4u : 1u};
   store_settings(def, view_of(world).world, def.capacity.manifolds);
   return Status::ok;
@@ -98,6 +105,7 @@ Status create_body(World& world, const BodyDef& def, BodyId& id) {
   state.poses[slot] = pose;
   state.motions[slot] = motion;
   state.world.idle = 0;
+  state.world.sensor_count += traits.sensor;
   cache_of(state).visits.set(slot);
   id = {slot + 1, traits.generation};
   return Status::ok;
@@ -109,6 +117,8 @@ Status destroy_body(World& world, BodyId id) {
   if (!find_body(state, id, slot)) return Status::bad_id;
   remove_joints_of(state, slot);
   end_contacts(state, slot);
+  forget_sensed(state, slot);
+  state.world.sensor_count -= state.traits[slot].sensor;
   const uint32_t generation = state.traits[slot].generation;
   state.poses[slot] = BodyPose{};
   state.motions[slot] = BodyMotion{};
@@ -163,6 +173,7 @@ Status put_to_sleep(World& world, BodyId id) {
   state.motions[slot] = BodyMotion{};
   state.activities[slot].still_ticks = k_still_ticks;
   state.activities[slot].asleep = slot + 1;
+  state.activities[slot].news = 0;
   return Status::ok;
 }
 
@@ -171,7 +182,9 @@ Status set_user_data(World& world, BodyId id, uint32_t user_data) {
   uint32_t slot = 0;
   if (!find_body(state, id, slot)) return Status::bad_id;
   state.traits[slot].user_data = user_data;
-  if (world.filter_rules.count != 0) rouse_forbidden(world, state, slot);
+  if (world.filter_rules.count == 0) return Status::ok;
+  rouse_forbidden(world, state, slot);
+  if (state.world.sensor_count != 0) look_at_again(state, slot);
   return Status::ok;
 }
 

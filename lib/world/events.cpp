@@ -131,5 +131,20 @@ void add_hits(Span<const BodyTraits> traits, Span<const ImpactHit> hits, Span<Co
   }
 }
 
+EventCount raise_body_events(BitSet visits, Span<const BodyTraits> traits, Span<BodyActivity> activities,
+                             Span<BodyEvent> events) {
+  EventCount count;
+  visits.for_each([&](uint32_t slot) {
+    uint16_t& news = activities[slot].news;
+    if (news == 0) return;
+    if (count.kept == events.count)
+      ++count.dropped;
+    else
+      events[count.kept++] = {static_cast<BodyEventType>(news), {slot + 1, traits[slot].generation}};
+    news = 0;
+  });
+  return count;
+}
+
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

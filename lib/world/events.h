@@ -2,7 +2,7 @@
 #include <detent/detail/scratch.h>
 #include <detent/event.h>
 
-#include "base/span.h"
+#include "base/bit_set.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -21,6 +21,10 @@ EventCount raise_events(Span<const BodyPose> poses, Span<const BodyTraits> trait
 
 /// Puts the impacts of continuous collision, which come in the order of their times, among the events.
 void add_hits(Span<const BodyTraits> traits, Span<const ImpactHit> hits, Span<ContactEvent> events, EventCount& count);
+
+/// Tells who fell asleep and who woke among the bodies that move, and forgets the news.
+EventCount raise_body_events(BitSet visits, Span<const BodyTraits> traits, Span<BodyActivity> activities,
+                             Span<BodyEvent> events);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -52,6 +52,7 @@ inline constexpr Field k_header_fields[] = {
     DETENT_FIELD(BlockHeader, capacity_bodies), DETENT_FIELD(BlockHeader, capacity_contacts),
     DETENT_FIELD(BlockHeader, capacity_assets), DETENT_FIELD(BlockHeader, left_out),
     DETENT_FIELD(BlockHeader, manifolds),       DETENT_FIELD(BlockHeader, capacity_joints),
+    DETENT_FIELD(BlockHeader, capacity_sensed), DETENT_FIELD(BlockHeader, zero),
 };
 inline constexpr Field k_world_fields[] = {
     DETENT_FIELD(WorldState, tick),
@@ -62,6 +63,8 @@ inline constexpr Field k_world_fields[] = {
     DETENT_FIELD(WorldState, contact_count),
     DETENT_FIELD(WorldState, joint_count),
     DETENT_FIELD(WorldState, joints_used),
+    DETENT_FIELD(WorldState, sensor_count),
+    DETENT_FIELD(WorldState, sensed_count),
     DETENT_FIELD(WorldState, substeps),
     DETENT_FIELD(WorldState, substeps_max),
     DETENT_FIELD(WorldState, iterations),
@@ -118,11 +121,11 @@ inline constexpr Field k_traits_fields[] = {
     DETENT_FIELD(BodyTraits, restitution_rule),
     DETENT_FIELD(BodyTraits, asset),
     DETENT_FIELD(BodyTraits, turn_locks),
+    DETENT_FIELD(BodyTraits, sensor),
 };
 inline constexpr Field k_activity_fields[] = {
-    DETENT_FIELD(BodyActivity, substeps),
-    DETENT_FIELD(BodyActivity, calm_ticks),
-    DETENT_FIELD(BodyActivity, still_ticks),
+    DETENT_FIELD(BodyActivity, substeps),    DETENT_FIELD(BodyActivity, calm_ticks),
+    DETENT_FIELD(BodyActivity, still_ticks), DETENT_FIELD(BodyActivity, news),
     DETENT_FIELD(BodyActivity, asleep),
 };
 inline constexpr Field k_slot_fields[] = {{"taken", 0, 4, 1}};
@@ -158,6 +161,10 @@ inline constexpr Field k_joint_fields[] = {
     DETENT_FIELD(JointState, break_force), DETENT_FIELD(JointState, break_torque),  DETENT_FIELD(JointState, force),
     DETENT_FIELD(JointState, torque),      DETENT_FIELD(JointState, impulse),
 };
+inline constexpr Field k_sensed_fields[] = {
+    DETENT_FIELD(SensedState, sensor),
+    DETENT_FIELD(SensedState, body),
+};
 #undef DETENT_FIELD
 
 /// True if the fields follow one another without a gap and fill the element: no byte is padding.
@@ -176,6 +183,7 @@ static_assert(tiles(k_traits_fields, sizeof(BodyTraits)) && tiles(k_slot_fields,
 static_assert(tiles(k_activity_fields, sizeof(BodyActivity)));
 static_assert(tiles(k_contact_fields, sizeof(ContactState)) && tiles(k_asset_fields, sizeof(AssetState)));
 static_assert(tiles(k_manifold_fields, sizeof(ManifoldState)) && tiles(k_joint_fields, sizeof(JointState)));
+static_assert(tiles(k_sensed_fields, sizeof(SensedState)));
 
 inline constexpr Section k_sections[] = {
     {sizeof(BlockHeader), &Layout::header}, {sizeof(WorldState), &Layout::world},
@@ -183,7 +191,7 @@ inline constexpr Section k_sections[] = {
     {sizeof(BodyTraits), &Layout::traits},  {sizeof(BodyActivity), &Layout::activities},
     {sizeof(uint32_t), &Layout::slots},     {sizeof(ContactState), &Layout::contacts},
     {sizeof(AssetState), &Layout::assets},  {sizeof(ManifoldState), &Layout::manifolds},
-    {sizeof(JointState), &Layout::joints},
+    {sizeof(JointState), &Layout::joints},  {sizeof(SensedState), &Layout::sensed},
 };
 inline constexpr uint32_t k_section_count = sizeof k_sections / sizeof k_sections[0];
 
@@ -204,7 +212,7 @@ inline constexpr SectionFields k_section_fields[k_section_count] = {
     section_fields("traits", k_traits_fields), section_fields("activities", k_activity_fields),
     section_fields("slots", k_slot_fields),    section_fields("contacts", k_contact_fields),
     section_fields("assets", k_asset_fields),  section_fields("manifolds", k_manifold_fields),
-    section_fields("joints", k_joint_fields),
+    section_fields("joints", k_joint_fields),  section_fields("sensed", k_sensed_fields),
 };
 
 /// Elements of a section, alignment fill included as further elements or left-over bytes that are always zero.

@@ -71,8 +71,8 @@ Status is_awake(const World& world, BodyId id, bool& awake) {
 
 WorldInfo get_info(const World& world) {
   const StateView<const uint8_t> state = view_of(world);
-  return {capacity_of(state.header), state.world.tick,        state.world.body_count,
-          state.world.contact_count, state.world.joint_count, state.world.slots_retired};
+  return {capacity_of(state.header), state.world.tick,         state.world.body_count,   state.world.contact_count,
+          state.world.joint_count,   state.world.sensed_count, state.world.slots_retired};
 }
 
 BodyId next_body(const World& world, BodyId previous) {

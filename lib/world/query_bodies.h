@@ -28,7 +28,7 @@ Vec64 query_half(const QueryShape& shape, const Quat& rotation);
 /// 2^16 m apart.
 Pose pose_near(const BodyTraits& traits, const BodyPose& pose, const Position& place);
 
-/// The bodies that a query's filter lets through.
+/// The bodies that a query's filter lets through; no sensors.
 struct QueryBodies {
   const World& world;
   StateView<const uint8_t> state;
@@ -67,8 +67,8 @@ struct QueryBodies {
  private:
   bool asks(uint32_t slot) const {
     const BodyTraits& traits = state.traits[slot];
-    return traits.type != 0 && masks_meet(traits.category, traits.mask, filter.category, filter.mask) &&
-           !(id_of(slot) == filter.ignore);
+    return traits.type != 0 && traits.sensor == 0 &&
+           masks_meet(traits.category, traits.mask, filter.category, filter.mask) && !(id_of(slot) == filter.ignore);
   }
 };
 

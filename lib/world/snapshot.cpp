@@ -24,7 +24,7 @@ Layout layout_of(const World& world) { return view_of(world).layout; }
 /// Compares a header in the machine's byte order with this build and the world that is to take the state.
 Status check_header(const BlockHeader& header, Capacity capacity, const FeatureTable& features) {
   if (header.magic != k_snapshot_magic) return Status::not_detent;
-  if (header.format != k_snapshot_format || header.manifolds > 1) return Status::format_unknown;
+  if (header.format != k_snapshot_format || header.manifolds > 1 || header.zero != 0) return Status::format_unknown;
   if (header.simulation != k_simulation_version) return Status::simulation_differs;
   if (header.config != k_config) return Status::config_differs;
   if (!(capacity_of(header) == capacity)) return Status::capacity_differs;

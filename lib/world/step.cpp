@@ -17,6 +17,7 @@
 #include "geometry/shape_traits.h"
 #include "world/events.h"
 #include "world/joints.h"
+#include "world/sensors.h"
 #include "world/stage_clock.h"
 #include "world/step_cache.h"
 #include "world/step_probe.h"
@@ -44,6 +45,8 @@ struct Scratch {
   Span<JointBody> joint_bodies;
   Span<uint32_t> joint_order;
   Span<uint64_t> apart;
+  Span<uint64_t> sensed, sensed_passed;
+  BitSet changed;
 };
 
 Scratch scratch_of(uint8_t* block, const Layout& layout, Capacity capacity) {
@@ -66,7 +69,10 @@ Scratch scratch_of(uint8_t* block, const Layout& layout, Capacity capacity) {
           {at_offset<JointWork>(block, layout.joint_work), capacity.joints},
           {at_offset<JointBody>(block, layout.joint_bodies), joint_body_count(capacity)},
           {at_offset<uint32_t>(block, layout.joint_order), capacity.joints},
-          {at_offset<uint64_t>(block, layout.apart), capacity.joints}};
+          {at_offset<uint64_t>(block, layout.apart), capacity.joints},
+          {at_offset<uint64_t>(block, layout.sensed_work), capacity.sensed},
+          {at_offset<uint64_t>(block, layout.sensed_passed), capacity.sensed},
+          {{at_offset<uint32_t>(block, layout.changed), capacity.sensed == 0 ? 0 : slot_words(capacity.bodies)}}};
 }
 
 /// Lengths of a pair, m.
@@ -190,9 +196,11 @@ Real depth_of(const ContactWork& contact) {
   return -least;
 }
 
+uint64_t key_of(const ContactState& contact) { return pair_key(contact.body_a, contact.body_b); }
+
 /// Leaves out the shallowest contact, the last of equals, if it is shallower than `depth`, keeping the others' order:
-/// the last place is free then.
-bool leave_out_shallowest(Span<ContactWork> contacts, Span<ManifoldState> manifolds, Real depth) {
+/// the last place is free then, and `key` is that of its pair.
+bool leave_out_shallowest(Span<ContactWork> contacts, Span<ManifoldState> manifolds, Real depth, uint64_t& key) {
   uint32_t shallowest = contacts.count;
   for (uint32_t i = 0; i < contacts.count; ++i) {
     const Real other = depth_of(contacts[i]);
@@ -201,12 +209,11 @@ bool leave_out_shallowest(Span<ContactWork> contacts, Span<ManifoldState> manifo
     shallowest = i;
   }
   if (shallowest == contacts.count) return false;
+  key = key_of(contacts[shallowest].state);
   for (uint32_t i = shallowest; i + 1 < contacts.count; ++i) contacts[i] = contacts[i + 1];
   for (uint32_t i = shallowest; i + 1 < manifolds.count; ++i) manifolds[i] = manifolds[i + 1];
   return true;
 }
-
-uint64_t key_of(const ContactState& contact) { return pair_key(contact.body_a, contact.body_b); }
 
 struct ContactCount {
   uint32_t contacts = 0;
@@ -231,6 +238,7 @@ struct Collider {
   KeptContacts kept;           ///< sorted alike
   Span<ContactWork> contacts;
   Span<ManifoldState> manifolds;  ///< as many places as `contacts`, or none
+  Losses& losses;
   ContactCount count = {};
   uint32_t next = 0;
   uint32_t last_started = UINT32_MAX;
@@ -277,6 +285,7 @@ struct Collider {
     collide_parts(settings, pair_low(key), pair_high(key), bodies, found);
     count.capped += found.capped ? 1 : 0;
     count.parts_dropped += found.dropped;
+    if (found.dropped != 0) losses.add(CapacityEventType::contact, pair_low(key), pair_high(key));
     for (uint32_t i = 0; i < found.count; ++i) {
       const SurfaceContact& contact = found.contact[i];
       add(key, contact.key, contact.geometry, {}, find_before(key, contact.key).contact);
@@ -290,7 +299,10 @@ struct Collider {
       ++count.dropped;
       Real least = geometry.point[0].separation;
       for (uint32_t i = 1; i < geometry.count; ++i) least = min(least, geometry.point[i].separation);
-      if (!leave_out_shallowest(contacts, manifolds, -least)) return;
+      uint64_t lost = key;
+      const bool has_room = leave_out_shallowest(contacts, manifolds, -least, lost);
+      losses.add(CapacityEventType::contact, pair_low(lost), pair_high(lost));
+      if (!has_room) return;
       --count.contacts;
     }
     if (reuses()) manifolds[count.contacts] = manifold;
@@ -394,8 +406,12 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
                        scratch.joint_order};
   report.woke = wake_jointed(joints.joints, traits, motions, activities, cache);
   const Span<const uint64_t> apart = list_apart(joints.joints, scratch.apart);
+  Losses losses = {traits, {world.capacity_events.data, world.capacity_events.capacity}};
+  const SensorCode* const sensor_code = state.world.sensor_count == 0 ? nullptr : world.features->sensors;
+  if (sensor_code != nullptr) sensor_code->start(cache, used, scratch.changed);
   Span<const uint32_t> moving = sort_out(cache, settings, state, scratch.sweeps, scratch.moving_bodies);
   PairPool pool = {poses, traits, cache.bounds, scratch.pair_sort, scratch.pairs, world.filter_rules, apart};
+  pool.losses = &losses;
   find_pairs(moving, cache.tree, scratch.bounds_keys, scratch.bounds_sort, pool);
   pool.sort();
   for (const uint32_t slot : moving) bodies.start(settings, slot);
@@ -423,9 +439,14 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   const bool reuses = settings.reuse > Real(0.0);
   const Span<ManifoldState> manifolds = state.manifolds.first(reuses ? state.manifolds.count : 0);
   const Span<ManifoldState> manifold_work = scratch.manifolds.first(reuses && state.manifolds.count != 0 ? room : 0);
-  const ContactCount count = collide_pairs(
-      {settings, bodies, awake_contacts, {state.contacts, manifolds}, scratch.contacts.first(room), manifold_work},
-      pairs);
+  const ContactCount count = collide_pairs({settings,
+                                            bodies,
+                                            awake_contacts,
+                                            {state.contacts, manifolds},
+                                            scratch.contacts.first(room),
+                                            manifold_work,
+                                            losses},
+                                           pairs);
   const Span<ContactWork> contacts = scratch.contacts.first(count.contacts);
   const Span<ContactOrder> order = scratch.contact_order.first(count.contacts);
   clock.end(StepStage::collide);
@@ -451,6 +472,18 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
       if (body.mobile != 0) sweeps[body.slot].marks = k_mark_jointed * (work[body.slot].island + 1);
     }
   }
+  SensorStage sensors = {world.assets,
+                         *world.features,
+                         {traits, world.filter_rules, apart},
+                         traits,
+                         poses,
+                         sweeps,
+                         cache,
+                         scratch.changed,
+                         state.sensed.first(state.world.sensed_count),
+                         {scratch.sensed_passed, {}},
+                         {scratch.sensed, {}},
+                         losses};
   if (state.world.continuous != 0) {
     const ImpactPairs known = {pairs, contacts, pool.dropped() == 0 && count.dropped == 0, apart};
     const ImpactBodies impact_bodies = {traits,
@@ -462,7 +495,8 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
                                         cache.tree,
                                         cache.visits,
                                         scratch.candidates,
-                                        world.filter_rules};
+                                        world.filter_rules,
+                                        {sensor_code == nullptr ? nullptr : sensor_code->stretch, &sensors}};
     const ImpactReport impacts =
         world.features->continuous->advance(settings, world.assets, *world.features, known, impact_bodies,
                                             scratch.impact_pairs, scratch.impact_hits, probe);
@@ -474,6 +508,7 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   clock.end(StepStage::advance);
   report.contact_events = event_count.kept;
   report.contact_events_dropped = events.count == 0 ? 0 : event_count.dropped;
+  if (sensor_code != nullptr) sensor_code->end(sensors, state, world.sensor_events, report);
   cache.visits.for_each(
       [&](uint32_t slot) { report.saturations += finalise(traits[slot], sweeps[slot], poses[slot], motions[slot]); });
   clock.end(StepStage::finalise);
@@ -493,6 +528,11 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   report.contacts_reused = count.reused;
   report.contacts_dropped = count.dropped + count.parts_dropped;
   report.contacts_capped = count.capped;
+  const EventCount body_events =
+      raise_body_events(cache.visits, traits, activities, {world.body_events.data, world.body_events.capacity});
+  report.body_events = body_events.kept;
+  report.body_events_dropped = world.body_events.capacity == 0 ? 0 : body_events.dropped;
+  report.capacity_events = losses.count;
   bool moves = false;
   cache.visits.for_each([&](uint32_t slot) { moves = moves || bodies.moving(slot); });
   state.world.idle = moves ? 0 : 1;

@@ -19,8 +19,8 @@ inline Features features_of(bool continuous, bool sleeping) {
 }
 
 inline Capacity capacity_of(const BlockHeader& header) {
-  return {header.capacity_bodies, header.capacity_contacts, header.capacity_assets, header.manifolds != 0,
-          header.capacity_joints};
+  return {header.capacity_bodies, header.capacity_contacts, header.capacity_assets,
+          header.manifolds != 0,  header.capacity_joints,   header.capacity_sensed};
 }
 
 /// `T`, const where `Byte` is.
@@ -51,6 +51,7 @@ struct StateView {
   Span<Of<AssetState>> assets;
   Span<Of<ManifoldState>> manifolds;  ///< of the contacts, if there is room for them
   Span<Of<JointState>> joints;        ///< all of the capacity
+  Span<Of<SensedState>> sensed;       ///< likewise
 };
 
 template <class T, class Byte>
@@ -74,7 +75,8 @@ StateView<Byte> view_of(Byte* block, Capacity capacity) {
           {at_offset<ContactState>(block, layout.contacts), capacity.contacts},
           {at_offset<AssetState>(block, layout.assets), capacity.assets},
           {at_offset<ManifoldState>(block, layout.manifolds), manifold_count(capacity)},
-          {at_offset<JointState>(block, layout.joints), capacity.joints}};
+          {at_offset<JointState>(block, layout.joints), capacity.joints},
+          {at_offset<SensedState>(block, layout.sensed), capacity.sensed}};
 }
 inline StateView<uint8_t> view_of(World& world) {
   return view_of(world.block, capacity_of(*at_offset<BlockHeader>(world.block, 0)));

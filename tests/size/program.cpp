@@ -26,7 +26,8 @@ constexpr bool has(Features feature) { return contains(k_features, feature); }
 
 // So much fits a machine of 16 KB; a joint takes the place of two contacts and of the manifolds.
 constexpr bool k_joint = has(Features::joints);
-constexpr Capacity k_capacity = {8, k_joint ? 5 : 7, 1, !k_joint, k_joint ? 1 : 0};
+constexpr bool k_sensor = has(Features::sensors);
+constexpr Capacity k_capacity = {8, k_joint ? 5 : 7, 1, !k_joint, k_joint ? 1 : 0, k_sensor ? 2 : 0};
 constexpr Coord k_near = 0.75, k_above = 8.0;  ///< the ground: what lands within the ticks, and what does not
 constexpr uint32_t k_ticks = 40;
 
@@ -40,10 +41,11 @@ WorldStorage<k_capacity> storage;
 }
 
 template <class Calls>
-bool add(Calls& calls, const Shape& shape, Coord x, Coord y = k_near) {
+bool add(Calls& calls, const Shape& shape, Coord x, Coord y = k_near, bool sensor = false) {
   BodyDef def;
   def.shape = shape;
   def.position = {x, y, Coord(0.0)};
+  def.sensor = sensor;
   BodyId id;
   return calls.create_body(def, id) == Status::ok;
 }
@@ -107,13 +109,14 @@ bool run(Calls& calls) {
   ground.shape = half_space();
   BodyId id;
   bool good = calls.create_body(ground, id) == Status::ok;
-  if constexpr (has(Features::sphere)) good = good && add(calls, sphere(0.5), -3.75) && add(calls, sphere(0.5), -2.5);
+  if constexpr (has(Features::sphere))
+    good = good && add(calls, sphere(0.5), -3.75) && add(calls, sphere(0.5), -2.5, k_near, k_sensor && !k_joint);
   if constexpr (has(Features::capsule)) good = good && add(calls, capsule(0.25, 0.25), -1.25);
   if constexpr (has(Features::box)) good = good && add(calls, box({0.25, 0.25, 0.25}), -0.5);
   if constexpr (has(Features::cylinder)) good = good && add(calls, cylinder(0.25, 0.25), 0.5);
   if constexpr (has(Features::cone)) good = good && add(calls, cone(0.25, 0.25), 1.5, k_joint ? k_above : k_near);
   if constexpr (has(Features::rounding))
-    good = good && add(calls, rounded(box({0.25, 0.25, 0.25}), 0.125), 2.5, k_joint ? k_above : k_near);
+    good = good && add(calls, rounded(box({0.25, 0.25, 0.25}), 0.125), 2.5, k_joint ? k_above : k_near, k_sensor);
   if constexpr (has(Features::joints)) good = good && join(calls);
   for (uint32_t tick = 0; tick < k_ticks; ++tick) good = good && calls.step().complete();
   return good;

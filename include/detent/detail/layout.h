@@ -12,12 +12,13 @@ constexpr uint32_t k_pairs_per_contact = 2;  ///< room for pairs whose bounds ov
 
 /// Byte offsets of the arrays in a block.
 struct Layout {
-  uint32_t header, world, poses, motions, traits, activities, slots, contacts, assets, manifolds, joints;
+  uint32_t header, world, poses, motions, traits, activities, slots, contacts, assets, manifolds, joints, sensed;
   uint32_t persistent_bytes;  ///< end of the snapshot
   uint32_t cache, tree_nodes, tree_parents, visits, candidates, moving_bodies, awake_contacts;
   uint32_t bounds, bounds_keys, bounds_sort, pairs, pair_sort, contact_work, islands, island_bodies, sweeps;
   uint32_t body_work, contact_order, contact_sort, impact_pairs, impact_hits;
   uint32_t manifold_work, joint_work, joint_bodies, joint_order, apart;
+  uint32_t sensed_work, sensed_passed, changed;
   uint32_t bytes;
 };
 
@@ -33,7 +34,7 @@ constexpr uint32_t slot_words(uint32_t bodies) { return (bodies + 63) / 64 * 2; 
 
 constexpr bool in_range(Capacity capacity) {
   return capacity.bodies >= 1 && capacity.bodies <= k_capacity_max && capacity.contacts <= k_capacity_max &&
-         capacity.assets <= k_capacity_max && capacity.joints <= k_capacity_max;
+         capacity.assets <= k_capacity_max && capacity.joints <= k_capacity_max && capacity.sensed <= k_capacity_max;
 }
 
 /// The layout for a capacity in range; `fits` is false if the block would need 2^32 bytes or more.
@@ -56,6 +57,7 @@ constexpr Layout layout_of(Capacity capacity, bool& fits) {
   layout.assets = place(sizeof(AssetState), capacity.assets);
   layout.manifolds = place(sizeof(ManifoldState), manifold_count(capacity));
   layout.joints = place(sizeof(JointState), capacity.joints);
+  layout.sensed = place(sizeof(SensedState), capacity.sensed);
   layout.persistent_bytes = static_cast<uint32_t>(end);
   layout.cache = place(sizeof(StepCache), 1);
   layout.tree_nodes = place(sizeof(TreeNode), capacity.bodies);
@@ -93,6 +95,9 @@ constexpr Layout layout_of(Capacity capacity, bool& fits) {
   layout.joint_bodies = place(sizeof(JointBody), joint_body_count(capacity));
   layout.joint_order = place(sizeof(uint32_t), capacity.joints);
   layout.apart = place(sizeof(uint64_t), capacity.joints);
+  layout.sensed_work = place(sizeof(uint64_t), capacity.sensed);
+  layout.sensed_passed = place(sizeof(uint64_t), capacity.sensed);
+  layout.changed = place(sizeof(uint32_t), capacity.sensed == 0 ? 0 : slot_words(capacity.bodies));
   layout.bytes = static_cast<uint32_t>(end);
   fits = end <= 0xffffffffu;
   return layout;

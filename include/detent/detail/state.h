@@ -18,6 +18,8 @@ struct alignas(8) BlockHeader {
   uint32_t left_out;   ///< of Features::all, what the world's table lacks; 0: nothing
   uint32_t manifolds;  ///< 1 if the block has room for them
   uint32_t capacity_joints;
+  uint32_t capacity_sensed;
+  uint32_t zero;
 };
 
 struct alignas(8) WorldState {
@@ -29,6 +31,8 @@ struct alignas(8) WorldState {
   uint32_t contact_count;  ///< contacts, sorted by (body_a, body_b, part)
   uint32_t joint_count;    ///< joints alive
   uint32_t joints_used;    ///< joint slots ever used: the slots beyond are all zero
+  uint32_t sensor_count;   ///< bodies that are sensors
+  uint32_t sensed_count;   ///< bodies within sensors, sorted by (sensor, body)
   uint32_t substeps;       ///< 0: chosen for each island
   uint32_t substeps_max;
   uint32_t iterations;
@@ -89,14 +93,16 @@ struct BodyTraits {
   uint32_t user_data;
   uint32_t restitution_rule;  ///< RestitutionRule
   uint32_t asset;             ///< of a hull or surface: its index in the world's table; else 0
-  uint32_t turn_locks;        ///< k_turn_lock_x, ...: body axes about which it does not turn, whose gyration is 0
+  uint16_t turn_locks;        ///< k_turn_lock_x, ...: body axes about which it does not turn, whose gyration is 0
+  uint16_t sensor;            ///< 1 if it is one
 };
 
 /// What a body's island does with its time. All zero for what is not dynamic.
 struct BodyActivity {
   uint32_t substeps;     ///< of the last tick; 0 before the first one and without contacts
   uint32_t calm_ticks;   ///< ticks in which fewer substeps would have done
-  uint32_t still_ticks;  ///< ticks at rest
+  uint16_t still_ticks;  ///< ticks at rest
+  uint16_t news;         ///< BodyEventType that the end of the step tells, or 0; between steps no other than woke
   uint32_t asleep;       ///< slot + 1 of the first body it fell asleep with; 0: awake
 };
 
@@ -127,6 +133,12 @@ struct ManifoldState {
   Quat rotation;                             ///< of the other body in the base's axes
   Unit height[k_manifold_points_max];        ///< what makes a point's place along the normal its separation
   int16_t anchor[k_manifold_points_max][3];  ///< the points, from the other's centre, in its axes; 2^-15 of its unit
+};
+
+/// A body within a sensor.
+struct alignas(8) SensedState {
+  uint32_t sensor;  ///< slot index
+  uint32_t body;
 };
 
 inline constexpr uint32_t k_joint_rows_max = 6;

@@ -1,0 +1,306 @@
+#include "world/sensors.h"
+
+#include <detent/distance.h>
+#include <detent/sensor.h>
+
+#include "collision/body_convex.h"
+#include "collision/surface_distance.h"
+#include "dynamics/finalise.h"
+#include "dynamics/impact_pair.h"
+#include "dynamics/spin.h"
+#include "geometry/bounds.h"
+#include "geometry/shape_traits.h"
+#include "world/query_bodies.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+constexpr Real k_zero = 0.0;
+
+/// Of the smaller extent, as a power of two: more than the tolerance of a time of impact, so that what is found on the
+/// way is within there, and less than the room of reach_of().
+constexpr int k_within_power = -14;
+
+bool is_sensor(const BodyTraits& traits) { return traits.sensor != 0; }
+bool is_at_rest(const BodySweep& sweep) {
+  constexpr Vec3<Real> k_none = {k_zero, k_zero, k_zero};
+  return sweep.displacement == k_none && sweep.turn == k_none;
+}
+
+/// Bounds that hold the body until the tick ends, with room for what counts as within and for the rounding of bounds.
+Bounds reach_of(const SensorStage& stage, uint32_t slot) {
+  const BodyTraits& traits = stage.traits[slot];
+  if (shape_of(traits) == ShapeType::half_space) return k_everywhere;
+  const Real ball = real_from_unit(traits.bounding_radius, traits.size_exponent);
+  const Real room = ball + scale_by_power(ball, -8) + Real(0x1p-13);
+  const BodySweep& sweep = stage.sweeps[slot];
+  const Vec3<Real> way = rest_of(sweep, sweep.from).displacement;
+  const Position& from = stage.poses[slot].position;
+  const Vec3<Real> back = {min(way.x, k_zero), min(way.y, k_zero), min(way.z, k_zero)};
+  const Vec3<Real> ahead = {max(way.x, k_zero), max(way.y, k_zero), max(way.z, k_zero)};
+  return {moved(moved(from, back), {-room, -room, -room}), moved(moved(from, ahead), {room, room, room})};
+}
+
+/// The body at the end of its sweep, as finalise() will have it.
+BodyPose end_pose(const SensorStage& stage, uint32_t slot) {
+  BodyPose pose = stage.poses[slot];
+  const Sweep rest = rest_of_tick(stage.sweeps[slot]);
+  pose.rotation = sweep_end_rotation(pose.rotation, rest);
+  sweep_end_position(pose, rest);
+  return pose;
+}
+
+/// A half-space is put where the other body is, within the range of the narrow phase.
+void bring_near(const BodyTraits& traits, const BodyPose& other, BodyPose& pose) {
+  pose.position = pose_near(traits, pose, other.position).position;
+}
+
+bool is_within(SensorStage& stage, uint32_t sensor, uint32_t body) {
+  const BodyTraits &a = stage.traits[sensor], &b = stage.traits[body];
+  BodyPose end_a = end_pose(stage, sensor), end_b = end_pose(stage, body);
+  bring_near(a, end_b, end_a);
+  bring_near(b, end_a, end_b);
+  const Pose pose_a = {end_a.position, end_a.rotation}, pose_b = {end_b.position, end_b.rotation};
+  const Real reach = scale_by_power(min(shape_extent(a), shape_extent(b)), k_within_power);
+  bool asked = false, farther = false;
+  if (is_surface(a)) {
+    asked = stage.features.surface_distance->farther(stage.assets, a, pose_a, b, pose_b, reach, farther);
+  } else if (is_surface(b)) {
+    asked = stage.features.surface_distance->farther(stage.assets, b, pose_b, a, pose_a, reach, farther);
+  } else {
+    Convex convex_a, convex_b;
+    asked = body_convex(a, stage.assets, convex_a) && body_convex(b, stage.assets, convex_b) &&
+            farther_than(convex_a, pose_a, convex_b, pose_b, reach, farther) == Status::ok;
+  }
+  if (!asked) ++stage.undecided;
+  return !asked || !farther;
+}
+
+/// Whether the two meet from where the body's sweep begins until `until`.
+bool meets(SensorStage& stage, uint32_t sensor, uint32_t body, Fraction until) {
+  const BodyTraits &a = stage.traits[sensor], &b = stage.traits[body];
+  BodyPose pose_a = stage.poses[sensor], pose_b = stage.poses[body];
+  bring_near(a, pose_b, pose_a);
+  bring_near(b, pose_a, pose_b);
+  const BodySweep& sweep = stage.sweeps[body];
+  TimeOfImpact impact;
+  if (!pair_impact(stage.assets, stage.features, {a, pose_a, stage.sweeps[sensor]}, {b, pose_b, sweep}, sweep.from,
+                   k_zero, impact)) {
+    ++stage.undecided;
+    return true;
+  }
+  if (impact.outcome == ToiOutcome::clear || impact.time > until) return false;
+  stage.undecided += impact.outcome == ToiOutcome::undecided ? 1 : 0;
+  return true;
+}
+
+bool may_sense(const SensorStage& stage, uint32_t sensor, uint32_t body) {
+  const BodyTraits &a = stage.traits[sensor], &b = stage.traits[body];
+  if (is_sensor(b) || (!is_dynamic(a) && type_of(b) == BodyType::fixed)) return false;
+  if (is_ground(a) && is_ground(b)) return false;
+  return stage.filter.lets_through(sensor, body);
+}
+
+uint64_t key_of(const SensedState& sensed) { return sensed_key(sensed.sensor, sensed.body, false); }
+
+bool was_within(const SensorStage& stage, uint64_t key) {
+  uint32_t low = 0, high = stage.before.count;
+  while (low < high) {
+    const uint32_t middle = low + (high - low) / 2;
+    if (key_of(stage.before[middle]) < key)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low < stage.before.count && key_of(stage.before[low]) == key;
+}
+
+/// The place of a pair among those that passed, or their count: only impacts make a sweep of more than one stretch.
+uint32_t find_passed(const SensorStage& stage, uint64_t key) {
+  uint32_t place = 0;
+  while (place < stage.passed.count && stage.passed.storage[place] != key) ++place;
+  return place;
+}
+
+void add(SensorStage& stage, SensedKeys& keys, uint64_t key) {
+  uint64_t lost = 0;
+  if (keys.add(key, lost)) stage.losses.add(CapacityEventType::sensed, pair_low(lost), pair_high(lost) >> 1);
+}
+
+/// Finds whether a body is within a sensor when the tick ends, or was on the last stretch of its way.
+void settle(SensorStage& stage, uint32_t sensor, uint32_t body) {
+  if (!may_sense(stage, sensor, body)) return;
+  const uint64_t within = sensed_key(sensor, body, false), through = sensed_key(sensor, body, true);
+  const uint32_t place = find_passed(stage, through);
+  const bool has_passed = place < stage.passed.count;
+  if (is_within(stage, sensor, body)) {
+    if (has_passed) stage.passed.storage[place] = UINT64_MAX;
+    add(stage, stage.found, within);
+    return;
+  }
+  if (has_passed || was_within(stage, within)) return;
+  if (is_at_rest(stage.sweeps[sensor]) && is_at_rest(stage.sweeps[body])) return;
+  if (meets(stage, sensor, body, k_whole_step)) add(stage, stage.found, through);
+}
+
+/// Each pair of which a body has changed, once: by its sensor if that has.
+void settle_changed(SensorStage& stage) {
+  const StepCacheView& cache = stage.cache;
+  for (uint32_t i = 0; i < stage.changed.words.count; ++i) stage.changed.words[i] |= cache.visits.words[i];
+  cache.visits.for_each([&](uint32_t slot) {
+    if (!cache.tree.has(slot)) cache.bounds[slot] = reach_of(stage, slot);
+  });
+  stage.changed.for_each([&](uint32_t slot) {
+    const BodyTraits& traits = stage.traits[slot];
+    if (traits.type == 0) return;
+    const Bounds reach = reach_of(stage, slot);
+    if (!is_sensor(traits)) {
+      cache.tree.for_each_near(reach, [&](uint32_t other) {
+        if (is_sensor(stage.traits[other]) && !stage.changed.has(other)) settle(stage, other, slot);
+      });
+      return;
+    }
+    cache.tree.for_each_near(reach, [&](uint32_t other) {
+      if (!cache.visits.has(other)) settle(stage, slot, other);
+    });
+    cache.visits.for_each([&](uint32_t other) {
+      if (overlap(reach, cache.bounds[other])) settle(stage, slot, other);
+    });
+  });
+}
+
+/// Raises the events of a step, from who was within and who was found, both sorted.
+struct SensorEvents {
+  Span<const BodyTraits> traits;
+  Span<SensorEvent> events;
+  uint32_t kept = 0, dropped = 0;
+
+  void raise(SensorEventType type, uint64_t key) {
+    if (kept == events.count) {
+      ++dropped;
+      return;
+    }
+    const uint32_t sensor = pair_low(key), body = pair_high(key) >> 1;
+    events[kept++] = {type, {sensor + 1, traits[sensor].generation}, {body + 1, traits[body].generation}};
+  }
+  void raise_all(Span<const SensedState> before, Span<const uint64_t> found) {
+    uint32_t old = 0, now = 0;
+    while (old < before.count || now < found.count) {
+      const uint64_t key_before = old < before.count ? key_of(before[old]) : UINT64_MAX;
+      const uint64_t key_found = now < found.count ? found[now] & ~uint64_t{1} : UINT64_MAX;
+      const uint64_t key = key_before < key_found ? key_before : key_found;
+      const bool was = key_before == key, is = key_found == key && found[now] == key;
+      if (!was) raise(SensorEventType::enter, key);
+      if (!is) raise(SensorEventType::leave, key);
+      old += was ? 1 : 0;
+      now += key_found == key ? 1 : 0;
+    }
+  }
+};
+
+}  // namespace
+
+void note_changed(const StepCacheView& cache, uint32_t slots_used, BitSet changed) {
+  for (uint32_t i = 0; i < changed.words.count; ++i) changed.words[i] = cache.visits.words[i];
+  if (cache.cache.fresh != 0) return;
+  for (uint32_t slot = 0; slot < slots_used; ++slot) changed.set(slot);
+}
+
+void sense_stretch(void* context, uint32_t slot, Fraction until) {
+  SensorStage& stage = *static_cast<SensorStage*>(context);
+  const Bounds reach = reach_of(stage, slot);
+  const auto pass = [&](uint32_t sensor) {
+    if (!may_sense(stage, sensor, slot) || was_within(stage, sensed_key(sensor, slot, false))) return;
+    const uint64_t key = sensed_key(sensor, slot, true);
+    if (find_passed(stage, key) == stage.passed.count && meets(stage, sensor, slot, until))
+      add(stage, stage.passed, key);
+  };
+  stage.cache.tree.for_each_near(reach, [&](uint32_t other) {
+    if (is_sensor(stage.traits[other]) && !stage.cache.visits.has(other)) pass(other);
+  });
+  stage.cache.visits.for_each([&](uint32_t other) {
+    if (is_sensor(stage.traits[other]) && overlap(reach, reach_of(stage, other))) pass(other);
+  });
+}
+
+void sense(SensorStage& stage, const StateView<uint8_t>& state, SensorEventBuffer buffer, StepReport& report) {
+  settle_changed(stage);
+  for (const uint64_t key : stage.passed.storage.first(stage.passed.count)) {
+    if (key != UINT64_MAX) add(stage, stage.found, key);
+  }
+  for (const SensedState& sensed : stage.before) {
+    if (!stage.changed.has(sensed.sensor) && !stage.changed.has(sensed.body)) add(stage, stage.found, key_of(sensed));
+  }
+  const Span<uint64_t> found = stage.found.storage.first(stage.found.count);
+  heap_sort(found, stage.found.less);
+
+  SensorEvents events = {stage.traits, {buffer.data, buffer.capacity}};
+  events.raise_all(stage.before, found);
+  report.sensor_events = events.kept;
+  report.sensor_events_dropped = buffer.capacity == 0 ? 0 : events.dropped;
+  report.sensed_dropped = stage.passed.dropped + stage.found.dropped;
+  report.sensed_undecided = stage.undecided;
+  // Those left out may be within: the next step asks about all.
+  if (stage.found.dropped != 0) stage.cache.cache.fresh = 0;
+
+  uint32_t count = 0;
+  for (const uint64_t key : found) {
+    if ((key & 1) == 0) state.sensed[count++] = {pair_low(key), pair_high(key) >> 1};
+  }
+  for (uint32_t i = count; i < state.world.sensed_count; ++i) state.sensed[i] = SensedState{};
+  state.world.sensed_count = count;
+}
+
+const SensorCode k_sensor_code = {note_changed, sense_stretch, sense};
+
+void forget_sensed(StateView<uint8_t>& state, uint32_t slot) {
+  uint32_t kept = 0;
+  for (const SensedState& sensed : state.sensed.first(state.world.sensed_count)) {
+    if (sensed.sensor != slot && sensed.body != slot) state.sensed[kept++] = sensed;
+  }
+  for (uint32_t i = kept; i < state.world.sensed_count; ++i) state.sensed[i] = SensedState{};
+  state.world.sensed_count = kept;
+}
+
+Status check_sensors(const World& world) {
+  if (!contains(world.features->features, Features::sensors)) return Status::feature_missing;
+  return view_of(world).sensed.count == 0 ? Status::pool_full : Status::ok;
+}
+
+bool are_sensed(const StateView<const uint8_t>& state) {
+  uint32_t sensors = 0;
+  for (const BodyTraits& traits : state.traits) sensors += is_sensor(traits) ? 1u : 0u;
+  const uint32_t count = state.world.sensed_count;
+  if (sensors != state.world.sensor_count || count > state.sensed.count) return false;
+  if (sensors != 0 && state.sensed.count == 0) return false;
+  for (uint32_t i = 0; i < state.sensed.count; ++i) {
+    const SensedState& sensed = state.sensed[i];
+    if (i >= count) {
+      if (sensed.sensor != 0 || sensed.body != 0) return false;
+      continue;
+    }
+    if (sensed.sensor >= state.traits.count || sensed.body >= state.traits.count) return false;
+    const BodyTraits &sensor = state.traits[sensed.sensor], &body = state.traits[sensed.body];
+    if (!is_sensor(sensor) || is_sensor(body) || body.type == 0) return false;
+    if (i != 0 && key_of(state.sensed[i - 1]) >= key_of(sensed)) return false;
+  }
+  return true;
+}
+
+Status get_sensed(const World& world, BodyId id, BodyId* bodies, uint32_t capacity, uint32_t& count) {
+  const StateView<const uint8_t> state = view_of(world);
+  uint32_t slot = 0, found = 0;
+  if (!find_body(state, id, slot)) return Status::bad_id;
+  if (!is_sensor(state.traits[slot])) return Status::bad_argument;
+  for (const SensedState& sensed : state.sensed.first(state.world.sensed_count)) {
+    if (sensed.sensor != slot) continue;
+    if (bodies != nullptr && found < capacity) bodies[found] = {sensed.body + 1, state.traits[sensed.body].generation};
+    ++found;
+  }
+  count = found;
+  return Status::ok;
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent
