@@ -9,11 +9,6 @@ namespace {
 
 constexpr Real k_zero = 0.0;
 
-int64_t raw_length(Real length) {
-  Vec64 raw = {0, 0, 0};
-  return raw_from_real({length, k_zero, k_zero}, raw) ? raw.x : 0;  // always: it is finite
-}
-
 /// The triangles of a surface, one by one, against a body on its way.
 struct Search {
   const SurfaceCode& code;
@@ -122,13 +117,10 @@ struct Search {
 }  // namespace
 
 bool surface_impact(const AssetTable& assets, const SurfaceCode& code, const SweptBody& a, const SweptBody& b,
-                    Fraction time, Real inset, TimeOfImpact& impact) {
+                    const Convex& convex, Fraction time, TimeOfImpact& impact) {
   const bool ground_is_a = is_surface(a.traits);
   const SweptBody &ground = ground_is_a ? a : b, &body = ground_is_a ? b : a;
-  Convex convex;
-  if (!is_in(assets, ground.traits.asset) ||
-      !inset_convex(assets, body.traits, inset, shape_extent(body.traits), convex))
-    return false;
+  if (!is_in(assets, ground.traits.asset)) return false;
   const Motion ground_motion = motion_from(ground, time), motion = motion_from(body, time);
   SurfacePlace place;
   Vec64 way;
