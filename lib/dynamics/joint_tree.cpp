@@ -25,6 +25,7 @@ constexpr uint32_t k_substeps_max = 4, k_substeps_min = 1, k_joint_substeps = 60
 
 uint32_t substeps_of(const Island& island) {
   if (island.contact_count != 0) return k_substeps_with_contacts;
+  if (island.loop_count != 0) return k_substeps_max;  // what is iterated needs them
   const uint32_t share = k_joint_substeps / (island.joint_count + island.loop_count);
   return share < k_substeps_min ? k_substeps_min : share > k_substeps_max ? k_substeps_max : share;
 }
