@@ -19,14 +19,14 @@ struct ContactPoint {
   Scaled normal_impulse = 0.0;          ///< N s, of the last tick
 };
 
-/// A pair of bodies in contact, or one of its contacts with a surface, on which a body may have up to eight. Impulses
+/// A pair of bodies in contact, or one of the up to eight contacts of a pair with a surface or compound. Impulses
 /// and forces are those of the last substep, taken for the whole tick: the bodies' state holds no others. They are what
 /// rests on what; a blow shows in its event (event.h). Bodies that sleep keep theirs.
 struct Contact {
   BodyId a;                            ///< the body of the lower slot
   BodyId b;                            ///< the other
   Vec3<Unit> normal = {};              ///< from A to B, world; zero where there is no point
-  uint32_t part = 0;                   ///< 0 between convex bodies; else another one for each contact of the pair
+  uint32_t part = 0;                   ///< 0 between convex bodies; else another one for each contact of the pair (docs/compound.md)
   bool touching = false;               ///< they pushed each other in the last step
   uint32_t age = 0;                    ///< ticks in contact before the last one, at most 65535
   uint32_t point_count = 0;            ///< at most 4

@@ -15,7 +15,8 @@ inline namespace DETENT_NAMESPACE {
 struct Convex {
   ShapeType type = ShapeType::sphere;  ///< what it was made from
   int32_t exponent = 0;                ///< of the unit of length, m
-  int32_t size[3] = {};  ///< box: half extents; capsule: (0, half length, 0); cylinder, cone: (radius, half length, 0)
+  int32_t size[3] = {};  ///< box: half extents; capsule: (0, half length, 0); cylinder, cone: (radius, half length, 0);
+                         ///< hull: (half thickness, 0, 0), or zero
   int32_t core_radius = 0;        ///< greatest distance of a core point from the origin, rounded up
   int32_t radius = 0;             ///< of the ball, in 2^-30 2^radius_exponent m
   int32_t radius_exponent = 0;    ///< the ball may be far larger than the core

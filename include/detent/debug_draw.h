@@ -20,7 +20,8 @@ enum class DrawKind : uint32_t {
 /// Null functions are left out.
 struct DebugDraw {
   void* user = nullptr;  ///< given to each function
-  /// A body, where it is. The triangles of a surface(): visit_triangles() (triangles.h).
+  /// A body, where it is. The triangles of a surface(): visit_triangles() (triangles.h); the parts of a compound:
+  /// compound_part() (compound.h).
   void (*solid)(void* user, BodyId id, const Shape& shape, const Pose& pose, DrawKind kind) = nullptr;
   /// A line, m, world.
   void (*line)(void* user, const Position& from, const Position& to, DrawKind kind) = nullptr;

@@ -24,6 +24,7 @@ enum class Features : uint32_t {
   cone = 1u << static_cast<uint32_t>(ShapeType::cone),
   hull = 1u << static_cast<uint32_t>(ShapeType::hull),
   surface = 1u << static_cast<uint32_t>(ShapeType::surface),
+  compound = 1u << static_cast<uint32_t>(ShapeType::compound),
   /// @}
   rounding = 1u << 16,    ///< of boxes, cylinders, cones and hulls
   continuous = 1u << 17,  ///< WorldDef::continuous
@@ -31,7 +32,7 @@ enum class Features : uint32_t {
   joints = 1u << 19,      ///< create_joint()
   sensors = 1u << 20,     ///< BodyDef::sensor
   /// Every shape.
-  shapes = sphere | capsule | box | half_space | cylinder | cone | hull | surface | rounding,
+  shapes = sphere | capsule | box | half_space | cylinder | cone | hull | surface | compound | rounding,
   /// The default of create_world().
   all = shapes | continuous | sleeping | joints | sensors,
 };
@@ -62,12 +63,14 @@ struct HullCode;
 struct SurfaceCode;
 struct SurfaceImpactCode;
 struct SurfaceDistanceCode;
+struct CompoundCode;
+struct CompoundImpactCode;
 struct ContinuousCode;
 struct SleepingCode;
 struct JointCode;
 struct SensorCode;
 extern const ShapeCode k_sphere_code, k_capsule_code, k_box_code, k_half_space_shape_code, k_cylinder_code, k_cone_code,
-    k_hull_shape_code, k_surface_shape_code;
+    k_hull_shape_code, k_surface_shape_code, k_compound_shape_code;
 extern const PairCode k_round_pair_code, k_box_round_pair_code, k_box_pair_code;
 extern const HalfSpaceCode k_half_space_code;
 extern const ConvexCode k_convex_code;
@@ -75,6 +78,8 @@ extern const HullCode k_hull_code;
 extern const SurfaceCode k_surface_code;
 extern const SurfaceImpactCode k_surface_impact_code;
 extern const SurfaceDistanceCode k_surface_distance_code;
+extern const CompoundCode k_compound_code;
+extern const CompoundImpactCode k_compound_impact_code;
 extern const ContinuousCode k_continuous_code;
 extern const SleepingCode k_sleeping_code;
 extern const JointCode k_joint_code;
@@ -85,7 +90,8 @@ extern const SensorCode k_sensor_code;
 struct FeatureTable {
   Features features;  ///< what it names
   /// @cond
-  const ShapeCode *sphere, *capsule, *box, *half_space_shape, *cylinder, *cone, *hull_shape, *surface_shape;
+  const ShapeCode *sphere, *capsule, *box, *half_space_shape, *cylinder, *cone, *hull_shape, *surface_shape,
+      *compound_shape;
   const PairCode *round_pair, *box_round_pair, *box_pair;
   const HalfSpaceCode* half_space;
   const ConvexCode* convex;  ///< pairs of which one is a cylinder, cone, hull or rounded
@@ -93,6 +99,8 @@ struct FeatureTable {
   const SurfaceCode* surface;
   const SurfaceImpactCode* surface_impact;
   const SurfaceDistanceCode* surface_distance;
+  const CompoundCode* compound;
+  const CompoundImpactCode* compound_impact;  ///< where it is continuous, or there are sensors
   const ContinuousCode* continuous;
   const SleepingCode* sleeping;
   const JointCode* joints;
@@ -114,6 +122,7 @@ constexpr FeatureTable make_feature_table(Features features) {
   if (any(Features::cone)) table.cone = &k_cone_code;
   if (any(Features::hull)) table.hull_shape = &k_hull_shape_code;
   if (any(Features::surface)) table.surface_shape = &k_surface_shape_code;
+  if (any(Features::compound)) table.compound_shape = &k_compound_shape_code;
   if (round) table.round_pair = &k_round_pair_code;
   if (box && round) table.box_round_pair = &k_box_round_pair_code;
   if (box) table.box_pair = &k_box_pair_code;
@@ -124,6 +133,9 @@ constexpr FeatureTable make_feature_table(Features features) {
   if (any(Features::surface) && any(Features::continuous | Features::sensors))
     table.surface_impact = &k_surface_impact_code;
   if (any(Features::surface) && any(Features::sensors)) table.surface_distance = &k_surface_distance_code;
+  if (any(Features::compound)) table.compound = &k_compound_code;
+  if (any(Features::compound) && any(Features::continuous | Features::sensors))
+    table.compound_impact = &k_compound_impact_code;
   if (any(Features::continuous)) table.continuous = &k_continuous_code;
   if (any(Features::sleeping)) table.sleeping = &k_sleeping_code;
   if (any(Features::joints)) table.joints = &k_joint_code;

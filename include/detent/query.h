@@ -63,7 +63,7 @@ struct RayQuery {
 };
 
 /// A shape on its way, which turns at a constant rate about a constant axis. `shape`: as of a body, or a sphere of
-/// radius 0, which is a point; not a half-space.
+/// radius 0, which is a point; not a half-space, surface or compound.
 struct CastQuery {
   Shape shape = {};                      ///< as of a body, or a point
   Position position = {0.0, 0.0, 0.0};   ///< at the start, m, world

@@ -2,7 +2,7 @@
 #include <detent/math.h>
 
 /// @file
-/// Shapes: convex ones, and surfaces.
+/// Shapes: convex ones, compounds of them, and surfaces.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -17,6 +17,7 @@ enum class ShapeType : uint32_t {
   hull = 7,        ///< cooked bytes: an asset of the world; or made by make_hull() (convex.h)
   triangle = 8,    ///< made by make_triangle() (convex.h)
   surface = 9,     ///< surface()
+  compound = 10,   ///< compound()
 };
 
 /// A shape in its body's frame, centred on the centre of mass. Build one with the functions below.
@@ -28,7 +29,7 @@ struct Shape {
   Real half_length = 0.0;                     ///< m; along local y, half: a capsule's core segment, a cylinder, a cone
   Vec3<Real> half_extents = {0.5, 0.5, 0.5};  ///< m; box
   Real rounding = 0.0;  ///< m; box, cylinder, cone, hull: grown by a ball of this radius; 0, or a size
-  uint32_t asset = 0;   ///< hull, surface: index in the world's asset table
+  uint32_t asset = 0;   ///< hull, surface, compound: index in the world's asset table
 };
 
 /// A ball of the given radius, m.
@@ -89,6 +90,14 @@ constexpr Shape rounded(Shape shape, Real rounding) {
 constexpr Shape surface(uint32_t asset) {
   Shape shape;
   shape.type = ShapeType::surface;
+  shape.asset = asset;
+  return shape;
+}
+/// The compound of convex shapes (docs/compound.md) that the world's asset `asset` holds, once bind_asset() has bound
+/// it. Its origin is the body's; it is rounded where it was cooked so.
+constexpr Shape compound(uint32_t asset) {
+  Shape shape;
+  shape.type = ShapeType::compound;
   shape.asset = asset;
   return shape;
 }

@@ -61,6 +61,8 @@ bool body_convex(const BodyTraits& traits, const AssetTable& assets, Convex& con
     case ShapeType::sphere:
       made.radius = size[0];
       break;
+    case ShapeType::compound:
+      return false;
     default:
       made.radius_exponent = 0;
       break;

@@ -63,11 +63,8 @@ Status meet_half_space(const CollisionBody& plane, const CollisionBody& body, co
 
 }  // namespace
 
-void collide_convex(const CollisionBody& a, const CollisionBody& b, Real reach, const AssetTable& assets,
-                    ManifoldReduction reduction, ContactGeometry& contact) {
-  Convex convex_a, convex_b;
-  contact.capped = !body_convex(a.traits, assets, convex_a) || !body_convex(b.traits, assets, convex_b);
-  if (contact.capped) return;
+void collide_convexes(const CollisionBody& a, const Convex& convex_a, const CollisionBody& b, const Convex& convex_b,
+                      Real reach, ManifoldReduction reduction, ContactGeometry& contact) {
   ContactManifold manifold;
   const Status status = is_half_space(a) ? meet_half_space(a, b, convex_b, true, reach, reduction, manifold)
                         : is_half_space(b)
@@ -76,6 +73,13 @@ void collide_convex(const CollisionBody& a, const CollisionBody& b, Real reach, 
                                              {b.pose.position, b.pose.rotation}, reach, manifold, nullptr, reduction);
   add_points(a, b, manifold, contact);
   contact.capped = contact.capped || status != Status::ok;
+}
+
+void collide_convex(const CollisionBody& a, const CollisionBody& b, Real reach, const AssetTable& assets,
+                    ManifoldReduction reduction, ContactGeometry& contact) {
+  Convex convex_a, convex_b;
+  contact.capped = !body_convex(a.traits, assets, convex_a) || !body_convex(b.traits, assets, convex_b);
+  if (!contact.capped) collide_convexes(a, convex_a, b, convex_b, reach, reduction, contact);
 }
 
 const ConvexCode k_convex_code = {collide_convex};

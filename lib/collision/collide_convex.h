@@ -1,4 +1,6 @@
 #pragma once
+#include <detent/convex.h>
+
 #include "collision/collide.h"
 
 namespace detent {
@@ -13,6 +15,10 @@ struct ConvexCode {
 /// hull's bytes are missing, or a position is out of its range.
 void collide_convex(const CollisionBody& a, const CollisionBody& b, Real reach, const AssetTable& assets,
                     ManifoldReduction reduction, ContactGeometry& contact);
+
+/// Likewise, of these convex shapes at the bodies' poses: the bodies', or parts of them.
+void collide_convexes(const CollisionBody& a, const Convex& convex_a, const CollisionBody& b, const Convex& convex_b,
+                      Real reach, ManifoldReduction reduction, ContactGeometry& contact);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

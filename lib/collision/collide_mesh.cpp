@@ -29,19 +29,19 @@ void put_contact(const SurfaceManifold& manifold, const Matrix32& rotation, cons
 
 }  // namespace
 
-void collide_mesh(const Surface& surface, const CollisionBody& ground, const CollisionBody& body, Real reach,
-                  const AssetTable& assets, SurfaceContacts& contacts) {
+void collide_mesh(const Surface& surface, const CollisionBody& ground, const CollisionBody& body, const Convex& shape,
+                  const Vec64& middle, Real reach, SurfaceContacts& contacts) {
   contacts.count = 0;
   contacts.dropped = 0;
   contacts.capped = true;
-  Convex shape;
   SurfacePlace place;
   Vec64 raw;
-  if (!body_convex(body.traits, assets, shape) || !raw_from_real({reach, Real(0.0), Real(0.0)}, raw) ||
+  if (!raw_from_real({reach, Real(0.0), Real(0.0)}, raw) ||
       place_on_surface({ground.pose.position, ground.pose.rotation}, {body.pose.position, body.pose.rotation}, place) !=
           Status::ok) {
     return;
   }
+  place.middle = rotate(place.rotation, middle);
   const SurfacePair pair(surface, place, shape, raw.x);
   SurfaceManifolds found(pair.half_thickness());
   surface.walk([&](const GridBox& box) { return meet(box, pair.box()); },
@@ -55,6 +55,14 @@ void collide_mesh(const Surface& surface, const CollisionBody& ground, const Col
   contacts.capped = found.capped();
   for (uint32_t i = 0; i < contacts.count; ++i)
     put_contact(manifold[i], place.surface, ground, body, contacts.contact[i]);
+}
+
+void collide_mesh(const Surface& surface, const CollisionBody& ground, const CollisionBody& body, Real reach,
+                  const AssetTable& assets, SurfaceContacts& contacts) {
+  Convex shape;
+  contacts.count = contacts.dropped = 0;
+  contacts.capped = !body_convex(body.traits, assets, shape);
+  if (!contacts.capped) collide_mesh(surface, ground, body, shape, {0, 0, 0}, reach, contacts);
 }
 
 }  // namespace DETENT_NAMESPACE

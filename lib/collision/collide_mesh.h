@@ -25,5 +25,10 @@ struct SurfaceContacts {
 void collide_mesh(const Surface& surface, const CollisionBody& ground, const CollisionBody& body, Real reach,
                   const AssetTable& assets, SurfaceContacts& contacts);
 
+/// Likewise, of a convex part of a body, in the body's axes; `middle`: of the part, there,
+/// 2^-46 m.
+void collide_mesh(const Surface& surface, const CollisionBody& ground, const CollisionBody& body, const Convex& convex,
+                  const Vec64& middle, Real reach, SurfaceContacts& contacts);
+
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -63,7 +63,7 @@ struct ReusePair {
   /// False if the bodies are too far apart to touch.
   bool place() {
     const Position &from = base.pose.position, &to = other.pose.position;
-    way = {real_difference(to.x, from.x), real_difference(to.y, from.y), real_difference(to.z, from.z)};
+    way = real_difference(to, from);
     const Real limit = real_from_unit(Unit(0.625), exponent);
     if (max(abs(way.x), max(abs(way.y), abs(way.z))) > limit) return false;
     offset = {unit_from_real(way.x, exponent), unit_from_real(way.y, exponent), unit_from_real(way.z, exponent)};
@@ -169,7 +169,7 @@ bool is_manifold(const BodyTraits& a, const BodyTraits& b, uint32_t count, const
   }
   if (none) return is_zero(manifold.normal) && is_zero(manifold.offset);
   Quat ignored;
-  if (is_ground(a) || is_ground(b) || !normalise_input(manifold.rotation, ignored)) return false;
+  if (is_ground(a) || is_ground(b) || has_parts(a, b) || !normalise_input(manifold.rotation, ignored)) return false;
   if (!is_within(manifold.normal, Unit(1.01)) || !(abs(length(manifold.normal) - Unit(1.0)) < Unit(0x1p-10)) ||
       !is_within(manifold.offset, Unit(0.625)) || !(length(manifold.offset) < Unit(0.66)))
     return false;

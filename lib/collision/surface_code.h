@@ -14,10 +14,15 @@ inline Surface surface_of(const BodyTraits& traits, const AssetTable& assets) {
 void collide_surface(const CollisionBody& a, const CollisionBody& b, Real reach, const AssetTable& assets,
                      SurfaceContacts& contacts);
 
+/// Likewise, of the body that has none only this convex part, in its axes; `middle`: of the part, 2^-46 m.
+void collide_part_with_surface(const CollisionBody& a, const CollisionBody& b, const Convex& part, const Vec64& middle,
+                               Real reach, const AssetTable& assets, SurfaceContacts& contacts);
+
 /// For a feature table.
 struct SurfaceCode {
   decltype(&read_surface) read;
   decltype(&collide_surface) collide;
+  decltype(&collide_part_with_surface) collide_part;
   decltype(&visit_surface) visit;
   decltype(&surface_convex) convex;
   decltype(&place_on_surface) place;

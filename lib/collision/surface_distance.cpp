@@ -2,7 +2,6 @@
 
 #include <detent/distance.h>
 
-#include "collision/body_convex.h"
 #include "collision/surface_code.h"
 #include "math/arithmetic.h"
 #include "proximity/pair.h"
@@ -15,7 +14,7 @@ namespace {
 struct Search {
   const Surface surface;
   const Pose &ground, &pose;
-  const Convex convex;
+  const Convex& convex;
   const Real reach;
   bool asked = true, farther = true;
 
@@ -31,13 +30,11 @@ struct Search {
 }  // namespace
 
 bool farther_than_surface(const AssetTable& assets, const BodyTraits& ground, const Pose& ground_pose,
-                          const BodyTraits& body, const Pose& pose, Real reach, bool& farther) {
+                          const BodyTraits& body, const Convex& convex, const Pose& pose, Real reach, bool& farther) {
   const Real zero = 0.0, ball = real_from_unit(body.bounding_radius, body.size_exponent);
   SurfacePlace place;
-  Convex convex;
   Vec64 raw;
-  if (!is_in(assets, ground.asset) || !body_convex(body, assets, convex) ||
-      place_on_surface(ground_pose, pose, place) != Status::ok ||
+  if (!is_in(assets, ground.asset) || place_on_surface(ground_pose, pose, place) != Status::ok ||
       !raw_from_real({ball + scale_by_power(ball, -8) + reach, zero, zero}, raw))
     return false;
   Search search = {surface_of(ground, assets), ground_pose, pose, convex, reach};

@@ -42,7 +42,7 @@ bool allows_other_normals(EdgeKind kind) { return kind == EdgeKind::convex || ki
 
 }  // namespace
 
-/// A triangle from the side that the shape's centre is on.
+/// A triangle from the side that the shape's middle is on.
 struct SurfacePair::Side {
   SurfaceTriangle triangle;
   Vec32 normal;    ///< towards the shape
@@ -64,6 +64,7 @@ Status place_on_surface(const Pose& surface, const Pose& shape, SurfacePlace& pl
   place.surface = matrix_from(q);
   place.rotation = matrix_from(normalise(multiply(Quat32{-q.x, -q.y, -q.z, q.w}, p)));
   place.centre = rotate_back(place.surface, way);
+  place.middle = {0, 0, 0};
   return Status::ok;
 }
 
@@ -112,6 +113,7 @@ SurfacePair::SurfacePair(const Surface& surface, const SurfacePlace& place, cons
       rotation_(place.rotation),
       shape_(shape),
       centre_(place.centre),
+      middle_(place.middle),
       reach_(reach),
       radius_(raw_radius(shape)),
       alone_(detent::place(shape, place.rotation, shape.exponent)) {
@@ -146,7 +148,7 @@ SurfacePair::Side SurfacePair::side_of(uint32_t index) const {
   SurfaceTriangle& t = side.triangle;
   t = surface_.triangle(index);
   side.normal = normal_of(t.corner[0], t.corner[1], t.corner[2]);
-  side.behind = sign_of(dot(from_centre(t.corner[0]), side.normal)) > 0;
+  side.behind = sign_of(dot(add(from_centre(t.corner[0]), negate(middle_)), side.normal)) > 0;
   if (side.behind) {
     side.normal = negate(side.normal);
     const SurfaceTriangle front = t;

@@ -7,9 +7,10 @@ inline namespace DETENT_NAMESPACE {
 
 /// Where a shape lies in a surface's axes.
 struct SurfacePlace {
-  Matrix32 surface;   ///< from the surface's axes to the world's
-  Matrix32 rotation;  ///< from the shape's axes to the surface's
-  Vec64 centre;       ///< of the shape, in the surface's axes, 2^-46 m
+  Matrix32 surface;          ///< from the surface's axes to the world's
+  Matrix32 rotation;         ///< from the shape's axes to the surface's
+  Vec64 centre;              ///< of the shape, in the surface's axes, 2^-46 m
+  Vec64 middle = {0, 0, 0};  ///< of what is met, from there, likewise: which side of a triangle it is on
 };
 
 /// Errors: not_normalised; out_of_range for NaN and for positions 2^16 m apart.
@@ -76,7 +77,7 @@ class SurfacePair {
   const Surface& surface_;
   const Matrix32& rotation_;
   const Convex& shape_;
-  Vec64 centre_;
+  Vec64 centre_, middle_;
   int64_t reach_, radius_, thickness_;
   Placed alone_;  ///< the shape in a block of its own unit
   GridBox box_;

@@ -1,8 +1,8 @@
 #include "dynamics/impact.h"
 
 #include "collision/broadphase.h"
+#include "collision/compound_code.h"
 #include "collision/contact_arm.h"
-#include "collision/surface_code.h"
 #include "dynamics/activity.h"
 #include "dynamics/gyration.h"
 #include "dynamics/impact_pair.h"
@@ -435,7 +435,7 @@ struct Stage {
     const Matrix3 rotation_a = matrix_from(pose_a.rotation), rotation_b = matrix_from(pose_b.rotation);
     const Real reach = scale_by_power(extent_of(pair.key), -10);
     const CollisionBody body_a = {pose_a, a, rotation_a}, body_b = {pose_b, b, rotation_b};
-    if (is_surface(a) || is_surface(b))
+    if (has_parts(a, b))
       find_part_points(pair, body_a, body_b, reach, geometry);
     else
       collide(body_a, body_b, reach, geometry, assets, settings.reduction, features);
@@ -446,7 +446,7 @@ struct Stage {
   __attribute__((noinline)) void find_part_points(const ImpactPair& pair, const CollisionBody& a,
                                                   const CollisionBody& b, Real reach, ContactGeometry& geometry) {
     SurfaceContacts contacts;
-    features.surface->collide(a, b, reach, assets, contacts);
+    collide_parts(a, b, reach, assets, settings.reduction, features, contacts);
     const SurfaceContact* best = nullptr;
     Real most = k_zero;
     for (uint32_t i = 0; i < contacts.count; ++i) {
@@ -675,10 +675,7 @@ struct Stage {
     }
     return moved((by_b ? pose_b : pose_a).position, sum);
   }
-  static Vec3<Real> offset_of(const BodyPose& a, const BodyPose& b) {
-    return {real_difference(b.position.x, a.position.x), real_difference(b.position.y, a.position.y),
-            real_difference(b.position.z, a.position.z)};
-  }
+  static Vec3<Real> offset_of(const BodyPose& a, const BodyPose& b) { return real_difference(b.position, a.position); }
 
   void go_on(ImpactPair& pair) {
     const Fraction time = pair.time;

@@ -1,6 +1,7 @@
 #include "dynamics/impact_pair.h"
 
 #include "collision/body_convex.h"
+#include "dynamics/compound_impact.h"
 #include "dynamics/spin.h"
 #include "dynamics/surface_impact.h"
 #include "geometry/shape_traits.h"
@@ -26,6 +27,7 @@ void shrink(int64_t depth, int halvings, Convex& convex) {
   switch (convex.type) {
     case ShapeType::sphere:
     case ShapeType::capsule:
+    case ShapeType::triangle:
       convex.radius = less_depth(convex.radius, in_units(depth, convex.radius_exponent), 0);
       break;
     case ShapeType::box:
@@ -115,23 +117,36 @@ bool closing_bound(const SweptBody& a, const SweptBody& b, Fraction time, Real& 
 
 bool inset_convex(const AssetTable& assets, const BodyTraits& traits, Real inset, Real extent, Convex& convex) {
   Convex made;
-  if (!body_convex(traits, assets, made)) return false;
-  if (const Real zero = 0.0; inset > zero) {
-    Vec64 raw;
-    if (!raw_from_real({inset, zero, zero}, raw)) return false;
-    // On the rungs of contacts, and the deeper ones.
-    const int halvings = (inset > scale_by_power(extent, -4) ? 1 : 0) + (inset > scale_by_power(extent, -2) ? 1 : 0);
-    shrink(raw.x, halvings, made);
-  }
+  if (!body_convex(traits, assets, made) || !inset_convex(inset, inset_halvings(inset, extent), made)) return false;
   convex = made;
   return true;
+}
+
+bool inset_convex(Real inset, int halvings, Convex& convex) {
+  const Real zero = 0.0;
+  Vec64 raw;
+  if (!(inset > zero)) return true;
+  if (!raw_from_real({inset, zero, zero}, raw)) return false;
+  shrink(raw.x, halvings, convex);
+  return true;
+}
+
+int inset_halvings(Real inset, Real extent) {
+  // On the rungs of contacts, and the deeper ones.
+  return (inset > scale_by_power(extent, -4) ? 1 : 0) + (inset > scale_by_power(extent, -2) ? 1 : 0);
 }
 
 bool pair_impact(const AssetTable& assets, const FeatureTable& features, const SweptBody& a, const SweptBody& b,
                  Fraction time, Real inset, TimeOfImpact& impact) {
   const Real extent = min(shape_extent(a.traits), shape_extent(b.traits));
-  if (is_surface(a.traits) || is_surface(b.traits)) {
-    if (!features.surface_impact->impact(assets, *features.surface, a, b, time, inset, impact)) return false;
+  if (is_compound(a.traits) || is_compound(b.traits)) {
+    if (!features.compound_impact->find(assets, features, a, b, time, inset, impact)) return false;
+  } else if (is_surface(a.traits) || is_surface(b.traits)) {
+    const BodyTraits& body = (is_surface(a.traits) ? b : a).traits;
+    Convex convex;
+    if (!inset_convex(assets, body, inset, shape_extent(body), convex) ||
+        !features.surface_impact->impact(assets, *features.surface, a, b, convex, time, impact))
+      return false;
   } else {
     Convex convex_a, convex_b;
     if (!inset_convex(assets, a.traits, inset, extent, convex_a) ||

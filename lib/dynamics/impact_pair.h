@@ -45,6 +45,11 @@ bool closing_bound(const SweptBody& a, const SweptBody& b, Fraction time, Real& 
 /// The body's shape made smaller by `inset`, m, on all sides; `extent`: of the pair. False if it is not known.
 bool inset_convex(const AssetTable& assets, const BodyTraits& traits, Real inset, Real extent, Convex& convex);
 
+/// Likewise, of a shape that is ready. A hull or cone is halved `halvings` times.
+bool inset_convex(Real inset, int halvings, Convex& convex);
+/// How often that is at this inset.
+int inset_halvings(Real inset, Real extent);
+
 /// When the bodies, made smaller by `inset` on all sides, meet from `time` on; the answer's time is a part of the whole
 /// tick. False if it could not be asked: a shape is not known, or lies out of the query's range.
 bool pair_impact(const AssetTable& assets, const FeatureTable& features, const SweptBody& a, const SweptBody& b,

@@ -27,17 +27,13 @@ uint32_t clamp_vector(Vec3<Real>& v, Real limit) {
   return clamp_component(v.x, limit) + clamp_component(v.y, limit) + clamp_component(v.z, limit);
 }
 
-Vec3<Real> scaled(const Vec3<Real>& v, Scaled factor) {
-  return {multiply(v.x, factor), multiply(v.y, factor), multiply(v.z, factor)};
-}
-
 Vec3<Real> halved(const Vec3<Real>& v) {
   return {scale_by_power(v.x, -1), scale_by_power(v.y, -1), scale_by_power(v.z, -1)};
 }
 
 /// What acts without contacts. From the second substep of a tick on, contacts first push as they did in the last one:
 /// that is the warm start of all of a body's contacts at once.
-uint32_t integrate_velocities(const SolverBodies& bodies, Span<const uint32_t> island, bool first) {
+uint32_t integrate_velocities(const SolverBodies& bodies, Span<const uint32_t> island, bool first, bool touches) {
   const Scaled one = 1.0;
   uint32_t clamped = 0;
   for (const uint32_t slot : island) {
@@ -47,14 +43,15 @@ uint32_t integrate_velocities(const SolverBodies& bodies, Span<const uint32_t> i
     const Vec3<Real> turned = first ? k_still : added_by_contacts(motion.momentum, now.contact_momentum);
     motion.velocity += now.push;
     motion.momentum += now.twist;
-    if (!(now.linear_kept == one)) motion.velocity = scaled(motion.velocity, now.linear_kept);
-    if (!(now.angular_kept == one)) motion.momentum = scaled(motion.momentum, now.angular_kept);
+    if (!(now.linear_kept == one)) motion.velocity = multiply(motion.velocity, now.linear_kept);
+    if (!(now.angular_kept == one)) motion.momentum = multiply(motion.momentum, now.angular_kept);
     now.contact_velocity = kept_at_start(motion.velocity, pushed);
     now.contact_momentum = kept_at_start(motion.momentum, turned);
     motion.velocity += pushed;
     motion.momentum += turned;
     clamped += clamp_vector(motion.velocity, k_speed_work_max) + clamp_vector(motion.momentum, k_spin_work_max);
-    now.spin = world_spin(bodies.traits[slot], now.gyration, motion.momentum, -k_spin_power);
+    // Contacts alone read it.
+    if (touches) now.spin = world_spin(bodies.traits[slot], now.gyration, motion.momentum, -k_spin_power);
   }
   return clamped;
 }
@@ -190,7 +187,7 @@ SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<
     }
   };
   for (uint32_t substep = 0; substep < settings.substeps; ++substep) {
-    count.clamped += integrate_velocities(bodies, island, substep == 0);
+    count.clamped += integrate_velocities(bodies, island, substep == 0, order.count != 0);
     if (substep == 0) each([](Solver& contact) { contact.warm_start(); });
     for (const ContactOrder& entry : order) {
       const ContactWork& contact = contacts[entry.contact];
@@ -215,7 +212,7 @@ uint32_t fly(const StepSettings& settings, const SolverBodies& bodies, Span<cons
   constexpr int k_halvings = 2;
   uint32_t clamped = 0;
   for (uint32_t substep = 0; substep < settings.substeps; ++substep) {
-    clamped += integrate_velocities(bodies, island, true);
+    clamped += integrate_velocities(bodies, island, true, false);
     clamped += integrate_positions(bodies, island, settings.time, k_halvings);
   }
   return clamped;

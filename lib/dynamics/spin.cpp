@@ -37,6 +37,9 @@ Scaled distance(Scaled a, Scaled b) { return less(a, b) ? difference(b, a) : dif
 
 /// The axis whose gyration is farthest from the other two.
 int odd_axis(const Scaled (&gyration)[3]) {
+  if (gyration[1] == gyration[2]) return 0;
+  if (gyration[2] == gyration[0]) return 1;
+  if (gyration[0] == gyration[1]) return 2;
   const Scaled apart[3] = {distance(gyration[1], gyration[2]), distance(gyration[2], gyration[0]),
                            distance(gyration[0], gyration[1])};
   const int least = less(apart[1], apart[0]) ? 1 : 0;
@@ -90,9 +93,7 @@ bool turn_freely(const BodyTraits& traits, const FreeTurn& free, const Vec3<Real
     }
     turn_about(c, free.rest, exponent, half, frame, clamped);
   }
-  const Vec3<Real> about = {multiply(momentum.x, free.common), multiply(momentum.y, free.common),
-                            multiply(momentum.z, free.common)};
-  rotation = turned(frame.rotation, about, exponent, time, clamped);
+  rotation = turned(frame.rotation, multiply(momentum, free.common), exponent, time, clamped);
   return !clamped;
 }
 

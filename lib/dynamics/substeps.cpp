@@ -91,9 +91,7 @@ void weigh(Span<const BodyPose> poses, Span<const BodyTraits> traits, Span<const
   const Position& origin = poses[bodies[0]].position;
   for (const uint32_t slot : bodies) {
     const Position& at = poses[slot].position;
-    const Vec3<Real> way = {real_difference(origin.x, at.x), real_difference(origin.y, at.y),
-                            real_difference(origin.z, at.z)};
-    work[slot].height = dot(way, down);
+    work[slot].height = dot(real_difference(origin, at), down);
     work[slot].carried = traits[slot].mass;
     work[slot].supports = 0;
   }
@@ -162,6 +160,9 @@ void choose_substeps(const StepSettings& settings, Span<const BodyTraits> traits
         if (now == lower) calm = 0;
       }
     }
+    // The lowest notch is for contacts.
+    const bool free = settings.substeps_fixed == 0 && island.contact_count == 0;
+    if (free && for_joints == 1 && now == k_notches[0]) now = 1;
     island.substeps = now;
     for (uint32_t i = 0; i < island.contact_count; ++i) {
       ContactWork& contact = contacts[order[island.first_contact + i].contact];

@@ -117,13 +117,10 @@ struct Search {
 }  // namespace
 
 bool surface_impact(const AssetTable& assets, const SurfaceCode& code, const SweptBody& a, const SweptBody& b,
-                    Fraction time, Real inset, TimeOfImpact& impact) {
+                    const Convex& convex, Fraction time, TimeOfImpact& impact) {
   const bool ground_is_a = is_surface(a.traits);
   const SweptBody &ground = ground_is_a ? a : b, &body = ground_is_a ? b : a;
-  Convex convex;
-  if (!is_in(assets, ground.traits.asset) ||
-      !inset_convex(assets, body.traits, inset, shape_extent(body.traits), convex))
-    return false;
+  if (!is_in(assets, ground.traits.asset)) return false;
   const Motion ground_motion = motion_from(ground, time), motion = motion_from(body, time);
   SurfacePlace place;
   Vec64 way;

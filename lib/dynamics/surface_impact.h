@@ -5,11 +5,12 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// As pair_impact(), of two bodies of which one has a surface; the time is a part of what is left of the tick. Only the
-/// other one is made smaller. The first of its triangles that it meets; those whose bounds the sweep misses, whose
-/// plane it stays off, or which are one-sided and met from behind are not asked.
+/// As pair_impact(), of two bodies of which one has a surface; the time is a part of what is left of the tick. Of the
+/// other one only `convex` counts, at its pose: its shape or a part of it, made smaller. The first of its triangles
+/// that it meets; those whose bounds the sweep misses, whose plane it stays off, or which are one-sided and met from
+/// behind are not asked.
 bool surface_impact(const AssetTable& assets, const SurfaceCode& code, const SweptBody& a, const SweptBody& b,
-                    Fraction time, Real inset, TimeOfImpact& impact);
+                    const Convex& convex, Fraction time, TimeOfImpact& impact);
 
 /// For a feature table.
 struct SurfaceImpactCode {

@@ -18,7 +18,7 @@ inline constexpr Bounds k_everywhere = {{-k_coord_limit, -k_coord_limit, -k_coor
                                         {k_coord_limit, k_coord_limit, k_coord_limit}};
 
 /// The least half size of axis-aligned bounds around the body's position that hold the shape, m, world axes. Not for a
-/// half-space. A hull's and a surface's hold the box of its half extents, or its bounding ball where that is less.
+/// half-space. A hull's, a surface's and a compound's hold the box of its half extents, or its bounding ball where that is less.
 /// Rounding: within 2^-28 of the body's unit of length.
 inline Vec3<Real> half_bounds(const BodyTraits& traits, const Matrix3& rotation) {
   const Unit zero = 0.0;
@@ -35,6 +35,7 @@ inline Vec3<Real> half_bounds(const BodyTraits& traits, const Matrix3& rotation)
     }
     case ShapeType::hull:
     case ShapeType::surface:
+    case ShapeType::compound:
     case ShapeType::box: {
       const Vec3<Unit>&x = rotation.column[0], &y = rotation.column[1], &z = rotation.column[2];
       half = {dot(Vec3<Unit>{abs(x.x), abs(y.x), abs(z.x)}, traits.size),
@@ -57,9 +58,9 @@ inline Vec3<Real> half_bounds(const BodyTraits& traits, const Matrix3& rotation)
     default:
       break;
   }
-  if (!(traits.rounding == zero)) half += Vec3<Unit>{traits.rounding, traits.rounding, traits.rounding};
   const ShapeType shape = static_cast<ShapeType>(traits.shape);
-  if (shape == ShapeType::hull || shape == ShapeType::surface) {
+  if (!(traits.rounding == zero) && shape != ShapeType::compound) half += Vec3<Unit>{traits.rounding, traits.rounding, traits.rounding};
+  if (shape == ShapeType::hull || shape == ShapeType::surface || shape == ShapeType::compound) {
     const Unit ball = traits.bounding_radius;
     half = {min(half.x, ball), min(half.y, ball), min(half.z, ball)};
   }

@@ -1,5 +1,6 @@
 #include "geometry/shape_traits.h"
 
+#include "geometry/compound.h"
 #include "geometry/surface.h"
 #include "math/arithmetic.h"
 #include "math/root.h"
@@ -18,7 +19,8 @@ bool is_size(Real value) { return value >= k_size_min && value <= k_size_max; }
 
 /// A triangle is none.
 bool is_world_shape(ShapeType type) {
-  return (type >= ShapeType::sphere && type <= ShapeType::hull) || type == ShapeType::surface;
+  return (type >= ShapeType::sphere && type <= ShapeType::hull) || type == ShapeType::surface ||
+         type == ShapeType::compound;
 }
 
 bool can_be_rounded(ShapeType type) {
@@ -224,6 +226,31 @@ Status measure_surface(const Shape& shape, const AssetTable& assets, ShapeMeasur
 }
 void set_surface_asset(const Shape& shape, const AssetTable&, BodyTraits& traits) { traits.asset = shape.asset; }
 
+CompoundView compound_of(const AssetTable& assets, uint32_t asset) { return compound_view(assets.assets[asset].bytes); }
+Status measure_compound(const Shape& shape, const AssetTable& assets, ShapeMeasure& measure) {
+  if (!is_in(assets, shape.asset)) return Status::asset_missing;
+  const CompoundView compound = compound_of(assets, shape.asset);
+  const int32_t exponent = measure.exponent_min = compound.exponent();
+  const auto metres = [exponent](int32_t steps) { return real_from_unit(unit_from_steps(steps), exponent); };
+  const Vec32 half = compound.half_extents();
+  measure.size = {metres(half.x), metres(half.y), metres(half.z)};
+  measure.bound = metres(compound.radius());
+  measure.smallest = measure.thickness = metres(compound.half_thickness());
+  return Status::ok;
+}
+void set_compound_asset(const Shape& shape, const AssetTable&, BodyTraits& traits) { traits.asset = shape.asset; }
+Scaled compound_volume(const BodyTraits& traits, const Sizes&, const AssetTable& assets) {
+  const CompoundView compound = compound_of(assets, traits.asset);
+  return scaled_by_power(scaled_from_hull(compound.volume()), 3 * (compound.exponent() - traits.size_exponent));
+}
+void set_compound_gyration(BodyTraits& traits, const Sizes&, const AssetTable& assets) {
+  const CompoundView compound = compound_of(assets, traits.asset);
+  for (uint32_t axis = 0; axis < 3; ++axis) {
+    traits.gyration[axis] =
+        scaled_by_power(scaled_from_hull(compound.gyration(axis)), 2 * (traits.size_exponent - compound.exponent()));
+  }
+}
+
 Status measure_half_space(const Shape&, const AssetTable&, ShapeMeasure&) { return Status::ok; }
 
 }  // namespace
@@ -236,6 +263,7 @@ const ShapeCode k_cylinder_code = {measure_upright<ShapeType::cylinder>, nullptr
 const ShapeCode k_cone_code = {measure_upright<ShapeType::cone>, nullptr, cone_volume, set_cone_gyration};
 const ShapeCode k_hull_shape_code = {measure_hull, set_hull_size, hull_volume, set_hull_gyration};
 const ShapeCode k_surface_shape_code = {measure_surface, set_surface_asset, nullptr, nullptr};
+const ShapeCode k_compound_shape_code = {measure_compound, set_compound_asset, compound_volume, set_compound_gyration};
 const ShapeCode k_half_space_shape_code = {measure_half_space, nullptr, nullptr, nullptr};
 
 const ShapeCode* code_of(const FeatureTable& features, ShapeType type) {
@@ -256,6 +284,8 @@ const ShapeCode* code_of(const FeatureTable& features, ShapeType type) {
       return features.hull_shape;
     case ShapeType::surface:
       return features.surface_shape;
+    case ShapeType::compound:
+      return features.compound_shape;
     default:
       return nullptr;
   }
@@ -289,7 +319,7 @@ Status set_shape(const Shape& shape, BodyTraits& traits, const AssetTable& asset
   traits.size_exponent = exponent;
   traits.size = {unit_from_real(size.x, exponent), unit_from_real(size.y, exponent), unit_from_real(size.z, exponent)};
   traits.bounding_radius = unit_from_real(bound, exponent);
-  traits.rounding = unit_from_real(shape.rounding, exponent);
+  traits.rounding = unit_from_real(shape.rounding + measure.thickness, exponent);
   traits.asset = 0;
   if (code.set_size != nullptr) code.set_size(shape, assets, traits);
   return Status::ok;
@@ -312,6 +342,7 @@ void set_gyration(BodyTraits& traits, const AssetTable& assets, const FeatureTab
 }
 
 Real shape_extent(const BodyTraits& traits) {
+  const Unit none = 0.0;
   Unit smallest = traits.size.x;
   switch (shape_of(traits)) {
     case ShapeType::half_space:
@@ -324,6 +355,9 @@ Real shape_extent(const BodyTraits& traits) {
     case ShapeType::box:
     case ShapeType::hull:
       smallest = min(smallest, min(traits.size.y, traits.size.z));
+      break;
+    case ShapeType::compound:
+      smallest = none;
       break;
     default:
       break;

@@ -13,13 +13,18 @@ inline namespace DETENT_NAMESPACE {
 inline ShapeType shape_of(const BodyTraits& traits) { return static_cast<ShapeType>(traits.shape); }
 
 inline bool is_surface(const BodyTraits& traits) { return shape_of(traits) == ShapeType::surface; }
+inline bool is_compound(const BodyTraits& traits) { return shape_of(traits) == ShapeType::compound; }
+/// Whether a pair of bodies can have more contacts than one.
+inline bool has_parts(const BodyTraits& a, const BodyTraits& b) {
+  return is_surface(a) || is_surface(b) || is_compound(a) || is_compound(b);
+}
 /// Whether a body has no thickness that the motion of others could be measured by.
 inline bool is_ground(const BodyTraits& traits) {
   return shape_of(traits) == ShapeType::half_space || is_surface(traits);
 }
 
-/// The greatest distance of a point of the core from the origin; not for hulls and surfaces. T: Real or Unit, of both
-/// sides.
+/// The greatest distance of a point of the core from the origin; not for hulls, surfaces and compounds. T: Real or
+/// Unit, of both sides.
 template <class T>
 T core_bound(ShapeType type, const Vec3<T>& size) {
   const T zero = 0.0;
@@ -51,6 +56,7 @@ struct ShapeMeasure {
   Real smallest;    ///< of its sizes, and of the rounding
   Real bound;       ///< the greatest distance of a point of the core from the origin
   int32_t exponent_min;
+  Real thickness = 0.0;  ///< of a compound: BodyTraits::rounding
 };
 
 /// One shape's own part of set_shape(), shape_volume() and set_gyration(): the linker keeps those that a table names.
@@ -64,9 +70,9 @@ struct ShapeCode {
 /// Null if the shape is not linked.
 const ShapeCode* code_of(const FeatureTable& features, ShapeType type);
 
-/// Fills shape, size_exponent, size, bounding_radius, rounding and asset of `traits`. A hull or surface is
-/// that of the table, whose bytes read_hull() or read_surface() has accepted. Errors: bad_argument, out_of_range,
-/// asset_missing, feature_missing.
+/// Fills shape, size_exponent, size, bounding_radius, rounding and asset of `traits`. A hull, surface or
+/// compound is that of the table, whose bytes read_hull(), read_surface() or read_compound() has accepted. Errors:
+/// bad_argument, out_of_range, asset_missing, feature_missing.
 Status set_shape(const Shape& shape, BodyTraits& traits, const AssetTable& assets = {},
                  const FeatureTable& features = feature_table<Features::all>);
 
@@ -83,7 +89,8 @@ void set_gyration(BodyTraits& traits, const AssetTable& assets = {},
                   const FeatureTable& features = feature_table<Features::all>);
 
 /// Smallest diameter of the shape, m; what tolerances of a pair are fractions of. 2^14 for half-spaces and surfaces. Of
-/// a cone the lesser of height and base, up to 12 % too much; of a hull twice the least half extent, up to 50 %.
+/// a cone the lesser of height and base, up to 12 % too much; of a hull twice the least half extent, up to 50 %; of a
+/// compound that of its thinnest child.
 Real shape_extent(const BodyTraits& traits);
 /// What the margins of the shape's bounds are parts of, m: its extent; of a surface 2^-8 of its bounding radius.
 Real bounds_extent(const BodyTraits& traits);

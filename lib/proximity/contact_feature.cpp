@@ -209,7 +209,7 @@ void supporting_edge(const Placed& placed, const Vec32& direction, int64_t slope
   int64_t least = INT64_MAX;
   const auto consider = [&](uint32_t to) {
     CorePoint core;
-    if (!core_vertex(convex, static_cast<uint8_t>(to), core)) return;
+    if (!core_vertex(convex, static_cast<uint8_t>(to), core) || core.local == farthest.core.local) return;
     const int64_t slope = slope_of(farthest.core.local, core.local, d);
     if (slope >= least) return;
     least = slope;
@@ -287,6 +287,7 @@ int32_t half_thickness(const Placed& placed) {
   if (is_box || convex.type == ShapeType::cylinder || convex.type == ShapeType::cone) {
     for (int i = 0; i < (is_box ? 3 : 2); ++i) consider(convex.size[i]);
   }
+  if (convex.type == ShapeType::hull && convex.size[0] > 0) return in_block(placed, convex.size[0]);
   for (uint32_t f = 0; f < placed.hull.face_count; ++f) consider(placed.hull.plane(f).offset);
   return in_block(placed, least);
 }

@@ -48,7 +48,7 @@ uint32_t edge_index(const Placed& placed, uint32_t vertex_a, uint32_t vertex_b);
 int32_t in_block(const Placed& placed, int32_t length);
 
 /// The least half extent of a core that has faces (of a hull the least distance of a face from the centre, faces that
-/// the centre lies beyond left out); of others the greatest. Ulps of the block.
+/// the centre lies beyond left out, unless the hull says it); of others the greatest. Ulps of the block.
 int32_t half_thickness(const Placed& placed);
 
 }  // namespace DETENT_NAMESPACE

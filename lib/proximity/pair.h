@@ -27,14 +27,16 @@ Vec3<Unit> units_from_raw(const Vec32& v);
 /// A pair's greatest exponent: differences saturated in all components, and the largest cores, lie within 2^19 m.
 inline constexpr int k_exponent_max = 19;
 /// Has the leading bit of the largest component.
-constexpr uint64_t magnitudes(const Vec64& v) { return magnitude_64(v.x) | magnitude_64(v.y) | magnitude_64(v.z); }
+DETENT_SHARED constexpr uint64_t magnitudes(const Vec64& v) {
+  return magnitude_64(v.x) | magnitude_64(v.y) | magnitude_64(v.z);
+}
 
 /// |v|, rounded up.
 int64_t length_above(const Vec64& v);
 /// At least |v|, and at most 1.6 % and a few 2^-30 more; INT64_MAX where that is more than 2^62. Cheap.
 int64_t length_bound(const Vec64& v);
 /// Overflow: saturates at +-INT64_MAX.
-constexpr int64_t saturated_sum(int64_t a, int64_t b) {
+DETENT_SHARED constexpr int64_t saturated_sum(int64_t a, int64_t b) {
   if (b > 0) return a > INT64_MAX - b ? INT64_MAX : a + b;
   return a < -INT64_MAX - b ? -INT64_MAX : a + b;
 }

@@ -153,6 +153,7 @@ CorePoint local_support(const Convex& convex, const HullView& hull, const Vec32&
     case ShapeType::sphere:
     case ShapeType::half_space:
     case ShapeType::surface:
+    case ShapeType::compound:
       break;
   }
   return {{0, 0, 0}, 0};

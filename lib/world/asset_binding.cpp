@@ -1,7 +1,7 @@
 #include "world/asset_binding.h"
 
 #include "base/digest.h"
-#include "collision/surface_code.h"
+#include "collision/compound_code.h"
 #include "geometry/hull.h"
 #include "world/view.h"
 
@@ -12,14 +12,18 @@ constexpr uint64_t k_asset_seed = 0x6173736574u;
 }
 
 Status describe_asset(AssetTable table, uint32_t index, const FeatureTable& features, AssetState& description) {
-  if (features.hull == nullptr && features.surface == nullptr) return Status::feature_missing;
+  if (features.hull == nullptr && features.surface == nullptr && features.compound == nullptr)
+    return Status::feature_missing;
   if (!is_in(table, index)) return Status::asset_missing;
   const Asset& asset = table.assets[index];
   HullView hull;
   Surface surface;
+  CompoundView compound;
   AssetKind kind = AssetKind::other;
   if (features.hull != nullptr && features.hull->read(asset, hull) == Status::ok) kind = AssetKind::hull;
   if (features.surface != nullptr && features.surface->read(asset, surface) == Status::ok) kind = AssetKind::surface;
+  if (features.compound != nullptr && features.compound->read(asset, compound) == Status::ok)
+    kind = AssetKind::compound;
   description = {digest_bytes(asset.bytes, asset.byte_count, k_asset_seed), asset.byte_count,
                  static_cast<uint32_t>(kind)};
   return Status::ok;

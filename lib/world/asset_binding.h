@@ -10,9 +10,10 @@ inline namespace DETENT_NAMESPACE {
 
 /// What of an asset a shape needs; none for shapes without.
 inline AssetKind asset_kind_of(ShapeType shape) {
-  return shape == ShapeType::hull      ? AssetKind::hull
-         : shape == ShapeType::surface ? AssetKind::surface
-                                       : AssetKind::none;
+  return shape == ShapeType::hull       ? AssetKind::hull
+         : shape == ShapeType::surface  ? AssetKind::surface
+         : shape == ShapeType::compound ? AssetKind::compound
+                                        : AssetKind::none;
 }
 inline bool is_shape_of(const BodyTraits& body, uint32_t asset) {
   return body.type != 0 && asset_kind_of(static_cast<ShapeType>(body.shape)) != AssetKind::none && body.asset == asset;

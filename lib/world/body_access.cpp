@@ -34,7 +34,7 @@ Shape shape_from(const BodyTraits& traits) {
   const auto size = [&](Unit value) { return real_from_unit(value, traits.size_exponent); };
   Shape shape;
   shape.type = shape_of(traits);
-  shape.rounding = size(traits.rounding);
+  if (shape.type != ShapeType::compound) shape.rounding = size(traits.rounding);
   switch (shape.type) {
     case ShapeType::sphere:
       shape.radius = size(traits.size.x);
@@ -50,6 +50,7 @@ Shape shape_from(const BodyTraits& traits) {
       break;
     case ShapeType::hull:
     case ShapeType::surface:
+    case ShapeType::compound:
       shape.asset = traits.asset;
       break;
     default:

@@ -62,6 +62,16 @@ bool is_hull(const BodyTraits& traits, AssetTable assets, Span<const AssetState>
          is_bound_of(hull_radius(hull, traits.size_exponent), traits);
 }
 
+bool is_compound_of(const BodyTraits& traits, AssetTable assets, const FeatureTable& features,
+                    Span<const AssetState> bound) {
+  if (traits.asset >= bound.count || bound[traits.asset].kind != static_cast<uint32_t>(AssetKind::compound))
+    return false;
+  BodyTraits expected = traits;
+  return set_shape(compound(traits.asset), expected, assets, features) == Status::ok && expected.size == traits.size &&
+         expected.size_exponent == traits.size_exponent && expected.bounding_radius == traits.bounding_radius &&
+         expected.rounding == traits.rounding;
+}
+
 bool is_surface_of(const BodyTraits& traits, AssetTable assets, const FeatureTable& features,
                    Span<const AssetState> bound) {
   if (is_dynamic(traits) || traits.asset >= bound.count ||
@@ -79,8 +89,8 @@ bool is_shape(const BodyTraits& traits, AssetTable assets, const FeatureTable& f
   const Unit zero = 0.0, smallest = 0x1p-16;
   const Unit bound = traits.bounding_radius;
   const ShapeType shape = shape_of(traits);
-  const bool rounds =
-      shape == ShapeType::box || shape == ShapeType::cylinder || shape == ShapeType::cone || shape == ShapeType::hull;
+  const bool rounds = shape == ShapeType::box || shape == ShapeType::cylinder || shape == ShapeType::cone ||
+                      shape == ShapeType::hull || shape == ShapeType::compound;
   const bool sharp = traits.rounding == zero;
   if (!sharp && (!rounds || !is_size(traits.rounding) || traits.rounding < smallest)) return false;
   if (asset_kind_of(shape) == AssetKind::none && traits.asset != 0) return false;
@@ -101,6 +111,8 @@ bool is_shape(const BodyTraits& traits, AssetTable assets, const FeatureTable& f
              is_hull(traits, assets, bound_assets);
     case ShapeType::surface:
       return is_surface_of(traits, assets, features, bound_assets);
+    case ShapeType::compound:
+      return is_compound_of(traits, assets, features, bound_assets);
     case ShapeType::half_space:
       return traits.type != static_cast<uint32_t>(BodyType::dynamic) && traits.size_exponent == 0 && bound == zero &&
              traits.size == Vec3<Unit>{zero, zero, zero};
@@ -127,7 +139,7 @@ Features features_of(const State& state) {
 }
 
 bool is_linked(const State& state, const BodyTraits& traits) {
-  const bool sharp = traits.rounding == Unit(0.0);
+  const bool sharp = traits.rounding == Unit(0.0) || is_compound(traits);
   const Features needed = feature_of(shape_of(traits)) | (sharp ? Features::none : Features::rounding);
   return contains(features_of(state), needed);
 }
@@ -269,7 +281,7 @@ bool are_fills(const uint8_t* block, const Layout& layout) {
 bool are_assets(const State& state) {
   for (uint32_t i = 0; i < state.assets.count; ++i) {
     const AssetState& asset = state.assets[i];
-    if (asset.kind > static_cast<uint32_t>(AssetKind::surface) || (asset.kind == 0 && !is_zero(asset))) return false;
+    if (asset.kind > static_cast<uint32_t>(AssetKind::compound) || (asset.kind == 0 && !is_zero(asset))) return false;
   }
   return true;
 }

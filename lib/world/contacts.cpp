@@ -1,7 +1,7 @@
 #include <detent/contacts.h>
 
 #include "base/float_environment.h"
-#include "collision/surface_code.h"
+#include "collision/compound_code.h"
 #include "dynamics/spin.h"
 #include "dynamics/step_settings.h"
 #include "geometry/shape_traits.h"
@@ -19,9 +19,10 @@ Scaled reference_mass(const BodyTraits& a, const BodyTraits& b) {
 }
 
 __attribute__((noinline)) ContactGeometry part_geometry(const CollisionBody& a, const CollisionBody& b, Real reach,
-                                                        const World& world, uint32_t part) {
+                                                        ManifoldReduction reduction, const World& world,
+                                                        uint32_t part) {
   SurfaceContacts contacts;
-  world.features->surface->collide(a, b, reach, world.assets, contacts);
+  collide_parts(a, b, reach, world.assets, reduction, *world.features, contacts);
   for (uint32_t i = 0; i < contacts.count; ++i) {
     if (contacts.contact[i].key == part) return contacts.contact[i].geometry;
   }
@@ -35,10 +36,10 @@ ContactGeometry geometry_of(const World& world, const StateView<const uint8_t>& 
   const Matrix3 axes_a = matrix_from(pose_a.rotation), axes_b = matrix_from(pose_b.rotation);
   const Real reach = scale_by_power(min(shape_extent(a), shape_extent(b)), -2);
   const CollisionBody body_a = {pose_a, a, axes_a}, body_b = {pose_b, b, axes_b};
-  if (is_surface(a) || is_surface(b)) return part_geometry(body_a, body_b, reach, world, contact.part);
+  const ManifoldReduction reduction = static_cast<ManifoldReduction>(state.world.reduction);
+  if (has_parts(a, b)) return part_geometry(body_a, body_b, reach, reduction, world, contact.part);
   ContactGeometry geometry;
-  collide(body_a, body_b, reach, geometry, world.assets, static_cast<ManifoldReduction>(state.world.reduction),
-          *world.features);
+  collide(body_a, body_b, reach, geometry, world.assets, reduction, *world.features);
   return geometry;
 }
 

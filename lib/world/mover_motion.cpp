@@ -2,7 +2,7 @@
 
 #include <detent/contact.h>
 
-#include "collision/body_convex.h"
+#include "collision/compound_code.h"
 #include "geometry/sweep.h"
 #include "world/query_surface.h"
 #include "world/ranges.h"
@@ -36,26 +36,30 @@ bool way_out_of_surface(const World& world, const QueryHit& hit, const Shape& co
   return true;
 }
 
-/// The way out of a body that even the core is in.
+/// The way out of a body that even the core is in; of a compound that of the part that it is in deepest.
 bool way_out(const World& world, BodyId body, const Shape& core, const Pose& at, Vec3<Unit>& normal, Real& depth) {
   const StateView<const uint8_t> state = view_of(world);
-  const uint32_t slot = body.slot - 1;
-  Convex convex;
+  const BodyTraits& traits = state.traits[body.slot - 1];
+  const Pose pose = pose_near(traits, state.poses[body.slot - 1], at.position);
+  const ConvexParts parts(traits, world.assets);
   QueryShape shape;
-  ContactManifold manifold;
-  if (make_query_shape(world, core, shape) != Status::ok || !body_convex(state.traits[slot], world.assets, convex) ||
-      contact_points(convex, pose_near(state.traits[slot], state.poses[slot], at.position), shape.convex, at, k_zero,
-                     manifold) != Status::ok ||
-      manifold.count == 0)
-    return false;
-  normal = manifold.normal;
+  if (make_query_shape(world, core, shape) != Status::ok) return false;
+  bool found = false;
   depth = k_zero;
-  for (uint32_t i = 0; i < manifold.count; ++i) depth = max(depth, -manifold.point[i].separation);
-  return true;
-}
-
-Vec3<Real> way_from(const Position& from, const Position& to) {
-  return {real_difference(to.x, from.x), real_difference(to.y, from.y), real_difference(to.z, from.z)};
+  for (uint32_t i = 0; i < parts.count(); ++i) {
+    Convex convex;
+    ContactManifold manifold;
+    if (!parts.convex(i, false, convex) ||
+        contact_points(convex, pose, shape.convex, at, k_zero, manifold) != Status::ok || manifold.count == 0)
+      continue;
+    Real deepest = k_zero;
+    for (uint32_t k = 0; k < manifold.count; ++k) deepest = max(deepest, -manifold.point[k].separation);
+    if (found && !(deepest > depth)) continue;
+    found = true;
+    normal = manifold.normal;
+    depth = deepest;
+  }
+  return found;
 }
 
 }  // namespace
@@ -227,7 +231,7 @@ void MoverMotion::step_along(const Vec3<Real>& way) {
     report_.undecided += hit.undecided ? 1 : 0;
     if (straight && met_count_ < k_mover_turns_max) planes_[met_count_++] = plane_at(hit, room);
   }
-  const Vec3<Real> gone = way_from(from, position_);
+  const Vec3<Real> gone = real_difference(position_, from);
   for (uint32_t i = 0; i < met_count_; ++i) planes_[i].room += dot(gone, planes_[i].normal);
 }
 
@@ -287,7 +291,7 @@ Vec3<Real> MoverMotion::slide(Vec3<Real> way, MoverGait gait) {
     const Position from = position_;
     const uint32_t met_before = met_count_;
     step_along(next);
-    const Vec3<Real> gone = way_from(from, position_);
+    const Vec3<Real> gone = real_difference(position_, from);
     way -= gone;
     if (gait == MoverGait::walk) way -= up_ * dot(way, up_);  // what floors lifted is no debt
     if (within(way, k_mover_still) || (within(gone, k_mover_still) && met_count_ == met_before)) return way;
@@ -337,11 +341,13 @@ const MoverPlane* MoverMotion::find_floor() {
 bool MoverMotion::climb(const Vec3<Real>& rest) {
   const Place start = place();
   const Real half_gap = scale_by_power(settings_.gap, -1);
-  const auto rise = [&] { return dot(way_from(start.position, position_), up_); };
+  const auto rise = [&] { return dot(real_difference(position_, start.position), up_); };
   Vec3<Unit> forward;
   Real size = k_zero;
   if (!normalise(rest, forward, size)) return false;
-  const auto gets_on = [&] { return dot(way_from(start.position, position_), forward) >= scale_by_power(size, -2); };
+  const auto gets_on = [&] {
+    return dot(real_difference(position_, start.position), forward) >= scale_by_power(size, -2);
+  };
   go(up_ * settings_.step_height);
   if (rise() > half_gap) {
     // Far enough to come to rest on the edge, and not in the gap before it.
@@ -351,7 +357,8 @@ bool MoverMotion::climb(const Vec3<Real>& rest) {
       const MoverPlane* floor = find_floor();
       if (floor != nullptr && rise() > half_gap && gets_on()) {
         // An edge may be far up the foot's side.
-        const Real top = dot(way_from(start.position, floor->point), up_) + settings_.half_length + settings_.radius;
+        const Real top =
+            dot(real_difference(floor->point, start.position), up_) + settings_.half_length + settings_.radius;
         if (top <= settings_.step_height) return true;
       }
     }

@@ -23,7 +23,8 @@ Status make_query_shape(const World& world, const Shape& shape, QueryShape& made
     made = query_point();
     return Status::ok;
   }
-  if (shape.type == ShapeType::half_space || shape.type == ShapeType::surface) return Status::bad_argument;
+  if (shape.type == ShapeType::half_space || shape.type == ShapeType::surface || shape.type == ShapeType::compound)
+    return Status::bad_argument;
   if (shape.type == ShapeType::hull) {
     if (const Status status = find_shape(world, shape.type, shape.asset, BodyType::fixed); status != Status::ok)
       return status;

@@ -1,7 +1,7 @@
 #include <detent/toi.h>
 
 #include "base/float_environment.h"
-#include "collision/body_convex.h"
+#include "collision/compound_code.h"
 #include "geometry/shape_traits.h"
 #include "geometry/sweep.h"
 #include "math/root.h"
@@ -49,18 +49,33 @@ bool cast_at_surface(const QueryBodies& bodies, uint32_t slot, const QueryShape&
   return !asked || met;
 }
 
+/// The first hit on a part of the body, or what is left undecided before it. False if it could not be asked.
+bool first_impact(const QueryBodies& bodies, const BodyTraits& traits, const Motion& still, const QueryShape& shape,
+                  const Motion& motion, TimeOfImpact& first) {
+  first.outcome = ToiOutcome::clear;
+  const ConvexParts parts(traits, bodies.world.assets);
+  for (uint32_t i = 0; i < parts.count(); ++i) {
+    Convex convex;
+    TimeOfImpact impact;
+    if (!parts.convex(i, false, convex) || time_of_impact(convex, still, shape.convex, motion, impact) != Status::ok)
+      return false;
+    if (impact.outcome == ToiOutcome::clear) continue;
+    const bool sooner = first.outcome == ToiOutcome::clear || impact.time < first.time;
+    if (sooner || (impact.time == first.time && first.outcome == ToiOutcome::undecided)) first = impact;
+  }
+  return parts.count() != 0;
+}
+
 /// Where the body is hit; false if it is not.
 bool cast_at(const QueryBodies& bodies, uint32_t slot, const QueryShape& shape, const Motion& motion, Fraction entry,
              QueryHit& hit) {
   const BodyTraits& traits = bodies.state.traits[slot];
   if (is_surface(traits)) return cast_at_surface(bodies, slot, shape, motion, entry, hit);
   const Pose pose = pose_near(traits, bodies.state.poses[slot], motion.start.position);
-  Convex convex;
   TimeOfImpact impact;
   hit = {};
   hit.body = bodies.id_of(slot);
-  const bool asked = body_convex(traits, bodies.world.assets, convex) &&
-                     time_of_impact(convex, {pose, k_none, k_none}, shape.convex, motion, impact) == Status::ok;
+  const bool asked = first_impact(bodies, traits, {pose, k_none, k_none}, shape, motion, impact);
   if (!asked || impact.outcome == ToiOutcome::undecided) {
     hit.undecided = true;
     hit.fraction = asked && impact.time > entry ? impact.time : entry;

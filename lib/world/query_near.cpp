@@ -1,7 +1,7 @@
 #include <detent/distance.h>
 
 #include "base/float_environment.h"
-#include "collision/body_convex.h"
+#include "collision/compound_code.h"
 #include "geometry/shape_traits.h"
 #include "geometry/sweep.h"
 #include "proximity/pair.h"
@@ -29,18 +29,31 @@ bool near_at_surface(const QueryBodies& bodies, uint32_t slot, const QueryShape&
   return hit.distance <= reach && (!asked || met);
 }
 
+/// The nearest points of the body's parts, or what is left undecided nearer. False if they could not be asked.
+bool nearest_part(const QueryBodies& bodies, const BodyTraits& traits, const Pose& pose, const QueryShape& shape,
+                  const Pose& at, Closest& nearest) {
+  const ConvexParts parts(traits, bodies.world.assets);
+  for (uint32_t i = 0; i < parts.count(); ++i) {
+    Convex convex;
+    Closest closest;
+    if (!parts.convex(i, false, convex) || closest_points(convex, pose, shape.convex, at, closest) != Status::ok)
+      return false;
+    if (i == 0 || closest.distance < nearest.distance || (closest.distance == nearest.distance && nearest.capped))
+      nearest = closest;
+  }
+  return parts.count() != 0;
+}
+
 /// How near the body is; false if it is beyond `reach`.
 bool near_at(const QueryBodies& bodies, uint32_t slot, const QueryShape& shape, const Pose& at, Real gap, Real reach,
              QueryHit& hit) {
   const BodyTraits& traits = bodies.state.traits[slot];
   if (is_surface(traits)) return near_at_surface(bodies, slot, shape, at, gap, reach, hit);
   const Pose pose = pose_near(traits, bodies.state.poses[slot], at.position);
-  Convex convex;
   Closest closest;
   hit = {};
   hit.body = bodies.id_of(slot);
-  const bool asked = body_convex(traits, bodies.world.assets, convex) &&
-                     closest_points(convex, pose, shape.convex, at, closest) == Status::ok;
+  const bool asked = nearest_part(bodies, traits, pose, shape, at, closest);
   if (!asked || closest.capped) {
     hit.undecided = true;
     hit.distance = asked && closest.distance > gap ? closest.distance : gap;

@@ -3,7 +3,7 @@
 #include <detent/distance.h>
 #include <detent/sensor.h>
 
-#include "collision/body_convex.h"
+#include "collision/compound_code.h"
 #include "collision/surface_distance.h"
 #include "dynamics/finalise.h"
 #include "dynamics/impact_pair.h"
@@ -56,6 +56,29 @@ void bring_near(const BodyTraits& traits, const BodyPose& other, BodyPose& pose)
   pose.position = pose_near(traits, pose, other.position).position;
 }
 
+/// Whether all parts of two bodies are farther apart than `reach`. False if it could not be asked.
+bool find_farther(const SensorStage& stage, const BodyTraits& a, const Pose& pose_a, const BodyTraits& b,
+                  const Pose& pose_b, Real reach, bool& farther) {
+  const ConvexParts parts_a(a, stage.assets), parts_b(b, stage.assets);
+  farther = true;
+  for (uint32_t j = 0; j < parts_b.count() && farther; ++j) {
+    Convex convex_b;
+    if (!parts_b.convex(j, false, convex_b)) return false;
+    if (is_surface(a)) {
+      if (!stage.features.surface_distance->farther(stage.assets, a, pose_a, b, convex_b, pose_b, reach, farther))
+        return false;
+      continue;
+    }
+    for (uint32_t i = 0; i < parts_a.count() && farther; ++i) {
+      Convex convex_a;
+      if (!parts_a.convex(i, false, convex_a) ||
+          farther_than(convex_a, pose_a, convex_b, pose_b, reach, farther) != Status::ok)
+        return false;
+    }
+  }
+  return parts_a.count() != 0 && parts_b.count() != 0;
+}
+
 bool is_within(SensorStage& stage, uint32_t sensor, uint32_t body) {
   const BodyTraits &a = stage.traits[sensor], &b = stage.traits[body];
   BodyPose end_a = end_pose(stage, sensor), end_b = end_pose(stage, body);
@@ -63,16 +86,9 @@ bool is_within(SensorStage& stage, uint32_t sensor, uint32_t body) {
   bring_near(b, end_a, end_b);
   const Pose pose_a = {end_a.position, end_a.rotation}, pose_b = {end_b.position, end_b.rotation};
   const Real reach = scale_by_power(min(shape_extent(a), shape_extent(b)), k_within_power);
-  bool asked = false, farther = false;
-  if (is_surface(a)) {
-    asked = stage.features.surface_distance->farther(stage.assets, a, pose_a, b, pose_b, reach, farther);
-  } else if (is_surface(b)) {
-    asked = stage.features.surface_distance->farther(stage.assets, b, pose_b, a, pose_a, reach, farther);
-  } else {
-    Convex convex_a, convex_b;
-    asked = body_convex(a, stage.assets, convex_a) && body_convex(b, stage.assets, convex_b) &&
-            farther_than(convex_a, pose_a, convex_b, pose_b, reach, farther) == Status::ok;
-  }
+  bool farther = false;
+  const bool asked = is_surface(b) ? find_farther(stage, b, pose_b, a, pose_a, reach, farther)
+                                   : find_farther(stage, a, pose_a, b, pose_b, reach, farther);
   if (!asked) ++stage.undecided;
   return !asked || !farther;
 }

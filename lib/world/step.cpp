@@ -1,8 +1,8 @@
 #include "base/float_environment.h"
 #include "collision/broadphase.h"
+#include "collision/compound_code.h"
 #include "collision/contact_cache.h"
 #include "collision/manifold_reuse.h"
-#include "collision/surface_code.h"
 #include "dynamics/activity.h"
 #include "dynamics/contact_order.h"
 #include "dynamics/contact_rows.h"
@@ -114,10 +114,7 @@ struct Bodies {
   bool awake(uint32_t slot) const { return is_awake(traits[slot], activities[slot]); }
   bool moving(uint32_t slot) const { return is_moving(traits[slot], motions[slot], activities[slot]); }
   bool asleep(uint32_t slot) const { return activities[slot].asleep != 0; }
-  /// Whether a pair can have more contacts than one.
-  bool has_parts(uint32_t slot_a, uint32_t slot_b) const {
-    return is_surface(traits[slot_a]) || is_surface(traits[slot_b]);
-  }
+  bool has_parts(uint32_t slot_a, uint32_t slot_b) const { return detent::has_parts(traits[slot_a], traits[slot_b]); }
 };
 
 /// A contact of the last tick; `manifold` null where none are kept.
@@ -143,17 +140,17 @@ void collide_pair(const StepSettings& settings, uint32_t slot_a, uint32_t slot_b
 }
 
 /// Likewise the contacts of the parts of a pair. Apart, for what it needs of the stack.
-void collide_parts(const StepSettings& settings, uint32_t slot_a, uint32_t slot_b, const Bodies& bodies,
-                   SurfaceContacts& contacts) {
+void collide_pair_parts(const StepSettings& settings, uint32_t slot_a, uint32_t slot_b, const Bodies& bodies,
+                        SurfaceContacts& contacts) {
   const PairLengths lengths = lengths_of(settings, bodies.work[slot_a], bodies.work[slot_b]);
-  bodies.features.surface->collide(bodies.collider(slot_a), bodies.collider(slot_b), lengths.reach, bodies.assets,
-                                   contacts);
+  collide_parts(bodies.collider(slot_a), bodies.collider(slot_b), lengths.reach, bodies.assets, settings.reduction,
+                bodies.features, contacts);
 }
 
 __attribute__((noinline)) bool parts_touch(const StepSettings& settings, uint32_t slot_a, uint32_t slot_b,
                                            const Bodies& bodies) {
   SurfaceContacts contacts;
-  collide_parts(settings, slot_a, slot_b, bodies, contacts);
+  collide_pair_parts(settings, slot_a, slot_b, bodies, contacts);
   return contacts.count != 0;
 }
 
@@ -247,7 +244,8 @@ struct Collider {
 
   void collide(uint64_t key) {
     const uint32_t slot_a = pair_low(key), slot_b = pair_high(key);
-    if (!bodies.awake(slot_a) && !bodies.awake(slot_b)) return;
+    // Who still sleeps was not touched when it could wake; points used again could tell otherwise.
+    if (bodies.asleep(slot_a) || bodies.asleep(slot_b) || (!bodies.awake(slot_a) && !bodies.awake(slot_b))) return;
     start(slot_a);
     start(slot_b);
     if (bodies.has_parts(slot_a, slot_b)) {
@@ -282,7 +280,7 @@ struct Collider {
 
   __attribute__((noinline)) void collide_all_parts(uint64_t key) {
     SurfaceContacts found;
-    collide_parts(settings, pair_low(key), pair_high(key), bodies, found);
+    collide_pair_parts(settings, pair_low(key), pair_high(key), bodies, found);
     count.capped += found.capped ? 1 : 0;
     count.parts_dropped += found.dropped;
     if (found.dropped != 0) losses.add(CapacityEventType::contact, pair_low(key), pair_high(key));
@@ -414,14 +412,9 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   pool.losses = &losses;
   find_pairs(moving, cache.tree, scratch.bounds_keys, scratch.bounds_sort, pool);
   pool.sort();
-  for (const uint32_t slot : moving) bodies.start(settings, slot);
-  const uint32_t touched = wake_touched(settings, bodies, cache, pool);
-  report.woke += touched;
-  if (touched != 0) {
-    moving = list_moving(cache.visits, scratch.moving_bodies);
+  const auto start_moving = [&] {
     for (const uint32_t slot : moving) bodies.start(settings, slot);
-  }
-  if (joint_code != nullptr) {
+    if (joint_code == nullptr) return;
     for (const JointState& joint : joints.joints) {
       if (joint.type == 0) continue;
       const uint32_t ends[2] = {joint.body_a, joint.body_b};
@@ -431,6 +424,14 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
     }
     joint_code->collect(solver_bodies, joints);
     report.joints = joints.count;
+  };
+  start_moving();
+  // Whoever wakes and is held by joints reaches farther (lengths_of), and may touch more.
+  while (const uint32_t touched = wake_touched(settings, bodies, cache, pool)) {
+    report.woke += touched;
+    moving = list_moving(cache.visits, scratch.moving_bodies);
+    start_moving();
+    if (joint_code == nullptr) break;
   }
   clock.end(StepStage::find_pairs);
   const Span<const uint64_t> pairs = pool.pairs();

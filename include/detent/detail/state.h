@@ -78,12 +78,14 @@ struct BodyTraits {
   uint32_t mask;
   int32_t group;
   uint32_t rule;
-  Vec3<Unit> size;  ///< in that unit: half extents; (radius, half length, 0); or of a hull or surface the greatest |x|,
-                    ///< |y|, |z|
+  Vec3<Unit> size;  ///< in that unit: half extents; (radius, half length, 0); or of a hull, surface or compound the
+                    ///< greatest |x|, |y|, |z|
   Unit bounding_radius;  ///< in that unit, `rounding` included
-  Unit rounding;         ///< in that unit: radius of the ball that rounds a box, cylinder, cone or hull, else 0
-  Scaled mass;           ///< kg; if not dynamic what it would have, or 0
-  Scaled gyration[3];    ///< m (2^size_exponent)^2 / I about each body axis; 0 if locked or not dynamic
+  /// In that unit: radius of the ball that rounds a box, cylinder, cone or hull; of a compound the least half thickness
+  /// of a child; else 0.
+  Unit rounding;
+  Scaled mass;         ///< kg; if not dynamic what it would have, or 0
+  Scaled gyration[3];  ///< m (2^size_exponent)^2 / I about each body axis; 0 if locked or not dynamic
   Scaled friction;
   Scaled restitution;
   Scaled rolling_resistance;
@@ -92,7 +94,7 @@ struct BodyTraits {
   Scaled gravity_scale;
   uint32_t user_data;
   uint32_t restitution_rule;  ///< RestitutionRule
-  uint32_t asset;             ///< of a hull or surface: its index in the world's table; else 0
+  uint32_t asset;             ///< of a hull, surface or compound: its index in the world's table; else 0
   uint16_t turn_locks;        ///< k_turn_lock_x, ...: body axes about which it does not turn, whose gyration is 0
   uint16_t sensor;            ///< 1 if it is one
 };
@@ -167,15 +169,16 @@ struct alignas(8) JointState {
   Scaled break_torque;
   Vec3<Scaled> force;              ///< on B in the last tick, N, world
   Vec3<Scaled> torque;             ///< N m
-  Real impulse[k_joint_rows_max];  ///< of a joint that closes a loop: what it starts from, m/s; else 0
+  Real impulse[k_joint_rows_max];  ///< of its rows in the last substep, over the reference mass, m/s
 };
 
 /// What a bound asset's bytes are. Stored: a value is never reused.
 enum class AssetKind : uint32_t {
-  none = 0,     ///< not bound
-  other = 1,    ///< nothing that the library reads
-  hull = 2,     ///< a cooked hull, checked in full
-  surface = 3,  ///< a cooked mesh or height field, checked in full
+  none = 0,      ///< not bound
+  other = 1,     ///< nothing that the library reads
+  hull = 2,      ///< a cooked hull, checked in full
+  surface = 3,   ///< a cooked mesh or height field, checked in full
+  compound = 4,  ///< a cooked compound, checked in full
 };
 
 struct AssetState {

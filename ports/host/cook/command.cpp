@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "cook_compound.h"
 #include "describe.h"
 #include "file.h"
 #include "read_heights.h"
@@ -109,7 +110,59 @@ void print_text(const std::string& path, const detent_cook::SurfaceDescription& 
          surface.high[1], surface.high[2], surface.step);
 }
 
+Json json_of(const std::string& path, const detent_cook::CompoundDescription& compound) {
+  Json json = {{"file", path}, {"ok", true}};
+  json["kind"] = "compound";
+  json["parts"] = compound.child_count;
+  json["hulls"] = compound.hull_count;
+  json["radius"] = compound.radius;
+  json["thickness"] = compound.thickness;
+  json["volume"] = compound.volume;
+  json["origin"] = compound.origin;
+  json["rotation"] = compound.rotation;
+  return json;
+}
+
+void say(const std::string& path, const detent_cook::CompoundDescription& compound, bool json) {
+  if (json) {
+    print_json(json_of(path, compound));
+    return;
+  }
+  printf("%s: %u parts, %u of them hulls, radius %.6g m, thinnest %.6g m, volume %.6g m^3, ", path.c_str(),
+         compound.child_count, compound.hull_count, compound.radius, compound.thickness, compound.volume);
+  printf("centre of mass at (%.6g, %.6g, %.6g) m of the source, axes turned by (%.6g, %.6g, %.6g, %.6g)\n",
+         compound.origin[0], compound.origin[1], compound.origin[2], compound.rotation[0], compound.rotation[1],
+         compound.rotation[2], compound.rotation[3]);
+}
+
 }  // namespace
+
+bool cook_compound_file(const std::string& input, const std::string& output, bool json) {
+  std::vector<uint8_t> text;
+  if (!read_file(input, text, SIZE_MAX)) return fail(input, "cannot be read", json);
+  const detent_cook::CompoundRead read =
+      detent_cook::read_compound_text({reinterpret_cast<const char*>(text.data()), text.size()});
+  if (!read.problem.empty()) return fail(input, read.problem, json);
+  const detent_cook::CompoundResult result = detent_cook::cook_compound(read.parts);
+  if (result.bytes.empty()) return fail(input, result.reason, json);
+  if (!write_file(output, result.bytes)) return fail(output, "cannot be written", json);
+  say(output, detent_cook::describe_compound(result.bytes), json);
+  return true;
+}
+
+bool is_compound_file(const std::string& path) {
+  std::vector<uint8_t> bytes;
+  return read_file(path, bytes, 1) && detent_cook::is_compound(bytes);
+}
+
+bool describe_compound_file(const std::string& path, bool json) {
+  std::vector<uint8_t> bytes;
+  if (!read_file(path, bytes, UINT32_MAX)) return fail(path, "cannot be read", json);
+  const detent_cook::CompoundDescription compound = detent_cook::describe_compound(bytes);
+  if (!compound.problem.empty()) return fail(path, compound.problem, json);
+  say(path, compound, json);
+  return true;
+}
 
 bool cook_mesh_file(const MeshRequest& request, bool json, const detent_cook::CookProgress& progress) {
   std::vector<uint8_t> text;

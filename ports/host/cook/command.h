@@ -41,6 +41,14 @@ bool is_surface_file(const std::string& path);
 /// Says what the .mesh or .field holds. False if the library refuses it.
 bool describe_surface_file(const std::string& path, bool json);
 
+/// Reads the parts, cooks them, writes the .compound and says what it is. False as for cook_file().
+bool cook_compound_file(const std::string& input, const std::string& output, bool json);
+
+/// Whether the file begins as a .compound does.
+bool is_compound_file(const std::string& path);
+/// Says what the .compound holds. False if the library refuses it.
+bool describe_compound_file(const std::string& path, bool json);
+
 /// Whether the file begins as a .hull does.
 bool is_hull_file(const std::string& path);
 /// Says what the .hull holds. False if the library refuses it.

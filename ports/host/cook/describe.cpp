@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "geometry/hull.h"
+#include "geometry/compound.h"
 #include "geometry/surface.h"
 
 namespace detent_cook {
@@ -29,6 +29,32 @@ HullDescription describe_hull(const std::vector<uint8_t>& bytes) {
   for (size_t k = 0; k < 3; ++k) description.origin[k] = info.origin[k];
   for (size_t k = 0; k < 4; ++k) description.rotation[k] = ldexp(info.rotation[k], -30);
   return description;
+}
+
+CompoundDescription describe_compound(const std::vector<uint8_t>& bytes) {
+  CompoundDescription description;
+  std::vector<uint64_t> aligned(bytes.size() / 8 + 1);
+  if (!bytes.empty()) memcpy(aligned.data(), bytes.data(), bytes.size());
+  detent::CompoundInfo info;
+  const detent::Status status = detent::compound_info(
+      {reinterpret_cast<const uint8_t*>(aligned.data()), static_cast<uint32_t>(bytes.size())}, info);
+  if (status != detent::Status::ok) {
+    description.problem = detent::status_text(status);
+    return description;
+  }
+  description.child_count = info.child_count;
+  description.hull_count = info.hull_count;
+  description.radius = ldexp(info.radius, info.exponent - 30);
+  description.thickness = ldexp(info.half_thickness, info.exponent - 29);
+  description.volume = ldexp(info.volume_mantissa, info.volume_exponent);
+  for (size_t k = 0; k < 3; ++k) description.origin[k] = info.origin[k];
+  for (size_t k = 0; k < 4; ++k) description.rotation[k] = ldexp(info.rotation[k], -30);
+  return description;
+}
+
+bool is_compound(const std::vector<uint8_t>& bytes) {
+  return bytes.size() >= sizeof detent::k_compound_magic &&
+         memcmp(bytes.data(), detent::k_compound_magic, sizeof detent::k_compound_magic) == 0;
 }
 
 SurfaceDescription describe_surface(const std::vector<uint8_t>& bytes) {

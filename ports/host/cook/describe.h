@@ -22,6 +22,23 @@ struct HullDescription {
 /// Describes the bytes of a file, after the library's every check.
 HullDescription describe_hull(const std::vector<uint8_t>& bytes);
 
+/// What the library reads from a .compound.
+struct CompoundDescription {
+  std::string problem{};  ///< why the library refuses it; empty if it does not
+  uint32_t child_count = 0, hull_count = 0;
+  double radius = 0;                              ///< m; greatest distance of its surface from the origin
+  double thickness = 0;                           ///< m; of the thinnest child
+  double volume = 0;                              ///< m^3; the mass at density 1
+  std::array<double, 3> origin{};                 ///< m; the body's, in the source frame
+  std::array<double, 4> rotation = {0, 0, 0, 1};  ///< x, y, z, w: from the body to the source frame
+};
+
+/// Describes the bytes of a file, after the library's every check.
+CompoundDescription describe_compound(const std::vector<uint8_t>& bytes);
+
+/// Whether the bytes begin as a .compound does.
+bool is_compound(const std::vector<uint8_t>& bytes);
+
 /// What the library reads from a .mesh or a .field.
 struct SurfaceDescription {
   std::string problem{};  ///< why the library refuses it; empty if it does not

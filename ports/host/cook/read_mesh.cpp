@@ -8,18 +8,6 @@
 namespace detent_cook {
 namespace {
 
-/// An OBJ's number of a vertex: from 1 on, or backwards from -1; what follows a slash is passed over.
-bool index_from(std::string_view word, size_t vertex_count, uint32_t& index) {
-  word = word.substr(0, word.find('/'));
-  int64_t number = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-  if (error != std::errc() || end != word.data() + word.size()) return false;
-  const auto count = static_cast<int64_t>(vertex_count);
-  if (number == 0 || number > count || number < -count) return false;
-  index = static_cast<uint32_t>(number > 0 ? number - 1 : count + number);
-  return true;
-}
-
 bool ends_with(const std::string& path, std::string_view end) {
   return path.size() >= end.size() && path.compare(path.size() - end.size(), end.size(), end) == 0;
 }

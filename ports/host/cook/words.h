@@ -1,5 +1,6 @@
 #pragma once
 #include <math.h>
+#include <stdint.h>
 
 #include <charconv>
 #include <string>
@@ -33,6 +34,18 @@ inline bool number_from(std::string_view word, double& value) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   return error == std::errc() && end == word.data() + word.size() && isfinite(value);
+}
+
+/// An OBJ's number of a vertex: from 1 on, or backwards from -1; what follows a slash is passed over.
+inline bool index_from(std::string_view word, size_t vertex_count, uint32_t& index) {
+  word = word.substr(0, word.find('/'));
+  int64_t number = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  if (error != std::errc() || end != word.data() + word.size()) return false;
+  const auto count = static_cast<int64_t>(vertex_count);
+  if (number == 0 || number > count || number < -count) return false;
+  index = static_cast<uint32_t>(number > 0 ? number - 1 : count + number);
+  return true;
 }
 
 inline std::string at_line(size_t number, const std::string& problem) {

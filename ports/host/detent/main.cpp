@@ -84,6 +84,10 @@ int run_info(const std::vector<std::string>& paths, const Report& report) {
       if (!describe_hull_file(path, report.json)) code = k_exit_bad;
       continue;
     }
+    if (is_compound_file(path)) {
+      if (!describe_compound_file(path, report.json)) code = k_exit_bad;
+      continue;
+    }
     if (is_surface_file(path)) {
       if (!describe_surface_file(path, report.json)) code = k_exit_bad;
       continue;
@@ -154,8 +158,8 @@ int main(int argc, char** argv) {
           "--asset", asset_paths,
           "A cooked file of the recorded world's asset table, from its first on; the scenes' own if none is given")
       ->allow_extra_args(false);
-  CLI::App* info =
-      app.add_subcommand("info", "Say what recordings, hulls, meshes and height fields hold, without replaying them");
+  CLI::App* info = app.add_subcommand(
+      "info", "Say what recordings, hulls, compounds, meshes and height fields hold, without replaying them");
   info->add_option("file", paths, "Recordings and cooked shapes")->required();
   CLI::App* scenes = app.add_subcommand("scenes", "List the scenes that can be recorded");
 
@@ -163,16 +167,19 @@ int main(int argc, char** argv) {
   std::string kind = "hull";
   std::string frame = "principal";
   bool refuse_more = false;
-  CLI::App* cook = app.add_subcommand(
-      "cook", "Make a convex hull of points, a mesh of triangles or a field of heights, ready for the library");
-  cook->add_option("--kind", kind, "hull: of the vertices; mesh: of the faces; height-field: of a PGM's pixels")
-      ->check(CLI::IsMember({"hull", "mesh", "height-field"}))
+  CLI::App* cook = app.add_subcommand("cook",
+                                      "Make a convex hull of points, a compound of hulls, a mesh of triangles or a "
+                                      "field of heights, ready for the library");
+  cook->add_option(
+          "--kind", kind,
+          "hull: of the vertices; compound: a hull of each group; mesh: of the faces; height-field: of a PGM's pixels")
+      ->check(CLI::IsMember({"hull", "compound", "mesh", "height-field"}))
       ->capture_default_str();
   cook->add_option(
           "input", cooking.input,
           "An OBJ; clouds of points, by a name that ends in .bin; a mesh also as .gltf or .glb; heights as .pgm")
       ->required();
-  cook->add_option("output", cooking.output, "The .hull, .mesh or .field to write")->required();
+  cook->add_option("output", cooking.output, "The .hull, .compound, .mesh or .field to write")->required();
   bool one_sided = false;
   cook->add_flag("--one-sided", one_sided, "Of a mesh: met only from the side that sees its faces counter-clockwise");
   bool two_sided = false;
@@ -212,6 +219,8 @@ int main(int argc, char** argv) {
   if (cook->parsed() && kind == "mesh") {
     return run_cook_mesh({cooking.input, cooking.output, {cooking.options.weld, one_sided}}, report);
   }
+  if (cook->parsed() && kind == "compound")
+    return cook_compound_file(cooking.input, cooking.output, report.json) ? k_exit_good : k_exit_bad;
   if (cook->parsed() && kind == "height-field") {
     heights.input = cooking.input;
     heights.output = cooking.output;

@@ -1,0 +1,19 @@
+#pragma once
+#include "collision/compound_code.h"
+#include "dynamics/impact_pair.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// As pair_impact(), of two bodies of which one is a compound; the time is a part of what is left of the tick. The
+/// first of all pairs of parts that meet. A hull's deep rungs are the hull within it that was cooked for them.
+bool compound_impact(const AssetTable& assets, const FeatureTable& features, const SweptBody& a, const SweptBody& b,
+                     Fraction time, Real inset, TimeOfImpact& impact);
+
+/// For a feature table.
+struct CompoundImpactCode {
+  decltype(&compound_impact) find;
+};
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent
