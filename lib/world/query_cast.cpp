@@ -34,7 +34,7 @@ Vec64 half_of(const QueryShape& shape, const Motion& motion, const Quat& rotatio
   return raw;
 }
 
-/// Likewise of a body that has a surface.
+/// Where a body that has a surface is hit; false if it is not.
 bool cast_at_surface(const QueryBodies& bodies, uint32_t slot, const QueryShape& shape, const Motion& motion,
                      Fraction entry, QueryHit& hit) {
   const BodyTraits& traits = bodies.state.traits[slot];

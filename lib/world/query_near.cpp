@@ -14,7 +14,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Likewise of a body that has a surface.
+/// How near a body that has a surface is; false if it is beyond `reach`.
 bool near_at_surface(const QueryBodies& bodies, uint32_t slot, const QueryShape& shape, const Pose& at, Real gap,
                      Real reach, QueryHit& hit) {
   const BodyTraits& traits = bodies.state.traits[slot];
