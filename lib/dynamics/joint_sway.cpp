@@ -11,6 +11,8 @@ constexpr Real k_zero = 0.0;
 /// What a substep follows without gaining energy is (rate x substep)^2 = 4 of a swing (symplectic Euler), less a
 /// margin: the pulls are those of the last substep.
 constexpr Real k_followed = 3.0;
+/// No body is slowed as if it swung faster: a chain that is taut between two walls pulls without bound.
+constexpr Real k_swing_max = 48.0;
 
 constexpr Real k_stiffness_max = 32768.0;  ///< far beyond what a substep follows; two sums of it fit
 
@@ -67,7 +69,7 @@ void hold_sway(const StepSettings& settings, const SolverBodies& bodies, Span<co
       const int power = bodies.work[body.slot].gyration.exponent + body.above - body.exponent + 2;
       bool saturated = false;
       const Real swing = multiply(body.stiffness, scaled_by_power(multiply(body.turn_share, time), power), saturated);
-      if (swing > k_followed) slow(bodies, divide(scaled_from(k_followed), scaled_from(swing)), body);
+      if (swing > k_followed) slow(bodies, divide(scaled_from(k_followed), scaled_from(min(swing, k_swing_max))), body);
       body.stiffness = k_zero;
     }
   }

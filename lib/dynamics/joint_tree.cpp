@@ -18,16 +18,10 @@ constexpr int k_redundant_power = -28;
 /// And at least so much, so that its reciprocal is one that multiply() takes.
 constexpr Real k_response_min = 0x1p-29;
 
-/// Of an island with contacts.
-constexpr uint32_t k_substeps_with_contacts = 8;
-/// One without takes these, but many joints no more than make so many joint substeps.
-constexpr uint32_t k_substeps_max = 4, k_substeps_min = 1, k_joint_substeps = 60;
+constexpr uint32_t k_substeps_with_contacts = 8, k_substeps_without = 4;
 
 uint32_t substeps_of(const Island& island) {
-  if (island.contact_count != 0) return k_substeps_with_contacts;
-  if (island.loop_count != 0) return k_substeps_max;  // what is iterated needs them
-  const uint32_t share = k_joint_substeps / (island.joint_count + island.loop_count);
-  return share < k_substeps_min ? k_substeps_min : share > k_substeps_max ? k_substeps_max : share;
+  return island.contact_count != 0 ? k_substeps_with_contacts : k_substeps_without;
 }
 
 Real absolute_sum(const Vec3<Real>& v) { return abs(v.x) + abs(v.y) + abs(v.z); }
