@@ -1,5 +1,11 @@
 # Compile options of everything in the project, and the function that declares a floor of the library.
 
+if(DETENT_SANITIZE)
+  add_compile_options(-fsanitize=address,undefined,float-cast-overflow -fno-sanitize=vptr  # there is no RTTI
+    -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=address,undefined)
+endif()
+
 add_library(detent_options INTERFACE)
 target_compile_features(detent_options INTERFACE cxx_std_20)
 target_compile_options(detent_options INTERFACE
@@ -15,7 +21,10 @@ add_library(detent_library_options INTERFACE)
 target_link_libraries(detent_library_options INTERFACE detent_options)
 target_compile_options(detent_library_options INTERFACE
   -fno-threadsafe-statics -fno-asynchronous-unwind-tables -fno-unwind-tables -ffunction-sections -fdata-sections
-  -fno-strict-overflow)
+  $<$<NOT:$<BOOL:${DETENT_SANITIZE}>>:-fno-strict-overflow>)  # which would hide overflow from the sanitizer
+# What they hoist and reorder is kept in registers that Arm's small cores have not: it is spilled.
+target_compile_options(detent_library_options INTERFACE
+  "$<$<AND:$<CXX_COMPILER_ID:GNU>,$<CONFIG:MinSizeRel>>:-fno-move-loop-invariants;-fno-schedule-insns2>")
 if(WIN32)
   # On Windows GCC takes an inline function's own copy for the one that the linker keeps, and trusts the registers that copy
   # leaves alone. The one kept may be a user's, compiled at another level.

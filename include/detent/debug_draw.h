@@ -20,7 +20,8 @@ enum class DrawKind : uint32_t {
 /// Null functions are left out.
 struct DebugDraw {
   void* user = nullptr;  ///< given to each function
-  /// A body, where it is. The parts of a compound: compound_part() (compound.h).
+  /// A body, where it is. The triangles of a surface(): visit_triangles() (triangles.h); the parts of a compound:
+  /// compound_part() (compound.h).
   void (*solid)(void* user, BodyId id, const Shape& shape, const Pose& pose, DrawKind kind) = nullptr;
   /// A line, m, world.
   void (*line)(void* user, const Position& from, const Position& to, DrawKind kind) = nullptr;
@@ -31,7 +32,7 @@ struct DebugDraw {
 /// Combine with |.
 enum class DrawFlags : uint32_t {
   none = 0,        ///< nothing
-  bodies = 1,      ///< each a solid, of kind fixed, kinematic, awake or asleep
+  bodies = 1,      ///< each a solid, of kind fixed, kinematic, awake or asleep; a surface() without `solid` as lines
   bounds = 2,      ///< the twelve edges of each body's axis-aligned bounds; of a half-space none
   contacts = 4,    ///< each point, and a line along the normal as long as a quarter of the smaller body
   velocities = 8,  ///< a line from each body that moves to where its centre would be in a tenth of a second

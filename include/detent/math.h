@@ -1,4 +1,5 @@
 #pragma once
+#include <detent/detail/shared.h>
 #include <detent/scalar.h>
 
 /// @file
@@ -13,7 +14,9 @@ struct Vec3 {
   T y;  ///< along the second axis
   T z;  ///< along the third axis
   /// Equal in each component.
-  friend constexpr bool operator==(const Vec3& a, const Vec3& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+  DETENT_SHARED friend constexpr bool operator==(const Vec3& a, const Vec3& b) {
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+  }
 };
 
 /// A place in the world, m.

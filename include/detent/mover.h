@@ -64,8 +64,8 @@ struct MoverReport {
   uint32_t hits_dropped = 0;      ///< bodies around the mover beyond those that it can look at; it stops at them
   uint32_t slides_cut = 0;        ///< motions that ended for the number of their turns
   uint32_t queries = 0;           ///< asked
-  MoverContact contacts[k_mover_contacts_max] =
-      {};  ///< the first contact_count, in the order they were met, one a body
+  MoverContact contacts[k_mover_contacts_max] = {};  ///< the first contact_count, in the order they were met, one a
+                                                     ///< body, of a surface() one for each normal
 };
 
 /// Moves `mover` by `way`, m, world: the wish for this tick, each component within 2^8; falling and jumping, the

@@ -12,6 +12,9 @@
 /// lower slot. Where the narrow phase meets a cap, or cannot be asked, the body is a hit all the same, marked
 /// `undecided`: at the time or distance up to which it is certainly clear.
 ///
+/// A surface() is one hit: the first or nearest of its triangles, of equals the one of the lower index. What comes from
+/// behind a one-sided one meets nothing.
+///
 /// Errors of all: out_of_range, not_normalised; for shapes as create_body(). Outputs are then untouched.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -32,6 +35,9 @@ struct QueryHit {
   Real distance = 0.0;      ///< of query_closest(): between the surfaces, m; 0 where they overlap
   Position point = {};      ///< on the body's surface, m, world; 0 from query_bounds()
   Vec3<Unit> normal = {};   ///< of the body there, outward, world; 0 where the cores overlap, and from query_bounds()
+  uint32_t triangle =
+      UINT32_MAX;         ///< of a surface() (shape.h): which is met; else, and from query_bounds(), UINT32_MAX
+  uint32_t material = 0;  ///< that triangle's, as it was cooked
 };
 
 /// Where hits go: the caller's memory. Those beyond it are dropped after all have been sorted, and counted.
@@ -95,7 +101,9 @@ struct ClosestQuery {
   bool all = false;                      ///< every body found, and not only the first
 };
 
-/// What the ray hits. A body that holds the origin is hit at fraction 0.
+/// What the ray hits. A body that holds the origin is hit at fraction 0. No ray passes between the triangles of a
+/// surface(): its hits err by a step of its grid (docs/mesh.md), and one that begins 2^15 m from its origin is
+/// undecided.
 Status query_ray(const World& world, const RayQuery& query, QueryHits hits, QueryReport& report);
 /// What the moving shape meets. Tolerance: as time_of_impact().
 Status query_cast(const World& world, const CastQuery& query, QueryHits hits, QueryReport& report);

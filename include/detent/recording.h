@@ -57,6 +57,12 @@ struct RecordingInfo {
   uint32_t snapshot_bytes = 0;  ///< of the seed
 };
 
+/// @cond
+// The library's own: what goes for all calls, and for all queries.
+struct CommandCode;
+struct QueryCode;
+/// @endcond
+
 /// Applies calls to a world and logs those that succeeded. Its methods mirror world.h, body_access.h,
 /// world_access.h and forces.h by name, arguments and statuses.
 ///
@@ -138,10 +144,11 @@ class Recorder {
 
   template <class Command>
   Status apply_and_log(Command& command);
+  Status apply_and_log(const CommandCode& code, void* command);
   template <class Command>
   Status ask_and_log(Command& command, QueryHits hits, QueryReport& report);
-  template <class Command>
-  void log(Command& command);
+  Status ask_and_log(const QueryCode& code, void* command, QueryHits hits, QueryReport& report);
+  void log(const CommandCode& code, void* command);
   bool recording() const { return state_ == State::recording && status_ == Status::ok; }
   void write(const uint8_t* bytes, uint32_t count);
   void write_header();
@@ -185,7 +192,7 @@ struct ReplayError {
 };
 
 /// @cond
-struct Reader;
+class Reader;
 // The library's own: the way into the code that asks recorded queries again.
 struct QueryRepeater;
 extern const QueryRepeater k_query_repeater;

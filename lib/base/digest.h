@@ -1,4 +1,6 @@
 #pragma once
+#include <detent/detail/shared.h>
+
 #include "base/bytes.h"
 
 /// The digest's arithmetic. Every step is a bijection of the running value for a given word and of the word for a given
@@ -6,14 +8,14 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-constexpr uint64_t digest_step(uint64_t running, uint64_t word) {
+DETENT_SHARED constexpr uint64_t digest_step(uint64_t running, uint64_t word) {
   running ^= word * 0x9e3779b97f4a7c15u;
   running = (running << 29) | (running >> 35);
   return running * 0xbf58476d1ce4e5b9u + 0x94d049bb133111ebu;
 }
 
 /// Spreads every bit over the whole value.
-constexpr uint64_t digest_finish(uint64_t running) {
+DETENT_SHARED constexpr uint64_t digest_finish(uint64_t running) {
   running ^= running >> 32;
   running *= 0xd6e8feb86659fd93u;
   running ^= running >> 29;

@@ -63,7 +63,7 @@ struct ReusePair {
   /// False if the bodies are too far apart to touch.
   bool place() {
     const Position &from = base.pose.position, &to = other.pose.position;
-    way = {real_difference(to.x, from.x), real_difference(to.y, from.y), real_difference(to.z, from.z)};
+    way = real_difference(to, from);
     const Real limit = real_from_unit(Unit(0.625), exponent);
     if (max(abs(way.x), max(abs(way.y), abs(way.z))) > limit) return false;
     offset = {unit_from_real(way.x, exponent), unit_from_real(way.y, exponent), unit_from_real(way.z, exponent)};

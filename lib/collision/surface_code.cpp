@@ -28,8 +28,9 @@ void collide_part_with_surface(const CollisionBody& a, const CollisionBody& b, c
   for (uint32_t i = 0; swapped && i < contacts.count; ++i) swap_bodies(contacts.contact[i].geometry);
 }
 
-const SurfaceCode k_surface_code = {read_surface, collide_surface, collide_part_with_surface, visit_surface,
-                                    surface_convex};
+const SurfaceCode k_surface_code = {read_surface,  collide_surface,  collide_part_with_surface,
+                                    visit_surface, surface_convex,   place_on_surface,
+                                    surface_view,  surface_triangle, cast_ray_on_surface};
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

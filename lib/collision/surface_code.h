@@ -25,6 +25,10 @@ struct SurfaceCode {
   decltype(&collide_part_with_surface) collide_part;
   decltype(&visit_surface) visit;
   decltype(&surface_convex) convex;
+  decltype(&place_on_surface) place;
+  decltype(&surface_view) view;
+  decltype(&surface_triangle) triangle;
+  decltype(&cast_ray_on_surface) cast_ray;
 };
 
 }  // namespace DETENT_NAMESPACE

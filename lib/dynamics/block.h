@@ -1,5 +1,6 @@
 #pragma once
 #include <detent/detail/scratch.h>
+#include <detent/detail/shared.h>
 
 #include "math/arithmetic.h"
 #include "math/root.h"
@@ -33,14 +34,14 @@ inline constexpr int k_shift_min = 9;       ///< steps finer than 2^-37 are no o
 inline constexpr int k_spin_power = 8;
 
 /// Held to the range of a factor.
-inline Factor held(Ulps a) {
+DETENT_SHARED inline Factor held(Ulps a) {
   return static_cast<Factor>(a < -k_factor_max ? -k_factor_max : a > k_factor_max ? k_factor_max : a);
 }
 
 class Block {
  public:
   /// Makes room for `v` 2^exponent as mantissas.
-  void include(const Vec3<Real>& v, int exponent) {
+  DETENT_SHARED void include(const Vec3<Real>& v, int exponent) {
     const uint64_t all = magnitude_64(v.x.raw) | magnitude_64(v.y.raw) | magnitude_64(v.z.raw);
     if (all != 0) include_bits(bit_length_64(all) + exponent - k_mantissa_bits);
   }
@@ -52,7 +53,7 @@ class Block {
     include_bits(bit_length_64(all) - k_number_bits);
   }
 
-  Mantissas mantissas(const Vec3<Real>& v, int exponent) const {
+  DETENT_SHARED Mantissas mantissas(const Vec3<Real>& v, int exponent) const {
     const int n = shift_ - exponent;
     if (n > 0 && n < 64)
       return {static_cast<int32_t>(round_shift_64(v.x.raw, n)), static_cast<int32_t>(round_shift_64(v.y.raw, n)),
@@ -61,18 +62,18 @@ class Block {
             static_cast<int32_t>(shift_64(v.z.raw, -n))};
   }
   /// Rounded down.
-  Factor held(Real value) const { return detent::held(value.raw >> shift_); }
+  Factor held(Real value) const { return detent::held(floor_shift_64(value.raw, shift_)); }
   /// Rounded down.
-  Ulps number(Real value) const { return value.raw >> shift_; }
+  Ulps number(Real value) const { return floor_shift_64(value.raw, shift_); }
   Real real(Ulps ulps) const { return Real::from_raw(static_cast<int64_t>(static_cast<uint64_t>(ulps) << shift_)); }
   /// A number of another block times 2^exponent as one of this, held to the range of a factor.
-  Factor converted(Factor ulps, const Block& from, int exponent) const {
+  DETENT_SHARED Factor converted(Factor ulps, const Block& from, int exponent) const {
     const int n = from.shift_ + exponent - shift_;
     if (n < 0) return detent::held(round_shift_64(ulps, n < -63 ? 63 : -n));
     return detent::held(int64_t{ulps} << (n < 31 ? n : 31));
   }
   /// v x share 2^exponent.
-  Vec3<Real> real(const Mantissas& v, Scaled share, int exponent) const {
+  DETENT_SHARED Vec3<Real> real(const Mantissas& v, Scaled share, int exponent) const {
     const int64_t x = int64_t{v.x} * share.mantissa, y = int64_t{v.y} * share.mantissa,
                   z = int64_t{v.z} * share.mantissa;
     const int n = -(shift_ + share.exponent + exponent);
@@ -99,8 +100,8 @@ class Block {
 
 inline UlpSum product(Factor a, Unit b) { return int64_t{a} * b.raw; }
 inline UlpSum whole(Factor a) { return int64_t{a} << k_unit_frac; }
-inline Ulps rounded(UlpSum sum) { return round_shift_64(sum, k_unit_frac); }
-inline Ulps times(Factor a, Unit b) { return rounded(product(a, b)); }
+DETENT_SHARED inline Ulps rounded(UlpSum sum) { return round_shift_64(sum, k_unit_frac); }
+DETENT_SHARED inline Ulps times(Factor a, Unit b) { return rounded(product(a, b)); }
 /// a b 2^exponent. Range: exponent < 30.
 inline Ulps times_scaled(Factor a, Unit b, int exponent) {
   return round_shift_64(product(a, b), k_unit_frac - exponent);
@@ -111,20 +112,20 @@ inline UlpSum sum_from(Ulps a, int exponent) {
 }
 inline Ulps rounded(UlpSum sum, int exponent) { return round_shift_64(sum, k_unit_frac - exponent); }
 /// a b. Range: b >= 0.
-inline Factor times(Factor a, Scaled b) {
+DETENT_SHARED inline Factor times(Factor a, Scaled b) {
   if (b.exponent >= 0) return b.mantissa == 0 ? 0 : held(shift_64(a, 32));
   return b.exponent < -63 ? 0 : held(round_shift_64(int64_t{a} * b.mantissa, -b.exponent));
 }
-inline UlpSum dot(const Mantissas& a, const Vec3<Unit>& b) {
+DETENT_SHARED inline UlpSum dot(const Mantissas& a, const Vec3<Unit>& b) {
   return product(a.x, b.x) + product(a.y, b.y) + product(a.z, b.z);
 }
-inline Mantissas rounded(UlpSum x, UlpSum y, UlpSum z) {
+DETENT_SHARED inline Mantissas rounded(UlpSum x, UlpSum y, UlpSum z) {
   return {static_cast<Factor>(rounded(x)), static_cast<Factor>(rounded(y)), static_cast<Factor>(rounded(z))};
 }
 inline constexpr Ulps k_no_ulps = 0;
 
 /// Brings a vector into a circle. Range: limit >= 0.
-inline void hold_to_circle(Factor (&v)[2], Factor limit) {
+DETENT_SHARED inline void hold_to_circle(Factor (&v)[2], Factor limit) {
   const uint64_t x = magnitude_32(v[0]), y = magnitude_32(v[1]), radius = static_cast<uint32_t>(limit);
   if (x + y <= radius) return;
   const uint64_t square = x * x + y * y;

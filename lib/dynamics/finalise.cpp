@@ -8,22 +8,42 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-uint32_t hold(Real& value) {
-  const Real held = clamp(value, -k_speed_max, k_speed_max);
+uint32_t hold(Real& value, Real most) {
+  const Real held = clamp(value, -most, most);
   const bool clamped = !(held == value);
   value = held;
   return clamped ? 1 : 0;
+}
+uint32_t hold(Vec3<Real>& v, Real most) { return hold(v.x, most) + hold(v.y, most) + hold(v.z, most); }
+Real greatest(const Vec3<Real>& v) { return max(abs(v.x), max(abs(v.y), abs(v.z))); }
+
+/// Spin in the body's axes, as far as a Real tells.
+Vec3<Real> local_spin(const BodyTraits& traits, const Vec3<Real>& momentum) {
+  bool saturated = false;
+  return {multiply(momentum.x, traits.gyration[0], saturated), multiply(momentum.y, traits.gyration[1], saturated),
+          multiply(momentum.z, traits.gyration[2], saturated)};
 }
 
 }  // namespace
 
 uint32_t hold_speeds(const BodyTraits& traits, const Quat& rotation, BodyMotion& motion) {
-  uint32_t clamped = hold(motion.velocity.x) + hold(motion.velocity.y) + hold(motion.velocity.z);
-  const Vec3<Real> spin = spin_of(traits, rotation, motion.momentum);
-  const Real fastest = max(abs(spin.x), max(abs(spin.y), abs(spin.z)));
+  uint32_t clamped = hold(motion.velocity, k_speed_max) + hold(motion.momentum, k_spin_work_max);
+  const bool turned = !is_isotropic(traits);
+  Vec3<Real> local, spin;
+  // Joints and impacts may leave more than a Real tells. Beyond twice the bound along a body's axis, one of the world's
+  // has more than the bound.
+  for (;;) {
+    local = turned ? rotate_inverse(rotation, motion.momentum) : motion.momentum;
+    spin = local_spin(traits, local);
+    const Real fastest = greatest(spin);
+    if (!(fastest > scale_by_power(k_spin_max, 1))) break;
+    motion.momentum = motion.momentum * divide(k_spin_max, fastest);
+    ++clamped;
+  }
+  if (turned) spin = rotate(rotation, spin);
+  const Real fastest = greatest(spin);
   if (fastest > k_spin_max) {
-    const Real factor = divide(k_spin_max, fastest);
-    motion.momentum = {motion.momentum.x * factor, motion.momentum.y * factor, motion.momentum.z * factor};
+    motion.momentum = motion.momentum * divide(k_spin_max, fastest);
     ++clamped;
   }
   return clamped;

@@ -22,7 +22,8 @@ inline Sweep rest_of_tick(const BodySweep& sweep) {
 /// to their range. Returns the number of components that were clamped.
 uint32_t finalise(const BodyTraits& traits, const BodySweep& sweep, BodyPose& pose, BodyMotion& motion);
 
-/// Holds velocity to k_speed_max and spin to k_spin_max. Returns the number of components clamped.
+/// Holds velocity to k_speed_max, momentum to k_spin_work_max and spin to k_spin_max. Returns the number of components
+/// clamped.
 uint32_t hold_speeds(const BodyTraits& traits, const Quat& rotation, BodyMotion& motion);
 
 /// Puts the contacts of this tick, with their manifolds if there are any, in the place of those of the last one that

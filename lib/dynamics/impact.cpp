@@ -675,10 +675,7 @@ struct Stage {
     }
     return moved((by_b ? pose_b : pose_a).position, sum);
   }
-  static Vec3<Real> offset_of(const BodyPose& a, const BodyPose& b) {
-    return {real_difference(b.position.x, a.position.x), real_difference(b.position.y, a.position.y),
-            real_difference(b.position.z, a.position.z)};
-  }
+  static Vec3<Real> offset_of(const BodyPose& a, const BodyPose& b) { return real_difference(b.position, a.position); }
 
   void go_on(ImpactPair& pair) {
     const Fraction time = pair.time;

@@ -246,8 +246,7 @@ void make_joint_rows(const StepSettings& settings, const JointStage& stage, Join
   work.arm[1] = multiply(b.axes, held(joint.anchor_b, b.exponent));
   RowMaker make = {settings, joint, a, b, work};
   const Position &from = stage.poses[a.slot].position, &to = stage.poses[b.slot].position;
-  const Vec3<Real> between = {real_difference(to.x, from.x), real_difference(to.y, from.y),
-                              real_difference(to.z, from.z)};
+  const Vec3<Real> between = real_difference(to, from);
   make.gap = between + (b.place - a.place) + (in_metres(work.arm[1], b.exponent) - in_metres(work.arm[0], a.exponent));
   if (type != JointType::ball && type != JointType::distance) {
     const Quat frame_a = multiply(a.rotation, joint.frame_a);

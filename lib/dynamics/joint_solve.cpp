@@ -16,9 +16,6 @@ constexpr Vec3<Real> k_none = {k_zero, k_zero, k_zero};
 constexpr uint32_t k_decisions = 4;  ///< tries to solve with limits and motors as they must be
 constexpr uint32_t k_loop_sweeps = 6;
 
-Vec3<Real> scaled(const Vec3<Real>& v, Scaled factor) {
-  return {multiply(v.x, factor), multiply(v.y, factor), multiply(v.z, factor)};
-}
 Vec3<Real> real_from(const Vec3<Unit>& v) {
   return {real_from_unit(v.x, 0), real_from_unit(v.y, 0), real_from_unit(v.z, 0)};
 }
@@ -180,7 +177,7 @@ struct Solver {
     const Real share = to_real(body.share, saturated);
     DETENT_UNROLL
     for (int i = 0; i < 3; ++i) {
-      const Vec3<Real> row = scaled(real_from(now.gyration.row[i]), turn);
+      const Vec3<Real> row = multiply(real_from(now.gyration.row[i]), turn);
       DETENT_UNROLL
       for (int j = 0; j < 6; ++j) body.response[i][j] = body.response[i + 3][j] = k_zero;
       body.response[i][i] = share;
@@ -195,7 +192,7 @@ struct Solver {
     if (body.mobile == 0) return;
     body.given_force += force;
     body.given_torque += torque;
-    body.velocity += scaled(force, body.share);
+    body.velocity += multiply(force, body.share);
     body.spin += Vec3<Real>{dot(last_three(body.response[3]), torque), dot(last_three(body.response[4]), torque),
                             dot(last_three(body.response[5]), torque)};
   }
@@ -504,8 +501,8 @@ struct Solver {
     const Vec3<Real> force = body.force + body.given_force, torque = body.torque + body.given_torque;
     BodyMotion& motion = bodies.motions[body.slot];
     BodyWork& now = bodies.work[body.slot];
-    const Vec3<Real> velocity = scaled(force, body.share);
-    const Vec3<Real> momentum = scaled(torque, scaled_by_power(body.share, body.above));
+    const Vec3<Real> velocity = multiply(force, body.share);
+    const Vec3<Real> momentum = multiply(torque, scaled_by_power(body.share, body.above));
     motion.velocity += velocity;
     motion.momentum += momentum;
     if (DETENT_FIXED) {  // it is not the contacts' (contact_motion.h)

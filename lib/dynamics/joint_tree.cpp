@@ -88,8 +88,7 @@ void collect_joints(const SolverBodies& bodies, JointStage& stage) {
     Real way = Real(0.0);
     if (takes_way(joint)) {
       const Position &from = stage.poses[joint.body_a].position, &to = stage.poses[joint.body_b].position;
-      const Vec3<Real> between = {real_difference(to.x, from.x), real_difference(to.y, from.y),
-                                  real_difference(to.z, from.z)};
+      const Vec3<Real> between = real_difference(to, from);
       way = scale_by_power(absolute_sum(between) + absolute_sum(joint.anchor_b), 1);
     }
     reach_out(a, max(absolute_sum(joint.anchor_a), way));

@@ -16,10 +16,6 @@ Scaled kept(Scaled rate, Real time) {
   return is_positive(rate) ? divide(one, add(one, multiply(rate, scaled_from(time)))) : one;
 }
 
-Vec3<Real> scaled(const Vec3<Real>& v, Scaled factor) {
-  return {multiply(v.x, factor), multiply(v.y, factor), multiply(v.z, factor)};
-}
-
 Real absolute_sum(const Vec3<Real>& v) { return abs(v.x) + abs(v.y) + abs(v.z); }
 
 }  // namespace
@@ -50,10 +46,10 @@ void predict(const StepSettings& settings, Span<const BodyTraits> traits, Span<c
     const BodyTraits& body = traits[slot];
     BodyMotion& motion = motions[slot];
     BodyWork& now = work[slot];
-    now.push = scaled(gravity_push, body.gravity_scale);
+    now.push = multiply(gravity_push, body.gravity_scale);
     now.twist = none;
-    if (!(motion.pending_velocity == none)) now.push += scaled(motion.pending_velocity, settings.share);
-    if (!(motion.pending_momentum == none)) now.twist = scaled(motion.pending_momentum, settings.share);
+    if (!(motion.pending_velocity == none)) now.push += multiply(motion.pending_velocity, settings.share);
+    if (!(motion.pending_momentum == none)) now.twist = multiply(motion.pending_momentum, settings.share);
     motion.pending_velocity = motion.pending_momentum = none;
     now.linear_kept = kept(body.linear_damping, settings.time);
     now.angular_kept = kept(body.angular_damping, settings.time);

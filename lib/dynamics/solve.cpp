@@ -27,10 +27,6 @@ uint32_t clamp_vector(Vec3<Real>& v, Real limit) {
   return clamp_component(v.x, limit) + clamp_component(v.y, limit) + clamp_component(v.z, limit);
 }
 
-Vec3<Real> scaled(const Vec3<Real>& v, Scaled factor) {
-  return {multiply(v.x, factor), multiply(v.y, factor), multiply(v.z, factor)};
-}
-
 Vec3<Real> halved(const Vec3<Real>& v) {
   return {scale_by_power(v.x, -1), scale_by_power(v.y, -1), scale_by_power(v.z, -1)};
 }
@@ -47,8 +43,8 @@ uint32_t integrate_velocities(const SolverBodies& bodies, Span<const uint32_t> i
     const Vec3<Real> turned = first ? k_still : added_by_contacts(motion.momentum, now.contact_momentum);
     motion.velocity += now.push;
     motion.momentum += now.twist;
-    if (!(now.linear_kept == one)) motion.velocity = scaled(motion.velocity, now.linear_kept);
-    if (!(now.angular_kept == one)) motion.momentum = scaled(motion.momentum, now.angular_kept);
+    if (!(now.linear_kept == one)) motion.velocity = multiply(motion.velocity, now.linear_kept);
+    if (!(now.angular_kept == one)) motion.momentum = multiply(motion.momentum, now.angular_kept);
     now.contact_velocity = kept_at_start(motion.velocity, pushed);
     now.contact_momentum = kept_at_start(motion.momentum, turned);
     motion.velocity += pushed;

@@ -90,9 +90,7 @@ bool turn_freely(const BodyTraits& traits, const FreeTurn& free, const Vec3<Real
     }
     turn_about(c, free.rest, exponent, half, frame, clamped);
   }
-  const Vec3<Real> about = {multiply(momentum.x, free.common), multiply(momentum.y, free.common),
-                            multiply(momentum.z, free.common)};
-  rotation = turned(frame.rotation, about, exponent, time, clamped);
+  rotation = turned(frame.rotation, multiply(momentum, free.common), exponent, time, clamped);
   return !clamped;
 }
 

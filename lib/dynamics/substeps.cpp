@@ -91,9 +91,7 @@ void weigh(Span<const BodyPose> poses, Span<const BodyTraits> traits, Span<const
   const Position& origin = poses[bodies[0]].position;
   for (const uint32_t slot : bodies) {
     const Position& at = poses[slot].position;
-    const Vec3<Real> way = {real_difference(origin.x, at.x), real_difference(origin.y, at.y),
-                            real_difference(origin.z, at.z)};
-    work[slot].height = dot(way, down);
+    work[slot].height = dot(real_difference(origin, at), down);
     work[slot].carried = traits[slot].mass;
     work[slot].supports = 0;
   }

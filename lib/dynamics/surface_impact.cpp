@@ -9,11 +9,6 @@ namespace {
 
 constexpr Real k_zero = 0.0;
 
-int64_t raw_length(Real length) {
-  Vec64 raw = {0, 0, 0};
-  return raw_from_real({length, k_zero, k_zero}, raw) ? raw.x : 0;  // always: it is finite
-}
-
 /// The triangles of a surface, one by one, against a body on its way.
 struct Search {
   const SurfaceCode& code;

@@ -1,4 +1,5 @@
 #pragma once
+#include <detent/detail/shared.h>
 #include <detent/features.h>
 #include <detent/hull.h>
 
@@ -56,7 +57,7 @@ constexpr uint32_t hull_padded_count(uint32_t vertex_count) {
   return (vertex_count + k_hull_padding - 1) / k_hull_padding * k_hull_padding;
 }
 /// Range: vertex_count from k_hull_vertices_min to k_hull_vertices_max, face_count and edge_count below 2^16.
-constexpr HullLayout hull_layout(uint32_t vertex_count, uint32_t face_count, uint32_t edge_count) {
+DETENT_SHARED constexpr HullLayout hull_layout(uint32_t vertex_count, uint32_t face_count, uint32_t edge_count) {
   const auto aligned = [](uint32_t bytes) { return (bytes + 7) / 8 * 8; };
   const uint32_t column = 4 * hull_padded_count(vertex_count);
   HullLayout at = {};
@@ -143,7 +144,7 @@ struct HullView {
     DETENT_VERIFY_RANGE(i < padded_count);
     return cooked_i32(bytes + column + 4 * i);
   }
-  HullIndices range(uint32_t offsets_at, uint32_t values_at, uint32_t i) const {
+  DETENT_SHARED HullIndices range(uint32_t offsets_at, uint32_t values_at, uint32_t i) const {
     const uint8_t* offsets = bytes + offsets_at + 2 * i;
     const uint32_t from = cooked_u16(offsets);
     return {bytes + values_at + from, cooked_u16(offsets + 2) - from};
@@ -152,7 +153,7 @@ struct HullView {
 };
 
 /// The hull at `bytes`, which read_hull() has accepted: no checks.
-inline HullView hull_view(const uint8_t* bytes) {
+DETENT_SHARED inline HullView hull_view(const uint8_t* bytes) {
   HullView hull;
   hull.bytes = bytes;
   hull.vertex_count = cooked_u32(bytes + k_hull_vertex_count_at);

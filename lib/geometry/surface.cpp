@@ -32,6 +32,8 @@ Surface surface_view(const uint8_t* bytes) {
   return surface;
 }
 
+SurfaceTriangle surface_triangle(const Surface& surface, uint32_t index) { return surface.triangle(index); }
+
 Status read_surface(const Asset& asset, Surface& surface) {
   Surface read;
   read.is_mesh =

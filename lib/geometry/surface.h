@@ -30,6 +30,9 @@ struct Surface {
 /// The surface at `bytes`, which read_surface() has accepted: no checks.
 Surface surface_view(const uint8_t* bytes);
 
+/// For callers that must not link the readers of the formats.
+SurfaceTriangle surface_triangle(const Surface& surface, uint32_t index);
+
 /// Checks bytes from anywhere. Errors: as read_mesh(); not_detent if they are neither.
 Status read_surface(const Asset& asset, Surface& surface);
 

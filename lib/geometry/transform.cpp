@@ -13,10 +13,7 @@ Position to_world(const Pose& pose, const Vec3<Real>& point) {
 
 Vec3<Real> to_local(const Pose& pose, const Position& point) {
   const FloatEnvironment environment;
-  const Position& at = pose.position;
-  const Vec3<Real> way = {real_difference(point.x, at.x), real_difference(point.y, at.y),
-                          real_difference(point.z, at.z)};
-  return rotate_inverse(pose.rotation, way);
+  return rotate_inverse(pose.rotation, real_difference(point, pose.position));
 }
 
 Vec3<Real> vector_to_world(const Quat& rotation, const Vec3<Real>& vector) {

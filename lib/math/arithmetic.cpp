@@ -4,9 +4,9 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-Real divide(Real a, Real b) {
-  DETENT_VERIFY_RANGE(b.raw != 0);
-  return Real::from_raw(divide_rounded(Int128::from(a.raw).shift_left(k_real_frac), b.raw));
+int64_t raw::divide(int64_t a, int64_t b) {
+  DETENT_VERIFY_RANGE(b != 0);
+  return divide_rounded(Int128::from(a).shift_left(k_real_frac), b);
 }
 
 Unit divide(Unit a, Unit b) {

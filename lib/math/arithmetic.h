@@ -1,4 +1,5 @@
 #pragma once
+#include <detent/detail/shared.h>
 #include <detent/math.h>
 
 #include "math/wide.h"
@@ -32,12 +33,40 @@ constexpr Unit unit_from_product(uint64_t sum) {
 constexpr uint64_t unit_product(Unit a, Unit b) { return static_cast<uint64_t>(int64_t{a.raw} * b.raw); }
 
 /// |a b| < 2.
-constexpr Unit operator*(Unit a, Unit b) { return unit_from_product(unit_product(a, b)); }
-constexpr Real operator*(Real a, Unit b) { return Real::from_raw(Int128::narrow_sum<k_unit_frac>(a.raw, b.raw)); }
-constexpr Real operator*(Unit a, Real b) { return b * a; }
-constexpr Real operator*(Real a, Real b) {
-  return Real::from_raw(Int128::product(a.raw, b.raw).round_shift(k_real_frac));
+DETENT_SHARED constexpr Unit operator*(Unit a, Unit b) { return unit_from_product(unit_product(a, b)); }
+
+/// Real results as they are called, as raw integers: most calling conventions of 32-bit machines return those in
+/// registers, but a struct in memory.
+namespace raw {
+DETENT_SHARED constexpr int64_t multiply(int64_t a, int32_t unit) { return Int128::narrow_sum<k_unit_frac>(a, unit); }
+DETENT_SHARED constexpr int64_t multiply(int64_t a, int64_t b) {
+  return Int128::product(a, b).round_shift(k_real_frac);
 }
+DETENT_SHARED constexpr int64_t dot(const Vec3<Real>& a, const Vec3<Unit>& b) {
+  return Int128::narrow_sum<k_unit_frac>(a.x.raw, b.x.raw, a.y.raw, b.y.raw, a.z.raw, b.z.raw);
+}
+DETENT_SHARED constexpr int64_t dot(const Vec3<Real>& a, const Vec3<Real>& b) {
+  return (Int128::product(a.x.raw, b.x.raw) + Int128::product(a.y.raw, b.y.raw) + Int128::product(a.z.raw, b.z.raw))
+      .round_shift(k_real_frac);
+}
+DETENT_SHARED constexpr int64_t min(int64_t a, int64_t b) { return b < a ? b : a; }
+DETENT_SHARED constexpr int64_t max(int64_t a, int64_t b) { return a < b ? b : a; }
+DETENT_SHARED constexpr int64_t abs(int64_t a) { return 0 < a ? a : subtract_wrapped(0, a); }
+int64_t divide(int64_t a, int64_t b);
+/// Of coordinates; see real_difference().
+DETENT_SHARED constexpr int64_t difference(Coord::Raw a, Coord::Raw b) {
+  constexpr int k_shift = k_real_frac - Coord::k_frac;
+  const int64_t difference = subtract_wrapped(a, b);
+  constexpr int64_t k_limit = INT64_MAX >> k_shift;
+  // A wrapped difference has the wrong sign.
+  if (a < b) return difference >= 0 || difference < -k_limit ? -INT64_MAX : difference * (int64_t{1} << k_shift);
+  return difference < 0 || difference > k_limit ? INT64_MAX : difference << k_shift;
+}
+}  // namespace raw
+
+DETENT_PASSING constexpr Real operator*(Real a, Unit b) { return Real::from_raw(raw::multiply(a.raw, b.raw)); }
+DETENT_PASSING constexpr Real operator*(Unit a, Real b) { return b * a; }
+DETENT_PASSING constexpr Real operator*(Real a, Real b) { return Real::from_raw(raw::multiply(a.raw, b.raw)); }
 #else
 inline constexpr Real k_real_max = Real(131072.0);  ///< the range is that of the fixed configurations
 #endif
@@ -60,6 +89,10 @@ template <class T>
 constexpr T max(T a, T b) {
   return a < b ? b : a;
 }
+#if DETENT_FIXED
+DETENT_PASSING constexpr Real min(Real a, Real b) { return Real::from_raw(raw::min(a.raw, b.raw)); }
+DETENT_PASSING constexpr Real max(Real a, Real b) { return Real::from_raw(raw::max(a.raw, b.raw)); }
+#endif
 template <class T>
 constexpr T clamp(T value, T low, T high) {
   return min(max(value, low), high);
@@ -70,69 +103,67 @@ constexpr T abs(T a) {
   return T(0.0) < a ? a : T(0.0) - a;
 }
 
+#if DETENT_FIXED
+DETENT_PASSING constexpr Real abs(Real a) { return Real::from_raw(raw::abs(a.raw)); }
+#endif
+
 template <class T>
-constexpr Vec3<T> operator+(const Vec3<T>& a, const Vec3<T>& b) {
+DETENT_SHARED constexpr Vec3<T> operator+(const Vec3<T>& a, const Vec3<T>& b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
 template <class T>
-constexpr Vec3<T> operator-(const Vec3<T>& a, const Vec3<T>& b) {
+DETENT_SHARED constexpr Vec3<T> operator-(const Vec3<T>& a, const Vec3<T>& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 template <class T>
-constexpr Vec3<T> operator-(const Vec3<T>& a) {
+DETENT_SHARED constexpr Vec3<T> operator-(const Vec3<T>& a) {
   return {-a.x, -a.y, -a.z};
 }
 template <class T>
-constexpr Vec3<T>& operator+=(Vec3<T>& a, const Vec3<T>& b) {
+DETENT_SHARED constexpr Vec3<T>& operator+=(Vec3<T>& a, const Vec3<T>& b) {
   return a = a + b;
 }
 template <class T>
-constexpr Vec3<T>& operator-=(Vec3<T>& a, const Vec3<T>& b) {
+DETENT_SHARED constexpr Vec3<T>& operator-=(Vec3<T>& a, const Vec3<T>& b) {
   return a = a - b;
 }
 template <class A, class B>
-constexpr auto operator*(const Vec3<A>& a, B b) -> Vec3<decltype(a.x * b)> {
+DETENT_SHARED constexpr auto operator*(const Vec3<A>& a, B b) -> Vec3<decltype(a.x * b)> {
   return {a.x * b, a.y * b, a.z * b};
 }
 template <class T>
-constexpr Vec3<T> abs(const Vec3<T>& a) {
+DETENT_SHARED constexpr Vec3<T> abs(const Vec3<T>& a) {
   return {abs(a.x), abs(a.y), abs(a.z)};
 }
 
 #if DETENT_FIXED
 /// Range: |result| < 2.
-constexpr Unit dot(const Vec3<Unit>& a, const Vec3<Unit>& b) {
+DETENT_SHARED constexpr Unit dot(const Vec3<Unit>& a, const Vec3<Unit>& b) {
   return unit_from_product(unit_product(a.x, b.x) + unit_product(a.y, b.y) + unit_product(a.z, b.z));
 }
-constexpr Real dot(const Vec3<Real>& a, const Vec3<Unit>& b) {
-  return Real::from_raw(Int128::narrow_sum<k_unit_frac>(a.x.raw, b.x.raw, a.y.raw, b.y.raw, a.z.raw, b.z.raw));
-}
-constexpr Real dot(const Vec3<Unit>& a, const Vec3<Real>& b) { return dot(b, a); }
-constexpr Real dot(const Vec3<Real>& a, const Vec3<Real>& b) {
-  return Real::from_raw(
-      (Int128::product(a.x.raw, b.x.raw) + Int128::product(a.y.raw, b.y.raw) + Int128::product(a.z.raw, b.z.raw))
-          .round_shift(k_real_frac));
-}
+DETENT_PASSING constexpr Real dot(const Vec3<Real>& a, const Vec3<Unit>& b) { return Real::from_raw(raw::dot(a, b)); }
+DETENT_PASSING constexpr Real dot(const Vec3<Unit>& a, const Vec3<Real>& b) { return dot(b, a); }
+DETENT_PASSING constexpr Real dot(const Vec3<Real>& a, const Vec3<Real>& b) { return Real::from_raw(raw::dot(a, b)); }
 
 /// Range: each component of the result < 2.
-constexpr Vec3<Unit> cross(const Vec3<Unit>& a, const Vec3<Unit>& b) {
+DETENT_SHARED constexpr Vec3<Unit> cross(const Vec3<Unit>& a, const Vec3<Unit>& b) {
   return {unit_from_product(unit_product(a.y, b.z) - unit_product(a.z, b.y)),
           unit_from_product(unit_product(a.z, b.x) - unit_product(a.x, b.z)),
           unit_from_product(unit_product(a.x, b.y) - unit_product(a.y, b.x))};
 }
-constexpr Vec3<Real> cross(const Vec3<Real>& a, const Vec3<Unit>& b) {
+DETENT_SHARED constexpr Vec3<Real> cross(const Vec3<Real>& a, const Vec3<Unit>& b) {
   constexpr int n = k_unit_frac;
   return {Real::from_raw(Int128::narrow_sum<n>(a.y.raw, b.z.raw, a.z.raw, -b.y.raw)),
           Real::from_raw(Int128::narrow_sum<n>(a.z.raw, b.x.raw, a.x.raw, -b.z.raw)),
           Real::from_raw(Int128::narrow_sum<n>(a.x.raw, b.y.raw, a.y.raw, -b.x.raw))};
 }
-constexpr Vec3<Real> cross(const Vec3<Unit>& a, const Vec3<Real>& b) {
+DETENT_SHARED constexpr Vec3<Real> cross(const Vec3<Unit>& a, const Vec3<Real>& b) {
   constexpr int n = k_unit_frac;
   return {Real::from_raw(Int128::narrow_sum<n>(b.z.raw, a.y.raw, b.y.raw, -a.z.raw)),
           Real::from_raw(Int128::narrow_sum<n>(b.x.raw, a.z.raw, b.z.raw, -a.x.raw)),
           Real::from_raw(Int128::narrow_sum<n>(b.y.raw, a.x.raw, b.x.raw, -a.y.raw))};
 }
-constexpr Vec3<Real> cross(const Vec3<Real>& a, const Vec3<Real>& b) {
+DETENT_SHARED constexpr Vec3<Real> cross(const Vec3<Real>& a, const Vec3<Real>& b) {
   const auto difference = [](Real p, Real q, Real r, Real s) {
     return Real::from_raw((Int128::product(p.raw, q.raw) - Int128::product(r.raw, s.raw)).round_shift(k_real_frac));
   };
@@ -140,27 +171,31 @@ constexpr Vec3<Real> cross(const Vec3<Real>& a, const Vec3<Real>& b) {
 }
 
 /// a / b. Range: b != 0. Overflow: saturates to +-131072.
-Real divide(Real a, Real b);
+DETENT_PASSING inline Real divide(Real a, Real b) { return Real::from_raw(raw::divide(a.raw, b.raw)); }
 /// a / b. Range: b != 0, |a / b| < 2.
 Unit divide(Unit a, Unit b);
 /// 1 / a. Range: a != 0. Overflow: saturates.
-inline Real reciprocal(Real a) { return divide(Real(1.0), a); }
+DETENT_PASSING inline Real reciprocal(Real a) { return divide(Real(1.0), a); }
 
 /// x 2^n. Rounding: to nearest, ties up. Overflow: wraps.
-constexpr Real scale_by_power(Real x, int n) { return Real::from_raw(shift_64(x.raw, n)); }
+DETENT_PASSING constexpr Real scale_by_power(Real x, int n) { return Real::from_raw(shift_64(x.raw, n)); }
 /// x 2^n. Range: |x 2^n| < 2.
-constexpr Unit scale_by_power(Unit x, int n) { return unit_from_raw(shift_64(x.raw, n)); }
+DETENT_PASSING constexpr Unit scale_by_power(Unit x, int n) { return unit_from_raw(shift_64(x.raw, n)); }
 
 /// The smallest e >= -46 with |x| < 2^e.
-constexpr int exponent_above(Real x) { return bit_length_64(magnitude_64(x.raw)) - k_real_frac; }
+DETENT_SHARED constexpr int exponent_above(Real x) { return bit_length_64(magnitude_64(x.raw)) - k_real_frac; }
 
 /// u 2^e. Rounding: to nearest, ties up. Overflow: wraps; |u 2^e| < 2^17.
-constexpr Real real_from_unit(Unit u, int e) { return Real::from_raw(shift_64(u.raw, e + k_real_frac - k_unit_frac)); }
+DETENT_PASSING constexpr Real real_from_unit(Unit u, int e) {
+  return Real::from_raw(shift_64(u.raw, e + k_real_frac - k_unit_frac));
+}
 /// r 2^-e. Range: |r 2^-e| < 2. Rounding: to nearest, ties up.
-constexpr Unit unit_from_real(Real r, int e) { return unit_from_raw(shift_64(r.raw, k_unit_frac - k_real_frac - e)); }
+DETENT_PASSING constexpr Unit unit_from_real(Real r, int e) {
+  return unit_from_raw(shift_64(r.raw, k_unit_frac - k_real_frac - e));
+}
 
 /// (a - b) 2^-e, the difference exact. Range: |result| < 2. Rounding: to nearest, ties up.
-constexpr Unit unit_difference(Coord a, Coord b, int e) {
+DETENT_SHARED constexpr Unit unit_difference(Coord a, Coord b, int e) {
   const int n = e + Coord::k_frac - k_unit_frac;
   if (n < 2) return unit_from_raw(shift_64(subtract_wrapped(a.raw, b.raw), -n));
   // Halved first: the 64-bit difference itself can overflow, and the lowest bit cannot alter the rounding.
@@ -168,31 +203,29 @@ constexpr Unit unit_difference(Coord a, Coord b, int e) {
   return unit_from_raw(shift_64(half, 1 - n));
 }
 /// a - b, m. Exact within +-131072 m. Overflow: saturates there.
-constexpr Real real_difference(Coord a, Coord b) {
-  constexpr int k_shift = k_real_frac - Coord::k_frac;
-  const int64_t difference = subtract_wrapped(a.raw, b.raw);
-  constexpr int64_t k_limit = INT64_MAX >> k_shift;
-  // A wrapped difference has the wrong sign.
-  if (a.raw < b.raw)
-    return difference >= 0 || difference < -k_limit ? -k_real_max
-                                                    : Real::from_raw(difference * (int64_t{1} << k_shift));
-  return difference < 0 || difference > k_limit ? k_real_max : Real::from_raw(difference << k_shift);
+DETENT_PASSING constexpr Real real_difference(Coord a, Coord b) {
+  return Real::from_raw(raw::difference(a.raw, b.raw));
 }
-/// c + d, m. Rounding: to nearest, ties up. Overflow: clamps to Coord's range and sets `saturated` (else untouched).
-constexpr Coord coord_advance(Coord c, Real d, bool& saturated) {
+namespace raw {
+DETENT_SHARED constexpr Coord::Raw advance(Coord::Raw c, int64_t d, bool& saturated) {
   using Raw = Coord::Raw;
-  const int64_t step = round_shift_64(d.raw, k_real_frac - Coord::k_frac);
-  const int64_t sum = add_wrapped(c.raw, step);
+  const int64_t step = round_shift_64(d, k_real_frac - Coord::k_frac);
+  const int64_t sum = add_wrapped(c, step);
   if constexpr (sizeof(Raw) == 8) {
-    if (((c.raw ^ sum) & (step ^ sum)) < 0) {
+    if (((c ^ sum) & (step ^ sum)) < 0) {
       saturated = true;
-      return Coord::from_raw(static_cast<Raw>(step < 0 ? INT64_MIN : INT64_MAX));
+      return static_cast<Raw>(step < 0 ? INT64_MIN : INT64_MAX);
     }
   } else if (sum != static_cast<Raw>(sum)) {
     saturated = true;
-    return Coord::from_raw(static_cast<Raw>(sum < 0 ? INT32_MIN : INT32_MAX));
+    return static_cast<Raw>(sum < 0 ? INT32_MIN : INT32_MAX);
   }
-  return Coord::from_raw(static_cast<Raw>(sum));
+  return static_cast<Raw>(sum);
+}
+}  // namespace raw
+/// c + d, m. Rounding: to nearest, ties up. Overflow: clamps to Coord's range and sets `saturated` (else untouched).
+DETENT_PASSING constexpr Coord coord_advance(Coord c, Real d, bool& saturated) {
+  return Coord::from_raw(raw::advance(c.raw, d.raw, saturated));
 }
 #else
 constexpr Real dot(const Vec3<Real>& a, const Vec3<Real>& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
@@ -205,7 +238,7 @@ constexpr Real reciprocal(Real a) { return Real(1) / a; }
 /// x 2^n. Range: 2^n normal.
 constexpr Real scale_by_power(Real x, int n) { return x * power_of_two<Real>(n); }
 /// The smallest e >= -46 with |x| < 2^e.
-constexpr int exponent_above(Real x) {
+DETENT_SHARED constexpr int exponent_above(Real x) {
   const FloatParts parts = float_parts(x);
   const int e = parts.exponent + FloatFormat<Real>::k_fraction_bits + 1;
   return parts.mantissa == 0 || e < -46 ? -46 : e;
@@ -249,6 +282,11 @@ constexpr Coord coord_advance(Coord c, Real d, bool& saturated) {
 }
 #endif
 #endif
+
+/// a - b, m: as real_difference() of each component.
+DETENT_SHARED constexpr Vec3<Real> real_difference(const Position& a, const Position& b) {
+  return {real_difference(a.x, b.x), real_difference(a.y, b.y), real_difference(a.z, b.z)};
+}
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -1,5 +1,6 @@
 #pragma once
 #include <detent/config.h>
+#include <detent/detail/shared.h>
 
 #include "base/check.h"
 
@@ -28,16 +29,19 @@ constexpr int bit_length_32(uint32_t value) {
   else
     return 64 - __builtin_clzll(value);
 }
-constexpr int bit_length_64(uint64_t value) { return value == 0 ? 0 : 64 - __builtin_clzll(value); }
+DETENT_SHARED constexpr int bit_length_64(uint64_t value) { return value == 0 ? 0 : 64 - __builtin_clzll(value); }
 
 /// value 2^-n. Range: 1 <= n <= 64, value < 2^63 - 1 for n = 1. Rounding: to nearest, ties up. Overflow: none.
-constexpr int64_t round_shift_64(int64_t value, int n) { return ((value >> (n - 1)) + 1) >> 1; }
+DETENT_SHARED constexpr int64_t round_shift_64(int64_t value, int n) { return ((value >> (n - 1)) + 1) >> 1; }
 
 /// value 2^n for any n. Rounding: to nearest, ties up. Overflow: wraps.
-constexpr int64_t shift_64(int64_t value, int n) {
+DETENT_SHARED constexpr int64_t shift_64(int64_t value, int n) {
   if (n >= 0) return n > 63 ? 0 : static_cast<int64_t>(static_cast<uint64_t>(value) << n);
   return n < -64 ? 0 : round_shift_64(value, -n);
 }
+
+/// value 2^-n. Range: 0 <= n <= 63. Rounding: down.
+DETENT_SHARED constexpr int64_t floor_shift_64(int64_t value, int n) { return value >> n; }
 
 constexpr int64_t add_wrapped(int64_t a, int64_t b) {
   return static_cast<int64_t>(static_cast<uint64_t>(a) + static_cast<uint64_t>(b));

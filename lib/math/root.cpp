@@ -130,22 +130,21 @@ Unit square_root(Unit a) {
   return unit_from_raw(square_root_nearest(static_cast<uint64_t>(a.raw) << k_unit_frac));
 }
 
-Real square_root(Real a) {
-  DETENT_VERIFY_RANGE(a.raw >= 0);
-  const uint64_t raw = static_cast<uint64_t>(a.raw);
-  return Real::from_raw(
-      static_cast<int64_t>(square_root_nearest(Words128{raw >> (64 - k_real_frac), raw << k_real_frac})));
+int64_t raw::square_root(int64_t a) {
+  DETENT_VERIFY_RANGE(a >= 0);
+  const uint64_t size = static_cast<uint64_t>(a);
+  return static_cast<int64_t>(square_root_nearest(Words128{size >> (64 - k_real_frac), size << k_real_frac}));
 }
 
 Unit length(const Vec3<Unit>& v) {
   return unit_from_raw(square_root_nearest(square_of(v.x) + square_of(v.y) + square_of(v.z)));
 }
 
-Real length(const Vec3<Real>& v) {
+int64_t raw::length(const Vec3<Real>& v) {
   const Int128 square =
       Int128::product(v.x.raw, v.x.raw) + Int128::product(v.y.raw, v.y.raw) + Int128::product(v.z.raw, v.z.raw);
   const uint64_t root = square_root_nearest(Words128{static_cast<uint64_t>(square.high_word()), square.low_word()});
-  return root > static_cast<uint64_t>(INT64_MAX) ? k_real_max : Real::from_raw(static_cast<int64_t>(root));
+  return root > static_cast<uint64_t>(INT64_MAX) ? INT64_MAX : static_cast<int64_t>(root);
 }
 
 bool normalise(const Vec3<Unit>& v, Vec3<Unit>& n, Unit& length_of_v) {

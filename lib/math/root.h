@@ -22,17 +22,32 @@ inline constexpr double k_reciprocal_root_error = 1.0;  ///< units of 2^-31; the
 /// Rounding: each component within k_normalise_error; the length within k_normalise_length_error.
 Vec3<int32_t> unit_vector_raw(const Vec3<int32_t>& v);
 
+/// A minimax cubic of 1/sqrt(value 2^-32), Q3.29, relative error below 2^-7.1. Range: value in [2^30, 2^32).
+constexpr uint32_t reciprocal_root_guess(uint32_t value) {
+  const auto high = [value](uint32_t b) { return static_cast<uint32_t>((uint64_t{value} * b) >> 32); };
+  return 0x639898a5 - high(0xbd264567 - high(0xc75be3d4 - high(0x4e07e417)));
+}
 /// At least the square root, and at most 1.6 % and 2 more. Cheap: for bounds. Overflow: none for value < 2^62.
-inline uint32_t square_root_bound(uint64_t value);
+DETENT_SHARED constexpr uint32_t square_root_bound(uint64_t value) {
+  if (value == 0) return 0;
+  const int half_shift = (64 - bit_length_64(value)) / 2;
+  const uint32_t head = static_cast<uint32_t>((value << (2 * half_shift)) >> 32);
+  const uint64_t root = (uint64_t{head} * reciprocal_root_guess(head)) >> 29;  // Q32, within 2^-7.1
+  return static_cast<uint32_t>((root + (root >> 7) + 1) >> half_shift) + 1;
+}
 
 #if DETENT_FIXED
+namespace raw {
+int64_t square_root(int64_t a);
+int64_t length(const Vec3<Real>& v);
+}  // namespace raw
 /// Range: a >= 0. Rounding: to nearest. Overflow: none.
 Unit square_root(Unit a);
-Real square_root(Real a);
+DETENT_PASSING inline Real square_root(Real a) { return Real::from_raw(raw::square_root(a.raw)); }
 /// Range: result < 2. Rounding: the exact sum of squares' root, to nearest.
 Unit length(const Vec3<Unit>& v);
 /// m. Rounding: the exact sum of squares' root, to nearest. Overflow: saturates to +131072.
-Real length(const Vec3<Real>& v);
+DETENT_PASSING inline Real length(const Vec3<Real>& v) { return Real::from_raw(raw::length(v)); }
 
 /// n = v / |v| and |v|. False, outputs untouched, if v is zero. Equally precise for the smallest v.
 /// Rounding: each component of n within k_normalise_error of the true direction, | |n| - 1 | <=
@@ -68,18 +83,6 @@ inline Real length(const Vec3<Real>& v) { return square_root(dot(v, v)); }
 /// n = v / |v| and |v|. False, outputs untouched, if v is zero. Errors of n as in fixed.
 bool normalise(const Vec3<Real>& v, Vec3<Unit>& n, Real& length);
 #endif
-/// A minimax cubic of 1/sqrt(value 2^-32), Q3.29, relative error below 2^-7.1. Range: value in [2^30, 2^32).
-constexpr uint32_t reciprocal_root_guess(uint32_t value) {
-  const auto high = [value](uint32_t b) { return static_cast<uint32_t>((uint64_t{value} * b) >> 32); };
-  return 0x639898a5 - high(0xbd264567 - high(0xc75be3d4 - high(0x4e07e417)));
-}
-inline uint32_t square_root_bound(uint64_t value) {
-  if (value == 0) return 0;
-  const int half_shift = (64 - bit_length_64(value)) / 2;
-  const uint32_t head = static_cast<uint32_t>((value << (2 * half_shift)) >> 32);
-  const uint64_t root = (uint64_t{head} * reciprocal_root_guess(head)) >> 29;  // Q32, within 2^-7.1
-  return static_cast<uint32_t>((root + (root >> 7) + 1) >> half_shift) + 1;
-}
 
 inline constexpr double k_normalise_error = 2.5;         ///< steps (k_unit_step), of a component
 inline constexpr double k_normalise_length_error = 3.0;  ///< steps, of |n|

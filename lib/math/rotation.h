@@ -32,14 +32,14 @@ Matrix3 matrix_from(const Quat& q);
 
 /// m v.
 template <class T>
-constexpr Vec3<T> multiply(const Matrix3& m, const Vec3<T>& v) {
+DETENT_SHARED constexpr Vec3<T> multiply(const Matrix3& m, const Vec3<T>& v) {
   const Vec3<Unit>* c = m.column;
   return {dot(v, Vec3<Unit>{c[0].x, c[1].x, c[2].x}), dot(v, Vec3<Unit>{c[0].y, c[1].y, c[2].y}),
           dot(v, Vec3<Unit>{c[0].z, c[1].z, c[2].z})};
 }
 /// The transpose of m times v: the inverse rotation.
 template <class T>
-constexpr Vec3<T> multiply_transposed(const Matrix3& m, const Vec3<T>& v) {
+DETENT_SHARED constexpr Vec3<T> multiply_transposed(const Matrix3& m, const Vec3<T>& v) {
   return {dot(v, m.column[0]), dot(v, m.column[1]), dot(v, m.column[2])};
 }
 

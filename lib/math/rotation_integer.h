@@ -17,14 +17,14 @@ struct Matrix32 {
 constexpr int32_t round_30(int64_t sum) { return static_cast<int32_t>((sum + (int64_t{1} << 29)) >> 30); }
 
 /// The rotation b followed by a. Rounding: each component once.
-constexpr Quat32 multiply(const Quat32& a, const Quat32& b) {
+DETENT_SHARED constexpr Quat32 multiply(const Quat32& a, const Quat32& b) {
   const int64_t aw = a.w, ax = a.x, ay = a.y, az = a.z;
   return {round_30(aw * b.x + ax * b.w + ay * b.z - az * b.y), round_30(aw * b.y - ax * b.z + ay * b.w + az * b.x),
           round_30(aw * b.z + ax * b.y - ay * b.x + az * b.w), round_30(aw * b.w - ax * b.x - ay * b.y - az * b.z)};
 }
 
 /// Brings the length back to 1. Range: | |q|^2 - 1 | < 2^-8.
-constexpr Quat32 normalise(const Quat32& q) {
+DETENT_SHARED constexpr Quat32 normalise(const Quat32& q) {
   // 1 / sqrt(1 + d) = 1 - (d/2 - 3 d^2/8) + O(d^3)
   const uint64_t square = static_cast<uint64_t>(int64_t{q.x} * q.x) + static_cast<uint64_t>(int64_t{q.y} * q.y) +
                           static_cast<uint64_t>(int64_t{q.z} * q.z) + static_cast<uint64_t>(int64_t{q.w} * q.w);
@@ -36,7 +36,7 @@ constexpr Quat32 normalise(const Quat32& q) {
 }
 
 /// Brings the length of a rotation that a user gives to 1. False, and nothing changed, unless | |q| - 1 | <= 2^-10.
-constexpr bool normalise_input(Quat32& q) {
+DETENT_SHARED constexpr bool normalise_input(Quat32& q) {
   constexpr uint64_t k_low = uint64_t{(1 << 20) - (1 << 10)} * ((1 << 20) - (1 << 10));
   constexpr uint64_t k_high = uint64_t{(1 << 20) + (1 << 10)} * ((1 << 20) + (1 << 10));
   // Quarters of the squares, so that four of any size have a sum below 2^63.
@@ -47,7 +47,7 @@ constexpr bool normalise_input(Quat32& q) {
   return true;
 }
 
-constexpr Matrix32 matrix_from(const Quat32& q) {
+DETENT_SHARED constexpr Matrix32 matrix_from(const Quat32& q) {
   const int64_t x = q.x, y = q.y, z = q.z, w = q.w;
   constexpr int64_t k_half = int64_t{1} << 59;  // half of 1, doubled with the products
   const auto entry = [](int64_t half) { return static_cast<int32_t>((half + (int64_t{1} << 28)) >> 29); };
@@ -59,13 +59,13 @@ constexpr Matrix32 matrix_from(const Quat32& q) {
 }
 
 /// m v, Q30 more than v. Exact. Range: |v| < 2^32.
-constexpr Vec64 multiply(const Matrix32& m, const Vec32& v) {
+DETENT_SHARED constexpr Vec64 multiply(const Matrix32& m, const Vec32& v) {
   const Vec32* c = m.column;
   return {dot(v, Vec32{c[0].x, c[1].x, c[2].x}), dot(v, Vec32{c[0].y, c[1].y, c[2].y}),
           dot(v, Vec32{c[0].z, c[1].z, c[2].z})};
 }
 /// The inverse rotation of v, rounded.
-constexpr Vec32 rotate_inverse(const Matrix32& m, const Vec32& v) {
+DETENT_SHARED constexpr Vec32 rotate_inverse(const Matrix32& m, const Vec32& v) {
   return {round_30(dot(v, m.column[0])), round_30(dot(v, m.column[1])), round_30(dot(v, m.column[2]))};
 }
 

@@ -3,9 +3,10 @@
 #if DETENT_FIXED
 namespace detent {
 inline namespace DETENT_NAMESPACE {
+namespace words {
 
-Scaled scaled_from_parts(bool negative, uint64_t mantissa, int exponent) {
-  if (mantissa == 0) return Scaled::from_parts(0, 0);
+uint64_t scaled_from_parts(bool negative, uint64_t mantissa, int exponent) {
+  if (mantissa == 0) return 0;
   const int drop = bit_length_64(mantissa) - 31;
   // Ties away from zero; a carry to 2^31 is 2^30 with the next exponent.
   uint64_t rounded = drop <= 0 ? mantissa << -drop : ((mantissa >> (drop - 1)) + 1) >> 1;
@@ -14,25 +15,25 @@ Scaled scaled_from_parts(bool negative, uint64_t mantissa, int exponent) {
     rounded >>= 1;
     ++exponent;
   }
-  if (exponent < -k_scaled_exponent_max) return Scaled::from_parts(0, 0);
+  if (exponent < -k_scaled_exponent_max) return 0;
   if (exponent > k_scaled_exponent_max) {
     rounded = INT32_MAX;
     exponent = k_scaled_exponent_max;
   }
   const int32_t size = static_cast<int32_t>(rounded);
-  return Scaled::from_parts(negative ? -size : size, exponent);
+  return word_of(Scaled::from_parts(negative ? -size : size, exponent));
 }
 
-Scaled scaled_from(Real a) { return scaled_from_parts(a.raw < 0, magnitude_64(a.raw), -k_real_frac); }
+uint64_t scaled_from(int64_t raw, int frac) { return scaled_from_parts(raw < 0, magnitude_64(raw), -frac); }
 
-Scaled scaled_from(Unit a) { return scaled_from_parts(a.raw < 0, magnitude_32(a.raw), -k_unit_frac); }
-
-Scaled multiply(Scaled a, Scaled b) {
+uint64_t multiply(uint64_t a_word, uint64_t b_word) {
+  const Scaled a = to_scaled(a_word), b = to_scaled(b_word);
   const int64_t product = int64_t{a.mantissa} * b.mantissa;
   return scaled_from_parts(product < 0, magnitude_64(product), a.exponent + b.exponent);
 }
 
-Scaled divide(Scaled a, Scaled b) {
+uint64_t divide(uint64_t a_word, uint64_t b_word) {
+  const Scaled a = to_scaled(a_word), b = to_scaled(b_word);
   DETENT_VERIFY_RANGE(b.mantissa != 0);
   const uint64_t numerator = uint64_t{magnitude_32(a.mantissa)} << 32;
   const uint64_t divisor = magnitude_32(b.mantissa);
@@ -42,13 +43,14 @@ Scaled divide(Scaled a, Scaled b) {
                            a.exponent - b.exponent - 33);
 }
 
-Scaled add(Scaled a, Scaled b) {
-  if (a.mantissa == 0) return b;
-  if (b.mantissa == 0) return a;
+uint64_t add(uint64_t a_word, uint64_t b_word) {
+  const Scaled a = to_scaled(a_word), b = to_scaled(b_word);
+  if (a.mantissa == 0) return b_word;
+  if (b.mantissa == 0) return a_word;
   const Scaled large = a.exponent < b.exponent ? b : a;
   const Scaled small = a.exponent < b.exponent ? a : b;
   const int shift = large.exponent - small.exponent;
-  if (shift > 33) return large;
+  if (shift > 33) return word_of(large);
   // 31 fraction bits and a last one that stands for what the smaller number lost beyond them.
   const int64_t head = int64_t{small.mantissa} * (int64_t{1} << 31);
   const int64_t shifted = head >> shift;
@@ -57,11 +59,13 @@ Scaled add(Scaled a, Scaled b) {
   return scaled_from_parts(sum < 0, magnitude_64(sum), large.exponent - 31);
 }
 
-Scaled scaled_by_power(Scaled a, int n) {
+uint64_t scaled_by_power(uint64_t a_word, int n) {
+  const Scaled a = to_scaled(a_word);
   return scaled_from_parts(a.mantissa < 0, magnitude_32(a.mantissa), a.exponent + n);
 }
 
-Scaled square_root(Scaled a) {
+uint64_t square_root(uint64_t a_word) {
+  const Scaled a = to_scaled(a_word);
   DETENT_VERIFY_RANGE(a.mantissa >= 0);
   const int shift = (a.exponent & 1) != 0 ? 33 : 32;
   const uint64_t square = static_cast<uint64_t>(a.mantissa) << shift;
@@ -70,54 +74,57 @@ Scaled square_root(Scaled a) {
   return scaled_from_parts(false, (root << 1) | sticky, (a.exponent - shift) / 2 - 1);
 }
 
-bool less(Scaled a, Scaled b) {
+bool less(uint64_t a_word, uint64_t b_word) {
+  const Scaled a = to_scaled(a_word), b = to_scaled(b_word);
   const bool a_negative = a.mantissa < 0;
   const bool same_sign = a.mantissa != 0 && b.mantissa != 0 && a_negative == (b.mantissa < 0);
   if (same_sign && a.exponent != b.exponent) return (a.exponent < b.exponent) != a_negative;
   return a.mantissa < b.mantissa;
 }
 
-Scaled scaled_reciprocal(Real a) {
-  DETENT_VERIFY_RANGE(a.raw > 0);
-  const uint64_t raw = static_cast<uint64_t>(a.raw);
-  const int length = bit_length_64(raw);
-  const uint64_t head = length > 32 ? raw >> (length - 32) : raw << (32 - length);  // [2^31, 2^32)
-  const uint64_t quotient = (uint64_t{1} << 62) / head;                             // (2^30, 2^31]
+uint64_t scaled_reciprocal(int64_t raw) {
+  DETENT_VERIFY_RANGE(raw > 0);
+  const uint64_t size = static_cast<uint64_t>(raw);
+  const int length = bit_length_64(size);
+  const uint64_t head = length > 32 ? size >> (length - 32) : size << (32 - length);  // [2^31, 2^32)
+  const uint64_t quotient = (uint64_t{1} << 62) / head;                               // (2^30, 2^31]
   constexpr int k_exponent = k_real_frac + 32 - 62;
-  if (quotient >> 31 != 0) return Scaled::from_parts(1 << 30, k_exponent - length + 1);
-  return Scaled::from_parts(static_cast<int32_t>(quotient), k_exponent - length);
+  if (quotient >> 31 != 0) return word_of(Scaled::from_parts(1 << 30, k_exponent - length + 1));
+  return word_of(Scaled::from_parts(static_cast<int32_t>(quotient), k_exponent - length));
 }
 
 #if !DETENT_NATIVE_WIDE
-Real multiply(Real a, Scaled b) {
+int64_t multiply_raw(int64_t raw, uint64_t b_word) {
+  const Scaled b = to_scaled(b_word);
   DETENT_VERIFY_RANGE(b.mantissa == 0 || b.exponent < 0);
   const int n = -b.exponent;
   // a b = high 2^32 + low, as in PortableInt128::product_narrow; only the wanted word is formed.
-  const int64_t low_product = static_cast<int64_t>(static_cast<uint32_t>(a.raw)) * b.mantissa;
-  const int64_t high = (a.raw >> 32) * b.mantissa + (low_product >> 32);
-  if (n > 32) return Real::from_raw(shift_64(high, 32 - n));
-  if (n <= 0) return Real(0.0);  // only 0 has such an exponent here
+  const int64_t low_product = static_cast<int64_t>(static_cast<uint32_t>(raw)) * b.mantissa;
+  const int64_t high = (raw >> 32) * b.mantissa + (low_product >> 32);
+  if (n > 32) return shift_64(high, 32 - n);
+  if (n <= 0) return 0;  // only 0 has such an exponent here
   const int64_t low = low_product & 0xffffffff;
-  return Real::from_raw(static_cast<int64_t>(static_cast<uint64_t>(high) << (32 - n)) + round_shift_64(low, n));
+  return static_cast<int64_t>(static_cast<uint64_t>(high) << (32 - n)) + round_shift_64(low, n);
 }
 #endif
 
-Real multiply(Real a, Scaled b, bool& saturated) {
-  const Int128 product = Int128::product_narrow(a.raw, b.mantissa);
+int64_t multiply_raw(int64_t raw, uint64_t b_word, bool& saturated) {
+  const Scaled b = to_scaled(b_word);
+  const Int128 product = Int128::product_narrow(raw, b.mantissa);
   const Words128 size = magnitude_128(product);
   const int length = bit_length_128(size);
-  if (length == 0 || b.exponent < -127) return Real(0.0);
+  if (length == 0 || b.exponent < -127) return 0;
   const bool negative = product < Int128::from(0);
   if (length + b.exponent <= 63) {
-    const int64_t raw =
+    const int64_t rounded =
         b.exponent >= 0 ? product.shift_left(b.exponent).low_signed() : product.round_shift(-b.exponent);
-    if ((raw < 0) == negative || raw == 0) return Real::from_raw(raw);  // else it was rounded up to 2^63
+    if ((rounded < 0) == negative || rounded == 0) return rounded;  // else it was rounded up to 2^63
   }
   saturated = true;
-  return negative ? -k_real_max : k_real_max;
+  return negative ? -INT64_MAX : INT64_MAX;
 }
 
-Real to_real(Scaled a, bool& saturated) { return multiply(Real(1.0), a, saturated); }
+}  // namespace words
 
 Unit to_unit(Scaled a) { return unit_from_raw(shift_64(a.mantissa, a.exponent + k_unit_frac)); }
 

@@ -15,20 +15,59 @@ inline namespace DETENT_NAMESPACE {
 #if DETENT_FIXED
 inline constexpr int k_scaled_exponent_max = 256;
 
-/// mantissa 2^exponent in canonical form. A caller that dropped lower bits sets the mantissa's lowest bit.
-Scaled scaled_from_parts(bool negative, uint64_t mantissa, int exponent);
+/// The functions below as they are called. A Scaled is one word there, for most calling conventions of 32-bit machines
+/// pass structs of two through memory; a Real is its raw integer.
+namespace words {
+uint64_t scaled_from_parts(bool negative, uint64_t mantissa, int exponent);
+uint64_t scaled_from(int64_t raw, int frac);
+uint64_t multiply(uint64_t a, uint64_t b);
+uint64_t divide(uint64_t a, uint64_t b);
+uint64_t add(uint64_t a, uint64_t b);
+bool less(uint64_t a, uint64_t b);
+uint64_t scaled_by_power(uint64_t a, int n);
+uint64_t square_root(uint64_t a);
+uint64_t scaled_reciprocal(int64_t raw);
+int64_t multiply_raw(int64_t raw, uint64_t b);
+int64_t multiply_raw(int64_t raw, uint64_t b, bool& saturated);
 
-Scaled scaled_from(Real a);
-Scaled scaled_from(Unit a);
-Scaled multiply(Scaled a, Scaled b);
+// Each is the one that its machines do without instructions.
+#if UINTPTR_MAX > 0xffffffff
+constexpr uint64_t word_of(Scaled a) { return __builtin_bit_cast(uint64_t, a); }
+constexpr Scaled to_scaled(uint64_t word) { return __builtin_bit_cast(Scaled, word); }
+#else
+DETENT_PASSING constexpr uint64_t word_of(Scaled a) {
+  return static_cast<uint32_t>(a.mantissa) | static_cast<uint64_t>(a.exponent) << 32;
+}
+DETENT_PASSING constexpr Scaled to_scaled(uint64_t word) {
+  return Scaled::from_parts(static_cast<int32_t>(word), static_cast<int32_t>(word >> 32));
+}
+#endif
+}  // namespace words
+
+/// mantissa 2^exponent in canonical form. A caller that dropped lower bits sets the mantissa's lowest bit.
+DETENT_PASSING inline Scaled scaled_from_parts(bool negative, uint64_t mantissa, int exponent) {
+  return words::to_scaled(words::scaled_from_parts(negative, mantissa, exponent));
+}
+
+DETENT_PASSING inline Scaled scaled_from(Real a) { return words::to_scaled(words::scaled_from(a.raw, k_real_frac)); }
+DETENT_PASSING inline Scaled scaled_from(Unit a) { return words::to_scaled(words::scaled_from(a.raw, k_unit_frac)); }
+DETENT_PASSING inline Scaled multiply(Scaled a, Scaled b) {
+  return words::to_scaled(words::multiply(words::word_of(a), words::word_of(b)));
+}
 /// Range: b != 0.
-Scaled divide(Scaled a, Scaled b);
-Scaled add(Scaled a, Scaled b);
+DETENT_PASSING inline Scaled divide(Scaled a, Scaled b) {
+  return words::to_scaled(words::divide(words::word_of(a), words::word_of(b)));
+}
+DETENT_PASSING inline Scaled add(Scaled a, Scaled b) {
+  return words::to_scaled(words::add(words::word_of(a), words::word_of(b)));
+}
 /// a 2^n, exact.
-Scaled scaled_by_power(Scaled a, int n);
+DETENT_PASSING inline Scaled scaled_by_power(Scaled a, int n) {
+  return words::to_scaled(words::scaled_by_power(words::word_of(a), n));
+}
 /// Range: a >= 0.
-Scaled square_root(Scaled a);
-bool less(Scaled a, Scaled b);
+DETENT_PASSING inline Scaled square_root(Scaled a) { return words::to_scaled(words::square_root(words::word_of(a))); }
+DETENT_PASSING inline bool less(Scaled a, Scaled b) { return words::less(words::word_of(a), words::word_of(b)); }
 constexpr bool is_positive(Scaled a) { return a.mantissa > 0; }
 constexpr Scaled negate(Scaled a) { return Scaled::from_parts(-a.mantissa, a.exponent); }
 
@@ -41,14 +80,18 @@ inline Real multiply(Real a, Scaled b) {
   return Real::from_raw(Int128::product(a.raw, b.mantissa).round_shift(-b.exponent));
 }
 #else
-Real multiply(Real a, Scaled b);
+DETENT_PASSING inline Real multiply(Real a, Scaled b) {
+  return Real::from_raw(words::multiply_raw(a.raw, words::word_of(b)));
+}
 #endif
 /// 1 / a. Range: a > 0. Rounding: relative error <= 2^-29. Overflow: none.
-Scaled scaled_reciprocal(Real a);
+DETENT_PASSING inline Scaled scaled_reciprocal(Real a) { return words::to_scaled(words::scaled_reciprocal(a.raw)); }
 /// a b. Rounding: to nearest, ties up. Overflow: clamps to Real's range and sets `saturated` (else untouched).
-Real multiply(Real a, Scaled b, bool& saturated);
+DETENT_PASSING inline Real multiply(Real a, Scaled b, bool& saturated) {
+  return Real::from_raw(words::multiply_raw(a.raw, words::word_of(b), saturated));
+}
 /// As multiply(Real(1.0), a, saturated).
-Real to_real(Scaled a, bool& saturated);
+DETENT_PASSING inline Real to_real(Scaled a, bool& saturated) { return multiply(Real(1.0), a, saturated); }
 /// Range: |a| < 2. Rounding: to nearest, ties up.
 Unit to_unit(Scaled a);
 #else
@@ -69,6 +112,11 @@ constexpr Real to_real(Scaled a, bool& saturated) {
 constexpr Real multiply(Real a, Scaled b, bool& saturated) { return to_real(a * b, saturated); }
 constexpr Unit to_unit(Scaled a) { return a; }
 #endif
+
+/// Each component of v times a, as multiply(v.x, a).
+DETENT_SHARED inline Vec3<Real> multiply(const Vec3<Real>& v, Scaled a) {
+  return {multiply(v.x, a), multiply(v.y, a), multiply(v.z, a)};
+}
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

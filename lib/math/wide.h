@@ -15,7 +15,7 @@ struct PortableInt128 {
   static constexpr PortableInt128 from_words(int64_t high, uint64_t low) { return {low, high}; }
 
   /// a b, exact.
-  static constexpr PortableInt128 product(int64_t a, int64_t b) {
+  DETENT_SHARED static constexpr PortableInt128 product(int64_t a, int64_t b) {
     const uint32_t a_low = static_cast<uint32_t>(a);
     const uint32_t b_low = static_cast<uint32_t>(b);
     const int32_t a_high = static_cast<int32_t>(a >> 32);
@@ -28,7 +28,7 @@ struct PortableInt128 {
             int64_t{a_high} * b_high + (high_low >> 32) + (low_high >> 32)};
   }
   /// a b, exact; half the work of the full product.
-  static constexpr PortableInt128 product_narrow(int64_t a, int32_t b) {
+  DETENT_SHARED static constexpr PortableInt128 product_narrow(int64_t a, int32_t b) {
     const int64_t tail = static_cast<int64_t>(static_cast<uint32_t>(a)) * b;
     const int64_t head = (a >> 32) * b + (tail >> 32);  // |.| < 2^62 + 2^31
     return {(static_cast<uint64_t>(head) << 32) | (static_cast<uint64_t>(tail) & 0xffffffff), head >> 32};
@@ -64,19 +64,21 @@ struct PortableInt128 {
     return static_cast<int64_t>((high_sum << (32 - n)) + static_cast<uint64_t>(low_sum >> n));
   }
 
-  friend constexpr PortableInt128 operator+(PortableInt128 a, PortableInt128 b) {
+  DETENT_SHARED friend constexpr PortableInt128 operator+(const PortableInt128& a, const PortableInt128& b) {
     const uint64_t sum = a.low + b.low;
     const uint64_t carry = sum < a.low ? 1 : 0;
     return {sum, static_cast<int64_t>(static_cast<uint64_t>(a.high) + static_cast<uint64_t>(b.high) + carry)};
   }
-  friend constexpr PortableInt128 operator-(PortableInt128 a, PortableInt128 b) {
+  DETENT_SHARED friend constexpr PortableInt128 operator-(const PortableInt128& a, const PortableInt128& b) {
     const uint64_t borrow = a.low < b.low ? 1 : 0;
     return {a.low - b.low,
             static_cast<int64_t>(static_cast<uint64_t>(a.high) - static_cast<uint64_t>(b.high) - borrow)};
   }
-  friend constexpr PortableInt128 operator-(PortableInt128 a) { return PortableInt128{0, 0} - a; }
-  friend constexpr bool operator==(PortableInt128 a, PortableInt128 b) { return a.high == b.high && a.low == b.low; }
-  friend constexpr bool operator<(PortableInt128 a, PortableInt128 b) {
+  DETENT_SHARED friend constexpr PortableInt128 operator-(const PortableInt128& a) { return PortableInt128{0, 0} - a; }
+  DETENT_SHARED friend constexpr bool operator==(const PortableInt128& a, const PortableInt128& b) {
+    return a.high == b.high && a.low == b.low;
+  }
+  DETENT_SHARED friend constexpr bool operator<(const PortableInt128& a, const PortableInt128& b) {
     return a.high < b.high || (a.high == b.high && a.low < b.low);
   }
 
@@ -85,13 +87,13 @@ struct PortableInt128 {
   constexpr int64_t low_signed() const { return static_cast<int64_t>(low); }
 
   /// value 2^n. Range: 0 <= n <= 127. Overflow: wraps.
-  constexpr PortableInt128 shift_left(int n) const {
+  DETENT_SHARED constexpr PortableInt128 shift_left(int n) const {
     if (n == 0) return *this;
     if (n >= 64) return {0, static_cast<int64_t>(low << (n - 64))};
     return {low << n, static_cast<int64_t>((static_cast<uint64_t>(high) << n) | (low >> (64 - n)))};
   }
   /// The low 64 bits of value 2^-n. Range: 1 <= n <= 127. Rounding: to nearest, ties up. Overflow: wraps.
-  constexpr int64_t round_shift(int n) const {
+  DETENT_SHARED constexpr int64_t round_shift(int n) const {
     if (n > 64) return round_shift_64(high, n - 64);
     const uint64_t half = (low >> (n - 1)) & 1;
     if (n == 64) return static_cast<int64_t>(static_cast<uint64_t>(high) + half);

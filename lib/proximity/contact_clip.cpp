@@ -91,7 +91,7 @@ int AreaChoice::choose(AreaPoint (&chosen)[4]) const {
     for (int k = 0; k < count; ++k) fresh = fresh && !same(chosen[k], point);
     if (!fresh) continue;
     deep = deep || point.w <= deepest_.w + drop_;
-    if (distance(point, deepest_) < distance(chosen[nearest], deepest_) || count == 0) nearest = count;
+    if (count == 0 || distance(point, deepest_) < distance(chosen[nearest], deepest_)) nearest = count;
     chosen[count++] = point;
   }
   if (count == 0 || deep) return count;

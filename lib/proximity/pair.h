@@ -13,6 +13,11 @@ inline constexpr int k_metre_bits = 46;
 /// v 2^46. Fixed: exact. Float: to nearest, or saturated. NaN and infinity: false.
 bool raw_from_real(const Vec3<Real>& v, Vec64& raw);
 Real real_from_raw(int64_t raw);
+/// Of a finite length, m, 2^-46 m.
+inline int64_t raw_length(Real length) {
+  Vec64 raw = {0, 0, 0};
+  return raw_from_real({length, Real(0.0), Real(0.0)}, raw) ? raw.x : 0;
+}
 /// a - b, 2^-46 m. Fixed positions: exact within 2^17 m, saturated there. f64: to nearest. NaN and infinity: false.
 bool raw_difference(const Position& a, const Position& b, Vec64& raw);
 /// Q30, of length 1 within 2^-29. False unless | |q| - 1 | <= 2^-10.
@@ -22,14 +27,16 @@ Vec3<Unit> units_from_raw(const Vec32& v);
 /// A pair's greatest exponent: differences saturated in all components, and the largest cores, lie within 2^19 m.
 inline constexpr int k_exponent_max = 19;
 /// Has the leading bit of the largest component.
-constexpr uint64_t magnitudes(const Vec64& v) { return magnitude_64(v.x) | magnitude_64(v.y) | magnitude_64(v.z); }
+DETENT_SHARED constexpr uint64_t magnitudes(const Vec64& v) {
+  return magnitude_64(v.x) | magnitude_64(v.y) | magnitude_64(v.z);
+}
 
 /// |v|, rounded up.
 int64_t length_above(const Vec64& v);
 /// At least |v|, and at most 1.6 % and a few 2^-30 more; INT64_MAX where that is more than 2^62. Cheap.
 int64_t length_bound(const Vec64& v);
 /// Overflow: saturates at +-INT64_MAX.
-constexpr int64_t saturated_sum(int64_t a, int64_t b) {
+DETENT_SHARED constexpr int64_t saturated_sum(int64_t a, int64_t b) {
   if (b > 0) return a > INT64_MAX - b ? INT64_MAX : a + b;
   return a < -INT64_MAX - b ? -INT64_MAX : a + b;
 }

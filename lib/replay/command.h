@@ -1,6 +1,7 @@
 #pragma once
 #include <detent/body_access.h>
 #include <detent/forces.h>
+#include <detent/recording.h>
 #include <detent/world_access.h>
 
 #include "replay/archive.h"
@@ -52,8 +53,8 @@ enum class RecordTag : uint8_t {
 
 struct CreateBody {
   static constexpr RecordTag k_tag = RecordTag::create_body;
-  BodyDef def = {};
   BodyId id = {};  ///< what the call gave
+  BodyDef def = {};
 };
 /// The calls that need no more than a body.
 template <RecordTag tag, Status (*call)(World&, BodyId)>
@@ -148,8 +149,8 @@ struct BindAsset {
 };
 struct CreateJoint {
   static constexpr RecordTag k_tag = RecordTag::create_joint;
-  JointDef def = {};
   JointId id = {};  ///< what the call gave
+  JointDef def = {};
 };
 struct DestroyJoint {
   static constexpr RecordTag k_tag = RecordTag::destroy_joint;
@@ -168,14 +169,12 @@ struct TickDigested {
   uint64_t digest = 0;
 };
 
-template <class Archive>
-void visit(Archive& archive, BodyId& id) {
+inline void visit(Archive& archive, BodyId& id) {
   visit_word(archive, "body slot", id.slot);
   visit_word(archive, "body generation", id.generation);
 }
 
-template <class Archive>
-void visit(Archive& archive, Shape& shape) {
+inline void visit(Archive& archive, Shape& shape) {
   visit_choice(archive, "shape type", shape.type, ShapeType::sphere, ShapeType::compound);
   visit_number(archive, "radius", shape.radius);
   visit_number(archive, "half length", shape.half_length);
@@ -184,8 +183,7 @@ void visit(Archive& archive, Shape& shape) {
   visit_word(archive, "shape asset", shape.asset);
 }
 
-template <class Archive>
-void visit(Archive& archive, Material& material) {
+inline void visit(Archive& archive, Material& material) {
   visit_number(archive, "friction", material.friction);
   visit_number(archive, "restitution", material.restitution);
   visit_number(archive, "rolling resistance", material.rolling_resistance);
@@ -193,8 +191,7 @@ void visit(Archive& archive, Material& material) {
                RestitutionRule::smaller);
 }
 
-template <class Archive>
-void visit(Archive& archive, Filter& filter) {
+inline void visit(Archive& archive, Filter& filter) {
   visit_word(archive, "category", filter.category);
   visit_word(archive, "mask", filter.mask);
   uint32_t group = static_cast<uint32_t>(filter.group);
@@ -203,8 +200,7 @@ void visit(Archive& archive, Filter& filter) {
   visit_word(archive, "rule", filter.rule);
 }
 
-template <class Archive>
-void visit(Archive& archive, BodyDef& def) {
+inline void visit(Archive& archive, BodyDef& def) {
   visit_choice(archive, "body type", def.type, BodyType::fixed, BodyType::dynamic);
   visit_number(archive, "position", def.position);
   visit_number(archive, "rotation", def.rotation);
@@ -224,8 +220,7 @@ void visit(Archive& archive, BodyDef& def) {
 }
 
 /// All but the capacity, which is the recording's.
-template <class Archive>
-void visit(Archive& archive, WorldDef& def) {
+inline void visit(Archive& archive, WorldDef& def) {
   visit_number(archive, "gravity", def.gravity);
   visit_number(archive, "tick", def.tick);
   visit_word(archive, "substeps", def.substeps);
@@ -245,21 +240,18 @@ void visit(Archive& archive, WorldDef& def) {
                ManifoldReduction::deepest_area);
 }
 
-template <class Archive>
-void visit(Archive& archive, Explosion& explosion) {
+inline void visit(Archive& archive, Explosion& explosion) {
   visit_number(archive, "centre", explosion.centre);
   visit_number(archive, "radius", explosion.radius);
   visit_number(archive, "impulse", explosion.impulse);
 }
 
-template <class Archive>
-void visit(Archive& archive, JointId& id) {
+inline void visit(Archive& archive, JointId& id) {
   visit_word(archive, "joint slot", id.slot);
   visit_word(archive, "joint generation", id.generation);
 }
 
-template <class Archive>
-void visit(Archive& archive, JointAxis& axis) {
+inline void visit(Archive& archive, JointAxis& axis) {
   visit_flag(archive, "limited", axis.limited);
   visit_number(archive, "lower limit", axis.lower);
   visit_number(archive, "upper limit", axis.upper);
@@ -270,8 +262,7 @@ void visit(Archive& archive, JointAxis& axis) {
   visit_number(archive, "greatest force", axis.force_max);
 }
 
-template <class Archive>
-void visit(Archive& archive, JointDef& def) {
+inline void visit(Archive& archive, JointDef& def) {
   visit_choice(archive, "joint type", def.type, JointType::ball, JointType::wheel);
   visit(archive, def.a);
   visit(archive, def.b);
@@ -287,101 +278,76 @@ void visit(Archive& archive, JointDef& def) {
   visit_word(archive, "user data", def.user_data);
 }
 
-template <class Archive>
-void visit(Archive& archive, CreateJoint& command) {
+inline void visit(Archive& archive, CreateJoint& command) {
   visit(archive, command.def);
   visit(archive, command.id);
 }
-template <class Archive>
-void visit(Archive& archive, DestroyJoint& command) {
-  visit(archive, command.id);
-}
-template <class Archive>
-void visit(Archive& archive, SetJoint& command) {
+inline void visit(Archive& archive, DestroyJoint& command) { visit(archive, command.id); }
+inline void visit(Archive& archive, SetJoint& command) {
   visit(archive, command.id);
   visit(archive, command.def);
 }
-template <class Archive>
-void visit(Archive& archive, CreateBody& command) {
+inline void visit(Archive& archive, CreateBody& command) {
   visit(archive, command.def);
   visit(archive, command.id);
 }
-template <class Archive, RecordTag tag, Status (*call)(World&, BodyId)>
+template <RecordTag tag, Status (*call)(World&, BodyId)>
 void visit(Archive& archive, OnBody<tag, call>& command) {
   visit(archive, command.id);
 }
-template <class Archive, RecordTag tag, Status (*call)(World&, BodyId, const Position&, const Quat&)>
+template <RecordTag tag, Status (*call)(World&, BodyId, const Position&, const Quat&)>
 void visit(Archive& archive, ToPose<tag, call>& command) {
   visit(archive, command.id);
   visit_number(archive, "position", command.position);
   visit_number(archive, "rotation", command.rotation);
 }
-template <class Archive>
-void visit(Archive& archive, SetVelocity& command) {
+inline void visit(Archive& archive, SetVelocity& command) {
   visit(archive, command.id);
   visit_number(archive, "velocity", command.velocity);
   visit_number(archive, "spin", command.spin);
 }
-template <class Archive, RecordTag tag, class Place, Status (*call)(World&, BodyId, const Vec3<Scaled>&, const Place&)>
+template <RecordTag tag, class Place, Status (*call)(World&, BodyId, const Vec3<Scaled>&, const Place&)>
 void visit(Archive& archive, PushAt<tag, Place, call>& command) {
   visit(archive, command.id);
   visit_number(archive, "push", command.push);
   visit_number(archive, "place", command.place);
 }
-template <class Archive, RecordTag tag, Status (*call)(World&, BodyId, const Vec3<Scaled>&)>
+template <RecordTag tag, Status (*call)(World&, BodyId, const Vec3<Scaled>&)>
 void visit(Archive& archive, Push<tag, call>& command) {
   visit(archive, command.id);
   visit_number(archive, "push", command.push);
 }
-template <class Archive>
-void visit(Archive& archive, SetGravity& command) {
-  visit_number(archive, "gravity", command.gravity);
-}
-inline void visit_value(auto& archive, uint32_t& value) { visit_word(archive, "value", value); }
-inline void visit_value(auto& archive, bool& value) { visit_flag(archive, "value", value); }
-inline void visit_value(auto& archive, BodyType& type) {
+inline void visit(Archive& archive, SetGravity& command) { visit_number(archive, "gravity", command.gravity); }
+inline void visit_value(Archive& archive, uint32_t& value) { visit_word(archive, "value", value); }
+inline void visit_value(Archive& archive, bool& value) { visit_flag(archive, "value", value); }
+inline void visit_value(Archive& archive, BodyType& type) {
   visit_choice(archive, "body type", type, BodyType::fixed, BodyType::dynamic);
 }
-inline void visit_value(auto& archive, Shape& shape) { visit(archive, shape); }
-inline void visit_value(auto& archive, Material& material) { visit(archive, material); }
-inline void visit_value(auto& archive, Real& value) { visit_number(archive, "value", value); }
+inline void visit_value(Archive& archive, Shape& shape) { visit(archive, shape); }
+inline void visit_value(Archive& archive, Material& material) { visit(archive, material); }
+inline void visit_value(Archive& archive, Real& value) { visit_number(archive, "value", value); }
 #if DETENT_FIXED
-inline void visit_value(auto& archive, Scaled& value) { visit_number(archive, "value", value); }
+inline void visit_value(Archive& archive, Scaled& value) { visit_number(archive, "value", value); }
 #endif
-template <class Archive, RecordTag tag, class Value, auto call>
+template <RecordTag tag, class Value, auto call>
 void visit(Archive& archive, SetValue<tag, Value, call>& command) {
   visit(archive, command.id);
   visit_value(archive, command.value);
 }
-template <class Archive>
-void visit(Archive& archive, SetDamping& command) {
+inline void visit(Archive& archive, SetDamping& command) {
   visit(archive, command.id);
   visit_number(archive, "linear damping", command.linear);
   visit_number(archive, "angular damping", command.angular);
 }
-template <class Archive>
-void visit(Archive& archive, SetSettings& command) {
-  visit(archive, command.def);
-}
-template <class Archive>
-void visit(Archive& archive, Explode& command) {
-  visit(archive, command.explosion);
-}
-template <class Archive>
-void visit(Archive& archive, SetFilter& command) {
+inline void visit(Archive& archive, SetSettings& command) { visit(archive, command.def); }
+inline void visit(Archive& archive, Explode& command) { visit(archive, command.explosion); }
+inline void visit(Archive& archive, SetFilter& command) {
   visit(archive, command.id);
   visit(archive, command.filter);
 }
-template <class Archive>
-void visit(Archive& archive, BindAsset& command) {
-  visit_word(archive, "asset index", command.index);
-}
-template <class Archive>
-void visit(Archive&, Tick&) {}
-template <class Archive>
-void visit(Archive& archive, TickDigested& command) {
-  archive.bits("digest", command.digest, 8);
-}
+inline void visit(Archive& archive, BindAsset& command) { visit_word(archive, "asset index", command.index); }
+inline void visit(Archive&, Tick&) {}
+inline void visit(Archive& archive, TickDigested& command) { archive.bits("digest", command.digest, 8); }
 
 inline Status apply(World& world, CreateJoint& command) { return create_joint(world, command.def, command.id); }
 inline Status apply(World& world, DestroyJoint& command) { return destroy_joint(world, command.id); }
@@ -419,90 +385,23 @@ inline Status apply(World& world, Explode& command) { return explode(world, comm
 inline Status apply(World& world, SetFilter& command) { return set_filter(world, command.id, command.filter); }
 inline Status apply(World& world, BindAsset& command) { return bind_asset(world, command.index); }
 
-template <class Command, class Visitor>
-bool visit_new(const Visitor& visitor) {
-  Command command = {};
-  visitor(command);
-  return true;
-}
+/// What goes for all commands: `visit` and `apply` of a command of this type at `command`.
+struct CommandCode {
+  RecordTag tag;
+  void (*visit)(Archive& archive, void* command);
+  Status (*apply)(World& world, void* command);
+};
+template <class Command>
+inline constexpr CommandCode k_command_code = {
+    Command::k_tag, [](Archive& archive, void* command) { visit(archive, *static_cast<Command*>(command)); },
+    [](World& world, void* command) { return apply(world, *static_cast<Command*>(command)); }};
 
-/// Calls `visitor(command)` with a default command of the tag's type. False if no call has this tag.
-template <class Visitor>
-bool with_command(RecordTag tag, const Visitor& visitor) {
-  switch (tag) {
-    case RecordTag::create_body:
-      return visit_new<CreateBody>(visitor);
-    case RecordTag::destroy_body:
-      return visit_new<DestroyBody>(visitor);
-    case RecordTag::set_pose:
-      return visit_new<SetPose>(visitor);
-    case RecordTag::set_velocity:
-      return visit_new<SetVelocity>(visitor);
-    case RecordTag::apply_force:
-      return visit_new<ApplyForce>(visitor);
-    case RecordTag::apply_torque:
-      return visit_new<ApplyTorque>(visitor);
-    case RecordTag::apply_impulse:
-      return visit_new<ApplyImpulse>(visitor);
-    case RecordTag::apply_impulse_at:
-      return visit_new<ApplyImpulseAt>(visitor);
-    case RecordTag::apply_angular_impulse:
-      return visit_new<ApplyAngularImpulse>(visitor);
-    case RecordTag::set_gravity:
-      return visit_new<SetGravity>(visitor);
-    case RecordTag::set_user_data:
-      return visit_new<SetUserData>(visitor);
-    case RecordTag::bind_asset:
-      return visit_new<BindAsset>(visitor);
-    case RecordTag::wake_body:
-      return visit_new<WakeBody>(visitor);
-    case RecordTag::put_to_sleep:
-      return visit_new<PutToSleep>(visitor);
-    case RecordTag::set_type:
-      return visit_new<SetType>(visitor);
-    case RecordTag::set_shape:
-      return visit_new<SetShape>(visitor);
-    case RecordTag::set_mass:
-      return visit_new<SetMass>(visitor);
-    case RecordTag::set_density:
-      return visit_new<SetDensity>(visitor);
-    case RecordTag::set_material:
-      return visit_new<SetMaterial>(visitor);
-    case RecordTag::set_damping:
-      return visit_new<SetDamping>(visitor);
-    case RecordTag::set_gravity_scale:
-      return visit_new<SetGravityScale>(visitor);
-    case RecordTag::set_turn_locks:
-      return visit_new<SetTurnLocks>(visitor);
-    case RecordTag::set_sensor:
-      return visit_new<SetSensor>(visitor);
-    case RecordTag::set_settings:
-      return visit_new<SetSettings>(visitor);
-    case RecordTag::apply_force_at:
-      return visit_new<ApplyForceAt>(visitor);
-    case RecordTag::apply_force_at_point:
-      return visit_new<ApplyForceAtPoint>(visitor);
-    case RecordTag::apply_impulse_at_point:
-      return visit_new<ApplyImpulseAtPoint>(visitor);
-    case RecordTag::explode:
-      return visit_new<Explode>(visitor);
-    case RecordTag::move_kinematic:
-      return visit_new<MoveKinematic>(visitor);
-    case RecordTag::set_filter:
-      return visit_new<SetFilter>(visitor);
-    case RecordTag::create_joint:
-      return visit_new<CreateJoint>(visitor);
-    case RecordTag::destroy_joint:
-      return visit_new<DestroyJoint>(visitor);
-    case RecordTag::set_joint:
-      return visit_new<SetJoint>(visitor);
-    case RecordTag::query:
-    case RecordTag::tick:
-    case RecordTag::tick_digested:
-      break;
-  }
-  return false;
-}
+/// Of the largest command.
+inline constexpr uint32_t k_command_bytes_max = sizeof(SetJoint) > sizeof(CreateBody) ? sizeof(SetJoint)
+                                                                                      : sizeof(CreateBody);
+
+/// The command of this tag, or null if no call has it.
+const CommandCode* find_command(RecordTag tag);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -42,8 +42,7 @@ struct ChunkHeader {
   uint64_t tick = 0;      ///< ticks completed before what the chunk holds
 };
 
-template <class Archive>
-void visit(Archive& archive, ChunkHeader& header) {
+inline void visit(Archive& archive, ChunkHeader& header) {
   archive.bits("chunk type", header.type, 2);
   archive.bits("chunk length", header.payload_count, 2);
   archive.bits("chunk sequence", header.sequence, 4);
@@ -55,13 +54,12 @@ struct Ending {
   uint64_t digest = 0;  ///< of the final state
 };
 
-template <class Archive>
-void visit(Archive& archive, Ending& ending) {
+inline void visit(Archive& archive, Ending& ending) {
   archive.bits("tick count", ending.ticks, 8);
   archive.bits("final digest", ending.digest, 8);
 }
 
-template <class Archive, class Enum>
+template <class Enum>
 void visit_header_choice(Archive& archive, const char* name, Enum& value, Enum first, Enum last) {
   uint32_t word = static_cast<uint32_t>(value);
   visit_word(archive, name, word);
@@ -70,8 +68,7 @@ void visit_header_choice(Archive& archive, const char* name, Enum& value, Enum f
   value = static_cast<Enum>(word);
 }
 
-template <class Archive>
-void visit(Archive& archive, RecordingInfo& info) {
+inline void visit(Archive& archive, RecordingInfo& info) {
   visit_word(archive, "format version", info.format_version);
   visit_word(archive, "simulation version", info.simulation_version);
   visit_header_choice(archive, "configuration", info.config, Config::fx64, Config::f64);

@@ -1,3 +1,4 @@
+#include <detent/detail/shared.h>
 #include <detent/recording.h>
 #include <string.h>
 
@@ -10,22 +11,10 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-namespace {
-
-/// The id that a call gave: its only result.
-template <class Command>
-BodyId id_given(const Command&) {
-  return {};
-}
-BodyId id_given(const CreateBody& command) { return command.id; }
-BodyId id_given(const CreateJoint& command) { return {command.id.slot, command.id.generation}; }
-
-}  // namespace
-
 Player::Player(Source source, uint8_t* buffer, uint32_t buffer_bytes)
     : source_(source), buffer_(buffer), buffer_bytes_(buffer_bytes) {}
 
-Status Player::fail(Status status, uint64_t offset, const char* field) {
+DETENT_SHARED Status Player::fail(Status status, uint64_t offset, const char* field) {
   if (error_.status != Status::ok) return error_.status;
   error_.status = status;
   error_.tick = tick_;
@@ -212,20 +201,19 @@ Status Player::query(const World* world, Reader& reader, uint64_t offset) {
 
 Status Player::call(World* world, uint32_t tag, Reader& reader, uint64_t offset) {
   if (static_cast<RecordTag>(tag) == RecordTag::query) return query(world, reader, offset);
-  Status status = Status::ok;
-  const bool known = with_command(static_cast<RecordTag>(tag), [&](auto& command) {
-    visit(reader, command);
-    if (reader.failed != nullptr || world == nullptr) return;
-    const BodyId recorded = id_given(command);
-    status = apply(*world, command);
-    if (status == Status::feature_missing || status == Status::rule_missing)
-      status = fail(status, offset, "call");
-    else if (status != Status::ok)
-      status = fail(Status::digest_differs, offset, "call refused");
-    else if (!(id_given(command) == recorded))
-      status = fail(Status::digest_differs, offset, "body id given");
-  });
-  return known ? status : fail(Status::corrupt, offset, "record tag");
+  const CommandCode* const code = find_command(static_cast<RecordTag>(tag));
+  if (code == nullptr) return fail(Status::corrupt, offset, "record tag");
+  alignas(8) uint8_t command[k_command_bytes_max] = {};
+  code->visit(reader, command);
+  if (reader.failed != nullptr || world == nullptr) return Status::ok;
+  BodyId recorded, given;  // or a joint's
+  memcpy(&recorded, command, sizeof recorded);
+  const Status status = code->apply(*world, command);
+  memcpy(&given, command, sizeof given);
+  if (status == Status::feature_missing || status == Status::rule_missing) return fail(status, offset, "call");
+  if (status != Status::ok) return fail(Status::digest_differs, offset, "call refused");
+  if (!(given == recorded)) return fail(Status::digest_differs, offset, "body id given");
+  return Status::ok;
 }
 
 Status Player::advance(World* world, TickResult& result) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <detent/query.h>
+#include <detent/recording.h>
 
 #include "replay/command.h"
 
@@ -32,28 +33,25 @@ using OverlapCommand = QueryCommand<QueryKind::overlap, OverlapQuery, query_over
 using BoundsCommand = QueryCommand<QueryKind::bounds, BoundsQuery, query_bounds>;
 using ClosestCommand = QueryCommand<QueryKind::closest, ClosestQuery, query_closest>;
 
-template <class Archive>
-void visit(Archive& archive, QueryFilter& filter) {
+inline void visit(Archive& archive, QueryFilter& filter) {
   visit_word(archive, "category", filter.category);
   visit_word(archive, "mask", filter.mask);
   visit(archive, filter.ignore);
 }
 
 /// What all queries end with.
-template <class Archive, class Query>
+template <class Query>
 void visit_choice_of_bodies(Archive& archive, Query& query) {
   visit(archive, query.filter);
   visit_choice(archive, "all", query.all, false, true);
 }
 
-template <class Archive>
-void visit(Archive& archive, RayQuery& query) {
+inline void visit(Archive& archive, RayQuery& query) {
   visit_number(archive, "origin", query.origin);
   visit_number(archive, "way", query.way);
   visit_choice_of_bodies(archive, query);
 }
-template <class Archive>
-void visit(Archive& archive, CastQuery& query) {
+inline void visit(Archive& archive, CastQuery& query) {
   visit(archive, query.shape);
   visit_number(archive, "position", query.position);
   visit_number(archive, "rotation", query.rotation);
@@ -61,21 +59,18 @@ void visit(Archive& archive, CastQuery& query) {
   visit_number(archive, "turn", query.turn);
   visit_choice_of_bodies(archive, query);
 }
-template <class Archive>
-void visit(Archive& archive, OverlapQuery& query) {
+inline void visit(Archive& archive, OverlapQuery& query) {
   visit(archive, query.shape);
   visit_number(archive, "position", query.position);
   visit_number(archive, "rotation", query.rotation);
   visit_choice_of_bodies(archive, query);
 }
-template <class Archive>
-void visit(Archive& archive, BoundsQuery& query) {
+inline void visit(Archive& archive, BoundsQuery& query) {
   visit_number(archive, "lower", query.lower);
   visit_number(archive, "upper", query.upper);
   visit_choice_of_bodies(archive, query);
 }
-template <class Archive>
-void visit(Archive& archive, ClosestQuery& query) {
+inline void visit(Archive& archive, ClosestQuery& query) {
   visit(archive, query.shape);
   visit_number(archive, "position", query.position);
   visit_number(archive, "rotation", query.rotation);
@@ -83,32 +78,34 @@ void visit(Archive& archive, ClosestQuery& query) {
   visit_choice_of_bodies(archive, query);
 }
 
-/// Counts the bytes of fields.
-struct Counter {
-  static constexpr bool k_normalises = false;
-  uint32_t count = 0;
-
-  void bits(const char*, uint64_t&, uint32_t byte_count) { count += byte_count; }
-  void require(const char*, bool, Status) {}
+/// What goes for all queries.
+struct QueryCode {
+  QueryKind kind;
+  /// What follows the kind, of a command of this type.
+  void (*visit)(Archive& archive, void* command);
+  /// Asks, and sets the command's digest.
+  Status (*ask)(const World& world, void* command, QueryHits hits, QueryReport& report);
+  uint32_t digest_at;  ///< bytes from the command's start
 };
+template <class Command>
+inline constexpr QueryCode k_query_code = {Command::k_kind,
+                                           [](Archive& archive, void* command) {
+                                             visit(archive, static_cast<Command*>(command)->query);
+                                             archive.bits("query digest", static_cast<Command*>(command)->digest, 8);
+                                           },
+                                           [](const World& world, void* command, QueryHits hits, QueryReport& report) {
+                                             const Status status = Command::k_call(
+                                                 world, static_cast<Command*>(command)->query, hits, report);
+                                             static_cast<Command*>(command)->digest = report.digest;
+                                             return status;
+                                           },
+                                           __builtin_offsetof(Command, digest)};
 
-/// What follows the kind.
-template <class Archive, QueryKind kind, class Query,
-          Status (*call)(const World&, const Query&, QueryHits, QueryReport&)>
-void visit_question(Archive& archive, QueryCommand<kind, Query, call>& command) {
-  visit(archive, command.query);
-  archive.bits("query digest", command.digest, 8);
-}
-
-template <class Archive, QueryKind kind, class Query,
-          Status (*call)(const World&, const Query&, QueryHits, QueryReport&)>
+/// With the length, from the kind on, and the kind.
+void visit_query(Archive& archive, const QueryCode& code, void* command);
+template <QueryKind kind, class Query, Status (*call)(const World&, const Query&, QueryHits, QueryReport&)>
 void visit(Archive& archive, QueryCommand<kind, Query, call>& command) {
-  Counter counter;
-  visit_question(counter, command);
-  uint64_t length = counter.count + 1, kind_there = static_cast<uint64_t>(kind);
-  archive.bits("query length", length, 2);
-  archive.bits("query kind", kind_there, 1);
-  visit_question(archive, command);
+  visit_query(archive, k_query_code<QueryCommand<kind, Query, call>>, &command);
 }
 
 /// The way into the code that repeats queries, for a player.

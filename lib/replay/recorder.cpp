@@ -9,6 +9,21 @@
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
+namespace {
+
+/// A record that is no call.
+template <class Record>
+constexpr CommandCode k_record_code = {
+    Record::k_tag, [](Archive& archive, void* record) { visit(archive, *static_cast<Record*>(record)); }, nullptr};
+
+struct LoggedQuery {
+  static constexpr RecordTag k_tag = RecordTag::query;
+  const QueryCode& code;
+  void* command;
+};
+void visit(Archive& archive, LoggedQuery& query) { visit_query(archive, query.code, query.command); }
+
+}  // namespace
 
 // A record is at most as long as its command, and always fits an empty chunk.
 static_assert(sizeof(CreateBody) + 1 <= k_chunk_payload_bytes_max);
@@ -98,14 +113,13 @@ void Recorder::flush_records() {
   payload_count_ = 0;
 }
 
-template <class Command>
-void Recorder::log(Command& command) {
+void Recorder::log(const CommandCode& code, void* command) {
   for (;;) {
     if (payload_count_ == 0) chunk_tick_ = tick_;
     Writer writer{buffer_ + k_chunk_header_bytes + payload_count_, k_chunk_payload_bytes_max - payload_count_};
-    uint64_t tag = static_cast<uint64_t>(Command::k_tag);
+    uint64_t tag = static_cast<uint64_t>(code.tag);
     writer.bits("record tag", tag, 1);
-    visit(writer, command);
+    code.visit(writer, command);
     if (!writer.full) {
       payload_count_ += writer.count;
       return;
@@ -114,30 +128,37 @@ void Recorder::log(Command& command) {
   }
 }
 
-template <class Command>
-Status Recorder::apply_and_log(Command& command) {
+Status Recorder::apply_and_log(const CommandCode& code, void* command) {
   Normaliser normaliser;
-  visit(normaliser, command);
+  code.visit(normaliser, command);
   if (normaliser.status != Status::ok) return normaliser.status;
-  const Status status = apply(world_, command);
-  if (status == Status::ok && recording()) log(command);
+  const Status status = code.apply(world_, command);
+  if (status == Status::ok && recording()) log(code, command);
   return status;
 }
+template <class Command>
+Status Recorder::apply_and_log(Command& command) {
+  return apply_and_log(k_command_code<Command>, &command);
+}
 
+Status Recorder::ask_and_log(const QueryCode& code, void* command, QueryHits hits, QueryReport& report) {
+  Normaliser normaliser;
+  code.visit(normaliser, command);
+  if (normaliser.status != Status::ok) return normaliser.status;
+  const Status status = code.ask(world_, command, hits, report);
+  if (status == Status::ok && recording()) {
+    LoggedQuery logged = {code, command};
+    log(k_record_code<LoggedQuery>, &logged);
+  }
+  return status;
+}
 template <class Command>
 Status Recorder::ask_and_log(Command& command, QueryHits hits, QueryReport& report) {
-  Normaliser normaliser;
-  visit(normaliser, command);
-  if (normaliser.status != Status::ok) return normaliser.status;
-  const Status status = Command::k_call(world_, command.query, hits, report);
-  if (status != Status::ok || !recording()) return status;
-  command.digest = report.digest;
-  log(command);
-  return status;
+  return ask_and_log(k_query_code<Command>, &command, hits, report);
 }
 
 Status Recorder::create_body(const BodyDef& def, BodyId& id) {
-  CreateBody command{def, {}};
+  CreateBody command{{}, def};
   const Status status = apply_and_log(command);
   if (status == Status::ok) id = command.id;
   return status;
@@ -314,7 +335,7 @@ Status Recorder::query_closest(const ClosestQuery& query, QueryHits hits, QueryR
 }
 
 Status Recorder::create_joint(const JointDef& def, JointId& id) {
-  CreateJoint command{def, {}};
+  CreateJoint command{{}, def};
   const Status status = apply_and_log(command);
   if (status == Status::ok) id = command.id;
   return status;
@@ -336,10 +357,10 @@ StepReport Recorder::step() {
   // Logged before tick_ moves on: a chunk that starts with this record starts before this tick.
   if (digest_due(digest_interval_, report.tick)) {
     TickDigested command{digest(world_)};
-    log(command);
+    log(k_record_code<TickDigested>, &command);
   } else {
     Tick command;
-    log(command);
+    log(k_record_code<Tick>, &command);
   }
   tick_ = report.tick;
   ++ticks_;

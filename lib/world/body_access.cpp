@@ -271,7 +271,7 @@ Status set_density(World& world, BodyId id, Scaled density) {
   const FloatEnvironment environment;
   Change change(world, id);
   if (!change.found) return Status::bad_id;
-  if (shape_of(change.traits) == ShapeType::half_space) return Status::bad_argument;
+  if (is_ground(change.traits)) return Status::bad_argument;
   return change.make_if(set_body_density(world, density, change.traits));
 }
 

@@ -1,6 +1,7 @@
 #include <detent/body_access.h>
 #include <detent/contacts.h>
 #include <detent/debug_draw.h>
+#include <detent/triangles.h>
 
 #include "base/float_environment.h"
 #include "dynamics/spin.h"
@@ -62,6 +63,21 @@ void draw_contact(const State& state, const Contact& contact, const DebugDraw& t
   }
 }
 
+/// The edges of a surface's triangles; those that two share twice.
+void draw_surface(const World& world, const State& state, BodyId id, const DebugDraw& to) {
+  struct Lines {
+    const DebugDraw& to;
+    DrawKind kind;
+  };
+  Lines lines = {to, kind_of(state, id.slot - 1)};
+  // What has no bytes cannot be drawn; its bounds can.
+  static_cast<void>(visit_triangles(world, id, &lines, [](void* user, const BodyTriangle& triangle) {
+    const Lines& drawn = *static_cast<const Lines*>(user);
+    for (int k = 0; k < 3; ++k)
+      drawn.to.line(drawn.to.user, triangle.corner[k], triangle.corner[(k + 1) % 3], drawn.kind);
+  }));
+}
+
 void draw_body(const World& world, const State& state, BodyId id, const DebugDraw& to, DrawFlags flags) {
   const uint32_t slot = id.slot - 1;
   Shape shape;
@@ -70,6 +86,8 @@ void draw_body(const World& world, const State& state, BodyId id, const DebugDra
     to.solid(to.user, id, shape, {pose.position, pose.rotation}, kind_of(state, slot));
   }
   if (to.line == nullptr) return;
+  if (to.solid == nullptr && contains(flags, DrawFlags::bodies) && is_surface(state.traits[slot]))
+    draw_surface(world, state, id, to);
   if (contains(flags, DrawFlags::bounds)) draw_bounds(state, slot, to);
   if (contains(flags, DrawFlags::velocities)) draw_velocity(state, slot, to);
 }

@@ -47,10 +47,7 @@ struct Push {
     momentum += Vec3<Real>{scale_by_power(turn.x, 1), scale_by_power(turn.y, 1), scale_by_power(turn.z, 1)};
     return Status::ok;
   }
-  Vec3<Real> arm_to(const Position& point) const {
-    const Position& at = state.poses[slot].position;
-    return {real_difference(point.x, at.x), real_difference(point.y, at.y), real_difference(point.z, at.z)};
-  }
+  Vec3<Real> arm_to(const Position& point) const { return real_difference(point, state.poses[slot].position); }
   bool fits() {
     const Quat& rotation = state.poses[slot].rotation;
     motion.momentum = without_locked(traits(), rotation, motion.momentum);
@@ -207,8 +204,7 @@ Status move_kinematic(World& world, BodyId id, const Position& position, const Q
   BodyPose target{};
   if (const Status status = make_pose(position, rotation, target); status != Status::ok) return status;
   const BodyPose& pose = state.poses[slot];
-  Vec3<Real> way = {real_difference(position.x, pose.position.x), real_difference(position.y, pose.position.y),
-                    real_difference(position.z, pose.position.z)};
+  Vec3<Real> way = real_difference(position, pose.position);
 #if defined(DETENT_FX32)
   const auto rest = [&](int i) {
     return Real::from_raw(static_cast<int64_t>(pose.remainder[i]) << (Real::k_frac - 32));

@@ -312,8 +312,7 @@ Status place_joint(const World& world, const Position& point, const Quat& frame,
   if (!normalise_input(frame, unit)) return Status::not_normalised;
   JointDef placed = def;
   const auto place = [&](const BodyPose& pose, Vec3<Real>& anchor, Quat& turn) {
-    const Vec3<Real> way = {real_difference(point.x, pose.position.x), real_difference(point.y, pose.position.y),
-                            real_difference(point.z, pose.position.z)};
+    const Vec3<Real> way = real_difference(point, pose.position);
     if (!within(way, k_anchor_max)) return false;
     anchor = rotate_inverse(pose.rotation, way);
     turn = normalise(multiply(conjugate(pose.rotation), unit));

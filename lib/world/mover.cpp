@@ -39,18 +39,14 @@ Status check_mover(const Mover& mover) {
   return normalise_input(mover.ground_pose.rotation, rotation) ? Status::ok : Status::not_normalised;
 }
 
-Vec3<Real> way_from(const Position& from, const Position& to) {
-  return {real_difference(to.x, from.x), real_difference(to.y, from.y), real_difference(to.z, from.z)};
-}
-
 /// Where the ground's motion since the last call takes the mover's place; farther than a wish may go it does not
 /// follow.
 Vec3<Real> way_of_ground(const Mover& mover, const Pose& now) {
   const Pose& then = mover.ground_pose;
-  Vec3<Real> way = way_from(then.position, now.position);
+  Vec3<Real> way = real_difference(now.position, then.position);
   if (!within(way, k_way_max)) return k_still;
   if (!(now.rotation == then.rotation)) {
-    const Vec3<Real> arm = way_from(then.position, mover.position);
+    const Vec3<Real> arm = real_difference(mover.position, then.position);
     if (!within(arm, k_arm_max)) return k_still;
     way += rotate(normalise(multiply(now.rotation, conjugate(then.rotation))), arm) - arm;
   }
@@ -68,7 +64,8 @@ Vec3<Scaled> impulse_of(const World& world, const MoverSettings& settings, const
   const Vec3<Unit> up = matrix_from(settings.rotation).column[1];
   Vec3<Real> velocity;
   if (!is_dynamic(traits) || dot(contact.normal, up) >= settings.slope_cosine ||
-      get_velocity_at(world, contact.body, way_from(state.poses[slot].position, contact.point), velocity) != Status::ok)
+      get_velocity_at(world, contact.body, real_difference(contact.point, state.poses[slot].position), velocity) !=
+          Status::ok)
     return nothing;
   const Real time = state.world.tick_time;
   const Real speed = divide(-dot(way, contact.normal), time) + dot(velocity, contact.normal);
@@ -119,9 +116,9 @@ Status move_mover(const World& world, const MoverSettings& asked, const Vec3<Rea
   }
   if (motion.status() != Status::ok) return motion.status();
 
-  made.carried = way_from(mover.position, carried);
-  made.recovered = way_from(carried, start);
-  made.moved = way_from(start, motion.position());
+  made.carried = real_difference(carried, mover.position);
+  made.recovered = real_difference(start, carried);
+  made.moved = real_difference(motion.position(), start);
   Mover next;
   next.position = motion.position();
   if (floor != nullptr && get_pose(world, floor->body, next.ground_pose) == Status::ok) {

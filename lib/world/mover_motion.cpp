@@ -4,7 +4,7 @@
 
 #include "collision/compound_code.h"
 #include "geometry/sweep.h"
-#include "world/query_bodies.h"
+#include "world/query_surface.h"
 #include "world/ranges.h"
 
 namespace detent {
@@ -18,8 +18,23 @@ constexpr Footing k_footings[] = {Footing::floor, Footing::edge};  // what is be
 constexpr int k_core_power = -3;
 constexpr uint32_t k_recoveries = 4;
 constexpr uint32_t k_hits_passed = 3;  ///< by a cast
+/// Of normals that are told apart.
+constexpr Unit k_apart_cosine = 0.9999;
 /// Of an edge to stand on: the least part of its normal along up.
 constexpr Unit k_edge_cosine = 0.125;
+
+/// Likewise of a surface: to the side of the triangle that the mover's centre is on.
+bool way_out_of_surface(const World& world, const QueryHit& hit, const Shape& core, const Pose& at,
+                        const Vec3<Unit>& up, Vec3<Unit>& normal, Real& depth) {
+  const StateView<const uint8_t> state = view_of(world);
+  const uint32_t slot = hit.body.slot - 1;
+  Real height;
+  if (side_of_triangle(asked_surface(world, state.traits[slot], state.poses[slot]), hit.triangle, at, normal, height) !=
+      Status::ok)
+    return false;
+  depth = max(core.radius + abs(core.half_length * dot(normal, up)) - height, k_zero);
+  return true;
+}
 
 /// The way out of a body that even the core is in; of a compound that of the part that it is in deepest.
 bool way_out(const World& world, BodyId body, const Shape& core, const Pose& at, Vec3<Unit>& normal, Real& depth) {
@@ -45,10 +60,6 @@ bool way_out(const World& world, BodyId body, const Shape& core, const Pose& at,
     depth = deepest;
   }
   return found;
-}
-
-Vec3<Real> way_from(const Position& from, const Position& to) {
-  return {real_difference(to.x, from.x), real_difference(to.y, from.y), real_difference(to.z, from.z)};
 }
 
 }  // namespace
@@ -84,21 +95,68 @@ void MoverMotion::go_back(const Place& place) {
 
 MoverPlane MoverMotion::plane_at(const QueryHit& hit, Real room) const {
   const bool floor = dot(hit.normal, up_) >= settings_.slope_cosine;
-  return {hit.normal, room, floor ? Footing::floor : Footing::unknown, hit.body, hit.point};
+  return {hit.normal, room, floor ? Footing::floor : Footing::unknown, hit.body, hit.point, hit.triangle != UINT32_MAX};
+}
+
+void MoverMotion::add_plane(const MoverPlane& plane) {
+  if (plane_count_ - met_count_ == k_mover_near_max)
+    ++report_.hits_dropped;
+  else
+    planes_[plane_count_++] = plane;
+}
+
+/// The planes of a surface beside that of its nearest point, which was added last: a floor and walls may be of one
+/// body.
+void MoverMotion::add_surface(const QueryHit& hit) {
+  const StateView<const uint8_t> state = view_of(world_);
+  const BodyPose& ground = state.poses[hit.body.slot - 1];
+  QueryShape shape;
+  if (make_query_shape(world_, capsule(settings_.radius, settings_.half_length), shape) != Status::ok) return;
+  BodyPose pose = {};
+  pose.position = position_;
+  pose.rotation = settings_.rotation;
+  const Real reach = settings_.gap + scale_by_power(settings_.gap, -1);
+  SurfaceContacts contacts;
+  world_.features->surface->collide({ground, state.traits[hit.body.slot - 1], matrix_from(ground.rotation)},
+                                    {pose, shape.traits, matrix_from(pose.rotation)}, reach, world_.assets, contacts);
+  if (contacts.dropped != 0) ++report_.hits_dropped;
+  const Vec3<Unit> nearest = planes_[plane_count_ - 1].normal;
+  for (uint32_t i = 0; i < contacts.count; ++i) {
+    const ContactGeometry& geometry = contacts.contact[i].geometry;
+    if (geometry.count == 0 || dot(geometry.normal, nearest) >= k_apart_cosine) continue;
+    uint32_t lowest = 0;
+    for (uint32_t k = 1; k < geometry.count; ++k)
+      lowest = geometry.point[k].separation < geometry.point[lowest].separation ? k : lowest;
+    const ContactGeometryPoint& point = geometry.point[lowest];
+    QueryHit beside = hit;
+    beside.normal = geometry.normal;
+    const Vec3<Unit>& arm = point.arm_b;
+    const int exponent = shape.traits.size_exponent;
+    const Vec3<Real> way = {real_from_unit(arm.x, exponent), real_from_unit(arm.y, exponent),
+                            real_from_unit(arm.z, exponent)};
+    beside.point = moved(position_, way - geometry.normal * scale_by_power(point.separation, -1));
+    add_plane(plane_at(beside, point.separation - settings_.gap));
+  }
 }
 
 void MoverMotion::add_near(const QueryHit& hit, const Shape& core) {
+  const bool on_surface = hit.triangle != UINT32_MAX;
   QueryHit out = hit;
   if (hit.normal == k_no_normal) {
     out.normal = up_;
     out.point = position_;
     Real depth = core.radius;  // of a body that cannot be asked
-    way_out(world_, hit.body, core, {position_, settings_.rotation}, out.normal, depth);
+    const Pose at = {position_, settings_.rotation};
+    if (on_surface)
+      way_out_of_surface(world_, hit, core, at, up_, out.normal, depth);
+    else
+      way_out(world_, hit.body, core, at, out.normal, depth);
     out.distance = -depth;
   }
   const Real apart = out.distance - (settings_.radius - core.radius);
   report_.overlap = max(report_.overlap, -apart);
-  planes_[plane_count_++] = plane_at(out, apart - settings_.gap);
+  add_plane(plane_at(out, apart - settings_.gap));
+  if (on_surface) add_surface(hit);
 }
 
 /// Finds the planes that are near, and the part of the mover that is free.
@@ -173,7 +231,7 @@ void MoverMotion::step_along(const Vec3<Real>& way) {
     report_.undecided += hit.undecided ? 1 : 0;
     if (straight && met_count_ < k_mover_turns_max) planes_[met_count_++] = plane_at(hit, room);
   }
-  const Vec3<Real> gone = way_from(from, position_);
+  const Vec3<Real> gone = real_difference(position_, from);
   for (uint32_t i = 0; i < met_count_; ++i) planes_[i].room += dot(gone, planes_[i].normal);
 }
 
@@ -200,7 +258,11 @@ void MoverMotion::note(uint32_t met) {
   for (uint32_t i = 0; i < plane_count_; ++i) {
     if ((met >> i & 1) == 0) continue;
     bool known = false;
-    for (uint32_t k = 0; k < report_.contact_count; ++k) known |= report_.contacts[k].body == planes_[i].body;
+    for (uint32_t k = 0; k < report_.contact_count; ++k) {
+      const MoverContact& other = report_.contacts[k];
+      known |= other.body == planes_[i].body &&
+               (!planes_[i].on_surface || dot(other.normal, planes_[i].normal) >= k_apart_cosine);
+    }
     if (known) continue;
     if (report_.contact_count == k_mover_contacts_max) {
       ++report_.contacts_dropped;
@@ -229,7 +291,7 @@ Vec3<Real> MoverMotion::slide(Vec3<Real> way, MoverGait gait) {
     const Position from = position_;
     const uint32_t met_before = met_count_;
     step_along(next);
-    const Vec3<Real> gone = way_from(from, position_);
+    const Vec3<Real> gone = real_difference(position_, from);
     way -= gone;
     if (gait == MoverGait::walk) way -= up_ * dot(way, up_);  // what floors lifted is no debt
     if (within(way, k_mover_still) || (within(gone, k_mover_still) && met_count_ == met_before)) return way;
@@ -279,11 +341,13 @@ const MoverPlane* MoverMotion::find_floor() {
 bool MoverMotion::climb(const Vec3<Real>& rest) {
   const Place start = place();
   const Real half_gap = scale_by_power(settings_.gap, -1);
-  const auto rise = [&] { return dot(way_from(start.position, position_), up_); };
+  const auto rise = [&] { return dot(real_difference(position_, start.position), up_); };
   Vec3<Unit> forward;
   Real size = k_zero;
   if (!normalise(rest, forward, size)) return false;
-  const auto gets_on = [&] { return dot(way_from(start.position, position_), forward) >= scale_by_power(size, -2); };
+  const auto gets_on = [&] {
+    return dot(real_difference(position_, start.position), forward) >= scale_by_power(size, -2);
+  };
   go(up_ * settings_.step_height);
   if (rise() > half_gap) {
     // Far enough to come to rest on the edge, and not in the gap before it.
@@ -293,7 +357,8 @@ bool MoverMotion::climb(const Vec3<Real>& rest) {
       const MoverPlane* floor = find_floor();
       if (floor != nullptr && rise() > half_gap && gets_on()) {
         // An edge may be far up the foot's side.
-        const Real top = dot(way_from(start.position, floor->point), up_) + settings_.half_length + settings_.radius;
+        const Real top =
+            dot(real_difference(floor->point, start.position), up_) + settings_.half_length + settings_.radius;
         if (top <= settings_.step_height) return true;
       }
     }

@@ -6,7 +6,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Bodies around a mover that it looks at, and turns of a motion, each of which may meet one more plane.
+/// Planes of bodies around a mover that it looks at, and turns of a motion, each of which may meet one more plane.
 inline constexpr uint32_t k_mover_near_max = 16, k_mover_turns_max = 8;
 inline constexpr uint32_t k_mover_planes_max = k_mover_near_max + k_mover_turns_max;
 
@@ -49,7 +49,9 @@ class MoverMotion {
   bool caught() const;
   MoverPlane plane_at(const QueryHit& hit, Real room) const;
   void look_around();
+  void add_plane(const MoverPlane& plane);
   void add_near(const QueryHit& hit, const Shape& core);
+  void add_surface(const QueryHit& hit);
   bool passes(const QueryHit& hit, const Vec3<Real>& way) const;
   void step_along(const Vec3<Real>& way);
   void find_footing(MoverPlane& plane);

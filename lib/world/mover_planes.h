@@ -28,7 +28,8 @@ struct MoverPlane {
   Real room;          ///< along the normal, to where the mover keeps its gap; negative: it is too near
   Footing footing;
   BodyId body;
-  Position point;  ///< on the body
+  Position point;   ///< on the body
+  bool on_surface;  ///< the body has more planes, each in the report
 };
 
 /// What is shorter is no motion, m: two steps of a position where these are coarse.

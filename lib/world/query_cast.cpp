@@ -2,11 +2,13 @@
 
 #include "base/float_environment.h"
 #include "collision/compound_code.h"
+#include "geometry/shape_traits.h"
 #include "geometry/sweep.h"
 #include "math/root.h"
 #include "proximity/pair.h"
 #include "world/query_bodies.h"
 #include "world/query_hits.h"
+#include "world/query_surface.h"
 #include "world/ranges.h"
 
 namespace detent {
@@ -32,6 +34,21 @@ Vec64 half_of(const QueryShape& shape, const Motion& motion, const Quat& rotatio
   return raw;
 }
 
+/// Likewise of a body that has a surface.
+bool cast_at_surface(const QueryBodies& bodies, uint32_t slot, const QueryShape& shape, const Motion& motion,
+                     Fraction entry, QueryHit& hit) {
+  const BodyTraits& traits = bodies.state.traits[slot];
+  bool met = false;
+  const bool asked = has_surface_bytes(bodies.world, traits) &&
+                     cast_on_surface(asked_surface(bodies.world, traits, bodies.state.poses[slot]), shape, motion, hit,
+                                     met) == Status::ok;
+  if (!asked) hit = {};
+  hit.body = bodies.id_of(slot);
+  hit.undecided = hit.undecided || !asked;
+  if (hit.undecided && hit.fraction < entry) hit.fraction = entry;
+  return !asked || met;
+}
+
 /// The first hit on a part of the body, or what is left undecided before it. False if it could not be asked.
 bool first_impact(const QueryBodies& bodies, const BodyTraits& traits, const Motion& still, const QueryShape& shape,
                   const Motion& motion, TimeOfImpact& first) {
@@ -53,6 +70,7 @@ bool first_impact(const QueryBodies& bodies, const BodyTraits& traits, const Mot
 bool cast_at(const QueryBodies& bodies, uint32_t slot, const QueryShape& shape, const Motion& motion, Fraction entry,
              QueryHit& hit) {
   const BodyTraits& traits = bodies.state.traits[slot];
+  if (is_surface(traits)) return cast_at_surface(bodies, slot, shape, motion, entry, hit);
   const Pose pose = pose_near(traits, bodies.state.poses[slot], motion.start.position);
   TimeOfImpact impact;
   hit = {};

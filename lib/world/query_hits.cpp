@@ -24,6 +24,7 @@ uint64_t digest_of(const QueryHit& hit) {
   const Unit normal[] = {hit.normal.x, hit.normal.y, hit.normal.z};
   for (const Coord x : place) running = digest_step(running, bits_of(x));
   for (const Unit x : normal) running = digest_step(running, bits_of(x));
+  if (hit.triangle != UINT32_MAX) running = digest_step(running, uint64_t{hit.material} << 32 | hit.triangle);
   return digest_finish(running);
 }
 
@@ -33,7 +34,8 @@ bool HitOrder::operator()(const QueryHit& a, const QueryHit& b) const {
   if (!(a.fraction == b.fraction)) return a.fraction < b.fraction;
   if (!(a.distance == b.distance)) return a.distance < b.distance;
   if (a.undecided != b.undecided) return b.undecided;
-  return a.body.slot < b.body.slot;
+  if (a.body.slot != b.body.slot) return a.body.slot < b.body.slot;
+  return a.triangle < b.triangle;
 }
 
 HitCollector::HitCollector(bool all, QueryHits out, Fraction end, Real reach)

@@ -6,8 +6,8 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The order of hits. Of two that are as near the one that is decided comes first: so what a decided hit is known to
-/// beat need not be asked for.
+/// The order of hits, and of those with the triangles of a surface. Of two that are as near the one that is decided
+/// comes first: so what a decided hit is known to beat need not be asked for.
 struct HitOrder {
   bool operator()(const QueryHit& a, const QueryHit& b) const;
 };

@@ -2,19 +2,31 @@
 
 #include "base/float_environment.h"
 #include "collision/compound_code.h"
+#include "geometry/shape_traits.h"
 #include "geometry/sweep.h"
 #include "proximity/pair.h"
 #include "world/query_bodies.h"
 #include "world/query_hits.h"
+#include "world/query_surface.h"
 #include "world/ranges.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-int64_t raw_of(Real length) {
-  Vec64 raw;
-  return raw_from_real({length, Real(0.0), Real(0.0)}, raw) ? raw.x : 0;  // of what is finite
+/// Likewise of a body that has a surface.
+bool near_at_surface(const QueryBodies& bodies, uint32_t slot, const QueryShape& shape, const Pose& at, Real gap,
+                     Real reach, QueryHit& hit) {
+  const BodyTraits& traits = bodies.state.traits[slot];
+  bool met = false;
+  const bool asked = has_surface_bytes(bodies.world, traits) &&
+                     near_on_surface(asked_surface(bodies.world, traits, bodies.state.poses[slot]), shape, at, reach,
+                                     hit, met) == Status::ok;
+  if (!asked) hit = {};
+  hit.body = bodies.id_of(slot);
+  hit.undecided = hit.undecided || !asked;
+  if (hit.undecided) hit.distance = max(hit.distance, gap);
+  return hit.distance <= reach && (!asked || met);
 }
 
 /// The nearest points of the body's parts, or what is left undecided nearer. False if they could not be asked.
@@ -36,6 +48,7 @@ bool nearest_part(const QueryBodies& bodies, const BodyTraits& traits, const Pos
 bool near_at(const QueryBodies& bodies, uint32_t slot, const QueryShape& shape, const Pose& at, Real gap, Real reach,
              QueryHit& hit) {
   const BodyTraits& traits = bodies.state.traits[slot];
+  if (is_surface(traits)) return near_at_surface(bodies, slot, shape, at, gap, reach, hit);
   const Pose pose = pose_near(traits, bodies.state.poses[slot], at.position);
   Closest closest;
   hit = {};
@@ -60,10 +73,10 @@ Status find_near(const World& world, const Shape& asked, const Pose& at, Real re
   Quat unit;
   if (!is_position(at.position) || !within(reach, Real(0.0), Real(16384.0))) return Status::out_of_range;
   if (!normalise_input(at.rotation, unit)) return Status::not_normalised;
-  const SweptBox box(at.position, query_half(shape, unit), {0, 0, 0}, raw_of(reach));
+  const SweptBox box(at.position, query_half(shape, unit), {0, 0, 0}, raw_length(reach));
   const QueryBodies bodies(world, filter);
   HitCollector hits(all, out, k_whole_step, reach);
-  const auto is_near = [&](const SweptBox::Place& place) { return box.is_near(place, raw_of(hits.reach())); };
+  const auto is_near = [&](const SweptBox::Place& place) { return box.is_near(place, raw_length(hits.reach())); };
   bodies.for_each([&](const Bounds& bounds) { return is_near(box.place_of(bounds)); },
                   [&](const Bounds& a, const Bounds& b) {
                     return reach > Real(0.0) && box.gap(box.place_of(b)) < box.gap(box.place_of(a));

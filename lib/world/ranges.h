@@ -1,4 +1,5 @@
 #pragma once
+#include <detent/detail/shared.h>
 #include <detent/detail/state.h>
 #include <detent/reduction.h>
 
@@ -9,7 +10,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-inline bool is_zero(const uint8_t* bytes, uint32_t count) {
+DETENT_SHARED inline bool is_zero(const uint8_t* bytes, uint32_t count) {
   for (uint32_t i = 0; i < count; ++i) {
     if (bytes[i] != 0) return false;
   }
@@ -20,14 +21,14 @@ bool is_zero(const T& value) {
   return is_zero(reinterpret_cast<const uint8_t*>(&value), sizeof value);
 }
 
-inline bool within(Real value, Real low, Real high) { return value >= low && value <= high; }
-inline bool within(const Vec3<Real>& v, Real limit) {
+DETENT_SHARED inline bool within(Real value, Real low, Real high) { return value >= low && value <= high; }
+DETENT_SHARED inline bool within(const Vec3<Real>& v, Real limit) {
   return within(v.x, -limit, limit) && within(v.y, -limit, limit) && within(v.z, -limit, limit);
 }
 
 #if DETENT_FIXED
 /// Canonical, and small enough that products of three stay in range.
-inline bool is_number(Scaled value) {
+DETENT_SHARED inline bool is_number(Scaled value) {
   if (value.mantissa == 0) return value.exponent == 0;
   const uint32_t magnitude = magnitude_32(value.mantissa);
   return magnitude >= (1u << 30) && magnitude < (1u << 31) && value.exponent >= -130 && value.exponent <= 70;
@@ -41,16 +42,18 @@ inline bool is_position(const Position& p) { return within({p.x, p.y, p.z}, k_co
 inline bool is_position(const Position&) { return true; }
 #endif
 #endif
-inline bool is_number(const Vec3<Scaled>& v) { return is_number(v.x) && is_number(v.y) && is_number(v.z); }
-inline bool is_between(Scaled value, Scaled low, Scaled high) {
+DETENT_SHARED inline bool is_number(const Vec3<Scaled>& v) {
+  return is_number(v.x) && is_number(v.y) && is_number(v.z);
+}
+DETENT_SHARED inline bool is_between(Scaled value, Scaled low, Scaled high) {
   return is_number(value) && !less(value, low) && !less(high, value);
 }
-inline bool is_mass(Scaled value) { return is_between(value, Scaled(0x1p-60), Scaled(0x1p60)); }
+DETENT_SHARED inline bool is_mass(Scaled value) { return is_between(value, Scaled(0x1p-60), Scaled(0x1p60)); }
 
 /// Of a dynamic body: no solid's is below 1, and spin_of() takes what is below 2^30.
 inline bool is_gyration(Scaled value) { return is_between(value, Scaled(1.0), Scaled(0x1.fffffffcp29)); }
 
-inline bool are_gyrations(const BodyTraits& traits) {
+DETENT_SHARED inline bool are_gyrations(const BodyTraits& traits) {
   for (uint32_t axis = 0; axis < 3; ++axis) {
     const bool locked = (traits.turn_locks >> axis & 1) != 0;
     if (locked ? !(traits.gyration[axis] == Scaled(0.0)) : !is_gyration(traits.gyration[axis])) return false;
@@ -80,9 +83,9 @@ inline constexpr Real k_gravity_max = 1024.0;
 inline constexpr Real k_gravity_scale_max = 1024.0;
 
 /// The settings of a world: as documented in WorldDef.
-inline bool are_settings(const Vec3<Real>& gravity, Real tick, uint32_t substeps, uint32_t substeps_max,
-                         uint32_t iterations, uint32_t convergence, Real relaxation, Real stiffness, Real damping_ratio,
-                         Real restitution_threshold, Real breaking, Real reuse) {
+DETENT_SHARED inline bool are_settings(const Vec3<Real>& gravity, Real tick, uint32_t substeps, uint32_t substeps_max,
+                                       uint32_t iterations, uint32_t convergence, Real relaxation, Real stiffness,
+                                       Real damping_ratio, Real restitution_threshold, Real breaking, Real reuse) {
   return within(gravity, k_gravity_max) && within(tick, Real(0x1p-14), Real(0.25)) && substeps <= 64 &&
          substeps_max >= 1 && substeps_max <= 64 && iterations >= 1 && iterations <= 64 && convergence <= 30 &&
          within(relaxation, Real(0.25), Real(1.75)) && within(stiffness, Real(0x1p-6), Real(0.25)) &&

@@ -244,7 +244,8 @@ struct Collider {
 
   void collide(uint64_t key) {
     const uint32_t slot_a = pair_low(key), slot_b = pair_high(key);
-    if (!bodies.awake(slot_a) && !bodies.awake(slot_b)) return;
+    // Who still sleeps was not touched when it could wake; points used again could tell otherwise.
+    if (bodies.asleep(slot_a) || bodies.asleep(slot_b) || (!bodies.awake(slot_a) && !bodies.awake(slot_b))) return;
     start(slot_a);
     start(slot_b);
     if (bodies.has_parts(slot_a, slot_b)) {
@@ -411,14 +412,9 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   pool.losses = &losses;
   find_pairs(moving, cache.tree, scratch.bounds_keys, scratch.bounds_sort, pool);
   pool.sort();
-  for (const uint32_t slot : moving) bodies.start(settings, slot);
-  const uint32_t touched = wake_touched(settings, bodies, cache, pool);
-  report.woke += touched;
-  if (touched != 0) {
-    moving = list_moving(cache.visits, scratch.moving_bodies);
+  const auto start_moving = [&] {
     for (const uint32_t slot : moving) bodies.start(settings, slot);
-  }
-  if (joint_code != nullptr) {
+    if (joint_code == nullptr) return;
     for (const JointState& joint : joints.joints) {
       if (joint.type == 0) continue;
       const uint32_t ends[2] = {joint.body_a, joint.body_b};
@@ -428,6 +424,14 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
     }
     joint_code->collect(solver_bodies, joints);
     report.joints = joints.count;
+  };
+  start_moving();
+  // Whoever wakes and is held by joints reaches farther (lengths_of), and may touch more.
+  while (const uint32_t touched = wake_touched(settings, bodies, cache, pool)) {
+    report.woke += touched;
+    moving = list_moving(cache.visits, scratch.moving_bodies);
+    start_moving();
+    if (joint_code == nullptr) break;
   }
   clock.end(StepStage::find_pairs);
   const Span<const uint64_t> pairs = pool.pairs();

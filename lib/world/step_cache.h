@@ -17,7 +17,7 @@ struct StepCacheView {
   RestingTree tree;
 };
 
-inline StepCacheView cache_of(uint8_t* block, const Layout& layout, Capacity capacity) {
+DETENT_SHARED inline StepCacheView cache_of(uint8_t* block, const Layout& layout, Capacity capacity) {
   StepCache& cache = *at_offset<StepCache>(block, layout.cache);
   const Span<Bounds> bounds = {at_offset<Bounds>(block, layout.bounds), capacity.bodies};
   return {cache,

@@ -61,7 +61,7 @@ typename Select<T, Byte>::Type* at_offset(Byte* block, uint32_t offset) {
 
 /// The arrays of a block of the given capacity, which is in range.
 template <class Byte>
-StateView<Byte> view_of(Byte* block, Capacity capacity) {
+DETENT_SHARED StateView<Byte> view_of(Byte* block, Capacity capacity) {
   bool fits = false;
   const Layout layout = layout_of(capacity, fits);
   return {layout,
@@ -78,10 +78,10 @@ StateView<Byte> view_of(Byte* block, Capacity capacity) {
           {at_offset<JointState>(block, layout.joints), capacity.joints},
           {at_offset<SensedState>(block, layout.sensed), capacity.sensed}};
 }
-inline StateView<uint8_t> view_of(World& world) {
+DETENT_SHARED inline StateView<uint8_t> view_of(World& world) {
   return view_of(world.block, capacity_of(*at_offset<BlockHeader>(world.block, 0)));
 }
-inline StateView<const uint8_t> view_of(const World& world) {
+DETENT_SHARED inline StateView<const uint8_t> view_of(const World& world) {
   const uint8_t* block = world.block;
   return view_of(block, capacity_of(*at_offset<BlockHeader>(block, 0)));
 }

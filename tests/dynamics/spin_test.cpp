@@ -1,3 +1,5 @@
+#include "dynamics/spin.h"
+#include "dynamics/finalise.h"
 #include "tests/oracle/bodies.h"
 #include "tests/oracle/effort.h"
 #include "tests/world/lab.h"
@@ -193,6 +195,25 @@ DETENT_TEST(spin, about_an_axis_of_symmetry_turns_the_body_by_spin_times_time) {
   const Quaternion right = detent_oracle::rotation_by({{0, 50, 0}});
   const Quaternion got = rotation_of(lab, id);
   EXPECT_NEAR(fabs(got.y * right.y + got.w * right.w), 1, sizeof(Real) == 4 ? 1e-8 : 1e-11);
+}
+
+DETENT_TEST(spin, of_whatever_momentum_a_solve_leaves_the_state_keeps_what_it_may_have) {
+  const Quat rotations[] = {{0.0, 0.0, 0.0, 1.0}, {0.5, 0.5, 0.5, 0.5}};
+  for (const double gyration : {1.5, 4.3, 300.0, 1e6}) {
+    for (const Quat& rotation : rotations) {
+      BodyTraits traits = {};
+      traits.type = static_cast<uint32_t>(BodyType::dynamic);
+      traits.gyration[0] = traits.gyration[1] = traits.gyration[2] = scaled(gyration);
+      traits.gyration[2] = Scaled(0.0);  // locked
+      BodyMotion motion = {};
+      motion.momentum = reals(92671, 17374, -80623);
+      EXPECT_GT(hold_speeds(traits, rotation, motion), 0u);
+      const Vec3<Real> local = rotate_inverse(rotation, motion.momentum);
+      EXPECT_LE(fabs(real_to_host(local.x)) * gyration, 32769);
+      EXPECT_LE(fabs(real_to_host(local.y)) * gyration, 32769);
+      EXPECT_LE(fabs(real_to_host(local.z)), 65536);
+    }
+  }
 }
 
 }  // namespace

@@ -97,4 +97,17 @@ inline Source box_surface(double hx, double hy, double hz, uint32_t n) {
   return source;
 }
 
+/// A field of n by n cells of `size`, m, about the origin.
+inline Bytes field_of(uint32_t n, double size, const std::function<double(double, double)>& height, bool one_sided) {
+  detent_cook::HeightFieldSource source;
+  source.columns = source.rows = n;
+  source.origin = {-0.5 * n * size, 0, -0.5 * n * size};
+  source.spacing_x = source.spacing_z = size;
+  source.one_sided = one_sided;
+  for (uint32_t j = 0; j <= n; ++j) {
+    for (uint32_t i = 0; i <= n; ++i) source.heights.push_back(height((i - n / 2.0) * size, (j - n / 2.0) * size));
+  }
+  return Bytes(detent_cook::cook_height_field(source).bytes);
+}
+
 }  // namespace detent_surfaces

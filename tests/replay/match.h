@@ -50,10 +50,10 @@ struct OwnedWorld {
   std::unique_ptr<uint64_t[]> block;
   World world;
 
-  explicit OwnedWorld(const WorldDef& def) {
+  explicit OwnedWorld(const WorldDef& def, AssetTable assets = scene_assets()) {
     const uint32_t bytes = world_bytes(def.capacity);
     block.reset(new uint64_t[(bytes + 7) / 8]());
-    EXPECT_EQ(create_world(reinterpret_cast<uint8_t*>(block.get()), bytes, def, scene_assets(), world), Status::ok);
+    EXPECT_EQ(create_world(reinterpret_cast<uint8_t*>(block.get()), bytes, def, assets, world), Status::ok);
   }
   explicit OwnedWorld(Capacity capacity) : OwnedWorld(def_of(capacity)) {}
   static WorldDef def_of(Capacity capacity) {

@@ -1,3 +1,4 @@
+#include <detent/mover.h>
 #include <detent/storage.h>
 #include <detent/world.h>
 #include <math.h>
@@ -74,6 +75,69 @@ DETENT_TEST(levels, are_stood_rolled_and_shot_at) {
   }
   if (levels == 0) GTEST_SKIP() << "no meshes under DETENT_DATA";
   EXPECT_GT(hit, 1000u);
+}
+
+/// A character that is thrown about in them is never in a wall, and gets on.
+DETENT_TEST(levels, are_walked_through) {
+  uint32_t levels = 0, grounded = 0, moves = 0;
+  for (const char* name : detent_surfaces::k_levels) {
+    Source source;
+    if (!detent_surfaces::read_level(name, source)) continue;
+    ++levels;
+    const detent_surfaces::Bytes bytes = detent_surfaces::cooked(source);
+    const Asset asset = {bytes.data(), bytes.count()};
+    World world;
+    WorldStorage<Capacity{1, 1, 1}> storage;
+    ASSERT_OK(storage.create({}, world, {&asset, 1}));
+    ASSERT_OK(bind_asset(world, 0));
+    BodyDef ground;
+    ground.type = BodyType::fixed;
+    ground.shape = surface(0);
+    BodyId id;
+    ASSERT_OK(create_body(world, ground, id));
+    const Surface level = surface_view(asset.bytes);
+    const double size = level.exponent() > 8 ? 50 : 0.5, grid = ldexp(1.0, level.exponent() - 30);
+    MoverSettings settings;
+    settings.radius = real_near(0.3 * size);
+    settings.half_length = real_near(0.6 * size);
+    settings.gap = real_near(0.01 * size);
+    settings.step_height = settings.snap = real_near(0.35 * size);
+    detent_queries::Random random(7);
+    for (uint32_t n = 0; n < detent_oracle::rounds(16); ++n) {
+      const SurfaceTriangle t = level.triangle(random.below(level.mesh.triangle_count));
+      const auto middle = [&](int32_t Vec32::*c) {
+        return grid * (t.corner[0].*c / 3.0 + t.corner[1].*c / 3.0 + t.corner[2].*c / 3.0);
+      };
+      Mover mover;
+      mover.position = position_near(Vector{{middle(&Vec32::x), middle(&Vec32::y) + 1.2 * size, middle(&Vec32::z)}});
+      double fall = 0, x = 0, z = 0;
+      for (int tick = 0; tick < 120; ++tick) {
+        if (tick % 15 == 0) {
+          const double speed = (n % 4 == 0 ? 1.6 : 0.1) * size;
+          x = random.uniform(-speed, speed);
+          z = random.uniform(-speed, speed);
+        }
+        fall += 0.002 * size;
+        MoverReport report;
+        ASSERT_OK(move_mover(world, settings, reals_near(Vector{{x, -fall, z}}), mover, report));
+        ++moves;
+        if (report.on_ground) fall = 0;
+        grounded += report.on_ground ? 1 : 0;
+        EXPECT_EQ(report.undecided, 0u) << name << ", " << n << ", " << tick;
+        if (report.overlap != Real(0.0)) break;  // it was put into the level
+        OverlapQuery query;
+        query.shape = capsule(settings.radius - real_near(0.001 * size), settings.half_length);
+        query.position = mover.position;
+        QueryHit hit;
+        QueryReport answer;
+        ASSERT_OK(query_overlap(world, query, {&hit, 1}, answer));
+        ASSERT_EQ(answer.hits, 0u) << name << ", " << n << ", " << tick;
+      }
+    }
+  }
+  if (levels == 0) GTEST_SKIP() << "no meshes under DETENT_DATA";
+  EXPECT_GT(moves, levels * detent_oracle::rounds(1000));
+  EXPECT_GT(grounded, moves / 4);
 }
 
 }  // namespace

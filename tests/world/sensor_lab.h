@@ -15,7 +15,8 @@ inline WorldDef weightless() {
   return def;
 }
 
-inline BodyDef sensor_def(const Shape& shape, double x = 0, double y = 0, double z = 0, BodyType type = BodyType::fixed) {
+inline BodyDef sensor_def(const Shape& shape, double x = 0, double y = 0, double z = 0,
+                          BodyType type = BodyType::fixed) {
   BodyDef def;
   def.type = type;
   def.shape = shape;

@@ -1,4 +1,4 @@
-#include "tests/world/lab.h"
+#include "tests/world/joint_lab.h"
 #include "world/view.h"
 
 /// Islands that come to rest are left out of the step, and what wakes them.
@@ -207,6 +207,27 @@ DETENT_TEST(substeps, keep_the_number_that_is_asked_for) {
   least.add_ground();
   least.add_box(0.5, 0, 0.5, 0);
   EXPECT_EQ(least.run(10).substeps_max, 1u);
+}
+
+DETENT_TEST(sleep, what_joints_hold_wakes_whom_its_longer_reach_touches) {
+  WorldDef def;
+  def.gravity = {0.0, 0.0, 0.0};
+  def.continuous = false;
+  Lab lab({3, 8, 0, true, 1}, def, true);
+  const BodyId sleeper = add_shape(lab, sphere(Real(0.5)), 1.6, 0, 0);
+  const BodyId front = add_shape(lab, sphere(Real(0.5)), 0, 0, 0), back = add_shape(lab, sphere(Real(0.5)), -1, 0, 0);
+  add_joint(lab, JointType::ball, front, back, -0.5, 0, 0);
+  for (const BodyId id : {front, back}) ASSERT_OK(set_velocity(lab.world, id, reals(60, 0, 0), reals(0, 0, 0)));
+  lab.run(1);  // from here on the work space holds what an earlier step left
+  ASSERT_OK(set_pose(lab.world, front, position(0, 0, 0), {0.0, 0.0, 0.0, 1.0}));
+  ASSERT_OK(set_pose(lab.world, back, position(-1, 0, 0), {0.0, 0.0, 0.0, 1.0}));
+  ASSERT_OK(set_pose(lab.world, sleeper, position(1.6, 0, 0), {0.0, 0.0, 0.0, 1.0}));
+  for (const BodyId id : {front, back}) ASSERT_OK(set_velocity(lab.world, id, reals(60, 0, 0), reals(0, 0, 0)));
+  ASSERT_OK(put_to_sleep(lab.world, sleeper));
+  const StepReport report = lab.run(1);
+  EXPECT_TRUE(awake(lab, sleeper));
+  EXPECT_EQ(report.woke, 1u);
+  EXPECT_EQ(report.islands, 1u);
 }
 
 }  // namespace

@@ -1,62 +1,19 @@
 #include <detent/body_access.h>
 #include <detent/contacts.h>
+#include <detent/debug_draw.h>
+#include <detent/triangles.h>
 #include <math.h>
 
-#include "tests/geometry/surfaces.h"
 #include "tests/oracle/effort.h"
 #include "tests/queries/random.h"
-#include "tests/world/lab.h"
+#include "tests/world/surface_lab.h"
 
 /// Bodies made of meshes and height fields.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-using detent_surfaces::Bytes;
 using detent_surfaces::Source;
-
-Asset asset_of(const Bytes& bytes) { return {bytes.data(), bytes.count()}; }
-
-/// A world whose asset 0 is a surface.
-class SurfaceLab : public Lab {
- public:
-  explicit SurfaceLab(const Bytes& bytes, WorldDef def = {}, bool sleeping = false)
-      : Lab({32, 256, 1}, def, sleeping), bytes_(bytes), asset_(asset_of(bytes_)) {
-    world.assets = {&asset_, 1};
-    EXPECT_OK(bind_asset(world, 0));
-  }
-  BodyDef ground_def(double friction = 0.6) const {
-    BodyDef def;
-    def.type = BodyType::fixed;
-    def.shape = surface(0);
-    def.material.friction = real(friction);
-    return def;
-  }
-  BodyId add_surface(double friction = 0.6) { return add(ground_def(friction)); }
-  BodyId add_shape(const Shape& shape, double x, double y, double z, double friction = 0.6) {
-    BodyDef def;
-    def.shape = shape;
-    def.position = position(x, y, z);
-    def.material.friction = real(friction);
-    return add(def);
-  }
-
- private:
-  Bytes bytes_;
-  Asset asset_;
-};
-
-Bytes field_of(uint32_t n, double size, double (*height)(double, double), bool one_sided) {
-  detent_cook::HeightFieldSource source;
-  source.columns = source.rows = n;
-  source.origin = {-0.5 * n * size, 0, -0.5 * n * size};
-  source.spacing_x = source.spacing_z = size;
-  source.one_sided = one_sided;
-  for (uint32_t j = 0; j <= n; ++j) {
-    for (uint32_t i = 0; i <= n; ++i) source.heights.push_back(height((i - n / 2.0) * size, (j - n / 2.0) * size));
-  }
-  return Bytes(detent_cook::cook_height_field(source).bytes);
-}
 
 double flat(double, double) { return 0; }
 
@@ -282,6 +239,51 @@ DETENT_TEST(surfaces, are_refused_where_they_cannot_be) {
   Lab plain({4, 4, 1});
   plain.world.features = &feature_table<without(Features::all, Features::surface | Features::hull | Features::compound)>;
   EXPECT_EQ(bind_asset(plain.world, 0), Status::feature_missing);
+}
+
+/// Renderers get every triangle, and a drawing of lines alone shows them.
+DETENT_TEST(surfaces, are_shown_where_they_are) {
+  SurfaceLab lab(detent_surfaces::cooked(detent_surfaces::box_surface(2, 1, 3, 2)));
+  BodyDef def = lab.ground_def();
+  def.position = position(5, 0, 0);
+  def.rotation = {unit(0), unit(sqrt(0.5)), unit(0), unit(sqrt(0.5))};  // x to -z
+  const BodyId id = lab.add(def);
+  const BodyId ball = lab.add_shape(sphere(real(0.5)), 0, 0, 0);
+  struct Shown {
+    uint32_t triangles = 0, lines = 0, solids = 0, materials = 0;
+    double low = 0, high = 0;
+  } shown;
+  const auto visit = [](void* user, const BodyTriangle& triangle) {
+    Shown& all = *static_cast<Shown*>(user);
+    EXPECT_EQ(triangle.index, all.triangles++);
+    all.materials |= 1u << triangle.material;
+    for (const Position& at : triangle.corner) {
+      all.low = fmin(all.low, coord_to_host(at.x));
+      all.high = fmax(all.high, coord_to_host(at.x));
+    }
+  };
+  ASSERT_OK(visit_triangles(lab.world, id, &shown, visit));
+  EXPECT_EQ(shown.triangles, 48u);
+  EXPECT_EQ(shown.materials, 63u);
+  EXPECT_NEAR(shown.high, 8, 1e-4);
+  EXPECT_EQ(visit_triangles(lab.world, ball, &shown, visit), Status::bad_argument);
+  EXPECT_EQ(visit_triangles(lab.world, {}, &shown, visit), Status::bad_id);
+  EXPECT_EQ(visit_triangles(lab.world, id, &shown, nullptr), Status::bad_argument);
+
+  DebugDraw to;
+  to.user = &shown;
+  to.line = [](void* user, const Position&, const Position&, DrawKind kind) {
+    EXPECT_EQ(kind, DrawKind::fixed);
+    ++static_cast<Shown*>(user)->lines;
+  };
+  draw(lab.world, to, DrawFlags::bodies);
+  EXPECT_EQ(shown.lines, 3 * 48u);
+  to.solid = [](void* user, BodyId, const Shape&, const Pose&, DrawKind) { ++static_cast<Shown*>(user)->solids; };
+  draw(lab.world, to, DrawFlags::bodies);
+  EXPECT_EQ(shown.lines, 3 * 48u);
+  EXPECT_EQ(shown.solids, 2u);
+  lab.world.assets = {};
+  EXPECT_EQ(visit_triangles(lab.world, id, &shown, visit), Status::asset_missing);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
 #include <detent/detail/scratch.h>
+#include <detent/detail/shared.h>
 #include <detent/world.h>
 
 /// Where everything lies in a block: one list of arrays, persistent first. world_bytes, the snapshot, the digest and
@@ -38,11 +39,11 @@ constexpr bool in_range(Capacity capacity) {
 }
 
 /// The layout for a capacity in range; `fits` is false if the block would need 2^32 bytes or more.
-constexpr Layout layout_of(Capacity capacity, bool& fits) {
+DETENT_SHARED constexpr Layout layout_of(Capacity capacity, bool& fits) {
   uint64_t end = 0;
-  const auto place = [&end](uint64_t element_bytes, uint64_t count) {
+  const auto place = [&end](uint32_t element_bytes, uint32_t count) {
     const uint64_t start = end;
-    end = (end + element_bytes * count + 7) / 8 * 8;
+    end = (end + uint64_t{element_bytes} * count + 7) / 8 * 8;
     return static_cast<uint32_t>(start);
   };
   Layout layout{};
@@ -67,12 +68,12 @@ constexpr Layout layout_of(Capacity capacity, bool& fits) {
   layout.moving_bodies = place(sizeof(uint32_t), capacity.bodies);
   layout.awake_contacts = place(sizeof(uint32_t), capacity.contacts);
   layout.bounds = place(sizeof(Bounds), capacity.bodies);
-  layout.pairs = place(sizeof(uint64_t), uint64_t{capacity.contacts} * k_pairs_per_contact);
+  layout.pairs = place(sizeof(uint64_t), capacity.contacts * k_pairs_per_contact);
   // Once the pairs are found their work space is that of the contacts.
   const uint64_t shared = end;
   layout.bounds_keys = place(sizeof(BoundsKey), capacity.bodies);
   layout.bounds_sort = place(sizeof(BoundsKey), capacity.bodies);
-  layout.pair_sort = place(sizeof(uint64_t), uint64_t{capacity.contacts} * k_pairs_per_contact);
+  layout.pair_sort = place(sizeof(uint64_t), capacity.contacts * k_pairs_per_contact);
   const uint64_t pairs_end = end;
   end = shared;
   layout.contact_work = place(sizeof(ContactWork), capacity.contacts);

@@ -1,0 +1,27 @@
+#include "replay/query_command.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+/// Counts the bytes of fields.
+class Counter final : public Archive {
+ public:
+  Counter() : Archive(false) {}
+  void bits(const char*, uint64_t&, uint32_t byte_count) override { count += byte_count; }
+  uint32_t count = 0;
+};
+
+}  // namespace
+
+void visit_query(Archive& archive, const QueryCode& code, void* command) {
+  Counter counter;
+  code.visit(counter, command);
+  uint64_t length = counter.count + 1, kind = static_cast<uint64_t>(code.kind);
+  archive.bits("query length", length, 2);
+  archive.bits("query kind", kind, 1);
+  code.visit(archive, command);
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent
