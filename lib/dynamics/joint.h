@@ -24,6 +24,9 @@ inline constexpr Real k_joint_impulse_max = 8192.0;  ///< of a row, m/s
 
 /// A length or speed in units of 2^exponent, held within what a Unit holds.
 Unit unit_held(Real value, int exponent);
+inline Vec3<Unit> unit_held(const Vec3<Real>& v, int exponent) {
+  return {unit_held(v.x, exponent), unit_held(v.y, exponent), unit_held(v.z, exponent)};
+}
 
 struct JointStage {
   Span<JointState> joints;  ///< the slots that were ever used
@@ -64,6 +67,12 @@ struct JointCode {
 
 /// Whether a free motion, 0 or 1, is an angle.
 bool is_angular(JointType type, int motion);
+/// Heavy pulls at a light body make it sway faster than a substep can follow, and each one would add to it: such a body
+/// is slowed. The rows of the joints are made; sets `turn_share` of the bodies they own.
+/// Source: Tournier, Nesme, Gilles, Faure, "Stable constrained dynamics", 2015; that only what is too stiff is damped:
+/// Andrews, Teichmann, Kry, "Geometric stiffness for real-time constrained multibody dynamics", 2017.
+void hold_sway(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> joints,
+               JointStage& stage);
 /// Makes the rows of a joint as its bodies are now.
 void make_joint_rows(const StepSettings& settings, const JointStage& stage, JointWork& work);
 /// Chooses how the free motions are driven, before anything is solved: a limit that the bodies would pass in this

@@ -27,10 +27,6 @@ Vec3<Real> in_metres(const Vec3<Unit>& v, int exponent) {
   return {real_from_unit(v.x, exponent), real_from_unit(v.y, exponent), real_from_unit(v.z, exponent)};
 }
 
-Vec3<Unit> held(const Vec3<Real>& v, int exponent) {
-  return {unit_held(v.x, exponent), unit_held(v.y, exponent), unit_held(v.z, exponent)};
-}
-
 /// The angle of a turn about an axis by twice atan2 of these, rad, in [-pi, pi].
 Real twist_of(Unit sine, Unit cosine) {
   const bool turned = cosine < k_none;  // q and -q are the same turn
@@ -56,7 +52,7 @@ struct RowMaker {
   Real up_to_limit(Real over, bool within) const { return within ? -speed_over(settings, over) : correction(over); }
   /// A row that acts along `axis` at B's anchor, whichever way off A's is.
   JointRow linear(const Vec3<Unit>& axis) const {
-    const Vec3<Unit> way = held(in_metres(work.arm[0], a.exponent) + gap, a.exponent);
+    const Vec3<Unit> way = unit_held(in_metres(work.arm[0], a.exponent) + gap, a.exponent);
     return {axis, {held_cross(way, axis), held_cross(work.arm[1], axis)}};
   }
   JointRow angular(const Vec3<Unit>& axis) const {
@@ -135,7 +131,7 @@ struct RowMaker {
  private:
   static Vec3<Unit> held_cross(const Vec3<Unit>& arm, const Vec3<Unit>& axis) {
     const Vec3<Real> product = cross(in_metres(arm, 0), axis);
-    return held(product, 0);
+    return unit_held(product, 0);
   }
 };
 
@@ -242,12 +238,11 @@ void make_joint_rows(const StepSettings& settings, const JointStage& stage, Join
   const JointType type = static_cast<JointType>(joint.type);
   work.rows = work.points = 0;
   for (Real& softness : work.softness) softness = k_zero;
-  work.arm[0] = multiply(a.axes, held(joint.anchor_a, a.exponent));
-  work.arm[1] = multiply(b.axes, held(joint.anchor_b, b.exponent));
+  work.arm[0] = multiply(a.axes, work.anchor[0]);
+  work.arm[1] = multiply(b.axes, work.anchor[1]);
   RowMaker make = {settings, joint, a, b, work};
-  const Position &from = stage.poses[a.slot].position, &to = stage.poses[b.slot].position;
-  const Vec3<Real> between = real_difference(to, from);
-  make.gap = between + (b.place - a.place) + (in_metres(work.arm[1], b.exponent) - in_metres(work.arm[0], a.exponent));
+  make.gap =
+      work.between + (b.place - a.place) + (in_metres(work.arm[1], b.exponent) - in_metres(work.arm[0], a.exponent));
   if (type != JointType::ball && type != JointType::distance) {
     const Quat frame_a = multiply(a.rotation, joint.frame_a);
     make.frame = matrix_from(frame_a);
@@ -326,12 +321,13 @@ void choose_drives(const StepSettings& settings, const SolverBodies& bodies, con
 
 void add_driven_rows(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage,
                      JointWork& work) {
+  work.rows = work.rows_held;
+  work.driven[0] = work.driven[1] = k_joint_rows_max;
+  if (work.mode[0] == DriveMode::idle && work.mode[1] == DriveMode::idle) return;
   const JointState& joint = stage.joints[work.joint];
   const JointBody &a = stage.bodies[work.body[0]], &b = stage.bodies[work.body[1]];
   const RowMaker make = {settings, joint, a, b, work};
-  work.rows = work.rows_held;
   for (int i = 0; i < 2; ++i) {
-    work.driven[i] = k_joint_rows_max;
     const DriveMode mode = work.mode[i];
     if (mode == DriveMode::idle || mode == DriveMode::constant) continue;
     const uint32_t row = work.rows++;

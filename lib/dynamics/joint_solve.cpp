@@ -1,7 +1,8 @@
-#include "base/unroll.h"
 #include "dynamics/contact_motion.h"
 #include "dynamics/gyration.h"
 #include "dynamics/joint.h"
+#include "dynamics/joint_anchor.h"
+#include "dynamics/joint_elimination.h"
 #include "dynamics/spin.h"
 #include "math/rotation.h"
 #include "math/scaled.h"
@@ -10,136 +11,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr Real k_zero = 0.0;
-constexpr Vec3<Real> k_none = {k_zero, k_zero, k_zero};
-
 constexpr uint32_t k_decisions = 4;  ///< tries to solve with limits and motors as they must be
 constexpr uint32_t k_loop_sweeps = 6;
-
-Vec3<Real> real_from(const Vec3<Unit>& v) {
-  return {real_from_unit(v.x, 0), real_from_unit(v.y, 0), real_from_unit(v.z, 0)};
-}
-
-bool is_linear(const JointRow& row) { return !(row.axis == Vec3<Unit>{Unit(0.0), Unit(0.0), Unit(0.0)}); }
-
-/// What a body's velocity and spin become for each row's unit of impulse.
-using Reply = Real[k_joint_rows_max][6];
-
-Vec3<Real> first_three(const Real (&six)[6]) { return {six[0], six[1], six[2]}; }
-Vec3<Real> last_three(const Real (&six)[6]) { return {six[3], six[4], six[5]}; }
-
-template <bool only_points>
-void respond(const JointWork& work, const JointBody& body, uint32_t end, Reply& reply) {
-  if (only_points || work.points != 0) {
-    const Vec3<Unit> arm = work.arm[end];
-    DETENT_UNROLL
-    for (int i = 0; i < 6; ++i) {
-      const Vec3<Real> by = first_three(body.response[i]) + cross(last_three(body.response[i]), arm);
-      reply[0][i] = by.x;
-      reply[1][i] = by.y;
-      reply[2][i] = by.z;
-    }
-  }
-  if (only_points) return;
-  for (uint32_t k = work.points != 0 ? 3 : 0; k < work.rows; ++k) {
-    const Vec3<Unit> axis = work.row[k].axis, arm = work.row[k].arm[end];
-    DETENT_UNROLL
-    for (int i = 0; i < 6; ++i)
-      reply[k][i] = dot(first_three(body.response[i]), axis) + dot(last_three(body.response[i]), arm);
-  }
-}
-
-/// Adds what a body's reply shows in the rows to the lower half of their response.
-template <bool only_points>
-void couple(const JointWork& work, uint32_t end, const Reply& reply,
-            Real (&response)[k_joint_rows_max][k_joint_rows_max]) {
-  if (only_points || work.points != 0) {
-    DETENT_UNROLL
-    for (int by = 0; by < 3; ++by) {
-      const Vec3<Real> shown = first_three(reply[by]) + cross(last_three(reply[by]), work.arm[end]);
-      if (by == 0) response[0][0] += shown.x;
-      if (by <= 1) response[1][by] += shown.y;
-      response[2][by] += shown.z;
-    }
-  }
-  if (only_points) return;
-  for (uint32_t k = work.points != 0 ? 3 : 0; k < work.rows; ++k) {
-    const Vec3<Unit>&axis = work.row[k].axis, &arm = work.row[k].arm[end];
-    for (uint32_t by = 0; by <= k; ++by)
-      response[k][by] += dot(first_three(reply[by]), axis) + dot(last_three(reply[by]), arm);
-  }
-}
-
-/// The speeds of the rows that a body's motion gives.
-template <bool only_points>
-void show(const JointWork& work, uint32_t end, const Vec3<Real>& velocity, const Vec3<Real>& spin,
-          Real (&speed)[k_joint_rows_max]) {
-  if (only_points || work.points != 0) {
-    const Vec3<Real> at_point = velocity + cross(spin, work.arm[end]);
-    speed[0] = at_point.x;
-    speed[1] = at_point.y;
-    speed[2] = at_point.z;
-  }
-  if (only_points) return;
-  for (uint32_t k = work.points != 0 ? 3 : 0; k < work.rows; ++k)
-    speed[k] = dot(velocity, work.row[k].axis) + dot(spin, work.row[k].arm[end]);
-}
-
-/// The force and the torque of the rows' impulses on a body.
-template <bool only_points>
-void gather(const JointWork& work, uint32_t end, Vec3<Real>& force, Vec3<Real>& torque) {
-  force = torque = k_none;
-  const Real* impulse = work.impulse;
-  if (only_points || work.points != 0) {
-    force = {impulse[0], impulse[1], impulse[2]};
-    torque = cross(work.arm[end], force);
-  }
-  if (only_points) return;
-  for (uint32_t k = work.points != 0 ? 3 : 0; k < work.rows; ++k) {
-    force += real_from(work.row[k].axis) * impulse[k];
-    torque += real_from(work.row[k].arm[end]) * impulse[k];
-  }
-}
-
-/// L D L^T of the rows' response, their springs included.
-template <bool only_points>
-void factor(Real (&response)[k_joint_rows_max][k_joint_rows_max], JointWork& work) {
-  const uint32_t rows = only_points ? 3 : work.rows;
-  for (uint32_t k = 0; k < rows; ++k) {
-    const bool linear = only_points || (k < 3 && work.points != 0) || is_linear(work.row[k]);
-    const Real own = response[k][k], least = work.least[linear ? 0 : 1];
-    const Real soft = only_points ? k_zero : work.softness[k];
-    if (own > least || soft > k_zero)
-      work.inverse[k] = scaled_reciprocal(max(own, least) + soft);
-    else
-      work.inverse[k] = Scaled(0.0);
-    for (uint32_t l = k + 1; l < rows; ++l) {
-      const Real of_pivot = multiply(response[l][k], work.inverse[k]);
-      work.lower[l][k] = of_pivot;
-      for (uint32_t m = k + 1; m <= l; ++m) response[l][m] -= of_pivot * response[m][k];
-    }
-  }
-}
-
-/// What is left of the parent's response once the joint is held: less the rows' replies over their pivots.
-template <bool only_points>
-void take_from(const JointWork& work, JointBody& parent) {
-  DETENT_UNROLL
-  for (int i = 0; i < 6; ++i) {
-    DETENT_UNROLL
-    for (int j = 0; j <= i; ++j) {
-      Real sum = k_zero;
-      if (only_points) {
-        const Vec3<Real> reply = {work.reply[0][i], work.reply[1][i], work.reply[2][i]};
-        const Vec3<Real> over = {work.reply_scaled[0][j], work.reply_scaled[1][j], work.reply_scaled[2][j]};
-        sum = dot(reply, over);
-      } else {
-        for (uint32_t k = 0; k < work.rows; ++k) sum += work.reply[k][i] * work.reply_scaled[k][j];
-      }
-      parent.response[j][i] = parent.response[i][j] -= sum;
-    }
-  }
-}
 
 /// Solves one island's joints.
 struct Solver {
@@ -149,6 +22,7 @@ struct Solver {
   Span<const uint32_t> trees, loops;  ///< of the work, from the roots up
   bool touches;                       ///< the island has contacts, which read the bodies' spins
   uint32_t clamped = 0;
+  bool loaded = false;  ///< the bodies' motions are
 
   JointBody& end_of(const JointWork& work, uint32_t end) const { return stage.bodies[work.body[end]]; }
   /// Visits the bodies of the trees, each once.
@@ -167,24 +41,35 @@ struct Solver {
     body.velocity = motion.velocity;
     body.spin = world_spin(bodies.traits[body.slot], bodies.work[body.slot].gyration, motion.momentum, body.above);
   }
-  /// A body as it is now, without its joints.
+  /// A body as it is now, without its joints; by anchor, what it shows at its owner's.
   void load(JointBody& body) {
     const BodyWork& now = bodies.work[body.slot];
     body.force = body.torque = body.given_force = body.given_torque = k_none;
-    load_motion(body);
-    const Scaled turn = scaled_by_power(body.share, now.gyration.exponent + 2 * body.above);
+    if (!loaded) load_motion(body);
+    const Scaled turn = scaled_by_power(body.turn_share, now.gyration.exponent + body.above);
     bool saturated = false;
-    const Real share = to_real(body.share, saturated);
+    body.pushed = to_real(body.share, saturated);
+    DETENT_UNROLL
+    for (int i = 0; i < 3; ++i) body.turned[i] = multiply(real_from(now.gyration.row[i]), turn);
+    if (body.by_anchor != 0) {
+      const Vec3<Unit>& arm = owner_arm(body);
+      body.anchor_velocity = body.velocity + cross(body.spin, arm);
+      show_at_itself(body, TurnByForce(body, arm), arm, body.response);
+      return;
+    }
     DETENT_UNROLL
     for (int i = 0; i < 3; ++i) {
-      const Vec3<Real> row = multiply(real_from(now.gyration.row[i]), turn);
       DETENT_UNROLL
       for (int j = 0; j < 6; ++j) body.response[i][j] = body.response[i + 3][j] = k_zero;
-      body.response[i][i] = share;
-      body.response[i + 3][3] = row.x;
-      body.response[i + 3][4] = row.y;
-      body.response[i + 3][5] = row.z;
+      body.response[i][i] = body.pushed;
+      body.response[i + 3][3] = body.turned[i].x;
+      body.response[i + 3][4] = body.turned[i].y;
+      body.response[i + 3][5] = body.turned[i].z;
     }
+  }
+  const Vec3<Unit>& owner_arm(const JointBody& body) const {
+    const JointWork& owner = stage.work[body.owner];
+    return owner.arm[&end_of(owner, 1) == &body ? 1 : 0];
   }
 
   /// A wrench that acts without a row, on one body.
@@ -208,15 +93,12 @@ struct Solver {
     }
   }
 
-  template <bool only_points>
   void missing_speeds(const JointWork& work, Real (&missing)[k_joint_rows_max]) {
     Real of_a[k_joint_rows_max], of_b[k_joint_rows_max];
     const JointBody &a = end_of(work, 0), &b = end_of(work, 1);
-    show<only_points>(work, 0, a.velocity, a.spin, of_a);
-    show<only_points>(work, 1, b.velocity, b.spin, of_b);
-    const uint32_t rows = only_points ? 3 : work.rows;
-    for (uint32_t k = 0; k < rows; ++k) missing[k] = work.wanted[k] - (of_b[k] - of_a[k]);
-    if (only_points) return;
+    show(work, 0, a.velocity, a.spin, of_a);
+    show(work, 1, b.velocity, b.spin, of_b);
+    for (uint32_t k = 0; k < work.rows; ++k) missing[k] = work.wanted[k] - (of_b[k] - of_a[k]);
     for (int i = 0; i < 2; ++i) {
       const uint32_t row = work.driven[i];
       if (row != k_joint_rows_max) missing[row] -= work.softness[row] * work.driven_total[i];
@@ -225,10 +107,9 @@ struct Solver {
 
   /// L^-1 of the missing speeds, over the pivots.
   template <bool only_points>
-  void start_impulses(JointWork& work) {
-    Real missing[k_joint_rows_max];
-    missing_speeds<only_points>(work, missing);
+  void start_impulses(JointWork& work, Real (&missing)[k_joint_rows_max]) {
     const uint32_t rows = only_points ? 3 : work.rows;
+    DETENT_UNROLL
     for (uint32_t k = 0; k < rows; ++k) {
       for (uint32_t m = 0; m < k; ++m) missing[k] -= work.lower[k][m] * missing[m];
       bool saturated = false;
@@ -238,42 +119,121 @@ struct Solver {
     }
   }
 
-  template <bool only_points>
   void eliminate(JointWork& work) {
-    const uint32_t rows = only_points ? 3 : work.rows;
     JointBody &parent = end_of(work, work.parent), &child = end_of(work, 1 - work.parent);
     Real response[k_joint_rows_max][k_joint_rows_max];
-    for (uint32_t k = 0; k < rows; ++k) {
+    for (uint32_t k = 0; k < work.rows; ++k) {
       for (uint32_t m = 0; m <= k; ++m) response[k][m] = k_zero;
     }
     if (child.mobile != 0) {
-      respond<only_points>(work, child, 1 - work.parent, work.reply);
-      couple<only_points>(work, 1 - work.parent, work.reply, response);
+      respond<false>(work, child, 1 - work.parent, work.reply);
+      couple<false>(work, 1 - work.parent, work.reply, response);
     }
-    respond<only_points>(work, parent, work.parent, work.reply);
-    couple<only_points>(work, work.parent, work.reply, response);
-    factor<only_points>(response, work);
+    respond<false>(work, parent, work.parent, work.reply);
+    couple<false>(work, work.parent, work.reply, response);
+    factor<false>(response, work);
+    substitute<6>(work.rows, work);
+    take_from<false>(work, parent);
+  }
+
+  /// Likewise of a joint that holds a point alone.
+  void eliminate_point(uint32_t index) {
+    JointWork& work = stage.work[index];
+    JointBody &parent = end_of(work, work.parent), &child = end_of(work, 1 - work.parent);
+    Real response[k_joint_rows_max][k_joint_rows_max];
     DETENT_UNROLL
-    for (uint32_t k = 0; k < rows; ++k) {
-      for (uint32_t m = 0; m < k; ++m) {
-        const Real share = work.lower[k][m];
-        DETENT_UNROLL
-        for (int i = 0; i < 6; ++i) work.reply[k][i] -= work.reply[m][i] * share;
-      }
-      DETENT_UNROLL
-      for (int i = 0; i < 6; ++i) work.reply_scaled[k][i] = multiply(work.reply[k][i], work.inverse[k]);
+    for (int k = 0; k < 3; ++k) {
+      for (int m = 0; m <= k; ++m) response[k][m] = k_zero;
     }
-    take_from<only_points>(work, parent);
+    const auto add = [&](const auto& shown) {
+      DETENT_UNROLL
+      for (int k = 0; k < 3; ++k) {
+        DETENT_UNROLL
+        for (int m = 0; m <= k; ++m) response[k][m] += shown[k][m];
+      }
+    };
+    const auto add_whole = [&](JointBody& body, uint32_t end) {
+      respond<true>(work, body, end, work.reply);
+      couple<true>(work, end, work.reply, response);
+    };
+    if (child.mobile != 0) {
+      if (child.by_anchor != 0)
+        add(child.response);
+      else
+        add_whole(child, 1 - work.parent);
+    }
+    work.width = 0;
+    if (parent.mobile != 0) {
+      if (parent.by_anchor == 0) {
+        work.width = 6;
+        add_whole(parent, work.parent);
+      } else if (parent.owner == index) {
+        add(parent.response);
+      } else {
+        work.width = 3;
+        const Vec3<Unit>& arm = work.arm[work.parent];
+        const TurnByForce turn(parent, arm);
+        Real shown[3][3];
+        show_at_itself(parent, turn, arm, shown);
+        add(shown);
+        show_at(parent, turn, owner_arm(parent), work.reply);
+      }
+    }
+    factor<true>(response, work);
+    if (work.width == 6) {
+      substitute<6>(3, work);
+      take_from<true>(work, parent);
+    } else if (work.width == 3) {
+      substitute<3>(3, work);
+      DETENT_UNROLL
+      for (int i = 0; i < 3; ++i) {
+        DETENT_UNROLL
+        for (int j = 0; j <= i; ++j)
+          parent.response[i][j] -= dot(replies(work.reply, i), replies(work.reply_scaled, j));
+      }
+    }
+  }
+  static Vec3<Real> replies(const Reply& reply, int i) { return {reply[0][i], reply[1][i], reply[2][i]}; }
+
+  /// The velocity of a point's end as the joints eliminated so far leave it.
+  Vec3<Real> velocity_of(const JointWork& work, uint32_t index, uint32_t end) const {
+    const JointBody& body = end_of(work, end);
+    if (body.by_anchor != 0 && body.owner == index) return body.anchor_velocity;
+    return body.velocity + cross(body.spin, work.arm[end]);
   }
 
   /// The parent moves as the joint, held, moves it.
-  template <bool only_points>
   void take_up(JointWork& work) {
-    start_impulses<only_points>(work);
+    Real missing[k_joint_rows_max];
+    missing_speeds(work, missing);
+    start_impulses<false>(work, missing);
+    move_parent(work.rows, work);
+  }
+  void take_up_point(uint32_t index) {
+    JointWork& work = stage.work[index];
+    const Vec3<Real> apart = velocity_of(work, index, 1) - velocity_of(work, index, 0);
+    Real missing[k_joint_rows_max];
+    missing[0] = work.wanted[0] - apart.x;
+    missing[1] = work.wanted[1] - apart.y;
+    missing[2] = work.wanted[2] - apart.z;
+    start_impulses<true>(work, missing);
+    if (work.width == 6) {
+      move_parent(3, work);
+    } else if (work.width == 3) {
+      JointBody& parent = end_of(work, work.parent);
+      const Vec3<Real> start = {work.start[0], work.start[1], work.start[2]};
+      const Vec3<Real> moved = {dot(replies(work.reply, 0), start), dot(replies(work.reply, 1), start),
+                                dot(replies(work.reply, 2), start)};
+      if (work.parent == 1)
+        parent.anchor_velocity += moved;
+      else
+        parent.anchor_velocity -= moved;
+    }
+  }
+  void move_parent(uint32_t rows, const JointWork& work) {
     JointBody& parent = end_of(work, work.parent);
-    const bool to_b = work.parent == 1;
-    for (uint32_t k = 0; k < (only_points ? 3 : work.rows); ++k) {
-      const Real impulse = to_b ? work.start[k] : -work.start[k];
+    for (uint32_t k = 0; k < rows; ++k) {
+      const Real impulse = work.parent == 1 ? work.start[k] : -work.start[k];
       parent.velocity += first_three(work.reply[k]) * impulse;
       parent.spin += last_three(work.reply[k]) * impulse;
     }
@@ -285,9 +245,12 @@ struct Solver {
     const uint32_t rows = only_points ? 3 : work.rows;
     JointBody &parent = end_of(work, work.parent), &child = end_of(work, 1 - work.parent);
     const bool parent_is_b = work.parent == 1;
+    const uint32_t width = only_points ? work.width : 6;
+    DETENT_UNROLL
     for (uint32_t k = 0; k < rows; ++k) {
-      const Real from_above =
-          dot(parent.force, first_three(work.reply_scaled[k])) + dot(parent.torque, last_three(work.reply_scaled[k]));
+      Real from_above = k_zero;
+      if (width != 0) from_above = dot(parent.force, first_three(work.reply_scaled[k]));
+      if (width == 6) from_above += dot(parent.torque, last_three(work.reply_scaled[k]));
       work.impulse[k] = parent_is_b ? work.start[k] - from_above : work.start[k] + from_above;
     }
     for (uint32_t k = rows; k-- > 0;) {
@@ -315,15 +278,25 @@ struct Solver {
 
   static bool is_only_points(const JointWork& work) { return work.points != 0 && work.rows == 3; }
 
+  /// Which bodies points alone hold, and nothing else pushes.
+  void find_by_anchor() {
+    each_body([](JointBody& body) { body.by_anchor = body.links <= 2 ? 1 : 0; });
+    for (const uint32_t index : trees) {
+      const JointWork& work = stage.work[index];
+      if (is_only_points(work) && work.constant[0] == k_zero && work.constant[1] == k_zero) continue;
+      end_of(work, 0).by_anchor = end_of(work, 1).by_anchor = 0;
+    }
+  }
+
   void solve_trees() {
     for (uint32_t k = trees.count; k-- > 0;) {
       JointWork& work = stage.work[trees[k]];
       if (is_only_points(work)) {
-        eliminate<true>(work);
-        take_up<true>(work);
+        eliminate_point(trees[k]);
+        take_up_point(trees[k]);
       } else if (work.rows != 0) {
-        eliminate<false>(work);
-        take_up<false>(work);
+        eliminate(work);
+        take_up(work);
       }
     }
     for (const uint32_t index : trees) {
@@ -395,7 +368,9 @@ struct Solver {
   void solve_held(uint32_t& undecided) {
     for (uint32_t decision = 1;; ++decision) {
       for (const uint32_t index : trees) add_driven_rows(settings, bodies, stage, stage.work[index]);
+      find_by_anchor();
       each_body([&](JointBody& body) { load(body); });
+      loaded = false;
       for (const uint32_t index : trees) push(stage.work[index]);
       solve_trees();
       const bool last = decision == k_decisions;
@@ -436,6 +411,18 @@ struct Solver {
       work.torque_sum += real_from(row.arm[1]) * impulse;
   }
 
+  /// What the next substep starts from.
+  void keep(const JointWork& work) {
+    Real(&kept)[k_joint_rows_max] = stage.joints[work.joint].impulse;
+    const auto store = [&](uint32_t k, Real impulse) {
+      kept[k] = clamp(impulse, -k_joint_impulse_max, k_joint_impulse_max);
+      if (!(kept[k] == impulse)) ++clamped;
+    };
+    for (uint32_t k = 0; k < work.rows_held; ++k) store(k, work.total[k]);
+    for (uint32_t i = 0; i < 2 && work.rows_held + i < k_joint_rows_max; ++i)
+      store(work.rows_held + i, work.driven_total[i]);
+  }
+
   /// Puts on what the joints that close loops gave in the last substep.
   void start_loops() {
     for (const uint32_t index : loops) {
@@ -470,9 +457,11 @@ struct Solver {
   /// Holds a joint by itself, as its bodies move now.
   void hold_loop(JointWork& work) {
     load_ends(work);
-    eliminate<false>(work);
+    eliminate(work);
     load_ends(work);
-    start_impulses<false>(work);
+    Real missing[k_joint_rows_max];
+    missing_speeds(work, missing);
+    start_impulses<false>(work, missing);
     for (uint32_t k = work.rows; k-- > 0;) {
       work.impulse[k] = work.start[k];
       for (uint32_t m = k + 1; m < work.rows; ++m) work.impulse[k] -= work.lower[m][k] * work.impulse[m];
@@ -502,7 +491,7 @@ struct Solver {
     BodyMotion& motion = bodies.motions[body.slot];
     BodyWork& now = bodies.work[body.slot];
     const Vec3<Real> velocity = multiply(force, body.share);
-    const Vec3<Real> momentum = multiply(torque, scaled_by_power(body.share, body.above));
+    const Vec3<Real> momentum = multiply(torque, body.turn_share);
     motion.velocity += velocity;
     motion.momentum += momentum;
     if (DETENT_FIXED) {  // it is not the contacts' (contact_motion.h)
@@ -522,23 +511,21 @@ uint32_t solve_joints(const StepSettings& settings, const SolverBodies& bodies, 
   const Span<const uint32_t> loops = {stage.order.data + island.first_joint + island.joint_count, island.loop_count};
   Solver solver = {settings, bodies, stage, trees, loops, island.contact_count != 0};
   solver.place(elapsed);
+  solver.loaded = loops.count == 0;
   solver.make_rows(trees);
   solver.make_rows(loops);
+  const Span<const uint32_t> all = {trees.data, trees.count + loops.count};
+  hold_sway(settings, bodies, all, stage);
   solver.start_loops();
   solver.solve_held(undecided);
   for (uint32_t sweep = 0; sweep < k_loop_sweeps && loops.count != 0; ++sweep) {
     for (const uint32_t index : loops) solver.hold_loop(stage.work[index]);
     solver.solve_held(undecided);
   }
-  for (const uint32_t index : trees) solver.add_up(stage.work[index]);
-  for (const uint32_t index : loops) {
+  for (const uint32_t index : all) {
     JointWork& work = stage.work[index];
     solver.add_up(work);
-    JointState& joint = stage.joints[work.joint];
-    for (uint32_t k = 0; k < work.rows_held; ++k) {
-      joint.impulse[k] = clamp(work.total[k], -k_joint_impulse_max, k_joint_impulse_max);
-      if (!(joint.impulse[k] == work.total[k])) ++solver.clamped;
-    }
+    solver.keep(work);
   }
   return solver.clamped;
 }

@@ -18,9 +18,17 @@ constexpr int k_redundant_power = -28;
 /// And at least so much, so that its reciprocal is one that multiply() takes.
 constexpr Real k_response_min = 0x1p-29;
 
-/// Of an island without and with contacts.
-constexpr uint32_t k_substeps_min = 4;
+/// Of an island with contacts.
 constexpr uint32_t k_substeps_with_contacts = 8;
+/// One without takes these, but many joints no more than make so many joint substeps.
+constexpr uint32_t k_substeps_max = 4, k_substeps_min = 1, k_joint_substeps = 60;
+
+uint32_t substeps_of(const Island& island) {
+  if (island.contact_count != 0) return k_substeps_with_contacts;
+  if (island.loop_count != 0) return k_substeps_max;  // what is iterated needs them
+  const uint32_t share = k_joint_substeps / (island.joint_count + island.loop_count);
+  return share < k_substeps_min ? k_substeps_min : share > k_substeps_max ? k_substeps_max : share;
+}
 
 Real absolute_sum(const Vec3<Real>& v) { return abs(v.x) + abs(v.y) + abs(v.z); }
 
@@ -35,7 +43,7 @@ uint32_t place_of(const SolverBodies& bodies, uint32_t slot, JointStage& stage) 
   body.mobile = is_dynamic(bodies.traits[slot]) && stage.activities[slot].asleep == 0 ? 1 : 0;
   body.first = body.last = body.owner = k_no_link;
   body.exponent = bodies.traits[slot].size_exponent;
-  body.share = Scaled(0.0);
+  body.share = body.turn_share = Scaled(0.0);
   return place;
 }
 
@@ -85,17 +93,20 @@ void collect_joints(const SolverBodies& bodies, JointStage& stage) {
     link_to(stage, index, 0);
     link_to(stage, index, 1);
     JointBody &a = stage.bodies[work.body[0]], &b = stage.bodies[work.body[1]];
+    const Position &from = stage.poses[joint.body_a].position, &to = stage.poses[joint.body_b].position;
+    work.between = real_difference(to, from);
     Real way = Real(0.0);
-    if (takes_way(joint)) {
-      const Position &from = stage.poses[joint.body_a].position, &to = stage.poses[joint.body_b].position;
-      const Vec3<Real> between = real_difference(to, from);
-      way = scale_by_power(absolute_sum(between) + absolute_sum(joint.anchor_b), 1);
-    }
+    if (takes_way(joint)) way = scale_by_power(absolute_sum(work.between) + absolute_sum(joint.anchor_b), 1);
     reach_out(a, max(absolute_sum(joint.anchor_a), way));
     reach_out(b, absolute_sum(joint.anchor_b));
   }
   for (JointBody& body : stage.bodies.first(stage.body_count))
     body.above = body.exponent - bodies.traits[body.slot].size_exponent;
+  for (JointWork& work : stage.work.first(stage.count)) {
+    const JointState& joint = stage.joints[work.joint];
+    work.anchor[0] = unit_held(joint.anchor_a, stage.bodies[work.body[0]].exponent);
+    work.anchor[1] = unit_held(joint.anchor_b, stage.bodies[work.body[1]].exponent);
+  }
 }
 
 namespace {
@@ -133,6 +144,8 @@ struct Grower {
         continue;
       }
       stage.order[placed++] = index;
+      ++stage.bodies[place].links;
+      ++other.links;
       JointBody& own = stage.bodies[place];
       if (own.owner == k_no_link) own.owner = index;
       if (other.mobile == 0) continue;
@@ -170,7 +183,8 @@ void grow_trees(const StepSettings& settings, const SolverBodies& bodies, Span<c
       const auto weigh = [&](uint32_t index) {
         for (const uint32_t at : stage.work[index].body) {
           JointBody& body = stage.bodies[at];
-          if (body.mobile != 0) body.share = divide(reference, bodies.traits[body.slot].mass);
+          if (body.mobile != 0 && body.share == Scaled(0.0))
+            body.share = divide(reference, bodies.traits[body.slot].mass);
         }
       };
       for (uint32_t k = from; k < grower.placed; ++k) weigh(stage.order[k]);
@@ -189,8 +203,7 @@ void grow_trees(const StepSettings& settings, const SolverBodies& bodies, Span<c
     island.joint_count = grower.placed - first;
     island.loop_count = loops;
     first = grower.placed + loops;
-    if (island.joint_count + loops != 0)
-      island.substeps = island.contact_count == 0 ? k_substeps_min : k_substeps_with_contacts;
+    if (island.joint_count + loops != 0) island.substeps = substeps_of(island);
   }
   for (JointWork& work : stage.work.first(stage.count)) {
     const JointBody &a = stage.bodies[work.body[0]], &b = stage.bodies[work.body[1]];
@@ -208,6 +221,7 @@ void grow_trees(const StepSettings& settings, const SolverBodies& bodies, Span<c
     const JointBody& mobile = a.mobile != 0 ? a : b;
     const Scaled reference = multiply(bodies.traits[mobile.slot].mass, mobile.share);
     for (int i = 0; i < 2; ++i) {
+      if (!is_positive(joint.force_max[i])) continue;
       // Torques are over 2^exponent m besides.
       const int power = is_angular(static_cast<JointType>(joint.type), i) ? -work.exponent : 0;
       const Scaled impulse = scaled_by_power(multiply(joint.force_max[i], scaled_from(settings.tick_time)), power);

@@ -33,7 +33,7 @@ Vec3<Real> halved(const Vec3<Real>& v) {
 
 /// What acts without contacts. From the second substep of a tick on, contacts first push as they did in the last one:
 /// that is the warm start of all of a body's contacts at once.
-uint32_t integrate_velocities(const SolverBodies& bodies, Span<const uint32_t> island, bool first) {
+uint32_t integrate_velocities(const SolverBodies& bodies, Span<const uint32_t> island, bool first, bool touches) {
   const Scaled one = 1.0;
   uint32_t clamped = 0;
   for (const uint32_t slot : island) {
@@ -50,7 +50,8 @@ uint32_t integrate_velocities(const SolverBodies& bodies, Span<const uint32_t> i
     motion.velocity += pushed;
     motion.momentum += turned;
     clamped += clamp_vector(motion.velocity, k_speed_work_max) + clamp_vector(motion.momentum, k_spin_work_max);
-    now.spin = world_spin(bodies.traits[slot], now.gyration, motion.momentum, -k_spin_power);
+    // Contacts alone read it.
+    if (touches) now.spin = world_spin(bodies.traits[slot], now.gyration, motion.momentum, -k_spin_power);
   }
   return clamped;
 }
@@ -186,7 +187,7 @@ SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<
     }
   };
   for (uint32_t substep = 0; substep < settings.substeps; ++substep) {
-    count.clamped += integrate_velocities(bodies, island, substep == 0);
+    count.clamped += integrate_velocities(bodies, island, substep == 0, order.count != 0);
     if (substep == 0) each([](Solver& contact) { contact.warm_start(); });
     for (const ContactOrder& entry : order) {
       const ContactWork& contact = contacts[entry.contact];
@@ -211,7 +212,7 @@ uint32_t fly(const StepSettings& settings, const SolverBodies& bodies, Span<cons
   constexpr int k_halvings = 2;
   uint32_t clamped = 0;
   for (uint32_t substep = 0; substep < settings.substeps; ++substep) {
-    clamped += integrate_velocities(bodies, island, true);
+    clamped += integrate_velocities(bodies, island, true, false);
     clamped += integrate_positions(bodies, island, settings.time, k_halvings);
   }
   return clamped;

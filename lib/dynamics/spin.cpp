@@ -37,6 +37,9 @@ Scaled distance(Scaled a, Scaled b) { return less(a, b) ? difference(b, a) : dif
 
 /// The axis whose gyration is farthest from the other two.
 int odd_axis(const Scaled (&gyration)[3]) {
+  if (gyration[1] == gyration[2]) return 0;
+  if (gyration[2] == gyration[0]) return 1;
+  if (gyration[0] == gyration[1]) return 2;
   const Scaled apart[3] = {distance(gyration[1], gyration[2]), distance(gyration[2], gyration[0]),
                            distance(gyration[0], gyration[1])};
   const int least = less(apart[1], apart[0]) ? 1 : 0;

@@ -160,6 +160,9 @@ void choose_substeps(const StepSettings& settings, Span<const BodyTraits> traits
         if (now == lower) calm = 0;
       }
     }
+    // The lowest notch is for contacts.
+    const bool free = settings.substeps_fixed == 0 && island.contact_count == 0;
+    if (free && for_joints == 1 && now == k_notches[0]) now = 1;
     island.substeps = now;
     for (uint32_t i = 0; i < island.contact_count; ++i) {
       ContactWork& contact = contacts[order[island.first_contact + i].contact];

@@ -110,6 +110,10 @@ int64_t multiply_raw(int64_t raw, uint64_t b_word) {
 
 int64_t multiply_raw(int64_t raw, uint64_t b_word, bool& saturated) {
   const Scaled b = to_scaled(b_word);
+  // The most that the product can be long; what is far from the limits is not looked at closer.
+  const int most = bit_length_64(magnitude_64(raw)) + 31 + b.exponent;
+  if (most <= 62 && b.exponent < 0 && b.exponent >= -120)
+    return Int128::product_narrow(raw, b.mantissa).round_shift(-b.exponent);
   const Int128 product = Int128::product_narrow(raw, b.mantissa);
   const Words128 size = magnitude_128(product);
   const int length = bit_length_128(size);

@@ -63,6 +63,11 @@ DETENT_PASSING inline Scaled add(Scaled a, Scaled b) {
 }
 /// a 2^n, exact.
 DETENT_PASSING inline Scaled scaled_by_power(Scaled a, int n) {
+#if UINTPTR_MAX > 0xffffffff
+  const int exponent = a.exponent + n;
+  if (a.mantissa != 0 && exponent >= -k_scaled_exponent_max && exponent <= k_scaled_exponent_max)
+    return Scaled::from_parts(a.mantissa, exponent);
+#endif
   return words::to_scaled(words::scaled_by_power(words::word_of(a), n));
 }
 /// Range: a >= 0.

@@ -304,6 +304,77 @@ DETENT_TEST(joint, a_tree_holds_masses_ten_thousand_times_apart_and_takes_any) {
   }
 }
 
+/// A chain of bricks from a wall, level, each joint of a type, and a weight of so many bricks at its end.
+struct HangingChain {
+  Lab lab;
+  BodyId wall, last;
+
+  HangingChain(int links, double weight, JointType middle = JointType::ball)
+      : lab(room(static_cast<uint32_t>(links) + 8, static_cast<uint32_t>(links) + 8)) {
+    BodyDef def;
+    def.type = BodyType::fixed;
+    def.shape = box(reals(0.1, 0.1, 0.1));
+    last = wall = lab.add(def);
+    def.type = BodyType::dynamic;
+    def.shape = box(reals(0.2, 0.05, 0.05));
+    def.filter.mask = 0;
+    for (int i = 0; i <= links; ++i) {
+      def.mass = scaled(i == links ? weight : 1);
+      def.position = position(0.5 * i + 0.25, 0, 0);
+      const BodyId next = lab.add(def);
+      add_joint(lab, i == links / 2 ? middle : JointType::ball, last, next, 0.5 * i, 0, 0);
+      last = next;
+    }
+  }
+  double widest() {
+    double gap = 0;
+    for (JointId id = next_joint(lab.world, {}); !(id == JointId{}); id = next_joint(lab.world, id))
+      gap = std::max(gap, length(joint_ends(lab.world, id).gap()));
+    return gap;
+  }
+};
+
+DETENT_TEST(joint, a_weight_of_a_thousand_links_does_not_shake_its_chain_apart) {
+  for (const int links : {6, 30}) {
+    SCOPED_TRACE(links);
+    HangingChain chain(links, 1000);
+    double widest = 0;
+    for (int tick = 0; tick < 600; ++tick) {
+      chain.lab.run(1);
+      widest = std::max(widest, chain.widest());
+    }
+    EXPECT_LE(widest, 0.01);
+  }
+}
+
+DETENT_TEST(joint, many_joints_take_fewer_substeps) {
+  EXPECT_EQ(HangingChain(5, 1).lab.run(1).substeps_max, 4u);
+  EXPECT_EQ(HangingChain(25, 1).lab.run(1).substeps_max, 2u);
+  EXPECT_EQ(HangingChain(40, 1).lab.run(1).substeps_max, 1u);
+}
+
+DETENT_TEST(joint, a_tree_of_points_holds_with_branches_and_other_types_in_it) {
+  HangingChain tree(6, 1, JointType::hinge);
+  for (int branch = 0; branch < 2; ++branch) {
+    BodyDef def;
+    def.shape = box(reals(0.2, 0.05, 0.05));
+    def.filter.mask = 0;
+    def.position = position(3.75, 0, 0);
+    const BodyId first = tree.lab.add(def);
+    add_joint(tree.lab, JointType::ball, tree.last, first, 3.5, 0, 0);
+    def.position = position(4.25, 0, 0);
+    const BodyId second = tree.lab.add(def);
+    add_joint(tree.lab, JointType::ball, first, second, 4.0, 0, 0);
+    EXPECT_OK(set_velocity(tree.lab.world, second, reals(0, 0, branch == 0 ? 4 : -4), reals(0, 0, 0)));
+  }
+  double widest = 0;
+  for (int tick = 0; tick < 300; ++tick) {
+    tree.lab.run(1);
+    widest = std::max(widest, tree.widest());
+  }
+  EXPECT_LE(widest, 0.01);
+}
+
 DETENT_TEST(joint, an_anchor_far_outside_a_body_that_shrinks_is_still_loaded_and_stepped) {
   Lab lab(room(2, 1));
   const BodyId ground = add_shape(lab, box(reals(0.1, 0.1, 0.1)), 0, 0, 0, BodyType::fixed);

@@ -157,13 +157,21 @@ struct alignas(8) JointBody {
   uint32_t met;                          ///< 1 once its tree has been grown to it
   int32_t exponent;                      ///< of the unit, m
   int32_t above;                         ///< by how much that is more than the body's own
-  uint32_t owner;                        ///< the joint of its tree that it is visited with
+  uint32_t owner;                        ///< the joint of its tree that it is visited with, the last to be eliminated
+  uint32_t links;                        ///< joints of its tree that hold it
+  uint32_t by_anchor;                    ///< 1 if no more than two points do: joint_anchor.h
   alignas(sizeof(Real)) Scaled share;    ///< reference mass / mass; 0 if it takes no part
+  Scaled turn_share;                     ///< what a torque gives the momentum (joint_sway.cpp)
   Quat rotation;                         ///< now
   Matrix3 axes;                          ///< likewise
   Vec3<Real> place;                      ///< of its centre, from where it was at the start of the tick, m
   Vec3<Real> velocity, spin;             ///< as the joints eliminated so far leave them, m/s
-  Real response[6][6];                   ///< of velocity and spin to a force and a torque on it; symmetric
+  Vec3<Real> anchor_velocity;            ///< likewise, by anchor: of its owner's anchor
+  Real pushed;                           ///< velocity by a unit force
+  Vec3<Real> turned[3];                  ///< spin by a torque: the rows of a symmetric matrix
+  Real stiffness;                        ///< against turning, of the pulls of its joints (joint_sway.cpp)
+  Real response[6][6];                   ///< of velocity and spin to a force and a torque on it; symmetric. By anchor:
+                                         ///< the lower 3 x 3 is that of the owner's anchor
   Vec3<Real> force, torque;              ///< what joints above or eliminated later give it
   Vec3<Real> given_force, given_torque;  ///< what acts without a row: motors at their limit
 };
@@ -186,9 +194,11 @@ struct alignas(8) JointWork {
   uint32_t rows_held;              ///< always
   uint32_t rows;                   ///< and driven, in this substep
   uint32_t points;                 ///< 1 if the first three rows hold the anchors together
+  uint32_t width;                  ///< of `reply`: 6, or by anchor 3: at the owner's, 0: there is no other
   uint32_t driven[2];              ///< the row of each free motion that is driven now, or k_joint_rows_max
   alignas(4) DriveMode mode[2];    ///< of each free motion
-  Vec3<Unit> arm[2];               ///< the anchors, from the bodies' centres, in their units
+  Vec3<Unit> anchor[2];            ///< in the bodies' axes and units
+  Vec3<Unit> arm[2];               ///< likewise, now, in world axes
   int32_t exponent;                ///< 2^exponent m: how far angular rows reach
   JointRow row[k_joint_rows_max];  ///< those beyond the points
   alignas(sizeof(Real)) Scaled inverse[k_joint_rows_max];  ///< of the pivots
@@ -202,6 +212,7 @@ struct alignas(8) JointWork {
   Real impulse[k_joint_rows_max];                          ///< of this solve
   Real total[k_joint_rows_max];                            ///< of the rows always held, in this substep
   Real value[2];                                           ///< of the free motions, m (angles: times 2^exponent)
+  Vec3<Real> between;                                      ///< from A's centre to B's at the start of the tick, m
   Real bound[2];                                           ///< largest impulse of a motor or spring, m/s
   Real constant[2];                                        ///< that is to act instead of a row, m/s
   Real driven_total[2];                                    ///< of the rows of the free motions, in this substep

@@ -1,0 +1,77 @@
+#include "dynamics/gyration.h"
+#include "dynamics/joint.h"
+#include "math/scaled.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+constexpr Real k_zero = 0.0;
+
+/// What a substep follows without gaining energy is (rate x substep)^2 = 4 of a swing (symplectic Euler), less a
+/// margin: the pulls are those of the last substep.
+constexpr Real k_followed = 3.0;
+
+constexpr Real k_stiffness_max = 32768.0;  ///< far beyond what a substep follows; two sums of it fit
+
+/// The force on B in the last substep, over the reference mass, m/s.
+Vec3<Real> pull_of(const JointState& joint, const JointWork& work) {
+  Vec3<Real> pull = {k_zero, k_zero, k_zero};
+  if (work.points != 0) pull = {joint.impulse[0], joint.impulse[1], joint.impulse[2]};
+  for (uint32_t k = work.points != 0 ? 3 : 0; k < work.rows_held; ++k) pull += work.row[k].axis * joint.impulse[k];
+  for (uint32_t i = 0; i < 2 && work.rows_held + i < k_joint_rows_max; ++i)
+    pull += work.free_row[i].axis * joint.impulse[work.rows_held + i];
+  return pull;
+}
+
+/// A force F at an arm r turns a body back as it turns: with the stiffness K = (F.r) - F r^T. The squared rates of its
+/// swings are the eigenvalues of G K, where G is 1 / inertia; their sum, tr(G) (F.r) - F.G r, is above each. This is a
+/// quarter of it in mantissas of gyration.
+Real stiffness(const WorldGyration& gyration, const Vec3<Real>& pull, const Vec3<Unit>& arm) {
+  const auto quarter = [](Unit value) { return scale_by_power(value, -2); };
+  const Unit trace = quarter(gyration.row[0].x) + quarter(gyration.row[1].y) + quarter(gyration.row[2].z);
+  return dot(pull, arm * trace - multiply(gyration, Vec3<Unit>{quarter(arm.x), quarter(arm.y), quarter(arm.z)}));
+}
+
+/// The body's inertia grows by what the pulls add to it in an implicit step, and its momentum does not: so what is
+/// added damps. (If only torques gave less, energy would come in as the pulls change.)
+void slow(const SolverBodies& bodies, Scaled share, JointBody& body) {
+  Vec3<Real>& momentum = bodies.motions[body.slot].momentum;
+  const Vec3<Real> before = momentum;
+  momentum = multiply(before, share);
+  if (DETENT_FIXED) bodies.work[body.slot].contact_momentum += before - momentum;  // it is not the contacts'
+  body.spin = multiply(body.spin, share);
+  body.turn_share = multiply(body.turn_share, share);
+}
+
+}  // namespace
+
+void hold_sway(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> joints,
+               JointStage& stage) {
+  for (const uint32_t index : joints) {
+    const JointWork& work = stage.work[index];
+    const Vec3<Real> pull = pull_of(stage.joints[work.joint], work);
+    for (uint32_t end = 0; end < 2; ++end) {
+      JointBody& body = stage.bodies[work.body[end]];
+      if (body.mobile == 0) continue;
+      const Real own = stiffness(bodies.work[body.slot].gyration, pull, work.arm[end]);
+      body.stiffness = clamp(body.stiffness + (end == 0 ? -own : own), -k_stiffness_max, k_stiffness_max);
+    }
+  }
+  const Scaled time = scaled_from(settings.time);
+  for (const uint32_t index : joints) {
+    for (const uint32_t place : stage.work[index].body) {
+      JointBody& body = stage.bodies[place];
+      if (body.mobile == 0 || body.owner != index) continue;
+      body.turn_share = scaled_by_power(body.share, body.above);
+      const int power = bodies.work[body.slot].gyration.exponent + body.above - body.exponent + 2;
+      bool saturated = false;
+      const Real swing = multiply(body.stiffness, scaled_by_power(multiply(body.turn_share, time), power), saturated);
+      if (swing > k_followed) slow(bodies, divide(scaled_from(k_followed), scaled_from(swing)), body);
+      body.stiffness = k_zero;
+    }
+  }
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent
