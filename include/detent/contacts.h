@@ -23,12 +23,12 @@ struct ContactPoint {
 /// and forces are those of the last substep, taken for the whole tick: the bodies' state holds no others. They are what
 /// rests on what; a blow shows in its event (event.h). Bodies that sleep keep theirs.
 struct Contact {
-  BodyId a;                            ///< the body of the lower slot
-  BodyId b;                            ///< the other
-  Vec3<Unit> normal = {};              ///< from A to B, world; zero where there is no point
-  uint32_t part = 0;                   ///< 0 between convex bodies; else another one for each contact of the pair (docs/compound.md)
-  bool touching = false;               ///< they pushed each other in the last step
-  uint32_t age = 0;                    ///< ticks in contact before the last one, at most 65535
+  BodyId a;                ///< the body of the lower slot
+  BodyId b;                ///< the other
+  Vec3<Unit> normal = {};  ///< from A to B, world; zero where there is no point
+  uint32_t part = 0;      ///< 0 between convex bodies; else another one for each contact of the pair (docs/compound.md)
+  bool touching = false;  ///< they pushed each other in the last step
+  uint32_t age = 0;       ///< ticks in contact before the last one, at most 65535
   uint32_t point_count = 0;            ///< at most 4
   ContactPoint point[4] = {};          ///< the first `point_count`
   Vec3<Scaled> friction_impulse = {};  ///< on B, N s, world, of the last tick

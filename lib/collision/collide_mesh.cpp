@@ -1,6 +1,5 @@
 #include "collision/collide_mesh.h"
 
-#include "collision/body_convex.h"
 #include "collision/contact_arm.h"
 
 namespace detent {
@@ -55,14 +54,6 @@ void collide_mesh(const Surface& surface, const CollisionBody& ground, const Col
   contacts.capped = found.capped();
   for (uint32_t i = 0; i < contacts.count; ++i)
     put_contact(manifold[i], place.surface, ground, body, contacts.contact[i]);
-}
-
-void collide_mesh(const Surface& surface, const CollisionBody& ground, const CollisionBody& body, Real reach,
-                  const AssetTable& assets, SurfaceContacts& contacts) {
-  Convex shape;
-  contacts.count = contacts.dropped = 0;
-  contacts.capped = !body_convex(body.traits, assets, shape);
-  if (!contacts.capped) collide_mesh(surface, ground, body, shape, {0, 0, 0}, reach, contacts);
 }
 
 }  // namespace DETENT_NAMESPACE

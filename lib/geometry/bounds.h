@@ -18,8 +18,8 @@ inline constexpr Bounds k_everywhere = {{-k_coord_limit, -k_coord_limit, -k_coor
                                         {k_coord_limit, k_coord_limit, k_coord_limit}};
 
 /// The least half size of axis-aligned bounds around the body's position that hold the shape, m, world axes. Not for a
-/// half-space. A hull's, a surface's and a compound's hold the box of its half extents, or its bounding ball where that is less.
-/// Rounding: within 2^-28 of the body's unit of length.
+/// half-space. A hull's, a surface's and a compound's hold the box of its half extents, or its bounding ball where that
+/// is less. Rounding: within 2^-28 of the body's unit of length.
 inline Vec3<Real> half_bounds(const BodyTraits& traits, const Matrix3& rotation) {
   const Unit zero = 0.0;
   Vec3<Unit> half = {zero, zero, zero};
@@ -59,7 +59,8 @@ inline Vec3<Real> half_bounds(const BodyTraits& traits, const Matrix3& rotation)
       break;
   }
   const ShapeType shape = static_cast<ShapeType>(traits.shape);
-  if (!(traits.rounding == zero) && shape != ShapeType::compound) half += Vec3<Unit>{traits.rounding, traits.rounding, traits.rounding};
+  if (!(traits.rounding == zero) && shape != ShapeType::compound)
+    half += Vec3<Unit>{traits.rounding, traits.rounding, traits.rounding};
   if (shape == ShapeType::hull || shape == ShapeType::surface || shape == ShapeType::compound) {
     const Unit ball = traits.bounding_radius;
     half = {min(half.x, ball), min(half.y, ball), min(half.z, ball)};

@@ -45,7 +45,10 @@ inline SurfaceContacts contacts_of(const Ground& ground, const OracleBody& body,
   pose.position = ground.pose.position;
   pose.rotation = ground.pose.rotation;
   const CollisionBody surface_body = {pose, traits, matrix_from(pose.rotation)};
-  collide_mesh(ground.surface, surface_body, {body.pose, body.traits, rotation}, real_near(reach), k_table, contacts);
+  Convex shape;
+  EXPECT_TRUE(body_convex(body.traits, k_table, shape));
+  collide_mesh(ground.surface, surface_body, {body.pose, body.traits, rotation}, shape, {0, 0, 0}, real_near(reach),
+               contacts);
   return contacts;
 }
 

@@ -115,7 +115,8 @@ DETENT_TEST(compounds, stand_on_each_other_and_on_boxes) {
   EXPECT_NEAR(lab.motion(under).position[1], 0.25, 0.01);
 }
 
-/// The same box as itself and as a compound, side by side.
+/// The same box as itself and as a compound, side by side. It tumbles: what their ways of finding contacts differ by
+/// grows with each edge that strikes.
 DETENT_TEST(compounds, of_one_box_behave_as_it_does) {
   CompoundLab lab({detent_compounds::box({0, 0, 0}, {0.5, 0.25, 0.3})});
   lab.add_ground();
@@ -133,7 +134,7 @@ DETENT_TEST(compounds, of_one_box_behave_as_it_does) {
   for (int tick = 0; tick < 30; ++tick) {
     lab.run(1);
     const Motion a = lab.motion(one), b = lab.motion(other);
-    for (int k = 0; k < 3; ++k) EXPECT_NEAR(a.position[k] + (k == 0 ? 20 : 0), b.position[k], 2e-4) << tick;
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(a.position[k] + (k == 0 ? 20 : 0), b.position[k], 1e-3) << tick;
   }
   lab.run(270);
   EXPECT_NEAR(lab.motion(one).position[1], lab.motion(other).position[1], 1e-3);

@@ -237,7 +237,8 @@ DETENT_TEST(surfaces, are_refused_where_they_cannot_be) {
   EXPECT_TRUE(shape.type == ShapeType::surface && shape.asset == 0);
 
   Lab plain({4, 4, 1});
-  plain.world.features = &feature_table<without(Features::all, Features::surface | Features::hull | Features::compound)>;
+  plain.world.features =
+      &feature_table<without(Features::all, Features::surface | Features::hull | Features::compound)>;
   EXPECT_EQ(bind_asset(plain.world, 0), Status::feature_missing);
 }
 
