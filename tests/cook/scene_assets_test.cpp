@@ -5,6 +5,7 @@
 
 #include <iterator>
 
+#include "ports/host/cook/cook_compound.h"
 #include "tests/geometry/surfaces.h"
 
 /// The surfaces of the scenes (tests/scenes/assets) are what is cooked here. Run with DETENT_WRITE_ASSETS=1 to write
@@ -53,6 +54,15 @@ TEST(scene_assets, have_the_hills) {
     for (uint32_t i = 0; i <= 8; ++i) source.heights.push_back(((i * i + 3 * j) % 5) * 0.1875 - 0.125 * (j % 3));
   }
   expect_committed("hills.field", detent_cook::cook_height_field(source).bytes);
+}
+
+/// Two balls of different weights on a bar, with a box across it.
+TEST(scene_assets, have_the_dumbbell) {
+  using Part = detent_cook::CompoundPart;
+  const Part ball = {Part::Kind::ball, {{-0.5, 0, 0}}, 0.25, 1}, heavy = {Part::Kind::ball, {{0.5, 0, 0}}, 0.1875, 4};
+  const Part bar = {Part::Kind::capsule, {{-0.5, 0, 0}, {0.5, 0, 0}}, 0.0625, 1};
+  const Part box = {Part::Kind::hull, detent_cook::box_points({0, 0, 0}, {0.0625, 0.125, 0.375}, {0, 0, 0, 1}), 0, 1};
+  expect_committed("dumbbell.compound", detent_cook::cook_compound({ball, heavy, bar, box}).bytes);
 }
 
 }  // namespace

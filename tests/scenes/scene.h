@@ -19,9 +19,10 @@ struct Scene {
 
 /// What the scenes' worlds have for assets; scenes without make nothing of it. Made of files by scenes.cmake.
 AssetTable scene_assets();
-inline constexpr uint32_t k_asset_valley = 0;  ///< a mesh, a valley along z of 8 m by 8 m
-inline constexpr uint32_t k_asset_hills = 1;   ///< a height field of 12 m by 12 m
-inline constexpr uint32_t k_asset_round = 2;   ///< a hull
+inline constexpr uint32_t k_asset_valley = 0;    ///< a mesh, a valley along z of 8 m by 8 m
+inline constexpr uint32_t k_asset_hills = 1;     ///< a height field of 12 m by 12 m
+inline constexpr uint32_t k_asset_round = 2;     ///< a hull
+inline constexpr uint32_t k_asset_dumbbell = 3;  ///< a compound of 1.4 m
 
 /// All scenes, in a fixed order. Never null.
 const Scene* scenes(uint32_t& count);

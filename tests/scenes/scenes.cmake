@@ -1,7 +1,7 @@
 # DETENT_SCENE_ASSETS: the source of scene_assets(); DETENT_SCENE_SOURCES: that and what makes scenes(), for detent_per_config and other targets that see the repository's root.
 set(assets "")
 set(table "")
-foreach(file assets/valley.mesh assets/hills.field ../lockstep/round.hull)
+foreach(file assets/valley.mesh assets/hills.field ../lockstep/round.hull assets/dumbbell.compound)
   cmake_path(GET file FILENAME name)
   cmake_path(ABSOLUTE_PATH file BASE_DIRECTORY ${CMAKE_CURRENT_LIST_DIR} NORMALIZE)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})

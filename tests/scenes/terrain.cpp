@@ -27,8 +27,9 @@ void drop(Recorder& recorder, Coord x) {
                           cylinder(0.375, 0.25),
                           cone(0.375, 0.5),
                           hull(k_asset_round),
-                          rounded(box({0.25, 0.25, 0.25}), 0.125)};
-  Coord z = -2.25;
+                          rounded(box({0.25, 0.25, 0.25}), 0.125),
+                          compound(k_asset_dumbbell)};
+  Coord z = -2.625;
   for (const Shape& shape : shapes) {
     BodyDef def;
     def.shape = shape;
@@ -40,19 +41,32 @@ void drop(Recorder& recorder, Coord x) {
   }
 }
 
+void make_sensor(Recorder& recorder, Coord x, BodyType type) {
+  BodyDef def;
+  def.type = type;
+  def.shape = box({2.0, 0.03125, 2.0});
+  def.position = {x, 4.0, 0.0};
+  def.sensor = true;
+  if (type == BodyType::kinematic) def.spin = {Real(0.0), Real(0.0), Real(2.0)};
+  make_body(recorder, def);
+}
+
 }  // namespace
 
 WorldDef world() {
-  WorldDef def = world_of(24, 96);
-  def.capacity.assets = 3;
+  WorldDef def = world_of(28, 128);
+  def.capacity.assets = 4;
+  def.capacity.sensed = 24;
   return def;
 }
 
 void build(Recorder& recorder) {
-  for (uint32_t asset = 0; asset < 3; ++asset) must(recorder.bind_asset(asset));
+  for (uint32_t asset = 0; asset < 4; ++asset) must(recorder.bind_asset(asset));
   make_surface(recorder, k_asset_valley, {0.0, 0.0, 0.0}, BodyType::fixed);
   make_surface(recorder, k_asset_hills, {k_hills_x, 0.0, 0.0}, BodyType::fixed);
   make_surface(recorder, k_asset_valley, {Coord(-16.0), 0.0, 0.0}, BodyType::kinematic);
+  make_sensor(recorder, 0.0, BodyType::fixed);
+  make_sensor(recorder, k_hills_x, BodyType::kinematic);
   drop(recorder, 0.25);
   drop(recorder, k_hills_x);
 }

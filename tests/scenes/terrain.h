@@ -1,8 +1,8 @@
 #pragma once
 #include "tests/scenes/scene.h"
 
-/// Bodies of every shape dropped into a valley made of a mesh and on hills of a height field, shot at both, and a
-/// valley that turns.
+/// Bodies of every shape dropped into a valley made of a mesh and on hills of a height field, shot at both through
+/// sensors, and a valley that turns.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace terrain {
@@ -12,7 +12,7 @@ void build(Recorder& recorder);
 void before_tick(Recorder& recorder, uint32_t tick);
 
 inline constexpr Scene k_scene = {
-    "terrain", "all shapes on a mesh and a height field, and shots at them", 240, world, build, before_tick};
+    "terrain", "all shapes on a mesh and a height field, and shots at them through sensors", 240, world, build, before_tick};
 
 }  // namespace terrain
 }  // namespace DETENT_NAMESPACE
