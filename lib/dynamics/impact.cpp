@@ -303,8 +303,8 @@ struct Stage {
     for (;; inset = next_inset(extent, inset)) {
       if (inset > last_inset(extent)) {
         ++report.overlaps_left;
-        // What is this deep since it met within the tick would go through.
-        if (!resolved) return;
+        // What is this deep since it met within the tick, and does not part, would go through.
+        if (!resolved || (is_direction(impact.normal) && parts(a, b, impact))) return;
         stop(pair_low(key), time);
         stop(pair_high(key), time);
         return;
@@ -317,8 +317,7 @@ struct Stage {
       if (impact.outcome == ToiOutcome::clear || impact.time > time) break;
       if (impact.outcome == ToiOutcome::undecided && !resolved) break;
       // They touch now. Cores that overlap have no normal.
-      const bool overlap = impact.normal == Vec3<Unit>{Unit(0.0), Unit(0.0), Unit(0.0)};
-      if (!resolved && !overlap && !parts(a, b, impact)) break;
+      if (!resolved && is_direction(impact.normal) && !parts(a, b, impact)) break;
     }
     const Fraction look = look_after(time, inset == first ? 0 : 1 + (entry == nullptr ? 0 : entry->looks));
     const bool meets = impact.outcome != ToiOutcome::clear, looks = look < k_whole_step && first == k_zero;
@@ -473,9 +472,10 @@ struct Stage {
     geometry.normal = pair.normal;
     geometry.point[0] = {arm(a, pair.point), arm(b, pair.point - offset_of(pose_a, pose_b)), k_zero, 1};
   }
-  static bool has_normal(const ImpactPair& pair) {
-    return !(pair.normal == Vec3<Unit>{Unit(0.0), Unit(0.0), Unit(0.0)});
+  static bool is_direction(const Vec3<Unit>& normal) {
+    return !(normal == Vec3<Unit>{Unit(0.0), Unit(0.0), Unit(0.0)});
   }
+  static bool has_normal(const ImpactPair& pair) { return is_direction(pair.normal); }
 
   void wake(uint32_t slot) {
     if (bodies.activities[slot].asleep == 0) return;

@@ -3,29 +3,37 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-void Writer::bits(const char*, uint64_t& value, uint32_t byte_count) {
-  full = full || byte_count > capacity - count;
-  if (full) return;
-  for (uint32_t i = 0; i < byte_count; ++i) bytes[count++] = static_cast<uint8_t>(value >> (8 * i));
+void Writer::write(Archive& archive, const char*, uint64_t& value, uint32_t byte_count) {
+  Writer& to = static_cast<Writer&>(archive);
+  to.full = to.full || byte_count > to.capacity - to.count;
+  if (to.full) return;
+  for (uint32_t i = 0; i < byte_count; ++i) to.bytes[to.count++] = static_cast<uint8_t>(value >> (8 * i));
 }
 
-void Reader::bits(const char* name, uint64_t& value, uint32_t byte_count) {
+void Reader::read(Archive& archive, const char* name, uint64_t& value, uint32_t byte_count) {
+  Reader& from = static_cast<Reader&>(archive);
   value = 0;
-  field_at = at;
-  require(name, byte_count <= count - at, Status::corrupt);
-  if (failed != nullptr) return;
-  for (uint32_t i = 0; i < byte_count; ++i) value |= static_cast<uint64_t>(bytes[at++]) << (8 * i);
+  from.field_at = from.at;
+  from.require(name, byte_count <= from.count - from.at, Status::corrupt);
+  if (from.failed != nullptr) return;
+  for (uint32_t i = 0; i < byte_count; ++i) value |= static_cast<uint64_t>(from.bytes[from.at++]) << (8 * i);
 }
 
-void Reader::require(const char* name, bool condition, Status) {
-  if (condition || failed != nullptr) return;
-  failed = name;
-  failed_at = field_at;
+void Reader::check(Archive& archive, const char* name, bool condition, Status) {
+  Reader& from = static_cast<Reader&>(archive);
+  if (condition || from.failed != nullptr) return;
+  from.failed = name;
+  from.failed_at = from.field_at;
 }
 
-void Normaliser::require(const char*, bool condition, Status otherwise) {
-  if (!condition && status == Status::ok) status = otherwise;
+void Normaliser::check(Archive& archive, const char*, bool condition, Status otherwise) {
+  Normaliser& normaliser = static_cast<Normaliser&>(archive);
+  if (!condition && normaliser.status == Status::ok) normaliser.status = otherwise;
 }
+
+const Archive::Ways Writer::k_ways = {write, nullptr, false};
+const Archive::Ways Reader::k_ways = {read, check, false};
+const Archive::Ways Normaliser::k_ways = {nullptr, check, true};
 
 void visit_word(Archive& archive, const char* name, uint32_t& value) {
   uint64_t bits = value;

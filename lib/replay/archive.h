@@ -9,40 +9,51 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// One that does nothing. The lists are compiled once, for this type: so they are small.
+/// The lists are compiled once, for this type: so they are small.
 class Archive {
  public:
+  /// What an archive does; null: nothing.
+  struct Ways {
+    void (*bits)(Archive& archive, const char* name, uint64_t& value, uint32_t byte_count);
+    void (*require)(Archive& archive, const char* name, bool condition, Status otherwise);
+    bool normalises;
+  };
+
   /// One little-endian integer.
-  virtual void bits(const char*, uint64_t&, uint32_t) {}
+  void bits(const char* name, uint64_t& value, uint32_t byte_count) {
+    if (ways_.bits != nullptr) ways_.bits(*this, name, value, byte_count);
+  }
   /// A condition on the field just visited.
-  virtual void require(const char*, bool, Status) {}
-  bool normalises() const { return normalises_; }
+  void require(const char* name, bool condition, Status otherwise) {
+    if (ways_.require != nullptr) ways_.require(*this, name, condition, otherwise);
+  }
+  bool normalises() const { return ways_.normalises; }
 
  protected:
-  explicit Archive(bool normalises) : normalises_(normalises) {}
-  ~Archive() = default;
+  explicit Archive(const Ways& ways) : ways_(ways) {}
 
  private:
-  bool normalises_;
+  const Ways& ways_;
 };
 
 class Writer final : public Archive {
  public:
-  Writer(uint8_t* to, uint32_t byte_capacity) : Archive(false), bytes(to), capacity(byte_capacity) {}
-  void bits(const char* name, uint64_t& value, uint32_t byte_count) override;
+  Writer(uint8_t* to, uint32_t byte_capacity) : Archive(k_ways), bytes(to), capacity(byte_capacity) {}
 
   uint8_t* bytes;
   uint32_t capacity;
   uint32_t count = 0;
   bool full = false;  ///< a field did not fit: `bytes` holds a part only
+
+ private:
+  static void write(Archive& archive, const char* name, uint64_t& value, uint32_t byte_count);
+  static const Ways k_ways;
 };
 
 class Reader final : public Archive {
  public:
   Reader(const uint8_t* from, uint32_t byte_count, uint32_t first = 0)
-      : Archive(false), bytes(from), count(byte_count), at(first) {}
-  void bits(const char* name, uint64_t& value, uint32_t byte_count) override;
-  void require(const char* name, bool condition, Status otherwise) override;
+      : Archive(k_ways), bytes(from), count(byte_count), at(first) {}
 
   const uint8_t* bytes;
   uint32_t count;
@@ -50,14 +61,22 @@ class Reader final : public Archive {
   const char* failed = nullptr;  ///< the first field that is missing or wrong
   uint32_t failed_at = 0;        ///< where it starts
   uint32_t field_at = 0;
+
+ private:
+  static void read(Archive& archive, const char* name, uint64_t& value, uint32_t byte_count);
+  static void check(Archive& archive, const char* name, bool condition, Status otherwise);
+  static const Ways k_ways;
 };
 
 class Normaliser final : public Archive {
  public:
-  Normaliser() : Archive(true) {}
-  void require(const char* name, bool condition, Status otherwise) override;
+  Normaliser() : Archive(k_ways) {}
 
   Status status = Status::ok;  ///< of the first field that cannot be written
+
+ private:
+  static void check(Archive& archive, const char* name, bool condition, Status otherwise);
+  static const Ways k_ways;
 };
 
 void visit_word(Archive& archive, const char* name, uint32_t& value);

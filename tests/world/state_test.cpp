@@ -150,17 +150,17 @@ DETENT_TEST(state, a_snapshot_reads_the_same_in_pieces_of_any_size) {
 DETENT_TEST(state, the_layout_is_the_same_on_every_target) {
   constexpr Capacity k_capacity = {10, 20, 3};
 #if defined(DETENT_FX64)
-  EXPECT_EQ(snapshot_bytes(k_capacity), 7248u);
-  EXPECT_EQ(world_bytes(k_capacity), 29656u);
+  EXPECT_EQ(snapshot_bytes(k_capacity), 7264u);
+  EXPECT_EQ(world_bytes(k_capacity), 29672u);
 #elif defined(DETENT_FX32)
-  EXPECT_EQ(snapshot_bytes(k_capacity), 7208u);
-  EXPECT_EQ(world_bytes(k_capacity), 29136u);
+  EXPECT_EQ(snapshot_bytes(k_capacity), 7224u);
+  EXPECT_EQ(world_bytes(k_capacity), 29152u);
 #elif defined(DETENT_F32)
-  EXPECT_EQ(snapshot_bytes(k_capacity), 5448u);
-  EXPECT_EQ(world_bytes(k_capacity), 23216u);
+  EXPECT_EQ(snapshot_bytes(k_capacity), 5464u);
+  EXPECT_EQ(world_bytes(k_capacity), 23232u);
 #else
-  EXPECT_EQ(snapshot_bytes(k_capacity), 8728u);
-  EXPECT_EQ(world_bytes(k_capacity), 39296u);
+  EXPECT_EQ(snapshot_bytes(k_capacity), 8744u);
+  EXPECT_EQ(world_bytes(k_capacity), 39312u);
 #endif
 }
 
