@@ -311,9 +311,9 @@ void Game::read_sensor(BodyId id) {
 void Game::read(BodyId id) {
   const Known* body = model_.find(id);
   const Status expected = body != nullptr ? Status::ok : Status::bad_id;
-  Scaled mass;
-  Vec3<Scaled> inertia;
-  Vec3<Real> velocity, spin, at;
+  Scaled mass = 0.0;
+  Vec3<Scaled> inertia = {};
+  Vec3<Real> velocity = {}, spin = {}, at = {};
   bool awake = false, wrong = false;
   EXPECT_EQ(get_mass(world(), id, mass), expected);
   EXPECT_EQ(get_inertia(world(), id, inertia), expected);
