@@ -242,7 +242,7 @@ struct Collider {
 
   bool reuses() const { return kept.manifolds.count != 0; }
 
-  void collide(uint64_t key) {
+  void meet(uint64_t key) {
     const uint32_t slot_a = pair_low(key), slot_b = pair_high(key);
     // Who still sleeps was not touched when it could wake; points used again could tell otherwise.
     if (bodies.asleep(slot_a) || bodies.asleep(slot_b) || (!bodies.awake(slot_a) && !bodies.awake(slot_b))) return;
@@ -311,7 +311,7 @@ struct Collider {
 };
 
 ContactCount collide_pairs(Collider collider, Span<const uint64_t> pairs) {
-  for (const uint64_t key : pairs) collider.collide(key);
+  for (const uint64_t key : pairs) collider.meet(key);
   ContactCount& count = collider.count;
   for (const ContactWork& contact : collider.contacts.first(count.contacts)) count.points += contact.state.point_count;
   return count;
