@@ -141,7 +141,7 @@ struct Ending {
   uint64_t digest;
 };
 #if defined(DETENT_FX64)
-constexpr Ending k_endings[] = {{10000, 0xdd0c8dc88edf9b37}, {1000000, 0x6ebc680cf70403f6}};
+constexpr Ending k_endings[] = {{10000, 0xdd0c8dc88edf9b37}, {1000000, 0xa040a8cd321ab6bd}};
 #elif defined(DETENT_FX32)
 constexpr Ending k_endings[] = {{10000, 0xf8a9dd9fc9ebc437}, {1000000, 0x7175084aeba1b041}};
 #elif defined(DETENT_F32)
