@@ -143,7 +143,7 @@ struct Ending {
 #if defined(DETENT_FX64)
 constexpr Ending k_endings[] = {{10000, 0xdd0c8dc88edf9b37}, {1000000, 0xa040a8cd321ab6bd}};
 #elif defined(DETENT_FX32)
-constexpr Ending k_endings[] = {{10000, 0xf8a9dd9fc9ebc437}, {1000000, 0x7175084aeba1b041}};
+constexpr Ending k_endings[] = {{10000, 0xf8a9dd9fc9ebc437}, {1000000, 0xe614a2b759933755}};
 #elif defined(DETENT_F32)
 constexpr Ending k_endings[] = {{10000, 0xd44c103452ce6720}};
 #else
