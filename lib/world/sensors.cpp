@@ -218,9 +218,9 @@ struct SensorEvents {
 }  // namespace
 
 void note_changed(const StepCacheView& cache, uint32_t slots_used, BitSet changed) {
-  for (uint32_t i = 0; i < changed.words.count; ++i) changed.words[i] = cache.visits.words[i];
-  if (cache.cache.fresh != 0) return;
-  for (uint32_t slot = 0; slot < slots_used; ++slot) changed.set(slot);
+  const bool known = cache.cache.fresh != 0;  // else the visits are of another state
+  for (uint32_t i = 0; i < changed.words.count; ++i) changed.words[i] = known ? cache.visits.words[i] : 0;
+  for (uint32_t slot = 0; !known && slot < slots_used; ++slot) changed.set(slot);
 }
 
 void sense_stretch(void* context, uint32_t slot, Fraction until) {

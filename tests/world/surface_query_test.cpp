@@ -258,9 +258,12 @@ DETENT_TEST(surface_queries, no_ray_leaves_a_closed_room) {
   for (uint32_t n = 0; n < rounds; ++n) {
     const auto grid = [&] { return 0.5 * static_cast<double>(samples.below(5)) - 1; };
     Vector target = {{grid(), grid(), grid()}};
-    target[static_cast<int>(samples.below(3))] = samples.below(2) == 0 ? -1 : 1;
+    // On a wall, an edge or a corner; every other one at any place along x.
+    const int axis = static_cast<int>(n % 2 == 0 ? 1 + samples.below(2) : samples.below(3));
+    target[axis] = samples.below(2) == 0 ? -1 : 1;
     if (n % 2 == 0) target[0] = uniform(samples, -1, 1);
-    const Vector from = any_direction(samples) * uniform(samples, 0, 0.9);
+    const double far = uniform(samples, 0, 0.9);
+    const Vector from = any_direction(samples) * far;
     RayQuery ray;
     ray.origin = ground.place(turned(q, from));
     ray.way = reals_near(turned(q, (target - from) * 8));
