@@ -247,7 +247,7 @@ struct Solver {
     const bool parent_is_b = work.parent == 1;
     const uint32_t width = only_points ? work.width : 6;
     DETENT_UNROLL
-    for (uint32_t k = 0; k < rows; ++k) {
+    for (uint32_t k = 0; k < k_joint_rows_max && k < rows; ++k) {
       Real from_above = k_zero;
       if (width != 0) from_above = dot(parent.force, first_three(work.reply_scaled[k]));
       if (width == 6) from_above += dot(parent.torque, last_three(work.reply_scaled[k]));
