@@ -32,8 +32,8 @@ Status get_velocity_at(const World& world, BodyId id, const Vec3<Real>& arm, Vec
 /// Its contacts end at once. Position, velocity and spin stay, but a body that becomes fixed stops, and one that
 /// becomes dynamic loses the spin about its locked axes. Mass: a body that becomes dynamic has the mass it last had
 /// or was created with; if it never had one, that of 1000 kg/m^3.
-/// Errors: bad_argument (no type; a half-space, a surface or a hull in its source frame that is to be dynamic), out_of_range
-/// (the mass, or the speed of the rim).
+/// Errors: bad_argument (no type; a half-space, a surface or a hull in its source frame that is to be dynamic),
+/// out_of_range (the mass, or the speed of the rim).
 Status set_type(World& world, BodyId id, BodyType type);
 /// Its contacts end at once. Mass, velocity and spin stay; set_density() gives the mass of the new volume.
 /// Errors: as create_body of such a shape, and out_of_range (the speed of the rim).
@@ -41,7 +41,8 @@ Status set_shape(World& world, BodyId id, const Shape& shape);
 /// kg, [2^-60, 2^60]. Velocity and spin stay. A body that is not dynamic keeps it for when it is.
 /// Errors: out_of_range.
 Status set_mass(World& world, BodyId id, Scaled mass);
-/// As set_mass, of the shape's volume at `density`, kg/m^3. Errors: out_of_range, bad_argument (a half-space or surface).
+/// As set_mass, of the shape's volume at `density`, kg/m^3. Errors: out_of_range, bad_argument (a half-space or
+/// surface).
 Status set_density(World& world, BodyId id, Scaled density);
 /// Errors: bad_argument (no restitution rule), out_of_range.
 Status set_material(World& world, BodyId id, const Material& material);

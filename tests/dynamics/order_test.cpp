@@ -51,8 +51,8 @@ struct Graph {
       contact.static_pair = is_dynamic(contact.state.body_a) && is_dynamic(contact.state.body_b) ? 0 : 1;
     std::vector<uint32_t> slots(body_count);
     for (uint32_t slot = 0; slot < body_count; ++slot) slots[slot] = slot;
-    islands.resize(find_islands({slots.data(), body_count}, all, {activities.data(), body_count}, contact_span,
-                                {}, {work.data(), body_count}, {islands.data(), body_count},
+    islands.resize(find_islands({slots.data(), body_count}, all, {activities.data(), body_count}, contact_span, {},
+                                {work.data(), body_count}, {islands.data(), body_count},
                                 {island_bodies.data(), body_count}));
     overflows = order_contacts(all, contact_span, {islands.data(), static_cast<uint32_t>(islands.size())},
                                {work.data(), body_count}, {spare.data(), count}, {order.data(), count});
@@ -219,8 +219,8 @@ struct Scene {
     for (uint32_t slot = 0; slot < used; ++slot) every[slot] = slot;
     const Span<const BodyTraits> all = {traits.data(), used};
     const Span<ContactWork> contact_span = {contacts.data(), contact_count()};
-    const uint32_t count = find_islands({every.data(), used}, all, {activities.data(), used}, contact_span,
-                                        {}, {work.data(), used}, {islands.data(), used}, {slots.data(), used});
+    const uint32_t count = find_islands({every.data(), used}, all, {activities.data(), used}, contact_span, {},
+                                        {work.data(), used}, {islands.data(), used}, {slots.data(), used});
     EXPECT_EQ(order_contacts(all, contact_span, {islands.data(), count}, {work.data(), used},
                              {spare.data(), contact_count()}, {order.data(), contact_count()}),
               0u);

@@ -12,7 +12,8 @@ void build(Recorder& recorder);
 void before_tick(Recorder& recorder, uint32_t tick);
 
 inline constexpr Scene k_scene = {
-    "terrain", "all shapes on a mesh and a height field, and shots at them through sensors", 240, world, build, before_tick};
+    "terrain",  "all shapes on a mesh and a height field, and shots at them through sensors", 240, world, build,
+    before_tick};
 
 }  // namespace terrain
 }  // namespace DETENT_NAMESPACE
