@@ -242,12 +242,13 @@ struct Solver {
   /// The impulses, once all that the parent gets from above is known.
   template <bool only_points>
   void come_down(JointWork& work) {
-    const uint32_t rows = only_points ? 3 : work.rows;
+    // The bound is for GCC, which at -O3 sees rows beyond the last.
+    const uint32_t rows = only_points ? 3 : work.rows < k_joint_rows_max ? work.rows : k_joint_rows_max;
     JointBody &parent = end_of(work, work.parent), &child = end_of(work, 1 - work.parent);
     const bool parent_is_b = work.parent == 1;
     const uint32_t width = only_points ? work.width : 6;
     DETENT_UNROLL
-    for (uint32_t k = 0; k < k_joint_rows_max && k < rows; ++k) {
+    for (uint32_t k = 0; k < rows; ++k) {
       Real from_above = k_zero;
       if (width != 0) from_above = dot(parent.force, first_three(work.reply_scaled[k]));
       if (width == 6) from_above += dot(parent.torque, last_three(work.reply_scaled[k]));
