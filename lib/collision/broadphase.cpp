@@ -3,6 +3,7 @@
 #include "base/radix_sort.h"
 #include "collision/bounds_integer.h"
 #include "collision/collide_half_space.h"
+#include "geometry/shape_traits.h"
 #include "math/bits.h"
 
 namespace detent {
@@ -46,8 +47,6 @@ bool are_apart(const BoundsKey& a, const BoundsKey& b) {
 }
 
 bool is_dynamic_type(const BodyTraits& traits) { return traits.type == static_cast<uint32_t>(BodyType::dynamic); }
-
-bool is_half_space(const BodyTraits& traits) { return static_cast<ShapeType>(traits.shape) == ShapeType::half_space; }
 
 /// A length in steps of a coordinate.
 int64_t steps_of(Real length) {

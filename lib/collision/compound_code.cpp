@@ -124,8 +124,7 @@ struct PartCulling {
   PartCulling(const CollisionBody& a, const CollisionBody& b, Real distance) {
     Vec64 raw;
     known =
-        shape_of(a.traits) != ShapeType::half_space && shape_of(b.traits) != ShapeType::half_space &&
-        raw_from_real({distance, Real(0.0), Real(0.0)}, raw) &&
+        !is_half_space(a.traits) && !is_half_space(b.traits) && raw_from_real({distance, Real(0.0), Real(0.0)}, raw) &&
         place_on_surface({a.pose.position, a.pose.rotation}, {b.pose.position, b.pose.rotation}, place) == Status::ok;
     reach = known ? raw.x + (raw.x >> 10) + 1024 : 0;
   }

@@ -89,7 +89,7 @@ void store_contacts(Span<const ContactWork> work, Span<const ManifoldState> mani
     if (has_manifolds) manifolds[to] = manifold_work[from];
   };
   const auto precedes = [](const ContactState& a, const ContactState& b) {
-    const uint64_t key_a = pair_key(a.body_a, a.body_b), key_b = pair_key(b.body_a, b.body_b);
+    const uint64_t key_a = key_of(a), key_b = key_of(b);
     return key_a < key_b || (key_a == key_b && a.part < b.part);
   };
   // Up to the first that is new or gone each goes where it was.

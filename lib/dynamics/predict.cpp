@@ -66,7 +66,7 @@ void bound(const StepSettings& settings, Span<const BodyPose> poses, Span<const 
   const Vec3<Real> fall = settings.gravity * (settings.tick_time * settings.tick_time);
   for (const uint32_t slot : bodies) {
     const BodyTraits& body = traits[slot];
-    if (static_cast<ShapeType>(body.shape) == ShapeType::half_space) {
+    if (is_half_space(body)) {
       bounds[slot] = k_everywhere;
       continue;
     }

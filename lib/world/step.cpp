@@ -193,8 +193,6 @@ Real depth_of(const ContactWork& contact) {
   return -least;
 }
 
-uint64_t key_of(const ContactState& contact) { return pair_key(contact.body_a, contact.body_b); }
-
 /// Leaves out the shallowest contact, the last of equals, if it is shallower than `depth`, keeping the others' order:
 /// the last place is free then, and `key` is that of its pair.
 bool leave_out_shallowest(Span<ContactWork> contacts, Span<ManifoldState> manifolds, Real depth, uint64_t& key) {
