@@ -34,20 +34,16 @@ Bounds bounds_over(const BodyTraits& traits, const BodyPose& pose, const Sweep& 
            coord_advance(at.z, max(way.z, k_zero) + reach.z, beyond)}};
 }
 
-/// For the probe.
-void write_down(const ImpactStage& stage, uint32_t slot) {
+/// Bounds of the body's sweep from now on; the probe is told of it.
+void begin_sweep(const ImpactStage& stage, uint32_t slot) {
+  const BodySweep& sweep = stage.bodies.sweeps[slot];
+  const Sweep rest = rest_of(sweep, sweep.from);
+  const BodyPose& pose = stage.bodies.poses[slot];
+  stage.bodies.bounds[slot] = bounds_over(stage.bodies.traits[slot], pose, rest);
   if (stage.probe == nullptr) return;
   const uint32_t at = stage.probe->segment_count++;
   if (at >= stage.probe->segments.count) return;
-  const BodySweep& sweep = stage.bodies.sweeps[slot];
-  const Sweep rest = rest_of(sweep, sweep.from);
-  stage.probe->segments[at] = {slot, 0, sweep.from, stage.bodies.poses[slot], rest.displacement, rest.turn};
-}
-
-void set_bounds(const ImpactStage& stage, uint32_t slot) {
-  const BodySweep& sweep = stage.bodies.sweeps[slot];
-  stage.bodies.bounds[slot] =
-      bounds_over(stage.bodies.traits[slot], stage.bodies.poses[slot], rest_of(sweep, sweep.from));
+  stage.probe->segments[at] = {slot, 0, sweep.from, pose, rest.displacement, rest.turn};
 }
 
 /// The body no longer rests, or not where it did.
@@ -69,8 +65,7 @@ void ImpactStage::start_sweeps() {
     BodySweep& sweep = bodies.sweeps[slot];
     if (!is_at_rest(sweep)) {
       const Bounds found_by = bodies.bounds[slot];
-      set_bounds(*this, slot);
-      write_down(*this, slot);
+      begin_sweep(*this, slot);
       if (!holds(found_by, bodies.bounds[slot])) sweep.marks |= k_mark_strayed;
       if (!motion_bound(body(slot), sweep.from, sweep.reach)) sweep.reach = scale_by_power(k_real_max, -2);
     }
@@ -104,8 +99,7 @@ void ImpactStage::carry_to_end() {
 
 void ImpactStage::change(uint32_t slot) {
   BodySweep& sweep = bodies.sweeps[slot];
-  set_bounds(*this, slot);
-  write_down(*this, slot);
+  begin_sweep(*this, slot);
   if ((sweep.marks & k_mark_changed) == 0) ++changed_count;
   sweep.marks |= k_mark_changed;
   for (uint32_t i = 0; i < met_count; ++i) {
