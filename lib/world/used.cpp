@@ -28,6 +28,13 @@ uint32_t used_assets(const StateView<const uint8_t>& state) {
   return count;
 }
 
+uint32_t used_bytes(const StateView<const uint8_t>& state) {
+  const UsedCounts counts = used_counts(state);
+  uint32_t bytes = 0;
+  for (uint32_t i = 0; i < k_section_count; ++i) bytes += counts.of[i] * k_sections[i].element_bytes;
+  return bytes;
+}
+
 void copy_used(const StateView<const uint8_t>& from, const StateView<uint8_t>& to, bool clear) {
   const uint8_t* source = reinterpret_cast<const uint8_t*>(&from.header);
   uint8_t* target = reinterpret_cast<uint8_t*>(&to.header);
