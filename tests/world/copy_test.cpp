@@ -50,8 +50,8 @@ DETENT_TEST(copy, what_does_not_fit_is_refused_and_changes_nothing) {
   step(from.world);
   const WorldInfo info = get_info(from.world);
   ASSERT_EQ(info.contacts, 1u);  // what a joint holds does not collide
-  ASSERT_EQ(info.sensed, 2u);
-  const Capacity least = {4, 1, 2, true, 1, 2};
+  ASSERT_EQ(info.sensed, 3u);
+  const Capacity least = {4, 1, 2, true, 1, 3};
   const auto copied = [&](Capacity capacity) {
     OwnedWorld to(OwnedWorld::def_of(capacity));
     step(to.world);
@@ -69,7 +69,7 @@ DETENT_TEST(copy, what_does_not_fit_is_refused_and_changes_nothing) {
     if (i == 2) less.assets = 1;
     if (i == 3) less.manifolds = false;
     if (i == 4) less.joints = 0;
-    if (i == 5) less.sensed = 1;
+    if (i == 5) less.sensed = 2;
     EXPECT_EQ(copied(less), Status::pool_full) << i;
   }
 }
@@ -94,9 +94,16 @@ DETENT_TEST(copy, a_world_without_what_the_state_needs_is_refused) {
   ASSERT_OK(create_world(bytes_of(block), byte_count(block), def, scene_assets(), few, k_few));
   refused(few, Status::feature_missing);
 
-  FilterRule rule = [](void*, uint32_t, uint32_t) { return true; };
-  static FilterRule rules[2] = {nullptr, rule};
-  (void)rules;
+  OwnedWorld ruled(OwnedWorld::def_of({4, 4, 2, true, 0, 0}));
+  const FilterRule rule = [](const FilterBody&, const FilterBody&) { return true; };
+  from.world.filter_rules = {&rule, 1};
+  BodyDef body;
+  body.filter.rule = 1;
+  BodyId id;
+  ASSERT_OK(create_body(from.world, body, id));
+  refused(ruled.world, Status::rule_missing);
+  ruled.world.filter_rules = {&rule, 1};
+  EXPECT_OK(copy_world(from.world, ruled.world));
 }
 
 DETENT_TEST(copy, the_checksum_is_the_digest_folded) {
