@@ -119,6 +119,11 @@ DETENT_TEST(rollback_session, inputs_are_kept_as_long_as_another_may_ask_and_non
   }
   EXPECT_EQ(table.arena.predicted, 0u);
   EXPECT_EQ(table.arena.again, 0u);
+  const uint64_t oldest = 100 - 2 * 4;
+  uint8_t input[k_arena_input_bytes];
+  EXPECT_EQ(table.hear(1, oldest + room, 1), Status::out_of_range);
+  EXPECT_OK(table.hear(1, oldest + room - 1, 1));
+  EXPECT_OK(table.session.get_input(1, oldest, input));
 }
 
 DETENT_TEST(rollback_session, checksums_are_of_confirmed_ticks_at_their_interval) {
