@@ -137,6 +137,7 @@ class RollbackSession {
   bool is_remote(uint32_t player) const { return player < def_.players && (def_.local >> player & 1) == 0; }
   uint32_t place(uint64_t tick) const { return static_cast<uint32_t>(tick % kept_); }
   uint8_t* input_of(uint32_t player, uint64_t tick) const;
+  uint8_t* game_at(uint64_t tick) const { return games_ + static_cast<uint32_t>(tick % def_.window) * game_.count; }
   uint64_t& stamp_of(uint32_t player, uint64_t tick) const;
   bool is_known(uint32_t player, uint64_t tick) const {
     return tick != UINT64_MAX && stamp_of(player, tick) == tick + 1;
@@ -185,8 +186,9 @@ struct RollbackLayout {
   uint64_t bytes;  ///< 0: out of range
 };
 
-// A machine lets inputs come up to 3 windows ahead: a player may be a window ahead of what it knows, its input is for a
-// delay after that, and its inputs are sent again from a window and a delay before. A delay is no longer than a window.
+// Of the first tick that a machine does not know all of: it is up to a window ahead of that, another player a delay and
+// a window ahead of it, and this player's input a delay ahead of that; and it may be asked for its own inputs from a
+// window and a delay before. A delay is no longer than a window.
 constexpr uint32_t rollback_ticks_kept(uint32_t window) { return 6 * window + 2; }
 
 constexpr RollbackLayout rollback_layout(Capacity capacity, const RollbackDef& def) {

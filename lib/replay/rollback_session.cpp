@@ -126,7 +126,7 @@ uint32_t RollbackSession::predict(uint64_t tick) {
 }
 
 void RollbackSession::keep(const World& world, uint64_t tick) {
-  if (game_.count != 0) memcpy(games_ + tick % def_.window * game_.count, game_.bytes, game_.count);
+  if (game_.count != 0) memcpy(game_at(tick), game_.bytes, game_.count);
   if (def_.checksum_interval == 0 || tick % def_.checksum_interval != 0) return;
   own_checksum(tick) = {tick + 1, digest_fold(digest_of(world, game_)), 0};
 }
@@ -145,7 +145,7 @@ Status RollbackSession::go_back(World& world, RollbackReport& report) {
   if (wrong_ >= tick_) return Status::ok;
   const uint64_t first = wrong_;
   if (const Status status = states_.restore(world, first); status != Status::ok) return status;
-  if (game_.count != 0) memcpy(game_.bytes, games_ + first % def_.window * game_.count, game_.count);
+  if (game_.count != 0) memcpy(game_.bytes, game_at(first), game_.count);
   wrong_ = UINT64_MAX;
   for (uint64_t tick = first; tick < tick_; ++tick) {
     if (const Status status = make_tick(world, tick, true); status != Status::ok) return status;

@@ -40,8 +40,8 @@ struct Machine {
 
   void take(const Packet& packet) {
     if (packet.wanted > wanted[packet.player]) wanted[packet.player] = packet.wanted;
-    const uint64_t count = packet.inputs.size() / k_arena_input_bytes;
-    for (uint64_t i = 0; i < count; ++i) {
+    const size_t count = packet.inputs.size() / k_arena_input_bytes;
+    for (size_t i = 0; i < count; ++i) {
       const Status status = session.add_input(packet.player, packet.first + i, &packet.inputs[i * k_arena_input_bytes]);
       EXPECT_TRUE(status == Status::ok || status == Status::out_of_range) << status_text(status);
     }
@@ -139,7 +139,7 @@ uint64_t straight(const Match& match, uint64_t ticks) {
   Bytes inputs(players * k_arena_input_bytes);
   for (uint64_t tick = 0; tick < ticks; ++tick) {
     for (uint32_t player = 0; player < players; ++player)
-      std::copy_n(&match.machines[player]->given[tick * k_arena_input_bytes], k_arena_input_bytes,
+      std::copy_n(&match.machines[player]->given[static_cast<size_t>(tick) * k_arena_input_bytes], k_arena_input_bytes,
                   &inputs[player * k_arena_input_bytes]);
     Arena::make(&arena, arena.owned.world, {tick, inputs.data(), players, k_arena_input_bytes, 0, false});
   }

@@ -134,8 +134,9 @@ DETENT_TEST(delta, bad_arguments_are_refused_and_change_nothing) {
   rest.push_back(1);
   rest.push_back(1);
   refused(of_words(rest), total, Status::corrupt);
-  for (uint32_t size = 0; size < 24; ++size)
+  for (std::ptrdiff_t size = 0; size < 24; ++size) {
     refused(Bytes(delta.begin(), delta.begin() + size), total, Status::truncated);
+  }
   OwnedWorld other(OwnedWorld::def_of({2, 2, 0}));
   EXPECT_EQ(restore_delta(other.world, bytes_of(base), total, delta.data(), count), Status::capacity_differs);
   EXPECT_EQ(save_delta(other.world, bytes_of(base), total, out.data(), count_of(out), bytes), Status::capacity_differs);
