@@ -147,7 +147,7 @@ uint64_t straight(const Match& match, uint64_t ticks) {
 }
 
 void play_and_compare(uint32_t players, uint64_t seed, uint64_t ticks) {
-  Match match(players, seed, 0.15);
+  Match match(players, seed, 0.3);
   match.play(ticks);
   const uint64_t expected = straight(match, ticks);
   for (const auto& machine : match.machines) {
