@@ -22,6 +22,9 @@ constexpr const char* k_help =
   digest    us, of digest()
 Medians. Every state made again is compared: exit code 1 if one differs, or if anything was allocated.)";
 
+/// us, without digits that mean nothing.
+double rounded(double us) { return static_cast<double>(static_cast<int64_t>(us * 1000 + 0.5)) / 1000; }
+
 nlohmann::ordered_json json_of(const RollbackRow& row) {
   return {{"config", row.config},
           {"bodies", row.bodies},
@@ -29,15 +32,15 @@ nlohmann::ordered_json json_of(const RollbackRow& row) {
           {"bytes", row.bytes},
           {"snapshot_bytes", row.snapshot_bytes},
           {"delta_bytes", row.delta_bytes},
-          {"save_us", row.save},
-          {"restore_us", row.restore},
-          {"resim8_us", row.resim8},
-          {"step_us", row.step},
-          {"whole_save_us", row.whole_save},
-          {"whole_restore_us", row.whole_restore},
-          {"save_delta_us", row.save_delta},
-          {"restore_delta_us", row.restore_delta},
-          {"digest_us", row.digest},
+          {"save_us", rounded(row.save)},
+          {"restore_us", rounded(row.restore)},
+          {"resim8_us", rounded(row.resim8)},
+          {"step_us", rounded(row.step)},
+          {"whole_save_us", rounded(row.whole_save)},
+          {"whole_restore_us", rounded(row.whole_restore)},
+          {"save_delta_us", rounded(row.save_delta)},
+          {"restore_delta_us", rounded(row.restore_delta)},
+          {"digest_us", rounded(row.digest)},
           {"allocations", row.allocations},
           {"exact", row.exact}};
 }
