@@ -43,14 +43,21 @@ struct DeltaWriter {
   }
   /// Those bytes of a word that differ from the base's, behind their mask.
   void put_word(const uint8_t* word, uint64_t difference) {
-    uint8_t mask = 0;
-    for (uint32_t i = 0; i < 8; ++i) {
-      if ((difference >> (8 * i) & 255) != 0) mask = static_cast<uint8_t>(mask | 1u << i);
+    uint8_t made[9];
+    uint32_t size = 1, mask = 0;
+    for (uint32_t i = 0; i < 8; ++i) {  // a byte that does not differ is overwritten by the next
+      const uint32_t differs = (difference >> (8 * i) & 255) != 0 ? 1 : 0;
+      mask |= differs << i;
+      made[size] = word[i];
+      size += differs;
     }
-    put(mask);
-    for (uint32_t i = 0; i < 8; ++i) {
-      if ((mask >> i & 1) != 0) put(word[i]);
+    made[0] = static_cast<uint8_t>(mask);
+    if (size > capacity - count) {
+      full = true;
+      return;
     }
+    for (uint32_t i = 0; i < size; ++i) bytes[count + i] = made[i];
+    count += size;
   }
 };
 
