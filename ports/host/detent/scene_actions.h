@@ -28,8 +28,8 @@ void visit_push(F& fields, SceneAction& action, const char* key, const char* doc
 /// Where a force or impulse acts.
 template <class F>
 void visit_place_of_push(F& fields, SceneAction& action) {
-  action.at_arm = fields.vector({"arm", "where it acts, from the centre of mass, m, world axes"}, action.way);
-  action.at_point = fields.position({"point", "where it acts, m, world"}, action.position);
+  action.at_arm = fields.vector(optional({"arm", "where it acts, from the centre of mass, m, world axes"}), action.way);
+  action.at_point = fields.position(optional({"point", "where it acts, m, world"}), action.position);
   if (action.at_arm && action.at_point) fields.problem("point", "does not go with `arm`");
 }
 
@@ -103,7 +103,8 @@ void visit(F& fields, SceneAction& action) {
   fields.origin(action.origin);
   fields.integer(required({"tick", "completed ticks before it", between(0, 1e9)}), action.tick);
   action.until = action.tick;
-  if (fields.integer({"until", "it is repeated before each tick up to this one", between(0, 1e9)}, action.until) &&
+  if (fields.integer(optional({"until", "it is repeated before each tick up to this one", between(0, 1e9)}),
+                     action.until) &&
       action.until < action.tick) {
     fields.problem("until", "is below `tick`");
   }

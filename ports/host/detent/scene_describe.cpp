@@ -39,7 +39,7 @@ class ObjectDescriber {
   bool text(const Field& field, std::string&) { return add(field, FieldKind::text, ""); }
   bool body(const Field& field, std::string&) { return add(field, FieldKind::body, ""); }
   bool joint(const Field& field, std::string&) { return add(field, FieldKind::joint, ""); }
-  void asset(uint32_t&) {
+  void asset(Shape&) {
     add(required({"file", "cooked, from the scene's folder"}), FieldKind::text, "");
     add({"digest", "16 hexadecimal digits that its content must have"}, FieldKind::text, "");
   }
@@ -102,7 +102,7 @@ class ObjectDescriber {
  private:
   bool add(const Field& field, FieldKind kind, const std::string& initial) {
     FieldInfo info = {field.key, field.doc, field.range, field.required, kind, "", {}, initial};
-    if (field.required) info.initial.clear();
+    if (field.required || !field.initial) info.initial.clear();
     fields.push_back(info);
     return false;
   }

@@ -30,7 +30,8 @@ struct SceneOrigin {
 
 /// A cooked file.
 struct SceneAsset {
-  SceneOrigin origin;
+  ShapeType type = ShapeType::hull;
+  SceneOrigin file_origin, digest_origin;
   std::string file;    ///< from the scene's folder
   std::string digest;  ///< 16 hexadecimal digits, or empty: any
 };
@@ -284,12 +285,12 @@ void visit(F& fields, Shape& shape) {
       fields.real(rounding, shape.rounding);
       break;
     case ShapeType::hull:
-      fields.asset(shape.asset);
+      fields.asset(shape);
       fields.real(rounding, shape.rounding);
       break;
     case ShapeType::compound:
     case ShapeType::surface:
-      fields.asset(shape.asset);
+      fields.asset(shape);
       break;
     default:  // a half-space has no size; a triangle is none of the choices
       break;
@@ -327,7 +328,7 @@ void visit(F& fields, SceneBody& body) {
   fields.position({"position", "of the centre of mass, m, world"}, def.position);
   fields.rotation({"rotation", "local to world"}, def.rotation);
   fields.vector({"velocity", "m/s, world", within(16384)}, def.velocity);
-  fields.vector({"spin", "rad/s, world; |spin| x bounding radius within 16384 m/s"}, def.spin);
+  fields.vector({"spin", "rad/s, world; its length x bounding radius within 16384 m/s"}, def.spin);
   fields.named(required({"shape", "in its frame, about its centre of mass"}), def.shape);
   fields.named({"material", "of the whole surface"}, def.material);
   fields.scaled({"density", "kg/m^3; used where there is no mass", above(0)}, def.density);
@@ -339,6 +340,10 @@ void visit(F& fields, SceneBody& body) {
   turn_locks_of_body(fields, def.turn_locks, false);
   fields.named({"filter", "what it collides with"}, def.filter);
   fields.flag({"sensor", "it pushes nothing, and tells who is within it"}, def.sensor);
+  if (def.type == BodyType::dynamic &&
+      (def.shape.type == ShapeType::half_space || def.shape.type == ShapeType::surface)) {
+    fields.problem("type", "is dynamic, which a half-space or surface cannot be");
+  }
 }
 
 template <class F>
@@ -379,8 +384,9 @@ void visit(F& fields, SceneJoint& joint) {
   fields.text({"name", "for actions and what is printed"}, joint.name);
   fields.body(required({"a", "the first body: of a wheel the chassis"}), joint.a);
   fields.body(required({"b", "the second: what turns or slides on A"}), joint.b);
-  joint.placed =
-      fields.position({"point", "its anchor, m, world; it is at rest where the bodies are then"}, joint.point);
+  if (!joint.a.empty() && joint.a == joint.b) fields.problem("b", "is `a`, too");
+  joint.placed = fields.position(optional({"point", "its anchor, m, world; it is at rest where the bodies are then"}),
+                                 joint.point);
   const bool framed = fields.rotation({"frame", "with `point`: from the frame's axes to the world's"}, joint.frame);
   visit(fields, joint.def);
   if (framed && !joint.placed) fields.problem("frame", "goes with `point`");

@@ -26,9 +26,15 @@ struct Field {
   const char* doc;
   Range range = k_any;
   bool required = false;
+  bool initial = true;  ///< if it is left out, it is what its member is by itself
 };
 constexpr Field required(Field field) {
   field.required = true;
+  return field;
+}
+/// To leave it out means something else.
+constexpr Field optional(Field field) {
+  field.initial = false;
   return field;
 }
 

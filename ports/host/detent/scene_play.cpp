@@ -30,20 +30,20 @@ struct SceneAssets {
     for (size_t i = 0; i < bytes.size(); ++i) {
       const SceneAsset& asset = reading.assets[i];
       if (!read_asset((folder / asset.file).string(), bytes[i])) {
-        reading.problem({asset.origin.line, asset.origin.path + ".file"}, asset.file + " cannot be read");
+        reading.problem(asset.file_origin, asset.file + " cannot be read");
         return false;
       }
       table.push_back({reinterpret_cast<const uint8_t*>(bytes[i].words.data()), bytes[i].byte_count});
       AssetState state;
       const AssetTable so_far = {table.data(), static_cast<uint32_t>(table.size())};
       const Status status = describe_asset(so_far, static_cast<uint32_t>(i), feature_table<Features::all>, state);
-      if (status != Status::ok) {
-        reading.problem({asset.origin.line, asset.origin.path + ".file"}, asset.file + ": " + status_text(status));
+      if (status != Status::ok || state.kind != static_cast<uint32_t>(asset_kind_of(asset.type))) {
+        reading.problem(asset.file_origin, asset.file + " is not what `detent cook` makes for this type");
         return false;
       }
       const std::string digest = hexadecimal(state.digest);
       if (!asset.digest.empty() && asset.digest != digest) {
-        reading.problem({asset.origin.line, asset.origin.path + ".digest"}, "that of " + asset.file + " is " + digest);
+        reading.problem(asset.digest_origin, "that of " + asset.file + " is " + digest);
         return false;
       }
       outcome.assets.push_back(asset.file);

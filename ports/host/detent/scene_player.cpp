@@ -14,7 +14,7 @@ bool ScenePlayer::build() {
   for (uint32_t i = 0; i < reading_.assets.size(); ++i) {
     const SceneAsset& asset = reading_.assets[i];
     const Status status = recorder_.bind_asset(i);
-    if (status != Status::ok) return fail(asset.origin, asset.file + ": " + status_text(status));
+    if (status != Status::ok) return fail(asset.file_origin, asset.file + ": " + status_text(status));
   }
   for (const SceneBody& body : reading_.scene.bodies) {
     if (!make(body)) return false;
@@ -51,7 +51,8 @@ bool ScenePlayer::make(const SceneJoint& joint) {
   Status status = Status::ok;
   if (joint.placed) status = place_joint(recorder_.world(), joint.point, joint.frame, def);
   if (status == Status::ok) status = recorder_.create_joint(def, id);
-  if (status != Status::ok) return fail(joint.origin, std::string("cannot be made: ") + status_text(status));
+  const char* const what = status == Status::bad_argument ? "neither body is dynamic" : status_text(status);
+  if (status != Status::ok) return fail(joint.origin, std::string("cannot be made: ") + what);
   joints_.add(joint.name, id);
   return true;
 }
@@ -74,8 +75,10 @@ bool ScenePlayer::play(const SceneAction& action, uint32_t tick) {
   if (action.call == Call::create_body) return make(action.new_body);
   if (action.call == Call::create_joint) return make(action.new_joint);
   const Status status = call(action);
-  return status == Status::ok || fail(action.origin, std::string(call_name(action.call)) + " before tick " +
-                                                         std::to_string(tick) + ": " + status_text(status));
+  if (status == Status::ok) return true;
+  const char* const what = status == Status::bad_id ? "what it names is not there" : status_text(status);
+  return fail(action.origin,
+              std::string(call_name(action.call)) + " before tick " + std::to_string(tick) + ": " + what);
 }
 
 Status ScenePlayer::call(const SceneAction& action) {

@@ -64,10 +64,12 @@ size_t ObjectReader::index_of(const char* key) const {
   return static_cast<size_t>(std::find(node_.keys.begin(), node_.keys.end(), key) - node_.keys.begin());
 }
 
-void ObjectReader::problem(const char* key, const std::string& text) {
+SceneOrigin ObjectReader::origin_of(const char* key) const {
   const size_t index = index_of(key);
-  reading_.problem(index < node_.items.size() ? node_.items[index] : node_, path_of(key), text);
+  return {index < node_.items.size() ? node_.items[index].line : node_.line, path_of(key)};
 }
+
+void ObjectReader::problem(const char* key, const std::string& text) { reading_.problem(origin_of(key), text); }
 
 const Node* ObjectReader::take(const Field& field) {
   known_.push_back(field.key);
@@ -232,16 +234,19 @@ bool ObjectReader::name(const Field& field, std::string& value, bool joint) {
   return true;
 }
 
-void ObjectReader::asset(uint32_t& index) {
+void ObjectReader::asset(Shape& shape) {
   SceneAsset asset;
-  origin(asset.origin);
+  asset.type = shape.type;
   text(required({"file", "cooked, from the scene's folder"}), asset.file);
   text({"digest", "16 hexadecimal digits that its content must have"}, asset.digest);
   if (asset.digest.size() != 16 && !asset.digest.empty()) problem("digest", "has not 16 digits");
   std::vector<SceneAsset>& assets = reading_.assets;
-  for (index = 0; index < assets.size(); ++index) {
-    if (assets[index].file == asset.file && assets[index].digest == asset.digest) return;
+  for (shape.asset = 0; shape.asset < assets.size(); ++shape.asset) {
+    const SceneAsset& known = assets[shape.asset];
+    if (known.type == asset.type && known.file == asset.file && known.digest == asset.digest) return;
   }
+  asset.file_origin = origin_of("file");
+  asset.digest_origin = origin_of("digest");
   if (assets.size() < k_assets_max) return assets.push_back(asset);
   problem("file", "is one of more than " + std::to_string(k_assets_max) + " cooked files");
 }

@@ -47,7 +47,8 @@ class ObjectReader {
   bool text(const Field& field, std::string& value);
   bool body(const Field& field, std::string& value) { return name(field, value, false); }
   bool joint(const Field& field, std::string& value) { return name(field, value, true); }
-  void asset(uint32_t& index);
+  /// Of a shape whose type is known.
+  void asset(Shape& shape);
 
   template <class T>
   bool integer(const Field& field, T& value) {
@@ -147,6 +148,7 @@ class ObjectReader {
   size_t index_of(const char* key) const;
   std::string path_of(const char* key) const { return path_.empty() ? key : path_ + "." + key; }
   std::string path_of(const char* key, size_t index) const { return path_of(key) + "[" + std::to_string(index) + "]"; }
+  SceneOrigin origin_of(const char* key) const;
   const Node* take(const Field& field);
   bool is(const Node& node, NodeKind kind, const std::string& path);
   bool number(const Field& field, const Node& node, const std::string& path, double& value);
