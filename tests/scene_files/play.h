@@ -23,8 +23,8 @@ inline std::string file_text(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// As a scene in tests/scene_files, with everything printed and recorded.
-inline Played play(const std::string& text, const Engine& engine = engines().front()) {
+/// As a scene in tests/scene_files, with everything printed and recorded. `ticks`: 0: the scene's own.
+inline Played play(const std::string& text, const Engine& engine = engines().front(), uint32_t ticks = 0) {
   Played played;
   Node root;
   Problem problem;
@@ -39,6 +39,8 @@ inline Played play(const std::string& text, const Engine& engine = engines().fro
   RunRequest request;
   request.path = DETENT_ROOT "/tests/scene_files/scene.json";
   request.root = &root;
+  request.ticks_given = ticks != 0;
+  request.ticks = ticks;
   request.prints = {true, true, true, true};
   request.recording = testing::TempDir() + testing::UnitTest::GetInstance()->current_test_info()->name() + ".rec";
   const auto print = [&played](const RunLine& line) {

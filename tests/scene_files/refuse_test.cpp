@@ -163,5 +163,28 @@ TEST(scene_refuses, with_every_problem_up_to_a_screenful) {
   EXPECT_EQ(std::count(problems.begin(), problems.end(), '\n'), 20);
 }
 
+/// What is let in can be played: in a build with sanitizers any fault ends the program.
+TEST(scene_refuses, or_plays_whatever_is_damaged) {
+  const std::string whole = file_text(DETENT_ROOT "/tests/scene_files/every.json");
+  const std::string letters = "{}[]:,\"0123456789.-+eE \ntrufalsn\\\x80";
+  uint32_t random = 1, refused = 0, played = 0;
+  const auto below = [&random](size_t limit) {
+    random = random * 1664525u + 1013904223u;
+    return (random >> 8) % limit;
+  };
+  for (int round = 0; round < 400; ++round) {
+    std::string text = whole;
+    const size_t place = below(text.size() - 40), length = below(40), to = below(text.size());
+    const size_t letter = below(letters.size()), way = below(4);
+    if (way == 0) text.erase(place, length);
+    if (way == 1) text.insert(to, text.substr(place, length));
+    if (way >= 2) text[place] = letters[letter];
+    const Played result = play(text, engines().front(), 4);
+    (result.problems.empty() ? played : refused) += 1;
+  }
+  EXPECT_GT(refused, 100u);
+  EXPECT_GT(played, 30u);
+}
+
 }  // namespace
 }  // namespace detent_tool
