@@ -170,15 +170,16 @@ TEST(scene_refuses, or_plays_whatever_is_damaged) {
   uint32_t random = 1, refused = 0, played = 0;
   const auto below = [&random](size_t limit) {
     random = random * 1664525u + 1013904223u;
-    return (random >> 8) % limit;
+    return static_cast<size_t>(random >> 8) % limit;
   };
   for (int round = 0; round < 400; ++round) {
     std::string text = whole;
-    const size_t place = below(text.size() - 40), length = below(40), to = below(text.size());
+    const size_t place = below(text.size() - 60), length = below(40), to = below(text.size());
     const size_t letter = below(letters.size()), way = below(4);
     if (way == 0) text.erase(place, length);
     if (way == 1) text.insert(to, text.substr(place, length));
-    if (way >= 2) text[place] = letters[letter];
+    if (way == 2) text[place] = letters[letter];
+    if (way == 3) text[text.find_first_of("0123456789", place)] = static_cast<char>('0' + letter % 10);
     const Played result = play(text, engines().front(), 4);
     (result.problems.empty() ? played : refused) += 1;
   }

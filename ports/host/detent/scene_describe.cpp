@@ -1,4 +1,4 @@
-#include "scene_fields.h"
+#include "scene_actions.h"
 #include "scene_play.h"
 
 namespace detent {

@@ -1,8 +1,9 @@
 #pragma once
+#include <detent/config.h>
+
 #include <map>
 #include <string>
-
-#include "scene_fields.h"
+#include <utility>
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

@@ -119,34 +119,36 @@ void play(const RunRequest& request, SceneReading& reading, OwnedWorld& owned, R
   outcome.recording_bytes = recorded ? file_bytes(request.recording) : 0;
 }
 
+/// False, and a problem, if it cannot be.
+bool make_world(SceneReading& reading, const SceneAssets& assets, OwnedWorld& owned) {
+  const WorldDef& def = reading.scene.world;
+  const uint32_t bytes = world_bytes(def.capacity);
+  if (bytes == 0 || bytes > k_world_bytes_max) {
+    reading.problem({}, "its world would take more than 1 GB: less capacity will do");
+    return false;
+  }
+  const Status status = owned.create(def, {assets.table.data(), static_cast<uint32_t>(assets.table.size())});
+  if (status != Status::ok) reading.problem({}, std::string("its world cannot be made: ") + status_text(status));
+  return status == Status::ok;
+}
+
 }  // namespace
 
 RunOutcome play_scene(const RunRequest& request, const RunPrinter& print, const Progress& progress) {
   RunOutcome outcome;
   SceneReading reading;
-  read_scene(*request.root, reading);
-  outcome.description = reading.scene.description;
   SceneAssets assets;
   OwnedWorld owned;
-  const WorldDef& def = reading.scene.world;
-  if (reading.problems.empty() && assets.read(reading, request.path, outcome)) {
-    const uint32_t bytes = world_bytes(def.capacity);
-    const Status created = bytes == 0 || bytes > k_world_bytes_max
-                               ? Status::buffer_too_small
-                               : owned.create(def, {assets.table.data(), static_cast<uint32_t>(assets.table.size())});
-    if (bytes == 0 || bytes > k_world_bytes_max) {
-      reading.problem({}, "its world would take more than 1 GB: less capacity will do");
-    } else if (created != Status::ok) {
-      reading.problem({}, std::string("its world cannot be made: ") + status_text(created));
-    } else {
-      const auto start = std::chrono::steady_clock::now();
-      play(request, reading, owned, outcome, print, progress);
-      outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-      const WorldInfo info = get_info(owned.world);
-      outcome.bodies = info.bodies;
-      outcome.joints = info.joints;
-      outcome.digest = digest(owned.world);
-    }
+  read_scene(*request.root, reading);
+  outcome.description = reading.scene.description;
+  if (reading.problems.empty() && assets.read(reading, request.path, outcome) && make_world(reading, assets, owned)) {
+    const auto start = std::chrono::steady_clock::now();
+    play(request, reading, owned, outcome, print, progress);
+    outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const WorldInfo info = get_info(owned.world);
+    outcome.bodies = info.bodies;
+    outcome.joints = info.joints;
+    outcome.digest = digest(owned.world);
   }
   outcome.problems = reading.problems;
   return outcome;

@@ -1,5 +1,5 @@
 #pragma once
-#include "scene_fields.h"
+#include "scene_actions.h"
 
 /// From JSON to definitions.
 namespace detent {
