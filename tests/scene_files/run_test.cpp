@@ -160,7 +160,7 @@ TEST(scene_run, definitions_of_a_file_are_those_of_code) {
                 "speed": 6, "force_max": 7},
        "second": {"speed": 8, "force_max": 9},
        "collide": true, "break_force": 10, "break_torque": 11, "user_data": 12}]})",
-                             engine_of("fx64"));
+                             engine_of(DETENT_CONFIG_TEXT));
   ASSERT_EQ(played.problems, "");
   EXPECT_EQ(played.outcome.digest, digest(world));
 }

@@ -132,7 +132,8 @@ int run_scenes(const Report& report) {
 
 int main(int argc, char** argv) {
   CLI::App app(
-      "Records, verifies and describes recordings of the Detent physics library, and cooks hulls and meshes for it.\n"
+      "Records, verifies and describes recordings of the Detent physics library, plays scenes, and cooks hulls and "
+      "meshes for it.\n"
       "Exit code: 0 if all is well and every tick of every file agrees, 1 if not, 2 for wrong usage.",
       "detent");
   app.set_version_flag("--version", version_text());
