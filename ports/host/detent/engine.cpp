@@ -2,8 +2,6 @@
 
 #include <detent/recording.h>
 
-#include <chrono>
-
 #include "file.h"
 #include "owned_world.h"
 #include "scene_play.h"
@@ -19,13 +17,6 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 using namespace detent_tool;
-
-constexpr uint32_t k_ticks_per_progress = 16;
-
-struct Stopwatch {
-  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
-};
 
 const char* config_text(Config config) {
   switch (config) {

@@ -1,9 +1,11 @@
 #pragma once
 #include <detent/world.h>
 
+#include <chrono>
 #include <memory>
 #include <new>
 
+/// What the engine's files share, in each configuration.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -20,6 +22,13 @@ struct OwnedWorld {
     return create_world(reinterpret_cast<uint8_t*>(block.get()), bytes, def, assets, world);
   }
 };
+
+struct Stopwatch {
+  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
+};
+
+inline constexpr uint32_t k_ticks_per_progress = 16;
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

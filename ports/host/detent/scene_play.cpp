@@ -1,6 +1,5 @@
 #include "scene_play.h"
 
-#include <chrono>
 #include <filesystem>
 
 #include "file.h"
@@ -14,7 +13,6 @@ inline namespace DETENT_NAMESPACE {
 
 namespace {
 
-constexpr uint32_t k_ticks_per_progress = 16;
 constexpr uint32_t k_events_max = 4096;  // of each kind and step
 constexpr uint32_t k_world_bytes_max = 1u << 30;
 
@@ -142,9 +140,9 @@ RunOutcome play_scene(const RunRequest& request, const RunPrinter& print, const 
   read_scene(*request.root, reading);
   outcome.description = reading.scene.description;
   if (reading.problems.empty() && assets.read(reading, request.path, outcome) && make_world(reading, assets, owned)) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch stopwatch;
     play(request, reading, owned, outcome, print, progress);
-    outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    outcome.seconds = stopwatch.seconds();
     const WorldInfo info = get_info(owned.world);
     outcome.bodies = info.bodies;
     outcome.joints = info.joints;
