@@ -33,6 +33,7 @@ struct Grid {
 };
 
 bool is_everywhere(const Bounds& bounds) { return bounds.lower.x == -k_coord_limit && bounds.upper.x == k_coord_limit; }
+bool is_nowhere(const Bounds& bounds) { return bounds.upper.x < bounds.lower.x; }
 
 /// A bit above each of the two coordinates across: it is borrowed from where an upper end lies below a lower one.
 constexpr uint32_t k_across_bits = 15, k_across_guards = 0x80008000;
@@ -129,7 +130,7 @@ void find_pairs(Span<const uint32_t> moving, const RestingTree& resting, Span<Bo
   Grid grid[3];
   for (int i = 0; i < 3; ++i) grid[i].axis = k_axes[i];
   for (const uint32_t slot : moving) {
-    if (is_everywhere(bounds[slot])) continue;
+    if (is_everywhere(bounds[slot]) || is_nowhere(bounds[slot])) continue;
     for (Grid& axis : grid) axis.include(bounds[slot]);
   }
   int widest = 0;
@@ -142,6 +143,7 @@ void find_pairs(Span<const uint32_t> moving, const RestingTree& resting, Span<Bo
 
   uint32_t count = 0, everywhere = 0;
   for (const uint32_t slot : moving) {
+    if (is_nowhere(bounds[slot])) continue;
     find_resting_near(slot, resting, pool);
     if (is_everywhere(bounds[slot])) {
       spare[everywhere++].slot = slot;

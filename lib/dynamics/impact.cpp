@@ -47,6 +47,7 @@ bool holds(const Bounds& outer, const Bounds& inner) {
 
 /// Bounds of a body over a sweep, with a margin below that of the bounds that pairs are found by.
 Bounds bounds_over(const BodyTraits& traits, const BodyPose& pose, const Sweep& sweep) {
+  if (is_aloof(traits)) return k_nowhere;
   if (is_half_space(traits)) return k_everywhere;
   const Real margin = scale_by_power(bounds_extent(traits), -8);
   Vec3<Real> reach = half_bounds(traits, matrix_from(pose.rotation));
@@ -371,6 +372,10 @@ struct Stage {
   void find_first() {
     bodies.visits.for_each([&](uint32_t slot) {
       BodySweep& sweep = bodies.sweeps[slot];
+      if (is_aloof(bodies.traits[slot])) {
+        write_down(slot);
+        return;
+      }
       if (!is_at_rest(sweep)) {
         const Bounds found_by = bodies.bounds[slot];
         set_bounds(slot);
