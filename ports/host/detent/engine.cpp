@@ -2,11 +2,10 @@
 
 #include <detent/recording.h>
 
-#include <chrono>
-#include <new>
-
 #include "file.h"
+#include "owned_world.h"
 #include "ports/config_text.h"
+#include "scene_play.h"
 #include "tests/scenes/scene.h"
 #include "text.h"
 
@@ -21,25 +20,6 @@ namespace {
 using namespace detent_tool;
 
 constexpr uint32_t k_ticks_per_progress = 16;
-
-struct Stopwatch {
-  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
-};
-
-/// A world in memory of its own; `block` is null if there is not enough.
-struct OwnedWorld {
-  std::unique_ptr<uint64_t[]> block;
-  World world;
-
-  Status create(const WorldDef& def, const AssetTable& assets) {
-    const uint32_t bytes = world_bytes(def.capacity);
-    if (bytes == 0) return Status::out_of_range;
-    block.reset(new (std::nothrow) uint64_t[(bytes + 7) / 8]);
-    if (block == nullptr) return Status::buffer_too_small;
-    return create_world(reinterpret_cast<uint8_t*>(block.get()), bytes, def, assets, world);
-  }
-};
 
 Outcome failed(const std::string& problem) {
   Outcome outcome;
@@ -210,7 +190,9 @@ Engine engine() {
           scene_lines,
           record,
           verify,
-          info};
+          info,
+          play_scene,
+          describe_scene};
 }
 
 }  // namespace DETENT_NAMESPACE

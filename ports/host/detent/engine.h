@@ -75,6 +75,11 @@ struct AssetBytes {
 using Assets = std::vector<AssetBytes>;
 bool read_asset(const std::string& path, AssetBytes& asset);
 
+struct ObjectInfo;
+struct RunLine;
+struct RunOutcome;
+struct RunRequest;
+
 struct Engine {
   const char* config;
   uint32_t format_version;
@@ -84,6 +89,10 @@ struct Engine {
   /// `assets`: of the recorded world; those of the scenes if there are none.
   Outcome (*verify)(const std::string& path, const Assets& assets, const Progress& progress);
   Outcome (*info)(const std::string& path, const Assets& assets, const Progress& progress);
+  /// Scenes as data (run.h).
+  RunOutcome (*run)(const RunRequest& request, const std::function<void(const RunLine&)>& print,
+                    const Progress& progress);
+  std::vector<ObjectInfo> (*scene_format)();
 };
 
 /// The engines of this build, in the order fx64, fx32, f32, f64.

@@ -5,6 +5,7 @@
 #include "command.h"
 #include "progress.h"
 #include "report.h"
+#include "run.h"
 
 namespace {
 
@@ -104,6 +105,17 @@ int run_info(const std::vector<std::string>& paths, const Report& report) {
   return code;
 }
 
+int run_scene(RunCommand& command, const std::vector<std::string>& prints) {
+  for (const std::string& print : prints) {
+    RunPrints& wanted = command.request.prints;
+    (print == "bodies"    ? wanted.bodies
+     : print == "events"  ? wanted.events
+     : print == "queries" ? wanted.queries
+                          : wanted.ticks) = true;
+  }
+  return run_scene_file(command) ? k_exit_good : k_exit_bad;
+}
+
 int run_cook_mesh(const MeshRequest& request, const Report& report) {
   ProgressBar bar(request.input);
   const bool good =
@@ -120,7 +132,8 @@ int run_scenes(const Report& report) {
 
 int main(int argc, char** argv) {
   CLI::App app(
-      "Records, verifies and describes recordings of the Detent physics library, and cooks hulls and meshes for it.\n"
+      "Records, verifies and describes recordings of the Detent physics library, plays scenes, and cooks hulls and "
+      "meshes for it.\n"
       "Exit code: 0 if all is well and every tick of every file agrees, 1 if not, 2 for wrong usage.",
       "detent");
   app.set_version_flag("--version", version_text());
@@ -203,7 +216,31 @@ int main(int argc, char** argv) {
   cook->add_flag("--exact", refuse_more, "Refuse a hull of more vertices, instead of reducing it");
   cook->add_option("--index", cooking.index, "Which of the clouds of a .bin, from 0 on")->capture_default_str();
 
-  for (CLI::App* command : {record, verify, info, scenes, cook}) {
+  RunCommand running;
+  running.config = configs.front();
+  std::vector<std::string> prints;
+  bool schema = false, fields = false;
+  CLI::App* run = app.add_subcommand("run", "Play a scene that is written as JSON (docs/scene.md)");
+  run->add_option("scene", running.path, "The scene");
+  run->add_option("--config", running.config, "The math configuration")
+      ->check(CLI::IsMember(configs))
+      ->capture_default_str();
+  CLI::Option* run_ticks =
+      run->add_option("--ticks", running.request.ticks, "Its length; the scene's own if it is not given")
+          ->check(CLI::Range(0u, 1000000000u));
+  run->add_option("-r,--record", running.request.recording, "Write its recording to this file");
+  run->add_option("--digest-interval", running.request.digest_interval,
+                  "Record a digest every so many ticks; 0: only at the end")
+      ->capture_default_str();
+  run->add_option("--print", prints,
+                  "bodies: where they are at the end; events: of contacts, sensors, joints, sleep; queries: what they "
+                  "found; ticks: the digest after each")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"bodies", "events", "queries", "ticks"}));
+  run->add_flag("--schema", schema, "Print the JSON Schema of scenes, and nothing else");
+  run->add_flag("--fields", fields, "Print the tables of docs/scene.md, and nothing else");
+
+  for (CLI::App* command : {record, verify, info, scenes, cook, run}) {
     command->add_flag("--json", report.json, "One JSON object a file, each on one line");
   }
 
@@ -216,6 +253,20 @@ int main(int argc, char** argv) {
   if (record->parsed()) return run_record(request, config, report);
   if (verify->parsed()) return run_verify(paths, asset_paths, report);
   if (info->parsed()) return run_info(paths, report);
+  if (run->parsed() && (schema || fields)) {
+    const std::vector<ObjectInfo> objects = engines().front().scene_format();
+    fputs((schema ? scene_schema(objects) : scene_tables(objects)).c_str(), stdout);
+    return k_exit_good;
+  }
+  if (run->parsed() && running.path.empty()) {
+    fprintf(stderr, "detent run: which scene?\n");
+    return k_exit_usage;
+  }
+  if (run->parsed()) {
+    running.json = report.json;
+    running.request.ticks_given = run_ticks->count() != 0;
+    return run_scene(running, prints);
+  }
   if (cook->parsed() && kind == "mesh") {
     return run_cook_mesh({cooking.input, cooking.output, {cooking.options.weld, one_sided}}, report);
   }

@@ -1,0 +1,137 @@
+#include "run.h"
+
+#include <nlohmann/json.hpp>
+
+#include "file.h"
+#include "progress.h"
+#include "text.h"
+
+namespace detent_tool {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+void print_json(const Json& json) { printf("%s\n", json.dump(-1, ' ', false, Json::error_handler_t::replace).c_str()); }
+
+std::string plain(double value) {
+  char text[32];
+  snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+void print_text(const RunLine& line) {
+  std::string text = "tick " + std::to_string(line.tick) + " " + line.what;
+  for (const RunLine::Value& value : line.values) {
+    text += std::string(", ") + value.name + " ";
+    if (value.list) text += "(";
+    if (value.numbers.empty()) text += value.text;
+    for (size_t i = 0; i < value.numbers.size(); ++i) text += (i == 0 ? "" : ", ") + plain(value.numbers[i]);
+    if (value.list) text += ")";
+  }
+  printf("%s\n", text.c_str());
+}
+
+void print_object(const RunLine& line) {
+  Json json = {{"tick", line.tick}, {"what", line.what}};
+  for (const RunLine::Value& value : line.values) {
+    if (value.list) {
+      json[value.name] = value.numbers;
+    } else if (value.numbers.empty()) {
+      json[value.name] = value.text;
+    } else {
+      json[value.name] = value.numbers.front();
+    }
+  }
+  print_json(json);
+}
+
+/// No larger than parse_json() takes, and a byte, so that what is larger is refused there.
+bool read_text(const std::string& path, std::string& text) {
+  const File file = open_file(path, "rb");
+  if (file == nullptr) return false;
+  char piece[4096];
+  while (text.size() <= k_json_bytes_max) {
+    const size_t count = fread(piece, 1, sizeof piece, file.get());
+    text.append(piece, count);
+    if (count < sizeof piece) break;
+  }
+  return ferror(file.get()) == 0;
+}
+
+bool refuse(const RunCommand& command, const std::vector<Problem>& problems) {
+  if (command.json) {
+    Json list = Json::array();
+    for (const Problem& problem : problems) {
+      list.push_back({{"line", problem.line}, {"path", problem.path}, {"problem", problem.text}});
+    }
+    print_json({{"file", command.path}, {"ok", false}, {"problems", list}});
+  } else {
+    for (const Problem& problem : problems) fprintf(stderr, "%s\n", problem_text(command.path, problem).c_str());
+  }
+  return false;
+}
+
+void summarise(const RunCommand& command, const RunOutcome& outcome) {
+  if (command.json) {
+    Json json = {{"file", command.path}, {"ok", true}, {"config", command.config}};
+    if (!outcome.description.empty()) json["description"] = outcome.description;
+    json["ticks"] = outcome.ticks;
+    json["ticks_incomplete"] = outcome.ticks_incomplete;
+    json["calls"] = outcome.calls;
+    json["bodies"] = outcome.bodies;
+    json["joints"] = outcome.joints;
+    json["assets"] = Json::array();
+    for (size_t i = 0; i < outcome.assets.size(); ++i) {
+      json["assets"].push_back({{"file", outcome.assets[i]}, {"digest", outcome.asset_digests[i]}});
+    }
+    if (!command.request.recording.empty()) {
+      json["recording"] = command.request.recording;
+      json["recording_bytes"] = outcome.recording_bytes;
+    }
+    json["digest"] = hexadecimal(outcome.digest);
+    json["seconds"] = outcome.seconds;
+    return print_json(json);
+  }
+  for (size_t i = 0; i < outcome.assets.size(); ++i) {
+    printf("asset %zu: %s, digest %s\n", i, outcome.assets[i].c_str(), outcome.asset_digests[i].c_str());
+  }
+  std::string text = command.path + ": " + command.config + ", " + std::to_string(outcome.ticks) + " ticks, " +
+                     std::to_string(outcome.bodies) + " bodies, " + std::to_string(outcome.joints) + " joints, ";
+  if (!command.request.recording.empty()) {
+    text += std::to_string(outcome.recording_bytes) + " bytes to " + command.request.recording + ", ";
+  }
+  printf("%sfinal digest %s\n", text.c_str(), hexadecimal(outcome.digest).c_str());
+  if (outcome.ticks_incomplete != 0) {
+    fprintf(stderr, "%s: %llu ticks lost pairs, contacts or range: give the world more capacity\n",
+            command.path.c_str(), static_cast<unsigned long long>(outcome.ticks_incomplete));
+  }
+}
+
+}  // namespace
+
+bool run_scene_file(const RunCommand& command) {
+  std::string text;
+  if (!read_text(command.path, text)) return refuse(command, {{0, "", "cannot be read"}});
+  Node root;
+  Problem problem;
+  if (!parse_json(text, root, problem)) return refuse(command, {problem});
+  RunRequest request = command.request;
+  request.path = command.path;
+  request.root = &root;
+  for (const Engine& engine : engines()) {
+    if (command.config != engine.config) continue;
+    RunOutcome outcome;
+    {
+      ProgressBar bar(command.path);
+      outcome = engine.run(request, command.json ? print_object : print_text,
+                           [&bar](uint64_t done, uint64_t total) { bar.show(done, total); });
+    }
+    if (!outcome.problems.empty()) return refuse(command, outcome.problems);
+    summarise(command, outcome);
+    return true;
+  }
+  return refuse(command, {{0, "", "no such configuration: " + command.config}});
+}
+
+}  // namespace detent_tool

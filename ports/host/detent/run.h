@@ -1,0 +1,78 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine.h"
+#include "scene_format.h"
+#include "scene_json.h"
+
+/// `detent run`: a scene as data (docs/scene.md) played by the engine of a configuration.
+namespace detent_tool {
+
+/// Something to tell of a run, as names and values.
+struct RunLine {
+  struct Value {
+    const char* name;
+    std::string text;             ///< or, if it is empty,
+    std::vector<double> numbers;  ///< one, or a list
+    bool list = false;
+  };
+  uint64_t tick = 0;  ///< completed ticks
+  const char* what = "";
+  std::vector<Value> values;
+
+  void add(const char* name, const std::string& text) { values.push_back({name, text, {}, false}); }
+  void add(const char* name, double number) { values.push_back({name, "", {number}, false}); }
+  void add(const char* name, const std::vector<double>& numbers) { values.push_back({name, "", numbers, true}); }
+};
+
+struct RunPrints {
+  bool bodies = false;   ///< where they are at the end
+  bool events = false;   ///< of contacts, sensors, joints, sleep
+  bool queries = false;  ///< what they found
+  bool ticks = false;    ///< the digest after each
+};
+
+struct RunRequest {
+  std::string path;  ///< of the scene: its assets lie beside it
+  const Node* root = nullptr;
+  bool ticks_given = false;
+  uint32_t ticks = 0;
+  std::string recording;  ///< to be written; empty: none
+  uint32_t digest_interval = 1;
+  RunPrints prints;
+};
+
+struct RunOutcome {
+  std::vector<Problem> problems;  ///< empty if all went well
+  std::string description;
+  std::vector<std::string> assets;  ///< the table's files, from the scene's folder, in order
+  std::vector<std::string> asset_digests;
+  uint32_t bodies = 0;  ///< at the end
+  uint32_t joints = 0;
+  uint64_t ticks = 0;
+  uint64_t ticks_incomplete = 0;  ///< steps that lost something: pairs, contacts, range
+  uint64_t calls = 0;
+  uint64_t digest = 0;
+  uint64_t recording_bytes = 0;
+  double seconds = 0;
+};
+
+using RunPrinter = std::function<void(const RunLine&)>;
+
+struct RunCommand {
+  std::string path;
+  std::string config;
+  RunRequest request;
+  bool json = false;
+};
+/// Reads, plays, prints. False, and lines to standard error, if anything was wrong.
+bool run_scene_file(const RunCommand& command);
+
+/// The JSON Schema of scenes, and the tables of docs/scene.md, as text.
+std::string scene_schema(const std::vector<ObjectInfo>& objects);
+std::string scene_tables(const std::vector<ObjectInfo>& objects);
+
+}  // namespace detent_tool

@@ -1,0 +1,156 @@
+#include "scene_play.h"
+
+#include <filesystem>
+
+#include "file.h"
+#include "owned_world.h"
+#include "scene_player.h"
+#include "text.h"
+#include "world/asset_binding.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+namespace {
+
+constexpr uint32_t k_events_max = 4096;  // of each kind and step
+constexpr uint32_t k_world_bytes_max = 1u << 30;
+
+/// The scene's cooked files.
+struct SceneAssets {
+  Assets bytes;
+  std::vector<Asset> table;
+
+  /// False, and a problem, if one cannot be read or has another digest than the scene says.
+  bool read(SceneReading& reading, const std::string& scene_path, RunOutcome& outcome) {
+    const std::filesystem::path folder = std::filesystem::path(scene_path).parent_path();
+    bytes.resize(reading.assets.size());
+    for (size_t i = 0; i < bytes.size(); ++i) {
+      const SceneAsset& asset = reading.assets[i];
+      if (!read_asset((folder / asset.file).string(), bytes[i])) {
+        reading.problem(asset.file_origin, asset.file + " cannot be read");
+        return false;
+      }
+      table.push_back({reinterpret_cast<const uint8_t*>(bytes[i].words.data()), bytes[i].byte_count});
+      AssetState state;
+      const AssetTable so_far = {table.data(), static_cast<uint32_t>(table.size())};
+      const Status status = describe_asset(so_far, static_cast<uint32_t>(i), feature_table<Features::all>, state);
+      if (status != Status::ok || state.kind != static_cast<uint32_t>(asset_kind_of(asset.type))) {
+        reading.problem(asset.file_origin, asset.file + " is not what `detent cook` makes for this type");
+        return false;
+      }
+      const std::string digest = hexadecimal(state.digest);
+      if (!asset.digest.empty() && asset.digest != digest) {
+        reading.problem(asset.digest_origin, "that of " + asset.file + " is " + digest);
+        return false;
+      }
+      outcome.assets.push_back(asset.file);
+      outcome.asset_digests.push_back(digest);
+    }
+    return true;
+  }
+};
+
+/// Room for the events that a step tells.
+struct EventRoom {
+  std::vector<ContactEvent> contacts;
+  std::vector<SensorEvent> sensors;
+  std::vector<JointEvent> joints;
+  std::vector<BodyEvent> bodies;
+
+  explicit EventRoom(World& world)
+      : contacts(k_events_max), sensors(k_events_max), joints(k_events_max), bodies(k_events_max) {
+    world.contact_events = {contacts.data(), k_events_max};
+    world.sensor_events = {sensors.data(), k_events_max};
+    world.joint_events = {joints.data(), k_events_max};
+    world.body_events = {bodies.data(), k_events_max};
+  }
+};
+
+/// `file`: a File.
+Status write_file(void* file, const uint8_t* bytes, uint32_t count) {
+  return fwrite(bytes, 1, count, static_cast<File*>(file)->get()) == count ? Status::ok : Status::sink_failed;
+}
+
+/// Steps the world; the first problem ends it.
+void step_through(const RunRequest& request, uint32_t ticks, Recorder& recorder, ScenePlayer& player,
+                  RunOutcome& outcome, const RunPrinter& print, const Progress& progress) {
+  for (uint32_t tick = 0; tick < ticks && recorder.status() == Status::ok; ++tick) {
+    if (!player.before_tick(tick)) return;
+    const StepReport report = recorder.step();
+    outcome.ticks = report.tick;
+    if (!report.complete()) ++outcome.ticks_incomplete;
+    if (request.prints.events) player.print_events(recorder.world(), report);
+    if (request.prints.ticks) {
+      RunLine line = {report.tick, "tick", {}};
+      line.add("digest", hexadecimal(digest(recorder.world())));
+      line.add("awake", report.awake);
+      line.add("contacts", report.contacts);
+      print(line);
+    }
+    if (tick % k_ticks_per_progress == 0) progress(tick, ticks);
+  }
+}
+
+void play(const RunRequest& request, SceneReading& reading, OwnedWorld& owned, RunOutcome& outcome,
+          const RunPrinter& print, const Progress& progress) {
+  const EventRoom room(owned.world);
+  File file;
+  uint8_t buffer[k_recording_buffer_bytes];
+  const bool recorded = !request.recording.empty();
+  Recorder recorder(owned.world, recorded ? Sink{write_file, &file} : Sink{}, buffer, sizeof buffer);
+  ScenePlayer player(reading, recorder, request.prints, print);
+  if (!player.build()) return;
+  if (recorded) {  // not before now: a wrong scene leaves an older recording alone
+    file = open_file(request.recording, "wb");
+    if (file == nullptr) return reading.problem({}, request.recording + " cannot be opened for writing");
+  }
+  Status status = recorder.begin({request.digest_interval});
+  const uint32_t ticks = request.ticks_given ? request.ticks : reading.scene.ticks;
+  if (status == Status::ok) step_through(request, ticks, recorder, player, outcome, print, progress);
+  status = recorder.end();
+  if (recorded && (fclose(file.release()) != 0 || status != Status::ok)) {
+    reading.problem({}, request.recording + " cannot be written");
+  }
+  if (request.prints.bodies) player.print_bodies(owned.world, outcome.ticks);
+  outcome.calls = player.calls();
+  outcome.recording_bytes = recorded ? file_bytes(request.recording) : 0;
+}
+
+/// False, and a problem, if it cannot be.
+bool make_world(SceneReading& reading, const SceneAssets& assets, OwnedWorld& owned) {
+  const WorldDef& def = reading.scene.world;
+  const uint32_t bytes = world_bytes(def.capacity);
+  if (bytes == 0 || bytes > k_world_bytes_max) {
+    reading.problem({}, "its world would take more than 1 GB: less capacity will do");
+    return false;
+  }
+  const Status status = owned.create(def, {assets.table.data(), static_cast<uint32_t>(assets.table.size())});
+  if (status != Status::ok) reading.problem({}, std::string("its world cannot be made: ") + status_text(status));
+  return status == Status::ok;
+}
+
+}  // namespace
+
+RunOutcome play_scene(const RunRequest& request, const RunPrinter& print, const Progress& progress) {
+  RunOutcome outcome;
+  SceneReading reading;
+  SceneAssets assets;
+  OwnedWorld owned;
+  read_scene(*request.root, reading);
+  outcome.description = reading.scene.description;
+  if (reading.problems.empty() && assets.read(reading, request.path, outcome) && make_world(reading, assets, owned)) {
+    const Stopwatch stopwatch;
+    play(request, reading, owned, outcome, print, progress);
+    outcome.seconds = stopwatch.seconds();
+    const WorldInfo info = get_info(owned.world);
+    outcome.bodies = info.bodies;
+    outcome.joints = info.joints;
+    outcome.digest = digest(owned.world);
+  }
+  outcome.problems = reading.problems;
+  return outcome;
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,47 @@
+#pragma once
+#include "run.h"
+#include "scene_names.h"
+#include "scene_reader.h"
+
+/// Carries a scene's definitions and actions out through a recorder.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+class ScenePlayer {
+ public:
+  ScenePlayer(SceneReading& reading, Recorder& recorder, const RunPrints& prints, const RunPrinter& print)
+      : reading_(reading), recorder_(recorder), prints_(prints), print_(print) {}
+
+  /// Binds the assets and makes the first bodies and joints. False, and a problem, at the first that fails.
+  bool build();
+  /// The calls before a tick; `tick` are completed. Likewise. Ticks come in order, from 0 on.
+  bool before_tick(uint32_t tick);
+  /// What the last step told.
+  void print_events(const World& world, const StepReport& report) const;
+  void print_bodies(const World& world, uint64_t tick) const;
+  uint64_t calls() const { return calls_; }
+
+ private:
+  bool fail(const SceneOrigin& origin, const std::string& text);
+  bool make(const SceneBody& body);
+  bool make(const SceneJoint& joint);
+  bool play(const SceneAction& action, uint32_t tick);
+  Status call(const SceneAction& action);
+  Status call_of_body(const SceneAction& action, BodyId id);
+  Status push(const SceneAction& action, BodyId id);
+  Status ask(const SceneAction& action);
+
+  SceneReading& reading_;
+  Recorder& recorder_;
+  const RunPrints& prints_;
+  const RunPrinter& print_;
+  SceneNames<BodyId> bodies_{"body"};
+  SceneNames<JointId> joints_{"joint"};
+  std::vector<uint32_t> order_;    ///< of the actions, by their first tick
+  std::vector<uint32_t> running_;  ///< whose time has come and not gone
+  size_t next_ = 0;                ///< of order_
+  uint64_t calls_ = 0;
+};
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,184 @@
+#pragma once
+#include "scene_actions.h"
+
+/// From JSON to definitions.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// A name that something must have.
+struct SceneReference {
+  SceneOrigin origin;
+  std::string name;
+  bool joint = false;
+  bool action = false;  ///< a name of what an action creates will do
+};
+
+/// What is gathered while a scene is read.
+struct SceneReading {
+  std::vector<Problem> problems;
+  std::vector<SceneAsset> assets;
+  std::vector<SceneReference> references;
+  SceneText scene;
+
+  /// Those beyond a screenful are left out.
+  void problem(const SceneOrigin& origin, const std::string& text);
+  void problem(const Node& node, const std::string& path, const std::string& text);
+};
+
+/// Reads the whole scene. Good if there are no problems then. `root` must outlive it.
+void read_scene(const Node& root, SceneReading& reading);
+
+/// The keys of one object. What a key's value is wrong for is a problem, and the member stays as it is; a key that is
+/// not there leaves its member alone too. All but tag() return whether the key is there.
+class ObjectReader {
+ public:
+  ObjectReader(SceneReading& reading, const Node& node, const std::string& path);
+
+  bool given(const char* key) const { return index_of(key) < node_.keys.size(); }
+  void problem(const char* key, const std::string& text);
+  void origin(SceneOrigin& origin) const { origin = {node_.line, path_}; }
+  bool real(const Field& field, Real& value);
+  bool scaled(const Field& field, Scaled& value);
+  bool vector(const Field& field, Vec3<Real>& value);
+  bool scaleds(const Field& field, Vec3<Scaled>& value);
+  bool position(const Field& field, Position& value);
+  bool rotation(const Field& field, Quat& value);
+  bool flag(const Field& field, bool& value);
+  bool text(const Field& field, std::string& value);
+  bool body(const Field& field, std::string& value) { return name(field, value, false); }
+  bool joint(const Field& field, std::string& value) { return name(field, value, true); }
+  /// Of a shape whose type is known.
+  void asset(Shape& shape);
+
+  template <class T>
+  bool integer(const Field& field, T& value) {
+    double number = 0;
+    const Node* const node = take(field);
+    if (node != nullptr && whole_number(field, *node, number)) value = static_cast<T>(number);
+    return node != nullptr;
+  }
+  bool counted(const Field& field, uint32_t& value) { return integer(field, value); }
+  bool counted(const Field& field, bool& value) { return flag(field, value); }
+
+  template <class T, size_t count>
+  bool choice(const Field& field, T& value, const Choice<T> (&choices)[count]) {
+    const Node* const node = take(field);
+    if (node == nullptr) return false;
+    const size_t found = find_choice(*node, path_of(field.key), names_of(choices));
+    if (found < count) value = choices[found].value;
+    return true;
+  }
+  template <class T, size_t count>
+  bool choices(const Field& field, T& value, const Choice<T> (&choices)[count]) {
+    const Node* const node = take(field);
+    if (node == nullptr || !is(*node, NodeKind::array, path_of(field.key))) return node != nullptr;
+    value = 0;
+    for (size_t i = 0; i < node->items.size(); ++i) {
+      const size_t found = find_choice(node->items[i], path_of(field.key, i), names_of(choices));
+      if (found < count) value |= choices[found].value;
+    }
+    return true;
+  }
+  /// False if it is not there or has no such value: then no further key can be judged.
+  template <class T, size_t count>
+  bool tag(const Field& field, T& value, const Choice<T> (&choices)[count]) {
+    const Node* const node = take(required(field));
+    const size_t found = node == nullptr ? count : find_choice(*node, path_of(field.key), names_of(choices));
+    if (found < count) value = choices[found].value;
+    judged_ = judged_ && found < count;
+    return found < count;
+  }
+
+  template <class T>
+  bool object(const Field& field, T& value) {
+    const Node* const node = take(field);
+    if (node != nullptr) read(reading_, *node, path_of(field.key), value);
+    return node != nullptr;
+  }
+  template <class T>
+  bool named(const Field& field, T& value) {
+    const Node* const node = take(field);
+    if (node == nullptr) return false;
+    if (node->kind != NodeKind::text) {
+      read(reading_, *node, path_of(field.key), value);
+      return true;
+    }
+    const std::map<std::string, T>& table = dictionary_of(static_cast<const T*>(nullptr));
+    const auto found = table.find(node->text);
+    if (found != table.end()) {
+      value = found->second;
+    } else {
+      reading_.problem(*node, path_of(field.key),
+                       "no " + std::string(TypeText<T>::k_name) + " has the name " + quoted(node->text));
+    }
+    return true;
+  }
+  template <class T>
+  void list(const Field& field, std::vector<T>& values) {
+    const Node* const node = take(field);
+    if (node == nullptr || !is(*node, NodeKind::array, path_of(field.key))) return;
+    values.resize(node->items.size());
+    for (size_t i = 0; i < values.size(); ++i) read(reading_, node->items[i], path_of(field.key, i), values[i]);
+  }
+  template <class T>
+  void dictionary(const Field& field, std::map<std::string, T>& values) {
+    const Node* const node = take(field);
+    if (node == nullptr || !is(*node, NodeKind::object, path_of(field.key))) return;
+    for (size_t i = 0; i < node->items.size(); ++i) {
+      read(reading_, node->items[i], path_of(field.key) + "." + node->keys[i], values[node->keys[i]]);
+    }
+  }
+  /// Judged now, and made later of the definition as it is then.
+  template <class T>
+  void changes(const Field& field, const Node*& kept) {
+    T scratch;
+    if (object(field, scratch)) kept = &node_.items[index_of(field.key)];
+  }
+
+  template <class T>
+  static void read(SceneReading& reading, const Node& node, const std::string& path, T& value) {
+    ObjectReader reader(reading, node, path);
+    if (node.kind != NodeKind::object) return reading.problem(node, path, "is not an object");
+    visit(reader, value);
+    reader.judge_keys();
+  }
+  static std::string quoted(const std::string& text) { return "\"" + text + "\""; }
+
+ private:
+  size_t index_of(const char* key) const;
+  std::string path_of(const char* key) const { return path_.empty() ? key : path_ + "." + key; }
+  std::string path_of(const char* key, size_t index) const { return path_of(key) + "[" + std::to_string(index) + "]"; }
+  SceneOrigin origin_of(const char* key) const;
+  const Node* take(const Field& field);
+  bool is(const Node& node, NodeKind kind, const std::string& path);
+  bool number(const Field& field, const Node& node, const std::string& path, double& value);
+  bool whole_number(const Field& field, const Node& node, double& value);
+  bool numbers(const Field& field, const Node& node, const std::string& path, double* values, size_t count);
+  bool name(const Field& field, std::string& value, bool joint);
+  void turned(const Node& node, const std::string& path, Quat& value);
+  template <class T>
+  bool three(const Field& field, Vec3<T>& value, Status (*convert)(double, T&));
+  template <class T>
+  void convert_one(const Field& field, T& value, Status (*convert)(double, T&), const Node* node);
+  size_t find_choice(const Node& node, const std::string& path, const std::vector<const char*>& names);
+  void judge_keys();
+
+  template <class T, size_t count>
+  static std::vector<const char*> names_of(const Choice<T> (&choices)[count]) {
+    std::vector<const char*> names;
+    for (const Choice<T>& each : choices) names.push_back(each.name);
+    return names;
+  }
+  const std::map<std::string, Material>& dictionary_of(const Material*) const { return reading_.scene.materials; }
+  const std::map<std::string, Shape>& dictionary_of(const Shape*) const { return reading_.scene.shapes; }
+  const std::map<std::string, Filter>& dictionary_of(const Filter*) const { return reading_.scene.filters; }
+
+  SceneReading& reading_;
+  const Node& node_;
+  std::string path_;
+  std::vector<std::string> known_;
+  bool judged_ = true;
+};
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,183 @@
+#pragma once
+#include <detent/convert.h>
+#include <detent/recording.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "scene_format.h"
+#include "scene_json.h"
+
+/// What a scene holds.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+using namespace detent_tool;
+
+template <class T>
+struct Choice {
+  const char* name;
+  T value;
+};
+
+/// Where something stands in the file.
+struct SceneOrigin {
+  uint32_t line = 0;
+  std::string path;
+};
+
+/// A cooked file.
+struct SceneAsset {
+  ShapeType type = ShapeType::hull;
+  SceneOrigin file_origin, digest_origin;
+  std::string file;    ///< from the scene's folder
+  std::string digest;  ///< 16 hexadecimal digits, or empty: any
+};
+
+struct SceneBody {
+  SceneOrigin origin;
+  std::string name;
+  BodyDef def;
+};
+
+struct SceneJoint {
+  SceneOrigin origin;
+  std::string name;
+  std::string a, b;
+  bool placed = false;  ///< at `point`, where the bodies are, instead of by its anchors
+  Position point = {0.0, 0.0, 0.0};
+  Quat frame = {0.0, 0.0, 0.0, 1.0};
+  JointDef def;
+};
+
+enum class Call : uint32_t {
+  create_body,
+  destroy_body,
+  create_joint,
+  destroy_joint,
+  set_joint,
+  set_pose,
+  move_kinematic,
+  set_velocity,
+  apply_force,
+  apply_torque,
+  apply_impulse,
+  apply_angular_impulse,
+  explode,
+  set_gravity,
+  set_settings,
+  wake_body,
+  put_to_sleep,
+  set_user_data,
+  set_filter,
+  set_type,
+  set_shape,
+  set_mass,
+  set_density,
+  set_material,
+  set_damping,
+  set_gravity_scale,
+  set_turn_locks,
+  set_sensor,
+  query_ray,
+  query_cast,
+  query_overlap,
+  query_bounds,
+  query_closest,
+};
+
+constexpr Choice<Call> k_calls[] = {
+    {"create_body", Call::create_body},
+    {"destroy_body", Call::destroy_body},
+    {"create_joint", Call::create_joint},
+    {"destroy_joint", Call::destroy_joint},
+    {"set_joint", Call::set_joint},
+    {"set_pose", Call::set_pose},
+    {"move_kinematic", Call::move_kinematic},
+    {"set_velocity", Call::set_velocity},
+    {"apply_force", Call::apply_force},
+    {"apply_torque", Call::apply_torque},
+    {"apply_impulse", Call::apply_impulse},
+    {"apply_angular_impulse", Call::apply_angular_impulse},
+    {"explode", Call::explode},
+    {"set_gravity", Call::set_gravity},
+    {"set_settings", Call::set_settings},
+    {"wake_body", Call::wake_body},
+    {"put_to_sleep", Call::put_to_sleep},
+    {"set_user_data", Call::set_user_data},
+    {"set_filter", Call::set_filter},
+    {"set_type", Call::set_type},
+    {"set_shape", Call::set_shape},
+    {"set_mass", Call::set_mass},
+    {"set_density", Call::set_density},
+    {"set_material", Call::set_material},
+    {"set_damping", Call::set_damping},
+    {"set_gravity_scale", Call::set_gravity_scale},
+    {"set_turn_locks", Call::set_turn_locks},
+    {"set_sensor", Call::set_sensor},
+    {"query_ray", Call::query_ray},
+    {"query_cast", Call::query_cast},
+    {"query_overlap", Call::query_overlap},
+    {"query_bounds", Call::query_bounds},
+    {"query_closest", Call::query_closest},
+};
+inline const char* call_name(Call call) { return k_calls[static_cast<uint32_t>(call)].name; }
+
+/// Whom a query asks: a QueryFilter whose `ignore` is a name.
+struct SceneQueryFilter {
+  std::string ignore;
+  QueryFilter filter;
+};
+
+/// A call before a tick. Each kind uses some of the members.
+struct SceneAction {
+  SceneOrigin origin;
+  uint32_t tick = 0;
+  uint32_t until = 0;
+  Call call = Call::create_body;
+  std::string name;
+  std::string body;
+  std::string joint;
+  SceneBody new_body;
+  SceneJoint new_joint;
+  const Node* changes = nullptr;  ///< of a definition, all of whose other fields stay
+  Position position = {0.0, 0.0, 0.0};
+  Position upper = {0.0, 0.0, 0.0};
+  Quat rotation = {0.0, 0.0, 0.0, 1.0};
+  Vec3<Real> way = {0.0, 0.0, 0.0};
+  Vec3<Real> turn = {0.0, 0.0, 0.0};
+  Vec3<Scaled> push = {0.0, 0.0, 0.0};
+  bool at_arm = false;    ///< pushed at `way` from the centre of mass
+  bool at_point = false;  ///< pushed at `position`
+  Real first = 0.0;
+  Real second = 0.0;
+  Scaled mass = 0.0;
+  uint32_t number = 0;
+  bool flag = false;
+  BodyType type = BodyType::dynamic;
+  Shape shape = {};
+  Material material = {};
+  Filter filter = {};
+  SceneQueryFilter asked = {};
+};
+
+/// Stands for a capacity that is not given.
+constexpr uint32_t k_counted = UINT32_MAX;
+
+struct SceneText {
+  uint32_t format = 0;
+  std::string schema;
+  std::string description;
+  uint32_t ticks = 600;
+  WorldDef world;
+  std::map<std::string, Material> materials;
+  std::map<std::string, Shape> shapes;
+  std::map<std::string, Filter> filters;
+  std::vector<SceneBody> bodies;
+  std::vector<SceneJoint> joints;
+  std::vector<SceneAction> actions;
+};
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent
