@@ -19,7 +19,6 @@ namespace {
 
 using namespace detent_tool;
 
-constexpr uint32_t k_ticks_per_progress = 16;
 
 Outcome failed(const std::string& problem) {
   Outcome outcome;
