@@ -18,7 +18,11 @@ double rate(const Outcome& outcome) {
 
 std::string text(uint64_t value) { return std::to_string(value); }
 
-void print(const std::string& line) { printf("%s\n", line.c_str()); }
+/// At once: a run that is ended leaves a log of what it has done.
+void print(const std::string& line) {
+  printf("%s\n", line.c_str());
+  fflush(stdout);
+}
 
 void print_problem(const std::string& path, const Outcome& outcome) {
   fprintf(stderr, "%s: %s\n", path.c_str(), outcome.problem.c_str());
