@@ -113,7 +113,7 @@ class Reading {
     }
     outcome.seconds = stopwatch.seconds();
     if (!good() || request_.to == UINT64_MAX) return;
-    if (finished) return no_tick(request_.to);
+    if (finished || tick > request_.to) return no_tick(request_.to);
     outcome.digest = digest(owned_.world);
   }
 
