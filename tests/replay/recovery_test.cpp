@@ -1,3 +1,5 @@
+#include <stdlib.h>
+
 #include "chunks.h"
 
 namespace detent {
