@@ -242,16 +242,59 @@ DETENT_TEST(keyframes, any_flipped_bit_of_a_keyframes_state_is_refused_or_harmle
   EXPECT_GT(refused, 25u);
 }
 
+DETENT_TEST(keyframes, seeking_among_chunks_in_any_order_ends_in_a_right_state_or_an_error) {
+  const Bytes recording = record_small(40, {1, 9});
+  const Parts parts = take_apart(recording);
+  const std::vector<uint64_t> expected = digests_of(recording);
+  uint64_t state = 1;
+  const auto random = [&state](uint64_t below) {
+    state = state * 6364136223846793005u + 1442695040888963407u;
+    return (state >> 33) % below;
+  };
+  const uint32_t rounds = getenv("DETENT_EMULATED") != nullptr ? 100 : 400;
+  uint32_t reached = 0, failed = 0;
+  for (uint32_t round = 0; round < rounds; ++round) {
+    Parts changed = parts;
+    for (uint64_t change = 1 + random(3); change-- > 0;) {
+      const uint32_t at = static_cast<uint32_t>(random(changed.chunks.size()));
+      const uint32_t other = static_cast<uint32_t>(random(changed.chunks.size()));
+      const uint64_t kind = random(5);
+      if (kind == 0) std::swap(changed.chunks[at], changed.chunks[other]);
+      if (kind == 1) insert_at(changed.chunks, at, Chunk(changed.chunks[other]));
+      if (kind == 2 && changed.chunks.size() > 1) erase_at(changed.chunks, at);
+      if (kind == 3) changed.chunks[at].tick = random(45);
+      if (kind == 4) changed.chunks[at].type = changed.chunks[other].type;
+    }
+    const Bytes bytes = put_together(changed);
+    Opened opened(bytes);
+    OwnedWorld owned(opened.player.info().capacity);
+    for (uint32_t seek = 0; seek < 6; ++seek) {
+      const uint32_t tick = static_cast<uint32_t>(random(42));
+      const Status status = opened.player.go_to(owned.world, tick);
+      if (status == Status::ok) {
+        ++reached;
+        EXPECT_EQ(get_info(owned.world).tick, tick);
+        EXPECT_EQ(digest(owned.world), expected[tick]) << "round " << round << ", tick " << tick;
+      } else {
+        ++failed;
+        EXPECT_EQ(opened.player.error().status, status == Status::out_of_range ? Status::ok : status);
+      }
+    }
+  }
+  EXPECT_GT(reached, rounds / 4);
+  EXPECT_GT(failed, rounds / 4);
+}
+
 DETENT_TEST(keyframes, seeking_in_a_cut_recording_ends_where_it_is_cut) {
   const Bytes recording = record_small(8, {1, 3});
   const std::vector<uint64_t> expected = digests_of(recording);
-  uint64_t reached = 0;
+  uint32_t reached = 0;
   const size_t step = getenv("DETENT_EMULATED") != nullptr ? 5 : 1;
   for (size_t count = k_header_bytes; count < recording.size(); count += step) {
     const Bytes cut(recording.begin(), recording.begin() + static_cast<std::ptrdiff_t>(count));
     Opened opened(cut);
     OwnedWorld owned(opened.player.info().capacity);
-    uint64_t tick = 0;
+    uint32_t tick = 0;
     while (tick <= 8 && opened.player.go_to(owned.world, tick) == Status::ok) {
       EXPECT_EQ(digest(owned.world), expected[tick]) << count;
       ++tick;

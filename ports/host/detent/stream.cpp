@@ -3,13 +3,18 @@
 #include <string.h>
 
 #include "zstandard.h"
-#if defined(_WIN32)
-#define fseeko _fseeki64
-#endif
 
 namespace detent_tool {
 
 namespace {
+
+bool seek_in(FILE* file, uint64_t offset) {
+#if defined(_WIN32)
+  return _fseeki64(file, static_cast<int64_t>(offset), SEEK_SET) == 0;
+#else
+  return fseeko(file, static_cast<off_t>(offset), SEEK_SET) == 0;
+#endif
+}
 
 struct PlainInput final : Input {
   explicit PlainInput(File opened) : file(std::move(opened)) {}
@@ -19,7 +24,7 @@ struct PlainInput final : Input {
     problem = "cannot be read";
     return false;
   }
-  bool seek(uint64_t offset) override { return fseeko(file.get(), static_cast<int64_t>(offset), SEEK_SET) == 0; }
+  bool seek(uint64_t offset) override { return seek_in(file.get(), offset); }
 
   File file;
 };
