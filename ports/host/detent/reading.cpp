@@ -214,7 +214,7 @@ std::string copy(const std::string& from, uint64_t count, const std::vector<uint
     good = input->read(piece, asked, got) && got == asked && output->write(piece, got);
     count -= got;
   }
-  good = good && output->write(end.data(), static_cast<uint32_t>(end.size()));
+  good = good && (end.empty() || output->write(end.data(), static_cast<uint32_t>(end.size())));
   return output->close() && good ? "" : to + " cannot be written";
 }
 
