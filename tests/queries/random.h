@@ -3,20 +3,14 @@
 #include <stdint.h>
 
 #include "tests/queries/triple.h"
+#include "tests/support/random.h"
 
 namespace detent_queries {
 
-/// splitmix64 (Steele, Lea, Flood 2014): the same numbers everywhere.
 class Random {
  public:
   explicit Random(uint64_t seed) : state_(seed) {}
-  uint64_t next() {
-    state_ += 0x9e3779b97f4a7c15u;
-    uint64_t z = state_;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-  }
+  uint64_t next() { return detent_test::split_mix(state_); }
   double uniform(double low, double high) { return low + (high - low) * static_cast<double>(next() >> 11) * 0x1p-53; }
   double log_uniform(double low, double high) { return low * exp(uniform(0, log(high / low))); }
   uint32_t below(uint32_t count) { return static_cast<uint32_t>(((next() >> 32) * count) >> 32); }

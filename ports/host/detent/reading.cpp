@@ -4,6 +4,7 @@
 
 #include "file.h"
 #include "owned_world.h"
+#include "ports/config_text.h"
 #include "stream.h"
 #include "tests/scenes/scene.h"
 #include "text.h"
@@ -14,20 +15,6 @@ inline namespace DETENT_NAMESPACE {
 using namespace detent_tool;
 
 namespace {
-
-const char* config_text(Config config) {
-  switch (config) {
-    case Config::fx64:
-      return "fx64";
-    case Config::fx32:
-      return "fx32";
-    case Config::f32:
-      return "f32";
-    case Config::f64:
-      return "f64";
-  }
-  return "unknown";
-}
 
 Status read_input(void* input, uint8_t* bytes, uint32_t count, uint32_t& got) {
   return static_cast<Input*>(input)->read(bytes, count, got) ? Status::ok : Status::sink_failed;
