@@ -202,6 +202,12 @@ Status read_tape(void* context, uint8_t* bytes, uint32_t count, uint32_t& got) {
   return Status::ok;
 }
 
+Status seek_tape(void* context, uint64_t offset) {
+  Tape& tape = *static_cast<Tape*>(context);
+  tape.at = offset < tape.count ? static_cast<uint32_t>(offset) : tape.count;
+  return Status::ok;
+}
+
 void record(Tape& tape) {
   static WorldStorage<k_capacity> storage;
   World world;
@@ -209,7 +215,7 @@ void record(Tape& tape) {
 
   uint8_t buffer[k_recording_buffer_bytes];
   Recorder recorder(world, {write_tape, &tape}, buffer, sizeof buffer);
-  check(recorder.begin());
+  check(recorder.begin({.keyframe_interval = 20}));  // ticks: the whole state, to go to
   BodyId ball;
   check(recorder.create_body({.position = {0.0, 5.0, 0.0}, .shape = sphere(0.5)}, ball));
   for (int tick = 0; tick < 60; ++tick) recorder.step();
@@ -232,6 +238,19 @@ void replay(Tape& tape) {
   check(get_info(world).tick == 60);
 }
 
+void look_back(Tape& tape) {
+  static WorldStorage<k_capacity> storage;
+  World world;
+  uint8_t buffer[k_recording_buffer_bytes];
+  Player player({read_tape, &tape, seek_tape}, buffer, sizeof buffer);
+  tape.at = 0;
+  check(player.open());
+  check(storage.create({}, world));
+  check(player.go_to(world, 50));  // from the keyframe after tick 40
+  check(player.go_to(world, 12));  // from the seed
+  check(get_info(world).tick == 12);
+}
+
 }  // namespace
 
 int main() {
@@ -243,4 +262,5 @@ int main() {
   static Tape tape;
   record(tape);
   replay(tape);
+  look_back(tape);
 }

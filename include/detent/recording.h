@@ -6,14 +6,15 @@
 
 /// @file
 /// Recording and replay: a seed snapshot, every mutating call, and a digest per tick, as a stream of small checked
-/// chunks. Format: docs/recording.md. Neither class allocates, seeks or holds more than the caller's buffer.
+/// chunks. Format: docs/recording.md. Neither class allocates, or holds more than the caller's buffer; only
+/// Player::go_to seeks.
 ///
 /// Threads: a Recorder or Player is used like the world it is given to: by one thread at a time.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// The layout of the bytes, apart from what a tick computes (`k_simulation_version`).
-inline constexpr uint32_t k_recording_format_version = 3;
+inline constexpr uint32_t k_recording_format_version = 4;
 /// The working buffer of a Recorder or a Player: one chunk. No alignment is needed.
 inline constexpr uint32_t k_recording_buffer_bytes = 544;
 
@@ -37,12 +38,16 @@ struct Sink {
 struct Source {
   /// Gives up to `count` bytes.
   Status (*read)(void* context, uint8_t* bytes, uint32_t count, uint32_t& got) = nullptr;
-  void* context = nullptr;  ///< handed to `read`
+  void* context = nullptr;  ///< handed to `read` and `seek`
+  /// The next byte to give is the one `offset` bytes from the recording's start; at or beyond the end there is none.
+  /// Null: the source goes forward only.
+  Status (*seek)(void* context, uint64_t offset) = nullptr;
 };
 
 /// What a recording is to hold.
 struct RecordingDef {
-  uint32_t digest_interval = 1;  ///< a digest after every tick that is a multiple of it; 0: only at the end
+  uint32_t digest_interval = 1;    ///< a digest after every tick that is a multiple of it; 0: only at the end
+  uint32_t keyframe_interval = 0;  ///< the whole state after every tick that is a multiple of it; 0: only the seed
 };
 
 /// The header of a recording.
@@ -53,8 +58,9 @@ struct RecordingInfo {
   Capacity capacity = {};                        ///< of the recorded world, and of the one to replay in
   TraceLevel trace_level = TraceLevel::digests;  ///< how much it says about each tick
   uint32_t digest_interval = 0;                  ///< RecordingDef::digest_interval
-  uint64_t tick = 0;            ///< of the seed: ticks that its world had completed when the recording began
-  uint32_t snapshot_bytes = 0;  ///< of the seed
+  uint64_t tick = 0;               ///< of the seed: ticks that its world had completed when the recording began
+  uint32_t snapshot_bytes = 0;     ///< of the seed, and of each keyframe
+  uint32_t keyframe_interval = 0;  ///< RecordingDef::keyframe_interval
 };
 
 /// @cond
@@ -152,7 +158,8 @@ class Recorder {
   bool recording() const { return state_ == State::recording && status_ == Status::ok; }
   void write(const uint8_t* bytes, uint32_t count);
   void write_header();
-  void write_seed();
+  void write_state(uint32_t type, uint32_t payload_count);
+  void write_keyframe(uint64_t digest);
   void write_chunk(uint32_t type, uint32_t payload_count);
   void flush_records();
 
@@ -162,7 +169,7 @@ class Recorder {
   uint32_t buffer_bytes_;
   State state_ = State::idle;
   Status status_ = Status::ok;
-  uint32_t digest_interval_ = 1;
+  RecordingDef def_ = {};
   uint32_t sequence_ = 0;       ///< of the next chunk
   uint32_t payload_count_ = 0;  ///< bytes of records that wait in the buffer
   uint64_t tick_ = 0;           ///< of the world, now
@@ -232,22 +239,51 @@ class Player {
   Status next_tick(World& world, TickResult& result) { return advance(&world, result); }
   /// As next_tick, without a world: reads and checks the bytes, and makes no call. After `open`, from the seed on.
   Status skip_tick(TickResult& result) { return advance(nullptr, result); }
+  /// Makes the world's state that after `tick` completed ticks and before the calls of the next, forwards or back;
+  /// after `open`, `start` is not needed. From the last keyframe at or before the tick, or the seed, or the state of
+  /// now if that is nearer; what lies between is played as by next_tick. With a `seek`, a cut recording can be gone
+  /// through as far as it is whole. Errors: out_of_range (a tick outside the recording, or before now without a `seek`:
+  /// nothing is changed, except that without one a replay beyond the end stands at it), and those of start and
+  /// next_tick; then the world is left empty or where it stopped.
+  Status go_to(World& world, uint64_t tick);
+  /// After next_tick returned truncated, or corrupt for a chunk that is not sound: how much of the recording is whole,
+  /// bytes from its start. These bytes and the end that write_end makes are a recording of `error().tick` ticks.
+  uint64_t whole_bytes() const { return whole_bytes_; }
+  /// Writes that end. `world`: the one of the replay. Errors: bad_argument (the recording is whole, or damaged within a
+  /// chunk whose checksum is right; another world), sink_failed.
+  Status write_end(const World& world, Sink sink);
   /// Where and why the replay stopped; `status` is ok as long as it has not.
   const ReplayError& error() const { return error_; }
   /// Bytes read so far, for a progress display.
   uint64_t bytes_read() const { return offset_; }
 
  private:
-  enum class State : uint32_t { closed, opened, playing, finished };
+  enum class State : uint32_t { closed, opened, playing, finished, cut };
+  /// Where a chunk starts.
+  struct Place {
+    uint64_t offset;
+    uint64_t tick;
+    uint32_t sequence;
+  };
 
   Status fail(Status status, uint64_t offset, const char* field);
   Status read(uint8_t* bytes, uint32_t count, const char* field);
   Status read_chunk();
-  Status read_seed(uint32_t offset, uint8_t* bytes, uint32_t count);
-  static Status read_seed_from(void* player, uint32_t offset, uint8_t* bytes, uint32_t count);
+  void begin_state(uint32_t type);
+  Status read_state(uint32_t offset, uint8_t* bytes, uint32_t count);
+  static Status read_state_from(void* player, uint32_t offset, uint8_t* bytes, uint32_t count);
+  Status load_state(World& world);
+  Status pass_state();
+  Status end_state();
   Status prepare(const World& world);
   Status pass_seed();
-  Status end_seed();
+  Status begin_keyframe(uint64_t& digest);
+  Status pass_keyframe(const World* world);
+  Status seek(const Place& place);
+  Status find_keyframe(Place& place, uint64_t tick, bool& found, bool& beyond);
+  Status load_keyframe(World& world, const Place& place);
+  Status approach(World& world, uint64_t tick);
+  Status cut();
   Status advance(World* world, TickResult& result);
   Status call(World* world, uint32_t tag, Reader& reader, uint64_t offset);
   Status query(const World* world, Reader& reader, uint64_t offset);
@@ -267,7 +303,10 @@ class Player {
   uint32_t payload_count_ = 0;
   uint32_t payload_at_ = 0;  ///< bytes of it that are used
   uint32_t sequence_ = 0;    ///< of the next chunk
-  uint32_t seed_at_ = 0;     ///< bytes of the seed that are used
+  uint32_t state_type_ = 0;  ///< the chunks of the state that is read: seed or keyframe
+  uint32_t state_at_ = 0;    ///< bytes of it that are used
+  uint32_t whole_sequence_ = 0;
+  uint64_t whole_bytes_ = 0;
   uint64_t tick_ = 0;
 };
 

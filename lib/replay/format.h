@@ -1,6 +1,7 @@
 #pragma once
 #include <detent/recording.h>
 
+#include "base/crc.h"
 #include "replay/archive.h"
 
 /// The recording's frame: header, chunks, end (docs/recording.md).
@@ -12,7 +13,7 @@ constexpr uint32_t k_magic_bytes = 8;
 inline constexpr uint8_t k_recording_magic[k_magic_bytes] = {0x89, 'D', 'T', 'R', '\r', '\n', 0x1a, '\n'};
 
 constexpr uint32_t k_version_bytes = 4;  ///< the format version: the first thing after the magic, whatever follows
-constexpr uint32_t k_info_bytes = 56;    ///< the header's fields
+constexpr uint32_t k_info_bytes = 60;    ///< the header's fields
 constexpr uint32_t k_checksum_bytes = 4;
 constexpr uint32_t k_header_bytes = k_magic_bytes + k_info_bytes + k_checksum_bytes;
 
@@ -31,6 +32,7 @@ enum class ChunkType : uint32_t {
   seed = 1,   ///< a piece of the snapshot, in order
   calls = 2,  ///< whole records
   end = 3,
+  keyframe = 0x8001,  ///< the digest of the state, then a piece of its snapshot, in order
 };
 /// A reader passes over a chunk of an unknown type that has this bit, and refuses one that has it not.
 constexpr uint32_t k_chunk_optional = 0x8000;
@@ -86,9 +88,13 @@ inline void visit(Archive& archive, RecordingInfo& info) {
   info.capacity.manifolds = (flags & k_no_manifolds) == 0;
   visit_word(archive, "joint capacity", info.capacity.joints);
   visit_word(archive, "sensed capacity", info.capacity.sensed);
+  visit_word(archive, "keyframe interval", info.keyframe_interval);
 }
 
-constexpr bool digest_due(uint32_t interval, uint64_t tick) { return interval != 0 && tick % interval == 0; }
+constexpr uint32_t k_keyframe_digest_bytes = 8;  ///< in front of its snapshot
+
+/// Whether what comes every so many ticks comes after this one.
+constexpr bool is_due(uint32_t interval, uint64_t tick) { return interval != 0 && tick % interval == 0; }
 
 /// The CRC-32 at `bytes`, and back.
 inline uint32_t read_checksum(const uint8_t* bytes) {
@@ -100,6 +106,22 @@ inline uint32_t read_checksum(const uint8_t* bytes) {
 inline void write_checksum(uint8_t* bytes, uint32_t checksum) {
   Writer writer{bytes, k_checksum_bytes};
   visit_word(writer, "checksum", checksum);
+}
+
+/// Puts the frame about a chunk's payload, which stands in `buffer` behind the room for the header. Its length, bytes.
+inline uint32_t make_chunk(uint8_t* buffer, ChunkHeader header) {
+  Writer writer{buffer, k_chunk_header_bytes};
+  visit(writer, header);
+  const uint32_t count = k_chunk_header_bytes + static_cast<uint32_t>(header.payload_count);
+  write_checksum(buffer + count, crc32(buffer, count));
+  return count + k_checksum_bytes;
+}
+
+/// The end chunk. Its length, bytes.
+inline uint32_t make_end(uint8_t* buffer, Ending ending, uint32_t sequence, uint64_t tick) {
+  Writer writer{buffer + k_chunk_header_bytes, k_chunk_payload_bytes_max};
+  visit(writer, ending);
+  return make_chunk(buffer, {static_cast<uint64_t>(ChunkType::end), writer.count, sequence, tick});
 }
 
 }  // namespace DETENT_NAMESPACE

@@ -88,21 +88,21 @@ Status Player::read_chunk() {
     chunk_type_ = static_cast<uint32_t>(header.type);
     chunk_offset_ = start;
     const ChunkType type = static_cast<ChunkType>(chunk_type_);
-    if (type == ChunkType::seed || type == ChunkType::calls || type == ChunkType::end) return Status::ok;
+    if (type == ChunkType::seed || type == ChunkType::calls || type == ChunkType::end || type == ChunkType::keyframe) {
+      return Status::ok;
+    }
     if ((chunk_type_ & k_chunk_optional) == 0) return fail(Status::format_unknown, start, "chunk type");
   }
 }
 
-Status Player::read_seed(uint32_t offset, uint8_t* bytes, uint32_t count) {
-  if (offset != seed_at_ || count > info_.snapshot_bytes - seed_at_) {
-    return fail(Status::corrupt, offset_, "seed length");
+Status Player::read_state(uint32_t offset, uint8_t* bytes, uint32_t count) {
+  if (offset != state_at_ || count > info_.snapshot_bytes - state_at_) {
+    return fail(Status::corrupt, offset_, "state length");
   }
   while (count != 0) {
     if (payload_at_ == payload_count_) {
       if (read_chunk() != Status::ok) return error_.status;
-      if (static_cast<ChunkType>(chunk_type_) != ChunkType::seed) {
-        return fail(Status::corrupt, chunk_offset_, "chunk order");
-      }
+      if (chunk_type_ != state_type_) return fail(Status::corrupt, chunk_offset_, "chunk order");
       continue;
     }
     const uint32_t left = payload_count_ - payload_at_;
@@ -112,14 +112,59 @@ Status Player::read_seed(uint32_t offset, uint8_t* bytes, uint32_t count) {
       bytes += piece;
     }
     payload_at_ += piece;
-    seed_at_ += piece;
+    state_at_ += piece;
     count -= piece;
   }
   return Status::ok;
 }
 
-Status Player::read_seed_from(void* player, uint32_t offset, uint8_t* bytes, uint32_t count) {
-  return static_cast<Player*>(player)->read_seed(offset, bytes, count);
+Status Player::read_state_from(void* player, uint32_t offset, uint8_t* bytes, uint32_t count) {
+  return static_cast<Player*>(player)->read_state(offset, bytes, count);
+}
+
+Status Player::load_state(World& world) {
+  const Status loaded = load_from(world, read_state_from, this);
+  const bool seed = state_type_ == static_cast<uint32_t>(ChunkType::seed);
+  if (loaded != Status::ok) return fail(loaded, chunk_offset_, seed ? "seed" : "keyframe");
+  if (get_info(world).tick != tick_) return fail(Status::corrupt, chunk_offset_, "state tick");
+  return end_state();
+}
+
+Status Player::pass_state() {
+  if (read_state(0, nullptr, info_.snapshot_bytes) != Status::ok) return error_.status;
+  return end_state();
+}
+
+Status Player::end_state() {
+  if (state_at_ != info_.snapshot_bytes || payload_at_ != payload_count_) {
+    return fail(Status::corrupt, chunk_offset_, "state length");
+  }
+  state_ = State::playing;
+  return Status::ok;
+}
+
+void Player::begin_state(uint32_t type) {
+  state_type_ = type;
+  state_at_ = 0;
+}
+
+Status Player::begin_keyframe(uint64_t& digest) {
+  if (!is_due(info_.keyframe_interval, tick_)) return fail(Status::corrupt, chunk_offset_, "keyframe tick");
+  Reader reader{buffer_ + k_chunk_header_bytes, payload_count_};
+  reader.bits("keyframe digest", digest, k_keyframe_digest_bytes);
+  if (reader.failed != nullptr) return fail(Status::corrupt, chunk_offset_, "state length");
+  payload_at_ = reader.at;
+  begin_state(static_cast<uint32_t>(ChunkType::keyframe));
+  return Status::ok;
+}
+
+/// Only its digest is compared; the bytes are those of a state with this digest, or `go_to` refuses them.
+Status Player::pass_keyframe(const World* world) {
+  uint64_t recorded = 0;
+  if (begin_keyframe(recorded) != Status::ok) return error_.status;
+  const uint64_t offset = chunk_offset_;
+  if (pass_state() != Status::ok) return error_.status;
+  return world == nullptr ? Status::ok : compare(*world, recorded, offset, "keyframe digest");
 }
 
 Status Player::prepare(const World& world) {
@@ -129,26 +174,16 @@ Status Player::prepare(const World& world) {
   return Status::ok;
 }
 
-Status Player::end_seed() {
-  if (seed_at_ != info_.snapshot_bytes || payload_at_ != payload_count_) {
-    return fail(Status::corrupt, chunk_offset_, "seed length");
-  }
-  state_ = State::playing;
-  return Status::ok;
-}
-
 Status Player::pass_seed() {
-  if (read_seed(0, nullptr, info_.snapshot_bytes) != Status::ok) return error_.status;
-  return end_seed();
+  begin_state(static_cast<uint32_t>(ChunkType::seed));
+  return pass_state();
 }
 
 Status Player::start(World& world) {
   const Status prepared = prepare(world);
   if (prepared != Status::ok) return prepared;
-  const Status loaded = load_from(world, read_seed_from, this);
-  if (loaded != Status::ok) return fail(loaded, chunk_offset_, "seed");
-  if (get_info(world).tick != info_.tick) return fail(Status::corrupt, chunk_offset_, "seed tick");
-  return end_seed();
+  begin_state(static_cast<uint32_t>(ChunkType::seed));
+  return load_state(world);
 }
 
 Status Player::start_at(World& world) {
@@ -216,6 +251,19 @@ Status Player::call(World* world, uint32_t tag, Reader& reader, uint64_t offset)
   return Status::ok;
 }
 
+/// What is whole ends before the chunk that isn't.
+Status Player::cut() {
+  if (error_.status == Status::truncated || error_.status == Status::corrupt) state_ = State::cut;
+  return error_.status;
+}
+
+Status Player::write_end(const World& world, Sink sink) {
+  if (state_ != State::cut || sink.write == nullptr || get_info(world).tick != tick_) return Status::bad_argument;
+  const Ending ending{tick_ - info_.tick, digest(world)};
+  const uint32_t count = make_end(buffer_, ending, whole_sequence_, tick_);
+  return sink.write(sink.context, buffer_, count) == Status::ok ? Status::ok : Status::sink_failed;
+}
+
 Status Player::advance(World* world, TickResult& result) {
   if (error_.status != Status::ok) return error_.status;
   if (state_ == State::opened && world == nullptr && pass_seed() != Status::ok) return error_.status;
@@ -223,12 +271,18 @@ Status Player::advance(World* world, TickResult& result) {
   TickResult made;
   for (;; ++made.calls) {
     while (payload_at_ == payload_count_) {
-      if (read_chunk() != Status::ok) return error_.status;
+      whole_bytes_ = offset_;
+      whole_sequence_ = sequence_;
+      if (read_chunk() != Status::ok) return cut();
       const ChunkType type = static_cast<ChunkType>(chunk_type_);
       if (type == ChunkType::end) {
         if (finish(world, made) != Status::ok) return error_.status;
         result = made;
         return Status::ok;
+      }
+      if (type == ChunkType::keyframe) {
+        if (pass_keyframe(world) != Status::ok) return cut();
+        continue;
       }
       if (type != ChunkType::calls) return fail(Status::corrupt, chunk_offset_, "chunk order");
     }
@@ -250,8 +304,7 @@ Status Player::advance(World* world, TickResult& result) {
     payload_at_ = reader.at;
     if (!tick) continue;
 
-    if (digested != digest_due(info_.digest_interval, tick_ + 1))
-      return fail(Status::corrupt, offset, "digest interval");
+    if (digested != is_due(info_.digest_interval, tick_ + 1)) return fail(Status::corrupt, offset, "digest interval");
     if (world != nullptr) made.report = step(*world);
     made.tick = ++tick_;
     made.compared = digested;

@@ -39,10 +39,11 @@ Status Recorder::begin(const RecordingDef& def) {
   if (buffer_ == nullptr || buffer_bytes_ < k_recording_buffer_bytes) return status_ = Status::buffer_too_small;
   state_ = State::recording;
   status_ = Status::ok;
-  digest_interval_ = def.digest_interval;
+  def_ = def;
   tick_ = get_info(world_).tick;
   write_header();
-  write_seed();
+  chunk_tick_ = tick_;
+  write_state(static_cast<uint32_t>(ChunkType::seed), 0);
   return status_;
 }
 
@@ -54,11 +55,7 @@ Status Recorder::flush() {
 Status Recorder::end() {
   if (recording()) {
     flush_records();
-    Ending ending{ticks_, digest(world_)};
-    Writer writer{buffer_ + k_chunk_header_bytes, k_chunk_payload_bytes_max};
-    visit(writer, ending);
-    chunk_tick_ = tick_;
-    write_chunk(static_cast<uint32_t>(ChunkType::end), writer.count);
+    write(buffer_, make_end(buffer_, {ticks_, digest(world_)}, sequence_, tick_));
   }
   if (state_ == State::recording) state_ = State::ended;
   return status_;
@@ -75,7 +72,8 @@ void Recorder::write_header() {
   info.format_version = k_recording_format_version;
   info.simulation_version = k_simulation_version;
   info.capacity = world_info.capacity;
-  info.digest_interval = digest_interval_;
+  info.digest_interval = def_.digest_interval;
+  info.keyframe_interval = def_.keyframe_interval;
   info.tick = tick_;
   info.snapshot_bytes = snapshot_bytes(world_info.capacity);
   memcpy(buffer_, k_recording_magic, k_magic_bytes);
@@ -86,25 +84,30 @@ void Recorder::write_header() {
   write(buffer_, k_header_bytes);
 }
 
-void Recorder::write_seed() {
-  const uint32_t seed_bytes = snapshot_bytes(get_info(world_).capacity);
-  chunk_tick_ = tick_;
-  for (uint32_t offset = 0; offset < seed_bytes && status_ == Status::ok;) {
-    const uint32_t left = seed_bytes - offset;
-    const uint32_t count = left < k_chunk_payload_bytes_max ? left : k_chunk_payload_bytes_max;
-    if (!snapshot_read(world_, offset, buffer_ + k_chunk_header_bytes, count)) status_ = Status::corrupt;
-    write_chunk(static_cast<uint32_t>(ChunkType::seed), count);
+/// The world's snapshot, after `payload_count` bytes that the buffer holds already.
+void Recorder::write_state(uint32_t type, uint32_t payload_count) {
+  const uint32_t state_bytes = snapshot_bytes(get_info(world_).capacity);
+  for (uint32_t offset = 0; offset < state_bytes && status_ == Status::ok; payload_count = 0) {
+    const uint32_t left = state_bytes - offset;
+    const uint32_t room = k_chunk_payload_bytes_max - payload_count;
+    const uint32_t count = left < room ? left : room;
+    if (!snapshot_read(world_, offset, buffer_ + k_chunk_header_bytes + payload_count, count))
+      status_ = Status::corrupt;
+    write_chunk(type, payload_count + count);
     offset += count;
   }
 }
 
+void Recorder::write_keyframe(uint64_t digest) {
+  flush_records();
+  chunk_tick_ = tick_;
+  Writer writer{buffer_ + k_chunk_header_bytes, k_keyframe_digest_bytes};
+  writer.bits("keyframe digest", digest, k_keyframe_digest_bytes);
+  write_state(static_cast<uint32_t>(ChunkType::keyframe), writer.count);
+}
+
 void Recorder::write_chunk(uint32_t type, uint32_t payload_count) {
-  ChunkHeader header{type, payload_count, sequence_++, chunk_tick_};
-  Writer writer{buffer_, k_chunk_header_bytes};
-  visit(writer, header);
-  const uint32_t count = k_chunk_header_bytes + payload_count;
-  write_checksum(buffer_ + count, crc32(buffer_, count));
-  write(buffer_, count + k_checksum_bytes);
+  write(buffer_, make_chunk(buffer_, {type, payload_count, sequence_++, chunk_tick_}));
 }
 
 void Recorder::flush_records() {
@@ -354,16 +357,19 @@ Status Recorder::set_joint(JointId id, const JointDef& def) {
 StepReport Recorder::step() {
   const StepReport report = detent::step(world_);
   if (!recording()) return report;
+  const bool digested = is_due(def_.digest_interval, report.tick);
+  const bool keyframe = is_due(def_.keyframe_interval, report.tick);
+  TickDigested command{digested || keyframe ? digest(world_) : 0};
   // Logged before tick_ moves on: a chunk that starts with this record starts before this tick.
-  if (digest_due(digest_interval_, report.tick)) {
-    TickDigested command{digest(world_)};
+  if (digested) {
     log(k_record_code<TickDigested>, &command);
   } else {
-    Tick command;
-    log(k_record_code<Tick>, &command);
+    Tick plain;
+    log(k_record_code<Tick>, &plain);
   }
   tick_ = report.tick;
   ++ticks_;
+  if (keyframe) write_keyframe(command.digest);
   return report;
 }
 

@@ -156,7 +156,7 @@ DETENT_TEST(damage, renumbered_chunks_in_a_wrong_order_are_refused) {
   expect_refused(put_together(more_seed), Status::corrupt, "chunk order");
   Parts long_seed = parts;
   long_seed.chunks[first_of(parts, ChunkType::calls) - 1].payload.push_back(0);
-  expect_refused(put_together(long_seed), Status::corrupt, "seed length");
+  expect_refused(put_together(long_seed), Status::corrupt, "state length");
 }
 
 DETENT_TEST(damage, an_unknown_chunk_is_passed_over_only_if_it_is_optional) {

@@ -33,14 +33,22 @@ struct MemorySink {
 struct MemorySource {
   const Bytes* bytes;
   size_t at = 0;
+  uint64_t given = 0;  ///< bytes, in all
 
-  Source source() { return {read, this}; }
+  Source source() { return {read, this, nullptr}; }
+  Source seekable_source() { return {read, this, seek}; }
+  static Status seek(void* context, uint64_t offset) {
+    MemorySource& self = *static_cast<MemorySource*>(context);
+    self.at = offset < self.bytes->size() ? static_cast<size_t>(offset) : self.bytes->size();
+    return Status::ok;
+  }
   static Status read(void* context, uint8_t* bytes, uint32_t count, uint32_t& got) {
     MemorySource& self = *static_cast<MemorySource*>(context);
     const size_t left = self.bytes->size() - self.at;
     got = left < count ? static_cast<uint32_t>(left) : count;
     std::copy_n(self.bytes->begin() + static_cast<std::ptrdiff_t>(self.at), got, bytes);
     self.at += got;
+    self.given += got;
     return Status::ok;
   }
 };

@@ -83,6 +83,29 @@ DETENT_TEST(recorder, a_failing_sink_is_reported_and_disturbs_nothing) {
   }
 }
 
+DETENT_TEST(recorder, a_sink_is_given_at_most_a_chunk_at_a_time_and_a_chunk_a_flush) {
+  struct Sizes {
+    std::vector<uint32_t> writes;
+    static Status write(void* context, const uint8_t*, uint32_t count) {
+      static_cast<Sizes*>(context)->writes.push_back(count);
+      return Status::ok;
+    }
+  } sizes;
+  OwnedWorld owned(find_scene("traffic")->world());
+  uint8_t buffer[k_recording_buffer_bytes];
+  Recorder recorder(owned.world, {Sizes::write, &sizes}, buffer, sizeof buffer);
+  find_scene("traffic")->build(recorder);
+  EXPECT_EQ(recorder.begin({1, 20}), Status::ok);
+  play_scene(recorder, *find_scene("traffic"), 100);
+  EXPECT_EQ(recorder.flush(), Status::ok);
+  for (const uint32_t count : sizes.writes) EXPECT_LE(count, 532u);
+  sizes.writes.clear();
+  recorder.step();
+  EXPECT_TRUE(sizes.writes.empty());
+  EXPECT_EQ(recorder.flush(), Status::ok);
+  EXPECT_EQ(sizes.writes, std::vector<uint32_t>{29}) << "a tag, a digest, and the chunk's frame";
+}
+
 DETENT_TEST(recorder, a_small_buffer_and_a_second_begin_are_refused) {
   OwnedWorld owned(Capacity{1, 0, 0});
   MemorySink memory;

@@ -4,10 +4,10 @@
 
 #include "file.h"
 #include "owned_world.h"
-#include "ports/config_text.h"
+#include "reading.h"
 #include "scene_play.h"
+#include "stream.h"
 #include "tests/scenes/scene.h"
-#include "text.h"
 
 #define DETENT_TOOL_TEXT_OF(name) #name
 #define DETENT_TOOL_TEXT(name) DETENT_TOOL_TEXT_OF(name)
@@ -19,109 +19,8 @@ namespace {
 
 using namespace detent_tool;
 
-
-Outcome failed(const std::string& problem) {
-  Outcome outcome;
-  outcome.verdict = Verdict::bad;
-  outcome.problem = outcome.status = problem;
-  return outcome;
-}
-
-void take_header(Outcome& outcome, const RecordingInfo& info) {
-  outcome.header_known = info.snapshot_bytes != 0;
-  outcome.header = {config_text(info.config),
-                    info.format_version,
-                    info.simulation_version,
-                    info.capacity.bodies,
-                    info.capacity.contacts,
-                    info.capacity.assets,
-                    static_cast<uint32_t>(info.trace_level),
-                    info.digest_interval,
-                    info.tick,
-                    info.snapshot_bytes};
-}
-
-void take_error(Outcome& outcome, const ReplayError& error) {
-  const Status status = error.status;
-  const bool refused =
-      status == Status::simulation_differs || status == Status::config_differs || status == Status::format_unknown;
-  outcome.verdict = refused ? Verdict::refused : Verdict::bad;
-  outcome.other_config = status == Status::config_differs;
-  outcome.status = status_text(status);
-  outcome.field = error.field;
-  outcome.offset = error.offset;
-  outcome.tick = error.tick;
-  outcome.problem = outcome.status + " at byte " + std::to_string(error.offset) + ", tick " +
-                    std::to_string(error.tick) + ": " + error.field;
-  if (error.digest_recorded != error.digest_replayed) {
-    outcome.problem +=
-        " (recorded " + hexadecimal(error.digest_recorded) + ", here " + hexadecimal(error.digest_replayed) + ")";
-  }
-}
-
-Status read_file(void* file, uint8_t* bytes, uint32_t count, uint32_t& got) {
-  got = static_cast<uint32_t>(fread(bytes, 1, count, static_cast<FILE*>(file)));
-  return got < count && ferror(static_cast<FILE*>(file)) != 0 ? Status::sink_failed : Status::ok;
-}
-
-Status write_file(void* file, const uint8_t* bytes, uint32_t count) {
-  return fwrite(bytes, 1, count, static_cast<FILE*>(file)) == count ? Status::ok : Status::sink_failed;
-}
-
-/// Reads the recording to its end, with a world or without.
-Outcome read_recording(const std::string& path, bool with_world, const Assets& assets, const Progress& progress) {
-  const File file = open_file(path, "rb");
-  if (file == nullptr) return failed("cannot be opened");
-  Outcome outcome;
-  outcome.file_bytes = file_bytes(path);
-  uint8_t buffer[k_recording_buffer_bytes];
-  Player player({read_file, file.get()}, buffer, sizeof buffer);
-  Status status = player.open();
-  take_header(outcome, player.info());
-
-  OwnedWorld owned;
-  std::vector<Asset> table;
-  if (status == Status::ok && with_world) {
-    // A hostile header could ask for gigabytes: the seed is as large as the capacity says, so a small file can't.
-    if (outcome.file_bytes < player.info().snapshot_bytes) {
-      outcome.verdict = Verdict::bad;
-      outcome.status = status_text(Status::truncated);
-      outcome.problem = "truncated: the file is smaller than its seed snapshot";
-      return outcome;
-    }
-    WorldDef def;
-    def.capacity = player.info().capacity;
-    for (const AssetBytes& asset : assets)
-      table.push_back({reinterpret_cast<const uint8_t*>(asset.words.data()), asset.byte_count});
-    const AssetTable given = {table.data(), static_cast<uint32_t>(table.size())};
-    if (owned.create(def, table.empty() ? scene_assets() : given) != Status::ok)
-      return failed("not enough memory for its world");
-    player.repeat_queries();
-    status = player.start(owned.world);
-  }
-  const Stopwatch stopwatch;
-  const uint64_t seed_end = player.bytes_read();
-  for (TickResult result; status == Status::ok && !result.finished;) {
-    status = with_world ? player.next_tick(owned.world, result) : player.skip_tick(result);
-    if (status != Status::ok) break;
-    outcome.calls += result.calls;
-    outcome.digest = result.digest;
-    if (result.finished) break;
-    ++outcome.ticks;
-    outcome.digests += result.compared ? 1 : 0;
-    if (outcome.ticks % k_ticks_per_progress == 0)
-      progress(player.bytes_read() - seed_end, outcome.file_bytes - seed_end);
-  }
-  outcome.seconds = stopwatch.seconds();
-  if (status != Status::ok) take_error(outcome, player.error());
-  return outcome;
-}
-
-Outcome verify(const std::string& path, const Assets& assets, const Progress& progress) {
-  return read_recording(path, true, assets, progress);
-}
-Outcome info(const std::string& path, const Assets& assets, const Progress& progress) {
-  return read_recording(path, false, assets, progress);
+Status write_output(void* output, const uint8_t* bytes, uint32_t count) {
+  return static_cast<Output*>(output)->write(bytes, count) ? Status::ok : Status::sink_failed;
 }
 
 Outcome record(const RecordRequest& request, const Progress& progress) {
@@ -130,15 +29,16 @@ Outcome record(const RecordRequest& request, const Progress& progress) {
   OwnedWorld owned;
   const Status created = owned.create(scene->world(), scene_assets());
   if (created != Status::ok) return failed(std::string("its world cannot be made: ") + status_text(created));
-  File file = open_file(request.path, "wb");
-  if (file == nullptr) return failed("cannot be opened for writing");
+  std::string problem;
+  const std::unique_ptr<Output> output = Output::open(request.path, request.compressed, problem);
+  if (output == nullptr) return failed(problem);
 
   Outcome outcome;
   const Stopwatch stopwatch;
   uint8_t buffer[k_recording_buffer_bytes];
-  Recorder recorder(owned.world, {write_file, file.get()}, buffer, sizeof buffer);
+  Recorder recorder(owned.world, {write_output, output.get()}, buffer, sizeof buffer);
   scene->build(recorder);
-  Status status = recorder.begin({request.digest_interval});
+  Status status = recorder.begin({request.digest_interval, request.keyframe_interval});
   const uint32_t ticks = request.ticks != 0 ? request.ticks : scene->ticks;
   for (uint32_t tick = 0; tick < ticks && status == Status::ok; ++tick) {
     if (scene->before_tick != nullptr) scene->before_tick(recorder, tick);
@@ -147,20 +47,17 @@ Outcome record(const RecordRequest& request, const Progress& progress) {
     status = recorder.status();
   }
   status = recorder.end();
-  if (fclose(file.release()) != 0 || status != Status::ok) return failed("cannot be written");
+  if (!output->close() || status != Status::ok) return failed("cannot be written");
 
-  const WorldInfo world_info = get_info(owned.world);
+  RecordingInfo info;
+  info.format_version = k_recording_format_version;
+  info.simulation_version = k_simulation_version;
+  info.capacity = get_info(owned.world).capacity;
+  info.digest_interval = request.digest_interval;
+  info.keyframe_interval = request.keyframe_interval;
+  info.snapshot_bytes = snapshot_bytes(info.capacity);
   outcome.header_known = true;
-  outcome.header = {config_text(k_config),
-                    k_recording_format_version,
-                    k_simulation_version,
-                    world_info.capacity.bodies,
-                    world_info.capacity.contacts,
-                    world_info.capacity.assets,
-                    static_cast<uint32_t>(TraceLevel::digests),
-                    request.digest_interval,
-                    0,
-                    snapshot_bytes(world_info.capacity)};
+  outcome.header = header_of(info);
   outcome.file_bytes = file_bytes(request.path);
   outcome.ticks = ticks;
   outcome.digests = request.digest_interval == 0 ? 0 : ticks / request.digest_interval;
@@ -190,8 +87,10 @@ Engine engine() {
           record,
           verify,
           info,
-          play_scene,
-          describe_scene};
+           state,
+           recover,
+           play_scene,
+           describe_scene};
 }
 
 }  // namespace DETENT_NAMESPACE

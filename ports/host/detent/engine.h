@@ -27,6 +27,7 @@ struct Header {
   uint32_t assets = 0;    ///< capacity
   uint32_t trace_level = 0;
   uint32_t digest_interval = 0;
+  uint32_t keyframe_interval = 0;
   uint64_t first_tick = 0;
   uint32_t snapshot_bytes = 0;
 };
@@ -40,11 +41,13 @@ enum class Verdict : uint32_t {
 /// What became of one file.
 struct Outcome {
   Verdict verdict = Verdict::good;
-  std::string problem;  ///< one line, without the file's name: empty if good
-  std::string status;   ///< the library's words for the problem
-  std::string field;    ///< what is wrong
-  uint64_t offset = 0;  ///< where in the file, bytes
-  uint64_t tick = 0;    ///< after how many completed ticks
+  std::string problem;          ///< one line, without the file's name: empty if good
+  std::string status;           ///< the library's words for the problem
+  std::string field;            ///< what is wrong
+  uint64_t offset = 0;          ///< where in the file, bytes
+  uint64_t tick = 0;            ///< after how many completed ticks
+  uint64_t first_bad_tick = 0;  ///< the first tick that is not known to be right
+  std::string lost;             ///< what a recovered recording had: as `problem`
 
   bool header_known = false;
   bool other_config = false;  ///< refused for its configuration: another engine may hold it
@@ -55,6 +58,7 @@ struct Outcome {
   uint64_t calls = 0;    ///< besides steps
   uint64_t digest = 0;   ///< of the final state
   double seconds = 0;
+  std::string release;  ///< the tool of another simulation version that said this; empty: this one
 };
 
 /// Called now and then during long work.
@@ -65,6 +69,8 @@ struct RecordRequest {
   std::string path;
   uint32_t ticks = 0;  ///< 0: the scene's own
   uint32_t digest_interval = 1;
+  uint32_t keyframe_interval = 0;
+  bool compressed = false;
 };
 
 /// The bytes of cooked files, at addresses that are multiples of 8.
@@ -80,15 +86,39 @@ struct RunLine;
 struct RunOutcome;
 struct RunRequest;
 
+/// What to read, by the ticks that the world has completed.
+struct ReadRequest {
+  std::string path;
+  Assets assets = {};  ///< of the recorded world; those of the scenes if there are none
+  uint64_t from = 0;   ///< from the seed on, if that is later
+  uint64_t to = UINT64_MAX;
+};
+
+/// A body, m, m/s, rad/s, in the world.
+struct BodyLine {
+  uint32_t slot = 0;
+  uint32_t generation = 0;
+  std::string type;
+  bool awake = false;
+  double position[3] = {};
+  double rotation[4] = {};  ///< x, y, z, w
+  double velocity[3] = {};
+  double spin[3] = {};
+};
+
 struct Engine {
   const char* config;
   uint32_t format_version;
   uint32_t simulation_version;
   std::vector<SceneLine> (*scenes)();
   Outcome (*record)(const RecordRequest& request, const Progress& progress);
-  /// `assets`: of the recorded world; those of the scenes if there are none.
-  Outcome (*verify)(const std::string& path, const Assets& assets, const Progress& progress);
-  Outcome (*info)(const std::string& path, const Assets& assets, const Progress& progress);
+  Outcome (*verify)(const ReadRequest& request, const Progress& progress);
+  /// Without a world.
+  Outcome (*info)(const ReadRequest& request, const Progress& progress);
+  /// The bodies after `request.to` ticks.
+  Outcome (*state)(const ReadRequest& request, std::vector<BodyLine>& bodies);
+  /// Writes what is whole of a recording, with an end, to `path`.
+  Outcome (*recover)(const ReadRequest& request, const std::string& path, const Progress& progress);
   /// Scenes as data (run.h).
   RunOutcome (*run)(const RunRequest& request, const std::function<void(const RunLine&)>& print,
                     const Progress& progress);

@@ -3,9 +3,13 @@
 #include <CLI/CLI.hpp>
 
 #include "command.h"
+#include "file.h"
 #include "progress.h"
+#include "release.h"
 #include "report.h"
 #include "run.h"
+#include "stream.h"
+#include "verification.h"
 
 namespace {
 
@@ -20,18 +24,6 @@ std::string version_text() {
   for (const Engine& engine : engines()) text += std::string(engine.config) + ", ";
   return text + "simulation version " + std::to_string(engines().front().simulation_version) + ", recording format " +
          std::to_string(engines().front().format_version) + ")";
-}
-
-/// By the engine whose configuration the header names; by the first that can say anything if none holds it.
-Outcome read_by_its_engine(const std::string& path, const Assets& assets,
-                           Outcome (*Engine::*read)(const std::string&, const Assets&, const Progress&),
-                           const Progress& progress) {
-  Outcome outcome;
-  for (const Engine& engine : engines()) {
-    outcome = (engine.*read)(path, assets, progress);
-    if (!outcome.other_config) return outcome;
-  }
-  return outcome;
 }
 
 const Engine* find_engine(const std::string& config) {
@@ -60,20 +52,47 @@ bool read_assets(const std::vector<std::string>& paths, Assets& assets) {
   return true;
 }
 
-int run_verify(const std::vector<std::string>& paths, const std::vector<std::string>& asset_paths,
-               const Report& report) {
-  Assets assets;
-  if (!read_assets(asset_paths, assets)) return k_exit_bad;
+int run_verify(VerificationRequest& request, const Report& report) {
+  if (!read_assets(request.asset_paths, request.reading.assets)) return k_exit_bad;
+  return verify_all(request, report) ? k_exit_good : k_exit_bad;
+}
+
+int run_state(ReadRequest request, const std::vector<std::string>& asset_paths, const Report& report) {
+  if (!read_assets(asset_paths, request.assets)) return k_exit_bad;
+  std::vector<BodyLine> bodies;
+  const Outcome outcome = by_its_engine([&](const Engine& engine) { return engine.state(request, bodies); });
+  report.state(request.path, outcome, bodies);
+  return outcome.verdict == Verdict::good ? k_exit_good : k_exit_bad;
+}
+
+int run_recover(ReadRequest request, const std::string& output, const std::vector<std::string>& asset_paths,
+                const Report& report) {
+  if (!read_assets(asset_paths, request.assets)) return k_exit_bad;
+  std::error_code error;
+  if (std::filesystem::equivalent(request.path, output, error)) {
+    fprintf(stderr, "%s: would be written over\n", output.c_str());
+    return k_exit_usage;
+  }
+  Outcome outcome;
+  {
+    ProgressBar bar(request.path);
+    outcome = by_its_engine([&](const Engine& engine) {
+      return engine.recover(request, output, [&bar](uint64_t done, uint64_t total) { bar.show(done, total); });
+    });
+  }
+  report.recovered(request.path, output, outcome);
+  return outcome.verdict == Verdict::good ? k_exit_good : k_exit_bad;
+}
+
+int run_compress(const std::vector<std::string>& paths, const Report& report) {
   int code = k_exit_good;
   for (const std::string& path : paths) {
-    Outcome outcome;
-    {
-      ProgressBar bar(path);
-      outcome = read_by_its_engine(path, assets, &Engine::verify,
-                                   [&bar](uint64_t done, uint64_t total) { bar.show(done, total); });
-    }
-    report.verified(path, outcome);
-    if (outcome.verdict != Verdict::good) code = k_exit_bad;
+    const std::string output = path + k_compressed_suffix;
+    const std::string problem = versions_of(path) ? compress(path, output) : "is no recording";
+    if (problem.empty())
+      report.compressed(path, output, file_bytes(path), file_bytes(output));
+    else
+      code = report.problem(path, problem) ? k_exit_good : k_exit_bad;
   }
   return code;
 }
@@ -96,8 +115,10 @@ int run_info(const std::vector<std::string>& paths, const Report& report) {
     Outcome outcome;
     {
       ProgressBar bar(path);
-      outcome =
-          read_by_its_engine(path, {}, &Engine::info, [&bar](uint64_t done, uint64_t total) { bar.show(done, total); });
+      const ReadRequest request = {path};
+      outcome = by_its_engine([&](const Engine& engine) {
+        return engine.info(request, [&bar](uint64_t done, uint64_t total) { bar.show(done, total); });
+      });
     }
     report.described(path, outcome);
     if (outcome.verdict == Verdict::bad) code = k_exit_bad;
@@ -161,16 +182,47 @@ int main(int argc, char** argv) {
       ->add_option("--digest-interval", request.digest_interval,
                    "Record a digest every so many ticks; 0: only at the end")
       ->capture_default_str();
+  record
+      ->add_option("--keyframe-interval", request.keyframe_interval,
+                   "Record the whole state every so many ticks, to go to; 0: only at the start")
+      ->capture_default_str();
+  record->add_flag("--compress", request.compressed, "Write Zstandard, as SCENE.rec.zst if no output is given");
 
   std::vector<std::string> paths;
-  CLI::App* verify = app.add_subcommand("verify", "Replay recordings and compare every digest");
-  verify->add_option("file", paths, "Recordings")->required();
+  const auto add_assets = [](CLI::App* command, std::vector<std::string>& asset_paths) {
+    command
+        ->add_option(
+            "--asset", asset_paths,
+            "A cooked file of the recorded world's asset table, from its first on; the scenes' own if none is given")
+        ->allow_extra_args(false);
+  };
+  VerificationRequest verifying;
+  CLI::App* verify = app.add_subcommand(
+      "verify", "Replay recordings and compare every digest; those of other simulation versions by detent-VERSION");
+  verify->add_option("file", verifying.paths, "Recordings, and folders of *.rec and *.rec.zst");
+  verify->add_option("--list", verifying.list, "A file with the path of a recording a line; -: standard input");
+  verify->add_option("--resume", verifying.log, "Pass over the files that this log of an earlier --json run has");
+  verify->add_option("--jobs", verifying.jobs, "So many files at a time")
+      ->check(CLI::Range(1u, 1024u))
+      ->capture_default_str();
+  verify->add_option("--from", verifying.reading.from, "Only what comes after this tick");
+  verify->add_option("--to", verifying.reading.to, "Only up to this tick");
+  add_assets(verify, verifying.asset_paths);
+
+  ReadRequest reading;
   std::vector<std::string> asset_paths;
-  verify
-      ->add_option(
-          "--asset", asset_paths,
-          "A cooked file of the recorded world's asset table, from its first on; the scenes' own if none is given")
-      ->allow_extra_args(false);
+  CLI::App* state = app.add_subcommand("state", "Print the bodies of a recording after a tick");
+  state->add_option("file", reading.path, "A recording")->required();
+  state->add_option("--tick", reading.to, "How many ticks the world has completed")->required();
+  add_assets(state, asset_paths);
+  std::string output;
+  CLI::App* recover = app.add_subcommand("recover", "Write what is whole of a cut recording as a recording");
+  recover->add_option("file", reading.path, "The recording that was cut")->required();
+  recover->add_option("output", output, "The file to write; compressed if its name ends in .zst")->required();
+  add_assets(recover, asset_paths);
+  CLI::App* compress = app.add_subcommand("compress", "Write FILE.zst beside each recording");
+  compress->add_option("file", paths, "Recordings")->required();
+
   CLI::App* info = app.add_subcommand(
       "info", "Say what recordings, hulls, compounds, meshes and height fields hold, without replaying them");
   info->add_option("file", paths, "Recordings and cooked shapes")->required();
@@ -240,7 +292,7 @@ int main(int argc, char** argv) {
   run->add_flag("--schema", schema, "Print the JSON Schema of scenes, and nothing else");
   run->add_flag("--fields", fields, "Print the tables of docs/scene.md, and nothing else");
 
-  for (CLI::App* command : {record, verify, info, scenes, cook, run}) {
+  for (CLI::App* command : {record, verify, state, recover, compress, info, scenes, cook, run}) {
     command->add_flag("--json", report.json, "One JSON object a file, each on one line");
   }
 
@@ -249,9 +301,21 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? k_exit_good : k_exit_usage;
   }
-  if (request.path.empty()) request.path = request.scene + ".rec";
+  if (verify->parsed() && verifying.paths.empty() && verifying.list.empty()) {
+    fputs("verify: no recording is named\n", stderr);
+    return k_exit_usage;
+  }
+  if (verifying.reading.from > verifying.reading.to) {
+    fputs("verify: --from comes after --to\n", stderr);
+    return k_exit_usage;
+  }
+  if (request.path.empty()) request.path = request.scene + (request.compressed ? ".rec.zst" : ".rec");
+  request.compressed = request.compressed || ends_with(request.path, k_compressed_suffix);
   if (record->parsed()) return run_record(request, config, report);
-  if (verify->parsed()) return run_verify(paths, asset_paths, report);
+  if (verify->parsed()) return run_verify(verifying, report);
+  if (state->parsed()) return run_state(reading, asset_paths, report);
+  if (recover->parsed()) return run_recover(reading, output, asset_paths, report);
+  if (compress->parsed()) return run_compress(paths, report);
   if (info->parsed()) return run_info(paths, report);
   if (run->parsed() && (schema || fields)) {
     const std::vector<ObjectInfo> objects = engines().front().scene_format();

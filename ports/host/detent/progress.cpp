@@ -30,8 +30,11 @@ bool error_is_terminal() {
 ProgressBar::ProgressBar(std::string label)
     : label_(std::move(label)), terminal_(error_is_terminal()), next_(std::chrono::steady_clock::now() + k_patience) {}
 
-ProgressBar::~ProgressBar() {
+ProgressBar::~ProgressBar() { hide(); }
+
+void ProgressBar::hide() {
   if (shown_) fputs("\r\x1b[K", stderr);
+  shown_ = false;
 }
 
 void ProgressBar::show(uint64_t done, uint64_t total) {

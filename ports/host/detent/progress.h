@@ -14,6 +14,8 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
   void show(uint64_t done, uint64_t total);
+  /// Until it is shown again: before a line is printed.
+  void hide();
 
  private:
   std::string label_;

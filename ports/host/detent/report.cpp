@@ -18,7 +18,11 @@ double rate(const Outcome& outcome) {
 
 std::string text(uint64_t value) { return std::to_string(value); }
 
-void print(const std::string& line) { printf("%s\n", line.c_str()); }
+/// At once: a run that is ended leaves a log of what it has done.
+void print(const std::string& line) {
+  printf("%s\n", line.c_str());
+  fflush(stdout);
+}
 
 void print_problem(const std::string& path, const Outcome& outcome) {
   fprintf(stderr, "%s: %s\n", path.c_str(), outcome.problem.c_str());
@@ -31,9 +35,11 @@ Json json_of(const std::string& path, const Outcome& outcome) {
   Json json;
   json["file"] = path;
   json["ok"] = outcome.verdict == Verdict::good;
+  json["status"] = outcome.verdict == Verdict::good ? "ok" : outcome.status;
+  if (!outcome.release.empty()) json["release"] = outcome.release;
   if (outcome.verdict != Verdict::good) {
     json["problem"] = outcome.problem;
-    json["status"] = outcome.status;
+    if (outcome.first_bad_tick != 0) json["first_bad_tick"] = outcome.first_bad_tick;
     if (!outcome.field.empty()) {
       json["field"] = outcome.field;
       json["offset"] = outcome.offset;
@@ -48,6 +54,7 @@ Json json_of(const std::string& path, const Outcome& outcome) {
     json["capacity"] = {{"bodies", header.bodies}, {"contacts", header.contacts}, {"assets", header.assets}};
     json["trace_level"] = header.trace_level;
     json["digest_interval"] = header.digest_interval;
+    json["keyframe_interval"] = header.keyframe_interval;
     json["first_tick"] = header.first_tick;
     json["snapshot_bytes"] = header.snapshot_bytes;
   }
@@ -90,6 +97,74 @@ void Report::verified(const std::string& path, const Outcome& outcome) const {
         text(static_cast<uint64_t>(rate(outcome))) + " ticks/s");
 }
 
+void Report::verified_all(uint64_t files, uint64_t bad, uint64_t passed_over, uint64_t ticks, double seconds) const {
+  const double rate = seconds > 0 ? static_cast<double>(ticks) / seconds : 0;
+  std::string line = text(files) + (files == 1 ? " recording, " : " recordings, ") + text(bad) + " bad, " +
+                     text(ticks) + " ticks, " + text(static_cast<uint64_t>(rate)) + " ticks/s a core";
+  if (passed_over != 0) line += ", " + text(passed_over) + " passed over as the log has them";
+  fprintf(json ? stderr : stdout, "%s\n", line.c_str());
+}
+
+void Report::recovered(const std::string& from, const std::string& to, const Outcome& outcome) const {
+  if (json) {
+    Json object = json_of(from, outcome);
+    object["output"] = to;
+    if (!outcome.lost.empty()) object["lost"] = outcome.lost;
+    return print_json(object);
+  }
+  if (outcome.verdict != Verdict::good) return print_problem(from, outcome);
+  print(to + ": " + outcome.header.config + ", " + text(outcome.ticks) + " ticks of " + from + ", final digest " +
+        hexadecimal(outcome.digest) + (outcome.lost.empty() ? "; it was whole" : "; " + outcome.lost));
+}
+
+void Report::compressed(const std::string& from, const std::string& to, uint64_t before, uint64_t after) const {
+  if (json) return print_json({{"file", from}, {"ok", true}, {"output", to}, {"before", before}, {"after", after}});
+  print(to + ": " + text(after) + " bytes of " + text(before));
+}
+
+void Report::state(const std::string& path, const Outcome& outcome, const std::vector<BodyLine>& bodies) const {
+  if (json) {
+    Json object = json_of(path, outcome);
+    if (outcome.verdict != Verdict::good) return print_json(object);
+    object["tick"] = outcome.tick;
+    object["bodies"] = Json::array();
+    for (const BodyLine& body : bodies) {
+      object["bodies"].push_back({{"slot", body.slot},
+                                  {"generation", body.generation},
+                                  {"type", body.type},
+                                  {"awake", body.awake},
+                                  {"position", body.position},
+                                  {"rotation", body.rotation},
+                                  {"velocity", body.velocity},
+                                  {"spin", body.spin}});
+    }
+    return print_json(object);
+  }
+  if (outcome.verdict != Verdict::good) return print_problem(path, outcome);
+  print(path + ": " + outcome.header.config + ", tick " + text(outcome.tick) + ", " + text(bodies.size()) +
+        " bodies, digest " + hexadecimal(outcome.digest));
+  print(
+      "slot:gen  type       position, m                     rotation x y z w                    velocity, m/s"
+      "                   spin, rad/s");
+  for (const BodyLine& body : bodies) {
+    const double *p = body.position, *r = body.rotation, *v = body.velocity, *w = body.spin;
+    printf("%4u:%-4u %-9s %c %10.5f %10.5f %10.5f  %8.5f %8.5f %8.5f %8.5f  %10.5f %10.5f %10.5f  %9.5f %9.5f %9.5f\n",
+           static_cast<unsigned>(body.slot), static_cast<unsigned>(body.generation), body.type.c_str(),
+           body.awake ? '*' : ' ', p[0], p[1], p[2], r[0], r[1], r[2], r[3], v[0], v[1], v[2], w[0], w[1], w[2]);
+  }
+}
+
+bool Report::problem(const std::string& path, const std::string& problem) const {
+  Outcome outcome;
+  outcome.verdict = Verdict::bad;
+  outcome.problem = outcome.status = problem;
+  if (json)
+    print_json(json_of(path, outcome));
+  else
+    print_problem(path, outcome);
+  return false;
+}
+
 void Report::described(const std::string& path, const Outcome& outcome) const {
   if (json) {
     Json object = json_of(path, outcome);
@@ -106,6 +181,7 @@ void Report::described(const std::string& path, const Outcome& outcome) const {
           text(header.assets) + " assets");
     print("  trace level         " + text(header.trace_level));
     print("  digest interval     " + text(header.digest_interval));
+    print("  keyframe interval   " + text(header.keyframe_interval));
     print("  first tick          " + text(header.first_tick));
     print("  size                " + text(outcome.file_bytes) + " bytes, seed " + text(header.snapshot_bytes));
     if (outcome.verdict == Verdict::good) {

@@ -12,6 +12,13 @@ struct Report {
 
   void recorded(const RecordRequest& request, const Outcome& outcome) const;
   void verified(const std::string& path, const Outcome& outcome) const;
+  /// Of many files: the sum, to standard error beside JSON.
+  void verified_all(uint64_t files, uint64_t bad, uint64_t passed_over, uint64_t ticks, double seconds) const;
+  void recovered(const std::string& from, const std::string& to, const Outcome& outcome) const;
+  void compressed(const std::string& from, const std::string& to, uint64_t before, uint64_t after) const;
+  void state(const std::string& path, const Outcome& outcome, const std::vector<BodyLine>& bodies) const;
+  /// Always false.
+  bool problem(const std::string& path, const std::string& problem) const;
   void described(const std::string& path, const Outcome& outcome) const;
   void scene(const SceneLine& line) const;
 };

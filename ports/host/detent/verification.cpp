@@ -1,0 +1,151 @@
+#include "verification.h"
+
+#include <stdio.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "progress.h"
+#include "release.h"
+#include "stream.h"
+#include "workers.h"
+
+namespace detent_tool {
+
+namespace {
+
+bool is_recording_name(const std::string& name) { return ends_with(name, ".rec") || ends_with(name, ".rec.zst"); }
+
+/// The recordings below a folder, in the order of their names. False if it cannot be read.
+bool find_recordings(const std::string& folder, std::vector<std::string>& paths) {
+  std::error_code error;
+  std::vector<std::string> found;
+  for (std::filesystem::recursive_directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    if (at->is_regular_file(error) && is_recording_name(at->path().filename().string())) {
+      found.push_back(at->path().string());
+    }
+  }
+  std::sort(found.begin(), found.end());
+  paths.insert(paths.end(), found.begin(), found.end());
+  return !error && !found.empty();
+}
+
+bool read_list(const std::string& path, std::vector<std::string>& paths) {
+  std::ifstream file;
+  if (path != "-") file.open(path);
+  std::istream& lines = path == "-" ? std::cin : file;
+  if (!lines) return false;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.empty()) paths.push_back(line);
+  }
+  return true;
+}
+
+/// Which files a run has told about, and whether they were good: the last word counts. Lines that it could not finish,
+/// or that are of something else, and a log that is not there yet say nothing.
+std::map<std::string, bool> read_log(const std::string& path) {
+  std::map<std::string, bool> log;
+  std::ifstream file(path);
+  for (std::string line; std::getline(file, line);) {
+    const nlohmann::json json = nlohmann::json::parse(line, nullptr, false);
+    if (!json.is_object()) continue;
+    const auto name = json.find("file"), ok = json.find("ok");
+    if (name == json.end() || ok == json.end() || !name->is_string() || !ok->is_boolean()) continue;
+    log[name->get<std::string>()] = ok->get<bool>();
+  }
+  return log;
+}
+
+Outcome verify_here(const VerificationRequest& request, const ReadRequest& reading, const Progress& progress) {
+  const std::optional<Versions> versions = versions_of(reading.path);
+  const Engine& first = engines().front();
+  if (!versions || versions->simulation == first.simulation_version || called_by_another_release()) {
+    return by_its_engine([&](const Engine& engine) { return engine.verify(reading, progress); });
+  }
+  const std::string release = find_release(versions->simulation);
+  if (!release.empty()) return verify_by_release(release, request.asset_paths, reading);
+  Outcome outcome = by_its_engine([&](const Engine& engine) { return engine.verify(reading, progress); });
+  if (outcome.verdict == Verdict::refused) {
+    const std::string version = std::to_string(versions->simulation);
+    outcome.problem = "recorded by simulation version " + version + "; this is " +
+                      std::to_string(first.simulation_version) + ", and detent-" + version +
+                      " is neither beside it nor on the PATH";
+  }
+  return outcome;
+}
+
+struct Total {
+  uint64_t files = 0;
+  uint64_t bad = 0;
+  uint64_t passed_over = 0;
+  uint64_t ticks = 0;
+  double seconds = 0;  ///< of all cores
+
+  void add(const Outcome& outcome) {
+    ++files;
+    bad += outcome.verdict == Verdict::good ? 0 : 1;
+    ticks += outcome.ticks;
+    seconds += outcome.seconds;
+  }
+};
+
+}  // namespace
+
+bool verify_all(VerificationRequest request, const Report& report) {
+  bool good = true;
+  std::vector<std::string> paths;
+  bool many = !request.list.empty() || request.paths.size() > 1;
+  for (const std::string& path : request.paths) {
+    std::error_code error;
+    if (!std::filesystem::is_directory(path, error)) {
+      paths.push_back(path);
+      continue;
+    }
+    many = true;
+    if (!find_recordings(path, paths)) good = report.problem(path, "no recordings in it, or it cannot be read");
+  }
+  if (!request.list.empty() && !read_list(request.list, paths)) good = report.problem(request.list, "cannot be read");
+
+  Total total;
+  if (!request.log.empty()) {
+    const std::map<std::string, bool> log = read_log(request.log);
+    const auto known = [&](const std::string& path) {
+      const auto entry = log.find(path);
+      if (entry == log.end()) return false;
+      ++total.passed_over;
+      if (!entry->second) good = false;
+      return true;
+    };
+    paths.erase(std::remove_if(paths.begin(), paths.end(), known), paths.end());
+  }
+
+  const auto verify = [&request](const std::string& path, const Progress& progress) {
+    ReadRequest reading = request.reading;
+    reading.path = path;
+    return verify_here(request, reading, progress);
+  };
+  const auto done = [&](const std::string& path, const Outcome& outcome) {
+    total.add(outcome);
+    report.verified(path, outcome);
+  };
+  if (many && can_fork()) {
+    verify_in_workers(paths, request.jobs, verify, done);
+  } else {
+    for (const std::string& path : paths) {
+      Outcome outcome;
+      {
+        ProgressBar bar(path);
+        outcome = verify(path, [&bar](uint64_t at, uint64_t all) { bar.show(at, all); });
+      }
+      done(path, outcome);
+    }
+  }
+  if (many) report.verified_all(total.files, total.bad, total.passed_over, total.ticks, total.seconds);
+  return good && total.bad == 0;
+}
+
+}  // namespace detent_tool

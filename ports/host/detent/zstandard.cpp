@@ -1,0 +1,139 @@
+#include "zstandard.h"
+
+#if DETENT_ZSTD
+#include <string.h>
+#include <zstd.h>
+
+#include <algorithm>
+#include <vector>
+#endif
+
+namespace detent_tool {
+
+#if DETENT_ZSTD
+
+namespace {
+
+constexpr int k_level = 9;  // beyond it a recording gets no smaller, only slower
+
+struct FreeDecoder {
+  void operator()(ZSTD_DCtx* decoder) const { ZSTD_freeDCtx(decoder); }
+};
+struct FreeEncoder {
+  void operator()(ZSTD_CCtx* encoder) const { ZSTD_freeCCtx(encoder); }
+};
+
+/// Unpacks what is asked for and no more, so a hostile file can claim time, not memory: of memory there is one window,
+/// at most the 128 MB of zstd's own limit. Its end, also in the midst of a frame, is the end of the bytes.
+class PackedInput final : public Input {
+ public:
+  explicit PackedInput(File file)
+      : file_(std::move(file)), decoder_(ZSTD_createDCtx()), packed_(ZSTD_DStreamInSize()) {}
+
+  bool read(uint8_t* bytes, uint32_t count, uint32_t& got) override {
+    ZSTD_outBuffer out = {bytes, count, 0};
+    while (out.pos < out.size && !ended_) {
+      if (in_.pos == in_.size) {
+        in_ = {packed_.data(), fread(packed_.data(), 1, packed_.size(), file_.get()), 0};
+        if (in_.size == 0 && ferror(file_.get()) != 0) return fail("cannot be read");
+      }
+      const size_t before = out.pos, used = in_.pos;
+      const size_t result = ZSTD_decompressStream(decoder_.get(), &out, &in_);
+      if (ZSTD_isError(result) != 0) return fail(std::string("zstd: ") + ZSTD_getErrorName(result));
+      ended_ = out.pos == before && in_.pos == used && in_.pos == in_.size && feof(file_.get()) != 0;
+    }
+    got = static_cast<uint32_t>(out.pos);
+    at_ += got;
+    return at_ <= bytes_max || fail("unpacks to more than " + std::to_string(bytes_max) + " bytes");
+  }
+
+  bool seek(uint64_t offset) override {
+    if (offset < at_) {
+      if (fseek(file_.get(), 0, SEEK_SET) != 0) return fail("cannot be read");
+      ZSTD_DCtx_reset(decoder_.get(), ZSTD_reset_session_only);
+      in_ = {};
+      at_ = 0;
+      ended_ = false;
+    }
+    uint8_t passed[4096];
+    while (at_ < offset) {
+      uint32_t got = 0;
+      if (!read(passed, static_cast<uint32_t>(std::min<uint64_t>(sizeof passed, offset - at_)), got)) return false;
+      if (got == 0) return true;
+    }
+    return true;
+  }
+
+ private:
+  bool fail(const std::string& why) {
+    problem = why;
+    return false;
+  }
+
+  File file_;
+  std::unique_ptr<ZSTD_DCtx, FreeDecoder> decoder_;
+  std::vector<uint8_t> packed_;
+  ZSTD_inBuffer in_ = {};
+  uint64_t at_ = 0;  ///< unpacked bytes given
+  bool ended_ = false;
+};
+
+class PackedOutput final : public Output {
+ public:
+  explicit PackedOutput(File file)
+      : file_(std::move(file)), encoder_(ZSTD_createCCtx()), packed_(ZSTD_CStreamOutSize()) {
+    ZSTD_CCtx_setParameter(encoder_.get(), ZSTD_c_compressionLevel, k_level);
+    ZSTD_CCtx_setParameter(encoder_.get(), ZSTD_c_checksumFlag, 1);
+  }
+
+  bool write(const uint8_t* bytes, uint32_t count) override { return pack({bytes, count, 0}, ZSTD_e_continue); }
+  bool close() override {
+    const bool packed = pack({}, ZSTD_e_end);
+    return fclose(file_.release()) == 0 && packed;
+  }
+
+ private:
+  bool pack(ZSTD_inBuffer in, ZSTD_EndDirective directive) {
+    for (;;) {
+      ZSTD_outBuffer out = {packed_.data(), packed_.size(), 0};
+      const size_t left = ZSTD_compressStream2(encoder_.get(), &out, &in, directive);
+      if (ZSTD_isError(left) != 0 || fwrite(packed_.data(), 1, out.pos, file_.get()) != out.pos) return false;
+      if (directive == ZSTD_e_end ? left == 0 : in.pos == in.size) return true;
+    }
+  }
+
+  File file_;
+  std::unique_ptr<ZSTD_CCtx, FreeEncoder> encoder_;
+  std::vector<uint8_t> packed_;
+};
+
+}  // namespace
+
+std::unique_ptr<Input> unpack(File file, std::string&) {
+  auto input = std::make_unique<PackedInput>(std::move(file));
+  input->bytes_max = k_unpacked_bytes_max;
+  input->snapshot_bytes_max = k_unpacked_snapshot_bytes_max;
+  return input;
+}
+
+std::unique_ptr<Output> pack(File file, std::string&) { return std::make_unique<PackedOutput>(std::move(file)); }
+
+#else
+
+namespace {
+constexpr const char* k_missing = "is compressed, and this tool was built without zstd";
+}
+
+std::unique_ptr<Input> unpack(File, std::string& problem) {
+  problem = k_missing;
+  return nullptr;
+}
+
+std::unique_ptr<Output> pack(File, std::string& problem) {
+  problem = k_missing;
+  return nullptr;
+}
+
+#endif
+
+}  // namespace detent_tool

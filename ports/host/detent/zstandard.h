@@ -1,0 +1,14 @@
+#pragma once
+#include "file.h"
+#include "stream.h"
+
+/// Zstandard (RFC 8878), where the build found it.
+namespace detent_tool {
+
+inline constexpr uint8_t k_zstandard_magic[4] = {0x28, 0xb5, 0x2f, 0xfd};
+
+/// Null, and why not. `file` stands at its start.
+std::unique_ptr<Input> unpack(File file, std::string& problem);
+std::unique_ptr<Output> pack(File file, std::string& problem);
+
+}  // namespace detent_tool
