@@ -1,6 +1,7 @@
 #include "tests/sequences/game.h"
 
 #include "tests/geometry/hull_bytes.h"
+#include "tests/support/usable.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -84,7 +85,9 @@ void Game::play_recorded() {
   MemorySink memory;
   uint8_t buffer[k_recording_buffer_bytes];
   Recorder recorder(world(), memory.sink(), buffer, sizeof buffer);
-  EXPECT_OK(recorder.begin());
+  RecordingDef recorded;
+  recorded.digest_interval = draw_.below(4);
+  EXPECT_OK(recorder.begin(recorded));
   recorder_ = &recorder;
   for (uint32_t i = 0; i < k_calls && !failed() && !draw_.ended(); ++i) {
     call();
@@ -92,11 +95,12 @@ void Game::play_recorded() {
     check_joints();
   }
   EXPECT_OK(recorder.end());
-  replay_recorded(memory.bytes);
+  recording_ = memory.bytes;
+  replay_recorded();
 }
 
-void Game::replay_recorded(const Bytes& bytes) {
-  MemorySource memory{&bytes};
+void Game::replay_recorded() {
+  MemorySource memory{&recording_};
   uint8_t buffer[k_recording_buffer_bytes];
   Player player(memory.source(), buffer, sizeof buffer);
   player.repeat_queries();
@@ -129,13 +133,7 @@ void Game::load_damaged(World& other) {
     EXPECT_EQ(digest(other), before);
     return;
   }
-  for (BodyId id = next_body(other, {}); !(id == BodyId{}); id = next_body(other, id)) {
-    BodyDef def;
-    EXPECT_OK(get_body_def(other, id, def));
-  }
-  const uint64_t tick = get_info(other).tick;
-  step(other);
-  EXPECT_EQ(step(other).tick, tick + 2);
+  expect_usable(other);
 }
 
 bool Game::judge(const char* name, Status status, bool there, bool wrong, bool may_fail) {

@@ -28,20 +28,22 @@ class Game {
   /// over the state before each call, and all statuses and answers.
   uint64_t play();
 
+  /// What the last segment left.
+  const Bytes& recording() const { return recording_; }
+  std::vector<uint64_t> save_all();
+  static AssetTable assets();
+  static FilterRuleTable rules();
+  const Capacity& capacity() const { return settings_.capacity; }
+
  private:
   static constexpr uint32_t k_bodies = 10, k_assets = 6, k_joints = 6, k_sensed = 6, k_events = 12;
   static WorldDef settings(Draw& draw);
-  static AssetTable assets();
-  static FilterRuleTable rules();
   static bool failed() { return testing::Test::HasFailure(); }
   World& world() { return owned_.world; }
 
-  const Capacity& capacity() const { return settings_.capacity; }
-
   // game.cpp: a segment, its replay, a call.
-  std::vector<uint64_t> save_all();
   void play_recorded();
-  void replay_recorded(const Bytes& bytes);
+  void replay_recorded();
   void load_damaged(World& other);
   void go_back(std::vector<uint64_t>& snapshot, const Model& before);
   void call();
@@ -117,6 +119,7 @@ class Game {
   const WorldDef settings_;
   OwnedWorld owned_;
   Recorder* recorder_ = nullptr;
+  Bytes recording_;
   Model model_;
   Mover mover_;
   uint64_t before_ = 0;  ///< the world's digest before the call

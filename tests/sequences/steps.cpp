@@ -104,7 +104,9 @@ void Game::check_contacts(bool woken_late) {
 void Game::check_events(const StepReport& report) {
   const uint32_t room = world().contact_events.capacity;
   ASSERT_LE(report.contact_events, room);
-  EXPECT_TRUE(report.contact_events_dropped == 0 || report.contact_events == room);
+  // Of the hits on bodies' ways as many are kept as contacts.
+  EXPECT_TRUE(report.contact_events_dropped == 0 || report.contact_events == room ||
+              report.contact_events_dropped + report.contact_events > capacity().contacts);
   std::set<std::pair<uint32_t, uint32_t>> pushing;
   for (uint32_t i = 0; i < report.contact_events; ++i) {
     const ContactEvent& event = events_[i];
