@@ -78,7 +78,7 @@ std::vector<Bytes> seeds() {
     Player player(memory.source(), buffer, sizeof buffer);
     EXPECT_OK(player.open());
     if (player.info().digest_interval != 0) continue;
-    made.push_back({static_cast<uint8_t>(seed % 4)});
+    made.push_back({static_cast<uint8_t>(made.size() % 2 == 0 ? k_mend : k_mend | k_repeat_queries)});
     made.back().insert(made.back().end(), game.recording().begin(), game.recording().end());
   }
   return made;

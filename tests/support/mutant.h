@@ -18,9 +18,10 @@ inline uint32_t edge_word(detent_queries::Random& random) {
   return random.chance(0.3) ? ~(word | bits) : word | bits;
 }
 
-/// One to four changes: bits, bytes, words and parts of other places; seldom a length. The same on every machine.
+/// One change, or up to four: bits, bytes, words and parts of other places; seldom a length. The same on every machine.
 inline Bytes mutated(Bytes bytes, detent_queries::Random& random) {
-  for (uint32_t left = 1 + random.below(4); left != 0 && bytes.size() >= 8; --left) {
+  const uint32_t changes = random.chance(0.6) ? 1 : 2 + random.below(3);
+  for (uint32_t left = changes; left != 0 && bytes.size() >= 8; --left) {
     const uint32_t count = static_cast<uint32_t>(bytes.size());
     const uint32_t at = random.below(count), aligned = at & ~3u;
     const auto place = bytes.begin() + static_cast<std::ptrdiff_t>(at);
