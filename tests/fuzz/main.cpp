@@ -33,7 +33,8 @@ extern "C" int LLVMFuzzerInitialize(int* argument_count, char*** arguments) {
   for (size_t target = 0; target < k_target_count; ++target) {
     const std::vector<detent_fuzz::Bytes> seeds = k_targets[target]->seeds();
     for (size_t i = 0; i < seeds.size(); ++i) {
-      std::ofstream file(std::string((*arguments)[2]) + "/seed_" + std::to_string(target) + "_" + std::to_string(i));
+      std::ofstream file(std::string((*arguments)[2]) + "/seed_" + std::to_string(target) + "_" + std::to_string(i),
+                         std::ios::binary);
       file.put(static_cast<char>(target));
       file.write(reinterpret_cast<const char*>(seeds[i].data()), static_cast<std::streamsize>(seeds[i].size()));
       if (!file.good()) exit(1);

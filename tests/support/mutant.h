@@ -30,9 +30,11 @@ inline Bytes mutated(Bytes bytes, detent_queries::Random& random) {
       case 0:
         bytes.resize(at);
         break;
-      case 1:
-        bytes.insert(place, 1 + random.below(8), static_cast<uint8_t>(random.below(256)));
+      case 1: {
+        const uint32_t length = 1 + random.below(8), value = random.below(256);
+        bytes.insert(place, length, static_cast<uint8_t>(value));
         break;
+      }
       case 2:
         bytes.erase(place, place + std::min<std::ptrdiff_t>(1 + random.below(8), bytes.end() - place));
         break;
