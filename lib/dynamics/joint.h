@@ -43,7 +43,7 @@ struct JointStage {
 /// (predict.h). Fills `work`, `bodies`.
 void collect_joints(const SolverBodies& bodies, JointStage& stage);
 
-/// Grows the trees of every island whose bodies `slots` lists, and says how many substeps its joints need.
+/// Grows the trees of every island whose bodies `slots` lists, and says how many substeps their joints need.
 void grow_trees(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
                 Span<Island> islands, JointStage& stage);
 
@@ -65,6 +65,10 @@ struct JointCode {
 
 // Of the stages above.
 
+/// The squared number of substeps that an island's joints need, whose trees have been grown; 0: any number.
+Scaled squared_substeps(const StepSettings& settings, const SolverBodies& bodies, const Island& island,
+                        JointStage& stage);
+
 /// Whether a free motion, 0 or 1, is an angle.
 bool is_angular(JointType type, int motion);
 /// Heavy pulls at a light body make it sway faster than a substep can follow, and each one would add to it: such a body
@@ -73,6 +77,10 @@ bool is_angular(JointType type, int motion);
 /// Andrews, Teichmann, Kry, "Geometric stiffness for real-time constrained multibody dynamics", 2017.
 void hold_sway(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> joints,
                JointStage& stage);
+/// The squared angle by which the body that swings fastest under the pulls of its joints would do so in a tick, as far
+/// as the last one tells. Only of pulls at points that are held.
+Scaled swing_of_tick(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> joints,
+                     JointStage& stage);
 /// Makes the rows of a joint as its bodies are now.
 void make_joint_rows(const StepSettings& settings, const JointStage& stage, JointWork& work);
 /// Chooses how the free motions are driven, before anything is solved: a limit that the bodies would pass in this

@@ -504,6 +504,19 @@ struct Solver {
   }
 };
 
+/// Impulses of a substep of the last tick, for one of this.
+void rescale(const Island& island, Span<const uint32_t> joints, JointStage& stage) {
+  const uint32_t before = island.substeps_before, now = island.substeps;
+  if (before == now || before == 0) return;
+  const Scaled ratio = divide(scaled_from_count(before), scaled_from_count(now));
+  bool saturated = false;
+  for (const uint32_t index : joints) {
+    for (Real& impulse : stage.joints[stage.work[index].joint].impulse) {
+      impulse = clamp(multiply(impulse, ratio, saturated), -k_joint_impulse_max, k_joint_impulse_max);
+    }
+  }
+}
+
 }  // namespace
 
 uint32_t solve_joints(const StepSettings& settings, const SolverBodies& bodies, const Island& island, Real elapsed,
@@ -516,6 +529,7 @@ uint32_t solve_joints(const StepSettings& settings, const SolverBodies& bodies, 
   solver.make_rows(trees);
   solver.make_rows(loops);
   const Span<const uint32_t> all = {trees.data, trees.count + loops.count};
+  if (elapsed == k_zero) rescale(island, all, stage);
   hold_sway(settings, bodies, all, stage);
   solver.start_loops();
   solver.solve_held(undecided);

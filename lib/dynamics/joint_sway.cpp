@@ -12,7 +12,7 @@ constexpr Real k_zero = 0.0;
 /// margin: the pulls are those of the last substep.
 constexpr Real k_followed = 3.0;
 /// No body is slowed as if it swung faster: a chain that is taut between two walls pulls without bound.
-constexpr Real k_swing_max = 48.0;
+constexpr Real k_swing_max = 72.0;
 
 constexpr Real k_stiffness_max = 32768.0;  ///< far beyond what a substep follows; two sums of it fit
 
@@ -46,33 +46,65 @@ void slow(const SolverBodies& bodies, Scaled share, JointBody& body) {
   body.turn_share = multiply(body.turn_share, share);
 }
 
+/// Adds what a joint's pull adds to its bodies' stiffness.
+void add_pull(const SolverBodies& bodies, const JointWork& work, const Vec3<Real>& pull, JointStage& stage) {
+  for (uint32_t end = 0; end < 2; ++end) {
+    JointBody& body = stage.bodies[work.body[end]];
+    if (body.mobile == 0) continue;
+    const Real own = stiffness(bodies.work[body.slot].gyration, pull, work.arm[end]);
+    body.stiffness = clamp(body.stiffness + (end == 0 ? -own : own), -k_stiffness_max, k_stiffness_max);
+  }
+}
+
+/// (rate x time)^2 of a body's swing under pulls that were added up, and takes them away; `time` in s.
+Real take_swing(const SolverBodies& bodies, Scaled time, JointBody& body) {
+  body.turn_share = scaled_by_power(body.share, body.above);
+  const int power = bodies.work[body.slot].gyration.exponent + body.above - body.exponent + 2;
+  bool saturated = false;
+  const Real swing = multiply(body.stiffness, scaled_by_power(multiply(body.turn_share, time), power), saturated);
+  body.stiffness = k_zero;
+  return swing;
+}
+
 }  // namespace
 
 void hold_sway(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> joints,
                JointStage& stage) {
   for (const uint32_t index : joints) {
     const JointWork& work = stage.work[index];
-    const Vec3<Real> pull = pull_of(stage.joints[work.joint], work);
-    for (uint32_t end = 0; end < 2; ++end) {
-      JointBody& body = stage.bodies[work.body[end]];
-      if (body.mobile == 0) continue;
-      const Real own = stiffness(bodies.work[body.slot].gyration, pull, work.arm[end]);
-      body.stiffness = clamp(body.stiffness + (end == 0 ? -own : own), -k_stiffness_max, k_stiffness_max);
-    }
+    add_pull(bodies, work, pull_of(stage.joints[work.joint], work), stage);
   }
   const Scaled time = scaled_from(settings.time);
   for (const uint32_t index : joints) {
     for (const uint32_t place : stage.work[index].body) {
       JointBody& body = stage.bodies[place];
       if (body.mobile == 0 || body.owner != index) continue;
-      body.turn_share = scaled_by_power(body.share, body.above);
-      const int power = bodies.work[body.slot].gyration.exponent + body.above - body.exponent + 2;
-      bool saturated = false;
-      const Real swing = multiply(body.stiffness, scaled_by_power(multiply(body.turn_share, time), power), saturated);
+      const Real swing = take_swing(bodies, time, body);
       if (swing > k_followed) slow(bodies, divide(scaled_from(k_followed), scaled_from(min(swing, k_swing_max))), body);
-      body.stiffness = k_zero;
     }
   }
+}
+
+Scaled swing_of_tick(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> joints,
+                     JointStage& stage) {
+  for (const uint32_t index : joints) {
+    const JointWork& work = stage.work[index];
+    const JointType type = static_cast<JointType>(stage.joints[work.joint].type);
+    if (type == JointType::slider || type == JointType::wheel || type == JointType::distance) continue;
+    const Real (&impulse)[k_joint_rows_max] = stage.joints[work.joint].impulse;
+    add_pull(bodies, work, {impulse[0], impulse[1], impulse[2]}, stage);
+  }
+  Scaled most = Scaled(0.0);
+  for (const uint32_t index : joints) {
+    for (const uint32_t place : stage.work[index].body) {
+      JointBody& body = stage.bodies[place];
+      if (body.mobile == 0 || body.owner != index) continue;
+      const Scaled time = multiply(scaled_from(settings.tick_time), scaled_from_count(stage.activities[body.slot].substeps));
+      const Scaled swing = scaled_from(take_swing(bodies, time, body));
+      if (less(most, swing)) most = swing;
+    }
+  }
+  return most;
 }
 
 }  // namespace DETENT_NAMESPACE

@@ -18,12 +18,6 @@ constexpr int k_redundant_power = -28;
 /// And at least so much, so that its reciprocal is one that multiply() takes.
 constexpr Real k_response_min = 0x1p-29;
 
-constexpr uint32_t k_substeps_with_contacts = 8, k_substeps_without = 4;
-
-uint32_t substeps_of(const Island& island) {
-  return island.contact_count != 0 ? k_substeps_with_contacts : k_substeps_without;
-}
-
 Real absolute_sum(const Vec3<Real>& v) { return abs(v.x) + abs(v.y) + abs(v.z); }
 
 /// The body's place among those that joints hold; it gets one if it has none.
@@ -197,7 +191,6 @@ void grow_trees(const StepSettings& settings, const SolverBodies& bodies, Span<c
     island.joint_count = grower.placed - first;
     island.loop_count = loops;
     first = grower.placed + loops;
-    if (island.joint_count + loops != 0) island.substeps = substeps_of(island);
   }
   for (JointWork& work : stage.work.first(stage.count)) {
     const JointBody &a = stage.bodies[work.body[0]], &b = stage.bodies[work.body[1]];
@@ -222,6 +215,7 @@ void grow_trees(const StepSettings& settings, const SolverBodies& bodies, Span<c
       work.bound[i] = to_real(divide(impulse, reference), saturated);
     }
   }
+  for (Island& island : islands) island.joint_need = squared_substeps(settings, bodies, island, stage);
 }
 
 }  // namespace DETENT_NAMESPACE

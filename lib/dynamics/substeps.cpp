@@ -10,11 +10,12 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr uint32_t k_notches[] = {2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64};
+constexpr uint32_t k_notches[] = {1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64};
 /// Fewer substeps are in reserve if this part of what they hold would do.
 constexpr Scaled k_in_hand = 0.6;
 /// A row of no more bodies than this does not buckle before it sinks.
 constexpr uint32_t k_run_min = 3;
+constexpr uint32_t k_contact_substeps_min = 2;  ///< where there are contacts
 
 Scaled square_of(uint32_t n) {
   const Scaled scaled = scaled_from_count(n);
@@ -38,9 +39,10 @@ Scaled needed(const StepSettings& settings, const ContactWork& contact, const Bo
   return less(sag, buckling) ? buckling : sag;
 }
 
-/// The fewest substeps that hold `need`, no more than `most`.
-uint32_t notch_for(Scaled need, uint32_t most) {
+/// The fewest substeps that hold `need`, of those from `least` to `most`.
+uint32_t notch_for(Scaled need, uint32_t least, uint32_t most) {
   for (const uint32_t notch : k_notches) {
+    if (notch < least) continue;
     if (notch >= most) break;
     if (!less(square_of(notch), need)) return notch;
   }
@@ -53,10 +55,10 @@ uint32_t most_for(const StepSettings& settings, uint32_t contacts) {
   return most < settings.substeps_max ? most : settings.substeps_max;
 }
 
-uint32_t next_below(uint32_t substeps) {
-  uint32_t below = k_notches[0];
+uint32_t next_below(uint32_t substeps, uint32_t least) {
+  uint32_t below = least;
   for (const uint32_t notch : k_notches) {
-    if (notch < substeps) below = notch;
+    if (notch > least && notch < substeps) below = notch;
   }
   return below;
 }
@@ -127,8 +129,10 @@ void choose_substeps(const StepSettings& settings, Span<const BodyTraits> traits
                      Span<const uint32_t> bodies, Span<const ContactOrder> order, Span<Island> islands,
                      Span<ContactWork> contacts, Span<BodyActivity> activities) {
   for (Island& island : islands) {
-    const uint32_t for_joints = island.substeps < settings.substeps_max ? island.substeps : settings.substeps_max;
-    Scaled need = for_joints == 0 ? Scaled(0.0) : square_of(for_joints);
+    const bool jointed = island.joint_count + island.loop_count != 0;
+    const uint32_t least = island.contact_count != 0 ? k_contact_substeps_min : 1;
+    const uint32_t for_joints = jointed ? notch_for(island.joint_need, least, settings.substeps_max) : 0;
+    Scaled need = island.joint_need;
     for (uint32_t i = 0; i < island.contact_count; ++i) {
       const ContactWork& contact = contacts[order[island.first_contact + i].contact];
       const uint32_t a = contact.state.body_a, b = contact.state.body_b;
@@ -143,15 +147,16 @@ void choose_substeps(const StepSettings& settings, Span<const BodyTraits> traits
       before = activity.substeps > before ? activity.substeps : before;
       calm = activity.calm_ticks < calm ? activity.calm_ticks : calm;
     }
+    island.substeps_before = before;
     uint32_t now = settings.substeps_fixed;
-    if (now == 0 && island.contact_count == 0 && for_joints == 0) {
+    if (now == 0 && island.contact_count == 0 && !jointed) {
       now = 1;
       before = calm = 0;
     } else if (now == 0) {
       const uint32_t share = most_for(settings, island.contact_count), most = share < for_joints ? for_joints : share;
-      now = notch_for(need, most);
+      now = notch_for(need, least, most);
       before = before < most ? before : most;
-      const uint32_t lower = next_below(before);
+      const uint32_t lower = next_below(before, least);
       if (now >= before) {
         calm = 0;
       } else {
@@ -169,7 +174,7 @@ void choose_substeps(const StepSettings& settings, Span<const BodyTraits> traits
     }
     for (uint32_t i = 0; i < island.body_count; ++i) {
       BodyActivity& activity = activities[bodies[island.first_body + i]];
-      activity.substeps = island.contact_count + for_joints == 0 ? 0 : now;
+      activity.substeps = island.contact_count == 0 && !jointed ? 0 : now;
       activity.calm_ticks = calm;
     }
   }

@@ -146,6 +146,8 @@ struct Island {
   uint32_t substeps;
   uint32_t first_joint, joint_count;  ///< of the order of the joints
   uint32_t loop_count;                ///< of them, the last ones: those that close loops
+  uint32_t substeps_before;             ///< of the last tick, 0: none
+  Scaled joint_need;                  ///< squared substeps that its joints ask for
 };
 
 /// A body that joints hold, while joints are solved. Its *unit* is a power of two that holds its joints' arms; spins
