@@ -36,7 +36,7 @@ inline Bytes mutated(Bytes bytes, detent_queries::Random& random) {
         break;
       }
       case 2:
-        bytes.erase(place, place + std::min<std::ptrdiff_t>(1 + random.below(8), bytes.end() - place));
+        bytes.erase(place, place + std::min(static_cast<std::ptrdiff_t>(1 + random.below(8)), bytes.end() - place));
         break;
       case 3:
       case 4:
