@@ -1,5 +1,6 @@
 #include <detent/convert.h>
 #include <detent/recording.h>
+#include <detent/rollback_session.h>
 #include <string.h>
 
 #include "examples/pages/check.h"
@@ -15,25 +16,22 @@ struct Match {
   WorldStorage<k_capacity> storage;
   World world;
   BodyId player;
-  alignas(8) uint8_t snapshots[k_window][snapshot_bytes(k_capacity)];
+  alignas(8) uint8_t memory[snapshot_ring_bytes(k_capacity, k_window)];
+  SnapshotRing ring;
 };
 
 void build(Match& match) {
   check(match.storage.create({}, match.world));
+  check(match.ring.begin(match.memory, sizeof match.memory, k_capacity, k_window));
   BodyId ground;
   check(create_body(match.world, {.type = BodyType::fixed, .shape = half_space()}, ground));
   check(create_body(match.world, {.position = {0.0, 0.5, 0.0}, .shape = sphere(0.5)}, match.player));
 }
 
 void advance(Match& match, bool jump) {
-  const uint64_t tick = get_info(match.world).tick;
-  check(save(match.world, match.snapshots[tick % k_window], snapshot_bytes(k_capacity)));
+  check(match.ring.keep(match.world));
   if (jump) check(apply_impulse(match.world, match.player, {0.0, 2000.0, 0.0}));
   step(match.world);
-}
-
-void go_back(Match& match, uint64_t tick) {
-  check(restore(match.world, match.snapshots[tick % k_window], snapshot_bytes(k_capacity)));
 }
 
 void roll_back() {
@@ -46,7 +44,7 @@ void roll_back() {
   }
   check(digest(here.world) != digest(there.world));
 
-  go_back(here, 15);
+  check(here.ring.restore(here.world, 15));
   for (uint64_t tick = 15; tick < 20; ++tick) advance(here, tick == 15);
   check(digest(here.world) == digest(there.world));
 }
@@ -68,6 +66,117 @@ void join_late() {
   check(save(server.world, bytes, sizeof bytes));
   bytes[0] ^= 1;
   check(load(joined, bytes, sizeof bytes) == Status::not_detent);
+}
+
+void send_differences() {
+  static Match server, client;
+  build(server);
+  build(client);
+
+  alignas(8) static uint8_t base[snapshot_bytes(k_capacity)];
+  static uint8_t delta[delta_bytes_max(k_capacity)];
+  uint32_t bytes = 0;
+  check(save(server.world, base, sizeof base));  // both have it
+  advance(server, true);
+  check(save_delta(server.world, base, sizeof base, delta, sizeof delta, bytes));
+  check(bytes < 300);
+
+  check(apply_delta(base, sizeof base, delta, bytes));  // there: base becomes the snapshot
+  check(load(client.world, base, sizeof base));
+  check(checksum32(client.world) == checksum32(server.world));
+
+  static WorldStorage<Capacity{.bodies = 100, .contacts = 300}> storage;
+  World larger;
+  check(storage.create({}, larger));
+  check(copy_world(server.world, larger));
+  check(digest(larger) == digest(server.world));
+}
+
+constexpr RollbackDef k_session = {.players = 2, .input_bytes = 1};
+
+/// A player's machine.
+struct Machine {
+  WorldStorage<k_capacity> storage;
+  World world;
+  BodyId balls[2];
+  RollbackSession session;
+  alignas(8) uint8_t memory[rollback_bytes(k_capacity, k_session)];
+};
+
+void make_tick(void* context, World& world, const TickInputs& inputs) {
+  const Machine& machine = *static_cast<Machine*>(context);
+  for (uint32_t player = 0; player < inputs.players; ++player) {
+    if (inputs.of(player)[0] == 1) check(apply_impulse(world, machine.balls[player], {0.0, 500.0, 0.0}));
+  }
+  step(world);
+}
+
+void join(Machine& machine, uint32_t player) {
+  check(machine.storage.create({}, machine.world));
+  BodyId ground;
+  check(create_body(machine.world, {.type = BodyType::fixed, .shape = half_space()}, ground));
+  check(create_body(machine.world, {.position = {0.0, 0.5, 0.0}, .shape = sphere(0.5)}, machine.balls[0]));
+  check(create_body(machine.world, {.position = {2.0, 0.5, 0.0}, .shape = sphere(0.5)}, machine.balls[1]));
+
+  RollbackDef def = k_session;
+  def.local = 1u << player;
+  check(machine.session.begin(machine.world, def, {make_tick, &machine}, machine.memory, sizeof machine.memory));
+}
+
+/// What a player does, and what is to be sent of it.
+struct Message {
+  uint64_t tick;
+  uint8_t input;
+  TickChecksum checksum;
+};
+
+Message play(Machine& machine, uint32_t player, bool jump) {
+  Message message = {};
+  message.input = jump ? 1 : 0;
+  check(machine.session.add_local_input(player, &message.input, message.tick));
+  RollbackReport report;
+  const Status status = machine.session.advance(machine.world, report);
+  if (status != Status::waiting) check(status);  // waiting: no tick was made, call it again when more has come
+  machine.session.checksums(&message.checksum, 1);
+  return message;
+}
+
+void receive(Machine& machine, uint32_t from, const Message& message) {
+  check(machine.session.add_input(from, message.tick, &message.input));
+  const Status status = machine.session.add_checksum(from, message.checksum);
+  if (status == Status::digest_differs) {
+    printf("out of step since tick %u\n", static_cast<unsigned>(machine.session.desync().tick));
+  }
+  check(status);
+}
+
+void play_together() {
+  constexpr uint64_t k_ticks = 100, k_latency = 5;
+  static Machine machines[2];
+  static Message sent[2][k_ticks];
+  for (uint32_t player = 0; player < 2; ++player) join(machines[player], player);
+  for (uint64_t tick = 0; tick < k_ticks + k_latency; ++tick) {
+    for (uint32_t player = 0; player < 2; ++player) {
+      if (tick >= k_latency) receive(machines[player], 1 - player, sent[1 - player][tick - k_latency]);
+      if (tick < k_ticks) sent[player][tick] = play(machines[player], player, tick % (20 + player) == 7);
+    }
+  }
+  for (Machine& machine : machines) {
+    RollbackReport report;
+    check(machine.session.correct(machine.world, report));  // after the last tick
+    check(machine.session.confirmed_tick() == k_ticks);
+  }
+  check(digest(machines[0].world) == digest(machines[1].world));
+}
+
+void test_the_maker() {
+  static Machine machine;
+  join(machine, 0);
+  const uint8_t inputs[3 * 2] = {0, 1, 1, 0, 0, 1};  // three ticks of two players
+  alignas(8) static uint8_t memory[sync_test_bytes(k_capacity, 3)];
+  SyncTestReport report;
+  const SyncTestDef def = {.ticks = 3, .inputs = inputs, .players = 2, .input_bytes = 1};
+  check(sync_test(machine.world, def, {make_tick, &machine}, memory, sizeof memory, report));
 }
 
 /// A recording in memory.
@@ -128,6 +237,9 @@ void replay(Tape& tape) {
 int main() {
   roll_back();
   join_late();
+  send_differences();
+  play_together();
+  test_the_maker();
   static Tape tape;
   record(tape);
   replay(tape);

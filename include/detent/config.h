@@ -53,7 +53,7 @@ inline constexpr Config k_config = Config::f64;
 #endif
 
 /// What a tick computes: any change that can alter a digest raises it. Stored in snapshots and recordings.
-inline constexpr uint32_t k_simulation_version = 4;
+inline constexpr uint32_t k_simulation_version = 5;
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -29,6 +29,7 @@ enum class [[nodiscard]] Status : uint32_t{
     sink_failed,         ///< the caller's sink or source reported failure
     feature_missing,     ///< needs what this world's feature table leaves out (features.h)
     rule_missing,        ///< names a filter rule that World::filter_rules does not hold
+    waiting,             ///< inputs of other players are missing: call again when they have come
 };
 
 /// A few words in English that name the status, for messages. Never null.

@@ -23,6 +23,9 @@ DETENT_SHARED constexpr uint64_t digest_finish(uint64_t running) {
   return running ^ (running >> 32);
 }
 
+/// Both halves in one.
+constexpr uint32_t digest_fold(uint64_t digest) { return static_cast<uint32_t>(digest ^ digest >> 32); }
+
 /// The digest of canonical bytes; the last word is filled with zeros, and the count is part of it.
 uint64_t digest_bytes(const uint8_t* bytes, uint32_t byte_count, uint64_t seed);
 

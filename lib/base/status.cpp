@@ -45,6 +45,8 @@ const char* status_text(Status status) {
       return "a feature that is not linked";
     case Status::rule_missing:
       return "filter rule missing";
+    case Status::waiting:
+      return "waits for other players' inputs";
     case Status::sink_failed:
       return "reading or writing failed";
   }

@@ -3,6 +3,7 @@
 #include "base/radix_sort.h"
 #include "collision/bounds_integer.h"
 #include "collision/collide_half_space.h"
+#include "geometry/shape_traits.h"
 #include "math/bits.h"
 
 namespace detent {
@@ -33,6 +34,7 @@ struct Grid {
 };
 
 bool is_everywhere(const Bounds& bounds) { return bounds.lower.x == -k_coord_limit && bounds.upper.x == k_coord_limit; }
+bool is_nowhere(const Bounds& bounds) { return bounds.upper.x < bounds.lower.x; }
 
 /// A bit above each of the two coordinates across: it is borrowed from where an upper end lies below a lower one.
 constexpr uint32_t k_across_bits = 15, k_across_guards = 0x80008000;
@@ -46,8 +48,6 @@ bool are_apart(const BoundsKey& a, const BoundsKey& b) {
 }
 
 bool is_dynamic_type(const BodyTraits& traits) { return traits.type == static_cast<uint32_t>(BodyType::dynamic); }
-
-bool is_half_space(const BodyTraits& traits) { return static_cast<ShapeType>(traits.shape) == ShapeType::half_space; }
 
 /// A length in steps of a coordinate.
 int64_t steps_of(Real length) {
@@ -129,7 +129,7 @@ void find_pairs(Span<const uint32_t> moving, const RestingTree& resting, Span<Bo
   Grid grid[3];
   for (int i = 0; i < 3; ++i) grid[i].axis = k_axes[i];
   for (const uint32_t slot : moving) {
-    if (is_everywhere(bounds[slot])) continue;
+    if (is_everywhere(bounds[slot]) || is_nowhere(bounds[slot])) continue;
     for (Grid& axis : grid) axis.include(bounds[slot]);
   }
   int widest = 0;
@@ -142,6 +142,7 @@ void find_pairs(Span<const uint32_t> moving, const RestingTree& resting, Span<Bo
 
   uint32_t count = 0, everywhere = 0;
   for (const uint32_t slot : moving) {
+    if (is_nowhere(bounds[slot])) continue;
     find_resting_near(slot, resting, pool);
     if (is_everywhere(bounds[slot])) {
       spare[everywhere++].slot = slot;

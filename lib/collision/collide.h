@@ -23,6 +23,13 @@ struct ContactGeometry {
   ContactGeometryPoint point[k_manifold_points_max];
 };
 
+/// Of the deepest point, m.
+inline Real depth_of(const ContactGeometry& geometry) {
+  Real least = geometry.point[0].separation;
+  for (uint32_t i = 1; i < geometry.count; ++i) least = min(least, geometry.point[i].separation);
+  return -least;
+}
+
 /// What collide needs of a body. `rotation` is the matrix of its pose's rotation.
 struct CollisionBody {
   const BodyPose& pose;

@@ -5,15 +5,12 @@
 #include "collision/body_convex.h"
 #include "collision/collide_half_space.h"
 #include "collision/contact_arm.h"
+#include "geometry/shape_traits.h"
 #include "math/arithmetic.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
-
-bool is_half_space(const CollisionBody& body) {
-  return static_cast<ShapeType>(body.traits.shape) == ShapeType::half_space;
-}
 
 void add_points(const CollisionBody& a, const CollisionBody& b, const ContactManifold& manifold,
                 ContactGeometry& contact) {
@@ -66,8 +63,8 @@ Status meet_half_space(const CollisionBody& plane, const CollisionBody& body, co
 void collide_convexes(const CollisionBody& a, const Convex& convex_a, const CollisionBody& b, const Convex& convex_b,
                       Real reach, ManifoldReduction reduction, ContactGeometry& contact) {
   ContactManifold manifold;
-  const Status status = is_half_space(a) ? meet_half_space(a, b, convex_b, true, reach, reduction, manifold)
-                        : is_half_space(b)
+  const Status status = is_half_space(a.traits) ? meet_half_space(a, b, convex_b, true, reach, reduction, manifold)
+                        : is_half_space(b.traits)
                             ? meet_half_space(b, a, convex_a, false, reach, reduction, manifold)
                             : contact_points(convex_a, {a.pose.position, a.pose.rotation}, convex_b,
                                              {b.pose.position, b.pose.rotation}, reach, manifold, nullptr, reduction);

@@ -50,12 +50,6 @@ int64_t raw_size(Unit value, int32_t exponent) {
   return raw_from_real({real_from_unit(value, exponent), Real(0.0), Real(0.0)}, raw) ? raw.x : 0;
 }
 
-Real depth_of(const ContactGeometry& geometry) {
-  Real least = geometry.point[0].separation;
-  for (uint32_t i = 1; i < geometry.count; ++i) least = min(least, geometry.point[i].separation);
-  return -least;
-}
-
 /// Takes a contact in; of too many the shallowest goes, of equals the last.
 void keep(const SurfaceContact& contact, SurfaceContacts& contacts) {
   if (contacts.count < k_surface_manifolds_max) {
@@ -124,8 +118,7 @@ struct PartCulling {
   PartCulling(const CollisionBody& a, const CollisionBody& b, Real distance) {
     Vec64 raw;
     known =
-        shape_of(a.traits) != ShapeType::half_space && shape_of(b.traits) != ShapeType::half_space &&
-        raw_from_real({distance, Real(0.0), Real(0.0)}, raw) &&
+        !is_half_space(a.traits) && !is_half_space(b.traits) && raw_from_real({distance, Real(0.0), Real(0.0)}, raw) &&
         place_on_surface({a.pose.position, a.pose.rotation}, {b.pose.position, b.pose.rotation}, place) == Status::ok;
     reach = known ? raw.x + (raw.x >> 10) + 1024 : 0;
   }

@@ -15,6 +15,11 @@ constexpr bool masks_meet(uint32_t category_a, uint32_t mask_a, uint32_t categor
 
 inline Filter filter_of(const BodyTraits& traits) { return {traits.category, traits.mask, traits.group, traits.rule}; }
 
+/// Whether there is nobody that the body may touch or sense, whatever the others' filters are.
+inline bool is_aloof(const BodyTraits& traits) {
+  return traits.group <= 0 && (traits.category == 0 || traits.mask == 0);
+}
+
 inline bool has_rule(const FilterRuleTable& table, uint32_t rule) {
   return rule == 0 || (rule <= table.count && table.rules[rule - 1] != nullptr);
 }

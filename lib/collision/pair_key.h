@@ -1,4 +1,6 @@
 #pragma once
+#include <detent/detail/state.h>
+
 #include "base/span.h"
 
 namespace detent {
@@ -11,6 +13,8 @@ constexpr uint32_t pair_high(uint64_t key) { return static_cast<uint32_t>(key); 
 
 /// The key of two slots in whichever order.
 constexpr uint64_t key_of_pair(uint32_t a, uint32_t b) { return a < b ? pair_key(a, b) : pair_key(b, a); }
+
+inline uint64_t key_of(const ContactState& contact) { return pair_key(contact.body_a, contact.body_b); }
 
 /// Whether a sorted list has the pair.
 inline bool has_pair(Span<const uint64_t> keys, uint64_t key) {

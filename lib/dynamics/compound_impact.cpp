@@ -99,7 +99,7 @@ bool compound_impact(const AssetTable& assets, const FeatureTable& features, con
                    motion_from(b, time)};
   search.first.outcome = ToiOutcome::clear;
   search.first.time = k_whole_step;
-  const bool is_plane = shape_of(a.traits) == ShapeType::half_space || shape_of(b.traits) == ShapeType::half_space;
+  const bool is_plane = is_half_space(a.traits) || is_half_space(b.traits);
   search.bounded = !is_plane && closing_bound(a, b, time, search.closing);
   const bool known = is_surface(a.traits) || is_surface(b.traits) ? search.ask_surface() : search.ask_parts();
   if (known) impact = search.first;

@@ -24,10 +24,20 @@ Vec3<Real> local_spin(const BodyTraits& traits, const Vec3<Real>& momentum) {
           multiply(momentum.z, traits.gyration[2], saturated)};
 }
 
+/// Whether the spin is far below its bound, whatever the body's axes are.
+bool is_slow(const BodyTraits& traits, const Vec3<Real>& momentum) {
+  Scaled most = traits.gyration[0];
+  for (const Scaled gyration : traits.gyration) most = less(most, gyration) ? gyration : most;
+  bool saturated = false;
+  const Real spin = multiply(greatest(momentum), most, saturated);
+  return !saturated && spin < scale_by_power(k_spin_max, -3);
+}
+
 }  // namespace
 
 uint32_t hold_speeds(const BodyTraits& traits, const Quat& rotation, BodyMotion& motion) {
   uint32_t clamped = hold(motion.velocity, k_speed_max) + hold(motion.momentum, k_spin_work_max);
+  if (is_slow(traits, motion.momentum)) return clamped;
   const bool turned = !is_isotropic(traits);
   Vec3<Real> local, spin;
   // Joints and impacts may leave more than a Real tells. Beyond twice the bound along a body's axis, one of the world's
@@ -89,7 +99,7 @@ void store_contacts(Span<const ContactWork> work, Span<const ManifoldState> mani
     if (has_manifolds) manifolds[to] = manifold_work[from];
   };
   const auto precedes = [](const ContactState& a, const ContactState& b) {
-    const uint64_t key_a = pair_key(a.body_a, a.body_b), key_b = pair_key(b.body_a, b.body_b);
+    const uint64_t key_a = key_of(a), key_b = key_of(b);
     return key_a < key_b || (key_a == key_b && a.part < b.part);
   };
   // Up to the first that is new or gone each goes where it was.

@@ -62,7 +62,7 @@ Real swing_radius(const BodyTraits& traits) {
 Real swing(const BodyTraits& traits, const Vec3<Real>& turn, bool& bounded) {
   const Real zero = 0.0, angle = length(turn);
   if (angle == zero) return zero;
-  if (shape_type(traits) == ShapeType::half_space) bounded = false;
+  if (is_half_space(traits)) bounded = false;
   // Half a turn moves a point by no more than the diameter; and so the product stays in range.
   return swing_radius(traits) * min(angle, Real(4.0));
 }

@@ -21,6 +21,8 @@ inline namespace DETENT_NAMESPACE {
 
 inline constexpr uint32_t k_no_link = UINT32_MAX;
 inline constexpr Real k_joint_impulse_max = 8192.0;  ///< of a row, m/s
+/// What a joint keeps is what its force would give in 2^-k_kept_power of a tick, however many substeps that has.
+inline constexpr int k_kept_power = 3;
 
 /// A length or speed in units of 2^exponent, held within what a Unit holds.
 Unit unit_held(Real value, int exponent);
@@ -71,16 +73,17 @@ Scaled squared_substeps(const StepSettings& settings, const SolverBodies& bodies
 
 /// Whether a free motion, 0 or 1, is an angle.
 bool is_angular(JointType type, int motion);
-/// Heavy pulls at a light body make it sway faster than a substep can follow, and each one would add to it: such a body
-/// is slowed. The rows of the joints are made; sets `turn_share` of the bodies they own.
-/// Source: Tournier, Nesme, Gilles, Faure, "Stable constrained dynamics", 2015; that only what is too stiff is damped:
-/// Andrews, Teichmann, Kry, "Geometric stiffness for real-time constrained multibody dynamics", 2017.
-void hold_sway(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> joints,
-               JointStage& stage);
 /// The squared angle by which the body that swings fastest under the pulls of its joints would do so in a tick, as far
-/// as the last one tells. Only of pulls at points that are held.
+/// as the last one tells. Their arms are set. Only of pulls at points; leaves the bodies' `stiffness`.
 Scaled swing_of_tick(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> joints,
                      JointStage& stage);
+/// Heavy pulls at a light body make it sway faster than a substep can follow, and each one would add to it: such a body
+/// is slowed. The rows of the joints are made; sets `turn_share` of the bodies they own, and takes their `stiffness`:
+/// in the first substep of a tick that of swing_of_tick().
+/// Source: Tournier, Nesme, Gilles, Faure, "Stable constrained dynamics", 2015; that only what is too stiff is damped:
+/// Andrews, Teichmann, Kry, "Geometric stiffness for real-time constrained multibody dynamics", 2017.
+void hold_sway(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> joints, bool first,
+               JointStage& stage);
 /// Makes the rows of a joint as its bodies are now.
 void make_joint_rows(const StepSettings& settings, const JointStage& stage, JointWork& work);
 /// Chooses how the free motions are driven, before anything is solved: a limit that the bodies would pass in this

@@ -320,15 +320,16 @@ struct Solver {
 
   /// Where the bodies are now.
   void place(Real elapsed) {
-    const auto set = [&](JointBody& body, const Quat& rotation, const Vec3<Real>& way) {
-      body.rotation = rotation;
-      body.axes = matrix_from(rotation);
-      body.place = way;
-    };
     each_body([&](JointBody& body) {
       BodyWork& now = bodies.work[body.slot];
-      set(body, now.rotation, now.displacement);
-      now.gyration = world_gyration(bodies.traits[body.slot], body.axes);
+      body.rotation = now.rotation;
+      body.place = now.displacement;
+      if (elapsed == k_zero) {
+        body.axes = now.axes;
+      } else {
+        body.axes = matrix_from(now.rotation);
+        now.gyration = world_gyration(bodies.traits[body.slot], body.axes);
+      }
       load_motion(body);
     });
     const auto place_still = [&](Span<const uint32_t> joints) {
@@ -348,7 +349,9 @@ struct Solver {
             body.velocity = motion.velocity;
             body.spin = world_spin(traits, now.gyration, motion.momentum, body.above);
           }
-          set(body, rotation, body.velocity * elapsed);
+          body.rotation = rotation;
+          body.axes = matrix_from(rotation);
+          body.place = body.velocity * elapsed;
         }
       }
     };
@@ -413,9 +416,11 @@ struct Solver {
   }
 
   /// What the next substep starts from.
-  void keep(const JointWork& work) {
+  void keep(const JointWork& work, Scaled over_share) {
     Real(&kept)[k_joint_rows_max] = stage.joints[work.joint].impulse;
-    const auto store = [&](uint32_t k, Real impulse) {
+    bool saturated = false;
+    const auto store = [&](uint32_t k, Real total) {
+      const Real impulse = multiply(total, over_share, saturated);
       kept[k] = clamp(impulse, -k_joint_impulse_max, k_joint_impulse_max);
       if (!(kept[k] == impulse)) ++clamped;
     };
@@ -430,7 +435,9 @@ struct Solver {
       JointWork& work = stage.work[index];
       add_driven_rows(settings, bodies, stage, work);
       const JointState& joint = stage.joints[work.joint];
-      for (uint32_t k = 0; k < work.rows; ++k) work.impulse[k] = k < work.rows_held ? joint.impulse[k] : k_zero;
+      const Scaled share = scaled_by_power(settings.share, k_kept_power);
+      for (uint32_t k = 0; k < work.rows; ++k)
+        work.impulse[k] = k < work.rows_held ? multiply(joint.impulse[k], share) : k_zero;
       load_ends(work);
       push(work);
       put_on(work);
@@ -504,19 +511,6 @@ struct Solver {
   }
 };
 
-/// Impulses of a substep of the last tick, for one of this.
-void rescale(const Island& island, Span<const uint32_t> joints, JointStage& stage) {
-  const uint32_t before = island.substeps_before, now = island.substeps;
-  if (before == now || before == 0) return;
-  const Scaled ratio = divide(scaled_from_count(before), scaled_from_count(now));
-  bool saturated = false;
-  for (const uint32_t index : joints) {
-    for (Real& impulse : stage.joints[stage.work[index].joint].impulse) {
-      impulse = clamp(multiply(impulse, ratio, saturated), -k_joint_impulse_max, k_joint_impulse_max);
-    }
-  }
-}
-
 }  // namespace
 
 uint32_t solve_joints(const StepSettings& settings, const SolverBodies& bodies, const Island& island, Real elapsed,
@@ -529,18 +523,18 @@ uint32_t solve_joints(const StepSettings& settings, const SolverBodies& bodies, 
   solver.make_rows(trees);
   solver.make_rows(loops);
   const Span<const uint32_t> all = {trees.data, trees.count + loops.count};
-  if (elapsed == k_zero) rescale(island, all, stage);
-  hold_sway(settings, bodies, all, stage);
+  hold_sway(settings, bodies, all, elapsed == k_zero, stage);
   solver.start_loops();
   solver.solve_held(undecided);
   for (uint32_t sweep = 0; sweep < k_loop_sweeps && loops.count != 0; ++sweep) {
     for (const uint32_t index : loops) solver.hold_loop(stage.work[index]);
     solver.solve_held(undecided);
   }
+  const Scaled over_share = scaled_by_power(scaled_from_count(settings.substeps), -k_kept_power);
   for (const uint32_t index : all) {
     JointWork& work = stage.work[index];
     solver.add_up(work);
-    solver.keep(work);
+    solver.keep(work, over_share);
   }
   return solver.clamped;
 }

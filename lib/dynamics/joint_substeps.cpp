@@ -4,9 +4,9 @@
 #include "math/root.h"
 #include "math/scaled.h"
 
-/// How many substeps joints need. A joint is held at the speeds of its bodies, along a straight way. What turns by w in a
-/// substep leaves its circle by w^2/2 of the radius, and by so much the joint gives way: so the square of the number of
-/// substeps goes with what the ways bend in a whole tick, and a chain that hangs or swings slowly takes one.
+/// How many substeps joints need. A joint is held at the speeds of its bodies, along a straight way. What turns by w in
+/// a substep leaves its circle by w^2/2 of the radius, and by so much the joint gives way: so the square of the number
+/// of substeps goes with what the ways bend in a whole tick, and a chain that hangs or swings slowly takes one.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
@@ -17,11 +17,13 @@ constexpr Real k_turn_max = 2.0;  ///< rad, each component of a turn: beyond tho
 /// Squared substeps for each part of the smaller body's unit of length, or radian, by which the ways bend in a tick.
 constexpr Scaled k_needed_by_bend = 64.0;
 constexpr Scaled k_needed_by_bend_max = 64.0;
-/// For each squared radian of a swing under its joints' pulls in a tick: what is slowed for want of substeps
-/// (joint_sway.cpp) is slowed little.
+/// For each squared radian of a swing under the pulls of joints in a tick: what is slowed for want of substeps
+/// (joint_sway.cpp) is slowed little. No more than 4: what is taut between two walls comes apart sooner with 8 than
+/// with 4.
 constexpr Scaled k_needed_by_swing = 1.0 / 72;
+constexpr Scaled k_needed_by_swing_max = 16.0;
 constexpr Scaled k_needed_with_contacts = 64.0;  ///< their impulses and those of the joints settle over the substeps
-constexpr Scaled k_needed_by_loops = 16.0;       ///< which are solved in turn with the trees
+constexpr Scaled k_needed_by_loops = 16.0;       ///< also of what hangs on two places, which may be taut between them
 constexpr Scaled k_needed_by_spring = 25.0;      ///< for each squared radian of its phase in a tick
 constexpr Scaled k_needed_by_spring_max = 16.0;  ///< stiffer ones are solved implicitly
 
@@ -31,57 +33,51 @@ Vec3<Real> cross_of(const Vec3<Real>& a, const Vec3<Real>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 Real absolute_sum(const Vec3<Real>& v) { return abs(v.x) + abs(v.y) + abs(v.z); }
-Real held(Real turn) { return clamp(turn, -k_turn_max, k_turn_max); }
 
-/// The body's motion in a tick: its way, m, and its turn, rad.
-struct TickMotion {
-  Vec3<Real> way, turn;
+/// Makes `velocity` and `spin` of a body its way, m, and its turn, rad, in a tick.
+void take_motion(const StepSettings& settings, const SolverBodies& bodies, JointBody& body) {
+  const BodyTraits& traits = bodies.traits[body.slot];
+  const BodyMotion& motion = bodies.motions[body.slot];
+  const Real zero = 0.0;
+  body.velocity = body.spin = {zero, zero, zero};
+  if (type_of(traits) == BodyType::fixed) return;
+  const Vec3<Real> spin = world_spin(traits, bodies.work[body.slot].gyration, motion.momentum, 0);
+  bool clamped = false;
+  const auto angle = [&](Real speed) {
+    return clamp(angle_of(speed * settings.tick_time, traits.size_exponent, clamped), -k_turn_max, k_turn_max);
+  };
+  body.velocity = motion.velocity * settings.tick_time;
+  body.spin = {angle(spin.x), angle(spin.y), angle(spin.z)};
+}
 
-  TickMotion(const StepSettings& settings, const SolverBodies& bodies, const JointBody& body) {
-    const BodyTraits& traits = bodies.traits[body.slot];
-    const BodyMotion& motion = bodies.motions[body.slot];
-    const Real zero = 0.0;
-    way = turn = {zero, zero, zero};
-    if (type_of(traits) == BodyType::fixed) return;
-    const Vec3<Real> spin = world_spin(traits, bodies.work[body.slot].gyration, motion.momentum, 0);
-    bool clamped = false;
-    const auto angle = [&](Real speed) {
-      return held(angle_of(speed * settings.tick_time, traits.size_exponent, clamped));
-    };
-    way = motion.velocity * settings.tick_time;
-    turn = {angle(spin.x), angle(spin.y), angle(spin.z)};
-  }
-};
-
-/// By how much the ways of the bodies' turns bend in a tick, at the joint, over its unit; angles as they are.
-Scaled bend(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, JointWork& work) {
-  const JointType type = static_cast<JointType>(stage.joints[work.joint].type);
+/// By how much the ways of the bodies' turns bend in a tick, at the joint, over its unit; angles as they are. Sets the
+/// joint's arms.
+Scaled bend(const SolverBodies& bodies, const JointStage& stage, JointWork& work) {
+  const JointState& joint = stage.joints[work.joint];
+  const JointType type = static_cast<JointType>(joint.type);
   const JointBody &a = stage.bodies[work.body[0]], &b = stage.bodies[work.body[1]];
-  const TickMotion of_a(settings, bodies, a), of_b(settings, bodies, b);
   const auto in_metres = [](const Vec3<Unit>& v, int exponent) {
     return Vec3<Real>{real_from_unit(v.x, exponent), real_from_unit(v.y, exponent), real_from_unit(v.z, exponent)};
   };
+  const auto over_unit = [&](Real length) { return scaled_by_power(scaled_from(length), -work.exponent); };
   work.arm[0] = multiply(bodies.work[a.slot].axes, work.anchor[0]);
   work.arm[1] = multiply(bodies.work[b.slot].axes, work.anchor[1]);
-  const Vec3<Real> arm_a = in_metres(work.arm[0], a.exponent), arm_b = in_metres(work.arm[1], b.exponent);
-  const Vec3<Real> gap = work.between + (arm_b - arm_a);
+  const Vec3<Real> arm_b = in_metres(work.arm[1], b.exponent);
+  Vec3<Real> arm_a = in_metres(work.arm[0], a.exponent);
   const bool slides = type == JointType::slider || type == JointType::wheel;
-  const Vec3<Real> reach_a = slides ? arm_a + gap : arm_a;
-  const Vec3<Real> by_a = cross_of(of_a.turn, reach_a), by_b = cross_of(of_b.turn, arm_b);
-  const Vec3<Real> apart = (of_b.way + by_b) - (of_a.way + by_a);
-  const auto over_unit = [&](Real length) { return scaled_by_power(scaled_from(length), -work.exponent); };
+  if (slides) arm_a = work.between + arm_b;  // B's anchor, wherever it is on A's axis
+  const Vec3<Real> by_a = cross_of(a.spin, arm_a), by_b = cross_of(b.spin, arm_b);
   if (type == JointType::distance) {
     // The way from anchor to anchor turns.
-    const JointState& joint = stage.joints[work.joint];
     if (joint.limited[0] == 0 || !(joint.upper[0] > Real(0.0))) return Scaled(0.0);
-    const Scaled way = scaled_from(absolute_sum(apart));
-    return divide(multiply(way, over_unit(absolute_sum(apart))), scaled_from(joint.upper[0]));
+    const Real apart = absolute_sum((b.velocity + by_b) - (a.velocity + by_a));
+    return divide(multiply(scaled_from(apart), over_unit(apart)), scaled_from(joint.upper[0]));
   }
-  Vec3<Real> bends = cross_of(of_b.turn, by_b) - cross_of(of_a.turn, by_a);
-  if (slides) bends -= cross_of(of_a.turn, apart) * Real(2.0);
-  const Scaled as_length = over_unit(absolute_sum(bends));
-  if (type == JointType::ball || type == JointType::cone_twist) return as_length;
-  return greater(scaled_from(absolute_sum(cross_of(of_a.turn, of_b.turn))), as_length);
+  Vec3<Real> bends = cross_of(b.spin, by_b) - cross_of(a.spin, by_a);
+  if (slides) bends -= cross_of(a.spin, (b.velocity + by_b) - (a.velocity + by_a)) * Real(2.0);
+  const Scaled length = over_unit(absolute_sum(bends));
+  if (type == JointType::ball || type == JointType::cone_twist) return length;
+  return greater(length, scaled_from(absolute_sum(cross_of(a.spin, b.spin))));
 }
 
 }  // namespace
@@ -93,17 +89,27 @@ Scaled squared_substeps(const StepSettings& settings, const SolverBodies& bodies
   if (count == 0) return need;
   const auto take = [&](Scaled value) { need = greater(need, value); };
   if (island.contact_count != 0) take(k_needed_with_contacts);
-  if (island.loop_count != 0) take(k_needed_by_loops);
-  for (uint32_t k = 0; k < count; ++k) {
-    JointWork& work = stage.work[stage.order[island.first_joint + k]];
-    take(lesser(multiply(bend(settings, bodies, stage, work), k_needed_by_bend), k_needed_by_bend_max));
+  const Span<const uint32_t> joints = {stage.order.data + island.first_joint, count};
+  uint32_t closed = island.loop_count, hung = 0;
+  for (const uint32_t index : joints) {
+    for (const uint32_t place : stage.work[index].body) {
+      JointBody& body = stage.bodies[place];
+      if (body.mobile == 0 && ++hung > 1) ++closed;
+      if (body.mobile == 0 || body.owner == index) take_motion(settings, bodies, body);
+    }
+  }
+  if (closed != 0) take(k_needed_by_loops);
+  for (const uint32_t index : joints) {
+    JointWork& work = stage.work[index];
+    take(lesser(multiply(bend(bodies, stage, work), k_needed_by_bend), k_needed_by_bend_max));
     for (const Real frequency : stage.joints[work.joint].frequency) {
+      if (!(frequency > Real(0.0))) continue;
       const Scaled phase = scaled_from(k_two_pi * frequency * settings.tick_time);
       take(lesser(multiply(multiply(phase, phase), k_needed_by_spring), k_needed_by_spring_max));
     }
   }
-  const Scaled swing = swing_of_tick(settings, bodies, {stage.order.data + island.first_joint, count}, stage);
-  take(lesser(multiply(swing, k_needed_by_swing), k_needed_by_bend_max));
+  const Scaled swing = swing_of_tick(settings, bodies, joints, stage);
+  take(lesser(multiply(swing, k_needed_by_swing), k_needed_by_swing_max));
   return need;
 }
 

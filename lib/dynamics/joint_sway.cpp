@@ -12,15 +12,17 @@ constexpr Real k_zero = 0.0;
 /// margin: the pulls are those of the last substep.
 constexpr Real k_followed = 3.0;
 /// No body is slowed as if it swung faster: a chain that is taut between two walls pulls without bound.
-constexpr Real k_swing_max = 72.0;
-
+constexpr Real k_swing_max = 48.0;
 constexpr Real k_stiffness_max = 32768.0;  ///< far beyond what a substep follows; two sums of it fit
 
-/// The force on B in the last substep, over the reference mass, m/s.
+bool holds_points(JointType type) {
+  return type != JointType::slider && type != JointType::wheel && type != JointType::distance;
+}
+
+/// The force on B in the last substep, as it is kept, of a joint that holds no points.
 Vec3<Real> pull_of(const JointState& joint, const JointWork& work) {
   Vec3<Real> pull = {k_zero, k_zero, k_zero};
-  if (work.points != 0) pull = {joint.impulse[0], joint.impulse[1], joint.impulse[2]};
-  for (uint32_t k = work.points != 0 ? 3 : 0; k < work.rows_held; ++k) pull += work.row[k].axis * joint.impulse[k];
+  for (uint32_t k = 0; k < work.rows_held; ++k) pull += work.row[k].axis * joint.impulse[k];
   for (uint32_t i = 0; i < 2 && work.rows_held + i < k_joint_rows_max; ++i)
     pull += work.free_row[i].axis * joint.impulse[work.rows_held + i];
   return pull;
@@ -56,55 +58,61 @@ void add_pull(const SolverBodies& bodies, const JointWork& work, const Vec3<Real
   }
 }
 
-/// (rate x time)^2 of a body's swing under pulls that were added up, and takes them away; `time` in s.
-Real take_swing(const SolverBodies& bodies, Scaled time, JointBody& body) {
-  body.turn_share = scaled_by_power(body.share, body.above);
-  const int power = bodies.work[body.slot].gyration.exponent + body.above - body.exponent + 2;
+/// Adds the pulls of joints that hold points, or of the others, whose rows must be made.
+void add_pulls(const SolverBodies& bodies, Span<const uint32_t> joints, bool of_points, JointStage& stage) {
+  for (const uint32_t index : joints) {
+    const JointWork& work = stage.work[index];
+    const JointState& joint = stage.joints[work.joint];
+    if (holds_points(static_cast<JointType>(joint.type)) != of_points) continue;
+    if (of_points)
+      add_pull(bodies, work, {joint.impulse[0], joint.impulse[1], joint.impulse[2]}, stage);
+    else
+      add_pull(bodies, work, pull_of(joint, work), stage);
+  }
+}
+
+/// (rate x time)^2 of a body's swing under the pulls that were added up; `time`: substep x tick, s^2, over the tick.
+Real swing_of(const SolverBodies& bodies, Scaled time, const JointBody& body) {
+  const int power = bodies.work[body.slot].gyration.exponent + body.above - body.exponent + 2 + k_kept_power;
   bool saturated = false;
-  const Real swing = multiply(body.stiffness, scaled_by_power(multiply(body.turn_share, time), power), saturated);
-  body.stiffness = k_zero;
-  return swing;
+  return multiply(body.stiffness, scaled_by_power(multiply(body.turn_share, time), power), saturated);
+}
+
+template <class Visit>
+void each_owned(Span<const uint32_t> joints, JointStage& stage, const Visit& visit) {
+  for (const uint32_t index : joints) {
+    for (const uint32_t place : stage.work[index].body) {
+      JointBody& body = stage.bodies[place];
+      if (body.mobile != 0 && body.owner == index) visit(body);
+    }
+  }
 }
 
 }  // namespace
 
-void hold_sway(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> joints,
-               JointStage& stage) {
-  for (const uint32_t index : joints) {
-    const JointWork& work = stage.work[index];
-    add_pull(bodies, work, pull_of(stage.joints[work.joint], work), stage);
-  }
-  const Scaled time = scaled_from(settings.time);
-  for (const uint32_t index : joints) {
-    for (const uint32_t place : stage.work[index].body) {
-      JointBody& body = stage.bodies[place];
-      if (body.mobile == 0 || body.owner != index) continue;
-      const Real swing = take_swing(bodies, time, body);
-      if (swing > k_followed) slow(bodies, divide(scaled_from(k_followed), scaled_from(min(swing, k_swing_max))), body);
-    }
-  }
-}
-
 Scaled swing_of_tick(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> joints,
                      JointStage& stage) {
-  for (const uint32_t index : joints) {
-    const JointWork& work = stage.work[index];
-    const JointType type = static_cast<JointType>(stage.joints[work.joint].type);
-    if (type == JointType::slider || type == JointType::wheel || type == JointType::distance) continue;
-    const Real (&impulse)[k_joint_rows_max] = stage.joints[work.joint].impulse;
-    add_pull(bodies, work, {impulse[0], impulse[1], impulse[2]}, stage);
-  }
-  Scaled most = Scaled(0.0);
-  for (const uint32_t index : joints) {
-    for (const uint32_t place : stage.work[index].body) {
-      JointBody& body = stage.bodies[place];
-      if (body.mobile == 0 || body.owner != index) continue;
-      const Scaled time = multiply(scaled_from(settings.tick_time), scaled_from_count(stage.activities[body.slot].substeps));
-      const Scaled swing = scaled_from(take_swing(bodies, time, body));
-      if (less(most, swing)) most = swing;
-    }
-  }
-  return most;
+  add_pulls(bodies, joints, true, stage);
+  const Scaled time = scaled_from(settings.tick_time);
+  Real most = k_zero;
+  each_owned(joints, stage, [&](JointBody& body) {
+    body.turn_share = scaled_by_power(body.share, body.above);
+    most = max(most, swing_of(bodies, time, body));
+  });
+  return scaled_from(most);
+}
+
+void hold_sway(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> joints, bool first,
+               JointStage& stage) {
+  if (!first) add_pulls(bodies, joints, true, stage);
+  add_pulls(bodies, joints, false, stage);
+  const Scaled time = multiply(scaled_from(settings.time), settings.share);
+  each_owned(joints, stage, [&](JointBody& body) {
+    body.turn_share = scaled_by_power(body.share, body.above);
+    const Real swing = swing_of(bodies, time, body);
+    if (swing > k_followed) slow(bodies, divide(scaled_from(k_followed), scaled_from(min(swing, k_swing_max))), body);
+    body.stiffness = k_zero;
+  });
 }
 
 }  // namespace DETENT_NAMESPACE

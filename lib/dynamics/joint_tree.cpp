@@ -26,7 +26,7 @@ uint32_t place_of(const SolverBodies& bodies, uint32_t slot, JointStage& stage) 
   if (place != k_no_link) return place;
   place = stage.body_count++;
   JointBody& body = stage.bodies[place];
-  body = JointBody{};
+  static_cast<JointBodyStart&>(body) = {};
   body.slot = slot;
   body.mobile = is_dynamic(bodies.traits[slot]) && stage.activities[slot].asleep == 0 ? 1 : 0;
   body.first = body.last = body.owner = k_no_link;
@@ -74,7 +74,7 @@ void collect_joints(const SolverBodies& bodies, JointStage& stage) {
     if (joint.type == 0 || (!moves(joint.body_a) && !moves(joint.body_b))) continue;
     const uint32_t index = stage.count++;
     JointWork& work = stage.work[index];
-    work = JointWork{};
+    static_cast<JointWorkStart&>(work) = {};
     work.joint = slot;
     work.body[0] = place_of(bodies, joint.body_a, stage);
     work.body[1] = place_of(bodies, joint.body_b, stage);

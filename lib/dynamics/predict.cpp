@@ -1,5 +1,6 @@
 #include "dynamics/predict.h"
 
+#include "collision/pair_filter.h"
 #include "dynamics/block.h"
 #include "dynamics/gyration.h"
 #include "dynamics/spin.h"
@@ -31,9 +32,11 @@ void start_body(const StepSettings& settings, const BodyTraits& traits, const Bo
   work.axes = matrix_from(pose.rotation);
   work.gyration = world_gyration(traits, work.axes);
   work.free_turn = free_turn_of(traits);
-  work.extent = shape_extent(traits);
-  work.fall = fall_speed(settings, work.extent);
-  work.speed = speed_bound(traits, pose.rotation, motion);
+  if (!is_aloof(traits)) {  // contacts alone read them
+    work.extent = shape_extent(traits);
+    work.fall = fall_speed(settings, work.extent);
+    work.speed = speed_bound(traits, pose.rotation, motion);
+  }
   work.spin = world_spin(traits, work.gyration, motion.momentum, -k_spin_power);
 }
 
@@ -66,7 +69,11 @@ void bound(const StepSettings& settings, Span<const BodyPose> poses, Span<const 
   const Vec3<Real> fall = settings.gravity * (settings.tick_time * settings.tick_time);
   for (const uint32_t slot : bodies) {
     const BodyTraits& body = traits[slot];
-    if (static_cast<ShapeType>(body.shape) == ShapeType::half_space) {
+    if (is_aloof(body)) {
+      bounds[slot] = k_nowhere;
+      continue;
+    }
+    if (is_half_space(body)) {
       bounds[slot] = k_everywhere;
       continue;
     }

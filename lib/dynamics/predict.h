@@ -15,7 +15,8 @@ void start_body(const StepSettings& settings, const BodyTraits& traits, const Bo
 void predict(const StepSettings& settings, Span<const BodyTraits> traits, Span<const uint32_t> bodies,
              Span<BodyMotion> motions, Span<BodyWork> work);
 
-/// Bounds of bodies over their predicted motion of this tick, with a margin of 1/64 of their smallest diameter.
+/// Bounds of bodies over their predicted motion of this tick, with a margin of 1/64 of their smallest diameter;
+/// nowhere for those that nobody may touch.
 void bound(const StepSettings& settings, Span<const BodyPose> poses, Span<const BodyTraits> traits,
            Span<const BodyMotion> motions, Span<const uint32_t> bodies, Span<Bounds> bounds);
 

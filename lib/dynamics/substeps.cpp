@@ -147,7 +147,6 @@ void choose_substeps(const StepSettings& settings, Span<const BodyTraits> traits
       before = activity.substeps > before ? activity.substeps : before;
       calm = activity.calm_ticks < calm ? activity.calm_ticks : calm;
     }
-    island.substeps_before = before;
     uint32_t now = settings.substeps_fixed;
     if (now == 0 && island.contact_count == 0 && !jointed) {
       now = 1;

@@ -17,6 +17,9 @@ inline constexpr Coord k_coord_limit =
 inline constexpr Bounds k_everywhere = {{-k_coord_limit, -k_coord_limit, -k_coord_limit},
                                         {k_coord_limit, k_coord_limit, k_coord_limit}};
 
+/// Overlaps nothing.
+inline constexpr Bounds k_nowhere = {k_everywhere.upper, k_everywhere.lower};
+
 /// The least half size of axis-aligned bounds around the body's position that hold the shape, m, world axes. Not for a
 /// half-space. A hull's, a surface's and a compound's hold the box of its half extents, or its bounding ball where that
 /// is less. Rounding: within 2^-28 of the body's unit of length.

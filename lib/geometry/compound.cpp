@@ -198,11 +198,8 @@ Status compound_info(const Asset& asset, CompoundInfo& info) {
   info.half_thickness = compound.half_thickness();
   info.volume_mantissa = compound.volume().mantissa;
   info.volume_exponent = compound.volume().exponent + 3 * compound.exponent();
-  for (uint32_t axis = 0; axis < 3; ++axis) {
-    const uint64_t bits = load_u64(compound.bytes + k_compound_origin_at + 8 * axis);
-    memcpy(&info.origin[axis], &bits, sizeof bits);
-  }
-  for (uint32_t k = 0; k < 4; ++k) info.rotation[k] = cooked_i32(compound.bytes + k_compound_rotation_at + 4 * k);
+  read_source_frame(compound.bytes + k_compound_origin_at, compound.bytes + k_compound_rotation_at, info.origin,
+                    info.rotation);
   return Status::ok;
 }
 

@@ -31,6 +31,16 @@ inline uint32_t cooked_u16(const uint8_t* bytes) {
 }
 inline int32_t cooked_i16(const uint8_t* bytes) { return static_cast<int16_t>(cooked_u16(bytes)); }
 
+/// Where a body's axes lie in those of its source: the origin, three doubles, and the rotation.
+inline void read_source_frame(const uint8_t* origin_bytes, const uint8_t* rotation_bytes, double (&origin)[3],
+                              int32_t (&rotation)[4]) {
+  for (uint32_t axis = 0; axis < 3; ++axis) {
+    const uint64_t bits = load_u64(origin_bytes + 8 * axis);
+    memcpy(&origin[axis], &bits, sizeof bits);
+  }
+  for (uint32_t k = 0; k < 4; ++k) rotation[k] = cooked_i32(rotation_bytes + 4 * k);
+}
+
 /// Whether the bytes from `from` up to `to` are zero.
 bool cooked_is_zero(const uint8_t* bytes, uint32_t from, uint32_t to);
 

@@ -278,11 +278,7 @@ Status hull_info(const Asset& asset, HullInfo& info) {
   info.core_radius = hull.core_radius();
   info.volume_mantissa = hull.volume().mantissa;
   info.volume_exponent = hull.volume().exponent + 3 * hull.exponent();
-  for (uint32_t axis = 0; axis < 3; ++axis) {
-    const uint64_t bits = load_u64(hull.bytes + k_hull_origin_at + 8 * axis);
-    memcpy(&info.origin[axis], &bits, sizeof bits);
-  }
-  for (uint32_t k = 0; k < 4; ++k) info.rotation[k] = cooked_i32(hull.bytes + k_hull_rotation_at + 4 * k);
+  read_source_frame(hull.bytes + k_hull_origin_at, hull.bytes + k_hull_rotation_at, info.origin, info.rotation);
   return Status::ok;
 }
 

@@ -12,6 +12,7 @@ inline namespace DETENT_NAMESPACE {
 
 inline ShapeType shape_of(const BodyTraits& traits) { return static_cast<ShapeType>(traits.shape); }
 
+inline bool is_half_space(const BodyTraits& traits) { return shape_of(traits) == ShapeType::half_space; }
 inline bool is_surface(const BodyTraits& traits) { return shape_of(traits) == ShapeType::surface; }
 inline bool is_compound(const BodyTraits& traits) { return shape_of(traits) == ShapeType::compound; }
 /// Whether a pair of bodies can have more contacts than one.
@@ -19,9 +20,7 @@ inline bool has_parts(const BodyTraits& a, const BodyTraits& b) {
   return is_surface(a) || is_surface(b) || is_compound(a) || is_compound(b);
 }
 /// Whether a body has no thickness that the motion of others could be measured by.
-inline bool is_ground(const BodyTraits& traits) {
-  return shape_of(traits) == ShapeType::half_space || is_surface(traits);
-}
+inline bool is_ground(const BodyTraits& traits) { return is_half_space(traits) || is_surface(traits); }
 
 /// The greatest distance of a point of the core from the origin; not for hulls, surfaces and compounds. T: Real or
 /// Unit, of both sides.

@@ -83,7 +83,7 @@ struct Change {
   Status turn_with(const Vec3<Real>& spin) {
     const Real zero = 0.0;
     const bool turns = !(spin == Vec3<Real>{zero, zero, zero});
-    if (turns && shape_of(traits) == ShapeType::half_space) return Status::bad_argument;
+    if (turns && is_half_space(traits)) return Status::bad_argument;
     if (!within(spin, k_spin_max)) return Status::out_of_range;
     if (!is_dynamic(traits) && !within(spin * traits.bounding_radius, k_speed_max)) return Status::out_of_range;
     motion.momentum = momentum_of(traits, rotation(), spin);

@@ -97,7 +97,7 @@ Status make_motion(const BodyTraits& traits, const Quat& rotation, const Vec3<Re
   if (!within(spin, limit)) return Status::out_of_range;
   const bool moves = !(velocity == k_still), turns = !(spin == k_still);
   if ((moves || turns) && type_of(traits) == BodyType::fixed) return Status::bad_argument;
-  if (turns && static_cast<ShapeType>(traits.shape) == ShapeType::half_space) return Status::bad_argument;
+  if (turns && is_half_space(traits)) return Status::bad_argument;
   const Vec3<Real> spin_speed = {scale_by_power(spin.x, exponent), scale_by_power(spin.y, exponent),
                                  scale_by_power(spin.z, exponent)};
   if (!within(spin_speed * traits.bounding_radius, k_speed_max)) return Status::out_of_range;

@@ -246,7 +246,7 @@ bool are_contacts(const State& state) {
     if (!is_contact(state, contact)) return false;
     if (i == 0) continue;
     const ContactState& before = state.contacts[i - 1];
-    const uint64_t last = pair_key(before.body_a, before.body_b), key = pair_key(contact.body_a, contact.body_b);
+    const uint64_t last = key_of(before), key = key_of(contact);
     if (last > key || (last == key && before.part >= contact.part)) return false;
   }
   for (uint32_t i = count; i < state.contacts.count; ++i) {

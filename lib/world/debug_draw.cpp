@@ -30,7 +30,7 @@ DrawKind kind_of(const State& state, uint32_t slot) {
 /// The edges of an axis-aligned box.
 void draw_bounds(const State& state, uint32_t slot, const DebugDraw& to) {
   const BodyTraits& traits = state.traits[slot];
-  if (shape_of(traits) == ShapeType::half_space) return;
+  if (is_half_space(traits)) return;
   const BodyPose& pose = state.poses[slot];
   const Vec3<Real> half = half_bounds(traits, matrix_from(pose.rotation));
   const auto corner = [&](int index) {

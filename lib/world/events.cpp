@@ -10,8 +10,6 @@ namespace {
 
 constexpr Real k_zero = 0.0;
 
-uint64_t key_of(const ContactState& contact) { return pair_key(contact.body_a, contact.body_b); }
-
 /// The greatest closing speed of the points that were pushed.
 Real approach_of(const ContactWork& contact) {
   Real least = k_zero;

@@ -157,11 +157,14 @@ uint32_t wake_jointed(Span<const JointState> joints, Span<const BodyTraits> trai
 
 Span<const uint64_t> list_apart(Span<const JointState> joints, Span<uint64_t> keys) {
   uint32_t count = 0;
+  bool sorted = true;
   for (const JointState& joint : joints) {
     if (joint.type == 0 || joint.collide != 0) continue;
-    keys[count++] = key_of_pair(joint.body_a, joint.body_b);
+    keys[count] = key_of_pair(joint.body_a, joint.body_b);
+    sorted = sorted && (count == 0 || keys[count - 1] <= keys[count]);
+    ++count;
   }
-  heap_sort(keys.first(count), [](uint64_t a, uint64_t b) { return a < b; });
+  if (!sorted) heap_sort(keys.first(count), [](uint64_t a, uint64_t b) { return a < b; });
   return keys.first(count);
 }
 

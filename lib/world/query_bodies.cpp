@@ -46,7 +46,7 @@ Vec64 query_half(const QueryShape& shape, const Quat& rotation) {
 Pose pose_near(const BodyTraits& traits, const BodyPose& pose, const Position& place) {
   const Pose whole = {pose.position, pose.rotation};
   constexpr Real k_near = 32768.0;
-  if (shape_of(traits) != ShapeType::half_space) return whole;
+  if (!is_half_space(traits)) return whole;
   if (abs(real_difference(place.x, pose.position.x)) < k_near &&
       abs(real_difference(place.y, pose.position.y)) < k_near &&
       abs(real_difference(place.z, pose.position.z)) < k_near)
@@ -59,7 +59,7 @@ Pose pose_near(const BodyTraits& traits, const BodyPose& pose, const Position& p
 
 Bounds QueryBodies::ball_bounds_of(uint32_t slot) const {
   const BodyTraits& traits = state.traits[slot];
-  if (shape_of(traits) == ShapeType::half_space) return k_everywhere;
+  if (is_half_space(traits)) return k_everywhere;
   const Real ball = real_from_unit(traits.bounding_radius, traits.size_exponent);
   const Real room = ball + scale_by_power(ball, -20);  // for the rounding of bounds
   const Vec3<Real> half = {room, room, room};
@@ -68,7 +68,7 @@ Bounds QueryBodies::ball_bounds_of(uint32_t slot) const {
 
 Bounds QueryBodies::bounds_of(uint32_t slot) const {
   const BodyTraits& traits = state.traits[slot];
-  if (shape_of(traits) == ShapeType::half_space) return k_everywhere;
+  if (is_half_space(traits)) return k_everywhere;
   const BodyPose& pose = state.poses[slot];
   const Vec3<Real> half = half_bounds(traits, matrix_from(pose.rotation));
   return {moved(pose.position, -half), moved(pose.position, half)};

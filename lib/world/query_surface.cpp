@@ -85,7 +85,27 @@ struct TriangleSearch {
     const auto held = [](int64_t value) { return value > k_most ? k_most : value < -k_most ? -k_most : value; };
     search.ground.code.visit(
         search.ground.surface, {held(low.x), held(low.y), held(low.z)}, {held(high.x), held(high.y), held(high.z)},
-        [](void* context, uint32_t triangle) { static_cast<Search*>(context)->ask(triangle); }, &search);
+        [](void* context, uint32_t triangle) { ask(*static_cast<Search*>(context), triangle); }, &search);
+  }
+  /// Asks a triangle that the search cannot rule out.
+  template <class Search>
+  static void ask(Search& search, uint32_t index) {
+    const AskedSurface& ground = search.ground;
+    const SurfaceTriangle t = ground.code.triangle(ground.surface, index);
+    const Vec32 normal = normal_of(t.corner[0], t.corner[1], t.corner[2]);
+    if (search.rules_out(t, normal)) return;
+    Pose placed;
+    Convex convex;
+    QueryHit hit;
+    hit.triangle = index;
+    hit.material = t.material;
+    bool met = true;
+    Status asked = ground.code.convex(ground.surface, ground.pose, index, placed, convex);
+    if (asked == Status::ok) asked = search.find(convex, placed, hit, met);
+    if (asked != Status::ok)
+      search.status = asked;
+    else if (met)
+      search.keep(t, normal, hit);
   }
 };
 
@@ -104,34 +124,24 @@ struct CastSearch : TriangleSearch {
   }
 
   /// Whether the shape stays on one side of the plane.
-  bool passes_by(const SurfaceTriangle& t, const Vec32& normal) const {
+  bool rules_out(const SurfaceTriangle& t, const Vec32& normal) const {
     const int64_t start = height(t, normal), end = start + dot(way, normal).round_shift(30);
     const int64_t error = height_error(t) + (length_bound(way) >> 26);
     const int64_t over = -lowest(normal) + error, under = -lowest(negate(normal)) + error;
     return (start > over && end > over) || (start < -under && end < -under);
   }
 
-  void ask(uint32_t index) {
-    const SurfaceTriangle t = ground.code.triangle(ground.surface, index);
-    const Vec32 normal = normal_of(t.corner[0], t.corner[1], t.corner[2]);
-    if (passes_by(t, normal)) return;
-    Pose placed;
-    Convex convex;
+  Status find(const Convex& triangle, const Pose& placed, QueryHit& hit, bool& met) const {
     TimeOfImpact impact;
-    Status asked = ground.code.convex(ground.surface, ground.pose, index, placed, convex);
-    if (asked == Status::ok) asked = time_of_impact(convex, {placed, k_still, k_still}, shape.convex, motion, impact);
-    if (asked != Status::ok) status = asked;
-    if (asked != Status::ok || impact.outcome == ToiOutcome::clear) return;
-    QueryHit hit;
+    const Status asked = time_of_impact(triangle, {placed, k_still, k_still}, shape.convex, motion, impact);
+    if (asked != Status::ok) return asked;
+    met = impact.outcome != ToiOutcome::clear;
     hit.fraction = impact.time;
-    hit.triangle = index;
-    hit.material = t.material;
     hit.undecided = impact.outcome == ToiOutcome::undecided;
-    if (!hit.undecided) {
-      hit.point = moved(placed.position, impact.point);
-      hit.normal = impact.normal;
-    }
-    keep(t, normal, hit);
+    if (hit.undecided) return asked;
+    hit.point = moved(placed.position, impact.point);
+    hit.normal = impact.normal;
+    return asked;
   }
 
   /// One piece of the way after the other, until the next would begin after a hit.
@@ -161,7 +171,7 @@ struct NearSearch : TriangleSearch {
       : TriangleSearch(surface, asked, where, false), at(where) {}
 
   /// Whether the triangle's plane or box is farther away than what was found.
-  bool is_beyond(const SurfaceTriangle& t, const Vec32& normal) const {
+  bool rules_out(const SurfaceTriangle& t, const Vec32& normal) const {
     const int64_t nearest = found ? raw_length(best.distance) : reach;
     const int64_t room = nearest + (nearest >> k_tolerance_power), error = height_error(t);
     const int64_t over = height(t, normal);
@@ -176,27 +186,16 @@ struct NearSearch : TriangleSearch {
            apart(&Vec32::z, c.z, low.z, high.z);
   }
 
-  void ask(uint32_t index) {
-    const SurfaceTriangle t = ground.code.triangle(ground.surface, index);
-    const Vec32 normal = normal_of(t.corner[0], t.corner[1], t.corner[2]);
-    if (is_beyond(t, normal)) return;
-    Pose placed;
-    Convex convex;
+  Status find(const Convex& triangle, const Pose& placed, QueryHit& hit, bool&) const {
     Closest closest;
-    Status asked = ground.code.convex(ground.surface, ground.pose, index, placed, convex);
-    if (asked == Status::ok) asked = closest_points(convex, placed, shape.convex, at, closest);
-    if (asked != Status::ok) status = asked;
-    if (asked != Status::ok) return;
-    QueryHit hit;
+    const Status asked = closest_points(triangle, placed, shape.convex, at, closest);
+    if (asked != Status::ok) return asked;
     hit.distance = closest.distance;
-    hit.triangle = index;
-    hit.material = t.material;
     hit.undecided = closest.capped;
-    if (!hit.undecided) {
-      hit.point = moved(placed.position, closest.point_a);
-      hit.normal = closest.normal;
-    }
-    keep(t, normal, hit);
+    if (hit.undecided) return asked;
+    hit.point = moved(placed.position, closest.point_a);
+    hit.normal = closest.normal;
+    return asked;
   }
 
   /// Looks farther and farther, until something is found that is no farther than what was looked at.

@@ -31,7 +31,7 @@ bool is_at_rest(const BodySweep& sweep) {
 /// Bounds that hold the body until the tick ends, with room for what counts as within and for the rounding of bounds.
 Bounds reach_of(const SensorStage& stage, uint32_t slot) {
   const BodyTraits& traits = stage.traits[slot];
-  if (shape_of(traits) == ShapeType::half_space) return k_everywhere;
+  if (is_half_space(traits)) return k_everywhere;
   const Real ball = real_from_unit(traits.bounding_radius, traits.size_exponent);
   const Real room = ball + scale_by_power(ball, -8) + Real(0x1p-13);
   const BodySweep& sweep = stage.sweeps[slot];

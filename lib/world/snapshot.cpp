@@ -9,7 +9,10 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Between the machine's byte order and the canonical one, in place. Nothing to do on little-endian machines.
+Layout layout_of(const World& world) { return view_of(world).layout; }
+
+}  // namespace
+
 void swap_state(uint8_t* block, const Layout& layout) {
   if (!k_big_endian) return;
   for (uint32_t i = 0; i < k_section_count; ++i) {
@@ -19,9 +22,6 @@ void swap_state(uint8_t* block, const Layout& layout) {
   }
 }
 
-Layout layout_of(const World& world) { return view_of(world).layout; }
-
-/// Compares a header in the machine's byte order with this build and the world that is to take the state.
 Status check_header(const BlockHeader& header, Capacity capacity, const FeatureTable& features) {
   if (header.magic != k_snapshot_magic) return Status::not_detent;
   if (header.format != k_snapshot_format || header.manifolds > 1 || header.zero != 0) return Status::format_unknown;
@@ -34,7 +34,6 @@ Status check_header(const BlockHeader& header, Capacity capacity, const FeatureT
   return Status::ok;
 }
 
-/// As check_header, for canonical bytes.
 Status check_canonical_header(const uint8_t* bytes, Capacity capacity, const FeatureTable& features) {
   BlockHeader header;
   memcpy(&header, bytes, sizeof header);
@@ -42,13 +41,10 @@ Status check_canonical_header(const uint8_t* bytes, Capacity capacity, const Fea
   return check_header(header, capacity, features);
 }
 
-/// What the block now holds is the state of another world, which may have had fewer features.
 void take_over(World& world) {
   view_of(world).header.left_out = left_out(*world.features);
   forget_steps(world);
 }
-
-}  // namespace
 
 void swap_element(uint32_t section_index, uint8_t* element) {
   const SectionFields& section = k_section_fields[section_index];

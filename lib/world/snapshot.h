@@ -1,5 +1,5 @@
 #pragma once
-#include <detent/world.h>
+#include <detent/detail/layout.h>
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -18,6 +18,17 @@ Status load_from(World& world, Status (*read)(void* context, uint32_t offset, ui
 /// no call on it can misbehave. Errors: as `load`.
 Status check_state(const uint8_t* block, Capacity capacity, AssetTable assets, const FeatureTable& features,
                    const FilterRuleTable& rules);
+
+/// Compares a header in the machine's byte order with this build and the world that is to take the state.
+Status check_header(const BlockHeader& header, Capacity capacity, const FeatureTable& features);
+/// As check_header, for canonical bytes.
+Status check_canonical_header(const uint8_t* bytes, Capacity capacity, const FeatureTable& features);
+
+/// Between the machine's byte order and the canonical one, in place. Nothing to do on little-endian machines.
+void swap_state(uint8_t* block, const Layout& layout);
+
+/// What the block now holds is the state of another world, which may have had fewer features.
+void take_over(World& world);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -8,6 +8,7 @@
 #include "tests/bench/draw.h"
 #include "tests/bench/engines.h"
 #include "tests/bench/report.h"
+#include "tests/bench/rollback/command.h"
 #include "tests/bench/terminal.h"
 #include "tests/bench/world/command.h"
 #include "tests/queries/sets.h"
@@ -170,6 +171,8 @@ int main(int argc, char** argv) {
   CLI::App* list = app.add_subcommand("sets", "List the sets");
   WorldOptions world_options;
   CLI::App* world = add_world_command(app, world_options);
+  RollbackOptions rollback_options;
+  CLI::App* rollback = add_rollback_command(app, rollback_options);
   std::vector<std::string> names;
   for (const detent_queries::Set& set : detent_queries::all_sets()) names.emplace_back(set.name);
   for (CLI::App* command : {toi, distance}) {
@@ -196,6 +199,7 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? k_exit_good : k_exit_usage;
   }
   if (world->parsed()) return run_world(world_options);
+  if (rollback->parsed()) return run_rollback(rollback_options);
   if (list->parsed()) {
     for (const detent_queries::Set& set : detent_queries::all_sets()) printf("%-5s %s\n", set.name, set.text);
     return k_exit_good;

@@ -9,24 +9,12 @@
 #include "geometry/mesh.h"
 #include "read_mesh.h"
 #include "tests/geometry/surfaces.h"
+#include "tests/support/data_file.h"
 
 namespace {
 
 using namespace detent_cook;
 using namespace detent_surfaces;
-
-/// A file of meshes/ under $DETENT_DATA, or under the folder that the build was told of; else empty.
-std::string mesh_file(const char* name) {
-  const char* folder = getenv("DETENT_DATA");
-  const std::string path = std::string(folder != nullptr ? folder : DETENT_DATA) + "/meshes/" + name;
-  std::string text;
-  if (FILE* file = fopen(path.c_str(), "rb")) {
-    char piece[4096];
-    for (size_t count = 1; (count = fread(piece, 1, sizeof piece, file)) > 0;) text.append(piece, count);
-    fclose(file);
-  }
-  return text;
-}
 
 detent::MeshView view_of(const Bytes& bytes) {
   detent::MeshView mesh;
@@ -37,7 +25,7 @@ detent::MeshView view_of(const Bytes& bytes) {
 TEST(cook_mesh, real_levels_cook_and_are_accepted) {
   int cooked_count = 0;
   for (const char* name : {"building.obj", "conveyor.obj", "stairs.obj", "test_map01.obj", "voxel_mesh_01.obj"}) {
-    const std::string text = mesh_file(name);
+    const std::string text = detent_test::data_file(std::string("meshes/") + name);
     if (text.empty()) continue;
     const MeshRead read = read_obj_mesh(text);
     ASSERT_EQ(read.problem, "") << name;

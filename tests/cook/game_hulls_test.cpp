@@ -10,6 +10,7 @@
 #include "cook.h"
 #include "read_points.h"
 #include "tests/cook/solids.h"
+#include "tests/support/data_file.h"
 #if DETENT_HAS_QHULL
 #include "tests/cook/qhull.h"
 #endif
@@ -19,19 +20,8 @@ namespace {
 using namespace detent_cook;
 using namespace detent_cook_test;
 
-/// The bytes of hulls/game_hulls.bin under $DETENT_DATA, or under the folder that the build was told of; else empty.
 const std::string& game_hulls() {
-  static const std::string bytes = [] {
-    const char* folder = getenv("DETENT_DATA");
-    const std::string path = std::string(folder != nullptr ? folder : DETENT_DATA) + "/hulls/game_hulls.bin";
-    std::string text;
-    if (FILE* file = fopen(path.c_str(), "rb")) {
-      char piece[4096];
-      for (size_t count = 1; (count = fread(piece, 1, sizeof piece, file)) > 0;) text.append(piece, count);
-      fclose(file);
-    }
-    return text;
-  }();
+  static const std::string bytes = detent_test::data_file("hulls/game_hulls.bin");
   return bytes;
 }
 

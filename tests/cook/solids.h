@@ -5,20 +5,16 @@
 #include <array>
 #include <vector>
 
+#include "tests/support/random.h"
+
 /// Clouds of points with known properties, and what the cooked bytes say of themselves.
 namespace detent_cook_test {
 
 using Cloud = std::vector<std::array<double, 3>>;
 
-/// SplitMix64.
 struct Random {
   uint64_t state;
-  uint64_t bits() {
-    uint64_t z = (state += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-  }
+  uint64_t bits() { return detent_test::split_mix(state); }
   double uniform(double from, double to) { return from + (to - from) * (static_cast<double>(bits() >> 11) * 0x1p-53); }
 };
 

@@ -25,7 +25,9 @@
 #include "world/sensors.h"
 #include "world/stage_clock.h"
 #include "world/step_cache.h"
+#include "world/step_contacts.h"
 #include "world/step_probe.h"
+#include "world/step_scratch.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -88,6 +90,10 @@ constexpr FeatureTable k_counted_features = counted_features();
 #define fly(...) DETENT_COUNTED(solve, fly, __VA_ARGS__)
 #define make_sweeps(...) DETENT_COUNTED(finalise, make_sweeps, __VA_ARGS__)
 #define finalise(...) DETENT_COUNTED(finalise, finalise, __VA_ARGS__)
+#define wake_touched counted_wake_touched
+#define collide_pairs counted_collide_pairs
 #define step counted_step
 #define step_probed counted_step_probed
+#include "world/step_contacts.cpp"
+// Which calls what stands before it.
 #include "world/step.cpp"

@@ -106,13 +106,6 @@ Position moved(const Integers& base, const Integers& offset, int shift) {
 
 }  // namespace
 
-uint64_t Random::bits() {
-  uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return z ^ (z >> 31);
-}
-
 int32_t Random::below(int32_t count) {
   return static_cast<int32_t>(((bits() >> 32) * static_cast<uint64_t>(count)) >> 32);
 }

@@ -2,17 +2,18 @@
 #include <detent/contact.h>
 #include <detent/toi.h>
 
+#include "tests/support/random.h"
+
 /// Seeded pairs of convex shapes whose every number is exact in each configuration: an integer below 2^24 times a power
 /// of two no finer than fx32's positions. Rotations are exact too, until the library brings them to length 1.
 namespace detent_lockstep {
 
 using namespace detent;
 
-/// SplitMix64.
 class Random {
  public:
   explicit Random(uint64_t seed) : state_(seed) {}
-  uint64_t bits();
+  uint64_t bits() { return detent_test::split_mix(state_); }
   /// Of [0, count).
   int32_t below(int32_t count);
   /// Of [-limit, limit].

@@ -1,4 +1,5 @@
 #include <detent/recording.h>
+#include <ports/config_text.h>
 #include <ports/machine.h>
 #include <ports/print.h>
 #include <string.h>
@@ -69,20 +70,6 @@ bool parse(int argc, char** argv, Options& options) {
     }
   }
   return options.recording != nullptr;
-}
-
-const char* config_text() {
-  switch (k_config) {
-    case Config::fx64:
-      return "fx64";
-    case Config::fx32:
-      return "fx32";
-    case Config::f32:
-      return "f32";
-    case Config::f64:
-      return "f64";
-  }
-  return "unknown";
 }
 
 void print_value(const char* name, uint64_t value) {
@@ -163,7 +150,7 @@ int replay(const Options& options, MachineFile& file) {
   if (player.open() != Status::ok) return fail(options.recording, player.error());
   const RecordingInfo& info = player.info();
   machine_print("config ");
-  machine_print(config_text());
+  machine_print(config_text(k_config));
   machine_print("\n");
   WorldDef def;
   def.capacity = info.capacity;

@@ -2,6 +2,7 @@
 #include <detent/math.h>
 #include <detent/scaled.h>
 #include <gtest/gtest.h>
+#include <ports/config_text.h>
 #include <stdint.h>
 #include <stdlib.h>
 
@@ -157,15 +158,7 @@ inline namespace DETENT_NAMESPACE {
 using detent_oracle::Big;
 using detent_oracle::Big3;
 
-#if defined(DETENT_FX64)
-inline constexpr const char* k_config_name = "fx64";
-#elif defined(DETENT_FX32)
-inline constexpr const char* k_config_name = "fx32";
-#elif defined(DETENT_F32)
-inline constexpr const char* k_config_name = "f32";
-#else
-inline constexpr const char* k_config_name = "f64";
-#endif
+inline constexpr const char* k_config_name = config_text(k_config);
 
 template <class Int, int frac>
 Big big(Fixed<Int, frac> a) {

@@ -2,6 +2,8 @@
 #include <detent/math.h>
 #include <stdint.h>
 
+#include "tests/support/random.h"
+
 /// Inputs for the number tests: a fixed sequence that mixes uniform numbers with the edges of every magnitude.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -9,13 +11,7 @@ inline namespace DETENT_NAMESPACE {
 struct Samples {
   uint64_t state;
 
-  /// SplitMix64.
-  uint64_t bits() {
-    uint64_t z = (state += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-  }
+  uint64_t bits() { return detent_test::split_mix(state); }
   uint32_t below(uint32_t count) { return static_cast<uint32_t>(((bits() >> 32) * count) >> 32); }
 
   /// Of any magnitude below 2^length_max; one in four is a power of two or its neighbour.

@@ -2,6 +2,7 @@
 #include <stdint.h>
 
 #include "tests/oracle/convex_solid.h"
+#include "tests/support/random.h"
 
 /// Random solids and poses for the tests of the oracles.
 namespace detent_oracle {
@@ -9,13 +10,7 @@ namespace detent_oracle {
 class Dice {
  public:
   explicit Dice(uint64_t seed) : state_(seed) {}
-  /// SplitMix64.
-  uint64_t bits() {
-    uint64_t z = state_ += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-  }
+  uint64_t bits() { return detent_test::split_mix(state_); }
   double between(double low, double high) { return low + (high - low) * static_cast<double>(bits() >> 11) * 0x1p-53; }
   int below(int count) { return static_cast<int>(bits() % static_cast<uint64_t>(count)); }
   bool coin() { return (bits() >> 63) != 0; }

@@ -4,24 +4,17 @@
 #include <stdint.h>
 
 #include "tests/queries/triple.h"
+#include "tests/support/random.h"
 
 namespace detent_queries {
 
-/// splitmix64 (Steele, Lea, Flood 2014): the same numbers everywhere.
 class Random {
  public:
   explicit Random(uint64_t seed) : state_(seed) {}
   /// As long as it lasts, what two bytes of the tape say, over and over.
   Random(uint64_t seed, const uint8_t* tape, size_t count) : state_(seed), tape_(tape), tape_left_(count) {}
   size_t tape_left() const { return tape_left_; }
-  uint64_t next() {
-    if (tape_left_ != 0) return next_of_tape();
-    state_ += 0x9e3779b97f4a7c15u;
-    uint64_t z = state_;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-  }
+  uint64_t next() { return tape_left_ != 0 ? next_of_tape() : detent_test::split_mix(state_); }
   double uniform(double low, double high) { return low + (high - low) * static_cast<double>(next() >> 11) * 0x1p-53; }
   double log_uniform(double low, double high) { return low * exp(uniform(0, log(high / low))); }
   uint32_t below(uint32_t count) { return static_cast<uint32_t>(((next() >> 32) * count) >> 32); }

@@ -164,6 +164,8 @@ class DetentRun : public detent_stress::Run {
 
   uint32_t bytes() const override { return world_bytes(get_info(world_).capacity); }
 
+  World& world() { return world_; }
+
  private:
   struct Body {
     BodyId id;
@@ -237,6 +239,8 @@ std::unique_ptr<detent_stress::Run> make_run(const Stage& stage, const Settings&
 }
 
 }  // namespace
+
+World& world_of(detent_stress::Run& run) { return static_cast<DetentRun&>(run).world(); }
 
 detent_stress::Engine stress_engine() { return {DETENT_STRESS_TEXT(DETENT_NAMESPACE), make_run}; }
 

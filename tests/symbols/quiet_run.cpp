@@ -1,10 +1,12 @@
 #include <detent/recording.h>
+#include <detent/rollback_session.h>
 #include <string.h>
 
 #include "tests/scenes/scene.h"
 
 // Every kind of call, without the help of any run-time library: a match that creates and destroys bodies, recorded,
-// saved, restored and loaded as it goes, then replayed. The exit code says whether the library agreed with itself.
+// saved, restored and loaded as it goes, then replayed; and a session that goes back. The exit code says whether the
+// library agreed with itself.
 
 void forbid_allocation();  // forbidden.cpp.in
 extern "C" void* malloc(size_t byte_count);
@@ -19,6 +21,8 @@ constexpr uint32_t k_save_interval = 10;
 alignas(8) uint8_t block[1u << 17];
 alignas(8) uint8_t block_loaded[1u << 17];
 alignas(8) uint8_t snapshot[1u << 16];
+alignas(8) uint8_t memory[1u << 20];
+uint8_t delta[1u << 16];
 
 /// A recording in memory.
 struct Tape {
@@ -54,6 +58,55 @@ bool save_and_load(World& world, const WorldDef& def) {
          is_ok(load(loaded, snapshot, bytes)) && digest(loaded) == before;
 }
 
+/// The world and its own differences, copies and last ticks; nothing may change.
+bool go_back(World& world, const WorldDef& def) {
+  const uint64_t before = digest(world), tick = get_info(world).tick;
+  const uint32_t bytes = snapshot_bytes(def.capacity);
+  uint32_t delta_bytes = 0;
+  World copied;
+  SnapshotRing ring;
+  if (!is_ok(create_world(block_loaded, sizeof block_loaded, def, {}, copied)) || !is_ok(copy_world(world, copied)) ||
+      checksum32(copied) != checksum32(world) || !is_ok(save(world, snapshot, sizeof snapshot)) ||
+      !is_ok(ring.begin(memory, sizeof memory, def.capacity, 2)) || !is_ok(ring.keep(world)))
+    return false;
+  step(world);
+  const uint64_t after = digest(world);
+  if (!is_ok(save_delta(world, snapshot, bytes, delta, sizeof delta, delta_bytes)) ||
+      !is_ok(ring.restore(world, tick)) || digest(world) != before ||
+      !is_ok(restore_delta(world, snapshot, bytes, delta, delta_bytes)) || digest(world) != after ||
+      !is_ok(apply_delta(snapshot, bytes, delta, delta_bytes)))
+    return false;
+  return is_ok(ring.restore(world, tick)) && digest(world) == before;
+}
+
+void make_tick(void*, World& world, const TickInputs& inputs) {
+  const Scaled up = inputs.of(1)[0] == 0 ? Scaled(0.0) : Scaled(50.0);
+  (void)apply_impulse(world, next_body(world, {}), {Scaled(0.0), up, Scaled(0.0)});
+  step(world);
+}
+
+/// A player whose other's inputs come late and are not as predicted.
+bool play(World& world) {
+  RollbackDef def;
+  RollbackSession session;
+  if (!is_ok(session.begin(world, def, {make_tick, nullptr}, memory, sizeof memory))) return false;
+  const uint64_t start = get_info(world).tick;
+  RollbackReport report;
+  uint32_t again = 0;
+  for (uint32_t i = 0; i < 30; ++i) {
+    const uint8_t own = 0, other = i % 5 == 0 ? 1 : 0;
+    uint64_t tick = 0;
+    if (!is_ok(session.add_local_input(0, &own, tick)) || !is_ok(session.advance(world, report))) return false;
+    again += report.ticks_again;
+    if (i >= 5 && !is_ok(session.add_input(1, start + i - 5, &other))) return false;
+  }
+  const uint8_t input = 0;
+  SyncTestReport difference;
+  const SyncTestDef test = {1, &input, 1, 1};
+  const TickMaker maker = {[](void*, World& stepped, const TickInputs&) { step(stepped); }, nullptr};
+  return again != 0 && is_ok(sync_test(world, test, maker, memory, sizeof memory, difference));
+}
+
 bool record(const Scene& scene) {
   const WorldDef def = scene.world();
   World world;
@@ -65,9 +118,9 @@ bool record(const Scene& scene) {
   for (uint32_t tick = 0; tick < k_ticks; ++tick) {
     if (scene.before_tick != nullptr) scene.before_tick(recorder, tick);
     if (!recorder.step().complete()) return false;
-    if (tick % k_save_interval == 0 && !save_and_load(world, def)) return false;
+    if (tick % k_save_interval == 0 && (!save_and_load(world, def) || !go_back(world, def))) return false;
   }
-  return is_ok(recorder.end());
+  return is_ok(recorder.end()) && play(world);
 }
 
 bool replay() {

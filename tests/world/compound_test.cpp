@@ -422,17 +422,8 @@ DETENT_TEST(compounds, are_saved_restored_and_loaded) {
   lab.add_compound(0, 0.5, 0);
   lab.add_compound(0.3, 1.8, 0.2);
   lab.run(40);
-  std::vector<uint64_t> saved = lab.snapshot();
-  lab.run(60);
-  const uint64_t expected = digest(lab.world);
-  std::vector<uint64_t> copy = saved;
   CompoundLab other(parts, {}, true);
-  ASSERT_OK(load(other.world, bytes_of(copy), byte_count(copy)));
-  other.run(60);
-  EXPECT_EQ(digest(other.world), expected);
-  ASSERT_OK(restore(lab.world, bytes_of(saved), byte_count(saved)));
-  lab.run(60);
-  EXPECT_EQ(digest(lab.world), expected);
+  std::vector<uint64_t> saved = expect_one_way_on(lab, other);
   CompoundLab stranger(detent_compounds::letter_l(), {}, true);
   EXPECT_EQ(load(stranger.world, bytes_of(saved), byte_count(saved)), Status::asset_mismatch);
 }

@@ -96,6 +96,21 @@ class Lab {
 inline uint8_t* bytes_of(std::vector<uint64_t>& words) { return reinterpret_cast<uint8_t*>(words.data()); }
 inline uint32_t byte_count(const std::vector<uint64_t>& words) { return static_cast<uint32_t>(words.size() * 8); }
 
+/// The world takes the same way wherever it goes on: here, loaded into `other`, restored here. Returns the snapshot.
+inline std::vector<uint64_t> expect_one_way_on(Lab& lab, Lab& other) {
+  constexpr uint32_t k_ticks = 60;
+  std::vector<uint64_t> saved = lab.snapshot(), copy = saved;
+  lab.run(k_ticks);
+  const uint64_t expected = digest(lab.world);
+  EXPECT_OK(load(other.world, bytes_of(copy), byte_count(copy)));
+  other.run(k_ticks);
+  EXPECT_EQ(digest(other.world), expected);
+  EXPECT_OK(restore(lab.world, bytes_of(saved), byte_count(saved)));
+  lab.run(k_ticks);
+  EXPECT_EQ(digest(lab.world), expected);
+  return saved;
+}
+
 /// Four boxes stacked on the ground, touching, and a ball beside them, after a few ticks.
 inline Lab make_pile() {
   Lab lab({7, 15, 1});  // odd, so that arrays are followed by fill

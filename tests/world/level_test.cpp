@@ -24,6 +24,38 @@ double deepest_contact(const World& world) {
   return deepest;
 }
 
+/// A world with a level.
+struct LevelWorld {
+  explicit LevelWorld(const Source& source, const WorldDef& def = {})
+      : bytes(detent_surfaces::cooked(source)), asset{bytes.data(), bytes.count()} {
+    EXPECT_OK(storage.create(def, world, {&asset, 1}));
+    EXPECT_OK(bind_asset(world, 0));
+    BodyDef ground;
+    ground.type = BodyType::fixed;
+    ground.shape = surface(0);
+    BodyId id;
+    EXPECT_OK(create_body(world, ground, id));
+    level = surface_view(asset.bytes);
+    size = level.exponent() > 8 ? 50 : 0.5;
+  }
+  LevelWorld(const LevelWorld&) = delete;
+  LevelWorld& operator=(const LevelWorld&) = delete;
+
+  SurfaceTriangle any_triangle(detent_queries::Random& random) const {
+    return level.triangle(random.below(level.mesh.triangle_count));
+  }
+  double middle(const SurfaceTriangle& t, int32_t Vec32::*c) const {
+    return ldexp(1.0, level.exponent() - 30) * (t.corner[0].*c / 3.0 + t.corner[1].*c / 3.0 + t.corner[2].*c / 3.0);
+  }
+
+  const detent_surfaces::Bytes bytes;
+  const Asset asset;
+  WorldStorage<Capacity{2, 8, 1}> storage;
+  World world;
+  Surface level;
+  double size = 0;  ///< of what is put into it, twice, m
+};
+
 /// Real levels, shot at from beside their triangles: no centre ever comes to lie behind what it was before.
 DETENT_TEST(levels, are_stood_rolled_and_shot_at) {
   uint32_t levels = 0, hit = 0;
@@ -33,29 +65,17 @@ DETENT_TEST(levels, are_stood_rolled_and_shot_at) {
     ++levels;
     WorldDef def;
     def.tick = real_near(1.0 / 240);
-    def.capacity = {2, 8, 1};
-    const detent_surfaces::Bytes bytes = detent_surfaces::cooked(source);
-    const Asset asset = {bytes.data(), bytes.count()};
-    World world;
-    WorldStorage<Capacity{2, 8, 1}> storage;
-    ASSERT_OK(storage.create(def, world, {&asset, 1}));
-    ASSERT_OK(bind_asset(world, 0));
-    BodyDef ground;
-    ground.type = BodyType::fixed;
-    ground.shape = surface(0);
+    LevelWorld level(source, def);
+    World& world = level.world;
+    const double size = level.size;
     BodyId id;
-    ASSERT_OK(create_body(world, ground, id));
-    const Surface level = surface_view(asset.bytes);
-    const double size = level.exponent() > 8 ? 50 : 0.5, grid = ldexp(1.0, level.exponent() - 30);
     detent_queries::Random random(5);
     for (uint32_t n = 0; n < detent_oracle::rounds(40); ++n) {
-      const SurfaceTriangle t = level.triangle(random.below(level.mesh.triangle_count));
+      const SurfaceTriangle t = level.any_triangle(random);
       const Vec32 normal = normal_of(t.corner[0], t.corner[1], t.corner[2]);
       const double side = random.sign(), away = random.uniform(1, 3) * size, speed = random.uniform(0, 200) * size;
       const double n_x = side * normal.x / 0x1p30, n_y = side * normal.y / 0x1p30, n_z = side * normal.z / 0x1p30;
-      const auto at = [&](int32_t Vec32::*c, double along) {
-        return grid * (t.corner[0].*c / 3.0 + t.corner[1].*c / 3.0 + t.corner[2].*c / 3.0) + along * away;
-      };
+      const auto at = [&](int32_t Vec32::*c, double along) { return level.middle(t, c) + along * away; };
       BodyDef body;
       body.shape = n % 3 == 0   ? sphere(real_near(0.4 * size))
                    : n % 3 == 1 ? box(reals_near(Vector{{0.4 * size, 0.25 * size, 0.3 * size}}))
@@ -77,7 +97,7 @@ DETENT_TEST(levels, are_stood_rolled_and_shot_at) {
         const auto way = [](Coord from, Coord to) { return real_near(coord_to_host(to) - coord_to_host(from)); };
         const Position &p = before.position, &q = now.position, &o = origin.position;
         SurfaceHit found;
-        ASSERT_OK(cast_ray_on_surface(level, origin, {way(o.x, p.x), way(o.y, p.y), way(o.z, p.z)},
+        ASSERT_OK(cast_ray_on_surface(level.level, origin, {way(o.x, p.x), way(o.y, p.y), way(o.z, p.z)},
                                       {way(p.x, q.x), way(p.y, q.y), way(p.z, q.z)}, found));
         EXPECT_FALSE(found.hit) << name << ", body " << n << ", tick " << tick;
         if (found.hit) break;
@@ -97,19 +117,9 @@ DETENT_TEST(levels, are_walked_through) {
     Source source;
     if (!detent_surfaces::read_level(name, source)) continue;
     ++levels;
-    const detent_surfaces::Bytes bytes = detent_surfaces::cooked(source);
-    const Asset asset = {bytes.data(), bytes.count()};
-    World world;
-    WorldStorage<Capacity{1, 1, 1}> storage;
-    ASSERT_OK(storage.create({}, world, {&asset, 1}));
-    ASSERT_OK(bind_asset(world, 0));
-    BodyDef ground;
-    ground.type = BodyType::fixed;
-    ground.shape = surface(0);
-    BodyId id;
-    ASSERT_OK(create_body(world, ground, id));
-    const Surface level = surface_view(asset.bytes);
-    const double size = level.exponent() > 8 ? 50 : 0.5, grid = ldexp(1.0, level.exponent() - 30);
+    LevelWorld level(source);
+    World& world = level.world;
+    const double size = level.size;
     MoverSettings settings;
     settings.radius = real_near(0.3 * size);
     settings.half_length = real_near(0.6 * size);
@@ -117,12 +127,10 @@ DETENT_TEST(levels, are_walked_through) {
     settings.step_height = settings.snap = real_near(0.35 * size);
     detent_queries::Random random(7);
     for (uint32_t n = 0; n < detent_oracle::rounds(16); ++n) {
-      const SurfaceTriangle t = level.triangle(random.below(level.mesh.triangle_count));
-      const auto middle = [&](int32_t Vec32::*c) {
-        return grid * (t.corner[0].*c / 3.0 + t.corner[1].*c / 3.0 + t.corner[2].*c / 3.0);
-      };
+      const SurfaceTriangle t = level.any_triangle(random);
       Mover mover;
-      mover.position = position_near(Vector{{middle(&Vec32::x), middle(&Vec32::y) + 1.2 * size, middle(&Vec32::z)}});
+      mover.position = position_near(
+          Vector{{level.middle(t, &Vec32::x), level.middle(t, &Vec32::y) + 1.2 * size, level.middle(t, &Vec32::z)}});
       double fall = 0, x = 0, z = 0;
       for (int tick = 0; tick < 120; ++tick) {
         if (tick % 15 == 0) {

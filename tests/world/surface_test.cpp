@@ -202,17 +202,8 @@ DETENT_TEST(surfaces, are_saved_restored_and_loaded) {
   lab.add_shape(box(reals(0.5, 0.25, 0.4)), 0.2, 1, 0.1);
   lab.add_shape(sphere(real(0.4)), -0.3, 2, 0.1);
   lab.run(40);
-  std::vector<uint64_t> saved = lab.snapshot();
-  lab.run(60);
-  const uint64_t expected = digest(lab.world);
-  std::vector<uint64_t> copy = saved;
   SurfaceLab other(bytes, {}, true);
-  ASSERT_OK(load(other.world, bytes_of(copy), byte_count(copy)));
-  other.run(60);
-  EXPECT_EQ(digest(other.world), expected);
-  ASSERT_OK(restore(lab.world, bytes_of(saved), byte_count(saved)));
-  lab.run(60);
-  EXPECT_EQ(digest(lab.world), expected);
+  std::vector<uint64_t> saved = expect_one_way_on(lab, other);
   SurfaceLab flat_lab(detent_surfaces::cooked(detent_surfaces::plane(8, 1)), {}, true);
   EXPECT_EQ(load(flat_lab.world, bytes_of(saved), byte_count(saved)), Status::asset_mismatch);
 }

@@ -146,13 +146,11 @@ struct Island {
   uint32_t substeps;
   uint32_t first_joint, joint_count;  ///< of the order of the joints
   uint32_t loop_count;                ///< of them, the last ones: those that close loops
-  uint32_t substeps_before;             ///< of the last tick, 0: none
   Scaled joint_need;                  ///< squared substeps that its joints ask for
 };
 
-/// A body that joints hold, while joints are solved. Its *unit* is a power of two that holds its joints' arms; spins
-/// and momenta are those of that unit (spin.h). What does not move for the solver takes no part but by its motion.
-struct alignas(8) JointBody {
+/// A body that joints hold, while joints are solved: what a tick starts with.
+struct alignas(8) JointBodyStart {
   uint32_t slot;
   uint32_t mobile;                       ///< 1 if it is dynamic and awake
   uint32_t first, last;                  ///< of its joints, as 2 x joint + end; UINT32_MAX: none
@@ -164,18 +162,22 @@ struct alignas(8) JointBody {
   uint32_t by_anchor;                    ///< 1 if no more than two points do: joint_anchor.h
   alignas(sizeof(Real)) Scaled share;    ///< reference mass / mass; 0 if it takes no part
   Scaled turn_share;                     ///< what a torque gives the momentum (joint_sway.cpp)
-  Quat rotation;                         ///< now
-  Matrix3 axes;                          ///< likewise
-  Vec3<Real> place;                      ///< of its centre, from where it was at the start of the tick, m
-  Vec3<Real> velocity, spin;             ///< as the joints eliminated so far leave them, m/s
-  Vec3<Real> anchor_velocity;            ///< likewise, by anchor: of its owner's anchor
-  Real pushed;                           ///< velocity by a unit force
-  Vec3<Real> turned[3];                  ///< spin by a torque: the rows of a symmetric matrix
   Real stiffness;                        ///< against turning, of the pulls of its joints (joint_sway.cpp)
-  Real response[6][6];                   ///< of velocity and spin to a force and a torque on it; symmetric. By anchor:
-                                         ///< the lower 3 x 3 is that of the owner's anchor
   Vec3<Real> force, torque;              ///< what joints above or eliminated later give it
   Vec3<Real> given_force, given_torque;  ///< what acts without a row: motors at their limit
+};
+/// And what each substep makes anew. Its *unit* is a power of two that holds its joints' arms; spins and momenta are
+/// those of that unit (spin.h). What does not move for the solver takes no part but by its motion.
+struct alignas(8) JointBody : JointBodyStart {
+  Quat rotation;               ///< now
+  Matrix3 axes;                ///< likewise
+  Vec3<Real> place;            ///< of its centre, from where it was at the start of the tick, m
+  Vec3<Real> velocity, spin;   ///< as the joints eliminated so far leave them, m/s
+  Vec3<Real> anchor_velocity;  ///< likewise, by anchor: of its owner's anchor
+  Real pushed;                 ///< velocity by a unit force
+  Vec3<Real> turned[3];        ///< spin by a torque: the rows of a symmetric matrix
+  Real response[6][6];         ///< of velocity and spin to a force and a torque on it; symmetric. By anchor:
+                               ///< the lower 3 x 3 is that of the owner's anchor
 };
 
 /// What one row of a joint holds: the motion along `axis`, or about it if it is `angular`.
@@ -187,24 +189,37 @@ struct JointRow {
 /// How a free motion of a joint is driven in a substep.
 enum class DriveMode : uint8_t { idle, held, lower, upper, rigid, spring, constant };
 
-struct alignas(8) JointWork {
-  uint32_t joint;                  ///< slot
-  uint32_t body[2];                ///< places of A and B
-  uint32_t next[2];                ///< of the joints of A, of B: 2 x joint + end
-  uint32_t parent;                 ///< the end that is solved last
-  uint32_t placed;                 ///< 1 once it is in the order
-  uint32_t rows_held;              ///< always
-  uint32_t rows;                   ///< and driven, in this substep
-  uint32_t points;                 ///< 1 if the first three rows hold the anchors together
-  uint32_t width;                  ///< of `reply`: 6, or by anchor 3: at the owner's, 0: there is no other
-  uint32_t driven[2];              ///< the row of each free motion that is driven now, or k_joint_rows_max
-  alignas(4) DriveMode mode[2];    ///< of each free motion
-  Vec3<Unit> anchor[2];            ///< in the bodies' axes and units
-  Vec3<Unit> arm[2];               ///< likewise, now, in world axes
-  int32_t exponent;                ///< 2^exponent m: how far angular rows reach
-  JointRow row[k_joint_rows_max];  ///< those beyond the points
+/// A joint at work: what a tick starts with.
+struct alignas(8) JointWorkStart {
+  uint32_t joint;                              ///< slot
+  uint32_t body[2];                            ///< places of A and B
+  uint32_t next[2];                            ///< of the joints of A, of B: 2 x joint + end
+  uint32_t parent;                             ///< the end that is solved last
+  uint32_t placed;                             ///< 1 once it is in the order
+  uint32_t rows_held;                          ///< always
+  uint32_t rows;                               ///< and driven, in this substep
+  uint32_t points;                             ///< 1 if the first three rows hold the anchors together
+  uint32_t width;                              ///< of `reply`: 6, or by anchor 3: at the owner's, 0: there is no other
+  uint32_t driven[2];                          ///< the row of each free motion that is driven now, or k_joint_rows_max
+  alignas(4) DriveMode mode[2];                ///< of each free motion
+  int32_t exponent;                            ///< 2^exponent m: how far angular rows reach
+  alignas(sizeof(Real)) Vec3<Unit> anchor[2];  ///< in the bodies' axes and units
+  Vec3<Unit> arm[2];                           ///< likewise, now, in world axes
+  JointRow free_row[2];                        ///< of the free motions
+  Real least[2];                               ///< what of a linear and an angular row's response counts
+  Real value[2];                               ///< of the free motions, m (angles: times 2^exponent)
+  Vec3<Real> between;                          ///< from A's centre to B's at the start of the tick, m
+  Real bound[2];                               ///< largest impulse of a motor or spring, m/s
+  Real constant[2];                            ///< that is to act instead of a row, m/s
+  Real driven_total[2];                        ///< of the rows of the free motions, in this substep
+  Real given[2];                               ///< and without rows
+  Real shown[2];                               ///< what of a free motion's speed its row shows
+  Vec3<Real> force_sum, torque_sum;            ///< of the tick, m/s, torques over 2^exponent m
+};
+/// And what each substep makes anew.
+struct alignas(8) JointWork : JointWorkStart {
+  JointRow row[k_joint_rows_max];                          ///< those beyond the points
   alignas(sizeof(Real)) Scaled inverse[k_joint_rows_max];  ///< of the pivots
-  Real least[2];                                           ///< what of a linear and an angular row's response counts
   Real softness[k_joint_rows_max];                         ///< what a spring adds to a row's response
   Real wanted[k_joint_rows_max];                           ///< speed of each row, m/s
   Real lower[k_joint_rows_max][k_joint_rows_max];          ///< L of L D L^T
@@ -213,15 +228,6 @@ struct alignas(8) JointWork {
   Real start[k_joint_rows_max];                            ///< the impulses, but for what comes from above, before L^-T
   Real impulse[k_joint_rows_max];                          ///< of this solve
   Real total[k_joint_rows_max];                            ///< of the rows always held, in this substep
-  Real value[2];                                           ///< of the free motions, m (angles: times 2^exponent)
-  Vec3<Real> between;                                      ///< from A's centre to B's at the start of the tick, m
-  Real bound[2];                                           ///< largest impulse of a motor or spring, m/s
-  Real constant[2];                                        ///< that is to act instead of a row, m/s
-  Real driven_total[2];                                    ///< of the rows of the free motions, in this substep
-  Real given[2];                                           ///< and without rows
-  Real shown[2];                                           ///< what of a free motion's speed its row shows
-  JointRow free_row[2];                                    ///< of the free motions
-  Vec3<Real> force_sum, torque_sum;                        ///< of the tick, m/s, torques over 2^exponent m
 };
 
 /// The motion of a body for the rest of the tick, from its pose at `from`: constant velocity and constant world spin.

@@ -169,7 +169,7 @@ struct alignas(8) JointState {
   Scaled break_torque;
   Vec3<Scaled> force;              ///< on B in the last tick, N, world
   Vec3<Scaled> torque;             ///< N m
-  Real impulse[k_joint_rows_max];  ///< of its rows in the last substep, over the reference mass, m/s
+  Real impulse[k_joint_rows_max];  ///< of its rows in the last substep, over the reference mass, m/s (joint.h)
 };
 
 /// What a bound asset's bytes are. Stored: a value is never reused.

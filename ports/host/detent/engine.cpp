@@ -6,6 +6,7 @@
 #include <new>
 
 #include "file.h"
+#include "ports/config_text.h"
 #include "tests/scenes/scene.h"
 #include "text.h"
 
@@ -39,20 +40,6 @@ struct OwnedWorld {
     return create_world(reinterpret_cast<uint8_t*>(block.get()), bytes, def, assets, world);
   }
 };
-
-const char* config_text(Config config) {
-  switch (config) {
-    case Config::fx64:
-      return "fx64";
-    case Config::fx32:
-      return "fx32";
-    case Config::f32:
-      return "f32";
-    case Config::f64:
-      return "f64";
-  }
-  return "unknown";
-}
 
 Outcome failed(const std::string& problem) {
   Outcome outcome;

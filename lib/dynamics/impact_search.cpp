@@ -1,0 +1,257 @@
+#include "collision/pair_filter.h"
+#include "dynamics/impact_stage.h"
+#include "geometry/bounds.h"
+#include "math/root.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+/// Of a pair that touches after an impact: until it is looked at again, twice as long each time.
+constexpr int k_look_power = -10;
+constexpr uint32_t k_looks_max = 16;
+
+/// The contacts of a pair from the first one on.
+Span<const ContactWork> pair_contacts(Span<const ContactWork> from, uint64_t key) {
+  uint32_t count = 0;
+  while (count < from.count && key_of(from[count].state) == key) ++count;
+  return from.first(count);
+}
+
+/// The contacts of a pair.
+Span<const ContactWork> find_contacts(Span<const ContactWork> contacts, uint64_t key) {
+  uint32_t low = 0, high = contacts.count;
+  while (low < high) {
+    const uint32_t middle = low + (high - low) / 2;
+    if (key_of(contacts[middle].state) < key)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return pair_contacts({contacts.data + low, contacts.count - low}, key);
+}
+
+bool jointed(const ImpactStage& stage, uint32_t slot) { return stage.bodies.sweeps[slot].marks >= k_mark_jointed; }
+bool is_ball(const ImpactStage& stage, uint32_t slot) {
+  return shape_of(stage.bodies.traits[slot]) == ShapeType::sphere;
+}
+
+/// False for pairs that filters or joints keep apart, and for those of one tree of joints; and where joints hold one,
+/// for half-spaces, which contacts alone keep anything from passing: a body that stops alone tears at its joints.
+bool may_meet(const ImpactStage& stage, uint32_t a, uint32_t b) {
+  if (!PairFilter{stage.bodies.traits, stage.bodies.filter_rules, stage.known.apart}.allows(a, b)) return false;
+  if (!jointed(stage, a) && !jointed(stage, b)) return true;
+  if (is_half_space(stage.bodies.traits[a]) || is_half_space(stage.bodies.traits[b])) return false;
+  return stage.bodies.sweeps[a].marks / k_mark_jointed != stage.bodies.sweeps[b].marks / k_mark_jointed;
+}
+
+/// Makes candidates of all bodies whose bounds overlap those of `slot`.
+__attribute__((noinline)) void find_near(const ImpactStage& stage, uint32_t slot) {
+  const Bounds& box = stage.bodies.bounds[slot];
+  stage.bodies.resting.for_each_near(box, [&](uint32_t other) { stage.bodies.candidates.set(other); });
+  stage.bodies.visits.for_each([&](uint32_t other) {
+    if (overlap(box, stage.bodies.bounds[other])) stage.bodies.candidates.set(other);
+  });
+}
+
+/// Visits all other bodies that may touch `slot` and whose bounds overlap its, in the order of their slots.
+template <class Visit>
+void for_each_near(const ImpactStage& stage, uint32_t slot, const Visit& visit) {
+  find_near(stage, slot);
+  stage.bodies.candidates.for_each([&](uint32_t other) {
+    stage.bodies.candidates.clear(other);
+    // What went before may have stopped either.
+    if (other != slot && overlap(stage.bodies.bounds[slot], stage.bodies.bounds[other]) && may_meet(stage, slot, other))
+      visit(other);
+  });
+}
+
+ImpactPair* find_met(const ImpactStage& stage, uint64_t key) {
+  for (uint32_t i = 0; i < stage.met_count; ++i) {
+    if (stage.met[i].key == key) return &stage.met[i];
+  }
+  return nullptr;
+}
+
+/// True if the point of an impact that is found at once isn't about to come closer.
+bool parts(const SweptBody& a, const SweptBody& b, const TimeOfImpact& impact) {
+  const BodyPose pose_a = pose_at(a, impact.time), pose_b = pose_at(b, impact.time);
+  const Vec3<Real> offset = offset_of(pose_a, pose_b);
+  const Vec3<Real> way = b.sweep.displacement - a.sweep.displacement;
+  const Vec3<Real> arm_b = impact.point - offset;
+  const Real swing_a = dot(cross(impact.point, impact.normal), a.sweep.turn);
+  const Real swing_b = dot(cross(arm_b, impact.normal), b.sweep.turn);
+  // What is slower does not come through the next rung in this tick.
+  const Real slow = scale_by_power(min(shape_extent(a.traits), shape_extent(b.traits)), -12);
+  return dot(way, impact.normal) + (swing_b - swing_a) >= -slow;
+}
+
+Real free_inset(const ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts, Real& apart) {
+  const Real extent = stage.extent_of(key);
+  if (contacts.count == 0) {
+    apart = stage.known.complete ? scale_by_power(extent, -6) : k_zero;
+    return k_zero;
+  }
+  Real least = contacts[0].separation[0];
+  bool rebounds = false;
+  for (const ContactWork& contact : contacts) {
+    for (uint32_t i = 0; i < contact.state.point_count; ++i) least = min(least, contact.separation[i]);
+    rebounds = rebounds || is_positive(contact.restitution);
+  }
+  if (least > scale_by_power(extent, -10)) {
+    apart = scale_by_power(least, -1);
+    // A ball that the solver has let bounce touches when the tick ends: within a query's tolerance that would be an
+    // impact. Of other shapes another place may come first.
+    const bool bounces = is_ball(stage, pair_low(key)) || is_ball(stage, pair_high(key));
+    return bounces && rebounds && stage.is_pushed(key) ? next_inset(extent, k_zero) : k_zero;
+  }
+  const Real inset = contact_inset(extent, -least);
+  apart = least + inset;  // but one of the two insets: the points of a contact need not show all of its depth
+  return inset;
+}
+
+/// On which rung of the ladder a pair with these contacts, or none, starts, and by how much at least its inset bodies
+/// are apart, m. Where joints hold one it is so far in that it meets only what it would have passed.
+Real first_inset(const ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts, Real& apart) {
+  const Real inset = free_inset(stage, key, contacts, apart);
+  if (!jointed(stage, pair_low(key)) && !jointed(stage, pair_high(key))) return inset;
+  const Real held = max(inset, scale_by_power(stage.extent_of(key), -2) + scale_by_power(stage.extent_of(key), -3));
+  apart += held - inset;
+  return held;
+}
+
+/// The pair's entry, made if there is none; null if there is no room.
+ImpactPair* entry_of(ImpactStage& stage, uint64_t key, ImpactPair* entry) {
+  if (entry != nullptr) return entry;
+  if (stage.met_count == stage.met.count) return nullptr;
+  entry = &stage.met[stage.met_count++];
+  *entry = {};
+  entry->key = key;
+  return entry;
+}
+
+/// When to look again at a pair that was `looks` times found touching; 1 for never.
+Fraction look_after(Fraction time, uint32_t looks) {
+  if (looks == 0 || looks > k_looks_max) return k_whole_step;
+  const uint32_t power = looks < 10 ? looks - 1 : 9;
+  const int64_t after = (int64_t{1} << (Fraction::k_frac + k_look_power)) << power;
+  return after < k_whole_step.raw - time.raw ? Fraction::from_raw(time.raw + after) : k_whole_step;
+}
+
+/// Tests a pair from the start of the tick, unless it is sure to be clear.
+void test_at_start(ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts) {
+  const uint32_t low = pair_low(key), high = pair_high(key);
+  if (!stage.dynamic(low) && !stage.dynamic(high)) return;
+  if (is_at_rest(stage.bodies.sweeps[low]) && is_at_rest(stage.bodies.sweeps[high])) return;
+  if (!overlap(stage.bodies.bounds[low], stage.bodies.bounds[high]) || !may_meet(stage, low, high)) return;
+  Real apart = k_zero, closing = k_zero;
+  const Real inset = first_inset(stage, key, contacts, apart);
+  const Fraction start = 0.0;
+  // The sum of both motions is cheap, and mostly enough.
+  const bool slow = stage.bodies.sweeps[low].reach + stage.bodies.sweeps[high].reach < apart;
+  if (stage.filters &&
+      (slow || (closing_bound(stage.body(low), stage.body(high), start, closing) && closing < apart))) {
+    ++stage.report.skipped;
+    return;
+  }
+  stage.test(key, start, inset, nullptr);
+}
+
+/// Tests the new sweep of a body against all others.
+void test_changed(ImpactStage& stage, uint32_t slot, Fraction time) {
+  stage.bodies.sweeps[slot].marks &= ~k_mark_changed;
+  --stage.changed_count;
+  for_each_near(stage, slot, [&](uint32_t other) {
+    if (is_at_rest(stage.bodies.sweeps[slot]) && is_at_rest(stage.bodies.sweeps[other])) return;
+    const uint64_t key = key_of_pair(slot, other);
+    ImpactPair* entry = find_met(stage, key);
+    Real apart = k_zero;
+    stage.test(key, time, first_inset(stage, key, find_contacts(stage.known.contacts, key), apart), entry);
+  });
+}
+
+}  // namespace
+
+bool ImpactStage::is_pushed(uint64_t key) const {
+  bool pushed = false;
+  for (const ContactWork& contact : find_contacts(known.contacts, key)) {
+    for (uint32_t i = 0; i < contact.state.point_count; ++i) pushed = pushed || contact.impulse_max[i] > k_zero;
+  }
+  return pushed;
+}
+
+void ImpactStage::test(uint64_t key, Fraction time, Real inset, ImpactPair* entry) {
+  const SweptBody a = body(pair_low(key)), b = body(pair_high(key));
+  const bool resolved = entry != nullptr && entry->impacts != 0 && entry->last == time;
+  const Real first = inset, extent = extent_of(key);
+  TimeOfImpact impact;
+  if (entry != nullptr) entry->next = k_next_none;
+  for (;; inset = next_inset(extent, inset)) {
+    if (inset > last_inset(extent)) {
+      ++report.overlaps_left;
+      // What is this deep since it met within the tick, and does not part, would go through.
+      if (!resolved || (is_direction(impact.normal) && parts(a, b, impact))) return;
+      stop(pair_low(key), time);
+      stop(pair_high(key), time);
+      return;
+    }
+    ++report.tests;
+    if (!pair_impact(assets, features, a, b, time, inset, impact)) {
+      ++report.undecided;
+      return;
+    }
+    if (impact.outcome == ToiOutcome::clear || impact.time > time) break;
+    if (impact.outcome == ToiOutcome::undecided && !resolved) break;
+    // They touch now. Cores that overlap have no normal.
+    if (!resolved && is_direction(impact.normal) && !parts(a, b, impact)) break;
+  }
+  const Fraction look = look_after(time, inset == first ? 0 : 1 + (entry == nullptr ? 0 : entry->looks));
+  const bool meets = impact.outcome != ToiOutcome::clear, looks = look < k_whole_step && first == k_zero;
+  if (!meets && !looks) return;
+  entry = entry_of(*this, key, entry);
+  if (entry == nullptr) {
+    if (!meets) return;
+    ++report.pairs_dropped;
+    stop(pair_low(key), time);
+    stop(pair_high(key), time);
+    return;
+  }
+  if (looks && (!meets || look < impact.time)) {
+    ++entry->looks;
+    entry->next = k_next_look;
+    entry->time = look;
+    return;
+  }
+  entry->next = impact.outcome == ToiOutcome::undecided ? k_next_undecided : k_next_impact;
+  entry->time = impact.time;
+  entry->normal = impact.normal;
+  entry->point = impact.point;
+}
+
+void ImpactStage::find_first() {
+  Span<const ContactWork> rest = known.contacts;
+  const auto go_on = [&rest](uint32_t count) { rest = {rest.data + count, rest.count - count}; };
+  for (const uint64_t key : known.pairs) {
+    while (rest.count != 0 && key_of(rest[0].state) < key) go_on(1);
+    test_at_start(*this, key, pair_contacts(rest, key));
+  }
+  bodies.visits.for_each([&](uint32_t a) {
+    if ((bodies.sweeps[a].marks & k_mark_strayed) == 0) return;
+    for_each_near(*this, a, [&](uint32_t b) {
+      if (b < a && (bodies.sweeps[b].marks & k_mark_strayed) != 0) return;
+      const uint64_t key = key_of_pair(a, b);
+      if (!has_pair(known.pairs, key)) test_at_start(*this, key, find_contacts(known.contacts, key));
+    });
+  });
+}
+
+void ImpactStage::test_all_changed(Fraction time) {
+  while (changed_count != 0) {
+    bodies.visits.for_each([&](uint32_t slot) {
+      if ((bodies.sweeps[slot].marks & k_mark_changed) != 0) test_changed(*this, slot, time);
+    });
+  }
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,72 @@
+#pragma once
+#include "collision/broadphase.h"
+#include "collision/losses.h"
+#include "dynamics/activity.h"
+#include "dynamics/contact_rows.h"
+#include "dynamics/predict.h"
+#include "geometry/shape_traits.h"
+#include "world/step_cache.h"
+
+/// The narrow phase of a step: who of those that sleep is touched, and the contacts of all pairs.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// The bodies of a step, as the stages before the solve read them.
+struct StepBodies {
+  Span<const BodyPose> poses;
+  Span<const BodyTraits> traits;
+  Span<const BodyMotion> motions;
+  Span<BodyActivity> activities;
+  Span<BodyWork> work;
+  BitSet visits;  ///< of those that move
+  AssetTable assets;
+  const FeatureTable& features;
+
+  RowBody at(uint32_t slot) const {
+    const BodyWork& now = work[slot];
+    return {traits[slot], poses[slot], motions[slot], now.gyration, now.spin, now.extent, now.fall};
+  }
+  CollisionBody collider(uint32_t slot) const { return {poses[slot], traits[slot], work[slot].axes}; }
+  void start(const StepSettings& settings, uint32_t slot) const {
+    start_body(settings, traits[slot], poses[slot], motions[slot], work[slot]);
+  }
+  bool awake(uint32_t slot) const { return is_awake(traits[slot], activities[slot]); }
+  bool moving(uint32_t slot) const { return is_moving(traits[slot], motions[slot], activities[slot]); }
+  bool asleep(uint32_t slot) const { return activities[slot].asleep != 0; }
+  bool has_parts(uint32_t slot_a, uint32_t slot_b) const { return detent::has_parts(traits[slot_a], traits[slot_b]); }
+};
+
+/// Wakes whoever is touched by a body that moves, and whoever they touch: they leave the tree, and their pairs are
+/// found. Returns how many woke.
+uint32_t wake_touched(const StepSettings& settings, const StepBodies& bodies, const StepCacheView& cache,
+                      PairPool& pool);
+
+struct ContactCount {
+  uint32_t contacts = 0;
+  uint32_t points = 0;
+  uint32_t dropped = 0;
+  uint32_t parts_dropped = 0;  ///< shallower than those that their pairs keep
+  uint32_t capped = 0;
+  uint32_t reused = 0;
+};
+
+/// The contacts of the last tick.
+struct LastContacts {
+  Span<const ContactState> contacts;    ///< sorted by pair and part
+  Span<const ManifoldState> manifolds;  ///< of them, or none
+  Span<const uint32_t> awake;           ///< those that may go on
+};
+
+/// Room for the contacts of a tick.
+struct ContactRoom {
+  Span<ContactWork> contacts;
+  Span<ManifoldState> manifolds;  ///< as many places, or none
+};
+
+/// Collides pairs in ascending order and makes the rows of those that touch, sorted by pair and part. Of more than
+/// there is room for the shallowest are left out.
+ContactCount collide_pairs(const StepSettings& settings, const StepBodies& bodies, const LastContacts& last,
+                           const ContactRoom& room, Losses& losses, Span<const uint64_t> pairs);
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent
