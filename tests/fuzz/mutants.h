@@ -17,7 +17,7 @@ inline void expect_harmless(const Target& target, uint32_t count) {
   uint32_t let_in = 0;
   for (uint32_t i = 0; i < rounds; ++i) {
     const Bytes& seed = seeds[random.below(static_cast<uint32_t>(seeds.size()))];
-    let_in += target.take(detent_support::mutated(seed, random)) ? 1u : 0u;
+    let_in += target.take(detent_test::mutated(seed, random)) ? 1u : 0u;
     if (testing::Test::HasFailure()) {
       ADD_FAILURE() << "mutant " << i;
       return;

@@ -4,7 +4,7 @@
 /// What reads bytes from outside, each as a function that any bytes may be given to.
 namespace detent_fuzz {
 
-using detent_support::Bytes;
+using detent_test::Bytes;
 
 /// The first byte says what is mended before the bytes are read: fuzzers do not find checksums.
 struct Target {

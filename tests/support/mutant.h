@@ -6,7 +6,7 @@
 
 #include "tests/queries/random.h"
 
-namespace detent_support {
+namespace detent_test {
 
 using Bytes = std::vector<uint8_t>;
 
@@ -71,4 +71,4 @@ inline Bytes mutated(Bytes bytes, detent_queries::Random& random) {
   return bytes;
 }
 
-}  // namespace detent_support
+}  // namespace detent_test
