@@ -1,5 +1,12 @@
 # Compile options of everything in the project, and the function that declares a floor of the library.
 
+if(DETENT_FUZZ)
+  if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+    message(FATAL_ERROR "detent: DETENT_FUZZ needs clang and its libFuzzer")
+  endif()
+  set(DETENT_SANITIZE ON)
+  add_compile_options(-fsanitize=fuzzer-no-link)
+endif()
 if(DETENT_SANITIZE)
   add_compile_options(-fsanitize=address,undefined,float-cast-overflow -fno-sanitize=vptr  # there is no RTTI
     -fno-sanitize-recover=all -fno-omit-frame-pointer)

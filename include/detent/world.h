@@ -111,7 +111,7 @@ struct StepReport {
   uint32_t contacts_capped = 0;  ///< found by a search that met its cap (the normal may not be the least way out), or
                                  ///< not found for want of a hull's bytes
   uint32_t contact_events = 0;   ///< in the world's buffer
-  uint32_t contact_events_dropped = 0;  ///< beyond its capacity; not counted where there is no buffer
+  uint32_t contact_events_dropped = 0;  ///< beyond it, or hits beyond Capacity::contacts; not where there is no buffer
   uint32_t pairs_dropped = 0;     ///< pairs beyond the pair buffer (the shallowest): their contacts are lost this tick,
                                   ///< but continuous collision tries them all
   uint32_t contacts_dropped = 0;  ///< contacts beyond the capacity (the shallowest), lost this tick

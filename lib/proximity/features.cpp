@@ -140,8 +140,10 @@ int64_t advance_tracking(const MovingPair& pair, const Frames& frames, const Sim
   const int64_t speed = closing_speed(pair, features, frames, widest, normal);
   if (speed > 0) length = part_of(widest.length, ratio(distance - kept, speed));
   // Past a close approach no speed tells how long an axis will do.
-  const int64_t hope = 4 * progress + (int64_t{1} << 20);
-  if (progress < widest.length / 4 && length > hope) length = hope;
+  if (progress < widest.length / 4) {
+    const int64_t hope = 4 * progress + (int64_t{1} << 20);
+    if (length > hope) length = hope;
+  }
   int side = 0;
   Axis then = {normal, 0};
   bool foreseen = features.curved || PlacedFeatures(pair, features, frames).axis(normal, side, then);

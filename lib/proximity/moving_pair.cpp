@@ -96,7 +96,7 @@ int64_t set_window(MovingPair& pair, int64_t reach) {
 
 DETENT_SHARED int32_t ulps_above(int64_t raw, int exponent) {
   const int n = exponent + 16;
-  return static_cast<int32_t>((raw + (int64_t{1} << n) - 1) >> n);
+  return static_cast<int32_t>((raw >> n) + ((raw & ((int64_t{1} << n) - 1)) != 0 ? 1 : 0));  // of INT64_MAX too
 }
 
 }  // namespace

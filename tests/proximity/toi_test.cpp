@@ -534,6 +534,18 @@ DETENT_TEST(toi, of_a_ball_far_above_or_below_a_plane_is_not_taken_for_the_other
     if (HasFailure()) return;
   }
 }
+/// So far that sums of lengths end at the largest number there is.
+DETENT_TEST(toi, of_a_turning_plane_and_a_ball_as_far_as_may_be_is_not_late) {
+  const double spin = 1.5, x = 65000, y = 60000, time = (acos(0.5 / hypot(x, y)) - atan2(x, y)) / spin;
+  const Encounter encounter = {known(half_space()),
+                               {{{0, 0, 0}}, k_upright, {{0, 0, -16000}}, {{0, 0, spin}}},
+                               known(sphere(0.5)),
+                               {{{x, y, 65000}}, k_upright, {{0, 0, 16000}}}};
+  for (const ToiMethod method : k_methods) {
+    EXPECT_LE(fraction_to_host(encounter.impact_by(method).time), time + k_late) << static_cast<int>(method);
+    EXPECT_LE(fraction_to_host(encounter.swapped().impact_by(method).time), time + k_late) << static_cast<int>(method);
+  }
+}
 #endif
 
 #if !defined(DETENT_F64)

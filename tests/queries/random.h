@@ -1,5 +1,6 @@
 #pragma once
 #include <math.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #include "tests/queries/triple.h"
@@ -10,7 +11,10 @@ namespace detent_queries {
 class Random {
  public:
   explicit Random(uint64_t seed) : state_(seed) {}
-  uint64_t next() { return detent_test::split_mix(state_); }
+  /// As long as it lasts, what two bytes of the tape say, over and over.
+  Random(uint64_t seed, const uint8_t* tape, size_t count) : state_(seed), tape_(tape), tape_left_(count) {}
+  size_t tape_left() const { return tape_left_; }
+  uint64_t next() { return tape_left_ != 0 ? next_of_tape() : detent_test::split_mix(state_); }
   double uniform(double low, double high) { return low + (high - low) * static_cast<double>(next() >> 11) * 0x1p-53; }
   double log_uniform(double low, double high) { return low * exp(uniform(0, log(high / low))); }
   uint32_t below(uint32_t count) { return static_cast<uint32_t>(((next() >> 32) * count) >> 32); }
@@ -49,7 +53,18 @@ class Random {
   }
 
  private:
+  uint64_t next_of_tape() {
+    const uint64_t high = *tape_++;
+    --tape_left_;
+    if (tape_left_ == 0) return high * 0x0101010101010101u;
+    const uint64_t low = *tape_++;
+    --tape_left_;
+    return (high << 8 | low) * 0x0001000100010001u;
+  }
+
   uint64_t state_;
+  const uint8_t* tape_ = nullptr;
+  size_t tape_left_ = 0;
 };
 
 }  // namespace detent_queries

@@ -1,5 +1,7 @@
 #include <math.h>
 
+#include <algorithm>
+
 #include "tests/sequences/game.h"
 
 namespace detent {
@@ -28,6 +30,7 @@ void expect_same(const Shape& is, const Shape& was) {
       EXPECT_EQ(is.asset, was.asset);
       break;
     case ShapeType::surface:
+    case ShapeType::compound:
       EXPECT_EQ(is.asset, was.asset);
       return;
     case ShapeType::half_space:
@@ -57,11 +60,13 @@ BodyId Game::pick() {
   return body->second.first;
 }
 
-/// Assets 0 and 1 are surfaces, 2 and 3 hulls.
+/// Assets 0 and 1 are surfaces, 2 and 3 hulls, 4 is a compound.
 bool Game::lacks_asset(const Shape& shape) const {
-  const bool is_surface = shape.type == ShapeType::surface;
-  if (!is_surface && shape.type != ShapeType::hull) return false;
-  return shape.asset / 2 != (is_surface ? 0u : 1u) || (model_.bound >> shape.asset & 1) == 0;
+  constexpr ShapeType k_types[] = {ShapeType::surface, ShapeType::surface, ShapeType::hull, ShapeType::hull,
+                                   ShapeType::compound};
+  if (shape.type != ShapeType::surface && shape.type != ShapeType::hull && shape.type != ShapeType::compound)
+    return false;
+  return shape.asset > 4 || k_types[shape.asset] != shape.type || (model_.bound >> shape.asset & 1) == 0;
 }
 
 void Game::create() {
@@ -94,7 +99,8 @@ void Game::create() {
   if (wrong || size_wrong) {  // a number that cannot be recorded is refused also where the shape does not use it
     EXPECT_TRUE(status != Status::ok || !wrong);
   } else if (!(draw_.wide() && status == Status::out_of_range)) {
-    EXPECT_EQ(status, model_.bodies.size() == k_bodies ? Status::pool_full : Status::ok) << status_text(status);
+    const bool full = model_.bodies.size() == k_bodies || (def.sensor && capacity().sensed == 0);
+    EXPECT_EQ(status, full ? Status::pool_full : Status::ok) << status_text(status);
   }
   if (status != Status::ok) {
     expect_unchanged();
@@ -120,7 +126,14 @@ void Game::change(BodyId id, uint32_t which) {
   switch (which) {
     case 9: {
       const bool to = draw_.chance(0.5);
-      if (judge("set_sensor", recorder.set_sensor(id, to), there, false)) body->sensor = to;
+      const Status status = recorder.set_sensor(id, to);
+      if (there && to && capacity().sensed == 0) {
+        note(static_cast<uint64_t>(status));
+        EXPECT_EQ(status, Status::pool_full);
+        expect_unchanged();
+      } else if (judge("set_sensor", status, there, false)) {
+        body->sensor = to;
+      }
       break;
     }
     case 0: {
@@ -201,7 +214,7 @@ void Game::change_filter(BodyId id) {
     if (judge("set_filter", recorder_->set_filter(id, to), body != nullptr, false)) body->filter = to;
     return;
   }
-  to.rule = 1;  // no world here has rules
+  to.rule = 2;  // which is not there
   const Status status = recorder_->set_filter(id, to);
   EXPECT_EQ(status, body != nullptr ? Status::rule_missing : Status::bad_id) << status_text(status);
   expect_unchanged();
@@ -294,17 +307,67 @@ void Game::read_sensor(BodyId id) {
   const Known* body = model_.find(id);
   BodyId within[k_sensed];
   uint32_t count = 0;
-  const Status status = get_sensed(world(), id, within, k_sensed, count);
+  const uint32_t room = draw_.below(k_sensed + 1);
+  const Status status = get_sensed(world(), id, room == 0 ? nullptr : within, room, count);
   EXPECT_EQ(status, body == nullptr ? Status::bad_id : body->sensor ? Status::ok : Status::bad_argument);
   if (status != Status::ok) return;
-  ASSERT_LE(count, k_sensed);
-  for (uint32_t i = 0; i < count; ++i) {
+  ASSERT_LE(count, capacity().sensed);
+  note(uint64_t{count});
+  for (uint32_t i = 0; i < std::min(count, room); ++i) {
     const Known* other = model_.find(within[i]);
     ASSERT_NE(other, nullptr);
     EXPECT_FALSE(other->sensor || within[i] == id);
     EXPECT_TRUE(i == 0 || within[i - 1].slot < within[i].slot);
     note(within[i]);
   }
+}
+
+/// The triangles of a surface, in their order.
+void Game::read_triangles(BodyId id) {
+  const Known* body = model_.find(id);
+  struct Visited {
+    Game& game;
+    uint32_t count = 0, last = 0;
+  } visited = {*this};
+  const auto visit = [](void* user, const BodyTriangle& triangle) {
+    Visited& so_far = *static_cast<Visited*>(user);
+    EXPECT_TRUE(so_far.count == 0 || so_far.last < triangle.index);
+    so_far.last = triangle.index;
+    if (so_far.count++ % 16 == 0) so_far.game.note_number(real(coord_to_host(triangle.corner[1].y)));
+  };
+  const bool is_surface = body != nullptr && body->shape.type == ShapeType::surface;
+  const Status status = visit_triangles(world(), id, &visited, visit);
+  EXPECT_EQ(status, body == nullptr ? Status::bad_id : is_surface ? Status::ok : Status::bad_argument);
+  EXPECT_EQ(visited.count != 0, is_surface);
+  note(uint64_t{visited.count});
+}
+
+/// One by one what get_body_def() gives at once.
+void Game::read_parts(BodyId id, const Known& body) {
+  BodyType type;
+  Shape shape;
+  Material material;
+  Filter filter;
+  Real linear, angular, scale;
+  uint32_t locks = 8, user_data = 0;
+  bool sensor = false;
+  EXPECT_OK(get_type(world(), id, type));
+  EXPECT_OK(get_shape(world(), id, shape));
+  EXPECT_OK(get_material(world(), id, material));
+  EXPECT_OK(get_damping(world(), id, linear, angular));
+  EXPECT_OK(get_gravity_scale(world(), id, scale));
+  EXPECT_OK(get_turn_locks(world(), id, locks));
+  EXPECT_OK(get_user_data(world(), id, user_data));
+  EXPECT_OK(get_filter(world(), id, filter));
+  EXPECT_OK(get_sensor(world(), id, sensor));
+  EXPECT_EQ(type, body.type);
+  expect_same(shape, body.shape);
+  expect_near(material.friction, body.material.friction);
+  expect_near(linear, body.linear_damping);
+  expect_near(angular, body.angular_damping);
+  expect_near(scale, body.gravity_scale);
+  EXPECT_TRUE(locks == body.turn_locks && user_data == body.user_data && filter == body.filter &&
+              sensor == body.sensor);
 }
 
 /// What else can be asked of a body.
@@ -323,6 +386,7 @@ void Game::read(BodyId id) {
   judge("get_velocity_at", get_velocity_at(world(), id, arm, at), body != nullptr, wrong, true);
   expect_unchanged();
   if (body == nullptr) return;
+  read_parts(id, *body);
   if (body->type != BodyType::dynamic) {
     EXPECT_TRUE(mass == Scaled(0.0) && inertia.x == Scaled(0.0) && inertia.y == Scaled(0.0) &&
                 inertia.z == Scaled(0.0));

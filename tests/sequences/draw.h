@@ -17,7 +17,12 @@ class Draw {
  public:
   /// `wide`: sizes and speeds of all orders, whose ranges may be left.
   Draw(uint64_t seed, bool wide) : random_(seed), wide_(wide) {}
+  /// As the tape's bytes have it; the first says whether it is wide.
+  Draw(const uint8_t* tape, size_t count)
+      : random_(count, tape, count), wide_(count != 0 && tape[0] % 4 == 0), taped_(true) {}
 
+  /// A tape is at its end.
+  bool ended() const { return taped_ && random_.tape_left() == 0; }
   bool wide() const { return wide_; }
   bool chance(double probability) { return random_.chance(probability); }
   uint32_t below(uint32_t count) { return random_.below(count); }
@@ -66,7 +71,7 @@ class Draw {
     const double size = wide_ ? order(0.1, 50) : 1;
     const Real a = number(0.2 * size, size, wrong), b = number(0.2 * size, size, wrong),
                c = number(0.2 * size, size, wrong);
-    switch (random_.below(9)) {
+    switch (random_.below(11)) {
       case 0:
         return sphere(a);
       case 1:
@@ -78,20 +83,26 @@ class Draw {
       case 4:
         return rounded(cone(a, b), c);
       case 5:
-        return hull(bad() ? random_.below(7) : 2 + random_.below(2));
+        return hull(bad() ? random_.below(8) : 2 + random_.below(2));
       case 6:
         return rounded(hull(3), c);
       case 7:
-        return surface(bad() ? random_.below(7) : random_.below(2));
+        return surface(bad() ? random_.below(8) : random_.below(2));
+      case 8:
+      case 9:
+        return compound(bad() ? random_.below(8) : 4);
       default:
         return half_space();
     }
   }
+  /// Of a query: also a point.
+  Shape asked_shape(bool& wrong) { return bad() ? sphere(Real(0.0)) : shape(wrong); }
   Filter filter() {
     Filter made;
     made.category = 1u << random_.below(3);
     made.mask = random_.chance(0.5) ? ~0u : random_.below(8);
     made.group = static_cast<int32_t>(random_.below(5)) - 2;
+    made.rule = random_.chance(0.2) ? 1 : 0;
     return made;
   }
   Material material(bool& wrong) {
@@ -189,7 +200,7 @@ class Draw {
   }
 
   detent_queries::Random random_;
-  const bool wide_;
+  const bool wide_, taped_ = false;
 };
 
 }  // namespace DETENT_NAMESPACE

@@ -2,6 +2,7 @@
 #include <detent/contacts.h>
 #include <detent/mover.h>
 #include <detent/sensor.h>
+#include <detent/triangles.h>
 #include <string.h>
 
 #include <type_traits>
@@ -17,25 +18,32 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
+enum class QueryKind : uint32_t { ray, cast, overlap, bounds, closest };
+
 /// One sequence of calls.
 class Game {
  public:
-  explicit Game(uint64_t seed);
+  explicit Game(const Draw& draw);
   /// Calls in segments: each is recorded, and replayed at its end; between them the world may go back. Returns a digest
   /// over the state before each call, and all statuses and answers.
   uint64_t play();
 
- private:
-  static constexpr uint32_t k_bodies = 10, k_contacts = 24, k_assets = 5, k_joints = 6, k_sensed = 6, k_events = 12;
-  static WorldDef settings();
+  /// What the last segment left.
+  const Bytes& recording() const { return recording_; }
+  std::vector<uint64_t> save_all();
   static AssetTable assets();
+  static FilterRuleTable rules();
+  const Capacity& capacity() const { return settings_.capacity; }
+
+ private:
+  static constexpr uint32_t k_bodies = 10, k_assets = 6, k_joints = 6, k_sensed = 6, k_events = 12;
+  static WorldDef settings(Draw& draw);
   static bool failed() { return testing::Test::HasFailure(); }
   World& world() { return owned_.world; }
 
   // game.cpp: a segment, its replay, a call.
-  std::vector<uint64_t> save_all();
   void play_recorded();
-  void replay_recorded(const Bytes& bytes);
+  void replay_recorded();
   void load_damaged(World& other);
   void go_back(std::vector<uint64_t>& snapshot, const Model& before);
   void call();
@@ -57,6 +65,8 @@ class Game {
   void move(BodyId id);
   void push(BodyId id);
   void read(BodyId id);
+  void read_parts(BodyId id, const Known& body);
+  void read_triangles(BodyId id);
   void read_sensor(BodyId id);
   void check(BodyId id, const Known& known);
   void check_bodies();
@@ -75,11 +85,12 @@ class Game {
   void check_contacts(bool woken_late);
   void check_events(const StepReport& report);
   void check_sensors(const StepReport& report);
+  void check_lost(const StepReport& report);
   bool may_touch(BodyId a, BodyId b);
 
   // queries.cpp
   void query();
-  void check_hits(QueryHits hits, const QueryReport& report, const QueryFilter& filter, bool all, bool sorted);
+  void check_hits(QueryHits hits, const QueryReport& report, const QueryFilter& filter, bool all, QueryKind kind);
   void move_character();
 
   // What becomes part of the sequence's digest.
@@ -105,13 +116,16 @@ class Game {
   void note(BodyId id) { note(uint64_t{id.slot} << 32 | id.generation); }
 
   Draw draw_;
+  const WorldDef settings_;
   OwnedWorld owned_;
   Recorder* recorder_ = nullptr;
+  Bytes recording_;
   Model model_;
   Mover mover_;
   uint64_t before_ = 0;  ///< the world's digest before the call
   uint64_t heard_ = 0;
   JointEvent broken_[k_joints];
+  CapacityEvent lost_[k_events];
   ContactEvent events_[k_events];
   SensorEvent sensor_events_[k_events];
   BodyEvent body_events_[k_events];

@@ -72,7 +72,7 @@ void Game::create_joint_anyhow() {
   const Status status = recorder_->create_joint(def, id);
   if (!wrong && there && status == Status::pool_full) {
     note(static_cast<uint64_t>(status));
-    EXPECT_EQ(model_.joints.size(), k_joints);
+    EXPECT_EQ(model_.joints.size(), capacity().joints);
   } else {
     judge("create_joint", status, there, wrong, true);
   }

@@ -9,6 +9,11 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
+/// The world's filter rule.
+inline bool may_meet(const FilterBody& own, const FilterBody& other) {
+  return own.user_data % 4 != other.user_data % 4 && (own.filter.category & other.filter.category) == 0;
+}
+
 /// What is known of a body without asking.
 struct Known {
   BodyType type = BodyType::dynamic;

@@ -14,25 +14,26 @@ void Game::query() {
   const QueryHits hits = {hit, 4};
   const Position from = draw_.place();
   const bool all = draw_.chance(0.5);
-  const uint32_t which = draw_.below(5);
-  const bool shaped = which == 1 || which == 2 || which == 4;
-  const Shape shape = shaped ? draw_.shape(size_wrong) : Shape();
+  const QueryKind kind = static_cast<QueryKind>(draw_.below(5));
+  const bool shaped = kind == QueryKind::cast || kind == QueryKind::overlap || kind == QueryKind::closest;
+  const Shape shape = shaped ? draw_.asked_shape(size_wrong) : Shape();
   const Quat turned = shaped ? draw_.rotation(wrong) : Quat{0.0, 0.0, 0.0, 1.0};
-  wrong = wrong || shape.type == ShapeType::half_space || shape.type == ShapeType::surface || lacks_asset(shape);
+  wrong = wrong || shape.type == ShapeType::half_space || shape.type == ShapeType::surface ||
+          shape.type == ShapeType::compound || lacks_asset(shape);
   Status status = Status::ok;
-  switch (which) {
-    case 0:
+  switch (kind) {
+    case QueryKind::ray:
       status = recorder_->query_ray({from, draw_.vector(8, wrong), filter, all}, hits, report);
       break;
-    case 1: {
+    case QueryKind::cast: {
       const Vec3<Real> way = draw_.vector(8, wrong), turn = draw_.vector(3, wrong);
       status = recorder_->query_cast({shape, from, turned, way, turn, filter, all}, hits, report);
       break;
     }
-    case 2:
+    case QueryKind::overlap:
       status = recorder_->query_overlap({shape, from, turned, filter, all}, hits, report);
       break;
-    case 3: {
+    case QueryKind::bounds: {
       const Position to = draw_.place();
       wrong = !(from.x <= to.x && from.y <= to.y && from.z <= to.z);
       status = recorder_->query_bounds({from, to, filter, all}, hits, report);
@@ -51,11 +52,11 @@ void Game::query() {
   } else if (!size_wrong && !(draw_.wide() && status == Status::out_of_range)) {
     EXPECT_OK(status);
   }
-  if (status == Status::ok) check_hits(hits, report, filter, all, which != 2 && which != 3);
+  if (status == Status::ok) check_hits(hits, report, filter, all, kind);
 }
 
-/// `sorted`: by fraction and distance, not by slot.
-void Game::check_hits(QueryHits hits, const QueryReport& report, const QueryFilter& filter, bool all, bool sorted) {
+void Game::check_hits(QueryHits hits, const QueryReport& report, const QueryFilter& filter, bool all, QueryKind kind) {
+  const bool sorted = kind != QueryKind::overlap && kind != QueryKind::bounds;  // by fraction and distance, not by slot
   note(report.digest);
   ASSERT_LE(report.hits, all ? hits.capacity : 1u);
   EXPECT_LE(report.hits + report.dropped, model_.bodies.size());
@@ -65,7 +66,10 @@ void Game::check_hits(QueryHits hits, const QueryReport& report, const QueryFilt
     ASSERT_NE(body, nullptr);
     EXPECT_TRUE((body->filter.category & filter.mask) != 0 && (body->filter.mask & filter.category) != 0);
     EXPECT_FALSE(body->sensor || hit.body == filter.ignore);
+    const bool names_triangle = body->shape.type == ShapeType::surface && kind != QueryKind::bounds;
+    EXPECT_TRUE((hit.triangle != UINT32_MAX) == names_triangle || hit.undecided);
     note(hit.body);
+    note(uint64_t{hit.triangle});
     if (i == 0) continue;
     const QueryHit& last = hits.data[i - 1];
     EXPECT_TRUE(sorted ? !(hit.fraction < last.fraction) && !(hit.distance < last.distance)

@@ -19,7 +19,7 @@ constexpr char k_name[] = DETENT_TEXT(DETENT_NAMESPACE);
 uint64_t play(uint32_t first, uint32_t count) {
   uint64_t running = 0;
   for (uint32_t seed = first; seed < first + count; ++seed) {
-    running = digest_step(running, Game(seed).play());
+    running = digest_step(running, Game(Draw(seed, seed % 4 == 0)).play());
     if (testing::Test::HasFailure()) {
       ADD_FAILURE() << "sequence " << seed;
       return 0;

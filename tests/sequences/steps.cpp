@@ -23,7 +23,7 @@ void Game::step_once() {
   EXPECT_EQ(report.tick, tick + 1);
   EXPECT_EQ(report.bodies, model_.bodies.size());
   EXPECT_LE(report.contacts, get_info(world()).contacts);  // which has those asleep as well
-  EXPECT_LE(get_info(world()).contacts, k_contacts);
+  EXPECT_LE(get_info(world()).contacts, capacity().contacts);
   EXPECT_LE(report.contact_points, 4 * report.contacts);
   for (const uint64_t count :
        {uint64_t{report.awake}, uint64_t{report.islands}, report.contact_substeps, uint64_t{report.pairs},
@@ -35,6 +35,7 @@ void Game::step_once() {
   EXPECT_EQ(report.joint_events, report.joints_broken);
   check_events(report);
   check_sensors(report);
+  check_lost(report);
   check_contacts(report.impacts != 0);
   note(digest(world()));
 }
@@ -62,8 +63,10 @@ bool Game::may_touch(BodyId a, BodyId b) {
     const JointDef& def = joint.second;
     if (!def.collide && ((def.a == a && def.b == b) || (def.a == b && def.b == a))) return false;
   }
-  if (of_a.group != 0 && of_a.group == of_b.group) return of_a.group > 0;
-  return (of_a.category & of_b.mask) != 0 && (of_b.category & of_a.mask) != 0;
+  const bool same_group = of_a.group != 0 && of_a.group == of_b.group;
+  if (same_group ? of_a.group < 0 : (of_a.category & of_b.mask) == 0 || (of_b.category & of_a.mask) == 0) return false;
+  const FilterBody own = {model_.find(a)->user_data, of_a}, other = {model_.find(b)->user_data, of_b};
+  return (of_a.rule == 0 || may_meet(own, other)) && (of_b.rule == 0 || may_meet(other, own));
 }
 
 /// `woken_late`: an impact on the way may have woken some, when contacts had been found.
@@ -99,8 +102,11 @@ void Game::check_contacts(bool woken_late) {
 
 /// Events are in their order, of bodies that may touch, and say of each pair that pushes that it does.
 void Game::check_events(const StepReport& report) {
-  ASSERT_LE(report.contact_events, k_events);
-  EXPECT_TRUE(report.contact_events_dropped == 0 || report.contact_events == k_events);
+  const uint32_t room = world().contact_events.capacity;
+  ASSERT_LE(report.contact_events, room);
+  // Of the hits on bodies' ways as many are kept as contacts.
+  EXPECT_TRUE(report.contact_events_dropped == 0 || report.contact_events == room ||
+              report.contact_events_dropped + report.contact_events > capacity().contacts);
   std::set<std::pair<uint32_t, uint32_t>> pushing;
   for (uint32_t i = 0; i < report.contact_events; ++i) {
     const ContactEvent& event = events_[i];
@@ -126,7 +132,10 @@ void Game::check_events(const StepReport& report) {
 
 /// Sensors tell of bodies that are none, and bodies of their sleep, in the order of their slots.
 void Game::check_sensors(const StepReport& report) {
-  ASSERT_TRUE(report.sensor_events <= k_events && report.body_events <= k_events);
+  const uint32_t room = world().sensor_events.capacity;
+  ASSERT_TRUE(report.sensor_events <= room && report.body_events <= room);
+  EXPECT_TRUE(report.sensor_events_dropped == 0 || report.sensor_events == room);
+  EXPECT_TRUE(report.body_events_dropped == 0 || report.body_events == room);
   for (uint32_t i = 0; i < report.sensor_events; ++i) {
     const SensorEvent& event = sensor_events_[i];
     const Known *sensor = model_.find(event.sensor), *body = model_.find(event.body);
@@ -148,7 +157,30 @@ void Game::check_sensors(const StepReport& report) {
     note(static_cast<uint64_t>(event.type));
   }
   note(uint64_t{get_info(world()).sensed});
-  EXPECT_LE(get_info(world()).sensed, k_sensed);
+  EXPECT_LE(get_info(world()).sensed, capacity().sensed);
+}
+
+/// Whom there was no room for is named, in order and once, where anything was lost and only there.
+void Game::check_lost(const StepReport& report) {
+  ASSERT_LE(report.capacity_events, world().capacity_events.capacity);
+  EXPECT_EQ(report.capacity_events != 0,
+            report.pairs_dropped != 0 || report.contacts_dropped != 0 || report.sensed_dropped != 0);
+  for (uint32_t i = 0; i < report.capacity_events; ++i) {
+    const CapacityEvent& event = lost_[i];
+    const Known *a = model_.find(event.a), *b = model_.find(event.b);
+    ASSERT_TRUE(a != nullptr && b != nullptr);
+    if (event.type == CapacityEventType::sensed) {
+      EXPECT_TRUE(a->sensor && !b->sensor);
+    } else {
+      EXPECT_LT(event.a.slot, event.b.slot);
+      EXPECT_TRUE(event.type == CapacityEventType::pair || !(a->sensor || b->sensor));
+    }
+    const auto key = [](const CapacityEvent& of) { return std::tuple(of.type, of.a.slot, of.b.slot); };
+    EXPECT_TRUE(i == 0 || key(lost_[i - 1]) < key(event));
+    note(static_cast<uint64_t>(event.type));
+    note(event.a);
+    note(event.b);
+  }
 }
 
 }  // namespace DETENT_NAMESPACE

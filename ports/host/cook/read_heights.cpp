@@ -1,5 +1,7 @@
 #include "read_heights.h"
 
+#include <algorithm>
+
 #include "words.h"
 
 namespace detent_cook {
@@ -54,7 +56,7 @@ HeightsRead read_pgm(std::string_view bytes, double spacing, double height) {
   field.rows = rows - 1;
   field.spacing_x = field.spacing_z = spacing;
   field.origin = {-0.5 * spacing * field.columns, 0, -0.5 * spacing * field.rows};
-  field.heights.reserve(size_t{width} * rows);
+  field.heights.reserve(std::min(size_t{width} * rows, bytes.size()));  // a pixel takes a byte at least
   for (size_t i = 0; i < size_t{width} * rows; ++i) {
     uint32_t value = 0;
     const bool taken = text ? take_number(bytes, brightest, value) : take_pixel(bytes, brightest > 255 ? 2 : 1, value);

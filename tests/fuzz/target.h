@@ -1,0 +1,17 @@
+#pragma once
+#include "tests/support/mutant.h"
+
+/// What reads bytes from outside, each as a function that any bytes may be given to.
+namespace detent_fuzz {
+
+using detent_test::Bytes;
+
+/// The first byte says what is mended before the bytes are read: fuzzers do not find checksums.
+struct Target {
+  /// Fails the test that it runs in, or aborts, if the bytes do harm. True if they were let in.
+  bool (*take)(const Bytes& bytes);
+  /// Where mutation begins.
+  std::vector<Bytes> (*seeds)();
+};
+
+}  // namespace detent_fuzz
