@@ -24,6 +24,8 @@ Vec3<Real> local_spin(const BodyTraits& traits, const Vec3<Real>& momentum) {
           multiply(momentum.z, traits.gyration[2], saturated)};
 }
 
+constexpr int k_quarterings_max = 64;  ///< gyrations lie far below 4^64
+
 /// Whether the spin is far below its bound, whatever the body's axes are.
 bool is_slow(const BodyTraits& traits, const Vec3<Real>& momentum) {
   Scaled most = traits.gyration[0];
@@ -41,8 +43,8 @@ uint32_t hold_speeds(const BodyTraits& traits, const Quat& rotation, BodyMotion&
   const bool turned = !is_isotropic(traits);
   Vec3<Real> local, spin;
   // Joints and impacts may leave more than a Real tells. Beyond twice the bound along a body's axis, one of the world's
-  // has more than the bound.
-  for (;;) {
+  // has more than the bound. Where a Real does not tell how fast it is, it becomes a quarter each time.
+  for (int quartering = 0; quartering < k_quarterings_max; ++quartering) {
     local = turned ? rotate_inverse(rotation, motion.momentum) : motion.momentum;
     spin = local_spin(traits, local);
     const Real fastest = greatest(spin);

@@ -287,6 +287,10 @@ struct Solver {
       if (is_only_points(work) && work.constant[0] == k_zero && work.constant[1] == k_zero) continue;
       end_of(work, 0).by_anchor = end_of(work, 1).by_anchor = 0;
     }
+    for (const uint32_t index : loops) {
+      const JointWork& work = stage.work[index];
+      end_of(work, 0).by_anchor = end_of(work, 1).by_anchor = 0;
+    }
   }
 
   void solve_trees() {

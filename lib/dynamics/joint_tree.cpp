@@ -32,6 +32,10 @@ uint32_t place_of(const SolverBodies& bodies, uint32_t slot, JointStage& stage) 
   body.first = body.last = body.owner = k_no_link;
   body.exponent = bodies.traits[slot].size_exponent;
   body.share = body.turn_share = Scaled(0.0);
+  if (body.mobile != 0) return place;
+  for (Real(&row)[6] : body.response) {
+    for (Real& value : row) value = Real(0.0);
+  }
   return place;
 }
 
