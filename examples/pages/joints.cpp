@@ -84,5 +84,5 @@ int main() {
   rail.axis.damping_ratio = Real(0.7);
   check(create_joint(world, rail, id));
   run(world, 240);
-  check(fabs(height_of(world, lift) + 9.81 / (12.566 * 12.566)) < 0.005);  // g over (2 pi f)^2
+  check(fabs(height_of(world, lift) + 9.81 / (12.566 * 12.566)) < 0.001);  // g over (2 pi f)^2
 }

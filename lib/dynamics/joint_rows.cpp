@@ -178,6 +178,21 @@ Real speed_of(const JointStage& stage, const JointWork& work, int i) {
   return dot(b.velocity - a.velocity, row.axis) + dot(b.spin, row.arm[1]) - dot(a.spin, row.arm[0]);
 }
 
+/// What of that gravity, forces and torques have just added: a damper that held against it would carry a part of it.
+Real speed_pushed(const SolverBodies& bodies, const JointStage& stage, const JointWork& work, int i) {
+  const JointRow& row = work.free_row[i];
+  Real speed = k_zero;
+  for (int end = 0; end < 2; ++end) {
+    const JointBody& body = stage.bodies[work.body[end]];
+    if (body.mobile == 0) continue;
+    const BodyWork& now = bodies.work[body.slot];
+    const Vec3<Real> spin = world_spin(bodies.traits[body.slot], now.gyration, now.twist, body.above);
+    const Real own = dot(now.push, row.axis) + dot(spin, row.arm[end]);
+    speed += end == 0 ? -own : own;
+  }
+  return speed;
+}
+
 /// A spring that is soft beside the substep needs no row: it pushes by where it is, which loses nothing of its swing.
 void push_softly(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, int i,
                  JointWork& work) {
@@ -186,7 +201,8 @@ void push_softly(const StepSettings& settings, const SolverBodies& bodies, const
   if (!less(spring.stiffness(), Scaled(0.25))) return;
   const int power = is_angular(static_cast<JointType>(joint.type), i) ? work.exponent : 0;
   const Real off = work.value[i] - scale_by_power(joint.target[i], power);
-  const Real fast = speed_of(stage, work, i) - scale_by_power(joint.speed[i], power);
+  const Real fast =
+      speed_of(stage, work, i) - speed_pushed(bodies, stage, work, i) - scale_by_power(joint.speed[i], power);
   const Scaled pull = multiply(multiply(spring.rate, spring.phase), scaled_from(off));
   const Scaled drag =
       multiply(multiply(spring.phase, scaled_by_power(scaled_from(joint.damping_ratio[i]), 1)), scaled_from(fast));

@@ -672,6 +672,23 @@ DETENT_TEST(joint, a_pendulum_keeps_its_energy) {
   EXPECT_LE(energy_lost(0), 0.04) << "most of it as it starts, at one substep";
 }
 
+DETENT_TEST(joint, a_soft_spring_under_a_weight_rests_where_both_balance) {
+  for (const double damping : {0.1, 0.7}) {
+    WorldDef def;
+    def.gravity = {9.81, 0.0, 0.0};
+    Lab lab(room(2, 1), def);
+    const BodyId wall = add_shape(lab, box(reals(0.1, 0.1, 0.1)), 0, 0, 0, BodyType::fixed);
+    const BodyId bob = add_shape(lab, box(reals(0.2, 0.2, 0.2)), 1, 0, 0);
+    JointDef rail;
+    rail.axis.frequency = real(2);
+    rail.axis.damping_ratio = real(damping);
+    add_joint(lab, JointType::slider, wall, bob, 1, 0, 0, rail);
+    lab.run(900);
+    const double rate = 2 * k_pi * 2;
+    EXPECT_NEAR(lab.motion(bob).position[0] - 1, 9.81 / (rate * rate), 2e-4);
+  }
+}
+
 DETENT_TEST(joint, bodies_that_it_connects_collide_only_if_it_says_so) {
   for (const bool collide : {false, true}) {
     Lab lab(room(2, 1), weightless());
