@@ -2,16 +2,8 @@
 
 #include <string.h>
 
-#include "world/fields.h"
-
 namespace detent {
 inline namespace DETENT_NAMESPACE {
-namespace {
-
-/// Elements of each section, from its front.
-struct UsedCounts {
-  uint32_t of[k_section_count];
-};
 
 UsedCounts used_counts(const StateView<const uint8_t>& state) {
   const WorldState& world = state.world;
@@ -19,8 +11,6 @@ UsedCounts used_counts(const StateView<const uint8_t>& state) {
   return {{1, 1, slots, slots, slots, slots, (slots + 31) / 32, world.contact_count, used_assets(state),
            state.manifolds.count == 0 ? 0 : world.contact_count, world.joints_used, world.sensed_count}};
 }
-
-}  // namespace
 
 uint32_t used_assets(const StateView<const uint8_t>& state) {
   uint32_t count = state.assets.count;

@@ -1,9 +1,16 @@
 #pragma once
+#include "world/fields.h"
 #include "world/view.h"
 
 /// What of a state is in use. All else is zero, so a copy may leave it out.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
+
+/// Elements of each section, from its front.
+struct UsedCounts {
+  uint32_t of[k_section_count];
+};
+UsedCounts used_counts(const StateView<const uint8_t>& state);
 
 /// How many bound assets have to be looked at.
 uint32_t used_assets(const StateView<const uint8_t>& state);
