@@ -151,10 +151,9 @@ const TracePart k_trace_parts[k_trace_part_count] = {
     state_part(9, TraceKind::contact, 0, false),
     state_part(10, TraceKind::joint, 4, false),
     state_part(11, TraceKind::sensed, 2, true),
-    work_part(k_first_work_number, "contacts in work", k_contact_work_fields, sizeof(TraceContact), TraceKind::contact,
-              3),
-    work_part(k_first_work_number + 1, "bodies in work", k_body_work_fields, sizeof(TraceBody), TraceKind::body, 0),
-    work_part(k_first_work_number + 2, "sweeps", k_sweep_fields, sizeof(TraceSweep), TraceKind::body, 0),
+    work_part(k_first_work_number, "contact work", k_contact_work_fields, sizeof(TraceContact), TraceKind::contact, 3),
+    work_part(k_first_work_number + 1, "body work", k_body_work_fields, sizeof(TraceBody), TraceKind::body, 0),
+    work_part(k_first_work_number + 2, "sweep", k_sweep_fields, sizeof(TraceSweep), TraceKind::body, 0),
     work_part(k_first_work_number + 3, "bounds", k_bounds_fields, sizeof(Bounds), TraceKind::body, 0),
 };
 static_assert(k_section_count == k_state_parts + 1 && k_bounds + 1 == k_trace_part_count);

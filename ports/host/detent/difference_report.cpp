@@ -1,0 +1,180 @@
+#include <stdio.h>
+
+#include <nlohmann/json.hpp>
+
+#include "difference.h"
+
+namespace detent_tool {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string text(uint64_t value) { return std::to_string(value); }
+
+std::string decimal(double value, int digits) {
+  char text[40];
+  snprintf(text, sizeof text, "%.*g", digits, value);
+  return text;
+}
+
+/// With as many digits as tell the two apart.
+void write_numbers(double a, double b, std::string& text_a, std::string& text_b) {
+  for (int digits = 6; digits <= 17; ++digits) {
+    text_a = decimal(a, digits);
+    text_b = decimal(b, digits);
+    if (text_a != text_b) return;
+  }
+}
+
+std::string name_of(const ElementName& element) {
+  const auto body = [&element](size_t i) {
+    const std::string generation =
+        element.generations[i] == 0 ? "" : " (generation " + text(element.generations[i]) + ")";
+    return text(element.slots[i]) + generation;
+  };
+  std::string name = element.kind;
+  if (element.kind == "asset" && element.slots.size() == 1) return name + " " + text(element.slots[0]);
+  if (element.slots.size() == 1) name += " " + body(0);
+  if (element.slots.size() == 2) name += " of bodies " + body(0) + " and " + body(1);
+  if (element.part != 0) name += ", part " + text(element.part);
+  return name;
+}
+
+/// Values of the work space are told from those of the state by their table.
+std::string place_of(const FieldDifference& field) {
+  const bool work =
+      field.part == "contact work" || field.part == "body work" || field.part == "sweep" || field.part == "bounds";
+  std::string place = name_of(field.element);
+  if (work) place += ", " + field.part;
+  if (!field.field.empty()) place += (place.empty() ? "" : ", ") + field.field;
+  return place;
+}
+
+std::string values_of(const FieldDifference& field, const std::string& a, const std::string& b) {
+  if (!field.a.there) return "only in " + b;
+  if (!field.b.there) return "only in " + a;
+  if (field.a.raw.empty()) return "differs";
+  std::string number_a, number_b;
+  write_numbers(field.a.number, field.b.number, number_a, number_b);
+  if (field.whole) return number_a + " and " + number_b;
+  const std::string unit = field.measured_in.empty() ? "" : " " + field.measured_in;
+  return field.a.raw + " (" + number_a + unit + ") and " + field.b.raw + " (" + number_b + unit + ")";
+}
+
+std::string line_of(const FieldDifference& field, const std::string& a, const std::string& b) {
+  const std::string place = place_of(field);
+  return place + (place.empty() ? "" : ": ") + values_of(field, a, b);
+}
+
+std::string line_of(const CallDifference& call, const std::string& a, const std::string& b) {
+  std::string line = "call " + text(call.index) + " before tick " + text(call.tick) + ": ";
+  if (call.b.empty()) return line + call.a + ", only in " + a;
+  if (call.a.empty()) return line + call.b + ", only in " + b;
+  if (call.a != call.b) return line + call.a + " and " + call.b;
+  line += call.a;
+  for (const FieldDifference& field : call.fields) line += ", " + line_of(field, a, b);
+  return line;
+}
+
+Json json_of(const SideValue& value) {
+  if (!value.there) return nullptr;
+  if (value.raw.empty()) return Json::object();
+  return {{"raw", value.raw}, {"value", value.number}};
+}
+
+Json json_of(const FieldDifference& field) {
+  Json json;
+  if (!field.element.kind.empty()) {
+    json["element"] = field.element.kind;
+    if (!field.element.slots.empty()) {
+      json["slots"] = field.element.slots;
+      if (!field.element.generations.empty()) json["generations"] = field.element.generations;
+    }
+    if (field.element.part != 0) json["element_part"] = field.element.part;
+    json["table"] = field.part;
+  }
+  if (!field.field.empty()) json["field"] = field.field;
+  if (!field.measured_in.empty()) json["unit"] = field.measured_in;
+  json["a"] = json_of(field.a);
+  json["b"] = json_of(field.b);
+  return json;
+}
+
+Json json_of(const std::vector<FieldDifference>& fields) {
+  Json list = Json::array();
+  for (const FieldDifference& field : fields) list.push_back(json_of(field));
+  return list;
+}
+
+/// What is found first, on the line; it stands in no list again.
+std::string first_of(const Difference& difference, const std::string& a, const std::string& b) {
+  if (!difference.calls.empty() && difference.stage == "calls") return line_of(difference.calls.front(), a, b);
+  return difference.fields.empty() ? "" : line_of(difference.fields.front(), a, b);
+}
+
+std::string where(const Difference& difference) {
+  if (difference.stage == "seed") return "their seeds differ";
+  const std::string equal =
+      difference.equal_to < difference.first ? "equal in no tick" : "equal up to tick " + text(difference.equal_to);
+  if (difference.after_last_tick) return equal + "; what comes after it differs";
+  if (difference.tick == difference.equal_to + 1) return equal + "; tick " + text(difference.tick) + " differs";
+  return equal + "; one of the ticks " + text(difference.equal_to + 1) + " to " + text(difference.tick) + " differs";
+}
+
+}  // namespace
+
+std::string difference_text(const Difference& difference, const std::string& a, const std::string& b) {
+  if (!difference.problem.empty()) return difference.problem;
+  std::string text_of;
+  if (!difference.different) {
+    text_of = difference.last < difference.first
+                  ? "no tick to compare"
+                  : "equal in ticks " + text(difference.first) + " to " + text(difference.last);
+  } else {
+    text_of = where(difference);
+    const std::string first = first_of(difference, a, b);
+    if (!difference.stage.empty() && difference.stage != "seed") text_of += ", first at stage " + difference.stage;
+    if (!first.empty()) text_of += ": " + first;
+    const bool by_call = !difference.calls.empty() && difference.stage == "calls";
+    if (!difference.calls.empty() && !by_call) text_of += "\n  " + line_of(difference.calls.front(), a, b);
+    const size_t told = by_call ? 0 : 1;
+    for (size_t i = told; i < difference.fields.size(); ++i) text_of += "\n  " + line_of(difference.fields[i], a, b);
+    if (difference.field_count > difference.fields.size())
+      text_of += "\n  and " + text(difference.field_count - difference.fields.size()) + " more";
+  }
+  for (const std::string& note : difference.notes) text_of += "\n  " + note;
+  for (const std::string& command : difference.wanted)
+    text_of += "\n  to know more, on the machine that recorded it: " + command;
+  return text_of;
+}
+
+std::string difference_json(const Difference& difference) {
+  Json json;
+  if (!difference.problem.empty()) {
+    json["problem"] = difference.problem;
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  }
+  json["equal"] = !difference.different;
+  json["first_tick"] = difference.first;
+  json["last_tick"] = difference.last;
+  json["equal_to"] = difference.equal_to;
+  if (difference.different) {
+    json["tick"] = difference.tick;
+    json["after_last_tick"] = difference.after_last_tick;
+    if (!difference.stage.empty()) json["stage"] = difference.stage;
+    json["field_count"] = difference.field_count;
+    json["fields"] = json_of(difference.fields);
+    for (const CallDifference& call : difference.calls) {
+      json["call"] = {{"tick", call.tick}, {"index", call.index}};
+      json["call"]["a"] = call.a.empty() ? Json() : Json(call.a);
+      json["call"]["b"] = call.b.empty() ? Json() : Json(call.b);
+      json["call"]["fields"] = json_of(call.fields);
+    }
+  }
+  if (!difference.notes.empty()) json["notes"] = difference.notes;
+  if (!difference.wanted.empty()) json["wanted"] = difference.wanted;
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace detent_tool
