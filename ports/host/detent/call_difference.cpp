@@ -85,9 +85,23 @@ void compare_fields(const std::vector<uint8_t>& a, const std::vector<uint8_t>& b
     if (in_a[i].bytes == in_b[i].bytes || in_a[i].name != in_b[i].name) continue;
     FieldDifference field;
     field.field = in_a[i].name;
-    field.whole = in_a[i].kind == WordKind::unsigned_integer || in_a[i].kind == WordKind::signed_integer;
+    field.whole = is_whole(in_a[i].kind);
     field.a = value_of(in_a[i]);
     field.b = value_of(in_b[i]);
+    difference.fields.push_back(field);
+  }
+}
+
+/// Of a call that only one side makes.
+void list_fields(const std::vector<uint8_t>& record, bool in_a, CallDifference& difference) {
+  difference.record = record;
+  for (const FieldList::Item& item : fields_of(record)) {
+    if (difference.fields.size() == k_fields_told) return;
+    FieldDifference field;
+    field.field = item.name;
+    field.whole = is_whole(item.kind);
+    (in_a ? field.a : field.b) = value_of(item);
+    (in_a ? field.b : field.a).there = false;
     difference.fields.push_back(field);
   }
 }
@@ -104,6 +118,7 @@ bool find_call_difference(const CallRecords& a, const CallRecords& b, CallDiffer
   const bool only_b = i < b.size() && (i == a.size() || (b.size() > a.size() && b[i + 1] == a[i]));
   if (!only_b) difference.a = name_of(a[i]);
   if (!only_a) difference.b = name_of(b[i]);
+  if (only_a || only_b) list_fields(only_a ? a[i] : b[i], only_a, difference);
   if (!only_a && !only_b && a[i][0] == b[i][0]) compare_fields(a[i], b[i], difference);
   return true;
 }

@@ -161,9 +161,7 @@ void narrow(const Side& a, const Side& b, const Assets& assets, Survey& survey) 
     if (tick == 0 && same) equal_to = in_a.tick;
     if (tick == 0 && !same) tick = in_a.tick;
   }
-  if (in_a.first_other != 0 && !a.here) return;
-  if (in_b.first_other != 0 && !b.here) return;
-  if (tick == 0) return;
+  if (tick == 0 || (!a.here && !in_a.verified()) || (!b.here && !in_b.verified())) return;
   survey.equal_to = equal_to;
   if (survey.tick == tick) return;
   survey.tick = tick;
@@ -201,7 +199,7 @@ void want_trace(const Side& side, const Survey& survey, Difference& difference) 
 
 /// Looks for stage and field where two digests differ.
 void explain_states(Side a, Side b, const Assets& assets, Survey& survey) {
-  if (survey.tick - survey.equal_to > 1) narrow(a, b, assets, survey);
+  if (!survey.traced && survey.tick - survey.equal_to > 1) narrow(a, b, assets, survey);
   uint64_t from = survey.equal_to + 1, to = survey.tick;
   if (to - from > 1) {  // as far as the other side is traced
     for (const int other : {0, 1}) {
@@ -210,7 +208,7 @@ void explain_states(Side a, Side b, const Assets& assets, Survey& survey) {
       to = survey.last_traced[other];
     }
   }
-  bool has_a = survey.a.there, has_b = survey.b.there;
+  bool has_a = survey.a.full, has_b = survey.b.full;
   if (to - from < k_ticks_traced_max) {
     const bool gets_a = !has_a && trace_here(a, from, to, assets);
     const bool gets_b = !has_b && trace_here(b, from, to, assets);
@@ -237,8 +235,23 @@ void explain_states(Side a, Side b, const Assets& assets, Survey& survey) {
   }
   const bool exact = survey.traced && survey.a.full && survey.b.full;
   if (exact) return;
-  if (!has_a || (survey.a.there && !survey.a.full)) want_trace(a, survey, survey.found);
-  if (!has_b || (survey.b.there && !survey.b.full)) want_trace(b, survey, survey.found);
+  if (!has_a) want_trace(a, survey, survey.found);
+  if (!has_b) want_trace(b, survey, survey.found);
+}
+
+/// A call that only one side makes may be one that the other makes later.
+void note_late_call(const Side& a, const Side& b, Difference& difference) {
+  constexpr uint64_t k_ticks_late_max = 60;
+  const CallDifference& call = difference.calls.front();
+  if (!call.a.empty() && !call.b.empty()) return;
+  const Side& other = call.a.empty() ? a : b;
+  TickReader reader(other.recorded);
+  while (reader.next() && !reader.finished && reader.tick <= call.tick + k_ticks_late_max) {
+    if (reader.tick <= call.tick) continue;
+    if (std::find(reader.calls.begin(), reader.calls.end(), call.record) == reader.calls.end()) continue;
+    difference.notes.push_back(other.recorded.name + " makes this call before tick " + std::to_string(reader.tick));
+    return;
+  }
 }
 
 Difference compare(const Side& a, const Side& b, const Assets& assets) {
@@ -261,11 +274,8 @@ Difference compare(const Side& a, const Side& b, const Assets& assets) {
       survey.found.stage = seeds.stage;
       survey.found.fields = seeds.fields;
       survey.found.field_count = seeds.field_count;
-    } else if (survey.states_differ && !survey.traced && !survey.after_last_tick) {
+    } else if (survey.states_differ && !survey.after_last_tick && !(survey.traced && survey.a.full && survey.b.full)) {
       explain_states(a, b, assets, survey);
-    } else if (survey.traced && !(survey.a.full && survey.b.full)) {
-      if (!survey.a.full) want_trace(a, survey, survey.found);
-      if (!survey.b.full) want_trace(b, survey, survey.found);
     }
     const bool by_call =
         !seeds_differ && calls_differ && (!survey.states_differ || survey.found.calls[0].tick > survey.equal_to);
@@ -275,6 +285,7 @@ Difference compare(const Side& a, const Side& b, const Assets& assets) {
       survey.after_last_tick = survey.tick > survey.last && !survey.states_differ;
       if (survey.found.stage.empty()) survey.found.stage = "calls";
       survey.found.wanted.clear();
+      note_late_call(a, b, survey.found);
     }
     if (!survey.states_differ) survey.found.notes.push_back("the states are equal all the same");
   }

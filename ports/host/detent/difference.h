@@ -22,6 +22,8 @@ struct ElementName {
   uint32_t part = 0;                       ///< of a contact
 };
 
+inline constexpr size_t k_fields_told = 8;
+
 struct FieldDifference {
   ElementName element;
   std::string part;  ///< the table that the field is of
@@ -34,10 +36,11 @@ struct FieldDifference {
 
 /// A call that only one side makes, or makes in another way.
 struct CallDifference {
-  uint64_t tick = 0;   ///< that is completed after it
-  uint32_t index = 0;  ///< among the calls before it, from 1 on
-  std::string a, b;    ///< its name; empty: that side does not make it
-  std::vector<FieldDifference> fields;
+  uint64_t tick = 0;                    ///< that is completed after it
+  uint32_t index = 0;                   ///< among the calls before it, from 1 on
+  std::string a, b;                     ///< its name; empty: that side does not make it
+  std::vector<FieldDifference> fields;  ///< that differ; of a call that only one side makes all, up to `k_fields_told`
+  std::vector<uint8_t> record;          ///< of a call that only one side makes
 };
 
 struct Difference {
@@ -55,7 +58,6 @@ struct Difference {
   std::vector<std::string> notes;
   std::vector<std::string> wanted;  ///< commands that would tell more
 };
-inline constexpr size_t k_fields_told = 8;
 
 /// One line, and what it leads to, without the files' names.
 std::string difference_text(const Difference& difference, const std::string& a, const std::string& b);

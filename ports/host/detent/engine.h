@@ -48,6 +48,7 @@ struct Outcome {
   uint64_t tick = 0;            ///< after how many completed ticks
   uint64_t first_bad_tick = 0;  ///< the first tick that is not known to be right
   bool digests_differ = false;  ///< of a state after a tick: the recorded and this machine's
+  std::string difference_text;  ///< what more the recording tells of that, for people
   std::string difference;       ///< of a digest that differs: a JSON object (difference.h)
   std::string lost;             ///< what a recovered recording had: as `problem`
 

@@ -96,8 +96,15 @@ bool OwnReplay::next() {
   if (!problem.empty()) return false;
   finished = result.finished;
   if (!finished) tick = recorder_->step().tick;
-  if (result.compared && first_other == 0 && result.digest != digest(world())) first_other = tick;
+  compared = result.compared;
+  if (compared && first_other == 0 && result.digest != digest(world())) first_other = tick;
   return !finished;
+}
+
+bool OwnReplay::verified() {
+  while (!compared && first_other == 0 && next()) {
+  }
+  return first_other == 0 && problem.empty();
 }
 
 TraceMade trace_to(const Recorded& recorded, const Assets& assets, const TraceDef& def, Sink sink,
@@ -119,8 +126,9 @@ TraceMade trace_to(const Recorded& recorded, const Assets& assets, const TraceDe
   made.problem = status == Status::ok ? replay.problem : std::string(status_text(status));
   made.ticks = replay.tick - first;
   made.last = replay.tick;
-  made.first_other = replay.first_other;
   made.digest = digest(replay.world());
+  replay.verified();
+  made.first_other = replay.first_other;
   return made;
 }
 

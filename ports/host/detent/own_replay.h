@@ -18,6 +18,8 @@ class OwnReplay {
   bool begin(uint64_t tick);
   /// Makes the next tick, or the calls after the last one. False at the end, and if there is a problem.
   bool next();
+  /// Goes on to the next digest that the recording holds: whether all that were passed are those of this machine.
+  bool verified();
 
   Recorder& recorder() { return *recorder_; }
   World& world() { return world_.owned.world; }
@@ -26,6 +28,7 @@ class OwnReplay {
   std::string problem;
   bool refused = false;  ///< the problem is a call that this machine does not make, or makes in another way
   bool finished = false;
+  bool compared = false;     ///< the recording holds a digest of the state of now
   uint64_t tick = 0;         ///< completed
   uint64_t first_other = 0;  ///< the first tick whose recorded digest is another; 0: none
 
@@ -50,7 +53,7 @@ struct TraceMade {
   std::string problem;       ///< it ends before its time; empty: it does not
   uint64_t ticks = 0;        ///< in the recording
   uint64_t last = 0;         ///< ticks completed at its end
-  uint64_t first_other = 0;  ///< OwnReplay's
+  uint64_t first_other = 0;  ///< OwnReplay's, up to the first digest after the window
   uint64_t digest = 0;
 };
 /// A recording of the same calls, from the tick before the window to its end, with this machine's states.

@@ -25,7 +25,8 @@ void print(const std::string& line) {
 }
 
 void print_problem(const std::string& path, const Outcome& outcome) {
-  fprintf(stderr, "%s: %s\n", path.c_str(), outcome.problem.c_str());
+  const std::string more = outcome.difference_text.empty() ? "" : "; " + outcome.difference_text;
+  fprintf(stderr, "%s: %s%s\n", path.c_str(), outcome.problem.c_str(), more.c_str());
 }
 
 /// A path need not be valid UTF-8: bytes that are not are replaced.

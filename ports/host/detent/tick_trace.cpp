@@ -68,8 +68,6 @@ double number_of(WordKind kind, uint32_t width, const uint8_t* bytes) {
   }
 }
 
-bool is_whole(WordKind kind) { return kind == WordKind::unsigned_integer || kind == WordKind::signed_integer; }
-
 std::string name_of(const Field& field, uint32_t number) {
   constexpr const char* k_components[] = {".x", ".y", ".z", ".w"};
   const uint32_t words = field.kind == WordKind::scaled ? 2 : 1;

@@ -38,7 +38,8 @@ struct TickTrace {
 /// The first differences of the first stage that differs among those that both have. False if there is none.
 bool find_difference(const TickTrace& a, const TickTrace& b, detent_tool::Difference& difference);
 
-/// A number of `words` canonical bytes as the tool tells it.
+inline bool is_whole(WordKind kind) { return kind == WordKind::unsigned_integer || kind == WordKind::signed_integer; }
+/// A number from its canonical bytes, of `width` each word, as the tool tells it.
 detent_tool::SideValue side_value(WordKind kind, uint32_t width, const uint8_t* bytes);
 
 }  // namespace DETENT_NAMESPACE

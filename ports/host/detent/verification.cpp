@@ -70,7 +70,7 @@ Outcome verify_here(const VerificationRequest& request, const ReadRequest& readi
       // Of a digest that differs the recording may tell more than where.
       if (outcome.digests_differ) {
         const Difference difference = engine.explain(reading, outcome.first_bad_tick);
-        outcome.problem += "; " + difference_text(difference, "the recording", "this machine");
+        outcome.difference_text = difference_text(difference, "the recording", "this machine");
         outcome.difference = difference_json(difference);
       }
       return outcome;

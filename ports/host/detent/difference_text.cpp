@@ -1,14 +1,10 @@
 #include <stdio.h>
 
-#include <nlohmann/json.hpp>
-
 #include "difference.h"
 
 namespace detent_tool {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::string text(uint64_t value) { return std::to_string(value); }
 
@@ -69,42 +65,19 @@ std::string line_of(const FieldDifference& field, const std::string& a, const st
 
 std::string line_of(const CallDifference& call, const std::string& a, const std::string& b) {
   std::string line = "call " + text(call.index) + " before tick " + text(call.tick) + ": ";
-  if (call.b.empty()) return line + call.a + ", only in " + a;
-  if (call.a.empty()) return line + call.b + ", only in " + b;
+  if (call.a.empty() || call.b.empty()) {
+    const bool in_a = call.b.empty();
+    line += in_a ? call.a : call.b;
+    for (const FieldDifference& field : call.fields) {
+      const double number = in_a ? field.a.number : field.b.number;
+      line += (&field == &call.fields.front() ? " (" : ", ") + field.field + " " + decimal(number, 6);
+    }
+    return line + (call.fields.empty() ? "" : ")") + ", only in " + (in_a ? a : b);
+  }
   if (call.a != call.b) return line + call.a + " and " + call.b;
   line += call.a;
   for (const FieldDifference& field : call.fields) line += ", " + line_of(field, a, b);
   return line;
-}
-
-Json json_of(const SideValue& value) {
-  if (!value.there) return nullptr;
-  if (value.raw.empty()) return Json::object();
-  return {{"raw", value.raw}, {"value", value.number}};
-}
-
-Json json_of(const FieldDifference& field) {
-  Json json;
-  if (!field.element.kind.empty()) {
-    json["element"] = field.element.kind;
-    if (!field.element.slots.empty()) {
-      json["slots"] = field.element.slots;
-      if (!field.element.generations.empty()) json["generations"] = field.element.generations;
-    }
-    if (field.element.part != 0) json["element_part"] = field.element.part;
-    json["table"] = field.part;
-  }
-  if (!field.field.empty()) json["field"] = field.field;
-  if (!field.measured_in.empty()) json["unit"] = field.measured_in;
-  json["a"] = json_of(field.a);
-  json["b"] = json_of(field.b);
-  return json;
-}
-
-Json json_of(const std::vector<FieldDifference>& fields) {
-  Json list = Json::array();
-  for (const FieldDifference& field : fields) list.push_back(json_of(field));
-  return list;
 }
 
 /// What is found first, on the line; it stands in no list again.
@@ -116,10 +89,10 @@ std::string first_of(const Difference& difference, const std::string& a, const s
 std::string where(const Difference& difference) {
   if (difference.stage == "seed") return "their seeds differ";
   const std::string equal =
-      difference.equal_to < difference.first ? "equal in no tick" : "equal up to tick " + text(difference.equal_to);
-  if (difference.after_last_tick) return equal + "; what comes after it differs";
-  if (difference.tick == difference.equal_to + 1) return equal + "; tick " + text(difference.tick) + " differs";
-  return equal + "; one of the ticks " + text(difference.equal_to + 1) + " to " + text(difference.tick) + " differs";
+      difference.equal_to < difference.first ? "" : "equal up to tick " + text(difference.equal_to) + "; ";
+  if (difference.after_last_tick) return equal + "what comes after the last tick differs";
+  if (difference.tick == difference.equal_to + 1) return equal + "tick " + text(difference.tick) + " differs";
+  return equal + "one of the ticks " + text(difference.equal_to + 1) + " to " + text(difference.tick) + " differs";
 }
 
 }  // namespace
@@ -147,34 +120,6 @@ std::string difference_text(const Difference& difference, const std::string& a, 
   for (const std::string& command : difference.wanted)
     text_of += "\n  to know more, on the machine that recorded it: " + command;
   return text_of;
-}
-
-std::string difference_json(const Difference& difference) {
-  Json json;
-  if (!difference.problem.empty()) {
-    json["problem"] = difference.problem;
-    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  }
-  json["equal"] = !difference.different;
-  json["first_tick"] = difference.first;
-  json["last_tick"] = difference.last;
-  json["equal_to"] = difference.equal_to;
-  if (difference.different) {
-    json["tick"] = difference.tick;
-    json["after_last_tick"] = difference.after_last_tick;
-    if (!difference.stage.empty()) json["stage"] = difference.stage;
-    json["field_count"] = difference.field_count;
-    json["fields"] = json_of(difference.fields);
-    for (const CallDifference& call : difference.calls) {
-      json["call"] = {{"tick", call.tick}, {"index", call.index}};
-      json["call"]["a"] = call.a.empty() ? Json() : Json(call.a);
-      json["call"]["b"] = call.b.empty() ? Json() : Json(call.b);
-      json["call"]["fields"] = json_of(call.fields);
-    }
-  }
-  if (!difference.notes.empty()) json["notes"] = difference.notes;
-  if (!difference.wanted.empty()) json["wanted"] = difference.wanted;
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace detent_tool
