@@ -38,6 +38,7 @@ struct Survey {
 
 void note_end(const TickReader& reader, const TickReader& other, const Side& side, Survey& survey) {
   if (!reader.problem.empty()) {
+    survey.found.damaged = true;
     survey.found.notes.push_back(side.recorded.name + ": " + reader.problem);
   } else if (reader.finished && !other.finished) {
     survey.found.notes.push_back(side.recorded.name + " ends at tick " + std::to_string(reader.tick));

@@ -47,6 +47,7 @@ struct Difference {
   std::string problem;        ///< why nothing can be said; empty if it can
   bool other_config = false;  ///< another engine may hold the first recording
   bool different = false;
+  bool damaged = false;                 ///< a recording ends before its end; so does the comparison
   bool after_last_tick = false;         ///< the ticks are equal; what comes after them is not
   uint64_t first = 0, last = 0;         ///< ticks that both recordings have
   uint64_t equal_to = 0;                ///< this tick, and all before it

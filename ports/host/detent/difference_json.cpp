@@ -47,6 +47,7 @@ std::string difference_json(const Difference& difference) {
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
   }
   json["equal"] = !difference.different;
+  json["damaged"] = difference.damaged;
   json["first_tick"] = difference.first;
   json["last_tick"] = difference.last;
   json["equal_to"] = difference.equal_to;

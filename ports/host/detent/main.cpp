@@ -103,7 +103,7 @@ int run_trace(TraceRequest request, uint32_t level, const std::vector<std::strin
   return outcome.verdict == Verdict::good ? k_exit_good : k_exit_bad;
 }
 
-/// 0: equal, 1: different, 2: they cannot be compared.
+/// 0: equal, 1: different, 2: they cannot be compared, or not to the end.
 int run_diff(DiffRequest request, const std::vector<std::string>& asset_paths, const Report& report) {
   if (!read_assets(asset_paths, request.assets)) return k_exit_usage;
   Difference difference;
@@ -112,7 +112,7 @@ int run_diff(DiffRequest request, const std::vector<std::string>& asset_paths, c
     if (!difference.other_config) break;
   }
   if (!report.compared(request.a, request.b, difference)) return k_exit_usage;
-  return difference.different ? k_exit_bad : k_exit_good;
+  return difference.different ? k_exit_bad : difference.damaged ? k_exit_usage : k_exit_good;
 }
 
 int run_compress(const std::vector<std::string>& paths, const Report& report) {
