@@ -65,6 +65,8 @@ bool compare_tick(const TickReader& a, const TickReader& b, Survey& survey) {
   survey.traced = find_difference(a.trace, b.trace, survey.found);
   if (survey.traced || (digests && a.digest != b.digest)) {
     survey.states_differ = true;
+    if (digests && a.digest == b.digest)
+      survey.found.notes.push_back("the states after this tick are equal all the same");
     survey.tick = a.tick;
     survey.a = a.trace;
     survey.b = b.trace;
@@ -220,7 +222,7 @@ void explain_states(Side a, Side b, const Assets& assets, Survey& survey) {
       if (again.traced) {
         again.first = survey.first;
         again.same_start = survey.same_start;
-        again.found.notes = survey.found.notes;
+        again.found.notes.insert(again.found.notes.end(), survey.found.notes.begin(), survey.found.notes.end());
         if (again.found.calls.empty()) again.found.calls = survey.found.calls;
         survey = std::move(again);
       } else {

@@ -21,6 +21,7 @@ struct StageTrace {
   using Key = std::vector<uint32_t>;
   std::map<Key, Element> parts[k_trace_part_count];
   std::vector<Key> contacts;  ///< of the state, by their places
+  uint64_t digest = 0;
   bool there = false;
 };
 
