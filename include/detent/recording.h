@@ -95,13 +95,15 @@ class Recorder {
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  /// Traces these ticks: what a difference of two machines is found by (docs/first_difference.md). To be called before
-  /// `begin`. A trace goes to the sink from within `step`, in chunks, and takes some ten times the state a tick. While
-  /// it steps, World::observer is the recorder's, which passes on what it is told. A program that never calls this
-  /// links none of its code.
-  void trace(const TraceDef& def) {
+  /// Traces these ticks: what a difference of two machines is found by (docs/first_difference.md). A trace goes to the
+  /// sink from within `step`, in chunks, and takes some ten times the state in use a tick; World::observer is the
+  /// recorder's while it steps, and the world's own is told first. A program that never calls this links none of its
+  /// code. Errors: bad_argument (begun before, a level that there is not, or `from` after `to`).
+  Status trace(const TraceDef& def) {
+    if (state_ != State::idle || def.level > TraceLevel::full || def.from > def.to) return Status::bad_argument;
     trace_ = def;
     tracer_ = &k_tracer;
+    return Status::ok;
   }
   /// Writes the header and the world's state as the seed; calls are logged from here on. With a null sink: ok, and
   /// nothing. Errors: bad_argument (begun before), buffer_too_small (k_recording_buffer_bytes), sink_failed.

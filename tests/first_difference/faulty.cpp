@@ -34,7 +34,7 @@ class Machine {
     uint8_t buffer[k_recording_buffer_bytes];
     Recorder recorder(world_, {write_file, file}, buffer, sizeof buffer);
     scene_.build(recorder);
-    if (run_.trace != 0) recorder.trace({static_cast<TraceLevel>(run_.trace), 1, run_.ticks});
+    if (run_.trace != 0) take(recorder.trace({static_cast<TraceLevel>(run_.trace), 1, run_.ticks}));
     if (run_.tick == 0) create_two(recorder);
     if (recorder.begin({run_.digests, run_.keyframes}) != Status::ok) return false;
     for (uint32_t tick = 1; tick <= run_.ticks; ++tick) {

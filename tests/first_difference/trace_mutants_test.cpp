@@ -20,7 +20,7 @@ Bytes traced_tick(TraceLevel level) {
   EXPECT_OK(recorder.create_body(body, id));
   body.position.y = 1.5;
   EXPECT_OK(recorder.create_body(body, id));
-  recorder.trace({level, 1, 1});
+  EXPECT_OK(recorder.trace({level, 1, 1}));
   EXPECT_OK(recorder.begin());
   recorder.step();
   EXPECT_OK(recorder.end());

@@ -36,7 +36,9 @@ Bytes record_traced(const TraceDef* trace, const StepObserver* observer = nullpt
   EXPECT_OK(recorder.create_body(body, ids[2]));
   body.position = {3.0, 1.0, 0.0};
   EXPECT_OK(recorder.create_body(body, ids[3]));
-  if (trace != nullptr) recorder.trace(*trace);
+  if (trace != nullptr) {
+    EXPECT_OK(recorder.trace(*trace));
+  }
   EXPECT_OK(recorder.begin());
   for (uint32_t tick = 1; tick <= 20; ++tick) {
     if (tick == 5) {
@@ -188,7 +190,7 @@ DETENT_TEST(trace, the_worlds_own_observer_sees_every_stage_in_order_with_a_trac
 
 DETENT_TEST(trace, a_step_that_has_nothing_to_do_has_no_stages) {
   Recording recording(OwnedWorld::def_of({2, 2, 0}));
-  recording.recorder.trace({TraceLevel::full, 1, 1});
+  EXPECT_OK(recording.recorder.trace({TraceLevel::full, 1, 1}));
   EXPECT_OK(recording.recorder.begin());
   recording.recorder.step();  // no body
   recording.recorder.step();
@@ -197,7 +199,7 @@ DETENT_TEST(trace, a_step_that_has_nothing_to_do_has_no_stages) {
   EXPECT_LE(count_of(traces[1], true).stages, k_trace_stage_count);
   Recording idle(OwnedWorld::def_of({2, 2, 0}));
   idle.recorder.step();
-  idle.recorder.trace({TraceLevel::full, 2, 2});
+  EXPECT_OK(idle.recorder.trace({TraceLevel::full, 2, 2}));
   EXPECT_OK(idle.recorder.begin());
   idle.recorder.step();
   EXPECT_OK(idle.recorder.end());
@@ -212,13 +214,26 @@ DETENT_TEST(trace, a_failing_sink_ends_the_recording_and_not_the_step) {
     if (i == 1) recording.memory.writes_max = 40;
     BodyId id;
     EXPECT_OK(recorder.create_body({}, id));
-    recorder.trace({});
+    EXPECT_OK(recorder.trace({}));
     EXPECT_OK(recorder.begin());
     for (uint32_t tick = 0; tick < 30; ++tick) recorder.step();
     EXPECT_EQ(recorder.end() == Status::ok, i == 0);
     digests[i] = digest(recording.owned.world);
   }
   EXPECT_EQ(digests[0], digests[1]);
+}
+
+DETENT_TEST(trace, a_window_that_is_none_and_a_recording_that_has_begun_are_refused) {
+  Recording recording(OwnedWorld::def_of({2, 2, 0}));
+  EXPECT_EQ(recording.recorder.trace({TraceLevel::full, 2, 1}), Status::bad_argument);
+  EXPECT_EQ(recording.recorder.trace({static_cast<TraceLevel>(3), 1, 2}), Status::bad_argument);
+  EXPECT_OK(recording.recorder.begin());
+  EXPECT_EQ(recording.recorder.trace({TraceLevel::full, 1, 2}), Status::bad_argument);
+  recording.recorder.step();
+  EXPECT_OK(recording.recorder.end());
+  const Replay played = replay(recording.memory.bytes);
+  EXPECT_TRUE(played.finished);
+  EXPECT_TRUE(traces_of(recording.memory.bytes, k_state)[1].empty());
 }
 
 DETENT_TEST(trace, bytes_that_are_no_trace_are_refused_and_never_read_beyond_their_end) {

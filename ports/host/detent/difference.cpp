@@ -109,7 +109,8 @@ Survey survey_of(const Side& side_a, const Side& side_b) {
     if (!compare_tick(a, b, survey)) return survey;
   }
   if (a.finished && b.finished && a.tick == b.tick) {
-    compare_calls(a, b, a.tick + 1, survey);
+    const bool whole = side_a.recorded.bytes == nullptr && side_b.recorded.bytes == nullptr;  // no window of one
+    if (whole) compare_calls(a, b, a.tick + 1, survey);
     if (a.digest != b.digest) {
       survey.states_differ = true;
       survey.tick = a.tick;

@@ -116,13 +116,13 @@ TraceMade trace_to(const Recorded& recorded, const Assets& assets, const TraceDe
     return made;
   }
   const uint64_t first = replay.tick;
-  replay.recorder().trace(def);
-  Status status = replay.recorder().begin();
+  Status status = replay.recorder().trace(def);
+  if (status == Status::ok) status = replay.recorder().begin();
   while (status == Status::ok && replay.tick < def.to && replay.next()) {
     if (replay.tick % k_ticks_per_progress == 0) progress(replay.tick - first, def.to - first);
     status = replay.recorder().status();
   }
-  status = replay.recorder().end();
+  if (status == Status::ok) status = replay.recorder().end();
   made.problem = status == Status::ok ? replay.problem : std::string(status_text(status));
   made.ticks = replay.tick - first;
   made.last = replay.tick;
