@@ -94,7 +94,7 @@ class Machine {
     if (state.world.tick + 1 != machine.run_.tick) return;
     const Scratch scratch = scratch_of(world.block, state.layout, capacity_of(state.header));
     if (machine.is("contact") && stage == StepStage::collide && contacts != 0)
-      machine.flip(scratch.contacts[0].normal.x);
+      machine.flip(scratch.contacts[0].normal.y);
     if (machine.is("solve") && stage == StepStage::solve) machine.flip(state.motions[machine.run_.body - 1].velocity.y);
     if (machine.is("sweep") && stage == StepStage::advance)
       machine.flip(scratch.sweeps[machine.run_.body - 1].displacement.y);
