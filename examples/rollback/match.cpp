@@ -165,11 +165,7 @@ Verdict Match::take(uint32_t from, const uint8_t* bytes, uint32_t count, double 
 }
 
 /// The first tick of which an input is not known.
-uint64_t Match::known_tick() const {
-  uint64_t known = session_.next_input(0);
-  for (uint32_t player = 1; player < def_.players; ++player) known = std::min(known, session_.next_input(player));
-  return known;
-}
+uint64_t Match::known_tick() const { return session_.next_input(slowest()); }
 
 /// Whether a machine that keeps the rules can have sent this. Nobody makes more than a window of ticks without the
 /// inputs of all, nor gives inputs for more than a delay ahead, which is a window at most; so nobody is two windows and
@@ -205,6 +201,14 @@ void Match::use(const Packet& packet) {
   if (packet.has_checksum) {
     static_cast<void>(session_.add_checksum(packet.player, {packet.checksum_tick, packet.checksum}));
   }
+}
+
+uint32_t Match::slowest() const {
+  uint32_t slowest = 0;
+  for (uint32_t player = 1; player < def_.players; ++player) {
+    if (session_.next_input(player) < session_.next_input(slowest)) slowest = player;
+  }
+  return slowest;
 }
 
 double Match::ticks_ahead() const {

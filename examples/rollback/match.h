@@ -60,6 +60,8 @@ class Match {
 
   /// Every input of every tick is known, and used.
   bool is_over() const { return confirmed_.size() == size_t{def_.ticks} * def_.players; }
+  /// The player whose inputs are least known: who is waited for, if anybody is.
+  uint32_t slowest() const;
   /// How many ticks this machine is ahead of who is farthest behind; who is ahead should take it slower.
   double ticks_ahead() const;
   /// The longest way to another machine and back, in ticks, frames included.
