@@ -15,7 +15,8 @@ enum class Verdict : uint32_t {
 /// Watches over what one sender sends.
 class Guard {
  public:
-  /// Whether a packet more is too many. A frame sends one, so a second brings 60, or after a pause all of the pause's.
+  /// Whether a packet more is too many. A frame sends one, so a second brings 60, or after a pause of
+  /// this machine's all of the pause's.
   bool is_flood(double now) {
     tokens_ = std::min(k_burst, tokens_ + std::max(0.0, now - time_) * k_rate);
     time_ = std::max(time_, now);
@@ -44,7 +45,7 @@ class Guard {
   bool is_hostile() const { return refused_ > k_refused_max; }
 
  private:
-  static constexpr double k_rate = 180, k_burst = 600;  ///< packets a second, packets
+  static constexpr double k_rate = 180, k_burst = 3600;  ///< packets a second; packets, of a minute
   static constexpr uint32_t k_refused_max = 100;
 
   double tokens_ = k_burst, time_ = 0;
