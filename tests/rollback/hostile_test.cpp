@@ -77,6 +77,10 @@ DETENT_TEST(rollback_hostile, packets_that_say_what_cannot_be_are_refused) {
   EXPECT_TRUE(refuses([](Packet& packet) { packet.runs[0].player = 1; }));
   EXPECT_TRUE(refuses([](Packet& packet) { packet.runs[0].player = 0; }));
   EXPECT_TRUE(refuses([](Packet& packet) { packet.runs[0].first += 1000; }));
+  EXPECT_TRUE(refuses([](Packet& packet) {  // a gap
+    packet.runs[0].first += 60;
+    packet.runs[0].count = 1;
+  }));
   EXPECT_TRUE(refuses([](Packet& packet) { packet.runs[0].count = 128; }));
   EXPECT_TRUE(refuses([](Packet& packet) { packet.tick += 1000; }));
   EXPECT_TRUE(refuses([](Packet& packet) { packet.wanted[0] += 1000; }));
