@@ -19,18 +19,30 @@ double rate(const Outcome& outcome) {
 std::string text(uint64_t value) { return std::to_string(value); }
 
 /// At once: a run that is ended leaves a log of what it has done.
-void print(const std::string& line) {
+void put(const std::string& line) {
   printf("%s\n", line.c_str());
   fflush(stdout);
 }
 
+void print(const std::string& line) { put(printable(line)); }
+
+/// Of several lines, each as `printable`.
+std::string printable_lines(const std::string& text) {
+  std::string lines;
+  for (size_t at = 0, end = 0; at <= text.size(); at = end + 1) {
+    end = text.find('\n', at) < text.size() ? text.find('\n', at) : text.size();
+    lines += (at == 0 ? "" : "\n") + printable(text.substr(at, end - at));
+  }
+  return lines;
+}
+
 void print_problem(const std::string& path, const Outcome& outcome) {
   const std::string more = outcome.difference_text.empty() ? "" : "; " + outcome.difference_text;
-  fprintf(stderr, "%s: %s%s\n", path.c_str(), outcome.problem.c_str(), more.c_str());
+  fprintf(stderr, "%s%s\n", printable(path + ": " + outcome.problem).c_str(), printable_lines(more).c_str());
 }
 
 /// A path need not be valid UTF-8: bytes that are not are replaced.
-void print_json(const Json& json) { print(json.dump(-1, ' ', false, Json::error_handler_t::replace)); }
+void print_json(const Json& json) { put(json.dump(-1, ' ', false, Json::error_handler_t::replace)); }
 
 Json json_of(const std::string& path, const Outcome& outcome) {
   Json json;
@@ -145,8 +157,8 @@ bool Report::compared(const std::string& a, const std::string& b, const Differen
     print_json(object);
     return good;
   }
-  if (!good) return fprintf(stderr, "%s\n", difference.problem.c_str()), false;
-  print(a + " and " + b + ": " + difference_text(difference, a, b));
+  if (!good) return fprintf(stderr, "%s\n", printable(difference.problem).c_str()), false;
+  put(printable_lines(a + " and " + b + ": " + difference_text(difference, a, b)));
   return true;
 }
 
