@@ -259,6 +259,9 @@ DETENT_TEST(trace, bytes_that_are_no_trace_are_refused_and_never_read_beyond_the
   EXPECT_FALSE(changed(0, 10));  // a stage that there is not
   EXPECT_FALSE(changed(0, 3));   // then `calls` comes after it
   EXPECT_FALSE(changed(1, 99));  // a part that there is not
+  Bytes twice = good;
+  twice.insert(twice.end(), good.begin(), good.end());
+  EXPECT_FALSE(count_of(twice, true).whole);
 }
 
 }  // namespace DETENT_NAMESPACE
