@@ -1,6 +1,7 @@
 #include <stdio.h>
 
 #include "difference.h"
+#include "text.h"
 
 namespace detent_tool {
 
@@ -98,7 +99,7 @@ std::string where(const Difference& difference) {
 }  // namespace
 
 std::string difference_text(const Difference& difference, const std::string& a, const std::string& b) {
-  if (!difference.problem.empty()) return difference.problem;
+  if (!difference.problem.empty()) return printable(difference.problem);
   std::string text_of;
   if (!difference.different) {
     text_of = difference.last < difference.first
@@ -116,9 +117,9 @@ std::string difference_text(const Difference& difference, const std::string& a, 
     if (difference.field_count > difference.fields.size())
       text_of += "\n  and " + text(difference.field_count - difference.fields.size()) + " more";
   }
-  for (const std::string& note : difference.notes) text_of += "\n  " + note;
+  for (const std::string& note : difference.notes) text_of += "\n  " + printable(note);
   for (const std::string& command : difference.wanted)
-    text_of += "\n  to know more, on the machine that recorded it: " + command;
+    text_of += "\n  to know more, on the machine that recorded it: " + printable(command);
   return text_of;
 }
 

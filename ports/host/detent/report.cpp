@@ -26,19 +26,9 @@ void put(const std::string& line) {
 
 void print(const std::string& line) { put(printable(line)); }
 
-/// Of several lines, each as `printable`.
-std::string printable_lines(const std::string& text) {
-  std::string lines;
-  for (size_t at = 0, end = 0; at <= text.size(); at = end + 1) {
-    end = text.find('\n', at) < text.size() ? text.find('\n', at) : text.size();
-    lines += (at == 0 ? "" : "\n") + printable(text.substr(at, end - at));
-  }
-  return lines;
-}
-
 void print_problem(const std::string& path, const Outcome& outcome) {
   const std::string more = outcome.difference_text.empty() ? "" : "; " + outcome.difference_text;
-  fprintf(stderr, "%s%s\n", printable(path + ": " + outcome.problem).c_str(), printable_lines(more).c_str());
+  fprintf(stderr, "%s\n", (printable(path + ": " + outcome.problem) + more).c_str());
 }
 
 /// A path need not be valid UTF-8: bytes that are not are replaced.
@@ -158,7 +148,7 @@ bool Report::compared(const std::string& a, const std::string& b, const Differen
     return good;
   }
   if (!good) return fprintf(stderr, "%s\n", printable(difference.problem).c_str()), false;
-  put(printable_lines(a + " and " + b + ": " + difference_text(difference, a, b)));
+  put(printable(a + " and " + b + ": ") + difference_text(difference, printable(a), printable(b)));
   return true;
 }
 
