@@ -84,13 +84,13 @@ DETENT_TEST(snapshot_ring, forces_that_wait_for_the_next_step_are_kept) {
   Ring kept;
   OwnedWorld owned = make_turmoiled(2, 5);
   World& world = owned.world;
-  uint32_t pushed = 0;
-  for (BodyId id = next_body(world, {}); id.slot != 0; id = next_body(world, id)) {
-    if (id.slot % 2 == 0 || apply_force(world, id, {3.0, -2.0, 1.0}) != Status::ok) continue;
+  for (uint32_t i = 0; i < 4; ++i) {
+    BodyId id;
+    ASSERT_OK(create_body(world, {.shape = sphere(0.5)}, id));
+    if (i % 2 == 0) continue;
+    ASSERT_OK(apply_force(world, id, {3.0, -2.0, 1.0}));
     ASSERT_OK(apply_torque(world, id, {-1.0, 2.0, 0.5}));
-    ++pushed;
   }
-  ASSERT_GT(pushed, 1u);
   const auto before = save_all(world);
   ASSERT_OK(kept.ring.keep(world));
   for (int i = 0; i < 3; ++i) step(world);
