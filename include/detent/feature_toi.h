@@ -1,0 +1,36 @@
+#pragma once
+#include <detent/toi.h>
+
+/// @file
+/// Time of impact of a vertex and a face, or of two edges, that move. It needs no world.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// Which features meet.
+enum class FeatureKind : uint32_t {
+  vertex_face = 1,  ///< A's vertex, corner 0, and B's triangle, corners 1 to 3
+  edge_edge = 2,    ///< A's edge, corners 0 and 1, and B's edge, corners 2 and 3
+};
+
+/// When two moving features meet.
+struct FeatureToi {
+  ToiOutcome outcome = ToiOutcome::undecided;  ///< whether they do
+  Fraction time = 0.0;                         ///< never late: before it the features do not meet; 1 if clear
+  uint32_t intervals = 0;                      ///< intervals of time looked at; at most k_feature_intervals_max
+};
+
+/// A hit is at most this part of the features' size early in gap, beside the lengths that each question names. The size
+/// is the longest edge of the two features.
+inline constexpr double k_feature_tolerance = 1e-6;
+/// After so many intervals of time the answer is `undecided`.
+inline constexpr uint32_t k_feature_intervals_max = 1024;
+
+/// When two features first meet whose corners move in straight lines, from `start` to `end`, with constant velocities.
+/// Touching is meeting. The features may be degenerate. Corners: m, in one frame, each component within 2^14.
+/// Tolerance: k_feature_tolerance of the size, at the start or the end, and 2^-41 m.
+/// Errors: out_of_range. Source: the coplanarity cubic of Provot 1997, its roots as in Sederberg, Nishita 1990.
+Status feature_toi_linear(FeatureKind kind, const Vec3<Real> (&start)[4], const Vec3<Real> (&end)[4],
+                          FeatureToi& result);
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,103 @@
+#pragma once
+#include <detent/feature_toi.h>
+
+#include "proximity/feature_span.h"
+#include "proximity/moving_pair.h"
+
+/// What all motions of features share: the search for the first contact, and how corners become differences.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// Corners, each relative to the same point, as FeatureKind orders them: B's less A's, in order round the polygon.
+inline void set_differences(FeatureKind kind, const Vec64 (&corner)[4], Vec64 (&difference)[4]) {
+  const auto between = [&corner](int a, int b) { return add(corner[b], negate(corner[a])); };
+  if (kind == FeatureKind::vertex_face) {
+    for (int i = 0; i < 3; ++i) difference[i] = between(0, i + 1);
+    return;
+  }
+  difference[0] = between(0, 2);
+  difference[1] = between(0, 3);
+  difference[2] = between(1, 3);
+  difference[3] = between(1, 2);
+}
+constexpr int difference_count(FeatureKind kind) { return kind == FeatureKind::vertex_face ? 3 : 4; }
+
+constexpr int64_t larger(int64_t a, int64_t b) { return a > b ? a : b; }
+constexpr int64_t largest_component(const Vec64& v) {
+  return static_cast<int64_t>(
+      larger(larger(static_cast<int64_t>(magnitude_64(v.x)), static_cast<int64_t>(magnitude_64(v.y))),
+             static_cast<int64_t>(magnitude_64(v.z))));
+}
+
+/// The longest edge of two features, by its largest component.
+inline int64_t size_of(FeatureKind kind, const Vec64 (&corner)[4]) {
+  const auto edge = [&corner](int a, int b) { return largest_component(add(corner[b], negate(corner[a]))); };
+  if (kind == FeatureKind::edge_edge) return larger(edge(0, 1), edge(2, 3));
+  return larger(larger(edge(1, 2), edge(1, 3)), edge(2, 3));
+}
+
+/// Features whose corners move less than this over an interval that may hold a contact are said to meet: the rest of
+/// k_feature_tolerance is for rounding.
+constexpr int64_t motion_min(int64_t size) {
+  const int64_t least = size >> 22;
+  return least > 8 ? least : 8;
+}
+
+/// By how much a corner moves over a span, in its largest component.
+inline int64_t motion_of(const FeatureSpan& span) {
+  int64_t motion = 0;
+  for (int i = 0; i < span.count; ++i) {
+    motion = larger(motion, largest_component(add(span.to[i], negate(span.from[i]))));
+  }
+  return motion;
+}
+
+/// value part, Q30. Rounding: down. Range: 0 <= part <= 1.
+inline int64_t part_of(int64_t value, int64_t part) {
+  const Int128 product = Int128::product(value, part);
+  return static_cast<int64_t>((static_cast<uint64_t>(product.high_word()) << 34) | (product.low_word() >> 30));
+}
+
+/// The first contact, by intervals of time from the left to the right: what is certain to be clear is cut off, what is
+/// left is halved until nothing is left or the corners hardly move over it. `Path` has span(from, to), a FeatureSpan.
+template <class Path>
+void search(const Path& path, int64_t motion_least, FeatureToi& result) {
+  struct Interval {
+    int64_t from, to;
+  };
+  // Each halves what the one before it leaves: no more than the bits of a time wait at once.
+  Interval waiting[k_time_bits + 1];
+  int count = 0;
+  Interval now = {0, k_time_end};
+  result = {};
+  for (;;) {
+    result.time = Fraction::from_raw(now.from);
+    if (result.intervals == k_feature_intervals_max) return;
+    ++result.intervals;
+    const FeatureSpan span = path.span(now.from, now.to);
+    const OpenPart open = open_part(span);
+    if (open.from > open.to) {
+      if (count == 0) break;
+      now = waiting[--count];
+      continue;
+    }
+    const int64_t length = now.to - now.from;
+    const int64_t first = now.from + part_of(length, open.from);
+    const int64_t last = now.to - part_of(length, (int64_t{1} << 30) - open.to);
+    if (motion_of(span) <= motion_least || last - first < 2) {
+      result.outcome = ToiOutcome::hit;
+      result.time = Fraction::from_raw(first);
+      return;
+    }
+    now = {first, last};
+    if (last - first <= length / 2) continue;
+    const int64_t middle = first + (last - first) / 2;
+    waiting[count++] = {middle, last};
+    now.to = middle;
+  }
+  result.outcome = ToiOutcome::clear;
+  result.time = Fraction(1.0);
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent
