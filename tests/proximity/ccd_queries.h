@@ -8,20 +8,20 @@
 
 #include "tests/support/data_file.h"
 
-/// Queries of continuous collision with exact ground truth, of Wang, Ferguson, Schneider, Jiang, Attene, Panozzo: features
-/// whose corners move in straight lines. Every coordinate is a double.
+/// Queries of continuous collision with exact ground truth, of Wang, Ferguson, Schneider, Jiang, Attene, Panozzo:
+/// features whose corners move in straight lines. Every coordinate is a double.
 namespace detent_test {
 
 struct CcdQuery {
-  bool edges;                    ///< two edges; else a vertex and a face
+  bool edges;                     ///< two edges; else a vertex and a face
   double start[4][3], end[4][3];  ///< the corners, in the order of detent::FeatureKind
   bool meets;
 };
 
 inline const char* const k_ccd_sets[] = {
-    "erleben-cube-cliff-edges", "erleben-cube-internal-edges", "erleben-sliding-spike", "erleben-sliding-wedge",
-    "erleben-spike-crack",      "erleben-spike-wedge",         "erleben-spikes",        "erleben-wedge-crack",
-    "unit-tests"};
+    "erleben-cube-cliff-edges", "erleben-cube-internal-edges", "erleben-sliding-spike",
+    "erleben-sliding-wedge",    "erleben-spike-crack",         "erleben-spike-wedge",
+    "erleben-spikes",           "erleben-wedge-crack",         "unit-tests"};
 
 /// The queries of a set; none if there is no such file under $DETENT_DATA.
 inline std::vector<CcdQuery> ccd_queries(const std::string& set, bool edges) {
