@@ -43,7 +43,7 @@ void LinearFeatures::first_contact(FeatureToi& result) const {
   set_differences(kind, end, last);
   for (int i = 0; i < path.count; ++i) path.way[i] = add(last[i], negate(path.start[i]));
   const int64_t first_size = size_of(kind, start), last_size = size_of(kind, end);
-  search(path, motion_min(first_size > last_size ? first_size : last_size), result);
+  search(path, near_gap(larger(first_size, last_size), ball + 1), result);
 }
 
 Status feature_toi_linear(FeatureKind kind, const Vec3<Real> (&start)[4], const Vec3<Real> (&end)[4],

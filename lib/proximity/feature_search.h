@@ -36,21 +36,10 @@ inline int64_t size_of(FeatureKind kind, const Vec64 (&corner)[4]) {
   return larger(larger(edge(1, 2), edge(1, 3)), edge(2, 3));
 }
 
-/// Features whose corners move less than this over an interval that may hold a contact are said to meet: the rest of
-/// k_feature_tolerance is for rounding.
-constexpr int64_t motion_min(int64_t size) {
-  const int64_t least = size >> 22;
-  return least > 8 ? least : 8;
-}
-
-/// By how much a corner moves over a span, in its largest component.
-inline int64_t motion_of(const FeatureSpan& span) {
-  int64_t motion = 0;
-  for (int i = 0; i < span.count; ++i) {
-    motion = larger(motion, largest_component(add(span.to[i], negate(span.from[i]))));
-  }
-  return motion;
-}
+/// Features nearer than this are said to meet where an interval that begins so may hold a contact. More than what
+/// open_part() needs, so that whatever is not near is ruled out in the end; the rest of k_feature_tolerance is for
+/// rounding.
+constexpr int64_t near_gap(int64_t size, int64_t ball) { return larger(size >> 22, 2 * ball + 8); }
 
 /// value part, Q30. Rounding: down. Range: 0 <= part <= 1.
 inline int64_t part_of(int64_t value, int64_t part) {
@@ -59,9 +48,10 @@ inline int64_t part_of(int64_t value, int64_t part) {
 }
 
 /// The first contact, by intervals of time from the left to the right: what is certain to be clear is cut off, what is
-/// left is halved until nothing is left or the corners hardly move over it. `Path` has span(from, to), a FeatureSpan.
+/// left is halved until nothing is left or the features are near where it begins. `Path` has span(from, to), a
+/// FeatureSpan.
 template <class Path>
-void search(const Path& path, int64_t motion_least, FeatureToi& result) {
+void search(const Path& path, int64_t gap, FeatureToi& result) {
   struct Interval {
     int64_t from, to;
   };
@@ -84,9 +74,8 @@ void search(const Path& path, int64_t motion_least, FeatureToi& result) {
     const int64_t length = now.to - now.from;
     const int64_t first = now.from + part_of(length, open.from);
     const int64_t last = now.to - part_of(length, (int64_t{1} << 30) - open.to);
-    if (motion_of(span) <= motion_least || last - first < 2) {
+    if (begins_near(span, gap) || last - first < 2) {
       result.outcome = ToiOutcome::hit;
-      result.time = Fraction::from_raw(first);
       return;
     }
     now = {first, last};

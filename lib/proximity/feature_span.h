@@ -20,9 +20,13 @@ struct OpenPart {
 };
 
 /// Certain outside of the part that it leaves, whatever the corners are. An interval is closed altogether at the latest
-/// where the hull of all corners, at both ends, stays off the origin by more than the ball and 2^-26 of their distance
-/// from it.
+/// where the hull of all corners, at both ends, stays off the origin by more than 1.8 balls and 2^-26 of the largest
+/// corner.
 OpenPart open_part(const FeatureSpan& span);
+
+/// Whether the features are nearer than `gap` at the interval's beginning: at least where they are, and at most where
+/// they are nearer than 1.8 of it and 2^-26 of the largest corner.
+bool begins_near(const FeatureSpan& span, int64_t gap);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent
