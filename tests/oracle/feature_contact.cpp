@@ -77,6 +77,24 @@ class Roots {
   }
   int count(const mpq_class& from, const mpq_class& to) const { return changes(from) - changes(to); }
 
+  /// The first root after `from`, no later than the result and after it less `width`. Range: there is one, at most
+  /// at 1.
+  mpq_class next(mpq_class from, const mpq_class& width) const {
+    mpq_class to = 1;
+    for (const mpq_class begin = from; count(from, to) > 1;) {
+      const mpq_class middle = (from + to) / 2;
+      (count(begin, middle) > 0 ? to : from) = middle;
+    }
+    const int sign = sgn(value_at(chain_[0], to));
+    while (sign != 0 && to - from > width) {
+      const mpq_class middle = (from + to) / 2;
+      const int here = sgn(value_at(chain_[0], middle));
+      if (here == 0) return middle;
+      (here == sign ? to : from) = middle;
+    }
+    return to;
+  }
+
  private:
   int changes(const mpq_class& t) const {
     int changes = 0, last = 0;
@@ -183,12 +201,7 @@ ExactContact first_contact(const ExactFeatures& features) {
   const Roots roots(square_free(coplanar));
   mpq_class begin = -1;
   for (int left = roots.count(-1, 1); left > 0; --left) {
-    // The next root.
-    mpq_class from = begin, to = 1;
-    while (to - from > k_width) {
-      const mpq_class middle = (from + to) / 2;
-      (roots.count(begin, middle) > 0 ? to : from) = middle;
-    }
+    const mpq_class to = roots.next(begin, k_width), from = to - k_width;
     begin = to;
     if (to < 0) continue;
     int least = 1;

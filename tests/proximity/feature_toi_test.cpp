@@ -2,7 +2,6 @@
 
 #include "base/digest.h"
 #include "tests/oracle/effort.h"
-#include "tests/proximity/ccd_queries.h"
 #include "tests/proximity/feature_pairs.h"
 
 namespace detent {
@@ -10,7 +9,6 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 using detent_oracle::rounds;
-using detent_test::CcdQuery;
 
 constexpr double k_unit_slack = 32;  ///< of the integers' unit, beside k_feature_tolerance
 
@@ -66,6 +64,73 @@ DETENT_TEST(feature_toi, contacts_in_one_plane_are_never_missed_or_late) { expec
 DETENT_TEST(feature_toi, contacts_of_lines_are_never_missed_or_late) { expect_planted(Special::line); }
 DETENT_TEST(feature_toi, contacts_of_points_are_never_missed_or_late) { expect_planted(Special::point); }
 DETENT_TEST(feature_toi, touching_all_the_time_is_a_contact_at_the_start) { expect_planted(Special::rigid); }
+
+/// A vertex that falls past, or onto, the middle of a triangle's edge of 2 m, `beside` m beyond it.
+FeatureToi fall(double beside) {
+  const Vec3<Real> start[4] = {reals({{0, 1, -beside}}), reals({{-1, 0, 0}}), reals({{1, 0, 0}}), reals({{0, 0, 1}})};
+  const Vec3<Real> end[4] = {reals({{0, -3, -beside}}), start[1], start[2], start[3]};
+  FeatureToi result;
+  EXPECT_OK(feature_toi_linear(FeatureKind::vertex_face, start, end, result));
+  return result;
+}
+
+DETENT_TEST(feature_toi, a_vertex_falls_onto_a_face_or_past_it) {
+  for (const double inside : {-0.5, -0.001, 0.0}) {
+    const FeatureToi result = fall(inside);
+    EXPECT_EQ(result.outcome, ToiOutcome::hit);
+    EXPECT_LE(fraction_to_host(result.time), 0.25);
+    EXPECT_GE(fraction_to_host(result.time), 0.25 - 1e-6);
+  }
+  for (const double outside : {0.5, 0.001, 2e-6}) EXPECT_EQ(fall(outside).outcome, ToiOutcome::clear);
+}
+
+DETENT_TEST(feature_toi, edges_cross_or_pass_each_other) {
+  for (const double apart : {0.0, 0.5, 0.999, 1.001, 3.0}) {
+    const Vec3<Real> start[4] = {reals({{-1, 1, 0}}), reals({{1, 1, 0}}), reals({{apart, 0, -1}}),
+                                 reals({{apart, 0, 1}})};
+    const Vec3<Real> end[4] = {reals({{-1, -1, 0}}), reals({{1, -1, 0}}), start[2], start[3]};
+    FeatureToi result;
+    EXPECT_OK(feature_toi_linear(FeatureKind::edge_edge, start, end, result));
+    EXPECT_EQ(result.outcome, apart <= 1 ? ToiOutcome::hit : ToiOutcome::clear);
+    EXPECT_LE(fraction_to_host(result.time), apart <= 1 ? 0.5 : 1.0);
+    EXPECT_GE(fraction_to_host(result.time), 0.5 - 1e-6);
+  }
+}
+
+DETENT_TEST(feature_toi, bad_questions_are_refused_and_change_nothing) {
+  const Vec3<Real> corners[4] = {reals({{0, 1, 0}}), reals({{-1, 0, -1}}), reals({{1, 0, -1}}), reals({{0, 0, 1}})};
+  FeatureToi result;
+  result.intervals = 77;
+  EXPECT_EQ(feature_toi_linear(static_cast<FeatureKind>(0), corners, corners, result), Status::bad_argument);
+  EXPECT_EQ(feature_toi_linear(static_cast<FeatureKind>(3), corners, corners, result), Status::bad_argument);
+  for (int i = 0; i < 4; ++i) {
+    Vec3<Real> far[4] = {corners[0], corners[1], corners[2], corners[3]};
+    far[i].y = real(-16385);
+    EXPECT_EQ(feature_toi_linear(FeatureKind::edge_edge, far, corners, result), Status::out_of_range);
+    EXPECT_EQ(feature_toi_linear(FeatureKind::vertex_face, corners, far, result), Status::out_of_range);
+    far[i].y = real(-16384);
+    FeatureToi other;
+    EXPECT_OK(feature_toi_linear(FeatureKind::vertex_face, corners, far, other));
+#if !DETENT_FIXED
+    far[i].y = static_cast<Real>(NAN);
+    EXPECT_EQ(feature_toi_linear(FeatureKind::vertex_face, corners, far, result), Status::out_of_range);
+#endif
+  }
+  EXPECT_EQ(result.intervals, 77u);
+}
+
+DETENT_TEST(feature_toi, answers_are_the_same_in_every_configuration_and_on_every_target) {
+  Samples samples{79};
+  uint64_t digest = 0;
+  for (uint32_t i = 0; i < 1200; ++i) {
+    PlantedPair pair = planted_pair(samples, static_cast<Special>(i % k_specials));
+    if (i % 5 == 0) pair.features.end[0] = random_corner(samples, 48);
+    const FeatureToi result = answer_to(pair.features);
+    digest = digest_step(digest, static_cast<uint64_t>(result.time.raw));
+    digest = digest_step(digest, static_cast<uint64_t>(result.outcome) << 32 | result.intervals);
+  }
+  EXPECT_EQ(digest_finish(digest), 0xb7e054a25d7c6097u);
+}
 
 }  // namespace
 }  // namespace DETENT_NAMESPACE
