@@ -32,5 +32,14 @@ inline constexpr uint32_t k_feature_intervals_max = 1024;
 Status feature_toi_linear(FeatureKind kind, const Vec3<Real> (&start)[4], const Vec3<Real> (&end)[4],
                           FeatureToi& result);
 
+/// When two features of bodies with constant velocity and constant spin first meet. Corners: m, in their bodies' axes
+/// and from their positions, each component within 2^14. Touching is meeting. The features may be degenerate.
+/// Tolerance: k_feature_tolerance of the size, 2^-23 of how far A's and B's corners are from their positions, together,
+/// and 2^-41 m. A step of many turns may be `undecided`.
+/// Errors: not_normalised; out_of_range, also for positions more than 2^14 m apart in a component, displacements as
+/// long, and turns of more than 2^16 rad.
+Status feature_toi(FeatureKind kind, const Vec3<Real> (&corner)[4], const Motion& motion_a, const Motion& motion_b,
+                   FeatureToi& result);
+
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

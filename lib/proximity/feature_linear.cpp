@@ -1,7 +1,5 @@
 #include "proximity/feature_linear.h"
 
-#include "proximity/pair.h"
-
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
@@ -24,14 +22,6 @@ struct LinearPath {
   }
 };
 
-bool raw_corners(const Vec3<Real> (&corner)[4], Vec64 (&raw)[4]) {
-  for (int i = 0; i < 4; ++i) {
-    if (!raw_from_real(corner[i], raw[i])) return false;
-    if (largest_component(raw[i]) > int64_t{1} << (k_metre_bits + 14)) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 void LinearFeatures::first_contact(FeatureToi& result) const {
@@ -48,7 +38,7 @@ void LinearFeatures::first_contact(FeatureToi& result) const {
 
 Status feature_toi_linear(FeatureKind kind, const Vec3<Real> (&start)[4], const Vec3<Real> (&end)[4],
                           FeatureToi& result) {
-  if (kind != FeatureKind::vertex_face && kind != FeatureKind::edge_edge) return Status::bad_argument;
+  if (!is_kind(kind)) return Status::bad_argument;
   LinearFeatures features;
   features.kind = kind;
   features.ball = 1;  // a corner may have been rounded by a half

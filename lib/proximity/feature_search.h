@@ -3,10 +3,31 @@
 
 #include "proximity/feature_span.h"
 #include "proximity/moving_pair.h"
+#include "proximity/pair.h"
 
 /// What all motions of features share: the search for the first contact, and how corners become differences.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
+
+constexpr int64_t larger(int64_t a, int64_t b) { return a > b ? a : b; }
+constexpr int64_t largest_component(const Vec64& v) {
+  return static_cast<int64_t>(
+      larger(larger(static_cast<int64_t>(magnitude_64(v.x)), static_cast<int64_t>(magnitude_64(v.y))),
+             static_cast<int64_t>(magnitude_64(v.z))));
+}
+
+/// Which 2^-46 m are in range: as many bits as leave room for sums of four.
+inline bool in_range(const Vec64& v) { return largest_component(v) <= int64_t{1} << (k_metre_bits + 14); }
+/// False for corners out of range, or not numbers.
+inline bool raw_corners(const Vec3<Real> (&corner)[4], Vec64 (&raw)[4]) {
+  for (int i = 0; i < 4; ++i) {
+    if (!raw_from_real(corner[i], raw[i]) || !in_range(raw[i])) return false;
+  }
+  return true;
+}
+constexpr bool is_kind(FeatureKind kind) { return kind == FeatureKind::vertex_face || kind == FeatureKind::edge_edge; }
+/// The first corner of B.
+constexpr int first_of_b(FeatureKind kind) { return kind == FeatureKind::vertex_face ? 1 : 2; }
 
 /// Corners, each relative to the same point, as FeatureKind orders them: B's less A's, in order round the polygon.
 inline void set_differences(FeatureKind kind, const Vec64 (&corner)[4], Vec64 (&difference)[4]) {
@@ -21,13 +42,6 @@ inline void set_differences(FeatureKind kind, const Vec64 (&corner)[4], Vec64 (&
   difference[3] = between(1, 2);
 }
 constexpr int difference_count(FeatureKind kind) { return kind == FeatureKind::vertex_face ? 3 : 4; }
-
-constexpr int64_t larger(int64_t a, int64_t b) { return a > b ? a : b; }
-constexpr int64_t largest_component(const Vec64& v) {
-  return static_cast<int64_t>(
-      larger(larger(static_cast<int64_t>(magnitude_64(v.x)), static_cast<int64_t>(magnitude_64(v.y))),
-             static_cast<int64_t>(magnitude_64(v.z))));
-}
 
 /// The longest edge of two features, by its largest component.
 inline int64_t size_of(FeatureKind kind, const Vec64 (&corner)[4]) {
