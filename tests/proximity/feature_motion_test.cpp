@@ -89,6 +89,8 @@ MovingFeatures random_features(Samples& samples, double turn_max) {
 }
 
 constexpr double k_reference_error = 1e-13;
+/// Of the reach: rotations are rounded as they are read, which the reference does not know of.
+constexpr double k_pose_error = 2 * k_number_error;
 
 /// Where a sampled sign of the volume changes and the features touch: a contact that is certain. 1 if there is none.
 double crossing_before(const MovingFeatures& f, double end, int count) {
@@ -109,6 +111,13 @@ double crossing_before(const MovingFeatures& f, double end, int count) {
   return 1;
 }
 
+void expect_not_late(const MovingFeatures& f, double time, int count) {
+  const double contact = crossing_before(f, time, count);
+  if (contact < time) {
+    EXPECT_LE(f.gap(time), k_pose_error * f.reach()) << "a contact at " << contact << " was missed";
+  }
+}
+
 /// What both methods claim, and that neither comes later than a contact.
 void expect_agreement(const MovingFeatures& f, uint32_t& hits, uint32_t& apart) {
   const FeatureToi result = f.answer();
@@ -126,9 +135,7 @@ void expect_agreement(const MovingFeatures& f, uint32_t& hits, uint32_t& apart) 
     EXPECT_LE(f.gap(other_time), other_tolerance);
   }
   apart += result.outcome != other.outcome || fabs(time - other_time) > 1e-4 ? 1u : 0u;
-  const double late = std::max(time, other_time);
-  const double contact = crossing_before(f, late, 48);
-  EXPECT_GE(contact, late - 1e-10) << "a contact was missed";
+  expect_not_late(f, std::max(time, other_time), 48);
 }
 
 DETENT_TEST(feature_motion, agrees_with_conservative_advancement_and_is_never_late) {
@@ -159,7 +166,7 @@ DETENT_TEST(feature_motion, many_turns_are_decided_or_safe) {
     SCOPED_TRACE(testing::Message() << "pair " << i);
     EXPECT_LE(result.intervals, k_feature_intervals_max);
     undecided += result.outcome == ToiOutcome::undecided ? 1u : 0u;
-    EXPECT_GE(crossing_before(f, time, 600), time - 1e-10);
+    expect_not_late(f, time, 600);
     if (result.outcome == ToiOutcome::hit) {
       EXPECT_LE(f.gap(time), k_feature_tolerance * f.size() + 0x1p-23 * f.reach() + 1e-12);
     }
