@@ -4,6 +4,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
+constexpr int k_range_bits = 14;
+
 /// In straight lines the differences move in straight lines too, and are their own chords.
 struct LinearPath {
   int count;
@@ -42,7 +44,8 @@ Status feature_toi_linear(FeatureKind kind, const Vec3<Real> (&start)[4], const 
   LinearFeatures features;
   features.kind = kind;
   features.ball = 1;  // a corner may have been rounded by a half
-  if (!raw_corners(start, features.start) || !raw_corners(end, features.end)) return Status::out_of_range;
+  if (!raw_corners(start, k_range_bits, features.start) || !raw_corners(end, k_range_bits, features.end))
+    return Status::out_of_range;
   features.first_contact(result);
   return Status::ok;
 }

@@ -16,14 +16,28 @@ constexpr int64_t largest_component(const Vec64& v) {
              static_cast<int64_t>(magnitude_64(v.z))));
 }
 
-/// Which 2^-46 m are in range: as many bits as leave room for sums of four.
-inline bool in_range(const Vec64& v) { return largest_component(v) <= int64_t{1} << (k_metre_bits + 14); }
+/// Whether no component is beyond 2^bits m, of 2^-46 m.
+constexpr bool in_range(const Vec64& v, int bits) {
+  return largest_component(v) <= int64_t{1} << (k_metre_bits + bits);
+}
 /// False for corners out of range, or not numbers.
-inline bool raw_corners(const Vec3<Real> (&corner)[4], Vec64 (&raw)[4]) {
+inline bool raw_corners(const Vec3<Real> (&corner)[4], int bits, Vec64 (&raw)[4]) {
   for (int i = 0; i < 4; ++i) {
-    if (!raw_from_real(corner[i], raw[i]) || !in_range(raw[i])) return false;
+    if (!raw_from_real(corner[i], raw[i]) || !in_range(raw[i], bits)) return false;
   }
   return true;
+}
+/// The farthest of some corners from the origin, rounded up.
+inline int64_t reach_of(const Vec64* corner, int count) {
+  int64_t reach = 0;
+  for (int i = 0; i < count; ++i) reach = larger(reach, length_above(corner[i]));
+  return reach;
+}
+/// The rotation of v. Rounding: to nearest.
+inline Vec64 rotated(const Matrix32& m, const Vec64& v) {
+  const Vec32* c = m.column;
+  const auto row = [&v](int32_t x, int32_t y, int32_t z) { return dot(v, Vec32{x, y, z}).round_shift(30); };
+  return {row(c[0].x, c[1].x, c[2].x), row(c[0].y, c[1].y, c[2].y), row(c[0].z, c[1].z, c[2].z)};
 }
 constexpr bool is_kind(FeatureKind kind) { return kind == FeatureKind::vertex_face || kind == FeatureKind::edge_edge; }
 /// The first corner of B.

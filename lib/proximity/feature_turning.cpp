@@ -4,6 +4,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
+constexpr int k_range_bits = 14;
+
 /// Of corners of a body that turns: their farthest from its position, and its angle over the step.
 struct Sweep {
   int64_t reach;  ///< 2^-46 m
@@ -46,18 +48,7 @@ struct TurningPath {
     }
     set_differences(kind, placed, difference);
   }
-  static Vec64 rotated(const Matrix32& m, const Vec64& v) {
-    const Vec32* c = m.column;
-    const auto row = [&v](int32_t x, int32_t y, int32_t z) { return dot(v, Vec32{x, y, z}).round_shift(30); };
-    return {row(c[0].x, c[1].x, c[2].x), row(c[0].y, c[1].y, c[2].y), row(c[0].z, c[1].z, c[2].z)};
-  }
 };
-
-int64_t reach_of(const Vec64* corner, int count) {
-  int64_t reach = 0;
-  for (int i = 0; i < count; ++i) reach = larger(reach, length_above(corner[i]));
-  return reach;
-}
 
 }  // namespace
 
@@ -69,9 +60,11 @@ Status feature_toi(FeatureKind kind, const Vec3<Real> (&corner)[4], const Motion
   if (const Status status = turning_of(motion_a, path.turning_a); status != Status::ok) return status;
   if (const Status status = turning_of(motion_b, path.turning_b); status != Status::ok) return status;
   Vec64 way_a, way_b;
-  if (!raw_corners(corner, path.corner) || !raw_from_real(motion_a.displacement, way_a) ||
-      !raw_from_real(motion_b.displacement, way_b) || !in_range(way_a) || !in_range(way_b) ||
-      !raw_difference(motion_b.start.position, motion_a.start.position, path.offset) || !in_range(path.offset)) {
+  if (!raw_corners(corner, k_range_bits, path.corner) || !raw_from_real(motion_a.displacement, way_a) ||
+      !raw_from_real(motion_b.displacement, way_b) || !in_range(way_a, k_range_bits) ||
+      !in_range(way_b, k_range_bits) ||
+      !raw_difference(motion_b.start.position, motion_a.start.position, path.offset) ||
+      !in_range(path.offset, k_range_bits)) {
     return Status::out_of_range;
   }
   path.displacement = add(way_b, negate(way_a));
