@@ -195,6 +195,36 @@ DETENT_TEST(feature_motion, a_turning_edge_meets_one_at_rest_when_it_lies_along_
   EXPECT_GE(fraction_to_host(result.time), 0.5 - 2e-6);
 }
 
+DETENT_TEST(feature_motion, a_vertex_that_grazes_a_face_at_the_top_of_its_arc_is_a_hit) {
+  // The vertex goes round at 1 m; its arc touches the plane y = 1 in mid-step, and that of y = 1.00001 not.
+  for (const double height : {1.0, 1.00001, 0.99999, 0.5}) {
+    MovingFeatures f = {FeatureKind::vertex_face, {{{1, 0, 0}}, {{-2, 0, -2}}, {{2, 0, -2}}, {{0, 0, 2}}}, {}, {}};
+    f.a.turn = {{0, 0, acos(-1.0)}};
+    f.b.position = {{0, height, 0}};
+    f.a = held(f.a);
+    f.b = held(f.b);
+    const FeatureToi result = f.answer();
+    EXPECT_EQ(result.outcome, height > 1 ? ToiOutcome::clear : ToiOutcome::hit);
+    const double contact = asin(std::min(1.0, f.b.position[1])) / acos(-1.0);
+    EXPECT_LE(fraction_to_host(result.time), height > 1 ? 1 : contact + 1e-7);
+    EXPECT_GE(fraction_to_host(result.time), contact - 2e-3);  // 1e-6 m below the top
+    EXPECT_LE(result.intervals, 64u);
+  }
+}
+
+DETENT_TEST(feature_motion, a_vertex_that_turns_in_the_plane_of_a_face_meets_its_edge) {
+  // The face's nearest edge is x = -0.5; the vertex comes round to it at 120 degrees.
+  MovingFeatures f = {FeatureKind::vertex_face, {{{1, 0, 0}}, {{-0.5, -2, 0}}, {{-0.5, 2, 0}}, {{-3, 0, 0}}}, {}, {}};
+  f.a.turn = {{0, 0, acos(-1.0)}};
+  f.a = held(f.a);
+  const FeatureToi result = f.answer();
+  EXPECT_EQ(result.outcome, ToiOutcome::hit);
+  EXPECT_LE(fraction_to_host(result.time), 2.0 / 3 + 1e-7);
+  EXPECT_GE(fraction_to_host(result.time), 2.0 / 3 - 2e-6);
+  f.corner[1][0] = f.corner[2][0] = -1.00001;
+  EXPECT_EQ(f.answer().outcome, ToiOutcome::clear);
+}
+
 DETENT_TEST(feature_motion, bad_questions_are_refused_and_change_nothing) {
   const Vec3<Real> corners[4] = {reals({{0, 1, 0}}), reals({{-1, 0, -1}}), reals({{1, 0, -1}}), reals({{0, 0, 1}})};
   const Motion still_motion;
