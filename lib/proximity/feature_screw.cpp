@@ -7,6 +7,7 @@ namespace {
 
 constexpr int k_range_bits = 10;
 constexpr int k_tangent_bits = 28;
+constexpr int64_t k_one = int64_t{1} << (2 * k_tangent_bits);
 constexpr int64_t k_tangent_max = int64_t{4} << k_tangent_bits;
 
 /// g x v, with g in Q28. Rounding: to nearest.
@@ -20,7 +21,8 @@ Vec64 cross_tangent(const Vec32& g, const Vec64& v) {
 /// A's corners at rest and B's in a screw, in A's frame. With g along its axis and as long as the tangent of half its
 /// angle, and d the way of B's position, the corner that is x from B's position c at the start is at time t at
 ///   c + x + t d + t (g x y + t g x (g x y)) / (1 + t^2 g^2),  y = 2 x - (1 - t) d:
-/// neither the axis nor the angle is needed, and without a turn it is a straight line.
+/// neither the axis nor the angle is needed, and without a turn it is a straight line. With |g| <= 4 and |y| < 2^59 the
+/// two products, at right angles to each other, have a sum below 2^63.
 struct ScrewPath {
   FeatureKind kind;
   Vec64 corner[4];   ///< of B from its position at the start, in A's axes, 2^-46 m
@@ -38,11 +40,29 @@ struct ScrewPath {
     span.ball = ball + over_time(over_time(bend, to - from) + 1, to - from) + 1;
     return span;
   }
+  /// Whether a line at rest meets a moving line, or a point a plane, is linear in the moving one's coordinates. Those
+  /// are entries of its rotation, which are quadratic after multiplication by 1 + t^2 g^2, and such times the way along
+  /// the axis, which is linear: in all a cubic.
+  OpenPart roots(int64_t from, int64_t to) const {
+    Vec64 corners[4][3];
+    int64_t weight[4];
+    for (int i = 0; i < 4; ++i) {
+      const int64_t time = i == 3 ? to : from + i * ((to - from) / 3);
+      Vec64 difference[4];
+      set_differences_at(time, difference);
+      corners[i][0] = difference[0];
+      corners[i][1] = difference[1];
+      corners[i][2] = difference[difference_count(kind) - 1];
+      weight[i] = weight_at(time) >> k_tangent_bits;
+    }
+    return reduced_roots(corners, weight, ball + 1);  // a third of the interval is rounded down
+  }
 
  private:
+  /// 1 + t^2 g^2, Q56.
+  int64_t weight_at(int64_t time) const { return k_one + over_time(over_time(square, time), time); }
   void set_differences_at(int64_t time, Vec64 (&difference)[4]) const {
-    constexpr int64_t k_one = int64_t{1} << (2 * k_tangent_bits);
-    const int64_t inverse = time_quotient(k_one, k_one + over_time(over_time(square, time), time));
+    const int64_t inverse = time_quotient(k_one, weight_at(time));
     const Vec64 moved = over_time(way, time);
     Vec64 placed[4];
     for (int i = 0; i < 4; ++i) {

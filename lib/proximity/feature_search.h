@@ -75,9 +75,13 @@ inline int64_t part_of(int64_t value, int64_t part) {
   return static_cast<int64_t>((static_cast<uint64_t>(product.high_word()) << 34) | (product.low_word() >> 30));
 }
 
+constexpr OpenPart both(const OpenPart& a, const OpenPart& b) {
+  return {larger(a.from, b.from), a.to < b.to ? a.to : b.to};
+}
+
 /// The first contact, by intervals of time from the left to the right: what is certain to be clear is cut off, what is
 /// left is halved until nothing is left or the features are near where it begins. `Path` has span(from, to), a
-/// FeatureSpan.
+/// FeatureSpan, and roots(from, to) if it knows better than its chords where the corners are coplanar.
 template <class Path>
 void search(const Path& path, int64_t gap, FeatureToi& result) {
   struct Interval {
@@ -93,7 +97,10 @@ void search(const Path& path, int64_t gap, FeatureToi& result) {
     if (result.intervals == k_feature_intervals_max) return;
     ++result.intervals;
     const FeatureSpan span = path.span(now.from, now.to);
-    const OpenPart open = open_part(span);
+    OpenPart open = open_part(span);
+    if constexpr (requires { path.roots(now.from, now.to); }) {
+      if (open.from <= open.to) open = both(open, path.roots(now.from, now.to));
+    }
     if (open.from > open.to) {
       if (count == 0) break;
       now = waiting[--count];
@@ -101,7 +108,7 @@ void search(const Path& path, int64_t gap, FeatureToi& result) {
     }
     const int64_t length = now.to - now.from;
     const int64_t first = now.from + part_of(length, open.from);
-    const int64_t last = now.to - part_of(length, (int64_t{1} << 30) - open.to);
+    const int64_t last = now.to - part_of(length, k_whole - open.to);
     if (begins_near(span, gap) || last - first < 2) {
       result.outcome = ToiOutcome::hit;
       return;

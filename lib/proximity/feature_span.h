@@ -1,22 +1,17 @@
 #pragma once
-#include "math/vector_integer.h"
+#include "proximity/feature_cubic.h"
 
 /// Two features over an interval of time, as the polygon of the differences of their corners: a triangle for a vertex
 /// and a face, a parallelogram for two edges. They meet where the polygon holds the origin.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Lengths in one unit of the caller's choice. Range: components and ball below 2^62.
+/// Lengths in one unit of the caller's choice. Range: components and ball below 2^63.
 struct FeatureSpan {
   int count;      ///< of corners, 3 or 4, in their order round the polygon
   Vec64 from[4];  ///< the corners at the interval's beginning
   Vec64 to[4];    ///< and at its end
   int64_t ball;   ///< in each component a corner is never farther than this from its chord
-};
-
-/// The part of an interval in which the features may meet, Q30; nowhere if from > to.
-struct OpenPart {
-  int64_t from, to;
 };
 
 /// Certain outside of the part that it leaves, whatever the corners are. An interval is closed altogether at the latest
