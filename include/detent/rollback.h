@@ -37,8 +37,9 @@ Status apply_delta(uint8_t* base, uint32_t base_bytes, const uint8_t* delta, uin
 /// Bytes of a SnapshotRing; 0 if an argument is out of range.
 constexpr uint32_t snapshot_ring_bytes(Capacity capacity, uint32_t ticks);
 
-/// The last ticks of a world, in the caller's memory: tick t lies in place t modulo their number. A place holds any
-/// state of the capacity, but only what is in use is copied, in the machine's byte order: for this program alone.
+/// The last ticks of a world, in the caller's memory: tick t lies in place t modulo their number. A place has room for
+/// any state of the capacity; what is written of it is what is in use, without most of its zeros, in the machine's byte
+/// order: for this program alone.
 class SnapshotRing {
  public:
   /// Room for `ticks` ticks of worlds of this capacity. `memory`: 8-byte aligned, at least snapshot_ring_bytes(), for
@@ -74,8 +75,18 @@ constexpr uint32_t delta_bytes_max(Capacity capacity) {
   return snapshot_bytes(capacity) == 0 || bytes > UINT32_MAX ? 0 : static_cast<uint32_t>(bytes);
 }
 
+/// @cond
+// Of a state that is packed (lib/world/packed_state.h): a count, and a byte for each element with parts that may be
+// left out.
+constexpr uint32_t packed_bytes_max(Capacity capacity) {
+  const uint64_t more = 4 + uint64_t{capacity.bodies} + capacity.contacts + manifold_count(capacity);
+  const uint64_t bytes = (snapshot_bytes(capacity) + more + 7) / 8 * 8;
+  return snapshot_bytes(capacity) == 0 || bytes > UINT32_MAX ? 0 : static_cast<uint32_t>(bytes);
+}
+/// @endcond
+
 constexpr uint32_t snapshot_ring_bytes(Capacity capacity, uint32_t ticks) {
-  const uint64_t bytes = uint64_t{snapshot_bytes(capacity)} * ticks;
+  const uint64_t bytes = uint64_t{packed_bytes_max(capacity)} * ticks;
   return bytes > UINT32_MAX ? 0 : static_cast<uint32_t>(bytes);
 }
 

@@ -45,7 +45,7 @@ Status copy_world(const World& from, World& to) {
   const StateView<uint8_t> target = view_of(to);
   if (!has_room(state, const_view_of(to.block))) return Status::pool_full;
   if (const Status status = check_handle(from, state, to); status != Status::ok) return status;
-  copy_used(state, target, true);
+  copy_used(state, target);
   take_over(to);
   return Status::ok;
 }

@@ -1,13 +1,19 @@
 #include <detent/rollback.h>
 #include <string.h>
 
+#include "world/packed_state.h"
 #include "world/snapshot.h"
-#include "world/used.h"
 
-// A place holds the front of a block: a header, whose magic is 0 while nothing is kept, and each array at its offset.
+// A place holds a packed state, whose header's magic is 0 while nothing is kept.
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
+namespace {
+
+BlockHeader& header_of(uint8_t* place) { return *at_offset<BlockHeader>(place, 0); }
+uint64_t tick_of(const uint8_t* place) { return at_offset<WorldState>(place, sizeof(BlockHeader))->tick; }
+
+}  // namespace
 
 Status SnapshotRing::begin(uint8_t* memory, uint32_t memory_bytes, Capacity capacity, uint32_t ticks) {
   const uint32_t bytes = snapshot_ring_bytes(capacity, ticks);
@@ -15,41 +21,36 @@ Status SnapshotRing::begin(uint8_t* memory, uint32_t memory_bytes, Capacity capa
   if (memory == nullptr || memory_bytes < bytes) return Status::buffer_too_small;
   if (reinterpret_cast<uintptr_t>(memory) % 8 != 0) return Status::buffer_misaligned;
   memory_ = memory;
-  place_bytes_ = snapshot_bytes(capacity);
+  place_bytes_ = packed_bytes_max(capacity);
   ticks_ = ticks;
   capacity_ = capacity;
-  for (uint32_t i = 0; i < ticks; ++i) at_offset<BlockHeader>(place(i), 0)->magic = 0;
+  for (uint32_t i = 0; i < ticks; ++i) header_of(place(i)).magic = 0;
   return Status::ok;
 }
 
 bool SnapshotRing::holds(uint64_t tick) const {
   if (memory_ == nullptr) return false;
-  const uint8_t* block = place(tick);
-  return at_offset<BlockHeader>(block, 0)->magic != 0 && view_of(block, capacity_).world.tick == tick;
+  return header_of(place(tick)).magic != 0 && tick_of(place(tick)) == tick;
 }
 
 Status SnapshotRing::keep(const World& world) {
   if (memory_ == nullptr) return Status::bad_argument;
   const StateView<const uint8_t> state = view_of(world);
   if (!(capacity_of(state.header) == capacity_)) return Status::capacity_differs;
-  uint8_t* const block = place(state.world.tick);
-  *at_offset<BlockHeader>(block, 0) = state.header;
-  copy_used(state, view_of(block, capacity_), false);
+  pack_state(state, place(state.world.tick));
   return Status::ok;
 }
 
 Status SnapshotRing::restore(World& world, uint64_t tick) {
   if (memory_ == nullptr) return Status::bad_argument;
   if (!holds(tick)) return Status::out_of_range;
-  const StateView<const uint8_t> kept = const_view_of(place(tick));
   const StateView<uint8_t> state = view_of(world);
-  const Status status = check_header(kept.header, capacity_of(state.header), *world.features);
+  const Status status = check_header(header_of(place(tick)), capacity_of(state.header), *world.features);
   if (status != Status::ok) return status;
-  copy_used(kept, state, true);
+  unpack_state(place(tick), state);
   take_over(world);
   for (uint32_t i = 0; i < ticks_; ++i) {
-    const StateView<uint8_t> other = view_of(place(i), capacity_);
-    if (other.header.magic != 0 && other.world.tick > tick) other.header.magic = 0;
+    if (header_of(place(i)).magic != 0 && tick_of(place(i)) > tick) header_of(place(i)).magic = 0;
   }
   return Status::ok;
 }

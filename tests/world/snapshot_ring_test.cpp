@@ -80,6 +80,24 @@ DETENT_TEST(snapshot_ring, holds_the_last_ticks_and_no_others) {
   for (uint64_t tick = 0; tick < 12; ++tick) EXPECT_EQ(kept.ring.holds(tick), tick >= 4 && tick <= 7) << tick;
 }
 
+DETENT_TEST(snapshot_ring, forces_that_wait_for_the_next_step_are_kept) {
+  Ring kept;
+  OwnedWorld owned = make_turmoiled(2, 5);
+  World& world = owned.world;
+  uint32_t pushed = 0;
+  for (BodyId id = next_body(world, {}); id.slot != 0; id = next_body(world, id)) {
+    if (id.slot % 2 == 0 || apply_force(world, id, {3.0, -2.0, 1.0}) != Status::ok) continue;
+    ASSERT_OK(apply_torque(world, id, {-1.0, 2.0, 0.5}));
+    ++pushed;
+  }
+  ASSERT_GT(pushed, 1u);
+  const auto before = save_all(world);
+  ASSERT_OK(kept.ring.keep(world));
+  for (int i = 0; i < 3; ++i) step(world);
+  ASSERT_OK(kept.ring.restore(world, get_info(world).tick - 3));
+  EXPECT_EQ(save_all(world), before);
+}
+
 DETENT_TEST(snapshot_ring, bad_arguments_are_refused_and_change_nothing) {
   const uint32_t bytes = snapshot_ring_bytes(k_turmoil_capacity, k_window);
   std::vector<uint64_t> words(bytes / 8 + 1);

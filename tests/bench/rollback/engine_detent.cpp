@@ -8,7 +8,7 @@
 #include "tests/bench/heap.h"
 #include "tests/stress/run_detent.h"
 #include "tests/stress/scenes.h"
-#include "world/used.h"
+#include "world/packed_state.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -85,7 +85,8 @@ class Course {
     row.allocations = heap_use().calls - allocations;
     row.exact = row.exact && good_;
     row.contacts = get_info(world_).contacts;
-    row.bytes = used_bytes(const_view_of(world_.block));
+    std::vector<uint8_t> packed(packed_bytes_max(capacity_));
+    row.bytes = pack_state(view_of(static_cast<const World&>(world_)), packed.data());
     row.delta_bytes = static_cast<uint32_t>(delta_bytes / repetitions_);
     row.step = step_times.median();
     row.save = save_times.median();
