@@ -12,7 +12,8 @@ struct OpenPart {
 inline constexpr int64_t k_whole = int64_t{1} << 30;
 inline constexpr OpenPart k_open = {0, k_whole}, k_closed = {1, 0};
 
-/// What is lost where corners are brought to 29 bits and a sign, so that products of two fit 64 bits and of three 128.
+/// What is lost where corners are brought to 29 bits and a sign, so that products of two fit 64 bits and of three 128
+/// (tests/proofs/feature.g).
 struct Shortening {
   int shift;      ///< as many bits, to nearest
   int64_t reach;  ///< no component is larger then
@@ -31,12 +32,11 @@ struct Shortening {
   /// Such a ball hides all products, and their errors would overflow.
   bool is_blind() const { return 8 * ball > reach; }
 
-  /// The most by which |(a + d) x (b + e) - a x b| differs in a component, d and e within the ball. Below 2^58.
+  /// The most by which |(a + d) x (b + e) - a x b| differs in a component, d and e within the ball.
   int64_t moment_error() const { return 2 * ball * (2 * reach + ball); }
-  /// The same of the volume of three corners p, q, r, off by d, e, f: |d.(q x r)| and its like, |(d x e).r| and its
-  /// like,
+  /// The same of the volume of three corners p, q, r, off by d, e, f: |d.(q x r)|, |(d x e).r| and their like, and
   /// |(d x e).f|. `moments` is the sum of the components' magnitudes of the three cross products, below 2^62: a flat
-  /// triangle has small ones, so what counts is its area, not its length. Below 2^89.
+  /// triangle has small ones, so what counts is its area, not its length.
   Int128 volume_error(int64_t moments) const {
     return Int128::product_narrow(moments + 18 * ball * reach + 6 * ball * ball, static_cast<int32_t>(ball));
   }

@@ -227,7 +227,7 @@ double least_gap_near(const ExactFeatures& features, int64_t time) {
   mpq_class at = time_of(time), width = mpq_class(1, 16), least = square_gap_at(polygon, at);
   for (int round = 0; round < 40; ++round, width /= 4) {
     const mpq_class middle = at;
-    for (int i = -8; i <= 8; ++i) {
+    for (int i = -4; i <= 4; ++i) {
       const mpq_class t = middle + width * i;
       if (t < 0 || t > 1) continue;
       const mpq_class gap = square_gap_at(polygon, t);

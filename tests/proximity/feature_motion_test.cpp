@@ -174,8 +174,8 @@ DETENT_TEST(feature_motion, many_turns_are_decided_or_safe) {
   EXPECT_EQ(undecided, 0u);
   // Ten thousand turns close by are too many: the safe time is all that is told.
   MovingFeatures f = random_features(samples, 0);
-  f.b.position = {{0, 0, 3}};
-  f.b.displacement = {{0, 0, -1.5}};
+  f.b.position = {{0, 0, 6}};
+  f.b.displacement = {{0, 0, -4.5}};
   f.b.turn = {{60000, 0, 0}};
   f.b = held(f.b);
   const FeatureToi result = f.answer();

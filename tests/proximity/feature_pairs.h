@@ -105,8 +105,9 @@ inline PlantedPair planted_pair(Samples& samples, Special special) {
   if (special == Special::tangent) {
     const Vec64 first = difference(corner[edges ? 1 : 2], corner[edges ? 0 : 1]);
     const Vec64 second = difference(corner[3], corner[edges ? 2 : 1]);
-    along = add(times(Vec64{first.x / 64, first.y / 64, first.z / 64}, samples.integer(6)),
-                times(Vec64{second.x / 64, second.y / 64, second.z / 64}, samples.integer(6)));
+    const int64_t along_first = samples.integer(6), along_second = samples.integer(6);
+    along = add(times(Vec64{first.x / 64, first.y / 64, first.z / 64}, along_first),
+                times(Vec64{second.x / 64, second.y / 64, second.z / 64}, along_second));
   }
   for (int i = 0; i < first_of_b; ++i) {
     corner[i] = add(corner[i], way);
