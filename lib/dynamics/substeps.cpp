@@ -213,7 +213,8 @@ void estimate_loads(const StepSettings& settings, Span<const BodyPose> poses, Sp
 
 void store_load(const StepSettings& settings, ContactWork& contact) {
   Real impulse = 0.0;
-  for (const Real part : contact.state.normal_impulse) impulse += part;
+  // Four may come to more than a Real holds, which would wrap.
+  for (const Real part : contact.state.normal_impulse) impulse += min(part, k_real_max - impulse);
   bool saturated = false;
   const Real force = multiply(impulse, settings.rate, saturated);
   const Real most = max(settings.gravity_size, multiply(contact.state.load, Scaled(2.0), saturated));

@@ -126,8 +126,11 @@ Status Player::load_state(World& world) {
   const Status loaded = load_from(world, read_state_from, this);
   const bool seed = state_type_ == static_cast<uint32_t>(ChunkType::seed);
   if (loaded != Status::ok) return fail(loaded, chunk_offset_, seed ? "seed" : "keyframe");
-  if (get_info(world).tick != tick_) return fail(Status::corrupt, chunk_offset_, "state tick");
-  return end_state();
+  const bool right = get_info(world).tick == tick_;
+  const Status ended = right ? end_state() : fail(Status::corrupt, chunk_offset_, "state tick");
+  if (ended == Status::ok) return ended;
+  const Status emptied = empty_world(world, info_.capacity);
+  return emptied == Status::ok ? ended : emptied;
 }
 
 Status Player::pass_state() {

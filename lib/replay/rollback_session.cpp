@@ -47,10 +47,11 @@ uint64_t& RollbackSession::stamp_of(uint32_t player, uint64_t tick) const {
   return stamps_[place(tick) * def_.players + player];
 }
 
-/// The first tick whose inputs somebody may still ask for.
+/// The first tick whose inputs somebody may still ask for. Who only watches may know more ticks than it has made.
 uint64_t RollbackSession::oldest() const {
   const uint64_t known = known_tick(), back = 2 * uint64_t{def_.window};
-  return known - start_ > back ? known - back : start_;
+  const uint64_t now = known < tick_ ? known : tick_;
+  return now - start_ > back ? now - back : start_;
 }
 
 /// The first tick of which an input is not known.

@@ -119,18 +119,22 @@ bool snapshot_read(const World& world, uint32_t offset, uint8_t* bytes, uint32_t
   return true;
 }
 
+Status empty_world(World& world, Capacity capacity) {
+  WorldDef def;
+  def.capacity = capacity;
+  def.continuous = world.features->continuous != nullptr;
+  def.sleeping = world.features->sleeping != nullptr;
+  World same;
+  return create_world(world.block, world_bytes(capacity), def, world.assets, same, *world.features);
+}
+
 Status load_from(World& world, Status (*read)(void* context, uint32_t offset, uint8_t* bytes, uint32_t count),
                  void* context) {
   const FloatEnvironment environment;
   const Layout layout = layout_of(world);
   const Capacity capacity = capacity_of(view_of(world).header);
   const auto fail = [&](Status status) {
-    WorldDef def;
-    def.capacity = capacity;
-    def.continuous = world.features->continuous != nullptr;
-    def.sleeping = world.features->sleeping != nullptr;
-    World same;  // what the caller has bound to the handle stays
-    const Status emptied = create_world(world.block, layout.bytes, def, world.assets, same, *world.features);
+    const Status emptied = empty_world(world, capacity);
     return emptied == Status::ok ? status : emptied;
   };
   forget_steps(world);

@@ -8,9 +8,12 @@ inline namespace DETENT_NAMESPACE {
 /// False if they reach beyond its end.
 bool snapshot_read(const World& world, uint32_t offset, uint8_t* bytes, uint32_t count);
 
+/// Makes a new world of this capacity, which must be the world's, of whatever its block holds: its settings are their
+/// defaults. What the caller has bound to the handle stays.
+Status empty_world(World& world, Capacity capacity);
+
 /// As `load`, from a reader of the canonical bytes, straight into the world's block. On failure the world is left
-/// empty, with its settings at their defaults. `read` gives all of the bytes [offset, offset + count) or another status
-/// than ok.
+/// empty. `read` gives all of the bytes [offset, offset + count) or another status than ok.
 Status load_from(World& world, Status (*read)(void* context, uint32_t offset, uint8_t* bytes, uint32_t count),
                  void* context);
 

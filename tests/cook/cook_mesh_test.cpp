@@ -164,34 +164,59 @@ TEST(read_obj_mesh, what_is_wrong_is_told_with_its_line) {
   EXPECT_EQ(read_obj_mesh("v 0 0 0\nf 1 1 x").problem, "line 2: 'x' names no vertex before this line");
 }
 
-/// One triangle, in a node that moves, turns and mirrors it.
-TEST(read_gltf_mesh, nodes_place_the_triangles) {
+/// A file of these scenes and nodes, and of one mesh: a triangle (0,0,0), (1,0,0), (0,1,0).
+MeshRead read_nodes(const std::string& nodes) {
   const std::string path = ::testing::TempDir() + "detent_cook_mesh_test.gltf";
   FILE* file = fopen(path.c_str(), "wb");
-  ASSERT_NE(file, nullptr);
-  // Three floats a corner: (0,0,0), (1,0,0), (0,1,0); indices 0, 1, 2 as uint16.
-  fputs(R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],
-"nodes":[{"translation":[1,2,3],"children":[1]},{"scale":[-2,1,1],"mesh":0}],
+  EXPECT_NE(file, nullptr);
+  if (file == nullptr) return {};
+  // Three floats a corner; indices 0, 1, 2 as uint16.
+  const std::string text = R"({"asset":{"version":"2.0"},)" + nodes + R"(,
 "meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],
 "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},
 {"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"}],
 "bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":6}],
-"buffers":[{"byteLength":42,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAABAAIA"}]})",
-        file);
+"buffers":[{"byteLength":42,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAABAAIA"}]})";
+  fputs(text.c_str(), file);
   fclose(file);
   const MeshRead read = read_gltf_mesh(path);
   remove(path.c_str());
-  if (!k_reads_gltf) {
-    EXPECT_NE(read.problem, "");
-    GTEST_SKIP() << "built without tinygltf";
-  }
+  EXPECT_NE(read_gltf_mesh(path + ".none").problem, "");
+  return read;
+}
+
+TEST(read_gltf_mesh, nodes_place_the_triangles) {
+  if (!k_reads_gltf) GTEST_SKIP() << "built without tinygltf";
+  const MeshRead read = read_nodes(R"("scene":0,"scenes":[{"nodes":[0]}],
+"nodes":[{"translation":[1,2,3],"children":[1]},{"scale":[-2,1,1],"mesh":0}])");  // it moves, turns and mirrors
   ASSERT_EQ(read.problem, "");
   ASSERT_EQ(read.mesh.vertices.size(), 3u);
   EXPECT_EQ(read.mesh.vertices[1], (Point{-1, 2, 3}));
   EXPECT_EQ(read.mesh.vertices[2], (Point{1, 3, 3}));
   ASSERT_EQ(read.mesh.triangles.size(), 1u);
   EXPECT_EQ(read.mesh.triangles[0].vertex, (std::array<uint32_t, 3>{2, 1, 0}));
-  EXPECT_NE(read_gltf_mesh(path + ".none").problem, "");
+}
+
+TEST(read_gltf_mesh, without_a_scene_each_node_is_there_once) {
+  if (!k_reads_gltf) GTEST_SKIP() << "built without tinygltf";
+  const MeshRead read = read_nodes(R"("nodes":[{"mesh":0},{"translation":[1,2,3],"children":[0]}])");
+  EXPECT_EQ(read.problem, "");
+  ASSERT_EQ(read.mesh.vertices.size(), 3u);
+  EXPECT_EQ(read.mesh.vertices[0], (Point{1, 2, 3}));
+}
+
+TEST(read_gltf_mesh, nodes_that_share_their_parts_are_refused_before_they_are_too_many) {
+  if (!k_reads_gltf) {
+    EXPECT_NE(read_nodes(R"("nodes":[{"mesh":0}])").problem, "");
+    GTEST_SKIP() << "built without tinygltf";
+  }
+  std::string nodes = R"("scene":0,"scenes":[{"nodes":[0]}],"nodes":[)";
+  for (int i = 1; i <= 60; ++i) {  // 2^60 triangles
+    nodes += R"({"children":[)" + std::to_string(i) + "," + std::to_string(i) + "]},";
+  }
+  EXPECT_EQ(read_nodes(nodes + R"({"mesh":0}])").problem, "the glTF names a node in two places");
+  EXPECT_EQ(read_nodes(R"("scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"children":[0]}])").problem,
+            "the glTF names a node in two places");
 }
 
 }  // namespace

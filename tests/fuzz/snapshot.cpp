@@ -8,10 +8,8 @@ namespace {
 
 using detent_fuzz::Bytes;
 
-constexpr Capacity k_capacity = {10, 24, 6, true, 6, 6};
-
 bool take(const Bytes& bytes) {
-  OwnedWorld owned(OwnedWorld::def_of(k_capacity), Game::assets());
+  OwnedWorld owned(OwnedWorld::def_of(k_fuzzed_capacity), Game::assets());
   owned.world.filter_rules = Game::rules();
   const uint64_t before = digest(owned.world);
   std::vector<uint64_t> words((bytes.size() + 7) / 8);
@@ -30,7 +28,7 @@ std::vector<Bytes> seeds() {
   for (uint64_t seed = 1; made.size() < 8; ++seed) {
     Game game(Draw(seed, false));
     game.play();
-    if (!(game.capacity() == k_capacity)) continue;
+    if (!(game.capacity() == k_fuzzed_capacity)) continue;
     std::vector<uint64_t> words = game.save_all();
     made.emplace_back(bytes_of(words), bytes_of(words) + byte_count(words));
   }

@@ -159,6 +159,30 @@ DETENT_TEST(damage, renumbered_chunks_in_a_wrong_order_are_refused) {
   expect_refused(put_together(long_seed), Status::corrupt, "state length");
 }
 
+DETENT_TEST(damage, a_seed_that_is_refused_leaves_the_world_empty) {
+  const Parts parts = take_apart(record_small(2));
+  Parts changed[3] = {parts, parts, parts};
+  changed[0].chunks[first_of(parts, ChunkType::calls) - 1].payload.push_back(0);
+  for (Chunk& chunk : changed[1].chunks) ++chunk.tick;
+  ++changed[1].header[40];  // the tick
+  changed[2].chunks[0].payload[60] ^= 255;
+  const char* const fields[3] = {"state length", "state tick", "seed"};
+  for (uint32_t i = 0; i < 3; ++i) {
+    const Bytes recording = put_together(changed[i]);
+    MemorySource memory{&recording};
+    uint8_t buffer[k_recording_buffer_bytes];
+    Player player(memory.source(), buffer, sizeof buffer);
+    EXPECT_OK(player.open());
+    OwnedWorld owned(player.info().capacity);
+    const uint64_t empty = digest(owned.world);
+    BodyId id;
+    EXPECT_OK(create_body(owned.world, {}, id));
+    EXPECT_EQ(player.start(owned.world), Status::corrupt);
+    EXPECT_STREQ(player.error().field, fields[i]);
+    EXPECT_EQ(digest(owned.world), empty) << fields[i];
+  }
+}
+
 DETENT_TEST(damage, an_unknown_chunk_is_passed_over_only_if_it_is_optional) {
   const Parts parts = take_apart(record_small(3));
   for (uint32_t at = 0; at < parts.chunks.size(); ++at) {

@@ -174,6 +174,25 @@ DETENT_TEST(rollback_session, a_machine_that_only_watches_needs_no_input_of_its_
   EXPECT_EQ(table.session.confirmed_tick(), 20u);
 }
 
+DETENT_TEST(rollback_session, a_machine_that_watches_from_afar_loses_no_input) {
+  Table table(2);
+  table.def.local = 0;
+  ASSERT_OK(table.begin(table.def, table.bytes(), table.size(), table.arena.state()));
+  Arena straight(2);
+  const auto what = [](uint32_t player, uint64_t tick) { return static_cast<uint8_t>((7 * tick + player) % 32); };
+  for (uint64_t tick = 0; tick < 60; ++tick) {
+    for (uint32_t player = 0; player < 2; ++player) {
+      uint64_t next = table.session.next_input(player);
+      while (table.hear(player, next, what(player, next)) == Status::ok) ++next;
+      EXPECT_EQ(next, (tick < 8 ? 0 : tick - 8) + 6 * 4 + 2) << "what it has no room for comes again";
+    }
+    ASSERT_OK(table.advance());
+    const uint8_t inputs[2 * k_arena_input_bytes] = {what(0, tick), 0, what(1, tick), 0};
+    Arena::make(&straight, straight.owned.world, {tick, inputs, 2, k_arena_input_bytes, 0, false});
+    ASSERT_EQ(table.arena.sum(), straight.sum()) << tick;
+  }
+}
+
 DETENT_TEST(rollback_session, bad_arguments_are_refused) {
   Table table(2);
   RollbackSession unbegun;

@@ -134,7 +134,7 @@ TEST(scene_refuses, what_the_library_refuses) {
   expect_action_refused("\"tick\": 7, \"until\": 9, \"call\": \"destroy_body\", \"body\": \"ball\"",
                         "3: actions[0]: destroy_body before tick 8: what it names is not there\n");
   expect_refused("\"world\": {\"capacity\": {\"bodies\": 1048576, \"contacts\": 1048576}}",
-                 "0: its world would take more than 1 GB: less capacity will do\n");
+                 "0: its world would take more than 1024 MB: less capacity will do\n");
 }
 
 TEST(scene_refuses, cooked_files_that_are_none) {

@@ -213,6 +213,22 @@ TEST(scene_run, the_scene_on_the_page_is_one) {
   EXPECT_NE(played.lines.find("found name below body ball"), std::string::npos) << played.lines;
 }
 
+TEST(scene_run, what_a_file_says_is_printed_without_what_a_terminal_obeys) {
+  RunCommand command;
+  command.path = testing::TempDir() + "names.json";
+  command.config = engines().front().config;
+  command.request.prints = {true, true, true, true};
+  std::ofstream(command.path) << R"({"format": 1, "ticks": 1,
+    "bodies": [{"name": "\u001b[2J", "shape": {"type": "sphere", "radius": 0.5}}],
+    "actions": [{"tick": 0, "call": "query_ray", "name": "\u0007", "origin": [0, 8, 0], "way": [0, -10, 0]}]})";
+  testing::internal::CaptureStdout();
+  EXPECT_TRUE(run_scene_file(command));
+  const std::string printed = testing::internal::GetCapturedStdout();
+  std::filesystem::remove(command.path);
+  EXPECT_NE(printed.find("body ?[2J"), std::string::npos) << printed;
+  for (const char letter : printed) EXPECT_TRUE(static_cast<unsigned char>(letter) >= ' ' || letter == '\n');
+}
+
 TEST(scene_run, events_and_answers_are_told_by_name) {
   const Played played = play(R"({"format": 1, "ticks": 60, "world": {"gravity": [0, -10, 0]},
     "bodies": [{"name": "ground", "type": "fixed", "shape": {"type": "half_space"}},

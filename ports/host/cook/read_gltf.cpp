@@ -10,6 +10,10 @@
 namespace detent_cook {
 namespace {
 
+constexpr int k_depth_max = 64;
+constexpr size_t k_vertices_max = size_t{1}
+                                  << 24;  ///< before those are left out that are not cooked; triangles likewise
+
 /// Columns, as in glTF.
 using Transform = std::array<double, 16>;
 
@@ -50,18 +54,20 @@ Transform transform_of(const tinygltf::Node& node) {
 
 class Reader {
  public:
-  explicit Reader(const tinygltf::Model& model) : model_(model) {}
+  explicit Reader(const tinygltf::Model& model) : model_(model), added_(model.nodes.size()) {}
 
+  /// Each once, as glTF has it: of nodes that share their parts a small file could make more than any machine can hold.
   void add_node(int index, const Transform& parent, int depth) {
-    if (index < 0 || static_cast<size_t>(index) >= model_.nodes.size() || depth > 64) {
-      fail("a node that is missing, or part of itself");
-      return;
+    if (index < 0 || static_cast<size_t>(index) >= model_.nodes.size() || depth > k_depth_max) {
+      return fail("a node that is missing, or too deep");
     }
+    if (added_[static_cast<size_t>(index)]) return fail("a node in two places");
+    added_[static_cast<size_t>(index)] = true;
     const tinygltf::Node& node = model_.nodes[static_cast<size_t>(index)];
     const Transform place = product(parent, transform_of(node));
     if (node.mesh >= 0 && static_cast<size_t>(node.mesh) < model_.meshes.size()) {
       for (const tinygltf::Primitive& primitive : model_.meshes[static_cast<size_t>(node.mesh)].primitives) {
-        if (primitive.mode == TINYGLTF_MODE_TRIANGLES) add_primitive(primitive, place);
+        if (primitive.mode == TINYGLTF_MODE_TRIANGLES && result.problem.empty()) add_primitive(primitive, place);
       }
     }
     for (const int child : node.children) {
@@ -69,9 +75,32 @@ class Reader {
     }
   }
 
+  void add_scene() {
+    const size_t scene = model_.defaultScene < 0 ? 0 : static_cast<size_t>(model_.defaultScene);
+    if (scene < model_.scenes.size()) return add_roots(model_.scenes[scene].nodes);
+    std::vector<bool> is_child(model_.nodes.size());
+    for (const tinygltf::Node& node : model_.nodes) {
+      for (const int child : node.children) {
+        if (child >= 0 && static_cast<size_t>(child) < is_child.size()) is_child[static_cast<size_t>(child)] = true;
+      }
+    }
+    std::vector<int> roots;
+    for (size_t i = 0; i < is_child.size(); ++i) {
+      if (!is_child[i]) roots.push_back(static_cast<int>(i));
+    }
+    add_roots(roots);
+  }
+
   MeshRead result{};
 
  private:
+  void add_roots(const std::vector<int>& nodes) {
+    constexpr Transform k_still = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    for (const int node : nodes) {
+      if (result.problem.empty()) add_node(node, k_still, 0);
+    }
+  }
+
   void fail(const std::string& what) {
     if (result.problem.empty()) result.problem = "the glTF names " + what;
   }
@@ -98,6 +127,7 @@ class Reader {
     if (points.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT || points.type != TINYGLTF_TYPE_VEC3) {
       return fail("positions that are not three floats");
     }
+    if (points.count > k_vertices_max - result.mesh.vertices.size()) return fail("more vertices than can be cooked");
     const auto base = static_cast<uint32_t>(result.mesh.vertices.size());
     for (size_t i = 0; i < points.count; ++i) {
       const unsigned char* bytes = element(points, i, 3 * sizeof(float));
@@ -115,6 +145,9 @@ class Reader {
       return fail("indices that are missing");
     const tinygltf::Accessor& indices =
         model_.accessors[static_cast<size_t>(indexed ? primitive.indices : position->second)];
+    if (indices.count / 3 > k_vertices_max - result.mesh.triangles.size()) {
+      return fail("more triangles than can be cooked");
+    }
     const auto material = static_cast<uint8_t>(primitive.material < 0 ? 0 : primitive.material & 255);
     // A mirrored node turns its triangles round.
     const Transform& m = place;
@@ -146,6 +179,7 @@ class Reader {
   }
 
   const tinygltf::Model& model_;
+  std::vector<bool> added_;  ///< nodes
 };
 
 bool no_image(tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*, int, void*) {
@@ -168,13 +202,7 @@ MeshRead read_gltf_mesh(const std::string& path) {
                              : loader.LoadASCIIFromFile(&model, &error, &warning, path);
   if (!loaded) return {{}, "this is no glTF that can be read: " + first_line(error)};
   Reader reader(model);
-  constexpr Transform k_still = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-  const size_t scene = model.defaultScene < 0 ? 0 : static_cast<size_t>(model.defaultScene);
-  if (scene < model.scenes.size()) {
-    for (const int node : model.scenes[scene].nodes) reader.add_node(node, k_still, 0);
-  } else {
-    for (size_t i = 0; i < model.nodes.size(); ++i) reader.add_node(static_cast<int>(i), k_still, 0);
-  }
+  reader.add_scene();
   if (!reader.result.problem.empty()) return {{}, reader.result.problem};
   if (reader.result.mesh.triangles.empty()) return {{}, "the glTF's scene has no triangles"};
   return reader.result;

@@ -19,17 +19,19 @@ double rate(const Outcome& outcome) {
 std::string text(uint64_t value) { return std::to_string(value); }
 
 /// At once: a run that is ended leaves a log of what it has done.
-void print(const std::string& line) {
+void put(const std::string& line) {
   printf("%s\n", line.c_str());
   fflush(stdout);
 }
 
+void print(const std::string& line) { put(printable(line)); }
+
 void print_problem(const std::string& path, const Outcome& outcome) {
-  fprintf(stderr, "%s: %s\n", path.c_str(), outcome.problem.c_str());
+  fprintf(stderr, "%s\n", printable(path + ": " + outcome.problem).c_str());
 }
 
 /// A path need not be valid UTF-8: bytes that are not are replaced.
-void print_json(const Json& json) { print(json.dump(-1, ' ', false, Json::error_handler_t::replace)); }
+void print_json(const Json& json) { put(json.dump(-1, ' ', false, Json::error_handler_t::replace)); }
 
 Json json_of(const std::string& path, const Outcome& outcome) {
   Json json;

@@ -29,7 +29,7 @@ void print_text(const RunLine& line) {
     for (size_t i = 0; i < value.numbers.size(); ++i) text += (i == 0 ? "" : ", ") + plain(value.numbers[i]);
     if (value.list) text += ")";
   }
-  printf("%s\n", text.c_str());
+  printf("%s\n", printable(text).c_str());
 }
 
 void print_object(const RunLine& line) {
@@ -94,7 +94,7 @@ void summarise(const RunCommand& command, const RunOutcome& outcome) {
     return print_json(json);
   }
   for (size_t i = 0; i < outcome.assets.size(); ++i) {
-    printf("asset %zu: %s, digest %s\n", i, outcome.assets[i].c_str(), outcome.asset_digests[i].c_str());
+    printf("asset %zu: %s, digest %s\n", i, printable(outcome.assets[i]).c_str(), outcome.asset_digests[i].c_str());
   }
   std::string text = command.path + ": " + command.config + ", " + std::to_string(outcome.ticks) + " ticks, " +
                      std::to_string(outcome.bodies) + " bodies, " + std::to_string(outcome.joints) + " joints, ";

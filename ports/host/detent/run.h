@@ -42,6 +42,7 @@ struct RunRequest {
   uint32_t ticks = 0;
   std::string recording;  ///< to be written; empty: none
   uint32_t digest_interval = 1;
+  uint32_t world_bytes_max = 1u << 30;  ///< a scene whose world is larger is refused
   RunPrints prints;
 };
 

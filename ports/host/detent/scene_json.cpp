@@ -5,6 +5,8 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "text.h"
+
 namespace detent_tool {
 
 namespace {
@@ -161,10 +163,7 @@ std::string problem_text(const std::string& file, const Problem& problem) {
   if (problem.line != 0) text += ":" + std::to_string(problem.line);
   if (!problem.path.empty()) text += ": " + problem.path;
   text += ": " + problem.text;
-  // Names of the file's may be anything: a terminal shall not obey them.
-  for (char& letter : text) {
-    if (static_cast<unsigned char>(letter) < ' ' || letter == 0x7f) letter = '?';
-  }
+  text = printable(text);
   constexpr size_t k_length_max = 1000;
   return text.size() <= k_length_max ? text : text.substr(0, k_length_max) + "...";
 }

@@ -14,7 +14,6 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 constexpr uint32_t k_events_max = 4096;  // of each kind and step
-constexpr uint32_t k_world_bytes_max = 1u << 30;
 
 /// The scene's cooked files.
 struct SceneAssets {
@@ -118,11 +117,12 @@ void play(const RunRequest& request, SceneReading& reading, OwnedWorld& owned, R
 }
 
 /// False, and a problem, if it cannot be.
-bool make_world(SceneReading& reading, const SceneAssets& assets, OwnedWorld& owned) {
+bool make_world(SceneReading& reading, const SceneAssets& assets, uint32_t bytes_max, OwnedWorld& owned) {
   const WorldDef& def = reading.scene.world;
   const uint32_t bytes = world_bytes(def.capacity);
-  if (bytes == 0 || bytes > k_world_bytes_max) {
-    reading.problem({}, "its world would take more than 1 GB: less capacity will do");
+  if (bytes == 0 || bytes > bytes_max) {
+    reading.problem({},
+                    "its world would take more than " + std::to_string(bytes_max >> 20) + " MB: less capacity will do");
     return false;
   }
   const Status status = owned.create(def, {assets.table.data(), static_cast<uint32_t>(assets.table.size())});
@@ -139,7 +139,8 @@ RunOutcome play_scene(const RunRequest& request, const RunPrinter& print, const 
   OwnedWorld owned;
   read_scene(*request.root, reading);
   outcome.description = reading.scene.description;
-  if (reading.problems.empty() && assets.read(reading, request.path, outcome) && make_world(reading, assets, owned)) {
+  if (reading.problems.empty() && assets.read(reading, request.path, outcome) &&
+      make_world(reading, assets, request.world_bytes_max, owned)) {
     const Stopwatch stopwatch;
     play(request, reading, owned, outcome, print, progress);
     outcome.seconds = stopwatch.seconds();

@@ -14,7 +14,6 @@ inline namespace DETENT_NAMESPACE {
 
 namespace {
 
-constexpr size_t k_problems_max = 20;
 constexpr size_t k_assets_max = 1024;
 
 std::string written(double value) {
@@ -51,7 +50,7 @@ Quat turned_about(const Quat& rotation, const double (&axis)[3], double degrees)
 }  // namespace
 
 void SceneReading::problem(const SceneOrigin& origin, const std::string& text) {
-  if (problems.size() < k_problems_max) problems.push_back({origin.line, origin.path, text});
+  if (!is_full()) problems.push_back({origin.line, origin.path, text});
 }
 void SceneReading::problem(const Node& node, const std::string& path, const std::string& text) {
   problem({node.line, path}, text);
@@ -291,7 +290,7 @@ void judge_names(SceneReading& reading) {
   for (const SceneReference& reference : reading.references) {
     const std::set<std::string>& names = reference.action ? all[reference.joint] : first[reference.joint];
     if (names.count(reference.name) != 0) continue;
-    if (reading.problems.size() == k_problems_max) return;
+    if (reading.is_full()) return;
     reading.problem(reference.origin, std::string("no ") + (reference.joint ? "joint" : "body") + " has the name " +
                                           ObjectReader::quoted(reference.name) +
                                           suggestion(reference.name, {names.begin(), names.end()}));

@@ -15,12 +15,14 @@ struct SceneReference {
 
 /// What is gathered while a scene is read.
 struct SceneReading {
+  static constexpr size_t k_problems_max = 20;
   std::vector<Problem> problems;
   std::vector<SceneAsset> assets;
   std::vector<SceneReference> references;
   SceneText scene;
 
   /// Those beyond a screenful are left out.
+  bool is_full() const { return problems.size() >= k_problems_max; }
   void problem(const SceneOrigin& origin, const std::string& text);
   void problem(const Node& node, const std::string& path, const std::string& text);
 };
@@ -117,8 +119,11 @@ class ObjectReader {
   void list(const Field& field, std::vector<T>& values) {
     const Node* const node = take(field);
     if (node == nullptr || !is(*node, NodeKind::array, path_of(field.key))) return;
-    values.resize(node->items.size());
-    for (size_t i = 0; i < values.size(); ++i) read(reading_, node->items[i], path_of(field.key, i), values[i]);
+    // A definition takes a kilobyte, and a wrong one three letters: a hostile file would take all memory.
+    for (size_t i = 0; i < node->items.size() && !reading_.is_full(); ++i) {
+      values.emplace_back();
+      read(reading_, node->items[i], path_of(field.key, i), values.back());
+    }
   }
   template <class T>
   void dictionary(const Field& field, std::map<std::string, T>& values) {

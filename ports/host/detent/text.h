@@ -13,4 +13,12 @@ inline std::string hexadecimal(uint64_t value) {
   return text;
 }
 
+/// What a file says may be anything: a terminal shall not obey it.
+inline std::string printable(std::string text) {
+  for (char& letter : text) {
+    if (static_cast<unsigned char>(letter) < ' ' || letter == 0x7f) letter = '?';
+  }
+  return text;
+}
+
 }  // namespace detent_tool
