@@ -125,8 +125,13 @@ OpenPart open_part(const FeatureSpan& span) {
 }
 
 bool begins_near(const FeatureSpan& span, int64_t gap) {
-  const ShortSpan short_span(span);
-  return !parted(short_span.corner, short_span.count, gap >> short_span.is.shift);
+  // By the corners at the beginning alone: those at the end may be so far off that the gap were lost in rounding.
+  uint64_t magnitudes = 0;
+  for (int i = 0; i < span.count; ++i) magnitudes |= magnitude_bits(span.from[i]);
+  const Shortening is(magnitudes, 0);
+  Vec32 corner[4];
+  for (int i = 0; i < span.count; ++i) corner[i] = round_shift(span.from[i], is.shift);
+  return gap >> is.shift >= is.reach || !parted(corner, span.count, gap >> is.shift);
 }
 
 }  // namespace DETENT_NAMESPACE

@@ -20,7 +20,7 @@ struct FeatureSpan {
 OpenPart open_part(const FeatureSpan& span);
 
 /// Whether the features are nearer than `gap` at the interval's beginning: at least where they are, and at most where
-/// they are nearer than 1.8 of it and 2^-26 of the largest corner.
+/// they are nearer than 1.8 of it and 2^-26 of the largest corner then.
 bool begins_near(const FeatureSpan& span, int64_t gap);
 
 }  // namespace DETENT_NAMESPACE
