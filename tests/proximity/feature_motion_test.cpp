@@ -4,6 +4,7 @@
 #include "base/digest.h"
 #include "tests/oracle/effort.h"
 #include "tests/proximity/feature_pairs.h"
+#include "tests/proximity/spread.h"
 
 /// Features of bodies with constant velocity and spin.
 namespace detent {
@@ -11,6 +12,8 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 using detent_oracle::rounds;
+using detent_test::Figures;
+using detent_test::time_of;
 
 /// Two features of bodies in motion, as held.
 struct MovingFeatures {
@@ -47,21 +50,29 @@ struct MovingFeatures {
     return edges() ? std::max(edge(0, 1), edge(2, 3)) : std::max({edge(1, 2), edge(1, 3), edge(2, 3)});
   }
   FeatureToi answer() const {
+    Figures figures;
+    return answer(figures);
+  }
+  FeatureToi answer(Figures& figures) const {
     const Vec3<Real> corners[4] = {reals(corner[0]), reals(corner[1]), reals(corner[2]), reals(corner[3])};
+    const Motion motion_a = motion_of(a), motion_b = motion_of(b);
     FeatureToi result;
-    EXPECT_OK(feature_toi(kind, corners, motion_of(a), motion_of(b), result));
+    figures.times.push_back(time_of(3, [&] { EXPECT_OK(feature_toi(kind, corners, motion_a, motion_b, result)); }));
+    figures.intervals.push_back(result.intervals);
     return result;
   }
   /// Conservative advancement of the same: triangles whose corners coincide.
-  TimeOfImpact advanced() const {
+  TimeOfImpact advanced(Figures& figures) const {
     const Vec3<Real> p[4] = {reals(corner[0]), reals(corner[1]), reals(corner[2]), reals(corner[3])};
     const Vec3<Real> of_a[3] = {p[0], p[edges() ? 1 : 0], p[0]};
     const Vec3<Real> of_b[3] = {p[edges() ? 2 : 1], p[edges() ? 3 : 2], p[edges() ? 2 : 3]};
     Convex convex_a, convex_b;
     EXPECT_OK(make_triangle(of_a, Real(0.0), convex_a));
     EXPECT_OK(make_triangle(of_b, Real(0.0), convex_b));
+    const Motion motion_a = motion_of(a), motion_b = motion_of(b);
     TimeOfImpact result;
-    EXPECT_OK(time_of_impact(convex_a, motion_of(a), convex_b, motion_of(b), result));
+    figures.other_times.push_back(
+        time_of(3, [&] { EXPECT_OK(time_of_impact(convex_a, motion_a, convex_b, motion_b, result)); }));
     return result;
   }
 };
@@ -119,9 +130,9 @@ void expect_not_late(const MovingFeatures& f, double time, int count) {
 }
 
 /// What both methods claim, and that neither comes later than a contact.
-void expect_agreement(const MovingFeatures& f, uint32_t& hits, uint32_t& apart) {
-  const FeatureToi result = f.answer();
-  const TimeOfImpact other = f.advanced();
+void expect_agreement(const MovingFeatures& f, Figures& figures, uint32_t& hits, uint32_t& apart) {
+  const FeatureToi result = f.answer(figures);
+  const TimeOfImpact other = f.advanced(figures);
   const double time = fraction_to_host(result.time), other_time = fraction_to_host(other.time);
   // A pose is rounded where the reference holds it in doubles.
   const double tolerance = k_feature_tolerance * f.size() + 0x1p-23 * f.reach() + 1e-12;
@@ -143,13 +154,15 @@ DETENT_TEST(feature_motion, agrees_with_conservative_advancement_and_is_never_la
   const uint32_t count = getenv("DETENT_FULL") != nullptr ? 1000000 : rounds(4000);
   Samples samples{91};
   uint32_t hits = 0, apart = 0;
+  const double turn_max[4] = {0, 0.1, 1, 3};
+  Figures figures[4];
   for (uint32_t i = 0; i < count; ++i) {
-    const double turn_max[] = {0, 0.1, 1, 3};
     const MovingFeatures features = random_features(samples, turn_max[i % 4]);
     SCOPED_TRACE(testing::Message() << "pair " << i);
-    expect_agreement(features, hits, apart);
+    expect_agreement(features, figures[i % 4], hits, apart);
     if (testing::Test::HasFailure()) return;
   }
+  for (int i = 0; i < 4; ++i) figures[i].print(turn_max[i]);
   printf("%u pairs: %u hits, %u with times more than 1e-4 apart\n", count, hits, apart);
   EXPECT_GT(hits, count / 20);
   EXPECT_LE(apart, count / 1000 + 1);
@@ -158,10 +171,11 @@ DETENT_TEST(feature_motion, agrees_with_conservative_advancement_and_is_never_la
 DETENT_TEST(feature_motion, many_turns_are_decided_or_safe) {
   Samples samples{92};
   uint32_t undecided = 0;
+  Figures figures;
   const uint32_t count = rounds(200);
   for (uint32_t i = 0; i < count; ++i) {
     const MovingFeatures f = random_features(samples, 60);
-    const FeatureToi result = f.answer();
+    const FeatureToi result = f.answer(figures);
     const double time = fraction_to_host(result.time);
     SCOPED_TRACE(testing::Message() << "pair " << i);
     EXPECT_LE(result.intervals, k_feature_intervals_max);
@@ -171,6 +185,7 @@ DETENT_TEST(feature_motion, many_turns_are_decided_or_safe) {
       EXPECT_LE(f.gap(time), k_feature_tolerance * f.size() + 0x1p-23 * f.reach() + 1e-12);
     }
   }
+  figures.print(60);
   EXPECT_EQ(undecided, 0u);
   // Ten thousand turns close by are too many: the safe time is all that is told.
   MovingFeatures f = random_features(samples, 0);

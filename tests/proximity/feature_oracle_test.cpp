@@ -1,11 +1,9 @@
-#include <chrono>
-#include <numeric>
-
 #include "tests/oracle/effort.h"
 #include "tests/oracle/feature_contact.h"
 #include "tests/proximity/ccd_queries.h"
 #include "tests/proximity/feature_pairs.h"
 #include "tests/proximity/plain_inclusion.h"
+#include "tests/proximity/spread.h"
 
 /// Features in linear motion against exact rationals.
 namespace detent {
@@ -17,6 +15,9 @@ using detent_oracle::ExactContact;
 using detent_oracle::ExactFeatures;
 using detent_oracle::rounds;
 using detent_test::CcdQuery;
+using detent_test::Spread;
+using detent_test::spread_of;
+using detent_test::time_of;
 
 ExactFeatures exact(const LinearFeatures& features) {
   ExactFeatures result = {};
@@ -117,29 +118,6 @@ ExactFeatures exact(const CcdQuery& query) {
     std::copy_n(query.end[i], 3, result.end[i]);
   }
   return result;
-}
-
-/// Of numbers: their mean, the 99th of a hundred, the largest.
-struct Spread {
-  double mean, late, most;
-};
-Spread spread_of(std::vector<double> numbers) {
-  std::sort(numbers.begin(), numbers.end());
-  const size_t count = numbers.size();
-  return {std::accumulate(numbers.begin(), numbers.end(), 0.0) / static_cast<double>(count), numbers[count * 99 / 100],
-          numbers.back()};
-}
-/// The least of a few runs, us.
-template <class Run>
-double time_of(int runs, const Run& run) {
-  using Clock = std::chrono::steady_clock;
-  double least = HUGE_VAL;
-  for (int i = 0; i < runs; ++i) {
-    const Clock::time_point begin = Clock::now();
-    run();
-    least = std::min(least, std::chrono::duration<double, std::micro>(Clock::now() - begin).count());
-  }
-  return least;
 }
 
 /// The table of docs/feature_toi.md: a row for each file of the data.

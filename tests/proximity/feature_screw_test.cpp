@@ -3,6 +3,7 @@
 #include "base/digest.h"
 #include "tests/oracle/effort.h"
 #include "tests/proximity/feature_pairs.h"
+#include "tests/proximity/spread.h"
 
 /// Features in the screw between two poses, against the screw's axis and the roots of its reduced cubic.
 namespace detent {
@@ -10,6 +11,8 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 using detent_oracle::rounds;
+using detent_test::Figures;
+using detent_test::time_of;
 
 Quaternion conjugate(const Quaternion& q) { return {-q.x, -q.y, -q.z, q.w}; }
 Vector turned(const Quaternion& q, const Vector& v) {
@@ -49,10 +52,15 @@ struct Bodies {
   BodyAt start_a, end_a, start_b, end_b;
 
   FeatureToi answer() const {
+    Figures figures;
+    return answer(figures);
+  }
+  FeatureToi answer(Figures& figures) const {
     const Vec3<Real> corners[4] = {reals(corner[0]), reals(corner[1]), reals(corner[2]), reals(corner[3])};
+    const PosePair a = {pose_of(start_a), pose_of(end_a)}, b = {pose_of(start_b), pose_of(end_b)};
     FeatureToi result;
-    EXPECT_OK(feature_toi_screw(kind, corners, {pose_of(start_a), pose_of(end_a)}, {pose_of(start_b), pose_of(end_b)},
-                                result));
+    figures.times.push_back(time_of(3, [&] { EXPECT_OK(feature_toi_screw(kind, corners, a, b, result)); }));
+    figures.intervals.push_back(result.intervals);
     return result;
   }
   Screw screw() const {
@@ -137,12 +145,13 @@ std::vector<double> roots_of(const double (&v)[4]) {
 DETENT_TEST(feature_screw, agrees_with_the_roots_of_the_reduced_cubic) {
   const double pose_error = 8 * k_number_error + 4 * k_position_step;
   Samples samples{94};
-  uint32_t hits = 0, intervals = 0, intervals_max = 0, later = 0;
+  uint32_t hits = 0, later = 0;
+  Figures figures;
   const uint32_t count = rounds(3000);
   for (uint32_t i = 0; i < count; ++i) {
     const Bodies bodies = random_bodies(samples);
     const Screw screw = bodies.screw();
-    const FeatureToi result = bodies.answer();
+    const FeatureToi result = bodies.answer(figures);
     SCOPED_TRACE(testing::Message() << "pair " << i);
     const double values[4] = {screw.reduced(0), screw.reduced(1.0 / 3), screw.reduced(2.0 / 3), screw.reduced(1)};
     double contact = 2;
@@ -160,12 +169,10 @@ DETENT_TEST(feature_screw, agrees_with_the_roots_of_the_reduced_cubic) {
     if (contact < time) {
       EXPECT_LE(screw.gap(time), pose_error * screw.reach) << "a contact at " << contact << " was missed";
     }
-    intervals += result.intervals;
-    intervals_max = std::max(intervals_max, result.intervals);
     if (testing::Test::HasFailure()) return;
   }
-  printf("%u pairs: %u hits, %.1f intervals, at most %u\n", count, hits, static_cast<double>(intervals) / count,
-         intervals_max);
+  figures.print(1.2);
+  printf("%u pairs: %u hits\n", count, hits);
   EXPECT_GT(hits, count / 20);
   EXPECT_LE(later, count / 500 + 1);
 }
