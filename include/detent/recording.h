@@ -18,11 +18,18 @@ inline constexpr uint32_t k_recording_format_version = 4;
 /// The working buffer of a Recorder or a Player: one chunk. No alignment is needed.
 inline constexpr uint32_t k_recording_buffer_bytes = 544;
 
-/// How much the recording says about each tick. Stored: a value is never reused. This version writes and reads level 0.
+/// How much the recording says about each tick. Stored: a value is never reused.
 enum class TraceLevel : uint32_t {
   digests = 0,  ///< one digest a tick
-  stages = 1,   ///< reserved: digests per stage and body
-  full = 2,     ///< reserved: the full state in a window of ticks
+  stages = 1,   ///< in a window of ticks also digests of each body, contact and joint after each stage of the step
+  full = 2,     ///< in a window of ticks also all that they hold after each stage
+};
+
+/// Ticks of which a recording tells more, by the number that is completed with them (StepReport::tick).
+struct TraceDef {
+  TraceLevel level = TraceLevel::full;  ///< of these ticks
+  uint64_t from = 0;                    ///< the first
+  uint64_t to = UINT64_MAX;             ///< the last
 };
 
 /// Where a recording goes. `write` takes all of `count` bytes, in order, or returns another status than ok.
@@ -67,6 +74,10 @@ struct RecordingInfo {
 // The library's own: what goes for all calls, and for all queries.
 struct CommandCode;
 struct QueryCode;
+// The way into the code that traces, and what looks on while a recording is read.
+struct Tracer;
+extern const Tracer k_tracer;
+struct ReplayWatch;
 /// @endcond
 
 /// Applies calls to a world and logs those that succeeded. Its methods mirror world.h, body_access.h,
@@ -84,6 +95,16 @@ class Recorder {
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
+  /// Traces these ticks: what a difference of two machines is found by (docs/first_difference.md). A trace goes to the
+  /// sink from within `step`, in chunks, and takes some ten times the state in use a tick; World::observer is the
+  /// recorder's while it steps, and the world's own is told first. A program that never calls this links none of its
+  /// code. Errors: bad_argument (begun before, a level that there is not, or `from` after `to`).
+  Status trace(const TraceDef& def) {
+    if (state_ != State::idle || def.level > TraceLevel::full || def.from > def.to) return Status::bad_argument;
+    trace_ = def;
+    tracer_ = &k_tracer;
+    return Status::ok;
+  }
   /// Writes the header and the world's state as the seed; calls are logged from here on. With a null sink: ok, and
   /// nothing. Errors: bad_argument (begun before), buffer_too_small (k_recording_buffer_bytes), sink_failed.
   Status begin(const RecordingDef& def = {});
@@ -145,7 +166,14 @@ class Recorder {
   /// Steps the world, and logs the tick and, every `digest_interval` ticks, the digest.
   StepReport step();
 
+  /// @cond
+  // The library's own: makes a call that a recording holds.
+  Status make(const CommandCode& code, void* command) { return apply_and_log(code, command); }
+  Status make(const QueryCode& code, void* command);
+  /// @endcond
+
  private:
+  friend struct TraceWriter;
   enum class State : uint32_t { idle, recording, ended };
 
   template <class Command>
@@ -170,6 +198,8 @@ class Recorder {
   State state_ = State::idle;
   Status status_ = Status::ok;
   RecordingDef def_ = {};
+  TraceDef trace_ = {TraceLevel::digests, 0, 0};
+  const Tracer* tracer_ = nullptr;
   uint32_t sequence_ = 0;       ///< of the next chunk
   uint32_t payload_count_ = 0;  ///< bytes of records that wait in the buffer
   uint64_t tick_ = 0;           ///< of the world, now
@@ -217,6 +247,9 @@ class Player {
   /// From now on asks the recorded queries again as well: another answer than the recorded one is digest_differs. If it
   /// is never called they are passed over, and the program links none of their code.
   void repeat_queries() { repeater_ = &k_query_repeater; }
+  /// @cond
+  void watch(const ReplayWatch* watch) { watch_ = watch; }
+  /// @endcond
 
   /// Reads the header. `info` is filled once its checksum is right, also if this build refuses it by a later check.
   /// Errors: buffer_too_small, bad_argument (opened before), sink_failed, truncated, not_detent, format_unknown,
@@ -294,6 +327,7 @@ class Player {
   uint8_t* buffer_;
   uint32_t buffer_bytes_;
   const QueryRepeater* repeater_ = nullptr;
+  const ReplayWatch* watch_ = nullptr;
   State state_ = State::closed;
   RecordingInfo info_ = {};
   ReplayError error_ = {};

@@ -4,6 +4,7 @@
 #include <detent/event.h>
 #include <detent/features.h>
 #include <detent/joint.h>
+#include <detent/observer.h>
 #include <detent/profile.h>
 #include <detent/reduction.h>
 #include <detent/status.h>
@@ -90,6 +91,7 @@ struct World {
   SensorEventBuffer sensor_events = {};  ///< as contact_events
   BodyEventBuffer body_events = {};      ///< likewise
   CapacityEventBuffer capacity_events = {};  ///< likewise
+  const StepObserver* observer = nullptr;    ///< is told of the stages of each step (observer.h)
 };
 
 /// What one step did. Every count is of this step alone.

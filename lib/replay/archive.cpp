@@ -54,15 +54,17 @@ void visit_flag(Archive& archive, const char* name, bool& value) {
   value = number == 1;
 }
 
-void visit_integer(Archive& archive, const char* name, int32_t& value) {
+void visit_bits(Archive& archive, const char* name, int32_t& value) {
   uint64_t bits = static_cast<uint64_t>(int64_t{value});
   archive.bits(name, bits, 4);
+  archive.kind = WordKind::unsigned_integer;
   value = static_cast<int32_t>(bits);
 }
 
-void visit_integer(Archive& archive, const char* name, int64_t& value) {
+void visit_bits(Archive& archive, const char* name, int64_t& value) {
   uint64_t bits = static_cast<uint64_t>(value);
   archive.bits(name, bits, 8);
+  archive.kind = WordKind::unsigned_integer;
   value = static_cast<int64_t>(bits);
 }
 
@@ -74,7 +76,9 @@ void visit_float(Archive& archive, const char* name, Float& value, Bits exponent
   constexpr Bits k_negative_zero = Bits{1} << (sizeof(Bits) * 8 - 1);
   if (archive.normalises() && own == k_negative_zero) own = 0;
   uint64_t bits = own;
+  archive.kind = WordKind::real;
   archive.bits(name, bits, sizeof(Bits));
+  archive.kind = WordKind::unsigned_integer;
   own = static_cast<Bits>(bits);
   archive.require(name, own != k_negative_zero && (own & exponent_mask) != exponent_mask, Status::out_of_range);
   value = __builtin_bit_cast(Float, own);
@@ -91,8 +95,10 @@ void visit_number(Archive& archive, const char* name, double& value) {
 
 #if DETENT_FIXED
 void visit_number(Archive& archive, const char* name, Scaled& value) {
-  visit_integer(archive, name, value.mantissa);
-  visit_integer(archive, name, value.exponent);
+  archive.kind = WordKind::scaled;
+  visit_bits(archive, name, value.mantissa);
+  archive.kind = WordKind::scaled;
+  visit_bits(archive, name, value.exponent);
   const int64_t signed_mantissa = value.mantissa;
   const int64_t magnitude = signed_mantissa < 0 ? -signed_mantissa : signed_mantissa;
   const bool canonical = magnitude == 0 ? value.exponent == 0

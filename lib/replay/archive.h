@@ -3,6 +3,8 @@
 #include <detent/scaled.h>
 #include <detent/status.h>
 
+#include "world/fields.h"
+
 /// Three ways to go through a list of fields. A type lists its fields once, in a `visit(archive, value)`; the archive
 /// decides what happens: Writer makes canonical bytes of them, Reader takes them from bytes, Normaliser makes them fit
 /// to be written.
@@ -28,6 +30,8 @@ class Archive {
     if (ways_.require != nullptr) ways_.require(*this, name, condition, otherwise);
   }
   bool normalises() const { return ways_.normalises; }
+
+  WordKind kind = WordKind::unsigned_integer;  ///< what the bits are that come next, for who shows them
 
  protected:
   explicit Archive(const Ways& ways) : ways_(ways) {}
@@ -84,9 +88,9 @@ void visit_word(Archive& archive, const char* name, uint32_t& value);
 void visit_flag(Archive& archive, const char* name, bool& value);
 /// One byte of `first` to `last`.
 void visit_byte(Archive& archive, const char* name, uint32_t& value, uint32_t first, uint32_t last);
-/// Two's complement.
-void visit_integer(Archive& archive, const char* name, int32_t& value);
-void visit_integer(Archive& archive, const char* name, int64_t& value);
+/// Two's complement; of Archive::kind, which is unsigned integers afterwards.
+void visit_bits(Archive& archive, const char* name, int32_t& value);
+void visit_bits(Archive& archive, const char* name, int64_t& value);
 
 /// One byte; the enumeration's values are `first` to `last`.
 template <class Enum>
@@ -99,7 +103,8 @@ void visit_choice(Archive& archive, const char* name, Enum& value, Enum first, E
 /// The raw integer.
 template <class Int, int frac>
 void visit_number(Archive& archive, const char* name, Fixed<Int, frac>& value) {
-  visit_integer(archive, name, value.raw);
+  archive.kind = WordsOf<Fixed<Int, frac>>::k_kind;
+  visit_bits(archive, name, value.raw);
 }
 /// The IEEE bits. Only integer arithmetic, so the caller's floating-point modes don't matter. One zero, and no NaN:
 /// their bits differ between machines.

@@ -51,6 +51,9 @@ enum class RecordTag : uint8_t {
   set_joint = 66,
 };
 
+/// The enumerator's name, as that of the call; "" if there is none. Never null.
+const char* record_name(RecordTag tag);
+
 struct CreateBody {
   static constexpr RecordTag k_tag = RecordTag::create_body;
   BodyId id = {};  ///< what the call gave

@@ -33,6 +33,8 @@ enum class ChunkType : uint32_t {
   calls = 2,  ///< whole records
   end = 3,
   keyframe = 0x8001,  ///< the digest of the state, then a piece of its snapshot, in order
+  stages = 0x8002,    ///< a piece of a tick's trace at TraceLevel::stages (trace_stream.h), before the tick's record
+  state = 0x8003,     ///< and at TraceLevel::full
 };
 /// A reader passes over a chunk of an unknown type that has this bit, and refuses one that has it not.
 constexpr uint32_t k_chunk_optional = 0x8000;

@@ -6,6 +6,7 @@
 #include "replay/command.h"
 #include "replay/format.h"
 #include "replay/query_command.h"
+#include "replay/replay_watch.h"
 #include "world/snapshot.h"
 
 namespace detent {
@@ -90,6 +91,9 @@ Status Player::read_chunk() {
     const ChunkType type = static_cast<ChunkType>(chunk_type_);
     if (type == ChunkType::seed || type == ChunkType::calls || type == ChunkType::end || type == ChunkType::keyframe) {
       return Status::ok;
+    }
+    if (watch_ != nullptr && (type == ChunkType::stages || type == ChunkType::state)) {
+      watch_->traced(watch_->context, type, buffer_ + k_chunk_header_bytes, payload_count_);
     }
     if ((chunk_type_ & k_chunk_optional) == 0) return fail(Status::format_unknown, start, "chunk type");
   }
@@ -304,6 +308,9 @@ Status Player::advance(World* world, TickResult& result) {
       return fail(Status::corrupt, chunk_offset_ + k_chunk_header_bytes + reader.failed_at, reader.failed);
     }
     if (status != Status::ok) return status;
+    if (watch_ != nullptr && !tick) {
+      watch_->called(watch_->context, reader.bytes + payload_at_, reader.at - payload_at_);
+    }
     payload_at_ = reader.at;
     if (!tick) continue;
 

@@ -101,6 +101,11 @@ inline constexpr QueryCode k_query_code = {Command::k_kind,
                                            },
                                            __builtin_offsetof(Command, digest)};
 
+/// Of the largest query.
+inline constexpr uint32_t k_query_command_bytes = sizeof(CastCommand);
+/// The query of this kind, or null.
+const QueryCode* find_query(uint64_t kind);
+
 /// With the length, from the kind on, and the kind.
 void visit_query(Archive& archive, const QueryCode& code, void* command);
 template <QueryKind kind, class Query, Status (*call)(const World&, const Query&, QueryHits, QueryReport&)>

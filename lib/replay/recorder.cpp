@@ -5,6 +5,7 @@
 #include "replay/command.h"
 #include "replay/format.h"
 #include "replay/query_command.h"
+#include "replay/tracer.h"
 #include "world/snapshot.h"
 
 namespace detent {
@@ -72,6 +73,7 @@ void Recorder::write_header() {
   info.format_version = k_recording_format_version;
   info.simulation_version = k_simulation_version;
   info.capacity = world_info.capacity;
+  info.trace_level = trace_.level;
   info.digest_interval = def_.digest_interval;
   info.keyframe_interval = def_.keyframe_interval;
   info.tick = tick_;
@@ -354,8 +356,15 @@ Status Recorder::set_joint(JointId id, const JointDef& def) {
   return apply_and_log(command);
 }
 
+Status Recorder::make(const QueryCode& code, void* command) {
+  QueryReport report;
+  return ask_and_log(code, command, {}, report);
+}
+
 StepReport Recorder::step() {
-  const StepReport report = detent::step(world_);
+  const bool traced = tracer_ != nullptr && recording() && trace_.level != TraceLevel::digests &&
+                      tick_ + 1 >= trace_.from && tick_ + 1 <= trace_.to;
+  const StepReport report = traced ? tracer_->step(*this) : detent::step(world_);
   if (!recording()) return report;
   const bool digested = is_due(def_.digest_interval, report.tick);
   const bool keyframe = is_due(def_.keyframe_interval, report.tick);

@@ -6,10 +6,24 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
+/// What the words of a field are.
+enum class WordKind : uint8_t {
+  unsigned_integer,
+  signed_integer,
+  coord,
+  real,
+  unit,
+  fraction,
+  scaled,  ///< a mantissa and an exponent: two words a number
+};
+
 /// A field: `count` words of `width` bytes from `offset` on.
 struct Field {
   const char* name;
   uint32_t offset, width, count;
+  WordKind kind;
+  uint32_t components;  ///< numbers of a vector or rotation, or 1; there may be several of them
+  const char* measured_in;
 };
 
 /// An array of the persistent state.
@@ -27,24 +41,56 @@ struct SectionFields {
 
 template <class T>
 struct WordsOf {
-  static constexpr uint32_t k_width = sizeof(T);
+  static constexpr uint32_t k_width = sizeof(T), k_components = 1;
+  static constexpr WordKind k_kind =
+      static_cast<T>(-1) < static_cast<T>(0) ? WordKind::signed_integer : WordKind::unsigned_integer;
 };
-template <class T>
-struct WordsOf<Vec3<T>> : WordsOf<T> {};
 template <>
-struct WordsOf<Quat> : WordsOf<Unit> {};
-template <class T, unsigned long long n>
-struct WordsOf<T[n]> : WordsOf<T> {};
+struct WordsOf<Config> : WordsOf<uint32_t> {};
+template <WordKind kind, uint32_t bytes>
+struct WordsOfNumber {
+  static constexpr uint32_t k_width = bytes, k_components = 1;
+  static constexpr WordKind k_kind = kind;
+};
+template <>
+struct WordsOf<Real> : WordsOfNumber<WordKind::real, sizeof(Real)> {};
+template <>
+struct WordsOf<Fraction> : WordsOfNumber<WordKind::fraction, sizeof(Fraction)> {};
 #if DETENT_FIXED
 template <>
-struct WordsOf<Scaled> : WordsOf<int32_t> {};
+struct WordsOf<Unit> : WordsOfNumber<WordKind::unit, sizeof(Unit)> {};
+template <>
+struct WordsOf<Scaled> : WordsOfNumber<WordKind::scaled, sizeof(int32_t)> {};
 #endif
+#if !defined(DETENT_F64)
+template <>
+struct WordsOf<Coord> : WordsOfNumber<WordKind::coord, sizeof(Coord)> {};
+#endif
+template <class T>
+struct WordsOf<Vec3<T>> : WordsOf<T> {
+  static constexpr uint32_t k_components = 3;
+};
+template <>
+struct WordsOf<Quat> : WordsOf<Unit> {
+  static constexpr uint32_t k_components = 4;
+};
+template <class T, unsigned long long n>
+struct WordsOf<T[n]> : WordsOf<T> {};
 
-#define DETENT_FIELD(type, member)                                                                                   \
-  {                                                                                                                  \
-#member, static_cast < uint32_t>(__builtin_offsetof(type, member)), WordsOf < decltype(type::member)> ::k_width, \
-        static_cast < uint32_t>(sizeof(type::member) / WordsOf <decltype(type::member)>::k_width)                    \
-  }
+/// The field `member` of `type`, and what it is measured in.
+template <class T>
+constexpr Field make_field(const char* name, uint32_t offset, const char* measured_in) {
+  return {name,
+          offset,
+          WordsOf<T>::k_width,
+          static_cast<uint32_t>(sizeof(T)) / WordsOf<T>::k_width,
+          WordsOf<T>::k_kind,
+          WordsOf<T>::k_components,
+          measured_in};
+}
+#define DETENT_FIELD_IN(type, member, measured_in) \
+  make_field<decltype(type::member)>(#member, static_cast<uint32_t>(__builtin_offsetof(type, member)), measured_in)
+#define DETENT_FIELD(type, member) DETENT_FIELD_IN(type, member, "")
 
 inline constexpr Field k_header_fields[] = {
     DETENT_FIELD(BlockHeader, magic),           DETENT_FIELD(BlockHeader, format),
@@ -74,8 +120,8 @@ inline constexpr Field k_world_fields[] = {
     DETENT_FIELD(WorldState, reduction),
     DETENT_FIELD(WorldState, stabilisation),
     DETENT_FIELD(WorldState, convergence),
-    DETENT_FIELD(WorldState, gravity),
-    DETENT_FIELD(WorldState, tick_time),
+    DETENT_FIELD_IN(WorldState, gravity, "m/s^2"),
+    DETENT_FIELD_IN(WorldState, tick_time, "s"),
     DETENT_FIELD(WorldState, relaxation),
     DETENT_FIELD(WorldState, stiffness),
     DETENT_FIELD(WorldState, damping_ratio),
@@ -84,7 +130,7 @@ inline constexpr Field k_world_fields[] = {
     DETENT_FIELD(WorldState, reuse),
 };
 inline constexpr Field k_pose_fields[] = {
-    DETENT_FIELD(BodyPose, position),
+    DETENT_FIELD_IN(BodyPose, position, "m"),
 #if defined(DETENT_FX32)
     DETENT_FIELD(BodyPose, remainder),
     DETENT_FIELD(BodyPose, zero),
@@ -92,10 +138,10 @@ inline constexpr Field k_pose_fields[] = {
     DETENT_FIELD(BodyPose, rotation),
 };
 inline constexpr Field k_motion_fields[] = {
-    DETENT_FIELD(BodyMotion, velocity),
-    DETENT_FIELD(BodyMotion, momentum),
-    DETENT_FIELD(BodyMotion, pending_velocity),
-    DETENT_FIELD(BodyMotion, pending_momentum),
+    DETENT_FIELD_IN(BodyMotion, velocity, "m/s"),
+    DETENT_FIELD_IN(BodyMotion, momentum, "m/s"),
+    DETENT_FIELD_IN(BodyMotion, pending_velocity, "m/s"),
+    DETENT_FIELD_IN(BodyMotion, pending_momentum, "m/s"),
 };
 inline constexpr Field k_traits_fields[] = {
     DETENT_FIELD(BodyTraits, type),
@@ -109,13 +155,13 @@ inline constexpr Field k_traits_fields[] = {
     DETENT_FIELD(BodyTraits, size),
     DETENT_FIELD(BodyTraits, bounding_radius),
     DETENT_FIELD(BodyTraits, rounding),
-    DETENT_FIELD(BodyTraits, mass),
+    DETENT_FIELD_IN(BodyTraits, mass, "kg"),
     DETENT_FIELD(BodyTraits, gyration),
     DETENT_FIELD(BodyTraits, friction),
     DETENT_FIELD(BodyTraits, restitution),
     DETENT_FIELD(BodyTraits, rolling_resistance),
-    DETENT_FIELD(BodyTraits, linear_damping),
-    DETENT_FIELD(BodyTraits, angular_damping),
+    DETENT_FIELD_IN(BodyTraits, linear_damping, "1/s"),
+    DETENT_FIELD_IN(BodyTraits, angular_damping, "1/s"),
     DETENT_FIELD(BodyTraits, gravity_scale),
     DETENT_FIELD(BodyTraits, user_data),
     DETENT_FIELD(BodyTraits, restitution_rule),
@@ -128,7 +174,7 @@ inline constexpr Field k_activity_fields[] = {
     DETENT_FIELD(BodyActivity, still_ticks), DETENT_FIELD(BodyActivity, news),
     DETENT_FIELD(BodyActivity, asleep),
 };
-inline constexpr Field k_slot_fields[] = {{"taken", 0, 4, 1}};
+inline constexpr Field k_slot_fields[] = {make_field<uint32_t>("taken", 0, "")};
 inline constexpr Field k_contact_fields[] = {
     DETENT_FIELD(ContactState, body_a),
     DETENT_FIELD(ContactState, body_b),
@@ -137,10 +183,10 @@ inline constexpr Field k_contact_fields[] = {
     DETENT_FIELD(ContactState, touching),
     DETENT_FIELD(ContactState, point_count),
     DETENT_FIELD(ContactState, feature),
-    DETENT_FIELD(ContactState, normal_impulse),
-    DETENT_FIELD(ContactState, friction_impulse),
-    DETENT_FIELD(ContactState, angular_impulse),
-    DETENT_FIELD(ContactState, load),
+    DETENT_FIELD_IN(ContactState, normal_impulse, "m/s"),
+    DETENT_FIELD_IN(ContactState, friction_impulse, "m/s"),
+    DETENT_FIELD_IN(ContactState, angular_impulse, "m/s"),
+    DETENT_FIELD_IN(ContactState, load, "m/s^2"),
 };
 inline constexpr Field k_asset_fields[] = {
     DETENT_FIELD(AssetState, digest),
@@ -152,21 +198,34 @@ inline constexpr Field k_manifold_fields[] = {
     DETENT_FIELD(ManifoldState, height), DETENT_FIELD(ManifoldState, anchor),
 };
 inline constexpr Field k_joint_fields[] = {
-    DETENT_FIELD(JointState, type),        DETENT_FIELD(JointState, generation),    DETENT_FIELD(JointState, body_a),
-    DETENT_FIELD(JointState, body_b),      DETENT_FIELD(JointState, collide),       DETENT_FIELD(JointState, user_data),
-    DETENT_FIELD(JointState, anchor_a),    DETENT_FIELD(JointState, anchor_b),      DETENT_FIELD(JointState, frame_a),
-    DETENT_FIELD(JointState, frame_b),     DETENT_FIELD(JointState, lower),         DETENT_FIELD(JointState, upper),
-    DETENT_FIELD(JointState, frequency),   DETENT_FIELD(JointState, damping_ratio), DETENT_FIELD(JointState, target),
-    DETENT_FIELD(JointState, speed),       DETENT_FIELD(JointState, force_max),     DETENT_FIELD(JointState, limited),
-    DETENT_FIELD(JointState, break_force), DETENT_FIELD(JointState, break_torque),  DETENT_FIELD(JointState, force),
-    DETENT_FIELD(JointState, torque),      DETENT_FIELD(JointState, impulse),
+    DETENT_FIELD(JointState, type),
+    DETENT_FIELD(JointState, generation),
+    DETENT_FIELD(JointState, body_a),
+    DETENT_FIELD(JointState, body_b),
+    DETENT_FIELD(JointState, collide),
+    DETENT_FIELD(JointState, user_data),
+    DETENT_FIELD_IN(JointState, anchor_a, "m"),
+    DETENT_FIELD_IN(JointState, anchor_b, "m"),
+    DETENT_FIELD(JointState, frame_a),
+    DETENT_FIELD(JointState, frame_b),
+    DETENT_FIELD(JointState, lower),
+    DETENT_FIELD(JointState, upper),
+    DETENT_FIELD_IN(JointState, frequency, "Hz"),
+    DETENT_FIELD(JointState, damping_ratio),
+    DETENT_FIELD(JointState, target),
+    DETENT_FIELD(JointState, speed),
+    DETENT_FIELD(JointState, force_max),
+    DETENT_FIELD(JointState, limited),
+    DETENT_FIELD_IN(JointState, break_force, "N"),
+    DETENT_FIELD_IN(JointState, break_torque, "N m"),
+    DETENT_FIELD_IN(JointState, force, "N"),
+    DETENT_FIELD_IN(JointState, torque, "N m"),
+    DETENT_FIELD_IN(JointState, impulse, "m/s"),
 };
 inline constexpr Field k_sensed_fields[] = {
     DETENT_FIELD(SensedState, sensor),
     DETENT_FIELD(SensedState, body),
 };
-#undef DETENT_FIELD
-
 /// True if the fields follow one another without a gap and fill the element: no byte is padding.
 template <uint32_t n>
 constexpr bool tiles(const Field (&fields)[n], uint32_t element_bytes) {

@@ -16,7 +16,7 @@
 #include "world/events.h"
 #include "world/joints.h"
 #include "world/sensors.h"
-#include "world/stage_clock.h"
+#include "world/stage_ends.h"
 #include "world/step_cache.h"
 #include "world/step_contacts.h"
 #include "world/step_probe.h"
@@ -141,7 +141,7 @@ __attribute__((noinline)) void advance(World& world, const StateView<uint8_t>& s
 /// The stages of a step, in order. Separate from `step`, so that nothing of it moves across the change of the
 /// floating-point environment.
 __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, StepReport& report) {
-  StageClock clock(world.profile);
+  StageEnds stages(world);
   const StateView<uint8_t> state = view_of(world);
   const Scratch scratch = scratch_of(world.block, state.layout, capacity_of(state.header));
   const uint32_t used = state.world.slots_used, before = state.world.contact_count;
@@ -195,7 +195,7 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
     start_moving();
     if (joint_code == nullptr) break;
   }
-  clock.end(StepStage::find_pairs);
+  stages.end(StepStage::find_pairs, 0);
   const Span<const uint64_t> pairs = pool.pairs();
   const Span<const uint32_t> awake_contacts = list_awake_contacts(cache, state);
   const uint32_t room = state.contacts.count - (before - awake_contacts.count);
@@ -206,7 +206,7 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
                                            {scratch.contacts.first(room), manifold_work}, losses, pairs);
   const Span<ContactWork> contacts = scratch.contacts.first(count.contacts);
   const Span<ContactOrder> order = scratch.contact_order.first(count.contacts);
-  clock.end(StepStage::collide);
+  stages.end(StepStage::collide, contacts.count);
 
   report.islands =
       find_islands(moving, traits, activities, contacts, joints, work, scratch.islands, scratch.island_bodies);
@@ -215,13 +215,13 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   estimate_loads(settings, poses, traits, scratch.island_bodies, islands, order, scratch.contact_sort, work, contacts);
   if (joint_code != nullptr) joint_code->grow(settings, solver_bodies, scratch.island_bodies, islands, joints);
   choose_substeps(settings, traits, work, scratch.island_bodies, order, islands, contacts, activities);
-  clock.end(StepStage::islands);
+  stages.end(StepStage::islands, contacts.count);
   report.saturations = solve_islands(settings, solver_bodies, islands, scratch, contacts, joint_code, joints, report);
   report.saturations += carry_all(settings, solver_bodies, moving);
-  clock.end(StepStage::solve);
+  stages.end(StepStage::solve, contacts.count);
   EventCount event_count =
       raise_events(poses, traits, awake_contacts, state.contacts, contacts, contact_events_of(world));
-  clock.end(StepStage::events);
+  stages.end(StepStage::events, contacts.count);
   report.saturations += make_sweeps(moving, traits, work, poses, sweeps);
   if (joint_code != nullptr) {
     joint_code->store(settings, solver_bodies, joints);
@@ -231,12 +231,12 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   }
   const ImpactPairs known = {pairs, contacts, pool.dropped() == 0 && count.dropped == 0, apart};
   advance(world, state, scratch, cache, settings, known, losses, probe, event_count, report);
-  clock.end(StepStage::advance);
+  stages.end(StepStage::advance, contacts.count);
   report.contact_events = event_count.kept;
   report.contact_events_dropped = world.contact_events.capacity == 0 ? 0 : event_count.dropped;
   cache.visits.for_each(
       [&](uint32_t slot) { report.saturations += finalise(traits[slot], sweeps[slot], poses[slot], motions[slot]); });
-  clock.end(StepStage::finalise);
+  stages.end(StepStage::finalise, contacts.count);
   if (settings.sleeping)
     report.fell_asleep = world.features->sleeping->end_step(settings, traits, poses, islands, scratch.island_bodies,
                                                             motions, activities);
@@ -261,7 +261,7 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   bool moves = false;
   cache.visits.for_each([&](uint32_t slot) { moves = moves || bodies.moving(slot); });
   state.world.idle = moves ? 0 : 1;
-  clock.end(StepStage::store);
+  stages.end(StepStage::store, contacts.count);
 }
 
 StepReport step_with(World& world, ImpactProbe* probe) {

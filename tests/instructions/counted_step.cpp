@@ -23,7 +23,7 @@
 #include "world/events.h"
 #include "world/joints.h"
 #include "world/sensors.h"
-#include "world/stage_clock.h"
+#include "world/stage_ends.h"
 #include "world/step_cache.h"
 #include "world/step_contacts.h"
 #include "world/step_probe.h"

@@ -33,4 +33,5 @@ set(DETENT_SCENE_SOURCES
   ${CMAKE_CURRENT_LIST_DIR}/changes.cpp
   ${CMAKE_CURRENT_LIST_DIR}/jointed.cpp
   ${CMAKE_CURRENT_LIST_DIR}/../../examples/billiards/billiards.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/../../examples/dominoes/dominoes.cpp)
+  ${CMAKE_CURRENT_LIST_DIR}/../../examples/dominoes/dominoes.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/../../examples/rollback/game.cpp)

@@ -1,5 +1,6 @@
 #include "examples/billiards/billiards.h"
 #include "examples/dominoes/dominoes.h"
+#include "examples/rollback/game.h"
 #include "tests/scenes/changes.h"
 #include "tests/scenes/jointed.h"
 #include "tests/scenes/piles.h"
@@ -11,9 +12,9 @@ inline namespace DETENT_NAMESPACE {
 
 namespace {
 
-constexpr Scene k_scenes[] = {piles::k_tiny,      piles::k_stack,    piles::k_capsules,      piles::k_balls,
-                              traffic::k_scene,   changes::k_scene,  jointed::k_scene,       terrain::k_scene,
-                              billiards::k_scene, dominoes::k_scene, dominoes::k_scene_short};
+constexpr Scene k_scenes[] = {piles::k_tiny,      piles::k_stack,    piles::k_capsules,       piles::k_balls,
+                              traffic::k_scene,   changes::k_scene,  jointed::k_scene,        terrain::k_scene,
+                              billiards::k_scene, dominoes::k_scene, dominoes::k_scene_short, pitch::k_scene};
 
 bool equal(const char* a, const char* b) {
   for (; *a == *b; ++a, ++b) {

@@ -19,10 +19,6 @@ namespace {
 
 using namespace detent_tool;
 
-Status write_output(void* output, const uint8_t* bytes, uint32_t count) {
-  return static_cast<Output*>(output)->write(bytes, count) ? Status::ok : Status::sink_failed;
-}
-
 Outcome record(const RecordRequest& request, const Progress& progress) {
   const Scene* scene = find_scene(request.scene.c_str());
   if (scene == nullptr) return failed("no such scene: " + request.scene);
@@ -36,7 +32,7 @@ Outcome record(const RecordRequest& request, const Progress& progress) {
   Outcome outcome;
   const Stopwatch stopwatch;
   uint8_t buffer[k_recording_buffer_bytes];
-  Recorder recorder(owned.world, {write_output, output.get()}, buffer, sizeof buffer);
+  Recorder recorder(owned.world, sink_of(*output), buffer, sizeof buffer);
   scene->build(recorder);
   Status status = recorder.begin({request.digest_interval, request.keyframe_interval});
   const uint32_t ticks = request.ticks != 0 ? request.ticks : scene->ticks;
@@ -87,10 +83,13 @@ Engine engine() {
           record,
           verify,
           info,
-           state,
-           recover,
-           play_scene,
-           describe_scene};
+          state,
+          recover,
+          diff,
+          explain,
+          trace,
+          play_scene,
+          describe_scene};
 }
 
 }  // namespace DETENT_NAMESPACE

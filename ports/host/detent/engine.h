@@ -47,6 +47,9 @@ struct Outcome {
   uint64_t offset = 0;          ///< where in the file, bytes
   uint64_t tick = 0;            ///< after how many completed ticks
   uint64_t first_bad_tick = 0;  ///< the first tick that is not known to be right
+  bool digests_differ = false;  ///< of a state after a tick: the recorded and this machine's
+  std::string difference_text;  ///< what more the recording tells of that, for people
+  std::string difference;       ///< of a digest that differs: a JSON object (difference.h)
   std::string lost;             ///< what a recovered recording had: as `problem`
 
   bool header_known = false;
@@ -94,6 +97,20 @@ struct ReadRequest {
   uint64_t to = UINT64_MAX;
 };
 
+/// Two recordings to compare, and the assets of their worlds.
+struct DiffRequest {
+  std::string a, b;
+  Assets assets = {};
+};
+
+struct TraceRequest {
+  ReadRequest reading = {};  ///< the window: both are ticks that are completed with it
+  std::string output;
+  bool full = true;
+};
+
+struct Difference;
+
 /// A body, m, m/s, rad/s, in the world.
 struct BodyLine {
   uint32_t slot = 0;
@@ -119,6 +136,12 @@ struct Engine {
   Outcome (*state)(const ReadRequest& request, std::vector<BodyLine>& bodies);
   /// Writes what is whole of a recording, with an end, to `path`.
   Outcome (*recover)(const ReadRequest& request, const std::string& path, const Progress& progress);
+  /// Where two recordings part.
+  Difference (*diff)(const DiffRequest& request);
+  /// Where a recording and this machine part, whose digests differ first after `tick` ticks.
+  Difference (*explain)(const ReadRequest& request, uint64_t tick);
+  /// Writes a recording of the same calls with this machine's states, traced.
+  Outcome (*trace)(const TraceRequest& request, const Progress& progress);
   /// Scenes as data (run.h).
   RunOutcome (*run)(const RunRequest& request, const std::function<void(const RunLine&)>& print,
                     const Progress& progress);

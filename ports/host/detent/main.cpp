@@ -84,6 +84,37 @@ int run_recover(ReadRequest request, const std::string& output, const std::vecto
   return outcome.verdict == Verdict::good ? k_exit_good : k_exit_bad;
 }
 
+int run_trace(TraceRequest request, uint32_t level, const std::vector<std::string>& asset_paths, const Report& report) {
+  if (!read_assets(asset_paths, request.reading.assets)) return k_exit_bad;
+  std::error_code error;
+  if (std::filesystem::equivalent(request.reading.path, request.output, error)) {
+    fprintf(stderr, "%s: would be written over\n", request.output.c_str());
+    return k_exit_usage;
+  }
+  request.full = level == 2;
+  Outcome outcome;
+  {
+    ProgressBar bar(request.reading.path);
+    outcome = by_its_engine([&](const Engine& engine) {
+      return engine.trace(request, [&bar](uint64_t done, uint64_t total) { bar.show(done, total); });
+    });
+  }
+  report.traced(request, outcome);
+  return outcome.verdict == Verdict::good ? k_exit_good : k_exit_bad;
+}
+
+/// 0: equal, 1: different, 2: they cannot be compared, or not to the end.
+int run_diff(DiffRequest request, const std::vector<std::string>& asset_paths, const Report& report) {
+  if (!read_assets(asset_paths, request.assets)) return k_exit_usage;
+  Difference difference;
+  for (const Engine& engine : engines()) {
+    difference = engine.diff(request);
+    if (!difference.other_config) break;
+  }
+  if (!report.compared(request.a, request.b, difference)) return k_exit_usage;
+  return difference.different ? k_exit_bad : difference.damaged ? k_exit_usage : k_exit_good;
+}
+
 int run_compress(const std::vector<std::string>& paths, const Report& report) {
   int code = k_exit_good;
   for (const std::string& path : paths) {
@@ -223,6 +254,29 @@ int main(int argc, char** argv) {
   CLI::App* compress = app.add_subcommand("compress", "Write FILE.zst beside each recording");
   compress->add_option("file", paths, "Recordings")->required();
 
+  DiffRequest diffing;
+  CLI::App* diff = app.add_subcommand(
+      "diff",
+      "Find where two recordings part: tick, stage of the step, body and field. Exit code: 0 equal, 1 different, "
+      "2 not to be compared");
+  diff->add_option("a", diffing.a, "A recording")->required();
+  diff->add_option("b", diffing.b, "Another of the same match")->required();
+  add_assets(diff, asset_paths);
+  TraceRequest tracing;
+  uint32_t trace_level = 2;
+  CLI::App* trace = app.add_subcommand(
+      "trace", "Replay a recording and write what this machine makes of some of its ticks, for diff");
+  trace->add_option("file", tracing.reading.path, "A recording")->required();
+  trace->add_option("-o,--output", tracing.output, "The recording to write; compressed if its name ends in .zst")
+      ->required();
+  trace
+      ->add_option("--level", trace_level, "1: digests of each body, contact and joint after each stage; 2: all fields")
+      ->check(CLI::Range(1u, 2u))
+      ->capture_default_str();
+  trace->add_option("--from", tracing.reading.from, "The first tick")->required();
+  trace->add_option("--to", tracing.reading.to, "The last tick")->required();
+  add_assets(trace, asset_paths);
+
   CLI::App* info = app.add_subcommand(
       "info", "Say what recordings, hulls, compounds, meshes and height fields hold, without replaying them");
   info->add_option("file", paths, "Recordings and cooked shapes")->required();
@@ -292,7 +346,7 @@ int main(int argc, char** argv) {
   run->add_flag("--schema", schema, "Print the JSON Schema of scenes, and nothing else");
   run->add_flag("--fields", fields, "Print the tables of docs/scene.md, and nothing else");
 
-  for (CLI::App* command : {record, verify, state, recover, compress, info, scenes, cook, run}) {
+  for (CLI::App* command : {record, verify, state, recover, compress, diff, trace, info, scenes, cook, run}) {
     command->add_flag("--json", report.json, "One JSON object a file, each on one line");
   }
 
@@ -305,8 +359,8 @@ int main(int argc, char** argv) {
     fputs("verify: no recording is named\n", stderr);
     return k_exit_usage;
   }
-  if (verifying.reading.from > verifying.reading.to) {
-    fputs("verify: --from comes after --to\n", stderr);
+  if (verifying.reading.from > verifying.reading.to || tracing.reading.from > tracing.reading.to) {
+    fputs(trace->parsed() ? "trace: --from comes after --to\n" : "verify: --from comes after --to\n", stderr);
     return k_exit_usage;
   }
   if (request.path.empty()) request.path = request.scene + (request.compressed ? ".rec.zst" : ".rec");
@@ -315,6 +369,8 @@ int main(int argc, char** argv) {
   if (verify->parsed()) return run_verify(verifying, report);
   if (state->parsed()) return run_state(reading, asset_paths, report);
   if (recover->parsed()) return run_recover(reading, output, asset_paths, report);
+  if (diff->parsed()) return run_diff(diffing, asset_paths, report);
+  if (trace->parsed()) return run_trace(tracing, trace_level, asset_paths, report);
   if (compress->parsed()) return run_compress(paths, report);
   if (info->parsed()) return run_info(paths, report);
   if (run->parsed() && (schema || fields)) {

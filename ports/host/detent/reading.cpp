@@ -3,9 +3,8 @@
 #include <detent/convert.h>
 
 #include "file.h"
-#include "owned_world.h"
 #include "ports/config_text.h"
-#include "stream.h"
+#include "replay/format.h"
 #include "tests/scenes/scene.h"
 #include "text.h"
 
@@ -33,7 +32,7 @@ class Reading {
       outcome = failed(problem);
       return;
     }
-    player_ = std::make_unique<Player>(Source{read_input, input_.get(), seek_input}, buffer_, k_recording_buffer_bytes);
+    player_ = std::make_unique<Player>(source_of(*input_), buffer_, k_recording_buffer_bytes);
     take(player_->open());
     outcome.file_bytes = input_->file_bytes;
     outcome.header_known = player_->info().snapshot_bytes != 0;
@@ -42,24 +41,16 @@ class Reading {
 
   bool good() const { return player_ != nullptr && status_ == Status::ok && outcome.verdict == Verdict::good; }
   Player& player() { return *player_; }
-  OwnedWorld& owned() { return owned_; }
+  OwnedWorld& owned() { return world_.owned; }
 
   void create_world() {
-    // A hostile header could ask for gigabytes: the seed is as large as the capacity says, so a small file can't.
-    if (player_->info().snapshot_bytes > input_->snapshot_bytes_max) {
+    const Status created = world_.create(player_->info(), *input_, request_.assets);
+    if (created == Status::truncated) {
       outcome.verdict = Verdict::bad;
       outcome.status = status_text(Status::truncated);
       outcome.problem = "truncated: the file is too small for its seed snapshot";
-      return;
-    }
-    WorldDef def;
-    def.capacity = player_->info().capacity;
-    for (const AssetBytes& asset : request_.assets)
-      table_.push_back({reinterpret_cast<const uint8_t*>(asset.words.data()), asset.byte_count});
-    const AssetTable given = {table_.data(), static_cast<uint32_t>(table_.size())};
-    if (owned_.create(def, table_.empty() ? scene_assets() : given) != Status::ok) {
+    } else if (created != Status::ok) {
       outcome = failed("not enough memory for its world");
-      return;
     }
     player_->repeat_queries();
   }
@@ -68,12 +59,12 @@ class Reading {
     if (tick > player_->info().tick)
       go_to(tick);
     else
-      take(player_->start(owned_.world));
+      take(player_->start(owned().world));
   }
 
   void go_to(uint64_t tick) {
     if (!good()) return;
-    const Status status = player_->go_to(owned_.world, tick);
+    const Status status = player_->go_to(owned().world, tick);
     if (status == Status::out_of_range && player_->error().status == Status::ok) return no_tick(tick);
     take(status);
   }
@@ -82,9 +73,9 @@ class Reading {
   void play(bool with_world, const Progress& progress) {
     const Stopwatch stopwatch;
     const uint64_t first_byte = good() ? player_->bytes_read() : 0;
-    uint64_t tick = good() && with_world ? get_info(owned_.world).tick : 0;
+    uint64_t tick = good() && with_world ? get_info(owned().world).tick : 0;
     for (TickResult result; good() && tick < request_.to;) {
-      take(with_world ? player_->next_tick(owned_.world, result) : player_->skip_tick(result));
+      take(with_world ? player_->next_tick(owned().world, result) : player_->skip_tick(result));
       if (!good()) break;
       outcome.calls += result.calls;
       outcome.digest = result.digest;
@@ -101,7 +92,7 @@ class Reading {
     outcome.seconds = stopwatch.seconds();
     if (!good() || request_.to == UINT64_MAX) return;
     if (finished || tick > request_.to) return no_tick(request_.to);
-    outcome.digest = digest(owned_.world);
+    outcome.digest = digest(owned().world);
   }
 
   Outcome outcome;
@@ -128,13 +119,10 @@ class Reading {
     outcome.tick = error.tick;
     // What a digest covers is the state after the tick; all else stands before the next tick.
     outcome.first_bad_tick = ends_with(outcome.field, "digest") ? error.tick : error.tick + 1;
-    outcome.problem = outcome.status + " at byte " + std::to_string(error.offset) + ", tick " +
-                      std::to_string(error.tick) + ": " + error.field;
-    if (!input_->problem.empty()) outcome.problem += " (" + input_->problem + ")";
-    if (error.digest_recorded != error.digest_replayed) {
-      outcome.problem +=
-          " (recorded " + hexadecimal(error.digest_recorded) + ", here " + hexadecimal(error.digest_replayed) + ")";
-    }
+    // Not of the calls after the last tick.
+    outcome.digests_differ = status == Status::digest_differs && ends_with(outcome.field, "digest") &&
+                             (outcome.field != "final digest" || !is_due(player_->info().digest_interval, error.tick));
+    outcome.problem = problem_text(error, *input_);
   }
 
   const ReadRequest& request_;
@@ -142,8 +130,7 @@ class Reading {
   uint8_t buffer_[k_recording_buffer_bytes];
   std::unique_ptr<Player> player_;
   Status status_ = Status::ok;
-  OwnedWorld owned_;
-  std::vector<Asset> table_;
+  ReplayWorld world_;
 };
 
 const char* type_text(BodyType type) {
@@ -206,6 +193,36 @@ std::string copy(const std::string& from, uint64_t count, const std::vector<uint
 }
 
 }  // namespace
+
+Sink sink_of(Output& output) {
+  return {[](void* to, const uint8_t* bytes, uint32_t count) {
+            return static_cast<Output*>(to)->write(bytes, count) ? Status::ok : Status::sink_failed;
+          },
+          &output};
+}
+
+Source source_of(Input& input) { return {read_input, &input, seek_input}; }
+
+std::string problem_text(const ReplayError& error, const Input& input) {
+  std::string text = status_text(error.status);
+  text += " at byte " + std::to_string(error.offset) + ", tick " + std::to_string(error.tick) + ": " + error.field;
+  if (!input.problem.empty()) text += " (" + input.problem + ")";
+  if (error.digest_recorded != error.digest_replayed) {
+    text += " (recorded " + hexadecimal(error.digest_recorded) + ", here " + hexadecimal(error.digest_replayed) + ")";
+  }
+  return text;
+}
+
+Status ReplayWorld::create(const RecordingInfo& info, const Input& input, const Assets& assets) {
+  // A hostile header could ask for gigabytes: the seed is as large as the capacity says, so a small file can't.
+  if (info.snapshot_bytes > input.snapshot_bytes_max) return Status::truncated;
+  WorldDef def;
+  def.capacity = info.capacity;
+  for (const AssetBytes& asset : assets)
+    table.push_back({reinterpret_cast<const uint8_t*>(asset.words.data()), asset.byte_count});
+  const AssetTable given = {table.data(), static_cast<uint32_t>(table.size())};
+  return owned.create(def, table.empty() ? scene_assets() : given);
+}
 
 Header header_of(const RecordingInfo& info) {
   return {config_text(info.config),

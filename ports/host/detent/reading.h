@@ -1,11 +1,28 @@
 #pragma once
 #include <detent/recording.h>
 
+#include "difference.h"
 #include "engine.h"
+#include "owned_world.h"
+#include "stream.h"
 
 /// What an engine reads, in each configuration: the functions of Engine by their names.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
+
+Source source_of(detent_tool::Input& input);
+Sink sink_of(detent_tool::Output& output);
+/// One line about where and why a replay stopped.
+std::string problem_text(const ReplayError& error, const detent_tool::Input& input);
+
+/// The world that a recording is replayed in.
+struct ReplayWorld {
+  OwnedWorld owned;
+  std::vector<Asset> table;
+
+  /// Errors: truncated (the file is too small for its seed), out_of_range, buffer_too_small.
+  Status create(const RecordingInfo& info, const detent_tool::Input& input, const detent_tool::Assets& assets);
+};
 
 detent_tool::Header header_of(const RecordingInfo& info);
 detent_tool::Outcome failed(const std::string& problem);
@@ -15,6 +32,10 @@ detent_tool::Outcome info(const detent_tool::ReadRequest& request, const detent_
 detent_tool::Outcome state(const detent_tool::ReadRequest& request, std::vector<detent_tool::BodyLine>& bodies);
 detent_tool::Outcome recover(const detent_tool::ReadRequest& request, const std::string& path,
                              const detent_tool::Progress& progress);
+
+detent_tool::Difference diff(const detent_tool::DiffRequest& request);
+detent_tool::Difference explain(const detent_tool::ReadRequest& request, uint64_t tick);
+detent_tool::Outcome trace(const detent_tool::TraceRequest& request, const detent_tool::Progress& progress);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

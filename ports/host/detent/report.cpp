@@ -27,7 +27,8 @@ void put(const std::string& line) {
 void print(const std::string& line) { put(printable(line)); }
 
 void print_problem(const std::string& path, const Outcome& outcome) {
-  fprintf(stderr, "%s\n", printable(path + ": " + outcome.problem).c_str());
+  const std::string more = outcome.difference_text.empty() ? "" : "; " + outcome.difference_text;
+  fprintf(stderr, "%s\n", (printable(path + ": " + outcome.problem) + more).c_str());
 }
 
 /// A path need not be valid UTF-8: bytes that are not are replaced.
@@ -47,6 +48,7 @@ Json json_of(const std::string& path, const Outcome& outcome) {
       json["offset"] = outcome.offset;
       json["tick"] = outcome.tick;
     }
+    if (!outcome.difference.empty()) json["difference"] = Json::parse(outcome.difference, nullptr, false);
   }
   if (outcome.header_known) {
     const Header& header = outcome.header;
@@ -117,6 +119,37 @@ void Report::recovered(const std::string& from, const std::string& to, const Out
   if (outcome.verdict != Verdict::good) return print_problem(from, outcome);
   print(to + ": " + outcome.header.config + ", " + text(outcome.ticks) + " ticks of " + from + ", final digest " +
         hexadecimal(outcome.digest) + (outcome.lost.empty() ? "; it was whole" : "; " + outcome.lost));
+}
+
+void Report::traced(const TraceRequest& request, const Outcome& outcome) const {
+  const std::string& path = request.reading.path;
+  if (json) {
+    Json object = {{"file", path}, {"ok", outcome.verdict == Verdict::good}, {"output", request.output}};
+    if (outcome.verdict != Verdict::good) object["problem"] = outcome.problem;
+    object["ticks"] = outcome.ticks;
+    object["tick"] = outcome.tick;
+    if (outcome.first_bad_tick != 0) object["first_bad_tick"] = outcome.first_bad_tick;
+    object["digest"] = hexadecimal(outcome.digest);
+    return print_json(object);
+  }
+  if (outcome.verdict != Verdict::good) return print_problem(path, outcome);
+  print(request.output + ": " + text(outcome.ticks) + " ticks of " + path + " up to tick " + text(outcome.tick) +
+        ", as this machine makes them, " + text(outcome.file_bytes) + " bytes" +
+        (outcome.first_bad_tick == 0 ? ""
+                                     : "; the recorded digest of tick " + text(outcome.first_bad_tick) + " differs"));
+}
+
+bool Report::compared(const std::string& a, const std::string& b, const Difference& difference) const {
+  const bool good = difference.problem.empty();
+  if (json) {
+    Json object = {{"files", {a, b}}};
+    object.update(Json::parse(difference_json(difference), nullptr, false));
+    print_json(object);
+    return good;
+  }
+  if (!good) return fprintf(stderr, "%s\n", printable(difference.problem).c_str()), false;
+  put(printable(a + " and " + b + ": ") + difference_text(difference, printable(a), printable(b)));
+  return true;
 }
 
 void Report::compressed(const std::string& from, const std::string& to, uint64_t before, uint64_t after) const {

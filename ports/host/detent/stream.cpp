@@ -29,6 +29,24 @@ struct PlainInput final : Input {
   File file;
 };
 
+struct ByteInput final : Input {
+  explicit ByteInput(std::shared_ptr<const std::vector<uint8_t>> given) : bytes(std::move(given)) {}
+  bool read(uint8_t* to, uint32_t count, uint32_t& got) override {
+    const uint64_t left = bytes->size() - at;
+    got = left < count ? static_cast<uint32_t>(left) : count;
+    if (got != 0) memcpy(to, bytes->data() + at, got);
+    at += got;
+    return true;
+  }
+  bool seek(uint64_t offset) override {
+    at = offset < bytes->size() ? offset : bytes->size();
+    return true;
+  }
+
+  std::shared_ptr<const std::vector<uint8_t>> bytes;
+  uint64_t at = 0;
+};
+
 struct PlainOutput final : Output {
   explicit PlainOutput(File opened) : file(std::move(opened)) {}
   bool write(const uint8_t* bytes, uint32_t count) override { return fwrite(bytes, 1, count, file.get()) == count; }
@@ -60,6 +78,12 @@ std::unique_ptr<Input> Input::open(const std::string& path, std::string& problem
   }
   input->file_bytes = detent_tool::file_bytes(path);
   problem.clear();
+  return input;
+}
+
+std::unique_ptr<Input> open_bytes(std::shared_ptr<const std::vector<uint8_t>> bytes) {
+  auto input = std::make_unique<ByteInput>(std::move(bytes));
+  input->file_bytes = input->bytes_max = input->snapshot_bytes_max = input->bytes->size();
   return input;
 }
 

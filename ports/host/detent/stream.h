@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 /// Recordings as streams of bytes, from and to files that may be compressed.
 namespace detent_tool {
@@ -27,6 +28,9 @@ class Input {
   uint64_t snapshot_bytes_max = 0;  ///< no larger one can be in it
   std::string problem;
 };
+
+/// Bytes as an input.
+std::unique_ptr<Input> open_bytes(std::shared_ptr<const std::vector<uint8_t>> bytes);
 
 /// A recording to write. What a failed or abandoned one has written stays.
 class Output {

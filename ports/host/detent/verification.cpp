@@ -9,6 +9,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "difference.h"
 #include "progress.h"
 #include "release.h"
 #include "stream.h"
@@ -64,7 +65,16 @@ Outcome verify_here(const VerificationRequest& request, const ReadRequest& readi
   const std::optional<Versions> versions = versions_of(reading.path);
   const Engine& first = engines().front();
   if (!versions || versions->simulation == first.simulation_version || called_by_another_release()) {
-    return by_its_engine([&](const Engine& engine) { return engine.verify(reading, progress); });
+    return by_its_engine([&](const Engine& engine) {
+      Outcome outcome = engine.verify(reading, progress);
+      // Of a digest that differs the recording may tell more than where.
+      if (outcome.digests_differ) {
+        const Difference difference = engine.explain(reading, outcome.first_bad_tick);
+        outcome.difference_text = difference_text(difference, "the recording", "this machine");
+        outcome.difference = difference_json(difference);
+      }
+      return outcome;
+    });
   }
   const std::string release = find_release(versions->simulation);
   if (!release.empty()) return verify_by_release(release, request.asset_paths, reading);

@@ -91,6 +91,8 @@ void visit(Outcomes& outcome, const Move& move) {
   move(outcome.digest);
   move(outcome.seconds);
   move(outcome.release);
+  move(outcome.difference_text);
+  move(outcome.difference);
 }
 
 struct Worker {

@@ -1,0 +1,37 @@
+#pragma once
+#include <detent/world.h>
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// The ends of a step's stages, for whoever wants to know of them: the profile gets the time since the last one, the
+/// observer is told.
+class StageEnds {
+ public:
+  explicit StageEnds(const World& world)
+      : world_(world),
+        profile_(world.profile != nullptr && world.profile->now != nullptr ? world.profile : nullptr),
+        observer_(world.observer != nullptr && world.observer->stage_ended != nullptr ? world.observer : nullptr) {
+    if (profile_ == nullptr) return;
+    ++profile_->steps;
+    last_ = profile_->now(profile_->user);
+  }
+  /// `contacts`: of this step, so far.
+  void end(StepStage stage, uint32_t contacts) {
+    if (profile_ != nullptr) {
+      const uint64_t now = profile_->now(profile_->user);
+      profile_->ticks[static_cast<uint32_t>(stage)] += now - last_;
+      last_ = now;
+    }
+    if (observer_ != nullptr) observer_->stage_ended(observer_->context, world_, stage, contacts);
+  }
+
+ private:
+  const World& world_;
+  Profile* profile_;
+  const StepObserver* observer_;
+  uint64_t last_ = 0;
+};
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,19 @@
+#pragma once
+#include <vector>
+
+#include "stream.h"
+
+namespace detent_tool {
+
+/// A recording that can be read as often as one likes: a file, or bytes.
+struct Recorded {
+  std::string name;  ///< to tell of
+  std::string path;
+  std::shared_ptr<std::vector<uint8_t>> bytes;  ///< instead of the file
+
+  std::unique_ptr<Input> open(std::string& problem) const {
+    return bytes == nullptr ? Input::open(path, problem) : open_bytes(bytes);
+  }
+};
+
+}  // namespace detent_tool
