@@ -12,29 +12,10 @@ constexpr int64_t k_turn_max = int64_t{1} << (k_metre_bits + 16);  ///< rad
 /// Rounding of all that a certified axis adds up, ulps of the block: derived in DESIGN.md.
 constexpr int32_t k_budget = 32;
 
+/// A body whose core is a point at its centre is held not to turn.
 Status set_turning(const Convex& convex, const Motion& motion, Turning& turning) {
-  if (!raw_from_quat(motion.start.rotation, turning.start)) return Status::not_normalised;
-  if (!raw_from_real(motion.turn, turning.turn)) return Status::out_of_range;
-  const Vec64& turn = turning.turn;
-  if (magnitude_64(turn.x) > k_turn_max || magnitude_64(turn.y) > k_turn_max || magnitude_64(turn.z) > k_turn_max) {
-    return Status::out_of_range;
-  }
-  // Components below 2^62: the square fits 128 bits.
-  const Int128 longest = Int128::product(k_turn_max, k_turn_max);
-  if (longest < dot(turn, turn)) return Status::out_of_range;
-  const Vec64 way = turn;
-  const bool turns = !is_zero(way) && (convex.core_radius != 0 || convex.type == ShapeType::half_space);
-  turning = still(turning.start);
-  if (!turns) return Status::ok;
-  turning.turns = true;
-  turning.turn = way;
-  turning.axis = unit_vector_raw(scaled_to_30_bits(turn));
-  // |turn| = axis . turn / |axis|, whose square is 1 + excess: the axis' own rounding drops out to the second order.
-  const int64_t excess = dot(turning.axis, turning.axis) - (int64_t{1} << 60);
-  const int64_t along = dot(turn, turning.axis).round_shift(30);
-  turning.angle = along - Int128::product(along, excess).round_shift(61);
-  constexpr int64_t k_inverse_two_pi = 2935890503282001226;  // Q64
-  turning.rate = Int128::product(turning.angle, k_inverse_two_pi).round_shift(64);
+  if (const Status status = turning_of(motion, turning); status != Status::ok) return status;
+  if (convex.core_radius == 0 && convex.type != ShapeType::half_space) turning = still(turning.start);
   return Status::ok;
 }
 
@@ -132,6 +113,31 @@ Status prepare(const Convex& a, const Motion& motion_a, const Convex& b, const M
   Vec64 offset;
   if (!raw_difference(motion_b.start.position, motion_a.start.position, offset)) return Status::out_of_range;
   return set_block(offset, add(way_b, negate(way_a)), pair);
+}
+
+Status turning_of(const Motion& motion, Turning& turning) {
+  if (!raw_from_quat(motion.start.rotation, turning.start)) return Status::not_normalised;
+  if (!raw_from_real(motion.turn, turning.turn)) return Status::out_of_range;
+  const Vec64& turn = turning.turn;
+  if (magnitude_64(turn.x) > k_turn_max || magnitude_64(turn.y) > k_turn_max || magnitude_64(turn.z) > k_turn_max) {
+    return Status::out_of_range;
+  }
+  // Components below 2^62: the square fits 128 bits.
+  const Int128 longest = Int128::product(k_turn_max, k_turn_max);
+  if (longest < dot(turn, turn)) return Status::out_of_range;
+  const Vec64 way = turn;
+  turning = still(turning.start);
+  if (is_zero(way)) return Status::ok;
+  turning.turns = true;
+  turning.turn = way;
+  turning.axis = unit_vector_raw(scaled_to_30_bits(turn));
+  // |turn| = axis . turn / |axis|, whose square is 1 + excess: the axis' own rounding drops out to the second order.
+  const int64_t excess = dot(turning.axis, turning.axis) - (int64_t{1} << 60);
+  const int64_t along = dot(turn, turning.axis).round_shift(30);
+  turning.angle = along - Int128::product(along, excess).round_shift(61);
+  constexpr int64_t k_inverse_two_pi = 2935890503282001226;  // Q64
+  turning.rate = Int128::product(turning.angle, k_inverse_two_pi).round_shift(64);
+  return Status::ok;
 }
 
 Turning still(const Quat32& rotation) { return {rotation, matrix_from(rotation), false, {0, 0, 0}, 0, {0, 0, 0}, 0}; }

@@ -38,6 +38,11 @@ struct Turning {
 };
 inline constexpr double k_turning_error = 16.0;  ///< 2^-30 (tests/proximity)
 
+/// A body that does not turn.
+Turning still(const Quat32& rotation);
+/// Errors: not_normalised; out_of_range for a turn of more than 2^16 rad. Then `turning` may be half written.
+Status turning_of(const Motion& motion, Turning& turning);
+
 /// Where the bodies of a pair are at a time.
 struct Frames {
   int64_t time;
@@ -83,8 +88,6 @@ struct MovingPair {
 /// `offset` and `displacement`, both of B from A: 2^-46 m. Errors: out_of_range for a displacement of 2^15 m, or if the
 /// centres are 2^16 m apart and the spheres may touch all the same.
 Status set_block(const Vec64& offset, const Vec64& displacement, MovingPair& pair);
-/// A body that does not turn.
-Turning still(const Quat32& rotation);
 /// Reads the poses and sets the block. Errors: as time_of_impact().
 Status prepare(const Convex& a, const Motion& motion_a, const Convex& b, const Motion& motion_b, MovingPair& pair);
 
