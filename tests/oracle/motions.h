@@ -27,7 +27,7 @@ inline Placed screw_at(const PosesOfStep& poses, double time, double angle) {
   return {poses.start.position + along * time + arc, rotation_by(axis * angle) * poses.start.rotation};
 }
 
-/// The screw at constant speed: Redon, Kheddar, Coquillart 2002.
+/// The screw at constant speed.
 inline Placed even_screw_at(const PosesOfStep& poses, double time) {
   return screw_at(poses, time, time * length(poses.turn));
 }
