@@ -169,9 +169,10 @@ uint64_t Match::known_tick() const { return session_.next_input(slowest()); }
 
 /// Whether a machine that keeps the rules can have sent this. Nobody makes more than a window of ticks without the
 /// inputs of all, nor gives inputs for more than a delay ahead, which is a window at most; so nobody is two windows and
-/// two delays before what is known here. A run begins at what we have said we lack, which we may know by now.
+/// two delays before what is known here, nor a window and two delays before what is made here. A run begins at what we
+/// have said we lack, which we may know by now.
 bool Match::is_plausible(const Packet& packet) const {
-  const uint64_t end = known_tick() + 4 * uint64_t{def_.window};
+  const uint64_t end = std::min(known_tick(), session_.tick()) + 4 * uint64_t{def_.window};
   if (packet.tick > end) return false;
   for (uint32_t player = 0; player < def_.players; ++player) {
     const bool is_ours_to_tell = player == def_.player || (def_.player == 0 && player != packet.player);

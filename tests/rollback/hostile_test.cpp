@@ -89,6 +89,33 @@ DETENT_TEST(rollback_hostile, packets_that_say_what_cannot_be_are_refused) {
   siege.end();
 }
 
+DETENT_TEST(rollback_hostile, inputs_beyond_what_the_session_keeps_are_refused) {
+  // With a long delay more is known than has been made, and what is kept goes with the ticks that were made.
+  pitch::Match client({7, 1, 2, 16, 16, 600});
+  Packet packet;
+  packet.match = 7;
+  packet.players = 2;
+  packet.run_count = 1;
+  const auto send = [&](uint64_t end) {
+    packet.runs[0].first = static_cast<uint32_t>(client.session().next_input(0));
+    packet.runs[0].count = static_cast<uint32_t>(end - packet.runs[0].first);
+    packet.tick = static_cast<uint32_t>(client.session().tick());
+    ++packet.sequence;
+    uint8_t bytes[k_bytes_max];
+    return client.take(0, bytes, detent_rollback::write_packet(packet, bytes), packet.sequence / 60.0);
+  };
+  for (uint64_t tick = 0; tick < 100; ++tick) {
+    ASSERT_EQ(send(tick + 17), Verdict::used);
+    client.frame(0);
+  }
+  uint64_t refused_from = client.session().next_input(0);
+  while (refused_from < 200 && send(refused_from + 1) == Verdict::used) ++refused_from;
+  EXPECT_LT(refused_from, 200u);
+  const uint64_t before = digest(client.world());
+  EXPECT_EQ(send(client.session().next_input(0) + 60), Verdict::refused);
+  EXPECT_EQ(digest(client.world()), before);
+}
+
 DETENT_TEST(rollback_hostile, random_and_oversized_bytes_are_refused) {
   Siege siege;
   Seeded random(1);
