@@ -7,6 +7,7 @@
 #include "tests/bench/cooked.h"
 #include "tests/bench/draw.h"
 #include "tests/bench/engines.h"
+#include "tests/bench/motions/command.h"
 #include "tests/bench/report.h"
 #include "tests/bench/rollback/command.h"
 #include "tests/bench/terminal.h"
@@ -173,6 +174,8 @@ int main(int argc, char** argv) {
   CLI::App* world = add_world_command(app, world_options);
   RollbackOptions rollback_options;
   CLI::App* rollback = add_rollback_command(app, rollback_options);
+  MotionsOptions motions_options;
+  CLI::App* motions = add_motions_command(app, motions_options);
   std::vector<std::string> names;
   for (const detent_queries::Set& set : detent_queries::all_sets()) names.emplace_back(set.name);
   for (CLI::App* command : {toi, distance}) {
@@ -200,6 +203,7 @@ int main(int argc, char** argv) {
   }
   if (world->parsed()) return run_world(world_options);
   if (rollback->parsed()) return run_rollback(rollback_options);
+  if (motions->parsed()) return run_motions(motions_options);
   if (list->parsed()) {
     for (const detent_queries::Set& set : detent_queries::all_sets()) printf("%-5s %s\n", set.name, set.text);
     return k_exit_good;

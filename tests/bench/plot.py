@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws the rows of a benchmark (./bench --json) as SVG: time against error for each set, or the scenes of a world.
+"""Draws the rows of a benchmark (./bench --json) as SVG: time against error for each set, the scenes of a world, or motions.
 
 usage: plot.py ROWS.json FOLDER
 """
@@ -16,6 +16,7 @@ matplotlib.rcParams["svg.fonttype"] = "none"  # text as text
 matplotlib.rcParams["font.size"] = 8
 import matplotlib.pyplot as plt
 
+from plot_motions import draw_motions
 from plot_world import draw_world
 
 FLOOR = 1e-9  # of size; smaller errors are drawn here
@@ -66,6 +67,9 @@ def main():
     folder.mkdir(parents=True, exist_ok=True)
     if "scene" in rows[0]:
         draw_world(rows, folder)
+        return
+    if "motion" in rows[0]:
+        draw_motions(rows, folder / "motions.svg")
         return
     for name in dict.fromkeys(row["set"] for row in rows):
         of_set = [row for row in rows if row["set"] == name]
