@@ -14,7 +14,9 @@ void play_and_compare(const NetworkDef& def, uint64_t waits_max) {
     EXPECT_FALSE(machine->session().desync().found);
     EXPECT_EQ(pitch::replay_inputs(machine->confirmed_inputs(), def.players, {}), expected);
     EXPECT_EQ(machine->refused(), 0u);
-    EXPECT_GT(machine->figures().repeated, def.ticks / 500u);
+    if (def.ticks >= 1000) {
+      EXPECT_GT(machine->figures().repeated, def.ticks / 500u);
+    }
     EXPECT_GT(machine->figures().ticks_again, def.ticks / 8);
     EXPECT_LE(machine->figures().longest_rollback, def.window);
     EXPECT_LE(machine->figures().waits, waits_max);

@@ -194,7 +194,7 @@ bool compare_stages(const StageTrace& a, const StageTrace& b, bool full, Differe
     std::vector<StageTrace::Key> keys;
     for (const auto& entry : of_a) keys.push_back(entry.first);
     for (const auto& entry : of_b) keys.push_back(entry.first);
-    std::sort(keys.begin(), keys.end());
+    std::sort(keys.begin(), keys.end(), StageTrace::KeyOrder{});
     keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
     for (const StageTrace::Key& key : keys) {
       const auto in_a = of_a.find(key), in_b = of_b.find(key);

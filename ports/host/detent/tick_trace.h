@@ -1,6 +1,7 @@
 #pragma once
 #include <detent/config.h>
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <vector>
@@ -19,7 +20,14 @@ struct StageTrace {
   };
   /// The key of a sorted part; of others the place.
   using Key = std::vector<uint32_t>;
-  std::map<Key, Element> parts[k_trace_part_count];
+  /// Of vectors of integers of several bytes, libstdc++ 12's own order is wrong on big-endian machines: it compares too
+  /// few bytes.
+  struct KeyOrder {
+    bool operator()(const Key& a, const Key& b) const {
+      return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+    }
+  };
+  std::map<Key, Element, KeyOrder> parts[k_trace_part_count];
   std::vector<Key> contacts;  ///< of the state, by their places
   uint64_t digest = 0;
   bool there = false;
