@@ -2,6 +2,7 @@
 #include "chunks.h"
 #include "replay/replay_watch.h"
 #include "replay/trace_stream.h"
+#include "tests/support/spoil.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -16,7 +17,7 @@ Bytes record_traced(const TraceDef* trace, const StepObserver* observer = nullpt
   const WorldDef def = OwnedWorld::def_of({5, 6, 0, true, 1, 0});
   Recording recording(def);
   World& world = recording.owned.world;
-  memset(world.block + snapshot_bytes(def.capacity), filling, world_bytes(def.capacity) - snapshot_bytes(def.capacity));
+  spoil_work_space(world, filling);
   uint8_t state[16384];
   EXPECT_LE(snapshot_bytes(def.capacity), sizeof state);
   EXPECT_OK(save(world, state, sizeof state));

@@ -4,6 +4,7 @@
 #include "dynamics/activity.h"
 #include "dynamics/predict.h"
 #include "tests/oracle/bodies.h"
+#include "tests/support/spoil.h"
 #include "tests/world/lab.h"
 
 /// What a world keeps from step to step alters no bit, and spares a step what rests.
@@ -95,14 +96,6 @@ std::vector<uint64_t> pairs_of_next_step(World world) {
   find_pairs(moving, cache.tree, {keys.data(), capacity.bodies}, {keys_spare.data(), capacity.bodies}, pool);
   pool.sort();
   return {pool.pairs().begin(), pool.pairs().end()};
-}
-
-/// Makes nonsense of all that a step may not read before it has written it: what a new world has no zeros in.
-void spoil_work_space(World& world, int byte) {
-  const StateView<uint8_t> state = view_of(world);
-  const Layout& layout = state.layout;
-  memset(world.block + layout.persistent_bytes, byte, layout.candidates - layout.persistent_bytes);
-  memset(world.block + layout.moving_bodies, byte, layout.bytes - layout.moving_bodies);
 }
 
 DETENT_TEST(step_cache, alters_no_bit_and_no_pair_whatever_comes_and_goes) {
