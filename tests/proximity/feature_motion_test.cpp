@@ -31,11 +31,10 @@ struct MovingFeatures {
     place(time, placed);
     return feature_gap(kind, placed);
   }
-  /// Six times the volume that the features span, with a sign.
   double volume(double time) const {
-    Vector p[4];
-    place(time, p);
-    return dot(cross(p[1] - p[0], p[2] - p[0]), p[3] - p[0]);
+    Vector placed[4];
+    place(time, placed);
+    return feature_volume(placed);
   }
   double reach() const {
     double of_a = 0, of_b = 0;

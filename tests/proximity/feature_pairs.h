@@ -19,6 +19,9 @@ inline Vector vector_of(const Vec64& v) {
   return {{static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}};
 }
 
+/// Six times the volume that the features span, with a sign.
+inline double feature_volume(const Vector (&p)[4]) { return dot(cross(p[1] - p[0], p[2] - p[0]), p[3] - p[0]); }
+
 /// The distance of features, by their corners.
 inline double feature_gap(FeatureKind kind, const Vector (&corner)[4]) {
   if (kind == FeatureKind::vertex_face) return distance_to_triangle(corner[0], corner[1], corner[2], corner[3]);

@@ -40,9 +40,9 @@ struct Screw {
   }
   /// The features' volume times 1 + t^2 tangent^2: a cubic in time.
   double reduced(double time) const {
-    Vector p[4];
-    place(time, p);
-    return dot(cross(p[1] - p[0], p[2] - p[0]), p[3] - p[0]) * (1 + time * time * tangent * tangent);
+    Vector placed[4];
+    place(time, placed);
+    return feature_volume(placed) * (1 + time * time * tangent * tangent);
   }
 };
 
