@@ -4,18 +4,6 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// How a certified axis is moved along. All are never late; they differ in how far one axis leads.
-enum class ToiMethod {
-  paper,          ///< Coumans' Algorithm 1: the bound n.v + |wA| rA + |wB| rB on the approach, one step an axis
-  first_order,    ///< |n x w| times the radius about the spin, one step an axis
-  second_order,   ///< the concave bound along an axis fixed in the world, until it leads no farther
-  corotating,     ///< likewise, the axis turning with the body that owns the face or edge
-  world_space,    ///< as constant_spin, each body moved by itself; the others move B relative to A (Coumans'
-                  ///< formulations)
-  constant_spin,  ///< likewise, an edge's axis turning so that it is right at contact too
-};
-inline constexpr int k_toi_methods = 6;
-
 /// More intervals than this are not certified along one axis.
 inline constexpr int k_passes_max = 24;
 

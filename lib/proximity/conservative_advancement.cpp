@@ -47,9 +47,7 @@ int64_t next_time(const MovingPair& pair, ToiMethod method, const Frames& frames
           advance_once(pair, frames, horizon, nearest.normal, method == ToiMethod::first_order, floor, result.passes));
     case ToiMethod::second_order:
       break;
-    case ToiMethod::corotating:
-    case ToiMethod::world_space:
-    case ToiMethod::constant_spin:
+    default:  // the axis turns with a body
       spin = features.base_spin(horizon);
       break;
   }
@@ -99,8 +97,8 @@ void conservative_advancement(const MovingPair& pair, ToiMethod method, TimeOfIm
   result.outcome = ToiOutcome::undecided;
 }
 
-Status time_of_impact_by(ToiMethod method, const Convex& a, const Motion& motion_a, const Convex& b,
-                         const Motion& motion_b, TimeOfImpact& result) {
+Status time_of_impact_on_axes(ToiMethod method, const Convex& a, const Motion& motion_a, const Convex& b,
+                              const Motion& motion_b, TimeOfImpact& result) {
   MovingPair pair;
   if (const Status status = prepare(a, motion_a, b, motion_b, pair); status != Status::ok) return status;
   pair.absolute = method == ToiMethod::world_space && !pair.planar;
@@ -110,7 +108,7 @@ Status time_of_impact_by(ToiMethod method, const Convex& a, const Motion& motion
 
 Status time_of_impact(const Convex& a, const Motion& motion_a, const Convex& b, const Motion& motion_b,
                       TimeOfImpact& result) {
-  return time_of_impact_by(k_toi_method, a, motion_a, b, motion_b, result);
+  return time_of_impact_on_axes(k_toi_method, a, motion_a, b, motion_b, result);
 }
 
 }  // namespace DETENT_NAMESPACE

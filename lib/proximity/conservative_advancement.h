@@ -1,5 +1,6 @@
 #pragma once
-#include "proximity/advance.h"
+#include "proximity/moving_pair.h"
+#include "proximity/toi_methods.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -10,17 +11,19 @@ inline constexpr ToiMethod k_toi_method = ToiMethod::DETENT_TOI_METHOD;
 #else
 inline constexpr ToiMethod k_toi_method = ToiMethod::constant_spin;
 #endif
+static_assert(static_cast<int>(k_toi_method) < k_axis_methods, "of every shape, and never late");
 
 /// More axes than this are not looked for. The other methods, there for comparison, need many on hard queries.
 inline constexpr int k_toi_iterations_max = 24;
 inline constexpr int k_toi_iterations_compared_max = 256;
 
-/// The time of impact of a prepared pair by conservative advancement along axes of the method's kind.
+/// The time of impact of a prepared pair by conservative advancement along axes of the method's kind, one of the first
+/// k_axis_methods.
 void conservative_advancement(const MovingPair& pair, ToiMethod method, TimeOfImpact& result);
 
-/// time_of_impact() (toi.h) by a method of choice, for comparison.
-Status time_of_impact_by(ToiMethod method, const Convex& a, const Motion& motion_a, const Convex& b,
-                         const Motion& motion_b, TimeOfImpact& result);
+/// time_of_impact() (toi.h) by one of those methods.
+Status time_of_impact_on_axes(ToiMethod method, const Convex& a, const Motion& motion_a, const Convex& b,
+                              const Motion& motion_b, TimeOfImpact& result);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -2,7 +2,7 @@
 #include <detent/distance.h>
 #include <detent/toi.h>
 
-#include "proximity/conservative_advancement.h"
+#include "proximity/toi_methods.h"
 #include "tests/bench/cooked.h"
 #include "tests/bench/engine.h"
 #include "tests/bench/pose.h"

@@ -7,7 +7,7 @@
 
 #include "base/digest.h"
 #include "narrow_phase_pairs.h"
-#include "proximity/conservative_advancement.h"
+#include "proximity/toi_methods.h"
 
 /// The questions of the narrow phase on any target, a microcontroller too: no allocation, no C library beyond string.h.
 ///

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "proximity/conservative_advancement.h"
+#include "proximity/toi_methods.h"
 #include "tests/oracle/effort.h"
 #include "tests/proximity/closed_form.h"
 
@@ -459,7 +460,7 @@ DETENT_TEST(toi, is_never_late_and_hits_within_the_tolerance) {
 
 constexpr ToiMethod k_methods[] = {ToiMethod::paper,      ToiMethod::first_order, ToiMethod::second_order,
                                    ToiMethod::corotating, ToiMethod::world_space, ToiMethod::constant_spin};
-static_assert(sizeof k_methods / sizeof *k_methods == k_toi_methods);
+static_assert(sizeof k_methods / sizeof *k_methods == k_axis_methods);
 
 DETENT_TEST(toi, is_never_late_by_any_method) {
   for (const ToiMethod method : k_methods) {
