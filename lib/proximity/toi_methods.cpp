@@ -1,6 +1,8 @@
 #include "proximity/toi_methods.h"
 
 #include "proximity/conservative_advancement.h"
+#include "proximity/feature_pairs.h"
+#include "proximity/redon.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -15,10 +17,12 @@ Status time_of_impact_by(ToiMethod method, const Convex& a, const Motion& motion
     case ToiMethod::world_space:
     case ToiMethod::constant_spin:
       return time_of_impact_on_axes(method, a, motion_a, b, motion_b, result);
+    case ToiMethod::feature_pairs:
+      return time_of_impact_by_features(a, motion_a, b, motion_b, result);
+    case ToiMethod::redon:
+      return time_of_impact_by_redon(a, motion_a, b, motion_b, result);
     case ToiMethod::mirtich:
     case ToiMethod::baraff:
-    case ToiMethod::feature_pairs:
-    case ToiMethod::redon:
     case ToiMethod::canny:
     default:
       return Status::bad_argument;
