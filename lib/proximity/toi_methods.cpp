@@ -1,5 +1,6 @@
 #include "proximity/toi_methods.h"
 
+#include "proximity/canny.h"
 #include "proximity/conservative_advancement.h"
 #include "proximity/feature_pairs.h"
 #include "proximity/redon.h"
@@ -19,11 +20,12 @@ Status time_of_impact_by(ToiMethod method, const Convex& a, const Motion& motion
       return time_of_impact_on_axes(method, a, motion_a, b, motion_b, result);
     case ToiMethod::feature_pairs:
       return time_of_impact_by_features(a, motion_a, b, motion_b, result);
+    case ToiMethod::canny:
+      return time_of_impact_by_canny(a, motion_a, b, motion_b, result);
     case ToiMethod::redon:
       return time_of_impact_by_redon(a, motion_a, b, motion_b, result);
     case ToiMethod::mirtich:
     case ToiMethod::baraff:
-    case ToiMethod::canny:
     default:
       return Status::bad_argument;
   }
