@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "tests/queries/aim.h"
 #include "tests/queries/gap.h"
 #include "tests/queries/solids.h"
 
@@ -154,6 +157,60 @@ TEST(sets, near_queries_start_as_near_as_stated) {
     EXPECT_GT(gap_at(query, 0), 0.9e-6);
     EXPECT_LT(gap_at(query, 0), 1.1e-4);
   }
+}
+
+TEST(sets, triangles_meet_triangles_boxes_and_hulls_and_half_are_slivers) {
+  uint32_t partners[3] = {}, slivers = 0, rest = 0;
+  double thinnest = 1;
+  const std::vector<Query> queries = make_queries(*find_set("11"), k_seed, 8 * k_count, {});
+  for (const Query& query : queries) {
+    ASSERT_EQ(query.a.kind, Kind::triangle);
+    EXPECT_TRUE(is_polytope(query.b));
+    ++partners[query.b.kind == Kind::triangle ? 0 : query.b.kind == Kind::box ? 1 : 2];
+    const std::vector<Triple>& corner = query.a.points;
+    double side = 0;
+    for (size_t i = 0; i < 3; ++i) side = std::max(side, length(corner[i] - corner[(i + 1) % 3]));
+    EXPECT_GE(side, 0.1 - 1e-6);
+    EXPECT_LE(side, 1.2 + 1e-6);
+    const double aspect = length(cross(corner[1] - corner[0], corner[2] - corner[0])) / (side * side);
+    thinnest = std::min(thinnest, aspect);
+    slivers += aspect < 0.1 ? 1u : 0u;
+    rest += length(query.path_a.displacement) + length(query.path_a.turn) == 0 ? 1u : 0u;
+  }
+  for (const uint32_t count : partners) EXPECT_EQ(count, 8 * k_count / 3);
+  EXPECT_GT(thinnest, 0.0099);
+  EXPECT_LT(thinnest, 0.02);
+  for (const uint32_t count : {slivers, rest}) {
+    EXPECT_GT(count, 3 * k_count);
+    EXPECT_LT(count, 5 * k_count);
+  }
+}
+
+TEST(sets, a_point_that_faces_a_direction_lies_on_a_vertex_an_edge_or_a_face) {
+  Random random(k_seed);
+  const Solid cube = box({0.5, 1, 2});
+  for (uint32_t i = 0; i < 300; ++i) {
+    const Triple direction = random.direction();
+    const uint32_t corners = 1 + i % 3;
+    const Triple point = point_facing(random, cube, direction, corners);
+    uint32_t fixed = 0;  // coordinates in which the point is at the bounds
+    double facing = 0;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const double half = cube.half_extents[axis];
+      EXPECT_LE(fabs(point[axis]), half + 1e-12);
+      if (fabs(fabs(point[axis]) - half) > 1e-12) continue;
+      ++fixed;
+      facing = std::max(facing, point[axis] * direction[axis]);
+    }
+    EXPECT_EQ(fixed, 4 - corners);
+    EXPECT_GT(facing, 0);
+  }
+}
+
+TEST(sets, a_feature_sent_at_another_mostly_meets_it) {
+  uint32_t closely = 0;
+  for (const Query& query : queries_of("11")) closely += approach_of(query) < 0.05 ? 1u : 0u;
+  EXPECT_GT(closely, k_count / 2);
 }
 
 TEST(sets, far_queries_are_far) {
