@@ -53,30 +53,29 @@ Triple point_facing(Random& random, const Solid& solid, const Triple& direction,
   return point;
 }
 
-Triple way_to_feature(Random& random, Query& query, bool edges, const Aim& aim) {
+Meeting aim_at_feature(Random& random, Query& query, bool edges, const Aim& aim) {
   const double bounds = bound_of(query.a) + bound_of(query.b);
   const Triple direction = random.direction();
   const double distance = bounds + aim.scale * random.uniform(aim.gap_min, aim.gap_max);
   query.path_b.position = to_float(query.path_a.position + direction * distance);
   const Triple apart = query.path_b.position - query.path_a.position;
 
-  const double time = random.uniform(0.4, 1.3);
-  const detent_oracle::Encounter encounter = detent_oracle::encounter_of(query);
-  const detent_oracle::Placement placement = placement_at(encounter, static_cast<long double>(time));
+  Meeting meeting;
+  meeting.time = random.uniform(0.4, 1.3);
+  const detent_oracle::Placement placement = placement_at(detent_oracle::encounter_of(query), meeting.time);
   uint32_t corners_a = 2;
   if (!edges) corners_a = random.chance(0.5) ? 1 : 3;
   const Triple towards_b = triple_of(to_local(placement.a, arrow_of(direction)));
   const Triple towards_a = triple_of(to_local(placement.b, arrow_of(direction * -1)));
-  const Triple local_a = point_facing(random, query.a, towards_b, corners_a);
-  const Triple local_b = point_facing(random, query.b, towards_a, 4 - corners_a);
-  const Triple point_a = triple_of(to_world(placement.a, arrow_of(local_a)));
-  const Triple point_b = triple_of(to_world(placement.b, arrow_of(local_b)));
-  Triple beside = {};
-  if (random.chance(0.5)) {
-    const Triple sideways = random.perpendicular(apart);
-    beside = sideways * (bounds * random.log_uniform(1e-3, 1));
-  }
-  return (point_a - point_b + beside - apart) * (1 / time);
+  meeting.point_a = point_facing(random, query.a, towards_b, corners_a);
+  meeting.point_b = point_facing(random, query.b, towards_a, 4 - corners_a);
+  const Triple sideways = random.perpendicular(apart);
+  if (random.chance(0.5)) meeting.beside = bounds * random.log_uniform(1e-3, 1);
+
+  const Triple from_a = triple_of(to_world(placement.a, arrow_of(meeting.point_a)));
+  const Triple from_b = triple_of(to_world(placement.b, arrow_of(meeting.point_b)));
+  meeting.way = (from_a - from_b + sideways * meeting.beside - apart) * (1 / meeting.time);
+  return meeting;
 }
 
 }  // namespace detent_queries

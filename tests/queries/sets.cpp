@@ -237,7 +237,7 @@ Query triangles(Random& random, uint32_t index, const Sources&) {
   const bool rests = random.chance(0.5), edges = random.chance(0.5);
   if (turning(index)) spin(random, query, 0.05, 1);
   if (rests) query.path_a.turn = {};
-  const Triple way = way_to_feature(random, query, edges, {});
+  const Triple way = aim_at_feature(random, query, edges, {}).way;
   if (rests)
     query.path_b.displacement = to_float(way);
   else

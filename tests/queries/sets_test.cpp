@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "tests/oracle/convex_solid.h"
 #include "tests/queries/aim.h"
 #include "tests/queries/gap.h"
 #include "tests/queries/solids.h"
@@ -58,6 +59,17 @@ bool same(const Path& a, const Path& b) {
 }
 bool same(const Query& a, const Query& b) {
   return same(a.a, b.a) && same(a.b, b.b) && same(a.path_a, b.path_a) && same(a.path_b, b.path_b);
+}
+
+bool is_at_bounds(const Solid& box, const Triple& point, size_t axis) {
+  return fabs(fabs(point[axis]) - box.half_extents[axis]) < 1e-12;
+}
+
+/// Of how many corners the feature of a box is on which the point lies: 1 a vertex, 2 an edge, 3 a face, 4 none.
+uint32_t corners_at(const Solid& box, const Triple& point) {
+  uint32_t corners = 4;
+  for (size_t axis = 0; axis < 3; ++axis) corners -= is_at_bounds(box, point, axis) ? 1u : 0u;
+  return corners;
 }
 
 double approach_of(const Query& query) { return closest_approach(query).gap / size_of(query); }
@@ -188,29 +200,44 @@ TEST(sets, triangles_meet_triangles_boxes_and_hulls_and_half_are_slivers) {
 
 TEST(sets, a_point_that_faces_a_direction_lies_on_a_vertex_an_edge_or_a_face) {
   Random random(k_seed);
-  const Solid cube = box({0.5, 1, 2});
+  const Solid solid = box({0.5, 1, 2});
   for (uint32_t i = 0; i < 300; ++i) {
     const Triple direction = random.direction();
     const uint32_t corners = 1 + i % 3;
-    const Triple point = point_facing(random, cube, direction, corners);
-    uint32_t fixed = 0;  // coordinates in which the point is at the bounds
-    double facing = 0;
+    const Triple point = point_facing(random, solid, direction, corners);
+    EXPECT_EQ(corners_at(solid, point), corners);
+    double facing = -INFINITY;
     for (size_t axis = 0; axis < 3; ++axis) {
-      const double half = cube.half_extents[axis];
-      EXPECT_LE(fabs(point[axis]), half + 1e-12);
-      if (fabs(fabs(point[axis]) - half) > 1e-12) continue;
-      ++fixed;
-      facing = std::max(facing, point[axis] * direction[axis]);
+      if (is_at_bounds(solid, point, axis)) facing = std::max(facing, point[axis] * direction[axis]);
     }
-    EXPECT_EQ(fixed, 4 - corners);
     EXPECT_GT(facing, 0);
   }
 }
 
-TEST(sets, a_feature_sent_at_another_mostly_meets_it) {
-  uint32_t closely = 0;
-  for (const Query& query : queries_of("11")) closely += approach_of(query) < 0.05 ? 1u : 0u;
-  EXPECT_GT(closely, k_count / 2);
+TEST(sets, features_that_are_aimed_at_each_other_meet_or_pass_as_stated) {
+  Random random(k_seed);
+  uint32_t meet = 0;
+  for (uint32_t i = 0; i < 200; ++i) {
+    const Solid a = box({0.5, 1, 2}), b = box({1, 0.25, 0.75});
+    Query query = at_one_place(random, a, b, 1);
+    spin(random, query, 0.05, 1);
+    const bool edges = i % 2 == 0;
+    const Meeting meeting = aim_at_feature(random, query, edges, {});
+    EXPECT_GT(gap_at(query, 0), 0);
+    const uint32_t corners_a = corners_at(query.a, meeting.point_a), corners_b = corners_at(query.b, meeting.point_b);
+    EXPECT_EQ(corners_a == 2, edges);
+    EXPECT_EQ(corners_a + corners_b, 4u);
+
+    query.path_b.displacement = meeting.way;
+    const detent_oracle::Placement placement = placement_at(detent_oracle::encounter_of(query), meeting.time);
+    const auto arrow = [](const Triple& v) { return detent_oracle::Arrow{v[0], v[1], v[2]}; };
+    const detent_oracle::Arrow at_a = to_world(placement.a, arrow(meeting.point_a));
+    const detent_oracle::Arrow at_b = placement.offset + to_world(placement.b, arrow(meeting.point_b));
+    EXPECT_NEAR(static_cast<double>(detent_oracle::length(at_b - at_a)), meeting.beside, 1e-12);
+    meet += meeting.beside == 0 ? 1u : 0u;
+  }
+  EXPECT_GT(meet, 60u);
+  EXPECT_LT(meet, 140u);
 }
 
 TEST(sets, far_queries_are_far) {
