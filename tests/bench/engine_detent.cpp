@@ -164,6 +164,11 @@ void add_bench_engines(EngineList& engines) {
   toi("corotating", prepare<DetentToi<by_method<ToiMethod::corotating>>>);
   toi("world_space", prepare<DetentToi<by_method<ToiMethod::world_space>>>);
   toi("constant_spin", prepare<DetentToi<by_method<ToiMethod::constant_spin>>>);
+  toi("mirtich", prepare<DetentToi<by_method<ToiMethod::mirtich>>>);
+  toi("baraff", prepare<DetentToi<by_method<ToiMethod::baraff>>>);
+  toi("feature_pairs", prepare<DetentToi<by_method<ToiMethod::feature_pairs>>>);
+  toi("redon", prepare<DetentToi<by_method<ToiMethod::redon>>>);
+  toi("canny", prepare<DetentToi<by_method<ToiMethod::canny>>>);
   engines.push_back({Task::distance, "closest_points", config, k_position_step, k_slack, prepare<DetentDistance>});
 }
 

@@ -7,6 +7,7 @@
 
 #include "tests/queries/gap.h"
 #include "tests/queries/sets.h"
+#include "tests/queries/solids.h"
 
 namespace detent_bench {
 
@@ -32,8 +33,46 @@ double greatest(const std::vector<double>& values) {
   return values.empty() ? 0 : *std::max_element(values.begin(), values.end());
 }
 
+/// What `part` is a part of.
+Part whole_of(Part part) {
+  switch (part) {
+    case Part::rotating_polytopes:
+      return Part::rotating;
+    case Part::linear_polytopes:
+      return Part::linear;
+    default:
+      return Part::all;
+  }
+}
+
 bool belongs(Part part, const Query& query) {
-  return part == Part::all || detent_queries::turns(query) == (part == Part::rotating);
+  switch (part) {
+    case Part::rotating:
+      return detent_queries::turns(query);
+    case Part::linear:
+      return !detent_queries::turns(query);
+    case Part::rotating_polytopes:
+    case Part::linear_polytopes:
+      return belongs(whole_of(part), query) && detent_queries::is_polytope(query.a) &&
+             detent_queries::is_polytope(query.b);
+    default:
+      return true;
+  }
+}
+
+const char* suffix_of(Part part) {
+  switch (part) {
+    case Part::rotating:
+      return " rotating";
+    case Part::linear:
+      return " linear";
+    case Part::rotating_polytopes:
+      return " rotating polytopes";
+    case Part::linear_polytopes:
+      return " linear polytopes";
+    default:
+      return "";
+  }
 }
 
 /// How deep the solids come in between, m, at the samples: one who reports the end has let them do so, even if by then
@@ -92,26 +131,46 @@ void compare(const Findings& findings, Part part, bool linear, size_t e, Row& ro
   }
 }
 
+bool is_default(const Engine& engine) {
+  return strcmp(engine.method, engine.task == Task::toi ? "default" : "closest_points") == 0;
+}
+
+/// By query, whether a default of the library answered it, in some configuration; of a run without one, any engine.
+std::vector<bool> needed_answers(const Findings& findings) {
+  const EngineList& engines = *findings.engines;
+  const bool any = std::none_of(engines.begin(), engines.end(), is_default);
+  std::vector<bool> needed(findings.measured.front().size());
+  for (size_t e = 0; e < engines.size(); ++e) {
+    if (!any && !is_default(engines[e])) continue;
+    for (size_t q = 0; q < needed.size(); ++q) needed[q] = needed[q] || findings.measured[e][q].asked;
+  }
+  return needed;
+}
+
 }  // namespace
 
 std::vector<Row> rows_of(const Findings& findings, Part part) {
   std::vector<Row> rows;
+  const std::vector<bool> needed = needed_answers(findings);
   for (size_t e = 0; e < findings.measured.size(); ++e) {
     const Engine& engine = (*findings.engines)[e];
     const std::vector<Query>& queries = *findings.queries[e];
     Row row;
     row.task = engine.task;
-    row.set = findings.set + (part == Part::all ? "" : part == Part::rotating ? " rotating" : " linear");
+    row.set = findings.set + suffix_of(part);
     row.method = engine.method;
     row.config = engine.config;
     std::vector<double> ns, gjk, early, errors;
-    bool whole = true, some_turn = false, turn_asked = false;
+    bool less = part == Part::all, turns_somewhere = false, answers_needed = true;
     for (size_t q = 0; q < queries.size(); ++q) {
       const Measured& measured = findings.measured[e][q];
-      whole = whole && belongs(part, queries[q]);
-      some_turn = some_turn || detent_queries::turns(queries[q]);
-      turn_asked = turn_asked || (measured.asked && detent_queries::turns(queries[q]));
-      if (!measured.asked || !belongs(part, queries[q])) continue;
+      if (!belongs(part, queries[q])) {
+        less = less || belongs(whole_of(part), queries[q]);
+        continue;
+      }
+      turns_somewhere = turns_somewhere || detent_queries::turns(queries[q]);
+      answers_needed = answers_needed && (measured.asked || !needed[q]);
+      if (!measured.asked) continue;
       const Truth& truth = (*findings.truths[e])[q];
       ns.push_back(measured.ns);
       gjk.push_back(measured.answer.gjk_calls);
@@ -120,8 +179,7 @@ std::vector<Row> rows_of(const Findings& findings, Part part) {
       else
         errors.push_back(fabs(measured.answer.distance - std::max(truth.start_gap, 0.0)) / truth.size);
     }
-    if (ns.empty() || (part != Part::all && whole)) continue;
-    if (part == Part::all && some_turn && !turn_asked) continue;  // a linear cast: not to be read beside the others
+    if (ns.empty() || !less || !answers_needed) continue;
     row.queries = static_cast<uint32_t>(ns.size());
     row.early_p99 = p99(early);
     row.early_max = greatest(early);
@@ -132,7 +190,7 @@ std::vector<Row> rows_of(const Findings& findings, Part part) {
     row.ns_mean = mean(ns);
     row.ns_p99 = p99(ns);
     row.ns_max = greatest(ns);
-    compare(findings, part, part == Part::linear || !some_turn, e, row);
+    compare(findings, part, !turns_somewhere, e, row);
     rows.push_back(row);
   }
   return rows;

@@ -16,7 +16,7 @@ inline constexpr double k_deep = 1e-3;
 struct Row {
   Task task = Task::toi;
   std::string set, method, config;
-  uint32_t queries = 0;    ///< that the engine had an answer to
+  uint32_t queries = 0;    ///< of the part that the engine had an answer to
   uint32_t hits = 0;       ///< among them, in truth
   uint32_t fn = 0;         ///< hits called clear or undecided
   uint32_t fn_deep = 0;    ///< of those the deep ones
@@ -33,8 +33,10 @@ struct Row {
   double ratio_p99 = 0;   ///< likewise
 };
 
-/// Of the queries that turn, of those that do not, or of all.
-enum class Part { all, rotating, linear };
+/// Of all queries, of those that turn, of those that do not; and of these what is asked of two polytopes.
+enum class Part { all, rotating, linear, rotating_polytopes, linear_polytopes };
+inline constexpr Part k_parts[] = {Part::all, Part::rotating, Part::linear, Part::rotating_polytopes,
+                                   Part::linear_polytopes};
 
 /// What is known of one set: a list for each engine, since an engine's grid makes other queries of them.
 struct Findings {
@@ -45,7 +47,9 @@ struct Findings {
   std::vector<std::vector<Measured>> measured;
 };
 
-/// A row for each engine that had an answer; none if `part` is empty or, other than for `all`, the whole set.
+/// A row for each engine that answered whatever the library's default answered in the part: all of a part's rows are of
+/// the same queries, but for those that the default refuses. (Of a run without it: whatever any engine answered.) None
+/// if the part is no less than the one that it is a part of.
 std::vector<Row> rows_of(const Findings& findings, Part part);
 
 }  // namespace detent_bench

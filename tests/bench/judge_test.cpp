@@ -144,22 +144,121 @@ TEST(judge, an_error_of_distance_is_in_units_of_size) {
 }
 
 TEST(judge, times_are_compared_over_the_queries_that_both_answered) {
-  const EngineList engines = {engine("any", "any"), engine("btSubsimplexConvexCast", "bullet-double")};
+  const EngineList engines = {engine("default", "any"), engine("any", "any"),
+                              engine("btSubsimplexConvexCast", "bullet-double")};
   const std::vector<Query> queries(3, spheres(0));
   const std::vector<Truth> truths(3, head_on());
   const auto measured = [](bool asked, double ns) { return Measured{asked, hit_at(k_touch), ns}; };
   const Findings findings = {"x",
                              &engines,
-                             {&queries, &queries},
-                             {&truths, &truths},
-                             {{measured(true, 1), measured(true, 3), measured(true, 100)},
+                             {&queries, &queries, &queries},
+                             {&truths, &truths, &truths},
+                             {{measured(true, 1), measured(true, 1), measured(false, 0)},
+                              {measured(true, 1), measured(true, 3), measured(true, 100)},
                               {measured(true, 4), measured(true, 4), measured(false, 0)}}};
   const std::vector<Row> rows = rows_of(findings, Part::all);
-  EXPECT_EQ(rows[0].queries, 3u);
-  EXPECT_EQ(rows[1].queries, 2u);
-  EXPECT_DOUBLE_EQ(rows[0].ratio_mean, 0.5);
-  EXPECT_DOUBLE_EQ(rows[0].ratio_p99, 0.75);
-  EXPECT_DOUBLE_EQ(rows[0].ns_max, 100);
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows[1].queries, 3u);
+  EXPECT_EQ(rows[2].queries, 2u);
+  EXPECT_DOUBLE_EQ(rows[1].ratio_mean, 0.5);
+  EXPECT_DOUBLE_EQ(rows[1].ratio_p99, 0.75);
+  EXPECT_DOUBLE_EQ(rows[1].ns_max, 100);
+}
+
+namespace {
+
+/// A query that turns or not, of polytopes or not.
+Query query_of(bool turns, bool polytopes) {
+  Query query = spheres(0);
+  if (polytopes) query.a = query.b = detent_queries::box({1, 1, 1});
+  if (turns) query.path_a.turn = {0, 0, 1};
+  return query;
+}
+
+const std::vector<Query> k_four = {query_of(true, false), query_of(true, true), query_of(false, false),
+                                   query_of(false, true)};
+
+/// The rows of engines that have an answer to these of the queries.
+std::vector<Row> rows_of(const EngineList& engines, const std::vector<Query>& queries,
+                         const std::vector<std::vector<bool>>& asked, Part part) {
+  const std::vector<Truth> truths(queries.size(), head_on());
+  Findings findings;
+  findings.set = "x";
+  findings.engines = &engines;
+  for (const std::vector<bool>& of_engine : asked) {
+    findings.queries.push_back(&queries);
+    findings.truths.push_back(&truths);
+    findings.measured.emplace_back();
+    for (const bool one : of_engine) findings.measured.back().push_back({one, hit_at(k_touch), 1});
+  }
+  return rows_of(findings, part);
+}
+
+/// "method queries" of each row.
+std::vector<std::string> summary(const std::vector<Row>& rows) {
+  std::vector<std::string> lines;
+  for (const Row& row : rows) lines.push_back(row.method + " " + std::to_string(row.queries));
+  return lines;
+}
+
+using Lines = std::vector<std::string>;
+
+}  // namespace
+
+TEST(judge, the_parts_of_a_mixed_set_hold_their_queries_alone) {
+  const std::vector<std::pair<const char*, uint32_t>> expected = {
+      {"x", 4}, {"x rotating", 2}, {"x linear", 2}, {"x rotating polytopes", 1}, {"x linear polytopes", 1}};
+  size_t i = 0;
+  for (const Part part : k_parts) {
+    const std::vector<Row> rows = rows_of({engine("default", "any")}, k_four, {{true, true, true, true}}, part);
+    ASSERT_EQ(rows.size(), 1u) << i;
+    EXPECT_EQ(rows[0].set, expected[i].first);
+    EXPECT_EQ(rows[0].queries, expected[i].second);
+    ++i;
+  }
+}
+
+TEST(judge, a_part_that_is_the_whole_of_what_it_is_part_of_has_no_rows) {
+  const auto parts_of = [](const std::vector<Query>& queries) {
+    Lines names;
+    for (const Part part : k_parts) {
+      for (const Row& row : rows_of({engine("default", "any")}, queries, {{true, true}}, part))
+        names.push_back(row.set);
+    }
+    return names;
+  };
+  EXPECT_EQ(parts_of({query_of(true, true), query_of(true, true)}), (Lines{"x"}));
+  EXPECT_EQ(parts_of({query_of(true, true), query_of(false, true)}), (Lines{"x", "x rotating", "x linear"}));
+  EXPECT_EQ(parts_of({query_of(false, false), query_of(false, false)}), (Lines{"x"}));
+  EXPECT_EQ(parts_of({query_of(false, true), query_of(false, false)}), (Lines{"x", "x linear polytopes"}));
+}
+
+TEST(judge, an_engine_has_rows_where_it_answers_what_the_default_does) {
+  const EngineList engines = {engine("default", "fx64"), engine("polytopes", "fx64"), engine("cast", "peer")};
+  const std::vector<std::vector<bool>> asked = {
+      {true, true, true, true}, {false, true, false, true}, {false, false, true, true}};
+  EXPECT_EQ(summary(rows_of(engines, k_four, asked, Part::all)), (Lines{"default 4"}));
+  EXPECT_EQ(summary(rows_of(engines, k_four, asked, Part::rotating)), (Lines{"default 2"}));
+  EXPECT_EQ(summary(rows_of(engines, k_four, asked, Part::linear)), (Lines{"default 2", "cast 2"}));
+  EXPECT_EQ(summary(rows_of(engines, k_four, asked, Part::rotating_polytopes)), (Lines{"default 1", "polytopes 1"}));
+  EXPECT_EQ(summary(rows_of(engines, k_four, asked, Part::linear_polytopes)),
+            (Lines{"default 1", "polytopes 1", "cast 1"}));
+}
+
+TEST(judge, what_the_default_of_any_configuration_answers_is_asked_of_all) {
+  const EngineList engines = {engine("default", "fx32"), engine("default", "fx64"), engine("peer", "peer"),
+                              engine("far peer", "peer")};
+  const std::vector<std::vector<bool>> asked = {
+      {false, false, false, true}, {false, true, true, true}, {true, true, true, true}, {true, true, true, false}};
+  EXPECT_EQ(summary(rows_of(engines, k_four, asked, Part::all)), (Lines{"default 3", "peer 4"}));
+}
+
+TEST(judge, without_the_default_what_any_engine_answers_is_asked_of_all) {
+  const EngineList engines = {engine("polytopes", "fx64"), engine("peer", "peer")};
+  const std::vector<std::vector<bool>> asked = {{false, true, false, true}, {true, true, true, false}};
+  EXPECT_EQ(summary(rows_of(engines, k_four, asked, Part::all)), (Lines{}));
+  EXPECT_EQ(summary(rows_of(engines, k_four, asked, Part::rotating)), (Lines{"peer 2"}));
+  EXPECT_EQ(summary(rows_of({engines[0]}, k_four, {asked[0]}, Part::all)), (Lines{"polytopes 2"}));
 }
 
 }  // namespace detent_bench

@@ -26,7 +26,7 @@ constexpr int k_exit_usage = 2;
 constexpr const char* k_help =
     R"(Times this library's narrow phase and its peers on seeded sets of queries, side by side, and judges each answer
 by an oracle of higher precision. Gaps and errors are in units of size, the larger core extent of the pair.
-  queries    that the engine had an answer to
+  queries    of the set, or of the part of it, that the engine had an answer to
   hits       of those, in truth
   FN         hits called clear or undecided; deep: those of them that are deeper than 1e-3
   FP         hits or undecided where the truth stays farther off than 1e-6 and the ulps of position
@@ -36,8 +36,10 @@ by an oracle of higher precision. Gaps and errors are in units of size, the larg
   ns         of a query: the least of its repetitions, each right after a run that is not timed
   ratio      of the mean times and of their 99th percentiles, to btContinuousConvexCollision in double; where nothing
              turns to btSubsimplexConvexCast, of distances to btGjkPairDetector
-A set's queries are also shown by whether they turn (rotating) or not (linear). fx32 is asked, and judged, about
-positions rounded to its grid.)";
+A set's queries are also shown by whether they turn (rotating) or not (linear), and those of two polytopes (boxes, hulls,
+triangles, none rounded) apart from the others: not every method knows other shapes. An engine has a row only where it
+answers all that this library's default does, so that rows can be read side by side; of a run without the default, all
+that any engine does. fx32 is asked, and judged, about positions rounded to its grid.)";
 
 struct Options {
   Task task = Task::toi;
@@ -110,11 +112,10 @@ std::vector<Row> run_set(const detent_queries::Set& set, const Options& options,
   }
   forget_cooked();
 
-  std::vector<Row> rows = rows_of(findings, Part::all);
-  if (options.task == Task::toi) {
-    for (const Part part : {Part::rotating, Part::linear}) {
-      for (Row& row : rows_of(findings, part)) rows.push_back(std::move(row));
-    }
+  std::vector<Row> rows;
+  for (const Part part : k_parts) {
+    if (options.task == Task::distance && part != Part::all) continue;
+    for (Row& row : rows_of(findings, part)) rows.push_back(std::move(row));
   }
   return rows;
 }

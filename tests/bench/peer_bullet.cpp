@@ -4,6 +4,7 @@
 #include <BulletCollision/CollisionShapes/btConvexHullShape.h>
 #include <BulletCollision/CollisionShapes/btCylinderShape.h>
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
+#include <BulletCollision/CollisionShapes/btTriangleShape.h>
 #include <BulletCollision/NarrowPhaseCollision/btContinuousConvexCollision.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkConvexCast.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
@@ -81,6 +82,10 @@ std::unique_ptr<btConvexInternalShape> shape_of(const Solid& solid) {
       shape = std::move(hull);
       break;
     }
+    case Kind::triangle:
+      shape = std::make_unique<btTriangleShape>(vector_of(solid.points[0]), vector_of(solid.points[1]),
+                                                vector_of(solid.points[2]));
+      break;
     default:
       return nullptr;
   }

@@ -10,7 +10,8 @@
 #include "tests/bench/pose.h"
 
 /// FCL in double, with its own settings. Its round shapes lie along z: they are turned; its cone has another origin and
-/// is left out. A hull is given without faces, of which its distance needs none.
+/// is left out. A hull is given without faces, of which its distance needs none; so is a triangle, for
+/// conservative advancement knows no TriangleP.
 namespace {
 
 using namespace detent_bench;
@@ -38,7 +39,8 @@ Geometry geometry_of(const Solid& solid) {
     case Kind::cylinder:
       geometry = std::make_shared<fcl::Cylinderd>(solid.radius, 2 * solid.half_length);
       break;
-    case Kind::hull: {
+    case Kind::hull:
+    case Kind::triangle: {
       auto points = std::make_shared<std::vector<fcl::Vector3d>>();
       for (const Triple& point : solid.points) points->emplace_back(point[0], point[1], point[2]);
       geometry = std::make_shared<fcl::Convexd>(points, 0, std::make_shared<std::vector<int>>());

@@ -142,20 +142,27 @@ bool ask_shape(const Pair& pair, DistanceCache*, Answers& answers) {
 struct Question {
   const char* name;
   Ask ask;
-  bool caches;
+  bool caches = false;
+  bool polytopes = false;  ///< it has an answer to these alone: seven of eight pairs are such
 };
 constexpr Question k_questions[] = {
-    {"closest_points", ask_closest, true},
-    {"overlap", ask_overlap, true},
-    {"farther_than", ask_farther, true},
-    {"contact_points", ask_contact, true},
-    {"toi_paper", ask_toi<ToiMethod::paper>, false},
-    {"toi_first_order", ask_toi<ToiMethod::first_order>, false},
-    {"toi_second_order", ask_toi<ToiMethod::second_order>, false},
-    {"toi_corotating", ask_toi<ToiMethod::corotating>, false},
-    {"toi_constant_spin", ask_toi<ToiMethod::constant_spin>, false},
-    {"cast_ray", ask_ray, false},
-    {"cast_shape", ask_shape, false},
+    {.name = "closest_points", .ask = ask_closest, .caches = true},
+    {.name = "overlap", .ask = ask_overlap, .caches = true},
+    {.name = "farther_than", .ask = ask_farther, .caches = true},
+    {.name = "contact_points", .ask = ask_contact, .caches = true},
+    {"toi_paper", ask_toi<ToiMethod::paper>},
+    {"toi_first_order", ask_toi<ToiMethod::first_order>},
+    {"toi_second_order", ask_toi<ToiMethod::second_order>},
+    {"toi_corotating", ask_toi<ToiMethod::corotating>},
+    {"toi_world_space", ask_toi<ToiMethod::world_space>},
+    {"toi_constant_spin", ask_toi<ToiMethod::constant_spin>},
+    {"toi_mirtich", ask_toi<ToiMethod::mirtich>},
+    {"toi_baraff", ask_toi<ToiMethod::baraff>},
+    {.name = "toi_feature_pairs", .ask = ask_toi<ToiMethod::feature_pairs>, .polytopes = true},
+    {.name = "toi_redon", .ask = ask_toi<ToiMethod::redon>, .polytopes = true},
+    {.name = "toi_canny", .ask = ask_toi<ToiMethod::canny>, .polytopes = true},
+    {"cast_ray", ask_ray},
+    {"cast_shape", ask_shape},
 };
 
 /// What the next call of this depth finds on its stack.
@@ -176,7 +183,10 @@ Outcome ask_all(const Question& question, const Hulls& hulls, bool scribbles) {
   DistanceCache cache;  // each pair's is the last pair's: any content is safe
   Pair pair;
   for (uint32_t i = 0; i < k_pairs; ++i) {
-    make_pair(random, hulls, pair);
+    if (question.polytopes && i % 8 != 0)
+      make_polytopes(random, hulls, pair);
+    else
+      make_pair(random, hulls, pair);
     if (scribbles) scribble(static_cast<uint32_t>(noise.bits()));
     met += question.ask(pair, nullptr, answers) ? 1u : 0u;
     if (!question.caches) continue;

@@ -57,17 +57,29 @@ Quat draw_rotation(Random& random) {
 /// 2^-10 of the pair's scale to 1, mostly more than 1/16; seldom far less than a core's other sizes.
 int32_t draw_size(Random& random) { return random.one_in(12) ? 2 + random.below(15) : 64 + random.below(960); }
 
+/// What a pair is drawn of, and whether some are rounded.
+struct Kinds {
+  ShapeType types[8];
+  int32_t count;
+  bool rounds;
+};
+constexpr Kinds k_all = {{ShapeType::sphere, ShapeType::capsule, ShapeType::box, ShapeType::half_space,
+                          ShapeType::cylinder, ShapeType::cone, ShapeType::hull, ShapeType::triangle},
+                         8,
+                         true};
+constexpr Kinds k_polytopes = {{ShapeType::box, ShapeType::hull, ShapeType::triangle}, 3, false};
+
 /// `extent`: how far the shape reaches along its x, in 2^-`shift` m, where that is known.
-Convex draw_convex(Random& random, ShapeType type, int shift, const Hulls& hulls, int32_t& extent) {
+Convex draw_convex(Random& random, ShapeType type, bool rounds, int shift, const Hulls& hulls, int32_t& extent) {
   Convex convex;
   extent = 0;
   if (type == ShapeType::hull) {
     const int32_t index = random.below(Hulls::k_count);
-    return random.one_in(2) ? hulls.sharp[index] : hulls.round[index];
+    return rounds && !random.one_in(2) ? hulls.round[index] : hulls.sharp[index];
   }
   Status status = Status::ok;
   do {
-    const int32_t rounding = random.one_in(2) ? 16 + random.below(112) : 0;
+    const int32_t rounding = rounds && random.one_in(2) ? 16 + random.below(112) : 0;
     if (type == ShapeType::triangle) {
       Vec3<Real> corners[3];
       for (Vec3<Real>& corner : corners) corner = exact<Real>(within(random, 1023), shift);
@@ -121,15 +133,16 @@ void make_hulls(Hulls& hulls) {
   }
 }
 
-void make_pair(Random& random, const Hulls& hulls, Pair& pair) {
-  constexpr int32_t k_types = 8;
-  const ShapeType type_a = static_cast<ShapeType>(1 + random.below(k_types));
-  const ShapeType type_b = static_cast<ShapeType>(1 + random.below(k_types));
+namespace {
+
+void make_pair_of(const Kinds& kinds, Random& random, const Hulls& hulls, Pair& pair) {
+  const ShapeType type_a = kinds.types[random.below(kinds.count)];
+  const ShapeType type_b = kinds.types[random.below(kinds.count)];
   const bool scales = type_a != ShapeType::hull && type_b != ShapeType::hull;
   const int shift = scales ? 6 + random.below(9) : 10;
   int32_t extent_a, extent_b;
-  pair.a = draw_convex(random, type_a, shift, hulls, extent_a);
-  pair.b = draw_convex(random, type_b, shift, hulls, extent_b);
+  pair.a = draw_convex(random, type_a, kinds.rounds, shift, hulls, extent_a);
+  pair.b = draw_convex(random, type_b, kinds.rounds, shift, hulls, extent_b);
 
   Pose& pose_a = pair.motion_a.start;
   Pose& pose_b = pair.motion_b.start;
@@ -156,5 +169,11 @@ void make_pair(Random& random, const Hulls& hulls, Pair& pair) {
   pair.motion_b.turn = draw_turn(random);
   pair.reach = Exact<Real>::of(random.below(1 << 10), shift);
 }
+
+}  // namespace
+
+void make_pair(Random& random, const Hulls& hulls, Pair& pair) { make_pair_of(k_all, random, hulls, pair); }
+
+void make_polytopes(Random& random, const Hulls& hulls, Pair& pair) { make_pair_of(k_polytopes, random, hulls, pair); }
 
 }  // namespace detent_lockstep

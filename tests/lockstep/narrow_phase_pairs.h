@@ -41,5 +41,7 @@ struct Pair {
 };
 /// All types, rounded and not, in all rotations or along the axes; some exactly touching, some far from the origin.
 void make_pair(Random& random, const Hulls& hulls, Pair& pair);
+/// Likewise, boxes, hulls and triangles alone, none rounded.
+void make_polytopes(Random& random, const Hulls& hulls, Pair& pair);
 
 }  // namespace detent_lockstep

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "tests/queries/aim.h"
 #include "tests/queries/gap.h"
 #include "tests/queries/place.h"
 #include "tests/queries/solids.h"
@@ -221,6 +222,29 @@ Query degenerate_of(Random& random, bool round) {
 Query degenerate(Random& random, uint32_t, const Sources&) { return degenerate_of(random, false); }
 Query degenerate_round(Random& random, uint32_t, const Sources&) { return degenerate_of(random, true); }
 
+/// Set 11. Half of the triangles are at rest, as those of a mesh, and half of them slivers.
+Query triangles(Random& random, uint32_t index, const Sources&) {
+  const auto one = [&] {
+    const double side = random.uniform(k_extent_min, k_extent_max);
+    const double aspect = random.chance(0.5) ? random.log_uniform(0.01, 0.1) : random.uniform(0.1, 0.85);
+    return triangle(random, side, side * aspect);
+  };
+  static const std::vector<Drawn> boxes = {Drawn::box}, hulls = {Drawn::ellipsoid, Drawn::prism};
+  const Solid a = one();
+  const uint32_t partner = index / 2 % 3;
+  const Solid b = partner == 0 ? one() : draw(random, partner == 1 ? boxes : hulls, k_extent_min, k_extent_max);
+  Query query = at_one_place(random, a, b, 1);
+  const bool rests = random.chance(0.5), edges = random.chance(0.5);
+  if (turning(index)) spin(random, query, 0.05, 1);
+  if (rests) query.path_a.turn = {};
+  const Triple way = aim_at_feature(random, query, edges, {}).way;
+  if (rests)
+    query.path_b.displacement = to_float(way);
+  else
+    share_motion(random, query, way, 0.5);
+  return query;
+}
+
 Query game(Random& random, uint32_t index, const Sources& sources) {
   const auto one = [&]() -> const Solid& {
     return sources.game_hulls[random.below(static_cast<uint32_t>(sources.game_hulls.size()))];
@@ -254,6 +278,8 @@ const std::vector<Set>& all_sets() {
       {"9", "as 3, all turn by 3.2 to 12 rad", true, fast_rods},
       {"10", "at rest: parallel boxes, prisms, flat and needle hulls, capsules, gaps 1e-6 to 1", false, degenerate},
       {"10c", "as 10, with cylinders", false, degenerate_round},
+      {"11", "triangles, slivers too, at triangles, boxes and hulls: a vertex at a face or an edge at an edge", true,
+       triangles},
       {"game", "as 1, pairs of real game hulls", true, game},
   };
   return sets;

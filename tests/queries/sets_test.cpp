@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "tests/oracle/convex_solid.h"
+#include "tests/queries/aim.h"
 #include "tests/queries/gap.h"
 #include "tests/queries/solids.h"
 
@@ -55,6 +59,17 @@ bool same(const Path& a, const Path& b) {
 }
 bool same(const Query& a, const Query& b) {
   return same(a.a, b.a) && same(a.b, b.b) && same(a.path_a, b.path_a) && same(a.path_b, b.path_b);
+}
+
+bool is_at_bounds(const Solid& box, const Triple& point, size_t axis) {
+  return fabs(fabs(point[axis]) - box.half_extents[axis]) < 1e-12;
+}
+
+/// Of how many corners the feature of a box is on which the point lies: 1 a vertex, 2 an edge, 3 a face, 4 none.
+uint32_t corners_at(const Solid& box, const Triple& point) {
+  uint32_t corners = 4;
+  for (size_t axis = 0; axis < 3; ++axis) corners -= is_at_bounds(box, point, axis) ? 1u : 0u;
+  return corners;
 }
 
 double approach_of(const Query& query) { return closest_approach(query).gap / size_of(query); }
@@ -154,6 +169,75 @@ TEST(sets, near_queries_start_as_near_as_stated) {
     EXPECT_GT(gap_at(query, 0), 0.9e-6);
     EXPECT_LT(gap_at(query, 0), 1.1e-4);
   }
+}
+
+TEST(sets, triangles_meet_triangles_boxes_and_hulls_and_half_are_slivers) {
+  uint32_t partners[3] = {}, slivers = 0, rest = 0;
+  double thinnest = 1;
+  const std::vector<Query> queries = make_queries(*find_set("11"), k_seed, 8 * k_count, {});
+  for (const Query& query : queries) {
+    ASSERT_EQ(query.a.kind, Kind::triangle);
+    EXPECT_TRUE(is_polytope(query.b));
+    ++partners[query.b.kind == Kind::triangle ? 0 : query.b.kind == Kind::box ? 1 : 2];
+    const std::vector<Triple>& corner = query.a.points;
+    double side = 0;
+    for (size_t i = 0; i < 3; ++i) side = std::max(side, length(corner[i] - corner[(i + 1) % 3]));
+    EXPECT_GE(side, 0.1 - 1e-6);
+    EXPECT_LE(side, 1.2 + 1e-6);
+    const double aspect = length(cross(corner[1] - corner[0], corner[2] - corner[0])) / (side * side);
+    thinnest = std::min(thinnest, aspect);
+    slivers += aspect < 0.1 ? 1u : 0u;
+    rest += length(query.path_a.displacement) + length(query.path_a.turn) == 0 ? 1u : 0u;
+  }
+  for (const uint32_t count : partners) EXPECT_EQ(count, 8 * k_count / 3);
+  EXPECT_GT(thinnest, 0.0099);
+  EXPECT_LT(thinnest, 0.02);
+  for (const uint32_t count : {slivers, rest}) {
+    EXPECT_GT(count, 3 * k_count);
+    EXPECT_LT(count, 5 * k_count);
+  }
+}
+
+TEST(sets, a_point_that_faces_a_direction_lies_on_a_vertex_an_edge_or_a_face) {
+  Random random(k_seed);
+  const Solid solid = box({0.5, 1, 2});
+  for (uint32_t i = 0; i < 300; ++i) {
+    const Triple direction = random.direction();
+    const uint32_t corners = 1 + i % 3;
+    const Triple point = point_facing(random, solid, direction, corners);
+    EXPECT_EQ(corners_at(solid, point), corners);
+    double facing = -INFINITY;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      if (is_at_bounds(solid, point, axis)) facing = std::max(facing, point[axis] * direction[axis]);
+    }
+    EXPECT_GT(facing, 0);
+  }
+}
+
+TEST(sets, features_that_are_aimed_at_each_other_meet_or_pass_as_stated) {
+  Random random(k_seed);
+  uint32_t meet = 0;
+  for (uint32_t i = 0; i < 200; ++i) {
+    const Solid a = box({0.5, 1, 2}), b = box({1, 0.25, 0.75});
+    Query query = at_one_place(random, a, b, 1);
+    spin(random, query, 0.05, 1);
+    const bool edges = i % 2 == 0;
+    const Meeting meeting = aim_at_feature(random, query, edges, {});
+    EXPECT_GT(gap_at(query, 0), 0);
+    const uint32_t corners_a = corners_at(query.a, meeting.point_a), corners_b = corners_at(query.b, meeting.point_b);
+    EXPECT_EQ(corners_a == 2, edges);
+    EXPECT_EQ(corners_a + corners_b, 4u);
+
+    query.path_b.displacement = meeting.way;
+    const detent_oracle::Placement placement = placement_at(detent_oracle::encounter_of(query), meeting.time);
+    const auto arrow = [](const Triple& v) { return detent_oracle::Arrow{v[0], v[1], v[2]}; };
+    const detent_oracle::Arrow at_a = to_world(placement.a, arrow(meeting.point_a));
+    const detent_oracle::Arrow at_b = placement.offset + to_world(placement.b, arrow(meeting.point_b));
+    EXPECT_NEAR(static_cast<double>(detent_oracle::length(at_b - at_a)), meeting.beside, 1e-12);
+    meet += meeting.beside == 0 ? 1u : 0u;
+  }
+  EXPECT_GT(meet, 60u);
+  EXPECT_LT(meet, 140u);
 }
 
 TEST(sets, far_queries_are_far) {

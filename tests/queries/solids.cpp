@@ -57,6 +57,20 @@ double size_of(const Query& query) {
   return 2 * (core != 0 ? core : std::max(bound_of(query.a), bound_of(query.b)));
 }
 
+bool is_polytope(const Solid& solid) {
+  return solid.rounding == 0 && (solid.kind == Kind::box || solid.kind == Kind::hull || solid.kind == Kind::triangle);
+}
+
+std::vector<Triple> vertices_of(const Solid& solid) {
+  if (solid.kind != Kind::box) return solid.points;
+  const Triple& half = solid.half_extents;
+  std::vector<Triple> vertices;
+  for (int i = 0; i < 8; ++i)
+    vertices.push_back(
+        {(i & 1) != 0 ? half[0] : -half[0], (i & 2) != 0 ? half[1] : -half[1], (i & 4) != 0 ? half[2] : -half[2]});
+  return vertices;
+}
+
 Solid rounded(Solid solid, double rounding) {
   solid.rounding = to_float(rounding);
   return solid;
@@ -100,6 +114,17 @@ Solid ellipsoid_hull(Random& random, const Triple& semi_axes, uint32_t count) {
     points.push_back({semi_axes[0] * r * cos(angle), semi_axes[1] * y, semi_axes[2] * r * sin(angle)});
   }
   return hull_of(std::move(points));
+}
+
+Solid triangle(Random& random, double side, double height) {
+  // The apex is where neither of the other sides is the longer.
+  const double reach = sqrt(side * side - height * height);
+  const double apex = random.uniform(side - reach, reach);
+  Solid solid = of_kind(Kind::triangle);
+  const Triple centroid = {(side + apex) / 3, height / 3, 0};
+  for (const Triple& corner : {Triple{0, 0, 0}, Triple{side, 0, 0}, Triple{apex, height, 0}})
+    solid.points.push_back(to_float(corner - centroid));
+  return solid;
 }
 
 Solid prism(double radius, double half_length, uint32_t sides, double flat) {

@@ -18,6 +18,11 @@ double core_bound_of(const Solid& solid);
 /// The larger of the two core extents, m; of two spheres the larger diameter.
 double size_of(const Query& query);
 
+/// A box, a hull or a triangle that no ball rounds.
+bool is_polytope(const Solid& solid);
+/// The vertices of a polytope, m.
+std::vector<Triple> vertices_of(const Solid& solid);
+
 /// Grown by a ball. For a solid that is not a sphere or capsule.
 Solid rounded(Solid solid, double rounding);
 
@@ -28,6 +33,8 @@ Solid cylinder(double radius, double half_length);
 Solid cone(double radius, double half_length);
 /// `count` points spread on an ellipsoid.
 Solid ellipsoid_hull(Random& random, const Triple& semi_axes, uint32_t count);
+/// In the plane z = 0, about its centroid. `side` is the longest, `height` is over it: at most sqrt(3)/2 of it.
+Solid triangle(Random& random, double side, double height);
 /// Along y, its sides' corners on a circle (scaled by `flat` in z).
 Solid prism(double radius, double half_length, uint32_t sides, double flat = 1);
 

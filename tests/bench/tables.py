@@ -1,0 +1,167 @@
+#!/usr/bin/env python3
+"""The tables of docs that show the rows of docs/bench/toi.json and distance.json.
+
+usage: tables.py [--write] [ROOT]
+
+Compares them, or writes them anew. A table begins after a line <!-- tables.py NAME --> and ends at the next empty line; what has
+no row is -. Exit code 0 only if all tables are those of the rows, or were written.
+"""
+import json
+import re
+import sys
+from pathlib import Path
+
+PAGES = ["docs/bench/README.md", "docs/toi_methods.md"]
+MARK = re.compile(r"<!-- tables\.py (\w+) -->\n\n(.*?\n)\n", re.DOTALL)
+
+BULLET_TURNING, BULLET_LINEAR = "btContinuousConvexCollision", "btSubsimplexConvexCast"
+TOI_SETS = [
+    ("1 mixed, turning", "1 rotating"), ("1 mixed, linear", "1 linear"), ("2 paper, linear", "2"),
+    ("3 rods, 0.5 to 3 rad", "3"), ("4 grazing, turning", "4 rotating"), ("4 grazing, linear", "4 linear"),
+    ("5 at 1 and 10 km, turning", "5 rotating"), ("6 of 1 mm, 100 m, 1:1000, turning", "6 rotating"),
+    ("7 starting close, turning", "7 rotating"), ("8 hulls, turning", "8 rotating"), ("8 hulls, linear", "8 linear"),
+    ("9 rods, 3.2 to 12 rad", "9"), ("11 triangles, turning", "11 rotating"), ("11 triangles, linear", "11 linear"),
+    ("game hulls, turning", "game rotating"), ("1c with cylinders and cones, turning", "1c rotating"),
+    ("3c rods, cylinders and cones", "3c"),
+]
+METHODS = ["paper", "first_order", "second_order", "corotating", "world_space", "constant_spin", "mirtich", "baraff",
+           "feature_pairs", "redon", "canny"]
+POLYTOPE_SETS = [
+    ("1 turning", "1 rotating polytopes"), ("1 linear", "1 linear polytopes"), ("3", "3 rotating polytopes"),
+    ("9", "9 rotating polytopes"), ("8 turning", "8 rotating"), ("8 linear", "8 linear"), ("11 turning", "11 rotating"),
+    ("11 linear", "11 linear"),
+]
+
+
+def number(value):
+    return f"{value:.2f}" if value < 10 else f"{value:.1f}"
+
+
+def micro(row):
+    return ", ".join(number(row[key] / 1000) for key in ("ns_mean", "ns_p99", "ns_max"))
+
+
+def small(value):
+    return "0" if value == 0 else f"{value:.1e}"
+
+
+def worst(row):
+    return small(max(row["early_max"], row["late_max"]))
+
+
+def table(head, lines):
+    shown = ["| " + " | ".join(line) + " |" for line in [head] + lines]
+    return "\n".join([shown[0], "|" + "---|" * len(head)] + shown[1:]) + "\n"
+
+
+class Rows:
+    def __init__(self, path):
+        self.rows = {(row["set"], row["method"], row["config"]): row for row in json.loads(path.read_text())}
+
+    def get(self, of_set, method, config="fx64"):
+        return self.rows.get((of_set, method, config))
+
+
+def toi(rows):
+    head = ["set", "hits", "Detent `fx64`, us: mean, p99, max", "GJK calls: mean, max", "missed, false, late", "early, of size",
+            "Bullet (double): us", "missed, false", "early", "ratio: mean, p99"]
+    lines = []
+    for name, of_set in TOI_SETS:
+        own = rows.get(of_set, "default")
+        turns = rows.get(of_set, BULLET_LINEAR, "bullet-double") is None
+        bullet = rows.get(of_set, BULLET_TURNING if turns else BULLET_LINEAR, "bullet-double")
+        if own is None or bullet is None:
+            continue
+        lines.append([name, str(own["hits"]), micro(own), f'{own["gjk_mean"]:.2f}, {own["gjk_max"]:.0f}',
+                      f'{own["fn"]}, {own["fp"]}, {small(own["late_max"])}', small(own["early_max"]),
+                      number(bullet["ns_mean"] / 1000), f'{bullet["fn"]}, {bullet["fp"]}', small(bullet["early_max"]),
+                      ", ".join(f"{own[key] / bullet[key]:.2f}" for key in ("ns_mean", "ns_p99"))])
+    return table(head, lines)
+
+
+def methods(rows):
+    """Of every shape, on the rods."""
+    lines = []
+    for method in METHODS:
+        pair = [rows.get(of_set, method) for of_set in ("3", "9")]
+        if None not in pair:
+            lines.append([f"`{method}`", ", ".join(f'{row["gjk_mean"]:.1f}' for row in pair),
+                          ", ".join(number(row["ns_mean"] / 1000) for row in pair), ", ".join(str(row["fn"]) for row in pair)])
+    return table(["method, set 3 and 9", "GJK calls", "us", "missed"], lines)
+
+
+def by_polytopes(rows, cell):
+    lines = [[f"`{method}`"] + [cell(row) if row else "-" for row in (rows.get(of_set, method) for _, of_set in POLYTOPE_SETS)]
+             for method in METHODS]
+    return table(["method"] + [name for name, _ in POLYTOPE_SETS], lines)
+
+
+def methods_time(rows):
+    return by_polytopes(rows, lambda row: ", ".join(number(row[key] / 1000) for key in ("ns_mean", "ns_p99")))
+
+
+def methods_wrong(rows):
+    def cell(row):
+        wrong = [row["fn"], row["fp"]]
+        return f'{wrong[0]}, {wrong[1]}, {small(row["late_max"])}' if any(wrong) or row["late_max"] else "0"
+    return by_polytopes(rows, cell)
+
+
+def methods_early(rows):
+    return by_polytopes(rows, lambda row: small(row["early_max"]))
+
+
+def distance(rows):
+    lines = []
+    for of_set in ("1", "6", "7", "8", "10", "game"):
+        own, bullet = rows.get(of_set, "closest_points"), rows.get(of_set, "btGjkPairDetector", "bullet-double")
+        if own and bullet:
+            lines.append([of_set, ", ".join(f"{own[key]:.0f}" for key in ("ns_mean", "ns_p99", "ns_max")), small(own["error_max"]),
+                          f'{bullet["ns_mean"]:.0f}', small(bullet["error_max"]), f'{own["ns_mean"] / bullet["ns_mean"]:.2f}'])
+    return table(["set", "Detent `fx64`, ns: mean, p99, max", "error, of size", "Bullet (double), ns", "error", "ratio"], lines)
+
+
+TABLES = {make.__name__: (make, source) for make, source in
+          [(toi, "toi"), (methods, "toi"), (methods_time, "toi"), (methods_wrong, "toi"), (methods_early, "toi"),
+           (distance, "distance")]}
+
+
+def main():
+    arguments = sys.argv[1:]
+    write = "--write" in arguments
+    if write:
+        arguments.remove("--write")
+    if len(arguments) > 1 or any(argument.startswith("-") for argument in arguments):
+        sys.exit(__doc__)
+    root = Path(arguments[0]) if arguments else Path(__file__).parents[2]
+    rows = {name: Rows(root / "docs/bench" / f"{name}.json") for name in ("toi", "distance")}
+    count, faults = 0, []
+    for page in PAGES:
+        path = root / page
+        text = path.read_text() if path.exists() else ""
+
+        def renewed(match):
+            nonlocal count
+            make, source = TABLES[match[1]]
+            made = make(rows[source])
+            count += 1
+            if made != match[2]:
+                shown = set(match[2].splitlines())
+                missing = [line for line in made.splitlines() if line not in shown]
+                faults.append(f"{page}, {match[1]}: the rows say\n" + "\n".join(missing))
+            return f"<!-- tables.py {match[1]} -->\n\n{made}\n"
+
+        new = MARK.sub(renewed, text)
+        if len(MARK.findall(text)) != text.count("<!-- tables.py"):
+            faults.append(f"{page}: a table has no empty line before or after it, or no line")
+        if write and new != text:
+            path.write_text(new)
+    print(f"{count} tables, {len(faults)} stale")
+    if write:
+        return
+    if faults or count == 0:
+        sys.exit("\n".join(faults + ["tests/bench/tables.py --write writes them anew"]))
+
+
+if __name__ == "__main__":
+    main()
