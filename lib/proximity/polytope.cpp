@@ -64,8 +64,9 @@ EdgeFaces Polytope::faces(uint32_t from, uint32_t to) const {
   const Vec32 start = vertex(from), end = vertex(to);
   const HullIndices near = neighbours(from), far = neighbours(to);
   EdgeFaces faces = {{0, 0, 0}, {0, 0, 0}, false};
-  // The corners of the two triangles are neighbours of both ends; of those the ones that no other lies above.
-  uint32_t left = from, right = from;
+  // The corners of the two triangles are neighbours of both ends; of those the ones that no other lies above. About the
+  // edge all lie within half a turn, and so in an order; at the ends of a whole half it is flat.
+  bool first = true;
   for (uint32_t i = 0, j = 0; i < near.count && j < far.count;) {
     const uint32_t common = near.index[i];
     if (common != far.index[j]) {
@@ -75,16 +76,12 @@ EdgeFaces Polytope::faces(uint32_t from, uint32_t to) const {
     ++i;
     ++j;
     const Vec32 corner = vertex(common), way = subtract(corner, start);
-    if (left == from || sign_of(dot(faces.left, way)) > 0) {
-      left = common;
-      faces.left = across(start, end, corner);
-    }
-    if (right == from || sign_of(dot(faces.right, way)) > 0) {
-      right = common;
-      faces.right = across(start, corner, end);
-    }
+    const int above = first ? 1 : sign_of(dot(faces.left, way));
+    if (above > 0) faces.left = across(start, end, corner);
+    if (above == 0) faces.flat = faces.flat || sign_of(dot(faces.left, across(start, end, corner))) < 0;
+    if (first || sign_of(dot(faces.right, way)) > 0) faces.right = across(start, corner, end);
+    first = false;
   }
-  faces.flat = left != right && sign_of(dot(faces.left, subtract(vertex(right), start))) == 0;
   return faces;
 }
 
