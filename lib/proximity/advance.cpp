@@ -290,5 +290,12 @@ int32_t advance_once(const MovingPair& pair, const Frames& frames, const Horizon
   return static_cast<int32_t>((room << 30) / approach);
 }
 
+int64_t separation_along(const MovingPair& pair, const Frames& frames, const Vec32& normal, int32_t floor) {
+  const Horizon moment = {frames.time, 0, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+  Separation separation(pair, moment, normal, {0, 0, 0}, floor);
+  separation.start(frames, normal);
+  return separation.at(0).separation;
+}
+
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -43,6 +43,10 @@ inline constexpr int k_horizons_max = 8;
 int32_t advance_once(const MovingPair& pair, const Frames& frames, const Horizon& horizon, const Vec32& normal,
                      bool tight, int32_t floor, uint32_t& passes);
 
+/// How far apart the cores are along `normal`, less `floor` ulps; Q56 of the pair's unit. Too large by no more than the
+/// rounding budget (DESIGN.md), and negative where they overlap along it.
+int64_t separation_along(const MovingPair& pair, const Frames& frames, const Vec32& normal, int32_t floor);
+
 /// An axis that turns by `spin`, Q29, over a horizon.
 class TurningAxis {
  public:

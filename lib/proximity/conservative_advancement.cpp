@@ -1,8 +1,7 @@
 #include "proximity/conservative_advancement.h"
 
+#include "proximity/axis_by_axis.h"
 #include "proximity/features.h"
-#include "proximity/gjk.h"
-#include "proximity/pair.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -13,16 +12,6 @@ constexpr int k_turn_quarters = 8;  ///< a horizon of 2 rad: the formats of adva
 
 /// An axis is foreseen only where the plain ones have not led there.
 constexpr int k_plain_iterations = 1;
-
-Vec3<Real> point_on_a(const MovingPair& pair, const Placed& a, const Placed& b, const Simplex& simplex,
-                      const GjkResult& nearest, int64_t time) {
-  const NearestPoints points = nearest_points(a, b, simplex);
-  if (pair.a->type != ShapeType::half_space) {
-    return surface_point(points.on_a, pair.exponent, nearest.normal, pair.radius_a);
-  }
-  const Vec64 offset = add(pair.offset_whole, over_time(pair.displacement_whole, time));
-  return half_space_point(offset, points.on_b, pair.exponent, nearest.normal, nearest.upper);
-}
 
 /// How far the axis of `nearest` is certain to lead.
 int64_t next_time(const MovingPair& pair, ToiMethod method, const Frames& frames, const Simplex& simplex,
@@ -57,44 +46,13 @@ int64_t next_time(const MovingPair& pair, ToiMethod method, const Frames& frames
 }  // namespace
 
 void conservative_advancement(const MovingPair& pair, ToiMethod method, TimeOfImpact& result) {
-  result = {};
-  if (pair.from > pair.to) {
-    result.outcome = ToiOutcome::clear;
-    result.time = Fraction(1.0);
-    return;
-  }
-  const int32_t touching = pair.radius + pair.tolerance;
-  const int32_t floor = pair.radius + pair.tolerance / 4;
-  int64_t time = pair.from;
   int64_t progress = k_time_end;  // of the last foreseen axis
-  Simplex simplex;
   const int iterations_max = method >= ToiMethod::world_space ? k_toi_iterations_max : k_toi_iterations_compared_max;
-  for (int iteration = 0; iteration < iterations_max; ++iteration) {
-    const Frames frames = pair.at(time);
-    const Placed a = place(*pair.a, frames.a, pair.exponent), b = place(*pair.b, frames.b, pair.exponent);
-    const GjkResult nearest = gjk(a, b, frames.offset, simplex, {});
-    result.time = Fraction::from_raw(time);
-    const bool meet = nearest.outcome == GjkOutcome::overlap, hit = meet || nearest.upper <= touching;
-    result.gjk_calls += nearest.iterations > (hit && iteration > 0 ? 1 : 0) ? 1 : 0;  // one may but confirm the hit
-    result.normal = units_from_raw(meet ? Vec32{0, 0, 0} : nearest.normal);
-    if (hit) {
-      result.outcome = ToiOutcome::hit;
-      result.point = point_on_a(pair, a, b, simplex, nearest, time);
-      return;
-    }
-    const int64_t next = next_time(pair, method, frames, simplex, nearest, iteration, floor, progress, result);
-    if (next >= pair.to) {
-      result.outcome = ToiOutcome::clear;
-      result.time = Fraction(1.0);
-      return;
-    }
-    // On a rim the supports have no end: where the cap left too coarse an axis, the next round goes on from its
-    // simplex.
-    if (next == time && nearest.outcome != GjkOutcome::capped) break;
-    time = next;
-    result.time = Fraction::from_raw(time);
-  }
-  result.outcome = ToiOutcome::undecided;
+  advance_by_axes(
+      pair, iterations_max, result,
+      [&](const Frames& frames, const Simplex& simplex, const GjkResult& nearest, int iteration, int32_t floor) {
+        return next_time(pair, method, frames, simplex, nearest, iteration, floor, progress, result);
+      });
 }
 
 Status time_of_impact_on_axes(ToiMethod method, const Convex& a, const Motion& motion_a, const Convex& b,

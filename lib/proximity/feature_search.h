@@ -82,15 +82,14 @@ constexpr OpenPart both(const OpenPart& a, const OpenPart& b) {
 /// The first contact, by intervals of time from the left to the right: what is certain to be clear is cut off, what is
 /// left is halved until nothing is left or the features are near where it begins. `Path` has span(from, to), a
 /// FeatureSpan, and roots(from, to) if it knows better than its chords where the corners are coplanar.
+struct Interval {
+  int64_t from, to;
+};
 template <class Path>
-void search(const Path& path, int64_t gap, FeatureToi& result) {
-  struct Interval {
-    int64_t from, to;
-  };
+void search(const Path& path, int64_t gap, FeatureToi& result, Interval now = {0, k_time_end}) {
   // Each halves what the one before it leaves: no more than the bits of a time wait at once.
   Interval waiting[k_time_bits + 1];
   int count = 0;
-  Interval now = {0, k_time_end};
   result = {};
   for (;;) {
     result.time = Fraction::from_raw(now.from);

@@ -127,6 +127,14 @@ Vec32 NearFeatures::base_spin(const Horizon& horizon) const {
   return {0, 0, 0};
 }
 
+bool axis_between(const MovingPair& pair, const NearFeatures& features, const Frames& frames, const Vec32& towards,
+                  int& side, Vec32& normal) {
+  Axis axis;
+  if (!PlacedFeatures(pair, features, frames).axis(towards, side, axis)) return false;
+  normal = axis.normal;
+  return true;
+}
+
 int64_t advance_tracking(const MovingPair& pair, const Frames& frames, const Simplex& simplex,
                          const NearFeatures& features, const GjkResult& nearest, int32_t floor, int64_t& progress,
                          TimeOfImpact& result) {

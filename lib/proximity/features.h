@@ -21,6 +21,11 @@ struct NearFeatures {
   Vec32 base_spin(const Horizon& horizon) const;
 };
 
+/// The axis between the features, `frames` being where they are, Q30. False if they touch, or are parallel edges. Of
+/// two edges the one on the side `side` of `towards`, -1 or 1; 0 to find out which.
+bool axis_between(const MovingPair& pair, const NearFeatures& features, const Frames& frames, const Vec32& towards,
+                  int& side, Vec32& normal);
+
 /// Like advance(), with a spin foreseen from where the features will be: right at contact too, for edges and vertices.
 /// Returns how far it is certain that the cores stay `floor` apart, as a time. Counts passes and calls of gjk().
 /// `progress`: of the last call, renewed; what it led to is what the next one may hope for.

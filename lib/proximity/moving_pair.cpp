@@ -90,12 +90,12 @@ int64_t time_quotient(int64_t numerator, int64_t denominator) {
       divide_128_by_64({n >> (64 - k_time_bits), n << k_time_bits}, static_cast<uint64_t>(denominator), remainder));
 }
 
-Matrix32 Turning::at(int64_t time) const {
-  if (!turns) return start_matrix;
+Quat32 Turning::rotation_at(int64_t time) const {
+  if (!turns) return start;
   const SineCosineRaw half = sine_cosine_raw(over_time(rate, time) >> 13);
   const int64_t s = half.sine;
   const Quat32 turned = {round_30(s * axis.x), round_30(s * axis.y), round_30(s * axis.z), half.cosine};
-  return matrix_from(multiply(turned, start));
+  return multiply(turned, start);
 }
 
 Status prepare(const Convex& a, const Motion& motion_a, const Convex& b, const Motion& motion_b, MovingPair& pair) {

@@ -34,7 +34,8 @@ struct Turning {
   int64_t angle;  ///< |turn|, rounded up
 
   /// Error: k_turning_error for a unit vector.
-  Matrix32 at(int64_t time) const;
+  Matrix32 at(int64_t time) const { return turns ? matrix_from(rotation_at(time)) : start_matrix; }
+  Quat32 rotation_at(int64_t time) const;
 };
 inline constexpr double k_turning_error = 16.0;  ///< 2^-30 (tests/proximity)
 

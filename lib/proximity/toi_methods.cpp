@@ -1,9 +1,28 @@
 #include "proximity/toi_methods.h"
 
+#include "proximity/ballistic.h"
+#include "proximity/canny.h"
 #include "proximity/conservative_advancement.h"
+#include "proximity/feature_pairs.h"
+#include "proximity/redon.h"
+#include "proximity/witness_axis.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
+
+namespace {
+
+using PreparedMethod = void (*)(const MovingPair&, TimeOfImpact&);
+
+Status time_of_impact_of(PreparedMethod method, const Convex& a, const Motion& motion_a, const Convex& b,
+                         const Motion& motion_b, TimeOfImpact& result) {
+  MovingPair pair;
+  if (const Status status = prepare(a, motion_a, b, motion_b, pair); status != Status::ok) return status;
+  method(pair, result);
+  return Status::ok;
+}
+
+}  // namespace
 
 Status time_of_impact_by(ToiMethod method, const Convex& a, const Motion& motion_a, const Convex& b,
                          const Motion& motion_b, TimeOfImpact& result) {
@@ -16,10 +35,15 @@ Status time_of_impact_by(ToiMethod method, const Convex& a, const Motion& motion
     case ToiMethod::constant_spin:
       return time_of_impact_on_axes(method, a, motion_a, b, motion_b, result);
     case ToiMethod::mirtich:
+      return time_of_impact_of(ballistic_advancement, a, motion_a, b, motion_b, result);
     case ToiMethod::baraff:
+      return time_of_impact_of(witness_axes, a, motion_a, b, motion_b, result);
     case ToiMethod::feature_pairs:
+      return time_of_impact_by_features(a, motion_a, b, motion_b, result);
     case ToiMethod::redon:
+      return time_of_impact_by_redon(a, motion_a, b, motion_b, result);
     case ToiMethod::canny:
+      return time_of_impact_by_canny(a, motion_a, b, motion_b, result);
     default:
       return Status::bad_argument;
   }

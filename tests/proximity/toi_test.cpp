@@ -1,99 +1,15 @@
-#include <detent/distance.h>
-#include <detent/toi.h>
 #include <string.h>
 
+#include "proximity/advance.h"
 #include "proximity/conservative_advancement.h"
-#include "proximity/toi_methods.h"
 #include "tests/oracle/effort.h"
-#include "tests/proximity/closed_form.h"
+#include "tests/proximity/encounter.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
 using detent_oracle::rounds;
-
-const double k_pi = acos(-1.0);
-const Quaternion k_upright = {0, 0, 0, 1};
-
-/// Two shapes in motion, as held.
-struct Encounter {
-  KnownShape a, b;
-  BodyAt body_a, body_b;
-
-  Encounter(const KnownShape& shape_a, const BodyAt& start_a, const KnownShape& shape_b, const BodyAt& start_b)
-      : a(shape_a), b(shape_b), body_a(held(start_a)), body_b(held(start_b)) {}
-  Encounter swapped() const { return {b, body_b, a, body_a}; }
-
-  TimeOfImpact impact() const {
-    TimeOfImpact result;
-    EXPECT_OK(time_of_impact(a.convex, motion_of(body_a), b.convex, motion_of(body_b), result));
-    return result;
-  }
-  TimeOfImpact impact_by(ToiMethod method) const {
-    TimeOfImpact result;
-    EXPECT_OK(time_of_impact_by(method, a.convex, motion_of(body_a), b.convex, motion_of(body_b), result));
-    return result;
-  }
-  bool planar() const { return a.type() == ShapeType::half_space || b.type() == ShapeType::half_space; }
-  /// Of the block's reach, m: what its ulps are parts of.
-  double reach() const {
-    double centres = 0;
-    if (planar()) {
-      for (const double time : {0.0, 1.0})
-        centres = std::max(centres, length(body_b.at(time).position - body_a.at(time).position));
-    }
-    return a.reach() + b.reach() + a.ball + b.ball + centres;
-  }
-  /// How early a hit may be, m: the stated part of the larger core diameter, or 96 ulps of the block.
-  double tolerance() const {
-    return std::max(k_toi_tolerance * 2 * std::max(a.reach(), b.reach()), 100 * 0x1p-29 * 1.02 * reach());
-  }
-  /// Error of gap(), m: poses at a time are rounded anew.
-  double slack() const { return 2 * k_position_step + (k_distance_error + 2 * k_number_error) * 2 * reach(); }
-  /// At a time of the step, m; 0 if they meet.
-  double gap(double time) const {
-    const Closest closest = closest_at(time);
-    return closest.overlap ? 0 : host(closest.distance);
-  }
-  /// False where the answer is certain that they meet.
-  bool apart(double time) const {
-    const Closest closest = closest_at(time);
-    return closest.capped || !closest.overlap;
-  }
-  Closest closest_at(double time) const {
-    BodyAt at_a = body_a.at(time), at_b = body_b.at(time);
-    at_b.position = at_b.position - at_a.position;
-    at_a.position = {{0, 0, 0}};
-    Closest closest;
-    EXPECT_OK(closest_points(a.convex, pose_of(at_a), b.convex, pose_of(at_b), closest));
-    return closest;
-  }
-};
-
-bool operator==(const TimeOfImpact& a, const TimeOfImpact& b) {
-  return a.outcome == b.outcome && a.time == b.time && a.normal == b.normal && a.point == b.point &&
-         a.gjk_calls == b.gjk_calls && a.passes == b.passes;
-}
-
-/// What holds of every answer: up to its time the shapes are apart, and at a hit within the tolerance.
-void expect_never_late(const Encounter& encounter, const TimeOfImpact& impact, int samples) {
-  const double time = fraction_to_host(impact.time), slack = encounter.slack();
-  ASSERT_GE(time, 0);
-  ASSERT_LE(time, 1);
-  if (impact.outcome == ToiOutcome::clear) {
-    EXPECT_EQ(time, 1);
-  }
-  if (impact.outcome == ToiOutcome::hit) {
-    EXPECT_LE(encounter.gap(time), encounter.tolerance() + slack);
-    if (time == 0) return;
-  }
-  if (encounter.tolerance() / 5 <= slack) return;  // the poses are too coarse to tell
-  for (int i = 0; i <= samples; ++i) {
-    const double before = time * i / samples;
-    ASSERT_TRUE(encounter.apart(before)) << "met at " << before << ", but reported " << time;
-  }
-}
 
 /// A hit at `time` of the step, within `early`, and not later.
 void expect_hit(const Encounter& encounter, double time, double early, double late = 1e-12) {
@@ -112,9 +28,6 @@ void expect_clear(const Encounter& encounter) {
     EXPECT_TRUE(impact.time == Fraction(1.0));
   }
 }
-
-/// Lateness that the numbers allow where a rotation is involved, of the step.
-constexpr double k_late = k_config == Config::f32 ? 0x1p-20 : 1e-9;
 
 DETENT_TEST(toi, of_spheres_is_the_root_of_a_quadratic) {
   Samples samples{1};
@@ -413,25 +326,6 @@ DETENT_TEST(toi, of_two_bodies_that_both_spin_as_fast_as_may_be_is_not_late) {
   }
 }
 
-/// Two shapes of any kinds, but not two half-spaces, that start apart and are aimed at each other.
-Encounter random_encounter(Samples& samples, double scale, double turn_max) {
-  for (;;) {
-    const KnownShape a = random_shape(samples, samples.below(10), scale),
-                     b = random_shape(samples, samples.below(11), scale);
-    const double near = a.reach() + b.reach() + a.ball + b.ball;
-    const Vector start = random_direction(samples) * (near * uniform(samples, 0.6, 2));
-    const Vector aim = random_direction(samples) * (near * uniform(samples, 0, 0.8));
-    const auto turn = [&] { return random_direction(samples) * uniform(samples, 0, turn_max); };
-    const BodyAt body_a = {random_direction(samples) * scale, random_quaternion(samples),
-                           random_direction(samples) * scale, samples.below(3) == 0 ? Vector{{0, 0, 0}} : turn()};
-    const BodyAt body_b = {body_a.position + start, random_quaternion(samples),
-                           body_a.displacement + (aim - start) * uniform(samples, 0.3, 2),
-                           samples.below(3) == 0 ? Vector{{0, 0, 0}} : turn()};
-    const Encounter encounter = {a, body_a, b, body_b};
-    if (encounter.gap(0) > 0.01 * scale) return encounter;
-  }
-}
-
 DETENT_TEST(toi, is_never_late_and_hits_within_the_tolerance) {
   Samples samples{4};
   uint32_t hits = 0, gjk_calls = 0, passes = 0, undecided = 0;
@@ -459,8 +353,9 @@ DETENT_TEST(toi, is_never_late_and_hits_within_the_tolerance) {
 }
 
 constexpr ToiMethod k_methods[] = {ToiMethod::paper,      ToiMethod::first_order, ToiMethod::second_order,
-                                   ToiMethod::corotating, ToiMethod::world_space, ToiMethod::constant_spin};
-static_assert(sizeof k_methods / sizeof *k_methods == k_axis_methods);
+                                   ToiMethod::corotating, ToiMethod::world_space, ToiMethod::constant_spin,
+                                   ToiMethod::mirtich};
+static_assert(sizeof k_methods / sizeof *k_methods == k_axis_methods + 1);
 
 DETENT_TEST(toi, is_never_late_by_any_method) {
   for (const ToiMethod method : k_methods) {
