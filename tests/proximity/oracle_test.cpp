@@ -85,6 +85,7 @@ DETENT_TEST(oracle, distances_of_set_6) { for_each_query("6", 300, check_distanc
 DETENT_TEST(oracle, distances_of_set_8) { for_each_query("8", 300, check_distance); }
 DETENT_TEST(oracle, distances_of_set_10) { for_each_query("10", 300, check_distance); }
 DETENT_TEST(oracle, distances_of_set_10c) { for_each_query("10c", 300, check_distance); }
+DETENT_TEST(oracle, distances_of_set_11) { for_each_query("11", 300, check_distance); }
 
 /// A cylinder or a cone, of 0.1 to 1 m, half of them rounded.
 detent_queries::Solid random_rim(Samples& samples) {
@@ -211,6 +212,7 @@ DETENT_TEST(oracle, impacts_of_set_6) { for_each_query("6", 150, check_impact); 
 DETENT_TEST(oracle, impacts_of_set_7) { for_each_query("7", 150, check_impact); }
 DETENT_TEST(oracle, impacts_of_set_8) { for_each_query("8", 150, check_impact); }
 DETENT_TEST(oracle, impacts_of_set_9) { for_each_query("9", 150, check_impact); }
+DETENT_TEST(oracle, impacts_of_set_11) { for_each_query("11", 150, check_impact); }
 
 }  // namespace
 }  // namespace DETENT_NAMESPACE
