@@ -111,6 +111,16 @@ def methods_early(rows):
     return by_polytopes(rows, lambda row: small(row["early_max"]))
 
 
+def triangles(rows):
+    lines = []
+    for name, of_set in (("11, turning", "11 rotating"), ("11, linear", "11 linear")):
+        pair = [rows.get(of_set, method) for method in ("constant_spin", "feature_pairs")]
+        known = None not in pair
+        lines.append([name] + [micro(row) if row else "-" for row in pair] +
+                     [", ".join(f"{pair[1][key] / pair[0][key]:.1f}" for key in ("ns_mean", "ns_p99")) if known else "-"])
+    return table(["set", "`constant_spin`, us: mean, p99, max", "`feature_pairs`", "times as long: mean, p99"], lines)
+
+
 def distance(rows):
     lines = []
     for of_set in ("1", "6", "7", "8", "10", "game"):
@@ -123,7 +133,7 @@ def distance(rows):
 
 TABLES = {make.__name__: (make, source) for make, source in
           [(toi, "toi"), (methods, "toi"), (methods_time, "toi"), (methods_wrong, "toi"), (methods_early, "toi"),
-           (distance, "distance")]}
+           (triangles, "toi"), (distance, "distance")]}
 
 
 def main():
