@@ -32,9 +32,9 @@ int64_t reach_along(int64_t u, int64_t v, int diagonal) {
 /// shape alone, and its corners and edges by where they are.
 uint32_t feature_of(uint32_t feature, const uint32_t (&corner)[3]) {
   const uint32_t kind = feature >> 10 & 3, index = feature & 0x3ff, kept = feature & 0xfffc00u;
-  if (kind == static_cast<uint32_t>(FeatureKind::face)) return kept;
+  if (kind == static_cast<uint32_t>(FeatureType::face)) return kept;
   // Edge 0 runs between corners 0 and 1, 1 between 0 and 2, 2 between 1 and 2, as lib/proximity names them.
-  const uint32_t name = kind == static_cast<uint32_t>(FeatureKind::vertex) ? corner[index % 3]
+  const uint32_t name = kind == static_cast<uint32_t>(FeatureType::vertex) ? corner[index % 3]
                         : index == 0                                       ? corner[0] + corner[1]
                         : index == 1                                       ? corner[0] + corner[2]
                                                                            : corner[1] + corner[2];

@@ -12,8 +12,8 @@ namespace {
 
 constexpr int k_steps_max = 12;                       ///< of Newton's method along one normal; each is certified
 constexpr int64_t k_quarter_turn = int64_t{1} << 32;  ///< 2^-34 turns
-constexpr int64_t k_phase_error = 2,
-                  k_sine_error_q30 = 1;  ///< rate and shift, in phases; sine_cosine_raw(), rounded up
+constexpr int64_t k_phase_error = 2;                  ///< of the rate and of its shift, in those, rounded up
+constexpr int64_t k_sine_error_above = 1;             ///< of sine_cosine_raw(), 2^-30, rounded up
 
 /// What is taken of a separation, at most.
 struct Taken {
@@ -28,7 +28,7 @@ class Swing {
   Swing(const Turning& turning, const Vec32& normal, int64_t core) : turning_(turning) {
     if (!turning.turns || core == 0) return;
     const Vec32 across = round_shift(cross(normal, turning.axis), 30);
-    // Components err by 1/2, either length by 8 2^-30.
+    // The axis, the length of either and these roundings err by less than 20 2^-30 together.
     const int64_t length = int64_t{square_root_nearest(static_cast<uint64_t>(dot(across, across)))} + 20;
     chord_ = ((2 * core * length) >> 30) + 1;
   }
@@ -39,8 +39,8 @@ class Swing {
     if (half_angle >= k_quarter_turn) return {chord_, 0};
     const SineCosineRaw half = sine_cosine_raw(half_angle);
     const auto part = [this](int64_t of_one) { return ((chord_ * of_one) >> 30) + 1; };
-    const int64_t lever = part(half.cosine + k_sine_error_q30 + 2 * k_phase_error);  // a phase is less than 2^-31 rad
-    return {part(half.sine + k_sine_error_q30), Int128::product(lever, turning_.angle).round_shift(47) + 1};
+    const int64_t lever = part(half.cosine + k_sine_error_above + 2 * k_phase_error);  // a phase is less than 2^-31 rad
+    return {part(half.sine + k_sine_error_above), Int128::product(lever, turning_.angle).round_shift(47) + 1};
   }
 
  private:

@@ -124,7 +124,7 @@ Reference::Reference(const Placed& placed, const Vec32& centre, const Feature& f
 
 Reference::Reference(const Placed& half_space, const Vec32& centre, const Vec32& foot)
     : placed_(half_space),
-      name_(feature_name(FeatureKind::face, 0)),
+      name_(feature_name(FeatureType::face, 0)),
       origin_(foot),
       up_(half_space.rotation.column[1]) {
   set_axes(half_space.rotation.column[0]);
@@ -280,18 +280,18 @@ Vec64 Reference::twice_middle(const AreaPoint& point) const {
 uint32_t Reference::name_on_reference(const AreaPoint& point) const {
   if (point.kind == AreaPoint::Kind::vertex) return name_;
   const uint32_t from = feature_->vertex[point.side];
-  if (point.kind == AreaPoint::Kind::corner || !feature_->is_face()) return feature_name(FeatureKind::vertex, from);
+  if (point.kind == AreaPoint::Kind::corner || !feature_->is_face()) return feature_name(FeatureType::vertex, from);
   const uint32_t to = feature_->vertex[point.side + 1 == feature_->count ? 0 : point.side + 1];
-  return feature_name(FeatureKind::edge, edge_index(placed_, from, to));
+  return feature_name(FeatureType::edge, edge_index(placed_, from, to));
 }
 
 uint32_t Reference::name_on_incident(const Placed& placed, const Feature& incident, const AreaPoint& point) const {
   if (point.kind == AreaPoint::Kind::corner) return incident.name();
   const uint32_t from = incident.vertex[point.incident];
-  if (point.kind == AreaPoint::Kind::vertex) return feature_name(FeatureKind::vertex, from);
+  if (point.kind == AreaPoint::Kind::vertex) return feature_name(FeatureType::vertex, from);
   if (!incident.is_face()) return incident.name();
   const uint32_t to = incident.vertex[point.incident + 1 == incident.count ? 0 : point.incident + 1];
-  return feature_name(FeatureKind::edge, edge_index(placed, from, to));
+  return feature_name(FeatureType::edge, edge_index(placed, from, to));
 }
 
 }  // namespace DETENT_NAMESPACE

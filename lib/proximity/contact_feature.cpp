@@ -157,8 +157,8 @@ int64_t slope_of(const Vec32& from, const Vec32& to, const Vec32& direction) {
 }  // namespace
 
 uint32_t Feature::name() const {
-  if (count == 1) return feature_name(FeatureKind::vertex, vertex[0]);
-  return feature_name(count == 2 ? FeatureKind::edge : FeatureKind::face, index);
+  if (count == 1) return feature_name(FeatureType::vertex, vertex[0]);
+  return feature_name(count == 2 ? FeatureType::edge : FeatureType::face, index);
 }
 
 bool supporting_face(const Placed& placed, const Vec32& direction, Feature& face) {

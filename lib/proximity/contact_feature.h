@@ -6,8 +6,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// A name of 12 bits within a shape: never 0.
-enum class FeatureKind : uint32_t { vertex = 1, edge = 2, face = 3 };
-constexpr uint32_t feature_name(FeatureKind kind, uint32_t index) { return static_cast<uint32_t>(kind) << 10 | index; }
+enum class FeatureType : uint32_t { vertex = 1, edge = 2, face = 3 };
+constexpr uint32_t feature_name(FeatureType kind, uint32_t index) { return static_cast<uint32_t>(kind) << 10 | index; }
 
 /// The name of a contact of a feature of A with one of B.
 constexpr uint32_t feature_pair(uint32_t on_a, uint32_t on_b) { return on_a | on_b << 12; }

@@ -1,12 +1,16 @@
 #include <detent/cast.h>
 #include <detent/contact.h>
 #include <detent/distance.h>
+#include <detent/feature_toi.h>
 #include <ports/machine.h>
 #include <ports/print.h>
 #include <string.h>
 
 #include "base/digest.h"
+#include "math/arithmetic.h"
 #include "narrow_phase_pairs.h"
+#include "proximity/pair.h"
+#include "proximity/support.h"
 #include "proximity/toi_methods.h"
 
 /// The questions of the narrow phase on any target, a microcontroller too: no allocation, no C library beyond string.h.
@@ -139,6 +143,65 @@ bool ask_shape(const Pair& pair, DistanceCache*, Answers& answers) {
   return add_hit(hit, answers);
 }
 
+/// Corners of a core from `first` on, m, in its body's axes. False if it has not so many.
+bool corners_of(const Convex& convex, int first, int count, Vec3<Real>* corner) {
+  const int shift = k_metre_bits - 30 + convex.exponent;
+  for (int i = 0; i < count; ++i) {
+    CorePoint point;
+    if (!core_vertex(convex, static_cast<uint8_t>(first + i), point)) return false;
+    const auto metres = [shift](int32_t local) { return real_from_raw(int64_t{local} << shift); };
+    corner[i] = {metres(point.local.x), metres(point.local.y), metres(point.local.z)};
+  }
+  return true;
+}
+
+/// Asks for the first contacts of some of the pair's vertices with some triangles, and of some edges.
+template <class AskOne>
+bool ask_features(const Pair& pair, Answers& answers, AskOne ask_one) {
+  bool meets = false;
+  for (int i = 0; i < 16; ++i) {
+    const FeatureKind kind = i < 12 ? FeatureKind::vertex_face : FeatureKind::edge_edge;
+    const int split = kind == FeatureKind::vertex_face ? 1 : 2;
+    Vec3<Real> corner[4];
+    FeatureToi contact;
+    if (!corners_of(pair.a, i % 4, split, corner) || !corners_of(pair.b, i / 4, 4 - split, corner + split)) continue;
+    answers.add(ask_one(kind, corner, contact));
+    answers.add(uint64_t{static_cast<uint32_t>(contact.outcome)});
+    answers.number(contact.time);
+    answers.add(uint64_t{contact.intervals});
+    meets = meets || contact.outcome == ToiOutcome::hit;
+  }
+  return meets;
+}
+
+bool ask_feature_toi(const Pair& pair, DistanceCache*, Answers& answers) {
+  return ask_features(pair, answers, [&pair](FeatureKind kind, const Vec3<Real>(&corner)[4], FeatureToi& contact) {
+    return feature_toi(kind, corner, pair.motion_a, pair.motion_b, contact);
+  });
+}
+
+/// From B's pose to A's.
+bool ask_feature_toi_screw(const Pair& pair, DistanceCache*, Answers& answers) {
+  const PosePair a = {pair.motion_a.start, pair.motion_a.start}, b = {pair.motion_b.start, pair.motion_a.start};
+  return ask_features(pair, answers, [&](FeatureKind kind, const Vec3<Real>(&corner)[4], FeatureToi& contact) {
+    return feature_toi_screw(kind, corner, a, b, contact);
+  });
+}
+
+/// Each corner of B goes its own way: through A to where the next one would be there.
+bool ask_feature_toi_linear(const Pair& pair, DistanceCache*, Answers& answers) {
+  return ask_features(pair, answers, [&pair](FeatureKind kind, const Vec3<Real>(&corner)[4], FeatureToi& contact) {
+    Vec3<Real> start[4], end[4];
+    for (int i = 0; i < 4; ++i) {
+      const bool of_a = i < (kind == FeatureKind::vertex_face ? 1 : 2);
+      const Vec3<Real>& next = corner[i < 3 ? i + 1 : 3];
+      start[i] = of_a ? corner[i] : corner[i] + pair.offset;
+      end[i] = of_a ? corner[i] : next - pair.offset;
+    }
+    return feature_toi_linear(kind, start, end, contact);
+  });
+}
+
 struct Question {
   const char* name;
   Ask ask;
@@ -161,6 +224,9 @@ constexpr Question k_questions[] = {
     {.name = "toi_feature_pairs", .ask = ask_toi<ToiMethod::feature_pairs>, .polytopes = true},
     {.name = "toi_redon", .ask = ask_toi<ToiMethod::redon>, .polytopes = true},
     {.name = "toi_canny", .ask = ask_toi<ToiMethod::canny>, .polytopes = true},
+    {.name = "feature_toi", .ask = ask_feature_toi, .polytopes = true},
+    {.name = "feature_toi_screw", .ask = ask_feature_toi_screw, .polytopes = true},
+    {.name = "feature_toi_linear", .ask = ask_feature_toi_linear, .polytopes = true},
     {"cast_ray", ask_ray},
     {"cast_shape", ask_shape},
 };
