@@ -99,7 +99,7 @@ DETENT_TEST(feature_pairs, tell_where_bodies_meet_as_conservative_advancement_do
   const KnownShape cube = known(box({0.5, 0.5, 0.5})), slab = known(box({4.0, 0.5, 4.0}));
   const Quaternion leaning = rotation_by(Vector{{0.3, 0.4, 0.5}});
   const Encounter falling = {slab, {{{0, -0.5, 0}}}, cube, {{{0.25, 2, 0.5}}, leaning, {{0, -2, 0}}}};
-  const Encounter turning = {slab, {{{0, -0.5, 0}}}, cube, {{{0, 0.6, 0}}, k_upright, {{0, 0, 0}}, {{0, 0, 0.75}}}};
+  const Encounter turning = {slab, {{{0, -0.5, 0}}}, cube, {{{0, 0.625, 0}}, k_upright, {{0, 0, 0}}, {{0, 0, 0.75}}}};
   for (const Encounter& encounter : {falling, falling.swapped(), turning, turning.swapped()}) {
     const TimeOfImpact impact = encounter.impact_by(ToiMethod::feature_pairs), usual = encounter.impact();
     ASSERT_EQ(impact.outcome, ToiOutcome::hit);
@@ -107,9 +107,9 @@ DETENT_TEST(feature_pairs, tell_where_bodies_meet_as_conservative_advancement_do
     EXPECT_LE(length(host_units(impact.normal) - host_units(usual.normal)), 1e-4);
     EXPECT_LE(length(host(impact.point) - host(usual.point)), 1e-4);
   }
-  // (cos x + sin x) / 2 = 0.6
+  // (cos x + sin x) / 2 = 0.625
   EXPECT_NEAR(fraction_to_host(turning.impact_by(ToiMethod::feature_pairs).time),
-              (k_pi / 4 - acos(0.6 * sqrt(2))) / 0.75, 1e-5);
+              (k_pi / 4 - acos(0.625 * sqrt(2))) / 0.75, 1e-5);
 }
 
 DETENT_TEST(feature_pairs, of_what_starts_together_hit_at_once) {
