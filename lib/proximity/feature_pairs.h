@@ -48,7 +48,10 @@ class FeaturePairs {
       }
       set_part(time, window.to);
       FeatureToi first = {ToiOutcome::clear, Fraction(1.0), 0};
-      if (choose(part_, normal_, a_, b_, apart_)) find(first);
+      if (choose(part_, normal_, a_, b_, apart_)) {
+        guess(first);
+        if (first.outcome == ToiOutcome::clear || choose(part_, normal_, a_, b_, apart_)) find(first);
+      }
       result.passes += first.intervals;
       if (first.outcome == ToiOutcome::undecided) {
         result.time = first.time;
@@ -103,6 +106,28 @@ class FeaturePairs {
       const int64_t shorter = over_time(length, time_quotient(first + depth_, first - last));
       if (shorter > 0) set_end(from, from + shorter);
     }
+  }
+
+  /// Asks the features that are nearest at the beginning: where they meet in the part, few others may before.
+  void guess(FeatureToi& first) {
+    uint32_t of_a[4], of_b[4];
+    const int count_a = distinct(&SimplexVertex::a, of_a), count_b = distinct(&SimplexVertex::b, of_b);
+    if (count_a == 1 && count_b == 3)
+      ask(FeatureKind::vertex_face, a_, b_, {of_a[0], of_b[0], of_b[1], of_b[2]}, first);
+    else if (count_a == 3 && count_b == 1)
+      ask(FeatureKind::vertex_face, b_, a_, {of_b[0], of_a[0], of_a[1], of_a[2]}, first);
+    else if (count_a == 2 && count_b == 2)
+      ask(FeatureKind::edge_edge, a_, b_, {of_a[0], of_a[1], of_b[0], of_b[1]}, first);
+  }
+  int distinct(CorePoint SimplexVertex::*of, uint32_t (&vertex)[4]) const {
+    int count = 0;
+    for (int i = 0; i < simplex_.count(); ++i) {
+      const uint32_t feature = (simplex_.vertex(i).*of).feature;
+      bool fresh = true;
+      for (int j = 0; j < count; ++j) fresh = fresh && vertex[j] != feature;
+      if (fresh) vertex[count++] = feature;
+    }
+    return count;
   }
 
   /// The first contact of all pairs in the part, which is cut off there.
