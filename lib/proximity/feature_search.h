@@ -79,12 +79,14 @@ constexpr OpenPart both(const OpenPart& a, const OpenPart& b) {
   return {larger(a.from, b.from), a.to < b.to ? a.to : b.to};
 }
 
-/// The first contact, by intervals of time from the left to the right: what is certain to be clear is cut off, what is
-/// left is halved until nothing is left or the features are near where it begins. `Path` has span(from, to), a
-/// FeatureSpan, and roots(from, to) if it knows better than its chords where the corners are coplanar.
+/// Of time.
 struct Interval {
   int64_t from, to;
 };
+/// The first contact, by intervals of time from the left to the right: what is certain to be clear is cut off, what is
+/// left is halved until nothing is left, or the features are near where it begins, or it is too short to halve. `Path`
+/// has span(from, to), a FeatureSpan, and roots(from, to) if it knows better than its chords where the corners are
+/// coplanar.
 template <class Path>
 void search(const Path& path, int64_t gap, FeatureToi& result, Interval now = {0, k_time_end}) {
   // Each halves what the one before it leaves: no more than the bits of a time wait at once.
@@ -106,12 +108,12 @@ void search(const Path& path, int64_t gap, FeatureToi& result, Interval now = {0
       continue;
     }
     const int64_t length = now.to - now.from;
-    const int64_t first = now.from + part_of(length, open.from);
-    const int64_t last = now.to - part_of(length, k_whole - open.to);
-    if (begins_near(span, gap) || last - first < 2) {
+    if (begins_near(span, gap) || length < 2) {
       result.outcome = ToiOutcome::hit;
       return;
     }
+    const int64_t first = now.from + part_of(length, open.from);
+    const int64_t last = now.to - part_of(length, k_whole - open.to);
     now = {first, last};
     if (last - first <= length / 2) continue;
     const int64_t middle = first + (last - first) / 2;

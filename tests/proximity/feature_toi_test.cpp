@@ -84,6 +84,21 @@ DETENT_TEST(feature_toi, a_vertex_falls_onto_a_face_or_past_it) {
   for (const double outside : {0.5, 0.001, 2e-6}) EXPECT_EQ(fall(outside).outcome, ToiOutcome::clear);
 }
 
+/// At the end the features are as far apart as makes the cubic 0 there, with its error, and only there: what is left of
+/// the first interval has no length, and they are near where it is, not where the interval began.
+DETENT_TEST(feature_toi, features_that_come_near_at_the_very_end_meet_there) {
+  LinearFeatures features = {FeatureKind::vertex_face, {}, {}, 1920274};
+  features.start[1] = {-50025026403876, 27985549945424, -52413302105909};
+  features.start[2] = {9667299480212, -27451661514954, 4744917919830};
+  features.start[3] = {6455322060377, 71232581968391, 17179691577193};
+  features.end[1] = {-50999197651066, 27437971105088, -52063537429587};
+  features.end[2] = {8693128233022, -27999240355290, 5094682596152};
+  features.end[3] = {5481150813187, 70685003128055, 17529456253515};
+  const FeatureToi result = answer_to(features);
+  EXPECT_GT(fraction_to_host(result.time), 0.99);
+  expect_near(features, result);
+}
+
 DETENT_TEST(feature_toi, edges_cross_or_pass_each_other) {
   for (const double apart : {0.0, 0.5, 0.999, 1.001, 3.0}) {
     const Vec3<Real> start[4] = {reals({{-1, 1, 0}}), reals({{1, 1, 0}}), reals({{apart, 0, -1}}),
