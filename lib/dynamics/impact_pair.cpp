@@ -6,6 +6,8 @@
 #include "dynamics/surface_impact.h"
 #include "geometry/shape_traits.h"
 #include "math/root.h"
+#include "proximity/conservative_advancement.h"
+#include "proximity/known_axis.h"
 #include "proximity/pair.h"
 
 namespace detent {
@@ -136,26 +138,38 @@ int inset_halvings(Real inset, Real extent) {
   return (inset > scale_by_power(extent, -4) ? 1 : 0) + (inset > scale_by_power(extent, -2) ? 1 : 0);
 }
 
-bool pair_impact(const AssetTable& assets, const FeatureTable& features, const SweptBody& a, const SweptBody& b,
-                 Fraction time, Real inset, TimeOfImpact& impact) {
-  const Real extent = min(shape_extent(a.traits), shape_extent(b.traits));
-  if (is_compound(a.traits) || is_compound(b.traits)) {
-    if (!features.compound_impact->find(assets, features, a, b, time, inset, impact)) return false;
-  } else if (is_surface(a.traits) || is_surface(b.traits)) {
-    const BodyTraits& body = (is_surface(a.traits) ? b : a).traits;
+bool PairSearch::find_convex(Real inset, const Vec3<Unit>& axis, TimeOfImpact& impact) {
+  const Real extent = min(shape_extent(a_.traits), shape_extent(b_.traits));
+  if (!inset_convex(assets_, a_.traits, inset, extent, convex_a_) ||
+      !inset_convex(assets_, b_.traits, inset, extent, convex_b_))
+    return false;
+  const Status status =
+      prepared_ ? set_block(pair_.offset_whole, pair_.displacement_whole, pair_)
+                : prepare(convex_a_, motion_from(a_, time_), convex_b_, motion_from(b_, time_), pair_);
+  if (status != Status::ok) return false;
+  prepared_ = true;
+  Vec32 normal;
+  if (raw_from_direction(axis, normal) && stays_clear(pair_, normal))
+    impact.outcome = ToiOutcome::clear;
+  else
+    conservative_advancement(pair_, k_toi_method, impact, enough_apart(pair_));
+  return true;
+}
+
+bool PairSearch::find(Real inset, const Vec3<Unit>& axis, TimeOfImpact& impact) {
+  if (is_compound(a_.traits) || is_compound(b_.traits)) {
+    if (!features_.compound_impact->find(assets_, features_, a_, b_, time_, inset, impact)) return false;
+  } else if (is_surface(a_.traits) || is_surface(b_.traits)) {
+    const BodyTraits& body = (is_surface(a_.traits) ? b_ : a_).traits;
     Convex convex;
-    if (!inset_convex(assets, body, inset, shape_extent(body), convex) ||
-        !features.surface_impact->impact(assets, *features.surface, a, b, convex, time, impact))
+    if (!inset_convex(assets_, body, inset, shape_extent(body), convex) ||
+        !features_.surface_impact->impact(assets_, *features_.surface, a_, b_, convex, time_, impact))
       return false;
-  } else {
-    Convex convex_a, convex_b;
-    if (!inset_convex(assets, a.traits, inset, extent, convex_a) ||
-        !inset_convex(assets, b.traits, inset, extent, convex_b))
-      return false;
-    const Status status = time_of_impact(convex_a, motion_from(a, time), convex_b, motion_from(b, time), impact);
-    if (status != Status::ok) return false;
+  } else if (!find_convex(inset, axis, impact)) {
+    return false;
   }
-  impact.time = time + fraction_product(k_whole_step - time, impact.time);
+  impact.time =
+      impact.outcome == ToiOutcome::clear ? k_whole_step : time_ + fraction_product(k_whole_step - time_, impact.time);
   return true;
 }
 

@@ -24,6 +24,11 @@ Vec3<Real> point_on_a(const MovingPair& pair, const Placed& a, const Placed& b, 
   return half_space_point(offset, points.on_b, pair.exponent, nearest.normal, nearest.upper);
 }
 
+void set_clear(TimeOfImpact& result) {
+  result.outcome = ToiOutcome::clear;
+  result.time = Fraction(1.0);
+}
+
 /// How far the axis of `nearest` is certain to lead.
 int64_t next_time(const MovingPair& pair, ToiMethod method, const Frames& frames, const Simplex& simplex,
                   const GjkResult& nearest, int iteration, int32_t floor, int64_t& progress, TimeOfImpact& result) {
@@ -56,11 +61,10 @@ int64_t next_time(const MovingPair& pair, ToiMethod method, const Frames& frames
 
 }  // namespace
 
-void conservative_advancement(const MovingPair& pair, ToiMethod method, TimeOfImpact& result) {
+void conservative_advancement(const MovingPair& pair, ToiMethod method, TimeOfImpact& result, int32_t enough) {
   result = {};
   if (pair.from > pair.to) {
-    result.outcome = ToiOutcome::clear;
-    result.time = Fraction(1.0);
+    set_clear(result);
     return;
   }
   const int32_t touching = pair.radius + pair.tolerance;
@@ -72,7 +76,11 @@ void conservative_advancement(const MovingPair& pair, ToiMethod method, TimeOfIm
   for (int iteration = 0; iteration < iterations_max; ++iteration) {
     const Frames frames = pair.at(time);
     const Placed a = place(*pair.a, frames.a, pair.exponent), b = place(*pair.b, frames.b, pair.exponent);
-    const GjkResult nearest = gjk(a, b, frames.offset, simplex, {});
+    const GjkResult nearest = gjk(a, b, frames.offset, simplex, {-1, iteration == 0 ? enough : INT32_MAX});
+    if (iteration == 0 && nearest.lower > enough) {
+      set_clear(result);
+      return;
+    }
     result.time = Fraction::from_raw(time);
     const bool meet = nearest.outcome == GjkOutcome::overlap, hit = meet || nearest.upper <= touching;
     result.gjk_calls += nearest.iterations > (hit && iteration > 0 ? 1 : 0) ? 1 : 0;  // one may but confirm the hit
@@ -84,8 +92,7 @@ void conservative_advancement(const MovingPair& pair, ToiMethod method, TimeOfIm
     }
     const int64_t next = next_time(pair, method, frames, simplex, nearest, iteration, floor, progress, result);
     if (next >= pair.to) {
-      result.outcome = ToiOutcome::clear;
-      result.time = Fraction(1.0);
+      set_clear(result);
       return;
     }
     // On a rim the supports have no end: where the cap left too coarse an axis, the next round goes on from its
