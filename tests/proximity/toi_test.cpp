@@ -2,6 +2,7 @@
 #include <detent/toi.h>
 #include <string.h>
 
+#include "proximity/advance.h"
 #include "proximity/conservative_advancement.h"
 #include "proximity/toi_methods.h"
 #include "tests/oracle/effort.h"
