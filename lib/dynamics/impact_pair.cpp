@@ -143,16 +143,19 @@ bool PairSearch::find_convex(Real inset, const Vec3<Unit>& axis, TimeOfImpact& i
   if (!inset_convex(assets_, a_.traits, inset, extent, convex_a_) ||
       !inset_convex(assets_, b_.traits, inset, extent, convex_b_))
     return false;
-  const Status status =
-      prepared_ ? set_block(pair_.offset_whole, pair_.displacement_whole, pair_)
-                : prepare(convex_a_, motion_from(a_, time_), convex_b_, motion_from(b_, time_), pair_);
+  const Status status = prepared_
+                            ? set_block(pair_.offset_whole, pair_.displacement_whole, pair_)
+                            : prepare(convex_a_, motion_from(a_, time_), convex_b_, motion_from(b_, time_), pair_);
   if (status != Status::ok) return false;
   prepared_ = true;
+  pair_.absolute = moves_both(k_toi_method, pair_);
   Vec32 normal;
-  if (raw_from_direction(axis, normal) && stays_clear(pair_, normal))
+  if (raw_from_direction(axis, normal) && stays_clear(pair_, normal)) {
     impact.outcome = ToiOutcome::clear;
-  else
+    impact.time = k_whole_step;
+  } else {
     conservative_advancement(pair_, k_toi_method, impact, enough_apart(pair_));
+  }
   return true;
 }
 
@@ -168,8 +171,7 @@ bool PairSearch::find(Real inset, const Vec3<Unit>& axis, TimeOfImpact& impact) 
   } else if (!find_convex(inset, axis, impact)) {
     return false;
   }
-  impact.time =
-      impact.outcome == ToiOutcome::clear ? k_whole_step : time_ + fraction_product(k_whole_step - time_, impact.time);
+  impact.time = time_ + fraction_product(k_whole_step - time_, impact.time);
   return true;
 }
 

@@ -108,7 +108,7 @@ Status time_of_impact_on_axes(ToiMethod method, const Convex& a, const Motion& m
                               const Motion& motion_b, TimeOfImpact& result) {
   MovingPair pair;
   if (const Status status = prepare(a, motion_a, b, motion_b, pair); status != Status::ok) return status;
-  pair.absolute = method == ToiMethod::world_space && !pair.planar;
+  pair.absolute = moves_both(method, pair);
   conservative_advancement(pair, method, result);
   return Status::ok;
 }

@@ -13,6 +13,11 @@ inline constexpr ToiMethod k_toi_method = ToiMethod::constant_spin;
 #endif
 static_assert(static_cast<int>(k_toi_method) < k_axis_methods, "of every shape, and never late");
 
+/// Whether the method moves both bodies of a prepared pair (MovingPair::absolute).
+constexpr bool moves_both(ToiMethod method, const MovingPair& pair) {
+  return method == ToiMethod::world_space && !pair.planar;
+}
+
 /// More axes than this are not looked for. The other methods, there for comparison, need many on hard queries.
 inline constexpr int k_toi_iterations_max = 24;
 inline constexpr int k_toi_iterations_compared_max = 256;

@@ -1,8 +1,8 @@
 #pragma once
 #include "proximity/moving_pair.h"
 
-/// What is clear by an axis that is known beforehand, or at a glance: conservative_advancement() would say so too, after
-/// more work.
+/// What is clear by an axis that is known beforehand, or at a glance: conservative_advancement() would say so too,
+/// after more work.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -12,11 +12,12 @@ inline namespace DETENT_NAMESPACE {
 inline constexpr int32_t k_certain = 64;
 
 /// Whether an axis, which is `normal` when the window begins and turns with one of the bodies, certifies that they do
-/// not touch in all of the window. False also of half-spaces, and if both together turn by more than 2 rad.
+/// not touch in all of the window. False also of half-spaces, of two rims, and if both together turn by more than 2
+/// rad.
 bool stays_clear(const MovingPair& pair, const Vec32& normal);
 
-/// For conservative_advancement(): so far apart, ulps, the cores cannot come to touch in the window. INT32_MAX if that
-/// is not known.
+/// For conservative_advancement(): from so far apart, ulps, the cores cannot come to touch in the window. INT32_MAX
+/// where stays_clear() is false of every axis.
 int32_t enough_apart(const MovingPair& pair);
 
 }  // namespace DETENT_NAMESPACE
