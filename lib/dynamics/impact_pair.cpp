@@ -150,11 +150,12 @@ bool PairSearch::find_convex(Real inset, const Vec3<Unit>& axis, TimeOfImpact& i
   prepared_ = true;
   pair_.absolute = moves_both(k_toi_method, pair_);
   Vec32 normal;
-  if (raw_from_direction(axis, normal) && stays_clear(pair_, normal)) {
+  const bool known = raw_from_direction(axis, normal);
+  if (known && stays_clear(pair_, normal)) {
     impact.outcome = ToiOutcome::clear;
     impact.time = k_whole_step;
   } else {
-    conservative_advancement(pair_, k_toi_method, impact, enough_apart(pair_));
+    conservative_advancement(pair_, k_toi_method, impact, known ? INT32_MAX : enough_apart(pair_));
   }
   return true;
 }
