@@ -51,8 +51,8 @@ bool inset_convex(Real inset, int halvings, Convex& convex);
 /// How often that is at this inset.
 int inset_halvings(Real inset, Real extent);
 
-/// When the bodies of a pair meet from `time` on, on one rung after the other: what the rungs have in common is prepared
-/// once. All that it is given must outlive it.
+/// When the bodies of a pair meet from `time` on, on one rung after the other: what the rungs have in common is
+/// prepared once. All that it is given must outlive it.
 class PairSearch {
  public:
   PairSearch(const AssetTable& assets, const FeatureTable& features, const SweptBody& a, const SweptBody& b,
