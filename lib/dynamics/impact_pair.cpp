@@ -138,17 +138,28 @@ int inset_halvings(Real inset, Real extent) {
   return (inset > scale_by_power(extent, -4) ? 1 : 0) + (inset > scale_by_power(extent, -2) ? 1 : 0);
 }
 
+bool PairSearch::prepare_pair() {
+  const Motion motion_a = motion_from(a_, time_), motion_b = motion_from(b_, time_);
+  if (is_half_space(a_.traits) || is_half_space(b_.traits)) {
+    prepared_ = prepare(convex_a_, motion_a, convex_b_, motion_b, pair_) == Status::ok;
+    return prepared_;
+  }
+  pair_.a = &convex_a_;
+  pair_.b = &convex_b_;
+  if (set_ways(motion_a, motion_b, pair_) != Status::ok) return false;
+  if (pair_.from > pair_.to) return true;  // nobody asks how they turn, nor for another rung
+  pair_.absolute = moves_both(k_toi_method, pair_);
+  prepared_ = set_turnings(motion_a, motion_b, pair_) == Status::ok;
+  return prepared_;
+}
+
 bool PairSearch::find_convex(Real inset, const Vec3<Unit>& axis, TimeOfImpact& impact) {
   const Real extent = min(shape_extent(a_.traits), shape_extent(b_.traits));
   if (!inset_convex(assets_, a_.traits, inset, extent, convex_a_) ||
       !inset_convex(assets_, b_.traits, inset, extent, convex_b_))
     return false;
-  const Status status = prepared_
-                            ? set_block(pair_.offset_whole, pair_.displacement_whole, pair_)
-                            : prepare(convex_a_, motion_from(a_, time_), convex_b_, motion_from(b_, time_), pair_);
-  if (status != Status::ok) return false;
-  prepared_ = true;
-  pair_.absolute = moves_both(k_toi_method, pair_);
+  if (!(prepared_ ? set_block(pair_.offset_whole, pair_.displacement_whole, pair_) == Status::ok : prepare_pair()))
+    return false;
   Vec32 normal;
   const bool known = raw_from_direction(axis, normal);
   if (known && stays_clear(pair_, normal)) {

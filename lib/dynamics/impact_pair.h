@@ -67,6 +67,7 @@ class PairSearch {
   bool find(Real inset, const Vec3<Unit>& axis, TimeOfImpact& impact);
 
  private:
+  bool prepare_pair();
   bool find_convex(Real inset, const Vec3<Unit>& axis, TimeOfImpact& impact);
 
   const AssetTable& assets_;
