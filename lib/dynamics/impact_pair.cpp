@@ -6,6 +6,8 @@
 #include "dynamics/surface_impact.h"
 #include "geometry/shape_traits.h"
 #include "math/root.h"
+#include "proximity/conservative_advancement.h"
+#include "proximity/known_axis.h"
 #include "proximity/pair.h"
 
 namespace detent {
@@ -136,26 +138,52 @@ int inset_halvings(Real inset, Real extent) {
   return (inset > scale_by_power(extent, -4) ? 1 : 0) + (inset > scale_by_power(extent, -2) ? 1 : 0);
 }
 
-bool pair_impact(const AssetTable& assets, const FeatureTable& features, const SweptBody& a, const SweptBody& b,
-                 Fraction time, Real inset, TimeOfImpact& impact) {
-  const Real extent = min(shape_extent(a.traits), shape_extent(b.traits));
-  if (is_compound(a.traits) || is_compound(b.traits)) {
-    if (!features.compound_impact->find(assets, features, a, b, time, inset, impact)) return false;
-  } else if (is_surface(a.traits) || is_surface(b.traits)) {
-    const BodyTraits& body = (is_surface(a.traits) ? b : a).traits;
-    Convex convex;
-    if (!inset_convex(assets, body, inset, shape_extent(body), convex) ||
-        !features.surface_impact->impact(assets, *features.surface, a, b, convex, time, impact))
-      return false;
-  } else {
-    Convex convex_a, convex_b;
-    if (!inset_convex(assets, a.traits, inset, extent, convex_a) ||
-        !inset_convex(assets, b.traits, inset, extent, convex_b))
-      return false;
-    const Status status = time_of_impact(convex_a, motion_from(a, time), convex_b, motion_from(b, time), impact);
-    if (status != Status::ok) return false;
+bool PairSearch::prepare_pair() {
+  const Motion motion_a = motion_from(a_, time_), motion_b = motion_from(b_, time_);
+  if (is_half_space(a_.traits) || is_half_space(b_.traits)) {
+    prepared_ = prepare(convex_a_, motion_a, convex_b_, motion_b, pair_) == Status::ok;
+    return prepared_;
   }
-  impact.time = time + fraction_product(k_whole_step - time, impact.time);
+  pair_.a = &convex_a_;
+  pair_.b = &convex_b_;
+  if (set_ways(motion_a, motion_b, pair_) != Status::ok) return false;
+  if (pair_.from > pair_.to) return true;  // nobody asks how they turn, nor for another rung
+  pair_.absolute = moves_both(k_toi_method, pair_);
+  prepared_ = set_turnings(motion_a, motion_b, pair_) == Status::ok;
+  return prepared_;
+}
+
+bool PairSearch::find_convex(Real inset, const Vec3<Unit>& axis, TimeOfImpact& impact) {
+  const Real extent = min(shape_extent(a_.traits), shape_extent(b_.traits));
+  if (!inset_convex(assets_, a_.traits, inset, extent, convex_a_) ||
+      !inset_convex(assets_, b_.traits, inset, extent, convex_b_))
+    return false;
+  if (!(prepared_ ? set_block(pair_.offset_whole, pair_.displacement_whole, pair_) == Status::ok : prepare_pair()))
+    return false;
+  Vec32 normal;
+  const bool known = raw_from_direction(axis, normal);
+  if (known && stays_clear(pair_, normal)) {
+    impact.outcome = ToiOutcome::clear;
+    impact.time = k_whole_step;
+  } else {
+    conservative_advancement(pair_, k_toi_method, impact, known ? INT32_MAX : enough_apart(pair_));
+  }
+  return true;
+}
+
+bool PairSearch::find(Real inset, const Vec3<Unit>& axis, TimeOfImpact& impact) {
+  if (is_compound(a_.traits) || is_compound(b_.traits)) {
+    if (!features_.compound_impact->find(assets_, features_, a_, b_, time_, inset, impact)) return false;
+  } else if (is_surface(a_.traits) || is_surface(b_.traits)) {
+    const BodyTraits& body = (is_surface(a_.traits) ? b_ : a_).traits;
+    Convex convex;
+    if (!inset_convex(assets_, body, inset, shape_extent(body), convex) ||
+        !features_.surface_impact->impact(assets_, *features_.surface, a_, b_, convex, time_, impact))
+      return false;
+  } else if (!find_convex(inset, axis, impact)) {
+    return false;
+  }
+  impact.time = time_ + fraction_product(k_whole_step - time_, impact.time);
   return true;
 }
 

@@ -5,6 +5,7 @@
 #include <detent/toi.h>
 
 #include "geometry/sweep.h"
+#include "proximity/moving_pair.h"
 
 /// When the bodies of a pair meet in the rest of a tick.
 namespace detent {
@@ -50,10 +51,33 @@ bool inset_convex(Real inset, int halvings, Convex& convex);
 /// How often that is at this inset.
 int inset_halvings(Real inset, Real extent);
 
-/// When the bodies, made smaller by `inset` on all sides, meet from `time` on; the answer's time is a part of the whole
-/// tick. False if it could not be asked: a shape is not known, or lies out of the query's range.
-bool pair_impact(const AssetTable& assets, const FeatureTable& features, const SweptBody& a, const SweptBody& b,
-                 Fraction time, Real inset, TimeOfImpact& impact);
+/// When the bodies of a pair meet from `time` on, on one rung after the other: what the rungs have in common is
+/// prepared once. All that it is given must outlive it.
+class PairSearch {
+ public:
+  PairSearch(const AssetTable& assets, const FeatureTable& features, const SweptBody& a, const SweptBody& b,
+             Fraction time)
+      : assets_(assets), features_(features), a_(a), b_(b), time_(time) {}
+  PairSearch(const PairSearch&) = delete;
+  PairSearch& operator=(const PairSearch&) = delete;
+
+  /// When they meet, made smaller by `inset` on all sides; the answer's time is a part of the whole tick. `axis`: a
+  /// direction from A to B that may part them, or zero: it saves work, and decides nothing. False if it could not be
+  /// asked: a shape is not known, or lies out of the query's range.
+  bool find(Real inset, const Vec3<Unit>& axis, TimeOfImpact& impact);
+
+ private:
+  bool prepare_pair();
+  bool find_convex(Real inset, const Vec3<Unit>& axis, TimeOfImpact& impact);
+
+  const AssetTable& assets_;
+  const FeatureTable& features_;
+  const SweptBody &a_, &b_;
+  const Fraction time_;
+  bool prepared_ = false;
+  Convex convex_a_, convex_b_;
+  MovingPair pair_;
+};
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -138,6 +138,14 @@ Fraction look_after(Fraction time, uint32_t looks) {
   return after < k_whole_step.raw - time.raw ? Fraction::from_raw(time.raw + after) : k_whole_step;
 }
 
+/// A direction that may part a pair: the normal of its contact; zero where it has none, or where they have met in this
+/// tick, for then they mostly touch still.
+Vec3<Unit> known_axis(const ImpactStage& stage, uint64_t key, const ImpactPair* entry) {
+  if (entry != nullptr) return {};
+  const Span<const ContactWork> contacts = find_contacts(stage.known.contacts, key);
+  return contacts.count != 0 ? contacts[0].normal : Vec3<Unit>{};
+}
+
 /// Tests a pair from the start of the tick, unless it is sure to be clear.
 void test_at_start(ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts) {
   const uint32_t low = pair_low(key), high = pair_high(key);
@@ -184,7 +192,9 @@ void ImpactStage::test(uint64_t key, Fraction time, Real inset, ImpactPair* entr
   const SweptBody a = body(pair_low(key)), b = body(pair_high(key));
   const bool resolved = entry != nullptr && entry->impacts != 0 && entry->last == time;
   const Real first = inset, extent = extent_of(key);
+  PairSearch search(assets, features, a, b, time);
   TimeOfImpact impact;
+  Vec3<Unit> axis = known_axis(*this, key, entry);
   if (entry != nullptr) entry->next = k_next_none;
   for (;; inset = next_inset(extent, inset)) {
     if (inset > last_inset(extent)) {
@@ -196,7 +206,7 @@ void ImpactStage::test(uint64_t key, Fraction time, Real inset, ImpactPair* entr
       return;
     }
     ++report.tests;
-    if (!pair_impact(assets, features, a, b, time, inset, impact)) {
+    if (!search.find(inset, axis, impact)) {
       ++report.undecided;
       return;
     }
@@ -204,6 +214,7 @@ void ImpactStage::test(uint64_t key, Fraction time, Real inset, ImpactPair* entr
     if (impact.outcome == ToiOutcome::undecided && !resolved) break;
     // They touch now. Cores that overlap have no normal.
     if (!resolved && is_direction(impact.normal) && !parts(a, b, impact)) break;
+    if (is_direction(impact.normal)) axis = impact.normal;
   }
   const Fraction look = look_after(time, inset == first ? 0 : 1 + (entry == nullptr ? 0 : entry->looks));
   const bool meets = impact.outcome != ToiOutcome::clear, looks = look < k_whole_step && first == k_zero;

@@ -80,7 +80,7 @@ int64_t ballistic_time(const MovingPair& pair, const Frames& frames, const Vec32
 void ballistic_advancement(const MovingPair& pair, TimeOfImpact& result) {
   const Turning& plane = pair.a->type == ShapeType::half_space ? pair.turning_a : pair.turning_b;
   if (pair.planar && plane.turns) return conservative_advancement(pair, ToiMethod::paper, result);
-  advance_by_axes(pair, k_toi_iterations_compared_max, result,
+  advance_by_axes(pair, k_toi_iterations_compared_max, INT32_MAX, result,
                   [&](const Frames& frames, const Simplex&, const GjkResult& nearest, int, int32_t floor) {
                     return ballistic_time(pair, frames, nearest.normal, floor, result.passes);
                   });

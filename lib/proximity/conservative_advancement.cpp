@@ -45,11 +45,11 @@ int64_t next_time(const MovingPair& pair, ToiMethod method, const Frames& frames
 
 }  // namespace
 
-void conservative_advancement(const MovingPair& pair, ToiMethod method, TimeOfImpact& result) {
+void conservative_advancement(const MovingPair& pair, ToiMethod method, TimeOfImpact& result, int32_t enough) {
   int64_t progress = k_time_end;  // of the last foreseen axis
   const int iterations_max = method >= ToiMethod::world_space ? k_toi_iterations_max : k_toi_iterations_compared_max;
   advance_by_axes(
-      pair, iterations_max, result,
+      pair, iterations_max, enough, result,
       [&](const Frames& frames, const Simplex& simplex, const GjkResult& nearest, int iteration, int32_t floor) {
         return next_time(pair, method, frames, simplex, nearest, iteration, floor, progress, result);
       });
@@ -59,7 +59,7 @@ Status time_of_impact_on_axes(ToiMethod method, const Convex& a, const Motion& m
                               const Motion& motion_b, TimeOfImpact& result) {
   MovingPair pair;
   if (const Status status = prepare(a, motion_a, b, motion_b, pair); status != Status::ok) return status;
-  pair.absolute = method == ToiMethod::world_space && !pair.planar;
+  pair.absolute = moves_both(method, pair);
   conservative_advancement(pair, method, result);
   return Status::ok;
 }

@@ -98,12 +98,12 @@ Quat32 Turning::rotation_at(int64_t time) const {
   return multiply(turned, start);
 }
 
-Status prepare(const Convex& a, const Motion& motion_a, const Convex& b, const Motion& motion_b, MovingPair& pair) {
-  if (a.type == ShapeType::half_space && b.type == ShapeType::half_space) return Status::bad_argument;
-  pair.a = &a;
-  pair.b = &b;
-  if (const Status status = set_turning(a, motion_a, pair.turning_a); status != Status::ok) return status;
-  if (const Status status = set_turning(b, motion_b, pair.turning_b); status != Status::ok) return status;
+Status set_turnings(const Motion& motion_a, const Motion& motion_b, MovingPair& pair) {
+  if (const Status status = set_turning(*pair.a, motion_a, pair.turning_a); status != Status::ok) return status;
+  return set_turning(*pair.b, motion_b, pair.turning_b);
+}
+
+Status set_ways(const Motion& motion_a, const Motion& motion_b, MovingPair& pair) {
   Vec64 way_a, way_b;
   if (!raw_from_real(motion_a.displacement, way_a) || !raw_from_real(motion_b.displacement, way_b)) {
     return Status::out_of_range;
@@ -113,6 +113,14 @@ Status prepare(const Convex& a, const Motion& motion_a, const Convex& b, const M
   Vec64 offset;
   if (!raw_difference(motion_b.start.position, motion_a.start.position, offset)) return Status::out_of_range;
   return set_block(offset, add(way_b, negate(way_a)), pair);
+}
+
+Status prepare(const Convex& a, const Motion& motion_a, const Convex& b, const Motion& motion_b, MovingPair& pair) {
+  if (a.type == ShapeType::half_space && b.type == ShapeType::half_space) return Status::bad_argument;
+  pair.a = &a;
+  pair.b = &b;
+  if (const Status status = set_turnings(motion_a, motion_b, pair); status != Status::ok) return status;
+  return set_ways(motion_a, motion_b, pair);
 }
 
 Status turning_of(const Motion& motion, Turning& turning) {

@@ -89,6 +89,10 @@ struct MovingPair {
 /// `offset` and `displacement`, both of B from A: 2^-46 m. Errors: out_of_range for a displacement of 2^15 m, or if the
 /// centres are 2^16 m apart and the spheres may touch all the same.
 Status set_block(const Vec64& offset, const Vec64& displacement, MovingPair& pair);
+/// Of a pair whose shapes are set: how they turn, and where they go, with the block. Of a half-space's pair the first
+/// comes first; of others the window is known without it. Errors: as time_of_impact().
+Status set_turnings(const Motion& motion_a, const Motion& motion_b, MovingPair& pair);
+Status set_ways(const Motion& motion_a, const Motion& motion_b, MovingPair& pair);
 /// Reads the poses and sets the block. Errors: as time_of_impact().
 Status prepare(const Convex& a, const Motion& motion_a, const Convex& b, const Motion& motion_b, MovingPair& pair);
 

@@ -23,6 +23,11 @@ bool quat_bits(const Quat& q, Quat32& raw) {
   return true;
 }
 
+bool unit_bits(const Vec3<Unit>& v, Vec32& raw) {
+  raw = {v.x.raw, v.y.raw, v.z.raw};
+  return true;
+}
+
 }  // namespace
 
 Vec3<Unit> units_from_raw(const Vec32& v) { return {Unit::from_raw(v.x), Unit::from_raw(v.y), Unit::from_raw(v.z)}; }
@@ -38,14 +43,23 @@ Real real_from_raw(int64_t raw) { return float_from_integer<Real>(raw, -k_metre_
 
 namespace {
 
+int32_t component_bits(Unit a, bool& out_of_range) {
+  const int64_t bits = integer_from_float(a, 30, out_of_range);
+  out_of_range = out_of_range || bits != static_cast<int32_t>(bits);
+  return static_cast<int32_t>(bits);
+}
+
 bool quat_bits(const Quat& q, Quat32& raw) {
   bool out_of_range = false;
-  const auto component = [&](Unit a) {
-    const int64_t bits = integer_from_float(a, 30, out_of_range);
-    out_of_range = out_of_range || bits != static_cast<int32_t>(bits);
-    return static_cast<int32_t>(bits);
-  };
+  const auto component = [&](Unit a) { return component_bits(a, out_of_range); };
   raw = {component(q.x), component(q.y), component(q.z), component(q.w)};
+  return !out_of_range;
+}
+
+bool unit_bits(const Vec3<Unit>& v, Vec32& raw) {
+  bool out_of_range = false;
+  const auto component = [&](Unit a) { return component_bits(a, out_of_range); };
+  raw = {component(v.x), component(v.y), component(v.z)};
   return !out_of_range;
 }
 
@@ -64,6 +78,13 @@ bool raw_from_quat(const Quat& q, Quat32& raw) {
   // Of length 1 within 2^-29, as every rotation is that the library made.
   if (square - ((uint64_t{1} << 60) - (uint64_t{1} << 32)) <= uint64_t{1} << 33) return true;
   return normalise_input(raw);
+}
+
+bool raw_from_direction(const Vec3<Unit>& v, Vec32& raw) {
+  Vec32 bits;
+  if (!unit_bits(v, bits) || is_zero(bits)) return false;
+  raw = unit_vector_raw(scaled_to_30_bits(bits));
+  return true;
 }
 
 namespace {

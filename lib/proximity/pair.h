@@ -23,6 +23,8 @@ bool raw_difference(const Position& a, const Position& b, Vec64& raw);
 /// Q30, of length 1 within 2^-29. False unless | |q| - 1 | <= 2^-10.
 bool raw_from_quat(const Quat& q, Quat32& raw);
 Vec3<Unit> units_from_raw(const Vec32& v);
+/// A direction, Q30, of length 1 within 3 2^-30. False for zero, and for what no unit vector is.
+bool raw_from_direction(const Vec3<Unit>& v, Vec32& raw);
 
 /// A pair's greatest exponent: differences saturated in all components, and the largest cores, lie within 2^19 m.
 inline constexpr int k_exponent_max = 19;

@@ -102,7 +102,7 @@ class Witness {
 }  // namespace
 
 void witness_axes(const MovingPair& pair, TimeOfImpact& result) {
-  advance_by_axes(pair, k_witnesses_max, result,
+  advance_by_axes(pair, k_witnesses_max, INT32_MAX, result,
                   [&](const Frames& frames, const Simplex& simplex, const GjkResult& nearest, int, int32_t floor) {
                     const NearFeatures features(simplex);
                     const MovesWith with = moves_with(pair, features);

@@ -100,9 +100,10 @@ bool meets(SensorStage& stage, uint32_t sensor, uint32_t body, Fraction until) {
   bring_near(a, pose_b, pose_a);
   bring_near(b, pose_a, pose_b);
   const BodySweep& sweep = stage.sweeps[body];
+  const SweptBody swept_a = {a, pose_a, stage.sweeps[sensor]}, swept_b = {b, pose_b, sweep};
+  PairSearch search(stage.assets, stage.features, swept_a, swept_b, sweep.from);
   TimeOfImpact impact;
-  if (!pair_impact(stage.assets, stage.features, {a, pose_a, stage.sweeps[sensor]}, {b, pose_b, sweep}, sweep.from,
-                   k_zero, impact)) {
+  if (!search.find(k_zero, {}, impact)) {
     ++stage.undecided;
     return true;
   }
