@@ -110,15 +110,16 @@ DETENT_QUAD_INLINE Quad times(Quad a, const QuadScaled& b) {
 class QuadBlock {
  public:
   DETENT_QUAD_INLINE void include(const Vec3<Quad>& v, int exponent) {
-    include_bits({magnitude(v.x) | magnitude(v.y) | magnitude(v.z)}, exponent - k_mantissa_bits);
+    include_bits(magnitude(v.x) | magnitude(v.y) | magnitude(v.z), k_spin_power - exponent);
   }
   /// Numbers that are not negative, all at once: they take as many bits as their bits together.
   template <unsigned count>
   DETENT_QUAD_INLINE void include(const Quad (&values)[count], uint32_t used) {
     QuadInt64 all = {0, 0, 0, 0};
     for (uint32_t i = 0; i < used; ++i) all |= magnitude(values[i]);
-    include_bits({all}, -k_number_bits);
+    include_bits(all, k_number_drop);
   }
+  DETENT_QUAD_INLINE void settle() { shift_ = max(shift_, lengths({bits_}) + quad_of(k_bits_power)); }
   DETENT_QUAD_INLINE Vec3<Quad> mantissas(const Vec3<Quad>& v, int exponent) const {
     const Quad n = shift_ - quad_of(exponent);
     return {round_shift_any(v.x, n), round_shift_any(v.y, n), round_shift_any(v.z, n)};
@@ -161,7 +162,10 @@ class QuadBlock {
     for (int i = 0; i < 4; ++i) result.v[i] = bit_length_64(static_cast<uint64_t>(all.v[i]));
     return result;
   }
-  DETENT_QUAD_INLINE void include_bits(Quad all, int more) { shift_ = max(shift_, lengths(all) + quad_of(more)); }
+  DETENT_QUAD_INLINE void include_bits(QuadInt64 all, int drop) {
+    bits_ |= reinterpret_cast<QuadInt64>(reinterpret_cast<QuadUint64>(all) >> static_cast<uint64_t>(drop));
+  }
+  QuadInt64 bits_ = {0, 0, 0, 0};
   Quad shift_ = quad_of(k_shift_min);
 };
 
@@ -181,6 +185,7 @@ class QuadBlock {
   void include(const Vec3<Quad>&, int) {}
   template <unsigned count>
   void include(const Quad (&)[count], uint32_t) {}
+  void settle() {}
   DETENT_QUAD_INLINE Vec3<Quad> mantissas(const Vec3<Quad>& v, int) const { return v; }
   DETENT_QUAD_INLINE Quad held(Quad value) const { return value; }
   DETENT_QUAD_INLINE Quad number(Quad value) const { return value; }
