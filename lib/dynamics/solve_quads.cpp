@@ -146,7 +146,8 @@ DETENT_QUAD_INLINE void write_normals(const QuadContact& from, Contacts to) {
   write_reals_at(from.impulse_max, to, DETENT_AT(impulse_max));
 }
 
-DETENT_QUAD_INLINE void write_apart(const QuadContact& from, Contacts to) {
+DETENT_QUAD_INLINE void write_softened(const QuadContact& from, Contacts to) {
+  write_normals(from, to);
   QuadInt32 words[4];
   DETENT_UNROLL
   for (int i = 0; i < 4; ++i) {
@@ -159,7 +160,8 @@ DETENT_QUAD_INLINE void write_apart(const QuadContact& from, Contacts to) {
   write_words(words, {to[0]->apart, to[1]->apart, to[2]->apart, to[3]->apart});
 }
 
-DETENT_QUAD_INLINE void write_friction(const QuadContact& from, Contacts to) {
+DETENT_QUAD_INLINE void write_relaxed(const QuadContact& from, Contacts to) {
+  write_normals(from, to);
   write_reals_at({from.friction_impulse[0], from.friction_impulse[1], from.angular_impulse[0], from.angular_impulse[1]},
                  to, DETENT_AT(friction_impulse));
   if (from.angular_rows != 3) return;
@@ -246,21 +248,27 @@ DETENT_QUAD_INLINE void pass(const StepSettings& settings, const SolverBodies& b
   solve(solver);
   all_a.write(a, contacts, &ContactWork::share_a);
   all_b.write(b, contacts, &ContactWork::share_b);
-  write_normals(contact, contacts);
   write(contact, contacts);
 }
 
 }  // namespace
 
+void warm_start_quad(const StepSettings& settings, const SolverBodies& bodies, Contacts contacts) {
+  pass(
+      settings, bodies, contacts, false, read_friction, [](ContactSolver<Four>& solver) { solver.warm_start(); },
+      [](const QuadContact&, Contacts) {});
+}
+
 void soften_quad(const StepSettings& settings, const SolverBodies& bodies, Contacts contacts) {
   pass(
-      settings, bodies, contacts, true, read_gaps, [](ContactSolver<Four>& solver) { solver.soften(); }, write_apart);
+      settings, bodies, contacts, true, read_gaps, [](ContactSolver<Four>& solver) { solver.soften(); },
+      write_softened);
 }
 
 void relax_quad(const StepSettings& settings, const SolverBodies& bodies, Contacts contacts) {
   pass(
       settings, bodies, contacts, false, read_friction, [](ContactSolver<Four>& solver) { solver.relax(); },
-      write_friction);
+      write_relaxed);
 }
 
 }  // namespace DETENT_NAMESPACE
