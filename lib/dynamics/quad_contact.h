@@ -210,6 +210,8 @@ struct QuadBody {
   QuadGyration gyration;
 };
 
+namespace {
+
 /// The numbers of four contacts.
 struct Four {
   using Number = Quad;
@@ -237,6 +239,8 @@ struct Four {
     return {one(&Softness::rate), one(&Softness::mass_scale), one(&Softness::impulse_scale)};
   }
 };
+
+}  // namespace
 
 DETENT_QUAD_INLINE Vec3<Quad> operator+(const Vec3<Quad>& a, const Vec3<Quad>& b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
