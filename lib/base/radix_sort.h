@@ -25,18 +25,21 @@ __attribute__((noinline)) void sort_by_digit(Span<T> items, Span<T> spare, const
 template <class T, class DigitOf>
 void radix_sort(Span<T> items, Span<T> spare, const DigitOf& digit_of, int digits) {
   constexpr uint32_t k_few = 32;
-  for (int digit = 0; digit < digits; ++digit) {
-    const auto by = [&](const T& item) { return digit_of(item, digit); };
-    if (items.count > k_few) {
-      sort_by_digit(items, spare, by);
-      continue;
-    }
-    for (uint32_t i = 1; i < items.count; ++i) {
-      const T item = items[i];
-      uint32_t hole = i;
-      for (; hole > 0 && by(items[hole - 1]) > by(item); --hole) items[hole] = items[hole - 1];
-      items[hole] = item;
-    }
+  if (items.count > k_few) {
+    for (int digit = 0; digit < digits; ++digit)
+      sort_by_digit(items, spare, [&](const T& item) { return digit_of(item, digit); });
+    return;
+  }
+  const auto precedes = [&](const T& a, const T& b) {
+    int digit = digits - 1;
+    while (digit > 0 && digit_of(a, digit) == digit_of(b, digit)) --digit;
+    return digit_of(a, digit) < digit_of(b, digit);
+  };
+  for (uint32_t i = 1; i < items.count; ++i) {
+    const T item = items[i];
+    uint32_t hole = i;
+    for (; hole > 0 && precedes(item, items[hole - 1]); --hole) items[hole] = items[hole - 1];
+    items[hole] = item;
   }
 }
 

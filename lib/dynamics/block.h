@@ -33,6 +33,11 @@ inline constexpr int k_shift_min = 9;       ///< steps finer than 2^-37 are no o
 /// Spins of the solver are kept 2^-8: a slender body's leaves Real's range long before its momentum does.
 inline constexpr int k_spin_power = 8;
 
+// What a block is to hold is gathered in steps of 2^k_spin_power of Real's: what they drop is below the finest block.
+inline constexpr int k_bits_power = k_spin_power - k_mantissa_bits;
+inline constexpr int k_number_drop = k_number_bits + k_bits_power;
+static_assert(k_spin_power <= k_shift_min - k_bits_power && k_number_drop <= k_shift_min - k_bits_power);
+
 /// Held to the range of a factor.
 DETENT_SHARED inline Factor held(Ulps a) {
   return static_cast<Factor>(a < -k_factor_max ? -k_factor_max : a > k_factor_max ? k_factor_max : a);
@@ -40,17 +45,21 @@ DETENT_SHARED inline Factor held(Ulps a) {
 
 class Block {
  public:
-  /// Makes room for `v` 2^exponent as mantissas.
+  /// Makes room for `v` 2^exponent as mantissas, from settle() on. Range: exponent from 0 to k_spin_power.
   DETENT_SHARED void include(const Vec3<Real>& v, int exponent) {
-    const uint64_t all = magnitude_64(v.x.raw) | magnitude_64(v.y.raw) | magnitude_64(v.z.raw);
-    if (all != 0) include_bits(bit_length_64(all) + exponent - k_mantissa_bits);
+    bits_ |= (magnitude_64(v.x.raw) | magnitude_64(v.y.raw) | magnitude_64(v.z.raw)) >> (k_spin_power - exponent);
   }
-  /// Makes room for the first `used` as numbers.
+  /// Makes room for the first `used` as numbers, likewise.
   template <unsigned count>
   void include(const Real (&values)[count], uint32_t used) {
     uint64_t all = 0;
     for (uint32_t i = 0; i < used; ++i) all |= magnitude_64(values[i].raw);
-    include_bits(bit_length_64(all) - k_number_bits);
+    bits_ |= all >> k_number_drop;
+  }
+  /// Chooses the power of two.
+  void settle() {
+    const int least = bit_length_64(bits_) + k_bits_power;
+    if (least > shift_) shift_ = least;
   }
 
   DETENT_SHARED Mantissas mantissas(const Vec3<Real>& v, int exponent) const {
@@ -94,7 +103,7 @@ class Block {
   }
 
  private:
-  void include_bits(int shift) { shift_ = shift > shift_ ? shift : shift_; }
+  uint64_t bits_ = 0;  ///< of all that is included
   int shift_ = k_shift_min;
 };
 
@@ -150,6 +159,7 @@ class Block {
   void include(const Vec3<Real>&, int) {}
   template <unsigned count>
   void include(const Real (&)[count], uint32_t) {}
+  void settle() {}
   Mantissas mantissas(const Vec3<Real>& v, int) const { return v; }
   Factor held(Real value) const { return value; }
   Ulps number(Real value) const { return value; }

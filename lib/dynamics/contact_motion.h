@@ -81,6 +81,7 @@ struct PairMotion {
     block.include(relative, 0);
     block.include(of_a, exponent);
     block.include(of_b, exponent);
+    block.settle();
     way = block.mantissas(relative, 0);
     spin_a = block.mantissas(of_a, exponent);
     spin_b = block.mantissas(of_b, exponent);

@@ -15,9 +15,15 @@ namespace {
 int32_t exponent_for(Real value) { return DETENT_FIXED ? exponent_above(value) + 2 : 0; }
 
 #if DETENT_FIXED
-Real real_part(Unit mantissa, int exponent) { return real_from_unit(mantissa, exponent); }
+/// What mantissas 2^-exponent become Reals by: to multiply costs less than to shift each.
+uint64_t real_power(int exponent) { return static_cast<uint64_t>(shift_64(1, exponent + k_real_frac - k_unit_frac)); }
+Real real_part(Unit mantissa, uint64_t power) {
+  return Real::from_raw(static_cast<int64_t>(static_cast<uint64_t>(int64_t{mantissa.raw}) * power));
+}
+#else
+uint64_t real_power(int) { return 1; }
 #endif
-Real real_part(Real value, int) { return value; }
+Real real_part(Real value, uint64_t) { return value; }
 
 /// What a wrench on one body adds to the pair's motion, to `response`. `turning`: gyration in the contact's frame, in
 /// Real, or as mantissas 2^-exponent.
@@ -26,8 +32,9 @@ void add_response(const ContactWork& work, const Number (&turning)[3][3], int ex
                   Unit unit, Scaled share, PairResponse& response) {
   const Unit reach[3] = {dot(arm, work.normal), dot(arm, work.tangent[0]), dot(arm, work.tangent[1])};
   const bool whole = share == Scaled(1.0);
+  const uint64_t power = real_power(exponent);
   const auto add_part = [&](int i, int k, Number part, bool moves) {
-    Real value = real_part(part, exponent);
+    Real value = real_part(part, power);
     if (moves) value += Real(1.0);
     response.part[response_index(i, k)] += whole ? value : multiply(value, share);
   };

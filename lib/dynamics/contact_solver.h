@@ -119,6 +119,7 @@ struct ContactSolver {
   void warm_start() {
     typename Kind::Block block;
     include_impulses(block);
+    block.settle();
     const uint32_t count = contact.state.point_count;
     Number wrench[k_parts];
     wrench[k_along_normal] = Number(Kind::zero());

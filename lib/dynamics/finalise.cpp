@@ -29,7 +29,7 @@ constexpr int k_quarterings_max = 64;  ///< gyrations lie far below 4^64
 /// Whether the spin is far below its bound, whatever the body's axes are.
 bool is_slow(const BodyTraits& traits, const Vec3<Real>& momentum) {
   Scaled most = traits.gyration[0];
-  for (const Scaled gyration : traits.gyration) most = less(most, gyration) ? gyration : most;
+  for (int axis = 1; axis < 3; ++axis) most = less(most, traits.gyration[axis]) ? traits.gyration[axis] : most;
   bool saturated = false;
   const Real spin = multiply(greatest(momentum), most, saturated);
   return !saturated && spin < scale_by_power(k_spin_max, -3);

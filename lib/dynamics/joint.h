@@ -24,11 +24,8 @@ inline constexpr Real k_joint_impulse_max = 8192.0;  ///< of a row, m/s
 /// What a joint keeps is what its force would give in 2^-k_kept_power of a tick, however many substeps that has.
 inline constexpr int k_kept_power = 3;
 
-/// A length or speed in units of 2^exponent, held within what a Unit holds.
-Unit unit_held(Real value, int exponent);
-inline Vec3<Unit> unit_held(const Vec3<Real>& v, int exponent) {
-  return {unit_held(v.x, exponent), unit_held(v.y, exponent), unit_held(v.z, exponent)};
-}
+/// Lengths or speeds in units of 2^exponent, held within what a Unit holds.
+Vec3<Unit> unit_held(const Vec3<Real>& v, int exponent);
 
 struct JointStage {
   Span<JointState> joints;  ///< the slots that were ever used

@@ -100,6 +100,7 @@ inline void gather(const JointWork& work, uint32_t end, Vec3<Real>& force, Vec3<
 template <bool only_points>
 inline void factor(Real (&response)[k_joint_rows_max][k_joint_rows_max], JointWork& work) {
   const uint32_t rows = only_points ? 3 : work.rows;
+  DETENT_UNROLL
   for (uint32_t k = 0; k < rows; ++k) {
     const bool linear = only_points || (k < 3 && work.points != 0) || is_linear(work.row[k]);
     const Real own = response[k][k], least = work.least[linear ? 0 : 1];

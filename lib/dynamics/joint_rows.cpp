@@ -103,9 +103,9 @@ struct RowMaker {
     const Real rate = real_from_unit(leaning.x, 0) + Real(1.0);
     const Scaled share = scaled_reciprocal(max(rate, k_twist_rate_min));
     const auto sum = [&](Unit of_a, Unit of_b) {
-      return unit_held(multiply(real_from_unit(of_a, 0) + real_from_unit(of_b, 0), share), 0);
+      return multiply(real_from_unit(of_a, 0) + real_from_unit(of_b, 0), share);
     };
-    const Vec3<Unit> axis = {sum(own.x, other.x), sum(own.y, other.y), sum(own.z, other.z)};
+    const Vec3<Unit> axis = unit_held({sum(own.x, other.x), sum(own.y, other.y), sum(own.z, other.z)}, 0);
     free_motion(i, angular(axis), length_of(twist_of(relative.x, relative.w)));
     if (rate < k_twist_rate_min) work.shown[i] = max(multiply(rate, share), k_zero);
   }

@@ -63,9 +63,10 @@ bool takes_way(const JointState& joint) {
 
 }  // namespace
 
-Unit unit_held(Real value, int exponent) {
+Vec3<Unit> unit_held(const Vec3<Real>& v, int exponent) {
   const Real limit = real_from_unit(Unit(1.875), exponent > 15 ? 15 : exponent);
-  return unit_from_real(clamp(value, -limit, limit), exponent);
+  const auto part = [&](Real value) { return unit_from_real(clamp(value, -limit, limit), exponent); };
+  return {part(v.x), part(v.y), part(v.z)};
 }
 
 void collect_joints(const SolverBodies& bodies, JointStage& stage) {
@@ -210,9 +211,9 @@ void grow_trees(const StepSettings& settings, const SolverBodies& bodies, Span<c
     work.least[1] = least(add(angular(a), angular(b)));
     const JointState& joint = stage.joints[work.joint];
     const JointBody& mobile = a.mobile != 0 ? a : b;
-    const Scaled reference = multiply(bodies.traits[mobile.slot].mass, mobile.share);
     for (int i = 0; i < 2; ++i) {
       if (!is_positive(joint.force_max[i])) continue;
+      const Scaled reference = multiply(bodies.traits[mobile.slot].mass, mobile.share);
       // Torques are over 2^exponent m besides.
       const int power = is_angular(static_cast<JointType>(joint.type), i) ? -work.exponent : 0;
       const Scaled impulse = scaled_by_power(multiply(joint.force_max[i], scaled_from(settings.tick_time)), power);

@@ -21,10 +21,11 @@ Real absolute_sum(const Vec3<Real>& v) { return abs(v.x) + abs(v.y) + abs(v.z); 
 
 }  // namespace
 
-void start_body(const StepSettings& settings, const BodyTraits& traits, const BodyPose& pose, const BodyMotion& motion,
+Real start_body(const StepSettings& settings, const BodyTraits& traits, const BodyPose& pose, const BodyMotion& motion,
                 BodyWork& work) {
   const Real zero = 0.0;
   const Vec3<Real> none = {zero, zero, zero};
+  Real spin = zero;
   work.joint_body = UINT32_MAX;
   work.rotation = pose.rotation;
   work.displacement = none;
@@ -35,9 +36,11 @@ void start_body(const StepSettings& settings, const BodyTraits& traits, const Bo
   if (!is_aloof(traits)) {  // contacts alone read them
     work.extent = shape_extent(traits);
     work.fall = fall_speed(settings, work.extent);
-    work.speed = speed_bound(traits, pose.rotation, motion);
+    if (!(motion.momentum == none)) spin = absolute_sum(spin_of(traits, pose.rotation, motion.momentum));
+    work.speed = absolute_sum(motion.velocity) + spin;
   }
   work.spin = world_spin(traits, work.gyration, motion.momentum, -k_spin_power);
+  return spin;
 }
 
 void predict(const StepSettings& settings, Span<const BodyTraits> traits, Span<const uint32_t> bodies,
@@ -65,10 +68,11 @@ Real speed_bound(const BodyTraits& traits, const Quat& rotation, const BodyMotio
 }
 
 void bound(const StepSettings& settings, Span<const BodyPose> poses, Span<const BodyTraits> traits,
-           Span<const BodyMotion> motions, Span<const uint32_t> bodies, Span<Bounds> bounds) {
+           Span<const BodyMotion> motions, Span<const uint32_t> bodies, Span<BodyWork> work, Span<Bounds> bounds) {
   const Vec3<Real> fall = settings.gravity * (settings.tick_time * settings.tick_time);
   for (const uint32_t slot : bodies) {
     const BodyTraits& body = traits[slot];
+    const Real spin = start_body(settings, body, poses[slot], motions[slot], work[slot]);
     if (is_aloof(body)) {
       bounds[slot] = k_nowhere;
       continue;
@@ -78,7 +82,7 @@ void bound(const StepSettings& settings, Span<const BodyPose> poses, Span<const 
       continue;
     }
     const BodyMotion& motion = motions[slot];
-    const Vec3<Real> half = half_bounds(body, matrix_from(poses[slot].rotation));
+    const Vec3<Real> half = half_bounds(body, work[slot].axes);
     const Real margin = bounds_extent(body) * settings.breaking;
     Vec3<Real> reach = {half.x + margin, half.y + margin, half.z + margin};
     Vec3<Real> move = motion.velocity * settings.tick_time;
@@ -86,7 +90,7 @@ void bound(const StepSettings& settings, Span<const BodyPose> poses, Span<const 
     if (!(motion.momentum == Vec3<Real>{Real(0.0), Real(0.0), Real(0.0)})) {
       // A turning body stays in its bounding ball.
       const Real ball = real_from_unit(body.bounding_radius, body.size_exponent) + margin;
-      const Real swing = absolute_sum(spin_of(body, poses[slot].rotation, motion.momentum)) * settings.tick_time;
+      const Real swing = spin * settings.tick_time;
       reach = {min(reach.x + swing, ball), min(reach.y + swing, ball), min(reach.z + swing, ball)};
     }
     const Real zero = 0.0;

@@ -15,7 +15,8 @@ typedef int32_t QuadInt32 __attribute__((vector_size(16)));
 typedef int64_t QuadInt64 __attribute__((vector_size(32)));
 typedef uint64_t QuadUint64 __attribute__((vector_size(32)));
 
-/// Ulps, factors, sums of products, and the raw numbers of Reals and Units. What is a factor fits 32 bits.
+/// Ulps, factors, sums of products, and the raw numbers of Reals and Units. Where a factor or a Unit is only multiplied
+/// its low half counts, and the high one may hold anything.
 struct Quad {
   QuadInt64 v;
 };
@@ -69,9 +70,12 @@ DETENT_QUAD_INLINE Quad shifted_down(Quad value, Quad n) {
   const QuadUint64 moved = (reinterpret_cast<QuadUint64>(value.v) ^ sign) >> by;
   return {reinterpret_cast<QuadInt64>(moved - (sign >> by))};
 }
-/// As round_shift_64(). Range: 1 <= n <= 64.
+/// As round_shift_64(). Range: 1 <= n <= 63.
 DETENT_QUAD_INLINE Quad round_shift_any(Quad value, Quad n) {
-  return shifted_down(shifted_down(value, n - quad_of(1)) + quad_of(1), quad_of(1));
+  const QuadUint64 sign = reinterpret_cast<QuadUint64>(quad_of(INT64_MIN).v), by = reinterpret_cast<QuadUint64>(n.v);
+  const QuadUint64 one = reinterpret_cast<QuadUint64>(quad_of(1).v);
+  const QuadUint64 twice = (reinterpret_cast<QuadUint64>(value.v) ^ sign) >> (by - one);
+  return {reinterpret_cast<QuadInt64>(((twice + one) >> one) - (sign >> by))};
 }
 /// As round_shift_64(). Range: |value| < 2^62, 1 <= n <= 63.
 DETENT_QUAD_INLINE Quad round_shift(Quad value, Quad n) {
@@ -88,7 +92,7 @@ DETENT_QUAD_INLINE Quad product(Quad a, Quad b) {
   return {reinterpret_cast<QuadInt64>(
       __builtin_ia32_pmuldq256(reinterpret_cast<Halves>(a.v), reinterpret_cast<Halves>(b.v)))};
 #else
-  return {a.v * b.v};
+  return {((a.v << 32) >> 32) * ((b.v << 32) >> 32)};
 #endif
 }
 DETENT_QUAD_INLINE Quad rounded(Quad sum) { return round_shift(sum, quad_of(k_unit_frac)); }
@@ -110,15 +114,16 @@ DETENT_QUAD_INLINE Quad times(Quad a, const QuadScaled& b) {
 class QuadBlock {
  public:
   DETENT_QUAD_INLINE void include(const Vec3<Quad>& v, int exponent) {
-    include_bits({magnitude(v.x) | magnitude(v.y) | magnitude(v.z)}, exponent - k_mantissa_bits);
+    include_bits(magnitude(v.x) | magnitude(v.y) | magnitude(v.z), k_spin_power - exponent);
   }
   /// Numbers that are not negative, all at once: they take as many bits as their bits together.
   template <unsigned count>
   DETENT_QUAD_INLINE void include(const Quad (&values)[count], uint32_t used) {
     QuadInt64 all = {0, 0, 0, 0};
     for (uint32_t i = 0; i < used; ++i) all |= magnitude(values[i]);
-    include_bits({all}, -k_number_bits);
+    include_bits(all, k_number_drop);
   }
+  DETENT_QUAD_INLINE void settle() { shift_ = max(shift_, lengths({bits_}) + quad_of(k_bits_power)); }
   DETENT_QUAD_INLINE Vec3<Quad> mantissas(const Vec3<Quad>& v, int exponent) const {
     const Quad n = shift_ - quad_of(exponent);
     return {round_shift_any(v.x, n), round_shift_any(v.y, n), round_shift_any(v.z, n)};
@@ -161,7 +166,10 @@ class QuadBlock {
     for (int i = 0; i < 4; ++i) result.v[i] = bit_length_64(static_cast<uint64_t>(all.v[i]));
     return result;
   }
-  DETENT_QUAD_INLINE void include_bits(Quad all, int more) { shift_ = max(shift_, lengths(all) + quad_of(more)); }
+  DETENT_QUAD_INLINE void include_bits(QuadInt64 all, int drop) {
+    bits_ |= reinterpret_cast<QuadInt64>(reinterpret_cast<QuadUint64>(all) >> static_cast<uint64_t>(drop));
+  }
+  QuadInt64 bits_ = {0, 0, 0, 0};
   Quad shift_ = quad_of(k_shift_min);
 };
 
@@ -181,6 +189,7 @@ class QuadBlock {
   void include(const Vec3<Quad>&, int) {}
   template <unsigned count>
   void include(const Quad (&)[count], uint32_t) {}
+  void settle() {}
   DETENT_QUAD_INLINE Vec3<Quad> mantissas(const Vec3<Quad>& v, int) const { return v; }
   DETENT_QUAD_INLINE Quad held(Quad value) const { return value; }
   DETENT_QUAD_INLINE Quad number(Quad value) const { return value; }
@@ -200,7 +209,18 @@ class QuadBlock {
 DETENT_QUAD_INLINE Quad dot(const Vec3<Quad>& a, const Vec3<Quad>& b) {
   return product(a.x, b.x) + product(a.y, b.y) + product(a.z, b.z);
 }
-DETENT_QUAD_INLINE Vec3<Quad> rounded(Quad x, Quad y, Quad z) { return {rounded(x), rounded(y), rounded(z)}; }
+/// Of factors.
+DETENT_QUAD_INLINE Vec3<Quad> rounded(Quad x, Quad y, Quad z) {
+#if DETENT_FIXED
+  const auto part = [](Quad sum) {
+    const QuadUint64 half = reinterpret_cast<QuadUint64>(quad_of(int64_t{1} << (k_unit_frac - 1)).v);
+    return Quad{reinterpret_cast<QuadInt64>((reinterpret_cast<QuadUint64>(sum.v) + half) >> k_unit_frac)};
+  };
+  return {part(x), part(y), part(z)};
+#else
+  return {x, y, z};
+#endif
+}
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

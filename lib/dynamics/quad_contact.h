@@ -19,73 +19,128 @@ DETENT_QUAD_INLINE void transpose_words(Row (&row)[4]) {
   row[3] = __builtin_shufflevector(high_01, high_23, 2, 3, 6, 7);
 }
 
-/// The first `count` words of four arrays, word by word. Range: count is a multiple of 4, and as many can be read.
-template <unsigned count>
-DETENT_QUAD_INLINE void read_words(const void* const (&from)[4], QuadInt32 (&words)[count]) {
-  for (unsigned i = 0; i < count; i += 4) {
-    QuadInt32 row[4];
-    DETENT_UNROLL
-    for (int k = 0; k < 4; ++k) __builtin_memcpy(&row[k], static_cast<const int32_t*>(from[k]) + i, sizeof(row[k]));
-    transpose_words(row);
-    DETENT_UNROLL
-    for (unsigned k = 0; k < 4; ++k) words[i + k] = row[k];
-  }
+/// Four words at each of four places, by columns.
+DETENT_QUAD_INLINE void read_four_words(const void* const (&from)[4], QuadInt32 (&words)[4]) {
+  DETENT_UNROLL
+  for (int k = 0; k < 4; ++k) __builtin_memcpy(&words[k], from[k], sizeof(words[k]));
+  transpose_words(words);
 }
 
 /// Writes four words to each of four places.
 DETENT_QUAD_INLINE void write_words(const QuadInt32 (&words)[4], void* const (&to)[4]) {
   QuadInt32 rows[4];
   const void* const from[4] = {&words[0], &words[1], &words[2], &words[3]};
-  read_words(from, rows);
+  read_four_words(from, rows);
   DETENT_UNROLL
   for (int k = 0; k < 4; ++k) __builtin_memcpy(to[k], &rows[k], sizeof(rows[k]));
 }
 
 #if DETENT_FIXED
-using QuadRow = QuadInt64;
 using QuadNumber = int64_t;
 using QuadExponent = Quad;
-DETENT_QUAD_INLINE Quad quad_from_words(QuadInt32 words) { return {__builtin_convertvector(words, QuadInt64)}; }
-DETENT_QUAD_INLINE Quad exponent_from_words(QuadInt32 words) { return quad_from_words(words); }
 DETENT_QUAD_INLINE Quad quad_of(Unit value) { return quad_of(int64_t{value.raw}); }
-#else
-using QuadRow = QuadFloat;
-using QuadNumber = Real;
-using QuadExponent = int;
-DETENT_QUAD_INLINE Quad quad_from_words(QuadInt32 words) { return {reinterpret_cast<QuadFloat>(words)}; }
-DETENT_QUAD_INLINE int exponent_from_words(QuadInt32) { return 0; }
-#endif
 
-DETENT_QUAD_INLINE void transpose(QuadRow (&row)[4]) {
-#if DETENT_FIXED
-  // Within the halves of a register first: to cross them costs more.
-  const QuadRow low_01 = __builtin_shufflevector(row[0], row[1], 0, 4, 2, 6);
-  const QuadRow high_01 = __builtin_shufflevector(row[0], row[1], 1, 5, 3, 7);
-  const QuadRow low_23 = __builtin_shufflevector(row[2], row[3], 0, 4, 2, 6);
-  const QuadRow high_23 = __builtin_shufflevector(row[2], row[3], 1, 5, 3, 7);
-  row[0] = __builtin_shufflevector(low_01, low_23, 0, 1, 4, 5);
-  row[1] = __builtin_shufflevector(high_01, high_23, 0, 1, 4, 5);
-  row[2] = __builtin_shufflevector(low_01, low_23, 2, 3, 6, 7);
-  row[3] = __builtin_shufflevector(high_01, high_23, 2, 3, 6, 7);
-#else
-  transpose_words(row);
-#endif
-}
+typedef int64_t QuadHalf __attribute__((vector_size(16)));
 
-/// Four Reals at each of four places.
-DETENT_QUAD_INLINE void read_reals(const Real* const (&from)[4], QuadRow (&row)[4]) {
+/// Two numbers of 64 bits at each of four places, by columns. The halves of a register are joined as they are read, and
+/// parted as they are written: to cross them costs more.
+DETENT_QUAD_INLINE void read_two(const void* const (&from)[4], QuadInt64& first, QuadInt64& second) {
+  QuadHalf row[4];
   DETENT_UNROLL
   for (int k = 0; k < 4; ++k) __builtin_memcpy(&row[k], from[k], sizeof(row[k]));
-  transpose(row);
+  const QuadInt64 even = __builtin_shufflevector(row[0], row[2], 0, 1, 2, 3);
+  const QuadInt64 odd = __builtin_shufflevector(row[1], row[3], 0, 1, 2, 3);
+  first = __builtin_shufflevector(even, odd, 0, 4, 2, 6);
+  second = __builtin_shufflevector(even, odd, 1, 5, 3, 7);
 }
-DETENT_QUAD_INLINE void write_reals(QuadRow (&row)[4], Real* const (&to)[4]) {
-  transpose(row);
+DETENT_QUAD_INLINE void write_two(QuadInt64 first, QuadInt64 second, void* const (&to)[4]) {
+  const QuadInt64 even = __builtin_shufflevector(first, second, 0, 4, 2, 6);
+  const QuadInt64 odd = __builtin_shufflevector(first, second, 1, 5, 3, 7);
+  const QuadHalf row[4] = {__builtin_shufflevector(even, even, 0, 1), __builtin_shufflevector(odd, odd, 0, 1),
+                           __builtin_shufflevector(even, even, 2, 3), __builtin_shufflevector(odd, odd, 2, 3)};
   DETENT_UNROLL
   for (int k = 0; k < 4; ++k) __builtin_memcpy(to[k], &row[k], sizeof(row[k]));
 }
+
+/// Four Reals at each of four places.
+DETENT_QUAD_INLINE void read_reals(const Real* const (&from)[4], Quad (&to)[4]) {
+  read_two({from[0], from[1], from[2], from[3]}, to[0].v, to[1].v);
+  read_two({from[0] + 2, from[1] + 2, from[2] + 2, from[3] + 2}, to[2].v, to[3].v);
+}
+DETENT_QUAD_INLINE void write_reals(const Quad (&from)[4], Real* const (&to)[4]) {
+  write_two(from[0].v, from[1].v, {to[0], to[1], to[2], to[3]});
+  write_two(from[2].v, from[3].v, {to[0] + 2, to[1] + 2, to[2] + 2, to[3] + 2});
+}
+DETENT_QUAD_INLINE Quad read_real(const Real* const (&from)[4]) {
+  return {QuadInt64{from[0]->raw, from[1]->raw, from[2]->raw, from[3]->raw}};
+}
+DETENT_QUAD_INLINE void write_real(Quad from, Real* const (&to)[4]) {
+  DETENT_UNROLL
+  for (int k = 0; k < 4; ++k) to[k]->raw = from.v[k];
+}
+DETENT_QUAD_INLINE void read_three(const Real* const (&from)[4], Quad (&to)[3]) {
+  read_two({from[0], from[1], from[2], from[3]}, to[0].v, to[1].v);
+  to[2] = read_real({from[0] + 2, from[1] + 2, from[2] + 2, from[3] + 2});
+}
+DETENT_QUAD_INLINE void write_three(const Quad (&from)[3], Real* const (&to)[4]) {
+  write_two(from[0].v, from[1].v, {to[0], to[1], to[2], to[3]});
+  write_real(from[2], {to[0] + 2, to[1] + 2, to[2] + 2, to[3] + 2});
+}
+
+/// The first `count` words of four arrays, two words to a register: of a factor the low half counts. Range: count is a
+/// multiple of 4, and as many can be read.
+template <unsigned count>
+struct QuadWords {
+  QuadInt64 pair[count / 2];
+
+  DETENT_QUAD_INLINE explicit QuadWords(const uint8_t* const (&from)[4]) {
+    for (unsigned i = 0; i < count; i += 4)
+      read_two({from[0] + 4 * i, from[1] + 4 * i, from[2] + 4 * i, from[3] + 4 * i}, pair[i / 2], pair[i / 2 + 1]);
+  }
+  DETENT_QUAD_INLINE Quad unit(uint32_t i) const {
+    if (i % 2 == 0) return {pair[i / 2]};
+    return {reinterpret_cast<QuadInt64>(reinterpret_cast<QuadUint64>(pair[i / 2]) >> 32)};
+  }
+  DETENT_QUAD_INLINE Quad number(uint32_t i) const { return product(unit(i), quad_of(1)); }
+  DETENT_QUAD_INLINE Quad exponent(uint32_t i) const { return number(i); }
+  DETENT_QUAD_INLINE QuadScaled scaled(uint32_t i) const { return {number(i), number(i + 1)}; }
+  DETENT_QUAD_INLINE QuadMask flag(uint32_t i) const { return {number(i).v != 0}; }
+};
+#else
+using QuadNumber = Real;
+using QuadExponent = int;
+
+DETENT_QUAD_INLINE void read_reals(const Real* const (&from)[4], Quad (&to)[4]) {
+  QuadFloat row[4];
+  DETENT_UNROLL
+  for (int k = 0; k < 4; ++k) __builtin_memcpy(&row[k], from[k], sizeof(row[k]));
+  transpose_words(row);
+  DETENT_UNROLL
+  for (int k = 0; k < 4; ++k) to[k].v = row[k];
+}
+DETENT_QUAD_INLINE void write_reals(const Quad (&from)[4], Real* const (&to)[4]) {
+  QuadFloat row[4] = {from[0].v, from[1].v, from[2].v, from[3].v};
+  transpose_words(row);
+  DETENT_UNROLL
+  for (int k = 0; k < 4; ++k) __builtin_memcpy(to[k], &row[k], sizeof(row[k]));
+}
+DETENT_QUAD_INLINE Quad read_real(const Real* const (&from)[4]) {
+  return {QuadFloat{*from[0], *from[1], *from[2], *from[3]}};
+}
+DETENT_QUAD_INLINE void write_real(Quad from, Real* const (&to)[4]) {
+  DETENT_UNROLL
+  for (int k = 0; k < 4; ++k) *to[k] = from.v[k];
+}
 /// The first three of four.
-DETENT_QUAD_INLINE void write_three(QuadRow (&row)[4], Real* const (&to)[4]) {
-  transpose(row);
+DETENT_QUAD_INLINE void read_three(const Real* const (&from)[4], Quad (&to)[3]) {
+  Quad row[4];
+  read_reals(from, row);
+  DETENT_UNROLL
+  for (int k = 0; k < 3; ++k) to[k] = row[k];
+}
+DETENT_QUAD_INLINE void write_three(const Quad (&from)[3], Real* const (&to)[4]) {
+  QuadFloat row[4] = {from[0].v, from[1].v, from[2].v, from[2].v};
+  transpose_words(row);
   DETENT_UNROLL
   for (int k = 0; k < 4; ++k) {
     __builtin_memcpy(to[k], &row[k], 2 * sizeof(Real));
@@ -93,6 +148,26 @@ DETENT_QUAD_INLINE void write_three(QuadRow (&row)[4], Real* const (&to)[4]) {
     __builtin_memcpy(to[k] + 2, &last, sizeof(Real));
   }
 }
+
+/// The first `count` words of four arrays. Range: count is a multiple of 4, and as many can be read.
+template <unsigned count>
+struct QuadWords {
+  QuadInt32 word[count];
+
+  DETENT_QUAD_INLINE explicit QuadWords(const uint8_t* const (&from)[4]) {
+    for (unsigned i = 0; i < count; i += 4) {
+      QuadInt32 row[4];
+      read_four_words({from[0] + 4 * i, from[1] + 4 * i, from[2] + 4 * i, from[3] + 4 * i}, row);
+      DETENT_UNROLL
+      for (unsigned k = 0; k < 4; ++k) word[i + k] = row[k];
+    }
+  }
+  DETENT_QUAD_INLINE Quad unit(uint32_t i) const { return {reinterpret_cast<QuadFloat>(word[i])}; }
+  DETENT_QUAD_INLINE int exponent(uint32_t) const { return 0; }
+  DETENT_QUAD_INLINE QuadScaled scaled(uint32_t i) const { return unit(i); }
+  DETENT_QUAD_INLINE QuadMask flag(uint32_t i) const { return {word[i] != 0}; }
+};
+#endif
 
 struct QuadGyration {
   Vec3<Quad> row[3];
@@ -125,7 +200,7 @@ struct QuadContact {
   QuadScaled angular_mass[3];
   QuadScaled share_a, share_b, friction, twist_arm, rolling_arm;
   Quad push_max;
-  QuadSoftness softness;
+  QuadMask static_pair;
 };
 
 struct QuadBody {
@@ -134,6 +209,8 @@ struct QuadBody {
   Vec3<Quad> displacement, turn;
   QuadGyration gyration;
 };
+
+namespace {
 
 /// The numbers of four contacts.
 struct Four {
@@ -154,10 +231,16 @@ struct Four {
   DETENT_QUAD_INLINE static bool takes_impulses(const QuadScaled&) { return true; }
   DETENT_QUAD_INLINE static QuadMask flag(QuadMask mask) { return mask; }
   DETENT_QUAD_INLINE static QuadMask is_unset(QuadMask flag) { return {~flag.v}; }
-  DETENT_QUAD_INLINE static const QuadSoftness& softness(const StepSettings&, const QuadContact& contact) {
-    return contact.softness;
+  DETENT_QUAD_INLINE static QuadSoftness softness(const StepSettings& settings, const QuadContact& contact) {
+    const auto one = [&](detent::Unit Softness::*part) {
+      return select(contact.static_pair, quad_of(settings.static_softness.*part),
+                    quad_of(settings.dynamic_softness.*part));
+    };
+    return {one(&Softness::rate), one(&Softness::mass_scale), one(&Softness::impulse_scale)};
   }
 };
+
+}  // namespace
 
 DETENT_QUAD_INLINE Vec3<Quad> operator+(const Vec3<Quad>& a, const Vec3<Quad>& b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
@@ -166,14 +249,14 @@ DETENT_QUAD_INLINE Vec3<Quad> operator+(const Vec3<Quad>& a, const Vec3<Quad>& b
 /// Where `pick` of four contacts or bodies lies.
 template <class Item, class Pick>
 DETENT_QUAD_INLINE void read_vector(Item* const (&items)[4], const Pick& pick, Vec3<Quad>& to) {
-  QuadRow row[4];
-  read_reals({&pick(*items[0]).x, &pick(*items[1]).x, &pick(*items[2]).x, &pick(*items[3]).x}, row);
-  to = {{row[0]}, {row[1]}, {row[2]}};
+  Quad row[3];
+  read_three({&pick(*items[0]).x, &pick(*items[1]).x, &pick(*items[2]).x, &pick(*items[3]).x}, row);
+  to = {row[0], row[1], row[2]};
 }
 template <class Item, class Pick>
 DETENT_QUAD_INLINE void write_vector(const Vec3<Quad>& from, Item* const (&items)[4], const Pick& pick) {
-  QuadRow row[4] = {from.x.v, from.y.v, from.z.v, from.z.v};
-  write_three(row, {&pick(*items[0]).x, &pick(*items[1]).x, &pick(*items[2]).x, &pick(*items[3]).x});
+  write_three({from.x, from.y, from.z},
+              {&pick(*items[0]).x, &pick(*items[1]).x, &pick(*items[2]).x, &pick(*items[3]).x});
 }
 
 }  // namespace DETENT_NAMESPACE

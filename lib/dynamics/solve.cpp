@@ -169,9 +169,6 @@ SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<
   using Solver = ContactSolver<One>;
   SolveCount count;
   Real elapsed = 0.0;
-  StepSettings one_by_one = settings;
-  one_by_one.quads = false;
-  const auto each = [&](const auto& visit) { pass(one_by_one, bodies, order, contacts, visit, soften_quad); };
   const Real enough = scale_by_power(settings.gravity_size * settings.time, -static_cast<int>(settings.convergence));
   /// Sweeps until nothing changes by more than that.
   const auto sweep = [&](const auto& one, const auto& four) {
@@ -188,7 +185,9 @@ SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<
   };
   for (uint32_t substep = 0; substep < settings.substeps; ++substep) {
     count.clamped += integrate_velocities(bodies, island, substep == 0, order.count != 0);
-    if (substep == 0) each([](Solver& contact) { contact.warm_start(); });
+    if (substep == 0)
+      pass(
+          settings, bodies, order, contacts, [](Solver& contact) { contact.warm_start(); }, warm_start_quad);
     for (const ContactOrder& entry : order) {
       const ContactWork& contact = contacts[entry.contact];
       if (contact.static_pair == 0) continue;
@@ -203,7 +202,9 @@ SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<
     sweep([](Solver& contact) { contact.relax(); }, relax_quad);
     elapsed += settings.time;
   }
-  each(rebound);
+  StepSettings one_by_one = settings;
+  one_by_one.quads = false;
+  pass(one_by_one, bodies, order, contacts, rebound, relax_quad);
   if (settings.post_stabilises) count.clamped += post_stabilise(settings, bodies, island, order, contacts);
   return count;
 }

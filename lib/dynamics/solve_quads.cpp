@@ -39,25 +39,24 @@ using Contacts = ContactWork* const (&)[4];
 /// Words of ContactWork from a member on.
 template <unsigned count>
 struct Words {
-  QuadInt32 word[count];
+  QuadWords<count> words;
   uint32_t first;
 
-  DETENT_QUAD_INLINE Words(Contacts from, uint32_t offset) : first(offset) {
-    const void* start[4];
-    for (int k = 0; k < 4; ++k) start[k] = reinterpret_cast<const uint8_t*>(from[k]) + offset;
-    read_words(start, word);
+  DETENT_QUAD_INLINE static const uint8_t* start(const ContactWork* from, uint32_t offset) {
+    return reinterpret_cast<const uint8_t*>(from) + offset;
   }
-  DETENT_QUAD_INLINE QuadInt32 at(uint32_t offset, uint32_t i = 0) const { return word[(offset - first) / 4 + i]; }
-  DETENT_QUAD_INLINE Quad unit(uint32_t offset, uint32_t i = 0) const { return quad_from_words(at(offset, i)); }
+  DETENT_QUAD_INLINE Words(Contacts from, uint32_t offset)
+      : words({start(from[0], offset), start(from[1], offset), start(from[2], offset), start(from[3], offset)}),
+        first(offset) {}
+  DETENT_QUAD_INLINE uint32_t index(uint32_t offset) const { return (offset - first) / 4; }
+  DETENT_QUAD_INLINE Quad unit(uint32_t offset, uint32_t i = 0) const { return words.unit(index(offset) + i); }
+  DETENT_QUAD_INLINE QuadExponent exponent(uint32_t offset) const { return words.exponent(index(offset)); }
+  DETENT_QUAD_INLINE QuadMask flag(uint32_t offset, uint32_t i = 0) const { return words.flag(index(offset) + i); }
   DETENT_QUAD_INLINE Vec3<Quad> vector(uint32_t offset) const {
     return {unit(offset), unit(offset, 1), unit(offset, 2)};
   }
   DETENT_QUAD_INLINE QuadScaled scaled(uint32_t offset, uint32_t i = 0) const {
-#if DETENT_FIXED
-    return {unit(offset, 2 * i), unit(offset, 2 * i + 1)};
-#else
-    return unit(offset, i);
-#endif
+    return words.scaled(index(offset) + i * static_cast<uint32_t>(sizeof(Scaled) / 4));
   }
   template <unsigned used>
   DETENT_QUAD_INLINE void units(uint32_t offset, Quad (&to)[used]) const {
@@ -67,33 +66,26 @@ struct Words {
 };
 #define DETENT_AT(member) static_cast<uint32_t>(__builtin_offsetof(ContactWork, member))
 
-template <unsigned count>
-DETENT_QUAD_INLINE void read_reals_at(Contacts from, uint32_t offset, Quad (&to)[count]) {
-  const auto at = [&](int k) {
-    return reinterpret_cast<const Real*>(reinterpret_cast<const uint8_t*>(from[k]) + offset);
-  };
-  QuadRow row[4];
-  read_reals({at(0), at(1), at(2), at(3)}, row);
-  DETENT_UNROLL
-  for (unsigned i = 0; i < count; ++i) to[i] = {row[i]};
+DETENT_QUAD_INLINE Real* reals_at(ContactWork* contact, uint32_t offset) {
+  return reinterpret_cast<Real*>(reinterpret_cast<uint8_t*>(contact) + offset);
+}
+DETENT_QUAD_INLINE void read_reals_at(Contacts from, uint32_t offset, Quad (&to)[4]) {
+  read_reals(
+      {reals_at(from[0], offset), reals_at(from[1], offset), reals_at(from[2], offset), reals_at(from[3], offset)}, to);
+}
+DETENT_QUAD_INLINE Quad read_real_at(Contacts from, uint32_t offset) {
+  return read_real(
+      {reals_at(from[0], offset), reals_at(from[1], offset), reals_at(from[2], offset), reals_at(from[3], offset)});
 }
 DETENT_QUAD_INLINE void write_reals_at(const Quad (&from)[4], Contacts to, uint32_t offset) {
-  const auto at = [&](int k) { return reinterpret_cast<Real*>(reinterpret_cast<uint8_t*>(to[k]) + offset); };
-  QuadRow row[4] = {from[0].v, from[1].v, from[2].v, from[3].v};
-  write_reals(row, {at(0), at(1), at(2), at(3)});
-}
-DETENT_QUAD_INLINE QuadMask mask_of(QuadInt32 flags) {
-#if DETENT_FIXED
-  return {__builtin_convertvector(flags != 0, QuadInt64)};
-#else
-  return {flags != 0};
-#endif
+  write_reals(from,
+              {reals_at(to[0], offset), reals_at(to[1], offset), reals_at(to[2], offset), reals_at(to[3], offset)});
 }
 
 static_assert(__builtin_offsetof(ContactState, normal_impulse) + 4 * sizeof(Real) <= sizeof(ContactState));
 static_assert(DETENT_AT(angular_impulse) == DETENT_AT(friction_impulse) + 2 * sizeof(Real));
 
-DETENT_QUAD_INLINE void read_contact(const StepSettings& settings, Contacts from, QuadContact& to) {
+DETENT_QUAD_INLINE void read_contact(Contacts from, QuadContact& to) {
   const Words<56> words(from, DETENT_AT(normal));
   to.normal = words.vector(DETENT_AT(normal));
   to.tangent[0] = words.vector(DETENT_AT(tangent[0]));
@@ -105,9 +97,10 @@ DETENT_QUAD_INLINE void read_contact(const StepSettings& settings, Contacts from
   DETENT_UNROLL
   for (uint32_t i = 0; i < k_manifold_points_max; ++i) {
     words.units(DETENT_AT(coupling) + 16 * i, to.coupling[i]);
-    to.apart[i] = mask_of(words.at(DETENT_AT(apart), i));
+    to.apart[i] = words.flag(DETENT_AT(apart), i);
   }
-  to.coupling_exponent = exponent_from_words(words.at(DETENT_AT(coupling_exponent)));
+  to.coupling_exponent = words.exponent(DETENT_AT(coupling_exponent));
+  to.static_pair = words.flag(DETENT_AT(static_pair));
   words.units(DETENT_AT(x), to.x);
   words.units(DETENT_AT(y), to.y);
   words.units(DETENT_AT(inverse_mass), to.inverse_mass);
@@ -117,18 +110,11 @@ DETENT_QUAD_INLINE void read_contact(const StepSettings& settings, Contacts from
   to.angular_rows = from[0]->angular_rows;
   read_reals_at(from, DETENT_AT(state.normal_impulse), to.state.normal_impulse);
   read_reals_at(from, DETENT_AT(impulse_max), to.impulse_max);
-  const QuadMask is_static = mask_of(words.at(DETENT_AT(static_pair)));
-  const Softness &of_static = settings.static_softness, &of_dynamic = settings.dynamic_softness;
-  to.softness = {select(is_static, quad_of(of_static.rate), quad_of(of_dynamic.rate)),
-                 select(is_static, quad_of(of_static.mass_scale), quad_of(of_dynamic.mass_scale)),
-                 select(is_static, quad_of(of_static.impulse_scale), quad_of(of_dynamic.impulse_scale))};
 }
 
 DETENT_QUAD_INLINE void read_gaps(Contacts from, QuadContact& to) {
   read_reals_at(from, DETENT_AT(separation), to.separation);
-  Quad one[1];
-  read_reals_at(from, DETENT_AT(push_max), one);
-  to.push_max = one[0];
+  to.push_max = read_real_at(from, DETENT_AT(push_max));
 }
 
 DETENT_QUAD_INLINE void read_friction(Contacts from, QuadContact& to) {
@@ -140,20 +126,19 @@ DETENT_QUAD_INLINE void read_friction(Contacts from, QuadContact& to) {
     for (int k = 0; k < 3; ++k)
       to.response[3 * i + k] = words.unit(DETENT_AT(response), static_cast<uint32_t>(3 * i + k));
   }
-  to.response_exponent = exponent_from_words(words.at(DETENT_AT(response_exponent)));
+  to.response_exponent = words.exponent(DETENT_AT(response_exponent));
   words.units(DETENT_AT(friction_mass), to.friction_mass);
   to.friction = words.scaled(DETENT_AT(friction));
   to.twist_arm = words.scaled(DETENT_AT(twist_arm));
   to.rolling_arm = words.scaled(DETENT_AT(rolling_arm));
   for (uint32_t i = 0; i < 3; ++i) to.angular_mass[i] = words.scaled(DETENT_AT(angular_mass), i);
-  Quad impulses[4], last[1];
+  Quad impulses[4];
   read_reals_at(from, DETENT_AT(friction_impulse), impulses);
-  read_reals_at(from, DETENT_AT(angular_impulse[2]), last);
   to.friction_impulse[0] = impulses[0];
   to.friction_impulse[1] = impulses[1];
   to.angular_impulse[0] = impulses[2];
   to.angular_impulse[1] = impulses[3];
-  to.angular_impulse[2] = last[0];
+  to.angular_impulse[2] = read_real_at(from, DETENT_AT(angular_impulse[2]));
 }
 
 DETENT_QUAD_INLINE void write_normals(const QuadContact& from, Contacts to) {
@@ -161,7 +146,8 @@ DETENT_QUAD_INLINE void write_normals(const QuadContact& from, Contacts to) {
   write_reals_at(from.impulse_max, to, DETENT_AT(impulse_max));
 }
 
-DETENT_QUAD_INLINE void write_apart(const QuadContact& from, Contacts to) {
+DETENT_QUAD_INLINE void write_softened(const QuadContact& from, Contacts to) {
+  write_normals(from, to);
   QuadInt32 words[4];
   DETENT_UNROLL
   for (int i = 0; i < 4; ++i) {
@@ -174,22 +160,14 @@ DETENT_QUAD_INLINE void write_apart(const QuadContact& from, Contacts to) {
   write_words(words, {to[0]->apart, to[1]->apart, to[2]->apart, to[3]->apart});
 }
 
-DETENT_QUAD_INLINE void write_friction(const QuadContact& from, Contacts to) {
+DETENT_QUAD_INLINE void write_relaxed(const QuadContact& from, Contacts to) {
+  write_normals(from, to);
   write_reals_at({from.friction_impulse[0], from.friction_impulse[1], from.angular_impulse[0], from.angular_impulse[1]},
                  to, DETENT_AT(friction_impulse));
   if (from.angular_rows != 3) return;
-  for (int k = 0; k < 4; ++k) {
-#if DETENT_FIXED
-    to[k]->angular_impulse[2].raw = from.angular_impulse[2].v[k];
-#else
-    to[k]->angular_impulse[2] = from.angular_impulse[2].v[k];
-#endif
-  }
-}
-
-DETENT_QUAD_INLINE void read_vectors(const QuadInt32* words, Vec3<Quad>* to, int count) {
-  for (int i = 0; i < count; ++i)
-    to[i] = {quad_from_words(words[3 * i]), quad_from_words(words[3 * i + 1]), quad_from_words(words[3 * i + 2])};
+  write_real(from.angular_impulse[2],
+             {reals_at(to[0], DETENT_AT(angular_impulse[2])), reals_at(to[1], DETENT_AT(angular_impulse[2])),
+              reals_at(to[2], DETENT_AT(angular_impulse[2])), reals_at(to[3], DETENT_AT(angular_impulse[2]))});
 }
 
 /// Four bodies: those that take impulses are written back.
@@ -216,11 +194,12 @@ struct Bodies {
     read_vector(
         work, [](BodyWork& w) -> Vec3<Real>& { return w.contact_momentum; }, to.contact_momentum);
 #endif
-    const void* const start[4] = {&work[0]->gyration, &work[1]->gyration, &work[2]->gyration, &work[3]->gyration};
-    QuadInt32 words[12];
-    read_words(start, words);
-    read_vectors(words, to.gyration.row, 3);
-    to.gyration.exponent = exponent_from_words(words[9]);
+    const auto gyration = [this](int k) { return reinterpret_cast<const uint8_t*>(&work[k]->gyration); };
+    const QuadWords<12> words({gyration(0), gyration(1), gyration(2), gyration(3)});
+    DETENT_UNROLL
+    for (uint32_t i = 0; i < 3; ++i)
+      to.gyration.row[i] = {words.unit(3 * i), words.unit(3 * i + 1), words.unit(3 * i + 2)};
+    to.gyration.exponent = words.exponent(9);
   }
   DETENT_QUAD_INLINE void write(const QuadBody& from, Contacts contacts, Scaled ContactWork::*share) const {
     BodyMotion no_motion;  // of what takes no impulses, and may be another contact's body as well
@@ -261,7 +240,7 @@ DETENT_QUAD_INLINE void pass(const StepSettings& settings, const SolverBodies& b
   const Bodies all_b = bodies_of(bodies, contacts, &ContactState::body_b);
   QuadContact contact;
   QuadBody a, b;
-  read_contact(settings, contacts, contact);
+  read_contact(contacts, contact);
   read(contacts, contact);
   all_a.read(a, with_way);
   all_b.read(b, with_way);
@@ -269,21 +248,27 @@ DETENT_QUAD_INLINE void pass(const StepSettings& settings, const SolverBodies& b
   solve(solver);
   all_a.write(a, contacts, &ContactWork::share_a);
   all_b.write(b, contacts, &ContactWork::share_b);
-  write_normals(contact, contacts);
   write(contact, contacts);
 }
 
 }  // namespace
 
+void warm_start_quad(const StepSettings& settings, const SolverBodies& bodies, Contacts contacts) {
+  pass(
+      settings, bodies, contacts, false, read_friction, [](ContactSolver<Four>& solver) { solver.warm_start(); },
+      [](const QuadContact&, Contacts) {});
+}
+
 void soften_quad(const StepSettings& settings, const SolverBodies& bodies, Contacts contacts) {
   pass(
-      settings, bodies, contacts, true, read_gaps, [](ContactSolver<Four>& solver) { solver.soften(); }, write_apart);
+      settings, bodies, contacts, true, read_gaps, [](ContactSolver<Four>& solver) { solver.soften(); },
+      write_softened);
 }
 
 void relax_quad(const StepSettings& settings, const SolverBodies& bodies, Contacts contacts) {
   pass(
       settings, bodies, contacts, false, read_friction, [](ContactSolver<Four>& solver) { solver.relax(); },
-      write_friction);
+      write_relaxed);
 }
 
 }  // namespace DETENT_NAMESPACE

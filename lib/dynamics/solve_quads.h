@@ -11,10 +11,12 @@ inline namespace DETENT_NAMESPACE {
 bool has_quads();
 
 /// As the passes of ContactSolver<One>. Range: no dynamic body twice; equal counts of points and of angular rows.
+void warm_start_quad(const StepSettings& settings, const SolverBodies& bodies, ContactWork* const (&contacts)[4]);
 void soften_quad(const StepSettings& settings, const SolverBodies& bodies, ContactWork* const (&contacts)[4]);
 void relax_quad(const StepSettings& settings, const SolverBodies& bodies, ContactWork* const (&contacts)[4]);
 #else
 constexpr bool has_quads() { return false; }
+inline void warm_start_quad(const StepSettings&, const SolverBodies&, ContactWork* const (&)[4]) {}
 inline void soften_quad(const StepSettings&, const SolverBodies&, ContactWork* const (&)[4]) {}
 inline void relax_quad(const StepSettings&, const SolverBodies&, ContactWork* const (&)[4]) {}
 #endif

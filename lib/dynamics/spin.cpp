@@ -32,7 +32,7 @@ void turn_about(int axis, Scaled rate, int exponent, Real time, BodyFrame& frame
   next = turned;
 }
 
-Scaled difference(Scaled a, Scaled b) { return add(a, negate(b)); }
+Scaled difference(Scaled a, Scaled b) { return a == b ? Scaled(0.0) : add(a, negate(b)); }
 Scaled distance(Scaled a, Scaled b) { return less(a, b) ? difference(b, a) : difference(a, b); }
 
 /// The axis whose gyration is farthest from the other two.

@@ -40,14 +40,14 @@ DETENT_SHARED constexpr Unit operator*(Unit a, Unit b) { return unit_from_produc
 namespace raw {
 DETENT_SHARED constexpr int64_t multiply(int64_t a, int32_t unit) { return Int128::narrow_sum<k_unit_frac>(a, unit); }
 DETENT_SHARED constexpr int64_t multiply(int64_t a, int64_t b) {
-  return Int128::product(a, b).round_shift(k_real_frac);
+  return Int128::product(a, b).round_shift<k_real_frac>();
 }
 DETENT_SHARED constexpr int64_t dot(const Vec3<Real>& a, const Vec3<Unit>& b) {
   return Int128::narrow_sum<k_unit_frac>(a.x.raw, b.x.raw, a.y.raw, b.y.raw, a.z.raw, b.z.raw);
 }
 DETENT_SHARED constexpr int64_t dot(const Vec3<Real>& a, const Vec3<Real>& b) {
   return (Int128::product(a.x.raw, b.x.raw) + Int128::product(a.y.raw, b.y.raw) + Int128::product(a.z.raw, b.z.raw))
-      .round_shift(k_real_frac);
+      .round_shift<k_real_frac>();
 }
 DETENT_SHARED constexpr int64_t min(int64_t a, int64_t b) { return b < a ? b : a; }
 DETENT_SHARED constexpr int64_t max(int64_t a, int64_t b) { return a < b ? b : a; }
@@ -165,7 +165,7 @@ DETENT_SHARED constexpr Vec3<Real> cross(const Vec3<Unit>& a, const Vec3<Real>& 
 }
 DETENT_SHARED constexpr Vec3<Real> cross(const Vec3<Real>& a, const Vec3<Real>& b) {
   const auto difference = [](Real p, Real q, Real r, Real s) {
-    return Real::from_raw((Int128::product(p.raw, q.raw) - Int128::product(r.raw, s.raw)).round_shift(k_real_frac));
+    return Real::from_raw((Int128::product(p.raw, q.raw) - Int128::product(r.raw, s.raw)).round_shift<k_real_frac>());
   };
   return {difference(a.y, b.z, a.z, b.y), difference(a.z, b.x, a.x, b.z), difference(a.x, b.y, a.y, b.x)};
 }

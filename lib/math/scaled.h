@@ -80,9 +80,11 @@ constexpr Scaled negate(Scaled a) { return Scaled::from_parts(-a.mantissa, a.exp
 #if DETENT_NATIVE_WIDE
 inline Real multiply(Real a, Scaled b) {
   DETENT_VERIFY_RANGE(b.mantissa == 0 || b.exponent < 0);
+  const Int128 product = Int128::product(a.raw, b.mantissa);
+  const int n = -b.exponent;
+  if (n > 0 && n <= 64) return Real::from_raw(product.round_shift(n));
   // The product is below 2^95; only 0 has an exponent of 0 here.
-  if (b.exponent >= 0 || b.exponent < -120) return Real(0.0);
-  return Real::from_raw(Int128::product(a.raw, b.mantissa).round_shift(-b.exponent));
+  return n <= 0 || n > 120 ? Real(0.0) : Real::from_raw(product.round_shift(n));
 }
 #else
 DETENT_PASSING inline Real multiply(Real a, Scaled b) {
@@ -93,6 +95,13 @@ DETENT_PASSING inline Real multiply(Real a, Scaled b) {
 DETENT_PASSING inline Scaled scaled_reciprocal(Real a) { return words::to_scaled(words::scaled_reciprocal(a.raw)); }
 /// a b. Rounding: to nearest, ties up. Overflow: clamps to Real's range and sets `saturated` (else untouched).
 DETENT_PASSING inline Real multiply(Real a, Scaled b, bool& saturated) {
+#if DETENT_NATIVE_WIDE
+  // What is below 2^8, times what is below 2^7, is far from the limits.
+  constexpr int64_t k_usual = int64_t{1} << (k_real_frac + 8);
+  const int n = -b.exponent;
+  if (n >= 24 && n <= 64 && a.raw > -k_usual && a.raw < k_usual)
+    return Real::from_raw(Int128::product(a.raw, b.mantissa).round_shift(n));
+#endif
   return Real::from_raw(words::multiply_raw(a.raw, words::word_of(b), saturated));
 }
 /// As multiply(Real(1.0), a, saturated).

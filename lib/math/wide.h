@@ -99,6 +99,12 @@ struct PortableInt128 {
     if (n == 64) return static_cast<int64_t>(static_cast<uint64_t>(high) + half);
     return static_cast<int64_t>(((low >> n) | (static_cast<uint64_t>(high) << (64 - n))) + half);
   }
+  /// As round_shift(n). Range: 1 <= n <= 64.
+  template <int n>
+  constexpr int64_t round_shift() const {
+    static_assert(n >= 1 && n <= 64);
+    return round_shift(n);
+  }
 
  private:
   static constexpr int64_t low_product(int64_t a, int32_t b) { return int64_t{static_cast<int32_t>(a)} * b; }
@@ -152,7 +158,17 @@ struct NativeInt128 {
   constexpr int64_t low_signed() const { return static_cast<int64_t>(value); }
 
   constexpr NativeInt128 shift_left(int n) const { return {static_cast<Value>(static_cast<Bits>(value) << n)}; }
-  constexpr int64_t round_shift(int n) const { return static_cast<int64_t>(((value >> (n - 1)) + 1) >> 1); }
+  constexpr int64_t round_shift(int n) const {
+    if (n > 64) return round_shift_64(high_word(), n - 64);
+    // Shifted up, so that the wanted word is the high one.
+    const Bits up = static_cast<Bits>(value) << ((64 - n) & 63);
+    return static_cast<int64_t>(static_cast<uint64_t>(up >> 64) + (static_cast<uint64_t>(up) >> 63));
+  }
+  template <int n>
+  constexpr int64_t round_shift() const {
+    static_assert(n >= 1 && n <= 64);
+    return static_cast<int64_t>((static_cast<Bits>(value) + (Bits{1} << (n - 1))) >> n);
+  }
 
  private:
   template <int n>

@@ -169,13 +169,12 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   Losses losses = {traits, {world.capacity_events.data, world.capacity_events.capacity}};
   const SensorCode* const sensor_code = sensor_code_of(world, state);
   if (sensor_code != nullptr) sensor_code->start(cache, used, scratch.changed);
-  Span<const uint32_t> moving = sort_out(cache, settings, state, scratch.sweeps, scratch.moving_bodies);
+  Span<const uint32_t> moving = sort_out(cache, settings, state, work, scratch.sweeps, scratch.moving_bodies);
   PairPool pool = {poses, traits, cache.bounds, scratch.pair_sort, scratch.pairs, world.filter_rules, apart};
   pool.losses = &losses;
   find_pairs(moving, cache.tree, scratch.bounds_keys, scratch.bounds_sort, pool);
   pool.sort();
-  const auto start_moving = [&] {
-    for (const uint32_t slot : moving) bodies.start(settings, slot);
+  const auto start_joined = [&] {
     if (joint_code == nullptr) return;
     for (const JointState& joint : joints.joints) {
       if (joint.type == 0) continue;
@@ -187,12 +186,13 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
     joint_code->collect(solver_bodies, joints);
     report.joints = joints.count;
   };
-  start_moving();
+  start_joined();
   // Whoever wakes and is held by joints reaches farther (lengths_of), and may touch more.
   while (const uint32_t touched = wake_touched(settings, bodies, cache, pool)) {
     report.woke += touched;
     moving = list_moving(cache.visits, scratch.moving_bodies);
-    start_moving();
+    for (const uint32_t slot : moving) bodies.start(settings, slot);
+    start_joined();
     if (joint_code == nullptr) break;
   }
   stages.end(StepStage::find_pairs, 0);

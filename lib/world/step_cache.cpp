@@ -18,7 +18,7 @@ void make_anew(const StepCacheView& step, const StateView<uint8_t>& state) {
 }  // namespace
 
 Span<const uint32_t> sort_out(const StepCacheView& step, const StepSettings& settings, const StateView<uint8_t>& state,
-                              Span<BodySweep> sweeps, Span<uint32_t> slots) {
+                              Span<BodyWork> work, Span<BodySweep> sweeps, Span<uint32_t> slots) {
   step.cache.tree.visited = 0;
   if (step.cache.fresh == 0) make_anew(step, state);
   // All leave before one enters: the keys of those that stay must be what they were.
@@ -36,8 +36,8 @@ Span<const uint32_t> sort_out(const StepCacheView& step, const StepSettings& set
     if (state.traits[slot].type != 0) slots[--resting] = slot;
   });
   const Span<const uint32_t> newly_resting = {slots.data + resting, slots.count - resting};
-  bound(settings, state.poses, state.traits, state.motions, slots.first(moving), step.bounds);
-  bound(settings, state.poses, state.traits, state.motions, newly_resting, step.bounds);
+  bound(settings, state.poses, state.traits, state.motions, slots.first(moving), work, step.bounds);
+  bound(settings, state.poses, state.traits, state.motions, newly_resting, work, step.bounds);
   for (const uint32_t slot : newly_resting) {
     sweeps[slot] = {};
     step.tree.insert(slot);

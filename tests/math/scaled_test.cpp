@@ -79,6 +79,20 @@ DETENT_TEST(scaled, a_product_that_rounds_up_to_the_limit_saturates) {
   EXPECT_FALSE(saturated);
 }
 
+DETENT_TEST(scaled, the_product_made_in_place_equals_the_called_one) {
+  Samples samples{53};
+  for (int i = 0; i < 50000 && !testing::Test::HasFailure(); ++i) {
+    const Real a = samples.real();
+    Scaled b = scaled_from_parts(samples.below(2) == 0, samples.magnitude(31), -31);
+    if (b.mantissa != 0) b.exponent = -10 - static_cast<int32_t>(samples.below(70));
+    bool saturated = false, called_saturated = false;
+    const Real product = multiply(a, b, saturated);
+    const int64_t called = words::multiply_raw(a.raw, words::word_of(b), called_saturated);
+    EXPECT_EQ(product.raw, called) << a.raw << " " << b.mantissa << " 2^" << b.exponent;
+    EXPECT_EQ(saturated, called_saturated);
+  }
+}
+
 DETENT_TEST(scaled, the_fast_product_equals_the_checked_one_within_one) {
   Samples samples{52};
   for (int i = 0; i < 50000 && !testing::Test::HasFailure(); ++i) {

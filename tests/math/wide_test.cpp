@@ -36,6 +36,9 @@ DETENT_TEST(wide, portable_operations_equal_native_ones) {
     if (n >= 1) {
       EXPECT_EQ(native.round_shift(n), portable.round_shift(n)) << n;
     }
+    EXPECT_EQ(native.round_shift<1>(), portable.round_shift(1));
+    EXPECT_EQ(native.round_shift<46>(), portable.round_shift<46>());
+    EXPECT_EQ(native.round_shift<64>(), portable.round_shift<64>());
   }
   expect_equal(NativeInt128::product(INT64_MIN, INT64_MIN), PortableInt128::product(INT64_MIN, INT64_MIN));
   expect_equal(NativeInt128::product(INT64_MIN, INT64_MAX), PortableInt128::product(INT64_MIN, INT64_MAX));

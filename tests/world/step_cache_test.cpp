@@ -59,12 +59,13 @@ void change(Samples& samples, const std::vector<World*>& worlds, std::vector<Bod
 std::vector<uint64_t> all_pairs(const StateView<uint8_t>& state) {
   const uint32_t used = state.world.slots_used;
   std::vector<Bounds> bounds(used);
+  std::vector<BodyWork> work(used);
   std::vector<uint32_t> slots;
   for (uint32_t slot = 0; slot < used; ++slot) {
     if (state.traits[slot].type != 0) slots.push_back(slot);
   }
   bound(step_settings(state.world), state.poses, state.traits, state.motions,
-        {slots.data(), static_cast<uint32_t>(slots.size())}, {bounds.data(), used});
+        {slots.data(), static_cast<uint32_t>(slots.size())}, {work.data(), used}, {bounds.data(), used});
   const auto moves = [&](uint32_t slot) {
     return is_moving(state.traits[slot], state.motions[slot], state.activities[slot]);
   };
@@ -86,11 +87,12 @@ std::vector<uint64_t> pairs_of_next_step(World world) {
   world.block = reinterpret_cast<uint8_t*>(block.data());
   const StateView<uint8_t> state = view_of(world);
   const StepCacheView cache = cache_of(world.block, state.layout, capacity);
+  std::vector<BodyWork> work(capacity.bodies);
   std::vector<BodySweep> sweeps(capacity.bodies);
   std::vector<uint32_t> slots(capacity.bodies);
   std::vector<BoundsKey> keys(capacity.bodies), keys_spare(capacity.bodies);
   std::vector<uint64_t> pairs(20000), pairs_spare(20000);
-  const Span<const uint32_t> moving = sort_out(cache, step_settings(state.world), state,
+  const Span<const uint32_t> moving = sort_out(cache, step_settings(state.world), state, {work.data(), capacity.bodies},
                                                {sweeps.data(), capacity.bodies}, {slots.data(), capacity.bodies});
   PairPool pool = {state.poses, state.traits, cache.bounds, {pairs_spare.data(), 20000}, {pairs.data(), 20000}};
   find_pairs(moving, cache.tree, {keys.data(), capacity.bodies}, {keys_spare.data(), capacity.bodies}, pool);
