@@ -9,13 +9,12 @@
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
-
 namespace {
 
-using PreparedMethod = void (*)(const MovingPair&, TimeOfImpact&);
-
-Status time_of_impact_of(PreparedMethod method, const Convex& a, const Motion& motion_a, const Convex& b,
-                         const Motion& motion_b, TimeOfImpact& result) {
+/// By a method of prepared pairs.
+template <void (*method)(const MovingPair&, TimeOfImpact&)>
+Status time_of_impact_of(const Convex& a, const Motion& motion_a, const Convex& b, const Motion& motion_b,
+                         TimeOfImpact& result) {
   MovingPair pair;
   if (const Status status = prepare(a, motion_a, b, motion_b, pair); status != Status::ok) return status;
   method(pair, result);
@@ -35,9 +34,9 @@ Status time_of_impact_by(ToiMethod method, const Convex& a, const Motion& motion
     case ToiMethod::constant_spin:
       return time_of_impact_on_axes(method, a, motion_a, b, motion_b, result);
     case ToiMethod::mirtich:
-      return time_of_impact_of(ballistic_advancement, a, motion_a, b, motion_b, result);
+      return time_of_impact_of<ballistic_advancement>(a, motion_a, b, motion_b, result);
     case ToiMethod::baraff:
-      return time_of_impact_of(witness_axes, a, motion_a, b, motion_b, result);
+      return time_of_impact_of<witness_axes>(a, motion_a, b, motion_b, result);
     case ToiMethod::feature_pairs:
       return time_of_impact_by_features(a, motion_a, b, motion_b, result);
     case ToiMethod::redon:

@@ -183,6 +183,9 @@ PosesOfStep relative_poses(const Encounter& encounter) {
   return {first, last.position - first.position, sine == 0 ? Vector{{0, 0, 0}} : v * (angle / sine)};
 }
 
+/// The poses that are asked about cannot tell whether bodies touch.
+bool are_too_coarse(const Encounter& encounter) { return encounter.tolerance() / 5 <= encounter.slack(); }
+
 /// Of an answer in a motion of its own: counts it if it comes after a contact that samples show.
 template <class At>
 void expect_of_own_motion(const Encounter& encounter, const TimeOfImpact& impact, int samples, At at, uint32_t& late) {
@@ -191,6 +194,7 @@ void expect_of_own_motion(const Encounter& encounter, const TimeOfImpact& impact
     ASSERT_LE(gap_of(encounter, at(time)), encounter.tolerance() + slack);
     if (time == 0) return;
   }
+  if (are_too_coarse(encounter)) return;
   for (int i = 0; i < samples; ++i) {
     if (gap_of(encounter, at(time * i / samples)) > 0) continue;
     ++late;
@@ -223,7 +227,7 @@ DETENT_TEST(redon, is_never_late_in_the_screw_between_the_poses) {
       return BothPlaced{{{{0, 0, 0}}, {0, 0, 0, 1}}, detent_oracle::tangent_screw_at(poses, time)};
     };
     expect_of_own_motion(encounter, impact, 40, at, late);
-    if (impact.outcome == ToiOutcome::hit && fraction_to_host(impact.time) > 0) {
+    if (impact.outcome == ToiOutcome::hit && fraction_to_host(impact.time) > 0 && !are_too_coarse(encounter)) {
       EXPECT_GT(gap_of(encounter, at(fraction_to_host(impact.time))), 0);
     }
     if (HasFailure()) return;
