@@ -15,8 +15,12 @@ namespace {
 int32_t exponent_for(Real value) { return DETENT_FIXED ? exponent_above(value) + 2 : 0; }
 
 #if DETENT_FIXED
-/// What mantissas 2^-exponent become Reals by: to multiply costs less than to shift each.
-uint64_t real_power(int exponent) { return static_cast<uint64_t>(shift_64(1, exponent + k_real_frac - k_unit_frac)); }
+/// What mantissas 2^-exponent become Reals by: to multiply costs less than to shift each. Range: a Real has more
+/// fraction bits than what is brought to it, so that nothing is rounded.
+uint64_t real_power(int exponent) {
+  DETENT_VERIFY_RANGE(exponent >= k_unit_frac - k_real_frac);
+  return static_cast<uint64_t>(shift_64(1, exponent + k_real_frac - k_unit_frac));
+}
 Real real_part(Unit mantissa, uint64_t power) {
   return Real::from_raw(static_cast<int64_t>(static_cast<uint64_t>(int64_t{mantissa.raw}) * power));
 }
