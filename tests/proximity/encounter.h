@@ -5,6 +5,7 @@
 #include "base/digest.h"
 #include "proximity/toi_methods.h"
 #include "tests/proximity/closed_form.h"
+#include "tests/proximity/exact_numbers.h"
 
 /// Two shapes that move, and what must hold of their time of impact.
 namespace detent {
@@ -117,14 +118,7 @@ inline Encounter random_encounter(Samples& samples, double scale, double turn_ma
 /// Of a method's answers to `count` encounters of numbers that every configuration holds exactly: the same in all.
 inline uint64_t digest_of_answers(ToiMethod method, uint32_t seed, int count) {
   Samples samples{seed};
-  const auto number = [&samples](int64_t most) {
-    return static_cast<double>(static_cast<int64_t>(samples.below(static_cast<uint32_t>(2 * most))) - most) / 256;
-  };
-  const auto vector = [&number](int64_t most) {
-    const double x = number(most), y = number(most), z = number(most);
-    return Vector{{x, y, z}};
-  };
-  const auto size = [&number] { return real(1.125 + number(256)); };
+  const auto size = [&samples] { return real(1.125 + exact_number(samples, 256)); };
   const auto shape = [&](uint32_t kind) {
     const Real ball = real(kind % 2 == 0 ? 0 : 0.125), x = size(), y = size(), z = size();
     switch (kind % 7) {
@@ -142,7 +136,6 @@ inline uint64_t digest_of_answers(ToiMethod method, uint32_t seed, int count) {
         return known(rounded(box({x, y, z}), ball));
     }
   };
-  const double part[3] = {209715.0 / 1048576, 419430.0 / 1048576, 838861.0 / 1048576};  // fifths: (1, 2, 2, 4) / 5
   uint64_t digest = 0;
   for (int i = 0; i < count; ++i) {
     const uint32_t kind_a = samples.below(14), kind_b = samples.below(14);
@@ -150,17 +143,11 @@ inline uint64_t digest_of_answers(ToiMethod method, uint32_t seed, int count) {
     Motion motion[2];
     for (Motion& m : motion) {
       const double away = &m == motion ? -2.5 : 2.5;
-      const Vector at = vector(256) + Vector{{away, 0, 0}}, way = vector(256) - Vector{{away, 0, 0}};
-      EXPECT_OK(coord_from_host(at[0], m.start.position.x));
-      EXPECT_OK(coord_from_host(at[1], m.start.position.y));
-      EXPECT_OK(coord_from_host(at[2], m.start.position.z));
-      const uint32_t turned = samples.below(3);
-      EXPECT_OK(unit_from_host(turned == 0 ? part[0] : part[1], m.start.rotation.x));
-      EXPECT_OK(unit_from_host(turned == 1 ? part[0] : part[1], m.start.rotation.y));
-      EXPECT_OK(unit_from_host(turned == 2 ? part[0] : part[1], m.start.rotation.z));
-      EXPECT_OK(unit_from_host(part[2], m.start.rotation.w));
+      const Vector at = exact_vector(samples, 256) + Vector{{away, 0, 0}};
+      const Vector way = exact_vector(samples, 256) - Vector{{away, 0, 0}};
+      m.start = exact_pose(samples, at);
       m.displacement = reals(way);
-      m.turn = reals(vector(i % 3 == 0 ? 2560 : 512));
+      m.turn = reals(exact_vector(samples, i % 3 == 0 ? 2560 : 512));
     }
     TimeOfImpact result;
     EXPECT_OK(time_of_impact_by(method, a.convex, motion[0], b.convex, motion[1], result));

@@ -3,6 +3,7 @@
 
 #include "base/digest.h"
 #include "tests/oracle/effort.h"
+#include "tests/proximity/exact_numbers.h"
 #include "tests/proximity/feature_pairs.h"
 #include "tests/proximity/spread.h"
 
@@ -271,27 +272,12 @@ DETENT_TEST(feature_motion, bad_questions_are_refused_and_change_nothing) {
 /// Numbers that every configuration holds exactly, so that its answers may be compared.
 DETENT_TEST(feature_motion, answers_are_the_same_in_every_configuration_and_on_every_target) {
   Samples samples{93};
-  const auto vector = [&samples](int64_t most) {
-    const auto component = [&] {
-      return static_cast<double>(static_cast<int64_t>(samples.below(static_cast<uint32_t>(2 * most))) - most) / 256;
-    };
-    const double x = component(), y = component(), z = component();
-    return Vector{{x, y, z}};
-  };
-  const double part[3] = {209715.0 / 1048576, 419430.0 / 1048576, 838861.0 / 1048576};  // fifths: (1, 2, 2, 4) / 5
+  const auto vector = [&samples](int64_t most) { return exact_vector(samples, most); };
   uint64_t digest = 0;
   for (int i = 0; i < 1000; ++i) {
     Motion motion[2];
     for (Motion& m : motion) {
-      const Vector at = vector(300);
-      EXPECT_OK(coord_from_host(at[0], m.start.position.x));
-      EXPECT_OK(coord_from_host(at[1], m.start.position.y));
-      EXPECT_OK(coord_from_host(at[2], m.start.position.z));
-      const uint32_t turned = samples.below(3);
-      EXPECT_OK(unit_from_host(turned == 0 ? part[0] : part[1], m.start.rotation.x));
-      EXPECT_OK(unit_from_host(turned == 1 ? part[0] : part[1], m.start.rotation.y));
-      EXPECT_OK(unit_from_host(turned == 2 ? part[0] : part[1], m.start.rotation.z));
-      EXPECT_OK(unit_from_host(part[2], m.start.rotation.w));
+      m.start = exact_pose(samples, vector(300));
       m.displacement = reals(vector(512));
       m.turn = reals(vector(i % 3 == 0 ? 1 : 512));
     }

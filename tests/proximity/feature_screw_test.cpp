@@ -2,6 +2,7 @@
 
 #include "base/digest.h"
 #include "tests/oracle/effort.h"
+#include "tests/proximity/exact_numbers.h"
 #include "tests/proximity/feature_pairs.h"
 #include "tests/proximity/spread.h"
 
@@ -236,29 +237,12 @@ DETENT_TEST(feature_screw, bad_questions_are_refused_and_change_nothing) {
 /// Numbers that every configuration holds exactly, so that its answers may be compared.
 DETENT_TEST(feature_screw, answers_are_the_same_in_every_configuration_and_on_every_target) {
   Samples samples{96};
-  const auto vector = [&samples](int64_t most) {
-    const auto component = [&] {
-      return static_cast<double>(static_cast<int64_t>(samples.below(static_cast<uint32_t>(2 * most))) - most) / 256;
-    };
-    const double x = component(), y = component(), z = component();
-    return Vector{{x, y, z}};
-  };
+  const auto vector = [&samples](int64_t most) { return exact_vector(samples, most); };
   uint64_t digest = 0;
   for (int i = 0; i < 1000; ++i) {
     PosePair body[2];
     for (PosePair& poses : body) {
-      for (Pose* pose : {&poses.start, &poses.end}) {
-        const Vector at = vector(300);
-        EXPECT_OK(coord_from_host(at[0], pose->position.x));
-        EXPECT_OK(coord_from_host(at[1], pose->position.y));
-        EXPECT_OK(coord_from_host(at[2], pose->position.z));
-        // (1, 2, 2, 4) / 5, in 20 bits, its first three in any order.
-        const uint32_t small = samples.below(3);
-        EXPECT_OK(unit_from_host((small == 0 ? 209715.0 : 419430.0) / 1048576, pose->rotation.x));
-        EXPECT_OK(unit_from_host((small == 1 ? 209715.0 : 419430.0) / 1048576, pose->rotation.y));
-        EXPECT_OK(unit_from_host((small == 2 ? 209715.0 : 419430.0) / 1048576, pose->rotation.z));
-        EXPECT_OK(unit_from_host(838861.0 / 1048576, pose->rotation.w));
-      }
+      for (Pose* pose : {&poses.start, &poses.end}) *pose = exact_pose(samples, vector(300));
     }
     const Vec3<Real> corner[4] = {reals(vector(256)), reals(vector(256)), reals(vector(256)), reals(vector(256))};
     FeatureToi result;
