@@ -1,7 +1,8 @@
 #pragma once
+#include <detent/toi.h>
+
 #include "proximity/feature_candidates.h"
 #include "proximity/gjk.h"
-#include "proximity/toi_methods.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

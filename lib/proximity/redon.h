@@ -1,5 +1,5 @@
 #pragma once
-#include "proximity/toi_methods.h"
+#include <detent/toi.h>
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
