@@ -17,8 +17,8 @@ struct Part {
   int64_t turn;   ///< Q30 rad; the bodies turn no more relative to each other
   int64_t bend;   ///< 2^-46 m; a difference of a point of each is never farther from its chord, roundings included
   Vec64 way;      ///< of B from A over the part, 2^-46 m
-  int64_t stray;  ///< 2^-46 m; times the part, no two points' relative velocity along a normal of either body, as that
-                  ///< is at the beginning, is farther from `way` along it
+  int64_t stray;  ///< 2^-46 m; along a normal as it is at the beginning, points that touch move by `way`, give or take
+                  ///< this, if they go on over the part as they do then
 
   /// Whether points that touch with this outward normal of A, at the beginning, may come nearer: of the normals that
   /// two bodies have in common when they first touch, one that bounds them is such.
