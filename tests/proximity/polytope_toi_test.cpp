@@ -51,6 +51,9 @@ Encounter random_polytopes(Samples& samples, double turn_max) {
   }
 }
 
+/// The poses that are asked about cannot tell whether bodies touch.
+bool are_too_coarse(const Encounter& encounter) { return encounter.tolerance() / 5 <= encounter.slack(); }
+
 /// A million with DETENT_FULL=1 (50,000 of them by default).
 DETENT_TEST(feature_pairs, agree_with_conservative_advancement) {
   Samples samples{1};
@@ -64,20 +67,22 @@ DETENT_TEST(feature_pairs, agree_with_conservative_advancement) {
     ASSERT_NE(by_features.outcome, ToiOutcome::undecided);
     const double time = fraction_to_host(by_features.time), other = fraction_to_host(by_axes.time);
     const double tolerance = encounter.tolerance() + encounter.slack();
-    // Each is never late, and a hit of either is one within the tolerance: where one has an earlier time, it is near
-    // then.
     if (by_features.outcome == ToiOutcome::hit) {
       ++hits;
       ASSERT_LE(encounter.gap(time), tolerance);
     } else {
       ++clears;
     }
-    if (by_features.outcome != by_axes.outcome || time != other) {
-      const double first = std::min(time, other);
-      ASSERT_LE(encounter.gap(first), tolerance) << time << " and " << other;
-      apart_most = std::max(apart_most, fabs(time - other));
-    }
     intervals_most = std::max(intervals_most, by_features.passes);
+    if (by_features.outcome == by_axes.outcome && time == other) continue;
+    // A hit of either is one within the tolerance, and neither is late: from the earlier time to the later they are
+    // apart.
+    const double first = std::min(time, other), last = std::max(time, other);
+    apart_most = std::max(apart_most, last - first);
+    ASSERT_LE(encounter.gap(first), tolerance) << time << " and " << other;
+    if (are_too_coarse(encounter)) continue;
+    for (int k = 0; k <= 16; ++k)
+      ASSERT_TRUE(encounter.apart(first + ldexp(last - first, -k))) << time << " and " << other;
   }
   printf("%u pairs, %u hits, at most %u intervals; times apart by %.1e\n", count, hits, intervals_most, apart_most);
   EXPECT_GT(hits, count / 5);
@@ -218,7 +223,7 @@ OwnMotion ask_in_own_motion(ToiMethod method, Samples samples, double turn_limit
       EXPECT_LE(gap_at(time), encounter.tolerance() + slack);
       if (time == 0) continue;
     }
-    if (encounter.tolerance() / 5 <= encounter.slack()) continue;  // the poses are too coarse to tell
+    if (are_too_coarse(encounter)) continue;
     if (impact.outcome == ToiOutcome::hit && gap_at(time) == 0) ++found.late;
     bool apart = true;
     for (int k = 0; k < k_samples && apart; ++k) apart = gap_at(time * k / k_samples) > 0;
