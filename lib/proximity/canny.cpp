@@ -66,7 +66,7 @@ constexpr int k_degree = 5;
 /// In Bernstein form over an interval.
 struct Quintic {
   int64_t coefficient[k_degree + 1];
-  int64_t noise;  ///< of each, at most
+  int64_t noise;  ///< where none is larger they tell nothing
 
   bool changes_sign() const {
     bool above = false, below = false;
