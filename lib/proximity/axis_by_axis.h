@@ -18,11 +18,6 @@ inline Vec3<Real> point_on_a(const MovingPair& pair, const Placed& a, const Plac
   return half_space_point(offset, points.on_b, pair.exponent, nearest.normal, nearest.upper);
 }
 
-inline void set_clear(TimeOfImpact& result) {
-  result.outcome = ToiOutcome::clear;
-  result.time = Fraction(1.0);
-}
-
 /// GJK at a time, then as far as `next_time` leads from there, and so on: until the shapes are within the tolerance,
 /// the window ends, `next_time` leads no farther, or more than `iterations_max` axes were needed, which is undecided.
 /// `next_time(frames, simplex, nearest, iteration, floor)` gives a time from frames.time on, until which its method

@@ -41,18 +41,13 @@ Matrix32 rotation_of(const Quat32& q) {
 }
 
 /// Both bodies, in world axes.
-struct LerpMotion {
+struct LerpMotion : SweptPair {
   QuaternionLine line_a, line_b;
   Vec64 offset, displacement;
-  Sweep sweep_a, sweep_b;
 
   PlacedPair at(int64_t time) const {
     return {rotation_of(line_a.at(time)), rotation_of(line_b.at(time)), add(offset, over_time(displacement, time))};
   }
-  int64_t bend_a(int64_t length) const { return sweep_a.bend(length); }
-  int64_t bend_b(int64_t length) const { return sweep_b.bend(length); }
-  int64_t turn(int64_t length) const { return sweep_a.turn(length) + sweep_b.turn(length); }
-  int64_t ball() const { return ((sweep_a.reach + sweep_b.reach) >> 26) + 9; }
   /// What makes a polynomial of the features' volume: the product of the quaternions' squares, Q30.
   int64_t weight_at(int64_t time) const {
     const int64_t a = clipped_32(QuaternionLine::square(line_a.at(time))) >> 2;
@@ -242,12 +237,6 @@ Status time_of_impact_by_canny(const Convex& a, const Motion& motion_a, const Co
     return status;
   motion.offset = pair.offset;
   motion.displacement = pair.displacement;
-  result = {};
-  if (pair.from > pair.to) {
-    result.outcome = ToiOutcome::clear;
-    result.time = Fraction(1.0);
-    return Status::ok;
-  }
   FeaturePairs<LerpMotion, NumericalRoots>(a, b, motion).first_contact({pair.from, pair.to}, result);
   result.normal = {};
   result.point = {};

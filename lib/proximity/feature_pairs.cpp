@@ -8,18 +8,11 @@ Status time_of_impact_by_features(const Convex& a, const Motion& motion_a, const
   if (!Polytope::is_one(a) || !Polytope::is_one(b)) return Status::bad_argument;
   MovingPair pair;
   if (const Status status = prepare(a, motion_a, b, motion_b, pair); status != Status::ok) return status;
-  if (pair.from > pair.to) {
-    result = {};
-    result.outcome = ToiOutcome::clear;
-    result.time = Fraction(1.0);
-    return Status::ok;
-  }
-  const SteadyMotion motion = {pair.turning_a,
+  const SteadyMotion motion = {{{raw_core_radius(a), pair.turning_a.angle}, {raw_core_radius(b), pair.turning_b.angle}},
+                               pair.turning_a,
                                pair.turning_b,
                                pair.offset,
-                               pair.displacement,
-                               {raw_core_radius(a), pair.turning_a.angle},
-                               {raw_core_radius(b), pair.turning_b.angle}};
+                               pair.displacement};
   FeaturePairs<SteadyMotion>(a, b, motion).first_contact({pair.from, pair.to}, result);
   return Status::ok;
 }

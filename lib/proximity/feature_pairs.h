@@ -37,6 +37,7 @@ class FeaturePairs {
   /// Of a hit the normal and the point are in the axes of the motion.
   void first_contact(const Interval& window, TimeOfImpact& result) {
     result = {};
+    if (window.from > window.to) return set_clear(result);
     int64_t time = window.from;
     bool hit = false;
     part_.end = motion_.at(time);
@@ -60,9 +61,7 @@ class FeaturePairs {
       }
       hit = first.outcome == ToiOutcome::hit;
       if (!hit && part_.interval.to == window.to) {
-        result.outcome = ToiOutcome::clear;
-        result.time = Fraction(1.0);
-        return;
+        return set_clear(result);
       }
       time = part_.interval.to;
     }
@@ -87,7 +86,7 @@ class FeaturePairs {
     part_.interval = {from, to};
     part_.end = motion_.at(to);
     part_.turn = motion_.turn(to - from);
-    const int64_t bend = motion_.bend_a(to - from) + motion_.bend_b(to - from), ball = motion_.ball();
+    const int64_t bend = motion_.bend(to - from), ball = motion_.ball();
     part_.bend = bend + 2 * ball;
     part_.way = add(part_.end.offset, negate(part_.begin.offset));
     part_.stray = 8 * bend + part_of(cores_ + length_bound(part_.way), part_.turn) + 2 * ball;

@@ -27,18 +27,12 @@ struct Sweep {
   int64_t turn(int64_t length) const { return (over_time(angle, length) >> 16) + 1; }
 };
 
-/// Two bodies of constant velocity and constant spin, in world axes.
-struct SteadyMotion {
-  Turning turning_a, turning_b;
-  Vec64 offset, displacement;  ///< of B from A, 2^-46 m
+/// Two bodies whose positions go straight.
+struct SweptPair {
   Sweep sweep_a, sweep_b;
 
-  PlacedPair at(int64_t time) const {
-    return {turning_a.at(time), turning_b.at(time), add(offset, over_time(displacement, time))};
-  }
-  /// Of any point of A, and of B, in an interval so long.
-  int64_t bend_a(int64_t length) const { return sweep_a.bend(length); }
-  int64_t bend_b(int64_t length) const { return sweep_b.bend(length); }
+  /// Of a difference of any two points of theirs, in an interval so long.
+  int64_t bend(int64_t length) const { return sweep_a.bend(length) + sweep_b.bend(length); }
   /// The bodies turn relative to each other by no more than that in an interval so long, Q30 rad.
   int64_t turn(int64_t length) const { return sweep_a.turn(length) + sweep_b.turn(length); }
   /// Of a difference of two points at a time. The rotations' 16 2^-30 of the reach, and eight roundings: of two
@@ -49,13 +43,23 @@ struct SteadyMotion {
   }
 };
 
+/// Two bodies of constant velocity and constant spin, in world axes.
+struct SteadyMotion : SweptPair {
+  Turning turning_a, turning_b;
+  Vec64 offset, displacement;  ///< of B from A, 2^-46 m
+
+  PlacedPair at(int64_t time) const {
+    return {turning_a.at(time), turning_b.at(time), add(offset, over_time(displacement, time))};
+  }
+};
+
 /// Two poses of a pair between which it is asked about.
 struct Ends {
   int64_t from, to;
   PlacedPair begin, end;
 };
 
-/// Features of two bodies in a motion that has at(), bend_a(), bend_b(), turn() and ball() as SteadyMotion.
+/// Features of two bodies in a motion that has at(), bend(), turn() and ball() as SteadyMotion.
 template <class Motion>
 struct FeaturePath {
   const Motion& motion;
@@ -70,7 +74,7 @@ struct FeaturePath {
     span.count = difference_count(kind);
     set_differences_at(from, span.from);
     set_differences_at(to, span.to);
-    span.ball = ball + motion.bend_a(to - from) + motion.bend_b(to - from);
+    span.ball = ball + motion.bend(to - from);
     return span;
   }
   OpenPart roots(int64_t from, int64_t to) const requires requires(const Motion& m) { m.roots(*this, from, to); }

@@ -23,6 +23,12 @@ constexpr Vec64 over_time(const Vec64& v, int64_t time) {
 /// numerator / denominator as a time, rounded down; k_time_end if it is not below 1. Range: both >= 0, denominator > 0.
 int64_t time_quotient(int64_t numerator, int64_t denominator);
 
+/// Leaves the counts.
+inline void set_clear(TimeOfImpact& result) {
+  result.outcome = ToiOutcome::clear;
+  result.time = Fraction(1.0);
+}
+
 /// How a body's axes turn during the step.
 struct Turning {
   Quat32 start;

@@ -10,9 +10,9 @@ namespace {
 /// In A's axes.
 struct RelativeScrew {
   ScrewMotion screw;
-  Matrix32 start;  ///< B's rotation
-  int64_t bend;    ///< of any point of B over the whole step, 2^-46 m
-  int64_t angle;   ///< the bodies turn no faster, Q30 rad a step
+  Matrix32 start;      ///< B's rotation
+  int64_t bend_whole;  ///< of any point of B over the whole step, 2^-46 m
+  int64_t angle;       ///< the bodies turn no faster, Q30 rad a step
   int64_t rounding;
 
   PlacedPair at(int64_t time) const {
@@ -25,8 +25,7 @@ struct RelativeScrew {
     }
     return pair;
   }
-  int64_t bend_a(int64_t) const { return 0; }
-  int64_t bend_b(int64_t length) const { return over_time(over_time(bend, length) + 1, length) + 1; }
+  int64_t bend(int64_t length) const { return over_time(over_time(bend_whole, length) + 1, length) + 1; }
   int64_t turn(int64_t length) const { return over_time(angle, length) + 1; }
   int64_t ball() const { return rounding; }
   template <class Path>
@@ -64,7 +63,7 @@ Status time_of_impact_by_redon(const Convex& a, const Motion& motion_a, const Co
   RelativeScrew motion;
   if (const Status status = screw_between(start, end, motion.screw); status != Status::ok) return status;
   motion.start = matrix_from(start.rotation);
-  motion.bend = motion.screw.bend(raw_core_radius(b));
+  motion.bend_whole = motion.screw.bend(raw_core_radius(b));
   // Its angle grows by 2 |g| / (1 + t^2 g^2).
   motion.angle = motion.screw.tangent_length() << (1 + 30 - k_tangent_bits);
   motion.rounding = screw_ball(raw_core_radius(b), start, end) + (raw_core_radius(a) >> 26);
