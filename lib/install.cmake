@@ -1,5 +1,6 @@
-# What `cmake --install` puts under a prefix: the headers, the library of every built configuration, and what find_package
-# and pkg-config read. Nothing in it names the prefix, so an installed tree can be moved.
+# What `cmake --install` puts under a prefix: the headers, the library of every built configuration, what find_package and
+# pkg-config read, and with DETENT_TOOLS the tool, the pages and the schema of scenes. Nothing in it names the prefix, so an
+# installed tree can be moved.
 
 option(DETENT_INSTALL "Make the rules that install the library" ${PROJECT_IS_TOP_LEVEL})
 if(NOT DETENT_INSTALL)
@@ -11,6 +12,11 @@ include(CMakePackageConfigHelpers)
 
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/detent DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+if(TARGET detent_tool)
+  install(TARGETS detent_tool RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  file(GLOB detent_pages CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/docs/*.md ${PROJECT_SOURCE_DIR}/docs/*.schema.json)
+  install(FILES ${detent_pages} DESTINATION ${CMAKE_INSTALL_DOCDIR})
+endif()
 
 list(TRANSFORM DETENT_CONFIGS PREPEND detent_ OUTPUT_VARIABLE detent_libraries)
 install(TARGETS ${detent_libraries} EXPORT detent_targets

@@ -3,8 +3,9 @@
 set(DETENT_TOOLCHAINS ${CMAKE_CURRENT_LIST_DIR})
 
 # detent_target(<name>): reads the target's facts from targets.csv into DETENT_TARGET (its name), DETENT_TARGET_KIND (hosted
-# or bare), DETENT_TESTED_CONFIGS (whose unit tests it runs, or none), DETENT_TARGET_BYTE_ORDER and DETENT_TARGET_WORD_BITS; sets the emulator that ctest puts before its programs, the
-# configurations that the target's arithmetic can build, and -O2. A cache entry or -D of the user wins over each default.
+# or bare), DETENT_TARGET_CONFIGS (what its arithmetic can build), DETENT_TARGET_BYTE_ORDER and DETENT_TARGET_WORD_BITS; sets the
+# emulator that ctest puts before its programs, the first of its configurations as the one to build, ccache where it is
+# installed, and -O2. A cache entry or -D of the user wins over each default.
 macro(detent_target name)
   file(STRINGS ${DETENT_TOOLCHAINS}/targets.csv detent_row REGEX "^${name},")
   if(NOT detent_row)
@@ -14,18 +15,18 @@ macro(detent_target name)
   set(DETENT_TARGET ${name})
   list(GET detent_row 1 DETENT_TARGET_KIND)
   list(GET detent_row 2 detent_configs)
-  list(GET detent_row 3 detent_tested)
-  list(GET detent_row 4 DETENT_TARGET_BYTE_ORDER)
-  list(GET detent_row 5 DETENT_TARGET_WORD_BITS)
-  list(GET detent_row 6 detent_emulator)
+  list(GET detent_row 3 DETENT_TARGET_BYTE_ORDER)
+  list(GET detent_row 4 DETENT_TARGET_WORD_BITS)
+  list(GET detent_row 5 detent_emulator)
 
-  string(REPLACE " " ";" detent_configs "${detent_configs}")
-  set(DETENT_CONFIGS "${detent_configs}" CACHE STRING "The configurations to build, as a list")
-  if(NOT DEFINED CACHE{DETENT_TESTED_CONFIGS})
-    string(REPLACE " " ";" DETENT_TESTED_CONFIGS "${detent_tested}")
-  endif()
-  list(GET detent_configs 0 detent_configs)
+  string(REPLACE " " ";" DETENT_TARGET_CONFIGS "${detent_configs}")
+  list(GET DETENT_TARGET_CONFIGS 0 detent_configs)
   set(DETENT_CONFIG ${detent_configs} CACHE STRING "The configuration that detent::detent stands for")
+  find_program(DETENT_CCACHE ccache)
+  mark_as_advanced(DETENT_CCACHE)
+  if(DETENT_CCACHE)
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${DETENT_CCACHE} CACHE STRING "")
+  endif()
   set(CMAKE_BUILD_TYPE Release CACHE STRING "")
   set(CMAKE_C_FLAGS_RELEASE "-O2 -DNDEBUG" CACHE STRING "")
   set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG" CACHE STRING "")

@@ -6,6 +6,9 @@
 /// none for fx64. Every name lives in an inline namespace of the configuration, so that a program built for one
 /// configuration and linked with the library of another fails to link, and all four can be linked into one program.
 
+#if __cplusplus <= 201703L && (!defined(_MSVC_LANG) || _MSVC_LANG <= 201703L)
+#error "detent: needs C++20, or later (-std=c++20)"
+#endif
 #if defined(DETENT_FX64) + defined(DETENT_FX32) + defined(DETENT_F32) + defined(DETENT_F64) > 1
 #error "detent: define one of DETENT_FX64, DETENT_FX32, DETENT_F32, DETENT_F64, not several"
 #endif

@@ -1,7 +1,8 @@
 #pragma once
 #include <detent/config.h>
 
-#if defined(__FAST_MATH__) || (defined(__FLT_EVAL_METHOD__) && __FLT_EVAL_METHOD__ != 0 && !DETENT_FIXED)
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) || \
+    (defined(__FLT_EVAL_METHOD__) && __FLT_EVAL_METHOD__ != 0 && !DETENT_FIXED)
 #error "detent: the library must be compiled without -ffast-math and, in f32 and f64, without x87 (-msse2 -mfpmath=sse)"
 #endif
 

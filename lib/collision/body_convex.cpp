@@ -1,13 +1,12 @@
 #include "collision/body_convex.h"
 
 #include "geometry/hull.h"
+#include "geometry/shape_traits.h"
 #include "math/arithmetic.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
-
-constexpr int k_exponent_min = -14;  ///< of any unit of length
 
 /// In 2^-30, to nearest.
 #if DETENT_FIXED
@@ -25,7 +24,7 @@ constexpr int32_t k_bound_slack = sizeof(Unit) == 4 && !DETENT_FIXED ? 1 << 8 : 
 /// The sizes and the greatest distance from the origin, in 2^-30 2^exponent m, in the unit that this distance asks for.
 void set_core(const int32_t (&size)[3], int32_t bound, int32_t exponent, Convex& convex) {
   int lift = 30 - bit_length_32(static_cast<uint32_t>(bound));
-  if (lift > exponent - k_exponent_min) lift = exponent - k_exponent_min;
+  if (lift > exponent - k_size_exponent_min) lift = exponent - k_size_exponent_min;
   convex.exponent = exponent - lift;
   for (int i = 0; i < 3; ++i) convex.size[i] = static_cast<int32_t>(shift_64(size[i], lift));
   convex.core_radius = static_cast<int32_t>(lift < 0 ? (bound >> 1) + 2 : shift_64(bound, lift));

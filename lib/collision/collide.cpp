@@ -14,10 +14,6 @@ ShapeType type_of(const CollisionBody& body) { return static_cast<ShapeType>(bod
 /// The order in which a pair's functions take their shapes: half-space, box, round.
 int rank_of(ShapeType type) { return type == ShapeType::half_space ? 0 : type == ShapeType::box ? 1 : 2; }
 
-Vec3<Unit> scaled(const Vec3<Unit>& v, int power) {
-  return {scale_by_power(v.x, power), scale_by_power(v.y, power), scale_by_power(v.z, power)};
-}
-
 /// A shape that has ways of its own to meet the others of them.
 bool is_simple(const BodyTraits& traits) {
   const ShapeType type = static_cast<ShapeType>(traits.shape);
@@ -26,8 +22,10 @@ bool is_simple(const BodyTraits& traits) {
 }
 
 PairShape shape_in(const CollisionBody& body, int exponent) {
-  return {
-      type_of(body), {0.0, 0.0, 0.0}, body.rotation, scaled(body.traits.size, body.traits.size_exponent - exponent)};
+  return {type_of(body),
+          {0.0, 0.0, 0.0},
+          body.rotation,
+          scale_by_power(body.traits.size, body.traits.size_exponent - exponent)};
 }
 
 /// False if the centres are so far apart that the pair cannot touch.

@@ -77,16 +77,16 @@ Unit closest_along(const BoxAndSegment& pair) {
   return span > zero ? low + (high - low) * divide(-low_slope, span) : low;
 }
 
-struct Contact {
+struct BoxContact {
   Axes normal;  ///< out of the box
   int face;     ///< axis of the face that the normal belongs to, or -1
   Unit along;   ///< on the segment, where no face is
 };
 
 /// The direction of least overlap of a box and a segment that meet.
-Contact least_overlap(const BoxAndSegment& pair) {
+BoxContact least_overlap(const BoxAndSegment& pair) {
   const Unit zero = 0.0;
-  Contact best{};
+  BoxContact best{};
   Unit best_separation = -1.5;
   for (int axis = 0; axis < 3; ++axis) {
     const Unit separation =
@@ -158,7 +158,7 @@ void collide_box_round(const PairFrame& frame, PairManifold& manifold) {
   const Axes excess = pair.excess(along);
   Vec3<Unit> normal;
   Unit distance = zero;
-  Contact contact;
+  BoxContact contact;
   if (normalise(vector_of(excess), normal, distance) && distance > k_meeting) {
     if (distance - radius > frame.reach) return;
     contact = {axes_of(normal), -1, along};

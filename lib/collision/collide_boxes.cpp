@@ -9,26 +9,26 @@ namespace {
 
 constexpr Unit k_edge_sine_min = 0x1p-5;  // edges closer to parallel than 1.8 degrees give no axis of their own
 
-struct Half {
+struct HalfExtents {
   Unit v[3];
 };
 
 /// What the separating axis test works on: the offset of B from A along all six axes, and their cosines.
 struct AxisTable {
-  Half half_a, half_b;
+  HalfExtents half_a, half_b;
   Unit offset_a[3], offset_b[3];
   Unit cosine[3][3];  ///< A's axis i with B's axis j
 };
 
 enum class AxisKind { face_a, face_b, edges };
 
-struct Axis {
+struct SeparatingAxis {
   AxisKind kind;
   int i, j;
   Unit separation;
 };
 
-Half half_of(const Vec3<Unit>& size) { return {{size.x, size.y, size.z}}; }
+HalfExtents half_of(const Vec3<Unit>& size) { return {{size.x, size.y, size.z}}; }
 
 AxisTable table_of(const PairFrame& frame) {
   AxisTable table;
@@ -71,7 +71,7 @@ bool edge_separation(const AxisTable& t, int i, int j, Unit& separation) {
 
 /// The axis of largest separation. A's faces are preferred to B's, and faces to edges, by a 64th of the smaller box, so
 /// that a resting pair keeps its features. False if an axis separates the boxes by more than `reach`.
-bool find_axis(const AxisTable& table, Unit reach, Axis& best) {
+bool find_axis(const AxisTable& table, Unit reach, SeparatingAxis& best) {
   Unit smallest = table.half_a.v[0];
   for (int i = 0; i < 3; ++i) smallest = min(smallest, min(table.half_a.v[i], table.half_b.v[i]));
   const Unit preference = scale_by_power(smallest, -6);
@@ -210,7 +210,7 @@ Unit sign_of(Unit value) { return value < Unit(0.0) ? Unit(-1.0) : Unit(1.0); }
 /// Contact of a face of `reference` (axis `face`) with `incident`. `outward` is +1 if the reference is A.
 void collide_face(const PairShape& reference, const PairShape& incident, int face, bool reference_is_a,
                   const PairFrame& frame, PairManifold& manifold) {
-  const Half half = half_of(reference.size), other = half_of(incident.size);
+  const HalfExtents half = half_of(reference.size), other = half_of(incident.size);
   const Vec3<Unit> between = incident.centre - reference.centre;
   const Vec3<Unit>& axis = reference.rotation.column[face];
   const bool flipped = dot(axis, between) < Unit(0.0);
@@ -268,7 +268,7 @@ void collide_face(const PairShape& reference, const PairShape& incident, int fac
 
 /// The edge of the box along axis `edge` that reaches farthest along `direction`.
 Segment support_edge(const PairShape& box, int edge, const Vec3<Unit>& direction, uint32_t& which) {
-  const Half half = half_of(box.size);
+  const HalfExtents half = half_of(box.size);
   Segment segment = {box.centre, box.rotation.column[edge], half.v[edge]};
   which = 4 * static_cast<uint32_t>(edge);
   for (int k = 1; k < 3; ++k) {
@@ -280,7 +280,7 @@ Segment support_edge(const PairShape& box, int edge, const Vec3<Unit>& direction
   return segment;
 }
 
-void collide_edges(const PairFrame& frame, const Axis& axis, PairManifold& manifold) {
+void collide_edges(const PairFrame& frame, const SeparatingAxis& axis, PairManifold& manifold) {
   Unit size = 0.0;
   if (!normalise(cross(frame.a.rotation.column[axis.i], frame.b.rotation.column[axis.j]), manifold.normal, size))
     return;
@@ -301,7 +301,7 @@ void collide_edges(const PairFrame& frame, const Axis& axis, PairManifold& manif
 }  // namespace
 
 void collide_boxes(const PairFrame& frame, PairManifold& manifold) {
-  Axis axis;
+  SeparatingAxis axis;
   if (!find_axis(table_of(frame), frame.reach, axis)) return;
   switch (axis.kind) {
     case AxisKind::face_a:

@@ -24,15 +24,13 @@ void add_points(const CollisionBody& a, const CollisionBody& b, const ContactMan
   }
 }
 
-Real bounding_radius(const BodyTraits& traits) { return real_from_unit(traits.bounding_radius, traits.size_exponent); }
-
 /// The plane is asked about where it is nearest to the body: its origin may be too far off for contact_points(). What
 /// the place's rounding to a coordinate takes from the distance is added to it again.
 Status meet_half_space(const CollisionBody& plane, const CollisionBody& body, const Convex& convex, bool plane_is_a,
                        Real reach, ManifoldReduction reduction, ContactManifold& manifold) {
   const Vec3<Unit>& up = plane.rotation.column[1];
   const Real height = distance_along(plane.pose.position, body.pose.position, up);
-  const Real radius = bounding_radius(body.traits);
+  const Real radius = bounding_radius_of(body.traits);
   if (height > radius + reach) return Status::ok;
   // Far below, the least that keeps the whole body under the plane.
   const Real down = clamp(height, scale_by_power(-radius, 1), radius + reach);

@@ -8,8 +8,6 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr int k_exponent_min = -14;  ///< of any unit of length
-
 /// A ball or capsule, as a triangle whose corners coincide: so its centre may lie off the body's.
 void set_round_core(const CompoundChild& child, int32_t exponent, Convex& convex) {
   const Vec32 ends[2] = {child.low, child.high};
@@ -20,7 +18,7 @@ void set_round_core(const CompoundChild& child, int32_t exponent, Convex& convex
   }
   ++bound;
   int lift = 30 - bit_length_64(static_cast<uint64_t>(bound));
-  if (lift > exponent - k_exponent_min) lift = exponent - k_exponent_min;
+  if (lift > exponent - k_size_exponent_min) lift = exponent - k_size_exponent_min;
   const auto shifted = [lift](int64_t value) {
     return static_cast<int32_t>(lift < 0 ? (value >> -lift) + 1 : value * (int64_t{1} << lift));
   };

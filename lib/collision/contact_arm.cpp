@@ -6,8 +6,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Of an arm whose components are held, its length.
-Vec3<Unit> held(const Vec3<Unit>& arm) {
+/// Of an arm whose components are held_arm, its length.
+Vec3<Unit> held_arm(const Vec3<Unit>& arm) {
   constexpr Unit k_surely_short = 0.7216;  // of each component: the limit over sqrt(3)
   if (max(abs(arm.x), max(abs(arm.y), abs(arm.z))) < k_surely_short) return arm;
   const auto half = [](Unit value) { return scale_by_power(value, -1); };
@@ -25,13 +25,13 @@ Vec3<Unit> held(const Vec3<Unit>& arm) {
 Vec3<Unit> arm_of_point(const Vec3<Unit>& point, int power) {
   const Unit limit = scale_by_power(k_arm_max, power > 0 ? -power : 0);
   const auto component = [&](Unit value) { return scale_by_power(clamp(value, -limit, limit), power); };
-  return held({component(point.x), component(point.y), component(point.z)});
+  return held_arm({component(point.x), component(point.y), component(point.z)});
 }
 
 Vec3<Unit> arm_of_way(const Vec3<Real>& way, int32_t exponent) {
   const Real limit = real_from_unit(k_arm_max, exponent);
   const auto component = [&](Real value) { return unit_from_real(clamp(value, -limit, limit), exponent); };
-  return held({component(way.x), component(way.y), component(way.z)});
+  return held_arm({component(way.x), component(way.y), component(way.z)});
 }
 
 }  // namespace DETENT_NAMESPACE

@@ -13,10 +13,6 @@ constexpr uint32_t k_points_min = 3;
 constexpr int k_anchor_frac = 15;
 constexpr Unit k_kept_arm_max = k_arm_max + Unit(0x1p-7);  ///< with what rounding adds to one that was held
 
-Vec3<Unit> scaled(const Vec3<Unit>& v, int power) {
-  return {scale_by_power(v.x, power), scale_by_power(v.y, power), scale_by_power(v.z, power)};
-}
-
 Unit unit_from_anchor(int16_t raw) {
 #if DETENT_FIXED
   return Unit::from_raw(int32_t{raw} * (1 << (k_unit_frac - k_anchor_frac)));
@@ -42,8 +38,6 @@ bool is_within(const Vec3<Unit>& v, Unit limit) {
 Real absolute_sum(const Vec3<Unit>& v, int exponent) {
   return real_from_unit(abs(v.x), exponent) + real_from_unit(abs(v.y), exponent) + real_from_unit(abs(v.z), exponent);
 }
-
-Real bounding_radius(const BodyTraits& traits) { return real_from_unit(traits.bounding_radius, traits.size_exponent); }
 
 /// A pair as manifolds see it. Lengths are over 4 of the base's unit: whatever touches lies within 0.6 of it.
 struct ReusePair {
@@ -82,11 +76,11 @@ struct ReusePair {
   }
   /// From the base's centre, world axes.
   Vec3<Unit> point_at(const Vec3<Unit>& arm) const {
-    return offset + scaled(arm, other.traits.size_exponent - exponent);
+    return offset + scale_by_power(arm, other.traits.size_exponent - exponent);
   }
 };
 
-bool a_is_base(const BodyTraits& a, const BodyTraits& b) { return !(bounding_radius(a) < bounding_radius(b)); }
+bool a_is_base(const BodyTraits& a, const BodyTraits& b) { return !(bounding_radius_of(a) < bounding_radius_of(b)); }
 
 bool is_none(const ManifoldState& manifold) {
   return manifold.rotation == Quat{Unit(0.0), Unit(0.0), Unit(0.0), Unit(0.0)};
@@ -151,7 +145,7 @@ bool reuse_manifold(const CollisionBody& a, const CollisionBody& b, const Manifo
     const Vec3<Unit> place = pair.point_at(arm_other);
     const Real separation = real_from_unit(before.height[i], pair.exponent) + pair.place_along(normal, arm_other);
     if (separation > reach) continue;
-    const Vec3<Unit> arm_base = scaled(place, pair.exponent - pair.base.traits.size_exponent);
+    const Vec3<Unit> arm_base = scale_by_power(place, pair.exponent - pair.base.traits.size_exponent);
     after.height[contact.count] = before.height[i];
     for (int k = 0; k < 3; ++k) after.anchor[contact.count][k] = before.anchor[i][k];
     contact.point[contact.count++] = {pair.base_is_a ? arm_base : arm_other, pair.base_is_a ? arm_other : arm_base,
@@ -180,7 +174,7 @@ bool is_manifold(const BodyTraits& a, const BodyTraits& b, uint32_t count, const
     const Vec3<Unit> arm = {unit_from_anchor(anchor[0]), unit_from_anchor(anchor[1]), unit_from_anchor(anchor[2])};
     if (!is_within(arm, Unit(0.991)) || !(length(arm) < k_kept_arm_max)) return false;
     if (!is_within(manifold.height[i], Unit(1.0))) return false;
-    const Vec3<Unit> place = manifold.offset + scaled(rotate(manifold.rotation, arm), power);
+    const Vec3<Unit> place = manifold.offset + scale_by_power(rotate(manifold.rotation, arm), power);
     if (!(length(place) < scale_by_power(k_kept_arm_max, -2))) return false;
     if (!is_within(manifold.height[i] + dot(manifold.normal, place), Unit(0.52))) return false;
   }

@@ -11,7 +11,7 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 /// The triangles, one by one, until one is near.
-struct Search {
+struct DistanceSearch {
   const Surface surface;
   const Pose &ground, &pose;
   const Convex& convex;
@@ -37,11 +37,11 @@ bool farther_than_surface(const AssetTable& assets, const BodyTraits& ground, co
   if (!is_in(assets, ground.asset) || place_on_surface(ground_pose, pose, place) != Status::ok ||
       !raw_from_real({ball + scale_by_power(ball, -8) + reach, zero, zero}, raw))
     return false;
-  Search search = {surface_of(ground, assets), ground_pose, pose, convex, reach};
+  DistanceSearch search = {surface_of(ground, assets), ground_pose, pose, convex, reach};
   const Vec64 half = {raw.x, raw.x, raw.x};
   visit_surface(
       search.surface, place.centre - half, place.centre + half,
-      [](void* context, uint32_t triangle) { static_cast<Search*>(context)->ask(triangle); }, &search);
+      [](void* context, uint32_t triangle) { static_cast<DistanceSearch*>(context)->ask(triangle); }, &search);
   farther = search.farther;
   return search.asked;
 }

@@ -6,11 +6,9 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr int32_t k_one = 1 << 30;
 constexpr int64_t k_same_cosine = (int64_t{1} << 60) - (int64_t{1} << 49);     // 2^-5 rad
 constexpr int64_t k_similar_cosine = (int64_t{1} << 60) - (int64_t{1} << 55);  // 2^-2 rad
 constexpr int k_plane_power = 4;  ///< planes no farther apart than this part of the half thickness are one
-constexpr int k_drop_power = 10;  ///< as in lib/proximity: the deepest takes a place if it is deeper than all by this
 constexpr uint32_t k_edge_key = 0x80000000u;
 
 int64_t along(const Vec64& v, const Vec32& direction) { return dot(v, direction).round_shift(30); }
@@ -42,7 +40,7 @@ uint32_t feature_of(uint32_t feature, const uint32_t (&corner)[3]) {
 }
 
 /// What a normal is named: itself, coarsely. Those along the axes lie in the middle of what has one name.
-uint32_t name_of(const Vec32& normal) {
+uint32_t normal_name(const Vec32& normal) {
   const auto part = [](int32_t a) { return static_cast<uint32_t>((a + (1 << 24)) >> 25) & 0x7f; };
   return 1u << 29 | part(normal.x) << 22 | part(normal.y) << 15 | part(normal.z) << 8;
 }
@@ -215,7 +213,7 @@ uint32_t SurfaceManifolds::finish(SurfaceManifold (&manifold)[k_surface_manifold
   }
   // By key; planes of one name by their height.
   const auto key_of = [](const Group& group) {
-    return group.on_face ? name_of(group.normal) : k_edge_key | group.first;
+    return group.on_face ? normal_name(group.normal) : k_edge_key | group.first;
   };
   for (uint32_t i = 1; i < count_; ++i) {
     for (uint32_t k = i; k > 0; --k) {

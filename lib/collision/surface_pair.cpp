@@ -6,9 +6,9 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr int32_t k_one = 1 << 30;
 constexpr int k_shallow_power = 3;  ///< a contact no deeper than this part of the half thickness is on its face
-constexpr int k_drop_power = 10;  ///< of the half thickness: points no higher than this above the lowest are the lowest
+constexpr int k_lowest_power =
+    10;  ///< of the half thickness: points no higher than this above the lowest are the lowest
 constexpr int k_allowed_power = 7;  ///< an allowed normal may look this angle, rad, into what is about it
 constexpr int k_level_power = 6;    ///< edges whose slope is less, rad, lie along the contact
 constexpr int k_mild_power = 3;     ///< edges that turn by less, rad, are met along the faces' normals
@@ -26,7 +26,7 @@ bool is_below(const Vec32& normal, const Vec32& way) {
 }
 
 /// 18 bits that depend on all of the place.
-uint32_t name_of(const Vec32& corner) {
+uint32_t corner_name(const Vec32& corner) {
   const uint32_t x = static_cast<uint32_t>(corner.x), y = static_cast<uint32_t>(corner.y),
                  z = static_cast<uint32_t>(corner.z);
   uint32_t name = (x * 0x9e3779b1u) ^ (y * 0x85ebca77u + (x >> 7)) ^ (z * 0xc2b2ae3du + (y >> 9));
@@ -289,7 +289,7 @@ bool SurfacePair::touch(uint32_t index, SurfaceTouch& touch) const {
   touch.material = side.triangle.material;
   touch.on_face = true;
   touch.doubtful = false;
-  for (uint32_t k = 0; k < 3; ++k) touch.corner_name[k] = name_of(side.triangle.corner[k]);
+  for (uint32_t k = 0; k < 3; ++k) touch.corner_name[k] = corner_name(side.triangle.corner[k]);
   const auto deepest_of = [](const BlockManifold& manifold) {
     int64_t least = INT64_MAX;
     for (uint32_t i = 0; i < manifold.count; ++i) {
@@ -309,8 +309,8 @@ bool SurfacePair::touch(uint32_t index, SurfaceTouch& touch) const {
   if (!sharp && over && shallow) return true;
   // On a mild ridge the lowest point along each of the two normals lies beyond the edge.
   if (!sharp && !over && is_beside(side, true, size >> (free ? k_mild_power : k_level_power))) return false;
-  if (over && touch.deepest >= 0 && touch.deepest <= side.height + (thickness_ >> k_drop_power)) return true;
-  if (over && shallow && touch.deepest <= side.height + (thickness_ >> k_drop_power) &&
+  if (over && touch.deepest >= 0 && touch.deepest <= side.height + (thickness_ >> k_lowest_power)) return true;
+  if (over && shallow && touch.deepest <= side.height + (thickness_ >> k_lowest_power) &&
       !has_nearer_way(side, touch.deepest)) {
     return true;
   }

@@ -1,19 +1,13 @@
 #include "collision/surface_query.h"
 
 #include "math/arithmetic.h"
+#include "proximity/moving_pair.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr int k_time_bits = Fraction::k_frac;
-constexpr int64_t k_time_end = int64_t{1} << k_time_bits;
 constexpr int32_t k_slack = 4;  ///< grid steps: what the rounding of ends may move
-
-int64_t part_of(int64_t value, int64_t time) {
-  const Int128 product = Int128::product(value, time);
-  return static_cast<int64_t>((static_cast<uint64_t>(product.high_word()) << 2) | (product.low_word() >> k_time_bits));
-}
 
 /// The window of time in which the segment is in the box, k_slack steps grown. False if it never is.
 bool clip(const GridBox& box, int shift, const Vec64& origin, const Vec64& way, int64_t& from, int64_t& to) {
@@ -36,7 +30,7 @@ bool clip(const GridBox& box, int shift, const Vec64& origin, const Vec64& way, 
 }
 
 /// A segment of the grid.
-struct Segment {
+struct GridSegment {
   Vec32 from, to;
 
   /// Exact, of the box grown by k_slack. Source: the separating axes of Gottschalk, Lin, Manocha, "OBBTree", 1996.
@@ -72,7 +66,7 @@ int64_t quotient(Int128 part, Int128 whole) {
 }
 
 /// Whether the segment meets the triangle, when, and whether it comes from behind.
-bool meets_triangle(const Segment& segment, const SurfaceTriangle& triangle, int64_t& time, bool& from_behind) {
+bool meets_triangle(const GridSegment& segment, const SurfaceTriangle& triangle, int64_t& time, bool& from_behind) {
   const Vec32 way = subtract(segment.to, segment.from);
   const Vec64 area = area_vector(triangle.corner[0], triangle.corner[1], triangle.corner[2]);
   Int128 whole = dot(area, way);
@@ -120,14 +114,14 @@ Status cast_ray_on_surface(const Surface& surface, const Pose& pose, const Vec3<
   }
   const auto point_at = [&](int64_t time) {
     const auto component = [&](int64_t a, int64_t d) {
-      const int64_t steps = round_shift_64(a + part_of(d, time), shift);
+      const int64_t steps = round_shift_64(a + over_time(d, time), shift);
       constexpr int64_t k_most = k_surface_coordinate_max;
       return static_cast<int32_t>(steps > k_most ? k_most : steps < -k_most ? -k_most : steps);
     };
     return Vec32{component(start.x, along.x), component(start.y, along.y), component(start.z, along.z)};
   };
-  const Segment whole = {point_at(from), point_at(to)};
-  Segment rest = whole;
+  const GridSegment whole = {point_at(from), point_at(to)};
+  GridSegment rest = whole;
   const bool one_sided = surface.one_sided();
   int64_t best = k_time_end;
   surface.walk([&](const GridBox& box) { return rest.meets(box); },
@@ -144,11 +138,11 @@ Status cast_ray_on_surface(const Surface& surface, const Pose& pose, const Vec3<
                  const Vec32 n = normal_of(triangle.corner[0], triangle.corner[1], triangle.corner[2]);
                  found.normal = units_from_raw(round_shift(multiply(matrix, behind ? negate(n) : n), 30));
                  const Vec32 d = subtract(whole.to, whole.from);
-                 rest.to = add(whole.from,
-                               Vec32{static_cast<int32_t>(part_of(d.x, time)), static_cast<int32_t>(part_of(d.y, time)),
-                                     static_cast<int32_t>(part_of(d.z, time))});
+                 rest.to = add(whole.from, Vec32{static_cast<int32_t>(over_time(d.x, time)),
+                                                 static_cast<int32_t>(over_time(d.y, time)),
+                                                 static_cast<int32_t>(over_time(d.z, time))});
                });
-  if (found.hit) found.time = Fraction::from_raw(from + part_of(to - from, best));
+  if (found.hit) found.time = Fraction::from_raw(from + over_time(to - from, best));
   hit = found;
   return Status::ok;
 }

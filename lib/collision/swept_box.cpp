@@ -20,7 +20,7 @@ constexpr int k_tolerance_bits = 18;
 int64_t grains_of(Coord x) { return integer_from(x) >> k_grain_steps_bits; }
 
 /// Beyond the limit nothing is asked about: the way is shorter.
-int64_t held(int64_t value) {
+int64_t held_place(int64_t value) {
   return value < -k_place_limit ? -k_place_limit : value > k_place_limit ? k_place_limit : value;
 }
 
@@ -87,7 +87,7 @@ bool SweptBox::meets(const Place& place) const {
   int64_t sum[3], side[3];
   DETENT_UNROLL
   for (int i = 0; i < 3; ++i) {
-    const int64_t low = held(place.low[i]), high = held(place.high[i]);
+    const int64_t low = held_place(place.low[i]), high = held_place(place.high[i]);
     sum[i] = low + high;
     side[i] = high - low;
   }
@@ -104,13 +104,14 @@ Fraction SweptBox::entry(const Place& place) const {
   constexpr int k_bits = 33;
   uint64_t latest = 0;
   for (int i = 0; i < 3; ++i) {
-    const int64_t ahead = held(way_[i] > 0 ? place.low[i] : -place.high[i]);
+    const int64_t ahead = held_place(way_[i] > 0 ? place.low[i] : -place.high[i]);
     if (way_[i] == 0 || ahead <= 0) continue;
     const uint64_t part = (static_cast<uint64_t>(ahead) << k_bits) / magnitude_64(way_[i]);
     latest = part > latest ? part : latest;
   }
-  constexpr uint64_t k_whole = uint64_t{1} << k_bits;
-  return Fraction::from_raw(static_cast<int64_t>((latest < k_whole ? latest : k_whole) << (Fraction::k_frac - k_bits)));
+  constexpr uint64_t k_tick_end = uint64_t{1} << k_bits;
+  return Fraction::from_raw(
+      static_cast<int64_t>((latest < k_tick_end ? latest : k_tick_end) << (Fraction::k_frac - k_bits)));
 }
 
 bool SweptBox::is_near(const Place& place, int64_t reach) const {

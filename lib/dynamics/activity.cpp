@@ -7,14 +7,14 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr Vec3<Real> k_still = {0.0, 0.0, 0.0};
 constexpr int k_rest_power = -6;
 
 }  // namespace
 
 bool is_moving(const BodyTraits& traits, const BodyMotion& motion, const BodyActivity& activity) {
   if (is_dynamic(traits)) return activity.asleep == 0;
-  return type_of(traits) == BodyType::kinematic && !(motion.velocity == k_still && motion.momentum == k_still);
+  return type_of(traits) == BodyType::kinematic &&
+         !(motion.velocity == k_zero_vector && motion.momentum == k_zero_vector);
 }
 
 uint32_t wake_all_with(uint32_t slot, Span<BodyActivity> activities, BitSet visits) {
@@ -52,7 +52,7 @@ uint32_t fall_asleep(const StepSettings& settings, Span<const BodyTraits> traits
     const uint32_t group = bodies[island.first_body] + 1;
     for (uint32_t i = 0; i < island.body_count; ++i) {
       const uint32_t slot = bodies[island.first_body + i];
-      motions[slot].velocity = motions[slot].momentum = k_still;
+      motions[slot].velocity = motions[slot].momentum = k_zero_vector;
       activities[slot].asleep = group;
       activities[slot].news = static_cast<uint16_t>(BodyEventType::fell_asleep);
     }

@@ -8,7 +8,7 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 /// The parts of two bodies on their way.
-struct Search {
+struct PartSearch {
   const AssetTable& assets;
   const FeatureTable& features;
   const SweptBody &a, &b;
@@ -86,17 +86,17 @@ struct Search {
 bool compound_impact(const AssetTable& assets, const FeatureTable& features, const SweptBody& a, const SweptBody& b,
                      Fraction time, Real inset, TimeOfImpact& impact) {
   const Real extent = min(shape_extent(a.traits), shape_extent(b.traits));
-  Search search = {assets,
-                   features,
-                   a,
-                   b,
-                   time,
-                   inset,
-                   extent,
-                   ConvexParts(a.traits, assets),
-                   ConvexParts(b.traits, assets),
-                   motion_from(a, time),
-                   motion_from(b, time)};
+  PartSearch search = {assets,
+                       features,
+                       a,
+                       b,
+                       time,
+                       inset,
+                       extent,
+                       ConvexParts(a.traits, assets),
+                       ConvexParts(b.traits, assets),
+                       motion_from(a, time),
+                       motion_from(b, time)};
   search.first.outcome = ToiOutcome::clear;
   search.first.time = k_whole_step;
   const bool is_plane = is_half_space(a.traits) || is_half_space(b.traits);

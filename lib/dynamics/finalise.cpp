@@ -8,13 +8,6 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-uint32_t hold(Real& value, Real most) {
-  const Real held = clamp(value, -most, most);
-  const bool clamped = !(held == value);
-  value = held;
-  return clamped ? 1 : 0;
-}
-uint32_t hold(Vec3<Real>& v, Real most) { return hold(v.x, most) + hold(v.y, most) + hold(v.z, most); }
 Real greatest(const Vec3<Real>& v) { return max(abs(v.x), max(abs(v.y), abs(v.z))); }
 
 /// Spin in the body's axes, as far as a Real tells.
@@ -38,7 +31,7 @@ bool is_slow(const BodyTraits& traits, const Vec3<Real>& momentum) {
 }  // namespace
 
 uint32_t hold_speeds(const BodyTraits& traits, const Quat& rotation, BodyMotion& motion) {
-  uint32_t clamped = hold(motion.velocity, k_speed_max) + hold(motion.momentum, k_spin_work_max);
+  uint32_t clamped = clamp_vector(motion.velocity, k_speed_max) + clamp_vector(motion.momentum, k_spin_work_max);
   if (is_slow(traits, motion.momentum)) return clamped;
   const bool turned = !is_isotropic(traits);
   Vec3<Real> local, spin;

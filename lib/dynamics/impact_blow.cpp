@@ -70,7 +70,7 @@ Position point_of(const ContactGeometry& geometry, const BodyPose& pose_a, const
   static constexpr Unit k_share[k_manifold_points_max] = {1.0, 0.5, 1.0 / 3.0, 0.25};
   const bool by_b = is_ground(a);  // which may be large, or has no arms
   const int exponent = by_b ? b.size_exponent : a.size_exponent;
-  Vec3<Real> sum = k_none;
+  Vec3<Real> sum = k_zero_vector;
   for (uint32_t i = 0; i < geometry.count; ++i) {
     const Vec3<Unit> arm = (by_b ? geometry.point[i].arm_b : geometry.point[i].arm_a) * k_share[geometry.count - 1];
     sum += {real_from_unit(arm.x, exponent), real_from_unit(arm.y, exponent), real_from_unit(arm.z, exponent)};
@@ -86,13 +86,13 @@ void wake(ImpactStage& stage, uint32_t slot) {
 /// The velocity that gravity has yet to give a body after `time`.
 Vec3<Real> fall_after(const ImpactStage& stage, uint32_t slot, Fraction time) {
   const BodyTraits& traits = stage.bodies.traits[slot];
-  if (!is_dynamic(traits) || (stage.bodies.sweeps[slot].marks & k_mark_slept) != 0) return k_none;
+  if (!is_dynamic(traits) || (stage.bodies.sweeps[slot].marks & k_mark_slept) != 0) return k_zero_vector;
   const Vec3<Real> fall = stage.settings.gravity * stage.settings.tick_time;
   bool saturated = false;
   const Vec3<Real> own = {multiply(fall.x, traits.gravity_scale, saturated),
                           multiply(fall.y, traits.gravity_scale, saturated),
                           multiply(fall.z, traits.gravity_scale, saturated)};
-  return sweep_part({own, k_none}, k_whole_step - time).displacement;
+  return sweep_part({own, k_zero_vector}, k_whole_step - time).displacement;
 }
 
 /// What the turning of both bodies brings them together by in the rest of the tick, however they part, as a speed,
@@ -108,7 +108,7 @@ Real bend_speed(const ImpactStage& stage, const ImpactPair& pair) {
   const Real turn_a = min(length(sweep_a.turn), k_turn), turn_b = min(length(sweep_b.turn), k_turn);
   const Real way = length(sweep_b.displacement - sweep_a.displacement);
   const Real bend = turn_a * turn_a * radius(a) + turn_b * turn_b * radius(b) + (turn_a + turn_b) * way;
-  const Real part = sweep_part({{bend, k_zero, k_zero}, k_none}, k_whole_step - pair.time).displacement.x;
+  const Real part = sweep_part({{bend, k_zero, k_zero}, k_zero_vector}, k_whole_step - pair.time).displacement.x;
   const int power = (pair.impacts < 5 ? pair.impacts : 5) - 5;
   bool saturated = false;
   return multiply(scale_by_power(part, power), stage.tick_rate, saturated);

@@ -17,7 +17,7 @@ namespace {
 ShapeType shape_type(const BodyTraits& traits) { return static_cast<ShapeType>(traits.shape); }
 
 /// `depth` in 2^-30 2^exponent m, rounded up.
-int32_t in_units(int64_t depth, int exponent) {
+int32_t depth_in_units(int64_t depth, int exponent) {
   return static_cast<int32_t>(shift_64(depth, 30 - k_metre_bits - exponent)) + 1;
 }
 
@@ -30,14 +30,14 @@ void shrink(int64_t depth, int halvings, Convex& convex) {
     case ShapeType::sphere:
     case ShapeType::capsule:
     case ShapeType::triangle:
-      convex.radius = less_depth(convex.radius, in_units(depth, convex.radius_exponent), 0);
+      convex.radius = less_depth(convex.radius, depth_in_units(depth, convex.radius_exponent), 0);
       break;
     case ShapeType::box:
-      for (int32_t& size : convex.size) size = less_depth(size, in_units(depth, convex.exponent), 1);
+      for (int32_t& size : convex.size) size = less_depth(size, depth_in_units(depth, convex.exponent), 1);
       break;
     case ShapeType::cylinder:
       for (int i = 0; i < 2; ++i) {
-        convex.size[i] = less_depth(convex.size[i], in_units(depth, convex.exponent), 1);
+        convex.size[i] = less_depth(convex.size[i], depth_in_units(depth, convex.exponent), 1);
       }
       break;
     case ShapeType::cone:

@@ -9,7 +9,6 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr Real k_zero = 0.0;
 constexpr int k_sweeps_max = 64;
 constexpr int k_last_sweeps = 8;  ///< over the normals alone
 constexpr int k_rounds = 2;
@@ -17,17 +16,6 @@ constexpr int k_rounds = 2;
 Vec3<Real> scaled(const Vec3<Real>& v, Scaled factor) {
   bool saturated = false;
   return {multiply(v.x, factor, saturated), multiply(v.y, factor, saturated), multiply(v.z, factor, saturated)};
-}
-
-Vec3<Real> scaled(const Vec3<Real>& v, int power) {
-  return {scale_by_power(v.x, power), scale_by_power(v.y, power), scale_by_power(v.z, power)};
-}
-
-uint32_t hold(Vec3<Real>& v, Real limit) {
-  const Vec3<Real> held = {clamp(v.x, -limit, limit), clamp(v.y, -limit, limit), clamp(v.z, -limit, limit)};
-  const bool clamped = !(held == v);
-  v = held;
-  return clamped ? 1 : 0;
 }
 
 /// Twice the energy of turning over the mass, by the momentum in the body's axes.
@@ -145,12 +133,11 @@ uint32_t hold_turn(const BodyTraits& traits, Real tick_time, BodySweep& sweep) {
 }
 
 BodyMotion motion_of_sweep(const BodyTraits& traits, const Quat& rotation, const BodySweep& sweep, Scaled tick_rate) {
-  const Vec3<Real> none = {k_zero, k_zero, k_zero};
   // In the order in which nothing leaves its range.
   const int power = traits.size_exponent;
-  const Vec3<Real> spin =
-      power < 0 ? scaled(scaled(sweep.turn, power), tick_rate) : scaled(scaled(sweep.turn, tick_rate), power);
-  return {scaled(sweep.displacement, tick_rate), momentum_of(traits, rotation, spin), none, none};
+  const Vec3<Real> spin = power < 0 ? scaled(scale_by_power(sweep.turn, power), tick_rate)
+                                    : scale_by_power(scaled(sweep.turn, tick_rate), power);
+  return {scaled(sweep.displacement, tick_rate), momentum_of(traits, rotation, spin), k_zero_vector, k_zero_vector};
 }
 
 Vec3<Real> carried_momentum(const BodyTraits& traits, const Quat& from, const Quat& to, const Vec3<Real>& momentum) {
@@ -184,8 +171,9 @@ uint32_t add_to_sweep(const BodyTraits& traits, const Quat& rotation, const Body
   sweep.displacement += (after.velocity - before.velocity) * tick_time;
   sweep.turn += {angle(spin.x), angle(spin.y), angle(spin.z)};
   // Of the state's range, of which time_of_impact() takes twice as much.
-  constexpr Real k_turn_max = 32768.0, k_way_max = 8192.0;
-  return hold(sweep.displacement, k_way_max) + hold(sweep.turn, k_turn_max) + (turns_clamped ? 1 : 0);
+  constexpr Real k_sweep_turn_max = 32768.0, k_sweep_way_max = 8192.0;
+  return clamp_vector(sweep.displacement, k_sweep_way_max) + clamp_vector(sweep.turn, k_sweep_turn_max) +
+         (turns_clamped ? 1 : 0);
 }
 
 bool resolve_impact(const ContactWork& contact, uint32_t count, Real least, Real parting, const ImpactBody& a,

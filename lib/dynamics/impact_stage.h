@@ -23,11 +23,6 @@ inline constexpr uint32_t k_mark_strayed = 4;  ///< its sweep leaves the bounds 
 inline constexpr uint32_t k_mark_struck = 8;   ///< its momentum goes with its sweep
 inline constexpr uint32_t k_mark_slept = 16;   ///< it was asleep when the tick began
 
-inline constexpr Real k_zero = 0.0;
-inline constexpr Vec3<Real> k_none = {k_zero, k_zero, k_zero};
-
-inline bool is_at_rest(const BodySweep& sweep) { return sweep.displacement == k_none && sweep.turn == k_none; }
-
 /// False for the normal of an impact that has none: of bodies that overlap.
 inline bool is_direction(const Vec3<Unit>& normal) { return !(normal == Vec3<Unit>{Unit(0.0), Unit(0.0), Unit(0.0)}); }
 

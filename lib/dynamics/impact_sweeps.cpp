@@ -19,7 +19,7 @@ Bounds bounds_over(const BodyTraits& traits, const BodyPose& pose, const Sweep& 
   if (is_half_space(traits)) return k_everywhere;
   const Real margin = scale_by_power(bounds_extent(traits), -8);
   Vec3<Real> reach = half_bounds(traits, matrix_from(pose.rotation));
-  if (!(sweep.turn == k_none)) {
+  if (!(sweep.turn == k_zero_vector)) {
     const Real ball = real_from_unit(traits.bounding_radius, traits.size_exponent);
     const Real swing = ball * min(length(sweep.turn), Real(4.0));
     reach = {min(reach.x + swing, ball), min(reach.y + swing, ball), min(reach.z + swing, ball)};
@@ -117,10 +117,10 @@ void ImpactStage::stop(uint32_t slot, Fraction time) {
   BodySweep& sweep = bodies.sweeps[slot];
   if (!dynamic(slot) || (sweep.marks & k_mark_stopped) != 0) return;
   move_to(slot, time);
-  sweep.displacement = sweep.turn = k_none;
+  sweep.displacement = sweep.turn = k_zero_vector;
   sweep.marks |= k_mark_stopped;
   ++report.bodies_stopped;
-  report.lost_time += sweep_part({{Real(1.0), k_zero, k_zero}, k_none}, k_whole_step - time).displacement.x;
+  report.lost_time += sweep_part({{Real(1.0), k_zero, k_zero}, k_zero_vector}, k_whole_step - time).displacement.x;
   change(slot);
 }
 

@@ -10,9 +10,6 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-inline constexpr Real k_zero = 0.0;
-inline constexpr Vec3<Real> k_none = {k_zero, k_zero, k_zero};
-
 inline Vec3<Real> real_from(const Vec3<Unit>& v) {
   return {real_from_unit(v.x, 0), real_from_unit(v.y, 0), real_from_unit(v.z, 0)};
 }
@@ -83,7 +80,7 @@ inline void show(const JointWork& work, uint32_t end, const Vec3<Real>& velocity
 /// The force and the torque of the rows' impulses on a body.
 template <bool only_points>
 inline void gather(const JointWork& work, uint32_t end, Vec3<Real>& force, Vec3<Real>& torque) {
-  force = torque = k_none;
+  force = torque = k_zero_vector;
   const Real* impulse = work.impulse;
   if (only_points || work.points != 0) {
     force = {impulse[0], impulse[1], impulse[2]};

@@ -8,9 +8,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr Unit k_none = 0.0;
-constexpr Real k_zero = 0.0;
-constexpr Real k_two_pi = 6.28318530717958647693;
+constexpr Unit k_zero_unit = 0.0;
 
 /// A substep makes up for half of what the joint has given way. By w^2/2 of its length a joint gives way when it turns
 /// by w in a substep; what is left of it and what is made up for then balance where the half of that is the speed
@@ -19,17 +17,13 @@ constexpr int k_correction_power = -1;
 
 constexpr Real k_twist_rate_min = 0.75;
 
-Vec3<Unit> scaled(const Vec3<Unit>& v, int power) {
-  return {scale_by_power(v.x, power), scale_by_power(v.y, power), scale_by_power(v.z, power)};
-}
-
 Vec3<Real> in_metres(const Vec3<Unit>& v, int exponent) {
   return {real_from_unit(v.x, exponent), real_from_unit(v.y, exponent), real_from_unit(v.z, exponent)};
 }
 
 /// The angle of a turn about an axis by twice atan2 of these, rad, in [-pi, pi].
 Real twist_of(Unit sine, Unit cosine) {
-  const bool turned = cosine < k_none;  // q and -q are the same turn
+  const bool turned = cosine < k_zero_unit;  // q and -q are the same turn
   return scale_by_power(radians(turned ? arc_tangent(-sine, -cosine) : arc_tangent(sine, cosine)), 1);
 }
 
@@ -56,8 +50,8 @@ struct RowMaker {
     return {axis, {held_cross(way, axis), held_cross(work.arm[1], axis)}};
   }
   JointRow angular(const Vec3<Unit>& axis) const {
-    return {{k_none, k_none, k_none},
-            {scaled(axis, work.exponent - a.exponent), scaled(axis, work.exponent - b.exponent)}};
+    return {{k_zero_unit, k_zero_unit, k_zero_unit},
+            {scale_by_power(axis, work.exponent - a.exponent), scale_by_power(axis, work.exponent - b.exponent)}};
   }
   Real length_of(Real angle) const { return scale_by_power(angle, work.exponent); }
 
@@ -74,7 +68,7 @@ struct RowMaker {
   }
   /// Twice the vector part of the relative turn is the turn where it is small.
   void hold_turn(int axis, Unit part) {
-    const Unit sine = relative.w < k_none ? -part : part;
+    const Unit sine = relative.w < k_zero_unit ? -part : part;
     hold(angular(frame.column[axis]), length_of(scale_by_power(real_from_unit(sine, 0), 1)));
   }
   /// Keeps A's axis `axis` on B's: two rows, about A's next two.
@@ -98,7 +92,7 @@ struct RowMaker {
   /// of the two x, over 1 and the cosine of the lean. Where that grows beyond an arm's range the row shows a part of
   /// it.
   void free_twist(int i) {
-    const Vec3<Unit> x = {Unit(1.0), k_none, k_none}, leaning = rotate(relative, x);
+    const Vec3<Unit> x = {Unit(1.0), k_zero_unit, k_zero_unit}, leaning = rotate(relative, x);
     const Vec3<Unit> own = frame.column[0], other = multiply(frame, leaning);
     const Real rate = real_from_unit(leaning.x, 0) + Real(1.0);
     const Scaled share = scaled_reciprocal(max(rate, k_twist_rate_min));
@@ -111,18 +105,18 @@ struct RowMaker {
   }
   /// How far B's x leans off A's, about the axis that it leans about.
   void free_lean(int i) {
-    const Vec3<Unit> x = {Unit(1.0), k_none, k_none}, leaning = rotate(relative, x);
+    const Vec3<Unit> x = {Unit(1.0), k_zero_unit, k_zero_unit}, leaning = rotate(relative, x);
     const Vec3<Real> about = {k_zero, real_from_unit(-leaning.z, 0), real_from_unit(leaning.y, 0)};
     Vec3<Unit> axis;
     Real sine = k_zero;
-    if (!normalise(about, axis, sine)) axis = {k_none, k_none, Unit(1.0)};
+    if (!normalise(about, axis, sine)) axis = {k_zero_unit, k_zero_unit, Unit(1.0)};
     const Vec3<Unit> in_world = multiply(frame, axis);
     free_motion(i, angular(in_world), length_of(radians(arc_tangent(unit_from_real(sine, 0), leaning.x))));
   }
   void free_distance() {
     Vec3<Unit> axis;
     Real apart = k_zero;
-    if (!normalise(gap, axis, apart)) axis = {Unit(1.0), k_none, k_none};
+    if (!normalise(gap, axis, apart)) axis = {Unit(1.0), k_zero_unit, k_zero_unit};
     // Each end is pulled at its own anchor.
     const JointRow row = {axis, {held_cross(work.arm[0], axis), held_cross(work.arm[1], axis)}};
     free_motion(0, row, apart);
@@ -143,9 +137,9 @@ Scaled own_response(const SolverBodies& bodies, const JointStage& stage, const J
     if (body.mobile == 0) continue;
     const WorldGyration& gyration = bodies.work[body.slot].gyration;
     const Vec3<Unit>& arm = row.arm[end];
-    const Unit turn = scale_by_power(dot(scaled(multiply(gyration, scaled(arm, -1)), -1), arm), 0);
+    const Unit turn = scale_by_power(dot(scale_by_power(multiply(gyration, scale_by_power(arm, -1)), -1), arm), 0);
     const Scaled angular = scaled_by_power(scaled_from(turn), gyration.exponent + 2 * body.above + 2);
-    const Scaled linear = scaled_from(dot(scaled(row.axis, -1), row.axis));
+    const Scaled linear = scaled_from(dot(scale_by_power(row.axis, -1), row.axis));
     sum = add(sum, multiply(body.share, add(scaled_by_power(linear, 1), angular)));
   }
   return sum;

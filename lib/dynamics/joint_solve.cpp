@@ -44,7 +44,7 @@ struct Solver {
   /// A body as it is now, without its joints; by anchor, what it shows at its owner's.
   void load(JointBody& body) {
     const BodyWork& now = bodies.work[body.slot];
-    body.force = body.torque = body.given_force = body.given_torque = k_none;
+    body.force = body.torque = body.given_force = body.given_torque = k_zero_vector;
     if (!loaded) load_motion(body);
     const Scaled turn = scaled_by_power(body.turn_share, now.gyration.exponent + body.above);
     bool saturated = false;
@@ -346,7 +346,7 @@ struct Solver {
           const BodyWork& now = bodies.work[body.slot];
           const bool moves = type_of(traits) == BodyType::kinematic;
           Quat rotation = now.rotation;
-          body.velocity = body.spin = k_none;
+          body.velocity = body.spin = k_zero_vector;
           if (moves) {
             Vec3<Real> spin;
             turn_freely(traits, now.free_turn, motion.momentum, elapsed, 0, rotation, spin);
@@ -511,7 +511,7 @@ struct Solver {
       now.contact_momentum -= momentum;
     }
     if (touches) now.spin = world_spin(bodies.traits[body.slot], now.gyration, motion.momentum, -k_spin_power);
-    body.force = body.torque = body.given_force = body.given_torque = k_none;
+    body.force = body.torque = body.given_force = body.given_torque = k_zero_vector;
   }
 };
 

@@ -11,8 +11,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr Real k_two_pi = 6.28318530717958647693;
-constexpr Real k_turn_max = 2.0;  ///< rad, each component of a turn: beyond those the number is at its bound
+constexpr Real k_bend_turn_max = 2.0;  ///< rad, each component of a turn: beyond those the number is at its bound
 
 /// Squared substeps for each part of the smaller body's unit of length, or radian, by which the ways bend in a tick.
 constexpr Scaled k_needed_by_bend = 64.0;
@@ -32,7 +31,6 @@ Scaled lesser(Scaled a, Scaled b) { return less(a, b) ? a : b; }
 Vec3<Real> cross_of(const Vec3<Real>& a, const Vec3<Real>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-Real absolute_sum(const Vec3<Real>& v) { return abs(v.x) + abs(v.y) + abs(v.z); }
 
 /// Makes `velocity` and `spin` of a body its way, m, and its turn, rad, in a tick.
 void take_motion(const StepSettings& settings, const SolverBodies& bodies, JointBody& body) {
@@ -44,7 +42,8 @@ void take_motion(const StepSettings& settings, const SolverBodies& bodies, Joint
   const Vec3<Real> spin = world_spin(traits, bodies.work[body.slot].gyration, motion.momentum, 0);
   bool clamped = false;
   const auto angle = [&](Real speed) {
-    return clamp(angle_of(speed * settings.tick_time, traits.size_exponent, clamped), -k_turn_max, k_turn_max);
+    return clamp(angle_of(speed * settings.tick_time, traits.size_exponent, clamped), -k_bend_turn_max,
+                 k_bend_turn_max);
   };
   body.velocity = motion.velocity * settings.tick_time;
   body.spin = {angle(spin.x), angle(spin.y), angle(spin.z)};

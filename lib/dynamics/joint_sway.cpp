@@ -6,8 +6,6 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr Real k_zero = 0.0;
-
 /// What a substep follows without gaining energy is (rate x substep)^2 = 4 of a swing (symplectic Euler), less a
 /// margin: the pulls are those of the last substep.
 constexpr Real k_followed = 3.0;

@@ -18,8 +18,6 @@ constexpr int k_redundant_power = -28;
 /// And at least so much, so that its reciprocal is one that multiply() takes.
 constexpr Real k_response_min = 0x1p-29;
 
-Real absolute_sum(const Vec3<Real>& v) { return abs(v.x) + abs(v.y) + abs(v.z); }
-
 /// The body's place among those that joints hold; it gets one if it has none.
 uint32_t place_of(const SolverBodies& bodies, uint32_t slot, JointStage& stage) {
   uint32_t& place = bodies.work[slot].joint_body;

@@ -8,28 +8,22 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr int k_sweeps = 4;  ///< over the contacts of an island
-constexpr Vec3<Real> k_none = {0.0, 0.0, 0.0};
-
-Vec3<Real> unscaled(const Vec3<Real>& spin) {
-  return {scale_by_power(spin.x, k_spin_power), scale_by_power(spin.y, k_spin_power),
-          scale_by_power(spin.z, k_spin_power)};
-}
+constexpr int k_position_sweeps = 4;  ///< over the contacts of an island
 
 /// The way and the turn of a body, as if they were its velocity and its spin.
 struct MovedBody {
   BodyMotion motion;
   BodyWork& work;
-  Vec3<Real> turn = k_none;
-  Vec3<Real> none = k_none;
+  Vec3<Real> turn = k_zero_vector;
+  Vec3<Real> none = k_zero_vector;
 
-  explicit MovedBody(BodyWork& of) : motion{of.displacement, k_none, k_none, k_none}, work(of) {}
+  explicit MovedBody(BodyWork& of) : motion{of.displacement, k_zero_vector, k_zero_vector, k_zero_vector}, work(of) {}
   SolvedBody solved() {
     return {motion.velocity, motion.momentum, turn, none, none, work.displacement, work.turn, work.gyration};
   }
   void store() {
     work.displacement = motion.velocity;
-    const Vec3<Real> more = unscaled(turn);
+    const Vec3<Real> more = scale_by_power(turn, k_spin_power);
     work.turn += more;
     work.spin += turn;  // all of it: the rotation follows at the end
   }
@@ -66,8 +60,8 @@ void part(const StepSettings& settings, ContactWork& contact, BodyWork& work_a, 
 
 uint32_t post_stabilise(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> island,
                         Span<const ContactOrder> order, Span<ContactWork> contacts) {
-  for (const uint32_t slot : island) bodies.work[slot].spin = k_none;
-  for (int sweep = 0; sweep < k_sweeps; ++sweep) {
+  for (const uint32_t slot : island) bodies.work[slot].spin = k_zero_vector;
+  for (int sweep = 0; sweep < k_position_sweeps; ++sweep) {
     for (const ContactOrder& entry : order) {
       ContactWork& contact = contacts[entry.contact];
       part(settings, contact, bodies.work[contact.state.body_a], bodies.work[contact.state.body_b]);
@@ -77,8 +71,8 @@ uint32_t post_stabilise(const StepSettings& settings, const SolverBodies& bodies
   for (const uint32_t slot : island) {
     BodyWork& work = bodies.work[slot];
     const int exponent = bodies.traits[slot].size_exponent;
-    const Vec3<Real> turn = unscaled(work.spin);
-    if (turn == k_none) continue;
+    const Vec3<Real> turn = scale_by_power(work.spin, k_spin_power);
+    if (turn == k_zero_vector) continue;
     const Vec3<Real> angle = {angle_of(turn.x, exponent, clamped), angle_of(turn.y, exponent, clamped),
                               angle_of(turn.z, exponent, clamped)};
     work.rotation = normalise(multiply(rotation_from_vector(angle), work.rotation));

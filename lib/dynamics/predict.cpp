@@ -17,8 +17,6 @@ Scaled kept(Scaled rate, Real time) {
   return is_positive(rate) ? divide(one, add(one, multiply(rate, scaled_from(time)))) : one;
 }
 
-Real absolute_sum(const Vec3<Real>& v) { return abs(v.x) + abs(v.y) + abs(v.z); }
-
 }  // namespace
 
 Real start_body(const StepSettings& settings, const BodyTraits& traits, const BodyPose& pose, const BodyMotion& motion,

@@ -13,24 +13,6 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr Real k_zero = 0.0;
-constexpr Vec3<Real> k_still = {0.0, 0.0, 0.0};
-
-uint32_t clamp_component(Real& value, Real limit) {
-  const Real held = clamp(value, -limit, limit);
-  const bool clamped = !(held == value);
-  value = held;
-  return clamped ? 1 : 0;
-}
-
-uint32_t clamp_vector(Vec3<Real>& v, Real limit) {
-  return clamp_component(v.x, limit) + clamp_component(v.y, limit) + clamp_component(v.z, limit);
-}
-
-Vec3<Real> halved(const Vec3<Real>& v) {
-  return {scale_by_power(v.x, -1), scale_by_power(v.y, -1), scale_by_power(v.z, -1)};
-}
-
 /// What acts without contacts. From the second substep of a tick on, contacts first push as they did in the last one:
 /// that is the warm start of all of a body's contacts at once.
 uint32_t integrate_velocities(const SolverBodies& bodies, Span<const uint32_t> island, bool first, bool touches) {
@@ -39,8 +21,8 @@ uint32_t integrate_velocities(const SolverBodies& bodies, Span<const uint32_t> i
   for (const uint32_t slot : island) {
     BodyMotion& motion = bodies.motions[slot];
     BodyWork& now = bodies.work[slot];
-    const Vec3<Real> pushed = first ? k_still : added_by_contacts(motion.velocity, now.contact_velocity);
-    const Vec3<Real> turned = first ? k_still : added_by_contacts(motion.momentum, now.contact_momentum);
+    const Vec3<Real> pushed = first ? k_zero_vector : added_by_contacts(motion.velocity, now.contact_velocity);
+    const Vec3<Real> turned = first ? k_zero_vector : added_by_contacts(motion.momentum, now.contact_momentum);
     motion.velocity += now.push;
     motion.momentum += now.twist;
     if (!(now.linear_kept == one)) motion.velocity = multiply(motion.velocity, now.linear_kept);
@@ -71,8 +53,8 @@ uint32_t integrate_positions(const SolverBodies& bodies, Span<const uint32_t> is
     BodyWork& now = bodies.work[slot];
     // What no contact or joint acts on is in free flight: at the mean of its velocities before and after the push.
     const bool flies =
-        now.joint_body == k_no_link && added_by_contacts(motion.velocity, now.contact_velocity) == k_still;
-    now.displacement += (flies ? motion.velocity - halved(now.push) : motion.velocity) * time;
+        now.joint_body == k_no_link && added_by_contacts(motion.velocity, now.contact_velocity) == k_zero_vector;
+    now.displacement += (flies ? motion.velocity - scale_by_power(now.push, -1) : motion.velocity) * time;
     clamped += turn(bodies.traits[slot], motion, time, halvings, now);
   }
   return clamped;

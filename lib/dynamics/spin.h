@@ -15,6 +15,21 @@ inline constexpr Real k_spin_max = 32768.0;   ///< m/s, of state: likewise of sp
 inline constexpr Real k_speed_work_max = 32768.0;  ///< m/s, of velocity within a solve
 inline constexpr Real k_spin_work_max = 65536.0;   ///< m/s, of momentum within a solve; no gyration is below 1
 
+/// Clamps to +-limit; returns how many components that changed.
+inline uint32_t clamp_component(Real& value, Real limit) {
+  const Real clamped = clamp(value, -limit, limit);
+  const bool changed = !(clamped == value);
+  value = clamped;
+  return changed ? 1 : 0;
+}
+inline uint32_t clamp_vector(Vec3<Real>& v, Real limit) {
+  return clamp_component(v.x, limit) + clamp_component(v.y, limit) + clamp_component(v.z, limit);
+}
+
+inline bool is_at_rest(const BodySweep& sweep) {
+  return sweep.displacement == k_zero_vector && sweep.turn == k_zero_vector;
+}
+
 inline BodyType type_of(const BodyTraits& traits) { return static_cast<BodyType>(traits.type); }
 inline bool is_dynamic(const BodyTraits& traits) { return type_of(traits) == BodyType::dynamic; }
 inline bool is_isotropic(const BodyTraits& traits) {

@@ -8,8 +8,6 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr Real k_two_pi = 6.28318530717958647693;
-
 /// `stiffness`: the spring's frequency over the substep rate; `damping_ratio`: of critical damping.
 Softness softness(Real stiffness, Real damping_ratio) {
   const Real one = 1.0;

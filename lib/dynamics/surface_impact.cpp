@@ -7,10 +7,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr Real k_zero = 0.0;
-
 /// The triangles of a surface, one by one, against a body on its way.
-struct Search {
+struct SurfaceSearch {
   const SurfaceCode& code;
   const SweptBody& ground;
   const Surface surface;
@@ -110,7 +108,8 @@ struct Search {
   }
   void visit(const Vec64& low, const Vec64& high) {
     code.visit(
-        surface, low, high, [](void* search, uint32_t index) { static_cast<Search*>(search)->ask(index); }, this);
+        surface, low, high, [](void* search, uint32_t index) { static_cast<SurfaceSearch*>(search)->ask(index); },
+        this);
   }
 };
 
@@ -127,19 +126,19 @@ bool surface_impact(const AssetTable& assets, const SurfaceCode& code, const Swe
   if (place_on_surface(ground_motion.start, motion.start, place) != Status::ok ||
       !raw_from_real(motion.displacement - ground_motion.displacement, way))
     return false;
-  Search search = {code,
-                   ground,
-                   surface_of(ground.traits, assets),
-                   ground_motion,
-                   convex,
-                   motion,
-                   time,
-                   ground_is_a,
-                   !(ground_motion.turn == Vec3<Real>{k_zero, k_zero, k_zero}),
-                   place.surface,
-                   place.centre,
-                   rotate_back(place.surface, way),
-                   raw_length(real_from_unit(body.traits.bounding_radius, body.traits.size_exponent))};
+  SurfaceSearch search = {code,
+                          ground,
+                          surface_of(ground.traits, assets),
+                          ground_motion,
+                          convex,
+                          motion,
+                          time,
+                          ground_is_a,
+                          !(ground_motion.turn == Vec3<Real>{k_zero, k_zero, k_zero}),
+                          place.surface,
+                          place.centre,
+                          rotate_back(place.surface, way),
+                          raw_length(real_from_unit(body.traits.bounding_radius, body.traits.size_exponent))};
   search.walk();
   if (search.failed) return false;
   impact = search.first;

@@ -7,12 +7,6 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr int32_t k_one = 1 << 30;
-constexpr uint64_t k_one_squared = uint64_t{1} << 60;
-constexpr uint64_t k_unit_vector_slack = uint64_t{1} << 32;
-
-Vec32 vertex(const HullView& hull, uint32_t i) { return {hull.x(i), hull.y(i), hull.z(i)}; }
-
 /// |v|, rounded up. Range: |component| <= 2^30.
 int64_t length_of(const Vec32& v) {
   const uint64_t square = static_cast<uint64_t>(dot(v, v));
@@ -29,14 +23,14 @@ int64_t depth_behind(const HullView& hull, uint32_t face) {
   const Vec32 normal = {plane.normal[0], plane.normal[1], plane.normal[2]};
   int64_t least = INT64_MAX;
   for (uint32_t i = 0; i < hull.vertex_count; ++i) {
-    const int64_t height = dot(normal, vertex(hull, i));
+    const int64_t height = dot(normal, hull.vertex(i));
     least = height < least ? height : least;
   }
   return plane.offset - shift_up(least, 30);
 }
 
 void measure_hull(const HullView& hull, int shift, ChildMeasure& measure) {
-  Vec32 low = vertex(hull, 0), high = low;
+  Vec32 low = hull.vertex(0), high = low;
   const auto take = [](int32_t value, int32_t& least, int32_t& most) {
     least = value < least ? value : least;
     most = value > most ? value : most;
@@ -63,14 +57,10 @@ bool is_point(const Vec32& v) {
   return component(v.x) && component(v.y) && component(v.z);
 }
 
-bool is_canonical(HullScaled value, int32_t exponent_min, int32_t exponent_max) {
-  return value.mantissa >= k_one && value.exponent >= exponent_min && value.exponent <= exponent_max;
-}
-
 bool header_is_good(const CompoundView& compound) {
   const uint8_t* const bytes = compound.bytes;
   if (!cooked_is_zero(bytes, k_compound_rotation_at + 16, k_compound_header_bytes)) return false;
-  if (!is_canonical(compound.volume(), -160, 0)) return false;
+  if (!compound.volume().is_canonical(-160, 0)) return false;
   uint64_t norm = 0;
   for (uint32_t k = 0; k < 4; ++k) {
     const int32_t component = cooked_i32(bytes + k_compound_rotation_at + 4 * k);
@@ -79,7 +69,7 @@ bool header_is_good(const CompoundView& compound) {
   }
   if (norm < k_one_squared - k_unit_vector_slack || norm > k_one_squared + k_unit_vector_slack) return false;
   for (uint32_t axis = 0; axis < 3; ++axis) {
-    if (!is_canonical(compound.gyration(axis), -30, 40)) return false;
+    if (!compound.gyration(axis).is_canonical(-30, 40)) return false;
     if ((load_u64(bytes + k_compound_origin_at + 8 * axis) >> 52 & 0x7ff) == 0x7ff) return false;
   }
   return true;
@@ -102,7 +92,7 @@ bool is_within(const HullView& inner, const HullView& outer) {
     const HullPlane plane = outer.plane(face);
     const Vec32 normal = {plane.normal[0], plane.normal[1], plane.normal[2]};
     for (uint32_t i = 0; i < inner.vertex_count; ++i) {
-      if (dot(normal, vertex(inner, i)) >> shift > plane.offset * int64_t{k_one}) return false;
+      if (dot(normal, inner.vertex(i)) >> shift > plane.offset * int64_t{k_one}) return false;
     }
   }
   return true;

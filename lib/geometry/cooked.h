@@ -41,6 +41,12 @@ inline void read_source_frame(const uint8_t* origin_bytes, const uint8_t* rotati
   for (uint32_t k = 0; k < 4; ++k) rotation[k] = cooked_i32(rotation_bytes + 4 * k);
 }
 
+/// The square of a unit vector or quaternion, Q60, and how far rounding may take it from there: four components 2^31.
+inline constexpr uint64_t k_one_squared = uint64_t{1} << 60;
+inline constexpr uint64_t k_unit_vector_slack = uint64_t{1} << 32;
+
+constexpr uint32_t align_8(uint32_t bytes) { return (bytes + 7) / 8 * 8; }
+
 /// Whether the bytes from `from` up to `to` are zero.
 bool cooked_is_zero(const uint8_t* bytes, uint32_t from, uint32_t to);
 

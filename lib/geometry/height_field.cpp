@@ -4,8 +4,6 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr uint32_t align_8(uint32_t bytes) { return (bytes + 7) / 8 * 8; }
-
 bool in_range(int64_t value) { return value >= -k_surface_coordinate_max && value <= k_surface_coordinate_max; }
 
 /// Sizes positive and every sample in range, from the least and greatest height of the root.

@@ -6,40 +6,16 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr uint64_t k_one_squared = uint64_t{1} << 60;
-constexpr uint64_t k_unit_vector_slack = uint64_t{1} << 32;  // of the square; rounding four components can make 2^31
-constexpr int32_t k_mantissa_min = 1 << 30;
 constexpr uint32_t k_half_edges_max = 6 * k_hull_vertices_max - 12;
 
-struct Vertex {
-  int32_t x, y, z;
-};
-
-/// Differences of vertices are shorter than 2^31, so each component of the cross product is below 2^62.
-struct Normal {
-  int64_t x, y, z;
-};
-
-Vertex vertex(const HullView& hull, uint32_t i) { return {hull.x(i), hull.y(i), hull.z(i)}; }
-
-/// (b - a) x (c - a), exact.
-Normal cross(const Vertex& a, const Vertex& b, const Vertex& c) {
+/// (b - a) x (c - a), exact: differences of vertices are shorter than 2^31, so each component is below 2^62.
+Vec64 cross(const Vec32& a, const Vec32& b, const Vec32& c) {
   const int64_t bx = int64_t{b.x} - a.x, by = int64_t{b.y} - a.y, bz = int64_t{b.z} - a.z;
   const int64_t cx = int64_t{c.x} - a.x, cy = int64_t{c.y} - a.y, cz = int64_t{c.z} - a.z;
   return {by * cz - bz * cy, bz * cx - bx * cz, bx * cy - by * cx};
 }
 
-/// Exact, below 2^94.
-Int128 dot(const Normal& normal, const Vertex& v) {
-  return Int128::product_narrow(normal.x, v.x) + Int128::product_narrow(normal.y, v.y) +
-         Int128::product_narrow(normal.z, v.z);
-}
-
 uint64_t square(int32_t value) { return static_cast<uint64_t>(int64_t{value} * value); }
-
-bool is_canonical(HullScaled value, int32_t exponent_min, int32_t exponent_max) {
-  return value.mantissa >= k_mantissa_min && value.exponent >= exponent_min && value.exponent <= exponent_max;
-}
 
 bool gaps_are_zero(const HullView& hull) {
   const HullLayout& at = hull.at;
@@ -57,7 +33,7 @@ bool gaps_are_zero(const HullView& hull) {
 bool vertices_are_good(const HullView& hull) {
   uint64_t greatest = 0;
   for (uint32_t i = 0; i < hull.vertex_count; ++i) {
-    const Vertex v = vertex(hull, i);
+    const Vec32 v = hull.vertex(i);
     const uint64_t norm = square(v.x) + square(v.y) + square(v.z);  // at most 3 2^62
     if (norm >= k_one_squared) return false;
     if (norm > greatest) greatest = norm;
@@ -102,7 +78,7 @@ uint32_t half_edge(const HullView& hull, uint32_t a, uint32_t b) {
 /// each is found, and none twice, then the neighbours are in range, ascending, and no others.
 bool triangles_are_good(const HullView& hull) {
   uint8_t seen[(k_half_edges_max + 7) / 8] = {};
-  const Vertex apex = vertex(hull, 0);
+  const Vec32 apex = hull.vertex(0);
   Int128 volume = Int128::from(0);  // 6 2^90 times; below 2^95
   const uint8_t* triangle = hull.bytes + hull.at.triangles;
   for (uint32_t i = 0; i < 2 * hull.vertex_count - 4; ++i, triangle += 3) {
@@ -114,17 +90,17 @@ bool triangles_are_good(const HullView& hull) {
       if ((seen[side / 8] >> (side % 8) & 1) != 0) return false;
       seen[side / 8] = static_cast<uint8_t>(seen[side / 8] | 1u << (side % 8));
     }
-    const Vertex a = vertex(hull, triangle[0]);
-    const Normal normal = cross(a, vertex(hull, triangle[1]), vertex(hull, triangle[2]));
+    const Vec32 a = hull.vertex(triangle[0]);
+    const Vec64 normal = cross(a, hull.vertex(triangle[1]), hull.vertex(triangle[2]));
     if (normal.x == 0 && normal.y == 0 && normal.z == 0) return false;
     const Int128 offset = dot(normal, a);
     for (uint32_t k = 0; k < hull.vertex_count; ++k) {
-      if (offset < dot(normal, vertex(hull, k))) return false;
+      if (offset < dot(normal, hull.vertex(k))) return false;
     }
     volume = volume + (offset - dot(normal, apex));
   }
   const HullScaled stated = hull.volume();
-  if (!is_canonical(stated, -130, -28)) return false;
+  if (!stated.is_canonical(-130, -28)) return false;
   const int shift = stated.exponent + 90;  // -40 to 62
   const Int128 six = Int128::from(int64_t{6} * stated.mantissa).shift_left(shift > 0 ? shift : 0);
   const Int128 error =
@@ -173,24 +149,23 @@ bool plane_is_good(const HullView& hull, uint32_t face) {
   const auto& n = plane.normal;
   const uint64_t norm = square(n[0]) + square(n[1]) + square(n[2]);
   if (norm < k_one_squared - k_unit_vector_slack || norm > k_one_squared + k_unit_vector_slack) return false;
-  const auto height = [&](const Vertex& v) { return int64_t{n[0]} * v.x + int64_t{n[1]} * v.y + int64_t{n[2]} * v.z; };
-  constexpr int64_t k_one = int64_t{1} << 30;
-  const int64_t top = plane.offset * k_one;
+  const auto height = [&](const Vec32& v) { return int64_t{n[0]} * v.x + int64_t{n[1]} * v.y + int64_t{n[2]} * v.z; };
+  const int64_t top = plane.offset * k_one_64;
   for (uint32_t i = 0; i < hull.vertex_count; ++i) {
-    if (height(vertex(hull, i)) > top) return false;
+    if (height(hull.vertex(i)) > top) return false;
   }
   const HullIndices loop = hull.face(face);
   for (uint32_t k = 0; k < loop.count; ++k) {
-    const Vertex a = vertex(hull, loop.index[k]);
-    if (height(a) < top - k_hull_face_slack * k_one) return false;
-    const Vertex b = vertex(hull, loop.index[k + 1 == loop.count ? 0 : k + 1]);
+    const Vec32 a = hull.vertex(loop.index[k]);
+    if (height(a) < top - k_hull_face_slack * k_one_64) return false;
+    const Vec32 b = hull.vertex(loop.index[k + 1 == loop.count ? 0 : k + 1]);
     uint64_t side = magnitude_64(int64_t{b.x} - a.x);  // its longest component: at most its length
     if (magnitude_64(int64_t{b.y} - a.y) > side) side = magnitude_64(int64_t{b.y} - a.y);
     if (magnitude_64(int64_t{b.z} - a.z) > side) side = magnitude_64(int64_t{b.z} - a.z);
-    const Int128 least = -Int128::product(static_cast<int64_t>(side) * k_hull_face_slack, k_one);
+    const Int128 least = -Int128::product(static_cast<int64_t>(side) * k_hull_face_slack, k_one_64);
     for (uint32_t other = 0; other < loop.count; ++other) {
-      const Normal area = cross(a, b, vertex(hull, loop.index[other]));
-      if (dot(area, {n[0], n[1], n[2]}) < least) return false;
+      const Vec64 area = cross(a, b, hull.vertex(loop.index[other]));
+      if (dot(area, Vec32{n[0], n[1], n[2]}) < least) return false;
     }
   }
   return true;
@@ -217,7 +192,7 @@ bool frame_is_good(const HullView& hull) {
   if (!principal && hull.frame() != HullFrame::source) return false;
   for (uint32_t axis = 0; axis < 3; ++axis) {
     const HullScaled gyration = hull.gyration(axis);  // above 1, for no vertex is a unit away; below 2^70
-    if (principal && !is_canonical(gyration, -30, 40)) return false;
+    if (principal && !gyration.is_canonical(-30, 40)) return false;
     if (!principal && (gyration.mantissa != 0 || gyration.exponent != 0)) return false;
     const uint64_t origin = load_u64(hull.bytes + k_hull_origin_at + 8 * axis);
     if (principal ? !is_finite(origin) : origin != 0) return false;
@@ -225,8 +200,8 @@ bool frame_is_good(const HullView& hull) {
   uint64_t norm = 0;
   for (uint32_t k = 0; k < 4; ++k) {
     const int32_t component = cooked_i32(hull.bytes + k_hull_rotation_at + 4 * k);
-    if (component < -k_mantissa_min || component > k_mantissa_min) return false;
-    if (!principal && component != (k == 3 ? k_mantissa_min : 0)) return false;
+    if (component < -k_one || component > k_one) return false;
+    if (!principal && component != (k == 3 ? k_one : 0)) return false;
     norm += square(component);
   }
   return norm >= k_one_squared - k_unit_vector_slack && norm <= k_one_squared + k_unit_vector_slack;

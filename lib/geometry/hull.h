@@ -5,6 +5,7 @@
 
 #include "base/check.h"
 #include "geometry/cooked.h"
+#include "math/vector_integer.h"
 
 /// A cooked convex hull as it lies in flash or a file: docs/hull.md is the format, these are its offsets and readers.
 namespace detent {
@@ -88,6 +89,10 @@ struct HullEdge {
 /// mantissa 2^exponent, 2^30 <= mantissa < 2^31; both 0 for nothing. As Scaled of the fixed configurations.
 struct HullScaled {
   int32_t mantissa, exponent;
+
+  bool is_canonical(int32_t exponent_min, int32_t exponent_max) const {
+    return mantissa >= k_one && exponent >= exponent_min && exponent <= exponent_max;
+  }
 };
 /// Vertex indices, in the asset.
 struct HullIndices {
@@ -104,6 +109,7 @@ struct HullView {
   uint32_t edge_count = 0;
   HullLayout at = {};
 
+  Vec32 vertex(uint32_t i) const { return {x(i), y(i), z(i)}; }
   int32_t x(uint32_t i) const { return coordinate(at.x, i); }
   int32_t y(uint32_t i) const { return coordinate(at.y, i); }
   int32_t z(uint32_t i) const { return coordinate(at.z, i); }

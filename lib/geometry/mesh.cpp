@@ -4,8 +4,6 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr uint32_t align_8(uint32_t bytes) { return (bytes + 7) / 8 * 8; }
-
 bool in_range(const Vec32& v) {
   const auto component = [](int32_t a) { return a >= -k_surface_coordinate_max && a <= k_surface_coordinate_max; };
   return component(v.x) && component(v.y) && component(v.z);

@@ -13,7 +13,7 @@ namespace {
 constexpr Real k_size_min = 0x1p-14;
 constexpr Real k_size_max = 0x1p14;
 constexpr Real k_bound_limit = 0x1p15;
-constexpr Scaled k_pi = 3.14159265358979323846;
+constexpr Scaled k_scaled_pi = 3.14159265358979323846;
 
 bool is_size(Real value) { return value >= k_size_min && value <= k_size_max; }
 
@@ -103,7 +103,7 @@ Status measure_sphere(const Shape& shape, const AssetTable&, ShapeMeasure& measu
   return Status::ok;
 }
 Scaled sphere_volume(const BodyTraits&, const Sizes& size, const AssetTable&) {
-  return multiply(multiply(k_pi, Scaled(4.0 / 3.0)), multiply(size.x, multiply(size.x, size.x)));
+  return multiply(multiply(k_scaled_pi, Scaled(4.0 / 3.0)), multiply(size.x, multiply(size.x, size.x)));
 }
 void set_sphere_gyration(BodyTraits& traits, const Sizes& squares, const AssetTable&) {
   traits.gyration[0] = traits.gyration[1] = traits.gyration[2] = divide(Scaled(2.5), squares.x);
@@ -121,7 +121,7 @@ Status measure_capsule(const Shape& shape, const AssetTable&, ShapeMeasure& meas
 }
 Scaled capsule_volume(const BodyTraits&, const Sizes& size, const AssetTable&) {
   const Scaled &x = size.x, &y = size.y;
-  return multiply(multiply(k_pi, multiply(x, x)), add(multiply(Scaled(2.0), y), multiply(Scaled(4.0 / 3.0), x)));
+  return multiply(multiply(k_scaled_pi, multiply(x, x)), add(multiply(Scaled(2.0), y), multiply(Scaled(4.0 / 3.0), x)));
 }
 void set_capsule_gyration(BodyTraits& traits, const Sizes&, const AssetTable&) {
   Scaled along, across;
@@ -155,10 +155,10 @@ Status measure_upright(const Shape& shape, const AssetTable&, ShapeMeasure& meas
   return Status::ok;
 }
 Scaled cylinder_volume(const BodyTraits&, const Sizes& size, const AssetTable&) {
-  return multiply(multiply(k_pi, Scaled(2.0)), multiply(size.y, multiply(size.x, size.x)));
+  return multiply(multiply(k_scaled_pi, Scaled(2.0)), multiply(size.y, multiply(size.x, size.x)));
 }
 Scaled cone_volume(const BodyTraits&, const Sizes& size, const AssetTable&) {
-  return multiply(multiply(k_pi, Scaled(2.0 / 3.0)), multiply(size.y, multiply(size.x, size.x)));
+  return multiply(multiply(k_scaled_pi, Scaled(2.0 / 3.0)), multiply(size.y, multiply(size.x, size.x)));
 }
 /// (3 r^2 + 4 h^2) / 12 across, r^2 / 2 along.
 void set_cylinder_gyration(BodyTraits& traits, const Sizes& squares, const AssetTable&) {
@@ -291,7 +291,8 @@ const ShapeCode* code_of(const FeatureTable& features, ShapeType type) {
   }
 }
 
-Status set_shape(const Shape& shape, BodyTraits& traits, const AssetTable& assets, const FeatureTable& features) {
+Status set_shape_traits(const Shape& shape, BodyTraits& traits, const AssetTable& assets,
+                        const FeatureTable& features) {
   const Real zero = 0.0;
   ShapeMeasure measure = {{zero, zero, zero}, k_size_max, zero, -14};
   if (!is_world_shape(shape.type)) return Status::bad_argument;

@@ -22,6 +22,14 @@ inline bool has_parts(const BodyTraits& a, const BodyTraits& b) {
 /// Whether a body has no thickness that the motion of others could be measured by.
 inline bool is_ground(const BodyTraits& traits) { return is_half_space(traits) || is_surface(traits); }
 
+/// Of any unit of length.
+inline constexpr int k_size_exponent_min = -14;
+
+/// Of all of the shape from its origin, m.
+inline Real bounding_radius_of(const BodyTraits& traits) {
+  return real_from_unit(traits.bounding_radius, traits.size_exponent);
+}
+
 /// The greatest distance of a point of the core from the origin; not for hulls, surfaces and compounds. T: Real or
 /// Unit, of both sides.
 template <class T>
@@ -58,7 +66,8 @@ struct ShapeMeasure {
   Real thickness = 0.0;  ///< of a compound: BodyTraits::rounding
 };
 
-/// One shape's own part of set_shape(), shape_volume() and set_gyration(): the linker keeps those that a table names.
+/// One shape's own part of set_shape_traits(), shape_volume() and set_gyration(): the linker keeps those that a table
+/// names.
 struct ShapeCode {
   Status (*measure)(const Shape& shape, const AssetTable& assets, ShapeMeasure& measure);
   void (*set_size)(const Shape& shape, const AssetTable& assets, BodyTraits& traits);  ///< null: from the measure
@@ -72,8 +81,8 @@ const ShapeCode* code_of(const FeatureTable& features, ShapeType type);
 /// Fills shape, size_exponent, size, bounding_radius, rounding and asset of `traits`. A hull, surface or
 /// compound is that of the table, whose bytes read_hull(), read_surface() or read_compound() has accepted. Errors:
 /// bad_argument, out_of_range, asset_missing, feature_missing.
-Status set_shape(const Shape& shape, BodyTraits& traits, const AssetTable& assets = {},
-                 const FeatureTable& features = feature_table<Features::all>);
+Status set_shape_traits(const Shape& shape, BodyTraits& traits, const AssetTable& assets = {},
+                        const FeatureTable& features = feature_table<Features::all>);
 
 /// Volume of the shape, m^3. Relative error below 2^-26. 0 for half-spaces and surfaces. A rounded shape counts as the
 /// sharp one whose sizes (of a hull: half extents, by which it is stretched) are greater by the rounding.

@@ -7,7 +7,6 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr Real k_two_pi = 6.28318530717958647693;
 constexpr Real k_half_turn_limit = 3.0;  ///< below it an estimate cannot mean another whole turn
 constexpr int32_t k_turns_max = 1 << 14;
 

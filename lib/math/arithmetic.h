@@ -15,6 +15,11 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
+inline constexpr Real k_zero = 0.0;
+inline constexpr Vec3<Real> k_zero_vector = {k_zero, k_zero, k_zero};
+inline constexpr Vec3<Unit> k_no_direction = {Unit(0.0), Unit(0.0), Unit(0.0)};
+inline constexpr Real k_two_pi = 6.28318530717958647693;
+
 #if DETENT_FIXED
 inline constexpr int k_unit_frac = Unit::k_frac;
 inline constexpr int k_real_frac = Real::k_frac;
@@ -287,6 +292,14 @@ constexpr Coord coord_advance(Coord c, Real d, bool& saturated) {
 DETENT_SHARED constexpr Vec3<Real> real_difference(const Position& a, const Position& b) {
   return {real_difference(a.x, b.x), real_difference(a.y, b.y), real_difference(a.z, b.z)};
 }
+
+/// v 2^n, by component as scale_by_power() of a number.
+template <class T>
+constexpr Vec3<T> scale_by_power(const Vec3<T>& v, int n) {
+  return {scale_by_power(v.x, n), scale_by_power(v.y, n), scale_by_power(v.z, n)};
+}
+/// |x| + |y| + |z|.
+constexpr Real absolute_sum(const Vec3<Real>& v) { return abs(v.x) + abs(v.y) + abs(v.z); }
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -21,6 +21,9 @@ constexpr int64_t with_sign(uint64_t magnitude, bool negative) {
   return static_cast<int64_t>(negative ? uint64_t{0} - magnitude : magnitude);
 }
 
+/// The upper half of the product.
+constexpr uint32_t high_product(uint32_t a, uint32_t b) { return static_cast<uint32_t>((uint64_t{a} * b) >> 32); }
+
 /// Bits needed to write the value: 0 for 0, else the n with 2^(n-1) <= value < 2^n.
 constexpr int bit_length_32(uint32_t value) {
   if (value == 0) return 0;

@@ -9,8 +9,6 @@ inline namespace DETENT_NAMESPACE {
 
 namespace {
 
-constexpr uint32_t high_product(uint32_t a, uint32_t b) { return static_cast<uint32_t>((uint64_t{a} * b) >> 32); }
-
 /// The floor of the root of value >= 2^62, and value - root^2.
 uint32_t root_of_normal(uint64_t value, uint64_t& remainder) {
   const uint32_t head = static_cast<uint32_t>(value >> 32);

@@ -180,7 +180,7 @@ Quat rotation_from_vector(const Vec3<Real>& theta) {
   if (all_below(theta, Real(0.0625))) return small_rotation(theta);
   Vec3<Unit> axis;
   Real angle;
-  normalise(theta, axis, angle);
+  if (!normalise(theta, axis, angle)) return k_identity;  // never: it is not short
   Unit sine;
   Unit cosine;
   sine_cosine_of_half_radians(angle, sine, cosine);

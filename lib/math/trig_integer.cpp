@@ -3,12 +3,6 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-namespace {
-
-constexpr uint32_t high_product(uint32_t a, uint32_t b) { return static_cast<uint32_t>((uint64_t{a} * b) >> 32); }
-
-}  // namespace
-
 SineCosineRaw sine_cosine_raw(int64_t phase) {
   // The nearest quarter turn, and t in [-1/2, 1/2) quarter turns as Q32.
   const uint32_t quarter = static_cast<uint32_t>((phase + 0x80000000) >> 32) & 3;
@@ -73,8 +67,8 @@ int64_t turns_from_radians_raw(int64_t angle, int extra_bits) {
 }
 
 int64_t radians_raw(int32_t turns, int frac) {
-  constexpr int64_t k_two_pi = 7244019458077122842;  // Q60
-  return Int128::product_narrow(k_two_pi, turns).round_shift(60 + 32 - frac);
+  constexpr int64_t k_two_pi_q60 = 7244019458077122842;  // Q60
+  return Int128::product_narrow(k_two_pi_q60, turns).round_shift(60 + 32 - frac);
 }
 
 }  // namespace DETENT_NAMESPACE

@@ -11,6 +11,10 @@ inline namespace DETENT_NAMESPACE {
 using Vec32 = Vec3<int32_t>;
 using Vec64 = Vec3<int64_t>;
 
+/// 1 in Q30, the format of unit vectors, rotations and fractions.
+inline constexpr int32_t k_one = 1 << 30;
+inline constexpr int64_t k_one_64 = k_one;
+
 DETENT_SHARED constexpr Vec32 add(const Vec32& a, const Vec32& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 DETENT_SHARED constexpr Vec32 subtract(const Vec32& a, const Vec32& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 DETENT_SHARED constexpr Vec64 add(const Vec64& a, const Vec64& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }

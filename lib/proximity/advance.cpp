@@ -9,11 +9,6 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr int64_t k_one = int64_t{1} << 30;
-
-/// At least the length, and at most 1.6 % and 2 more.
-int64_t length_bound(const Vec32& v) { return square_root_bound(static_cast<uint64_t>(dot(v, v))); }
-
 /// n x u, Q29, of n in Q30 and u in Q29.
 Vec32 cross_29(const Vec32& n, const Vec32& u) { return round_shift(cross(n, u), 30); }
 
@@ -44,9 +39,9 @@ class Side {
     relative_ = subtract(own_spin, spin);
     still_ = is_zero(relative_);
     if (!present_ || still_) return;
-    speed_ = length_bound(relative_);
+    speed_ = length_bound_32(relative_);
     // |w x spin| = |u x spin|
-    twist_ = is_zero(own_spin) || is_zero(spin) ? 0 : length_bound(round_shift(cross(relative_, spin), 29));
+    twist_ = is_zero(own_spin) || is_zero(spin) ? 0 : length_bound_32(round_shift(cross(relative_, spin), 29));
   }
 
   /// Takes the axis at a pass's start. For a body at rest with the axis the first one holds for ever.
@@ -57,7 +52,7 @@ class Side {
       return;
     }
     const Vec32 slope = cross_29(normal, relative_);
-    across_ = length_bound(slope);
+    across_ = length_bound_32(slope);
     slope_ = rotate_inverse(rotation, slope);
   }
   bool moves() const { return present_ && !still_; }
@@ -113,9 +108,9 @@ class Separation {
         a_(*pair.a, pair.turning_a, horizon.spin_a, spin, pair.core_a, pair.exponent, -1),
         b_(*pair.b, pair.turning_b, horizon.spin_b, spin, pair.core_b, pair.exponent, 1) {
     if (is_zero(spin)) return;
-    tilt_ = length_bound(cross_29(normal, spin));
+    tilt_ = length_bound_32(cross_29(normal, spin));
     // |n x spin| (2 |V| + |spin| max |C|)
-    const int64_t speed = 2 * length_bound(horizon.way) + product_above(length_bound(spin), pair.reach, 30);
+    const int64_t speed = 2 * length_bound_32(horizon.way) + product_above(length_bound_32(spin), pair.reach, 30);
     centre_curvature_ = product_above(tilt_, speed, 32);
   }
 
@@ -150,7 +145,7 @@ class Separation {
     centre_ = (dot(normal, offset) >> 4) - (int64_t{floor_} << 26);
     centre_slope_ = dot(normal, horizon_.way) >> 29;
     if (!is_zero(spin_)) centre_slope_ += dot(cross_29(spin_, normal), offset) >> 29;
-    curvature_ = centre_curvature_ + a_.curvature(tilt_, k_one - part) + b_.curvature(tilt_, k_one - part);
+    curvature_ = centre_curvature_ + a_.curvature(tilt_, k_one_64 - part) + b_.curvature(tilt_, k_one_64 - part);
   }
 
   const MovingPair& pair_;
@@ -207,7 +202,7 @@ Vec32 TurningAxis::at(int64_t part) const {
   if (!turns_ || part == 0) return normal_;
   constexpr int64_t k_radian = 2734261103;  // 2^34 / 2 pi
   const SineCosineRaw full = sine_cosine_raw((((rate_ * part) >> 30) * k_radian) >> 29);
-  const int64_t kept = (along_ * (k_one - full.cosine)) >> 30;
+  const int64_t kept = (along_ * (k_one_64 - full.cosine)) >> 30;
   const auto component = [&](int64_t n, int64_t c, int64_t k) {
     return round_30(n * full.cosine + c * full.sine + kept * k);
   };
@@ -230,7 +225,7 @@ int32_t advance(const MovingPair& pair, const Frames& frames, const Horizon& hor
     const Separation::Value first = separation.at(0);
     if (first.separation <= (count == 0 ? 0 : enough)) break;
     const int64_t curvature = separation.curvature();
-    int64_t x = parabola_root(first.separation, first.slope, curvature, k_one - part);
+    int64_t x = parabola_root(first.separation, first.slope, curvature, k_one_64 - part);
     for (int step = 0;; ++step) {
       const Separation::Value value = separation.at(x);
       if (value.separation >= 0) break;
@@ -242,11 +237,11 @@ int32_t advance(const MovingPair& pair, const Frames& frames, const Horizon& hor
       // |separation| < 32 (tests/proofs): from 2 on in coarser steps, so that the product fits.
       const int coarse = -value.separation >> 57 != 0 ? 4 : 0;
       const int64_t fall = -value.slope >> coarse;
-      const int64_t back = (-value.separation >> (26 + coarse)) * k_one / (fall > 0 ? fall : 1) + 1;
+      const int64_t back = (-value.separation >> (26 + coarse)) * k_one_64 / (fall > 0 ? fall : 1) + 1;
       x = back < x ? x - back : 0;
     }
     part += x;
-    if (part >= k_one) return static_cast<int32_t>(k_one);
+    if (part >= k_one_64) return static_cast<int32_t>(k_one_64);
     if ((curvature * ((x * x) >> 30)) >> 1 <= enough) break;
   }
   return static_cast<int32_t>(part);
@@ -260,8 +255,8 @@ int64_t advance_on(const MovingPair& pair, const Frames& frames, const Horizon& 
   for (int count = 0; count < k_horizons_max; ++count) {
     const int32_t part = advance(pair, at, ahead, axis, turn, floor, passes);
     const int64_t reached = ahead.time_at(part);
-    if (part < k_one || reached >= pair.to) return reached;
-    axis = TurningAxis(axis, turn).at(k_one);
+    if (part < k_one_64 || reached >= pair.to) return reached;
+    axis = TurningAxis(axis, turn).at(k_one_64);
     at = pair.at(reached);
     const int64_t rest = pair.to - reached, length = rest < horizon.length ? rest : horizon.length;
     ahead = horizon_over(pair, reached, length);
@@ -282,11 +277,11 @@ int32_t advance_once(const MovingPair& pair, const Frames& frames, const Horizon
   if (room <= 0) return 0;
   const auto turning = [&](const Vec32& spin, int32_t core) {
     if (is_zero(spin) || core == 0) return int64_t{0};
-    return product_above(length_bound(tight ? cross_29(normal, spin) : spin), core, 29);
+    return product_above(length_bound_32(tight ? cross_29(normal, spin) : spin), core, 29);
   };
   const int64_t approach = -(dot(normal, horizon.way) >> 29) + 1 + turning(horizon.spin_a, pair.core_a) +
                            turning(horizon.spin_b, pair.core_b);
-  if (approach <= 0 || room >= approach) return static_cast<int32_t>(k_one);
+  if (approach <= 0 || room >= approach) return static_cast<int32_t>(k_one_64);
   return static_cast<int32_t>((room << 30) / approach);
 }
 

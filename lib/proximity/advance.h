@@ -21,6 +21,9 @@ struct Horizon {
            static_cast<int64_t>((static_cast<uint64_t>(product.high_word()) << 34) | (product.low_word() >> 30));
   }
 };
+/// The longest horizon that a search takes: 2 rad, in quarter radians. The formats of advance() hold 3.
+inline constexpr int k_horizon_quarters = 8;
+
 /// From `start` on, at most `length` of the step and at most so long that both bodies together turn by `turn` quarter
 /// radians.
 Horizon horizon_from(const MovingPair& pair, int64_t start, int64_t length, int turn_quarters);

@@ -7,7 +7,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr int64_t k_pi = 221069929750888;  // 2^-46, rounded down
+constexpr int64_t k_raw_pi = 221069929750888;  // 2^-46, rounded down
 
 /// A rotation whose quaternion goes from one to another in a straight line, on the shorter side.
 struct QuaternionLine {
@@ -37,7 +37,7 @@ int64_t clipped_32(uint64_t square) {
 Matrix32 rotation_of(const Quat32& q) {
   const int64_t inverse = reciprocal_root(static_cast<uint32_t>(clipped_32(QuaternionLine::square(q))));  // Q31
   const auto scaled = [inverse](int32_t v) { return static_cast<int32_t>((v * inverse + (int64_t{1} << 30)) >> 31); };
-  return matrix_from({scaled(q.x), scaled(q.y), scaled(q.z), scaled(q.w)});
+  return matrix_from(Quat32{scaled(q.x), scaled(q.y), scaled(q.z), scaled(q.w)});
 }
 
 /// Both bodies, in world axes.
@@ -199,10 +199,10 @@ struct NumericalRoots {
 };
 
 /// Errors: as time_of_impact(); out_of_range for more than half a turn.
-Status set_line(const Motion& motion, int64_t reach, QuaternionLine& line, Sweep& sweep) {
+Status set_line(const Motion& motion, int64_t reach, QuaternionLine& line, RotationBound& bound) {
   Turning turning;
   if (const Status status = turning_of(motion, turning); status != Status::ok) return status;
-  if (turning.angle > k_pi) return Status::out_of_range;
+  if (turning.angle > k_raw_pi) return Status::out_of_range;
   line.start = turning.start;
   const Quat32 end = turning.rotation_at(k_time_end);
   const int32_t from[4] = {line.start.x, line.start.y, line.start.z, line.start.w},
@@ -219,7 +219,7 @@ Status set_line(const Motion& motion, int64_t reach, QuaternionLine& line, Sweep
   // With k the tangent of a quarter of the angle, the rotation's speed is at most 4 k, and with its acceleration a
   // point's is at most 16.9 k^2 of its reach.
   const int64_t k = ((int64_t{square_root_floor(squares[0])} + 2) << 30) / square_root_floor(squares[1]);  // Q30
-  sweep = {reach, turning.turns ? (33 * k) << 13 : 0};
+  bound = {reach, turning.turns ? (33 * k) << 13 : 0};
   return Status::ok;
 }
 
@@ -231,9 +231,9 @@ Status time_of_impact_by_canny(const Convex& a, const Motion& motion_a, const Co
   MovingPair pair;
   if (const Status status = prepare(a, motion_a, b, motion_b, pair); status != Status::ok) return status;
   LerpMotion motion;
-  if (const Status status = set_line(motion_a, raw_core_radius(a), motion.line_a, motion.sweep_a); status != Status::ok)
+  if (const Status status = set_line(motion_a, raw_core_radius(a), motion.line_a, motion.bound_a); status != Status::ok)
     return status;
-  if (const Status status = set_line(motion_b, raw_core_radius(b), motion.line_b, motion.sweep_b); status != Status::ok)
+  if (const Status status = set_line(motion_b, raw_core_radius(b), motion.line_b, motion.bound_b); status != Status::ok)
     return status;
   motion.offset = pair.offset;
   motion.displacement = pair.displacement;

@@ -7,8 +7,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr Vec32 k_still = {0, 0, 0};
-constexpr int k_turn_quarters = 8;  ///< a horizon of 2 rad: the formats of advance() hold 3
+constexpr Vec32 k_no_spin = {0, 0, 0};
 
 /// An axis is foreseen only where the plain ones have not led there.
 constexpr int k_plain_iterations = 1;
@@ -23,12 +22,12 @@ int64_t next_time(const MovingPair& pair, ToiMethod method, const Frames& frames
       iteration >= k_plain_iterations) {
     return advance_tracking(pair, frames, simplex, features, nearest, floor, progress, result);
   }
-  const Horizon horizon = horizon_from(pair, time, pair.to - time, k_turn_quarters);
+  const Horizon horizon = horizon_from(pair, time, pair.to - time, k_horizon_quarters);
   if (pair.planar) {  // no other axis than the plane's can part them
     const Vec32& plane = pair.a->type == ShapeType::half_space ? horizon.spin_a : horizon.spin_b;
     return advance_on(pair, frames, horizon, nearest.normal, plane, floor, result.passes);
   }
-  Vec32 spin = k_still;
+  Vec32 spin = k_no_spin;
   switch (method) {
     case ToiMethod::paper:
     case ToiMethod::first_order:

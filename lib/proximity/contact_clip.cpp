@@ -9,12 +9,11 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr int64_t k_one = int64_t{1} << 30;
 constexpr int64_t k_no_limit = INT64_MAX / 2;
 constexpr int k_slack_power = 6;
 
 /// part / whole as Q30. Range: 0 <= part <= whole, whole > 0.
-int64_t fraction(int64_t part, int64_t whole) { return divide_rounded(Int128::product(part, k_one), whole); }
+int64_t fraction(int64_t part, int64_t whole) { return divide_rounded(Int128::product(part, k_one_64), whole); }
 
 int64_t distance(const AreaPoint& p, const AreaPoint& q) {
   return static_cast<int64_t>(magnitude_64(p.u - q.u) + magnitude_64(p.v - q.v));
@@ -167,7 +166,7 @@ void Reference::add_sides(const Vec32& centre, int32_t size) {
     Side& side = side_[i];
     corner_[i] = p;
     if (!feature_->is_face()) {
-      side = {static_cast<int32_t>(i == 0 ? -k_one : k_one), 0, (i == 0 ? -p.u : p.u) * k_one};
+      side = {static_cast<int32_t>(i == 0 ? -k_one_64 : k_one_64), 0, (i == 0 ? -p.u : p.u) * k_one_64};
     } else if (p.u == q.u && p.v == q.v) {
       side = {0, 0, k_no_limit};
       continue;
@@ -180,12 +179,12 @@ void Reference::add_sides(const Vec32& centre, int32_t size) {
   inner = inner >> 30 < size ? inner >> 30 : size;
   slack_ = inner > 0 ? inner >> k_slack_power : 0;
   for (int i = 0; i < side_count_; ++i) {
-    if (side_[i].limit != k_no_limit) side_[i].limit += slack_ * k_one;
+    if (side_[i].limit != k_no_limit) side_[i].limit += slack_ * k_one_64;
   }
 }
 
 void Reference::clip_edge(const Flat& p, const Flat& q, uint8_t from, bool closed, AreaChoice& choice) const {
-  int64_t enters = 0, leaves = k_one;
+  int64_t enters = 0, leaves = k_one_64;
   int entered = -1, left = -1;
   for (int i = 0; i < side_count_; ++i) {
     const int64_t at_p = beyond(p, i), at_q = beyond(q, i);
@@ -222,7 +221,7 @@ void Reference::clip_edge(const Flat& p, const Flat& q, uint8_t from, bool close
 
 /// The corners of the reference that, moved out with its sides, lie over the incident face.
 void Reference::offer_corners(const Flat* points, const Feature& incident, AreaChoice& choice) const {
-  constexpr int64_t k_edge_on = k_one >> 6;  // a face seen so much from its edge has no corner above it
+  constexpr int64_t k_edge_on = k_one_64 >> 6;  // a face seen so much from its edge has no corner above it
   const int64_t nu = dot(incident.normal, u_) >> 30, nv = dot(incident.normal, v_) >> 30,
                 nw = dot(incident.normal, up_) >> 30;
   if (nw > -k_edge_on) return;
@@ -230,8 +229,8 @@ void Reference::offer_corners(const Flat* points, const Feature& incident, AreaC
   for (int k = 1; k < incident.count; ++k) lowest = points[k].w < lowest ? points[k].w : lowest;
   for (int i = 0; i < side_count_; ++i) {
     const Side &side = side_[i], &last = side_[i == 0 ? side_count_ - 1 : i - 1];
-    const int64_t turn = k_one + ((int64_t{side.u} * last.u + int64_t{side.v} * last.v) >> 30);
-    if (turn < k_one >> 10) continue;
+    const int64_t turn = k_one_64 + ((int64_t{side.u} * last.u + int64_t{side.v} * last.v) >> 30);
+    if (turn < k_one_64 >> 10) continue;
     // Where the last side and this one meet, once moved out.
     const Flat& corner = corner_[i];
     const int64_t u = corner.u + slack_ * (int64_t{side.u} + last.u) / turn;

@@ -6,7 +6,6 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr int32_t k_one = 1 << 30;
 constexpr uint32_t k_line =
     16;  ///< of a cylinder or cone: the edge, and the upper of its ends; 0 to 15 are rim corners
 constexpr uint32_t k_unpaired_edge = 768;  ///< a hull has at most 759 edges: those that a reduced face adds come after
@@ -18,10 +17,6 @@ constexpr int32_t k_diagonal = 759250125;  // 2^30 / sqrt 2
 constexpr Vec32 k_eighth[8] = {
     {k_one, 0, 0},  {k_diagonal, 0, k_diagonal},   {0, 0, k_one},  {-k_diagonal, 0, k_diagonal},
     {-k_one, 0, 0}, {-k_diagonal, 0, -k_diagonal}, {0, 0, -k_one}, {k_diagonal, 0, -k_diagonal}};
-
-int64_t length_across(const Vec32& d) {
-  return square_root_nearest(static_cast<uint64_t>(int64_t{d.x} * d.x) + static_cast<uint64_t>(int64_t{d.z} * d.z));
-}
 
 /// The flat side at the top or bottom of a cylinder or cone.
 void round_face(const Placed& placed, bool bottom, Feature& face) {

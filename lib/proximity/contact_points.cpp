@@ -9,11 +9,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr int32_t k_one = 1 << 30;
 /// A face is preferred to edges, and to the axis as it is, by a 64th of the thinner core.
 constexpr int k_face_power = 6;
-/// Of the smaller core's radius: the deepest point is at most so much deeper than all chosen.
-constexpr int k_drop_power = 10;
 constexpr int64_t k_upright = k_one >> 13;  ///< a normal nearer to a face's than this, rad, is the face's
 constexpr int64_t k_level = k_one >> 5;     ///< edges nearer than this to parallel, rad, touch along a line
 

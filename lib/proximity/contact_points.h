@@ -7,6 +7,9 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
+/// Of the smaller core's radius, as a power of two: the deepest point is at most so much deeper than all chosen.
+inline constexpr int k_drop_power = 10;
+
 /// A ManifoldPoint, 2^-46 m, in the pair's axes.
 struct BlockPoint {
   Vec64 from_a, from_b;

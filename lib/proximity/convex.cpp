@@ -8,11 +8,11 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr int64_t k_size_min = int64_t{1} << (k_metre_bits - 14);
-constexpr int64_t k_size_max = int64_t{1} << (k_metre_bits + 14);
+constexpr int64_t k_raw_size_min = int64_t{1} << (k_metre_bits - 14);
+constexpr int64_t k_raw_size_max = int64_t{1} << (k_metre_bits + 14);
 
-bool is_size(int64_t raw) { return raw >= k_size_min && raw <= k_size_max; }
-bool is_rounding(int64_t raw) { return raw == 0 || is_size(raw); }
+bool is_raw_size(int64_t raw) { return raw >= k_raw_size_min && raw <= k_raw_size_max; }
+bool is_rounding(int64_t raw) { return raw == 0 || is_raw_size(raw); }
 
 /// 2^-46 m in 2^-30 of the unit of length 2^exponent m.
 int32_t in_units(int64_t raw, int exponent) {
@@ -45,15 +45,15 @@ Status make_convex(const Shape& shape, Convex& convex) {
   switch (shape.type) {
     case ShapeType::sphere:
     case ShapeType::capsule:
-      if (!is_size(radius)) return Status::out_of_range;
+      if (!is_raw_size(radius)) return Status::out_of_range;
       if (rounding != 0) return Status::bad_argument;
       ball = radius;
       if (shape.type == ShapeType::sphere) break;
-      if (half_length < 0 || half_length > k_size_max) return Status::out_of_range;
+      if (half_length < 0 || half_length > k_raw_size_max) return Status::out_of_range;
       size.y = bound = half_length;
       break;
     case ShapeType::box:
-      if (!is_size(half.x) || !is_size(half.y) || !is_size(half.z)) return Status::out_of_range;
+      if (!is_raw_size(half.x) || !is_raw_size(half.y) || !is_raw_size(half.z)) return Status::out_of_range;
       size = half;
       bound = length_above(half);
       smallest = half.x < half.y ? half.x : half.y;
@@ -63,7 +63,7 @@ Status make_convex(const Shape& shape, Convex& convex) {
       break;
     case ShapeType::cylinder:
     case ShapeType::cone: {
-      if (!is_size(radius) || !is_size(half_length)) return Status::out_of_range;
+      if (!is_raw_size(radius) || !is_raw_size(half_length)) return Status::out_of_range;
       size = {radius, half_length, 0};
       smallest = radius < half_length ? radius : half_length;
       largest = radius > half_length ? radius : half_length;
@@ -116,7 +116,7 @@ Status make_triangle(const Vec3<Real> (&corners)[3], Real rounding, Convex& conv
     const int64_t distance = length_above(corner[i]);
     bound = distance > bound ? distance : bound;
   }
-  if (bound < k_size_min || bound > 2 * k_size_max) return Status::out_of_range;
+  if (bound < k_raw_size_min || bound > 2 * k_raw_size_max) return Status::out_of_range;
   set_core(bound, made);
   for (int i = 0; i < 3; ++i) {
     made.corner[i][0] = in_units(corner[i].x, made.exponent);

@@ -12,7 +12,7 @@ Vec32 turned(const Matrix32& rotation, const Vec32& v) { return round_shift(mult
 
 }  // namespace
 
-bool may_touch(const EdgeFan& a, const EdgeFan& b, const Part& part) {
+bool may_touch(const EdgeFan& a, const EdgeFan& b, const StepPart& part) {
   // Their common normal is n = s a x b for a sign s. It lies between the faces of A, n = x left + y right with x, y >=
   // 0, only if s left.b >= 0 >= s right.b; and -n, which is s b x a, between those of B likewise.
   const int64_t slack = (part.turn + CandidateSide::k_unit_error) << 30;
@@ -64,7 +64,7 @@ int64_t separation(const PlacedPair& pair, const Vec32& direction, const Candida
          b.reach(in_axes(pair.b, negate(direction)));
 }
 
-bool choose(const Part& part, const Vec32& normal, CandidateSide& a, CandidateSide& b, int64_t (&apart)[2]) {
+bool choose(const StepPart& part, const Vec32& normal, CandidateSide& a, CandidateSide& b, int64_t (&apart)[2]) {
   // Along a fixed direction the least of points on chords is concave in time, and so is how far one is beyond the
   // least: it is greatest at an end.
   const PlacedPair* const end[2] = {&part.begin, &part.end};

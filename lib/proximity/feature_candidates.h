@@ -11,7 +11,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// A part of a step, and where the bodies are at its ends.
-struct Part {
+struct StepPart {
   Interval interval;
   PlacedPair begin, end;
   int64_t turn;   ///< Q30 rad; the bodies turn no more relative to each other
@@ -33,7 +33,7 @@ struct EdgeFan {
 };
 
 /// Whether two edges of A and B can touch from outside in a part, and come nearer.
-bool may_touch(const EdgeFan& a, const EdgeFan& b, const Part& part);
+bool may_touch(const EdgeFan& a, const EdgeFan& b, const StepPart& part);
 
 /// One of two polytopes, and its vertices that count.
 class CandidateSide {
@@ -93,7 +93,7 @@ int64_t separation(const PlacedPair& pair, const Vec32& direction, const Candida
 
 /// Leaves in both sides those vertices whose ways can bring them together along `normal`, from A to B, world axes.
 /// Whether any are left.
-bool choose(const Part& part, const Vec32& normal, CandidateSide& a, CandidateSide& b, int64_t (&apart)[2]);
+bool choose(const StepPart& part, const Vec32& normal, CandidateSide& a, CandidateSide& b, int64_t (&apart)[2]);
 
 /// The direction of a unit vector in a body's axes.
 inline Vec32 in_axes(const Matrix32& rotation, const Vec32& direction) { return rotate_inverse(rotation, direction); }

@@ -4,8 +4,6 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr int k_range_bits = 14;
-
 /// In straight lines the differences move in straight lines too, and are their own chords.
 struct LinearPath {
   int count;

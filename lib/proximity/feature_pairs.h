@@ -216,7 +216,7 @@ class FeaturePairs {
   const Motion& motion_;
   int64_t cores_, gap_, depth_;    ///< 2^-46 m
   int64_t length_max_[k_lengths];  ///< of a part
-  Part part_;
+  StepPart part_;
   Vec32 normal_;
   int64_t apart_[2];  ///< along it, of the positions at both ends of the part, less the bends
   Simplex simplex_;

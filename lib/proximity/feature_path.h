@@ -11,8 +11,8 @@ struct PlacedPair {
   Vec64 offset;  ///< from A's position to B's, 2^-46 m
 };
 
-/// Of points of a body that turns about its position.
-struct Sweep {
+/// Bounds on the paths of points of a body that turns about its position.
+struct RotationBound {
   int64_t reach;  ///< their farthest from it, 2^-46 m
   int64_t angle;  ///< 2^-46 rad over the step; a point's acceleration is at most angle^2 reach
 
@@ -29,17 +29,17 @@ struct Sweep {
 
 /// Two bodies whose positions go straight.
 struct SweptPair {
-  Sweep sweep_a, sweep_b;
+  RotationBound bound_a, bound_b;
 
   /// Of a difference of any two points of theirs, in an interval so long.
-  int64_t bend(int64_t length) const { return sweep_a.bend(length) + sweep_b.bend(length); }
+  int64_t bend(int64_t length) const { return bound_a.bend(length) + bound_b.bend(length); }
   /// The bodies turn relative to each other by no more than that in an interval so long, Q30 rad.
-  int64_t turn(int64_t length) const { return sweep_a.turn(length) + sweep_b.turn(length); }
+  int64_t turn(int64_t length) const { return bound_a.turn(length) + bound_b.turn(length); }
   /// Of a difference of two points at a time. The rotations' 16 2^-30 of the reach, and eight roundings: of two
   /// corners, their images, the positions, the ways.
   int64_t ball() const {
     static_assert(k_turning_error == 16);
-    return ((sweep_a.reach + sweep_b.reach) >> 26) + 9;
+    return ((bound_a.reach + bound_b.reach) >> 26) + 9;
   }
 };
 

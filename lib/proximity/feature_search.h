@@ -16,6 +16,9 @@ constexpr int64_t largest_component(const Vec64& v) {
              static_cast<int64_t>(magnitude_64(v.z))));
 }
 
+/// Corners, displacements and offsets lie within 2^14 m.
+inline constexpr int k_range_bits = 14;
+
 /// Whether no component is beyond 2^bits m, of 2^-46 m.
 constexpr bool in_range(const Vec64& v, int bits) {
   return largest_component(v) <= int64_t{1} << (k_metre_bits + bits);

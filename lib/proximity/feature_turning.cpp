@@ -2,12 +2,6 @@
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
-namespace {
-
-constexpr int k_range_bits = 14;
-
-}  // namespace
-
 Status feature_toi(FeatureKind kind, const Vec3<Real> (&corner)[4], const Motion& motion_a, const Motion& motion_b,
                    FeatureToi& result) {
   if (!is_kind(kind)) return Status::bad_argument;
@@ -24,8 +18,8 @@ Status feature_toi(FeatureKind kind, const Vec3<Real> (&corner)[4], const Motion
   }
   motion.displacement = add(way_b, negate(way_a));
   const int split = first_of_b(kind);
-  motion.sweep_a = {reach_of(raw, split), motion.turning_a.angle};
-  motion.sweep_b = {reach_of(raw + split, 4 - split), motion.turning_b.angle};
+  motion.bound_a = {reach_of(raw, split), motion.turning_a.angle};
+  motion.bound_b = {reach_of(raw + split, 4 - split), motion.turning_b.angle};
   const FeaturePath<SteadyMotion> path = {
       motion,       {0, k_time_end, motion.at(0), motion.at(k_time_end)}, kind, false, {raw[0], raw[1], raw[2], raw[3]},
       motion.ball()};

@@ -6,13 +6,13 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr int64_t k_one = int64_t{1} << 30;
 constexpr int k_tries_max = 3;
-constexpr int k_tracking_quarters = 4;   ///< a foreseen spin is worth nothing over more than 1 rad
-constexpr int32_t k_spin_max = 3 << 28;  ///< 1.5 rad, Q29, relative to the base: what the formats of advance() hold
+constexpr int k_tracking_quarters = 4;  ///< a foreseen spin is worth nothing over more than 1 rad
+constexpr int32_t k_relative_spin_max =
+    3 << 28;  ///< 1.5 rad, Q29, relative to the base: what the formats of advance() hold
 
 /// The axis between them, and how far they are apart along it.
-struct Axis {
+struct FeatureAxis {
   Vec32 normal;  ///< Q30
   int64_t gap;   ///< ulps
 };
@@ -38,7 +38,7 @@ struct PlacedFeatures {
 
   /// The axis between them. False if they touch, or their edges are parallel. Of two edges the one that had the side
   /// `side` of `towards`; 0 to find out which.
-  bool axis(const Vec32& towards, int& side, Axis& axis) const {
+  bool axis(const Vec32& towards, int& side, FeatureAxis& axis) const {
     Vec64 across;
     if (!is_zero(edge_a) && !is_zero(edge_b)) {
       across = cross(edge_a, edge_b);
@@ -73,7 +73,7 @@ int64_t closing_speed(const MovingPair& pair, const NearFeatures& features, cons
 
 /// numerator / denominator as Q30, at most 1. Range: denominator > 0.
 int64_t ratio(int64_t numerator, int64_t denominator) {
-  return numerator >= denominator ? k_one : (numerator << 30) / denominator;
+  return numerator >= denominator ? k_one_64 : (numerator << 30) / denominator;
 }
 
 /// Range: a, b >= 0.
@@ -83,7 +83,7 @@ int64_t geometric_mean(int64_t a, int64_t b) {
       square_root_nearest(Words128{static_cast<uint64_t>(square.high_word()), square.low_word()}));
 }
 
-int64_t part_of(int64_t duration, int64_t part) {
+int64_t part_rounded(int64_t duration, int64_t part) {
   return static_cast<int64_t>(Int128::product(duration, part).round_shift(30));
 }
 
@@ -129,7 +129,7 @@ Vec32 NearFeatures::base_spin(const Horizon& horizon) const {
 
 bool axis_between(const MovingPair& pair, const NearFeatures& features, const Frames& frames, const Vec32& towards,
                   int& side, Vec32& normal) {
-  Axis axis;
+  FeatureAxis axis;
   if (!PlacedFeatures(pair, features, frames).axis(towards, side, axis)) return false;
   normal = axis.normal;
   return true;
@@ -146,14 +146,14 @@ int64_t advance_tracking(const MovingPair& pair, const Frames& frames, const Sim
   const bool edges = features.count_a == 2 && features.count_b == 2;
   const int64_t kept = !edges && distance * 3 / 10 > floor ? distance * 3 / 10 : floor;
   const int64_t speed = closing_speed(pair, features, frames, widest, normal);
-  if (speed > 0) length = part_of(widest.length, ratio(distance - kept, speed));
+  if (speed > 0) length = part_rounded(widest.length, ratio(distance - kept, speed));
   // Past a close approach no speed tells how long an axis will do.
   if (progress < widest.length / 4) {
     const int64_t hope = 4 * progress + (int64_t{1} << 20);
     if (length > hope) length = hope;
   }
   int side = 0;
-  Axis then = {normal, 0};
+  FeatureAxis then = {normal, 0};
   bool foreseen = features.curved || PlacedFeatures(pair, features, frames).axis(normal, side, then);
   const auto foresee = [&] {
     if (!foreseen) return;
@@ -174,12 +174,12 @@ int64_t advance_tracking(const MovingPair& pair, const Frames& frames, const Sim
   };
   foresee();
   for (int round = 0; round < 2 && foreseen; ++round) {
-    if (dot(then.normal, normal) >> 30 < k_one * 3 / 10) {
+    if (dot(then.normal, normal) >> 30 < k_one_64 * 3 / 10) {
       length /= 2;
     } else if (then.gap > kept && then.gap < distance) {
       const int64_t covered = distance - then.gap, wanted = distance - kept;  // wanted > covered
       const int64_t longer =
-          wanted < 2 * covered ? length + part_of(length, ratio(wanted - covered, covered)) : 2 * length;
+          wanted < 2 * covered ? length + part_rounded(length, ratio(wanted - covered, covered)) : 2 * length;
       if (longer >= widest.length && length == widest.length) break;
       length = longer < widest.length ? longer : widest.length;
     } else {
@@ -196,14 +196,14 @@ int64_t advance_tracking(const MovingPair& pair, const Frames& frames, const Sim
     if (!last && foreseen) {
       const Vec32 base = spin;
       for (int round = 0; round < 3; ++round) {
-        spin = add(spin, round_shift(cross(TurningAxis(normal, spin).at(k_one), then.normal), 31));
+        spin = add(spin, round_shift(cross(TurningAxis(normal, spin).at(k_one_64), then.normal), 31));
       }
       const Vec32 more = subtract(spin, base);
-      if (dot(more, more) > int64_t{k_spin_max} * k_spin_max) spin = base;
+      if (dot(more, more) > int64_t{k_relative_spin_max} * k_relative_spin_max) spin = base;
     }
     const int64_t reached = advance_on(pair, frames, horizon, normal, spin, floor, result.passes);
     if (reached > best) best = reached;
-    if (last || best >= pair.to || best - time >= part_of(length, k_one * 3 / 5)) break;
+    if (last || best >= pair.to || best - time >= part_rounded(length, k_one_64 * 3 / 5)) break;
     const int64_t reach = best - time > length / 100 ? best - time : length / 100;
     length = 2 * reach > length ? length / 2 : geometric_mean(reach, length);
   }

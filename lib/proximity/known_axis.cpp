@@ -7,20 +7,15 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr int32_t k_whole = 1 << 30;
-constexpr int k_turn_quarters = 8;  ///< as the search has them
-
 bool has_rim(const Convex& convex) { return convex.type == ShapeType::cylinder || convex.type == ShapeType::cone; }
 
 /// The window in one piece; false where the bodies turn too far, or there is none. Of two rims that nearly touch gjk()
 /// may meet its cap and the search end undecided: so it shall then.
 bool window_of(const MovingPair& pair, Horizon& window) {
   if (pair.planar || pair.from > pair.to || (has_rim(*pair.a) && has_rim(*pair.b))) return false;
-  window = horizon_from(pair, pair.from, pair.to - pair.from, k_turn_quarters);
+  window = horizon_from(pair, pair.from, pair.to - pair.from, k_horizon_quarters);
   return window.length == pair.to - pair.from;
 }
-
-int64_t length_bound(const Vec32& v) { return square_root_bound(static_cast<uint64_t>(dot(v, v))); }
 
 }  // namespace
 
@@ -31,16 +26,16 @@ bool stays_clear(const MovingPair& pair, const Vec32& normal) {
   const int32_t floor = pair.radius + pair.tolerance + k_certain;
   uint32_t passes = 0;
   const int32_t part = advance(pair, frames, window, normal, window.spin_a, floor, passes);
-  if (part == k_whole) return true;
-  return part != 0 && advance(pair, frames, window, normal, window.spin_b, floor, passes) == k_whole;
+  if (part == k_one) return true;
+  return part != 0 && advance(pair, frames, window, normal, window.spin_b, floor, passes) == k_one;
 }
 
 int32_t enough_apart(const MovingPair& pair) {
   Horizon window;
   if (!window_of(pair, window)) return INT32_MAX;
-  const auto turning = [](const Vec32& spin, int64_t core) { return ((length_bound(spin) * core) >> 29) + 1; };
+  const auto turning = [](const Vec32& spin, int64_t core) { return ((length_bound_32(spin) * core) >> 29) + 1; };
   const int64_t closing =
-      2 * length_bound(window.way) + turning(window.spin_a, pair.core_a) + turning(window.spin_b, pair.core_b);
+      2 * length_bound_32(window.way) + turning(window.spin_a, pair.core_a) + turning(window.spin_b, pair.core_b);
   const int64_t enough = pair.radius + pair.tolerance + k_certain + closing;
   return enough < INT32_MAX ? static_cast<int32_t>(enough) : INT32_MAX;
 }

@@ -8,7 +8,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr int64_t k_turn_max = int64_t{1} << (k_metre_bits + 16);  ///< rad
+constexpr int64_t k_raw_turn_max = int64_t{1} << (k_metre_bits + 16);  ///< rad
 /// Rounding of all that a certified axis adds up, ulps of the block: derived in DESIGN.md.
 constexpr int32_t k_budget = 32;
 
@@ -127,11 +127,12 @@ Status turning_of(const Motion& motion, Turning& turning) {
   if (!raw_from_quat(motion.start.rotation, turning.start)) return Status::not_normalised;
   if (!raw_from_real(motion.turn, turning.turn)) return Status::out_of_range;
   const Vec64& turn = turning.turn;
-  if (magnitude_64(turn.x) > k_turn_max || magnitude_64(turn.y) > k_turn_max || magnitude_64(turn.z) > k_turn_max) {
+  if (magnitude_64(turn.x) > k_raw_turn_max || magnitude_64(turn.y) > k_raw_turn_max ||
+      magnitude_64(turn.z) > k_raw_turn_max) {
     return Status::out_of_range;
   }
   // Components below 2^62: the square fits 128 bits.
-  const Int128 longest = Int128::product(k_turn_max, k_turn_max);
+  const Int128 longest = Int128::product(k_raw_turn_max, k_raw_turn_max);
   if (longest < dot(turn, turn)) return Status::out_of_range;
   const Vec64 way = turn;
   turning = still(turning.start);

@@ -39,7 +39,7 @@ struct Face {
 };
 
 /// The hull of some vertices of the difference, made of triangles.
-struct Polytope {
+struct ExpandingPolytope {
   Vertex vertex[k_vertices_max];
   Face face[k_faces_max];
   uint64_t edges[k_vertices_max];  ///< bit j of row i: the edge from i to j of a face about to go
@@ -61,16 +61,16 @@ struct Polytope {
   /// The face nearest to the origin, and the least distance of all, but for rounding.
   const Face& nearest_face(int64_t& least) const;
 };
-static_assert(sizeof(Polytope) <= 4096);
+static_assert(sizeof(ExpandingPolytope) <= 4096);
 
-void Polytope::add_face(int i, int j, int k) {
+void ExpandingPolytope::add_face(int i, int j, int k) {
   DETENT_VERIFY_RANGE(face_count < k_faces_max);  // by Euler
   Face& f = face[face_count++];
   f = {{static_cast<uint8_t>(i), static_cast<uint8_t>(j), static_cast<uint8_t>(k)}, 0};
   f.distance = plane_distance(normal_of(f), at(f, 0));
 }
 
-void Polytope::grow() {
+void ExpandingPolytope::grow() {
   const int last = vertex_count - 1;
   for (int i = 0; i < last; ++i) edges[i] = 0;
   int kept = 0;
@@ -90,7 +90,7 @@ void Polytope::grow() {
   }
 }
 
-bool Polytope::holds_foot(const Face& f) const {
+bool ExpandingPolytope::holds_foot(const Face& f) const {
   const Vec64 normal = normal_of(f);
   for (int i = 0; i < 3; ++i) {
     if (sign_of(dot(normal, cross(at(f, i), at(f, i == 2 ? 0 : i + 1)))) < 0) return false;
@@ -98,7 +98,7 @@ bool Polytope::holds_foot(const Face& f) const {
   return true;
 }
 
-const Face& Polytope::nearest_face(int64_t& least) const {
+const Face& ExpandingPolytope::nearest_face(int64_t& least) const {
   int best = 0;
   for (int i = 1; i < face_count; ++i) {
     if (face[i].distance < face[best].distance) best = i;
@@ -145,9 +145,9 @@ bool is_curved(const Placed& placed) {
 }
 
 /// From the origin to the nearest face of the difference.
-class Search {
+class PenetrationSearch {
  public:
-  Search(const Placed& a, const Placed& b, const Vec32& offset) : a_(a), b_(b), offset_(offset) {}
+  PenetrationSearch(const Placed& a, const Placed& b, const Vec32& offset) : a_(a), b_(b), offset_(offset) {}
 
   Penetration run(const Simplex& simplex);
 
@@ -166,7 +166,7 @@ class Search {
   const Placed& a_;
   const Placed& b_;
   Vec32 offset_;
-  Polytope polytope_;
+  ExpandingPolytope polytope_;
   // The face whose plane, moved out to the difference's farthest point, was the nearest.
   Face best_;
   Vec32 outward_;
@@ -178,7 +178,7 @@ class Search {
 
 /// Adds the vertex farthest along `direction` if it passes the test.
 template <class Test>
-bool Search::add_where(const Vec64& direction, const Test& test) {
+bool PenetrationSearch::add_where(const Vec64& direction, const Test& test) {
   const Vec32 d = scaled_to_30_bits(direction);
   SupportPoint on_a = support(a_, negate(d)), on_b = support(b_, d);
   ++supports_;
@@ -191,7 +191,7 @@ bool Search::add_where(const Vec64& direction, const Test& test) {
 }
 
 /// A tetrahedron from the simplex. False if the difference is flat, with a direction across it.
-bool Search::complete(const Simplex& simplex, Vec64& across) {
+bool PenetrationSearch::complete(const Simplex& simplex, Vec64& across) {
   int& count = polytope_.vertex_count;
   const auto p = [&](int i) -> const Vec32& { return polytope_.vertex[i].difference; };
   for (int i = 0; i < simplex.count(); ++i) {
@@ -230,7 +230,7 @@ bool Search::complete(const Simplex& simplex, Vec64& across) {
   return true;
 }
 
-void Search::start() {
+void PenetrationSearch::start() {
   const auto p = [&](int i) -> const Vec32& { return polytope_.vertex[i].difference; };
   const Vec64 normal = cross(subtract(p(1), p(0)), subtract(p(2), p(0)));
   const int volume = sign_of(dot(normal, subtract(p(3), p(0))));
@@ -242,7 +242,7 @@ void Search::start() {
   polytope_.add_face(j, 3, 0);
 }
 
-void Search::expand() {
+void PenetrationSearch::expand() {
   const bool curved = is_curved(a_) || is_curved(b_);
   uint8_t start_a = 0, start_b = 0;
   for (;;) {
@@ -287,7 +287,7 @@ int64_t fraction(Int128 part, Int128 whole) {
   return leading(part) * k_ulp / leading(whole);
 }
 
-Penetration Search::answer() const {
+Penetration PenetrationSearch::answer() const {
   const Face& face = best_;
   const Vec64 normal = polytope_.normal_of(face);
   const Int128 whole = dot(normal, normal);
@@ -318,7 +318,7 @@ Penetration Search::answer() const {
           capped_};
 }
 
-Penetration Search::flat(const Simplex& simplex, const Vec64& across) const {
+Penetration PenetrationSearch::flat(const Simplex& simplex, const Vec64& across) const {
   int32_t weight[4];
   simplex.weights(weight);
   Vec64 on_a = {0, 0, 0};
@@ -331,7 +331,7 @@ Penetration Search::flat(const Simplex& simplex, const Vec64& across) const {
   return {dot(normal, offset_) < 0 ? negate(normal) : normal, 0, 0, point, subtract(point, offset_), supports_, false};
 }
 
-Penetration Search::run(const Simplex& simplex) {
+Penetration PenetrationSearch::run(const Simplex& simplex) {
   Vec64 across;
   if (!complete(simplex, across)) return flat(simplex, across);
   start();
@@ -362,7 +362,7 @@ Penetration half_space_penetration(const Placed& a, const Placed& b, const Vec32
 
 Penetration penetration(const Placed& a, const Placed& b, const Vec32& offset, const Simplex& simplex) {
   if (is_half_space(a) || is_half_space(b)) return half_space_penetration(a, b, offset);
-  return Search(a, b, offset).run(simplex);
+  return PenetrationSearch(a, b, offset).run(simplex);
 }
 
 }  // namespace DETENT_NAMESPACE

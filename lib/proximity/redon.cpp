@@ -16,7 +16,6 @@ struct RelativeScrew {
   int64_t rounding;
 
   PlacedPair at(int64_t time) const {
-    constexpr int32_t k_one = 1 << 30;
     const int64_t inverse = screw.inverse_weight_at(time);
     PlacedPair pair = {{{{k_one, 0, 0}, {0, k_one, 0}, {0, 0, k_one}}}, {}, screw.at({0, 0, 0}, time, inverse)};
     for (int i = 0; i < 3; ++i) {

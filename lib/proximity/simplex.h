@@ -212,14 +212,13 @@ inline Int128 Simplex::reach(const Vec32& p) const {
 }
 
 inline void Simplex::weights(int32_t (&weight)[4]) const {
-  constexpr int64_t k_one = int64_t{1} << 30;
   for (int32_t& w : weight) w = 0;
   if (count_ == 2) {
     const int n = bit_length_64(static_cast<uint64_t>(edge_square_)) > 32
                       ? bit_length_64(static_cast<uint64_t>(edge_square_)) - 32
                       : 0;
     weight[0] = static_cast<int32_t>(((along_ >> n) << 30) / ((edge_square_ >> n) > 0 ? edge_square_ >> n : 1));
-    weight[1] = static_cast<int32_t>(k_one - weight[0]);
+    weight[1] = static_cast<int32_t>(k_one_64 - weight[0]);
     return;
   }
   if (count_ == 3) {
@@ -231,10 +230,10 @@ inline void Simplex::weights(int32_t (&weight)[4]) const {
     const int64_t whole = high_part(total, n);
     weight[0] = static_cast<int32_t>((high_part(dot(cross(a, b), normal), n) << 30) / whole);
     weight[1] = static_cast<int32_t>((high_part(dot(cross(c, a), normal), n) << 30) / whole);
-    weight[2] = static_cast<int32_t>(k_one - weight[0] - weight[1]);
+    weight[2] = static_cast<int32_t>(k_one_64 - weight[0] - weight[1]);
     return;
   }
-  weight[0] = static_cast<int32_t>(k_one);
+  weight[0] = static_cast<int32_t>(k_one_64);
 }
 
 }  // namespace DETENT_NAMESPACE

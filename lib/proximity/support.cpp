@@ -7,11 +7,6 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-int64_t length_across(const Vec32& direction) {
-  return square_root_nearest(static_cast<uint64_t>(int64_t{direction.x} * direction.x) +
-                             static_cast<uint64_t>(int64_t{direction.z} * direction.z));
-}
-
 /// The rim point of a disc of radius `radius` in the direction (x, z), at height y.
 CorePoint rim_point(int32_t radius, int32_t y, const Vec32& direction) {
   if ((direction.x | direction.z) == 0) return {{0, y, 0}, k_no_feature};

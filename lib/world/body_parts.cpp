@@ -9,8 +9,6 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr Vec3<Real> k_still = {0.0, 0.0, 0.0};
-
 bool is_material(const Material& material) {
   return within(material.friction, Real(0.0), k_friction_max) && within(material.restitution, Real(0.0), Real(1.0)) &&
          within(material.rolling_resistance, Real(0.0), Real(1.0));
@@ -27,7 +25,7 @@ Status suits(const World& world, ShapeType shape, uint32_t asset, BodyType type)
 
 Status set_body_shape(const World& world, const Shape& shape, BodyType type, BodyTraits& traits) {
   if (const Status status = suits(world, shape.type, shape.asset, type); status != Status::ok) return status;
-  return set_shape(shape, traits, world.assets, *world.features);
+  return set_shape_traits(shape, traits, world.assets, *world.features);
 }
 
 Status set_body_gyration(const World& world, BodyTraits& traits) {
@@ -95,7 +93,7 @@ Status make_motion(const BodyTraits& traits, const Quat& rotation, const Vec3<Re
   // |spin| <= k_spin_max 2^-exponent, or any Real where that is more than a Real holds.
   const Real limit = exponent < -1 ? k_real_max : scale_by_power(k_spin_max, -exponent);
   if (!within(spin, limit)) return Status::out_of_range;
-  const bool moves = !(velocity == k_still), turns = !(spin == k_still);
+  const bool moves = !(velocity == k_zero_vector), turns = !(spin == k_zero_vector);
   if ((moves || turns) && type_of(traits) == BodyType::fixed) return Status::bad_argument;
   if (turns && is_half_space(traits)) return Status::bad_argument;
   const Vec3<Real> spin_speed = {scale_by_power(spin.x, exponent), scale_by_power(spin.y, exponent),

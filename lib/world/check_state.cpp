@@ -35,9 +35,10 @@ bool is_pose(const BodyPose& pose) {
   return is_position(pose.position) && is_unit_quaternion(pose.rotation);
 }
 
-bool is_size(Unit value) { return value >= Unit(0.0) && value <= Unit(1.0); }
+bool is_unit_size(Unit value) { return value >= Unit(0.0) && value <= Unit(1.0); }
 
-/// The bounding radius as `set_shape` gives it, but for the rounding of the sizes: body_convex() allows for so much.
+/// The bounding radius as set_shape_traits() gives it, but for the rounding of the sizes: body_convex() allows for so
+/// much.
 bool is_bound(Unit bound, Unit expected) {
   constexpr Unit k_error = sizeof(Unit) == 4 && !DETENT_FIXED ? 0x1p-23 : 0x1p-28;
   return bound >= Unit(0.49) && bound <= Unit(1.0) && abs(bound - expected) <= k_error;
@@ -67,9 +68,9 @@ bool is_compound_of(const BodyTraits& traits, AssetTable assets, const FeatureTa
   if (traits.asset >= bound.count || bound[traits.asset].kind != static_cast<uint32_t>(AssetKind::compound))
     return false;
   BodyTraits expected = traits;
-  return set_shape(compound(traits.asset), expected, assets, features) == Status::ok && expected.size == traits.size &&
-         expected.size_exponent == traits.size_exponent && expected.bounding_radius == traits.bounding_radius &&
-         expected.rounding == traits.rounding;
+  return set_shape_traits(compound(traits.asset), expected, assets, features) == Status::ok &&
+         expected.size == traits.size && expected.size_exponent == traits.size_exponent &&
+         expected.bounding_radius == traits.bounding_radius && expected.rounding == traits.rounding;
 }
 
 bool is_surface_of(const BodyTraits& traits, AssetTable assets, const FeatureTable& features,
@@ -78,21 +79,22 @@ bool is_surface_of(const BodyTraits& traits, AssetTable assets, const FeatureTab
       bound[traits.asset].kind != static_cast<uint32_t>(AssetKind::surface))
     return false;
   BodyTraits expected = traits;
-  return set_shape(surface(traits.asset), expected, assets, features) == Status::ok && expected.size == traits.size &&
-         expected.size_exponent == traits.size_exponent && expected.bounding_radius == traits.bounding_radius;
+  return set_shape_traits(surface(traits.asset), expected, assets, features) == Status::ok &&
+         expected.size == traits.size && expected.size_exponent == traits.size_exponent &&
+         expected.bounding_radius == traits.bounding_radius;
 }
 
 bool is_shape(const BodyTraits& traits, AssetTable assets, const FeatureTable& features,
               Span<const AssetState> bound_assets) {
   if (traits.size_exponent < -14 || traits.size_exponent > 15 || traits.turn_locks > k_turn_locks_all) return false;
-  if (!is_size(traits.size.x) || !is_size(traits.size.y) || !is_size(traits.size.z)) return false;
+  if (!is_unit_size(traits.size.x) || !is_unit_size(traits.size.y) || !is_unit_size(traits.size.z)) return false;
   const Unit zero = 0.0, smallest = 0x1p-16;
   const Unit bound = traits.bounding_radius;
   const ShapeType shape = shape_of(traits);
   const bool rounds = shape == ShapeType::box || shape == ShapeType::cylinder || shape == ShapeType::cone ||
                       shape == ShapeType::hull || shape == ShapeType::compound;
   const bool sharp = traits.rounding == zero;
-  if (!sharp && (!rounds || !is_size(traits.rounding) || traits.rounding < smallest)) return false;
+  if (!sharp && (!rounds || !is_unit_size(traits.rounding) || traits.rounding < smallest)) return false;
   if (asset_kind_of(shape) == AssetKind::none && traits.asset != 0) return false;
   switch (shape) {
     case ShapeType::sphere:

@@ -8,8 +8,6 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr Real k_zero = 0.0;
-
 /// The greatest closing speed of the points that were pushed.
 Real approach_of(const ContactWork& contact) {
   Real least = k_zero;
@@ -25,7 +23,7 @@ bool pushes(const ContactWork& contact) {
   return result;
 }
 
-struct Writer {
+struct EventWriter {
   Span<const BodyPose> poses;
   Span<const BodyTraits> traits;
   Span<ContactEvent> events;
@@ -70,7 +68,7 @@ struct Writer {
 
 EventCount raise_events(Span<const BodyPose> poses, Span<const BodyTraits> traits, Span<const uint32_t> awake,
                         Span<const ContactState> before, Span<ContactWork> contacts, Span<ContactEvent> events) {
-  Writer writer = {poses, traits, events};
+  EventWriter writer = {poses, traits, events};
   uint32_t old = 0;
   const auto old_contact = [&]() -> const ContactState& { return before[awake[old]]; };
   /// Passes over the contacts of one pair, its parts. True if one of them touched.

@@ -9,8 +9,6 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr Vec3<Real> k_still = {0.0, 0.0, 0.0};
-
 /// An impulse, N s, over the mass times a power of two, as a speed. False if it leaves Real's range.
 bool speed_from(const Vec3<Scaled>& impulse, Scaled mass, int exponent, Vec3<Real>& speed) {
   bool saturated = false;
@@ -21,7 +19,7 @@ bool speed_from(const Vec3<Scaled>& impulse, Scaled mass, int exponent, Vec3<Rea
 }
 
 /// A dynamic body and its change of motion, checked before it is made.
-struct Push {
+struct BodyPush {
   StateView<uint8_t> state;
   uint32_t slot = 0;
   BodyMotion motion = {};
@@ -52,7 +50,7 @@ struct Push {
     const Quat& rotation = state.poses[slot].rotation;
     motion.momentum = without_locked(traits(), rotation, motion.momentum);
     motion.pending_momentum = without_locked(traits(), rotation, motion.pending_momentum);
-    const BodyMotion pending = {motion.pending_velocity, motion.pending_momentum, k_still, k_still};
+    const BodyMotion pending = {motion.pending_velocity, motion.pending_momentum, k_zero_vector, k_zero_vector};
     return speeds_fit(traits(), rotation, motion) && speeds_fit(traits(), rotation, pending);
   }
   void make() {
@@ -71,14 +69,14 @@ Vec3<Scaled> over_tick(const Vec3<Scaled>& force, const WorldState& world) {
   return {multiply(force.x, time), multiply(force.y, time), multiply(force.z, time)};
 }
 
-Status impulse_at(Push& push, const Vec3<Scaled>& impulse, const Vec3<Real>& arm) {
+Status impulse_at(BodyPush& push, const Vec3<Scaled>& impulse, const Vec3<Real>& arm) {
   Vec3<Real> speed;
   if (!speed_from(impulse, push.traits().mass, 0, speed)) return Status::out_of_range;
   const Status status = push.push_at(speed, arm, push.motion.velocity, push.motion.momentum);
   return status == Status::ok ? push.commit() : status;
 }
 
-Status force_at(Push& push, const Vec3<Scaled>& force, const Vec3<Real>& arm) {
+Status force_at(BodyPush& push, const Vec3<Scaled>& force, const Vec3<Real>& arm) {
   Vec3<Real> speed;
   if (!speed_from(over_tick(force, push.state.world), push.traits().mass, 0, speed)) return Status::out_of_range;
   const Status status = push.push_at(speed, arm, push.motion.pending_velocity, push.motion.pending_momentum);
@@ -106,7 +104,7 @@ Vec3<Scaled> blast(const Explosion& explosion, const BodyTraits& traits, const V
 
 Status apply_force(World& world, BodyId id, const Vec3<Scaled>& force) {
   const FloatEnvironment environment;
-  Push push = {view_of(world)};
+  BodyPush push = {view_of(world)};
   if (const Status status = push.find(id, force); status != Status::ok) return status;
   Vec3<Real> speed;
   if (!speed_from(over_tick(force, push.state.world), push.traits().mass, 0, speed)) return Status::out_of_range;
@@ -116,7 +114,7 @@ Status apply_force(World& world, BodyId id, const Vec3<Scaled>& force) {
 
 Status apply_torque(World& world, BodyId id, const Vec3<Scaled>& torque) {
   const FloatEnvironment environment;
-  Push push = {view_of(world)};
+  BodyPush push = {view_of(world)};
   if (const Status status = push.find(id, torque); status != Status::ok) return status;
   Vec3<Real> speed;
   const int exponent = push.traits().size_exponent;
@@ -133,35 +131,35 @@ Status apply_impulse(World& world, BodyId id, const Vec3<Scaled>& impulse) {
 
 Status apply_impulse_at(World& world, BodyId id, const Vec3<Scaled>& impulse, const Vec3<Real>& arm) {
   const FloatEnvironment environment;
-  Push push = {view_of(world)};
+  BodyPush push = {view_of(world)};
   if (const Status status = push.find(id, impulse); status != Status::ok) return status;
   return impulse_at(push, impulse, arm);
 }
 
 Status apply_impulse_at_point(World& world, BodyId id, const Vec3<Scaled>& impulse, const Position& point) {
   const FloatEnvironment environment;
-  Push push = {view_of(world)};
+  BodyPush push = {view_of(world)};
   if (const Status status = push.find(id, impulse); status != Status::ok) return status;
   return is_position(point) ? impulse_at(push, impulse, push.arm_to(point)) : Status::out_of_range;
 }
 
 Status apply_force_at(World& world, BodyId id, const Vec3<Scaled>& force, const Vec3<Real>& arm) {
   const FloatEnvironment environment;
-  Push push = {view_of(world)};
+  BodyPush push = {view_of(world)};
   if (const Status status = push.find(id, force); status != Status::ok) return status;
   return force_at(push, force, arm);
 }
 
 Status apply_force_at_point(World& world, BodyId id, const Vec3<Scaled>& force, const Position& point) {
   const FloatEnvironment environment;
-  Push push = {view_of(world)};
+  BodyPush push = {view_of(world)};
   if (const Status status = push.find(id, force); status != Status::ok) return status;
   return is_position(point) ? force_at(push, force, push.arm_to(point)) : Status::out_of_range;
 }
 
 Status apply_angular_impulse(World& world, BodyId id, const Vec3<Scaled>& impulse) {
   const FloatEnvironment environment;
-  Push push = {view_of(world)};
+  BodyPush push = {view_of(world)};
   if (const Status status = push.find(id, impulse); status != Status::ok) return status;
   Vec3<Real> speed;
   if (!speed_from(impulse, push.traits().mass, push.traits().size_exponent, speed)) return Status::out_of_range;
@@ -181,7 +179,7 @@ Status explode(World& world, const Explosion& explosion) {
     for (uint32_t slot = 0; slot < state.world.slots_used; ++slot) {
       const BodyTraits& traits = state.traits[slot];
       if (!is_dynamic(traits)) continue;
-      Push push = {state, slot, state.motions[slot]};
+      BodyPush push = {state, slot, state.motions[slot]};
       const Vec3<Scaled> impulse = blast(explosion, traits, -push.arm_to(explosion.centre));
       if (impulse == Vec3<Scaled>{Scaled(0.0), Scaled(0.0), Scaled(0.0)}) continue;
       Vec3<Real> speed;
@@ -212,7 +210,7 @@ Status move_kinematic(World& world, BodyId id, const Position& position, const Q
   way -= Vec3<Real>{rest(0), rest(1), rest(2)};
 #endif
   const Quat turn = multiply(target.rotation, conjugate(pose.rotation));
-  const Vec3<Real> angle = target.rotation == pose.rotation ? k_still : rotation_vector(turn);
+  const Vec3<Real> angle = target.rotation == pose.rotation ? k_zero_vector : rotation_vector(turn);
   const auto over_time = [&](const Vec3<Real>& v) {
     const Real time = state.world.tick_time;
     return Vec3<Real>{divide(v.x, time), divide(v.y, time), divide(v.z, time)};

@@ -13,7 +13,6 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr Real k_zero = 0.0;
 constexpr Real k_anchor_max = 4096.0;
 constexpr Real k_axis_max = 16384.0;  ///< m, of a limit or target
 constexpr Real k_angle_max = 3.14159265358979323846;

@@ -13,8 +13,6 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr Real k_zero = 0.0;
-constexpr Vec3<Real> k_still = {k_zero, k_zero, k_zero};
 constexpr Real k_way_max = 256.0;
 constexpr Real k_arm_max = 16384.0;  ///< m, from a turning ground's centre
 #if defined(DETENT_FX32)
@@ -44,13 +42,13 @@ Status check_mover(const Mover& mover) {
 Vec3<Real> way_of_ground(const Mover& mover, const Pose& now) {
   const Pose& then = mover.ground_pose;
   Vec3<Real> way = real_difference(now.position, then.position);
-  if (!within(way, k_way_max)) return k_still;
+  if (!within(way, k_way_max)) return k_zero_vector;
   if (!(now.rotation == then.rotation)) {
     const Vec3<Real> arm = real_difference(mover.position, then.position);
-    if (!within(arm, k_arm_max)) return k_still;
+    if (!within(arm, k_arm_max)) return k_zero_vector;
     way += rotate(normalise(multiply(now.rotation, conjugate(then.rotation))), arm) - arm;
   }
-  return within(way, k_way_max) ? way : k_still;
+  return within(way, k_way_max) ? way : k_zero_vector;
 }
 
 /// What gives the body at the contact the speed of the wish.

@@ -11,8 +11,6 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr Real k_zero = 0.0;
-constexpr Vec3<Unit> k_no_normal = {0.0, 0.0, 0.0};
 constexpr Footing k_footings[] = {Footing::floor, Footing::edge};  // what is better comes first
 /// Bodies are looked at from a thin capsule within: so a depth of up to 7/8 of the radius is a distance.
 constexpr int k_core_power = -3;
@@ -142,7 +140,7 @@ void MoverMotion::add_surface(const QueryHit& hit) {
 void MoverMotion::add_near(const QueryHit& hit, const Shape& core) {
   const bool on_surface = hit.triangle != UINT32_MAX;
   QueryHit out = hit;
-  if (hit.normal == k_no_normal) {
+  if (hit.normal == k_no_direction) {
     out.normal = up_;
     out.point = position_;
     Real depth = core.radius;  // of a body that cannot be asked

@@ -6,11 +6,10 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr Real k_zero = 0.0;
-constexpr uint32_t k_sweeps = 32;
+constexpr uint32_t k_plane_sweeps = 32;
 
 /// A plane and where it pushes the way.
-struct Push {
+struct PlanePush {
   Vec3<Unit> normal;
   Vec3<Unit> along;
   Real share;  ///< 1 / (normal . along)
@@ -18,8 +17,8 @@ struct Push {
   Real pushed = k_zero;
 };
 
-Push push_of(const MoverPlane& plane, const Vec3<Unit>& up, MoverGait gait) {
-  Push push = {plane.normal, plane.normal, Real(1.0), max(plane.room, k_zero)};
+PlanePush push_of(const MoverPlane& plane, const Vec3<Unit>& up, MoverGait gait) {
+  PlanePush push = {plane.normal, plane.normal, Real(1.0), max(plane.room, k_zero)};
   const Unit rise = dot(plane.normal, up);
   if (plane.footing == Footing::floor || (plane.footing == Footing::edge && gait == MoverGait::fall)) {
     push.along = up;
@@ -39,13 +38,13 @@ Push push_of(const MoverPlane& plane, const Vec3<Unit>& up, MoverGait gait) {
 
 Vec3<Real> way_between(Span<const MoverPlane> planes, const Vec3<Real>& wish, const Vec3<Unit>& up, MoverGait gait,
                        uint32_t& met) {
-  Push pushes[k_mover_planes_max];
+  PlanePush pushes[k_mover_planes_max];
   for (uint32_t i = 0; i < planes.count; ++i) pushes[i] = push_of(planes[i], up, gait);
   Vec3<Real> way = wish;
-  for (uint32_t sweep = 0; sweep < k_sweeps; ++sweep) {
+  for (uint32_t sweep = 0; sweep < k_plane_sweeps; ++sweep) {
     Real most = k_zero;
     for (uint32_t i = 0; i < planes.count; ++i) {
-      Push& push = pushes[i];
+      PlanePush& push = pushes[i];
       const Real lacking = (-push.room - dot(way, push.normal)) * push.share;
       const Real pushed = max(push.pushed + lacking, k_zero);
       const Real change = pushed - push.pushed;
@@ -69,7 +68,7 @@ Vec3<Real> way_between(Span<const MoverPlane> planes, const Vec3<Real>& wish, co
 
 Vec3<Real> way_out_of(Span<const MoverPlane> planes) {
   Vec3<Real> way = {k_zero, k_zero, k_zero};
-  for (uint32_t sweep = 0; sweep < k_sweeps; ++sweep) {
+  for (uint32_t sweep = 0; sweep < k_plane_sweeps; ++sweep) {
     for (const MoverPlane& plane : planes) {
       const Real lacking = -plane.room - dot(way, plane.normal);
       // By half: opposite planes then agree on a place between them.

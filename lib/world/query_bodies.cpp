@@ -30,7 +30,7 @@ Status make_query_shape(const World& world, const Shape& shape, QueryShape& made
       return status;
   }
   QueryShape shaped{};
-  if (const Status status = set_shape(shape, shaped.traits, world.assets, *world.features); status != Status::ok)
+  if (const Status status = set_shape_traits(shape, shaped.traits, world.assets, *world.features); status != Status::ok)
     return status;
   if (!body_convex(shaped.traits, world.assets, shaped.convex)) return Status::asset_missing;
   made = shaped;

@@ -15,8 +15,6 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr Vec3<Real> k_none = {Real(0.0), Real(0.0), Real(0.0)};
-
 /// As time_of_impact() takes it.
 bool is_motion(const Motion& motion) {
   const auto below = [](Real value) { return value > Real(-16384.0) && value < Real(16384.0); };
@@ -27,7 +25,7 @@ bool is_motion(const Motion& motion) {
 
 /// A shape that turns stays in its bounding ball.
 Vec64 half_of(const QueryShape& shape, const Motion& motion, const Quat& rotation) {
-  if (motion.turn == k_none) return query_half(shape, rotation);
+  if (motion.turn == k_zero_vector) return query_half(shape, rotation);
   const Real ball = real_from_unit(shape.traits.bounding_radius, shape.traits.size_exponent);
   Vec64 raw;
   if (!raw_from_real({ball, ball, ball}, raw)) return {0, 0, 0};  // never: it is finite
@@ -75,7 +73,7 @@ bool cast_at(const QueryBodies& bodies, uint32_t slot, const QueryShape& shape, 
   TimeOfImpact impact;
   hit = {};
   hit.body = bodies.id_of(slot);
-  const bool asked = first_impact(bodies, traits, {pose, k_none, k_none}, shape, motion, impact);
+  const bool asked = first_impact(bodies, traits, {pose, k_zero_vector, k_zero_vector}, shape, motion, impact);
   if (!asked || impact.outcome == ToiOutcome::undecided) {
     hit.undecided = true;
     hit.fraction = asked && impact.time > entry ? impact.time : entry;
@@ -116,7 +114,7 @@ Status cast(const World& world, const QueryShape& shape, const Motion& motion, c
 
 Status query_ray(const World& world, const RayQuery& query, QueryHits hits, QueryReport& report) {
   const FloatEnvironment environment;
-  const Motion motion = {{query.origin, k_identity}, query.way, k_none};
+  const Motion motion = {{query.origin, k_identity}, query.way, k_zero_vector};
   return cast(world, query_point(), motion, query.filter, query.all, hits, report);
 }
 

@@ -65,8 +65,8 @@ bool near_at(const QueryBodies& bodies, uint32_t slot, const QueryShape& shape, 
   return hit.distance <= reach;
 }
 
-Status find_near(const World& world, const Shape& asked, const Pose& at, Real reach, const QueryFilter& filter,
-                 bool all, QueryHits out, QueryReport& report) {
+Status find_bodies_near(const World& world, const Shape& asked, const Pose& at, Real reach, const QueryFilter& filter,
+                        bool all, QueryHits out, QueryReport& report) {
   const FloatEnvironment environment;
   QueryShape shape;
   if (const Status status = make_query_shape(world, asked, shape); status != Status::ok) return status;
@@ -96,13 +96,13 @@ Status find_near(const World& world, const Shape& asked, const Pose& at, Real re
 }  // namespace
 
 Status query_closest(const World& world, const ClosestQuery& query, QueryHits hits, QueryReport& report) {
-  return find_near(world, query.shape, {query.position, query.rotation}, query.reach, query.filter, query.all, hits,
-                   report);
+  return find_bodies_near(world, query.shape, {query.position, query.rotation}, query.reach, query.filter, query.all,
+                          hits, report);
 }
 
 Status query_overlap(const World& world, const OverlapQuery& query, QueryHits hits, QueryReport& report) {
-  return find_near(world, query.shape, {query.position, query.rotation}, Real(0.0), query.filter, query.all, hits,
-                   report);
+  return find_bodies_near(world, query.shape, {query.position, query.rotation}, Real(0.0), query.filter, query.all,
+                          hits, report);
 }
 
 Status query_bounds(const World& world, const BoundsQuery& query, QueryHits out, QueryReport& report) {

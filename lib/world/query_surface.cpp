@@ -10,8 +10,6 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr Vec3<Real> k_still = {Real(0.0), Real(0.0), Real(0.0)};
-constexpr Vec3<Unit> k_no_normal = {Unit(0.0), Unit(0.0), Unit(0.0)};
 /// A tolerance is less than this part of the sizes and distances of a pair.
 constexpr int k_tolerance_power = 18;
 /// A way is looked along in up to 2^6 pieces, a reach by doubling what is 2^-8 of it: what is far from the hit is not
@@ -42,7 +40,6 @@ struct TriangleSearch {
     ball = turns ? whole : 0;
     radius = raw_radius(shape.convex) + (whole >> 10) + (size >> k_tolerance_power) + 64;
     alone = detent::place(shape.convex, place.rotation, shape.convex.exponent);
-    constexpr int32_t k_one = 1 << 30;
     low = {lowest({k_one, 0, 0}), lowest({0, k_one, 0}), lowest({0, 0, k_one})};
     high = {-lowest({-k_one, 0, 0}), -lowest({0, -k_one, 0}), -lowest({0, 0, -k_one})};
     if (length_bound(place.centre) > int64_t{1} << 62) status = Status::out_of_range;  // what follows fits 63 bits
@@ -70,7 +67,7 @@ struct TriangleSearch {
   /// Whether a hit is one from behind, and there is no such side. What is undecided has no side.
   bool lets_through(const SurfaceTriangle& t, const Vec32& normal, const QueryHit& hit) const {
     if (!ground.surface.one_sided() || hit.undecided) return false;
-    if (hit.normal == k_no_normal) return height(t, normal) < 0;
+    if (hit.normal == k_no_direction) return height(t, normal) < 0;
     return dot(to_world(normal), hit.normal) < Unit(0.0);
   }
   void keep(const SurfaceTriangle& t, const Vec32& normal, const QueryHit& hit) {
@@ -114,7 +111,7 @@ struct CastSearch : TriangleSearch {
   Vec64 way = {0, 0, 0};  ///< of the centre, in the surface's axes, 2^-46 m
 
   CastSearch(const AskedSurface& surface, const QueryShape& asked, const Motion& along)
-      : TriangleSearch(surface, asked, along.start, !(along.turn == k_still)), motion(along) {
+      : TriangleSearch(surface, asked, along.start, !(along.turn == k_zero_vector)), motion(along) {
     Vec64 raw;
     if (status != Status::ok) return;
     if (!raw_from_real(motion.displacement, raw))
@@ -133,7 +130,7 @@ struct CastSearch : TriangleSearch {
 
   Status find(const Convex& triangle, const Pose& placed, QueryHit& hit, bool& met) const {
     TimeOfImpact impact;
-    const Status asked = time_of_impact(triangle, {placed, k_still, k_still}, shape.convex, motion, impact);
+    const Status asked = time_of_impact(triangle, {placed, k_zero_vector, k_zero_vector}, shape.convex, motion, impact);
     if (asked != Status::ok) return asked;
     met = impact.outcome != ToiOutcome::clear;
     hit.fraction = impact.time;

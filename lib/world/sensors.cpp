@@ -16,17 +16,11 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr Real k_zero = 0.0;
-
 /// Of the smaller extent, as a power of two: more than the tolerance of a time of impact, so that what is found on the
 /// way is within there, and less than the room of reach_of().
 constexpr int k_within_power = -14;
 
 bool is_sensor(const BodyTraits& traits) { return traits.sensor != 0; }
-bool is_at_rest(const BodySweep& sweep) {
-  constexpr Vec3<Real> k_none = {k_zero, k_zero, k_zero};
-  return sweep.displacement == k_none && sweep.turn == k_none;
-}
 
 /// Bounds that hold the body until the tick ends, with room for what counts as within and for the rounding of bounds.
 Bounds reach_of(const SensorStage& stage, uint32_t slot) {

@@ -138,10 +138,10 @@ Status load_from(World& world, Status (*read)(void* context, uint32_t offset, ui
     return emptied == Status::ok ? status : emptied;
   };
   forget_steps(world);
-  constexpr uint32_t k_piece = 256;
-  for (uint32_t offset = 0; offset < layout.persistent_bytes; offset += k_piece) {
+  constexpr uint32_t k_read_bytes = 256;
+  for (uint32_t offset = 0; offset < layout.persistent_bytes; offset += k_read_bytes) {
     const uint32_t left = layout.persistent_bytes - offset;
-    const Status status = read(context, offset, world.block + offset, left < k_piece ? left : k_piece);
+    const Status status = read(context, offset, world.block + offset, left < k_read_bytes ? left : k_read_bytes);
     if (status != Status::ok) return fail(status);
     if (offset != 0) continue;
     const Status header = check_canonical_header(world.block, capacity, *world.features);

@@ -68,7 +68,7 @@ constexpr TracePart work_part(uint32_t number, const char* name, const Field (&f
   return {number, name, fields, n, bytes, kind, key_words, key_words != 0};
 }
 
-enum StatePlace : uint32_t { k_state_parts = 11, k_contact_work = k_state_parts, k_body_work, k_sweeps, k_bounds };
+enum StatePlace : uint32_t { k_state_parts = 11, k_contact_work = k_state_parts, k_body_work, k_body_sweeps, k_bounds };
 constexpr uint32_t k_first_work_number = 32;
 
 /// Puts the copy of an element that a visitor may keep into canonical order.
@@ -191,7 +191,7 @@ void visit_trace(const World& world, TraceStage stage, uint32_t contacts, const 
     if (is(StepStage::find_pairs)) give_value(visitor, k_bounds, slot, cache.bounds[slot]);
     if (!sweeps) return;
     const BodySweep& sweep = scratch.sweeps[slot];
-    give_value(visitor, k_sweeps, slot, TraceSweep{sweep.from, sweep.displacement, sweep.turn});
+    give_value(visitor, k_body_sweeps, slot, TraceSweep{sweep.from, sweep.displacement, sweep.turn});
   });
 }
 

@@ -1,7 +1,12 @@
 #include <detent/contact.h>
+#include <math.h>
+#include <string.h>
 
 #include "collision/body_convex.h"
+#include "collision/compound_code.h"
+#include "ports/host/cook/cook.h"
 #include "tests/collision/pairs.h"
+#include "tests/geometry/compounds.h"
 #include "tests/geometry/hull_bytes.h"
 
 /// Bodies of every shape as convex sets, and their pairs that go through contact_points().
@@ -43,7 +48,7 @@ Status made(const Shape& shape, Convex& convex) {
 
 OracleBody body_of(const Shape& shape) {
   OracleBody body;
-  EXPECT_OK(set_shape(shape, body.traits, k_table));
+  EXPECT_OK(set_shape_traits(shape, body.traits, k_table));
   body.traits.type = static_cast<uint32_t>(BodyType::dynamic);
   return body;
 }
@@ -257,6 +262,66 @@ DETENT_TEST(convex_pairs, a_hull_without_its_bytes_is_reported_and_touches_nothi
   const ContactGeometry contact = collided(a, b, 0.01, {});
   EXPECT_EQ(contact.count, 0u);
   EXPECT_TRUE(contact.capped);
+}
+
+/// A prism of 96 sides: of its ends the vertices that are farthest along 32 directions count.
+DETENT_TEST(body_convex, a_small_box_stands_on_all_corners_near_the_rim_of_a_face_of_many_vertices) {
+  constexpr double k_pi = 3.14159265358979323846;
+  std::vector<detent_cook::Point> points;
+  for (int i = 0; i < 96; ++i) {
+    const double angle = 2 * k_pi * i / 96;
+    for (const double y : {-0.25, 0.25}) points.push_back({cos(angle), y, sin(angle)});
+  }
+  detent_cook::CookOptions options;
+  options.frame = detent_cook::Frame::source;
+  const std::vector<uint8_t> cooked = detent_cook::cook_hull(points, options).bytes;
+  std::vector<uint64_t> words(cooked.size() / 8);
+  memcpy(words.data(), cooked.data(), cooked.size());
+  Convex prism, small;
+  ASSERT_OK(make_hull({reinterpret_cast<const uint8_t*>(words.data()), static_cast<uint32_t>(cooked.size())}, Real(0.0),
+                      prism));
+  ASSERT_OK(make_convex(box(reals_near({{0.0625, 0.0625, 0.0078125}})), small));
+  const Pose still = {position_near({{0, 0, 0}}), rotation_near({0, 0, 0, 1})};
+  for (int i = 0; i < 128; ++i) {
+    // The 32 vertices hold a disc of 0.995; without one of them it would be one of 0.981.
+    const double angle = 2 * k_pi * i / 128, radius = 0.9225, x = radius * cos(angle), z = radius * sin(angle);
+    const double half = -angle / 2;
+    const Pose pose = {position_near({{x, 0.3125, z}}), rotation_near({0, sin(half), 0, cos(half)})};
+    ContactManifold manifold;
+    ASSERT_OK(contact_points(prism, still, small, pose, real_near(0.01), manifold));
+    ASSERT_EQ(manifold.count, 4u) << i;
+    for (int corner = 0; corner < 4; ++corner) {
+      const double along = corner % 2 == 0 ? -0.0625 : 0.0625, aside = corner < 2 ? -0.0078125 : 0.0078125;
+      const double at_x = x + along * cos(angle) - aside * sin(angle),
+                   at_z = z + along * sin(angle) + aside * cos(angle);
+      double nearest = 1;
+      for (uint32_t k = 0; k < 4; ++k) {
+        const Vector at = host(manifold.point[k].from_a);
+        nearest = fmin(nearest, hypot(at[0] - at_x, at[2] - at_z));
+      }
+      EXPECT_LT(nearest, 2e-3) << i << " " << corner;
+    }
+  }
+}
+
+DETENT_TEST(body_convex, of_a_part_of_a_compound_has_the_half_thickness_of_its_core) {
+  for (const double rounding : {0.0, 0.0625}) {
+    const detent_surfaces::Bytes bytes =
+        detent_compounds::cooked({detent_compounds::box({0, 0, 0}, {0.5, 0.25, 0.5}, rounding),
+                                  detent_compounds::box({1, 0, 0}, {0.5, 0.25, 0.125}, rounding)});
+    const Asset asset = {bytes.data(), bytes.count()};
+    const AssetTable table = {&asset, 1};
+    BodyTraits traits{};
+    ASSERT_OK(set_shape_traits(compound(0), traits, table));
+    const ConvexParts parts(traits, table);
+    ASSERT_EQ(parts.count(), 2u);
+    for (uint32_t i = 0; i < 2; ++i) {
+      Convex convex;
+      ASSERT_TRUE(parts.convex(i, false, convex));
+      EXPECT_NEAR(metres(convex.radius, convex.radius_exponent), rounding, 1e-6);
+      EXPECT_NEAR(metres(convex.size[0], convex.exponent), i == 0 ? 0.25 : 0.125, 1e-6);
+    }
+  }
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+#include "collision/segments.h"
 #include "tests/collision/pairs.h"
 
 namespace detent {
@@ -159,6 +160,22 @@ DETENT_TEST(degenerate, bodies_far_apart_have_no_contact_and_bodies_deep_in_a_pl
   EXPECT_EQ(deep.count, 1u);
   EXPECT_NEAR(real_to_host(deep.point[0].separation), -1000.5, 0.001);
   expect_arms_held(deep.point[0]);
+}
+
+DETENT_TEST(degenerate, parallel_segments_are_closest_at_the_middle_of_the_first_or_at_an_end) {
+  const Vec3<Unit> along_x = {Unit(1.0), Unit(0.0), Unit(0.0)};
+  const Segment first = {{Unit(0.0), Unit(0.0), Unit(0.0)}, along_x, Unit(0.25)};
+  const auto closest_to = [&](Unit x, double on_first, double on_second) {
+    const Segment second = {{x, Unit(0.5), Unit(0.0)}, along_x, Unit(0.125)};
+    Unit a = 0.375, b = -0.375;  // to be overwritten
+    closest_points(first, second, a, b);
+    EXPECT_NEAR(unit_to_host(a), on_first, 1e-6);
+    EXPECT_NEAR(unit_to_host(b), on_second, 1e-6);
+  };
+  closest_to(Unit(0.0625), 0, -0.0625);
+  closest_to(Unit(-0.125), 0, 0.125);
+  closest_to(Unit(0.25), 0.125, -0.125);
+  closest_to(Unit(0.5), 0.25, -0.125);
 }
 
 }  // namespace

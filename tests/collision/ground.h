@@ -31,7 +31,7 @@ struct Ground {
 
 inline OracleBody body_of(const Shape& shape) {
   OracleBody body;
-  EXPECT_OK(set_shape(shape, body.traits, k_table));
+  EXPECT_OK(set_shape_traits(shape, body.traits, k_table));
   body.traits.type = static_cast<uint32_t>(BodyType::dynamic);
   return body;
 }

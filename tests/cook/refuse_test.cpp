@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "cook.h"
+#include "cook_compound.h"
 #include "tests/cook/solids.h"
 
 namespace {
@@ -118,6 +119,15 @@ TEST(cook_refuses, no_cloud_of_few_distinct_coordinates_without_a_reason) {
   }
   EXPECT_GT(solid, 1000);
   EXPECT_GT(flat, 100);
+}
+
+TEST(read_compound, refuses_more_corners_and_parts_than_can_be_cooked) {
+  std::string parts;
+  for (size_t i = 0; i <= 65536; ++i) parts += "ball 0 0 0 1\n";
+  EXPECT_EQ(read_compound_text(parts).problem, "line 65537: more parts than can be cooked");
+  std::string corners = "v 0 0 0\nf";
+  for (size_t i = 0; i <= size_t{1} << 24; ++i) corners += " 1";
+  EXPECT_EQ(read_compound_text(corners).problem, "line 2: more corners than can be cooked");
 }
 
 }  // namespace

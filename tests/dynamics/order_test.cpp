@@ -1,3 +1,4 @@
+#include <math.h>
 #include <string.h>
 
 #include <algorithm>
@@ -9,6 +10,8 @@
 #include "dynamics/island.h"
 #include "dynamics/predict.h"
 #include "dynamics/solve.h"
+#include "dynamics/substeps.h"
+#include "geometry/shape_traits.h"
 #include "tests/oracle/bodies.h"
 #include "tests/world/lab.h"
 #include "world/view.h"
@@ -273,6 +276,125 @@ DETENT_TEST(order, contacts_of_one_colour_may_be_solved_in_any_order) {
   std::reverse(backward.order.begin(), backward.order.end());
   backward.run();
   EXPECT_NE(backward.result(), forward.result()) << "the order of the colours does matter, so the test can tell";
+}
+
+/// One island of boxes, as choose_substeps() sees it.
+struct Pile {
+  std::vector<BodyTraits> traits;
+  std::vector<BodyWork> work;
+  std::vector<BodyActivity> activities;
+  std::vector<ContactWork> contacts;
+  std::vector<ContactOrder> order;
+  std::vector<uint32_t> slots;
+  Island island{};
+  StepSettings settings;
+
+  /// Each body touches the next one. `run`: run_length of all bodies.
+  Pile(uint32_t contact_count, uint32_t run) {
+    Lab lab({1, 1, 0});
+    lab.add_box(0.5, 0, 0, 0);
+    const auto state = view_of(lab.world);
+    settings = step_settings(state.world);
+    traits.assign(contact_count + 1, state.traits[0]);
+    work.assign(traits.size(), BodyWork{});
+    activities.assign(traits.size(), BodyActivity{});
+    for (uint32_t i = 0; i < traits.size(); ++i) slots.push_back(i);
+    for (BodyWork& body : work) body.run_length = run;
+    for (uint32_t i = 0; i < contact_count; ++i) {
+      ContactWork contact{};
+      contact.state.body_a = i;
+      contact.state.body_b = i + 1;
+      contact.state.point_count = 4;
+      for (Unit& mass : contact.inverse_mass) mass = unit(0.25);
+      contacts.push_back(contact);
+      order.push_back({});
+      order.back().contact = i;
+    }
+    island.body_count = static_cast<uint32_t>(traits.size());
+    island.contact_count = contact_count;
+  }
+  /// Squared substeps that a contact of this load needs without buckling.
+  double needed(double load) const {
+    return 128 * load * scaled_to_host(settings.substeps_per_rate) / real_to_host(shape_extent(traits[0]));
+  }
+  double load_for(double substeps) const { return substeps * substeps / needed(1); }
+  uint32_t choose(double load) {
+    for (ContactWork& contact : contacts) contact.state.load = real(load);
+    const uint32_t bodies = static_cast<uint32_t>(traits.size()), count = static_cast<uint32_t>(contacts.size());
+    choose_substeps(settings, {traits.data(), bodies}, {work.data(), bodies}, {slots.data(), bodies},
+                    {order.data(), count}, {&island, 1}, {contacts.data(), count}, {activities.data(), bodies});
+    return island.substeps;
+  }
+};
+
+DETENT_TEST(substeps, are_the_fewest_of_a_few_numbers_that_hold_the_load_and_two_where_there_are_contacts) {
+  const uint32_t numbers[] = {2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64};
+  EXPECT_EQ(Pile(1, 1).choose(0), 2u);
+  EXPECT_EQ(Pile(0, 1).choose(0), 1u) << "nothing touches";
+  EXPECT_EQ(Pile(1, 1).choose(Pile(1, 1).load_for(0.5)), 2u);
+  for (size_t i = 0; i + 1 < sizeof numbers / sizeof numbers[0]; ++i) {
+    Pile light(1, 1), heavy(1, 1);
+    light.settings.substeps_max = heavy.settings.substeps_max = 64;
+    EXPECT_EQ(light.choose(light.load_for(0.999 * numbers[i])), numbers[i]);
+    EXPECT_EQ(heavy.choose(heavy.load_for(1.001 * numbers[i])), numbers[i + 1]);
+  }
+}
+
+DETENT_TEST(substeps, of_a_row_of_twelve_or_more_prevent_buckling) {
+  for (const uint32_t run : {1u, 2u, 3u, 4u, 11u, 12u, 24u}) {
+    Pile pile(1, run);
+    pile.settings.substeps_max = 64;
+    // Buckling decides where the squared length of the row exceeds 128, the inverse of the allowed sag.
+    const double buckles = run < 12 ? 1 : run / sqrt(128.0);
+    EXPECT_EQ(pile.choose(pile.load_for(7.9 / buckles)), 8u) << run;
+    EXPECT_EQ(Pile(1, run).choose(pile.load_for(8.1 / buckles)), 12u) << run;
+  }
+}
+
+DETENT_TEST(substeps, of_many_contacts_are_few) {
+  const auto most = [](uint32_t contacts) { return Pile(contacts, 1).choose(Pile(1, 1).load_for(40)); };
+  const uint32_t all = Pile(1, 1).settings.substeps_max;
+  EXPECT_EQ(most(1), all);
+  EXPECT_EQ(most(2048 / all), all);
+  EXPECT_EQ(most(2048 / (all / 2)), all / 2);
+  EXPECT_EQ(most(2048 / 5), 5u);
+  EXPECT_EQ(most(2048 / 4), 4u);
+  EXPECT_EQ(most(2048), 4u);
+}
+
+DETENT_TEST(substeps, become_fewer_by_one_notch_after_a_second_in_which_fewer_would_have_done) {
+  Pile pile(1, 1);
+  pile.settings.substeps_max = 64;
+  ASSERT_EQ(pile.choose(pile.load_for(31)), 32u);
+  // 24 substeps are taken only for a need of less than 0.6 times what they hold.
+  const double light = pile.load_for(23 * sqrt(0.6)), heavier = pile.load_for(25 * sqrt(0.6));
+  for (int tick = 0; tick < 200; ++tick) ASSERT_EQ(pile.choose(heavier), 32u);
+  for (int tick = 0; tick < 59; ++tick) ASSERT_EQ(pile.choose(light), 32u) << tick;
+  ASSERT_EQ(pile.choose(heavier), 32u) << "the count of calm ticks starts again";
+  for (int tick = 0; tick < 59; ++tick) ASSERT_EQ(pile.choose(light), 32u) << tick;
+  EXPECT_EQ(pile.choose(light), 24u);
+  EXPECT_EQ(pile.activities[1].substeps, 24u);
+  EXPECT_EQ(pile.activities[1].calm_ticks, 0u);
+  for (int tick = 0; tick < 59; ++tick) ASSERT_EQ(pile.choose(0), 24u) << tick;
+  EXPECT_EQ(pile.choose(0), 16u);
+  EXPECT_EQ(pile.choose(pile.load_for(31)), 32u) << "more are taken at once";
+}
+
+DETENT_TEST(substeps, scale_the_impulses_that_are_carried_over) {
+  Pile pile(2, 1);
+  pile.settings.substeps_max = 64;
+  pile.choose(pile.load_for(7.9));
+  for (ContactWork& contact : pile.contacts) {
+    contact.state.normal_impulse[3] = real(6);
+    contact.friction_impulse[1] = real(-3);
+    contact.angular_impulse[2] = real(1.5);
+  }
+  ASSERT_EQ(pile.choose(pile.load_for(23.9)), 24u);
+  for (const ContactWork& contact : pile.contacts) {
+    EXPECT_NEAR(real_to_host(contact.state.normal_impulse[3]), 2, 1e-4);
+    EXPECT_NEAR(real_to_host(contact.friction_impulse[1]), -1, 1e-4);
+    EXPECT_NEAR(real_to_host(contact.angular_impulse[2]), 0.5, 1e-4);
+  }
 }
 
 }  // namespace

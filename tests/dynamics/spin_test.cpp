@@ -1,8 +1,11 @@
 #include "dynamics/spin.h"
+
 #include "dynamics/finalise.h"
+#include "dynamics/impact_response.h"
 #include "tests/oracle/bodies.h"
 #include "tests/oracle/effort.h"
 #include "tests/world/lab.h"
+#include "world/view.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -167,6 +170,109 @@ DETENT_TEST(spin, is_read_back_as_it_was_set_whatever_the_size) {
       EXPECT_NEAR(motion.spin[2], 7 * faster, 1e-5 * faster) << radius;
     }
   }
+}
+
+/// The traits of a body of this shape, whose unit of length is 1 m.
+BodyTraits body_traits(const Shape& shape) {
+  Lab lab({1, 1, 0});
+  BodyDef def;
+  def.shape = shape;
+  lab.add(def);
+  return view_of(lab.world).traits[0];
+}
+
+constexpr Quat k_unturned = {0.0, 0.0, 0.0, 1.0};
+
+DETENT_TEST(speeds, that_leave_their_range_are_clamped_and_counted) {
+  const BodyTraits ball = body_traits(sphere(real(0.75)));
+  const double gyration = scaled_to_host(ball.gyration[0]);
+  EXPECT_NEAR(gyration, 2.5 / (0.75 * 0.75), 1e-6);
+  BodyMotion motion{};
+  motion.velocity = {k_speed_max, -k_speed_max, k_speed_max};
+  motion.momentum = reals(0, 32767 / gyration, 0);
+  BodyMotion after = motion;
+  EXPECT_EQ(hold_speeds(ball, k_unturned, after), 0u);
+  EXPECT_TRUE(after.velocity == motion.velocity && after.momentum == motion.momentum);
+  // Each component of the velocity counts.
+  for (uint32_t beyond = 1; beyond < 8; ++beyond) {
+    after = motion;
+    uint32_t count = 0;
+    Real* const parts[] = {&after.velocity.x, &after.velocity.y, &after.velocity.z};
+    for (uint32_t i = 0; i < 3; ++i) {
+      if ((beyond >> i & 1) == 0) continue;
+      *parts[i] += i == 1 ? Real(-1.0) : Real(1.0);
+      ++count;
+    }
+    EXPECT_EQ(hold_speeds(ball, k_unturned, after), count);
+    EXPECT_TRUE(after.velocity == motion.velocity && after.momentum == motion.momentum);
+  }
+  // A spin beyond its range, beyond twice its range, and with a momentum beyond its own.
+  const auto clamped = [&](double momentum) {
+    after = motion;
+    after.momentum = reals(0, 0, -momentum);
+    const uint32_t count = hold_speeds(ball, k_unturned, after);
+    EXPECT_NEAR(real_to_host(after.momentum.z) * gyration, -32768, 1) << momentum;
+    return count;
+  };
+  EXPECT_EQ(clamped(1.5 * 32768 / gyration), 1u);
+  // What is left may be above the bound by its rounding, and is then clamped once more.
+  EXPECT_LE(clamped(2.5 * 32768 / gyration), 2u);
+  EXPECT_GE(clamped(66000), DETENT_FIXED ? 3u : 2u);
+}
+
+DETENT_TEST(speeds, of_impacts_that_leave_their_range_are_clamped_and_counted) {
+  const BodyTraits rod = body_traits(box(reals(0.125, 0.75, 0.0625)));
+  const double gyration[3] = {scaled_to_host(rod.gyration[0]), scaled_to_host(rod.gyration[1]),
+                              scaled_to_host(rod.gyration[2])};
+  const auto spun = [&](double x, double y, double z) {
+    BodyMotion motion{};
+    motion.momentum = reals(x / gyration[0], y / gyration[1], z / gyration[2]);
+    return motion;
+  };
+  BodyMotion motion = spun(32000, -32000, 32000), after = motion;
+  EXPECT_EQ(hold_spin(rod, k_unturned, after), 0u);
+  EXPECT_TRUE(after.momentum == motion.momentum);
+  for (int axis = 0; axis < 3; ++axis) {
+    double spin[3] = {10000, 10000, -10000};
+    spin[axis] = axis == 2 ? -40000 : 40000;
+    after = spun(spin[0], spin[1], spin[2]);
+    EXPECT_EQ(hold_spin(rod, k_unturned, after), 1u);
+    const Real* const parts[] = {&after.momentum.x, &after.momentum.y, &after.momentum.z};
+    for (int i = 0; i < 3; ++i) {
+      const double expected = i == axis ? (axis == 2 ? -32768 : 32768) : spin[i];
+      EXPECT_NEAR(real_to_host(*parts[i]) * gyration[i], expected, 1) << axis;
+    }
+  }
+  const Real tick = real(0.25);
+  BodySweep sweep{};
+  sweep.turn = reals(8191, -4000, 100);
+  EXPECT_EQ(hold_turn(rod, tick, sweep), 0u);
+  EXPECT_TRUE(sweep.turn == reals(8191, -4000, 100));
+  sweep.turn = reals(100, -16384, 8192);
+  EXPECT_EQ(hold_turn(rod, tick, sweep), 1u);
+  EXPECT_NEAR(real_to_host(sweep.turn.x), 50, 0.01);
+  EXPECT_NEAR(real_to_host(sweep.turn.y), -8192, 0.01);
+  EXPECT_NEAR(real_to_host(sweep.turn.z), 4096, 0.01);
+
+  const BodyMotion none = spun(0, 0, 0);
+  sweep = {};
+  after = spun(0, 0, 400);
+  after.velocity = reals(4, -8, 12);
+  EXPECT_EQ(add_to_sweep(rod, k_unturned, none, after, tick, sweep), 0u);
+  EXPECT_EQ(add_to_sweep(rod, k_unturned, after, none, tick, sweep), 0u);
+  EXPECT_NEAR(real_to_host(sweep.turn.z), 0, 1e-3);
+  EXPECT_EQ(add_to_sweep(rod, k_unturned, none, after, tick, sweep), 0u);
+  EXPECT_NEAR(real_to_host(sweep.turn.z), 100, 0.01);
+  EXPECT_NEAR(real_to_host(sweep.displacement.y), -2, 1e-6);
+  sweep.displacement = reals(8192, 0, 0);
+  EXPECT_EQ(add_to_sweep(rod, k_unturned, none, after, tick, sweep), 1u) << "the way alone";
+  EXPECT_EQ(real_to_host(sweep.displacement.x), 8192);
+  sweep = {};
+  sweep.turn = reals(0, 0, 32768);
+  EXPECT_EQ(add_to_sweep(rod, k_unturned, none, after, tick, sweep), 1u) << "the turn alone";
+  EXPECT_EQ(real_to_host(sweep.turn.z), 32768);
+  sweep.displacement = reals(0, 0, 8192);
+  EXPECT_EQ(add_to_sweep(rod, k_unturned, none, after, tick, sweep), 2u);
 }
 
 DETENT_TEST(spin, of_a_ball_never_changes) {

@@ -107,7 +107,7 @@ DETENT_TEST(mass, size_is_kept_to_half_a_step_of_the_bodys_unit_of_length) {
 
 DETENT_TEST(mass, shapes_are_allowed_up_to_the_limits_of_size_and_aspect_and_no_further) {
   BodyTraits traits{};
-  const auto allowed = [&](const Shape& shape) { return set_shape(shape, traits) == Status::ok; };
+  const auto allowed = [&](const Shape& shape) { return set_shape_traits(shape, traits) == Status::ok; };
   for (int power = -14; power <= 13; ++power) {
     const double size = ldexp(1.0, power), longest = fmin(size * 0x1p14, 0x1p14);
     EXPECT_TRUE(allowed(box(reals_near({{size, size, size}})))) << size;

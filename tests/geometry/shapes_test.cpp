@@ -16,7 +16,7 @@ const AssetTable k_table = {k_assets, 2};
 
 BodyTraits hull_traits(uint32_t asset, double rounding) {
   BodyTraits traits{};
-  EXPECT_OK(set_shape(rounded(hull(asset), real_near(rounding)), traits, k_table));
+  EXPECT_OK(set_shape_traits(rounded(hull(asset), real_near(rounding)), traits, k_table));
   return traits;
 }
 
@@ -179,7 +179,7 @@ DETENT_TEST(shapes, bounds_contain_the_shape_and_are_tight_but_for_hulls) {
 
 DETENT_TEST(shapes, sizes_and_rounding_are_allowed_up_to_their_limits_and_no_further) {
   BodyTraits traits{};
-  const auto status = [&](const Shape& shape) { return set_shape(shape, traits, k_table); };
+  const auto status = [&](const Shape& shape) { return set_shape_traits(shape, traits, k_table); };
   const Real one = 1.0, least = 0x1p-14, most = 0x1p14, small = 0x1.ffffp-15, large = 0x1.0001p14, none = 0.0;
   EXPECT_OK(status(cylinder(one, least * real_near(4))));
   EXPECT_EQ(status(cylinder(one, small)), Status::out_of_range);
@@ -201,7 +201,7 @@ DETENT_TEST(shapes, sizes_and_rounding_are_allowed_up_to_their_limits_and_no_fur
   EXPECT_EQ(status(rounded(capsule(one, one), one)), Status::bad_argument);
   EXPECT_EQ(status(rounded(half_space(), one)), Status::bad_argument);
   EXPECT_EQ(status(hull(2)), Status::asset_missing);
-  EXPECT_EQ(set_shape(hull(0), traits), Status::asset_missing);
+  EXPECT_EQ(set_shape_traits(hull(0), traits), Status::asset_missing);
   EXPECT_OK(status(rounded(hull(0), real_near(2048))));
   EXPECT_EQ(status(rounded(hull(0), most)), Status::out_of_range) << "a core too small";
   Shape triangle;

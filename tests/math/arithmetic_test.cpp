@@ -164,6 +164,7 @@ DETENT_TEST(arithmetic, minimum_maximum_and_absolute_value_keep_order) {
   EXPECT_EQ(clamp(Real(7.0), Real(-1.0), Real(2.0)), Real(2.0));
   EXPECT_EQ(clamp(Real(-7.0), Real(-1.0), Real(2.0)), Real(-1.0));
   EXPECT_EQ(abs(Unit(-0.5)), Unit(0.5));
+  EXPECT_EQ(abs(Vec3<Unit>{Unit(-0.5), Unit(-0.25), Unit(-0.125)}), (Vec3<Unit>{Unit(0.5), Unit(0.25), Unit(0.125)}));
 #if !DETENT_FIXED
   const Real minus_zero = -Real(0.0);
   EXPECT_FALSE(__builtin_signbit(abs(minus_zero)));

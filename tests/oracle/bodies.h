@@ -95,7 +95,7 @@ inline Position position_near(const Vector& v) {
 inline BodyTraits traits_of(const Shape& shape) {
   BodyTraits traits{};
   traits.type = static_cast<uint32_t>(BodyType::dynamic);
-  EXPECT_OK(set_shape(shape, traits));
+  EXPECT_OK(set_shape_traits(shape, traits));
   return traits;
 }
 inline BodyTraits sphere_traits(double radius) { return traits_of(sphere(real_near(radius))); }

@@ -277,6 +277,29 @@ DETENT_TEST(penetration, of_needles_plates_and_what_just_touches) {
   EXPECT_EQ(tally.capped, 0u);
 }
 
+DETENT_TEST(penetration, of_a_half_space_along_an_axis_is_exact) {
+  Convex ground, cube;
+  ASSERT_OK(make_convex(half_space(), ground));
+  ASSERT_OK(make_convex(box({0.5, 0.5, 0.5}), cube));
+  const Matrix32 unturned = {{{1 << 30, 0, 0}, {0, 1 << 30, 0}, {0, 0, 1 << 30}}};
+  const Placed below = place(ground, unturned, 1), above = place(cube, unturned, 1);
+  const int32_t half = 1 << 28;  // the block's unit is 2 m
+  for (const int32_t depth : {0, 1, 2, 1000, half, 2 * half}) {
+    const Vec32 offset = {12345, half - depth, -678};
+    const Penetration found = penetration(below, above, offset, {});
+    EXPECT_EQ(found.depth, depth);
+    EXPECT_EQ(found.lower, depth);
+    EXPECT_TRUE((found.normal == Vec32{0, 1 << 30, 0}));
+    const Penetration other = penetration(above, below, negate(offset), {});
+    EXPECT_EQ(other.depth, depth);
+    EXPECT_TRUE((other.normal == Vec32{0, -(1 << 30), 0}));
+    EXPECT_EQ(found.point_a.y, 0);
+    EXPECT_EQ(found.point_b.y, -half);
+    EXPECT_EQ(other.point_b.y, 0);
+  }
+  EXPECT_EQ(penetration(below, above, {0, half + 1, 0}, {}).depth, 0) << "apart";
+}
+
 }  // namespace
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

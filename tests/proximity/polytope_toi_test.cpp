@@ -284,6 +284,21 @@ DETENT_TEST(feature_pairs, of_other_shapes_are_refused) {
   }
 }
 
+DETENT_TEST(redon, of_a_body_larger_than_its_range_is_refused_whichever_it_is) {
+  const KnownShape small = known(box({0.5, 0.5, 0.5})), large = known(box({500, 500, 500})),
+                   too_large = known(box({700, 700, 700}));
+  Motion still;
+  still.start.rotation = {0.0, 0.0, 0.0, 1.0};
+  const auto ask = [&](const KnownShape& a, const KnownShape& b) {
+    TimeOfImpact impact;
+    return time_of_impact_by(ToiMethod::redon, a.convex, still, b.convex, still, impact);
+  };
+  EXPECT_OK(ask(small, large));
+  EXPECT_OK(ask(large, small));
+  EXPECT_EQ(ask(small, too_large), Status::out_of_range);
+  EXPECT_EQ(ask(too_large, small), Status::out_of_range);
+}
+
 DETENT_TEST(feature_pairs, of_motions_without_a_turn_give_one_time_by_all_three) {
   Samples samples{5};
   for (uint32_t i = 0; i < rounds(500); ++i) {

@@ -69,15 +69,21 @@ DETENT_TEST(player, a_digest_is_compared_at_each_multiple_of_the_interval) {
 DETENT_TEST(player, a_state_that_differs_is_found_in_the_tick_it_differs) {
   const Bytes recording = record_small(20);
   for (uint64_t tick = 0; tick < 20; ++tick) {
-    const Replay outcome = replay(recording, [tick](World& world, uint64_t now) {
-      if (now == tick) {
-        EXPECT_EQ(set_user_data(world, next_body(world, {}), 1), Status::ok);
-      }
-    });
-    EXPECT_EQ(outcome.error.status, Status::digest_differs);
-    EXPECT_EQ(outcome.error.tick, tick + 1);
-    EXPECT_STREQ(outcome.error.field, "digest");
-    EXPECT_NE(outcome.error.digest_recorded, outcome.error.digest_replayed);
+    ReplayError errors[2];
+    for (uint32_t data = 1; data <= 2; ++data) {
+      const Replay outcome = replay(recording, [tick, data](World& world, uint64_t now) {
+        if (now == tick) {
+          EXPECT_EQ(set_user_data(world, next_body(world, {}), data), Status::ok);
+        }
+      });
+      errors[data - 1] = outcome.error;
+      EXPECT_EQ(outcome.error.status, Status::digest_differs);
+      EXPECT_EQ(outcome.error.tick, tick + 1);
+      EXPECT_STREQ(outcome.error.field, "digest");
+      EXPECT_NE(outcome.error.digest_recorded, outcome.error.digest_replayed);
+    }
+    EXPECT_EQ(errors[0].digest_recorded, errors[1].digest_recorded);
+    EXPECT_NE(errors[0].digest_replayed, errors[1].digest_replayed);
   }
 }
 

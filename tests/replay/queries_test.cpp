@@ -99,15 +99,21 @@ DETENT_TEST(replay_queries, are_repeated_with_the_same_answers_or_passed_over) {
 
 DETENT_TEST(replay_queries, another_answer_is_found_at_the_query) {
   // The ball is asked for before another tick is compared: no digest is recorded.
-  const ReplayError error = repeat(record_queries(), [](World& world, uint64_t tick) {
-    if (tick == 29) {
-      EXPECT_EQ(set_pose(world, {2, 1}, {Coord(0.0625), Coord(0.5), Coord(0.0)}, {0.0, 0.0, 0.0, 1.0}), Status::ok);
-    }
-  });
+  const auto repeat_with = [](Coord x) {
+    return repeat(record_queries(), [x](World& world, uint64_t tick) {
+      if (tick == 29) {
+        EXPECT_EQ(set_pose(world, {2, 1}, {x, Coord(0.5), Coord(0.0)}, {0.0, 0.0, 0.0, 1.0}), Status::ok);
+      }
+    });
+  };
+  const ReplayError error = repeat_with(Coord(0.0625)), other = repeat_with(Coord(0.125));
   EXPECT_EQ(error.status, Status::digest_differs);
   EXPECT_STREQ(error.field, "query answer");
   EXPECT_EQ(error.tick, 30u);
   EXPECT_NE(error.digest_recorded, error.digest_replayed);
+  EXPECT_EQ(other.digest_recorded, error.digest_recorded);
+  EXPECT_NE(other.digest_replayed, error.digest_replayed);
+  EXPECT_NE(other.digest_replayed, other.digest_recorded);
 }
 
 template <class Command>

@@ -139,12 +139,12 @@ TEST(scene_refuses, what_the_library_refuses) {
 
 TEST(scene_refuses, cooked_files_that_are_none) {
   expect_shape_refused("\"type\": \"hull\",\n\"file\": \"gone.hull\"",
-                       "4: bodies[0].shape.file: gone.hull cannot be read\n");
+                       "4: bodies[0].shape.file: gone.hull cannot be read: No such file or directory\n");
   expect_shape_refused("\"type\": \"hull\",\n\"file\": \"every.json\"",
-                       "4: bodies[0].shape.file: every.json is not what `detent cook` makes for this type\n");
+                       "4: bodies[0].shape.file: every.json is not a cooked file\n");
   expect_shape_refused("\"type\": \"compound\",\n\"file\": \"../lockstep/round.hull\"",
-                       "4: bodies[0].shape.file: ../lockstep/round.hull is not what `detent cook` makes for this "
-                       "type\n");
+                       "4: bodies[0].shape.file: ../lockstep/round.hull is a cooked hull, not a cooked "
+                       "compound\n");
   expect_shape_refused("\"type\": \"hull\", \"file\": \"../lockstep/round.hull\",\n\"digest\": \"12\"",
                        "4: bodies[0].shape.digest: has not 16 digits\n");
   const std::string wrong =

@@ -1,4 +1,5 @@
-# DETENT_SCENE_ASSETS: the source of scene_assets(); DETENT_SCENE_SOURCES: that and what makes scenes(), for detent_per_config and other targets that see the repository's root.
+# DETENT_SCENE_ASSETS: the source of scene_assets(); DETENT_SCENE_SOURCES: that and what makes scenes(), for targets that see
+# the repository's root and compile them with options of their own. Others take the objects of detent_scenes_<config>.
 set(assets "")
 set(table "")
 foreach(file assets/valley.mesh assets/hills.field ../lockstep/round.hull assets/dumbbell.compound)
@@ -35,3 +36,10 @@ set(DETENT_SCENE_SOURCES
   ${CMAKE_CURRENT_LIST_DIR}/../../examples/billiards/billiards.cpp
   ${CMAKE_CURRENT_LIST_DIR}/../../examples/dominoes/dominoes.cpp
   ${CMAKE_CURRENT_LIST_DIR}/../../examples/rollback/game.cpp)
+
+if(NOT TARGET detent_scenes_${DETENT_CONFIG})
+  detent_per_config(detent_scenes ${DETENT_SCENE_SOURCES})
+  foreach(config IN LISTS DETENT_CONFIGS)
+    set_target_properties(detent_scenes_${config} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0 EXCLUDE_FROM_ALL ON)
+  endforeach()
+endif()

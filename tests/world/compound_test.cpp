@@ -448,6 +448,23 @@ DETENT_TEST(compounds, in_a_flipped_snapshot_are_refused_or_harmless) {
   }
 }
 
+DETENT_TEST(compounds, without_their_asset_touch_nothing_which_is_counted) {
+  CompoundLab lab(detent_compounds::table());
+  lab.add_ground();
+  const BodyId lower = lab.add_compound(0, 0, 0), upper = lab.add_compound(0, 1, 0);
+  const BodyId box_below = lab.add_box(0.25, 0.2, 0.25, 0.1);
+  EXPECT_TRUE(lab.run(30).complete());
+  const AssetTable assets = lab.world.assets;
+  lab.world.assets = {};
+  const StepReport report = lab.run(30);
+  EXPECT_FALSE(report.complete());
+  EXPECT_GT(report.contacts_capped, 0u);
+  EXPECT_LT(lab.motion(lower).velocity[1], -1) << "it falls";
+  EXPECT_LT(lab.motion(upper).velocity[1], -1);
+  EXPECT_NEAR(lab.motion(box_below).position[1], 0.25, 0.01);
+  lab.world.assets = assets;
+}
+
 DETENT_TEST(compounds, are_refused_where_they_cannot_be) {
   CompoundLab lab(detent_compounds::table());
   BodyId id;

@@ -1,5 +1,12 @@
+#include "world/events.h"
+
 #include <math.h>
 
+#include <algorithm>
+#include <tuple>
+
+#include "collision/pair_key.h"
+#include "tests/math/samples.h"
 #include "tests/world/lab.h"
 
 /// What a step tells of the contacts it made and ended.
@@ -129,6 +136,54 @@ DETENT_TEST(events, beyond_the_buffer_are_dropped_and_counted_and_alter_nothing)
   }
   EXPECT_EQ(digests[0], digests[1]);
   EXPECT_EQ(digests[0], digests[2]);
+}
+
+DETENT_TEST(events, hits_are_sorted_by_their_bodies_among_the_other_events_and_the_last_are_dropped) {
+  Samples samples = {91};
+  std::vector<BodyTraits> traits(5);
+  for (uint32_t i = 0; i < 5; ++i) traits[i].generation = i + 7;
+  for (const uint32_t room : {0u, 1u, 5u, 12u, 40u}) {
+    // The buffer starts with sorted events of contacts; the hits are added one by one.
+    std::vector<ContactEvent> events(room), expected;
+    for (uint32_t slot = 1; slot < 4; ++slot) {
+      ContactEvent begin;
+      begin.type = ContactEventType::begin;
+      begin.a = {slot, slot + 6};
+      begin.b = {slot + 1, slot + 7};
+      expected.push_back(begin);
+    }
+    EventCount count;
+    for (; count.kept < room && count.kept < expected.size(); ++count.kept) events[count.kept] = expected[count.kept];
+    expected.resize(count.kept);
+    std::vector<ImpactHit> hits;
+    for (int i = 0; i < 24; ++i) {
+      const uint32_t a = samples.below(4), b = a + 1 + samples.below(4 - a);
+      ImpactHit hit{};
+      hit.key = pair_key(a, b);
+      hit.point.x = coord(i);
+      hit.approach = real(i + 1);
+      hits.push_back(hit);
+      ContactEvent event;
+      event.type = ContactEventType::hit;
+      event.a = {a + 1, a + 7};
+      event.b = {b + 1, b + 7};
+      event.point.x = hit.point.x;
+      event.approach_speed = hit.approach;
+      expected.push_back(event);
+    }
+    add_hits({traits.data(), 5}, {hits.data(), 24}, {events.data(), room}, count);
+    std::stable_sort(expected.begin(), expected.end(), [](const ContactEvent& a, const ContactEvent& b) {
+      return std::make_tuple(a.a.slot, a.b.slot, a.type) < std::make_tuple(b.a.slot, b.b.slot, b.type);
+    });
+    const uint32_t all = static_cast<uint32_t>(expected.size());
+    ASSERT_EQ(count.kept, all < room ? all : room);
+    EXPECT_EQ(count.dropped, all - count.kept);
+    for (uint32_t i = 0; i < count.kept; ++i) {
+      EXPECT_TRUE(events[i].type == expected[i].type && events[i].a == expected[i].a && events[i].b == expected[i].b &&
+                  events[i].point.x == expected[i].point.x && events[i].approach_speed == expected[i].approach_speed)
+          << room << " " << i;
+    }
+  }
 }
 
 }  // namespace

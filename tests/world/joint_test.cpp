@@ -1,5 +1,6 @@
 #include <detent/body_access.h>
 
+#include <math.h>
 #include <string.h>
 
 #include <algorithm>
@@ -98,6 +99,149 @@ DETENT_TEST(joint, each_type_holds_what_it_holds) { expect_held(4, 2e-3, 4e-3); 
 
 /// The bricks turn by 0.06 rad a tick: a hundredth of their size is all that needs no more substeps.
 DETENT_TEST(joint, each_type_holds_to_a_hundredth_of_its_bodies_by_default) { expect_held(0, 1e-2, 1e-2); }
+
+DETENT_TEST(joint, every_loop_of_a_net_is_held) {
+  Lab lab(room(9, 12), weightless());
+  BodyId knots[3][3];
+  std::vector<JointId> joints;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      knots[i][j] = add_shape(lab, box(reals(0.2, 0.2, 0.2)), i, j, 0);
+      const double push = (i * 3 + j) % 4 - 1.5;
+      EXPECT_OK(set_velocity(lab.world, knots[i][j], reals(push, -push, 2 * push), reals(0, push, 0)));
+      if (i > 0) joints.push_back(add_joint(lab, JointType::ball, knots[i - 1][j], knots[i][j], i - 0.5, j, 0));
+      if (j > 0) joints.push_back(add_joint(lab, JointType::ball, knots[i][j - 1], knots[i][j], i, j - 0.5, 0));
+    }
+  }
+  for (int tick = 0; tick < 60; ++tick) {
+    lab.run(1);
+    for (const JointId id : joints) ASSERT_LT(length(joint_ends(lab.world, id).gap()), 0.02) << tick << " " << id.slot;
+  }
+}
+
+DETENT_TEST(joint, bodies_that_its_movement_wakes_are_counted) {
+  Lab lab({3, 8, 0, true, 2}, {}, true);
+  const BodyId hook = add_shape(lab, box(reals(0.1, 0.1, 0.1)), 0, 0, 0, BodyType::kinematic);
+  const BodyId upper = add_shape(lab, box(reals(0.1, 0.4, 0.1)), 0, -0.5, 0);
+  const BodyId lower = add_shape(lab, box(reals(0.1, 0.4, 0.1)), 0, -1.5, 0);
+  add_joint(lab, JointType::ball, hook, upper, 0, 0, 0);
+  add_joint(lab, JointType::ball, upper, lower, 0, -1, 0);
+  uint32_t asleep = 0;
+  for (int tick = 0; tick < 600 && asleep == 0; ++tick) asleep = lab.run(1).fell_asleep;
+  ASSERT_EQ(asleep, 2u);
+  EXPECT_OK(set_velocity(lab.world, hook, reals(0.5, 0, 0), {}));
+  EXPECT_EQ(lab.run(1).woke, 2u);
+  EXPECT_EQ(lab.run(1).woke, 0u);
+}
+
+/// The least number of substeps that a joint is given whose squared number is at least this. 0: too close to tell.
+uint32_t substeps_for(double squared) {
+  for (const uint32_t n : {1u, 2u, 3u, 4u, 6u, 8u}) {
+    if (fabs(squared / (n * n) - 1) < 0.01) return 0;
+    if (squared < n * n) return n;
+  }
+  return 8;
+}
+
+/// The measure of lib/dynamics/joint_substeps.cpp in doubles, for bodies whose unit of length is 1 m; motions are those
+/// of a tick.
+double bend_of(JointType type, const Vector (&velocity)[2], const Vector (&spin)[2], const Vector (&anchor)[2],
+               Vector between, double length) {
+  const auto sum = [](Vector v) { return fabs(v.x) + fabs(v.y) + fabs(v.z); };
+  const bool slides = type == JointType::slider || type == JointType::wheel;
+  const Vector arm[2] = {slides ? between + anchor[1] : anchor[0], anchor[1]};
+  const Vector by_a = cross(spin[0], arm[0]), by_b = cross(spin[1], arm[1]);
+  const Vector apart = (velocity[1] + by_b) - (velocity[0] + by_a);
+  if (type == JointType::distance) return sum(apart) * sum(apart) / length;
+  Vector bends = cross(spin[1], by_b) - cross(spin[0], by_a);
+  if (slides) bends = bends - cross(spin[0], apart) * 2;
+  if (type == JointType::ball || type == JointType::cone_twist) return sum(bends);
+  return fmax(sum(bends), sum(cross(spin[0], spin[1])));
+}
+
+DETENT_TEST(joint, substeps_are_those_that_the_paths_of_its_bodies_ask_for) {
+  Samples samples = {77};
+  const auto draw = [&](double most) { return most * unit_to_host(samples.uniform()); };
+  const auto vector = [&](double most) {
+    const double x = draw(most), y = draw(most), z = draw(most);
+    return Vector{x, y, z};
+  };
+  for (const JointType type : k_types) {
+    uint32_t seen[9] = {};
+    for (uint32_t round = 0; round < 60; ++round) {
+      // Some pairs have one velocity, joints at the centres, or no spin.
+      const double fast = exp2(-static_cast<double>(round % 6));
+      Vector velocity[2] = {vector(4 * fast), vector(4 * fast)}, spin[2] = {vector(6 * fast), vector(6 * fast)};
+      Vector anchor[2] = {vector(0.3), vector(0.3)};
+      if (round % 5 == 0) velocity[1] = velocity[0];
+      if (round % 7 == 0) anchor[0] = anchor[1] = {0, 0, 0};
+      if (round % 10 == 0) spin[0] = spin[1] = {0, 0, 0};
+      const double length = 0.5 + fabs(draw(2));
+      WorldDef def = weightless();
+      def.tick = real(0.25);
+      Lab lab(room(2, 1), def);
+      JointDef joint;
+      joint.type = type;
+      joint.axis.limited = type == JointType::distance;
+      joint.axis.upper = real(joint.axis.limited ? length : 0);
+      for (int i = 0; i < 2; ++i) {
+        BodyDef body;
+        body.shape = box(reals(0.5, 0.5, 0.5));
+        body.position = position(1.5 * i, 0, 0);
+        body.velocity = reals(velocity[i].x, velocity[i].y, velocity[i].z);
+        body.spin = reals(spin[i].x, spin[i].y, spin[i].z);
+        (i == 0 ? joint.a : joint.b) = lab.add(body);
+        (i == 0 ? joint.anchor_a : joint.anchor_b) = reals(anchor[i].x, anchor[i].y, anchor[i].z);
+        velocity[i] = velocity[i] * 0.25;
+        spin[i] = spin[i] * 0.25;
+      }
+      JointId id;
+      ASSERT_OK(create_joint(lab.world, joint, id));
+      const uint32_t expected = substeps_for(fmin(64 * bend_of(type, velocity, spin, anchor, {1.5, 0, 0}, length), 63));
+      const uint32_t taken = lab.run(1).substeps_max;
+      if (expected != 0) {
+        EXPECT_EQ(taken, expected) << static_cast<int>(type) << " " << round;
+        ++seen[expected];
+      }
+    }
+    for (const uint32_t n : {1u, 2u, 4u, 8u}) EXPECT_GT(seen[n], 0u) << static_cast<int>(type) << " " << n;
+  }
+}
+
+DETENT_TEST(joint, substeps_are_those_that_its_springs_its_loops_and_contacts_ask_for) {
+  constexpr Real k_softs[] = {0.125, 0.25, 0.5};
+  for (const Real soft : k_softs) {
+    for (uint32_t which = 0; which < 2; ++which) {
+      WorldDef def = weightless();
+      def.tick = real(0.25);
+      Lab lab(room(2, 1), def);
+      JointDef joint;
+      (which == 0 ? joint.axis : joint.second).frequency = soft;
+      add_joint(lab, JointType::wheel, add_shape(lab, box(reals(0.5, 0.5, 0.5)), 0, 0, 0),
+                add_shape(lab, box(reals(0.5, 0.5, 0.5)), 2, 0, 0), 1, 0, 0, joint);
+      const double phase = 2 * k_pi * real_to_host(soft) * 0.25;
+      EXPECT_EQ(lab.run(1).substeps_max, substeps_for(fmin(25 * phase * phase, 15.9))) << which;
+    }
+  }
+  const auto chain = [](int links, bool hung_twice, bool touching) {
+    Lab lab(room(5, 4), weightless());
+    BodyId last = add_shape(lab, box(reals(0.1, 0.1, 0.1)), 0, 0, 0, BodyType::fixed);
+    for (int i = 0; i < links; ++i) {
+      const BodyId next = add_shape(lab, box(reals(0.4, 0.1, 0.1)), 0.5 + i, 0, 0);
+      add_joint(lab, JointType::ball, last, next, i, 0, 0);
+      last = next;
+    }
+    const double end = links;
+    if (hung_twice)
+      add_joint(lab, JointType::ball, last, add_shape(lab, box(reals(0.1, 0.1, 0.1)), end, 0, 0, BodyType::fixed), end,
+                0, 0);
+    if (touching) add_shape(lab, box(reals(0.1, 0.1, 0.1)), end - 0.5, 0.1999, 0);
+    return lab.run(1).substeps_max;
+  };
+  EXPECT_EQ(chain(2, false, false), 1u);
+  EXPECT_EQ(chain(2, true, false), 4u);
+  EXPECT_EQ(chain(2, false, true), 8u);
+}
 
 /// Nothing of an earlier tick is read: of bodies that do not move, in loops, or where points alone hold.
 DETENT_TEST(joint, what_the_work_space_holds_before_a_step_does_not_matter) {

@@ -12,6 +12,7 @@
 #include "geometry/sweep.h"
 #include "tests/geometry/hull_bytes.h"
 #include "tests/oracle/bodies.h"
+#include "world/query_hits.h"
 #include "world/step_cache.h"
 
 /// Queries against asking every body, one by one.
@@ -143,7 +144,7 @@ Convex convex_of(const Shape& shape) {
     return convex;
   }
   BodyTraits traits{};
-  EXPECT_OK(set_shape(shape, traits, k_table));
+  EXPECT_OK(set_shape_traits(shape, traits, k_table));
   EXPECT_TRUE(body_convex(traits, k_table, convex));
   return convex;
 }
@@ -488,6 +489,77 @@ DETENT_TEST(query, bodies_as_near_as_each_other_come_by_their_slots) {
     closest.filter.ignore = {1, 1};
     EXPECT_EQ(ask(query_closest, place.world, closest, false).hits.at(0).body.slot, 2u);
     step(place.world);
+  }
+}
+
+DETENT_TEST(query, hits_are_in_the_order_of_place_then_decision_then_slot_then_triangle) {
+  QueryHit hit;
+  hit.fraction = Fraction(0.5);
+  hit.distance = Real(2.0);
+  hit.body = {3, 1};
+  hit.triangle = 7;
+  const auto altered = [&](auto alter) {
+    QueryHit other = hit;
+    alter(other);
+    return other;
+  };
+  // Each comes after `hit` by what it differs in first, though all that follows is smaller.
+  const auto later = [&](auto alter) {
+    QueryHit first = hit, second = hit;
+    alter(first, second);
+    EXPECT_TRUE(HitOrder{}(first, second));
+    EXPECT_FALSE(HitOrder{}(second, first));
+  };
+  EXPECT_FALSE(HitOrder{}(hit, hit));
+  const QueryHit small = altered([](QueryHit& h) {
+    h.distance = Real(1.0);
+    h.body = {2, 1};
+    h.triangle = 1;
+  });
+  later([&](QueryHit& first, QueryHit& second) {
+    second = small;
+    first.undecided = true;
+    second.fraction = Fraction(0.75);
+  });
+  later([&](QueryHit& first, QueryHit& second) {
+    second = small;
+    first.undecided = true;
+    second.distance = Real(3.0);
+  });
+  later([&](QueryHit&, QueryHit& second) {
+    second.body = small.body;
+    second.triangle = small.triangle;
+    second.undecided = true;
+  });
+  later([&](QueryHit& first, QueryHit& second) {
+    first.undecided = second.undecided = true;
+    second.body = {4, 1};
+    second.triangle = small.triangle;
+  });
+  later([&](QueryHit&, QueryHit& second) { second.triangle = 8; });
+}
+
+DETENT_TEST(query, of_hits_as_near_the_decided_one_is_first_in_whatever_order_they_are_found) {
+  QueryHit decided, undecided;
+  decided.body = {5, 1};
+  undecided.body = {2, 1};
+  undecided.undecided = true;
+  decided.distance = undecided.distance = Real(1.0);
+  for (const bool all : {false, true}) {
+    for (const bool swapped : {false, true}) {
+      QueryHit hits[2];
+      QueryReport report;
+      HitCollector collector(all, {hits, 2}, Fraction(1.0), Real(16.0));
+      collector.add(swapped ? undecided : decided);
+      collector.add(swapped ? decided : undecided);
+      collector.finish(report);
+      ASSERT_EQ(report.hits, all ? 2u : 1u);
+      EXPECT_EQ(report.undecided, all ? 1u : 0u);
+      EXPECT_EQ(hits[0].body, decided.body);
+      if (all) {
+        EXPECT_EQ(hits[1].body, undecided.body);
+      }
+    }
   }
 }
 

@@ -1,6 +1,7 @@
 #include <math.h>
 
 #include "tests/world/lab.h"
+#include "world/view.h"
 
 /// The ranges that a configuration promises, tried at their limits.
 namespace detent {
@@ -127,6 +128,25 @@ DETENT_TEST(range, a_speed_that_leaves_its_range_is_held_and_counted) {
   const BodyId id = lab.add(def);
   EXPECT_GT(lab.run(1).saturations, 0u);
   EXPECT_EQ(lab.motion(id).velocity[1], -16384);
+}
+
+DETENT_TEST(range, a_turn_that_leaves_its_range_is_counted_by_the_integrator_and_by_the_sweep) {
+  WorldDef world;
+  world.tick = real(0.25);
+  for (const BodyType type : {BodyType::kinematic, BodyType::dynamic}) {
+    Lab lab({2, 1, 0}, world);
+    for (uint32_t i = 0; i < 2; ++i) {
+      BodyDef def;
+      def.type = type;
+      def.shape = sphere(real(0.05));
+      def.position = position(10 * i, 0, 0);
+      lab.add(def);
+      // A turn of more than 2^15 rad in the tick, which a loaded state may ask for.
+      const Real momentum = type == BodyType::dynamic ? Real(3000.0) : Real(10000.0);
+      for (uint32_t slot = 0; slot <= i; ++slot) view_of(lab.world).motions[slot].momentum.y = momentum;
+      EXPECT_EQ(lab.run(1).saturations, 2 * (i + 1));
+    }
+  }
 }
 
 DETENT_TEST(range, spin_of_sixteen_kilometres_a_second_at_the_rim_is_kept) {

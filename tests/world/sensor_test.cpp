@@ -318,6 +318,67 @@ DETENT_TEST(sensor, what_there_is_no_room_for_is_named_counted_and_found_once_th
   EXPECT_EQ(trap.report.sensed_dropped, 1u);
 }
 
+DETENT_TEST(sensor, a_body_that_passes_through_is_noticed_whichever_others_stay_within) {
+  for (const bool reflected : {false, true}) {
+    for (uint32_t passing = 0; passing < 3; ++passing) {
+      Trap trap(room_for(6));
+      const BodyId gate = trap.lab.add(sensor_def(box(reals(0.02, 0.25, 5))));
+      BodyId ids[3];
+      for (uint32_t i = 0; i < 3; ++i) {
+        BodyDef def = ball_def(0.05, 0, 0, i - 1.0);
+        if (i == passing) def.position = position(-9, 0, i - 1.0);
+        ids[i] = trap.lab.add(def);
+      }
+      if (reflected) {
+        BodyDef wall;
+        wall.type = BodyType::fixed;
+        wall.shape = box(reals(0.05, 5, 5));
+        wall.position = position(1, 0, 0);
+        wall.material.restitution = real(1);
+        trap.lab.add(wall);
+      }
+      EXPECT_EQ(trap.run().size(), 2u);
+      const BodyId id = ids[passing];
+      EXPECT_OK(set_pose(trap.lab.world, id, position(-1, -0.5, passing - 1.0), {0.0, 0.0, 0.0, 1.0}));
+      EXPECT_OK(set_velocity(trap.lab.world, id, reals(240, 120, 0), {}));
+      const std::vector<SensorEvent> events = trap.run();
+      EXPECT_EQ(trap.report.impacts, reflected ? 1u : 0u);
+      ASSERT_EQ(events.size(), 2u) << reflected << " " << passing;
+      EXPECT_TRUE(is_event(events[0], k_enter, gate, id));
+      EXPECT_TRUE(is_event(events[1], k_leave, gate, id));
+      EXPECT_EQ(trap.within(gate).size(), 2u);
+    }
+  }
+}
+
+DETENT_TEST(sensor, a_body_that_passes_through_without_room_is_counted) {
+  // The wall reflects each ball, so that the first part of its sweep, up to the wall, passes the gate. There is room
+  // for one.
+  Trap trap(room_for(6, 1));
+  CapacityEvent lost[8];
+  trap.lab.world.capacity_events = {lost, 8};
+  const BodyId gate = trap.lab.add(sensor_def(box(reals(0.02, 0.25, 5))));
+  BodyDef wall;
+  wall.type = BodyType::fixed;
+  wall.shape = box(reals(0.05, 5, 5));
+  wall.position = position(1, 0, 0);
+  trap.lab.add(wall);
+  std::vector<BodyId> balls;
+  for (int i = 0; i < 3; ++i) {
+    BodyDef def = ball_def(0.05, -1, -0.5, i - 1, reals(240, 120, 0));
+    def.material.restitution = real(1);
+    balls.push_back(trap.lab.add(def));
+  }
+  const std::vector<SensorEvent> events = trap.run();
+  EXPECT_EQ(trap.report.impacts, 3u);
+  EXPECT_EQ(trap.report.sensed_undecided, 0u);
+  ASSERT_EQ(events.size(), 2u) << "it enters and leaves";
+  EXPECT_TRUE(is_event(events[0], k_enter, gate, balls[0]));
+  EXPECT_TRUE(is_event(events[1], k_leave, gate, balls[0]));
+  EXPECT_EQ(trap.report.sensed_dropped, 2u);
+  EXPECT_EQ(trap.report.capacity_events, 2u);
+}
+
 DETENT_TEST(sensor, events_beyond_the_buffer_are_dropped_and_counted_and_alter_nothing) {
   std::vector<uint64_t> digests;
   for (const uint32_t room : {0u, 2u, 8u}) {

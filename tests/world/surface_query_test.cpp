@@ -114,7 +114,7 @@ Shape any_shape(Samples& samples) {
 Convex convex_of(const Shape& shape) {
   BodyTraits traits{};
   Convex convex;
-  EXPECT_OK(set_shape(shape, traits, {}));
+  EXPECT_OK(set_shape_traits(shape, traits, {}));
   EXPECT_TRUE(body_convex(traits, {}, convex));
   return convex;
 }

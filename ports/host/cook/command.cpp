@@ -8,34 +8,18 @@
 
 #include "cook_compound.h"
 #include "describe.h"
+#include "engine.h"
 #include "file.h"
 #include "read_heights.h"
 #include "read_mesh.h"
 #include "read_points.h"
+#include "stream.h"
+#include "text.h"
 
 namespace detent_tool {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-bool read_file(const std::string& path, std::vector<uint8_t>& bytes, size_t bytes_max) {
-  const File file = open_file(path, "rb");
-  if (file == nullptr) return false;
-  uint8_t piece[4096];
-  while (bytes.size() < bytes_max) {
-    const size_t count = fread(piece, 1, sizeof piece, file.get());
-    bytes.insert(bytes.end(), piece, piece + count);
-    if (count < sizeof piece) break;
-  }
-  return ferror(file.get()) == 0;
-}
-
-bool write_file(const std::string& path, const std::vector<uint8_t>& bytes) {
-  File file = open_file(path, "wb");
-  if (file == nullptr) return false;
-  const bool written = fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
-  return fclose(file.release()) == 0 && written;
-}
 
 /// A path need not be valid UTF-8: bytes that are not are replaced.
 void print_json(const Json& json) { printf("%s\n", json.dump(-1, ' ', false, Json::error_handler_t::replace).c_str()); }
@@ -44,10 +28,26 @@ bool fail(const std::string& path, const std::string& problem, bool json) {
   if (json) {
     print_json({{"file", path}, {"ok", false}, {"problem", problem}});
   } else {
-    fprintf(stderr, "%s: %s\n", path.c_str(), problem.c_str());
+    fprintf(stderr, "%s: %s\n", printable(path).c_str(), printable(problem).c_str());
   }
   return false;
 }
+
+/// The bytes of what is to be cooked, for as long as this lives. False, and a line to standard error, if there are
+/// none.
+struct Source {
+  std::vector<uint8_t> bytes;
+  std::string_view text;
+
+  bool read(const std::string& path, bool json) {
+    if (const std::string problem = read_file(path, bytes); !problem.empty()) return fail(path, problem, json);
+    if (bytes.empty()) return fail(path, "is empty, not something to cook", json);
+    if (const FileKind kind = kind_of(bytes); kind != FileKind::other)
+      return fail(path, is_not(kind, "something to cook"), json);
+    text = {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+    return true;
+  }
+};
 
 Json json_of(const std::string& path, const detent_cook::HullDescription& hull) {
   Json json = {{"file", path}, {"ok", true}};
@@ -64,8 +64,8 @@ Json json_of(const std::string& path, const detent_cook::HullDescription& hull) 
 }
 
 void print_text(const std::string& path, const detent_cook::HullDescription& hull) {
-  printf("%s: %u vertices, %u faces, %u edges, radius %.6g m, volume %.6g m^3, ", path.c_str(), hull.vertex_count,
-         hull.face_count, hull.edge_count, hull.radius, hull.volume);
+  printf("%s: %u vertices, %u faces, %u edges, radius %.6g m, volume %.6g m^3, ", printable(path).c_str(),
+         hull.vertex_count, hull.face_count, hull.edge_count, hull.radius, hull.volume);
   if (hull.principal) {
     printf("centre of mass at (%.6g, %.6g, %.6g) m of the source, axes turned by (%.6g, %.6g, %.6g, %.6g)",
            hull.origin[0], hull.origin[1], hull.origin[2], hull.rotation[0], hull.rotation[1], hull.rotation[2],
@@ -98,7 +98,7 @@ Json json_of(const std::string& path, const detent_cook::SurfaceDescription& sur
 }
 
 void print_text(const std::string& path, const detent_cook::SurfaceDescription& surface) {
-  printf("%s: ", path.c_str());
+  printf("%s: ", printable(path).c_str());
   if (surface.is_mesh) {
     printf("%u triangles, %u vertices, sides: %u flat, %u convex, %u concave, %u open", surface.triangle_count,
            surface.vertex_count, surface.edges[0], surface.edges[1], surface.edges[2], surface.edges[3]);
@@ -128,7 +128,7 @@ void say(const std::string& path, const detent_cook::CompoundDescription& compou
     print_json(json_of(path, compound));
     return;
   }
-  printf("%s: %u parts, %u of them hulls, radius %.6g m, thinnest %.6g m, volume %.6g m^3, ", path.c_str(),
+  printf("%s: %u parts, %u of them hulls, radius %.6g m, thinnest %.6g m, volume %.6g m^3, ", printable(path).c_str(),
          compound.child_count, compound.hull_count, compound.radius, compound.thickness, compound.volume);
   printf("centre of mass at (%.6g, %.6g, %.6g) m of the source, axes turned by (%.6g, %.6g, %.6g, %.6g)\n",
          compound.origin[0], compound.origin[1], compound.origin[2], compound.rotation[0], compound.rotation[1],
@@ -138,26 +138,21 @@ void say(const std::string& path, const detent_cook::CompoundDescription& compou
 }  // namespace
 
 bool cook_compound_file(const std::string& input, const std::string& output, bool json) {
-  std::vector<uint8_t> text;
-  if (!read_file(input, text, SIZE_MAX)) return fail(input, "cannot be read", json);
-  const detent_cook::CompoundRead read =
-      detent_cook::read_compound_text({reinterpret_cast<const char*>(text.data()), text.size()});
+  Source source;
+  if (!source.read(input, json)) return false;
+  const detent_cook::CompoundRead read = detent_cook::read_compound_text(source.text);
   if (!read.problem.empty()) return fail(input, read.problem, json);
   const detent_cook::CompoundResult result = detent_cook::cook_compound(read.parts);
   if (result.bytes.empty()) return fail(input, result.reason, json);
-  if (!write_file(output, result.bytes)) return fail(output, "cannot be written", json);
+  if (const std::string problem = write_file(output, result.bytes); !problem.empty())
+    return fail(output, problem, json);
   say(output, detent_cook::describe_compound(result.bytes), json);
   return true;
 }
 
-bool is_compound_file(const std::string& path) {
-  std::vector<uint8_t> bytes;
-  return read_file(path, bytes, 1) && detent_cook::is_compound(bytes);
-}
-
 bool describe_compound_file(const std::string& path, bool json) {
   std::vector<uint8_t> bytes;
-  if (!read_file(path, bytes, UINT32_MAX)) return fail(path, "cannot be read", json);
+  if (const std::string problem = read_file(path, bytes); !problem.empty()) return fail(path, problem, json);
   const detent_cook::CompoundDescription compound = detent_cook::describe_compound(bytes);
   if (!compound.problem.empty()) return fail(path, compound.problem, json);
   say(path, compound, json);
@@ -165,14 +160,17 @@ bool describe_compound_file(const std::string& path, bool json) {
 }
 
 bool cook_mesh_file(const MeshRequest& request, bool json, const detent_cook::CookProgress& progress) {
-  std::vector<uint8_t> text;
-  if (!read_file(request.input, text, SIZE_MAX)) return fail(request.input, "cannot be read", json);
-  const detent_cook::MeshRead read =
-      detent_cook::read_mesh_file(request.input, {reinterpret_cast<const char*>(text.data()), text.size()}, progress);
+  Source source;
+  if (!source.read(request.input, json)) return false;
+  const detent_cook::MeshRead read = detent_cook::read_mesh_file(request.input, source.text, progress);
   if (!read.problem.empty()) return fail(request.input, read.problem, json);
+  for (const std::string& buffer : read.buffers) {
+    if (is_same_file(buffer, request.output)) return fail(request.output, "is read, and would be written over", json);
+  }
   const detent_cook::MeshResult result = detent_cook::cook_mesh(read.mesh, request.options, progress);
   if (result.bytes.empty()) return fail(request.input, result.reason, json);
-  if (!write_file(request.output, result.bytes)) return fail(request.output, "cannot be written", json);
+  if (const std::string problem = write_file(request.output, result.bytes); !problem.empty())
+    return fail(request.output, problem, json);
 
   const detent_cook::SurfaceDescription surface = detent_cook::describe_surface(result.bytes);
   if (json) {
@@ -193,15 +191,15 @@ bool cook_mesh_file(const MeshRequest& request, bool json, const detent_cook::Co
 }
 
 bool cook_height_field_file(const HeightFieldRequest& request, bool json) {
-  std::vector<uint8_t> picture;
-  if (!read_file(request.input, picture, SIZE_MAX)) return fail(request.input, "cannot be read", json);
-  detent_cook::HeightsRead read = detent_cook::read_pgm({reinterpret_cast<const char*>(picture.data()), picture.size()},
-                                                        request.spacing, request.height);
+  Source source;
+  if (!source.read(request.input, json)) return false;
+  detent_cook::HeightsRead read = detent_cook::read_pgm(source.text, request.spacing, request.height);
   if (!read.problem.empty()) return fail(request.input, read.problem, json);
   read.field.one_sided = request.one_sided;
   const detent_cook::HeightFieldResult result = detent_cook::cook_height_field(read.field);
   if (result.bytes.empty()) return fail(request.input, result.reason, json);
-  if (!write_file(request.output, result.bytes)) return fail(request.output, "cannot be written", json);
+  if (const std::string problem = write_file(request.output, result.bytes); !problem.empty())
+    return fail(request.output, problem, json);
 
   const detent_cook::SurfaceDescription surface = detent_cook::describe_surface(result.bytes);
   if (json) {
@@ -216,14 +214,9 @@ bool cook_height_field_file(const HeightFieldRequest& request, bool json) {
   return true;
 }
 
-bool is_surface_file(const std::string& path) {
-  std::vector<uint8_t> bytes;
-  return read_file(path, bytes, 1) && detent_cook::is_surface(bytes);
-}
-
 bool describe_surface_file(const std::string& path, bool json) {
   std::vector<uint8_t> bytes;
-  if (!read_file(path, bytes, UINT32_MAX)) return fail(path, "cannot be read", json);
+  if (const std::string problem = read_file(path, bytes); !problem.empty()) return fail(path, problem, json);
   const detent_cook::SurfaceDescription surface = detent_cook::describe_surface(bytes);
   if (!surface.problem.empty()) return fail(path, surface.problem, json);
   if (json) {
@@ -236,14 +229,14 @@ bool describe_surface_file(const std::string& path, bool json) {
 }
 
 bool cook_file(const CookRequest& request, bool json) {
-  std::vector<uint8_t> text;
-  if (!read_file(request.input, text, SIZE_MAX)) return fail(request.input, "cannot be read", json);
-  const detent_cook::PointsRead read =
-      detent_cook::read_points(request.input, {reinterpret_cast<const char*>(text.data()), text.size()}, request.index);
+  Source source;
+  if (!source.read(request.input, json)) return false;
+  const detent_cook::PointsRead read = detent_cook::read_points(request.input, source.text, request.index);
   if (!read.problem.empty()) return fail(request.input, read.problem, json);
   const detent_cook::CookResult result = detent_cook::cook_hull(read.points, request.options);
   if (result.bytes.empty()) return fail(request.input, result.reason, json);
-  if (!write_file(request.output, result.bytes)) return fail(request.output, "cannot be written", json);
+  if (const std::string problem = write_file(request.output, result.bytes); !problem.empty())
+    return fail(request.output, problem, json);
 
   const detent_cook::HullDescription hull = detent_cook::describe_hull(result.bytes);
   if (json) {
@@ -265,14 +258,9 @@ bool cook_file(const CookRequest& request, bool json) {
   return true;
 }
 
-bool is_hull_file(const std::string& path) {
-  std::vector<uint8_t> bytes;
-  return read_file(path, bytes, 1) && detent_cook::is_hull(bytes);
-}
-
 bool describe_hull_file(const std::string& path, bool json) {
   std::vector<uint8_t> bytes;
-  if (!read_file(path, bytes, size_t{1} << 20)) return fail(path, "cannot be read", json);
+  if (const std::string problem = read_file(path, bytes); !problem.empty()) return fail(path, problem, json);
   const detent_cook::HullDescription hull = detent_cook::describe_hull(bytes);
   if (!hull.problem.empty()) return fail(path, hull.problem, json);
   if (json) {

@@ -12,8 +12,8 @@ struct CookRequest {
   detent_cook::CookOptions options;
 };
 
-/// Reads the points, cooks them, writes the .hull and says what it is. False if any of that failed; nothing is then
-/// written but a line to standard error.
+/// Reads the points, cooks them, writes the .hull and says what it is. False if any of that failed: then there is a
+/// line on standard error, and the output's file stays as it was.
 bool cook_file(const CookRequest& request, bool json);
 
 struct MeshRequest {
@@ -36,21 +36,15 @@ struct HeightFieldRequest {
 /// Reads the picture, cooks it, writes the .field and says what it is. False as for cook_file().
 bool cook_height_field_file(const HeightFieldRequest& request, bool json);
 
-/// Whether the file begins as a .mesh or .field does.
-bool is_surface_file(const std::string& path);
 /// Says what the .mesh or .field holds. False if the library refuses it.
 bool describe_surface_file(const std::string& path, bool json);
 
 /// Reads the parts, cooks them, writes the .compound and says what it is. False as for cook_file().
 bool cook_compound_file(const std::string& input, const std::string& output, bool json);
 
-/// Whether the file begins as a .compound does.
-bool is_compound_file(const std::string& path);
 /// Says what the .compound holds. False if the library refuses it.
 bool describe_compound_file(const std::string& path, bool json);
 
-/// Whether the file begins as a .hull does.
-bool is_hull_file(const std::string& path);
 /// Says what the .hull holds. False if the library refuses it.
 bool describe_hull_file(const std::string& path, bool json);
 

@@ -52,11 +52,6 @@ CompoundDescription describe_compound(const std::vector<uint8_t>& bytes) {
   return description;
 }
 
-bool is_compound(const std::vector<uint8_t>& bytes) {
-  return bytes.size() >= sizeof detent::k_compound_magic &&
-         memcmp(bytes.data(), detent::k_compound_magic, sizeof detent::k_compound_magic) == 0;
-}
-
 SurfaceDescription describe_surface(const std::vector<uint8_t>& bytes) {
   SurfaceDescription description;
   std::vector<uint64_t> aligned(bytes.size() / 8 + 1);
@@ -99,17 +94,6 @@ SurfaceDescription describe_surface(const std::vector<uint8_t>& bytes) {
   description.low = metres(box.low);
   description.high = metres(box.high);
   return description;
-}
-
-bool is_surface(const std::vector<uint8_t>& bytes) {
-  return bytes.size() >= sizeof detent::k_mesh_magic &&
-         (memcmp(bytes.data(), detent::k_mesh_magic, sizeof detent::k_mesh_magic) == 0 ||
-          memcmp(bytes.data(), detent::k_height_field_magic, sizeof detent::k_height_field_magic) == 0);
-}
-
-bool is_hull(const std::vector<uint8_t>& bytes) {
-  return bytes.size() >= sizeof detent::k_hull_magic &&
-         memcmp(bytes.data(), detent::k_hull_magic, sizeof detent::k_hull_magic) == 0;
 }
 
 }  // namespace detent_cook

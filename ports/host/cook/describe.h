@@ -36,9 +36,6 @@ struct CompoundDescription {
 /// Describes the bytes of a file, after the library's every check.
 CompoundDescription describe_compound(const std::vector<uint8_t>& bytes);
 
-/// Whether the bytes begin as a .compound does.
-bool is_compound(const std::vector<uint8_t>& bytes);
-
 /// What the library reads from a .mesh or a .field.
 struct SurfaceDescription {
   std::string problem{};  ///< why the library refuses it; empty if it does not
@@ -54,11 +51,5 @@ struct SurfaceDescription {
 
 /// Describes the bytes of a file, after the library's every check.
 SurfaceDescription describe_surface(const std::vector<uint8_t>& bytes);
-
-/// Whether the bytes begin as a .mesh or .field does.
-bool is_surface(const std::vector<uint8_t>& bytes);
-
-/// Whether the bytes begin as a .hull does.
-bool is_hull(const std::vector<uint8_t>& bytes);
 
 }  // namespace detent_cook

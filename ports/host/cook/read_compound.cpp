@@ -5,6 +5,9 @@
 namespace detent_cook {
 namespace {
 
+constexpr size_t k_corners_max = size_t{1} << 24;  ///< of a hull's faces
+constexpr size_t k_parts_max = size_t{1} << 16;    ///< far more than are cooked
+
 /// `count` numbers and no more; or, if `optional`, none at all.
 std::string read_numbers(std::string_view& line, double* numbers, size_t count, bool optional = false) {
   for (size_t i = 0; i < count; ++i) {
@@ -22,6 +25,7 @@ class Reader {
     for (size_t number = 1; !text.empty(); ++number) {
       std::string_view line = next_line(text);
       std::string problem = take(line);
+      if (parts_.size() > k_parts_max) problem = "more parts than can be cooked";
       if (!problem.empty()) return {{}, at_line(number, problem)};
     }
     end_hull();
@@ -52,6 +56,7 @@ class Reader {
     for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) {
       uint32_t index = 0;
       if (!index_from(word, vertices_.size(), index)) return quoted(word) + " names no vertex before this line";
+      if (hull_.size() == k_corners_max) return "more corners than can be cooked";
       hull_.push_back(vertices_[index]);
     }
     return {};

@@ -5,14 +5,13 @@
 #include <string.h>
 #include <tiny_gltf.h>
 
+#include "../detent/file.h"
 #include "read_mesh.h"
 
 namespace detent_cook {
 namespace {
 
 constexpr int k_depth_max = 64;
-constexpr size_t k_vertices_max = size_t{1}
-                                  << 24;  ///< before those are left out that are not cooked; triangles likewise
 
 /// Columns, as in glTF.
 using Transform = std::array<double, 16>;
@@ -127,7 +126,7 @@ class Reader {
     if (points.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT || points.type != TINYGLTF_TYPE_VEC3) {
       return fail("positions that are not three floats");
     }
-    if (points.count > k_vertices_max - result.mesh.vertices.size()) return fail("more vertices than can be cooked");
+    if (points.count > k_mesh_source_max - result.mesh.vertices.size()) return fail("more vertices than can be cooked");
     const auto base = static_cast<uint32_t>(result.mesh.vertices.size());
     for (size_t i = 0; i < points.count; ++i) {
       const unsigned char* bytes = element(points, i, 3 * sizeof(float));
@@ -145,7 +144,7 @@ class Reader {
       return fail("indices that are missing");
     const tinygltf::Accessor& indices =
         model_.accessors[static_cast<size_t>(indexed ? primitive.indices : position->second)];
-    if (indices.count / 3 > k_vertices_max - result.mesh.triangles.size()) {
+    if (indices.count / 3 > k_mesh_source_max - result.mesh.triangles.size()) {
       return fail("more triangles than can be cooked");
     }
     const auto material = static_cast<uint8_t>(primitive.material < 0 ? 0 : primitive.material & 255);
@@ -186,25 +185,47 @@ bool no_image(tinygltf::Image*, const int, std::string*, std::string*, int, int,
   return true;
 }
 
+/// The buffers that lie in files of their own.
+struct Buffers {
+  std::vector<std::string> paths;
+  uint64_t bytes_left = detent_tool::k_whole_file_bytes_max;  ///< of all of them, for a glTF may name one file often
+};
+
+bool read_buffer(std::vector<unsigned char>* bytes, std::string* problem, const std::string& path, void* context) {
+  Buffers& buffers = *static_cast<Buffers*>(context);
+  *problem = detent_tool::read_file(path, *bytes, buffers.bytes_left);
+  if (!problem->empty()) return false;
+  buffers.paths.push_back(path);
+  buffers.bytes_left -= bytes->size();
+  return true;
+}
+
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 }  // namespace
 
 const bool k_reads_gltf = true;
 
-MeshRead read_gltf_mesh(const std::string& path) {
+MeshRead read_gltf_mesh(const std::string& path, std::string_view bytes) {
+  Buffers buffers;
   tinygltf::TinyGLTF loader;
   loader.SetImageLoader(no_image, nullptr);
+  loader.SetFsCallbacks({tinygltf::FileExists, tinygltf::ExpandFilePath, read_buffer, nullptr, &buffers});
   tinygltf::Model model;
   std::string error, warning;
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  const auto count = static_cast<unsigned int>(bytes.size());
   const bool binary = path.size() >= 4 && path.compare(path.size() - 4, 4, ".glb") == 0;
-  const bool loaded = binary ? loader.LoadBinaryFromFile(&model, &error, &warning, path)
-                             : loader.LoadASCIIFromFile(&model, &error, &warning, path);
+  const bool loaded =
+      binary ? loader.LoadBinaryFromMemory(&model, &error, &warning,
+                                           reinterpret_cast<const unsigned char*>(bytes.data()), count, folder)
+             : loader.LoadASCIIFromString(&model, &error, &warning, bytes.data(), count, folder);
   if (!loaded) return {{}, "this is no glTF that can be read: " + first_line(error)};
   Reader reader(model);
   reader.add_scene();
-  if (!reader.result.problem.empty()) return {{}, reader.result.problem};
-  if (reader.result.mesh.triangles.empty()) return {{}, "the glTF's scene has no triangles"};
+  reader.result.buffers = std::move(buffers.paths);
+  if (reader.result.problem.empty() && reader.result.mesh.triangles.empty())
+    reader.result.problem = "the glTF's scene has no triangles";
   return reader.result;
 }
 

@@ -18,6 +18,7 @@ std::string read_face(std::string_view& line, uint8_t material, MeshSource& mesh
     uint32_t index = 0;
     if (!index_from(word, mesh.vertices.size(), index)) return quoted(word) + " names no vertex before this line";
     corners.push_back(index);
+    if (mesh.triangles.size() + corners.size() > k_mesh_source_max + 2) return "more triangles than can be cooked";
   }
   if (corners.size() < 3) return "a face needs three vertices";
   for (size_t k = 2; k < corners.size(); ++k) {
@@ -41,6 +42,7 @@ MeshRead read_obj_mesh(std::string_view text, const CookProgress& progress) {
     if (kind == "v") {
       Point point{};
       problem = read_vertex(line, point);
+      if (result.mesh.vertices.size() == k_mesh_source_max) problem = "more vertices than can be cooked";
       result.mesh.vertices.push_back(point);
     } else if (kind == "f") {
       problem = read_face(line, material, result.mesh);
@@ -58,14 +60,14 @@ MeshRead read_obj_mesh(std::string_view text, const CookProgress& progress) {
 }
 
 MeshRead read_mesh_file(const std::string& path, std::string_view bytes, const CookProgress& progress) {
-  if (ends_with(path, ".gltf") || ends_with(path, ".glb")) return read_gltf_mesh(path);
+  if (ends_with(path, ".gltf") || ends_with(path, ".glb")) return read_gltf_mesh(path, bytes);
   return read_obj_mesh(bytes, progress);
 }
 
 #if !DETENT_HAS_GLTF
 const bool k_reads_gltf = false;
 
-MeshRead read_gltf_mesh(const std::string&) {
+MeshRead read_gltf_mesh(const std::string&, std::string_view) {
   return {{}, "glTF is not read by this build: it was made without tinygltf (Debian: libtinygltf-dev)"};
 }
 #endif

@@ -43,7 +43,7 @@ Outcome record(const RecordRequest& request, const Progress& progress) {
     status = recorder.status();
   }
   status = recorder.end();
-  if (!output->close() || status != Status::ok) return failed("cannot be written");
+  if (status != Status::ok || !output->close()) return failed(with_reason("cannot be written"));
 
   RecordingInfo info;
   info.format_version = k_recording_format_version;
@@ -54,7 +54,7 @@ Outcome record(const RecordRequest& request, const Progress& progress) {
   info.snapshot_bytes = snapshot_bytes(info.capacity);
   outcome.header_known = true;
   outcome.header = header_of(info);
-  outcome.file_bytes = file_bytes(request.path);
+  outcome.file_bytes = output->file_bytes;
   outcome.ticks = ticks;
   outcome.digests = request.digest_interval == 0 ? 0 : ticks / request.digest_interval;
   outcome.digest = digest(owned.world);
@@ -79,6 +79,7 @@ Engine engine() {
   return {DETENT_TOOL_TEXT(DETENT_NAMESPACE),
           k_recording_format_version,
           k_simulation_version,
+          kind_of,
           scene_lines,
           record,
           verify,

@@ -76,13 +76,34 @@ struct RecordRequest {
   bool compressed = false;
 };
 
-/// The bytes of cooked files, at addresses that are multiples of 8.
+/// What a file is by its first bytes.
+enum class FileKind : uint32_t {
+  other,
+  recording,
+  snapshot,
+  hull,
+  compound,
+  mesh,
+  height_field
+};  // cooked from hull on
+inline constexpr uint32_t k_file_kind_bytes = 8;
+/// What to say of a file that is not what was asked for: "is a cooked hull, not " and what `wanted` names.
+inline std::string is_not(FileKind kind, const std::string& wanted) {
+  constexpr const char* k_texts[] = {
+      "", "a recording", "a snapshot", "a cooked hull", "a cooked compound", "a cooked mesh", "a cooked height field"};
+  if (kind == FileKind::other) return "is not " + wanted;
+  return std::string("is ") + k_texts[static_cast<uint32_t>(kind)] + ", not " + wanted;
+}
+
+/// The bytes of a cooked file, at addresses that are multiples of 8.
 struct AssetBytes {
   std::vector<uint64_t> words;
   uint32_t byte_count = 0;
+  FileKind kind = FileKind::other;
 };
 using Assets = std::vector<AssetBytes>;
-bool read_asset(const std::string& path, AssetBytes& asset);
+/// What went wrong, or nothing. A file that is not cooked is wrong.
+std::string read_asset(const std::string& path, AssetBytes& asset);
 
 struct ObjectInfo;
 struct RunLine;
@@ -127,6 +148,7 @@ struct Engine {
   const char* config;
   uint32_t format_version;
   uint32_t simulation_version;
+  FileKind (*kind_of)(const uint8_t* bytes, uint32_t count);
   std::vector<SceneLine> (*scenes)();
   Outcome (*record)(const RecordRequest& request, const Progress& progress);
   Outcome (*verify)(const ReadRequest& request, const Progress& progress);
@@ -150,5 +172,10 @@ struct Engine {
 
 /// The engines of this build, in the order fx64, fx32, f32, f64.
 const std::vector<Engine>& engines();
+
+/// Of all bytes of a file, or the first ones.
+FileKind kind_of(const std::vector<uint8_t>& bytes);
+/// `other` also of a file that cannot be read.
+FileKind kind_of_file(const std::string& path);
 
 }  // namespace detent_tool

@@ -1,6 +1,7 @@
 #include <stdio.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "command.h"
 #include "file.h"
@@ -8,7 +9,9 @@
 #include "release.h"
 #include "report.h"
 #include "run.h"
+#include "scene_words.h"
 #include "stream.h"
+#include "text.h"
 #include "verification.h"
 
 namespace {
@@ -45,16 +48,28 @@ int run_record(const RecordRequest& request, const std::string& config, const Re
 bool read_assets(const std::vector<std::string>& paths, Assets& assets) {
   for (const std::string& path : paths) {
     assets.push_back({});
-    if (read_asset(path, assets.back())) continue;
-    fprintf(stderr, "%s: cannot be read\n", path.c_str());
+    const std::string problem = read_asset(path, assets.back());
+    if (problem.empty()) continue;
+    fprintf(stderr, "%s\n", printable(path + ": " + problem).c_str());
     return false;
   }
   return true;
 }
 
+/// Whether the output is one of the files that are read, by whatever name; then there is a line on standard error.
+bool overwrites(const std::string& output, const std::vector<std::string>& inputs) {
+  for (const std::string& input : inputs) {
+    if (!is_same_file(input, output)) continue;
+    fprintf(stderr, "%s\n", printable(output + ": is read, and would be written over").c_str());
+    return true;
+  }
+  return false;
+}
+
 int run_verify(VerificationRequest& request, const Report& report) {
   if (!read_assets(request.asset_paths, request.reading.assets)) return k_exit_bad;
-  return verify_all(request, report) ? k_exit_good : k_exit_bad;
+  const Verification result = verify_all(request, report);
+  return result == Verification::good ? k_exit_good : result == Verification::bad ? k_exit_bad : k_exit_usage;
 }
 
 int run_state(ReadRequest request, const std::vector<std::string>& asset_paths, const Report& report) {
@@ -67,12 +82,8 @@ int run_state(ReadRequest request, const std::vector<std::string>& asset_paths, 
 
 int run_recover(ReadRequest request, const std::string& output, const std::vector<std::string>& asset_paths,
                 const Report& report) {
+  if (overwrites(output, {request.path}) || overwrites(output, asset_paths)) return k_exit_usage;
   if (!read_assets(asset_paths, request.assets)) return k_exit_bad;
-  std::error_code error;
-  if (std::filesystem::equivalent(request.path, output, error)) {
-    fprintf(stderr, "%s: would be written over\n", output.c_str());
-    return k_exit_usage;
-  }
   Outcome outcome;
   {
     ProgressBar bar(request.path);
@@ -85,12 +96,9 @@ int run_recover(ReadRequest request, const std::string& output, const std::vecto
 }
 
 int run_trace(TraceRequest request, uint32_t level, const std::vector<std::string>& asset_paths, const Report& report) {
-  if (!read_assets(asset_paths, request.reading.assets)) return k_exit_bad;
-  std::error_code error;
-  if (std::filesystem::equivalent(request.reading.path, request.output, error)) {
-    fprintf(stderr, "%s: would be written over\n", request.output.c_str());
+  if (overwrites(request.output, {request.reading.path}) || overwrites(request.output, asset_paths))
     return k_exit_usage;
-  }
+  if (!read_assets(asset_paths, request.reading.assets)) return k_exit_bad;
   request.full = level == 2;
   Outcome outcome;
   {
@@ -119,7 +127,13 @@ int run_compress(const std::vector<std::string>& paths, const Report& report) {
   int code = k_exit_good;
   for (const std::string& path : paths) {
     const std::string output = path + k_compressed_suffix;
-    const std::string problem = versions_of(path) ? compress(path, output) : "is no recording";
+    if (overwrites(output, {path})) {
+      code = k_exit_usage;
+      continue;
+    }
+    std::string problem;
+    if (Input::open(path, problem) != nullptr)
+      problem = versions_of(path) ? compress(path, output) : is_not(kind_of_file(path), "a recording");
     if (problem.empty())
       report.compressed(path, output, file_bytes(path), file_bytes(output));
     else
@@ -131,16 +145,12 @@ int run_compress(const std::vector<std::string>& paths, const Report& report) {
 int run_info(const std::vector<std::string>& paths, const Report& report) {
   int code = k_exit_good;
   for (const std::string& path : paths) {
-    if (is_hull_file(path)) {
-      if (!describe_hull_file(path, report.json)) code = k_exit_bad;
-      continue;
-    }
-    if (is_compound_file(path)) {
-      if (!describe_compound_file(path, report.json)) code = k_exit_bad;
-      continue;
-    }
-    if (is_surface_file(path)) {
-      if (!describe_surface_file(path, report.json)) code = k_exit_bad;
+    const FileKind kind = kind_of_file(path);
+    if (kind >= FileKind::hull) {
+      const auto describe = kind == FileKind::hull       ? describe_hull_file
+                            : kind == FileKind::compound ? describe_compound_file
+                                                         : describe_surface_file;
+      if (!describe(path, report.json)) code = k_exit_bad;
       continue;
     }
     Outcome outcome;
@@ -158,6 +168,7 @@ int run_info(const std::vector<std::string>& paths, const Report& report) {
 }
 
 int run_scene(RunCommand& command, const std::vector<std::string>& prints) {
+  if (overwrites(command.request.recording, {command.path})) return k_exit_usage;
   for (const std::string& print : prints) {
     RunPrints& wanted = command.request.prints;
     (print == "bodies"    ? wanted.bodies
@@ -175,14 +186,27 @@ int run_cook_mesh(const MeshRequest& request, const Report& report) {
   return good ? k_exit_good : k_exit_bad;
 }
 
+/// What is wrong with the first word, which is to be a sub-command; or nothing.
+std::string command_problem(const CLI::App& app, int argc, char** argv) {
+  const std::string word = argc > 1 ? argv[1] : "";
+  if (!word.empty() && word[0] == '-')
+    return app.get_option_no_throw(word) != nullptr ? "" : "there is no option '" + word + "' before a sub-command";
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  if (std::find(names.begin(), names.end(), word) != names.end()) return "";
+  const std::string all = suggestion("", names), hint = suggestion(word, names);
+  if (word.empty()) return "no sub-command is named" + all;
+  const std::string text = "there is no sub-command '" + word + "'" + hint;
+  return hint == all ? text : text + " (" + all.substr(2) + ")";
+}
+
 int run_scenes(const Report& report) {
   for (const SceneLine& line : engines().front().scenes()) report.scene(line);
   return k_exit_good;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+/// The exit code.
+int run_command(int argc, char** argv) {
   CLI::App app(
       "Records, verifies and describes recordings of the Detent physics library, plays scenes, and cooks hulls and "
       "meshes for it.\n"
@@ -203,11 +227,12 @@ int main(int argc, char** argv) {
   record->add_option("scene", request.scene, "The scene's name (see: detent scenes)")
       ->required()
       ->check(CLI::IsMember(scene_names));
-  record->add_option("-o,--output", request.path, "The file to write; SCENE.rec if it is not given");
+  record->add_option("-o,--output", request.path,
+                     "The file to write, -: standard output; SCENE.rec if it is not given");
   record->add_option("--config", config, "The math configuration")
       ->check(CLI::IsMember(configs))
       ->capture_default_str();
-  record->add_option("--ticks", request.ticks, "Its length; the scene's own if it is not given")
+  record->add_option("--ticks", request.ticks, "How many to run; the scene's own length if it is not given")
       ->check(CLI::Range(1u, 1000000000u));
   record
       ->add_option("--digest-interval", request.digest_interval,
@@ -233,18 +258,21 @@ int main(int argc, char** argv) {
   verify->add_option("file", verifying.paths, "Recordings, and folders of *.rec and *.rec.zst");
   verify->add_option("--list", verifying.list, "A file with the path of a recording a line; -: standard input");
   verify->add_option("--resume", verifying.log, "Pass over the files that this log of an earlier --json run has");
-  verify->add_option("--jobs", verifying.jobs, "So many files at a time")
+  verify->add_option("--jobs", verifying.jobs, "How many files to verify at the same time")
       ->check(CLI::Range(1u, 1024u))
       ->capture_default_str();
-  verify->add_option("--from", verifying.reading.from, "Only what comes after this tick");
-  verify->add_option("--to", verifying.reading.to, "Only up to this tick");
+  verify->add_option("--from", verifying.reading.from, "Only what comes after this tick")
+      ->check(CLI::NonNegativeNumber);
+  verify->add_option("--to", verifying.reading.to, "Only up to this tick")->check(CLI::NonNegativeNumber);
   add_assets(verify, verifying.asset_paths);
 
   ReadRequest reading;
   std::vector<std::string> asset_paths;
   CLI::App* state = app.add_subcommand("state", "Print the bodies of a recording after a tick");
   state->add_option("file", reading.path, "A recording")->required();
-  state->add_option("--tick", reading.to, "How many ticks the world has completed")->required();
+  state->add_option("--tick", reading.to, "How many ticks the world has completed")
+      ->required()
+      ->check(CLI::NonNegativeNumber);
   add_assets(state, asset_paths);
   std::string output;
   CLI::App* recover = app.add_subcommand("recover", "Write what is whole of a cut recording as a recording");
@@ -273,8 +301,8 @@ int main(int argc, char** argv) {
       ->add_option("--level", trace_level, "1: digests of each body, contact and joint after each stage; 2: all fields")
       ->check(CLI::Range(1u, 2u))
       ->capture_default_str();
-  trace->add_option("--from", tracing.reading.from, "The first tick")->required();
-  trace->add_option("--to", tracing.reading.to, "The last tick")->required();
+  trace->add_option("--from", tracing.reading.from, "The first tick")->required()->check(CLI::NonNegativeNumber);
+  trace->add_option("--to", tracing.reading.to, "The last tick")->required()->check(CLI::NonNegativeNumber);
   add_assets(trace, asset_paths);
 
   CLI::App* info = app.add_subcommand(
@@ -298,29 +326,31 @@ int main(int argc, char** argv) {
           "input", cooking.input,
           "An OBJ; clouds of points, by a name that ends in .bin; a mesh also as .gltf or .glb; heights as .pgm")
       ->required();
-  cook->add_option("output", cooking.output, "The .hull, .compound, .mesh or .field to write")->required();
+  cook->add_option("output", cooking.output, "The .hull, .compound, .mesh or .field to write; -: standard output")
+      ->required();
   bool one_sided = false;
-  cook->add_flag("--one-sided", one_sided, "Of a mesh: met only from the side that sees its faces counter-clockwise");
+  cook->add_flag("--one-sided", one_sided,
+                 "Mesh: bodies touch only the side from which its faces are counter-clockwise");
   bool two_sided = false;
   HeightFieldRequest heights;
-  cook->add_flag("--two-sided", two_sided, "Of a height field: met from below, too");
-  cook->add_option("--spacing", heights.spacing, "Of a height field: from sample to sample, m")
+  cook->add_flag("--two-sided", two_sided, "Height field: bodies touch its lower side, too");
+  cook->add_option("--spacing", heights.spacing, "Height field: distance between samples, m")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  cook->add_option("--height", heights.height, "Of a height field: of the brightest pixel, m")->capture_default_str();
+  cook->add_option("--height", heights.height, "Height field: height of the brightest pixel, m")->capture_default_str();
   cook->add_option(
           "--frame", frame,
           "principal: for bodies, about the centre of mass along the principal axes; source: as the points are")
       ->check(CLI::IsMember({"principal", "source"}))
       ->capture_default_str();
-  cook->add_option("--weld", cooking.options.weld, "Leave out a point this near to another, m")
+  cook->add_option("--weld", cooking.options.weld, "Leave out a point that is at most this far from another, m")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  cook->add_option("--vertices", cooking.options.vertex_limit, "Reduce the hull to so many vertices")
+  cook->add_option("--vertices", cooking.options.vertex_limit, "Hull: the most vertices; one of more is reduced")
       ->check(CLI::Range(4u, 255u))
       ->capture_default_str();
-  cook->add_flag("--exact", refuse_more, "Refuse a hull of more vertices, instead of reducing it");
-  cook->add_option("--index", cooking.index, "Which of the clouds of a .bin, from 0 on")->capture_default_str();
+  cook->add_flag("--exact", refuse_more, "Hull: refuse one of more vertices, instead of reducing it");
+  cook->add_option("--index", cooking.index, "Hull: which of the clouds of a .bin, from 0 on")->capture_default_str();
 
   RunCommand running;
   running.config = configs.front();
@@ -332,9 +362,10 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember(configs))
       ->capture_default_str();
   CLI::Option* run_ticks =
-      run->add_option("--ticks", running.request.ticks, "Its length; the scene's own if it is not given")
+      run->add_option("--ticks", running.request.ticks, "How many to run; the scene's own length if it is not given")
           ->check(CLI::Range(0u, 1000000000u));
-  run->add_option("-r,--record", running.request.recording, "Write its recording to this file");
+  run->add_option("-r,--record", running.request.recording,
+                  "Write its recording to this file; compressed if its name ends in .zst");
   run->add_option("--digest-interval", running.request.digest_interval,
                   "Record a digest every so many ticks; 0: only at the end")
       ->capture_default_str();
@@ -347,9 +378,17 @@ int main(int argc, char** argv) {
   run->add_flag("--fields", fields, "Print the tables of docs/scene.md, and nothing else");
 
   for (CLI::App* command : {record, verify, state, recover, compress, diff, trace, info, scenes, cook, run}) {
-    command->add_flag("--json", report.json, "One JSON object a file, each on one line");
+    command->add_flag("--json", report.json, "Print one JSON object per file, each on one line");
   }
 
+  // A short line is more use than the parser's two.
+  app.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return "detent: " + printable(error.what()) + " (see: detent --help)\n";
+  });
+  if (const std::string problem = command_problem(app, argc, argv); !problem.empty()) {
+    fprintf(stderr, "detent: %s\n", printable(problem).c_str());
+    return k_exit_usage;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -379,7 +418,7 @@ int main(int argc, char** argv) {
     return k_exit_good;
   }
   if (run->parsed() && running.path.empty()) {
-    fprintf(stderr, "detent run: which scene?\n");
+    fputs("run: no scene is named\n", stderr);
     return k_exit_usage;
   }
   if (run->parsed()) {
@@ -387,6 +426,7 @@ int main(int argc, char** argv) {
     running.request.ticks_given = run_ticks->count() != 0;
     return run_scene(running, prints);
   }
+  if (cook->parsed() && overwrites(cooking.output, {cooking.input})) return k_exit_usage;
   if (cook->parsed() && kind == "mesh") {
     return run_cook_mesh({cooking.input, cooking.output, {cooking.options.weld, one_sided}}, report);
   }
@@ -404,4 +444,13 @@ int main(int argc, char** argv) {
     return cook_file(cooking, report.json) ? k_exit_good : k_exit_bad;
   }
   return run_scenes(report);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int code = run_command(argc, argv);
+  if (fflush(stdout) == 0 && ferror(stdout) == 0) return code;
+  fprintf(stderr, "detent: %s\n", with_reason("standard output cannot be written").c_str());
+  return code == k_exit_good ? k_exit_bad : code;
 }

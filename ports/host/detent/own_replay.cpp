@@ -155,15 +155,19 @@ Outcome trace(const TraceRequest& request, const Progress& progress) {
   const TraceLevel level = request.full ? TraceLevel::full : TraceLevel::stages;
   const TraceDef def = {level, request.reading.from, request.reading.to};
   const TraceMade made = trace_to(recorded, request.reading.assets, def, sink_of(*output), progress);
-  const bool written = output->close();
   Outcome outcome;
-  if (!made.problem.empty()) outcome = failed(made.problem);
-  if (!written) outcome = failed(request.output + " cannot be written");
+  if (!made.problem.empty()) {
+    outcome = failed(made.problem);
+  } else if (made.last < def.to) {
+    outcome = failed("has no tick " + std::to_string(def.to));
+  } else if (!output->close()) {
+    outcome = failed(with_reason(request.output + " cannot be written"));
+  }
   outcome.ticks = made.ticks;
   outcome.tick = made.last;
   outcome.first_bad_tick = made.first_other;
   outcome.digest = made.digest;
-  outcome.file_bytes = file_bytes(request.output);
+  outcome.file_bytes = output->file_bytes;
   return outcome;
 }
 

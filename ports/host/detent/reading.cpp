@@ -1,12 +1,18 @@
 #include "reading.h"
 
 #include <detent/convert.h>
+#include <string.h>
 
 #include "file.h"
+#include "geometry/compound.h"
+#include "geometry/height_field.h"
+#include "geometry/hull.h"
+#include "geometry/mesh.h"
 #include "ports/config_text.h"
 #include "replay/format.h"
 #include "tests/scenes/scene.h"
 #include "text.h"
+#include "world/view.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -174,7 +180,8 @@ BodyLine line_of(const World& world, BodyId id) {
 }
 
 /// The first `count` bytes of a recording and an end behind them. What went wrong, or nothing.
-std::string copy(const std::string& from, uint64_t count, const std::vector<uint8_t>& end, const std::string& to) {
+std::string copy(const std::string& from, uint64_t count, const std::vector<uint8_t>& end, const std::string& to,
+                 uint64_t& bytes_written) {
   std::string problem;
   const std::unique_ptr<Input> input = Input::open(from, problem);
   if (input == nullptr) return problem;
@@ -188,8 +195,9 @@ std::string copy(const std::string& from, uint64_t count, const std::vector<uint
     good = input->read(piece, asked, got) && got == asked && output->write(piece, got);
     count -= got;
   }
-  good = good && (end.empty() || output->write(end.data(), static_cast<uint32_t>(end.size())));
-  return output->close() && good ? "" : to + " cannot be written";
+  good = good && output->write(end.data(), static_cast<uint32_t>(end.size())) && output->close();
+  bytes_written = output->file_bytes;
+  return good ? "" : with_reason(to + " cannot be written");
 }
 
 }  // namespace
@@ -203,7 +211,34 @@ Sink sink_of(Output& output) {
 
 Source source_of(Input& input) { return {read_input, &input, seek_input}; }
 
-std::string problem_text(const ReplayError& error, const Input& input) {
+FileKind kind_of(const uint8_t* bytes, uint32_t count) {
+  uint8_t snapshot[4];
+  for (uint32_t i = 0; i < 4; ++i) snapshot[i] = static_cast<uint8_t>(k_snapshot_magic >> (8 * i));
+  const struct {
+    const uint8_t* magic;
+    uint32_t bytes;
+    FileKind kind;
+  } kinds[] = {{k_recording_magic, sizeof k_recording_magic, FileKind::recording},
+               {k_hull_magic, sizeof k_hull_magic, FileKind::hull},
+               {k_compound_magic, sizeof k_compound_magic, FileKind::compound},
+               {k_mesh_magic, sizeof k_mesh_magic, FileKind::mesh},
+               {k_height_field_magic, sizeof k_height_field_magic, FileKind::height_field},
+               {snapshot, sizeof snapshot, FileKind::snapshot}};
+  for (const auto& each : kinds) {
+    if (count >= each.bytes && memcmp(bytes, each.magic, each.bytes) == 0) return each.kind;
+  }
+  return FileKind::other;
+}
+
+std::string problem_text(const ReplayError& error, Input& input) {
+  uint8_t start[k_file_kind_bytes];
+  uint32_t got = 0;
+  if (error.field == std::string("magic") && error.status != Status::sink_failed && input.seek(0) &&
+      input.read(start, sizeof start, got) && (got != 0 || input.file_bytes == 0)) {
+    const FileKind kind = kind_of(start, got);
+    const std::string text = got == 0 ? "is empty, not a recording" : is_not(kind, "a recording");
+    return kind == FileKind::other ? text + " (no magic number)" : text;
+  }
   std::string text = status_text(error.status);
   text += " at byte " + std::to_string(error.offset) + ", tick " + std::to_string(error.tick) + ": " + error.field;
   if (!input.problem.empty()) text += " (" + input.problem + ")";
@@ -291,12 +326,11 @@ Outcome recover(const ReadRequest& request, const std::string& path, const Progr
   const uint64_t whole = reading.finished ? reading.player().bytes_read() : reading.player().whole_bytes();
   Outcome outcome = reading.outcome;
   outcome.lost = outcome.problem;
-  outcome.problem = copy(request.path, whole, end, path);
+  outcome.problem = copy(request.path, whole, end, path, outcome.file_bytes);
   outcome.verdict = outcome.problem.empty() ? Verdict::good : Verdict::bad;
   outcome.status = outcome.problem.empty() ? status_text(Status::ok) : outcome.problem;
   outcome.field.clear();
   outcome.digest = digest(reading.owned().world);
-  outcome.file_bytes = file_bytes(path);
   return outcome;
 }
 

@@ -12,8 +12,10 @@ inline namespace DETENT_NAMESPACE {
 
 Source source_of(detent_tool::Input& input);
 Sink sink_of(detent_tool::Output& output);
+/// By the first k_file_kind_bytes of a file, or fewer.
+detent_tool::FileKind kind_of(const uint8_t* bytes, uint32_t count);
 /// One line about where and why a replay stopped.
-std::string problem_text(const ReplayError& error, const detent_tool::Input& input);
+std::string problem_text(const ReplayError& error, detent_tool::Input& input);
 
 /// The world that a recording is replayed in.
 struct ReplayWorld {

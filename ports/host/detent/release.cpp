@@ -83,13 +83,12 @@ Outcome outcome_of(const std::string& release, const std::string& line) {
 }  // namespace
 
 std::optional<Versions> versions_of(const std::string& path) {
-  constexpr uint8_t k_magic[] = {0x89, 'D', 'T', 'R', '\r', '\n', 0x1a, '\n'};
   std::string problem;
   const std::unique_ptr<Input> input = Input::open(path, problem);
   uint8_t bytes[16];
   uint32_t got = 0;
   if (input == nullptr || !input->read(bytes, sizeof bytes, got) || got != sizeof bytes) return {};
-  if (memcmp(bytes, k_magic, sizeof k_magic) != 0) return {};
+  if (engines().front().kind_of(bytes, got) != FileKind::recording) return {};
   return Versions{word_at(bytes + 8), word_at(bytes + 12)};
 }
 

@@ -46,19 +46,6 @@ void print_object(const RunLine& line) {
   print_json(json);
 }
 
-/// No larger than parse_json() takes, and a byte, so that what is larger is refused there.
-bool read_text(const std::string& path, std::string& text) {
-  const File file = open_file(path, "rb");
-  if (file == nullptr) return false;
-  char piece[4096];
-  while (text.size() <= k_json_bytes_max) {
-    const size_t count = fread(piece, 1, sizeof piece, file.get());
-    text.append(piece, count);
-    if (count < sizeof piece) break;
-  }
-  return ferror(file.get()) == 0;
-}
-
 bool refuse(const RunCommand& command, const std::vector<Problem>& problems) {
   if (command.json) {
     Json list = Json::array();
@@ -111,11 +98,15 @@ void summarise(const RunCommand& command, const RunOutcome& outcome) {
 }  // namespace
 
 bool run_scene_file(const RunCommand& command) {
-  std::string text;
-  if (!read_text(command.path, text)) return refuse(command, {{0, "", "cannot be read"}});
-  Node root;
+  std::vector<uint8_t> bytes;
   Problem problem;
-  if (!parse_json(text, root, problem)) return refuse(command, {problem});
+  problem.text = read_file(command.path, bytes, k_json_bytes_max);
+  if (problem.text.empty() && kind_of(bytes) != FileKind::other) problem.text = is_not(kind_of(bytes), "a scene");
+  if (problem.text.empty() && bytes.empty()) problem.text = "is empty, not a scene";
+  if (!problem.text.empty()) return refuse(command, {problem});
+  Node root;
+  if (!parse_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, root, problem))
+    return refuse(command, {problem});
   RunRequest request = command.request;
   request.path = command.path;
   request.root = &root;

@@ -26,31 +26,31 @@ class ObjectDescriber {
   bool given(const char*) const { return false; }
   void problem(const char*, const std::string&) {}
   void origin(SceneOrigin&) const {}
-  bool real(const Field& field, Real& value) { return add(field, FieldKind::number, plain(real_to_host(value))); }
-  bool scaled(const Field& field, Scaled& value) { return add(field, FieldKind::number, plain(scaled_to_host(value))); }
-  bool vector(const Field& field, Vec3<Real>& value) {
+  bool real(const SceneField& field, Real& value) { return add(field, FieldKind::number, plain(real_to_host(value))); }
+  bool scaled(const SceneField& field, Scaled& value) { return add(field, FieldKind::number, plain(scaled_to_host(value))); }
+  bool vector(const SceneField& field, Vec3<Real>& value) {
     return add(field, FieldKind::vector,
                bracketed({real_to_host(value.x), real_to_host(value.y), real_to_host(value.z)}));
   }
-  bool scaleds(const Field& field, Vec3<Scaled>&) { return add(field, FieldKind::vector, ""); }
-  bool position(const Field& field, Position&) { return add(field, FieldKind::vector, "[0, 0, 0]"); }
-  bool rotation(const Field& field, Quat&) { return add(field, FieldKind::rotation, "[0, 0, 0, 1]"); }
-  bool flag(const Field& field, bool& value) { return add(field, FieldKind::boolean, value ? "true" : "false"); }
-  bool text(const Field& field, std::string&) { return add(field, FieldKind::text, ""); }
-  bool body(const Field& field, std::string&) { return add(field, FieldKind::body, ""); }
-  bool joint(const Field& field, std::string&) { return add(field, FieldKind::joint, ""); }
+  bool scaleds(const SceneField& field, Vec3<Scaled>&) { return add(field, FieldKind::vector, ""); }
+  bool position(const SceneField& field, Position&) { return add(field, FieldKind::vector, "[0, 0, 0]"); }
+  bool rotation(const SceneField& field, Quat&) { return add(field, FieldKind::rotation, "[0, 0, 0, 1]"); }
+  bool flag(const SceneField& field, bool& value) { return add(field, FieldKind::boolean, value ? "true" : "false"); }
+  bool text(const SceneField& field, std::string&) { return add(field, FieldKind::text, ""); }
+  bool body(const SceneField& field, std::string&) { return add(field, FieldKind::body, ""); }
+  bool joint(const SceneField& field, std::string&) { return add(field, FieldKind::joint, ""); }
   void asset(Shape&) {
     add(required({"file", "cooked, from the scene's folder"}), FieldKind::text, "");
     add({"digest", "16 hexadecimal digits that its content must have"}, FieldKind::text, "");
   }
   template <class T>
-  bool integer(const Field& field, T& value) {
+  bool integer(const SceneField& field, T& value) {
     return add(field, FieldKind::integer, std::to_string(value));
   }
-  bool counted(const Field& field, uint32_t&) { return add(field, FieldKind::integer, ""); }
-  bool counted(const Field& field, bool& value) { return flag(field, value); }
+  bool counted(const SceneField& field, uint32_t&) { return add(field, FieldKind::integer, ""); }
+  bool counted(const SceneField& field, bool& value) { return flag(field, value); }
   template <class T, size_t count>
-  bool choice(const Field& field, T& value, const Choice<T> (&choices)[count]) {
+  bool choice(const SceneField& field, T& value, const Choice<T> (&choices)[count]) {
     std::string initial;
     for (const Choice<T>& each : choices) initial = each.value == value ? quoted(each.name) : initial;
     add(field, FieldKind::choice, initial);
@@ -58,13 +58,13 @@ class ObjectDescriber {
     return false;
   }
   template <class T, size_t count>
-  bool choices(const Field& field, T&, const Choice<T> (&choices)[count]) {
+  bool choices(const SceneField& field, T&, const Choice<T> (&choices)[count]) {
     add(field, FieldKind::choices, "[]");
     note_names(choices);
     return false;
   }
   template <class T, size_t count>
-  bool tag(const Field& field, T& value, const Choice<T> (&choices)[count]) {
+  bool tag(const SceneField& field, T& value, const Choice<T> (&choices)[count]) {
     tag_key = field.key;
     tag_doc = field.doc;
     variant_count = count;
@@ -74,23 +74,23 @@ class ObjectDescriber {
     return true;
   }
   template <class T>
-  bool object(const Field& field, T&) {
+  bool object(const SceneField& field, T&) {
     return add_typed<T>(field, FieldKind::object);
   }
   template <class T>
-  bool named(const Field& field, T&) {
+  bool named(const SceneField& field, T&) {
     return add_typed<T>(field, FieldKind::named);
   }
   template <class T>
-  void list(const Field& field, std::vector<T>&) {
+  void list(const SceneField& field, std::vector<T>&) {
     add_typed<T>(field, FieldKind::list);
   }
   template <class T>
-  void dictionary(const Field& field, std::map<std::string, T>&) {
+  void dictionary(const SceneField& field, std::map<std::string, T>&) {
     add_typed<T>(field, FieldKind::dictionary);
   }
   template <class T>
-  void changes(const Field& field, const Node*&) {
+  void changes(const SceneField& field, const Node*&) {
     add_typed<T>(field, FieldKind::object);
   }
 
@@ -100,14 +100,14 @@ class ObjectDescriber {
   size_t common = 0;  ///< fields before the tag
 
  private:
-  bool add(const Field& field, FieldKind kind, const std::string& initial) {
+  bool add(const SceneField& field, FieldKind kind, const std::string& initial) {
     FieldInfo info = {field.key, field.doc, field.range, field.required, kind, "", {}, initial};
     if (field.required || !field.initial) info.initial.clear();
     fields.push_back(info);
     return false;
   }
   template <class T>
-  bool add_typed(const Field& field, FieldKind kind);
+  bool add_typed(const SceneField& field, FieldKind kind);
   template <class T, size_t count>
   void note_names(const Choice<T> (&choices)[count]) {
     for (const Choice<T>& each : choices) fields.back().names.push_back(each.name);
@@ -142,7 +142,7 @@ void describe(std::vector<ObjectInfo>& objects) {
 }
 
 template <class T>
-bool ObjectDescriber::add_typed(const Field& field, FieldKind kind) {
+bool ObjectDescriber::add_typed(const SceneField& field, FieldKind kind) {
   add(field, kind, "");
   fields.back().type = TypeText<T>::k_name;
   describe<T>(objects_);

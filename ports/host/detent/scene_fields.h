@@ -90,8 +90,8 @@ void visit(F& fields, Shape& shape) {
       {"half_space", ShapeType::half_space}, {"compound", ShapeType::compound}, {"surface", ShapeType::surface},
   };
   if (!fields.tag({"type", "which shape"}, shape.type, k_types)) return;
-  const Field rounding = {"rounding", "grown by a ball of this radius, m; 0, or a size", k_size_or_zero};
-  const Field half_length = required({"half_length", "along y, m: half of the height", k_size});
+  const SceneField rounding = {"rounding", "grown by a ball of this radius, m; 0, or a size", k_size_or_zero};
+  const SceneField half_length = required({"half_length", "along y, m: half of the height", k_size});
   switch (shape.type) {
     case ShapeType::sphere:
       fields.real(required({"radius", "m", k_size}), shape.radius);

@@ -21,19 +21,19 @@ constexpr Range above(double low) { return {low, k_any.high, true}; }
 constexpr Range k_word = {0, 4294967295.0, false};
 
 /// One key of an object.
-struct Field {
+struct SceneField {
   const char* key;
   const char* doc;
   Range range = k_any;
   bool required = false;
   bool initial = true;  ///< if it is left out, it is what its member is by itself
 };
-constexpr Field required(Field field) {
+constexpr SceneField required(SceneField field) {
   field.required = true;
   return field;
 }
 /// To leave it out means something else.
-constexpr Field optional(Field field) {
+constexpr SceneField optional(SceneField field) {
   field.initial = false;
   return field;
 }

@@ -5,6 +5,7 @@
 #include "file.h"
 #include "owned_world.h"
 #include "scene_player.h"
+#include "stream.h"
 #include "text.h"
 #include "world/asset_binding.h"
 
@@ -15,19 +16,33 @@ namespace {
 
 constexpr uint32_t k_events_max = 4096;  // of each kind and step
 
+/// Why a cooked file is refused as a shape of this type.
+std::string refusal(FileKind kind, ShapeType type) {
+  const bool surface = kind == FileKind::mesh || kind == FileKind::height_field;
+  if (type == ShapeType::hull && kind != FileKind::hull) return is_not(kind, "a cooked hull");
+  if (type == ShapeType::compound && kind != FileKind::compound) return is_not(kind, "a cooked compound");
+  if (type == ShapeType::surface && !surface) return is_not(kind, "a cooked mesh or height field");
+  return "is damaged, or of another format version";
+}
+
 /// The scene's cooked files.
 struct SceneAssets {
   Assets bytes;
   std::vector<Asset> table;
 
   /// False, and a problem, if one cannot be read or has another digest than the scene says.
-  bool read(SceneReading& reading, const std::string& scene_path, RunOutcome& outcome) {
-    const std::filesystem::path folder = std::filesystem::path(scene_path).parent_path();
+  bool read(SceneReading& reading, const RunRequest& request, RunOutcome& outcome) {
+    const std::filesystem::path folder = std::filesystem::path(request.path).parent_path();
     bytes.resize(reading.assets.size());
     for (size_t i = 0; i < bytes.size(); ++i) {
       const SceneAsset& asset = reading.assets[i];
-      if (!read_asset((folder / asset.file).string(), bytes[i])) {
-        reading.problem(asset.file_origin, asset.file + " cannot be read");
+      const std::string path = (folder / asset.file).string();
+      if (const std::string problem = read_asset(path, bytes[i]); !problem.empty()) {
+        reading.problem(asset.file_origin, asset.file + " " + problem);
+        return false;
+      }
+      if (is_same_file(path, request.recording)) {
+        reading.problem(asset.file_origin, asset.file + " would be written over by the recording");
         return false;
       }
       table.push_back({reinterpret_cast<const uint8_t*>(bytes[i].words.data()), bytes[i].byte_count});
@@ -35,7 +50,7 @@ struct SceneAssets {
       const AssetTable so_far = {table.data(), static_cast<uint32_t>(table.size())};
       const Status status = describe_asset(so_far, static_cast<uint32_t>(i), feature_table<Features::all>, state);
       if (status != Status::ok || state.kind != static_cast<uint32_t>(asset_kind_of(asset.type))) {
-        reading.problem(asset.file_origin, asset.file + " is not what `detent cook` makes for this type");
+        reading.problem(asset.file_origin, asset.file + " " + refusal(bytes[i].kind, asset.type));
         return false;
       }
       const std::string digest = hexadecimal(state.digest);
@@ -66,11 +81,6 @@ struct EventRoom {
   }
 };
 
-/// `file`: a File.
-Status write_file(void* file, const uint8_t* bytes, uint32_t count) {
-  return fwrite(bytes, 1, count, static_cast<File*>(file)->get()) == count ? Status::ok : Status::sink_failed;
-}
-
 /// Steps the world; the first problem ends it.
 void step_through(const RunRequest& request, uint32_t ticks, Recorder& recorder, ScenePlayer& player,
                   RunOutcome& outcome, const RunPrinter& print, const Progress& progress) {
@@ -94,26 +104,30 @@ void step_through(const RunRequest& request, uint32_t ticks, Recorder& recorder,
 void play(const RunRequest& request, SceneReading& reading, OwnedWorld& owned, RunOutcome& outcome,
           const RunPrinter& print, const Progress& progress) {
   const EventRoom room(owned.world);
-  File file;
+  std::unique_ptr<Output> output;
+  const auto write = [](void* to, const uint8_t* bytes, uint32_t count) {
+    return (*static_cast<std::unique_ptr<Output>*>(to))->write(bytes, count) ? Status::ok : Status::sink_failed;
+  };
   uint8_t buffer[k_recording_buffer_bytes];
   const bool recorded = !request.recording.empty();
-  Recorder recorder(owned.world, recorded ? Sink{write_file, &file} : Sink{}, buffer, sizeof buffer);
+  Recorder recorder(owned.world, recorded ? Sink{write, &output} : Sink{}, buffer, sizeof buffer);
   ScenePlayer player(reading, recorder, request.prints, print);
   if (!player.build()) return;
-  if (recorded) {  // not before now: a wrong scene leaves an older recording alone
-    file = open_file(request.recording, "wb");
-    if (file == nullptr) return reading.problem({}, request.recording + " cannot be opened for writing");
+  if (recorded) {
+    std::string problem;
+    output = Output::open(request.recording, ends_with(request.recording, k_compressed_suffix), problem);
+    if (output == nullptr) return reading.problem({}, request.recording + " " + problem);
   }
   Status status = recorder.begin({request.digest_interval});
   const uint32_t ticks = request.ticks_given ? request.ticks : reading.scene.ticks;
   if (status == Status::ok) step_through(request, ticks, recorder, player, outcome, print, progress);
   status = recorder.end();
-  if (recorded && (fclose(file.release()) != 0 || status != Status::ok)) {
-    reading.problem({}, request.recording + " cannot be written");
+  if (recorded && reading.problems.empty() && (status != Status::ok || !output->close())) {
+    reading.problem({}, with_reason(request.recording + " cannot be written"));
   }
   if (request.prints.bodies) player.print_bodies(owned.world, outcome.ticks);
   outcome.calls = player.calls();
-  outcome.recording_bytes = recorded ? file_bytes(request.recording) : 0;
+  outcome.recording_bytes = recorded ? output->file_bytes : 0;
 }
 
 /// False, and a problem, if it cannot be.
@@ -139,7 +153,7 @@ RunOutcome play_scene(const RunRequest& request, const RunPrinter& print, const 
   OwnedWorld owned;
   read_scene(*request.root, reading);
   outcome.description = reading.scene.description;
-  if (reading.problems.empty() && assets.read(reading, request.path, outcome) &&
+  if (reading.problems.empty() && assets.read(reading, request, outcome) &&
       make_world(reading, assets, request.world_bytes_max, owned)) {
     const Stopwatch stopwatch;
     play(request, reading, owned, outcome, print, progress);

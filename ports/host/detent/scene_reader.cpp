@@ -70,7 +70,7 @@ SceneOrigin ObjectReader::origin_of(const char* key) const {
 
 void ObjectReader::problem(const char* key, const std::string& text) { reading_.problem(origin_of(key), text); }
 
-const Node* ObjectReader::take(const Field& field) {
+const Node* ObjectReader::take(const SceneField& field) {
   known_.push_back(field.key);
   const size_t index = index_of(field.key);
   if (index < node_.keys.size()) return &node_.items[index];
@@ -85,7 +85,7 @@ bool ObjectReader::is(const Node& node, NodeKind kind, const std::string& path) 
   return false;
 }
 
-bool ObjectReader::number(const Field& field, const Node& node, const std::string& path, double& value) {
+bool ObjectReader::number(const SceneField& field, const Node& node, const std::string& path, double& value) {
   if (!is(node, NodeKind::number, path)) return false;
   if (!in_range(node.number, field.range)) {
     reading_.problem(node, path, outside(node.number, field.range));
@@ -95,7 +95,7 @@ bool ObjectReader::number(const Field& field, const Node& node, const std::strin
   return true;
 }
 
-bool ObjectReader::whole_number(const Field& field, const Node& node, double& value) {
+bool ObjectReader::whole_number(const SceneField& field, const Node& node, double& value) {
   double read = 0;
   if (!number(field, node, path_of(field.key), read)) return false;
   if (read != floor(read)) {
@@ -106,7 +106,7 @@ bool ObjectReader::whole_number(const Field& field, const Node& node, double& va
   return true;
 }
 
-bool ObjectReader::numbers(const Field& field, const Node& node, const std::string& path, double* values,
+bool ObjectReader::numbers(const SceneField& field, const Node& node, const std::string& path, double* values,
                            size_t count) {
   if (node.kind != NodeKind::array || node.items.size() != count) {
     reading_.problem(node, path, "is not a list of " + std::to_string(count) + " numbers");
@@ -120,7 +120,7 @@ bool ObjectReader::numbers(const Field& field, const Node& node, const std::stri
 }
 
 template <class T>
-void ObjectReader::convert_one(const Field& field, T& value, Status (*convert)(double, T&), const Node* node) {
+void ObjectReader::convert_one(const SceneField& field, T& value, Status (*convert)(double, T&), const Node* node) {
   double number_read = 0;
   if (node == nullptr || !number(field, *node, path_of(field.key), number_read)) return;
   if (convert(number_read, value) != Status::ok) {
@@ -128,20 +128,20 @@ void ObjectReader::convert_one(const Field& field, T& value, Status (*convert)(d
   }
 }
 
-bool ObjectReader::real(const Field& field, Real& value) {
+bool ObjectReader::real(const SceneField& field, Real& value) {
   const Node* const node = take(field);
   convert_one<Real>(field, value, real_from_host, node);
   return node != nullptr;
 }
 
-bool ObjectReader::scaled(const Field& field, Scaled& value) {
+bool ObjectReader::scaled(const SceneField& field, Scaled& value) {
   const Node* const node = take(field);
   convert_one<Scaled>(field, value, scaled_from_host, node);
   return node != nullptr;
 }
 
 template <class T>
-bool ObjectReader::three(const Field& field, Vec3<T>& value, Status (*convert)(double, T&)) {
+bool ObjectReader::three(const SceneField& field, Vec3<T>& value, Status (*convert)(double, T&)) {
   const Node* const node = take(field);
   double read[3] = {};
   if (node == nullptr || !numbers(field, *node, path_of(field.key), read, 3)) return node != nullptr;
@@ -156,20 +156,20 @@ bool ObjectReader::three(const Field& field, Vec3<T>& value, Status (*convert)(d
   return true;
 }
 
-bool ObjectReader::vector(const Field& field, Vec3<Real>& value) { return three<Real>(field, value, real_from_host); }
-bool ObjectReader::scaleds(const Field& field, Vec3<Scaled>& value) {
+bool ObjectReader::vector(const SceneField& field, Vec3<Real>& value) { return three<Real>(field, value, real_from_host); }
+bool ObjectReader::scaleds(const SceneField& field, Vec3<Scaled>& value) {
   return three<Scaled>(field, value, scaled_from_host);
 }
-bool ObjectReader::position(const Field& field, Position& value) { return three<Coord>(field, value, coord_from_host); }
+bool ObjectReader::position(const SceneField& field, Position& value) { return three<Coord>(field, value, coord_from_host); }
 
-bool ObjectReader::rotation(const Field& field, Quat& value) {
+bool ObjectReader::rotation(const SceneField& field, Quat& value) {
   const Node* const node = take(field);
   if (node == nullptr) return false;
   if (node->kind == NodeKind::object) {
     turned(*node, path_of(field.key), value);
     return true;
   }
-  const Field part = {field.key, field.doc, within(1)};
+  const SceneField part = {field.key, field.doc, within(1)};
   double read[4] = {};
   if (!numbers(part, *node, path_of(field.key), read, 4)) return true;
   const double length = read[0] * read[0] + read[1] * read[1] + read[2] * read[2] + read[3] * read[3];
@@ -191,14 +191,14 @@ void ObjectReader::turned(const Node& node, const std::string& path, Quat& value
   ObjectReader reader(reading_, node, path);
   double axis[3] = {}, degrees = 0, angles[3] = {};
   if (reader.given("euler_degrees")) {
-    const Field field = {"euler_degrees", "", turns};
+    const SceneField field = {"euler_degrees", "", turns};
     const Node* const read = reader.take(field);
     if (reader.numbers(field, *read, reader.path_of(field.key), angles, 3)) {
       value = k_upright;
       for (int i = 0; i < 3; ++i) value = turned_about(value, k_axes[i], angles[i]);
     }
   } else {
-    const Field axis_field = required({"axis", "", within(1e6)}), angle_field = required({"degrees", "", turns});
+    const SceneField axis_field = required({"axis", "", within(1e6)}), angle_field = required({"degrees", "", turns});
     const Node* const read = reader.take(axis_field);
     const Node* const angle = reader.take(angle_field);
     if (read != nullptr && angle != nullptr &&
@@ -214,19 +214,19 @@ void ObjectReader::turned(const Node& node, const std::string& path, Quat& value
   reader.judge_keys();
 }
 
-bool ObjectReader::flag(const Field& field, bool& value) {
+bool ObjectReader::flag(const SceneField& field, bool& value) {
   const Node* const node = take(field);
   if (node != nullptr && is(*node, NodeKind::boolean, path_of(field.key))) value = node->boolean;
   return node != nullptr;
 }
 
-bool ObjectReader::text(const Field& field, std::string& value) {
+bool ObjectReader::text(const SceneField& field, std::string& value) {
   const Node* const node = take(field);
   if (node != nullptr && is(*node, NodeKind::text, path_of(field.key))) value = node->text;
   return node != nullptr;
 }
 
-bool ObjectReader::name(const Field& field, std::string& value, bool joint) {
+bool ObjectReader::name(const SceneField& field, std::string& value, bool joint) {
   if (!text(field, value)) return false;
   reading_.references.push_back(
       {{node_.items[index_of(field.key)].line, path_of(field.key)}, value, joint, path_.compare(0, 7, "actions") == 0});

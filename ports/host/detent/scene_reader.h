@@ -39,31 +39,31 @@ class ObjectReader {
   bool given(const char* key) const { return index_of(key) < node_.keys.size(); }
   void problem(const char* key, const std::string& text);
   void origin(SceneOrigin& origin) const { origin = {node_.line, path_}; }
-  bool real(const Field& field, Real& value);
-  bool scaled(const Field& field, Scaled& value);
-  bool vector(const Field& field, Vec3<Real>& value);
-  bool scaleds(const Field& field, Vec3<Scaled>& value);
-  bool position(const Field& field, Position& value);
-  bool rotation(const Field& field, Quat& value);
-  bool flag(const Field& field, bool& value);
-  bool text(const Field& field, std::string& value);
-  bool body(const Field& field, std::string& value) { return name(field, value, false); }
-  bool joint(const Field& field, std::string& value) { return name(field, value, true); }
+  bool real(const SceneField& field, Real& value);
+  bool scaled(const SceneField& field, Scaled& value);
+  bool vector(const SceneField& field, Vec3<Real>& value);
+  bool scaleds(const SceneField& field, Vec3<Scaled>& value);
+  bool position(const SceneField& field, Position& value);
+  bool rotation(const SceneField& field, Quat& value);
+  bool flag(const SceneField& field, bool& value);
+  bool text(const SceneField& field, std::string& value);
+  bool body(const SceneField& field, std::string& value) { return name(field, value, false); }
+  bool joint(const SceneField& field, std::string& value) { return name(field, value, true); }
   /// Of a shape whose type is known.
   void asset(Shape& shape);
 
   template <class T>
-  bool integer(const Field& field, T& value) {
+  bool integer(const SceneField& field, T& value) {
     double number = 0;
     const Node* const node = take(field);
     if (node != nullptr && whole_number(field, *node, number)) value = static_cast<T>(number);
     return node != nullptr;
   }
-  bool counted(const Field& field, uint32_t& value) { return integer(field, value); }
-  bool counted(const Field& field, bool& value) { return flag(field, value); }
+  bool counted(const SceneField& field, uint32_t& value) { return integer(field, value); }
+  bool counted(const SceneField& field, bool& value) { return flag(field, value); }
 
   template <class T, size_t count>
-  bool choice(const Field& field, T& value, const Choice<T> (&choices)[count]) {
+  bool choice(const SceneField& field, T& value, const Choice<T> (&choices)[count]) {
     const Node* const node = take(field);
     if (node == nullptr) return false;
     const size_t found = find_choice(*node, path_of(field.key), names_of(choices));
@@ -71,7 +71,7 @@ class ObjectReader {
     return true;
   }
   template <class T, size_t count>
-  bool choices(const Field& field, T& value, const Choice<T> (&choices)[count]) {
+  bool choices(const SceneField& field, T& value, const Choice<T> (&choices)[count]) {
     const Node* const node = take(field);
     if (node == nullptr || !is(*node, NodeKind::array, path_of(field.key))) return node != nullptr;
     value = 0;
@@ -83,7 +83,7 @@ class ObjectReader {
   }
   /// False if it is not there or has no such value: then no further key can be judged.
   template <class T, size_t count>
-  bool tag(const Field& field, T& value, const Choice<T> (&choices)[count]) {
+  bool tag(const SceneField& field, T& value, const Choice<T> (&choices)[count]) {
     const Node* const node = take(required(field));
     const size_t found = node == nullptr ? count : find_choice(*node, path_of(field.key), names_of(choices));
     if (found < count) value = choices[found].value;
@@ -92,13 +92,13 @@ class ObjectReader {
   }
 
   template <class T>
-  bool object(const Field& field, T& value) {
+  bool object(const SceneField& field, T& value) {
     const Node* const node = take(field);
     if (node != nullptr) read(reading_, *node, path_of(field.key), value);
     return node != nullptr;
   }
   template <class T>
-  bool named(const Field& field, T& value) {
+  bool named(const SceneField& field, T& value) {
     const Node* const node = take(field);
     if (node == nullptr) return false;
     if (node->kind != NodeKind::text) {
@@ -116,7 +116,7 @@ class ObjectReader {
     return true;
   }
   template <class T>
-  void list(const Field& field, std::vector<T>& values) {
+  void list(const SceneField& field, std::vector<T>& values) {
     const Node* const node = take(field);
     if (node == nullptr || !is(*node, NodeKind::array, path_of(field.key))) return;
     // A definition takes a kilobyte, and a wrong one three letters: a hostile file would take all memory.
@@ -126,7 +126,7 @@ class ObjectReader {
     }
   }
   template <class T>
-  void dictionary(const Field& field, std::map<std::string, T>& values) {
+  void dictionary(const SceneField& field, std::map<std::string, T>& values) {
     const Node* const node = take(field);
     if (node == nullptr || !is(*node, NodeKind::object, path_of(field.key))) return;
     for (size_t i = 0; i < node->items.size(); ++i) {
@@ -135,7 +135,7 @@ class ObjectReader {
   }
   /// Judged now, and made later of the definition as it is then.
   template <class T>
-  void changes(const Field& field, const Node*& kept) {
+  void changes(const SceneField& field, const Node*& kept) {
     T scratch;
     if (object(field, scratch)) kept = &node_.items[index_of(field.key)];
   }
@@ -154,17 +154,17 @@ class ObjectReader {
   std::string path_of(const char* key) const { return path_.empty() ? key : path_ + "." + key; }
   std::string path_of(const char* key, size_t index) const { return path_of(key) + "[" + std::to_string(index) + "]"; }
   SceneOrigin origin_of(const char* key) const;
-  const Node* take(const Field& field);
+  const Node* take(const SceneField& field);
   bool is(const Node& node, NodeKind kind, const std::string& path);
-  bool number(const Field& field, const Node& node, const std::string& path, double& value);
-  bool whole_number(const Field& field, const Node& node, double& value);
-  bool numbers(const Field& field, const Node& node, const std::string& path, double* values, size_t count);
-  bool name(const Field& field, std::string& value, bool joint);
+  bool number(const SceneField& field, const Node& node, const std::string& path, double& value);
+  bool whole_number(const SceneField& field, const Node& node, double& value);
+  bool numbers(const SceneField& field, const Node& node, const std::string& path, double* values, size_t count);
+  bool name(const SceneField& field, std::string& value, bool joint);
   void turned(const Node& node, const std::string& path, Quat& value);
   template <class T>
-  bool three(const Field& field, Vec3<T>& value, Status (*convert)(double, T&));
+  bool three(const SceneField& field, Vec3<T>& value, Status (*convert)(double, T&));
   template <class T>
-  void convert_one(const Field& field, T& value, Status (*convert)(double, T&), const Node* node);
+  void convert_one(const SceneField& field, T& value, Status (*convert)(double, T&), const Node* node);
   size_t find_choice(const Node& node, const std::string& path, const std::vector<const char*>& names);
   void judge_keys();
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-/// Recordings as streams of bytes, from and to files that may be compressed.
+/// Files as streams of bytes: recordings to read, which may be compressed, and whatever the tool writes.
 namespace detent_tool {
 
 /// What a compressed file may unpack to, bytes: a small file must not keep a machine busy for days.
@@ -32,18 +32,33 @@ class Input {
 /// Bytes as an input.
 std::unique_ptr<Input> open_bytes(std::shared_ptr<const std::vector<uint8_t>> bytes);
 
-/// A recording to write. What a failed or abandoned one has written stays.
+/// A file to write. It appears under its name when it is closed, whole: until then the bytes lie in a temporary file of
+/// the same folder, and what had the name before stays as it was. Devices and pipes are written as they are. "-" is
+/// standard output; what the program prints after that goes to standard error.
 class Output {
  public:
   /// Null, and why not.
   static std::unique_ptr<Output> open(const std::string& path, bool compressed, std::string& problem);
-  virtual ~Output() = default;
+  Output() = default;
+  Output(const Output&) = delete;
+  /// What was not closed is discarded.
+  virtual ~Output();
   virtual bool write(const uint8_t* bytes, uint32_t count) = 0;
-  /// Whether all of it has reached the file.
-  virtual bool close() = 0;
+  /// Whether all of it has reached the file, which then has its name.
+  bool close();
+
+  uint64_t file_bytes = 0;  ///< written: in the file, once it is closed
+
+ private:
+  virtual bool finish() = 0;
+
+  std::string path_, temporary_path_;  ///< empty: nothing is renamed
 };
 
-/// A copy of the file, compressed. What went wrong, or nothing; then there is no `to`.
+/// Writes a file of these bytes. What went wrong, or nothing.
+std::string write_file(const std::string& path, const std::vector<uint8_t>& bytes);
+
+/// A copy of the file, compressed. What went wrong, or nothing.
 std::string compress(const std::string& from, const std::string& to);
 
 inline constexpr const char* k_compressed_suffix = ".zst";

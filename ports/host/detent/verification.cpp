@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iostream>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "difference.h"
+#include "file.h"
 #include "progress.h"
 #include "release.h"
 #include "stream.h"
@@ -35,23 +34,23 @@ bool find_recordings(const std::string& folder, std::vector<std::string>& paths)
   return !error && !found.empty();
 }
 
-bool read_list(const std::string& path, std::vector<std::string>& paths) {
-  std::ifstream file;
-  if (path != "-") file.open(path);
-  std::istream& lines = path == "-" ? std::cin : file;
-  if (!lines) return false;
-  for (std::string line; std::getline(lines, line);) {
-    if (!line.empty()) paths.push_back(line);
+/// The lines of a file that are not empty. What went wrong, or nothing.
+std::string read_lines(const std::string& path, std::vector<std::string>& lines) {
+  std::vector<uint8_t> bytes;
+  const std::string problem = path == "-" ? read_stream(stdin, k_whole_file_bytes_max, bytes) : read_file(path, bytes);
+  for (auto at = bytes.begin(); problem.empty() && at != bytes.end();) {
+    const auto end = std::find(at, bytes.end(), '\n');
+    if (at != end) lines.emplace_back(at, end);
+    at = end == bytes.end() ? end : end + 1;
   }
-  return true;
+  return problem;
 }
 
 /// Which files a run has told about, and whether they were good: the last word counts. Lines that it could not finish,
-/// or that are of something else, and a log that is not there yet say nothing.
-std::map<std::string, bool> read_log(const std::string& path) {
+/// or that are of something else, say nothing.
+std::map<std::string, bool> log_of(const std::vector<std::string>& lines) {
   std::map<std::string, bool> log;
-  std::ifstream file(path);
-  for (std::string line; std::getline(file, line);) {
+  for (const std::string& line : lines) {
     const nlohmann::json json = nlohmann::json::parse(line, nullptr, false);
     if (!json.is_object()) continue;
     const auto name = json.find("file"), ok = json.find("ok");
@@ -105,7 +104,7 @@ struct Total {
 
 }  // namespace
 
-bool verify_all(VerificationRequest request, const Report& report) {
+Verification verify_all(VerificationRequest request, const Report& report) {
   bool good = true;
   std::vector<std::string> paths;
   bool many = !request.list.empty() || request.paths.size() > 1;
@@ -118,11 +117,26 @@ bool verify_all(VerificationRequest request, const Report& report) {
     many = true;
     if (!find_recordings(path, paths)) good = report.problem(path, "no recordings in it, or it cannot be read");
   }
-  if (!request.list.empty() && !read_list(request.list, paths)) good = report.problem(request.list, "cannot be read");
+  if (!request.list.empty()) {
+    const std::string problem = read_lines(request.list, paths);
+    if (!problem.empty()) good = report.problem(request.list, problem);
+  }
+  if (paths.empty()) {
+    if (!good) return Verification::bad;
+    report.problem(request.list, "nothing to verify: the list names no recording");
+    return Verification::nothing;
+  }
 
   Total total;
-  if (!request.log.empty()) {
-    const std::map<std::string, bool> log = read_log(request.log);
+  // A log that is not there yet says nothing.
+  std::error_code error;
+  if (!request.log.empty() && std::filesystem::exists(request.log, error)) {
+    std::vector<std::string> lines;
+    if (const std::string problem = read_lines(request.log, lines); !problem.empty()) {
+      report.problem(request.log, problem);
+      return Verification::bad;
+    }
+    const std::map<std::string, bool> log = log_of(lines);
     const auto known = [&](const std::string& path) {
       const auto entry = log.find(path);
       if (entry == log.end()) return false;
@@ -155,7 +169,7 @@ bool verify_all(VerificationRequest request, const Report& report) {
     }
   }
   if (many) report.verified_all(total.files, total.bad, total.passed_over, total.ticks, total.seconds);
-  return good && total.bad == 0;
+  return good && total.bad == 0 ? Verification::good : Verification::bad;
 }
 
 }  // namespace detent_tool

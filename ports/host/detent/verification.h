@@ -13,8 +13,13 @@ struct VerificationRequest {
   uint32_t jobs = 1;
 };
 
-/// Reports each file as soon as it is done, and the sum of all. False if one failed, now or in the log.
-bool verify_all(VerificationRequest request, const Report& report);
+enum class Verification : uint32_t {
+  good,
+  bad,      ///< a recording failed, now or in the log, or something could not be read
+  nothing,  ///< there was no recording to verify
+};
+/// Reports each file as soon as it is done, and the sum of all.
+Verification verify_all(VerificationRequest request, const Report& report);
 
 /// By the engine whose configuration the header names; by the first that can say anything if none holds it.
 template <class Read>

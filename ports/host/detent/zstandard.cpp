@@ -87,16 +87,17 @@ class PackedOutput final : public Output {
   }
 
   bool write(const uint8_t* bytes, uint32_t count) override { return pack({bytes, count, 0}, ZSTD_e_continue); }
-  bool close() override {
+
+ private:
+  bool finish() override {
     const bool packed = pack({}, ZSTD_e_end);
     return fclose(file_.release()) == 0 && packed;
   }
-
- private:
   bool pack(ZSTD_inBuffer in, ZSTD_EndDirective directive) {
     for (;;) {
       ZSTD_outBuffer out = {packed_.data(), packed_.size(), 0};
       const size_t left = ZSTD_compressStream2(encoder_.get(), &out, &in, directive);
+      file_bytes += out.pos;
       if (ZSTD_isError(left) != 0 || fwrite(packed_.data(), 1, out.pos, file_.get()) != out.pos) return false;
       if (directive == ZSTD_e_end ? left == 0 : in.pos == in.size) return true;
     }
