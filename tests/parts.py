@@ -305,7 +305,8 @@ def write_outer(rows):
     builds = [row["part"] for row in rows if not row["command"] and row["when"] != "quick"]
     if builds:
         lockstep = ROOT / "tests" / "lockstep"
-        everything = ";".join(builds)
+        # Last of all, so that ctest starts the others by their cost.
+        everything = ";".join(names)
         lines.append(f'add_test(every_tick_is_equal_on_every_build "{lockstep}/gather" "{ROOT}/build/lockstep.csv" '
                      + " ".join(f'"{name}"' for name in builds) + ")\n"
                      f'set_tests_properties(every_tick_is_equal_on_every_build PROPERTIES DEPENDS "{everything}")\n')
@@ -390,8 +391,9 @@ build/PART/part.log. Exit code 0 only if everything passed.""")
     code = subprocess.run(["ctest", "--test-dir", MATRIX, "-j", str(PROCESSORS), "--output-on-failure", "-Q", "-O", MATRIX / "ctest.log"]).returncode
     progress.over = True
     progress.join()
-    summarise(rows, progress)
+    failed = summarise(rows, progress)
     print("\n".join((MATRIX / "ctest.log").read_text(errors="replace").splitlines()[-(12 if code == 0 else 60):]))
+    show_failures(failed)
     if code == 0 and arguments.write_tables:
         (ROOT / "docs" / "lockstep.md").write_text(
             subprocess.run(["tests/lockstep/table", "build/lockstep.csv"], cwd=ROOT, check=True, capture_output=True, text=True).stdout)
@@ -417,6 +419,16 @@ def summarise(rows, progress):
               + "; all of them: build/matrix/times.csv")
     for name in kinds["failed"]:
         print(f"FAILED: {name} ({results[name]['step']}): build/{name}/part.log")
+    return kinds["failed"]
+
+
+def show_failures(names):
+    """The end of what each part that failed said, last of all: where a log is cut, its end is what remains."""
+    for name in names:
+        log = ROOT / "build" / name / "part.log"
+        lines = log.read_text(errors="replace").splitlines() if log.exists() else []
+        quiet = re.compile(r"^ +Start |   Passed |\(Skipped\)$|\*\*\*Skipped")
+        print(f"\n{name}:\n" + "\n".join([line for line in lines if not quiet.search(line)][-30:]))
 
 
 if __name__ == "__main__":
