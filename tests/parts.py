@@ -18,6 +18,7 @@ import subprocess
 import sys
 import threading
 import time
+from collections import Counter
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -120,6 +121,12 @@ def cached_tests(build, passed):
     return (None if len(run) == len(listed["tests"]) else run), now
 
 
+def skipped_tests(build):
+    """How many tests of a build's last run were skipped, by the reason that they gave."""
+    log = build / "Testing" / "Temporary" / "LastTest.log"
+    return Counter(re.findall(r": Skipped\n(.*)", log.read_text(errors="replace"))) if log.exists() else Counter()
+
+
 class Part:
     def __init__(self, name):
         self.row = PARTS[name]
@@ -127,6 +134,7 @@ class Part:
         self.build = ROOT / "build" / name
         self.log = self.build / "part.log"
         self.jobs = os.environ.get("DETENT_JOBS", str(PROCESSORS))
+        self.skipped = Counter()
         self.build.mkdir(parents=True, exist_ok=True)
         self.log.write_text("")
 
@@ -171,6 +179,7 @@ class Part:
         self.step("test", ["ctest", "--test-dir", self.build, "-j", self.jobs, "--timeout", limit, "--output-on-failure",
                            *([] if run is not None else ["--no-tests=error"]), *selection])
         stamps.write_text(json.dumps(now))
+        self.skipped = skipped_tests(self.build)
         summary = re.findall(r"^.*tests passed.*$", self.log.read_text(errors="replace"), re.M)
         kept = "" if run is None else f", {len(now) - len(run)} unchanged"
         return built, (summary[-1] if summary else "nothing to run") + kept
@@ -202,7 +211,7 @@ class Part:
         times = {"wall": time.time() - begin, "build": built, "test": total - built}
         print(said)
         self.check_budget(times)
-        note("passed", self.name, said=said, **times)
+        note("passed", self.name, said=said, skipped=self.skipped, **times)
         stamp.write_text(digest)
 
     def check_budget(self, times):
@@ -417,6 +426,9 @@ def summarise(rows, progress):
     if longest:
         print("longest: " + ", ".join(f"{event['part']} {text_of(event['wall'])}" for event in longest)
               + "; all of them: build/matrix/times.csv")
+    skipped = sum((Counter(event.get("skipped", {})) for event in results.values()), Counter())
+    if skipped:
+        print(f"skipped tests: {skipped.total()}: " + "; ".join(f"{reason} ({count})" for reason, count in skipped.most_common()))
     for name in kinds["failed"]:
         print(f"FAILED: {name} ({results[name]['step']}): build/{name}/part.log")
     return kinds["failed"]
