@@ -39,6 +39,10 @@ $<BOOL:$<TARGET_PROPERTY:INTERPROCEDURAL_OPTIMIZATION_$<UPPER_CASE:$<CONFIG>>>>>
 endif()
 target_compile_options(detent_options INTERFACE
   $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_GREATER_EQUAL:$<CXX_COMPILER_VERSION>,12>,${detent_lto}>:-fno-ipa-modref>)
+# GCC's register allocator may compute a value again where it is read instead of keeping it (-flra-remat), also by an instruction
+# that has a second result, and then takes that result's register from whatever is in it: a 64-bit product on a Cortex-M3 overwrote
+# another number. Two 32-bit halves of a product are one instruction on every Arm, of 64-bit halves on x86-64 with BMI2.
+target_compile_options(detent_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-fno-lra-remat>)
 
 # What the library's own objects need beyond that: nothing but the compiler's support routines.
 add_library(detent_library_options INTERFACE)

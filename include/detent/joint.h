@@ -18,7 +18,10 @@ enum class JointType : uint32_t {
   cone_twist = 6,  ///< the anchors are one; `axis`: the twist about x; `second`: the angle between the x axes
   wheel = 7,       ///< A is the chassis: B's anchor lies on A's x, the suspension, and B's z stays A's, the axle;
                    ///< `axis`: along the suspension; `second`: the wheel's angle about the axle
+  parallel = 8,    ///< the x axes are parallel, nothing else: what stays upright; `axis`: as a hinge's
+  filter = 9,      ///< all is free: A and B do not collide
 };
+inline constexpr JointType k_joint_type_last = JointType::filter;  ///< those before it are types, too
 
 /// The limits, spring and motor of one free motion x of a joint: an angle, rad, in (-pi, pi), or a length, m.
 /// A limit goes before a spring or motor that pushes into it.
@@ -46,6 +49,10 @@ struct JointDef {
   Quat frame_b = {0.0, 0.0, 0.0, 1.0};    ///< likewise, to B's
   JointAxis axis = {};                    ///< of the first free motion (JointType)
   JointAxis second = {};                  ///< of the second
+  Scaled friction_force = 0.0;   ///< N, >= 0: brakes a slider, a wheel's suspension and the distance by no more
+                                 ///< than this. A limit goes before it
+  Scaled friction_torque = 0.0;  ///< N m, >= 0: likewise each turn of a ball, hinge, cone_twist, and a wheel's
+                                 ///< about its axle
   bool collide = false;                   ///< whether A and B collide with each other
   Scaled break_force = 0.0;   ///< N, >= 0: the joint breaks when its mean force over a tick exceeds it; 0: never
   Scaled break_torque = 0.0;  ///< N m, likewise

@@ -14,7 +14,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// The layout of the bytes, apart from what a tick computes (`k_simulation_version`).
-inline constexpr uint32_t k_recording_format_version = 4;
+inline constexpr uint32_t k_recording_format_version = 5;
 /// The working buffer of a Recorder or a Player: one chunk. No alignment is needed.
 inline constexpr uint32_t k_recording_buffer_bytes = 544;
 

@@ -122,6 +122,7 @@ struct StepReport {
   uint32_t joints_broken = 0;     ///< and gone
   uint32_t joint_events = 0;      ///< in the world's buffer
   uint32_t joint_events_dropped = 0;  ///< beyond the capacity of the world's buffer
+  uint32_t joint_couplings_dropped = 0;  ///< of joints that form too many loops for their solver's room: these give way
   uint32_t joint_decisions_left = 0;  ///< limits and motors still undecided after the last try of a substep
   uint32_t impacts = 0;               ///< times at which bodies met within the tick and were made to part
   uint32_t impacts_undecided = 0;     ///< times of impact found in part, or that could not be asked for

@@ -34,16 +34,18 @@ uint32_t wake_all_with(uint32_t slot, Span<BodyActivity> activities, BitSet visi
 }
 
 uint32_t fall_asleep(const StepSettings& settings, Span<const BodyTraits> traits, Span<const BodyPose> poses,
-                     Span<const Island> islands, Span<const uint32_t> bodies, Span<BodyMotion> motions,
-                     Span<BodyActivity> activities) {
+                     Span<const BodySweep> sweeps, Span<const Island> islands, Span<const uint32_t> bodies,
+                     Span<BodyMotion> motions, Span<BodyActivity> activities) {
   uint32_t asleep = 0;
   for (const Island& island : islands) {
     bool still = true;
     for (uint32_t i = 0; i < island.body_count; ++i) {
       const uint32_t slot = bodies[island.first_body + i];
-      const Real fall = fall_speed(settings, shape_extent(traits[slot]));
-      const bool rests =
-          speed_bound(traits[slot], poses[slot].rotation, motions[slot]) < scale_by_power(fall, k_rest_power);
+      const Real slow = scale_by_power(fall_speed(settings, shape_extent(traits[slot])), k_rest_power);
+      const Real way = absolute_sum(sweeps[slot].displacement) +
+                       scale_by_power(absolute_sum(sweeps[slot].turn), traits[slot].size_exponent);
+      const bool rests = speed_bound(traits[slot], poses[slot].rotation, motions[slot]) < slow &&
+                         way < slow * settings.tick_time;
       uint16_t& ticks = activities[slot].still_ticks;
       ticks = static_cast<uint16_t>(!rests ? 0 : ticks < k_still_ticks ? ticks + 1 : ticks);
       still = still && ticks == k_still_ticks;

@@ -26,10 +26,11 @@ uint32_t wake_all_with(uint32_t slot, Span<BodyActivity> activities, BitSet visi
 
 /// Counts the ticks that each body has been at rest, and puts islands of which all bodies have been for k_still_ticks
 /// to sleep: they stop. Returns how many bodies fell asleep.
-/// At rest is a point of the body's rim slower than a 64th of the speed of a fall by its smallest diameter.
+/// At rest is a point of the body's rim slower than a 64th of the speed of a fall by its smallest diameter, by its
+/// velocity and by its way in this tick: what is pushed out of another body, or towards its joint, moves without one.
 uint32_t fall_asleep(const StepSettings& settings, Span<const BodyTraits> traits, Span<const BodyPose> poses,
-                     Span<const Island> islands, Span<const uint32_t> bodies, Span<BodyMotion> motions,
-                     Span<BodyActivity> activities);
+                     Span<const BodySweep> sweeps, Span<const Island> islands, Span<const uint32_t> bodies,
+                     Span<BodyMotion> motions, Span<BodyActivity> activities);
 
 /// For a feature table.
 struct SleepingCode {

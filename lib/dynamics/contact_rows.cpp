@@ -62,18 +62,18 @@ void add_response(const ContactWork& work, const Number (&turning)[3][3], int ex
   }
 }
 
-PairResponse respond(const RowBody& a, const RowBody& b, const ContactWork& work) {
+PairResponse respond(const WorldGyration& a, const WorldGyration& b, const ContactWork& work) {
   PairResponse response = {};
-  const auto add_body = [&](const RowBody& body, const Vec3<Unit>& arm, Unit unit, Scaled share) {
+  const auto add_body = [&](const WorldGyration& gyration, const Vec3<Unit>& arm, Unit unit, Scaled share) {
     if (!is_positive(share)) return;
     const Vec3<Unit>* const axis[3] = {&work.normal, &work.tangent[0], &work.tangent[1]};
     Unit turning[3][3];
     DETENT_UNROLL
     for (int k = 0; k < 3; ++k) {
-      const Vec3<Unit> turned = multiply(body.gyration, *axis[k]);
+      const Vec3<Unit> turned = multiply(gyration, *axis[k]);
       for (int i = 0; i <= k; ++i) turning[i][k] = turning[k][i] = dot(*axis[i], turned);
     }
-    add_response(work, turning, body.gyration.exponent, arm, unit, share, response);
+    add_response(work, turning, gyration.exponent, arm, unit, share, response);
   };
   add_body(a, work.middle_a, work.unit_a, work.share_a);
   add_body(b, work.middle_b, work.unit_b, work.share_b);
@@ -229,6 +229,19 @@ Unit place_points(const ContactGeometry& geometry, Vec3<Unit> ContactGeometryPoi
 
 }  // namespace
 
+void renew_response(const WorldGyration& a, const WorldGyration& b, ContactWork& work) {
+  const PairResponse response = respond(a, b, work);
+  const auto own = [&](Part part) { return response.part[response_index(part, part)]; };
+  Real most = 1.0;
+  for (const Real& part : response.part) most = max(most, abs(part));
+  work.response_exponent = exponent_for(most);
+  for (int i = 0; i < k_responses; ++i) work.response[i] = unit_from_real(response.part[i], work.response_exponent);
+  couple(response, work);
+  work.friction_mass[0] = mass_of(own(k_along_first));
+  work.friction_mass[1] = mass_of(own(k_along_second));
+  for (int i = 0; i < 3; ++i) work.angular_mass[i] = angular_mass_of(own(static_cast<Part>(k_about_normal + i)));
+}
+
 void make_rows(const StepSettings& settings, const RowBody& a, const RowBody& b, const ContactGeometry& geometry,
                ContactWork& work) {
   work.normal = geometry.normal;
@@ -243,15 +256,7 @@ void make_rows(const StepSettings& settings, const RowBody& a, const RowBody& b,
                          ? place_points(geometry, &ContactGeometryPoint::arm_a, work.middle_a, work)
                          : place_points(geometry, &ContactGeometryPoint::arm_b, work.middle_b, work);
 
-  const PairResponse response = respond(a, b, work);
-  const auto own = [&](Part part) { return response.part[response_index(part, part)]; };
-  Real most = 1.0;
-  for (const Real& part : response.part) most = max(most, abs(part));
-  work.response_exponent = exponent_for(most);
-  for (int i = 0; i < k_responses; ++i) work.response[i] = unit_from_real(response.part[i], work.response_exponent);
-  couple(response, work);
-  work.friction_mass[0] = mass_of(own(k_along_first));
-  work.friction_mass[1] = mass_of(own(k_along_second));
+  renew_response(a.gyration, b.gyration, work);
 
   const Real pull = gravity_along(settings, b.traits, work.normal) - gravity_along(settings, a.traits, work.normal);
   const PairMotion<One> motion(Block(), b.motion.velocity - a.motion.velocity, a.spin, b.spin, k_spin_power);
@@ -274,7 +279,6 @@ void make_rows(const StepSettings& settings, const RowBody& a, const RowBody& b,
   for (uint32_t i = 0; i < 3; ++i) {
     work.angular_impulse[i] = Real(0.0);
     if (i >= work.angular_rows) continue;
-    work.angular_mass[i] = angular_mass_of(own(static_cast<Part>(k_about_normal + i)));
     work.angular_impulse[i] = dot(work.state.angular_impulse, *axes[i]);
   }
   // Speeds are measured against that of a fall by the smaller body's diameter.

@@ -25,6 +25,10 @@ struct RowBody {
 void make_rows(const StepSettings& settings, const RowBody& a, const RowBody& b, const ContactGeometry& geometry,
                ContactWork& work);
 
+/// Makes the responses and effective masses anew for the gyrations of A and B, where they have turned since; all else
+/// stays.
+void renew_response(const WorldGyration& a, const WorldGyration& b, ContactWork& work);
+
 /// What a wrench does to the motion of a pair, by response_index().
 struct PairResponse {
   Real part[k_responses];

@@ -8,7 +8,6 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-Real greatest(const Vec3<Real>& v) { return max(abs(v.x), max(abs(v.y), abs(v.z))); }
 
 /// Spin in the body's axes, as far as a Real tells.
 Vec3<Real> local_spin(const BodyTraits& traits, const Vec3<Real>& momentum) {

@@ -5,26 +5,25 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-WorldGyration world_gyration(const BodyTraits& traits, const Matrix3& rotation) {
+WorldGyration world_gyration(const Scaled (&about)[3], const Matrix3& rotation) {
   const Unit zero = 0.0;
   WorldGyration world = {{{zero, zero, zero}, {zero, zero, zero}, {zero, zero, zero}}, 0};
-  if (!is_dynamic(traits)) return world;
 #if DETENT_FIXED
-  for (const Scaled& axis : traits.gyration) {
+  for (const Scaled& axis : about) {
     if (axis.mantissa == 0) continue;  // locked
     const int above = axis.exponent + 31;
     world.exponent = above > world.exponent ? above : world.exponent;
   }
 #endif
   const auto mantissa = [&](Scaled value) { return to_unit(scaled_by_power(value, -world.exponent)); };
-  if (is_isotropic(traits)) {
-    world.row[0].x = world.row[1].y = world.row[2].z = mantissa(traits.gyration[0]);
+  if (about[0] == about[1] && about[1] == about[2]) {
+    world.row[0].x = world.row[1].y = world.row[2].z = mantissa(about[0]);
     return world;
   }
   Unit xx = zero, yy = zero, zz = zero, yz = zero, zx = zero, xy = zero;
   for (int i = 0; i < 3; ++i) {
     const Vec3<Unit>& axis = rotation.column[i];
-    const Vec3<Unit> part = axis * mantissa(traits.gyration[i]);
+    const Vec3<Unit> part = axis * mantissa(about[i]);
     xx += part.x * axis.x;
     yy += part.y * axis.y;
     zz += part.z * axis.z;
@@ -36,6 +35,11 @@ WorldGyration world_gyration(const BodyTraits& traits, const Matrix3& rotation) 
   world.row[1] = {xy, yy, yz};
   world.row[2] = {zx, yz, zz};
   return world;
+}
+
+WorldGyration world_gyration(const BodyTraits& traits, const Matrix3& rotation) {
+  const Scaled none = 0.0, locked[3] = {none, none, none};
+  return world_gyration(is_dynamic(traits) ? traits.gyration : locked, rotation);
 }
 
 Vec3<Real> world_spin(const BodyTraits& traits, const WorldGyration& gyration, const Vec3<Real>& momentum, int power) {

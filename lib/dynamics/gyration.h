@@ -9,6 +9,9 @@ inline namespace DETENT_NAMESPACE {
 /// A body's gyration in world axes. Zero for what is not dynamic.
 WorldGyration world_gyration(const BodyTraits& traits, const Matrix3& rotation);
 
+/// Of a body whose gyrations about its axes are these.
+WorldGyration world_gyration(const Scaled (&about)[3], const Matrix3& rotation);
+
 /// The mantissas of gyration x v, 2^-exponent. Range: |v| < 2.
 inline Vec3<Unit> multiply(const WorldGyration& gyration, const Vec3<Unit>& v) {
   return {dot(gyration.row[0], v), dot(gyration.row[1], v), dot(gyration.row[2], v)};

@@ -23,7 +23,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 inline constexpr uint32_t k_impacts_max = 16;  ///< of a body in a tick
-/// A mark of a body's sweep, times the number of the tree of joints that holds it, from 1 on. All other marks are less.
+/// A mark of a body's sweep that joints hold, times the number of its island, from 1 on. All other marks are less.
 inline constexpr uint32_t k_mark_jointed = 32;
 
 /// For tests: what is written down of the stage, and whether pairs that cannot meet are left out.

@@ -36,7 +36,7 @@ bool is_ball(const ImpactStage& stage, uint32_t slot) {
   return shape_of(stage.bodies.traits[slot]) == ShapeType::sphere;
 }
 
-/// False for pairs that filters or joints keep apart, and for those of one tree of joints; and where joints hold one,
+/// False for pairs that filters or joints keep apart, and for those of one island of joints; and where joints hold one,
 /// for half-spaces, which contacts alone keep anything from passing: a body that stops alone tears at its joints.
 bool may_meet(const ImpactStage& stage, uint32_t a, uint32_t b) {
   if (!PairFilter{stage.bodies.traits, stage.bodies.filter_rules, stage.known.apart}.allows(a, b)) return false;

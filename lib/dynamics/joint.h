@@ -5,22 +5,27 @@
 
 #include "base/span.h"
 #include "dynamics/solve.h"
+#include "dynamics/spin.h"
 
 /// The joints of a step. A joint's row holds the speed
 ///
 ///     axis . (velocity B - velocity A) + arm B . spin B - arm A . spin A
 ///
-/// and its impulse goes the same way back. Joints make trees of the bodies that move; those of a tree are solved at
-/// once, by elimination from the leaves: a body whose joints below are held answers to a wrench with less than its own
-/// response, and that is all that the joint above needs to know. What does not move has no response and joins no trees:
-/// a chain between two walls is a tree. The few joints that close loops are solved in turn with the trees.
-/// Source: Baraff, "Linear-time dynamics using Lagrange multipliers", SIGGRAPH 1996; Featherstone, "Rigid Body Dynamics
-/// Algorithms", 2008, chapter 7.
+/// and its impulse goes the same way back. The rows of all joints of an island, J, are held at once, whatever they
+/// form: with the bodies' responses W, the impulses x of J W J^T x = (wanted speeds - J v) come from a block L D L^T of
+/// the joints' graph, eliminated by minimum degree (joint_order.cpp, joint_factor.h), made anew in each substep. Each
+/// row is a little soft, so that rows that others hold already need no rule of their own.
+///
+/// A substep cannot gain energy (joint_solve.cpp): holding the rows projects the motion, which only takes energy; what
+/// is then added so that joints follow the curve of their way is scaled to what the projection took; and errors of
+/// positions are made up for without speed. Source of the scheme's parts: Baraff, "Linear-time dynamics using Lagrange
+/// multipliers", SIGGRAPH 1996; Tournier, Nesme, Gilles, Faure, "Stable constrained dynamics", 2015; George, Liu, "The
+/// evolution of the minimum degree ordering algorithm", 1989.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 inline constexpr uint32_t k_no_link = UINT32_MAX;
-inline constexpr Real k_joint_impulse_max = 8192.0;  ///< of a row, m/s
+inline constexpr Real k_joint_impulse_max = 16384.0;  ///< of a row, m/s
 /// What a joint keeps is what its force would give in 2^-k_kept_power of a tick, however many substeps that has.
 inline constexpr int k_kept_power = 3;
 
@@ -31,25 +36,57 @@ struct JointStage {
   Span<JointState> joints;  ///< the slots that were ever used
   Span<const BodyPose> poses;
   Span<const BodyActivity> activities;
-  Span<JointWork> work;     ///< of those at work, in the order of their slots
-  Span<JointBody> bodies;   ///< that they hold
-  Span<uint32_t> order;     ///< of `work`: island by island, from the roots up
-  uint32_t count = 0;       ///< of `work`
-  uint32_t body_count = 0;  ///< of `bodies`
+  Span<JointWork> work;           ///< of those at work, in the order of their slots
+  Span<JointBody> bodies;         ///< that they hold
+  Span<uint32_t> order;           ///< of `work`: island by island, in the order of elimination
+  Span<JointCoupling> couplings;  ///< of the factor
+  Span<Real> numbers;             ///< of its blocks
+  uint32_t count = 0;             ///< of `work`
+  uint32_t body_count = 0;        ///< of `bodies`
 };
 
 /// Takes up all joints that hold a body that is awake, and the bodies that they hold, which have been started
 /// (predict.h). Fills `work`, `bodies`.
 void collect_joints(const SolverBodies& bodies, JointStage& stage);
 
-/// Grows the trees of every island whose bodies `slots` lists, and says how many substeps their joints need.
-void grow_trees(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
-                Span<Island> islands, JointStage& stage);
+/// Lists the joints of every island, whose bodies `slots` lists, in the order in which they are eliminated, with the
+/// couplings that their factor needs, and says how many substeps they need. Returns how many couplings had no room.
+uint32_t order_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
+                      Span<Island> islands, JointStage& stage);
 
-/// Solves the joints of an island once, `elapsed` after the start of the tick: where the bodies are now, for where they
-/// will be at the end of the substep. Returns how many values were clamped, and adds to `undecided`.
-uint32_t solve_joints(const StepSettings& settings, const SolverBodies& bodies, const Island& island, Real elapsed,
-                      JointStage& stage, uint32_t& undecided);
+/// Begins a substep of an island, `elapsed` after the start of the tick: makes the joints' rows, notes how their bodies
+/// move before anything acts, and gives these the gyrations that the substep has for joints and contacts alike.
+void begin_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
+                  const Island& island, Real elapsed, JointStage& stage);
+
+/// Whether a body's gyration is another than in the last substep.
+inline bool has_renewed_gyration(const BodyWork& now, const JointStage& stage) {
+  return now.joint_body != UINT32_MAX && stage.bodies[now.joint_body].renewed != 0;
+}
+
+/// Holds the joints' rows, `elapsed` after the start of the tick: of the bodies' velocities. Returns how many values were
+/// clamped, and adds to `undecided`.
+uint32_t hold_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
+                     const Island& island, Real elapsed, JointStage& stage, uint32_t& undecided);
+
+/// Takes out what contacts have added to the rows' speeds since. Returns how many values were clamped, and adds to
+/// `undecided`.
+uint32_t hold_joints_again(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
+                           const Island& island, Real elapsed, JointStage& stage, uint32_t& undecided);
+
+/// Adds what the curves of the joints' ways ask for, and finds the shifts that close gaps. Returns how many values were
+/// clamped.
+uint32_t follow_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
+                       const Island& island, Real elapsed, JointStage& stage);
+
+/// Shifts the bodies, which have moved, so that gaps close, and gives them back the momentum that their inertia has.
+void shift_joints(const SolverBodies& bodies, Span<const uint32_t> slots, JointStage& stage);
+
+/// Ends a substep of an island: takes out what contacts have added to the rows' speeds since, adds up what the joints
+/// gave, and gives the bodies their own gyrations and momenta. Returns how many values were clamped, and adds to
+/// `undecided`.
+uint32_t end_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
+                    const Island& island, Real elapsed, JointStage& stage, uint32_t& undecided);
 
 /// Stores the reactions of the tick.
 void store_reactions(const StepSettings& settings, const SolverBodies& bodies, JointStage& stage);
@@ -57,41 +94,66 @@ void store_reactions(const StepSettings& settings, const SolverBodies& bodies, J
 /// For a feature table.
 struct JointCode {
   decltype(&collect_joints) collect;
-  decltype(&grow_trees) grow;
-  decltype(&solve_joints) solve;
+  decltype(&order_joints) order;
+  decltype(&begin_joints) begin;
+  decltype(&hold_joints) hold;
+  decltype(&hold_joints_again) hold_again;
+  decltype(&follow_joints) follow;
+  decltype(&shift_joints) shift;
+  decltype(&end_joints) end;
   decltype(&store_reactions) store;
 };
 
 // Of the stages above.
 
-/// The squared number of substeps that an island's joints need, whose trees have been grown; 0: any number.
-Scaled squared_substeps(const StepSettings& settings, const SolverBodies& bodies, const Island& island,
-                        JointStage& stage);
+/// The squared number of substeps that an island's joints need.
+Scaled squared_substeps(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
+                        const Island& island, const JointStage& stage);
 
-/// Whether a free motion, 0 or 1, is an angle.
+/// Impulses that others cancel grow to the speeds that are asked for over the rows' softness: so they are over
+/// 2^k_impulse_power of the unit in which responses are near 1, and speeds under it.
+inline constexpr int k_impulse_power = DETENT_FIXED ? 6 : 0;
+
+inline bool is_linear(const JointRow& row) { return !(row.axis == k_no_direction); }
+/// 0: linear; 1: angular.
+inline int row_kind(const JointRow& row) { return is_linear(row) ? 0 : 1; }
+inline int row_kind(const JointRows& rows, uint32_t k) { return k < 3 && rows.points != 0 ? 0 : row_kind(rows.row[k]); }
+
+/// Of a row's impulses: they are over 2^it reference masses.
+inline int impulse_power(const JointWork& work, int kind) { return work.power[kind] + k_impulse_power; }
+
+/// Whether a slot has a joint that holds anything: not one that only keeps its bodies from colliding.
+inline bool holds(const JointState& joint) {
+  return joint.type != 0 && joint.type != static_cast<uint32_t>(JointType::filter);
+}
+/// Whether a free motion is an angle.
 bool is_angular(JointType type, int motion);
-/// The squared angle by which the body that swings fastest under the pulls of its joints would do so in a tick, as far
-/// as the last one tells. Their arms are set. Only of pulls at points; leaves the bodies' `stiffness`.
-Scaled swing_of_tick(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> joints,
-                     JointStage& stage);
-/// Heavy pulls at a light body make it sway faster than a substep can follow, and each one would add to it: such a body
-/// is slowed. The rows of the joints are made; sets `turn_share` of the bodies they own, and takes their `stiffness`:
-/// in the first substep of a tick that of swing_of_tick().
-/// Source: Tournier, Nesme, Gilles, Faure, "Stable constrained dynamics", 2015; that only what is too stiff is damped:
-/// Andrews, Teichmann, Kry, "Geometric stiffness for real-time constrained multibody dynamics", 2017.
-void hold_sway(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> joints, bool first,
-               JointStage& stage);
-/// Makes the rows of a joint as its bodies are now.
-void make_joint_rows(const StepSettings& settings, const JointStage& stage, JointWork& work);
+/// Those that an axis describes: what is set of the others has no meaning.
+int free_motion_count(JointType type);
+/// And with those that friction brakes.
+int driven_motion_count(const JointState& joint);
+/// Whether friction brakes a free motion.
+bool is_braked(const JointState& joint, int motion);
+/// The rows of a joint as its bodies are now.
+JointRows make_joint_rows(const JointStage& stage, const JointWork& work);
 /// Chooses how the free motions are driven, before anything is solved: a limit that the bodies would pass in this
 /// substep holds. Nothing has acted in it yet.
 void choose_drives(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, JointWork& work);
-/// Whether, with the impulses that were found, a limit would pull or a motor or spring do more than it can in the
-/// substep. If `changes`, they are then driven otherwise.
-bool revise_drives(const JointState& joint, Scaled share, bool changes, JointWork& work);
+/// Whether, with the impulses that were found, a motor, spring or friction would do more than it can in the substep. If
+/// `changes`, it then does that.
+bool bound_drives(const JointState& joint, Scaled share, bool changes, JointWork& work);
+/// Whether, with those impulses, a limit would pull. If `changes`, it does not act.
+bool release_limits(const JointState& joint, bool changes, JointWork& work);
 /// Adds the rows of the free motions that are driven, or notes what pushes without one.
 void add_driven_rows(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage,
                      JointWork& work);
+/// Gives a body the inertia that its joints' pulls let it have in this substep: about each of its axes no less than a
+/// substep's stiffness of the pulls, h sum |impulse| |arm|, so that heavy pulls at a light body do not make it sway
+/// faster than a substep can follow. Its gyration becomes that one's, its momentum stays, so it is slowed. And notes how
+/// it responds to forces and torques. The body is placed.
+void load_inertia(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, JointBody& body);
+/// The momentum with its own inertia of a body that spins as it does with that of the substep.
+Vec3<Real> own_momentum(const JointBody& body, const Vec3<Real>& momentum);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -10,11 +10,6 @@ namespace {
 
 constexpr Unit k_zero_unit = 0.0;
 
-/// A substep makes up for half of what the joint has given way. By w^2/2 of its length a joint gives way when it turns
-/// by w in a substep; what is left of it and what is made up for then balance where the half of that is the speed
-/// inwards that the chord of the way asks for: a swing keeps its height. Any other share would gain or lose.
-constexpr int k_correction_power = -1;
-
 constexpr Real k_twist_rate_min = 0.75;
 
 Vec3<Real> in_metres(const Vec3<Unit>& v, int exponent) {
@@ -29,42 +24,35 @@ Real twist_of(Unit sine, Unit cosine) {
 
 /// A joint's bodies as they are now, and the rows made of them.
 struct RowMaker {
-  const StepSettings& settings;
-  const JointState& joint;
+  const JointWork& joint;
   const JointBody& a;
   const JointBody& b;
-  JointWork& work;
+  JointRows& rows;
   Vec3<Real> gap = {};  ///< from A's anchor to B's, m
   Matrix3 frame = {};   ///< of A, in the world
   Quat relative = {};   ///< B's frame in A's
 
-  Real correction(Real error) const {
-    const Real limit = real_from_unit(Unit(1.0), work.exponent > 14 ? 14 : work.exponent);
-    return -scale_by_power(speed_over(settings, clamp(error, -limit, limit)), k_correction_power);
-  }
-  /// What is within a limit may go as far as that; what is beyond comes back.
-  Real up_to_limit(Real over, bool within) const { return within ? -speed_over(settings, over) : correction(over); }
   /// A row that acts along `axis` at B's anchor, whichever way off A's is.
   JointRow linear(const Vec3<Unit>& axis) const {
-    const Vec3<Unit> way = unit_held(in_metres(work.arm[0], a.exponent) + gap, a.exponent);
-    return {axis, {held_cross(way, axis), held_cross(work.arm[1], axis)}};
+    const Vec3<Unit> way = unit_held(in_metres(rows.arm[0], a.exponent) + gap, a.exponent);
+    return {axis, {held_cross(way, axis), held_cross(rows.arm[1], axis)}};
   }
   JointRow angular(const Vec3<Unit>& axis) const {
     return {{k_zero_unit, k_zero_unit, k_zero_unit},
-            {scale_by_power(axis, work.exponent - a.exponent), scale_by_power(axis, work.exponent - b.exponent)}};
+            {scale_by_power(axis, joint.exponent - a.exponent), scale_by_power(axis, joint.exponent - b.exponent)}};
   }
-  Real length_of(Real angle) const { return scale_by_power(angle, work.exponent); }
+  Real length_of(Real angle) const { return scale_by_power(angle, joint.exponent); }
 
   void hold(const JointRow& row, Real error) {
-    work.wanted[work.rows] = correction(error);
-    work.row[work.rows++] = row;
+    rows.error[rows.rows_held] = error;
+    rows.row[rows.rows_held++] = row;
   }
   void hold_points() {
-    work.points = 1;
-    work.wanted[0] = correction(gap.x);
-    work.wanted[1] = correction(gap.y);
-    work.wanted[2] = correction(gap.z);
-    work.rows = 3;
+    rows.points = 1;
+    rows.error[0] = gap.x;
+    rows.error[1] = gap.y;
+    rows.error[2] = gap.z;
+    rows.rows_held = 3;
   }
   /// Twice the vector part of the relative turn is the turn where it is small.
   void hold_turn(int axis, Unit part) {
@@ -80,9 +68,9 @@ struct RowMaker {
     hold(angular(frame.column[last]), length_of(real_from_unit(along[next], 0)));
   }
   void free_motion(int i, const JointRow& row, Real value) {
-    work.free_row[i] = row;
-    work.value[i] = value;
-    work.shown[i] = Real(1.0);
+    rows.free_row[i] = row;
+    rows.value[i] = value;
+    rows.shown[i] = Real(1.0);
   }
   void free_slide(int i) { free_motion(i, linear(frame.column[0]), dot(gap, frame.column[0])); }
   void free_turn(int i, int axis, Unit sine) {
@@ -101,9 +89,9 @@ struct RowMaker {
     };
     const Vec3<Unit> axis = unit_held({sum(own.x, other.x), sum(own.y, other.y), sum(own.z, other.z)}, 0);
     free_motion(i, angular(axis), length_of(twist_of(relative.x, relative.w)));
-    if (rate < k_twist_rate_min) work.shown[i] = max(multiply(rate, share), k_zero);
+    if (rate < k_twist_rate_min) rows.shown[i] = max(multiply(rate, share), k_zero);
   }
-  /// How far B's x leans off A's, about the axis that it leans about.
+  /// How far B's x leans off A's, about the axis that it leans about; and, without a value, the turn round the cone.
   void free_lean(int i) {
     const Vec3<Unit> x = {Unit(1.0), k_zero_unit, k_zero_unit}, leaning = rotate(relative, x);
     const Vec3<Real> about = {k_zero, real_from_unit(-leaning.z, 0), real_from_unit(leaning.y, 0)};
@@ -112,13 +100,14 @@ struct RowMaker {
     if (!normalise(about, axis, sine)) axis = {k_zero_unit, k_zero_unit, Unit(1.0)};
     const Vec3<Unit> in_world = multiply(frame, axis);
     free_motion(i, angular(in_world), length_of(radians(arc_tangent(unit_from_real(sine, 0), leaning.x))));
+    free_motion(i + 1, angular(unit_held(cross(in_metres(frame.column[0], 0), in_world), 0)), k_zero);
   }
   void free_distance() {
     Vec3<Unit> axis;
     Real apart = k_zero;
     if (!normalise(gap, axis, apart)) axis = {Unit(1.0), k_zero_unit, k_zero_unit};
     // Each end is pulled at its own anchor.
-    const JointRow row = {axis, {held_cross(work.arm[0], axis), held_cross(work.arm[1], axis)}};
+    const JointRow row = {axis, {held_cross(rows.arm[0], axis), held_cross(rows.arm[1], axis)}};
     free_motion(0, row, apart);
   }
 
@@ -129,7 +118,7 @@ struct RowMaker {
   }
 };
 
-/// The response of a row with no joint but this one, over the reference mass.
+/// The response of a row with no joint but this one, over the joint's unit of impulses.
 Scaled own_response(const SolverBodies& bodies, const JointStage& stage, const JointWork& work, const JointRow& row) {
   Scaled sum = Scaled(0.0);
   for (int end = 0; end < 2; ++end) {
@@ -142,7 +131,23 @@ Scaled own_response(const SolverBodies& bodies, const JointStage& stage, const J
     const Scaled linear = scaled_from(dot(scale_by_power(row.axis, -1), row.axis));
     sum = add(sum, multiply(body.share, add(scaled_by_power(linear, 1), angular)));
   }
-  return sum;
+  return scaled_by_power(sum, impulse_power(work, row_kind(row)));
+}
+
+/// A part of a tick's impulse, in a row's unit.
+Real in_substep(Real impulse, Scaled share, const JointWork& work, const JointRow& row) {
+  bool saturated = false;
+  return min(multiply(impulse, scaled_by_power(share, -impulse_power(work, row_kind(row))), saturated),
+             k_joint_impulse_max);
+}
+/// The largest impulse of a motor or spring in a substep.
+Real largest_push(const JointState& joint, int i, Scaled share, const JointWork& work) {
+  if (!is_positive(joint.force_max[i])) return k_joint_impulse_max;
+  return in_substep(work.bound[i], share, work, work.free_row[i]);
+}
+/// And of friction.
+Real largest_drag(int i, Scaled share, const JointWork& work) {
+  return in_substep(work.brake[row_kind(work.free_row[i])], share, work, work.free_row[i]);
 }
 
 /// A damped spring whose stiffness is that of the frequency with the two bodies alone. Source: Catto, "Soft
@@ -161,8 +166,11 @@ struct Spring {
 };
 
 DriveMode free_mode(const JointState& joint, int i) {
-  if (joint.frequency[i] > k_zero) return DriveMode::spring;
-  return is_positive(joint.force_max[i]) ? DriveMode::rigid : DriveMode::idle;
+  if (i < free_motion_count(static_cast<JointType>(joint.type))) {
+    if (joint.frequency[i] > k_zero) return DriveMode::spring;
+    if (is_positive(joint.force_max[i])) return DriveMode::rigid;
+  }
+  return is_braked(joint, i) ? DriveMode::brake : DriveMode::idle;
 }
 
 /// How fast a free motion goes before anything is solved, m/s.
@@ -202,16 +210,50 @@ void push_softly(const StepSettings& settings, const SolverBodies& bodies, const
       multiply(multiply(spring.phase, scaled_by_power(scaled_from(joint.damping_ratio[i]), 1)), scaled_from(fast));
   const Scaled response = own_response(bodies, stage, work, work.free_row[i]);
   if (!is_positive(response)) return;
-  const Real most = is_positive(joint.force_max[i]) ? multiply(work.bound[i], settings.share) : k_joint_impulse_max;
+  const Real most = largest_push(joint, i, settings.share, work);
   bool saturated = false;
   work.constant[i] = clamp(-to_real(divide(add(pull, drag), response), saturated), -most, most);
   work.mode[i] = DriveMode::constant;
 }
 
-/// What is set of the others has no meaning.
-int free_motion_count(JointType type) {
-  if (type == JointType::ball || type == JointType::fixed) return 0;
-  return type == JointType::cone_twist || type == JointType::wheel ? 2 : 1;
+/// The pull of a stiff spring at its joint where it is.
+Real standing_pull(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, int i,
+                   const JointWork& work) {
+  const JointState& joint = stage.joints[work.joint];
+  const int power = is_angular(static_cast<JointType>(joint.type), i) ? work.exponent : 0;
+  const Spring spring(settings, joint, i);
+  const Scaled pull = multiply(multiply(spring.rate, spring.phase),
+                               scaled_from(scale_by_power(joint.target[i], power) - work.value[i]));
+  const Scaled response = own_response(bodies, stage, work, work.free_row[i]);
+  if (!is_positive(response)) return k_zero;
+  const Real most = largest_push(joint, i, settings.share, work);
+  bool saturated = false;
+  return clamp(to_real(divide(pull, response), saturated), -most, most);
+}
+
+/// Friction beside a spring. A soft spring pushes, and friction holds against it; a stiff one is held where friction
+/// bears its pull, and else drags friction along.
+void brake_spring(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, int i,
+                  JointWork& work) {
+  if (work.mode[i] == DriveMode::constant) {
+    work.mode[i] = DriveMode::brake;
+    return;
+  }
+  const Real pull = standing_pull(settings, bodies, stage, i, work);
+  const Real drag = largest_drag(i, settings.share, work);
+  if (abs(pull) <= drag) {
+    work.mode[i] = DriveMode::brake;
+    work.constant[i] = pull;
+  } else {
+    const Real speed = speed_of(stage, work, i);
+    work.constant[i] = (speed == k_zero ? pull : speed) > k_zero ? -drag : drag;
+  }
+}
+
+/// What is within a limit may go as far as that; what is beyond comes back, without speed.
+void drive_to_limit(const StepSettings& settings, Real over, bool within, uint32_t row, JointWork& work) {
+  work.wanted[row] = within ? -speed_over(settings, over) : k_zero;
+  work.error[row] = within ? k_zero : over;
 }
 
 /// What a motor or spring gives beside a limit that holds, if it pushes away from it: then the limit bears the rest, or
@@ -220,40 +262,49 @@ Real push_off_limit(const StepSettings& settings, const SolverBodies& bodies, co
                     const JointWork& work) {
   const JointState& joint = stage.joints[work.joint];
   const bool up = work.mode[i] == DriveMode::lower;
-  const Real most = is_positive(joint.force_max[i]) ? multiply(work.bound[i], settings.share) : k_joint_impulse_max;
+  const Real most = largest_push(joint, i, settings.share, work);
   Real push = k_zero;
   if (free_mode(joint, i) == DriveMode::rigid) {
     push = joint.speed[i] > k_zero ? most : joint.speed[i] < k_zero ? -most : k_zero;
   } else if (free_mode(joint, i) == DriveMode::spring) {
-    const int power = is_angular(static_cast<JointType>(joint.type), i) ? work.exponent : 0;
-    const Spring spring(settings, joint, i);
-    const Scaled pull = multiply(multiply(spring.rate, spring.phase),
-                                 scaled_from(scale_by_power(joint.target[i], power) - work.value[i]));
-    const Scaled response = own_response(bodies, stage, work, work.free_row[i]);
-    bool saturated = false;
-    if (is_positive(response)) push = clamp(to_real(divide(pull, response), saturated), -most, most);
+    push = standing_pull(settings, bodies, stage, i, work);
   }
   return up ? max(push, k_zero) : min(push, k_zero);
 }
 
 }  // namespace
 
-bool is_angular(JointType type, int motion) {
-  return motion == 1 || type == JointType::hinge || type == JointType::cone_twist;
+int free_motion_count(JointType type) {
+  if (type == JointType::cone_twist || type == JointType::wheel) return 2;
+  return type == JointType::ball || type == JointType::fixed || type == JointType::filter ? 0 : 1;
 }
 
-void make_joint_rows(const StepSettings& settings, const JointStage& stage, JointWork& work) {
+int driven_motion_count(const JointState& joint) {
+  const JointType type = static_cast<JointType>(joint.type);
+  const bool turns = type == JointType::ball || type == JointType::cone_twist;
+  return turns && is_positive(joint.friction[1]) ? k_free_motions : free_motion_count(type);
+}
+
+bool is_braked(const JointState& joint, int motion) {
+  return is_positive(joint.friction[is_angular(static_cast<JointType>(joint.type), motion) ? 1 : 0]);
+}
+
+bool is_angular(JointType type, int motion) {
+  return motion >= 1 || !(type == JointType::slider || type == JointType::distance || type == JointType::wheel);
+}
+
+JointRows make_joint_rows(const JointStage& stage, const JointWork& work) {
   const JointState& joint = stage.joints[work.joint];
   const JointBody &a = stage.bodies[work.body[0]], &b = stage.bodies[work.body[1]];
   const JointType type = static_cast<JointType>(joint.type);
-  work.rows = work.points = 0;
-  for (Real& softness : work.softness) softness = k_zero;
-  work.arm[0] = multiply(a.axes, work.anchor[0]);
-  work.arm[1] = multiply(b.axes, work.anchor[1]);
-  RowMaker make = {settings, joint, a, b, work};
+  JointRows rows = {};
+  rows.arm[0] = multiply(a.axes, work.anchor[0]);
+  rows.arm[1] = multiply(b.axes, work.anchor[1]);
+  RowMaker make = {work, a, b, rows};
   make.gap =
-      work.between + (b.place - a.place) + (in_metres(work.arm[1], b.exponent) - in_metres(work.arm[0], a.exponent));
-  if (type != JointType::ball && type != JointType::distance) {
+      work.between + (b.place - a.place) + (in_metres(rows.arm[1], b.exponent) - in_metres(rows.arm[0], a.exponent));
+  const bool braked = is_positive(joint.friction[1]);
+  if ((type != JointType::ball || braked) && type != JointType::distance) {
     const Quat frame_a = multiply(a.rotation, joint.frame_a);
     make.frame = matrix_from(frame_a);
     make.relative = multiply(conjugate(frame_a), multiply(b.rotation, joint.frame_b));
@@ -262,6 +313,8 @@ void make_joint_rows(const StepSettings& settings, const JointStage& stage, Join
   switch (type) {
     case JointType::ball:
       make.hold_points();
+      for (int i = 0; braked && i < k_free_motions; ++i)
+        make.free_motion(i, make.angular(make.frame.column[i]), k_zero);
       break;
     case JointType::hinge:
       make.hold_points();
@@ -297,21 +350,30 @@ void make_joint_rows(const StepSettings& settings, const JointStage& stage, Join
       make.free_slide(0);
       make.free_turn(1, 2, relative.z);
       break;
+    case JointType::parallel:
+      make.hold_axis(0);
+      make.free_turn(0, 0, relative.x);
+      break;
     default:
       break;
   }
-  work.rows_held = work.rows;
+  return rows;
 }
 
 void choose_drives(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, JointWork& work) {
   const JointState& joint = stage.joints[work.joint];
-  work.mode[0] = work.mode[1] = DriveMode::idle;
-  work.constant[0] = work.constant[1] = work.driven_total[0] = work.driven_total[1] = k_zero;
-  work.given[0] = work.given[1] = k_zero;
-  for (int i = 0; i < free_motion_count(static_cast<JointType>(joint.type)); ++i) {
+  for (int i = 0; i < k_free_motions; ++i) {
+    work.mode[i] = DriveMode::idle;
+    work.constant[i] = work.driven_total[i] = work.given[i] = k_zero;
+  }
+  const int described = free_motion_count(static_cast<JointType>(joint.type));
+  for (int i = 0; i < driven_motion_count(joint); ++i) {
     work.mode[i] = free_mode(joint, i);
-    if (work.mode[i] == DriveMode::spring) push_softly(settings, bodies, stage, i, work);
-    if (joint.limited[i] == 0) continue;
+    if (work.mode[i] == DriveMode::spring) {
+      push_softly(settings, bodies, stage, i, work);
+      if (is_braked(joint, i)) brake_spring(settings, bodies, stage, i, work);
+    }
+    if (i >= described || joint.limited[i] == 0) continue;
     if (joint.lower[i] == joint.upper[i]) {
       work.mode[i] = DriveMode::held;
       work.constant[i] = k_zero;
@@ -332,26 +394,26 @@ void choose_drives(const StepSettings& settings, const SolverBodies& bodies, con
 void add_driven_rows(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage,
                      JointWork& work) {
   work.rows = work.rows_held;
-  work.driven[0] = work.driven[1] = k_joint_rows_max;
-  if (work.mode[0] == DriveMode::idle && work.mode[1] == DriveMode::idle) return;
   const JointState& joint = stage.joints[work.joint];
-  const JointBody &a = stage.bodies[work.body[0]], &b = stage.bodies[work.body[1]];
-  const RowMaker make = {settings, joint, a, b, work};
-  for (int i = 0; i < 2; ++i) {
+  for (int i = 0; i < k_free_motions; ++i) {
     const DriveMode mode = work.mode[i];
+    work.driven[i] = k_joint_rows_max;
     if (mode == DriveMode::idle || mode == DriveMode::constant) continue;
     const uint32_t row = work.rows++;
     work.driven[i] = row;
     work.row[row] = work.free_row[i];
-    work.softness[row] = k_zero;
+    work.error[row] = k_zero;
+    work.spring[row] = work.wanted[row] = k_zero;
+    if (mode == DriveMode::brake) continue;
     const int power = is_angular(static_cast<JointType>(joint.type), i) ? work.exponent : 0;
     const Real lower = scale_by_power(joint.lower[i], power), upper = scale_by_power(joint.upper[i], power);
     if (mode == DriveMode::held) {
-      work.wanted[row] = make.correction(work.value[i] - lower);
+      work.wanted[row] = k_zero;
+      work.error[row] = work.value[i] - lower;
     } else if (mode == DriveMode::lower) {
-      work.wanted[row] = make.up_to_limit(work.value[i] - lower, work.value[i] > lower);
+      drive_to_limit(settings, work.value[i] - lower, work.value[i] > lower, row, work);
     } else if (mode == DriveMode::upper) {
-      work.wanted[row] = make.up_to_limit(work.value[i] - upper, work.value[i] < upper);
+      drive_to_limit(settings, work.value[i] - upper, work.value[i] < upper, row, work);
     } else {
       work.wanted[row] = scale_by_power(joint.speed[i], power);
     }
@@ -361,32 +423,52 @@ void add_driven_rows(const StepSettings& settings, const SolverBodies& bodies, c
       const Real off = work.value[i] - scale_by_power(joint.target[i], power);
       work.wanted[row] -= multiply(off, divide(spring.rate, spring.damping), saturated);
       const Scaled response = own_response(bodies, stage, work, work.free_row[i]);
-      work.softness[row] = to_real(divide(response, spring.stiffness()), saturated);
+      work.spring[row] = to_real(scaled_by_power(divide(response, spring.stiffness()),
+                                                 work.power[row_kind(work.free_row[i])] - k_impulse_power),
+                                 saturated);
     }
     work.wanted[row] = work.wanted[row] * work.shown[i];
   }
 }
 
-bool revise_drives(const JointState& joint, Scaled share, bool changes, JointWork& work) {
-  bool wrong = false;
+bool release_limits(const JointState& joint, bool changes, JointWork& work) {
   for (int i = 0; i < 2; ++i) {
     DriveMode& mode = work.mode[i];
     const uint32_t row = work.driven[i];
     if (row == k_joint_rows_max) continue;
-    const Real impulse = work.driven_total[i] + work.impulse[row], all = impulse + work.given[i];
-    if ((mode == DriveMode::lower && impulse < k_zero) || (mode == DriveMode::upper && impulse > k_zero)) {
-      wrong = true;
-      if (!changes) continue;
+    const Real impulse = work.driven_total[i] + work.impulse[row];
+    if (!(mode == DriveMode::lower && impulse < k_zero) && !(mode == DriveMode::upper && impulse > k_zero)) continue;
+    if (changes) {
       mode = free_mode(joint, i);
       work.constant[i] = k_zero;
       work.given[i] += work.driven_total[i];
       work.driven_total[i] = k_zero;
-    } else if ((mode == DriveMode::rigid || mode == DriveMode::spring) && is_positive(joint.force_max[i])) {
-      const Real bound = multiply(work.bound[i], share);
+    }
+    return true;  // the other one's is not what it would be without this one
+  }
+  return false;
+}
+
+bool bound_drives(const JointState& joint, Scaled share, bool changes, JointWork& work) {
+  bool wrong = false;
+  for (int i = 0; i < k_free_motions; ++i) {
+    DriveMode& mode = work.mode[i];
+    const uint32_t row = work.driven[i];
+    if (row == k_joint_rows_max) continue;
+    const Real impulse = work.driven_total[i] + work.impulse[row], all = impulse + work.given[i];
+    if ((mode == DriveMode::rigid || mode == DriveMode::spring) && is_positive(joint.force_max[i])) {
+      const Real bound = largest_push(joint, i, share, work);
       if (all <= bound && all >= -bound) continue;
       wrong = true;
       if (!changes) continue;
       work.constant[i] = (all > k_zero ? bound : -bound) - (work.driven_total[i] + work.given[i]);
+      mode = DriveMode::constant;
+    } else if (mode == DriveMode::brake) {
+      const Real drag = largest_drag(i, share, work);
+      if (impulse <= drag && impulse >= -drag) continue;
+      wrong = true;
+      if (!changes) continue;
+      work.constant[i] += (impulse > k_zero ? drag : -drag) - work.driven_total[i];
       mode = DriveMode::constant;
     }
   }

@@ -1,8 +1,7 @@
 #include "dynamics/contact_motion.h"
 #include "dynamics/gyration.h"
 #include "dynamics/joint.h"
-#include "dynamics/joint_anchor.h"
-#include "dynamics/joint_elimination.h"
+#include "dynamics/joint_factor.h"
 #include "dynamics/spin.h"
 #include "math/rotation.h"
 #include "math/scaled.h"
@@ -11,404 +10,514 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr uint32_t k_decisions = 4;  ///< tries to solve with limits and motors as they must be
-constexpr uint32_t k_loop_sweeps = 6;
+constexpr uint32_t k_gathers = 4;              ///< of impulses that are beyond what bodies can take, before they are dropped
+constexpr Scaled k_gathered_share = 0.015625;  ///< of them that is tried next
+constexpr uint32_t k_decisions = 8;  ///< tries to solve with limits and motors as they must be
+
+/// What a substep makes up for of the errors of positions, and no faster than so.
+constexpr Unit k_closed = 0.2;
+constexpr Real k_closing_speed_max = 4.0;  ///< m/s
+constexpr Real k_closing_spin_max = 16.0;  ///< rad/s
+constexpr int k_gap_power = 20;            ///< where all gaps are below 2^-k_gap_power of their joint's unit they stay
+constexpr int k_turned_power = 6;          ///< of a turn in rad: what has turned by less in the tick keeps its gyration
+constexpr int k_straight_power = 20;       ///< of rad: see any_turns()
+
+/// The sum of two lengths, held so that a Real tells its double.
+constexpr Real k_length_max = 32768.0;
+Real held_sum(Real a, Real b) { return min(a + min(b, k_length_max), k_length_max); }
+
+/// Visits the bodies of an island that joints hold and that move.
+template <class Visit>
+void each_body(const SolverBodies& bodies, Span<const uint32_t> slots, JointStage& stage, const Visit& visit) {
+  for (const uint32_t slot : slots) {
+    const uint32_t place = bodies.work[slot].joint_body;
+    if (place == k_no_link) continue;
+    JointBody& body = stage.bodies[place];
+    if (body.mobile != 0) visit(body);
+  }
+}
 
 /// Solves one island's joints.
 struct Solver {
   const StepSettings& settings;
   const SolverBodies& bodies;
+  Span<const uint32_t> slots;
   JointStage& stage;
-  Span<const uint32_t> trees, loops;  ///< of the work, from the roots up
-  bool touches;                       ///< the island has contacts, which read the bodies' spins
-  uint32_t clamped = 0;
-  bool loaded = false;  ///< the bodies' motions are
+  Span<const uint32_t> order;
+  JointFactor factor;
+  uint32_t clamped = 0, undecided = 0;
+
+  Solver(const StepSettings& of_step, const SolverBodies& all, Span<const uint32_t> of_island, const Island& island,
+         JointStage& joints)
+      : settings(of_step),
+        bodies(all),
+        slots(of_island),
+        stage(joints),
+        order{joints.order.data + island.first_joint, island.joint_count},
+        factor(joints, order, island.joint_couplings_dropped != 0) {}
 
   JointBody& end_of(const JointWork& work, uint32_t end) const { return stage.bodies[work.body[end]]; }
-  /// Visits the bodies of the trees, each once.
   template <class Visit>
-  void each_body(const Visit& visit) {
-    for (const uint32_t index : trees) {
-      for (const uint32_t place : stage.work[index].body) {
-        JointBody& body = stage.bodies[place];
-        if (body.mobile != 0 && body.owner == index) visit(body);
-      }
-    }
+  void each_mobile(const Visit& visit) {
+    each_body(bodies, slots, stage, visit);
+  }
+  template <class Visit>
+  void each_joint(const Visit& visit) {
+    for (const uint32_t index : order) visit(stage.work[index]);
   }
 
+  /// Where the bodies are now.
+  void place_moving(Real elapsed) {
+    each_mobile([&](JointBody& body) {
+      const BodyWork& now = bodies.work[body.slot];
+      body.rotation = now.rotation;
+      body.place = now.displacement;
+      body.axes = elapsed == k_zero ? now.axes : matrix_from(now.rotation);
+    });
+  }
+  void place_still(Real elapsed) {
+    each_joint([&](JointWork& work) {
+      for (const uint32_t at : work.body) {
+        JointBody& body = stage.bodies[at];
+        if (body.mobile != 0) continue;
+        const BodyTraits& traits = bodies.traits[body.slot];
+        const BodyMotion& motion = bodies.motions[body.slot];
+        const BodyWork& now = bodies.work[body.slot];
+        Quat rotation = now.rotation;
+        body.velocity = body.spin = k_zero_vector;
+        if (type_of(traits) == BodyType::kinematic) {
+          Vec3<Real> spin;
+          turn_freely(traits, now.free_turn, motion.momentum, elapsed, 0, rotation, spin);
+          body.velocity = motion.velocity;
+          body.spin = world_spin(traits, now.gyration, motion.momentum, body.above);
+        }
+        body.rotation = rotation;
+        body.axes = matrix_from(rotation);
+        body.place = body.velocity * elapsed;
+      }
+    });
+  }
+
+  Vec3<Real> spin_from(const JointBody& body, const Vec3<Real>& momentum) const {
+    return world_spin(bodies.traits[body.slot], bodies.work[body.slot].gyration, momentum, body.above);
+  }
   void load_motion(JointBody& body) {
     const BodyMotion& motion = bodies.motions[body.slot];
     body.velocity = motion.velocity;
-    body.spin = world_spin(bodies.traits[body.slot], bodies.work[body.slot].gyration, motion.momentum, body.above);
-  }
-  /// A body as it is now, without its joints; by anchor, what it shows at its owner's.
-  void load(JointBody& body) {
-    const BodyWork& now = bodies.work[body.slot];
-    body.force = body.torque = body.given_force = body.given_torque = k_zero_vector;
-    if (!loaded) load_motion(body);
-    const Scaled turn = scaled_by_power(body.turn_share, now.gyration.exponent + body.above);
-    bool saturated = false;
-    body.pushed = to_real(body.share, saturated);
-    DETENT_UNROLL
-    for (int i = 0; i < 3; ++i) body.turned[i] = multiply(real_from(now.gyration.row[i]), turn);
-    if (body.by_anchor != 0) {
-      const Vec3<Unit>& arm = owner_arm(body);
-      body.anchor_velocity = body.velocity + cross(body.spin, arm);
-      show_at_itself(body, TurnByForce(body, arm), arm, body.response);
-      return;
-    }
-    DETENT_UNROLL
-    for (int i = 0; i < 3; ++i) {
-      DETENT_UNROLL
-      for (int j = 0; j < 6; ++j) body.response[i][j] = body.response[i + 3][j] = k_zero;
-      body.response[i][i] = body.pushed;
-      body.response[i + 3][3] = body.turned[i].x;
-      body.response[i + 3][4] = body.turned[i].y;
-      body.response[i + 3][5] = body.turned[i].z;
-    }
-  }
-  const Vec3<Unit>& owner_arm(const JointBody& body) const {
-    const JointWork& owner = stage.work[body.owner];
-    return owner.arm[&end_of(owner, 1) == &body ? 1 : 0];
+    body.spin = spin_from(body, motion.momentum);
   }
 
-  /// A wrench that acts without a row, on one body.
-  void give(JointBody& body, const Vec3<Real>& force, const Vec3<Real>& torque) {
-    if (body.mobile == 0) return;
-    body.given_force += force;
-    body.given_torque += torque;
-    body.velocity += multiply(force, body.share);
-    body.spin += Vec3<Real>{dot(last_three(body.response[3]), torque), dot(last_three(body.response[4]), torque),
-                            dot(last_three(body.response[5]), torque)};
+  /// Whether a body that has turned in the tick has another gyration than at its start.
+  bool has_turned(const JointBody& body) const {
+    const BodyTraits& traits = bodies.traits[body.slot];
+    return !is_isotropic(traits) && absolute_sum(bodies.work[body.slot].turn) >
+                                        real_from_unit(Unit(1.0), traits.size_exponent - k_turned_power);
+  }
+
+  void begin(Real elapsed) {
+    place_moving(elapsed);
+    place_still(elapsed);
+    each_mobile([&](JointBody& body) {
+      BodyWork& now = bodies.work[body.slot];
+      const BodyMotion& motion = bodies.motions[body.slot];
+      body.push = body.twist = body.given_push = body.given_twist = k_zero_vector;
+      body.renewed = body.slowed;
+      if (elapsed != k_zero && has_turned(body)) {
+        now.gyration = world_gyration(bodies.traits[body.slot], body.axes);
+        body.renewed = 1;
+      }
+      body.velocity_before = motion.velocity;
+      body.momentum_before = motion.momentum;
+    });
+    each_joint([&](JointWork& work) { static_cast<JointRows&>(work) = make_joint_rows(stage, work); });
+    each_mobile([&](JointBody& body) { load_inertia(settings, bodies, stage, body); });
+    if (elapsed == k_zero) each_joint([&](JointWork& work) { choose_unit(stage, work); });
+  }
+
+  /// Takes up how the bodies move now, and chooses how the free motions are driven.
+  void start() {
+    each_mobile([&](JointBody& body) { load_motion(body); });
+    each_joint([&](JointWork& work) {
+      for (Real& total : work.total) total = k_zero;
+      for (uint32_t k = 0; k < work.rows_held; ++k) work.spring[k] = work.wanted[k] = k_zero;
+      choose_drives(settings, bodies, stage, work);
+    });
   }
 
   /// Motors at their greatest force, and soft springs, push without a row.
   void push(const JointWork& work) {
-    for (int i = 0; i < 2; ++i) {
+    for (int i = 0; i < k_free_motions; ++i) {
       if (work.constant[i] == k_zero) continue;
       const JointRow& row = work.free_row[i];
-      const Real impulse = work.constant[i];
-      give(end_of(work, 1), real_from(row.axis) * impulse, real_from(row.arm[1]) * impulse);
-      give(end_of(work, 0), real_from(row.axis) * -impulse, real_from(row.arm[0]) * -impulse);
+      const int power = impulse_power(work, row_kind(row));
+      const auto give = [&](JointBody& body, uint32_t end, Real impulse) {
+        if (body.mobile == 0) return;
+        body.given_push += multiply(row.axis * impulse, scaled_by_power(body.share, power));
+        body.given_twist += multiply(row.arm[end] * impulse, scaled_by_power(body.share, power + body.above));
+      };
+      give(end_of(work, 1), 1, work.constant[i]);
+      give(end_of(work, 0), 0, -work.constant[i]);
     }
   }
 
-  void missing_speeds(const JointWork& work, Real (&missing)[k_joint_rows_max]) {
-    Real of_a[k_joint_rows_max], of_b[k_joint_rows_max];
+  /// The speeds of a joint's rows.
+  void speeds(const JointWork& work, Real (&speed)[k_joint_rows_max]) const {
+    Real of_a[k_joint_rows_max];
     const JointBody &a = end_of(work, 0), &b = end_of(work, 1);
     show(work, 0, a.velocity, a.spin, of_a);
-    show(work, 1, b.velocity, b.spin, of_b);
-    for (uint32_t k = 0; k < work.rows; ++k) missing[k] = work.wanted[k] - (of_b[k] - of_a[k]);
-    for (int i = 0; i < 2; ++i) {
-      const uint32_t row = work.driven[i];
-      if (row != k_joint_rows_max) missing[row] -= work.softness[row] * work.driven_total[i];
-    }
+    show(work, 1, b.velocity, b.spin, speed);
+    for (uint32_t k = 0; k < work.rows; ++k) speed[k] -= of_a[k];
   }
-
-  /// L^-1 of the missing speeds, over the pivots.
-  template <bool only_points>
-  void start_impulses(JointWork& work, Real (&missing)[k_joint_rows_max]) {
-    const uint32_t rows = only_points ? 3 : work.rows;
-    DETENT_UNROLL
-    for (uint32_t k = 0; k < rows; ++k) {
-      for (uint32_t m = 0; m < k; ++m) missing[k] -= work.lower[k][m] * missing[m];
-      bool saturated = false;
-      work.start[k] =
-          clamp(multiply(missing[k], work.inverse[k], saturated), -k_joint_impulse_max, k_joint_impulse_max);
-      if (saturated) ++clamped;
-    }
-  }
-
-  void eliminate(JointWork& work) {
-    JointBody &parent = end_of(work, work.parent), &child = end_of(work, 1 - work.parent);
-    Real response[k_joint_rows_max][k_joint_rows_max];
-    for (uint32_t k = 0; k < work.rows; ++k) {
-      for (uint32_t m = 0; m <= k; ++m) response[k][m] = k_zero;
-    }
-    if (child.mobile != 0) {
-      respond<false>(work, child, 1 - work.parent, work.reply);
-      couple<false>(work, 1 - work.parent, work.reply, response);
-    }
-    respond<false>(work, parent, work.parent, work.reply);
-    couple<false>(work, work.parent, work.reply, response);
-    factor<false>(response, work);
-    substitute<6>(work.rows, work);
-    take_from<false>(work, parent);
-  }
-
-  /// Likewise of a joint that holds a point alone.
-  void eliminate_point(uint32_t index) {
-    JointWork& work = stage.work[index];
-    JointBody &parent = end_of(work, work.parent), &child = end_of(work, 1 - work.parent);
-    Real response[k_joint_rows_max][k_joint_rows_max];
-    DETENT_UNROLL
-    for (int k = 0; k < 3; ++k) {
-      for (int m = 0; m <= k; ++m) response[k][m] = k_zero;
-    }
-    const auto add = [&](const auto& shown) {
-      DETENT_UNROLL
-      for (int k = 0; k < 3; ++k) {
-        DETENT_UNROLL
-        for (int m = 0; m <= k; ++m) response[k][m] += shown[k][m];
-      }
+  /// Of a row's speeds in a solve.
+  static int power_of(const JointWork& work, uint32_t row) { return work.power[row_kind(work, row)] - k_impulse_power; }
+  /// Whether a row holds something where it is: a limit does while it is reached.
+  static bool is_held(const JointWork& work, uint32_t row) {
+    const auto holds = [](DriveMode mode) {
+      return mode == DriveMode::held || mode == DriveMode::lower || mode == DriveMode::upper;
     };
-    const auto add_whole = [&](JointBody& body, uint32_t end) {
-      respond<true>(work, body, end, work.reply);
-      couple<true>(work, end, work.reply, response);
-    };
-    if (child.mobile != 0) {
-      if (child.by_anchor != 0)
-        add(child.response);
-      else
-        add_whole(child, 1 - work.parent);
-    }
-    work.width = 0;
-    if (parent.mobile != 0) {
-      if (parent.by_anchor == 0) {
-        work.width = 6;
-        add_whole(parent, work.parent);
-      } else if (parent.owner == index) {
-        add(parent.response);
-      } else {
-        work.width = 3;
-        const Vec3<Unit>& arm = work.arm[work.parent];
-        const TurnByForce turn(parent, arm);
-        Real shown[3][3];
-        show_at_itself(parent, turn, arm, shown);
-        add(shown);
-        show_at(parent, turn, owner_arm(parent), work.reply);
+    return row < work.rows_held || (work.driven[0] == row && holds(work.mode[0])) ||
+           (work.driven[1] == row && holds(work.mode[1]));
+  }
+
+  /// Whether a body turns by more than 2^-k_straight_power rad in the substep: below, joints' ways do not bend by what
+  /// can be told. Rods turn without their bodies.
+  bool any_turns() {
+    bool turns = false;
+    each_mobile([&](JointBody& body) { load_motion(body); });
+    each_joint([&](const JointWork& work) {
+      for (const uint32_t at : work.body) {
+        const JointBody& body = stage.bodies[at];
+        const Real least = real_from_unit(Unit(1.0), body.exponent - k_straight_power);
+        if (absolute_sum(body.spin) * settings.time > least) turns = true;
       }
-    }
-    factor<true>(response, work);
-    if (work.width == 6) {
-      substitute<6>(3, work);
-      take_from<true>(work, parent);
-    } else if (work.width == 3) {
-      substitute<3>(3, work);
-      DETENT_UNROLL
-      for (int i = 0; i < 3; ++i) {
-        DETENT_UNROLL
-        for (int j = 0; j <= i; ++j)
-          parent.response[i][j] -= dot(replies(work.reply, i), replies(work.reply_scaled, j));
-      }
-    }
-  }
-  static Vec3<Real> replies(const Reply& reply, int i) { return {reply[0][i], reply[1][i], reply[2][i]}; }
-
-  /// The velocity of a point's end as the joints eliminated so far leave it.
-  Vec3<Real> velocity_of(const JointWork& work, uint32_t index, uint32_t end) const {
-    const JointBody& body = end_of(work, end);
-    if (body.by_anchor != 0 && body.owner == index) return body.anchor_velocity;
-    return body.velocity + cross(body.spin, work.arm[end]);
-  }
-
-  /// The parent moves as the joint, held, moves it.
-  void take_up(JointWork& work) {
-    Real missing[k_joint_rows_max];
-    missing_speeds(work, missing);
-    start_impulses<false>(work, missing);
-    move_parent(work.rows, work);
-  }
-  void take_up_point(uint32_t index) {
-    JointWork& work = stage.work[index];
-    const Vec3<Real> apart = velocity_of(work, index, 1) - velocity_of(work, index, 0);
-    Real missing[k_joint_rows_max];
-    missing[0] = work.wanted[0] - apart.x;
-    missing[1] = work.wanted[1] - apart.y;
-    missing[2] = work.wanted[2] - apart.z;
-    start_impulses<true>(work, missing);
-    if (work.width == 6) {
-      move_parent(3, work);
-    } else if (work.width == 3) {
-      JointBody& parent = end_of(work, work.parent);
-      const Vec3<Real> start = {work.start[0], work.start[1], work.start[2]};
-      const Vec3<Real> moved = {dot(replies(work.reply, 0), start), dot(replies(work.reply, 1), start),
-                                dot(replies(work.reply, 2), start)};
-      if (work.parent == 1)
-        parent.anchor_velocity += moved;
-      else
-        parent.anchor_velocity -= moved;
-    }
-  }
-  void move_parent(uint32_t rows, const JointWork& work) {
-    JointBody& parent = end_of(work, work.parent);
-    for (uint32_t k = 0; k < rows; ++k) {
-      const Real impulse = work.parent == 1 ? work.start[k] : -work.start[k];
-      parent.velocity += first_three(work.reply[k]) * impulse;
-      parent.spin += last_three(work.reply[k]) * impulse;
-    }
-  }
-
-  /// The impulses, once all that the parent gets from above is known.
-  template <bool only_points>
-  void come_down(JointWork& work) {
-    // The bound is for GCC, which at -O3 sees rows beyond the last.
-    const uint32_t rows = only_points ? 3 : work.rows < k_joint_rows_max ? work.rows : k_joint_rows_max;
-    JointBody &parent = end_of(work, work.parent), &child = end_of(work, 1 - work.parent);
-    const bool parent_is_b = work.parent == 1;
-    const uint32_t width = only_points ? work.width : 6;
-    DETENT_UNROLL
-    for (uint32_t k = 0; k < rows; ++k) {
-      Real from_above = k_zero;
-      if (width != 0) from_above = dot(parent.force, first_three(work.reply_scaled[k]));
-      if (width == 6) from_above += dot(parent.torque, last_three(work.reply_scaled[k]));
-      work.impulse[k] = parent_is_b ? work.start[k] - from_above : work.start[k] + from_above;
-    }
-    for (uint32_t k = rows; k-- > 0;) {
-      Real& impulse = work.impulse[k];
-      for (uint32_t m = k + 1; m < rows; ++m) impulse -= work.lower[m][k] * work.impulse[m];
-      const Real within = clamp(impulse, -k_joint_impulse_max, k_joint_impulse_max);
-      if (!(within == impulse)) ++clamped;
-      impulse = within;
-    }
-    const auto put = [&](JointBody& body, uint32_t end) {
-      if (body.mobile == 0) return;
-      Vec3<Real> force, torque;
-      gather<only_points>(work, end, force, torque);
-      if (end == 1) {
-        body.force += force;
-        body.torque += torque;
-      } else {
-        body.force -= force;
-        body.torque -= torque;
-      }
-    };
-    put(parent, work.parent);
-    put(child, 1 - work.parent);
-  }
-
-  static bool is_only_points(const JointWork& work) { return work.points != 0 && work.rows == 3; }
-
-  /// Which bodies points alone hold, and nothing else pushes.
-  void find_by_anchor() {
-    each_body([](JointBody& body) { body.by_anchor = body.links <= 2 ? 1 : 0; });
-    for (const uint32_t index : trees) {
-      const JointWork& work = stage.work[index];
-      if (is_only_points(work) && work.constant[0] == k_zero && work.constant[1] == k_zero) continue;
-      end_of(work, 0).by_anchor = end_of(work, 1).by_anchor = 0;
-    }
-    for (const uint32_t index : loops) {
-      const JointWork& work = stage.work[index];
-      end_of(work, 0).by_anchor = end_of(work, 1).by_anchor = 0;
-    }
-  }
-
-  void solve_trees() {
-    for (uint32_t k = trees.count; k-- > 0;) {
-      JointWork& work = stage.work[trees[k]];
-      if (is_only_points(work)) {
-        eliminate_point(trees[k]);
-        take_up_point(trees[k]);
-      } else if (work.rows != 0) {
-        eliminate(work);
-        take_up(work);
-      }
-    }
-    for (const uint32_t index : trees) {
-      JointWork& work = stage.work[index];
-      if (is_only_points(work))
-        come_down<true>(work);
-      else if (work.rows != 0)
-        come_down<false>(work);
-    }
-  }
-
-  bool revise(bool changes) {
-    bool wrong = false;
-    for (const uint32_t index : trees) {
-      JointWork& work = stage.work[index];
-      if (revise_drives(stage.joints[work.joint], settings.share, changes, work)) wrong = true;
-    }
-    return wrong;
-  }
-
-  /// Where the bodies are now.
-  void place(Real elapsed) {
-    each_body([&](JointBody& body) {
-      BodyWork& now = bodies.work[body.slot];
-      body.rotation = now.rotation;
-      body.place = now.displacement;
-      if (elapsed == k_zero) {
-        body.axes = now.axes;
-      } else {
-        body.axes = matrix_from(now.rotation);
-        now.gyration = world_gyration(bodies.traits[body.slot], body.axes);
-      }
-      load_motion(body);
+      if (static_cast<JointType>(stage.joints[work.joint].type) == JointType::distance) turns = true;
     });
-    const auto place_still = [&](Span<const uint32_t> joints) {
-      for (const uint32_t index : joints) {
-        for (const uint32_t at : stage.work[index].body) {
-          JointBody& body = stage.bodies[at];
-          if (body.mobile != 0) continue;
-          const BodyTraits& traits = bodies.traits[body.slot];
-          const BodyMotion& motion = bodies.motions[body.slot];
-          const BodyWork& now = bodies.work[body.slot];
-          const bool moves = type_of(traits) == BodyType::kinematic;
-          Quat rotation = now.rotation;
-          body.velocity = body.spin = k_zero_vector;
-          if (moves) {
-            Vec3<Real> spin;
-            turn_freely(traits, now.free_turn, motion.momentum, elapsed, 0, rotation, spin);
-            body.velocity = motion.velocity;
-            body.spin = world_spin(traits, now.gyration, motion.momentum, body.above);
-          }
-          body.rotation = rotation;
-          body.axes = matrix_from(rotation);
-          body.place = body.velocity * elapsed;
-        }
-      }
-    };
-    place_still(trees);
-    place_still(loops);
+    return turns;
   }
 
-  void make_rows(Span<const uint32_t> joints) {
-    for (const uint32_t index : joints) {
-      JointWork& work = stage.work[index];
-      make_joint_rows(settings, stage, work);
-      for (Real& total : work.total) total = k_zero;
-      choose_drives(settings, bodies, stage, work);
-    }
+  /// Twice the energy that holding the rows takes from the motion before the substep.
+  Scaled energy_of_turning() {
+    each_mobile([&](JointBody& body) {
+      body.velocity = body.velocity_before;
+      body.spin = spin_from(body, body.momentum_before);
+    });
+    each_joint([&](JointWork& work) {
+      Real speed[k_joint_rows_max];
+      speeds(work, speed);
+      for (uint32_t k = 0; k < work.rows; ++k)
+        work.side[k] = is_held(work, k) ? scale_by_power(-speed[k], power_of(work, k)) : k_zero;
+    });
+    return factor.substitute();
   }
 
-  /// Holds the trees, until all limits and motors are as they were taken to be.
-  void solve_held(uint32_t& undecided) {
+  /// Makes the factor of the rows that the joints have as they are driven.
+  void make_factor() {
+    each_joint([&](JointWork& work) { add_driven_rows(settings, bodies, stage, work); });
+    factor.make();
+    each_mobile([&](JointBody& body) { body.given_push = body.given_twist = k_zero_vector; });
+    each_joint([&](JointWork& work) { push(work); });
+  }
+
+  /// Holds the rows, until all limits, motors and brakes are as they were taken to be.
+  void hold(Real elapsed) {
     for (uint32_t decision = 1;; ++decision) {
-      for (const uint32_t index : trees) add_driven_rows(settings, bodies, stage, stage.work[index]);
-      find_by_anchor();
-      each_body([&](JointBody& body) { load(body); });
-      loaded = false;
-      for (const uint32_t index : trees) push(stage.work[index]);
-      solve_trees();
+      each_mobile([&](JointBody& body) {
+        const BodyMotion& motion = bodies.motions[body.slot];
+        body.velocity = motion.velocity + body.given_push;
+        body.spin = spin_from(body, motion.momentum + body.given_twist);
+      });
+      each_joint([&](JointWork& work) {
+        Real speed[k_joint_rows_max];
+        speeds(work, speed);
+        for (uint32_t k = 0; k < work.rows; ++k)
+          work.side[k] = scale_by_power(work.wanted[k] - speed[k], power_of(work, k));
+        for (int i = 0; i < k_free_motions; ++i) {
+          const uint32_t row = work.driven[i];
+          if (row != k_joint_rows_max) work.side[row] -= work.spring[row] * work.driven_total[i];
+        }
+      });
+      factor.substitute();
+      factor.solve();
+      bool wrong = false;
       const bool last = decision == k_decisions;
-      if (!revise(!last)) break;
-      if (!last) continue;
-      ++undecided;
-      break;
+      each_joint([&](JointWork& work) {
+        if (bound_drives(stage.joints[work.joint], settings.share, !last, work)) wrong = true;
+      });
+      if (!wrong) {  // a limit's impulse is what it is beside drives that stay within their bounds
+        each_joint([&](JointWork& work) {
+          if (release_limits(stage.joints[work.joint], !last, work)) wrong = true;
+        });
+      }
+      if (!wrong) break;
+      if (last) {
+        ++undecided;
+        break;
+      }
+      make_factor();
     }
-    each_body([&](JointBody& body) { apply(body); });
-    for (const uint32_t index : trees) count_in(stage.work[index]);
+    gather_within_range(elapsed);
+    each_mobile([&](JointBody& body) { apply(body); });
+    each_joint([&](JointWork& work) { count_in(work); });
+  }
+
+  /// Makes the impulses what the bodies get; all less where one is beyond its range, or what a body gets: a part of
+  /// what holds the rows takes energy too. Returns how often they were made less.
+  uint32_t gather_impulses() {
+    uint32_t lessened = 0;
+    Real most = k_zero;
+    each_joint([&](JointWork& work) {
+      for (uint32_t k = 0; k < work.rows; ++k) most = max(most, abs(work.impulse[k]));
+    });
+    if (most > k_joint_impulse_max) {
+      ++lessened;
+      scale_impulses(divide(scaled_from(k_joint_impulse_max), scaled_from(most)));
+    }
+    for (uint32_t left = k_gathers; !gather_joints(); --left) {
+      ++lessened;
+      scale_impulses(left == 1 ? Scaled(0.0) : k_gathered_share);
+    }
+    return lessened;
+  }
+  /// False if a body gets more than fits.
+  bool gather_joints() {
+    bool fits = true;
+    each_mobile([&](JointBody& body) { body.push = body.twist = k_zero_vector; });
+    each_joint([&](const JointWork& work) {
+      for (uint32_t end = 0; fits && end < 2; ++end) {
+        JointBody& body = end_of(work, end);
+        if (body.mobile != 0 && !gather(work, end, body)) fits = false;
+      }
+    });
+    return fits;
+  }
+  void scale_impulses(Scaled share) {
+    each_joint([&](JointWork& work) {
+      for (uint32_t k = 0; k < work.rows; ++k) work.impulse[k] = multiply(work.impulse[k], share);
+    });
+  }
+  /// Whether nothing has left its range yet.
+  bool is_sound() const { return clamped + factor.saturated == 0; }
+  /// What left its range on the way is no solution: as much of it as takes energy.
+  void gather_within_range(Real elapsed) {
+    clamped += gather_impulses();
+    if (is_sound()) return;
+    scale_all(share_within(Scaled(0.0)));
+    place_still(elapsed);
+  }
+
+  /// What the joints have given a body becomes its motion.
+  void apply(JointBody& body) {
+    BodyMotion& motion = bodies.motions[body.slot];
+    BodyWork& now = bodies.work[body.slot];
+    const Vec3<Real> velocity_before = motion.velocity, momentum_before = motion.momentum;
+    motion.velocity += body.push + body.given_push;
+    motion.momentum += body.twist + body.given_twist;
+    clamped += clamp_vector(motion.velocity, k_speed_work_max) + clamp_vector(motion.momentum, k_spin_work_max);
+    if (DETENT_FIXED) {  // it is not the contacts' (contact_motion.h)
+      now.contact_velocity -= motion.velocity - velocity_before;
+      now.contact_momentum -= motion.momentum - momentum_before;
+    }
+    body.push = body.twist = body.given_push = body.given_twist = k_zero_vector;
   }
 
   /// What has acted counts among what the joint gives in this substep.
   static void count_in(JointWork& work) {
     for (uint32_t k = 0; k < work.rows_held; ++k) work.total[k] += work.impulse[k];
-    for (int i = 0; i < 2; ++i) {
+    for (int i = 0; i < k_free_motions; ++i) {
       if (work.driven[i] != k_joint_rows_max) work.driven_total[i] += work.impulse[work.driven[i]];
       work.given[i] += work.constant[i];
       work.constant[i] = k_zero;
     }
   }
 
+  /// Holds the rows once more: takes out what contacts have added to their speeds.
+  void hold_again(Real elapsed) {
+    each_mobile([&](JointBody& body) { load_motion(body); });
+    place_still(elapsed);
+    hold(elapsed);
+    renew_spins();
+  }
+  /// The contacts' copy of the bodies' spins.
+  void renew_spins() {
+    each_mobile([&](JointBody& body) {
+      BodyWork& now = bodies.work[body.slot];
+      now.spin = world_spin(bodies.traits[body.slot], now.gyration, bodies.motions[body.slot].momentum, -k_spin_power);
+    });
+  }
+
+  /// Asks the rows for what would take their errors to those where the bodies are heading: the rows hold along straight
+  /// ways, and joints turn.
+  void ask_for_curves(Real elapsed) {
+    each_mobile([&](JointBody& body) {
+      const BodyMotion& motion = bodies.motions[body.slot];
+      const BodyWork& now = bodies.work[body.slot];
+      Vec3<Real> spin;
+      turn_freely(bodies.traits[body.slot], now.free_turn, own_momentum(body, motion.momentum), settings.time, 0,
+                  body.rotation, spin);
+      body.axes = matrix_from(body.rotation);
+      body.place += motion.velocity * settings.time;
+    });
+    place_still(elapsed + settings.time);
+    each_joint([&](JointWork& work) {
+      const JointRows then = make_joint_rows(stage, work);
+      const auto ask = [&](uint32_t row, Real error) {
+        work.side[row] = scale_by_power(speed_over(settings, work.error[row] - error), power_of(work, row));
+      };
+      for (uint32_t k = 0; k < work.rows; ++k) {
+        work.side[k] = k_zero;
+        if (k < work.rows_held) ask(k, then.error[k]);
+      }
+      for (int i = 0; i < k_free_motions; ++i) {
+        const uint32_t row = work.driven[i];
+        if (row == k_joint_rows_max || !is_held(work, row)) continue;
+        const Real way = work.wanted[row] * settings.time;
+        ask(row, work.error[row] + (then.value[i] - work.value[i] - way));
+      }
+    });
+    place_moving(elapsed);
+  }
+
+  /// Adds the motion that follows the joints' curves, as far as it has no more energy than holding the rows has taken.
+  void follow_curves(Scaled taken) {
+    factor.substitute();
+    factor.solve();
+    clamped += gather_impulses();
+    scale_all(share_within(is_sound() ? taken : Scaled(0.0)));
+    each_mobile([&](JointBody& body) { apply(body); });
+    each_joint([&](JointWork& work) { count_in(work); });
+  }
+
+  /// The greatest x in [0, 1] for which x times the impulses, which have been gathered, add no more than that: with
+  /// what they have by themselves and what they share with the motion, x^2 own + 2 x shared <= allowed, all twice
+  /// energies.
+  Scaled share_within(Scaled allowed) {
+    EnergySum own, shared;
+    const auto add_up = [&](EnergySum& sum) {
+      each_joint([&](JointWork& work) {
+        Real speed[k_joint_rows_max];
+        speeds(work, speed);
+        for (uint32_t k = 0; k < work.rows; ++k) sum.add(work.impulse[k], scale_by_power(speed[k], power_of(work, k)));
+      });
+    };
+    each_mobile([&](JointBody& body) { load_motion(body); });
+    add_up(shared);
+    each_mobile([&](JointBody& body) {
+      body.velocity = body.push;
+      body.spin = spin_from(body, body.twist);
+    });
+    place_motionless();
+    add_up(own);
+    const Scaled square = own.value(), line = shared.value(), one = 1.0;
+    if (!less(allowed, add(square, scaled_by_power(line, 1)))) return one;
+    const Scaled root = square_root(add(multiply(line, line), multiply(square, allowed)));
+    const Scaled rest = add(root, negate(line));
+    const Scaled share = is_positive(square) && is_positive(rest) ? divide(rest, square) : Scaled(0.0);
+    return less(one, share) ? one : share;
+  }
+  void scale_all(Scaled share) {
+    if (share == Scaled(1.0)) return;
+    each_mobile([&](JointBody& body) {
+      body.push = multiply(body.push, share);
+      body.twist = multiply(body.twist, share);
+    });
+    scale_impulses(share);
+  }
+
+  /// What does not move for the solver has no part in what it gives.
+  void place_motionless() {
+    each_joint([&](JointWork& work) {
+      for (const uint32_t at : work.body) {
+        JointBody& body = stage.bodies[at];
+        if (body.mobile == 0) body.velocity = body.spin = k_zero_vector;
+      }
+    });
+  }
+
+  /// Finds the shifts that close gaps: of positions alone.
+  void close_gaps() {
+    Real closed = k_zero;
+    bool opens = false;
+    each_joint([&](JointWork& work) {
+      const Real least = real_from_unit(Unit(1.0), work.exponent - k_gap_power);
+      const Real angular_max = scale_by_power(k_closing_spin_max, work.exponent < 12 ? work.exponent : 12);
+      for (uint32_t k = 0; k < work.rows; ++k) {
+        const bool linear = row_kind(work, k) == 0;
+        const Real most = linear ? k_closing_speed_max : angular_max;
+        const Real speed = clamp(-(speed_over(settings, work.error[k]) * k_closed), -most, most);
+        closed = held_sum(closed, abs(speed) * settings.time);
+        if (abs(work.error[k]) > least) opens = true;
+        work.side[k] = scale_by_power(speed, power_of(work, k));
+      }
+    });
+    if (!opens) {
+      each_mobile([&](JointBody& body) { body.shift = body.shift_turn = k_zero_vector; });
+      return;
+    }
+    const uint32_t before = factor.saturated;
+    factor.substitute();
+    factor.solve();
+    gather_impulses();  // where the shifts are too large for a substep it closes a part
+    if (factor.saturated != before) scale_all(Scaled(0.0));
+    // The ways of turns bend by half of their square: no more than half of what they close.
+    Real bent = k_zero;
+    each_mobile([&](JointBody& body) {
+      body.shift = body.push * settings.time;
+      const Vec3<Real> spin = spin_from(body, body.twist);
+      bool held = false;
+      const auto angle = [&](Real part) {
+        return clamp(angle_of(part * settings.time, body.exponent, held), Real(-1.0), Real(1.0));
+      };
+      body.shift_turn = {angle(spin.x), angle(spin.y), angle(spin.z)};
+      body.push = body.twist = k_zero_vector;
+    });
+    each_joint([&](JointWork& work) {
+      for (uint32_t end = 0; end < 2; ++end) {
+        const JointBody& body = end_of(work, end);
+        if (body.mobile == 0) continue;
+        const Real turn = absolute_sum(body.shift_turn);
+        bent = held_sum(bent, (turn * turn) * real_from_unit(work.arm_length[end], body.exponent - 1));
+      }
+    });
+    if (scale_by_power(bent, 1) > closed) {
+      const Scaled share = divide(scaled_from(closed), scaled_from(scale_by_power(bent, 1)));
+      each_mobile([&](JointBody& body) {
+        body.shift = multiply(body.shift, share);
+        body.shift_turn = multiply(body.shift_turn, share);
+      });
+    }
+  }
+
+  /// Bodies turn with their own inertia, at the spin that they have with that of the substep.
+  void lend_momenta() {
+    each_mobile([&](JointBody& body) {
+      if (body.slowed == 0) return;
+      BodyMotion& motion = bodies.motions[body.slot];
+      body.momentum_before = motion.momentum;
+      motion.momentum = own_momentum(body, motion.momentum);
+    });
+  }
+  /// Gives the bodies their own gyrations and momenta.
+  void end() {
+    each_mobile([&](JointBody& body) {
+      body.renewed = body.slowed;
+      if (body.slowed == 0) return;
+      BodyMotion& motion = bodies.motions[body.slot];
+      BodyWork& now = bodies.work[body.slot];
+      const Vec3<Real> before = motion.momentum;
+      motion.momentum = own_momentum(body, before);
+      if (DETENT_FIXED) now.contact_momentum += before - motion.momentum;  // it is not the contacts'
+      now.gyration = world_gyration(bodies.traits[body.slot], body.axes);
+    });
+  }
+
   /// The reactions of a joint.
   static void add_up(JointWork& work) {
     if (work.points != 0) work.force_sum += Vec3<Real>{work.total[0], work.total[1], work.total[2]};
-    for (uint32_t k = work.points != 0 ? 3 : 0; k < work.rows_held; ++k) add_row(work, work.row[k], work.total[k]);
-    for (int i = 0; i < 2; ++i) {
+    for (uint32_t k = first_other(work); k < work.rows_held; ++k) add_row(work, work.row[k], work.total[k]);
+    for (int i = 0; i < k_free_motions; ++i) {
       if (!(work.driven_total[i] == k_zero)) add_row(work, work.free_row[i], work.driven_total[i]);
     }
-    for (int i = 0; i < 2; ++i) {
+    for (int i = 0; i < k_free_motions; ++i) {
       if (!(work.given[i] == k_zero)) add_row(work, work.free_row[i], work.given[i]);
     }
   }
@@ -419,128 +528,92 @@ struct Solver {
       work.torque_sum += real_from(row.arm[1]) * impulse;
   }
 
-  /// What the next substep starts from.
-  void keep(const JointWork& work, Scaled over_share) {
+  /// What the next substep's inertias are made with: no more than k_joint_impulse_max of it counts, and nothing else
+  /// takes it.
+  void keep(const JointWork& work, Scaled share) const {
     Real(&kept)[k_joint_rows_max] = stage.joints[work.joint].impulse;
-    bool saturated = false;
-    const auto store = [&](uint32_t k, Real total) {
-      const Real impulse = multiply(total, over_share, saturated);
+    const Scaled over_share = multiply(share, work.over_lighter);
+    const auto store = [&](uint32_t k, int kind, Real total) {
+      bool saturated = false;
+      const Real impulse = multiply(total, scaled_by_power(over_share, impulse_power(work, kind)), saturated);
       kept[k] = clamp(impulse, -k_joint_impulse_max, k_joint_impulse_max);
-      if (!(kept[k] == impulse)) ++clamped;
     };
-    for (uint32_t k = 0; k < work.rows_held; ++k) store(k, work.total[k]);
-    for (uint32_t i = 0; i < 2 && work.rows_held + i < k_joint_rows_max; ++i)
-      store(work.rows_held + i, work.driven_total[i]);
-  }
-
-  /// Puts on what the joints that close loops gave in the last substep.
-  void start_loops() {
-    for (const uint32_t index : loops) {
-      JointWork& work = stage.work[index];
-      add_driven_rows(settings, bodies, stage, work);
-      const JointState& joint = stage.joints[work.joint];
-      const Scaled share = scaled_by_power(settings.share, k_kept_power);
-      for (uint32_t k = 0; k < work.rows; ++k)
-        work.impulse[k] = k < work.rows_held ? multiply(joint.impulse[k], share) : k_zero;
-      load_ends(work);
-      push(work);
-      put_on(work);
-    }
-  }
-  void load_ends(const JointWork& work) {
-    for (uint32_t end = 0; end < 2; ++end) {
-      if (end_of(work, end).mobile != 0) load(end_of(work, end));
-    }
-  }
-  /// The impulses of a joint by itself become its bodies' motion.
-  void put_on(JointWork& work) {
-    for (uint32_t end = 0; end < 2; ++end) {
-      JointBody& body = end_of(work, end);
-      if (body.mobile == 0) continue;
-      gather<false>(work, end, body.force, body.torque);
-      if (end == 0) {
-        body.force = -body.force;
-        body.torque = -body.torque;
-      }
-      apply(body);
-    }
-    count_in(work);
-  }
-  /// Holds a joint by itself, as its bodies move now.
-  void hold_loop(JointWork& work) {
-    load_ends(work);
-    eliminate(work);
-    load_ends(work);
-    Real missing[k_joint_rows_max];
-    missing_speeds(work, missing);
-    start_impulses<false>(work, missing);
-    for (uint32_t k = work.rows; k-- > 0;) {
-      work.impulse[k] = work.start[k];
-      for (uint32_t m = k + 1; m < work.rows; ++m) work.impulse[k] -= work.lower[m][k] * work.impulse[m];
-    }
-    for (int i = 0; i < 2; ++i) {
-      const uint32_t row = work.driven[i];
-      if (row == k_joint_rows_max) continue;
-      // Limits push one way, motors no more than they can.
-      const DriveMode mode = work.mode[i];
-      const bool limits = mode == DriveMode::lower || mode == DriveMode::upper;
-      const Real before = limits ? work.driven_total[i] : work.driven_total[i] + work.given[i];
-      const Real most = mode == DriveMode::upper ? k_zero : bound_of(work, i);
-      const Real least = mode == DriveMode::lower ? k_zero : -bound_of(work, i);
-      work.impulse[row] = clamp(before + work.impulse[row], least, most) - before;
-    }
-    put_on(work);
-  }
-  Real bound_of(const JointWork& work, int i) const {
-    const bool bounded = (work.mode[i] == DriveMode::rigid || work.mode[i] == DriveMode::spring) &&
-                         is_positive(stage.joints[work.joint].force_max[i]);
-    return bounded ? multiply(work.bound[i], settings.share) : k_joint_impulse_max;
-  }
-
-  /// What the joints have given the bodies becomes their motion. Both bodies of a joint got the same impulse.
-  void apply(JointBody& body) {
-    const Vec3<Real> force = body.force + body.given_force, torque = body.torque + body.given_torque;
-    BodyMotion& motion = bodies.motions[body.slot];
-    BodyWork& now = bodies.work[body.slot];
-    const Vec3<Real> velocity = multiply(force, body.share);
-    const Vec3<Real> momentum = multiply(torque, body.turn_share);
-    motion.velocity += velocity;
-    motion.momentum += momentum;
-    if (DETENT_FIXED) {  // it is not the contacts' (contact_motion.h)
-      now.contact_velocity -= velocity;
-      now.contact_momentum -= momentum;
-    }
-    if (touches) now.spin = world_spin(bodies.traits[body.slot], now.gyration, motion.momentum, -k_spin_power);
-    body.force = body.torque = body.given_force = body.given_torque = k_zero_vector;
+    for (uint32_t k = 0; k < work.rows_held; ++k) store(k, row_kind(work, k), work.total[k]);
+    for (uint32_t i = 0; i < k_free_motions && work.rows_held + i < k_joint_rows_max; ++i)
+      store(work.rows_held + i, row_kind(work.free_row[i]), work.driven_total[i]);
   }
 };
 
 }  // namespace
 
-uint32_t solve_joints(const StepSettings& settings, const SolverBodies& bodies, const Island& island, Real elapsed,
-                      JointStage& stage, uint32_t& undecided) {
-  const Span<const uint32_t> trees = {stage.order.data + island.first_joint, island.joint_count};
-  const Span<const uint32_t> loops = {stage.order.data + island.first_joint + island.joint_count, island.loop_count};
-  Solver solver = {settings, bodies, stage, trees, loops, island.contact_count != 0};
-  solver.place(elapsed);
-  solver.loaded = loops.count == 0;
-  solver.make_rows(trees);
-  solver.make_rows(loops);
-  const Span<const uint32_t> all = {trees.data, trees.count + loops.count};
-  hold_sway(settings, bodies, all, elapsed == k_zero, stage);
-  solver.start_loops();
-  solver.solve_held(undecided);
-  for (uint32_t sweep = 0; sweep < k_loop_sweeps && loops.count != 0; ++sweep) {
-    for (const uint32_t index : loops) solver.hold_loop(stage.work[index]);
-    solver.solve_held(undecided);
+void begin_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
+                  const Island& island, Real elapsed, JointStage& stage) {
+  Solver solver(settings, bodies, slots, island, stage);
+  solver.begin(elapsed);
+}
+
+uint32_t hold_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
+                      const Island& island, Real elapsed, JointStage& stage, uint32_t& undecided) {
+  Solver solver(settings, bodies, slots, island, stage);
+  solver.start();
+  solver.make_factor();
+  solver.hold(elapsed);
+  if (island.contact_count != 0) solver.renew_spins();
+  undecided += solver.undecided;
+  return solver.clamped + solver.factor.saturated;
+}
+
+uint32_t hold_joints_again(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
+                           const Island& island, Real elapsed, JointStage& stage, uint32_t& undecided) {
+  Solver solver(settings, bodies, slots, island, stage);
+  solver.hold_again(elapsed);
+  undecided += solver.undecided;
+  return solver.clamped + solver.factor.saturated;
+}
+
+uint32_t follow_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
+                       const Island& island, Real elapsed, JointStage& stage) {
+  Solver solver(settings, bodies, slots, island, stage);
+  if (solver.any_turns()) {
+    const Scaled taken = solver.energy_of_turning();
+    solver.ask_for_curves(elapsed);
+    solver.follow_curves(taken);
   }
+  solver.close_gaps();
+  if (island.contact_count != 0) solver.renew_spins();
+  solver.lend_momenta();
+  return solver.clamped + solver.factor.saturated;
+}
+
+uint32_t end_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
+                    const Island& island, Real elapsed, JointStage& stage, uint32_t& undecided) {
+  Solver solver(settings, bodies, slots, island, stage);
+  if (island.contact_count != 0) solver.hold_again(elapsed);
+  undecided += solver.undecided;
   const Scaled over_share = scaled_by_power(scaled_from_count(settings.substeps), -k_kept_power);
-  for (const uint32_t index : all) {
-    JointWork& work = stage.work[index];
+  solver.each_joint([&](JointWork& work) {
     solver.add_up(work);
     solver.keep(work, over_share);
-  }
-  return solver.clamped;
+  });
+  solver.end();
+  return solver.clamped + solver.factor.saturated;
+}
+
+void shift_joints(const SolverBodies& bodies, Span<const uint32_t> slots, JointStage& stage) {
+  each_body(bodies, slots, stage, [&](const JointBody& body) {
+    BodyWork& now = bodies.work[body.slot];
+    BodyMotion& motion = bodies.motions[body.slot];
+    if (body.slowed != 0) motion.momentum = body.momentum_before;
+    now.displacement += body.shift;
+    if (body.shift_turn == k_zero_vector) return;
+    const Quat turn = rotation_from_vector(body.shift_turn);
+    now.rotation = normalise(multiply(turn, now.rotation));
+    // The momentum turns with the body: so its energy stays.
+    const Vec3<Real> before = motion.momentum;
+    motion.momentum = rotate(turn, before);
+    if (DETENT_FIXED) now.contact_momentum += before - motion.momentum;
+    now.turn += scale_by_power(body.shift_turn, bodies.traits[body.slot].size_exponent);
+  });
 }
 
 void store_reactions(const StepSettings& settings, const SolverBodies& bodies, JointStage& stage) {
@@ -555,12 +628,13 @@ void store_reactions(const StepSettings& settings, const SolverBodies& bodies, J
             multiply(scaled_from(sum.z), factor)};
     };
     JointState& joint = stage.joints[work.joint];
-    store(work.force_sum, 0, joint.force);
-    store(work.torque_sum, b.exponent, joint.torque);
+    store(work.force_sum, impulse_power(work, 0), joint.force);
+    store(work.torque_sum, b.exponent + impulse_power(work, 1), joint.torque);
   }
 }
 
-const JointCode k_joint_code = {collect_joints, grow_trees, solve_joints, store_reactions};
+const JointCode k_joint_code = {collect_joints, order_joints, begin_joints, hold_joints, hold_joints_again,
+                                follow_joints,  shift_joints, end_joints,   store_reactions};
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

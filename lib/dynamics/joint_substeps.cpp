@@ -4,111 +4,100 @@
 #include "math/root.h"
 #include "math/scaled.h"
 
-/// How many substeps joints need. A joint is held at the speeds of its bodies, along a straight way. What turns by w in
-/// a substep leaves its circle by w^2/2 of the radius, and by so much the joint gives way: so the square of the number
-/// of substeps goes with what the ways bend in a whole tick, and a chain that hangs or swings slowly takes one.
+/// How many substeps joints need. What turns by w in a substep leaves the straight way that its joints are held along by
+/// w^2/2 of its arm. The solver makes up for that but for a part of w of it. So the square of the number of substeps goes
+/// with what the ways bend in a whole tick, over the smaller body's unit: a chain that hangs or swings slowly takes the
+/// fewest, and so does a wheel, which turns about its anchor.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr Real k_bend_turn_max = 2.0;  ///< rad, each component of a turn: beyond those the number is at its bound
+constexpr Real k_turn_max = 4.0;  ///< rad, each component of a turn: beyond those the number is at its bound
 
-/// Squared substeps for each part of the smaller body's unit of length, or radian, by which the ways bend in a tick.
-constexpr Scaled k_needed_by_bend = 64.0;
-constexpr Scaled k_needed_by_bend_max = 64.0;
-/// For each squared radian of a swing under the pulls of joints in a tick: what is slowed for want of substeps
-/// (joint_sway.cpp) is slowed little. No more than 4: what is taut between two walls comes apart sooner with 8 than
-/// with 4.
-constexpr Scaled k_needed_by_swing = 1.0 / 72;
-constexpr Scaled k_needed_by_swing_max = 16.0;
-constexpr Scaled k_needed_with_contacts = 64.0;  ///< their impulses and those of the joints settle over the substeps
-constexpr Scaled k_needed_by_loops = 16.0;       ///< also of what hangs on two places, which may be taut between them
+constexpr Scaled k_needed = 4.0;            ///< one substep would open what is taut by metres
+constexpr Scaled k_needed_by_loops = 9.0;   ///< also by what hangs on two places, which may be taut between them
+constexpr Scaled k_needed_by_bend = 25.0;  ///< for each squared radian in a tick: 0.2 rad a substep
+constexpr int k_axes_power = 2;            ///< of axes that turn about each other: so much more
+constexpr Scaled k_needed_by_bend_max = 1024.0;
+constexpr Scaled k_needed_with_contacts = 36.0;  ///< their impulses and those of the joints settle over the substeps
 constexpr Scaled k_needed_by_spring = 25.0;      ///< for each squared radian of its phase in a tick
 constexpr Scaled k_needed_by_spring_max = 16.0;  ///< stiffer ones are solved implicitly
 
 Scaled greater(Scaled a, Scaled b) { return less(a, b) ? b : a; }
 Scaled lesser(Scaled a, Scaled b) { return less(a, b) ? a : b; }
-Vec3<Real> cross_of(const Vec3<Real>& a, const Vec3<Real>& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-/// Makes `velocity` and `spin` of a body its way, m, and its turn, rad, in a tick.
-void take_motion(const StepSettings& settings, const SolverBodies& bodies, JointBody& body) {
+/// The angle by which a body turns in a tick, each component held to +-k_turn_max.
+Vec3<Real> turn_in_tick(const StepSettings& settings, const SolverBodies& bodies, const JointBody& body) {
   const BodyTraits& traits = bodies.traits[body.slot];
-  const BodyMotion& motion = bodies.motions[body.slot];
-  const Real zero = 0.0;
-  body.velocity = body.spin = {zero, zero, zero};
-  if (type_of(traits) == BodyType::fixed) return;
-  const Vec3<Real> spin = world_spin(traits, bodies.work[body.slot].gyration, motion.momentum, 0);
-  bool clamped = false;
+  if (type_of(traits) == BodyType::fixed) return k_zero_vector;
+  const Vec3<Real> spin = world_spin(traits, bodies.work[body.slot].gyration, bodies.motions[body.slot].momentum, 0);
+  bool held = false;
   const auto angle = [&](Real speed) {
-    return clamp(angle_of(speed * settings.tick_time, traits.size_exponent, clamped), -k_bend_turn_max,
-                 k_bend_turn_max);
+    return clamp(angle_of(speed * settings.tick_time, traits.size_exponent, held), -k_turn_max, k_turn_max);
   };
-  body.velocity = motion.velocity * settings.tick_time;
-  body.spin = {angle(spin.x), angle(spin.y), angle(spin.z)};
+  return {angle(spin.x), angle(spin.y), angle(spin.z)};
 }
 
-/// By how much the ways of the bodies' turns bend in a tick, at the joint, over its unit; angles as they are. Sets the
-/// joint's arms.
-Scaled bend(const SolverBodies& bodies, const JointStage& stage, JointWork& work) {
-  const JointState& joint = stage.joints[work.joint];
-  const JointType type = static_cast<JointType>(joint.type);
-  const JointBody &a = stage.bodies[work.body[0]], &b = stage.bodies[work.body[1]];
-  const auto in_metres = [](const Vec3<Unit>& v, int exponent) {
-    return Vec3<Real>{real_from_unit(v.x, exponent), real_from_unit(v.y, exponent), real_from_unit(v.z, exponent)};
-  };
-  const auto over_unit = [&](Real length) { return scaled_by_power(scaled_from(length), -work.exponent); };
-  work.arm[0] = multiply(bodies.work[a.slot].axes, work.anchor[0]);
-  work.arm[1] = multiply(bodies.work[b.slot].axes, work.anchor[1]);
-  const Vec3<Real> arm_b = in_metres(work.arm[1], b.exponent);
-  Vec3<Real> arm_a = in_metres(work.arm[0], a.exponent);
-  const bool slides = type == JointType::slider || type == JointType::wheel;
-  if (slides) arm_a = work.between + arm_b;  // B's anchor, wherever it is on A's axis
-  const Vec3<Real> by_a = cross_of(a.spin, arm_a), by_b = cross_of(b.spin, arm_b);
-  if (type == JointType::distance) {
-    // The way from anchor to anchor turns.
-    if (joint.limited[0] == 0 || !(joint.upper[0] > Real(0.0))) return Scaled(0.0);
-    const Real apart = absolute_sum((b.velocity + by_b) - (a.velocity + by_a));
-    return divide(multiply(scaled_from(apart), over_unit(apart)), scaled_from(joint.upper[0]));
+/// How far the ways of a joint's anchors and axes bend in a tick, over half of the smaller body's unit: squared radians.
+Scaled bend_in_tick(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage,
+                    const JointWork& work) {
+  Vec3<Real> turn[2];
+  Scaled bend = Scaled(0.0);
+  for (int end = 0; end < 2; ++end) {
+    const JointBody& body = stage.bodies[work.body[end]];
+    turn[end] = turn_in_tick(settings, bodies, body);
+    const Vec3<Unit> arm = multiply(bodies.work[body.slot].axes, work.anchor[end]);
+    const Vec3<Real> inwards = cross(turn[end], cross(turn[end], arm));
+    bend = add(bend, scaled_by_power(scaled_from(absolute_sum(inwards)), body.exponent - work.exponent));
   }
-  Vec3<Real> bends = cross_of(b.spin, by_b) - cross_of(a.spin, by_a);
-  if (slides) bends -= cross_of(a.spin, (b.velocity + by_b) - (a.velocity + by_a)) * Real(2.0);
-  const Scaled length = over_unit(absolute_sum(bends));
-  if (type == JointType::ball || type == JointType::cone_twist) return length;
-  return greater(length, scaled_from(absolute_sum(cross_of(a.spin, b.spin))));
+  return add(bend, scaled_by_power(scaled_from(absolute_sum(cross(turn[0], turn[1]))), k_axes_power));
+}
+
+/// The squared angle by which a rod or a rope between two anchors turns in a tick, at most.
+Scaled squared_swing(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage,
+                     const JointWork& work) {
+  const JointState& joint = stage.joints[work.joint];
+  const bool holds = static_cast<JointType>(joint.type) == JointType::distance && joint.limited[0] != 0;
+  if (!holds || !(joint.upper[0] > Real(0.0))) return Scaled(0.0);
+  Vec3<Real> apart = k_zero_vector;
+  for (int end = 0; end < 2; ++end) {
+    const JointBody& body = stage.bodies[work.body[end]];
+    const BodyTraits& traits = bodies.traits[body.slot];
+    if (type_of(traits) == BodyType::fixed) continue;
+    const BodyMotion& motion = bodies.motions[body.slot];
+    const BodyWork& now = bodies.work[body.slot];
+    const Vec3<Unit> arm = multiply(now.axes, work.anchor[end]);
+    const Vec3<Real> spin = world_spin(traits, now.gyration, motion.momentum, body.above);
+    const Vec3<Real> velocity = motion.velocity + cross(spin, arm);
+    apart = end == 0 ? apart - velocity : apart + velocity;
+  }
+  const Scaled way = multiply(scaled_from(absolute_sum(apart)), scaled_from(settings.tick_time));
+  const Scaled turn = divide(way, scaled_from(joint.upper[0]));
+  return multiply(turn, turn);
 }
 
 }  // namespace
 
-Scaled squared_substeps(const StepSettings& settings, const SolverBodies& bodies, const Island& island,
-                        JointStage& stage) {
-  const uint32_t count = island.joint_count + island.loop_count;
-  Scaled need = Scaled(0.0);
-  if (count == 0) return need;
+Scaled squared_substeps(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
+                        const Island& island, const JointStage& stage) {
+  if (island.joint_count == 0) return Scaled(0.0);
+  Scaled need = k_needed;
   const auto take = [&](Scaled value) { need = greater(need, value); };
   if (island.contact_count != 0) take(k_needed_with_contacts);
-  const Span<const uint32_t> joints = {stage.order.data + island.first_joint, count};
-  uint32_t closed = island.loop_count, hung = 0;
-  for (const uint32_t index : joints) {
-    for (const uint32_t place : stage.work[index].body) {
-      JointBody& body = stage.bodies[place];
-      if (body.mobile == 0 && ++hung > 1) ++closed;
-      if (body.mobile == 0 || body.owner == index) take_motion(settings, bodies, body);
-    }
+  uint32_t bodies_held = 0;
+  for (uint32_t i = 0; i < island.body_count; ++i) {
+    if (bodies.work[slots[island.first_body + i]].joint_body != k_no_link) ++bodies_held;
   }
-  if (closed != 0) take(k_needed_by_loops);
-  for (const uint32_t index : joints) {
-    JointWork& work = stage.work[index];
-    take(lesser(multiply(bend(bodies, stage, work), k_needed_by_bend), k_needed_by_bend_max));
+  if (island.joint_count > bodies_held) take(k_needed_by_loops);
+  for (const uint32_t index : Span<const uint32_t>{stage.order.data + island.first_joint, island.joint_count}) {
+    const JointWork& work = stage.work[index];
+    const Scaled bend = greater(bend_in_tick(settings, bodies, stage, work), squared_swing(settings, bodies, stage, work));
+    take(lesser(multiply(bend, k_needed_by_bend), k_needed_by_bend_max));
     for (const Real frequency : stage.joints[work.joint].frequency) {
       if (!(frequency > Real(0.0))) continue;
       const Scaled phase = scaled_from(k_two_pi * frequency * settings.tick_time);
       take(lesser(multiply(multiply(phase, phase), k_needed_by_spring), k_needed_by_spring_max));
     }
   }
-  const Scaled swing = swing_of_tick(settings, bodies, joints, stage);
-  take(lesser(multiply(swing, k_needed_by_swing), k_needed_by_swing_max));
   return need;
 }
 

@@ -2,6 +2,7 @@
 
 #include "base/processor.h"
 #include "dynamics/contact_order.h"
+#include "dynamics/contact_rows.h"
 #include "dynamics/contact_solver.h"
 #include "dynamics/gyration.h"
 #include "dynamics/joint.h"
@@ -88,6 +89,8 @@ void rebound(ContactSolver<One>& solver) {
   }
 }
 
+constexpr uint32_t k_joint_rounds = 4;  ///< in which contacts and joints of a substep are held by turns
+
 /// Keeps the velocities of before a sweep, in a place that only the sweeps use.
 void remember(const SolverBodies& bodies, Span<const uint32_t> island) {
   for (const uint32_t slot : island) bodies.work[slot].velocity_before = bodies.motions[slot].velocity;
@@ -97,7 +100,7 @@ void remember(const SolverBodies& bodies, Span<const uint32_t> island) {
 bool has_settled(const SolverBodies& bodies, Span<const uint32_t> island, Real enough) {
   for (const uint32_t slot : island) {
     const Vec3<Real> change = bodies.motions[slot].velocity - bodies.work[slot].velocity_before;
-    if (max(abs(change.x), max(abs(change.y), abs(change.z))) > enough) return false;
+    if (greatest(change) > enough) return false;
   }
   return true;
 }
@@ -134,6 +137,17 @@ void place_kinematic(const BodyTraits& traits, const BodyMotion& motion, Real ti
   now.turn = motion.momentum * time;
 }
 
+/// Contacts of jointed bodies see the inertia that the joints see.
+void renew_responses(const SolverBodies& bodies, const JointStage& stage, Span<const ContactOrder> order,
+                     Span<ContactWork> contacts) {
+  for (const ContactOrder& entry : order) {
+    ContactWork& contact = contacts[entry.contact];
+    const uint32_t a = contact.state.body_a, b = contact.state.body_b;
+    if (has_renewed_gyration(bodies.work[a], stage) || has_renewed_gyration(bodies.work[b], stage))
+      renew_response(bodies.work[a].gyration, bodies.work[b].gyration, contact);
+  }
+}
+
 }  // namespace
 
 #if DETENT_QUADS
@@ -152,6 +166,7 @@ SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<
   SolveCount count;
   Real elapsed = 0.0;
   const Real enough = scale_by_power(settings.gravity_size * settings.time, -static_cast<int>(settings.convergence));
+  const Real enough_for_joints = settings.gravity_size * settings.time;
   /// Sweeps until nothing changes by more than that.
   const auto sweep = [&](const auto& one, const auto& four) {
     for (uint32_t iteration = 1;; ++iteration) {
@@ -166,6 +181,10 @@ SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<
     }
   };
   for (uint32_t substep = 0; substep < settings.substeps; ++substep) {
+    if (joints.code != nullptr) {
+      joints.code->begin(settings, bodies, island, *joints.island, elapsed, *joints.stage);
+      renew_responses(bodies, *joints.stage, order, contacts);
+    }
     count.clamped += integrate_velocities(bodies, island, substep == 0, order.count != 0);
     if (substep == 0)
       pass(
@@ -178,12 +197,31 @@ SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<
       place_kinematic(bodies.traits[b], bodies.motions[b], elapsed, bodies.work[b]);
     }
     sweep([](Solver& contact) { contact.soften(); }, soften_quad);
-    if (joints.code != nullptr)
-      count.clamped += joints.code->solve(settings, bodies, *joints.island, elapsed, *joints.stage, *joints.undecided);
+    if (joints.code != nullptr) {
+      const Island& own = *joints.island;
+      JointStage& stage = *joints.stage;
+      uint32_t& undecided = *joints.undecided;
+      count.clamped += joints.code->hold(settings, bodies, island, own, elapsed, stage, undecided);
+      for (uint32_t round = 0; round < k_joint_rounds && order.count != 0; ++round) {
+        remember(bodies, island);
+        pass(
+            settings, bodies, order, contacts, [](Solver& contact) { contact.soften(); }, soften_quad);
+        if (has_settled(bodies, island, enough)) break;
+        const bool last = has_settled(bodies, island, enough_for_joints);
+        count.clamped += joints.code->hold_again(settings, bodies, island, own, elapsed, stage, undecided);
+        if (last) break;
+      }
+      count.clamped += joints.code->follow(settings, bodies, island, own, elapsed, stage);
+    }
     count.clamped += integrate_positions(bodies, island, settings.time);
+    if (joints.code != nullptr) joints.code->shift(bodies, island, *joints.stage);
     sweep([](Solver& contact) { contact.relax(); }, relax_quad);
+    if (joints.code != nullptr)
+      count.clamped +=
+          joints.code->end(settings, bodies, island, *joints.island, elapsed, *joints.stage, *joints.undecided);
     elapsed += settings.time;
   }
+  if (joints.code != nullptr) renew_responses(bodies, *joints.stage, order, contacts);
   StepSettings one_by_one = settings;
   one_by_one.quads = false;
   pass(one_by_one, bodies, order, contacts, rebound, relax_quad);

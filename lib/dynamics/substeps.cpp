@@ -49,8 +49,9 @@ uint32_t notch_for(Scaled need, uint32_t least, uint32_t most) {
   return most;
 }
 
-uint32_t most_for(const StepSettings& settings, uint32_t contacts) {
-  const uint32_t share = contacts == 0 ? k_contact_substeps : k_contact_substeps / contacts;
+uint32_t most_for(const StepSettings& settings, const Island& island) {
+  const uint32_t rows = island.contact_count + k_joint_contacts * island.joint_count;
+  const uint32_t share = rows == 0 ? k_contact_substeps : k_contact_substeps / rows;
   const uint32_t most = share < k_pile_substeps ? k_pile_substeps : share;
   return most < settings.substeps_max ? most : settings.substeps_max;
 }
@@ -129,7 +130,7 @@ void choose_substeps(const StepSettings& settings, Span<const BodyTraits> traits
                      Span<const uint32_t> bodies, Span<const ContactOrder> order, Span<Island> islands,
                      Span<ContactWork> contacts, Span<BodyActivity> activities) {
   for (Island& island : islands) {
-    const bool jointed = island.joint_count + island.loop_count != 0;
+    const bool jointed = island.joint_count != 0;
     const uint32_t least = island.contact_count != 0 ? k_contact_substeps_min : 1;
     const uint32_t for_joints = jointed ? notch_for(island.joint_need, least, settings.substeps_max) : 0;
     Scaled need = island.joint_need;
@@ -152,7 +153,7 @@ void choose_substeps(const StepSettings& settings, Span<const BodyTraits> traits
       now = 1;
       before = calm = 0;
     } else if (now == 0) {
-      const uint32_t share = most_for(settings, island.contact_count), most = share < for_joints ? for_joints : share;
+      const uint32_t share = most_for(settings, island), most = share < for_joints ? for_joints : share;
       now = notch_for(need, least, most);
       before = before < most ? before : most;
       const uint32_t lower = next_below(before, least);
@@ -160,7 +161,7 @@ void choose_substeps(const StepSettings& settings, Span<const BodyTraits> traits
         calm = 0;
       } else {
         calm = less(multiply(square_of(lower), k_in_hand), need) ? 0 : calm + 1;
-        now = calm < k_calm_ticks ? before : lower;
+        now = calm < (jointed ? k_joint_calm_ticks : k_calm_ticks) ? before : lower;
         if (now == lower) calm = 0;
       }
     }

@@ -300,6 +300,8 @@ constexpr Vec3<T> scale_by_power(const Vec3<T>& v, int n) {
 }
 /// |x| + |y| + |z|.
 constexpr Real absolute_sum(const Vec3<Real>& v) { return abs(v.x) + abs(v.y) + abs(v.z); }
+/// The greatest component's size.
+constexpr Real greatest(const Vec3<Real>& v) { return max(abs(v.x), max(abs(v.y), abs(v.z))); }
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -266,7 +266,7 @@ inline void visit(Archive& archive, JointAxis& axis) {
 }
 
 inline void visit(Archive& archive, JointDef& def) {
-  visit_choice(archive, "joint type", def.type, JointType::ball, JointType::wheel);
+  visit_choice(archive, "joint type", def.type, JointType::ball, k_joint_type_last);
   visit(archive, def.a);
   visit(archive, def.b);
   visit_number(archive, "anchor of A", def.anchor_a);
@@ -275,6 +275,8 @@ inline void visit(Archive& archive, JointDef& def) {
   visit_number(archive, "frame of B", def.frame_b);
   visit(archive, def.axis);
   visit(archive, def.second);
+  visit_number(archive, "friction force", def.friction_force);
+  visit_number(archive, "friction torque", def.friction_torque);
   visit_flag(archive, "collide", def.collide);
   visit_number(archive, "breaking force", def.break_force);
   visit_number(archive, "breaking torque", def.break_torque);

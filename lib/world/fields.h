@@ -216,6 +216,7 @@ inline constexpr Field k_joint_fields[] = {
     DETENT_FIELD(JointState, speed),
     DETENT_FIELD(JointState, force_max),
     DETENT_FIELD(JointState, limited),
+    DETENT_FIELD(JointState, friction),
     DETENT_FIELD_IN(JointState, break_force, "N"),
     DETENT_FIELD_IN(JointState, break_torque, "N m"),
     DETENT_FIELD_IN(JointState, force, "N"),

@@ -22,10 +22,12 @@ constexpr Real k_damping_ratio_max = 64.0;
 constexpr Real k_joint_speed_max = 1024.0;
 constexpr Scaled k_force_max = 0x1p60;
 
-bool is_type(JointType type) { return type >= JointType::ball && type <= JointType::wheel; }
+bool is_type(JointType type) { return type >= JointType::ball && type <= k_joint_type_last; }
 
 bool is_axis(const JointState& joint, int i) {
-  const bool angle = is_angular(static_cast<JointType>(joint.type), i);
+  const JointType type = static_cast<JointType>(joint.type);
+  // What has no meaning for a type is a length of the first axis, an angle of the second.
+  const bool angle = i == 1 || (free_motion_count(type) != 0 && is_angular(type, i));
   const Real most = angle ? k_angle_max : k_axis_max;
   const bool frequency = joint.frequency[i] == k_zero || within(joint.frequency[i], k_frequency_min, k_frequency_max);
   return joint.limited[i] <= 1 && within(joint.lower[i], -most, most) && within(joint.upper[i], -most, most) &&
@@ -38,6 +40,8 @@ bool is_axis(const JointState& joint, int i) {
 bool is_joint(const JointState& joint) {
   return is_type(static_cast<JointType>(joint.type)) && joint.collide <= 1 && within(joint.anchor_a, k_anchor_max) &&
          within(joint.anchor_b, k_anchor_max) && is_axis(joint, 0) && is_axis(joint, 1) &&
+         is_between(joint.friction[0], Scaled(0.0), k_force_max) &&
+         is_between(joint.friction[1], Scaled(0.0), k_force_max) &&
          is_between(joint.break_force, Scaled(0.0), k_force_max) &&
          is_between(joint.break_torque, Scaled(0.0), k_force_max);
 }
@@ -72,6 +76,8 @@ Status make_joint(const JointDef& def, uint32_t a, uint32_t b, JointState& joint
     return Status::not_normalised;
   set_axis(def.axis, 0, joint);
   set_axis(def.second, 1, joint);
+  joint.friction[0] = def.friction_force;
+  joint.friction[1] = def.friction_torque;
   joint.break_force = def.break_force;
   joint.break_torque = def.break_torque;
   return is_joint(joint) ? Status::ok : Status::out_of_range;
@@ -141,7 +147,7 @@ uint32_t wake_jointed(Span<const JointState> joints, Span<const BodyTraits> trai
   for (uint32_t woke = 0;;) {
     const uint32_t before = woke;
     for (const JointState& joint : joints) {
-      if (joint.type == 0) continue;
+      if (!holds(joint)) continue;
       const auto wake = [&](uint32_t sleeper, uint32_t other) {
         if (activities[sleeper].asleep != 0 && is_moving(traits[other], motions[other], activities[other]))
           woke += wake_all_with(sleeper, activities, cache.visits);
@@ -277,6 +283,8 @@ Status get_joint(const World& world, JointId id, JointDef& def) {
          joint.frame_b,
          axis_of(joint, 0),
          axis_of(joint, 1),
+         joint.friction[0],
+         joint.friction[1],
          joint.collide != 0,
          joint.break_force,
          joint.break_torque,

@@ -52,7 +52,7 @@ uint32_t solve_islands(StepSettings settings, const SolverBodies& bodies, Span<c
     const Span<const ContactOrder> order = {scratch.contact_order.data + island.first_contact, island.contact_count};
     if (island.substeps != settings.substeps) set_substeps(island.substeps, settings);
     predict(settings, bodies.traits, slots, bodies.motions, bodies.work);
-    const bool jointed = island.joint_count + island.loop_count != 0;
+    const bool jointed = island.joint_count != 0;
     const IslandJoints island_joints = {jointed ? joint_code : nullptr, &island, &joints, &report.joint_decisions_left};
     if (order.count == 0 && !jointed) {
       clamped += fly(settings, bodies, slots);
@@ -163,7 +163,9 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
                        activities,
                        scratch.joints,
                        scratch.joint_bodies,
-                       scratch.joint_order};
+                       scratch.joint_order,
+                       scratch.joint_couplings,
+                       scratch.joint_numbers};
   report.woke = wake_jointed(joints.joints, traits, motions, activities, cache);
   const Span<const uint64_t> apart = list_apart(joints.joints, scratch.apart);
   Losses losses = {traits, {world.capacity_events.data, world.capacity_events.capacity}};
@@ -213,7 +215,8 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   const Span<Island> islands = scratch.islands.first(report.islands);
   report.colour_overflows = order_contacts(traits, contacts, islands, work, scratch.contact_sort, order);
   estimate_loads(settings, poses, traits, scratch.island_bodies, islands, order, scratch.contact_sort, work, contacts);
-  if (joint_code != nullptr) joint_code->grow(settings, solver_bodies, scratch.island_bodies, islands, joints);
+  if (joint_code != nullptr)
+    report.joint_couplings_dropped = joint_code->order(settings, solver_bodies, scratch.island_bodies, islands, joints);
   choose_substeps(settings, traits, work, scratch.island_bodies, order, islands, contacts, activities);
   stages.end(StepStage::islands, contacts.count);
   report.saturations = solve_islands(settings, solver_bodies, islands, scratch, contacts, joint_code, joints, report);
@@ -238,8 +241,8 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
       [&](uint32_t slot) { report.saturations += finalise(traits[slot], sweeps[slot], poses[slot], motions[slot]); });
   stages.end(StepStage::finalise, contacts.count);
   if (settings.sleeping)
-    report.fell_asleep = world.features->sleeping->end_step(settings, traits, poses, islands, scratch.island_bodies,
-                                                            motions, activities);
+    report.fell_asleep = world.features->sleeping->end_step(settings, traits, poses, sweeps, islands,
+                                                            scratch.island_bodies, motions, activities);
   store_contacts(contacts, manifold_work, awake_contacts.count, before, state.contacts, manifolds,
                  cache.awake_contacts);
   cache.cache.awake_contact_count = contacts.count;

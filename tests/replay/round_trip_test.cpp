@@ -96,6 +96,8 @@ DETENT_TEST(replay_round_trip, every_command_survives_writing_and_reading) {
   joint.collide = true;
   joint.break_force = 1e6;
   joint.break_torque = 1e-6;
+  joint.friction_force = 0.25;
+  joint.friction_torque = 1e9;
   joint.user_data = 0xfeedbeef;
   expect_round_trip(CreateJoint{{11, 12}, joint});
   expect_round_trip(DestroyJoint{{11, 12}});

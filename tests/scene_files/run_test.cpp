@@ -138,6 +138,8 @@ TEST(scene_run, definitions_of_a_file_are_those_of_code) {
   joint.collide = true;
   joint.break_force = 10.0;
   joint.break_torque = 11.0;
+  joint.friction_force = 13.0;
+  joint.friction_torque = 14.0;
   joint.user_data = 12;
   JointId joint_id;
   ASSERT_EQ(create_joint(world, joint, joint_id), Status::ok);
@@ -159,7 +161,8 @@ TEST(scene_run, definitions_of_a_file_are_those_of_code) {
        "axis": {"limited": true, "lower": -1, "upper": 2, "frequency": 3, "damping_ratio": 4, "target": 0.5,
                 "speed": 6, "force_max": 7},
        "second": {"speed": 8, "force_max": 9},
-       "collide": true, "break_force": 10, "break_torque": 11, "user_data": 12}]})",
+       "collide": true, "break_force": 10, "break_torque": 11, "friction_force": 13, "friction_torque": 14,
+       "user_data": 12}]})",
                              engine_of(DETENT_CONFIG_TEXT));
   ASSERT_EQ(played.problems, "");
   EXPECT_EQ(played.outcome.digest, digest(world));

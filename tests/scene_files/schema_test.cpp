@@ -92,16 +92,18 @@ TEST(scene_schema, is_the_same_in_every_configuration) {
   }
 }
 
-TEST(scene_schema, allows_the_examples_and_every_key) {
+TEST(scene_schema, allows_the_examples_the_zoo_and_every_key) {
   const Json root = schema();
   const Validator validator(root);
   uint32_t count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(DETENT_ROOT "/examples/scenes")) {
-    if (entry.path().extension() != ".json") continue;
-    EXPECT_TRUE(validator.valid(Json::parse(file_text(entry.path().string())), root)) << entry.path();
-    ++count;
+  for (const char* folder : {DETENT_ROOT "/examples/scenes", DETENT_ROOT "/tests/zoo/scenes"}) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+      if (entry.path().extension() != ".json") continue;
+      EXPECT_TRUE(validator.valid(Json::parse(file_text(entry.path().string())), root)) << entry.path();
+      ++count;
+    }
   }
-  EXPECT_GE(count, 3u);
+  EXPECT_GE(count, 100u);
   EXPECT_TRUE(validator.valid(Json::parse(file_text(DETENT_ROOT "/tests/scene_files/every.json")), root));
 }
 

@@ -128,12 +128,15 @@ class Draw {
 
   /// All of a joint but the bodies and the place.
   JointDef joint(bool& wrong) {
+    constexpr uint32_t k_types = static_cast<uint32_t>(k_joint_type_last);
     JointDef def;
-    def.type = static_cast<JointType>(bad() ? 8 : 1 + random_.below(7));
-    wrong = wrong || def.type > JointType::wheel;
+    def.type = static_cast<JointType>(1 + (bad() ? k_types : random_.below(k_types)));
+    wrong = wrong || def.type > k_joint_type_last;
     def.axis = joint_axis(wrong);
     def.second = joint_axis(wrong);
     def.collide = random_.chance(0.5);
+    if (random_.chance(0.2)) def.friction_force = scaled(order(1, 10000));
+    if (random_.chance(0.2)) def.friction_torque = scaled(order(1, 10000));
     if (random_.chance(0.3)) def.break_force = scaled(order(1, 10000));
     if (random_.chance(0.3)) def.break_torque = scaled(order(1, 10000));
     def.user_data = word();

@@ -114,6 +114,7 @@ void Game::check_joints() {
     EXPECT_TRUE(def.anchor_a == known.anchor_a && def.anchor_b == known.anchor_b);
     EXPECT_TRUE(is_same(def.axis, known.axis) && is_same(def.second, known.second));
     EXPECT_TRUE(def.collide == known.collide && def.user_data == known.user_data);
+    EXPECT_TRUE(def.friction_force == known.friction_force && def.friction_torque == known.friction_torque);
     EXPECT_TRUE(def.break_force == known.break_force && def.break_torque == known.break_torque);
     JointReaction reaction;
     EXPECT_OK(get_joint_reaction(world(), joint.first, reaction));

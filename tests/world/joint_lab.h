@@ -93,5 +93,35 @@ inline JointId add_joint(Lab& lab, JointType type, BodyId a, BodyId b, double x,
 inline constexpr Quat k_x_to_y = {0.5, 0.5, 0.5, 0.5};
 inline constexpr Quat k_x_to_z = {-0.5, -0.5, -0.5, 0.5};
 
+inline constexpr double k_pi = 3.14159265358979323846;
+
+inline WorldDef weightless(uint32_t substeps = 0) {
+  WorldDef def;
+  def.gravity = {0.0, 0.0, 0.0};
+  def.substeps = substeps;
+  return def;
+}
+inline Capacity room(uint32_t bodies, uint32_t joints) { return {bodies, 4 * bodies, 0, true, joints}; }
+
+/// Two bricks with a joint half-way between them, in space, that fly off turning.
+struct Pair {
+  Lab lab;
+  BodyId a, b;
+  JointId joint;
+
+  explicit Pair(JointType type, const JointDef& rest = {}, uint32_t substeps = 0)
+      : lab(room(2, 1), weightless(substeps)) {
+    a = add_shape(lab, box(reals(0.4, 0.2, 0.3)), 0, 0, 0);
+    b = add_shape(lab, box(reals(0.5, 0.1, 0.2)), 1.2, 0, 0);
+    joint = add_joint(lab, type, a, b, 0.5, 0, 0, rest);
+    EXPECT_OK(set_velocity(lab.world, a, reals(0.5, -1, 2), reals(1, 2, -3)));
+    EXPECT_OK(set_velocity(lab.world, b, reals(0.5, 1, -0.5), reals(-2, 1, 2)));
+  }
+};
+
+inline constexpr JointType k_joint_types[] = {JointType::ball,     JointType::hinge,   JointType::slider,
+                                              JointType::distance, JointType::fixed,   JointType::cone_twist,
+                                              JointType::wheel,    JointType::parallel};
+
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

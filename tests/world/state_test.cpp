@@ -327,7 +327,8 @@ DETENT_TEST(state, joints_that_no_call_makes_are_refused) {
     joint.speed[0] = joint.speed[1] = Real(1024.0);
     joint.frequency[0] = Real(1024.0), joint.frequency[1] = Real(0x1p-10);
     joint.damping_ratio[0] = joint.damping_ratio[1] = Real(64.0);
-    joint.force_max[1] = joint.break_force = joint.break_torque = Scaled(0x1p60);
+    joint.force_max[1] = joint.friction[0] = joint.friction[1] = joint.break_force = joint.break_torque =
+        Scaled(0x1p60);
     joint.impulse[0] = Real(-16384.0), joint.impulse[k_joint_rows_max - 1] = Real(16384.0);
   }));
   const Spoil spoils[] = {
@@ -337,7 +338,7 @@ DETENT_TEST(state, joints_that_no_call_makes_are_refused) {
       [](const auto& state) { state.joints[2].user_data = 1; },
       [](const auto& state) { state.joints[2].generation = 1; },
       [](const auto& state) { state.joints[0].generation = 0; },
-      [](const auto& state) { state.joints[0].type = static_cast<uint32_t>(JointType::wheel) + 1; },
+      [](const auto& state) { state.joints[0].type = static_cast<uint32_t>(k_joint_type_last) + 1; },
       [](const auto& state) { state.joints[0].body_b = state.joints[0].body_a; },
       [](const auto& state) { state.joints[0].body_a = 3; },
       [](const auto& state) { state.joints[0].body_b = 3; },

@@ -18,7 +18,7 @@ struct Layout {
   uint32_t cache, tree_nodes, tree_parents, visits, candidates, moving_bodies, awake_contacts;
   uint32_t bounds, bounds_keys, bounds_sort, pairs, pair_sort, contact_work, islands, island_bodies, sweeps;
   uint32_t body_work, contact_order, contact_sort, impact_pairs, impact_hits;
-  uint32_t manifold_work, joint_work, joint_bodies, joint_order, apart;
+  uint32_t manifold_work, joint_work, joint_bodies, joint_order, joint_couplings, joint_numbers, apart;
   uint32_t sensed_work, sensed_passed, changed;
   uint32_t bytes;
 };
@@ -29,6 +29,20 @@ constexpr uint32_t manifold_count(Capacity capacity) { return capacity.manifolds
 /// Bodies that joints can hold in a step.
 constexpr uint32_t joint_body_count(Capacity capacity) {
   return 2 * capacity.joints < capacity.bodies ? 2 * capacity.joints : capacity.bodies;
+}
+
+/// Room for couplings of the joints' factor: 16 a joint, or for each two joints one, which is all there can be. A chain
+/// of hinges takes one a joint, a net of ball joints ten by ten 9.
+constexpr uint32_t joint_coupling_count(Capacity capacity) {
+  constexpr uint32_t k_each = 16;
+  const uint32_t joints = capacity.joints;
+  return joints > 2 * k_each ? joints * k_each : joints * (joints > 0 ? joints - 1 : 0) / 2;
+}
+/// And for the numbers of their blocks: 256 a joint, or all. Those take 25 to 36 a joint, and 81.
+constexpr uint32_t joint_number_count(Capacity capacity) {
+  constexpr uint32_t k_each = 256, k_block = 36;
+  const uint32_t all = joint_coupling_count(capacity) * k_block, most = capacity.joints * k_each;
+  return all < most ? all : most;
 }
 
 constexpr uint32_t slot_words(uint32_t bodies) { return (bodies + 63) / 64 * 2; }
@@ -95,6 +109,8 @@ DETENT_SHARED constexpr Layout layout_of(Capacity capacity, bool& fits) {
   layout.joint_work = place(sizeof(JointWork), capacity.joints);
   layout.joint_bodies = place(sizeof(JointBody), joint_body_count(capacity));
   layout.joint_order = place(sizeof(uint32_t), capacity.joints);
+  layout.joint_couplings = place(sizeof(JointCoupling), joint_coupling_count(capacity));
+  layout.joint_numbers = place(sizeof(Real), joint_number_count(capacity));
   layout.apart = place(sizeof(uint64_t), capacity.joints);
   layout.sensed_work = place(sizeof(uint64_t), capacity.sensed);
   layout.sensed_passed = place(sizeof(uint64_t), capacity.sensed);

@@ -145,39 +145,37 @@ struct Island {
   uint32_t first_contact, contact_count;  ///< of the order of the solve
   uint32_t substeps;
   uint32_t first_joint, joint_count;  ///< of the order of the joints
-  uint32_t loop_count;                ///< of them, the last ones: those that close loops
+  uint32_t joint_couplings_dropped;   ///< for which the factor of its joints had no room
   Scaled joint_need;                  ///< squared substeps that its joints ask for
 };
 
 /// A body that joints hold, while joints are solved: what a tick starts with.
 struct alignas(8) JointBodyStart {
   uint32_t slot;
-  uint32_t mobile;                       ///< 1 if it is dynamic and awake
-  uint32_t first, last;                  ///< of its joints, as 2 x joint + end; UINT32_MAX: none
-  uint32_t met;                          ///< 1 once its tree has been grown to it
-  int32_t exponent;                      ///< of the unit, m
-  int32_t above;                         ///< by how much that is more than the body's own
-  uint32_t owner;                        ///< the joint of its tree that it is visited with, the last to be eliminated
-  uint32_t links;                        ///< joints of its tree that hold it
-  uint32_t by_anchor;                    ///< 1 if no more than two points do: joint_anchor.h
-  alignas(sizeof(Real)) Scaled share;    ///< reference mass / mass; 0 if it takes no part
-  Scaled turn_share;                     ///< what a torque gives the momentum (joint_sway.cpp)
-  Real stiffness;                        ///< against turning, of the pulls of its joints (joint_sway.cpp)
-  Vec3<Real> force, torque;              ///< what joints above or eliminated later give it
-  Vec3<Real> given_force, given_torque;  ///< what acts without a row: motors at their limit
+  uint32_t mobile;                     ///< 1 if it is dynamic and awake
+  uint32_t first, last;                ///< of its joints, as 2 x joint + end; UINT32_MAX: none
+  int32_t exponent;                    ///< of the unit, m
+  int32_t above;                       ///< by how much that is more than the body's own
+  uint32_t renewed;                    ///< 1 if its gyration is not that of the last substep
+  uint32_t slowed;                     ///< 1 if its pulls leave less than all of a momentum
+  alignas(sizeof(Real)) Scaled share;  ///< reference mass / mass; 0 if it takes no part
 };
 /// And what each substep makes anew. Its *unit* is a power of two that holds its joints' arms; spins and momenta are
 /// those of that unit (spin.h). What does not move for the solver takes no part but by its motion.
 struct alignas(8) JointBody : JointBodyStart {
-  Quat rotation;               ///< now
-  Matrix3 axes;                ///< likewise
-  Vec3<Real> place;            ///< of its centre, from where it was at the start of the tick, m
-  Vec3<Real> velocity, spin;   ///< as the joints eliminated so far leave them, m/s
-  Vec3<Real> anchor_velocity;  ///< likewise, by anchor: of its owner's anchor
-  Real pushed;                 ///< velocity by a unit force
-  Vec3<Real> turned[3];        ///< spin by a torque: the rows of a symmetric matrix
-  Real response[6][6];         ///< of velocity and spin to a force and a torque on it; symmetric. By anchor:
-                               ///< the lower 3 x 3 is that of the owner's anchor
+  Vec3<Real> velocity_before;        ///< at the start of the substep, before anything acts, m/s
+  Vec3<Real> momentum_before;        ///< likewise, m/s (spin.h); while positions are integrated, that with the inertia of now
+  Quat rotation;                     ///< now
+  Matrix3 axes;                      ///< likewise
+  Vec3<Real> place;                  ///< of its centre, from where it was at the start of the tick, m
+  Vec3<Real> velocity, spin;         ///< as the joints see them, m/s
+  Real pushed;                       ///< velocity by a unit force
+  Vec3<Real> turned[3];              ///< spin by a torque: the rows of a symmetric matrix
+  alignas(sizeof(Real)) Scaled kept_turn[3];  ///< what its pulls leave of a momentum about its axes: joint_inertia.cpp
+  Vec3<Real> push, twist;            ///< what joints have given its velocity and momentum, m/s
+  Vec3<Real> given_push, given_twist;  ///< likewise without a row: motors at their limit
+  Vec3<Real> shift;                  ///< of its centre in this substep, that closes gaps, m
+  Vec3<Real> shift_turn;             ///< likewise of its rotation, rad
 };
 
 /// What one row of a joint holds: the motion along `axis`, or about it if it is `angular`.
@@ -186,48 +184,70 @@ struct JointRow {
   Vec3<Unit> arm[2];  ///< of A, of B: what a unit of impulse gives to the momentum
 };
 
+/// Free motions of a joint that can have rows: those of its axes, and the other turns that friction brakes.
+inline constexpr int k_free_motions = 3;
+
+/// The rows of a joint where its bodies are.
+struct alignas(8) JointRows {
+  uint32_t rows_held;               ///< always
+  uint32_t points;                  ///< 1 if the first three rows hold the anchors together
+  Vec3<Unit> arm[2];                ///< from the bodies' centres to the anchors, in their units, world axes
+  JointRow row[k_joint_rows_max];   ///< those beyond the points
+  JointRow free_row[k_free_motions];                   ///< of the free motions
+  alignas(sizeof(Real)) Real error[k_joint_rows_max];  ///< by how much the rows held have given way, m (angles: times 2^exponent)
+  Real value[k_free_motions];                          ///< of the free motions, likewise
+  Real shown[k_free_motions];                          ///< what of a free motion's speed its row shows
+};
+
 /// How a free motion of a joint is driven in a substep.
-enum class DriveMode : uint8_t { idle, held, lower, upper, rigid, spring, constant };
+enum class DriveMode : uint8_t { idle, held, lower, upper, rigid, spring, brake, constant };
 
 /// A joint at work: what a tick starts with.
 struct alignas(8) JointWorkStart {
   uint32_t joint;                              ///< slot
   uint32_t body[2];                            ///< places of A and B
   uint32_t next[2];                            ///< of the joints of A, of B: 2 x joint + end
-  uint32_t parent;                             ///< the end that is solved last
-  uint32_t placed;                             ///< 1 once it is in the order
-  uint32_t rows_held;                          ///< always
-  uint32_t rows;                               ///< and driven, in this substep
-  uint32_t points;                             ///< 1 if the first three rows hold the anchors together
-  uint32_t width;                              ///< of `reply`: 6, or by anchor 3: at the owner's, 0: there is no other
-  uint32_t driven[2];                          ///< the row of each free motion that is driven now, or k_joint_rows_max
-  alignas(4) DriveMode mode[2];                ///< of each free motion
+  uint32_t rows_max;                           ///< held and driven, at most
+  uint32_t place;                              ///< in the order of elimination; UINT32_MAX: not yet
+  uint32_t coupling;                           ///< the first of those with joints eliminated later; UINT32_MAX: none
+  uint32_t degree;                             ///< while the order is made: couplings with joints not eliminated
+  uint32_t mark;                               ///< likewise: the last joint whose neighbours were marked
+  uint32_t around[2];                          ///< likewise: the joints before and after it of the same degree
+  uint32_t rows;                               ///< held and driven, in this substep
+  uint32_t driven[k_free_motions];             ///< the row of each free motion that is driven now, or k_joint_rows_max
+  alignas(4) DriveMode mode[k_free_motions + 1];  ///< of each free motion
   int32_t exponent;                            ///< 2^exponent m: how far angular rows reach
+  int32_t power[2];                            ///< of the units of linear and of angular rows: joint_factor.h
   alignas(sizeof(Real)) Vec3<Unit> anchor[2];  ///< in the bodies' axes and units
-  Vec3<Unit> arm[2];                           ///< likewise, now, in world axes
-  JointRow free_row[2];                        ///< of the free motions
-  Real least[2];                               ///< what of a linear and an angular row's response counts
-  Real value[2];                               ///< of the free motions, m (angles: times 2^exponent)
+  Unit arm_length[2];                          ///< of the anchors
+  alignas(sizeof(Real)) Scaled over_lighter;   ///< the reference mass over that of the lighter of its bodies
+  Scaled lighter_over[2];                      ///< that mass over each body's; 0 if it takes no part
   Vec3<Real> between;                          ///< from A's centre to B's at the start of the tick, m
-  Real bound[2];                               ///< largest impulse of a motor or spring, m/s
-  Real constant[2];                            ///< that is to act instead of a row, m/s
-  Real driven_total[2];                        ///< of the rows of the free motions, in this substep
-  Real given[2];                               ///< and without rows
-  Real shown[2];                               ///< what of a free motion's speed its row shows
+  Real bound[2];                               ///< largest impulse of a motor or spring, over the reference mass, m/s
+  Real brake[2];                               ///< likewise of friction: of what slides, of what turns
+  Real constant[k_free_motions];               ///< that is to act without a row, m/s
+  Real driven_total[k_free_motions];           ///< of the rows of the free motions, in this substep
+  Real given[k_free_motions];                  ///< and without rows
   Vec3<Real> force_sum, torque_sum;            ///< of the tick, m/s, torques over 2^exponent m
 };
 /// And what each substep makes anew.
-struct alignas(8) JointWork : JointWorkStart {
-  JointRow row[k_joint_rows_max];                          ///< those beyond the points
+struct alignas(8) JointWork : JointWorkStart, JointRows {
   alignas(sizeof(Real)) Scaled inverse[k_joint_rows_max];  ///< of the pivots
-  Real softness[k_joint_rows_max];                         ///< what a spring adds to a row's response
+  Real least[k_joint_rows_max];                            ///< that a pivot counts as: the row's softness
+  Real spring[k_joint_rows_max];                           ///< what a spring adds to a row's response
   Real wanted[k_joint_rows_max];                           ///< speed of each row, m/s
-  Real lower[k_joint_rows_max][k_joint_rows_max];          ///< L of L D L^T
-  Real reply[k_joint_rows_max][6];                         ///< L^-1 of what the rows do to the parent
-  Real reply_scaled[k_joint_rows_max][6];                  ///< times the inverse pivots
-  Real start[k_joint_rows_max];                            ///< the impulses, but for what comes from above, before L^-T
-  Real impulse[k_joint_rows_max];                          ///< of this solve
+  Real response[k_joint_rows_max][k_joint_rows_max];       ///< the lower half; then L of its L D L^T
+  Real side[k_joint_rows_max];                             ///< the right-hand side of a solve, then L^-1 of it
+  Real impulse[k_joint_rows_max];                          ///< of a solve
   Real total[k_joint_rows_max];                            ///< of the rows always held, in this substep
+};
+
+/// Two joints that share a body, or see each other once joints between them are eliminated: a block of the factor.
+struct JointCoupling {
+  uint32_t joint[2];  ///< the one eliminated first, the other
+  uint32_t next[2];   ///< of the first's couplings with joints eliminated later; while the order is made: of those of
+                      ///< each, as 2 x coupling + end
+  uint32_t block;     ///< where its numbers begin: rows of the first by rows of the other
 };
 
 /// The motion of a body for the rest of the tick, from its pose at `from`: constant velocity and constant world spin.

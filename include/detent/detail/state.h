@@ -165,6 +165,7 @@ struct alignas(8) JointState {
   Real speed[2];
   Scaled force_max[2];
   uint32_t limited[2];
+  Scaled friction[2];  ///< N of what slides, N m of what turns
   Scaled break_force;
   Scaled break_torque;
   Vec3<Scaled> force;              ///< on B in the last tick, N, world

@@ -101,6 +101,7 @@ void visit_one_body(F& fields, SceneAction& action) {
 template <class F>
 void visit(F& fields, SceneAction& action) {
   fields.origin(action.origin);
+  fields.repeated();
   fields.integer(required({"tick", "completed ticks before it", between(0, 1e9)}), action.tick);
   action.until = action.tick;
   if (fields.integer(optional({"until", "it is repeated before each tick up to this one", between(0, 1e9)}),

@@ -1,5 +1,8 @@
+#include <algorithm>
+
 #include "scene_actions.h"
 #include "scene_play.h"
+#include "scene_repeat.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -26,8 +29,14 @@ class ObjectDescriber {
   bool given(const char*) const { return false; }
   void problem(const char*, const std::string&) {}
   void origin(SceneOrigin&) const {}
+  void repeated() {
+    for (const FieldInfo& info : repeat_fields()) fields.push_back(info);
+    for (const ObjectInfo& object : repeat_objects()) add_once(object);
+  }
   bool real(const SceneField& field, Real& value) { return add(field, FieldKind::number, plain(real_to_host(value))); }
-  bool scaled(const SceneField& field, Scaled& value) { return add(field, FieldKind::number, plain(scaled_to_host(value))); }
+  bool scaled(const SceneField& field, Scaled& value) {
+    return add(field, FieldKind::number, plain(scaled_to_host(value)));
+  }
   bool vector(const SceneField& field, Vec3<Real>& value) {
     return add(field, FieldKind::vector,
                bracketed({real_to_host(value.x), real_to_host(value.y), real_to_host(value.z)}));
@@ -108,6 +117,10 @@ class ObjectDescriber {
   }
   template <class T>
   bool add_typed(const SceneField& field, FieldKind kind);
+  void add_once(const ObjectInfo& object) {
+    const auto same = [&object](const ObjectInfo& known) { return known.name == object.name; };
+    if (std::none_of(objects_.begin(), objects_.end(), same)) objects_.push_back(object);
+  }
   template <class T, size_t count>
   void note_names(const Choice<T> (&choices)[count]) {
     for (const Choice<T>& each : choices) fields.back().names.push_back(each.name);

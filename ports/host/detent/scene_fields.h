@@ -149,6 +149,7 @@ template <class F>
 void visit(F& fields, SceneBody& body) {
   BodyDef& def = body.def;
   fields.origin(body.origin);
+  fields.repeated();
   fields.text({"name", "for joints, actions and what is printed"}, body.name);
   type_of_body(fields, def.type, false);
   fields.position({"position", "of the centre of mass, m, world"}, def.position);
@@ -187,10 +188,10 @@ void visit(F& fields, JointAxis& axis) {
 
 template <class F>
 void visit(F& fields, JointDef& def) {
-  constexpr Choice<JointType> k_types[] = {{"ball", JointType::ball},     {"hinge", JointType::hinge},
-                                           {"slider", JointType::slider}, {"distance", JointType::distance},
-                                           {"fixed", JointType::fixed},   {"cone_twist", JointType::cone_twist},
-                                           {"wheel", JointType::wheel}};
+  constexpr Choice<JointType> k_types[] = {
+      {"ball", JointType::ball},         {"hinge", JointType::hinge},       {"slider", JointType::slider},
+      {"distance", JointType::distance}, {"fixed", JointType::fixed},       {"cone_twist", JointType::cone_twist},
+      {"wheel", JointType::wheel},       {"parallel", JointType::parallel}, {"filter", JointType::filter}};
   fields.choice({"type", "what it leaves free"}, def.type, k_types);
   fields.vector({"anchor_a", "from A's centre of mass, m, A's axes", within(4096)}, def.anchor_a);
   fields.vector({"anchor_b", "likewise, of B", within(4096)}, def.anchor_b);
@@ -198,6 +199,8 @@ void visit(F& fields, JointDef& def) {
   fields.rotation({"frame_b", "likewise, to B's"}, def.frame_b);
   fields.object({"axis", "the first free motion"}, def.axis);
   fields.object({"second", "the second"}, def.second);
+  fields.scaled({"friction_force", "N: brakes what slides freely", at_least(0)}, def.friction_force);
+  fields.scaled({"friction_torque", "N m: brakes what turns freely", at_least(0)}, def.friction_torque);
   fields.flag({"collide", "whether A and B collide with each other"}, def.collide);
   fields.scaled({"break_force", "N; 0: never", at_least(0)}, def.break_force);
   fields.scaled({"break_torque", "N m; 0: never", at_least(0)}, def.break_torque);
@@ -207,6 +210,7 @@ void visit(F& fields, JointDef& def) {
 template <class F>
 void visit(F& fields, SceneJoint& joint) {
   fields.origin(joint.origin);
+  fields.repeated();
   fields.text({"name", "for actions and what is printed"}, joint.name);
   fields.body(required({"a", "the first body: of a wheel the chassis"}), joint.a);
   fields.body(required({"b", "the second: what turns or slides on A"}), joint.b);

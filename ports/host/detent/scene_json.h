@@ -15,6 +15,7 @@ struct Problem {
   std::string path;   ///< bodies[3].shape.radius; empty: the whole
   std::string text;
 };
+inline constexpr size_t k_problems_max = 20;  // of a scene that are told at once
 /// "scene.json:14: bodies[3].shape.radius: 0 is not above 0"
 std::string problem_text(const std::string& file, const Problem& problem);
 
@@ -29,6 +30,8 @@ struct Node {
   std::string text;
   std::vector<std::string> keys;
   std::vector<Node> items;
+  uint32_t entry = 0;  ///< of a list's item that was written out (scene_repeat.h): its place in the file
+  std::string copy;    ///< and which of its copies: "i=2, j=0"; empty: it does not repeat
 };
 
 // What a scene may take, so that a hostile one is refused before it takes all memory.

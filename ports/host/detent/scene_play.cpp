@@ -1,13 +1,12 @@
 #include "scene_play.h"
 
-#include <filesystem>
-
 #include "file.h"
 #include "owned_world.h"
 #include "scene_player.h"
+#include "scene_repeat.h"
+#include "scene_world.h"
 #include "stream.h"
 #include "text.h"
-#include "world/asset_binding.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -15,55 +14,6 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 constexpr uint32_t k_events_max = 4096;  // of each kind and step
-
-/// Why a cooked file is refused as a shape of this type.
-std::string refusal(FileKind kind, ShapeType type) {
-  const bool surface = kind == FileKind::mesh || kind == FileKind::height_field;
-  if (type == ShapeType::hull && kind != FileKind::hull) return is_not(kind, "a cooked hull");
-  if (type == ShapeType::compound && kind != FileKind::compound) return is_not(kind, "a cooked compound");
-  if (type == ShapeType::surface && !surface) return is_not(kind, "a cooked mesh or height field");
-  return "is damaged, or of another format version";
-}
-
-/// The scene's cooked files.
-struct SceneAssets {
-  Assets bytes;
-  std::vector<Asset> table;
-
-  /// False, and a problem, if one cannot be read or has another digest than the scene says.
-  bool read(SceneReading& reading, const RunRequest& request, RunOutcome& outcome) {
-    const std::filesystem::path folder = std::filesystem::path(request.path).parent_path();
-    bytes.resize(reading.assets.size());
-    for (size_t i = 0; i < bytes.size(); ++i) {
-      const SceneAsset& asset = reading.assets[i];
-      const std::string path = (folder / asset.file).string();
-      if (const std::string problem = read_asset(path, bytes[i]); !problem.empty()) {
-        reading.problem(asset.file_origin, asset.file + " " + problem);
-        return false;
-      }
-      if (is_same_file(path, request.recording)) {
-        reading.problem(asset.file_origin, asset.file + " would be written over by the recording");
-        return false;
-      }
-      table.push_back({reinterpret_cast<const uint8_t*>(bytes[i].words.data()), bytes[i].byte_count});
-      AssetState state;
-      const AssetTable so_far = {table.data(), static_cast<uint32_t>(table.size())};
-      const Status status = describe_asset(so_far, static_cast<uint32_t>(i), feature_table<Features::all>, state);
-      if (status != Status::ok || state.kind != static_cast<uint32_t>(asset_kind_of(asset.type))) {
-        reading.problem(asset.file_origin, asset.file + " " + refusal(bytes[i].kind, asset.type));
-        return false;
-      }
-      const std::string digest = hexadecimal(state.digest);
-      if (!asset.digest.empty() && asset.digest != digest) {
-        reading.problem(asset.digest_origin, "that of " + asset.file + " is " + digest);
-        return false;
-      }
-      outcome.assets.push_back(asset.file);
-      outcome.asset_digests.push_back(digest);
-    }
-    return true;
-  }
-};
 
 /// Room for the events that a step tells.
 struct EventRoom {
@@ -130,20 +80,6 @@ void play(const RunRequest& request, SceneReading& reading, OwnedWorld& owned, R
   outcome.recording_bytes = recorded ? output->file_bytes : 0;
 }
 
-/// False, and a problem, if it cannot be.
-bool make_world(SceneReading& reading, const SceneAssets& assets, uint32_t bytes_max, OwnedWorld& owned) {
-  const WorldDef& def = reading.scene.world;
-  const uint32_t bytes = world_bytes(def.capacity);
-  if (bytes == 0 || bytes > bytes_max) {
-    reading.problem({},
-                    "its world would take more than " + std::to_string(bytes_max >> 20) + " MB: less capacity will do");
-    return false;
-  }
-  const Status status = owned.create(def, {assets.table.data(), static_cast<uint32_t>(assets.table.size())});
-  if (status != Status::ok) reading.problem({}, std::string("its world cannot be made: ") + status_text(status));
-  return status == Status::ok;
-}
-
 }  // namespace
 
 RunOutcome play_scene(const RunRequest& request, const RunPrinter& print, const Progress& progress) {
@@ -151,9 +87,11 @@ RunOutcome play_scene(const RunRequest& request, const RunPrinter& print, const 
   SceneReading reading;
   SceneAssets assets;
   OwnedWorld owned;
-  read_scene(*request.root, reading);
+  Node root = *request.root;
+  write_out_repeats(root, reading.problems);
+  read_scene(root, reading);
   outcome.description = reading.scene.description;
-  if (reading.problems.empty() && assets.read(reading, request, outcome) &&
+  if (reading.problems.empty() && assets.read(reading, request) &&
       make_world(reading, assets, request.world_bytes_max, owned)) {
     const Stopwatch stopwatch;
     play(request, reading, owned, outcome, print, progress);
@@ -163,6 +101,8 @@ RunOutcome play_scene(const RunRequest& request, const RunPrinter& print, const 
     outcome.joints = info.joints;
     outcome.digest = digest(owned.world);
   }
+  for (size_t i = 0; i < assets.digests.size(); ++i) outcome.assets.push_back(reading.assets[i].file);
+  outcome.asset_digests = assets.digests;
   outcome.problems = reading.problems;
   return outcome;
 }

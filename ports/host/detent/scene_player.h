@@ -20,6 +20,8 @@ class ScenePlayer {
   void print_events(const World& world, const StepReport& report) const;
   void print_bodies(const World& world, uint64_t tick) const;
   uint64_t calls() const { return calls_; }
+  /// Of a body that is there, or "body 7": its slot.
+  std::string name_of(BodyId id) const { return bodies_.of(id); }
 
  private:
   bool fail(const SceneOrigin& origin, const std::string& text);

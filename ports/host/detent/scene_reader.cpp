@@ -7,6 +7,7 @@
 #include <charconv>
 #include <set>
 
+#include "scene_repeat.h"
 #include "scene_words.h"
 
 namespace detent {
@@ -128,6 +129,14 @@ void ObjectReader::convert_one(const SceneField& field, T& value, Status (*conve
   }
 }
 
+void ObjectReader::repeated() {
+  for (const FieldInfo& info : repeat_fields()) {
+    if (!given(info.key.c_str())) continue;
+    known_.push_back(info.key);
+    problem(info.key.c_str(), info.key == "repeat" ? "is for entries of the scene's lists" : "goes with `repeat`");
+  }
+}
+
 bool ObjectReader::real(const SceneField& field, Real& value) {
   const Node* const node = take(field);
   convert_one<Real>(field, value, real_from_host, node);
@@ -156,11 +165,15 @@ bool ObjectReader::three(const SceneField& field, Vec3<T>& value, Status (*conve
   return true;
 }
 
-bool ObjectReader::vector(const SceneField& field, Vec3<Real>& value) { return three<Real>(field, value, real_from_host); }
+bool ObjectReader::vector(const SceneField& field, Vec3<Real>& value) {
+  return three<Real>(field, value, real_from_host);
+}
 bool ObjectReader::scaleds(const SceneField& field, Vec3<Scaled>& value) {
   return three<Scaled>(field, value, scaled_from_host);
 }
-bool ObjectReader::position(const SceneField& field, Position& value) { return three<Coord>(field, value, coord_from_host); }
+bool ObjectReader::position(const SceneField& field, Position& value) {
+  return three<Coord>(field, value, coord_from_host);
+}
 
 bool ObjectReader::rotation(const SceneField& field, Quat& value) {
   const Node* const node = take(field);

@@ -15,7 +15,6 @@ struct SceneReference {
 
 /// What is gathered while a scene is read.
 struct SceneReading {
-  static constexpr size_t k_problems_max = 20;
   std::vector<Problem> problems;
   std::vector<SceneAsset> assets;
   std::vector<SceneReference> references;
@@ -38,6 +37,8 @@ class ObjectReader {
 
   bool given(const char* key) const { return index_of(key) < node_.keys.size(); }
   void problem(const char* key, const std::string& text);
+  /// Entries of the lists have no such keys any more (scene_repeat.h).
+  void repeated();
   void origin(SceneOrigin& origin) const { origin = {node_.line, path_}; }
   bool real(const SceneField& field, Real& value);
   bool scaled(const SceneField& field, Scaled& value);
@@ -119,10 +120,17 @@ class ObjectReader {
   void list(const SceneField& field, std::vector<T>& values) {
     const Node* const node = take(field);
     if (node == nullptr || !is(*node, NodeKind::array, path_of(field.key))) return;
+    size_t problems = 0;
     // A definition takes a kilobyte, and a wrong one three letters: a hostile file would take all memory.
     for (size_t i = 0; i < node->items.size() && !reading_.is_full(); ++i) {
+      const Node& item = node->items[i];
+      // What is wrong with one copy is wrong with all.
+      const bool again = i > 0 && !item.copy.empty() && item.entry == node->items[i - 1].entry;
+      if (again && reading_.problems.size() != problems) continue;
+      problems = reading_.problems.size();
       values.emplace_back();
-      read(reading_, node->items[i], path_of(field.key, i), values.back());
+      const std::string copy = item.copy.empty() ? "" : "{" + item.copy + "}";
+      read(reading_, item, path_of(field.key, item.entry) + copy, values.back());
     }
   }
   template <class T>

@@ -1,0 +1,150 @@
+#include "tests/zoo/mechanics.h"
+
+#include <algorithm>
+
+namespace detent_zoo {
+
+namespace {
+
+constexpr Vector k_x = {1, 0, 0}, k_z = {0, 0, 1};
+
+/// 1 / I n, in the world.
+Vector answer_to_torque(const BodyFrame& body, const Vector& torque) {
+  if (body.kind != Kind::dynamic) return {};
+  const Vector own = rotate(inverse(body.rotation), torque);
+  const auto over = [](double value, double moment) { return moment > 0 ? value / moment : 0; };
+  return rotate(body.rotation, {over(own.x, body.inertia.x), over(own.y, body.inertia.y), over(own.z, body.inertia.z)});
+}
+
+double angular_mass(const BodyFrame& a, const BodyFrame& b, const Vector& axis) {
+  const double answer = dot(axis, answer_to_torque(a, axis)) + dot(axis, answer_to_torque(b, axis));
+  return answer > 0 ? 1 / answer : 0;
+}
+
+double linear_mass(const BodyFrame& a, const BodyFrame& b, const Vector& arm_a, const Vector& arm_b,
+                   const Vector& way) {
+  double answer = 0;
+  const auto add = [&](const BodyFrame& body, const Vector& arm) {
+    if (body.kind != Kind::dynamic) return;
+    const Vector turn = cross(arm, way);
+    answer += 1 / body.mass + dot(turn, answer_to_torque(body, turn));
+  };
+  add(a, arm_a);
+  add(b, arm_b);
+  return answer > 0 ? 1 / answer : 0;
+}
+
+double angle_between(const Vector& a, const Vector& b) { return atan2(length(cross(a, b)), dot(a, b)); }
+
+/// Of a rotation about one of its axes, in (-pi, pi].
+double twist(double sine, double cosine) {
+  const double angle = 2 * atan2(sine, cosine);
+  return angle > M_PI ? angle - 2 * M_PI : angle <= -M_PI ? angle + 2 * M_PI : angle;
+}
+
+double beyond(const AxisFrame& axis, double value) {
+  return axis.limited ? std::max({0.0, axis.lower - value, value - axis.upper}) : 0;
+}
+
+}  // namespace
+
+Rotation operator*(const Rotation& a, const Rotation& b) {
+  return {a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
+          a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
+}
+Rotation inverse(const Rotation& rotation) { return {-rotation.x, -rotation.y, -rotation.z, rotation.w}; }
+Vector rotate(const Rotation& q, const Vector& v) {
+  const Vector axis = {q.x, q.y, q.z};
+  const Vector turn = 2.0 * cross(axis, v);
+  return v + q.w * turn + cross(axis, turn);
+}
+
+Vector angular_momentum(const BodyFrame& body) {
+  const Vector own = rotate(inverse(body.rotation), body.spin);
+  return rotate(body.rotation, {body.inertia.x * own.x, body.inertia.y * own.y, body.inertia.z * own.z});
+}
+
+double kinetic_energy(const BodyFrame& body) {
+  if (body.kind != Kind::dynamic) return 0;
+  return 0.5 * (body.mass * dot(body.velocity, body.velocity) + dot(body.spin, angular_momentum(body)));
+}
+
+double potential_energy(const BodyFrame& body, const Vector& gravity) {
+  return body.kind == Kind::dynamic ? -body.mass * body.gravity_scale * dot(gravity, body.position) : 0;
+}
+
+double size_of(const BodyFrame& body) {
+  const double most = std::max({body.inertia.x, body.inertia.y, body.inertia.z});
+  return body.mass > 0 ? sqrt(12 * most / body.mass) : 0;
+}
+
+JointState state_of(const JointFrame& joint, const Frame& frame) {
+  const BodyFrame &a = frame.bodies[joint.a], &b = frame.bodies[joint.b];
+  const Vector arm_a = rotate(a.rotation, joint.anchor_a), arm_b = rotate(b.rotation, joint.anchor_b);
+  const Vector gap = b.position + arm_b - (a.position + arm_a);
+  const Rotation frame_a = a.rotation * joint.frame_a, frame_b = b.rotation * joint.frame_b;
+  const Rotation between = inverse(frame_a) * frame_b;
+  const Vector x_a = rotate(frame_a, k_x), x_b = rotate(frame_b, k_x);
+  JointState state;
+  state.gap = length(gap);
+  const auto slide = [&] {
+    state.values[0] = dot(gap, x_a);
+    state.gap = length(gap - state.values[0] * x_a);
+    state.masses[0] = linear_mass(a, b, arm_a + gap, arm_b, x_a);
+    state.free[0] = true;
+  };
+  const auto turn = [&](int i, double value, const Vector& axis) {
+    state.values[i] = value;
+    state.masses[i] = angular_mass(a, b, axis);
+    state.free[i] = true;
+  };
+  const double whole_turn = 2 * atan2(length({between.x, between.y, between.z}), fabs(between.w));
+  switch (joint.type) {
+    case Held::ball:
+      break;
+    case Held::filter:
+      state.gap = 0;
+      break;
+    case Held::parallel:
+      state.gap = 0;
+      [[fallthrough]];
+    case Held::hinge:
+      state.angle = angle_between(x_a, x_b);
+      turn(0, twist(between.x, between.w), x_a);
+      break;
+    case Held::slider:
+      slide();
+      state.angle = whole_turn;
+      break;
+    case Held::distance: {
+      const double apart = state.gap;
+      const Vector way = apart > 0 ? (1 / apart) * gap : x_a;
+      state.values[0] = apart;
+      state.free[0] = true;
+      state.masses[0] = linear_mass(a, b, arm_a, arm_b, way);
+      state.gap = beyond(joint.axes[0], apart);
+      return state;
+    }
+    case Held::fixed:
+      state.angle = whole_turn;
+      break;
+    case Held::cone_twist: {
+      turn(0, twist(between.x, between.w), x_a);
+      const Vector across = cross(x_a, x_b);
+      const double sine = length(across);
+      turn(1, angle_between(x_a, x_b), sine > 1e-9 ? (1 / sine) * across : rotate(frame_a, k_z));
+      break;
+    }
+    case Held::wheel:
+      slide();
+      state.angle = angle_between(rotate(frame_a, k_z), rotate(frame_b, k_z));
+      turn(1, twist(between.z, between.w), rotate(frame_a, k_z));
+      break;
+  }
+  for (int i = 0; i < 2; ++i) {
+    if (state.free[i]) state.limit = std::max(state.limit, beyond(joint.axes[i], state.values[i]));
+  }
+  return state;
+}
+
+}  // namespace detent_zoo

@@ -1,0 +1,102 @@
+#include "tests/zoo/report.h"
+
+#include <algorithm>
+
+namespace detent_zoo {
+
+namespace {
+
+constexpr const char* k_tables = "## Figures\n";
+
+std::string figure(double value) {
+  char text[32];
+  snprintf(text, sizeof text, value != 0 && value < 1e-3 ? "%.0e" : "%.2g", value);
+  return text;
+}
+
+std::string joined(const std::set<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : " ") + name;
+  return text;
+}
+
+/// A scene's verdicts, a configuration each.
+using Scene = std::vector<const Row*>;
+
+/// The worst of the configurations, in bold where it fails in one.
+std::string judged(const Scene& scene, const std::string& check) {
+  if (scene.front()->entry->bounds.count(check) == 0) return "";
+  double worst = 0;
+  bool fails = false;
+  for (const Row* row : scene) {
+    worst = std::max(worst, measured(row->verdict.figures, check));
+    fails = fails || row->verdict.failed.count(check) != 0;
+  }
+  return fails ? "**" + figure(worst) + "**" : figure(worst);
+}
+
+std::string asleep(const Figures& figures) {
+  return figures.asleep_from == 0 ? "-" : std::to_string(figures.asleep_from);
+}
+
+}  // namespace
+
+std::string line_of(const Row& row) {
+  const Verdict& verdict = row.verdict;
+  const std::string name = row.entry->scene + " " + row.config + ": ";
+  if (!verdict.problem.empty()) return name + verdict.problem;
+  const Figures& f = verdict.figures;
+  std::string text = name + "gain " + figure(f.gain.value) + " (tick " + std::to_string(f.gain.tick) + "), gap " +
+                     figure(f.gap.value) + " " + figure(f.gap_metres.value) + " m (" + verdict.gap_joint + ", tick " +
+                     std::to_string(f.gap.tick) + "), angle " + figure(f.angle.value) + ", limit " +
+                     figure(f.limit.value) + " (" + std::to_string(f.limit.tick) + " " + std::to_string(f.limit.joint) +
+                     "), lost " + figure(f.lost.value) + ", speed " + figure(f.speed.value);
+  if (row.entry->free) text += ", momentum " + figure(f.momentum.value) + ", spin " + figure(f.spin.value);
+  text += ", end " + figure(f.rest_speed) + " m/s " + figure(f.rest_spin) + " rad/s, asleep " + asleep(f) +
+          ", substeps " + figure(f.substeps_mean) + "/" + std::to_string(f.substeps_max) + ", " +
+          figure(f.microseconds) + " us";
+  if (!verdict.failed.empty()) text += "; FAILS " + joined(verdict.failed);
+  return text;
+}
+
+std::string page_of(const std::string& page, const std::vector<Row>& rows) {
+  std::vector<Scene> scenes;
+  std::map<std::string, size_t> good;
+  for (const Row& row : rows) {
+    if (scenes.empty() || scenes.back().front()->entry != row.entry) scenes.emplace_back();
+    scenes.back().push_back(&row);
+    good[row.config] += row.verdict.failed.empty() ? 1u : 0u;
+  }
+  std::string text = page.substr(0, page.find(k_tables)) + k_tables + "\nAll that is wanted holds in";
+  for (const auto& [config, count] : good) {
+    text += (config == good.begin()->first ? " " : ", ") + std::to_string(count) + " of " +
+            std::to_string(scenes.size()) + " scenes in `" + config + "`";
+  }
+  text +=
+      ". The worst of the configurations; in bold what fails in one.\n\n"
+      "| scene | bodies, joints | gain | gap | angle | limit | lost | speed | momentum | spin | rest | asleep from | "
+      "substeps | fails |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+  for (const Scene& scene : scenes) {
+    const Figures& first = scene.front()->verdict.figures;
+    std::map<std::string, std::set<std::string>> failed;
+    double mean = 0;
+    uint32_t most = 0, from = 0;
+    bool all_sleep = true;
+    for (const Row* row : scene) {
+      const Figures& f = row->verdict.figures;
+      failed[row->config] = row->verdict.failed;
+      mean = std::max(mean, f.substeps_mean);
+      most = std::max(most, f.substeps_max);
+      from = std::max(from, f.asleep_from);
+      all_sleep = all_sleep && f.asleep_from != 0;
+    }
+    text += "| " + scene.front()->entry->scene + " | " + std::to_string(first.bodies) + ", " +
+            std::to_string(first.joints) + " | ";
+    for (const char* check : k_checks) text += judged(scene, check) + " | ";
+    text += (all_sleep ? std::to_string(from) : "-") + " | " + figure(mean) + ", " + std::to_string(most) + " | " +
+            gaps_text(failed) + " |\n";
+  }
+  return text;
+}
+
+}  // namespace detent_zoo

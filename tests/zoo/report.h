@@ -1,0 +1,17 @@
+#pragma once
+#include "tests/zoo/visit.h"
+
+namespace detent_zoo {
+
+struct Row {
+  const Entry* entry;
+  std::string config;
+  Verdict verdict;
+};
+
+/// One line of what was measured, and what fails.
+std::string line_of(const Row& row);
+/// docs/zoo.md: the text of `page` up to its table, and that anew. `rows`: a scene after the other.
+std::string page_of(const std::string& page, const std::vector<Row>& rows);
+
+}  // namespace detent_zoo
