@@ -16,11 +16,11 @@
 /// the joints' graph, eliminated by minimum degree (joint_order.cpp, joint_factor.h), made anew in each substep. Each
 /// row is a little soft, so that rows that others hold already need no rule of their own.
 ///
-/// A substep is made to gain no energy (joint_solve.cpp): holding the rows projects the motion, which only takes energy; what
-/// is then added so that joints follow the curve of their way is scaled to what the projection took; and errors of
-/// positions are made up for without speed. Source of the scheme's parts: Baraff, "Linear-time dynamics using Lagrange
-/// multipliers", SIGGRAPH 1996; Tournier, Nesme, Gilles, Faure, "Stable constrained dynamics", 2015; George, Liu, "The
-/// evolution of the minimum degree ordering algorithm", 1989.
+/// A substep is made to gain no energy (joint_solve.cpp): holding the rows projects the motion, which only takes
+/// energy; what is then added so that joints follow the curve of their way is scaled to what the projection took; and
+/// errors of positions are made up for without speed. Source of the scheme's parts: Baraff, "Linear-time dynamics using
+/// Lagrange multipliers", SIGGRAPH 1996; Tournier, Nesme, Gilles, Faure, "Stable constrained dynamics", 2015; George,
+/// Liu, "The evolution of the minimum degree ordering algorithm", 1989.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
