@@ -64,8 +64,8 @@ inline bool has_renewed_gyration(const BodyWork& now, const JointStage& stage) {
   return now.joint_body != UINT32_MAX && stage.bodies[now.joint_body].renewed != 0;
 }
 
-/// Holds the joints' rows, `elapsed` after the start of the tick: of the bodies' velocities. Returns how many values were
-/// clamped, and adds to `undecided`.
+/// Holds the joints' rows, `elapsed` after the start of the tick: of the bodies' velocities. Returns how many values
+/// were clamped, and adds to `undecided`.
 uint32_t hold_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
                      const Island& island, Real elapsed, JointStage& stage, uint32_t& undecided);
 
@@ -79,8 +79,9 @@ uint32_t hold_joints_again(const StepSettings& settings, const SolverBodies& bod
 uint32_t follow_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
                        const Island& island, Real elapsed, JointStage& stage);
 
-/// Shifts the bodies, which have moved, so that gaps close, and gives them back the momentum that their inertia has.
-void shift_joints(const SolverBodies& bodies, Span<const uint32_t> slots, JointStage& stage);
+/// Shifts the bodies, which have moved, so that gaps close, and lends them the momentum that they have with the inertia
+/// of the substep again. Returns how many values were clamped.
+uint32_t shift_joints(const SolverBodies& bodies, Span<const uint32_t> slots, JointStage& stage);
 
 /// Ends a substep of an island: takes out what contacts have added to the rows' speeds since, adds up what the joints
 /// gave, and gives the bodies their own gyrations and momenta. Returns how many values were clamped, and adds to
@@ -142,6 +143,15 @@ void choose_drives(const StepSettings& settings, const SolverBodies& bodies, con
 /// Whether, with the impulses that were found, a motor, spring or friction would do more than it can in the substep. If
 /// `changes`, it then does that.
 bool bound_drives(const JointState& joint, Scaled share, bool changes, JointWork& work);
+/// Whether a free motion is held where it is.
+inline bool is_at_limit(DriveMode mode) {
+  return mode == DriveMode::held || mode == DriveMode::lower || mode == DriveMode::upper;
+}
+/// Whether the bodies, as they move now, would pass limits that did not act, by more than a little, or motors and
+/// friction at their greatest force take them beyond the speeds that they want: those limits act now, and those drives
+/// hold. Drives not where the island `touches`: contacts, which are held in turn, may load them yet.
+bool take_up(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, bool touches,
+             JointWork& work);
 /// Whether, with those impulses, a limit would pull. If `changes`, it does not act.
 bool release_limits(const JointState& joint, bool changes, JointWork& work);
 /// Adds the rows of the free motions that are driven, or notes what pushes without one.
@@ -149,11 +159,13 @@ void add_driven_rows(const StepSettings& settings, const SolverBodies& bodies, c
                      JointWork& work);
 /// Gives a body the inertia that its joints' pulls let it have in this substep: about each of its axes no less than a
 /// substep's stiffness of the pulls, h sum |impulse| |arm|, so that heavy pulls at a light body do not make it sway
-/// faster than a substep can follow. Its gyration becomes that one's, its momentum stays, so it is slowed. And notes how
-/// it responds to forces and torques. The body is placed.
+/// faster than a substep can follow. Its gyration becomes that one's, its momentum stays, so it is slowed. And notes
+/// how it responds to forces and torques. The body is placed.
 void load_inertia(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, JointBody& body);
 /// The momentum with its own inertia of a body that spins as it does with that of the substep.
 Vec3<Real> own_momentum(const JointBody& body, const Vec3<Real>& momentum);
+/// And back. Overflow: clamps, and sets `saturated`.
+Vec3<Real> lent_momentum(const JointBody& body, const Vec3<Real>& momentum, bool& saturated);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -62,6 +62,73 @@ inline Real shown(const JointWork& work, uint32_t row, uint32_t end, const Vec3<
   return dot(velocity, work.row[row].axis) + dot(spin, work.row[row].arm[end]);
 }
 
+/// Runs `visit` with the sizes of blocks: most are of joints that hold their points, which is written out.
+#if defined(__OPTIMIZE_SIZE__)
+template <class Visit, class... Sizes>
+inline void with_sizes(const Visit& visit, Sizes... sizes) {
+  visit(sizes...);
+}
+#else
+struct Three {  ///< known at compile time
+  explicit constexpr Three(uint32_t) {}
+  constexpr operator uint32_t() const { return 3; }
+};
+template <class Visit, class... Sizes>
+inline void with_sizes(const Visit& visit, Sizes... sizes) {
+  if ((... && (sizes == 3)))
+    visit(Three(sizes)...);
+  else
+    visit(sizes...);
+}
+#endif
+
+using Rows = Real[k_joint_rows_max][k_joint_rows_max];
+
+/// L^-1 of a joint's block, and that over its pivots.
+template <class Height, class Width>
+inline void divide_block(const JointWork& work, Height height, Width width, Real* block, Rows& scaled) {
+  for (uint32_t k = 0; k < height; ++k) {
+    for (uint32_t m = 0; m < k; ++m) {
+      for (uint32_t i = 0; i < width; ++i) block[k * width + i] -= work.response[k][m] * block[m * width + i];
+    }
+  }
+  for (uint32_t k = 0; k < height; ++k) {
+    for (uint32_t i = 0; i < width; ++i) scaled[k][i] = multiply(block[k * width + i], work.inverse[k]);
+  }
+}
+
+/// A column of a block times one of what was divided.
+inline Real product(uint32_t height, uint32_t width, const Real* block, uint32_t i, const Rows& scaled, uint32_t m) {
+  Real sum = k_zero;
+  for (uint32_t k = 0; k < height; ++k) sum += block[k * width + i] * scaled[k][m];
+  return sum;
+}
+/// A column of a block times a vector.
+inline Real product(uint32_t height, uint32_t width, const Real* block, uint32_t i, const Real* vector) {
+  Real sum = k_zero;
+  for (uint32_t k = 0; k < height; ++k) sum += block[k * width + i] * vector[k];
+  return sum;
+}
+#if !defined(__OPTIMIZE_SIZE__)
+inline Real product(Three, uint32_t width, const Real* block, uint32_t i, const Rows& scaled, uint32_t m) {
+  return block[i] * scaled[0][m] + block[width + i] * scaled[1][m] + block[2 * width + i] * scaled[2][m];
+}
+inline Real product(Three, uint32_t width, const Real* block, uint32_t i, const Real* vector) {
+  return block[i] * vector[0] + block[width + i] * vector[1] + block[2 * width + i] * vector[2];
+}
+#endif
+
+/// What two joints without a coupling show of each other goes to their diagonals.
+void make_up_product(uint32_t rows, const Real* block, const Rows& scaled, JointWork& third, JointWork& other) {
+  for (uint32_t i = 0; i < third.rows; ++i) {
+    for (uint32_t m = 0; m < other.rows; ++m) {
+      const Real size = abs(product(rows, third.rows, block, i, scaled, m));
+      third.response[i][i] += size;
+      other.response[m][m] += size;
+    }
+  }
+}
+
 }  // namespace
 
 void choose_unit([[maybe_unused]] const JointStage& stage, JointWork& work) {
@@ -182,7 +249,7 @@ void JointFactor::make_up(uint32_t index) {
 
 void JointFactor::eliminate(JointWork& work) {
   const uint32_t rows = work.rows;
-  Real(&response)[k_joint_rows_max][k_joint_rows_max] = work.response;
+  Rows& response = work.response;
   for (uint32_t k = 0; k < rows; ++k) {
     work.inverse[k] = scaled_reciprocal(max(response[k][k], work.least[k]));
     for (uint32_t l = k + 1; l < rows; ++l) {
@@ -195,45 +262,37 @@ void JointFactor::eliminate(JointWork& work) {
     const JointCoupling& coupling = stage_.couplings[at];
     const uint32_t index = coupling.joint[1];
     JointWork& other = stage_.work[index];
-    const uint32_t width = other.rows;
-    Real* block = block_of(coupling);
-    for (uint32_t k = 0; k < rows; ++k) {
-      for (uint32_t m = 0; m < k; ++m) {
-        for (uint32_t i = 0; i < width; ++i) block[k * width + i] -= response[k][m] * block[m * width + i];
-      }
-    }
-    Real scaled[k_joint_rows_max][k_joint_rows_max];
-    for (uint32_t k = 0; k < rows; ++k) {
-      for (uint32_t i = 0; i < width; ++i) scaled[k][i] = multiply(block[k * width + i], work.inverse[k]);
-    }
-    for (uint32_t i = 0; i < width; ++i) {
-      for (uint32_t m = 0; m <= i; ++m) {
-        Real sum = k_zero;
-        for (uint32_t k = 0; k < rows; ++k) sum += block[k * width + i] * scaled[k][m];
-        other.response[i][m] -= sum;
-      }
-    }
+    Rows scaled = {};  // GCC does not see that all that is read is written
+    with_sizes(
+        [&](auto height, auto width) {
+          divide_block(work, height, width, block_of(coupling), scaled);
+          for (uint32_t i = 0; i < width; ++i) {
+            for (uint32_t m = 0; m <= i; ++m)
+              other.response[i][m] -= product(height, width, block_of(coupling), i, scaled, m);
+          }
+        },
+        rows, other.rows);
     // Those before it in the list are substituted already.
     for (uint32_t before = work.coupling; before != at; before = stage_.couplings[before].next[0]) {
       const JointCoupling& known = stage_.couplings[before];
-      const uint32_t known_index = known.joint[1];
-      JointWork& third = stage_.work[known_index];
-      const Real* known_block = block_of(known);
-      const uint32_t known_width = third.rows;
-      const JointCoupling* const between = find(known_index, index);
-      const bool known_first = third.place < other.place;
-      for (uint32_t i = 0; i < known_width; ++i) {
-        for (uint32_t m = 0; m < width; ++m) {
-          Real sum = k_zero;
-          for (uint32_t k = 0; k < rows; ++k) sum += known_block[k * known_width + i] * scaled[k][m];
-          if (between == nullptr) {
-            third.response[i][i] += abs(sum);
-            other.response[m][m] += abs(sum);
-          } else {
-            block_of(*between)[known_first ? i * width + m : m * known_width + i] -= sum;
-          }
-        }
+      JointWork& third = stage_.work[known.joint[1]];
+      const JointCoupling* const between = find(known.joint[1], index);
+      if (between == nullptr) {
+        make_up_product(rows, block_of(known), scaled, third, other);
+        continue;
       }
+      Real* const target = block_of(*between);
+      // What is between them lies the way of the one that is eliminated first.
+      const bool turned = other.place < third.place;
+      with_sizes(
+          [&](auto height, auto known_width, auto width) {
+            for (uint32_t i = 0; i < known_width; ++i) {
+              for (uint32_t m = 0; m < width; ++m)
+                target[turned ? m * known_width + i : i * width + m] -=
+                    product(height, known_width, block_of(known), i, scaled, m);
+            }
+          },
+          rows, third.rows, other.rows);
     }
   }
 }
@@ -253,12 +312,11 @@ Scaled JointFactor::substitute() {
     for (uint32_t at = work.coupling; at != k_no_link; at = stage_.couplings[at].next[0]) {
       const JointCoupling& coupling = stage_.couplings[at];
       JointWork& other = stage_.work[coupling.joint[1]];
-      const Real* block = block_of(coupling);
-      for (uint32_t i = 0; i < other.rows; ++i) {
-        Real sum = k_zero;
-        for (uint32_t k = 0; k < work.rows; ++k) sum += block[k * other.rows + i] * over[k];
-        other.side[i] -= sum;
-      }
+      with_sizes(
+          [&](auto height, auto width) {
+            for (uint32_t i = 0; i < width; ++i) other.side[i] -= product(height, width, block_of(coupling), i, over);
+          },
+          work.rows, other.rows);
     }
   }
   return energy.value();
@@ -267,16 +325,23 @@ Scaled JointFactor::substitute() {
 void JointFactor::solve() {
   for (uint32_t place = order_.count; place-- > 0;) {
     JointWork& work = stage_.work[order_[place]];
+    Real rest[k_joint_rows_max];
+    for (uint32_t k = 0; k < work.rows; ++k) rest[k] = work.side[k];
+    for (uint32_t at = work.coupling; at != k_no_link; at = stage_.couplings[at].next[0]) {
+      const JointCoupling& coupling = stage_.couplings[at];
+      const JointWork& other = stage_.work[coupling.joint[1]];
+      const Real* block = block_of(coupling);
+      with_sizes(
+          [&](auto height, auto width) {
+            for (uint32_t k = 0; k < height; ++k) {
+              for (uint32_t i = 0; i < width; ++i) rest[k] -= block[k * width + i] * other.impulse[i];
+            }
+          },
+          work.rows, other.rows);
+    }
     for (uint32_t k = 0; k < work.rows; ++k) {
-      Real rest = work.side[k];
-      for (uint32_t at = work.coupling; at != k_no_link; at = stage_.couplings[at].next[0]) {
-        const JointCoupling& coupling = stage_.couplings[at];
-        const JointWork& other = stage_.work[coupling.joint[1]];
-        const Real* block = block_of(coupling) + k * other.rows;
-        for (uint32_t i = 0; i < other.rows; ++i) rest -= block[i] * other.impulse[i];
-      }
       bool clamped = false;
-      work.impulse[k] = clamp(multiply(rest, work.inverse[k], clamped), -k_solved_max, k_solved_max);
+      work.impulse[k] = clamp(multiply(rest[k], work.inverse[k], clamped), -k_solved_max, k_solved_max);
       if (clamped) ++saturated;
     }
     for (uint32_t k = work.rows; k-- > 0;) {

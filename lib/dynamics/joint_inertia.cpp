@@ -72,5 +72,14 @@ Vec3<Real> own_momentum(const JointBody& body, const Vec3<Real>& momentum) {
                                         multiply(local.z, body.kept_turn[2])});
 }
 
+Vec3<Real> lent_momentum(const JointBody& body, const Vec3<Real>& momentum, bool& saturated) {
+  if (body.slowed == 0) return momentum;
+  const Vec3<Real> local = multiply_transposed(body.axes, momentum);
+  const auto lent = [&](Real part, int axis) {
+    return multiply(part, divide(Scaled(1.0), body.kept_turn[axis]), saturated);
+  };
+  return multiply(body.axes, Vec3<Real>{lent(local.x, 0), lent(local.y, 1), lent(local.z, 2)});
+}
+
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

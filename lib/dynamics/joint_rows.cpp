@@ -11,6 +11,10 @@ namespace {
 constexpr Unit k_zero_unit = 0.0;
 
 constexpr Real k_twist_rate_min = 0.75;
+/// How far beyond a limit a free motion may be heading before the limit is taken up: rad, or of the joint's unit.
+constexpr Real k_passed = 0.03125;
+/// What is no more beyond the speed that a motor or friction wants is at it, m/s.
+constexpr Real k_overdriven = 0x1p-10;
 
 Vec3<Real> in_metres(const Vec3<Unit>& v, int exponent) {
   return {real_from_unit(v.x, exponent), real_from_unit(v.y, exponent), real_from_unit(v.z, exponent)};
@@ -272,6 +276,30 @@ Real push_off_limit(const StepSettings& settings, const SolverBodies& bodies, co
   return up ? max(push, k_zero) : min(push, k_zero);
 }
 
+/// Whether a motor or friction at its greatest force takes the motion beyond the speed that it wants.
+bool overdrives(const JointStage& stage, int i, const JointWork& work) {
+  if (work.mode[i] != DriveMode::constant) return false;
+  const JointState& joint = stage.joints[work.joint];
+  const DriveMode mode = free_mode(joint, i);
+  if (mode != DriveMode::rigid && mode != DriveMode::brake) return false;
+  const int power = is_angular(static_cast<JointType>(joint.type), i) ? work.exponent : 0;
+  const Real wanted = mode == DriveMode::rigid ? scale_by_power(joint.speed[i], power) * work.shown[i] : k_zero;
+  const Real push = work.constant[i] + work.driven_total[i] + work.given[i];
+  const Real beyond = speed_of(stage, work, i) - wanted;
+  return push > k_zero ? beyond > k_overdriven : beyond < -k_overdriven;
+}
+
+/// The limit that a free motion would pass by that in the substep, or what its mode is.
+DriveMode mode_at_limit(const StepSettings& settings, const JointStage& stage, int i, Real passed,
+                        const JointWork& work) {
+  const JointState& joint = stage.joints[work.joint];
+  const int power = is_angular(static_cast<JointType>(joint.type), i) ? work.exponent : 0;
+  const Real reach = clamp(speed_of(stage, work, i), -k_speed_work_max, k_speed_work_max) * settings.time;
+  if (work.value[i] + min(reach, k_zero) + passed <= scale_by_power(joint.lower[i], power)) return DriveMode::lower;
+  if (work.value[i] + max(reach, k_zero) - passed >= scale_by_power(joint.upper[i], power)) return DriveMode::upper;
+  return work.mode[i];
+}
+
 }  // namespace
 
 int free_motion_count(JointType type) {
@@ -379,16 +407,33 @@ void choose_drives(const StepSettings& settings, const SolverBodies& bodies, con
       work.constant[i] = k_zero;
       continue;
     }
-    const int power = is_angular(static_cast<JointType>(joint.type), i) ? work.exponent : 0;
-    const Real reach = clamp(speed_of(stage, work, i), -k_speed_work_max, k_speed_work_max) * settings.time;
-    if (work.value[i] + min(reach, k_zero) <= scale_by_power(joint.lower[i], power))
-      work.mode[i] = DriveMode::lower;
-    else if (work.value[i] + max(reach, k_zero) >= scale_by_power(joint.upper[i], power))
-      work.mode[i] = DriveMode::upper;
-    else
-      continue;
-    work.constant[i] = push_off_limit(settings, bodies, stage, i, work);
+    work.mode[i] = mode_at_limit(settings, stage, i, k_zero, work);
+    if (is_at_limit(work.mode[i])) work.constant[i] = push_off_limit(settings, bodies, stage, i, work);
   }
+}
+
+bool take_up(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, bool touches,
+             JointWork& work) {
+  const JointState& joint = stage.joints[work.joint];
+  bool taken = false;
+  for (int i = 0; i < driven_motion_count(joint); ++i) {
+    DriveMode& mode = work.mode[i];
+    if (!touches && overdrives(stage, i, work)) {
+      mode = free_mode(joint, i);
+      work.driven_total[i] += work.given[i];
+      work.constant[i] = work.given[i] = k_zero;
+      taken = true;
+    }
+    if (i >= 2 || joint.limited[i] == 0 || is_at_limit(mode)) continue;
+    const DriveMode limit = mode_at_limit(settings, stage, i, scale_by_power(k_passed, work.exponent), work);
+    if (!is_at_limit(limit)) continue;
+    mode = limit;
+    work.given[i] += work.driven_total[i];
+    work.driven_total[i] = k_zero;
+    work.constant[i] = push_off_limit(settings, bodies, stage, i, work);
+    taken = true;
+  }
+  return taken;
 }
 
 void add_driven_rows(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage,

@@ -10,9 +10,10 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr uint32_t k_gathers = 4;              ///< of impulses that are beyond what bodies can take, before they are dropped
+constexpr uint32_t k_gathers = 4;  ///< of impulses that are beyond what bodies can take, before they are dropped
 constexpr Scaled k_gathered_share = 0.015625;  ///< of them that is tried next
-constexpr uint32_t k_decisions = 8;  ///< tries to solve with limits and motors as they must be
+constexpr uint32_t k_decisions = 8;            ///< tries to solve with limits and motors as they must be
+constexpr uint32_t k_takings = 3;              ///< of those, in which limits are taken up: then they are only let go
 
 /// What a substep makes up for of the errors of positions, and no faster than so.
 constexpr Unit k_closed = 0.2;
@@ -20,7 +21,11 @@ constexpr Real k_closing_speed_max = 4.0;  ///< m/s
 constexpr Real k_closing_spin_max = 16.0;  ///< rad/s
 constexpr int k_gap_power = 20;            ///< where all gaps are below 2^-k_gap_power of their joint's unit they stay
 constexpr int k_turned_power = 6;          ///< of a turn in rad: what has turned by less in the tick keeps its gyration
-constexpr int k_straight_power = 20;       ///< of rad: see any_turns()
+constexpr int k_spin_power_max = 14;       ///< of a spin, m/s at the joints: beyond it a body is slowed
+constexpr int k_slowings = 16, k_slowing_power = 2;  ///< how often, and each time by how much
+constexpr int k_matrix_power = 3;                    ///< by how much a matrix of Units makes a vector greater at most
+constexpr int k_side_power_max = 16;                 ///< of the sides of a solve
+constexpr int k_straight_power = 20;                 ///< of rad: see any_turns()
 
 /// The sum of two lengths, held so that a Real tells its double.
 constexpr Real k_length_max = 32768.0;
@@ -45,6 +50,7 @@ struct Solver {
   JointStage& stage;
   Span<const uint32_t> order;
   JointFactor factor;
+  bool touches;  ///< whether the island has contacts, which are held in turn
   uint32_t clamped = 0, undecided = 0;
 
   Solver(const StepSettings& of_step, const SolverBodies& all, Span<const uint32_t> of_island, const Island& island,
@@ -54,7 +60,8 @@ struct Solver {
         slots(of_island),
         stage(joints),
         order{joints.order.data + island.first_joint, island.joint_count},
-        factor(joints, order, island.joint_couplings_dropped != 0) {}
+        factor(joints, order, island.joint_couplings_dropped != 0),
+        touches(island.contact_count != 0) {}
 
   JointBody& end_of(const JointWork& work, uint32_t end) const { return stage.bodies[work.body[end]]; }
   template <class Visit>
@@ -101,6 +108,19 @@ struct Solver {
   Vec3<Real> spin_from(const JointBody& body, const Vec3<Real>& momentum) const {
     return world_spin(bodies.traits[body.slot], bodies.work[body.slot].gyration, momentum, body.above);
   }
+  /// Whether a body's momentum gives a spin with which the speeds of rows fit a Real.
+  bool spins_within(const JointBody& body, const Vec3<Real>& momentum) const {
+    const int power = bodies.work[body.slot].gyration.exponent + body.above;  // of a matrix of 3 x 3 Units
+    if (exponent_above(greatest(momentum)) + power + k_matrix_power <= k_spin_power_max) return true;
+    return greatest(spin_from(body, momentum)) <= scale_by_power(Real(1.0), k_spin_power_max);
+  }
+  /// A body that would turn faster keeps a part of its momentum.
+  void slow_to_fit(const JointBody& body, Vec3<Real>& momentum) {
+    for (int left = k_slowings; left > 0 && !spins_within(body, momentum); --left) {
+      momentum = scale_by_power(momentum, -k_slowing_power);
+      ++clamped;
+    }
+  }
   void load_motion(JointBody& body) {
     const BodyMotion& motion = bodies.motions[body.slot];
     body.velocity = motion.velocity;
@@ -110,8 +130,8 @@ struct Solver {
   /// Whether a body that has turned in the tick has another gyration than at its start.
   bool has_turned(const JointBody& body) const {
     const BodyTraits& traits = bodies.traits[body.slot];
-    return !is_isotropic(traits) && absolute_sum(bodies.work[body.slot].turn) >
-                                        real_from_unit(Unit(1.0), traits.size_exponent - k_turned_power);
+    return !is_isotropic(traits) &&
+           absolute_sum(bodies.work[body.slot].turn) > real_from_unit(Unit(1.0), traits.size_exponent - k_turned_power);
   }
 
   void begin(Real elapsed) {
@@ -170,13 +190,16 @@ struct Solver {
   }
   /// Of a row's speeds in a solve.
   static int power_of(const JointWork& work, uint32_t row) { return work.power[row_kind(work, row)] - k_impulse_power; }
+  /// What a row asks for as a side of a solve.
+  Real side_of(const JointWork& work, uint32_t row, Real speed) {
+    const int power = power_of(work, row);
+    clamped += clamp_component(speed, scale_by_power(Real(1.0), k_side_power_max - (power > 0 ? power : 0)));
+    return scale_by_power(speed, power);
+  }
   /// Whether a row holds something where it is: a limit does while it is reached.
   static bool is_held(const JointWork& work, uint32_t row) {
-    const auto holds = [](DriveMode mode) {
-      return mode == DriveMode::held || mode == DriveMode::lower || mode == DriveMode::upper;
-    };
-    return row < work.rows_held || (work.driven[0] == row && holds(work.mode[0])) ||
-           (work.driven[1] == row && holds(work.mode[1]));
+    return row < work.rows_held || (work.driven[0] == row && is_at_limit(work.mode[0])) ||
+           (work.driven[1] == row && is_at_limit(work.mode[1]));
   }
 
   /// Whether a body turns by more than 2^-k_straight_power rad in the substep: below, joints' ways do not bend by what
@@ -204,8 +227,7 @@ struct Solver {
     each_joint([&](JointWork& work) {
       Real speed[k_joint_rows_max];
       speeds(work, speed);
-      for (uint32_t k = 0; k < work.rows; ++k)
-        work.side[k] = is_held(work, k) ? scale_by_power(-speed[k], power_of(work, k)) : k_zero;
+      for (uint32_t k = 0; k < work.rows; ++k) work.side[k] = is_held(work, k) ? side_of(work, k, -speed[k]) : k_zero;
     });
     return factor.substitute();
   }
@@ -229,8 +251,7 @@ struct Solver {
       each_joint([&](JointWork& work) {
         Real speed[k_joint_rows_max];
         speeds(work, speed);
-        for (uint32_t k = 0; k < work.rows; ++k)
-          work.side[k] = scale_by_power(work.wanted[k] - speed[k], power_of(work, k));
+        for (uint32_t k = 0; k < work.rows; ++k) work.side[k] = side_of(work, k, work.wanted[k] - speed[k]);
         for (int i = 0; i < k_free_motions; ++i) {
           const uint32_t row = work.driven[i];
           if (row != k_joint_rows_max) work.side[row] -= work.spring[row] * work.driven_total[i];
@@ -248,16 +269,37 @@ struct Solver {
           if (release_limits(stage.joints[work.joint], !last, work)) wrong = true;
         });
       }
-      if (!wrong) break;
-      if (last) {
-        ++undecided;
-        break;
-      }
+      if (!wrong || last) clamped += gather_impulses();
+      if (wrong && last) ++undecided;
+      if (!wrong && decision <= k_takings) wrong = take_up_drives();
+      if (!wrong || last) break;
       make_factor();
     }
-    gather_within_range(elapsed);
+    keep_sound(elapsed);
     each_mobile([&](JointBody& body) { apply(body); });
     each_joint([&](JointWork& work) { count_in(work); });
+  }
+
+  /// Whether limits or drives are taken up again for how the bodies move with what has been gathered.
+  bool take_up_drives() {
+    bool open = false;
+    each_joint([&](const JointWork& work) {
+      for (int i = 0; i < k_free_motions; ++i) {
+        const bool limited = i < 2 && stage.joints[work.joint].limited[i] != 0;
+        if ((limited && !is_at_limit(work.mode[i])) || (!touches && work.mode[i] == DriveMode::constant)) open = true;
+      }
+    });
+    if (!open) return false;
+    each_mobile([&](JointBody& body) {
+      const BodyMotion& motion = bodies.motions[body.slot];
+      body.velocity = motion.velocity + body.push + body.given_push;
+      body.spin = spin_from(body, motion.momentum + body.twist + body.given_twist);
+    });
+    bool taken = false;
+    each_joint([&](JointWork& work) {
+      if (take_up(settings, bodies, stage, touches, work)) taken = true;
+    });
+    return taken;
   }
 
   /// Makes the impulses what the bodies get; all less where one is beyond its range, or what a body gets: a part of
@@ -288,6 +330,7 @@ struct Solver {
         if (body.mobile != 0 && !gather(work, end, body)) fits = false;
       }
     });
+    each_mobile([&](const JointBody& body) { fits = fits && spins_within(body, body.twist); });
     return fits;
   }
   void scale_impulses(Scaled share) {
@@ -298,8 +341,7 @@ struct Solver {
   /// Whether nothing has left its range yet.
   bool is_sound() const { return clamped + factor.saturated == 0; }
   /// What left its range on the way is no solution: as much of it as takes energy.
-  void gather_within_range(Real elapsed) {
-    clamped += gather_impulses();
+  void keep_sound(Real elapsed) {
     if (is_sound()) return;
     scale_all(share_within(Scaled(0.0)));
     place_still(elapsed);
@@ -313,6 +355,7 @@ struct Solver {
     motion.velocity += body.push + body.given_push;
     motion.momentum += body.twist + body.given_twist;
     clamped += clamp_vector(motion.velocity, k_speed_work_max) + clamp_vector(motion.momentum, k_spin_work_max);
+    slow_to_fit(body, motion.momentum);
     if (DETENT_FIXED) {  // it is not the contacts' (contact_motion.h)
       now.contact_velocity -= motion.velocity - velocity_before;
       now.contact_momentum -= motion.momentum - momentum_before;
@@ -332,7 +375,10 @@ struct Solver {
 
   /// Holds the rows once more: takes out what contacts have added to their speeds.
   void hold_again(Real elapsed) {
-    each_mobile([&](JointBody& body) { load_motion(body); });
+    each_mobile([&](JointBody& body) {
+      apply(body);  // nothing: what contacts have made of its motion is brought within range
+      load_motion(body);
+    });
     place_still(elapsed);
     hold(elapsed);
     renew_spins();
@@ -361,7 +407,7 @@ struct Solver {
     each_joint([&](JointWork& work) {
       const JointRows then = make_joint_rows(stage, work);
       const auto ask = [&](uint32_t row, Real error) {
-        work.side[row] = scale_by_power(speed_over(settings, work.error[row] - error), power_of(work, row));
+        work.side[row] = side_of(work, row, speed_over(settings, work.error[row] - error));
       };
       for (uint32_t k = 0; k < work.rows; ++k) {
         work.side[k] = k_zero;
@@ -446,7 +492,7 @@ struct Solver {
         const Real speed = clamp(-(speed_over(settings, work.error[k]) * k_closed), -most, most);
         closed = held_sum(closed, abs(speed) * settings.time);
         if (abs(work.error[k]) > least) opens = true;
-        work.side[k] = scale_by_power(speed, power_of(work, k));
+        work.side[k] = side_of(work, k, speed);
       }
     });
     if (!opens) {
@@ -490,7 +536,6 @@ struct Solver {
   /// Bodies turn with their own inertia, at the spin that they have with that of the substep.
   void lend_momenta() {
     each_mobile([&](JointBody& body) {
-      if (body.slowed == 0) return;
       BodyMotion& motion = bodies.motions[body.slot];
       body.momentum_before = motion.momentum;
       motion.momentum = own_momentum(body, motion.momentum);
@@ -553,12 +598,12 @@ void begin_joints(const StepSettings& settings, const SolverBodies& bodies, Span
 }
 
 uint32_t hold_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
-                      const Island& island, Real elapsed, JointStage& stage, uint32_t& undecided) {
+                     const Island& island, Real elapsed, JointStage& stage, uint32_t& undecided) {
   Solver solver(settings, bodies, slots, island, stage);
   solver.start();
   solver.make_factor();
   solver.hold(elapsed);
-  if (island.contact_count != 0) solver.renew_spins();
+  if (solver.touches) solver.renew_spins();
   undecided += solver.undecided;
   return solver.clamped + solver.factor.saturated;
 }
@@ -580,7 +625,7 @@ uint32_t follow_joints(const StepSettings& settings, const SolverBodies& bodies,
     solver.follow_curves(taken);
   }
   solver.close_gaps();
-  if (island.contact_count != 0) solver.renew_spins();
+  if (solver.touches) solver.renew_spins();
   solver.lend_momenta();
   return solver.clamped + solver.factor.saturated;
 }
@@ -588,7 +633,7 @@ uint32_t follow_joints(const StepSettings& settings, const SolverBodies& bodies,
 uint32_t end_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
                     const Island& island, Real elapsed, JointStage& stage, uint32_t& undecided) {
   Solver solver(settings, bodies, slots, island, stage);
-  if (island.contact_count != 0) solver.hold_again(elapsed);
+  if (solver.touches) solver.hold_again(elapsed);
   undecided += solver.undecided;
   const Scaled over_share = scaled_by_power(scaled_from_count(settings.substeps), -k_kept_power);
   solver.each_joint([&](JointWork& work) {
@@ -599,21 +644,24 @@ uint32_t end_joints(const StepSettings& settings, const SolverBodies& bodies, Sp
   return solver.clamped + solver.factor.saturated;
 }
 
-void shift_joints(const SolverBodies& bodies, Span<const uint32_t> slots, JointStage& stage) {
+uint32_t shift_joints(const SolverBodies& bodies, Span<const uint32_t> slots, JointStage& stage) {
+  bool saturated = false;
   each_body(bodies, slots, stage, [&](const JointBody& body) {
     BodyWork& now = bodies.work[body.slot];
     BodyMotion& motion = bodies.motions[body.slot];
-    if (body.slowed != 0) motion.momentum = body.momentum_before;
+    const Vec3<Real> before = body.momentum_before;  // as lent
     now.displacement += body.shift;
-    if (body.shift_turn == k_zero_vector) return;
-    const Quat turn = rotation_from_vector(body.shift_turn);
-    now.rotation = normalise(multiply(turn, now.rotation));
-    // The momentum turns with the body: so its energy stays.
-    const Vec3<Real> before = motion.momentum;
-    motion.momentum = rotate(turn, before);
+    if (!(body.shift_turn == k_zero_vector)) {
+      const Quat turn = rotation_from_vector(body.shift_turn);
+      now.rotation = normalise(multiply(turn, now.rotation));
+      // The momentum turns with the body: so its energy stays.
+      motion.momentum = rotate(turn, motion.momentum);
+      now.turn += scale_by_power(body.shift_turn, bodies.traits[body.slot].size_exponent);
+    }
+    motion.momentum = lent_momentum(body, motion.momentum, saturated);
     if (DETENT_FIXED) now.contact_momentum += before - motion.momentum;
-    now.turn += scale_by_power(body.shift_turn, bodies.traits[body.slot].size_exponent);
   });
+  return saturated ? 1 : 0;
 }
 
 void store_reactions(const StepSettings& settings, const SolverBodies& bodies, JointStage& stage) {
@@ -633,7 +681,7 @@ void store_reactions(const StepSettings& settings, const SolverBodies& bodies, J
   }
 }
 
-const JointCode k_joint_code = {collect_joints, order_joints, begin_joints, hold_joints, hold_joints_again,
+const JointCode k_joint_code = {collect_joints, order_joints, begin_joints, hold_joints,    hold_joints_again,
                                 follow_joints,  shift_joints, end_joints,   store_reactions};
 
 }  // namespace DETENT_NAMESPACE

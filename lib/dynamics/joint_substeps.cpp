@@ -4,22 +4,22 @@
 #include "math/root.h"
 #include "math/scaled.h"
 
-/// How many substeps joints need. What turns by w in a substep leaves the straight way that its joints are held along by
-/// w^2/2 of its arm. The solver makes up for that but for a part of w of it. So the square of the number of substeps goes
-/// with what the ways bend in a whole tick, over the smaller body's unit: a chain that hangs or swings slowly takes the
-/// fewest, and so does a wheel, which turns about its anchor.
+/// How many substeps joints need. What turns by w in a substep leaves the straight way that its joints are held along
+/// by w^2/2 of its arm. The solver makes up for that but for a part of w of it. So the square of the number of substeps
+/// goes with what the ways bend in a whole tick, over the smaller body's unit: a chain that hangs or swings slowly
+/// takes the fewest, and so does a wheel, which turns about its anchor.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
 constexpr Real k_turn_max = 4.0;  ///< rad, each component of a turn: beyond those the number is at its bound
 
-constexpr Scaled k_needed = 4.0;            ///< one substep would open what is taut by metres
-constexpr Scaled k_needed_by_loops = 9.0;   ///< also by what hangs on two places, which may be taut between them
+constexpr Scaled k_needed = 4.0;           ///< one substep would open what is taut by metres
+constexpr Scaled k_needed_by_loops = 9.0;  ///< also by what hangs on two places, which may be taut between them
 constexpr Scaled k_needed_by_bend = 25.0;  ///< for each squared radian in a tick: 0.2 rad a substep
 constexpr int k_axes_power = 2;            ///< of axes that turn about each other: so much more
 constexpr Scaled k_needed_by_bend_max = 1024.0;
-constexpr Scaled k_needed_with_contacts = 36.0;  ///< their impulses and those of the joints settle over the substeps
+constexpr Scaled k_needed_with_contacts = 16.0;  ///< their impulses and those of the joints settle over the substeps
 constexpr Scaled k_needed_by_spring = 25.0;      ///< for each squared radian of its phase in a tick
 constexpr Scaled k_needed_by_spring_max = 16.0;  ///< stiffer ones are solved implicitly
 
@@ -37,7 +37,8 @@ Vec3<Real> turn_in_tick(const StepSettings& settings, const SolverBodies& bodies
   return {angle(spin.x), angle(spin.y), angle(spin.z)};
 }
 
-/// How far the ways of a joint's anchors and axes bend in a tick, over half of the smaller body's unit: squared radians.
+/// How far the ways of a joint's anchors and axes bend in a tick, over half of the smaller body's unit: squared
+/// radians.
 Scaled bend_in_tick(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage,
                     const JointWork& work) {
   Vec3<Real> turn[2];
@@ -90,7 +91,8 @@ Scaled squared_substeps(const StepSettings& settings, const SolverBodies& bodies
   if (island.joint_count > bodies_held) take(k_needed_by_loops);
   for (const uint32_t index : Span<const uint32_t>{stage.order.data + island.first_joint, island.joint_count}) {
     const JointWork& work = stage.work[index];
-    const Scaled bend = greater(bend_in_tick(settings, bodies, stage, work), squared_swing(settings, bodies, stage, work));
+    const Scaled bend =
+        greater(bend_in_tick(settings, bodies, stage, work), squared_swing(settings, bodies, stage, work));
     take(lesser(multiply(bend, k_needed_by_bend), k_needed_by_bend_max));
     for (const Real frequency : stage.joints[work.joint].frequency) {
       if (!(frequency > Real(0.0))) continue;

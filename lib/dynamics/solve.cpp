@@ -90,6 +90,7 @@ void rebound(ContactSolver<One>& solver) {
 }
 
 constexpr uint32_t k_joint_rounds = 4;  ///< in which contacts and joints of a substep are held by turns
+constexpr uint32_t k_first_passes = 2;  ///< over the contacts in the first of them
 
 /// Keeps the velocities of before a sweep, in a place that only the sweeps use.
 void remember(const SolverBodies& bodies, Span<const uint32_t> island) {
@@ -166,7 +167,7 @@ SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<
   SolveCount count;
   Real elapsed = 0.0;
   const Real enough = scale_by_power(settings.gravity_size * settings.time, -static_cast<int>(settings.convergence));
-  const Real enough_for_joints = settings.gravity_size * settings.time;
+  const Real enough_for_joints = scale_by_power(settings.gravity_size * settings.time, -2);
   /// Sweeps until nothing changes by more than that.
   const auto sweep = [&](const auto& one, const auto& four) {
     for (uint32_t iteration = 1;; ++iteration) {
@@ -196,16 +197,18 @@ SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<
       place_kinematic(bodies.traits[a], bodies.motions[a], elapsed, bodies.work[a]);
       place_kinematic(bodies.traits[b], bodies.motions[b], elapsed, bodies.work[b]);
     }
-    sweep([](Solver& contact) { contact.soften(); }, soften_quad);
-    if (joints.code != nullptr) {
+    if (joints.code == nullptr) {
+      sweep([](Solver& contact) { contact.soften(); }, soften_quad);
+    } else {
       const Island& own = *joints.island;
       JointStage& stage = *joints.stage;
       uint32_t& undecided = *joints.undecided;
       count.clamped += joints.code->hold(settings, bodies, island, own, elapsed, stage, undecided);
       for (uint32_t round = 0; round < k_joint_rounds && order.count != 0; ++round) {
         remember(bodies, island);
-        pass(
-            settings, bodies, order, contacts, [](Solver& contact) { contact.soften(); }, soften_quad);
+        for (uint32_t left = round == 0 ? k_first_passes : 1; left > 0; --left)
+          pass(
+              settings, bodies, order, contacts, [](Solver& contact) { contact.soften(); }, soften_quad);
         if (has_settled(bodies, island, enough)) break;
         const bool last = has_settled(bodies, island, enough_for_joints);
         count.clamped += joints.code->hold_again(settings, bodies, island, own, elapsed, stage, undecided);
@@ -214,7 +217,7 @@ SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<
       count.clamped += joints.code->follow(settings, bodies, island, own, elapsed, stage);
     }
     count.clamped += integrate_positions(bodies, island, settings.time);
-    if (joints.code != nullptr) joints.code->shift(bodies, island, *joints.stage);
+    if (joints.code != nullptr) count.clamped += joints.code->shift(bodies, island, *joints.stage);
     sweep([](Solver& contact) { contact.relax(); }, relax_quad);
     if (joints.code != nullptr)
       count.clamped +=

@@ -96,10 +96,9 @@ DETENT_PASSING inline Scaled scaled_reciprocal(Real a) { return words::to_scaled
 /// a b. Rounding: to nearest, ties up. Overflow: clamps to Real's range and sets `saturated` (else untouched).
 DETENT_PASSING inline Real multiply(Real a, Scaled b, bool& saturated) {
 #if DETENT_NATIVE_WIDE
-  // What is below 2^8, times what is below 2^7, is far from the limits.
-  constexpr int64_t k_usual = int64_t{1} << (k_real_frac + 8);
+  // A product is below 2^62, and fits once it is rounded, if a is below 2^(n + 31): b's mantissa is below 2^31.
   const int n = -b.exponent;
-  if (n >= 24 && n <= 64 && a.raw > -k_usual && a.raw < k_usual)
+  if (n > 0 && n <= 64 && static_cast<uint64_t>((a.raw >> (n < 32 ? n + 31 : 63)) + 1) <= 1)
     return Real::from_raw(Int128::product(a.raw, b.mantissa).round_shift(n));
 #endif
   return Real::from_raw(words::multiply_raw(a.raw, words::word_of(b), saturated));

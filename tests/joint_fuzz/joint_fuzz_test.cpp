@@ -10,43 +10,27 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-using detent_joint_fuzz::Kind;
-using detent_joint_fuzz::kind_of;
 using detent_joint_fuzz::random_scene;
 using detent_joint_fuzz::Scene;
 using detent_joint_fuzz::Verdict;
 
-/// How many of the first scenes gain energy within the ticks, with neither drives nor contacts, and with. Of those that
-/// do all but one saturate: bodies of 500 t beside 100 kg, 400 sizes apart, leave the range of fixed point.
-struct Known {
-  uint32_t scenes, ticks;
-  uint32_t passive_grow, other_grow;
-};
-#if defined(DETENT_FX64)
-constexpr Known k_known = {2000, 60, 2, 3};
-#elif defined(DETENT_FX32)
-constexpr Known k_known = {100, 60, 0, 0};
-#elif defined(DETENT_F32)
-constexpr Known k_known = {100, 60, 0, 0};
-#else
-constexpr Known k_known = {100, 60, 0, 0};
-#endif
+constexpr uint32_t k_scenes = k_config == Config::fx64 ? 2000 : 100, k_ticks = 60;
 
-bool is_passive(const Verdict& verdict) { return verdict.kind < Kind::contact; }
+void expect_no_gain(uint64_t seed) {
+  const Verdict verdict = play(random_scene(seed), joint_fuzz_engine(), {}, {k_ticks, true});
+  ASSERT_EQ(verdict.problem, "");
+  EXPECT_TRUE(verdict.finite) << "seed " << seed;
+  EXPECT_FALSE(verdict.grows()) << "seed " << seed << " grows to " << verdict.growth << " of its scale";
+}
 
-DETENT_TEST(joint_fuzz, no_more_graphs_of_joints_gain_energy_than_are_known) {
-  const detent_joint_fuzz::Engine engine = joint_fuzz_engine();
-  const uint32_t scenes = getenv("DETENT_EMULATED") != nullptr ? k_known.scenes / 4 : k_known.scenes;
-  uint32_t passive = 0, other = 0;
-  for (uint64_t seed = 1; seed <= scenes; ++seed) {
-    const Verdict verdict = play(random_scene(seed), engine, {}, {k_known.ticks, true});
-    ASSERT_EQ(verdict.problem, "");
-    EXPECT_TRUE(verdict.finite) << "seed " << seed;
-    (is_passive(verdict) ? passive : other) += verdict.grows();
-  }
-  EXPECT_LE(passive, k_known.passive_grow);
-  EXPECT_LE(other, k_known.other_grow);
-  printf("%u scenes: %u without drives and contacts grow, %u with\n", scenes, passive, other);
+DETENT_TEST(joint_fuzz, no_graph_of_joints_gains_energy) {
+  const uint32_t scenes = getenv("DETENT_EMULATED") != nullptr ? k_scenes / 4 : k_scenes;
+  for (uint64_t seed = 1; seed <= scenes; ++seed) expect_no_gain(seed);
+}
+
+/// 19488, 29685: needles with which joints turn, slowed by their pulls, kept the momentum of their old place.
+DETENT_TEST(joint_fuzz, graphs_that_gained_energy_gain_none) {
+  for (const uint64_t seed : {uint64_t{19488}, uint64_t{29685}}) expect_no_gain(seed);
 }
 
 DETENT_TEST(joint_fuzz, graphs_start_as_their_joints_ask) {
