@@ -58,6 +58,7 @@ int main() {
   must(set_type(world, crate, BodyType::dynamic));  // and free again, of the same mass
   must(set_shape(world, crate, box({0.5, 0.25, 0.5})));
   must(set_density(world, crate, 100.0));
+  must(set_inertia(world, crate, {8.0, 12.0, 8.0}));  // kg m^2, about its axes
   WorldDef settings = get_settings(world);
   settings.gravity = {0.0, -3.7, 0.0};
   must(set_settings(world, settings));

@@ -10,7 +10,8 @@ inline namespace DETENT_NAMESPACE {
 /// What a joint leaves free. Each body has a frame at its anchor; x, y, z are the frame's axes. Stored in snapshots and
 /// recordings: a value is never reused.
 enum class JointType : uint32_t {
-  ball = 1,        ///< the anchors are one; all turning is free
+  ball = 1,        ///< the anchors are one; all turning is free. `axis`: a spring, which turns B's frame to A's; of it
+                   ///< `frequency`, `damping_ratio` and `force_max`, about each of A's axes, have a meaning
   hinge = 2,       ///< and the x axes are one; `axis`: the angle of B's frame against A's about x
   slider = 3,      ///< the frames are parallel, B's anchor lies on A's x; `axis`: how far along it
   distance = 4,    ///< nothing but `axis`: how far the anchors are apart. Rod: lower = upper; rope: lower = 0

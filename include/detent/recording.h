@@ -141,6 +141,7 @@ class Recorder {
   Status set_type(BodyId id, BodyType type);
   Status set_shape(BodyId id, const Shape& shape);
   Status set_mass(BodyId id, Scaled mass);
+  Status set_inertia(BodyId id, const Vec3<Scaled>& inertia);
   Status set_density(BodyId id, Scaled density);
   Status set_material(BodyId id, const Material& material);
   Status set_damping(BodyId id, Real linear, Real angular);

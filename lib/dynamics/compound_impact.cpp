@@ -13,14 +13,15 @@ struct PartSearch {
   const FeatureTable& features;
   const SweptBody &a, &b;
   const Fraction time;
-  const Real inset, extent;
+  const Ladder& ladder;
+  Meeting& meeting;
+  const Real extent;
   const ConvexParts parts_a, parts_b;
   const Motion motion_a, motion_b;
   Real closing = 0.0;    ///< how much nearer any two points can come, m
   bool bounded = false;  ///< whether that is known
-  TimeOfImpact first = {};
 
-  bool inset_part(const SweptBody& body, const ConvexParts& parts, uint32_t i, Convex& convex) const {
+  bool inset_part(const SweptBody& body, const ConvexParts& parts, uint32_t i, Real inset, Convex& convex) const {
     if (!is_compound(body.traits)) return inset_convex(assets, body.traits, inset, extent, convex);
     return parts.convex(i, inset_halvings(inset, extent) != 0, convex) && inset_convex(inset, 0, convex);
   }
@@ -43,38 +44,31 @@ struct PartSearch {
     return far <= reach + scale_by_power(reach + far, -10);
   }
 
-  void take(const TimeOfImpact& found) {
-    if (found.outcome == ToiOutcome::clear) return;
-    if (first.outcome == ToiOutcome::clear || found.time < first.time) first = found;
-  }
-
   bool ask_surface() {
     const bool ground_is_a = is_surface(a.traits);
     const SweptBody& body = ground_is_a ? b : a;
     const ConvexParts& parts = ground_is_a ? parts_b : parts_a;
     for (uint32_t i = 0; i < parts.count(); ++i) {
-      Convex convex;
-      TimeOfImpact found;
-      if (!inset_part(body, parts, i, convex) ||
-          !features.surface_impact->impact(assets, *features.surface, a, b, convex, time, found))
-        return false;
-      take(found);
+      const auto on_rung = [&](Real inset, TimeOfImpact& found) {
+        Convex convex;
+        return inset_part(body, parts, i, inset, convex) &&
+               features.surface_impact->impact(assets, *features.surface, a, b, convex, time, found);
+      };
+      if (!climb(a, b, time, ladder, on_rung, meeting)) return false;
     }
     return parts.count() != 0;
   }
 
   bool ask_parts() {
     for (uint32_t i = 0; i < parts_a.count(); ++i) {
-      Convex convex_a;
-      if (!inset_part(a, parts_a, i, convex_a)) return false;
       for (uint32_t j = 0; j < parts_b.count(); ++j) {
         if (!may_meet(i, j)) continue;
-        Convex convex_b;
-        TimeOfImpact found;
-        if (!inset_part(b, parts_b, j, convex_b) ||
-            time_of_impact(convex_a, motion_a, convex_b, motion_b, found) != Status::ok)
-          return false;
-        take(found);
+        const auto on_rung = [&](Real inset, TimeOfImpact& found) {
+          Convex convex_a, convex_b;
+          return inset_part(a, parts_a, i, inset, convex_a) && inset_part(b, parts_b, j, inset, convex_b) &&
+                 time_of_impact(convex_a, motion_a, convex_b, motion_b, found) == Status::ok;
+        };
+        if (!climb(a, b, time, ladder, on_rung, meeting)) return false;
       }
     }
     return parts_a.count() != 0 && parts_b.count() != 0;
@@ -84,26 +78,22 @@ struct PartSearch {
 }  // namespace
 
 bool compound_impact(const AssetTable& assets, const FeatureTable& features, const SweptBody& a, const SweptBody& b,
-                     Fraction time, Real inset, TimeOfImpact& impact) {
-  const Real extent = min(shape_extent(a.traits), shape_extent(b.traits));
+                     Fraction time, const Ladder& ladder, Meeting& meeting) {
   PartSearch search = {assets,
                        features,
                        a,
                        b,
                        time,
-                       inset,
-                       extent,
+                       ladder,
+                       meeting,
+                       min(shape_extent(a.traits), shape_extent(b.traits)),
                        ConvexParts(a.traits, assets),
                        ConvexParts(b.traits, assets),
                        motion_from(a, time),
                        motion_from(b, time)};
-  search.first.outcome = ToiOutcome::clear;
-  search.first.time = k_whole_step;
   const bool is_plane = is_half_space(a.traits) || is_half_space(b.traits);
   search.bounded = !is_plane && closing_bound(a, b, time, search.closing);
-  const bool known = is_surface(a.traits) || is_surface(b.traits) ? search.ask_surface() : search.ask_parts();
-  if (known) impact = search.first;
-  return known;
+  return is_surface(a.traits) || is_surface(b.traits) ? search.ask_surface() : search.ask_parts();
 }
 
 const CompoundImpactCode k_compound_impact_code = {compound_impact};

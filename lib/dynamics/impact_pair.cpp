@@ -96,6 +96,17 @@ BodyPose pose_at(const SweptBody& body, Fraction time) {
   return pose;
 }
 
+bool is_parting(const SweptBody& a, const SweptBody& b, Fraction time, const TimeOfImpact& impact) {
+  const Vec3<Real> offset = offset_of(pose_at(a, time), pose_at(b, time));
+  const Vec3<Real> way = b.sweep.displacement - a.sweep.displacement;
+  const Vec3<Real> arm_b = impact.point - offset;
+  const Real swing_a = dot(cross(impact.point, impact.normal), a.sweep.turn);
+  const Real swing_b = dot(cross(arm_b, impact.normal), b.sweep.turn);
+  // What is slower does not come through the next rung in this tick.
+  const Real slow = scale_by_power(min(shape_extent(a.traits), shape_extent(b.traits)), -12);
+  return dot(way, impact.normal) + (swing_b - swing_a) >= -slow;
+}
+
 Motion motion_from(const SweptBody& body, Fraction time) {
   const BodyPose from = pose_at(body, time);
   const Sweep rest = rest_of(body.sweep, time);
@@ -171,20 +182,27 @@ bool PairSearch::find_convex(Real inset, const Vec3<Unit>& axis, TimeOfImpact& i
   return true;
 }
 
-bool PairSearch::find(Real inset, const Vec3<Unit>& axis, TimeOfImpact& impact) {
+bool PairSearch::find(const Ladder& ladder, Vec3<Unit> axis, Meeting& meeting) {
+  bool known;
   if (is_compound(a_.traits) || is_compound(b_.traits)) {
-    if (!features_.compound_impact->find(assets_, features_, a_, b_, time_, inset, impact)) return false;
+    known = features_.compound_impact->find(assets_, features_, a_, b_, time_, ladder, meeting);
   } else if (is_surface(a_.traits) || is_surface(b_.traits)) {
     const BodyTraits& body = (is_surface(a_.traits) ? b_ : a_).traits;
-    Convex convex;
-    if (!inset_convex(assets_, body, inset, shape_extent(body), convex) ||
-        !features_.surface_impact->impact(assets_, *features_.surface, a_, b_, convex, time_, impact))
-      return false;
-  } else if (!find_convex(inset, axis, impact)) {
-    return false;
+    const auto on_rung = [&](Real inset, TimeOfImpact& impact) {
+      Convex convex;
+      return inset_convex(assets_, body, inset, shape_extent(body), convex) &&
+             features_.surface_impact->impact(assets_, *features_.surface, a_, b_, convex, time_, impact);
+    };
+    known = climb(a_, b_, time_, ladder, on_rung, meeting);
+  } else {
+    const auto on_rung = [&](Real inset, TimeOfImpact& impact) {
+      if (is_direction(impact.normal)) axis = impact.normal;
+      return find_convex(inset, axis, impact);
+    };
+    known = climb(a_, b_, time_, ladder, on_rung, meeting);
   }
-  impact.time = time_ + fraction_product(k_whole_step - time_, impact.time);
-  return true;
+  meeting.impact.time = time_ + fraction_product(k_whole_step - time_, meeting.impact.time);
+  return known;
 }
 
 }  // namespace DETENT_NAMESPACE

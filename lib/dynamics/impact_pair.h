@@ -34,6 +34,15 @@ struct SweptBody {
 BodyPose pose_at(const SweptBody& body, Fraction time);
 Sweep rest_of(const BodySweep& sweep, Fraction time);
 
+/// False for the normal of an impact that has none: of bodies that overlap.
+inline bool is_direction(const Vec3<Unit>& normal) { return !(normal == Vec3<Unit>{Unit(0.0), Unit(0.0), Unit(0.0)}); }
+
+/// From A to B, m, world axes.
+inline Vec3<Real> offset_of(const BodyPose& a, const BodyPose& b) { return real_difference(b.position, a.position); }
+
+/// True if the point of an impact that is found at once, at `time`, isn't about to come closer. Range: it has a normal.
+bool is_parting(const SweptBody& a, const SweptBody& b, Fraction time, const TimeOfImpact& impact);
+
 /// Both, for time_of_impact().
 Motion motion_from(const SweptBody& body, Fraction time);
 
@@ -51,6 +60,57 @@ bool inset_convex(Real inset, int halvings, Convex& convex);
 /// How often that is at this inset.
 int inset_halvings(Real inset, Real extent);
 
+/// Where on the ladder a pair is tested.
+struct Ladder {
+  Real first;     ///< inset of the lowest rung
+  Real extent;    ///< of the pair
+  bool climbs;    ///< what touches now is tested on the next rung
+  bool resolved;  ///< also if it closes, for an impact has been resolved now
+};
+
+/// What of a pair meets first.
+struct Meeting {
+  TimeOfImpact impact = {};
+  uint32_t tests = 0;    ///< times of impact asked for
+  bool climbed = false;  ///< beyond the lowest rung
+  bool left = false;     ///< something is so deep within the other that nothing of it is tested
+  bool stuck = false;    ///< that has met within the tick, and does not part: it would go through
+
+  Meeting() {
+    impact.outcome = ToiOutcome::clear;
+    impact.time = k_whole_step;
+  }
+  /// Time: a part of what is left of the tick.
+  void take(const TimeOfImpact& found) {
+    if (found.outcome == ToiOutcome::clear) return;
+    if (impact.outcome == ToiOutcome::clear || found.time < impact.time) impact = found;
+  }
+};
+
+/// Tests two convex shapes, or one and a surface, by `find`, rung by rung until they do not touch now, or close. False
+/// if `find` is: they could not be asked.
+template <class Find>
+bool climb(const SweptBody& a, const SweptBody& b, Fraction time, const Ladder& ladder, const Find& find,
+           Meeting& meeting) {
+  TimeOfImpact found;
+  for (Real inset = ladder.first; !(inset > last_inset(ladder.extent)); inset = next_inset(ladder.extent, inset)) {
+    ++meeting.tests;
+    if (inset > ladder.first) meeting.climbed = true;
+    if (!find(inset, found)) return false;
+    // Cores that overlap have no normal.
+    const bool now =
+        found.outcome != ToiOutcome::clear && !(time + fraction_product(k_whole_step - time, found.time) > time);
+    const bool closes = !ladder.resolved && (found.outcome == ToiOutcome::undecided ||
+                                             (is_direction(found.normal) && !is_parting(a, b, time, found)));
+    if (now && ladder.climbs && !closes) continue;
+    meeting.take(found);
+    return true;
+  }
+  meeting.left = true;
+  if (ladder.resolved && !(is_direction(found.normal) && is_parting(a, b, time, found))) meeting.stuck = true;
+  return true;
+}
+
 /// When the bodies of a pair meet from `time` on, on one rung after the other: what the rungs have in common is
 /// prepared once. All that it is given must outlive it.
 class PairSearch {
@@ -61,10 +121,10 @@ class PairSearch {
   PairSearch(const PairSearch&) = delete;
   PairSearch& operator=(const PairSearch&) = delete;
 
-  /// When they meet, made smaller by `inset` on all sides; the answer's time is a part of the whole tick. `axis`: a
-  /// direction from A to B that may part them, or zero: it saves work, and decides nothing. False if it could not be
-  /// asked: a shape is not known, or lies out of the query's range.
-  bool find(Real inset, const Vec3<Unit>& axis, TimeOfImpact& impact);
+  /// When they meet; the answer's time is a part of the whole tick. `axis`: a direction from A to B that may part them,
+  /// or zero: it saves work, and decides nothing. False if it could not be asked: a shape is not known, or lies out of
+  /// the query's range.
+  bool find(const Ladder& ladder, Vec3<Unit> axis, Meeting& meeting);
 
  private:
   bool prepare_pair();

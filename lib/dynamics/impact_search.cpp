@@ -73,19 +73,6 @@ ImpactPair* find_met(const ImpactStage& stage, uint64_t key) {
   return nullptr;
 }
 
-/// True if the point of an impact that is found at once isn't about to come closer.
-bool parts(const SweptBody& a, const SweptBody& b, const TimeOfImpact& impact) {
-  const BodyPose pose_a = pose_at(a, impact.time), pose_b = pose_at(b, impact.time);
-  const Vec3<Real> offset = offset_of(pose_a, pose_b);
-  const Vec3<Real> way = b.sweep.displacement - a.sweep.displacement;
-  const Vec3<Real> arm_b = impact.point - offset;
-  const Real swing_a = dot(cross(impact.point, impact.normal), a.sweep.turn);
-  const Real swing_b = dot(cross(arm_b, impact.normal), b.sweep.turn);
-  // What is slower does not come through the next rung in this tick.
-  const Real slow = scale_by_power(min(shape_extent(a.traits), shape_extent(b.traits)), -12);
-  return dot(way, impact.normal) + (swing_b - swing_a) >= -slow;
-}
-
 Real free_inset(const ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts, Real& apart) {
   const Real extent = stage.extent_of(key);
   if (contacts.count == 0) {
@@ -191,33 +178,29 @@ bool ImpactStage::is_pushed(uint64_t key) const {
 void ImpactStage::test(uint64_t key, Fraction time, Real inset, ImpactPair* entry) {
   const SweptBody a = body(pair_low(key)), b = body(pair_high(key));
   const bool resolved = entry != nullptr && entry->impacts != 0 && entry->last == time;
-  const Real first = inset, extent = extent_of(key);
   PairSearch search(assets, features, a, b, time);
-  TimeOfImpact impact;
-  Vec3<Unit> axis = known_axis(*this, key, entry);
+  Meeting meeting;
+  const TimeOfImpact& impact = meeting.impact;
+  const Vec3<Unit> axis = known_axis(*this, key, entry);
   if (entry != nullptr) entry->next = k_next_none;
-  for (;; inset = next_inset(extent, inset)) {
-    if (inset > last_inset(extent)) {
-      ++report.overlaps_left;
-      // What is this deep since it met within the tick, and does not part, would go through.
-      if (!resolved || (is_direction(impact.normal) && parts(a, b, impact))) return;
+  const bool asked = search.find({inset, extent_of(key), true, resolved}, axis, meeting);
+  report.tests += meeting.tests;
+  if (!asked) {
+    ++report.undecided;
+    return;
+  }
+  if (meeting.left) {
+    ++report.overlaps_left;
+    // What is this deep since it met within the tick, and does not part, would go through.
+    if (meeting.stuck) {
       stop(pair_low(key), time);
       stop(pair_high(key), time);
       return;
     }
-    ++report.tests;
-    if (!search.find(inset, axis, impact)) {
-      ++report.undecided;
-      return;
-    }
-    if (impact.outcome == ToiOutcome::clear || impact.time > time) break;
-    if (impact.outcome == ToiOutcome::undecided && !resolved) break;
-    // They touch now. Cores that overlap have no normal.
-    if (!resolved && is_direction(impact.normal) && !parts(a, b, impact)) break;
-    if (is_direction(impact.normal)) axis = impact.normal;
+    if (impact.outcome == ToiOutcome::clear) return;
   }
-  const Fraction look = look_after(time, inset == first ? 0 : 1 + (entry == nullptr ? 0 : entry->looks));
-  const bool meets = impact.outcome != ToiOutcome::clear, looks = look < k_whole_step && first == k_zero;
+  const Fraction look = look_after(time, !meeting.climbed ? 0 : 1 + (entry == nullptr ? 0 : entry->looks));
+  const bool meets = impact.outcome != ToiOutcome::clear, looks = look < k_whole_step && inset == k_zero;
   if (!meets && !looks) return;
   entry = entry_of(*this, key, entry);
   if (entry == nullptr) {

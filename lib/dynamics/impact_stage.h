@@ -23,12 +23,6 @@ inline constexpr uint32_t k_mark_strayed = 4;  ///< its sweep leaves the bounds 
 inline constexpr uint32_t k_mark_struck = 8;   ///< its momentum goes with its sweep
 inline constexpr uint32_t k_mark_slept = 16;   ///< it was asleep when the tick began
 
-/// False for the normal of an impact that has none: of bodies that overlap.
-inline bool is_direction(const Vec3<Unit>& normal) { return !(normal == Vec3<Unit>{Unit(0.0), Unit(0.0), Unit(0.0)}); }
-
-/// From A to B, m, world axes.
-inline Vec3<Real> offset_of(const BodyPose& a, const BodyPose& b) { return real_difference(b.position, a.position); }
-
 /// The impacts of a tick.
 struct ImpactStage {
   const StepSettings& settings;

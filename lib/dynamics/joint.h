@@ -107,9 +107,9 @@ struct JointCode {
 
 // Of the stages above.
 
-/// The squared number of substeps that an island's joints need.
-Scaled squared_substeps(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
-                        const Island& island, const JointStage& stage);
+/// Sets the fewest substeps that an island's joints may have, and the squared number that their motion asks for.
+void ask_for_substeps(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
+                      const JointStage& stage, Island& island);
 
 /// Impulses that others cancel grow to the speeds that are asked for over the rows' softness: so they are over
 /// 2^k_impulse_power of the unit in which responses are near 1, and speeds under it.
@@ -131,9 +131,13 @@ inline bool holds(const JointState& joint) {
 bool is_angular(JointType type, int motion);
 /// Those that an axis describes: what is set of the others has no meaning.
 int free_motion_count(JointType type);
-/// And with those that friction brakes.
+/// And with those that friction brakes, or the spring of a ball turns.
 int driven_motion_count(const JointState& joint);
-/// Whether friction brakes a free motion.
+/// Whether limits hold a free motion.
+bool is_limited(const JointState& joint, int motion);
+/// Whether a limit, spring, motor or friction can act on it.
+bool is_driven(const JointState& joint, int motion);
+/// Whether friction brakes it.
 bool is_braked(const JointState& joint, int motion);
 /// The rows of a joint as its bodies are now.
 JointRows make_joint_rows(const JointStage& stage, const JointWork& work);

@@ -48,10 +48,7 @@ uint32_t rows_of(const JointState& joint) {
                   : type == JointType::parallel                            ? 2
                   : type == JointType::fixed                               ? 6
                                                                            : 5;
-  for (int i = 0; i < driven_motion_count(joint); ++i) {
-    if (is_braked(joint, i) || joint.limited[i] != 0 || joint.frequency[i] > k_zero || is_positive(joint.force_max[i]))
-      ++rows;
-  }
+  for (int i = 0; i < driven_motion_count(joint); ++i) rows += is_driven(joint, i) ? 1u : 0u;
   return rows;
 }
 

@@ -106,6 +106,17 @@ struct RowMaker {
     free_motion(i, angular(in_world), length_of(radians(arc_tangent(unit_from_real(sine, 0), leaning.x))));
     free_motion(i + 1, angular(unit_held(cross(in_metres(frame.column[0], 0), in_world), 0)), k_zero);
   }
+  /// All turns, about A's axes: their value is the turn that takes A's frame to B's, as a vector.
+  void free_turns() {
+    const bool turned = relative.w < k_zero_unit;  // q and -q are the same turn
+    const Real most = turned ? Real(-1.0) : Real(1.0);
+    const Vec3<Real> part = in_metres({relative.x, relative.y, relative.z}, 0) * most;
+    Vec3<Unit> about = {k_zero_unit, k_zero_unit, k_zero_unit};
+    Real sine = k_zero, angle = k_zero;
+    if (normalise(part, about, sine)) angle = twist_of(unit_from_real(sine, 0), abs(relative.w));
+    const Unit along[k_free_motions] = {about.x, about.y, about.z};
+    for (int i = 0; i < k_free_motions; ++i) free_motion(i, angular(frame.column[i]), length_of(angle * along[i]));
+  }
   void free_distance() {
     Vec3<Unit> axis;
     Real apart = k_zero;
@@ -138,6 +149,27 @@ Scaled own_response(const SolverBodies& bodies, const JointStage& stage, const J
   return scaled_by_power(sum, impulse_power(work, row_kind(row)));
 }
 
+bool has_ball_spring(const JointState& joint) {
+  return static_cast<JointType>(joint.type) == JointType::ball && joint.frequency[0] > k_zero;
+}
+/// The axis that describes what drives a free motion: the spring of a ball drives all its turns.
+int driving_axis(const JointState& joint, int i) {
+  return static_cast<JointType>(joint.type) == JointType::ball ? 0 : i;
+}
+
+/// A place or speed of a free motion as rows have it: of an angle that at the joint's unit.
+Real as_shown(const JointState& joint, const JointWork& work, int i, Real value) {
+  return scale_by_power(value, is_angular(static_cast<JointType>(joint.type), i) ? work.exponent : 0);
+}
+/// What a spring pulls to: a ball's, to where the frames are one.
+Real target_of(const JointState& joint, const JointWork& work, int i) {
+  return has_ball_spring(joint) ? k_zero : as_shown(joint, work, i, joint.target[i]);
+}
+/// The speed that a motor or a spring wants.
+Real speed_wanted(const JointState& joint, const JointWork& work, int i) {
+  return has_ball_spring(joint) ? k_zero : as_shown(joint, work, i, joint.speed[i]);
+}
+
 /// A part of a tick's impulse, in a row's unit.
 Real in_substep(Real impulse, Scaled share, const JointWork& work, const JointRow& row) {
   bool saturated = false;
@@ -146,8 +178,9 @@ Real in_substep(Real impulse, Scaled share, const JointWork& work, const JointRo
 }
 /// The largest impulse of a motor or spring in a substep.
 Real largest_push(const JointState& joint, int i, Scaled share, const JointWork& work) {
-  if (!is_positive(joint.force_max[i])) return k_joint_impulse_max;
-  return in_substep(work.bound[i], share, work, work.free_row[i]);
+  const int axis = driving_axis(joint, i);
+  if (!is_positive(joint.force_max[axis])) return k_joint_impulse_max;
+  return in_substep(work.bound[axis], share, work, work.free_row[i]);
 }
 /// And of friction.
 Real largest_drag(int i, Scaled share, const JointWork& work) {
@@ -162,14 +195,15 @@ struct Spring {
   Scaled damping;  ///< 2 damping ratio + phase
 
   Spring(const StepSettings& settings, const JointState& joint, int i)
-      : rate(scaled_from(k_two_pi * joint.frequency[i])),
+      : rate(scaled_from(k_two_pi * joint.frequency[driving_axis(joint, i)])),
         phase(multiply(rate, scaled_from(settings.time))),
-        damping(add(scaled_by_power(scaled_from(joint.damping_ratio[i]), 1), phase)) {}
+        damping(add(scaled_by_power(scaled_from(joint.damping_ratio[driving_axis(joint, i)]), 1), phase)) {}
   /// What it gives in a substep over what would stop the motion at once.
   Scaled stiffness() const { return multiply(phase, damping); }
 };
 
 DriveMode free_mode(const JointState& joint, int i) {
+  if (has_ball_spring(joint)) return DriveMode::spring;
   if (i < free_motion_count(static_cast<JointType>(joint.type))) {
     if (joint.frequency[i] > k_zero) return DriveMode::spring;
     if (is_positive(joint.force_max[i])) return DriveMode::rigid;
@@ -205,13 +239,11 @@ void push_softly(const StepSettings& settings, const SolverBodies& bodies, const
   const JointState& joint = stage.joints[work.joint];
   const Spring spring(settings, joint, i);
   if (!less(spring.stiffness(), Scaled(0.25))) return;
-  const int power = is_angular(static_cast<JointType>(joint.type), i) ? work.exponent : 0;
-  const Real off = work.value[i] - scale_by_power(joint.target[i], power);
-  const Real fast =
-      speed_of(stage, work, i) - speed_pushed(bodies, stage, work, i) - scale_by_power(joint.speed[i], power);
+  const Real off = work.value[i] - target_of(joint, work, i);
+  const Real fast = speed_of(stage, work, i) - speed_pushed(bodies, stage, work, i) - speed_wanted(joint, work, i);
   const Scaled pull = multiply(multiply(spring.rate, spring.phase), scaled_from(off));
-  const Scaled drag =
-      multiply(multiply(spring.phase, scaled_by_power(scaled_from(joint.damping_ratio[i]), 1)), scaled_from(fast));
+  const Scaled damping = scaled_by_power(scaled_from(joint.damping_ratio[driving_axis(joint, i)]), 1);
+  const Scaled drag = multiply(multiply(spring.phase, damping), scaled_from(fast));
   const Scaled response = own_response(bodies, stage, work, work.free_row[i]);
   if (!is_positive(response)) return;
   const Real most = largest_push(joint, i, settings.share, work);
@@ -224,10 +256,9 @@ void push_softly(const StepSettings& settings, const SolverBodies& bodies, const
 Real standing_pull(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, int i,
                    const JointWork& work) {
   const JointState& joint = stage.joints[work.joint];
-  const int power = is_angular(static_cast<JointType>(joint.type), i) ? work.exponent : 0;
   const Spring spring(settings, joint, i);
-  const Scaled pull = multiply(multiply(spring.rate, spring.phase),
-                               scaled_from(scale_by_power(joint.target[i], power) - work.value[i]));
+  const Scaled pull =
+      multiply(multiply(spring.rate, spring.phase), scaled_from(target_of(joint, work, i) - work.value[i]));
   const Scaled response = own_response(bodies, stage, work, work.free_row[i]);
   if (!is_positive(response)) return k_zero;
   const Real most = largest_push(joint, i, settings.share, work);
@@ -282,8 +313,7 @@ bool overdrives(const JointStage& stage, int i, const JointWork& work) {
   const JointState& joint = stage.joints[work.joint];
   const DriveMode mode = free_mode(joint, i);
   if (mode != DriveMode::rigid && mode != DriveMode::brake) return false;
-  const int power = is_angular(static_cast<JointType>(joint.type), i) ? work.exponent : 0;
-  const Real wanted = mode == DriveMode::rigid ? scale_by_power(joint.speed[i], power) * work.shown[i] : k_zero;
+  const Real wanted = mode == DriveMode::rigid ? speed_wanted(joint, work, i) * work.shown[i] : k_zero;
   const Real push = work.constant[i] + work.driven_total[i] + work.given[i];
   const Real beyond = speed_of(stage, work, i) - wanted;
   return push > k_zero ? beyond > k_overdriven : beyond < -k_overdriven;
@@ -293,10 +323,9 @@ bool overdrives(const JointStage& stage, int i, const JointWork& work) {
 DriveMode mode_at_limit(const StepSettings& settings, const JointStage& stage, int i, Real passed,
                         const JointWork& work) {
   const JointState& joint = stage.joints[work.joint];
-  const int power = is_angular(static_cast<JointType>(joint.type), i) ? work.exponent : 0;
   const Real reach = clamp(speed_of(stage, work, i), -k_speed_work_max, k_speed_work_max) * settings.time;
-  if (work.value[i] + min(reach, k_zero) + passed <= scale_by_power(joint.lower[i], power)) return DriveMode::lower;
-  if (work.value[i] + max(reach, k_zero) - passed >= scale_by_power(joint.upper[i], power)) return DriveMode::upper;
+  if (work.value[i] + min(reach, k_zero) + passed <= as_shown(joint, work, i, joint.lower[i])) return DriveMode::lower;
+  if (work.value[i] + max(reach, k_zero) - passed >= as_shown(joint, work, i, joint.upper[i])) return DriveMode::upper;
   return work.mode[i];
 }
 
@@ -310,7 +339,16 @@ int free_motion_count(JointType type) {
 int driven_motion_count(const JointState& joint) {
   const JointType type = static_cast<JointType>(joint.type);
   const bool turns = type == JointType::ball || type == JointType::cone_twist;
-  return turns && is_positive(joint.friction[1]) ? k_free_motions : free_motion_count(type);
+  const bool all = has_ball_spring(joint) || (turns && is_positive(joint.friction[1]));
+  return all ? k_free_motions : free_motion_count(type);
+}
+
+bool is_limited(const JointState& joint, int motion) {
+  return motion < free_motion_count(static_cast<JointType>(joint.type)) && joint.limited[motion] != 0;
+}
+
+bool is_driven(const JointState& joint, int motion) {
+  return is_limited(joint, motion) || free_mode(joint, motion) != DriveMode::idle;
 }
 
 bool is_braked(const JointState& joint, int motion) {
@@ -331,8 +369,8 @@ JointRows make_joint_rows(const JointStage& stage, const JointWork& work) {
   RowMaker make = {work, a, b, rows};
   make.gap =
       work.between + (b.place - a.place) + (in_metres(rows.arm[1], b.exponent) - in_metres(rows.arm[0], a.exponent));
-  const bool braked = is_positive(joint.friction[1]);
-  if ((type != JointType::ball || braked) && type != JointType::distance) {
+  const bool driven = driven_motion_count(joint) != 0;
+  if ((type != JointType::ball || driven) && type != JointType::distance) {
     const Quat frame_a = multiply(a.rotation, joint.frame_a);
     make.frame = matrix_from(frame_a);
     make.relative = multiply(conjugate(frame_a), multiply(b.rotation, joint.frame_b));
@@ -341,8 +379,7 @@ JointRows make_joint_rows(const JointStage& stage, const JointWork& work) {
   switch (type) {
     case JointType::ball:
       make.hold_points();
-      for (int i = 0; braked && i < k_free_motions; ++i)
-        make.free_motion(i, make.angular(make.frame.column[i]), k_zero);
+      if (driven) make.free_turns();
       break;
     case JointType::hinge:
       make.hold_points();
@@ -394,14 +431,13 @@ void choose_drives(const StepSettings& settings, const SolverBodies& bodies, con
     work.mode[i] = DriveMode::idle;
     work.constant[i] = work.driven_total[i] = work.given[i] = k_zero;
   }
-  const int described = free_motion_count(static_cast<JointType>(joint.type));
   for (int i = 0; i < driven_motion_count(joint); ++i) {
     work.mode[i] = free_mode(joint, i);
     if (work.mode[i] == DriveMode::spring) {
       push_softly(settings, bodies, stage, i, work);
       if (is_braked(joint, i)) brake_spring(settings, bodies, stage, i, work);
     }
-    if (i >= described || joint.limited[i] == 0) continue;
+    if (!is_limited(joint, i)) continue;
     if (joint.lower[i] == joint.upper[i]) {
       work.mode[i] = DriveMode::held;
       work.constant[i] = k_zero;
@@ -424,7 +460,7 @@ bool take_up(const StepSettings& settings, const SolverBodies& bodies, const Joi
       work.constant[i] = work.given[i] = k_zero;
       taken = true;
     }
-    if (i >= 2 || joint.limited[i] == 0 || is_at_limit(mode)) continue;
+    if (!is_limited(joint, i) || is_at_limit(mode)) continue;
     const DriveMode limit = mode_at_limit(settings, stage, i, scale_by_power(k_passed, work.exponent), work);
     if (!is_at_limit(limit)) continue;
     mode = limit;
@@ -450,22 +486,18 @@ void add_driven_rows(const StepSettings& settings, const SolverBodies& bodies, c
     work.error[row] = k_zero;
     work.spring[row] = work.wanted[row] = k_zero;
     if (mode == DriveMode::brake) continue;
-    const int power = is_angular(static_cast<JointType>(joint.type), i) ? work.exponent : 0;
-    const Real lower = scale_by_power(joint.lower[i], power), upper = scale_by_power(joint.upper[i], power);
-    if (mode == DriveMode::held) {
-      work.wanted[row] = k_zero;
-      work.error[row] = work.value[i] - lower;
-    } else if (mode == DriveMode::lower) {
-      drive_to_limit(settings, work.value[i] - lower, work.value[i] > lower, row, work);
-    } else if (mode == DriveMode::upper) {
-      drive_to_limit(settings, work.value[i] - upper, work.value[i] < upper, row, work);
+    if (is_at_limit(mode)) {
+      const Real limit = mode == DriveMode::upper ? joint.upper[i] : joint.lower[i];
+      const Real over = work.value[i] - as_shown(joint, work, i, limit);
+      const bool within = mode == DriveMode::upper ? over < k_zero : mode == DriveMode::lower && over > k_zero;
+      drive_to_limit(settings, over, within, row, work);
     } else {
-      work.wanted[row] = scale_by_power(joint.speed[i], power);
+      work.wanted[row] = speed_wanted(joint, work, i);
     }
     if (mode == DriveMode::spring) {
       const Spring spring(settings, joint, i);
       bool saturated = false;
-      const Real off = work.value[i] - scale_by_power(joint.target[i], power);
+      const Real off = work.value[i] - target_of(joint, work, i);
       work.wanted[row] -= multiply(off, divide(spring.rate, spring.damping), saturated);
       const Scaled response = own_response(bodies, stage, work, work.free_row[i]);
       work.spring[row] = to_real(scaled_by_power(divide(response, spring.stiffness()),
@@ -501,7 +533,8 @@ bool bound_drives(const JointState& joint, Scaled share, bool changes, JointWork
     const uint32_t row = work.driven[i];
     if (row == k_joint_rows_max) continue;
     const Real impulse = work.driven_total[i] + work.impulse[row], all = impulse + work.given[i];
-    if ((mode == DriveMode::rigid || mode == DriveMode::spring) && is_positive(joint.force_max[i])) {
+    if ((mode == DriveMode::rigid || mode == DriveMode::spring) &&
+        is_positive(joint.force_max[driving_axis(joint, i)])) {
       const Real bound = largest_push(joint, i, share, work);
       if (all <= bound && all >= -bound) continue;
       wrong = true;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr uint32_t k_gathers = 4;  ///< of impulses that are beyond what bodies can take, before they are dropped
 constexpr Scaled k_gathered_share = 0.015625;  ///< of them that is tried next
-constexpr uint32_t k_decisions = 8;            ///< tries to solve with limits and motors as they must be
+constexpr uint32_t k_decisions = 12;           ///< tries to solve with limits and motors as they must be
 constexpr uint32_t k_takings = 3;              ///< of those, in which limits are taken up: then they are only let go
 
 /// What a substep makes up for of the errors of positions, and no faster than so.
@@ -285,7 +285,7 @@ struct Solver {
     bool open = false;
     each_joint([&](const JointWork& work) {
       for (int i = 0; i < k_free_motions; ++i) {
-        const bool limited = i < 2 && stage.joints[work.joint].limited[i] != 0;
+        const bool limited = is_limited(stage.joints[work.joint], i);
         if ((limited && !is_at_limit(work.mode[i])) || (!touches && work.mode[i] == DriveMode::constant)) open = true;
       }
     });

@@ -14,12 +14,12 @@ namespace {
 
 constexpr Real k_turn_max = 4.0;  ///< rad, each component of a turn: beyond those the number is at its bound
 
-constexpr Scaled k_needed = 4.0;           ///< one substep would open what is taut by metres
-constexpr Scaled k_needed_by_loops = 9.0;  ///< also by what hangs on two places, which may be taut between them
-constexpr Scaled k_needed_by_bend = 25.0;  ///< for each squared radian in a tick: 0.2 rad a substep
-constexpr int k_axes_power = 2;            ///< of axes that turn about each other: so much more
+constexpr uint32_t k_least = 2;                ///< one substep would open what is taut by metres
+constexpr uint32_t k_least_of_loops = 3;       ///< also by what hangs on two places, which may be taut between them
+constexpr uint32_t k_least_with_contacts = 4;  ///< their impulses and those of the joints settle over the substeps
+constexpr Scaled k_needed_by_bend = 25.0;      ///< for each squared radian in a tick: 0.2 rad a substep
+constexpr int k_axes_power = 2;                ///< of axes that turn about each other: so much more
 constexpr Scaled k_needed_by_bend_max = 1024.0;
-constexpr Scaled k_needed_with_contacts = 16.0;  ///< their impulses and those of the joints settle over the substeps
 constexpr Scaled k_needed_by_spring = 25.0;      ///< for each squared radian of its phase in a tick
 constexpr Scaled k_needed_by_spring_max = 16.0;  ///< stiffer ones are solved implicitly
 
@@ -78,17 +78,17 @@ Scaled squared_swing(const StepSettings& settings, const SolverBodies& bodies, c
 
 }  // namespace
 
-Scaled squared_substeps(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
-                        const Island& island, const JointStage& stage) {
-  if (island.joint_count == 0) return Scaled(0.0);
-  Scaled need = k_needed;
-  const auto take = [&](Scaled value) { need = greater(need, value); };
-  if (island.contact_count != 0) take(k_needed_with_contacts);
+void ask_for_substeps(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
+                      const JointStage& stage, Island& island) {
+  island.joint_need = Scaled(0.0);
+  if (island.joint_count == 0) return;
   uint32_t bodies_held = 0;
   for (uint32_t i = 0; i < island.body_count; ++i) {
     if (bodies.work[slots[island.first_body + i]].joint_body != k_no_link) ++bodies_held;
   }
-  if (island.joint_count > bodies_held) take(k_needed_by_loops);
+  const uint32_t alone = island.joint_count > bodies_held ? k_least_of_loops : k_least;
+  island.substeps = island.contact_count != 0 ? k_least_with_contacts : alone;
+  const auto take = [&](Scaled value) { island.joint_need = greater(island.joint_need, value); };
   for (const uint32_t index : Span<const uint32_t>{stage.order.data + island.first_joint, island.joint_count}) {
     const JointWork& work = stage.work[index];
     const Scaled bend =
@@ -100,7 +100,6 @@ Scaled squared_substeps(const StepSettings& settings, const SolverBodies& bodies
       take(lesser(multiply(multiply(phase, phase), k_needed_by_spring), k_needed_by_spring_max));
     }
   }
-  return need;
 }
 
 }  // namespace DETENT_NAMESPACE

@@ -90,7 +90,6 @@ void rebound(ContactSolver<One>& solver) {
 }
 
 constexpr uint32_t k_joint_rounds = 4;  ///< in which contacts and joints of a substep are held by turns
-constexpr uint32_t k_first_passes = 2;  ///< over the contacts in the first of them
 
 /// Keeps the velocities of before a sweep, in a place that only the sweeps use.
 void remember(const SolverBodies& bodies, Span<const uint32_t> island) {
@@ -206,7 +205,7 @@ SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<
       count.clamped += joints.code->hold(settings, bodies, island, own, elapsed, stage, undecided);
       for (uint32_t round = 0; round < k_joint_rounds && order.count != 0; ++round) {
         remember(bodies, island);
-        for (uint32_t left = round == 0 ? k_first_passes : 1; left > 0; --left)
+        for (uint32_t left = round == 0 ? settings.iterations + 1 : 1; left > 0; --left)
           pass(
               settings, bodies, order, contacts, [](Solver& contact) { contact.soften(); }, soften_quad);
         if (has_settled(bodies, island, enough)) break;

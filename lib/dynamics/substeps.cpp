@@ -131,15 +131,16 @@ void choose_substeps(const StepSettings& settings, Span<const BodyTraits> traits
                      Span<ContactWork> contacts, Span<BodyActivity> activities) {
   for (Island& island : islands) {
     const bool jointed = island.joint_count != 0;
-    const uint32_t least = island.contact_count != 0 ? k_contact_substeps_min : 1;
+    const uint32_t alone = island.contact_count != 0 ? k_contact_substeps_min : 1;
+    const uint32_t least = alone < island.substeps ? island.substeps : alone;
     const uint32_t for_joints = jointed ? notch_for(island.joint_need, least, settings.substeps_max) : 0;
-    Scaled need = island.joint_need;
+    Scaled for_contacts = 0.0;
     for (uint32_t i = 0; i < island.contact_count; ++i) {
       const ContactWork& contact = contacts[order[island.first_contact + i].contact];
       const uint32_t a = contact.state.body_a, b = contact.state.body_b;
       const uint32_t run = work[is_dynamic(traits[a]) ? a : b].run_length;
       const Scaled wanted = needed(settings, contact, traits[a], traits[b], run);
-      if (less(need, wanted)) need = wanted;
+      if (less(for_contacts, wanted)) for_contacts = wanted;
     }
     uint32_t before = 0, calm = UINT32_MAX;
     for (uint32_t i = 0; i < island.body_count; ++i) {
@@ -154,15 +155,21 @@ void choose_substeps(const StepSettings& settings, Span<const BodyTraits> traits
       before = calm = 0;
     } else if (now == 0) {
       const uint32_t share = most_for(settings, island), most = share < for_joints ? for_joints : share;
-      now = notch_for(need, least, most);
+      const uint32_t held = notch_for(for_contacts, least, most);
+      now = held < for_joints ? for_joints : held;
       before = before < most ? before : most;
       const uint32_t lower = next_below(before, least);
       if (now >= before) {
         calm = 0;
       } else {
-        calm = less(multiply(square_of(lower), k_in_hand), need) ? 0 : calm + 1;
-        now = calm < (jointed ? k_joint_calm_ticks : k_calm_ticks) ? before : lower;
-        if (now == lower) calm = 0;
+        const bool wanted = lower < for_joints || less(multiply(square_of(lower), k_in_hand), for_contacts);
+        calm = wanted ? 0 : calm + 1;
+        if (calm < (jointed ? k_joint_calm_ticks : k_calm_ticks)) {
+          now = before;
+        } else {
+          calm = 0;
+          if (!jointed) now = lower;
+        }
       }
     }
     island.substeps = now;

@@ -23,8 +23,8 @@ inline constexpr uint32_t k_calm_ticks = 60;  ///< in which fewer substeps would
 inline constexpr uint32_t k_joint_calm_ticks = 8;  ///< likewise of islands with joints, which ask for more while they turn
 
 /// Sets the islands' substeps, and those of their bodies' activities, from the contacts' loads and from what their
-/// joints ask for, which `islands` has. More are taken at once,
-/// fewer one notch at a time and after k_calm_ticks. Impulses carried over from a tick with other substeps are scaled.
+/// joints ask for, which `islands` has. More are taken at once; fewer after k_calm_ticks, one notch, or with joints
+/// after k_joint_calm_ticks, as many as are needed. Impulses carried over from a tick with other substeps are scaled.
 void choose_substeps(const StepSettings& settings, Span<const BodyTraits> traits, Span<const BodyWork> work,
                      Span<const uint32_t> bodies, Span<const ContactOrder> order, Span<Island> islands,
                      Span<ContactWork> contacts, Span<BodyActivity> activities);

@@ -11,9 +11,9 @@ struct List {
 };
 using All = List<CreateBody, DestroyBody, SetPose, SetVelocity, ApplyForce, ApplyTorque, ApplyImpulse, ApplyImpulseAt,
                  ApplyAngularImpulse, SetGravity, SetUserData, BindAsset, WakeBody, PutToSleep, SetType, SetShape,
-                 SetMass, SetDensity, SetMaterial, SetDamping, SetGravityScale, SetTurnLocks, SetSensor, SetSettings,
-                 ApplyForceAt, ApplyForceAtPoint, ApplyImpulseAtPoint, Explode, MoveKinematic, SetFilter, CreateJoint,
-                 DestroyJoint, SetJoint>;
+                 SetMass, SetInertia, SetDensity, SetMaterial, SetDamping, SetGravityScale, SetTurnLocks, SetSensor,
+                 SetSettings, ApplyForceAt, ApplyForceAtPoint, ApplyImpulseAtPoint, Explode, MoveKinematic, SetFilter,
+                 CreateJoint, DestroyJoint, SetJoint>;
 
 }  // namespace
 

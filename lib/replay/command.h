@@ -46,6 +46,7 @@ enum class RecordTag : uint8_t {
   set_sensor = 46,
   set_filter = 48,
   query = 49,  ///< a query and the digest of its answer (lib/replay/query_command.h), after their length
+  set_inertia = 50,
   create_joint = 64,
   destroy_joint = 65,
   set_joint = 66,
@@ -122,6 +123,7 @@ using SetUserData = SetValue<RecordTag::set_user_data, uint32_t, set_user_data>;
 using SetType = SetValue<RecordTag::set_type, BodyType, set_type>;
 using SetShape = SetValue<RecordTag::set_shape, Shape, set_shape>;
 using SetMass = SetValue<RecordTag::set_mass, Scaled, set_mass>;
+using SetInertia = SetValue<RecordTag::set_inertia, Vec3<Scaled>, set_inertia>;
 using SetDensity = SetValue<RecordTag::set_density, Scaled, set_density>;
 using SetMaterial = SetValue<RecordTag::set_material, Material, set_material>;
 using SetGravityScale = SetValue<RecordTag::set_gravity_scale, Real, set_gravity_scale>;
@@ -334,6 +336,7 @@ inline void visit_value(Archive& archive, Real& value) { visit_number(archive, "
 #if DETENT_FIXED
 inline void visit_value(Archive& archive, Scaled& value) { visit_number(archive, "value", value); }
 #endif
+inline void visit_value(Archive& archive, Vec3<Scaled>& value) { visit_number(archive, "value", value); }
 template <RecordTag tag, class Value, auto call>
 void visit(Archive& archive, SetValue<tag, Value, call>& command) {
   visit(archive, command.id);

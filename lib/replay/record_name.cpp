@@ -43,6 +43,8 @@ const char* record_name(RecordTag tag) {
       return "set_shape";
     case RecordTag::set_mass:
       return "set_mass";
+    case RecordTag::set_inertia:
+      return "set_inertia";
     case RecordTag::set_density:
       return "set_density";
     case RecordTag::set_material:

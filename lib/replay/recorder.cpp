@@ -254,6 +254,11 @@ Status Recorder::set_mass(BodyId id, Scaled mass) {
   return apply_and_log(command);
 }
 
+Status Recorder::set_inertia(BodyId id, const Vec3<Scaled>& inertia) {
+  SetInertia command{id, inertia};
+  return apply_and_log(command);
+}
+
 Status Recorder::set_density(BodyId id, Scaled density) {
   SetDensity command{id, density};
   return apply_and_log(command);

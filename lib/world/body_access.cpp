@@ -267,6 +267,19 @@ Status set_mass(World& world, BodyId id, Scaled mass) {
   return Status::ok;
 }
 
+Status set_inertia(World& world, BodyId id, const Vec3<Scaled>& inertia) {
+  const FloatEnvironment environment;
+  Change change(world, id);
+  if (!change.found) return Status::bad_id;
+  BodyTraits& traits = change.traits;
+  if (!is_dynamic(traits)) return Status::bad_argument;
+  const Vec3<Real> spin = spin_of(traits, change.rotation(), change.motion.momentum);
+  if (const Status status = set_body_inertia(inertia, traits); status != Status::ok) return status;
+  if (!within(spin_of(traits, change.rotation(), change.motion.pending_momentum), k_spin_max))
+    return Status::out_of_range;
+  return change.make_if(change.turn_with(spin));
+}
+
 Status set_density(World& world, BodyId id, Scaled density) {
   const FloatEnvironment environment;
   Change change(world, id);

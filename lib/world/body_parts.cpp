@@ -35,6 +35,16 @@ Status set_body_gyration(const World& world, BodyTraits& traits) {
   return are_gyrations(traits) ? Status::ok : Status::out_of_range;
 }
 
+Status set_body_inertia(const Vec3<Scaled>& inertia, BodyTraits& traits) {
+  const Scaled most = scaled_by_power(traits.mass, 2 * traits.size_exponent);
+  const Scaled about[3] = {inertia.x, inertia.y, inertia.z};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!is_positive(about[axis]) || less(most, about[axis])) return Status::out_of_range;
+    if ((traits.turn_locks >> axis & 1) == 0) traits.gyration[axis] = divide(most, about[axis]);
+  }
+  return are_gyrations(traits) ? Status::ok : Status::out_of_range;
+}
+
 Status set_body_density(const World& world, Scaled density, BodyTraits& traits) {
   if (!is_mass(density)) return Status::out_of_range;
   traits.mass = multiply(density, shape_volume(traits, world.assets, *world.features));

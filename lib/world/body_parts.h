@@ -15,6 +15,8 @@ Status suits(const World& world, ShapeType shape, uint32_t asset, BodyType type)
 Status set_body_shape(const World& world, const Shape& shape, BodyType type, BodyTraits& traits);
 /// Sets the gyration, by the shape, the type and the turn locks. Errors: out_of_range.
 Status set_body_gyration(const World& world, BodyTraits& traits);
+/// Sets the gyration of a dynamic body, by moments of inertia about its axes, kg m^2. Errors: out_of_range.
+Status set_body_inertia(const Vec3<Scaled>& inertia, BodyTraits& traits);
 /// The mass of the shape at `density`. Errors: out_of_range.
 Status set_body_density(const World& world, Scaled density, BodyTraits& traits);
 /// Errors: bad_argument, out_of_range.

@@ -123,16 +123,11 @@ bool is_shape(const BodyTraits& traits, AssetTable assets, const FeatureTable& f
   }
 }
 
-bool is_mass_of(const BodyTraits& traits, AssetTable assets, const FeatureTable& features) {
-  BodyTraits expected = traits;
-  for (Scaled& gyration : expected.gyration) gyration = Scaled(0.0);
-  if (!is_dynamic(traits)) {
-    return (traits.mass == Scaled(0.0) || is_mass(traits.mass)) && traits.gyration[0] == expected.gyration[0] &&
-           traits.gyration[1] == expected.gyration[1] && traits.gyration[2] == expected.gyration[2];
-  }
-  set_gyration(expected, assets, features);
-  return are_gyrations(expected) && is_mass(traits.mass) && traits.gyration[0] == expected.gyration[0] &&
-         traits.gyration[1] == expected.gyration[1] && traits.gyration[2] == expected.gyration[2];
+bool has_mass(const BodyTraits& traits) {
+  if (is_dynamic(traits)) return is_mass(traits.mass) && are_gyrations(traits);
+  const Scaled none = 0.0;
+  return (traits.mass == none || is_mass(traits.mass)) && traits.gyration[0] == none && traits.gyration[1] == none &&
+         traits.gyration[2] == none;
 }
 
 /// What the world that the state is of has linked.
@@ -149,8 +144,8 @@ bool is_linked(const State& state, const BodyTraits& traits) {
 bool is_body(const State& state, const BodyTraits& traits, AssetTable assets, const FeatureTable& features) {
   const Scaled none = 0.0;
   return traits.type <= static_cast<uint32_t>(BodyType::dynamic) && traits.generation != 0 && traits.sensor <= 1 &&
-         is_shape(traits, assets, features, state.assets) && is_linked(state, traits) &&
-         is_mass_of(traits, assets, features) && is_between(traits.friction, none, scaled_from(k_friction_max)) &&
+         is_shape(traits, assets, features, state.assets) && is_linked(state, traits) && has_mass(traits) &&
+         is_between(traits.friction, none, scaled_from(k_friction_max)) &&
          is_between(traits.restitution, none, Scaled(1.0)) &&
          is_between(traits.rolling_resistance, none, Scaled(1.0)) &&
          is_between(traits.linear_damping, none, scaled_from(k_damping_max)) &&

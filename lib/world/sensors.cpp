@@ -96,11 +96,12 @@ bool meets(SensorStage& stage, uint32_t sensor, uint32_t body, Fraction until) {
   const BodySweep& sweep = stage.sweeps[body];
   const SweptBody swept_a = {a, pose_a, stage.sweeps[sensor]}, swept_b = {b, pose_b, sweep};
   PairSearch search(stage.assets, stage.features, swept_a, swept_b, sweep.from);
-  TimeOfImpact impact;
-  if (!search.find(k_zero, {}, impact)) {
+  Meeting meeting;
+  if (!search.find({k_zero, k_zero, false, false}, {}, meeting)) {
     ++stage.undecided;
     return true;
   }
+  const TimeOfImpact& impact = meeting.impact;
   if (impact.outcome == ToiOutcome::clear || impact.time > until) return false;
   stage.undecided += impact.outcome == ToiOutcome::undecided ? 1 : 0;
   return true;

@@ -10,6 +10,7 @@
 #include "dynamics/joint.h"
 #include "dynamics/predict.h"
 #include "dynamics/solve.h"
+#include "dynamics/solve_quads.h"
 #include "dynamics/spin.h"
 #include "dynamics/substeps.h"
 #include "geometry/shape_traits.h"
@@ -152,7 +153,7 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   const Span<BodyWork> work = scratch.bodies.first(used);
   const Span<BodySweep> sweeps = scratch.sweeps.first(used);
   StepSettings settings = step_settings(state.world);
-  settings.quads = world.lanes == 4;
+  settings.quads = has_quads() && world.lanes == 4;
   const StepCacheView cache = cache_of(world.block, state.layout, capacity_of(state.header));
   const StepBodies bodies = {poses, traits, motions, activities, work, cache.visits, world.assets, *world.features};
   const SolverBodies solver_bodies = {traits, motions, work};

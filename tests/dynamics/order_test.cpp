@@ -319,6 +319,7 @@ struct Pile {
   }
   double load_for(double substeps) const { return substeps * substeps / needed(1); }
   uint32_t choose(double load) {
+    island.substeps = 0;  // without joints
     for (ContactWork& contact : contacts) contact.state.load = real(load);
     const uint32_t bodies = static_cast<uint32_t>(traits.size()), count = static_cast<uint32_t>(contacts.size());
     choose_substeps(settings, {traits.data(), bodies}, {work.data(), bodies}, {slots.data(), bodies},

@@ -82,6 +82,25 @@ DETENT_TEST(compound, mass_is_that_of_its_parts) {
   EXPECT_NEAR(number(compound.volume()) * pow(unit, 3), m, 1e-8);
 }
 
+DETENT_TEST(compound, in_the_source_frame_has_its_centre_where_the_points_have_their_origin) {
+  const detent_cook::CompoundResult cooked_there =
+      detent_cook::cook_compound(detent_compounds::letter_l(), detent_cook::Frame::source);
+  ASSERT_EQ(cooked_there.reason, "");
+  const Bytes bytes(cooked_there.bytes);
+  CompoundInfo info;
+  CompoundView compound;
+  ASSERT_OK(compound_info(asset_of(bytes), info));
+  ASSERT_OK(read_compound(asset_of(bytes), compound));
+  for (int k = 0; k < 3; ++k) EXPECT_EQ(info.origin[k], 0) << k;
+  const double m1 = 1, m2 = 0.75, m = m1 + m2, unit = ldexp(1, compound.exponent());
+  const auto square = [](double a) { return a * a; };
+  const double xx = (m1 / 3 + m2 * (square(0.25) / 3 + square(0.75))) / m;
+  const double yy = (m1 * (square(0.25) / 3 + square(0.25)) + m2 * (square(0.75) / 3 + square(1.25))) / m;
+  const double zz = square(0.5) / 3, expected[3] = {yy + zz, zz + xx, xx + yy};
+  for (uint32_t axis = 0; axis < 3; ++axis)
+    EXPECT_NEAR(unit * unit / number(compound.gyration(axis)), expected[axis], 1e-7) << axis;
+}
+
 DETENT_TEST(compound, mass_of_a_capsule_is_the_standard_one) {
   const double r = 0.25, h = 0.75;
   const Bytes bytes = cooked({detent_compounds::capsule({0, -h, 0}, {0, h, 0}, r)});

@@ -105,6 +105,7 @@ DETENT_TEST(replay_round_trip, every_command_survives_writing_and_reading) {
   expect_round_trip(SetType{k_id, BodyType::kinematic});
   expect_round_trip(SetShape{k_id, rounded(box({Real(0.25), Real(0.5), Real(2.0)}), Real(0.125))});
   expect_round_trip(SetMass{k_id, Scaled(1e-9)});
+  expect_round_trip(SetInertia{k_id, {Scaled(1e-9), Scaled(2.0), Scaled(3e5)}});
   expect_round_trip(SetDensity{k_id, Scaled(7850.0)});
   expect_round_trip(SetMaterial{k_id, {Real(0.25), Real(0.5), Real(0.125), RestitutionRule::smaller}});
   expect_round_trip(SetDamping{k_id, Real(0.5), Real(0.25)});
@@ -129,7 +130,7 @@ DETENT_TEST(replay_round_trip, a_tag_of_no_call_is_unknown) {
   for (uint32_t tag = 0; tag < 256; ++tag) {
     EXPECT_EQ(find_command(static_cast<RecordTag>(tag)) != nullptr, (tag >= 1 && tag <= 12) || tag == 15 || tag == 16 ||
                                                                         (tag >= 32 && tag <= 46) || tag == 48 ||
-                                                                        (tag >= 64 && tag <= 66))
+                                                                        tag == 50 || (tag >= 64 && tag <= 66))
         << tag;
   }
 }

@@ -124,7 +124,7 @@ void Game::change(BodyId id, uint32_t which) {
   const bool there = body != nullptr;
   bool wrong = false;
   switch (which) {
-    case 9: {
+    case 10: {
       const bool to = draw_.chance(0.5);
       const Status status = recorder.set_sensor(id, to);
       if (there && to && capacity().sensed == 0) {
@@ -151,34 +151,43 @@ void Game::change(BodyId id, uint32_t which) {
       break;
     }
     case 3: {
+      Vec3<Scaled> inertia = {};
+      EXPECT_EQ(get_inertia(world(), id, inertia), there ? Status::ok : Status::bad_id);
+      wrong = there && (body->type != BodyType::dynamic || draw_.chance(0.1));
+      for (Scaled* about : {&inertia.x, &inertia.y, &inertia.z})
+        *about = scaled(scaled_to_host(*about) * draw_.order(0.5, 1) * (wrong ? -1 : 1));
+      judge("set_inertia", recorder.set_inertia(id, inertia), there, wrong, true);
+      break;
+    }
+    case 4: {
       const Scaled density = scaled(draw_.chance(0.1) ? 0 : draw_.order(0.1, 10000));
       wrong = scaled_to_host(density) == 0 || (there && body->open());
       if (judge("set_density", recorder.set_density(id, density), there, wrong, true)) body->mass = Scaled(0.0);
       break;
     }
-    case 4: {
+    case 5: {
       const Material to = draw_.material(wrong);
       if (judge("set_material", recorder.set_material(id, to), there, wrong)) body->material = to;
       break;
     }
-    case 5: {
+    case 6: {
       const Real linear = draw_.number(0, 3, wrong), angular = draw_.number(0, 3, wrong);
       if (!judge("set_damping", recorder.set_damping(id, linear, angular), there, wrong)) break;
       body->linear_damping = linear;
       body->angular_damping = angular;
       break;
     }
-    case 6: {
+    case 7: {
       const Real to = draw_.number(-2, 2, wrong);
       if (judge("set_gravity_scale", recorder.set_gravity_scale(id, to), there, wrong)) body->gravity_scale = to;
       break;
     }
-    case 7: {
+    case 8: {
       const uint32_t to = draw_.locks(wrong);
       if (judge("set_turn_locks", recorder.set_turn_locks(id, to), there, wrong)) body->turn_locks = to;
       break;
     }
-    case 8:
+    case 9:
       change_filter(id);
       break;
     default: {

@@ -164,7 +164,7 @@ void Game::call() {
       return draw_.chance(0.4) ? destroy(id) : change_world();
     case 3:
     case 4:
-      return change(id, draw_.below(11));
+      return change(id, draw_.below(12));
     case 5:
       return move(id);
     case 6:

@@ -280,6 +280,50 @@ DETENT_TEST(access, a_heavier_body_keeps_its_speed_and_is_pushed_less) {
   expect_sound(lab);
 }
 
+DETENT_TEST(access, an_inertia_that_is_set_turns_the_body_and_goes_with_its_mass) {
+  WorldDef calm;
+  calm.gravity = {0.0, 0.0, 0.0};
+  Lab lab({2, 2, 0}, calm);
+  BodyDef def;  // a ball of 1/2 m: its unit is 1 m
+  def.mass = scaled(2);
+  def.spin = reals(0, 3, 0);
+  const BodyId id = lab.add(def);
+  Vec3<Scaled> moments{};
+  ASSERT_OK(set_inertia(lab.world, id, scaleds(0.5, 0.25, 1)));
+  ASSERT_OK(get_inertia(lab.world, id, moments));
+  EXPECT_NEAR(scaled_to_host(moments.y), 0.25, 1e-9);
+  EXPECT_NEAR(lab.motion(id).spin[1], 3, 1e-6) << "the spin stays";
+  ASSERT_OK(apply_angular_impulse(lab.world, id, scaleds(0, 0.5, 0)));
+  EXPECT_NEAR(lab.motion(id).spin[1], 5, 1e-6);
+  expect_sound(lab);  // it is loaded from its snapshot, among others
+  ASSERT_OK(set_mass(lab.world, id, scaled(4)));
+  ASSERT_OK(get_inertia(lab.world, id, moments));
+  EXPECT_NEAR(scaled_to_host(moments.z), 2, 1e-8);
+  ASSERT_OK(set_shape(lab.world, id, sphere(real(0.5))));
+  ASSERT_OK(get_inertia(lab.world, id, moments));
+  EXPECT_NEAR(scaled_to_host(moments.z), 0.4 * 4 * 0.25, 1e-8) << "of the shape again";
+}
+
+DETENT_TEST(access, an_inertia_that_no_body_can_have_is_refused) {
+  Lab lab({2, 2, 0});
+  BodyDef def;
+  def.mass = scaled(2);
+  def.turn_locks = k_turn_lock_x;
+  const BodyId id = lab.add(def), ground = lab.add_ground();
+  const uint64_t before = digest(lab.world);
+  EXPECT_EQ(set_inertia(lab.world, id, scaleds(1, 0, 1)), Status::out_of_range);
+  EXPECT_EQ(set_inertia(lab.world, id, scaleds(1, -1, 1)), Status::out_of_range);
+  EXPECT_EQ(set_inertia(lab.world, id, scaleds(1, 2.5, 1)), Status::out_of_range) << "beyond mass x (1 m)^2";
+  EXPECT_EQ(set_inertia(lab.world, id, scaleds(1, 1e-12, 1)), Status::out_of_range);
+  EXPECT_EQ(set_inertia(lab.world, ground, scaleds(1, 1, 1)), Status::bad_argument);
+  EXPECT_EQ(set_inertia(lab.world, {}, scaleds(1, 1, 1)), Status::bad_id);
+  EXPECT_EQ(digest(lab.world), before);
+  EXPECT_OK(set_inertia(lab.world, id, scaleds(1, 1, 1)));
+  Vec3<Scaled> moments{};
+  ASSERT_OK(get_inertia(lab.world, id, moments));
+  EXPECT_EQ(scaled_to_host(moments.x), 0) << "it stays locked";
+}
+
 DETENT_TEST(access, settings_of_a_body_act_on_what_sleeps_against_it) {
   WorldDef slope;
   slope.gravity = reals(3, -9.81, 0);

@@ -202,6 +202,38 @@ DETENT_TEST(compounds, never_fall_through_a_mesh) {
   }
 }
 
+/// One part may part from a wall that it touches while another goes into it.
+DETENT_TEST(compounds, never_leave_a_closed_room) {
+  const Parts kinds[] = {detent_compounds::letter_l(), detent_compounds::table(), detent_compounds::dumbbell()};
+  for (const Parts& parts : kinds) {
+    CompoundLab lab(parts, detent_surfaces::cooked(detent_surfaces::box_surface(8, 6, 7, 4)));
+    BodyDef room;
+    room.type = BodyType::fixed;
+    room.shape = surface(1);
+    lab.add(room);
+    detent_queries::Random random(23);
+    const uint32_t rounds = detent_oracle::rounds(150);
+    for (uint32_t round = 0; round < rounds; ++round) {
+      BodyDef def = lab.compound_def(0, 0, 0);
+      const double speed = random.uniform(50, 500) / sqrt(3.0);
+      const auto side = [&] { return random.uniform(-1, 1) < 0 ? -speed : speed; };
+      const double x = side(), y = side(), z = side(), spin = random.uniform(-30, 30);
+      def.velocity = reals(x, y, z);
+      def.spin = reals(spin, 0.5 * spin, -spin);
+      def.material.restitution = real(0.5);
+      const BodyId id = lab.add(def);
+      for (int tick = 0; tick < 40; ++tick) {
+        lab.run(1);
+        const Motion motion = lab.motion(id);
+        ASSERT_LT(fabs(motion.position[0]), 8) << round << ", " << tick;
+        ASSERT_LT(fabs(motion.position[1]), 6) << round << ", " << tick;
+        ASSERT_LT(fabs(motion.position[2]), 7) << round << ", " << tick;
+      }
+      EXPECT_OK(destroy_body(lab.world, id));
+    }
+  }
+}
+
 /// 5 m a tick.
 DETENT_TEST(compounds, let_bullets_through_where_they_are_hollow) {
   for (const bool aimed : {false, true}) {

@@ -69,6 +69,83 @@ DETENT_TEST(joint, a_hinge_spring_swings_with_its_frequency_and_damping) {
   }
 }
 
+/// A ball joint's spring turns B's frame to A's: the rotation that is wanted of B is `frame_a`.
+struct BallSpring {
+  Lab lab = Lab(room(2, 1), weightless());
+  BodyId ground = add_shape(lab, box(reals(0.1, 0.1, 0.1)), 0, 0, 0, BodyType::fixed);
+  BodyId ball = add_shape(lab, sphere(real(0.5)), 0, 0, 0);
+  JointId joint;
+  double inertia = 0;
+
+  BallSpring(double frequency, double damping, double torque, const Quat& target) {
+    JointDef def;
+    def.type = JointType::ball;
+    def.a = ground;
+    def.b = ball;
+    def.frame_a = target;
+    def.axis.frequency = real(frequency);
+    def.axis.damping_ratio = real(damping);
+    def.axis.force_max = scaled(torque);
+    EXPECT_OK(create_joint(lab.world, def, joint));
+    Scaled mass;
+    EXPECT_OK(get_mass(lab.world, ball, mass));
+    inertia = 0.4 * scaled_to_host(mass) * 0.25;
+  }
+  /// The turn that is left.
+  double off() {
+    JointDef def;
+    Pose pose;
+    EXPECT_OK(get_joint(lab.world, joint, def));
+    EXPECT_OK(get_pose(lab.world, ball, pose));
+    const Turned is(pose.rotation), wanted(def.frame_a);
+    const double cosine = std::abs(dot(is.vector, wanted.vector) + is.w * wanted.w);
+    return 2 * std::acos(std::min(1.0, cosine));
+  }
+};
+
+DETENT_TEST(joint, the_spring_of_a_ball_joint_turns_to_any_rotation_with_its_frequency_and_damping) {
+  const Quat target = {0.36, -0.48, 0.0, 0.8};  // by 1.287 rad
+  for (const double frequency : {0.5, 8.0}) {
+    for (const double damping : {0.3, 1.0}) {
+      BallSpring spring(frequency, damping, 0, target);
+      const double whole = 2 * std::acos(0.8), rate = 2 * k_pi * frequency, decay = damping * rate;
+      EXPECT_NEAR(spring.off(), whole, 1e-6);
+      double worst = 0;
+      for (int tick = 1; tick <= 240; ++tick) {
+        spring.lab.run(1);
+        const double t = tick / 60.0, damped = std::sqrt(std::abs(rate * rate - decay * decay));
+        const double left = damping < 1
+                                ? std::exp(-decay * t) * (std::cos(damped * t) + decay / damped * std::sin(damped * t))
+                                : std::exp(-rate * t) * (1 + rate * t);
+        worst = std::max(worst, std::abs(spring.off() - whole * std::abs(left)));
+      }
+      if (frequency < 1) {
+        EXPECT_LE(worst, 0.045 * whole) << damping;
+      }
+      EXPECT_LE(spring.off(), damping < 1 && frequency < 1 ? 0.05 : 1e-3);
+      const double turned = spring.off();
+      JointDef def;
+      ASSERT_OK(get_joint(spring.lab.world, spring.joint, def));
+      def.frame_a = {0.0, 0.0, 0.6, 0.8};
+      ASSERT_OK(set_joint(spring.lab.world, spring.joint, def));
+      EXPECT_GT(spring.off(), 1 + turned) << "another target";
+      spring.lab.run(480);
+      EXPECT_LE(spring.off(), 1e-3);
+    }
+  }
+}
+
+DETENT_TEST(joint, the_spring_of_a_ball_joint_gives_no_more_torque_than_it_may) {
+  for (const double frequency : {0.5, 8.0}) {
+    BallSpring spring(frequency, 0, 2, {0.0, 0.0, 0.96, 0.28});
+    spring.lab.run(6);
+    const Motion motion = spring.lab.motion(spring.ball);
+    EXPECT_NEAR(motion.spin[2], 2 / spring.inertia * 0.1, 0.01 * 2 / spring.inertia * 0.1);
+    EXPECT_NEAR(motion.spin[0], 0, 1e-6);
+    EXPECT_NEAR(motion.spin[1], 0, 1e-6);
+  }
+}
+
 DETENT_TEST(joint, a_slider_motor_lifts_what_it_can_and_no_more) {
   Lab lab(room(2, 1));
   const BodyId ground = add_shape(lab, box(reals(0.1, 0.1, 0.1)), 0, 0, 0, BodyType::fixed);
@@ -214,6 +291,20 @@ DETENT_TEST(joint, limits_stop_what_they_limit_and_push_only_one_way) {
     least = std::min(least, flywheel.angle());
   }
   EXPECT_NEAR(least, -0.5, 0.001);
+}
+
+/// The velocity that is set does not turn the arm: that it will turn, and beyond its limit, the solved motion tells.
+DETENT_TEST(joint, a_limit_holds_in_the_substep_in_which_holding_the_joint_turns_the_arm_towards_it) {
+  Lab lab(room(2, 1), weightless());
+  const BodyId ground = add_shape(lab, box(reals(0.1, 0.1, 0.1)), 0, 0, 0, BodyType::fixed);
+  const BodyId arm = add_shape(lab, box(reals(0.5, 0.05, 0.05)), 0.5, 0, 0);
+  JointDef rest;
+  rest.axis.limited = true;
+  rest.axis.upper = real(0.02);
+  const JointId joint = add_joint(lab, JointType::hinge, ground, arm, 0, 0, 0, rest, k_x_to_z);
+  ASSERT_OK(set_velocity(lab.world, arm, reals(0, 20, 0), reals(0, 0, 0)));
+  lab.run(1);
+  EXPECT_LE(joint_ends(lab.world, joint).turned(0), 0.03);
 }
 
 DETENT_TEST(joint, motors_and_springs_leave_a_limit_that_they_start_from) {

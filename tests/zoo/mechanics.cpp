@@ -100,8 +100,15 @@ JointState state_of(const JointFrame& joint, const Frame& frame) {
   };
   const double whole_turn = 2 * atan2(length({between.x, between.y, between.z}), fabs(between.w));
   switch (joint.type) {
-    case Held::ball:
-      break;
+    case Held::ball: {
+      if (joint.axes[0].frequency == 0) break;
+      const Vector axis = {between.x, between.y, between.z};
+      const double sine = length(axis), share = sine > 1e-12 ? copysign(whole_turn, between.w) / sine : 0;
+      turn(0, share * axis.x, x_a);
+      turn(1, share * axis.y, rotate(frame_a, {0, 1, 0}));
+      turn(2, share * axis.z, rotate(frame_a, k_z));
+      return state;
+    }
     case Held::filter:
       state.gap = 0;
       break;

@@ -33,9 +33,9 @@ struct JointState {
       0;  ///< between the anchors, m, but for what the type lets slide; of `distance` what is beyond its limits
   double angle = 0;       ///< between axes that should be one, rad
   double limit = 0;       ///< beyond the limits of an angle, rad, or of a length, m
-  double values[2] = {};  ///< of the free motions
-  bool free[2] = {};      ///< whether there is one
-  double masses[2] = {};  ///< that its springs feel, kg or kg m^2
+  double values[3] = {};  ///< of the free motions; of a ball with a spring: the turn, as a vector in A's axes, rad
+  bool free[3] = {};      ///< whether there is one
+  double masses[3] = {};  ///< that its springs feel, kg or kg m^2
 };
 JointState state_of(const JointFrame& joint, const Frame& frame);
 

@@ -144,9 +144,10 @@ double Watch::work(const Frame& now) const {
   if (now.joints.size() != before_.joints.size()) return work;  // one broke in this tick
   for (size_t i = 0; i < now.joints.size(); ++i) {
     const JointState then = state_of(before_.joints[i], before_), state = state_of(now.joints[i], now);
-    for (int j = 0; j < 2; ++j) {
-      const AxisFrame& axis = now.joints[i].axes[j];
+    for (int j = 0; j < 3; ++j) {
       if (!state.free[j]) continue;
+      AxisFrame axis = now.joints[i].axes[now.joints[i].type == Held::ball ? 0 : j];
+      if (now.joints[i].type == Held::ball) axis.target = axis.speed = 0;
       if (axis.frequency == 0) {
         work += axis.force_max * fabs(axis.speed) * now.tick_time;
         continue;

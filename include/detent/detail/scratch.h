@@ -143,7 +143,7 @@ struct ContactOrder {
 struct Island {
   uint32_t first_body, body_count;        ///< of the list of bodies by island
   uint32_t first_contact, contact_count;  ///< of the order of the solve
-  uint32_t substeps;
+  uint32_t substeps;                  ///< until they are chosen, the fewest that its joints may have
   uint32_t first_joint, joint_count;  ///< of the order of the joints
   uint32_t joint_couplings_dropped;   ///< for which the factor of its joints had no room
   Scaled joint_need;                  ///< squared substeps that its joints ask for

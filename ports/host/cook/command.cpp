@@ -137,12 +137,12 @@ void say(const std::string& path, const detent_cook::CompoundDescription& compou
 
 }  // namespace
 
-bool cook_compound_file(const std::string& input, const std::string& output, bool json) {
+bool cook_compound_file(const std::string& input, const std::string& output, detent_cook::Frame frame, bool json) {
   Source source;
   if (!source.read(input, json)) return false;
   const detent_cook::CompoundRead read = detent_cook::read_compound_text(source.text);
   if (!read.problem.empty()) return fail(input, read.problem, json);
-  const detent_cook::CompoundResult result = detent_cook::cook_compound(read.parts);
+  const detent_cook::CompoundResult result = detent_cook::cook_compound(read.parts, frame);
   if (result.bytes.empty()) return fail(input, result.reason, json);
   if (const std::string problem = write_file(output, result.bytes); !problem.empty())
     return fail(output, problem, json);

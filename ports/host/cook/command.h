@@ -40,7 +40,7 @@ bool cook_height_field_file(const HeightFieldRequest& request, bool json);
 bool describe_surface_file(const std::string& path, bool json);
 
 /// Reads the parts, cooks them, writes the .compound and says what it is. False as for cook_file().
-bool cook_compound_file(const std::string& input, const std::string& output, bool json);
+bool cook_compound_file(const std::string& input, const std::string& output, detent_cook::Frame frame, bool json);
 
 /// Says what the .compound holds. False if the library refuses it.
 bool describe_compound_file(const std::string& path, bool json);

@@ -14,7 +14,7 @@ using Point = std::array<double, 3>;  ///< m
 
 enum class Frame {
   principal,  ///< of a body: origin at the centre of mass, principal axes
-  source,     ///< origin and axes of the points: for queries
+  source,     ///< origin and axes of the points: for queries; of a compound, the body's
 };
 
 struct CookOptions {

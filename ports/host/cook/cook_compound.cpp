@@ -113,11 +113,12 @@ std::string mass_of(const CompoundPart& part, PartMass& mass) {
   return {};
 }
 
-/// Of all parts, about the common centre.
-PartMass total_of(const std::vector<PartMass>& masses) {
+/// Of all parts, about the common centre, or about the origin.
+PartMass total_of(const std::vector<PartMass>& masses, Frame frame) {
   PartMass total;
   for (const PartMass& part : masses) total.mass += part.mass;
   for (const PartMass& part : masses) {
+    if (frame == Frame::source) break;
     for (size_t k = 0; k < 3; ++k) total.centre[k] += part.mass / total.mass * part.centre[k];
   }
   for (const PartMass& part : masses) {
@@ -284,7 +285,7 @@ std::vector<uint8_t> encode(const std::vector<Child>& children, const std::vecto
 
 }  // namespace
 
-CompoundResult cook_compound(const std::vector<CompoundPart>& parts) {
+CompoundResult cook_compound(const std::vector<CompoundPart>& parts, Frame frame) {
   const auto refused = [](const std::string& reason) { return CompoundResult{{}, reason}; };
   if (parts.empty() || parts.size() > detent::k_compound_children_max)
     return refused("a compound has 1 to 64 parts, not " + std::to_string(parts.size()));
@@ -293,10 +294,10 @@ CompoundResult cook_compound(const std::vector<CompoundPart>& parts) {
     if (const std::string problem = mass_of(parts[i], masses[i]); !problem.empty())
       return refused(part_text(i) + problem);
   }
-  const PartMass total = total_of(masses);
+  const PartMass total = total_of(masses, frame);
   Placement placement;
   placement.origin = total.centre;
-  placement.rotation = rotation_from(principal_axes(total.second));
+  if (frame == Frame::principal) placement.rotation = rotation_from(principal_axes(total.second));
   placement.axes = matrix_from(placement.rotation);
   std::vector<Child> children(parts.size());
   for (size_t i = 0; i < parts.size(); ++i) {

@@ -24,8 +24,9 @@ struct CompoundResult {
 ///
 /// Mass: parts are taken as apart, so what two of them share counts twice. A rounded hull counts as its points grown by
 /// a cube of half the size `radius` in the axes of the source, as boxes along them do everywhere. Volume and gyration
-/// err by less than 2^-28; products of inertia as in cook_hull().
-CompoundResult cook_compound(const std::vector<CompoundPart>& parts);
+/// err by less than 2^-28; products of inertia as in cook_hull(). In the source frame the body's centre of mass is the
+/// origin of the points, and its gyration that of the parts about their axes, without the products.
+CompoundResult cook_compound(const std::vector<CompoundPart>& parts, Frame frame = Frame::principal);
 
 /// The corners of a box about `centre`, turned by the quaternion x, y, z, w of any length but 0.
 std::vector<Point> box_points(const Point& centre, const Point& half, const std::array<double, 4>& rotation);

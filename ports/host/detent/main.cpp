@@ -340,7 +340,8 @@ int run_command(int argc, char** argv) {
   cook->add_option("--height", heights.height, "Height field: height of the brightest pixel, m")->capture_default_str();
   cook->add_option(
           "--frame", frame,
-          "principal: for bodies, about the centre of mass along the principal axes; source: as the points are")
+          "principal: for bodies, about the centre of mass along the principal axes; source: as the points are, whose "
+          "origin is a compound's centre of mass then")
       ->check(CLI::IsMember({"principal", "source"}))
       ->capture_default_str();
   cook->add_option("--weld", cooking.options.weld, "Leave out a point that is at most this far from another, m")
@@ -426,12 +427,14 @@ int run_command(int argc, char** argv) {
     running.request.ticks_given = run_ticks->count() != 0;
     return run_scene(running, prints);
   }
+  cooking.options.frame = frame == "source" ? detent_cook::Frame::source : detent_cook::Frame::principal;
   if (cook->parsed() && overwrites(cooking.output, {cooking.input})) return k_exit_usage;
   if (cook->parsed() && kind == "mesh") {
     return run_cook_mesh({cooking.input, cooking.output, {cooking.options.weld, one_sided}}, report);
   }
   if (cook->parsed() && kind == "compound")
-    return cook_compound_file(cooking.input, cooking.output, report.json) ? k_exit_good : k_exit_bad;
+    return cook_compound_file(cooking.input, cooking.output, cooking.options.frame, report.json) ? k_exit_good
+                                                                                                 : k_exit_bad;
   if (cook->parsed() && kind == "height-field") {
     heights.input = cooking.input;
     heights.output = cooking.output;
@@ -439,7 +442,6 @@ int run_command(int argc, char** argv) {
     return cook_height_field_file(heights, report.json) ? k_exit_good : k_exit_bad;
   }
   if (cook->parsed()) {
-    cooking.options.frame = frame == "source" ? detent_cook::Frame::source : detent_cook::Frame::principal;
     cooking.options.reduce = !refuse_more;
     return cook_file(cooking, report.json) ? k_exit_good : k_exit_bad;
   }

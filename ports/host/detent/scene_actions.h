@@ -74,6 +74,9 @@ void visit_one_body(F& fields, SceneAction& action) {
     case Call::set_mass:
       fields.scaled(required({"mass", "kg", above(0)}), action.mass);
       break;
+    case Call::set_inertia:
+      fields.scaleds(required({"inertia", "about the body's axes, kg m^2"}), action.push);
+      break;
     case Call::set_density:
       fields.scaled(required({"density", "kg/m^3", above(0)}), action.mass);
       break;

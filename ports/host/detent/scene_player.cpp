@@ -140,6 +140,8 @@ Status ScenePlayer::call_of_body(const SceneAction& action, BodyId id) {
       return recorder_.set_shape(id, action.shape);
     case Call::set_mass:
       return recorder_.set_mass(id, action.mass);
+    case Call::set_inertia:
+      return recorder_.set_inertia(id, action.push);
     case Call::set_density:
       return recorder_.set_density(id, action.mass);
     case Call::set_material:
