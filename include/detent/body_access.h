@@ -6,7 +6,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// A definition that creates the same body here and now. Numbers come back as the state keeps them: rounded by less
+/// A definition that creates the same body here and now, but for an inertia that was set. Numbers come back as the state keeps them: rounded by less
 /// than 2^-30 of their size; of a non-dynamic body that never had a mass, `mass` is 0.
 Status get_body_def(const World& world, BodyId id, BodyDef& def);
 /// BodyDef::type.

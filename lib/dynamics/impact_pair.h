@@ -100,9 +100,11 @@ bool climb(const SweptBody& a, const SweptBody& b, Fraction time, const Ladder& 
     // Cores that overlap have no normal.
     const bool now =
         found.outcome != ToiOutcome::clear && !(time + fraction_product(k_whole_step - time, found.time) > time);
-    const bool closes = !ladder.resolved && (found.outcome == ToiOutcome::undecided ||
-                                             (is_direction(found.normal) && !is_parting(a, b, time, found)));
-    if (now && ladder.climbs && !closes) continue;
+    const auto closes = [&] {
+      return !ladder.resolved &&
+             (found.outcome == ToiOutcome::undecided || (is_direction(found.normal) && !is_parting(a, b, time, found)));
+    };
+    if (now && ladder.climbs && !closes()) continue;
     meeting.take(found);
     return true;
   }

@@ -129,7 +129,7 @@ inline bool holds(const JointState& joint) {
 }
 /// Whether a free motion is an angle.
 bool is_angular(JointType type, int motion);
-/// Those that an axis describes: what is set of the others has no meaning.
+/// Those that an axis each describes: what is set of the others has no meaning, but the spring of a ball.
 int free_motion_count(JointType type);
 /// And with those that friction brakes, or the spring of a ball turns.
 int driven_motion_count(const JointState& joint);

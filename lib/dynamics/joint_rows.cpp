@@ -106,16 +106,21 @@ struct RowMaker {
     free_motion(i, angular(in_world), length_of(radians(arc_tangent(unit_from_real(sine, 0), leaning.x))));
     free_motion(i + 1, angular(unit_held(cross(in_metres(frame.column[0], 0), in_world), 0)), k_zero);
   }
-  /// All turns, about A's axes: their value is the turn that takes A's frame to B's, as a vector.
+  /// All turns, about A's axes, for friction.
   void free_turns() {
-    const bool turned = relative.w < k_zero_unit;  // q and -q are the same turn
-    const Real most = turned ? Real(-1.0) : Real(1.0);
-    const Vec3<Real> part = in_metres({relative.x, relative.y, relative.z}, 0) * most;
-    Vec3<Unit> about = {k_zero_unit, k_zero_unit, k_zero_unit};
-    Real sine = k_zero, angle = k_zero;
-    if (normalise(part, about, sine)) angle = twist_of(unit_from_real(sine, 0), abs(relative.w));
-    const Unit along[k_free_motions] = {about.x, about.y, about.z};
-    for (int i = 0; i < k_free_motions; ++i) free_motion(i, angular(frame.column[i]), length_of(angle * along[i]));
+    for (int i = 0; i < k_free_motions; ++i) free_motion(i, angular(frame.column[i]), k_zero);
+  }
+  /// For a spring, too: their values are the turn that takes A's frame to B's, as a vector.
+  void free_turns_of_spring() {
+    free_turns();
+    const Real sign = relative.w < k_zero_unit ? Real(-1.0) : Real(1.0);  // q and -q are the same turn
+    Vec3<Unit> about;
+    Real sine = k_zero;
+    if (!normalise(in_metres({relative.x, relative.y, relative.z}, 0) * sign, about, sine)) return;
+    const Real angle = twist_of(unit_from_real(sine, 0), abs(relative.w));
+    rows.value[0] = length_of(angle * about.x);
+    rows.value[1] = length_of(angle * about.y);
+    rows.value[2] = length_of(angle * about.z);
   }
   void free_distance() {
     Vec3<Unit> axis;
@@ -344,7 +349,9 @@ int driven_motion_count(const JointState& joint) {
 }
 
 bool is_limited(const JointState& joint, int motion) {
-  return motion < free_motion_count(static_cast<JointType>(joint.type)) && joint.limited[motion] != 0;
+  // Unsigned: in compilers' eyes too, no motion of a joint without free ones is asked for a limit.
+  const uint32_t free_motions = static_cast<uint32_t>(free_motion_count(static_cast<JointType>(joint.type)));
+  return static_cast<uint32_t>(motion) < free_motions && joint.limited[motion] != 0;
 }
 
 bool is_driven(const JointState& joint, int motion) {
@@ -379,7 +386,10 @@ JointRows make_joint_rows(const JointStage& stage, const JointWork& work) {
   switch (type) {
     case JointType::ball:
       make.hold_points();
-      if (driven) make.free_turns();
+      if (has_ball_spring(joint))
+        make.free_turns_of_spring();
+      else if (driven)
+        make.free_turns();
       break;
     case JointType::hinge:
       make.hold_points();

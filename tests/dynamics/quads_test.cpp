@@ -69,14 +69,14 @@ void expect_same_bits(WorldDef def) {
   }
 }
 
-/// Also where there are none.
+/// Also where there are none: then one by one.
 DETENT_TEST(quads, that_are_asked_for_solve_every_contact) {
   Lab one({64, 400, 0}), asked({64, 400, 0});
-  build(one, 5);
-  build(asked, 5);
+  build(one, 1);
+  build(asked, 1);
   one.world.lanes = 1;
   asked.world.lanes = 4;
-  for (int tick = 0; tick < 60; ++tick) {
+  for (int tick = 0; tick < 240; ++tick) {
     (void)step(one.world);
     (void)step(asked.world);
     ASSERT_EQ(digest(one.world), digest(asked.world)) << tick;

@@ -113,6 +113,20 @@ DETENT_TEST(joint, substeps_are_those_that_its_springs_its_loops_and_contacts_as
   EXPECT_EQ(chain(2, false, true), 4u);
 }
 
+/// Not one notch after the other, and down to the fewest: what keeps contacts from changing to and fro is not theirs.
+DETENT_TEST(joint, substeps_are_as_few_as_are_needed_once_fewer_have_done_for_8_ticks) {
+  Lab lab(room(2, 1), weightless());
+  const BodyId hub = add_shape(lab, box(reals(0.1, 0.1, 0.1)), 0, 0, 0, BodyType::fixed);
+  const BodyId arm = add_shape(lab, box(reals(0.4, 0.1, 0.1)), 0.5, 0, 0);
+  add_joint(lab, JointType::ball, hub, arm, 0, 0, 0);
+  ASSERT_OK(set_velocity(lab.world, arm, reals(0, 20, 0), reals(0, 0, 40)));
+  const uint32_t fast = lab.run(1).substeps_max;
+  EXPECT_GE(fast, 4u);
+  ASSERT_OK(set_velocity(lab.world, arm, reals(0, 0.05, 0), reals(0, 0, 0.1)));
+  for (int tick = 0; tick < 7; ++tick) EXPECT_EQ(lab.run(1).substeps_max, fast) << tick;
+  EXPECT_EQ(lab.run(1).substeps_max, 2u);
+}
+
 }  // namespace
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent
