@@ -51,7 +51,10 @@ struct BodyDef {
   Shape shape = {};
   /// Of the whole surface.
   Material material = {};
-  Scaled density = 1000.0;     ///< kg/m^3, > 0; used where mass is 0; mass within [2^-60, 2^60] kg
+  /// kg/m^3, > 0; used where mass is 0; mass within [2^-60, 2^60] kg. Inertia is the shape's, evenly filled, but about
+  /// each axis at least 2^-15 mass r^2, r the power of two, m, above the bounding radius: a rod of 1.6 m that is
+  /// thinner than 16 mm turns about its length like one that is not.
+  Scaled density = 1000.0;
   Scaled mass = 0.0;           ///< kg; 0: from the density. What is not dynamic keeps it for when it is.
   Real linear_damping = 0.0;   ///< 1/s, [0, 1024]
   Real angular_damping = 0.0;  ///< 1/s, [0, 1024]

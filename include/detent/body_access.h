@@ -41,7 +41,7 @@ Status set_shape(World& world, BodyId id, const Shape& shape);
 /// kg, [2^-60, 2^60]. Velocity and spin stay. A body that is not dynamic keeps it for when it is.
 /// Errors: out_of_range.
 Status set_mass(World& world, BodyId id, Scaled mass);
-/// The moments of inertia about the body's axes, kg m^2, instead of those of its shape: each above 2^-30 mass r^2 and not
+/// The moments of inertia about the body's axes, kg m^2, instead of those of its shape: at least 2^-15 mass r^2 and not
 /// above mass r^2, r the power of two, m, that is above the bounding radius and not above twice it. What is given about a
 /// locked axis has no effect. The spin stays. set_mass() scales them with the mass; set_shape(), set_type() and
 /// set_turn_locks() give the shape's again. Errors: bad_argument (the body is not dynamic), out_of_range.

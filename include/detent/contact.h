@@ -32,7 +32,9 @@ struct ContactManifold {
 ///
 /// The normal is that of the closest points, or of the least translation that parts overlapping cores. It is a face's
 /// own within 2^-13 rad of that; and, of cores that overlap or are nearly touching, where the face parts them as well
-/// but for a 64th of the thinner one's least half extent.
+/// but for a 64th of the thinner one's least half extent; of cores whose edges cross also that of a face which leans by
+/// less than 2^-3 rad, where it parts them but for a 16th and its points are no more than a 64th deeper. Faces of a hull
+/// that are level within a 64th of its half thickness count as one, whose normal is that of their outline.
 ///
 /// The points are corners of the area where the two supporting faces or edges face each other, which may reach a 64th
 /// of the smaller one beyond its sides. Of more than four, those that `reduction` names. A face of more than 32

@@ -16,19 +16,22 @@ struct ContactPoint {
   Position position = {0.0, 0.0, 0.0};  ///< midway between the surfaces, m, world
   Real separation = 0.0;                ///< m; negative where they overlap
   uint32_t feature = 0;                 ///< which features meet: the same as long as they do, distinct in a contact
+  uint32_t child_a = 0;                 ///< of A, if it is a compound: which touches here, counted from 1; else 0
+  uint32_t child_b = 0;                 ///< of B, likewise
   Scaled normal_impulse = 0.0;          ///< N s, of the last tick
 };
 
-/// A pair of bodies in contact, or one of the up to eight contacts of a pair with a surface or compound. Impulses
+/// A pair of bodies in contact, or one of the up to eight contacts of a pair with a surface or compound: what touches
+/// in one plane is one. Impulses
 /// and forces are those of the last substep, taken for the whole tick: the bodies' state holds no others. They are what
 /// rests on what; a blow shows in its event (event.h). Bodies that sleep keep theirs.
 struct Contact {
-  BodyId a;                ///< the body of the lower slot
-  BodyId b;                ///< the other
-  Vec3<Unit> normal = {};  ///< from A to B, world; zero where there is no point
-  uint32_t part = 0;      ///< 0 between convex bodies; else another one for each contact of the pair (docs/compound.md)
-  bool touching = false;  ///< they pushed each other in the last step
-  uint32_t age = 0;       ///< ticks in contact before the last one, at most 65535
+  BodyId a;                            ///< the body of the lower slot
+  BodyId b;                            ///< the other
+  Vec3<Unit> normal = {};              ///< from A to B, world; zero where there is no point
+  uint32_t part = 0;                   ///< 0 between convex bodies; else another one for each contact of the pair
+  bool touching = false;               ///< they pushed each other in the last step
+  uint32_t age = 0;                    ///< ticks in contact before the last one, at most 65535
   uint32_t point_count = 0;            ///< at most 4
   ContactPoint point[4] = {};          ///< the first `point_count`
   Vec3<Scaled> friction_impulse = {};  ///< on B, N s, world, of the last tick

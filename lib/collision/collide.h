@@ -13,6 +13,7 @@ struct ContactGeometryPoint {
   Vec3<Unit> arm_a, arm_b;  ///< from the centre of mass to midway between the surfaces, in each body's unit of length
   Real separation;          ///< along the normal, m; negative when overlapping
   uint32_t feature;         ///< distinct within the contact, stable while the same features meet; never 0
+  uint32_t part = 0;        ///< of compounds: (child of A) 2^16 + (child of B), counted from 1
 };
 
 /// Contact of two bodies, world axes.

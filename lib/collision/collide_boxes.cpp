@@ -69,12 +69,17 @@ bool edge_separation(const AxisTable& t, int i, int j, Unit& separation) {
   return true;
 }
 
+/// A 64th of the smaller box.
+Unit preference_of(const HalfExtents& a, const HalfExtents& b) {
+  Unit smallest = a.v[0];
+  for (int i = 0; i < 3; ++i) smallest = min(smallest, min(a.v[i], b.v[i]));
+  return scale_by_power(smallest, -6);
+}
+
 /// The axis of largest separation. A's faces are preferred to B's, and faces to edges, by a 64th of the smaller box, so
 /// that a resting pair keeps its features. False if an axis separates the boxes by more than `reach`.
 bool find_axis(const AxisTable& table, Unit reach, SeparatingAxis& best) {
-  Unit smallest = table.half_a.v[0];
-  for (int i = 0; i < 3; ++i) smallest = min(smallest, min(table.half_a.v[i], table.half_b.v[i]));
-  const Unit preference = scale_by_power(smallest, -6);
+  const Unit preference = preference_of(table.half_a, table.half_b);
   best = {AxisKind::face_a, 0, 0, -1.5};
   for (int i = 0; i < 3; ++i) {
     const Unit separation = face_a_separation(table, i);
@@ -208,7 +213,7 @@ uint32_t choose_corners(const FaceVertex* polygon, uint32_t count, ManifoldReduc
 Unit sign_of(Unit value) { return value < Unit(0.0) ? Unit(-1.0) : Unit(1.0); }
 
 /// Contact of a face of `reference` (axis `face`) with `incident`. `outward` is +1 if the reference is A.
-void collide_face(const PairShape& reference, const PairShape& incident, int face, bool reference_is_a,
+__attribute__((noinline)) void collide_face(const PairShape& reference, const PairShape& incident, int face, bool reference_is_a,
                   const PairFrame& frame, PairManifold& manifold) {
   const HalfExtents half = half_of(reference.size), other = half_of(incident.size);
   const Vec3<Unit> between = incident.centre - reference.centre;
@@ -280,11 +285,41 @@ Segment support_edge(const PairShape& box, int edge, const Vec3<Unit>& direction
   return segment;
 }
 
+/// Contact of the face that leans least against a normal, by no more than 2^-3 rad: the edges that cross there would
+/// touch in one point, on this side of the face in one tick and on that in the next. False if there is none, or its
+/// deepest point is not as deep as the edges are, or much deeper, or there is only one.
+__attribute__((noinline)) bool collide_leaning_face(const PairFrame& frame, const Vec3<Unit>& normal, Unit separation, PairManifold& manifold) {
+  constexpr Unit k_leaning = 1.0 - 0x1p-7;
+  Unit most = k_leaning;
+  int face = -1;
+  for (int i = 0; i < 6; ++i) {
+    const Unit along = abs(dot(normal, (i < 3 ? frame.a : frame.b).rotation.column[i % 3]));
+    if (!(along > most)) continue;
+    most = along;
+    face = i;
+  }
+  if (face < 0) return false;
+  const bool is_a = face < 3;
+  const Unit preference = preference_of(half_of(frame.a.size), half_of(frame.b.size));
+  const AxisTable table = table_of(frame);
+  const Unit along_face = is_a ? face_a_separation(table, face) : face_b_separation(table, face - 3);
+  if (separation > preference || along_face < separation - scale_by_power(preference, 2)) return false;
+  PairManifold found;
+  collide_face(is_a ? frame.a : frame.b, is_a ? frame.b : frame.a, face % 3, is_a, frame, found);
+  Unit deepest = 1.0;
+  for (uint32_t i = 0; i < found.count; ++i) deepest = min(deepest, found.point[i].separation);
+  const bool sound = found.count > 1 && !(deepest < separation - preference) &&
+                     !(deepest > separation + scale_by_power(preference, -4));
+  if (sound) manifold = found;
+  return sound;
+}
+
 void collide_edges(const PairFrame& frame, const SeparatingAxis& axis, PairManifold& manifold) {
   Unit size = 0.0;
   if (!normalise(cross(frame.a.rotation.column[axis.i], frame.b.rotation.column[axis.j]), manifold.normal, size))
     return;
   if (dot(manifold.normal, frame.b.centre) < Unit(0.0)) manifold.normal = -manifold.normal;
+  if (collide_leaning_face(frame, manifold.normal, axis.separation, manifold)) return;
   uint32_t which_a = 0, which_b = 0;
   const Segment edge_a = support_edge(frame.a, axis.i, manifold.normal, which_a);
   const Segment edge_b = support_edge(frame.b, axis.j, -manifold.normal, which_b);

@@ -1,29 +1,20 @@
 #include "collision/collide_mesh.h"
 
-#include "collision/contact_arm.h"
-
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-void put_contact(const SurfaceManifold& manifold, const Matrix32& rotation, const CollisionBody& ground,
-                 const CollisionBody& body, SurfaceContact& contact) {
-  const Position &from = ground.pose.position, &to = body.pose.position;
-  const Vec3<Real> offset = {real_difference(to.x, from.x), real_difference(to.y, from.y),
-                             real_difference(to.z, from.z)};
-  contact.key = manifold.key;
-  contact.triangle = manifold.triangle;
-  contact.material = manifold.material;
-  contact.geometry = {};
-  contact.geometry.normal = units_from_raw(round_shift(multiply(rotation, manifold.normal), 30));
-  for (uint32_t i = 0; i < manifold.count; ++i) {
-    const SurfaceManifold::Point& point = manifold.point[i];
-    const Vec64 way = rotate(rotation, point.from_shape);
-    const Vec3<Real> from_body = {real_from_raw(way.x), real_from_raw(way.y), real_from_raw(way.z)};
-    contact.geometry.point[contact.geometry.count++] = {arm_of_way(offset + from_body, ground.traits.size_exponent),
-                                                        arm_of_way(from_body, body.traits.size_exponent),
-                                                        real_from_raw(point.separation), point.feature};
-  }
+/// The name of a contact's feature, made independent of the triangle: its face is named as any, what is on it by the
+/// shape alone, and its corners and edges by where they are.
+uint32_t feature_of(uint32_t feature, const uint32_t (&corner)[3]) {
+  const uint32_t kind = feature >> 10 & 3, index = feature & 0x3ff, kept = feature & 0xfffc00u;
+  if (kind == static_cast<uint32_t>(FeatureType::face)) return kept;
+  // Edge 0 runs between corners 0 and 1, 1 between 0 and 2, 2 between 1 and 2, as lib/proximity names them.
+  const uint32_t name = kind == static_cast<uint32_t>(FeatureType::vertex) ? corner[index % 3]
+                        : index == 0                                       ? corner[0] + corner[1]
+                        : index == 1                                       ? corner[0] + corner[2]
+                                                                           : corner[1] + corner[2];
+  return kept | (name & 0x3ff) | (name >> 10 & 0xff) << 24;
 }
 
 }  // namespace
@@ -46,7 +37,12 @@ void collide_mesh(const Surface& surface, const CollisionBody& ground, const Col
   surface.walk([&](const GridBox& box) { return meet(box, pair.box()); },
                [&](uint32_t triangle) {
                  SurfaceTouch touch;
-                 if (pair.touch(triangle, touch)) found.add(touch);
+                 if (!pair.touch(triangle, touch)) return;
+                 for (uint32_t i = 0; i < touch.manifold.count; ++i) {
+                   uint32_t& feature = touch.manifold.point[i].feature;
+                   feature = feature_of(feature, touch.corner_name);
+                 }
+                 found.add(touch);
                });
   SurfaceManifold manifold[k_surface_manifolds_max];
   contacts.count = found.finish(manifold);

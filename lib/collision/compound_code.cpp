@@ -2,6 +2,7 @@
 
 #include "collision/body_convex.h"
 #include "collision/collide_convex.h"
+#include "collision/surface_manifolds.h"
 #include "math/root.h"
 
 namespace detent {
@@ -48,45 +49,88 @@ int64_t raw_size(Unit value, int32_t exponent) {
   return raw_from_real({real_from_unit(value, exponent), Real(0.0), Real(0.0)}, raw) ? raw.x : 0;
 }
 
-/// Takes a contact in; of too many the shallowest goes, of equals the last.
-void keep(const SurfaceContact& contact, SurfaceContacts& contacts) {
-  if (contacts.count < k_surface_manifolds_max) {
-    contacts.contact[contacts.count++] = contact;
-    return;
-  }
-  ++contacts.dropped;
-  uint32_t shallowest = 0;
-  for (uint32_t i = 1; i < contacts.count; ++i) {
-    if (depth_of(contacts.contact[i].geometry) <= depth_of(contacts.contact[shallowest].geometry)) shallowest = i;
-  }
-  if (depth_of(contact.geometry) > depth_of(contacts.contact[shallowest].geometry))
-    contacts.contact[shallowest] = contact;
+/// The name of what belongs to a part, or to two.
+uint32_t name_of_part(uint32_t part, uint32_t name) {
+  uint32_t mixed = (name ^ part * 0x9e3779b1u) * 0x85ebca77u;
+  mixed ^= mixed >> 15;
+  return mixed == 0 ? 1 : mixed;
 }
 
-/// Ascending by key, and each once.
-void sort_by_key(SurfaceContacts& contacts) {
-  for (uint32_t i = 1; i < contacts.count; ++i) {
-    for (uint32_t k = i; k > 0 && contacts.contact[k].key < contacts.contact[k - 1].key; --k) {
-      const SurfaceContact swapped = contacts.contact[k];
-      contacts.contact[k] = contacts.contact[k - 1];
-      contacts.contact[k - 1] = swapped;
+Vec64 raw_way(const Vec3<Unit>& arm, int32_t exponent, bool& known) {
+  Vec64 raw = {0, 0, 0};
+  known =
+      raw_from_real({real_from_unit(arm.x, exponent), real_from_unit(arm.y, exponent), real_from_unit(arm.z, exponent)},
+                    raw) &&
+      known;
+  return raw;
+}
+
+/// Half the thickness of the thinner compound's thinnest part, 2^-46 m.
+int64_t half_thickness_of(const BodyTraits& a, const BodyTraits& b) {
+  const auto own = [](const BodyTraits& traits) {
+    return is_compound(traits) ? raw_size(traits.rounding, traits.size_exponent) : INT64_MAX;
+  };
+  const int64_t of_a = own(a), of_b = own(b);
+  return of_a < of_b ? of_a : of_b;
+}
+
+/// Collects the contacts of parts: what lies in one plane is one contact, whatever parts it is of.
+class PartContacts {
+ public:
+  PartContacts(const CollisionBody& a, const CollisionBody& b)
+      : swapped_(is_half_space(b.traits)),
+        ground_(swapped_ ? b : a),
+        body_(swapped_ ? a : b),
+        found_(half_thickness_of(a.traits, b.traits)) {}
+
+  /// `part`: as ContactGeometryPoint::part. `contact.key`: distinct among those of a part.
+  void add(const SurfaceContact& contact, uint32_t part) {
+    ContactGeometry geometry = contact.geometry;
+    if (geometry.count == 0) return;
+    if (swapped_) swap_bodies(geometry);
+    bool known = true;
+    SurfaceTouch touch = {};
+    touch.triangle = contact.triangle;
+    touch.material = contact.material;
+    touch.part = part;
+    touch.on_face = true;
+    touch.manifold.normal = round_shift(raw_way(geometry.normal, 0, known), k_metre_bits - 30);
+    touch.manifold.count = geometry.count;
+    touch.deepest = INT64_MAX;
+    for (uint32_t i = 0; i < geometry.count; ++i) {
+      const ContactGeometryPoint& point = geometry.point[i];
+      Vec64 separation = {0, 0, 0};
+      known = raw_from_real({point.separation, Real(0.0), Real(0.0)}, separation) && known;
+      touch.manifold.point[i] = {{0, 0, 0},
+                                 raw_way(point.arm_b, body_.traits.size_exponent, known),
+                                 separation.x,
+                                 name_of_part(part ^ contact.key, point.feature)};
+      touch.deepest = separation.x < touch.deepest ? separation.x : touch.deepest;
     }
+    touch.manifold.capped = !known;
+    found_.add(touch);
   }
-  for (uint32_t i = 1; i < contacts.count; ++i) {
-    SurfaceContact &before = contacts.contact[i - 1], &contact = contacts.contact[i];
-    if (contact.key <= before.key) contact.key = before.key + 1;
-  }
-}
 
-/// Of 31 bits, so that keys that are told apart stay in range.
-uint32_t surface_key(uint32_t child, uint32_t key) {
-  uint32_t name = (key ^ child * 0x9e3779b1u) * 0x85ebca77u;
-  name = (name ^ name >> 15) & 0x7fffffffu;
-  return name == 0 ? 1 : name;
-}
+  void finish(SurfaceContacts& contacts) {
+    constexpr Matrix32 k_world = {{{k_one, 0, 0}, {0, k_one, 0}, {0, 0, k_one}}};
+    SurfaceManifold manifold[k_surface_manifolds_max];
+    contacts.count = found_.finish(manifold);
+    contacts.dropped += found_.dropped();
+    contacts.capped = contacts.capped || found_.capped();
+    for (uint32_t i = 0; i < contacts.count; ++i)
+      put_contact(manifold[i], k_world, ground_, body_, contacts.contact[i]);
+    for (uint32_t i = 0; swapped_ && i < contacts.count; ++i) swap_bodies(contacts.contact[i].geometry);
+  }
+
+ private:
+  bool swapped_;
+  const CollisionBody &ground_, &body_;
+  SurfaceManifolds found_;
+};
 
 void collide_with_surface(const CollisionBody& a, const CollisionBody& b, Real reach, const AssetTable& assets,
                           const FeatureTable& features, SurfaceContacts& contacts) {
+  PartContacts collected(a, b);
   const ConvexParts parts((is_surface(a.traits) ? b : a).traits, assets);
   for (uint32_t i = 0; i < parts.count(); ++i) {
     Convex convex;
@@ -100,11 +144,10 @@ void collide_with_surface(const CollisionBody& a, const CollisionBody& b, Real r
     features.surface->collide_part(a, b, convex, middle, reach, assets, found);
     contacts.capped = contacts.capped || found.capped;
     contacts.dropped += found.dropped;
-    for (uint32_t k = 0; k < found.count; ++k) {
-      found.contact[k].key = surface_key(parts.name(i), found.contact[k].key);
-      keep(found.contact[k], contacts);
-    }
+    for (uint32_t k = 0; k < found.count; ++k)
+      collected.add(found.contact[k], is_surface(a.traits) ? parts.name(i) : parts.name(i) << 16);
   }
+  collected.finish(contacts);
 }
 
 /// Bounds of B's parts in A's axes against those of A's parts.
@@ -199,12 +242,12 @@ void collide_compound(const CollisionBody& a, const CollisionBody& b, Real reach
   contacts.capped = false;
   if (is_surface(a.traits) || is_surface(b.traits)) {
     collide_with_surface(a, b, reach, assets, features, contacts);
-    sort_by_key(contacts);
     return;
   }
   const ConvexParts parts_a(a.traits, assets), parts_b(b.traits, assets);
   contacts.capped = parts_a.count() == 0 || parts_b.count() == 0;
   const PartCulling culling(a, b, reach);
+  PartContacts collected(a, b);
   for (uint32_t j = 0; j < parts_b.count(); ++j) {
     Convex convex_b;
     Vec64 middle_b, half_b;
@@ -223,12 +266,10 @@ void collide_compound(const CollisionBody& a, const CollisionBody& b, Real reach
       else
         contact.geometry.capped = true;
       contacts.capped = contacts.capped || contact.geometry.capped;
-      if (contact.geometry.count == 0) continue;
-      contact.key = parts_a.name(i) << 16 | parts_b.name(j);
-      keep(contact, contacts);
+      collected.add(contact, parts_a.name(i) << 16 | parts_b.name(j));
     }
   }
-  sort_by_key(contacts);
+  collected.finish(contacts);
 }
 
 const CompoundCode k_compound_code = {read_compound, collide_compound};

@@ -34,9 +34,8 @@ class ConvexParts {
   uint32_t count_;
 };
 
-/// The contacts of two bodies of which one is a compound; normals from A to B. The deepest k_surface_manifolds_max are
-/// kept. Keys: of a contact with a surface a hash of the child and SurfaceContact::key; else the child of A times 2^16
-/// plus the child of B, from 1 on, 0 for what is no compound.
+/// The contacts of two bodies of which one is a compound; normals from A to B. What lies in one plane is one contact,
+/// whatever parts it is of; of the planes the deepest k_surface_manifolds_max are kept.
 void collide_compound(const CollisionBody& a, const CollisionBody& b, Real reach, const AssetTable& assets,
                       ManifoldReduction reduction, const FeatureTable& features, SurfaceContacts& contacts);
 

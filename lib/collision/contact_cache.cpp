@@ -1,7 +1,47 @@
 #include "collision/contact_cache.h"
 
+#include "collision/surface_manifolds.h"
+
 namespace detent {
 inline namespace DETENT_NAMESPACE {
+
+uint32_t shared_features(const ContactGeometry& geometry, const ContactState& contact) {
+  uint32_t count = 0;
+  for (uint32_t i = 0; i < geometry.count; ++i) {
+    for (uint32_t j = 0; j < contact.point_count; ++j)
+      count += geometry.point[i].feature == contact.feature[j] ? 1u : 0u;
+  }
+  return count;
+}
+
+void continue_keys(const PairBefore& before, SurfaceContacts& contacts) {
+  bool goes_on[k_surface_manifolds_max] = {}, is_known[k_surface_manifolds_max] = {};
+  for (uint32_t i = 0; i < contacts.count; ++i) {
+    for (uint32_t j = 0; j < before.count; ++j) {
+      if (before[j].part == contacts.contact[i].key) goes_on[j] = is_known[i] = true;
+    }
+  }
+  for (uint32_t i = 0; i < contacts.count; ++i) {
+    SurfaceContact& contact = contacts.contact[i];
+    uint32_t best = before.count, most = 0;
+    for (uint32_t j = 0; !is_known[i] && j < before.count; ++j) {
+      const uint32_t shared = goes_on[j] ? 0 : shared_features(contact.geometry, before[j]);
+      if (shared <= most) continue;
+      most = shared;
+      best = j;
+    }
+    if (most == 0) continue;
+    goes_on[best] = true;
+    contact.key = before[best].part;
+  }
+  for (uint32_t i = 1; i < contacts.count; ++i) {
+    for (uint32_t k = i; k > 0 && contacts.contact[k].key < contacts.contact[k - 1].key; --k) {
+      const SurfaceContact swapped = contacts.contact[k];
+      contacts.contact[k] = contacts.contact[k - 1];
+      contacts.contact[k - 1] = swapped;
+    }
+  }
+}
 
 ContactState continued_contact(uint32_t body_a, uint32_t body_b, uint32_t part, const ContactGeometry& geometry,
                                const ContactState* before) {

@@ -82,10 +82,6 @@ struct ReusePair {
 
 bool a_is_base(const BodyTraits& a, const BodyTraits& b) { return !(bounding_radius_of(a) < bounding_radius_of(b)); }
 
-bool is_none(const ManifoldState& manifold) {
-  return manifold.rotation == Quat{Unit(0.0), Unit(0.0), Unit(0.0), Unit(0.0)};
-}
-
 /// A bound of how far any point of the other body has moved as the base sees it, m.
 Real motion_since(const ReusePair& pair, const ManifoldState& before) {
   const Vec3<Unit> shift = pair.offset_in_base() - before.offset;
@@ -101,9 +97,13 @@ Real motion_since(const ReusePair& pair, const ManifoldState& before) {
 
 }  // namespace
 
+bool is_kept(const ManifoldState& manifold) {
+  return !(manifold.rotation == Quat{Unit(0.0), Unit(0.0), Unit(0.0), Unit(0.0)});
+}
+
 ManifoldState kept_manifold(const CollisionBody& a, const CollisionBody& b, const ContactGeometry& contact) {
   const ManifoldState none = {};
-  if (contact.count < k_points_min || contact.capped || is_ground(a.traits) || is_ground(b.traits)) return none;
+  if (contact.count < k_points_min || contact.capped || is_half_space(a.traits) || is_half_space(b.traits)) return none;
   ReusePair pair(a, b, a_is_base(a.traits, b.traits));
   if (!pair.place()) return none;
   const Vec3<Unit> normal = pair.base_is_a ? contact.normal : -contact.normal;
@@ -133,7 +133,7 @@ bool reuse_manifold(const CollisionBody& a, const CollisionBody& b, const Manifo
                     const uint32_t (&feature)[k_manifold_points_max], uint32_t count, Real tolerance, Real reach,
                     ContactGeometry& contact, ManifoldState& after) {
   contact.count = 0;
-  if (is_none(before)) return false;
+  if (!is_kept(before)) return false;
   ReusePair pair(a, b, a_is_base(a.traits, b.traits));
   if (!pair.place() || motion_since(pair, before) > tolerance) return false;
   const Vec3<Unit> normal = multiply(pair.base.rotation, before.normal);
@@ -156,14 +156,14 @@ bool reuse_manifold(const CollisionBody& a, const CollisionBody& b, const Manifo
 
 bool is_manifold(const BodyTraits& a, const BodyTraits& b, uint32_t count, const ManifoldState& manifold) {
   const auto is_zero = [](const Vec3<Unit>& v) { return v == Vec3<Unit>{Unit(0.0), Unit(0.0), Unit(0.0)}; };
-  const bool none = is_none(manifold);
+  const bool none = !is_kept(manifold);
   for (uint32_t i = none ? 0 : count; i < k_manifold_points_max; ++i) {
     const int16_t(&anchor)[3] = manifold.anchor[i];
     if (!(manifold.height[i] == Unit(0.0)) || anchor[0] != 0 || anchor[1] != 0 || anchor[2] != 0) return false;
   }
   if (none) return is_zero(manifold.normal) && is_zero(manifold.offset);
   Quat ignored;
-  if (is_ground(a) || is_ground(b) || has_parts(a, b) || !normalise_input(manifold.rotation, ignored)) return false;
+  if (is_half_space(a) || is_half_space(b) || !normalise_input(manifold.rotation, ignored)) return false;
   if (!is_within(manifold.normal, Unit(1.01)) || !(abs(length(manifold.normal) - Unit(1.0)) < Unit(0x1p-10)) ||
       !is_within(manifold.offset, Unit(0.625)) || !(length(manifold.offset) < Unit(0.66)))
     return false;

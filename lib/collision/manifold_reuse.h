@@ -5,9 +5,12 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// What of a pair's contact is kept, so that it can be used again. All zero where it is not: contacts of fewer than
-/// three points, about which a body turns or rolls; those with a half-space, which are found as fast; those with
-/// surfaces; capped searches; and bodies deep in each other.
+/// three points, about which a body turns or rolls; those with a half-space, which are found as fast;
+/// capped searches; and bodies deep in each other.
 ManifoldState kept_manifold(const CollisionBody& a, const CollisionBody& b, const ContactGeometry& contact);
+
+/// Not of what is all zero.
+bool is_kept(const ManifoldState& manifold);
 
 /// The contact of `before`, whose features are `feature`, with its points moved along: normal and base's surface go
 /// with the base, the points with the other body, and separations follow the motion along the normal. Points farther

@@ -1,5 +1,7 @@
 #include "collision/surface_manifolds.h"
 
+#include "collision/contact_arm.h"
+#include "geometry/shape_traits.h"
 #include "math/root.h"
 
 namespace detent {
@@ -24,19 +26,6 @@ Vec32 axis_across(const Vec32& n) {
 int64_t reach_along(int64_t u, int64_t v, int diagonal) {
   const int64_t reach = (diagonal & 1) == 0 ? 4 * u + 5 * v : 4 * v - 5 * u;
   return diagonal < 2 ? reach : -reach;
-}
-
-/// The name of a contact's feature, made independent of the triangle: its face is named as any, what is on it by the
-/// shape alone, and its corners and edges by where they are.
-uint32_t feature_of(uint32_t feature, const uint32_t (&corner)[3]) {
-  const uint32_t kind = feature >> 10 & 3, index = feature & 0x3ff, kept = feature & 0xfffc00u;
-  if (kind == static_cast<uint32_t>(FeatureType::face)) return kept;
-  // Edge 0 runs between corners 0 and 1, 1 between 0 and 2, 2 between 1 and 2, as lib/proximity names them.
-  const uint32_t name = kind == static_cast<uint32_t>(FeatureType::vertex) ? corner[index % 3]
-                        : index == 0                                       ? corner[0] + corner[1]
-                        : index == 1                                       ? corner[0] + corner[2]
-                                                                           : corner[1] + corner[2];
-  return kept | (name & 0x3ff) | (name >> 10 & 0xff) << 24;
 }
 
 /// What a normal is named: itself, coarsely. Those along the axes lie in the middle of what has one name.
@@ -86,8 +75,11 @@ SurfaceManifolds::Group* SurfaceManifolds::group_for(const SurfaceTouch& touch, 
 void SurfaceManifolds::add(const SurfaceTouch& touch) {
   const BlockManifold& manifold = touch.manifold;
   capped_ = capped_ || manifold.capped;
-  const BlockPoint& first = manifold.point[0];
-  const int64_t plane = along(first.from_b, manifold.normal) - first.separation / 2;
+  uint32_t deepest = 0;
+  for (uint32_t i = 1; i < manifold.count; ++i)
+    deepest = manifold.point[i].separation < manifold.point[deepest].separation ? i : deepest;
+  const BlockPoint& point = manifold.point[deepest];
+  const int64_t plane = along(point.from_b, manifold.normal) - point.separation / 2;
   if (Group* group = group_for(touch, plane); group != nullptr) join(touch, plane, *group);
 }
 
@@ -105,8 +97,7 @@ void SurfaceManifolds::join(const SurfaceTouch& touch, int64_t plane, Group& gro
   ++group.touches;
   for (uint32_t i = 0; i < touch.manifold.count; ++i) {
     const BlockPoint& point = touch.manifold.point[i];
-    const uint32_t feature = feature_of(point.feature, touch.corner_name);
-    add_point({point.from_b, point.separation, feature}, group);
+    add_point({point.from_b, point.separation, point.feature, touch.part}, group);
   }
 }
 
@@ -125,53 +116,61 @@ void SurfaceManifolds::add_point(const SurfaceManifold::Point& contact, Group& g
   group.point[group.count++] = point;
 }
 
-/// One that is neither an extreme nor the deepest: of eight there are three.
-uint32_t SurfaceManifolds::spare_point(const Group& group) {
-  bool needed[k_points_max] = {};
-  for (int diagonal = 0; diagonal < 4; ++diagonal) {
-    uint32_t best = 0;
-    for (uint32_t i = 1; i < group.count; ++i) {
-      const Point &p = group.point[i], &q = group.point[best];
-      best = reach_along(p.u, p.v, diagonal) > reach_along(q.u, q.v, diagonal) ? i : best;
-    }
-    needed[best] = true;
-  }
+uint32_t SurfaceManifolds::deepest_of(const Group& group) {
   uint32_t deepest = 0;
   for (uint32_t i = 1; i < group.count; ++i) {
     deepest = group.point[i].contact.separation < group.point[deepest].contact.separation ? i : deepest;
   }
-  needed[deepest] = true;
-  uint32_t spare = 0;
-  while (spare + 1 < group.count && needed[spare]) ++spare;
+  return deepest;
+}
+
+/// The farthest along a diagonal of those not above `height`: there is one.
+uint32_t SurfaceManifolds::extreme_of(const Group& group, int diagonal, int64_t height) {
+  uint32_t best = k_points_max;
+  for (uint32_t i = 0; i < group.count; ++i) {
+    const Point& p = group.point[i];
+    if (p.contact.separation > height) continue;
+    if (best == k_points_max ||
+        reach_along(p.u, p.v, diagonal) > reach_along(group.point[best].u, group.point[best].v, diagonal))
+      best = i;
+  }
+  return best;
+}
+
+/// The highest that is neither an extreme nor the deepest: of eight there are three.
+uint32_t SurfaceManifolds::spare_point(const Group& group) {
+  bool needed[k_points_max] = {};
+  for (int diagonal = 0; diagonal < 4; ++diagonal) needed[extreme_of(group, diagonal, INT64_MAX)] = true;
+  needed[deepest_of(group)] = true;
+  uint32_t spare = k_points_max;
+  for (uint32_t i = 0; i < group.count; ++i) {
+    if (needed[i]) continue;
+    if (spare == k_points_max || group.point[i].contact.separation > group.point[spare].contact.separation) spare = i;
+  }
   return spare;
 }
 
-/// Up to four of the points: extremes, and the deepest if it is deeper than all of them.
+/// Up to four of the points: the extremes of those about as deep as the deepest, and then of all; and the deepest if it
+/// is deeper than all of them.
 void SurfaceManifolds::choose(const Group& group, SurfaceManifold& manifold) const {
-  bool taken[k_points_max] = {};
-  uint32_t deepest = 0, nearest = 0;
-  for (uint32_t i = 1; i < group.count; ++i) {
-    deepest = group.point[i].contact.separation < group.point[deepest].contact.separation ? i : deepest;
-  }
+  constexpr int k_opposite_first[4] = {0, 2, 1, 3};
+  const uint32_t deepest = deepest_of(group);
+  const int64_t depth = group.point[deepest].contact.separation;
   const auto distance = [&](uint32_t i) {
     return magnitude_64(group.point[i].u - group.point[deepest].u) +
            magnitude_64(group.point[i].v - group.point[deepest].v);
   };
-  bool deep = false;
-  uint32_t count = 0;
-  for (uint32_t k = 0; k < (group.count > 4 ? 4 : group.count); ++k) {
-    uint32_t best = group.count > 4 ? 0 : k;
-    for (uint32_t i = 1; group.count > 4 && i < group.count; ++i) {
-      const Point &p = group.point[i], &q = group.point[best];
-      const int diagonal = static_cast<int>(k);
-      best = reach_along(p.u, p.v, diagonal) > reach_along(q.u, q.v, diagonal) ? i : best;
+  bool taken[k_points_max] = {}, deep = false;
+  uint32_t count = 0, nearest = 0;
+  const int64_t heights[2] = {depth + (size_ >> k_plane_power), INT64_MAX};
+  for (const int64_t height : heights) {
+    for (const int diagonal : k_opposite_first) {
+      const uint32_t point = group.count > 4 ? extreme_of(group, diagonal, height) : static_cast<uint32_t>(diagonal);
+      if (count == 4 || point >= group.count || taken[point]) continue;
+      taken[point] = true;
+      deep = deep || group.point[point].contact.separation <= depth + (size_ >> k_drop_power);
+      if (count++ == 0 || distance(point) < distance(nearest)) nearest = point;
     }
-    if (taken[best]) continue;
-    taken[best] = true;
-    deep = deep ||
-           group.point[best].contact.separation <= group.point[deepest].contact.separation + (size_ >> k_drop_power);
-    if (count == 0 || distance(best) < distance(nearest)) nearest = best;
-    ++count;
   }
   if (!deep) {
     if (count == 4) taken[nearest] = false;
@@ -231,6 +230,27 @@ uint32_t SurfaceManifolds::finish(SurfaceManifold (&manifold)[k_surface_manifold
     if (i > 0 && manifold[i].key <= manifold[i - 1].key) manifold[i].key = manifold[i - 1].key + 1;
   }
   return count_;
+}
+
+void put_contact(const SurfaceManifold& manifold, const Matrix32& rotation, const CollisionBody& ground,
+                 const CollisionBody& body, SurfaceContact& contact) {
+  const bool is_plane = is_half_space(ground.traits);  // whose arm turns nothing
+  const Position &from = ground.pose.position, &to = body.pose.position;
+  const Vec3<Real> offset = {real_difference(to.x, from.x), real_difference(to.y, from.y),
+                             real_difference(to.z, from.z)};
+  contact.key = manifold.key;
+  contact.triangle = manifold.triangle;
+  contact.material = manifold.material;
+  contact.geometry = {};
+  contact.geometry.normal = units_from_raw(round_shift(multiply(rotation, manifold.normal), 30));
+  for (uint32_t i = 0; i < manifold.count; ++i) {
+    const SurfaceManifold::Point& point = manifold.point[i];
+    const Vec64 way = rotate(rotation, point.from_shape);
+    const Vec3<Real> from_body = {real_from_raw(way.x), real_from_raw(way.y), real_from_raw(way.z)};
+    contact.geometry.point[contact.geometry.count++] = {
+        is_plane ? Vec3<Unit>{0.0, 0.0, 0.0} : arm_of_way(offset + from_body, ground.traits.size_exponent),
+        arm_of_way(from_body, body.traits.size_exponent), real_from_raw(point.separation), point.feature, point.part};
+  }
 }
 
 }  // namespace DETENT_NAMESPACE

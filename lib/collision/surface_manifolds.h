@@ -1,4 +1,5 @@
 #pragma once
+#include "collision/collide.h"
 #include "collision/surface_pair.h"
 
 namespace detent {
@@ -17,11 +18,12 @@ struct SurfaceManifold {
     Vec64 from_shape;    ///< midway between the surfaces, 2^-46 m, from the shape's centre
     int64_t separation;  ///< 2^-46 m
     uint32_t feature;    ///< as ManifoldPoint::feature
+    uint32_t part;       ///< as ContactGeometryPoint::part
   } point[k_contact_points_max];
 };
 
-/// Collects what a shape touches, triangle by triangle, into few manifolds: what lies in one plane is one. Streams: the
-/// number of triangles has no bound.
+/// Collects what a shape touches, triangle by triangle or part by part, into few manifolds: what lies in one plane is
+/// one. Streams: the number of touches has no bound. Features are to be distinct within a plane.
 class SurfaceManifolds {
  public:
   /// `size`: the shape's half thickness, 2^-46 m.
@@ -55,6 +57,8 @@ class SurfaceManifolds {
   Group* group_for(const SurfaceTouch& touch, int64_t plane);
   void join(const SurfaceTouch& touch, int64_t plane, Group& group);
   void add_point(const SurfaceManifold::Point& contact, Group& group) const;
+  static uint32_t deepest_of(const Group& group);
+  static uint32_t extreme_of(const Group& group, int diagonal, int64_t height);
   static uint32_t spare_point(const Group& group);
   void choose(const Group& group, SurfaceManifold& manifold) const;
   void leave_out_doubtful();
@@ -65,6 +69,25 @@ class SurfaceManifolds {
   bool capped_ = false;
   Group group_[k_groups_max];
 };
+
+/// One flat contact of two bodies, one of which is a mesh, a height field or a compound.
+struct SurfaceContact {
+  ContactGeometry geometry;  ///< A is the surface; `normal` from it to the body
+  uint32_t key;              ///< the same while the body stays on the same plane or edge; distinct, never 0
+  uint32_t triangle;         ///< the one met deepest; 0 where there is no surface
+  uint8_t material;          ///< its own; likewise
+};
+
+struct SurfaceContacts {
+  uint32_t count = 0;    ///< ascending by key
+  uint32_t dropped = 0;  ///< triangles, or pairs of parts, touched that have found no room: the deepest are kept
+  bool capped = false;   ///< a search met its cap, an asset's bytes are missing, or a position is out of range
+  SurfaceContact contact[k_surface_manifolds_max];
+};
+
+/// The contact of two bodies, whose axes `rotation` turns to the world's: those of the manifold.
+void put_contact(const SurfaceManifold& manifold, const Matrix32& rotation, const CollisionBody& ground,
+                 const CollisionBody& body, SurfaceContact& contact);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

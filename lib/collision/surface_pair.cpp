@@ -142,13 +142,37 @@ int64_t SurfacePair::height(const Vec32& normal, const Vec32& corner) const {
   return raw_from_block(lowest, shape_.exponent) - radius_ - dot(from_centre(corner), normal).round_shift(30);
 }
 
+/// Whether the shape's middle lies behind a plane through a corner.
+bool SurfacePair::is_above_middle(const Vec32& normal, const Vec32& corner) const {
+  return sign_of(dot(add(from_centre(corner), negate(middle_)), normal)) > 0;
+}
+
+/// Whether the shape's middle lies beyond a convex edge of the triangle, and before the face there: then it is on the
+/// front though it lies behind the triangle's plane, as that of a rod that reaches over a ridge. Of several edges that
+/// which it lies farthest beyond counts.
+bool SurfacePair::is_before_neighbour(const SurfaceTriangle& t, const Vec32& normal) const {
+  int64_t most = 0;
+  uint32_t farthest = 3;
+  for (uint32_t k = 0; k < 3; ++k) {
+    const Vec32 along = unit_vector_raw(scaled_to_30_bits(subtract(t.corner[(k + 1) % 3], t.corner[k])));
+    const Vec32 out = unit_vector_raw(scaled_to_30_bits(cross(along, normal)));
+    const int64_t beyond = dot(add(middle_, negate(from_centre(t.corner[k]))), out).round_shift(30);
+    if (beyond <= most) continue;
+    most = beyond;
+    farthest = k;
+  }
+  if (farthest == 3 || t.kind[farthest] != EdgeKind::convex) return false;
+  const SurfaceTriangle next = surface_.triangle(t.neighbour[farthest]);
+  return !is_above_middle(normal_of(next.corner[0], next.corner[1], next.corner[2]), next.corner[0]);
+}
+
 SurfacePair::Side SurfacePair::side_of(uint32_t index) const {
   Side side;
   side.index = index;
   SurfaceTriangle& t = side.triangle;
   t = surface_.triangle(index);
   side.normal = normal_of(t.corner[0], t.corner[1], t.corner[2]);
-  side.behind = sign_of(dot(add(from_centre(t.corner[0]), negate(middle_)), side.normal)) > 0;
+  side.behind = is_above_middle(side.normal, t.corner[0]) && !is_before_neighbour(t, side.normal);
   if (side.behind) {
     side.normal = negate(side.normal);
     const SurfaceTriangle front = t;
@@ -286,6 +310,7 @@ bool SurfacePair::touch(uint32_t index, SurfaceTouch& touch) const {
   if (!make_pair(side, convex, pair)) return false;
 
   touch.triangle = index;
+  touch.part = 0;
   touch.material = side.triangle.material;
   touch.on_face = true;
   touch.doubtful = false;
@@ -317,6 +342,8 @@ bool SurfacePair::touch(uint32_t index, SurfaceTouch& touch) const {
 
   BlockManifold searched;
   find_contact_points(pair, reach_, nullptr, ManifoldReduction::projected_extremes, searched);
+  if (searched.leans && !allows(side, searched.normal))
+    find_contact_points(pair, reach_, nullptr, ManifoldReduction::projected_extremes, searched, false);
   if (searched.count == 0) return false;
   const int64_t facing = dot(searched.normal, side.normal);  // Q60
   constexpr int64_t k_upright_cosine = (int64_t{1} << 60) - (int64_t{1} << 47);

@@ -34,6 +34,7 @@ Vec64 rotate_back(const Matrix32& m, const Vec64& v);
 /// What of a triangle a shape touches, along one normal.
 struct SurfaceTouch {
   uint32_t triangle;
+  uint32_t part;  ///< as ContactGeometryPoint::part
   uint8_t material;
   bool on_face;             ///< the normal is the triangle's own
   bool doubtful;            ///< so deep that another way out is the right one, if there is one
@@ -63,6 +64,8 @@ class SurfacePair {
 
  private:
   struct Side;
+  bool is_above_middle(const Vec32& normal, const Vec32& corner) const;
+  bool is_before_neighbour(const SurfaceTriangle& triangle, const Vec32& normal) const;
   Side side_of(uint32_t triangle) const;
   Vec64 from_centre(const Vec32& point) const;
   int64_t height(const Vec32& normal, const Vec32& corner) const;

@@ -61,6 +61,8 @@ uint32_t integrate_positions(const SolverBodies& bodies, Span<const uint32_t> is
   return clamped;
 }
 
+constexpr int k_rebound_sweeps_max = 32;
+
 /// Newton's law of impact, for points that closed faster than the threshold and were pushed.
 void rebound(ContactSolver<One>& solver) {
   ContactWork& contact = solver.contact;
@@ -75,11 +77,18 @@ void rebound(ContactSolver<One>& solver) {
   const PairMotion<One> motion = solver.relative_motion(room);
   Normals<One> normals(contact, motion.block, NormalMotion<One>(motion, contact));
   bool rebounds[k_manifold_points_max] = {};
-  for (uint32_t i = 0; i < count; ++i) {
-    if (contact.approach[i] > -contact.rebound_min || contact.impulse_max[i] == k_zero) continue;
-    const Ulps missing = normals.speed(i) + motion.block.held(multiply(contact.approach[i], contact.restitution));
-    normals.change(i, times(held(missing), contact.inverse_mass[i]));
-    rebounds[i] = true;
+  // Points that leave together share the blow: one alone would turn the body against the others.
+  bool settled = false;
+  for (int sweep = 0; sweep < k_rebound_sweeps_max && !settled; ++sweep) {
+    settled = true;
+    for (uint32_t i = 0; i < count; ++i) {
+      if (contact.approach[i] > -contact.rebound_min || contact.impulse_max[i] == k_zero) continue;
+      const Ulps missing = normals.speed(i) + motion.block.held(multiply(contact.approach[i], contact.restitution));
+      const Ulps impulse = normals.impulse[i], little = motion.block.held(scale_by_power(contact.approach[i], -20));
+      normals.change(i, times(held(missing), contact.inverse_mass[i]));
+      settled = settled && (count == 1 || max(missing, -missing) <= -little || normals.impulse[i] == impulse);
+      rebounds[i] = true;
+    }
   }
   Ulps along, about_first, about_second;
   normals.put(along, about_first, about_second);

@@ -49,9 +49,9 @@ uint32_t notch_for(Scaled need, uint32_t least, uint32_t most) {
   return most;
 }
 
-uint32_t most_for(const StepSettings& settings, const Island& island) {
+uint32_t most_for(const StepSettings& settings, const Island& island, uint32_t contact_substeps) {
   const uint32_t rows = island.contact_count + k_joint_contacts * island.joint_count;
-  const uint32_t share = rows == 0 ? k_contact_substeps : k_contact_substeps / rows;
+  const uint32_t share = rows == 0 ? contact_substeps : contact_substeps / rows;
   const uint32_t most = share < k_pile_substeps ? k_pile_substeps : share;
   return most < settings.substeps_max ? most : settings.substeps_max;
 }
@@ -134,13 +134,14 @@ void choose_substeps(const StepSettings& settings, Span<const BodyTraits> traits
     const uint32_t alone = island.contact_count != 0 ? k_contact_substeps_min : 1;
     const uint32_t least = alone < island.substeps ? island.substeps : alone;
     const uint32_t for_joints = jointed ? notch_for(island.joint_need, least, settings.substeps_max) : 0;
-    Scaled for_contacts = 0.0;
+    Scaled need[2] = {0.0, 0.0};  // of what stands, and of what rolls
     for (uint32_t i = 0; i < island.contact_count; ++i) {
       const ContactWork& contact = contacts[order[island.first_contact + i].contact];
       const uint32_t a = contact.state.body_a, b = contact.state.body_b;
       const uint32_t run = work[is_dynamic(traits[a]) ? a : b].run_length;
       const Scaled wanted = needed(settings, contact, traits[a], traits[b], run);
-      if (less(for_contacts, wanted)) for_contacts = wanted;
+      Scaled& most = need[contact.state.point_count < k_edge_points ? 1 : 0];
+      if (less(most, wanted)) most = wanted;
     }
     uint32_t before = 0, calm = UINT32_MAX;
     for (uint32_t i = 0; i < island.body_count; ++i) {
@@ -154,15 +155,22 @@ void choose_substeps(const StepSettings& settings, Span<const BodyTraits> traits
       now = 1;
       before = calm = 0;
     } else if (now == 0) {
-      const uint32_t share = most_for(settings, island), most = share < for_joints ? for_joints : share;
-      const uint32_t held = notch_for(for_contacts, least, most);
-      now = held < for_joints ? for_joints : held;
-      before = before < most ? before : most;
+      const uint32_t most[2] = {most_for(settings, island, k_contact_substeps),
+                                most_for(settings, island, k_rolling_substeps)};
+      now = for_joints;
+      for (int i = 0; i < 2; ++i) {
+        const uint32_t held = notch_for(need[i], least, most[i]);
+        now = now < held ? held : now;
+      }
+      const uint32_t most_of_all = most[0] < for_joints ? for_joints : most[0];
+      before = before < most_of_all ? before : most_of_all;
       const uint32_t lower = next_below(before, least);
       if (now >= before) {
         calm = 0;
       } else {
-        const bool wanted = lower < for_joints || less(multiply(square_of(lower), k_in_hand), for_contacts);
+        bool wanted = lower < for_joints;
+        for (int i = 0; i < 2; ++i)
+          wanted = wanted || (lower < most[i] && less(multiply(square_of(lower), k_in_hand), need[i]));
         calm = wanted ? 0 : calm + 1;
         if (calm < (jointed ? k_joint_calm_ticks : k_calm_ticks)) {
           now = before;

@@ -15,8 +15,11 @@ inline namespace DETENT_NAMESPACE {
 
 inline constexpr int k_sag_power = -7;  ///< a contact may sink by this part of the smaller body: 8 mm of 1 m
 /// An island of many contacts takes no more substeps than make so many contact substeps, but at least k_pile_substeps:
-/// one contact must not make a whole pile dear. A joint counts as k_joint_contacts of them.
-inline constexpr uint32_t k_contact_substeps = 2048;
+/// one contact must not make a whole pile dear. What stands on faces and edges, of k_edge_points and more, buckles; what
+/// rolls only sinks, and is given fewer. A joint counts as k_joint_contacts of them.
+inline constexpr uint32_t k_contact_substeps = 65536;
+inline constexpr uint32_t k_rolling_substeps = 2048;
+inline constexpr uint32_t k_edge_points = 2;
 inline constexpr uint32_t k_joint_contacts = 8;
 inline constexpr uint32_t k_pile_substeps = 4;
 inline constexpr uint32_t k_calm_ticks = 60;  ///< in which fewer substeps would have done, before they are taken

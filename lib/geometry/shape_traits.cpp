@@ -338,6 +338,7 @@ void set_gyration(BodyTraits& traits, const AssetTable& assets, const FeatureTab
   if (code == nullptr || code->set_gyration == nullptr) return;
   code->set_gyration(traits, squares_of(grown_sizes(traits)), assets);
   for (uint32_t axis = 0; axis < 3; ++axis) {
+    if (less(k_gyration_max, traits.gyration[axis])) traits.gyration[axis] = k_gyration_max;
     if ((traits.turn_locks >> axis & 1) != 0) traits.gyration[axis] = Scaled(0.0);
   }
 }

@@ -19,6 +19,10 @@ inline bool is_compound(const BodyTraits& traits) { return shape_of(traits) == S
 inline bool has_parts(const BodyTraits& a, const BodyTraits& b) {
   return is_surface(a) || is_surface(b) || is_compound(a) || is_compound(b);
 }
+/// A body's radius of gyration about an axis counts as at least 2^-7.5 of its unit: 5.5 mm of a rod of 1.6 m. What an
+/// impulse far off a thinner one's axis does to its spin would leave a Real's range, for two bodies at once.
+inline constexpr Scaled k_gyration_max = 0x1p15;
+
 /// Whether a body has no thickness that the motion of others could be measured by.
 inline bool is_ground(const BodyTraits& traits) { return is_half_space(traits) || is_surface(traits); }
 

@@ -15,10 +15,6 @@ constexpr int k_slack_power = 6;
 /// part / whole as Q30. Range: 0 <= part <= whole, whole > 0.
 int64_t fraction(int64_t part, int64_t whole) { return divide_rounded(Int128::product(part, k_one_64), whole); }
 
-int64_t distance(const AreaPoint& p, const AreaPoint& q) {
-  return static_cast<int64_t>(magnitude_64(p.u - q.u) + magnitude_64(p.v - q.v));
-}
-
 /// Twice the area of a triangle, signed. Widths: |.| < 2^62.
 int64_t twice_area(const AreaPoint& p, const AreaPoint& q, const AreaPoint& r) {
   return (q.u - p.u) * (r.v - p.v) - (q.v - p.v) * (r.u - p.u);
@@ -139,6 +135,11 @@ Reference::Flat Reference::flat(const Vec32& point) const {
   const Vec32 p = subtract(point, origin_);
   const int64_t u = dot(u_, p) >> 30;
   return {u, dot(v_, p) >> 30, (dot(up_, p) >> 30) - height_ - ((u * slope_) >> 30)};
+}
+
+AreaPoint Reference::over(const Vec32& point) const {
+  const Flat p = flat(point);
+  return {p.u, p.v, p.w, AreaPoint::Kind::vertex, 0, 0};
 }
 
 bool Reference::holds(const Vec32& point) const {

@@ -17,6 +17,11 @@ struct AreaPoint {
   uint8_t incident, side;  ///< the incident point, or where the edge starts; the side, or the corner where it starts
 };
 
+/// Across the reference, as a sum of magnitudes.
+inline int64_t distance(const AreaPoint& p, const AreaPoint& q) {
+  return static_cast<int64_t>(magnitude_64(p.u - q.u) + magnitude_64(p.v - q.v));
+}
+
 /// Keeps up to four of any number of points: all of four; of more those that the reduction names. Of projected extremes
 /// the deepest takes the nearest one's place if all are higher by more than `drop`. Of equal ones the earlier.
 class AreaChoice {
@@ -57,6 +62,8 @@ class Reference {
 
   /// Whether a point in the block is over the reference, as clip() counts it.
   bool holds(const Vec32& point) const;
+  /// A point in the block as one of the area, of no kind.
+  AreaPoint over(const Vec32& point) const;
   /// How high a point is above the reference, and beyond an edge's end above that, in the block.
   int64_t height_of(const Vec32& point) const;
   /// Of a point of the area: twice the middle between the two cores, in the block.

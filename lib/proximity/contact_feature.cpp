@@ -31,66 +31,188 @@ void round_face(const Placed& placed, bool bottom, Feature& face) {
   face.index = bottom ? 1 : 0;
 }
 
-/// The points where a polygon of many is farthest along 32 directions in its plane.
-void reduce(const Placed& placed, const HullIndices& loop, const Vec32& normal, Feature& face) {
+Vec32 plane_normal(const HullView& hull, uint32_t face) {
+  const HullPlane plane = hull.plane(face);
+  return {plane.normal[0], plane.normal[1], plane.normal[2]};
+}
+
+/// Some of a hull's vertices, as a polygon or without order.
+struct VertexList {
+  uint32_t count = 0;
+  uint8_t vertex[k_hull_vertices_max];
+
+  void add(uint32_t v) { vertex[count++] = static_cast<uint8_t>(v); }
+  bool has(uint32_t v) const {
+    for (uint32_t i = 0; i < count; ++i) {
+      if (vertex[i] == v) return true;
+    }
+    return false;
+  }
+};
+
+/// Those that are lower than the farthest along a direction, Q30, by no more than `room`.
+void find_level(const HullView& hull, const Vec32& direction, int64_t room, VertexList& level) {
+  int64_t top = INT64_MIN;
+  for (uint32_t v = 0; v < hull.vertex_count; ++v) {
+    const int64_t height = dot(hull.vertex(v), direction);
+    top = height > top ? height : top;
+  }
+  level.count = 0;
+  for (uint32_t v = 0; v < hull.vertex_count; ++v) {
+    if (dot(hull.vertex(v), direction) >= top - room * k_one) level.add(v);
+  }
+}
+
+uint32_t shared_count(const HullIndices& loop, const VertexList& list) {
+  uint32_t count = 0;
+  for (uint32_t i = 0; i < loop.count; ++i) count += list.has(loop.index[i]) ? 1u : 0u;
+  return count;
+}
+
+/// Of a polygon, twice its area long. Widths: below 2^63, as all lies within 2^30.
+Vec64 area_vector(const HullView& hull, const uint8_t* polygon, uint32_t count) {
+  Vec64 sum = {0, 0, 0};
+  const Vec32 from = hull.vertex(polygon[0]);
+  for (uint32_t i = 2; i < count; ++i) {
+    const Vec32 to = hull.vertex(polygon[i - 1]), next = hull.vertex(polygon[i]);
+    sum = add(sum, cross(subtract(to, from), subtract(next, from)));
+  }
+  return sum;
+}
+
+/// The vertices of a list that are farthest along 32 directions across a normal: a polygon.
+void find_outline(const HullView& hull, const Vec32& normal, const VertexList& list, VertexList& polygon) {
   constexpr int32_t k_sine[9] = {0, 195, 383, 556, 707, 831, 924, 981, 1000};
-  const auto vertex = [&](uint32_t i) {
-    const uint32_t v = loop.index[i];
-    return Vec32{placed.hull.x(v), placed.hull.y(v), placed.hull.z(v)};
-  };
   const Vec32 u = unit(cross(normal, magnitude_32(normal.x) < (1u << 29) ? Vec32{k_one, 0, 0} : Vec32{0, k_one, 0}));
   const Vec32 w = round_shift(cross(normal, u), 30);
-  bool taken[256] = {};
-  for (int i = 0; i < 32; ++i) {
+  polygon.count = 0;
+  for (int i = 0; i < k_feature_points_max; ++i) {
     const int quarter = i / 8, part = i % 8;
     const int32_t c = k_sine[8 - part], s = k_sine[part];
     const int64_t x = quarter == 0 ? c : quarter == 1 ? -s : quarter == 2 ? -c : s;
     const int64_t y = quarter == 0 ? s : quarter == 1 ? c : quarter == 2 ? -s : -c;
     uint32_t best = 0;
     int64_t most = INT64_MIN;
-    for (uint32_t n = 0; n < loop.count; ++n) {
-      const int64_t reach = (dot(u, vertex(n)) >> 30) * x + (dot(w, vertex(n)) >> 30) * y;
+    for (uint32_t n = 0; n < list.count; ++n) {
+      const Vec32 at = hull.vertex(list.vertex[n]);
+      const int64_t reach = (dot(u, at) >> 30) * x + (dot(w, at) >> 30) * y;
       if (reach > most) {
         most = reach;
-        best = n;
+        best = list.vertex[n];
       }
     }
-    taken[best] = true;
-  }
-  for (uint32_t n = 0; n < loop.count; ++n) {
-    if (taken[n]) face.add(placed.point(vertex(n)), loop.index[n]);
+    if (!polygon.has(best)) polygon.add(best);
   }
 }
 
-Vec32 plane_normal(const HullView& hull, uint32_t face) {
-  const HullPlane plane = hull.plane(face);
-  return {plane.normal[0], plane.normal[1], plane.normal[2]};
-}
-
-void hull_face(const Placed& placed, const Vec32& d, Feature& face) {
-  const HullView& hull = placed.hull;
-  const uint8_t farthest = local_support(*placed.convex, hull, d, 0).feature;
-  int64_t most = INT64_MIN;
+/// The greatest distance from a point that no plane of a hull is nearer to: the frame's origin, which may lie outside,
+/// or the vertices' mean.
+int32_t hull_half_thickness(const HullView& hull) {
+  Vec64 sum = {0, 0, 0};
+  for (uint32_t v = 0; v < hull.vertex_count; ++v) sum = add(sum, Vec64{hull.x(v), hull.y(v), hull.z(v)});
+  const int64_t n = hull.vertex_count;
+  const Vec32 mean = {static_cast<int32_t>(sum.x / n), static_cast<int32_t>(sum.y / n),
+                      static_cast<int32_t>(sum.z / n)};
+  int64_t from_origin = INT32_MAX, from_mean = INT32_MAX;
   for (uint32_t f = 0; f < hull.face_count; ++f) {
-    const int64_t along = dot(plane_normal(hull, f), d);
-    if (along <= most) continue;
-    const HullIndices loop = hull.face(f);
-    bool meets = false;
-    for (uint32_t i = 0; i < loop.count; ++i) meets = meets || loop.index[i] == farthest;
-    if (!meets) continue;
-    most = along;
-    face.index = f;
+    const int64_t offset = hull.plane(f).offset, beyond = offset - (dot(plane_normal(hull, f), mean) >> 30);
+    from_origin = offset < from_origin ? offset : from_origin;
+    from_mean = beyond < from_mean ? beyond : from_mean;
   }
-  const HullIndices loop = hull.face(face.index);
-  const Vec32 normal = plane_normal(hull, face.index);
-  if (loop.count > k_feature_points_max) {
-    reduce(placed, loop, normal, face);
-  } else {
-    for (uint32_t i = 0; i < loop.count; ++i) {
-      const uint32_t v = loop.index[i];
-      face.add(placed.point({hull.x(v), hull.y(v), hull.z(v)}), v);
+  const int64_t most = from_origin > from_mean ? from_origin : from_mean;
+  return most > 0 ? static_cast<int32_t>(most) : 0;
+}
+
+/// In ulps of the core.
+int32_t core_half_thickness(const Convex& convex, const HullView& hull) {
+  if (convex.type == ShapeType::hull) return convex.size[0] > 0 ? convex.size[0] : hull_half_thickness(hull);
+  int32_t least = convex.core_radius;
+  const bool is_box = convex.type == ShapeType::box;
+  if (is_box || convex.type == ShapeType::cylinder || convex.type == ShapeType::cone) {
+    for (int i = 0; i < (is_box ? 3 : 2); ++i) {
+      const int32_t extent = convex.size[i];
+      least = extent > 0 && extent < least ? extent : least;
     }
   }
+  return least;
+}
+
+/// Vertices lower than the farthest along a direction by this part of the half thickness, or less, are level with it.
+constexpr int k_even_power = 6;
+/// A face is as good as what is level with it if that reaches over no more than this part beyond it, of its area.
+constexpr int k_beyond_power = 2;
+constexpr int k_even_rounds_max = 4;  ///< in which what is level with a face grows; then it is as it is
+
+/// Of the faces with the most vertices of `level` the one that looks along `d` most.
+uint32_t face_along(const HullView& hull, const Vec32& d, const VertexList& level) {
+  uint32_t best = 0, most = 0;
+  int64_t steepest = INT64_MIN;
+  for (uint32_t f = 0; f < hull.face_count; ++f) {
+    const uint32_t shared = shared_count(hull.face(f), level);
+    const int64_t along = dot(plane_normal(hull, f), d);
+    if (shared < most || (shared == most && along <= steepest)) continue;
+    most = shared;
+    steepest = along;
+    best = f;
+  }
+  return best;
+}
+
+/// The mean normal of a face and of those beside it, with a vertex of `level`, that look nearly the same way.
+Vec32 normal_about(const HullView& hull, uint32_t face, const VertexList& level) {
+  constexpr int64_t k_alike = (int64_t{1} << 60) - (int64_t{1} << 53);  // 2^-3 rad
+  const Vec32 normal = plane_normal(hull, face);
+  Vec64 sum = {0, 0, 0};
+  for (uint32_t f = 0; f < hull.face_count; ++f) {
+    const HullIndices loop = hull.face(f);
+    if (f != face && (dot(plane_normal(hull, f), normal) < k_alike || shared_count(loop, level) == 0)) continue;
+    const Vec32 area = round_shift(area_vector(hull, loop.index, loop.count), 33);
+    sum = add(sum, Vec64{area.x, area.y, area.z});
+  }
+  return is_zero(sum) ? normal : unit(sum);
+}
+
+/// What is level with a face and larger than it, as one polygon. False if the face is all.
+bool find_even(const HullView& hull, uint32_t face, int64_t room, VertexList& polygon, Vec32& normal) {
+  const HullIndices loop = hull.face(face);
+  VertexList level;
+  uint32_t before = 0;
+  for (int round = 0; round < k_even_rounds_max; ++round) {
+    find_level(hull, normal, room, level);
+    if (shared_count(loop, level) == level.count) return false;
+    if (level.count == before) break;
+    before = level.count;
+    find_outline(hull, normal, level, polygon);
+    const Vec64 area = area_vector(hull, polygon.vertex, polygon.count);
+    if (polygon.count < 3 || is_zero(area)) return false;
+    normal = unit(area);
+  }
+  const auto area_of = [&](const Vec64& twice) { return dot(round_shift(twice, 32), normal); };
+  const int64_t whole = area_of(area_vector(hull, polygon.vertex, polygon.count));
+  return area_of(area_vector(hull, loop.index, loop.count)) < whole - (whole >> k_beyond_power);
+}
+
+__attribute__((noinline)) void hull_face(const Placed& placed, const Vec32& d, Feature& face) {
+  const HullView& hull = placed.hull;
+  const int64_t room = core_half_thickness(*placed.convex, hull) >> k_even_power;
+  VertexList level, polygon;
+  find_level(hull, d, room, level);
+  face.index = face_along(hull, d, level);
+  Vec32 normal = normal_about(hull, face.index, level);
+  if (find_even(hull, face.index, room, polygon, normal)) {
+    face.index = hull.face_count;
+  } else {
+    const HullIndices loop = hull.face(face.index);
+    VertexList corners;
+    for (uint32_t i = 0; i < loop.count; ++i) corners.add(loop.index[i]);
+    normal = plane_normal(hull, face.index);
+    if (corners.count > k_feature_points_max)
+      find_outline(hull, normal, corners, polygon);
+    else
+      polygon = corners;
+  }
+  for (uint32_t i = 0; i < polygon.count; ++i)
+    face.add(placed.point(hull.vertex(polygon.vertex[i])), polygon.vertex[i]);
   face.normal = unit(multiply(placed.rotation, normal));
   face.along = unit(
       Vec64{face.point[1].x - face.point[0].x, face.point[1].y - face.point[0].y, face.point[1].z - face.point[0].z});
@@ -275,16 +397,7 @@ int32_t in_block(const Placed& placed, int32_t length) {
 }
 
 int32_t half_thickness(const Placed& placed) {
-  const Convex& convex = *placed.convex;
-  int32_t least = convex.core_radius;
-  const auto consider = [&](int32_t extent) { least = extent > 0 && extent < least ? extent : least; };
-  const bool is_box = convex.type == ShapeType::box;
-  if (is_box || convex.type == ShapeType::cylinder || convex.type == ShapeType::cone) {
-    for (int i = 0; i < (is_box ? 3 : 2); ++i) consider(convex.size[i]);
-  }
-  if (convex.type == ShapeType::hull && convex.size[0] > 0) return in_block(placed, convex.size[0]);
-  for (uint32_t f = 0; f < placed.hull.face_count; ++f) consider(placed.hull.plane(f).offset);
-  return in_block(placed, least);
+  return in_block(placed, core_half_thickness(*placed.convex, placed.hull));
 }
 
 }  // namespace DETENT_NAMESPACE

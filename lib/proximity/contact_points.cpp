@@ -26,6 +26,14 @@ bool is_parallel(const Vec32& a, const Vec32& b, int64_t limit) {
 /// a + b of any sign.
 int64_t saturated(int64_t a, int64_t b) { return b < 0 ? -saturated_sum(-a, -b) : saturated_sum(a, b); }
 
+/// Of the points the nearest to another, across the reference.
+void leave_out_nearest(const AreaPoint& place, AreaPoint (&chosen)[4], int& count) {
+  int nearest = 0;
+  for (int i = 1; i < count; ++i) nearest = distance(chosen[i], place) < distance(chosen[nearest], place) ? i : nearest;
+  --count;
+  for (int i = nearest; i < count; ++i) chosen[i] = chosen[i + 1];
+}
+
 /// One of the two shapes, seen from the other.
 struct Half {
   const Placed& placed;
@@ -46,15 +54,17 @@ class Builder {
     drop_ = smaller_but_0(radius_in_block(pair.a), radius_in_block(pair.b)) >> k_drop_power;
   }
 
-  void build(BlockManifold& manifold) const;
+  void build(bool may_lean, BlockManifold& manifold) const;
   /// Between A's face and what B has over it alone.
   void build_over_face(const Feature& face, BlockManifold& manifold);
 
  private:
+  bool parts_as_well(const Half& half, const Half& other, const Vec32& normal, int64_t room) const;
   bool find_face(const Half& half, const Half& other, Feature& face) const;
   static uint32_t name_on_axis(const Half& half);
   bool build_on_half_space(BlockManifold& manifold) const;
   bool build_on_face(BlockManifold& manifold) const;
+  bool build_on_leaning_face(BlockManifold& manifold) const;
   bool build_on_edge(BlockManifold& manifold) const;
   void add_on_axis(const Vec32& normal, int64_t separation, BlockManifold& manifold) const;
   bool fill(const Reference& reference, bool reference_is_a, const Feature& incident, BlockManifold& manifold) const;
@@ -76,6 +86,13 @@ class Builder {
   bool only_over_ = false;  ///< what is not over the reference is no part of the contact
 };
 
+/// Whether the cores are apart along a normal as they are along the axis, but for `room`.
+bool Builder::parts_as_well(const Half& half, const Half& other, const Vec32& normal, int64_t room) const {
+  const Vec32 top = add(half.centre, support(half.placed, normal).point);
+  const Vec32 bottom = add(other.centre, support(other.placed, negate(normal)).point);
+  return dot(normal, subtract(bottom, top)) >> 30 >= axis_.separation - room;
+}
+
 /// The face of `half` that the contact is on, if it is on one.
 bool Builder::find_face(const Half& half, const Half& other, Feature& face) const {
   if (!supporting_face(half.placed, half.outward, face)) return false;
@@ -83,9 +100,7 @@ bool Builder::find_face(const Half& half, const Half& other, Feature& face) cons
   if (dot(normal, half.outward) <= 0) return false;
   if (!is_parallel(normal, half.outward, k_upright)) {
     if (axis_.separation > preference_) return false;
-    const Vec32 top = add(half.centre, support(half.placed, normal).point);
-    const Vec32 bottom = add(other.centre, support(other.placed, negate(normal)).point);
-    if (dot(normal, subtract(bottom, top)) >> 30 < axis_.separation - preference_) return false;
+    if (!parts_as_well(half, other, normal, preference_)) return false;
   }
   return true;
 }
@@ -152,7 +167,7 @@ bool Builder::fill(const Reference& reference, bool reference_is_a, const Featur
   const Vec32 nearest = add(other.centre, reference_is_a ? axis_.point_b : axis_.point_a);
   const int64_t height = reference.height_of(nearest);
   const bool missed = height + drop_ < chosen[deepest].w && (!only_over_ || reference.holds(nearest));
-  if (missed && count == 4) --count;
+  if (missed && count == 4) leave_out_nearest(reference.over(nearest), chosen, count);
   for (int i = 0; i < count; ++i) {
     const int64_t separation = pair_.metres(chosen[i].w) - radii;
     if (separation > reach_) continue;
@@ -187,6 +202,38 @@ bool Builder::build_on_face(BlockManifold& manifold) const {
   return false;
 }
 
+/// On a face that leans a little against the axis: the edges that cross there would touch in one point, on this side of
+/// the face in one tick and on that in the next. Only if the deepest point is as deep as the axis has it,
+/// and not much deeper.
+__attribute__((noinline)) bool Builder::build_on_leaning_face(BlockManifold& manifold) const {
+  constexpr int64_t k_leaning = (int64_t{1} << 60) - (int64_t{1} << 53);  // 2^-3 rad
+  const int64_t radii = pair_.radius_a + pair_.radius_b;
+  const int64_t least = pair_.metres(axis_.separation - preference_) - radii;
+  const int64_t most = pair_.metres(axis_.separation + drop_) - radii;
+  if (axis_.separation > preference_) return false;
+  bool is_a = a_comes_first();
+  for (int attempt = 0; attempt < 2; ++attempt, is_a = !is_a) {
+    const Half &half = is_a ? half_a_ : half_b_, &other = is_a ? half_b_ : half_a_;
+    Feature face, incident;
+    if (!supporting_face(half.placed, half.outward, face) || !face.is_face()) continue;
+    if (dot(face.normal, half.outward) < k_leaning || !parts_as_well(half, other, face.normal, 4 * preference_))
+      continue;
+    find_incident(other, negate(face.normal), incident);
+    const Reference reference(half.placed, half.centre, face, face.normal, radius_in_block(other.placed));
+    BlockManifold found = {};
+    if (!fill(reference, is_a, incident, found) || found.count < 2) continue;
+    int64_t deepest = found.point[0].separation;
+    for (uint32_t i = 1; i < found.count; ++i)
+      deepest = found.point[i].separation < deepest ? found.point[i].separation : deepest;
+    if (deepest < least || deepest > most) continue;
+    found.capped = manifold.capped;
+    found.leans = true;
+    manifold = found;
+    return true;
+  }
+  return false;
+}
+
 bool Builder::build_on_edge(BlockManifold& manifold) const {
   Feature edge_a, edge_b;
   supporting_edge(pair_.a, half_a_.outward, k_level, edge_a);
@@ -205,11 +252,14 @@ bool Builder::build_on_edge(BlockManifold& manifold) const {
   return fill(reference, is_a, is_a ? edge_b : edge_a, manifold);
 }
 
-void Builder::build(BlockManifold& manifold) const {
+void Builder::build(bool may_lean, BlockManifold& manifold) const {
   const int64_t separation = pair_.metres(axis_.separation) - pair_.radius_a - pair_.radius_b;
   if (separation > reach_) return;
   manifold.capped = axis_.capped;
-  if (pair_.planar() ? build_on_half_space(manifold) : build_on_face(manifold) || build_on_edge(manifold)) return;
+  if (pair_.planar()
+          ? build_on_half_space(manifold)
+          : build_on_face(manifold) || build_on_edge(manifold) || (may_lean && build_on_leaning_face(manifold)))
+    return;
   add_on_axis(axis_.normal, separation, manifold);
   manifold.normal = axis_.normal;
 }
@@ -227,12 +277,12 @@ void Builder::build_over_face(const Feature& face, BlockManifold& manifold) {
 }  // namespace
 
 void find_contact_points(const RestingPair& pair, int64_t reach, DistanceCache* cache, ManifoldReduction reduction,
-                         BlockManifold& manifold) {
+                         BlockManifold& manifold, bool may_lean) {
   manifold = {};
   const int32_t needed = pair.block_above(saturated_sum(reach, pair.radius_a + pair.radius_b));
   ContactAxis axis;
   if (find_contact_axis(pair, needed >= INT32_MAX - k_gjk_slack ? INT32_MAX : needed + k_gjk_slack, cache, axis)) {
-    Builder(pair, axis, reach, reduction).build(manifold);
+    Builder(pair, axis, reach, reduction).build(may_lean, manifold);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include "base/float_environment.h"
 #include "collision/compound_code.h"
+#include "collision/contact_cache.h"
 #include "dynamics/spin.h"
 #include "dynamics/step_settings.h"
 #include "geometry/shape_traits.h"
@@ -20,13 +21,19 @@ Scaled reference_mass(const BodyTraits& a, const BodyTraits& b) {
 
 __attribute__((noinline)) ContactGeometry part_geometry(const CollisionBody& a, const CollisionBody& b, Real reach,
                                                         ManifoldReduction reduction, const World& world,
-                                                        uint32_t part) {
+                                                        const ContactState& contact) {
   SurfaceContacts contacts;
   collide_parts(a, b, reach, world.assets, reduction, *world.features, contacts);
+  const ContactGeometry* best = nullptr;
+  uint32_t most = 0;
   for (uint32_t i = 0; i < contacts.count; ++i) {
-    if (contacts.contact[i].key == part) return contacts.contact[i].geometry;
+    const SurfaceContact& found = contacts.contact[i];
+    const uint32_t alike = 2 * shared_features(found.geometry, contact) + (found.key == contact.part ? 1 : 0);
+    if (alike <= most) continue;
+    most = alike;
+    best = &found.geometry;
   }
-  return {};
+  return best == nullptr ? ContactGeometry{} : *best;
 }
 
 /// Where the points are now: those that may have parted a little in the last step too.
@@ -37,7 +44,7 @@ ContactGeometry geometry_of(const World& world, const StateView<const uint8_t>& 
   const Real reach = scale_by_power(min(shape_extent(a), shape_extent(b)), -2);
   const CollisionBody body_a = {pose_a, a, axes_a}, body_b = {pose_b, b, axes_b};
   const ManifoldReduction reduction = static_cast<ManifoldReduction>(state.world.reduction);
-  if (has_parts(a, b)) return part_geometry(body_a, body_b, reach, reduction, world, contact.part);
+  if (has_parts(a, b)) return part_geometry(body_a, body_b, reach, reduction, world, contact);
   ContactGeometry geometry;
   collide(body_a, body_b, reach, geometry, world.assets, reduction, *world.features);
   return geometry;
@@ -82,6 +89,8 @@ Status get_contact(const World& world, uint32_t index, Contact& contact) {
         centre, {real_from_unit(arm.x, exponent), real_from_unit(arm.y, exponent), real_from_unit(arm.z, exponent)});
     point.separation = geometry.point[i].separation;
     point.feature = geometry.point[i].feature;
+    point.child_a = geometry.point[i].part >> 16;
+    point.child_b = geometry.point[i].part & 0xffff;
     point.normal_impulse = none;
     for (uint32_t k = 0; k < from.point_count; ++k) {
       if (from.feature[k] == point.feature) point.normal_impulse = impulse(from.normal_impulse[k]);

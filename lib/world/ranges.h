@@ -3,6 +3,7 @@
 #include <detent/detail/state.h>
 #include <detent/reduction.h>
 
+#include "geometry/shape_traits.h"
 #include "math/arithmetic.h"
 #include "math/scaled.h"
 
@@ -50,8 +51,8 @@ DETENT_SHARED inline bool is_between(Scaled value, Scaled low, Scaled high) {
 }
 DETENT_SHARED inline bool is_mass(Scaled value) { return is_between(value, Scaled(0x1p-60), Scaled(0x1p60)); }
 
-/// Of a dynamic body: no solid's is below 1, and spin_of() takes what is below 2^30.
-inline bool is_gyration(Scaled value) { return is_between(value, Scaled(1.0), Scaled(0x1.fffffffcp29)); }
+/// Of a dynamic body: no solid's is below 1.
+inline bool is_gyration(Scaled value) { return is_between(value, Scaled(1.0), k_gyration_max); }
 
 DETENT_SHARED inline bool are_gyrations(const BodyTraits& traits) {
   for (uint32_t axis = 0; axis < 3; ++axis) {

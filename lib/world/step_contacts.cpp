@@ -15,6 +15,9 @@ struct PairLengths {
   Real reach;    ///< and as it moves: what it can close in this tick is added, up to a quarter of the smaller body, or
                  ///< twice that body where joints hold one
   Real reuse;    ///< how far it may move until its contact points are found anew
+
+  /// A point that was out of reach when they were found is still farther off than the pair can close in this tick.
+  bool is_slow() const { return reach + reuse <= scale_by_power(at_rest, 1); }
 };
 
 PairLengths lengths_of(const StepSettings& settings, const BodyWork& a, const BodyWork& b) {
@@ -38,28 +41,21 @@ void collide_pair(const StepSettings& settings, uint32_t slot_a, uint32_t slot_b
                   const ContactBefore& before, ContactGeometry& geometry, ManifoldState* manifold, bool& reused) {
   const CollisionBody body_a = bodies.collider(slot_a), body_b = bodies.collider(slot_b);
   const PairLengths lengths = lengths_of(settings, bodies.work[slot_a], bodies.work[slot_b]);
-  // A point that was out of reach then is still farther off than the pair can close in this tick.
-  const bool slow = lengths.reach + lengths.reuse <= scale_by_power(lengths.at_rest, 1);
-  reused = before.manifold != nullptr && manifold != nullptr && slow &&
+  reused = before.manifold != nullptr && manifold != nullptr && lengths.is_slow() &&
            reuse_manifold(body_a, body_b, *before.manifold, before.contact->feature, before.contact->point_count,
                           lengths.reuse, lengths.reach, geometry, *manifold);
   if (reused) return;
   collide(body_a, body_b, lengths.reach, geometry, bodies.assets, settings.reduction, bodies.features);
-  if (manifold != nullptr) *manifold = slow ? kept_manifold(body_a, body_b, geometry) : ManifoldState{};
+  if (manifold != nullptr) *manifold = lengths.is_slow() ? kept_manifold(body_a, body_b, geometry) : ManifoldState{};
 }
 
-/// Likewise the contacts of the parts of a pair. Apart, for what it needs of the stack.
-void collide_pair_parts(const StepSettings& settings, uint32_t slot_a, uint32_t slot_b, const StepBodies& bodies,
-                        SurfaceContacts& contacts) {
-  const PairLengths lengths = lengths_of(settings, bodies.work[slot_a], bodies.work[slot_b]);
-  collide_parts(bodies.collider(slot_a), bodies.collider(slot_b), lengths.reach, bodies.assets, settings.reduction,
-                bodies.features, contacts);
-}
-
+/// Apart, for what it needs of the stack.
 __attribute__((noinline)) bool parts_touch(const StepSettings& settings, uint32_t slot_a, uint32_t slot_b,
                                            const StepBodies& bodies) {
   SurfaceContacts contacts;
-  collide_pair_parts(settings, slot_a, slot_b, bodies, contacts);
+  const PairLengths lengths = lengths_of(settings, bodies.work[slot_a], bodies.work[slot_b]);
+  collide_parts(bodies.collider(slot_a), bodies.collider(slot_b), lengths.reach, bodies.assets, settings.reduction,
+                bodies.features, contacts);
   return contacts.count != 0;
 }
 
@@ -77,6 +73,13 @@ Real depth_of(const ContactWork& contact) {
   return -least;
 }
 
+/// So that all contacts of the pair are found anew: some of them are missing.
+void forget_manifolds(Span<const ContactWork> contacts, Span<ManifoldState> manifolds, uint64_t key) {
+  for (uint32_t i = 0; manifolds.count != 0 && i < contacts.count; ++i) {
+    if (key_of(contacts[i].state) == key) manifolds[i] = {};
+  }
+}
+
 /// Leaves out the shallowest contact, the last of equals, if it is shallower than `depth`, keeping the others' order:
 /// the last place is free then, and `key` is that of its pair.
 bool leave_out_shallowest(Span<ContactWork> contacts, Span<ManifoldState> manifolds, Real depth, uint64_t& key) {
@@ -91,6 +94,7 @@ bool leave_out_shallowest(Span<ContactWork> contacts, Span<ManifoldState> manifo
   key = key_of(contacts[shallowest].state);
   for (uint32_t i = shallowest; i + 1 < contacts.count; ++i) contacts[i] = contacts[i + 1];
   for (uint32_t i = shallowest; i + 1 < manifolds.count; ++i) manifolds[i] = manifolds[i + 1];
+  forget_manifolds(contacts.first(contacts.count - 1), manifolds, key);
   return true;
 }
 
@@ -120,7 +124,8 @@ struct Collider {
     ContactGeometry geometry;
     ManifoldState manifold;
     bool reused = false;
-    const ContactBefore before = find_before(key, 0);
+    const PairBefore pair = find_pair(key);
+    const ContactBefore before = pair.count != 0 && pair[0].part == 0 ? before_at(pair, 0) : ContactBefore{};
     collide_pair(settings, slot_a, slot_b, bodies, before, geometry, reuses() ? &manifold : nullptr, reused);
     count.capped += geometry.capped ? 1 : 0;
     count.reused += reused ? 1 : 0;
@@ -135,24 +140,68 @@ struct Collider {
     last_started = slot;
   }
 
-  ContactBefore find_before(uint64_t key, uint32_t part) {
-    const auto contact = [&]() -> const ContactState& { return last.contacts[last.awake[next]]; };
-    while (next < last.awake.count && (key_of(contact()) < key || (key_of(contact()) == key && contact().part < part)))
+  PairBefore find_pair(uint64_t key) {
+    const auto key_at = [&](uint32_t i) { return key_of(last.contacts[last.awake[i]]); };
+    while (next < last.awake.count && key_at(next) < key) ++next;
+    PairBefore pair = {last.contacts.data, last.awake.data + next};
+    while (next < last.awake.count && key_at(next) == key) {
+      if (pair.count < k_surface_manifolds_max) ++pair.count;
       ++next;
-    if (next == last.awake.count || key_of(contact()) != key || contact().part != part) return {};
-    return {&contact(), reuses() ? &last.manifolds[last.awake[next]] : nullptr};
+    }
+    return pair;
+  }
+
+  ContactBefore before_at(const PairBefore& pair, uint32_t i) const {
+    return {&pair[i], reuses() ? &last.manifolds[pair.index[i]] : nullptr};
   }
 
   __attribute__((noinline)) void collide_all_parts(uint64_t key) {
+    const uint32_t slot_a = pair_low(key), slot_b = pair_high(key);
+    const PairLengths lengths = lengths_of(settings, bodies.work[slot_a], bodies.work[slot_b]);
+    const PairBefore pair = find_pair(key);
     SurfaceContacts found;
-    collide_pair_parts(settings, pair_low(key), pair_high(key), bodies, found);
+    ManifoldState manifold[k_surface_manifolds_max];
+    const bool reused = lengths.is_slow() && reuse_parts(pair, slot_a, slot_b, lengths, found, manifold);
+    if (reused) {
+      count.reused += found.count;
+    } else {
+      const CollisionBody body_a = bodies.collider(slot_a), body_b = bodies.collider(slot_b);
+      collide_parts(body_a, body_b, lengths.reach, bodies.assets, settings.reduction, bodies.features, found);
+      continue_keys(pair, found);
+      bool kept = reuses() && lengths.is_slow() && !found.capped && found.dropped == 0;
+      for (uint32_t i = 0; kept && i < found.count; ++i) {
+        manifold[i] = kept_manifold(body_a, body_b, found.contact[i].geometry);
+        kept = is_kept(manifold[i]);
+      }
+      for (uint32_t i = 0; !kept && i < found.count; ++i) manifold[i] = {};
+    }
     count.capped += found.capped ? 1 : 0;
     count.parts_dropped += found.dropped;
-    if (found.dropped != 0) losses.add(CapacityEventType::contact, pair_low(key), pair_high(key));
+    if (found.dropped != 0) losses.add(CapacityEventType::contact, slot_a, slot_b);
+    const uint32_t dropped_before = count.dropped;
     for (uint32_t i = 0; i < found.count; ++i) {
       const SurfaceContact& contact = found.contact[i];
-      add(key, contact.key, contact.geometry, {}, find_before(key, contact.key).contact);
+      const ContactState* before = nullptr;
+      for (uint32_t k = 0; k < pair.count; ++k) before = pair[k].part == contact.key ? &pair[k] : before;
+      add(key, contact.key, contact.geometry, manifold[i], before);
     }
+    if (count.dropped != dropped_before) forget_manifolds(room.contacts.first(count.contacts), room.manifolds, key);
+  }
+
+  /// The contacts of the last tick, where all of the pair will do.
+  bool reuse_parts(const PairBefore& pair, uint32_t slot_a, uint32_t slot_b, const PairLengths& lengths,
+                   SurfaceContacts& found, ManifoldState (&manifold)[k_surface_manifolds_max]) const {
+    found.count = found.dropped = 0;
+    found.capped = false;
+    const CollisionBody body_a = bodies.collider(slot_a), body_b = bodies.collider(slot_b);
+    for (uint32_t i = 0; reuses() && i < pair.count; ++i) {
+      SurfaceContact& contact = found.contact[found.count];
+      contact.key = pair[i].part;
+      if (!reuse_manifold(body_a, body_b, last.manifolds[pair.index[i]], pair[i].feature, pair[i].point_count,
+                          lengths.reuse, lengths.reach, contact.geometry, manifold[found.count++]))
+        return false;
+    }
+    return found.count != 0;
   }
 
   void add(uint64_t key, uint32_t part, const ContactGeometry& geometry, const ManifoldState& manifold,

@@ -40,8 +40,6 @@ Reuse reuse_of(const ReusedPair& pair, const OraclePair& now, double tolerance, 
   return reuse;
 }
 
-bool is_kept(const ManifoldState& kept) { return !(kept.rotation == ManifoldState{}.rotation); }
-
 /// Shapes that have faces; `size` of each alike.
 BodyTraits faced_traits(Samples& samples, uint32_t kind, double size) {
   const auto some = [&] { return real_near(size * uniform(samples, 0.5, 1)); };

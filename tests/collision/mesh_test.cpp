@@ -210,6 +210,25 @@ DETENT_TEST(mesh_contact, a_box_beside_a_tessellated_wall_and_on_the_ground_is_n
   }
 }
 
+/// Its centre lies behind the plane of the triangle that its end is over.
+DETENT_TEST(mesh_contact, a_rod_that_reaches_over_a_ridge_is_not_pulled_through_it) {
+  const double slope = 0.5;
+  const Ground ridge(ground(4, 1, [&](double x, double) { return -slope * fabs(x); }));
+  OracleBody body = body_of(capsule(real_near(0.01), real_near(0.5)));
+  const double turn = -atan(slope);
+  body.pose.rotation = rotation_near(turn_about({{0, 0, 1}}, turn - M_PI / 2));
+  for (const double over : {0.002, 0.01, 0.03}) {
+    // Along the slope, `over` beyond the ridge, on it.
+    const double along = 0.5 - over, lift = 0.01;
+    body.pose.position =
+        position_near({{along * cos(turn) - lift * sin(turn), along * sin(turn) + lift * cos(turn), 0.3}});
+    const SurfaceContacts contacts = contacts_of(ridge, body);
+    ASSERT_GE(contacts.count, 1u) << over;
+    for (uint32_t i = 0; i < contacts.count; ++i) EXPECT_GT(host(contacts.contact[i].geometry.normal)[1], 0.8) << over;
+    EXPECT_NEAR(deepest_of(contacts), 0, 1e-4) << over;
+  }
+}
+
 DETENT_TEST(mesh_contact, in_a_concave_corner_each_wall_gives_its_own_normal) {
   const double slope = 0.75;
   const Ground valley(ground(8, 0.5, [&](double x, double) { return slope * fabs(x); }));

@@ -80,7 +80,9 @@ void judge(const OraclePair& pair, const ContactGeometry& contact, double reach,
   const double aligned = a.kind == Kind::box && !boxes ? 0x1.1p-27 * (b.size[0] + reach)
                          : parallel                    ? 0x1p-40 * unit_of(pair.b.traits)
                                                        : 0;
-  worst(seen.gap, right.value - preference_of(a, b, right) - along - aligned);
+  // A face that leans against edges that cross parts them by a little less.
+  const double leaning = boxes && contact.count > 1 ? 4 * preference_of(a, b, right) : 0;
+  worst(seen.gap, right.value - preference_of(a, b, right) - leaning - along - aligned);
 
   // A box takes a sphere or capsule just beyond its rim, by 2^-13 of the distance, as being over the face.
   const double slack = boxes ? side_slack(a, b) : a.kind == Kind::box ? 0x1.1p-13 * (b.size[0] + reach) : 0;
@@ -186,6 +188,21 @@ DETENT_TEST(pairs, of_a_box_and_a_sphere_agree_with_the_oracle) { judge_many(For
 DETENT_TEST(pairs, of_two_capsules_agree_with_the_oracle) { judge_many(Form::capsule, Form::capsule, 17); }
 DETENT_TEST(pairs, of_a_capsule_and_a_sphere_agree_with_the_oracle) { judge_many(Form::capsule, Form::sphere, 18); }
 DETENT_TEST(pairs, of_two_spheres_agree_with_the_oracle) { judge_many(Form::sphere, Form::sphere, 19); }
+
+/// Their edges cross at the least depth; the faces are as good.
+DETENT_TEST(pairs, of_bars_that_cross_and_rock_touch_in_several_points) {
+  OraclePair pair;
+  pair.a.traits = pair.b.traits = box_traits({{0.2, 0.02, 0.04}});
+  pair.a.pose.rotation = rotation_near({0, 0, 0, 1});
+  for (const double lean : {0.0, 0.004, 0.01, 0.02, -0.02}) {
+    pair.b.pose.rotation =
+        rotation_near(detent_oracle::rotation_by({{lean, 0, 0}}) * detent_oracle::rotation_by({{0, 1.5, 0}}));
+    place(pair, {{0, 0, 0}}, {{0, 1, 0}}, -0.001);
+    const ContactGeometry found = contact_of(pair.a, pair.b, 0.002);
+    EXPECT_GE(found.count, 2u) << lean;
+    EXPECT_GT(host(found.normal)[1], 0.99) << lean;
+  }
+}
 
 }  // namespace
 }  // namespace DETENT_NAMESPACE

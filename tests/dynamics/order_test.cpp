@@ -352,15 +352,23 @@ DETENT_TEST(substeps, of_a_row_of_twelve_or_more_prevent_buckling) {
   }
 }
 
+/// The fewer the less they can buckle.
 DETENT_TEST(substeps, of_many_contacts_are_few) {
-  const auto most = [](uint32_t contacts) { return Pile(contacts, 1).choose(Pile(1, 1).load_for(40)); };
-  const uint32_t all = Pile(1, 1).settings.substeps_max;
-  EXPECT_EQ(most(1), all);
-  EXPECT_EQ(most(2048 / all), all);
-  EXPECT_EQ(most(2048 / (all / 2)), all / 2);
-  EXPECT_EQ(most(2048 / 5), 5u);
-  EXPECT_EQ(most(2048 / 4), 4u);
-  EXPECT_EQ(most(2048), 4u);
+  for (const uint32_t points : {4u, 3u, 2u, 1u}) {
+    const uint32_t room = points < 2 ? k_rolling_substeps : k_contact_substeps;
+    const auto most = [points](uint32_t contacts) {
+      Pile pile(contacts, 1);
+      for (ContactWork& contact : pile.contacts) contact.state.point_count = static_cast<uint8_t>(points);
+      return pile.choose(Pile(1, 1).load_for(40));
+    };
+    const uint32_t all = Pile(1, 1).settings.substeps_max;
+    EXPECT_EQ(most(1), all);
+    EXPECT_EQ(most(room / all), all);
+    EXPECT_EQ(most(room / (all / 2)), all / 2);
+    EXPECT_EQ(most(room / 5), 5u);
+    EXPECT_EQ(most(room / 4), 4u);
+    EXPECT_EQ(most(room), 4u);
+  }
 }
 
 DETENT_TEST(substeps, become_fewer_by_one_notch_after_a_second_in_which_fewer_would_have_done) {

@@ -50,7 +50,7 @@ struct Worst {
     volume = fmax(volume, fabs(scaled_to_host(shape_volume(traits)) / right.volume - 1));
     const double unit = unit_of(traits);
     for (int i = 0; i < 3; ++i) {
-      const double gyration_right = unit * unit / right.inertia[i];
+      const double gyration_right = fmin(unit * unit / right.inertia[i], scaled_to_host(k_gyration_max));
       gyration = fmax(gyration, fabs(scaled_to_host(traits.gyration[i]) / gyration_right - 1));
     }
   }

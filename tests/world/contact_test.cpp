@@ -53,6 +53,32 @@ DETENT_TEST(contact, a_hit_rebounds_by_the_larger_restitution) {
   EXPECT_NEAR(lab.motion(id).velocity[1], sqrt(16 + 2 * 9.81 * 0.02) / 2, 1e-3);  // it falls through the gap first
 }
 
+/// Its four corners share the blow: none turns it, and together they give no energy.
+DETENT_TEST(contact, a_box_that_falls_flat_rebounds_flat) {
+  for (const double half : {3.0, 0.375}) {
+    Lab lab({2, 4, 0});
+    BodyDef post;
+    post.type = BodyType::fixed;
+    post.shape = box(reals(half, 0.25, half));
+    post.position = position(0, -0.25, 0);
+    lab.add(post);
+    BodyDef def;
+    def.shape = box(reals(0.5, 0.5, 0.5));
+    def.position = position(0, 10, 0);
+    def.material.restitution = real(1);
+    const BodyId id = lab.add(def);
+    double speed = -1, height = 0;
+    for (int tick = 0; tick < 120 && speed < 0; ++tick) {
+      lab.run(1);
+      speed = lab.motion(id).velocity[1];
+      height = lab.motion(id).position[1];
+    }
+    EXPECT_GT(speed, 0) << half;
+    EXPECT_NEAR(speed * speed / 2 + 9.81 * height, 98.1, 1) << half;
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(lab.motion(id).spin[k], 0, 1e-3) << half;
+  }
+}
+
 DETENT_TEST(contact, the_same_calls_give_the_same_bits_and_another_order_of_creation_stands_as_well) {
   const auto run = [](bool reversed) {
     Lab lab({12, 40, 0});

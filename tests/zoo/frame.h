@@ -46,11 +46,18 @@ struct JointFrame {
   AxisFrame axes[2];
 };
 
+/// Two bodies that touch; a pair may be there several times.
+struct ContactFrame {
+  uint32_t a = 0, b = 0;  ///< of Frame::bodies
+  double depth = 0;       ///< of the deepest point, m; negative if there is a gap
+};
+
 struct Frame {
   double tick_time = 0;  ///< of one step, s
   Vector gravity;
   std::vector<BodyFrame> bodies;
   std::vector<JointFrame> joints;
+  std::vector<ContactFrame> contacts;
 };
 
 /// What a step told.
@@ -70,7 +77,9 @@ class Play {
   virtual StepFigures step() = 0;
   virtual Frame frame() const = 0;
   virtual uint32_t ticks() const = 0;  ///< the scene's length
-  /// The joint of Frame::joints, as messages name it.
+  /// The body of Frame::bodies, as messages name it.
+  virtual std::string body_name(uint32_t index) const = 0;
+  /// The joint of Frame::joints, likewise.
   virtual std::string joint_name(uint32_t index) const = 0;
 };
 

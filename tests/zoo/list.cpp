@@ -12,9 +12,11 @@ constexpr const char* k_head = "scene,source,wants,why,gaps";
 constexpr size_t k_columns = 5;
 
 /// Bounds where a scene says nothing else (docs/zoo.md).
-const std::map<std::string, double> k_defaults = {{"gain", 0.05},  {"gap", 0.02}, {"angle", 0.02},
-                                                  {"limit", 0.05}, {"lost", 0},   {"speed", 3}};
+const std::map<std::string, double> k_defaults = {{"gain", 0.05}, {"gap", 0.02},    {"angle", 0.02}, {"limit", 0.05},
+                                                  {"sunk", 0.02}, {"pierced", 0.5}, {"lost", 0},     {"speed", 3}};
 const std::map<std::string, double> k_free_defaults = {{"momentum", 1e-3}, {"spin", 0.02}};
+
+constexpr double k_some_time = 1e9;  // a tick by which a scene has ended
 
 std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> cells(1);
@@ -54,15 +56,23 @@ std::string take_wanted(const std::string& word, Entry& entry) {
     entry.bounds.emplace("rest", 1);
     return "";
   }
+  if (word == "stands") {
+    entry.bounds.emplace("moved", 0.05);
+    return "";
+  }
+  if (word == "sleeps") {
+    entry.bounds.emplace("asleep", k_some_time);
+    return "";
+  }
   if (word == "free") {
-    entry.free = true;
     for (const auto& bound : k_free_defaults) entry.bounds.insert(bound);
     return "";
   }
   const size_t equal = word.find('=');
   const std::string name = word.substr(0, equal);
   double value = 0;
-  if (equal == std::string::npos || !is_check(name)) return "\"" + word + "\" is no bound: rests, free, gap=0.05";
+  if (equal == std::string::npos || !is_check(name))
+    return "\"" + word + "\" is no bound: rests, sleeps, stands, free, gap=0.05";
   const auto [end, error] = std::from_chars(word.data() + equal + 1, word.data() + word.size(), value);
   if (error != std::errc() || end != word.data() + word.size()) return "\"" + word + "\" has no number";
   entry.bounds[name] = value;

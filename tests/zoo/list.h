@@ -8,14 +8,14 @@
 namespace detent_zoo {
 
 /// What is checked. Names as in zoo.csv.
-inline constexpr const char* k_checks[] = {"gain",  "gap",      "angle", "limit", "lost",
-                                           "speed", "momentum", "spin",  "rest"};
+inline constexpr const char* k_checks[] = {"gain",    "loss",   "gap",   "angle",    "limit", "sunk",
+                                           "pierced", "lost",   "speed", "momentum", "spin",  "rest",
+                                           "moved",   "fallen", "risen", "asleep"};
 
 struct Entry {
   std::string scene;                                  ///< its file is scenes/<scene>.json
   std::string source;                                 ///< where its parameters are from
   bool rests = false;                                 ///< it comes to rest by its end
-  bool free = false;                                  ///< nothing outside acts on it: momentum is kept
   std::map<std::string, double> bounds;               ///< of each check that applies
   std::string wants, why;                             ///< as written
   std::map<std::string, std::set<std::string>> gaps;  ///< by configuration: the checks that fail today

@@ -82,7 +82,7 @@ int run(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Plays the scenes with joints of tests/zoo and checks them tick by tick (docs/zoo.md)", "detent_zoo");
+  CLI::App app("Plays the scenes of tests/zoo and checks them tick by tick (docs/zoo.md)", "detent_zoo");
   Options options;
   CLI::Option* const scenes =
       app.add_option("--scenes", options.scenes, "Only those whose names start so, separated by commas")

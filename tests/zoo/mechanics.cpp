@@ -78,6 +78,13 @@ double size_of(const BodyFrame& body) {
   return body.mass > 0 ? sqrt(12 * most / body.mass) : 0;
 }
 
+double thickness_of(const BodyFrame& body) {
+  const Vector& inertia = body.inertia;
+  if (inertia.x <= 0 || inertia.y <= 0 || inertia.z <= 0 || body.mass <= 0) return 0;
+  const double most = std::max({inertia.x, inertia.y, inertia.z});
+  return sqrt(std::max(0.0, 6 * (inertia.x + inertia.y + inertia.z - 2 * most) / body.mass));
+}
+
 JointState state_of(const JointFrame& joint, const Frame& frame) {
   const BodyFrame &a = frame.bodies[joint.a], &b = frame.bodies[joint.b];
   const Vector arm_a = rotate(a.rotation, joint.anchor_a), arm_b = rotate(b.rotation, joint.anchor_b);

@@ -26,6 +26,9 @@ double kinetic_energy(const BodyFrame& body);
 double potential_energy(const BodyFrame& body, const Vector& gravity);
 /// The length of a rod with the body's greatest moment of inertia, m: of a ball 2.2 radii. 0 if it does not turn.
 double size_of(const BodyFrame& body);
+/// The least side of a box with the body's moments of inertia, m: of a ball 1.55 radii. 0 if it turns about fewer than
+/// three axes.
+double thickness_of(const BodyFrame& body);
 
 /// What a joint does not hold, and where its free motions are.
 struct JointState {

@@ -1,6 +1,8 @@
 #include <detent/body_access.h>
+#include <detent/contacts.h>
 #include <detent/world_access.h>
 
+#include <algorithm>
 #include <map>
 
 #include "file.h"
@@ -19,6 +21,7 @@ namespace {
 
 using detent_zoo::AxisFrame;
 using detent_zoo::BodyFrame;
+using detent_zoo::ContactFrame;
 using detent_zoo::Frame;
 using detent_zoo::JointFrame;
 using detent_zoo::Rotation;
@@ -116,10 +119,26 @@ class DetentPlay : public detent_zoo::Play {
       joint.axes[1] = axis_of(def.second);
       frame.joints.push_back(joint);
     }
+    const uint32_t contacts = get_info(world).contacts;
+    for (uint32_t i = 0; i < contacts; ++i) {
+      Contact contact;
+      if (get_contact(world, i, contact) != Status::ok || contact.point_count == 0) continue;
+      ContactFrame deepest = {places[contact.a.slot], places[contact.b.slot],
+                              -real_to_host(contact.point[0].separation)};
+      for (uint32_t j = 1; j < contact.point_count; ++j)
+        deepest.depth = std::max(deepest.depth, -real_to_host(contact.point[j].separation));
+      frame.contacts.push_back(deepest);
+    }
     return frame;
   }
 
   uint32_t ticks() const override { return reading_.scene.ticks; }
+
+  std::string body_name(uint32_t index) const override {
+    BodyId id = next_body(owned_.world, {});
+    for (uint32_t i = 0; i < index && id.slot != 0; ++i) id = next_body(owned_.world, id);
+    return player_->name_of(id);
+  }
 
   std::string joint_name(uint32_t index) const override {
     JointId id = next_joint(owned_.world, {});

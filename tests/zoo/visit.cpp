@@ -1,6 +1,7 @@
 #include "tests/zoo/visit.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace detent_zoo {
 
@@ -20,6 +21,7 @@ std::string number(double value) {
 
 double measured(const Figures& figures, const std::string& check) {
   if (check == "gain") return figures.gain.value;
+  if (check == "loss") return figures.loss.value;
   if (check == "gap") return figures.gap.value;
   if (check == "angle") return figures.angle.value;
   if (check == "limit") return figures.limit.value;
@@ -27,6 +29,13 @@ double measured(const Figures& figures, const std::string& check) {
   if (check == "speed") return figures.speed.value;
   if (check == "momentum") return figures.momentum.value;
   if (check == "spin") return figures.spin.value;
+  if (check == "sunk") return figures.sunk.value;
+  if (check == "pierced") return figures.pierced.value;
+  if (check == "moved") return figures.moved.value;
+  if (check == "fallen") return figures.fallen.value;
+  if (check == "risen") return figures.risen.value;
+  if (check == "asleep")
+    return figures.asleep_from != 0 ? figures.asleep_from : std::numeric_limits<double>::infinity();
   return std::max(figures.rest_speed / k_rest_speed, figures.rest_spin / k_rest_spin);
 }
 
@@ -43,7 +52,9 @@ Verdict visit(const Entry& entry, const Engine& engine, const std::string& folde
     if (!(watch.figures().speed.value <= k_hopeless * entry.bounds.at("speed"))) break;
   }
   verdict.figures = watch.finish();
-  verdict.gap_joint = play->joint_name(verdict.figures.gap.joint);
+  verdict.gap_joint = play->joint_name(verdict.figures.gap.index);
+  verdict.sunk_body = play->body_name(verdict.figures.sunk.index);
+  verdict.moved_body = play->body_name(verdict.figures.moved.index);
   for (const auto& [check, bound] : entry.bounds) {
     if (!(measured(verdict.figures, check) <= bound)) verdict.failed.insert(check);
   }

@@ -8,8 +8,9 @@ namespace detent_zoo {
 struct Verdict {
   std::string problem;  ///< why it could not be played, or nothing
   Figures figures;
-  std::string gap_joint;         ///< the bodies of the joint that opened most
-  std::set<std::string> failed;  ///< the checks that do not hold
+  std::string gap_joint;              ///< the bodies of the joint that opened most
+  std::string sunk_body, moved_body;  ///< that sank and moved most
+  std::set<std::string> failed;       ///< the checks that do not hold
 };
 Verdict visit(const Entry& entry, const Engine& engine, const std::string& folder);
 

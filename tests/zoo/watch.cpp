@@ -74,8 +74,8 @@ double finite(double value) { return isfinite(value) ? value : std::numeric_limi
 
 }  // namespace
 
-Watch::Watch(const Frame& start) : before_(start) {
-  energy_ = least_ = energy_of(start);
+Watch::Watch(const Frame& start) : before_(start), first_(start), settled_(start) {
+  energy_ = least_ = first_energy_ = energy_of(start);
   widen(start);
   sum_momentum(start, momentum_, spin_);
 }
@@ -118,6 +118,10 @@ void Watch::calls(const Frame& after) {
   least_ = std::min(least_, energy - allowed_);
   energy_ = energy;
   widen(after);
+  if (after.bodies.size() != before_.bodies.size()) {
+    first_ = settled_ = after;
+    depths_.clear();
+  }
   before_ = after;
 }
 
@@ -130,6 +134,13 @@ double Watch::mover_power(const Frame& now) const {
     for (const JointFrame& joint : now.joints) {
       if (joint.a == i) reach = std::max(reach, length(joint.anchor_a));
       if (joint.b == i) reach = std::max(reach, length(joint.anchor_b));
+    }
+    for (const Frame* frame : {&before_, &now}) {
+      for (const ContactFrame& contact : frame->contacts) {
+        if (contact.a != i && contact.b != i) continue;
+        const BodyFrame& other = frame->bodies[contact.a == i ? contact.b : contact.a];
+        reach = std::max(reach, length(other.position - frame->bodies[i].position));
+      }
     }
     const auto speed = [reach](const BodyFrame& body) { return length(body.velocity) + reach * length(body.spin); };
     double most = speed(now.bodies[i]);
@@ -169,6 +180,7 @@ void Watch::take_energy(const Frame& now) {
   allowed_ += work(now);
   const double own = energy_ - allowed_;
   if (scale_ > 0) figures_.gain.take(finite((own - least_) / scale_), tick_);
+  if (scale_ > 0) figures_.loss.take(finite((first_energy_ - own) / scale_), tick_);
   least_ = std::min(least_, own);
 }
 
@@ -204,10 +216,51 @@ void Watch::take_momentum(const Frame& now) {
   if (spin_scale_ > 0) figures_.spin.take(finite(length(spin - spin_) / spin_scale_), tick_);
 }
 
+void Watch::take_contacts(const Frame& now) {
+  std::map<std::pair<uint32_t, uint32_t>, double> deepest;
+  for (const ContactFrame& contact : now.contacts) {
+    const auto [pair, is_new] = deepest.emplace(std::pair(contact.a, contact.b), contact.depth);
+    if (!is_new) pair->second = std::max(pair->second, contact.depth);
+  }
+  std::map<std::pair<uint32_t, uint32_t>, std::vector<double>> depths;
+  for (const auto& [pair, depth] : deepest) {
+    double thickness = std::numeric_limits<double>::infinity();
+    uint32_t thinner = pair.first;
+    for (const uint32_t each : {pair.first, pair.second}) {
+      const BodyFrame& body = now.bodies[each];
+      if (body.kind != Kind::dynamic || thickness_of(body) == 0 || thickness_of(body) >= thickness) continue;
+      thickness = thickness_of(body);
+      thinner = each;
+    }
+    std::vector<double>& last = depths[pair];
+    if (const auto found = depths_.find(pair); found != depths_.end()) last = found->second;
+    last.push_back(finite(depth / thickness));
+    figures_.pierced.take(last.back(), tick_, thinner);
+    if (last.size() > k_lasting_ticks) last.erase(last.begin());
+    if (last.size() == k_lasting_ticks && tick_ > k_settled_tick)
+      figures_.sunk.take(*std::min_element(last.begin(), last.end()), tick_, thinner);
+  }
+  depths_ = depths;
+}
+
+void Watch::take_places(const Frame& now) {
+  if (tick_ <= k_settled_tick) settled_ = now;
+  for (uint32_t i = 0; i < now.bodies.size() && i < first_.bodies.size(); ++i) {
+    const BodyFrame& body = now.bodies[i];
+    if (body.kind != Kind::dynamic) continue;
+    figures_.fallen.take(finite(-body.position.y), tick_, i);
+    figures_.risen.take(finite(body.position.y - first_.bodies[i].position.y), tick_, i);
+    if (size_of(body) == 0) continue;
+    figures_.moved.take(finite(length(body.position - settled_.bodies[i].position) / size_of(body)), tick_, i);
+  }
+}
+
 void Watch::tick(const Frame& now, const StepFigures& step) {
   ++tick_;
   take_energy(now);
   if (tick_ > k_settled_tick) take_joints(now);
+  take_contacts(now);
+  take_places(now);
   take_speeds(now);
   take_momentum(now);
   figures_.lost.take(static_cast<double>(step.lost), tick_);

@@ -4,6 +4,8 @@
 
 #include <limits>
 
+#include "tests/zoo/visit.h"
+
 namespace detent_zoo {
 namespace {
 
@@ -52,6 +54,19 @@ TEST(zoo_watch, energy_that_comes_from_nowhere_is_a_gain) {
   const Figures figures = watch.finish();
   EXPECT_NEAR(figures.gain.value, 0.75, 1e-12) << "over the least before, not over the first";
   EXPECT_EQ(figures.gain.tick, 2u);
+}
+
+TEST(zoo_watch, energy_that_goes_is_a_loss_since_the_start_and_a_call_is_none) {
+  Frame frame = pair(Held::ball, {0, 2, 0});
+  Watch watch(frame);
+  frame.bodies[1].velocity = {0, 1, 0};
+  watch.calls(frame);
+  watch.tick(frame, {});
+  EXPECT_NEAR(watch.finish().loss.value, 0, 1e-12);
+  frame.bodies[1].velocity = {0, 0, 0};
+  watch.tick(frame, {});
+  EXPECT_NEAR(watch.finish().loss.value, 1.0 / 4, 1e-12);
+  EXPECT_NEAR(watch.finish().gain.value, 0, 1e-12);
 }
 
 TEST(zoo_watch, height_counts_as_energy_and_what_falls_gains_none) {
@@ -192,6 +207,109 @@ TEST(zoo_watch, momentum_that_changes_is_told) {
   frame.bodies[0].spin = {0, 0, 1};
   watch.tick(frame, {});
   EXPECT_NEAR(watch.finish().spin.value, 0.5 / 4, 1e-12);
+}
+
+/// A ball that lies on another body, that is fixed.
+Frame lying(double depth) {
+  Frame frame = pair(Held::ball);
+  frame.joints.clear();
+  frame.contacts = {{0, 1, depth / 2}, {0, 1, depth}};
+  return frame;
+}
+
+TEST(zoo_watch, thickness_is_the_least_side_of_the_box_of_that_inertia) {
+  BodyFrame body = ball({});
+  body.inertia = {2.0 / 12 * (4 + 9), 2.0 / 12 * (1 + 9), 2.0 / 12 * (1 + 4)};
+  EXPECT_NEAR(thickness_of(body), 1, 1e-12);
+  EXPECT_NEAR(thickness_of(ball({})), sqrt(6 * 0.5 / 2), 1e-12);
+  body.inertia.y = 0;
+  EXPECT_EQ(thickness_of(body), 0);
+}
+
+TEST(zoo_watch, what_sinks_in_for_ten_ticks_is_told_and_a_blow_is_no_sinking) {
+  const Frame deep = lying(0.3), flat = lying(0.01);
+  Watch watch(flat);
+  let_settle(watch, flat);
+  for (int i = 0; i < 9; ++i) watch.tick(deep, {});
+  watch.tick(flat, {});
+  const double thickness = thickness_of(flat.bodies[1]);
+  EXPECT_NEAR(watch.finish().sunk.value, 0.01 / thickness, 1e-12);
+  EXPECT_NEAR(watch.finish().pierced.value, 0.3 / thickness, 1e-12);
+  EXPECT_EQ(watch.finish().pierced.tick, 31u);
+  for (int i = 0; i < 10; ++i) watch.tick(deep, {});
+  EXPECT_NEAR(watch.finish().sunk.value, 0.3 / thickness, 1e-12);
+  EXPECT_EQ(watch.finish().sunk.index, 1u);
+}
+
+TEST(zoo_watch, what_parts_in_between_has_not_sunk) {
+  const Frame deep = lying(0.3), apart = lying(-0.1);
+  Watch watch(deep);
+  let_settle(watch, apart);
+  for (int i = 0; i < 30; ++i) watch.tick(i % 5 == 0 ? apart : deep, {});
+  EXPECT_EQ(watch.finish().sunk.value, 0);
+}
+
+TEST(zoo_watch, a_body_moves_from_where_it_was_at_tick_30) {
+  Frame frame = pair(Held::ball);
+  Watch watch(frame);
+  frame.bodies[1].position = {1, 5, 0};
+  let_settle(watch, frame);
+  EXPECT_EQ(watch.finish().moved.value, 0);
+  frame.bodies[1].position = {1, 5.3, 0.4};
+  watch.tick(frame, {});
+  frame.bodies[1].position = {1, 5, 0};
+  watch.tick(frame, {});
+  EXPECT_NEAR(watch.finish().moved.value, 0.5 / size_of(frame.bodies[1]), 1e-12);
+  EXPECT_EQ(watch.finish().moved.tick, 31u);
+}
+
+TEST(zoo_watch, a_body_falls_below_0_and_rises_above_its_first_height) {
+  Frame frame = pair(Held::ball);
+  frame.bodies[1].position = {1, 2, 0};
+  Watch watch(frame);
+  frame.bodies[1].position = {1, 0.5, 0};
+  watch.tick(frame, {});
+  EXPECT_EQ(watch.finish().fallen.value, 0);
+  EXPECT_EQ(watch.finish().risen.value, 0);
+  frame.bodies[1].position = {1, -0.5, 0};
+  watch.tick(frame, {});
+  frame.bodies[1].position = {1, 2.25, 0};
+  watch.tick(frame, {});
+  EXPECT_NEAR(watch.finish().fallen.value, 0.5, 1e-12);
+  EXPECT_NEAR(watch.finish().risen.value, 0.25, 1e-12);
+  frame.bodies.push_back(ball({1, 9, 0}));
+  watch.calls(frame);
+  watch.tick(frame, {});
+  EXPECT_NEAR(watch.finish().risen.value, 0.25, 1e-12) << "a new body begins where it is made";
+}
+
+TEST(zoo_watch, who_wakes_again_does_not_sleep) {
+  Frame frame = pair(Held::ball);
+  Watch watch(frame);
+  watch.tick(frame, {0, 1, 1, 0});
+  watch.tick(frame, {0, 0, 0, 0});
+  watch.tick(frame, {0, 0, 0, 0});
+  EXPECT_EQ(measured(watch.finish(), "asleep"), 2);
+  watch.tick(frame, {0, 1, 1, 0});
+  EXPECT_TRUE(isinf(measured(watch.finish(), "asleep")));
+}
+
+TEST(zoo_watch, a_kinematic_body_that_turns_may_push_what_lies_far_from_its_centre) {
+  Frame frame = pair(Held::ball);
+  frame.joints.clear();
+  frame.gravity = {0, -10, 0};
+  frame.bodies[0].kind = Kind::kinematic;
+  frame.bodies[0].spin = {0, 0, 1};
+  Watch alone(frame);
+  frame.bodies[1].velocity = {0, 1, 0};
+  alone.tick(frame, {});
+  EXPECT_GT(alone.finish().gain.value, 0.1);
+  frame.bodies[1].velocity = {};
+  frame.contacts = {{0, 1, 0}};
+  Watch touching(frame);
+  frame.bodies[1].velocity = {0, 1, 0};
+  touching.tick(frame, {});
+  EXPECT_EQ(touching.finish().gain.value, 0);
 }
 
 }  // namespace

@@ -64,7 +64,8 @@ TEST(zoo_list, is_written_as_it_is_read) {
 
 TEST(zoo_list, says_the_line_of_what_is_wrong) {
   const std::string path = testing::TempDir() + "zoo_wrong.csv";
-  for (const char* row : {"a,b,rest,,", "a,b,gap=,,", "a,b,gap=1x,,", "a,b,,,fx64", "a,b,,,fx64:gip", "a,b,,"}) {
+  for (const char* row : {"a,b,rest,,", "a,b,gap=,,", "a,b,gap=1x,,", "a,b,stand,,", "a,b,asleep,,", "a,b,,,fx64",
+                          "a,b,,,fx64:gip", "a,b,,"}) {
     std::ofstream(path) << "scene,source,wants,why,gaps\ngood,own,rests gap=0.5,\"one, two\",fx64:gap+rest\n"
                         << row << "\n";
     std::string problem;
