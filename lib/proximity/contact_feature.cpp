@@ -1,5 +1,6 @@
 #include "proximity/contact_feature.h"
 
+#include "base/bit_set.h"
 #include "math/root.h"
 
 namespace detent {
@@ -36,36 +37,43 @@ Vec32 plane_normal(const HullView& hull, uint32_t face) {
   return {plane.normal[0], plane.normal[1], plane.normal[2]};
 }
 
-/// Some of a hull's vertices, as a polygon or without order.
-struct VertexList {
-  uint32_t count = 0;
-  uint8_t vertex[k_hull_vertices_max];
+constexpr uint32_t k_face_words = 16;  ///< a hull has at most 506 faces
 
-  void add(uint32_t v) { vertex[count++] = static_cast<uint8_t>(v); }
-  bool has(uint32_t v) const {
-    for (uint32_t i = 0; i < count; ++i) {
-      if (vertex[i] == v) return true;
-    }
-    return false;
+/// Some of a hull's vertices.
+struct VertexSet {
+  uint32_t words[8] = {};
+  uint32_t count = 0;
+
+  BitSet bits() { return {{words, 8}}; }
+  /// Range: not there yet.
+  void add(uint32_t v) {
+    bits().set(v);
+    ++count;
   }
 };
 
+struct VertexPolygon {
+  uint32_t count = 0;
+  uint8_t vertex[k_feature_points_max];
+};
+
 /// Those that are lower than the farthest along a direction, Q30, by no more than `room`.
-void find_level(const HullView& hull, const Vec32& direction, int64_t room, VertexList& level) {
+VertexSet level_along(const HullView& hull, const Vec32& direction, int64_t room) {
   int64_t top = INT64_MIN;
   for (uint32_t v = 0; v < hull.vertex_count; ++v) {
     const int64_t height = dot(hull.vertex(v), direction);
     top = height > top ? height : top;
   }
-  level.count = 0;
+  VertexSet level;
   for (uint32_t v = 0; v < hull.vertex_count; ++v) {
     if (dot(hull.vertex(v), direction) >= top - room * k_one) level.add(v);
   }
+  return level;
 }
 
-uint32_t shared_count(const HullIndices& loop, const VertexList& list) {
+uint32_t shared_count(const HullIndices& loop, BitSet set) {
   uint32_t count = 0;
-  for (uint32_t i = 0; i < loop.count; ++i) count += list.has(loop.index[i]) ? 1u : 0u;
+  for (uint32_t i = 0; i < loop.count; ++i) count += set.has(loop.index[i]) ? 1u : 0u;
   return count;
 }
 
@@ -80,28 +88,35 @@ Vec64 area_vector(const HullView& hull, const uint8_t* polygon, uint32_t count) 
   return sum;
 }
 
-/// The vertices of a list that are farthest along 32 directions across a normal: a polygon.
-void find_outline(const HullView& hull, const Vec32& normal, const VertexList& list, VertexList& polygon) {
+/// The vertices of a set that are farthest along 32 directions across a normal.
+void find_outline(const HullView& hull, const Vec32& normal, BitSet set, VertexPolygon& polygon) {
   constexpr int32_t k_sine[9] = {0, 195, 383, 556, 707, 831, 924, 981, 1000};
   const Vec32 u = unit(cross(normal, magnitude_32(normal.x) < (1u << 29) ? Vec32{k_one, 0, 0} : Vec32{0, k_one, 0}));
   const Vec32 w = round_shift(cross(normal, u), 30);
-  polygon.count = 0;
-  for (int i = 0; i < k_feature_points_max; ++i) {
-    const int quarter = i / 8, part = i % 8;
-    const int32_t c = k_sine[8 - part], s = k_sine[part];
-    const int64_t x = quarter == 0 ? c : quarter == 1 ? -s : quarter == 2 ? -c : s;
-    const int64_t y = quarter == 0 ? s : quarter == 1 ? c : quarter == 2 ? -s : -c;
-    uint32_t best = 0;
-    int64_t most = INT64_MIN;
-    for (uint32_t n = 0; n < list.count; ++n) {
-      const Vec32 at = hull.vertex(list.vertex[n]);
-      const int64_t reach = (dot(u, at) >> 30) * x + (dot(w, at) >> 30) * y;
-      if (reach > most) {
-        most = reach;
-        best = list.vertex[n];
-      }
+  uint8_t best[k_feature_points_max] = {};
+  int64_t most[k_feature_points_max];
+  for (int64_t& reach : most) reach = INT64_MIN;
+  for (uint32_t v = 0; v < hull.vertex_count; ++v) {
+    if (!set.has(v)) continue;
+    const Vec32 at = hull.vertex(v);
+    const int64_t right = dot(u, at) >> 30, up = dot(w, at) >> 30;
+    for (int i = 0; i < k_feature_points_max; ++i) {
+      const int quarter = i / 8, part = i % 8;
+      const int32_t c = k_sine[8 - part], s = k_sine[part];
+      const int32_t x = quarter == 0 ? c : quarter == 1 ? -s : quarter == 2 ? -c : s;
+      const int32_t y = quarter == 0 ? s : quarter == 1 ? c : quarter == 2 ? -s : -c;
+      const int64_t reach = right * x + up * y;
+      if (reach <= most[i]) continue;
+      most[i] = reach;
+      best[i] = static_cast<uint8_t>(v);
     }
-    if (!polygon.has(best)) polygon.add(best);
+  }
+  VertexSet taken;
+  polygon.count = 0;
+  for (const uint8_t v : best) {
+    if (taken.bits().has(v)) continue;
+    taken.add(v);
+    polygon.vertex[polygon.count++] = v;
   }
 }
 
@@ -123,66 +138,62 @@ int32_t hull_half_thickness(const HullView& hull) {
   return most > 0 ? static_cast<int32_t>(most) : 0;
 }
 
-/// In ulps of the core.
-int32_t core_half_thickness(const Convex& convex, const HullView& hull) {
-  if (convex.type == ShapeType::hull) return convex.size[0] > 0 ? convex.size[0] : hull_half_thickness(hull);
-  int32_t least = convex.core_radius;
-  const bool is_box = convex.type == ShapeType::box;
-  if (is_box || convex.type == ShapeType::cylinder || convex.type == ShapeType::cone) {
-    for (int i = 0; i < (is_box ? 3 : 2); ++i) {
-      const int32_t extent = convex.size[i];
-      least = extent > 0 && extent < least ? extent : least;
-    }
-  }
-  return least;
-}
-
 /// Vertices lower than the farthest along a direction by this part of the half thickness, or less, are level with it.
 constexpr int k_even_power = 6;
 /// A face is as good as what is level with it if that reaches over no more than this part beyond it, of its area.
 constexpr int k_beyond_power = 2;
 constexpr int k_even_rounds_max = 4;  ///< in which what is level with a face grows; then it is as it is
 
+/// Those that have a vertex of a set.
+void find_faces(const HullView& hull, BitSet vertices, BitSet faces) {
+  for (uint32_t i = 0; i < hull.edge_count; ++i) {
+    const HullEdge edge = hull.edge(i);
+    if (!vertices.has(edge.a) && !vertices.has(edge.b)) continue;
+    faces.set(edge.left);
+    faces.set(edge.right);
+  }
+}
+
 /// Of the faces with the most vertices of `level` the one that looks along `d` most.
-uint32_t face_along(const HullView& hull, const Vec32& d, const VertexList& level) {
+uint32_t face_along(const HullView& hull, const Vec32& d, BitSet level, BitSet faces) {
   uint32_t best = 0, most = 0;
   int64_t steepest = INT64_MIN;
-  for (uint32_t f = 0; f < hull.face_count; ++f) {
+  faces.for_each([&](uint32_t f) {
     const uint32_t shared = shared_count(hull.face(f), level);
+    if (shared < most) return;
     const int64_t along = dot(plane_normal(hull, f), d);
-    if (shared < most || (shared == most && along <= steepest)) continue;
+    if (shared == most && along <= steepest) return;
     most = shared;
     steepest = along;
     best = f;
-  }
+  });
   return best;
 }
 
-/// The mean normal of a face and of those beside it, with a vertex of `level`, that look nearly the same way.
-Vec32 normal_about(const HullView& hull, uint32_t face, const VertexList& level) {
+/// The mean normal of a face and of those of `faces`, beside it, that look nearly the same way.
+Vec32 normal_about(const HullView& hull, uint32_t face, BitSet faces) {
   constexpr int64_t k_alike = (int64_t{1} << 60) - (int64_t{1} << 53);  // 2^-3 rad
   const Vec32 normal = plane_normal(hull, face);
   Vec64 sum = {0, 0, 0};
-  for (uint32_t f = 0; f < hull.face_count; ++f) {
+  faces.for_each([&](uint32_t f) {
+    if (f != face && dot(plane_normal(hull, f), normal) < k_alike) return;
     const HullIndices loop = hull.face(f);
-    if (f != face && (dot(plane_normal(hull, f), normal) < k_alike || shared_count(loop, level) == 0)) continue;
     const Vec32 area = round_shift(area_vector(hull, loop.index, loop.count), 33);
     sum = add(sum, Vec64{area.x, area.y, area.z});
-  }
+  });
   return is_zero(sum) ? normal : unit(sum);
 }
 
 /// What is level with a face and larger than it, as one polygon. False if the face is all.
-bool find_even(const HullView& hull, uint32_t face, int64_t room, VertexList& polygon, Vec32& normal) {
+bool find_even(const HullView& hull, uint32_t face, int64_t room, VertexPolygon& polygon, Vec32& normal) {
   const HullIndices loop = hull.face(face);
-  VertexList level;
   uint32_t before = 0;
   for (int round = 0; round < k_even_rounds_max; ++round) {
-    find_level(hull, normal, room, level);
-    if (shared_count(loop, level) == level.count) return false;
+    VertexSet level = level_along(hull, normal, room);
+    if (shared_count(loop, level.bits()) == level.count) return false;
     if (level.count == before) break;
     before = level.count;
-    find_outline(hull, normal, level, polygon);
+    find_outline(hull, normal, level.bits(), polygon);
     const Vec64 area = area_vector(hull, polygon.vertex, polygon.count);
     if (polygon.count < 3 || is_zero(area)) return false;
     normal = unit(area);
@@ -192,24 +203,29 @@ bool find_even(const HullView& hull, uint32_t face, int64_t room, VertexList& po
   return area_of(area_vector(hull, loop.index, loop.count)) < whole - (whole >> k_beyond_power);
 }
 
-__attribute__((noinline)) void hull_face(const Placed& placed, const Vec32& d, Feature& face) {
+__attribute__((noinline)) void hull_face(const Placed& placed, const Vec32& d, int32_t thickness, Feature& face) {
   const HullView& hull = placed.hull;
-  const int64_t room = core_half_thickness(*placed.convex, hull) >> k_even_power;
-  VertexList level, polygon;
-  find_level(hull, d, room, level);
-  face.index = face_along(hull, d, level);
-  Vec32 normal = normal_about(hull, face.index, level);
+  const int64_t room = thickness >> k_even_power;
+  VertexSet level = level_along(hull, d, room);
+  uint32_t words[k_face_words] = {};
+  const BitSet faces = {{words, k_face_words}};
+  find_faces(hull, level.bits(), faces);
+  face.index = face_along(hull, d, level.bits(), faces);
+  VertexPolygon polygon;
+  Vec32 normal = normal_about(hull, face.index, faces);
   if (find_even(hull, face.index, room, polygon, normal)) {
     face.index = hull.face_count;
   } else {
     const HullIndices loop = hull.face(face.index);
-    VertexList corners;
-    for (uint32_t i = 0; i < loop.count; ++i) corners.add(loop.index[i]);
     normal = plane_normal(hull, face.index);
-    if (corners.count > k_feature_points_max)
-      find_outline(hull, normal, corners, polygon);
-    else
-      polygon = corners;
+    if (loop.count > k_feature_points_max) {
+      VertexSet corners;
+      for (uint32_t i = 0; i < loop.count; ++i) corners.add(loop.index[i]);
+      find_outline(hull, normal, corners.bits(), polygon);
+    } else {
+      polygon.count = loop.count;
+      for (uint32_t i = 0; i < loop.count; ++i) polygon.vertex[i] = loop.index[i];
+    }
   }
   for (uint32_t i = 0; i < polygon.count; ++i)
     face.add(placed.point(hull.vertex(polygon.vertex[i])), polygon.vertex[i]);
@@ -278,7 +294,7 @@ uint32_t Feature::name() const {
   return feature_name(count == 2 ? FeatureType::edge : FeatureType::face, index);
 }
 
-bool supporting_face(const Placed& placed, const Vec32& direction, Feature& face) {
+bool supporting_face(const Placed& placed, const Vec32& direction, int32_t thickness, Feature& face) {
   const Convex& convex = *placed.convex;
   face.count = 0;
   const Vec32 d = rotate_inverse(placed.rotation, direction);
@@ -287,7 +303,7 @@ bool supporting_face(const Placed& placed, const Vec32& direction, Feature& face
       box_face(placed, d, face);
       return true;
     case ShapeType::hull:
-      hull_face(placed, d, face);
+      hull_face(placed, d, thickness, face);
       return true;
     case ShapeType::triangle:
       return triangle_face(placed, direction, face);
@@ -396,9 +412,21 @@ int32_t in_block(const Placed& placed, int32_t length) {
   return length == 0 || placed.shift > 30 ? 0 : length >> placed.shift;  // only a point's shift may be negative
 }
 
-int32_t half_thickness(const Placed& placed) {
-  return in_block(placed, core_half_thickness(*placed.convex, placed.hull));
+int32_t core_half_thickness(const Placed& placed) {
+  const Convex& convex = *placed.convex;
+  if (convex.type == ShapeType::hull) return convex.size[0] > 0 ? convex.size[0] : hull_half_thickness(placed.hull);
+  int32_t least = convex.core_radius;
+  const bool is_box = convex.type == ShapeType::box;
+  if (is_box || convex.type == ShapeType::cylinder || convex.type == ShapeType::cone) {
+    for (int i = 0; i < (is_box ? 3 : 2); ++i) {
+      const int32_t extent = convex.size[i];
+      least = extent > 0 && extent < least ? extent : least;
+    }
+  }
+  return least;
 }
+
+int32_t half_thickness(const Placed& placed) { return in_block(placed, core_half_thickness(placed)); }
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -31,10 +31,11 @@ struct Feature {
   }
 };
 
-/// The face that looks along `direction` (world, Q30) most, of those with the core's farthest point. False if the core
-/// has none there: a round side, or an edge's or vertex' own core.
-/// The flat side of a cylinder or cone is an octagon in its rim.
-bool supporting_face(const Placed& placed, const Vec32& direction, Feature& face);
+/// The face that looks along `direction` (world, Q30) most, of those with the most of a core's points that are about as
+/// far along it as the farthest. False if the core has none there: a round side, or an edge's or vertex' own core.
+/// `thickness`: core_half_thickness(). The flat side of a cylinder or cone is an octagon in its rim. Of a hull what is
+/// level with the face within a 64th of the thickness belongs to it.
+bool supporting_face(const Placed& placed, const Vec32& direction, int32_t thickness, Feature& face);
 
 /// Of the core's edges at its farthest point along `direction` the one most perpendicular to it; on a round side the
 /// line that touches; the farthest vertex where that edge's slope (dot of its unit vector with `direction`, Q30) is
@@ -47,8 +48,10 @@ uint32_t edge_index(const Placed& placed, uint32_t vertex_a, uint32_t vertex_b);
 /// A length of the core's in ulps of the block, rounded down.
 int32_t in_block(const Placed& placed, int32_t length);
 
-/// The least half extent of a core that has faces (of a hull the least distance of a face from the centre, faces that
-/// the centre lies beyond left out, unless the hull says it); of others the greatest. Ulps of the block.
+/// The least half extent of a core that has faces (of a hull the least distance of a face from the frame's origin, or
+/// from the vertices' mean if that is more, unless the hull says it); of others the greatest. Ulps of the core.
+int32_t core_half_thickness(const Placed& placed);
+/// Likewise, ulps of the block.
 int32_t half_thickness(const Placed& placed);
 
 }  // namespace DETENT_NAMESPACE

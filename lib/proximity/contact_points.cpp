@@ -39,6 +39,7 @@ struct Half {
   const Placed& placed;
   Vec32 centre;   ///< in the block
   Vec32 outward;  ///< the axis towards the other shape, Q30
+  int32_t thickness = core_half_thickness(placed);
 };
 
 class Builder {
@@ -50,7 +51,8 @@ class Builder {
         reduction_(reduction),
         half_a_{pair.a, {0, 0, 0}, axis.normal},
         half_b_{pair.b, pair.offset, negate(axis.normal)} {
-    preference_ = smaller_but_0(half_thickness(pair.a), half_thickness(pair.b)) >> k_face_power;
+    preference_ =
+        smaller_but_0(in_block(pair.a, half_a_.thickness), in_block(pair.b, half_b_.thickness)) >> k_face_power;
     drop_ = smaller_but_0(radius_in_block(pair.a), radius_in_block(pair.b)) >> k_drop_power;
   }
 
@@ -74,7 +76,8 @@ class Builder {
   /// matter which shape is A.
   bool a_comes_first() const { return dot(axis_.normal, Vec32{493921240, 848256040, 440234144}) > 0; }
   static void find_incident(const Half& half, const Vec32& towards, Feature& incident) {
-    if (!supporting_face(half.placed, towards, incident)) supporting_edge(half.placed, towards, k_one, incident);
+    if (!supporting_face(half.placed, towards, half.thickness, incident))
+      supporting_edge(half.placed, towards, k_one, incident);
   }
 
   const RestingPair& pair_;
@@ -95,7 +98,7 @@ bool Builder::parts_as_well(const Half& half, const Half& other, const Vec32& no
 
 /// The face of `half` that the contact is on, if it is on one.
 bool Builder::find_face(const Half& half, const Half& other, Feature& face) const {
-  if (!supporting_face(half.placed, half.outward, face)) return false;
+  if (!supporting_face(half.placed, half.outward, half.thickness, face)) return false;
   const Vec32& normal = face.normal;
   if (dot(normal, half.outward) <= 0) return false;
   if (!is_parallel(normal, half.outward, k_upright)) {
@@ -129,7 +132,8 @@ void Builder::add_point(const Vec32& normal, const Vec64& twice_middle, int64_t 
 /// What of the shape the axis meets. All edges of a face across it are level but for noise, which must not choose.
 uint32_t Builder::name_on_axis(const Half& half) {
   Feature feature;
-  if (supporting_face(half.placed, half.outward, feature) && is_parallel(feature.normal, half.outward, k_upright))
+  if (supporting_face(half.placed, half.outward, half.thickness, feature) &&
+      is_parallel(feature.normal, half.outward, k_upright))
     return feature.name();
   supporting_edge(half.placed, half.outward, k_level, feature);
   return feature.name();
@@ -215,7 +219,7 @@ __attribute__((noinline)) bool Builder::build_on_leaning_face(BlockManifold& man
   for (int attempt = 0; attempt < 2; ++attempt, is_a = !is_a) {
     const Half &half = is_a ? half_a_ : half_b_, &other = is_a ? half_b_ : half_a_;
     Feature face, incident;
-    if (!supporting_face(half.placed, half.outward, face) || !face.is_face()) continue;
+    if (!supporting_face(half.placed, half.outward, half.thickness, face) || !face.is_face()) continue;
     if (dot(face.normal, half.outward) < k_leaning || !parts_as_well(half, other, face.normal, 4 * preference_))
       continue;
     find_incident(other, negate(face.normal), incident);
