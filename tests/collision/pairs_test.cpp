@@ -19,7 +19,7 @@ struct Seen {
   double arms = 0;      ///< the two arms' ends from each other
   double midway = 0;    ///< the points from midway between the surfaces, beyond what is allowed
   double normal = 0;    ///< length of the normal from 1
-  uint32_t touching = 0, apart = 0, missed = 0, missed_ahead = 0, deepest_lost = 0, features_wrong = 0,
+  uint32_t touching = 0, leaning = 0, apart = 0, missed = 0, missed_ahead = 0, deepest_lost = 0, features_wrong = 0,
            mirrored_wrong = 0;
 };
 
@@ -81,8 +81,10 @@ void judge(const OraclePair& pair, const ContactGeometry& contact, double reach,
                          : parallel                    ? 0x1p-40 * unit_of(pair.b.traits)
                                                        : 0;
   // A face that leans against edges that cross parts them by a little less.
-  const double leaning = boxes && contact.count > 1 ? 4 * preference_of(a, b, right) : 0;
-  worst(seen.gap, right.value - preference_of(a, b, right) - leaning - along - aligned);
+  const double preference = preference_of(a, b, right), lost = right.value - preference - along - aligned;
+  const bool leans = boxes && contact.count > 1 && lost > 2 * error;
+  seen.leaning += leans ? 1 : 0;
+  worst(seen.gap, leans ? lost - 4 * preference : lost);
 
   // A box takes a sphere or capsule just beyond its rim, by 2^-13 of the distance, as being over the face.
   const double slack = boxes ? side_slack(a, b) : a.kind == Kind::box ? 0x1.1p-13 * (b.size[0] + reach) : 0;
@@ -157,6 +159,7 @@ void judge_many(Form form_a, Form form_b, uint64_t seed) {
   ::testing::Test::RecordProperty("error_steps", ::testing::PrintToString(largest));
   ::testing::Test::RecordProperty("deepest_lost", ::testing::PrintToString(seen.deepest_lost));
   ::testing::Test::RecordProperty("missed_ahead", ::testing::PrintToString(seen.missed_ahead));
+  EXPECT_LE(50 * seen.leaning, seen.touching);
   EXPECT_LE(seen.gap, 2 * k_error_steps);  // a normal errs by the error of a length, times size over distance
   EXPECT_LE(seen.beyond, k_error_steps);
   EXPECT_LE(seen.too_deep, k_error_steps);

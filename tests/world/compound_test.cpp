@@ -46,6 +46,14 @@ class CompoundLab : public Lab {
                     unit(ldexp(info.rotation[2], -30)), unit(ldexp(info.rotation[3], -30))};
     return def;
   }
+  /// A box whose top is at 0.
+  void add_floor(double half) {
+    BodyDef floor;
+    floor.type = BodyType::fixed;
+    floor.shape = box(reals(half, 0.5, half));
+    floor.position = position(0, -0.5, 0);
+    add(floor);
+  }
   BodyId add_compound(double x, double y, double z) { return add(compound_def(x, y, z)); }
 
   /// Over the mass, J/kg.
@@ -310,11 +318,7 @@ DETENT_TEST(compounds, tell_which_parts_touch) {
 
 DETENT_TEST(compounds, that_rest_find_no_contact_anew) {
   CompoundLab lab(detent_compounds::table());
-  BodyDef floor;
-  floor.type = BodyType::fixed;
-  floor.shape = box(reals(4, 0.5, 4));
-  floor.position = position(0, -0.5, 0);
-  lab.add(floor);
+  lab.add_floor(4);
   lab.add_compound(0, 0, 0);
   lab.add_compound(0, 1.3, 0);
   lab.run(60);
@@ -405,11 +409,7 @@ DETENT_TEST(compounds, come_to_rest_in_a_pile) {
 /// A ball, however it is stored, touches in one point. Both are on the same floor.
 DETENT_TEST(compounds, of_balls_touch_in_single_points) {
   CompoundLab lab(detent_compounds::dumbbell());
-  BodyDef floor;
-  floor.type = BodyType::fixed;
-  floor.shape = box(reals(3, 0.5, 3));
-  floor.position = position(0, -0.5, 0);
-  lab.add(floor);
+  lab.add_floor(3);
   lab.add_compound(0, 0.5, 0);
   lab.run(30);
   ASSERT_EQ(get_info(lab.world).contacts, 1u);
