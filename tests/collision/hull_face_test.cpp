@@ -125,6 +125,20 @@ DETENT_TEST(hull_face, that_is_not_quite_flat_carries_as_a_whole) {
   }
 }
 
+/// Their edges cross at the least depth, on this side of the face or on that; the face is as good.
+DETENT_TEST(hull_face, that_leans_against_edges_that_cross_touches_in_several_points) {
+  Convex bar;
+  EXPECT_OK(make_convex(box(reals_near({{0.2, 0.02, 0.04}})), bar));
+  for (const double lean : {0.004, 0.01, 0.02, -0.02}) {
+    const Quaternion turn = detent_oracle::rotation_by({{lean, 0, 0}}) * detent_oracle::rotation_by({{0, 1.5, 0}});
+    const double reach = 0.04 + 0.04 * fabs(lean);
+    const ContactManifold manifold =
+        contact_between(bar, pose_of({{0, 0, 0}}, k_upright), bar, pose_of({{0, reach - 0.001, 0}}, turn));
+    EXPECT_GE(manifold.count, 2u) << lean;
+    EXPECT_GT(unit_to_host(manifold.normal.y), 0.99) << lean;
+  }
+}
+
 /// A chamfer's lower edge is nearly level with the face, and is no part of it.
 DETENT_TEST(hull_face, between_chamfers_is_the_face_alone) {
   Points points;

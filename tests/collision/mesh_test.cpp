@@ -210,6 +210,27 @@ DETENT_TEST(mesh_contact, a_box_beside_a_tessellated_wall_and_on_the_ground_is_n
   }
 }
 
+/// The two points on the ridge carry it; its four corners are in reach, and farther out.
+DETENT_TEST(mesh_contact, a_stick_across_a_mild_ridge_lies_on_both_sides_of_its_width) {
+  const Ground ridge(ground(4, 1, [&](double x, double) { return -0.01 * fabs(x); }));
+  OracleBody body = body_of(box(reals_near({{0.4, 0.03, 0.03}})));
+  body.pose.rotation = {0.0, 0.0, 0.0, 1.0};
+  body.pose.position = position_near({{0, 0.03 - 0.0001, 0.3}});
+  const SurfaceContacts contacts = contacts_of(ridge, body);
+  uint32_t on_ridge = 0;
+  for (uint32_t i = 0; i < contacts.count; ++i) {
+    for (uint32_t k = 0; k < contacts.contact[i].geometry.count; ++k) {
+      const ContactGeometryPoint& point = contacts.contact[i].geometry.point[k];
+      const Vector arm = host(point.arm_b) * unit_of(body.traits);
+      if (real_to_host(point.separation) > 0) continue;
+      EXPECT_LT(fabs(arm[0]), 0.011);
+      EXPECT_NEAR(fabs(arm[2]), 0.03, 1e-3);
+      on_ridge |= arm[2] < 0 ? 1u : 2u;
+    }
+  }
+  EXPECT_EQ(on_ridge, 3u);
+}
+
 /// Its centre lies behind the plane of the triangle that its end is over.
 DETENT_TEST(mesh_contact, a_rod_that_reaches_over_a_ridge_is_not_pulled_through_it) {
   const double slope = 0.5;

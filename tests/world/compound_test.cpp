@@ -328,6 +328,50 @@ DETENT_TEST(compounds, that_rest_find_no_contact_anew) {
   }
 }
 
+DETENT_TEST(compounds, tell_which_children_touch_a_mesh) {
+  CompoundLab lab(detent_compounds::table(),
+                  detent_surfaces::cooked(detent_surfaces::ground(8, 1, [](double, double) { return 0.0; })));
+  BodyDef ground;
+  ground.type = BodyType::fixed;
+  ground.shape = surface(1);
+  lab.add(ground);
+  lab.add_compound(0, 0, 0);
+  lab.run(60);
+  uint32_t legs = 0;
+  for (uint32_t i = 0; i < get_info(lab.world).contacts; ++i) {
+    Contact contact;
+    ASSERT_OK(get_contact(lab.world, i, contact));
+    for (uint32_t k = 0; k < contact.point_count; ++k) {
+      EXPECT_EQ(contact.point[k].child_a, 0u);
+      legs |= 1u << contact.point[k].child_b;
+    }
+  }
+  EXPECT_EQ(legs, 0b111100u);
+}
+
+/// The plane's normal turns through several names, and its contact is the same all along.
+DETENT_TEST(compounds, that_tilt_keep_their_contacts) {
+  CompoundLab lab(detent_compounds::letter_l());
+  BodyDef floor = lab.compound_def(0, 0, 0);
+  floor.type = BodyType::kinematic;
+  floor.material.friction = real(1);
+  floor.spin = reals(0, 0, 0.2);
+  lab.add(floor);
+  BodyDef crate;
+  crate.shape = box(reals(0.25, 0.25, 0.25));
+  crate.position = position(0.3, 0.75, 0);
+  crate.material.friction = real(1);
+  lab.add(crate);
+  for (uint32_t tick = 0; tick < 120; ++tick) {
+    lab.run(1);
+    ASSERT_EQ(get_info(lab.world).contacts, 1u) << tick;
+    Contact contact;
+    ASSERT_OK(get_contact(lab.world, 0, contact));
+    EXPECT_EQ(contact.age, tick);
+    EXPECT_EQ(contact.point_count, 4u) << tick;
+  }
+}
+
 /// Of two planes one finds no room, which must not be forgotten because the other is used again.
 DETENT_TEST(compounds, that_lose_a_plane_for_want_of_room_look_for_it_in_each_tick) {
   for (const uint32_t room : {1u, 2u}) {
