@@ -129,13 +129,15 @@ DETENT_TEST(hull_face, that_is_not_quite_flat_carries_as_a_whole) {
 DETENT_TEST(hull_face, that_leans_against_edges_that_cross_touches_in_several_points) {
   Convex bar;
   EXPECT_OK(make_convex(box(reals_near({{0.2, 0.02, 0.04}})), bar));
-  for (const double lean : {0.004, 0.01, 0.02, -0.02}) {
-    const Quaternion turn = detent_oracle::rotation_by({{lean, 0, 0}}) * detent_oracle::rotation_by({{0, 1.5, 0}});
-    const double reach = 0.04 + 0.04 * fabs(lean);
+  const double leans[][2] = {{0.02, 0.004}, {-0.02, 0.005}, {0.01, -0.004}, {0.02, 0}};
+  for (const double(&lean)[2] : leans) {
+    const Quaternion turn =
+        detent_oracle::rotation_by({{lean[0], 0, lean[1]}}) * detent_oracle::rotation_by({{0, 1.5, 0}});
+    const double reach = 0.04 + 0.04 * (fabs(lean[0]) + fabs(lean[1]));
     const ContactManifold manifold =
         contact_between(bar, pose_of({{0, 0, 0}}, k_upright), bar, pose_of({{0, reach - 0.001, 0}}, turn));
-    EXPECT_GE(manifold.count, 2u) << lean;
-    EXPECT_GT(unit_to_host(manifold.normal.y), 0.99) << lean;
+    EXPECT_GE(manifold.count, 2u) << lean[0] << " " << lean[1];
+    EXPECT_GT(unit_to_host(manifold.normal.y), 0.99) << lean[0] << " " << lean[1];
   }
 }
 

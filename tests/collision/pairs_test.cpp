@@ -197,13 +197,14 @@ DETENT_TEST(pairs, of_bars_that_cross_and_rock_touch_in_several_points) {
   OraclePair pair;
   pair.a.traits = pair.b.traits = box_traits({{0.2, 0.02, 0.04}});
   pair.a.pose.rotation = rotation_near({0, 0, 0, 1});
-  for (const double lean : {0.0, 0.004, 0.01, 0.02, -0.02}) {
+  const double leans[][2] = {{0.02, 0.004}, {-0.02, 0.005}, {0.01, -0.004}, {0.02, 0}, {0, 0}};
+  for (const double(&lean)[2] : leans) {
     pair.b.pose.rotation =
-        rotation_near(detent_oracle::rotation_by({{lean, 0, 0}}) * detent_oracle::rotation_by({{0, 1.5, 0}}));
-    place(pair, {{0, 0, 0}}, {{0, 1, 0}}, -0.001);
+        rotation_near(detent_oracle::rotation_by({{lean[0], 0, lean[1]}}) * detent_oracle::rotation_by({{0, 1.5, 0}}));
+    pair.b.pose.position = position_near({{0, 0.04 + 0.04 * (fabs(lean[0]) + fabs(lean[1])) - 0.001, 0}});
     const ContactGeometry found = contact_of(pair.a, pair.b, 0.002);
-    EXPECT_GE(found.count, 2u) << lean;
-    EXPECT_GT(host(found.normal)[1], 0.99) << lean;
+    EXPECT_GE(found.count, 2u) << lean[0] << " " << lean[1];
+    EXPECT_GT(host(found.normal)[1], 0.99) << lean[0] << " " << lean[1];
   }
 }
 
