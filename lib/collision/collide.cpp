@@ -50,15 +50,19 @@ const PairCode& code_of(const FeatureTable& features, const PairFrame& frame) {
   return frame.a.type == ShapeType::box ? *features.box_round_pair : *features.round_pair;
 }
 
-void collide_ordered(const CollisionBody& first, const CollisionBody& second, Real reach, ManifoldReduction reduction,
-                     const FeatureTable& features, ContactGeometry& contact) {
+void collide_ordered(const CollisionBody& first, const CollisionBody& second, const ContactReach& reach,
+                     ManifoldReduction reduction, const FeatureTable& features, ContactGeometry& contact) {
   PairFrame frame;
   frame.reduction = reduction;
-  if (!make_frame(first, second, reach, frame)) return;
+  if (!make_frame(first, second, reach.distance, frame)) return;
+  frame.sunk = unit_from_real(min(reach.sunk, real_from_unit(Unit(1.0), frame.exponent)), frame.exponent);
+  frame.smooth_seams = reach.smooth_seams;
   PairManifold manifold;
   code_of(features, frame).collide(frame, manifold);
 
   contact.normal = manifold.normal;
+  contact.seam = manifold.seam;
+  contact.turns = manifold.turns;
   for (uint32_t i = 0; i < manifold.count; ++i) {
     const PairPoint& point = manifold.point[i];
     contact.point[contact.count++] = {
@@ -79,9 +83,10 @@ void swap_bodies(ContactGeometry& contact) {
   }
 }
 
-void collide(const CollisionBody& a, const CollisionBody& b, Real reach, ContactGeometry& contact,
+void collide(const CollisionBody& a, const CollisionBody& b, const ContactReach& reach, ContactGeometry& contact,
              const AssetTable& assets, ManifoldReduction reduction, const FeatureTable& features) {
   contact.count = 0;
+  contact.seam = contact.turns = false;
   contact.capped = false;
   if (!is_simple(a.traits) || !is_simple(b.traits)) {
     features.convex->collide(a, b, reach, assets, reduction, contact);
@@ -91,7 +96,7 @@ void collide(const CollisionBody& a, const CollisionBody& b, Real reach, Contact
   const CollisionBody& first = swapped ? b : a;
   const CollisionBody& second = swapped ? a : b;
   if (type_of(first) == ShapeType::half_space)
-    features.half_space->collide(first, second, reach, contact);
+    features.half_space->collide(first, second, reach.distance, contact);
   else
     collide_ordered(first, second, reach, reduction, features, contact);
   if (swapped && contact.count != 0) swap_bodies(contact);

@@ -16,10 +16,24 @@ struct ContactGeometryPoint {
   uint32_t part = 0;        ///< of compounds: (child of A) 2^16 + (child of B), counted from 1
 };
 
+/// What two bodies have contact points for.
+struct ContactReach {
+  Real distance;    ///< how far apart they may be, m
+  Real sunk = 0.0;  ///< how deep what rests is sunk in, about, m
+  /// Whether what slides over the seam of two bodies is kept from their edges: slivers are left out, and an edge that
+  /// is level with a face but for `sunk` counts as the face (contact_seam.h).
+  bool smooth_seams = false;
+
+  ContactReach(Real within) : distance(within) {}
+  ContactReach(Real within, Real sunk_in) : distance(within), sunk(sunk_in), smooth_seams(true) {}
+};
+
 /// Contact of two bodies, world axes.
 struct ContactGeometry {
   Vec3<Unit> normal;  ///< from A to B
   uint32_t count = 0;
+  bool seam = false;    ///< it is none, or has another normal, because it is that of a seam
+  bool turns = false;   ///< the normal is no face's: it turns as what is round slides past the other
   bool capped = false;  ///< a search met its cap, or a hull's bytes are missing
   ContactGeometryPoint point[k_manifold_points_max];
 };
@@ -43,7 +57,7 @@ struct CollisionBody {
 /// Their features are linked, and `rounding` where one is rounded. Precision: 2^-26 of the larger body's bounding
 /// diameter (fixed; tests/collision), of a half-space of the other body's size and 2^-31 of its distance from the
 /// plane's origin.
-void collide(const CollisionBody& a, const CollisionBody& b, Real reach, ContactGeometry& contact,
+void collide(const CollisionBody& a, const CollisionBody& b, const ContactReach& reach, ContactGeometry& contact,
              const AssetTable& assets = {}, ManifoldReduction reduction = ManifoldReduction::projected_extremes,
              const FeatureTable& features = feature_table<Features::all>);
 

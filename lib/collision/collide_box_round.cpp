@@ -142,6 +142,34 @@ bool clip_to_face(const BoxAndSegment& pair, int face, Unit& low, Unit& high) {
   return low <= high;
 }
 
+/// Whether the normal at an edge turns as they slide past each other: not where lines cross.
+__attribute__((noinline)) bool turns_at_edge(const BoxAndSegment& pair, const BoxContact& contact) {
+  if (contact.along >= pair.half_length || contact.along <= -pair.half_length) return true;
+  int edge = -1;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (abs(contact.normal.v[axis]) < Unit(0x1p-12)) edge = axis;
+  }
+  return edge < 0 || abs(pair.direction.v[edge]) > Unit(1.0 - 0x1p-11);
+}
+
+/// As find_level_face() of lib/proximity: at an edge, the face whose normal is nearest.
+__attribute__((noinline)) bool find_level_box_face(const BoxAndSegment& pair, Unit radius, Unit sunk,
+                                                   BoxContact& contact) {
+  constexpr Unit k_alike_cosine = 1.0 - 0x1p-5;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (abs(contact.normal.v[axis]) < k_alike_cosine) continue;
+    Unit apart = -radius, level = abs(pair.at(axis, contact.along)) - pair.half.v[axis] - radius;
+    for (int i = 0; i < 3; ++i) apart += (abs(pair.at(i, contact.along)) - pair.half.v[i]) * abs(contact.normal.v[i]);
+    if (abs(apart) > sunk || abs(level) > sunk) return false;
+    const bool below = contact.normal.v[axis] < Unit(0.0);
+    contact.face = axis;
+    contact.normal = {{0.0, 0.0, 0.0}};
+    contact.normal.v[axis] = below ? Unit(-1.0) : Unit(1.0);
+    return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 void collide_box_round(const PairFrame& frame, PairManifold& manifold) {
@@ -171,6 +199,10 @@ void collide_box_round(const PairFrame& frame, PairManifold& manifold) {
     }
   } else {
     contact = least_overlap(pair);
+  }
+  if (contact.face < 0) {
+    manifold.seam = frame.smooth_seams && find_level_box_face(pair, radius, frame.sunk, contact);
+    manifold.turns = !manifold.seam && turns_at_edge(pair, contact);
   }
   manifold.normal = multiply(rotation, vector_of(contact.normal));
 

@@ -54,9 +54,13 @@ Unit face_b_separation(const AxisTable& t, int j) {
   return abs(t.offset_b[j]) - support;
 }
 
+Unit sine_of(const AxisTable& t, int i, int j) {
+  return square_root(max(Unit(1.0) - t.cosine[i][j] * t.cosine[i][j], Unit(0.0)));
+}
+
 /// False if the edges are too nearly parallel.
 bool edge_separation(const AxisTable& t, int i, int j, Unit& separation) {
-  const Unit sine = square_root(max(Unit(1.0) - t.cosine[i][j] * t.cosine[i][j], Unit(0.0)));
+  const Unit sine = sine_of(t, i, j);
   if (sine < k_edge_sine_min) return false;
   const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
   const Unit offset = abs(t.offset_a[i2] * t.cosine[i1][j] - t.offset_a[i1] * t.cosine[i2][j]);
@@ -76,26 +80,61 @@ Unit preference_of(const HalfExtents& a, const HalfExtents& b) {
   return scale_by_power(smallest, -6);
 }
 
-/// The axis of largest separation. A's faces are preferred to B's, and faces to edges, by a 64th of the smaller box, so
-/// that a resting pair keeps its features. False if an axis separates the boxes by more than `reach`.
-bool find_axis(const AxisTable& table, Unit reach, SeparatingAxis& best) {
-  const Unit preference = preference_of(table.half_a, table.half_b);
+/// Separations along the axes of both boxes' faces.
+struct FaceAxes {
+  Unit a[3], b[3];
+};
+
+/// The axis of A's and B's faces of largest separation. A's are preferred to B's by a 64th of the smaller box, so that
+/// a resting pair keeps its features. False if one separates the boxes by more than `reach`.
+bool find_face_axis(const AxisTable& table, Unit reach, Unit preference, FaceAxes& face, SeparatingAxis& best) {
   best = {AxisKind::face_a, 0, 0, -1.5};
   for (int i = 0; i < 3; ++i) {
-    const Unit separation = face_a_separation(table, i);
-    if (separation > reach) return false;
-    if (separation > best.separation) best = {AxisKind::face_a, i, 0, separation};
+    face.a[i] = face_a_separation(table, i);
+    if (face.a[i] > reach) return false;
+    if (face.a[i] > best.separation) best = {AxisKind::face_a, i, 0, face.a[i]};
   }
   Unit to_beat = best.separation + preference;
   for (int j = 0; j < 3; ++j) {
-    const Unit separation = face_b_separation(table, j);
-    if (separation > reach) return false;
-    if (separation > to_beat) {
-      best = {AxisKind::face_b, 0, j, separation};
-      to_beat = separation;
+    face.b[j] = face_b_separation(table, j);
+    if (face.b[j] > reach) return false;
+    if (face.b[j] > to_beat) {
+      best = {AxisKind::face_b, 0, j, face.b[j]};
+      to_beat = face.b[j];
     }
   }
-  to_beat = best.separation + preference;
+  return true;
+}
+
+/// The cosine of an axis and that of A's face i, which lies against B's face j.
+Unit cosine_with(const AxisTable& table, const SeparatingAxis& axis, int i, int j) {
+  if (axis.kind == AxisKind::face_a) return axis.i == i ? Unit(1.0) : table.cosine[axis.i][j];
+  if (axis.kind == AxisKind::face_b) return axis.j == j ? Unit(1.0) : table.cosine[i][axis.j];
+  if (axis.i == i) return 0.0;
+  const Unit across = abs(table.cosine[3 - i - axis.i][axis.j]), sine = sine_of(table, axis.i, axis.j);
+  return across < sine ? divide(across, sine) : Unit(1.0);
+}
+
+/// As is_sliver().
+__attribute__((noinline)) bool is_box_sliver(const AxisTable& table, const FaceAxes& face, const SeparatingAxis& axis,
+                                             Unit room) {
+  constexpr Unit k_level_cosine = 1.0 - 0x1p-9, k_alike_cosine = 1.0 - 0x1p-5;
+  if (axis.separation < -room) return false;
+  for (int i = 0; i < 3; ++i) {
+    if (abs(face.a[i]) > room) continue;
+    for (int j = 0; j < 3; ++j) {
+      if (abs(table.cosine[i][j]) > k_level_cosine && abs(cosine_with(table, axis, i, j)) < k_alike_cosine) return true;
+    }
+  }
+  return false;
+}
+
+/// The axis of largest separation; faces are preferred to edges as A's are to B's. False if an axis separates the boxes
+/// by more than the reach.
+__attribute__((noinline)) bool find_axis(const AxisTable& table, Unit reach, Unit preference, FaceAxes& face,
+                                         SeparatingAxis& best) {
+  if (!find_face_axis(table, reach, preference, face, best)) return false;
+  Unit to_beat = best.separation + preference;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
       Unit separation = 0.0;
@@ -213,8 +252,8 @@ uint32_t choose_corners(const FaceVertex* polygon, uint32_t count, ManifoldReduc
 Unit sign_of(Unit value) { return value < Unit(0.0) ? Unit(-1.0) : Unit(1.0); }
 
 /// Contact of a face of `reference` (axis `face`) with `incident`. `outward` is +1 if the reference is A.
-__attribute__((noinline)) void collide_face(const PairShape& reference, const PairShape& incident, int face, bool reference_is_a,
-                  const PairFrame& frame, PairManifold& manifold) {
+__attribute__((noinline)) void collide_face(const PairShape& reference, const PairShape& incident, int face,
+                                            bool reference_is_a, const PairFrame& frame, PairManifold& manifold) {
   const HalfExtents half = half_of(reference.size), other = half_of(incident.size);
   const Vec3<Unit> between = incident.centre - reference.centre;
   const Vec3<Unit>& axis = reference.rotation.column[face];
@@ -288,7 +327,8 @@ Segment support_edge(const PairShape& box, int edge, const Vec3<Unit>& direction
 /// Contact of the face that leans least against a normal, by no more than 2^-3 rad: the edges that cross there would
 /// touch in one point, on this side of the face in one tick and on that in the next. False if there is none, or its
 /// deepest point is not as deep as the edges are, or much deeper, or there is only one.
-__attribute__((noinline)) bool collide_leaning_face(const PairFrame& frame, const Vec3<Unit>& normal, Unit separation, PairManifold& manifold) {
+__attribute__((noinline)) bool collide_leaning_face(const PairFrame& frame, const Vec3<Unit>& normal, Unit separation,
+                                                    PairManifold& manifold) {
   constexpr Unit k_leaning = 1.0 - 0x1p-7;
   Unit most = k_leaning;
   int face = -1;
@@ -336,8 +376,14 @@ void collide_edges(const PairFrame& frame, const SeparatingAxis& axis, PairManif
 }  // namespace
 
 void collide_boxes(const PairFrame& frame, PairManifold& manifold) {
+  const AxisTable table = table_of(frame);
+  const Unit preference = preference_of(table.half_a, table.half_b);
+  FaceAxes face;
   SeparatingAxis axis;
-  if (!find_axis(table_of(frame), frame.reach, axis)) return;
+  if (!find_axis(table, frame.reach, preference, face, axis)) return;
+  const Unit room = max(scale_by_power(preference, 1), min(frame.sunk, scale_by_power(preference, 3)));
+  manifold.seam = frame.smooth_seams && is_box_sliver(table, face, axis, room);
+  if (manifold.seam) return;
   switch (axis.kind) {
     case AxisKind::face_a:
       collide_face(frame.a, frame.b, axis.i, true, frame, manifold);

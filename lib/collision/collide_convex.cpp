@@ -58,19 +58,33 @@ Status meet_half_space(const CollisionBody& plane, const CollisionBody& body, co
 
 }  // namespace
 
+bool make_rules(const ContactReach& reach, ManifoldReduction reduction, ContactRules& rules) {
+  Vec64 raw;
+  if (!raw_from_real({reach.distance, reach.sunk, Real(0.0)}, raw) || raw.x < 0) return false;
+  rules = {raw.x, raw.y, reduction, true, reach.smooth_seams};
+  return true;
+}
+
 void collide_convexes(const CollisionBody& a, const Convex& convex_a, const CollisionBody& b, const Convex& convex_b,
-                      Real reach, ManifoldReduction reduction, ContactGeometry& contact) {
+                      const ContactReach& reach, ManifoldReduction reduction, ContactGeometry& contact) {
   ContactManifold manifold;
-  const Status status = is_half_space(a.traits) ? meet_half_space(a, b, convex_b, true, reach, reduction, manifold)
-                        : is_half_space(b.traits)
-                            ? meet_half_space(b, a, convex_a, false, reach, reduction, manifold)
-                            : contact_points(convex_a, {a.pose.position, a.pose.rotation}, convex_b,
-                                             {b.pose.position, b.pose.rotation}, reach, manifold, nullptr, reduction);
+  ContactKind kind;
+  const auto meet = [&] {
+    if (is_half_space(a.traits)) return meet_half_space(a, b, convex_b, true, reach.distance, reduction, manifold);
+    if (is_half_space(b.traits)) return meet_half_space(b, a, convex_a, false, reach.distance, reduction, manifold);
+    ContactRules rules;
+    if (!make_rules(reach, reduction, rules)) return Status::out_of_range;
+    return contact_points_by(rules, convex_a, {a.pose.position, a.pose.rotation}, convex_b,
+                             {b.pose.position, b.pose.rotation}, nullptr, manifold, kind);
+  };
+  const Status status = meet();
+  contact.seam = kind.seam;
+  contact.turns = kind.turns;
   add_points(a, b, manifold, contact);
   contact.capped = contact.capped || status != Status::ok;
 }
 
-void collide_convex(const CollisionBody& a, const CollisionBody& b, Real reach, const AssetTable& assets,
+void collide_convex(const CollisionBody& a, const CollisionBody& b, const ContactReach& reach, const AssetTable& assets,
                     ManifoldReduction reduction, ContactGeometry& contact) {
   Convex convex_a, convex_b;
   contact.capped = !body_convex(a.traits, assets, convex_a) || !body_convex(b.traits, assets, convex_b);

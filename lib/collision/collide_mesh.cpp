@@ -1,5 +1,7 @@
 #include "collision/collide_mesh.h"
 
+#include "collision/collide_convex.h"
+
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
@@ -20,24 +22,27 @@ uint32_t feature_of(uint32_t feature, const uint32_t (&corner)[3]) {
 }  // namespace
 
 void collide_mesh(const Surface& surface, const CollisionBody& ground, const CollisionBody& body, const Convex& shape,
-                  const Vec64& middle, Real reach, SurfaceContacts& contacts) {
+                  const Vec64& middle, const ContactReach& reach, SurfaceContacts& contacts) {
   contacts.count = 0;
   contacts.dropped = 0;
+  contacts.seam = false;
   contacts.capped = true;
   SurfacePlace place;
-  Vec64 raw;
-  if (!raw_from_real({reach, Real(0.0), Real(0.0)}, raw) ||
+  ContactRules rules;
+  if (!make_rules(reach, ManifoldReduction::projected_extremes, rules) ||
       place_on_surface({ground.pose.position, ground.pose.rotation}, {body.pose.position, body.pose.rotation}, place) !=
           Status::ok) {
     return;
   }
   place.middle = rotate(place.rotation, middle);
-  const SurfacePair pair(surface, place, shape, raw.x);
+  const SurfacePair pair(surface, place, shape, rules);
   SurfaceManifolds found(pair.half_thickness());
   surface.walk([&](const GridBox& box) { return meet(box, pair.box()); },
                [&](uint32_t triangle) {
                  SurfaceTouch touch;
-                 if (!pair.touch(triangle, touch)) return;
+                 const bool touches = pair.touch(triangle, touch);
+                 contacts.seam = contacts.seam || touch.seam;
+                 if (!touches) return;
                  for (uint32_t i = 0; i < touch.manifold.count; ++i) {
                    uint32_t& feature = touch.manifold.point[i].feature;
                    feature = feature_of(feature, touch.corner_name);

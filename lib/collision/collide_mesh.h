@@ -9,7 +9,7 @@ inline namespace DETENT_NAMESPACE {
 /// than `reach`, m. `middle`: of the shape, in those axes, 2^-46 m: which side of the surface it is on.
 /// Precision: 2^-28 of the body's size and the extent of the triangle together. Stack: 16 KB.
 void collide_mesh(const Surface& surface, const CollisionBody& ground, const CollisionBody& body, const Convex& shape,
-                  const Vec64& middle, Real reach, SurfaceContacts& contacts);
+                  const Vec64& middle, const ContactReach& reach, SurfaceContacts& contacts);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

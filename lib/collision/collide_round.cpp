@@ -50,6 +50,7 @@ void collide_round(const PairFrame& frame, PairManifold& manifold) {
     const Unit low = max(-a.half_length, middle - b.half_length);
     const Unit high = min(a.half_length, middle + b.half_length);
     if (low < high) {
+      manifold.turns = true;
       const auto opposite = [&](Unit at_a) {
         const Unit from_middle = at_a - middle;
         return clamp(cosine < zero ? -from_middle : from_middle, -b.half_length, b.half_length);
@@ -59,6 +60,9 @@ void collide_round(const PairFrame& frame, PairManifold& manifold) {
       return;
     }
   }
+  // Of lines that cross it stays.
+  const auto is_end = [](Unit along, const Segment& of) { return along >= of.half_length || along <= -of.half_length; };
+  manifold.turns = is_end(along_a, a) || is_end(along_b, b);
   add(along_a, along_b, 3);
 }
 

@@ -94,6 +94,7 @@ class PartContacts {
     touch.material = contact.material;
     touch.part = part;
     touch.on_face = true;
+    touch.manifold.turns = geometry.turns;
     touch.manifold.normal = round_shift(raw_way(geometry.normal, 0, known), k_metre_bits - 30);
     touch.manifold.count = geometry.count;
     touch.deepest = INT64_MAX;
@@ -128,8 +129,8 @@ class PartContacts {
   SurfaceManifolds found_;
 };
 
-void collide_with_surface(const CollisionBody& a, const CollisionBody& b, Real reach, const AssetTable& assets,
-                          const FeatureTable& features, SurfaceContacts& contacts) {
+void collide_with_surface(const CollisionBody& a, const CollisionBody& b, const ContactReach& reach,
+                          const AssetTable& assets, const FeatureTable& features, SurfaceContacts& contacts) {
   PartContacts collected(a, b);
   const ConvexParts parts((is_surface(a.traits) ? b : a).traits, assets);
   for (uint32_t i = 0; i < parts.count(); ++i) {
@@ -143,6 +144,7 @@ void collide_with_surface(const CollisionBody& a, const CollisionBody& b, Real r
     SurfaceContacts found;
     features.surface->collide_part(a, b, convex, middle, reach, assets, found);
     contacts.capped = contacts.capped || found.capped;
+    contacts.seam = contacts.seam || found.seam;
     contacts.dropped += found.dropped;
     for (uint32_t k = 0; k < found.count; ++k)
       collected.add(found.contact[k], is_surface(a.traits) ? parts.name(i) : parts.name(i) << 16);
@@ -236,17 +238,18 @@ Real ConvexParts::reach(uint32_t i) const {
   return whole() ? real_from_raw(half.x) : real_from_raw(length_bound(half));
 }
 
-void collide_compound(const CollisionBody& a, const CollisionBody& b, Real reach, const AssetTable& assets,
-                      ManifoldReduction reduction, const FeatureTable& features, SurfaceContacts& contacts) {
+void collide_compound(const CollisionBody& a, const CollisionBody& b, const ContactReach& reach,
+                      const AssetTable& assets, ManifoldReduction reduction, const FeatureTable& features,
+                      SurfaceContacts& contacts) {
   contacts.count = contacts.dropped = 0;
-  contacts.capped = false;
+  contacts.seam = contacts.capped = false;
   if (is_surface(a.traits) || is_surface(b.traits)) {
     collide_with_surface(a, b, reach, assets, features, contacts);
     return;
   }
   const ConvexParts parts_a(a.traits, assets), parts_b(b.traits, assets);
   contacts.capped = parts_a.count() == 0 || parts_b.count() == 0;
-  const PartCulling culling(a, b, reach);
+  const PartCulling culling(a, b, reach.distance);
   PartContacts collected(a, b);
   for (uint32_t j = 0; j < parts_b.count(); ++j) {
     Convex convex_b;
@@ -266,6 +269,7 @@ void collide_compound(const CollisionBody& a, const CollisionBody& b, Real reach
       else
         contact.geometry.capped = true;
       contacts.capped = contacts.capped || contact.geometry.capped;
+      contacts.seam = contacts.seam || contact.geometry.seam;
       collected.add(contact, parts_a.name(i) << 16 | parts_b.name(j));
     }
   }

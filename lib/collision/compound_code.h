@@ -36,8 +36,9 @@ class ConvexParts {
 
 /// The contacts of two bodies of which one is a compound; normals from A to B. What lies in one plane is one contact,
 /// whatever parts it is of; of the planes the deepest k_surface_manifolds_max are kept.
-void collide_compound(const CollisionBody& a, const CollisionBody& b, Real reach, const AssetTable& assets,
-                      ManifoldReduction reduction, const FeatureTable& features, SurfaceContacts& contacts);
+void collide_compound(const CollisionBody& a, const CollisionBody& b, const ContactReach& reach,
+                      const AssetTable& assets, ManifoldReduction reduction, const FeatureTable& features,
+                      SurfaceContacts& contacts);
 
 /// For a feature table.
 struct CompoundCode {
@@ -46,8 +47,9 @@ struct CompoundCode {
 };
 
 /// The contacts of two bodies that can have more than one: has_parts().
-inline void collide_parts(const CollisionBody& a, const CollisionBody& b, Real reach, const AssetTable& assets,
-                          ManifoldReduction reduction, const FeatureTable& features, SurfaceContacts& contacts) {
+inline void collide_parts(const CollisionBody& a, const CollisionBody& b, const ContactReach& reach,
+                          const AssetTable& assets, ManifoldReduction reduction, const FeatureTable& features,
+                          SurfaceContacts& contacts) {
   if (is_compound(a.traits) || is_compound(b.traits))
     features.compound->collide(a, b, reach, assets, reduction, features, contacts);
   else

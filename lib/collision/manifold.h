@@ -19,6 +19,7 @@ struct PairPoint {
 struct PairManifold {
   Vec3<Unit> normal;  ///< from A to B
   uint32_t count = 0;
+  bool seam = false, turns = false;  ///< as in ContactGeometry
   PairPoint point[k_manifold_points_max];
 
   void add(const PairPoint& candidate) {
@@ -40,6 +41,8 @@ struct PairShape {
 struct PairFrame {
   int exponent;
   Unit reach;  ///< points farther apart than this are no contact
+  Unit sunk;   ///< as ContactReach::sunk
+  bool smooth_seams;
   ManifoldReduction reduction;
   PairShape a, b;
 };

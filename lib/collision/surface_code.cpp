@@ -6,8 +6,8 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-void collide_surface(const CollisionBody& a, const CollisionBody& b, Real reach, const AssetTable& assets,
-                     SurfaceContacts& contacts) {
+void collide_surface(const CollisionBody& a, const CollisionBody& b, const ContactReach& reach,
+                     const AssetTable& assets, SurfaceContacts& contacts) {
   const CollisionBody& body = is_surface(b.traits) ? a : b;
   contacts.count = contacts.dropped = 0;
   contacts.capped = false;
@@ -18,7 +18,7 @@ void collide_surface(const CollisionBody& a, const CollisionBody& b, Real reach,
 }
 
 void collide_part_with_surface(const CollisionBody& a, const CollisionBody& b, const Convex& part, const Vec64& middle,
-                               Real reach, const AssetTable& assets, SurfaceContacts& contacts) {
+                               const ContactReach& reach, const AssetTable& assets, SurfaceContacts& contacts) {
   const bool swapped = is_surface(b.traits);
   const CollisionBody &ground = swapped ? b : a, &body = swapped ? a : b;
   contacts.count = contacts.dropped = 0;

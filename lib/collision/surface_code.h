@@ -11,12 +11,12 @@ inline Surface surface_of(const BodyTraits& traits, const AssetTable& assets) {
 }
 
 /// The contacts of two bodies of which one has a surface; normals from A to B. A pair of two surfaces has none.
-void collide_surface(const CollisionBody& a, const CollisionBody& b, Real reach, const AssetTable& assets,
-                     SurfaceContacts& contacts);
+void collide_surface(const CollisionBody& a, const CollisionBody& b, const ContactReach& reach,
+                     const AssetTable& assets, SurfaceContacts& contacts);
 
 /// Likewise, of the body that has none only this convex part, in its axes; `middle`: of the part, 2^-46 m.
 void collide_part_with_surface(const CollisionBody& a, const CollisionBody& b, const Convex& part, const Vec64& middle,
-                               Real reach, const AssetTable& assets, SurfaceContacts& contacts);
+                               const ContactReach& reach, const AssetTable& assets, SurfaceContacts& contacts);
 
 /// For a feature table.
 struct SurfaceCode {

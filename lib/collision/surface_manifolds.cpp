@@ -90,6 +90,7 @@ void SurfaceManifolds::join(const SurfaceTouch& touch, int64_t plane, Group& gro
     group.plane = plane;
     group.triangle = touch.triangle;
     group.material = touch.material;
+    group.turns = touch.manifold.turns;
   }
   group.first = touch.triangle < group.first ? touch.triangle : group.first;
   group.on_face = group.on_face || touch.on_face;
@@ -183,6 +184,7 @@ void SurfaceManifolds::choose(const Group& group, SurfaceManifold& manifold) con
   manifold.normal = group.normal;
   manifold.triangle = group.triangle;
   manifold.material = group.material;
+  manifold.turns = group.turns;
 }
 
 /// What lies very deep along a normal that the surface forces on it counts only if nothing else is touched.
@@ -242,6 +244,7 @@ void put_contact(const SurfaceManifold& manifold, const Matrix32& rotation, cons
   contact.triangle = manifold.triangle;
   contact.material = manifold.material;
   contact.geometry = {};
+  contact.geometry.turns = manifold.turns;
   contact.geometry.normal = units_from_raw(round_shift(multiply(rotation, manifold.normal), 30));
   for (uint32_t i = 0; i < manifold.count; ++i) {
     const SurfaceManifold::Point& point = manifold.point[i];

@@ -13,6 +13,7 @@ struct SurfaceManifold {
   uint32_t key;       ///< the same while the shape stays on the same plane or edge; distinct, never 0
   uint32_t triangle;  ///< the one met deepest
   uint8_t material;   ///< its own
+  bool turns;         ///< as ContactGeometry::turns
   uint32_t count;
   struct Point {
     Vec64 from_shape;    ///< midway between the surfaces, 2^-46 m, from the shape's centre
@@ -49,7 +50,7 @@ class SurfaceManifolds {
     uint32_t triangle, first;  ///< the one met deepest, and the lowest
     uint32_t touches;
     uint8_t material;
-    bool on_face, doubtful;
+    bool on_face, doubtful, turns;
     uint32_t count;
     Point point[k_points_max];
   };
@@ -81,6 +82,7 @@ struct SurfaceContact {
 struct SurfaceContacts {
   uint32_t count = 0;    ///< ascending by key
   uint32_t dropped = 0;  ///< triangles, or pairs of parts, touched that have found no room: the deepest are kept
+  bool seam = false;     ///< as ContactGeometry::seam, of any
   bool capped = false;   ///< a search met its cap, an asset's bytes are missing, or a position is out of range
   SurfaceContact contact[k_surface_manifolds_max];
 };

@@ -1,6 +1,7 @@
 #include "collision/surface_pair.h"
 
 #include "math/root.h"
+#include "proximity/contact_seam.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -108,17 +109,19 @@ GridBox grid_box(const Surface& surface, const Vec64& low, const Vec64& high) {
   return {{at(low.x, -1), at(low.y, -1), at(low.z, -1)}, {at(high.x, 2), at(high.y, 2), at(high.z, 2)}};
 }
 
-SurfacePair::SurfacePair(const Surface& surface, const SurfacePlace& place, const Convex& shape, int64_t reach)
+SurfacePair::SurfacePair(const Surface& surface, const SurfacePlace& place, const Convex& shape,
+                         const ContactRules& rules)
     : surface_(surface),
       rotation_(place.rotation),
       shape_(shape),
       centre_(place.centre),
       middle_(place.middle),
-      reach_(reach),
+      rules_(rules),
+      reach_(rules.reach),
       radius_(raw_radius(shape)),
       alone_(detent::place(shape, place.rotation, shape.exponent)) {
   thickness_ = saturated_sum(raw_from_block(detent::half_thickness(alone_), shape.exponent), radius_);
-  const int64_t more = saturated_sum(saturated_sum(reach, radius_), raw_from_block(4, shape.exponent));
+  const int64_t more = saturated_sum(saturated_sum(reach_, radius_), raw_from_block(4, shape.exponent));
   const auto end = [&](const Vec32& axis, int32_t Vec32::*component) {
     return raw_from_block(support(alone_, axis).point.*component, shape.exponent);
   };
@@ -297,7 +300,36 @@ bool SurfacePair::is_beside(const Side& side, bool lowest, int64_t clear) const 
   return false;
 }
 
+/// Whether what has been found at an edge of the triangle, so deep and so much along its normal, Q60, is that of a seam
+/// (contact_seam.h): a sliver; or, of a normal much like the triangle's, an edge level with it.
+bool SurfacePair::is_at_seam(const Side& side, int64_t facing, int64_t deepest) const {
+  if (!rules_.smooth_seams || !side.has_free_edge()) return false;
+  const auto within = [&](int64_t room) { return side.height >= -room && side.height <= room && deepest >= -room; };
+  if (facing >= k_alike) return is_round(shape_, radius_) && deepest <= rules_.sunk && within(rules_.sunk);
+  if (!within(sliver_room(thickness_, rules_.sunk))) return false;
+  Feature face;
+  return supporting_face(alone_, negate(side.normal), core_half_thickness(alone_), face) &&
+         dot(face.normal, side.normal) < -k_level_faces;
+}
+
+/// Gives a manifold another normal. The points come to lie under the core's: beside it they would turn a ball.
+void SurfacePair::turn_to(const Vec32& normal, BlockManifold& manifold) const {
+  for (uint32_t i = 0; i < manifold.count; ++i) {
+    BlockPoint& point = manifold.point[i];
+    const int64_t way = radius_ + point.separation / 2;
+    const auto part = [way](int32_t before, int32_t after) {
+      return Int128::product_narrow(way, static_cast<int32_t>(int64_t{before} - after)).round_shift(30);
+    };
+    const Vec32& before = manifold.normal;
+    point.from_b =
+        add(point.from_b, Vec64{part(before.x, normal.x), part(before.y, normal.y), part(before.z, normal.z)});
+  }
+  manifold.normal = normal;
+  manifold.turns = false;
+}
+
 bool SurfacePair::touch(uint32_t index, SurfaceTouch& touch) const {
+  touch.seam = false;
   const Side side = side_of(index);
   const bool one_sided = surface_.one_sided();
   if ((side.behind && one_sided) || side.height > reach_) return false;
@@ -341,15 +373,25 @@ bool SurfacePair::touch(uint32_t index, SurfaceTouch& touch) const {
   }
 
   BlockManifold searched;
-  find_contact_points(pair, reach_, nullptr, ManifoldReduction::projected_extremes, searched);
-  if (searched.leans && !allows(side, searched.normal))
-    find_contact_points(pair, reach_, nullptr, ManifoldReduction::projected_extremes, searched, false);
+  ContactRules rules = rules_;
+  find_contact_points(pair, rules, nullptr, searched);
+  rules.leans = false;
+  if (searched.leans && !allows(side, searched.normal)) find_contact_points(pair, rules, nullptr, searched);
   if (searched.count == 0) return false;
   const int64_t facing = dot(searched.normal, side.normal);  // Q60
-  constexpr int64_t k_upright_cosine = (int64_t{1} << 60) - (int64_t{1} << 47);
+  if (is_at_seam(side, facing, deepest_of(searched))) {
+    touch.seam = true;
+    if (facing < k_alike) return false;
+    for (uint32_t i = 0; i < searched.count; ++i) searched.point[i].separation = side.height;
+    turn_to(side.normal, searched);
+    touch.manifold = searched;
+    touch.deepest = side.height;
+    return true;
+  }
+  constexpr int64_t k_upright_cosine = (int64_t{1} << 60) - (int64_t{1} << 49);  // 2^-5 rad
   if (facing >= k_upright_cosine) {
     if (over) return true;
-    searched.normal = side.normal;
+    turn_to(side.normal, searched);
   } else if (one_sided && facing < -(int64_t{1} << (60 - k_allowed_power))) {
     return false;
   } else if (!allows(side, searched.normal)) {

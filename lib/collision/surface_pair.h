@@ -37,6 +37,7 @@ struct SurfaceTouch {
   uint32_t part;  ///< as ContactGeometryPoint::part
   uint8_t material;
   bool on_face;             ///< the normal is the triangle's own
+  bool seam;                ///< as ContactGeometry::seam, also where nothing is touched
   bool doubtful;            ///< so deep that another way out is the right one, if there is one
   BlockManifold manifold;   ///< the triangle is A, with the shape's centre for its origin; surface's axes
   int64_t deepest;          ///< the least separation
@@ -46,8 +47,8 @@ struct SurfaceTouch {
 /// A convex shape over a surface: finds what it touches, triangle by triangle, in the surface's axes.
 class SurfacePair {
  public:
-  /// `reach`: 2^-46 m. All must outlive this.
-  SurfacePair(const Surface& surface, const SurfacePlace& place, const Convex& shape, int64_t reach);
+  /// All must outlive this.
+  SurfacePair(const Surface& surface, const SurfacePlace& place, const Convex& shape, const ContactRules& rules);
 
   /// Of the shape, grown by the reach.
   const GridBox& box() const { return box_; }
@@ -72,6 +73,8 @@ class SurfacePair {
   bool make_pair(const Side& side, Convex& convex, RestingPair& pair) const;
   bool is_beside(const Side& side, bool lowest, int64_t clear) const;
   Vec32 normal_beyond(const Side& side, uint32_t edge) const;
+  bool is_at_seam(const Side& side, int64_t facing, int64_t deepest) const;
+  void turn_to(const Vec32& normal, BlockManifold& manifold) const;
   bool has_sharp_edge(const Side& side) const;
   bool has_nearer_way(const Side& side, int64_t deepest) const;
   bool allows(const Side& side, const Vec32& normal) const;
@@ -81,6 +84,7 @@ class SurfacePair {
   const Matrix32& rotation_;
   const Convex& shape_;
   Vec64 centre_, middle_;
+  const ContactRules& rules_;
   int64_t reach_, radius_, thickness_;
   Placed alone_;  ///< the shape in a block of its own unit
   GridBox box_;

@@ -58,11 +58,14 @@ struct One {
   using Scaled = detent::Scaled;
   using Contact = ContactWork;
   using Body = SolvedBody;
+  using Mask = bool;
 
   static Factor zero() { return k_no_ulps; }
   static Unit unit(Unit value) { return value; }
   static bool takes_impulses(Scaled share) { return is_positive(share); }
   static uint32_t flag(bool mask) { return mask ? 1 : 0; }
+  static bool all() { return true; }
+  static bool any(bool mask) { return mask; }
   static bool is_unset(uint32_t flag) { return flag == 0; }
   static const Softness& softness(const StepSettings& settings, const Contact& contact) {
     return contact.static_pair != 0 ? settings.static_softness : settings.dynamic_softness;

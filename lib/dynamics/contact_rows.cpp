@@ -196,6 +196,26 @@ Real approach_at_touch(Real velocity, Real separation, Real pull) {
   return -square_root(velocity * velocity - gain);
 }
 
+/// By how much more than along the normal what is round may part in a tick, as the normal turns while they slide past
+/// each other, m: s^2 / D for the way s across the normal and the distance D of the middles of their curvature. That is
+/// twice what it is to second order: what touches only as it passes would else be stopped along the normal of the
+/// start.
+__attribute__((noinline)) Real parted_by_sliding(const StepSettings& settings, const RowBody& a, const RowBody& b,
+                                                 const Vec3<Unit>& normal, const ContactGeometryPoint& point) {
+  const Unit round_a = round_radius(a.traits), round_b = round_radius(b.traits);
+  const auto velocity_of = [](const RowBody& body, const Vec3<Unit>& arm) {
+    const Vec3<Real> turning = cross(body.spin, arm);
+    return body.motion.velocity + scale_by_power(turning, k_spin_power);
+  };
+  const Vec3<Real> velocity =
+      velocity_of(b, point.arm_b + normal * round_b) - velocity_of(a, point.arm_a - normal * round_a);
+  const Vec3<Real> across = velocity - normal * dot(velocity, normal);
+  const Real distance = real_from_unit(round_a, a.traits.size_exponent) +
+                        real_from_unit(round_b, b.traits.size_exponent) + point.separation;
+  const Real way = min(length(across) * settings.tick_time, distance);
+  return way * divide(way, distance);
+}
+
 /// What each of so many points counts in a mean.
 Unit share_of_points(uint32_t count) {
   constexpr Unit k_share[k_manifold_points_max] = {1.0, 0.5, 1.0 / 3.0, 0.25};
@@ -261,8 +281,13 @@ void make_rows(const StepSettings& settings, const RowBody& a, const RowBody& b,
   const Real pull = gravity_along(settings, b.traits, work.normal) - gravity_along(settings, a.traits, work.normal);
   const PairMotion<One> motion(Block(), b.motion.velocity - a.motion.velocity, a.spin, b.spin, k_spin_power);
   const NormalMotion<One> start(motion, work);
+  const bool is_round = geometry.turns && !a.jointed && !b.jointed &&
+                        (round_radius(a.traits) > Unit(0.0) || round_radius(b.traits) > Unit(0.0));
   for (uint32_t i = 0; i < geometry.count; ++i) {
-    work.separation[i] = geometry.point[i].separation;
+    const ContactGeometryPoint& point = geometry.point[i];
+    work.separation[i] = point.separation;
+    if (is_round && point.separation > Real(0.0))
+      work.separation[i] += parted_by_sliding(settings, a, b, work.normal, point);
     work.approach[i] = approach_at_touch(motion.block.real(start.at(work, i)), work.separation[i], pull);
     work.impulse_max[i] = Real(0.0);
   }

@@ -18,6 +18,7 @@ struct RowBody {
   const WorldGyration& gyration;
   const Vec3<Real>& spin;
   Real extent, fall;
+  bool jointed = false;  ///< no impact stops it (impact.h): its contacts do
 };
 
 /// Fills the rows of `work`, whose `state` is set, from the geometry: arms, responses, effective masses, limits and the

@@ -7,7 +7,9 @@ inline namespace DETENT_NAMESPACE {
 
 /// Of push_max: a point that closes its gap within it meets in this substep.
 inline constexpr Unit k_arrival = 1.0 / 512;
-inline constexpr int k_relax_sweeps = 1;  ///< there and back over a contact's points
+/// Over a contact's points, until no impulse changes by more than this part of the greatest.
+inline constexpr int k_soften_sweeps = 8, k_relax_sweeps = 8;
+inline constexpr Unit k_settled = 0x1p-14;
 
 /// The points of a contact in one pass: the bodies are needed only when it begins and when it ends.
 template <class Kind>
@@ -31,13 +33,32 @@ struct Normals {
     }
   }
   Number speed(uint32_t i) const { return rounded(velocity[i], contact.coupling_exponent); }
-  /// Takes so much from the impulse at a point, or all of it.
-  void change(uint32_t i, Number less) {
+  /// Takes so much from the impulse at a point, or all of it. Returns what it has become more.
+  Factor change(uint32_t i, Number less) {
     const Factor more = held(max(impulse[i] - less, Number(Kind::zero())) - impulse[i]);
     impulse[i] += more;
     added[i] += more;
     DETENT_UNROLL
     for (uint32_t k = 0; k < k_manifold_points_max; ++k) velocity[k] += product(more, contact.coupling[i][k]);
+    return more;
+  }
+  /// Takes `less` of a point from its impulse, point by point, again and again until that settles.
+  template <class Less>
+  void solve(int sweeps, const Less& less) {
+    const Number none = Number(Kind::zero());
+    auto goes_on = Kind::all();
+    for (int sweep = 0; sweep < sweeps; ++sweep) {
+      Number most = none, total = none;
+      DETENT_UNROLL
+      for (uint32_t i = 0; i < k_manifold_points_max; ++i) {
+        if (i >= count) break;
+        const Number more = change(i, select(goes_on, less(i), none));
+        most = max(most, max(more, Number(-more)));
+        total = max(total, impulse[i]);
+      }
+      goes_on = goes_on & (most > times(held(total), Kind::unit(k_settled)));
+      if (count == 1 || !Kind::any(goes_on)) break;
+    }
   }
   void store(const typename Kind::Block& block, typename Kind::Contact& to) const {
     const auto zero = block.real(Number(Kind::zero()));
@@ -151,21 +172,31 @@ struct ContactSolver {
     const Factor none = Kind::zero(), push_max = block.held(contact.push_max);
     const Factor arrival = held(times(push_max, Kind::unit(k_arrival)));
     const auto soft = Kind::softness(settings, contact);
+    Factor push[k_manifold_points_max];
+    typename Kind::Mask apart[k_manifold_points_max];
+    DETENT_UNROLL
+    for (uint32_t i = 0; i < k_manifold_points_max; ++i) {
+      push[i] = none;
+      apart[i] = Kind::all();
+      if (i >= normals.count) continue;
+      // That of the start and what the bodies have moved since, to first order.
+      const Factor separation = held(moved.block.number(contact.separation[i]) + way.at(contact, i));
+      apart[i] = separation > none;
+      const Factor length = select(apart[i], separation, Factor(held(times(separation, soft.rate))));
+      const Factor speed =
+          block.converted(held(times(length, Kind::unit(settings.rate_mantissa))), moved.block, settings.rate_exponent);
+      push[i] = select(apart[i], speed, max(speed, Factor(-push_max)));
+    }
+    normals.solve(k_soften_sweeps, [&](uint32_t i) {
+      const Factor wanted = held(times(held(normals.speed(i) + push[i]), contact.inverse_mass[i]));
+      const Number softly = times(wanted, soft.mass_scale) + times(held(normals.impulse[i]), soft.impulse_scale);
+      return relaxed(select(apart[i], Number(wanted), softly));
+    });
     DETENT_UNROLL
     for (uint32_t i = 0; i < k_manifold_points_max; ++i) {
       if (i >= normals.count) break;
-      // That of the start and what the bodies have moved since, to first order.
-      const Factor separation = held(moved.block.number(contact.separation[i]) + way.at(contact, i));
-      const auto apart = separation > none;
-      const Factor length = select(apart, separation, Factor(held(times(separation, soft.rate))));
-      const Factor speed =
-          block.converted(held(times(length, Kind::unit(settings.rate_mantissa))), moved.block, settings.rate_exponent);
-      const Factor push = select(apart, speed, max(speed, Factor(-push_max)));
-      const Factor wanted = held(times(held(normals.speed(i) + push), contact.inverse_mass[i]));
-      const Number softly = times(wanted, soft.mass_scale) + times(held(normals.impulse[i]), soft.impulse_scale);
-      normals.change(i, relaxed(select(apart, Number(wanted), softly)));
       // What arrives by a hair is there.
-      contact.apart[i] = Kind::flag(apart & (normals.speed(i) + push - arrival > Number(none)));
+      contact.apart[i] = Kind::flag(apart[i] & (normals.speed(i) + push[i] - arrival > Number(none)));
     }
     normals.store(block, contact);
     Number along, about_first, about_second;
@@ -180,23 +211,12 @@ struct ContactSolver {
     const PairMotion<Kind> motion = relative_motion(room);
     Sliding<Kind> sliding(contact, motion);
     Normals<Kind> normals(contact, motion.block, sliding.normal());
-    const Number none = Number(Kind::zero());
     // Points that do not meet in this substep go on closing their gap.
-    const auto stop = [&](uint32_t i) {
+    normals.solve(k_relax_sweeps, [&](uint32_t i) {
+      const Number none = Number(Kind::zero());
       const auto meets = Kind::is_unset(contact.apart[i]) | (normals.impulse[i] > none);
-      const Number wanted = relaxed(times(held(normals.speed(i)), contact.inverse_mass[i]));
-      normals.change(i, select(meets, wanted, none));
-    };
-    for (int sweep = 0; sweep < k_relax_sweeps; ++sweep) {
-      DETENT_UNROLL
-      for (uint32_t i = 0; i < k_manifold_points_max; ++i) {
-        if (i < normals.count) stop(i);
-      }
-      DETENT_UNROLL
-      for (uint32_t k = 1; k <= k_manifold_points_max; ++k) {
-        if (k_manifold_points_max - k < normals.count) stop(k_manifold_points_max - k);
-      }
-    }
+      return select(meets, relaxed(times(held(normals.speed(i)), contact.inverse_mass[i])), none);
+    });
     normals.store(motion.block, contact);
     Number along, about_first, about_second;
     normals.put(along, about_first, about_second);

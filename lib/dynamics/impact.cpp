@@ -38,7 +38,8 @@ void go_on(ImpactStage& stage, ImpactPair& pair) {
   }
   const BodyPose pose_a = pose_at(stage.body(slots[0]), time), pose_b = pose_at(stage.body(slots[1]), time);
   stage.first_approach = k_zero;
-  stage.resolve(pair, undecided, pose_a, pose_b);
+  if (stage.resolve(pair, undecided, pose_a, pose_b))
+    stage.test(pair.key, time, contact_inset(stage.extent_of(pair.key), k_zero), &pair);
   if (stage.first_approach > k_zero) stage.pass_on(pair, time);
   if (pair.impacts == 0) pair.impacts = 1;
   for (const uint32_t slot : slots) {

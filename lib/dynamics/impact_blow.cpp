@@ -15,8 +15,8 @@ constexpr int k_rounds_max = 64;  ///< of passing a blow on
 
 /// Of the part whose normal is nearest to that of the impact, or if that has none of the deepest.
 __attribute__((noinline)) void find_part_points(const ImpactStage& stage, const ImpactPair& pair,
-                                                const CollisionBody& a, const CollisionBody& b, Real reach,
-                                                ContactGeometry& geometry) {
+                                                const CollisionBody& a, const CollisionBody& b,
+                                                const ContactReach& reach, ContactGeometry& geometry) {
   SurfaceContacts contacts;
   collide_parts(a, b, reach, stage.assets, stage.settings.reduction, stage.features, contacts);
   const SurfaceContact* best = nullptr;
@@ -32,22 +32,29 @@ __attribute__((noinline)) void find_part_points(const ImpactStage& stage, const 
   }
   geometry.count = 0;
   if (best != nullptr) geometry = best->geometry;
+  geometry.seam = contacts.seam;
 }
 
 /// The contact points of the bodies themselves; none where they do not agree with the time of impact: deep within a
-/// thin body the least way out may lead through it.
+/// thin body the least way out may lead through it. Where they lie on each other, no deeper than what
+/// rests is sunk in, an edge that is met besides is that of a seam.
 void find_points(const ImpactStage& stage, const ImpactPair& pair, const BodyPose& pose_a, const BodyPose& pose_b,
                  ContactGeometry& geometry) {
   const BodyTraits &a = stage.bodies.traits[pair_low(pair.key)], &b = stage.bodies.traits[pair_high(pair.key)];
   const Matrix3 rotation_a = matrix_from(pose_a.rotation), rotation_b = matrix_from(pose_b.rotation);
-  const Real reach = scale_by_power(stage.extent_of(pair.key), -10);
+  const Real about = scale_by_power(stage.extent_of(pair.key), -10);
+  const ContactReach reach = {about, stage.settings.sunk};
   const CollisionBody body_a = {pose_a, a, rotation_a}, body_b = {pose_b, b, rotation_b};
   if (has_parts(a, b))
     find_part_points(stage, pair, body_a, body_b, reach, geometry);
   else
     collide(body_a, body_b, reach, geometry, stage.assets, stage.settings.reduction, stage.features);
-  if (is_direction(pair.normal) && geometry.count != 0 && !(dot(geometry.normal, pair.normal) > Unit(0.0)))
-    geometry.count = 0;
+  if (!is_direction(pair.normal) || geometry.count == 0) return;
+  const Unit along = dot(geometry.normal, pair.normal);
+  const bool lies_aside = abs(along) < Unit(0.5);
+  const bool lies_flat = geometry.count > 2;
+  geometry.seam = geometry.seam || ((lies_aside || lies_flat) && depth_of(geometry) <= stage.settings.sunk);
+  if (!(along > Unit(0.0))) geometry.count = 0;
 }
 
 /// The point that the time of impact was found by.
@@ -239,13 +246,15 @@ bool meet_again(ImpactStage& stage, ImpactPair& pair, Fraction time) {
 
 }  // namespace
 
-void ImpactStage::resolve(ImpactPair& pair, bool undecided, const BodyPose& pose_a, const BodyPose& pose_b) {
+bool ImpactStage::resolve(ImpactPair& pair, bool undecided, const BodyPose& pose_a, const BodyPose& pose_b) {
   ContactGeometry geometry;
   find_points(*this, pair, pose_a, pose_b, geometry);
-  if (geometry.count != 0 && resolve_at(*this, pair, geometry, pose_a, pose_b, false)) return;
-  if (undecided || !is_direction(pair.normal)) return;
+  if (geometry.count != 0 && resolve_at(*this, pair, geometry, pose_a, pose_b, false)) return false;
+  if (undecided || !is_direction(pair.normal)) return false;
+  if (geometry.seam) return true;
   take_point(*this, pair, pose_a, pose_b, geometry);
   resolve_at(*this, pair, geometry, pose_a, pose_b, false);
+  return false;
 }
 
 void ImpactStage::pass_on(const ImpactPair& first, Fraction time) {

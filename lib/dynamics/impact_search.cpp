@@ -36,6 +36,8 @@ bool is_ball(const ImpactStage& stage, uint32_t slot) {
   return shape_of(stage.bodies.traits[slot]) == ShapeType::sphere;
 }
 
+bool is_curved(const ImpactStage& stage, uint32_t slot) { return round_radius(stage.bodies.traits[slot]) > Unit(0.0); }
+
 /// False for pairs that filters or joints keep apart, and for those of one island of joints; and where joints hold one,
 /// for half-spaces, which contacts alone keep anything from passing: a body that stops alone tears at its joints.
 bool may_meet(const ImpactStage& stage, uint32_t a, uint32_t b) {
@@ -85,15 +87,18 @@ Real free_inset(const ImpactStage& stage, uint64_t key, Span<const ContactWork> 
     for (uint32_t i = 0; i < contact.state.point_count; ++i) least = min(least, contact.separation[i]);
     rebounds = rebounds || is_positive(contact.restitution);
   }
+  // What is round may be nearer than its contacts say, which count what it parts by as it slides past.
+  const bool round = is_curved(stage, pair_low(key)) || is_curved(stage, pair_high(key));
   if (least > scale_by_power(extent, -10)) {
-    apart = scale_by_power(least, -1);
+    apart = round ? k_zero : scale_by_power(least, -1);
     // A ball that the solver has let bounce touches when the tick ends: within a query's tolerance that would be an
     // impact. Of other shapes another place may come first.
     const bool bounces = is_ball(stage, pair_low(key)) || is_ball(stage, pair_high(key));
     return bounces && rebounds && stage.is_pushed(key) ? next_inset(extent, k_zero) : k_zero;
   }
   const Real inset = contact_inset(extent, -least);
-  apart = least + inset;  // but one of the two insets: the points of a contact need not show all of its depth
+  apart = (round ? min(least, k_zero) : least) +
+          inset;  // but one of the two insets: the points of a contact need not show all of its depth
   return inset;
 }
 

@@ -74,8 +74,8 @@ struct ImpactStage {
 
   // impact_blow.cpp
 
-  /// Lets the bodies of a pair, which are at the time of its impact, part.
-  void resolve(ImpactPair& pair, bool undecided, const BodyPose& pose_a, const BodyPose& pose_b);
+  /// Lets the bodies of a pair, which are at the time of its impact, part. True if they meet at a seam and go on.
+  bool resolve(ImpactPair& pair, bool undecided, const BodyPose& pose_a, const BodyPose& pose_b);
   /// Passes a blow on to what the bodies of a pair touch since an impact of this tick, and back, until all part: a body
   /// between two others would else be struck to and fro without end. Pairs are taken by their keys.
   void pass_on(const ImpactPair& first, Fraction time);

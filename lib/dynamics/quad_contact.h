@@ -224,12 +224,15 @@ struct Four {
   using Scaled = QuadScaled;
   using Contact = QuadContact;
   using Body = QuadBody;
+  using Mask = QuadMask;
 
   DETENT_QUAD_INLINE static Quad zero() { return quad_of(QuadNumber{0}); }
   DETENT_QUAD_INLINE static Quad unit(detent::Unit value) { return quad_of(value); }
   /// What is not dynamic has a share of 0, and is not written back.
   DETENT_QUAD_INLINE static bool takes_impulses(const QuadScaled&) { return true; }
   DETENT_QUAD_INLINE static QuadMask flag(QuadMask mask) { return mask; }
+  DETENT_QUAD_INLINE static QuadMask all() { return quad_of(QuadNumber{1}) > zero(); }
+  DETENT_QUAD_INLINE static bool any(QuadMask mask) { return detent::any(mask); }
   DETENT_QUAD_INLINE static QuadMask is_unset(QuadMask flag) { return {~flag.v}; }
   DETENT_QUAD_INLINE static QuadSoftness softness(const StepSettings& settings, const QuadContact& contact) {
     const auto one = [&](detent::Unit Softness::*part) {

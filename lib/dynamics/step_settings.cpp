@@ -51,6 +51,7 @@ StepSettings step_settings(const WorldState& world) {
   settings.relaxation = unit_from_real(world.relaxation, 0);
   settings.gravity = world.gravity;
   settings.gravity_size = max(length(world.gravity), Real(1.0));
+  settings.sunk = scale_by_power(settings.gravity_size * settings.tick_time * settings.tick_time, -2);
   settings.restitution_threshold = world.restitution_threshold;
   settings.breaking = world.breaking;
   settings.reuse = world.reuse;

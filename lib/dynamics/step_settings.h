@@ -39,6 +39,7 @@ struct StepSettings {
   Real gravity_size;   ///< m/s^2, at least 1: what speeds are measured against
   Real restitution_threshold;
   ManifoldReduction reduction;
+  Real sunk;                  ///< how deep what rests is sunk in, about: a quarter of what gravity moves in a tick, m
   Real breaking;              ///< of the smaller extent, like the next one
   Real reuse;                 ///< 0: contact points are found anew in each tick
   Softness dynamic_softness;  ///< of contacts between two dynamic bodies

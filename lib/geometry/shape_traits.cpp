@@ -343,6 +343,21 @@ void set_gyration(BodyTraits& traits, const AssetTable& assets, const FeatureTab
   }
 }
 
+Unit round_radius(const BodyTraits& traits) {
+  switch (shape_of(traits)) {
+    case ShapeType::sphere:
+    case ShapeType::capsule:
+    case ShapeType::cylinder:
+      return traits.size.x;
+    case ShapeType::box:
+    case ShapeType::cone:
+    case ShapeType::hull:
+      return traits.rounding;
+    default:
+      return 0.0;
+  }
+}
+
 Real shape_extent(const BodyTraits& traits) {
   const Unit none = 0.0;
   Unit smallest = traits.size.x;

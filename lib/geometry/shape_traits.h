@@ -104,6 +104,9 @@ void set_gyration(BodyTraits& traits, const AssetTable& assets = {},
 /// a cone the lesser of height and base, up to 12 % too much; of a hull twice the least half extent, up to 50 %; of a
 /// compound that of its thinnest child.
 Real shape_extent(const BodyTraits& traits);
+/// Of what is round about it, in the body's unit of length: of a ball, capsule or cylinder the radius, of others their
+/// rounding.
+Unit round_radius(const BodyTraits& traits);
 /// What the margins of the shape's bounds are parts of, m: its extent; of a surface 2^-8 of its bounding radius.
 Real bounds_extent(const BodyTraits& traits);
 

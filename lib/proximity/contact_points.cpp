@@ -3,6 +3,7 @@
 #include "math/root.h"
 #include "proximity/contact_axis.h"
 #include "proximity/contact_clip.h"
+#include "proximity/contact_seam.h"
 #include "proximity/pair.h"
 
 namespace detent {
@@ -44,11 +45,10 @@ struct Half {
 
 class Builder {
  public:
-  Builder(const RestingPair& pair, const ContactAxis& axis, int64_t reach, ManifoldReduction reduction)
+  Builder(const RestingPair& pair, const ContactAxis& axis, const ContactRules& rules)
       : pair_(pair),
         axis_(axis),
-        reach_(reach),
-        reduction_(reduction),
+        rules_(rules),
         half_a_{pair.a, {0, 0, 0}, axis.normal},
         half_b_{pair.b, pair.offset, negate(axis.normal)} {
     preference_ =
@@ -56,7 +56,7 @@ class Builder {
     drop_ = smaller_but_0(radius_in_block(pair.a), radius_in_block(pair.b)) >> k_drop_power;
   }
 
-  void build(bool may_lean, BlockManifold& manifold) const;
+  void build(BlockManifold& manifold) const;
   /// Between A's face and what B has over it alone.
   void build_over_face(const Feature& face, BlockManifold& manifold);
 
@@ -68,6 +68,7 @@ class Builder {
   bool build_on_face(BlockManifold& manifold) const;
   bool build_on_leaning_face(BlockManifold& manifold) const;
   bool build_on_edge(BlockManifold& manifold) const;
+  bool build_level_with_face(BlockManifold& manifold) const;
   void add_on_axis(const Vec32& normal, int64_t separation, BlockManifold& manifold) const;
   bool fill(const Reference& reference, bool reference_is_a, const Feature& incident, BlockManifold& manifold) const;
   void add_point(const Vec32& normal, const Vec64& twice_middle, int64_t separation, uint32_t on_a, uint32_t on_b,
@@ -82,8 +83,7 @@ class Builder {
 
   const RestingPair& pair_;
   const ContactAxis& axis_;
-  int64_t reach_;  ///< 2^-46 m
-  ManifoldReduction reduction_;
+  const ContactRules& rules_;
   Half half_a_, half_b_;
   int64_t preference_, drop_;
   bool only_over_ = false;  ///< what is not over the reference is no part of the contact
@@ -158,7 +158,7 @@ bool Builder::fill(const Reference& reference, bool reference_is_a, const Featur
                    BlockManifold& manifold) const {
   const Half& other = reference_is_a ? half_b_ : half_a_;
   const int64_t radii = pair_.radius_a + pair_.radius_b;
-  AreaChoice choice(pair_.block_above(saturated_sum(reach_, radii)), drop_, reduction_);
+  AreaChoice choice(pair_.block_above(saturated_sum(rules_.reach, radii)), drop_, rules_.reduction);
   do reference.clip(other.centre, incident, choice);
   while (choice.again());
   const Vec32 normal = reference_is_a ? reference.up() : negate(reference.up());
@@ -174,7 +174,7 @@ bool Builder::fill(const Reference& reference, bool reference_is_a, const Featur
   if (missed && count == 4) leave_out_nearest(reference.over(nearest), chosen, count);
   for (int i = 0; i < count; ++i) {
     const int64_t separation = pair_.metres(chosen[i].w) - radii;
-    if (separation > reach_) continue;
+    if (separation > rules_.reach) continue;
     const uint32_t on_reference = reference.name_on_reference(chosen[i]);
     const uint32_t on_incident = reference.name_on_incident(other.placed, incident, chosen[i]);
     add_point(normal, reference.twice_middle(chosen[i]), separation, reference_is_a ? on_reference : on_incident,
@@ -256,16 +256,40 @@ bool Builder::build_on_edge(BlockManifold& manifold) const {
   return fill(reference, is_a, is_a ? edge_b : edge_a, manifold);
 }
 
-void Builder::build(bool may_lean, BlockManifold& manifold) const {
+/// At an edge that is level with its face but for what the shapes are sunk in.
+bool Builder::build_level_with_face(BlockManifold& manifold) const {
+  ContactAxis level = axis_;
+  if (!find_level_face(pair_, rules_.sunk, level)) return false;
+  const int64_t separation = pair_.metres(level.separation) - pair_.radius_a - pair_.radius_b;
+  add_on_axis(level.normal, separation, manifold);
+  manifold.normal = level.normal;
+  manifold.seam = true;
+  return true;
+}
+
+void Builder::build(BlockManifold& manifold) const {
   const int64_t separation = pair_.metres(axis_.separation) - pair_.radius_a - pair_.radius_b;
-  if (separation > reach_) return;
+  if (separation > rules_.reach) return;
+  if (rules_.smooth_seams) {
+    const int64_t thin_a = in_block(pair_.a, half_a_.thickness), thin_b = in_block(pair_.b, half_b_.thickness);
+    if (is_sliver(pair_, axis_, sliver_room(pair_.metres(thin_a < thin_b ? thin_a : thin_b), rules_.sunk))) {
+      manifold.seam = true;
+      return;
+    }
+  }
   manifold.capped = axis_.capped;
-  if (pair_.planar()
-          ? build_on_half_space(manifold)
-          : build_on_face(manifold) || build_on_edge(manifold) || (may_lean && build_on_leaning_face(manifold)))
-    return;
+  if (pair_.planar() ? build_on_half_space(manifold) : build_on_face(manifold)) return;
+  if (rules_.smooth_seams && build_level_with_face(manifold)) return;
+  if (!pair_.planar()) {
+    manifold.turns = build_on_edge(manifold);
+    if (manifold.turns || (rules_.leans && build_on_leaning_face(manifold))) return;
+  }
   add_on_axis(axis_.normal, separation, manifold);
   manifold.normal = axis_.normal;
+  // Of edges that cross it stays.
+  const uint32_t feature = manifold.point[0].feature;
+  constexpr uint32_t k_edge = static_cast<uint32_t>(FeatureType::edge);
+  manifold.turns = !pair_.planar() && ((feature >> 10 & 3) != k_edge || (feature >> 22 & 3) != k_edge);
 }
 
 void Builder::build_over_face(const Feature& face, BlockManifold& manifold) {
@@ -280,14 +304,13 @@ void Builder::build_over_face(const Feature& face, BlockManifold& manifold) {
 
 }  // namespace
 
-void find_contact_points(const RestingPair& pair, int64_t reach, DistanceCache* cache, ManifoldReduction reduction,
-                         BlockManifold& manifold, bool may_lean) {
+void find_contact_points(const RestingPair& pair, const ContactRules& rules, DistanceCache* cache,
+                         BlockManifold& manifold) {
   manifold = {};
-  const int32_t needed = pair.block_above(saturated_sum(reach, pair.radius_a + pair.radius_b));
+  const int32_t needed = pair.block_above(saturated_sum(rules.reach, pair.radius_a + pair.radius_b));
   ContactAxis axis;
-  if (find_contact_axis(pair, needed >= INT32_MAX - k_gjk_slack ? INT32_MAX : needed + k_gjk_slack, cache, axis)) {
-    Builder(pair, axis, reach, reduction).build(may_lean, manifold);
-  }
+  if (find_contact_axis(pair, needed >= INT32_MAX - k_gjk_slack ? INT32_MAX : needed + k_gjk_slack, cache, axis))
+    Builder(pair, axis, rules).build(manifold);
 }
 
 void contact_points_over_face(const RestingPair& pair, const Feature& face, int64_t reach, ManifoldReduction reduction,
@@ -299,17 +322,15 @@ void contact_points_over_face(const RestingPair& pair, const Feature& face, int6
       subtract(add(pair.offset, nearest),
                round_shift(Vec64{face.normal.x * height, face.normal.y * height, face.normal.z * height}, 30));
   const ContactAxis axis = {face.normal, height, foot, nearest, false};
-  Builder(pair, axis, reach, reduction).build_over_face(face, manifold);
+  Builder(pair, axis, rules_of(reach, reduction)).build_over_face(face, manifold);
 }
 
-Status contact_points(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Real reach,
-                      ContactManifold& manifold, DistanceCache* cache, ManifoldReduction reduction) {
+Status contact_points_by(const ContactRules& rules, const Convex& a, const Pose& pose_a, const Convex& b,
+                         const Pose& pose_b, DistanceCache* cache, ContactManifold& manifold, ContactKind& kind) {
   RestingPair pair;
   if (const Status status = rest(a, pose_a, b, pose_b, pair); status != Status::ok) return status;
-  Vec64 raw;
-  if (!raw_from_real({reach, Real(0.0), Real(0.0)}, raw) || raw.x < 0) return Status::out_of_range;
   BlockManifold found;
-  find_contact_points(pair, raw.x, cache, reduction, found);
+  find_contact_points(pair, rules, cache, found);
   ContactManifold made;
   made.count = found.count;
   made.capped = found.capped;
@@ -322,7 +343,20 @@ Status contact_points(const Convex& a, const Pose& pose_a, const Convex& b, cons
     made.point[i] = {real(point.from_a), real(point.from_b), real_from_raw(point.separation), point.feature};
   }
   manifold = made;
+  kind = {found.seam, found.turns};
   return Status::ok;
+}
+
+Status contact_points(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Real reach,
+                      ContactManifold& manifold, DistanceCache* cache, ManifoldReduction reduction) {
+  Vec64 raw;
+  ContactKind kind;
+  if (!raw_from_real({reach, Real(0.0), Real(0.0)}, raw) || raw.x < 0) {
+    RestingPair pair;
+    const Status status = rest(a, pose_a, b, pose_b, pair);
+    return status == Status::ok ? Status::out_of_range : status;
+  }
+  return contact_points_by(rules_of(raw.x, reduction), a, pose_a, b, pose_b, cache, manifold, kind);
 }
 
 }  // namespace DETENT_NAMESPACE

@@ -3,7 +3,6 @@
 #include "collision/compound_code.h"
 #include "collision/contact_cache.h"
 #include "collision/manifold_reuse.h"
-#include "dynamics/joint.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -29,6 +28,10 @@ PairLengths lengths_of(const StepSettings& settings, const BodyWork& a, const Bo
   return {at_rest, at_rest + min(reach_max, speed * settings.tick_time), extent * settings.reuse};
 }
 
+ContactReach reach_of(const StepSettings& settings, const PairLengths& lengths) {
+  return {lengths.reach, settings.sunk};
+}
+
 /// A contact of the last tick; `manifold` null where none are kept.
 struct ContactBefore {
   const ContactState* contact = nullptr;
@@ -45,7 +48,7 @@ void collide_pair(const StepSettings& settings, uint32_t slot_a, uint32_t slot_b
            reuse_manifold(body_a, body_b, *before.manifold, before.contact->feature, before.contact->point_count,
                           lengths.reuse, lengths.reach, geometry, *manifold);
   if (reused) return;
-  collide(body_a, body_b, lengths.reach, geometry, bodies.assets, settings.reduction, bodies.features);
+  collide(body_a, body_b, reach_of(settings, lengths), geometry, bodies.assets, settings.reduction, bodies.features);
   if (manifold != nullptr) *manifold = lengths.is_slow() ? kept_manifold(body_a, body_b, geometry) : ManifoldState{};
 }
 
@@ -54,8 +57,8 @@ __attribute__((noinline)) bool parts_touch(const StepSettings& settings, uint32_
                                            const StepBodies& bodies) {
   SurfaceContacts contacts;
   const PairLengths lengths = lengths_of(settings, bodies.work[slot_a], bodies.work[slot_b]);
-  collide_parts(bodies.collider(slot_a), bodies.collider(slot_b), lengths.reach, bodies.assets, settings.reduction,
-                bodies.features, contacts);
+  collide_parts(bodies.collider(slot_a), bodies.collider(slot_b), reach_of(settings, lengths), bodies.assets,
+                settings.reduction, bodies.features, contacts);
   return contacts.count != 0;
 }
 
@@ -166,7 +169,8 @@ struct Collider {
       count.reused += found.count;
     } else {
       const CollisionBody body_a = bodies.collider(slot_a), body_b = bodies.collider(slot_b);
-      collide_parts(body_a, body_b, lengths.reach, bodies.assets, settings.reduction, bodies.features, found);
+      collide_parts(body_a, body_b, reach_of(settings, lengths), bodies.assets, settings.reduction, bodies.features,
+                    found);
       continue_keys(pair, found);
       bool kept = reuses() && lengths.is_slow() && !found.capped && found.dropped == 0;
       for (uint32_t i = 0; kept && i < found.count; ++i) {

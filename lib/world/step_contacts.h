@@ -3,6 +3,7 @@
 #include "collision/losses.h"
 #include "dynamics/activity.h"
 #include "dynamics/contact_rows.h"
+#include "dynamics/joint.h"
 #include "dynamics/predict.h"
 #include "geometry/shape_traits.h"
 #include "world/step_cache.h"
@@ -24,7 +25,8 @@ struct StepBodies {
 
   RowBody at(uint32_t slot) const {
     const BodyWork& now = work[slot];
-    return {traits[slot], poses[slot], motions[slot], now.gyration, now.spin, now.extent, now.fall};
+    return {traits[slot], poses[slot], motions[slot], now.gyration,
+            now.spin,     now.extent,  now.fall,      now.joint_body != k_no_link};
   }
   CollisionBody collider(uint32_t slot) const { return {poses[slot], traits[slot], work[slot].axes}; }
   void start(const StepSettings& settings, uint32_t slot) const {

@@ -141,13 +141,13 @@ struct Ending {
   uint64_t digest;
 };
 #if defined(DETENT_FX64)
-constexpr Ending k_endings[] = {{10000, 0xe0f9ab44ccc9696a}, {1000000, 0x7d9a7a4016dc6419}};
+constexpr Ending k_endings[] = {{10000, 0x81dd5d0506dfde96}, {1000000, 0xe6565c232450c2c3}};
 #elif defined(DETENT_FX32)
-constexpr Ending k_endings[] = {{10000, 0x60457dd12ca0cc5a}, {1000000, 0x7416ccf8f67daf6d}};
+constexpr Ending k_endings[] = {{10000, 0xd1571e25c717e32c}, {1000000, 0xb62c710ab1e9cf3d}};
 #elif defined(DETENT_F32)
-constexpr Ending k_endings[] = {{10000, 0x9304987486cc7a94}};
+constexpr Ending k_endings[] = {{10000, 0x915bc45a6a89e041}};
 #else
-constexpr Ending k_endings[] = {{10000, 0x9b7b98b4fcf792d8}};
+constexpr Ending k_endings[] = {{10000, 0xf5122cb05ec1a0f2}};
 #endif
 
 /// A million ticks where time does not matter.
