@@ -22,12 +22,12 @@ enum class RestitutionRule : uint32_t {
   smaller = 1,  ///< a damping surface damps whatever falls on it; one such material decides for the pair
 };
 
-/// How a surface behaves. A pair takes the geometric mean of friction and of rolling resistance, and the larger
-/// restitution unless one of the two says otherwise.
+/// How a surface behaves. A pair takes the geometric mean of friction, the larger rolling resistance, and the
+/// larger restitution unless one of the two says otherwise.
 struct Material {
   Real friction = Real(0.6);      ///< Coulomb's coefficient, [0, 16]
   Real restitution = 0.0;         ///< rebound speed over approach speed, [0, 1]
-  Real rolling_resistance = 0.0;  ///< torque over (normal force x smaller radius), about any axis, [0, 1]
+  Real rolling_resistance = 0.0;  ///< torque over (normal force x smaller radius), about any axis, [0, 16]
   /// One material that says `smaller` decides for the pair.
   RestitutionRule restitution_rule = RestitutionRule::larger;
 };

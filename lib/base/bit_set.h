@@ -16,13 +16,23 @@ struct BitSet {
   /// with.
   template <class Visit>
   void for_each(const Visit& visit) const {
-    for (uint32_t word = 0; word < words.count; ++word) {
-      uint32_t later = UINT32_MAX;
+    while_each(0, [&](uint32_t bit) {
+      visit(bit);
+      return true;
+    });
+  }
+
+  /// Likewise from `first` on, until `visit` returns false.
+  template <class Visit>
+  void while_each(uint32_t first, const Visit& visit) const {
+    uint32_t later = UINT32_MAX << first % 32;
+    for (uint32_t word = first / 32; word < words.count; ++word) {
       while ((words[word] & later) != 0) {
         const uint32_t bit = static_cast<uint32_t>(__builtin_ctz(words[word] & later));
         later = bit == 31 ? 0 : UINT32_MAX << (bit + 1);
-        visit(word * 32 + bit);
+        if (!visit(word * 32 + bit)) return;
       }
+      later = UINT32_MAX;
     }
   }
 };

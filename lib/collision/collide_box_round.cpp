@@ -155,7 +155,6 @@ __attribute__((noinline)) bool turns_at_edge(const BoxAndSegment& pair, const Bo
 /// As find_level_face() of lib/proximity: at an edge, the face whose normal is nearest.
 __attribute__((noinline)) bool find_level_box_face(const BoxAndSegment& pair, Unit radius, Unit sunk,
                                                    BoxContact& contact) {
-  constexpr Unit k_alike_cosine = 1.0 - 0x1p-5;
   for (int axis = 0; axis < 3; ++axis) {
     if (abs(contact.normal.v[axis]) < k_alike_cosine) continue;
     Unit apart = -radius, level = abs(pair.at(axis, contact.along)) - pair.half.v[axis] - radius;

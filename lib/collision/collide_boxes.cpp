@@ -118,7 +118,7 @@ Unit cosine_with(const AxisTable& table, const SeparatingAxis& axis, int i, int 
 /// As is_sliver().
 __attribute__((noinline)) bool is_box_sliver(const AxisTable& table, const FaceAxes& face, const SeparatingAxis& axis,
                                              Unit room) {
-  constexpr Unit k_level_cosine = 1.0 - 0x1p-9, k_alike_cosine = 1.0 - 0x1p-5;
+  constexpr Unit k_level_cosine = 1.0 - 0x1p-9;
   if (axis.separation < -room) return false;
   for (int i = 0; i < 3; ++i) {
     if (abs(face.a[i]) > room) continue;

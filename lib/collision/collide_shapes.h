@@ -8,6 +8,9 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
+/// Of directions that enclose 2^-2 rad: those of nearer ones count as one (contact_seam.h).
+inline constexpr Unit k_alike_cosine = 1.0 - 0x1p-5;
+
 /// One of the functions below, for a feature table.
 struct PairCode {
   void (*collide)(const PairFrame& frame, PairManifold& manifold);

@@ -15,15 +15,15 @@ struct PartSearch {
   const Fraction time;
   const Ladder& ladder;
   Meeting& meeting;
-  const Real extent;
   const ConvexParts parts_a, parts_b;
   const Motion motion_a, motion_b;
   Real closing = 0.0;    ///< how much nearer any two points can come, m
   bool bounded = false;  ///< whether that is known
 
   bool inset_part(const SweptBody& body, const ConvexParts& parts, uint32_t i, Real inset, Convex& convex) const {
-    if (!is_compound(body.traits)) return inset_convex(assets, body.traits, inset, extent, convex);
-    return parts.convex(i, inset_halvings(inset, extent) != 0, convex) && inset_convex(inset, 0, convex);
+    if (!is_compound(body.traits)) return inset_convex(assets, body.traits, inset, convex);
+    return parts.convex(i, inset_halvings(inset, shape_extent(body.traits)) != 0, convex) &&
+           inset_convex(inset, 0, convex);
   }
 
   /// The middle of a part, m, from A's position.
@@ -86,7 +86,6 @@ bool compound_impact(const AssetTable& assets, const FeatureTable& features, con
                        time,
                        ladder,
                        meeting,
-                       min(shape_extent(a.traits), shape_extent(b.traits)),
                        ConvexParts(a.traits, assets),
                        ConvexParts(b.traits, assets),
                        motion_from(a, time),

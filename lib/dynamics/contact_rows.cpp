@@ -295,7 +295,8 @@ void make_rows(const StepSettings& settings, const RowBody& a, const RowBody& b,
 
   work.friction = geometric_mean(a.traits.friction, b.traits.friction);
   work.restitution = pair_restitution(a.traits, b.traits);
-  const Scaled rolling = geometric_mean(a.traits.rolling_resistance, b.traits.rolling_resistance);
+  const Scaled &rolls_a = a.traits.rolling_resistance, &rolls_b = b.traits.rolling_resistance;
+  const Scaled rolling = less(rolls_a, rolls_b) ? rolls_b : rolls_a;
   const Real extent = min(a.extent, b.extent);
   work.rolling_arm = multiply(rolling, scaled_by_power(scaled_from(extent), -1 - unit));
   work.twist_arm = add(multiply(work.friction, scaled_from(patch)), work.rolling_arm);
@@ -310,6 +311,18 @@ void make_rows(const StepSettings& settings, const RowBody& a, const RowBody& b,
   const Real fall = min(a.fall, b.fall);
   work.push_max = scale_by_power(fall, -1);
   work.rebound_min = settings.restitution_threshold * fall;
+}
+
+void leave_to_impact(const StepSettings& settings, const RowBody& a, const RowBody& b, ContactWork& work) {
+  if (!settings.continuous || !is_positive(work.restitution) || a.jointed || b.jointed) return;
+  const Real touching = -scale_by_power(min(a.extent, b.extent), -10);
+  bool rebounds = false;
+  for (uint32_t i = 0; i < work.state.point_count; ++i) {
+    if (work.separation[i] < touching) return;
+    rebounds = rebounds || work.approach[i] <= -work.rebound_min;
+  }
+  if (!rebounds) return;
+  for (Unit& mass : work.inverse_mass) mass = Unit(0.0);
 }
 
 PairResponse respond_exactly(const BodyTraits& a, const Quat& rotation_a, const BodyTraits& b, const Quat& rotation_b,

@@ -26,6 +26,11 @@ struct RowBody {
 void make_rows(const StepSettings& settings, const RowBody& a, const RowBody& b, const ContactGeometry& geometry,
                ContactWork& work);
 
+/// Leaves a contact to the impacts, whose bodies are not in each other and come together so fast that they rebound: the
+/// solver pushes nothing there. It would share a blow among all that touch; impacts come one after the other.
+void leave_to_impact(const StepSettings& settings, const RowBody& a, const RowBody& b, ContactWork& work);
+inline bool is_left_to_impact(const ContactWork& work) { return work.inverse_mass[0] == Unit(0.0); }
+
 /// Makes the responses and effective masses anew for the gyrations of A and B, where they have turned since; all else
 /// stays.
 void renew_response(const WorldGyration& a, const WorldGyration& b, ContactWork& work);

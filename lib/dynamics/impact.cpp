@@ -18,6 +18,13 @@ ImpactPair* next(const ImpactStage& stage) {
   return best;
 }
 
+/// How far in a pair is tested that has met at a seam, m: deeper than what rests is sunk in, and no deeper than need
+/// be.
+Real seam_inset(const ImpactStage& stage, uint64_t key) {
+  const Real extent = stage.extent_of(key);
+  return min(max(scale_by_power(extent, -6), scale_by_power(stage.settings.sunk, 1)), contact_inset(extent, k_zero));
+}
+
 /// Lets the event of a pair happen.
 void go_on(ImpactStage& stage, ImpactPair& pair) {
   const Fraction time = pair.time;
@@ -38,8 +45,12 @@ void go_on(ImpactStage& stage, ImpactPair& pair) {
   }
   const BodyPose pose_a = pose_at(stage.body(slots[0]), time), pose_b = pose_at(stage.body(slots[1]), time);
   stage.first_approach = k_zero;
-  if (stage.resolve(pair, undecided, pose_a, pose_b))
-    stage.test(pair.key, time, contact_inset(stage.extent_of(pair.key), k_zero), &pair);
+  if (stage.resolve(pair, undecided, pose_a, pose_b)) {
+    pair.at_seam = 1;  // both go on as they did: it is no impact
+    stage.test(pair.key, time, seam_inset(stage, pair.key), &pair);
+    stage.test_all_changed(time);
+    return;
+  }
   if (stage.first_approach > k_zero) stage.pass_on(pair, time);
   if (pair.impacts == 0) pair.impacts = 1;
   for (const uint32_t slot : slots) {

@@ -22,7 +22,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-inline constexpr uint32_t k_impacts_max = 16;  ///< of a body in a tick
+inline constexpr uint32_t k_impacts_max = 32;  ///< of a body in a tick
 /// A mark of a body's sweep that joints hold, times the number of its island, from 1 on. All other marks are less.
 inline constexpr uint32_t k_mark_jointed = 32;
 
@@ -61,10 +61,11 @@ struct ImpactBodies {
   Span<BodyMotion> motions;
   Span<BodySweep> sweeps;  ///< of a body that rests: zero
   Span<BodyActivity> activities;
-  Span<Bounds> bounds;  ///< as the pairs were found; become the bounds of the sweeps
-  RestingTree resting;  ///< what is struck leaves it
-  BitSet visits;        ///< the bodies that move, and those that are struck or woken
-  BitSet candidates;    ///< work space, zero before and after
+  Span<Bounds> bounds;       ///< as the pairs were found; become the bounds of the sweeps
+  RestingTree resting;       ///< what is struck leaves it
+  BitSet visits;             ///< the bodies that move, and those that are struck or woken
+  BitSet candidates;         ///< work space, zero before and after
+  Span<uint32_t> first_met;  ///< work space: of each dynamic body, where the list of the pairs that it meets in begins
   FilterRuleTable filter_rules = {};
   StretchListener listener = {};
 };

@@ -210,14 +210,13 @@ bool resolve_at(ImpactStage& stage, ImpactPair& pair, const ContactGeometry& geo
 /// The pair of the least key above `after` that has met in this tick and shares a dynamic body with the first one.
 ImpactPair* next_touching(const ImpactStage& stage, uint64_t first_key, uint64_t after) {
   ImpactPair* best = nullptr;
-  for (uint32_t i = 0; i < stage.met_count; ++i) {
-    ImpactPair& pair = stage.met[i];
-    if (pair.impacts == 0 || pair.key <= after || (best != nullptr && pair.key > best->key)) continue;
-    const uint32_t a = pair_low(pair.key), b = pair_high(pair.key);
-    const auto shared = [&](uint32_t slot) {
-      return stage.dynamic(slot) && (slot == pair_low(first_key) || slot == pair_high(first_key));
-    };
-    if (shared(a) || shared(b)) best = &pair;
+  const uint32_t slots[2] = {pair_low(first_key), pair_high(first_key)};
+  for (const uint32_t slot : slots) {
+    if (!stage.dynamic(slot)) continue;
+    stage.for_each_met(slot, [&](ImpactPair& pair) {
+      if (pair.impacts == 0 || pair.key <= after || (best != nullptr && pair.key > best->key)) return;
+      best = &pair;
+    });
   }
   return best;
 }
@@ -251,7 +250,7 @@ bool ImpactStage::resolve(ImpactPair& pair, bool undecided, const BodyPose& pose
   find_points(*this, pair, pose_a, pose_b, geometry);
   if (geometry.count != 0 && resolve_at(*this, pair, geometry, pose_a, pose_b, false)) return false;
   if (undecided || !is_direction(pair.normal)) return false;
-  if (geometry.seam) return true;
+  if (geometry.seam && pair.at_seam == 0) return true;
   take_point(*this, pair, pose_a, pose_b, geometry);
   resolve_at(*this, pair, geometry, pose_a, pose_b, false);
   return false;

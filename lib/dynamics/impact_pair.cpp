@@ -16,8 +16,9 @@ namespace {
 
 ShapeType shape_type(const BodyTraits& traits) { return static_cast<ShapeType>(traits.shape); }
 
-/// `depth` in 2^-30 2^exponent m, rounded up.
+/// `depth` in 2^-30 2^exponent m, rounded up; the most there is where it is beyond.
 int32_t depth_in_units(int64_t depth, int exponent) {
+  if (depth >> (k_metre_bits + exponent) != 0) return INT32_MAX;
   return static_cast<int32_t>(shift_64(depth, 30 - k_metre_bits - exponent)) + 1;
 }
 
@@ -128,9 +129,10 @@ bool closing_bound(const SweptBody& a, const SweptBody& b, Fraction time, Real& 
   return bounded;
 }
 
-bool inset_convex(const AssetTable& assets, const BodyTraits& traits, Real inset, Real extent, Convex& convex) {
+bool inset_convex(const AssetTable& assets, const BodyTraits& traits, Real inset, Convex& convex) {
   Convex made;
-  if (!body_convex(traits, assets, made) || !inset_convex(inset, inset_halvings(inset, extent), made)) return false;
+  if (!body_convex(traits, assets, made) || !inset_convex(inset, inset_halvings(inset, shape_extent(traits)), made))
+    return false;
   convex = made;
   return true;
 }
@@ -165,9 +167,7 @@ bool PairSearch::prepare_pair() {
 }
 
 bool PairSearch::find_convex(Real inset, const Vec3<Unit>& axis, TimeOfImpact& impact) {
-  const Real extent = min(shape_extent(a_.traits), shape_extent(b_.traits));
-  if (!inset_convex(assets_, a_.traits, inset, extent, convex_a_) ||
-      !inset_convex(assets_, b_.traits, inset, extent, convex_b_))
+  if (!inset_convex(assets_, a_.traits, inset, convex_a_) || !inset_convex(assets_, b_.traits, inset, convex_b_))
     return false;
   if (!(prepared_ ? set_block(pair_.offset_whole, pair_.displacement_whole, pair_) == Status::ok : prepare_pair()))
     return false;
@@ -190,7 +190,7 @@ bool PairSearch::find(const Ladder& ladder, Vec3<Unit> axis, Meeting& meeting) {
     const BodyTraits& body = (is_surface(a_.traits) ? b_ : a_).traits;
     const auto on_rung = [&](Real inset, TimeOfImpact& impact) {
       Convex convex;
-      return inset_convex(assets_, body, inset, shape_extent(body), convex) &&
+      return inset_convex(assets_, body, inset, convex) &&
              features_.surface_impact->impact(assets_, *features_.surface, a_, b_, convex, time_, impact);
     };
     known = climb(a_, b_, time_, ladder, on_rung, meeting);

@@ -52,12 +52,12 @@ bool motion_bound(const SweptBody& body, Fraction time, Real& bound);
 /// A bound of how much nearer the surfaces of two bodies can come in the rest of the tick, m; false if there is none.
 bool closing_bound(const SweptBody& a, const SweptBody& b, Fraction time, Real& bound);
 
-/// The body's shape made smaller by `inset`, m, on all sides; `extent`: of the pair. False if it is not known.
-bool inset_convex(const AssetTable& assets, const BodyTraits& traits, Real inset, Real extent, Convex& convex);
+/// The body's shape made smaller by `inset`, m, on all sides. False if it is not known.
+bool inset_convex(const AssetTable& assets, const BodyTraits& traits, Real inset, Convex& convex);
 
 /// Likewise, of a shape that is ready. A hull or cone is halved `halvings` times.
 bool inset_convex(Real inset, int halvings, Convex& convex);
-/// How often that is at this inset.
+/// How often that is at this inset, of a body of this extent.
 int inset_halvings(Real inset, Real extent);
 
 /// Where on the ladder a pair is tested.
@@ -93,6 +93,7 @@ template <class Find>
 bool climb(const SweptBody& a, const SweptBody& b, Fraction time, const Ladder& ladder, const Find& find,
            Meeting& meeting) {
   TimeOfImpact found;
+  bool looked_ahead = false;
   for (Real inset = ladder.first; !(inset > last_inset(ladder.extent)); inset = next_inset(ladder.extent, inset)) {
     ++meeting.tests;
     if (inset > ladder.first) meeting.climbed = true;
@@ -104,7 +105,15 @@ bool climb(const SweptBody& a, const SweptBody& b, Fraction time, const Ladder& 
       return !ladder.resolved &&
              (found.outcome == ToiOutcome::undecided || (is_direction(found.normal) && !is_parting(a, b, time, found)));
     };
-    if (now && ladder.climbs && !closes()) continue;
+    if (now && ladder.climbs && !closes()) {
+      // Cores that overlap on the last rung do on all.
+      if (looked_ahead || is_direction(found.normal)) continue;
+      looked_ahead = meeting.climbed = true;
+      ++meeting.tests;
+      if (!find(last_inset(ladder.extent), found)) return false;
+      if (found.outcome == ToiOutcome::clear || is_direction(found.normal)) continue;
+      break;
+    }
     meeting.take(found);
     return true;
   }

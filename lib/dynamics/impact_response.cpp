@@ -27,6 +27,16 @@ Scaled energy_of(const BodyTraits& traits, const Vec3<Real>& local) {
   return add(term(local.x, 0), add(term(local.y, 1), term(local.z, 2)));
 }
 
+/// True if some moment of inertia is more than 16 times another.
+bool is_slender(const BodyTraits& traits) {
+  Scaled least = traits.gyration[0], most = least;
+  for (const Scaled& gyration : traits.gyration) {
+    if (less(gyration, least)) least = gyration;
+    if (less(most, gyration)) most = gyration;
+  }
+  return less(scaled_by_power(least, 4), most);
+}
+
 /// The solve of an impact: the pair's motion and its wrench in the contact's frame, as in contact_motion.h, but in
 /// Real.
 struct Impact {
@@ -143,9 +153,11 @@ BodyMotion motion_of_sweep(const BodyTraits& traits, const Quat& rotation, const
 Vec3<Real> carried_momentum(const BodyTraits& traits, const Quat& from, const Quat& to, const Vec3<Real>& momentum) {
   if (is_isotropic(traits) || from == to) return momentum;
   const Vec3<Real> before = rotate_inverse(from, momentum), after = rotate_inverse(to, momentum);
-  const Scaled energy = energy_of(traits, before);
-  const Scaled limit = add(energy, scaled_by_power(energy, -16));
-  return less(limit, energy_of(traits, after)) ? rotate(to, before) : momentum;
+  const Scaled energy_before = energy_of(traits, before), energy_after = energy_of(traits, after);
+  if (!less(add(energy_before, scaled_by_power(energy_before, -16)), energy_after)) return momentum;
+  if (is_slender(traits) || less(add(energy_before, scaled_by_power(energy_before, -2)), energy_after))
+    return rotate(to, before);
+  return scaled(momentum, square_root(divide(energy_before, energy_after)));
 }
 
 uint32_t hold_spin(const BodyTraits& traits, const Quat& rotation, BodyMotion& motion) {

@@ -1,4 +1,5 @@
 #include "collision/pair_filter.h"
+#include "dynamics/contact_rows.h"
 #include "dynamics/impact_stage.h"
 #include "geometry/bounds.h"
 #include "math/root.h"
@@ -69,10 +70,12 @@ void for_each_near(const ImpactStage& stage, uint32_t slot, const Visit& visit) 
 }
 
 ImpactPair* find_met(const ImpactStage& stage, uint64_t key) {
-  for (uint32_t i = 0; i < stage.met_count; ++i) {
-    if (stage.met[i].key == key) return &stage.met[i];
-  }
-  return nullptr;
+  ImpactPair* found = nullptr;
+  const uint32_t low = pair_low(key);
+  stage.for_each_met(stage.dynamic(low) ? low : pair_high(key), [&](ImpactPair& pair) {
+    if (pair.key == key) found = &pair;
+  });
+  return found;
 }
 
 Real free_inset(const ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts, Real& apart) {
@@ -86,6 +89,10 @@ Real free_inset(const ImpactStage& stage, uint64_t key, Span<const ContactWork> 
   for (const ContactWork& contact : contacts) {
     for (uint32_t i = 0; i < contact.state.point_count; ++i) least = min(least, contact.separation[i]);
     rebounds = rebounds || is_positive(contact.restitution);
+  }
+  if (is_left_to_impact(contacts[0])) {
+    apart = k_zero;
+    return k_zero;
   }
   // What is round may be nearer than its contacts say, which count what it parts by as it slides past.
   const bool round = is_curved(stage, pair_low(key)) || is_curved(stage, pair_high(key));
@@ -116,9 +123,18 @@ Real first_inset(const ImpactStage& stage, uint64_t key, Span<const ContactWork>
 ImpactPair* entry_of(ImpactStage& stage, uint64_t key, ImpactPair* entry) {
   if (entry != nullptr) return entry;
   if (stage.met_count == stage.met.count) return nullptr;
+  if (stage.met_count == 0) {
+    for (uint32_t& first : stage.bodies.first_met) first = 0;
+  }
   entry = &stage.met[stage.met_count++];
   *entry = {};
   entry->key = key;
+  const uint32_t slots[2] = {pair_low(key), pair_high(key)};
+  for (int i = 0; i < 2; ++i) {
+    if (!stage.dynamic(slots[i])) continue;
+    entry->more[i] = stage.bodies.first_met[slots[i]];
+    stage.bodies.first_met[slots[i]] = stage.met_count;
+  }
   return entry;
 }
 
@@ -157,6 +173,24 @@ void test_at_start(ImpactStage& stage, uint64_t key, Span<const ContactWork> con
   stage.test(key, start, inset, nullptr);
 }
 
+/// Whether the bodies of a pair in contact, who bore nothing of each other, come together so fast now that they
+/// rebound.
+bool is_blow(const ImpactStage& stage, uint64_t key) {
+  const uint32_t low = pair_low(key), high = pair_high(key);
+  if (jointed(stage, low) || jointed(stage, high) || stage.is_pushed(key)) return false;
+  const Vec3<Real> way = stage.bodies.sweeps[high].displacement - stage.bodies.sweeps[low].displacement;
+  const Real touching = -scale_by_power(stage.extent_of(key), -10);
+  bool rebounds = false;
+  for (const ContactWork& contact : find_contacts(stage.known.contacts, key)) {
+    for (uint32_t i = 0; i < contact.state.point_count; ++i) {
+      if (contact.separation[i] < touching) return false;
+    }
+    rebounds = rebounds || (is_positive(contact.restitution) &&
+                            dot(way, contact.normal) <= -contact.rebound_min * stage.settings.tick_time);
+  }
+  return rebounds;
+}
+
 /// Tests the new sweep of a body against all others.
 void test_changed(ImpactStage& stage, uint32_t slot, Fraction time) {
   stage.bodies.sweeps[slot].marks &= ~k_mark_changed;
@@ -164,9 +198,9 @@ void test_changed(ImpactStage& stage, uint32_t slot, Fraction time) {
   for_each_near(stage, slot, [&](uint32_t other) {
     if (is_at_rest(stage.bodies.sweeps[slot]) && is_at_rest(stage.bodies.sweeps[other])) return;
     const uint64_t key = key_of_pair(slot, other);
-    ImpactPair* entry = find_met(stage, key);
-    Real apart = k_zero;
-    stage.test(key, time, first_inset(stage, key, find_contacts(stage.known.contacts, key), apart), entry);
+    Real apart = k_zero, inset = k_zero;
+    if (!is_blow(stage, key)) inset = first_inset(stage, key, find_contacts(stage.known.contacts, key), apart);
+    stage.test(key, time, inset, find_met(stage, key));
   });
 }
 
@@ -246,8 +280,11 @@ void ImpactStage::find_first() {
 
 void ImpactStage::test_all_changed(Fraction time) {
   while (changed_count != 0) {
-    bodies.visits.for_each([&](uint32_t slot) {
+    const uint32_t first = changed_first;
+    changed_first = UINT32_MAX;
+    bodies.visits.while_each(first, [&](uint32_t slot) {
       if ((bodies.sweeps[slot].marks & k_mark_changed) != 0) test_changed(*this, slot, time);
+      return changed_count != 0;
     });
   }
 }

@@ -37,11 +37,22 @@ struct ImpactStage {
   bool filters;
   uint32_t met_count = 0;
   uint32_t changed_count = 0;
-  Real first_approach = 0.0;  ///< of the impact that is being resolved, m/s
+  uint32_t changed_first = 0;  ///< no body below has changed
+  Real first_approach = 0.0;   ///< of the impact that is being resolved, m/s
   ImpactReport report = {};
 
   SweptBody body(uint32_t slot) const { return {bodies.traits[slot], bodies.poses[slot], bodies.sweeps[slot]}; }
   bool dynamic(uint32_t slot) const { return is_dynamic(bodies.traits[slot]); }
+  /// Visits the pairs that a dynamic body meets in, or has met.
+  template <class Visit>
+  void for_each_met(uint32_t slot, const Visit& visit) const {
+    if (met_count == 0) return;
+    for (uint32_t at = bodies.first_met[slot]; at != 0;) {
+      ImpactPair& pair = met[at - 1];
+      at = pair.more[pair_high(pair.key) == slot ? 1 : 0];
+      visit(pair);
+    }
+  }
   /// The smaller body's smallest diameter, m.
   Real extent_of(uint64_t key) const {
     return min(shape_extent(bodies.traits[pair_low(key)]), shape_extent(bodies.traits[pair_high(key)]));
@@ -74,7 +85,8 @@ struct ImpactStage {
 
   // impact_blow.cpp
 
-  /// Lets the bodies of a pair, which are at the time of its impact, part. True if they meet at a seam and go on.
+  /// Lets the bodies of a pair, which are at the time of its impact, part. True if they meet at a seam for the
+  /// first time, and nothing changed.
   bool resolve(ImpactPair& pair, bool undecided, const BodyPose& pose_a, const BodyPose& pose_b);
   /// Passes a blow on to what the bodies of a pair touch since an impact of this tick, and back, until all part: a body
   /// between two others would else be struck to and fro without end. Pairs are taken by their keys.

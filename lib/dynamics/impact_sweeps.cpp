@@ -107,10 +107,9 @@ void ImpactStage::change(uint32_t slot) {
   BodySweep& sweep = bodies.sweeps[slot];
   begin_sweep(*this, slot);
   if ((sweep.marks & k_mark_changed) == 0) ++changed_count;
+  changed_first = slot < changed_first ? slot : changed_first;
   sweep.marks |= k_mark_changed;
-  for (uint32_t i = 0; i < met_count; ++i) {
-    if (pair_low(met[i].key) == slot || pair_high(met[i].key) == slot) met[i].next = k_next_none;
-  }
+  for_each_met(slot, [](ImpactPair& pair) { pair.next = k_next_none; });
 }
 
 void ImpactStage::stop(uint32_t slot, Fraction time) {

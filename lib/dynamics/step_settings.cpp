@@ -44,6 +44,7 @@ StepSettings step_settings(const WorldState& world) {
   settings.iterations = world.iterations;
   settings.tick_time = world.tick_time;
   settings.sleeping = world.sleeping != 0;
+  settings.continuous = world.continuous != 0;
   settings.quads = false;
   const Scaled rate = divide(scaled_from(world.tick_time), scaled_from(k_two_pi * world.stiffness));
   settings.substeps_per_rate = multiply(rate, rate);

@@ -25,6 +25,7 @@ struct StepSettings {
   uint32_t convergence;
   bool post_stabilises;
   bool sleeping;
+  bool continuous;     ///< impacts are looked for
   bool quads;          ///< four contacts at once where they may; the caller's choice, of no consequence for the result
   Real tick_time;      ///< s
   uint32_t substeps;   ///< as set_substeps() has it, like the next three

@@ -7,6 +7,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
+constexpr int k_parts_power_max = 8;  ///< of the parts in which a way is looked along
+
 /// The triangles of a surface, one by one, against a body on its way.
 struct SurfaceSearch {
   const SurfaceCode& code;
@@ -60,6 +62,7 @@ struct SurfaceSearch {
   }
 
   void ask(uint32_t index) {
+    if (index == triangle) return;  // it is known from the part of the way before
     const SurfaceTriangle t = surface.triangle(index);
     const Vec32 normal = normal_of(t.corner[0], t.corner[1], t.corner[2]);
     if (!turns && passes_by(t, normal)) return;
@@ -101,10 +104,22 @@ struct SurfaceSearch {
       visit({-k_all, -k_all, -k_all}, {k_all, k_all, k_all});
       return;
     }
-    const auto low = [reach](int64_t at, int64_t along) { return at + (along < 0 ? along : 0) - reach; };
-    const auto high = [reach](int64_t at, int64_t along) { return at + (along > 0 ? along : 0) + reach; };
-    visit({low(centre.x, way.x), low(centre.y, way.y), low(centre.z, way.z)},
-          {high(centre.x, way.x), high(centre.y, way.y), high(centre.z, way.z)});
+    // A long way is looked along part by part, up to the one in which something is met: a box about the whole of it
+    // would hold far more triangles.
+    const auto size = [](int64_t along) { return along < 0 ? -along : along; };
+    const auto larger = [](int64_t p, int64_t q) { return p < q ? q : p; };
+    const int64_t longest = larger(size(way.x), larger(size(way.y), size(way.z)));
+    int power = 0;
+    while (!turns && power < k_parts_power_max && longest >> power > 4 * reach) ++power;
+    const int64_t parts = int64_t{1} << power, margin = reach + parts - 1;  // each part's ends are rounded down
+    const Vec64 step = {way.x >> power, way.y >> power, way.z >> power};
+    for (int64_t part = 0; part < parts; ++part) {
+      const auto low = [&](int64_t at, int64_t along) { return at + along * part + (along < 0 ? along : 0) - margin; };
+      const auto high = [&](int64_t at, int64_t along) { return at + along * part + (along > 0 ? along : 0) + margin; };
+      visit({low(centre.x, step.x), low(centre.y, step.y), low(centre.z, step.z)},
+            {high(centre.x, step.x), high(centre.y, step.y), high(centre.z, step.z)});
+      if (triangle != k_no_triangle && first.time.raw <= (k_whole_step.raw >> power) * (part + 1)) return;
+    }
   }
   void visit(const Vec64& low, const Vec64& high) {
     code.visit(

@@ -261,7 +261,7 @@ bool Builder::build_level_with_face(BlockManifold& manifold) const {
   ContactAxis level = axis_;
   if (!find_level_face(pair_, rules_.sunk, level)) return false;
   const int64_t separation = pair_.metres(level.separation) - pair_.radius_a - pair_.radius_b;
-  add_on_axis(level.normal, separation, manifold);
+  Builder(pair_, level, rules_).add_on_axis(level.normal, separation, manifold);
   manifold.normal = level.normal;
   manifold.seam = true;
   return true;
@@ -329,6 +329,7 @@ Status contact_points_by(const ContactRules& rules, const Convex& a, const Pose&
                          const Pose& pose_b, DistanceCache* cache, ContactManifold& manifold, ContactKind& kind) {
   RestingPair pair;
   if (const Status status = rest(a, pose_a, b, pose_b, pair); status != Status::ok) return status;
+  if (rules.reach < 0) return Status::out_of_range;
   BlockManifold found;
   find_contact_points(pair, rules, cache, found);
   ContactManifold made;
@@ -351,12 +352,8 @@ Status contact_points(const Convex& a, const Pose& pose_a, const Convex& b, cons
                       ContactManifold& manifold, DistanceCache* cache, ManifoldReduction reduction) {
   Vec64 raw;
   ContactKind kind;
-  if (!raw_from_real({reach, Real(0.0), Real(0.0)}, raw) || raw.x < 0) {
-    RestingPair pair;
-    const Status status = rest(a, pose_a, b, pose_b, pair);
-    return status == Status::ok ? Status::out_of_range : status;
-  }
-  return contact_points_by(rules_of(raw.x, reduction), a, pose_a, b, pose_b, cache, manifold, kind);
+  const bool known = raw_from_real({reach, Real(0.0), Real(0.0)}, raw);
+  return contact_points_by(rules_of(known ? raw.x : -1, reduction), a, pose_a, b, pose_b, cache, manifold, kind);
 }
 
 }  // namespace DETENT_NAMESPACE

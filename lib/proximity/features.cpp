@@ -178,10 +178,9 @@ int64_t advance_tracking(const MovingPair& pair, const Frames& frames, const Sim
       length /= 2;
     } else if (then.gap > kept && then.gap < distance) {
       const int64_t covered = distance - then.gap, wanted = distance - kept;  // wanted > covered
-      const int64_t longer =
-          wanted < 2 * covered ? length + part_rounded(length, ratio(wanted - covered, covered)) : 2 * length;
-      if (longer >= widest.length && length == widest.length) break;
-      length = longer < widest.length ? longer : widest.length;
+      if (length == widest.length) break;
+      const int64_t more = wanted < 2 * covered ? part_rounded(length, ratio(wanted - covered, covered)) : length;
+      length = more < widest.length - length ? length + more : widest.length;
     } else {
       break;
     }

@@ -11,7 +11,7 @@ namespace {
 
 bool is_material(const Material& material) {
   return within(material.friction, Real(0.0), k_friction_max) && within(material.restitution, Real(0.0), Real(1.0)) &&
-         within(material.rolling_resistance, Real(0.0), Real(1.0));
+         within(material.rolling_resistance, Real(0.0), k_friction_max);
 }
 
 }  // namespace

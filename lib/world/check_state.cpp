@@ -147,7 +147,7 @@ bool is_body(const State& state, const BodyTraits& traits, AssetTable assets, co
          is_shape(traits, assets, features, state.assets) && is_linked(state, traits) && has_mass(traits) &&
          is_between(traits.friction, none, scaled_from(k_friction_max)) &&
          is_between(traits.restitution, none, Scaled(1.0)) &&
-         is_between(traits.rolling_resistance, none, Scaled(1.0)) &&
+         is_between(traits.rolling_resistance, none, scaled_from(k_friction_max)) &&
          is_between(traits.linear_damping, none, scaled_from(k_damping_max)) &&
          is_between(traits.angular_damping, none, scaled_from(k_damping_max)) &&
          is_between(traits.gravity_scale, negate(scaled_from(k_gravity_scale_max)), scaled_from(k_gravity_scale_max)) &&

@@ -78,7 +78,7 @@ inline bool is_reduction(ManifoldReduction reduction) {
   return reduction == ManifoldReduction::projected_extremes || reduction == ManifoldReduction::deepest_area;
 }
 
-inline constexpr Real k_friction_max = 16.0;
+inline constexpr Real k_friction_max = 16.0;  ///< and of rolling resistance
 inline constexpr Real k_damping_max = 1024.0;
 inline constexpr Real k_gravity_max = 1024.0;
 inline constexpr Real k_gravity_scale_max = 1024.0;

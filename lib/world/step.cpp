@@ -127,6 +127,7 @@ __attribute__((noinline)) void advance(World& world, const StateView<uint8_t>& s
                                  cache.tree,
                                  cache.visits,
                                  scratch.candidates,
+                                 scratch.moving_bodies.first(used),
                                  world.filter_rules,
                                  {sensor_code == nullptr ? nullptr : sensor_code->stretch, &sensors}};
     const ImpactReport impacts = world.features->continuous->advance(
@@ -204,9 +205,9 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   const uint32_t room = state.contacts.count - (before - awake_contacts.count);
   const bool reuses = settings.reuse > Real(0.0);
   const Span<ManifoldState> manifolds = state.manifolds.first(reuses ? state.manifolds.count : 0);
-  const Span<ManifoldState> manifold_work = scratch.manifolds.first(reuses && state.manifolds.count != 0 ? room : 0);
-  const ContactCount count = collide_pairs(settings, bodies, {state.contacts, manifolds, awake_contacts},
-                                           {scratch.contacts.first(room), manifold_work}, losses, pairs);
+  const ContactRoom places = {scratch, room, reuses && state.manifolds.count != 0};
+  const ContactCount count =
+      collide_pairs(settings, bodies, {state.contacts, manifolds, awake_contacts}, places, losses, pairs);
   const Span<ContactWork> contacts = scratch.contacts.first(count.contacts);
   const Span<ContactOrder> order = scratch.contact_order.first(count.contacts);
   stages.end(StepStage::collide, contacts.count);
@@ -244,7 +245,7 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   if (settings.sleeping)
     report.fell_asleep = world.features->sleeping->end_step(settings, traits, poses, sweeps, islands,
                                                             scratch.island_bodies, motions, activities);
-  store_contacts(contacts, manifold_work, awake_contacts.count, before, state.contacts, manifolds,
+  store_contacts(contacts, places.manifolds(), awake_contacts.count, before, state.contacts, manifolds,
                  cache.awake_contacts);
   cache.cache.awake_contact_count = contacts.count;
 

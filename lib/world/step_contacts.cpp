@@ -1,5 +1,6 @@
 #include "world/step_contacts.h"
 
+#include "base/heap.h"
 #include "collision/compound_code.h"
 #include "collision/contact_cache.h"
 #include "collision/manifold_reuse.h"
@@ -76,29 +77,35 @@ Real depth_of(const ContactWork& contact) {
   return -least;
 }
 
-/// So that all contacts of the pair are found anew: some of them are missing.
-void forget_manifolds(Span<const ContactWork> contacts, Span<ManifoldState> manifolds, uint64_t key) {
-  for (uint32_t i = 0; manifolds.count != 0 && i < contacts.count; ++i) {
-    if (key_of(contacts[i].state) == key) manifolds[i] = {};
-  }
+/// Whether the bodies were pushed apart in the last tick.
+bool is_pushed(const ContactWork& contact) {
+  bool pushed = false;
+  for (uint32_t i = 0; i < contact.state.point_count; ++i)
+    pushed = pushed || contact.state.normal_impulse[i] > Real(0.0);
+  return pushed;
 }
 
-/// Leaves out the shallowest contact, the last of equals, if it is shallower than `depth`, keeping the others' order:
-/// the last place is free then, and `key` is that of its pair.
-bool leave_out_shallowest(Span<ContactWork> contacts, Span<ManifoldState> manifolds, Real depth, uint64_t& key) {
-  uint32_t shallowest = contacts.count;
-  for (uint32_t i = 0; i < contacts.count; ++i) {
-    const Real other = depth_of(contacts[i]);
-    if (other > depth || (other == depth && shallowest == contacts.count)) continue;
-    depth = other;
-    shallowest = i;
+/// Deeper contacts first, of equals the earlier one. `key` is the number under which a contact was found.
+struct DeeperContact {
+  Span<const ContactWork> contacts;
+
+  bool operator()(const ContactOrder& a, const ContactOrder& b) const {
+    const Real depth_a = depth_of(contacts[a.contact]), depth_b = depth_of(contacts[b.contact]);
+    return depth_a > depth_b || (depth_a == depth_b && a.key < b.key);
   }
-  if (shallowest == contacts.count) return false;
-  key = key_of(contacts[shallowest].state);
-  for (uint32_t i = shallowest; i + 1 < contacts.count; ++i) contacts[i] = contacts[i + 1];
-  for (uint32_t i = shallowest; i + 1 < manifolds.count; ++i) manifolds[i] = manifolds[i + 1];
-  forget_manifolds(contacts.first(contacts.count - 1), manifolds, key);
-  return true;
+};
+
+/// Without a copy on the stack, which would be large.
+void swap(ContactWork& a, ContactWork& b) {
+  static_assert(sizeof(ContactWork) % sizeof(uint64_t) == 0);
+  uint8_t *at_a = reinterpret_cast<uint8_t*>(&a), *at_b = reinterpret_cast<uint8_t*>(&b);
+  for (uint32_t i = 0; i < sizeof(ContactWork); i += sizeof(uint64_t)) {
+    uint64_t word_a, word_b;
+    __builtin_memcpy(&word_a, at_a + i, sizeof(word_a));
+    __builtin_memcpy(&word_b, at_b + i, sizeof(word_b));
+    __builtin_memcpy(at_a + i, &word_b, sizeof(word_b));
+    __builtin_memcpy(at_b + i, &word_a, sizeof(word_a));
+  }
 }
 
 /// Collides pairs in ascending order and makes the rows of those that touch, sorted by pair and part.
@@ -110,6 +117,7 @@ struct Collider {
   Losses& losses;
   ContactCount count = {};
   uint32_t next = 0;
+  bool rebounds = false;  ///< a contact of two dynamic bodies may
   uint32_t last_started = UINT32_MAX;
 
   bool reuses() const { return last.manifolds.count != 0; }
@@ -133,6 +141,47 @@ struct Collider {
     count.capped += geometry.capped ? 1 : 0;
     count.reused += reused ? 1 : 0;
     if (geometry.count != 0) add(key, 0, geometry, manifold, before.contact);
+  }
+
+  /// The contacts lie as they were found again, where some were left out.
+  __attribute__((noinline)) void put_in_order() {
+    const Span<ContactOrder> place = room.by_depth();
+    heap_sort(place, [](const ContactOrder& a, const ContactOrder& b) { return a.key < b.key; });
+    for (uint32_t i = 0; i < place.count; ++i) {
+      uint32_t at = i;
+      while (place[at].contact != i) {
+        const uint32_t from = place[at].contact;
+        swap(room.contacts()[at], room.contacts()[from]);
+        if (room.keeps_manifolds) {
+          const ManifoldState moved = room.manifolds()[at];
+          room.manifolds()[at] = room.manifolds()[from];
+          room.manifolds()[from] = moved;
+        }
+        place[at].contact = at;
+        at = from;
+      }
+      place[at].contact = at;
+    }
+  }
+
+  /// Blows are left to the impacts, between bodies that no other dynamic body leans on: within a pile they would be
+  /// many.
+  __attribute__((noinline)) void leave_blows_to_impacts() const {
+    const Span<ContactWork> contacts = room.contacts().first(count.contacts);
+    const auto for_each_leaning = [&](const auto& visit) {
+      for (const ContactWork& contact : contacts) {
+        if (contact.static_pair != 0 || !is_pushed(contact)) continue;
+        visit(contact.state.body_a);
+        visit(contact.state.body_b);
+      }
+    };
+    for_each_leaning([&](uint32_t slot) { room.leaning().set(slot); });
+    for (ContactWork& contact : contacts) {
+      const uint32_t a = contact.state.body_a, b = contact.state.body_b;
+      if (contact.static_pair == 0 && !room.leaning().has(a) && !room.leaning().has(b) && !bodies.has_parts(a, b))
+        leave_to_impact(settings, bodies.at(a), bodies.at(b), contact);
+    }
+    for_each_leaning([&](uint32_t slot) { room.leaning().clear(slot); });
   }
 
  private:
@@ -189,7 +238,7 @@ struct Collider {
       for (uint32_t k = 0; k < pair.count; ++k) before = pair[k].part == contact.key ? &pair[k] : before;
       add(key, contact.key, contact.geometry, manifold[i], before);
     }
-    if (count.dropped != dropped_before) forget_manifolds(room.contacts.first(count.contacts), room.manifolds, key);
+    if (count.dropped != dropped_before) forget_manifolds(key);
   }
 
   /// The contacts of the last tick, where all of the pair will do.
@@ -208,21 +257,53 @@ struct Collider {
     return found.count != 0;
   }
 
+  /// So that all contacts of the pair are found anew: some of them are missing.
+  __attribute__((noinline)) void forget_manifolds(uint64_t key) {
+    for (uint32_t i = 0; room.keeps_manifolds && i < count.contacts; ++i) {
+      if (key_of(room.contacts()[i].state) == key) room.manifolds()[i] = {};
+    }
+  }
+
+  /// Whether the shallowest contact is shallower than `depth`: it has the first place in the order by depth, and is to
+  /// be replaced.
+  __attribute__((noinline)) bool leave_out_shallowest(Real depth, uint64_t key) {
+    if (count.dropped++ == 0) {
+      for (uint32_t i = 0; i < room.by_depth().count; ++i) {
+        room.by_depth()[i] = {};
+        room.by_depth()[i].key = room.by_depth()[i].contact = i;
+      }
+      heap_make(room.by_depth(), DeeperContact{room.contacts()});
+    }
+    uint64_t lost = key;
+    bool has_room = false;
+    if (room.count != 0) {
+      const ContactWork& shallowest = room.contacts()[room.by_depth()[0].contact];
+      has_room = depth_of(shallowest) < depth;
+      if (has_room) lost = key_of(shallowest.state);
+    }
+    losses.add(CapacityEventType::contact, pair_low(lost), pair_high(lost));
+    if (has_room && bodies.has_parts(pair_low(lost), pair_high(lost))) forget_manifolds(lost);
+    return has_room;
+  }
+
   void add(uint64_t key, uint32_t part, const ContactGeometry& geometry, const ManifoldState& manifold,
            const ContactState* before) {
     const uint32_t slot_a = pair_low(key), slot_b = pair_high(key);
-    if (count.contacts == room.contacts.count) {
-      ++count.dropped;
-      uint64_t lost = key;
-      const bool has_room = leave_out_shallowest(room.contacts, room.manifolds, depth_of(geometry), lost);
-      losses.add(CapacityEventType::contact, pair_low(lost), pair_high(lost));
-      if (!has_room) return;
-      --count.contacts;
-    }
-    if (reuses()) room.manifolds[count.contacts] = manifold;
-    ContactWork& work = room.contacts[count.contacts++];
+    const uint32_t number = count.contacts + count.dropped;
+    const bool is_full = count.contacts == room.count;
+    if (is_full && !leave_out_shallowest(depth_of(geometry), key)) return;
+    const uint32_t place = is_full ? room.by_depth()[0].contact : count.contacts++;
+    if (reuses()) room.manifolds()[place] = manifold;
+    ContactWork& work = room.contacts()[place];
     work.state = continued_contact(slot_a, slot_b, part, geometry, before);
     make_rows(settings, bodies.at(slot_a), bodies.at(slot_b), geometry, work);
+    rebounds = rebounds || (work.static_pair == 0 && is_positive(work.restitution));
+    if (is_full) {
+      ContactOrder made = {};
+      made.key = number;
+      made.contact = place;
+      heap_sift_down(room.by_depth(), 0, made, DeeperContact{room.contacts()});
+    }
   }
 };
 
@@ -256,8 +337,10 @@ ContactCount collide_pairs(const StepSettings& settings, const StepBodies& bodie
                            const ContactRoom& room, Losses& losses, Span<const uint64_t> pairs) {
   Collider collider = {settings, bodies, last, room, losses};
   for (const uint64_t key : pairs) collider.meet(key);
+  if (collider.count.dropped != 0) collider.put_in_order();
+  if (collider.rebounds) collider.leave_blows_to_impacts();
   ContactCount& count = collider.count;
-  for (const ContactWork& contact : room.contacts.first(count.contacts)) count.points += contact.state.point_count;
+  for (const ContactWork& contact : room.contacts().first(count.contacts)) count.points += contact.state.point_count;
   return count;
 }
 

@@ -7,6 +7,7 @@
 #include "dynamics/predict.h"
 #include "geometry/shape_traits.h"
 #include "world/step_cache.h"
+#include "world/step_scratch.h"
 
 /// The narrow phase of a step: who of those that sleep is touched, and the contacts of all pairs.
 namespace detent {
@@ -61,8 +62,14 @@ struct LastContacts {
 
 /// Room for the contacts of a tick.
 struct ContactRoom {
-  Span<ContactWork> contacts;
-  Span<ManifoldState> manifolds;  ///< as many places, or none
+  const Scratch& scratch;
+  uint32_t count;  ///< of the places that may be taken
+  bool keeps_manifolds;
+
+  Span<ContactWork> contacts() const { return scratch.contacts.first(count); }
+  Span<ManifoldState> manifolds() const { return scratch.manifolds.first(keeps_manifolds ? count : 0); }
+  Span<ContactOrder> by_depth() const { return scratch.contact_sort.first(count); }
+  BitSet leaning() const { return scratch.candidates; }
 };
 
 /// Collides pairs in ascending order and makes the rows of those that touch, sorted by pair and part. Of more than

@@ -4,12 +4,6 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-WorldDef weightless() {
-  WorldDef def;
-  def.gravity = {0.0, 0.0, 0.0};
-  return def;
-}
-
 BodyDef ball(double radius, double x, double speed, double restitution) {
   BodyDef def;
   def.shape = sphere(real(radius));
@@ -260,6 +254,20 @@ DETENT_TEST(impact_stage, the_committed_sweeps_make_no_deep_overlap_and_none_esc
     EXPECT_LT(deepest_apart, 0.05);
     EXPECT_LE(stopped, 2u) << "of 7200: one crushed among others meets more often than its budget allows";
   }
+}
+
+/// The ladder's other rungs are not tried where not even the last one parts them.
+DETENT_TEST(impact_stage, what_lies_in_one_place_costs_two_tests_a_pair) {
+  Lab lab({40, 100, 0}, weightless());  // beyond the pairs that there is room for all are tested
+  for (int i = 0; i < 40; ++i) {
+    BodyDef def;
+    def.shape = sphere(real(0.25));
+    def.velocity = reals(0.01 * i, 0, 0);
+    lab.add(def);
+  }
+  const StepReport report = lab.run(1);
+  EXPECT_EQ(report.pairs, 780u);
+  EXPECT_LE(report.toi_tests, 2 * 780u);
 }
 
 DETENT_TEST(impact_stage, momentum_is_kept_whatever_meets) {

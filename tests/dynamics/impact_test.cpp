@@ -8,12 +8,6 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-WorldDef weightless() {
-  WorldDef def;
-  def.gravity = {0.0, 0.0, 0.0};
-  return def;
-}
-
 BodyDef ball(double mass, double x, double speed) {
   BodyDef def;
   def.shape = sphere(real(0.5));

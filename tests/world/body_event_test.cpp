@@ -1,4 +1,9 @@
+#include <algorithm>
+#include <set>
+#include <utility>
+
 #include "tests/world/lab.h"
+#include "world/view.h"
 
 /// What a step tells of sleep, and of whom it had no room for.
 namespace detent {
@@ -120,6 +125,33 @@ DETENT_TEST(capacity_event, names_whose_contact_was_dropped) {
     EXPECT_EQ(lost[i].b, crates[i]);
   }
   EXPECT_EQ(lab.run(1).capacity_events, 2u);
+}
+
+DETENT_TEST(capacity, of_contacts_keeps_the_deepest_of_many_in_order) {
+  constexpr uint32_t k_crates = 90;
+  for (const uint32_t room : {0u, 1u, 37u, 89u, 90u}) {
+    Lab lab({k_crates + 1, room, 0});
+    CapacityEvent lost[k_crates];
+    lab.world.capacity_events = {lost, k_crates};
+    lab.add_ground();
+    std::vector<std::pair<double, uint32_t>> by_depth;
+    for (uint32_t i = 0; i < k_crates; ++i) {
+      const double depth = 1e-3 * (i * 37 % 45);  // each of two crates, of which the first is kept
+      lab.add_box(0.5, 3 * i, 0.5 - depth, 0);
+      by_depth.push_back({-depth, i + 1});
+    }
+    std::sort(by_depth.begin(), by_depth.end());
+    std::set<uint32_t> kept;
+    for (uint32_t i = 0; i < room; ++i) kept.insert(by_depth[i].second);
+    const StepReport report = lab.run(1);
+    EXPECT_EQ(report.pairs_dropped, room == 0 ? k_crates : k_crates > 2 * room ? k_crates - 2 * room : 0);
+    if (room == 0) continue;
+    const auto state = view_of(lab.world);
+    ASSERT_EQ(state.world.contact_count, room);
+    std::vector<uint32_t> found;
+    for (uint32_t i = 0; i < room; ++i) found.push_back(state.contacts[i].body_b);
+    EXPECT_EQ(found, std::vector<uint32_t>(kept.begin(), kept.end())) << room;
+  }
 }
 
 DETENT_TEST(capacity_event, names_whose_pair_was_dropped_though_its_own_buffer_is_short) {

@@ -80,12 +80,6 @@ class CompoundLab : public Lab {
   Asset assets_[2];
 };
 
-WorldDef weightless() {
-  WorldDef def;
-  def.gravity = {};
-  return def;
-}
-
 double speed_of(const Motion& motion) {
   return hypot(hypot(motion.velocity[0], motion.velocity[1]), motion.velocity[2]) +
          hypot(hypot(motion.spin[0], motion.spin[1]), motion.spin[2]);

@@ -10,12 +10,6 @@ namespace {
 
 constexpr double k_pi = 3.14159265358979323846;
 
-WorldDef weightless() {
-  WorldDef def;
-  def.gravity = {0.0, 0.0, 0.0};
-  return def;
-}
-
 BodyDef ball(double radius, double mass) {
   BodyDef def;
   def.shape = sphere(real(radius));

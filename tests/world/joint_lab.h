@@ -95,12 +95,6 @@ inline constexpr Quat k_x_to_z = {-0.5, -0.5, -0.5, 0.5};
 
 inline constexpr double k_pi = 3.14159265358979323846;
 
-inline WorldDef weightless(uint32_t substeps = 0) {
-  WorldDef def;
-  def.gravity = {0.0, 0.0, 0.0};
-  def.substeps = substeps;
-  return def;
-}
 inline Capacity room(uint32_t bodies, uint32_t joints) { return {bodies, 4 * bodies, 0, true, joints}; }
 
 /// Two bricks with a joint half-way between them, in space, that fly off turning.

@@ -34,6 +34,13 @@ inline Vec3<Real> reals(double x, double y, double z) { return {real(x), real(y)
 inline Vec3<Scaled> scaleds(double x, double y, double z) { return {scaled(x), scaled(y), scaled(z)}; }
 inline Position position(double x, double y, double z) { return {coord(x), coord(y), coord(z)}; }
 
+inline WorldDef weightless(uint32_t substeps = 0) {
+  WorldDef def;
+  def.gravity = {0.0, 0.0, 0.0};
+  def.substeps = substeps;
+  return def;
+}
+
 struct Motion {
   double position[3], velocity[3], spin[3];
 };

@@ -9,12 +9,6 @@ inline namespace DETENT_NAMESPACE {
 
 inline constexpr SensorEventType k_enter = SensorEventType::enter, k_leave = SensorEventType::leave;
 
-inline WorldDef weightless() {
-  WorldDef def;
-  def.gravity = {0.0, 0.0, 0.0};
-  return def;
-}
-
 inline BodyDef sensor_def(const Shape& shape, double x = 0, double y = 0, double z = 0,
                           BodyType type = BodyType::fixed) {
   BodyDef def;

@@ -270,7 +270,7 @@ DETENT_TEST(state, bodies_that_no_call_makes_are_refused) {
       [](const auto& state) { state.traits[1].friction = Scaled(-0.5); },
       [](const auto& state) { state.traits[1].restitution = Scaled(1.25); },
       [](const auto& state) { state.traits[1].restitution = Scaled(-0.25); },
-      [](const auto& state) { state.traits[1].rolling_resistance = Scaled(1.25); },
+      [](const auto& state) { state.traits[1].rolling_resistance = Scaled(16.25); },
       [](const auto& state) { state.traits[1].rolling_resistance = Scaled(-0.25); },
       [](const auto& state) { state.traits[1].linear_damping = Scaled(1025.0); },
       [](const auto& state) { state.traits[1].linear_damping = Scaled(-1.0); },

@@ -267,10 +267,11 @@ struct ImpactPair {
   Fraction last;      ///< of the last impact
   Vec3<Real> point;   ///< of the next impact, on A's surface, m, from A's position then, world axes
   Vec3<Unit> normal;  ///< of the next impact, from A to B
+  uint32_t more[2];   ///< the next pair of the lower slot's list, of the higher's: its index and 1; 0 at the end
   uint8_t next;       ///< what comes next: nothing, an impact, a time found in part, or a look from farther out
   uint8_t impacts;    ///< so far
   uint8_t looks;      ///< so far
-  uint8_t zero;
+  uint8_t at_seam;    ///< 1 since it met at a seam: what it meets next is an impact
 };
 
 /// An impact that changed how two bodies move, for contact events.

@@ -76,7 +76,7 @@ void visit(F& fields, Material& material) {
                                                  {"smaller", RestitutionRule::smaller}};
   fields.real({"friction", "Coulomb's coefficient", between(0, 16)}, material.friction);
   fields.real({"restitution", "rebound speed over approach speed", between(0, 1)}, material.restitution);
-  fields.real({"rolling_resistance", "torque over (normal force x smaller radius)", between(0, 1)},
+  fields.real({"rolling_resistance", "torque over (normal force x smaller radius)", between(0, 16)},
               material.rolling_resistance);
   fields.choice({"restitution_rule", "which of two restitutions a pair takes; one `smaller` decides"},
                 material.restitution_rule, k_rules);
