@@ -175,15 +175,15 @@ void test_at_start(ImpactStage& stage, uint64_t key, Span<const ContactWork> con
 
 /// Whether the bodies of a pair in contact, who bore nothing of each other, come together so fast now that they
 /// rebound.
-bool is_blow(const ImpactStage& stage, uint64_t key) {
+bool is_blow(const ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts) {
   const uint32_t low = pair_low(key), high = pair_high(key);
-  if (jointed(stage, low) || jointed(stage, high) || stage.is_pushed(key)) return false;
+  if (contacts.count == 0 || jointed(stage, low) || jointed(stage, high)) return false;
   const Vec3<Real> way = stage.bodies.sweeps[high].displacement - stage.bodies.sweeps[low].displacement;
   const Real touching = -scale_by_power(stage.extent_of(key), -10);
   bool rebounds = false;
-  for (const ContactWork& contact : find_contacts(stage.known.contacts, key)) {
+  for (const ContactWork& contact : contacts) {
     for (uint32_t i = 0; i < contact.state.point_count; ++i) {
-      if (contact.separation[i] < touching) return false;
+      if (contact.separation[i] < touching || contact.impulse_max[i] > k_zero) return false;
     }
     rebounds = rebounds || (is_positive(contact.restitution) &&
                             dot(way, contact.normal) <= -contact.rebound_min * stage.settings.tick_time);
@@ -198,8 +198,9 @@ void test_changed(ImpactStage& stage, uint32_t slot, Fraction time) {
   for_each_near(stage, slot, [&](uint32_t other) {
     if (is_at_rest(stage.bodies.sweeps[slot]) && is_at_rest(stage.bodies.sweeps[other])) return;
     const uint64_t key = key_of_pair(slot, other);
+    const Span<const ContactWork> contacts = find_contacts(stage.known.contacts, key);
     Real apart = k_zero, inset = k_zero;
-    if (!is_blow(stage, key)) inset = first_inset(stage, key, find_contacts(stage.known.contacts, key), apart);
+    if (!is_blow(stage, key, contacts)) inset = first_inset(stage, key, contacts, apart);
     stage.test(key, time, inset, find_met(stage, key));
   });
 }

@@ -122,7 +122,7 @@ struct alignas(8) ContactWork {
   Scaled angular_mass[3];  ///< effective masses about the normal and the tangents
   Scaled restitution;
 
-  alignas(sizeof(Real)) Real separation[k_manifold_points_max];  ///< at the start of the tick, less what they part by sliding, m
+  alignas(sizeof(Real)) Real separation[k_manifold_points_max];  ///< at the start of the tick, and what they part by sliding, m
   Real impulse_max[k_manifold_points_max];                       ///< largest normal impulse of this tick, m/s
   Real friction_impulse[2];                                      ///< along the tangents
   Real angular_impulse[3];                                       ///< about the normal and the tangents
