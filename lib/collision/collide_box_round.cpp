@@ -81,6 +81,14 @@ struct BoxContact {
   Axes normal;  ///< out of the box
   int face;     ///< axis of the face that the normal belongs to, or -1
   Unit along;   ///< on the segment, where no face is
+
+  /// Takes the face of that axis on the side to which the normal points.
+  void set_face(int axis) {
+    const Unit side = normal.v[axis] < Unit(0.0) ? Unit(-1.0) : Unit(1.0);
+    face = axis;
+    normal = {{0.0, 0.0, 0.0}};
+    normal.v[axis] = side;
+  }
 };
 
 /// The direction of least overlap of a box and a segment that meet.
@@ -160,10 +168,21 @@ __attribute__((noinline)) bool find_level_box_face(const BoxAndSegment& pair, Un
     Unit apart = -radius, level = abs(pair.at(axis, contact.along)) - pair.half.v[axis] - radius;
     for (int i = 0; i < 3; ++i) apart += (abs(pair.at(i, contact.along)) - pair.half.v[i]) * abs(contact.normal.v[i]);
     if (abs(apart) > sunk || abs(level) > sunk) return false;
-    const bool below = contact.normal.v[axis] < Unit(0.0);
-    contact.face = axis;
-    contact.normal = {{0.0, 0.0, 0.0}};
-    contact.normal.v[axis] = below ? Unit(-1.0) : Unit(1.0);
+    contact.set_face(axis);
+    return true;
+  }
+  return false;
+}
+
+/// Where a capsule crosses a side of a face that leans a little against it: that face, over which it would touch at one
+/// end in one tick and at the other in the next.
+__attribute__((noinline)) bool find_leaning_box_face(const BoxAndSegment& pair, BoxContact& contact) {
+  constexpr Unit k_leaning_cosine = 1.0 - 0x1p-7;  // 2^-3 rad, as for faces of hulls
+  for (int axis = 0; axis < 3; ++axis) {
+    if (abs(contact.normal.v[axis]) < k_leaning_cosine) continue;
+    Unit low, high;
+    if (!clip_to_face(pair, axis, low, high) || !(low < high)) return false;
+    contact.set_face(axis);
     return true;
   }
   return false;
@@ -192,9 +211,7 @@ void collide_box_round(const PairFrame& frame, PairManifold& manifold) {
     const Unit aside = scale_by_power(distance, k_upright_power);
     for (int axis = 0; axis < 3; ++axis) {
       if (abs(excess.v[(axis + 1) % 3]) > aside || abs(excess.v[(axis + 2) % 3]) > aside) continue;
-      contact.face = axis;
-      contact.normal = {{zero, zero, zero}};
-      contact.normal.v[axis] = excess.v[axis] < zero ? Unit(-1.0) : Unit(1.0);
+      contact.set_face(axis);
     }
   } else {
     contact = least_overlap(pair);
@@ -202,6 +219,7 @@ void collide_box_round(const PairFrame& frame, PairManifold& manifold) {
   if (contact.face < 0) {
     manifold.seam = frame.smooth_seams && find_level_box_face(pair, radius, frame.sunk, contact);
     manifold.turns = !manifold.seam && turns_at_edge(pair, contact);
+    if (!manifold.seam && !manifold.turns) find_leaning_box_face(pair, contact);
   }
   manifold.normal = multiply(rotation, vector_of(contact.normal));
 

@@ -1,6 +1,6 @@
 #include "dynamics/activity.h"
 
-#include "dynamics/predict.h"
+#include "dynamics/spin.h"
 #include "geometry/shape_traits.h"
 
 namespace detent {
@@ -8,6 +8,26 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 constexpr int k_rest_power = -6;
+constexpr Real k_slow_max = 1024.0;  ///< m/s, of what is worth squaring; no body falls by its extent in less
+
+/// Whether a body that moves so, and has that momentum, has no point that is faster than `slow`, m/s, by about its
+/// kinetic energy: what is slender may roll faster about its axis than it may swing. Range: slow <= k_slow_max.
+bool is_slower(const Vec3<Real>& velocity, const Vec3<Real>& spin, const Vec3<Real>& momentum, Real slow) {
+  if (greatest(velocity) > slow || greatest(spin) > k_slow_max || greatest(momentum) > k_slow_max) return false;
+  return scale_by_power(dot(velocity, velocity) + dot(spin, momentum), 1) < slow * slow;
+}
+
+/// Whether neither the body's velocity nor its way in the tick is more than slow.
+bool is_resting(const StepSettings& settings, const BodyTraits& traits, const BodyPose& pose, const BodySweep& sweep,
+                const BodyMotion& motion) {
+  const Real slow = scale_by_power(fall_speed(settings, shape_extent(traits)), k_rest_power);
+  const Vec3<Real> spin = spin_of(traits, pose.rotation, motion.momentum);
+  if (!is_slower(motion.velocity, spin, motion.momentum, slow) || greatest(sweep.turn) > Real(1.0)) return false;
+  const Real rate = divide(Real(1.0), settings.tick_time);
+  const Vec3<Real> velocity = sweep.displacement * rate;
+  const Vec3<Real> turning = scale_by_power(sweep.turn * rate, traits.size_exponent);
+  return is_slower(velocity, turning, momentum_of(traits, pose.rotation, turning), slow);
+}
 
 }  // namespace
 
@@ -41,11 +61,7 @@ uint32_t fall_asleep(const StepSettings& settings, Span<const BodyTraits> traits
     bool still = true;
     for (uint32_t i = 0; i < island.body_count; ++i) {
       const uint32_t slot = bodies[island.first_body + i];
-      const Real slow = scale_by_power(fall_speed(settings, shape_extent(traits[slot])), k_rest_power);
-      const Real way = absolute_sum(sweeps[slot].displacement) +
-                       scale_by_power(absolute_sum(sweeps[slot].turn), traits[slot].size_exponent);
-      const bool rests = speed_bound(traits[slot], poses[slot].rotation, motions[slot]) < slow &&
-                         way < slow * settings.tick_time;
+      const bool rests = is_resting(settings, traits[slot], poses[slot], sweeps[slot], motions[slot]);
       uint16_t& ticks = activities[slot].still_ticks;
       ticks = static_cast<uint16_t>(!rests ? 0 : ticks < k_still_ticks ? ticks + 1 : ticks);
       still = still && ticks == k_still_ticks;

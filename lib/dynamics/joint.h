@@ -151,6 +151,11 @@ bool bound_drives(const JointState& joint, Scaled share, bool changes, JointWork
 inline bool is_at_limit(DriveMode mode) {
   return mode == DriveMode::held || mode == DriveMode::lower || mode == DriveMode::upper;
 }
+/// Whether a row holds something where it is: a limit does while it is reached.
+inline bool is_held(const JointWork& work, uint32_t row) {
+  return row < work.rows_held || (work.driven[0] == row && is_at_limit(work.mode[0])) ||
+         (work.driven[1] == row && is_at_limit(work.mode[1]));
+}
 /// Whether the bodies, as they move now, would pass limits that did not act, by more than a little, or motors and
 /// friction at their greatest force take them beyond the speeds that they want: those limits act now, and those drives
 /// hold. Drives not where the island `touches`: contacts, which are held in turn, may load them yet.

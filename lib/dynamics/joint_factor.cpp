@@ -5,17 +5,23 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 /// A row is softer by this power of two of the largest response of its joint's rows of its kind: rows that others hold
-/// already have nothing else to stand on, and what they hold by it is below what the numbers can tell.
+/// already have nothing else to stand on, and what they hold by it is below what the numbers can tell. What stands on
+/// the near singular, as a chain that is nearly straight, gives way by it: so it is as little as the numbers allow.
+/// Drives give way before what is held, and where make_softer() has been called all rows do, by the second power.
 #if defined(DETENT_F32)
-constexpr int k_softness_power = -17;
+constexpr int k_softness_power = -20, k_soft_power = -17;
+#elif defined(DETENT_F64)
+constexpr int k_softness_power = -27, k_soft_power = -20;
 #else
-constexpr int k_softness_power = -20;
+constexpr int k_softness_power = -25, k_soft_power = -20;
 #endif
+/// Below this rounding holds rows that others hold already, and they bind: so smaller responses are softer.
+constexpr Real k_softness_min = DETENT_FIXED ? Real(0x1p-20) : k_zero;
 
 /// A pivot is at least so much, so that its reciprocal is one that multiply() takes.
 constexpr Real k_pivot_min = 0x1p-29;
 /// Of an impulse, before those of its joint are taken from it.
-constexpr Real k_solved_max = 65536.0;
+constexpr Real k_solved_max = k_solution_max * Real(4.0);
 #if DETENT_FIXED
 /// Near what the rows' responses are brought, and no more than so that their speeds fit a Real.
 constexpr int k_joint_response_bits = 5, k_power_max = 9;
@@ -218,11 +224,20 @@ void JointFactor::make() {
     const auto kind = [&](uint32_t k) { return row_kind(work, k); };
     for (uint32_t k = 0; k < work.rows; ++k) most[kind(k)] = max(most[kind(k)], work.response[k][k]);
     for (uint32_t k = 0; k < work.rows; ++k) {
-      work.least[k] = max(scale_by_power(most[kind(k)], k_softness_power), k_pivot_min);
+      const Real soft = scale_by_power(most[kind(k)], k_soft_power);
+      const Real hard = max(scale_by_power(most[kind(k)], k_softness_power), min(soft, k_softness_min));
+      work.least[k] = max(softer_ || !is_held(work, k) ? soft : hard, k_pivot_min);
       work.response[k][k] += work.least[k] + min(work.spring[k], k_spring_max);
     }
   }
   for (const uint32_t index : order_) eliminate(stage_.work[index]);
+}
+
+bool JointFactor::make_softer() {
+  if (softer_ || k_soft_power == k_softness_power) return false;
+  softer_ = true;
+  make();
+  return true;
 }
 
 /// Adds to a joint's diagonal what it shows in others without a coupling.

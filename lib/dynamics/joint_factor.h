@@ -58,6 +58,12 @@ inline void show(const JointWork& work, uint32_t end, const Vec3<Real>& velocity
     speed[k] = dot(velocity, work.row[k].axis) + dot(spin, work.row[k].arm[end]);
 }
 
+/// Of a row's impulse in a solution; beyond it all are made less.
+#if defined(DETENT_F64)
+inline constexpr Real k_solution_max = 0x1p24;
+#else
+inline constexpr Real k_solution_max = 16384.0;
+#endif
 /// What a body gets from its joints at most, m/s: two of them fit a Real.
 inline constexpr Real k_gathered_max = 65504.0;
 
@@ -109,6 +115,8 @@ class JointFactor {
 
   /// Makes it of the rows as they are, with the bodies' inertias.
   void make();
+  /// Makes it anew with softer rows, if they are not yet: false. It stays so until the next make() of another.
+  bool make_softer();
   /// L^-1 of the sides. Returns the sides' energy: twice what they have as the motion of least energy that shows them.
   Scaled substitute();
   /// The impulses of the sides that were substituted.
@@ -119,6 +127,7 @@ class JointFactor {
   JointStage& stage_;
   Span<const uint32_t> order_;
   bool dropped_;
+  bool softer_ = false;
 
   void make_up(uint32_t index);
   void start(JointWork& work);

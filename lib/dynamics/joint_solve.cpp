@@ -16,7 +16,9 @@ constexpr uint32_t k_decisions = 12;           ///< tries to solve with limits a
 constexpr uint32_t k_takings = 3;              ///< of those, in which limits are taken up: then they are only let go
 
 /// What a substep makes up for of the errors of positions, and no faster than so.
-constexpr Unit k_closed = 0.2;
+constexpr Unit k_closed = 0.15;
+/// And in an island with contacts, which learn of it only when they are pressed.
+constexpr Unit k_closed_with_contacts = 0.05;
 constexpr Real k_closing_speed_max = 4.0;  ///< m/s
 constexpr Real k_closing_spin_max = 16.0;  ///< rad/s
 constexpr int k_gap_power = 20;            ///< where all gaps are below 2^-k_gap_power of their joint's unit they stay
@@ -196,12 +198,6 @@ struct Solver {
     clamped += clamp_component(speed, scale_by_power(Real(1.0), k_side_power_max - (power > 0 ? power : 0)));
     return scale_by_power(speed, power);
   }
-  /// Whether a row holds something where it is: a limit does while it is reached.
-  static bool is_held(const JointWork& work, uint32_t row) {
-    return row < work.rows_held || (work.driven[0] == row && is_at_limit(work.mode[0])) ||
-           (work.driven[1] == row && is_at_limit(work.mode[1]));
-  }
-
   /// Whether a body turns by more than 2^-k_straight_power rad in the substep: below, joints' ways do not bend by what
   /// can be told. Rods turn without their bodies.
   bool any_turns() {
@@ -240,6 +236,17 @@ struct Solver {
     each_joint([&](JointWork& work) { push(work); });
   }
 
+  void ask_for_speeds() {
+    each_joint([&](JointWork& work) {
+      Real speed[k_joint_rows_max];
+      speeds(work, speed);
+      for (uint32_t k = 0; k < work.rows; ++k) work.side[k] = side_of(work, k, work.wanted[k] - speed[k]);
+      for (int i = 0; i < k_free_motions; ++i) {
+        const uint32_t row = work.driven[i];
+        if (row != k_joint_rows_max) work.side[row] -= work.spring[row] * work.driven_total[i];
+      }
+    });
+  }
   /// Holds the rows, until all limits, motors and brakes are as they were taken to be.
   void hold(Real elapsed) {
     for (uint32_t decision = 1;; ++decision) {
@@ -248,17 +255,7 @@ struct Solver {
         body.velocity = motion.velocity + body.given_push;
         body.spin = spin_from(body, motion.momentum + body.given_twist);
       });
-      each_joint([&](JointWork& work) {
-        Real speed[k_joint_rows_max];
-        speeds(work, speed);
-        for (uint32_t k = 0; k < work.rows; ++k) work.side[k] = side_of(work, k, work.wanted[k] - speed[k]);
-        for (int i = 0; i < k_free_motions; ++i) {
-          const uint32_t row = work.driven[i];
-          if (row != k_joint_rows_max) work.side[row] -= work.spring[row] * work.driven_total[i];
-        }
-      });
-      factor.substitute();
-      factor.solve();
+      const uint32_t lessened = solve_for([&] { ask_for_speeds(); });
       bool wrong = false;
       const bool last = decision == k_decisions;
       each_joint([&](JointWork& work) {
@@ -269,7 +266,7 @@ struct Solver {
           if (release_limits(stage.joints[work.joint], !last, work)) wrong = true;
         });
       }
-      if (!wrong || last) clamped += gather_impulses();
+      if (!wrong || last) clamped += lessened;
       if (wrong && last) ++undecided;
       if (!wrong && decision <= k_takings) wrong = take_up_drives();
       if (!wrong || last) break;
@@ -302,17 +299,36 @@ struct Solver {
     return taken;
   }
 
-  /// Makes the impulses what the bodies get; all less where one is beyond its range, or what a body gets: a part of
-  /// what holds the rows takes energy too. Returns how often they were made less.
-  uint32_t gather_impulses() {
-    uint32_t lessened = 0;
+  Real greatest_impulse() {
     Real most = k_zero;
     each_joint([&](JointWork& work) {
       for (uint32_t k = 0; k < work.rows; ++k) most = max(most, abs(work.impulse[k]));
     });
-    if (most > k_joint_impulse_max) {
+    return most;
+  }
+
+  /// Solves for the sides that `ask` sets, and makes the impulses what the bodies get. Where rows ask for what others
+  /// do not allow, which takes impulses over their softness, beyond range, rows are softer from there on in this
+  /// substep. Where that is not enough all impulses are made less: a part of what holds the rows takes energy too.
+  /// Returns how often they were.
+  template <class Ask>
+  uint32_t solve_for(const Ask& ask) {
+    const uint32_t before = factor.saturated;
+    for (;;) {
+      ask();
+      factor.substitute();
+      factor.solve();
+      if (factor.saturated == before && greatest_impulse() <= k_solution_max && gather_joints()) return 0;
+      if (!factor.make_softer()) return gather_less();
+      factor.saturated = before;
+    }
+  }
+  uint32_t gather_less() {
+    uint32_t lessened = 0;
+    const Real most = greatest_impulse();
+    if (most > k_solution_max) {
       ++lessened;
-      scale_impulses(divide(scaled_from(k_joint_impulse_max), scaled_from(most)));
+      scale_impulses(divide(scaled_from(k_solution_max), scaled_from(most)));
     }
     for (uint32_t left = k_gathers; !gather_joints(); --left) {
       ++lessened;
@@ -424,10 +440,8 @@ struct Solver {
   }
 
   /// Adds the motion that follows the joints' curves, as far as it has no more energy than holding the rows has taken.
-  void follow_curves(Scaled taken) {
-    factor.substitute();
-    factor.solve();
-    clamped += gather_impulses();
+  void follow_curves(Real elapsed, Scaled taken) {
+    clamped += solve_for([&] { ask_for_curves(elapsed); });
     scale_all(share_within(is_sound() ? taken : Scaled(0.0)));
     each_mobile([&](JointBody& body) { apply(body); });
     each_joint([&](JointWork& work) { count_in(work); });
@@ -479,30 +493,35 @@ struct Solver {
     });
   }
 
-  /// Finds the shifts that close gaps: of positions alone.
-  void close_gaps() {
-    Real closed = k_zero;
+  /// Asks the rows for a part of their errors; adds up what that closes. False where there is next to nothing to close.
+  bool ask_for_gaps(Real& closed) {
     bool opens = false;
+    closed = k_zero;
     each_joint([&](JointWork& work) {
       const Real least = real_from_unit(Unit(1.0), work.exponent - k_gap_power);
       const Real angular_max = scale_by_power(k_closing_spin_max, work.exponent < 12 ? work.exponent : 12);
       for (uint32_t k = 0; k < work.rows; ++k) {
         const bool linear = row_kind(work, k) == 0;
         const Real most = linear ? k_closing_speed_max : angular_max;
-        const Real speed = clamp(-(speed_over(settings, work.error[k]) * k_closed), -most, most);
+        const Unit share = touches ? k_closed_with_contacts : k_closed;
+        const Real speed = clamp(-(speed_over(settings, work.error[k]) * share), -most, most);
         closed = held_sum(closed, abs(speed) * settings.time);
         if (abs(work.error[k]) > least) opens = true;
         work.side[k] = side_of(work, k, speed);
       }
     });
-    if (!opens) {
+    return opens;
+  }
+
+  /// Finds the shifts that close gaps: of positions alone.
+  void close_gaps() {
+    Real closed = k_zero;
+    if (!ask_for_gaps(closed)) {
       each_mobile([&](JointBody& body) { body.shift = body.shift_turn = k_zero_vector; });
       return;
     }
     const uint32_t before = factor.saturated;
-    factor.substitute();
-    factor.solve();
-    gather_impulses();  // where the shifts are too large for a substep it closes a part
+    solve_for([&] { ask_for_gaps(closed); });  // where the shifts are too large for a substep it closes a part
     if (factor.saturated != before) scale_all(Scaled(0.0));
     // The ways of turns bend by half of their square: no more than half of what they close.
     Real bent = k_zero;
@@ -621,8 +640,7 @@ uint32_t follow_joints(const StepSettings& settings, const SolverBodies& bodies,
   Solver solver(settings, bodies, slots, island, stage);
   if (solver.any_turns()) {
     const Scaled taken = solver.energy_of_turning();
-    solver.ask_for_curves(elapsed);
-    solver.follow_curves(taken);
+    solver.follow_curves(elapsed, taken);
   }
   solver.close_gaps();
   if (solver.touches) solver.renew_spins();

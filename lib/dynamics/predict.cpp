@@ -60,11 +60,6 @@ void predict(const StepSettings& settings, Span<const BodyTraits> traits, Span<c
   }
 }
 
-Real speed_bound(const BodyTraits& traits, const Quat& rotation, const BodyMotion& motion) {
-  const Vec3<Real> spin = spin_of(traits, rotation, motion.momentum);
-  return absolute_sum(motion.velocity) + absolute_sum(spin);
-}
-
 void bound(const StepSettings& settings, Span<const BodyPose> poses, Span<const BodyTraits> traits,
            Span<const BodyMotion> motions, Span<const uint32_t> bodies, Span<BodyWork> work, Span<Bounds> bounds) {
   const Vec3<Real> fall = settings.gravity * (settings.tick_time * settings.tick_time);

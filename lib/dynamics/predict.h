@@ -21,8 +21,5 @@ void predict(const StepSettings& settings, Span<const BodyTraits> traits, Span<c
 void bound(const StepSettings& settings, Span<const BodyPose> poses, Span<const BodyTraits> traits,
            Span<const BodyMotion> motions, Span<const uint32_t> bodies, Span<BodyWork> work, Span<Bounds> bounds);
 
-/// Speed of the fastest point of a body's bounding ball, at most sqrt(3) times too much, m/s.
-Real speed_bound(const BodyTraits& traits, const Quat& rotation, const BodyMotion& motion);
-
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -137,6 +137,21 @@ DETENT_TEST(degenerate, crossed_edges_of_boxes_touch_at_one_point_across_both) {
   EXPECT_NEAR(real_to_host(contact.point[0].separation), -0.01, unit_steps(64) + (sizeof(Coord) == 4 ? 0x1p-16 : 0));
 }
 
+/// It would touch at the one side in one tick and at the other in the next.
+DETENT_TEST(degenerate, a_capsule_that_leans_over_a_face_touches_at_both_of_its_sides) {
+  const BodyTraits cube = box_traits({{0.5, 0.5, 0.5}}), rod = capsule_traits(0.1, 0.8);
+  for (const double lean : {0.0, 1e-4, -1e-3, 0.004, -0.01}) {
+    const ContactGeometry contact =
+        expect_sound(body(cube, {{0, 0, 0}}), body(rod, {{0.05, 0.595, 0.1}}, {{0, 0, k_quarter + lean}}), 0.0049);
+    ASSERT_EQ(contact.count, 2u) << lean;
+    EXPECT_NEAR(host(contact.normal)[1], 1, unit_steps(12)) << lean;
+    EXPECT_NE(contact.point[0].feature, contact.point[1].feature);
+  }
+  // Beyond 2^-3 rad it crosses the one side.
+  EXPECT_EQ(expect_sound(body(cube, {{0, 0, 0}}), body(rod, {{0.1, 0.66, 0.1}}, {{0, 0, k_quarter + 0.2}}), 0).count,
+            1u);
+}
+
 DETENT_TEST(degenerate, a_corner_on_a_face_touches_at_one_point_along_the_faces_normal) {
   const BodyTraits cube = box_traits({{0.5, 0.5, 0.5}}), floor = box_traits({{3, 0.5, 3}});
   // The diagonal of the cube stands upright.

@@ -47,6 +47,13 @@ bool deepest_vertex_is_over_face(const Solid& box, const Solid& other, const Vec
   return sides == 2;
 }
 
+bool is_axis_of(const Solid& box, const Vector& n) {
+  for (int i = 0; i < 3; ++i) {
+    if (fabs(dot(box.axis[i], n)) > 1 - 1e-6) return true;
+  }
+  return false;
+}
+
 /// How much another axis must be better by to be taken, m: then the normal need not be the very best one.
 double preference_of(const Solid& a, const Solid& b, const Separation& right) {
   if (!right.is_depth) return 0;
@@ -83,13 +90,16 @@ void judge(const OraclePair& pair, const ContactGeometry& contact, double reach,
   // A face that leans against edges that cross parts them by a little less.
   const double preference = preference_of(a, b, right), lost = right.value - preference - along - aligned;
   const bool leans = boxes && contact.count > 1 && lost > 2 * error;
-  seen.leaning += leans ? 1 : 0;
-  worst(seen.gap, leans ? lost - 4 * preference : lost);
+  // A face that leans against a capsule which crosses its sides does not part them beside it: what counts is how deep
+  // its deepest point is.
+  const bool crosses = a.kind == Kind::box && !boxes && b.size[1] > 0 && lost > 2 * error && is_axis_of(a, n);
+  seen.leaning += leans || crosses ? 1 : 0;
+  if (!crosses) worst(seen.gap, leans ? lost - 4 * preference : lost);
 
   // A box takes a sphere or capsule just beyond its rim, by 2^-13 of the distance, as being over the face.
   const double slack = boxes ? side_slack(a, b) : a.kind == Kind::box ? 0x1.1p-13 * (b.size[0] + reach) : 0;
   // A tilted capsule is met at its core's ends, where the points may lie within its surface.
-  const bool tilted = b.size[1] > 0 && (a.kind == Kind::half_space || contact.count > 1 ||
+  const bool tilted = b.size[1] > 0 && (a.kind == Kind::half_space || contact.count > 1 || crosses ||
                                         (a.kind == Kind::round && fabs(dot(a.axis[1], b.axis[1])) > 0.99));
   const bool exact = boxes ? right.value < 0 : !right.is_depth && (!tilted || b.kind == Kind::box);
   double deepest = HUGE_VAL;
@@ -110,7 +120,8 @@ void judge(const OraclePair& pair, const ContactGeometry& contact, double reach,
     if (point.feature == 0) ++seen.features_wrong;
     for (uint32_t j = 0; j < i; ++j) seen.features_wrong += contact.point[j].feature == point.feature ? 1 : 0;
   }
-  if (!boxes && !right.is_depth) worst(seen.deepest, fabs(deepest - right.value) - aligned);
+  const double leaning = crosses ? preference + 0x1p-7 * (right.value + b.size[0] + preference) : 0;
+  if (crosses || (!boxes && !right.is_depth)) worst(seen.deepest, fabs(deepest - right.value) - aligned - leaning);
   if (boxes && (deepest_vertex_is_over_face(a, b, n) || deepest_vertex_is_over_face(b, a, n * -1))) {
     // Of five vertices or more those that span the face are kept, and the deepest need not be one of them.
     if (contact.count >= 3 && deepest - along > error)

@@ -40,7 +40,8 @@ DETENT_TEST(surface_impact, is_that_of_the_first_of_all_triangles_however_long_t
   ground_traits.type = static_cast<uint32_t>(BodyType::fixed);
   const FeatureTable features = make_feature_table(Features::all);
   ASSERT_OK(set_shape_traits(surface(0), ground_traits, assets, features));
-  const BodyPose ground_pose = {{}, {0.0, 0.0, 0.0, 1.0}};
+  BodyPose ground_pose = {};
+  ground_pose.rotation = {0.0, 0.0, 0.0, 1.0};
   BodySweep rest = {};
   uint32_t met = 0;
   for (uint32_t round = 0; round < detent_oracle::rounds(200); ++round) {

@@ -141,13 +141,13 @@ struct Ending {
   uint64_t digest;
 };
 #if defined(DETENT_FX64)
-constexpr Ending k_endings[] = {{10000, 0x7fff76c41106a8f9}, {1000000, 0xe49c3c9a8f85101c}};
+constexpr Ending k_endings[] = {{10000, 0x265b1cb3812cc206}, {1000000, 0x5d1e105870f9f59a}};
 #elif defined(DETENT_FX32)
-constexpr Ending k_endings[] = {{10000, 0xe38e245f1188eb57}, {1000000, 0x6d2b3878c112b81b}};
+constexpr Ending k_endings[] = {{10000, 0x0008b3e8cf7374e3}, {1000000, 0x407605d6d199910c}};
 #elif defined(DETENT_F32)
-constexpr Ending k_endings[] = {{10000, 0x9bcc2c5db8ba213c}};
+constexpr Ending k_endings[] = {{10000, 0xb7e70fadf0961154}};
 #else
-constexpr Ending k_endings[] = {{10000, 0x9bc68218df057f88}};
+constexpr Ending k_endings[] = {{10000, 0x4a93fe4fc951111a}};
 #endif
 
 /// A million ticks where time does not matter.

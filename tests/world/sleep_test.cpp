@@ -54,6 +54,18 @@ DETENT_TEST(sleep, nothing_sleeps_in_a_world_without_it) {
   EXPECT_TRUE(awake(lab, id));
 }
 
+/// 3 mm/s at its side and 50 mm/s at its ends.
+DETENT_TEST(sleep, a_rod_may_turn_faster_about_its_axis_than_about_another) {
+  Lab lab({2, 4, 0}, weightless(), true);
+  const BodyId rolls = add_shape(lab, capsule(Real(0.03), Real(0.5)), 0, 0, 0);
+  const BodyId swings = add_shape(lab, capsule(Real(0.03), Real(0.5)), 3, 0, 0);
+  ASSERT_OK(set_velocity(lab.world, rolls, reals(0, 0, 0), reals(0, 0.1, 0)));
+  ASSERT_OK(set_velocity(lab.world, swings, reals(0, 0, 0), reals(0.1, 0, 0)));
+  lab.run(k_ticks_to_rest);
+  EXPECT_FALSE(awake(lab, rolls));
+  EXPECT_TRUE(awake(lab, swings));
+}
+
 DETENT_TEST(sleep, a_push_wakes_the_stack_it_meets_and_no_other) {
   Stacks stacks;
   ASSERT_OK(apply_impulse(stacks.lab.world, stacks.left[2], scaleds(1, 0, 0)));
