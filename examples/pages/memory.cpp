@@ -1,3 +1,4 @@
+#include <detent/capacity.h>
 #include <detent/convert.h>
 #include <detent/world.h>
 #include <stdlib.h>
@@ -42,6 +43,22 @@ void full() {
   check(!report.complete() && report.contacts_dropped == 1);
 }
 
+void fitted() {
+  static WorldStorage<Capacity{.bodies = 20, .contacts = 100}> storage;
+  World world;
+  check(storage.create({}, world));
+  BodyId id;
+  check(create_body(world, {.type = BodyType::fixed, .shape = half_space()}, id));
+  for (Coord x = -4.0; x < Coord(5.0); x += Coord(2.0))
+    check(create_body(world, {.position = {x, 0.5, 0.0}, .shape = sphere(0.5)}, id));
+
+  CapacityUse use;
+  for (int tick = 0; tick < 600; ++tick) note_use(step(world), get_info(world), use);
+  const Capacity fit = suggest_capacity(use, get_info(world).capacity);
+  printf("a capacity of %u contacts would do\n", static_cast<unsigned>(fit.contacts));
+  check(use.contacts == 5 && fit.contacts == 7 && fit.bodies == 8 && use.steps_full == 0);
+}
+
 void sizes() {
   constexpr Capacity roomy = {.bodies = 100, .contacts = 300};
   constexpr Capacity small = {.bodies = 100, .contacts = 300, .manifolds = false};
@@ -59,5 +76,6 @@ int main() {
   fixed_at_compile_time();
   chosen_at_run_time(10);
   full();
+  fitted();
   sizes();
 }

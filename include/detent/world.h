@@ -104,8 +104,8 @@ struct StepReport {
   uint32_t fell_asleep = 0;       ///< bodies, at the end of the step
   uint32_t woke = 0;              ///< bodies that were touched
   uint32_t sweeps_saved = 0;      ///< over the contacts of an island, as WorldDef::convergence lets it
-  uint64_t contact_substeps = 0;  ///< contacts times their islands' substeps: the work of the solver
   uint32_t pairs = 0;             ///< pairs of overlapping bounds of which a body moves
+  uint64_t contact_substeps = 0;  ///< contacts times their islands' substeps: the work of the solver
   uint32_t contacts = 0;          ///< pairs with at least one contact point
   /// Of all contacts, at most four each.
   uint32_t contact_points = 0;
@@ -116,23 +116,24 @@ struct StepReport {
   uint32_t contact_events_dropped = 0;  ///< beyond it, or hits beyond Capacity::contacts; not where there is no buffer
   uint32_t pairs_dropped = 0;     ///< pairs beyond the pair buffer (the shallowest): their contacts are lost this tick,
                                   ///< but continuous collision tries them all
-  uint32_t contacts_dropped = 0;  ///< contacts beyond the capacity (the shallowest), lost this tick
-  uint32_t saturations = 0;       ///< state components clamped to their range
-  uint32_t joints = 0;            ///< of which a body is awake
-  uint32_t joints_broken = 0;     ///< and gone
-  uint32_t joint_events = 0;      ///< in the world's buffer
-  uint32_t joint_events_dropped = 0;  ///< beyond the capacity of the world's buffer
+  uint32_t contacts_dropped = 0;  ///< beyond the capacity or their pair's eight (the shallowest), lost this tick
+  uint32_t contact_parts_dropped = 0;    ///< of those: beyond their pair's eight, for which no capacity has room
+  uint32_t saturations = 0;              ///< state components clamped to their range
+  uint32_t joints = 0;                   ///< of which a body is awake
+  uint32_t joints_broken = 0;            ///< and gone
+  uint32_t joint_events = 0;             ///< in the world's buffer
+  uint32_t joint_events_dropped = 0;     ///< beyond the capacity of the world's buffer
   uint32_t joint_couplings_dropped = 0;  ///< of joints that form too many loops for their solver's room: these give way
-  uint32_t joint_decisions_left = 0;  ///< limits and motors still undecided after the last try of a substep
-  uint32_t impacts = 0;               ///< times at which bodies met within the tick and were made to part
-  uint32_t impacts_undecided = 0;     ///< times of impact found in part, or that could not be asked for
-  uint32_t impacts_dropped = 0;       ///< for want of room, that of contacts: their bodies stayed behind
-  uint32_t overlaps_left = 0;         ///< pairs too deep within each other for continuous collision
-  uint32_t bodies_stopped = 0;        ///< bodies that stayed behind in this tick: too many impacts, or no room for one
-  Real lost_time = 0.0;               ///< sum of the parts of the tick that those missed
-  uint32_t toi_tests = 0;             ///< times of impact asked for
-  uint32_t toi_skipped = 0;           ///< pairs too slow to meet
-  uint32_t colour_overflows = 0;      ///< contacts of bodies that touch more than 64 others, solved after the rest
+  uint32_t joint_decisions_left = 0;     ///< limits and motors still undecided after the last try of a substep
+  uint32_t impacts = 0;                  ///< times at which bodies met within the tick and were made to part
+  uint32_t impacts_undecided = 0;        ///< times of impact found in part, or that could not be asked for
+  uint32_t impacts_dropped = 0;          ///< for want of room, that of contacts: their bodies stayed behind
+  uint32_t overlaps_left = 0;            ///< pairs too deep within each other for continuous collision
+  uint32_t bodies_stopped = 0;    ///< bodies that stayed behind in this tick: too many impacts, or no room for one
+  Real lost_time = 0.0;           ///< sum of the parts of the tick that those missed
+  uint32_t toi_tests = 0;         ///< times of impact asked for
+  uint32_t toi_skipped = 0;       ///< pairs too slow to meet
+  uint32_t colour_overflows = 0;  ///< contacts of bodies that touch more than 64 others, solved after the rest
   /// Of sensors (sensor.h), and the other events in the world's buffers.
   uint32_t sensor_events = 0;
   uint32_t sensor_events_dropped = 0;  ///< beyond its capacity; not counted where there is no buffer

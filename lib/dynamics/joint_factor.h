@@ -115,7 +115,7 @@ class JointFactor {
 
   /// Makes it of the rows as they are, with the bodies' inertias.
   void make();
-  /// Makes it anew with softer rows, if they are not yet: false. It stays so until the next make() of another.
+  /// Makes it anew with softer rows. False if they are that already.
   bool make_softer();
   /// L^-1 of the sides. Returns the sides' energy: twice what they have as the motion of least energy that shows them.
   Scaled substitute();

@@ -198,6 +198,7 @@ struct Solver {
     clamped += clamp_component(speed, scale_by_power(Real(1.0), k_side_power_max - (power > 0 ? power : 0)));
     return scale_by_power(speed, power);
   }
+
   /// Whether a body turns by more than 2^-k_straight_power rad in the substep: below, joints' ways do not bend by what
   /// can be told. Rods turn without their bodies.
   bool any_turns() {
@@ -236,6 +237,7 @@ struct Solver {
     each_joint([&](JointWork& work) { push(work); });
   }
 
+  /// Asks the rows for the speeds that they want, from how the bodies move.
   void ask_for_speeds() {
     each_joint([&](JointWork& work) {
       Real speed[k_joint_rows_max];
@@ -310,7 +312,7 @@ struct Solver {
   /// Solves for the sides that `ask` sets, and makes the impulses what the bodies get. Where rows ask for what others
   /// do not allow, which takes impulses over their softness, beyond range, rows are softer from there on in this
   /// substep. Where that is not enough all impulses are made less: a part of what holds the rows takes energy too.
-  /// Returns how often they were.
+  /// Returns how often that was.
   template <class Ask>
   uint32_t solve_for(const Ask& ask) {
     const uint32_t before = factor.saturated;
@@ -323,6 +325,7 @@ struct Solver {
       factor.saturated = before;
     }
   }
+  /// Returns how often the impulses were made less.
   uint32_t gather_less() {
     uint32_t lessened = 0;
     const Real most = greatest_impulse();

@@ -257,6 +257,7 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   report.contact_points = count.points;
   report.contacts_reused = count.reused;
   report.contacts_dropped = count.dropped + count.parts_dropped;
+  report.contact_parts_dropped = count.parts_dropped;
   report.contacts_capped = count.capped;
   const EventCount body_events =
       raise_body_events(cache.visits, traits, activities, {world.body_events.data, world.body_events.capacity});

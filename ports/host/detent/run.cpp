@@ -65,6 +65,11 @@ void summarise(const RunCommand& command, const RunOutcome& outcome) {
     if (!outcome.description.empty()) json["description"] = outcome.description;
     json["ticks"] = outcome.ticks;
     json["ticks_incomplete"] = outcome.ticks_incomplete;
+    json["ticks_full"] = outcome.ticks_full;
+    json["capacity_fit"] = {{"bodies", outcome.bodies_fit},
+                            {"contacts", outcome.contacts_fit},
+                            {"joints", outcome.joints_fit},
+                            {"sensed", outcome.sensed_fit}};
     json["calls"] = outcome.calls;
     json["bodies"] = outcome.bodies;
     json["joints"] = outcome.joints;
@@ -89,9 +94,16 @@ void summarise(const RunCommand& command, const RunOutcome& outcome) {
     text += std::to_string(outcome.recording_bytes) + " bytes to " + command.request.recording + ", ";
   }
   printf("%sfinal digest %s\n", text.c_str(), hexadecimal(outcome.digest).c_str());
-  if (outcome.ticks_incomplete != 0) {
-    fprintf(stderr, "%s: %llu ticks lost pairs, contacts or range: give the world more capacity\n",
-            command.path.c_str(), static_cast<unsigned long long>(outcome.ticks_incomplete));
+  if (outcome.ticks_full != 0) {
+    fprintf(
+        stderr,
+        "%s: %llu ticks had no room for pairs or contacts: \"capacity\": {\"bodies\": %u, \"contacts\": %u} would do\n",
+        command.path.c_str(), static_cast<unsigned long long>(outcome.ticks_full), outcome.bodies_fit,
+        outcome.contacts_fit);
+  }
+  if (outcome.ticks_incomplete > outcome.ticks_full) {
+    fprintf(stderr, "%s: %llu ticks lost range, contacts beyond the eight of a pair, or a body's time\n",
+            command.path.c_str(), static_cast<unsigned long long>(outcome.ticks_incomplete - outcome.ticks_full));
   }
 }
 

@@ -55,6 +55,8 @@ struct RunOutcome {
   uint32_t joints = 0;
   uint64_t ticks = 0;
   uint64_t ticks_incomplete = 0;  ///< steps that lost something: pairs, contacts, range
+  uint64_t ticks_full = 0;        ///< of those: for want of room
+  uint32_t bodies_fit = 0, contacts_fit = 0, joints_fit = 0, sensed_fit = 0;  ///< a capacity that would have had it
   uint64_t calls = 0;
   uint64_t digest = 0;
   uint64_t recording_bytes = 0;

@@ -1,5 +1,7 @@
 #include "scene_play.h"
 
+#include <detent/capacity.h>
+
 #include "file.h"
 #include "owned_world.h"
 #include "scene_player.h"
@@ -34,11 +36,13 @@ struct EventRoom {
 /// Steps the world; the first problem ends it.
 void step_through(const RunRequest& request, uint32_t ticks, Recorder& recorder, ScenePlayer& player,
                   RunOutcome& outcome, const RunPrinter& print, const Progress& progress) {
+  CapacityUse use;
   for (uint32_t tick = 0; tick < ticks && recorder.status() == Status::ok; ++tick) {
     if (!player.before_tick(tick)) return;
     const StepReport report = recorder.step();
     outcome.ticks = report.tick;
     if (!report.complete()) ++outcome.ticks_incomplete;
+    note_use(report, get_info(recorder.world()), use);
     if (request.prints.events) player.print_events(recorder.world(), report);
     if (request.prints.ticks) {
       RunLine line = {report.tick, "tick", {}};
@@ -49,6 +53,12 @@ void step_through(const RunRequest& request, uint32_t ticks, Recorder& recorder,
     }
     if (tick % k_ticks_per_progress == 0) progress(tick, ticks);
   }
+  const Capacity fit = suggest_capacity(use, get_info(recorder.world()).capacity);
+  outcome.ticks_full = use.steps_full;
+  outcome.bodies_fit = fit.bodies;
+  outcome.contacts_fit = fit.contacts;
+  outcome.joints_fit = fit.joints;
+  outcome.sensed_fit = fit.sensed;
 }
 
 void play(const RunRequest& request, SceneReading& reading, OwnedWorld& owned, RunOutcome& outcome,

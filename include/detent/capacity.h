@@ -1,0 +1,56 @@
+#pragma once
+#include <detent/world.h>
+
+/// @file
+/// How much of its capacity a world uses, and a capacity that fits it.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// The most that the steps of a world have asked of each of its pools; zero before the first.
+struct CapacityUse {
+  uint32_t bodies = 0;      ///< in the world
+  uint32_t contacts = 0;    ///< kept, those of sleepers included, and dropped
+  uint32_t pairs = 0;       ///< of overlapping bounds, kept and dropped; a contact of the capacity has room for two
+  uint32_t impacts = 0;     ///< pairs of continuous collision, likewise, for one a contact; 0 where all fit
+  uint32_t joints = 0;      ///< in the world
+  uint32_t sensed = 0;      ///< bodies within sensors, kept and dropped
+  uint64_t steps_full = 0;  ///< steps in which something did not fit
+};
+
+/// Takes account of a step: its report, and get_info() after it.
+constexpr void note_use(const StepReport& report, const WorldInfo& after, CapacityUse& use) {
+  const auto note = [](uint32_t& most, uint32_t kept, uint32_t dropped) {
+    const uint32_t wanted = kept < UINT32_MAX - dropped ? kept + dropped : UINT32_MAX;
+    most = most < wanted ? wanted : most;
+  };
+  note(use.bodies, after.bodies, 0);
+  const uint32_t contacts_dropped = report.contacts_dropped - report.contact_parts_dropped;
+  note(use.contacts, after.contacts, contacts_dropped);
+  note(use.pairs, report.pairs, 0);
+  if (report.impacts_dropped != 0) note(use.impacts, after.capacity.contacts, report.impacts_dropped);
+  note(use.joints, after.joints, 0);
+  note(use.sensed, after.sensed, report.sensed_dropped);
+  if (report.pairs_dropped != 0 || contacts_dropped != 0 || report.impacts_dropped != 0 || report.sensed_dropped != 0)
+    ++use.steps_full;
+}
+
+/// A capacity with room for all that was noted, and a quarter more; `now` says what was not: assets, manifolds. What
+/// was dropped has altered the motion, so steps with the larger capacity may ask for more: note them, too.
+constexpr Capacity suggest_capacity(const CapacityUse& use, const Capacity& now) {
+  const auto with_spare = [](uint32_t count) {
+    const uint32_t spare = count / 4 + (count % 4 != 0 ? 1 : 0);
+    return count < UINT32_MAX - spare ? count + spare : UINT32_MAX;
+  };
+  const uint32_t of_pairs = use.pairs / 2 + use.pairs % 2;
+  uint32_t contacts = use.contacts < of_pairs ? of_pairs : use.contacts;
+  contacts = contacts < use.impacts ? use.impacts : contacts;
+  Capacity fit = now;
+  fit.bodies = use.bodies == 0 ? 1 : with_spare(use.bodies);
+  fit.contacts = with_spare(contacts);
+  fit.joints = with_spare(use.joints);
+  fit.sensed = with_spare(use.sensed);
+  return fit;
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent
