@@ -8,7 +8,7 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 constexpr int k_rest_power = -6;
-constexpr Real k_slow_max = 1024.0;  ///< m/s, of what is worth squaring; no body falls by its extent in less
+constexpr Real k_slow_max = 1024.0;  ///< m/s: what is faster does not rest, and its square may not fit
 
 /// Whether a body that moves so, and has that momentum, has no point that is faster than `slow`, m/s, by about its
 /// kinetic energy: what is slender may roll faster about its axis than it may swing. Range: slow <= k_slow_max.

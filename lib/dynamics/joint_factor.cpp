@@ -234,7 +234,7 @@ void JointFactor::make() {
 }
 
 bool JointFactor::make_softer() {
-  if (softer_ || k_soft_power == k_softness_power) return false;
+  if (softer_) return false;
   softer_ = true;
   make();
   return true;

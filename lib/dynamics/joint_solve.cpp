@@ -496,12 +496,20 @@ struct Solver {
     });
   }
 
-  /// Asks the rows for a part of their errors; adds up what that closes. False where there is next to nothing to close.
-  bool ask_for_gaps(Real& closed) {
+  /// Whether there is more than next to nothing to close.
+  bool any_gaps() {
     bool opens = false;
-    closed = k_zero;
-    each_joint([&](JointWork& work) {
+    each_joint([&](const JointWork& work) {
       const Real least = real_from_unit(Unit(1.0), work.exponent - k_gap_power);
+      for (uint32_t k = 0; k < work.rows; ++k) opens = opens || abs(work.error[k]) > least;
+    });
+    return opens;
+  }
+
+  /// Asks the rows for a part of their errors. Returns the sum of what that closes, m.
+  Real ask_for_gaps() {
+    Real closed = k_zero;
+    each_joint([&](JointWork& work) {
       const Real angular_max = scale_by_power(k_closing_spin_max, work.exponent < 12 ? work.exponent : 12);
       for (uint32_t k = 0; k < work.rows; ++k) {
         const bool linear = row_kind(work, k) == 0;
@@ -509,22 +517,21 @@ struct Solver {
         const Unit share = touches ? k_closed_with_contacts : k_closed;
         const Real speed = clamp(-(speed_over(settings, work.error[k]) * share), -most, most);
         closed = held_sum(closed, abs(speed) * settings.time);
-        if (abs(work.error[k]) > least) opens = true;
         work.side[k] = side_of(work, k, speed);
       }
     });
-    return opens;
+    return closed;
   }
 
   /// Finds the shifts that close gaps: of positions alone.
   void close_gaps() {
-    Real closed = k_zero;
-    if (!ask_for_gaps(closed)) {
+    if (!any_gaps()) {
       each_mobile([&](JointBody& body) { body.shift = body.shift_turn = k_zero_vector; });
       return;
     }
     const uint32_t before = factor.saturated;
-    solve_for([&] { ask_for_gaps(closed); });  // where the shifts are too large for a substep it closes a part
+    Real closed = k_zero;
+    solve_for([&] { closed = ask_for_gaps(); });  // where the shifts are too large for a substep it closes a part
     if (factor.saturated != before) scale_all(Scaled(0.0));
     // The ways of turns bend by half of their square: no more than half of what they close.
     Real bent = k_zero;

@@ -207,6 +207,28 @@ TEST(scene_run, a_capacity_that_is_left_out_has_room_for_all) {
   EXPECT_EQ(played.outcome.ticks_incomplete, 0u);
 }
 
+TEST(scene_run, a_capacity_that_is_too_small_is_told_with_one_that_fits) {
+  const auto with_capacity = [](const std::string& capacity) {
+    return play(R"({"format": 1, "ticks": 30, "world": {"capacity": )" + capacity + R"(},
+      "bodies": [{"type": "fixed", "shape": {"type": "half_space"}},
+                 {"type": "fixed", "sensor": true, "position": [0, 1, 0],
+                  "shape": {"type": "box", "half_extents": [20, 2, 20]}},
+                 {"name": "ball {i}", "repeat": {"i": 8}, "step": {"i": [2, 0, 0]}, "position": [0, 0.5, 0],
+                  "shape": {"type": "sphere", "radius": 0.5}}]})");
+  };
+  const Played small = with_capacity(R"({"bodies": 10, "contacts": 2, "sensed": 3})");
+  ASSERT_EQ(small.problems, "");
+  EXPECT_EQ(small.outcome.ticks_full, 30u);
+  EXPECT_EQ(small.outcome.ticks_incomplete, 30u);
+  const auto number = [](uint32_t value) { return std::to_string(value); };
+  const Played fitted = with_capacity("{\"bodies\": " + number(small.outcome.bodies_fit) +
+                                      ", \"contacts\": " + number(small.outcome.contacts_fit) +
+                                      ", \"sensed\": " + number(small.outcome.sensed_fit) + "}");
+  ASSERT_EQ(fitted.problems, "");
+  EXPECT_EQ(fitted.outcome.ticks_full, 0u);
+  EXPECT_EQ(fitted.outcome.ticks_incomplete, 0u);
+}
+
 TEST(scene_run, the_scene_on_the_page_is_one) {
   const std::string page = file_text(DETENT_ROOT "/docs/scene.md");
   const size_t start = page.find("```json\n") + 8;

@@ -95,11 +95,11 @@ void summarise(const RunCommand& command, const RunOutcome& outcome) {
   }
   printf("%sfinal digest %s\n", text.c_str(), hexadecimal(outcome.digest).c_str());
   if (outcome.ticks_full != 0) {
-    fprintf(
-        stderr,
-        "%s: %llu ticks had no room for pairs or contacts: \"capacity\": {\"bodies\": %u, \"contacts\": %u} would do\n",
-        command.path.c_str(), static_cast<unsigned long long>(outcome.ticks_full), outcome.bodies_fit,
-        outcome.contacts_fit);
+    std::string fit =
+        "\"bodies\": " + std::to_string(outcome.bodies_fit) + ", \"contacts\": " + std::to_string(outcome.contacts_fit);
+    if (outcome.sensed_fit != 0) fit += ", \"sensed\": " + std::to_string(outcome.sensed_fit);
+    fprintf(stderr, "%s: %llu ticks had no room for what met: \"capacity\": {%s} would do\n", command.path.c_str(),
+            static_cast<unsigned long long>(outcome.ticks_full), fit.c_str());
   }
   if (outcome.ticks_incomplete > outcome.ticks_full) {
     fprintf(stderr, "%s: %llu ticks lost range, contacts beyond the eight of a pair, or a body's time\n",
