@@ -1,0 +1,9 @@
+#pragma once
+#include "tests/zoo/frame.h"
+
+namespace detent_zoo {
+
+/// Those of this build: bullet, ode. What one cannot express it does not open, and says what.
+std::vector<Engine> all_peers();
+
+}  // namespace detent_zoo
