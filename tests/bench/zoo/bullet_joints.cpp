@@ -56,6 +56,8 @@ std::string make_bullet_joint(const JointFrame& joint, const Ties& ties, btRigid
                               std::unique_ptr<btTypedConstraint>& constraint) {
   const btTransform frame_a = bullet(joint.frame_a, joint.anchor_a), frame_b = bullet(joint.frame_b, joint.anchor_b);
   const AxisFrame &first = joint.axes[0], &second = joint.axes[1];
+  if (joint.type == Held::distance) return "distance joint";
+  if (joint.type == Held::ball && is_sprung(first)) return "spring of a ball joint";
   for (const AxisFrame& axis : joint.axes) {
     if (is_sprung(axis) && axis.force_max > 0) return "spring with a greatest force";
     if (is_sprung(axis) && axis.speed != 0) return "spring with a speed";
@@ -70,7 +72,6 @@ std::string make_bullet_joint(const JointFrame& joint, const Ties& ties, btRigid
   if (ties.break_force > 0 && joint.type != Held::ball) return "joint of this type that breaks";
   switch (joint.type) {
     case Held::ball:
-      if (is_sprung(first)) return "spring of a ball joint";
       if (ties.friction_torque > 0) return "friction of a ball joint";
       constraint = std::make_unique<btPoint2PointConstraint>(a, b, bullet(joint.anchor_a), bullet(joint.anchor_b));
       if (ties.break_force > 0) constraint->setBreakingImpulseThreshold(bullet(ties.break_force * tick));
@@ -139,11 +140,10 @@ std::string make_bullet_joint(const JointFrame& joint, const Ties& ties, btRigid
       return "";
     }
     case Held::distance:
-      return "distance joint";
     case Held::filter:
-      return "";
+      break;
   }
-  return "joint type";
+  return "";
 }
 
 void set_bullet_springs(const JointFrame& joint, const JointState& state, btTypedConstraint& constraint) {

@@ -1,6 +1,7 @@
 #include "tests/bench/zoo/table.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 #include <algorithm>
 #include <map>
@@ -58,6 +59,13 @@ std::string times_of(const Result& result) {
 
 std::string fails_of(const Result& result) {
   return result.played() ? joined(result.verdict.failed) : "*" + result.verdict.problem + "*";
+}
+
+/// To six digits: more are noise.
+double rounded(double value) {
+  char text[32];
+  snprintf(text, sizeof text, "%.6g", value);
+  return strtod(text, nullptr);
 }
 
 struct Mean {
@@ -175,6 +183,25 @@ std::string failures_text(const std::vector<SceneResults>& scenes, const std::ve
   return text;
 }
 
+/// Where a peer is better.
+std::string beaten_text(const std::vector<SceneResults>& scenes, const std::vector<std::string>& engines) {
+  std::string text;
+  for (const std::string& engine : engines) {
+    if (is_peer(engine)) continue;
+    std::string names;
+    for (const SceneResults& scene : scenes) {
+      std::string better;
+      for (const Result& result : scene.results) {
+        if (is_peer(result.engine) && result.passed()) better += (better.empty() ? "" : ", ") + result.engine;
+      }
+      if (!better.empty() && !scene.of(engine)->passed())
+        names += (names.empty() ? " " : ", ") + scene.entry.scene + " (" + better + ")";
+    }
+    if (!names.empty()) text += "\nWhat a peer passes and `" + engine + "` does not:" + names + ".\n";
+  }
+  return text;
+}
+
 std::string reasons_text(const std::vector<SceneResults>& scenes, const std::vector<std::string>& engines) {
   std::string text;
   for (const std::string& engine : engines) {
@@ -213,7 +240,8 @@ std::string summary_of(const std::vector<SceneResults>& scenes, uint32_t repetit
   const std::vector<std::string> engines = engines_of(scenes);
   return std::to_string(scenes.size()) + " scenes; each tick's least time of " + std::to_string(repetitions) +
          " repetitions. Means of ratios are geometric, with the number of scenes.\n\n" + passes_text(scenes, engines) +
-         ratios_text(scenes, engines) + failures_text(scenes, engines) + reasons_text(scenes, engines);
+         ratios_text(scenes, engines) + failures_text(scenes, engines) + beaten_text(scenes, engines) +
+         reasons_text(scenes, engines);
 }
 
 std::string page_of(const std::string& page, const std::vector<SceneResults>& scenes, uint32_t repetitions) {
@@ -244,27 +272,28 @@ std::string page_of(const std::string& page, const std::vector<SceneResults>& sc
 }
 
 std::string json_of(const std::vector<SceneResults>& scenes) {
-  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  std::string rows;
+  const auto add = [&rows](const nlohmann::ordered_json& row) { rows += (rows.empty() ? "" : ",\n") + row.dump(); };
   for (const SceneResults& scene : scenes) {
     for (const Result& result : scene.results) {
       nlohmann::ordered_json row = {{"scene", scene.entry.scene}, {"engine", result.engine}};
       if (!result.played()) {
         row["cannot"] = result.verdict.problem;
-        rows.push_back(row);
+        add(row);
         continue;
       }
-      row["us_mean"] = result.mean;
-      row["us_max"] = result.max;
+      row["us_mean"] = rounded(result.mean);
+      row["us_max"] = rounded(result.max);
       row["ticks"] = result.verdict.figures.ticks;
       row["fails"] = result.verdict.failed;
       for (const auto& [check, bound] : scene.entry.bounds) {
         const double value = measured(result.verdict.figures, check);
-        if (isfinite(value)) row[check] = value;
+        if (isfinite(value)) row[check] = rounded(value);
       }
-      rows.push_back(row);
+      add(row);
     }
   }
-  return rows.dump(1) + "\n";
+  return "[\n" + rows + "\n]\n";
 }
 
 }  // namespace detent_zoo
