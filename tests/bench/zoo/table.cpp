@@ -171,6 +171,7 @@ std::string failures_text(const std::vector<SceneResults>& scenes, const std::ve
       for (const std::string& check : result.verdict.failed) ++fails[check][result.engine];
     }
   }
+  if (fails.empty()) return "";
   std::vector<std::string> head = {"scenes that fail"};
   for (const std::string& engine : engines) head.push_back("`" + engine + "`");
   std::string text = "\n" + head_of(head);
