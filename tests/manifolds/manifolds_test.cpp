@@ -1,0 +1,2 @@
+#include "tests/manifolds/run_detent.h"
+#include "tests/support/test.h"

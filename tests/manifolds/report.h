@@ -1,0 +1,16 @@
+#pragma once
+#include "tests/manifolds/measure.h"
+
+namespace detent_manifolds {
+
+/// Tables by kind and by shapes: each measure's median, 99th percentile and worst of the pairs' own worst ticks; what
+/// was lost; and the names that stay. For a terminal, or as Markdown.
+std::string tables_of(const std::vector<Verdict>& verdicts, bool markdown);
+
+/// The worst pairs of each measure and kind, with their seeds and ticks, at most `count` of each measure.
+std::string worst_of(const std::vector<Verdict>& verdicts, uint32_t count, bool markdown);
+
+/// Of the pairs' worst readings at a share of their count, 0 to 1; 0 of none.
+double quantile_of(const std::vector<Verdict>& verdicts, Measure measure, double share);
+
+}  // namespace detent_manifolds
