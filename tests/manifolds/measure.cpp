@@ -120,13 +120,14 @@ void Judge::measure_points(const Tick& tick, const Points& points, const Patch& 
   const Polygon kept = outline_of(spots);
   Number loss = 0;
   for (const Spot& corner : patch.outline) loss = std::max(loss, distance_beyond(kept, corner));
-  set(Measure::loss, loss / size_);
+  const bool parted = reading.gap > thickness_ / 256;
+  set(parted ? Measure::parted : Measure::loss, loss / size_);
   // Of a patch narrower than a fiftieth of the size the loss says all.
-  Number across = 0;
+  Number diameter = 0;
   for (const Spot& p : patch.outline) {
-    for (const Spot& q : patch.outline) across = std::max(across, hypotl(p.u - q.u, p.v - q.v));
+    for (const Spot& q : patch.outline) diameter = std::max(diameter, hypotl(p.u - q.u, p.v - q.v));
   }
-  if (reading.patch_area > 0.02L * size_ * across)
+  if (!parted && reading.patch_area > 0.02L * size_ * diameter)
     set(Measure::uncovered, std::max(0.0L, 1 - area_of(overlap_of(kept, patch.outline)) / area_of(patch.outline)));
 
   Number outside = 0, error = 0;
@@ -194,7 +195,7 @@ uint32_t shared(const Found& found, const Found& before) {
 }  // namespace
 
 const char* name_of(Measure measure) {
-  constexpr const char* k_names[] = {"depth", "point", "loss", "uncovered", "outside", "jump", "seam"};
+  constexpr const char* k_names[] = {"depth", "point", "loss", "parted", "uncovered", "outside", "jump", "seam"};
   return k_names[static_cast<uint32_t>(measure)];
 }
 

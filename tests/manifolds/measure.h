@@ -10,12 +10,13 @@ enum class Measure : uint32_t {
   depth,      ///< the deepest point's depth less the least that parts the solids, over the thinner one's thickness
   point,      ///< a point's separation less the gap of the solids over its place, likewise
   loss,       ///< how far the true patch reaches beyond the outline of the points, over the smaller one's size
+  parted,     ///< likewise of solids that are farther apart than a 256th of the thickness: the loss of no other is here
   uncovered,  ///< the part of the true patch's area that the outline of the points does not cover
   outside,    ///< how far a point lies beyond where the solids are within reach of each other, over the size
   jump,       ///< how much farther the outline moved in a tick than the motion and the true patch did, over the size
   seam,       ///< as `depth`, where the contact is that of a seam: what else is measured is not, there
 };
-inline constexpr uint32_t k_measures = 7;
+inline constexpr uint32_t k_measures = 8;
 const char* name_of(Measure measure);
 
 /// Of one tick; NaN for what is not there.
