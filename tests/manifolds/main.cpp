@@ -60,9 +60,14 @@ void print(uint64_t seed, const Engine& engine) {
     print_pose("A", tick.a);
     print_pose("B", tick.b);
     printf("  normal %.9f %.9f %.9f\n", tick.stepped.normal[0], tick.stepped.normal[1], tick.stepped.normal[2]);
-    for (const FoundPoint& point : tick.stepped.points)
-      printf("    %.9f %.9f %.9f from A, separation %.9g m, feature %llx\n", point.from_a[0], point.from_a[1],
+    for (size_t i = 0; i < tick.stepped.points.size(); ++i) {
+      const FoundPoint& point = tick.stepped.points[i];
+      printf("    %.9f %.9f %.9f from A, separation %.9g m, feature %llx", point.from_a[0], point.from_a[1],
              point.from_a[2], point.separation, static_cast<unsigned long long>(point.feature));
+      if (i < reading.points.size())
+        printf("; gap %.9g m, %.3g m beyond", reading.points[i].gap, reading.points[i].outside);
+      printf("\n");
+    }
   });
 }
 

@@ -46,6 +46,7 @@ class Judge {
  private:
   void measure_points(const Tick& tick, const Points& points, const Patch& patch, const Arrow& middle,
                       Reading& reading) const;
+  PointReading read_point(const Tick& tick, const Points& points, size_t i, const Arrow& middle) const;
   double jump_of(const Points& points, const Patch& patch, const std::vector<Arrow>& corners, double motion) const;
 
   const Scene& scene_;
@@ -132,36 +133,56 @@ void Judge::measure_points(const Tick& tick, const Points& points, const Patch& 
 
   Number outside = 0, error = 0;
   for (size_t i = 0; i < points.at.size(); ++i) {
-    const Arrow &at = points.at[i], way = middle - at;
-    const Arrow across = way - points.normal * dot(way, points.normal);
-    const Number run = detent_oracle::length(across), separation = tick.stepped.points[i].separation;
-    Number gap = 0;
-    // What is within reach is convex: along the way to its middle there is one place where it starts.
-    const auto within = [&](Number part) {
-      return gap_over(a_, b_, placement_, points.normal, at + across * part, gap) &&
-             gap <= tick.reach + 1e-6L * thickness_;
-    };
-    Number part = 0;
-    if (!within(0)) {
-      Number low = 0;
-      part = 1;
-      for (int k = 0; k < 44; ++k) {
-        const Number half = (low + part) / 2;
-        (within(half) ? part : low) = half;
-      }
-    }
-    outside = std::max(outside, part * run);
-    if (!within(part)) continue;
-    // What lies beyond the sides of a face by no more than a 64th counts as over it (include/detent/contact.h), so there
-    // the surfaces may be farther apart than the planes.
-    Number least = fabsl(separation - gap);
-    for (int k = 1; k <= 6 && run > 0 && gap > separation; ++k) {
-      if (within(std::min(1.0L, part + k * size_ / 128 / run))) least = std::min(least, fabsl(separation - gap));
-    }
-    error = std::max(error, least);
+    const PointReading point = read_point(tick, points, i, middle);
+    reading.points.push_back(point);
+    outside = std::max(outside, static_cast<Number>(point.outside));
+    if (!isnan(point.gap)) error = std::max(error, fabsl(tick.stepped.points[i].separation - point.gap));
   }
   set(Measure::outside, outside / size_);
   set(Measure::point, error / thickness_);
+}
+
+PointReading Judge::read_point(const Tick& tick, const Points& points, size_t i, const Arrow& middle) const {
+  const Number reach = tick.reach + 1e-6L * thickness_, separation = tick.stepped.points[i].separation;
+  Arrow at = points.at[i];
+  Number gap = 0;
+  const auto within = [&](const Arrow& place) {
+    return gap_over(a_, b_, placement_, points.normal, place, gap) && gap <= reach;
+  };
+  const auto across = [&](const Arrow& way) { return way - points.normal * dot(way, points.normal); };
+  Number outside = 0;
+  if (!within(at)) {
+    // Where the solids are within reach is convex: on the way to its middle there is one place where it starts. It may
+    // be nearer aside.
+    const Arrow to_middle = across(middle - at);
+    Number low = 0, part = 1;
+    for (int k = 0; k < 44; ++k) {
+      const Number half = (low + part) / 2;
+      (within(at + to_middle * half) ? part : low) = half;
+    }
+    outside = part * detent_oracle::length(to_middle);
+    Arrow start = at + to_middle * part;
+    const Patch near = patch_of(a_, b_, placement_, points.normal, reach);
+    if (!near.outline.empty()) {
+      const Spot from = near.spot(at), to = nearest_in(near.outline, from);
+      const Number aside = hypotl(to.u - from.u, to.v - from.v);
+      if (aside < outside) {
+        outside = aside;
+        start = at + near.u * (to.u - from.u) + near.v * (to.v - from.v);
+      }
+    }
+    at = start;
+  }
+  // What lies beyond the sides of a face by no more than a 64th counts as over it (include/detent/contact.h), so there
+  // the surfaces may be farther apart than the planes.
+  const Arrow to_middle = across(middle - at);
+  const Number run = detent_oracle::length(to_middle);
+  double best = within(at) ? static_cast<double>(gap) : k_nothing;
+  for (int k = 1; k <= 6 && run > 0 && !(best <= static_cast<double>(separation)); ++k) {
+    if (!within(at + to_middle * std::min(1.0L, k * size_ / 128 / run))) continue;
+    if (isnan(best) || fabsl(separation - gap) < fabsl(separation - best)) best = static_cast<double>(gap);
+  }
+  return {static_cast<double>(outside), best};
 }
 
 double Judge::jump_of(const Points& points, const Patch& patch, const std::vector<Arrow>& corners,

@@ -19,12 +19,18 @@ enum class Measure : uint32_t {
 inline constexpr uint32_t k_measures = 8;
 const char* name_of(Measure measure);
 
+/// Of a point: how far beyond where the solids are within reach of each other it lies, m, and the gap there, m, or NaN.
+struct PointReading {
+  double outside, gap;
+};
+
 /// Of one tick; NaN for what is not there.
 struct Reading {
   double value[k_measures];
   double gap = 0;         ///< m, of the solids
   double patch_area = 0;  ///< m^2
   Arrow normal{};         ///< of the least translation, from A to B, A's axes
+  std::vector<PointReading> points{};
   bool lost = false;      ///< no points though the solids are within 0.9 of the reach, and no seam is why
   bool idle = false;      ///< points though the solids are farther apart
 };

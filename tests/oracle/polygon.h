@@ -68,18 +68,28 @@ inline Polygon overlap_of(Polygon polygon, const Polygon& other) {
   return polygon;
 }
 
-/// How far a spot lies outside; 0 inside.
-inline Number distance_beyond(const Polygon& polygon, const Spot& spot) {
+/// The nearest place of the polygon, which has a corner: the spot itself inside.
+inline Spot nearest_in(const Polygon& polygon, const Spot& spot) {
   bool inside = polygon.size() > 2;
+  Spot best = polygon[0];
   Number least = HUGE_VALL;
   for (size_t i = 0; i < polygon.size(); ++i) {
     const Spot way = polygon[(i + 1) % polygon.size()] - polygon[i], to = spot - polygon[i];
     inside = inside && cross(way, to) >= 0;
     const Number square = way.u * way.u + way.v * way.v;
     const Number part = square > 0 ? std::clamp((way.u * to.u + way.v * to.v) / square, 0.0L, 1.0L) : 0;
-    least = std::min(least, hypotl(to.u - way.u * part, to.v - way.v * part));
+    const Spot place = {polygon[i].u + way.u * part, polygon[i].v + way.v * part};
+    const Number distance = hypotl(spot.u - place.u, spot.v - place.v);
+    if (distance >= least) continue;
+    least = distance;
+    best = place;
   }
-  return inside ? 0 : least;
+  return inside ? spot : best;
+}
+/// How far a spot lies outside; 0 inside.
+inline Number distance_beyond(const Polygon& polygon, const Spot& spot) {
+  const Spot nearest = nearest_in(polygon, spot);
+  return hypotl(nearest.u - spot.u, nearest.v - spot.v);
 }
 
 /// How far it reaches along a unit direction.
