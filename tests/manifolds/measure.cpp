@@ -29,6 +29,11 @@ struct Points {
   std::vector<Arrow> at{};
 };
 
+/// What the outline of the points and that of the true patch are made of, in A's axes.
+struct Support {
+  std::vector<Arrow> points{}, bearing{}, corners{};  ///< all points; those that are about as deep as any or overlap
+};
+
 /// Solid by solid and tick by tick.
 class Judge {
  public:
@@ -47,7 +52,7 @@ class Judge {
   void measure_points(const Tick& tick, const Points& points, const Patch& patch, const Arrow& middle,
                       Reading& reading) const;
   PointReading read_point(const Tick& tick, const Points& points, size_t i, const Arrow& middle) const;
-  double jump_of(const Points& points, const Patch& patch, const std::vector<Arrow>& corners, double motion) const;
+  double jump_of(const Support& now, const Patch& patch, double motion) const;
 
   const Scene& scene_;
   FacedSolid a_, b_;
@@ -57,7 +62,7 @@ class Judge {
   // Of the tick before.
   bool has_last_ = false;
   Placement last_placement_{};
-  std::vector<Arrow> last_points_{}, last_corners_{};
+  Support last_{};
 };
 
 Reading Judge::read(const Tick& tick) {
@@ -75,16 +80,20 @@ Reading Judge::read(const Tick& tick) {
   const Patch patch = patch_of(a_, b_, placement_, found.axis, found.gap + scene_.tolerance);
   reading.patch_area = static_cast<double>(area_of(patch.outline));
   const Number height = support_value(a_.solid(), found.axis) + a_.solid().rounding + found.gap / 2;
-  std::vector<Arrow> corners;
+  Support support;
   Arrow middle = {0, 0, 0};
   for (const Spot& spot : patch.outline) {
-    corners.push_back(patch.u * spot.u + patch.v * spot.v + patch.normal * height);
-    middle = middle + corners.back() * (1.0L / static_cast<Number>(patch.outline.size()));
+    support.corners.push_back(patch.u * spot.u + patch.v * spot.v + patch.normal * height);
+    middle = middle + support.corners.back() * (1.0L / static_cast<Number>(patch.outline.size()));
   }
 
   Points points;
   points.normal = to_local(frame_a, arrow_of(tick.stepped.normal));
-  for (const FoundPoint& point : tick.stepped.points) points.at.push_back(to_local(frame_a, arrow_of(point.from_a)));
+  for (const FoundPoint& point : tick.stepped.points) {
+    points.at.push_back(to_local(frame_a, arrow_of(point.from_a)));
+    if (point.separation <= std::max(reading.gap, 0.0) + scene_.tolerance) support.bearing.push_back(points.at.back());
+  }
+  support.points = points.at;
   if (points.at.empty()) {
     reading.lost = reading.gap < 0.9 * tick.reach && !tick.stepped.seam;
     has_last_ = false;
@@ -97,12 +106,12 @@ Reading Judge::read(const Tick& tick) {
     for (int i = 0; i < 3; ++i)
       motion += static_cast<double>(detent_oracle::length(placement_.b.axis[i] - last_placement_.b.axis[i]) *
                                     (b_.solid().reach + b_.solid().rounding));
-    if (has_last_ && !tick.stepped.seam) reading.value[static_cast<uint32_t>(Measure::jump)] = jump_of(points, patch, corners, motion);
+    if (has_last_ && !tick.stepped.seam)
+      reading.value[static_cast<uint32_t>(Measure::jump)] = jump_of(support, patch, motion);
   }
   has_last_ = !patch.outline.empty() && !tick.stepped.seam;
   last_placement_ = placement_;
-  last_points_ = points.at;
-  last_corners_ = corners;
+  last_ = support;
   return reading;
 }
 
@@ -185,8 +194,7 @@ PointReading Judge::read_point(const Tick& tick, const Points& points, size_t i,
   return {static_cast<double>(outside), best};
 }
 
-double Judge::jump_of(const Points& points, const Patch& patch, const std::vector<Arrow>& corners,
-                      double motion) const {
+double Judge::jump_of(const Support& now, const Patch& patch, double motion) const {
   const auto reach = [](const std::vector<Arrow>& arrows, const Arrow& direction) {
     Number most = -HUGE_VALL;
     for (const Arrow& arrow : arrows) most = std::max(most, dot(arrow, direction));
@@ -197,9 +205,11 @@ double Judge::jump_of(const Points& points, const Patch& patch, const std::vecto
   for (int i = 0; i < k_directions; ++i) {
     const double angle = 2 * k_pi * i / k_directions;
     const Arrow direction = patch.u * cos(angle) + patch.v * sin(angle);
-    const Number moved = fabsl(reach(points.at, direction) - reach(last_points_, direction));
-    const Number explained = fabsl(reach(corners, direction) - reach(last_corners_, direction));
-    most = std::max(most, moved - explained - 2 * motion);
+    // Points that are apart come and go: only what bears counts as lost or won.
+    const Number lost = reach(last_.bearing, direction) - reach(now.points, direction);
+    const Number won = reach(now.bearing, direction) - reach(last_.points, direction);
+    const Number explained = fabsl(reach(now.corners, direction) - reach(last_.corners, direction));
+    most = std::max(most, std::max(lost, won) - explained - 2 * motion);
   }
   return static_cast<double>(most) / size_;
 }
