@@ -145,7 +145,10 @@ void Judge::measure_points(const Tick& tick, const Points& points, const Patch& 
     const PointReading point = read_point(tick, points, i, middle);
     reading.points.push_back(point);
     outside = std::max(outside, static_cast<Number>(point.outside));
-    if (!isnan(point.gap)) error = std::max(error, fabsl(tick.stepped.points[i].separation - point.gap));
+    // Where neither says that the surfaces touch there is nothing to bear.
+    const double separation = tick.stepped.points[i].separation;
+    if (std::min(separation, point.gap) <= std::max(reading.gap, 0.0) + thickness_ * 0x1p-10)
+      error = std::max(error, fabsl(separation - point.gap));
   }
   set(Measure::outside, outside / size_);
   set(Measure::point, error / thickness_);

@@ -8,7 +8,7 @@ namespace detent_manifolds {
 /// What is measured of a contact in a tick. Each is 0 at best.
 enum class Measure : uint32_t {
   depth,      ///< the deepest point's depth less the least that parts the solids, over the thinner one's thickness
-  point,      ///< a point's separation less the gap of the solids over its place, likewise
+  point,      ///< a point's separation less the gap of the solids over its place, likewise, where one says they touch
   loss,       ///< how far the true patch reaches beyond the outline of the points, over the smaller one's size
   parted,     ///< likewise of solids that are farther apart than a 256th of the thickness: the loss of no other is here
   uncovered,  ///< the part of the true patch's area that the outline of the points does not cover

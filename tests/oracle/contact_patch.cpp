@@ -146,14 +146,15 @@ Span span_of_cone(const ConvexSolid& solid, const Arrow& p, const Arrow& d) {
 /// A plane in a patch's axes: u, v across and w along the normal.
 struct FlatPlane {
   Number u, v, w, limit;
+  bool of_a;
 };
 
 void add_planes(const FacedSolid& solid, const Frame& frame, const Arrow& at, const Arrow& towards, const Patch& patch,
-                std::vector<FlatPlane>& planes) {
+                bool of_a, std::vector<FlatPlane>& planes) {
   for (const FacePlane& face : solid.planes(to_local(frame, towards))) {
     const Arrow normal = to_world(frame, face.normal);
     planes.push_back({dot(patch.u, normal), dot(patch.v, normal), dot(patch.normal, normal),
-                      face.limit + dot(normal, at)});
+                      face.limit + dot(normal, at), of_a});
   }
 }
 
@@ -208,11 +209,11 @@ Patch patch_of(const FacedSolid& a, const FacedSolid& b, const Placement& placem
   patch.normal = normal;
   patch.u = across * (1 / length(across));
   patch.v = cross(normal, patch.u);
-  // What is over a place in A, moved out by its ball, and in B, moved down by its ball and the level: the shadow of
-  // their intersection, by elimination of the height from all planes (Fourier, Motzkin).
+  // Over a place of the patch A, moved out by its ball, reaches above the lower side of B, moved down by its ball and the
+  // level: the height is eliminated from the planes, a lower one with an upper one at a time (Fourier, Motzkin).
   std::vector<FlatPlane> planes;
-  add_planes(a, placement.a, normal * a.solid().rounding, normal, patch, planes);
-  add_planes(b, placement.b, placement.offset - normal * (b.solid().rounding + level), -normal, patch, planes);
+  add_planes(a, placement.a, normal * a.solid().rounding, normal, patch, true, planes);
+  add_planes(b, placement.b, placement.offset - normal * (b.solid().rounding + level), -normal, patch, false, planes);
   const Number size = 2 * (a.solid().reach + b.solid().reach + a.solid().rounding + b.solid().rounding +
                            length(placement.offset));
   patch.outline = {{-size, -size}, {size, -size}, {size, size}, {-size, size}};
@@ -228,7 +229,7 @@ Patch patch_of(const FacedSolid& a, const FacedSolid& b, const Placement& placem
     if (p.w < 1e-17L) continue;
     for (const FlatPlane& q : planes) {
       if (patch.outline.empty()) return patch;
-      if (q.w <= -1e-17L) hold(p.w * q.u - q.w * p.u, p.w * q.v - q.w * p.v, p.w * q.limit - q.w * p.limit);
+      if (q.w <= -1e-17L && (p.of_a || !q.of_a)) hold(p.w * q.u - q.w * p.u, p.w * q.v - q.w * p.v, p.w * q.limit - q.w * p.limit);
     }
   }
   return patch;
