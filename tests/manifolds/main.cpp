@@ -78,7 +78,8 @@ bool run(const Options& options, const Engine& engine) {
     const Scene scene = random_scene(seed);
     verdicts.push_back(judge(scene, engine.follow(scene)));
     if (!verdicts.back().problem.empty()) fprintf(stderr, "detent_manifolds: %s\n", verdicts.back().problem.c_str());
-    if (verdicts.size() % 100 == 0) fprintf(stderr, "\r%s: %zu of %u ", engine.config.c_str(), verdicts.size(), options.count);
+    if (verdicts.size() % 100 == 0)
+      fprintf(stderr, "\r%s: %zu of %u ", engine.config.c_str(), verdicts.size(), options.count);
   }
   fprintf(stderr, "\n");
   const auto tables = [&](bool markdown) {

@@ -37,8 +37,7 @@ struct Support {
 /// Solid by solid and tick by tick.
 class Judge {
  public:
-  explicit Judge(const Scene& scene)
-      : scene_(scene), a_(solid_of(scene.a)), b_(solid_of(scene.b)) {
+  explicit Judge(const Scene& scene) : scene_(scene), a_(solid_of(scene.a)), b_(solid_of(scene.b)) {
     const auto size = [](const FacedSolid& solid) {
       return static_cast<double>(2 * (solid.solid().reach + solid.solid().rounding));
     };
@@ -253,7 +252,8 @@ Verdict judge(const Scene& scene, const Followed& followed, const Visit& visit) 
     verdict.most_points = std::max(verdict.most_points, static_cast<uint32_t>(now.stepped.points.size()));
     for (uint32_t i = 0; i < k_measures; ++i) {
       if (isnan(reading.value[i])) continue;
-      if (!verdict.measured[i] || reading.value[i] > verdict.worst[i].value) verdict.worst[i] = {reading.value[i], tick};
+      if (!verdict.measured[i] || reading.value[i] > verdict.worst[i].value)
+        verdict.worst[i] = {reading.value[i], tick};
       verdict.measured[i] = true;
     }
     if (tick != 0 && scene.motion == Motion::still) {

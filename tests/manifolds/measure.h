@@ -13,8 +13,8 @@ enum class Measure : uint32_t {
   parted,     ///< likewise of solids that are farther apart than a 256th of the thickness: the loss of no other is here
   uncovered,  ///< the part of the true patch's area that the outline of the points does not cover
   outside,    ///< how far a point lies beyond where the solids are within reach of each other, over the size
-  jump,       ///< how far support was lost or won in a tick beyond the motion and what the true patch did, over the size
-  seam,       ///< as `depth`, where the contact is that of a seam: what else is measured is not, there
+  jump,  ///< how far support was lost or won in a tick beyond the motion and what the true patch did, over the size
+  seam,  ///< as `depth`, where the contact is that of a seam: what else is measured is not, there
 };
 inline constexpr uint32_t k_measures = 8;
 const char* name_of(Measure measure);
@@ -31,8 +31,8 @@ struct Reading {
   double patch_area = 0;  ///< m^2
   Arrow normal{};         ///< of the least translation, from A to B, A's axes
   std::vector<PointReading> points{};
-  bool lost = false;      ///< no points though the solids are within 0.9 of the reach, and no seam is why
-  bool idle = false;      ///< points though the solids are farther apart
+  bool lost = false;  ///< no points though the solids are within 0.9 of the reach, and no seam is why
+  bool idle = false;  ///< points though the solids are farther apart
 };
 
 struct Worst {

@@ -145,7 +145,9 @@ std::string worst_of(const std::vector<Verdict>& verdicts, uint32_t count, bool 
   }
   for (const Verdict& verdict : verdicts) {
     if (verdict.lost == 0 && verdict.idle == 0 && verdict.capped == 0) continue;
-    rows.push_back({verdict.lost != 0 ? "lost" : verdict.idle != 0 ? "idle" : "capped",
+    rows.push_back({verdict.lost != 0   ? "lost"
+                    : verdict.idle != 0 ? "idle"
+                                        : "capped",
                     text("%u", verdict.lost + verdict.idle + verdict.capped),
                     text("%llu", static_cast<unsigned long long>(verdict.seed)), "", name_of(verdict.kind),
                     name_of(verdict.motion), verdict.shapes});

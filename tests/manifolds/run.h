@@ -6,9 +6,9 @@
 namespace detent_manifolds {
 
 struct FoundPoint {
-  Triple from_a = {};      ///< midway between the surfaces, m, from A's position, world axes
-  double separation = 0;   ///< m
-  uint64_t feature = 0;    ///< distinct within the contact; with the plane's key on a mesh
+  Triple from_a = {};     ///< midway between the surfaces, m, from A's position, world axes
+  double separation = 0;  ///< m
+  uint64_t feature = 0;   ///< distinct within the contact; with the plane's key on a mesh
 };
 
 /// What the library says of a pair in one tick.
@@ -20,10 +20,10 @@ struct Found {
 };
 
 struct Tick {
-  Pose a{}, b{};    ///< as the configuration holds them
+  Pose a{}, b{};     ///< as the configuration holds them
   double reach = 0;  ///< m: how far apart they have contact points
-  Found stepped{};  ///< as a step goes on from the tick before
-  Found anew{};     ///< from nothing
+  Found stepped{};   ///< as a step goes on from the tick before
+  Found anew{};      ///< from nothing
 };
 
 struct Followed {

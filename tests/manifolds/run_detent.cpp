@@ -209,7 +209,8 @@ void Pair::add(const ContactGeometry& geometry, uint32_t key, const Triple& offs
     found.points.push_back(made);
     if (made.separation < deepest) {
       deepest = made.separation;
-      found.normal = {unit_to_host(geometry.normal.x), unit_to_host(geometry.normal.y), unit_to_host(geometry.normal.z)};
+      found.normal = {unit_to_host(geometry.normal.x), unit_to_host(geometry.normal.y),
+                      unit_to_host(geometry.normal.z)};
     }
   }
   found.seam = found.seam || geometry.seam;

@@ -61,9 +61,7 @@ struct Place {
   Quaternion rotation = {0, 0, 0, 1};
 };
 
-bool is_round(const Solid& solid) {
-  return solid.kind != SolidKind::box && solid.kind != SolidKind::hull;
-}
+bool is_round(const Solid& solid) { return solid.kind != SolidKind::box && solid.kind != SolidKind::hull; }
 Part part_of_b(Kind kind, Dice& dice) {
   switch (kind) {
     case Kind::edge:
@@ -139,8 +137,8 @@ void Maker::choose_solids() {
     scene_.a = random_solid(dice_, on_a, std::min(10.0, size_ * spread(dice_, 0.5, 3)));
     seat_a_ = random_seat(dice_, scene_.a, on_a);
   }
-  thickness_ = scene_.mesh_cells != 0 ? thickness_of(scene_.b)
-                                      : std::min(thickness_of(scene_.a), thickness_of(scene_.b));
+  thickness_ =
+      scene_.mesh_cells != 0 ? thickness_of(scene_.b) : std::min(thickness_of(scene_.a), thickness_of(scene_.b));
   const bool flat = on_b == Part::face || (on_b == Part::edge && !is_round(scene_.b) && !is_round(scene_.a));
   scene_.tolerance = thickness_ * (flat ? 0x1p-10 : 0x1p-20);
 }
@@ -151,7 +149,8 @@ Arrow Maker::lateral() {
   const Arrow way = {cos(angle), 0, sin(angle)};
   const detent_oracle::ConvexSolid a = solid_of(scene_.a), b = solid_of(scene_.b);
   const auto reach = [](const detent_oracle::ConvexSolid& solid, const Place& at, const Arrow& to) {
-    return support_value(solid, to_local(detent_oracle::frame_of(at.rotation), to)) + solid.rounding + dot(at.position, to);
+    return support_value(solid, to_local(detent_oracle::frame_of(at.rotation), to)) + solid.rounding +
+           dot(at.position, to);
   };
   const Number of_a = reach(a, a_, way), of_b = reach(b, b_, -way);
   const Number width = std::min(of_a + reach(a, a_, -way), of_b + reach(b, b_, way));
@@ -175,9 +174,9 @@ Arrow Maker::lateral() {
 bool Maker::set_gap() {
   const detent_oracle::ConvexSolid a = solid_of(scene_.a), b = solid_of(scene_.b);
   for (int i = 0; i < 6; ++i) {
-    const detent_oracle::Separation found =
-        separation_of(a, b, {detent_oracle::frame_of(a_.rotation), detent_oracle::frame_of(b_.rotation), b_.position - a_.position},
-                      {thickness_ * 1e-9L, 1e-3L}, {0, 1, 0});
+    const detent_oracle::Separation found = separation_of(
+        a, b, {detent_oracle::frame_of(a_.rotation), detent_oracle::frame_of(b_.rotation), b_.position - a_.position},
+        {thickness_ * 1e-9L, 1e-3L}, {0, 1, 0});
     // Along the face's normal, or that of edges which cross, but for what B leans.
     if (found.axis.y < 0.98L) return false;
     const Number off = scene_.gap - found.gap;
@@ -220,14 +219,16 @@ void Maker::move() {
   const double spin = spread(dice_, 1e-5, 1e-2), amplitude = 0.01 * thickness_ / size_ * spread(dice_, 1e-3, 1);
   const bool anywhere = dice_.coin();
   const Triple axis = dice_.direction();
-  const Quaternion frame = anywhere ? about({axis[0], axis[1], axis[2]}, dice_.between(0, k_pi)) : Quaternion{0, 0, 0, 1};
+  const Quaternion frame =
+      anywhere ? about({axis[0], axis[1], axis[2]}, dice_.between(0, k_pi)) : Quaternion{0, 0, 0, 1};
   const Arrow at = anywhere ? dice_.arrow(dice_.between(0, 64)) : Arrow{0, 0, 0};
   const double carried = std::min(0.01, thickness_ * spread(dice_, 1e-4, 1e-2));
   const Arrow carrying = dice_.arrow(carried), pivot = b_.position + turned(b_.rotation, seat_b_.middle);
   const Triple carrying_axis = dice_.direction();
   for (uint32_t tick = 0; tick <= k_ticks; ++tick) {
     Place a = a_, b = b_;
-    if (scene_.motion == Motion::slide || scene_.motion == Motion::carried) b.position = b.position + way * (step * tick);
+    if (scene_.motion == Motion::slide || scene_.motion == Motion::carried)
+      b.position = b.position + way * (step * tick);
     Quaternion turn = {0, 0, 0, 1};
     if (scene_.motion == Motion::turn) turn = about({0, 1, 0}, spin * tick);
     if (scene_.motion == Motion::rock) turn = about(lean_axis_, amplitude * sin(2 * k_pi * tick / k_ticks));

@@ -46,7 +46,7 @@ inline constexpr uint32_t k_motions = 5;
 const char* name_of(Motion motion);
 
 struct Pose {
-  Triple position = {};                         ///< m
+  Triple position = {};                           ///< m
   std::array<double, 4> rotation = {0, 0, 0, 1};  ///< x, y, z, w, to be normalised
 };
 

@@ -106,18 +106,21 @@ Solid box_of(const Triple& half) {
 }
 
 Solid random_solid(Dice& dice, Part part, double size) {
-  constexpr SolidKind k_faces[] = {SolidKind::box, SolidKind::box, SolidKind::cylinder, SolidKind::cone, SolidKind::hull, SolidKind::hull};
-  constexpr SolidKind k_edges[] = {SolidKind::box, SolidKind::cylinder, SolidKind::capsule, SolidKind::cone, SolidKind::hull, SolidKind::hull};
-  constexpr SolidKind k_corners[] = {SolidKind::box, SolidKind::sphere, SolidKind::cone, SolidKind::hull, SolidKind::hull, SolidKind::capsule};
+  constexpr SolidKind k_faces[] = {SolidKind::box,  SolidKind::box,  SolidKind::cylinder,
+                                   SolidKind::cone, SolidKind::hull, SolidKind::hull};
+  constexpr SolidKind k_edges[] = {SolidKind::box,  SolidKind::cylinder, SolidKind::capsule,
+                                   SolidKind::cone, SolidKind::hull,     SolidKind::hull};
+  constexpr SolidKind k_corners[] = {SolidKind::box,  SolidKind::sphere, SolidKind::cone,
+                                     SolidKind::hull, SolidKind::hull,   SolidKind::capsule};
   constexpr SolidKind k_rims[] = {SolidKind::cylinder, SolidKind::cone};
   const auto thin = [&] { return dice.below(3) == 0 ? spread(dice, 0.01, 1) : dice.between(0.2, 1); };
   // No thinner than a millimetre, so that steps of positions do not count.
   const auto length = [&] { return held(std::max(size * thin(), 1e-3)); };
   const Triple half = {length(), length(), length()};
   const SolidKind kind = part == Part::face     ? k_faces[dice.below(6)]
-                    : part == Part::edge   ? k_edges[dice.below(6)]
-                    : part == Part::corner ? k_corners[dice.below(6)]
-                                           : k_rims[dice.below(2)];
+                         : part == Part::edge   ? k_edges[dice.below(6)]
+                         : part == Part::corner ? k_corners[dice.below(6)]
+                                                : k_rims[dice.below(2)];
   if (kind == SolidKind::hull) return random_hull(dice, half);
   if (kind == SolidKind::box) return box_of(half);
   Solid solid;
@@ -162,7 +165,8 @@ Seat random_seat(Dice& dice, const Solid& solid, Part part) {
       for (const Arrow& p : convex.points) {
         if (on(face, p)) corners.push_back(p);
       }
-      const Arrow &p = corners[0], &q = corners[1 + static_cast<size_t>(dice.below(static_cast<int>(corners.size()) - 1))];
+      const Arrow &p = corners[0],
+                  &q = corners[1 + static_cast<size_t>(dice.below(static_cast<int>(corners.size()) - 1))];
       seat.out = face.normal;
       seat.along = unit(q - p);
       if (part == Part::face) break;

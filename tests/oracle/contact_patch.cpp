@@ -80,7 +80,8 @@ Span span_of_rod(const Arrow& end_a, const Arrow& end_b, Number radius, const Ar
   if (size == 0) return result;
   const Arrow along = axis * (1 / size), way = p - end_a;
   const Arrow across = way - along * dot(way, along), rate = d - along * dot(d, along);
-  const Number a = dot(rate, rate), half = dot(across, rate), root = half * half - a * (dot(across, across) - radius * radius);
+  const Number a = dot(rate, rate), half = dot(across, rate),
+               root = half * half - a * (dot(across, across) - radius * radius);
   if (a <= 0 || root < 0) return result;
   Span side = {(-half - sqrtl(root)) / a, (-half + sqrtl(root)) / a};
   side.hold(-dot(way, along), -dot(d, along));
@@ -153,8 +154,8 @@ void add_planes(const FacedSolid& solid, const Frame& frame, const Arrow& at, co
                 bool of_a, std::vector<FlatPlane>& planes) {
   for (const FacePlane& face : solid.planes(to_local(frame, towards))) {
     const Arrow normal = to_world(frame, face.normal);
-    planes.push_back({dot(patch.u, normal), dot(patch.v, normal), dot(patch.normal, normal),
-                      face.limit + dot(normal, at), of_a});
+    planes.push_back(
+        {dot(patch.u, normal), dot(patch.v, normal), dot(patch.normal, normal), face.limit + dot(normal, at), of_a});
   }
 }
 
@@ -194,7 +195,8 @@ bool FacedSolid::span(const Arrow& p, const Arrow& direction, Number& from, Numb
   } else if (solid_.core == CoreKind::points) {
     result = span_of_rod(solid_.points.front(), solid_.points.back(), solid_.rounding, p, direction);
   } else {
-    result = solid_.core == CoreKind::cone ? span_of_cone(solid_, p, direction) : span_of_cylinder(solid_, p, direction);
+    result =
+        solid_.core == CoreKind::cone ? span_of_cone(solid_, p, direction) : span_of_cylinder(solid_, p, direction);
   }
   from = result.from;
   to = result.to;
@@ -209,13 +211,13 @@ Patch patch_of(const FacedSolid& a, const FacedSolid& b, const Placement& placem
   patch.normal = normal;
   patch.u = across * (1 / length(across));
   patch.v = cross(normal, patch.u);
-  // Over a place of the patch A, moved out by its ball, reaches above the lower side of B, moved down by its ball and the
-  // level: the height is eliminated from the planes, a lower one with an upper one at a time (Fourier, Motzkin).
+  // Over a place of the patch A, moved out by its ball, reaches above the lower side of B, moved down by its ball and
+  // the level: the height is eliminated from the planes, a lower one with an upper one at a time (Fourier, Motzkin).
   std::vector<FlatPlane> planes;
   add_planes(a, placement.a, normal * a.solid().rounding, normal, patch, true, planes);
   add_planes(b, placement.b, placement.offset - normal * (b.solid().rounding + level), -normal, patch, false, planes);
-  const Number size = 2 * (a.solid().reach + b.solid().reach + a.solid().rounding + b.solid().rounding +
-                           length(placement.offset));
+  const Number size =
+      2 * (a.solid().reach + b.solid().reach + a.solid().rounding + b.solid().rounding + length(placement.offset));
   patch.outline = {{-size, -size}, {size, -size}, {size, size}, {-size, size}};
   const auto hold = [&](Number u, Number v, Number limit) {
     const Number across_size = hypotl(u, v);
@@ -229,7 +231,8 @@ Patch patch_of(const FacedSolid& a, const FacedSolid& b, const Placement& placem
     if (p.w < 1e-17L) continue;
     for (const FlatPlane& q : planes) {
       if (patch.outline.empty()) return patch;
-      if (q.w <= -1e-17L && (p.of_a || !q.of_a)) hold(p.w * q.u - q.w * p.u, p.w * q.v - q.w * p.v, p.w * q.limit - q.w * p.limit);
+      if (q.w <= -1e-17L && (p.of_a || !q.of_a))
+        hold(p.w * q.u - q.w * p.u, p.w * q.v - q.w * p.v, p.w * q.limit - q.w * p.limit);
     }
   }
   return patch;
@@ -237,7 +240,8 @@ Patch patch_of(const FacedSolid& a, const FacedSolid& b, const Placement& placem
 
 bool gap_over(const FacedSolid& a, const FacedSolid& b, const Placement& placement, const Arrow& normal, const Arrow& p,
               Number& gap) {
-  const auto span = [&](const FacedSolid& solid, const Frame& frame, const Arrow& from_centre, Number& from, Number& to) {
+  const auto span = [&](const FacedSolid& solid, const Frame& frame, const Arrow& from_centre, Number& from,
+                        Number& to) {
     return solid.span(to_local(frame, from_centre), to_local(frame, normal), from, to);
   };
   Number a_from, a_to, b_from, b_to;

@@ -17,9 +17,9 @@ class FacedSolid {
   explicit FacedSolid(const ConvexSolid& solid);
 
   const ConvexSolid& solid() const { return solid_; }
-  /// Planes that hold the core. Round sides are tangents, closer to each other towards `direction`: beside the line that
-  /// touches there they are a fiftieth of what the side rises too low at most, elsewhere 0.2 % of the radius too far out.
-  /// A core that is a point or a rod is grown by 1e-7 of its size.
+  /// Planes that hold the core. Round sides are tangents, closer to each other towards `direction`: beside the line
+  /// that touches there they are a fiftieth of what the side rises too low at most, elsewhere 0.2 % of the radius too
+  /// far out. A core that is a point or a rod is grown by 1e-7 of its size.
   std::vector<FacePlane> planes(const Arrow& direction) const;
   /// From where to where p + s direction lies in the solid, for a unit direction; false if it misses.
   bool span(const Arrow& p, const Arrow& direction, Number& from, Number& to) const;
@@ -36,12 +36,13 @@ struct Patch {
   Spot spot(const Arrow& p) const { return {dot(u, p), dot(v, p)}; }
 };
 
-/// Where B's surface is no farther above A's than `level`, m, along a unit normal from A to B. Of solids that are rounded
-/// by a ball it is the patch of their cores: a ball touches in a point, a capsule along a line. Empty if there is none.
+/// Where B's surface is no farther above A's than `level`, m, along a unit normal from A to B. Of solids that are
+/// rounded by a ball it is the patch of their cores: a ball touches in a point, a capsule along a line. Empty if there
+/// is none.
 Patch patch_of(const FacedSolid& a, const FacedSolid& b, const Placement& placement, const Arrow& normal, Number level);
 
-/// How far apart the surfaces are on the line through p along the normal: negative where they overlap. False if the line
-/// misses a solid.
+/// How far apart the surfaces are on the line through p along the normal: negative where they overlap. False if the
+/// line misses a solid.
 bool gap_over(const FacedSolid& a, const FacedSolid& b, const Placement& placement, const Arrow& normal, const Arrow& p,
               Number& gap);
 
