@@ -19,7 +19,7 @@ struct Options {
   uint64_t seed = 1;
   std::optional<uint64_t> seed_only;
   std::vector<std::string> configs, kinds;
-  std::string markdown;
+  std::string markdown, list;
 };
 
 bool has(const std::vector<std::string>& names, const std::string& name) {
@@ -88,10 +88,11 @@ bool run(const Options& options, const Engine& engine) {
   printf("%s, %u pairs of %u ticks, seeds from %llu on\n\n%s", engine.config.c_str(), options.count, k_ticks,
          static_cast<unsigned long long>(options.seed), tables(false).c_str());
   fflush(stdout);
-  if (options.markdown.empty()) return true;
-  std::ofstream file(options.markdown, std::ios::app);
-  file << "### " << engine.config << "\n\n" << tables(true);
-  return static_cast<bool>(file);
+  const auto append = [](const std::string& path, const std::string& what) {
+    return path.empty() || static_cast<bool>(std::ofstream(path, std::ios::app) << what);
+  };
+  return append(options.markdown, "### " + engine.config + "\n\n" + tables(true)) &&
+         append(options.list, lines_of(verdicts, engine.config));
 }
 
 }  // namespace
@@ -108,6 +109,7 @@ int main(int argc, char** argv) {
       ->delimiter(',');
   app.add_option("--worst", options.worst, "How many pairs of each measure are named")->capture_default_str();
   app.add_option("--markdown", options.markdown, "Append the tables to this file");
+  app.add_option("--list", options.list, "Append a line a pair to this file, as CSV");
   CLI11_PARSE(app, argc, argv);
   for (const std::string& kind : options.kinds) {
     bool known = false;
@@ -123,7 +125,7 @@ int main(int argc, char** argv) {
     if (options.seed_only)
       print(*options.seed_only, engine);
     else if (!run(options, engine)) {
-      fprintf(stderr, "detent_manifolds: %s cannot be written\n", options.markdown.c_str());
+      fprintf(stderr, "detent_manifolds: a file cannot be written\n");
       return k_exit_usage;
     }
   }

@@ -50,6 +50,7 @@ class Judge {
  private:
   void measure_points(const Tick& tick, const Points& points, const Patch& patch, const Arrow& middle,
                       Reading& reading) const;
+  Number staleness_of(const Tick& tick, const Patch& patch, const Polygon& kept) const;
   PointReading read_point(const Tick& tick, const Points& points, size_t i, const Arrow& middle) const;
   double jump_of(const Support& now, const Patch& patch, double motion) const;
 
@@ -131,6 +132,7 @@ void Judge::measure_points(const Tick& tick, const Points& points, const Patch& 
   for (const Spot& corner : patch.outline) loss = std::max(loss, distance_beyond(kept, corner));
   const bool parted = reading.gap > thickness_ / 256;
   set(parted ? Measure::parted : Measure::loss, loss / size_);
+  if (tick.stepped.reused) set(Measure::stale, staleness_of(tick, patch, kept) / size_);
   // Of a patch narrower than a fiftieth of the size the loss says all.
   Number diameter = 0;
   for (const Spot& p : patch.outline) {
@@ -151,6 +153,19 @@ void Judge::measure_points(const Tick& tick, const Points& points, const Patch& 
   }
   set(Measure::outside, outside / size_);
   set(Measure::point, error / thickness_);
+}
+
+Number Judge::staleness_of(const Tick& tick, const Patch& patch, const Polygon& kept) const {
+  const Frame frame_a = detent_oracle::frame_of(tick.a.rotation);
+  std::vector<Spot> spots;
+  for (const FoundPoint& point : tick.anew.points)
+    spots.push_back(patch.spot(to_local(frame_a, arrow_of(point.from_a))));
+  const Polygon anew = outline_of(spots);
+  if (anew.empty()) return size_;
+  Number most = 0;
+  for (const Spot& spot : kept) most = std::max(most, distance_beyond(anew, spot));
+  for (const Spot& spot : anew) most = std::max(most, distance_beyond(kept, spot));
+  return most;
 }
 
 PointReading Judge::read_point(const Tick& tick, const Points& points, size_t i, const Arrow& middle) const {
@@ -228,7 +243,8 @@ uint32_t shared(const Found& found, const Found& before) {
 }  // namespace
 
 const char* name_of(Measure measure) {
-  constexpr const char* k_names[] = {"depth", "point", "loss", "parted", "uncovered", "outside", "jump", "seam"};
+  constexpr const char* k_names[] = {"depth",   "point", "loss",  "parted", "uncovered",
+                                     "outside", "jump",  "stale", "seam"};
   return k_names[static_cast<uint32_t>(measure)];
 }
 

@@ -13,10 +13,11 @@ enum class Measure : uint32_t {
   parted,     ///< likewise of solids that are farther apart than a 256th of the thickness: the loss of no other is here
   uncovered,  ///< the part of the true patch's area that the outline of the points does not cover
   outside,    ///< how far a point lies beyond where the solids are within reach of each other, over the size
-  jump,  ///< how far support was lost or won in a tick beyond the motion and what the true patch did, over the size
-  seam,  ///< as `depth`, where the contact is that of a seam: what else is measured is not, there
+  jump,   ///< how far support was lost or won in a tick beyond the motion and what the true patch did, over the size
+  stale,  ///< how far the outline of points used again is from that of points found anew, over the size
+  seam,   ///< as `depth`, where the contact is that of a seam: what else is measured is not, there
 };
-inline constexpr uint32_t k_measures = 8;
+inline constexpr uint32_t k_measures = 9;
 const char* name_of(Measure measure);
 
 /// Of a point: how far beyond where the solids are within reach of each other it lies, m, and the gap there, m, or NaN.

@@ -128,6 +128,18 @@ std::string tables_of(const std::vector<Verdict>& verdicts, bool markdown) {
   return table_of(by_kind, markdown) + table_of(by_shapes, markdown) + table_of(by_motion, markdown);
 }
 
+std::string lines_of(const std::vector<Verdict>& verdicts, const std::string& config) {
+  std::string lines;
+  for (const Verdict& verdict : verdicts) {
+    lines += config + text(",%llu,%s,%s,%s", static_cast<unsigned long long>(verdict.seed), name_of(verdict.kind),
+                           name_of(verdict.motion), verdict.shapes.c_str());
+    for (uint32_t i = 0; i < k_measures; ++i)
+      lines += verdict.measured[i] ? text(",%.4g,%u", verdict.worst[i].value, verdict.worst[i].tick) : ",,";
+    lines += "\n";
+  }
+  return lines;
+}
+
 std::string worst_of(const std::vector<Verdict>& verdicts, uint32_t count, bool markdown) {
   std::vector<Cells> rows = {{"measure", "value", "seed", "tick", "kind", "motion", "shapes"}};
   for (uint32_t i = 0; i < k_measures; ++i) {

@@ -10,6 +10,10 @@ std::string tables_of(const std::vector<Verdict>& verdicts, bool markdown);
 /// The worst pairs of each measure and kind, with their seeds and ticks, at most `count` of each measure.
 std::string worst_of(const std::vector<Verdict>& verdicts, uint32_t count, bool markdown);
 
+/// A line a pair: configuration, seed, kind, motion, shapes, then of each measure the worst and its tick, empty where
+/// there is none.
+std::string lines_of(const std::vector<Verdict>& verdicts, const std::string& config);
+
 /// Of the pairs' worst readings at a share of their count, 0 to 1; 0 of none.
 double quantile_of(const std::vector<Verdict>& verdicts, Measure measure, double share);
 
