@@ -235,6 +235,11 @@ Patch patch_of(const FacedSolid& a, const FacedSolid& b, const Placement& placem
         hold(p.w * q.u - q.w * p.u, p.w * q.v - q.w * p.v, p.w * q.limit - q.w * p.limit);
     }
   }
+  // A side between corners that are one but for rounding has no direction.
+  const auto same = [&](const Spot& p, const Spot& q) { return hypotl(p.u - q.u, p.v - q.v) < 1e-13L * size; };
+  Polygon& outline = patch.outline;
+  outline.erase(std::unique(outline.begin(), outline.end(), same), outline.end());
+  while (outline.size() > 1 && same(outline.front(), outline.back())) outline.pop_back();
   return patch;
 }
 
