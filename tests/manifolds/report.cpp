@@ -33,10 +33,7 @@ std::string share_of(uint32_t part, uint32_t whole) {
 
 Cells header(const std::string& first) {
   Cells cells = {first, "pairs", "reused"};
-  for (uint32_t i = 0; i < k_measures; ++i) {
-    const std::string name = name_of(static_cast<Measure>(i));
-    cells.insert(cells.end(), {name + ": median", "p99", "worst"});
-  }
+  for (uint32_t i = 0; i < k_measures; ++i) cells.push_back(name_of(static_cast<Measure>(i)));
   cells.insert(cells.end(), {"lost", "idle", "seams", "names kept", "found anew"});
   return cells;
 }
@@ -60,8 +57,10 @@ Cells row_of(const std::string& name, const std::vector<Verdict>& verdicts) {
     const Measure measure = static_cast<Measure>(i);
     const bool any =
         std::any_of(verdicts.begin(), verdicts.end(), [&](const Verdict& verdict) { return has(verdict, measure); });
+    std::string cell;
     for (const double share : {0.5, 0.99, 1.0})
-      cells.push_back(any ? text("%.2g", quantile_of(verdicts, measure, share)) : "");
+      cell += (cell.empty() ? "" : ", ") + text("%.2g", quantile_of(verdicts, measure, share));
+    cells.push_back(any ? cell : "");
   }
   cells.insert(cells.end(), {text("%u", sum.lost), text("%u", sum.idle), text("%u", sum.seams),
                              share_of(sum.names_kept, sum.names), share_of(sum.names_anew_kept, sum.names_anew)});

@@ -3,8 +3,8 @@
 
 namespace detent_manifolds {
 
-/// Tables by kind and by shapes: each measure's median, 99th percentile and worst of the pairs' own worst ticks; what
-/// was lost; and the names that stay. For a terminal, or as Markdown.
+/// Tables by kind, shapes and motion: each measure's median, 99th percentile and worst of the pairs' own worst ticks;
+/// in how many pairs points were lost, idle or a seam's; and the names that stay. For a terminal, or as Markdown.
 std::string tables_of(const std::vector<Verdict>& verdicts, bool markdown);
 
 /// The worst pairs of each measure and kind, with their seeds and ticks, at most `count` of each measure.
