@@ -188,7 +188,6 @@ class Pair {
   Asset assets_[2];
   BodyTraits traits_a_{}, traits_b_{};
   double at_rest_ = 0, reuse_ = 0, extent_ = 0;
-  BodyPose last_a_{}, last_b_{};
   uint32_t count_ = 0;
   ContactState before_[k_surface_manifolds_max] = {};
   ManifoldState kept_[k_surface_manifolds_max] = {};
