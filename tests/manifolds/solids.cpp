@@ -35,6 +35,7 @@ void add_prism(Dice& dice, int count, const Triple& half, double top, double une
   }
 }
 
+/// Drawn one by one: as arguments every compiler would take them in an order of its own.
 Solid random_hull(Dice& dice, const Triple& half) {
   Solid solid;
   solid.kind = SolidKind::hull;
@@ -42,12 +43,16 @@ Solid random_hull(Dice& dice, const Triple& half) {
     case 0:  // a prism
       add_prism(dice, 3 + dice.below(10), half, 1, 0, solid);
       break;
-    case 1:  // nearly flat
-      add_prism(dice, 4 + dice.below(9), half, 1, half[1] * spread(dice, 1e-6, 1e-2), solid);
+    case 1: {  // nearly flat
+      const double uneven = half[1] * spread(dice, 1e-6, 1e-2);
+      add_prism(dice, 4 + dice.below(9), half, 1, uneven, solid);
       break;
-    case 2:  // a block with slanted sides
-      add_prism(dice, 3 + dice.below(6), half, dice.between(0.3, 0.9), 0, solid);
+    }
+    case 2: {  // a block with slanted sides
+      const double top = dice.between(0.3, 0.9);
+      add_prism(dice, 3 + dice.below(6), half, top, 0, solid);
       break;
+    }
     case 3:  // a wedge
       for (const double z : {-half[2], half[2]}) {
         solid.points.push_back({held(-half[0]), held(-half[1]), held(z)});
