@@ -1,0 +1,120 @@
+#include "tests/manifolds/report.h"
+#include "tests/manifolds/run_detent.h"
+#include "tests/support/test.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+using detent_manifolds::judge;
+using detent_manifolds::Kind;
+using detent_manifolds::Measure;
+using detent_manifolds::quantile_of;
+using detent_manifolds::random_scene;
+using detent_manifolds::Verdict;
+
+constexpr uint64_t k_pairs = 550;  ///< 50 of each kind
+
+/// What lies on a face, along a line or on a point.
+enum class Base { face, line, point };
+Base base_of(Kind kind) {
+  switch (kind) {
+    case Kind::edge:
+    case Kind::along:
+      return Base::line;
+    case Kind::crossing:
+    case Kind::corner:
+    case Kind::rim:
+      return Base::point;
+    default:
+      return Base::face;
+  }
+}
+
+/// Of the pairs' worst ticks: the most that the median, the 90th percentile and the worst are in any configuration.
+struct Bound {
+  Measure measure;
+  double median, most, worst;
+};
+
+void expect_within(const std::vector<Verdict>& verdicts, Base base, std::initializer_list<Bound> bounds) {
+  std::vector<Verdict> those;
+  for (const Verdict& verdict : verdicts) {
+    if (base_of(verdict.kind) == base) those.push_back(verdict);
+  }
+  for (const Bound& bound : bounds) {
+    const auto at = [&](double share) { return quantile_of(those, bound.measure, share); };
+    EXPECT_LE(at(0.5), bound.median) << name_of(bound.measure);
+    EXPECT_LE(at(0.9), bound.most) << name_of(bound.measure);
+    EXPECT_LE(at(1), bound.worst) << name_of(bound.measure);
+  }
+}
+
+/// What the worst ones are, and why: docs/contacts.md. In one test, for the pairs are measured once.
+DETENT_TEST(manifolds, of_pairs_that_rest_and_slide_are_as_deep_and_wide_as_measured_and_change_as_little) {
+  std::vector<Verdict> verdicts;
+  Verdict sum;
+  for (uint64_t seed = 1; seed <= k_pairs; ++seed) {
+    const detent_manifolds::Scene scene = random_scene(seed);
+    verdicts.push_back(judge(scene, manifolds_engine().follow(scene)));
+    const Verdict& verdict = verdicts.back();
+    ASSERT_EQ(verdict.problem, "");
+    // Points are there where the solids are within reach of each other, and nowhere else.
+    EXPECT_EQ(verdict.lost, 0u) << "seed " << seed;
+    EXPECT_EQ(verdict.idle, 0u) << "seed " << seed;
+    EXPECT_EQ(verdict.capped, 0u) << "seed " << seed;
+    sum.ticks += verdict.ticks;
+    sum.reused += verdict.reused;
+    sum.names += verdict.names;
+    sum.names_kept += verdict.names_kept;
+    sum.names_anew += verdict.names_anew;
+    sum.names_anew_kept += verdict.names_anew_kept;
+  }
+  {
+    SCOPED_TRACE("on faces");
+    expect_within(verdicts, Base::face,
+                  {{Measure::depth, 6e-7, 8e-5, 0.008},
+                   {Measure::point, 1.5e-6, 9e-5, 0.05},
+                   {Measure::loss, 0.004, 0.14, 0.36},
+                   {Measure::parted, 0.005, 0.15, 0.72},
+                   {Measure::uncovered, 0.13, 0.5, 1},
+                   {Measure::outside, 3e-6, 0.006, 0.016},
+                   {Measure::jump, 1e-7, 2e-5, 0.33},
+                   {Measure::stale, 2e-5, 5e-4, 0.35},
+                   {Measure::seam, 1e-6, 1e-6, 1e-6}});
+  }
+  {
+    SCOPED_TRACE("along edges");
+    expect_within(verdicts, Base::line,
+                  {{Measure::depth, 1e-7, 3e-6, 0.002},
+                   {Measure::point, 5e-6, 0.004, 0.025},
+                   {Measure::loss, 1.2e-4, 0.0013, 0.64},
+                   {Measure::parted, 3e-4, 0.0013, 0.045},
+                   {Measure::outside, 3e-8, 0.006, 0.55},
+                   {Measure::jump, 1e-7, 3e-5, 0.69},
+                   {Measure::stale, 4e-4, 4e-4, 6e-4},
+                   {Measure::seam, 0.025, 0.12, 0.2}});
+  }
+  {
+    SCOPED_TRACE("on corners and rims");
+    expect_within(verdicts, Base::point,
+                  {{Measure::depth, 6e-8, 6e-7, 0.005},
+                   {Measure::point, 2e-7, 1e-6, 0.012},
+                   {Measure::loss, 2.5e-4, 0.002, 0.025},
+                   {Measure::parted, 2e-6, 8e-4, 0.03},
+                   {Measure::outside, 1e-9, 1e-8, 0.0045},
+                   {Measure::jump, 1e-9, 1e-9, 4e-5},
+                   {Measure::stale, 8e-5, 8e-5, 8e-5},
+                   {Measure::seam, 3e-7, 0.11, 0.15}});
+  }
+  // Names of points that only the last bit disturbs. Steps of fx32's positions are a part of the smallest bodies'
+  // reach.
+  const double least = k_config == Config::fx32 ? 0.98 : 0.998;
+  EXPECT_GE(sum.names_kept, least * sum.names);
+  EXPECT_GE(sum.names_anew_kept, least * sum.names_anew);
+  EXPECT_GT(sum.reused * 5, sum.ticks);  // or it is not they that are measured
+}
+
+}  // namespace
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent
