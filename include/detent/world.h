@@ -60,7 +60,8 @@ struct WorldDef {
   Stabilisation stabilisation = Stabilisation::soft;
   Real relaxation = 1.0;        ///< over-relaxation factor of the SOR solver, [1/4, 7/4]
   Real stiffness = Real(0.14);  ///< contact frequency as a fraction of the substep rate, [1/64, 1/4]
-  Real damping_ratio = 10.0;    ///< of the soft contacts, [0, 64]
+  /// Of the soft contacts, [0, 64]: 0.7 of it acts between bodies that move, half with what does not.
+  Real damping_ratio = 10.0;
   Real restitution_threshold =
       0.25;                ///< approach speed below which nothing rebounds, in sqrt(g x smaller extent), [0, 64]
   bool continuous = true;  ///< bodies meet at the time of impact, however fast: nothing passes through anything
@@ -84,8 +85,9 @@ struct World {
   ContactEventBuffer contact_events = {};  ///< filled by each step, from its front; none by default
   JointEventBuffer joint_events = {};      ///< likewise
   const FeatureTable* features = nullptr;  ///< what create_world() was given
-  uint32_t lanes =
-      1;  ///< contacts that the solver takes at once, 1 or as many as this machine can: the bits are the same
+  /// Contacts that the solver takes at once: as many as this machine can, which create_world() finds out, or 1. The
+  /// bits are the same.
+  uint32_t lanes = 1;
   FilterRuleTable filter_rules = {};     ///< what Filter::rule means; none by default. Set it before any body names one
   Profile* profile = nullptr;            ///< times of the stages of each step (profile.h)
   SensorEventBuffer sensor_events = {};  ///< as contact_events
@@ -129,7 +131,9 @@ struct StepReport {
   uint32_t impacts_undecided = 0;        ///< times of impact found in part, or that could not be asked for
   uint32_t impacts_dropped = 0;          ///< for want of room, that of contacts: their bodies stayed behind
   uint32_t overlaps_left = 0;            ///< pairs too deep within each other for continuous collision
-  uint32_t bodies_stopped = 0;    ///< bodies that stayed behind in this tick: too many impacts, or no room for one
+  /// Bodies that stayed behind in this tick: they had too many impacts (docs/continuous_collision.md), or no room for
+  /// one.
+  uint32_t bodies_stopped = 0;
   Real lost_time = 0.0;           ///< sum of the parts of the tick that those missed
   uint32_t toi_tests = 0;         ///< times of impact asked for
   uint32_t toi_skipped = 0;       ///< pairs too slow to meet

@@ -217,7 +217,9 @@ void collide_box_round(const PairFrame& frame, PairManifold& manifold) {
     contact = least_overlap(pair);
   }
   if (contact.face < 0) {
-    manifold.seam = frame.smooth_seams && find_level_box_face(pair, radius, frame.sunk, contact);
+    const Unit thickness = min(radius, min(pair.half.v[0], min(pair.half.v[1], pair.half.v[2])));
+    const Unit sunk = min(frame.sunk, scale_by_power(thickness, -5));  // small shapes are not sunk in so far
+    manifold.seam = frame.smooth_seams && find_level_box_face(pair, radius, sunk, contact);
     manifold.turns = !manifold.seam && turns_at_edge(pair, contact);
     if (!manifold.seam && !manifold.turns) find_leaning_box_face(pair, contact);
   }

@@ -35,6 +35,11 @@ void go_on(ImpactStage& stage, ImpactPair& pair) {
     return;
   }
   const uint32_t slots[2] = {pair_low(pair.key), pair_high(pair.key)};
+  if (stage.is_spent() && pair.farther_in == 0) {
+    pair.farther_in = 1;  // its contacts will hold what it does not meet there
+    stage.test(pair.key, time, k_zero, &pair);
+    return;
+  }
   pair.next = k_next_none;
   pair.last = time;
   stage.report.undecided += undecided ? 1 : 0;
@@ -46,17 +51,18 @@ void go_on(ImpactStage& stage, ImpactPair& pair) {
   const BodyPose pose_a = pose_at(stage.body(slots[0]), time), pose_b = pose_at(stage.body(slots[1]), time);
   stage.first_approach = k_zero;
   if (stage.resolve(pair, undecided, pose_a, pose_b)) {
-    pair.at_seam = 1;  // both go on as they did: it is no impact
+    pair.farther_in = 1;  // both go on as they did: it is no impact
     stage.test(pair.key, time, seam_inset(stage, pair.key), &pair);
     stage.test_all_changed(time);
     return;
   }
   if (stage.first_approach > k_zero) stage.pass_on(pair, time);
+  const uint32_t impacts_max = stage.is_spent() ? k_impacts_max_spent : k_impacts_max;
   if (pair.impacts == 0) pair.impacts = 1;
   for (const uint32_t slot : slots) {
     if (!stage.dynamic(slot)) continue;
     BodySweep& sweep = stage.bodies.sweeps[slot];
-    if (++sweep.impacts >= k_impacts_max) stage.stop(slot, time);
+    if (++sweep.impacts >= impacts_max) stage.stop(slot, time);
     if ((sweep.marks & k_mark_changed) == 0) stage.change(slot);
   }
   stage.test_all_changed(time);
@@ -75,8 +81,7 @@ ImpactReport advance_to_impacts(const StepSettings& settings, const AssetTable& 
                        met,
                        hits,
                        probe,
-                       divide(Scaled(1.0), scaled_from(settings.tick_time)),
-                       probe == nullptr || probe->filters};
+                       divide(Scaled(1.0), scaled_from(settings.tick_time))};
   stage.start_sweeps();
   stage.find_first();
   stage.test_all_changed(Fraction(0.0));

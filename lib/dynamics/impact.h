@@ -19,10 +19,17 @@
 /// A pair that meets again at once touches for the rest of the tick: it is tested from rung to rung of a ladder of
 /// depths (impact_pair.h), so that it slides on. A body that meets more than k_impacts_max times, or for whose next
 /// impact there is no room, stays where it is certain to be free until the tick ends; this lost time is reported.
+///
+/// A tick has a budget of work (k_impact_work_times). Once it is spent, pairs meet an eighth of the smaller body's
+/// extent farther in, where contacts hold them in the next tick, and a body that comes so far stays there all the
+/// sooner.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 inline constexpr uint32_t k_impacts_max = 32;  ///< of a body in a tick
+/// Once the tick's work is spent, which is so many tests of pairs and blows: so many times what the first look at all
+/// pairs and bodies took, and more where these are few.
+inline constexpr uint32_t k_impacts_max_spent = 16, k_impact_work_times = 8, k_impact_work_min = 512;
 /// A mark of a body's sweep that joints hold, times the number of its island, from 1 on. All other marks are less.
 inline constexpr uint32_t k_mark_jointed = 32;
 

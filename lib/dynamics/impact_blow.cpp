@@ -144,6 +144,7 @@ bool resolve_at(ImpactStage& stage, ImpactPair& pair, const ContactGeometry& geo
                 const BodyPose& pose_b, bool again) {
   const uint32_t a = pair_low(pair.key), b = pair_high(pair.key);
   const BodyTraits &traits_a = stage.bodies.traits[a], &traits_b = stage.bodies.traits[b];
+  stage.take_work(1);
   const BodyMotion before_a = motion_of_sweep(traits_a, pose_a.rotation, stage.bodies.sweeps[a], stage.tick_rate);
   const BodyMotion before_b = motion_of_sweep(traits_b, pose_b.rotation, stage.bodies.sweeps[b], stage.tick_rate);
   ContactWork contact;
@@ -250,7 +251,7 @@ bool ImpactStage::resolve(ImpactPair& pair, bool undecided, const BodyPose& pose
   find_points(*this, pair, pose_a, pose_b, geometry);
   if (geometry.count != 0 && resolve_at(*this, pair, geometry, pose_a, pose_b, false)) return false;
   if (undecided || !is_direction(pair.normal)) return false;
-  if (geometry.seam && pair.at_seam == 0) return true;
+  if (geometry.seam && pair.farther_in == 0) return true;
   take_point(*this, pair, pose_a, pose_b, geometry);
   resolve_at(*this, pair, geometry, pose_a, pose_b, false);
   return false;
@@ -258,7 +259,7 @@ bool ImpactStage::resolve(ImpactPair& pair, bool undecided, const BodyPose& pose
 
 void ImpactStage::pass_on(const ImpactPair& first, Fraction time) {
   const uint64_t first_key = first.key;
-  for (int round = 0; round < k_rounds_max; ++round) {
+  for (int round = 0; round < k_rounds_max && !is_spent(); ++round) {
     bool again = false;
     uint64_t after = 0;
     while (ImpactPair* pair = next_touching(*this, first_key, after)) {

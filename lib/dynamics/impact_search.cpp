@@ -165,7 +165,7 @@ void test_at_start(ImpactStage& stage, uint64_t key, Span<const ContactWork> con
   const Fraction start = 0.0;
   // The sum of both motions is cheap, and mostly enough.
   const bool slow = stage.bodies.sweeps[low].reach + stage.bodies.sweeps[high].reach < apart;
-  if (stage.filters &&
+  if (stage.filters() &&
       (slow || (closing_bound(stage.body(low), stage.body(high), start, closing) && closing < apart))) {
     ++stage.report.skipped;
     return;
@@ -218,6 +218,7 @@ bool ImpactStage::is_pushed(uint64_t key) const {
 void ImpactStage::test(uint64_t key, Fraction time, Real inset, ImpactPair* entry) {
   const SweptBody a = body(pair_low(key)), b = body(pair_high(key));
   const bool resolved = entry != nullptr && entry->impacts != 0 && entry->last == time;
+  if (is_spent()) inset = max(inset, contact_inset(extent_of(key), k_zero));
   PairSearch search(assets, features, a, b, time);
   Meeting meeting;
   const TimeOfImpact& impact = meeting.impact;
@@ -225,6 +226,7 @@ void ImpactStage::test(uint64_t key, Fraction time, Real inset, ImpactPair* entr
   if (entry != nullptr) entry->next = k_next_none;
   const bool asked = search.find({inset, extent_of(key), true, resolved}, axis, meeting);
   report.tests += meeting.tests;
+  take_work(meeting.tests);
   if (!asked) {
     ++report.undecided;
     return;
@@ -240,7 +242,7 @@ void ImpactStage::test(uint64_t key, Fraction time, Real inset, ImpactPair* entr
     if (impact.outcome == ToiOutcome::clear) return;
   }
   const Fraction look = look_after(time, !meeting.climbed ? 0 : 1 + (entry == nullptr ? 0 : entry->looks));
-  const bool meets = impact.outcome != ToiOutcome::clear, looks = look < k_whole_step && inset == k_zero;
+  const bool meets = impact.outcome != ToiOutcome::clear, looks = look < k_whole_step && inset == k_zero && !is_spent();
   if (!meets && !looks) return;
   entry = entry_of(*this, key, entry);
   if (entry == nullptr) {
@@ -269,7 +271,9 @@ void ImpactStage::find_first() {
     while (rest.count != 0 && key_of(rest[0].state) < key) go_on(1);
     test_at_start(*this, key, pair_contacts(rest, key));
   }
+  uint32_t moving = 0;
   bodies.visits.for_each([&](uint32_t a) {
+    ++moving;
     if ((bodies.sweeps[a].marks & k_mark_strayed) == 0) return;
     for_each_near(*this, a, [&](uint32_t b) {
       if (b < a && (bodies.sweeps[b].marks & k_mark_strayed) != 0) return;
@@ -277,6 +281,7 @@ void ImpactStage::find_first() {
       if (!has_pair(known.pairs, key)) test_at_start(*this, key, find_contacts(known.contacts, key));
     });
   });
+  work_left = k_impact_work_min + k_impact_work_times * (moving + report.tests + report.skipped);
 }
 
 void ImpactStage::test_all_changed(Fraction time) {

@@ -34,7 +34,7 @@ struct ImpactStage {
   Span<ImpactHit> hits;
   ImpactProbe* probe;
   Scaled tick_rate;
-  bool filters;
+  uint32_t work_left = UINT32_MAX;  ///< see k_impact_work_times; find_first() sets it
   uint32_t met_count = 0;
   uint32_t changed_count = 0;
   uint32_t changed_first = 0;  ///< no body below has changed
@@ -43,6 +43,11 @@ struct ImpactStage {
 
   SweptBody body(uint32_t slot) const { return {bodies.traits[slot], bodies.poses[slot], bodies.sweeps[slot]}; }
   bool dynamic(uint32_t slot) const { return is_dynamic(bodies.traits[slot]); }
+  /// Whether pairs that cannot meet are left out.
+  bool filters() const { return probe == nullptr || probe->filters; }
+  /// Takes so many tests or blows from the work that is left.
+  void take_work(uint32_t count) { work_left -= count < work_left ? count : work_left; }
+  bool is_spent() const { return work_left == 0; }
   /// Visits the pairs that a dynamic body meets in, or has met.
   template <class Visit>
   void for_each_met(uint32_t slot, const Visit& visit) const {
@@ -73,7 +78,8 @@ struct ImpactStage {
 
   // impact_search.cpp
 
-  /// Finds what meets first, of all pairs that may.
+  /// Finds what meets first, of all pairs that may. What that took, and the bodies that move, give the rest of the tick
+  /// its budget of work.
   void find_first();
   /// Finds when a pair meets next, and keeps it if it does. `inset`: the rung to begin at; `entry`: the pair's, or
   /// null.

@@ -75,7 +75,7 @@ void ImpactStage::start_sweeps() {
       if (!holds(found_by, bodies.bounds[slot])) sweep.marks |= k_mark_strayed;
       if (!motion_bound(body(slot), sweep.from, sweep.reach)) sweep.reach = scale_by_power(k_real_max, -2);
     }
-    if (!filters || !known.complete) sweep.marks |= k_mark_strayed;
+    if (!filters() || !known.complete) sweep.marks |= k_mark_strayed;
   });
 }
 

@@ -166,6 +166,8 @@ bool release_limits(const JointState& joint, bool changes, JointWork& work);
 /// Adds the rows of the free motions that are driven, or notes what pushes without one.
 void add_driven_rows(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage,
                      JointWork& work);
+/// The force on B in the last substep, as it is kept: of the rows that push along something.
+Real last_pull(const JointStage& stage, const JointWork& work);
 /// Gives a body the inertia that its joints' pulls let it have in this substep: about each of its axes no less than a
 /// substep's stiffness of the pulls, h sum |impulse| |arm|, so that heavy pulls at a light body do not make it sway
 /// faster than a substep can follow. Its gyration becomes that one's, its momentum stays, so it is slowed. And notes

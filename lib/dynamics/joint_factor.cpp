@@ -56,18 +56,6 @@ struct Reply {
   }
 };
 
-/// What of a reply a row shows.
-inline Real shown(const JointWork& work, uint32_t row, uint32_t end, const Vec3<Real>& velocity,
-                  const Vec3<Real>& spin) {
-  if (row < 3 && work.points != 0) {
-    const Vec3<Unit>& arm = work.arm[end];
-    if (row == 0) return velocity.x + (spin.y * arm.z - spin.z * arm.y);
-    if (row == 1) return velocity.y + (spin.z * arm.x - spin.x * arm.z);
-    return velocity.z + (spin.x * arm.y - spin.y * arm.x);
-  }
-  return dot(velocity, work.row[row].axis) + dot(spin, work.row[row].arm[end]);
-}
-
 /// Runs `visit` with the sizes of blocks: most are of joints that hold their points, which is written out.
 #if defined(__OPTIMIZE_SIZE__)
 template <class Visit, class... Sizes>
@@ -90,45 +78,31 @@ inline void with_sizes(const Visit& visit, Sizes... sizes) {
 
 using Rows = Real[k_joint_rows_max][k_joint_rows_max];
 
-/// L^-1 of a joint's block, and that over its pivots.
-template <class Height, class Width>
-inline void divide_block(const JointWork& work, Height height, Width width, Real* block, Rows& scaled) {
-  for (uint32_t k = 0; k < height; ++k) {
-    for (uint32_t m = 0; m < k; ++m) {
-      for (uint32_t i = 0; i < width; ++i) block[k * width + i] -= work.response[k][m] * block[m * width + i];
-    }
-  }
-  for (uint32_t k = 0; k < height; ++k) {
-    for (uint32_t i = 0; i < width; ++i) scaled[k][i] = multiply(block[k * width + i], work.inverse[k]);
-  }
+/// The sum of a column of a block times a vector.
+template <class Height>
+inline Real product(Height height, uint32_t width, const Real* block, uint32_t i, const Real* vector) {
+  const uint32_t count = height;
+  ProductSum sum;
+  for (uint32_t k = 0; k < count; ++k) sum.add(block[k * width + i], vector[k]);
+  return sum.value();
 }
 
-/// A column of a block times one of what was divided.
-inline Real product(uint32_t height, uint32_t width, const Real* block, uint32_t i, const Rows& scaled, uint32_t m) {
-  Real sum = k_zero;
-  for (uint32_t k = 0; k < height; ++k) sum += block[k * width + i] * scaled[k][m];
-  return sum;
+/// L^-1 of a joint's block; and its columns over the pivots, as rows.
+template <class Height, class Width>
+inline void divide_block(const JointWork& work, Height height, Width width, Real* block, Rows& scaled) {
+  for (uint32_t k = 1; k < height; ++k) {
+    for (uint32_t i = 0; i < width; ++i) block[k * width + i] -= product(k, width, block, i, work.response[k]);
+  }
+  for (uint32_t k = 0; k < height; ++k) {
+    for (uint32_t i = 0; i < width; ++i) scaled[i][k] = multiply(block[k * width + i], work.inverse[k]);
+  }
 }
-/// A column of a block times a vector.
-inline Real product(uint32_t height, uint32_t width, const Real* block, uint32_t i, const Real* vector) {
-  Real sum = k_zero;
-  for (uint32_t k = 0; k < height; ++k) sum += block[k * width + i] * vector[k];
-  return sum;
-}
-#if !defined(__OPTIMIZE_SIZE__)
-inline Real product(Three, uint32_t width, const Real* block, uint32_t i, const Rows& scaled, uint32_t m) {
-  return block[i] * scaled[0][m] + block[width + i] * scaled[1][m] + block[2 * width + i] * scaled[2][m];
-}
-inline Real product(Three, uint32_t width, const Real* block, uint32_t i, const Real* vector) {
-  return block[i] * vector[0] + block[width + i] * vector[1] + block[2 * width + i] * vector[2];
-}
-#endif
 
 /// What two joints without a coupling show of each other goes to their diagonals.
 void make_up_product(uint32_t rows, const Real* block, const Rows& scaled, JointWork& third, JointWork& other) {
   for (uint32_t i = 0; i < third.rows; ++i) {
     for (uint32_t m = 0; m < other.rows; ++m) {
-      const Real size = abs(product(rows, third.rows, block, i, scaled, m));
+      const Real size = abs(product(rows, third.rows, block, i, scaled[m]));
       third.response[i][i] += size;
       other.response[m][m] += size;
     }
@@ -149,7 +123,11 @@ void choose_unit([[maybe_unused]] const JointStage& stage, JointWork& work) {
     const JointBody& body = stage.bodies[work.body[end]];
     if (body.mobile == 0) continue;
     const Reply reply(work, body, end);
-    for (uint32_t k = 0; k < work.rows; ++k) response[k] += shown(work, k, end, reply.velocity[k], reply.spin[k]);
+    for (uint32_t k = 0; k < work.rows; ++k) {
+      Real speed[k_joint_rows_max];
+      show(work, end, reply.velocity[k], reply.spin[k], speed);
+      response[k] += speed[k];
+    }
   }
   Real most[2] = {k_zero, k_zero};
   for (uint32_t k = 0; k < work.rows; ++k) most[row_kind(work, k)] = max(most[row_kind(work, k)], response[k]);
@@ -162,6 +140,7 @@ void choose_unit([[maybe_unused]] const JointStage& stage, JointWork& work) {
 
 void JointFactor::start(JointWork& work) {
   for (uint32_t k = 0; k < work.rows; ++k) {
+    work.row_power[k] = work.power[row_kind(work, k)];
     for (uint32_t m = 0; m <= k; ++m) work.response[k][m] = k_zero;
   }
 }
@@ -194,9 +173,10 @@ void JointFactor::make() {
       if (body.mobile == 0) continue;
       const Reply reply(work, body, end);
       for (uint32_t k = 0; k < work.rows; ++k) {
+        Real speed[k_joint_rows_max];
+        show(work, end, reply.velocity[k], reply.spin[k], speed);
         for (uint32_t m = 0; m <= k; ++m)
-          work.response[k][m] += scale_by_power(shown(work, k, end, reply.velocity[m], reply.spin[m]),
-                                                work.power[row_kind(work, k)] + work.power[row_kind(work, m)]);
+          work.response[k][m] += scale_by_power(speed[m], work.row_power[k] + work.row_power[m]);
       }
       for (uint32_t at = work.coupling; at != k_no_link;) {
         const JointCoupling& coupling = stage_.couplings[at];
@@ -206,9 +186,10 @@ void JointFactor::make() {
         for (uint32_t far = 0; far < 2; ++far) {
           if (other.body[far] != work.body[end]) continue;
           for (uint32_t k = 0; k < work.rows; ++k) {
+            Real speed[k_joint_rows_max];
+            show(other, far, reply.velocity[k], reply.spin[k], speed);
             for (uint32_t m = 0; m < other.rows; ++m) {
-              const Real part = shown(other, m, far, reply.velocity[k], reply.spin[k]);
-              const Real scaled = scale_by_power(part, work.power[row_kind(work, k)] + other.power[row_kind(other, m)]);
+              const Real scaled = scale_by_power(speed[m], work.row_power[k] + other.row_power[m]);
               block[k * other.rows + m] += end == far ? scaled : -scaled;
             }
           }
@@ -253,10 +234,10 @@ void JointFactor::make_up(uint32_t index) {
       link = other.next[far];
       if (other_index == index || find(index, other_index) != nullptr) continue;
       for (uint32_t k = 0; k < work.rows; ++k) {
-        for (uint32_t m = 0; m < other.rows; ++m) {
-          const int power = work.power[row_kind(work, k)] + other.power[row_kind(other, m)];
-          work.response[k][k] += abs(scale_by_power(shown(other, m, far, reply.velocity[k], reply.spin[k]), power));
-        }
+        Real speed[k_joint_rows_max];
+        show(other, far, reply.velocity[k], reply.spin[k], speed);
+        for (uint32_t m = 0; m < other.rows; ++m)
+          work.response[k][k] += abs(scale_by_power(speed[m], work.row_power[k] + other.row_power[m]));
       }
     }
   }
@@ -283,7 +264,7 @@ void JointFactor::eliminate(JointWork& work) {
           divide_block(work, height, width, block_of(coupling), scaled);
           for (uint32_t i = 0; i < width; ++i) {
             for (uint32_t m = 0; m <= i; ++m)
-              other.response[i][m] -= product(height, width, block_of(coupling), i, scaled, m);
+              other.response[i][m] -= product(height, width, block_of(coupling), i, scaled[m]);
           }
         },
         rows, other.rows);
@@ -304,7 +285,7 @@ void JointFactor::eliminate(JointWork& work) {
             for (uint32_t i = 0; i < known_width; ++i) {
               for (uint32_t m = 0; m < width; ++m)
                 target[turned ? m * known_width + i : i * width + m] -=
-                    product(height, known_width, block_of(known), i, scaled, m);
+                    product(height, known_width, block_of(known), i, scaled[m]);
             }
           },
           rows, third.rows, other.rows);
@@ -318,7 +299,7 @@ Scaled JointFactor::substitute() {
     JointWork& work = stage_.work[index];
     Real over[k_joint_rows_max];
     for (uint32_t k = 0; k < work.rows; ++k) {
-      for (uint32_t m = 0; m < k; ++m) work.side[k] -= work.response[k][m] * work.side[m];
+      work.side[k] -= product(k, 1, work.side, 0, work.response[k]);
       bool clamped = false;
       over[k] = multiply(work.side[k], work.inverse[k], clamped);
       if (clamped) ++saturated;
@@ -348,9 +329,7 @@ void JointFactor::solve() {
       const Real* block = block_of(coupling);
       with_sizes(
           [&](auto height, auto width) {
-            for (uint32_t k = 0; k < height; ++k) {
-              for (uint32_t i = 0; i < width; ++i) rest[k] -= block[k * width + i] * other.impulse[i];
-            }
+            for (uint32_t k = 0; k < height; ++k) rest[k] -= product(width, 1, block + k * width, 0, other.impulse);
           },
           work.rows, other.rows);
     }

@@ -45,6 +45,26 @@ class EnergySum {
 #endif
 };
 
+/// A sum of products.
+class ProductSum {
+ public:
+#if DETENT_FIXED
+  /// Exact. Overflow: none where the sum of the products' sizes is below 2^35.
+  void add(Real a, Real b) { sum_ = sum_ + Int128::product(a.raw, b.raw); }
+  /// Rounding: to nearest, ties up. Overflow: wraps.
+  Real value() const { return Real::from_raw(sum_.round_shift<k_real_frac>()); }
+
+ private:
+  Int128 sum_ = Int128::from(0);
+#else
+  void add(Real a, Real b) { sum_ += a * b; }
+  Real value() const { return sum_; }
+
+ private:
+  Real sum_ = k_zero;
+#endif
+};
+
 /// The speeds of the rows that a body's motion gives.
 inline void show(const JointWork& work, uint32_t end, const Vec3<Real>& velocity, const Vec3<Real>& spin,
                  Real (&speed)[k_joint_rows_max]) {
@@ -69,35 +89,31 @@ inline constexpr Real k_gathered_max = 65504.0;
 
 /// Adds to a body's push and twist what the rows' impulses do to it at an end. False if that is beyond k_gathered_max.
 inline bool gather(const JointWork& work, uint32_t end, JointBody& body) {
-  Vec3<Real> force = k_zero_vector, torque = k_zero_vector, turn = k_zero_vector;
-  const Real* impulse = work.impulse;
+  Real given[k_joint_rows_max], most = k_zero;  // by each row, m/s
+  bool saturated = false;
+  for (uint32_t k = 0; k < work.rows; ++k) {
+    given[k] = multiply(work.impulse[k], scaled_by_power(body.share, work.row_power[k] + k_impulse_power), saturated);
+    most = max(most, abs(given[k]));
+  }
+  if (saturated || !(most <= k_gathered_max * Unit(0.5))) return false;
+  Vec3<Real> push = k_zero_vector, twist = k_zero_vector;
   if (work.points != 0) {
-    force = {impulse[0], impulse[1], impulse[2]};
-    torque = cross(work.arm[end], force);
+    push = {given[0], given[1], given[2]};
+    twist = cross(work.arm[end], push);
   }
   for (uint32_t k = first_other(work); k < work.rows; ++k) {
-    if (is_linear(work.row[k])) {
-      force += work.row[k].axis * impulse[k];
-      torque += work.row[k].arm[end] * impulse[k];
-    } else {
-      turn += work.row[k].arm[end] * impulse[k];
-    }
+    if (!(greatest(twist) <= k_gathered_max)) return false;  // or this row's could wrap it
+    if (is_linear(work.row[k])) push += work.row[k].axis * given[k];
+    twist += work.row[k].arm[end] * given[k];
   }
-  bool fits = true;
-  const auto add = [&](const Vec3<Real>& v, Scaled share, Vec3<Real>& to) {
-    bool saturated = false;
-    const Vec3<Real> part = {multiply(v.x, share, saturated), multiply(v.y, share, saturated),
-                             multiply(v.z, share, saturated)};
-    fits = fits && !saturated && greatest(part) <= k_gathered_max;
-    if (!fits) return;
-    to = end == 1 ? to + part : to - part;
-    fits = greatest(to) <= k_gathered_max;
-  };
-  add(force, scaled_by_power(body.share, impulse_power(work, 0)), body.push);
-  add(torque, scaled_by_power(body.share, impulse_power(work, 0) + body.above), body.twist);
-  if (work.rows > 3 || work.points == 0)
-    add(turn, scaled_by_power(body.share, impulse_power(work, 1) + body.above), body.twist);
-  return fits;
+  if (!(greatest(push) <= k_gathered_max) || !(greatest(twist) <= scale_by_power(k_gathered_max, -body.above)))
+    return false;
+  if (body.above != 0)
+    twist = {scale_by_power(twist.x, body.above), scale_by_power(twist.y, body.above),
+             scale_by_power(twist.z, body.above)};
+  body.push = end == 1 ? body.push + push : body.push - push;
+  body.twist = end == 1 ? body.twist + twist : body.twist - twist;
+  return greatest(body.push) <= k_gathered_max && greatest(body.twist) <= k_gathered_max;
 }
 
 /// Chooses the units of a joint's impulses, 2^power reference masses, for which its rows' responses are near 2^5: so

@@ -8,16 +8,6 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// The force on B in the last substep, as it is kept: of the rows that push along something.
-Real pull_of(const JointState& joint, const JointWork& work) {
-  Vec3<Real> pull = k_zero_vector;
-  if (work.points != 0) pull = {joint.impulse[0], joint.impulse[1], joint.impulse[2]};
-  for (uint32_t k = work.points != 0 ? 3 : 0; k < work.rows_held; ++k) pull += work.row[k].axis * joint.impulse[k];
-  for (uint32_t i = 0; i < k_free_motions && work.rows_held + i < k_joint_rows_max; ++i)
-    pull += work.free_row[i].axis * joint.impulse[work.rows_held + i];
-  return length(pull);
-}
-
 /// The sum over its joints of what they pull times the arm, over its mass and its unit of length.
 Scaled pulls_on(const JointStage& stage, const JointBody& body) {
   Scaled sum = Scaled(0.0);
@@ -25,14 +15,23 @@ Scaled pulls_on(const JointStage& stage, const JointBody& body) {
     const JointWork& work = stage.work[link / 2];
     const uint32_t end = link % 2;
     link = work.next[end];
-    const Real pull = pull_of(stage.joints[work.joint], work);
-    if (pull > k_zero)
-      sum = add(sum, multiply(work.lighter_over[end], multiply(scaled_from(pull), scaled_from(work.arm_length[end]))));
+    if (work.pull > k_zero)
+      sum = add(sum, multiply(work.lighter_over[end], scaled_from(work.pull * work.arm_length[end])));
   }
   return sum;
 }
 
 }  // namespace
+
+Real last_pull(const JointStage& stage, const JointWork& work) {
+  const JointState& joint = stage.joints[work.joint];
+  Vec3<Real> pull = k_zero_vector;
+  if (work.points != 0) pull = {joint.impulse[0], joint.impulse[1], joint.impulse[2]};
+  for (uint32_t k = work.points != 0 ? 3 : 0; k < work.rows_held; ++k) pull += work.row[k].axis * joint.impulse[k];
+  for (uint32_t i = 0; i < k_free_motions && work.rows_held + i < k_joint_rows_max; ++i)
+    pull += work.free_row[i].axis * joint.impulse[work.rows_held + i];
+  return length(pull);
+}
 
 void load_inertia(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, JointBody& body) {
   const BodyTraits& traits = bodies.traits[body.slot];

@@ -33,6 +33,11 @@ constexpr int k_straight_power = 20;                 ///< of rad: see any_turns(
 constexpr Real k_length_max = 32768.0;
 Real held_sum(Real a, Real b) { return min(a + min(b, k_length_max), k_length_max); }
 
+/// What a joint keeps of a substep's impulses.
+Scaled kept_share(const StepSettings& settings) {
+  return scaled_by_power(scaled_from_count(settings.substeps), -k_kept_power);
+}
+
 /// Visits the bodies of an island that joints hold and that move.
 template <class Visit>
 void each_body(const SolverBodies& bodies, Span<const uint32_t> slots, JointStage& stage, const Visit& visit) {
@@ -151,7 +156,10 @@ struct Solver {
       body.velocity_before = motion.velocity;
       body.momentum_before = motion.momentum;
     });
-    each_joint([&](JointWork& work) { static_cast<JointRows&>(work) = make_joint_rows(stage, work); });
+    each_joint([&](JointWork& work) {
+      static_cast<JointRows&>(work) = make_joint_rows(stage, work);
+      if (elapsed == k_zero) work.pull = last_pull(stage, work);
+    });
     each_mobile([&](JointBody& body) { load_inertia(settings, bodies, stage, body); });
     if (elapsed == k_zero) each_joint([&](JointWork& work) { choose_unit(stage, work); });
   }
@@ -191,7 +199,7 @@ struct Solver {
     for (uint32_t k = 0; k < work.rows; ++k) speed[k] -= of_a[k];
   }
   /// Of a row's speeds in a solve.
-  static int power_of(const JointWork& work, uint32_t row) { return work.power[row_kind(work, row)] - k_impulse_power; }
+  static int power_of(const JointWork& work, uint32_t row) { return work.row_power[row] - k_impulse_power; }
   /// What a row asks for as a side of a solve.
   Real side_of(const JointWork& work, uint32_t row, Real speed) {
     const int power = power_of(work, row);
@@ -604,7 +612,7 @@ struct Solver {
 
   /// What the next substep's inertias are made with: no more than k_joint_impulse_max of it counts, and nothing else
   /// takes it.
-  void keep(const JointWork& work, Scaled share) const {
+  void keep(JointWork& work, Scaled share) const {
     Real(&kept)[k_joint_rows_max] = stage.joints[work.joint].impulse;
     const Scaled over_share = multiply(share, work.over_lighter);
     const auto store = [&](uint32_t k, int kind, Real total) {
@@ -615,6 +623,17 @@ struct Solver {
     for (uint32_t k = 0; k < work.rows_held; ++k) store(k, row_kind(work, k), work.total[k]);
     for (uint32_t i = 0; i < k_free_motions && work.rows_held + i < k_joint_rows_max; ++i)
       store(work.rows_held + i, row_kind(work.free_row[i]), work.driven_total[i]);
+    work.pull = last_pull(stage, work);
+  }
+  /// Likewise with what the curves took, which counts for no more than the rest: of rows that hold the same thing twice
+  /// curves ask for what contradicts, and these pull against each other as hard as their softness lets them.
+  void keep_all(JointWork& work, Scaled share) const {
+    const Real most = scale_by_power(work.pull, 1);
+    keep(work, share);
+    if (work.pull <= most) return;
+    const Scaled part = divide(scaled_from(most), scaled_from(work.pull));
+    for (Real& kept : stage.joints[work.joint].impulse) kept = multiply(kept, part);
+    work.pull = most;
   }
 };
 
@@ -648,6 +667,7 @@ uint32_t hold_joints_again(const StepSettings& settings, const SolverBodies& bod
 uint32_t follow_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
                        const Island& island, Real elapsed, JointStage& stage) {
   Solver solver(settings, bodies, slots, island, stage);
+  solver.each_joint([&](JointWork& work) { solver.keep(work, kept_share(settings)); });
   if (solver.any_turns()) {
     const Scaled taken = solver.energy_of_turning();
     solver.follow_curves(elapsed, taken);
@@ -663,10 +683,9 @@ uint32_t end_joints(const StepSettings& settings, const SolverBodies& bodies, Sp
   Solver solver(settings, bodies, slots, island, stage);
   if (solver.touches) solver.hold_again(elapsed);
   undecided += solver.undecided;
-  const Scaled over_share = scaled_by_power(scaled_from_count(settings.substeps), -k_kept_power);
   solver.each_joint([&](JointWork& work) {
     solver.add_up(work);
-    solver.keep(work, over_share);
+    solver.keep_all(work, kept_share(settings));
   });
   solver.end();
   return solver.clamped + solver.factor.saturated;

@@ -7,7 +7,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 #if DETENT_QUADS
-/// True if this machine can.
+inline constexpr bool k_built_with_quads = true;
+/// True if this machine can. Where it is virtual, the answer can take longer than a small world's step.
 bool has_quads();
 
 /// As the passes of ContactSolver<One>. Range: no dynamic body twice; equal counts of points and of angular rows.
@@ -15,6 +16,7 @@ void warm_start_quad(const StepSettings& settings, const SolverBodies& bodies, C
 void soften_quad(const StepSettings& settings, const SolverBodies& bodies, ContactWork* const (&contacts)[4]);
 void relax_quad(const StepSettings& settings, const SolverBodies& bodies, ContactWork* const (&contacts)[4]);
 #else
+inline constexpr bool k_built_with_quads = false;
 constexpr bool has_quads() { return false; }
 inline void warm_start_quad(const StepSettings&, const SolverBodies&, ContactWork* const (&)[4]) {}
 inline void soften_quad(const StepSettings&, const SolverBodies&, ContactWork* const (&)[4]) {}

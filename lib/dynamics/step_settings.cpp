@@ -8,6 +8,9 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
+/// Of WorldDef::damping_ratio: of contacts between bodies that move, and with what does not.
+constexpr Unit k_dynamic_damping = 0.7, k_static_damping = 0.5;
+
 /// `stiffness`: the spring's frequency over the substep rate; `damping_ratio`: of critical damping.
 Softness softness(Real stiffness, Real damping_ratio) {
   const Real one = 1.0;
@@ -63,8 +66,8 @@ StepSettings step_settings(const WorldState& world) {
     settings.dynamic_softness = settings.static_softness = {Unit(0.0), Unit(1.0), Unit(0.0)};
     return settings;
   }
-  settings.dynamic_softness = softness(world.stiffness, world.damping_ratio);
-  settings.static_softness = softness(scale_by_power(world.stiffness, 1), scale_by_power(world.damping_ratio, -1));
+  settings.dynamic_softness = softness(world.stiffness, world.damping_ratio * k_dynamic_damping);
+  settings.static_softness = softness(scale_by_power(world.stiffness, 1), world.damping_ratio * k_static_damping);
   return settings;
 }
 

@@ -44,7 +44,7 @@ struct StepSettings {
   Real breaking;              ///< of the smaller extent, like the next one
   Real reuse;                 ///< 0: contact points are found anew in each tick
   Softness dynamic_softness;  ///< of contacts between two dynamic bodies
-  Softness static_softness;   ///< of contacts with anything else: twice as stiff, half as damped
+  Softness static_softness;   ///< of contacts with anything else: twice as stiff, less damped
 };
 
 StepSettings step_settings(const WorldState& world);

@@ -231,7 +231,7 @@ void Reference::offer_corners(const Flat* points, const Feature& incident, AreaC
   for (int i = 0; i < side_count_; ++i) {
     const Side &side = side_[i], &last = side_[i == 0 ? side_count_ - 1 : i - 1];
     const int64_t turn = k_one_64 + ((int64_t{side.u} * last.u + int64_t{side.v} * last.v) >> 30);
-    if (turn < k_one_64 >> 10) continue;
+    if (turn < k_one_64 >> 18) continue;  // a corner of less than 0.16 degrees
     // Where the last side and this one meet, once moved out.
     const Flat& corner = corner_[i];
     const int64_t u = corner.u + slack_ * (int64_t{side.u} + last.u) / turn;

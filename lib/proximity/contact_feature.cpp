@@ -172,7 +172,7 @@ uint32_t face_along(const HullView& hull, const Vec32& d, BitSet level, BitSet f
 
 /// The mean normal of a face and of those of `faces`, beside it, that look nearly the same way.
 Vec32 normal_about(const HullView& hull, uint32_t face, BitSet faces) {
-  constexpr int64_t k_alike = (int64_t{1} << 60) - (int64_t{1} << 53);  // 2^-3 rad
+  constexpr int64_t k_alike = (int64_t{1} << 60) - (int64_t{1} << 41);  // 2^-9 rad
   const Vec32 normal = plane_normal(hull, face);
   Vec64 sum = {0, 0, 0};
   faces.for_each([&](uint32_t f) {

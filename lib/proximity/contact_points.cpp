@@ -259,7 +259,11 @@ bool Builder::build_on_edge(BlockManifold& manifold) const {
 /// At an edge that is level with its face but for what the shapes are sunk in.
 bool Builder::build_level_with_face(BlockManifold& manifold) const {
   ContactAxis level = axis_;
-  if (!find_level_face(pair_, rules_.sunk, level)) return false;
+  // Small shapes are not sunk in so far: no more than a 32nd of their half thickness.
+  const int64_t thin_a = pair_.metres(in_block(pair_.a, half_a_.thickness)) + pair_.radius_a;
+  const int64_t thin_b = pair_.metres(in_block(pair_.b, half_b_.thickness)) + pair_.radius_b;
+  const int64_t room = (thin_a < thin_b ? thin_a : thin_b) >> 5;
+  if (!find_level_face(pair_, room < rules_.sunk ? room : rules_.sunk, level)) return false;
   const int64_t separation = pair_.metres(level.separation) - pair_.radius_a - pair_.radius_b;
   Builder(pair_, level, rules_).add_on_axis(level.normal, separation, manifold);
   manifold.normal = level.normal;

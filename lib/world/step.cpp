@@ -154,7 +154,7 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   const Span<BodyWork> work = scratch.bodies.first(used);
   const Span<BodySweep> sweeps = scratch.sweeps.first(used);
   StepSettings settings = step_settings(state.world);
-  settings.quads = has_quads() && world.lanes == 4;
+  settings.quads = k_built_with_quads && world.lanes == 4;  // create_world() asked the processor
   const StepCacheView cache = cache_of(world.block, state.layout, capacity_of(state.header));
   const StepBodies bodies = {poses, traits, motions, activities, work, cache.visits, world.assets, *world.features};
   const SolverBodies solver_bodies = {traits, motions, work};

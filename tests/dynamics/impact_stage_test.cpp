@@ -256,6 +256,29 @@ DETENT_TEST(impact_stage, the_committed_sweeps_make_no_deep_overlap_and_none_esc
   }
 }
 
+/// Sheets of 0.2 mm, 2 mm apart, fall on the ground: each passes the blows of those below on, again and again.
+DETENT_TEST(impact_stage, the_work_of_a_tick_goes_with_what_there_is_to_look_at) {
+  Lab lab({25, 400, 0});
+  BodyDef ground;
+  ground.type = BodyType::fixed;
+  ground.shape = half_space();
+  lab.add(ground);
+  std::vector<BodyId> sheets;
+  for (int i = 0; i < 24; ++i) {
+    BodyDef def;
+    def.shape = box(reals(0.5, 0.0001, 0.5));
+    def.position = position(0, 0.0011 + 0.0022 * i, 0);
+    sheets.push_back(lab.add(def));
+  }
+  uint32_t tests_max = 0;
+  for (int tick = 0; tick < 120; ++tick) {
+    tests_max = std::max(tests_max, lab.run(1).toi_tests);
+    for (const BodyId id : sheets) ASSERT_GT(lab.motion(id).position[1], -0.0002) << "tick " << tick;
+  }
+  ::testing::Test::RecordProperty("tests_max", std::to_string(tests_max));
+  EXPECT_LT(tests_max, 15000u) << "24 sheets, 276 pairs";
+}
+
 /// The ladder's other rungs are not tried where not even the last one parts them.
 DETENT_TEST(impact_stage, what_lies_in_one_place_costs_two_tests_a_pair) {
   Lab lab({40, 100, 0}, weightless());  // beyond the pairs that there is room for all are tested

@@ -141,13 +141,13 @@ struct Ending {
   uint64_t digest;
 };
 #if defined(DETENT_FX64)
-constexpr Ending k_endings[] = {{10000, 0x265b1cb3812cc206}, {1000000, 0x5d1e105870f9f59a}};
+constexpr Ending k_endings[] = {{10000, 0x6cde600d4c5ba5c8}, {1000000, 0xfefec2b6573cdd62}};
 #elif defined(DETENT_FX32)
-constexpr Ending k_endings[] = {{10000, 0x0008b3e8cf7374e3}, {1000000, 0x407605d6d199910c}};
+constexpr Ending k_endings[] = {{10000, 0x420d274c2e29de99}, {1000000, 0xc59ab357374c26b1}};
 #elif defined(DETENT_F32)
-constexpr Ending k_endings[] = {{10000, 0xb7e70fadf0961154}};
+constexpr Ending k_endings[] = {{10000, 0x8b76c03c8d5822c9}};
 #else
-constexpr Ending k_endings[] = {{10000, 0x4a93fe4fc951111a}};
+constexpr Ending k_endings[] = {{10000, 0x89b33914c40cac08}};
 #endif
 
 /// A million ticks where time does not matter.

@@ -125,6 +125,29 @@ DETENT_TEST(joint, what_a_joint_gives_one_body_it_takes_from_the_other) {
   }
 }
 
+/// By a ball and a wheel, which together hold one motion twice: those rows may pull against each other, however hard.
+DETENT_TEST(joint, a_pair_that_is_held_twice_keeps_its_angular_momentum) {
+  Lab lab(room(2, 2), weightless());
+  const BodyId a = add_shape(lab, sphere(real(0.3)), 0, 0, 0), b = add_shape(lab, sphere(real(0.3)), 0.8, 0.2, 0.1);
+  ASSERT_OK(set_velocity(lab.world, a, reals(3, 1, 0), reals(1, 2, 3)));
+  ASSERT_OK(set_velocity(lab.world, b, reals(-2, 0, 1), reals(-2, 1, 0)));
+  add_joint(lab, JointType::ball, a, b, 0.4, 0, 0.1);
+  add_joint(lab, JointType::wheel, a, b, 0.3, 0.25, 0);
+  const auto momentum = [&] {
+    Vector sum = {0, 0, 0};
+    for (const BodyId id : {a, b}) {
+      const Motion motion = lab.motion(id);
+      const Vector at = {motion.position[0], motion.position[1], motion.position[2]};
+      const Vector velocity = {motion.velocity[0], motion.velocity[1], motion.velocity[2]};
+      sum = sum + cross(at, velocity) + Vector{motion.spin[0], motion.spin[1], motion.spin[2]} * (0.4 * 0.3 * 0.3);
+    }
+    return sum;
+  };
+  const Vector before = momentum();
+  lab.run(1);
+  EXPECT_LE(length(momentum() - before), 0.02 * length(before));
+}
+
 DETENT_TEST(joint, a_body_hangs_from_a_kinematic_one_as_that_turns) {
   Lab lab(room(2, 1));
   BodyDef arm;

@@ -240,6 +240,8 @@ struct alignas(8) JointWork : JointWorkStart, JointRows {
   Real side[k_joint_rows_max];                             ///< the right-hand side of a solve, then L^-1 of it
   Real impulse[k_joint_rows_max];                          ///< of a solve
   Real total[k_joint_rows_max];                            ///< of the rows always held, in this substep
+  Real pull;                                               ///< in the last substep, as the joint keeps its impulses
+  int32_t row_power[k_joint_rows_max];                     ///< of the unit of each row
 };
 
 /// Two joints that share a body, or see each other once joints between them are eliminated: a block of the factor.
@@ -271,7 +273,7 @@ struct ImpactPair {
   uint8_t next;       ///< what comes next: nothing, an impact, a time found in part, or a look from farther out
   uint8_t impacts;    ///< so far
   uint8_t looks;      ///< so far
-  uint8_t at_seam;    ///< 1 since it met at a seam: what it meets next is an impact
+  uint8_t farther_in;  ///< 1 since it is tested farther in, for it met at a seam or the work was spent: it meets next
 };
 
 /// An impact that changed how two bodies move, for contact events.
