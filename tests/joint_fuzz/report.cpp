@@ -1,32 +1,17 @@
 #include "tests/joint_fuzz/report.h"
 
-#include <stdarg.h>
-#include <stdio.h>
-
 #include <algorithm>
+
+#include "tests/support/text_table.h"
 
 namespace detent_joint_fuzz {
 
 namespace {
 
-using Cells = std::vector<std::string>;
-
-[[gnu::format(printf, 1, 2)]] std::string text(const char* format, ...) {
-  char line[256];
-  va_list arguments;
-  va_start(arguments, format);
-  vsnprintf(line, sizeof line, format, arguments);
-  va_end(arguments);
-  return line;
-}
-
-/// Of values at a share of their count, 0 to 1.
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0;
-  const auto place = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
-}
+using detent_text::Cells;
+using detent_text::quantile;
+using detent_text::table_of;
+using detent_text::text;
 
 Cells header() {
   return {"scenes",       "count",    "grow",      "in space",       "tenfold",   "silent",
@@ -76,26 +61,6 @@ Cells row_of(const std::string& name, const std::vector<Verdict>& verdicts, cons
           text("%.2f", nanoseconds / std::max(joint_ticks, 1.0) / 1000),
           text("%u", saturated),
           text("%u", undecided)};
-}
-
-std::string table_of(const std::vector<Cells>& rows, bool markdown) {
-  std::vector<size_t> width(rows[0].size());
-  for (const Cells& row : rows) {
-    for (size_t i = 0; i < row.size(); ++i) width[i] = std::max(width[i], row[i].size());
-  }
-  std::string result;
-  for (const Cells& row : rows) {
-    if (row.empty()) continue;
-    for (size_t i = 0; i < row.size(); ++i) {
-      const std::string fill(width[i] - row[i].size(), ' ');
-      result += markdown ? "| " + row[i] + " " : (i == 0 ? row[i] + fill : "  " + fill + row[i]);
-    }
-    result += markdown ? "|\n" : "\n";
-    if (!markdown || &row != &rows[0]) continue;
-    for (size_t i = 0; i < row.size(); ++i) result += i == 0 ? "|---" : "|---:";
-    result += "|\n";
-  }
-  return result + "\n";
 }
 
 bool is_passive(const Verdict& verdict) { return verdict.kind < Kind::contact; }

@@ -1,25 +1,17 @@
 #include "tests/manifolds/report.h"
 
-#include <stdarg.h>
-#include <stdio.h>
-
 #include <algorithm>
 #include <set>
+
+#include "tests/support/text_table.h"
 
 namespace detent_manifolds {
 
 namespace {
 
-using Cells = std::vector<std::string>;
-
-[[gnu::format(printf, 1, 2)]] std::string text(const char* format, ...) {
-  char line[256];
-  va_list arguments;
-  va_start(arguments, format);
-  vsnprintf(line, sizeof line, format, arguments);
-  va_end(arguments);
-  return line;
-}
+using detent_text::Cells;
+using detent_text::table_of;
+using detent_text::text;
 
 double reading_of(const Verdict& verdict, Measure measure) {
   return verdict.worst[static_cast<uint32_t>(measure)].value;
@@ -67,26 +59,6 @@ Cells row_of(const std::string& name, const std::vector<Verdict>& verdicts) {
   return cells;
 }
 
-std::string table_of(const std::vector<Cells>& rows, bool markdown) {
-  std::vector<size_t> width(rows[0].size());
-  for (const Cells& row : rows) {
-    for (size_t i = 0; i < row.size(); ++i) width[i] = std::max(width[i], row[i].size());
-  }
-  std::string result;
-  for (const Cells& row : rows) {
-    if (row.empty()) continue;
-    for (size_t i = 0; i < row.size(); ++i) {
-      const std::string fill(width[i] - row[i].size(), ' ');
-      result += markdown ? "| " + row[i] + " " : (i == 0 ? row[i] + fill : "  " + fill + row[i]);
-    }
-    result += markdown ? "|\n" : "\n";
-    if (!markdown || &row != &rows[0]) continue;
-    for (size_t i = 0; i < row.size(); ++i) result += i == 0 ? "|---" : "|---:";
-    result += "|\n";
-  }
-  return result + "\n";
-}
-
 template <class Belongs>
 std::vector<Verdict> those(const std::vector<Verdict>& verdicts, const Belongs& belongs) {
   std::vector<Verdict> result;
@@ -101,10 +73,7 @@ double quantile_of(const std::vector<Verdict>& verdicts, Measure measure, double
   for (const Verdict& verdict : verdicts) {
     if (has(verdict, measure)) values.push_back(reading_of(verdict, measure));
   }
-  if (values.empty()) return 0;
-  const auto place = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
+  return detent_text::quantile(std::move(values), share);
 }
 
 std::string tables_of(const std::vector<Verdict>& verdicts, bool markdown) {
