@@ -436,10 +436,8 @@ struct Solver {
       const auto ask = [&](uint32_t row, Real error) {
         work.side[row] = side_of(work, row, speed_over(settings, work.error[row] - error));
       };
-      for (uint32_t k = 0; k < work.rows; ++k) {
-        work.side[k] = k_zero;
-        if (k < work.rows_held) ask(k, then.error[k]);
-      }
+      for (uint32_t k = 0; k < then.rows_held; ++k) ask(k, then.error[k]);
+      for (uint32_t k = then.rows_held; k < work.rows; ++k) work.side[k] = k_zero;
       for (int i = 0; i < k_free_motions; ++i) {
         const uint32_t row = work.driven[i];
         if (row == k_joint_rows_max || !is_held(work, row)) continue;
