@@ -56,7 +56,7 @@ inline constexpr Config k_config = Config::f64;
 #endif
 
 /// What a tick computes: any change that can alter a digest raises it. Stored in snapshots and recordings.
-inline constexpr uint32_t k_simulation_version = 13;
+inline constexpr uint32_t k_simulation_version = 14;
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -150,14 +150,40 @@ bool clip_to_face(const BoxAndSegment& pair, int face, Unit& low, Unit& high) {
   return low <= high;
 }
 
-/// Whether the normal at an edge turns as they slide past each other: not where lines cross.
-__attribute__((noinline)) bool turns_at_edge(const BoxAndSegment& pair, const BoxContact& contact) {
-  if (contact.along >= pair.half_length || contact.along <= -pair.half_length) return true;
+/// The axis of the edge that the normal is across, or -1.
+int edge_of(const BoxContact& contact) {
   int edge = -1;
   for (int axis = 0; axis < 3; ++axis) {
     if (abs(contact.normal.v[axis]) < Unit(0x1p-12)) edge = axis;
   }
-  return edge < 0 || abs(pair.direction.v[edge]) > Unit(1.0 - 0x1p-11);
+  return edge;
+}
+
+/// Within 2^-5 rad, as for edges of hulls.
+bool is_along(const BoxAndSegment& pair, int edge) { return abs(pair.direction.v[edge]) > Unit(1.0 - 0x1p-11); }
+
+/// Whether the normal at an edge turns as they slide past each other: not where lines cross.
+__attribute__((noinline)) bool turns_at_edge(const BoxAndSegment& pair, const BoxContact& contact) {
+  if (contact.along >= pair.half_length || contact.along <= -pair.half_length) return true;
+  const int edge = edge_of(contact);
+  return edge < 0 || is_along(pair, edge);
+}
+
+/// The part of the segment that lies along the edge of the contact; false if there is none.
+__attribute__((noinline)) bool clip_to_edge(const BoxAndSegment& pair, const BoxContact& contact, Unit thickness,
+                                            Unit& low, Unit& high) {
+  const int edge = pair.half_length > Unit(0.0) ? edge_of(contact) : -1;
+  if (edge < 0 || !is_along(pair, edge)) return false;
+  const bool backwards = pair.direction.v[edge] < Unit(0.0);
+  const Unit speed = abs(pair.direction.v[edge]);
+  const Unit centre = backwards ? -pair.centre.v[edge] : pair.centre.v[edge];
+  const Unit limit = pair.half_length;
+  low = divide_clamped(-pair.half.v[edge] - centre, speed, limit);
+  high = divide_clamped(pair.half.v[edge] - centre, speed, limit);
+  const int u = (edge + 1) % 3, v = (edge + 2) % 3;
+  const Unit rate = contact.normal.v[u] * pair.direction.v[v] - contact.normal.v[v] * pair.direction.v[u];
+  stay_beside(rate, scale_by_power(thickness, -5), contact.along, low, high);
+  return low < high;
 }
 
 /// As find_level_face() of lib/proximity: at an edge, the face whose normal is nearest.
@@ -216,8 +242,8 @@ void collide_box_round(const PairFrame& frame, PairManifold& manifold) {
   } else {
     contact = least_overlap(pair);
   }
+  const Unit thickness = min(radius, min(pair.half.v[0], min(pair.half.v[1], pair.half.v[2])));
   if (contact.face < 0) {
-    const Unit thickness = min(radius, min(pair.half.v[0], min(pair.half.v[1], pair.half.v[2])));
     const Unit sunk = min(frame.sunk, scale_by_power(thickness, -5));  // small shapes are not sunk in so far
     manifold.seam = frame.smooth_seams && find_level_box_face(pair, radius, sunk, contact);
     manifold.turns = !manifold.seam && turns_at_edge(pair, contact);
@@ -248,7 +274,13 @@ void collide_box_round(const PairFrame& frame, PairManifold& manifold) {
   }
   Unit surface = zero;
   for (int i = 0; i < 3; ++i) surface += pair.half.v[i] * abs(contact.normal.v[i]);
-  add(contact.along, surface, 64);
+  Unit low = zero, high = zero;
+  if (clip_to_edge(pair, contact, thickness, low, high)) {
+    add(low, surface, 65);
+    add(high, surface, 66);
+  } else {
+    add(contact.along, surface, 64);
+  }
 }
 
 const PairCode k_box_round_pair_code = {collide_box_round};

@@ -198,55 +198,22 @@ int64_t raw_from(Unit value) {
 #endif
 }
 
-uint32_t choose_by_area(const FaceVertex* polygon, uint32_t count, uint32_t chosen[k_manifold_points_max]) {
-  AreaChoice choice(INT64_MAX, 0, ManifoldReduction::deepest_area);
-  do {
-    for (uint32_t i = 0; i < count; ++i) {
-      const FaceVertex& p = polygon[i];
-      choice.add({raw_from(p.u), raw_from(p.v), raw_from(p.w), AreaPoint::Kind::vertex, static_cast<uint8_t>(i), 0});
-    }
-  } while (choice.again());
-  AreaPoint corner[k_manifold_points_max];
-  const int kept = choice.choose(corner);
-  for (int i = 0; i < kept; ++i) chosen[i] = corner[i].incident;
-  return static_cast<uint32_t>(kept);
-}
-
-/// At most four of the vertices. Of projected extremes those that reach farthest along the face's four diagonals, in
-/// that order, and the deepest instead of the nearest of them if it is deeper than all by more than `drop`. Ties go to
-/// the earlier vertex.
+/// The vertices of the contact, as indices: at most four.
 uint32_t choose_corners(const FaceVertex* polygon, uint32_t count, ManifoldReduction reduction, Unit drop,
                         uint32_t chosen[k_manifold_points_max]) {
   if (count <= k_manifold_points_max) {
     for (uint32_t i = 0; i < count; ++i) chosen[i] = i;
     return count;
   }
-  if (reduction == ManifoldReduction::deepest_area) return choose_by_area(polygon, count, chosen);
-  uint32_t kept = 0;
-  for (uint32_t diagonal = 0; diagonal < 4; ++diagonal) {
-    const auto reach = [&](const FaceVertex& p) {
-      return ((diagonal & 1) != 0 ? -p.u : p.u) + ((diagonal & 2) != 0 ? -p.v : p.v);
-    };
-    uint32_t best = 0;
-    for (uint32_t i = 1; i < count; ++i) {
-      if (reach(polygon[i]) > reach(polygon[best])) best = i;
+  AreaChoice choice(INT64_MAX, raw_from(drop), reduction);
+  do {
+    for (uint32_t i = 0; i < count; ++i) {
+      const FaceVertex& p = polygon[i];
+      choice.add({raw_from(p.u), raw_from(p.v), raw_from(p.w), AreaPoint::Kind::vertex, static_cast<uint8_t>(i), 0});
     }
-    bool fresh = true;
-    for (uint32_t i = 0; i < kept; ++i) fresh = fresh && chosen[i] != best;
-    if (fresh) chosen[kept++] = best;
-  }
-  uint32_t deepest = 0, nearest = 0;
-  for (uint32_t i = 1; i < count; ++i) {
-    if (polygon[i].w < polygon[deepest].w) deepest = i;
-  }
-  const FaceVertex& low = polygon[deepest];
-  const auto aside = [&](uint32_t i) { return abs(polygon[chosen[i]].u - low.u) + abs(polygon[chosen[i]].v - low.v); };
-  for (uint32_t i = 0; i < kept; ++i) {
-    if (polygon[chosen[i]].w <= low.w + drop) return kept;
-    if (aside(i) < aside(nearest)) nearest = i;
-  }
-  chosen[kept < k_manifold_points_max ? kept++ : nearest] = deepest;
-  return kept;
+  } while (choice.again());
+  for (int i = 0; i < choice.count(); ++i) chosen[i] = choice[i].incident;
+  return static_cast<uint32_t>(choice.count());
 }
 
 Unit sign_of(Unit value) { return value < Unit(0.0) ? Unit(-1.0) : Unit(1.0); }

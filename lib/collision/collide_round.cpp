@@ -47,8 +47,10 @@ void collide_round(const PairFrame& frame, PairManifold& manifold) {
   const Unit cosine = dot(a.direction, b.direction);
   if (a.half_length > zero && b.half_length > zero && Unit(1.0) - cosine * cosine < k_parallel) {
     const Unit middle = dot(a.direction, b.centre - a.centre);
-    const Unit low = max(-a.half_length, middle - b.half_length);
-    const Unit high = min(a.half_length, middle + b.half_length);
+    Unit low = max(-a.half_length, middle - b.half_length);
+    Unit high = min(a.half_length, middle + b.half_length);
+    stay_beside(dot(b.direction, cross(manifold.normal, a.direction)), scale_by_power(min(radius_a, radius_b), -5),
+                along_a, low, high);
     if (low < high) {
       manifold.turns = true;
       const auto opposite = [&](Unit at_a) {

@@ -1,5 +1,6 @@
 #pragma once
 #include "math/arithmetic.h"
+#include "math/root.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -22,23 +23,28 @@ inline Unit divide_clamped(Unit numerator, Unit denominator, Unit limit) {
   return divide(numerator, denominator);
 }
 
-/// Where two segments are closest, as distances along each from its centre. Of parallel segments, a pair that contains
-/// the middle of A or an end. Error: 2^-29 / (1 - (a.b)^2) of the unit of length along the segments.
-/// Source: the clamped normal equations, as in Ericson, "Real-Time Collision Detection", 5.1.9.
+/// Where two segments are closest, as distances along each from its centre. Of segments nearer than 2^-11 rad to
+/// parallel, a pair that contains the middle of A or an end. Error: 2^-29 / |a x b| of the unit of length.
+/// Source: the common perpendicular of two lines, clamped as in Ericson, "Real-Time Collision Detection", 5.1.9.
 inline void closest_points(const Segment& a, const Segment& b, Unit& along_a, Unit& along_b) {
-  const Unit zero = 0.0;
-  const Vec3<Unit> offset = a.centre - b.centre;
+  const Vec3<Unit> way = b.centre - a.centre;
   const Unit cosine = dot(a.direction, b.direction);
-  const Unit offset_a = dot(a.direction, offset);
-  const Unit offset_b = dot(b.direction, offset);
-  const Unit sine_squared = Unit(1.0) - cosine * cosine;
-  along_a = zero;
-  if (sine_squared > Unit(0x1p-16)) {
-    along_a = divide_clamped(cosine * offset_b - offset_a, sine_squared, a.half_length);
-  }
-  const Unit free_b = cosine * along_a + offset_b;
+  Vec3<Unit> across;
+  Unit sine = 0.0;
+  along_a = 0.0;
+  if (normalise(cross(a.direction, b.direction), across, sine) && sine > Unit(0x1p-11))
+    along_a = divide_clamped(dot(cross(way, b.direction), across), sine, a.half_length);
+  const Unit free_b = cosine * along_a - dot(b.direction, way);
   along_b = clamp(free_b, -b.half_length, b.half_length);
-  if (!(along_b == free_b)) along_a = clamp(cosine * along_b - offset_a, -a.half_length, a.half_length);
+  if (!(along_b == free_b)) along_a = clamp(cosine * along_b + dot(a.direction, way), -a.half_length, a.half_length);
+}
+
+/// Holds a stretch of a segment to what is no farther aside of a line than `room`: it crosses the line at `along`, and
+/// is farther aside by `rate` a unit.
+inline void stay_beside(Unit rate, Unit room, Unit along, Unit& low, Unit& high) {
+  const Unit aside = abs(rate);
+  if (aside * (along - low) > room) low = along - divide(room, aside);
+  if (aside * (high - along) > room) high = along + divide(room, aside);
 }
 
 }  // namespace DETENT_NAMESPACE

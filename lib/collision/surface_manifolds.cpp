@@ -3,6 +3,7 @@
 #include "collision/contact_arm.h"
 #include "geometry/shape_traits.h"
 #include "math/root.h"
+#include "proximity/contact_clip.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -14,19 +15,6 @@ constexpr int k_plane_power = 4;  ///< planes no farther apart than this part of
 constexpr uint32_t k_edge_key = 0x80000000u;
 
 int64_t along(const Vec64& v, const Vec32& direction) { return dot(v, direction).round_shift(30); }
-
-/// An axis in the plane across a normal, the same for equal normals.
-Vec32 axis_across(const Vec32& n) {
-  const uint32_t x = magnitude_32(n.x), y = magnitude_32(n.y), z = magnitude_32(n.z);
-  const Vec32 least = x <= y && x <= z ? Vec32{k_one, 0, 0} : z <= y ? Vec32{0, 0, k_one} : Vec32{0, k_one, 0};
-  return unit_vector_raw(scaled_to_30_bits(cross(least, n)));
-}
-
-/// Along one of the four diagonals of the plane, turned a little, as in lib/proximity. Range: |u|, |v| < 2^59.
-int64_t reach_along(int64_t u, int64_t v, int diagonal) {
-  const int64_t reach = (diagonal & 1) == 0 ? 4 * u + 5 * v : 4 * v - 5 * u;
-  return diagonal < 2 ? reach : -reach;
-}
 
 /// What a normal is named: itself, coarsely. Those along the axes lie in the middle of what has one name.
 uint32_t normal_name(const Vec32& normal) {
@@ -125,61 +113,52 @@ uint32_t SurfaceManifolds::deepest_of(const Group& group) {
   return deepest;
 }
 
-/// The farthest along a diagonal of those not above `height`: there is one.
-uint32_t SurfaceManifolds::extreme_of(const Group& group, int diagonal, int64_t height) {
-  uint32_t best = k_points_max;
-  for (uint32_t i = 0; i < group.count; ++i) {
-    const Point& p = group.point[i];
-    if (p.contact.separation > height) continue;
-    if (best == k_points_max ||
-        reach_along(p.u, p.v, diagonal) > reach_along(group.point[best].u, group.point[best].v, diagonal))
-      best = i;
+/// The points that AreaChoice chooses, as bits; without `fill` only the extremes.
+uint32_t SurfaceManifolds::chosen_of(const Group& group, int64_t level, int64_t drop, bool fill) {
+  const Point& first = group.point[0];
+  uint64_t spread = 0;
+  for (uint32_t i = 1; i < group.count; ++i) {
+    spread |= magnitude_64(group.point[i].u - first.u) | magnitude_64(group.point[i].v - first.v);
   }
-  return best;
+  const int bits = bit_length_64(spread), shift = bits > 28 ? bits - 28 : 0;  // areas of triangles fit
+  AreaChoice choice(level, INT64_MAX, drop, ManifoldReduction::projected_extremes);
+  do {
+    for (uint32_t i = 0; i < group.count; ++i) {
+      const Point& p = group.point[i];
+      choice.add({(p.u - first.u) >> shift, (p.v - first.v) >> shift, p.contact.separation, AreaPoint::Kind::vertex,
+                  static_cast<uint8_t>(i), 0});
+    }
+  } while (choice.again() && fill);
+  uint32_t chosen = 0;
+  for (int i = 0; i < choice.count(); ++i) chosen |= 1u << choice[i].incident;
+  return chosen;
 }
 
-/// The highest that is neither an extreme nor the deepest: of eight there are three.
-uint32_t SurfaceManifolds::spare_point(const Group& group) {
-  bool needed[k_points_max] = {};
-  for (int diagonal = 0; diagonal < 4; ++diagonal) needed[extreme_of(group, diagonal, INT64_MAX)] = true;
-  needed[deepest_of(group)] = true;
+/// The highest that is neither one of those that reach farthest nor the deepest: of eight there are three. Of those
+/// about as high the first.
+uint32_t SurfaceManifolds::spare_point(const Group& group) const {
+  const uint32_t needed = chosen_of(group, INT64_MAX, INT64_MAX / 2, false) | 1u << deepest_of(group);
   uint32_t spare = k_points_max;
+  int64_t higher = INT64_MIN;
   for (uint32_t i = 0; i < group.count; ++i) {
-    if (needed[i]) continue;
-    if (spare == k_points_max || group.point[i].contact.separation > group.point[spare].contact.separation) spare = i;
+    const int64_t separation = group.point[i].contact.separation;
+    if ((needed >> i & 1) != 0 || separation <= higher) continue;
+    spare = i;
+    higher = separation + (size_ >> k_drop_power);
   }
   return spare;
 }
 
-/// Up to four of the points: the extremes of those about as deep as the deepest, and then of all; and the deepest if it
-/// is deeper than all of them.
+/// Up to four of the points, first of those about as deep as the deepest.
 void SurfaceManifolds::choose(const Group& group, SurfaceManifold& manifold) const {
-  constexpr int k_opposite_first[4] = {0, 2, 1, 3};
-  const uint32_t deepest = deepest_of(group);
-  const int64_t depth = group.point[deepest].contact.separation;
-  const auto distance = [&](uint32_t i) {
-    return magnitude_64(group.point[i].u - group.point[deepest].u) +
-           magnitude_64(group.point[i].v - group.point[deepest].v);
-  };
-  bool taken[k_points_max] = {}, deep = false;
-  uint32_t count = 0, nearest = 0;
-  const int64_t heights[2] = {depth + (size_ >> k_plane_power), INT64_MAX};
-  for (const int64_t height : heights) {
-    for (const int diagonal : k_opposite_first) {
-      const uint32_t point = group.count > 4 ? extreme_of(group, diagonal, height) : static_cast<uint32_t>(diagonal);
-      if (count == 4 || point >= group.count || taken[point]) continue;
-      taken[point] = true;
-      deep = deep || group.point[point].contact.separation <= depth + (size_ >> k_drop_power);
-      if (count++ == 0 || distance(point) < distance(nearest)) nearest = point;
-    }
-  }
-  if (!deep) {
-    if (count == 4) taken[nearest] = false;
-    taken[deepest] = true;
+  uint32_t chosen = ~0u;
+  if (group.count > k_contact_points_max) {
+    const int64_t deepest = group.point[deepest_of(group)].contact.separation;
+    chosen = chosen_of(group, deepest + (size_ >> k_plane_power), size_ >> k_drop_power, true);
   }
   manifold.count = 0;
   for (uint32_t i = 0; i < group.count; ++i) {
-    if (taken[i]) manifold.point[manifold.count++] = group.point[i].contact;
+    if ((chosen >> i & 1) != 0) manifold.point[manifold.count++] = group.point[i].contact;
   }
   manifold.normal = group.normal;
   manifold.triangle = group.triangle;

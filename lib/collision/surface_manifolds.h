@@ -59,8 +59,8 @@ class SurfaceManifolds {
   void join(const SurfaceTouch& touch, int64_t plane, Group& group);
   void add_point(const SurfaceManifold::Point& contact, Group& group) const;
   static uint32_t deepest_of(const Group& group);
-  static uint32_t extreme_of(const Group& group, int diagonal, int64_t height);
-  static uint32_t spare_point(const Group& group);
+  static uint32_t chosen_of(const Group& group, int64_t level, int64_t drop, bool fill);
+  uint32_t spare_point(const Group& group) const;
   void choose(const Group& group, SurfaceManifold& manifold) const;
   void leave_out_doubtful();
 

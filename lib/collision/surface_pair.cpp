@@ -145,9 +145,30 @@ int64_t SurfacePair::height(const Vec32& normal, const Vec32& corner) const {
   return raw_from_block(lowest, shape_.exponent) - radius_ - dot(from_centre(corner), normal).round_shift(30);
 }
 
-/// Whether the shape's middle lies behind a plane through a corner.
-bool SurfacePair::is_above_middle(const Vec32& normal, const Vec32& corner) const {
-  return sign_of(dot(add(from_centre(corner), negate(middle_)), normal)) > 0;
+/// Whether a point, seen from the shape's centre, lies behind a plane through a corner.
+bool SurfacePair::is_behind(const Vec64& point, const Vec32& normal, const Vec32& corner) const {
+  return sign_of(dot(add(from_centre(corner), negate(point)), normal)) > 0;
+}
+
+/// Of what is left of a long or flat shape with its thickness taken off: the point nearest to a triangle's middle. Of
+/// others the shape's middle.
+Vec64 SurfacePair::nearest_inside(const SurfaceTriangle& t) const {
+  const auto beyond_thickness = [&](int k) {
+    const int64_t extent = saturated_sum(raw_from_block(shape_.size[k], shape_.exponent), radius_);
+    return extent > thickness_ ? extent - thickness_ : 0;
+  };
+  Vec64 inner = {0, 0, 0};
+  if (shape_.type == ShapeType::capsule) inner.y = raw_from_block(shape_.size[1], shape_.exponent);
+  if (shape_.type == ShapeType::box) inner = {beyond_thickness(0), beyond_thickness(1), beyond_thickness(2)};
+  if (shape_.type == ShapeType::cylinder)
+    inner = {beyond_thickness(0) / 2, beyond_thickness(1), beyond_thickness(0) / 2};
+  const Vec64 a = from_centre(t.corner[0]), b = from_centre(t.corner[1]), c = from_centre(t.corner[2]);
+  const auto mean = [](int64_t p, int64_t q, int64_t r) { return p / 3 + q / 3 + r / 3; };
+  const Vec64 to = rotate_back(rotation_, Vec64{mean(a.x, b.x, c.x), mean(a.y, b.y, c.y), mean(a.z, b.z, c.z)});
+  const auto held = [](int64_t value, int64_t limit) {
+    return value > limit ? limit : value < -limit ? -limit : value;
+  };
+  return add(middle_, rotate(rotation_, Vec64{held(to.x, inner.x), held(to.y, inner.y), held(to.z, inner.z)}));
 }
 
 /// Whether the shape's middle lies beyond a convex edge of the triangle, and before the face there: then it is on the
@@ -166,7 +187,7 @@ bool SurfacePair::is_before_neighbour(const SurfaceTriangle& t, const Vec32& nor
   }
   if (farthest == 3 || t.kind[farthest] != EdgeKind::convex) return false;
   const SurfaceTriangle next = surface_.triangle(t.neighbour[farthest]);
-  return !is_above_middle(normal_of(next.corner[0], next.corner[1], next.corner[2]), next.corner[0]);
+  return !is_behind(middle_, normal_of(next.corner[0], next.corner[1], next.corner[2]), next.corner[0]);
 }
 
 SurfacePair::Side SurfacePair::side_of(uint32_t index) const {
@@ -175,7 +196,8 @@ SurfacePair::Side SurfacePair::side_of(uint32_t index) const {
   SurfaceTriangle& t = side.triangle;
   t = surface_.triangle(index);
   side.normal = normal_of(t.corner[0], t.corner[1], t.corner[2]);
-  side.behind = is_above_middle(side.normal, t.corner[0]) && !is_before_neighbour(t, side.normal);
+  side.behind = is_behind(middle_, side.normal, t.corner[0]) && !is_before_neighbour(t, side.normal) &&
+                is_behind(nearest_inside(t), side.normal, t.corner[0]);
   if (side.behind) {
     side.normal = negate(side.normal);
     const SurfaceTriangle front = t;
@@ -287,15 +309,37 @@ bool SurfacePair::allows(const Side& side, const Vec32& normal) const {
   return allows_at_corner(side.index, corner[top], normal);
 }
 
-/// Whether the shape, or with `lowest` its lowest point alone, lies farther beyond a side than `clear`, 2^-46 m, and at
-/// most four times that: certain, but not sharp.
-bool SurfacePair::is_beside(const Side& side, bool lowest, int64_t clear) const {
+/// Across a side of the triangle, outward and 2^29 to 2^31 long; how far a point of the shape lies beyond it, 2^-46 m,
+/// at least a quarter: certain, but not sharp.
+Vec32 SurfacePair::outward(const Side& side, uint32_t k) {
+  const Vec32 &a = side.triangle.corner[k], &b = side.triangle.corner[(k + 1) % 3];
+  return scaled_to_30_bits(cross(scaled_to_30_bits(subtract(b, a)), side.normal));
+}
+
+/// How far a point of the shape lies beyond a side, 2^-46 m, or up to four times less: certain, but not sharp.
+int64_t SurfacePair::beyond(const Side& side, uint32_t k, const Vec32& out, const Vec32& point) const {
+  return raw_from_block(dot(out, point) >> 31, shape_.exponent) -
+         dot(from_centre(side.triangle.corner[k]), out).round_shift(31);
+}
+
+/// Whether the shape lies farther beyond a side than `clear`, 2^-46 m.
+bool SurfacePair::is_beside(const Side& side, int64_t clear) const {
   for (uint32_t k = 0; k < 3; ++k) {
-    const Vec32 &a = side.triangle.corner[k], &b = side.triangle.corner[(k + 1) % 3];
-    const Vec32 out = scaled_to_30_bits(cross(scaled_to_30_bits(subtract(b, a)), side.normal));  // 2^29 to 2^31 long
-    const int64_t nearest = dot(out, support(alone_, negate(lowest ? side.normal : out)).point) >> 31;
-    const int64_t beyond = raw_from_block(nearest, shape_.exponent) - dot(from_centre(a), out).round_shift(31);
-    if (beyond > clear) return true;
+    const Vec32 out = outward(side, k);
+    if (beyond(side, k, out, support(alone_, negate(out)).point) > clear) return true;
+  }
+  return false;
+}
+
+/// Whether the lowest point over the triangle does; of an edge or round side that lies level with it, the middle.
+__attribute__((noinline)) bool SurfacePair::is_lowest_beside(const Side& side, int64_t clear) const {
+  constexpr int64_t k_lying = k_one >> 12;
+  Feature lowest;
+  supporting_edge(alone_, negate(side.normal), k_lying, lowest);
+  const Vec32 &p = lowest.point[0], &q = lowest.point[lowest.count - 1];
+  const Vec32 middle = {(p.x >> 1) + (q.x >> 1), (p.y >> 1) + (q.y >> 1), (p.z >> 1) + (q.z >> 1)};
+  for (uint32_t k = 0; k < 3; ++k) {
+    if (beyond(side, k, outward(side, k), middle) > clear) return true;
   }
   return false;
 }
@@ -328,6 +372,12 @@ void SurfacePair::turn_to(const Vec32& normal, BlockManifold& manifold) const {
   manifold.turns = false;
 }
 
+Vec32 axis_across(const Vec32& normal) {
+  const uint32_t x = magnitude_32(normal.x), y = magnitude_32(normal.y), z = magnitude_32(normal.z);
+  const Vec32 least = x <= y && x <= z ? Vec32{k_one, 0, 0} : z <= y ? Vec32{0, 0, k_one} : Vec32{0, k_one, 0};
+  return unit_vector_raw(scaled_to_30_bits(cross(least, normal)));
+}
+
 bool SurfacePair::touch(uint32_t index, SurfaceTouch& touch) const {
   touch.seam = false;
   const Side side = side_of(index);
@@ -335,8 +385,7 @@ bool SurfacePair::touch(uint32_t index, SurfaceTouch& touch) const {
   if ((side.behind && one_sided) || side.height > reach_) return false;
   const bool free = side.has_free_edge();
   const int64_t size = saturated_sum(raw_core_radius(shape_), radius_);
-  if (is_beside(side, false, saturated_sum(size >> k_level_power, free ? saturated_sum(radius_, reach_) : 0)))
-    return false;
+  if (is_beside(side, saturated_sum(size >> k_level_power, free ? saturated_sum(radius_, reach_) : 0))) return false;
   Convex convex;
   RestingPair pair;
   if (!make_pair(side, convex, pair)) return false;
@@ -357,15 +406,14 @@ bool SurfacePair::touch(uint32_t index, SurfaceTouch& touch) const {
   Feature face;
   for (uint32_t k = 0; k < 3; ++k) face.add({convex.corner[k][0], convex.corner[k][1], convex.corner[k][2]}, k);
   face.normal = side.normal;
-  const Vec32& first = side.triangle.corner[0];
-  face.along = unit_vector_raw(scaled_to_30_bits(subtract(side.triangle.corner[1], first)));
+  face.along = axis_across(side.normal);
   contact_points_over_face(pair, face, reach_, ManifoldReduction::projected_extremes, touch.manifold);
   touch.deepest = deepest_of(touch.manifold);
   const bool over = touch.manifold.count > 0, shallow = touch.deepest > -(thickness_ >> k_shallow_power);
   const bool sharp = free && has_sharp_edge(side);
   if (!sharp && over && shallow) return true;
   // On a mild ridge the lowest point along each of the two normals lies beyond the edge.
-  if (!sharp && !over && is_beside(side, true, size >> (free ? k_mild_power : k_level_power))) return false;
+  if (!sharp && !over && is_lowest_beside(side, size >> (free ? k_mild_power : k_level_power))) return false;
   if (over && touch.deepest >= 0 && touch.deepest <= side.height + (thickness_ >> k_lowest_power)) return true;
   if (over && shallow && touch.deepest <= side.height + (thickness_ >> k_lowest_power) &&
       !has_nearer_way(side, touch.deepest)) {

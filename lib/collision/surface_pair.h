@@ -31,6 +31,10 @@ int64_t bound_of(const Vec64 (&corner)[3]);
 Vec64 rotate(const Matrix32& m, const Vec64& v);
 Vec64 rotate_back(const Matrix32& m, const Vec64& v);
 
+/// An axis in the plane across a normal, the same for equal normals: the points that are kept of a plane are among
+/// those that are kept of its triangles.
+Vec32 axis_across(const Vec32& normal);
+
 /// What of a triangle a shape touches, along one normal.
 struct SurfaceTouch {
   uint32_t triangle;
@@ -65,13 +69,17 @@ class SurfacePair {
 
  private:
   struct Side;
-  bool is_above_middle(const Vec32& normal, const Vec32& corner) const;
+  bool is_behind(const Vec64& point, const Vec32& normal, const Vec32& corner) const;
+  Vec64 nearest_inside(const SurfaceTriangle& triangle) const;
   bool is_before_neighbour(const SurfaceTriangle& triangle, const Vec32& normal) const;
   Side side_of(uint32_t triangle) const;
   Vec64 from_centre(const Vec32& point) const;
   int64_t height(const Vec32& normal, const Vec32& corner) const;
   bool make_pair(const Side& side, Convex& convex, RestingPair& pair) const;
-  bool is_beside(const Side& side, bool lowest, int64_t clear) const;
+  static Vec32 outward(const Side& side, uint32_t k);
+  int64_t beyond(const Side& side, uint32_t k, const Vec32& out, const Vec32& point) const;
+  bool is_beside(const Side& side, int64_t clear) const;
+  bool is_lowest_beside(const Side& side, int64_t clear) const;
   Vec32 normal_beyond(const Side& side, uint32_t edge) const;
   bool is_at_seam(const Side& side, int64_t facing, int64_t deepest) const;
   void turn_to(const Vec32& normal, BlockManifold& manifold) const;

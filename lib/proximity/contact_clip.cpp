@@ -11,6 +11,8 @@ namespace {
 
 constexpr int64_t k_no_limit = INT64_MAX / 2;
 constexpr int k_slack_power = 6;
+constexpr int k_margin_power =
+    6;  ///< what another corner must gain more than an earlier one, that noise does not choose
 
 /// part / whole as Q30. Range: 0 <= part <= whole, whole > 0.
 int64_t fraction(int64_t part, int64_t whole) { return divide_rounded(Int128::product(part, k_one_64), whole); }
@@ -18,6 +20,11 @@ int64_t fraction(int64_t part, int64_t whole) { return divide_rounded(Int128::pr
 /// Twice the area of a triangle, signed. Widths: |.| < 2^62.
 int64_t twice_area(const AreaPoint& p, const AreaPoint& q, const AreaPoint& r) {
   return (q.u - p.u) * (r.v - p.v) - (q.v - p.v) * (r.u - p.u);
+}
+
+int64_t distance_squared(const AreaPoint& p, const AreaPoint& q) {
+  const int64_t u = p.u - q.u, v = p.v - q.v;
+  return u * u + v * v;
 }
 
 /// Turned a little from the diagonals of a square, so that even octagons and dodecagons have one extreme along each.
@@ -29,16 +36,17 @@ int64_t reach_along(const AreaPoint& p, int diagonal) {
 }  // namespace
 
 void AreaChoice::add(const AreaPoint& point) {
-  if (point.w > reach_) return;
-  if (corner_count_ > 0) {
+  if (point.w > (filling_ ? reach_ : level_)) return;
+  if (filling_) {
     const int64_t gain = gain_of(point);
     if (gain > most_) {
       most_ = gain;
       next_ = point;
+      found_ = true;
     }
     return;
   }
-  if (count_ < 4) first_[count_] = point;
+  if (count_ < 4) chosen_[chosen_count_++] = point;
   for (int i = 0; i < k_diagonals; ++i) {
     if (count_ == 0 || reach_along(point, i) > reach_along(farthest_[i], i)) farthest_[i] = point;
   }
@@ -47,13 +55,10 @@ void AreaChoice::add(const AreaPoint& point) {
 }
 
 int64_t AreaChoice::gain_of(const AreaPoint& point) const {
-  const AreaPoint* c = corner_;
-  if (corner_count_ == 1) {
-    const int64_t u = point.u - c[0].u, v = point.v - c[0].v;
-    return u * u + v * v;
-  }
+  const AreaPoint* c = chosen_;
+  if (chosen_count_ == 1) return distance_squared(c[0], point);
   const int64_t first = twice_area(c[0], c[1], point);
-  if (corner_count_ == 2) return first < 0 ? -first : first;
+  if (chosen_count_ == 2) return first < 0 ? -first : first;
   const bool left = twice_area(c[0], c[1], c[2]) > 0;
   const int64_t beyond[3] = {first, twice_area(c[1], c[2], point), twice_area(c[2], c[0], point)};
   int64_t gain = 0;
@@ -61,43 +66,52 @@ int64_t AreaChoice::gain_of(const AreaPoint& point) const {
   return gain;
 }
 
-bool AreaChoice::again() {
-  if (reduction_ != ManifoldReduction::deepest_area || count_ <= 4) return false;
-  if (corner_count_ > 0 && most_ == 0) return false;  // all on a line
-  corner_[corner_count_] = corner_count_ == 0 ? deepest_ : next_;
-  most_ = 0;
-  return ++corner_count_ < 4;
+int64_t AreaChoice::least_gain() const {
+  const AreaPoint* c = chosen_;
+  if (chosen_count_ == 1) return 0;
+  if (chosen_count_ == 2) return distance_squared(c[0], c[1]) >> 6;
+  return static_cast<int64_t>(magnitude_64(twice_area(c[0], c[1], c[2]))) >> 3;
 }
 
-int AreaChoice::choose(AreaPoint (&chosen)[4]) const {
-  if (corner_count_ > 0) {
-    for (int i = 0; i < corner_count_; ++i) chosen[i] = corner_[i];
-    return corner_count_;
-  }
+void AreaChoice::choose_extremes() {
   const auto same = [](const AreaPoint& p, const AreaPoint& q) {
     return p.kind == q.kind && p.incident == q.incident && p.side == q.side;
   };
-  int count = 0, nearest = 0;
+  int nearest = 0;
   bool deep = false;
-  for (int i = 0; i < k_diagonals; ++i) {
-    if (count_ <= 4 && static_cast<uint32_t>(i) >= count_) break;
-    const AreaPoint& point = count_ <= 4 ? first_[i] : farthest_[i];
+  for (const AreaPoint& point : farthest_) {
     bool fresh = true;
-    for (int k = 0; k < count; ++k) fresh = fresh && !same(chosen[k], point);
+    for (int k = 0; k < chosen_count_; ++k) fresh = fresh && !same(chosen_[k], point);
     if (!fresh) continue;
     deep = deep || point.w <= deepest_.w + drop_;
-    if (count == 0 || distance(point, deepest_) < distance(chosen[nearest], deepest_)) nearest = count;
-    chosen[count++] = point;
+    if (distance(point, deepest_) < distance(chosen_[nearest], deepest_)) nearest = chosen_count_;
+    chosen_[chosen_count_++] = point;
   }
-  if (count == 0 || deep) return count;
-  if (count < 4)
-    chosen[count++] = deepest_;
-  else
-    chosen[nearest] = deepest_;
-  return count;
+  if (deep) return;
+  chosen_[chosen_count_ < 4 ? chosen_count_++ : nearest] = deepest_;
 }
 
-Reference::Reference(const Placed& placed, const Vec32& centre, const Feature& feature, const Vec32& up, int32_t size)
+bool AreaChoice::again() {
+  if (filling_) {
+    if (!found_) return false;
+    chosen_[chosen_count_++] = next_;
+  } else {
+    if (count_ <= 4 && level_ == reach_) return false;
+    filling_ = true;
+    chosen_count_ = 0;
+    if (reduction_ == ManifoldReduction::deepest_area)
+      chosen_[chosen_count_++] = deepest_;
+    else
+      choose_extremes();
+  }
+  if (chosen_count_ == 4) return false;
+  most_ = least_gain();
+  found_ = false;
+  return true;
+}
+
+Reference::Reference(const Placed& placed, const Vec32& centre, const Feature& feature, const Vec32& up, int32_t size,
+                     int64_t aside)
     : placed_(placed), feature_(&feature), name_(feature.name()), up_(up) {
   Vec64 sum = {0, 0, 0};
   for (int i = 0; i < feature.count; ++i)
@@ -114,7 +128,7 @@ Reference::Reference(const Placed& placed, const Vec32& centre, const Feature& f
     const int64_t run = dot(u_, along) >> 30;
     slope_ = run > 0 ? dot(up, along) / run : 0;
   }
-  add_sides(centre, size);
+  add_sides(centre, size, aside);
 }
 
 Reference::Reference(const Placed& half_space, const Vec32& centre, const Vec32& foot)
@@ -158,7 +172,7 @@ int64_t Reference::height_of(const Vec32& point) const {
   return p.w + ((beyond_end * slope_) >> 30);
 }
 
-void Reference::add_sides(const Vec32& centre, int32_t size) {
+void Reference::add_sides(const Vec32& centre, int32_t size, int64_t aside) {
   side_count_ = feature_->count;
   int64_t inner = k_no_limit;
   for (int i = 0; i < side_count_; ++i) {
@@ -182,6 +196,9 @@ void Reference::add_sides(const Vec32& centre, int32_t size) {
   for (int i = 0; i < side_count_; ++i) {
     if (side_[i].limit != k_no_limit) side_[i].limit += slack_ * k_one_64;
   }
+  if (feature_->is_face()) return;
+  side_[side_count_++] = {0, k_one, aside * k_one_64};
+  side_[side_count_++] = {0, -k_one, aside * k_one_64};
 }
 
 void Reference::clip_edge(const Flat& p, const Flat& q, uint8_t from, bool closed, AreaChoice& choice) const {
@@ -205,17 +222,23 @@ void Reference::clip_edge(const Flat& p, const Flat& q, uint8_t from, bool close
     }
   }
   if (enters > leaves) return;
-  const auto crossing = [&](int64_t t, int side) {
+  const bool aside_of_edge = feature_ != nullptr && !feature_->is_face();
+  const auto crossing = [&](int64_t t, int side, uint8_t end) {
     const auto between = [t](int64_t a, int64_t b) { return a + (((b - a) * t) >> 30); };
-    choice.add({between(p.u, q.u), between(p.v, q.v), between(p.w, q.w), AreaPoint::Kind::crossing, from,
-                static_cast<uint8_t>(side)});
+    AreaPoint point = {between(p.u, q.u),         between(p.v, q.v), between(p.w, q.w), AreaPoint::Kind::crossing, from,
+                       static_cast<uint8_t>(side)};
+    if (aside_of_edge && side >= feature_->count) {  // cut off there it is still the incident edge's end
+      point.kind = AreaPoint::Kind::vertex;
+      point.incident = end;
+    }
+    choice.add(point);
   };
   if (entered < 0)
     choice.add({p.u, p.v, p.w, AreaPoint::Kind::vertex, from, 0});
   else
-    crossing(enters, entered);
+    crossing(enters, entered, from);
   if (left >= 0)
-    crossing(leaves, left);
+    crossing(leaves, left, static_cast<uint8_t>(from + 1));
   else if (!closed)
     choice.add({q.u, q.v, q.w, AreaPoint::Kind::vertex, static_cast<uint8_t>(from + 1), 0});
 }

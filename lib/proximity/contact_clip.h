@@ -23,37 +23,46 @@ inline int64_t distance(const AreaPoint& p, const AreaPoint& q) {
 }
 
 /// Keeps up to four of any number of points: all of four; of more those that the reduction names. Of projected extremes
-/// the deepest takes the nearest one's place if all are higher by more than `drop`. Of equal ones the earlier.
+/// the deepest takes the nearest one's place if all are higher by more than `drop`; where several extremes are one
+/// point, those that add most to the area follow. Of equal ones the earlier.
 class AreaChoice {
  public:
   /// Points above `reach` are left out.
-  AreaChoice(int64_t reach, int64_t drop, ManifoldReduction reduction)
-      : reach_(reach), drop_(drop), reduction_(reduction) {}
+  AreaChoice(int64_t reach, int64_t drop, ManifoldReduction reduction) : AreaChoice(reach, reach, drop, reduction) {}
+  /// Those above `level` only follow where several extremes of the others are one point.
+  AreaChoice(int64_t level, int64_t reach, int64_t drop, ManifoldReduction reduction)
+      : level_(level), reach_(reach), drop_(drop), reduction_(reduction) {}
   void add(const AreaPoint& point);
   /// True if all points are to be added once more, in the same order: there may be many, and they are not held.
   bool again();
-  /// The points chosen, distinct; returns their count.
-  int choose(AreaPoint (&chosen)[4]) const;
+  /// The points chosen, distinct, once all have been added as often as again() asks.
+  int count() const { return chosen_count_; }
+  const AreaPoint& operator[](int i) const { return chosen_[i]; }
 
  private:
   static constexpr int k_diagonals = 4;
-  /// How much the next corner is worth, on the way to the largest area.
+  /// What another corner must gain: an area of a 64th of the distance of two, squared; an eighth of that of three.
+  int64_t least_gain() const;
   int64_t gain_of(const AreaPoint& point) const;
-  int64_t reach_, drop_;
+  void choose_extremes();
+  int64_t level_, reach_, drop_;
   ManifoldReduction reduction_;
+  bool filling_ = false, found_ = false;  ///< corners are added one by one; next_ is another
   uint32_t count_ = 0;
-  int corner_count_ = 0;
+  int chosen_count_ = 0;
   int64_t most_ = 0;  ///< gained by next_
-  AreaPoint corner_[4], next_;
-  AreaPoint first_[4], farthest_[k_diagonals], deepest_;
+  AreaPoint chosen_[4], next_;
+  AreaPoint farthest_[k_diagonals], deepest_;
 };
 
 /// A reference feature with its sides, and axes: `up` is the normal, from it to the other shape.
 class Reference {
  public:
   /// `centre`: of the shape, in the block. `size`: of the incident shape, ulps: the sides are moved out by a 64th of it
-  /// or of the face, whichever is smaller, so that what lies flush stays inside.
-  Reference(const Placed& placed, const Vec32& centre, const Feature& feature, const Vec32& up, int32_t size);
+  /// or of the face, whichever is smaller, so that what lies flush stays inside. What is farther aside of an edge than
+  /// `aside`, ulps, does not face it.
+  Reference(const Placed& placed, const Vec32& centre, const Feature& feature, const Vec32& up, int32_t size,
+            int64_t aside = 0);
   /// The plane of a half-space; `foot`: any point near the contact.
   Reference(const Placed& half_space, const Vec32& centre, const Vec32& foot);
 
@@ -82,7 +91,7 @@ class Reference {
   };
   Flat flat(const Vec32& point) const;
   void set_axes(const Vec32& along);
-  void add_sides(const Vec32& centre, int32_t size);
+  void add_sides(const Vec32& centre, int32_t size, int64_t aside);
   void clip_edge(const Flat& p, const Flat& q, uint8_t from, bool closed, AreaChoice& choice) const;
   void offer_corners(const Flat* points, const Feature& incident, AreaChoice& choice) const;
   int64_t beyond(const Flat& p, int side) const {

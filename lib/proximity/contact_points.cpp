@@ -12,6 +12,7 @@ namespace {
 
 /// A face is preferred to edges, and to the axis as it is, by a 64th of the thinner core.
 constexpr int k_face_power = 6;
+constexpr int k_aside_power = 5;            ///< edges face each other within this part of the thinner half thickness
 constexpr int64_t k_upright = k_one >> 13;  ///< a normal nearer to a face's than this, rad, is the face's
 constexpr int64_t k_level = k_one >> 5;     ///< edges nearer than this to parallel, rad, touch along a line
 
@@ -27,12 +28,12 @@ bool is_parallel(const Vec32& a, const Vec32& b, int64_t limit) {
 /// a + b of any sign.
 int64_t saturated(int64_t a, int64_t b) { return b < 0 ? -saturated_sum(-a, -b) : saturated_sum(a, b); }
 
-/// Of the points the nearest to another, across the reference.
-void leave_out_nearest(const AreaPoint& place, AreaPoint (&chosen)[4], int& count) {
+/// The nearest of the points to another, across the reference.
+int nearest_to(const AreaPoint& place, const AreaChoice& choice) {
   int nearest = 0;
-  for (int i = 1; i < count; ++i) nearest = distance(chosen[i], place) < distance(chosen[nearest], place) ? i : nearest;
-  --count;
-  for (int i = nearest; i < count; ++i) chosen[i] = chosen[i + 1];
+  for (int i = 1; i < choice.count(); ++i)
+    nearest = distance(choice[i], place) < distance(choice[nearest], place) ? i : nearest;
+  return nearest;
 }
 
 /// One of the two shapes, seen from the other.
@@ -70,6 +71,15 @@ class Builder {
   bool build_on_edge(BlockManifold& manifold) const;
   bool build_level_with_face(BlockManifold& manifold) const;
   void add_on_axis(const Vec32& normal, int64_t separation, BlockManifold& manifold) const;
+  /// Of the thinner shape the half, 2^-46 m.
+  int64_t thickness() const {
+    const auto of = [&](const Half& half, int64_t radius) {
+      const bool is_line = half.placed.convex->type == ShapeType::capsule;
+      return (is_line ? 0 : pair_.metres(in_block(half.placed, half.thickness))) + radius;
+    };
+    const int64_t a = of(half_a_, pair_.radius_a), b = of(half_b_, pair_.radius_b);
+    return a < b ? a : b;
+  }
   bool fill(const Reference& reference, bool reference_is_a, const Feature& incident, BlockManifold& manifold) const;
   void add_point(const Vec32& normal, const Vec64& twice_middle, int64_t separation, uint32_t on_a, uint32_t on_b,
                  BlockManifold& manifold) const;
@@ -162,22 +172,21 @@ bool Builder::fill(const Reference& reference, bool reference_is_a, const Featur
   do reference.clip(other.centre, incident, choice);
   while (choice.again());
   const Vec32 normal = reference_is_a ? reference.up() : negate(reference.up());
-  AreaPoint chosen[4];
-  int count = choice.choose(chosen);
-  if (count == 0) return false;
+  if (choice.count() == 0) return false;
   // A round face's polygon may miss the place on the axis.
   int deepest = 0;
-  for (int i = 1; i < count; ++i) deepest = chosen[i].w < chosen[deepest].w ? i : deepest;
+  for (int i = 1; i < choice.count(); ++i) deepest = choice[i].w < choice[deepest].w ? i : deepest;
   const Vec32 nearest = add(other.centre, reference_is_a ? axis_.point_b : axis_.point_a);
   const int64_t height = reference.height_of(nearest);
-  const bool missed = height + drop_ < chosen[deepest].w && (!only_over_ || reference.holds(nearest));
-  if (missed && count == 4) leave_out_nearest(reference.over(nearest), chosen, count);
-  for (int i = 0; i < count; ++i) {
-    const int64_t separation = pair_.metres(chosen[i].w) - radii;
-    if (separation > rules_.reach) continue;
-    const uint32_t on_reference = reference.name_on_reference(chosen[i]);
-    const uint32_t on_incident = reference.name_on_incident(other.placed, incident, chosen[i]);
-    add_point(normal, reference.twice_middle(chosen[i]), separation, reference_is_a ? on_reference : on_incident,
+  const bool missed = height + drop_ < choice[deepest].w && (!only_over_ || reference.holds(nearest));
+  const int left_out = missed && choice.count() == 4 ? nearest_to(reference.over(nearest), choice) : -1;
+  for (int i = 0; i < choice.count(); ++i) {
+    const AreaPoint& point = choice[i];
+    const int64_t separation = pair_.metres(point.w) - radii;
+    if (i == left_out || separation > rules_.reach) continue;
+    const uint32_t on_reference = reference.name_on_reference(point);
+    const uint32_t on_incident = reference.name_on_incident(other.placed, incident, point);
+    add_point(normal, reference.twice_middle(point), separation, reference_is_a ? on_reference : on_incident,
               reference_is_a ? on_incident : on_reference, manifold);
   }
   if (missed) add_on_axis(normal, pair_.metres(height) - radii, manifold);
@@ -251,18 +260,18 @@ bool Builder::build_on_edge(BlockManifold& manifold) const {
   if (is_zero(along_a) || is_zero(along_b) || !is_parallel(along_a, along_b, k_level)) return false;
   const bool is_a = a_comes_first();
   const Half &half = is_a ? half_a_ : half_b_, &other = is_a ? half_b_ : half_a_;
+  // Edges that cross at a small angle leave each other aside; a normal is not so exact that long ones lie on each
+  // other.
+  const int64_t aside = (pair_.block_above(thickness()) >> k_aside_power) + drop_;
   const Reference reference(half.placed, half.centre, is_a ? edge_a : edge_b, half.outward,
-                            radius_in_block(other.placed));
+                            radius_in_block(other.placed), aside);
   return fill(reference, is_a, is_a ? edge_b : edge_a, manifold);
 }
 
 /// At an edge that is level with its face but for what the shapes are sunk in.
 bool Builder::build_level_with_face(BlockManifold& manifold) const {
   ContactAxis level = axis_;
-  // Small shapes are not sunk in so far: no more than a 32nd of their half thickness.
-  const int64_t thin_a = pair_.metres(in_block(pair_.a, half_a_.thickness)) + pair_.radius_a;
-  const int64_t thin_b = pair_.metres(in_block(pair_.b, half_b_.thickness)) + pair_.radius_b;
-  const int64_t room = (thin_a < thin_b ? thin_a : thin_b) >> 5;
+  const int64_t room = thickness() >> 5;  // small shapes are not sunk in so far
   if (!find_level_face(pair_, room < rules_.sunk ? room : rules_.sunk, level)) return false;
   const int64_t separation = pair_.metres(level.separation) - pair_.radius_a - pair_.radius_b;
   Builder(pair_, level, rules_).add_on_axis(level.normal, separation, manifold);

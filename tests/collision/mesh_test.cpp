@@ -64,6 +64,12 @@ Quaternion turn_about(const Vector& axis, double angle) {
   return {n[0], n[1], n[2], cos(angle / 2)};
 }
 
+/// The turn that takes y there. Range: not straight down.
+Quaternion turn_from_up(const Vector& to) {
+  const Vector axis = {{to[2], 0, -to[0]}};
+  return turn_about(axis, acos(to[1]));
+}
+
 DETENT_TEST(mesh_contact, anything_slid_over_a_tessellated_plane_sees_its_normal_alone_and_no_jump_of_depth) {
   const Ground ground(plane(16, 0.25));
   Samples samples = {11};
@@ -248,6 +254,36 @@ DETENT_TEST(mesh_contact, a_rod_that_reaches_over_a_ridge_is_not_pulled_through_
     for (uint32_t i = 0; i < contacts.count; ++i) EXPECT_GT(host(contacts.contact[i].geometry.normal)[1], 0.8) << over;
     EXPECT_NEAR(deepest_of(contacts), 0, 1e-4) << over;
   }
+}
+
+/// Its middle lies behind the planes of triangles two and more away. Of a ground that curves both ways.
+DETENT_TEST(mesh_contact, a_rod_that_lies_over_waves_is_met_from_above_alone) {
+  const auto height = [](double x, double z) { return 0.35 * sin(1.1 * x) * cos(0.8 * z); };
+  const Ground waves(ground(24, 0.25, height));
+  Samples samples = {5};
+  uint32_t touching = 0;
+  for (uint32_t trial = 0; trial < 400; ++trial) {
+    constexpr double k_radius = 0.005, k_half = 0.8;
+    OracleBody body = body_of(trial % 2 == 0 ? capsule(real_near(k_radius), real_near(k_half))
+                                             : box({real_near(k_radius), real_near(k_half), real_near(k_radius)}));
+    const auto within = [&](double limit) { return limit * unit_to_host(samples.uniform()); };
+    const double heading = within(3.14), slope = within(0.3);
+    const Vector along = detent_oracle::normalised({{cos(heading), slope, sin(heading)}});
+    body.pose.rotation = rotation_near(turn_from_up(along));
+    const Vector middle = {{within(1.5), 0, within(1.5)}};
+    double lift = -1e9;  // so that it touches
+    for (int i = -100; i <= 100; ++i) {
+      const Vector at = middle + along * (k_half * i / 100);
+      lift = fmax(lift, height(at[0], at[2]) - at[1]);
+    }
+    body.pose.position = position_near({{middle[0], lift + k_radius / 2, middle[2]}});
+    const SurfaceContacts contacts = contacts_of(waves, body, 0.001);
+    for (uint32_t i = 0; i < contacts.count; ++i) {
+      ++touching;
+      EXPECT_GT(host(contacts.contact[i].geometry.normal)[1], 0.5) << trial;
+    }
+  }
+  EXPECT_GT(touching, 300u);
 }
 
 DETENT_TEST(mesh_contact, in_a_concave_corner_each_wall_gives_its_own_normal) {
