@@ -76,7 +76,7 @@ constexpr uint32_t delta_bytes_max(Capacity capacity) {
 }
 
 /// @cond
-// Of a state that is packed (lib/world/packed_state.h): a count, and a byte for each element with parts that may be
+// Of a state that is packed (lib/state/packed_state.h): a count, and a byte for each element with parts that may be
 // left out.
 constexpr uint32_t packed_bytes_max(Capacity capacity) {
   const uint64_t more = 4 + uint64_t{capacity.bodies} + capacity.contacts + manifold_count(capacity);

@@ -1,7 +1,8 @@
 #pragma once
 #include "math/vector_integer.h"
 
-/// Rotations in integers, Q2.30: those of the fixed configurations, and of lib/proximity in every configuration.
+/// Rotations in integers, Q2.30: those of the fixed configurations, and of lib/distance and lib/toi in every
+/// configuration.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include "math/wide.h"
 
-/// The integer kernels of angles: those of fx64, fx32 and f32, and of lib/proximity in every configuration.
+/// The integer kernels of angles: those of fx64, fx32 and f32, and of lib/distance and lib/toi in every configuration.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 

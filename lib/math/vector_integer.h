@@ -4,7 +4,7 @@
 
 #include "math/wide.h"
 
-/// Vectors of integers, exact: what lib/proximity computes with, the same in every configuration.
+/// Vectors of integers, exact: what lib/distance and lib/toi computes with, the same in every configuration.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 

@@ -3,7 +3,7 @@
 #include <detent/scaled.h>
 #include <detent/status.h>
 
-#include "world/fields.h"
+#include "state/fields.h"
 
 /// Three ways to go through a list of fields. A type lists its fields once, in a `visit(archive, value)`; the archive
 /// decides what happens: Writer makes canonical bytes of them, Reader takes them from bytes, Normaliser makes them fit

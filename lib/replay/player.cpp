@@ -7,7 +7,7 @@
 #include "replay/format.h"
 #include "replay/query_command.h"
 #include "replay/replay_watch.h"
-#include "world/snapshot.h"
+#include "state/snapshot.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

@@ -6,7 +6,7 @@
 #include "replay/format.h"
 #include "replay/query_command.h"
 #include "replay/tracer.h"
-#include "world/snapshot.h"
+#include "state/snapshot.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

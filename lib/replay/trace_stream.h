@@ -1,6 +1,6 @@
 #pragma once
 #include "replay/archive.h"
-#include "world/trace.h"
+#include "state/trace.h"
 
 /// The trace of a tick as bytes: a record for each element of each stage, in the order of a step, and one that ends the
 /// stage. They are cut into chunks without regard to their borders. docs/recording.md.

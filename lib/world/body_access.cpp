@@ -1,11 +1,11 @@
 #include <detent/body_access.h>
 
 #include "base/float_environment.h"
-#include "collision/pair_filter.h"
-#include "geometry/shape_traits.h"
+#include "broad_phase/pair_filter.h"
+#include "shape/shape_traits.h"
+#include "state/ranges.h"
 #include "world/body_change.h"
 #include "world/body_parts.h"
-#include "world/ranges.h"
 #include "world/sensors.h"
 
 namespace detent {

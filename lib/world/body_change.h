@@ -1,7 +1,7 @@
 #pragma once
-#include "collision/contact_cache.h"
-#include "dynamics/activity.h"
-#include "world/step_cache.h"
+#include "contact/contact_cache.h"
+#include "motion/activity.h"
+#include "state/step_cache.h"
 
 /// What a call that changes bodies between steps owes to the steps.
 namespace detent {

@@ -1,9 +1,9 @@
 #include "world/body_parts.h"
 
-#include "dynamics/spin.h"
-#include "geometry/shape_traits.h"
-#include "world/asset_binding.h"
-#include "world/ranges.h"
+#include "motion/spin.h"
+#include "shape/shape_traits.h"
+#include "state/asset_binding.h"
+#include "state/ranges.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

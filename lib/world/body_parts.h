@@ -1,7 +1,7 @@
 #pragma once
 #include <detent/world.h>
 
-#include "world/view.h"
+#include "state/view.h"
 
 /// The parts of a body, checked: what creating one and changing one share.
 namespace detent {

@@ -1,13 +1,13 @@
 #include <detent/contacts.h>
 
 #include "base/float_environment.h"
-#include "collision/compound_code.h"
-#include "collision/contact_cache.h"
-#include "dynamics/spin.h"
-#include "dynamics/step_settings.h"
-#include "geometry/shape_traits.h"
-#include "geometry/sweep.h"
-#include "world/view.h"
+#include "contact/compound_code.h"
+#include "contact/contact_cache.h"
+#include "motion/spin.h"
+#include "motion/step_settings.h"
+#include "shape/shape_traits.h"
+#include "shape/sweep.h"
+#include "state/view.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

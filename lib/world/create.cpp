@@ -1,16 +1,16 @@
 #include "base/digest.h"
 #include "base/float_environment.h"
-#include "collision/pair_filter.h"
-#include "dynamics/activity.h"
-#include "dynamics/solve_quads.h"
-#include "world/asset_binding.h"
+#include "broad_phase/pair_filter.h"
+#include "motion/activity.h"
+#include "solver/solve_quads.h"
+#include "state/asset_binding.h"
+#include "state/ranges.h"
+#include "state/slots.h"
 #include "world/body_change.h"
 #include "world/body_parts.h"
 #include "world/joints.h"
-#include "world/ranges.h"
 #include "world/sensors.h"
 #include "world/settings.h"
-#include "world/slots.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

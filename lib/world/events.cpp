@@ -1,8 +1,8 @@
 #include "world/events.h"
 
-#include "collision/broadphase.h"
-#include "dynamics/spin.h"
-#include "geometry/sweep.h"
+#include "broad_phase/broadphase.h"
+#include "motion/spin.h"
+#include "shape/sweep.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

@@ -1,9 +1,9 @@
 #include <detent/forces.h>
 
 #include "base/float_environment.h"
+#include "state/ranges.h"
 #include "world/body_change.h"
 #include "world/body_parts.h"
-#include "world/ranges.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

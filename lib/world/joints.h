@@ -1,6 +1,6 @@
 #pragma once
-#include "dynamics/joint.h"
-#include "world/step_cache.h"
+#include "joint/joint.h"
+#include "state/step_cache.h"
 
 /// The joints of a world around its step.
 namespace detent {
@@ -20,9 +20,6 @@ Span<const uint64_t> list_apart(Span<const JointState> joints, Span<uint64_t> ke
 
 /// Takes away the joints that the step that ends now has broken, and says so.
 void break_joints(World& world, StepReport& report);
-
-/// What `load` lets in.
-bool are_joints(const StateView<const uint8_t>& state);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

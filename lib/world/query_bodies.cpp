@@ -1,12 +1,12 @@
 #include "world/query_bodies.h"
 
-#include "collision/body_convex.h"
-#include "collision/collide_half_space.h"
-#include "geometry/bounds.h"
-#include "geometry/shape_traits.h"
-#include "geometry/sweep.h"
-#include "proximity/pair.h"
-#include "world/asset_binding.h"
+#include "contact/body_convex.h"
+#include "contact/collide_half_space.h"
+#include "distance/pair.h"
+#include "shape/bounds.h"
+#include "shape/shape_traits.h"
+#include "shape/sweep.h"
+#include "state/asset_binding.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

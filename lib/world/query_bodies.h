@@ -2,9 +2,9 @@
 #include <detent/convex.h>
 #include <detent/query.h>
 
-#include "collision/pair_filter.h"
-#include "collision/swept_box.h"
-#include "world/step_cache.h"
+#include "broad_phase/pair_filter.h"
+#include "broad_phase/swept_box.h"
+#include "state/step_cache.h"
 
 /// The bodies that a query asks.
 namespace detent {

@@ -3,13 +3,13 @@
 #include <detent/distance.h>
 #include <detent/sensor.h>
 
-#include "collision/compound_code.h"
-#include "collision/surface_distance.h"
-#include "dynamics/finalise.h"
-#include "dynamics/impact_pair.h"
-#include "dynamics/spin.h"
-#include "geometry/bounds.h"
-#include "geometry/shape_traits.h"
+#include "ccd/impact_pair.h"
+#include "contact/compound_code.h"
+#include "contact/surface_distance.h"
+#include "motion/finalise.h"
+#include "motion/spin.h"
+#include "shape/bounds.h"
+#include "shape/shape_traits.h"
 #include "world/query_bodies.h"
 
 namespace detent {
@@ -19,8 +19,6 @@ namespace {
 /// Of the smaller extent, as a power of two: more than the tolerance of a time of impact, so that what is found on the
 /// way is within there, and less than the room of reach_of().
 constexpr int k_within_power = -14;
-
-bool is_sensor(const BodyTraits& traits) { return traits.sensor != 0; }
 
 /// Bounds that hold the body until the tick ends, with room for what counts as within and for the rounding of bounds.
 Bounds reach_of(const SensorStage& stage, uint32_t slot) {
@@ -278,26 +276,6 @@ void forget_sensed(StateView<uint8_t>& state, uint32_t slot) {
 Status check_sensors(const World& world) {
   if (!contains(world.features->features, Features::sensors)) return Status::feature_missing;
   return view_of(world).sensed.count == 0 ? Status::pool_full : Status::ok;
-}
-
-bool are_sensed(const StateView<const uint8_t>& state) {
-  uint32_t sensors = 0;
-  for (const BodyTraits& traits : state.traits) sensors += is_sensor(traits) ? 1u : 0u;
-  const uint32_t count = state.world.sensed_count;
-  if (sensors != state.world.sensor_count || count > state.sensed.count) return false;
-  if (sensors != 0 && state.sensed.count == 0) return false;
-  for (uint32_t i = 0; i < state.sensed.count; ++i) {
-    const SensedState& sensed = state.sensed[i];
-    if (i >= count) {
-      if (sensed.sensor != 0 || sensed.body != 0) return false;
-      continue;
-    }
-    if (sensed.sensor >= state.traits.count || sensed.body >= state.traits.count) return false;
-    const BodyTraits &sensor = state.traits[sensed.sensor], &body = state.traits[sensed.body];
-    if (!is_sensor(sensor) || is_sensor(body) || body.type == 0) return false;
-    if (i != 0 && key_of(state.sensed[i - 1]) >= key_of(sensed)) return false;
-  }
-  return true;
 }
 
 Status get_sensed(const World& world, BodyId id, BodyId* bodies, uint32_t capacity, uint32_t& count) {

@@ -2,9 +2,9 @@
 #include <detent/features.h>
 
 #include "base/heap.h"
-#include "collision/losses.h"
-#include "collision/pair_filter.h"
-#include "world/step_cache.h"
+#include "broad_phase/losses.h"
+#include "broad_phase/pair_filter.h"
+#include "state/step_cache.h"
 
 /// Who is within a sensor, and who was on the way. Only pairs of which a body moved, or was changed by a call, are
 /// asked about; the others are as they were. What is then within follows from the bodies' poses alone, so a machine
@@ -60,8 +60,6 @@ struct SensorCode {
 void forget_sensed(StateView<uint8_t>& state, uint32_t slot);
 /// Whether the world can have sensors. Errors: feature_missing, pool_full.
 Status check_sensors(const World& world);
-/// What `load` lets in.
-bool are_sensed(const StateView<const uint8_t>& state);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -3,8 +3,8 @@
 #include <detent/world_access.h>
 
 #include "base/float_environment.h"
+#include "state/ranges.h"
 #include "world/body_change.h"
-#include "world/ranges.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

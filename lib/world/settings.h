@@ -1,5 +1,5 @@
 #pragma once
-#include "world/view.h"
+#include "state/view.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

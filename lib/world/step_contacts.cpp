@@ -1,9 +1,9 @@
 #include "world/step_contacts.h"
 
 #include "base/heap.h"
-#include "collision/compound_code.h"
-#include "collision/contact_cache.h"
-#include "collision/manifold_reuse.h"
+#include "contact/compound_code.h"
+#include "contact/contact_cache.h"
+#include "contact/manifold_reuse.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

@@ -1,13 +1,13 @@
 #pragma once
-#include "collision/broadphase.h"
-#include "collision/losses.h"
-#include "dynamics/activity.h"
-#include "dynamics/contact_rows.h"
-#include "dynamics/joint.h"
-#include "dynamics/predict.h"
-#include "geometry/shape_traits.h"
-#include "world/step_cache.h"
-#include "world/step_scratch.h"
+#include "broad_phase/broadphase.h"
+#include "broad_phase/losses.h"
+#include "joint/joint.h"
+#include "motion/activity.h"
+#include "motion/predict.h"
+#include "shape/shape_traits.h"
+#include "solver/contact_rows.h"
+#include "state/step_cache.h"
+#include "state/step_scratch.h"
 
 /// The narrow phase of a step: who of those that sleep is touched, and the contacts of all pairs.
 namespace detent {

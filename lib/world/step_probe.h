@@ -1,7 +1,7 @@
 #pragma once
 #include <detent/world.h>
 
-#include "dynamics/impact.h"
+#include "ccd/impact.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

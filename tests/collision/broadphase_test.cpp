@@ -1,10 +1,10 @@
-#include "collision/broadphase.h"
+#include "broad_phase/broadphase.h"
 
 #include <algorithm>
 #include <vector>
 
-#include "collision/bounds_integer.h"
-#include "geometry/bounds.h"
+#include "broad_phase/bounds_integer.h"
+#include "shape/bounds.h"
 #include "tests/oracle/bodies.h"
 
 namespace detent {

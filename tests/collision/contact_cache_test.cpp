@@ -1,6 +1,6 @@
-#include "collision/contact_cache.h"
+#include "contact/contact_cache.h"
 
-#include "collision/surface_manifolds.h"
+#include "contact/surface_manifolds.h"
 #include "tests/oracle/bodies.h"
 
 /// How the contacts of a pair's parts go on from tick to tick.

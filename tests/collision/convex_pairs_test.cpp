@@ -2,8 +2,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "collision/body_convex.h"
-#include "collision/compound_code.h"
+#include "contact/body_convex.h"
+#include "contact/compound_code.h"
 #include "ports/host/cook/cook.h"
 #include "tests/collision/pairs.h"
 #include "tests/geometry/compounds.h"
@@ -18,7 +18,7 @@ const Asset k_assets[] = {{detent_hulls::k_tetrahedron, sizeof detent_hulls::k_t
                           {detent_hulls::k_prism, sizeof detent_hulls::k_prism}};
 const AssetTable k_table = {k_assets, 2};
 constexpr double k_step = DETENT_FIXED || sizeof(Unit) == 8 ? 1.0 : 64.0;  ///< of a size, in 2^-30
-// lib/proximity has 30 bits in every configuration.
+// lib/distance and lib/toi has 30 bits in every configuration.
 constexpr double k_length_error = sizeof(Unit) == 4 && !DETENT_FIXED ? 0x1p-21 : 0x1p-27;
 
 /// A shape of about `size`, m, whose rounding is up to `rounding` times that.
@@ -76,7 +76,7 @@ DETENT_TEST(body_convex, is_what_make_convex_makes_of_the_shape_but_for_the_roun
     const double core = metres(right.core_radius, right.exponent);
     EXPECT_GE(metres(given.core_radius, given.exponent), core - 3 * ldexp(1.0, right.exponent - 30));
     EXPECT_LE(metres(given.core_radius, given.exponent), core + 16 * step);
-    // In the unit that the core asks for, as all of lib/proximity relies on.
+    // In the unit that the core asks for, as all of lib/distance and lib/toi relies on.
     EXPECT_LE(given.core_radius, 1 << 30);
     if (given.core_radius != 0 && given.type != ShapeType::hull && given.exponent > -14) {
       EXPECT_GE(given.core_radius, 1 << 29);

@@ -1,4 +1,4 @@
-#include "collision/segments.h"
+#include "contact/segments.h"
 #include "tests/collision/pairs.h"
 
 namespace detent {

@@ -1,9 +1,9 @@
 #pragma once
 #include <detent/distance.h>
 
-#include "collision/body_convex.h"
-#include "collision/collide_mesh.h"
-#include "collision/surface_query.h"
+#include "contact/body_convex.h"
+#include "contact/collide_mesh.h"
+#include "contact/surface_query.h"
 #include "tests/collision/pairs.h"
 #include "tests/geometry/hull_bytes.h"
 #include "tests/geometry/surfaces.h"

@@ -1,4 +1,4 @@
-#include "collision/manifold_reuse.h"
+#include "contact/manifold_reuse.h"
 
 #include "tests/collision/pairs.h"
 

@@ -1,10 +1,10 @@
-#include "collision/collide_mesh.h"
+#include "contact/collide_mesh.h"
 
 #include <detent/contact.h>
 
 #include <algorithm>
 
-#include "collision/body_convex.h"
+#include "contact/body_convex.h"
 #include "tests/collision/ground.h"
 
 /// Bodies against meshes and height fields.

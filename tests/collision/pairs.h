@@ -1,6 +1,6 @@
 #pragma once
-#include "collision/collide.h"
-#include "collision/contact_arm.h"
+#include "contact/collide.h"
+#include "contact/contact_arm.h"
 #include "math/root.h"
 #include "tests/oracle/bodies.h"
 

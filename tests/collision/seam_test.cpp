@@ -2,7 +2,7 @@
 
 #include "tests/collision/pairs.h"
 
-/// What slides over the seam of two bodies, sunk in by a hair: lib/proximity/contact_seam.h.
+/// What slides over the seam of two bodies, sunk in by a hair: lib/contact/contact_seam.h.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {

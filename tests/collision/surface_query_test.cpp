@@ -1,4 +1,4 @@
-#include "collision/surface_query.h"
+#include "contact/surface_query.h"
 
 #include <detent/toi.h>
 #include <math.h>

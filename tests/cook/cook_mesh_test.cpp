@@ -6,8 +6,8 @@
 #include <stdlib.h>
 
 #include "cook_height_field.h"
-#include "geometry/mesh.h"
 #include "read_mesh.h"
+#include "shape/mesh.h"
 #include "tests/geometry/surfaces.h"
 #include "tests/support/data_file.h"
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "geometry/hull.h"
+#include "shape/hull.h"
 
 namespace detent_cook_test {
 namespace {

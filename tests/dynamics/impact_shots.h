@@ -1,10 +1,10 @@
 #pragma once
 #include <math.h>
 
+#include "state/view.h"
 #include "tests/oracle/bodies.h"
 #include "tests/world/lab.h"
 #include "world/step_probe.h"
-#include "world/view.h"
 
 /// Shots at thin bodies, and what the sweeps that the stage committed say of them, in doubles.
 namespace detent {

@@ -1,8 +1,8 @@
 #include <math.h>
 
+#include "state/view.h"
 #include "tests/oracle/bodies.h"
 #include "tests/world/lab.h"
-#include "world/view.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

@@ -1,4 +1,4 @@
-#include "dynamics/impact_pair.h"
+#include "ccd/impact_pair.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,17 +4,17 @@
 #include <algorithm>
 #include <array>
 
-#include "collision/broadphase.h"
-#include "dynamics/contact_order.h"
-#include "dynamics/contact_rows.h"
-#include "dynamics/island.h"
-#include "dynamics/predict.h"
-#include "dynamics/solve.h"
-#include "dynamics/substeps.h"
-#include "geometry/shape_traits.h"
+#include "broad_phase/broadphase.h"
+#include "motion/predict.h"
+#include "shape/shape_traits.h"
+#include "solver/contact_order.h"
+#include "solver/contact_rows.h"
+#include "solver/island.h"
+#include "solver/solve.h"
+#include "solver/substeps.h"
+#include "state/view.h"
 #include "tests/oracle/bodies.h"
 #include "tests/world/lab.h"
-#include "world/view.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

@@ -1,11 +1,11 @@
-#include "dynamics/spin.h"
+#include "motion/spin.h"
 
-#include "dynamics/finalise.h"
-#include "dynamics/impact_response.h"
+#include "ccd/impact_response.h"
+#include "motion/finalise.h"
+#include "state/view.h"
 #include "tests/oracle/bodies.h"
 #include "tests/oracle/effort.h"
 #include "tests/world/lab.h"
-#include "world/view.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

@@ -1,9 +1,9 @@
-#include "dynamics/surface_impact.h"
+#include "ccd/surface_impact.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "collision/body_convex.h"
+#include "contact/body_convex.h"
 #include "tests/geometry/surfaces.h"
 #include "tests/oracle/bodies.h"
 

@@ -7,8 +7,8 @@
 #include <memory>
 
 #include "base/bytes.h"
+#include "state/step_scratch.h"
 #include "tests/scenes/scene.h"
-#include "world/step_scratch.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

@@ -6,7 +6,7 @@
 #include <detent/triangles.h>
 
 #include "base/crc.h"
-#include "geometry/cooked.h"
+#include "shape/cooked.h"
 #include "tests/fuzz/targets.h"
 #include "tests/geometry/hull_bytes.h"
 #include "tests/replay/match.h"

@@ -1,4 +1,4 @@
-#include "geometry/compound.h"
+#include "shape/compound.h"
 
 #include <math.h>
 

@@ -1,9 +1,9 @@
-#include "geometry/height_field.h"
+#include "shape/height_field.h"
 
 #include <set>
 
 #include "base/crc.h"
-#include "geometry/surface.h"
+#include "shape/surface.h"
 #include "tests/geometry/surfaces.h"
 #include "tests/math/samples.h"
 #include "tests/oracle/effort.h"

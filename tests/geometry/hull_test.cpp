@@ -1,4 +1,4 @@
-#include "geometry/hull.h"
+#include "shape/hull.h"
 
 #include <math.h>
 

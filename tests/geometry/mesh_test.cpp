@@ -1,11 +1,11 @@
-#include "geometry/mesh.h"
+#include "shape/mesh.h"
 
 #include <math.h>
 
 #include <algorithm>
 
 #include "base/crc.h"
-#include "geometry/surface.h"
+#include "shape/surface.h"
 #include "tests/geometry/surfaces.h"
 #include "tests/math/samples.h"
 #include "tests/oracle/effort.h"

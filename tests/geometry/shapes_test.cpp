@@ -1,4 +1,4 @@
-#include "geometry/bounds.h"
+#include "shape/bounds.h"
 #include "tests/geometry/hull_bytes.h"
 #include "tests/oracle/bodies.h"
 

@@ -1,4 +1,4 @@
-#include "geometry/sweep.h"
+#include "shape/sweep.h"
 #include "tests/oracle/bodies.h"
 
 namespace detent {

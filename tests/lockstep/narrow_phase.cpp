@@ -7,11 +7,11 @@
 #include <string.h>
 
 #include "base/digest.h"
+#include "distance/pair.h"
+#include "distance/support.h"
 #include "math/arithmetic.h"
 #include "narrow_phase_pairs.h"
-#include "proximity/pair.h"
-#include "proximity/support.h"
-#include "proximity/toi_methods.h"
+#include "toi/toi_methods.h"
 
 /// The questions of the narrow phase on any target, a microcontroller too: no allocation, no C library beyond string.h.
 ///

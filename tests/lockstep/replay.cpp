@@ -4,8 +4,8 @@
 #include <ports/print.h>
 #include <string.h>
 
+#include "state/snapshot.h"
 #include "tests/scenes/scene.h"
-#include "world/snapshot.h"
 
 /// Replays a recording on any target, a microcontroller too: no allocation, no C library beyond memcpy and strcmp.
 ///

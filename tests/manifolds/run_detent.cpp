@@ -5,13 +5,13 @@
 #include <math.h>
 #include <string.h>
 
-#include "collision/collide.h"
-#include "collision/compound_code.h"
-#include "collision/contact_cache.h"
-#include "collision/manifold_reuse.h"
-#include "geometry/shape_traits.h"
+#include "contact/collide.h"
+#include "contact/compound_code.h"
+#include "contact/contact_cache.h"
+#include "contact/manifold_reuse.h"
 #include "ports/host/cook/cook.h"
 #include "ports/host/cook/cook_mesh.h"
+#include "shape/shape_traits.h"
 #include "tests/oracle/random_solids.h"
 
 #define DETENT_MANIFOLDS_TEXT_OF(name) #name

@@ -2,8 +2,8 @@
 #include <detent/convert.h>
 #include <detent/detail/state.h>
 
-#include "geometry/shape_traits.h"
 #include "math/arithmetic.h"
+#include "shape/shape_traits.h"
 #include "tests/math/samples.h"
 #include "tests/oracle/convex.h"
 #include "tests/oracle/effort.h"

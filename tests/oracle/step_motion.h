@@ -1,7 +1,7 @@
 #pragma once
 #include <detent/convert.h>
 
-#include "geometry/sweep.h"
+#include "shape/sweep.h"
 #include "tests/oracle/motions.h"
 
 /// The motion of a step, as the library has it.

@@ -1,4 +1,4 @@
-# Widths of the features' conditions (lib/proximity/feature_cubic.h, feature_span.cpp): corners in 29 bits and a sign, as
+# Widths of the features' conditions (lib/toi/feature_cubic.h, feature_span.cpp): corners in 29 bits and a sign, as
 # Shortening leaves them, the ball at most an eighth of that where products are made (is_blind). Names as in the code.
 # Run: gappa feature.g
 

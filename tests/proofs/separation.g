@@ -1,4 +1,4 @@
-# The separation of a pass (lib/proximity/advance.cpp, class Separation): what rounding may take, and that 64 bits hold it.
+# The separation of a pass (lib/toi/advance.cpp, class Separation): what rounding may take, and that 64 bits hold it.
 # Lengths in the pair's unit, times in the horizon's. Names as in the code; X_ is what is computed, X what it stands for.
 # Run: gappa separation.g. Printed bounds are those of DESIGN.md, "Never late".
 

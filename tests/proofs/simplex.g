@@ -1,4 +1,4 @@
-# The exact products of the simplex (lib/proximity/simplex.h): the width of every degree. Vertices of the difference lie
+# The exact products of the simplex (lib/distance/simplex.h): the width of every degree. Vertices of the difference lie
 # within 2^30 of the origin by construction of the block; a, b, c are norms, e and f of differences.
 
 { a in [0, 0x1p30] /\ b in [0, 0x1p30] /\ e in [0, 0x1p31] /\ f in [0, 0x1p31]

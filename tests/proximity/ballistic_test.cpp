@@ -1,6 +1,6 @@
-#include "proximity/conservative_advancement.h"
 #include "tests/oracle/effort.h"
 #include "tests/proximity/encounter.h"
+#include "toi/conservative_advancement.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

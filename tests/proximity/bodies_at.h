@@ -6,7 +6,7 @@
 #include "tests/oracle/vectors.h"
 #include "tests/support/test.h"
 
-/// Poses and motions of the tests of lib/proximity in doubles, as a configuration holds them.
+/// Poses and motions of the tests of lib/distance and lib/toi in doubles, as a configuration holds them.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 

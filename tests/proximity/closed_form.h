@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <vector>
 
-#include "proximity/support.h"
+#include "distance/support.h"
 #include "tests/geometry/hull_bytes.h"
 #include "tests/proximity/bodies_at.h"
 
-/// Solids in doubles, for the tests of lib/proximity: the distance of a point from any shape in closed form, and of two
-/// polytopes from all their features. Every size is as the configuration holds it.
+/// Solids in doubles, for the tests of lib/distance and lib/toi: the distance of a point from any shape in closed form,
+/// and of two polytopes from all their features. Every size is as the configuration holds it.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 

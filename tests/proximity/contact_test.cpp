@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "proximity/contact_clip.h"
+#include "contact/contact_clip.h"
 #include "tests/oracle/effort.h"
 #include "tests/proximity/placed_pairs.h"
 

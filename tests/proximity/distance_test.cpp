@@ -1,6 +1,6 @@
 #include <detent/distance.h>
 
-#include "proximity/pair.h"
+#include "distance/pair.h"
 #include "tests/oracle/effort.h"
 #include "tests/proximity/closed_form.h"
 

@@ -3,9 +3,9 @@
 #include <detent/toi.h>
 
 #include "base/digest.h"
-#include "proximity/toi_methods.h"
 #include "tests/proximity/closed_form.h"
 #include "tests/proximity/exact_numbers.h"
+#include "toi/toi_methods.h"
 
 /// Two shapes that move, and what must hold of their time of impact.
 namespace detent {

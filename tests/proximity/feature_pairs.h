@@ -1,6 +1,6 @@
 #pragma once
-#include "proximity/feature_linear.h"
 #include "tests/proximity/closed_form.h"
+#include "toi/feature_linear.h"
 
 /// Pairs of features for the tests, in integers, with contacts that are certain because they were made so.
 namespace detent {

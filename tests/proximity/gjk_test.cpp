@@ -1,4 +1,4 @@
-#include "proximity/gjk.h"
+#include "distance/gjk.h"
 
 #include "tests/oracle/effort.h"
 #include "tests/proximity/placed_pairs.h"

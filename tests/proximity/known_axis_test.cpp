@@ -1,11 +1,11 @@
-#include "proximity/known_axis.h"
+#include "toi/known_axis.h"
 
 #include <detent/distance.h>
 
-#include "proximity/conservative_advancement.h"
-#include "proximity/pair.h"
+#include "distance/pair.h"
 #include "tests/oracle/effort.h"
 #include "tests/proximity/closed_form.h"
+#include "toi/conservative_advancement.h"
 
 /// What is cleared by a known axis, or at a glance, against the search itself.
 namespace detent {

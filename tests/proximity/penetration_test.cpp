@@ -1,4 +1,4 @@
-#include "proximity/penetration.h"
+#include "distance/penetration.h"
 
 #include "tests/oracle/effort.h"
 #include "tests/proximity/placed_pairs.h"

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <vector>
 
-#include "proximity/gjk.h"
+#include "distance/gjk.h"
 #include "tests/geometry/hull_bytes.h"
 #include "tests/math/samples.h"
 #include "tests/support/test.h"
 
-/// Random placed cores for the tests of lib/proximity, and how deep all their vertices say they are.
+/// Random placed cores for the tests of lib/distance and lib/toi, and how deep all their vertices say they are.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 

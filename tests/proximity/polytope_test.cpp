@@ -1,4 +1,4 @@
-#include "proximity/polytope.h"
+#include "distance/polytope.h"
 
 #include <set>
 

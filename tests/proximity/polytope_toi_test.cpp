@@ -1,7 +1,7 @@
-#include "proximity/feature_pairs.h"
 #include "tests/oracle/effort.h"
 #include "tests/oracle/motions.h"
 #include "tests/proximity/encounter.h"
+#include "toi/feature_pairs.h"
 
 /// Times of impact of polytopes by their features (feature_pairs.h, redon.h, canny.h).
 namespace detent {

@@ -1,9 +1,9 @@
 #include <string.h>
 
-#include "proximity/advance.h"
-#include "proximity/conservative_advancement.h"
 #include "tests/oracle/effort.h"
 #include "tests/proximity/encounter.h"
+#include "toi/advance.h"
+#include "toi/conservative_advancement.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

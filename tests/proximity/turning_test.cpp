@@ -1,11 +1,11 @@
 #include <algorithm>
 
 #include "math/root.h"
-#include "proximity/advance.h"
 #include "tests/oracle/effort.h"
 #include "tests/oracle/vectors.h"
 #include "tests/proximity/bodies_at.h"
 #include "tests/proximity/closed_form.h"
+#include "toi/advance.h"
 
 /// What rounding takes of the motion that conservative advancement sees: two rows of its budget (DESIGN.md).
 namespace detent {

@@ -1,4 +1,4 @@
-#include "proximity/witness_axis.h"
+#include "toi/witness_axis.h"
 
 #include "tests/oracle/effort.h"
 #include "tests/proximity/encounter.h"

@@ -1,7 +1,7 @@
 #pragma once
 #include <string.h>
 
-#include "world/view.h"
+#include "state/view.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

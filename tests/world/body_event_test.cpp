@@ -2,8 +2,8 @@
 #include <set>
 #include <utility>
 
+#include "state/view.h"
 #include "tests/world/lab.h"
-#include "world/view.h"
 
 /// What a step tells of sleep, and of whom it had no room for.
 namespace detent {

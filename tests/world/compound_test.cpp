@@ -5,7 +5,7 @@
 #include <detent/transform.h>
 #include <math.h>
 
-#include "geometry/compound.h"
+#include "shape/compound.h"
 #include "tests/geometry/compounds.h"
 #include "tests/oracle/effort.h"
 #include "tests/queries/random.h"

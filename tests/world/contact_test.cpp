@@ -1,7 +1,7 @@
 #include <math.h>
 
+#include "state/view.h"
 #include "tests/world/lab.h"
-#include "world/view.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "collision/pair_key.h"
+#include "broad_phase/pair_key.h"
 #include "tests/math/samples.h"
 #include "tests/world/lab.h"
 

@@ -1,5 +1,5 @@
+#include "state/view.h"
 #include "tests/world/lab.h"
-#include "world/view.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

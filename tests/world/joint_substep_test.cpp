@@ -16,7 +16,7 @@ uint32_t substeps_for(double squared) {
   return 32;
 }
 
-/// The measure of lib/dynamics/joint_substeps.cpp in doubles, for bodies whose unit of length is 1 m; motions are those
+/// The measure of lib/joint/joint_substeps.cpp in doubles, for bodies whose unit of length is 1 m; motions are those
 /// of a tick.
 double bend_of(JointType type, const Vector (&velocity)[2], const Vector (&spin)[2], const Vector (&anchor)[2],
                double length) {

@@ -1,10 +1,10 @@
 #include <detent/body_access.h>
 #include <math.h>
 
-#include "dynamics/gyration.h"
 #include "math/rotation.h"
+#include "motion/gyration.h"
+#include "state/view.h"
 #include "tests/world/lab.h"
-#include "world/view.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

@@ -1,6 +1,6 @@
+#include "state/slots.h"
+#include "state/view.h"
 #include "tests/world/lab.h"
-#include "world/slots.h"
-#include "world/view.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

@@ -6,14 +6,14 @@
 #include <algorithm>
 #include <vector>
 
-#include "collision/body_convex.h"
-#include "collision/swept_box.h"
-#include "geometry/bounds.h"
-#include "geometry/sweep.h"
+#include "broad_phase/swept_box.h"
+#include "contact/body_convex.h"
+#include "query/query_hits.h"
+#include "shape/bounds.h"
+#include "shape/sweep.h"
+#include "state/step_cache.h"
 #include "tests/geometry/hull_bytes.h"
 #include "tests/oracle/bodies.h"
-#include "world/query_hits.h"
-#include "world/step_cache.h"
 
 /// Queries against asking every body, one by one.
 namespace detent {

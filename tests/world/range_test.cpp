@@ -1,7 +1,7 @@
 #include <math.h>
 
+#include "state/view.h"
 #include "tests/world/lab.h"
-#include "world/view.h"
 
 /// The ranges that a configuration promises, tried at their limits.
 namespace detent {

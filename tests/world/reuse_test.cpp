@@ -1,7 +1,7 @@
 #include <math.h>
 
+#include "state/view.h"
 #include "tests/world/lab.h"
-#include "world/view.h"
 
 /// Contact points used again while a pair hardly moves, in worlds.
 namespace detent {

@@ -6,13 +6,13 @@
 
 #include <random>
 
-#include "collision/body_convex.h"
-#include "collision/pair_filter.h"
-#include "geometry/shape_traits.h"
-#include "geometry/sweep.h"
+#include "broad_phase/pair_filter.h"
+#include "contact/body_convex.h"
+#include "shape/shape_traits.h"
+#include "shape/sweep.h"
+#include "state/view.h"
 #include "tests/world/sensor_lab.h"
 #include "world/step_probe.h"
-#include "world/view.h"
 
 /// What sensors leave in the state, and that no way through one is missed.
 namespace detent {

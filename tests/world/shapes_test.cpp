@@ -3,11 +3,11 @@
 #include <functional>
 
 #include "base/crc.h"
-#include "geometry/hull.h"
+#include "shape/hull.h"
+#include "state/view.h"
 #include "tests/geometry/hull_bytes.h"
 #include "tests/oracle/effort.h"
 #include "tests/world/lab.h"
-#include "world/view.h"
 
 /// Worlds of cylinders, cones, hulls and rounded shapes.
 namespace detent {

@@ -1,5 +1,5 @@
+#include "state/view.h"
 #include "tests/world/joint_lab.h"
-#include "world/view.h"
 
 /// Islands that come to rest are left out of the step, and what wakes them.
 namespace detent {

@@ -3,13 +3,13 @@
 #include <utility>
 
 #include "base/bytes.h"
-#include "dynamics/activity.h"
+#include "motion/activity.h"
+#include "state/fields.h"
+#include "state/ranges.h"
+#include "state/slots.h"
+#include "state/snapshot.h"
+#include "state/view.h"
 #include "tests/world/lab.h"
-#include "world/fields.h"
-#include "world/ranges.h"
-#include "world/slots.h"
-#include "world/snapshot.h"
-#include "world/view.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

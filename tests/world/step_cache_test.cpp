@@ -1,8 +1,8 @@
-#include "world/step_cache.h"
+#include "state/step_cache.h"
 
-#include "collision/broadphase.h"
-#include "dynamics/activity.h"
-#include "dynamics/predict.h"
+#include "broad_phase/broadphase.h"
+#include "motion/activity.h"
+#include "motion/predict.h"
 #include "tests/oracle/bodies.h"
 #include "tests/support/spoil.h"
 #include "tests/world/lab.h"

@@ -3,13 +3,13 @@
 #include <detent/toi.h>
 #include <math.h>
 
-#include "collision/body_convex.h"
-#include "collision/surface_code.h"
-#include "geometry/sweep.h"
+#include "contact/body_convex.h"
+#include "contact/surface_code.h"
+#include "query/query_hits.h"
+#include "shape/sweep.h"
+#include "state/view.h"
 #include "tests/geometry/surfaces.h"
 #include "tests/oracle/bodies.h"
-#include "world/query_hits.h"
-#include "world/view.h"
 
 /// Queries to bodies of meshes and height fields, against asking all of their triangles.
 namespace detent {

@@ -11,7 +11,7 @@ struct Bounds {
   Position lower, upper;
 };
 
-/// A node of the tree of resting bodies (lib/collision/resting_tree.h).
+/// A node of the tree of resting bodies (lib/broad_phase/resting_tree.h).
 struct TreeNode {
   Bounds bounds;  ///< of all that is below
   uint32_t child[2];
@@ -91,7 +91,7 @@ struct alignas(8) BodyWork {
 
 /// A contact during the step. Impulses are over the reference mass: that of the lighter dynamic body. The pair's unit
 /// of length is that of its smaller moving body. The solver reads four contacts at once, in fours of words and of
-/// Reals: what a pass over the normals needs lies before what friction needs (lib/dynamics/quad_contact.h).
+/// Reals: what a pass over the normals needs lies before what friction needs (lib/solver/quad_contact.h).
 struct alignas(8) ContactWork {
   ContactState state;  ///< becomes the world's contact when the step ends
 

@@ -2,7 +2,7 @@
 #include <detent/body.h>
 
 /// The persistent state: what a snapshot holds and the digest covers. Every struct is tiled by its fields without
-/// padding (asserted by lib/world/fields.h), holds no pointer and no size_t, and has the same layout on every target.
+/// padding (asserted by lib/state/fields.h), holds no pointer and no size_t, and has the same layout on every target.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "describe.h"
-#include "geometry/compound.h"
 #include "mass.h"
+#include "shape/compound.h"
 #include "writer.h"
 
 namespace detent_cook {

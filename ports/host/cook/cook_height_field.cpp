@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "geometry/height_field.h"
+#include "shape/height_field.h"
 #include "writer.h"
 
 namespace detent_cook {

@@ -6,7 +6,7 @@
 #include <map>
 #include <tuple>
 
-#include "geometry/mesh.h"
+#include "shape/mesh.h"
 #include "writer.h"
 
 namespace detent_cook {

@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "geometry/compound.h"
-#include "geometry/surface.h"
+#include "shape/compound.h"
+#include "shape/surface.h"
 
 namespace detent_cook {
 

@@ -7,7 +7,7 @@
 #include <map>
 #include <set>
 
-#include "geometry/hull.h"
+#include "shape/hull.h"
 #include "writer.h"
 
 namespace detent_cook {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/crc.h"
-#include "geometry/cooked.h"
+#include "shape/cooked.h"
 
 namespace detent_cook {
 

@@ -4,15 +4,15 @@
 #include <string.h>
 
 #include "file.h"
-#include "geometry/compound.h"
-#include "geometry/height_field.h"
-#include "geometry/hull.h"
-#include "geometry/mesh.h"
 #include "ports/config_text.h"
 #include "replay/format.h"
+#include "shape/compound.h"
+#include "shape/height_field.h"
+#include "shape/hull.h"
+#include "shape/mesh.h"
+#include "state/view.h"
 #include "tests/scenes/scene.h"
 #include "text.h"
-#include "world/view.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

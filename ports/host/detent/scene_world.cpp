@@ -3,8 +3,8 @@
 #include <filesystem>
 
 #include "file.h"
+#include "state/asset_binding.h"
 #include "text.h"
-#include "world/asset_binding.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <string>
 
+#include "state/packed_state.h"
 #include "tests/bench/heap.h"
 #include "tests/stress/run_detent.h"
 #include "tests/stress/scenes.h"
-#include "world/packed_state.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <map>
 
-#include "geometry/hull.h"
+#include "shape/hull.h"
 #include "tests/bench/zoo/script.h"
 #include "tests/zoo/opened_scene.h"
 

@@ -4,10 +4,10 @@
 #include <ports/print.h>
 
 #include "float_gjk.h"
-#include "geometry/hull.h"
 #include "math/float_bits.h"
 #include "math/rotation.h"
 #include "round_hull.h"
+#include "shape/hull.h"
 #include "tests/lockstep/narrow_phase_pairs.h"
 
 /// What questions cost on a Cortex-M3, in instructions, beside a float GJK on the same pairs. QEMU runs it with

@@ -1,0 +1,137 @@
+#include "broad_phase/swept_box.h"
+
+#include "base/unroll.h"
+#include "distance/pair.h"
+#include "math/bits.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+/// A grain is four steps of a coordinate: differences of two numbers of grains fit 64 bits.
+constexpr int k_grain_steps_bits = 2;
+constexpr int k_grain_bits = k_metre_bits - (k_coord_bits - k_grain_steps_bits);  ///< in 2^-46 m
+constexpr int k_cells_bits = 29;
+constexpr int64_t k_place_limit = int64_t{1} << 30;
+/// What a tolerance may be of a size: that of time_of_impact() is below 2^-18.7 of the sum of both, and what rounding
+/// takes of bounds and closest_points() of distances far below it.
+constexpr int k_tolerance_bits = 18;
+
+int64_t grains_of(Coord x) { return integer_from(x) >> k_grain_steps_bits; }
+
+/// Beyond the limit nothing is asked about: the way is shorter.
+int64_t held_place(int64_t value) {
+  return value < -k_place_limit ? -k_place_limit : value > k_place_limit ? k_place_limit : value;
+}
+
+int64_t rounded_up(int64_t raw, int bits) { return (raw + (int64_t{1} << bits) - 1) >> bits; }
+
+}  // namespace
+
+SweptBox::SweptBox(const Position& centre, const Vec64& half, const Vec64& way, int64_t reach) {
+  const uint64_t largest = magnitudes(half) | magnitudes(way) | static_cast<uint64_t>(reach);
+  const int length = bit_length_64(largest) + 1;  // of the sum of two
+  cell_bits_ = length - k_cells_bits > k_grain_bits ? length - k_cells_bits : k_grain_bits;
+  grain_shift_ = cell_bits_ - k_grain_bits;
+  const int64_t ways[3] = {way.x, way.y, way.z}, halves[3] = {half.x, half.y, half.z};
+  int widest = 0;
+  int64_t tolerance = 0;  // a part of the diameter
+  for (const int64_t side : halves)
+    tolerance = side >> (k_tolerance_bits - 1) > tolerance ? side >> (k_tolerance_bits - 1) : tolerance;
+  for (int i = 0; i < 3; ++i) {
+    centre_[i] = grains_of(centre.*k_axes[i]);
+    way_[i] = static_cast<int32_t>(ways[i] >> cell_bits_);
+    half_[i] = static_cast<int32_t>(rounded_up(halves[i] + tolerance, cell_bits_) + 1);  // 1: for the way's rounding
+    if (magnitude_64(ways[i]) > magnitude_64(ways[widest])) widest = i;
+  }
+  axis_ = k_axes[widest];
+  forward_ = ways[widest] > 0;
+  shorten(1.0);
+}
+
+void SweptBox::shorten(Fraction end) {
+  const int64_t part = (end.raw + (int64_t{1} << 32) - 1) >> 32;  // 2^-30, rounded up
+  for (int i = 0; i < 3; ++i) {
+    const int64_t way = way_[i] * part;
+    from_[i] = way < 0 ? way >> 30 : 0;
+    to_[i] = way > 0 ? (way + (int64_t{1} << 30) - 1) >> 30 : 0;
+  }
+}
+
+SweptBox::Place SweptBox::place_of(const Bounds& bounds) const {
+  int64_t low[3], high[3], longest = 0;
+  DETENT_UNROLL
+  for (int i = 0; i < 3; ++i) {
+    // Two grains for the rounding of centre, bounds and positions.
+    low[i] = (grains_of(bounds.lower.*k_axes[i]) - centre_[i] - 2) >> grain_shift_;
+    high[i] = ((grains_of(bounds.upper.*k_axes[i]) - centre_[i] + 3) >> grain_shift_) + 1;
+    const int64_t side = high[i] - low[i];
+    longest = side > longest ? side : longest;
+  }
+  const int64_t margin = (longest >> k_tolerance_bits) + 1;
+  Place place;
+  DETENT_UNROLL
+  for (int i = 0; i < 3; ++i) {
+    place.low[i] = low[i] - margin - half_[i];
+    place.high[i] = high[i] + margin + half_[i];
+  }
+  return place;
+}
+
+bool SweptBox::meets(const Place& place) const {
+  DETENT_UNROLL
+  for (int i = 0; i < 3; ++i) {
+    if (to_[i] < place.low[i] || place.high[i] < from_[i]) return false;
+  }
+  // Of the whole line: its distance from the middle across each axis and the way, in halves of a cell.
+  int64_t sum[3], side[3];
+  DETENT_UNROLL
+  for (int i = 0; i < 3; ++i) {
+    const int64_t low = held_place(place.low[i]), high = held_place(place.high[i]);
+    sum[i] = low + high;
+    side[i] = high - low;
+  }
+  DETENT_UNROLL
+  for (int i = 0; i < 3; ++i) {
+    const int y = i == 2 ? 0 : i + 1, z = 3 - i - y;
+    const uint64_t across = magnitude_64(way_[y] * sum[z] - way_[z] * sum[y]);
+    if (across > magnitude_64(way_[y] * side[z]) + magnitude_64(way_[z] * side[y])) return false;
+  }
+  return true;
+}
+
+Fraction SweptBox::entry(const Place& place) const {
+  constexpr int k_bits = 33;
+  uint64_t latest = 0;
+  for (int i = 0; i < 3; ++i) {
+    const int64_t ahead = held_place(way_[i] > 0 ? place.low[i] : -place.high[i]);
+    if (way_[i] == 0 || ahead <= 0) continue;
+    const uint64_t part = (static_cast<uint64_t>(ahead) << k_bits) / magnitude_64(way_[i]);
+    latest = part > latest ? part : latest;
+  }
+  constexpr uint64_t k_tick_end = uint64_t{1} << k_bits;
+  return Fraction::from_raw(
+      static_cast<int64_t>((latest < k_tick_end ? latest : k_tick_end) << (Fraction::k_frac - k_bits)));
+}
+
+bool SweptBox::is_near(const Place& place, int64_t reach) const {
+  // A distance errs by a part of that of the centres as well.
+  const int64_t cells = rounded_up(reach + (reach >> 22), cell_bits_) + 1;
+  for (int i = 0; i < 3; ++i) {
+    if (place.low[i] > cells || place.high[i] < -cells) return false;
+  }
+  return true;
+}
+
+int64_t SweptBox::gap(const Place& place) const {
+  int64_t widest = 0;
+  for (int i = 0; i < 3; ++i) {
+    const int64_t apart = place.low[i] > -place.high[i] ? place.low[i] : -place.high[i];
+    widest = apart > widest ? apart : widest;
+  }
+  constexpr int64_t k_far = int64_t{1} << k_cells_bits;
+  return (widest < k_far ? widest : k_far) << cell_bits_;
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,90 @@
+#include "ccd/impact.h"
+
+#include "ccd/impact_response.h"
+#include "ccd/impact_stage.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+/// The pair whose event is the first, of equals that of the least key; null if there is none.
+ImpactPair* next(const ImpactStage& stage) {
+  ImpactPair* best = nullptr;
+  for (uint32_t i = 0; i < stage.met_count; ++i) {
+    ImpactPair& pair = stage.met[i];
+    if (pair.next == k_next_none) continue;
+    if (best == nullptr || pair.time < best->time || (pair.time == best->time && pair.key < best->key)) best = &pair;
+  }
+  return best;
+}
+
+/// How far in a pair is tested that has met at a seam, m: deeper than what rests is sunk in, and no deeper than need
+/// be.
+Real seam_inset(const ImpactStage& stage, uint64_t key) {
+  const Real extent = stage.extent_of(key);
+  return min(max(scale_by_power(extent, -6), scale_by_power(stage.settings.sunk, 1)), contact_inset(extent, k_zero));
+}
+
+/// Lets the event of a pair happen.
+void go_on(ImpactStage& stage, ImpactPair& pair) {
+  const Fraction time = pair.time;
+  const bool undecided = pair.next == k_next_undecided;
+  if (pair.next == k_next_look) {
+    stage.test(pair.key, time, k_zero, &pair);
+    stage.test_all_changed(time);
+    return;
+  }
+  const uint32_t slots[2] = {pair_low(pair.key), pair_high(pair.key)};
+  if (stage.is_spent() && pair.farther_in == 0) {
+    pair.farther_in = 1;  // its contacts will hold what it does not meet there
+    stage.test(pair.key, time, k_zero, &pair);
+    return;
+  }
+  pair.next = k_next_none;
+  pair.last = time;
+  stage.report.undecided += undecided ? 1 : 0;
+  for (const uint32_t slot : slots) {
+    if (!stage.dynamic(slot)) continue;
+    stage.move_to(slot, time);
+    stage.report.clamped += hold_turn(stage.bodies.traits[slot], stage.settings.tick_time, stage.bodies.sweeps[slot]);
+  }
+  const BodyPose pose_a = pose_at(stage.body(slots[0]), time), pose_b = pose_at(stage.body(slots[1]), time);
+  stage.first_approach = k_zero;
+  if (stage.resolve(pair, undecided, pose_a, pose_b)) {
+    pair.farther_in = 1;  // both go on as they did: it is no impact
+    stage.test(pair.key, time, seam_inset(stage, pair.key), &pair);
+    stage.test_all_changed(time);
+    return;
+  }
+  if (stage.first_approach > k_zero) stage.pass_on(pair, time);
+  const uint32_t impacts_max = stage.is_spent() ? k_impacts_max_spent : k_impacts_max;
+  if (pair.impacts == 0) pair.impacts = 1;
+  for (const uint32_t slot : slots) {
+    if (!stage.dynamic(slot)) continue;
+    BodySweep& sweep = stage.bodies.sweeps[slot];
+    if (++sweep.impacts >= impacts_max) stage.stop(slot, time);
+    if ((sweep.marks & k_mark_changed) == 0) stage.change(slot);
+  }
+  stage.test_all_changed(time);
+}
+
+}  // namespace
+
+ImpactReport advance_to_impacts(const StepSettings& settings, const AssetTable& assets, const FeatureTable& features,
+                                const ImpactPairs& pairs, const ImpactBodies& bodies, Span<ImpactPair> met,
+                                Span<ImpactHit> hits, ImpactProbe* probe) {
+  ImpactStage stage = {settings, assets, features,
+                       pairs,    bodies, met,
+                       hits,     probe,  divide(Scaled(1.0), scaled_from(settings.tick_time))};
+  stage.start_sweeps();
+  stage.find_first();
+  stage.test_all_changed(Fraction(0.0));
+  while (ImpactPair* pair = next(stage)) go_on(stage, *pair);
+  stage.carry_to_end();
+  return stage.report;
+}
+
+const ContinuousCode k_continuous_code = {advance_to_impacts};
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,275 @@
+#include "ccd/impact_response.h"
+#include "ccd/impact_stage.h"
+#include "contact/compound_code.h"
+#include "contact/contact_arm.h"
+#include "math/root.h"
+#include "motion/activity.h"
+#include "motion/gyration.h"
+#include "motion/spin.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+constexpr int k_rounds_max = 64;  ///< of passing a blow on
+
+/// Of the part whose normal is nearest to that of the impact, or if that has none of the deepest.
+__attribute__((noinline)) void find_part_points(const ImpactStage& stage, const ImpactPair& pair,
+                                                const CollisionBody& a, const CollisionBody& b,
+                                                const ContactReach& reach, ContactGeometry& geometry) {
+  SurfaceContacts contacts;
+  collide_parts(a, b, reach, stage.assets, stage.settings.reduction, stage.features, contacts);
+  const SurfaceContact* best = nullptr;
+  Real most = k_zero;
+  for (uint32_t i = 0; i < contacts.count; ++i) {
+    const ContactGeometry& found = contacts.contact[i].geometry;
+    Real rank = real_from_unit(dot(found.normal, pair.normal), 0);
+    for (uint32_t k = 0; !is_direction(pair.normal) && k < found.count; ++k)
+      rank = max(rank, -found.point[k].separation);
+    if (best != nullptr && !(rank > most)) continue;
+    best = &contacts.contact[i];
+    most = rank;
+  }
+  geometry.count = 0;
+  if (best != nullptr) geometry = best->geometry;
+  geometry.seam = contacts.seam;
+}
+
+/// The contact points of the bodies themselves; none where they do not agree with the time of impact: deep within a
+/// thin body the least way out may lead through it. Where they lie on each other, no deeper than what
+/// rests is sunk in, an edge that is met besides is that of a seam.
+void find_points(const ImpactStage& stage, const ImpactPair& pair, const BodyPose& pose_a, const BodyPose& pose_b,
+                 ContactGeometry& geometry) {
+  const BodyTraits &a = stage.bodies.traits[pair_low(pair.key)], &b = stage.bodies.traits[pair_high(pair.key)];
+  const Matrix3 rotation_a = matrix_from(pose_a.rotation), rotation_b = matrix_from(pose_b.rotation);
+  const Real about = scale_by_power(stage.extent_of(pair.key), -10);
+  const ContactReach reach = {about, stage.settings.sunk};
+  const CollisionBody body_a = {pose_a, a, rotation_a}, body_b = {pose_b, b, rotation_b};
+  if (has_parts(a, b))
+    find_part_points(stage, pair, body_a, body_b, reach, geometry);
+  else
+    collide(body_a, body_b, reach, geometry, stage.assets, stage.settings.reduction, stage.features);
+  if (!is_direction(pair.normal) || geometry.count == 0) return;
+  const Unit along = dot(geometry.normal, pair.normal);
+  const bool lies_aside = abs(along) < Unit(0.5);
+  const bool lies_flat = geometry.count > 2;
+  geometry.seam = geometry.seam || ((lies_aside || lies_flat) && depth_of(geometry) <= stage.settings.sunk);
+  if (!(along > Unit(0.0))) geometry.count = 0;
+}
+
+/// The point that the time of impact was found by.
+void take_point(const ImpactStage& stage, const ImpactPair& pair, const BodyPose& pose_a, const BodyPose& pose_b,
+                ContactGeometry& geometry) {
+  const BodyTraits &a = stage.bodies.traits[pair_low(pair.key)], &b = stage.bodies.traits[pair_high(pair.key)];
+  const auto arm = [](const BodyTraits& traits, const Vec3<Real>& point) {
+    const Unit zero = 0.0;
+    if (is_half_space(traits)) return Vec3<Unit>{zero, zero, zero};
+    return arm_of_way(point, traits.size_exponent);
+  };
+  geometry.count = 1;
+  geometry.normal = pair.normal;
+  geometry.point[0] = {arm(a, pair.point), arm(b, pair.point - offset_of(pose_a, pose_b)), k_zero, 1};
+}
+
+/// The middle of the points, world.
+Position point_of(const ContactGeometry& geometry, const BodyPose& pose_a, const BodyPose& pose_b, const BodyTraits& a,
+                  const BodyTraits& b) {
+  static constexpr Unit k_share[k_manifold_points_max] = {1.0, 0.5, 1.0 / 3.0, 0.25};
+  const bool by_b = is_ground(a);  // which may be large, or has no arms
+  const int exponent = by_b ? b.size_exponent : a.size_exponent;
+  Vec3<Real> sum = k_zero_vector;
+  for (uint32_t i = 0; i < geometry.count; ++i) {
+    const Vec3<Unit> arm = (by_b ? geometry.point[i].arm_b : geometry.point[i].arm_a) * k_share[geometry.count - 1];
+    sum += {real_from_unit(arm.x, exponent), real_from_unit(arm.y, exponent), real_from_unit(arm.z, exponent)};
+  }
+  return moved((by_b ? pose_b : pose_a).position, sum);
+}
+void wake(ImpactStage& stage, uint32_t slot) {
+  if (stage.bodies.activities[slot].asleep == 0) return;
+  stage.bodies.sweeps[slot].marks |= k_mark_slept;
+  stage.report.woke += wake_all_with(slot, stage.bodies.activities, stage.bodies.visits);
+}
+
+/// The velocity that gravity has yet to give a body after `time`.
+Vec3<Real> fall_after(const ImpactStage& stage, uint32_t slot, Fraction time) {
+  const BodyTraits& traits = stage.bodies.traits[slot];
+  if (!is_dynamic(traits) || (stage.bodies.sweeps[slot].marks & k_mark_slept) != 0) return k_zero_vector;
+  const Vec3<Real> fall = stage.settings.gravity * stage.settings.tick_time;
+  bool saturated = false;
+  const Vec3<Real> own = {multiply(fall.x, traits.gravity_scale, saturated),
+                          multiply(fall.y, traits.gravity_scale, saturated),
+                          multiply(fall.z, traits.gravity_scale, saturated)};
+  return sweep_part({own, k_zero_vector}, k_whole_step - time).displacement;
+}
+
+/// What the turning of both bodies brings them together by in the rest of the tick, however they part, as a speed,
+/// m/s: a 16th of it where they have met twice, and up to all of it later on.
+Real bend_speed(const ImpactStage& stage, const ImpactPair& pair) {
+  const uint32_t a = pair_low(pair.key), b = pair_high(pair.key);
+  const auto radius = [&](uint32_t slot) {
+    const BodyTraits& traits = stage.bodies.traits[slot];
+    return real_from_unit(traits.bounding_radius, traits.size_exponent);
+  };
+  const BodySweep &sweep_a = stage.bodies.sweeps[a], &sweep_b = stage.bodies.sweeps[b];
+  constexpr Real k_turn = 2.0;  // beyond it they have turned away
+  const Real turn_a = min(length(sweep_a.turn), k_turn), turn_b = min(length(sweep_b.turn), k_turn);
+  const Real way = length(sweep_b.displacement - sweep_a.displacement);
+  const Real bend = turn_a * turn_a * radius(a) + turn_b * turn_b * radius(b) + (turn_a + turn_b) * way;
+  const Real part = sweep_part({{bend, k_zero, k_zero}, k_zero_vector}, k_whole_step - pair.time).displacement.x;
+  const int power = (pair.impacts < 5 ? pair.impacts : 5) - 5;
+  bool saturated = false;
+  return multiply(scale_by_power(part, power), stage.tick_rate, saturated);
+}
+
+/// The speed, m/s, at which a pair parts on its sweeps at least. An overlap is made good; and what has met before in
+/// this tick, as what turns or rolls on an edge does again and again, hops, the farther the more often, so that a few
+/// impacts see it through the tick. The bodies' own velocities know nothing of it.
+Real parting_speed(const ImpactStage& stage, const ImpactPair& pair, const ContactWork& contact, uint32_t count) {
+  bool saturated = false;
+  Real depth = k_zero, approach = k_zero;
+  for (uint32_t i = 0; i < count; ++i) {
+    depth = max(depth, -contact.separation[i]);
+    approach = max(approach, -contact.approach[i]);
+  }
+  const Real half_in_a_tick = scale_by_power(multiply(depth, stage.tick_rate, saturated), -1);
+  if (pair.impacts == 0)
+    return max(half_in_a_tick, min(scale_by_power(half_in_a_tick, 6), scale_by_power(approach, -2)));
+  const int power = pair.impacts < 2 ? -2 : pair.impacts < 5 ? -1 : 0;
+  return max(max(half_in_a_tick, scale_by_power(approach, power)), bend_speed(stage, pair));
+}
+
+/// Lets the bodies of a pair part at the given points. False, and nothing changed, if the bodies do not come together
+/// there. `again`: the blow has been counted.
+bool resolve_at(ImpactStage& stage, ImpactPair& pair, const ContactGeometry& geometry, const BodyPose& pose_a,
+                const BodyPose& pose_b, bool again) {
+  const uint32_t a = pair_low(pair.key), b = pair_high(pair.key);
+  const BodyTraits &traits_a = stage.bodies.traits[a], &traits_b = stage.bodies.traits[b];
+  stage.take_work(1);
+  const BodyMotion before_a = motion_of_sweep(traits_a, pose_a.rotation, stage.bodies.sweeps[a], stage.tick_rate);
+  const BodyMotion before_b = motion_of_sweep(traits_b, pose_b.rotation, stage.bodies.sweeps[b], stage.tick_rate);
+  ContactWork contact;
+  contact.state = {};
+  contact.state.point_count = static_cast<uint8_t>(geometry.count);
+  const WorldGyration gyration_a = world_gyration(traits_a, matrix_from(pose_a.rotation));
+  const WorldGyration gyration_b = world_gyration(traits_b, matrix_from(pose_b.rotation));
+  const Vec3<Real> spin_a = world_spin(traits_a, gyration_a, before_a.momentum, -k_spin_power);
+  const Vec3<Real> spin_b = world_spin(traits_b, gyration_b, before_b.momentum, -k_spin_power);
+  const Real extent_a = shape_extent(traits_a), extent_b = shape_extent(traits_b);
+  make_rows(stage.settings,
+            {traits_a, pose_a, before_a, gyration_a, spin_a, extent_a, fall_speed(stage.settings, extent_a)},
+            {traits_b, pose_b, before_b, gyration_b, spin_b, extent_b, fall_speed(stage.settings, extent_b)}, geometry,
+            contact);
+  BodyMotion after_a = before_a, after_b = before_b;
+  Real approach = k_zero;
+  const Real parting = again ? k_zero : parting_speed(stage, pair, contact, geometry.count);
+  const Real least = again ? scale_by_power(stage.first_approach, -12) : k_zero;
+  const auto resolves = [&](Real least_approach, Real leave, BodyMotion& motion_a, BodyMotion& motion_b, Real& found) {
+    return resolve_impact(contact, geometry.count, least_approach, leave, {traits_a, pose_a.rotation, motion_a},
+                          {traits_b, pose_b.rotation, motion_b}, found);
+  };
+  if (!resolves(least, parting, after_a, after_b, approach)) return false;
+  wake(stage, a);
+  wake(stage, b);
+  stage.report.clamped += hold_spin(traits_a, pose_a.rotation, after_a) + hold_spin(traits_b, pose_b.rotation, after_b);
+  const auto change_sweep = [&](uint32_t slot, const BodyPose& pose, const BodyMotion& before,
+                                const BodyMotion& after) {
+    if (!stage.dynamic(slot) || (stage.bodies.sweeps[slot].marks & k_mark_stopped) != 0) return;
+    stage.report.clamped += add_to_sweep(stage.bodies.traits[slot], pose.rotation, before, after,
+                                         stage.settings.tick_time, stage.bodies.sweeps[slot]);
+  };
+  change_sweep(a, pose_a, before_a, after_a);
+  change_sweep(b, pose_b, before_b, after_b);
+
+  const Vec3<Real> fall_a = fall_after(stage, a, pair.time), fall_b = fall_after(stage, b, pair.time);
+  BodyMotion motion_a = stage.bodies.motions[a], motion_b = stage.bodies.motions[b];
+  motion_a.velocity -= fall_a;
+  motion_b.velocity -= fall_b;
+  Real approach_of_state = k_zero;
+  // A slow rest of what the solver has pushed is left to it: it goes on in the next tick.
+  const Real least_of_state = stage.is_pushed(pair.key) ? contact.rebound_min : k_zero;
+  if (resolves(least_of_state, k_zero, motion_a, motion_b, approach_of_state)) {
+    motion_a.velocity += fall_a;
+    motion_b.velocity += fall_b;
+    stage.report.clamped +=
+        hold_spin(traits_a, pose_a.rotation, motion_a) + hold_spin(traits_b, pose_b.rotation, motion_b);
+    if (stage.dynamic(a)) stage.bodies.motions[a] = motion_a;
+    if (stage.dynamic(b)) stage.bodies.motions[b] = motion_b;
+  }
+
+  if (again) return true;
+  stage.first_approach = approach;
+  ++stage.report.impacts;
+  if (pair.impacts < UINT8_MAX) ++pair.impacts;
+  if (stage.report.hits < stage.hits.count)
+    stage.hits[stage.report.hits++] = {pair.key, pair.time, point_of(geometry, pose_a, pose_b, traits_a, traits_b),
+                                       geometry.normal, approach};
+  else
+    ++stage.report.hits_dropped;
+  return true;
+}
+
+/// The pair of the least key above `after` that has met in this tick and shares a dynamic body with the first one.
+ImpactPair* next_touching(const ImpactStage& stage, uint64_t first_key, uint64_t after) {
+  ImpactPair* best = nullptr;
+  const uint32_t slots[2] = {pair_low(first_key), pair_high(first_key)};
+  for (const uint32_t slot : slots) {
+    if (!stage.dynamic(slot)) continue;
+    stage.for_each_met(slot, [&](ImpactPair& pair) {
+      if (pair.impacts == 0 || pair.key <= after || (best != nullptr && pair.key > best->key)) return;
+      best = &pair;
+    });
+  }
+  return best;
+}
+
+/// Resolves a pair that may still touch. False if it does not, or does not come together.
+bool meet_again(ImpactStage& stage, ImpactPair& pair, Fraction time) {
+  const uint32_t slots[2] = {pair_low(pair.key), pair_high(pair.key)};
+  const BodyPose pose_a = pose_at(stage.body(slots[0]), time), pose_b = pose_at(stage.body(slots[1]), time);
+  ContactGeometry geometry;
+  const Fraction next_time = pair.time;
+  pair.time = time;
+  find_points(stage, pair, pose_a, pose_b, geometry);
+  for (const uint32_t slot : slots) {
+    if (geometry.count != 0 && stage.dynamic(slot)) stage.move_to(slot, time);
+  }
+  if (geometry.count == 0 || !resolve_at(stage, pair, geometry, pose_a, pose_b, true)) {
+    pair.time = next_time;
+    return false;
+  }
+  pair.last = time;
+  for (const uint32_t slot : slots) {
+    if (stage.dynamic(slot)) stage.change(slot);
+  }
+  return true;
+}
+
+}  // namespace
+
+bool ImpactStage::resolve(ImpactPair& pair, bool undecided, const BodyPose& pose_a, const BodyPose& pose_b) {
+  ContactGeometry geometry;
+  find_points(*this, pair, pose_a, pose_b, geometry);
+  if (geometry.count != 0 && resolve_at(*this, pair, geometry, pose_a, pose_b, false)) return false;
+  if (undecided || !is_direction(pair.normal)) return false;
+  if (geometry.seam && pair.farther_in == 0) return true;
+  take_point(*this, pair, pose_a, pose_b, geometry);
+  resolve_at(*this, pair, geometry, pose_a, pose_b, false);
+  return false;
+}
+
+void ImpactStage::pass_on(const ImpactPair& first, Fraction time) {
+  const uint64_t first_key = first.key;
+  for (int round = 0; round < k_rounds_max && !is_spent(); ++round) {
+    bool again = false;
+    uint64_t after = 0;
+    while (ImpactPair* pair = next_touching(*this, first_key, after)) {
+      after = pair->key;
+      if (round == 0 && after == first_key) continue;
+      again = meet_again(*this, *pair, time) || again;
+    }
+    if (!again) break;
+  }
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

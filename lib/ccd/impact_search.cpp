@@ -1,0 +1,299 @@
+#include "broad_phase/pair_filter.h"
+#include "ccd/impact_stage.h"
+#include "math/root.h"
+#include "shape/bounds.h"
+#include "solver/contact_rows.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+/// Of a pair that touches after an impact: until it is looked at again, twice as long each time.
+constexpr int k_look_power = -10;
+constexpr uint32_t k_looks_max = 16;
+
+/// The contacts of a pair from the first one on.
+Span<const ContactWork> pair_contacts(Span<const ContactWork> from, uint64_t key) {
+  uint32_t count = 0;
+  while (count < from.count && key_of(from[count].state) == key) ++count;
+  return from.first(count);
+}
+
+/// The contacts of a pair.
+Span<const ContactWork> find_contacts(Span<const ContactWork> contacts, uint64_t key) {
+  uint32_t low = 0, high = contacts.count;
+  while (low < high) {
+    const uint32_t middle = low + (high - low) / 2;
+    if (key_of(contacts[middle].state) < key)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return pair_contacts({contacts.data + low, contacts.count - low}, key);
+}
+
+bool jointed(const ImpactStage& stage, uint32_t slot) { return stage.bodies.sweeps[slot].marks >= k_mark_jointed; }
+bool is_ball(const ImpactStage& stage, uint32_t slot) {
+  return shape_of(stage.bodies.traits[slot]) == ShapeType::sphere;
+}
+
+bool is_curved(const ImpactStage& stage, uint32_t slot) { return round_radius(stage.bodies.traits[slot]) > Unit(0.0); }
+
+/// False for pairs that filters or joints keep apart, and for those of one island of joints; and where joints hold one,
+/// for half-spaces, which contacts alone keep anything from passing: a body that stops alone tears at its joints.
+bool may_meet(const ImpactStage& stage, uint32_t a, uint32_t b) {
+  if (!PairFilter{stage.bodies.traits, stage.bodies.filter_rules, stage.known.apart}.allows(a, b)) return false;
+  if (!jointed(stage, a) && !jointed(stage, b)) return true;
+  if (is_half_space(stage.bodies.traits[a]) || is_half_space(stage.bodies.traits[b])) return false;
+  return stage.bodies.sweeps[a].marks / k_mark_jointed != stage.bodies.sweeps[b].marks / k_mark_jointed;
+}
+
+/// Makes candidates of all bodies whose bounds overlap those of `slot`.
+__attribute__((noinline)) void find_near(const ImpactStage& stage, uint32_t slot) {
+  const Bounds& box = stage.bodies.bounds[slot];
+  stage.bodies.resting.for_each_near(box, [&](uint32_t other) { stage.bodies.candidates.set(other); });
+  stage.bodies.visits.for_each([&](uint32_t other) {
+    if (overlap(box, stage.bodies.bounds[other])) stage.bodies.candidates.set(other);
+  });
+}
+
+/// Visits all other bodies that may touch `slot` and whose bounds overlap its, in the order of their slots.
+template <class Visit>
+void for_each_near(const ImpactStage& stage, uint32_t slot, const Visit& visit) {
+  find_near(stage, slot);
+  stage.bodies.candidates.for_each([&](uint32_t other) {
+    stage.bodies.candidates.clear(other);
+    // What went before may have stopped either.
+    if (other != slot && overlap(stage.bodies.bounds[slot], stage.bodies.bounds[other]) && may_meet(stage, slot, other))
+      visit(other);
+  });
+}
+
+ImpactPair* find_met(const ImpactStage& stage, uint64_t key) {
+  ImpactPair* found = nullptr;
+  const uint32_t low = pair_low(key);
+  stage.for_each_met(stage.dynamic(low) ? low : pair_high(key), [&](ImpactPair& pair) {
+    if (pair.key == key) found = &pair;
+  });
+  return found;
+}
+
+Real free_inset(const ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts, Real& apart) {
+  const Real extent = stage.extent_of(key);
+  if (contacts.count == 0) {
+    apart = stage.known.complete ? scale_by_power(extent, -6) : k_zero;
+    return k_zero;
+  }
+  Real least = contacts[0].separation[0];
+  bool rebounds = false;
+  for (const ContactWork& contact : contacts) {
+    for (uint32_t i = 0; i < contact.state.point_count; ++i) least = min(least, contact.separation[i]);
+    rebounds = rebounds || is_positive(contact.restitution);
+  }
+  if (is_left_to_impact(contacts[0])) {
+    apart = k_zero;
+    return k_zero;
+  }
+  // What is round may be nearer than its contacts say, which count what it parts by as it slides past.
+  const bool round = is_curved(stage, pair_low(key)) || is_curved(stage, pair_high(key));
+  if (least > scale_by_power(extent, -10)) {
+    apart = round ? k_zero : scale_by_power(least, -1);
+    // A ball that the solver has let bounce touches when the tick ends: within a query's tolerance that would be an
+    // impact. Of other shapes another place may come first.
+    const bool bounces = is_ball(stage, pair_low(key)) || is_ball(stage, pair_high(key));
+    return bounces && rebounds && stage.is_pushed(key) ? next_inset(extent, k_zero) : k_zero;
+  }
+  const Real inset = contact_inset(extent, -least);
+  apart = (round ? min(least, k_zero) : least) +
+          inset;  // but one of the two insets: the points of a contact need not show all of its depth
+  return inset;
+}
+
+/// On which rung of the ladder a pair with these contacts, or none, starts, and by how much at least its inset bodies
+/// are apart, m. Where joints hold one it is so far in that it meets only what it would have passed.
+Real first_inset(const ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts, Real& apart) {
+  const Real inset = free_inset(stage, key, contacts, apart);
+  if (!jointed(stage, pair_low(key)) && !jointed(stage, pair_high(key))) return inset;
+  const Real held = max(inset, scale_by_power(stage.extent_of(key), -2) + scale_by_power(stage.extent_of(key), -3));
+  apart += held - inset;
+  return held;
+}
+
+/// The pair's entry, made if there is none; null if there is no room.
+ImpactPair* entry_of(ImpactStage& stage, uint64_t key, ImpactPair* entry) {
+  if (entry != nullptr) return entry;
+  if (stage.met_count == stage.met.count) return nullptr;
+  if (stage.met_count == 0) {
+    for (uint32_t& first : stage.bodies.first_met) first = 0;
+  }
+  entry = &stage.met[stage.met_count++];
+  *entry = {};
+  entry->key = key;
+  const uint32_t slots[2] = {pair_low(key), pair_high(key)};
+  for (int i = 0; i < 2; ++i) {
+    if (!stage.dynamic(slots[i])) continue;
+    entry->more[i] = stage.bodies.first_met[slots[i]];
+    stage.bodies.first_met[slots[i]] = stage.met_count;
+  }
+  return entry;
+}
+
+/// When to look again at a pair that was `looks` times found touching; 1 for never.
+Fraction look_after(Fraction time, uint32_t looks) {
+  if (looks == 0 || looks > k_looks_max) return k_whole_step;
+  const uint32_t power = looks < 10 ? looks - 1 : 9;
+  const int64_t after = (int64_t{1} << (Fraction::k_frac + k_look_power)) << power;
+  return after < k_whole_step.raw - time.raw ? Fraction::from_raw(time.raw + after) : k_whole_step;
+}
+
+/// A direction that may part a pair: the normal of its contact; zero where it has none, or where they have met in this
+/// tick, for then they mostly touch still.
+Vec3<Unit> known_axis(const ImpactStage& stage, uint64_t key, const ImpactPair* entry) {
+  if (entry != nullptr) return {};
+  const Span<const ContactWork> contacts = find_contacts(stage.known.contacts, key);
+  return contacts.count != 0 ? contacts[0].normal : Vec3<Unit>{};
+}
+
+/// Tests a pair from the start of the tick, unless it is sure to be clear.
+void test_at_start(ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts) {
+  const uint32_t low = pair_low(key), high = pair_high(key);
+  if (!stage.dynamic(low) && !stage.dynamic(high)) return;
+  if (is_at_rest(stage.bodies.sweeps[low]) && is_at_rest(stage.bodies.sweeps[high])) return;
+  if (!overlap(stage.bodies.bounds[low], stage.bodies.bounds[high]) || !may_meet(stage, low, high)) return;
+  Real apart = k_zero, closing = k_zero;
+  const Real inset = first_inset(stage, key, contacts, apart);
+  const Fraction start = 0.0;
+  // The sum of both motions is cheap, and mostly enough.
+  const bool slow = stage.bodies.sweeps[low].reach + stage.bodies.sweeps[high].reach < apart;
+  if (stage.filters() &&
+      (slow || (closing_bound(stage.body(low), stage.body(high), start, closing) && closing < apart))) {
+    ++stage.report.skipped;
+    return;
+  }
+  stage.test(key, start, inset, nullptr);
+}
+
+/// Whether the bodies of a pair in contact, who bore nothing of each other, come together so fast now that they
+/// rebound.
+bool is_blow(const ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts) {
+  const uint32_t low = pair_low(key), high = pair_high(key);
+  if (contacts.count == 0 || jointed(stage, low) || jointed(stage, high)) return false;
+  const Vec3<Real> way = stage.bodies.sweeps[high].displacement - stage.bodies.sweeps[low].displacement;
+  const Real touching = -scale_by_power(stage.extent_of(key), -10);
+  bool rebounds = false;
+  for (const ContactWork& contact : contacts) {
+    for (uint32_t i = 0; i < contact.state.point_count; ++i) {
+      if (contact.separation[i] < touching || contact.impulse_max[i] > k_zero) return false;
+    }
+    rebounds = rebounds || (is_positive(contact.restitution) &&
+                            dot(way, contact.normal) <= -contact.rebound_min * stage.settings.tick_time);
+  }
+  return rebounds;
+}
+
+/// Tests the new sweep of a body against all others.
+void test_changed(ImpactStage& stage, uint32_t slot, Fraction time) {
+  stage.bodies.sweeps[slot].marks &= ~k_mark_changed;
+  --stage.changed_count;
+  for_each_near(stage, slot, [&](uint32_t other) {
+    if (is_at_rest(stage.bodies.sweeps[slot]) && is_at_rest(stage.bodies.sweeps[other])) return;
+    const uint64_t key = key_of_pair(slot, other);
+    const Span<const ContactWork> contacts = find_contacts(stage.known.contacts, key);
+    Real apart = k_zero, inset = k_zero;
+    if (!is_blow(stage, key, contacts)) inset = first_inset(stage, key, contacts, apart);
+    stage.test(key, time, inset, find_met(stage, key));
+  });
+}
+
+}  // namespace
+
+bool ImpactStage::is_pushed(uint64_t key) const {
+  bool pushed = false;
+  for (const ContactWork& contact : find_contacts(known.contacts, key)) {
+    for (uint32_t i = 0; i < contact.state.point_count; ++i) pushed = pushed || contact.impulse_max[i] > k_zero;
+  }
+  return pushed;
+}
+
+void ImpactStage::test(uint64_t key, Fraction time, Real inset, ImpactPair* entry) {
+  const SweptBody a = body(pair_low(key)), b = body(pair_high(key));
+  const bool resolved = entry != nullptr && entry->impacts != 0 && entry->last == time;
+  if (is_spent()) inset = max(inset, contact_inset(extent_of(key), k_zero));
+  PairSearch search(assets, features, a, b, time);
+  Meeting meeting;
+  const TimeOfImpact& impact = meeting.impact;
+  const Vec3<Unit> axis = known_axis(*this, key, entry);
+  if (entry != nullptr) entry->next = k_next_none;
+  const bool asked = search.find({inset, extent_of(key), true, resolved}, axis, meeting);
+  report.tests += meeting.tests;
+  take_work(meeting.tests);
+  if (!asked) {
+    ++report.undecided;
+    return;
+  }
+  if (meeting.left) {
+    ++report.overlaps_left;
+    // What is this deep since it met within the tick, and does not part, would go through.
+    if (meeting.stuck) {
+      stop(pair_low(key), time);
+      stop(pair_high(key), time);
+      return;
+    }
+    if (impact.outcome == ToiOutcome::clear) return;
+  }
+  const Fraction look = look_after(time, !meeting.climbed ? 0 : 1 + (entry == nullptr ? 0 : entry->looks));
+  const bool meets = impact.outcome != ToiOutcome::clear, looks = look < k_whole_step && inset == k_zero && !is_spent();
+  if (!meets && !looks) return;
+  entry = entry_of(*this, key, entry);
+  if (entry == nullptr) {
+    if (!meets) return;
+    ++report.pairs_dropped;
+    stop(pair_low(key), time);
+    stop(pair_high(key), time);
+    return;
+  }
+  if (looks && (!meets || look < impact.time)) {
+    ++entry->looks;
+    entry->next = k_next_look;
+    entry->time = look;
+    return;
+  }
+  entry->next = impact.outcome == ToiOutcome::undecided ? k_next_undecided : k_next_impact;
+  entry->time = impact.time;
+  entry->normal = impact.normal;
+  entry->point = impact.point;
+}
+
+void ImpactStage::find_first() {
+  Span<const ContactWork> rest = known.contacts;
+  const auto go_on = [&rest](uint32_t count) { rest = {rest.data + count, rest.count - count}; };
+  for (const uint64_t key : known.pairs) {
+    while (rest.count != 0 && key_of(rest[0].state) < key) go_on(1);
+    test_at_start(*this, key, pair_contacts(rest, key));
+  }
+  uint32_t moving = 0;
+  bodies.visits.for_each([&](uint32_t a) {
+    ++moving;
+    if ((bodies.sweeps[a].marks & k_mark_strayed) == 0) return;
+    for_each_near(*this, a, [&](uint32_t b) {
+      if (b < a && (bodies.sweeps[b].marks & k_mark_strayed) != 0) return;
+      const uint64_t key = key_of_pair(a, b);
+      if (!has_pair(known.pairs, key)) test_at_start(*this, key, find_contacts(known.contacts, key));
+    });
+  });
+  work_left = k_impact_work_min + k_impact_work_times * (moving + report.tests + report.skipped);
+}
+
+void ImpactStage::test_all_changed(Fraction time) {
+  while (changed_count != 0) {
+    const uint32_t first = changed_first;
+    changed_first = UINT32_MAX;
+    bodies.visits.while_each(first, [&](uint32_t slot) {
+      if ((bodies.sweeps[slot].marks & k_mark_changed) != 0) test_changed(*this, slot, time);
+      return changed_count != 0;
+    });
+  }
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,127 @@
+#include "broad_phase/pair_filter.h"
+#include "ccd/impact_response.h"
+#include "ccd/impact_stage.h"
+#include "math/root.h"
+#include "shape/bounds.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+bool holds(const Bounds& outer, const Bounds& inner) {
+  return outer.lower.x <= inner.lower.x && inner.upper.x <= outer.upper.x && outer.lower.y <= inner.lower.y &&
+         inner.upper.y <= outer.upper.y && outer.lower.z <= inner.lower.z && inner.upper.z <= outer.upper.z;
+}
+
+/// Bounds of a body over a sweep, with a margin below that of the bounds that pairs are found by.
+Bounds bounds_over(const BodyTraits& traits, const BodyPose& pose, const Sweep& sweep) {
+  if (is_aloof(traits)) return k_nowhere;
+  if (is_half_space(traits)) return k_everywhere;
+  const Real margin = scale_by_power(bounds_extent(traits), -8);
+  Vec3<Real> reach = half_bounds(traits, matrix_from(pose.rotation));
+  if (!(sweep.turn == k_zero_vector)) {
+    const Real ball = real_from_unit(traits.bounding_radius, traits.size_exponent);
+    const Real swing = ball * min(length(sweep.turn), Real(4.0));
+    reach = {min(reach.x + swing, ball), min(reach.y + swing, ball), min(reach.z + swing, ball)};
+  }
+  reach += {margin, margin, margin};
+  const Vec3<Real>& way = sweep.displacement;
+  bool beyond = false;  // clamped bounds still contain the body
+  const Position& at = pose.position;
+  return {{coord_advance(at.x, min(way.x, k_zero) - reach.x, beyond),
+           coord_advance(at.y, min(way.y, k_zero) - reach.y, beyond),
+           coord_advance(at.z, min(way.z, k_zero) - reach.z, beyond)},
+          {coord_advance(at.x, max(way.x, k_zero) + reach.x, beyond),
+           coord_advance(at.y, max(way.y, k_zero) + reach.y, beyond),
+           coord_advance(at.z, max(way.z, k_zero) + reach.z, beyond)}};
+}
+
+/// Bounds of the body's sweep from now on; the probe is told of it.
+void begin_sweep(const ImpactStage& stage, uint32_t slot) {
+  const BodySweep& sweep = stage.bodies.sweeps[slot];
+  const Sweep rest = rest_of(sweep, sweep.from);
+  const BodyPose& pose = stage.bodies.poses[slot];
+  stage.bodies.bounds[slot] = bounds_over(stage.bodies.traits[slot], pose, rest);
+  if (stage.probe == nullptr) return;
+  const uint32_t at = stage.probe->segment_count++;
+  if (at >= stage.probe->segments.count) return;
+  stage.probe->segments[at] = {slot, 0, sweep.from, pose, rest.displacement, rest.turn};
+}
+
+/// The body no longer rests, or not where it did.
+void leave_rest(const ImpactStage& stage, uint32_t slot) {
+  stage.bodies.visits.set(slot);
+  if (stage.bodies.resting.has(slot)) stage.bodies.resting.remove(slot);
+}
+
+/// At the end of the tick, as its sweep is now.
+Quat end_rotation(const ImpactStage& stage, uint32_t slot) {
+  const BodySweep& sweep = stage.bodies.sweeps[slot];
+  return sweep_end_rotation(stage.bodies.poses[slot].rotation, rest_of(sweep, sweep.from));
+}
+
+}  // namespace
+
+void ImpactStage::start_sweeps() {
+  bodies.visits.for_each([&](uint32_t slot) {
+    BodySweep& sweep = bodies.sweeps[slot];
+    if (is_aloof(bodies.traits[slot])) {
+      begin_sweep(*this, slot);
+      return;
+    }
+    if (!is_at_rest(sweep)) {
+      const Bounds found_by = bodies.bounds[slot];
+      begin_sweep(*this, slot);
+      if (!holds(found_by, bodies.bounds[slot])) sweep.marks |= k_mark_strayed;
+      if (!motion_bound(body(slot), sweep.from, sweep.reach)) sweep.reach = scale_by_power(k_real_max, -2);
+    }
+    if (!filters() || !known.complete) sweep.marks |= k_mark_strayed;
+  });
+}
+
+void ImpactStage::move_to(uint32_t slot, Fraction time) {
+  leave_rest(*this, slot);
+  BodySweep& sweep = bodies.sweeps[slot];
+  const bool struck = (sweep.marks & k_mark_struck) != 0;
+  sweep.marks |= k_mark_struck;
+  // The solver's momentum is that of the tick's end.
+  const Quat from = struck ? bodies.poses[slot].rotation : end_rotation(*this, slot);
+  if (time > sweep.from) {
+    if (bodies.listener.ended != nullptr) bodies.listener.ended(bodies.listener.context, slot, time);
+    bodies.poses[slot] = pose_at(body(slot), time);
+  }
+  sweep.from = time;
+  Vec3<Real>& momentum = bodies.motions[slot].momentum;
+  momentum = carried_momentum(bodies.traits[slot], from, bodies.poses[slot].rotation, momentum);
+}
+
+void ImpactStage::carry_to_end() {
+  bodies.visits.for_each([&](uint32_t slot) {
+    if ((bodies.sweeps[slot].marks & k_mark_struck) == 0) return;
+    Vec3<Real>& momentum = bodies.motions[slot].momentum;
+    momentum = carried_momentum(bodies.traits[slot], bodies.poses[slot].rotation, end_rotation(*this, slot), momentum);
+  });
+}
+
+void ImpactStage::change(uint32_t slot) {
+  BodySweep& sweep = bodies.sweeps[slot];
+  begin_sweep(*this, slot);
+  if ((sweep.marks & k_mark_changed) == 0) ++changed_count;
+  changed_first = slot < changed_first ? slot : changed_first;
+  sweep.marks |= k_mark_changed;
+  for_each_met(slot, [](ImpactPair& pair) { pair.next = k_next_none; });
+}
+
+void ImpactStage::stop(uint32_t slot, Fraction time) {
+  BodySweep& sweep = bodies.sweeps[slot];
+  if (!dynamic(slot) || (sweep.marks & k_mark_stopped) != 0) return;
+  move_to(slot, time);
+  sweep.displacement = sweep.turn = k_zero_vector;
+  sweep.marks |= k_mark_stopped;
+  ++report.bodies_stopped;
+  report.lost_time += sweep_part({{Real(1.0), k_zero, k_zero}, k_zero_vector}, k_whole_step - time).displacement.x;
+  change(slot);
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

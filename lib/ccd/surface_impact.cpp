@@ -1,0 +1,170 @@
+#include "ccd/surface_impact.h"
+
+#include "math/root.h"
+#include "shape/shape_traits.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+constexpr int k_parts_power_max = 8;  ///< of the parts in which a way is looked along
+
+/// The triangles of a surface, one by one, against a body on its way.
+struct SurfaceSearch {
+  const SurfaceCode& code;
+  const SweptBody& ground;
+  const Surface surface;
+  const Motion ground_motion;
+  const Convex& convex;
+  const Motion motion;
+  const Fraction time;
+  const bool ground_is_a, turns;
+  Matrix32 matrix;    ///< of the surface's rotation at `time`
+  Vec64 centre, way;  ///< of the body, as the surface sees it but for its turning, 2^-46 m
+  int64_t radius;     ///< of the body, 2^-46 m
+  uint32_t triangle = k_no_triangle;
+  TimeOfImpact first = {};
+  bool failed = false;
+
+  /// Of the body's centre over the triangle's plane at `time`, 2^-46 m.
+  int64_t height(const SurfaceTriangle& t, const Vec32& normal) const { return dot(from(t), normal).round_shift(30); }
+  Vec64 from(const SurfaceTriangle& t) const {
+    const int64_t step = int64_t{1} << grid_shift(surface);
+    return {centre.x - t.corner[0].x * step, centre.y - t.corner[0].y * step, centre.z - t.corner[0].z * step};
+  }
+
+  /// Whether the ball about the body stays on one side of the plane.
+  bool passes_by(const SurfaceTriangle& t, const Vec32& normal) const {
+    const int64_t start = height(t, normal), end = start + dot(way, normal).round_shift(30);
+    // A normal errs by less than 2^-28.
+    const int64_t clear = radius + (radius >> 10) + ((length_bound(from(t)) + length_bound(way)) >> 26) + 64;
+    return (start > clear && end > clear) || (start < -clear && end < -clear);
+  }
+
+  /// Turning, it is asked about the surface's own centre, else near itself, where it is known more precisely.
+  bool place(uint32_t index, const SurfaceTriangle& t, Pose& placed, Convex& made) const {
+    placed = ground_motion.start;
+    if (!turns) return code.convex(surface, placed, index, placed, made) == Status::ok;
+    const int64_t step = int64_t{1} << grid_shift(surface);
+    Vec64 corner[3];
+    for (int k = 0; k < 3; ++k) corner[k] = {t.corner[k].x * step, t.corner[k].y * step, t.corner[k].z * step};
+    const int64_t bound = bound_of(corner);
+    set_triangle(corner, bound, raw_exponent_above(bound + 1), made);
+    return true;
+  }
+
+  bool from_behind(const SurfaceTriangle& t, const Vec32& normal, const TimeOfImpact& found) const {
+    const Unit zero = 0.0;
+    if (found.normal == Vec3<Unit>{zero, zero, zero}) return height(t, normal) < 0;
+    const Fraction when = time + fraction_product(k_whole_step - time, found.time);
+    const Vec3<Unit> front = rotate(pose_at(ground, when).rotation, units_from_raw(normal));
+    return (dot(front, found.normal) < zero) == ground_is_a;
+  }
+
+  void ask(uint32_t index) {
+    if (index == triangle) return;  // it is known from the part of the way before
+    const SurfaceTriangle t = surface.triangle(index);
+    const Vec32 normal = normal_of(t.corner[0], t.corner[1], t.corner[2]);
+    if (!turns && passes_by(t, normal)) return;
+    Pose placed;
+    Convex made;
+    TimeOfImpact found;
+    if (!place(index, t, placed, made)) {
+      failed = true;
+      return;
+    }
+    const Motion moved = {placed, ground_motion.displacement, ground_motion.turn};
+    const Status status = ground_is_a ? time_of_impact(made, moved, convex, motion, found)
+                                      : time_of_impact(convex, motion, made, moved, found);
+    failed = failed || status != Status::ok;
+    if (status != Status::ok || found.outcome == ToiOutcome::clear) return;
+    if (surface.one_sided() && from_behind(t, normal, found)) return;
+    if (triangle != k_no_triangle && !(found.time < first.time || (found.time == first.time && index < triangle)))
+      return;
+    triangle = index;
+    first = found;
+    const Position &near = placed.position, &whole = ground_motion.start.position;
+    if (ground_is_a)
+      first.point +=
+          {real_difference(near.x, whole.x), real_difference(near.y, whole.y), real_difference(near.z, whole.z)};
+  }
+
+  /// The box about the body on its way, as the surface sees it, larger by what its turning may add.
+  void walk() {
+    int64_t reach = radius + (radius >> 10);
+    if (turns) {
+      constexpr Real k_far = 32768.0, k_most = 2.0;
+      const Real angle = min(length(ground_motion.turn), k_most);
+      const Real distance = min(real_from_raw(length_bound(centre)), k_far);
+      const Real swept = min(length(motion.displacement - ground_motion.displacement), k_far);
+      reach = saturated_sum(reach, saturated_sum(raw_length(angle * distance), raw_length(angle * swept)));
+    }
+    constexpr int64_t k_all = int64_t{1} << 61;  // no coordinate of a surface is more than half of it
+    if (reach >= k_all) {
+      visit({-k_all, -k_all, -k_all}, {k_all, k_all, k_all});
+      return;
+    }
+    // A long way is looked along part by part, up to the one in which something is met: a box about the whole of it
+    // would hold far more triangles.
+    const auto size = [](int64_t along) { return along < 0 ? -along : along; };
+    const auto larger = [](int64_t p, int64_t q) { return p < q ? q : p; };
+    const int64_t longest = larger(size(way.x), larger(size(way.y), size(way.z)));
+    int power = 0;
+    while (!turns && power < k_parts_power_max && longest >> power > 4 * reach) ++power;
+    const int64_t parts = int64_t{1} << power, margin = reach + parts - 1;  // each part's ends are rounded down
+    const Vec64 step = {way.x >> power, way.y >> power, way.z >> power};
+    for (int64_t part = 0; part < parts; ++part) {
+      const auto low = [&](int64_t at, int64_t along) { return at + along * part + (along < 0 ? along : 0) - margin; };
+      const auto high = [&](int64_t at, int64_t along) { return at + along * part + (along > 0 ? along : 0) + margin; };
+      visit({low(centre.x, step.x), low(centre.y, step.y), low(centre.z, step.z)},
+            {high(centre.x, step.x), high(centre.y, step.y), high(centre.z, step.z)});
+      if (triangle != k_no_triangle && first.time.raw <= (k_whole_step.raw >> power) * (part + 1)) return;
+    }
+  }
+  void visit(const Vec64& low, const Vec64& high) {
+    code.visit(
+        surface, low, high, [](void* search, uint32_t index) { static_cast<SurfaceSearch*>(search)->ask(index); },
+        this);
+  }
+};
+
+}  // namespace
+
+bool surface_impact(const AssetTable& assets, const SurfaceCode& code, const SweptBody& a, const SweptBody& b,
+                    const Convex& convex, Fraction time, TimeOfImpact& impact) {
+  const bool ground_is_a = is_surface(a.traits);
+  const SweptBody &ground = ground_is_a ? a : b, &body = ground_is_a ? b : a;
+  if (!is_in(assets, ground.traits.asset)) return false;
+  const Motion ground_motion = motion_from(ground, time), motion = motion_from(body, time);
+  SurfacePlace place;
+  Vec64 way;
+  if (place_on_surface(ground_motion.start, motion.start, place) != Status::ok ||
+      !raw_from_real(motion.displacement - ground_motion.displacement, way))
+    return false;
+  SurfaceSearch search = {code,
+                          ground,
+                          surface_of(ground.traits, assets),
+                          ground_motion,
+                          convex,
+                          motion,
+                          time,
+                          ground_is_a,
+                          !(ground_motion.turn == Vec3<Real>{k_zero, k_zero, k_zero}),
+                          place.surface,
+                          place.centre,
+                          rotate_back(place.surface, way),
+                          raw_length(real_from_unit(body.traits.bounding_radius, body.traits.size_exponent))};
+  search.walk();
+  if (search.failed) return false;
+  impact = search.first;
+  if (search.triangle != k_no_triangle) return true;
+  impact = {};
+  impact.outcome = ToiOutcome::clear;
+  impact.time = k_whole_step;
+  return true;
+}
+
+const SurfaceImpactCode k_surface_impact_code = {surface_impact};
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

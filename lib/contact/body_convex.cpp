@@ -1,0 +1,74 @@
+#include "contact/body_convex.h"
+
+#include "math/arithmetic.h"
+#include "shape/hull.h"
+#include "shape/shape_traits.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+/// In 2^-30, to nearest.
+#if DETENT_FIXED
+int32_t raw_from_unit(Unit value) { return value.raw; }
+#else
+int32_t raw_from_unit(Unit value) {
+  bool saturated = false;  // never: |value| < 2
+  return static_cast<int32_t>(integer_from_float(value, 30, saturated));
+}
+#endif
+
+/// What the rounding of the sizes and of the bounding radius leaves out of the latter.
+constexpr int32_t k_bound_slack = sizeof(Unit) == 4 && !DETENT_FIXED ? 1 << 8 : 4;
+
+/// The sizes and the greatest distance from the origin, in 2^-30 2^exponent m, in the unit that this distance asks for.
+void set_core(const int32_t (&size)[3], int32_t bound, int32_t exponent, Convex& convex) {
+  int lift = 30 - bit_length_32(static_cast<uint32_t>(bound));
+  if (lift > exponent - k_size_exponent_min) lift = exponent - k_size_exponent_min;
+  convex.exponent = exponent - lift;
+  for (int i = 0; i < 3; ++i) convex.size[i] = static_cast<int32_t>(shift_64(size[i], lift));
+  convex.core_radius = static_cast<int32_t>(lift < 0 ? (bound >> 1) + 2 : shift_64(bound, lift));
+}
+
+}  // namespace
+
+bool body_convex(const BodyTraits& traits, const AssetTable& assets, Convex& convex) {
+  Convex made;
+  made.type = static_cast<ShapeType>(traits.shape);
+  made.radius = raw_from_unit(traits.rounding);
+  made.radius_exponent = traits.size_exponent;
+  int32_t size[3] = {raw_from_unit(traits.size.x), raw_from_unit(traits.size.y), raw_from_unit(traits.size.z)};
+  switch (made.type) {
+    case ShapeType::capsule:
+      made.radius = size[0];
+      size[0] = 0;
+      if (size[1] != 0) set_core(size, size[1], traits.size_exponent, made);
+      break;
+    case ShapeType::box:
+    case ShapeType::cylinder:
+    case ShapeType::cone:
+      set_core(size, raw_from_unit(traits.bounding_radius) - made.radius + k_bound_slack, traits.size_exponent, made);
+      break;
+    case ShapeType::hull: {
+      if (!is_in(assets, traits.asset)) return false;
+      made.hull = assets.assets[traits.asset].bytes;
+      made.exponent = cooked_i32(made.hull + k_hull_exponent_at);
+      made.core_radius = cooked_i32(made.hull + k_hull_core_radius_at);
+      made.vertex_count = cooked_u32(made.hull + k_hull_vertex_count_at);
+      break;
+    }
+    case ShapeType::sphere:
+      made.radius = size[0];
+      break;
+    case ShapeType::compound:
+      return false;
+    default:
+      made.radius_exponent = 0;
+      break;
+  }
+  convex = made;
+  return true;
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

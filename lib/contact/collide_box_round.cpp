@@ -1,0 +1,289 @@
+#include "contact/collide_shapes.h"
+#include "contact/segments.h"
+#include "math/root.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+constexpr Unit k_meeting = 0x1p-24;  // cores closer than this have no trustworthy direction between them
+// A normal closer than 2^-13 to a face's is the face's: lengths err by 2^-27, and a capsule that lies across the rim of
+// a face keeps both its points while it trembles.
+constexpr int k_upright_power = -13;
+
+struct Axes {
+  Unit v[3];
+};
+Axes axes_of(const Vec3<Unit>& v) { return {{v.x, v.y, v.z}}; }
+Vec3<Unit> vector_of(const Axes& a) { return {a.v[0], a.v[1], a.v[2]}; }
+
+/// A box at the origin and a segment, in the box's axes.
+struct BoxAndSegment {
+  Axes half, centre, direction;
+  Unit half_length;
+
+  Unit at(int axis, Unit along) const { return centre.v[axis] + direction.v[axis] * along; }
+  /// How far the point at `along` lies beyond the box, for each axis.
+  Axes excess(Unit along) const {
+    Axes result;
+    for (int i = 0; i < 3; ++i) {
+      const Unit p = at(i, along);
+      result.v[i] = p - clamp(p, -half.v[i], half.v[i]);
+    }
+    return result;
+  }
+  /// Half the derivative of the squared distance along the segment: nondecreasing, linear between the planes of the
+  /// faces.
+  Unit slope(Unit along) const { return dot(vector_of(direction), vector_of(excess(along))); }
+};
+
+/// The point of the segment closest to the box: where the slope changes sign, found among the crossings of the face
+/// planes and by one interpolation between two of them; the middle where the slope is zero over a stretch.
+Unit closest_along(const BoxAndSegment& pair) {
+  const Unit zero = 0.0;
+  const Unit limit = pair.half_length;
+  Unit low = -limit, high = limit;
+  Unit low_slope = pair.slope(low), high_slope = pair.slope(high);
+  if (low_slope >= zero && !(low_slope == zero && high_slope == zero)) {
+    if (low_slope > zero) return low;
+  }
+  if (high_slope < zero) return high;
+  Unit zero_low = limit, zero_high = -limit;
+  const auto visit = [&](Unit along) {
+    const Unit slope = pair.slope(along);
+    if (slope < zero && along >= low) {
+      low = along;
+      low_slope = slope;
+    } else if (slope > zero && along <= high) {
+      high = along;
+      high_slope = slope;
+    } else if (slope == zero) {
+      zero_low = min(zero_low, along);
+      zero_high = max(zero_high, along);
+    }
+  };
+  visit(-limit);
+  visit(limit);
+  for (int axis = 0; axis < 3; ++axis) {
+    const Unit speed = abs(pair.direction.v[axis]);
+    for (int side = 0; side < 2; ++side) {
+      const Unit face = side == 0 ? pair.half.v[axis] : -pair.half.v[axis];
+      const Unit way = pair.direction.v[axis] < zero ? pair.centre.v[axis] - face : face - pair.centre.v[axis];
+      if (abs(way) < limit * speed) visit(divide(way, speed));
+    }
+  }
+  if (zero_low <= zero_high) return zero_low + scale_by_power(zero_high - zero_low, -1);
+  const Unit span = high_slope - low_slope;
+  return span > zero ? low + (high - low) * divide(-low_slope, span) : low;
+}
+
+struct BoxContact {
+  Axes normal;  ///< out of the box
+  int face;     ///< axis of the face that the normal belongs to, or -1
+  Unit along;   ///< on the segment, where no face is
+
+  /// Takes the face of that axis on the side to which the normal points.
+  void set_face(int axis) {
+    const Unit side = normal.v[axis] < Unit(0.0) ? Unit(-1.0) : Unit(1.0);
+    face = axis;
+    normal = {{0.0, 0.0, 0.0}};
+    normal.v[axis] = side;
+  }
+};
+
+/// The direction of least overlap of a box and a segment that meet.
+BoxContact least_overlap(const BoxAndSegment& pair) {
+  const Unit zero = 0.0;
+  BoxContact best{};
+  Unit best_separation = -1.5;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Unit separation =
+        abs(pair.centre.v[axis]) - pair.half_length * abs(pair.direction.v[axis]) - pair.half.v[axis];
+    if (separation > best_separation) {
+      best_separation = separation;
+      best = {{{zero, zero, zero}}, axis, zero};
+      best.normal.v[axis] = pair.centre.v[axis] < zero ? Unit(-1.0) : Unit(1.0);
+    }
+  }
+  if (pair.half_length == zero) return best;
+  for (int axis = 0; axis < 3; ++axis) {
+    Axes edge = {{zero, zero, zero}};
+    edge.v[axis] = 1.0;
+    Vec3<Unit> normal;
+    Unit size = zero;
+    if (!normalise(cross(vector_of(edge), vector_of(pair.direction)), normal, size) || size < Unit(0x1p-5)) continue;
+    if (dot(normal, vector_of(pair.centre)) < zero) normal = -normal;
+    const Axes n = axes_of(normal);
+    Unit support = zero;
+    for (int i = 0; i < 3; ++i) support += pair.half.v[i] * abs(n.v[i]);
+    const Unit separation = dot(normal, vector_of(pair.centre)) - support;
+    // A face is kept unless the edge is clearly better, so that a resting pair does not flip between them.
+    if (separation > best_separation + scale_by_power(pair.half.v[axis], -6)) {
+      best_separation = separation;
+      Segment box_edge = {vector_of({{zero, zero, zero}}), vector_of(edge), pair.half.v[axis]};
+      Axes middle;
+      for (int i = 0; i < 3; ++i) middle.v[i] = i == axis ? zero : (n.v[i] < zero ? -pair.half.v[i] : pair.half.v[i]);
+      box_edge.centre = vector_of(middle);
+      const Segment segment = {vector_of(pair.centre), vector_of(pair.direction), pair.half_length};
+      Unit on_edge = zero;
+      best = {n, -1, zero};
+      closest_points(box_edge, segment, on_edge, best.along);
+    }
+  }
+  return best;
+}
+
+/// The part of the segment over the face, clipped to the face's sides; false if there is none.
+bool clip_to_face(const BoxAndSegment& pair, int face, Unit& low, Unit& high) {
+  low = -pair.half_length;
+  high = pair.half_length;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (axis == face) continue;
+    const Unit speed = abs(pair.direction.v[axis]);
+    const Unit centre = pair.direction.v[axis] < Unit(0.0) ? -pair.centre.v[axis] : pair.centre.v[axis];
+    const Unit until = pair.half.v[axis] - centre;
+    const Unit since = -pair.half.v[axis] - centre;
+    if (until < low * speed || since > high * speed) return false;
+    if (until < high * speed) high = divide(until, speed);
+    if (since > low * speed) low = divide(since, speed);
+  }
+  return low <= high;
+}
+
+/// The axis of the edge that the normal is across, or -1.
+int edge_of(const BoxContact& contact) {
+  int edge = -1;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (abs(contact.normal.v[axis]) < Unit(0x1p-12)) edge = axis;
+  }
+  return edge;
+}
+
+/// Within 2^-5 rad, as for edges of hulls.
+bool is_along(const BoxAndSegment& pair, int edge) { return abs(pair.direction.v[edge]) > Unit(1.0 - 0x1p-11); }
+
+/// Whether the normal at an edge turns as they slide past each other: not where lines cross.
+__attribute__((noinline)) bool turns_at_edge(const BoxAndSegment& pair, const BoxContact& contact) {
+  if (contact.along >= pair.half_length || contact.along <= -pair.half_length) return true;
+  const int edge = edge_of(contact);
+  return edge < 0 || is_along(pair, edge);
+}
+
+/// The part of the segment that lies along the edge of the contact; false if there is none.
+__attribute__((noinline)) bool clip_to_edge(const BoxAndSegment& pair, const BoxContact& contact, Unit thickness,
+                                            Unit& low, Unit& high) {
+  const int edge = pair.half_length > Unit(0.0) ? edge_of(contact) : -1;
+  if (edge < 0 || !is_along(pair, edge)) return false;
+  const bool backwards = pair.direction.v[edge] < Unit(0.0);
+  const Unit speed = abs(pair.direction.v[edge]);
+  const Unit centre = backwards ? -pair.centre.v[edge] : pair.centre.v[edge];
+  const Unit limit = pair.half_length;
+  low = divide_clamped(-pair.half.v[edge] - centre, speed, limit);
+  high = divide_clamped(pair.half.v[edge] - centre, speed, limit);
+  const int u = (edge + 1) % 3, v = (edge + 2) % 3;
+  const Unit rate = contact.normal.v[u] * pair.direction.v[v] - contact.normal.v[v] * pair.direction.v[u];
+  stay_beside(rate, scale_by_power(thickness, -5), contact.along, low, high);
+  return low < high;
+}
+
+/// As find_level_face() (contact_seam.h): at an edge, the face whose normal is nearest.
+__attribute__((noinline)) bool find_level_box_face(const BoxAndSegment& pair, Unit radius, Unit sunk,
+                                                   BoxContact& contact) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (abs(contact.normal.v[axis]) < k_alike_cosine) continue;
+    Unit apart = -radius, level = abs(pair.at(axis, contact.along)) - pair.half.v[axis] - radius;
+    for (int i = 0; i < 3; ++i) apart += (abs(pair.at(i, contact.along)) - pair.half.v[i]) * abs(contact.normal.v[i]);
+    if (abs(apart) > sunk || abs(level) > sunk) return false;
+    contact.set_face(axis);
+    return true;
+  }
+  return false;
+}
+
+/// Where a capsule crosses a side of a face that leans a little against it: that face, over which it would touch at one
+/// end in one tick and at the other in the next.
+__attribute__((noinline)) bool find_leaning_box_face(const BoxAndSegment& pair, BoxContact& contact) {
+  constexpr Unit k_leaning_cosine = 1.0 - 0x1p-7;  // 2^-3 rad, as for faces of hulls
+  for (int axis = 0; axis < 3; ++axis) {
+    if (abs(contact.normal.v[axis]) < k_leaning_cosine) continue;
+    Unit low, high;
+    if (!clip_to_face(pair, axis, low, high) || !(low < high)) return false;
+    contact.set_face(axis);
+    return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+void collide_box_round(const PairFrame& frame, PairManifold& manifold) {
+  const Unit zero = 0.0;
+  const Matrix3& rotation = frame.a.rotation;
+  const Unit radius = frame.b.size.x;
+  BoxAndSegment pair;
+  pair.half = axes_of(frame.a.size);
+  pair.centre = axes_of(multiply_transposed(rotation, frame.b.centre));
+  pair.direction = axes_of(multiply_transposed(rotation, frame.b.rotation.column[1]));
+  pair.half_length = frame.b.type == ShapeType::capsule ? frame.b.size.y : zero;
+
+  const Unit along = pair.half_length == zero ? zero : closest_along(pair);
+  const Axes excess = pair.excess(along);
+  Vec3<Unit> normal;
+  Unit distance = zero;
+  BoxContact contact;
+  if (normalise(vector_of(excess), normal, distance) && distance > k_meeting) {
+    if (distance - radius > frame.reach) return;
+    contact = {axes_of(normal), -1, along};
+    const Unit aside = scale_by_power(distance, k_upright_power);
+    for (int axis = 0; axis < 3; ++axis) {
+      if (abs(excess.v[(axis + 1) % 3]) > aside || abs(excess.v[(axis + 2) % 3]) > aside) continue;
+      contact.set_face(axis);
+    }
+  } else {
+    contact = least_overlap(pair);
+  }
+  const Unit thickness = min(radius, min(pair.half.v[0], min(pair.half.v[1], pair.half.v[2])));
+  if (contact.face < 0) {
+    const Unit sunk = min(frame.sunk, scale_by_power(thickness, -5));  // small shapes are not sunk in so far
+    manifold.seam = frame.smooth_seams && find_level_box_face(pair, radius, sunk, contact);
+    manifold.turns = !manifold.seam && turns_at_edge(pair, contact);
+    if (!manifold.seam && !manifold.turns) find_leaning_box_face(pair, contact);
+  }
+  manifold.normal = multiply(rotation, vector_of(contact.normal));
+
+  const auto add = [&](Unit at, Unit surface, uint32_t feature) {
+    Axes point;
+    for (int i = 0; i < 3; ++i) point.v[i] = pair.at(i, at);
+    const Unit separation = dot(vector_of(point), vector_of(contact.normal)) - surface - radius;
+    if (separation > frame.reach) return;
+    const Unit inward = radius + scale_by_power(separation, -1);
+    manifold.add({multiply(rotation, vector_of(point) - vector_of(contact.normal) * inward), separation, feature});
+  };
+  if (contact.face >= 0) {
+    const int face = contact.face;
+    const uint32_t base = 1 + 4 * static_cast<uint32_t>(2 * face + (contact.normal.v[face] < zero ? 1 : 0));
+    const Unit surface = pair.half.v[face];
+    Unit low = zero, high = zero;
+    if (pair.half_length > zero && clip_to_face(pair, face, low, high) && low < high) {
+      add(low, surface, base);
+      add(high, surface, base + 1);
+    } else {
+      add(along, surface, base + 2);
+    }
+    return;
+  }
+  Unit surface = zero;
+  for (int i = 0; i < 3; ++i) surface += pair.half.v[i] * abs(contact.normal.v[i]);
+  Unit low = zero, high = zero;
+  if (clip_to_edge(pair, contact, thickness, low, high)) {
+    add(low, surface, 65);
+    add(high, surface, 66);
+  } else {
+    add(contact.along, surface, 64);
+  }
+}
+
+const PairCode k_box_round_pair_code = {collide_box_round};
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,106 @@
+#include "contact/collide_half_space.h"
+
+#include "contact/contact_arm.h"
+#include "math/arithmetic.h"
+#include "math/wide.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+#if DETENT_FIXED
+Real distance_along(const Position& from, const Position& to, const Vec3<Unit>& direction) {
+  // Each coordinate by itself: the difference of two 64-bit ones need not fit.
+  const auto term = [](Coord a, Coord b, Unit d) {
+    return Int128::product_narrow(b.raw, d.raw) - Int128::product_narrow(a.raw, d.raw);
+  };
+  const Int128 sum =
+      term(from.x, to.x, direction.x) + term(from.y, to.y, direction.y) + term(from.z, to.z, direction.z);
+  constexpr int k_shift = Coord::k_frac + Unit::k_frac - Real::k_frac;
+  constexpr int k_lift = k_shift < 1 ? 1 - k_shift : 0;  // fx32: there are fewer bits than a Real holds
+  const Int128 lifted = sum.shift_left(k_lift);
+  const Int128 limit = Int128::from(INT64_MAX).shift_left(k_shift + k_lift);
+  if (limit < lifted) return k_real_max;
+  if (lifted < -limit) return -k_real_max;
+  return Real::from_raw(lifted.round_shift(k_shift + k_lift));
+}
+#else
+Real distance_along(const Position& from, const Position& to, const Vec3<Unit>& direction) {
+  return real_difference(to.x, from.x) * direction.x + real_difference(to.y, from.y) * direction.y +
+         real_difference(to.z, from.z) * direction.z;
+}
+#endif
+
+namespace {
+
+/// Collects points of the body, given from its centre in its unit of length, that lie within reach of the plane.
+struct Collector {
+  Vec3<Unit> normal;
+  Real height;  ///< of the body's centre over the plane
+  Real reach;
+  int exponent;
+  ContactGeometry& contact;
+
+  void add(const Vec3<Unit>& offset, uint32_t feature) {
+    const Real separation = height + real_from_unit(dot(normal, offset), exponent);
+    if (separation > reach) return;
+    // A body far below the plane is still in contact.
+    const Real unit = real_from_unit(Unit(1.0), exponent);
+    const Unit half = unit_from_real(scale_by_power(max(separation, -unit), -1), exponent);
+    contact.point[contact.count++] = {{0.0, 0.0, 0.0}, arm_of_point(offset - normal * half, 0), separation, feature};
+  }
+};
+
+/// The four corners of the face that looks most towards the plane.
+void collide_box(const BodyTraits& traits, const Matrix3& rotation, Collector& collector) {
+  const Unit half[3] = {traits.size.x, traits.size.y, traits.size.z};
+  int face = 0;
+  Unit facing = -1.0;
+  for (int i = 0; i < 3; ++i) {
+    const Unit along = abs(dot(collector.normal, rotation.column[i]));
+    if (along > facing) {
+      facing = along;
+      face = i;
+    }
+  }
+  const bool upper = dot(collector.normal, rotation.column[face]) < Unit(0.0);
+  const Vec3<Unit> outward = rotation.column[face] * half[face];
+  const Vec3<Unit> middle = upper ? outward : -outward;
+  const Vec3<Unit> u = rotation.column[(face + 1) % 3] * half[(face + 1) % 3];
+  const Vec3<Unit> v = rotation.column[(face + 2) % 3] * half[(face + 2) % 3];
+  const uint32_t base = 1 + 4 * (2 * static_cast<uint32_t>(face) + (upper ? 1u : 0u));
+  collector.add(middle + u + v, base);
+  collector.add(middle - u + v, base + 1);
+  collector.add(middle - u - v, base + 2);
+  collector.add(middle + u - v, base + 3);
+}
+
+}  // namespace
+
+void collide_half_space(const CollisionBody& plane, const CollisionBody& body, Real reach, ContactGeometry& contact) {
+  contact.normal = plane.rotation.column[1];
+  const BodyTraits& traits = body.traits;
+  Collector collector = {contact.normal, distance_along(plane.pose.position, body.pose.position, contact.normal), reach,
+                         traits.size_exponent, contact};
+  switch (static_cast<ShapeType>(traits.shape)) {
+    case ShapeType::sphere:
+      collector.add(-(contact.normal * traits.size.x), 1);
+      break;
+    case ShapeType::capsule: {
+      const Vec3<Unit> axis = body.rotation.column[1] * traits.size.y;
+      const Vec3<Unit> down = contact.normal * traits.size.x;
+      collector.add(axis - down, 1);
+      collector.add(-axis - down, 2);
+      break;
+    }
+    case ShapeType::box:
+      collide_box(traits, body.rotation, collector);
+      break;
+    default:
+      break;
+  }
+}
+
+const HalfSpaceCode k_half_space_code = {collide_half_space};
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,61 @@
+#include "contact/collide_mesh.h"
+
+#include "contact/collide_convex.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+/// The name of a contact's feature, made independent of the triangle: its face is named as any, what is on it by the
+/// shape alone, and its corners and edges by where they are.
+uint32_t feature_of(uint32_t feature, const uint32_t (&corner)[3]) {
+  const uint32_t kind = feature >> 10 & 3, index = feature & 0x3ff, kept = feature & 0xfffc00u;
+  if (kind == static_cast<uint32_t>(FeatureType::face)) return kept;
+  // Edge 0 runs between corners 0 and 1, 1 between 0 and 2, 2 between 1 and 2, as contact_feature.h names them.
+  const uint32_t name = kind == static_cast<uint32_t>(FeatureType::vertex) ? corner[index % 3]
+                        : index == 0                                       ? corner[0] + corner[1]
+                        : index == 1                                       ? corner[0] + corner[2]
+                                                                           : corner[1] + corner[2];
+  return kept | (name & 0x3ff) | (name >> 10 & 0xff) << 24;
+}
+
+}  // namespace
+
+void collide_mesh(const Surface& surface, const CollisionBody& ground, const CollisionBody& body, const Convex& shape,
+                  const Vec64& middle, const ContactReach& reach, SurfaceContacts& contacts) {
+  contacts.count = 0;
+  contacts.dropped = 0;
+  contacts.seam = false;
+  contacts.capped = true;
+  SurfacePlace place;
+  ContactRules rules;
+  if (!make_rules(reach, ManifoldReduction::projected_extremes, rules) ||
+      place_on_surface({ground.pose.position, ground.pose.rotation}, {body.pose.position, body.pose.rotation}, place) !=
+          Status::ok) {
+    return;
+  }
+  place.middle = rotate(place.rotation, middle);
+  const SurfacePair pair(surface, place, shape, rules);
+  SurfaceManifolds found(pair.half_thickness());
+  surface.walk([&](const GridBox& box) { return meet(box, pair.box()); },
+               [&](uint32_t triangle) {
+                 SurfaceTouch touch;
+                 const bool touches = pair.touch(triangle, touch);
+                 contacts.seam = contacts.seam || touch.seam;
+                 if (!touches) return;
+                 for (uint32_t i = 0; i < touch.manifold.count; ++i) {
+                   uint32_t& feature = touch.manifold.point[i].feature;
+                   feature = feature_of(feature, touch.corner_name);
+                 }
+                 found.add(touch);
+               });
+  SurfaceManifold manifold[k_surface_manifolds_max];
+  contacts.count = found.finish(manifold);
+  contacts.dropped = found.dropped();
+  contacts.capped = found.capped();
+  for (uint32_t i = 0; i < contacts.count; ++i)
+    put_contact(manifold[i], place.surface, ground, body, contacts.contact[i]);
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

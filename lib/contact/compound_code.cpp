@@ -1,0 +1,282 @@
+#include "contact/compound_code.h"
+
+#include "contact/body_convex.h"
+#include "contact/collide_convex.h"
+#include "contact/surface_manifolds.h"
+#include "math/root.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+/// A ball or capsule, as a triangle whose corners coincide: so its centre may lie off the body's.
+void set_round_core(const CompoundChild& child, int32_t exponent, Convex& convex) {
+  const Vec32 ends[2] = {child.low, child.high};
+  int64_t bound = 0;
+  for (const Vec32& end : ends) {
+    const int64_t far = length_bound({end.x, end.y, end.z});
+    bound = far > bound ? far : bound;
+  }
+  ++bound;
+  int lift = 30 - bit_length_64(static_cast<uint64_t>(bound));
+  if (lift > exponent - k_size_exponent_min) lift = exponent - k_size_exponent_min;
+  const auto shifted = [lift](int64_t value) {
+    return static_cast<int32_t>(lift < 0 ? (value >> -lift) + 1 : value * (int64_t{1} << lift));
+  };
+  convex.type = ShapeType::triangle;
+  convex.exponent = exponent - lift;
+  convex.core_radius = shifted(bound);
+  for (int k = 0; k < 3; ++k) {
+    const Vec32& end = ends[k == 0 ? 0 : 1];
+    convex.corner[k][0] = shifted(end.x);
+    convex.corner[k][1] = shifted(end.y);
+    convex.corner[k][2] = shifted(end.z);
+  }
+}
+
+void set_hull_core(const uint8_t* bytes, const CompoundChild& child, int32_t exponent, Convex& convex) {
+  convex.type = ShapeType::hull;
+  convex.hull = bytes;
+  convex.exponent = cooked_i32(bytes + k_hull_exponent_at);
+  convex.core_radius = cooked_i32(bytes + k_hull_core_radius_at);
+  convex.vertex_count = cooked_u32(bytes + k_hull_vertex_count_at);
+  const int64_t thickness = int64_t{child.half_thickness - child.radius} << (exponent - convex.exponent);
+  convex.size[0] = static_cast<int32_t>(thickness < INT32_MAX ? thickness : INT32_MAX);
+}
+
+int64_t raw_size(Unit value, int32_t exponent) {
+  Vec64 raw = {0, 0, 0};
+  return raw_from_real({real_from_unit(value, exponent), Real(0.0), Real(0.0)}, raw) ? raw.x : 0;
+}
+
+/// The name of what belongs to a part, or to two.
+uint32_t name_of_part(uint32_t part, uint32_t name) {
+  uint32_t mixed = (name ^ part * 0x9e3779b1u) * 0x85ebca77u;
+  mixed ^= mixed >> 15;
+  return mixed == 0 ? 1 : mixed;
+}
+
+Vec64 raw_way(const Vec3<Unit>& arm, int32_t exponent, bool& known) {
+  Vec64 raw = {0, 0, 0};
+  known =
+      raw_from_real({real_from_unit(arm.x, exponent), real_from_unit(arm.y, exponent), real_from_unit(arm.z, exponent)},
+                    raw) &&
+      known;
+  return raw;
+}
+
+/// Half the thickness of the thinner compound's thinnest part, 2^-46 m.
+int64_t half_thickness_of(const BodyTraits& a, const BodyTraits& b) {
+  const auto own = [](const BodyTraits& traits) {
+    return is_compound(traits) ? raw_size(traits.rounding, traits.size_exponent) : INT64_MAX;
+  };
+  const int64_t of_a = own(a), of_b = own(b);
+  return of_a < of_b ? of_a : of_b;
+}
+
+/// Collects the contacts of parts: what lies in one plane is one contact, whatever parts it is of.
+class PartContacts {
+ public:
+  PartContacts(const CollisionBody& a, const CollisionBody& b)
+      : swapped_(is_half_space(b.traits)),
+        ground_(swapped_ ? b : a),
+        body_(swapped_ ? a : b),
+        found_(half_thickness_of(a.traits, b.traits)) {}
+
+  /// `part`: as ContactGeometryPoint::part. `contact.key`: distinct among those of a part.
+  void add(const SurfaceContact& contact, uint32_t part) {
+    ContactGeometry geometry = contact.geometry;
+    if (geometry.count == 0) return;
+    if (swapped_) swap_bodies(geometry);
+    bool known = true;
+    SurfaceTouch touch = {};
+    touch.triangle = contact.triangle;
+    touch.material = contact.material;
+    touch.part = part;
+    touch.on_face = true;
+    touch.manifold.turns = geometry.turns;
+    touch.manifold.normal = round_shift(raw_way(geometry.normal, 0, known), k_metre_bits - 30);
+    touch.manifold.count = geometry.count;
+    touch.deepest = INT64_MAX;
+    for (uint32_t i = 0; i < geometry.count; ++i) {
+      const ContactGeometryPoint& point = geometry.point[i];
+      Vec64 separation = {0, 0, 0};
+      known = raw_from_real({point.separation, Real(0.0), Real(0.0)}, separation) && known;
+      touch.manifold.point[i] = {{0, 0, 0},
+                                 raw_way(point.arm_b, body_.traits.size_exponent, known),
+                                 separation.x,
+                                 name_of_part(part ^ contact.key, point.feature)};
+      touch.deepest = separation.x < touch.deepest ? separation.x : touch.deepest;
+    }
+    touch.manifold.capped = !known;
+    found_.add(touch);
+  }
+
+  void finish(SurfaceContacts& contacts) {
+    constexpr Matrix32 k_world = {{{k_one, 0, 0}, {0, k_one, 0}, {0, 0, k_one}}};
+    SurfaceManifold manifold[k_surface_manifolds_max];
+    contacts.count = found_.finish(manifold);
+    contacts.dropped += found_.dropped();
+    contacts.capped = contacts.capped || found_.capped();
+    for (uint32_t i = 0; i < contacts.count; ++i)
+      put_contact(manifold[i], k_world, ground_, body_, contacts.contact[i]);
+    for (uint32_t i = 0; swapped_ && i < contacts.count; ++i) swap_bodies(contacts.contact[i].geometry);
+  }
+
+ private:
+  bool swapped_;
+  const CollisionBody &ground_, &body_;
+  SurfaceManifolds found_;
+};
+
+void collide_with_surface(const CollisionBody& a, const CollisionBody& b, const ContactReach& reach,
+                          const AssetTable& assets, const FeatureTable& features, SurfaceContacts& contacts) {
+  PartContacts collected(a, b);
+  const ConvexParts parts((is_surface(a.traits) ? b : a).traits, assets);
+  for (uint32_t i = 0; i < parts.count(); ++i) {
+    Convex convex;
+    Vec64 middle, half;
+    parts.place(i, middle, half);
+    if (!parts.convex(i, false, convex)) {
+      contacts.capped = true;
+      return;
+    }
+    SurfaceContacts found;
+    features.surface->collide_part(a, b, convex, middle, reach, assets, found);
+    contacts.capped = contacts.capped || found.capped;
+    contacts.seam = contacts.seam || found.seam;
+    contacts.dropped += found.dropped;
+    for (uint32_t k = 0; k < found.count; ++k)
+      collected.add(found.contact[k], is_surface(a.traits) ? parts.name(i) : parts.name(i) << 16);
+  }
+  collected.finish(contacts);
+}
+
+/// Bounds of B's parts in A's axes against those of A's parts.
+struct PartCulling {
+  SurfacePlace place;
+  int64_t reach;
+  bool known;
+
+  PartCulling(const CollisionBody& a, const CollisionBody& b, Real distance) {
+    Vec64 raw;
+    known =
+        !is_half_space(a.traits) && !is_half_space(b.traits) && raw_from_real({distance, Real(0.0), Real(0.0)}, raw) &&
+        place_on_surface({a.pose.position, a.pose.rotation}, {b.pose.position, b.pose.rotation}, place) == Status::ok;
+    reach = known ? raw.x + (raw.x >> 10) + 1024 : 0;
+  }
+  /// B's box, brought into A's axes.
+  void bring(Vec64& middle, Vec64& half) const {
+    if (!known) return;
+    const Vec64 turned = rotate(place.rotation, middle);
+    middle = {saturated_sum(place.centre.x, turned.x), saturated_sum(place.centre.y, turned.y),
+              saturated_sum(place.centre.z, turned.z)};
+    const auto absolute = [](int32_t v) { return v < 0 ? -v : v; };
+    const Matrix32& m = place.rotation;
+    Matrix32 size;
+    for (int k = 0; k < 3; ++k)
+      size.column[k] = {absolute(m.column[k].x), absolute(m.column[k].y), absolute(m.column[k].z)};
+    half = rotate(size, half);
+  }
+  bool meet(const Vec64& middle_a, const Vec64& half_a, const Vec64& middle_b, const Vec64& half_b) const {
+    if (!known) return true;
+    const auto near = [this](int64_t a, int64_t ha, int64_t b, int64_t hb) {
+      // The rotation errs by less than 2^-27.
+      const int64_t room = saturated_sum(saturated_sum(ha, hb), reach + (hb >> 20) + (ha >> 20));
+      return static_cast<int64_t>(magnitude_64(saturated_sum(b, -a))) <=
+             saturated_sum(room, static_cast<int64_t>(magnitude_64(b) >> 24));
+    };
+    return near(middle_a.x, half_a.x, middle_b.x, half_b.x) && near(middle_a.y, half_a.y, middle_b.y, half_b.y) &&
+           near(middle_a.z, half_a.z, middle_b.z, half_b.z);
+  }
+};
+
+}  // namespace
+
+ConvexParts::ConvexParts(const BodyTraits& traits, const AssetTable& assets)
+    : traits_(traits), assets_(assets), count_(1) {
+  if (!is_compound(traits)) return;
+  count_ = 0;
+  if (!is_in(assets, traits.asset)) return;
+  compound_ = compound_view(assets.assets[traits.asset].bytes);
+  count_ = compound_.child_count;
+}
+
+bool ConvexParts::convex(uint32_t i, bool inner, Convex& convex) const {
+  if (whole()) return body_convex(traits_, assets_, convex);
+  const CompoundChild child = compound_.child(i);
+  const int32_t exponent = compound_.exponent();
+  Convex made;
+  made.radius = child.radius;
+  made.radius_exponent = exponent;
+  if (child.kind == ChildKind::hull)
+    set_hull_core(compound_.bytes + (inner ? child.inner_at : child.hull_at), child, exponent, made);
+  else
+    set_round_core(child, exponent, made);
+  convex = made;
+  return true;
+}
+
+void ConvexParts::place(uint32_t i, Vec64& middle, Vec64& half) const {
+  if (whole()) {
+    middle = {0, 0, 0};
+    const int64_t ball = raw_size(traits_.bounding_radius, traits_.size_exponent);
+    half = {ball, ball, ball};
+    return;
+  }
+  const ChildBox box = child_box(compound_.child(i));
+  const int shift = k_metre_bits - 31 + compound_.exponent();  // of twice the coordinate; 1 to 30
+  const auto raw = [shift](int64_t twice) { return twice * (int64_t{1} << shift); };
+  const Vec32 &low = box.low, &high = box.high;
+  middle = {raw(int64_t{low.x} + high.x), raw(int64_t{low.y} + high.y), raw(int64_t{low.z} + high.z)};
+  half = {raw(int64_t{high.x} - low.x), raw(int64_t{high.y} - low.y), raw(int64_t{high.z} - low.z)};
+}
+
+Real ConvexParts::reach(uint32_t i) const {
+  Vec64 middle, half;
+  place(i, middle, half);
+  return whole() ? real_from_raw(half.x) : real_from_raw(length_bound(half));
+}
+
+void collide_compound(const CollisionBody& a, const CollisionBody& b, const ContactReach& reach,
+                      const AssetTable& assets, ManifoldReduction reduction, const FeatureTable& features,
+                      SurfaceContacts& contacts) {
+  contacts.count = contacts.dropped = 0;
+  contacts.seam = contacts.capped = false;
+  if (is_surface(a.traits) || is_surface(b.traits)) {
+    collide_with_surface(a, b, reach, assets, features, contacts);
+    return;
+  }
+  const ConvexParts parts_a(a.traits, assets), parts_b(b.traits, assets);
+  contacts.capped = parts_a.count() == 0 || parts_b.count() == 0;
+  const PartCulling culling(a, b, reach.distance);
+  PartContacts collected(a, b);
+  for (uint32_t j = 0; j < parts_b.count(); ++j) {
+    Convex convex_b;
+    Vec64 middle_b, half_b;
+    parts_b.place(j, middle_b, half_b);
+    culling.bring(middle_b, half_b);
+    const bool known = parts_b.convex(j, false, convex_b);
+    contacts.capped = contacts.capped || !known;
+    for (uint32_t i = 0; known && i < parts_a.count(); ++i) {
+      Vec64 middle_a, half_a;
+      parts_a.place(i, middle_a, half_a);
+      if (!culling.meet(middle_a, half_a, middle_b, half_b)) continue;
+      Convex convex_a;
+      SurfaceContact contact = {};
+      if (parts_a.convex(i, false, convex_a))
+        collide_convexes(a, convex_a, b, convex_b, reach, reduction, contact.geometry);
+      else
+        contact.geometry.capped = true;
+      contacts.capped = contacts.capped || contact.geometry.capped;
+      contacts.seam = contacts.seam || contact.geometry.seam;
+      collected.add(contact, parts_a.name(i) << 16 | parts_b.name(j));
+    }
+  }
+  collected.finish(contacts);
+}
+
+const CompoundCode k_compound_code = {read_compound, collide_compound};
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,38 @@
+#include "contact/contact_arm.h"
+
+#include "math/root.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+/// Of an arm whose components are held_arm, its length.
+Vec3<Unit> held_arm(const Vec3<Unit>& arm) {
+  constexpr Unit k_surely_short = 0.7216;  // of each component: the limit over sqrt(3)
+  if (max(abs(arm.x), max(abs(arm.y), abs(arm.z))) < k_surely_short) return arm;
+  const auto half = [](Unit value) { return scale_by_power(value, -1); };
+  const Vec3<Unit> halved = {half(arm.x), half(arm.y), half(arm.z)};
+  const Unit limit = half(k_arm_max);
+  if (!(dot(halved, halved) > limit * limit)) return arm;
+  Vec3<Unit> direction;
+  Unit ignored;
+  normalise(halved, direction, ignored);
+  return direction * k_arm_max;
+}
+
+}  // namespace
+
+Vec3<Unit> arm_of_point(const Vec3<Unit>& point, int power) {
+  const Unit limit = scale_by_power(k_arm_max, power > 0 ? -power : 0);
+  const auto component = [&](Unit value) { return scale_by_power(clamp(value, -limit, limit), power); };
+  return held_arm({component(point.x), component(point.y), component(point.z)});
+}
+
+Vec3<Unit> arm_of_way(const Vec3<Real>& way, int32_t exponent) {
+  const Real limit = real_from_unit(k_arm_max, exponent);
+  const auto component = [&](Real value) { return unit_from_real(clamp(value, -limit, limit), exponent); };
+  return held_arm({component(way.x), component(way.y), component(way.z)});
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,61 @@
+#include "contact/contact_axis.h"
+
+#include "distance/penetration.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+constexpr int32_t k_push = 256;  ///< ulps; deep enough for a direction
+
+/// v length, for a unit vector v.
+Vec32 scaled(const Vec32& v, int64_t length) {
+  return round_shift(Vec64{v.x * length, v.y * length, v.z * length}, 30);
+}
+
+ContactAxis axis_of(const Penetration& found) {
+  return {found.normal, -int64_t{found.depth}, found.point_a, found.point_b, found.capped};
+}
+
+/// The axis of round cores, at most `distance` ulps apart, where gjk() met its cap: B is pushed into A, and the least
+/// way out found. False if they don't meet even then.
+bool axis_by_pushing(const RestingPair& pair, const Vec32& normal, int32_t distance, ContactAxis& axis) {
+  const int64_t push = int64_t{distance} + k_push;
+  const Vec32 offset = subtract(pair.offset, scaled(normal, push));
+  Simplex simplex;
+  if (gjk(pair.a, pair.b, offset, simplex, {}).outcome != GjkOutcome::overlap) return false;
+  axis = axis_of(penetration(pair.a, pair.b, offset, simplex));
+  axis.separation += (push * (dot(normal, axis.normal) >> 30)) >> 30;
+  return true;
+}
+
+}  // namespace
+
+bool find_contact_axis(const RestingPair& pair, int32_t above, DistanceCache* cache, ContactAxis& axis) {
+  Simplex simplex;
+  if (cache != nullptr) load_cache(*cache, pair, simplex);
+  const GjkResult found = gjk_on(pair.a, pair.b, pair.offset, simplex, {-1, above});
+  if (cache != nullptr) save_cache(simplex, *cache);
+  if (found.outcome == GjkOutcome::overlap) {
+    axis = axis_of(penetration(pair.a, pair.b, pair.offset, simplex));
+    return true;
+  }
+  if (found.lower > above) return false;
+  const bool capped = found.outcome == GjkOutcome::capped;
+  if (capped && axis_by_pushing(pair, found.normal, found.upper, axis)) return true;
+  const NearestPoints nearest = nearest_points(pair.a, pair.b, simplex);
+  axis = {found.normal, found.upper, nearest.on_a, nearest.on_b, capped};
+  if (pair.planar()) {  // the point of the plane is the foot of the other's
+    const Vec32 way = subtract(add(pair.offset, axis.point_b), axis.point_a);
+    const int64_t height = dot(axis.normal, way) >> 30;
+    if (pair.a.convex->type == ShapeType::half_space) {
+      axis.point_a = subtract(add(pair.offset, axis.point_b), scaled(axis.normal, height));
+    } else {
+      axis.point_b = subtract(add(axis.point_a, scaled(axis.normal, height)), pair.offset);
+    }
+  }
+  return true;
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,373 @@
+#include "contact/contact_points.h"
+
+#include "contact/contact_axis.h"
+#include "contact/contact_clip.h"
+#include "contact/contact_seam.h"
+#include "distance/pair.h"
+#include "math/root.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+/// A face is preferred to edges, and to the axis as it is, by a 64th of the thinner core.
+constexpr int k_face_power = 6;
+constexpr int k_aside_power = 5;            ///< edges face each other within this part of the thinner half thickness
+constexpr int64_t k_upright = k_one >> 13;  ///< a normal nearer to a face's than this, rad, is the face's
+constexpr int64_t k_level = k_one >> 5;     ///< edges nearer than this to parallel, rad, touch along a line
+
+int64_t smaller_but_0(int64_t a, int64_t b) { return a == 0 ? b : b == 0 || a < b ? a : b; }
+int32_t radius_in_block(const Placed& placed) { return in_block(placed, placed.convex->core_radius); }
+
+/// |a x b| <= limit, for unit vectors, all Q30.
+bool is_parallel(const Vec32& a, const Vec32& b, int64_t limit) {
+  const Vec32 sine = round_shift(cross(a, b), 30);
+  return dot(sine, sine) <= limit * limit;
+}
+
+/// a + b of any sign.
+int64_t saturated(int64_t a, int64_t b) { return b < 0 ? -saturated_sum(-a, -b) : saturated_sum(a, b); }
+
+/// The nearest of the points to another, across the reference.
+int nearest_to(const AreaPoint& place, const AreaChoice& choice) {
+  int nearest = 0;
+  for (int i = 1; i < choice.count(); ++i)
+    nearest = distance(choice[i], place) < distance(choice[nearest], place) ? i : nearest;
+  return nearest;
+}
+
+/// One of the two shapes, seen from the other.
+struct Half {
+  const Placed& placed;
+  Vec32 centre;   ///< in the block
+  Vec32 outward;  ///< the axis towards the other shape, Q30
+  int32_t thickness = core_half_thickness(placed);
+};
+
+class Builder {
+ public:
+  Builder(const RestingPair& pair, const ContactAxis& axis, const ContactRules& rules)
+      : pair_(pair),
+        axis_(axis),
+        rules_(rules),
+        half_a_{pair.a, {0, 0, 0}, axis.normal},
+        half_b_{pair.b, pair.offset, negate(axis.normal)} {
+    preference_ =
+        smaller_but_0(in_block(pair.a, half_a_.thickness), in_block(pair.b, half_b_.thickness)) >> k_face_power;
+    drop_ = smaller_but_0(radius_in_block(pair.a), radius_in_block(pair.b)) >> k_drop_power;
+  }
+
+  void build(BlockManifold& manifold) const;
+  /// Between A's face and what B has over it alone.
+  void build_over_face(const Feature& face, BlockManifold& manifold);
+
+ private:
+  bool parts_as_well(const Half& half, const Half& other, const Vec32& normal, int64_t room) const;
+  bool find_face(const Half& half, const Half& other, Feature& face) const;
+  static uint32_t name_on_axis(const Half& half);
+  bool build_on_half_space(BlockManifold& manifold) const;
+  bool build_on_face(BlockManifold& manifold) const;
+  bool build_on_leaning_face(BlockManifold& manifold) const;
+  bool build_on_edge(BlockManifold& manifold) const;
+  bool build_level_with_face(BlockManifold& manifold) const;
+  void add_on_axis(const Vec32& normal, int64_t separation, BlockManifold& manifold) const;
+  /// Of the thinner shape the half, 2^-46 m.
+  int64_t thickness() const {
+    const auto of = [&](const Half& half, int64_t radius) {
+      const bool is_line = half.placed.convex->type == ShapeType::capsule;
+      return (is_line ? 0 : pair_.metres(in_block(half.placed, half.thickness))) + radius;
+    };
+    const int64_t a = of(half_a_, pair_.radius_a), b = of(half_b_, pair_.radius_b);
+    return a < b ? a : b;
+  }
+  bool fill(const Reference& reference, bool reference_is_a, const Feature& incident, BlockManifold& manifold) const;
+  void add_point(const Vec32& normal, const Vec64& twice_middle, int64_t separation, uint32_t on_a, uint32_t on_b,
+                 BlockManifold& manifold) const;
+  /// Where two features would do, the one of the lower shape along a direction that is no one's axis. It does not
+  /// matter which shape is A.
+  bool a_comes_first() const { return dot(axis_.normal, Vec32{493921240, 848256040, 440234144}) > 0; }
+  static void find_incident(const Half& half, const Vec32& towards, Feature& incident) {
+    if (!supporting_face(half.placed, towards, half.thickness, incident))
+      supporting_edge(half.placed, towards, k_one, incident);
+  }
+
+  const RestingPair& pair_;
+  const ContactAxis& axis_;
+  const ContactRules& rules_;
+  Half half_a_, half_b_;
+  int64_t preference_, drop_;
+  bool only_over_ = false;  ///< what is not over the reference is no part of the contact
+};
+
+/// Whether the cores are apart along a normal as they are along the axis, but for `room`.
+bool Builder::parts_as_well(const Half& half, const Half& other, const Vec32& normal, int64_t room) const {
+  const Vec32 top = add(half.centre, support(half.placed, normal).point);
+  const Vec32 bottom = add(other.centre, support(other.placed, negate(normal)).point);
+  return dot(normal, subtract(bottom, top)) >> 30 >= axis_.separation - room;
+}
+
+/// The face of `half` that the contact is on, if it is on one.
+bool Builder::find_face(const Half& half, const Half& other, Feature& face) const {
+  if (!supporting_face(half.placed, half.outward, half.thickness, face)) return false;
+  const Vec32& normal = face.normal;
+  if (dot(normal, half.outward) <= 0) return false;
+  if (!is_parallel(normal, half.outward, k_upright)) {
+    if (axis_.separation > preference_) return false;
+    if (!parts_as_well(half, other, normal, preference_)) return false;
+  }
+  return true;
+}
+
+/// `normal` from A to B, `twice_middle` of the cores, in the block.
+void Builder::add_point(const Vec32& normal, const Vec64& twice_middle, int64_t separation, uint32_t on_a,
+                        uint32_t on_b, BlockManifold& manifold) const {
+  const int64_t ahead = (pair_.radius_a - pair_.radius_b) / 2;
+  const auto component = [&](int64_t twice, int32_t n) {
+    return pair_.metres(twice) / 2 + Int128::product_narrow(ahead, n).round_shift(30);
+  };
+  const Vec64& m = twice_middle;
+  const Vec32& o = pair_.offset;
+  Vec64 from_a = {component(m.x, normal.x), component(m.y, normal.y), component(m.z, normal.z)};
+  Vec64 from_b = {component(m.x - 2 * int64_t{o.x}, normal.x), component(m.y - 2 * int64_t{o.y}, normal.y),
+                  component(m.z - 2 * int64_t{o.z}, normal.z)};
+  // A half-space's position may lie anywhere in its plane, too far away for the block.
+  const Vec64& way = pair_.offset_metres;
+  if (pair_.a.convex->type == ShapeType::half_space)
+    from_a = {saturated(from_b.x, way.x), saturated(from_b.y, way.y), saturated(from_b.z, way.z)};
+  else if (pair_.b.convex->type == ShapeType::half_space)
+    from_b = {saturated(from_a.x, -way.x), saturated(from_a.y, -way.y), saturated(from_a.z, -way.z)};
+  manifold.point[manifold.count++] = {from_a, from_b, separation, feature_pair(on_a, on_b)};
+}
+
+/// What of the shape the axis meets. All edges of a face across it are level but for noise, which must not choose.
+uint32_t Builder::name_on_axis(const Half& half) {
+  Feature feature;
+  if (supporting_face(half.placed, half.outward, half.thickness, feature) &&
+      is_parallel(feature.normal, half.outward, k_upright))
+    return feature.name();
+  supporting_edge(half.placed, half.outward, k_level, feature);
+  return feature.name();
+}
+
+/// The point on the axis itself, between whatever is there.
+void Builder::add_on_axis(const Vec32& normal, int64_t separation, BlockManifold& manifold) const {
+  const uint32_t on_a = name_on_axis(half_a_), on_b = name_on_axis(half_b_);
+  for (uint32_t i = 0; i < manifold.count; ++i) {
+    if (manifold.point[i].feature == feature_pair(on_a, on_b)) return;
+  }
+  const Vec32 &a = axis_.point_a, &b = axis_.point_b, &offset = pair_.offset;
+  const auto twice = [](int32_t on_a_core, int32_t on_b_core, int32_t way) {
+    return int64_t{on_a_core} + on_b_core + way;
+  };
+  add_point(normal, {twice(a.x, b.x, offset.x), twice(a.y, b.y, offset.y), twice(a.z, b.z, offset.z)}, separation, on_a,
+            on_b, manifold);
+}
+
+/// False if nothing of the area is within reach.
+bool Builder::fill(const Reference& reference, bool reference_is_a, const Feature& incident,
+                   BlockManifold& manifold) const {
+  const Half& other = reference_is_a ? half_b_ : half_a_;
+  const int64_t radii = pair_.radius_a + pair_.radius_b;
+  AreaChoice choice(pair_.block_above(saturated_sum(rules_.reach, radii)), drop_, rules_.reduction);
+  do reference.clip(other.centre, incident, choice);
+  while (choice.again());
+  const Vec32 normal = reference_is_a ? reference.up() : negate(reference.up());
+  if (choice.count() == 0) return false;
+  // A round face's polygon may miss the place on the axis.
+  int deepest = 0;
+  for (int i = 1; i < choice.count(); ++i) deepest = choice[i].w < choice[deepest].w ? i : deepest;
+  const Vec32 nearest = add(other.centre, reference_is_a ? axis_.point_b : axis_.point_a);
+  const int64_t height = reference.height_of(nearest);
+  const bool missed = height + drop_ < choice[deepest].w && (!only_over_ || reference.holds(nearest));
+  const int left_out = missed && choice.count() == 4 ? nearest_to(reference.over(nearest), choice) : -1;
+  for (int i = 0; i < choice.count(); ++i) {
+    const AreaPoint& point = choice[i];
+    const int64_t separation = pair_.metres(point.w) - radii;
+    if (i == left_out || separation > rules_.reach) continue;
+    const uint32_t on_reference = reference.name_on_reference(point);
+    const uint32_t on_incident = reference.name_on_incident(other.placed, incident, point);
+    add_point(normal, reference.twice_middle(point), separation, reference_is_a ? on_reference : on_incident,
+              reference_is_a ? on_incident : on_reference, manifold);
+  }
+  if (missed) add_on_axis(normal, pair_.metres(height) - radii, manifold);
+  if (manifold.count > 0) manifold.normal = normal;
+  return manifold.count > 0;
+}
+
+bool Builder::build_on_half_space(BlockManifold& manifold) const {
+  const bool plane_is_a = pair_.a.convex->type == ShapeType::half_space;
+  const Half &plane = plane_is_a ? half_a_ : half_b_, &other = plane_is_a ? half_b_ : half_a_;
+  Feature incident;
+  find_incident(other, negate(plane.placed.rotation.column[1]), incident);
+  return fill(Reference(plane.placed, plane.centre, other.centre), plane_is_a, incident, manifold);
+}
+
+bool Builder::build_on_face(BlockManifold& manifold) const {
+  Feature face, incident;
+  bool is_a = a_comes_first();
+  for (int attempt = 0; attempt < 2; ++attempt, is_a = !is_a) {
+    const Half &half = is_a ? half_a_ : half_b_, &other = is_a ? half_b_ : half_a_;
+    if (!find_face(half, other, face)) continue;
+    find_incident(other, negate(face.normal), incident);
+    const Reference reference(half.placed, half.centre, face, face.normal, radius_in_block(other.placed));
+    if (fill(reference, is_a, incident, manifold)) return true;
+  }
+  return false;
+}
+
+/// On a face that leans a little against the axis: the edges that cross there would touch in one point, on this side of
+/// the face in one tick and on that in the next. Only if the deepest point is as deep as the axis has it,
+/// and not much deeper.
+__attribute__((noinline)) bool Builder::build_on_leaning_face(BlockManifold& manifold) const {
+  constexpr int64_t k_leaning = (int64_t{1} << 60) - (int64_t{1} << 53);  // 2^-3 rad
+  const int64_t radii = pair_.radius_a + pair_.radius_b;
+  const int64_t least = pair_.metres(axis_.separation - preference_) - radii;
+  const int64_t most = pair_.metres(axis_.separation + drop_) - radii;
+  if (axis_.separation > preference_) return false;
+  bool is_a = a_comes_first();
+  for (int attempt = 0; attempt < 2; ++attempt, is_a = !is_a) {
+    const Half &half = is_a ? half_a_ : half_b_, &other = is_a ? half_b_ : half_a_;
+    Feature face, incident;
+    if (!supporting_face(half.placed, half.outward, half.thickness, face) || !face.is_face()) continue;
+    if (dot(face.normal, half.outward) < k_leaning || !parts_as_well(half, other, face.normal, 4 * preference_))
+      continue;
+    find_incident(other, negate(face.normal), incident);
+    const Reference reference(half.placed, half.centre, face, face.normal, radius_in_block(other.placed));
+    BlockManifold found = {};
+    if (!fill(reference, is_a, incident, found) || found.count < 2) continue;
+    int64_t deepest = found.point[0].separation;
+    for (uint32_t i = 1; i < found.count; ++i)
+      deepest = found.point[i].separation < deepest ? found.point[i].separation : deepest;
+    if (deepest < least || deepest > most) continue;
+    found.capped = manifold.capped;
+    found.leans = true;
+    manifold = found;
+    return true;
+  }
+  return false;
+}
+
+bool Builder::build_on_edge(BlockManifold& manifold) const {
+  Feature edge_a, edge_b;
+  supporting_edge(pair_.a, half_a_.outward, k_level, edge_a);
+  supporting_edge(pair_.b, half_b_.outward, k_level, edge_b);
+  if (edge_a.count != 2 || edge_b.count != 2) return false;
+  const auto direction = [](const Feature& edge) {
+    const Vec32 way = subtract(edge.point[1], edge.point[0]);
+    return is_zero(way) ? way : unit_vector_raw(scaled_to_30_bits(way));
+  };
+  const Vec32 along_a = direction(edge_a), along_b = direction(edge_b);
+  if (is_zero(along_a) || is_zero(along_b) || !is_parallel(along_a, along_b, k_level)) return false;
+  const bool is_a = a_comes_first();
+  const Half &half = is_a ? half_a_ : half_b_, &other = is_a ? half_b_ : half_a_;
+  // Edges that cross at a small angle leave each other aside; a normal is not so exact that long ones lie on each
+  // other.
+  const int64_t aside = (pair_.block_above(thickness()) >> k_aside_power) + drop_;
+  const Reference reference(half.placed, half.centre, is_a ? edge_a : edge_b, half.outward,
+                            radius_in_block(other.placed), aside);
+  return fill(reference, is_a, is_a ? edge_b : edge_a, manifold);
+}
+
+/// At an edge that is level with its face but for what the shapes are sunk in.
+bool Builder::build_level_with_face(BlockManifold& manifold) const {
+  ContactAxis level = axis_;
+  const int64_t room = thickness() >> 5;  // small shapes are not sunk in so far
+  if (!find_level_face(pair_, room < rules_.sunk ? room : rules_.sunk, level)) return false;
+  const int64_t separation = pair_.metres(level.separation) - pair_.radius_a - pair_.radius_b;
+  Builder(pair_, level, rules_).add_on_axis(level.normal, separation, manifold);
+  manifold.normal = level.normal;
+  manifold.seam = true;
+  return true;
+}
+
+void Builder::build(BlockManifold& manifold) const {
+  const int64_t separation = pair_.metres(axis_.separation) - pair_.radius_a - pair_.radius_b;
+  if (separation > rules_.reach) return;
+  if (rules_.smooth_seams) {
+    const int64_t thin_a = in_block(pair_.a, half_a_.thickness), thin_b = in_block(pair_.b, half_b_.thickness);
+    if (is_sliver(pair_, axis_, sliver_room(pair_.metres(thin_a < thin_b ? thin_a : thin_b), rules_.sunk))) {
+      manifold.seam = true;
+      return;
+    }
+  }
+  manifold.capped = axis_.capped;
+  if (pair_.planar() ? build_on_half_space(manifold) : build_on_face(manifold)) return;
+  if (rules_.smooth_seams && build_level_with_face(manifold)) return;
+  if (!pair_.planar()) {
+    manifold.turns = build_on_edge(manifold);
+    if (manifold.turns || (rules_.leans && build_on_leaning_face(manifold))) return;
+  }
+  add_on_axis(axis_.normal, separation, manifold);
+  manifold.normal = axis_.normal;
+  // Of edges that cross it stays.
+  const uint32_t feature = manifold.point[0].feature;
+  constexpr uint32_t k_edge = static_cast<uint32_t>(FeatureType::edge);
+  manifold.turns = !pair_.planar() && ((feature >> 10 & 3) != k_edge || (feature >> 22 & 3) != k_edge);
+}
+
+void Builder::build_over_face(const Feature& face, BlockManifold& manifold) {
+  only_over_ = true;
+  Feature incident;
+  find_incident(half_b_, negate(face.normal), incident);
+  // A ball's slack is of its own size, or it might fall between two faces.
+  const int64_t size = int64_t{radius_in_block(pair_.b)} + pair_.block_above(pair_.radius_b);
+  const int32_t held = size > k_one ? k_one : static_cast<int32_t>(size);
+  fill(Reference(pair_.a, half_a_.centre, face, face.normal, held), true, incident, manifold);
+}
+
+}  // namespace
+
+void find_contact_points(const RestingPair& pair, const ContactRules& rules, DistanceCache* cache,
+                         BlockManifold& manifold) {
+  manifold = {};
+  const int32_t needed = pair.block_above(saturated_sum(rules.reach, pair.radius_a + pair.radius_b));
+  ContactAxis axis;
+  if (find_contact_axis(pair, needed >= INT32_MAX - k_gjk_slack ? INT32_MAX : needed + k_gjk_slack, cache, axis))
+    Builder(pair, axis, rules).build(manifold);
+}
+
+void contact_points_over_face(const RestingPair& pair, const Feature& face, int64_t reach, ManifoldReduction reduction,
+                              BlockManifold& manifold) {
+  manifold = {};
+  const Vec32 nearest = support(pair.b, negate(face.normal)).point;
+  const int64_t height = dot(face.normal, subtract(add(pair.offset, nearest), face.point[0])) >> 30;
+  const Vec32 foot =
+      subtract(add(pair.offset, nearest),
+               round_shift(Vec64{face.normal.x * height, face.normal.y * height, face.normal.z * height}, 30));
+  const ContactAxis axis = {face.normal, height, foot, nearest, false};
+  Builder(pair, axis, rules_of(reach, reduction)).build_over_face(face, manifold);
+}
+
+Status contact_points_by(const ContactRules& rules, const Convex& a, const Pose& pose_a, const Convex& b,
+                         const Pose& pose_b, DistanceCache* cache, ContactManifold& manifold, ContactKind& kind) {
+  RestingPair pair;
+  if (const Status status = rest(a, pose_a, b, pose_b, pair); status != Status::ok) return status;
+  if (rules.reach < 0) return Status::out_of_range;
+  BlockManifold found;
+  find_contact_points(pair, rules, cache, found);
+  ContactManifold made;
+  made.count = found.count;
+  made.capped = found.capped;
+  if (found.count > 0) made.normal = units_from_raw(found.normal);
+  const auto real = [](const Vec64& v) {
+    return Vec3<Real>{real_from_raw(v.x), real_from_raw(v.y), real_from_raw(v.z)};
+  };
+  for (uint32_t i = 0; i < found.count; ++i) {
+    const BlockPoint& point = found.point[i];
+    made.point[i] = {real(point.from_a), real(point.from_b), real_from_raw(point.separation), point.feature};
+  }
+  manifold = made;
+  kind = {found.seam, found.turns};
+  return Status::ok;
+}
+
+Status contact_points(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Real reach,
+                      ContactManifold& manifold, DistanceCache* cache, ManifoldReduction reduction) {
+  Vec64 raw;
+  ContactKind kind;
+  const bool known = raw_from_real({reach, Real(0.0), Real(0.0)}, raw);
+  return contact_points_by(rules_of(known ? raw.x : -1, reduction), a, pose_a, b, pose_b, cache, manifold, kind);
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

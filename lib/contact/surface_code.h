@@ -1,0 +1,35 @@
+#pragma once
+#include "contact/collide_mesh.h"
+#include "contact/surface_query.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// The bound surface of a body that has one.
+inline Surface surface_of(const BodyTraits& traits, const AssetTable& assets) {
+  return surface_view(assets.assets[traits.asset].bytes);
+}
+
+/// The contacts of two bodies of which one has a surface; normals from A to B. A pair of two surfaces has none.
+void collide_surface(const CollisionBody& a, const CollisionBody& b, const ContactReach& reach,
+                     const AssetTable& assets, SurfaceContacts& contacts);
+
+/// Likewise, of the body that has none only this convex part, in its axes; `middle`: of the part, 2^-46 m.
+void collide_part_with_surface(const CollisionBody& a, const CollisionBody& b, const Convex& part, const Vec64& middle,
+                               const ContactReach& reach, const AssetTable& assets, SurfaceContacts& contacts);
+
+/// For a feature table.
+struct SurfaceCode {
+  decltype(&read_surface) read;
+  decltype(&collide_surface) collide;
+  decltype(&collide_part_with_surface) collide_part;
+  decltype(&visit_surface) visit;
+  decltype(&surface_convex) convex;
+  decltype(&place_on_surface) place;
+  decltype(&surface_view) view;
+  decltype(&surface_triangle) triangle;
+  decltype(&cast_ray_on_surface) cast_ray;
+};
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,33 @@
+#pragma once
+#include <detent/distance.h>
+
+#include "distance/gjk.h"
+#include "distance/pair.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// A pair at rest in its block, A's centre at the origin.
+struct RestingPair {
+  int exponent;  ///< 2^exponent m is the pair's unit of length
+  Vec32 offset;  ///< from A's centre to B's, in the block; to or from a half-space its component along the normal
+  Placed a, b;
+  int64_t radius_a, radius_b;  ///< of the balls, 2^-46 m
+  Vec64 offset_metres;         ///< from A's position to B's, 2^-46 m
+
+  bool planar() const { return a.convex->type == ShapeType::half_space || b.convex->type == ShapeType::half_space; }
+  /// 2^-46 m. Overflow: saturates.
+  int64_t metres(int64_t block) const { return raw_from_block(block, exponent); }
+  /// Ulps of the block, rounded up; at most INT32_MAX. Range: raw >= 0.
+  int32_t block_above(int64_t raw) const;
+};
+
+/// Errors: bad_argument for two half-spaces; not_normalised; out_of_range for NaN.
+Status rest(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, RestingPair& pair);
+
+/// The simplex that a cache holds for the pair, for gjk() to start from; and back.
+void load_cache(const DistanceCache& cache, const RestingPair& pair, Simplex& simplex);
+void save_cache(const Simplex& simplex, DistanceCache& cache);
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

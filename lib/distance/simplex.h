@@ -1,0 +1,240 @@
+#pragma once
+#include "distance/support.h"
+
+/// The simplex of GJK on integers: which of its faces, edges and vertices is nearest to the origin, decided by exact
+/// signs, so that it cannot cycle and cannot mistake touching for apart.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// A vertex of the Minkowski difference B - A. Range: |difference| < 2^30.
+struct SimplexVertex {
+  Vec32 difference;
+  CorePoint a, b;  ///< the core points that it is the difference of
+};
+
+/// One to four vertices whose hull's point nearest to the origin has every vertex in it, or holds the origin.
+class Simplex {
+ public:
+  int count() const { return count_; }
+  const SimplexVertex& vertex(int i) const { return vertex_[i]; }
+  /// The hull of the vertices holds the origin.
+  bool holds_origin() const { return holds_origin_; }
+
+  void clear() {
+    count_ = 0;
+    holds_origin_ = false;
+  }
+  /// Notes a vertex to start from: only its core points count.
+  void start(const SimplexVertex& vertex) {
+    if (count_ < 4) vertex_[count_++] = vertex;
+  }
+  /// Takes `vertex` in, and drops what the nearest point does not need. False, and nothing changed, unless `vertex`
+  /// lies strictly on the origin's side of the plane through the nearest point that is perpendicular to it: then the
+  /// nearest point comes strictly nearer. As the vertices of two polytopes are finitely many, no sequence of insertions
+  /// is endless. Range: not holds_origin().
+  bool insert(const SimplexVertex& vertex);
+
+  /// A vector along the nearest point, from the origin, its largest component within [2^29, 2^30] in magnitude: rounded
+  /// to a relative 2^-29. Range: not holds_origin(), count > 0.
+  Vec32 direction() const;
+
+  /// v . p for the nearest point v, exactly, times a positive number. Range: not holds_origin(), |p| < 2^30.
+  Int128 reach(const Vec32& p) const;
+
+  /// The weights of the vertices in the nearest point, Q30, of sum 2^30 but for rounding; if the origin is held, any.
+  void weights(int32_t (&weight)[4]) const;
+
+ private:
+  bool is_nearer(const Vec32& difference) const;
+  void reduce_edge();
+  void reduce_triangle();
+  void reduce_tetrahedron();
+  bool edge_holds(const Vec32& a, const Vec32& b);
+  bool triangle_holds(const Vec32& a, const Vec32& b, const Vec32& c);
+  void take_triangle(int a, int b, int c);
+  void keep(int a);
+  void keep(int a, int b);
+  void keep(int a, int b, int c);
+
+  SimplexVertex vertex_[4];
+  int count_ = 0;
+  bool holds_origin_ = false;
+  // Edge (count 2): from vertex 1 to vertex 0. Triangle (count 3): `normal_` is across it, towards it from the origin.
+  Vec32 edge_;
+  int64_t edge_square_;
+  int64_t along_;  // of the nearest point from vertex 1, times the edge's length: in (0, edge_square_)
+  Vec64 normal_;
+};
+
+// Degrees and widths, with |a| < 2^30 and |b - a| < 2^31: dot and cross products below 2^62 (64 bits); a determinant
+// below 2^92, the weight of a vertex in a triangle below 2^122, the test of a vertex against an edge below 2^125 (128
+// bits).
+
+/// The sign of v.(y - a), v the point of the edge from a nearest to the origin, times the edge's square.
+inline int side_of_edge(const Vec32& a, const Vec32& edge, int64_t square, int64_t along, const Vec32& y) {
+  const Vec32 way = subtract(y, a);
+  return sign_of(Int128::product(square, dot(a, way)) + Int128::product(along, dot(edge, way)));
+}
+
+/// a 2^-n to 64 bits, towards zero. Range: the result fits.
+inline int64_t high_part(Int128 value, int n) { return n == 0 ? value.low_signed() : value.round_shift(n); }
+
+inline bool Simplex::insert(const SimplexVertex& vertex) {
+  DETENT_VERIFY_RANGE(!holds_origin_);
+  if (count_ > 0 && !is_nearer(vertex.difference)) return false;
+  vertex_[count_++] = vertex;
+  if (count_ == 1)
+    keep(0);
+  else if (count_ == 2)
+    reduce_edge();
+  else if (count_ == 3)
+    reduce_triangle();
+  else
+    reduce_tetrahedron();
+  return true;
+}
+
+inline bool Simplex::is_nearer(const Vec32& difference) const {
+  const Vec32& a = vertex_[count_ - 1].difference;
+  const Vec32 way = subtract(difference, a);
+  if (count_ == 1) return dot(a, way) < 0;
+  if (count_ == 2) return side_of_edge(a, edge_, edge_square_, along_, difference) < 0;
+  return sign_of(dot(normal_, way)) < 0;
+}
+
+inline void Simplex::keep(int a) {
+  vertex_[0] = vertex_[a];
+  count_ = 1;
+  holds_origin_ = is_zero(vertex_[0].difference);
+}
+
+inline void Simplex::keep(int a, int b) {
+  const SimplexVertex newest = vertex_[a];
+  vertex_[0] = vertex_[b];
+  vertex_[1] = newest;
+  count_ = 2;
+  holds_origin_ = is_zero(cross(edge_, vertex_[1].difference));
+}
+
+inline void Simplex::keep(int a, int b, int c) {
+  const SimplexVertex newest = vertex_[a], middle = vertex_[b];
+  vertex_[0] = vertex_[c];
+  vertex_[1] = middle;
+  vertex_[2] = newest;
+  count_ = 3;
+}
+
+/// Whether the edge from a to b is where the nearest point of its line lies; leaves its data.
+inline bool Simplex::edge_holds(const Vec32& a, const Vec32& b) {
+  edge_ = subtract(b, a);
+  edge_square_ = dot(edge_, edge_);
+  along_ = -dot(a, edge_);
+  return along_ > 0 && along_ < edge_square_;
+}
+
+inline void Simplex::reduce_edge() {
+  if (edge_holds(vertex_[1].difference, vertex_[0].difference)) return keep(1, 0);
+  keep(1);
+}
+
+/// Whether the nearest point of the triangle's plane lies within the triangle of the newest vertex a with b and c. That
+/// the newest takes part is known, so two of the three weights decide.
+inline bool Simplex::triangle_holds(const Vec32& a, const Vec32& b, const Vec32& c) {
+  normal_ = cross(subtract(b, a), subtract(c, a));
+  return sign_of(dot(cross(a, b), normal_)) > 0 && sign_of(dot(cross(c, a), normal_)) > 0;
+}
+
+inline void Simplex::take_triangle(int a, int b, int c) {
+  const int side = sign_of(dot(normal_, vertex_[a].difference));
+  if (side < 0) normal_ = negate(normal_);
+  keep(a, b, c);
+  holds_origin_ = side == 0;
+}
+
+inline void Simplex::reduce_triangle() {
+  const Vec32 &a = vertex_[2].difference, &b = vertex_[1].difference, &c = vertex_[0].difference;
+  normal_ = cross(subtract(b, a), subtract(c, a));
+  const bool beyond_ab = sign_of(dot(cross(a, b), normal_)) <= 0;
+  const bool beyond_ac = sign_of(dot(cross(c, a), normal_)) <= 0;
+  if (!beyond_ab && !beyond_ac) return take_triangle(2, 1, 0);
+  if (beyond_ab && edge_holds(a, b)) return keep(2, 1);
+  if (beyond_ac && edge_holds(a, c)) return keep(2, 0);
+  keep(2);
+}
+
+inline void Simplex::reduce_tetrahedron() {
+  const Vec32& a = vertex_[3].difference;
+  const Vec32 ab = subtract(vertex_[2].difference, a), ac = subtract(vertex_[1].difference, a),
+              ad = subtract(vertex_[0].difference, a);
+  const Vec64 normals[3] = {cross(ab, ac), cross(ac, ad), cross(ad, ab)};
+  const int volume = sign_of(dot(normals[0], ad));
+  bool outside = volume == 0;
+  for (int i = 0; i < 3; ++i) {
+    // Outside a face is where the fourth vertex isn't; a flat tetrahedron has no inside.
+    const int side = sign_of(dot(normals[i], a));
+    if (volume != 0 && side != volume) continue;
+    outside = true;
+    const int b = 2 - i, c = i == 2 ? 2 : 1 - i;
+    if (triangle_holds(a, vertex_[b].difference, vertex_[c].difference)) return take_triangle(3, b, c);
+  }
+  if (!outside) {
+    holds_origin_ = true;
+    return;
+  }
+  for (int b = 2; b >= 0; --b) {
+    if (!edge_holds(a, vertex_[b].difference)) continue;
+    const Vec32& c = vertex_[(b + 1) % 3].difference;
+    const Vec32& d = vertex_[(b + 2) % 3].difference;
+    if (side_of_edge(a, edge_, edge_square_, along_, c) >= 0 && side_of_edge(a, edge_, edge_square_, along_, d) >= 0) {
+      return keep(3, b);
+    }
+  }
+  keep(3);
+}
+
+inline Vec32 Simplex::direction() const {
+  const Vec32& a = vertex_[count_ - 1].difference;
+  switch (count_) {
+    case 1:
+      return scaled_to_30_bits(a);
+    case 2:
+      return scaled_to_30_bits(cross(scaled_to_30_bits(cross(edge_, a)), edge_));
+    default:
+      return scaled_to_30_bits(normal_);
+  }
+}
+
+inline Int128 Simplex::reach(const Vec32& p) const {
+  const Vec32& a = vertex_[count_ - 1].difference;
+  if (count_ == 1) return Int128::from(dot(a, p));
+  if (count_ == 2) return Int128::product(edge_square_, dot(a, p)) + Int128::product(along_, dot(edge_, p));
+  return dot(normal_, p);
+}
+
+inline void Simplex::weights(int32_t (&weight)[4]) const {
+  for (int32_t& w : weight) w = 0;
+  if (count_ == 2) {
+    const int n = bit_length_64(static_cast<uint64_t>(edge_square_)) > 32
+                      ? bit_length_64(static_cast<uint64_t>(edge_square_)) - 32
+                      : 0;
+    weight[0] = static_cast<int32_t>(((along_ >> n) << 30) / ((edge_square_ >> n) > 0 ? edge_square_ >> n : 1));
+    weight[1] = static_cast<int32_t>(k_one_64 - weight[0]);
+    return;
+  }
+  if (count_ == 3) {
+    const Vec32 &a = vertex_[2].difference, &b = vertex_[1].difference, &c = vertex_[0].difference;
+    const Vec64 normal = cross(subtract(b, a), subtract(c, a));
+    const Int128 total = dot(normal, normal);
+    const int length = bit_length_128(magnitude_128(total));
+    const int n = length > 32 ? length - 32 : 0;
+    const int64_t whole = high_part(total, n);
+    weight[0] = static_cast<int32_t>((high_part(dot(cross(a, b), normal), n) << 30) / whole);
+    weight[1] = static_cast<int32_t>((high_part(dot(cross(c, a), normal), n) << 30) / whole);
+    weight[2] = static_cast<int32_t>(k_one_64 - weight[0] - weight[1]);
+    return;
+  }
+  weight[0] = static_cast<int32_t>(k_one_64);
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,115 @@
+#pragma once
+#include <detent/convex.h>
+
+#include "math/root.h"
+#include "math/rotation_integer.h"
+#include "shape/hull.h"
+
+/// Support mappings. A pair of shapes is placed in a *block*: world axes, integers in 2^-30 of the pair's unit of
+/// length, which is so large that the Minkowski difference of the cores lies within 2^30 of the origin.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// A point of a core in the shape's own axes, in 2^-30 of its own unit.
+struct CorePoint {
+  Vec32 local;
+  uint8_t feature;  ///< names a vertex of the core; k_no_feature on a cylinder or cone
+};
+inline constexpr uint8_t k_no_feature = 255;
+
+/// The vertex `feature` of the core. False if it has none of that name.
+bool core_vertex(const Convex& convex, uint8_t feature, CorePoint& point);
+
+/// The hull of a convex, ready to be read; empty for other shapes.
+inline HullView hull_of(const Convex& convex) {
+  return convex.type == ShapeType::hull ? hull_view(convex.hull) : HullView{};
+}
+
+/// The core's point farthest along `direction`, both in the shape's axes. `hull`: hull_of(convex), made once for many
+/// questions. `start`: a vertex to climb from on a large hull, best the last answer; any value is safe.
+/// Of equally far points always the same one. Exact but for cylinder and cone, whose points err by 1 in each component.
+/// Range: 0 < |direction| < 2^31. A half-space gives its origin.
+CorePoint local_support(const Convex& convex, const HullView& hull, const Vec32& direction, uint8_t start);
+inline CorePoint local_support(const Convex& convex, const Vec32& direction) {
+  return local_support(convex, hull_of(convex), direction, 0);
+}
+/// Hulls of more vertices are climbed, not searched through.
+inline constexpr uint32_t k_climbing_vertices = 8;
+
+/// A core in a block, relative to its own centre.
+class Placed {
+ public:
+  const Convex* convex;
+  HullView hull;  ///< hull_of(*convex)
+  Matrix32 rotation;
+  int shift;      ///< own coordinates lose this many bits in the block, >= 0
+  Vec32 axis[3];  ///< box and capsule: the columns times the half extents
+
+  /// Where a local core point lies. Error: k_placing_error in each component.
+  Vec32 point(const Vec32& local) const {
+    if (convex->type == ShapeType::box) return box_point(local.x >> 31, local.y >> 31, local.z >> 31);
+    return other_point(local);
+  }
+  /// The vertex of a box whose coordinate i is negative where sign i is -1, and not where it is 0.
+  Vec32 box_point(int32_t x, int32_t y, int32_t z) const {
+    const auto sum = [&](int32_t a, int32_t b, int32_t c) { return ((a ^ x) - x) + ((b ^ y) - y) + ((c ^ z) - z); };
+    return {sum(axis[0].x, axis[1].x, axis[2].x), sum(axis[0].y, axis[1].y, axis[2].y),
+            sum(axis[0].z, axis[1].z, axis[2].z)};
+  }
+
+ private:
+  Vec32 other_point(const Vec32& local) const;
+};
+inline constexpr double k_placing_error = 1.5;  ///< ulps of the block: a box's point is the sum of three rounded axes
+
+/// At least |v|, and at most 1.6 % and 2 more. Range: |v|^2 < 2^63.
+inline int64_t length_bound_32(const Vec32& v) { return square_root_bound(static_cast<uint64_t>(dot(v, v))); }
+/// |(x, z)|, to nearest.
+inline int64_t length_across(const Vec32& v) {
+  return square_root_nearest(static_cast<uint64_t>(int64_t{v.x} * v.x) + static_cast<uint64_t>(int64_t{v.z} * v.z));
+}
+
+/// The largest value of direction . p over the core, and rate . p for the p that has it; both in the shape's axes.
+/// `start` is renewed.
+struct SupportValue {
+  int64_t value, rate;
+};
+SupportValue support_value(const Convex& convex, const HullView& hull, const Vec32& direction, const Vec32& rate,
+                           uint8_t& start);
+
+Placed place(const Convex& convex, const Matrix32& rotation, int pair_exponent);
+
+struct SupportPoint {
+  Vec32 point;  ///< in the block, from the shape's centre
+  CorePoint core;
+};
+/// The placed core's point farthest along `direction`, world axes. `start` as for local_support().
+/// Range: 0 < |direction| < 2^31.
+inline SupportPoint support(const Placed& placed, const Vec32& direction, uint8_t start = 0);
+
+/// A box's vertex by the signs of its coordinates, -1 or 0: bit i of the feature is set where coordinate i is negative.
+inline CorePoint box_vertex(const Convex& box, int32_t x, int32_t y, int32_t z) {
+  const int32_t* size = box.size;
+  return {{(size[0] ^ x) - x, (size[1] ^ y) - y, (size[2] ^ z) - z}, static_cast<uint8_t>((x & 1) | (y & 2) | (z & 4))};
+}
+
+inline SupportPoint support(const Placed& placed, const Vec32& direction, uint8_t start) {
+  const Convex& convex = *placed.convex;
+  if (convex.type == ShapeType::box) {
+    const auto sign = [&](const Vec32& axis) { return static_cast<int32_t>(dot(direction, axis) >> 63); };
+    const int32_t x = sign(placed.axis[0]), y = sign(placed.axis[1]), z = sign(placed.axis[2]);
+    return {placed.box_point(x, y, z), box_vertex(convex, x, y, z)};
+  }
+  if (convex.type == ShapeType::sphere) return {{0, 0, 0}, {{0, 0, 0}, 0}};
+  if (convex.type == ShapeType::capsule) {
+    const Vec32& axis = placed.axis[1];
+    const int32_t back = static_cast<int32_t>(dot(direction, axis) >> 63);
+    return {{(axis.x ^ back) - back, (axis.y ^ back) - back, (axis.z ^ back) - back},
+            {{0, (convex.size[1] ^ back) - back, 0}, static_cast<uint8_t>(back & 1)}};
+  }
+  const CorePoint core = local_support(convex, placed.hull, rotate_inverse(placed.rotation, direction), start);
+  return {placed.point(core.local), core};
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,107 @@
+#include "joint/joint.h"
+#include "math/root.h"
+#include "math/scaled.h"
+#include "motion/spin.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+/// The body's place among those that joints hold; it gets one if it has none.
+uint32_t place_of(const SolverBodies& bodies, uint32_t slot, JointStage& stage) {
+  uint32_t& place = bodies.work[slot].joint_body;
+  if (place != k_no_link) return place;
+  place = stage.body_count++;
+  JointBody& body = stage.bodies[place];
+  static_cast<JointBodyStart&>(body) = {};
+  body.slot = slot;
+  body.mobile = is_dynamic(bodies.traits[slot]) && stage.activities[slot].asleep == 0 ? 1 : 0;
+  body.first = body.last = k_no_link;
+  body.exponent = bodies.traits[slot].size_exponent;
+  body.share = Scaled(0.0);
+  return place;
+}
+
+void link_to(JointStage& stage, uint32_t joint, uint32_t end) {
+  JointBody& body = stage.bodies[stage.work[joint].body[end]];
+  const uint32_t link = 2 * joint + end;
+  if (body.last == k_no_link)
+    body.first = link;
+  else
+    stage.work[body.last / 2].next[body.last % 2] = link;
+  body.last = link;
+  stage.work[joint].next[end] = k_no_link;
+}
+
+/// Makes a body's unit hold an arm of this length.
+void reach_out(JointBody& body, Real arm) {
+  const int exponent = exponent_above(arm);
+  if (exponent > body.exponent) body.exponent = exponent;
+}
+
+/// Rows that a joint can have: what its type holds, and the free motions that something drives.
+uint32_t rows_of(const JointState& joint) {
+  const JointType type = static_cast<JointType>(joint.type);
+  uint32_t rows = type == JointType::ball || type == JointType::cone_twist ? 3
+                  : type == JointType::distance                            ? 0
+                  : type == JointType::wheel                               ? 4
+                  : type == JointType::parallel                            ? 2
+                  : type == JointType::fixed                               ? 6
+                                                                           : 5;
+  for (int i = 0; i < driven_motion_count(joint); ++i) rows += is_driven(joint, i) ? 1u : 0u;
+  return rows;
+}
+
+bool takes_way(const JointState& joint) {
+  const JointType type = static_cast<JointType>(joint.type);
+  return type == JointType::slider || type == JointType::wheel;
+}
+
+}  // namespace
+
+Vec3<Unit> unit_held(const Vec3<Real>& v, int exponent) {
+  const Real limit = real_from_unit(Unit(1.875), exponent > 15 ? 15 : exponent);
+  const auto part = [&](Real value) { return unit_from_real(clamp(value, -limit, limit), exponent); };
+  return {part(v.x), part(v.y), part(v.z)};
+}
+
+void collect_joints(const SolverBodies& bodies, JointStage& stage) {
+  stage.count = stage.body_count = 0;
+  const auto moves = [&](uint32_t slot) {
+    return is_dynamic(bodies.traits[slot]) && stage.activities[slot].asleep == 0;
+  };
+  for (uint32_t slot = 0; slot < stage.joints.count; ++slot) {
+    const JointState& joint = stage.joints[slot];
+    if (!holds(joint) || (!moves(joint.body_a) && !moves(joint.body_b))) continue;
+    const uint32_t index = stage.count++;
+    JointWork& work = stage.work[index];
+    static_cast<JointWorkStart&>(work) = {};
+    work.joint = slot;
+    work.rows_max = rows_of(joint);
+    work.place = work.coupling = k_no_link;
+    work.body[0] = place_of(bodies, joint.body_a, stage);
+    work.body[1] = place_of(bodies, joint.body_b, stage);
+    link_to(stage, index, 0);
+    link_to(stage, index, 1);
+    JointBody &a = stage.bodies[work.body[0]], &b = stage.bodies[work.body[1]];
+    const Position &from = stage.poses[joint.body_a].position, &to = stage.poses[joint.body_b].position;
+    work.between = real_difference(to, from);
+    Real way = Real(0.0);
+    if (takes_way(joint)) way = scale_by_power(absolute_sum(work.between) + absolute_sum(joint.anchor_b), 1);
+    reach_out(a, max(absolute_sum(joint.anchor_a), way));
+    reach_out(b, absolute_sum(joint.anchor_b));
+  }
+  for (JointBody& body : stage.bodies.first(stage.body_count))
+    body.above = body.exponent - bodies.traits[body.slot].size_exponent;
+  for (JointWork& work : stage.work.first(stage.count)) {
+    const JointState& joint = stage.joints[work.joint];
+    work.anchor[0] = unit_held(joint.anchor_a, stage.bodies[work.body[0]].exponent);
+    work.anchor[1] = unit_held(joint.anchor_b, stage.bodies[work.body[1]].exponent);
+    for (int end = 0; end < 2; ++end) work.arm_length[end] = length(work.anchor[end]);
+    const JointBody &a = stage.bodies[work.body[0]], &b = stage.bodies[work.body[1]];
+    work.exponent = a.exponent < b.exponent ? a.exponent : b.exponent;
+  }
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,348 @@
+#include "joint/joint_factor.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+/// A row is softer by this power of two of the largest response of its joint's rows of its kind: rows that others hold
+/// already have nothing else to stand on, and what they hold by it is below what the numbers can tell. What stands on
+/// the near singular, as a chain that is nearly straight, gives way by it: so it is as little as the numbers allow.
+/// Drives give way before what is held, and where make_softer() has been called all rows do, by the second power.
+#if defined(DETENT_F32)
+constexpr int k_softness_power = -20, k_soft_power = -17;
+#elif defined(DETENT_F64)
+constexpr int k_softness_power = -27, k_soft_power = -20;
+#else
+constexpr int k_softness_power = -25, k_soft_power = -20;
+#endif
+/// Below this rounding holds rows that others hold already, and they bind: so smaller responses are softer.
+constexpr Real k_softness_min = DETENT_FIXED ? Real(0x1p-20) : k_zero;
+
+/// A pivot is at least so much, so that its reciprocal is one that multiply() takes.
+constexpr Real k_pivot_min = 0x1p-29;
+/// Of an impulse, before those of its joint are taken from it.
+constexpr Real k_solved_max = k_solution_max * Real(4.0);
+#if DETENT_FIXED
+/// Near what the rows' responses are brought, and no more than so that their speeds fit a Real.
+constexpr int k_joint_response_bits = 5, k_power_max = 9;
+#endif
+/// Of a spring: what is softer holds nothing.
+constexpr Real k_spring_max = 16384.0;
+
+/// What a body's velocity and spin become for each row's unit of impulse.
+struct Reply {
+  Vec3<Real> velocity[k_joint_rows_max], spin[k_joint_rows_max];
+
+  Reply(const JointWork& work, const JointBody& body, uint32_t end) {
+    const auto turn = [&](const Vec3<Unit>& torque) {
+      return Vec3<Real>{dot(body.turned[0], torque), dot(body.turned[1], torque), dot(body.turned[2], torque)};
+    };
+    if (work.points != 0) {
+      // Unit forces at the arm.
+      const Vec3<Unit>& r = work.arm[end];
+      const Unit none = 0.0, minus_x = none - r.x, minus_y = none - r.y, minus_z = none - r.z;
+      spin[0] = turn({none, r.z, minus_y});
+      spin[1] = turn({minus_z, none, r.x});
+      spin[2] = turn({r.y, minus_x, none});
+      velocity[0] = {body.pushed, k_zero, k_zero};
+      velocity[1] = {k_zero, body.pushed, k_zero};
+      velocity[2] = {k_zero, k_zero, body.pushed};
+    }
+    for (uint32_t k = first_other(work); k < work.rows; ++k) {
+      const JointRow& row = work.row[k];
+      velocity[k] = {body.pushed * row.axis.x, body.pushed * row.axis.y, body.pushed * row.axis.z};
+      spin[k] = turn(row.arm[end]);
+    }
+  }
+};
+
+/// Runs `visit` with the sizes of blocks: most are of joints that hold their points, which is written out.
+#if defined(__OPTIMIZE_SIZE__)
+template <class Visit, class... Sizes>
+inline void with_sizes(const Visit& visit, Sizes... sizes) {
+  visit(sizes...);
+}
+#else
+struct Three {  ///< known at compile time
+  explicit constexpr Three(uint32_t) {}
+  constexpr operator uint32_t() const { return 3; }
+};
+template <class Visit, class... Sizes>
+inline void with_sizes(const Visit& visit, Sizes... sizes) {
+  if ((... && (sizes == 3)))
+    visit(Three(sizes)...);
+  else
+    visit(sizes...);
+}
+#endif
+
+using Rows = Real[k_joint_rows_max][k_joint_rows_max];
+
+/// The sum of a column of a block times a vector.
+template <class Height>
+inline Real product(Height height, uint32_t width, const Real* block, uint32_t i, const Real* vector) {
+  const uint32_t count = height;
+  ProductSum sum;
+  for (uint32_t k = 0; k < count; ++k) sum.add(block[k * width + i], vector[k]);
+  return sum.value();
+}
+
+/// L^-1 of a joint's block; and its columns over the pivots, as rows.
+template <class Height, class Width>
+inline void divide_block(const JointWork& work, Height height, Width width, Real* block, Rows& scaled) {
+  for (uint32_t k = 1; k < height; ++k) {
+    for (uint32_t i = 0; i < width; ++i) block[k * width + i] -= product(k, width, block, i, work.response[k]);
+  }
+  for (uint32_t k = 0; k < height; ++k) {
+    for (uint32_t i = 0; i < width; ++i) scaled[i][k] = multiply(block[k * width + i], work.inverse[k]);
+  }
+}
+
+/// What two joints without a coupling show of each other goes to their diagonals.
+void make_up_product(uint32_t rows, const Real* block, const Rows& scaled, JointWork& third, JointWork& other) {
+  for (uint32_t i = 0; i < third.rows; ++i) {
+    for (uint32_t m = 0; m < other.rows; ++m) {
+      const Real size = abs(product(rows, third.rows, block, i, scaled[m]));
+      third.response[i][i] += size;
+      other.response[m][m] += size;
+    }
+  }
+}
+
+}  // namespace
+
+void choose_unit([[maybe_unused]] const JointStage& stage, JointWork& work) {
+  work.power[0] = work.power[1] = 0;
+#if DETENT_FIXED
+  work.rows = work.rows_held;
+  for (int i = 0; i < k_free_motions; ++i) {
+    if (work.rows_max - work.rows_held > static_cast<uint32_t>(i)) work.row[work.rows++] = work.free_row[i];
+  }
+  Real response[k_joint_rows_max] = {k_zero, k_zero, k_zero, k_zero, k_zero, k_zero};
+  for (uint32_t end = 0; end < 2; ++end) {
+    const JointBody& body = stage.bodies[work.body[end]];
+    if (body.mobile == 0) continue;
+    const Reply reply(work, body, end);
+    for (uint32_t k = 0; k < work.rows; ++k) {
+      Real speed[k_joint_rows_max];
+      show(work, end, reply.velocity[k], reply.spin[k], speed);
+      response[k] += speed[k];
+    }
+  }
+  Real most[2] = {k_zero, k_zero};
+  for (uint32_t k = 0; k < work.rows; ++k) most[row_kind(work, k)] = max(most[row_kind(work, k)], response[k]);
+  for (int kind = 0; kind < 2; ++kind) {
+    const int wanted = (k_joint_response_bits - exponent_above(most[kind])) / 2;
+    work.power[kind] = wanted < k_power_max ? wanted : k_power_max;
+  }
+#endif
+}
+
+void JointFactor::start(JointWork& work) {
+  for (uint32_t k = 0; k < work.rows; ++k) {
+    work.row_power[k] = work.power[row_kind(work, k)];
+    for (uint32_t m = 0; m <= k; ++m) work.response[k][m] = k_zero;
+  }
+}
+
+const JointCoupling* JointFactor::find(uint32_t one, uint32_t other) const {
+  const bool turns = stage_.work[other].place < stage_.work[one].place;
+  const uint32_t first = turns ? other : one, second = turns ? one : other;
+  for (uint32_t at = stage_.work[first].coupling; at != k_no_link; at = stage_.couplings[at].next[0]) {
+    if (stage_.couplings[at].joint[1] == second) return &stage_.couplings[at];
+  }
+  return nullptr;
+}
+
+void JointFactor::make() {
+  for (const uint32_t index : order_) {
+    JointWork& work = stage_.work[index];
+    start(work);
+    for (uint32_t at = work.coupling; at != k_no_link;) {
+      const JointCoupling& coupling = stage_.couplings[at];
+      const uint32_t size = work.rows * stage_.work[coupling.joint[1]].rows;
+      Real* block = block_of(coupling);
+      for (uint32_t k = 0; k < size; ++k) block[k] = k_zero;
+      at = coupling.next[0];
+    }
+  }
+  for (const uint32_t index : order_) {
+    JointWork& work = stage_.work[index];
+    for (uint32_t end = 0; end < 2; ++end) {
+      const JointBody& body = stage_.bodies[work.body[end]];
+      if (body.mobile == 0) continue;
+      const Reply reply(work, body, end);
+      for (uint32_t k = 0; k < work.rows; ++k) {
+        Real speed[k_joint_rows_max];
+        show(work, end, reply.velocity[k], reply.spin[k], speed);
+        for (uint32_t m = 0; m <= k; ++m)
+          work.response[k][m] += scale_by_power(speed[m], work.row_power[k] + work.row_power[m]);
+      }
+      for (uint32_t at = work.coupling; at != k_no_link;) {
+        const JointCoupling& coupling = stage_.couplings[at];
+        const JointWork& other = stage_.work[coupling.joint[1]];
+        Real* block = block_of(coupling);
+        at = coupling.next[0];
+        for (uint32_t far = 0; far < 2; ++far) {
+          if (other.body[far] != work.body[end]) continue;
+          for (uint32_t k = 0; k < work.rows; ++k) {
+            Real speed[k_joint_rows_max];
+            show(other, far, reply.velocity[k], reply.spin[k], speed);
+            for (uint32_t m = 0; m < other.rows; ++m) {
+              const Real scaled = scale_by_power(speed[m], work.row_power[k] + other.row_power[m]);
+              block[k * other.rows + m] += end == far ? scaled : -scaled;
+            }
+          }
+        }
+      }
+    }
+  }
+  for (uint32_t k = 0; dropped_ && k < order_.count; ++k) make_up(order_[k]);
+  // The softness of each row.
+  for (const uint32_t index : order_) {
+    JointWork& work = stage_.work[index];
+    Real most[2] = {k_zero, k_zero};
+    const auto kind = [&](uint32_t k) { return row_kind(work, k); };
+    for (uint32_t k = 0; k < work.rows; ++k) most[kind(k)] = max(most[kind(k)], work.response[k][k]);
+    for (uint32_t k = 0; k < work.rows; ++k) {
+      const Real soft = scale_by_power(most[kind(k)], k_soft_power);
+      const Real hard = max(scale_by_power(most[kind(k)], k_softness_power), min(soft, k_softness_min));
+      work.least[k] = max(softer_ || !is_held(work, k) ? soft : hard, k_pivot_min);
+      work.response[k][k] += work.least[k] + min(work.spring[k], k_spring_max);
+    }
+  }
+  for (const uint32_t index : order_) eliminate(stage_.work[index]);
+}
+
+bool JointFactor::make_softer() {
+  if (softer_) return false;
+  softer_ = true;
+  make();
+  return true;
+}
+
+/// Adds to a joint's diagonal what it shows in others without a coupling.
+void JointFactor::make_up(uint32_t index) {
+  JointWork& work = stage_.work[index];
+  for (uint32_t end = 0; end < 2; ++end) {
+    const JointBody& body = stage_.bodies[work.body[end]];
+    if (body.mobile == 0) continue;
+    const Reply reply(work, body, end);
+    for (uint32_t link = body.first; link != k_no_link;) {
+      const uint32_t other_index = link / 2, far = link % 2;
+      const JointWork& other = stage_.work[other_index];
+      link = other.next[far];
+      if (other_index == index || find(index, other_index) != nullptr) continue;
+      for (uint32_t k = 0; k < work.rows; ++k) {
+        Real speed[k_joint_rows_max];
+        show(other, far, reply.velocity[k], reply.spin[k], speed);
+        for (uint32_t m = 0; m < other.rows; ++m)
+          work.response[k][k] += abs(scale_by_power(speed[m], work.row_power[k] + other.row_power[m]));
+      }
+    }
+  }
+}
+
+void JointFactor::eliminate(JointWork& work) {
+  const uint32_t rows = work.rows;
+  Rows& response = work.response;
+  for (uint32_t k = 0; k < rows; ++k) {
+    work.inverse[k] = scaled_reciprocal(max(response[k][k], work.least[k]));
+    for (uint32_t l = k + 1; l < rows; ++l) {
+      const Real of_pivot = multiply(response[l][k], work.inverse[k]);
+      for (uint32_t m = k + 1; m <= l; ++m) response[l][m] -= of_pivot * response[m][k];
+    }
+    for (uint32_t l = k + 1; l < rows; ++l) response[l][k] = multiply(response[l][k], work.inverse[k]);
+  }
+  for (uint32_t at = work.coupling; at != k_no_link; at = stage_.couplings[at].next[0]) {
+    const JointCoupling& coupling = stage_.couplings[at];
+    const uint32_t index = coupling.joint[1];
+    JointWork& other = stage_.work[index];
+    Rows scaled = {};  // GCC does not see that all that is read is written
+    with_sizes(
+        [&](auto height, auto width) {
+          divide_block(work, height, width, block_of(coupling), scaled);
+          for (uint32_t i = 0; i < width; ++i) {
+            for (uint32_t m = 0; m <= i; ++m)
+              other.response[i][m] -= product(height, width, block_of(coupling), i, scaled[m]);
+          }
+        },
+        rows, other.rows);
+    // Those before it in the list are substituted already.
+    for (uint32_t before = work.coupling; before != at; before = stage_.couplings[before].next[0]) {
+      const JointCoupling& known = stage_.couplings[before];
+      JointWork& third = stage_.work[known.joint[1]];
+      const JointCoupling* const between = find(known.joint[1], index);
+      if (between == nullptr) {
+        make_up_product(rows, block_of(known), scaled, third, other);
+        continue;
+      }
+      Real* const target = block_of(*between);
+      // What is between them lies the way of the one that is eliminated first.
+      const bool turned = other.place < third.place;
+      with_sizes(
+          [&](auto height, auto known_width, auto width) {
+            for (uint32_t i = 0; i < known_width; ++i) {
+              for (uint32_t m = 0; m < width; ++m)
+                target[turned ? m * known_width + i : i * width + m] -=
+                    product(height, known_width, block_of(known), i, scaled[m]);
+            }
+          },
+          rows, third.rows, other.rows);
+    }
+  }
+}
+
+Scaled JointFactor::substitute() {
+  EnergySum energy;
+  for (const uint32_t index : order_) {
+    JointWork& work = stage_.work[index];
+    Real over[k_joint_rows_max];
+    for (uint32_t k = 0; k < work.rows; ++k) {
+      work.side[k] -= product(k, 1, work.side, 0, work.response[k]);
+      bool clamped = false;
+      over[k] = multiply(work.side[k], work.inverse[k], clamped);
+      if (clamped) ++saturated;
+      energy.add(work.side[k], over[k]);
+    }
+    for (uint32_t at = work.coupling; at != k_no_link; at = stage_.couplings[at].next[0]) {
+      const JointCoupling& coupling = stage_.couplings[at];
+      JointWork& other = stage_.work[coupling.joint[1]];
+      with_sizes(
+          [&](auto height, auto width) {
+            for (uint32_t i = 0; i < width; ++i) other.side[i] -= product(height, width, block_of(coupling), i, over);
+          },
+          work.rows, other.rows);
+    }
+  }
+  return energy.value();
+}
+
+void JointFactor::solve() {
+  for (uint32_t place = order_.count; place-- > 0;) {
+    JointWork& work = stage_.work[order_[place]];
+    Real rest[k_joint_rows_max];
+    for (uint32_t k = 0; k < work.rows; ++k) rest[k] = work.side[k];
+    for (uint32_t at = work.coupling; at != k_no_link; at = stage_.couplings[at].next[0]) {
+      const JointCoupling& coupling = stage_.couplings[at];
+      const JointWork& other = stage_.work[coupling.joint[1]];
+      const Real* block = block_of(coupling);
+      with_sizes(
+          [&](auto height, auto width) {
+            for (uint32_t k = 0; k < height; ++k) rest[k] -= product(width, 1, block + k * width, 0, other.impulse);
+          },
+          work.rows, other.rows);
+    }
+    for (uint32_t k = 0; k < work.rows; ++k) {
+      bool clamped = false;
+      work.impulse[k] = clamp(multiply(rest[k], work.inverse[k], clamped), -k_solved_max, k_solved_max);
+      if (clamped) ++saturated;
+    }
+    for (uint32_t k = work.rows; k-- > 0;) {
+      for (uint32_t m = k + 1; m < work.rows; ++m) work.impulse[k] -= work.response[m][k] * work.impulse[m];
+    }
+  }
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

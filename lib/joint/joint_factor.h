@@ -1,0 +1,156 @@
+#pragma once
+#include "base/unroll.h"
+#include "joint/joint.h"
+#include "math/scaled.h"
+
+/// How the rows of a joint and the bodies that it holds see each other, and the factor of all joints of an island:
+/// a block L D L^T, with a block of a joint's own rows in JointWork::response, and those of its couplings in
+/// JointStage::numbers.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+inline Vec3<Real> real_from(const Vec3<Unit>& v) {
+  return {real_from_unit(v.x, 0), real_from_unit(v.y, 0), real_from_unit(v.z, 0)};
+}
+
+/// The rows that are not those of the anchors begin here.
+inline uint32_t first_other(const JointRows& rows) { return rows.points != 0 ? 3 : 0; }
+
+/// Twice an energy over the reference mass: a sum of products of impulses and speeds.
+class EnergySum {
+ public:
+#if DETENT_FIXED
+  /// Rounding: both factors down, to 2^-37. Overflow: none for fewer than 2^18 products.
+  void add(Real a, Real b) { sum_ = sum_ + Int128::product(a.raw >> k_drop, b.raw >> k_drop); }
+  Scaled value() const {
+    const bool negative = sum_ < Int128::from(0);
+    const Int128 size = negative ? -sum_ : sum_;
+    if (size.high_word() == 0) return from(negative, size.low_word(), 0);
+    const int shift = bit_length_64(static_cast<uint64_t>(size.high_word())) + 1;  // rounded up it still fits
+    return from(negative, static_cast<uint64_t>(size.round_shift(shift)), shift);
+  }
+
+ private:
+  static constexpr int k_drop = 9;
+  static Scaled from(bool negative, uint64_t mantissa, int shift) {
+    return scaled_from_parts(negative, mantissa, shift + 2 * (k_drop - k_real_frac));
+  }
+  Int128 sum_ = Int128::from(0);
+#else
+  void add(Real a, Real b) { sum_ += a * b; }
+  Scaled value() const { return sum_; }
+
+ private:
+  Real sum_ = k_zero;
+#endif
+};
+
+/// A sum of products.
+class ProductSum {
+ public:
+#if DETENT_FIXED
+  /// Exact. Overflow: none where the sum of the products' sizes is below 2^35.
+  void add(Real a, Real b) { sum_ = sum_ + Int128::product(a.raw, b.raw); }
+  /// Rounding: to nearest, ties up. Overflow: wraps.
+  Real value() const { return Real::from_raw(sum_.round_shift<k_real_frac>()); }
+
+ private:
+  Int128 sum_ = Int128::from(0);
+#else
+  void add(Real a, Real b) { sum_ += a * b; }
+  Real value() const { return sum_; }
+
+ private:
+  Real sum_ = k_zero;
+#endif
+};
+
+/// The speeds of the rows that a body's motion gives.
+inline void show(const JointWork& work, uint32_t end, const Vec3<Real>& velocity, const Vec3<Real>& spin,
+                 Real (&speed)[k_joint_rows_max]) {
+  if (work.points != 0) {
+    const Vec3<Real> at_point = velocity + cross(spin, work.arm[end]);
+    speed[0] = at_point.x;
+    speed[1] = at_point.y;
+    speed[2] = at_point.z;
+  }
+  for (uint32_t k = first_other(work); k < work.rows; ++k)
+    speed[k] = dot(velocity, work.row[k].axis) + dot(spin, work.row[k].arm[end]);
+}
+
+/// Of a row's impulse in a solution; beyond it all are made less.
+#if defined(DETENT_F64)
+inline constexpr Real k_solution_max = 0x1p24;
+#else
+inline constexpr Real k_solution_max = 16384.0;
+#endif
+/// What a body gets from its joints at most, m/s: two of them fit a Real.
+inline constexpr Real k_gathered_max = 65504.0;
+
+/// Adds to a body's push and twist what the rows' impulses do to it at an end. False if that is beyond k_gathered_max.
+inline bool gather(const JointWork& work, uint32_t end, JointBody& body) {
+  Real given[k_joint_rows_max], most = k_zero;  // by each row, m/s
+  bool saturated = false;
+  for (uint32_t k = 0; k < work.rows; ++k) {
+    given[k] = multiply(work.impulse[k], scaled_by_power(body.share, work.row_power[k] + k_impulse_power), saturated);
+    most = max(most, abs(given[k]));
+  }
+  if (saturated || !(most <= k_gathered_max * Unit(0.5))) return false;
+  Vec3<Real> push = k_zero_vector, twist = k_zero_vector;
+  if (work.points != 0) {
+    push = {given[0], given[1], given[2]};
+    twist = cross(work.arm[end], push);
+  }
+  for (uint32_t k = first_other(work); k < work.rows; ++k) {
+    if (!(greatest(twist) <= k_gathered_max)) return false;  // or this row's could wrap it
+    if (is_linear(work.row[k])) push += work.row[k].axis * given[k];
+    twist += work.row[k].arm[end] * given[k];
+  }
+  if (!(greatest(push) <= k_gathered_max) || !(greatest(twist) <= scale_by_power(k_gathered_max, -body.above)))
+    return false;
+  if (body.above != 0)
+    twist = {scale_by_power(twist.x, body.above), scale_by_power(twist.y, body.above),
+             scale_by_power(twist.z, body.above)};
+  body.push = end == 1 ? body.push + push : body.push - push;
+  body.twist = end == 1 ? body.twist + twist : body.twist - twist;
+  return greatest(body.push) <= k_gathered_max && greatest(body.twist) <= k_gathered_max;
+}
+
+/// Chooses the units of a joint's impulses, 2^power reference masses, for which its rows' responses are near 2^5: so
+/// impulses between heavy bodies stay within their range beside light ones. Range: the bodies' inertias are loaded, the
+/// rows are made.
+void choose_unit(const JointStage& stage, JointWork& work);
+
+/// A factor of the joints of an island.
+class JointFactor {
+ public:
+  /// `dropped`: some couplings had no room. What they would have been is made up for on the diagonal: then the rows are
+  /// held in part, which takes less energy than holding them.
+  JointFactor(JointStage& stage, Span<const uint32_t> order, bool dropped)
+      : stage_(stage), order_(order), dropped_(dropped) {}
+
+  /// Makes it of the rows as they are, with the bodies' inertias.
+  void make();
+  /// Makes it anew with softer rows. False if they are that already.
+  bool make_softer();
+  /// L^-1 of the sides. Returns the sides' energy: twice what they have as the motion of least energy that shows them.
+  Scaled substitute();
+  /// The impulses of the sides that were substituted.
+  void solve();
+  uint32_t saturated = 0;  ///< values that were clamped
+
+ private:
+  JointStage& stage_;
+  Span<const uint32_t> order_;
+  bool dropped_;
+  bool softer_ = false;
+
+  void make_up(uint32_t index);
+  void start(JointWork& work);
+  void eliminate(JointWork& work);
+  const JointCoupling* find(uint32_t one, uint32_t other) const;
+  Real* block_of(const JointCoupling& coupling) { return stage_.numbers.data + coupling.block; }
+};
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

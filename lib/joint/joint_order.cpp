@@ -1,0 +1,254 @@
+#include "base/heap.h"
+#include "joint/joint.h"
+#include "math/scaled.h"
+#include "motion/step_settings.h"
+
+/// The order in which the joints of an island are eliminated: by minimum degree, so that the factor of a tree has no
+/// more blocks than the tree has couplings, and that of a loop few more. It follows from the joints' slots alone.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+constexpr int k_response_bits = 14;
+constexpr uint32_t k_degrees = 32;  ///< that are told apart; beyond it all count as one
+
+class Eliminator {
+ public:
+  Eliminator(JointStage& stage, uint32_t couplings_used, uint32_t numbers_used)
+      : couplings(couplings_used), numbers(numbers_used), stage_(stage) {
+    for (uint32_t& head : head_) head = k_no_link;
+  }
+  uint32_t couplings, numbers;  ///< used
+  uint32_t dropped = 0;
+
+  /// Couples the joints of a body.
+  void couple_all(uint32_t place) {
+    for (uint32_t link = stage_.bodies[place].first; link != k_no_link;) {
+      const uint32_t one = link / 2;
+      link = stage_.work[one].next[link % 2];
+      for (uint32_t further = link; further != k_no_link;) {
+        const uint32_t other = further / 2;
+        further = stage_.work[other].next[further % 2];
+        if (!is_coupled_before(one, other, place)) couple(one, other);
+      }
+    }
+  }
+
+  /// Eliminates the joints, and writes them over `order` as they are.
+  void run(Span<uint32_t> order) {
+    for (uint32_t k = order.count; k-- > 0;) enter(order[k]);
+    for (uint32_t k = 0; k < order.count; ++k) {
+      const uint32_t joint = least();
+      leave(joint);
+      order[k] = joint;
+      eliminate(joint, k);
+    }
+  }
+
+  /// Gives each joint the list of its couplings with those eliminated later, and these their blocks.
+  void list_columns(uint32_t from) {
+    for (uint32_t k = from; k < couplings; ++k) {
+      for (const uint32_t joint : stage_.couplings[k].joint) stage_.work[joint].coupling = k_no_link;
+    }
+    uint32_t end = numbers;
+    for (uint32_t k = couplings; k-- > from;) {
+      JointCoupling& coupling = stage_.couplings[k];
+      if (stage_.work[coupling.joint[1]].place < stage_.work[coupling.joint[0]].place) {
+        const uint32_t first = coupling.joint[1];
+        coupling.joint[1] = coupling.joint[0];
+        coupling.joint[0] = first;
+      }
+      JointWork &first = stage_.work[coupling.joint[0]], &other = stage_.work[coupling.joint[1]];
+      end -= first.rows_max * other.rows_max;
+      coupling.block = end;
+      coupling.next[0] = first.coupling;
+      first.coupling = k;
+    }
+  }
+
+ private:
+  JointStage& stage_;
+  uint32_t head_[k_degrees];  ///< of the joints of each degree
+
+  /// Two joints between the same two bodies are coupled by the first of these.
+  bool is_coupled_before(uint32_t one, uint32_t other, uint32_t place) const {
+    const JointWork &p = stage_.work[one], &q = stage_.work[other];
+    const auto holds = [](const JointWork& work, uint32_t body) {
+      return work.body[0] == body || work.body[1] == body;
+    };
+    const uint32_t far = p.body[0] == place ? p.body[1] : p.body[0];
+    return holds(q, far) && stage_.bodies[far].mobile != 0 && far < place;
+  }
+
+  void couple(uint32_t one, uint32_t other) {
+    JointWork &p = stage_.work[one], &q = stage_.work[other];
+    const uint32_t size = p.rows_max * q.rows_max;
+    if (couplings == stage_.couplings.count || numbers + size > stage_.numbers.count) {
+      ++dropped;
+      return;
+    }
+    JointCoupling& coupling = stage_.couplings[couplings];
+    coupling.joint[0] = one;
+    coupling.joint[1] = other;
+    coupling.next[0] = p.coupling;
+    coupling.next[1] = q.coupling;
+    p.coupling = 2 * couplings;
+    q.coupling = 2 * couplings + 1;
+    ++p.degree;
+    ++q.degree;
+    ++couplings;
+    numbers += size;
+  }
+
+  uint32_t& head_of(uint32_t joint) {
+    const uint32_t degree = stage_.work[joint].degree;
+    return head_[degree < k_degrees ? degree : k_degrees - 1];
+  }
+  void enter(uint32_t joint) {
+    uint32_t& head = head_of(joint);
+    JointWork& work = stage_.work[joint];
+    work.around[0] = k_no_link;
+    work.around[1] = head;
+    if (head != k_no_link) stage_.work[head].around[0] = joint;
+    head = joint;
+  }
+  void leave(uint32_t joint) {
+    const JointWork& work = stage_.work[joint];
+    if (work.around[0] == k_no_link)
+      head_of(joint) = work.around[1];
+    else
+      stage_.work[work.around[0]].around[1] = work.around[1];
+    if (work.around[1] != k_no_link) stage_.work[work.around[1]].around[0] = work.around[0];
+  }
+  uint32_t least() const {
+    uint32_t degree = 0;
+    while (head_[degree] == k_no_link) ++degree;
+    return head_[degree];
+  }
+
+  /// Visits the joints coupled with one that are not eliminated.
+  template <class Visit>
+  void each_neighbour(uint32_t joint, const Visit& visit) {
+    for (uint32_t link = stage_.work[joint].coupling; link != k_no_link;) {
+      const JointCoupling& coupling = stage_.couplings[link / 2];
+      const uint32_t other = coupling.joint[1 - link % 2];
+      link = coupling.next[link % 2];
+      if (stage_.work[other].place == k_no_link) visit(other);
+    }
+  }
+
+  /// What a joint was coupled with sees each other from now on.
+  void eliminate(uint32_t joint, uint32_t place) {
+    stage_.work[joint].place = place;
+    each_neighbour(joint, [&](uint32_t one) {
+      JointWork& work = stage_.work[one];
+      leave(one);
+      --work.degree;
+      const uint32_t mark = one + 1;
+      each_neighbour(one, [&](uint32_t known) { stage_.work[known].mark = mark; });
+      each_neighbour(joint, [&](uint32_t other) {
+        if (other == one || stage_.work[other].mark == mark) return;
+        leave(other);
+        couple(one, other);
+        enter(other);
+      });
+      enter(one);
+    });
+  }
+};
+
+/// Responses are over a mass that brings the largest of the island's bodies near 2^k_response_bits, whatever their
+/// proportions: so impulses are as small as they can be.
+void weigh(const SolverBodies& bodies, Span<const uint32_t> slots, JointStage& stage) {
+  Scaled most = Scaled(0.0);  // of the responses to a torque
+  const auto each = [&](const auto& visit) {
+    for (const uint32_t slot : slots) {
+      const uint32_t place = bodies.work[slot].joint_body;
+      if (place != k_no_link && stage.bodies[place].mobile != 0) visit(slot, stage.bodies[place]);
+    }
+  };
+  each([&](uint32_t slot, const JointBody& body) {
+    const int turn = DETENT_FIXED ? bodies.work[slot].gyration.exponent + 2 * body.above : 0;
+    const Scaled own = scaled_by_power(divide(Scaled(1.0), bodies.traits[slot].mass), turn < 0 ? 0 : turn);
+    if (less(most, own)) most = own;
+  });
+  if (!is_positive(most)) return;
+  const Scaled reference = scaled_by_power(divide(Scaled(1.0), most), DETENT_FIXED ? k_response_bits : 0);
+  each([&](uint32_t slot, JointBody& body) { body.share = divide(reference, bodies.traits[slot].mass); });
+}
+
+/// What the kept impulses and the limits of motors are over.
+void weigh_joint(const StepSettings& settings, const SolverBodies& bodies, JointStage& stage, JointWork& work) {
+  const JointState& joint = stage.joints[work.joint];
+  Scaled lighter = Scaled(0.0);
+  for (const uint32_t place : work.body) {
+    const JointBody& body = stage.bodies[place];
+    const Scaled mass = bodies.traits[body.slot].mass;
+    if (body.mobile == 0 || (is_positive(lighter) && !less(mass, lighter))) continue;
+    lighter = mass;
+    work.over_lighter = body.share;
+  }
+  for (uint32_t end = 0; end < 2; ++end) {
+    const JointBody& body = stage.bodies[work.body[end]];
+    work.lighter_over[end] = body.mobile != 0 ? divide(lighter, bodies.traits[body.slot].mass) : Scaled(0.0);
+  }
+  const Scaled reference = multiply(lighter, work.over_lighter);
+  bool saturated = false;
+  const auto bound = [&](Scaled force, bool angular) {
+    const int power = angular ? -work.exponent : 0;  // torques are over 2^exponent m besides
+    const Scaled impulse = scaled_by_power(multiply(force, scaled_from(settings.tick_time)), power);
+    return to_real(divide(impulse, reference), saturated);
+  };
+  for (int i = 0; i < 2; ++i) {
+    if (is_positive(joint.force_max[i]))
+      work.bound[i] = bound(joint.force_max[i], is_angular(static_cast<JointType>(joint.type), i));
+  }
+  for (int kind = 0; kind < 2; ++kind) {
+    if (is_positive(joint.friction[kind])) work.brake[kind] = bound(joint.friction[kind], kind == 1);
+  }
+}
+
+}  // namespace
+
+uint32_t order_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
+                      Span<Island> islands, JointStage& stage) {
+  // Counted, then placed: by island, in the order of their slots.
+  const auto island_of = [&](const JointWork& work) -> Island& {
+    const JointBody &a = stage.bodies[work.body[0]], &b = stage.bodies[work.body[1]];
+    return islands[bodies.work[a.mobile != 0 ? a.slot : b.slot].island];
+  };
+  for (const JointWork& work : stage.work.first(stage.count)) ++island_of(work).joint_count;
+  uint32_t first = 0;
+  for (Island& island : islands) {
+    island.first_joint = first;
+    first += island.joint_count;
+    island.joint_count = 0;
+  }
+  for (uint32_t index = 0; index < stage.count; ++index) {
+    Island& island = island_of(stage.work[index]);
+    stage.order[island.first_joint + island.joint_count++] = index;
+  }
+  uint32_t couplings = 0, numbers = 0, dropped = 0;
+  for (Island& island : islands) {
+    if (island.joint_count == 0) continue;
+    const Span<const uint32_t> own = {slots.data + island.first_body, island.body_count};
+    weigh(bodies, own, stage);
+    Eliminator eliminator(stage, couplings, numbers);
+    for (const uint32_t slot : own) {
+      const uint32_t place = bodies.work[slot].joint_body;
+      if (place != k_no_link && stage.bodies[place].mobile != 0) eliminator.couple_all(place);
+    }
+    eliminator.run({stage.order.data + island.first_joint, island.joint_count});
+    eliminator.list_columns(couplings);
+    couplings = eliminator.couplings;
+    numbers = eliminator.numbers;
+    island.joint_couplings_dropped = eliminator.dropped;
+    dropped += eliminator.dropped;
+  }
+  for (JointWork& work : stage.work.first(stage.count)) weigh_joint(settings, bodies, stage, work);
+  for (Island& island : islands) ask_for_substeps(settings, bodies, slots, stage, island);
+  return dropped;
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,567 @@
+#include "joint/joint.h"
+#include "math/root.h"
+#include "math/scaled.h"
+#include "motion/gyration.h"
+#include "motion/spin.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+constexpr Unit k_zero_unit = 0.0;
+
+constexpr Real k_twist_rate_min = 0.75;
+/// How far beyond a limit a free motion may be heading before the limit is taken up: rad, or of the joint's unit.
+constexpr Real k_passed = 0.03125;
+/// What is no more beyond the speed that a motor or friction wants is at it, m/s.
+constexpr Real k_overdriven = 0x1p-10;
+
+Vec3<Real> in_metres(const Vec3<Unit>& v, int exponent) {
+  return {real_from_unit(v.x, exponent), real_from_unit(v.y, exponent), real_from_unit(v.z, exponent)};
+}
+
+/// The angle of a turn about an axis by twice atan2 of these, rad, in [-pi, pi].
+Real twist_of(Unit sine, Unit cosine) {
+  const bool turned = cosine < k_zero_unit;  // q and -q are the same turn
+  return scale_by_power(radians(turned ? arc_tangent(-sine, -cosine) : arc_tangent(sine, cosine)), 1);
+}
+
+/// A joint's bodies as they are now, and the rows made of them.
+struct RowMaker {
+  const JointWork& joint;
+  const JointBody& a;
+  const JointBody& b;
+  JointRows& rows;
+  Vec3<Real> gap = {};  ///< from A's anchor to B's, m
+  Matrix3 frame = {};   ///< of A, in the world
+  Quat relative = {};   ///< B's frame in A's
+
+  /// A row that acts along `axis` at B's anchor, whichever way off A's is.
+  JointRow linear(const Vec3<Unit>& axis) const {
+    const Vec3<Unit> way = unit_held(in_metres(rows.arm[0], a.exponent) + gap, a.exponent);
+    return {axis, {held_cross(way, axis), held_cross(rows.arm[1], axis)}};
+  }
+  JointRow angular(const Vec3<Unit>& axis) const {
+    return {{k_zero_unit, k_zero_unit, k_zero_unit},
+            {scale_by_power(axis, joint.exponent - a.exponent), scale_by_power(axis, joint.exponent - b.exponent)}};
+  }
+  Real length_of(Real angle) const { return scale_by_power(angle, joint.exponent); }
+
+  void hold(const JointRow& row, Real error) {
+    rows.error[rows.rows_held] = error;
+    rows.row[rows.rows_held++] = row;
+  }
+  void hold_points() {
+    rows.points = 1;
+    rows.error[0] = gap.x;
+    rows.error[1] = gap.y;
+    rows.error[2] = gap.z;
+    rows.rows_held = 3;
+  }
+  /// Twice the vector part of the relative turn is the turn where it is small.
+  void hold_turn(int axis, Unit part) {
+    const Unit sine = relative.w < k_zero_unit ? -part : part;
+    hold(angular(frame.column[axis]), length_of(scale_by_power(real_from_unit(sine, 0), 1)));
+  }
+  /// Keeps A's axis `axis` on B's: two rows, about A's next two.
+  void hold_axis(int axis) {
+    const int next = (axis + 1) % 3, last = (axis + 2) % 3;
+    const Matrix3 turned = matrix_from(relative);
+    const Unit along[3] = {turned.column[axis].x, turned.column[axis].y, turned.column[axis].z};
+    hold(angular(frame.column[next]), length_of(real_from_unit(-along[last], 0)));
+    hold(angular(frame.column[last]), length_of(real_from_unit(along[next], 0)));
+  }
+  void free_motion(int i, const JointRow& row, Real value) {
+    rows.free_row[i] = row;
+    rows.value[i] = value;
+    rows.shown[i] = Real(1.0);
+  }
+  void free_slide(int i) { free_motion(i, linear(frame.column[0]), dot(gap, frame.column[0])); }
+  void free_turn(int i, int axis, Unit sine) {
+    free_motion(i, angular(frame.column[axis]), length_of(twist_of(sine, relative.w)));
+  }
+  /// The twist about x that is left of the turn once x has leaned the shortest way: it goes with the spin about the sum
+  /// of the two x, over 1 and the cosine of the lean. Where that grows beyond an arm's range the row shows a part of
+  /// it.
+  void free_twist(int i) {
+    const Vec3<Unit> x = {Unit(1.0), k_zero_unit, k_zero_unit}, leaning = rotate(relative, x);
+    const Vec3<Unit> own = frame.column[0], other = multiply(frame, leaning);
+    const Real rate = real_from_unit(leaning.x, 0) + Real(1.0);
+    const Scaled share = scaled_reciprocal(max(rate, k_twist_rate_min));
+    const auto sum = [&](Unit of_a, Unit of_b) {
+      return multiply(real_from_unit(of_a, 0) + real_from_unit(of_b, 0), share);
+    };
+    const Vec3<Unit> axis = unit_held({sum(own.x, other.x), sum(own.y, other.y), sum(own.z, other.z)}, 0);
+    free_motion(i, angular(axis), length_of(twist_of(relative.x, relative.w)));
+    if (rate < k_twist_rate_min) rows.shown[i] = max(multiply(rate, share), k_zero);
+  }
+  /// How far B's x leans off A's, about the axis that it leans about; and, without a value, the turn round the cone.
+  void free_lean(int i) {
+    const Vec3<Unit> x = {Unit(1.0), k_zero_unit, k_zero_unit}, leaning = rotate(relative, x);
+    const Vec3<Real> about = {k_zero, real_from_unit(-leaning.z, 0), real_from_unit(leaning.y, 0)};
+    Vec3<Unit> axis;
+    Real sine = k_zero;
+    if (!normalise(about, axis, sine)) axis = {k_zero_unit, k_zero_unit, Unit(1.0)};
+    const Vec3<Unit> in_world = multiply(frame, axis);
+    free_motion(i, angular(in_world), length_of(radians(arc_tangent(unit_from_real(sine, 0), leaning.x))));
+    free_motion(i + 1, angular(unit_held(cross(in_metres(frame.column[0], 0), in_world), 0)), k_zero);
+  }
+  /// All turns, about A's axes, for friction.
+  void free_turns() {
+    for (int i = 0; i < k_free_motions; ++i) free_motion(i, angular(frame.column[i]), k_zero);
+  }
+  /// For a spring, too: their values are the turn that takes A's frame to B's, as a vector.
+  void free_turns_of_spring() {
+    free_turns();
+    const Real sign = relative.w < k_zero_unit ? Real(-1.0) : Real(1.0);  // q and -q are the same turn
+    Vec3<Unit> about;
+    Real sine = k_zero;
+    if (!normalise(in_metres({relative.x, relative.y, relative.z}, 0) * sign, about, sine)) return;
+    const Real angle = twist_of(unit_from_real(sine, 0), abs(relative.w));
+    rows.value[0] = length_of(angle * about.x);
+    rows.value[1] = length_of(angle * about.y);
+    rows.value[2] = length_of(angle * about.z);
+  }
+  void free_distance() {
+    Vec3<Unit> axis;
+    Real apart = k_zero;
+    if (!normalise(gap, axis, apart)) axis = {Unit(1.0), k_zero_unit, k_zero_unit};
+    // Each end is pulled at its own anchor.
+    const JointRow row = {axis, {held_cross(rows.arm[0], axis), held_cross(rows.arm[1], axis)}};
+    free_motion(0, row, apart);
+  }
+
+ private:
+  static Vec3<Unit> held_cross(const Vec3<Unit>& arm, const Vec3<Unit>& axis) {
+    const Vec3<Real> product = cross(in_metres(arm, 0), axis);
+    return unit_held(product, 0);
+  }
+};
+
+/// The response of a row with no joint but this one, over the joint's unit of impulses.
+Scaled own_response(const SolverBodies& bodies, const JointStage& stage, const JointWork& work, const JointRow& row) {
+  Scaled sum = Scaled(0.0);
+  for (int end = 0; end < 2; ++end) {
+    const JointBody& body = stage.bodies[work.body[end]];
+    if (body.mobile == 0) continue;
+    const WorldGyration& gyration = bodies.work[body.slot].gyration;
+    const Vec3<Unit>& arm = row.arm[end];
+    const Unit turn = scale_by_power(dot(scale_by_power(multiply(gyration, scale_by_power(arm, -1)), -1), arm), 0);
+    const Scaled angular = scaled_by_power(scaled_from(turn), gyration.exponent + 2 * body.above + 2);
+    const Scaled linear = scaled_from(dot(scale_by_power(row.axis, -1), row.axis));
+    sum = add(sum, multiply(body.share, add(scaled_by_power(linear, 1), angular)));
+  }
+  return scaled_by_power(sum, impulse_power(work, row_kind(row)));
+}
+
+bool has_ball_spring(const JointState& joint) {
+  return static_cast<JointType>(joint.type) == JointType::ball && joint.frequency[0] > k_zero;
+}
+/// The axis that describes what drives a free motion: the spring of a ball drives all its turns.
+int driving_axis(const JointState& joint, int i) {
+  return static_cast<JointType>(joint.type) == JointType::ball ? 0 : i;
+}
+
+/// A place or speed of a free motion as rows have it: of an angle that at the joint's unit.
+Real as_shown(const JointState& joint, const JointWork& work, int i, Real value) {
+  return scale_by_power(value, is_angular(static_cast<JointType>(joint.type), i) ? work.exponent : 0);
+}
+/// What a spring pulls to: a ball's, to where the frames are one.
+Real target_of(const JointState& joint, const JointWork& work, int i) {
+  return has_ball_spring(joint) ? k_zero : as_shown(joint, work, i, joint.target[i]);
+}
+/// The speed that a motor or a spring wants.
+Real speed_wanted(const JointState& joint, const JointWork& work, int i) {
+  return has_ball_spring(joint) ? k_zero : as_shown(joint, work, i, joint.speed[i]);
+}
+
+/// A part of a tick's impulse, in a row's unit.
+Real in_substep(Real impulse, Scaled share, const JointWork& work, const JointRow& row) {
+  bool saturated = false;
+  return min(multiply(impulse, scaled_by_power(share, -impulse_power(work, row_kind(row))), saturated),
+             k_joint_impulse_max);
+}
+/// The largest impulse of a motor or spring in a substep.
+Real largest_push(const JointState& joint, int i, Scaled share, const JointWork& work) {
+  const int axis = driving_axis(joint, i);
+  if (!is_positive(joint.force_max[axis])) return k_joint_impulse_max;
+  return in_substep(work.bound[axis], share, work, work.free_row[i]);
+}
+/// And of friction.
+Real largest_drag(int i, Scaled share, const JointWork& work) {
+  return in_substep(work.brake[row_kind(work.free_row[i])], share, work, work.free_row[i]);
+}
+
+/// A damped spring whose stiffness is that of the frequency with the two bodies alone. Source: Catto, "Soft
+/// Constraints", GDC 2011.
+struct Spring {
+  Scaled rate;     ///< rad/s
+  Scaled phase;    ///< rate x substep
+  Scaled damping;  ///< 2 damping ratio + phase
+
+  Spring(const StepSettings& settings, const JointState& joint, int i)
+      : rate(scaled_from(k_two_pi * joint.frequency[driving_axis(joint, i)])),
+        phase(multiply(rate, scaled_from(settings.time))),
+        damping(add(scaled_by_power(scaled_from(joint.damping_ratio[driving_axis(joint, i)]), 1), phase)) {}
+  /// What it gives in a substep over what would stop the motion at once.
+  Scaled stiffness() const { return multiply(phase, damping); }
+};
+
+DriveMode free_mode(const JointState& joint, int i) {
+  if (has_ball_spring(joint)) return DriveMode::spring;
+  if (i < free_motion_count(static_cast<JointType>(joint.type))) {
+    if (joint.frequency[i] > k_zero) return DriveMode::spring;
+    if (is_positive(joint.force_max[i])) return DriveMode::rigid;
+  }
+  return is_braked(joint, i) ? DriveMode::brake : DriveMode::idle;
+}
+
+/// How fast a free motion goes before anything is solved, m/s.
+Real speed_of(const JointStage& stage, const JointWork& work, int i) {
+  const JointBody &a = stage.bodies[work.body[0]], &b = stage.bodies[work.body[1]];
+  const JointRow& row = work.free_row[i];
+  return dot(b.velocity - a.velocity, row.axis) + dot(b.spin, row.arm[1]) - dot(a.spin, row.arm[0]);
+}
+
+/// What of that gravity, forces and torques have just added: a damper that held against it would carry a part of it.
+Real speed_pushed(const SolverBodies& bodies, const JointStage& stage, const JointWork& work, int i) {
+  const JointRow& row = work.free_row[i];
+  Real speed = k_zero;
+  for (int end = 0; end < 2; ++end) {
+    const JointBody& body = stage.bodies[work.body[end]];
+    if (body.mobile == 0) continue;
+    const BodyWork& now = bodies.work[body.slot];
+    const Vec3<Real> spin = world_spin(bodies.traits[body.slot], now.gyration, now.twist, body.above);
+    const Real own = dot(now.push, row.axis) + dot(spin, row.arm[end]);
+    speed += end == 0 ? -own : own;
+  }
+  return speed;
+}
+
+/// A spring that is soft beside the substep needs no row: it pushes by where it is, which loses nothing of its swing.
+void push_softly(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, int i,
+                 JointWork& work) {
+  const JointState& joint = stage.joints[work.joint];
+  const Spring spring(settings, joint, i);
+  if (!less(spring.stiffness(), Scaled(0.25))) return;
+  const Real off = work.value[i] - target_of(joint, work, i);
+  const Real fast = speed_of(stage, work, i) - speed_pushed(bodies, stage, work, i) - speed_wanted(joint, work, i);
+  const Scaled pull = multiply(multiply(spring.rate, spring.phase), scaled_from(off));
+  const Scaled damping = scaled_by_power(scaled_from(joint.damping_ratio[driving_axis(joint, i)]), 1);
+  const Scaled drag = multiply(multiply(spring.phase, damping), scaled_from(fast));
+  const Scaled response = own_response(bodies, stage, work, work.free_row[i]);
+  if (!is_positive(response)) return;
+  const Real most = largest_push(joint, i, settings.share, work);
+  bool saturated = false;
+  work.constant[i] = clamp(-to_real(divide(add(pull, drag), response), saturated), -most, most);
+  work.mode[i] = DriveMode::constant;
+}
+
+/// The pull of a stiff spring at its joint where it is.
+Real standing_pull(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, int i,
+                   const JointWork& work) {
+  const JointState& joint = stage.joints[work.joint];
+  const Spring spring(settings, joint, i);
+  const Scaled pull =
+      multiply(multiply(spring.rate, spring.phase), scaled_from(target_of(joint, work, i) - work.value[i]));
+  const Scaled response = own_response(bodies, stage, work, work.free_row[i]);
+  if (!is_positive(response)) return k_zero;
+  const Real most = largest_push(joint, i, settings.share, work);
+  bool saturated = false;
+  return clamp(to_real(divide(pull, response), saturated), -most, most);
+}
+
+/// Friction beside a spring. A soft spring pushes, and friction holds against it; a stiff one is held where friction
+/// bears its pull, and else drags friction along.
+void brake_spring(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, int i,
+                  JointWork& work) {
+  if (work.mode[i] == DriveMode::constant) {
+    work.mode[i] = DriveMode::brake;
+    return;
+  }
+  const Real pull = standing_pull(settings, bodies, stage, i, work);
+  const Real drag = largest_drag(i, settings.share, work);
+  if (abs(pull) <= drag) {
+    work.mode[i] = DriveMode::brake;
+    work.constant[i] = pull;
+  } else {
+    const Real speed = speed_of(stage, work, i);
+    work.constant[i] = (speed == k_zero ? pull : speed) > k_zero ? -drag : drag;
+  }
+}
+
+/// What is within a limit may go as far as that; what is beyond comes back, without speed.
+void drive_to_limit(const StepSettings& settings, Real over, bool within, uint32_t row, JointWork& work) {
+  work.wanted[row] = within ? -speed_over(settings, over) : k_zero;
+  work.error[row] = within ? k_zero : over;
+}
+
+/// What a motor or spring gives beside a limit that holds, if it pushes away from it: then the limit bears the rest, or
+/// is let go.
+Real push_off_limit(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, int i,
+                    const JointWork& work) {
+  const JointState& joint = stage.joints[work.joint];
+  const bool up = work.mode[i] == DriveMode::lower;
+  const Real most = largest_push(joint, i, settings.share, work);
+  Real push = k_zero;
+  if (free_mode(joint, i) == DriveMode::rigid) {
+    push = joint.speed[i] > k_zero ? most : joint.speed[i] < k_zero ? -most : k_zero;
+  } else if (free_mode(joint, i) == DriveMode::spring) {
+    push = standing_pull(settings, bodies, stage, i, work);
+  }
+  return up ? max(push, k_zero) : min(push, k_zero);
+}
+
+/// Whether a motor or friction at its greatest force takes the motion beyond the speed that it wants.
+bool overdrives(const JointStage& stage, int i, const JointWork& work) {
+  if (work.mode[i] != DriveMode::constant) return false;
+  const JointState& joint = stage.joints[work.joint];
+  const DriveMode mode = free_mode(joint, i);
+  if (mode != DriveMode::rigid && mode != DriveMode::brake) return false;
+  const Real wanted = mode == DriveMode::rigid ? speed_wanted(joint, work, i) * work.shown[i] : k_zero;
+  const Real push = work.constant[i] + work.driven_total[i] + work.given[i];
+  const Real beyond = speed_of(stage, work, i) - wanted;
+  return push > k_zero ? beyond > k_overdriven : beyond < -k_overdriven;
+}
+
+/// The limit that a free motion would pass by that in the substep, or what its mode is.
+DriveMode mode_at_limit(const StepSettings& settings, const JointStage& stage, int i, Real passed,
+                        const JointWork& work) {
+  const JointState& joint = stage.joints[work.joint];
+  const Real reach = clamp(speed_of(stage, work, i), -k_speed_work_max, k_speed_work_max) * settings.time;
+  if (work.value[i] + min(reach, k_zero) + passed <= as_shown(joint, work, i, joint.lower[i])) return DriveMode::lower;
+  if (work.value[i] + max(reach, k_zero) - passed >= as_shown(joint, work, i, joint.upper[i])) return DriveMode::upper;
+  return work.mode[i];
+}
+
+}  // namespace
+
+int free_motion_count(JointType type) {
+  if (type == JointType::cone_twist || type == JointType::wheel) return 2;
+  return type == JointType::ball || type == JointType::fixed || type == JointType::filter ? 0 : 1;
+}
+
+int driven_motion_count(const JointState& joint) {
+  const JointType type = static_cast<JointType>(joint.type);
+  const bool turns = type == JointType::ball || type == JointType::cone_twist;
+  const bool all = has_ball_spring(joint) || (turns && is_positive(joint.friction[1]));
+  return all ? k_free_motions : free_motion_count(type);
+}
+
+bool is_limited(const JointState& joint, int motion) {
+  // Unsigned: in compilers' eyes too, no motion of a joint without free ones is asked for a limit.
+  const uint32_t free_motions = static_cast<uint32_t>(free_motion_count(static_cast<JointType>(joint.type)));
+  return static_cast<uint32_t>(motion) < free_motions && joint.limited[motion] != 0;
+}
+
+bool is_driven(const JointState& joint, int motion) {
+  return is_limited(joint, motion) || free_mode(joint, motion) != DriveMode::idle;
+}
+
+bool is_braked(const JointState& joint, int motion) {
+  return is_positive(joint.friction[is_angular(static_cast<JointType>(joint.type), motion) ? 1 : 0]);
+}
+
+bool is_angular(JointType type, int motion) {
+  return motion >= 1 || !(type == JointType::slider || type == JointType::distance || type == JointType::wheel);
+}
+
+JointRows make_joint_rows(const JointStage& stage, const JointWork& work) {
+  const JointState& joint = stage.joints[work.joint];
+  const JointBody &a = stage.bodies[work.body[0]], &b = stage.bodies[work.body[1]];
+  const JointType type = static_cast<JointType>(joint.type);
+  JointRows rows = {};
+  rows.arm[0] = multiply(a.axes, work.anchor[0]);
+  rows.arm[1] = multiply(b.axes, work.anchor[1]);
+  RowMaker make = {work, a, b, rows};
+  make.gap =
+      work.between + (b.place - a.place) + (in_metres(rows.arm[1], b.exponent) - in_metres(rows.arm[0], a.exponent));
+  const bool driven = driven_motion_count(joint) != 0;
+  if ((type != JointType::ball || driven) && type != JointType::distance) {
+    const Quat frame_a = multiply(a.rotation, joint.frame_a);
+    make.frame = matrix_from(frame_a);
+    make.relative = multiply(conjugate(frame_a), multiply(b.rotation, joint.frame_b));
+  }
+  const Quat& relative = make.relative;
+  switch (type) {
+    case JointType::ball:
+      make.hold_points();
+      if (has_ball_spring(joint))
+        make.free_turns_of_spring();
+      else if (driven)
+        make.free_turns();
+      break;
+    case JointType::hinge:
+      make.hold_points();
+      make.hold_axis(0);
+      make.free_turn(0, 0, relative.x);
+      break;
+    case JointType::slider:
+      make.hold(make.linear(make.frame.column[1]), dot(make.gap, make.frame.column[1]));
+      make.hold(make.linear(make.frame.column[2]), dot(make.gap, make.frame.column[2]));
+      make.hold_turn(0, relative.x);
+      make.hold_turn(1, relative.y);
+      make.hold_turn(2, relative.z);
+      make.free_slide(0);
+      break;
+    case JointType::distance:
+      make.free_distance();
+      break;
+    case JointType::fixed:
+      make.hold_points();
+      make.hold_turn(0, relative.x);
+      make.hold_turn(1, relative.y);
+      make.hold_turn(2, relative.z);
+      break;
+    case JointType::cone_twist:
+      make.hold_points();
+      make.free_twist(0);
+      make.free_lean(1);
+      break;
+    case JointType::wheel:
+      make.hold(make.linear(make.frame.column[1]), dot(make.gap, make.frame.column[1]));
+      make.hold(make.linear(make.frame.column[2]), dot(make.gap, make.frame.column[2]));
+      make.hold_axis(2);
+      make.free_slide(0);
+      make.free_turn(1, 2, relative.z);
+      break;
+    case JointType::parallel:
+      make.hold_axis(0);
+      make.free_turn(0, 0, relative.x);
+      break;
+    default:
+      break;
+  }
+  return rows;
+}
+
+void choose_drives(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, JointWork& work) {
+  const JointState& joint = stage.joints[work.joint];
+  for (int i = 0; i < k_free_motions; ++i) {
+    work.mode[i] = DriveMode::idle;
+    work.constant[i] = work.driven_total[i] = work.given[i] = k_zero;
+  }
+  for (int i = 0; i < driven_motion_count(joint); ++i) {
+    work.mode[i] = free_mode(joint, i);
+    if (work.mode[i] == DriveMode::spring) {
+      push_softly(settings, bodies, stage, i, work);
+      if (is_braked(joint, i)) brake_spring(settings, bodies, stage, i, work);
+    }
+    if (!is_limited(joint, i)) continue;
+    if (joint.lower[i] == joint.upper[i]) {
+      work.mode[i] = DriveMode::held;
+      work.constant[i] = k_zero;
+      continue;
+    }
+    work.mode[i] = mode_at_limit(settings, stage, i, k_zero, work);
+    if (is_at_limit(work.mode[i])) work.constant[i] = push_off_limit(settings, bodies, stage, i, work);
+  }
+}
+
+bool take_up(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, bool touches,
+             JointWork& work) {
+  const JointState& joint = stage.joints[work.joint];
+  bool taken = false;
+  for (int i = 0; i < driven_motion_count(joint); ++i) {
+    DriveMode& mode = work.mode[i];
+    if (!touches && overdrives(stage, i, work)) {
+      mode = free_mode(joint, i);
+      work.driven_total[i] += work.given[i];
+      work.constant[i] = work.given[i] = k_zero;
+      taken = true;
+    }
+    if (!is_limited(joint, i) || is_at_limit(mode)) continue;
+    const DriveMode limit = mode_at_limit(settings, stage, i, scale_by_power(k_passed, work.exponent), work);
+    if (!is_at_limit(limit)) continue;
+    mode = limit;
+    work.given[i] += work.driven_total[i];
+    work.driven_total[i] = k_zero;
+    work.constant[i] = push_off_limit(settings, bodies, stage, i, work);
+    taken = true;
+  }
+  return taken;
+}
+
+void add_driven_rows(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage,
+                     JointWork& work) {
+  work.rows = work.rows_held;
+  const JointState& joint = stage.joints[work.joint];
+  for (int i = 0; i < k_free_motions; ++i) {
+    const DriveMode mode = work.mode[i];
+    work.driven[i] = k_joint_rows_max;
+    if (mode == DriveMode::idle || mode == DriveMode::constant) continue;
+    const uint32_t row = work.rows++;
+    work.driven[i] = row;
+    work.row[row] = work.free_row[i];
+    work.error[row] = k_zero;
+    work.spring[row] = work.wanted[row] = k_zero;
+    if (mode == DriveMode::brake) continue;
+    if (is_at_limit(mode)) {
+      const Real limit = mode == DriveMode::upper ? joint.upper[i] : joint.lower[i];
+      const Real over = work.value[i] - as_shown(joint, work, i, limit);
+      const bool within = mode == DriveMode::upper ? over < k_zero : mode == DriveMode::lower && over > k_zero;
+      drive_to_limit(settings, over, within, row, work);
+    } else {
+      work.wanted[row] = speed_wanted(joint, work, i);
+    }
+    if (mode == DriveMode::spring) {
+      const Spring spring(settings, joint, i);
+      bool saturated = false;
+      const Real off = work.value[i] - target_of(joint, work, i);
+      work.wanted[row] -= multiply(off, divide(spring.rate, spring.damping), saturated);
+      const Scaled response = own_response(bodies, stage, work, work.free_row[i]);
+      work.spring[row] = to_real(scaled_by_power(divide(response, spring.stiffness()),
+                                                 work.power[row_kind(work.free_row[i])] - k_impulse_power),
+                                 saturated);
+    }
+    work.wanted[row] = work.wanted[row] * work.shown[i];
+  }
+}
+
+bool release_limits(const JointState& joint, bool changes, JointWork& work) {
+  for (int i = 0; i < 2; ++i) {
+    DriveMode& mode = work.mode[i];
+    const uint32_t row = work.driven[i];
+    if (row == k_joint_rows_max) continue;
+    const Real impulse = work.driven_total[i] + work.impulse[row];
+    if (!(mode == DriveMode::lower && impulse < k_zero) && !(mode == DriveMode::upper && impulse > k_zero)) continue;
+    if (changes) {
+      mode = free_mode(joint, i);
+      work.constant[i] = k_zero;
+      work.given[i] += work.driven_total[i];
+      work.driven_total[i] = k_zero;
+    }
+    return true;  // the other one's is not what it would be without this one
+  }
+  return false;
+}
+
+bool bound_drives(const JointState& joint, Scaled share, bool changes, JointWork& work) {
+  bool wrong = false;
+  for (int i = 0; i < k_free_motions; ++i) {
+    DriveMode& mode = work.mode[i];
+    const uint32_t row = work.driven[i];
+    if (row == k_joint_rows_max) continue;
+    const Real impulse = work.driven_total[i] + work.impulse[row], all = impulse + work.given[i];
+    if ((mode == DriveMode::rigid || mode == DriveMode::spring) &&
+        is_positive(joint.force_max[driving_axis(joint, i)])) {
+      const Real bound = largest_push(joint, i, share, work);
+      if (all <= bound && all >= -bound) continue;
+      wrong = true;
+      if (!changes) continue;
+      work.constant[i] = (all > k_zero ? bound : -bound) - (work.driven_total[i] + work.given[i]);
+      mode = DriveMode::constant;
+    } else if (mode == DriveMode::brake) {
+      const Real drag = largest_drag(i, share, work);
+      if (impulse <= drag && impulse >= -drag) continue;
+      wrong = true;
+      if (!changes) continue;
+      work.constant[i] += (impulse > k_zero ? drag : -drag) - work.driven_total[i];
+      mode = DriveMode::constant;
+    }
+  }
+  return wrong;
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,733 @@
+#include "joint/joint.h"
+#include "joint/joint_factor.h"
+#include "math/rotation.h"
+#include "math/scaled.h"
+#include "motion/contact_motion.h"
+#include "motion/gyration.h"
+#include "motion/spin.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+constexpr uint32_t k_gathers = 4;  ///< of impulses that are beyond what bodies can take, before they are dropped
+constexpr Scaled k_gathered_share = 0.015625;  ///< of them that is tried next
+constexpr uint32_t k_decisions = 12;           ///< tries to solve with limits and motors as they must be
+constexpr uint32_t k_takings = 3;              ///< of those, in which limits are taken up: then they are only let go
+
+/// What a substep makes up for of the errors of positions, and no faster than so.
+constexpr Unit k_closed = 0.15;
+/// And in an island with contacts, which learn of it only when they are pressed.
+constexpr Unit k_closed_with_contacts = 0.05;
+constexpr Real k_closing_speed_max = 4.0;  ///< m/s
+constexpr Real k_closing_spin_max = 16.0;  ///< rad/s
+constexpr int k_gap_power = 20;            ///< where all gaps are below 2^-k_gap_power of their joint's unit they stay
+constexpr int k_turned_power = 6;          ///< of a turn in rad: what has turned by less in the tick keeps its gyration
+constexpr int k_spin_power_max = 14;       ///< of a spin, m/s at the joints: beyond it a body is slowed
+constexpr int k_slowings = 16, k_slowing_power = 2;  ///< how often, and each time by how much
+constexpr int k_matrix_power = 3;                    ///< by how much a matrix of Units makes a vector greater at most
+constexpr int k_side_power_max = 16;                 ///< of the sides of a solve
+constexpr int k_straight_power = 20;                 ///< of rad: see any_turns()
+
+/// The sum of two lengths, held so that a Real tells its double.
+constexpr Real k_length_max = 32768.0;
+Real held_sum(Real a, Real b) { return min(a + min(b, k_length_max), k_length_max); }
+
+/// What a joint keeps of a substep's impulses.
+Scaled kept_share(const StepSettings& settings) {
+  return scaled_by_power(scaled_from_count(settings.substeps), -k_kept_power);
+}
+
+/// Visits the bodies of an island that joints hold and that move.
+template <class Visit>
+void each_body(const SolverBodies& bodies, Span<const uint32_t> slots, JointStage& stage, const Visit& visit) {
+  for (const uint32_t slot : slots) {
+    const uint32_t place = bodies.work[slot].joint_body;
+    if (place == k_no_link) continue;
+    JointBody& body = stage.bodies[place];
+    if (body.mobile != 0) visit(body);
+  }
+}
+
+/// Solves one island's joints.
+struct Solver {
+  const StepSettings& settings;
+  const SolverBodies& bodies;
+  Span<const uint32_t> slots;
+  JointStage& stage;
+  Span<const uint32_t> order;
+  JointFactor factor;
+  bool touches;  ///< whether the island has contacts, which are held in turn
+  uint32_t clamped = 0, undecided = 0;
+
+  Solver(const StepSettings& of_step, const SolverBodies& all, Span<const uint32_t> of_island, const Island& island,
+         JointStage& joints)
+      : settings(of_step),
+        bodies(all),
+        slots(of_island),
+        stage(joints),
+        order{joints.order.data + island.first_joint, island.joint_count},
+        factor(joints, order, island.joint_couplings_dropped != 0),
+        touches(island.contact_count != 0) {}
+
+  JointBody& end_of(const JointWork& work, uint32_t end) const { return stage.bodies[work.body[end]]; }
+  template <class Visit>
+  void each_mobile(const Visit& visit) {
+    each_body(bodies, slots, stage, visit);
+  }
+  template <class Visit>
+  void each_joint(const Visit& visit) {
+    for (const uint32_t index : order) visit(stage.work[index]);
+  }
+
+  /// Where the bodies are now.
+  void place_moving(Real elapsed) {
+    each_mobile([&](JointBody& body) {
+      const BodyWork& now = bodies.work[body.slot];
+      body.rotation = now.rotation;
+      body.place = now.displacement;
+      body.axes = elapsed == k_zero ? now.axes : matrix_from(now.rotation);
+    });
+  }
+  void place_still(Real elapsed) {
+    each_joint([&](JointWork& work) {
+      for (const uint32_t at : work.body) {
+        JointBody& body = stage.bodies[at];
+        if (body.mobile != 0) continue;
+        const BodyTraits& traits = bodies.traits[body.slot];
+        const BodyMotion& motion = bodies.motions[body.slot];
+        const BodyWork& now = bodies.work[body.slot];
+        Quat rotation = now.rotation;
+        body.velocity = body.spin = k_zero_vector;
+        if (type_of(traits) == BodyType::kinematic) {
+          Vec3<Real> spin;
+          turn_freely(traits, now.free_turn, motion.momentum, elapsed, 0, rotation, spin);
+          body.velocity = motion.velocity;
+          body.spin = world_spin(traits, now.gyration, motion.momentum, body.above);
+        }
+        body.rotation = rotation;
+        body.axes = matrix_from(rotation);
+        body.place = body.velocity * elapsed;
+      }
+    });
+  }
+
+  Vec3<Real> spin_from(const JointBody& body, const Vec3<Real>& momentum) const {
+    return world_spin(bodies.traits[body.slot], bodies.work[body.slot].gyration, momentum, body.above);
+  }
+  /// Whether a body's momentum gives a spin with which the speeds of rows fit a Real.
+  bool spins_within(const JointBody& body, const Vec3<Real>& momentum) const {
+    const int power = bodies.work[body.slot].gyration.exponent + body.above;  // of a matrix of 3 x 3 Units
+    if (exponent_above(greatest(momentum)) + power + k_matrix_power <= k_spin_power_max) return true;
+    return greatest(spin_from(body, momentum)) <= scale_by_power(Real(1.0), k_spin_power_max);
+  }
+  /// A body that would turn faster keeps a part of its momentum.
+  void slow_to_fit(const JointBody& body, Vec3<Real>& momentum) {
+    for (int left = k_slowings; left > 0 && !spins_within(body, momentum); --left) {
+      momentum = scale_by_power(momentum, -k_slowing_power);
+      ++clamped;
+    }
+  }
+  void load_motion(JointBody& body) {
+    const BodyMotion& motion = bodies.motions[body.slot];
+    body.velocity = motion.velocity;
+    body.spin = spin_from(body, motion.momentum);
+  }
+
+  /// Whether a body that has turned in the tick has another gyration than at its start.
+  bool has_turned(const JointBody& body) const {
+    const BodyTraits& traits = bodies.traits[body.slot];
+    return !is_isotropic(traits) &&
+           absolute_sum(bodies.work[body.slot].turn) > real_from_unit(Unit(1.0), traits.size_exponent - k_turned_power);
+  }
+
+  void begin(Real elapsed) {
+    place_moving(elapsed);
+    place_still(elapsed);
+    each_mobile([&](JointBody& body) {
+      BodyWork& now = bodies.work[body.slot];
+      const BodyMotion& motion = bodies.motions[body.slot];
+      body.push = body.twist = body.given_push = body.given_twist = k_zero_vector;
+      body.renewed = body.slowed;
+      if (elapsed != k_zero && has_turned(body)) {
+        now.gyration = world_gyration(bodies.traits[body.slot], body.axes);
+        body.renewed = 1;
+      }
+      body.velocity_before = motion.velocity;
+      body.momentum_before = motion.momentum;
+    });
+    each_joint([&](JointWork& work) {
+      static_cast<JointRows&>(work) = make_joint_rows(stage, work);
+      if (elapsed == k_zero) work.pull = last_pull(stage, work);
+    });
+    each_mobile([&](JointBody& body) { load_inertia(settings, bodies, stage, body); });
+    if (elapsed == k_zero) each_joint([&](JointWork& work) { choose_unit(stage, work); });
+  }
+
+  /// Takes up how the bodies move now, and chooses how the free motions are driven.
+  void start() {
+    each_mobile([&](JointBody& body) { load_motion(body); });
+    each_joint([&](JointWork& work) {
+      for (Real& total : work.total) total = k_zero;
+      for (uint32_t k = 0; k < work.rows_held; ++k) work.spring[k] = work.wanted[k] = k_zero;
+      choose_drives(settings, bodies, stage, work);
+    });
+  }
+
+  /// Motors at their greatest force, and soft springs, push without a row.
+  void push(const JointWork& work) {
+    for (int i = 0; i < k_free_motions; ++i) {
+      if (work.constant[i] == k_zero) continue;
+      const JointRow& row = work.free_row[i];
+      const int power = impulse_power(work, row_kind(row));
+      const auto give = [&](JointBody& body, uint32_t end, Real impulse) {
+        if (body.mobile == 0) return;
+        body.given_push += multiply(row.axis * impulse, scaled_by_power(body.share, power));
+        body.given_twist += multiply(row.arm[end] * impulse, scaled_by_power(body.share, power + body.above));
+      };
+      give(end_of(work, 1), 1, work.constant[i]);
+      give(end_of(work, 0), 0, -work.constant[i]);
+    }
+  }
+
+  /// The speeds of a joint's rows.
+  void speeds(const JointWork& work, Real (&speed)[k_joint_rows_max]) const {
+    Real of_a[k_joint_rows_max];
+    const JointBody &a = end_of(work, 0), &b = end_of(work, 1);
+    show(work, 0, a.velocity, a.spin, of_a);
+    show(work, 1, b.velocity, b.spin, speed);
+    for (uint32_t k = 0; k < work.rows; ++k) speed[k] -= of_a[k];
+  }
+  /// Of a row's speeds in a solve.
+  static int power_of(const JointWork& work, uint32_t row) { return work.row_power[row] - k_impulse_power; }
+  /// What a row asks for as a side of a solve.
+  Real side_of(const JointWork& work, uint32_t row, Real speed) {
+    const int power = power_of(work, row);
+    clamped += clamp_component(speed, scale_by_power(Real(1.0), k_side_power_max - (power > 0 ? power : 0)));
+    return scale_by_power(speed, power);
+  }
+
+  /// Whether a body turns by more than 2^-k_straight_power rad in the substep: below, joints' ways do not bend by what
+  /// can be told. Rods turn without their bodies.
+  bool any_turns() {
+    bool turns = false;
+    each_mobile([&](JointBody& body) { load_motion(body); });
+    each_joint([&](const JointWork& work) {
+      for (const uint32_t at : work.body) {
+        const JointBody& body = stage.bodies[at];
+        const Real least = real_from_unit(Unit(1.0), body.exponent - k_straight_power);
+        if (absolute_sum(body.spin) * settings.time > least) turns = true;
+      }
+      if (static_cast<JointType>(stage.joints[work.joint].type) == JointType::distance) turns = true;
+    });
+    return turns;
+  }
+
+  /// Twice the energy that holding the rows takes from the motion before the substep.
+  Scaled energy_of_turning() {
+    each_mobile([&](JointBody& body) {
+      body.velocity = body.velocity_before;
+      body.spin = spin_from(body, body.momentum_before);
+    });
+    each_joint([&](JointWork& work) {
+      Real speed[k_joint_rows_max];
+      speeds(work, speed);
+      for (uint32_t k = 0; k < work.rows; ++k) work.side[k] = is_held(work, k) ? side_of(work, k, -speed[k]) : k_zero;
+    });
+    return factor.substitute();
+  }
+
+  /// Makes the factor of the rows that the joints have as they are driven.
+  void make_factor() {
+    each_joint([&](JointWork& work) { add_driven_rows(settings, bodies, stage, work); });
+    factor.make();
+    each_mobile([&](JointBody& body) { body.given_push = body.given_twist = k_zero_vector; });
+    each_joint([&](JointWork& work) { push(work); });
+  }
+
+  /// Asks the rows for the speeds that they want, from how the bodies move.
+  void ask_for_speeds() {
+    each_joint([&](JointWork& work) {
+      Real speed[k_joint_rows_max];
+      speeds(work, speed);
+      for (uint32_t k = 0; k < work.rows; ++k) work.side[k] = side_of(work, k, work.wanted[k] - speed[k]);
+      for (int i = 0; i < k_free_motions; ++i) {
+        const uint32_t row = work.driven[i];
+        if (row != k_joint_rows_max) work.side[row] -= work.spring[row] * work.driven_total[i];
+      }
+    });
+  }
+  /// Holds the rows, until all limits, motors and brakes are as they were taken to be.
+  void hold(Real elapsed) {
+    for (uint32_t decision = 1;; ++decision) {
+      each_mobile([&](JointBody& body) {
+        const BodyMotion& motion = bodies.motions[body.slot];
+        body.velocity = motion.velocity + body.given_push;
+        body.spin = spin_from(body, motion.momentum + body.given_twist);
+      });
+      const uint32_t lessened = solve_for([&] { ask_for_speeds(); });
+      bool wrong = false;
+      const bool last = decision == k_decisions;
+      each_joint([&](JointWork& work) {
+        if (bound_drives(stage.joints[work.joint], settings.share, !last, work)) wrong = true;
+      });
+      if (!wrong) {  // a limit's impulse is what it is beside drives that stay within their bounds
+        each_joint([&](JointWork& work) {
+          if (release_limits(stage.joints[work.joint], !last, work)) wrong = true;
+        });
+      }
+      if (!wrong || last) clamped += lessened;
+      if (wrong && last) ++undecided;
+      if (!wrong && decision <= k_takings) wrong = take_up_drives();
+      if (!wrong || last) break;
+      make_factor();
+    }
+    keep_sound(elapsed);
+    each_mobile([&](JointBody& body) { apply(body); });
+    each_joint([&](JointWork& work) { count_in(work); });
+  }
+
+  /// Whether limits or drives are taken up again for how the bodies move with what has been gathered.
+  bool take_up_drives() {
+    bool open = false;
+    each_joint([&](const JointWork& work) {
+      for (int i = 0; i < k_free_motions; ++i) {
+        const bool limited = is_limited(stage.joints[work.joint], i);
+        if ((limited && !is_at_limit(work.mode[i])) || (!touches && work.mode[i] == DriveMode::constant)) open = true;
+      }
+    });
+    if (!open) return false;
+    each_mobile([&](JointBody& body) {
+      const BodyMotion& motion = bodies.motions[body.slot];
+      body.velocity = motion.velocity + body.push + body.given_push;
+      body.spin = spin_from(body, motion.momentum + body.twist + body.given_twist);
+    });
+    bool taken = false;
+    each_joint([&](JointWork& work) {
+      if (take_up(settings, bodies, stage, touches, work)) taken = true;
+    });
+    return taken;
+  }
+
+  Real greatest_impulse() {
+    Real most = k_zero;
+    each_joint([&](JointWork& work) {
+      for (uint32_t k = 0; k < work.rows; ++k) most = max(most, abs(work.impulse[k]));
+    });
+    return most;
+  }
+
+  /// Solves for the sides that `ask` sets, and makes the impulses what the bodies get. Where rows ask for what others
+  /// do not allow, which takes impulses over their softness, beyond range, rows are softer from there on in this
+  /// substep. Where that is not enough all impulses are made less: a part of what holds the rows takes energy too.
+  /// Returns how often that was.
+  template <class Ask>
+  uint32_t solve_for(const Ask& ask) {
+    const uint32_t before = factor.saturated;
+    for (;;) {
+      ask();
+      factor.substitute();
+      factor.solve();
+      if (factor.saturated == before && greatest_impulse() <= k_solution_max && gather_joints()) return 0;
+      if (!factor.make_softer()) return gather_less();
+      factor.saturated = before;
+    }
+  }
+  /// Returns how often the impulses were made less.
+  uint32_t gather_less() {
+    uint32_t lessened = 0;
+    const Real most = greatest_impulse();
+    if (most > k_solution_max) {
+      ++lessened;
+      scale_impulses(divide(scaled_from(k_solution_max), scaled_from(most)));
+    }
+    for (uint32_t left = k_gathers; !gather_joints(); --left) {
+      ++lessened;
+      scale_impulses(left == 1 ? Scaled(0.0) : k_gathered_share);
+    }
+    return lessened;
+  }
+  /// False if a body gets more than fits.
+  bool gather_joints() {
+    bool fits = true;
+    each_mobile([&](JointBody& body) { body.push = body.twist = k_zero_vector; });
+    each_joint([&](const JointWork& work) {
+      for (uint32_t end = 0; fits && end < 2; ++end) {
+        JointBody& body = end_of(work, end);
+        if (body.mobile != 0 && !gather(work, end, body)) fits = false;
+      }
+    });
+    each_mobile([&](const JointBody& body) { fits = fits && spins_within(body, body.twist); });
+    return fits;
+  }
+  void scale_impulses(Scaled share) {
+    each_joint([&](JointWork& work) {
+      for (uint32_t k = 0; k < work.rows; ++k) work.impulse[k] = multiply(work.impulse[k], share);
+    });
+  }
+  /// Whether nothing has left its range yet.
+  bool is_sound() const { return clamped + factor.saturated == 0; }
+  /// What left its range on the way is no solution: as much of it as takes energy.
+  void keep_sound(Real elapsed) {
+    if (is_sound()) return;
+    scale_all(share_within(Scaled(0.0)));
+    place_still(elapsed);
+  }
+
+  /// What the joints have given a body becomes its motion.
+  void apply(JointBody& body) {
+    BodyMotion& motion = bodies.motions[body.slot];
+    BodyWork& now = bodies.work[body.slot];
+    const Vec3<Real> velocity_before = motion.velocity, momentum_before = motion.momentum;
+    motion.velocity += body.push + body.given_push;
+    motion.momentum += body.twist + body.given_twist;
+    clamped += clamp_vector(motion.velocity, k_speed_work_max) + clamp_vector(motion.momentum, k_spin_work_max);
+    slow_to_fit(body, motion.momentum);
+    if (DETENT_FIXED) {  // it is not the contacts' (contact_motion.h)
+      now.contact_velocity -= motion.velocity - velocity_before;
+      now.contact_momentum -= motion.momentum - momentum_before;
+    }
+    body.push = body.twist = body.given_push = body.given_twist = k_zero_vector;
+  }
+
+  /// What has acted counts among what the joint gives in this substep.
+  static void count_in(JointWork& work) {
+    for (uint32_t k = 0; k < work.rows_held; ++k) work.total[k] += work.impulse[k];
+    for (int i = 0; i < k_free_motions; ++i) {
+      if (work.driven[i] != k_joint_rows_max) work.driven_total[i] += work.impulse[work.driven[i]];
+      work.given[i] += work.constant[i];
+      work.constant[i] = k_zero;
+    }
+  }
+
+  /// Holds the rows once more: takes out what contacts have added to their speeds.
+  void hold_again(Real elapsed) {
+    each_mobile([&](JointBody& body) {
+      apply(body);  // nothing: what contacts have made of its motion is brought within range
+      load_motion(body);
+    });
+    place_still(elapsed);
+    hold(elapsed);
+    renew_spins();
+  }
+  /// The contacts' copy of the bodies' spins.
+  void renew_spins() {
+    each_mobile([&](JointBody& body) {
+      BodyWork& now = bodies.work[body.slot];
+      now.spin = world_spin(bodies.traits[body.slot], now.gyration, bodies.motions[body.slot].momentum, -k_spin_power);
+    });
+  }
+
+  /// Asks the rows for what would take their errors to those where the bodies are heading: the rows hold along straight
+  /// ways, and joints turn.
+  void ask_for_curves(Real elapsed) {
+    each_mobile([&](JointBody& body) {
+      const BodyMotion& motion = bodies.motions[body.slot];
+      const BodyWork& now = bodies.work[body.slot];
+      Vec3<Real> spin;
+      turn_freely(bodies.traits[body.slot], now.free_turn, own_momentum(body, motion.momentum), settings.time, 0,
+                  body.rotation, spin);
+      body.axes = matrix_from(body.rotation);
+      body.place += motion.velocity * settings.time;
+    });
+    place_still(elapsed + settings.time);
+    each_joint([&](JointWork& work) {
+      const JointRows then = make_joint_rows(stage, work);
+      const auto ask = [&](uint32_t row, Real error) {
+        work.side[row] = side_of(work, row, speed_over(settings, work.error[row] - error));
+      };
+      for (uint32_t k = 0; k < then.rows_held; ++k) ask(k, then.error[k]);
+      for (uint32_t k = then.rows_held; k < work.rows; ++k) work.side[k] = k_zero;
+      for (int i = 0; i < k_free_motions; ++i) {
+        const uint32_t row = work.driven[i];
+        if (row == k_joint_rows_max || !is_held(work, row)) continue;
+        const Real way = work.wanted[row] * settings.time;
+        ask(row, work.error[row] + (then.value[i] - work.value[i] - way));
+      }
+    });
+    place_moving(elapsed);
+  }
+
+  /// Adds the motion that follows the joints' curves, as far as it has no more energy than holding the rows has taken.
+  void follow_curves(Real elapsed, Scaled taken) {
+    clamped += solve_for([&] { ask_for_curves(elapsed); });
+    scale_all(share_within(is_sound() ? taken : Scaled(0.0)));
+    each_mobile([&](JointBody& body) { apply(body); });
+    each_joint([&](JointWork& work) { count_in(work); });
+  }
+
+  /// The greatest x in [0, 1] for which x times the impulses, which have been gathered, add no more than that: with
+  /// what they have by themselves and what they share with the motion, x^2 own + 2 x shared <= allowed, all twice
+  /// energies.
+  Scaled share_within(Scaled allowed) {
+    EnergySum own, shared;
+    const auto add_up = [&](EnergySum& sum) {
+      each_joint([&](JointWork& work) {
+        Real speed[k_joint_rows_max];
+        speeds(work, speed);
+        for (uint32_t k = 0; k < work.rows; ++k) sum.add(work.impulse[k], scale_by_power(speed[k], power_of(work, k)));
+      });
+    };
+    each_mobile([&](JointBody& body) { load_motion(body); });
+    add_up(shared);
+    each_mobile([&](JointBody& body) {
+      body.velocity = body.push;
+      body.spin = spin_from(body, body.twist);
+    });
+    place_motionless();
+    add_up(own);
+    const Scaled square = own.value(), line = shared.value(), one = 1.0;
+    if (!less(allowed, add(square, scaled_by_power(line, 1)))) return one;
+    const Scaled root = square_root(add(multiply(line, line), multiply(square, allowed)));
+    const Scaled rest = add(root, negate(line));
+    const Scaled share = is_positive(square) && is_positive(rest) ? divide(rest, square) : Scaled(0.0);
+    return less(one, share) ? one : share;
+  }
+  void scale_all(Scaled share) {
+    if (share == Scaled(1.0)) return;
+    each_mobile([&](JointBody& body) {
+      body.push = multiply(body.push, share);
+      body.twist = multiply(body.twist, share);
+    });
+    scale_impulses(share);
+  }
+
+  /// What does not move for the solver has no part in what it gives.
+  void place_motionless() {
+    each_joint([&](JointWork& work) {
+      for (const uint32_t at : work.body) {
+        JointBody& body = stage.bodies[at];
+        if (body.mobile == 0) body.velocity = body.spin = k_zero_vector;
+      }
+    });
+  }
+
+  /// Whether there is more than next to nothing to close.
+  bool any_gaps() {
+    bool opens = false;
+    each_joint([&](const JointWork& work) {
+      const Real least = real_from_unit(Unit(1.0), work.exponent - k_gap_power);
+      for (uint32_t k = 0; k < work.rows; ++k) opens = opens || abs(work.error[k]) > least;
+    });
+    return opens;
+  }
+
+  /// Asks the rows for a part of their errors. Returns the sum of what that closes, m.
+  Real ask_for_gaps() {
+    Real closed = k_zero;
+    each_joint([&](JointWork& work) {
+      const Real angular_max = scale_by_power(k_closing_spin_max, work.exponent < 12 ? work.exponent : 12);
+      for (uint32_t k = 0; k < work.rows; ++k) {
+        const bool linear = row_kind(work, k) == 0;
+        const Real most = linear ? k_closing_speed_max : angular_max;
+        const Unit share = touches ? k_closed_with_contacts : k_closed;
+        const Real speed = clamp(-(speed_over(settings, work.error[k]) * share), -most, most);
+        closed = held_sum(closed, abs(speed) * settings.time);
+        work.side[k] = side_of(work, k, speed);
+      }
+    });
+    return closed;
+  }
+
+  /// Finds the shifts that close gaps: of positions alone.
+  void close_gaps() {
+    if (!any_gaps()) {
+      each_mobile([&](JointBody& body) { body.shift = body.shift_turn = k_zero_vector; });
+      return;
+    }
+    const uint32_t before = factor.saturated;
+    Real closed = k_zero;
+    solve_for([&] { closed = ask_for_gaps(); });  // where the shifts are too large for a substep it closes a part
+    if (factor.saturated != before) scale_all(Scaled(0.0));
+    // The ways of turns bend by half of their square: no more than half of what they close.
+    Real bent = k_zero;
+    each_mobile([&](JointBody& body) {
+      body.shift = body.push * settings.time;
+      const Vec3<Real> spin = spin_from(body, body.twist);
+      bool held = false;
+      const auto angle = [&](Real part) {
+        return clamp(angle_of(part * settings.time, body.exponent, held), Real(-1.0), Real(1.0));
+      };
+      body.shift_turn = {angle(spin.x), angle(spin.y), angle(spin.z)};
+      body.push = body.twist = k_zero_vector;
+    });
+    each_joint([&](JointWork& work) {
+      for (uint32_t end = 0; end < 2; ++end) {
+        const JointBody& body = end_of(work, end);
+        if (body.mobile == 0) continue;
+        const Real turn = absolute_sum(body.shift_turn);
+        bent = held_sum(bent, (turn * turn) * real_from_unit(work.arm_length[end], body.exponent - 1));
+      }
+    });
+    if (scale_by_power(bent, 1) > closed) {
+      const Scaled share = divide(scaled_from(closed), scaled_from(scale_by_power(bent, 1)));
+      each_mobile([&](JointBody& body) {
+        body.shift = multiply(body.shift, share);
+        body.shift_turn = multiply(body.shift_turn, share);
+      });
+    }
+  }
+
+  /// Bodies turn with their own inertia, at the spin that they have with that of the substep.
+  void lend_momenta() {
+    each_mobile([&](JointBody& body) {
+      BodyMotion& motion = bodies.motions[body.slot];
+      body.momentum_before = motion.momentum;
+      motion.momentum = own_momentum(body, motion.momentum);
+    });
+  }
+  /// Gives the bodies their own gyrations and momenta.
+  void end() {
+    each_mobile([&](JointBody& body) {
+      body.renewed = body.slowed;
+      if (body.slowed == 0) return;
+      BodyMotion& motion = bodies.motions[body.slot];
+      BodyWork& now = bodies.work[body.slot];
+      const Vec3<Real> before = motion.momentum;
+      motion.momentum = own_momentum(body, before);
+      if (DETENT_FIXED) now.contact_momentum += before - motion.momentum;  // it is not the contacts'
+      now.gyration = world_gyration(bodies.traits[body.slot], body.axes);
+    });
+  }
+
+  /// The reactions of a joint.
+  static void add_up(JointWork& work) {
+    if (work.points != 0) work.force_sum += Vec3<Real>{work.total[0], work.total[1], work.total[2]};
+    for (uint32_t k = first_other(work); k < work.rows_held; ++k) add_row(work, work.row[k], work.total[k]);
+    for (int i = 0; i < k_free_motions; ++i) {
+      if (!(work.driven_total[i] == k_zero)) add_row(work, work.free_row[i], work.driven_total[i]);
+    }
+    for (int i = 0; i < k_free_motions; ++i) {
+      if (!(work.given[i] == k_zero)) add_row(work, work.free_row[i], work.given[i]);
+    }
+  }
+  static void add_row(JointWork& work, const JointRow& row, Real impulse) {
+    if (is_linear(row))
+      work.force_sum += real_from(row.axis) * impulse;
+    else
+      work.torque_sum += real_from(row.arm[1]) * impulse;
+  }
+
+  /// What the next substep's inertias are made with: no more than k_joint_impulse_max of it counts, and nothing else
+  /// takes it.
+  void keep(JointWork& work, Scaled share) const {
+    Real(&kept)[k_joint_rows_max] = stage.joints[work.joint].impulse;
+    const Scaled over_share = multiply(share, work.over_lighter);
+    const auto store = [&](uint32_t k, int kind, Real total) {
+      bool saturated = false;
+      const Real impulse = multiply(total, scaled_by_power(over_share, impulse_power(work, kind)), saturated);
+      kept[k] = clamp(impulse, -k_joint_impulse_max, k_joint_impulse_max);
+    };
+    for (uint32_t k = 0; k < work.rows_held; ++k) store(k, row_kind(work, k), work.total[k]);
+    for (uint32_t i = 0; i < k_free_motions && work.rows_held + i < k_joint_rows_max; ++i)
+      store(work.rows_held + i, row_kind(work.free_row[i]), work.driven_total[i]);
+    work.pull = last_pull(stage, work);
+  }
+  /// Likewise with what the curves took, which counts for no more than the rest: of rows that hold the same thing twice
+  /// curves ask for what contradicts, and these pull against each other as hard as their softness lets them.
+  void keep_all(JointWork& work, Scaled share) const {
+    const Real most = scale_by_power(work.pull, 1);
+    keep(work, share);
+    if (work.pull <= most) return;
+    const Scaled part = divide(scaled_from(most), scaled_from(work.pull));
+    for (Real& kept : stage.joints[work.joint].impulse) kept = multiply(kept, part);
+    work.pull = most;
+  }
+};
+
+}  // namespace
+
+void begin_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
+                  const Island& island, Real elapsed, JointStage& stage) {
+  Solver solver(settings, bodies, slots, island, stage);
+  solver.begin(elapsed);
+}
+
+uint32_t hold_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
+                     const Island& island, Real elapsed, JointStage& stage, uint32_t& undecided) {
+  Solver solver(settings, bodies, slots, island, stage);
+  solver.start();
+  solver.make_factor();
+  solver.hold(elapsed);
+  if (solver.touches) solver.renew_spins();
+  undecided += solver.undecided;
+  return solver.clamped + solver.factor.saturated;
+}
+
+uint32_t hold_joints_again(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
+                           const Island& island, Real elapsed, JointStage& stage, uint32_t& undecided) {
+  Solver solver(settings, bodies, slots, island, stage);
+  solver.hold_again(elapsed);
+  undecided += solver.undecided;
+  return solver.clamped + solver.factor.saturated;
+}
+
+uint32_t follow_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
+                       const Island& island, Real elapsed, JointStage& stage) {
+  Solver solver(settings, bodies, slots, island, stage);
+  solver.each_joint([&](JointWork& work) { solver.keep(work, kept_share(settings)); });
+  if (solver.any_turns()) {
+    const Scaled taken = solver.energy_of_turning();
+    solver.follow_curves(elapsed, taken);
+  }
+  solver.close_gaps();
+  if (solver.touches) solver.renew_spins();
+  solver.lend_momenta();
+  return solver.clamped + solver.factor.saturated;
+}
+
+uint32_t end_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
+                    const Island& island, Real elapsed, JointStage& stage, uint32_t& undecided) {
+  Solver solver(settings, bodies, slots, island, stage);
+  if (solver.touches) solver.hold_again(elapsed);
+  undecided += solver.undecided;
+  solver.each_joint([&](JointWork& work) {
+    solver.add_up(work);
+    solver.keep_all(work, kept_share(settings));
+  });
+  solver.end();
+  return solver.clamped + solver.factor.saturated;
+}
+
+uint32_t shift_joints(const SolverBodies& bodies, Span<const uint32_t> slots, JointStage& stage) {
+  bool saturated = false;
+  each_body(bodies, slots, stage, [&](const JointBody& body) {
+    BodyWork& now = bodies.work[body.slot];
+    BodyMotion& motion = bodies.motions[body.slot];
+    const Vec3<Real> before = body.momentum_before;  // as lent
+    now.displacement += body.shift;
+    if (!(body.shift_turn == k_zero_vector)) {
+      const Quat turn = rotation_from_vector(body.shift_turn);
+      now.rotation = normalise(multiply(turn, now.rotation));
+      // The momentum turns with the body: so its energy stays.
+      motion.momentum = rotate(turn, motion.momentum);
+      now.turn += scale_by_power(body.shift_turn, bodies.traits[body.slot].size_exponent);
+    }
+    motion.momentum = lent_momentum(body, motion.momentum, saturated);
+    if (DETENT_FIXED) now.contact_momentum += before - motion.momentum;
+  });
+  return saturated ? 1 : 0;
+}
+
+void store_reactions(const StepSettings& settings, const SolverBodies& bodies, JointStage& stage) {
+  const Scaled rate = divide(Scaled(1.0), scaled_from(settings.tick_time));
+  for (const JointWork& work : stage.work.first(stage.count)) {
+    const JointBody &a = stage.bodies[work.body[0]], &b = stage.bodies[work.body[1]];
+    const JointBody& mobile = b.mobile != 0 ? b : a;
+    const Scaled unit = multiply(multiply(bodies.traits[mobile.slot].mass, mobile.share), rate);
+    const auto store = [&](const Vec3<Real>& sum, int power, Vec3<Scaled>& to) {
+      const Scaled factor = scaled_by_power(unit, power);
+      to = {multiply(scaled_from(sum.x), factor), multiply(scaled_from(sum.y), factor),
+            multiply(scaled_from(sum.z), factor)};
+    };
+    JointState& joint = stage.joints[work.joint];
+    store(work.force_sum, impulse_power(work, 0), joint.force);
+    store(work.torque_sum, b.exponent + impulse_power(work, 1), joint.torque);
+  }
+}
+
+const JointCode k_joint_code = {collect_joints, order_joints, begin_joints, hold_joints,    hold_joints_again,
+                                follow_joints,  shift_joints, end_joints,   store_reactions};
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

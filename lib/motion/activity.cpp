@@ -1,0 +1,85 @@
+#include "motion/activity.h"
+
+#include "motion/spin.h"
+#include "shape/shape_traits.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+constexpr int k_rest_power = -6;
+constexpr Real k_slow_max = 1024.0;  ///< m/s: what is faster does not rest, and its square may not fit
+
+/// Whether a body that moves so, and has that momentum, has no point that is faster than `slow`, m/s, by about its
+/// kinetic energy: what is slender may roll faster about its axis than it may swing. Range: slow <= k_slow_max.
+bool is_slower(const Vec3<Real>& velocity, const Vec3<Real>& spin, const Vec3<Real>& momentum, Real slow) {
+  if (greatest(velocity) > slow || greatest(spin) > k_slow_max || greatest(momentum) > k_slow_max) return false;
+  return scale_by_power(dot(velocity, velocity) + dot(spin, momentum), 1) < slow * slow;
+}
+
+/// Whether neither the body's velocity nor its way in the tick is more than slow.
+bool is_resting(const StepSettings& settings, const BodyTraits& traits, const BodyPose& pose, const BodySweep& sweep,
+                const BodyMotion& motion) {
+  const Real slow = scale_by_power(fall_speed(settings, shape_extent(traits)), k_rest_power);
+  const Vec3<Real> spin = spin_of(traits, pose.rotation, motion.momentum);
+  if (!is_slower(motion.velocity, spin, motion.momentum, slow) || greatest(sweep.turn) > Real(1.0)) return false;
+  const Real rate = divide(Real(1.0), settings.tick_time);
+  const Vec3<Real> velocity = sweep.displacement * rate;
+  const Vec3<Real> turning = scale_by_power(sweep.turn * rate, traits.size_exponent);
+  return is_slower(velocity, turning, momentum_of(traits, pose.rotation, turning), slow);
+}
+
+}  // namespace
+
+bool is_moving(const BodyTraits& traits, const BodyMotion& motion, const BodyActivity& activity) {
+  if (is_dynamic(traits)) return activity.asleep == 0;
+  return type_of(traits) == BodyType::kinematic &&
+         !(motion.velocity == k_zero_vector && motion.momentum == k_zero_vector);
+}
+
+uint32_t wake_all_with(uint32_t slot, Span<BodyActivity> activities, BitSet visits) {
+  const uint32_t group = activities[slot].asleep;
+  if (group == 0) return 0;
+  uint32_t count = 0;
+  for (uint32_t other = 0; other < activities.count; ++other) {
+    BodyActivity& activity = activities[other];
+    if (activity.asleep != group) continue;
+    activity.asleep = 0;
+    activity.still_ticks = 0;
+    activity.news = static_cast<uint16_t>(BodyEventType::woke);
+    visits.set(other);
+    ++count;
+  }
+  return count;
+}
+
+uint32_t fall_asleep(const StepSettings& settings, Span<const BodyTraits> traits, Span<const BodyPose> poses,
+                     Span<const BodySweep> sweeps, Span<const Island> islands, Span<const uint32_t> bodies,
+                     Span<BodyMotion> motions, Span<BodyActivity> activities) {
+  uint32_t asleep = 0;
+  for (const Island& island : islands) {
+    bool still = true;
+    for (uint32_t i = 0; i < island.body_count; ++i) {
+      const uint32_t slot = bodies[island.first_body + i];
+      const bool rests = is_resting(settings, traits[slot], poses[slot], sweeps[slot], motions[slot]);
+      uint16_t& ticks = activities[slot].still_ticks;
+      ticks = static_cast<uint16_t>(!rests ? 0 : ticks < k_still_ticks ? ticks + 1 : ticks);
+      still = still && ticks == k_still_ticks;
+    }
+    if (!still) continue;
+    const uint32_t group = bodies[island.first_body] + 1;
+    for (uint32_t i = 0; i < island.body_count; ++i) {
+      const uint32_t slot = bodies[island.first_body + i];
+      motions[slot].velocity = motions[slot].momentum = k_zero_vector;
+      activities[slot].asleep = group;
+      activities[slot].news = static_cast<uint16_t>(BodyEventType::fell_asleep);
+    }
+    asleep += island.body_count;
+  }
+  return asleep;
+}
+
+const SleepingCode k_sleeping_code = {fall_asleep};
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,223 @@
+#pragma once
+#include "base/unroll.h"
+#include "motion/block.h"
+#include "motion/step_settings.h"
+
+/// How the two bodies of a contact move against each other, and what an impulse between them does: in the contact's
+/// frame (normal, then the tangents), at the middle of its points, in m/s. A spin is over the pair's unit of length.
+///
+/// All of it is written for a kind of number: one contact's (One), or those of four contacts at once (Four, quad.h).
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// The parts of a motion or of a wrench: along the normal and the tangents, then about them.
+enum Part { k_along_normal, k_along_first, k_along_second, k_about_normal, k_about_first, k_about_second, k_parts };
+
+/// Where the pair's response to part `k` shows in part `i`.
+constexpr int response_index(int i, int k) { return i < k ? k * (k + 1) / 2 + i : i * (i + 1) / 2 + k; }
+
+constexpr int k_responses = response_index(k_parts - 1, k_parts - 1) + 1;
+
+/// A body that impulses act on, as the solver sees it. Its spin is kept beside its momentum.
+struct SolvedBody {
+  Vec3<Real>&velocity, &momentum, &spin;
+  Vec3<Real>&contact_velocity, &contact_momentum;
+  const Vec3<Real>&displacement, &turn;
+  const WorldGyration& gyration;
+
+  SolvedBody(Vec3<Real>& of_velocity, Vec3<Real>& of_momentum, Vec3<Real>& of_spin, Vec3<Real>& from_contacts,
+             Vec3<Real>& turned_by_contacts, const Vec3<Real>& way, const Vec3<Real>& turned, const WorldGyration& own)
+      : velocity(of_velocity),
+        momentum(of_momentum),
+        spin(of_spin),
+        contact_velocity(from_contacts),
+        contact_momentum(turned_by_contacts),
+        displacement(way),
+        turn(turned),
+        gyration(own) {}
+  SolvedBody(BodyMotion& motion, BodyWork& work)
+      : velocity(motion.velocity),
+        momentum(motion.momentum),
+        spin(work.spin),
+        contact_velocity(work.contact_velocity),
+        contact_momentum(work.contact_momentum),
+        displacement(work.displacement),
+        turn(work.turn),
+        gyration(work.gyration) {}
+};
+
+/// The numbers of one contact.
+struct One {
+  using Number = Ulps;
+  using Factor = detent::Factor;
+  using Sum = UlpSum;
+  using Vector = Mantissas;
+  using Block = detent::Block;
+  using Real = detent::Real;
+  using Unit = detent::Unit;
+  using Scaled = detent::Scaled;
+  using Contact = ContactWork;
+  using Body = SolvedBody;
+  using Mask = bool;
+
+  static Factor zero() { return k_no_ulps; }
+  static Unit unit(Unit value) { return value; }
+  static bool takes_impulses(Scaled share) { return is_positive(share); }
+  static uint32_t flag(bool mask) { return mask ? 1 : 0; }
+  static bool all() { return true; }
+  static bool any(bool mask) { return mask; }
+  static bool is_unset(uint32_t flag) { return flag == 0; }
+  static const Softness& softness(const StepSettings& settings, const Contact& contact) {
+    return contact.static_pair != 0 ? settings.static_softness : settings.dynamic_softness;
+  }
+};
+
+/// The motions of two bodies as mantissas of one block.
+template <class Kind>
+struct PairMotion {
+  typename Kind::Block block;
+  typename Kind::Vector way, spin_a, spin_b;
+
+  PairMotion(const typename Kind::Block& room, const Vec3<typename Kind::Real>& relative,
+             const Vec3<typename Kind::Real>& of_a, const Vec3<typename Kind::Real>& of_b, int exponent)
+      : block(room) {
+    block.include(relative, 0);
+    block.include(of_a, exponent);
+    block.include(of_b, exponent);
+    block.settle();
+    way = block.mantissas(relative, 0);
+    spin_a = block.mantissas(of_a, exponent);
+    spin_b = block.mantissas(of_b, exponent);
+  }
+
+  typename Kind::Factor along_normal(const typename Kind::Contact& contact) const {
+    return held(rounded(dot(way, contact.normal) + (dot(spin_b, contact.lever_b) - dot(spin_a, contact.lever_a))));
+  }
+  /// Relative velocity of the middle, world axes.
+  typename Kind::Vector at_middle(const typename Kind::Contact& contact) const {
+    const auto &a = contact.middle_a, &b = contact.middle_b;
+    return rounded(
+        whole(way.x) + (cross_part(spin_b.y, b.z, spin_b.z, b.y) - cross_part(spin_a.y, a.z, spin_a.z, a.y)),
+        whole(way.y) + (cross_part(spin_b.z, b.x, spin_b.x, b.z) - cross_part(spin_a.z, a.x, spin_a.x, a.z)),
+        whole(way.z) + (cross_part(spin_b.x, b.y, spin_b.y, b.x) - cross_part(spin_a.x, a.y, spin_a.y, a.x)));
+  }
+  /// Relative spin, world axes.
+  typename Kind::Vector turning(const typename Kind::Contact& contact) const {
+    const auto a = contact.unit_a, b = contact.unit_b;
+    return rounded(product(spin_b.x, b) - product(spin_a.x, a), product(spin_b.y, b) - product(spin_a.y, a),
+                   product(spin_b.z, b) - product(spin_a.z, a));
+  }
+
+ private:
+  using Factor = typename Kind::Factor;
+  using Unit = typename Kind::Unit;
+  static typename Kind::Sum cross_part(Factor p, Unit q, Factor r, Unit s) { return product(p, q) - product(r, s); }
+};
+
+/// The part of a pair's motion that its points show along the normal.
+template <class Kind>
+struct NormalMotion {
+  typename Kind::Factor along, about_first, about_second;
+
+  NormalMotion(typename Kind::Factor normal, typename Kind::Factor first, typename Kind::Factor second)
+      : along(normal), about_first(first), about_second(second) {}
+  NormalMotion(const PairMotion<Kind>& motion, const typename Kind::Contact& contact)
+      : along(motion.along_normal(contact)) {
+    const typename Kind::Vector turning = motion.turning(contact);
+    about_first = held(rounded(dot(turning, contact.tangent[0])));
+    about_second = held(rounded(dot(turning, contact.tangent[1])));
+  }
+  typename Kind::Factor at(const typename Kind::Contact& contact, uint32_t i) const {
+    return held(along + rounded(product(about_first, contact.y[i]) - product(about_second, contact.x[i])));
+  }
+};
+
+/// What contacts have added to a body's motion in this substep. Fixed point takes the difference from the start of the
+/// substep, which is exact; float keeps a sum, which does not lose a small push to a high speed.
+inline Vec3<Real> added_by_contacts(const Vec3<Real>& motion, const Vec3<Real>& kept) {
+  return DETENT_FIXED ? motion + kept : kept;
+}
+/// What to keep from a motion that contacts have not acted on yet but for `added`.
+inline Vec3<Real> kept_at_start(const Vec3<Real>& motion, const Vec3<Real>& added) {
+  return DETENT_FIXED ? -motion : added;
+}
+
+/// Adds `force` and `torque`, the latter in the body's unit of length, times `share`, or takes them away.
+template <class Kind, bool adds>
+inline void push(const typename Kind::Block& block, const typename Kind::Vector& force,
+                 const typename Kind::Vector& torque, const typename Kind::Scaled& share, typename Kind::Body& body) {
+  const auto& gyration = body.gyration;
+  const auto add = [](auto& to, const auto& more) {
+    if constexpr (adds)
+      to += more;
+    else
+      to -= more;
+  };
+  const auto velocity = block.real(force, share, 0), momentum = block.real(torque, share, 0);
+  add(body.velocity, velocity);
+  add(body.momentum, momentum);
+  if constexpr (!DETENT_FIXED) {
+    add(body.contact_velocity, velocity);
+    add(body.contact_momentum, momentum);
+  }
+  const typename Kind::Vector turned =
+      rounded(dot(torque, gyration.row[0]), dot(torque, gyration.row[1]), dot(torque, gyration.row[2]));
+  add(body.spin, block.real(turned, share, gyration.exponent - k_spin_power));
+}
+
+/// Applies an impulse along the normal at the middle, and one about each tangent, to B, and their opposite to A.
+template <class Kind>
+inline void apply_normal(const typename Kind::Contact& contact, typename Kind::Block block, typename Kind::Number along,
+                         typename Kind::Number about_first, typename Kind::Number about_second, typename Kind::Body& a,
+                         typename Kind::Body& b) {
+  typename Kind::Number sum[3] = {along, about_first, about_second};
+  block.coarsen(sum);
+  const typename Kind::Factor part[3] = {held(sum[0]), held(sum[1]), held(sum[2])};
+  const auto &n = contact.normal, &t = contact.tangent[0], &s = contact.tangent[1];
+  const auto force = rounded(product(part[0], n.x), product(part[0], n.y), product(part[0], n.z));
+  const auto turn =
+      rounded(product(part[1], t.x) + product(part[2], s.x), product(part[1], t.y) + product(part[2], s.y),
+              product(part[1], t.z) + product(part[2], s.z));
+  const auto torque = [&](const auto& lever, const auto& unit) {
+    return rounded(product(part[0], lever.x) + product(turn.x, unit), product(part[0], lever.y) + product(turn.y, unit),
+                   product(part[0], lever.z) + product(turn.z, unit));
+  };
+  if (Kind::takes_impulses(contact.share_a))
+    push<Kind, false>(block, force, torque(contact.lever_a, contact.unit_a), contact.share_a, a);
+  if (Kind::takes_impulses(contact.share_b))
+    push<Kind, true>(block, force, torque(contact.lever_b, contact.unit_b), contact.share_b, b);
+}
+
+/// Applies a wrench at the middle to B, and its opposite to A.
+template <class Kind>
+inline void apply_wrench(const typename Kind::Contact& contact, typename Kind::Block block,
+                         const typename Kind::Number (&wrench)[k_parts], typename Kind::Body& a,
+                         typename Kind::Body& b) {
+  typename Kind::Number sum[k_parts];
+  typename Kind::Factor part[k_parts];
+  DETENT_UNROLL
+  for (int i = 0; i < k_parts; ++i) sum[i] = wrench[i];
+  block.coarsen(sum);
+  DETENT_UNROLL
+  for (int i = 0; i < k_parts; ++i) part[i] = held(sum[i]);
+  const auto &n = contact.normal, &t = contact.tangent[0], &s = contact.tangent[1];
+  const auto in_world = [&](int first) {
+    const auto along = [&](const auto& x, const auto& y, const auto& z) {
+      return product(part[first], x) + product(part[first + 1], y) + product(part[first + 2], z);
+    };
+    return rounded(along(n.x, t.x, s.x), along(n.y, t.y, s.y), along(n.z, t.z, s.z));
+  };
+  const auto force = in_world(k_along_normal), turn = in_world(k_about_normal);
+  const auto torque = [&](const auto& arm, const auto& unit) {
+    return rounded(product(force.z, arm.y) - product(force.y, arm.z) + product(turn.x, unit),
+                   product(force.x, arm.z) - product(force.z, arm.x) + product(turn.y, unit),
+                   product(force.y, arm.x) - product(force.x, arm.y) + product(turn.z, unit));
+  };
+  if (Kind::takes_impulses(contact.share_a))
+    push<Kind, false>(block, force, torque(contact.middle_a, contact.unit_a), contact.share_a, a);
+  if (Kind::takes_impulses(contact.share_b))
+    push<Kind, true>(block, force, torque(contact.middle_b, contact.unit_b), contact.share_b, b);
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,130 @@
+#include "motion/finalise.h"
+
+#include "broad_phase/pair_key.h"
+#include "motion/spin.h"
+#include "shape/sweep.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+/// Spin in the body's axes, as far as a Real tells.
+Vec3<Real> local_spin(const BodyTraits& traits, const Vec3<Real>& momentum) {
+  bool saturated = false;
+  return {multiply(momentum.x, traits.gyration[0], saturated), multiply(momentum.y, traits.gyration[1], saturated),
+          multiply(momentum.z, traits.gyration[2], saturated)};
+}
+
+constexpr int k_quarterings_max = 64;  ///< gyrations lie far below 4^64
+
+/// Whether the spin is far below its bound, whatever the body's axes are.
+bool is_slow(const BodyTraits& traits, const Vec3<Real>& momentum) {
+  Scaled most = traits.gyration[0];
+  for (int axis = 1; axis < 3; ++axis) most = less(most, traits.gyration[axis]) ? traits.gyration[axis] : most;
+  bool saturated = false;
+  const Real spin = multiply(greatest(momentum), most, saturated);
+  return !saturated && spin < scale_by_power(k_spin_max, -3);
+}
+
+}  // namespace
+
+uint32_t hold_speeds(const BodyTraits& traits, const Quat& rotation, BodyMotion& motion) {
+  uint32_t clamped = clamp_vector(motion.velocity, k_speed_max) + clamp_vector(motion.momentum, k_spin_work_max);
+  if (is_slow(traits, motion.momentum)) return clamped;
+  const bool turned = !is_isotropic(traits);
+  Vec3<Real> local, spin;
+  // Joints and impacts may leave more than a Real tells. Beyond twice the bound along a body's axis, one of the world's
+  // has more than the bound. Where a Real does not tell how fast it is, it becomes a quarter each time.
+  for (int quartering = 0; quartering < k_quarterings_max; ++quartering) {
+    local = turned ? rotate_inverse(rotation, motion.momentum) : motion.momentum;
+    spin = local_spin(traits, local);
+    const Real fastest = greatest(spin);
+    if (!(fastest > scale_by_power(k_spin_max, 1))) break;
+    motion.momentum = motion.momentum * divide(k_spin_max, fastest);
+    ++clamped;
+  }
+  if (turned) spin = rotate(rotation, spin);
+  const Real fastest = greatest(spin);
+  if (fastest > k_spin_max) {
+    motion.momentum = motion.momentum * divide(k_spin_max, fastest);
+    ++clamped;
+  }
+  return clamped;
+}
+
+uint32_t make_sweeps(Span<const uint32_t> slots, Span<const BodyTraits> traits, Span<const BodyWork> work,
+                     Span<const BodyPose> poses, Span<BodySweep> sweeps) {
+  uint32_t clamped = 0;
+  for (const uint32_t slot : slots) {
+    const BodyWork& now = work[slot];
+    bool turns_clamped = false;
+    const int exponent = traits[slot].size_exponent;
+    const Vec3<Real> turn = {angle_of(now.turn.x, exponent, turns_clamped),
+                             angle_of(now.turn.y, exponent, turns_clamped),
+                             angle_of(now.turn.z, exponent, turns_clamped)};
+    const Sweep sweep = sweep_between(poses[slot].rotation, now.rotation, now.displacement, turn);
+    sweeps[slot] = {};
+    sweeps[slot].displacement = sweep.displacement;
+    sweeps[slot].turn = sweep.turn;
+    clamped += turns_clamped ? 1 : 0;
+  }
+  return clamped;
+}
+
+uint32_t finalise(const BodyTraits& traits, const BodySweep& sweep, BodyPose& pose, BodyMotion& motion) {
+  const Sweep rest = rest_of_tick(sweep);
+  pose.rotation = sweep_end_rotation(pose.rotation, rest);
+  const uint32_t clamped = sweep_end_position(pose, rest);
+  if (!is_dynamic(traits)) return clamped;
+  motion.momentum = without_locked(traits, pose.rotation, motion.momentum);
+  return clamped + hold_speeds(traits, pose.rotation, motion);
+}
+
+void store_contacts(Span<const ContactWork> work, Span<const ManifoldState> manifold_work, uint32_t awake_count,
+                    uint32_t before, Span<ContactState> contacts, Span<ManifoldState> manifolds, Span<uint32_t> awake) {
+  const bool has_manifolds = manifolds.count != 0;
+  const auto move = [&](uint32_t from, uint32_t to) {
+    contacts[to] = contacts[from];
+    if (has_manifolds) manifolds[to] = manifolds[from];
+  };
+  const auto put = [&](uint32_t from, uint32_t to) {
+    contacts[to] = work[from].state;
+    if (has_manifolds) manifolds[to] = manifold_work[from];
+  };
+  const auto precedes = [](const ContactState& a, const ContactState& b) {
+    const uint64_t key_a = key_of(a), key_b = key_of(b);
+    return key_a < key_b || (key_a == key_b && a.part < b.part);
+  };
+  // Up to the first that is new or gone each goes where it was.
+  uint32_t same = 0;
+  for (; same < work.count && same < awake_count; ++same) {
+    const ContactState& state = work[same].state;
+    const ContactState& place = contacts[awake[same]];
+    if (place.body_a != state.body_a || place.body_b != state.body_b || place.part != state.part) break;
+    put(same, awake[same]);
+  }
+  // Those that sleep close ranks, from where the first of the others was.
+  uint32_t kept = same < awake_count ? awake[same] : before;
+  for (uint32_t i = same; i < awake_count; ++i) {
+    const uint32_t end = i + 1 < awake_count ? awake[i + 1] : before;
+    for (uint32_t place = awake[i] + 1; place < end; ++place) move(place, kept++);
+  }
+  const uint32_t count = kept + (work.count - same);
+  uint32_t left = work.count;
+  for (uint32_t place = count; left > same; --place) {
+    const ContactState& state = work[left - 1].state;
+    if (kept > 0 && precedes(state, contacts[kept - 1])) {
+      move(--kept, place - 1);
+      continue;
+    }
+    put(--left, place - 1);
+    awake[left] = place - 1;
+  }
+  for (uint32_t i = count; i < before; ++i) {
+    contacts[i] = ContactState{};
+    if (has_manifolds) manifolds[i] = ManifoldState{};
+  }
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

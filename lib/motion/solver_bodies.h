@@ -1,0 +1,17 @@
+#pragma once
+#include <detent/detail/scratch.h>
+
+#include "base/span.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// The bodies of a step, as the solver moves them.
+struct SolverBodies {
+  Span<const BodyTraits> traits;
+  Span<BodyMotion> motions;
+  Span<BodyWork> work;
+};
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,94 @@
+#include "motion/step_settings.h"
+
+#include <detent/world.h>
+
+#include "math/root.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+/// Of WorldDef::damping_ratio: of contacts between bodies that move, and with what does not.
+constexpr Unit k_dynamic_damping = 0.7, k_static_damping = 0.5;
+
+/// `stiffness`: the spring's frequency over the substep rate; `damping_ratio`: of critical damping.
+Softness softness(Real stiffness, Real damping_ratio) {
+  const Real one = 1.0;
+  const Real phase = k_two_pi * stiffness;  // angular frequency x substep
+  const Real a1 = scale_by_power(damping_ratio, 1) + phase;
+  const Real a2 = phase * a1;
+  const Real inverse = reciprocal(one + a2);
+  return {unit_from_real(divide(phase, a1), 0), unit_from_real(a2 * inverse, 0), unit_from_real(inverse, 0)};
+}
+
+/// The least e with a < 2^e. Range: a > 0.
+int exponent_of(Scaled a) {
+#if DETENT_FIXED
+  return a.exponent + 31;
+#else
+  return exponent_above(a);
+#endif
+}
+
+Real real_from(uint32_t count) {
+  Real sum = 0.0;
+  for (int bit = 0; bit < 17; ++bit) {
+    if ((count >> bit & 1) != 0) sum += scale_by_power(Real(1.0), bit);
+  }
+  return sum;
+}
+
+}  // namespace
+
+StepSettings step_settings(const WorldState& world) {
+  StepSettings settings;
+  settings.substeps_fixed = world.substeps;
+  settings.substeps_max = world.substeps_max;
+  settings.iterations = world.iterations;
+  settings.tick_time = world.tick_time;
+  settings.sleeping = world.sleeping != 0;
+  settings.continuous = world.continuous != 0;
+  settings.quads = false;
+  const Scaled rate = divide(scaled_from(world.tick_time), scaled_from(k_two_pi * world.stiffness));
+  settings.substeps_per_rate = multiply(rate, rate);
+  set_substeps(world.substeps == 0 ? 1 : world.substeps, settings);
+  settings.relaxation = unit_from_real(world.relaxation, 0);
+  settings.gravity = world.gravity;
+  settings.gravity_size = max(length(world.gravity), Real(1.0));
+  settings.sunk = scale_by_power(settings.gravity_size * settings.tick_time * settings.tick_time, -2);
+  settings.restitution_threshold = world.restitution_threshold;
+  settings.breaking = world.breaking;
+  settings.reuse = world.reuse;
+  settings.reduction = static_cast<ManifoldReduction>(world.reduction);
+  settings.convergence = world.convergence;
+  settings.post_stabilises = static_cast<Stabilisation>(world.stabilisation) == Stabilisation::post;
+  if (settings.post_stabilises) {
+    settings.dynamic_softness = settings.static_softness = {Unit(0.0), Unit(1.0), Unit(0.0)};
+    return settings;
+  }
+  settings.dynamic_softness = softness(world.stiffness, world.damping_ratio * k_dynamic_damping);
+  settings.static_softness = softness(scale_by_power(world.stiffness, 1), world.damping_ratio * k_static_damping);
+  return settings;
+}
+
+Real fall_speed(const StepSettings& settings, Real extent) {
+  return scale_by_power(square_root(scale_by_power(settings.gravity_size, -10) * extent), 5);
+}
+
+void set_substeps(uint32_t substeps, StepSettings& settings) {
+  settings.substeps = substeps;
+  settings.time = divide(settings.tick_time, real_from(substeps));
+  settings.share = divide(Scaled(1.0), scaled_from_count(substeps));
+  settings.rate = divide(Scaled(1.0), scaled_from(settings.time));
+  settings.gap_max = settings.time * Real(32768.0);
+  settings.rate_exponent = exponent_of(settings.rate);
+  settings.rate_mantissa = to_unit(scaled_by_power(settings.rate, -settings.rate_exponent));
+}
+
+Scaled scaled_from_count(uint32_t count) {
+  constexpr uint32_t k_most = (1u << 17) - 1;
+  return scaled_from(real_from(count < k_most ? count : k_most));
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

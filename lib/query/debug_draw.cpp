@@ -1,0 +1,110 @@
+#include <detent/body_access.h>
+#include <detent/contacts.h>
+#include <detent/debug_draw.h>
+#include <detent/triangles.h>
+
+#include "base/float_environment.h"
+#include "motion/spin.h"
+#include "shape/bounds.h"
+#include "shape/shape_traits.h"
+#include "shape/sweep.h"
+#include "state/view.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+using State = StateView<const uint8_t>;
+
+DrawKind kind_of(const State& state, uint32_t slot) {
+  switch (type_of(state.traits[slot])) {
+    case BodyType::fixed:
+      return DrawKind::fixed;
+    case BodyType::kinematic:
+      return DrawKind::kinematic;
+    default:
+      return state.activities[slot].asleep == 0 ? DrawKind::awake : DrawKind::asleep;
+  }
+}
+
+/// The edges of an axis-aligned box.
+void draw_bounds(const State& state, uint32_t slot, const DebugDraw& to) {
+  const BodyTraits& traits = state.traits[slot];
+  if (is_half_space(traits)) return;
+  const BodyPose& pose = state.poses[slot];
+  const Vec3<Real> half = half_bounds(traits, matrix_from(pose.rotation));
+  const auto corner = [&](int index) {
+    return moved(pose.position, {(index & 1) != 0 ? half.x : -half.x, (index & 2) != 0 ? half.y : -half.y,
+                                 (index & 4) != 0 ? half.z : -half.z});
+  };
+  for (int from = 0; from < 8; ++from) {
+    for (int axis = 1; axis < 8; axis *= 2) {
+      if ((from & axis) == 0) to.line(to.user, corner(from), corner(from | axis), DrawKind::bounds);
+    }
+  }
+}
+
+void draw_velocity(const State& state, uint32_t slot, const DebugDraw& to) {
+  const Vec3<Real> velocity = state.motions[slot].velocity;
+  const Real zero = 0.0, time = 0.1;
+  if (velocity == Vec3<Real>{zero, zero, zero}) return;
+  const Position& from = state.poses[slot].position;
+  to.line(to.user, from, moved(from, velocity * time), DrawKind::velocity);
+}
+
+void draw_contact(const State& state, const Contact& contact, const DebugDraw& to) {
+  const Real length = scale_by_power(
+      min(shape_extent(state.traits[contact.a.slot - 1]), shape_extent(state.traits[contact.b.slot - 1])), -2);
+  for (uint32_t i = 0; i < contact.point_count; ++i) {
+    const Position& at = contact.point[i].position;
+    const Vec3<Real> way = {length * contact.normal.x, length * contact.normal.y, length * contact.normal.z};
+    if (to.point != nullptr) to.point(to.user, at, DrawKind::contact);
+    if (to.line != nullptr) to.line(to.user, at, moved(at, way), DrawKind::normal);
+  }
+}
+
+/// The edges of a surface's triangles; those that two share twice.
+void draw_surface(const World& world, const State& state, BodyId id, const DebugDraw& to) {
+  struct Lines {
+    const DebugDraw& to;
+    DrawKind kind;
+  };
+  Lines lines = {to, kind_of(state, id.slot - 1)};
+  // What has no bytes cannot be drawn; its bounds can.
+  static_cast<void>(visit_triangles(world, id, &lines, [](void* user, const BodyTriangle& triangle) {
+    const Lines& drawn = *static_cast<const Lines*>(user);
+    for (int k = 0; k < 3; ++k)
+      drawn.to.line(drawn.to.user, triangle.corner[k], triangle.corner[(k + 1) % 3], drawn.kind);
+  }));
+}
+
+void draw_body(const World& world, const State& state, BodyId id, const DebugDraw& to, DrawFlags flags) {
+  const uint32_t slot = id.slot - 1;
+  Shape shape;
+  if (to.solid != nullptr && contains(flags, DrawFlags::bodies) && get_shape(world, id, shape) == Status::ok) {
+    const BodyPose& pose = state.poses[slot];
+    to.solid(to.user, id, shape, {pose.position, pose.rotation}, kind_of(state, slot));
+  }
+  if (to.line == nullptr) return;
+  if (to.solid == nullptr && contains(flags, DrawFlags::bodies) && is_surface(state.traits[slot]))
+    draw_surface(world, state, id, to);
+  if (contains(flags, DrawFlags::bounds)) draw_bounds(state, slot, to);
+  if (contains(flags, DrawFlags::velocities)) draw_velocity(state, slot, to);
+}
+
+}  // namespace
+
+void draw(const World& world, const DebugDraw& to, DrawFlags flags) {
+  const FloatEnvironment environment;
+  const State state = view_of(world);
+  BodyId id = next_body(world, {});
+  for (; !(id == BodyId{}); id = next_body(world, id)) draw_body(world, state, id, to, flags);
+  if (!contains(flags, DrawFlags::contacts) || (to.point == nullptr && to.line == nullptr)) return;
+  for (uint32_t i = 0; i < state.world.contact_count; ++i) {
+    Contact contact;
+    if (get_contact(world, i, contact) == Status::ok) draw_contact(state, contact, to);
+  }
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,379 @@
+#include "query/mover_motion.h"
+
+#include <detent/contact.h>
+
+#include "contact/compound_code.h"
+#include "query/query_surface.h"
+#include "shape/sweep.h"
+#include "state/ranges.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+constexpr Footing k_footings[] = {Footing::floor, Footing::edge};  // what is better comes first
+/// Bodies are looked at from a thin capsule within: so a depth of up to 7/8 of the radius is a distance.
+constexpr int k_core_power = -3;
+constexpr uint32_t k_recoveries = 4;
+constexpr uint32_t k_hits_passed = 3;  ///< by a cast
+/// Of normals that are told apart.
+constexpr Unit k_apart_cosine = 0.9999;
+/// Of an edge to stand on: the least part of its normal along up.
+constexpr Unit k_edge_cosine = 0.125;
+
+/// Likewise of a surface: to the side of the triangle that the mover's centre is on.
+bool way_out_of_surface(const World& world, const QueryHit& hit, const Shape& core, const Pose& at,
+                        const Vec3<Unit>& up, Vec3<Unit>& normal, Real& depth) {
+  const StateView<const uint8_t> state = view_of(world);
+  const uint32_t slot = hit.body.slot - 1;
+  Real height;
+  if (side_of_triangle(asked_surface(world, state.traits[slot], state.poses[slot]), hit.triangle, at, normal, height) !=
+      Status::ok)
+    return false;
+  depth = max(core.radius + abs(core.half_length * dot(normal, up)) - height, k_zero);
+  return true;
+}
+
+/// The way out of a body that even the core is in; of a compound that of the part that it is in deepest.
+bool way_out(const World& world, BodyId body, const Shape& core, const Pose& at, Vec3<Unit>& normal, Real& depth) {
+  const StateView<const uint8_t> state = view_of(world);
+  const BodyTraits& traits = state.traits[body.slot - 1];
+  const Pose pose = pose_near(traits, state.poses[body.slot - 1], at.position);
+  const ConvexParts parts(traits, world.assets);
+  QueryShape shape;
+  if (make_query_shape(world, core, shape) != Status::ok) return false;
+  bool found = false;
+  depth = k_zero;
+  for (uint32_t i = 0; i < parts.count(); ++i) {
+    Convex convex;
+    ContactManifold manifold;
+    if (!parts.convex(i, false, convex) ||
+        contact_points(convex, pose, shape.convex, at, k_zero, manifold) != Status::ok || manifold.count == 0)
+      continue;
+    Real deepest = k_zero;
+    for (uint32_t k = 0; k < manifold.count; ++k) deepest = max(deepest, -manifold.point[k].separation);
+    if (found && !(deepest > depth)) continue;
+    found = true;
+    normal = manifold.normal;
+    depth = deepest;
+  }
+  return found;
+}
+
+}  // namespace
+
+MoverMotion::MoverMotion(const World& world, const MoverSettings& settings, const Position& start, MoverReport& report)
+    : world_(world),
+      settings_(settings),
+      report_(report),
+      up_(matrix_from(settings.rotation).column[1]),
+      position_(start),
+      free_radius_(settings.radius) {}
+
+template <class Query>
+QueryReport MoverMotion::ask(Status (*call)(const World&, const Query&, QueryHits, QueryReport&), const Query& query,
+                             QueryHits hits) {
+  QueryReport answer;
+  ++report_.queries;
+  if (const Status status = call(world_, query, hits, answer); status != Status::ok) status_ = status;
+  return answer;
+}
+
+/// No part of it is free to go.
+bool MoverMotion::caught() const {
+  return status_ != Status::ok || free_radius_ < scale_by_power(settings_.radius, k_core_power);
+}
+
+void MoverMotion::go_back(const Place& place) {
+  position_ = place.position;
+  report_.contact_count = place.contact_count;
+  report_.contacts_dropped = place.contacts_dropped;
+  known_ = false;
+}
+
+MoverPlane MoverMotion::plane_at(const QueryHit& hit, Real room) const {
+  const bool floor = dot(hit.normal, up_) >= settings_.slope_cosine;
+  return {hit.normal, room, floor ? Footing::floor : Footing::unknown, hit.body, hit.point, hit.triangle != UINT32_MAX};
+}
+
+void MoverMotion::add_plane(const MoverPlane& plane) {
+  if (plane_count_ - met_count_ == k_mover_near_max)
+    ++report_.hits_dropped;
+  else
+    planes_[plane_count_++] = plane;
+}
+
+/// The planes of a surface beside that of its nearest point, which was added last: a floor and walls may be of one
+/// body.
+void MoverMotion::add_surface(const QueryHit& hit) {
+  const StateView<const uint8_t> state = view_of(world_);
+  const BodyPose& ground = state.poses[hit.body.slot - 1];
+  QueryShape shape;
+  if (make_query_shape(world_, capsule(settings_.radius, settings_.half_length), shape) != Status::ok) return;
+  BodyPose pose = {};
+  pose.position = position_;
+  pose.rotation = settings_.rotation;
+  const Real reach = settings_.gap + scale_by_power(settings_.gap, -1);
+  SurfaceContacts contacts;
+  world_.features->surface->collide({ground, state.traits[hit.body.slot - 1], matrix_from(ground.rotation)},
+                                    {pose, shape.traits, matrix_from(pose.rotation)}, reach, world_.assets, contacts);
+  if (contacts.dropped != 0) ++report_.hits_dropped;
+  const Vec3<Unit> nearest = planes_[plane_count_ - 1].normal;
+  for (uint32_t i = 0; i < contacts.count; ++i) {
+    const ContactGeometry& geometry = contacts.contact[i].geometry;
+    if (geometry.count == 0 || dot(geometry.normal, nearest) >= k_apart_cosine) continue;
+    uint32_t lowest = 0;
+    for (uint32_t k = 1; k < geometry.count; ++k)
+      lowest = geometry.point[k].separation < geometry.point[lowest].separation ? k : lowest;
+    const ContactGeometryPoint& point = geometry.point[lowest];
+    QueryHit beside = hit;
+    beside.normal = geometry.normal;
+    const Vec3<Unit>& arm = point.arm_b;
+    const int exponent = shape.traits.size_exponent;
+    const Vec3<Real> way = {real_from_unit(arm.x, exponent), real_from_unit(arm.y, exponent),
+                            real_from_unit(arm.z, exponent)};
+    beside.point = moved(position_, way - geometry.normal * scale_by_power(point.separation, -1));
+    add_plane(plane_at(beside, point.separation - settings_.gap));
+  }
+}
+
+void MoverMotion::add_near(const QueryHit& hit, const Shape& core) {
+  const bool on_surface = hit.triangle != UINT32_MAX;
+  QueryHit out = hit;
+  if (hit.normal == k_no_direction) {
+    out.normal = up_;
+    out.point = position_;
+    Real depth = core.radius;  // of a body that cannot be asked
+    const Pose at = {position_, settings_.rotation};
+    if (on_surface)
+      way_out_of_surface(world_, hit, core, at, up_, out.normal, depth);
+    else
+      way_out(world_, hit.body, core, at, out.normal, depth);
+    out.distance = -depth;
+  }
+  const Real apart = out.distance - (settings_.radius - core.radius);
+  report_.overlap = max(report_.overlap, -apart);
+  add_plane(plane_at(out, apart - settings_.gap));
+  if (on_surface) add_surface(hit);
+}
+
+/// Finds the planes that are near, and the part of the mover that is free.
+void MoverMotion::look_around() {
+  if (known_ || status_ != Status::ok) return;
+  known_ = true;
+  plane_count_ = met_count_;
+  report_.overlap = k_zero;
+  const Real half_gap = scale_by_power(settings_.gap, -1);
+  ClosestQuery query;
+  query.shape = capsule(scale_by_power(settings_.radius, k_core_power), settings_.half_length);
+  query.position = position_;
+  query.rotation = settings_.rotation;
+  query.reach = settings_.radius - query.shape.radius + settings_.gap + half_gap;
+  query.filter = settings_.filter;
+  query.all = true;
+  QueryHit hits[k_mover_near_max];
+  const QueryReport answer = ask(query_closest, query, {hits, k_mover_near_max});
+  report_.hits_dropped += answer.dropped;
+  Real nearest = query.reach;
+  for (uint32_t i = 0; i < answer.hits; ++i) {
+    if (hits[i].body == passed_) continue;
+    nearest = min(nearest, hits[i].distance);
+    if (hits[i].undecided)
+      ++report_.undecided;
+    else
+      add_near(hits[i], query.shape);
+  }
+  free_radius_ = min(settings_.radius, query.shape.radius + nearest - half_gap);
+}
+
+/// Whether the part of the mover that is cast goes on through what it hit: it is not there for it, or it is within it.
+bool MoverMotion::passes(const QueryHit& hit, const Vec3<Real>& way) const {
+  if (hit.body == passed_) return true;
+  return caught() && hit.fraction.raw == 0 && !hit.undecided && dot(way, hit.normal) >= k_zero;
+}
+
+/// Goes along `way`, not shorter than k_mover_still, until the gap to what it meets, and keeps the plane there. If no
+/// part of it is free, then with its core.
+void MoverMotion::step_along(const Vec3<Real>& way) {
+  const Real core = scale_by_power(settings_.radius, k_core_power);
+  CastQuery query;
+  query.shape = capsule(max(free_radius_, core), settings_.half_length);
+  query.position = position_;
+  query.rotation = settings_.rotation;
+  query.way = way;
+  query.filter = settings_.filter;
+  query.all = caught() || passed_.slot != 0;  // to look beyond what it passes
+  QueryHit hits[k_hits_passed + 1];
+  const uint32_t room_for = query.all ? k_hits_passed + 1 : 1;
+  const uint32_t count = ask(query_cast, query, {hits, room_for}).hits;
+  if (status_ != Status::ok) return;
+  uint32_t first = 0;
+  while (first < count && passes(hits[first], way)) ++first;
+  if (first == room_for) {  // what is behind these is not known
+    ++report_.hits_dropped;
+    return;
+  }
+  known_ = false;
+  const Position from = position_;
+  if (first == count) {
+    position_ = moved(position_, way);
+  } else {
+    const QueryHit& hit = hits[first];
+    const Real fraction = real_from_fraction(hit.fraction);
+    const Real closing = -dot(way, hit.normal);
+    const Real wall = caught() ? k_zero : settings_.radius - free_radius_;
+    const Real room = fraction * closing - wall - settings_.gap;
+    const bool straight = closing > k_mover_still;  // never so of what is undecided: it has no normal
+    const Real part = straight ? divide(room, closing) : fraction - divide(settings_.gap, length(way));
+    position_ = moved(position_, way * clamp(part, k_zero, fraction));
+    report_.undecided += hit.undecided ? 1 : 0;
+    if (straight && met_count_ < k_mover_turns_max) planes_[met_count_++] = plane_at(hit, room);
+  }
+  const Vec3<Real> gone = real_difference(position_, from);
+  for (uint32_t i = 0; i < met_count_; ++i) planes_[i].room += dot(gone, planes_[i].normal);
+}
+
+/// Whether what is beside the contact, under the mover's foot, is a floor.
+void MoverMotion::find_footing(MoverPlane& plane) {
+  if (plane.footing != Footing::unknown) return;
+  plane.footing = Footing::none;
+  const Unit rise = dot(plane.normal, up_);
+  if (rise < k_edge_cosine) return;
+  const Real over = scale_by_power(settings_.gap, 1);
+  const Vec3<Unit> inward = up_ * rise - plane.normal;
+  RayQuery query;
+  query.origin = moved(plane.point, (up_ + inward) * over);
+  query.way = up_ * scale_by_power(-over, 1);
+  query.filter = settings_.filter;
+  QueryHit hit;
+  if (ask(query_ray, query, {&hit, 1}).hits == 0) return;
+  if (hit.undecided) ++report_.undecided;
+  if (!hit.undecided && dot(hit.normal, up_) >= settings_.slope_cosine) plane.footing = Footing::edge;
+}
+
+/// The planes whose bits are set stood in the way.
+void MoverMotion::note(uint32_t met) {
+  for (uint32_t i = 0; i < plane_count_; ++i) {
+    if ((met >> i & 1) == 0) continue;
+    bool known = false;
+    for (uint32_t k = 0; k < report_.contact_count; ++k) {
+      const MoverContact& other = report_.contacts[k];
+      known |= other.body == planes_[i].body &&
+               (!planes_[i].on_surface || dot(other.normal, planes_[i].normal) >= k_apart_cosine);
+    }
+    if (known) continue;
+    if (report_.contact_count == k_mover_contacts_max) {
+      ++report_.contacts_dropped;
+      continue;
+    }
+    MoverContact& contact = report_.contacts[report_.contact_count++];
+    contact = {};
+    contact.body = planes_[i].body;
+    contact.point = planes_[i].point;
+    contact.normal = planes_[i].normal;
+  }
+}
+
+Vec3<Real> MoverMotion::slide(Vec3<Real> way, MoverGait gait) {
+  if (met_count_ != 0) known_ = false;
+  met_count_ = 0;
+  if (within(way, k_mover_still)) return way;
+  for (uint32_t turn = 0; turn < k_mover_turns_max; ++turn) {
+    look_around();
+    if (caught()) return way;
+    for (uint32_t i = 0; i < plane_count_ && gait == MoverGait::fall; ++i) find_footing(planes_[i]);
+    uint32_t met = 0;
+    const Vec3<Real> next = way_between({planes_, plane_count_}, way, up_, gait, met);
+    note(met);
+    if (within(next, k_mover_still)) return way;
+    const Position from = position_;
+    const uint32_t met_before = met_count_;
+    step_along(next);
+    const Vec3<Real> gone = real_difference(position_, from);
+    way -= gone;
+    if (gait == MoverGait::walk) way -= up_ * dot(way, up_);  // what floors lifted is no debt
+    if (within(way, k_mover_still) || (within(gone, k_mover_still) && met_count_ == met_before)) return way;
+  }
+  ++report_.slides_cut;
+  return way;
+}
+
+void MoverMotion::go(const Vec3<Real>& way) {
+  met_count_ = 0;
+  known_ = false;
+  look_around();
+  if (!caught() && !within(way, k_mover_still)) step_along(way);
+}
+
+void MoverMotion::recover() {
+  for (uint32_t round = 0; round < k_recoveries; ++round) {
+    look_around();
+    Real least = k_zero;
+    for (uint32_t i = 0; i < plane_count_; ++i) least = min(least, planes_[i].room);
+    if (status_ != Status::ok || least >= scale_by_power(-settings_.gap, -2)) break;
+    Vec3<Real> way = way_out_of({planes_, plane_count_});
+    const Real size = length(way), most = scale_by_power(settings_.radius, -1);
+    if (size > most) way = way * divide(most, size);
+    if (within(way, k_mover_still)) break;
+    step_along(way);
+  }
+}
+
+const MoverPlane* MoverMotion::find_floor() {
+  look_around();
+  const MoverPlane* best = nullptr;
+  const Real reach = scale_by_power(settings_.gap, -1);
+  for (const Footing wanted : k_footings) {
+    for (uint32_t i = 0; i < plane_count_; ++i) {
+      MoverPlane& plane = planes_[i];
+      if (plane.room > reach) continue;
+      if (wanted == Footing::edge) find_footing(plane);
+      if (plane.footing != wanted) continue;
+      if (best == nullptr || dot(plane.normal, up_) > dot(best->normal, up_)) best = &plane;
+    }
+    if (best != nullptr) break;
+  }
+  return best;
+}
+
+bool MoverMotion::climb(const Vec3<Real>& rest) {
+  const Place start = place();
+  const Real half_gap = scale_by_power(settings_.gap, -1);
+  const auto rise = [&] { return dot(real_difference(position_, start.position), up_); };
+  Vec3<Unit> forward;
+  Real size = k_zero;
+  if (!normalise(rest, forward, size)) return false;
+  const auto gets_on = [&] {
+    return dot(real_difference(position_, start.position), forward) >= scale_by_power(size, -2);
+  };
+  go(up_ * settings_.step_height);
+  if (rise() > half_gap) {
+    // Far enough to come to rest on the edge, and not in the gap before it.
+    slide(forward * max(size, scale_by_power(settings_.gap, 1)), MoverGait::walk);
+    if (gets_on()) {
+      go(up_ * -rise());
+      const MoverPlane* floor = find_floor();
+      if (floor != nullptr && rise() > half_gap && gets_on()) {
+        // An edge may be far up the foot's side.
+        const Real top =
+            dot(real_difference(floor->point, start.position), up_) + settings_.half_length + settings_.radius;
+        if (top <= settings_.step_height) return true;
+      }
+    }
+  }
+  go_back(start);
+  return false;
+}
+
+const MoverPlane* MoverMotion::descend() {
+  const MoverPlane* floor = find_floor();
+  if (floor != nullptr && floor->room <= scale_by_power(settings_.gap, -5)) return floor;
+  const Place start = place();
+  go(up_ * -settings_.snap);
+  floor = find_floor();
+  if (floor == nullptr) go_back(start);
+  return floor;
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

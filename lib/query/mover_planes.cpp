@@ -1,0 +1,82 @@
+#include "query/mover_planes.h"
+
+#include "query/mover_motion.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+constexpr uint32_t k_plane_sweeps = 32;
+
+/// A plane and where it pushes the way.
+struct PlanePush {
+  Vec3<Unit> normal;
+  Vec3<Unit> along;
+  Real share;  ///< 1 / (normal . along)
+  Real room;   ///< >= 0
+  Real pushed = k_zero;
+};
+
+PlanePush push_of(const MoverPlane& plane, const Vec3<Unit>& up, MoverGait gait) {
+  PlanePush push = {plane.normal, plane.normal, Real(1.0), max(plane.room, k_zero)};
+  const Unit rise = dot(plane.normal, up);
+  if (plane.footing == Footing::floor || (plane.footing == Footing::edge && gait == MoverGait::fall)) {
+    push.along = up;
+    push.share = reciprocal(real_from_unit(rise, 0));
+    return push;
+  }
+  if (gait == MoverGait::fall || rise < Unit(0.0)) return push;
+  Vec3<Unit> level;
+  Unit size;
+  if (!normalise(plane.normal - up * rise, level, size)) return push;  // never: a floor is up
+  push.normal = push.along = level;
+  push.room = divide(push.room, real_from_unit(size, 0));
+  return push;
+}
+
+}  // namespace
+
+Vec3<Real> way_between(Span<const MoverPlane> planes, const Vec3<Real>& wish, const Vec3<Unit>& up, MoverGait gait,
+                       uint32_t& met) {
+  PlanePush pushes[k_mover_planes_max];
+  for (uint32_t i = 0; i < planes.count; ++i) pushes[i] = push_of(planes[i], up, gait);
+  Vec3<Real> way = wish;
+  for (uint32_t sweep = 0; sweep < k_plane_sweeps; ++sweep) {
+    Real most = k_zero;
+    for (uint32_t i = 0; i < planes.count; ++i) {
+      PlanePush& push = pushes[i];
+      const Real lacking = (-push.room - dot(way, push.normal)) * push.share;
+      const Real pushed = max(push.pushed + lacking, k_zero);
+      const Real change = pushed - push.pushed;
+      push.pushed = pushed;
+      way += push.along * change;
+      most = max(most, abs(change));
+    }
+    if (most < k_mover_still) break;
+  }
+  met = 0;
+  for (uint32_t i = 0; i < planes.count; ++i) {
+    if (pushes[i].pushed > k_mover_still) met |= 1u << i;
+  }
+  // In a narrow wedge the sweeps end on the way there.
+  for (const MoverPlane& plane : planes) {
+    const Real closing = -dot(way, plane.normal), room = max(plane.room, k_zero);
+    if (closing > room + k_mover_still) way = way * divide(room, closing);
+  }
+  return way;
+}
+
+Vec3<Real> way_out_of(Span<const MoverPlane> planes) {
+  Vec3<Real> way = {k_zero, k_zero, k_zero};
+  for (uint32_t sweep = 0; sweep < k_plane_sweeps; ++sweep) {
+    for (const MoverPlane& plane : planes) {
+      const Real lacking = -plane.room - dot(way, plane.normal);
+      // By half: opposite planes then agree on a place between them.
+      if (lacking > k_zero) way += plane.normal * scale_by_power(lacking, -1);
+    }
+  }
+  return way;
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

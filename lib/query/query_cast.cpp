@@ -1,0 +1,130 @@
+#include <detent/toi.h>
+
+#include "base/float_environment.h"
+#include "contact/compound_code.h"
+#include "distance/pair.h"
+#include "math/root.h"
+#include "query/query_hits.h"
+#include "query/query_surface.h"
+#include "shape/shape_traits.h"
+#include "shape/sweep.h"
+#include "state/ranges.h"
+#include "world/query_bodies.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+/// As time_of_impact() takes it.
+bool is_motion(const Motion& motion) {
+  const auto below = [](Real value) { return value > Real(-16384.0) && value < Real(16384.0); };
+  const Vec3<Real>& way = motion.displacement;
+  return is_position(motion.start.position) && below(way.x) && below(way.y) && below(way.z) &&
+         within(motion.turn, Real(65536.0)) && length(motion.turn) <= Real(65536.0);
+}
+
+/// A shape that turns stays in its bounding ball.
+Vec64 half_of(const QueryShape& shape, const Motion& motion, const Quat& rotation) {
+  if (motion.turn == k_zero_vector) return query_half(shape, rotation);
+  const Real ball = real_from_unit(shape.traits.bounding_radius, shape.traits.size_exponent);
+  Vec64 raw;
+  if (!raw_from_real({ball, ball, ball}, raw)) return {0, 0, 0};  // never: it is finite
+  return raw;
+}
+
+/// Where a body that has a surface is hit; false if it is not.
+bool cast_at_surface(const QueryBodies& bodies, uint32_t slot, const QueryShape& shape, const Motion& motion,
+                     Fraction entry, QueryHit& hit) {
+  const BodyTraits& traits = bodies.state.traits[slot];
+  bool met = false;
+  const bool asked = has_surface_bytes(bodies.world, traits) &&
+                     cast_on_surface(asked_surface(bodies.world, traits, bodies.state.poses[slot]), shape, motion, hit,
+                                     met) == Status::ok;
+  if (!asked) hit = {};
+  hit.body = bodies.id_of(slot);
+  hit.undecided = hit.undecided || !asked;
+  if (hit.undecided && hit.fraction < entry) hit.fraction = entry;
+  return !asked || met;
+}
+
+/// The first hit on a part of the body, or what is left undecided before it. False if it could not be asked.
+bool first_impact(const QueryBodies& bodies, const BodyTraits& traits, const Motion& still, const QueryShape& shape,
+                  const Motion& motion, TimeOfImpact& first) {
+  first.outcome = ToiOutcome::clear;
+  const ConvexParts parts(traits, bodies.world.assets);
+  for (uint32_t i = 0; i < parts.count(); ++i) {
+    Convex convex;
+    TimeOfImpact impact;
+    if (!parts.convex(i, false, convex) || time_of_impact(convex, still, shape.convex, motion, impact) != Status::ok)
+      return false;
+    if (impact.outcome == ToiOutcome::clear) continue;
+    const bool sooner = first.outcome == ToiOutcome::clear || impact.time < first.time;
+    if (sooner || (impact.time == first.time && first.outcome == ToiOutcome::undecided)) first = impact;
+  }
+  return parts.count() != 0;
+}
+
+/// Where the body is hit; false if it is not.
+bool cast_at(const QueryBodies& bodies, uint32_t slot, const QueryShape& shape, const Motion& motion, Fraction entry,
+             QueryHit& hit) {
+  const BodyTraits& traits = bodies.state.traits[slot];
+  if (is_surface(traits)) return cast_at_surface(bodies, slot, shape, motion, entry, hit);
+  const Pose pose = pose_near(traits, bodies.state.poses[slot], motion.start.position);
+  TimeOfImpact impact;
+  hit = {};
+  hit.body = bodies.id_of(slot);
+  const bool asked = first_impact(bodies, traits, {pose, k_zero_vector, k_zero_vector}, shape, motion, impact);
+  if (!asked || impact.outcome == ToiOutcome::undecided) {
+    hit.undecided = true;
+    hit.fraction = asked && impact.time > entry ? impact.time : entry;
+    return true;
+  }
+  if (impact.outcome == ToiOutcome::clear) return false;
+  hit.fraction = impact.time;
+  hit.point = moved(pose.position, impact.point);
+  hit.normal = impact.normal;
+  return true;
+}
+
+Status cast(const World& world, const QueryShape& shape, const Motion& motion, const QueryFilter& filter, bool all,
+            QueryHits out, QueryReport& report) {
+  Quat unit;
+  if (!is_motion(motion)) return Status::out_of_range;
+  if (!normalise_input(motion.start.rotation, unit)) return Status::not_normalised;
+  Vec64 way;
+  if (!raw_from_real(motion.displacement, way)) return Status::out_of_range;
+  SweptBox box(motion.start.position, half_of(shape, motion, unit), way, 0);
+  const QueryBodies bodies(world, filter);
+  HitCollector hits(all, out, k_whole_step, Real(0.0));
+  bodies.for_each([&](const Bounds& bounds) { return box.meets(box.place_of(bounds)); },
+                  [&](const Bounds& a, const Bounds& b) { return box.is_ahead(a, b); },
+                  [&](uint32_t slot) {
+                    if (hits.rules_out(slot)) return;
+                    const SweptBox::Place place = box.place_of(bodies.bounds_of(slot));
+                    QueryHit hit;
+                    if (!box.meets(place) || !cast_at(bodies, slot, shape, motion, box.entry(place), hit)) return;
+                    hits.add(hit);
+                    box.shorten(hits.end());
+                  });
+  hits.finish(report);
+  return Status::ok;
+}
+
+}  // namespace
+
+Status query_ray(const World& world, const RayQuery& query, QueryHits hits, QueryReport& report) {
+  const FloatEnvironment environment;
+  const Motion motion = {{query.origin, k_identity}, query.way, k_zero_vector};
+  return cast(world, query_point(), motion, query.filter, query.all, hits, report);
+}
+
+Status query_cast(const World& world, const CastQuery& query, QueryHits hits, QueryReport& report) {
+  const FloatEnvironment environment;
+  QueryShape shape;
+  if (const Status status = make_query_shape(world, query.shape, shape); status != Status::ok) return status;
+  const Motion motion = {{query.position, query.rotation}, query.way, query.turn};
+  return cast(world, shape, motion, query.filter, query.all, hits, report);
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,131 @@
+#include <detent/distance.h>
+
+#include "base/float_environment.h"
+#include "contact/compound_code.h"
+#include "distance/pair.h"
+#include "query/query_hits.h"
+#include "query/query_surface.h"
+#include "shape/shape_traits.h"
+#include "shape/sweep.h"
+#include "state/ranges.h"
+#include "world/query_bodies.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+/// How near a body that has a surface is; false if it is beyond `reach`.
+bool near_at_surface(const QueryBodies& bodies, uint32_t slot, const QueryShape& shape, const Pose& at, Real gap,
+                     Real reach, QueryHit& hit) {
+  const BodyTraits& traits = bodies.state.traits[slot];
+  bool met = false;
+  const bool asked = has_surface_bytes(bodies.world, traits) &&
+                     near_on_surface(asked_surface(bodies.world, traits, bodies.state.poses[slot]), shape, at, reach,
+                                     hit, met) == Status::ok;
+  if (!asked) hit = {};
+  hit.body = bodies.id_of(slot);
+  hit.undecided = hit.undecided || !asked;
+  if (hit.undecided) hit.distance = max(hit.distance, gap);
+  return hit.distance <= reach && (!asked || met);
+}
+
+/// The nearest points of the body's parts, or what is left undecided nearer. False if they could not be asked.
+bool nearest_part(const QueryBodies& bodies, const BodyTraits& traits, const Pose& pose, const QueryShape& shape,
+                  const Pose& at, Closest& nearest) {
+  const ConvexParts parts(traits, bodies.world.assets);
+  for (uint32_t i = 0; i < parts.count(); ++i) {
+    Convex convex;
+    Closest closest;
+    if (!parts.convex(i, false, convex) || closest_points(convex, pose, shape.convex, at, closest) != Status::ok)
+      return false;
+    if (i == 0 || closest.distance < nearest.distance || (closest.distance == nearest.distance && nearest.capped))
+      nearest = closest;
+  }
+  return parts.count() != 0;
+}
+
+/// How near the body is; false if it is beyond `reach`.
+bool near_at(const QueryBodies& bodies, uint32_t slot, const QueryShape& shape, const Pose& at, Real gap, Real reach,
+             QueryHit& hit) {
+  const BodyTraits& traits = bodies.state.traits[slot];
+  if (is_surface(traits)) return near_at_surface(bodies, slot, shape, at, gap, reach, hit);
+  const Pose pose = pose_near(traits, bodies.state.poses[slot], at.position);
+  Closest closest;
+  hit = {};
+  hit.body = bodies.id_of(slot);
+  const bool asked = nearest_part(bodies, traits, pose, shape, at, closest);
+  if (!asked || closest.capped) {
+    hit.undecided = true;
+    hit.distance = asked && closest.distance > gap ? closest.distance : gap;
+    return hit.distance <= reach;
+  }
+  hit.distance = closest.distance;
+  hit.point = moved(pose.position, closest.point_a);
+  hit.normal = closest.normal;
+  return hit.distance <= reach;
+}
+
+Status find_bodies_near(const World& world, const Shape& asked, const Pose& at, Real reach, const QueryFilter& filter,
+                        bool all, QueryHits out, QueryReport& report) {
+  const FloatEnvironment environment;
+  QueryShape shape;
+  if (const Status status = make_query_shape(world, asked, shape); status != Status::ok) return status;
+  Quat unit;
+  if (!is_position(at.position) || !within(reach, Real(0.0), Real(16384.0))) return Status::out_of_range;
+  if (!normalise_input(at.rotation, unit)) return Status::not_normalised;
+  const SweptBox box(at.position, query_half(shape, unit), {0, 0, 0}, raw_length(reach));
+  const QueryBodies bodies(world, filter);
+  HitCollector hits(all, out, k_whole_step, reach);
+  const auto is_near = [&](const SweptBox::Place& place) { return box.is_near(place, raw_length(hits.reach())); };
+  bodies.for_each([&](const Bounds& bounds) { return is_near(box.place_of(bounds)); },
+                  [&](const Bounds& a, const Bounds& b) {
+                    return reach > Real(0.0) && box.gap(box.place_of(b)) < box.gap(box.place_of(a));
+                  },
+                  [&](uint32_t slot) {
+                    if (hits.rules_out(slot)) return;
+                    const SweptBox::Place place = box.place_of(bodies.bounds_of(slot));
+                    QueryHit hit;
+                    if (!is_near(place)) return;
+                    const Real gap = real_from_raw(box.gap(place));
+                    if (near_at(bodies, slot, shape, at, gap, reach, hit)) hits.add(hit);
+                  });
+  hits.finish(report);
+  return Status::ok;
+}
+
+}  // namespace
+
+Status query_closest(const World& world, const ClosestQuery& query, QueryHits hits, QueryReport& report) {
+  return find_bodies_near(world, query.shape, {query.position, query.rotation}, query.reach, query.filter, query.all,
+                          hits, report);
+}
+
+Status query_overlap(const World& world, const OverlapQuery& query, QueryHits hits, QueryReport& report) {
+  return find_bodies_near(world, query.shape, {query.position, query.rotation}, Real(0.0), query.filter, query.all,
+                          hits, report);
+}
+
+Status query_bounds(const World& world, const BoundsQuery& query, QueryHits out, QueryReport& report) {
+  const FloatEnvironment environment;
+  const Position &lower = query.lower, &upper = query.upper;
+  if (!is_position(lower) || !is_position(upper) || !(lower.x <= upper.x) || !(lower.y <= upper.y) ||
+      !(lower.z <= upper.z))
+    return Status::out_of_range;
+  const Bounds box = {lower, upper};
+  const QueryBodies bodies(world, query.filter);
+  HitCollector hits(query.all, out, k_whole_step, Real(0.0));
+  const auto meets = [&](const Bounds& bounds) { return overlap(bounds, box); };
+  bodies.for_each(
+      meets, [](const Bounds&, const Bounds&) { return false; },
+      [&](uint32_t slot) {
+        if (hits.rules_out(slot) || !meets(bodies.bounds_of(slot))) return;
+        QueryHit hit;
+        hit.body = bodies.id_of(slot);
+        hits.add(hit);
+      });
+  hits.finish(report);
+  return Status::ok;
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,55 @@
+#include <detent/triangles.h>
+
+#include "base/float_environment.h"
+#include "distance/pair.h"
+#include "query/query_surface.h"
+#include "shape/shape_traits.h"
+#include "shape/sweep.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+Status visit_triangles(const World& world, BodyId id, void* user,
+                       void (*visit)(void* user, const BodyTriangle& triangle)) {
+  const FloatEnvironment environment;
+  const StateView<const uint8_t> state = view_of(world);
+  uint32_t slot = 0;
+  if (!find_body(state, id, slot)) return Status::bad_id;
+  const BodyTraits& traits = state.traits[slot];
+  if (visit == nullptr || !is_surface(traits)) return Status::bad_argument;
+  if (!has_surface_bytes(world, traits)) return Status::asset_missing;
+
+  struct Walk {
+    AskedSurface surface;
+    SurfacePlace place;
+    void* user;
+    void (*visit)(void* user, const BodyTriangle& triangle);
+
+    void show(uint32_t index) const {
+      const SurfaceTriangle t = surface.code.triangle(surface.surface, index);
+      const int64_t step = int64_t{1} << grid_shift(surface.surface);
+      BodyTriangle shown;
+      shown.index = index;
+      shown.material = t.material;
+      for (int k = 0; k < 3; ++k) {
+        const Vec32& at = t.corner[k];
+        const Vec64 way = rotate(place.surface, Vec64{at.x * step, at.y * step, at.z * step});
+        shown.corner[k] =
+            moved(surface.pose.position, {real_from_raw(way.x), real_from_raw(way.y), real_from_raw(way.z)});
+      }
+      visit(user, shown);
+    }
+  };
+  Walk walk = {asked_surface(world, traits, state.poses[slot]), {}, user, visit};
+  const SurfaceCode& code = walk.surface.code;
+  if (const Status status = code.place(walk.surface.pose, walk.surface.pose, walk.place); status != Status::ok)
+    return status;
+  constexpr int64_t k_all = int64_t{1} << 61;  // no coordinate of a surface is more than half of it
+  code.visit(
+      walk.surface.surface, {-k_all, -k_all, -k_all}, {k_all, k_all, k_all},
+      [](void* context, uint32_t index) { static_cast<const Walk*>(context)->show(index); }, &walk);
+  return Status::ok;
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,28 @@
+#pragma once
+#include <detent/body.h>
+#include <detent/detail/state.h>
+#include <detent/filter.h>
+
+/// What a body is, by its traits.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+inline BodyType type_of(const BodyTraits& traits) { return static_cast<BodyType>(traits.type); }
+inline bool is_dynamic(const BodyTraits& traits) { return type_of(traits) == BodyType::dynamic; }
+inline bool is_sensor(const BodyTraits& traits) { return traits.sensor != 0; }
+
+inline ShapeType shape_of(const BodyTraits& traits) { return static_cast<ShapeType>(traits.shape); }
+inline bool is_half_space(const BodyTraits& traits) { return shape_of(traits) == ShapeType::half_space; }
+inline bool is_surface(const BodyTraits& traits) { return shape_of(traits) == ShapeType::surface; }
+inline bool is_compound(const BodyTraits& traits) { return shape_of(traits) == ShapeType::compound; }
+/// Whether a pair of bodies can have more contacts than one.
+inline bool has_parts(const BodyTraits& a, const BodyTraits& b) {
+  return is_surface(a) || is_surface(b) || is_compound(a) || is_compound(b);
+}
+/// Whether a body has no thickness that the motion of others could be measured by.
+inline bool is_ground(const BodyTraits& traits) { return is_half_space(traits) || is_surface(traits); }
+
+inline Filter filter_of(const BodyTraits& traits) { return {traits.category, traits.mask, traits.group, traits.rule}; }
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

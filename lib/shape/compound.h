@@ -1,0 +1,122 @@
+#pragma once
+#include <detent/compound.h>
+
+#include "math/vector_integer.h"
+#include "shape/hull.h"
+
+/// A cooked compound as it lies in flash or a file: docs/compound.md is the format, these are its offsets and readers.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+inline constexpr uint8_t k_compound_magic[8] = {0x89, 'D', 'T', 'C', '\r', '\n', 0x1a, '\n'};
+inline constexpr uint32_t k_compound_format_version = 1;
+inline constexpr uint32_t k_compound_children_max = 64;
+
+/// Where the header's fields start.
+inline constexpr uint32_t k_compound_exponent_at = 20;
+inline constexpr uint32_t k_compound_radius_at = 24;
+inline constexpr uint32_t k_compound_child_count_at = 28;
+inline constexpr uint32_t k_compound_half_extents_at = 32;  ///< x, y, z
+inline constexpr uint32_t k_compound_half_thickness_at = 44;
+inline constexpr uint32_t k_compound_volume_at = 48;    ///< mantissa, exponent
+inline constexpr uint32_t k_compound_gyration_at = 56;  ///< three times mantissa, exponent
+inline constexpr uint32_t k_compound_origin_at = 80;    ///< three doubles
+inline constexpr uint32_t k_compound_rotation_at = 104;
+inline constexpr uint32_t k_compound_header_bytes = 128;  ///< zero from 120 on; the children follow
+
+/// Where a child's fields start, from its own start.
+inline constexpr uint32_t k_child_kind_at = 0;
+inline constexpr uint32_t k_child_radius_at = 4;
+inline constexpr uint32_t k_child_hull_at = 8;
+inline constexpr uint32_t k_child_inner_at = 12;
+inline constexpr uint32_t k_child_low_at = 16;
+inline constexpr uint32_t k_child_high_at = 28;
+inline constexpr uint32_t k_child_half_thickness_at = 40;
+inline constexpr uint32_t k_compound_child_bytes = 48;  ///< zero from 44 on
+
+/// Stored: a value is never reused.
+enum class ChildKind : uint32_t {
+  ball = 1,     ///< about `low`, which is `high` too
+  capsule = 2,  ///< from `low` to `high`, which are its ends, of any order
+  hull = 3,     ///< a cooked hull in the compound's axes
+};
+
+/// One convex part. Lengths in 2^-30 of the compound's unit.
+struct CompoundChild {
+  ChildKind kind;
+  int32_t radius;          ///< of the ball that rounds it
+  uint32_t hull_at;        ///< of a hull: where its bytes start, from the compound's start
+  uint32_t inner_at;       ///< likewise of the hull within it that deep bodies are tested by
+  Vec32 low, high;         ///< of a hull: the least and the greatest coordinates of its vertices
+  int32_t half_thickness;  ///< the least, over a hull's faces, of half of its depth; `radius` included
+};
+
+/// Both ends included; in 2^-30 of the unit.
+struct ChildBox {
+  Vec32 low, high;
+};
+
+/// A cooked compound in place: nothing is copied. Its origin is the centre of mass, its axes are principal.
+struct CompoundView {
+  const uint8_t* bytes = nullptr;
+  uint32_t child_count = 0;
+
+  int32_t exponent() const { return cooked_i32(bytes + k_compound_exponent_at); }
+  /// Greatest distance of the surface from the origin, rounded up.
+  int32_t radius() const { return cooked_i32(bytes + k_compound_radius_at); }
+  int32_t half_thickness() const { return cooked_i32(bytes + k_compound_half_thickness_at); }
+  /// The greatest |x|, |y| and |z|.
+  Vec32 half_extents() const { return vector(bytes + k_compound_half_extents_at); }
+  /// The mass over the density, in unit^3.
+  HullScaled volume() const { return scaled(k_compound_volume_at); }
+  /// m unit^2 / I about the body's axis (0 to 2).
+  HullScaled gyration(uint32_t axis) const { return scaled(k_compound_gyration_at + 8 * axis); }
+  CompoundChild child(uint32_t i) const {
+    DETENT_VERIFY_RANGE(i < child_count);
+    const uint8_t* words = bytes + k_compound_header_bytes + k_compound_child_bytes * i;
+    return {static_cast<ChildKind>(cooked_u32(words + k_child_kind_at)),
+            cooked_i32(words + k_child_radius_at),
+            cooked_u32(words + k_child_hull_at),
+            cooked_u32(words + k_child_inner_at),
+            vector(words + k_child_low_at),
+            vector(words + k_child_high_at),
+            cooked_i32(words + k_child_half_thickness_at)};
+  }
+
+ private:
+  static Vec32 vector(const uint8_t* words) {
+    return {cooked_i32(words), cooked_i32(words + 4), cooked_i32(words + 8)};
+  }
+  HullScaled scaled(uint32_t field) const { return {cooked_i32(bytes + field), cooked_i32(bytes + field + 4)}; }
+};
+
+/// The compound at `bytes`, which read_compound() has accepted: no checks.
+inline CompoundView compound_view(const uint8_t* bytes) {
+  return {bytes, cooked_u32(bytes + k_compound_child_count_at)};
+}
+
+/// The child's bounds, its ball included. Range: |component| < 2^31.
+inline ChildBox child_box(const CompoundChild& child) {
+  const Vec32 &a = child.low, &b = child.high;
+  const int32_t r = child.radius;
+  const auto least = [r](int32_t p, int32_t q) { return (p < q ? p : q) - r; };
+  const auto most = [r](int32_t p, int32_t q) { return (p > q ? p : q) + r; };
+  return {{least(a.x, b.x), least(a.y, b.y), least(a.z, b.z)}, {most(a.x, b.x), most(a.y, b.y), most(a.z, b.z)}};
+}
+
+/// What the header and the children say of themselves, found from the hulls and balls: the cook writes it, the reader
+/// compares it. `exponent`: the compound's; `hull`: the child's, or empty.
+struct ChildMeasure {
+  Vec32 low, high;
+  int64_t reach;  ///< greatest distance of its surface from the origin, rounded up
+  int64_t half_thickness;
+};
+ChildMeasure measure_child(const CompoundChild& child, const HullView& hull, int32_t exponent);
+
+/// Checks bytes from anywhere: whatever is accepted has children that read_hull() accepts or balls and capsules, all
+/// within the stated bounds, each inner hull within its hull. Not checked: volume, gyration, origin and rotation,
+/// beyond their ranges. Errors: as compound_info().
+Status read_compound(const Asset& asset, CompoundView& compound);
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,152 @@
+#pragma once
+#include <detent/height_field.h>
+
+#include "base/check.h"
+#include "shape/cooked.h"
+#include "shape/surface_triangle.h"
+
+/// A cooked height field as it lies in flash or a file: docs/height_field.md is the format, these are its offsets and
+/// readers.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+inline constexpr uint8_t k_height_field_magic[8] = {0x89, 'D', 'T', 'F', '\r', '\n', 0x1a, '\n'};
+inline constexpr uint32_t k_height_field_format_version = 1;
+
+/// Where the header's fields start, after what all formats have.
+inline constexpr uint32_t k_height_field_exponent_at = 20;
+inline constexpr uint32_t k_height_field_columns_at = 24;
+inline constexpr uint32_t k_height_field_rows_at = 28;
+inline constexpr uint32_t k_height_field_flags_at = 32;
+inline constexpr uint32_t k_height_field_origin_at = 36;     ///< three int32
+inline constexpr uint32_t k_height_field_spacing_at = 48;    ///< two int32: along x, along z
+inline constexpr uint32_t k_height_field_step_at = 56;       ///< int32
+inline constexpr uint32_t k_height_field_header_bytes = 64;  ///< zero from 60 on
+
+inline constexpr uint32_t k_height_field_one_sided = 1;     ///< of the flags
+inline constexpr uint32_t k_height_field_cells_max = 4096;  ///< along a side
+inline constexpr uint8_t k_cell_hole = 0x80;                ///< no triangles
+inline constexpr uint8_t k_cell_turned = 0x40;  ///< the diagonal runs from (i + 1, j) to (i, j + 1), not from (i, j)
+inline constexpr uint8_t k_cell_material = 0x3f;
+
+inline constexpr uint32_t k_height_block_bits = 3;  ///< a leaf of the tree holds 8 x 8 cells
+inline constexpr uint32_t k_height_levels_max = 10;
+inline constexpr uint32_t k_height_node_bytes = 4;  ///< int16 least and greatest height
+
+/// Node (i, j) of a level holds the nodes (2 i, 2 j) to (2 i + 1, 2 j + 1) of the level below, if there are such.
+struct HeightFieldView {
+  const uint8_t* bytes = nullptr;
+  uint32_t columns = 0, rows = 0;
+  uint32_t heights_at = 0, cells_at = 0, nodes_at = 0, end = 0;
+  uint32_t level_count = 0;
+  uint32_t level_start[k_height_levels_max + 1] = {};  ///< the node with which each level starts
+  Vec32 origin = {};
+  int32_t spacing_x = 0, spacing_z = 0, step = 0;
+
+  int32_t exponent() const { return cooked_i32(bytes + k_height_field_exponent_at); }
+  bool one_sided() const { return (cooked_u32(bytes + k_height_field_flags_at) & k_height_field_one_sided) != 0; }
+  uint32_t triangle_count() const { return 2 * columns * rows; }
+  int32_t height(uint32_t i, uint32_t j) const {
+    DETENT_VERIFY_RANGE(i <= columns && j <= rows);
+    return cooked_i16(bytes + heights_at + 2 * (j * (columns + 1) + i));
+  }
+  uint8_t cell(uint32_t i, uint32_t j) const {
+    DETENT_VERIFY_RANGE(i < columns && j < rows);
+    return bytes[cells_at + j * columns + i];
+  }
+  Vec32 vertex(uint32_t i, uint32_t j) const { return {x(i), origin.y + height(i, j) * step, z(j)}; }
+  int32_t x(uint32_t i) const { return origin.x + static_cast<int32_t>(i) * spacing_x; }
+  int32_t z(uint32_t j) const { return origin.z + static_cast<int32_t>(j) * spacing_z; }
+
+  /// Triangles 2 (j columns + i) and the next are those of the cell (i, j); a hole has none.
+  SurfaceTriangle triangle(uint32_t index) const;
+  uint32_t level_columns(uint32_t level) const { return blocks(columns, level); }
+  uint32_t level_rows(uint32_t level) const { return blocks(rows, level); }
+  static uint32_t blocks(uint32_t cells, uint32_t level) {
+    const uint32_t bits = k_height_block_bits + level;
+    return (cells + (1u << bits) - 1) >> bits;
+  }
+  const uint8_t* node(uint32_t level, uint32_t i, uint32_t j) const {
+    return bytes + nodes_at + k_height_node_bytes * (level_start[level] + j * level_columns(level) + i);
+  }
+  GridBox node_bounds(uint32_t level, uint32_t i, uint32_t j) const {
+    const uint32_t bits = k_height_block_bits + level;
+    const auto last = [bits](uint32_t at, uint32_t cells) {
+      const uint32_t beyond = (at + 1) << bits;
+      return beyond < cells ? beyond : cells;
+    };
+    const uint8_t* ends = node(level, i, j);
+    return {{x(i << bits), origin.y + cooked_i16(ends) * step, z(j << bits)},
+            {x(last(i, columns)), origin.y + cooked_i16(ends + 2) * step, z(last(j, rows))}};
+  }
+  GridBox bounds() const { return node_bounds(level_count - 1, 0, 0); }
+
+  /// Calls visit(triangle) for each triangle whose bounds meet, always in the same order. `meets` is asked of a
+  /// GridBox.
+  template <class Meets, class Visit>
+  void walk(Meets&& meets, Visit&& visit) const;
+
+ private:
+  void corners(uint32_t index, Vec32 (&corner)[3]) const;
+  /// The triangle at a side of a cell, 0 to 3: x lower, z upper, x upper, z lower.
+  uint32_t triangle_at_side(uint32_t i, uint32_t j, uint32_t side) const {
+    const bool turned = (cell(i, j) & k_cell_turned) != 0;
+    const bool second = side == 2 || (side == 1 && turned) || (side == 3 && !turned);
+    return 2 * (j * columns + i) + (second ? 1 : 0);
+  }
+  template <class Meets, class Visit>
+  void walk_cells(uint32_t i, uint32_t j, Meets&& meets, Visit&& visit) const;
+};
+
+/// The height field at `bytes`, which read_height_field() has accepted: no checks.
+HeightFieldView height_field_view(const uint8_t* bytes);
+
+/// What is to be stored of a node: the least and the greatest height of its samples, or of the nodes below.
+void height_node(const HeightFieldView& field, uint32_t level, uint32_t i, uint32_t j, int32_t& low, int32_t& high);
+
+/// Checks bytes from anywhere. Errors: buffer_misaligned (8), not_detent, format_unknown, truncated, corrupt,
+/// out_of_range (the exponent).
+Status read_height_field(const Asset& asset, HeightFieldView& field);
+
+template <class Meets, class Visit>
+void HeightFieldView::walk_cells(uint32_t i, uint32_t j, Meets&& meets, Visit&& visit) const {
+  constexpr uint32_t k_size = 1u << k_height_block_bits;
+  const uint32_t i_end = (i + 1) * k_size < columns ? (i + 1) * k_size : columns;
+  const uint32_t j_end = (j + 1) * k_size < rows ? (j + 1) * k_size : rows;
+  for (uint32_t row = j * k_size; row < j_end; ++row) {
+    for (uint32_t column = i * k_size; column < i_end; ++column) {
+      if ((cell(column, row) & k_cell_hole) != 0) continue;
+      for (uint32_t k = 0; k < 2; ++k) {
+        const uint32_t index = 2 * (row * columns + column) + k;
+        Vec32 corner[3];
+        corners(index, corner);
+        if (meets(bounds_of(corner[0], corner[1], corner[2]))) visit(index);
+      }
+    }
+  }
+}
+
+template <class Meets, class Visit>
+void HeightFieldView::walk(Meets&& meets, Visit&& visit) const {
+  struct Entry {
+    uint32_t level, i, j;
+  };
+  Entry stack[3 * k_height_levels_max + 1];  // of each level no more than three wait
+  uint32_t count = 0;
+  stack[count++] = {level_count - 1, 0, 0};
+  while (count > 0) {
+    const Entry entry = stack[--count];
+    if (!meets(node_bounds(entry.level, entry.i, entry.j))) continue;
+    if (entry.level == 0) {
+      walk_cells(entry.i, entry.j, meets, visit);
+      continue;
+    }
+    for (uint32_t child = 4; child-- > 0;) {
+      const Entry next = {entry.level - 1, 2 * entry.i + (child & 1), 2 * entry.j + (child >> 1)};
+      if (next.i < level_columns(next.level) && next.j < level_rows(next.level)) stack[count++] = next;
+    }
+  }
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

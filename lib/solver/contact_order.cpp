@@ -1,0 +1,69 @@
+#include "solver/contact_order.h"
+
+#include "base/digest.h"
+#include "base/radix_sort.h"
+#include "solver/island.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+constexpr uint64_t k_order_seed = 0x6465746e74736f72u;
+
+uint64_t id_word(Span<const BodyTraits> traits, uint32_t slot) {
+  return (uint64_t{traits[slot].generation} << 32) | (slot + 1);
+}
+
+uint32_t pair_hash(Span<const BodyTraits> traits, const ContactState& contact) {
+  const uint64_t low = digest_step(k_order_seed, id_word(traits, contact.body_a));
+  uint64_t pair = digest_step(low, id_word(traits, contact.body_b));
+  if (contact.part != 0) pair = digest_step(pair, contact.part);
+  return static_cast<uint32_t>(digest_finish(pair) >> 32);
+}
+
+/// Contacts of one colour may be solved in any order: those alike in work lie together, to be solved four at once.
+uint16_t kind_of(const ContactWork& contact) {
+  return static_cast<uint16_t>(contact.state.point_count | contact.angular_rows << 3);
+}
+
+/// The lowest colour free at both bodies, taken; or k_colour_overflow.
+uint16_t take_colour(Span<const BodyTraits> traits, const ContactState& contact, Span<BodyWork> work) {
+  const bool colours_a = is_dynamic(traits[contact.body_a]), colours_b = is_dynamic(traits[contact.body_b]);
+  uint64_t taken = 0;
+  if (colours_a) taken |= work[contact.body_a].colours;
+  if (colours_b) taken |= work[contact.body_b].colours;
+  if (taken == UINT64_MAX) return k_colour_overflow;
+  const uint16_t colour = static_cast<uint16_t>(__builtin_ctzll(~taken));
+  const uint64_t mark = uint64_t{1} << colour;
+  if (colours_a) work[contact.body_a].colours |= mark;
+  if (colours_b) work[contact.body_b].colours |= mark;
+  return colour;
+}
+
+}  // namespace
+
+uint32_t order_contacts(Span<const BodyTraits> traits, Span<const ContactWork> contacts, Span<const Island> islands,
+                        Span<BodyWork> work, Span<ContactOrder> spare, Span<ContactOrder> order) {
+  for (uint32_t i = 0; i < contacts.count; ++i) {
+    order[i] = {pair_hash(traits, contacts[i].state), i, 0, 0, island_of(traits, work, contacts[i].state)};
+  }
+  radix_sort(
+      order, spare, [](const ContactOrder& entry, int digit) { return entry.key >> (8 * digit) & 255; }, 4);
+  uint32_t overflows = 0;
+  for (ContactOrder& entry : order) {
+    entry.colour = take_colour(traits, contacts[entry.contact].state, work);
+    overflows += entry.colour == k_colour_overflow ? 1 : 0;
+  }
+  for (ContactOrder& entry : order) entry.kind = kind_of(contacts[entry.contact]);
+  radix_sort(
+      order, spare,
+      [](const ContactOrder& entry, int digit) { return uint32_t{digit == 0 ? entry.kind : entry.colour}; }, 2);
+  // Each island's have their place; what is before it in this order stays before it.
+  for (uint32_t i = 0; i < order.count; ++i) spare[i] = order[i];
+  for (uint32_t i = 0; i < islands.count; ++i) work[i].run = islands[i].first_contact;
+  for (const ContactOrder& entry : spare.first(order.count)) order[work[entry.island].run++] = entry;
+  return overflows;
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,356 @@
+#include "solver/contact_rows.h"
+
+#include "base/unroll.h"
+#include "math/root.h"
+#include "motion/contact_motion.h"
+#include "motion/gyration.h"
+#include "motion/spin.h"
+#include "shape/shape_traits.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+/// The exponent of mantissas up to `value` that leaves room for the sum of four; float needs none.
+int32_t exponent_for(Real value) { return DETENT_FIXED ? exponent_above(value) + 2 : 0; }
+
+#if DETENT_FIXED
+/// What mantissas 2^-exponent become Reals by: to multiply costs less than to shift each. Range: a Real has more
+/// fraction bits than what is brought to it, so that nothing is rounded.
+uint64_t real_power(int exponent) {
+  DETENT_VERIFY_RANGE(exponent >= k_unit_frac - k_real_frac);
+  return static_cast<uint64_t>(shift_64(1, exponent + k_real_frac - k_unit_frac));
+}
+Real real_part(Unit mantissa, uint64_t power) {
+  return Real::from_raw(static_cast<int64_t>(static_cast<uint64_t>(int64_t{mantissa.raw}) * power));
+}
+#else
+uint64_t real_power(int) { return 1; }
+#endif
+Real real_part(Real value, uint64_t) { return value; }
+
+/// What a wrench on one body adds to the pair's motion, to `response`. `turning`: gyration in the contact's frame, in
+/// Real, or as mantissas 2^-exponent.
+template <class Number>
+void add_response(const ContactWork& work, const Number (&turning)[3][3], int exponent, const Vec3<Unit>& arm,
+                  Unit unit, Scaled share, PairResponse& response) {
+  const Unit reach[3] = {dot(arm, work.normal), dot(arm, work.tangent[0]), dot(arm, work.tangent[1])};
+  const bool whole = share == Scaled(1.0);
+  const uint64_t power = real_power(exponent);
+  const auto add_part = [&](int i, int k, Number part, bool moves) {
+    Real value = real_part(part, power);
+    if (moves) value += Real(1.0);
+    response.part[response_index(i, k)] += whole ? value : multiply(value, share);
+  };
+  DETENT_UNROLL
+  for (int k = 0; k < 3; ++k) {
+    // A force along axis k turns the body about the two others.
+    const int next = (k + 1) % 3, last = (k + 2) % 3;
+    Number spin[3];
+    DETENT_UNROLL
+    for (int i = 0; i < 3; ++i) {
+      spin[i] = turning[i][next] * reach[last] - turning[i][last] * reach[next];
+      add_part(i + 3, k, spin[i] * unit, false);
+    }
+    DETENT_UNROLL
+    for (int i = 0; i < 3; ++i) {
+      if (i > k) continue;
+      const int after = (i + 1) % 3, before = (i + 2) % 3;
+      add_part(i, k, spin[after] * reach[before] - spin[before] * reach[after], i == k);
+      add_part(i + 3, k + 3, (turning[i][k] * unit) * unit, false);
+    }
+  }
+}
+
+PairResponse respond(const WorldGyration& a, const WorldGyration& b, const ContactWork& work) {
+  PairResponse response = {};
+  const auto add_body = [&](const WorldGyration& gyration, const Vec3<Unit>& arm, Unit unit, Scaled share) {
+    if (!is_positive(share)) return;
+    const Vec3<Unit>* const axis[3] = {&work.normal, &work.tangent[0], &work.tangent[1]};
+    Unit turning[3][3];
+    DETENT_UNROLL
+    for (int k = 0; k < 3; ++k) {
+      const Vec3<Unit> turned = multiply(gyration, *axis[k]);
+      for (int i = 0; i <= k; ++i) turning[i][k] = turning[k][i] = dot(*axis[i], turned);
+    }
+    add_response(work, turning, gyration.exponent, arm, unit, share, response);
+  };
+  add_body(a, work.middle_a, work.unit_a, work.share_a);
+  add_body(b, work.middle_b, work.unit_b, work.share_b);
+  return response;
+}
+
+/// Effective mass of a direction: the lighter body's share is 1, so `response` is at least 1 but for rounding.
+Unit mass_of(Real response) {
+  if (!(response > Real(1.0))) return 1.0;
+#if DETENT_FIXED
+  // 2^(2 x 30) over the response as a mantissa of 31 bits.
+  const int power = bit_length_64(magnitude_64(response.raw)) - 31;
+  const uint64_t quotient = (uint64_t{1} << 60) / static_cast<uint64_t>(response.raw >> power);
+  return Unit::from_raw(
+      static_cast<int32_t>(shift_64(static_cast<int64_t>(quotient), k_real_frac - k_unit_frac - power)));
+#else
+  return Real(1.0) / response;
+#endif
+}
+Scaled angular_mass_of(Real response) {
+  return response > Real(0.0) ? divide(Scaled(1.0), scaled_from(response)) : Scaled(0.0);
+}
+
+/// What an impulse along the normal at each point does to the normal speed at each, and its effective mass.
+void couple(const PairResponse& response, ContactWork& work) {
+  const auto part = [&](Part i, Part k) { return response.part[response_index(i, k)]; };
+  const uint32_t count = work.state.point_count;
+  Real coupling[k_manifold_points_max][k_manifold_points_max];
+  Real most = 1.0;
+  for (uint32_t i = 0; i < count; ++i) {
+    const auto shows = [&](Part in) {
+      return part(in, k_along_normal) + (part(in, k_about_first) * work.y[i] - part(in, k_about_second) * work.x[i]);
+    };
+    const Real along = shows(k_along_normal), first = shows(k_about_first), second = shows(k_about_second);
+    for (uint32_t k = 0; k <= i; ++k) {
+      const Real sum = along + (first * work.y[k] - second * work.x[k]);
+      coupling[i][k] = coupling[k][i] = sum;
+      most = max(most, abs(sum));
+    }
+    work.inverse_mass[i] = mass_of(coupling[i][i]);
+  }
+  constexpr int32_t k_most = 29;  // a thin body hit far from its centre; beyond it the sweep converges more slowly
+  const int32_t exponent = exponent_for(most);
+  work.coupling_exponent = exponent < k_most ? exponent : k_most;
+  for (uint32_t i = 0; i < count; ++i) {
+    for (uint32_t k = 0; k < k_manifold_points_max; ++k)
+      work.coupling[i][k] = k < count ? unit_from_real(coupling[i][k], work.coupling_exponent) : Unit(0.0);
+  }
+}
+
+/// Two directions that make a right-handed frame with the normal.
+/// Source: Duff and others, "Building an Orthonormal Basis, Revisited", JCGT 2017.
+void make_tangents(const Vec3<Unit>& n, Vec3<Unit> tangent[2]) {
+  const Unit zero = 0.0, one = 1.0;
+  const bool down = n.z < zero;
+#if DETENT_FIXED
+  const uint64_t sum = static_cast<uint64_t>(one.raw) + magnitude_32(n.z.raw);
+  const Unit part = Unit::from_raw(static_cast<int32_t>(((uint64_t{1} << 60) + sum / 2) / sum));
+#else
+  const Unit part = one / (one + abs(n.z));
+#endif
+  const Unit both = zero - (n.x * n.y) * part;
+  const Unit first = one - (n.x * n.x) * part, second = one - (n.y * n.y) * part;
+  tangent[0] = {first, both, down ? n.x : zero - n.x};
+  tangent[1] = {down ? zero - both : both, down ? zero - second : second, zero - n.y};
+}
+
+/// The mean of two coefficients that counts by their ratio.
+Scaled geometric_mean(Scaled a, Scaled b) {
+  if (a == b) return a;
+  return is_positive(a) && is_positive(b) ? square_root(multiply(a, b)) : Scaled(0.0);
+}
+
+Scaled pair_restitution(const BodyTraits& a, const BodyTraits& b) {
+  constexpr uint32_t k_smaller = static_cast<uint32_t>(RestitutionRule::smaller);
+  const bool smaller = a.restitution_rule == k_smaller || b.restitution_rule == k_smaller;
+  return less(a.restitution, b.restitution) == smaller ? a.restitution : b.restitution;
+}
+
+/// Reference mass over each mass.
+void share_mass(const BodyTraits& a, const BodyTraits& b, ContactWork& work) {
+  const Scaled none = 0.0, one = 1.0;
+  const bool dynamic_a = is_dynamic(a), dynamic_b = is_dynamic(b);
+  work.share_a = dynamic_a ? one : none;
+  work.share_b = dynamic_b ? one : none;
+  work.static_pair = dynamic_a && dynamic_b ? 0 : 1;
+  if (!dynamic_a || !dynamic_b || a.mass == b.mass) return;
+  if (less(a.mass, b.mass))
+    work.share_b = divide(a.mass, b.mass);
+  else
+    work.share_a = divide(b.mass, a.mass);
+}
+
+/// The pair's unit of length as a power of two, m, and in those of the bodies.
+int32_t share_length(const BodyTraits& a, const BodyTraits& b, ContactWork& work) {
+  const bool moves_a = type_of(a) != BodyType::fixed, moves_b = type_of(b) != BodyType::fixed;
+  int32_t unit = moves_a ? a.size_exponent : b.size_exponent;
+  if (moves_b && b.size_exponent < unit) unit = b.size_exponent;
+  const auto in_unit_of = [unit](bool moves, const BodyTraits& body) {
+    return moves ? scale_by_power(Unit(1.0), unit - body.size_exponent) : Unit(0.0);
+  };
+  work.unit_a = in_unit_of(moves_a, a);
+  work.unit_b = in_unit_of(moves_b, b);
+  return unit;
+}
+
+Real gravity_along(const StepSettings& settings, const BodyTraits& body, const Vec3<Unit>& normal) {
+  bool saturated = false;
+  if (!is_dynamic(body)) return 0.0;
+  const Real whole = dot(settings.gravity, normal);
+  return body.gravity_scale == Scaled(1.0) ? whole : multiply(whole, body.gravity_scale, saturated);
+}
+
+/// The normal velocity with which a point that approaches at `velocity` closes its gap under the relative acceleration
+/// `pull`: sqrt(v^2 + 2 a s). So a bounce neither gains nor loses height.
+Real approach_at_touch(Real velocity, Real separation, Real pull) {
+  const Real zero = 0.0, fast = 256.0;  // where the fall through a gap is nothing any more, and squares leave the range
+  if (!(velocity < zero && velocity > -fast && separation > zero && pull < zero && pull > -fast)) return velocity;
+  const Real gain = scale_by_power(pull * min(separation, Real(64.0)), 1);
+  return -square_root(velocity * velocity - gain);
+}
+
+/// By how much more than along the normal what is round may part in a tick, as the normal turns while they slide past
+/// each other, m: s^2 / D for the way s across the normal and the distance D of the middles of their curvature. That is
+/// twice what it is to second order: what touches only as it passes would else be stopped along the normal of the
+/// start.
+__attribute__((noinline)) Real parted_by_sliding(const StepSettings& settings, const RowBody& a, const RowBody& b,
+                                                 const Vec3<Unit>& normal, const ContactGeometryPoint& point) {
+  const Unit round_a = round_radius(a.traits), round_b = round_radius(b.traits);
+  const auto velocity_of = [](const RowBody& body, const Vec3<Unit>& arm) {
+    const Vec3<Real> turning = cross(body.spin, arm);
+    return body.motion.velocity + scale_by_power(turning, k_spin_power);
+  };
+  const Vec3<Real> velocity =
+      velocity_of(b, point.arm_b + normal * round_b) - velocity_of(a, point.arm_a - normal * round_a);
+  const Vec3<Real> across = velocity - normal * dot(velocity, normal);
+  const Real distance = real_from_unit(round_a, a.traits.size_exponent) +
+                        real_from_unit(round_b, b.traits.size_exponent) + point.separation;
+  const Real way = min(length(across) * settings.tick_time, distance);
+  return way * divide(way, distance);
+}
+
+/// What each of so many points counts in a mean.
+Unit share_of_points(uint32_t count) {
+  constexpr Unit k_share[k_manifold_points_max] = {1.0, 0.5, 1.0 / 3.0, 0.25};
+  return k_share[count - 1];
+}
+
+Vec3<Unit> mean(const ContactGeometry& geometry, Vec3<Unit> ContactGeometryPoint::*arm) {
+  const Unit share = share_of_points(geometry.count);
+  Vec3<Unit> sum = {0.0, 0.0, 0.0};
+  for (uint32_t i = 0; i < geometry.count; ++i) sum += geometry.point[i].*arm * share;
+  return sum;
+}
+
+/// Places the points about their middle by a body whose unit is the pair's, and returns the root of their mean squared
+/// distance from it.
+Unit place_points(const ContactGeometry& geometry, Vec3<Unit> ContactGeometryPoint::*arm, const Vec3<Unit>& middle,
+                  ContactWork& work) {
+  const Unit share = share_of_points(geometry.count);
+  Unit sum = 0.0;  // a quarter of the mean square
+  for (uint32_t i = 0; i < k_manifold_points_max; ++i) {
+    work.x[i] = work.y[i] = work.inverse_mass[i] = Unit(0.0);
+    if (i >= geometry.count) continue;
+    const Vec3<Unit> offset = geometry.point[i].*arm - middle;
+    work.x[i] = dot(offset, work.tangent[0]);
+    work.y[i] = dot(offset, work.tangent[1]);
+    const Unit x = scale_by_power(work.x[i], -1), y = scale_by_power(work.y[i], -1);
+    sum += (x * x + y * y) * share;
+  }
+  return scale_by_power(square_root(max(sum, Unit(0.0))), 1);
+}
+
+}  // namespace
+
+void renew_response(const WorldGyration& a, const WorldGyration& b, ContactWork& work) {
+  const PairResponse response = respond(a, b, work);
+  const auto own = [&](Part part) { return response.part[response_index(part, part)]; };
+  Real most = 1.0;
+  for (const Real& part : response.part) most = max(most, abs(part));
+  work.response_exponent = exponent_for(most);
+  for (int i = 0; i < k_responses; ++i) work.response[i] = unit_from_real(response.part[i], work.response_exponent);
+  couple(response, work);
+  work.friction_mass[0] = mass_of(own(k_along_first));
+  work.friction_mass[1] = mass_of(own(k_along_second));
+  for (int i = 0; i < 3; ++i) work.angular_mass[i] = angular_mass_of(own(static_cast<Part>(k_about_normal + i)));
+}
+
+void make_rows(const StepSettings& settings, const RowBody& a, const RowBody& b, const ContactGeometry& geometry,
+               ContactWork& work) {
+  work.normal = geometry.normal;
+  make_tangents(work.normal, work.tangent);
+  share_mass(a.traits, b.traits, work);
+  const int32_t unit = share_length(a.traits, b.traits, work);
+  work.middle_a = mean(geometry, &ContactGeometryPoint::arm_a);
+  work.middle_b = mean(geometry, &ContactGeometryPoint::arm_b);
+  work.lever_a = cross(work.middle_a, work.normal);
+  work.lever_b = cross(work.middle_b, work.normal);
+  const Unit patch = work.unit_a == Unit(1.0)
+                         ? place_points(geometry, &ContactGeometryPoint::arm_a, work.middle_a, work)
+                         : place_points(geometry, &ContactGeometryPoint::arm_b, work.middle_b, work);
+
+  renew_response(a.gyration, b.gyration, work);
+
+  const Real pull = gravity_along(settings, b.traits, work.normal) - gravity_along(settings, a.traits, work.normal);
+  const PairMotion<One> motion(Block(), b.motion.velocity - a.motion.velocity, a.spin, b.spin, k_spin_power);
+  const NormalMotion<One> start(motion, work);
+  const bool is_round = geometry.turns && !a.jointed && !b.jointed &&
+                        (round_radius(a.traits) > Unit(0.0) || round_radius(b.traits) > Unit(0.0));
+  for (uint32_t i = 0; i < geometry.count; ++i) {
+    const ContactGeometryPoint& point = geometry.point[i];
+    work.separation[i] = point.separation;
+    if (is_round && point.separation > Real(0.0))
+      work.separation[i] += parted_by_sliding(settings, a, b, work.normal, point);
+    work.approach[i] = approach_at_touch(motion.block.real(start.at(work, i)), work.separation[i], pull);
+    work.impulse_max[i] = Real(0.0);
+  }
+  for (int i = 0; i < 2; ++i) work.friction_impulse[i] = dot(work.state.friction_impulse, work.tangent[i]);
+
+  work.friction = geometric_mean(a.traits.friction, b.traits.friction);
+  work.restitution = pair_restitution(a.traits, b.traits);
+  const Scaled &rolls_a = a.traits.rolling_resistance, &rolls_b = b.traits.rolling_resistance;
+  const Scaled rolling = less(rolls_a, rolls_b) ? rolls_b : rolls_a;
+  const Real extent = min(a.extent, b.extent);
+  work.rolling_arm = multiply(rolling, scaled_by_power(scaled_from(extent), -1 - unit));
+  work.twist_arm = add(multiply(work.friction, scaled_from(patch)), work.rolling_arm);
+  work.angular_rows = is_positive(work.rolling_arm) ? 3 : is_positive(work.twist_arm) ? 1 : 0;
+  const Vec3<Unit>* axes[3] = {&work.normal, &work.tangent[0], &work.tangent[1]};
+  for (uint32_t i = 0; i < 3; ++i) {
+    work.angular_impulse[i] = Real(0.0);
+    if (i >= work.angular_rows) continue;
+    work.angular_impulse[i] = dot(work.state.angular_impulse, *axes[i]);
+  }
+  // Speeds are measured against that of a fall by the smaller body's diameter.
+  const Real fall = min(a.fall, b.fall);
+  work.push_max = scale_by_power(fall, -1);
+  work.rebound_min = settings.restitution_threshold * fall;
+}
+
+void leave_to_impact(const StepSettings& settings, const RowBody& a, const RowBody& b, ContactWork& work) {
+  if (!settings.continuous || !is_positive(work.restitution) || a.jointed || b.jointed) return;
+  const Real touching = -scale_by_power(min(a.extent, b.extent), -10);
+  bool rebounds = false;
+  for (uint32_t i = 0; i < work.state.point_count; ++i) {
+    if (work.separation[i] < touching) return;
+    rebounds = rebounds || work.approach[i] <= -work.rebound_min;
+  }
+  if (!rebounds) return;
+  for (Unit& mass : work.inverse_mass) mass = Unit(0.0);
+}
+
+PairResponse respond_exactly(const BodyTraits& a, const Quat& rotation_a, const BodyTraits& b, const Quat& rotation_b,
+                             const ContactWork& work) {
+  PairResponse response = {};
+  const auto add_body = [&](const BodyTraits& traits, const Quat& rotation, const Vec3<Unit>& arm, Unit unit,
+                            Scaled share) {
+    if (!is_positive(share)) return;
+    const Vec3<Unit>* const axis[3] = {&work.normal, &work.tangent[0], &work.tangent[1]};
+    Real turning[3][3];
+    for (int k = 0; k < 3; ++k) {
+      const Vec3<Real> momentum = {real_from_unit(axis[k]->x, 0), real_from_unit(axis[k]->y, 0),
+                                   real_from_unit(axis[k]->z, 0)};
+      const Vec3<Real> turned = spin_of(traits, rotation, momentum);
+      for (int i = 0; i <= k; ++i) turning[i][k] = turning[k][i] = dot(turned, *axis[i]);
+    }
+    add_response(work, turning, 0, arm, unit, share, response);
+  };
+  add_body(a, rotation_a, work.middle_a, work.unit_a, work.share_a);
+  add_body(b, rotation_b, work.middle_b, work.unit_b, work.share_b);
+  return response;
+}
+
+void store_impulses(ContactWork& work) {
+  work.state.friction_impulse = work.tangent[0] * work.friction_impulse[0] + work.tangent[1] * work.friction_impulse[1];
+  work.state.angular_impulse = work.normal * work.angular_impulse[0] + work.tangent[0] * work.angular_impulse[1] +
+                               work.tangent[1] * work.angular_impulse[2];
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

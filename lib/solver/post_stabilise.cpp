@@ -1,0 +1,84 @@
+#include "solver/post_stabilise.h"
+
+#include "math/trig.h"
+#include "motion/spin.h"
+#include "solver/contact_solver.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+constexpr int k_position_sweeps = 4;  ///< over the contacts of an island
+
+/// The way and the turn of a body, as if they were its velocity and its spin.
+struct MovedBody {
+  BodyMotion motion;
+  BodyWork& work;
+  Vec3<Real> turn = k_zero_vector;
+  Vec3<Real> none = k_zero_vector;
+
+  explicit MovedBody(BodyWork& of) : motion{of.displacement, k_zero_vector, k_zero_vector, k_zero_vector}, work(of) {}
+  SolvedBody solved() {
+    return {motion.velocity, motion.momentum, turn, none, none, work.displacement, work.turn, work.gyration};
+  }
+  void store() {
+    work.displacement = motion.velocity;
+    const Vec3<Real> more = scale_by_power(turn, k_spin_power);
+    work.turn += more;
+    work.spin += turn;  // all of it: the rotation follows at the end
+  }
+};
+
+void part(const StepSettings& settings, ContactWork& contact, BodyWork& work_a, BodyWork& work_b) {
+  Block room;
+  room.include(contact.separation, contact.state.point_count);
+  const PairMotion<One> moved(room, work_b.displacement - work_a.displacement, work_a.turn, work_b.turn, 0);
+  const Block& block = moved.block;
+  const NormalMotion<One> way(moved, contact);
+  Normals<One> normals(contact, block, way);
+  const Factor most = block.held(contact.push_max * settings.tick_time);
+  for (uint32_t i = 0; i < normals.count; ++i) {
+    normals.impulse[i] = k_no_ulps;
+    normals.velocity[i] += sum_from(block.number(contact.separation[i]), contact.coupling_exponent);
+  }
+  for (uint32_t i = 0; i < normals.count; ++i) {
+    const Factor gap = held(normals.speed(i));
+    if (!(gap < Factor(k_no_ulps))) continue;
+    const Factor half = held(times(gap, Unit(0.5)));
+    normals.change(i, times(max(half, Factor(-most)), contact.inverse_mass[i]));
+  }
+  Ulps along, about_first, about_second;
+  normals.put(along, about_first, about_second);
+  MovedBody a(work_a), b(work_b);
+  SolvedBody solved_a = a.solved(), solved_b = b.solved();
+  apply_normal<One>(contact, block, along, about_first, about_second, solved_a, solved_b);
+  if (is_positive(contact.share_a)) a.store();
+  if (is_positive(contact.share_b)) b.store();
+}
+
+}  // namespace
+
+uint32_t post_stabilise(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> island,
+                        Span<const ContactOrder> order, Span<ContactWork> contacts) {
+  for (const uint32_t slot : island) bodies.work[slot].spin = k_zero_vector;
+  for (int sweep = 0; sweep < k_position_sweeps; ++sweep) {
+    for (const ContactOrder& entry : order) {
+      ContactWork& contact = contacts[entry.contact];
+      part(settings, contact, bodies.work[contact.state.body_a], bodies.work[contact.state.body_b]);
+    }
+  }
+  bool clamped = false;
+  for (const uint32_t slot : island) {
+    BodyWork& work = bodies.work[slot];
+    const int exponent = bodies.traits[slot].size_exponent;
+    const Vec3<Real> turn = scale_by_power(work.spin, k_spin_power);
+    if (turn == k_zero_vector) continue;
+    const Vec3<Real> angle = {angle_of(turn.x, exponent, clamped), angle_of(turn.y, exponent, clamped),
+                              angle_of(turn.z, exponent, clamped)};
+    work.rotation = normalise(multiply(rotation_from_vector(angle), work.rotation));
+  }
+  return clamped ? 1 : 0;
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

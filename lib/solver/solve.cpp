@@ -1,0 +1,268 @@
+#include "solver/solve.h"
+
+#include "base/processor.h"
+#include "joint/joint.h"
+#include "motion/gyration.h"
+#include "motion/spin.h"
+#include "solver/contact_order.h"
+#include "solver/contact_rows.h"
+#include "solver/contact_solver.h"
+#include "solver/post_stabilise.h"
+#include "solver/solve_quads.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+/// What acts without contacts. From the second substep of a tick on, contacts first push as they did in the last one:
+/// that is the warm start of all of a body's contacts at once.
+uint32_t integrate_velocities(const SolverBodies& bodies, Span<const uint32_t> island, bool first, bool touches) {
+  const Scaled one = 1.0;
+  uint32_t clamped = 0;
+  for (const uint32_t slot : island) {
+    BodyMotion& motion = bodies.motions[slot];
+    BodyWork& now = bodies.work[slot];
+    const Vec3<Real> pushed = first ? k_zero_vector : added_by_contacts(motion.velocity, now.contact_velocity);
+    const Vec3<Real> turned = first ? k_zero_vector : added_by_contacts(motion.momentum, now.contact_momentum);
+    motion.velocity += now.push;
+    motion.momentum += now.twist;
+    if (!(now.linear_kept == one)) motion.velocity = multiply(motion.velocity, now.linear_kept);
+    if (!(now.angular_kept == one)) motion.momentum = multiply(motion.momentum, now.angular_kept);
+    now.contact_velocity = kept_at_start(motion.velocity, pushed);
+    now.contact_momentum = kept_at_start(motion.momentum, turned);
+    motion.velocity += pushed;
+    motion.momentum += turned;
+    clamped += clamp_vector(motion.velocity, k_speed_work_max) + clamp_vector(motion.momentum, k_spin_work_max);
+    // Contacts alone read it.
+    if (touches) now.spin = world_spin(bodies.traits[slot], now.gyration, motion.momentum, -k_spin_power);
+  }
+  return clamped;
+}
+
+uint32_t turn(const BodyTraits& traits, const BodyMotion& motion, Real time, int halvings, BodyWork& now) {
+  if (motion.momentum == Vec3<Real>{k_zero, k_zero, k_zero}) return 0;
+  Vec3<Real> spin;
+  const bool whole = turn_freely(traits, now.free_turn, motion.momentum, time, halvings, now.rotation, spin);
+  now.turn += spin * time;
+  return whole ? 0 : 1;
+}
+
+uint32_t integrate_positions(const SolverBodies& bodies, Span<const uint32_t> island, Real time, int halvings = 0) {
+  uint32_t clamped = 0;
+  for (const uint32_t slot : island) {
+    const BodyMotion& motion = bodies.motions[slot];
+    BodyWork& now = bodies.work[slot];
+    // What no contact or joint acts on is in free flight: at the mean of its velocities before and after the push.
+    const bool flies =
+        now.joint_body == k_no_link && added_by_contacts(motion.velocity, now.contact_velocity) == k_zero_vector;
+    now.displacement += (flies ? motion.velocity - scale_by_power(now.push, -1) : motion.velocity) * time;
+    clamped += turn(bodies.traits[slot], motion, time, halvings, now);
+  }
+  return clamped;
+}
+
+constexpr int k_rebound_sweeps_max = 32;
+
+/// Newton's law of impact, for points that closed faster than the threshold and were pushed.
+void rebound(ContactSolver<One>& solver) {
+  ContactWork& contact = solver.contact;
+  if (!is_positive(contact.restitution)) return;
+  Block room;
+  const uint32_t count = contact.state.point_count;
+  room.include(contact.state.normal_impulse, count);
+  for (uint32_t i = 0; i < count; ++i) {
+    const Real approach[] = {contact.approach[i]};
+    room.include(approach, 1);
+  }
+  const PairMotion<One> motion = solver.relative_motion(room);
+  Normals<One> normals(contact, motion.block, NormalMotion<One>(motion, contact));
+  bool rebounds[k_manifold_points_max] = {};
+  // Points that leave together share the blow: one alone would turn the body against the others.
+  bool settled = false;
+  for (int sweep = 0; sweep < k_rebound_sweeps_max && !settled; ++sweep) {
+    settled = true;
+    for (uint32_t i = 0; i < count; ++i) {
+      if (contact.approach[i] > -contact.rebound_min || contact.impulse_max[i] == k_zero) continue;
+      const Ulps missing = normals.speed(i) + motion.block.held(multiply(contact.approach[i], contact.restitution));
+      const Ulps impulse = normals.impulse[i], little = motion.block.held(scale_by_power(contact.approach[i], -20));
+      normals.change(i, times(held(missing), contact.inverse_mass[i]));
+      settled = settled && (count == 1 || max(missing, -missing) <= -little || normals.impulse[i] == impulse);
+      rebounds[i] = true;
+    }
+  }
+  Ulps along, about_first, about_second;
+  normals.put(along, about_first, about_second);
+  apply_normal<One>(contact, motion.block, along, about_first, about_second, solver.a, solver.b);
+  for (uint32_t i = 0; i < count; ++i) {
+    if (rebounds[i]) contact.state.normal_impulse[i] = k_zero;  // it leaves: nothing is carried over to the next tick
+  }
+}
+
+constexpr uint32_t k_joint_rounds = 4;  ///< in which contacts and joints of a substep are held by turns
+
+/// Keeps the velocities of before a sweep, in a place that only the sweeps use.
+void remember(const SolverBodies& bodies, Span<const uint32_t> island) {
+  for (const uint32_t slot : island) bodies.work[slot].velocity_before = bodies.motions[slot].velocity;
+}
+
+/// True if the last sweep changed no velocity by more than `enough`.
+bool has_settled(const SolverBodies& bodies, Span<const uint32_t> island, Real enough) {
+  for (const uint32_t slot : island) {
+    const Vec3<Real> change = bodies.motions[slot].velocity - bodies.work[slot].velocity_before;
+    if (greatest(change) > enough) return false;
+  }
+  return true;
+}
+
+/// One pass over contacts in their order: `one` of them, or `four` that may be solved at once.
+template <class TakeOne, class TakeFour>
+void pass(const StepSettings& settings, const SolverBodies& bodies, Span<const ContactOrder> order,
+          Span<ContactWork> contacts, const TakeOne& one, const TakeFour& four) {
+  for (uint32_t i = 0; i < order.count;) {
+    const ContactOrder& first = order[i];
+    if (settings.quads && i + 4 <= order.count && first.colour != k_colour_overflow) {
+      const ContactOrder& last = order[i + 3];
+      if (first.colour == last.colour && first.kind == last.kind) {
+        four(settings, bodies,
+             {&contacts[first.contact], &contacts[order[i + 1].contact], &contacts[order[i + 2].contact],
+              &contacts[last.contact]});
+        i += 4;
+        continue;
+      }
+    }
+    ContactWork& contact = contacts[first.contact];
+    const uint32_t a = contact.state.body_a, b = contact.state.body_b;
+    SolvedBody body_a(bodies.motions[a], bodies.work[a]), body_b(bodies.motions[b], bodies.work[b]);
+    ContactSolver<One> solver = {settings, contact, body_a, body_b};
+    one(solver);
+    ++i;
+  }
+}
+
+/// Where a kinematic body is once `time` of the tick has gone; its momentum is its spin.
+void place_kinematic(const BodyTraits& traits, const BodyMotion& motion, Real time, BodyWork& now) {
+  if (type_of(traits) != BodyType::kinematic) return;
+  now.displacement = motion.velocity * time;
+  now.turn = motion.momentum * time;
+}
+
+/// Contacts of jointed bodies see the inertia that the joints see.
+void renew_responses(const SolverBodies& bodies, const JointStage& stage, Span<const ContactOrder> order,
+                     Span<ContactWork> contacts) {
+  for (const ContactOrder& entry : order) {
+    ContactWork& contact = contacts[entry.contact];
+    const uint32_t a = contact.state.body_a, b = contact.state.body_b;
+    if (has_renewed_gyration(bodies.work[a], stage) || has_renewed_gyration(bodies.work[b], stage))
+      renew_response(bodies.work[a].gyration, bodies.work[b].gyration, contact);
+  }
+}
+
+}  // namespace
+
+#if DETENT_QUADS
+bool has_quads() {
+#if defined(__x86_64__)
+  return has_avx2();
+#else
+  return true;
+#endif
+}
+#endif
+
+SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> island,
+                 Span<const ContactOrder> order, Span<ContactWork> contacts, const IslandJoints& joints) {
+  using Solver = ContactSolver<One>;
+  SolveCount count;
+  Real elapsed = 0.0;
+  const Real enough = scale_by_power(settings.gravity_size * settings.time, -static_cast<int>(settings.convergence));
+  const Real enough_for_joints = scale_by_power(settings.gravity_size * settings.time, -2);
+  /// Sweeps until nothing changes by more than that.
+  const auto sweep = [&](const auto& one, const auto& four) {
+    for (uint32_t iteration = 1;; ++iteration) {
+      const bool last = iteration == settings.iterations;
+      if (!last) remember(bodies, island);
+      pass(settings, bodies, order, contacts, one, four);
+      if (last) return;
+      if (has_settled(bodies, island, enough)) {
+        count.sweeps_saved += settings.iterations - iteration;
+        return;
+      }
+    }
+  };
+  for (uint32_t substep = 0; substep < settings.substeps; ++substep) {
+    if (joints.code != nullptr) {
+      joints.code->begin(settings, bodies, island, *joints.island, elapsed, *joints.stage);
+      renew_responses(bodies, *joints.stage, order, contacts);
+    }
+    count.clamped += integrate_velocities(bodies, island, substep == 0, order.count != 0);
+    if (substep == 0)
+      pass(
+          settings, bodies, order, contacts, [](Solver& contact) { contact.warm_start(); }, warm_start_quad);
+    for (const ContactOrder& entry : order) {
+      const ContactWork& contact = contacts[entry.contact];
+      if (contact.static_pair == 0) continue;
+      const uint32_t a = contact.state.body_a, b = contact.state.body_b;
+      place_kinematic(bodies.traits[a], bodies.motions[a], elapsed, bodies.work[a]);
+      place_kinematic(bodies.traits[b], bodies.motions[b], elapsed, bodies.work[b]);
+    }
+    if (joints.code == nullptr) {
+      sweep([](Solver& contact) { contact.soften(); }, soften_quad);
+    } else {
+      const Island& own = *joints.island;
+      JointStage& stage = *joints.stage;
+      uint32_t& undecided = *joints.undecided;
+      count.clamped += joints.code->hold(settings, bodies, island, own, elapsed, stage, undecided);
+      for (uint32_t round = 0; round < k_joint_rounds && order.count != 0; ++round) {
+        remember(bodies, island);
+        for (uint32_t left = round == 0 ? settings.iterations + 1 : 1; left > 0; --left)
+          pass(
+              settings, bodies, order, contacts, [](Solver& contact) { contact.soften(); }, soften_quad);
+        if (has_settled(bodies, island, enough)) break;
+        const bool last = has_settled(bodies, island, enough_for_joints);
+        count.clamped += joints.code->hold_again(settings, bodies, island, own, elapsed, stage, undecided);
+        if (last) break;
+      }
+      count.clamped += joints.code->follow(settings, bodies, island, own, elapsed, stage);
+    }
+    count.clamped += integrate_positions(bodies, island, settings.time);
+    if (joints.code != nullptr) count.clamped += joints.code->shift(bodies, island, *joints.stage);
+    sweep([](Solver& contact) { contact.relax(); }, relax_quad);
+    if (joints.code != nullptr)
+      count.clamped +=
+          joints.code->end(settings, bodies, island, *joints.island, elapsed, *joints.stage, *joints.undecided);
+    elapsed += settings.time;
+  }
+  if (joints.code != nullptr) renew_responses(bodies, *joints.stage, order, contacts);
+  StepSettings one_by_one = settings;
+  one_by_one.quads = false;
+  pass(one_by_one, bodies, order, contacts, rebound, relax_quad);
+  if (settings.post_stabilises) count.clamped += post_stabilise(settings, bodies, island, order, contacts);
+  return count;
+}
+
+uint32_t fly(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> island) {
+  constexpr int k_halvings = 2;
+  uint32_t clamped = 0;
+  for (uint32_t substep = 0; substep < settings.substeps; ++substep) {
+    clamped += integrate_velocities(bodies, island, true, false);
+    clamped += integrate_positions(bodies, island, settings.time, k_halvings);
+  }
+  return clamped;
+}
+
+uint32_t carry(const StepSettings& settings, const SolverBodies& bodies) {
+  uint32_t clamped = 0;
+  for (uint32_t slot = 0; slot < bodies.traits.count; ++slot) {
+    const BodyTraits& traits = bodies.traits[slot];
+    if (type_of(traits) != BodyType::kinematic) continue;
+    BodyWork& now = bodies.work[slot];
+    place_kinematic(traits, bodies.motions[slot], settings.tick_time, now);
+    Vec3<Real> spin;
+    if (!turn_freely(traits, now.free_turn, bodies.motions[slot].momentum, settings.tick_time, 0, now.rotation, spin))
+      ++clamped;
+  }
+  return clamped;
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

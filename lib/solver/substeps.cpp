@@ -1,0 +1,242 @@
+#include "solver/substeps.h"
+
+#include "base/heap.h"
+#include "math/root.h"
+#include "math/scaled.h"
+#include "shape/shape_traits.h"
+#include "solver/island.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+constexpr uint32_t k_notches[] = {1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64};
+/// Fewer substeps are in reserve if this part of what they hold would do.
+constexpr Scaled k_in_hand = 0.6;
+/// A row of no more bodies than this does not buckle before it sinks.
+constexpr uint32_t k_run_min = 3;
+constexpr uint32_t k_contact_substeps_min = 2;  ///< where there are contacts
+
+Scaled square_of(uint32_t n) {
+  const Scaled scaled = scaled_from_count(n);
+  return multiply(scaled, scaled);
+}
+
+/// Squared substeps that hold the contact.
+Scaled needed(const StepSettings& settings, const ContactWork& contact, const BodyTraits& a, const BodyTraits& b,
+              uint32_t run) {
+  Scaled stiffness = 0.0;
+  for (uint32_t i = 0; i < contact.state.point_count; ++i)
+    stiffness = add(stiffness, scaled_from(contact.inverse_mass[i]));
+  if (contact.static_pair != 0) stiffness = scaled_by_power(stiffness, 2);  // of twice the frequency
+  if (!is_positive(stiffness)) return Scaled(0.0);
+  const Scaled extent = scaled_from(min(shape_extent(a), shape_extent(b)));
+  const Scaled load = scaled_from(contact.state.load);
+  const Scaled rate = multiply(divide(load, multiply(stiffness, extent)), settings.substeps_per_rate);
+  const Scaled sag = scaled_by_power(rate, -k_sag_power);
+  if (run < k_run_min) return sag;
+  const Scaled buckling = multiply(rate, square_of(run));
+  return less(sag, buckling) ? buckling : sag;
+}
+
+/// The fewest substeps that hold `need`, of those from `least` to `most`.
+uint32_t notch_for(Scaled need, uint32_t least, uint32_t most) {
+  for (const uint32_t notch : k_notches) {
+    if (notch < least) continue;
+    if (notch >= most) break;
+    if (!less(square_of(notch), need)) return notch;
+  }
+  return most;
+}
+
+uint32_t most_for(const StepSettings& settings, const Island& island, uint32_t contact_substeps) {
+  const uint32_t rows = island.contact_count + k_joint_contacts * island.joint_count;
+  const uint32_t share = rows == 0 ? contact_substeps : contact_substeps / rows;
+  const uint32_t most = share < k_pile_substeps ? k_pile_substeps : share;
+  return most < settings.substeps_max ? most : settings.substeps_max;
+}
+
+uint32_t next_below(uint32_t substeps, uint32_t least) {
+  uint32_t below = least;
+  for (const uint32_t notch : k_notches) {
+    if (notch > least && notch < substeps) below = notch;
+  }
+  return below;
+}
+
+void scale_impulses(Scaled ratio, ContactWork& contact) {
+  const auto scale = [&](Real& value) {
+    bool saturated = false;
+    value = multiply(value, ratio, saturated);
+  };
+  for (Real& impulse : contact.state.normal_impulse) scale(impulse);
+  for (Real& impulse : contact.friction_impulse) scale(impulse);
+  for (Real& impulse : contact.angular_impulse) scale(impulse);
+}
+
+/// Impulses of a substep of a tick that had `before` of them, for one that has `now`.
+void rescale(uint32_t before, uint32_t now, ContactWork& contact) {
+  if (before == now || before == 0) return;
+  scale_impulses(divide(scaled_from_count(before), scaled_from_count(now)), contact);
+}
+
+/// Which body of a contact lies on the other, or k_neither for one that stands beside it.
+constexpr uint32_t k_neither = UINT32_MAX;
+uint32_t upper_body(const Vec3<Unit>& down, const ContactWork& contact) {
+  const Unit slope = dot(down, contact.normal);
+  if (abs(slope) < Unit(0.25)) return k_neither;
+  return slope > Unit(0.0) ? contact.state.body_a : contact.state.body_b;
+}
+
+/// Starts the loads: heights, masses, and no supports yet.
+void weigh(Span<const BodyPose> poses, Span<const BodyTraits> traits, Span<const uint32_t> bodies,
+           const Vec3<Unit>& down, Span<BodyWork> work) {
+  const Position& origin = poses[bodies[0]].position;
+  for (const uint32_t slot : bodies) {
+    const Position& at = poses[slot].position;
+    work[slot].height = dot(real_difference(origin, at), down);
+    work[slot].carried = traits[slot].mass;
+    work[slot].supports = 0;
+  }
+}
+
+/// Each body's load goes in equal parts to those it rests on, from the top down.
+void hand_down(Span<const BodyTraits> traits, const Vec3<Unit>& down, Span<const ContactOrder> order,
+               Span<ContactOrder> spare, Span<BodyWork> work, Span<ContactWork> contacts) {
+  uint32_t count = 0;
+  for (const ContactOrder& entry : order) {
+    const uint32_t upper = upper_body(down, contacts[entry.contact]);
+    if (upper == k_neither || !is_dynamic(traits[upper])) continue;
+    ++work[upper].supports;
+    spare[count] = entry;
+    spare[count++].island = upper;
+  }
+  heap_sort(spare.first(count), [&](const ContactOrder& a, const ContactOrder& b) {
+    const Real height_a = work[a.island].height, height_b = work[b.island].height;
+    return height_b < height_a || (height_a == height_b && a.contact < b.contact);
+  });
+  for (const ContactOrder& entry : spare.first(count)) {
+    const ContactState& state = contacts[entry.contact].state;
+    const uint32_t upper = entry.island, lower = upper == state.body_a ? state.body_b : state.body_a;
+    if (!is_dynamic(traits[lower])) continue;
+    BodyWork& below = work[lower];
+    below.carried = add(below.carried, divide(work[upper].carried, scaled_from_count(work[upper].supports)));
+  }
+}
+
+}  // namespace
+
+void choose_substeps(const StepSettings& settings, Span<const BodyTraits> traits, Span<const BodyWork> work,
+                     Span<const uint32_t> bodies, Span<const ContactOrder> order, Span<Island> islands,
+                     Span<ContactWork> contacts, Span<BodyActivity> activities) {
+  for (Island& island : islands) {
+    const bool jointed = island.joint_count != 0;
+    const uint32_t alone = island.contact_count != 0 ? k_contact_substeps_min : 1;
+    const uint32_t least = alone < island.substeps ? island.substeps : alone;
+    const uint32_t for_joints = jointed ? notch_for(island.joint_need, least, settings.substeps_max) : 0;
+    Scaled need[2] = {0.0, 0.0};  // of what stands, and of what rolls
+    for (uint32_t i = 0; i < island.contact_count; ++i) {
+      const ContactWork& contact = contacts[order[island.first_contact + i].contact];
+      const uint32_t a = contact.state.body_a, b = contact.state.body_b;
+      const uint32_t run = work[is_dynamic(traits[a]) ? a : b].run_length;
+      const Scaled wanted = needed(settings, contact, traits[a], traits[b], run);
+      Scaled& most = need[contact.state.point_count < k_edge_points ? 1 : 0];
+      if (less(most, wanted)) most = wanted;
+    }
+    uint32_t before = 0, calm = UINT32_MAX;
+    for (uint32_t i = 0; i < island.body_count; ++i) {
+      const uint32_t slot = bodies[island.first_body + i];
+      const BodyActivity& activity = activities[slot];
+      before = activity.substeps > before ? activity.substeps : before;
+      calm = activity.calm_ticks < calm ? activity.calm_ticks : calm;
+    }
+    uint32_t now = settings.substeps_fixed;
+    if (now == 0 && island.contact_count == 0 && !jointed) {
+      now = 1;
+      before = calm = 0;
+    } else if (now == 0) {
+      const uint32_t most[2] = {most_for(settings, island, k_contact_substeps),
+                                most_for(settings, island, k_rolling_substeps)};
+      now = for_joints;
+      for (int i = 0; i < 2; ++i) {
+        const uint32_t held = notch_for(need[i], least, most[i]);
+        now = now < held ? held : now;
+      }
+      const uint32_t most_of_all = most[0] < for_joints ? for_joints : most[0];
+      before = before < most_of_all ? before : most_of_all;
+      const uint32_t lower = next_below(before, least);
+      if (now >= before) {
+        calm = 0;
+      } else {
+        bool wanted = lower < for_joints;
+        for (int i = 0; i < 2; ++i)
+          wanted = wanted || (lower < most[i] && less(multiply(square_of(lower), k_in_hand), need[i]));
+        calm = wanted ? 0 : calm + 1;
+        if (calm < (jointed ? k_joint_calm_ticks : k_calm_ticks)) {
+          now = before;
+        } else {
+          calm = 0;
+          if (!jointed) now = lower;
+        }
+      }
+    }
+    island.substeps = now;
+    for (uint32_t i = 0; i < island.contact_count; ++i) {
+      ContactWork& contact = contacts[order[island.first_contact + i].contact];
+      const ContactState& state = contact.state;
+      const uint32_t body = is_dynamic(traits[state.body_a]) ? state.body_a : state.body_b;
+      rescale(activities[body].substeps, now, contact);
+    }
+    for (uint32_t i = 0; i < island.body_count; ++i) {
+      BodyActivity& activity = activities[bodies[island.first_body + i]];
+      activity.substeps = island.contact_count == 0 && !jointed ? 0 : now;
+      activity.calm_ticks = calm;
+    }
+  }
+}
+
+void estimate_loads(const StepSettings& settings, Span<const BodyPose> poses, Span<const BodyTraits> traits,
+                    Span<const uint32_t> bodies, Span<const Island> islands, Span<const ContactOrder> order,
+                    Span<ContactOrder> spare, Span<BodyWork> work, Span<ContactWork> contacts) {
+  Vec3<Unit> down;
+  Real gravity = 0.0;
+  if (!normalise(settings.gravity, down, gravity)) return;
+  for (const Island& island : islands) {
+    uint32_t fresh = 0;
+    for (uint32_t i = 0; i < island.contact_count; ++i)
+      fresh += contacts[order[island.first_contact + i].contact].state.age == 0 ? 1u : 0u;
+    if (fresh == 0) continue;
+    const Span<const ContactOrder> all = {order.data + island.first_contact, island.contact_count};
+    if (2 * fresh > island.contact_count) {
+      weigh(poses, traits, {bodies.data + island.first_body, island.body_count}, down, work);
+      hand_down(traits, down, all, {spare.data + island.first_contact, island.contact_count}, work, contacts);
+    }
+    for (const ContactOrder& entry : all) {
+      ContactWork& contact = contacts[entry.contact];
+      if (contact.state.age != 0) continue;
+      const uint32_t upper = upper_body(down, contact);
+      if (upper == k_neither || !is_dynamic(traits[upper])) continue;
+      const Scaled carried = 2 * fresh > island.contact_count
+                                 ? divide(work[upper].carried, scaled_from_count(work[upper].supports))
+                                 : traits[upper].mass;
+      const Scaled share = upper == contact.state.body_a ? contact.share_a : contact.share_b;
+      const Scaled weights = multiply(divide(carried, traits[upper].mass), divide(Scaled(1.0), share));
+      bool saturated = false;
+      contact.state.load = multiply(gravity, weights, saturated);
+    }
+  }
+}
+
+void store_load(const StepSettings& settings, ContactWork& contact) {
+  Real impulse = 0.0;
+  // Four may come to more than a Real holds, which would wrap.
+  for (const Real part : contact.state.normal_impulse) impulse += min(part, k_real_max - impulse);
+  bool saturated = false;
+  const Real force = multiply(impulse, settings.rate, saturated);
+  const Real most = max(settings.gravity_size, multiply(contact.state.load, Scaled(2.0), saturated));
+  contact.state.load = min(force, most);
+  if (force > most) scale_impulses(divide(scaled_from(most), scaled_from(force)), contact);
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

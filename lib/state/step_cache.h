@@ -1,0 +1,49 @@
+#pragma once
+#include "base/bit_set.h"
+#include "broad_phase/resting_tree.h"
+#include "motion/step_settings.h"
+#include "state/view.h"
+
+/// What steps keep from tick to tick, and what calls between steps tell them. Whoever changes a body without a step
+/// notes it here: the next step then looks at it. create_world's zeros, restore and load make all of it anew.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+struct StepCacheView {
+  StepCache& cache;
+  BitSet visits;  ///< bodies that moved in the last step, or were changed since
+  Span<uint32_t> awake_contacts;
+  Span<Bounds> bounds;
+  RestingTree tree;
+};
+
+DETENT_SHARED inline StepCacheView cache_of(uint8_t* block, const Layout& layout, Capacity capacity) {
+  StepCache& cache = *at_offset<StepCache>(block, layout.cache);
+  const Span<Bounds> bounds = {at_offset<Bounds>(block, layout.bounds), capacity.bodies};
+  return {cache,
+          {{at_offset<uint32_t>(block, layout.visits), slot_words(capacity.bodies)}},
+          {at_offset<uint32_t>(block, layout.awake_contacts), capacity.contacts},
+          bounds,
+          {cache.tree,
+           {at_offset<TreeNode>(block, layout.tree_nodes), capacity.bodies},
+           {at_offset<uint32_t>(block, layout.tree_parents), capacity.bodies},
+           bounds}};
+}
+inline StepCacheView cache_of(StateView<uint8_t>& state) {
+  return cache_of(reinterpret_cast<uint8_t*>(&state.header), state.layout, capacity_of(state.header));
+}
+
+/// The state was put in from outside.
+inline void forget_steps(World& world) { at_offset<StepCache>(world.block, view_of(world).layout.cache)->fresh = 0; }
+
+/// Sorts the bodies that a step must look at into those that move, which it returns, ascending, and those that rest,
+/// which enter the tree; starts their tick and takes their bounds. `slots` is work space for as many bodies as there
+/// may be.
+Span<const uint32_t> sort_out(const StepCacheView& step, const StepSettings& settings, const StateView<uint8_t>& state,
+                              Span<BodyWork> work, Span<BodySweep> sweeps, Span<uint32_t> slots);
+
+/// The places of all contacts of which a body is awake, ascending.
+Span<const uint32_t> list_awake_contacts(const StepCacheView& step, const StateView<uint8_t>& state);
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

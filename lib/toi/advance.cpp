@@ -1,0 +1,296 @@
+#include "toi/advance.h"
+
+#include "math/root.h"
+#include "math/trig_integer.h"
+
+// Formats: parts of the horizon and lengths of the block Q30; spins, ways and directions Q29; separations Q56.
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+/// n x u, Q29, of n in Q30 and u in Q29.
+Vec32 cross_29(const Vec32& n, const Vec32& u) { return round_shift(cross(n, u), 30); }
+
+/// a b 2^-n, rounded up, of numbers >= 0.
+int64_t product_above(int64_t a, int64_t b, int n) { return ((a * b) >> n) + 1; }
+
+/// The image of v in a body's axes, one bit less.
+Vec32 to_local_29(const Matrix32& rotation, const Vec32& v) {
+  const auto component = [&](const Vec32& column) {
+    return static_cast<int32_t>((dot(v, column) + (int64_t{1} << 30)) >> 31);
+  };
+  return {component(rotation.column[0]), component(rotation.column[1]), component(rotation.column[2])};
+}
+
+/// One body as an axis that turns by `spin` sees it: its share of the separation, and of the bound K of its curvature.
+class Side {
+ public:
+  /// `sign`: 1 for B, whose farthest point against the axis counts, -1 for A.
+  Side(const Convex& convex, const Turning& turning, const Vec32& own_spin, const Vec32& spin, int32_t core,
+       int pair_exponent, int sign)
+      : convex_(convex),
+        hull_(hull_of(convex)),
+        turning_(turning),
+        core_(core),
+        shift_(pair_exponent - convex.exponent),
+        sign_(sign) {
+    present_ = core != 0;
+    relative_ = subtract(own_spin, spin);
+    still_ = is_zero(relative_);
+    if (!present_ || still_) return;
+    speed_ = length_bound_32(relative_);
+    // |w x spin| = |u x spin|
+    twist_ = is_zero(own_spin) || is_zero(spin) ? 0 : length_bound_32(round_shift(cross(relative_, spin), 29));
+  }
+
+  /// Takes the axis at a pass's start. For a body at rest with the axis the first one holds for ever.
+  void look(const Matrix32& rotation, const Vec32& normal) {
+    normal_ = to_local_29(rotation, normal);
+    if (still_) {
+      value_ = share({0, 0, 0}, 0).value;
+      return;
+    }
+    const Vec32 slope = cross_29(normal, relative_);
+    across_ = length_bound_32(slope);
+    slope_ = rotate_inverse(rotation, slope);
+  }
+  bool moves() const { return present_ && !still_; }
+  bool present() const { return present_; }
+  Matrix32 rotation_at(int64_t time) const { return turning_.at(time); }
+
+  /// rho (|n x u| |u| + |w x spin|), Q26; |n x u| grows by at most |n x spin| |u| in the unit of time.
+  int64_t curvature(int64_t tilt, int64_t rest) const {
+    if (!moves()) return 0;
+    const int64_t grown = across_ + (tilt == 0 ? 0 : product_above(product_above(tilt, speed_, 29), rest, 30));
+    return product_above(product_above(grown < speed_ ? grown : speed_, speed_, 29) + twist_, core_, 33);
+  }
+
+  struct Share {
+    int64_t value;  ///< Q56
+    int64_t slope;  ///< Q30
+  };
+  Share at(int64_t x) const {
+    if (!present_) return {0, 0};
+    return still_ ? Share{value_, 0} : share(slope_, x);
+  }
+
+ private:
+  Share share(const Vec32& slope, int64_t x) const {
+    const auto along = [&](int32_t n, int32_t m) { return n + static_cast<int32_t>((m * x) >> 30); };
+    const Vec32 direction = {along(normal_.x, slope.x), along(normal_.y, slope.y), along(normal_.z, slope.z)};
+    const SupportValue farthest = sign_ < 0 ? support_value(convex_, hull_, direction, slope, start_)
+                                            : support_value(convex_, hull_, negate(direction), negate(slope), start_);
+    return {-(farthest.value >> (3 + shift_)), -(farthest.rate >> (29 + shift_))};
+  }
+
+  const Convex& convex_;
+  const HullView hull_;
+  const Turning& turning_;
+  int64_t core_;
+  int shift_, sign_;
+  bool present_, still_;
+  Vec32 relative_;                                ///< u = w - spin, Q29
+  int64_t speed_ = 0, twist_ = 0, across_ = 0;    ///< |u|, |w x spin|, |n x u|, Q29
+  Vec32 normal_ = {0, 0, 0}, slope_ = {0, 0, 0};  ///< n and n x u, Q29, in the body's axes
+  int64_t value_ = 0;
+  mutable uint8_t start_ = 0;
+};
+
+/// The separation along a turning axis, certified from the start of one pass.
+class Separation {
+ public:
+  Separation(const MovingPair& pair, const Horizon& horizon, const Vec32& normal, const Vec32& spin, int32_t floor)
+      : pair_(pair),
+        horizon_(horizon),
+        spin_(spin),
+        floor_(floor),
+        a_(*pair.a, pair.turning_a, horizon.spin_a, spin, pair.core_a, pair.exponent, -1),
+        b_(*pair.b, pair.turning_b, horizon.spin_b, spin, pair.core_b, pair.exponent, 1) {
+    if (is_zero(spin)) return;
+    tilt_ = length_bound_32(cross_29(normal, spin));
+    // |n x spin| (2 |V| + |spin| max |C|)
+    const int64_t speed = 2 * length_bound_32(horizon.way) + product_above(length_bound_32(spin), pair.reach, 30);
+    centre_curvature_ = product_above(tilt_, speed, 32);
+  }
+
+  void start(const Frames& frames, const Vec32& normal) {
+    if (a_.present()) a_.look(frames.a, normal);
+    if (b_.present()) b_.look(frames.b, normal);
+    set_centre(frames.offset, normal, 0);
+  }
+  void go_on(int64_t part, const Vec32& normal) {
+    const int64_t time = horizon_.time_at(part);
+    if (a_.moves()) a_.look(a_.rotation_at(time), normal);
+    if (b_.moves()) b_.look(b_.rotation_at(time), normal);
+    set_centre(pair_.offset_at(time), normal, part);
+  }
+
+  /// K, Q26.
+  int64_t curvature() const { return curvature_; }
+
+  struct Value {
+    int64_t separation;  ///< less the floor, Q56
+    int64_t slope;       ///< at this time and with the points that are farthest here; Q30
+  };
+  /// `x`, Q30 of the horizon, after the pass's start.
+  Value at(int64_t x) const {
+    const Side::Share a = a_.at(x), b = b_.at(x);
+    return {centre_ + ((centre_slope_ * x) >> 4) + a.value + b.value - ((curvature_ * (((x * x) >> 30) + 1)) >> 1),
+            centre_slope_ + a.slope + b.slope - ((curvature_ * x) >> 26)};
+  }
+
+ private:
+  void set_centre(const Vec32& offset, const Vec32& normal, int64_t part) {
+    centre_ = (dot(normal, offset) >> 4) - (int64_t{floor_} << 26);
+    centre_slope_ = dot(normal, horizon_.way) >> 29;
+    if (!is_zero(spin_)) centre_slope_ += dot(cross_29(spin_, normal), offset) >> 29;
+    curvature_ = centre_curvature_ + a_.curvature(tilt_, k_one_64 - part) + b_.curvature(tilt_, k_one_64 - part);
+  }
+
+  const MovingPair& pair_;
+  const Horizon& horizon_;
+  Vec32 spin_;
+  int32_t floor_;
+  Side a_, b_;
+  int64_t tilt_ = 0, centre_curvature_ = 0, curvature_ = 0;
+  int64_t centre_ = 0, centre_slope_ = 0;  ///< n.C less the floor, Q56; Q30
+};
+
+/// Where separation + slope x - K x^2/2 ends, Q30, or `limit` if that comes first. Only a proposal.
+int64_t parabola_root(int64_t separation, int64_t slope, int64_t curvature, int64_t limit) {
+  const int64_t s = separation >> 28;                                         // Q28
+  const int64_t b = slope >> 4;                                               // Q26
+  const int64_t k = curvature;                                                // Q26
+  const uint64_t square = static_cast<uint64_t>(b * b + ((2 * k * s) >> 2));  // Q52
+  const int64_t denominator = int64_t{square_root_floor(square)} - b;         // Q26
+  if (denominator <= 0) return limit;
+  const int64_t numerator = 2 * (separation >> 27);  // Q29
+  if (numerator >= denominator << 3) return limit;
+  const int64_t x = (numerator << 27) / denominator;
+  return x < limit ? x : limit;
+}
+
+}  // namespace
+
+Horizon horizon_from(const MovingPair& pair, int64_t start, int64_t length, int turn_quarters) {
+  const int64_t half_limit = int64_t{turn_quarters} << 43;  // 2^-46 rad
+  const int64_t half_angle = pair.turning_a.angle / 2 + pair.turning_b.angle / 2 + 1;
+  if (over_time(half_angle, length) > half_limit) length = time_quotient(half_limit, half_angle);
+  return horizon_over(pair, start, length);
+}
+
+Horizon horizon_over(const MovingPair& pair, int64_t start, int64_t length) {
+  Horizon horizon;
+  horizon.start = start;
+  horizon.length = length;
+  horizon.way = round_shift(over_time(pair.displacement, length), pair.exponent + 17);
+  horizon.spin_a = round_shift(over_time(pair.turning_a.turn, length), 17);
+  horizon.spin_b = round_shift(over_time(pair.turning_b.turn, length), 17);
+  return horizon;
+}
+
+TurningAxis::TurningAxis(const Vec32& normal, const Vec32& spin) : normal_(normal), turns_(!is_zero(spin)) {
+  if (!turns_) return;
+  axis_ = unit_vector_raw(scaled_to_30_bits(spin));
+  rate_ = dot(axis_, spin) >> 30;  // |axis| errs by 2^-28: so does the angle, of 3 rad at most
+  along_ = static_cast<int32_t>(dot(axis_, normal) >> 30);
+  across_ = round_shift(cross(axis_, normal), 30);
+}
+
+Vec32 TurningAxis::at(int64_t part) const {
+  if (!turns_ || part == 0) return normal_;
+  constexpr int64_t k_radian = 2734261103;  // 2^34 / 2 pi
+  const SineCosineRaw full = sine_cosine_raw((((rate_ * part) >> 30) * k_radian) >> 29);
+  const int64_t kept = (along_ * (k_one_64 - full.cosine)) >> 30;
+  const auto component = [&](int64_t n, int64_t c, int64_t k) {
+    return round_30(n * full.cosine + c * full.sine + kept * k);
+  };
+  return {component(normal_.x, across_.x, axis_.x), component(normal_.y, across_.y, axis_.y),
+          component(normal_.z, across_.z, axis_.z)};
+}
+
+int32_t advance(const MovingPair& pair, const Frames& frames, const Horizon& horizon, const Vec32& normal,
+                const Vec32& spin, int32_t floor, uint32_t& passes) {
+  Separation separation(pair, horizon, normal, spin, floor);
+  const TurningAxis axis(normal, spin);
+  const int64_t enough = int64_t{pair.tolerance} << 24;  // a quarter of the tolerance, Q56
+  int64_t part = 0;
+  for (int count = 0; count < k_passes_max; ++count) {
+    ++passes;
+    if (count == 0)
+      separation.start(frames, normal);
+    else
+      separation.go_on(part, axis.at(part));
+    const Separation::Value first = separation.at(0);
+    if (first.separation <= (count == 0 ? 0 : enough)) break;
+    const int64_t curvature = separation.curvature();
+    int64_t x = parabola_root(first.separation, first.slope, curvature, k_one_64 - part);
+    for (int step = 0;; ++step) {
+      const Separation::Value value = separation.at(x);
+      if (value.separation >= 0) break;
+      // The chord from the start lies below the concave function: safe always, and good enough when it loses 3 %.
+      if (step == 4 || value.slope >= 0 || -value.separation < first.separation >> 5) {
+        x = x * (first.separation >> 26) / ((first.separation - value.separation + (int64_t{1} << 26)) >> 26);
+        break;
+      }
+      // |separation| < 32 (tests/proofs): from 2 on in coarser steps, so that the product fits.
+      const int coarse = -value.separation >> 57 != 0 ? 4 : 0;
+      const int64_t fall = -value.slope >> coarse;
+      const int64_t back = (-value.separation >> (26 + coarse)) * k_one_64 / (fall > 0 ? fall : 1) + 1;
+      x = back < x ? x - back : 0;
+    }
+    part += x;
+    if (part >= k_one_64) return static_cast<int32_t>(k_one_64);
+    if ((curvature * ((x * x) >> 30)) >> 1 <= enough) break;
+  }
+  return static_cast<int32_t>(part);
+}
+
+int64_t advance_on(const MovingPair& pair, const Frames& frames, const Horizon& horizon, const Vec32& normal,
+                   const Vec32& spin, int32_t floor, uint32_t& passes) {
+  Frames at = frames;
+  Horizon ahead = horizon;
+  Vec32 axis = normal, turn = spin;
+  for (int count = 0; count < k_horizons_max; ++count) {
+    const int32_t part = advance(pair, at, ahead, axis, turn, floor, passes);
+    const int64_t reached = ahead.time_at(part);
+    if (part < k_one_64 || reached >= pair.to) return reached;
+    axis = TurningAxis(axis, turn).at(k_one_64);
+    at = pair.at(reached);
+    const int64_t rest = pair.to - reached, length = rest < horizon.length ? rest : horizon.length;
+    ahead = horizon_over(pair, reached, length);
+    if (length < horizon.length) {
+      const int64_t share = time_quotient(length, horizon.length);
+      turn = round_shift(over_time(Vec64{spin.x, spin.y, spin.z}, share), 0);
+    }
+  }
+  return at.time;
+}
+
+int32_t advance_once(const MovingPair& pair, const Frames& frames, const Horizon& horizon, const Vec32& normal,
+                     bool tight, int32_t floor, uint32_t& passes) {
+  ++passes;
+  Separation at_rest(pair, horizon, normal, {0, 0, 0}, floor);
+  at_rest.start(frames, normal);
+  const int64_t room = at_rest.at(0).separation >> 26;  // Q30
+  if (room <= 0) return 0;
+  const auto turning = [&](const Vec32& spin, int32_t core) {
+    if (is_zero(spin) || core == 0) return int64_t{0};
+    return product_above(length_bound_32(tight ? cross_29(normal, spin) : spin), core, 29);
+  };
+  const int64_t approach = -(dot(normal, horizon.way) >> 29) + 1 + turning(horizon.spin_a, pair.core_a) +
+                           turning(horizon.spin_b, pair.core_b);
+  if (approach <= 0 || room >= approach) return static_cast<int32_t>(k_one_64);
+  return static_cast<int32_t>((room << 30) / approach);
+}
+
+int64_t separation_along(const MovingPair& pair, const Frames& frames, const Vec32& normal, int32_t floor) {
+  const Horizon moment = {frames.time, 0, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+  Separation separation(pair, moment, normal, {0, 0, 0}, floor);
+  separation.start(frames, normal);
+  return separation.at(0).separation;
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

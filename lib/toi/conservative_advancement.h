@@ -1,0 +1,35 @@
+#pragma once
+#include "toi/moving_pair.h"
+#include "toi/toi_methods.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// The library's own method: the one that is never far from the best on any kind of query (docs/bench).
+#if defined(DETENT_TOI_METHOD)
+inline constexpr ToiMethod k_toi_method = ToiMethod::DETENT_TOI_METHOD;
+#else
+inline constexpr ToiMethod k_toi_method = ToiMethod::constant_spin;
+#endif
+static_assert(static_cast<int>(k_toi_method) < k_axis_methods, "of every shape, and never late");
+
+/// Whether the method moves both bodies of a prepared pair (MovingPair::absolute).
+constexpr bool moves_both(ToiMethod method, const MovingPair& pair) {
+  return method == ToiMethod::world_space && !pair.planar;
+}
+
+/// More axes than this are not looked for. The other methods, there for comparison, need many on hard queries.
+inline constexpr int k_toi_iterations_max = 24;
+inline constexpr int k_toi_iterations_compared_max = 256;
+
+/// The time of impact of a prepared pair by conservative advancement along axes of the method's kind, one of the first
+/// k_axis_methods. `enough`, ulps: clear at once where no core points are nearer than this when the window begins.
+void conservative_advancement(const MovingPair& pair, ToiMethod method, TimeOfImpact& result,
+                              int32_t enough = INT32_MAX);
+
+/// time_of_impact() (toi.h) by one of those methods.
+Status time_of_impact_on_axes(ToiMethod method, const Convex& a, const Motion& motion_a, const Convex& b,
+                              const Motion& motion_b, TimeOfImpact& result);
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent
