@@ -29,7 +29,7 @@ Status explode(World& world, const Explosion& explosion);
 
 /// Gives a kinematic body the velocity and spin, the shorter way around, that bring it to the target pose in the next
 /// step; it keeps them after that. Error of the pose then: 2^-31 m and the position's step (f32: and 2^-23 of the way)
-/// in each coordinate, and 2^-27 (f32: 2^-21) in each component of the rotation (tests/world/kinematic_test.cpp).
+/// in each coordinate, and 2^-27 (f32: 2^-21) in each component of the rotation (tests/unit/world/kinematic_test.cpp).
 /// Errors: bad_id, bad_argument (not kinematic; a half-space that would turn), out_of_range (a speed), not_normalised.
 Status move_kinematic(World& world, BodyId id, const Position& position, const Quat& rotation);
 

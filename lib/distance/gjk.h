@@ -6,7 +6,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// More support points than this are never asked for; 13 is the most that a polytope was seen to need
-/// (tests/proximity).
+/// (tests/unit/distance).
 inline constexpr int k_gjk_iterations_max = 24;
 
 enum class GjkOutcome {

@@ -14,7 +14,7 @@ struct Penetration {
   bool capped;             ///< the cap of vertices was met: between `lower` and `depth` it is not decided
 };
 
-/// The polytope holds at most so many vertices. Polytopes of few faces need far fewer (tests/proximity).
+/// The polytope holds at most so many vertices. Polytopes of few faces need far fewer (tests/unit/distance).
 inline constexpr int k_penetration_vertices_max = 64;
 
 /// Ulps of the block. `depth` and `lower` are those of the placed vertices, rounded up and down; the normal errs by up

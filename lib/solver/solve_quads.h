@@ -2,7 +2,7 @@
 #include "solver/solve.h"
 
 /// The passes of the solver over four contacts at once, where the machine has registers for it. Lane by lane the
-/// operations are those of one contact, so the bits are the same (tests/dynamics/quads_test.cpp).
+/// operations are those of one contact, so the bits are the same (tests/unit/solver/quads_test.cpp).
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 

@@ -22,9 +22,8 @@ inline constexpr uint32_t k_rolling_substeps = 2048;
 inline constexpr uint32_t k_edge_points = 2;
 inline constexpr uint32_t k_joint_contacts = 8;
 inline constexpr uint32_t k_pile_substeps = 4;
-inline constexpr uint32_t k_calm_ticks = 60;  ///< in which fewer substeps would have done, before they are taken
-inline constexpr uint32_t k_joint_calm_ticks =
-    8;  ///< likewise of islands with joints, which ask for more while they turn
+inline constexpr uint32_t k_calm_ticks = 60;       ///< in which fewer substeps would have done, before they are taken
+inline constexpr uint32_t k_joint_calm_ticks = 8;  ///< likewise with joints, which ask for more while they turn
 
 /// Sets the islands' substeps, and those of their bodies' activities, from the contacts' loads and from what their
 /// joints ask for, which `islands` has. More are taken at once; fewer after k_calm_ticks, one notch, or with joints

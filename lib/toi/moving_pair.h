@@ -43,7 +43,7 @@ struct Turning {
   Matrix32 at(int64_t time) const { return turns ? matrix_from(rotation_at(time)) : start_matrix; }
   Quat32 rotation_at(int64_t time) const;
 };
-inline constexpr double k_turning_error = 16.0;  ///< 2^-30 (tests/proximity)
+inline constexpr double k_turning_error = 16.0;  ///< 2^-30 (tests/unit/distance)
 
 /// A body that does not turn.
 Turning still(const Quat32& rotation);

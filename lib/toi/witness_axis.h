@@ -17,7 +17,7 @@ inline constexpr int k_root_steps_max = 48;
 /// (Illinois) and bisection, and there GJK says whether that is a hit, and gives the next witness.
 /// At a hit the shapes are apart, and within the tolerance. *Nothing else is certified*: between the times that are
 /// looked at they may meet and part again, so that a hit may be later than the first, and what is said to be clear may
-/// have met (tests/proximity/witness_axis_test.cpp counts both).
+/// have met (tests/unit/toi/witness_axis_test.cpp counts both).
 /// Errors: undecided after k_witnesses_max, or where neither the witness nor the normal of now leads on.
 /// Source: the local separating axis of E. Catto's Box2D (b2TimeOfImpact), with planes of a face or of two edges as in
 /// the lecture notes of D. Baraff, Rigid Body Simulation II: Nonpenetration Constraints, 1997, and before them in his

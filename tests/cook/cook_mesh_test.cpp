@@ -8,8 +8,8 @@
 #include "cook_height_field.h"
 #include "read_mesh.h"
 #include "shape/mesh.h"
-#include "tests/geometry/surfaces.h"
 #include "tests/support/data_file.h"
+#include "tests/unit/shape/surfaces.h"
 
 namespace {
 

@@ -8,7 +8,7 @@
 
 #include "base/crc.h"
 #include "tests/cook/solids.h"
-#include "tests/geometry/hull_bytes.h"
+#include "tests/unit/shape/hull_bytes.h"
 
 namespace {
 

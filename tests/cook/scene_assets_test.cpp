@@ -6,7 +6,7 @@
 #include <iterator>
 
 #include "ports/host/cook/cook_compound.h"
-#include "tests/geometry/surfaces.h"
+#include "tests/unit/shape/surfaces.h"
 
 /// The surfaces of the scenes (tests/scenes/assets) are what is cooked here. Run with DETENT_WRITE_ASSETS=1 to write
 /// them anew.

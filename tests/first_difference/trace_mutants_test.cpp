@@ -1,6 +1,6 @@
 #include "ports/host/detent/tick_trace.h"
 #include "tests/fuzz/mutants.h"
-#include "tests/replay/chunks.h"
+#include "tests/unit/replay/chunks.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

@@ -8,9 +8,9 @@
 #include "base/crc.h"
 #include "shape/cooked.h"
 #include "tests/fuzz/targets.h"
-#include "tests/geometry/hull_bytes.h"
-#include "tests/replay/match.h"
-#include "tests/world/lab.h"
+#include "tests/unit/replay/match.h"
+#include "tests/unit/shape/hull_bytes.h"
+#include "tests/unit/world/lab.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

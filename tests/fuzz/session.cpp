@@ -2,8 +2,8 @@
 #include <map>
 
 #include "tests/fuzz/targets.h"
-#include "tests/replay/arena.h"
 #include "tests/sequences/draw.h"
+#include "tests/unit/replay/arena.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

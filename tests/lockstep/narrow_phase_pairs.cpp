@@ -5,7 +5,7 @@
 #include "math/float_bits.h"
 #include "math/rotation.h"
 #include "round_hull.h"
-#include "tests/geometry/hull_bytes.h"
+#include "tests/unit/shape/hull_bytes.h"
 
 namespace detent_lockstep {
 

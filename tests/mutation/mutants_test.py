@@ -138,8 +138,8 @@ project(small CXX)
 add_compile_options(-Wall -Werror)
 add_library(detent_fx64 STATIC lib/base/sum.cpp lib/world/far.cpp)
 enable_testing()
-add_subdirectory(tests/base)
-add_subdirectory(tests/world)
+add_subdirectory(tests/unit/base)
+add_subdirectory(tests/unit/world)
 """,
     "lib/CMakeLists.txt": "add_subdirectory(base)\nadd_subdirectory(world)\n",
     "lib/base/sum.cpp": """int sum_below(int n) {
@@ -151,11 +151,11 @@ int unseen(int n) { return n + 1; }
 int idle(int n) { return sizeof(int) == 3 ? n + 2 : n; }
 """,
     "lib/world/far.cpp": "int far(int n) { return n + 3; }\n",
-    "tests/base/CMakeLists.txt": """add_executable(base_test test.cpp)
+    "tests/unit/base/CMakeLists.txt": """add_executable(base_test test.cpp)
 target_link_libraries(base_test detent_fx64)
 add_test(NAME base COMMAND base_test)
 """,
-    "tests/base/test.cpp": """int sum_below(int n);
+    "tests/unit/base/test.cpp": """int sum_below(int n);
 int unseen(int n);
 int idle(int n);
 int main(int count, char**) {
@@ -163,11 +163,11 @@ int main(int count, char**) {
   return sum_below(4) == 6 ? 0 * twice : 1;
 }
 """,
-    "tests/world/CMakeLists.txt": """add_executable(world_test test.cpp)
+    "tests/unit/world/CMakeLists.txt": """add_executable(world_test test.cpp)
 target_link_libraries(world_test detent_fx64)
 add_test(NAME world COMMAND world_test)
 """,
-    "tests/world/test.cpp": "int sum_below(int n);\nint main() { return sum_below(2) == 1 ? 0 : 1; }\n",
+    "tests/unit/world/test.cpp": "int sum_below(int n);\nint main() { return sum_below(2) == 1 ? 0 : 1; }\n",
     ".gitignore": "/build/\n",
 }
 

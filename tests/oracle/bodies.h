@@ -4,10 +4,10 @@
 
 #include "math/arithmetic.h"
 #include "shape/shape_traits.h"
-#include "tests/math/samples.h"
 #include "tests/oracle/convex.h"
 #include "tests/oracle/effort.h"
 #include "tests/support/test.h"
+#include "tests/unit/math/samples.h"
 
 /// The library's bodies, read into the references without rounding.
 namespace detent {

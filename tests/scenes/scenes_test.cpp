@@ -1,4 +1,4 @@
-#include "tests/replay/match.h"
+#include "tests/unit/replay/match.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

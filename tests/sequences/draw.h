@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "tests/queries/random.h"
-#include "tests/world/lab.h"
+#include "tests/unit/world/lab.h"
 
 /// Arguments for random calls, good and bad: the same on every machine, so no libm.
 namespace detent {

@@ -1,7 +1,7 @@
 #include "tests/sequences/game.h"
 
-#include "tests/geometry/hull_bytes.h"
 #include "tests/support/usable.h"
+#include "tests/unit/shape/hull_bytes.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

@@ -8,10 +8,10 @@
 #include <type_traits>
 
 #include "base/digest.h"
-#include "tests/replay/match.h"
 #include "tests/scenes/scene.h"
 #include "tests/sequences/draw.h"
 #include "tests/sequences/model.h"
+#include "tests/unit/replay/match.h"
 
 /// Random calls, good and bad, against a model of what their documentation says: statuses, what getters return, that a
 /// call that fails changes nothing, that every state can be loaded, and that a recording of the calls replays.

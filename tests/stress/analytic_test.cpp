@@ -5,7 +5,7 @@
 #include "tests/stress/measures.h"
 #include "tests/stress/run_detent.h"
 #include "tests/stress/scenes.h"
-#include "tests/world/lab.h"
+#include "tests/unit/world/lab.h"
 
 /// Motions that a formula gives.
 namespace detent {

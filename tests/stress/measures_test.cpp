@@ -6,7 +6,7 @@
 #include "tests/queries/random.h"
 #include "tests/stress/icosahedron.h"
 #include "tests/stress/scenes.h"
-#include "tests/world/lab.h"
+#include "tests/unit/world/lab.h"
 
 /// What the scenes are judged by.
 namespace detent {

@@ -6,7 +6,7 @@
 #include "examples/ragdoll/ragdoll.h"
 #include "tests/oracle/effort.h"
 #include "tests/queries/random.h"
-#include "tests/world/joint_lab.h"
+#include "tests/unit/joint/joint_lab.h"
 
 /// Figures thrown onto the ground, as hard as games throw them.
 namespace detent {

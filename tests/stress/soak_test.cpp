@@ -4,7 +4,7 @@
 
 #include "tests/oracle/effort.h"
 #include "tests/queries/random.h"
-#include "tests/world/lab.h"
+#include "tests/unit/world/lab.h"
 
 /// A world that bodies come to and go from, for very long.
 namespace detent {

@@ -2,8 +2,8 @@
 #include <detent/contacts.h>
 #include <detent/query.h>
 
-#include "tests/replay/match.h"
-#include "tests/world/lab.h"
+#include "tests/unit/replay/match.h"
+#include "tests/unit/world/lab.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

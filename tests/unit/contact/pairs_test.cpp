@@ -1,0 +1,224 @@
+#include "tests/unit/contact/pairs.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+using detent_oracle::Kind;
+using detent_oracle::Separation;
+
+/// A length may err by 2^-26 (in floats: as many steps) of the larger body's diameter: of two units of length.
+constexpr double k_error_steps = 32;
+
+/// What was seen of one kind of pair. Errors are in steps of a Unit of the larger body.
+struct Seen {
+  double gap = 0;       ///< what the normal's gap falls short of the largest one
+  double beyond = 0;    ///< separation beyond the reach
+  double too_deep = 0;  ///< separation below what the solids allow along the normal
+  double deepest = 0;   ///< deepest separation from the right one
+  double arms = 0;      ///< the two arms' ends from each other
+  double midway = 0;    ///< the points from midway between the surfaces, beyond what is allowed
+  double normal = 0;    ///< length of the normal from 1
+  uint32_t touching = 0, leaning = 0, apart = 0, missed = 0, missed_ahead = 0, deepest_lost = 0, features_wrong = 0,
+           mirrored_wrong = 0;
+};
+
+/// How far beyond its face a box lets the points of another lie: its widened sides, in either box.
+double side_slack(const Solid& a, const Solid& b) {
+  double largest = 0;
+  for (int i = 0; i < 3; ++i) largest = fmax(largest, fmax(a.size[i], b.size[i]));
+  return 1.5 * largest / 64;
+}
+
+double smallest_size(const Solid& box) { return fmin(fmin(box.size[0], box.size[1]), box.size[2]); }
+
+/// The farthest vertex of `other` against `n` lies over the face of `box` that looks along n; false if no face does.
+bool deepest_vertex_is_over_face(const Solid& box, const Solid& other, const Vector& n) {
+  Vector vertex = other.centre;
+  for (int i = 0; i < 3; ++i) {
+    vertex = vertex - other.axis[i] * (dot(other.axis[i], n) < 0 ? -other.size[i] : other.size[i]);
+  }
+  int sides = 0;
+  for (int i = 0; i < 3; ++i) {
+    if (fabs(dot(box.axis[i], n)) > 1 - 1e-9) continue;
+    ++sides;
+    if (fabs(dot(vertex - box.centre, box.axis[i])) > box.size[i]) return false;
+  }
+  return sides == 2;
+}
+
+bool is_axis_of(const Solid& box, const Vector& n) {
+  for (int i = 0; i < 3; ++i) {
+    if (fabs(dot(box.axis[i], n)) > 1 - 1e-6) return true;
+  }
+  return false;
+}
+
+/// How much another axis must be better by to be taken, m: then the normal need not be the very best one.
+double preference_of(const Solid& a, const Solid& b, const Separation& right) {
+  if (!right.is_depth) return 0;
+  if (b.kind == Kind::box) return 2 * fmin(smallest_size(a), smallest_size(b)) / 64;
+  return fmax(fmax(a.size[0], a.size[1]), a.size[2]) / 64;
+}
+
+/// Judges the contact of A and B, A of no later form than B, given from A to B.
+void judge(const OraclePair& pair, const ContactGeometry& contact, double reach, Seen& seen) {
+  const Solid a = solid_of(pair.a, pair.a.pose.position), b = solid_of(pair.b, pair.a.pose.position);
+  const Separation right = separation_of(a, b);
+  const double step = step_of(pair), error = k_error_steps * step;
+  const bool boxes = a.kind == Kind::box && b.kind == Kind::box;
+  if (contact.count == 0) {
+    if (right.value > reach - error)
+      ++seen.apart;
+    else if (!boxes || right.value < -error)
+      ++seen.missed;
+    else if (detent_oracle::distance_of_boxes(a, b) < reach - error)
+      ++seen.missed_ahead;
+    return;
+  }
+  ++seen.touching;
+  const auto worst = [&](double& most, double length) { most = fmax(most, length / step); };
+  const Vector n = host(contact.normal);
+  seen.normal = fmax(seen.normal, fabs(length(n) - 1) / unit_steps(1));
+  const double along = gap_along(a, b, n);
+  // Where shapes that are almost aligned are taken as aligned, lengths err to second order: at a box's rim by 2^-27 of
+  // the distance, between cores that are within 2^-8 rad of parallel by less. Only f64 is fine enough to see it.
+  const bool parallel = a.kind == Kind::round && fabs(dot(a.axis[1], b.axis[1])) > 0.9999;
+  const double aligned = a.kind == Kind::box && !boxes ? 0x1.1p-27 * (b.size[0] + reach)
+                         : parallel                    ? 0x1p-40 * unit_of(pair.b.traits)
+                                                       : 0;
+  // A face that leans against edges that cross parts them by a little less.
+  const double preference = preference_of(a, b, right), lost = right.value - preference - along - aligned;
+  const bool leans = boxes && contact.count > 1 && lost > 2 * error;
+  // A face that leans against a capsule which crosses its sides does not part them beside it: what counts is how deep
+  // its deepest point is.
+  const bool crosses = a.kind == Kind::box && !boxes && b.size[1] > 0 && lost > 2 * error && is_axis_of(a, n);
+  seen.leaning += leans || crosses ? 1 : 0;
+  if (!crosses) worst(seen.gap, leans ? lost - 4 * preference : lost);
+
+  // A box takes a sphere or capsule just beyond its rim, by 2^-13 of the distance, as being over the face.
+  const double slack = boxes ? side_slack(a, b) : a.kind == Kind::box ? 0x1.1p-13 * (b.size[0] + reach) : 0;
+  // A tilted capsule is met at its core's ends, where the points may lie within its surface.
+  const bool tilted = b.size[1] > 0 && (a.kind == Kind::half_space || contact.count > 1 || crosses ||
+                                        (a.kind == Kind::round && fabs(dot(a.axis[1], b.axis[1])) > 0.99));
+  const bool exact = boxes ? right.value < 0 : !right.is_depth && (!tilted || b.kind == Kind::box);
+  double deepest = HUGE_VAL;
+  for (uint32_t i = 0; i < contact.count; ++i) {
+    const ContactGeometryPoint& point = contact.point[i];
+    const double separation = real_to_host(point.separation);
+    deepest = fmin(deepest, separation);
+    worst(seen.beyond, separation - reach);
+    worst(seen.too_deep, along - separation);
+    const Vector at = b.centre + host(point.arm_b) * unit_of(pair.b.traits);
+    if (a.kind != Kind::half_space) worst(seen.arms, length(host(point.arm_a) * unit_of(pair.a.traits) - at));
+    const double on_a = distance_to_surface(a, at - n * (separation / 2));
+    const double on_b = distance_to_surface(b, at + n * (separation / 2));
+    if (exact)
+      worst(seen.midway, fmax(fabs(on_a), fabs(on_b)) - slack);
+    else if (a.kind != Kind::round && !right.is_depth && !boxes)
+      worst(seen.midway, fmax(fabs(on_a), on_b) - slack);
+    if (point.feature == 0) ++seen.features_wrong;
+    for (uint32_t j = 0; j < i; ++j) seen.features_wrong += contact.point[j].feature == point.feature ? 1 : 0;
+  }
+  const double leaning = crosses ? preference + 0x1p-7 * (right.value + b.size[0] + preference) : 0;
+  if (crosses || (!boxes && !right.is_depth)) worst(seen.deepest, fabs(deepest - right.value) - aligned - leaning);
+  if (boxes && (deepest_vertex_is_over_face(a, b, n) || deepest_vertex_is_over_face(b, a, n * -1))) {
+    // Of five vertices or more those that span the face are kept, and the deepest need not be one of them.
+    if (contact.count >= 3 && deepest - along > error)
+      ++seen.deepest_lost;
+    else
+      worst(seen.deepest, fabs(deepest - along));
+  }
+}
+
+/// The contact of B and A against that of A and B: the same bits mirrored where the library tells A from B by
+/// their forms, and else the same points but for rounding. Two boxes may choose another face; the caller judges that by
+/// itself.
+bool is_mirrored(const ContactGeometry& contact, const ContactGeometry& swapped, bool same_bits, double error) {
+  if (contact.count != swapped.count) return !same_bits;  // at the very edge of reach
+  for (uint32_t i = 0; i < contact.count; ++i) {
+    const ContactGeometryPoint& p = contact.point[i];
+    const ContactGeometryPoint& q = swapped.point[i];
+    if (same_bits &&
+        !(p.arm_a == q.arm_b && p.arm_b == q.arm_a && p.separation == q.separation && p.feature == q.feature)) {
+      return false;
+    }
+    if (contact.count == 1 && fabs(real_to_host(p.separation) - real_to_host(q.separation)) > error) return false;
+  }
+  return contact.count == 0 || !same_bits || contact.normal == -swapped.normal;
+}
+
+/// Poses, sizes, gaps and reaches at random, for every two of three sizes.
+void judge_many(Form form_a, Form form_b, uint64_t seed) {
+  Samples samples = {seed};
+  Seen seen;
+  const bool boxes = form_a == Form::box && form_b == Form::box;
+  constexpr double k_sizes[] = {0.001, 1.0, 100.0};
+  const uint32_t count = detent_oracle::rounds(2700);
+  for (uint32_t i = 0; i < count; ++i) {
+    const double gap = uniform(samples, -0.2, 0.3), part = uniform(samples, 0, 0.25);
+    const OraclePair pair = random_pair(samples, form_a, form_b, k_sizes[i % 3], k_sizes[i / 3 % 3], gap);
+    const double reach = real_to_host(real_near(part * extent_of(pair)));
+    const ContactGeometry contact = contact_of(pair.a, pair.b, reach);
+    const ContactGeometry swapped = contact_of(pair.b, pair.a, reach);
+    judge(pair, contact, reach, seen);
+    const bool same_bits = form_a != form_b && form_a <= Form::box;
+    if (!boxes && !is_mirrored(contact, swapped, same_bits, k_error_steps * step_of(pair))) ++seen.mirrored_wrong;
+    if (form_a == form_b) judge({pair.b, pair.a}, swapped, reach, seen);
+  }
+  const double largest = fmax(fmax(fmax(seen.gap, seen.too_deep), fmax(seen.deepest, seen.arms)), seen.midway);
+  ::testing::Test::RecordProperty("error_steps", ::testing::PrintToString(largest));
+  ::testing::Test::RecordProperty("deepest_lost", ::testing::PrintToString(seen.deepest_lost));
+  ::testing::Test::RecordProperty("missed_ahead", ::testing::PrintToString(seen.missed_ahead));
+  EXPECT_LE(50 * seen.leaning, seen.touching);
+  EXPECT_LE(seen.gap, 2 * k_error_steps);  // a normal errs by the error of a length, times size over distance
+  EXPECT_LE(seen.beyond, k_error_steps);
+  EXPECT_LE(seen.too_deep, k_error_steps);
+  EXPECT_LE(seen.deepest, k_error_steps);
+  EXPECT_LE(seen.arms, k_error_steps);
+  EXPECT_LE(seen.midway, k_error_steps);
+  EXPECT_LE(seen.normal, 12);  // a column of a matrix: twice the quaternion's error and a rounding each
+  EXPECT_EQ(seen.missed, 0u);
+  // Two boxes that meet corner to corner or edge to edge while still apart have no face over which to meet: such a pair
+  // gets its points when it overlaps.
+  EXPECT_LE(seen.missed_ahead, count / 100);
+  EXPECT_LE(seen.deepest_lost, count / 100);
+  EXPECT_EQ(seen.features_wrong, 0u);
+  EXPECT_EQ(seen.mirrored_wrong, 0u);
+  EXPECT_GT(seen.touching, count / 2);
+  EXPECT_GT(seen.apart, count / 5);
+}
+
+DETENT_TEST(pairs, of_a_half_space_and_a_box_agree_with_the_oracle) { judge_many(Form::half_space, Form::box, 11); }
+DETENT_TEST(pairs, of_a_half_space_and_a_capsule_agree_with_the_oracle) {
+  judge_many(Form::half_space, Form::capsule, 12);
+}
+DETENT_TEST(pairs, of_a_half_space_and_a_sphere_agree_with_the_oracle) {
+  judge_many(Form::half_space, Form::sphere, 13);
+}
+DETENT_TEST(pairs, of_two_boxes_agree_with_the_oracle) { judge_many(Form::box, Form::box, 14); }
+DETENT_TEST(pairs, of_a_box_and_a_capsule_agree_with_the_oracle) { judge_many(Form::box, Form::capsule, 15); }
+DETENT_TEST(pairs, of_a_box_and_a_sphere_agree_with_the_oracle) { judge_many(Form::box, Form::sphere, 16); }
+DETENT_TEST(pairs, of_two_capsules_agree_with_the_oracle) { judge_many(Form::capsule, Form::capsule, 17); }
+DETENT_TEST(pairs, of_a_capsule_and_a_sphere_agree_with_the_oracle) { judge_many(Form::capsule, Form::sphere, 18); }
+DETENT_TEST(pairs, of_two_spheres_agree_with_the_oracle) { judge_many(Form::sphere, Form::sphere, 19); }
+
+/// Their edges cross at the least depth; the faces are as good.
+DETENT_TEST(pairs, of_bars_that_cross_and_rock_touch_in_several_points) {
+  OraclePair pair;
+  pair.a.traits = pair.b.traits = box_traits({{0.2, 0.02, 0.04}});
+  pair.a.pose.rotation = rotation_near({0, 0, 0, 1});
+  const double leans[][2] = {{0.02, 0.004}, {-0.02, 0.005}, {0.01, -0.004}, {0.02, 0}, {0, 0}};
+  for (const double(&lean)[2] : leans) {
+    pair.b.pose.rotation =
+        rotation_near(detent_oracle::rotation_by({{lean[0], 0, lean[1]}}) * detent_oracle::rotation_by({{0, 1.5, 0}}));
+    pair.b.pose.position = position_near({{0, 0.04 + 0.04 * (fabs(lean[0]) + fabs(lean[1])) - 0.001, 0}});
+    const ContactGeometry found = contact_of(pair.a, pair.b, 0.002);
+    EXPECT_GE(found.count, 2u) << lean[0] << " " << lean[1];
+    EXPECT_GT(host(found.normal)[1], 0.99) << lean[0] << " " << lean[1];
+  }
+}
+
+}  // namespace
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,202 @@
+#include <algorithm>
+#include <vector>
+
+#include "tests/unit/joint/joint_lab.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+DETENT_TEST(joint, every_loop_of_a_net_is_held) {
+  Lab lab(room(9, 12), weightless());
+  BodyId knots[3][3];
+  std::vector<JointId> joints;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      knots[i][j] = add_shape(lab, box(reals(0.2, 0.2, 0.2)), i, j, 0);
+      const double push = (i * 3 + j) % 4 - 1.5;
+      EXPECT_OK(set_velocity(lab.world, knots[i][j], reals(push, -push, 2 * push), reals(0, push, 0)));
+      if (i > 0) joints.push_back(add_joint(lab, JointType::ball, knots[i - 1][j], knots[i][j], i - 0.5, j, 0));
+      if (j > 0) joints.push_back(add_joint(lab, JointType::ball, knots[i][j - 1], knots[i][j], i, j - 0.5, 0));
+    }
+  }
+  for (int tick = 0; tick < 60; ++tick) {
+    lab.run(1);
+    for (const JointId id : joints) ASSERT_LT(length(joint_ends(lab.world, id).gap()), 0.02) << tick << " " << id.slot;
+  }
+}
+
+DETENT_TEST(joint, a_door_on_two_hinges_is_held_by_either) {
+  Lab lab(room(2, 2));
+  const BodyId wall = add_shape(lab, box(reals(0.1, 1, 0.1)), -0.1, 0, 0, BodyType::fixed);
+  const BodyId door = add_shape(lab, box(reals(0.5, 1, 0.05)), 0.5, 0, 0);
+  const JointId low = add_joint(lab, JointType::hinge, wall, door, 0, -0.8, 0, {}, k_x_to_y);
+  const JointId high = add_joint(lab, JointType::hinge, wall, door, 0, 0.8, 0, {}, k_x_to_y);
+  ASSERT_OK(apply_impulse_at(lab.world, door, scaleds(0, 0, 50), reals(0.4, 0, 0)));
+  double worst = 0, swing = 0;
+  for (int tick = 0; tick < 300; ++tick) {
+    const StepReport report = lab.run(1);
+    EXPECT_EQ(report.saturations, 0u);
+    for (const JointId id : {low, high}) worst = std::max(worst, length(joint_ends(lab.world, id).gap()));
+    swing = std::max(swing, joint_ends(lab.world, low).between(2));
+  }
+  EXPECT_LE(worst, 2e-3);
+  EXPECT_GT(swing, 0.5);
+}
+
+DETENT_TEST(joint, a_ring_of_links_stays_closed) {
+  constexpr int k_links = 6;
+  Lab lab(room(k_links, k_links), weightless());
+  std::vector<BodyId> links;
+  std::vector<JointId> joints;
+  const double radius = 1;
+  for (int i = 0; i < k_links; ++i) {
+    const double angle = 2 * k_pi * (i + 0.5) / k_links;
+    links.push_back(add_shape(lab, sphere(real(0.2)), radius * std::cos(angle), radius * std::sin(angle), 0));
+  }
+  for (int i = 0; i < k_links; ++i) {
+    const double angle = 2 * k_pi * (i + 1) / k_links;
+    joints.push_back(add_joint(lab, JointType::ball, links[static_cast<size_t>(i)],
+                               links[static_cast<size_t>((i + 1) % k_links)], radius * std::cos(angle),
+                               radius * std::sin(angle), 0));
+  }
+  ASSERT_OK(set_velocity(lab.world, links[0], reals(1, 0, 1), reals(0, 0, 0)));
+  double worst = 0;
+  for (int tick = 0; tick < 300; ++tick) {
+    lab.run(1);
+    for (const JointId id : joints) worst = std::max(worst, length(joint_ends(lab.world, id).gap()));
+  }
+  EXPECT_LE(worst, 0.02);
+}
+
+DETENT_TEST(joint, a_chain_between_two_walls_is_held_at_both_ends) {
+  Lab lab(room(12, 11));
+  const BodyId left = add_shape(lab, box(reals(0.1, 0.1, 0.1)), -0.5, 0, 0, BodyType::fixed);
+  BodyId last = left;
+  std::vector<JointId> joints;
+  for (int i = 0; i < 10; ++i) {
+    const BodyId link = add_shape(lab, box(reals(0.4, 0.05, 0.2)), 0.5 + i, 0, 0);
+    joints.push_back(add_joint(lab, JointType::ball, last, link, i, 0, 0));
+    last = link;
+  }
+  const BodyId right = add_shape(lab, box(reals(0.1, 0.1, 0.1)), 10.5, 0, 0, BodyType::fixed);
+  joints.push_back(add_joint(lab, JointType::ball, last, right, 9.99, 0, 0));
+  double worst = 0;
+  for (int tick = 0; tick < 600; ++tick) {
+    lab.run(1);
+    for (const JointId id : joints) worst = std::max(worst, length(joint_ends(lab.world, id).gap()));
+  }
+  EXPECT_LE(worst, 0.01);
+}
+
+/// A chain of bricks from a wall, level, each joint of a type, and a weight of so many bricks at its end.
+struct HangingChain {
+  Lab lab;
+  BodyId wall, last;
+
+  HangingChain(int links, double weight, JointType middle = JointType::ball)
+      : lab(room(static_cast<uint32_t>(links) + 8, static_cast<uint32_t>(links) + 8)) {
+    BodyDef def;
+    def.type = BodyType::fixed;
+    def.shape = box(reals(0.1, 0.1, 0.1));
+    last = wall = lab.add(def);
+    def.type = BodyType::dynamic;
+    def.shape = box(reals(0.2, 0.05, 0.05));
+    def.filter.mask = 0;
+    for (int i = 0; i <= links; ++i) {
+      def.mass = scaled(i == links ? weight : 1);
+      def.position = position(0.5 * i + 0.25, 0, 0);
+      const BodyId next = lab.add(def);
+      add_joint(lab, i == links / 2 ? middle : JointType::ball, last, next, 0.5 * i, 0, 0);
+      last = next;
+    }
+  }
+  double widest() {
+    double gap = 0;
+    for (JointId id = next_joint(lab.world, {}); !(id == JointId{}); id = next_joint(lab.world, id))
+      gap = std::max(gap, length(joint_ends(lab.world, id).gap()));
+    return gap;
+  }
+};
+
+DETENT_TEST(joint, a_weight_of_a_thousand_links_does_not_shake_its_chain_apart) {
+  for (const int links : {6, 30}) {
+    SCOPED_TRACE(links);
+    HangingChain chain(links, 1000);
+    double widest = 0;
+    for (int tick = 0; tick < 600; ++tick) {
+      chain.lab.run(1);
+      widest = std::max(widest, chain.widest());
+    }
+    EXPECT_LE(widest, 0.01);
+  }
+}
+
+/// What pulls at its links has no bound.
+DETENT_TEST(joint, a_chain_taut_between_two_walls_stays_together) {
+  for (const int links : {10, 20, 40}) {
+    SCOPED_TRACE(links);
+    HangingChain chain(links, 1);
+    BodyDef def;
+    def.type = BodyType::fixed;
+    def.shape = box(reals(0.1, 0.1, 0.1));
+    def.filter.mask = 0;
+    def.position = position(0.5 * (links + 1), 0, 0);
+    add_joint(chain.lab, JointType::ball, chain.last, chain.lab.add(def), 0.5 * (links + 1), 0, 0);
+    double widest = 0;
+    for (int tick = 0; tick < 600; ++tick) {
+      chain.lab.run(1);
+      widest = std::max(widest, chain.widest());
+    }
+    EXPECT_LE(widest, 0.01);
+  }
+}
+
+DETENT_TEST(joint, a_tree_of_points_holds_with_branches_and_other_types_in_it) {
+  HangingChain tree(6, 1, JointType::hinge);
+  for (int branch = 0; branch < 2; ++branch) {
+    BodyDef def;
+    def.shape = box(reals(0.2, 0.05, 0.05));
+    def.filter.mask = 0;
+    def.position = position(3.75, 0, 0);
+    const BodyId first = tree.lab.add(def);
+    add_joint(tree.lab, JointType::ball, tree.last, first, 3.5, 0, 0);
+    def.position = position(4.25, 0, 0);
+    const BodyId second = tree.lab.add(def);
+    add_joint(tree.lab, JointType::ball, first, second, 4.0, 0, 0);
+    EXPECT_OK(set_velocity(tree.lab.world, second, reals(0, 0, branch == 0 ? 4 : -4), reals(0, 0, 0)));
+  }
+  double widest = 0;
+  for (int tick = 0; tick < 300; ++tick) {
+    tree.lab.run(1);
+    widest = std::max(widest, tree.widest());
+  }
+  EXPECT_LE(widest, 0.01);
+}
+
+DETENT_TEST(joint, a_tree_holds_masses_ten_thousand_times_apart_and_takes_any) {
+  for (const double ratio : {1e4, 1e8}) {
+    Lab lab(room(5, 4));
+    const BodyId ground = add_shape(lab, box(reals(0.1, 0.1, 0.1)), 0, 0, 0, BodyType::fixed);
+    BodyDef def;
+    def.shape = sphere(real(0.25));
+    BodyId last = ground;
+    for (int i = 0; i < 4; ++i) {
+      def.mass = scaled(i == 1 || i == 2 ? 1e-3 * ratio : 1e-3);
+      def.position = position(0.5 * (i + 1), 0, 0);
+      const BodyId next = lab.add(def);
+      add_joint(lab, JointType::hinge, last, next, 0.5 * i + 0.25, 0, 0);
+      last = next;
+    }
+    uint32_t saturations = 0;
+    for (int tick = 0; tick < 60; ++tick) saturations += lab.run(1).saturations;
+    if (ratio > 1e4) continue;  // a link so light is too weak to be seen beside what hangs from it: it lets go
+    EXPECT_EQ(saturations, 0u);
+    for (JointId id = next_joint(lab.world, {}); !(id == JointId{}); id = next_joint(lab.world, id))
+      EXPECT_LE(length(joint_ends(lab.world, id).gap()), 0.05);
+  }
+}
+
+}  // namespace
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent
