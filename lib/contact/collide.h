@@ -55,7 +55,7 @@ struct CollisionBody {
 /// Finds the contact points of a pair no farther apart than `reach`, m; none, and an empty result, if there are none.
 /// Spheres, capsules, sharp boxes and half-spaces have ways of their own; the rest go through contact_points().
 /// Their features are linked, and `rounding` where one is rounded. Precision: 2^-26 of the larger body's bounding
-/// diameter (fixed; tests/collision), of a half-space of the other body's size and 2^-31 of its distance from the
+/// diameter (fixed; tests/unit/contact), of a half-space of the other body's size and 2^-31 of its distance from the
 /// plane's origin.
 void collide(const CollisionBody& a, const CollisionBody& b, const ContactReach& reach, ContactGeometry& contact,
              const AssetTable& assets = {}, ManifoldReduction reduction = ManifoldReduction::projected_extremes,

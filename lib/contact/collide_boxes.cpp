@@ -198,7 +198,7 @@ int64_t raw_from(Unit value) {
 #endif
 }
 
-/// The vertices of the contact, as indices: at most four.
+/// The vertices of the contact, as ascending indices: at most four.
 uint32_t choose_corners(const FaceVertex* polygon, uint32_t count, ManifoldReduction reduction, Unit drop,
                         uint32_t chosen[k_manifold_points_max]) {
   if (count <= k_manifold_points_max) {
@@ -212,8 +212,12 @@ uint32_t choose_corners(const FaceVertex* polygon, uint32_t count, ManifoldReduc
       choice.add({raw_from(p.u), raw_from(p.v), raw_from(p.w), AreaPoint::Kind::vertex, static_cast<uint8_t>(i), 0});
     }
   } while (choice.again());
-  for (int i = 0; i < choice.count(); ++i) chosen[i] = choice[i].incident;
-  return static_cast<uint32_t>(choice.count());
+  uint32_t bits = 0, kept = 0;
+  for (int i = 0; i < choice.count(); ++i) bits |= 1u << choice[i].incident;
+  for (uint32_t i = 0; i < count; ++i) {
+    if ((bits >> i & 1) != 0) chosen[kept++] = i;
+  }
+  return kept;
 }
 
 Unit sign_of(Unit value) { return value < Unit(0.0) ? Unit(-1.0) : Unit(1.0); }

@@ -68,7 +68,7 @@ int64_t AreaChoice::gain_of(const AreaPoint& point) const {
 
 int64_t AreaChoice::least_gain() const {
   const AreaPoint* c = chosen_;
-  if (chosen_count_ == 1) return 0;
+  if (chosen_count_ == 1 || reduction_ == ManifoldReduction::deepest_area) return 0;
   if (chosen_count_ == 2) return distance_squared(c[0], c[1]) >> 6;
   return static_cast<int64_t>(magnitude_64(twice_area(c[0], c[1], c[2]))) >> 3;
 }

@@ -41,7 +41,8 @@ class AreaChoice {
 
  private:
   static constexpr int k_diagonals = 4;
-  /// What another corner must gain: an area of a 64th of the distance of two, squared; an eighth of that of three.
+  /// What another corner must gain to follow the extremes: an area of a 64th of the distance of two, squared; an eighth
+  /// of that of three.
   int64_t least_gain() const;
   int64_t gain_of(const AreaPoint& point) const;
   void choose_extremes();
