@@ -73,21 +73,25 @@ endif()
 # --gc-sections can leave files out.
 option(DETENT_UNITY "Compile each floor of the library as one translation unit" ON)
 
+# detent_library(<target> <export name>): a static library, compiled as the library is.
+function(detent_library target export_name)
+  add_library(${target} STATIC)
+  add_library(detent::${export_name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${export_name} OUTPUT_NAME ${target})
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/lib)
+  target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:detent_library_options>)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${DETENT_UNITY} UNITY_BUILD_MODE GROUP)
+endfunction()
+
 foreach(config IN LISTS DETENT_CONFIGS)
   if(NOT config IN_LIST DETENT_ALL_CONFIGS)
     message(FATAL_ERROR "detent: unknown configuration '${config}'; choose from: ${DETENT_ALL_CONFIGS}")
   endif()
   string(TOUPPER ${config} upper)
-  add_library(detent_${config} STATIC)
-  add_library(detent::${config} ALIAS detent_${config})
-  set_target_properties(detent_${config} PROPERTIES EXPORT_NAME ${config} OUTPUT_NAME detent_${config})
-  target_compile_features(detent_${config} PUBLIC cxx_std_20)
+  detent_library(detent_${config} ${config})
   target_compile_definitions(detent_${config} PUBLIC DETENT_${upper}=1)
-  target_include_directories(detent_${config}
-    PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
-    PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/lib)
-  target_link_libraries(detent_${config} PRIVATE $<BUILD_INTERFACE:detent_library_options>)
-  set_target_properties(detent_${config} PROPERTIES UNITY_BUILD ${DETENT_UNITY} UNITY_BUILD_MODE GROUP)
+  target_include_directories(detent_${config} PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>)
 endforeach()
 if(NOT DETENT_CONFIG IN_LIST DETENT_CONFIGS)
   message(FATAL_ERROR "detent: DETENT_CONFIG is '${DETENT_CONFIG}', which DETENT_CONFIGS (${DETENT_CONFIGS}) does not build")
@@ -103,6 +107,19 @@ function(detent_floor)
   foreach(config IN LISTS DETENT_CONFIGS)
     target_sources(detent_${config} PRIVATE ${sources})
   endforeach()
+endfunction()
+
+# detent_library_beside(<name> <sources>...): a floor that is a library of its own in each configuration, for who asks for it:
+# detent::<name>_<config>, and detent::<name> for the default one.
+function(detent_library_beside name)
+  list(TRANSFORM ARGN PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ OUTPUT_VARIABLE sources)
+  set_source_files_properties(${sources} DIRECTORY ${PROJECT_SOURCE_DIR} PROPERTIES UNITY_GROUP ${name})
+  foreach(config IN LISTS DETENT_CONFIGS)
+    detent_library(detent_${name}_${config} ${name}_${config})
+    target_link_libraries(detent_${name}_${config} PUBLIC detent_${config})
+    target_sources(detent_${name}_${config} PRIVATE ${sources})
+  endforeach()
+  add_library(detent::${name} ALIAS detent_${name}_${DETENT_CONFIG})
 endfunction()
 
 # detent_per_config(<name> <sources>...): an object library <name>_<config> for each configuration, that sees the public

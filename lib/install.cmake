@@ -18,7 +18,10 @@ if(TARGET detent_tool)
   install(FILES ${detent_pages} DESTINATION ${CMAKE_INSTALL_DOCDIR})
 endif()
 
-list(TRANSFORM DETENT_CONFIGS PREPEND detent_ OUTPUT_VARIABLE detent_libraries)
+set(detent_libraries "")
+foreach(config IN LISTS DETENT_CONFIGS)
+  list(APPEND detent_libraries detent_${config} detent_toi_methods_${config})
+endforeach()
 install(TARGETS ${detent_libraries} EXPORT detent_targets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 

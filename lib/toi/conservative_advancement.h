@@ -1,9 +1,12 @@
 #pragma once
+#include <detent/toi_methods.h>
+
 #include "toi/moving_pair.h"
-#include "toi/toi_methods.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
+
+inline constexpr int k_axis_methods = 6;  ///< the first of ToiMethod, which move along certified axes (advance.h)
 
 /// The library's own method: the one that is never far from the best on any kind of query (docs/bench).
 #if defined(DETENT_TOI_METHOD)

@@ -2,10 +2,10 @@
 #include <detent/distance.h>
 #include <detent/toi.h>
 
+#include <detent/toi_methods.h>
 #include "tests/bench/cooked.h"
 #include "tests/bench/engine.h"
 #include "tests/bench/pose.h"
-#include "toi/toi_methods.h"
 
 #define DETENT_BENCH_TEXT_OF(name) #name
 #define DETENT_BENCH_TEXT(name) DETENT_BENCH_TEXT_OF(name)

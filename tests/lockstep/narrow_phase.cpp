@@ -6,12 +6,12 @@
 #include <ports/print.h>
 #include <string.h>
 
+#include <detent/toi_methods.h>
 #include "base/digest.h"
 #include "distance/pair.h"
 #include "distance/support.h"
 #include "math/arithmetic.h"
 #include "narrow_phase_pairs.h"
-#include "toi/toi_methods.h"
 
 /// The questions of the narrow phase on any target, a microcontroller too: no allocation, no C library beyond string.h.
 ///

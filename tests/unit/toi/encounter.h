@@ -2,10 +2,10 @@
 #include <detent/distance.h>
 #include <detent/toi.h>
 
+#include <detent/toi_methods.h>
 #include "base/digest.h"
 #include "tests/unit/distance/closed_form.h"
 #include "tests/unit/distance/exact_numbers.h"
-#include "toi/toi_methods.h"
 
 /// Two shapes that move, and what must hold of their time of impact.
 namespace detent {

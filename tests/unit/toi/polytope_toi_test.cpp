@@ -1,7 +1,7 @@
 #include "tests/oracle/effort.h"
 #include "tests/oracle/motions.h"
 #include "tests/unit/toi/encounter.h"
-#include "toi/feature_pairs.h"
+#include "toi_methods/feature_pairs.h"
 
 /// Times of impact of polytopes by their features (feature_pairs.h, redon.h, canny.h).
 namespace detent {

@@ -1,4 +1,4 @@
-#include "toi/witness_axis.h"
+#include "toi_methods/witness_axis.h"
 
 #include "tests/oracle/effort.h"
 #include "tests/unit/toi/encounter.h"

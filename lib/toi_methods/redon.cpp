@@ -1,7 +1,7 @@
-#include "toi/redon.h"
+#include "toi_methods/redon.h"
 
-#include "toi/feature_pairs.h"
 #include "toi/screw_motion.h"
+#include "toi_methods/feature_pairs.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

@@ -1,4 +1,4 @@
-#include "toi/ballistic.h"
+#include "toi_methods/ballistic.h"
 
 #include "math/root.h"
 #include "math/trig_integer.h"

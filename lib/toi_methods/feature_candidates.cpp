@@ -1,4 +1,4 @@
-#include "toi/feature_candidates.h"
+#include "toi_methods/feature_candidates.h"
 
 #include "distance/pair.h"
 #include "math/root.h"

@@ -1,7 +1,7 @@
-#include "toi/canny.h"
+#include "toi_methods/canny.h"
 
 #include "math/root.h"
-#include "toi/feature_pairs.h"
+#include "toi_methods/feature_pairs.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

@@ -1,11 +1,11 @@
-#include "toi/toi_methods.h"
+#include <detent/toi_methods.h>
 
-#include "toi/ballistic.h"
-#include "toi/canny.h"
 #include "toi/conservative_advancement.h"
-#include "toi/feature_pairs.h"
-#include "toi/redon.h"
-#include "toi/witness_axis.h"
+#include "toi_methods/ballistic.h"
+#include "toi_methods/canny.h"
+#include "toi_methods/feature_pairs.h"
+#include "toi_methods/redon.h"
+#include "toi_methods/witness_axis.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

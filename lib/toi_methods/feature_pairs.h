@@ -2,7 +2,7 @@
 #include <detent/toi.h>
 
 #include "distance/gjk.h"
-#include "toi/feature_candidates.h"
+#include "toi_methods/feature_candidates.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

@@ -1,4 +1,4 @@
-#include "toi/feature_pairs.h"
+#include "toi_methods/feature_pairs.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

@@ -1,4 +1,4 @@
-#include "toi/witness_axis.h"
+#include "toi_methods/witness_axis.h"
 
 #include "toi/axis_by_axis.h"
 #include "toi/features.h"
