@@ -15,7 +15,7 @@ constexpr bool masks_meet(uint32_t category_a, uint32_t mask_a, uint32_t categor
 }
 
 /// Whether there is nobody that the body may touch or sense, whatever the others' filters are.
-inline bool is_aloof(const BodyTraits& traits) {
+inline bool is_non_colliding(const BodyTraits& traits) {
   return traits.group <= 0 && (traits.category == 0 || traits.mask == 0);
 }
 

@@ -91,7 +91,7 @@ struct Impact {
     }
   }
 
-  void rub() {
+  void solve_friction() {
     Real normal = k_zero;
     for (uint32_t i = 0; i < count; ++i) normal += normal_impulse[i];
     bool saturated = false;
@@ -204,7 +204,7 @@ bool resolve_impact(const ContactWork& contact, uint32_t count, Real least, Real
   for (int sweep = 0; sweep < k_sweeps_max; ++sweep) {
     impact.largest = k_zero;
     for (uint32_t i = 0; i < count; ++i) impact.push(i);
-    impact.rub();
+    impact.solve_friction();
     if (impact.largest <= enough) break;
   }
   // Friction had the last word: what is left may be a slow approach. Then the impulses are put on the

@@ -15,7 +15,7 @@ bool holds(const Bounds& outer, const Bounds& inner) {
 
 /// Bounds of a body over a sweep, with a margin below that of the bounds that pairs are found by.
 Bounds bounds_over(const BodyTraits& traits, const BodyPose& pose, const Sweep& sweep) {
-  if (is_aloof(traits)) return k_nowhere;
+  if (is_non_colliding(traits)) return k_nowhere;
   if (is_half_space(traits)) return k_everywhere;
   const Real margin = scale_by_power(bounds_extent(traits), -8);
   Vec3<Real> reach = half_bounds(traits, matrix_from(pose.rotation));
@@ -65,7 +65,7 @@ Quat end_rotation(const ImpactStage& stage, uint32_t slot) {
 void ImpactStage::start_sweeps() {
   bodies.visits.for_each([&](uint32_t slot) {
     BodySweep& sweep = bodies.sweeps[slot];
-    if (is_aloof(bodies.traits[slot])) {
+    if (is_non_colliding(bodies.traits[slot])) {
       begin_sweep(*this, slot);
       return;
     }

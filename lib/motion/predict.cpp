@@ -31,7 +31,7 @@ Real start_body(const StepSettings& settings, const BodyTraits& traits, const Bo
   work.axes = matrix_from(pose.rotation);
   work.gyration = world_gyration(traits, work.axes);
   work.free_turn = free_turn_of(traits);
-  if (!is_aloof(traits)) {  // contacts alone read them
+  if (!is_non_colliding(traits)) {  // contacts alone read them
     work.extent = shape_extent(traits);
     work.fall = fall_speed(settings, work.extent);
     if (!(motion.momentum == none)) spin = absolute_sum(spin_of(traits, pose.rotation, motion.momentum));
@@ -66,7 +66,7 @@ void bound(const StepSettings& settings, Span<const BodyPose> poses, Span<const 
   for (const uint32_t slot : bodies) {
     const BodyTraits& body = traits[slot];
     const Real spin = start_body(settings, body, poses[slot], motions[slot], work[slot]);
-    if (is_aloof(body)) {
+    if (is_non_colliding(body)) {
       bounds[slot] = k_nowhere;
       continue;
     }

@@ -8,7 +8,7 @@ inline namespace DETENT_NAMESPACE {
 /// Of push_max: a point that closes its gap within it meets in this substep.
 inline constexpr Unit k_arrival = 1.0 / 512;
 /// Over a contact's points, until no impulse changes by more than this part of the greatest.
-inline constexpr int k_soften_sweeps = 8, k_relax_sweeps = 8;
+inline constexpr int k_normal_sweeps = 8, k_relax_sweeps = 8;
 inline constexpr Unit k_settled = 0x1p-14;
 
 /// The points of a contact in one pass: the bodies are needed only when it begins and when it ends.
@@ -159,7 +159,7 @@ struct ContactSolver {
   }
 
   /// Pulls overlapping points apart as damped springs, and lets others close their gap and no more.
-  void soften() {
+  void solve_normals() {
     typename Kind::Block near;
     near.include(contact.separation, contact.state.point_count);
     const PairMotion<Kind> moved(near, b.displacement - a.displacement, a.turn, b.turn, 0);
@@ -187,7 +187,7 @@ struct ContactSolver {
           block.converted(held(times(length, Kind::unit(settings.rate_mantissa))), moved.block, settings.rate_exponent);
       push[i] = select(apart[i], speed, max(speed, Factor(-push_max)));
     }
-    normals.solve(k_soften_sweeps, [&](uint32_t i) {
+    normals.solve(k_normal_sweeps, [&](uint32_t i) {
       const Factor wanted = held(times(held(normals.speed(i) + push[i]), contact.inverse_mass[i]));
       const Number softly = times(wanted, soft.mass_scale) + times(held(normals.impulse[i]), soft.impulse_scale);
       return relaxed(select(apart[i], Number(wanted), softly));
@@ -226,9 +226,9 @@ struct ContactSolver {
 
     // Friction has the last word: what a slope's normals push along it would otherwise creep.
     const Factor normal = normal_impulse(motion.block);
-    if (contact.angular_rows == 3) roll(normal, sliding);
+    if (contact.angular_rows == 3) solve_rolling(normal, sliding);
     if (contact.angular_rows != 0) twist(normal, sliding);
-    rub(normal, sliding);
+    solve_friction(normal, sliding);
     apply_wrench<Kind>(contact, motion.block, sliding.wrench, a, b);
   }
 
@@ -262,7 +262,7 @@ struct ContactSolver {
     sliding.template bring<second>(after[1], impulse[1]);
   }
   /// Spin about the tangents.
-  void roll(Factor normal, Sliding<Kind>& sliding) {
+  void solve_rolling(Factor normal, Sliding<Kind>& sliding) {
     stop_in_circle<k_about_first, k_about_second>(contact.angular_impulse + 1, contact.angular_mass + 1,
                                                   times(normal, contact.rolling_arm), sliding);
   }
@@ -273,7 +273,7 @@ struct ContactSolver {
     sliding.template bring<k_about_normal>(clamp(wanted, Factor(-limit), limit), contact.angular_impulse[0]);
   }
   /// Sliding, within the friction cone.
-  void rub(Factor normal, Sliding<Kind>& sliding) {
+  void solve_friction(Factor normal, Sliding<Kind>& sliding) {
     stop_in_circle<k_along_first, k_along_second>(contact.friction_impulse, contact.friction_mass,
                                                   times(normal, contact.friction), sliding);
   }

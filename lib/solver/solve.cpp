@@ -206,7 +206,7 @@ SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<
       place_kinematic(bodies.traits[b], bodies.motions[b], elapsed, bodies.work[b]);
     }
     if (joints.code == nullptr) {
-      sweep([](Solver& contact) { contact.soften(); }, soften_quad);
+      sweep([](Solver& contact) { contact.solve_normals(); }, solve_normals_quad);
     } else {
       const Island& own = *joints.island;
       JointStage& stage = *joints.stage;
@@ -216,7 +216,7 @@ SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<
         remember(bodies, island);
         for (uint32_t left = round == 0 ? settings.iterations + 1 : 1; left > 0; --left)
           pass(
-              settings, bodies, order, contacts, [](Solver& contact) { contact.soften(); }, soften_quad);
+              settings, bodies, order, contacts, [](Solver& contact) { contact.solve_normals(); }, solve_normals_quad);
         if (has_settled(bodies, island, enough)) break;
         const bool last = has_settled(bodies, island, enough_for_joints);
         count.clamped += joints.code->hold_again(settings, bodies, island, own, elapsed, stage, undecided);
@@ -240,7 +240,7 @@ SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<
   return count;
 }
 
-uint32_t fly(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> island) {
+uint32_t integrate_free(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> island) {
   constexpr int k_halvings = 2;
   uint32_t clamped = 0;
   for (uint32_t substep = 0; substep < settings.substeps; ++substep) {
@@ -250,7 +250,7 @@ uint32_t fly(const StepSettings& settings, const SolverBodies& bodies, Span<cons
   return clamped;
 }
 
-uint32_t carry(const StepSettings& settings, const SolverBodies& bodies) {
+uint32_t integrate_kinematic(const StepSettings& settings, const SolverBodies& bodies) {
   uint32_t clamped = 0;
   for (uint32_t slot = 0; slot < bodies.traits.count; ++slot) {
     const BodyTraits& traits = bodies.traits[slot];

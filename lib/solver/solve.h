@@ -33,10 +33,10 @@ SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<
 
 /// Moves an island without contacts: under constant acceleration its centre's way is exact, and each body's turning is
 /// split in four (spin.h).
-uint32_t fly(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> island);
+uint32_t integrate_free(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> island);
 
 /// Moves the kinematic bodies through the tick.
-uint32_t carry(const StepSettings& settings, const SolverBodies& bodies);
+uint32_t integrate_kinematic(const StepSettings& settings, const SolverBodies& bodies);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

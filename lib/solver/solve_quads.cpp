@@ -146,7 +146,7 @@ DETENT_QUAD_INLINE void write_normals(const QuadContact& from, Contacts to) {
   write_reals_at(from.impulse_max, to, DETENT_AT(impulse_max));
 }
 
-DETENT_QUAD_INLINE void write_softened(const QuadContact& from, Contacts to) {
+DETENT_QUAD_INLINE void write_solved(const QuadContact& from, Contacts to) {
   write_normals(from, to);
   QuadInt32 words[4];
   DETENT_UNROLL
@@ -259,10 +259,10 @@ void warm_start_quad(const StepSettings& settings, const SolverBodies& bodies, C
       [](const QuadContact&, Contacts) {});
 }
 
-void soften_quad(const StepSettings& settings, const SolverBodies& bodies, Contacts contacts) {
+void solve_normals_quad(const StepSettings& settings, const SolverBodies& bodies, Contacts contacts) {
   pass(
-      settings, bodies, contacts, true, read_gaps, [](ContactSolver<Four>& solver) { solver.soften(); },
-      write_softened);
+      settings, bodies, contacts, true, read_gaps, [](ContactSolver<Four>& solver) { solver.solve_normals(); },
+      write_solved);
 }
 
 void relax_quad(const StepSettings& settings, const SolverBodies& bodies, Contacts contacts) {

@@ -13,13 +13,13 @@ bool has_quads();
 
 /// As the passes of ContactSolver<One>. Range: no dynamic body twice; equal counts of points and of angular rows.
 void warm_start_quad(const StepSettings& settings, const SolverBodies& bodies, ContactWork* const (&contacts)[4]);
-void soften_quad(const StepSettings& settings, const SolverBodies& bodies, ContactWork* const (&contacts)[4]);
+void solve_normals_quad(const StepSettings& settings, const SolverBodies& bodies, ContactWork* const (&contacts)[4]);
 void relax_quad(const StepSettings& settings, const SolverBodies& bodies, ContactWork* const (&contacts)[4]);
 #else
 inline constexpr bool k_built_with_quads = false;
 constexpr bool has_quads() { return false; }
 inline void warm_start_quad(const StepSettings&, const SolverBodies&, ContactWork* const (&)[4]) {}
-inline void soften_quad(const StepSettings&, const SolverBodies&, ContactWork* const (&)[4]) {}
+inline void solve_normals_quad(const StepSettings&, const SolverBodies&, ContactWork* const (&)[4]) {}
 inline void relax_quad(const StepSettings&, const SolverBodies&, ContactWork* const (&)[4]) {}
 #endif
 

@@ -187,7 +187,7 @@ void visit_trace(const World& world, TraceStage stage, uint32_t contacts, const 
   if (!works && !sweeps) return;
   const StepCacheView cache = cache_of(world.block, state.layout, capacity);
   cache.visits.for_each([&](uint32_t slot) {
-    if (works) visit_body(scratch.bodies[slot], is_aloof(state.traits[slot]), slot, visitor);
+    if (works) visit_body(scratch.bodies[slot], is_non_colliding(state.traits[slot]), slot, visitor);
     if (is(StepStage::find_pairs)) give_value(visitor, k_bounds, slot, cache.bounds[slot]);
     if (!sweeps) return;
     const BodySweep& sweep = scratch.sweeps[slot];

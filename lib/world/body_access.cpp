@@ -90,8 +90,8 @@ struct Change {
     return Status::ok;
   }
   void make() {
-    rouse(state, slot);
-    rouse_neighbours(state, slot);
+    wake_slot(state, slot);
+    wake_neighbours(state, slot);
     state.traits[slot] = traits;
     state.motions[slot] = motion;
   }

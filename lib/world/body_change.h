@@ -8,7 +8,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// What changes a body from outside wakes it.
-inline void rouse(StateView<uint8_t>& state, uint32_t slot) {
+inline void wake_slot(StateView<uint8_t>& state, uint32_t slot) {
   const StepCacheView step = cache_of(state);
   state.world.idle = 0;
   if (wake_all_with(slot, state.activities, step.visits) != 0) step.cache.contacts_known = 0;
@@ -21,15 +21,15 @@ inline void look_at_again(StateView<uint8_t>& state, uint32_t slot) {
   cache_of(state).visits.set(slot);
 }
 /// And what takes it away wakes those that it touches or is joined to.
-inline void rouse_neighbours(StateView<uint8_t>& state, uint32_t slot) {
+inline void wake_neighbours(StateView<uint8_t>& state, uint32_t slot) {
   for (const ContactState& contact : state.contacts.first(state.world.contact_count)) {
-    if (contact.body_a == slot) rouse(state, contact.body_b);
-    if (contact.body_b == slot) rouse(state, contact.body_a);
+    if (contact.body_a == slot) wake_slot(state, contact.body_b);
+    if (contact.body_b == slot) wake_slot(state, contact.body_a);
   }
   for (const JointState& joint : state.joints.first(state.world.joints_used)) {
     if (joint.type == 0) continue;
-    if (joint.body_a == slot) rouse(state, joint.body_b);
-    if (joint.body_b == slot) rouse(state, joint.body_a);
+    if (joint.body_a == slot) wake_slot(state, joint.body_b);
+    if (joint.body_b == slot) wake_slot(state, joint.body_a);
   }
 }
 /// Wakes all, for what they rest by has changed.
@@ -48,8 +48,8 @@ inline void rouse_world(StateView<uint8_t>& state) {
 }
 /// The body is no longer what its contacts were made with.
 inline void end_contacts(StateView<uint8_t>& state, uint32_t slot) {
-  rouse(state, slot);
-  rouse_neighbours(state, slot);
+  wake_slot(state, slot);
+  wake_neighbours(state, slot);
   state.world.contact_count = remove_contacts(slot, state.contacts.first(state.world.contact_count), state.manifolds);
   cache_of(state).cache.contacts_known = 0;
 }

@@ -54,8 +54,8 @@ void rouse_forbidden(const World& world, StateView<uint8_t>& state, uint32_t slo
   const PairFilter filter = {state.traits, world.filter_rules};
   for (const ContactState& contact : state.contacts.first(state.world.contact_count)) {
     if ((contact.body_a != slot && contact.body_b != slot) || filter.allows(contact.body_a, contact.body_b)) continue;
-    rouse(state, contact.body_a);
-    rouse(state, contact.body_b);
+    wake_slot(state, contact.body_a);
+    wake_slot(state, contact.body_b);
   }
 }
 
@@ -136,8 +136,8 @@ Status set_pose(World& world, BodyId id, const Position& position, const Quat& r
   if (!find_body(state, id, slot)) return Status::bad_id;
   const Status status = make_pose(position, rotation, state.poses[slot]);
   if (status != Status::ok) return status;
-  rouse(state, slot);
-  rouse_neighbours(state, slot);
+  wake_slot(state, slot);
+  wake_neighbours(state, slot);
   return Status::ok;
 }
 
@@ -150,7 +150,7 @@ Status set_velocity(World& world, BodyId id, const Vec3<Real>& velocity, const V
   const Status status = make_motion(state.traits[slot], state.poses[slot].rotation, velocity, spin, motion);
   if (status != Status::ok) return status;
   state.motions[slot] = motion;
-  rouse(state, slot);
+  wake_slot(state, slot);
   return Status::ok;
 }
 
@@ -159,7 +159,7 @@ Status wake_body(World& world, BodyId id) {
   uint32_t slot = 0;
   if (!find_body(state, id, slot)) return Status::bad_id;
   if (!is_dynamic(state.traits[slot])) return Status::bad_argument;
-  rouse(state, slot);
+  wake_slot(state, slot);
   return Status::ok;
 }
 
@@ -194,7 +194,7 @@ Status set_filter(World& world, BodyId id, const Filter& filter) {
   if (!find_body(state, id, slot)) return Status::bad_id;
   if (!has_rule(world.filter_rules, filter.rule)) return Status::rule_missing;
   set_filter(filter, state.traits[slot]);
-  rouse(state, slot);
+  wake_slot(state, slot);
   rouse_forbidden(world, state, slot);
   return Status::ok;
 }

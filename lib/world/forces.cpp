@@ -55,7 +55,7 @@ struct BodyPush {
   }
   void make() {
     state.motions[slot] = motion;
-    rouse(state, slot);
+    wake_slot(state, slot);
   }
   Status commit() {
     if (!fits()) return Status::out_of_range;
@@ -219,7 +219,7 @@ Status move_kinematic(World& world, BodyId id, const Position& position, const Q
   const Status status = make_motion(traits, pose.rotation, over_time(way), over_time(angle), motion);
   if (status != Status::ok) return status;
   state.motions[slot] = motion;
-  rouse(state, slot);
+  wake_slot(state, slot);
   return Status::ok;
 }
 

@@ -94,8 +94,8 @@ bool is_broken(const JointState& joint) {
 
 void remove_joint(StateView<uint8_t>& state, uint32_t slot) {
   JointState& joint = state.joints[slot];
-  rouse(state, joint.body_a);
-  rouse(state, joint.body_b);
+  wake_slot(state, joint.body_a);
+  wake_slot(state, joint.body_b);
   const uint32_t generation = joint.generation;
   joint = JointState{};
   joint.generation = generation;
@@ -175,8 +175,8 @@ Status create_joint(World& world, const JointDef& def, JointId& id) {
   if (!take_joint_slot(state, slot)) return Status::pool_full;
   joint.generation = state.joints[slot].generation + 1;
   state.joints[slot] = joint;
-  rouse(state, a);
-  rouse(state, b);
+  wake_slot(state, a);
+  wake_slot(state, b);
   id = {slot + 1, joint.generation};
   return Status::ok;
 }
@@ -204,8 +204,8 @@ Status set_joint(World& world, JointId id, const JointDef& def) {
     for (uint32_t i = 0; i < k_joint_rows_max; ++i) joint.impulse[i] = before.impulse[i];
   }
   before = joint;
-  rouse(state, joint.body_a);
-  rouse(state, joint.body_b);
+  wake_slot(state, joint.body_a);
+  wake_slot(state, joint.body_b);
   return Status::ok;
 }
 

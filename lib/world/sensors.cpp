@@ -139,7 +139,7 @@ void add(SensorStage& stage, SensedKeys& keys, uint64_t key) {
 }
 
 /// Finds whether a body is within a sensor when the tick ends, or was on the last stretch of its way.
-void settle(SensorStage& stage, uint32_t sensor, uint32_t body) {
+void evaluate_pair(SensorStage& stage, uint32_t sensor, uint32_t body) {
   if (!may_sense(stage, sensor, body)) return;
   const uint64_t within = sensed_key(sensor, body, false), through = sensed_key(sensor, body, true);
   const uint32_t place = find_passed(stage, through);
@@ -167,15 +167,15 @@ void settle_changed(SensorStage& stage) {
     const Bounds reach = reach_of(stage, slot);
     if (!is_sensor(traits)) {
       cache.tree.for_each_near(reach, [&](uint32_t other) {
-        if (is_sensor(stage.traits[other]) && !stage.changed.has(other)) settle(stage, other, slot);
+        if (is_sensor(stage.traits[other]) && !stage.changed.has(other)) evaluate_pair(stage, other, slot);
       });
       return;
     }
     cache.tree.for_each_near(reach, [&](uint32_t other) {
-      if (!cache.visits.has(other)) settle(stage, slot, other);
+      if (!cache.visits.has(other)) evaluate_pair(stage, slot, other);
     });
     cache.visits.for_each([&](uint32_t other) {
-      if (overlap(reach, cache.bounds[other])) settle(stage, slot, other);
+      if (overlap(reach, cache.bounds[other])) evaluate_pair(stage, slot, other);
     });
   });
 }

@@ -35,11 +35,11 @@ Span<const uint32_t> list_moving(BitSet visits, Span<uint32_t> slots) {
 }
 
 /// Moves the kinematic bodies among those that move.
-uint32_t carry_all(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> moving) {
+uint32_t integrate_kinematic_bodies(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> moving) {
   uint32_t clamped = 0;
   for (const uint32_t slot : moving) {
     if (is_dynamic(bodies.traits[slot])) continue;
-    clamped += carry(settings, {{&bodies.traits[slot], 1}, {&bodies.motions[slot], 1}, {&bodies.work[slot], 1}});
+    clamped += integrate_kinematic(settings, {{&bodies.traits[slot], 1}, {&bodies.motions[slot], 1}, {&bodies.work[slot], 1}});
   }
   return clamped;
 }
@@ -56,7 +56,7 @@ uint32_t solve_islands(StepSettings settings, const SolverBodies& bodies, Span<c
     const bool jointed = island.joint_count != 0;
     const IslandJoints island_joints = {jointed ? joint_code : nullptr, &island, &joints, &report.joint_decisions_left};
     if (order.count == 0 && !jointed) {
-      clamped += fly(settings, bodies, slots);
+      clamped += integrate_free(settings, bodies, slots);
     } else {
       const SolveCount count = solve(settings, bodies, slots, order, contacts, island_joints);
       clamped += count.clamped;
@@ -173,7 +173,7 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   Losses losses = {traits, {world.capacity_events.data, world.capacity_events.capacity}};
   const SensorCode* const sensor_code = sensor_code_of(world, state);
   if (sensor_code != nullptr) sensor_code->start(cache, used, scratch.changed);
-  Span<const uint32_t> moving = sort_out(cache, settings, state, work, scratch.sweeps, scratch.moving_bodies);
+  Span<const uint32_t> moving = partition_bodies(cache, settings, state, work, scratch.sweeps, scratch.moving_bodies);
   PairPool pool = {poses, traits, cache.bounds, scratch.pair_sort, scratch.pairs, world.filter_rules, apart};
   pool.losses = &losses;
   find_pairs(moving, cache.tree, scratch.bounds_keys, scratch.bounds_sort, pool);
@@ -222,7 +222,7 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   choose_substeps(settings, traits, work, scratch.island_bodies, order, islands, contacts, activities);
   stages.end(StepStage::islands, contacts.count);
   report.saturations = solve_islands(settings, solver_bodies, islands, scratch, contacts, joint_code, joints, report);
-  report.saturations += carry_all(settings, solver_bodies, moving);
+  report.saturations += integrate_kinematic_bodies(settings, solver_bodies, moving);
   stages.end(StepStage::solve, contacts.count);
   EventCount event_count =
       raise_events(poses, traits, awake_contacts, state.contacts, contacts, contact_events_of(world));

@@ -77,7 +77,7 @@ constexpr FeatureTable k_counted_features = counted_features();
     const Counted counted_(Stage::stage);    \
     return (function)(__VA_ARGS__);          \
   }())
-#define sort_out(...) DETENT_COUNTED(pairs, sort_out, __VA_ARGS__)
+#define partition_bodies(...) DETENT_COUNTED(pairs, partition_bodies, __VA_ARGS__)
 #define find_pairs(...) DETENT_COUNTED(pairs, find_pairs, __VA_ARGS__)
 #define collide(...) DETENT_COUNTED(collide, collide, __VA_ARGS__)
 #define make_rows(...) DETENT_COUNTED(rows, make_rows, __VA_ARGS__)
@@ -87,7 +87,7 @@ constexpr FeatureTable k_counted_features = counted_features();
 #define choose_substeps(...) DETENT_COUNTED(islands, choose_substeps, __VA_ARGS__)
 #define predict(...) DETENT_COUNTED(predict, predict, __VA_ARGS__)
 #define solve(...) DETENT_COUNTED(solve, solve, __VA_ARGS__)
-#define fly(...) DETENT_COUNTED(solve, fly, __VA_ARGS__)
+#define integrate_free(...) DETENT_COUNTED(solve, integrate_free, __VA_ARGS__)
 #define make_sweeps(...) DETENT_COUNTED(finalise, make_sweeps, __VA_ARGS__)
 #define finalise(...) DETENT_COUNTED(finalise, finalise, __VA_ARGS__)
 #define wake_touched counted_wake_touched
