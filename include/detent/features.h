@@ -55,56 +55,56 @@ constexpr Features feature_of(ShapeType type) { return static_cast<Features>(1u 
 
 /// @cond
 // The library's own: each is the way into the code of one feature.
-struct ShapeCode;
-struct PairCode;
-struct HalfSpaceCode;
-struct ConvexCode;
-struct HullCode;
-struct SurfaceCode;
-struct SurfaceImpactCode;
-struct SurfaceDistanceCode;
-struct CompoundCode;
-struct CompoundImpactCode;
-struct ContinuousCode;
-struct SleepingCode;
-struct JointCode;
-struct SensorCode;
-extern const ShapeCode k_sphere_code, k_capsule_code, k_box_code, k_half_space_shape_code, k_cylinder_code, k_cone_code,
-    k_hull_shape_code, k_surface_shape_code, k_compound_shape_code;
-extern const PairCode k_round_pair_code, k_box_round_pair_code, k_box_pair_code;
-extern const HalfSpaceCode k_half_space_code;
-extern const ConvexCode k_convex_code;
-extern const HullCode k_hull_code;
-extern const SurfaceCode k_surface_code;
-extern const SurfaceImpactCode k_surface_impact_code;
-extern const SurfaceDistanceCode k_surface_distance_code;
-extern const CompoundCode k_compound_code;
-extern const CompoundImpactCode k_compound_impact_code;
-extern const ContinuousCode k_continuous_code;
-extern const SleepingCode k_sleeping_code;
-extern const JointCode k_joint_code;
-extern const SensorCode k_sensor_code;
+struct ShapeOps;
+struct PairOps;
+struct HalfSpaceOps;
+struct ConvexOps;
+struct HullOps;
+struct SurfaceOps;
+struct SurfaceImpactOps;
+struct SurfaceDistanceOps;
+struct CompoundOps;
+struct CompoundImpactOps;
+struct ContinuousOps;
+struct SleepingOps;
+struct JointOps;
+struct SensorOps;
+extern const ShapeOps k_sphere_ops, k_capsule_ops, k_box_ops, k_half_space_shape_ops, k_cylinder_ops, k_cone_ops,
+    k_hull_shape_ops, k_surface_shape_ops, k_compound_shape_ops;
+extern const PairOps k_round_pair_ops, k_box_round_pair_ops, k_box_pair_ops;
+extern const HalfSpaceOps k_half_space_ops;
+extern const ConvexOps k_convex_ops;
+extern const HullOps k_hull_ops;
+extern const SurfaceOps k_surface_ops;
+extern const SurfaceImpactOps k_surface_impact_ops;
+extern const SurfaceDistanceOps k_surface_distance_ops;
+extern const CompoundOps k_compound_ops;
+extern const CompoundImpactOps k_compound_impact_ops;
+extern const ContinuousOps k_continuous_ops;
+extern const SleepingOps k_sleeping_ops;
+extern const JointOps k_joint_ops;
+extern const SensorOps k_sensor_ops;
 /// @endcond
 
 /// What a world calls, null where it is not linked. Made by feature_table; must outlive its worlds.
 struct FeatureTable {
   Features features;  ///< what it names
   /// @cond
-  const ShapeCode *sphere, *capsule, *box, *half_space_shape, *cylinder, *cone, *hull_shape, *surface_shape,
+  const ShapeOps *sphere, *capsule, *box, *half_space_shape, *cylinder, *cone, *hull_shape, *surface_shape,
       *compound_shape;
-  const PairCode *round_pair, *box_round_pair, *box_pair;
-  const HalfSpaceCode* half_space;
-  const ConvexCode* convex;  ///< pairs of which one is a cylinder, cone, hull or rounded
-  const HullCode* hull;
-  const SurfaceCode* surface;
-  const SurfaceImpactCode* surface_impact;
-  const SurfaceDistanceCode* surface_distance;
-  const CompoundCode* compound;
-  const CompoundImpactCode* compound_impact;  ///< where it is continuous, or there are sensors
-  const ContinuousCode* continuous;
-  const SleepingCode* sleeping;
-  const JointCode* joints;
-  const SensorCode* sensors;
+  const PairOps *round_pair, *box_round_pair, *box_pair;
+  const HalfSpaceOps* half_space;
+  const ConvexOps* convex;  ///< pairs of which one is a cylinder, cone, hull or rounded
+  const HullOps* hull;
+  const SurfaceOps* surface;
+  const SurfaceImpactOps* surface_impact;
+  const SurfaceDistanceOps* surface_distance;
+  const CompoundOps* compound;
+  const CompoundImpactOps* compound_impact;  ///< where it is continuous, or there are sensors
+  const ContinuousOps* continuous;
+  const SleepingOps* sleeping;
+  const JointOps* joints;
+  const SensorOps* sensors;
   /// @endcond
 };
 
@@ -114,32 +114,32 @@ constexpr FeatureTable make_feature_table(Features features) {
   const bool box = any(Features::box), round = any(Features::sphere | Features::capsule);
   FeatureTable table{};
   table.features = features & Features::all;
-  if (any(Features::sphere)) table.sphere = &k_sphere_code;
-  if (any(Features::capsule)) table.capsule = &k_capsule_code;
-  if (box) table.box = &k_box_code;
-  if (any(Features::half_space)) table.half_space_shape = &k_half_space_shape_code;
-  if (any(Features::cylinder)) table.cylinder = &k_cylinder_code;
-  if (any(Features::cone)) table.cone = &k_cone_code;
-  if (any(Features::hull)) table.hull_shape = &k_hull_shape_code;
-  if (any(Features::surface)) table.surface_shape = &k_surface_shape_code;
-  if (any(Features::compound)) table.compound_shape = &k_compound_shape_code;
-  if (round) table.round_pair = &k_round_pair_code;
-  if (box && round) table.box_round_pair = &k_box_round_pair_code;
-  if (box) table.box_pair = &k_box_pair_code;
-  if (any(Features::half_space)) table.half_space = &k_half_space_code;
-  if (any(Features::cylinder | Features::cone | Features::hull | Features::rounding)) table.convex = &k_convex_code;
-  if (any(Features::hull)) table.hull = &k_hull_code;
-  if (any(Features::surface)) table.surface = &k_surface_code;
+  if (any(Features::sphere)) table.sphere = &k_sphere_ops;
+  if (any(Features::capsule)) table.capsule = &k_capsule_ops;
+  if (box) table.box = &k_box_ops;
+  if (any(Features::half_space)) table.half_space_shape = &k_half_space_shape_ops;
+  if (any(Features::cylinder)) table.cylinder = &k_cylinder_ops;
+  if (any(Features::cone)) table.cone = &k_cone_ops;
+  if (any(Features::hull)) table.hull_shape = &k_hull_shape_ops;
+  if (any(Features::surface)) table.surface_shape = &k_surface_shape_ops;
+  if (any(Features::compound)) table.compound_shape = &k_compound_shape_ops;
+  if (round) table.round_pair = &k_round_pair_ops;
+  if (box && round) table.box_round_pair = &k_box_round_pair_ops;
+  if (box) table.box_pair = &k_box_pair_ops;
+  if (any(Features::half_space)) table.half_space = &k_half_space_ops;
+  if (any(Features::cylinder | Features::cone | Features::hull | Features::rounding)) table.convex = &k_convex_ops;
+  if (any(Features::hull)) table.hull = &k_hull_ops;
+  if (any(Features::surface)) table.surface = &k_surface_ops;
   if (any(Features::surface) && any(Features::continuous | Features::sensors))
-    table.surface_impact = &k_surface_impact_code;
-  if (any(Features::surface) && any(Features::sensors)) table.surface_distance = &k_surface_distance_code;
-  if (any(Features::compound)) table.compound = &k_compound_code;
+    table.surface_impact = &k_surface_impact_ops;
+  if (any(Features::surface) && any(Features::sensors)) table.surface_distance = &k_surface_distance_ops;
+  if (any(Features::compound)) table.compound = &k_compound_ops;
   if (any(Features::compound) && any(Features::continuous | Features::sensors))
-    table.compound_impact = &k_compound_impact_code;
-  if (any(Features::continuous)) table.continuous = &k_continuous_code;
-  if (any(Features::sleeping)) table.sleeping = &k_sleeping_code;
-  if (any(Features::joints)) table.joints = &k_joint_code;
-  if (any(Features::sensors)) table.sensors = &k_sensor_code;
+    table.compound_impact = &k_compound_impact_ops;
+  if (any(Features::continuous)) table.continuous = &k_continuous_ops;
+  if (any(Features::sleeping)) table.sleeping = &k_sleeping_ops;
+  if (any(Features::joints)) table.joints = &k_joint_ops;
+  if (any(Features::sensors)) table.sensors = &k_sensor_ops;
   return table;
 }
 

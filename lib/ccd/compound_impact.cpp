@@ -95,7 +95,7 @@ bool compound_impact(const AssetTable& assets, const FeatureTable& features, con
   return is_surface(a.traits) || is_surface(b.traits) ? search.ask_surface() : search.ask_parts();
 }
 
-const CompoundImpactCode k_compound_impact_code = {compound_impact};
+const CompoundImpactOps k_compound_impact_ops = {compound_impact};
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

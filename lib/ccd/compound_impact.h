@@ -1,6 +1,6 @@
 #pragma once
 #include "ccd/impact_pair.h"
-#include "contact/compound_code.h"
+#include "contact/compound_ops.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -12,7 +12,7 @@ bool compound_impact(const AssetTable& assets, const FeatureTable& features, con
                      Fraction time, const Ladder& ladder, Meeting& meeting);
 
 /// For a feature table.
-struct CompoundImpactCode {
+struct CompoundImpactOps {
   decltype(&compound_impact) find;
 };
 

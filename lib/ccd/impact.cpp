@@ -84,7 +84,7 @@ ImpactReport advance_to_impacts(const StepSettings& settings, const AssetTable& 
   return stage.report;
 }
 
-const ContinuousCode k_continuous_code = {advance_to_impacts};
+const ContinuousOps k_continuous_ops = {advance_to_impacts};
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

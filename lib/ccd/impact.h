@@ -91,7 +91,7 @@ ImpactReport advance_to_impacts(const StepSettings& settings, const AssetTable& 
                                 Span<ImpactHit> hits, ImpactProbe* probe = nullptr);
 
 /// For a feature table.
-struct ContinuousCode {
+struct ContinuousOps {
   decltype(&advance_to_impacts) advance;
 };
 

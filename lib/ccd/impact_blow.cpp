@@ -1,6 +1,6 @@
 #include "ccd/impact_response.h"
 #include "ccd/impact_stage.h"
-#include "contact/compound_code.h"
+#include "contact/compound_ops.h"
 #include "contact/contact_arm.h"
 #include "math/root.h"
 #include "motion/activity.h"

@@ -11,7 +11,7 @@ constexpr int k_parts_power_max = 8;  ///< of the parts in which a way is looked
 
 /// The triangles of a surface, one by one, against a body on its way.
 struct SurfaceSearch {
-  const SurfaceCode& code;
+  const SurfaceOps& code;
   const SweptBody& ground;
   const Surface surface;
   const Motion ground_motion;
@@ -130,7 +130,7 @@ struct SurfaceSearch {
 
 }  // namespace
 
-bool surface_impact(const AssetTable& assets, const SurfaceCode& code, const SweptBody& a, const SweptBody& b,
+bool surface_impact(const AssetTable& assets, const SurfaceOps& code, const SweptBody& a, const SweptBody& b,
                     const Convex& convex, Fraction time, TimeOfImpact& impact) {
   const bool ground_is_a = is_surface(a.traits);
   const SweptBody &ground = ground_is_a ? a : b, &body = ground_is_a ? b : a;
@@ -164,7 +164,7 @@ bool surface_impact(const AssetTable& assets, const SurfaceCode& code, const Swe
   return true;
 }
 
-const SurfaceImpactCode k_surface_impact_code = {surface_impact};
+const SurfaceImpactOps k_surface_impact_ops = {surface_impact};
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -45,7 +45,7 @@ bool make_frame(const CollisionBody& first, const CollisionBody& second, Real re
   return true;
 }
 
-const PairCode& code_of(const FeatureTable& features, const PairFrame& frame) {
+const PairOps& code_of(const FeatureTable& features, const PairFrame& frame) {
   if (frame.b.type == ShapeType::box) return *features.box_pair;
   return frame.a.type == ShapeType::box ? *features.box_round_pair : *features.round_pair;
 }

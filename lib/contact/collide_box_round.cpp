@@ -283,7 +283,7 @@ void collide_box_round(const PairFrame& frame, PairManifold& manifold) {
   }
 }
 
-const PairCode k_box_round_pair_code = {collide_box_round};
+const PairOps k_box_round_pair_ops = {collide_box_round};
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

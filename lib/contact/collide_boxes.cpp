@@ -368,7 +368,7 @@ void collide_boxes(const PairFrame& frame, PairManifold& manifold) {
   }
 }
 
-const PairCode k_box_pair_code = {collide_boxes};
+const PairOps k_box_pair_ops = {collide_boxes};
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -91,7 +91,7 @@ void collide_convex(const CollisionBody& a, const CollisionBody& b, const Contac
   if (!contact.capped) collide_convexes(a, convex_a, b, convex_b, reach, reduction, contact);
 }
 
-const ConvexCode k_convex_code = {collide_convex};
+const ConvexOps k_convex_ops = {collide_convex};
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

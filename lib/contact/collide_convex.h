@@ -10,7 +10,7 @@ inline namespace DETENT_NAMESPACE {
 /// For contact_points_by(). False if the reach is negative, or none.
 bool make_rules(const ContactReach& reach, ManifoldReduction reduction, ContactRules& rules);
 
-struct ConvexCode {
+struct ConvexOps {
   void (*collide)(const CollisionBody& a, const CollisionBody& b, const ContactReach& reach, const AssetTable& assets,
                   ManifoldReduction reduction, ContactGeometry& contact);
 };

@@ -100,7 +100,7 @@ void collide_half_space(const CollisionBody& plane, const CollisionBody& body, R
   }
 }
 
-const HalfSpaceCode k_half_space_code = {collide_half_space};
+const HalfSpaceOps k_half_space_ops = {collide_half_space};
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

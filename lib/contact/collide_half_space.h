@@ -4,7 +4,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-struct HalfSpaceCode {
+struct HalfSpaceOps {
   void (*collide)(const CollisionBody& plane, const CollisionBody& body, Real reach, ContactGeometry& contact);
 };
 

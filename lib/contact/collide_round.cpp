@@ -68,7 +68,7 @@ void collide_round(const PairFrame& frame, PairManifold& manifold) {
   add(along_a, along_b, 3);
 }
 
-const PairCode k_round_pair_code = {collide_round};
+const PairOps k_round_pair_ops = {collide_round};
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

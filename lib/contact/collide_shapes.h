@@ -12,7 +12,7 @@ inline namespace DETENT_NAMESPACE {
 inline constexpr Unit k_alike_cosine = 1.0 - 0x1p-5;
 
 /// One of the functions below, for a feature table.
-struct PairCode {
+struct PairOps {
   void (*collide)(const PairFrame& frame, PairManifold& manifold);
 };
 

@@ -2,7 +2,7 @@
 
 #include <detent/distance.h>
 
-#include "contact/surface_code.h"
+#include "contact/surface_ops.h"
 #include "distance/pair.h"
 #include "math/arithmetic.h"
 
@@ -46,7 +46,7 @@ bool farther_than_surface(const AssetTable& assets, const BodyTraits& ground, co
   return search.asked;
 }
 
-const SurfaceDistanceCode k_surface_distance_code = {farther_than_surface};
+const SurfaceDistanceOps k_surface_distance_ops = {farther_than_surface};
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -14,7 +14,7 @@ bool farther_than_surface(const AssetTable& assets, const BodyTraits& ground, co
                           const BodyTraits& body, const Convex& convex, const Pose& pose, Real reach, bool& farther);
 
 /// For a feature table.
-struct SurfaceDistanceCode {
+struct SurfaceDistanceOps {
   decltype(&farther_than_surface) farther;
 };
 

@@ -94,7 +94,7 @@ uint32_t end_joints(const StepSettings& settings, const SolverBodies& bodies, Sp
 void store_reactions(const StepSettings& settings, const SolverBodies& bodies, JointStage& stage);
 
 /// For a feature table.
-struct JointCode {
+struct JointOps {
   decltype(&collect_joints) collect;
   decltype(&order_joints) order;
   decltype(&begin_joints) begin;

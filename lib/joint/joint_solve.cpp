@@ -726,8 +726,8 @@ void store_reactions(const StepSettings& settings, const SolverBodies& bodies, J
   }
 }
 
-const JointCode k_joint_code = {collect_joints, order_joints, begin_joints, hold_joints,    hold_joints_again,
-                                follow_joints,  shift_joints, end_joints,   store_reactions};
+const JointOps k_joint_ops = {collect_joints, order_joints, begin_joints, hold_joints,    hold_joints_again,
+                              follow_joints,  shift_joints, end_joints,   store_reactions};
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

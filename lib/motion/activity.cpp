@@ -79,7 +79,7 @@ uint32_t fall_asleep(const StepSettings& settings, Span<const BodyTraits> traits
   return asleep;
 }
 
-const SleepingCode k_sleeping_code = {fall_asleep};
+const SleepingOps k_sleeping_ops = {fall_asleep};
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -33,7 +33,7 @@ uint32_t fall_asleep(const StepSettings& settings, Span<const BodyTraits> traits
                      Span<BodyMotion> motions, Span<BodyActivity> activities);
 
 /// For a feature table.
-struct SleepingCode {
+struct SleepingOps {
   decltype(&fall_asleep) end_step;
 };
 

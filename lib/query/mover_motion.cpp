@@ -2,7 +2,7 @@
 
 #include <detent/contact.h>
 
-#include "contact/compound_code.h"
+#include "contact/compound_ops.h"
 #include "query/query_surface.h"
 #include "shape/sweep.h"
 #include "state/ranges.h"

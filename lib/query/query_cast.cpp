@@ -1,7 +1,7 @@
 #include <detent/toi.h>
 
 #include "base/float_environment.h"
-#include "contact/compound_code.h"
+#include "contact/compound_ops.h"
 #include "distance/pair.h"
 #include "math/root.h"
 #include "query/query_hits.h"

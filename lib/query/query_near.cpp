@@ -1,7 +1,7 @@
 #include <detent/distance.h>
 
 #include "base/float_environment.h"
-#include "contact/compound_code.h"
+#include "contact/compound_ops.h"
 #include "distance/pair.h"
 #include "query/query_hits.h"
 #include "query/query_surface.h"

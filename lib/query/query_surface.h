@@ -1,5 +1,5 @@
 #pragma once
-#include "contact/surface_code.h"
+#include "contact/surface_ops.h"
 #include "world/query_bodies.h"
 
 /// Questions to a body that has a surface: to its triangles, one by one. Called through the world's table alone, so
@@ -9,7 +9,7 @@ inline namespace DETENT_NAMESPACE {
 
 /// A body with a surface, whose bytes are there.
 struct AskedSurface {
-  const SurfaceCode& code;
+  const SurfaceOps& code;
   Surface surface;
   Pose pose;
 };
@@ -19,7 +19,7 @@ inline bool has_surface_bytes(const World& world, const BodyTraits& traits) {
   return is_in(world.assets, traits.asset);
 }
 inline AskedSurface asked_surface(const World& world, const BodyTraits& traits, const BodyPose& pose) {
-  const SurfaceCode& code = *world.features->surface;
+  const SurfaceOps& code = *world.features->surface;
   return {code, code.view(world.assets.assets[traits.asset].bytes), {pose.position, pose.rotation}};
 }
 

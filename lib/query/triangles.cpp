@@ -41,7 +41,7 @@ Status visit_triangles(const World& world, BodyId id, void* user,
     }
   };
   Walk walk = {asked_surface(world, traits, state.poses[slot]), {}, user, visit};
-  const SurfaceCode& code = walk.surface.code;
+  const SurfaceOps& code = walk.surface.code;
   if (const Status status = code.place(walk.surface.pose, walk.surface.pose, walk.place); status != Status::ok)
     return status;
   constexpr int64_t k_all = int64_t{1} << 61;  // no coordinate of a surface is more than half of it

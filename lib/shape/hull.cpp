@@ -239,7 +239,7 @@ Status read_hull(const Asset& asset, HullView& hull) {
   return Status::ok;
 }
 
-const HullCode k_hull_code = {read_hull};
+const HullOps k_hull_ops = {read_hull};
 
 Status hull_info(const Asset& asset, HullInfo& info) {
   HullView hull;

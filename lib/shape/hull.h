@@ -177,7 +177,7 @@ DETENT_SHARED inline HullView hull_view(const uint8_t* bytes) {
 Status read_hull(const Asset& asset, HullView& hull);
 
 /// For a feature table.
-struct HullCode {
+struct HullOps {
   decltype(&read_hull) read;
 };
 

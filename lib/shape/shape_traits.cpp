@@ -255,18 +255,17 @@ Status measure_half_space(const Shape&, const AssetTable&, ShapeMeasure&) { retu
 
 }  // namespace
 
-const ShapeCode k_sphere_code = {measure_sphere, nullptr, sphere_volume, set_sphere_gyration};
-const ShapeCode k_capsule_code = {measure_capsule, nullptr, capsule_volume, set_capsule_gyration};
-const ShapeCode k_box_code = {measure_box, nullptr, box_volume, set_box_gyration};
-const ShapeCode k_cylinder_code = {measure_upright<ShapeType::cylinder>, nullptr, cylinder_volume,
-                                   set_cylinder_gyration};
-const ShapeCode k_cone_code = {measure_upright<ShapeType::cone>, nullptr, cone_volume, set_cone_gyration};
-const ShapeCode k_hull_shape_code = {measure_hull, set_hull_size, hull_volume, set_hull_gyration};
-const ShapeCode k_surface_shape_code = {measure_surface, set_surface_asset, nullptr, nullptr};
-const ShapeCode k_compound_shape_code = {measure_compound, set_compound_asset, compound_volume, set_compound_gyration};
-const ShapeCode k_half_space_shape_code = {measure_half_space, nullptr, nullptr, nullptr};
+const ShapeOps k_sphere_ops = {measure_sphere, nullptr, sphere_volume, set_sphere_gyration};
+const ShapeOps k_capsule_ops = {measure_capsule, nullptr, capsule_volume, set_capsule_gyration};
+const ShapeOps k_box_ops = {measure_box, nullptr, box_volume, set_box_gyration};
+const ShapeOps k_cylinder_ops = {measure_upright<ShapeType::cylinder>, nullptr, cylinder_volume, set_cylinder_gyration};
+const ShapeOps k_cone_ops = {measure_upright<ShapeType::cone>, nullptr, cone_volume, set_cone_gyration};
+const ShapeOps k_hull_shape_ops = {measure_hull, set_hull_size, hull_volume, set_hull_gyration};
+const ShapeOps k_surface_shape_ops = {measure_surface, set_surface_asset, nullptr, nullptr};
+const ShapeOps k_compound_shape_ops = {measure_compound, set_compound_asset, compound_volume, set_compound_gyration};
+const ShapeOps k_half_space_shape_ops = {measure_half_space, nullptr, nullptr, nullptr};
 
-const ShapeCode* code_of(const FeatureTable& features, ShapeType type) {
+const ShapeOps* code_of(const FeatureTable& features, ShapeType type) {
   switch (type) {
     case ShapeType::sphere:
       return features.sphere;
@@ -304,7 +303,7 @@ Status set_shape_traits(const Shape& shape, BodyTraits& traits, const AssetTable
     needed = needed | Features::rounding;
   }
   if (!contains(features.features, needed)) return Status::feature_missing;
-  const ShapeCode& code = *code_of(features, shape.type);
+  const ShapeOps& code = *code_of(features, shape.type);
   if (const Status status = code.measure(shape, assets, measure); status != Status::ok) return status;
   const bool bounded = shape.type != ShapeType::half_space;
   const Real bound = measure.bound + shape.rounding;
@@ -327,14 +326,14 @@ Status set_shape_traits(const Shape& shape, BodyTraits& traits, const AssetTable
 }
 
 Scaled shape_volume(const BodyTraits& traits, const AssetTable& assets, const FeatureTable& features) {
-  const ShapeCode* code = code_of(features, shape_of(traits));
+  const ShapeOps* code = code_of(features, shape_of(traits));
   const Scaled none = 0.0;
   if (code == nullptr || code->volume == nullptr) return none;
   return scaled_by_power(code->volume(traits, grown_sizes(traits), assets), 3 * traits.size_exponent);
 }
 
 void set_gyration(BodyTraits& traits, const AssetTable& assets, const FeatureTable& features) {
-  const ShapeCode* code = code_of(features, shape_of(traits));
+  const ShapeOps* code = code_of(features, shape_of(traits));
   if (code == nullptr || code->set_gyration == nullptr) return;
   code->set_gyration(traits, squares_of(grown_sizes(traits)), assets);
   for (uint32_t axis = 0; axis < 3; ++axis) {

@@ -61,7 +61,7 @@ struct ShapeMeasure {
 
 /// One shape's own part of set_shape_traits(), shape_volume() and set_gyration(): the linker keeps those that a table
 /// names.
-struct ShapeCode {
+struct ShapeOps {
   Status (*measure)(const Shape& shape, const AssetTable& assets, ShapeMeasure& measure);
   void (*set_size)(const Shape& shape, const AssetTable& assets, BodyTraits& traits);  ///< null: from the measure
   Scaled (*volume)(const BodyTraits& traits, const Vec3<Scaled>& sizes, const AssetTable& assets);  ///< null: none
@@ -69,7 +69,7 @@ struct ShapeCode {
 };
 
 /// Null if the shape is not linked.
-const ShapeCode* code_of(const FeatureTable& features, ShapeType type);
+const ShapeOps* code_of(const FeatureTable& features, ShapeType type);
 
 /// Fills shape, size_exponent, size, bounding_radius, rounding and asset of `traits`. A hull, surface or
 /// compound is that of the table, whose bytes read_hull(), read_surface() or read_compound() has accepted. Errors:

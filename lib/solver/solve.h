@@ -14,11 +14,11 @@ struct SolveCount {
 };
 
 struct JointStage;
-struct JointCode;
+struct JointOps;
 
 /// The joints of an island; `code` null if it has none.
 struct IslandJoints {
-  const JointCode* code = nullptr;
+  const JointOps* code = nullptr;
   const Island* island = nullptr;
   JointStage* stage = nullptr;
   uint32_t* undecided = nullptr;

@@ -1,7 +1,7 @@
 #include "state/asset_binding.h"
 
 #include "base/digest.h"
-#include "contact/compound_code.h"
+#include "contact/compound_ops.h"
 #include "shape/hull.h"
 #include "state/view.h"
 

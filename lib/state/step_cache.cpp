@@ -17,8 +17,9 @@ void make_anew(const StepCacheView& step, const StateView<uint8_t>& state) {
 
 }  // namespace
 
-Span<const uint32_t> partition_bodies(const StepCacheView& step, const StepSettings& settings, const StateView<uint8_t>& state,
-                              Span<BodyWork> work, Span<BodySweep> sweeps, Span<uint32_t> slots) {
+Span<const uint32_t> partition_bodies(const StepCacheView& step, const StepSettings& settings,
+                                      const StateView<uint8_t>& state, Span<BodyWork> work, Span<BodySweep> sweeps,
+                                      Span<uint32_t> slots) {
   step.cache.tree.visited = 0;
   if (step.cache.fresh == 0) make_anew(step, state);
   // All leave before one enters: the keys of those that stay must be what they were.

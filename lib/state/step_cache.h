@@ -39,8 +39,9 @@ inline void forget_steps(World& world) { at_offset<StepCache>(world.block, view_
 /// Sorts the bodies that a step must look at into those that move, which it returns, ascending, and those that rest,
 /// which enter the tree; starts their tick and takes their bounds. `slots` is work space for as many bodies as there
 /// may be.
-Span<const uint32_t> partition_bodies(const StepCacheView& step, const StepSettings& settings, const StateView<uint8_t>& state,
-                              Span<BodyWork> work, Span<BodySweep> sweeps, Span<uint32_t> slots);
+Span<const uint32_t> partition_bodies(const StepCacheView& step, const StepSettings& settings,
+                                      const StateView<uint8_t>& state, Span<BodyWork> work, Span<BodySweep> sweeps,
+                                      Span<uint32_t> slots);
 
 /// The places of all contacts of which a body is awake, ascending.
 Span<const uint32_t> list_awake_contacts(const StepCacheView& step, const StateView<uint8_t>& state);

@@ -1,7 +1,7 @@
 #include <detent/contacts.h>
 
 #include "base/float_environment.h"
-#include "contact/compound_code.h"
+#include "contact/compound_ops.h"
 #include "contact/contact_cache.h"
 #include "motion/spin.h"
 #include "motion/step_settings.h"

@@ -4,7 +4,7 @@
 #include <detent/sensor.h>
 
 #include "ccd/impact_pair.h"
-#include "contact/compound_code.h"
+#include "contact/compound_ops.h"
 #include "contact/surface_distance.h"
 #include "motion/finalise.h"
 #include "motion/spin.h"
@@ -262,7 +262,7 @@ void sense(SensorStage& stage, const StateView<uint8_t>& state, SensorEventBuffe
   state.world.sensed_count = count;
 }
 
-const SensorCode k_sensor_code = {note_changed, sense_stretch, sense};
+const SensorOps k_sensor_ops = {note_changed, sense_stretch, sense};
 
 void forget_sensed(StateView<uint8_t>& state, uint32_t slot) {
   uint32_t kept = 0;

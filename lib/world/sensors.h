@@ -50,7 +50,7 @@ void sense_stretch(void* stage, uint32_t slot, Fraction until);
 void sense(SensorStage& stage, const StateView<uint8_t>& state, SensorEventBuffer events, StepReport& report);
 
 /// For a feature table.
-struct SensorCode {
+struct SensorOps {
   decltype(&note_changed) start;
   decltype(&sense_stretch) stretch;
   decltype(&sense) end;

@@ -35,17 +35,19 @@ Span<const uint32_t> list_moving(BitSet visits, Span<uint32_t> slots) {
 }
 
 /// Moves the kinematic bodies among those that move.
-uint32_t integrate_kinematic_bodies(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> moving) {
+uint32_t integrate_kinematic_bodies(const StepSettings& settings, const SolverBodies& bodies,
+                                    Span<const uint32_t> moving) {
   uint32_t clamped = 0;
   for (const uint32_t slot : moving) {
     if (is_dynamic(bodies.traits[slot])) continue;
-    clamped += integrate_kinematic(settings, {{&bodies.traits[slot], 1}, {&bodies.motions[slot], 1}, {&bodies.work[slot], 1}});
+    clamped +=
+        integrate_kinematic(settings, {{&bodies.traits[slot], 1}, {&bodies.motions[slot], 1}, {&bodies.work[slot], 1}});
   }
   return clamped;
 }
 
 uint32_t solve_islands(StepSettings settings, const SolverBodies& bodies, Span<const Island> islands,
-                       const Scratch& scratch, Span<ContactWork> contacts, const JointCode* joint_code,
+                       const Scratch& scratch, Span<ContactWork> contacts, const JointOps* joint_ops,
                        JointStage& joints, StepReport& report) {
   uint32_t clamped = 0;
   for (const Island& island : islands) {
@@ -54,7 +56,7 @@ uint32_t solve_islands(StepSettings settings, const SolverBodies& bodies, Span<c
     if (island.substeps != settings.substeps) set_substeps(island.substeps, settings);
     predict(settings, bodies.traits, slots, bodies.motions, bodies.work);
     const bool jointed = island.joint_count != 0;
-    const IslandJoints island_joints = {jointed ? joint_code : nullptr, &island, &joints, &report.joint_decisions_left};
+    const IslandJoints island_joints = {jointed ? joint_ops : nullptr, &island, &joints, &report.joint_decisions_left};
     if (order.count == 0 && !jointed) {
       clamped += integrate_free(settings, bodies, slots);
     } else {
@@ -86,7 +88,7 @@ void report_impacts(const ImpactReport& impacts, StepReport& report) {
   report.saturations += impacts.clamped;
 }
 
-const SensorCode* sensor_code_of(const World& world, const StateView<uint8_t>& state) {
+const SensorOps* sensor_ops_of(const World& world, const StateView<uint8_t>& state) {
   return state.world.sensor_count == 0 ? nullptr : world.features->sensors;
 }
 
@@ -104,7 +106,7 @@ __attribute__((noinline)) void advance(World& world, const StateView<uint8_t>& s
   const Span<BodyPose> poses = state.poses.first(used);
   const Span<BodyTraits> traits = state.traits.first(used);
   const Span<BodySweep> sweeps = scratch.sweeps.first(used);
-  const SensorCode* const sensor_code = sensor_code_of(world, state);
+  const SensorOps* const sensor_ops = sensor_ops_of(world, state);
   SensorStage sensors = {world.assets,
                          *world.features,
                          {traits, world.filter_rules, known.apart},
@@ -129,7 +131,7 @@ __attribute__((noinline)) void advance(World& world, const StateView<uint8_t>& s
                                  scratch.candidates,
                                  scratch.moving_bodies.first(used),
                                  world.filter_rules,
-                                 {sensor_code == nullptr ? nullptr : sensor_code->stretch, &sensors}};
+                                 {sensor_ops == nullptr ? nullptr : sensor_ops->stretch, &sensors}};
     const ImpactReport impacts = world.features->continuous->advance(
         settings, world.assets, *world.features, known, bodies, scratch.impact_pairs, scratch.impact_hits, probe);
     report_impacts(impacts, report);
@@ -137,7 +139,7 @@ __attribute__((noinline)) void advance(World& world, const StateView<uint8_t>& s
     add_hits(traits, scratch.impact_hits.first(impacts.hits), contact_events_of(world), event_count);
     event_count.dropped += impacts.hits_dropped;
   }
-  if (sensor_code != nullptr) sensor_code->end(sensors, state, world.sensor_events, report);
+  if (sensor_ops != nullptr) sensor_ops->end(sensors, state, world.sensor_events, report);
 }
 
 /// The stages of a step, in order. Separate from `step`, so that nothing of it moves across the change of the
@@ -159,8 +161,8 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   const StepBodies bodies = {poses, traits, motions, activities, work, cache.visits, world.assets, *world.features};
   const SolverBodies solver_bodies = {traits, motions, work};
 
-  const JointCode* const joint_code = state.world.joint_count == 0 ? nullptr : world.features->joints;
-  JointStage joints = {state.joints.first(joint_code == nullptr ? 0 : state.world.joints_used),
+  const JointOps* const joint_ops = state.world.joint_count == 0 ? nullptr : world.features->joints;
+  JointStage joints = {state.joints.first(joint_ops == nullptr ? 0 : state.world.joints_used),
                        poses,
                        activities,
                        scratch.joints,
@@ -171,15 +173,15 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   report.woke = wake_jointed(joints.joints, traits, motions, activities, cache);
   const Span<const uint64_t> apart = list_apart(joints.joints, scratch.apart);
   Losses losses = {traits, {world.capacity_events.data, world.capacity_events.capacity}};
-  const SensorCode* const sensor_code = sensor_code_of(world, state);
-  if (sensor_code != nullptr) sensor_code->start(cache, used, scratch.changed);
+  const SensorOps* const sensor_ops = sensor_ops_of(world, state);
+  if (sensor_ops != nullptr) sensor_ops->start(cache, used, scratch.changed);
   Span<const uint32_t> moving = partition_bodies(cache, settings, state, work, scratch.sweeps, scratch.moving_bodies);
   PairPool pool = {poses, traits, cache.bounds, scratch.pair_sort, scratch.pairs, world.filter_rules, apart};
   pool.losses = &losses;
   find_pairs(moving, cache.tree, scratch.bounds_keys, scratch.bounds_sort, pool);
   pool.sort();
   const auto start_joined = [&] {
-    if (joint_code == nullptr) return;
+    if (joint_ops == nullptr) return;
     for (const JointState& joint : joints.joints) {
       if (joint.type == 0) continue;
       const uint32_t ends[2] = {joint.body_a, joint.body_b};
@@ -187,7 +189,7 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
         if (!cache.visits.has(slot)) bodies.start(settings, slot);
       }
     }
-    joint_code->collect(solver_bodies, joints);
+    joint_ops->collect(solver_bodies, joints);
     report.joints = joints.count;
   };
   start_joined();
@@ -197,7 +199,7 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
     moving = list_moving(cache.visits, scratch.moving_bodies);
     for (const uint32_t slot : moving) bodies.start(settings, slot);
     start_joined();
-    if (joint_code == nullptr) break;
+    if (joint_ops == nullptr) break;
   }
   stages.end(StepStage::find_pairs, 0);
   const Span<const uint64_t> pairs = pool.pairs();
@@ -217,19 +219,19 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   const Span<Island> islands = scratch.islands.first(report.islands);
   report.colour_overflows = order_contacts(traits, contacts, islands, work, scratch.contact_sort, order);
   estimate_loads(settings, poses, traits, scratch.island_bodies, islands, order, scratch.contact_sort, work, contacts);
-  if (joint_code != nullptr)
-    report.joint_couplings_dropped = joint_code->order(settings, solver_bodies, scratch.island_bodies, islands, joints);
+  if (joint_ops != nullptr)
+    report.joint_couplings_dropped = joint_ops->order(settings, solver_bodies, scratch.island_bodies, islands, joints);
   choose_substeps(settings, traits, work, scratch.island_bodies, order, islands, contacts, activities);
   stages.end(StepStage::islands, contacts.count);
-  report.saturations = solve_islands(settings, solver_bodies, islands, scratch, contacts, joint_code, joints, report);
+  report.saturations = solve_islands(settings, solver_bodies, islands, scratch, contacts, joint_ops, joints, report);
   report.saturations += integrate_kinematic_bodies(settings, solver_bodies, moving);
   stages.end(StepStage::solve, contacts.count);
   EventCount event_count =
       raise_events(poses, traits, awake_contacts, state.contacts, contacts, contact_events_of(world));
   stages.end(StepStage::events, contacts.count);
   report.saturations += make_sweeps(moving, traits, work, poses, sweeps);
-  if (joint_code != nullptr) {
-    joint_code->store(settings, solver_bodies, joints);
+  if (joint_ops != nullptr) {
+    joint_ops->store(settings, solver_bodies, joints);
     for (const JointBody& body : joints.bodies.first(joints.body_count)) {
       if (body.mobile != 0) sweeps[body.slot].marks = k_mark_jointed * (work[body.slot].island + 1);
     }
@@ -250,7 +252,7 @@ __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, Step
   cache.cache.awake_contact_count = contacts.count;
 
   state.world.contact_count = before - awake_contacts.count + contacts.count;
-  if (joint_code != nullptr) break_joints(world, report);
+  if (joint_ops != nullptr) break_joints(world, report);
   report.pairs = pairs.count + pool.dropped();
   report.pairs_dropped = pool.dropped();
   report.contacts = count.contacts;

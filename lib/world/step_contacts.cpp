@@ -1,7 +1,7 @@
 #include "world/step_contacts.h"
 
 #include "base/heap.h"
-#include "contact/compound_code.h"
+#include "contact/compound_ops.h"
 #include "contact/contact_cache.h"
 #include "contact/manifold_reuse.h"
 

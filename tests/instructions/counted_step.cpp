@@ -5,7 +5,7 @@
 #include "broad_phase/broadphase.h"
 #include "ccd/impact.h"
 #include "contact/collide.h"
-#include "contact/compound_code.h"
+#include "contact/compound_ops.h"
 #include "contact/contact_cache.h"
 #include "contact/manifold_reuse.h"
 #include "joint/joint.h"
@@ -57,11 +57,11 @@ ImpactReport counted_advance(const StepSettings& settings, const AssetTable& ass
   const Counted counted(Stage::impacts);
   return advance_to_impacts(settings, assets, features, pairs, bodies, met, hits, probe);
 }
-constexpr ContinuousCode k_counted_continuous_code = {counted_advance};
+constexpr ContinuousOps k_counted_continuous_ops = {counted_advance};
 
 constexpr FeatureTable counted_features() {
   FeatureTable table = feature_table<Features::box | Features::half_space | Features::continuous>;
-  table.continuous = &k_counted_continuous_code;
+  table.continuous = &k_counted_continuous_ops;
   return table;
 }
 

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "contact/collide.h"
-#include "contact/compound_code.h"
+#include "contact/compound_ops.h"
 #include "contact/contact_cache.h"
 #include "contact/manifold_reuse.h"
 #include "ports/host/cook/cook.h"

@@ -20,7 +20,7 @@ TimeOfImpact first_of_all(const Surface& surface, const Motion& ground, const Co
   for (uint32_t i = 0; i < count; ++i) {
     Pose placed = ground.start;
     Convex made;
-    EXPECT_OK(k_surface_code.convex(surface, ground.start, i, placed, made));
+    EXPECT_OK(k_surface_ops.convex(surface, ground.start, i, placed, made));
     TimeOfImpact found;
     EXPECT_OK(time_of_impact(convex, motion, made, {placed, ground.displacement, ground.turn}, found));
     if (found.outcome == ToiOutcome::clear) continue;
@@ -58,7 +58,7 @@ DETENT_TEST(surface_impact, is_that_of_the_first_of_all_triangles_however_long_t
     Convex convex;
     ASSERT_TRUE(body_convex(traits, assets, convex));
     TimeOfImpact impact;
-    ASSERT_TRUE(surface_impact(assets, k_surface_code, body, ground, convex, Fraction(0.0), impact));
+    ASSERT_TRUE(surface_impact(assets, k_surface_ops, body, ground, convex, Fraction(0.0), impact));
     const TimeOfImpact expected = first_of_all(surface_of(ground_traits, assets), motion_from(ground, Fraction(0.0)),
                                                convex, motion_from(body, Fraction(0.0)));
     ASSERT_EQ(impact.outcome, expected.outcome) << round;

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "contact/body_convex.h"
-#include "contact/compound_code.h"
+#include "contact/compound_ops.h"
 #include "ports/host/cook/cook.h"
 #include "tests/unit/contact/pairs.h"
 #include "tests/unit/shape/compounds.h"

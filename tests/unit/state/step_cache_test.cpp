@@ -92,8 +92,9 @@ std::vector<uint64_t> pairs_of_next_step(World world) {
   std::vector<uint32_t> slots(capacity.bodies);
   std::vector<BoundsKey> keys(capacity.bodies), keys_spare(capacity.bodies);
   std::vector<uint64_t> pairs(20000), pairs_spare(20000);
-  const Span<const uint32_t> moving = partition_bodies(cache, step_settings(state.world), state, {work.data(), capacity.bodies},
-                                               {sweeps.data(), capacity.bodies}, {slots.data(), capacity.bodies});
+  const Span<const uint32_t> moving =
+      partition_bodies(cache, step_settings(state.world), state, {work.data(), capacity.bodies},
+                       {sweeps.data(), capacity.bodies}, {slots.data(), capacity.bodies});
   PairPool pool = {state.poses, state.traits, cache.bounds, {pairs_spare.data(), 20000}, {pairs.data(), 20000}};
   find_pairs(moving, cache.tree, {keys.data(), capacity.bodies}, {keys_spare.data(), capacity.bodies}, pool);
   pool.sort();

@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "contact/body_convex.h"
-#include "contact/surface_code.h"
+#include "contact/surface_ops.h"
 #include "query/query_hits.h"
 #include "shape/sweep.h"
 #include "state/view.h"

@@ -1,4 +1,4 @@
-#include "contact/surface_code.h"
+#include "contact/surface_ops.h"
 
 #include "contact/body_convex.h"
 #include "shape/shape_traits.h"
@@ -28,9 +28,9 @@ void collide_part_with_surface(const CollisionBody& a, const CollisionBody& b, c
   for (uint32_t i = 0; swapped && i < contacts.count; ++i) swap_bodies(contacts.contact[i].geometry);
 }
 
-const SurfaceCode k_surface_code = {read_surface,  collide_surface,  collide_part_with_surface,
-                                    visit_surface, surface_convex,   place_on_surface,
-                                    surface_view,  surface_triangle, cast_ray_on_surface};
+const SurfaceOps k_surface_ops = {read_surface,  collide_surface,  collide_part_with_surface,
+                                  visit_surface, surface_convex,   place_on_surface,
+                                  surface_view,  surface_triangle, cast_ray_on_surface};
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

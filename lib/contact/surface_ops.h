@@ -19,7 +19,7 @@ void collide_part_with_surface(const CollisionBody& a, const CollisionBody& b, c
                                const ContactReach& reach, const AssetTable& assets, SurfaceContacts& contacts);
 
 /// For a feature table.
-struct SurfaceCode {
+struct SurfaceOps {
   decltype(&read_surface) read;
   decltype(&collide_surface) collide;
   decltype(&collide_part_with_surface) collide_part;

@@ -1,7 +1,7 @@
 #pragma once
 #include <detent/reduction.h>
 
-#include "contact/surface_code.h"
+#include "contact/surface_ops.h"
 #include "shape/compound.h"
 #include "shape/shape_traits.h"
 
@@ -41,7 +41,7 @@ void collide_compound(const CollisionBody& a, const CollisionBody& b, const Cont
                       SurfaceContacts& contacts);
 
 /// For a feature table.
-struct CompoundCode {
+struct CompoundOps {
   decltype(&read_compound) read;
   decltype(&collide_compound) collide;
 };

@@ -1,4 +1,4 @@
-#include "contact/compound_code.h"
+#include "contact/compound_ops.h"
 
 #include "contact/body_convex.h"
 #include "contact/collide_convex.h"
@@ -276,7 +276,7 @@ void collide_compound(const CollisionBody& a, const CollisionBody& b, const Cont
   collected.finish(contacts);
 }
 
-const CompoundCode k_compound_code = {read_compound, collide_compound};
+const CompoundOps k_compound_ops = {read_compound, collide_compound};
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent
