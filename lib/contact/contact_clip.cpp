@@ -11,8 +11,6 @@ namespace {
 
 constexpr int64_t k_no_limit = INT64_MAX / 2;
 constexpr int k_slack_power = 6;
-constexpr int k_margin_power =
-    6;  ///< what another corner must gain more than an earlier one, that noise does not choose
 
 /// part / whole as Q30. Range: 0 <= part <= whole, whole > 0.
 int64_t fraction(int64_t part, int64_t whole) { return divide_rounded(Int128::product(part, k_one_64), whole); }
@@ -35,7 +33,7 @@ int64_t reach_along(const AreaPoint& p, int diagonal) {
 
 }  // namespace
 
-void AreaChoice::add(const AreaPoint& point) {
+__attribute__((noinline)) void AreaChoice::add(const AreaPoint& point) {
   if (point.w > (filling_ ? reach_ : level_)) return;
   if (filling_) {
     const int64_t gain = gain_of(point);
@@ -91,7 +89,7 @@ void AreaChoice::choose_extremes() {
   chosen_[chosen_count_ < 4 ? chosen_count_++ : nearest] = deepest_;
 }
 
-bool AreaChoice::again() {
+__attribute__((noinline)) bool AreaChoice::again() {
   if (filling_) {
     if (!found_) return false;
     chosen_[chosen_count_++] = next_;

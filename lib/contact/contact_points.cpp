@@ -317,8 +317,8 @@ void Builder::build_over_face(const Feature& face, BlockManifold& manifold) {
 
 }  // namespace
 
-void find_contact_points(const RestingPair& pair, const ContactRules& rules, DistanceCache* cache,
-                         BlockManifold& manifold) {
+__attribute__((noinline)) void find_contact_points(const RestingPair& pair, const ContactRules& rules,
+                                                   DistanceCache* cache, BlockManifold& manifold) {
   manifold = {};
   const int32_t needed = pair.block_above(saturated_sum(rules.reach, pair.radius_a + pair.radius_b));
   ContactAxis axis;
@@ -326,8 +326,8 @@ void find_contact_points(const RestingPair& pair, const ContactRules& rules, Dis
     Builder(pair, axis, rules).build(manifold);
 }
 
-void contact_points_over_face(const RestingPair& pair, const Feature& face, int64_t reach, ManifoldReduction reduction,
-                              BlockManifold& manifold) {
+__attribute__((noinline)) void contact_points_over_face(const RestingPair& pair, const Feature& face, int64_t reach,
+                                                        ManifoldReduction reduction, BlockManifold& manifold) {
   manifold = {};
   const Vec32 nearest = support(pair.b, negate(face.normal)).point;
   const int64_t height = dot(face.normal, subtract(add(pair.offset, nearest), face.point[0])) >> 30;
@@ -338,8 +338,9 @@ void contact_points_over_face(const RestingPair& pair, const Feature& face, int6
   Builder(pair, axis, rules_of(reach, reduction)).build_over_face(face, manifold);
 }
 
-Status contact_points_by(const ContactRules& rules, const Convex& a, const Pose& pose_a, const Convex& b,
-                         const Pose& pose_b, DistanceCache* cache, ContactManifold& manifold, ContactKind& kind) {
+__attribute__((noinline)) Status contact_points_by(const ContactRules& rules, const Convex& a, const Pose& pose_a,
+                                                   const Convex& b, const Pose& pose_b, DistanceCache* cache,
+                                                   ContactManifold& manifold, ContactKind& kind) {
   RestingPair pair;
   if (const Status status = rest(a, pose_a, b, pose_b, pair); status != Status::ok) return status;
   if (rules.reach < 0) return Status::out_of_range;
