@@ -45,7 +45,7 @@ bool make_frame(const CollisionBody& first, const CollisionBody& second, Real re
   return true;
 }
 
-const PairOps& code_of(const FeatureTable& features, const PairFrame& frame) {
+const PairOps& ops_of(const FeatureTable& features, const PairFrame& frame) {
   if (frame.b.type == ShapeType::box) return *features.box_pair;
   return frame.a.type == ShapeType::box ? *features.box_round_pair : *features.round_pair;
 }
@@ -58,7 +58,7 @@ void collide_ordered(const CollisionBody& first, const CollisionBody& second, co
   frame.sunk = unit_from_real(min(reach.sunk, real_from_unit(Unit(1.0), frame.exponent)), frame.exponent);
   frame.smooth_seams = reach.smooth_seams;
   PairManifold manifold;
-  code_of(features, frame).collide(frame, manifold);
+  ops_of(features, frame).collide(frame, manifold);
 
   contact.normal = manifold.normal;
   contact.seam = manifold.seam;

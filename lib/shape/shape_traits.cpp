@@ -265,7 +265,7 @@ const ShapeOps k_surface_shape_ops = {measure_surface, set_surface_asset, nullpt
 const ShapeOps k_compound_shape_ops = {measure_compound, set_compound_asset, compound_volume, set_compound_gyration};
 const ShapeOps k_half_space_shape_ops = {measure_half_space, nullptr, nullptr, nullptr};
 
-const ShapeOps* code_of(const FeatureTable& features, ShapeType type) {
+const ShapeOps* ops_of(const FeatureTable& features, ShapeType type) {
   switch (type) {
     case ShapeType::sphere:
       return features.sphere;
@@ -303,8 +303,8 @@ Status set_shape_traits(const Shape& shape, BodyTraits& traits, const AssetTable
     needed = needed | Features::rounding;
   }
   if (!contains(features.features, needed)) return Status::feature_missing;
-  const ShapeOps& code = *code_of(features, shape.type);
-  if (const Status status = code.measure(shape, assets, measure); status != Status::ok) return status;
+  const ShapeOps& ops = *ops_of(features, shape.type);
+  if (const Status status = ops.measure(shape, assets, measure); status != Status::ok) return status;
   const bool bounded = shape.type != ShapeType::half_space;
   const Real bound = measure.bound + shape.rounding;
   if (bound >= k_bound_limit) return Status::out_of_range;
@@ -321,21 +321,21 @@ Status set_shape_traits(const Shape& shape, BodyTraits& traits, const AssetTable
   traits.bounding_radius = unit_from_real(bound, exponent);
   traits.rounding = unit_from_real(shape.rounding + measure.thickness, exponent);
   traits.asset = 0;
-  if (code.set_size != nullptr) code.set_size(shape, assets, traits);
+  if (ops.set_size != nullptr) ops.set_size(shape, assets, traits);
   return Status::ok;
 }
 
 Scaled shape_volume(const BodyTraits& traits, const AssetTable& assets, const FeatureTable& features) {
-  const ShapeOps* code = code_of(features, shape_of(traits));
+  const ShapeOps* ops = ops_of(features, shape_of(traits));
   const Scaled none = 0.0;
-  if (code == nullptr || code->volume == nullptr) return none;
-  return scaled_by_power(code->volume(traits, grown_sizes(traits), assets), 3 * traits.size_exponent);
+  if (ops == nullptr || ops->volume == nullptr) return none;
+  return scaled_by_power(ops->volume(traits, grown_sizes(traits), assets), 3 * traits.size_exponent);
 }
 
 void set_gyration(BodyTraits& traits, const AssetTable& assets, const FeatureTable& features) {
-  const ShapeOps* code = code_of(features, shape_of(traits));
-  if (code == nullptr || code->set_gyration == nullptr) return;
-  code->set_gyration(traits, squares_of(grown_sizes(traits)), assets);
+  const ShapeOps* ops = ops_of(features, shape_of(traits));
+  if (ops == nullptr || ops->set_gyration == nullptr) return;
+  ops->set_gyration(traits, squares_of(grown_sizes(traits)), assets);
   for (uint32_t axis = 0; axis < 3; ++axis) {
     if (less(k_gyration_max, traits.gyration[axis])) traits.gyration[axis] = k_gyration_max;
     if ((traits.turn_locks >> axis & 1) != 0) traits.gyration[axis] = Scaled(0.0);

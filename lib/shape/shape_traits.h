@@ -69,7 +69,7 @@ struct ShapeOps {
 };
 
 /// Null if the shape is not linked.
-const ShapeOps* code_of(const FeatureTable& features, ShapeType type);
+const ShapeOps* ops_of(const FeatureTable& features, ShapeType type);
 
 /// Fills shape, size_exponent, size, bounding_radius, rounding and asset of `traits`. A hull, surface or
 /// compound is that of the table, whose bytes read_hull(), read_surface() or read_compound() has accepted. Errors:
