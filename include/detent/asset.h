@@ -2,21 +2,23 @@
 #include <detent/config.h>
 
 /// @file
-/// Cooked data that worlds share.
+/// Cooked data (hulls, compounds, meshes, height fields), which several worlds can share.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Cooked data that lives outside the world's block, possibly in flash and shared between worlds.
+/// Cooked data outside the world's block. It may lie in flash, and several worlds may share it.
 struct Asset {
-  const uint8_t* bytes = nullptr;  ///< aligned to 8; must outlive every world bound to it
-  uint32_t byte_count = 0;         ///< of `bytes`
+  const uint8_t* bytes = nullptr;  ///< aligned to 8 bytes; must outlive every world bound to it
+  uint32_t byte_count = 0;         ///< number of bytes at `bytes`
 };
 
-/// The assets of a world, in an order of the caller's choice that is the same on every machine.
-/// The state holds each bound asset's index, size and content digest; another content is refused.
+/// The assets of a world. The caller chooses the order, which must be the same on every machine.
+/// The state stores the index, size and content digest of each bound asset; an asset with other content is refused
+/// (asset_mismatch).
 struct AssetTable {
-  const Asset* assets = nullptr;  ///< `count` of them; they must outlive every world bound to them
-  uint32_t count = 0;             ///< at least Capacity::assets, or those beyond it are missing
+  const Asset* assets = nullptr;  ///< `count` assets; they must outlive every world bound to them
+  /// Number of assets. If it is below Capacity::assets, the remaining indices are missing (asset_missing).
+  uint32_t count = 0;
 };
 
 }  // namespace DETENT_NAMESPACE

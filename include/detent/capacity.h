@@ -2,22 +2,24 @@
 #include <detent/world.h>
 
 /// @file
-/// How much of its capacity a world uses, and a capacity that fits it.
+/// Measures how much of its capacity a world uses, and suggests a capacity that fits.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The most that the steps of a world have asked of each of its pools; zero before the first.
+/// The largest number of entries that any recorded step needed in each pool of a world. All 0 before the first step.
 struct CapacityUse {
-  uint32_t bodies = 0;      ///< in the world
-  uint32_t contacts = 0;    ///< kept, those of sleepers included, and dropped
-  uint32_t pairs = 0;       ///< of overlapping bounds, kept and dropped; a contact of the capacity has room for two
-  uint32_t impacts = 0;     ///< pairs of continuous collision, likewise, for one a contact; 0 where all fit
-  uint32_t joints = 0;      ///< in the world
+  uint32_t bodies = 0;    ///< bodies in the world
+  uint32_t contacts = 0;  ///< contacts kept (those of sleeping bodies included) and dropped
+  /// Pairs with overlapping bounds, kept and dropped; the pool holds 2 x Capacity::contacts.
+  uint32_t pairs = 0;
+  /// Pairs of continuous collision, kept and dropped; the pool holds Capacity::contacts. 0 if none was dropped.
+  uint32_t impacts = 0;
+  uint32_t joints = 0;      ///< joints in the world
   uint32_t sensed = 0;      ///< bodies within sensors, kept and dropped
-  uint64_t steps_full = 0;  ///< steps in which something did not fit
+  uint64_t steps_full = 0;  ///< steps in which a pool had no room
 };
 
-/// Takes account of a step: its report, and get_info() after it.
+/// Records a step in `use`. `report`: of the step; `after`: get_info() after it.
 constexpr void note_use(const StepReport& report, const WorldInfo& after, CapacityUse& use) {
   const auto note = [](uint32_t& most, uint32_t kept, uint32_t dropped) {
     const uint32_t wanted = kept < UINT32_MAX - dropped ? kept + dropped : UINT32_MAX;
@@ -34,8 +36,9 @@ constexpr void note_use(const StepReport& report, const WorldInfo& after, Capaci
     ++use.steps_full;
 }
 
-/// A capacity with room for all that was noted, and a quarter more; `now` says what was not: assets, manifolds. What
-/// was dropped has altered the motion, so steps with the larger capacity may ask for more: note them, too.
+/// A capacity with room for the recorded use plus a quarter, rounded up, and for at least one body. `assets` and
+/// `manifolds` are not recorded: they are copied from `now`. Dropped entries change the motion, so a run with the
+/// larger capacity may need still more: record that run too.
 constexpr Capacity suggest_capacity(const CapacityUse& use, const Capacity& now) {
   const auto with_spare = [](uint32_t count) {
     const uint32_t spare = count / 4 + (count % 4 != 0 ? 1 : 0);

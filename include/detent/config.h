@@ -1,10 +1,10 @@
 #pragma once
 /// @file
-/// The one switch: which of the four math configurations this translation unit uses.
+/// Selects which of the four math configurations this translation unit uses.
 ///
-/// Define exactly one of DETENT_FX64, DETENT_FX32, DETENT_F32, DETENT_F64 (the CMake targets detent::fx64 ... do), or
-/// none for fx64. Every name lives in an inline namespace of the configuration, so that a program built for one
-/// configuration and linked with the library of another fails to link, and all four can be linked into one program.
+/// Define exactly one of DETENT_FX64, DETENT_FX32, DETENT_F32, DETENT_F64, or none for fx64. The CMake targets
+/// detent::fx64, ... define it. Every name lives in an inline namespace of the configuration. Therefore a program built
+/// for one configuration does not link with the library of another, and all four can be linked into one program.
 
 #if __cplusplus <= 201703L && (!defined(_MSVC_LANG) || _MSVC_LANG <= 201703L)
 #error "detent: needs C++20, or later (-std=c++20)"
@@ -55,7 +55,8 @@ inline constexpr Config k_config = Config::f32;
 inline constexpr Config k_config = Config::f64;
 #endif
 
-/// What a tick computes: any change that can alter a digest raises it. Stored in snapshots and recordings.
+/// The version of what a tick computes. Every change that can alter a digest increases it. Stored in snapshots and
+/// recordings.
 inline constexpr uint32_t k_simulation_version = 14;
 
 }  // namespace DETENT_NAMESPACE

@@ -3,46 +3,52 @@
 #include <detent/reduction.h>
 
 /// @file
-/// Contact of two convex shapes at rest. It needs no world.
+/// Contact points of two convex shapes at rest. No world is needed.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Points that a manifold holds.
+/// The largest number of points in a manifold.
 inline constexpr uint32_t k_contact_points_max = 4;
 
-/// Where two surfaces face each other along a manifold's normal.
+/// A contact point: a place where the two surfaces face each other along the manifold's normal.
 struct ManifoldPoint {
   Vec3<Real> from_a = {};  ///< midway between the surfaces, m, from A's position, world axes
   Vec3<Real> from_b = {};  ///< the same place from B's position
   Real separation = 0.0;   ///< m, along the normal; negative where the shapes overlap
-  /// Which features of A and B meet here. Never 0; distinct within a manifold; the same as long as the same ones meet,
-  /// and but for its halves when A and B change places.
+  /// Names the features of A and B that meet here. Never 0; distinct within a manifold; constant as long as the same
+  /// features meet. Exchanging A and B exchanges its two 12-bit halves.
   uint32_t feature = 0;
 };
 
-/// Where two shapes touch: one normal and up to four points.
+/// The contact of two shapes: one normal and up to four points.
 struct ContactManifold {
   Vec3<Unit> normal = {};  ///< from A to B, world axes; zero if there are no points
-  uint32_t count = 0;      ///< of the points, at most k_contact_points_max
-  bool capped = false;     ///< an iteration cap was met: the normal may be another than the least way out
+  uint32_t count = 0;      ///< number of points, at most k_contact_points_max
+  bool capped = false;     ///< an iteration cap was reached: `normal` may not be the direction of least penetration
   ManifoldPoint point[k_contact_points_max];  ///< the first `count` are in use
 };
 
-/// Where two convex shapes touch or are within `reach`, m, of it: the normal, and up to four points of the area.
+/// Finds the contact manifold of two convex shapes that overlap, or whose distance is at most `reach`, m (the search
+/// distance): the normal, and up to four points of the contact area. Without contact, `manifold` has no points.
 ///
-/// The normal is that of the closest points, or of the least translation that parts overlapping cores. It is a face's
-/// own within 2^-13 rad of that; and, of cores that overlap or are nearly touching, where the face parts them as well
-/// but for a 64th of the thinner one's least half extent; of cores whose edges cross also that of a face which leans by
-/// less than 2^-3 rad, where it parts them but for a 16th and its points are no more than a 64th deeper. Faces of a hull
-/// that are level within a 64th of its half thickness count as one, whose normal is that of their outline.
+/// The contact axis is the direction between the closest points or, if the cores overlap, the direction of the least
+/// translation that separates them. The normal is this axis, except that the normal of a face replaces it in three
+/// cases. Here h is the least half extent of the thinner core:
+/// - The face normal is within 2^-13 rad of the axis.
+/// - The cores overlap or nearly touch, and the face normal separates them as well as the axis, to within h / 64.
+/// - The cores overlap or nearly touch at crossing edges, the face normal is within 2^-3 rad of the axis and separates
+///   the cores as well as the axis, to within h / 16, and the points on the face are at most h / 64 deeper.
 ///
-/// The points are corners of the area where the two supporting faces or edges face each other, which may reach a 64th
-/// of the smaller one beyond its sides. Of more than four, those that `reduction` names. A face of more than 32
-/// vertices counts by 32 extremes, the flat side of a cylinder or cone by 8 points of its rim and the one that is
-/// deepest.
+/// Faces of a hull that are coplanar to within 1/64 of its half thickness count as one face; its normal is that of
+/// their outline.
+///
+/// The points are corners of the area in which the two supporting faces or edges overlap along the normal. The area may
+/// extend beyond the sides of a face by 1/64 of the size of the smaller one. `reduction` selects four points if there
+/// are more. A face of more than 32 vertices is represented by 32 extreme vertices. The flat side of a cylinder or cone
+/// is represented by 8 points of its rim and the deepest point.
 ///
 /// Precision: as closest_points(). Errors: bad_argument for two half-spaces; not_normalised; out_of_range for reach < 0
-/// and NaN.
+/// and NaN, and as closest_points() for a half-space.
 Status contact_points(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Real reach,
                       ContactManifold& manifold, DistanceCache* cache = nullptr,
                       ManifoldReduction reduction = ManifoldReduction::projected_extremes);

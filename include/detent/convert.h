@@ -4,14 +4,14 @@
 #include <detent/status.h>
 
 /// @file
-/// The one way between the host's doubles and the library's numbers: by bits alone, so that neither the rounding mode,
-/// flush-to-zero nor -ffast-math of the caller can matter.
+/// The only conversions between the host's doubles and the library's numbers. They read and write the bits of the
+/// double, so the caller's rounding mode, flush-to-zero and -ffast-math have no effect.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// `result` = value, rounded to nearest (ties away from zero; f32: to even). -0 and numbers too small for the format
-/// become +0. Range: |value| < 2^17 for Real, < 2 for Unit, < 2^31 (fx32: 2^15) for Coord; 0 or 2^-100 < |value| <
-/// 2^100 for Scaled. Errors: out_of_range, also for NaN and infinity; `result` is then untouched.
+/// become +0. Range: |value| < 2^17 for Real, < 2 for Unit, < 2^31 (fx32: 2^15) for Coord. For Scaled: 0, or 2^-100 <
+/// |value| < 2^100. Errors: out_of_range, also for NaN and infinity; `result` is then unchanged.
 /// @{
 Status real_from_host(double value, Real& result);
 Status unit_from_host(double value, Unit& result);

@@ -1,53 +1,53 @@
 #pragma once
 #include <detent/world.h>
 
-/// Shows a world through the caller's functions. Not linked unless called; reads the world only.
+/// Draws a world through the caller's functions. The code is linked only if it is called. It does not change the world.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// What is drawn: the caller chooses the colours.
+/// The kind of an object to draw, from which the caller chooses its colour.
 enum class DrawKind : uint32_t {
   fixed,      ///< a fixed body
   kinematic,  ///< a kinematic body
   awake,      ///< a dynamic body that takes part in the next step
-  asleep,     ///< one that does not
+  asleep,     ///< a dynamic body that sleeps
   bounds,     ///< an edge of a body's bounds
   contact,    ///< a contact point
-  normal,     ///< its normal
-  velocity,   ///< where a body goes
+  normal,     ///< the normal at a contact point
+  velocity,   ///< the velocity of a body
 };
 
-/// Null functions are left out.
+/// The caller's drawing functions. A null function is not called.
 struct DebugDraw {
-  void* user = nullptr;  ///< given to each function
-  /// A body, where it is. The triangles of a surface(): visit_triangles() (triangles.h); the parts of a compound:
-  /// compound_part() (compound.h).
+  void* user = nullptr;  ///< passed to each function
+  /// Draws a body at its pose. For a terrain, visit_triangles() (triangles.h) gives the triangles; for a compound,
+  /// compound_part() (compound.h) gives the parts.
   void (*solid)(void* user, BodyId id, const Shape& shape, const Pose& pose, DrawKind kind) = nullptr;
-  /// A line, m, world.
+  /// Draws a line, m, world.
   void (*line)(void* user, const Position& from, const Position& to, DrawKind kind) = nullptr;
-  /// A point, m, world.
+  /// Draws a point, m, world.
   void (*point)(void* user, const Position& point, DrawKind kind) = nullptr;
 };
 
-/// Combine with |.
+/// The objects that draw() draws. Combine with |.
 enum class DrawFlags : uint32_t {
   none = 0,        ///< nothing
-  bodies = 1,      ///< each a solid, of kind fixed, kinematic, awake or asleep; a surface() without `solid` as lines
-  bounds = 2,      ///< the twelve edges of each body's axis-aligned bounds; of a half-space none
-  contacts = 4,    ///< each point, and a line along the normal as long as a quarter of the smaller body
-  velocities = 8,  ///< a line from each body that moves to where its centre would be in a tenth of a second
+  bodies = 1,      ///< a solid per body, of kind fixed, kinematic, awake or asleep; without `solid`: a terrain as lines
+  bounds = 2,      ///< the twelve edges of each body's axis-aligned bounds, except for half-spaces
+  contacts = 4,    ///< each contact point, and a line along its normal, as long as a quarter of the smaller body
+  velocities = 8,  ///< a line from the centre of each moving body to its place after 0.1 s at the current velocity
   all = 15,        ///< everything
 };
-/// Both.
+/// The flags that are in `a` or in `b`.
 constexpr DrawFlags operator|(DrawFlags a, DrawFlags b) {
   return static_cast<DrawFlags>(static_cast<uint32_t>(a) | static_cast<uint32_t>(b));
 }
-/// Whether all of `some` are in `all`.
+/// Whether all flags of `some` are in `all`.
 constexpr bool contains(DrawFlags all, DrawFlags some) {
   return (static_cast<uint32_t>(some) & ~static_cast<uint32_t>(all)) == 0;
 }
 
-/// Bodies come in slot order, contacts in that of contacts.h.
+/// Draws the world. Order: bodies by slot, then contacts as in contacts.h.
 void draw(const World& world, const DebugDraw& to, DrawFlags flags = DrawFlags::all);
 
 }  // namespace DETENT_NAMESPACE

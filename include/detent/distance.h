@@ -2,46 +2,49 @@
 #include <detent/convex.h>
 
 /// @file
-/// Questions about two convex shapes at rest. They need no world.
+/// Distance and overlap of two convex shapes at rest. No world is needed.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The vertices where a pair's last query ended, for the next one to start from. Any content is safe: it alters how
-/// fast an answer comes, and which of several equally near points is named.
+/// The vertices of the last simplex of a pair's query; the next query of the pair starts from them. Any content is
+/// safe: it changes only the run time, and which of several equally near points is returned.
 struct DistanceCache {
-  uint8_t count = 0;         ///< 0 when new
-  uint8_t vertex_a[4] = {};  ///< of A, the first `count` in use
-  uint8_t vertex_b[4] = {};  ///< of B
+  uint8_t count = 0;         ///< number of vertices in use; 0 when new
+  uint8_t vertex_a[4] = {};  ///< vertices of A; the first `count` are in use
+  uint8_t vertex_b[4] = {};  ///< vertices of B; the first `count` are in use
 };
 
-/// The error of a distance, in parts of the pair's extent: the core diameters and the distance of the centres.
+/// The largest error of a distance, as a fraction of the pair's extent: the core diameters plus the distance of the
+/// centres.
 inline constexpr double k_distance_error = 0x1p-25;
 
 /// The closest points of two shapes.
 struct Closest {
-  bool overlap = false;     ///< the cores or their balls meet: distance 0
-  bool capped = false;      ///< the cap was met: `distance` is a lower bound; 0 leaves open whether they meet
+  bool overlap = false;     ///< the cores or the balls that round them overlap: the distance is 0
+  bool capped = false;      ///< the iteration cap was reached: `distance` is a lower bound; at 0 overlap is undecided
   Real distance = 0.0;      ///< m, between the surfaces
-  Vec3<Unit> normal = {};   ///< from A to B, world axes; zero if the cores meet
+  Vec3<Unit> normal = {};   ///< from A to B, world axes; zero if the cores overlap
   Vec3<Real> point_a = {};  ///< on A's surface, m, from A's position, world axes
   Vec3<Real> point_b = {};  ///< on B's surface, m, from B's position, world axes
-  uint32_t iterations = 0;  ///< support points asked for
+  uint32_t iterations = 0;  ///< number of support points computed
 };
 
-/// The distance of two convex shapes, with the closest points.
-/// Precision: k_distance_error of the pair's extent (their core diameters and the distance of their centres).
-/// Range: any poses; beyond 2^17 m of distance it saturates.
+/// Computes the distance of two convex shapes and their closest points.
+/// Precision: k_distance_error of the pair's extent (the core diameters plus the distance of the centres).
+/// Range: any poses; a distance beyond 2^17 m saturates.
 /// Errors: bad_argument for two half-spaces; not_normalised; out_of_range for NaN, and for a half-space whose position
-/// is 2^16 m from the other shape's.
+/// is 2^16 m or more from that of the other shape in a component.
 Status closest_points(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Closest& result,
                       DistanceCache* cache = nullptr);
 
-/// Whether the shapes meet or touch. Of polytopes exact but for their placing, which errs by k_distance_error; where a
-/// cap or the rounding of balls leaves it open, true.
+/// Whether the shapes overlap or touch. For polytopes the test is exact; only the rounding of their poses causes an
+/// error, of k_distance_error. If the iteration cap or the rounding of the balls leaves the answer open, it is true.
+/// Errors: as closest_points().
 Status overlap(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, bool& result,
                DistanceCache* cache = nullptr);
 
-/// Whether the shapes are farther apart than `reach`, m: true is certain, false may err by k_distance_error.
+/// Whether the shapes are farther apart than `reach`, m. True is certain; false may be wrong by k_distance_error.
+/// Errors: as closest_points(), and out_of_range for reach < 0.
 Status farther_than(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Real reach, bool& result,
                     DistanceCache* cache = nullptr);
 

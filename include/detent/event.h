@@ -3,94 +3,95 @@
 #include <detent/math.h>
 
 /// @file
-/// What a step tells of contacts, sensors, sleep, and of what it had no room for.
+/// Events of a step: contacts, sensors, sleep, and full pools.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// What happened to a pair of bodies.
+/// The type of a contact event.
 enum class ContactEventType : uint32_t {
-  begin = 1,  ///< the bodies push each other, and did not in the last step
-  touch = 2,  ///< they did, and still do
-  end = 3,    ///< they do no longer
-  hit = 4,    ///< they met faster than the world's restitution threshold, beside a begin or touch; or on their way in
-              ///< the step (continuous collision), and then perhaps alone
+  begin = 1,  ///< the bodies push each other; they did not in the last step
+  touch = 2,  ///< the bodies push each other, as in the last step
+  end = 3,    ///< the bodies pushed each other in the last step, and no longer do
+  /// Either an impact at the restitution threshold of the world or faster, in addition to a begin or touch; or an
+  /// impact of any speed found by continuous collision within the step, which may come without a begin or touch.
+  hit = 4,
 };
 
-/// What happened between two bodies in a step. Bodies that sleep raise none, nor do bodies that are destroyed.
+/// An event between two bodies in a step. Sleeping bodies cause no events, and neither does destroying a body.
 struct ContactEvent {
   ContactEventType type = ContactEventType::begin;  ///< what happened
-  BodyId a;                                         ///< the body of the lower slot
-  BodyId b;                                         ///< the other
+  BodyId a;                                         ///< the body with the lower slot
+  BodyId b;                                         ///< the body with the higher slot
   Vec3<Unit> normal = {};                           ///< from A to B, world; zero for an end
   Position point = {};                              ///< the middle of the contact, m, world; zero for an end
-  Real approach_speed = {};                         ///< of a hit: at which the surfaces met, m/s
+  Real approach_speed = {};                         ///< for a hit: closing speed of the surfaces, m/s; else 0
 };
 
-/// Where a step puts its events, in the order of (a.slot, b.slot, type), two hits of a pair in the order of their
-/// times. The caller's memory: it must outlive the world's use of it. Beyond `capacity` events are dropped, those of
-/// the largest slots, and counted in the report.
+/// The buffer to which a step writes its contact events, in the order of (a.slot, b.slot, type); several hits of a pair
+/// are in the order of their times. It is the caller's memory, and must live as long as the world uses it. If there are
+/// more than `capacity` events, those with the largest slots are dropped, and counted in the report.
 struct ContactEventBuffer {
-  ContactEvent* data = nullptr;  ///< room for `capacity` events; null: none are wanted
-  uint32_t capacity = 0;         ///< of `data`
+  ContactEvent* data = nullptr;  ///< room for `capacity` events; null: no events are written
+  uint32_t capacity = 0;         ///< number of events; must be 0 if `data` is null
 };
 
-/// What happened between a sensor and a body.
+/// The type of a sensor event.
 enum class SensorEventType : uint32_t {
   enter = 1,  ///< the body came within the sensor
-  leave = 2,  ///< it is no longer within; after its enter, if it passed through in this step
+  leave = 2,  ///< the body is no longer within; follows its enter if the body passed through in this step
 };
 
-/// Who came and went. A body that leaves a sensor and is back before the step ends has not left. Bodies that are
-/// destroyed raise none, nor does a body that becomes a sensor, or no longer is one.
+/// An event between a sensor and a body. A body that leaves a sensor and is back before the step ends causes no event.
+/// Destroying a body causes none, and neither does set_sensor().
 struct SensorEvent {
   SensorEventType type = SensorEventType::enter;  ///< what happened
   BodyId sensor;                                  ///< the sensor
-  BodyId body;                                    ///< who came or went
+  BodyId body;                                    ///< the body that entered or left
 };
 
 /// As ContactEventBuffer, in the order of (sensor.slot, body.slot, type).
 struct SensorEventBuffer {
-  SensorEvent* data = nullptr;  ///< room for `capacity` events; null: none are wanted
-  uint32_t capacity = 0;        ///< of `data`
+  SensorEvent* data = nullptr;  ///< room for `capacity` events; null: no events are written
+  uint32_t capacity = 0;        ///< number of events; must be 0 if `data` is null
 };
 
-/// What became of a dynamic body.
+/// The type of a body event.
 enum class BodyEventType : uint32_t {
-  fell_asleep = 1,  ///< at the end of the step, with all that it touched; put_to_sleep() raises none
-  woke = 2,         ///< it was touched in the step, or woken by a call since the last one
+  fell_asleep = 1,  ///< at the end of the step, with its whole island; put_to_sleep() causes no event
+  woke = 2,         ///< a contact or a joint woke it in the step, or a call woke it since the last step
 };
 
-/// Who fell asleep and who woke.
+/// A dynamic body fell asleep or woke.
 struct BodyEvent {
   BodyEventType type = BodyEventType::woke;  ///< what happened
-  BodyId body;                               ///< to whom
+  BodyId body;                               ///< the body that fell asleep or woke
 };
 
 /// As ContactEventBuffer, in the order of the bodies' slots.
 struct BodyEventBuffer {
-  BodyEvent* data = nullptr;  ///< room for `capacity` events; null: none are wanted
-  uint32_t capacity = 0;      ///< of `data`
+  BodyEvent* data = nullptr;  ///< room for `capacity` events; null: no events are written
+  uint32_t capacity = 0;      ///< number of events; must be 0 if `data` is null
 };
 
-/// What a step had no room for.
+/// Which pool of a step was full.
 enum class CapacityEventType : uint32_t {
-  pair = 1,     ///< two bodies whose bounds overlap were not collided: twice Capacity::contacts
-  contact = 2,  ///< the contact of two bodies: Capacity::contacts
-  sensed = 3,   ///< a sensor, `a`, does not know of a body within it: Capacity::sensed
+  pair = 1,     ///< two bodies with overlapping bounds were not collided; the limit is 2 x Capacity::contacts
+  contact = 2,  ///< the contact of two bodies was dropped; the limit is Capacity::contacts
+  sensed = 3,   ///< the sensor `a` does not report the body `b` within it; the limit is Capacity::sensed
 };
 
-/// Whom it was lost for, for this step. All are counted in the report.
+/// An entry that a step dropped because a pool was full, for this step only. The report counts all dropped entries.
 struct CapacityEvent {
-  CapacityEventType type = CapacityEventType::contact;  ///< what was lost
-  BodyId a;                                             ///< the body of the lower slot; or the sensor
-  BodyId b;                                             ///< the other
+  CapacityEventType type = CapacityEventType::contact;  ///< which pool was full
+  BodyId a;                                             ///< the body with the lower slot; or the sensor
+  BodyId b;                                             ///< the other body
 };
 
-/// As ContactEventBuffer, in the order of (type, a.slot, b.slot), each once; those beyond `capacity` are not counted
-/// again.
+/// As ContactEventBuffer, in the order of (type, a.slot, b.slot), each event once. The report does not count the events
+/// beyond `capacity`.
 struct CapacityEventBuffer {
-  CapacityEvent* data = nullptr;  ///< room for `capacity` events; null: none are wanted
-  uint32_t capacity = 0;          ///< of `data`
+  CapacityEvent* data = nullptr;  ///< room for `capacity` events; null: no events are written
+  uint32_t capacity = 0;          ///< number of events; must be 0 if `data` is null
 };
 
 }  // namespace DETENT_NAMESPACE

@@ -2,59 +2,64 @@
 #include <detent/toi.h>
 
 /// @file
-/// Time of impact of a vertex and a face, or of two edges, that move. It needs no world.
+/// Time of impact of a moving vertex and a moving face, or of two moving edges. No world is needed.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Which features meet.
+/// The kinds of the two features, and the order of their corners.
 enum class FeatureKind : uint32_t {
   vertex_face = 1,  ///< A's vertex, corner 0, and B's triangle, corners 1 to 3
   edge_edge = 2,    ///< A's edge, corners 0 and 1, and B's edge, corners 2 and 3
 };
 
-/// When two moving features meet.
+/// The time of impact of two moving features.
 struct FeatureToi {
-  ToiOutcome outcome = ToiOutcome::undecided;  ///< whether they do
+  ToiOutcome outcome = ToiOutcome::undecided;  ///< whether the features meet
   Fraction time = 0.0;                         ///< never late: before it the features do not meet; 1 if clear
-  uint32_t intervals = 0;                      ///< intervals of time looked at; at most k_feature_intervals_max
+  uint32_t intervals = 0;                      ///< time intervals searched; at most k_feature_intervals_max
 };
 
-/// A hit is at most this part of the features' size early in gap, beside the lengths that each question names. The size
-/// is the longest edge of the two features.
+/// The largest gap at the time of a hit, as a fraction of the features' size. The size is the longest edge of the two
+/// features. Each function below adds the lengths that it lists under "Tolerance".
 inline constexpr double k_feature_tolerance = 1e-6;
-/// After so many intervals of time the answer is `undecided`.
+/// The largest number of time intervals that are searched. If that is not enough, the outcome is `undecided`.
 inline constexpr uint32_t k_feature_intervals_max = 1024;
 
-/// When two features first meet whose corners move in straight lines, from `start` to `end`, with constant velocities.
-/// Touching is meeting. The features may be degenerate. Corners: m, in one frame, each component within 2^14.
-/// Tolerance: k_feature_tolerance of the size, at the start or the end, and 2^-41 m.
+/// Finds when two features first meet if their corners move in straight lines, from `start` to `end`, at constant
+/// velocity. Touching counts as meeting. The features may be degenerate.
+/// Corners: m, in one common frame; each component within 2^14.
+/// Tolerance: k_feature_tolerance of the larger of the sizes at the start and at the end, and 2^-41 m.
 /// Errors: bad_argument for another kind; out_of_range.
 Status feature_toi_linear(FeatureKind kind, const Vec3<Real> (&start)[4], const Vec3<Real> (&end)[4],
                           FeatureToi& result);
 
-/// When two features of bodies with constant velocity and constant spin first meet. Corners: m, in their bodies' axes
-/// and from their positions, each component within 2^14. Touching is meeting. The features may be degenerate.
-/// Tolerance: k_feature_tolerance of the size, 2^-23 of how far A's and B's corners are from their positions, together,
-/// and 2^-41 m. A step of many turns may be `undecided`.
-/// Errors: bad_argument for another kind; not_normalised; out_of_range, also for positions more than 2^14 m apart in a
-/// component, displacements as long, and turns of more than 2^16 rad.
+/// Finds when two features first meet if each is fixed to a body with constant velocity and constant angular velocity.
+/// Touching counts as meeting. The features may be degenerate. A step with many revolutions may be `undecided`.
+/// Corners: m, in the axes of their body and relative to its position; each component within 2^14.
+/// Tolerance: k_feature_tolerance of the size; 2^-23 of the sum of the largest distance of A's corners from A's
+/// position and that of B's corners from B's position; and 2^-41 m. Errors: bad_argument for another kind;
+/// not_normalised; out_of_range, also if a component of the displacements, or of the initial distance of the positions,
+/// is more than 2^14 m, or a rotation is more than 2^16 rad.
 Status feature_toi(FeatureKind kind, const Vec3<Real> (&corner)[4], const Motion& motion_a, const Motion& motion_b,
                    FeatureToi& result);
 
-/// Where a body is at both ends of a step.
+/// The poses of a body at both ends of a step.
 struct PosePair {
   Pose start = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}};  ///< at the beginning of the step
   Pose end = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}};    ///< at its end
 };
 
-/// When two features of bodies first meet that are known at both ends of a step: in A's frame B moves in the screw that
-/// leads from its first pose to its last, the shorter way round. Its way along the axis and the tangent of half its
-/// angle grow evenly with time, so that the coplanarity is a cubic in time over a quadratic that has no roots. Corners:
-/// m, in their bodies' axes and from their positions, each component within 2^10; so for B's position from A's.
-/// Touching is meeting. The features may be degenerate. Tolerance: k_feature_tolerance of the size, 2^-21 of how far
-/// B's corners are from its position and of how far the positions are apart, and 2^-39 m. Errors: bad_argument for
-/// another kind; not_normalised; out_of_range, also for a turn of B in A's frame of more than 2.65 rad (the tangent of
-/// half of it is at most 4).
+/// Finds when two features first meet if the poses of their bodies are given at both ends of a step. In A's frame, B
+/// moves in the screw from its start pose to its end pose, with the smaller of the two possible rotations. The
+/// translation along the screw axis and the tangent of half the rotation angle are linear in time. Therefore the
+/// coplanarity of the features is a cubic polynomial in time divided by a quadratic that has no real roots.
+/// Touching counts as meeting. The features may be degenerate.
+/// Corners: m, in the axes of their body and relative to its position; each component within 2^10, and the same for B's
+/// position relative to A's.
+/// Tolerance: k_feature_tolerance of the size; 2^-21 of the sum of the largest distance of B's corners from B's
+/// position and the distance of the positions of A and B; and 2^-39 m. Errors: bad_argument for another kind;
+/// not_normalised; out_of_range, also if B rotates in A's frame by more than 2.65 rad (the tangent of half the angle is
+/// at most 4).
 Status feature_toi_screw(FeatureKind kind, const Vec3<Real> (&corner)[4], const PosePair& a, const PosePair& b,
                          FeatureToi& result);
 

@@ -2,19 +2,21 @@
 #include <detent/shape.h>
 
 /// @file
-/// What a program links. A world calls the code of shapes, of continuous collision and of sleeping through a table that
-/// names only what is asked for, so that the linker drops the rest from the plain library (-Wl,--gc-sections).
+/// Selects the features that a program links. A world calls the code of its features (shapes, continuous collision,
+/// sleeping, joints, sensors) through a table. The table refers only to the selected features, so that the linker
+/// removes the code of the others from the unmodified library (-Wl,--gc-sections).
 ///
 ///     create_world(block, bytes, def, assets, world, feature_table<Features::sphere | Features::half_space>);
 ///
-/// What is not linked is refused by its status, feature_missing; it never alters what a tick computes.
+/// A call that needs a feature which is not linked returns feature_missing. The selection never changes what a tick
+/// computes.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// What a world can do. Combine with |. Stored in snapshots and recordings: a bit is never reused.
+/// The features of a world. Combine with |. Stored in snapshots and recordings: a bit is never reused.
 enum class Features : uint32_t {
   none = 0,  ///< a world without bodies
-  /// The shape of this name.
+  /// The shape of the same name.
   /// @{
   sphere = 1u << static_cast<uint32_t>(ShapeType::sphere),
   capsule = 1u << static_cast<uint32_t>(ShapeType::capsule),
@@ -26,35 +28,35 @@ enum class Features : uint32_t {
   surface = 1u << static_cast<uint32_t>(ShapeType::surface),
   compound = 1u << static_cast<uint32_t>(ShapeType::compound),
   /// @}
-  rounding = 1u << 16,    ///< of boxes, cylinders, cones and hulls
+  rounding = 1u << 16,    ///< rounded boxes, cylinders, cones and hulls
   continuous = 1u << 17,  ///< WorldDef::continuous
   sleeping = 1u << 18,    ///< WorldDef::sleeping, put_to_sleep()
   joints = 1u << 19,      ///< create_joint()
   sensors = 1u << 20,     ///< BodyDef::sensor
-  /// Every shape.
+  /// All shapes.
   shapes = sphere | capsule | box | half_space | cylinder | cone | hull | surface | compound | rounding,
   /// The default of create_world().
   all = shapes | continuous | sleeping | joints | sensors,
 };
-/// Those in either.
+/// The features that are in `a` or in `b`.
 constexpr Features operator|(Features a, Features b) {
   return static_cast<Features>(static_cast<uint32_t>(a) | static_cast<uint32_t>(b));
 }
-/// Those in both.
+/// The features that are in `a` and in `b`.
 constexpr Features operator&(Features a, Features b) {
   return static_cast<Features>(static_cast<uint32_t>(a) & static_cast<uint32_t>(b));
 }
-/// Those of `a` that are not in `b`.
+/// The features that are in `a` and not in `b`.
 constexpr Features without(Features a, Features b) {
   return static_cast<Features>(static_cast<uint32_t>(a) & ~static_cast<uint32_t>(b));
 }
-/// Whether `all` has each of `some`.
+/// Whether all features of `some` are in `all`.
 constexpr bool contains(Features all, Features some) { return without(some, all) == Features::none; }
-/// The feature that a shape needs.
+/// The feature that a shape of this type needs.
 constexpr Features feature_of(ShapeType type) { return static_cast<Features>(1u << static_cast<uint32_t>(type)); }
 
 /// @cond
-// The library's own: each is the way into the code of one feature.
+// Internal to the library: each is the function table of one feature.
 struct ShapeOps;
 struct PairOps;
 struct HalfSpaceOps;
@@ -86,21 +88,22 @@ extern const JointOps k_joint_ops;
 extern const SensorOps k_sensor_ops;
 /// @endcond
 
-/// What a world calls, null where it is not linked. Made by feature_table; must outlive its worlds.
+/// The function tables that a world calls; null where a feature is not linked. Made by feature_table. It must outlive
+/// its worlds.
 struct FeatureTable {
-  Features features;  ///< what it names
+  Features features;  ///< the features that are linked
   /// @cond
   const ShapeOps *sphere, *capsule, *box, *half_space_shape, *cylinder, *cone, *hull_shape, *surface_shape,
       *compound_shape;
   const PairOps *round_pair, *box_round_pair, *box_pair;
   const HalfSpaceOps* half_space;
-  const ConvexOps* convex;  ///< pairs of which one is a cylinder, cone, hull or rounded
+  const ConvexOps* convex;  ///< pairs in which a shape is a cylinder, cone, hull or rounded
   const HullOps* hull;
   const SurfaceOps* surface;
   const SurfaceImpactOps* surface_impact;
   const SurfaceDistanceOps* surface_distance;
   const CompoundOps* compound;
-  const CompoundImpactOps* compound_impact;  ///< where it is continuous, or there are sensors
+  const CompoundImpactOps* compound_impact;  ///< compounds with continuous collision or sensors
   const ContinuousOps* continuous;
   const SleepingOps* sleeping;
   const JointOps* joints;
@@ -108,7 +111,7 @@ struct FeatureTable {
   /// @endcond
 };
 
-/// What feature_table is made by.
+/// Builds the table for `features`; feature_table calls it.
 constexpr FeatureTable make_feature_table(Features features) {
   const auto any = [features](Features some) { return (features & some) != Features::none; };
   const bool box = any(Features::box), round = any(Features::sphere | Features::capsule);
@@ -143,7 +146,7 @@ constexpr FeatureTable make_feature_table(Features features) {
   return table;
 }
 
-/// The table of these features, for create_world().
+/// The table for `features`, for create_world().
 template <Features features>
 inline constexpr FeatureTable feature_table = make_feature_table(features);
 

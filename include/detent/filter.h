@@ -4,36 +4,37 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Which other bodies a body touches. Two bodies of the same group, other than 0, touch if it is positive and do not if
-/// it is negative. Any others touch if the category of each has a bit in the mask of the other. The rules of both, if
-/// they have one, are asked last, and may forbid what is allowed so far.
+/// Selects the bodies with which a body can collide. Two bodies of the same nonzero group can collide if the group is
+/// positive, and cannot if it is negative. Any other two bodies can collide if the category of each shares a bit with
+/// the mask of the other. Finally the filter rules of both bodies, if any, are called: a rule can forbid a pair that
+/// these tests allow.
 /// Source: the filter of Box2D (Catto).
 struct Filter {
-  uint32_t category = 1;  ///< bits: what the body is
-  uint32_t mask = ~0u;    ///< bits: the categories that it touches
-  int32_t group = 0;      ///< 0: none
-  uint32_t rule = 0;      ///< 0: none; else the number, from 1 on, of a rule in World::filter_rules
-  /// Equal in everything.
+  uint32_t category = 1;  ///< bits: the categories of the body
+  uint32_t mask = ~0u;    ///< bits: the categories with which the body can collide
+  int32_t group = 0;      ///< 0: no group
+  uint32_t rule = 0;      ///< 0: no rule; else the number, from 1 on, of a rule in World::filter_rules
+  /// Whether all fields are equal.
   friend constexpr bool operator==(const Filter& a, const Filter& b) {
     return a.category == b.category && a.mask == b.mask && a.group == b.group && a.rule == b.rule;
   }
 };
 
-/// What a rule may know of a body.
+/// The properties of a body that a rule can read.
 struct FilterBody {
   uint32_t user_data = 0;  ///< BodyDef::user_data
-  Filter filter = {};      ///< its filter
+  Filter filter = {};      ///< BodyDef::filter
 };
 
-/// Whether `own`, whose rule it is, may touch `other`. A function of its arguments alone: it may be asked at any time,
-/// and must give the same answer on every machine that replays the world.
+/// Returns whether `own`, the body that has the rule, can collide with `other`. The result must depend only on the
+/// arguments: the rule may be called at any time, and must return the same on every machine that replays the world.
 using FilterRule = bool (*)(const FilterBody& own, const FilterBody& other);
 
-/// The rules of a world, in an order of the caller's choice that is the same on every machine: rule n is rules[n - 1].
-/// The state holds the numbers alone.
+/// The filter rules of a world. Rule n is rules[n - 1]. The caller chooses the order, which must be the same on every
+/// machine: the state stores only the numbers.
 struct FilterRuleTable {
   const FilterRule* rules = nullptr;  ///< the first rule
-  uint32_t count = 0;                 ///< rules
+  uint32_t count = 0;                 ///< number of rules
 };
 
 }  // namespace DETENT_NAMESPACE

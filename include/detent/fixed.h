@@ -2,22 +2,23 @@
 #include <detent/config.h>
 
 /// @file
-/// The fixed-point number.
+/// Fixed-point numbers.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The bits of an IEEE double (host) rounded to nearest, ties away from zero, at `frac` fraction bits, in a 64-bit
-/// integer. Integer arithmetic only: the caller's rounding mode and flush-to-zero have no effect.
+/// The result of fixed_from_double_bits(): a double converted to fixed point.
 struct FromDouble {
-  int64_t raw;    ///< value 2^frac, rounded
-  bool in_range;  ///< false for NaN, infinity and |value| 2^frac >= 2^(bits-1): raw is then 0
+  int64_t raw;    ///< value 2^frac, rounded to nearest, ties away from zero
+  bool in_range;  ///< false for NaN, infinity and |value| 2^frac >= 2^(int_bits-1): raw is then 0
 };
-/// See FromDouble. Range: 0 <= frac <= 62; int_bits: of the integer that is to hold it, sign included, at most 64.
+/// Converts an IEEE double, given by its bits, to a fixed-point number with `frac` fraction bits. Uses only integer
+/// arithmetic, so the caller's rounding mode and flush-to-zero have no effect. Range: 0 <= frac <= 62. `int_bits`: the
+/// number of bits of the integer that stores the result, sign included, at most 64.
 constexpr FromDouble fixed_from_double_bits(uint64_t bits, int frac, int int_bits) {
   const bool negative = (bits >> 63) != 0;
   const int biased = static_cast<int>((bits >> 52) & 0x7ff);
   if (biased == 0x7ff) return {0, false};
-  if (biased == 0) return {0, true};  // zero and subnormals: below every format's half unit
+  if (biased == 0) return {0, true};  // zero and subnormals: below half a step of every format
   const uint64_t mantissa = (bits & 0xfffffffffffffu) | 0x10000000000000u;
   const int shift = biased - 1075 + frac;  // value 2^frac = mantissa 2^shift
   uint64_t magnitude = 0;
@@ -31,23 +32,23 @@ constexpr FromDouble fixed_from_double_bits(uint64_t bits, int frac, int int_bit
 }
 
 /// A two's complement fixed-point number: value = raw 2^-Frac.
-/// Sums wrap (the ranges in SPEC.md keep them from it); nothing saturates silently.
-/// A floating-point literal converts at compile time, rounded to nearest; a run-time double enters by `from_host`
-/// alone.
+/// Sums that overflow wrap (the ranges in SPEC.md exclude overflow); no operation saturates.
+/// A floating-point literal converts at compile time, rounded to nearest. Only the functions of convert.h convert a
+/// double at run time.
 template <class Int, int Frac>
-struct alignas(sizeof(Int)) Fixed {  // also on targets whose structs pack 8-byte members
-  /// Bits after the point.
+struct alignas(sizeof(Int)) Fixed {  // alignas: some targets align 8-byte members to less than 8
+  /// The number of fraction bits.
   static constexpr int k_frac = Frac;
-  /// All bits, sign included.
+  /// The number of all bits, sign included.
   static constexpr int k_bits = static_cast<int>(sizeof(Int) * 8);
-  /// The integer it is.
+  /// The underlying integer type.
   using Raw = Int;
-  /// value 2^Frac
+  /// The number times 2^Frac.
   Int raw;
 
   /// Not initialised; `{}` is zero.
   Fixed() = default;
-  /// A literal, rounded to nearest, ties away from zero; one out of range does not compile.
+  /// From a literal, rounded to nearest, ties away from zero. A literal out of range does not compile.
   // NOLINTNEXTLINE(google-explicit-constructor): a literal is meant to convert
   consteval Fixed(double literal) : raw(literal_raw(literal)) {}
   /// The number raw_value 2^-Frac.
@@ -65,7 +66,7 @@ struct alignas(sizeof(Int)) Fixed {  // also on targets whose structs pack 8-byt
   friend constexpr bool operator<=(Fixed a, Fixed b) { return a.raw <= b.raw; }
   friend constexpr bool operator>=(Fixed a, Fixed b) { return a.raw >= b.raw; }
   /// @}
-  /// Exact within the format's range. Overflow: wraps.
+  /// Sums and differences: exact within the format's range. Overflow: wraps.
   /// @{
   friend constexpr Fixed operator+(Fixed a, Fixed b) { return wrapped(bits(a) + bits(b)); }
   friend constexpr Fixed operator-(Fixed a, Fixed b) { return wrapped(bits(a) - bits(b)); }

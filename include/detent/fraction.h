@@ -2,11 +2,11 @@
 #include <detent/scalar.h>
 
 /// @file
-/// A part of a step.
+/// Fractions of a step.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// A part of a step, in [0, 1], in steps of 2^-62.
+/// A fraction of a step, in [0, 1], with a resolution of 2^-62.
 using Fraction = Fixed<int64_t, 62>;
 /// The fraction as a Real. Rounding: down.
 Real real_from_fraction(Fraction fraction);

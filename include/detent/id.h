@@ -2,12 +2,12 @@
 #include <detent/config.h>
 
 /// @file
-/// Names of bodies.
+/// Ids of bodies.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Names a body by value. Null when both members are zero. Valid until the body is destroyed; a later body in the same
-/// slot has another generation. A slot whose generation would wrap is retired, and counted in
+/// Names a body by value. Null if both members are zero. Valid until the body is destroyed; a later body in the same
+/// slot has another generation. A slot whose generation would overflow is no longer used, and is counted in
 /// `WorldInfo::slots_retired`.
 struct BodyId {
   uint32_t slot = 0;        ///< index + 1; 0 is null

@@ -19,14 +19,14 @@ struct Vec3 {
   }
 };
 
-/// A place in the world, m.
+/// A position in the world, m.
 using Position = Vec3<Coord>;
 
 /// A rotation as a unit quaternion, w + xi + yj + zk, from local to world: v_world = q v_local q*.
 struct Quat {
-  Unit x;  ///< of i
-  Unit y;  ///< of j
-  Unit z;  ///< of k
+  Unit x;  ///< the part of i
+  Unit y;  ///< the part of j
+  Unit z;  ///< the part of k
   Unit w;  ///< the real part
   /// Equal in each component; q and -q, the same rotation, are not.
   friend constexpr bool operator==(const Quat& a, const Quat& b) {
@@ -34,12 +34,12 @@ struct Quat {
   }
 };
 
-/// A rotation by columns: the images of the local axes.
+/// A rotation matrix, by columns.
 struct Matrix3 {
   Vec3<Unit> column[3];  ///< column[i] is the image of local axis i
 };
 
-/// Where a body is: the world position of its centre of mass, m, and its rotation from local to world.
+/// Position and rotation of a body.
 struct Pose {
   Position position;  ///< of the centre of mass, m, world
   Quat rotation;      ///< local to world, of length 1

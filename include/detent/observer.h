@@ -2,19 +2,19 @@
 #include <detent/profile.h>
 
 /// @file
-/// Who looks on while a world steps.
+/// A callback at the end of each stage of a step.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 struct World;
 
-/// Is told of the end of each stage of each step that is not idle. Set World::observer; without it nothing is called,
-/// and in either case the state is the same. For tools that look for the stage in which two machines part.
+/// A callback at the end of each stage of each step that is not idle. Set World::observer to use it; it does not change
+/// the state. For tools that find the stage in which two machines begin to differ.
 struct StepObserver {
-  /// `contacts`: that the step has found so far, in its work space. Must not change the world. The state is that within
-  /// the step: no call of world.h may be made on it but `digest`, `save` and the getters.
+  /// `contacts`: number of contacts that the step has found so far, in its work space. It must not change the world.
+  /// The state is incomplete within the step: of world.h it may only call `digest`, `save` and the getters.
   void (*stage_ended)(void* context, const World& world, StepStage stage, uint32_t contacts) = nullptr;
-  void* context = nullptr;  ///< handed to `stage_ended`
+  void* context = nullptr;  ///< passed to `stage_ended`
 };
 
 }  // namespace DETENT_NAMESPACE

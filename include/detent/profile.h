@@ -1,32 +1,31 @@
 #pragma once
 #include <detent/config.h>
 
-/// Where a step's time goes, by the caller's clock. Set World::profile; without it nothing is read or kept, and in
-/// either case the state is the same.
+/// Times of a step's stages, by the caller's clock. Set World::profile to measure them; it does not change the state.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// In the order in which a step goes through them.
+/// The stages of a step, in their order.
 enum class StepStage : uint32_t {
-  find_pairs,  ///< what moves, its bounds, which of them overlap, and who wakes
+  find_pairs,  ///< moving bodies, their bounds, pairs with overlapping bounds, and bodies that wake
   collide,     ///< contact points of pairs, and the rows of the solver
-  islands,     ///< and the order of the solve, loads, numbers of substeps
+  islands,     ///< islands, solve order, loads, numbers of substeps
   solve,       ///< the substeps
   events,      ///< contact events
-  advance,     ///< sweeps, and continuous collision
+  advance,     ///< sweeps, continuous collision and sensors
   finalise,    ///< new poses
-  store,       ///< who falls asleep; the contacts for the next tick
+  store,       ///< bodies that fall asleep, contacts for the next tick, broken joints, body events
 };
 inline constexpr uint32_t k_step_stage_count = 8;  ///< how many stages there are
-/// The enumerator's name. Never null.
+/// The name of the enumerator. Never null.
 const char* stage_name(StepStage stage);
 
 /// Times of the stages, summed over steps.
 struct Profile {
-  uint64_t (*now)(void* user) = nullptr;    ///< never goes back; must not touch the world
-  void* user = nullptr;                     ///< given to `now`
-  uint64_t ticks[k_step_stage_count] = {};  ///< of the clock, in each stage, summed over steps; reset it as you like
-  uint64_t steps = 0;                       ///< that were not idle
+  uint64_t (*now)(void* user) = nullptr;    ///< the clock; it must not run backwards, nor use the world
+  void* user = nullptr;                     ///< passed to `now`
+  uint64_t ticks[k_step_stage_count] = {};  ///< clock ticks in each stage, summed over steps; the caller may reset them
+  uint64_t steps = 0;                       ///< number of steps that were not idle
 };
 
 }  // namespace DETENT_NAMESPACE

@@ -6,52 +6,52 @@
 
 /// @file
 /// Recording and replay: a seed snapshot, every mutating call, and a digest per tick, as a stream of small checked
-/// chunks. Format: docs/recording.md. Neither class allocates, or holds more than the caller's buffer; only
-/// Player::go_to seeks.
+/// chunks. Format: docs/recording.md. Neither class allocates; each uses only the caller's buffer. Only Player::go_to
+/// seeks.
 ///
-/// Threads: a Recorder or Player is used like the world it is given to: by one thread at a time.
+/// Threads: as for the world that a Recorder or Player works on, only one thread may use it at a time.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The layout of the bytes, apart from what a tick computes (`k_simulation_version`).
+/// Version of the byte layout. The version of the computation is separate (`k_simulation_version`).
 inline constexpr uint32_t k_recording_format_version = 5;
-/// The working buffer of a Recorder or a Player: one chunk. No alignment is needed.
+/// Size of the working buffer of a Recorder or Player, bytes: one chunk. No alignment is needed.
 inline constexpr uint32_t k_recording_buffer_bytes = 544;
 
 /// How much the recording says about each tick. Stored: a value is never reused.
 enum class TraceLevel : uint32_t {
   digests = 0,  ///< one digest a tick
-  stages = 1,   ///< in a window of ticks also digests of each body, contact and joint after each stage of the step
-  full = 2,     ///< in a window of ticks also all that they hold after each stage
+  stages = 1,   ///< in a range of ticks also digests of each body, contact and joint after each stage of the step
+  full = 2,     ///< in a range of ticks also the complete bodies, contacts and joints after each stage
 };
 
-/// Ticks of which a recording tells more, by the number that is completed with them (StepReport::tick).
+/// The ticks that a recording traces. A tick is named by its StepReport::tick.
 struct TraceDef {
-  TraceLevel level = TraceLevel::full;  ///< of these ticks
-  uint64_t from = 0;                    ///< the first
-  uint64_t to = UINT64_MAX;             ///< the last
+  TraceLevel level = TraceLevel::full;  ///< trace level of these ticks
+  uint64_t from = 0;                    ///< the first tick
+  uint64_t to = UINT64_MAX;             ///< the last tick
 };
 
-/// Where a recording goes. `write` takes all of `count` bytes, in order, or returns another status than ok.
-/// A null `write` records nothing: the calls just apply.
+/// The output of a recording. `write` takes all `count` bytes, in order, or returns a status other than ok.
+/// If `write` is null, nothing is recorded: calls are only applied.
 struct Sink {
   /// Takes `count` bytes.
   Status (*write)(void* context, const uint8_t* bytes, uint32_t count) = nullptr;
-  void* context = nullptr;  ///< handed to `write`
+  void* context = nullptr;  ///< passed to `write`
 };
 
-/// Where a recording comes from. `read` gives the next bytes in order: `got` <= count is how many, and fewer than
-/// `count` only at the end. Anything but ok stops the replay as sink_failed.
+/// The input of a replay. `read` returns the next bytes in order, and their number in `got`: `count`, or fewer at the
+/// end only. A status other than ok stops the replay as sink_failed.
 struct Source {
-  /// Gives up to `count` bytes.
+  /// Reads up to `count` bytes.
   Status (*read)(void* context, uint8_t* bytes, uint32_t count, uint32_t& got) = nullptr;
-  void* context = nullptr;  ///< handed to `read` and `seek`
-  /// The next byte to give is the one `offset` bytes from the recording's start; at or beyond the end there is none.
-  /// Null: the source goes forward only.
+  void* context = nullptr;  ///< passed to `read` and `seek`
+  /// Makes `read` continue `offset` bytes from the recording's start; at or beyond the end it then reads no bytes.
+  /// Null: the source only moves forward.
   Status (*seek)(void* context, uint64_t offset) = nullptr;
 };
 
-/// What a recording is to hold.
+/// What a recording contains.
 struct RecordingDef {
   uint32_t digest_interval = 1;    ///< a digest after every tick that is a multiple of it; 0: only at the end
   uint32_t keyframe_interval = 0;  ///< the whole state after every tick that is a multiple of it; 0: only the seed
@@ -62,32 +62,32 @@ struct RecordingInfo {
   uint32_t format_version = 0;                   ///< k_recording_format_version of the recorder
   uint32_t simulation_version = 0;               ///< k_simulation_version of the recorder
   Config config = k_config;                      ///< of the recorded world
-  Capacity capacity = {};                        ///< of the recorded world, and of the one to replay in
-  TraceLevel trace_level = TraceLevel::digests;  ///< how much it says about each tick
+  Capacity capacity = {};                        ///< of the recorded world; a replay needs a world with the same
+  TraceLevel trace_level = TraceLevel::digests;  ///< TraceDef::level; `digests` without a trace
   uint32_t digest_interval = 0;                  ///< RecordingDef::digest_interval
-  uint64_t tick = 0;               ///< of the seed: ticks that its world had completed when the recording began
-  uint32_t snapshot_bytes = 0;     ///< of the seed, and of each keyframe
-  uint32_t keyframe_interval = 0;  ///< RecordingDef::keyframe_interval
+  uint64_t tick = 0;                             ///< ticks that the world had completed when the recording began
+  uint32_t snapshot_bytes = 0;                   ///< bytes of the seed, and of each keyframe
+  uint32_t keyframe_interval = 0;                ///< RecordingDef::keyframe_interval
 };
 
 /// @cond
-// The library's own: what goes for all calls, and for all queries.
+// Internal: descriptions of the recorded calls and queries.
 struct CommandCode;
 struct QueryCode;
-// The way into the code that traces, and what looks on while a recording is read.
+// Internal: functions of the tracer, and an observer of a replay.
 struct Tracer;
 extern const Tracer k_tracer;
 struct ReplayWatch;
 /// @endcond
 
-/// Applies calls to a world and logs those that succeeded. Its methods mirror world.h, body_access.h,
-/// world_access.h and forces.h by name, arguments and statuses.
+/// Applies calls to a world and logs the calls that succeed. Its methods mirror world.h, body_access.h, world_access.h,
+/// joint.h and forces.h by name, arguments and statuses.
 ///
-/// A call that fails changes nothing and is not logged. A failing sink doesn't disturb the world: the calls go on
-/// applying, nothing more is written, and `status` and `end` report it. Between `begin` and `end` the world is changed
-/// through the recorder alone; a change behind its back shows as digest_differs in the replay. In f32 and f64 a
-/// negative zero is applied and logged as zero, and a NaN or infinity is refused (out_of_range) in any field, also in
-/// one that the shape's type doesn't use: what is logged is what was applied.
+/// A call that fails changes nothing and is not logged. If the sink fails, calls are still applied, nothing more is
+/// written, and `status` and `end` report the failure. Between `begin` and `end` only the recorder may change the
+/// world; any other change appears as digest_differs in the replay. In f32 and f64 a negative zero is applied and
+/// logged as zero, and a NaN or infinity is refused (out_of_range) in every field, even in one that the shape's type
+/// does not use: so the log has exactly the values that were applied.
 class Recorder {
  public:
   /// `buffer` and the world must outlive the recorder. The buffer may be null with a null sink.
@@ -95,30 +95,32 @@ class Recorder {
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  /// Traces these ticks: what a difference of two machines is found by (docs/first_difference.md). A trace goes to the
-  /// sink from within `step`, in chunks, and takes some ten times the state in use a tick; World::observer is the
-  /// recorder's while it steps, and the world's own is told first. A program that never calls this links none of its
-  /// code. Errors: bad_argument (begun before, a level that there is not, or `from` after `to`).
+  /// Traces these ticks, to find the first difference of two machines (docs/first_difference.md). `step` writes the
+  /// trace to the sink in chunks; a tick takes about ten times the state in use. While the recorder steps, it replaces
+  /// World::observer, and calls the world's own observer first. A program that never calls this function links none of
+  /// its code. Errors: bad_argument (begun already, an unknown level, or `from` after `to`).
   Status trace(const TraceDef& def) {
     if (state_ != State::idle || def.level > TraceLevel::full || def.from > def.to) return Status::bad_argument;
     trace_ = def;
     tracer_ = &k_tracer;
     return Status::ok;
   }
-  /// Writes the header and the world's state as the seed; calls are logged from here on. With a null sink: ok, and
-  /// nothing. Errors: bad_argument (begun before), buffer_too_small (k_recording_buffer_bytes), sink_failed.
+  /// Writes the header and the world's state as the seed; calls are logged from here on. With a null sink it does
+  /// nothing and returns ok. Errors: bad_argument (begun already), buffer_too_small (k_recording_buffer_bytes),
+  /// sink_failed.
   Status begin(const RecordingDef& def = {});
-  /// Writes what is buffered as a chunk, so that a crash later loses nothing up to here. Errors: sink_failed.
+  /// Writes the buffered records as a chunk, so that a later crash does not lose them. Errors: sink_failed.
   Status flush();
-  /// Writes the rest and the end chunk; later calls apply and are not logged. Without `begin`: ok, and nothing.
-  /// Errors: sink_failed, also for a failure since `begin`.
+  /// Writes the buffered records and the end chunk; later calls are applied but not logged. Without `begin` it does
+  /// nothing and returns ok. Errors: sink_failed, also for a failure since `begin`.
   Status end();
-  /// ok, or the first failure of `begin` or the sink: from then on the recording is incomplete.
+  /// ok, or the first failure of `begin` or the sink, after which the recording is incomplete.
   Status status() const { return status_; }
-  /// The world that the calls go to.
+  /// The world to which the calls are applied.
   const World& world() const { return world_; }
 
-  /// As the function of this name in world.h, with its arguments and errors; logged if it succeeds.
+  /// As the function of this name in world.h, body_access.h, world_access.h, joint.h or forces.h, with its arguments
+  /// and errors; logged if it succeeds.
   /// @{
   Status create_body(const BodyDef& def, BodyId& id);
   Status destroy_body(BodyId id);
@@ -155,7 +157,7 @@ class Recorder {
   Status explode(const Explosion& explosion);
   Status move_kinematic(BodyId id, const Position& position, const Quat& rotation);
   /// @}
-  /// The queries change nothing, and are logged with the digest of their answer.
+  /// As the function of this name in query.h. Queries change nothing; they are logged with the digest of their hits.
   /// @{
   Status query_ray(const RayQuery& query, QueryHits hits, QueryReport& report);
   Status query_cast(const CastQuery& query, QueryHits hits, QueryReport& report);
@@ -168,7 +170,7 @@ class Recorder {
   StepReport step();
 
   /// @cond
-  // The library's own: makes a call that a recording holds.
+  // Internal: makes a recorded call.
   Status make(const CommandCode& code, void* command) { return apply_and_log(code, command); }
   Status make(const QueryCode& code, void* command);
   /// @endcond
@@ -201,43 +203,43 @@ class Recorder {
   RecordingDef def_ = {};
   TraceDef trace_ = {TraceLevel::digests, 0, 0};
   const Tracer* tracer_ = nullptr;
-  uint32_t sequence_ = 0;       ///< of the next chunk
-  uint32_t payload_count_ = 0;  ///< bytes of records that wait in the buffer
-  uint64_t tick_ = 0;           ///< of the world, now
-  uint64_t chunk_tick_ = 0;     ///< of the world, before the first waiting record
-  uint64_t ticks_ = 0;          ///< logged since `begin`
+  uint32_t sequence_ = 0;       ///< number of the next chunk
+  uint32_t payload_count_ = 0;  ///< bytes of buffered records
+  uint64_t tick_ = 0;           ///< current tick of the world
+  uint64_t chunk_tick_ = 0;     ///< tick of the world before the first buffered record
+  uint64_t ticks_ = 0;          ///< ticks logged since `begin`
 };
 
-/// What one tick of a replay showed.
+/// The result of one tick of a replay.
 struct TickResult {
-  bool finished = false;   ///< the end of the recording: no tick was made; `digest` is that of the final state
-  bool compared = false;   ///< the recording holds a digest of this tick (and it is equal, where there is a world)
+  bool finished = false;   ///< the recording has ended: no tick was made; `digest` is that of the final state
+  bool compared = false;   ///< the recording has a digest of this tick (with a world: and the digests are equal)
   uint64_t tick = 0;       ///< ticks completed since the world was created
-  uint64_t digest = 0;     ///< where `compared`
-  uint32_t calls = 0;      ///< applied before the tick
-  StepReport report = {};  ///< of the step; empty without a world
+  uint64_t digest = 0;     ///< the recorded digest, if `compared`
+  uint32_t calls = 0;      ///< calls made before the tick
+  StepReport report = {};  ///< the report of the step; empty without a world
 };
 
-/// Where and why a replay stopped. `field` and `status_text(status)` make one line for a reader:
+/// Where and why a replay stopped. `field` and `status_text(status)` make one line of text:
 /// "corrupt at byte 1234, tick 17: chunk checksum".
 struct ReplayError {
-  Status status = Status::ok;  ///< what the failing call returned
-  uint64_t tick = 0;           ///< ticks completed when it stopped
-  uint64_t offset = 0;         ///< of the header field, chunk or record that is wrong, bytes from the recording's start
-  const char* field = "";      ///< what is wrong there; never null
-  uint64_t digest_recorded = 0;  ///< digest_differs at a digest: the recording's
-  uint64_t digest_replayed = 0;  ///< and this machine's
+  Status status = Status::ok;    ///< the status of the failed call
+  uint64_t tick = 0;             ///< ticks completed when the replay stopped
+  uint64_t offset = 0;           ///< bytes from the recording's start to the wrong header field, chunk or record
+  const char* field = "";        ///< the wrong item; never null
+  uint64_t digest_recorded = 0;  ///< digest_differs at a digest: the digest in the recording
+  uint64_t digest_replayed = 0;  ///< digest_differs at a digest: this machine's digest
 };
 
 /// @cond
 class Reader;
-// The library's own: the way into the code that asks recorded queries again.
+// Internal: functions that repeat recorded queries.
 struct QueryRepeater;
 extern const QueryRepeater k_query_repeater;
 /// @endcond
 
-/// Replays a recording from a stream. Any bytes may come: every length and number is checked before it is used, each
-/// chunk by its CRC-32 before anything in it is read. The first error stays: later calls return it again.
+/// Replays a recording from a stream. The stream may be untrusted: every length and number is checked before it is
+/// used, and the CRC-32 of each chunk before the chunk is read. After an error, all later calls return the same error.
 class Player {
  public:
   /// `buffer` must outlive the player.
@@ -245,48 +247,49 @@ class Player {
   Player(const Player&) = delete;
   Player& operator=(const Player&) = delete;
 
-  /// From now on asks the recorded queries again as well: another answer than the recorded one is digest_differs. If it
-  /// is never called they are passed over, and the program links none of their code.
+  /// Repeats the recorded queries from now on: a result that differs from the recorded one is digest_differs. Without
+  /// this call queries are skipped. A program that never calls this function links none of their code.
   void repeat_queries() { repeater_ = &k_query_repeater; }
   /// @cond
   void watch(const ReplayWatch* watch) { watch_ = watch; }
   /// @endcond
 
-  /// Reads the header. `info` is filled once its checksum is right, also if this build refuses it by a later check.
+  /// Reads the header. `info` is filled if the header's checksum is right, even if a later check fails.
   /// Errors: buffer_too_small, bad_argument (opened before), sink_failed, truncated, not_detent, format_unknown,
   /// corrupt, simulation_differs, config_differs.
   Status open();
-  /// The header, once `open` has read it.
+  /// The header, after `open` has read it.
   const RecordingInfo& info() const { return info_; }
 
   /// Loads the seed into a world that was created with `info().capacity`. On failure the world is left empty.
-  /// Errors: bad_argument (not opened, or started before), capacity_differs, and those of `load`; truncated,
+  /// Errors: bad_argument (not opened, or started already), capacity_differs, and those of `load`; truncated,
   /// sink_failed.
   Status start(World& world);
-  /// Goes on from a state that was saved during this recording, on any machine: passes over all up to the world's tick.
+  /// Continues from a state that any machine saved during this recording: skips the recording up to the world's tick.
   /// Errors: as start, and out_of_range (a tick before the seed or after the end).
   Status start_at(World& world);
-  /// Makes the calls of one tick, steps, and compares the digest; at the end, makes the calls after the last tick and
-  /// compares the final digest. A call that this world refuses, or that gives another id than recorded, is
-  /// digest_differs: the bytes are sound, so the states differ. Errors: bad_argument (not started, or finished),
-  /// truncated, corrupt, digest_differs, sink_failed. `result` is then untouched.
+  /// Makes the calls of one tick, steps, and compares the digest. At the end it makes the calls after the last tick and
+  /// compares the final digest. A call that fails in this world, or returns an id other than the recorded one, is
+  /// digest_differs: the checksums are right, so the states differ. Errors: bad_argument (not started, or finished),
+  /// truncated, corrupt, digest_differs, sink_failed; `result` is then untouched.
   Status next_tick(World& world, TickResult& result) { return advance(&world, result); }
-  /// As next_tick, without a world: reads and checks the bytes, and makes no call. After `open`, from the seed on.
+  /// As next_tick, without a world: reads and checks the bytes, and makes no calls. After `open` it begins at the seed.
   Status skip_tick(TickResult& result) { return advance(nullptr, result); }
-  /// Makes the world's state that after `tick` completed ticks and before the calls of the next, forwards or back;
-  /// after `open`, `start` is not needed. From the last keyframe at or before the tick, or the seed, or the state of
-  /// now if that is nearer; what lies between is played as by next_tick. With a `seek`, a cut recording can be gone
-  /// through as far as it is whole. Errors: out_of_range (a tick outside the recording, or before now without a `seek`:
-  /// nothing is changed, except that without one a replay beyond the end stands at it), and those of start and
-  /// next_tick; then the world is left empty or where it stopped.
+  /// Sets the world to its state after `tick` completed ticks, before the calls of the next tick; forwards or
+  /// backwards. It needs `open`, but not `start`. It begins at the nearest of: the last keyframe at or before the tick,
+  /// the seed, the current state; from there it plays as next_tick does. With a `seek`, a truncated recording can be
+  /// played up to its last intact chunk. Errors: out_of_range (a tick outside the recording, or an earlier tick without
+  /// a `seek`: nothing changes, but without a `seek` a tick beyond the end leaves the replay at the end), and those of
+  /// start and next_tick; the world is then empty, or where the replay stopped.
   Status go_to(World& world, uint64_t tick);
-  /// After next_tick returned truncated, or corrupt for a chunk that is not sound: how much of the recording is whole,
-  /// bytes from its start. These bytes and the end that write_end makes are a recording of `error().tick` ticks.
+  /// After next_tick returned truncated, or corrupt for a damaged chunk: the size of the intact part of the recording,
+  /// bytes from its start. These bytes, followed by the end that write_end() writes, are a recording of `error().tick`
+  /// ticks.
   uint64_t whole_bytes() const { return whole_bytes_; }
-  /// Writes that end. `world`: the one of the replay. Errors: bad_argument (the recording is whole, or damaged within a
-  /// chunk whose checksum is right; another world), sink_failed.
+  /// Writes the end of a recording after its intact part. `world`: the world of the replay. Errors: bad_argument (the
+  /// recording is complete, or the damage is in a chunk whose checksum is right; another world), sink_failed.
   Status write_end(const World& world, Sink sink);
-  /// Where and why the replay stopped; `status` is ok as long as it has not.
+  /// Where and why the replay stopped; `status` is ok until it stops.
   const ReplayError& error() const { return error_; }
   /// Bytes read so far, for a progress display.
   uint64_t bytes_read() const { return offset_; }
@@ -336,10 +339,10 @@ class Player {
   uint64_t chunk_offset_ = 0;  ///< where the current chunk starts
   uint32_t chunk_type_ = 0;
   uint32_t payload_count_ = 0;
-  uint32_t payload_at_ = 0;  ///< bytes of it that are used
-  uint32_t sequence_ = 0;    ///< of the next chunk
-  uint32_t state_type_ = 0;  ///< the chunks of the state that is read: seed or keyframe
-  uint32_t state_at_ = 0;    ///< bytes of it that are used
+  uint32_t payload_at_ = 0;  ///< bytes of the payload that have been used
+  uint32_t sequence_ = 0;    ///< number of the next chunk
+  uint32_t state_type_ = 0;  ///< chunk type of the state that is being read: seed or keyframe
+  uint32_t state_at_ = 0;    ///< bytes of that state that have been read
   uint32_t whole_sequence_ = 0;
   uint64_t whole_bytes_ = 0;
   uint64_t tick_ = 0;

@@ -2,19 +2,20 @@
 #include <detent/config.h>
 
 /// @file
-/// Which contact points are kept.
+/// Reduction of contact points to four.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// Which of more than four contact points are kept. Stored: a value is never reused.
 enum class ManifoldReduction : uint32_t {
-  /// Those that reach farthest along four diagonals of the contact plane, whatever their depth, so that what trembles
-  /// keeps them; and the deepest, where it is deeper than all of them by 2^-10 of the smaller body. Where several are
-  /// one point, those that add most to the area follow.
+  /// The extreme points along four diagonals of the contact plane. Their depth is not used, so that small changes of
+  /// depth select the same points. The deepest point is added, or replaces the nearest of four, if it is deeper than
+  /// all of them by 2^-10 of the smaller body. If one point is extreme along several diagonals, points that add most to
+  /// the area fill the free places.
   /// Source: the extremes of Moravanszky, Terdiman, "Fast Contact Reduction for Dynamics Simulation", 2004.
   projected_extremes = 1,
-  /// The deepest, the one farthest from it, the one that makes the largest triangle with both, and the one that adds
-  /// most to its area.
+  /// The deepest point, the point farthest from it, the point that makes the largest triangle with both, and the point
+  /// that adds most to the area of this triangle.
   deepest_area = 2,
 };
 

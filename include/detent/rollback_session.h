@@ -2,133 +2,136 @@
 #include <detent/rollback.h>
 
 /// @file
-/// A match over a network with rollback: everybody simulates with the inputs that are known, repeats the last input of
-/// whom it has not heard from, and makes ticks again when an input turns out to be another. The session keeps inputs
-/// and states; what carries inputs from machine to machine is the game's. docs/rollback.md.
+/// A network match with rollback. Each machine simulates with the inputs that it has, repeats the last input of a
+/// player whose input has not arrived, and repeats ticks when an input differs from its prediction. The session stores
+/// inputs and states; the game sends inputs from machine to machine. See docs/rollback.md.
 ///
-/// Shaped after GGPO (Cannon 2019: inputs in, save, load and advance a frame) and ggrs (checksums that are compared, a
-/// sync test, what a session is told while it must wait is kept).
+/// Modelled on GGPO (Cannon 2019: inputs in, save, load and advance a frame) and ggrs (it compares checksums, has a
+/// sync test, and accepts inputs and checksums while it must wait).
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-inline constexpr uint32_t k_rollback_players_max = 16;        ///< of a session
-inline constexpr uint32_t k_rollback_window_max = 64;         ///< RollbackDef::window
-inline constexpr uint32_t k_rollback_input_bytes_max = 1024;  ///< RollbackDef::input_bytes
+inline constexpr uint32_t k_rollback_players_max = 16;        ///< largest RollbackDef::players
+inline constexpr uint32_t k_rollback_window_max = 64;         ///< largest RollbackDef::window
+inline constexpr uint32_t k_rollback_input_bytes_max = 1024;  ///< largest RollbackDef::input_bytes
 
-/// The game's own state that goes back with the world: plain bytes without pointers, padding or anything that differs
-/// from machine to machine, for they are in the checksums.
+/// The game's own state, which is stored and restored with the world: plain bytes without pointers or padding. They
+/// must be equal on all machines, because the checksums cover them.
 struct GameState {
-  uint8_t* bytes = nullptr;  ///< where the game has them; null if there is none
-  uint32_t count = 0;        ///< how many
+  uint8_t* bytes = nullptr;  ///< the game's bytes; null if there are none
+  uint32_t count = 0;        ///< their number
 };
 
-/// What a tick is made with.
+/// The inputs of one tick.
 struct TickInputs {
   uint64_t tick = 0;                ///< ticks that the world has completed
-  const uint8_t* inputs = nullptr;  ///< of all players, one after another
-  uint32_t players = 0;             ///< how many
-  uint32_t input_bytes = 0;         ///< of each
-  uint32_t predicted = 0;           ///< bit p: player p's input is not known, and its last one is repeated
-  bool again = false;               ///< the tick was made before: sounds and other effects have been heard
-  /// Those of one player.
+  const uint8_t* inputs = nullptr;  ///< the inputs of all players, one after another
+  uint32_t players = 0;             ///< number of players
+  uint32_t input_bytes = 0;         ///< bytes of each player's input
+  uint32_t predicted = 0;           ///< bit p: player p's input has not arrived, and the last one is repeated
+  bool again = false;               ///< the tick is repeated: do not repeat sounds and other effects
+  /// The input of one player.
   const uint8_t* of(uint32_t player) const { return inputs + player * input_bytes; }
 };
 
-/// How the game makes a tick: it applies the inputs to the world and steps it, once. The world and the GameState alone
-/// may decide what happens, for they alone go back. It must not call the session.
+/// The game's function that makes a tick: it applies the inputs to the world and steps it, once. Its results may depend
+/// on the world, the GameState and the inputs only, because a rollback restores nothing else. It must not call the
+/// session.
 struct TickMaker {
   /// Makes one tick.
   void (*make)(void* context, World& world, const TickInputs& inputs) = nullptr;
-  void* context = nullptr;  ///< handed to `make`
+  void* context = nullptr;  ///< passed to `make`
 };
 
-/// What a session is. But for `local` and `delay` the same on every machine.
+/// The settings of a session. All but `local` and `delay` must be the same on every machine.
 struct RollbackDef {
   uint32_t players = 2;            ///< [1, k_rollback_players_max]
-  uint32_t local = 1;              ///< bit p: player p plays on this machine; 0: it only watches
-  uint32_t input_bytes = 1;        ///< of a player's input for a tick, [1, k_rollback_input_bytes_max]
-  uint32_t delay = 0;              ///< ticks from a local input to the tick that it is for, [0, window]
+  uint32_t local = 1;              ///< bit p: player p plays on this machine; 0: the machine only watches
+  uint32_t input_bytes = 1;        ///< bytes of a player's input for a tick, [1, k_rollback_input_bytes_max]
+  uint32_t delay = 0;              ///< ticks from a local input to the tick that uses it, [0, window]
   uint32_t window = 8;             ///< ticks that may be simulated with predicted inputs, [1, k_rollback_window_max]
-  uint32_t checksum_interval = 1;  ///< a checksum before every tick that is a multiple of it; 0: none
+  uint32_t checksum_interval = 1;  ///< a checksum is taken before every tick that is a multiple of it; 0: none
   uint32_t game_bytes = 0;         ///< GameState::count
 };
 
-/// What one call made of the world.
+/// The result of one call.
 struct RollbackReport {
   uint64_t tick = 0;         ///< ticks that the world has completed
-  uint32_t ticks_again = 0;  ///< ticks that were made again
-  uint64_t went_back = 0;    ///< the first of them
+  uint32_t ticks_again = 0;  ///< ticks that were repeated
+  uint64_t went_back = 0;    ///< the first repeated tick
 };
 
-/// A checksum of the state after `tick` ticks: checksum32() of the world, with the GameState's bytes.
+/// A checksum of the state after `tick` ticks: checksum32() of the world, combined with the GameState's bytes.
 struct TickChecksum {
   uint64_t tick = 0;      ///< ticks completed
-  uint32_t checksum = 0;  ///< of that state
+  uint32_t checksum = 0;  ///< of the state after them
 };
 
-/// The first tick, of those compared, whose states differ from another player's.
+/// The first compared tick after which another player's state differs from this machine's.
 struct Desync {
-  bool found = false;   ///< whether there is one
+  bool found = false;   ///< whether there is such a tick
   uint64_t tick = 0;    ///< ticks completed
-  uint32_t player = 0;  ///< who had another state; the first of several
+  uint32_t player = 0;  ///< the player whose state differs; the first if there are several
   uint32_t own = 0;     ///< this machine's checksum
-  uint32_t theirs = 0;  ///< and the player's
+  uint32_t theirs = 0;  ///< the player's checksum
 };
 
-/// Bytes that a session needs for worlds of this capacity; 0 if an argument is out of range.
+/// Bytes of memory that a session needs for worlds of this capacity; 0 if an argument is out of range.
 constexpr uint32_t rollback_bytes(Capacity capacity, const RollbackDef& def);
 
-/// A session: from the world's tick at `begin` on, by the world's ticks. Any call may be made with what a network
-/// brings: what is no use is refused.
+/// A session, which starts at the world's tick at `begin` and counts the world's ticks. Every call is safe with
+/// untrusted data from a network: invalid data returns an error.
 class RollbackSession {
  public:
   RollbackSession() = default;
   RollbackSession(const RollbackSession&) = delete;
   RollbackSession& operator=(const RollbackSession&) = delete;
 
-  /// Begins with the world as it is, which must have the same digest on every machine. `memory`: 8-byte aligned, at
-  /// least rollback_bytes() of the world's capacity, for the session alone as long as it is used.
-  /// Errors: out_of_range, bad_argument (no `maker`; a local player who does not play; bytes of `game` that `def` does
-  /// not say), buffer_too_small, buffer_misaligned.
+  /// Begins with the world's current state, which must have the same digest on every machine. `memory`: 8-byte aligned,
+  /// at least rollback_bytes() for the world's capacity; only the session may use it as long as the session is in use.
+  /// Errors: out_of_range, bad_argument (no `maker`; a local player outside `def.players`; `game.count` is not
+  /// `def.game_bytes`), buffer_too_small, buffer_misaligned.
   Status begin(const World& world, const RollbackDef& def, TickMaker maker, uint8_t* memory, uint32_t memory_bytes,
                GameState game = {});
 
-  /// What a local player does in tick `tick`, the next one and the delay: `def.input_bytes` of it. Once a tick.
-  /// Errors: bad_argument (not begun, not a local player, given before, null).
+  /// Adds the input of a local player, `def.input_bytes` bytes, for the tick `def.delay` ticks after the next one; it
+  /// is returned in `tick`. Call it once a tick.
+  /// Errors: bad_argument (not begun, not a local player, already added, null).
   Status add_local_input(uint32_t player, const uint8_t* input, uint64_t& tick);
-  /// What another player did in a tick, in any order; what is known already stays.
-  /// Errors: bad_argument (not begun, not another player, null), out_of_range (too far ahead to be kept: it must come
-  /// again).
+  /// Adds the input of a remote player for a tick. The order of calls is free; an input that is already known does not
+  /// change. Errors: bad_argument (not begun, not a remote player, null), out_of_range (too far ahead to be stored: it
+  /// must be sent again).
   Status add_input(uint32_t player, uint64_t tick, const uint8_t* input);
-  /// The known input of any player, to be sent: those of the last ticks are kept, at least until every machine has
-  /// got on. Errors: bad_argument (not begun, no player), out_of_range (not known, or no longer).
+  /// Reads the known input of any player, to send it. Inputs are kept at least until no machine needs them any more.
+  /// Errors: bad_argument (not begun, no such player), out_of_range (not known yet, or no longer kept).
   Status get_input(uint32_t player, uint64_t tick, uint8_t* input) const;
-  /// The first tick of which the player's input is not known. Sent to the player, it says what need not come again.
+  /// The first tick for which the player's input is not known. Send it to the player: earlier inputs need not be sent
+  /// again.
   uint64_t next_input(uint32_t player) const { return player < def_.players ? next_[player] : 0; }
 
-  /// Makes one more tick, after making again what was predicted wrong.
-  /// Errors, each before anything is done: waiting (`window` ticks were made without an input that is not known yet:
-  /// call again when more has come); bad_argument (not begun; a local player's input is missing; the world is not at
-  /// the session's tick); capacity_differs, feature_missing (another world than the one it began with). And
-  /// bad_argument if the maker did not step the world once, which ends the session.
+  /// Repeats the ticks that had wrong predictions, then makes one more tick.
+  /// Errors before anything changes: waiting (`window` ticks were made without an input that has not arrived: call
+  /// again when more inputs have arrived); bad_argument (not begun; a local player's input is missing; the world is not
+  /// at the session's tick); capacity_differs, feature_missing (not the world that the session began with).
+  /// Error afterwards: bad_argument if the maker did not step the world exactly once; this ends the session.
   Status advance(World& world, RollbackReport& report);
-  /// Makes again what was predicted wrong, and no further tick: while waiting, and after the last tick.
-  /// Errors: bad_argument, as advance.
+  /// Repeats the ticks that had wrong predictions, and makes no further tick: for use while waiting, and after the last
+  /// tick. Errors: bad_argument, as advance.
   Status correct(World& world, RollbackReport& report);
 
   /// Ticks that the session has made.
   uint64_t tick() const { return tick_; }
-  /// The state after so many ticks stays as it is, on every machine: all inputs before it are known, and used.
+  /// The state after this many ticks is final on every machine: all inputs before it are known and used.
   uint64_t confirmed_tick() const;
 
-  /// The last confirmed checksums, the latest first, up to `count`: to be sent, each as often as the network asks for.
-  /// Returns how many there are.
+  /// Writes the last confirmed checksums, the latest first, up to `count`: send each one as often as the network
+  /// requires. Returns how many were written.
   uint32_t checksums(TickChecksum* last, uint32_t count) const;
-  /// Another player's checksum, compared as soon as the tick is confirmed here. Errors: bad_argument (not begun, not
-  /// another player, not a tick with a checksum), out_of_range (too old or too far ahead to be compared);
-  /// digest_differs (desync() tells which tick).
+  /// Adds a remote player's checksum; it is compared as soon as its tick is confirmed here. Errors: bad_argument (not
+  /// begun, not a remote player, not a tick with a checksum), out_of_range (too old or too far ahead to be compared),
+  /// digest_differs (desync() has the tick).
   Status add_checksum(uint32_t player, const TickChecksum& theirs);
-  /// Whether the states differ, and where first.
+  /// Whether the states differ, and after which tick first.
   const Desync& desync() const { return desync_; }
 
  private:
@@ -160,35 +163,35 @@ class RollbackSession {
   TickMaker maker_ = {};
   GameState game_ = {};
   SnapshotRing states_;
-  uint8_t* games_ = nullptr;    ///< of the ticks in `states_`
-  uint8_t* inputs_ = nullptr;   ///< [tick][player]: known, or what was predicted
-  uint64_t* stamps_ = nullptr;  ///< likewise: tick + 1 if the input is known
+  uint8_t* games_ = nullptr;    ///< game states of the ticks in `states_`
+  uint8_t* inputs_ = nullptr;   ///< [tick][player]: the known or predicted input
+  uint64_t* stamps_ = nullptr;  ///< [tick][player]: tick + 1 if the input is known
   Checksum* sums_ = nullptr;    ///< [tick][this machine, then each player]
-  uint32_t kept_ = 0;           ///< ticks of which inputs and checksums are kept
+  uint32_t kept_ = 0;           ///< number of ticks whose inputs and checksums are kept
   bool begun_ = false;
   uint64_t start_ = 0;           ///< the tick at `begin`
   uint64_t tick_ = 0;            ///< ticks made
-  uint64_t wrong_ = UINT64_MAX;  ///< the first tick that was made with another input than is known now
+  uint64_t wrong_ = UINT64_MAX;  ///< the first tick that was made with a wrong input
   uint64_t next_[k_rollback_players_max] = {};
   Desync desync_ = {};
 };
 
 /// @cond
 struct RollbackSession::Checksum {
-  uint64_t stamp;  ///< tick + 1, or 0
+  uint64_t stamp;  ///< tick + 1; 0: empty
   uint32_t value;
   uint32_t compared;
 };
 
-// Places of the session's parts in its memory.
+// Offsets of the session's parts in its memory, bytes.
 struct RollbackLayout {
   uint32_t games, inputs, stamps, sums, kept;
   uint64_t bytes;  ///< 0: out of range
 };
 
-// Of the first tick that a machine does not know all of: it is up to a window ahead of that, another player a delay and
-// a window ahead of it, and this player's input a delay ahead of that; and it may be asked for its own inputs from a
-// window and a delay before. A delay is no longer than a window.
+// Ticks to keep, around the first tick for which a machine lacks an input. The machine is up to one window ahead of it.
+// A remote player is up to a delay and a window ahead of the machine, and its inputs are a delay ahead of the player.
+// The machine may have to send its own inputs from up to a window and a delay before. A delay is at most a window.
 constexpr uint32_t rollback_ticks_kept(uint32_t window) { return 6 * window + 2; }
 
 constexpr RollbackLayout rollback_layout(Capacity capacity, const RollbackDef& def) {
@@ -218,19 +221,19 @@ constexpr uint32_t rollback_bytes(Capacity capacity, const RollbackDef& def) {
   return static_cast<uint32_t>(rollback_layout(capacity, def).bytes);
 }
 
-/// What sync_test() is to do.
+/// The settings of sync_test().
 struct SyncTestDef {
-  uint32_t ticks = 1;               ///< to step, then to step again
-  const uint8_t* inputs = nullptr;  ///< of each tick, of each player; null if there are none
+  uint32_t ticks = 1;               ///< ticks to make, and to repeat
+  const uint8_t* inputs = nullptr;  ///< [tick][player]: the inputs; null if there are none
   uint32_t players = 0;             ///< TickInputs::players
   uint32_t input_bytes = 0;         ///< TickInputs::input_bytes
 };
 
-/// What sync_test() found.
+/// The result of sync_test().
 struct SyncTestReport {
-  uint64_t tick = 0;    ///< digest_differs: ticks completed, of the first state that differs
-  uint64_t first = 0;   ///< its digest when the tick was made
-  uint64_t second = 0;  ///< and when it was made again
+  uint64_t tick = 0;    ///< digest_differs: ticks completed in the first state that differs
+  uint64_t first = 0;   ///< digest of this state at the first time
+  uint64_t second = 0;  ///< digest of this state when the tick was repeated
 };
 
 /// Bytes of memory that sync_test() needs; 0 if an argument is out of range.
@@ -239,10 +242,10 @@ constexpr uint32_t sync_test_bytes(Capacity capacity, uint32_t ticks, uint32_t g
   return ticks == 0 || bytes > UINT32_MAX || snapshot_ring_bytes(capacity, 1) == 0 ? 0 : static_cast<uint32_t>(bytes);
 }
 
-/// Makes ticks, goes back, makes them again, and compares their digests: what a session's maker must withstand. The
-/// world and `game` are then those of the second time.
-/// Errors: digest_differs (`report` says where; the world stands there); out_of_range, buffer_too_small,
-/// buffer_misaligned, bad_argument (no maker, inputs without bytes, a maker that did not step the world once).
+/// Makes ticks, restores the state before them, repeats them, and compares the digests: a test of a session's maker.
+/// Afterwards the world and `game` have the state of the repetition.
+/// Errors: digest_differs (`report` has the tick; the world is at this tick), out_of_range, buffer_too_small,
+/// buffer_misaligned, bad_argument (no maker; inputs without bytes; a maker that did not step the world exactly once).
 Status sync_test(World& world, const SyncTestDef& def, TickMaker maker, uint8_t* memory, uint32_t memory_bytes,
                  SyncTestReport& report, GameState game = {});
 

@@ -2,7 +2,7 @@
 #include <detent/fixed.h>
 
 /// @file
-/// The roles of numbers. Everything above lib/math is written in these names and compiled once per configuration.
+/// The number types by their use. All code above lib/math uses these names and is compiled once per configuration.
 /// Ranges, resolutions and their derivation: SPEC.md, "Numbers".
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -10,7 +10,7 @@ inline namespace DETENT_NAMESPACE {
 #if defined(DETENT_FX64)
 using Coord = Fixed<int64_t, 32>;  ///< a coordinate of a world position, m: +-2^31 m in steps of 2.3e-10 m
 #elif defined(DETENT_FX32)
-using Coord = Fixed<int32_t, 16>;  ///< m: +-32 km in steps of 1.5e-5 m; the integrator carries the remainder
+using Coord = Fixed<int32_t, 16>;  ///< m: +-32 km in steps of 1.5e-5 m; the integrator keeps the remainder
 #elif defined(DETENT_F32)
 using Coord = Fixed<int64_t, 32>;  ///< m: as in fx64
 #else

@@ -2,26 +2,27 @@
 #include <detent/scalar.h>
 
 /// @file
-/// The number of wide range.
+/// The number type of wide range.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 #if DETENT_FIXED
-/// A signed number of wide range, for masses, densities, forces and impulses: value = mantissa 2^exponent.
+/// A signed number of wide range, for masses, densities, forces and impulses: value = mantissa x 2^exponent.
 /// Canonical: the mantissa is 0 (and then the exponent 0), or 2^30 <= |mantissa| < 2^31. |exponent| <= 256.
 /// Relative resolution 2^-30. A floating-point literal converts at compile time; a run-time double by `from_host`.
 struct Scaled {
   int32_t mantissa;  ///< 0, or 2^30 <= |mantissa| < 2^31
-  int32_t exponent;  ///< within +-256; 0 where the mantissa is
+  int32_t exponent;  ///< within +-256; 0 if the mantissa is 0
 
   /// Not initialised; `{}` is zero.
   Scaled() = default;
-  /// A literal, rounded to nearest, ties away from zero; one outside 0 and [2^-200, 2^200] does not compile.
+  /// A literal, rounded to nearest, ties away from zero. A literal that is neither 0 nor has a magnitude in
+  /// [2^-200, 2^200] does not compile.
   // NOLINTNEXTLINE(google-explicit-constructor): a literal is meant to convert
   consteval Scaled(double literal) : Scaled(from_double_bits(__builtin_bit_cast(uint64_t, literal))) {
     if (mantissa == 0 && literal != 0) __builtin_trap();  // at compile time: NaN, infinite or out of range
   }
-  /// The number mantissa 2^exponent, which must be canonical.
+  /// The number mantissa x 2^exponent, which must be canonical.
   static constexpr Scaled from_parts(int32_t mantissa, int32_t exponent) {
     Scaled result;
     result.mantissa = mantissa;

@@ -2,11 +2,11 @@
 #include <detent/math.h>
 
 /// @file
-/// Shapes: convex ones, compounds of them, and surfaces.
+/// Shapes: convex shapes, compounds of convex shapes, and terrains (meshes and height fields).
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Which shape a Shape is. Stored in snapshots and recordings: a value is never reused.
+/// The type of a Shape. Stored in snapshots and recordings: a value is never reused.
 enum class ShapeType : uint32_t {
   sphere = 1,      ///< sphere()
   capsule = 2,     ///< capsule()
@@ -14,22 +14,22 @@ enum class ShapeType : uint32_t {
   half_space = 4,  ///< half_space()
   cylinder = 5,    ///< cylinder()
   cone = 6,        ///< cone()
-  hull = 7,        ///< cooked bytes: an asset of the world; or made by make_hull() (convex.h)
+  hull = 7,        ///< hull(): a cooked asset of the world; or made by make_hull() (convex.h)
   triangle = 8,    ///< made by make_triangle() (convex.h)
   surface = 9,     ///< surface()
   compound = 10,   ///< compound()
 };
 
-/// A shape in its body's frame, centred on the centre of mass. Build one with the functions below.
+/// A shape in its body's frame, centred on the centre of mass. Make one with the functions below.
 /// Sizes, m: [2^-14, 2^14] (0.06 mm to 16 km); the ratio of a shape's largest to its smallest size is at most 2^14.
 /// In a world the bounding radius, `rounding` included, is below 2^15 m and at most 2^14 times the least size.
 struct Shape {
-  ShapeType type = ShapeType::sphere;         ///< which of the sizes below count
-  Real radius = 0.5;                          ///< m; sphere, capsule, cylinder, and a cone's base
-  Real half_length = 0.0;                     ///< m; along local y, half: a capsule's core segment, a cylinder, a cone
-  Vec3<Real> half_extents = {0.5, 0.5, 0.5};  ///< m; box
-  Real rounding = 0.0;  ///< m; box, cylinder, cone, hull: grown by a ball of this radius; 0, or a size
-  uint32_t asset = 0;   ///< hull, surface, compound: index in the world's asset table
+  ShapeType type = ShapeType::sphere;  ///< selects which of the members below are used
+  Real radius = 0.5;                   ///< m; of a sphere, capsule, cylinder, and of a cone's base
+  Real half_length = 0.0;  ///< m; half the length along local y of a capsule's core segment, a cylinder or a cone
+  Vec3<Real> half_extents = {0.5, 0.5, 0.5};  ///< m; of a box
+  Real rounding = 0.0;  ///< m; radius of a ball by which a box, cylinder, cone or hull grows; 0, or in range of sizes
+  uint32_t asset = 0;   ///< of a hull, terrain or compound: index in the world's asset table
 };
 
 /// A ball of the given radius, m.
@@ -54,7 +54,7 @@ constexpr Shape box(Vec3<Real> half_extents) {
   shape.half_extents = half_extents;
   return shape;
 }
-/// The cylinder about local y, of half the height `half_length`, m.
+/// The cylinder about local y, of height 2 half_length, m.
 constexpr Shape cylinder(Real radius, Real half_length) {
   Shape shape;
   shape.type = ShapeType::cylinder;
@@ -62,8 +62,8 @@ constexpr Shape cylinder(Real radius, Real half_length) {
   shape.half_length = half_length;
   return shape;
 }
-/// The cone about local y, of half the height `half_length`, m: its base of the given radius at y = -half_length / 2,
-/// its apex at y = 3 half_length / 2, so that the origin is its centre of mass.
+/// The cone about local y, of height 2 half_length, m: its base of the given radius is at y = -half_length / 2, its
+/// apex at y = 3 half_length / 2, so that the origin is its centre of mass.
 constexpr Shape cone(Real radius, Real half_length) {
   Shape shape;
   shape.type = ShapeType::cone;
@@ -71,8 +71,8 @@ constexpr Shape cone(Real radius, Real half_length) {
   shape.half_length = half_length;
   return shape;
 }
-/// The cooked hull (docs/hull.md) that the world's asset `asset` holds, once bind_asset() has bound it. Its origin is
-/// the body's; a dynamic body takes one of the principal frame. For create_body(); without a world: make_hull().
+/// The cooked hull (docs/hull.md) of the world's asset `asset`, after bind_asset() has bound it. Its origin is the
+/// body's; a dynamic body needs a hull in its principal frame. For create_body(); without a world: make_hull().
 constexpr Shape hull(uint32_t asset) {
   Shape shape;
   shape.type = ShapeType::hull;
@@ -84,24 +84,25 @@ constexpr Shape rounded(Shape shape, Real rounding) {
   shape.rounding = rounding;
   return shape;
 }
-/// The triangle mesh (docs/mesh.md) or height field (docs/height_field.md) that the world's asset `asset` holds, once
-/// bind_asset() has bound it; for static and kinematic bodies only. Its origin is the body's. It has no inside: what
-/// comes to lie beyond it is pushed out on that side, or from behind a one-sided one not at all.
+/// A terrain: the triangle mesh (docs/mesh.md) or height field (docs/height_field.md) of the world's asset `asset`,
+/// after bind_asset() has bound it; for fixed and kinematic bodies only. Its origin is the body's. A terrain has no
+/// inside: a body that ends up behind it is pushed out on that side; behind a one-sided terrain it is not pushed at
+/// all.
 constexpr Shape surface(uint32_t asset) {
   Shape shape;
   shape.type = ShapeType::surface;
   shape.asset = asset;
   return shape;
 }
-/// The compound of convex shapes (docs/compound.md) that the world's asset `asset` holds, once bind_asset() has bound
-/// it. Its origin is the body's; it is rounded where it was cooked so.
+/// The compound of convex shapes (docs/compound.md) of the world's asset `asset`, after bind_asset() has bound it. Its
+/// origin is the body's; its parts have the rounding that they were cooked with.
 constexpr Shape compound(uint32_t asset) {
   Shape shape;
   shape.type = ShapeType::compound;
   shape.asset = asset;
   return shape;
 }
-/// The solid half-space y <= 0 of the body's frame; for static and kinematic bodies only.
+/// The solid half-space y <= 0 of the body's frame; for fixed and kinematic bodies only.
 constexpr Shape half_space() {
   Shape shape;
   shape.type = ShapeType::half_space;

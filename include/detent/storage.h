@@ -9,11 +9,11 @@ inline namespace DETENT_NAMESPACE {
 /// Memory for a world whose capacity is known at compile time.
 template <Capacity capacity>
 struct WorldStorage {
-  static constexpr uint32_t k_bytes = world_bytes(capacity);  ///< of the block
+  static constexpr uint32_t k_bytes = world_bytes(capacity);  ///< size of the block
   static_assert(k_bytes != 0, "detent: capacity out of range");
-  alignas(8) uint8_t block[k_bytes];  ///< the world's; nothing else may write to it
+  alignas(8) uint8_t block[k_bytes];  ///< the world's memory; nothing else may write to it
 
-  /// As create_world, in this block and with this capacity, whatever `def.capacity` says.
+  /// As create_world, in this block and with this capacity; `def.capacity` is ignored.
   Status create(WorldDef def, World& world, AssetTable assets = {},
                 const FeatureTable& features = feature_table<Features::all>) {
     def.capacity = capacity;

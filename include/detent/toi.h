@@ -3,41 +3,42 @@
 #include <detent/fraction.h>
 
 /// @file
-/// Time of impact of two convex shapes that move and turn. It needs no world.
+/// Time of impact of two convex shapes that translate and rotate. It needs no world.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// A motion over a step: constant velocity of the position and constant spin, world axes.
+/// A motion over a step: constant velocity of the position and constant angular velocity, world axes.
 struct Motion {
   Pose start = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}};  ///< at the beginning of the step
   Vec3<Real> displacement = {};                          ///< m over the step; each component within 2^14
   Vec3<Real> turn = {};                                  ///< rotation vector over the step, rad; |turn| <= 2^16
 };
 
-/// What is known of a step.
+/// The result for a step.
 enum class ToiOutcome : uint32_t {
-  clear = 1,      ///< the shapes do not meet during the step
-  hit = 2,        ///< at `time` they are at most the tolerance apart
-  undecided = 3,  ///< a cap was met; up to `time` they do not meet
+  clear = 1,      ///< the shapes do not touch during the step
+  hit = 2,        ///< at `time` the distance of the shapes is at most the tolerance
+  undecided = 3,  ///< an iteration cap was reached; the shapes do not touch before `time`
 };
 
-/// When and where two moving shapes meet.
+/// When and where two moving shapes collide.
 struct TimeOfImpact {
-  ToiOutcome outcome = ToiOutcome::undecided;  ///< whether they do
-  Fraction time = 0.0;     ///< never late: up to here the shapes do not meet, unless they did at the start; 1 if clear
-  Vec3<Unit> normal = {};  ///< at `time`, from A to B, world axes; zero where the cores meet at the start
+  ToiOutcome outcome = ToiOutcome::undecided;  ///< whether the shapes collide
+  /// Fraction of the step, never late: before it the shapes do not touch, unless they touch at the start; 1 if clear.
+  Fraction time = 0.0;
+  Vec3<Unit> normal = {};  ///< at `time`, from A to B, world axes; zero if the cores touch at the start
   Vec3<Real> point = {};   ///< of a hit, on A's surface, m, from A's position at `time`, world axes
-  uint32_t gjk_calls = 0;  ///< not counting one that a single support point was enough for, to confirm the hit
-  uint32_t passes = 0;     ///< intervals of time tried
+  uint32_t gjk_calls = 0;  ///< calls of GJK, without a confirmation of the hit that needed only one support point
+  uint32_t passes = 0;     ///< time intervals tried
 };
 
-/// A hit is at most this part of the larger core diameter early in gap, beside the ulps stated in SPEC.md.
+/// At the time of a hit, the gap is at most this fraction of the larger core diameter, plus the ulps in SPEC.md.
 inline constexpr double k_toi_tolerance = 1e-6;
 
-/// When two moving shapes first come within the tolerance.
-/// Tolerance: k_toi_tolerance of the larger core diameter, and the ulps stated in SPEC.md.
-/// Errors: not_normalised; out_of_range, also for positions 2^16 m apart if the bounding spheres might meet, and always
-/// so far from a half-space's; bad_argument for two half-spaces.
+/// Computes when the distance of two moving shapes first is within the tolerance.
+/// Tolerance: k_toi_tolerance times the larger core diameter, plus the ulps in SPEC.md.
+/// Errors: not_normalised; out_of_range, also if the positions are 2^16 m apart and the bounding spheres might touch,
+/// or if a position is 2^16 m from a half-space's position; bad_argument for two half-spaces.
 Status time_of_impact(const Convex& a, const Motion& motion_a, const Convex& b, const Motion& motion_b,
                       TimeOfImpact& result);
 

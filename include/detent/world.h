@@ -12,244 +12,260 @@
 /// @file
 /// The world: a static pool of bodies and contacts in one block of the caller's memory.
 ///
-/// Threads: a world is a value. Calls on different worlds may run beside each other; functions that take `const World&`
-/// may run beside each other on one world; nothing may run beside a call that takes `World&` on the same world.
-/// There is no global state. In f32 and f64 every call that computes sets the rounding mode and flush-to-zero flags it
-/// needs and restores the caller's.
+/// Threads: a world is a value, and there is no global state. Calls on different worlds may run concurrently. On one
+/// world, functions that take `const World&` may run concurrently with each other; a call that takes `World&` must run
+/// alone. In f32 and f64 every call that computes sets the rounding mode and flush-to-zero flags it needs and restores
+/// the caller's.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// How much of each kind a world can hold. Fixed for the life of the world; at most 2^20 each.
+/// How many objects of each kind a world can hold. Fixed for the life of the world; at most 2^20 each.
 struct Capacity {
   uint32_t bodies = 0;    ///< at least 1
-  uint32_t contacts = 0;  ///< pairs of bodies in contact
+  uint32_t contacts = 0;  ///< one for a pair of convex bodies, up to 8 for a pair with a terrain or compound
   uint32_t assets = 0;    ///< assets that can be bound
-  bool manifolds =
-      true;  ///< room to use contact points again (WorldDef::reuse), which takes 160 bytes a contact (f64 272)
+  /// Room to recycle contact points (WorldDef::reuse); takes 160 bytes a contact (f64: 272).
+  bool manifolds = true;
   uint32_t joints = 0;  ///< joints
-  uint32_t sensed = 0;  ///< bodies within sensors: pairs of both; 0: no sensors
-  /// Equal in every kind.
+  uint32_t sensed = 0;  ///< pairs of a sensor and a body within it; 0: no sensors
+  /// Equal in every member.
   friend constexpr bool operator==(Capacity a, Capacity b) {
     return a.bodies == b.bodies && a.contacts == b.contacts && a.assets == b.assets && a.manifolds == b.manifolds &&
            a.joints == b.joints && a.sensed == b.sensed;
   }
 };
 
-/// How overlap is undone. Stored: a value is never reused.
+/// How the solver corrects penetration. Stored: a value is never reused.
 enum class Stabilisation : uint32_t {
-  soft = 1,  ///< contacts are damped springs, whose speed a relaxation takes out again: what stands tall needs it
-  /// Contacts are rigid, and when the substeps are done the bodies are moved apart by what they still overlap, half of
-  /// it in a tick, without a change of speed. Source: Cline, Pai, "Post-stabilization for rigid body simulation with
-  /// contact and constraints", ICRA 2003.
+  /// Soft contacts (damped springs) followed by a relaxation pass, which removes the speed that the springs add; needed
+  /// by tall stacks.
+  soft = 1,
+  /// Rigid contacts. After the substeps of a tick, positions are corrected by half of the remaining penetration;
+  /// velocities do not change. Source: Cline, Pai, "Post-stabilization for rigid body simulation with contact and
+  /// constraints", ICRA 2003.
   post = 2,
 };
 
-/// What `create_world` makes. Every field but the capacity has a working default.
+/// The settings of a world. Every field but the capacity has a working default.
+///
+/// The *smaller extent* of a pair is the lesser of its two bodies' smallest diameters, m.
 struct WorldDef {
-  /// Room for bodies, contacts, assets.
+  /// How many objects of each kind the world can hold.
   Capacity capacity = {};
   Vec3<Real> gravity = {Real(0.0), Real(-9.81), Real(0.0)};  ///< m/s^2; each component within +-1024
   Real tick = Real(1.0 / 60.0);                              ///< s, the time of one step, [2^-14, 1/4]
-  uint32_t substeps = 0;       ///< solver substeps a tick, [1, 64]; 0: chosen for each island by what it carries
-  uint32_t substeps_max = 32;  ///< of those chosen, [1, 64]
-  uint32_t iterations = 1;     ///< sweeps over the contacts a substep, [1, 64]
-  /// The sweeps of a substep end early when the last one changed no velocity by more than 2^-convergence of what
-  /// gravity adds in the substep; [0, 30].
+  /// Solver substeps a tick, [1, 64]; 0: chosen for each island from its contacts' loads and its joints.
+  uint32_t substeps = 0;
+  uint32_t substeps_max = 32;  ///< upper limit of the number chosen where `substeps` is 0, [1, 64]
+  uint32_t iterations = 1;     ///< solver iterations over the contacts in a substep, [1, 64]
+  /// The iterations of a substep end early when the last one changed no velocity by more than 2^-convergence times the
+  /// speed that gravity (at least 1 m/s^2) adds in the substep; [0, 30].
   uint32_t convergence = 12;
-  /// How overlap is undone.
+  /// How the solver corrects penetration.
   Stabilisation stabilisation = Stabilisation::soft;
   Real relaxation = 1.0;        ///< over-relaxation factor of the SOR solver, [1/4, 7/4]
-  Real stiffness = Real(0.14);  ///< contact frequency as a fraction of the substep rate, [1/64, 1/4]
-  /// Of the soft contacts, [0, 64]: 0.7 of it acts between bodies that move, half with what does not.
+  Real stiffness = Real(0.14);  ///< frequency of soft contacts as a fraction of the substep rate, [1/64, 1/4]
+  /// Damping ratio of soft contacts, [0, 64]. Contacts between two dynamic bodies use 0.7 of it, all others half of it.
   Real damping_ratio = 10.0;
-  Real restitution_threshold =
-      0.25;                ///< approach speed below which nothing rebounds, in sqrt(g x smaller extent), [0, 64]
-  bool continuous = true;  ///< bodies meet at the time of impact, however fast: nothing passes through anything
-  bool sleeping = true;    ///< islands that have come to rest are left out of the step until something wakes them
-  /// How far apart a pair at rest has contact points, over its smaller extent, [2^-10, 2^-4]; what the pair can close
-  /// in a tick is added to it.
+  /// Approach speed below which a contact does not rebound, as a multiple of sqrt(g x smaller extent); [0, 64].
+  Real restitution_threshold = 0.25;
+  bool continuous = true;  ///< continuous collision: bodies collide at the time of impact, however fast they move
+  bool sleeping = true;    ///< islands at rest fall asleep: steps skip them until something wakes them
+  /// Contact margin (breaking distance) of a pair at rest, as a fraction of its smaller extent, [2^-10, 2^-4]: surfaces
+  /// that are closer have contact points. A step adds the distance that the pair can close in a tick.
   Real breaking = Real(1.0 / 64);
-  /// A pair's contact points are used again, and not found anew, until it has moved by this part of its smaller extent;
-  /// [0, 1/64]; taken as 0 where the capacity has no room for manifolds.
+  /// A pair's contact points are recycled until the pair has moved by more than this fraction of its smaller extent
+  /// since they were computed; [0, 1/64]. Counts as 0 if the capacity has no room for manifolds.
   Real reuse = Real(1.0 / 256);
   ManifoldReduction reduction = ManifoldReduction::projected_extremes;  ///< which of more than four points are kept
 };
 
-/// Bytes of block that a world of this capacity needs; 0 if the capacity is out of range. The same on every target.
+/// Bytes of the block that a world of this capacity needs; 0 if the capacity is out of range. The same on every target.
 constexpr uint32_t world_bytes(Capacity capacity);
 
 /// A world in the caller's block. A value of a few words: copy it freely; it owns nothing.
 struct World {
-  uint8_t* block = nullptr;                ///< what create_world() was given
-  AssetTable assets = {};                  ///< what create_world() was given
-  ContactEventBuffer contact_events = {};  ///< filled by each step, from its front; none by default
-  JointEventBuffer joint_events = {};      ///< likewise
-  const FeatureTable* features = nullptr;  ///< what create_world() was given
-  /// Contacts that the solver takes at once: as many as this machine can, which create_world() finds out, or 1. The
-  /// bits are the same.
+  uint8_t* block = nullptr;                ///< the block passed to create_world()
+  AssetTable assets = {};                  ///< the assets passed to create_world()
+  ContactEventBuffer contact_events = {};  ///< each step fills it from its front; no buffer by default
+  JointEventBuffer joint_events = {};      ///< as contact_events
+  const FeatureTable* features = nullptr;  ///< the features passed to create_world()
+  /// Contacts that the solver processes at once: create_world() sets 4 if this machine supports it, else 1. The results
+  /// are bit-identical.
   uint32_t lanes = 1;
-  FilterRuleTable filter_rules = {};     ///< what Filter::rule means; none by default. Set it before any body names one
-  Profile* profile = nullptr;            ///< times of the stages of each step (profile.h)
-  SensorEventBuffer sensor_events = {};  ///< as contact_events
-  BodyEventBuffer body_events = {};      ///< likewise
-  CapacityEventBuffer capacity_events = {};  ///< likewise
-  const StepObserver* observer = nullptr;    ///< is told of the stages of each step (observer.h)
+  /// The rules that Filter::rule names; none by default. Set it before any body names a rule.
+  FilterRuleTable filter_rules = {};
+  Profile* profile = nullptr;                ///< times of the stages of each step (profile.h)
+  SensorEventBuffer sensor_events = {};      ///< as contact_events
+  BodyEventBuffer body_events = {};          ///< as contact_events
+  CapacityEventBuffer capacity_events = {};  ///< as contact_events
+  const StepObserver* observer = nullptr;    ///< called at the end of each stage of each step (observer.h)
 };
 
-/// What one step did. Every count is of this step alone.
+/// The counts of one step. Every count is of this step alone.
 struct StepReport {
   uint64_t tick = 0;              ///< ticks completed since the world was created
   uint32_t bodies = 0;            ///< bodies in the world
   uint32_t awake = 0;             ///< dynamic bodies that took part in the step
-  uint32_t islands = 0;           ///< groups of awake bodies in contact, single bodies included
-  uint32_t substeps_max = 0;      ///< of any island
-  uint32_t fell_asleep = 0;       ///< bodies, at the end of the step
-  uint32_t woke = 0;              ///< bodies that were touched
-  uint32_t sweeps_saved = 0;      ///< over the contacts of an island, as WorldDef::convergence lets it
-  uint32_t pairs = 0;             ///< pairs of overlapping bounds of which a body moves
-  uint64_t contact_substeps = 0;  ///< contacts times their islands' substeps: the work of the solver
-  uint32_t contacts = 0;          ///< pairs with at least one contact point
-  /// Of all contacts, at most four each.
-  uint32_t contact_points = 0;
-  uint32_t contacts_reused = 0;  ///< whose points were not found anew, for the pair has hardly moved
-  uint32_t contacts_capped = 0;  ///< found by a search that met its cap (the normal may not be the least way out), or
-                                 ///< not found for want of a hull's bytes
-  uint32_t contact_events = 0;   ///< in the world's buffer
-  uint32_t contact_events_dropped = 0;  ///< beyond it, or hits beyond Capacity::contacts; not where there is no buffer
-  uint32_t pairs_dropped = 0;     ///< pairs beyond the pair buffer (the shallowest): their contacts are lost this tick,
-                                  ///< but continuous collision tries them all
-  uint32_t contacts_dropped = 0;  ///< beyond the capacity or their pair's eight (the shallowest), lost this tick
-  uint32_t contact_parts_dropped = 0;    ///< of those: beyond their pair's eight, for which no capacity has room
-  uint32_t saturations = 0;              ///< state components clamped to their range
-  uint32_t joints = 0;                   ///< of which a body is awake
-  uint32_t joints_broken = 0;            ///< and gone
-  uint32_t joint_events = 0;             ///< in the world's buffer
-  uint32_t joint_events_dropped = 0;     ///< beyond the capacity of the world's buffer
-  uint32_t joint_couplings_dropped = 0;  ///< of joints that form too many loops for their solver's room: these give way
-  uint32_t joint_decisions_left = 0;     ///< limits and motors still undecided after the last try of a substep
-  uint32_t impacts = 0;                  ///< times at which bodies met within the tick and were made to part
-  uint32_t impacts_undecided = 0;        ///< times of impact found in part, or that could not be asked for
-  uint32_t impacts_dropped = 0;          ///< for want of room, that of contacts: their bodies stayed behind
-  uint32_t overlaps_left = 0;            ///< pairs too deep within each other for continuous collision
-  /// Bodies that stayed behind in this tick: they had too many impacts (docs/continuous_collision.md), or no room for
-  /// one.
+  uint32_t islands = 0;           ///< groups of awake bodies that contacts or joints connect; a single body counts
+  uint32_t substeps_max = 0;      ///< the largest number of substeps of any island
+  uint32_t fell_asleep = 0;       ///< bodies that fell asleep at the end of the step
+  uint32_t woke = 0;              ///< sleeping bodies that contacts, joints or impacts woke in the step
+  uint32_t sweeps_saved = 0;      ///< solver iterations skipped because an island converged (WorldDef::convergence)
+  uint32_t pairs = 0;             ///< pairs with overlapping bounds and a moving body; dropped pairs count too
+  uint64_t contact_substeps = 0;  ///< sum over all contacts of their islands' substeps: the work of the solver
+  uint32_t contacts = 0;          ///< contacts of awake bodies, each with at least one contact point
+  uint32_t contact_points = 0;    ///< points of all these contacts, at most four each
+  uint32_t contacts_reused = 0;   ///< contacts whose points were recycled because the pair had hardly moved
+  /// Pairs whose contact search hit its iteration cap (the normal may not be the direction of least penetration), or
+  /// that have no contact because an asset's bytes are missing.
+  uint32_t contacts_capped = 0;
+  uint32_t contact_events = 0;  ///< events written to World::contact_events
+  /// Events beyond the capacity of that buffer, and hits beyond Capacity::contacts; 0 if there is no buffer.
+  uint32_t contact_events_dropped = 0;
+  /// Pairs beyond the pair buffer (the shallowest, by their bounds): they have no contacts in this tick, but continuous
+  /// collision tests all of them.
+  uint32_t pairs_dropped = 0;
+  /// Contacts beyond Capacity::contacts or beyond eight for one pair (the shallowest): not solved in this tick.
+  uint32_t contacts_dropped = 0;
+  /// The part of contacts_dropped that was beyond eight for one pair: a larger capacity does not prevent it.
+  uint32_t contact_parts_dropped = 0;
+  uint32_t saturations = 0;           ///< state components clamped to their range
+  uint32_t joints = 0;                ///< joints of at least one awake body
+  uint32_t joints_broken = 0;         ///< joints that broke and were removed
+  uint32_t joint_events = 0;          ///< events written to World::joint_events
+  uint32_t joint_events_dropped = 0;  ///< events beyond the capacity of that buffer
+  /// Couplings between joints beyond the room of the joint solver, where joints form too many loops: the joints that
+  /// they couple are softer.
+  uint32_t joint_couplings_dropped = 0;
+  uint32_t joint_decisions_left = 0;  ///< joint solves that ended with a limit or motor undecided after the last try
+  uint32_t impacts = 0;               ///< impacts within the tick that changed how bodies move
+  uint32_t impacts_undecided = 0;     ///< times of impact known only as a lower bound, or that could not be computed
+  uint32_t impacts_dropped = 0;       ///< impacts beyond the impact pool (Capacity::contacts): their bodies stop early
+  uint32_t overlaps_left = 0;         ///< pairs that overlap too deeply for continuous collision
+  /// Bodies stopped early in this tick: they had too many impacts (docs/continuous_collision.md), the impact pool was
+  /// full, or an overlap was too deep. They stay at their last safe pose until the tick ends.
   uint32_t bodies_stopped = 0;
-  Real lost_time = 0.0;           ///< sum of the parts of the tick that those missed
-  uint32_t toi_tests = 0;         ///< times of impact asked for
-  uint32_t toi_skipped = 0;       ///< pairs too slow to meet
-  uint32_t colour_overflows = 0;  ///< contacts of bodies that touch more than 64 others, solved after the rest
-  /// Of sensors (sensor.h), and the other events in the world's buffers.
-  uint32_t sensor_events = 0;
-  uint32_t sensor_events_dropped = 0;  ///< beyond its capacity; not counted where there is no buffer
-  uint32_t sensed_dropped = 0;    ///< bodies in or through a sensor beyond Capacity::sensed, which it does not know of
-  uint32_t sensed_undecided = 0;  ///< bodies that count as in or through a sensor, for it could not be decided
-  uint32_t body_events = 0;       ///< who fell asleep or woke
-  uint32_t body_events_dropped = 0;  ///< likewise
-  uint32_t capacity_events = 0;      ///< whom there was no room for
-  /// True if nothing was lost: no pool overflowed, no search was capped and no value was clamped.
+  Real lost_time = 0.0;      ///< sum over these bodies of the fraction of the tick that they missed
+  uint32_t toi_tests = 0;    ///< times of impact computed
+  uint32_t toi_skipped = 0;  ///< pairs not tested for impact because they are too slow to collide in the tick
+  /// Contacts without a free colour: the other contacts of their two bodies use all 64. They are solved after the rest.
+  uint32_t colour_overflows = 0;
+  uint32_t sensor_events = 0;          ///< events written to World::sensor_events (sensor.h)
+  uint32_t sensor_events_dropped = 0;  ///< events beyond the capacity of that buffer; 0 if there is no buffer
+  /// Bodies in or through a sensor beyond Capacity::sensed: the sensor does not report them.
+  uint32_t sensed_dropped = 0;
+  uint32_t sensed_undecided = 0;     ///< bodies that count as in or through a sensor because the test was undecided
+  uint32_t body_events = 0;          ///< events written to World::body_events (bodies that fell asleep or woke)
+  uint32_t body_events_dropped = 0;  ///< events beyond the capacity of that buffer; 0 if there is no buffer
+  uint32_t capacity_events = 0;      ///< events written to World::capacity_events
+  /// True if the step dropped no pair, contact or sensed body, capped no contact search, clamped no value and stopped
+  /// no body early. Dropped events and the joint counts are not part of it.
   constexpr bool complete() const {
     return pairs_dropped == 0 && contacts_dropped == 0 && contacts_capped == 0 && saturations == 0 &&
            bodies_stopped == 0 && sensed_dropped == 0;
   }
 };
 
-/// A world's constant and slowly changing facts.
+/// A world's capacity and its current counts.
 struct WorldInfo {
-  Capacity capacity = {};      ///< what the world was created with
+  Capacity capacity = {};      ///< WorldDef::capacity
   uint64_t tick = 0;           ///< ticks completed since the world was created
   uint32_t bodies = 0;         ///< bodies in the world
-  uint32_t contacts = 0;       ///< pairs in contact after the last step, those asleep included
+  uint32_t contacts = 0;       ///< contacts after the last step, those of sleeping bodies included
   uint32_t joints = 0;         ///< joints in the world
-  uint32_t sensed = 0;         ///< bodies within sensors after the last step: pairs of both
-  uint32_t slots_retired = 0;  ///< body slots whose generation is used up
+  uint32_t sensed = 0;         ///< pairs of a sensor and a body within it, after the last step
+  uint32_t slots_retired = 0;  ///< body slots that are no longer used because their generations are used up
 };
 
 /// Makes an empty world in `block` (8-byte aligned, at least world_bytes(def.capacity) bytes).
-/// `features`: what the world can do, and so what the program links (features.h); all by default.
-/// Errors: buffer_too_small, buffer_misaligned, out_of_range, bad_argument (a reduction or stabilisation that is none),
-/// feature_missing.
+/// `features`: the features of the world, and so the code that the program links (features.h); all by default.
+/// Errors: buffer_too_small, buffer_misaligned, out_of_range, bad_argument (`reduction` or `stabilisation` is not a
+/// value of its enumeration), feature_missing.
 Status create_world(uint8_t* block, uint32_t block_bytes, const WorldDef& def, AssetTable assets, World& world,
                     const FeatureTable& features = feature_table<Features::all>);
 
-/// Makes a body in the lowest free slot; it takes part in the next step.
-/// Errors: pool_full (also a sensor where Capacity::sensed is 0), bad_argument, out_of_range, not_normalised;
-/// asset_missing (a hull that is not bound); feature_missing; rule_missing.
+/// Creates a body in the lowest free slot; it takes part in the next step.
+/// Errors: pool_full (also for a sensor if Capacity::sensed is 0), bad_argument, out_of_range, not_normalised,
+/// asset_missing (the shape's asset is not bound), feature_missing, rule_missing.
 Status create_body(World& world, const BodyDef& def, BodyId& id);
-/// Takes a body away; its contacts end at once, and whom it touched wakes. Errors: bad_id.
+/// Removes a body and its joints. Its contacts end at once; the bodies that it touched or was joined to wake.
+/// Errors: bad_id.
 Status destroy_body(World& world, BodyId id);
-/// Puts a body elsewhere, m, world; nothing is met on the way, and its velocity is kept. Errors: bad_id, out_of_range,
-/// not_normalised.
+/// Moves a body to a pose, m, world, without collision on the way. The body keeps its velocity and wakes.
+/// Errors: bad_id, out_of_range, not_normalised.
 Status set_pose(World& world, BodyId id, const Position& position, const Quat& rotation);
-/// Gives a body a velocity, m/s, and a spin, rad/s, world frame; ranges as in BodyDef. Errors: bad_id, bad_argument (a
-/// fixed body), out_of_range.
+/// Sets a body's velocity, m/s, and angular velocity `spin`, rad/s, world frame; ranges as in BodyDef. Errors: bad_id,
+/// bad_argument (a fixed body), out_of_range.
 Status set_velocity(World& world, BodyId id, const Vec3<Real>& velocity, const Vec3<Real>& spin);
 /// Adds a force, N, world frame, that acts at the centre of mass during the next step.
-/// Errors: bad_id, bad_argument (not dynamic), out_of_range (the speed it would give leaves its range).
+/// Errors: bad_id, bad_argument (not dynamic), out_of_range (the resulting speed would leave its range).
 Status apply_force(World& world, BodyId id, const Vec3<Scaled>& force);
 /// Adds a torque, N m, world frame, that acts during the next step. Errors: as apply_force.
 Status apply_torque(World& world, BodyId id, const Vec3<Scaled>& torque);
-/// Changes the momentum at once, N s, world frame, through the centre of mass. Errors: as apply_force.
+/// Applies an impulse, N s, world frame, at the centre of mass; the velocity changes at once. Errors: as apply_force.
 Status apply_impulse(World& world, BodyId id, const Vec3<Scaled>& impulse);
-/// Changes the momentum at once through a point given relative to the centre of mass, m, world axes; each component
-/// within twice the bounding radius. Errors: as apply_force.
+/// Applies an impulse, N s, world frame, at the point `arm` from the centre of mass, m, world axes, each component
+/// within twice the bounding radius; the velocities change at once. Errors: as apply_force.
 Status apply_impulse_at(World& world, BodyId id, const Vec3<Scaled>& impulse, const Vec3<Real>& arm);
-/// Changes the angular momentum at once, N m s, world frame. Errors: as apply_force.
+/// Applies an angular impulse, N m s, world frame; the angular velocity changes at once. Errors: as apply_force.
 Status apply_angular_impulse(World& world, BodyId id, const Vec3<Scaled>& impulse);
-/// Gives the world another gravity, m/s^2, each component within +-1024, and wakes all bodies. Errors: out_of_range.
+/// Sets the gravity, m/s^2, each component within +-1024, and wakes all bodies. Errors: out_of_range.
 Status set_gravity(World& world, const Vec3<Real>& gravity);
-/// Wakes the body and all that it fell asleep with. Calls that move or push a body do so by themselves.
-/// Errors: bad_id, bad_argument (not dynamic).
+/// Wakes the body and all bodies that it fell asleep with. Calls that move a body, or apply a force or impulse to it,
+/// wake it too. Errors: bad_id, bad_argument (not dynamic).
 Status wake_body(World& world, BodyId id);
-/// Stops the body and leaves it out of the step until something wakes it.
+/// Stops the body and puts it to sleep: steps skip it until something wakes it.
 /// Errors: bad_id, bad_argument (not dynamic), feature_missing.
 Status put_to_sleep(World& world, BodyId id);
-/// Gives a body another BodyDef::user_data; wakes nobody. Errors: bad_id.
+/// Sets BodyDef::user_data of a body; wakes no body. Errors: bad_id.
 Status set_user_data(World& world, BodyId id, uint32_t user_data);
-/// Wakes the body. Contacts that are no longer allowed end in the next step, and the other bodies in them wake.
-/// Errors: bad_id, rule_missing.
+/// Sets what a body collides with, and wakes it. Contacts that are no longer allowed end in the next step, and their
+/// other bodies wake. Errors: bad_id, rule_missing.
 Status set_filter(World& world, BodyId id, const Filter& filter);
-/// Binds the table's asset `index` to the state by its content digest; a cooked hull is checked in full.
-/// Errors: asset_missing, out_of_range, asset_mismatch (bodies have the hull that it was), feature_missing (hulls).
+/// Binds the table's asset `index` to the state by its content digest. Cooked shapes are checked in full.
+/// Errors: asset_missing, out_of_range, asset_mismatch (bodies use the asset that was bound at this index),
+/// feature_missing (the features that read this kind of asset).
 Status bind_asset(World& world, uint32_t index);
 
-/// Advances the world by one tick. Never fails: what could not be done is counted in the report.
+/// Advances the world by one tick. Never fails: the report counts what overflowed, was clamped or was left undecided.
 StepReport step(World& world);
 
 /// Whether the id names a body of this world.
 bool is_valid(const World& world, BodyId id);
-/// Where a body is. Errors: bad_id.
+/// The pose of a body, m, world. Errors: bad_id.
 Status get_pose(const World& world, BodyId id, Pose& pose);
-/// The velocity of the centre of mass, m/s, and the spin, rad/s, world frame. Overflow: a component of the spin beyond
-/// Real, which only bodies below 12 cm can have, is held to its range. Errors: bad_id.
+/// The velocity of the centre of mass, m/s, and the angular velocity `spin`, rad/s, world frame. Overflow: components
+/// of the angular velocity are clamped to the range of Real, which only bodies below 12 cm can exceed. Errors: bad_id.
 Status get_velocity(const World& world, BodyId id, Vec3<Real>& velocity, Vec3<Real>& spin);
-/// The mass, kg; 0 for fixed and kinematic bodies. What else a definition sets: body_access.h, world_access.h.
+/// The mass, kg; 0 for fixed and kinematic bodies. Getters of the other properties: body_access.h, world_access.h.
 /// Errors: bad_id.
 Status get_mass(const World& world, BodyId id, Scaled& mass);
-/// BodyDef::user_data, or what set_user_data() made of it. Errors: bad_id.
+/// BodyDef::user_data, or the value last set by set_user_data(). Errors: bad_id.
 Status get_user_data(const World& world, BodyId id, uint32_t& user_data);
 /// What the body collides with. Errors: bad_id.
 Status get_filter(const World& world, BodyId id, Filter& filter);
-/// Whether a body takes part in the next step. Fixed bodies, and kinematic ones that stand still, are never awake.
+/// Whether a body takes part in the next step. Fixed bodies, and kinematic bodies at rest, are never awake.
 /// Errors: bad_id.
 Status is_awake(const World& world, BodyId id, bool& awake);
-/// The world's facts, as they are now.
+/// The world's capacity and counts, as they are now.
 WorldInfo get_info(const World& world);
-/// Visits bodies in slot order: the first valid id after `previous` (null to begin), or null at the end.
+/// Iterates over bodies in slot order: the first valid id after `previous` (null to begin), or null at the end.
 BodyId next_body(const World& world, BodyId previous);
 
-/// 64 bits over every persistent byte, the same on every target and for every capacity. SPEC.md, "Digest".
+/// A 64-bit hash of the persistent state, the same on every target and for every capacity. SPEC.md, "Digest".
 uint64_t digest(const World& world);
 
-/// Bytes of a snapshot of a world of this capacity.
+/// Bytes of a snapshot of a world of this capacity; 0 if the capacity is out of range.
 constexpr uint32_t snapshot_bytes(Capacity capacity);
 /// Copies the persistent state into `bytes`. Errors: buffer_too_small.
 Status save(const World& world, uint8_t* bytes, uint32_t byte_count);
-/// Puts back a snapshot that this program saved from a world of the same capacity: one copy, checked only by its
-/// header. Errors: truncated, not_detent, format_unknown, simulation_differs, config_differs, capacity_differs,
-/// feature_missing (the world that saved it had one that this world has not).
+/// Restores a snapshot that this program saved from a world of the same capacity: one copy; only the header is checked.
+/// Errors: truncated, not_detent, format_unknown, simulation_differs, config_differs, capacity_differs, feature_missing
+/// (the world that saved it had a feature that this world lacks).
 Status restore(World& world, const uint8_t* bytes, uint32_t byte_count);
-/// Puts back a snapshot from outside: every byte is checked before the world is touched. `bytes` is used as work space
-/// (8-byte aligned) and its content is unspecified afterwards.
+/// Restores a snapshot from an untrusted source: every byte is checked before the world is changed. `bytes` must be
+/// 8-byte aligned; it is used as work space, and its content is unspecified afterwards.
 /// Errors: as restore, and buffer_misaligned, corrupt, asset_missing, asset_mismatch, rule_missing.
 Status load(World& world, uint8_t* bytes, uint32_t byte_count);
 

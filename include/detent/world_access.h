@@ -1,14 +1,14 @@
 #pragma once
 #include <detent/world.h>
 
-/// Reading and changing what the world's definition set.
+/// Reading and changing the settings of a world after its creation.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The definition that would create this world, empty.
+/// The definition that creates an empty world with this world's settings and capacity.
 WorldDef get_settings(const World& world);
-/// Changes all settings but the capacity, which is ignored, and wakes every body. Forces that were applied since the
-/// last step add the speed that they would have added in the tick of then.
+/// Changes all settings and wakes every body; `def.capacity` is ignored. Forces that were applied since the last step
+/// add the same change of velocity as with the old length of a tick.
 ///
 ///     WorldDef def = get_settings(world);
 ///     def.substeps = 8;

@@ -4,7 +4,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Bits in words of 32, numbered from the lowest of the first word on. Visited in ascending order.
+/// A set of bits in words of 32; bit 0 is the lowest bit of the first word. Visits are in ascending order.
 struct BitSet {
   Span<uint32_t> words;
 
@@ -12,8 +12,7 @@ struct BitSet {
   void set(uint32_t bit) const { words[bit / 32] |= 1u << bit % 32; }
   void clear(uint32_t bit) const { words[bit / 32] &= ~(1u << bit % 32); }
 
-  /// Visits the bits that are set. Those that `visit` itself sets are seen if they come after the one it is called
-  /// with.
+  /// Calls visit(bit) for each set bit. A bit that `visit` itself sets is visited if it comes after the current bit.
   template <class Visit>
   void for_each(const Visit& visit) const {
     while_each(0, [&](uint32_t bit) {
@@ -22,7 +21,7 @@ struct BitSet {
     });
   }
 
-  /// Likewise from `first` on, until `visit` returns false.
+  /// As for_each(), but starts at bit `first` and stops when `visit` returns false.
   template <class Visit>
   void while_each(uint32_t first, const Visit& visit) const {
     uint32_t later = UINT32_MAX << first % 32;

@@ -2,7 +2,7 @@
 #include <detent/config.h>
 #include <string.h>
 
-/// Canonical bytes are little-endian. These are the only places that know the machine's own order.
+/// Canonical bytes are little-endian. Only this file tests the machine's own byte order.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 

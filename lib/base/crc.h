@@ -4,7 +4,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The remainders of the 16 nibbles: 64 bytes of flash instead of the usual 1 KB, for two look-ups a byte.
+/// The remainders of the 16 nibbles: 64 bytes of flash instead of the usual 1 KB, at the cost of two look-ups per byte.
 inline constexpr uint32_t k_crc_nibbles[16] = {0x00000000, 0x1db71064, 0x3b6e20c8, 0x26d930ac, 0x76dc4190, 0x6b6b51f4,
                                                0x4db26158, 0x5005713c, 0xedb88320, 0xf00f9344, 0xd6d6a3e8, 0xcb61b38c,
                                                0x9b64c2b0, 0x86d3d2d4, 0xa00ae278, 0xbdbdf21c};

@@ -23,10 +23,10 @@ DETENT_SHARED constexpr uint64_t digest_finish(uint64_t running) {
   return running ^ (running >> 32);
 }
 
-/// Both halves in one.
+/// The exclusive or of both halves.
 constexpr uint32_t digest_fold(uint64_t digest) { return static_cast<uint32_t>(digest ^ digest >> 32); }
 
-/// The digest of canonical bytes; the last word is filled with zeros, and the count is part of it.
+/// The digest of canonical bytes. The last word is padded with zeros; the byte count is part of the digest.
 uint64_t digest_bytes(const uint8_t* bytes, uint32_t byte_count, uint64_t seed);
 
 }  // namespace DETENT_NAMESPACE

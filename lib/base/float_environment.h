@@ -9,8 +9,9 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// While it lives, the floating-point unit rounds to nearest and keeps denormals; then the caller's setting returns.
-/// Every public call that computes in f32 or f64 holds one. In fixed configurations it is empty.
+/// While a FloatEnvironment exists, the floating-point unit rounds to nearest and keeps denormals. Its destructor
+/// restores the caller's settings. Every public call that computes in f32 or f64 creates one. It is empty in fixed
+/// configurations.
 #if DETENT_FIXED || defined(__wasm__)
 #define DETENT_FLOAT_CONTROL 0
 #elif defined(__x86_64__) || defined(__i386__)
@@ -45,7 +46,7 @@ inline void float_control_write(FloatControl value) {
   __asm__ __volatile__("vmsr fpscr, %0" : : "r"(value) : "memory");
 }
 #if defined(__ARM_FEATURE_MVE)
-inline constexpr FloatControl k_float_control_ieee = 0x40000;  // LTPSIZE 4: loops of the vector unit have no tail
+inline constexpr FloatControl k_float_control_ieee = 0x40000;  // LTPSIZE 4: no tail predication in vector loops
 #else
 inline constexpr FloatControl k_float_control_ieee = 0;
 #endif
@@ -107,7 +108,7 @@ struct FloatEnvironment {
 };
 #else
 struct FloatEnvironment {
-  FloatEnvironment() {}  // not trivial: an unused variable of it is no warning
+  FloatEnvironment() {}  // not trivial, so that an unused variable causes no warning
 };
 #endif
 

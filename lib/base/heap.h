@@ -38,7 +38,8 @@ void heap_sort(Span<T> items, const Less& less) {
   }
 }
 
-/// Collects the smallest `storage.count` of the values added, whatever their order. Sort the result with heap_sort.
+/// Collects the `storage.count` smallest of the added values, independent of their order. Sort the result with
+/// heap_sort.
 template <class T, class Less>
 struct SmallestOf {
   Span<T> storage;
@@ -50,7 +51,7 @@ struct SmallestOf {
     T lost;
     add(value, lost);
   }
-  /// True if there is no room for one: `lost` is the largest then.
+  /// True if the storage was full: then one value is dropped, and `lost` is that value, the largest of all.
   bool add(const T& value, T& lost) {
     if (count < storage.count) {
       storage[count++] = value;

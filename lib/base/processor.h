@@ -4,7 +4,7 @@
 namespace detent {
 
 #if defined(__x86_64__)
-/// True if the processor has AVX2 and the operating system keeps its registers.
+/// True if the processor has AVX2 and the operating system saves its registers.
 inline bool has_avx2() {
   struct Registers {
     uint32_t a, b, c, d;

@@ -1,7 +1,8 @@
 #pragma once
 
-/// Before a loop of a few rounds, known at compile time, whose body the compiler should write out: its arrays then live
-/// in registers. Not where code must be small. Clang does so by itself, and complains of loops that it does not.
+/// Put before a loop with a small constant number of rounds. The compiler unrolls the loop, so that its arrays live in
+/// registers. Empty if code must be small, and with clang, which unrolls by itself and warns about loops that it does
+/// not unroll.
 #if defined(__OPTIMIZE_SIZE__) || defined(__clang__)
 #define DETENT_UNROLL
 #else

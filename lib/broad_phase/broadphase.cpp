@@ -10,7 +10,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Cells of a power of two, no more than 2^bits of them over all that is not everywhere.
+/// A grid along one axis. The size of a cell is a power of two; at most 2^bits cells cover all bounded bodies.
 struct Grid {
   Coord Position::*axis = nullptr;
   int64_t from = INT64_MAX, to = INT64_MIN;
@@ -36,7 +36,8 @@ struct Grid {
 bool is_everywhere(const Bounds& bounds) { return bounds.lower.x == -k_coord_limit && bounds.upper.x == k_coord_limit; }
 bool is_nowhere(const Bounds& bounds) { return bounds.upper.x < bounds.lower.x; }
 
-/// A bit above each of the two coordinates across: it is borrowed from where an upper end lies below a lower one.
+/// A guard bit above each of the two packed coordinates. The subtraction clears it where an upper bound is below a
+/// lower bound.
 constexpr uint32_t k_across_bits = 15, k_across_guards = 0x80008000;
 
 uint32_t across(uint32_t first, uint32_t second) { return first << (k_across_bits + 1) | second; }
@@ -49,7 +50,7 @@ bool are_apart(const BoundsKey& a, const BoundsKey& b) {
 
 bool is_dynamic_type(const BodyTraits& traits) { return traits.type == static_cast<uint32_t>(BodyType::dynamic); }
 
-/// A length in steps of a coordinate.
+/// Converts a length to steps of a coordinate.
 int64_t steps_of(Real length) {
 #if DETENT_FIXED
   return length.raw >> (Real::k_frac - Coord::k_frac);
@@ -63,7 +64,7 @@ int64_t steps_of(Real length) {
 #endif
 }
 
-/// How far bounds reach below a half-space's surface; 0 if they do not.
+/// The depth of bounds below the surface of a half-space, in steps of a coordinate; 0 if they are above it.
 uint64_t depth_within(const BodyPose& half_space, const Bounds& box) {
   const Vec3<Unit> up = matrix_from(half_space.rotation).column[1];
   const Unit zero = 0.0;
@@ -104,7 +105,7 @@ void PairPool::consider(uint32_t a, uint32_t b) {
     losses->add(CapacityEventType::pair, pair_low(lost), pair_high(lost));
 }
 
-/// By the higher slot, then by the lower one: only as many digits as slots have.
+/// Sorts by the higher slot and then, stably, by the lower slot. Uses only as many digits as slot numbers have.
 void PairPool::sort() {
   const int bytes = traits.count <= 256 ? 1 : traits.count <= 65536 ? 2 : 3;
   radix_sort(

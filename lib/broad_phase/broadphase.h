@@ -5,13 +5,14 @@
 #include "broad_phase/pair_filter.h"
 #include "broad_phase/resting_tree.h"
 
-/// Which bodies are near each other. Those that move are sorted and swept among themselves; each of them asks the tree
-/// of those that rest.
+/// Finds the pairs of bodies that are near each other. Moving bodies are tested among themselves by sort and sweep.
+/// Each moving body also queries the tree of resting bodies.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Whether a pair is kept before another: that whose bounds overlap deeper, of equals the lower key. The depth is the
-/// least overlap along an axis, or how far the bounds reach into a half-space, in steps of a coordinate (f64: 2^-20 m).
+/// The order in which pairs are kept: the pair whose bounds overlap deeper comes first; ties: the lower key. The depth
+/// is the least overlap along a coordinate axis, or the penetration of the bounds into a half-space, in steps of a
+/// coordinate (f64: 2^-20 m).
 struct DeeperPair {
   Span<const BodyPose> poses;
   Span<const BodyTraits> traits;
@@ -21,14 +22,14 @@ struct DeeperPair {
   bool operator()(uint64_t a, uint64_t b) const;
 };
 
-/// The pairs of a step. Where there are more than it has room for the deepest are kept, in whatever order they come.
+/// The pairs of a step. If there is not room for all, the deepest are kept, whatever the order in which they are added.
 struct PairPool {
   Span<const BodyTraits> traits;
   PairFilter filter;
   Span<const Bounds> bounds;
   Span<uint64_t> spare;  ///< work space as large as the pool
   SmallestOf<uint64_t, DeeperPair> found;
-  Losses* losses = nullptr;  ///< where those that are not kept are written down
+  Losses* losses = nullptr;  ///< receives the pairs that are not kept; may be null
 
   PairPool(Span<const BodyPose> body_poses, Span<const BodyTraits> body_traits, Span<const Bounds> body_bounds,
            Span<uint64_t> sort_space, Span<uint64_t> storage, const FilterRuleTable& rules = {},
@@ -39,24 +40,24 @@ struct PairPool {
         spare(sort_space),
         found{storage, {body_poses, body_traits, body_bounds}} {}
 
-  /// The pairs that are kept, once sorted by key.
+  /// The kept pairs; after sort(), in ascending order of key.
   Span<const uint64_t> pairs() const { return found.storage.first(found.count); }
   uint32_t dropped() const { return found.dropped; }
 
-  /// Takes the pair if one of the two is dynamic, their bounds overlap and they may touch.
+  /// Adds the pair if at least one of the bodies is dynamic, their bounds overlap and the filter allows the pair.
   void consider(uint32_t a, uint32_t b);
   void sort();
-  /// Between sort() and the next pairs.
+  /// Must be called between sort() and the next consider().
   void go_on();
 };
 
-/// Finds all pairs of moving bodies with each other and with those in the tree. Sort and sweep along the axis in which
-/// they lie farthest apart: O(n + the pairs that overlap in it). `keys` and `spare` are work space for as many bodies
-/// as move.
+/// Finds all pairs of moving bodies, with each other and with the bodies in the tree. It sorts and sweeps along the
+/// axis on which the moving bodies spread farthest: O(n + number of pairs that overlap on this axis). `keys` and
+/// `spare` are work space with one element for each moving body.
 void find_pairs(Span<const uint32_t> moving, const RestingTree& resting, Span<BoundsKey> keys, Span<BoundsKey> spare,
                 PairPool& pool);
 
-/// Finds all pairs of a body with those in the tree.
+/// Finds all pairs of a body with the bodies in the tree.
 void find_resting_near(uint32_t slot, const RestingTree& resting, PairPool& pool);
 
 }  // namespace DETENT_NAMESPACE

@@ -7,7 +7,8 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Whom a step had no room for, in the caller's buffer: sorted, each once, the first as many as fit.
+/// The overflow events of a step, in the caller's buffer, sorted and without duplicates. If there are more events than
+/// fit, the first ones in sort order are kept.
 struct Losses {
   Span<const BodyTraits> traits;
   Span<CapacityEvent> events;

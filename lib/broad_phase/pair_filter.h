@@ -9,12 +9,12 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Of Filter and of QueryFilter.
+/// The mask test of Filter and of QueryFilter.
 constexpr bool masks_meet(uint32_t category_a, uint32_t mask_a, uint32_t category_b, uint32_t mask_b) {
   return (category_a & mask_b) != 0 && (category_b & mask_a) != 0;
 }
 
-/// Whether there is nobody that the body may touch or sense, whatever the others' filters are.
+/// Whether the body can touch or sense no other body, whatever the filters of the others are.
 inline bool is_non_colliding(const BodyTraits& traits) {
   return traits.group <= 0 && (traits.category == 0 || traits.mask == 0);
 }
@@ -23,16 +23,16 @@ inline bool has_rule(const FilterRuleTable& table, uint32_t rule) {
   return rule == 0 || (rule <= table.count && table.rules[rule - 1] != nullptr);
 }
 
-/// Whether two bodies may touch, which sensors never do: all that finds pairs asks here.
+/// Decides whether two bodies may touch. Sensors never touch. All code that finds pairs uses this test.
 struct PairFilter {
   Span<const BodyTraits> traits;
   FilterRuleTable rules;
-  Span<const uint64_t> apart = {};  ///< pairs that joints keep apart, ascending
+  Span<const uint64_t> apart = {};  ///< pairs whose collision is disabled by joints, ascending
 
   bool allows(uint32_t slot_a, uint32_t slot_b) const {
     return (traits[slot_a].sensor | traits[slot_b].sensor) == 0 && lets_through(slot_a, slot_b);
   }
-  /// Whether filters and joints let the two know of each other, one of which may be a sensor.
+  /// Whether filters and joints allow the two bodies to interact. One of them may be a sensor.
   bool lets_through(uint32_t slot_a, uint32_t slot_b) const {
     const BodyTraits &a = traits[slot_a], &b = traits[slot_b];
     const bool grouped = a.group != 0 && a.group == b.group;
@@ -42,7 +42,7 @@ struct PairFilter {
   }
 
  private:
-  /// A rule that the table lacks forbids nothing: create_body(), set_filter() and load() let none in.
+  /// A rule that is not in the table forbids nothing; create_body(), set_filter() and load() reject such rules.
   bool rule_allows(const BodyTraits& own, const BodyTraits& other) const {
     if (own.rule == 0 || !has_rule(rules, own.rule)) return true;
     return rules.rules[own.rule - 1]({own.user_data, filter_of(own)}, {other.user_data, filter_of(other)});

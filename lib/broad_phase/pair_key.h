@@ -11,12 +11,12 @@ constexpr uint64_t pair_key(uint32_t low, uint32_t high) { return (uint64_t{low}
 constexpr uint32_t pair_low(uint64_t key) { return static_cast<uint32_t>(key >> 32); }
 constexpr uint32_t pair_high(uint64_t key) { return static_cast<uint32_t>(key); }
 
-/// The key of two slots in whichever order.
+/// The key of two slots in either order.
 constexpr uint64_t key_of_pair(uint32_t a, uint32_t b) { return a < b ? pair_key(a, b) : pair_key(b, a); }
 
 inline uint64_t key_of(const ContactState& contact) { return pair_key(contact.body_a, contact.body_b); }
 
-/// Whether a sorted list has the pair.
+/// Whether a sorted list contains the key.
 inline bool has_pair(Span<const uint64_t> keys, uint64_t key) {
   uint32_t low = 0, high = keys.count;
   while (low < high) {

@@ -7,7 +7,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Where a body belongs in the tree, as a word of 96 bits.
+/// The place of a body in the tree, as a word of 96 bits.
 struct TreeKey {
   uint64_t place;
   uint32_t slot;
@@ -23,7 +23,7 @@ uint32_t first_difference(const TreeKey& a, const TreeKey& b) {
   return static_cast<uint32_t>(96 - bit_length_32(a.slot ^ b.slot));
 }
 
-/// The low 20 bits, two places apart each.
+/// Spreads the low 20 bits, with two zero bits after each.
 uint64_t spread(uint64_t value) {
   value &= 0xfffff;
   value = (value | value << 32) & 0x001f00000000ffff;
@@ -33,7 +33,7 @@ uint64_t spread(uint64_t value) {
   return (value | value << 2) & 0x1249249249249249;
 }
 
-/// Cells repeat after 2^20 of them: that costs time, and no more.
+/// Cell numbers repeat after 2^20 cells. This costs time but changes no result.
 TreeKey key_of(const Bounds& bounds, uint32_t slot) {
   uint64_t longest = 0, place = 0;
   int64_t centre[3];
@@ -69,7 +69,7 @@ void RestingTree::make_empty() const {
   for (uint32_t& parent : parents) parent = 0;
 }
 
-/// `parent` as parent fields have it.
+/// `parent`: encoded as in a parent field.
 void RestingTree::set_child(uint32_t parent, uint32_t before, uint32_t after) const {
   if (parent == k_above_root) {
     root.link = after;

@@ -7,15 +7,16 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The bounds of the bodies that rest, fixed and sleeping ones, as a tree: a step asks it who is near, and changes it
-/// only where a body comes to rest or leaves it.
+/// A tree of the bounds of resting bodies, which are fixed or sleeping. A step queries it for nearby bodies, and
+/// changes it only where a body comes to rest or starts to move.
 ///
-/// A binary trie on each body's place: the size of its bounds in steps of 16, so that what is large does not swell the
-/// nodes of what is small; then the cell of its centre, of about that size, along a Morton curve; then its slot. So the
-/// tree's shape depends on the bodies in it alone, not on how they came, and no way down is longer than k_depth_max.
-/// The tree is a cache and in no snapshot: what a query finds does not depend on its shape.
+/// It is a binary trie. The key of a body starts with the size of its bounds, as a power of 16, so that large bodies do
+/// not enlarge the tree nodes of small bodies. Then comes the cell of the centre, in Morton order; the cells are about
+/// as large as the body. Last comes the slot. The shape of the tree therefore depends only on the bodies in it, not on
+/// the order of insertion, and no path from the root is longer than k_depth_max. The tree is a cache and is in no
+/// snapshot: the result of a query does not depend on its shape.
 ///
-/// Nothing recurs and nothing is stacked: ways lead back up by the parents.
+/// Traversal uses no recursion and no stack: it goes back up by the parent links.
 /// Source: Morrison, "PATRICIA", 1968; Lauterbach and others, "Fast BVH Construction on GPUs", 2009 (Morton order).
 struct RestingTree {
   static constexpr uint32_t k_depth_max = 96;
@@ -23,14 +24,14 @@ struct RestingTree {
   TreeRoot& root;
   Span<TreeNode> nodes;       ///< one fewer than bodies
   Span<uint32_t> parents;     ///< of the leaves, by slot
-  Span<const Bounds> bounds;  ///< by slot; those of a body in the tree must stay as they are
+  Span<const Bounds> bounds;  ///< by slot; they must not change while the body is in the tree
 
   void make_empty() const;
   bool has(uint32_t slot) const { return parents[slot] != 0; }
   void insert(uint32_t slot) const;
   void remove(uint32_t slot) const;
 
-  /// Visits the slots of all bodies whose bounds overlap `box`. `visit` must leave the tree as it is.
+  /// Visits the slots of all bodies whose bounds overlap `box`. `visit` must not change the tree.
   template <class Visit>
   void for_each_near(const Bounds& box, const Visit& visit) const {
     const auto meets = [&](const Bounds& bounds_there) {
@@ -41,9 +42,9 @@ struct RestingTree {
         meets, [](const Bounds&, const Bounds&) { return false; }, visit);
   }
 
-  /// Visits the slots of all bodies that `meets(bounds)`, asked of all that is around them as well, does not rule out,
-  /// and changes nothing. Of two branches the second comes first if `swaps(bounds of the first, of the second)`, which
-  /// must always say the same.
+  /// Visits the slots of all bodies for which `meets(bounds)` is true, both for their own bounds and for those of all
+  /// tree nodes above them. It does not change the tree. If `swaps(bounds of the first, bounds of the second)` is true
+  /// for two branches, the second branch comes first. `swaps` must always return the same value for the same branches.
   template <class Meets, class Swaps, class Visit>
   void walk(const Meets& meets, const Swaps& swaps, const Visit& visit) const {
     if (root.link == 0) return;
@@ -71,10 +72,11 @@ struct RestingTree {
   }
 
  private:
-  // What a parent field holds: 0 for what is not in the tree, this for what has no parent, else a node's index and 2.
+  // Values of a parent field: 0 if not in the tree; k_above_root if there is no parent; else the index of the parent
+  // node plus k_first_parent.
   static constexpr uint32_t k_above_root = 1, k_first_parent = 2;
 
-  // A link leads to a node or a leaf; 0 leads nowhere.
+  // A link refers to a node or a leaf; 0 refers to nothing.
   static constexpr uint32_t node_link(uint32_t index) { return 2 * index + 2; }
   static constexpr uint32_t leaf_link(uint32_t slot) { return 2 * slot + 3; }
   static constexpr bool is_leaf(uint32_t link) { return (link & 1) != 0; }

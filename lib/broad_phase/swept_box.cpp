@@ -8,18 +8,18 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// A grain is four steps of a coordinate: differences of two numbers of grains fit 64 bits.
+/// A grain is four steps of a coordinate, so that the difference of two numbers of grains fits 64 bits.
 constexpr int k_grain_steps_bits = 2;
 constexpr int k_grain_bits = k_metre_bits - (k_coord_bits - k_grain_steps_bits);  ///< in 2^-46 m
 constexpr int k_cells_bits = 29;
 constexpr int64_t k_place_limit = int64_t{1} << 30;
-/// What a tolerance may be of a size: that of time_of_impact() is below 2^-18.7 of the sum of both, and what rounding
-/// takes of bounds and closest_points() of distances far below it.
+/// The tolerance is 2^-k_tolerance_bits of a size. The tolerance of time_of_impact() is below 2^-18.7 of the sum of
+/// both sizes. The rounding errors of bounds and of closest_points() are far smaller.
 constexpr int k_tolerance_bits = 18;
 
 int64_t grains_of(Coord x) { return integer_from(x) >> k_grain_steps_bits; }
 
-/// Beyond the limit nothing is asked about: the way is shorter.
+/// Clamps to the limit. This changes no result, because the path is shorter than the limit.
 int64_t held_place(int64_t value) {
   return value < -k_place_limit ? -k_place_limit : value > k_place_limit ? k_place_limit : value;
 }
@@ -30,18 +30,19 @@ int64_t rounded_up(int64_t raw, int bits) { return (raw + (int64_t{1} << bits) -
 
 SweptBox::SweptBox(const Position& centre, const Vec64& half, const Vec64& way, int64_t reach) {
   const uint64_t largest = magnitudes(half) | magnitudes(way) | static_cast<uint64_t>(reach);
-  const int length = bit_length_64(largest) + 1;  // of the sum of two
+  const int length = bit_length_64(largest) + 1;  // + 1: for the sum of two lengths
   cell_bits_ = length - k_cells_bits > k_grain_bits ? length - k_cells_bits : k_grain_bits;
   grain_shift_ = cell_bits_ - k_grain_bits;
   const int64_t ways[3] = {way.x, way.y, way.z}, halves[3] = {half.x, half.y, half.z};
   int widest = 0;
-  int64_t tolerance = 0;  // a part of the diameter
+  int64_t tolerance = 0;  // 2^-k_tolerance_bits of the largest diameter
   for (const int64_t side : halves)
     tolerance = side >> (k_tolerance_bits - 1) > tolerance ? side >> (k_tolerance_bits - 1) : tolerance;
   for (int i = 0; i < 3; ++i) {
     centre_[i] = grains_of(centre.*k_axes[i]);
     way_[i] = static_cast<int32_t>(ways[i] >> cell_bits_);
-    half_[i] = static_cast<int32_t>(rounded_up(halves[i] + tolerance, cell_bits_) + 1);  // 1: for the way's rounding
+    // + 1: for the rounding of way_
+    half_[i] = static_cast<int32_t>(rounded_up(halves[i] + tolerance, cell_bits_) + 1);
     if (magnitude_64(ways[i]) > magnitude_64(ways[widest])) widest = i;
   }
   axis_ = k_axes[widest];
@@ -62,7 +63,7 @@ SweptBox::Place SweptBox::place_of(const Bounds& bounds) const {
   int64_t low[3], high[3], longest = 0;
   DETENT_UNROLL
   for (int i = 0; i < 3; ++i) {
-    // Two grains for the rounding of centre, bounds and positions.
+    // Two grains allow for the rounding of centre, bounds and positions.
     low[i] = (grains_of(bounds.lower.*k_axes[i]) - centre_[i] - 2) >> grain_shift_;
     high[i] = ((grains_of(bounds.upper.*k_axes[i]) - centre_[i] + 3) >> grain_shift_) + 1;
     const int64_t side = high[i] - low[i];
@@ -83,7 +84,8 @@ bool SweptBox::meets(const Place& place) const {
   for (int i = 0; i < 3; ++i) {
     if (to_[i] < place.low[i] || place.high[i] < from_[i]) return false;
   }
-  // Of the whole line: its distance from the middle across each axis and the way, in halves of a cell.
+  // Tests the infinite line of the path along the cross products of the path and each axis: its distance from the
+  // middle of the bounds, in half cells.
   int64_t sum[3], side[3];
   DETENT_UNROLL
   for (int i = 0; i < 3; ++i) {
@@ -115,7 +117,7 @@ Fraction SweptBox::entry(const Place& place) const {
 }
 
 bool SweptBox::is_near(const Place& place, int64_t reach) const {
-  // A distance errs by a part of that of the centres as well.
+  // A distance also has an error proportional to the distance of the centres.
   const int64_t cells = rounded_up(reach + (reach >> 22), cell_bits_) + 1;
   for (int i = 0; i < 3; ++i) {
     if (place.low[i] > cells || place.high[i] < -cells) return false;

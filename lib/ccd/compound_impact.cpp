@@ -7,7 +7,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// The parts of two bodies on their way.
+/// Tests the parts of two moving bodies.
 struct PartSearch {
   const AssetTable& assets;
   const FeatureTable& features;
@@ -17,8 +17,9 @@ struct PartSearch {
   Meeting& meeting;
   const ConvexParts parts_a, parts_b;
   const Motion motion_a, motion_b;
-  Real closing = 0.0;    ///< how much nearer any two points can come, m
-  bool bounded = false;  ///< whether that is known
+  /// Upper bound of how much the distance of any two points can shrink, m.
+  Real closing = 0.0;
+  bool bounded = false;  ///< `closing` is valid
 
   bool inset_part(const SweptBody& body, const ConvexParts& parts, uint32_t i, Real inset, Convex& convex) const {
     if (!is_compound(body.traits)) return inset_convex(assets, body.traits, inset, convex);
@@ -26,7 +27,7 @@ struct PartSearch {
            inset_convex(inset, 0, convex);
   }
 
-  /// The middle of a part, m, from A's position.
+  /// The centre of a part's bounds, m, relative to A's position, world axes.
   Vec3<Real> middle_of(const ConvexParts& parts, uint32_t i, const Pose& pose) const {
     Vec64 middle, half;
     parts.place(i, middle, half);

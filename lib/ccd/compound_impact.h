@@ -5,13 +5,14 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// As PairSearch::find(), of two bodies of which one is a compound; the time is a part of what is left of the tick. The
-/// first of all pairs of parts that meet: each climbs the ladder by itself, for while one parts another may go through.
-/// A hull's deep rungs are the hull within it that was cooked for them.
+/// Does the same as PairSearch::find(), for two bodies of which one is a compound. The time of the result is a fraction
+/// of the rest of the tick. Reports the earliest impact of all pairs of parts. Each pair of parts goes through the
+/// shrink depths (impact_pair.h) separately: one pair may separate while another one would pass through. For the deep
+/// shrink depths of a hull it uses the smaller hull that was cooked for them.
 bool compound_impact(const AssetTable& assets, const FeatureTable& features, const SweptBody& a, const SweptBody& b,
                      Fraction time, const Ladder& ladder, Meeting& meeting);
 
-/// For a feature table.
+/// Entry of the feature table.
 struct CompoundImpactOps {
   decltype(&compound_impact) find;
 };

@@ -7,7 +7,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// The pair whose event is the first, of equals that of the least key; null if there is none.
+/// The pair with the earliest event, ties by the lower key; null if there is none.
 ImpactPair* next(const ImpactStage& stage) {
   ImpactPair* best = nullptr;
   for (uint32_t i = 0; i < stage.met_count; ++i) {
@@ -18,14 +18,14 @@ ImpactPair* next(const ImpactStage& stage) {
   return best;
 }
 
-/// How far in a pair is tested that has met at a seam, m: deeper than what rests is sunk in, and no deeper than need
-/// be.
+/// The shrink depth, m, for a pair that has collided at a seam: deeper than resting bodies sink in, and not deeper than
+/// necessary.
 Real seam_inset(const ImpactStage& stage, uint64_t key) {
   const Real extent = stage.extent_of(key);
   return min(max(scale_by_power(extent, -6), scale_by_power(stage.settings.sunk, 1)), contact_inset(extent, k_zero));
 }
 
-/// Lets the event of a pair happen.
+/// Processes the event of a pair.
 void go_on(ImpactStage& stage, ImpactPair& pair) {
   const Fraction time = pair.time;
   const bool undecided = pair.next == k_next_undecided;
@@ -36,7 +36,7 @@ void go_on(ImpactStage& stage, ImpactPair& pair) {
   }
   const uint32_t slots[2] = {pair_low(pair.key), pair_high(pair.key)};
   if (stage.is_spent() && pair.farther_in == 0) {
-    pair.farther_in = 1;  // its contacts will hold what it does not meet there
+    pair.farther_in = 1;  // the pair's contacts push the bodies apart if they do not collide at that depth
     stage.test(pair.key, time, k_zero, &pair);
     return;
   }
@@ -51,7 +51,7 @@ void go_on(ImpactStage& stage, ImpactPair& pair) {
   const BodyPose pose_a = pose_at(stage.body(slots[0]), time), pose_b = pose_at(stage.body(slots[1]), time);
   stage.first_approach = k_zero;
   if (stage.resolve(pair, undecided, pose_a, pose_b)) {
-    pair.farther_in = 1;  // both go on as they did: it is no impact
+    pair.farther_in = 1;  // both bodies continue on their sweeps: this is not an impact
     stage.test(pair.key, time, seam_inset(stage, pair.key), &pair);
     stage.test_all_changed(time);
     return;

@@ -11,9 +11,10 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr int k_rounds_max = 64;  ///< of passing a blow on
+constexpr int k_rounds_max = 64;  ///< rounds of propagating an impulse
 
-/// Of the part whose normal is nearest to that of the impact, or if that has none of the deepest.
+/// Takes the contact of the part whose normal is nearest to that of the impact. If the impact has no normal, takes the
+/// deepest contact.
 __attribute__((noinline)) void find_part_points(const ImpactStage& stage, const ImpactPair& pair,
                                                 const CollisionBody& a, const CollisionBody& b,
                                                 const ContactReach& reach, ContactGeometry& geometry) {
@@ -35,9 +36,9 @@ __attribute__((noinline)) void find_part_points(const ImpactStage& stage, const 
   geometry.seam = contacts.seam;
 }
 
-/// The contact points of the bodies themselves; none where they do not agree with the time of impact: deep within a
-/// thin body the least way out may lead through it. Where they lie on each other, no deeper than what
-/// rests is sunk in, an edge that is met besides is that of a seam.
+/// Finds the contact points of the bodies themselves. Returns no points if their normal does not agree with the impact:
+/// deep within a thin body, the direction of least penetration may lead through it. If the bodies lie on each other, no
+/// deeper than resting bodies sink in, then an edge that is also hit counts as the edge of a seam.
 void find_points(const ImpactStage& stage, const ImpactPair& pair, const BodyPose& pose_a, const BodyPose& pose_b,
                  ContactGeometry& geometry) {
   const BodyTraits &a = stage.bodies.traits[pair_low(pair.key)], &b = stage.bodies.traits[pair_high(pair.key)];
@@ -57,7 +58,7 @@ void find_points(const ImpactStage& stage, const ImpactPair& pair, const BodyPos
   if (!(along > Unit(0.0))) geometry.count = 0;
 }
 
-/// The point that the time of impact was found by.
+/// Makes a contact from the point that the time of impact was found at.
 void take_point(const ImpactStage& stage, const ImpactPair& pair, const BodyPose& pose_a, const BodyPose& pose_b,
                 ContactGeometry& geometry) {
   const BodyTraits &a = stage.bodies.traits[pair_low(pair.key)], &b = stage.bodies.traits[pair_high(pair.key)];
@@ -71,11 +72,11 @@ void take_point(const ImpactStage& stage, const ImpactPair& pair, const BodyPose
   geometry.point[0] = {arm(a, pair.point), arm(b, pair.point - offset_of(pose_a, pose_b)), k_zero, 1};
 }
 
-/// The middle of the points, world.
+/// The mean of the points, world.
 Position point_of(const ContactGeometry& geometry, const BodyPose& pose_a, const BodyPose& pose_b, const BodyTraits& a,
                   const BodyTraits& b) {
   static constexpr Unit k_share[k_manifold_points_max] = {1.0, 0.5, 1.0 / 3.0, 0.25};
-  const bool by_b = is_ground(a);  // which may be large, or has no arms
+  const bool by_b = is_ground(a);  // A may be large, or its points have no arms
   const int exponent = by_b ? b.size_exponent : a.size_exponent;
   Vec3<Real> sum = k_zero_vector;
   for (uint32_t i = 0; i < geometry.count; ++i) {
@@ -90,7 +91,7 @@ void wake(ImpactStage& stage, uint32_t slot) {
   stage.report.woke += wake_all_with(slot, stage.bodies.activities, stage.bodies.visits);
 }
 
-/// The velocity that gravity has yet to give a body after `time`.
+/// The velocity that gravity adds to a body in the part of the tick after `time`.
 Vec3<Real> fall_after(const ImpactStage& stage, uint32_t slot, Fraction time) {
   const BodyTraits& traits = stage.bodies.traits[slot];
   if (!is_dynamic(traits) || (stage.bodies.sweeps[slot].marks & k_mark_slept) != 0) return k_zero_vector;
@@ -102,8 +103,8 @@ Vec3<Real> fall_after(const ImpactStage& stage, uint32_t slot, Fraction time) {
   return sweep_part({own, k_zero_vector}, k_whole_step - time).displacement;
 }
 
-/// What the turning of both bodies brings them together by in the rest of the tick, however they part, as a speed,
-/// m/s: a 16th of it where they have met twice, and up to all of it later on.
+/// The speed, m/s, at which the rotation of both bodies can bring them together again in the rest of the tick. Returns
+/// 1/16 of it at the second impact of the pair, then twice as much each time, up to all of it.
 Real bend_speed(const ImpactStage& stage, const ImpactPair& pair) {
   const uint32_t a = pair_low(pair.key), b = pair_high(pair.key);
   const auto radius = [&](uint32_t slot) {
@@ -111,7 +112,7 @@ Real bend_speed(const ImpactStage& stage, const ImpactPair& pair) {
     return real_from_unit(traits.bounding_radius, traits.size_exponent);
   };
   const BodySweep &sweep_a = stage.bodies.sweeps[a], &sweep_b = stage.bodies.sweeps[b];
-  constexpr Real k_turn = 2.0;  // beyond it they have turned away
+  constexpr Real k_turn = 2.0;  // a larger rotation moves the points apart again
   const Real turn_a = min(length(sweep_a.turn), k_turn), turn_b = min(length(sweep_b.turn), k_turn);
   const Real way = length(sweep_b.displacement - sweep_a.displacement);
   const Real bend = turn_a * turn_a * radius(a) + turn_b * turn_b * radius(b) + (turn_a + turn_b) * way;
@@ -121,9 +122,10 @@ Real bend_speed(const ImpactStage& stage, const ImpactPair& pair) {
   return multiply(scale_by_power(part, power), stage.tick_rate, saturated);
 }
 
-/// The speed, m/s, at which a pair parts on its sweeps at least. An overlap is made good; and what has met before in
-/// this tick, as what turns or rolls on an edge does again and again, hops, the farther the more often, so that a few
-/// impacts see it through the tick. The bodies' own velocities know nothing of it.
+/// The lowest speed, m/s, at which a pair separates on its sweeps. An overlap is corrected. A body that rotates or
+/// rolls on an edge collides again and again; if the pair has already collided in this tick, the speed grows with the
+/// number of its impacts, so that a few impacts are enough for the tick. The velocities of the bodies' state are not
+/// changed by it.
 Real parting_speed(const ImpactStage& stage, const ImpactPair& pair, const ContactWork& contact, uint32_t count) {
   bool saturated = false;
   Real depth = k_zero, approach = k_zero;
@@ -138,8 +140,8 @@ Real parting_speed(const ImpactStage& stage, const ImpactPair& pair, const Conta
   return max(max(half_in_a_tick, scale_by_power(approach, power)), bend_speed(stage, pair));
 }
 
-/// Lets the bodies of a pair part at the given points. False, and nothing changed, if the bodies do not come together
-/// there. `again`: the blow has been counted.
+/// Separates the bodies of a pair at the given points. Returns false and changes nothing if the bodies do not approach
+/// there. `again`: the impulse is a propagated one and is not counted again.
 bool resolve_at(ImpactStage& stage, ImpactPair& pair, const ContactGeometry& geometry, const BodyPose& pose_a,
                 const BodyPose& pose_b, bool again) {
   const uint32_t a = pair_low(pair.key), b = pair_high(pair.key);
@@ -185,7 +187,7 @@ bool resolve_at(ImpactStage& stage, ImpactPair& pair, const ContactGeometry& geo
   motion_a.velocity -= fall_a;
   motion_b.velocity -= fall_b;
   Real approach_of_state = k_zero;
-  // A slow rest of what the solver has pushed is left to it: it goes on in the next tick.
+  // If the solver has pushed the pair apart, a slow remaining approach is left to the solver in the next tick.
   const Real least_of_state = stage.is_pushed(pair.key) ? contact.rebound_min : k_zero;
   if (resolves(least_of_state, k_zero, motion_a, motion_b, approach_of_state)) {
     motion_a.velocity += fall_a;
@@ -208,7 +210,8 @@ bool resolve_at(ImpactStage& stage, ImpactPair& pair, const ContactGeometry& geo
   return true;
 }
 
-/// The pair of the least key above `after` that has met in this tick and shares a dynamic body with the first one.
+/// The pair with the lowest key above `after` that has collided in this tick and shares a dynamic body with the first
+/// pair.
 ImpactPair* next_touching(const ImpactStage& stage, uint64_t first_key, uint64_t after) {
   ImpactPair* best = nullptr;
   const uint32_t slots[2] = {pair_low(first_key), pair_high(first_key)};
@@ -222,7 +225,7 @@ ImpactPair* next_touching(const ImpactStage& stage, uint64_t first_key, uint64_t
   return best;
 }
 
-/// Resolves a pair that may still touch. False if it does not, or does not come together.
+/// Resolves a pair that may still touch. Returns false if its bodies do not touch or do not approach.
 bool meet_again(ImpactStage& stage, ImpactPair& pair, Fraction time) {
   const uint32_t slots[2] = {pair_low(pair.key), pair_high(pair.key)};
   const BodyPose pose_a = pose_at(stage.body(slots[0]), time), pose_b = pose_at(stage.body(slots[1]), time);

@@ -16,7 +16,7 @@ namespace {
 
 ShapeType shape_type(const BodyTraits& traits) { return static_cast<ShapeType>(traits.shape); }
 
-/// `depth` in 2^-30 2^exponent m, rounded up; the most there is where it is beyond.
+/// Converts `depth`, 2^-46 m, to units of 2^(exponent - 30) m, rounded up. Returns INT32_MAX if the result is larger.
 int32_t depth_in_units(int64_t depth, int exponent) {
   if (depth >> (k_metre_bits + exponent) != 0) return INT32_MAX;
   return static_cast<int32_t>(shift_64(depth, 30 - k_metre_bits - exponent)) + 1;
@@ -24,8 +24,8 @@ int32_t depth_in_units(int64_t depth, int exponent) {
 
 int32_t less_depth(int32_t size, int32_t depth, int32_t least) { return size - least > depth ? size - depth : least; }
 
-/// Makes the shape smaller by `depth`, 2^-46 m, on all sides. A hull or cone, which has no such core of its own kind,
-/// is halved so many times.
+/// Makes the shape smaller by `depth`, 2^-46 m, on all sides. A hull or cone has no such core of its own kind; it is
+/// halved in size `halvings` times instead.
 void shrink(int64_t depth, int halvings, Convex& convex) {
   switch (convex.type) {
     case ShapeType::sphere:
@@ -50,7 +50,8 @@ void shrink(int64_t depth, int halvings, Convex& convex) {
   }
 }
 
-/// How far from its centre the part of a body lies that its turning moves, m. A ball looks the same however it turns.
+/// The largest distance, m, from the centre to a part of the surface that a rotation moves. It is 0 for a sphere, which
+/// looks the same after a rotation.
 Real swing_radius(const BodyTraits& traits) {
   switch (shape_type(traits)) {
     case ShapeType::sphere:
@@ -66,7 +67,7 @@ Real swing(const BodyTraits& traits, const Vec3<Real>& turn, bool& bounded) {
   const Real zero = 0.0, angle = length(turn);
   if (angle == zero) return zero;
   if (is_half_space(traits)) bounded = false;
-  // Half a turn moves a point by no more than the diameter; and so the product stays in range.
+  // Half a revolution moves a point by at most the diameter. The limit also keeps the product in range.
   return swing_radius(traits) * min(angle, Real(4.0));
 }
 
@@ -103,7 +104,7 @@ bool is_parting(const SweptBody& a, const SweptBody& b, Fraction time, const Tim
   const Vec3<Real> arm_b = impact.point - offset;
   const Real swing_a = dot(cross(impact.point, impact.normal), a.sweep.turn);
   const Real swing_b = dot(cross(arm_b, impact.normal), b.sweep.turn);
-  // What is slower does not come through the next rung in this tick.
+  // A slower approach does not pass through the next shrink depth in this tick.
   const Real slow = scale_by_power(min(shape_extent(a.traits), shape_extent(b.traits)), -12);
   return dot(way, impact.normal) + (swing_b - swing_a) >= -slow;
 }
@@ -147,7 +148,7 @@ bool inset_convex(Real inset, int halvings, Convex& convex) {
 }
 
 int inset_halvings(Real inset, Real extent) {
-  // On the rungs of contacts, and the deeper ones.
+  // One halving at the depths of contacts, two at the deepest ones.
   return (inset > scale_by_power(extent, -4) ? 1 : 0) + (inset > scale_by_power(extent, -2) ? 1 : 0);
 }
 
@@ -160,7 +161,7 @@ bool PairSearch::prepare_pair() {
   pair_.a = &convex_a_;
   pair_.b = &convex_b_;
   if (set_ways(motion_a, motion_b, pair_) != Status::ok) return false;
-  if (pair_.from > pair_.to) return true;  // nobody asks how they turn, nor for another rung
+  if (pair_.from > pair_.to) return true;  // the bounding spheres never touch: skip the rotation setup
   pair_.absolute = moves_both(k_toi_method, pair_);
   prepared_ = set_turnings(motion_a, motion_b, pair_) == Status::ok;
   return prepared_;

@@ -7,88 +7,96 @@
 #include "shape/sweep.h"
 #include "toi/moving_pair.h"
 
-/// When the bodies of a pair meet in the rest of a tick.
+/// Computes when the bodies of a pair collide in the rest of a tick.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// How far within their surfaces the bodies of a pair are tested, m, as rungs of a ladder: at the surface; by the least
-/// that parts again what has met in this tick; and farther in where a tick begins in contact, so that what rests or
-/// slides isn't stopped, and yet cannot pass. `extent` is the smaller body's smallest diameter.
+/// A pair is tested with shrunken cores: both shapes made smaller by a shrink depth, m. The depths are 0 (the
+/// surfaces); then the smallest depth at which a pair that has collided in this tick is separate again; and a larger
+/// depth for a pair that is in contact at the start of the tick. So a resting or sliding pair is not stopped, and still
+/// cannot pass through. `extent` is the smaller body's smallest diameter.
 ///
-/// From the surface the rungs are a 1024th of the extent, four times that as far as a 16th, and then a 32nd each.
+/// Returns the shrink depth after `inset`. The first one is 1/1024 of the extent. Up to 1/16 of the extent each is four
+/// times the one before; then each is larger by 1/32 of the extent.
 Real next_inset(Real extent, Real inset);
-/// The rung of a pair that starts the tick in contact, `depth` deep: an eighth, and so that it cannot sink more than a
-/// 32nd where it is deeper.
+/// The shrink depth, m, for a pair that is in contact, `depth` deep, at the start of the tick: 1/8 of the extent, or
+/// half of `depth` plus 1/64 of the extent if that is more. So the pair cannot sink deeper by more than 1/32 of the
+/// extent.
 Real contact_inset(Real extent, Real depth);
-/// Beyond it bodies are so deep within each other that nothing is tested: half of the extent.
+/// The largest shrink depth, m: extent / 2. Bodies that overlap more deeply are not tested.
 Real last_inset(Real extent);
 
-/// A body as the stage sees it.
+/// A body and its sweep, for the tests of this stage.
 struct SweptBody {
   const BodyTraits& traits;
   const BodyPose& pose;  ///< at sweep.from
   const BodySweep& sweep;
 };
 
-/// The sweep of a body from `time` on, and its pose then.
+/// The body's pose at `time`, and the part of the sweep after `time`.
 BodyPose pose_at(const SweptBody& body, Fraction time);
 Sweep rest_of(const BodySweep& sweep, Fraction time);
 
-/// False for the normal of an impact that has none: of bodies that overlap.
+/// False if an impact has no normal, which is so for cores that overlap.
 inline bool is_direction(const Vec3<Unit>& normal) { return !(normal == Vec3<Unit>{Unit(0.0), Unit(0.0), Unit(0.0)}); }
 
-/// From A to B, m, world axes.
+/// From the position of A to that of B, m, world axes.
 inline Vec3<Real> offset_of(const BodyPose& a, const BodyPose& b) { return real_difference(b.position, a.position); }
 
-/// True if the point of an impact that is found at once, at `time`, isn't about to come closer. Range: it has a normal.
+/// True if the bodies do not approach at the point of an impact found at `time` itself, beyond a slow speed of 1/4096
+/// of the extent per tick. Range: the impact has a normal.
 bool is_parting(const SweptBody& a, const SweptBody& b, Fraction time, const TimeOfImpact& impact);
 
-/// Both, for time_of_impact().
+/// The pose at `time` and the sweep after it, as time_of_impact() takes them.
 Motion motion_from(const SweptBody& body, Fraction time);
 
-/// A bound of how far a point of the body's surface moves in the rest of the tick, m; false if there is none.
+/// Computes an upper bound, m, of the path of any point of the body's surface in the rest of the tick. Returns false if
+/// there is no bound.
 bool motion_bound(const SweptBody& body, Fraction time, Real& bound);
 
-/// A bound of how much nearer the surfaces of two bodies can come in the rest of the tick, m; false if there is none.
+/// Computes an upper bound, m, of how much the distance of two bodies can shrink in the rest of the tick. Returns false
+/// if there is no bound.
 bool closing_bound(const SweptBody& a, const SweptBody& b, Fraction time, Real& bound);
 
-/// The body's shape made smaller by `inset`, m, on all sides. False if it is not known.
+/// Makes the body's shape smaller by `inset`, m, on all sides. Returns false if the shape is not available.
 bool inset_convex(const AssetTable& assets, const BodyTraits& traits, Real inset, Convex& convex);
 
-/// Likewise, of a shape that is ready. A hull or cone is halved `halvings` times.
+/// Makes a given shape smaller by `inset`, m. A hull or cone is instead halved in size `halvings` times.
 bool inset_convex(Real inset, int halvings, Convex& convex);
-/// How often that is at this inset, of a body of this extent.
+/// The number of halvings of a hull or cone at shrink depth `inset`, for a body with this extent.
 int inset_halvings(Real inset, Real extent);
 
-/// Where on the ladder a pair is tested.
+/// The shrink depths that a pair is tested at.
 struct Ladder {
-  Real first;     ///< inset of the lowest rung
-  Real extent;    ///< of the pair
-  bool climbs;    ///< what touches now is tested on the next rung
-  bool resolved;  ///< also if it closes, for an impact has been resolved now
+  Real first;   ///< first shrink depth, m
+  Real extent;  ///< extent of the pair, m: the smaller body's smallest diameter
+  bool climbs;  ///< continue with the next shrink depth if the cores touch at the start time
+  /// Also continue if the cores touch and approach: an impact of this pair was resolved at this time.
+  bool resolved;
 };
 
-/// What of a pair meets first.
+/// The earliest impact of a pair.
 struct Meeting {
   TimeOfImpact impact = {};
-  uint32_t tests = 0;    ///< times of impact asked for
-  bool climbed = false;  ///< beyond the lowest rung
-  bool left = false;     ///< something is so deep within the other that nothing of it is tested
-  bool stuck = false;    ///< that has met within the tick, and does not part: it would go through
+  uint32_t tests = 0;    ///< times of impact computed
+  bool climbed = false;  ///< a shrink depth beyond the first was used
+  bool left = false;     ///< some parts overlap so deeply that they are not tested
+  bool stuck = false;    ///< the pair collided in this tick and does not separate: it would pass through
 
   Meeting() {
     impact.outcome = ToiOutcome::clear;
     impact.time = k_whole_step;
   }
-  /// Time: a part of what is left of the tick.
+  /// Keeps the earlier impact. The time of `found` is a fraction of the rest of the tick.
   void take(const TimeOfImpact& found) {
     if (found.outcome == ToiOutcome::clear) return;
     if (impact.outcome == ToiOutcome::clear || found.time < impact.time) impact = found;
   }
 };
 
-/// Tests two convex shapes, or one and a surface, by `find`, rung by rung until they do not touch now, or close. False
-/// if `find` is: they could not be asked.
+/// Tests two convex shapes, or a convex shape and a terrain, with `find`. Increases the shrink depth while the cores
+/// touch at `time` without approaching, or touch and are marked as resolved. Returns false if `find` does, which means
+/// that the shapes could not be tested.
 template <class Find>
 bool climb(const SweptBody& a, const SweptBody& b, Fraction time, const Ladder& ladder, const Find& find,
            Meeting& meeting) {
@@ -106,7 +114,7 @@ bool climb(const SweptBody& a, const SweptBody& b, Fraction time, const Ladder& 
              (found.outcome == ToiOutcome::undecided || (is_direction(found.normal) && !is_parting(a, b, time, found)));
     };
     if (now && ladder.climbs && !closes()) {
-      // Cores that overlap on the last rung do on all.
+      // Cores that overlap at the last shrink depth overlap at all.
       if (looked_ahead || is_direction(found.normal)) continue;
       looked_ahead = meeting.climbed = true;
       ++meeting.tests;
@@ -122,8 +130,8 @@ bool climb(const SweptBody& a, const SweptBody& b, Fraction time, const Ladder& 
   return true;
 }
 
-/// When the bodies of a pair meet from `time` on, on one rung after the other: what the rungs have in common is
-/// prepared once. All that it is given must outlive it.
+/// Finds when the bodies of a pair collide after `time`, at one shrink depth after another. The parts of the test that
+/// do not depend on the shrink depth are prepared once. All arguments must outlive the object.
 class PairSearch {
  public:
   PairSearch(const AssetTable& assets, const FeatureTable& features, const SweptBody& a, const SweptBody& b,
@@ -132,9 +140,9 @@ class PairSearch {
   PairSearch(const PairSearch&) = delete;
   PairSearch& operator=(const PairSearch&) = delete;
 
-  /// When they meet; the answer's time is a part of the whole tick. `axis`: a direction from A to B that may part them,
-  /// or zero: it saves work, and decides nothing. False if it could not be asked: a shape is not known, or lies out of
-  /// the query's range.
+  /// Finds the earliest impact. Its time is a fraction of the whole tick. `axis` is a direction from A to B that may
+  /// separate the bodies, or zero: it saves work and does not change the result. Returns false if the test was
+  /// impossible: a shape is not available, or is out of the query's range.
   bool find(const Ladder& ladder, Vec3<Unit> axis, Meeting& meeting);
 
  private:

@@ -10,7 +10,7 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 constexpr int k_sweeps_max = 64;
-constexpr int k_last_sweeps = 8;  ///< over the normals alone
+constexpr int k_last_sweeps = 8;  ///< over the normal rows only, without friction
 constexpr int k_rounds = 2;
 
 Vec3<Real> scaled(const Vec3<Real>& v, Scaled factor) {
@@ -18,7 +18,8 @@ Vec3<Real> scaled(const Vec3<Real>& v, Scaled factor) {
   return {multiply(v.x, factor, saturated), multiply(v.y, factor, saturated), multiply(v.z, factor, saturated)};
 }
 
-/// Twice the energy of turning over the mass, by the momentum in the body's axes.
+/// Twice the kinetic energy of rotation per unit mass: L . (I^-1 L) over the mass, from the angular momentum L in the
+/// body's axes.
 Scaled energy_of(const BodyTraits& traits, const Vec3<Real>& local) {
   const auto term = [&](Real value, int i) {
     const Scaled factor = scaled_from(value);
@@ -27,7 +28,7 @@ Scaled energy_of(const BodyTraits& traits, const Vec3<Real>& local) {
   return add(term(local.x, 0), add(term(local.y, 1), term(local.z, 2)));
 }
 
-/// True if some moment of inertia is more than 16 times another.
+/// True if one principal moment of inertia is more than 16 times another.
 bool is_slender(const BodyTraits& traits) {
   Scaled least = traits.gyration[0], most = least;
   for (const Scaled& gyration : traits.gyration) {
@@ -37,7 +38,7 @@ bool is_slender(const BodyTraits& traits) {
   return less(scaled_by_power(least, 4), most);
 }
 
-/// The solve of an impact: the pair's motion and its wrench in the contact's frame, as in contact_motion.h, but in
+/// The solver of one impact: the pair's motion and its wrench in the contact's frame, as in contact_motion.h, but in
 /// Real.
 struct Impact {
   const ContactWork& contact;
@@ -45,10 +46,10 @@ struct Impact {
   PairResponse response;
   Real motion[k_parts];
   Real wrench[k_parts] = {k_zero, k_zero, k_zero, k_zero, k_zero, k_zero};
-  Real wanted[k_manifold_points_max];  ///< normal velocity after the impact
+  Real wanted[k_manifold_points_max];  ///< target of the normal velocity after the impact
   Real normal_impulse[k_manifold_points_max];
   Real friction_impulse[2] = {k_zero, k_zero};
-  Real largest = k_zero;  ///< change of an impulse in a sweep
+  Real largest = k_zero;  ///< largest change of an impulse in a sweep
 
   Impact(const ContactWork& of_pair, uint32_t points, const ImpactBody& a, const ImpactBody& b)
       : contact(of_pair),
@@ -57,7 +58,7 @@ struct Impact {
     look(a, b);
   }
 
-  /// Reads the motion off the bodies.
+  /// Reads the relative motion of the bodies.
   void look(const ImpactBody& a, const ImpactBody& b) {
     const Vec3<Real> spin_a = spin_of(a.traits, a.rotation, a.motion.momentum);
     const Vec3<Real> spin_b = spin_of(b.traits, b.rotation, b.motion.momentum);
@@ -112,7 +113,7 @@ struct Impact {
     }
   }
 
-  /// Puts on the bodies what has not been put on them yet.
+  /// Applies the wrench that has accumulated since the last call to the bodies, and clears it.
   void act(const ImpactBody& a, const ImpactBody& b) {
     const auto in_world = [&](int first) {
       return axis(0) * wrench[first] + (axis(1) * wrench[first + 1] + axis(2) * wrench[first + 2]);
@@ -143,7 +144,7 @@ uint32_t hold_turn(const BodyTraits& traits, Real tick_time, BodySweep& sweep) {
 }
 
 BodyMotion motion_of_sweep(const BodyTraits& traits, const Quat& rotation, const BodySweep& sweep, Scaled tick_rate) {
-  // In the order in which nothing leaves its range.
+  // In the order that keeps each result in its range.
   const int power = traits.size_exponent;
   const Vec3<Real> spin = power < 0 ? scaled(scale_by_power(sweep.turn, power), tick_rate)
                                     : scale_by_power(scaled(sweep.turn, tick_rate), power);
@@ -182,7 +183,7 @@ uint32_t add_to_sweep(const BodyTraits& traits, const Quat& rotation, const Body
   const auto angle = [&](Real value) { return angle_of(value * tick_time, traits.size_exponent, turns_clamped); };
   sweep.displacement += (after.velocity - before.velocity) * tick_time;
   sweep.turn += {angle(spin.x), angle(spin.y), angle(spin.z)};
-  // Of the state's range, of which time_of_impact() takes twice as much.
+  // The limits of the state; time_of_impact() accepts twice as much.
   constexpr Real k_sweep_turn_max = 32768.0, k_sweep_way_max = 8192.0;
   return clamp_vector(sweep.displacement, k_sweep_way_max) + clamp_vector(sweep.turn, k_sweep_turn_max) +
          (turns_clamped ? 1 : 0);
@@ -207,8 +208,8 @@ bool resolve_impact(const ContactWork& contact, uint32_t count, Real least, Real
     impact.solve_friction();
     if (impact.largest <= enough) break;
   }
-  // Friction had the last word: what is left may be a slow approach. Then the impulses are put on the
-  // bodies, and what rounding shows of them is made up for.
+  // The friction row was solved last, so a slow approach may remain: sweep over the normals again. Then apply the
+  // impulses to the bodies. A second round corrects the residual that the rounding of the bodies' state leaves.
   for (int round = 0; round < k_rounds; ++round) {
     for (int sweep = 0; sweep < k_last_sweeps; ++sweep) {
       for (uint32_t i = 0; i < count; ++i) impact.push(i);

@@ -4,41 +4,44 @@
 #include "contact/collide.h"
 #include "solver/contact_rows.h"
 
-/// What an impact does to two bodies.
+/// The response of two bodies to an impact.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Holds the turning of a sweep to the range of spins, k_spin_max in each component, which that of a slender body may
-/// leave. Returns 1 if it did not keep it, else 0.
+/// Clamps the rotation of a sweep to the range of angular velocities, k_spin_max in each component. The sweep of a
+/// slender body can leave that range. Returns 1 if it clamped, else 0.
 uint32_t hold_turn(const BodyTraits& traits, Real tick_time, BodySweep& sweep);
 
-/// The velocity and momentum that a body has on its sweep. A kinematic body's momentum is its spin, as in its state.
+/// The velocity and angular momentum of a body that moves along its sweep. The `momentum` of a kinematic body is its
+/// angular velocity, as in its state.
 BodyMotion motion_of_sweep(const BodyTraits& traits, const Quat& rotation, const BodySweep& sweep, Scaled tick_rate);
 
-/// The momentum of a body that its sweep takes from one rotation to another. It is the same in the world, unless the
-/// body would so gain energy: a sweep's spin is constant, and of a slender body that tumbles it leads elsewhere than
-/// its free motion. Then it is the same in the body, as its sweep has it.
+/// The angular momentum of a body after its sweep has rotated it from one rotation to another. It is constant in the
+/// world, unless that raises the body's energy. The energy can rise because a sweep has a constant angular velocity:
+/// for a slender body that tumbles, the sweep differs from the free motion. The angular momentum is then scaled to the
+/// old energy. For a slender body, or if the energy grows by more than a quarter, it is instead constant in the body's
+/// axes, as it is on the sweep.
 Vec3<Real> carried_momentum(const BodyTraits& traits, const Quat& from, const Quat& to, const Vec3<Real>& momentum);
 
-/// Gives the sweep what the motion has gained over `before`. Returns the number of components that were clamped.
+/// Adds the change of motion from `before` to `after` to the sweep. Returns the number of components that were clamped.
 uint32_t add_to_sweep(const BodyTraits& traits, const Quat& rotation, const BodyMotion& before, const BodyMotion& after,
                       Real tick_time, BodySweep& sweep);
 
-/// Holds the spin to its range, k_spin_max in each component of the body's axes, also where it is far beyond: a blow on
-/// a rod's edge may ask for more. Returns the number of components clamped.
+/// Clamps the angular velocity to k_spin_max in each component, in the body's axes. It handles values far beyond that
+/// range: an impulse on the edge of a rod can demand them. Returns 1 if it clamped, else 0.
 uint32_t hold_spin(const BodyTraits& traits, const Quat& rotation, BodyMotion& motion);
 
-/// A body that meets another.
+/// A body of an impact.
 struct ImpactBody {
   const BodyTraits& traits;
   const Quat& rotation;
   BodyMotion& motion;
 };
 
-/// Lets the points of the contact part: Newton's law of impact along the normal above the pair's threshold, Coulomb's
-/// friction, by sequential impulses until no point approaches, and each parts at no less than `parting`, m/s.
-/// `approach` becomes the greatest closing speed of before, m/s; false, and nothing changed, if no point closes faster
-/// than `least`.
+/// Separates the points of the contact: Newton's law of impact along the normal, for approach speeds above the pair's
+/// threshold, and Coulomb friction. Sequential impulses, until no point approaches and each point separates at
+/// `parting`, m/s, or faster. `approach` becomes the largest closing speed before the impulse, m/s. Returns false and
+/// changes nothing if no point closes faster than `least`, m/s.
 bool resolve_impact(const ContactWork& contact, uint32_t count, Real least, Real parting, const ImpactBody& a,
                     const ImpactBody& b, Real& approach);
 

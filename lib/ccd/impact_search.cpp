@@ -8,18 +8,19 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Of a pair that touches after an impact: until it is looked at again, twice as long each time.
+/// For a pair that touches after an impact: the time to its next test is 2^k_look_power of a tick, and doubles each
+/// time.
 constexpr int k_look_power = -10;
 constexpr uint32_t k_looks_max = 16;
 
-/// The contacts of a pair from the first one on.
+/// The contacts of a pair at the start of a list.
 Span<const ContactWork> pair_contacts(Span<const ContactWork> from, uint64_t key) {
   uint32_t count = 0;
   while (count < from.count && key_of(from[count].state) == key) ++count;
   return from.first(count);
 }
 
-/// The contacts of a pair.
+/// The contacts of a pair in a sorted list.
 Span<const ContactWork> find_contacts(Span<const ContactWork> contacts, uint64_t key) {
   uint32_t low = 0, high = contacts.count;
   while (low < high) {
@@ -39,8 +40,9 @@ bool is_ball(const ImpactStage& stage, uint32_t slot) {
 
 bool is_curved(const ImpactStage& stage, uint32_t slot) { return round_radius(stage.bodies.traits[slot]) > Unit(0.0); }
 
-/// False for pairs that filters or joints keep apart, and for those of one island of joints; and where joints hold one,
-/// for half-spaces, which contacts alone keep anything from passing: a body that stops alone tears at its joints.
+/// False for pairs that are disabled by filters or joints, and for pairs within one island of joints. If a body is
+/// jointed, also false for half-spaces: contacts alone keep bodies from passing them, because a single body that stops
+/// tears at its joints.
 bool may_meet(const ImpactStage& stage, uint32_t a, uint32_t b) {
   if (!PairFilter{stage.bodies.traits, stage.bodies.filter_rules, stage.known.apart}.allows(a, b)) return false;
   if (!jointed(stage, a) && !jointed(stage, b)) return true;
@@ -48,7 +50,7 @@ bool may_meet(const ImpactStage& stage, uint32_t a, uint32_t b) {
   return stage.bodies.sweeps[a].marks / k_mark_jointed != stage.bodies.sweeps[b].marks / k_mark_jointed;
 }
 
-/// Makes candidates of all bodies whose bounds overlap those of `slot`.
+/// Adds all bodies whose bounds overlap those of `slot` to the candidates.
 __attribute__((noinline)) void find_near(const ImpactStage& stage, uint32_t slot) {
   const Bounds& box = stage.bodies.bounds[slot];
   stage.bodies.resting.for_each_near(box, [&](uint32_t other) { stage.bodies.candidates.set(other); });
@@ -57,13 +59,13 @@ __attribute__((noinline)) void find_near(const ImpactStage& stage, uint32_t slot
   });
 }
 
-/// Visits all other bodies that may touch `slot` and whose bounds overlap its, in the order of their slots.
+/// Visits all other bodies that may touch `slot` and whose bounds overlap its bounds, in the order of their slots.
 template <class Visit>
 void for_each_near(const ImpactStage& stage, uint32_t slot, const Visit& visit) {
   find_near(stage, slot);
   stage.bodies.candidates.for_each([&](uint32_t other) {
     stage.bodies.candidates.clear(other);
-    // What went before may have stopped either.
+    // An earlier visit may have stopped either body.
     if (other != slot && overlap(stage.bodies.bounds[slot], stage.bodies.bounds[other]) && may_meet(stage, slot, other))
       visit(other);
   });
@@ -94,23 +96,24 @@ Real free_inset(const ImpactStage& stage, uint64_t key, Span<const ContactWork> 
     apart = k_zero;
     return k_zero;
   }
-  // What is round may be nearer than its contacts say, which count what it parts by as it slides past.
+  // A round body may be nearer than its contacts say: their separation includes the distance gained by sliding past.
   const bool round = is_curved(stage, pair_low(key)) || is_curved(stage, pair_high(key));
   if (least > scale_by_power(extent, -10)) {
     apart = round ? k_zero : scale_by_power(least, -1);
-    // A ball that the solver has let bounce touches when the tick ends: within a query's tolerance that would be an
-    // impact. Of other shapes another place may come first.
+    // A ball that the solver has made bounce touches at the end of the tick. Within the tolerance of the query that
+    // would be an impact, so start one shrink depth deeper. Other shapes may collide at another point first.
     const bool bounces = is_ball(stage, pair_low(key)) || is_ball(stage, pair_high(key));
     return bounces && rebounds && stage.is_pushed(key) ? next_inset(extent, k_zero) : k_zero;
   }
   const Real inset = contact_inset(extent, -least);
-  apart = (round ? min(least, k_zero) : least) +
-          inset;  // but one of the two insets: the points of a contact need not show all of its depth
+  // Adds only one of the two shrink depths: the points of a contact need not show its whole depth.
+  apart = (round ? min(least, k_zero) : least) + inset;
   return inset;
 }
 
-/// On which rung of the ladder a pair with these contacts, or none, starts, and by how much at least its inset bodies
-/// are apart, m. Where joints hold one it is so far in that it meets only what it would have passed.
+/// The first shrink depth, m, of a pair with these contacts, or none. `apart` becomes a lower bound of the distance of
+/// the cores at that depth, m. For a jointed body the depth is larger, so that only those collisions count in which the
+/// body would otherwise pass through.
 Real first_inset(const ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts, Real& apart) {
   const Real inset = free_inset(stage, key, contacts, apart);
   if (!jointed(stage, pair_low(key)) && !jointed(stage, pair_high(key))) return inset;
@@ -119,7 +122,7 @@ Real first_inset(const ImpactStage& stage, uint64_t key, Span<const ContactWork>
   return held;
 }
 
-/// The pair's entry, made if there is none; null if there is no room.
+/// The pair's entry in `met`. It is made if there is none. Returns null if there is no room.
 ImpactPair* entry_of(ImpactStage& stage, uint64_t key, ImpactPair* entry) {
   if (entry != nullptr) return entry;
   if (stage.met_count == stage.met.count) return nullptr;
@@ -138,7 +141,7 @@ ImpactPair* entry_of(ImpactStage& stage, uint64_t key, ImpactPair* entry) {
   return entry;
 }
 
-/// When to look again at a pair that was `looks` times found touching; 1 for never.
+/// The time of the next test of a pair that was found touching `looks` times; 1 for never.
 Fraction look_after(Fraction time, uint32_t looks) {
   if (looks == 0 || looks > k_looks_max) return k_whole_step;
   const uint32_t power = looks < 10 ? looks - 1 : 9;
@@ -146,15 +149,15 @@ Fraction look_after(Fraction time, uint32_t looks) {
   return after < k_whole_step.raw - time.raw ? Fraction::from_raw(time.raw + after) : k_whole_step;
 }
 
-/// A direction that may part a pair: the normal of its contact; zero where it has none, or where they have met in this
-/// tick, for then they mostly touch still.
+/// A direction that may separate a pair: the normal of its contact. Returns zero if it has no contact. Also returns
+/// zero if the pair has collided in this tick, because such a pair mostly still touches.
 Vec3<Unit> known_axis(const ImpactStage& stage, uint64_t key, const ImpactPair* entry) {
   if (entry != nullptr) return {};
   const Span<const ContactWork> contacts = find_contacts(stage.known.contacts, key);
   return contacts.count != 0 ? contacts[0].normal : Vec3<Unit>{};
 }
 
-/// Tests a pair from the start of the tick, unless it is sure to be clear.
+/// Tests a pair from the start of the tick, unless it is certainly clear.
 void test_at_start(ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts) {
   const uint32_t low = pair_low(key), high = pair_high(key);
   if (!stage.dynamic(low) && !stage.dynamic(high)) return;
@@ -163,7 +166,7 @@ void test_at_start(ImpactStage& stage, uint64_t key, Span<const ContactWork> con
   Real apart = k_zero, closing = k_zero;
   const Real inset = first_inset(stage, key, contacts, apart);
   const Fraction start = 0.0;
-  // The sum of both motions is cheap, and mostly enough.
+  // The sum of both bounds is cheap to compute, and mostly sufficient.
   const bool slow = stage.bodies.sweeps[low].reach + stage.bodies.sweeps[high].reach < apart;
   if (stage.filters() &&
       (slow || (closing_bound(stage.body(low), stage.body(high), start, closing) && closing < apart))) {
@@ -173,8 +176,8 @@ void test_at_start(ImpactStage& stage, uint64_t key, Span<const ContactWork> con
   stage.test(key, start, inset, nullptr);
 }
 
-/// Whether the bodies of a pair in contact, who bore nothing of each other, come together so fast now that they
-/// rebound.
+/// Whether the bodies of a pair in contact approach so fast that they rebound. Returns false if they overlap, or if the
+/// solver has applied an impulse between them.
 bool is_blow(const ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts) {
   const uint32_t low = pair_low(key), high = pair_high(key);
   if (contacts.count == 0 || jointed(stage, low) || jointed(stage, high)) return false;
@@ -191,7 +194,7 @@ bool is_blow(const ImpactStage& stage, uint64_t key, Span<const ContactWork> con
   return rebounds;
 }
 
-/// Tests the new sweep of a body against all others.
+/// Tests the new sweep of a body against all other bodies.
 void test_changed(ImpactStage& stage, uint32_t slot, Fraction time) {
   stage.bodies.sweeps[slot].marks &= ~k_mark_changed;
   --stage.changed_count;
@@ -233,7 +236,7 @@ void ImpactStage::test(uint64_t key, Fraction time, Real inset, ImpactPair* entr
   }
   if (meeting.left) {
     ++report.overlaps_left;
-    // What is this deep since it met within the tick, and does not part, would go through.
+    // The pair has got this deep after an impact in this tick, and does not separate: it would pass through.
     if (meeting.stuck) {
       stop(pair_low(key), time);
       stop(pair_high(key), time);

@@ -13,7 +13,7 @@ bool holds(const Bounds& outer, const Bounds& inner) {
          inner.upper.y <= outer.upper.y && outer.lower.z <= inner.lower.z && inner.upper.z <= outer.upper.z;
 }
 
-/// Bounds of a body over a sweep, with a margin below that of the bounds that pairs are found by.
+/// Bounds of a body over a sweep. Their margin is smaller than that of the bounds that the pairs were found with.
 Bounds bounds_over(const BodyTraits& traits, const BodyPose& pose, const Sweep& sweep) {
   if (is_non_colliding(traits)) return k_nowhere;
   if (is_half_space(traits)) return k_everywhere;
@@ -36,7 +36,7 @@ Bounds bounds_over(const BodyTraits& traits, const BodyPose& pose, const Sweep& 
            coord_advance(at.z, max(way.z, k_zero) + reach.z, beyond)}};
 }
 
-/// Bounds of the body's sweep from now on; the probe is told of it.
+/// Computes the bounds of the body's sweep from now on, and records the sweep in the probe.
 void begin_sweep(const ImpactStage& stage, uint32_t slot) {
   const BodySweep& sweep = stage.bodies.sweeps[slot];
   const Sweep rest = rest_of(sweep, sweep.from);
@@ -48,13 +48,13 @@ void begin_sweep(const ImpactStage& stage, uint32_t slot) {
   stage.probe->segments[at] = {slot, 0, sweep.from, pose, rest.displacement, rest.turn};
 }
 
-/// The body no longer rests, or not where it did.
+/// Adds the body to the moving bodies and removes it from the tree of resting ones.
 void leave_rest(const ImpactStage& stage, uint32_t slot) {
   stage.bodies.visits.set(slot);
   if (stage.bodies.resting.has(slot)) stage.bodies.resting.remove(slot);
 }
 
-/// At the end of the tick, as its sweep is now.
+/// The rotation at the end of the tick, with the current sweep.
 Quat end_rotation(const ImpactStage& stage, uint32_t slot) {
   const BodySweep& sweep = stage.bodies.sweeps[slot];
   return sweep_end_rotation(stage.bodies.poses[slot].rotation, rest_of(sweep, sweep.from));
@@ -84,7 +84,7 @@ void ImpactStage::move_to(uint32_t slot, Fraction time) {
   BodySweep& sweep = bodies.sweeps[slot];
   const bool struck = (sweep.marks & k_mark_struck) != 0;
   sweep.marks |= k_mark_struck;
-  // The solver's momentum is that of the tick's end.
+  // The angular momentum that the solver leaves is the one at the end of the tick.
   const Quat from = struck ? bodies.poses[slot].rotation : end_rotation(*this, slot);
   if (time > sweep.from) {
     if (bodies.listener.ended != nullptr) bodies.listener.ended(bodies.listener.context, slot, time);

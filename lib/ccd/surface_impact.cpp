@@ -7,9 +7,9 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr int k_parts_power_max = 8;  ///< of the parts in which a way is looked along
+constexpr int k_parts_power_max = 8;  ///< a long path is searched in at most 2^k_parts_power_max parts
 
-/// The triangles of a surface, one by one, against a body on its way.
+/// Tests the triangles of a terrain, one by one, against a moving body.
 struct SurfaceSearch {
   const SurfaceOps& code;
   const SweptBody& ground;
@@ -19,29 +19,31 @@ struct SurfaceSearch {
   const Motion motion;
   const Fraction time;
   const bool ground_is_a, turns;
-  Matrix32 matrix;    ///< of the surface's rotation at `time`
-  Vec64 centre, way;  ///< of the body, as the surface sees it but for its turning, 2^-46 m
-  int64_t radius;     ///< of the body, 2^-46 m
+  Matrix32 matrix;  ///< rotation of the terrain at `time`
+  /// Of the body, relative to the terrain, in its axes at `time`, without its rotation over the tick; 2^-46 m.
+  Vec64 centre, way;
+  int64_t radius;  ///< bounding radius of the body, 2^-46 m
   uint32_t triangle = k_no_triangle;
   TimeOfImpact first = {};
   bool failed = false;
 
-  /// Of the body's centre over the triangle's plane at `time`, 2^-46 m.
+  /// Height of the body's centre above the triangle's plane at `time`, 2^-46 m.
   int64_t height(const SurfaceTriangle& t, const Vec32& normal) const { return dot(from(t), normal).round_shift(30); }
   Vec64 from(const SurfaceTriangle& t) const {
     const int64_t step = int64_t{1} << grid_shift(surface);
     return {centre.x - t.corner[0].x * step, centre.y - t.corner[0].y * step, centre.z - t.corner[0].z * step};
   }
 
-  /// Whether the ball about the body stays on one side of the plane.
+  /// Whether the body's bounding sphere stays on one side of the plane.
   bool passes_by(const SurfaceTriangle& t, const Vec32& normal) const {
     const int64_t start = height(t, normal), end = start + dot(way, normal).round_shift(30);
-    // A normal errs by less than 2^-28.
+    // The error of a normal is less than 2^-28.
     const int64_t clear = radius + (radius >> 10) + ((length_bound(from(t)) + length_bound(way)) >> 26) + 64;
     return (start > clear && end > clear) || (start < -clear && end < -clear);
   }
 
-  /// Turning, it is asked about the surface's own centre, else near itself, where it is known more precisely.
+  /// Makes the triangle as a convex shape. If the terrain rotates, the triangle is placed relative to the terrain's
+  /// centre of rotation; otherwise relative to a point near the triangle, which is more precise.
   bool place(uint32_t index, const SurfaceTriangle& t, Pose& placed, Convex& made) const {
     placed = ground_motion.start;
     if (!turns) return code.convex(surface, placed, index, placed, made) == Status::ok;
@@ -62,7 +64,7 @@ struct SurfaceSearch {
   }
 
   void ask(uint32_t index) {
-    if (index == triangle) return;  // it is known from the part of the way before
+    if (index == triangle) return;  // already tested in the part of the path before
     const SurfaceTriangle t = surface.triangle(index);
     const Vec32 normal = normal_of(t.corner[0], t.corner[1], t.corner[2]);
     if (!turns && passes_by(t, normal)) return;
@@ -89,7 +91,8 @@ struct SurfaceSearch {
           {real_difference(near.x, whole.x), real_difference(near.y, whole.y), real_difference(near.z, whole.z)};
   }
 
-  /// The box about the body on its way, as the surface sees it, larger by what its turning may add.
+  /// Visits the triangles in the bounds of the body's path relative to the terrain, enlarged for the terrain's
+  /// rotation.
   void walk() {
     int64_t reach = radius + (radius >> 10);
     if (turns) {
@@ -99,19 +102,19 @@ struct SurfaceSearch {
       const Real swept = min(length(motion.displacement - ground_motion.displacement), k_far);
       reach = saturated_sum(reach, saturated_sum(raw_length(angle * distance), raw_length(angle * swept)));
     }
-    constexpr int64_t k_all = int64_t{1} << 61;  // no coordinate of a surface is more than half of it
+    constexpr int64_t k_all = int64_t{1} << 61;  // no coordinate of a terrain is more than half of it
     if (reach >= k_all) {
       visit({-k_all, -k_all, -k_all}, {k_all, k_all, k_all});
       return;
     }
-    // A long way is looked along part by part, up to the one in which something is met: a box about the whole of it
-    // would hold far more triangles.
+    // Search a long path part by part, and stop at the part with the first impact: a box around the whole path would
+    // contain many more triangles.
     const auto size = [](int64_t along) { return along < 0 ? -along : along; };
     const auto larger = [](int64_t p, int64_t q) { return p < q ? q : p; };
     const int64_t longest = larger(size(way.x), larger(size(way.y), size(way.z)));
     int power = 0;
     while (!turns && power < k_parts_power_max && longest >> power > 4 * reach) ++power;
-    const int64_t parts = int64_t{1} << power, margin = reach + parts - 1;  // each part's ends are rounded down
+    const int64_t parts = int64_t{1} << power, margin = reach + parts - 1;  // the step is rounded down
     const Vec64 step = {way.x >> power, way.y >> power, way.z >> power};
     for (int64_t part = 0; part < parts; ++part) {
       const auto low = [&](int64_t at, int64_t along) { return at + along * part + (along < 0 ? along : 0) - margin; };

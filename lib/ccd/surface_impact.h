@@ -5,14 +5,14 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// As pair_impact(), of two bodies of which one has a surface; the time is a part of what is left of the tick. Of the
-/// other one only `convex` counts, at its pose: its shape or a part of it, made smaller. The first of its triangles
-/// that it meets; those whose bounds the sweep misses, whose plane it stays off, or which are one-sided and met from
-/// behind are not asked.
+/// Finds the time of impact of two bodies of which one is a terrain (a mesh or height field). The time is a fraction of
+/// the rest of the tick. The other body is represented by `convex` at its pose: its shape or a part of it, made
+/// smaller. Reports the first impact with a triangle. Skips triangles whose bounds the sweep does not overlap, whose
+/// plane the sweep does not reach, and one-sided triangles that would be hit from behind.
 bool surface_impact(const AssetTable& assets, const SurfaceOps& code, const SweptBody& a, const SweptBody& b,
                     const Convex& convex, Fraction time, TimeOfImpact& impact);
 
-/// For a feature table.
+/// Entry of the feature table.
 struct SurfaceImpactOps {
   decltype(&surface_impact) impact;
 };

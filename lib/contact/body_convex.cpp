@@ -8,20 +8,21 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// In 2^-30, to nearest.
+/// Converts to 2^-30, rounded to nearest.
 #if DETENT_FIXED
 int32_t raw_from_unit(Unit value) { return value.raw; }
 #else
 int32_t raw_from_unit(Unit value) {
-  bool saturated = false;  // never: |value| < 2
+  bool saturated = false;  // never set: |value| < 2
   return static_cast<int32_t>(integer_from_float(value, 30, saturated));
 }
 #endif
 
-/// What the rounding of the sizes and of the bounding radius leaves out of the latter.
+/// The most, in 2^-30, by which the bounding radius can be too small because of its rounding and that of the sizes.
 constexpr int32_t k_bound_slack = sizeof(Unit) == 4 && !DETENT_FIXED ? 1 << 8 : 4;
 
-/// The sizes and the greatest distance from the origin, in 2^-30 2^exponent m, in the unit that this distance asks for.
+/// Stores the sizes and the core radius `bound`, both given in 2^-30 2^exponent m, in the unit of length that fits this
+/// radius.
 void set_core(const int32_t (&size)[3], int32_t bound, int32_t exponent, Convex& convex) {
   int lift = 30 - bit_length_32(static_cast<uint32_t>(bound));
   if (lift > exponent - k_size_exponent_min) lift = exponent - k_size_exponent_min;

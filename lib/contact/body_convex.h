@@ -5,9 +5,10 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The shape of a live body, ready for the questions of lib/distance, lib/contact and lib/toi. Cheap: shifts of the
-/// body's sizes, no roots. The core radius is rounded up by no more than 2^-7 of it. False, and nothing changed, for a
-/// hull whose asset the table does not have, and for a compound; any other body's shape is known.
+/// Converts the shape of a live body to a Convex, for lib/distance, lib/contact and lib/toi. Cheap: it shifts the
+/// body's sizes and takes no roots. The core radius is rounded up by at most 2^-7 of its value. Returns false, and
+/// leaves `convex` unchanged, for a compound and for a hull whose asset is not in the table. Succeeds for all other
+/// bodies.
 bool body_convex(const BodyTraits& traits, const AssetTable& assets, Convex& convex);
 
 }  // namespace DETENT_NAMESPACE

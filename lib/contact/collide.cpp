@@ -11,10 +11,10 @@ namespace {
 
 ShapeType type_of(const CollisionBody& body) { return static_cast<ShapeType>(body.traits.shape); }
 
-/// The order in which a pair's functions take their shapes: half-space, box, round.
+/// The order in which the pair functions take their shapes: half-space, box, round shape.
 int rank_of(ShapeType type) { return type == ShapeType::half_space ? 0 : type == ShapeType::box ? 1 : 2; }
 
-/// A shape that has ways of its own to meet the others of them.
+/// Whether there are specialised functions for this shape and every other simple shape.
 bool is_simple(const BodyTraits& traits) {
   const ShapeType type = static_cast<ShapeType>(traits.shape);
   return type == ShapeType::sphere || type == ShapeType::capsule || type == ShapeType::half_space ||

@@ -6,9 +6,9 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr Unit k_meeting = 0x1p-24;  // cores closer than this have no trustworthy direction between them
-// A normal closer than 2^-13 to a face's is the face's: lengths err by 2^-27, and a capsule that lies across the rim of
-// a face keeps both its points while it trembles.
+constexpr Unit k_meeting = 0x1p-24;  // a core closer to the box than this gives no reliable direction
+// A normal within 2^-13 rad of a face normal is replaced by the face normal. This changes lengths by a factor of at
+// most 1 + 2^-27. A capsule that lies across the rim of a face then keeps both its points in spite of jitter.
 constexpr int k_upright_power = -13;
 
 struct Axes {
@@ -37,8 +37,9 @@ struct BoxAndSegment {
   Unit slope(Unit along) const { return dot(vector_of(direction), vector_of(excess(along))); }
 };
 
-/// The point of the segment closest to the box: where the slope changes sign, found among the crossings of the face
-/// planes and by one interpolation between two of them; the middle where the slope is zero over a stretch.
+/// The point of the segment closest to the box, where the slope changes sign. It is found among the crossings of the
+/// face planes, by one interpolation between two of them. If the slope is zero over an interval, the point is the
+/// middle of that interval.
 Unit closest_along(const BoxAndSegment& pair) {
   const Unit zero = 0.0;
   const Unit limit = pair.half_length;
@@ -80,9 +81,9 @@ Unit closest_along(const BoxAndSegment& pair) {
 struct BoxContact {
   Axes normal;  ///< out of the box
   int face;     ///< axis of the face that the normal belongs to, or -1
-  Unit along;   ///< on the segment, where no face is
+  Unit along;   ///< contact point on the segment, if there is no face
 
-  /// Takes the face of that axis on the side to which the normal points.
+  /// Selects the face of that axis, on the side to which the normal points.
   void set_face(int axis) {
     const Unit side = normal.v[axis] < Unit(0.0) ? Unit(-1.0) : Unit(1.0);
     face = axis;
@@ -91,7 +92,7 @@ struct BoxContact {
   }
 };
 
-/// The direction of least overlap of a box and a segment that meet.
+/// The direction of least overlap of a box and a segment that intersect.
 BoxContact least_overlap(const BoxAndSegment& pair) {
   const Unit zero = 0.0;
   BoxContact best{};
@@ -150,7 +151,7 @@ bool clip_to_face(const BoxAndSegment& pair, int face, Unit& low, Unit& high) {
   return low <= high;
 }
 
-/// The axis of the edge that the normal is across, or -1.
+/// The axis of the edge to which the normal is perpendicular, or -1.
 int edge_of(const BoxContact& contact) {
   int edge = -1;
   for (int axis = 0; axis < 3; ++axis) {
@@ -159,10 +160,11 @@ int edge_of(const BoxContact& contact) {
   return edge;
 }
 
-/// Within 2^-5 rad, as for edges of hulls.
+/// Whether the segment is within 2^-5 rad of the direction of the edge. The limit is the same as for edges of hulls.
 bool is_along(const BoxAndSegment& pair, int edge) { return abs(pair.direction.v[edge]) > Unit(1.0 - 0x1p-11); }
 
-/// Whether the normal at an edge turns as they slide past each other: not where lines cross.
+/// Whether the normal at an edge rotates as the shapes slide past each other. It does not where the segment crosses the
+/// edge.
 __attribute__((noinline)) bool turns_at_edge(const BoxAndSegment& pair, const BoxContact& contact) {
   if (contact.along >= pair.half_length || contact.along <= -pair.half_length) return true;
   const int edge = edge_of(contact);
@@ -186,7 +188,7 @@ __attribute__((noinline)) bool clip_to_edge(const BoxAndSegment& pair, const Box
   return low < high;
 }
 
-/// As find_level_face() (contact_seam.h): at an edge, the face whose normal is nearest.
+/// As find_level_face() (contact_seam.h), for a contact at an edge: selects the face whose normal is nearest.
 __attribute__((noinline)) bool find_level_box_face(const BoxAndSegment& pair, Unit radius, Unit sunk,
                                                    BoxContact& contact) {
   for (int axis = 0; axis < 3; ++axis) {
@@ -200,8 +202,8 @@ __attribute__((noinline)) bool find_level_box_face(const BoxAndSegment& pair, Un
   return false;
 }
 
-/// Where a capsule crosses a side of a face that leans a little against it: that face, over which it would touch at one
-/// end in one tick and at the other in the next.
+/// If a capsule crosses a side of a slightly tilted face: selects that face. Otherwise the capsule would touch at one
+/// end in one tick and at the other end in the next tick.
 __attribute__((noinline)) bool find_leaning_box_face(const BoxAndSegment& pair, BoxContact& contact) {
   constexpr Unit k_leaning_cosine = 1.0 - 0x1p-7;  // 2^-3 rad, as for faces of hulls
   for (int axis = 0; axis < 3; ++axis) {
@@ -244,7 +246,7 @@ void collide_box_round(const PairFrame& frame, PairManifold& manifold) {
   }
   const Unit thickness = min(radius, min(pair.half.v[0], min(pair.half.v[1], pair.half.v[2])));
   if (contact.face < 0) {
-    const Unit sunk = min(frame.sunk, scale_by_power(thickness, -5));  // small shapes are not sunk in so far
+    const Unit sunk = min(frame.sunk, scale_by_power(thickness, -5));  // small shapes penetrate less
     manifold.seam = frame.smooth_seams && find_level_box_face(pair, radius, sunk, contact);
     manifold.turns = !manifold.seam && turns_at_edge(pair, contact);
     if (!manifold.seam && !manifold.turns) find_leaning_box_face(pair, contact);

@@ -7,13 +7,13 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr Unit k_edge_sine_min = 0x1p-5;  // edges closer to parallel than 1.8 degrees give no axis of their own
+constexpr Unit k_edge_sine_min = 0x1p-5;  // edges closer to parallel than 1.8 degrees give no separating axis
 
 struct HalfExtents {
   Unit v[3];
 };
 
-/// What the separating axis test works on: the offset of B from A along all six axes, and their cosines.
+/// Input of the separating axis test: the offset of B from A along all six axes, and the cosines between the axes.
 struct AxisTable {
   HalfExtents half_a, half_b;
   Unit offset_a[3], offset_b[3];
@@ -58,7 +58,7 @@ Unit sine_of(const AxisTable& t, int i, int j) {
   return square_root(max(Unit(1.0) - t.cosine[i][j] * t.cosine[i][j], Unit(0.0)));
 }
 
-/// False if the edges are too nearly parallel.
+/// False if the edges are too nearly parallel, or if the overlap is too deep to be the least.
 bool edge_separation(const AxisTable& t, int i, int j, Unit& separation) {
   const Unit sine = sine_of(t, i, j);
   if (sine < k_edge_sine_min) return false;
@@ -66,14 +66,15 @@ bool edge_separation(const AxisTable& t, int i, int j, Unit& separation) {
   const Unit offset = abs(t.offset_a[i2] * t.cosine[i1][j] - t.offset_a[i1] * t.cosine[i2][j]);
   const Unit support_a = t.half_a.v[i1] * abs(t.cosine[i2][j]) + t.half_a.v[i2] * abs(t.cosine[i1][j]);
   const Unit support_b = t.half_b.v[j1] * abs(t.cosine[i][j2]) + t.half_b.v[j2] * abs(t.cosine[i][j1]);
-  // Below -1 the quotient could leave Unit's range; such an overlap is never the least one of shapes in the unit ball.
+  // Below -1 the quotient could leave Unit's range. Such an overlap is never the least overlap of shapes in the unit
+  // ball.
   const Unit scaled = offset - support_a - support_b;
   if (scaled <= -sine) return false;
   separation = divide(scaled, sine);
   return true;
 }
 
-/// A 64th of the smaller box.
+/// 1/64 of the least half extent of both boxes.
 Unit preference_of(const HalfExtents& a, const HalfExtents& b) {
   Unit smallest = a.v[0];
   for (int i = 0; i < 3; ++i) smallest = min(smallest, min(a.v[i], b.v[i]));
@@ -85,8 +86,9 @@ struct FaceAxes {
   Unit a[3], b[3];
 };
 
-/// The axis of A's and B's faces of largest separation. A's are preferred to B's by a 64th of the smaller box, so that
-/// a resting pair keeps its features. False if one separates the boxes by more than `reach`.
+/// Finds the face axis of largest separation. Faces of A are preferred to faces of B by `preference`, 1/64 of the
+/// smaller box, so that a resting pair keeps its features. False if a face axis separates the boxes by more than
+/// `reach`.
 bool find_face_axis(const AxisTable& table, Unit reach, Unit preference, FaceAxes& face, SeparatingAxis& best) {
   best = {AxisKind::face_a, 0, 0, -1.5};
   for (int i = 0; i < 3; ++i) {
@@ -106,7 +108,7 @@ bool find_face_axis(const AxisTable& table, Unit reach, Unit preference, FaceAxe
   return true;
 }
 
-/// The cosine of an axis and that of A's face i, which lies against B's face j.
+/// The cosine of the angle between a separating axis and the axis of A's face i, which lies against B's face j.
 Unit cosine_with(const AxisTable& table, const SeparatingAxis& axis, int i, int j) {
   if (axis.kind == AxisKind::face_a) return axis.i == i ? Unit(1.0) : table.cosine[axis.i][j];
   if (axis.kind == AxisKind::face_b) return axis.j == j ? Unit(1.0) : table.cosine[i][axis.j];
@@ -115,7 +117,7 @@ Unit cosine_with(const AxisTable& table, const SeparatingAxis& axis, int i, int 
   return across < sine ? divide(across, sine) : Unit(1.0);
 }
 
-/// As is_sliver().
+/// As is_sliver() (contact_seam.h), for two boxes.
 __attribute__((noinline)) bool is_box_sliver(const AxisTable& table, const FaceAxes& face, const SeparatingAxis& axis,
                                              Unit room) {
   constexpr Unit k_level_cosine = 1.0 - 0x1p-9;
@@ -129,8 +131,8 @@ __attribute__((noinline)) bool is_box_sliver(const AxisTable& table, const FaceA
   return false;
 }
 
-/// The axis of largest separation; faces are preferred to edges as A's are to B's. False if an axis separates the boxes
-/// by more than the reach.
+/// Finds the axis of largest separation. Faces are preferred to edges by `preference`, as faces of A are to faces of B.
+/// False if an axis separates the boxes by more than `reach`.
 __attribute__((noinline)) bool find_axis(const AxisTable& table, Unit reach, Unit preference, FaceAxes& face,
                                          SeparatingAxis& best) {
   if (!find_face_axis(table, reach, preference, face, best)) return false;
@@ -149,7 +151,7 @@ __attribute__((noinline)) bool find_axis(const AxisTable& table, Unit reach, Uni
   return true;
 }
 
-/// A vertex of the clipped face, in the reference face's axes: u and v across it, w above it.
+/// A vertex of the clipped face, in the reference face's axes: u and v in the plane of the face, w the height above it.
 struct FaceVertex {
   Unit u, v, w;
   uint32_t label;  ///< 0..3 a vertex of the incident face, 4..19 its edge k on side c, 20..23 a corner of the reference
@@ -166,7 +168,7 @@ uint32_t crossing_label(uint32_t edge_label, uint32_t side) {
   return 20 + (u_side & 1) + 2 * (v_side & 1);
 }
 
-/// Keeps what lies within `limit` on one side: 0 u <= limit, 1 -u <= limit, 2 v <= limit, 3 -v <= limit.
+/// Clips a polygon to the part within `limit` on one side: 0 u <= limit, 1 -u <= limit, 2 v <= limit, 3 -v <= limit.
 uint32_t clip_side(const FaceVertex* in, uint32_t count, uint32_t side, Unit limit, FaceVertex* out) {
   const auto beyond = [&](const FaceVertex& p) {
     const Unit across = side < 2 ? p.u : p.v;
@@ -193,12 +195,12 @@ int64_t raw_from(Unit value) {
 #if DETENT_FIXED
   return value.raw;
 #else
-  bool saturated = false;  // never: |value| < 2
+  bool saturated = false;  // never set: |value| < 2
   return integer_from_float(value, 30, saturated);
 #endif
 }
 
-/// The vertices of the contact, as ascending indices: at most four.
+/// Chooses at most four vertices for the contact. `chosen`: their indices, ascending. Returns their number.
 uint32_t choose_corners(const FaceVertex* polygon, uint32_t count, ManifoldReduction reduction, Unit drop,
                         uint32_t chosen[k_manifold_points_max]) {
   if (count <= k_manifold_points_max) {
@@ -222,7 +224,7 @@ uint32_t choose_corners(const FaceVertex* polygon, uint32_t count, ManifoldReduc
 
 Unit sign_of(Unit value) { return value < Unit(0.0) ? Unit(-1.0) : Unit(1.0); }
 
-/// Contact of a face of `reference` (axis `face`) with `incident`. `outward` is +1 if the reference is A.
+/// Finds the contact of a face of `reference` (axis `face`) with `incident`.
 __attribute__((noinline)) void collide_face(const PairShape& reference, const PairShape& incident, int face,
                                             bool reference_is_a, const PairFrame& frame, PairManifold& manifold) {
   const HalfExtents half = half_of(reference.size), other = half_of(incident.size);
@@ -232,8 +234,8 @@ __attribute__((noinline)) void collide_face(const PairShape& reference, const Pa
   const Vec3<Unit> normal = flipped ? -axis : axis;
   const Vec3<Unit>& axis_u = reference.rotation.column[(face + 1) % 3];
   const Vec3<Unit>& axis_v = reference.rotation.column[(face + 2) % 3];
-  // A vertex barely beyond the face's side is kept as it is: equal boxes stacked flush would else change features, and
-  // lose their impulses, at every tremor.
+  // A vertex barely beyond a side of the face is not clipped. Otherwise equal boxes that are stacked flush would change
+  // features, and lose their impulses, at the slightest jitter.
   const Unit slack = scale_by_power(min(half.v[(face + 1) % 3], half.v[(face + 2) % 3]), -6);
   const Unit limit_u = half.v[(face + 1) % 3] + slack, limit_v = half.v[(face + 2) % 3] + slack;
 
@@ -281,7 +283,7 @@ __attribute__((noinline)) void collide_face(const PairShape& reference, const Pa
   }
 }
 
-/// The edge of the box along axis `edge` that reaches farthest along `direction`.
+/// The edge of the box parallel to axis `edge` that lies farthest along `direction`. `which`: the number of that edge.
 Segment support_edge(const PairShape& box, int edge, const Vec3<Unit>& direction, uint32_t& which) {
   const HalfExtents half = half_of(box.size);
   Segment segment = {box.centre, box.rotation.column[edge], half.v[edge]};
@@ -295,9 +297,10 @@ Segment support_edge(const PairShape& box, int edge, const Vec3<Unit>& direction
   return segment;
 }
 
-/// Contact of the face that leans least against a normal, by no more than 2^-3 rad: the edges that cross there would
-/// touch in one point, on this side of the face in one tick and on that in the next. False if there is none, or its
-/// deepest point is not as deep as the edges are, or much deeper, or there is only one.
+/// Replaces the contact of crossing edges by that of the face with the smallest tilt, whose normal is within 2^-3 rad
+/// of `normal`. Crossing edges touch in one point, which can jump from one side of the face to the other between two
+/// ticks. False if there is no such face, if it has only one contact point, or if its deepest point is shallower or
+/// much deeper than the edges.
 __attribute__((noinline)) bool collide_leaning_face(const PairFrame& frame, const Vec3<Unit>& normal, Unit separation,
                                                     PairManifold& manifold) {
   constexpr Unit k_leaning = 1.0 - 0x1p-7;

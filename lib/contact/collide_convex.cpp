@@ -24,19 +24,20 @@ void add_points(const CollisionBody& a, const CollisionBody& b, const ContactMan
   }
 }
 
-/// The plane is asked about where it is nearest to the body: its origin may be too far off for contact_points(). What
-/// the place's rounding to a coordinate takes from the distance is added to it again.
+/// Moves the origin of the plane to the point of the plane nearest to the body, because the origin may be too far away
+/// for contact_points(). This point is rounded to a coordinate; the resulting error of the distance (`missing`) is
+/// added back.
 Status meet_half_space(const CollisionBody& plane, const CollisionBody& body, const Convex& convex, bool plane_is_a,
                        Real reach, ManifoldReduction reduction, ContactManifold& manifold) {
   const Vec3<Unit>& up = plane.rotation.column[1];
   const Real height = distance_along(plane.pose.position, body.pose.position, up);
   const Real radius = bounding_radius_of(body.traits);
   if (height > radius + reach) return Status::ok;
-  // Far below, the least that keeps the whole body under the plane.
+  // The depth is clamped: a body this far below the plane is completely below it.
   const Real down = clamp(height, scale_by_power(-radius, 1), radius + reach);
   const Position centre = {0.0, 0.0, 0.0};
   Position foot = centre;
-  bool saturated = false;  // never: a body's size
+  bool saturated = false;  // never set: the displacement is of the size of a body
   foot.x = coord_advance(foot.x, -(down * up.x), saturated);
   foot.y = coord_advance(foot.y, -(down * up.y), saturated);
   foot.z = coord_advance(foot.z, -(down * up.z), saturated);
@@ -51,7 +52,7 @@ Status meet_half_space(const CollisionBody& plane, const CollisionBody& body, co
   for (uint32_t i = 0; i < manifold.count; ++i) {
     ManifoldPoint& point = manifold.point[i];
     point.separation += missing;
-    (plane_is_a ? point.from_a : point.from_b) = {0.0, 0.0, 0.0};  // a plane's arm turns nothing
+    (plane_is_a ? point.from_a : point.from_b) = {0.0, 0.0, 0.0};  // the arm of a plane has no effect
   }
   return status;
 }

@@ -7,7 +7,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// For contact_points_by(). False if the reach is negative, or none.
+/// Makes the rules for contact_points_by(). False if `reach.distance` is negative, or if a length is NaN or infinite.
 bool make_rules(const ContactReach& reach, ManifoldReduction reduction, ContactRules& rules);
 
 struct ConvexOps {
@@ -15,12 +15,13 @@ struct ConvexOps {
                   ManifoldReduction reduction, ContactGeometry& contact);
 };
 
-/// Contact of any two shapes but two half-spaces, by contact_points(). Fills an empty contact. `capped` also where a
-/// hull's bytes are missing, or a position is out of its range.
+/// Finds the contact of any two convex shapes except two half-spaces, by contact_points(). `contact` must be empty.
+/// Also sets `capped` if the bytes of a hull are missing or a position is out of range.
 void collide_convex(const CollisionBody& a, const CollisionBody& b, const ContactReach& reach, const AssetTable& assets,
                     ManifoldReduction reduction, ContactGeometry& contact);
 
-/// Likewise, of these convex shapes at the bodies' poses: the bodies', or parts of them.
+/// The same for the given convex shapes at the poses of the bodies. Each shape is the shape of its body or a part of
+/// it.
 void collide_convexes(const CollisionBody& a, const Convex& convex_a, const CollisionBody& b, const Convex& convex_b,
                       const ContactReach& reach, ManifoldReduction reduction, ContactGeometry& contact);
 

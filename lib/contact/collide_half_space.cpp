@@ -9,14 +9,14 @@ inline namespace DETENT_NAMESPACE {
 
 #if DETENT_FIXED
 Real distance_along(const Position& from, const Position& to, const Vec3<Unit>& direction) {
-  // Each coordinate by itself: the difference of two 64-bit ones need not fit.
+  // Multiplies each coordinate separately, because the difference of two 64-bit coordinates may not fit 64 bits.
   const auto term = [](Coord a, Coord b, Unit d) {
     return Int128::product_narrow(b.raw, d.raw) - Int128::product_narrow(a.raw, d.raw);
   };
   const Int128 sum =
       term(from.x, to.x, direction.x) + term(from.y, to.y, direction.y) + term(from.z, to.z, direction.z);
   constexpr int k_shift = Coord::k_frac + Unit::k_frac - Real::k_frac;
-  constexpr int k_lift = k_shift < 1 ? 1 - k_shift : 0;  // fx32: there are fewer bits than a Real holds
+  constexpr int k_lift = k_shift < 1 ? 1 - k_shift : 0;  // fx32: the product has too few fractional bits
   const Int128 lifted = sum.shift_left(k_lift);
   const Int128 limit = Int128::from(INT64_MAX).shift_left(k_shift + k_lift);
   if (limit < lifted) return k_real_max;
@@ -32,7 +32,8 @@ Real distance_along(const Position& from, const Position& to, const Vec3<Unit>& 
 
 namespace {
 
-/// Collects points of the body, given from its centre in its unit of length, that lie within reach of the plane.
+/// Collects the points of the body that lie within the contact margin of the plane. Points are given from the centre of
+/// the body, in its unit of length.
 struct Collector {
   Vec3<Unit> normal;
   Real height;  ///< of the body's centre over the plane
@@ -43,14 +44,14 @@ struct Collector {
   void add(const Vec3<Unit>& offset, uint32_t feature) {
     const Real separation = height + real_from_unit(dot(normal, offset), exponent);
     if (separation > reach) return;
-    // A body far below the plane is still in contact.
+    // Clamps the depth for the arm only: a body far below the plane is still in contact.
     const Real unit = real_from_unit(Unit(1.0), exponent);
     const Unit half = unit_from_real(scale_by_power(max(separation, -unit), -1), exponent);
     contact.point[contact.count++] = {{0.0, 0.0, 0.0}, arm_of_point(offset - normal * half, 0), separation, feature};
   }
 };
 
-/// The four corners of the face that looks most towards the plane.
+/// Adds the four corners of the face whose outward normal points most directly at the plane.
 void collide_box(const BodyTraits& traits, const Matrix3& rotation, Collector& collector) {
   const Unit half[3] = {traits.size.x, traits.size.y, traits.size.z};
   int face = 0;

@@ -8,12 +8,12 @@ struct HalfSpaceOps {
   void (*collide)(const CollisionBody& plane, const CollisionBody& body, Real reach, ContactGeometry& contact);
 };
 
-/// (to - from) . direction, m, exact but for one rounding, clamped to Real's range: the plane's origin may be 10,000 km
-/// off.
+/// (to - from) . direction, m. The plane's origin may be 10,000 km away. Fixed point: exact but for one rounding,
+/// clamped to Real's range. Floating point: each operation rounds.
 Real distance_along(const Position& from, const Position& to, const Vec3<Unit>& direction);
 
-/// Contact of a half-space (A) with any other shape (B): the lowest points of B over the plane. Appends to an empty
-/// contact.
+/// Finds the contact of a half-space (A) with a sphere, capsule or unrounded box (B): the lowest points of B above the
+/// plane. `contact` must be empty.
 void collide_half_space(const CollisionBody& plane, const CollisionBody& body, Real reach, ContactGeometry& contact);
 
 }  // namespace DETENT_NAMESPACE

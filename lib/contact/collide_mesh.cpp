@@ -6,8 +6,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// The name of a contact's feature, made independent of the triangle: its face is named as any, what is on it by the
-/// shape alone, and its corners and edges by where they are.
+/// Makes the feature name of a contact independent of the triangle. A contact on the triangle's face is named by the
+/// feature of the shape alone. The triangle's corners and edges are named by their positions.
 uint32_t feature_of(uint32_t feature, const uint32_t (&corner)[3]) {
   const uint32_t kind = feature >> 10 & 3, index = feature & 0x3ff, kept = feature & 0xfffc00u;
   if (kind == static_cast<uint32_t>(FeatureType::face)) return kept;

@@ -5,9 +5,10 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Finds where a convex shape in a body's axes, the body's or a part of it, touches a surface's body, no farther apart
-/// than `reach`, m. `middle`: of the shape, in those axes, 2^-46 m: which side of the surface it is on.
-/// Precision: 2^-28 of the body's size and the extent of the triangle together. Stack: 16 KB.
+/// Finds the contacts of terrain (a mesh or height field, of body `ground`) with a convex shape, up to a separation of
+/// `reach.distance`, m. The shape is in the axes of `body`; it is the shape of that body or a part of it. `middle`: the
+/// middle of the shape in these axes, 2^-46 m; it decides on which side of the terrain the shape is. Precision: 2^-28
+/// of the sum of the body's size and the triangle's extent. Stack: 16 KB.
 void collide_mesh(const Surface& surface, const CollisionBody& ground, const CollisionBody& body, const Convex& shape,
                   const Vec64& middle, const ContactReach& reach, SurfaceContacts& contacts);
 

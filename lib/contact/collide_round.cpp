@@ -6,14 +6,16 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr Unit k_parallel = 0x1p-8;  // 1 - cos^2: closer than 3.6 degrees, two capsules touch along a line
+// Limit of 1 - cos^2. Two capsules closer to parallel than 3.6 degrees touch along a line.
+constexpr Unit k_parallel = 0x1p-8;
 
 Segment core(const PairShape& shape) {
   const Unit half = shape.type == ShapeType::capsule ? shape.size.y : Unit(0.0);
   return {shape.centre, shape.rotation.column[1], half};
 }
 
-/// A direction across both, for cores that meet: any is right, this one is always the same.
+/// A direction perpendicular to both cores, for cores that intersect. Any such direction is right; this choice is
+/// deterministic.
 Vec3<Unit> normal_of_meeting(const Segment& a, const Segment& b) {
   Vec3<Unit> normal = {0.0, 1.0, 0.0};
   Unit size = 0.0;
@@ -62,7 +64,7 @@ void collide_round(const PairFrame& frame, PairManifold& manifold) {
       return;
     }
   }
-  // Of lines that cross it stays.
+  // Where two lines cross, the normal does not rotate.
   const auto is_end = [](Unit along, const Segment& of) { return along >= of.half_length || along <= -of.half_length; };
   manifold.turns = is_end(along_a, a) || is_end(along_b, b);
   add(along_a, along_b, 3);

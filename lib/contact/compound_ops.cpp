@@ -9,7 +9,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// A ball or capsule, as a triangle whose corners coincide: so its centre may lie off the body's.
+/// Makes a ball or capsule from a degenerate triangle, in which two or all corners coincide. Its centre may then lie
+/// off the body's centre.
 void set_round_core(const CompoundChild& child, int32_t exponent, Convex& convex) {
   const Vec32 ends[2] = {child.low, child.high};
   int64_t bound = 0;
@@ -49,7 +50,7 @@ int64_t raw_size(Unit value, int32_t exponent) {
   return raw_from_real({real_from_unit(value, exponent), Real(0.0), Real(0.0)}, raw) ? raw.x : 0;
 }
 
-/// The name of what belongs to a part, or to two.
+/// Combines the name of a feature or contact with a part, or with a pair of parts. Never 0.
 uint32_t name_of_part(uint32_t part, uint32_t name) {
   uint32_t mixed = (name ^ part * 0x9e3779b1u) * 0x85ebca77u;
   mixed ^= mixed >> 15;
@@ -65,7 +66,7 @@ Vec64 raw_way(const Vec3<Unit>& arm, int32_t exponent, bool& known) {
   return raw;
 }
 
-/// Half the thickness of the thinner compound's thinnest part, 2^-46 m.
+/// The half thickness of the thinnest part of both compounds, 2^-46 m.
 int64_t half_thickness_of(const BodyTraits& a, const BodyTraits& b) {
   const auto own = [](const BodyTraits& traits) {
     return is_compound(traits) ? raw_size(traits.rounding, traits.size_exponent) : INT64_MAX;
@@ -74,7 +75,7 @@ int64_t half_thickness_of(const BodyTraits& a, const BodyTraits& b) {
   return of_a < of_b ? of_a : of_b;
 }
 
-/// Collects the contacts of parts: what lies in one plane is one contact, whatever parts it is of.
+/// Collects the contacts of parts. Points in one plane form one contact, whichever parts they belong to.
 class PartContacts {
  public:
   PartContacts(const CollisionBody& a, const CollisionBody& b)
@@ -83,7 +84,7 @@ class PartContacts {
         body_(swapped_ ? a : b),
         found_(half_thickness_of(a.traits, b.traits)) {}
 
-  /// `part`: as ContactGeometryPoint::part. `contact.key`: distinct among those of a part.
+  /// `part`: as ContactGeometryPoint::part. `contact.key`: distinct among the contacts of a part.
   void add(const SurfaceContact& contact, uint32_t part) {
     ContactGeometry geometry = contact.geometry;
     if (geometry.count == 0) return;
@@ -152,7 +153,7 @@ void collide_with_surface(const CollisionBody& a, const CollisionBody& b, const 
   collected.finish(contacts);
 }
 
-/// Bounds of B's parts in A's axes against those of A's parts.
+/// Tests the bounds of B's parts, converted to A's axes, against the bounds of A's parts.
 struct PartCulling {
   SurfacePlace place;
   int64_t reach;
@@ -165,7 +166,7 @@ struct PartCulling {
         place_on_surface({a.pose.position, a.pose.rotation}, {b.pose.position, b.pose.rotation}, place) == Status::ok;
     reach = known ? raw.x + (raw.x >> 10) + 1024 : 0;
   }
-  /// B's box, brought into A's axes.
+  /// Converts a box from B's axes to A's axes.
   void bring(Vec64& middle, Vec64& half) const {
     if (!known) return;
     const Vec64 turned = rotate(place.rotation, middle);

@@ -8,21 +8,22 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The convex parts of a body: the children of a compound, or the one shape that any other body has. All at the body's
-/// own position and rotation, so that its motion is theirs.
+/// The convex parts of a body: the children of a compound, or the single shape of any other body. All parts are in the
+/// body's frame, so the body's pose and motion apply to each of them.
 class ConvexParts {
  public:
   ConvexParts(const BodyTraits& traits, const AssetTable& assets);
 
   uint32_t count() const { return count_; }
-  /// False where an asset is missing. `inner`: of a hull of a compound the one within it.
+  /// Makes part `i`. False if an asset is missing. `inner`: for a hull child of a compound, take its inner hull.
   bool convex(uint32_t i, bool inner, Convex& convex) const;
-  /// 0 of a body that is no compound; else the child's number, from 1 on.
+  /// The child's number, counted from 1; 0 if the body is not a compound.
   uint32_t name(uint32_t i) const { return whole() ? 0 : i + 1; }
-  /// Where the part is, 2^-46 m, in the body's axes: `middle` and the half extents of its bounds, of a body that is no
-  /// compound its bounding ball's. Of a half-space no half extents: it is never far.
+  /// Bounds of the part in the body's axes, 2^-46 m: `middle` and half extents. For a body that is not a compound,
+  /// these are the bounds of its bounding ball. For a half-space the half extents are zero, and the caller must not
+  /// cull it.
   void place(uint32_t i, Vec64& middle, Vec64& half) const;
-  /// How far from the middle the part reaches, m.
+  /// Radius of a ball about the part's middle that contains the part, m.
   Real reach(uint32_t i) const;
 
  private:
@@ -34,8 +35,8 @@ class ConvexParts {
   uint32_t count_;
 };
 
-/// The contacts of two bodies of which one is a compound; normals from A to B. What lies in one plane is one contact,
-/// whatever parts it is of; of the planes the deepest k_surface_manifolds_max are kept.
+/// Finds the contacts of two bodies, at least one of which is a compound. Normals point from A to B. Points in one
+/// plane form one contact, whichever parts they belong to. Only the deepest k_surface_manifolds_max planes are kept.
 void collide_compound(const CollisionBody& a, const CollisionBody& b, const ContactReach& reach,
                       const AssetTable& assets, ManifoldReduction reduction, const FeatureTable& features,
                       SurfaceContacts& contacts);
@@ -46,7 +47,7 @@ struct CompoundOps {
   decltype(&collide_compound) collide;
 };
 
-/// The contacts of two bodies that can have more than one: has_parts().
+/// Finds the contacts of two bodies that can have several contacts: those for which has_parts() is true.
 inline void collide_parts(const CollisionBody& a, const CollisionBody& b, const ContactReach& reach,
                           const AssetTable& assets, ManifoldReduction reduction, const FeatureTable& features,
                           SurfaceContacts& contacts) {

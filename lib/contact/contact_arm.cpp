@@ -6,9 +6,9 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Of an arm whose components are held_arm, its length.
+/// Clamps the length of an arm to k_arm_max. Its components are already clamped.
 Vec3<Unit> held_arm(const Vec3<Unit>& arm) {
-  constexpr Unit k_surely_short = 0.7216;  // of each component: the limit over sqrt(3)
+  constexpr Unit k_surely_short = 0.7216;  // largest component of an arm that is surely short: the limit over sqrt(3)
   if (max(abs(arm.x), max(abs(arm.y), abs(arm.z))) < k_surely_short) return arm;
   const auto half = [](Unit value) { return scale_by_power(value, -1); };
   const Vec3<Unit> halved = {half(arm.x), half(arm.y), half(arm.z)};

@@ -6,9 +6,9 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr int32_t k_push = 256;  ///< ulps; deep enough for a direction
+constexpr int32_t k_push = 256;  ///< ulps; an overlap deep enough to have a reliable direction
 
-/// v length, for a unit vector v.
+/// v * length, for a unit vector v, Q30.
 Vec32 scaled(const Vec32& v, int64_t length) {
   return round_shift(Vec64{v.x * length, v.y * length, v.z * length}, 30);
 }
@@ -17,8 +17,8 @@ ContactAxis axis_of(const Penetration& found) {
   return {found.normal, -int64_t{found.depth}, found.point_a, found.point_b, found.capped};
 }
 
-/// The axis of round cores, at most `distance` ulps apart, where gjk() met its cap: B is pushed into A, and the least
-/// way out found. False if they don't meet even then.
+/// Finds the axis of round cores, at most `distance` ulps apart, for which gjk() reached its iteration cap. It moves B
+/// into A and finds the direction of least penetration. False if the cores do not overlap even then.
 bool axis_by_pushing(const RestingPair& pair, const Vec32& normal, int32_t distance, ContactAxis& axis) {
   const int64_t push = int64_t{distance} + k_push;
   const Vec32 offset = subtract(pair.offset, scaled(normal, push));
@@ -45,7 +45,7 @@ bool find_contact_axis(const RestingPair& pair, int32_t above, DistanceCache* ca
   if (capped && axis_by_pushing(pair, found.normal, found.upper, axis)) return true;
   const NearestPoints nearest = nearest_points(pair.a, pair.b, simplex);
   axis = {found.normal, found.upper, nearest.on_a, nearest.on_b, capped};
-  if (pair.planar()) {  // the point of the plane is the foot of the other's
+  if (pair.planar()) {  // the plane's point is the projection of the other point
     const Vec32 way = subtract(add(pair.offset, axis.point_b), axis.point_a);
     const int64_t height = dot(axis.normal, way) >> 30;
     if (pair.a.convex->type == ShapeType::half_space) {

@@ -4,15 +4,15 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// What the normal and the deepest place of a contact are. Lengths in ulps, of the cores.
+/// The normal and the deepest place of a contact between two cores. Lengths in ulps of the block.
 struct ContactAxis {
   Vec32 normal;            ///< from A to B, Q30
   int64_t separation;      ///< negative where the cores overlap
-  Vec32 point_a, point_b;  ///< nearest, or deepest, each from its own centre
+  Vec32 point_a, point_b;  ///< nearest points, or deepest if the cores overlap; each from its core's centre
   bool capped;
 };
 
-/// False if the cores are certain to be farther apart than `above` ulps.
+/// Finds the contact axis. False if the cores are certain to be farther apart than `above` ulps.
 bool find_contact_axis(const RestingPair& pair, int32_t above, DistanceCache* cache, ContactAxis& axis);
 
 }  // namespace DETENT_NAMESPACE

@@ -11,27 +11,28 @@ struct SurfaceContacts;
 
 /// The contacts of a pair in the last tick, in the order of their parts.
 struct PairBefore {
-  const ContactState* contacts;  ///< of the world
-  const uint32_t* index;         ///< which of them, `count`
+  const ContactState* contacts;  ///< all contacts of the world
+  const uint32_t* index;         ///< `count` indices of the pair's contacts in `contacts`
   uint32_t count = 0;            ///< at most k_surface_manifolds_max
 
   const ContactState& operator[](uint32_t i) const { return contacts[index[i]]; }
 };
 
-/// How many of the points have a feature that the contact had.
+/// The number of points whose feature also occurs in `contact`.
 uint32_t shared_features(const ContactGeometry& geometry, const ContactState& contact);
 
-/// Gives contacts whose keys are new those of contacts with whose features they go on: a plane that leans a little, or
-/// is taken together with another, is named anew. They are ascending by key.
+/// Continues the keys of the last tick. A contact whose key is new takes the key of the contact of the last tick with
+/// which it shares the most features. This is needed because a plane gets a new name when it tilts slightly or merges
+/// with another plane. Keeps the contacts in ascending order of key.
 void continue_keys(const PairBefore& before, SurfaceContacts& contacts);
 
-/// The contact of this tick from its geometry and, if the pair touched in the last tick, its contact of then: the
-/// impulses of points whose feature is still there are kept, others start at 0.
+/// Makes the contact of this tick from its geometry and from the contact of the last tick, `before` (null if the pair
+/// did not touch). A point whose feature persists keeps its impulse; other points start at 0.
 ContactState continued_contact(uint32_t body_a, uint32_t body_b, uint32_t part, const ContactGeometry& geometry,
                                const ContactState* before);
 
-/// Removes the contacts of a body and their manifolds, if there are any, keeping the order of the rest. Returns how
-/// many are left; the slots freed are zero.
+/// Removes the contacts of a body, and their manifolds if `manifolds` is not empty. Keeps the order of the rest.
+/// Returns the number of contacts left; the freed slots are set to zero.
 uint32_t remove_contacts(uint32_t body, Span<ContactState> contacts, Span<ManifoldState> manifolds);
 
 }  // namespace DETENT_NAMESPACE

@@ -2,8 +2,8 @@
 
 #include "math/root.h"
 
-// Widths: all points lie within 2^30 of the block's origin, so what is between two of them is below 2^31 and its
-// products with Q30 below 2^61; cross products in the plane below 2^62, also of corners moved out by a 64th.
+// Widths: all points lie within 2^30 of the block's origin, so the difference of two points is below 2^31, and its
+// products with Q30 below 2^61. Cross products in the plane are below 2^62, also for corners moved outward by 1/64.
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -15,7 +15,7 @@ constexpr int k_slack_power = 6;
 /// part / whole as Q30. Range: 0 <= part <= whole, whole > 0.
 int64_t fraction(int64_t part, int64_t whole) { return divide_rounded(Int128::product(part, k_one_64), whole); }
 
-/// Twice the area of a triangle, signed. Widths: |.| < 2^62.
+/// Twice the signed area of a triangle. Widths: |result| < 2^62.
 int64_t twice_area(const AreaPoint& p, const AreaPoint& q, const AreaPoint& r) {
   return (q.u - p.u) * (r.v - p.v) - (q.v - p.v) * (r.u - p.u);
 }
@@ -25,7 +25,8 @@ int64_t distance_squared(const AreaPoint& p, const AreaPoint& q) {
   return u * u + v * v;
 }
 
-/// Turned a little from the diagonals of a square, so that even octagons and dodecagons have one extreme along each.
+/// The coordinate of a point along one of four diagonals. They are rotated slightly from the diagonals of a square, so
+/// that even a regular octagon or dodecagon has a single extreme along each.
 int64_t reach_along(const AreaPoint& p, int diagonal) {
   const int64_t along = (diagonal & 1) == 0 ? 4 * p.u + 5 * p.v : 4 * p.v - 5 * p.u;
   return diagonal < 2 ? along : -along;
@@ -120,7 +121,8 @@ Reference::Reference(const Placed& placed, const Vec32& centre, const Feature& f
     set_axes(feature.along);
     height_ = dot(up, subtract(add(centre, support(placed, up).point), origin_)) >> 30;
   } else {
-    // Across the normal, as a face's axes are: heights are along the normal, however far away the other core is.
+    // u and v are perpendicular to the normal, as for a face. Heights are then along the normal, however far away the
+    // other core is.
     const Vec32 along = unit_vector_raw(scaled_to_30_bits(subtract(feature.point[1], feature.point[0])));
     set_axes(along);
     const int64_t run = dot(u_, along) >> 30;
@@ -225,7 +227,8 @@ void Reference::clip_edge(const Flat& p, const Flat& q, uint8_t from, bool close
     const auto between = [t](int64_t a, int64_t b) { return a + (((b - a) * t) >> 30); };
     AreaPoint point = {between(p.u, q.u),         between(p.v, q.v), between(p.w, q.w), AreaPoint::Kind::crossing, from,
                        static_cast<uint8_t>(side)};
-    if (aside_of_edge && side >= feature_->count) {  // cut off there it is still the incident edge's end
+    // A point clipped at such a side still counts as the end of the incident edge.
+    if (aside_of_edge && side >= feature_->count) {
       point.kind = AreaPoint::Kind::vertex;
       point.incident = end;
     }
@@ -241,9 +244,9 @@ void Reference::clip_edge(const Flat& p, const Flat& q, uint8_t from, bool close
     choice.add({q.u, q.v, q.w, AreaPoint::Kind::vertex, static_cast<uint8_t>(from + 1), 0});
 }
 
-/// The corners of the reference that, moved out with its sides, lie over the incident face.
+/// Adds the corners of the reference that, moved outward with its sides, lie over the incident face.
 void Reference::offer_corners(const Flat* points, const Feature& incident, AreaChoice& choice) const {
-  constexpr int64_t k_edge_on = k_one_64 >> 6;  // a face seen so much from its edge has no corner above it
+  constexpr int64_t k_edge_on = k_one_64 >> 6;  // a face seen this nearly edge-on is over no corner
   const int64_t nu = dot(incident.normal, u_) >> 30, nv = dot(incident.normal, v_) >> 30,
                 nw = dot(incident.normal, up_) >> 30;
   if (nw > -k_edge_on) return;
@@ -253,17 +256,19 @@ void Reference::offer_corners(const Flat* points, const Feature& incident, AreaC
     const Side &side = side_[i], &last = side_[i == 0 ? side_count_ - 1 : i - 1];
     const int64_t turn = k_one_64 + ((int64_t{side.u} * last.u + int64_t{side.v} * last.v) >> 30);
     if (turn < k_one_64 >> 18) continue;  // a corner of less than 0.16 degrees
-    // Where the last side and this one meet, once moved out.
+    // The intersection of the previous side and this side, both moved outward.
     const Flat& corner = corner_[i];
     const int64_t u = corner.u + slack_ * (int64_t{side.u} + last.u) / turn;
     const int64_t v = corner.v + slack_ * (int64_t{side.v} + last.v) / turn;
     bool inside = true;
     for (int k = 0; k < incident.count && inside; ++k) {
       const Flat &p = points[k], &q = points[k + 1 == incident.count ? 0 : k + 1];
-      inside = (q.u - p.u) * (v - p.v) - (q.v - p.v) * (u - p.u) <= 0;  // clockwise from here
+      // The incident face is clockwise as seen from the reference.
+      inside = (q.u - p.u) * (v - p.v) - (q.v - p.v) * (u - p.u) <= 0;
     }
     if (!inside) continue;
-    // The corner itself may lie beside a steep face, over lower ground than there is.
+    // The corner itself, not moved outward, may lie beside a steep face, where the plane of the face is lower than the
+    // face itself. The height is therefore at least that of the lowest vertex.
     const int64_t plane = (nu * (points[0].u - corner.u) + nv * (points[0].v - corner.v)) / nw + points[0].w;
     choice.add(
         {corner.u, corner.v, plane < lowest ? lowest : plane, AreaPoint::Kind::corner, 0, static_cast<uint8_t>(i)});
@@ -288,7 +293,8 @@ void Reference::clip(const Vec32& centre, const Feature& incident, AreaChoice& c
 
 Vec64 Reference::twice_middle(const AreaPoint& point) const {
   const bool is_edge = feature_ != nullptr && !feature_->is_face();
-  // Over an edge the reference's point is on it, and the other aside: the middle is half way.
+  // For an edge, the reference's point is on the edge (v = 0) and the other point is beside it: the midpoint is at half
+  // of v.
   const int64_t u = 2 * point.u, v = is_edge ? point.v : 2 * point.v;
   const int64_t w = 2 * (height_ + ((point.u * slope_) >> 30)) + point.w;
   const auto component = [&](int32_t o, int32_t a, int32_t b, int32_t c) {

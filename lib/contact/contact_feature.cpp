@@ -7,13 +7,14 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr uint32_t k_line =
-    16;  ///< of a cylinder or cone: the edge, and the upper of its ends; 0 to 15 are rim corners
-constexpr uint32_t k_unpaired_edge = 768;  ///< a hull has at most 759 edges: those that a reduced face adds come after
+/// Cylinder and cone: the index of the line on the round side, and the name of its upper end. 0 to 15 name rim corners.
+constexpr uint32_t k_line = 16;
+/// The first index of the edges that a reduced face adds. A hull has at most 759 edges.
+constexpr uint32_t k_unpaired_edge = 768;
 
 Vec32 unit(const Vec64& v) { return unit_vector_raw(scaled_to_30_bits(v)); }
 
-/// Round the y axis in eighths, Q30; the first towards x.
+/// Eight directions around the y axis, Q30; the first is along x.
 constexpr int32_t k_diagonal = 759250125;  // 2^30 / sqrt 2
 constexpr Vec32 k_eighth[8] = {
     {k_one, 0, 0},  {k_diagonal, 0, k_diagonal},   {0, 0, k_one},  {-k_diagonal, 0, k_diagonal},
@@ -22,7 +23,7 @@ constexpr Vec32 k_eighth[8] = {
 /// The flat side at the top or bottom of a cylinder or cone.
 void round_face(const Placed& placed, bool bottom, Feature& face) {
   for (int n = 0; n < 8; ++n) {
-    const int i = bottom ? n : 7 - n;  // from x to z is clockwise from above
+    const int i = bottom ? n : 7 - n;  // from x to z is clockwise as seen from above
     const Vec32 way = {k_eighth[i].x, bottom ? -k_one : 1, k_eighth[i].z};
     face.add(placed.point(local_support(*placed.convex, way).local), static_cast<uint32_t>(i) + (bottom ? 8 : 0));
   }
@@ -39,13 +40,13 @@ Vec32 plane_normal(const HullView& hull, uint32_t face) {
 
 constexpr uint32_t k_face_words = 16;  ///< a hull has at most 506 faces
 
-/// Some of a hull's vertices.
+/// A set of vertices of a hull.
 struct VertexSet {
   uint32_t words[8] = {};
   uint32_t count = 0;
 
   BitSet bits() { return {{words, 8}}; }
-  /// Range: not there yet.
+  /// Range: `v` is not yet in the set.
   void add(uint32_t v) {
     bits().set(v);
     ++count;
@@ -57,7 +58,7 @@ struct VertexPolygon {
   uint8_t vertex[k_feature_points_max];
 };
 
-/// Those that are lower than the farthest along a direction, Q30, by no more than `room`.
+/// The vertices that are lower than the farthest vertex along a direction, Q30, by at most `room`.
 VertexSet level_along(const HullView& hull, const Vec32& direction, int64_t room) {
   int64_t top = INT64_MIN;
   for (uint32_t v = 0; v < hull.vertex_count; ++v) {
@@ -77,7 +78,7 @@ uint32_t shared_count(const HullIndices& loop, BitSet set) {
   return count;
 }
 
-/// Of a polygon, twice its area long. Widths: below 2^63, as all lies within 2^30.
+/// The normal of a polygon, with a length of twice its area. Widths: below 2^63, because all vertices lie within 2^30.
 Vec64 area_vector(const HullView& hull, const uint8_t* polygon, uint32_t count) {
   Vec64 sum = {0, 0, 0};
   const Vec32 from = hull.vertex(polygon[0]);
@@ -88,7 +89,7 @@ Vec64 area_vector(const HullView& hull, const uint8_t* polygon, uint32_t count) 
   return sum;
 }
 
-/// The vertices of a set that are farthest along 32 directions across a normal.
+/// Finds the vertices of a set that are farthest along 32 directions perpendicular to a normal.
 void find_outline(const HullView& hull, const Vec32& normal, BitSet set, VertexPolygon& polygon) {
   constexpr int32_t k_sine[9] = {0, 195, 383, 556, 707, 831, 924, 981, 1000};
   const Vec32 u = unit(cross(normal, magnitude_32(normal.x) < (1u << 29) ? Vec32{k_one, 0, 0} : Vec32{0, k_one, 0}));
@@ -120,8 +121,8 @@ void find_outline(const HullView& hull, const Vec32& normal, BitSet set, VertexP
   }
 }
 
-/// The greatest distance from a point that no plane of a hull is nearer to: the frame's origin, which may lie outside,
-/// or the vertices' mean.
+/// The least distance of the hull's face planes from the frame's origin, which may lie outside, or from the mean of the
+/// vertices, whichever is greater. At least 0.
 int32_t hull_half_thickness(const HullView& hull) {
   Vec64 sum = {0, 0, 0};
   for (uint32_t v = 0; v < hull.vertex_count; ++v) sum = add(sum, Vec64{hull.x(v), hull.y(v), hull.z(v)});
@@ -138,13 +139,14 @@ int32_t hull_half_thickness(const HullView& hull) {
   return most > 0 ? static_cast<int32_t>(most) : 0;
 }
 
-/// Vertices lower than the farthest along a direction by this part of the half thickness, or less, are level with it.
+/// Vertices that are lower than the farthest vertex along a direction by at most 2^-k_even_power of the half thickness
+/// are level with it.
 constexpr int k_even_power = 6;
-/// A face is as good as what is level with it if that reaches over no more than this part beyond it, of its area.
+/// A face is used by itself if its area is at least 1 - 2^-k_beyond_power of the area of everything level with it.
 constexpr int k_beyond_power = 2;
-constexpr int k_even_rounds_max = 4;  ///< in which what is level with a face grows; then it is as it is
+constexpr int k_even_rounds_max = 4;  ///< rounds in which the region level with a face may grow
 
-/// Those that have a vertex of a set.
+/// Finds the faces that have a vertex of a set.
 void find_faces(const HullView& hull, BitSet vertices, BitSet faces) {
   for (uint32_t i = 0; i < hull.edge_count; ++i) {
     const HullEdge edge = hull.edge(i);
@@ -154,7 +156,7 @@ void find_faces(const HullView& hull, BitSet vertices, BitSet faces) {
   }
 }
 
-/// Of the faces with the most vertices of `level` the one that looks along `d` most.
+/// Among the faces with the most vertices of `level`, the face whose normal is closest to `d`.
 uint32_t face_along(const HullView& hull, const Vec32& d, BitSet level, BitSet faces) {
   uint32_t best = 0, most = 0;
   int64_t steepest = INT64_MIN;
@@ -170,7 +172,8 @@ uint32_t face_along(const HullView& hull, const Vec32& d, BitSet level, BitSet f
   return best;
 }
 
-/// The mean normal of a face and of those of `faces`, beside it, that look nearly the same way.
+/// The mean normal, weighted by area, of a face and of the other faces in `faces` whose normals are within 2^-9 rad of
+/// its normal.
 Vec32 normal_about(const HullView& hull, uint32_t face, BitSet faces) {
   constexpr int64_t k_alike = (int64_t{1} << 60) - (int64_t{1} << 41);  // 2^-9 rad
   const Vec32 normal = plane_normal(hull, face);
@@ -184,7 +187,8 @@ Vec32 normal_about(const HullView& hull, uint32_t face, BitSet faces) {
   return is_zero(sum) ? normal : unit(sum);
 }
 
-/// What is level with a face and larger than it, as one polygon. False if the face is all.
+/// Finds the region level with a face, as one polygon, if it is larger than the face. False if the face should be used
+/// by itself.
 bool find_even(const HullView& hull, uint32_t face, int64_t room, VertexPolygon& polygon, Vec32& normal) {
   const HullIndices loop = hull.face(face);
   uint32_t before = 0;
@@ -270,7 +274,7 @@ bool triangle_face(const Placed& placed, const Vec32& direction, Feature& face) 
   return true;
 }
 
-/// The line on a cylinder's or cone's round side that touches a plane across `d` (local).
+/// The line on the round side of a cylinder or cone that touches a plane perpendicular to `d` (local axes).
 void round_line(const Placed& placed, const Vec32& d, Feature& edge) {
   const Convex& convex = *placed.convex;
   const bool is_cone = convex.type == ShapeType::cone;
@@ -312,7 +316,7 @@ bool supporting_face(const Placed& placed, const Vec32& direction, int32_t thick
       round_face(placed, d.y < 0, face);
       return true;
     case ShapeType::cone: {
-      // The round side's normal at d is (2 half lengths, radius), unnormalised.
+      // The normal of the round side at d is (2 half lengths, radius), not normalised.
       const int64_t radius = convex.size[0], height = 2 * int64_t{convex.size[1]}, across = length_across(d);
       const int64_t length = square_root_nearest(static_cast<uint64_t>(radius * radius + height * height));
       if (d.y >= 0 || -d.y < (height * across + radius * d.y) / length) return false;
@@ -409,7 +413,8 @@ uint32_t edge_index(const Placed& placed, uint32_t vertex_a, uint32_t vertex_b) 
 }
 
 int32_t in_block(const Placed& placed, int32_t length) {
-  return length == 0 || placed.shift > 30 ? 0 : length >> placed.shift;  // only a point's shift may be negative
+  // The shift may be negative only for a core that is a point.
+  return length == 0 || placed.shift > 30 ? 0 : length >> placed.shift;
 }
 
 int32_t core_half_thickness(const Placed& placed) {

@@ -10,11 +10,11 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// A face is preferred to edges, and to the axis as it is, by a 64th of the thinner core.
+/// A face is preferred to edges, and to the axis as it is, by 1/64 of the half thickness of the thinner core.
 constexpr int k_face_power = 6;
-constexpr int k_aside_power = 5;            ///< edges face each other within this part of the thinner half thickness
-constexpr int64_t k_upright = k_one >> 13;  ///< a normal nearer to a face's than this, rad, is the face's
-constexpr int64_t k_level = k_one >> 5;     ///< edges nearer than this to parallel, rad, touch along a line
+constexpr int k_aside_power = 5;            ///< lateral limit for edges: 2^-5 of the thinner half thickness
+constexpr int64_t k_upright = k_one >> 13;  ///< a normal within this angle, rad, of a face normal is replaced by it
+constexpr int64_t k_level = k_one >> 5;     ///< edges closer to parallel than this, rad, touch along a line
 
 int64_t smaller_but_0(int64_t a, int64_t b) { return a == 0 ? b : b == 0 || a < b ? a : b; }
 int32_t radius_in_block(const Placed& placed) { return in_block(placed, placed.convex->core_radius); }
@@ -25,10 +25,10 @@ bool is_parallel(const Vec32& a, const Vec32& b, int64_t limit) {
   return dot(sine, sine) <= limit * limit;
 }
 
-/// a + b of any sign.
+/// a + b, saturated. Both may have any sign.
 int64_t saturated(int64_t a, int64_t b) { return b < 0 ? -saturated_sum(-a, -b) : saturated_sum(a, b); }
 
-/// The nearest of the points to another, across the reference.
+/// The index of the chosen point that is nearest to `place` in the reference plane.
 int nearest_to(const AreaPoint& place, const AreaChoice& choice) {
   int nearest = 0;
   for (int i = 1; i < choice.count(); ++i)
@@ -36,7 +36,7 @@ int nearest_to(const AreaPoint& place, const AreaChoice& choice) {
   return nearest;
 }
 
-/// One of the two shapes, seen from the other.
+/// One of the two shapes, and the direction of the other.
 struct Half {
   const Placed& placed;
   Vec32 centre;   ///< in the block
@@ -58,7 +58,7 @@ class Builder {
   }
 
   void build(BlockManifold& manifold) const;
-  /// Between A's face and what B has over it alone.
+  /// Finds the contact of A's face with only that part of B which is over the face.
   void build_over_face(const Feature& face, BlockManifold& manifold);
 
  private:
@@ -71,7 +71,7 @@ class Builder {
   bool build_on_edge(BlockManifold& manifold) const;
   bool build_level_with_face(BlockManifold& manifold) const;
   void add_on_axis(const Vec32& normal, int64_t separation, BlockManifold& manifold) const;
-  /// Of the thinner shape the half, 2^-46 m.
+  /// Half thickness of the thinner shape, 2^-46 m.
   int64_t thickness() const {
     const auto of = [&](const Half& half, int64_t radius) {
       const bool is_line = half.placed.convex->type == ShapeType::capsule;
@@ -83,8 +83,8 @@ class Builder {
   bool fill(const Reference& reference, bool reference_is_a, const Feature& incident, BlockManifold& manifold) const;
   void add_point(const Vec32& normal, const Vec64& twice_middle, int64_t separation, uint32_t on_a, uint32_t on_b,
                  BlockManifold& manifold) const;
-  /// Where two features would do, the one of the lower shape along a direction that is no one's axis. It does not
-  /// matter which shape is A.
+  /// The tie-break where a feature of either shape could be the reference: the shape that is lower along a fixed
+  /// direction, which is unlikely to be an axis of a shape. The result does not depend on which shape is A.
   bool a_comes_first() const { return dot(axis_.normal, Vec32{493921240, 848256040, 440234144}) > 0; }
   static void find_incident(const Half& half, const Vec32& towards, Feature& incident) {
     if (!supporting_face(half.placed, towards, half.thickness, incident))
@@ -96,17 +96,17 @@ class Builder {
   const ContactRules& rules_;
   Half half_a_, half_b_;
   int64_t preference_, drop_;
-  bool only_over_ = false;  ///< what is not over the reference is no part of the contact
+  bool only_over_ = false;  ///< points that are not over the reference are left out
 };
 
-/// Whether the cores are apart along a normal as they are along the axis, but for `room`.
+/// Whether the separation of the cores along `normal` is at least that along the axis, less `room`.
 bool Builder::parts_as_well(const Half& half, const Half& other, const Vec32& normal, int64_t room) const {
   const Vec32 top = add(half.centre, support(half.placed, normal).point);
   const Vec32 bottom = add(other.centre, support(other.placed, negate(normal)).point);
   return dot(normal, subtract(bottom, top)) >> 30 >= axis_.separation - room;
 }
 
-/// The face of `half` that the contact is on, if it is on one.
+/// Finds the face of `half` that the contact is on. False if there is none.
 bool Builder::find_face(const Half& half, const Half& other, Feature& face) const {
   if (!supporting_face(half.placed, half.outward, half.thickness, face)) return false;
   const Vec32& normal = face.normal;
@@ -118,7 +118,7 @@ bool Builder::find_face(const Half& half, const Half& other, Feature& face) cons
   return true;
 }
 
-/// `normal` from A to B, `twice_middle` of the cores, in the block.
+/// `normal`: from A to B. `twice_middle`: twice the midpoint between the cores, in the block.
 void Builder::add_point(const Vec32& normal, const Vec64& twice_middle, int64_t separation, uint32_t on_a,
                         uint32_t on_b, BlockManifold& manifold) const {
   const int64_t ahead = (pair_.radius_a - pair_.radius_b) / 2;
@@ -139,7 +139,8 @@ void Builder::add_point(const Vec32& normal, const Vec64& twice_middle, int64_t 
   manifold.point[manifold.count++] = {from_a, from_b, separation, feature_pair(on_a, on_b)};
 }
 
-/// What of the shape the axis meets. All edges of a face across it are level but for noise, which must not choose.
+/// The name of the feature of the shape that lies on the axis. If a face is perpendicular to the axis, its edges are
+/// all level except for noise. The noise must not decide the name, so the face is named.
 uint32_t Builder::name_on_axis(const Half& half) {
   Feature feature;
   if (supporting_face(half.placed, half.outward, half.thickness, feature) &&
@@ -149,7 +150,7 @@ uint32_t Builder::name_on_axis(const Half& half) {
   return feature.name();
 }
 
-/// The point on the axis itself, between whatever is there.
+/// Adds the point on the axis itself, between the features there, unless a point with these features already exists.
 void Builder::add_on_axis(const Vec32& normal, int64_t separation, BlockManifold& manifold) const {
   const uint32_t on_a = name_on_axis(half_a_), on_b = name_on_axis(half_b_);
   for (uint32_t i = 0; i < manifold.count; ++i) {
@@ -163,7 +164,7 @@ void Builder::add_on_axis(const Vec32& normal, int64_t separation, BlockManifold
             on_b, manifold);
 }
 
-/// False if nothing of the area is within reach.
+/// Adds the points of the area between `reference` and `incident`. False if none is within the contact margin.
 bool Builder::fill(const Reference& reference, bool reference_is_a, const Feature& incident,
                    BlockManifold& manifold) const {
   const Half& other = reference_is_a ? half_b_ : half_a_;
@@ -173,7 +174,7 @@ bool Builder::fill(const Reference& reference, bool reference_is_a, const Featur
   while (choice.again());
   const Vec32 normal = reference_is_a ? reference.up() : negate(reference.up());
   if (choice.count() == 0) return false;
-  // A round face's polygon may miss the place on the axis.
+  // The polygon of a round face may not contain the point on the axis.
   int deepest = 0;
   for (int i = 1; i < choice.count(); ++i) deepest = choice[i].w < choice[deepest].w ? i : deepest;
   const Vec32 nearest = add(other.centre, reference_is_a ? axis_.point_b : axis_.point_a);
@@ -215,9 +216,9 @@ bool Builder::build_on_face(BlockManifold& manifold) const {
   return false;
 }
 
-/// On a face that leans a little against the axis: the edges that cross there would touch in one point, on this side of
-/// the face in one tick and on that in the next. Only if the deepest point is as deep as the axis has it,
-/// and not much deeper.
+/// Finds the contact on a face that is slightly tilted against the axis. Without it, edges that cross there would touch
+/// in one point, which can jump from one side of the face to the other between two ticks. The face is used only if its
+/// deepest point is about as deep as the axis: shallower by at most drop_, deeper by at most preference_.
 __attribute__((noinline)) bool Builder::build_on_leaning_face(BlockManifold& manifold) const {
   constexpr int64_t k_leaning = (int64_t{1} << 60) - (int64_t{1} << 53);  // 2^-3 rad
   const int64_t radii = pair_.radius_a + pair_.radius_b;
@@ -260,18 +261,18 @@ bool Builder::build_on_edge(BlockManifold& manifold) const {
   if (is_zero(along_a) || is_zero(along_b) || !is_parallel(along_a, along_b, k_level)) return false;
   const bool is_a = a_comes_first();
   const Half &half = is_a ? half_a_ : half_b_, &other = is_a ? half_b_ : half_a_;
-  // Edges that cross at a small angle leave each other aside; a normal is not so exact that long ones lie on each
-  // other.
+  // Edges that cross at a small angle move apart sideways. Also, the normal is not exact enough for long edges to lie
+  // exactly over each other.
   const int64_t aside = (pair_.block_above(thickness()) >> k_aside_power) + drop_;
   const Reference reference(half.placed, half.centre, is_a ? edge_a : edge_b, half.outward,
                             radius_in_block(other.placed), aside);
   return fill(reference, is_a, is_a ? edge_b : edge_a, manifold);
 }
 
-/// At an edge that is level with its face but for what the shapes are sunk in.
+/// Finds the contact at an edge that is level with its face, within the penetration of resting bodies.
 bool Builder::build_level_with_face(BlockManifold& manifold) const {
   ContactAxis level = axis_;
-  const int64_t room = thickness() >> 5;  // small shapes are not sunk in so far
+  const int64_t room = thickness() >> 5;  // small shapes penetrate less
   if (!find_level_face(pair_, room < rules_.sunk ? room : rules_.sunk, level)) return false;
   const int64_t separation = pair_.metres(level.separation) - pair_.radius_a - pair_.radius_b;
   Builder(pair_, level, rules_).add_on_axis(level.normal, separation, manifold);
@@ -299,7 +300,7 @@ void Builder::build(BlockManifold& manifold) const {
   }
   add_on_axis(axis_.normal, separation, manifold);
   manifold.normal = axis_.normal;
-  // Of edges that cross it stays.
+  // Where two edges cross, the normal does not rotate.
   const uint32_t feature = manifold.point[0].feature;
   constexpr uint32_t k_edge = static_cast<uint32_t>(FeatureType::edge);
   manifold.turns = !pair_.planar() && ((feature >> 10 & 3) != k_edge || (feature >> 22 & 3) != k_edge);
@@ -309,7 +310,7 @@ void Builder::build_over_face(const Feature& face, BlockManifold& manifold) {
   only_over_ = true;
   Feature incident;
   find_incident(half_b_, negate(face.normal), incident);
-  // A ball's slack is of its own size, or it might fall between two faces.
+  // The slack of a ball is proportional to its own size; otherwise the ball might fall between two faces.
   const int64_t size = int64_t{radius_in_block(pair_.b)} + pair_.block_above(pair_.radius_b);
   const int32_t held = size > k_one ? k_one : static_cast<int32_t>(size);
   fill(Reference(pair_.a, half_a_.centre, face, face.normal, held), true, incident, manifold);

@@ -4,9 +4,9 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr int k_normals_max = 8;  ///< of the faces about a point; more are left out
+constexpr int k_normals_max = 8;  ///< the most faces near a point; further faces are ignored
 
-/// Normals, outward, of faces about a point of a shape.
+/// Outward normals of the faces near a point of a shape.
 struct NearFaces {
   int count = 0;
   Vec32 normal[k_normals_max];
@@ -16,7 +16,7 @@ struct NearFaces {
   }
 };
 
-/// Of the faces whose planes are no farther than `room` from the point. Lengths in ulps of the block.
+/// The faces whose planes are at most `room` from the point. Lengths in ulps of the block.
 NearFaces faces_about(const Placed& placed, const Vec32& point, int64_t room) {
   NearFaces near;
   const Convex& convex = *placed.convex;
@@ -56,7 +56,7 @@ NearFaces faces_about(const Placed& placed, const Vec32& point, int64_t room) {
   return near;
 }
 
-/// How far apart the cores are along a normal from A to B, ulps of the block.
+/// The separation of the cores along a normal from A to B, ulps of the block. `axis`: the axis of that normal.
 int64_t apart_along(const RestingPair& pair, const Vec32& normal, ContactAxis& axis) {
   axis.normal = normal;
   axis.point_a = support(pair.a, normal).point;
@@ -104,7 +104,7 @@ __attribute__((noinline)) bool find_level_face(const RestingPair& pair, int64_t 
       const Vec32 normal = side == 0 ? near.normal[i] : negate(near.normal[i]);
       ContactAxis level = axis;
       if (dot(normal, axis.normal) < k_alike || !is_level(apart_along(pair, normal, level))) continue;
-      // Under the core of the one that is round: beside it the contact would turn a ball.
+      // The contact point goes under the core of the round shape. Beside the core, it would make a ball rotate.
       const Vec64 way = {normal.x * level.separation, normal.y * level.separation, normal.z * level.separation};
       const Vec32 across = round_shift(way, 30);
       if (side == 0)

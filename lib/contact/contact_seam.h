@@ -2,33 +2,37 @@
 #include "contact/contact_axis.h"
 #include "contact/contact_feature.h"
 
-/// What rests is sunk in by a hair, so that what slides over the seam of two bodies meets the side or the edge of the
-/// next one. It is not to be stopped or thrown up there.
+/// A resting body penetrates its support slightly. When it slides over the seam between two supporting bodies, it
+/// therefore hits the side or the edge of the second body. These functions detect such contacts, so that they do not
+/// stop the sliding body or throw it upward.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Whether two shapes that meet along an axis do so in no more than a sliver: they are apart along it, or overlap by no
-/// more than `room`; and so it is along another axis, along which a face of each lies against the other's. Lengths
-/// 2^-46 m.
+/// Whether the contact along `axis` is only a sliver. This needs two conditions. Along `axis`, the shapes are apart or
+/// overlap by at most `room`. And there is a different axis, more than 2^-2 rad from `axis`, along which a face of A
+/// lies against a face of B with a separation within +-`room`. Lengths in 2^-46 m.
 bool is_sliver(const RestingPair& pair, const ContactAxis& axis, int64_t room);
 
-/// What counts as a sliver: a 32nd of the thinner half thickness, or what they are sunk in, but no more than an eighth.
+/// The depth up to which an overlap counts as a sliver: the greater of thickness / 32 and `sunk`, where `sunk` is
+/// limited to thickness / 8. `thickness`: the half thickness of the thinner shape.
 inline int64_t sliver_room(int64_t thickness, int64_t sunk) {
   const int64_t held = sunk < thickness >> 3 ? sunk : thickness >> 3;
   return held > thickness >> 5 ? held : thickness >> 5;
 }
 
-/// Unit vectors, Q30, whose product, Q60, is more than this enclose less than 2^-2 rad; than the second, 2^-4 rad.
+/// Cosines, Q60, of 2^-2 rad (k_alike) and 2^-4 rad (k_level_faces). The dot product of two unit vectors, Q30, that
+/// enclose a smaller angle is greater than this.
 inline constexpr int64_t k_alike = (int64_t{1} << 60) - (int64_t{1} << 55);
 inline constexpr int64_t k_level_faces = (int64_t{1} << 60) - (int64_t{1} << 51);
 
-/// Whether the shape is round: a ball about a core, 2^-46 m, or the side of a cylinder or cone.
+/// Whether the shape is round: it has a ball of `radius`, 2^-46 m, about its core, or it is a cylinder or cone.
 inline bool is_round(const Convex& convex, int64_t radius) {
   return radius > 0 || convex.type == ShapeType::cylinder || convex.type == ShapeType::cone;
 }
 
-/// Of shapes of which one is round, the face that an axis leans against by less than 2^-2 rad, if they are level along
-/// its normal but for `sunk`, 2^-46 m. False if there is none. `axis` becomes the normal's.
+/// For a pair with a round shape: finds a face whose normal is within 2^-2 rad of the axis, if the separations along
+/// the axis and along that normal are both within +-`sunk`, 2^-46 m. Replaces `axis` by the axis of that normal. False
+/// if there is no such face.
 bool find_level_face(const RestingPair& pair, int64_t sunk, ContactAxis& axis);
 
 }  // namespace DETENT_NAMESPACE

@@ -12,7 +12,7 @@ inline namespace DETENT_NAMESPACE {
 struct PairPoint {
   Vec3<Unit> point;  ///< midway between the surfaces
   Unit separation;   ///< along the normal; negative when overlapping
-  uint32_t feature;  ///< which features meet; distinct within a manifold, stable while the same ones meet, never 0
+  uint32_t feature;  ///< names the touching features; distinct within a manifold, stable while they touch, never 0
 };
 
 /// Contact of a pair: one normal and up to four points, in the pair's frame.
@@ -36,11 +36,12 @@ struct PairShape {
   Vec3<Unit> size;  ///< half extents; or (radius, half length, 0)
 };
 
-/// A pair scaled so that the centres, both shapes and the gap between them lie within the unit ball around A's centre:
-/// every sum of two projections then fits a Unit, and a millimetre and a hundred metres are equally precise.
+/// A pair, scaled so that the centres, both shapes and the gap between them lie within the unit ball around A's centre.
+/// Every sum of two projections then fits a Unit, and the relative precision is the same for a millimetre and for a
+/// hundred metres.
 struct PairFrame {
   int exponent;
-  Unit reach;  ///< points farther apart than this are no contact
+  Unit reach;  ///< contact margin: points farther apart than this are left out
   Unit sunk;   ///< as ContactReach::sunk
   bool smooth_seams;
   ManifoldReduction reduction;

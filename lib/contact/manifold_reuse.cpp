@@ -11,7 +11,7 @@ namespace {
 
 constexpr uint32_t k_points_min = 3;
 constexpr int k_anchor_frac = 15;
-constexpr Unit k_kept_arm_max = k_arm_max + Unit(0x1p-7);  ///< with what rounding adds to one that was held
+constexpr Unit k_kept_arm_max = k_arm_max + Unit(0x1p-7);  ///< a clamped arm may exceed k_arm_max by rounding
 
 Unit unit_from_anchor(int16_t raw) {
 #if DETENT_FIXED
@@ -30,7 +30,7 @@ int16_t anchor_from_unit(Unit value) {
 #endif
 }
 
-/// Not by |.|, which the most negative number has not.
+/// Does not use |value|: it overflows for the most negative number.
 bool is_within(Unit value, Unit limit) { return -limit < value && value < limit; }
 bool is_within(const Vec3<Unit>& v, Unit limit) {
   return is_within(v.x, limit) && is_within(v.y, limit) && is_within(v.z, limit);
@@ -39,14 +39,15 @@ Real absolute_sum(const Vec3<Unit>& v, int exponent) {
   return real_from_unit(abs(v.x), exponent) + real_from_unit(abs(v.y), exponent) + real_from_unit(abs(v.z), exponent);
 }
 
-/// A pair as manifolds see it. Lengths are over 4 of the base's unit: whatever touches lies within 0.6 of it.
+/// A pair in the terms of ManifoldState. The unit of length is 4 units of the base: the centre of a body that touches
+/// the base is within 0.6 of it.
 struct ReusePair {
   const CollisionBody& base;
   const CollisionBody& other;
   bool base_is_a;
   int exponent;
   Vec3<Real> way = {};     ///< from the base's centre to the other's, world axes, m
-  Vec3<Unit> offset = {};  ///< likewise
+  Vec3<Unit> offset = {};  ///< the same, in the unit of length of the pair
 
   ReusePair(const CollisionBody& a, const CollisionBody& b, bool a_is_base)
       : base(a_is_base ? a : b),
@@ -70,7 +71,7 @@ struct ReusePair {
     return multiply(other.rotation,
                     Vec3<Unit>{unit_from_anchor(anchor[0]), unit_from_anchor(anchor[1]), unit_from_anchor(anchor[2])});
   }
-  /// How far a point of the other body is along the normal, m. From exact positions: what is rounded trembles.
+  /// The coordinate of a point of the other body along the normal, m. Uses exact positions: rounded ones cause jitter.
   Real place_along(const Vec3<Unit>& normal, const Vec3<Unit>& arm) const {
     return dot(way, normal) + real_from_unit(dot(normal, arm), other.traits.size_exponent);
   }
@@ -82,14 +83,14 @@ struct ReusePair {
 
 bool a_is_base(const BodyTraits& a, const BodyTraits& b) { return !(bounding_radius_of(a) < bounding_radius_of(b)); }
 
-/// A bound of how far any point of the other body has moved as the base sees it, m.
+/// An upper bound, m, of how far any point of the other body has moved relative to the base.
 Real motion_since(const ReusePair& pair, const ManifoldState& before) {
   const Vec3<Unit> shift = pair.offset_in_base() - before.offset;
   const Quat &p = before.rotation, q = pair.rotation_in_base();
   const bool flipped = dot(Vec3<Unit>{p.x, p.y, p.z}, Vec3<Unit>{q.x, q.y, q.z}) + p.w * q.w < Unit(0.0);
   const auto change = [flipped](Unit from, Unit to) { return real_from_unit(abs(flipped ? to + from : to - from), 0); };
-  // The angle is 4 asin(|q - p| / 2): 2 |q - p|, and less than 2^-10 of it more where that is of interest. A sum of
-  // magnitudes is no less than the length.
+  // The angle is 4 asin(|q - p| / 2). This is 2 |q - p|, and less than 2^-10 of it more at the small angles that
+  // matter. The sum of the component magnitudes is at least the length.
   const Real turn = change(p.x, q.x) + change(p.y, q.y) + change(p.z, q.z) + change(p.w, q.w);
   const Real swing = scale_by_power(turn * pair.other.traits.bounding_radius, pair.other.traits.size_exponent + 1);
   return absolute_sum(shift, pair.exponent) + swing + scale_by_power(swing, -10);
@@ -119,7 +120,7 @@ ManifoldState kept_manifold(const CollisionBody& a, const CollisionBody& b, cons
     anchor[0] = anchor_from_unit(local.x);
     anchor[1] = anchor_from_unit(local.y);
     anchor[2] = anchor_from_unit(local.z);
-    // From the anchor as it is kept: its rounding is no motion.
+    // Uses the anchor as stored, so that its rounding does not count as motion.
     const Real place = pair.place_along(normal, pair.arm_at(anchor));
     kept.height[i] = unit_from_real(point.separation - place, pair.exponent);
   }

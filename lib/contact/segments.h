@@ -15,7 +15,7 @@ struct Segment {
 /// The point at `along` from the centre.
 inline Vec3<Unit> point_at(const Segment& segment, Unit along) { return segment.centre + segment.direction * along; }
 
-/// numerator / denominator held to +-limit; the denominator is positive, the limit below 2.
+/// numerator / denominator, clamped to +-limit. The denominator is positive, the limit below 2.
 inline Unit divide_clamped(Unit numerator, Unit denominator, Unit limit) {
   const Unit edge = limit * denominator;
   if (numerator >= edge) return limit;
@@ -23,8 +23,9 @@ inline Unit divide_clamped(Unit numerator, Unit denominator, Unit limit) {
   return divide(numerator, denominator);
 }
 
-/// Where two segments are closest, as distances along each from its centre. Of segments nearer than 2^-11 rad to
-/// parallel, a pair that contains the middle of A or an end. Error: 2^-29 / |a x b| of the unit of length.
+/// Finds the closest points of two segments, as distances along each from its centre. If the segments are within 2^-11
+/// rad of parallel, one of the two points is the middle of A or an end of a segment. Error: 2^-29 / |a x b| of the unit
+/// of length.
 /// Source: the common perpendicular of two lines, clamped as in Ericson, "Real-Time Collision Detection", 5.1.9.
 inline void closest_points(const Segment& a, const Segment& b, Unit& along_a, Unit& along_b) {
   const Vec3<Unit> way = b.centre - a.centre;
@@ -39,8 +40,8 @@ inline void closest_points(const Segment& a, const Segment& b, Unit& along_a, Un
   if (!(along_b == free_b)) along_a = clamp(cosine * along_b + dot(a.direction, way), -a.half_length, a.half_length);
 }
 
-/// Holds a stretch of a segment to what is no farther aside of a line than `room`: it crosses the line at `along`, and
-/// is farther aside by `rate` a unit.
+/// Shortens the range [low, high] of a segment to the part that is within the lateral distance `room` of a line. The
+/// segment crosses the line at `along`; its lateral distance grows by `rate` per unit of length.
 inline void stay_beside(Unit rate, Unit room, Unit along, Unit& low, Unit& high) {
   const Unit aside = abs(rate);
   if (aside * (along - low) > room) low = along - divide(room, aside);

@@ -10,7 +10,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// The triangles, one by one, until one is near.
+/// Tests the triangles one by one until one is near.
 struct DistanceSearch {
   const Surface surface;
   const Pose &ground, &pose;

@@ -7,9 +7,9 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// As farther_than(), of a body that has a surface and one that has none, of which only `convex` counts, at its pose:
-/// its shape or a part of it. False if it could not be asked, as where the
-/// surface's bytes are missing.
+/// As farther_than(), for a body `ground` with terrain (a mesh or height field) and a convex shape at `pose`, which is
+/// the shape of `body` or a part of it. False if the test cannot be made, for example because the bytes of the terrain
+/// are missing.
 bool farther_than_surface(const AssetTable& assets, const BodyTraits& ground, const Pose& ground_pose,
                           const BodyTraits& body, const Convex& convex, const Pose& pose, Real reach, bool& farther);
 

@@ -11,12 +11,13 @@ namespace {
 
 constexpr int64_t k_same_cosine = (int64_t{1} << 60) - (int64_t{1} << 49);     // 2^-5 rad
 constexpr int64_t k_similar_cosine = (int64_t{1} << 60) - (int64_t{1} << 55);  // 2^-2 rad
-constexpr int k_plane_power = 4;  ///< planes no farther apart than this part of the half thickness are one
+constexpr int k_plane_power = 4;  ///< planes at most 2^-4 of the half thickness apart count as one plane
 constexpr uint32_t k_edge_key = 0x80000000u;
 
 int64_t along(const Vec64& v, const Vec32& direction) { return dot(v, direction).round_shift(30); }
 
-/// What a normal is named: itself, coarsely. Those along the axes lie in the middle of what has one name.
+/// The name of a normal: its components, coarsely rounded. A normal along an axis lies in the middle of the range of
+/// normals with the same name.
 uint32_t normal_name(const Vec32& normal) {
   const auto part = [](int32_t a) { return static_cast<uint32_t>((a + (1 << 24)) >> 25) & 0x7f; };
   return 1u << 29 | part(normal.x) << 22 | part(normal.y) << 15 | part(normal.z) << 8;
@@ -113,14 +114,14 @@ uint32_t SurfaceManifolds::deepest_of(const Group& group) {
   return deepest;
 }
 
-/// The points that AreaChoice chooses, as bits; without `fill` only the extremes.
+/// The points that AreaChoice chooses, as bits; if `fill` is false, only the extremes.
 uint32_t SurfaceManifolds::chosen_of(const Group& group, int64_t level, int64_t drop, bool fill) {
   const Point& first = group.point[0];
   uint64_t spread = 0;
   for (uint32_t i = 1; i < group.count; ++i) {
     spread |= magnitude_64(group.point[i].u - first.u) | magnitude_64(group.point[i].v - first.v);
   }
-  const int bits = bit_length_64(spread), shift = bits > 28 ? bits - 28 : 0;  // areas of triangles fit
+  const int bits = bit_length_64(spread), shift = bits > 28 ? bits - 28 : 0;  // so that areas of triangles fit 64 bits
   AreaChoice choice(level, INT64_MAX, drop, ManifoldReduction::projected_extremes);
   do {
     for (uint32_t i = 0; i < group.count; ++i) {
@@ -134,8 +135,8 @@ uint32_t SurfaceManifolds::chosen_of(const Group& group, int64_t level, int64_t 
   return chosen;
 }
 
-/// The highest that is neither one of those that reach farthest nor the deepest: of eight there are three. Of those
-/// about as high the first.
+/// The index of the point to give up: the highest point that is neither an extreme nor the deepest. Of eight points, at
+/// least three qualify. Among points of about the same height, the first.
 uint32_t SurfaceManifolds::spare_point(const Group& group) const {
   const uint32_t needed = chosen_of(group, INT64_MAX, INT64_MAX / 2, false) | 1u << deepest_of(group);
   uint32_t spare = k_points_max;
@@ -149,7 +150,7 @@ uint32_t SurfaceManifolds::spare_point(const Group& group) const {
   return spare;
 }
 
-/// Up to four of the points, first of those about as deep as the deepest.
+/// Chooses up to four of the points. Points about as deep as the deepest are preferred.
 void SurfaceManifolds::choose(const Group& group, SurfaceManifold& manifold) const {
   uint32_t chosen = ~0u;
   if (group.count > k_contact_points_max) {
@@ -166,7 +167,8 @@ void SurfaceManifolds::choose(const Group& group, SurfaceManifold& manifold) con
   manifold.turns = group.turns;
 }
 
-/// What lies very deep along a normal that the surface forces on it counts only if nothing else is touched.
+/// Removes doubtful groups, unless all groups are doubtful. A very deep contact along a normal that the terrain forces
+/// on it counts only if there is no other contact.
 void SurfaceManifolds::leave_out_doubtful() {
   bool certain = false;
   for (uint32_t i = 0; i < count_; ++i) certain = certain || !group_[i].doubtful;
@@ -191,7 +193,7 @@ uint32_t SurfaceManifolds::finish(SurfaceManifold (&manifold)[k_surface_manifold
     for (uint32_t i = shallowest; i + 1 < count_; ++i) group_[i] = group_[i + 1];
     --count_;
   }
-  // By key; planes of one name by their height.
+  // Sorts by key, and planes of the same name by their height.
   const auto key_of = [](const Group& group) {
     return group.on_face ? normal_name(group.normal) : k_edge_key | group.first;
   };
@@ -215,7 +217,7 @@ uint32_t SurfaceManifolds::finish(SurfaceManifold (&manifold)[k_surface_manifold
 
 void put_contact(const SurfaceManifold& manifold, const Matrix32& rotation, const CollisionBody& ground,
                  const CollisionBody& body, SurfaceContact& contact) {
-  const bool is_plane = is_half_space(ground.traits);  // whose arm turns nothing
+  const bool is_plane = is_half_space(ground.traits);  // the arm of a half-space has no effect
   const Position &from = ground.pose.position, &to = body.pose.position;
   const Vec3<Real> offset = {real_difference(to.x, from.x), real_difference(to.y, from.y),
                              real_difference(to.z, from.z)};

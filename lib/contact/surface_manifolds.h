@@ -7,12 +7,12 @@ inline namespace DETENT_NAMESPACE {
 
 inline constexpr uint32_t k_surface_manifolds_max = 8;
 
-/// One flat contact of a shape with a surface, in the surface's axes.
+/// One planar contact of a shape with terrain (a mesh or height field), in the terrain's axes.
 struct SurfaceManifold {
-  Vec32 normal;       ///< from the surface to the shape, Q30
+  Vec32 normal;       ///< from the terrain to the shape, Q30
   uint32_t key;       ///< the same while the shape stays on the same plane or edge; distinct, never 0
-  uint32_t triangle;  ///< the one met deepest
-  uint8_t material;   ///< its own
+  uint32_t triangle;  ///< the triangle touched deepest
+  uint8_t material;   ///< material of that triangle
   bool turns;         ///< as ContactGeometry::turns
   uint32_t count;
   struct Point {
@@ -23,16 +23,18 @@ struct SurfaceManifold {
   } point[k_contact_points_max];
 };
 
-/// Collects what a shape touches, triangle by triangle or part by part, into few manifolds: what lies in one plane is
-/// one. Streams: the number of touches has no bound. Features are to be distinct within a plane.
+/// Collects the touches of a shape, triangle by triangle or part by part, into a few manifolds: all touches in one
+/// plane form one manifold. It processes touches one at a time, so their number is not limited. Features must be
+/// distinct within a plane.
 class SurfaceManifolds {
  public:
   /// `size`: the shape's half thickness, 2^-46 m.
   explicit SurfaceManifolds(int64_t size) : size_(size) {}
   void add(const SurfaceTouch& touch);
-  /// The manifolds, ascending by key; returns their count. The deepest are kept.
+  /// Writes the manifolds in ascending order of key and returns their count. If there are too many, the deepest are
+  /// kept.
   uint32_t finish(SurfaceManifold (&manifold)[k_surface_manifolds_max]);
-  /// Touches that have found no room, so far.
+  /// Number of touches dropped so far for lack of room.
   uint32_t dropped() const { return dropped_; }
   bool capped() const { return capped_; }
 
@@ -45,9 +47,9 @@ class SurfaceManifolds {
   };
   struct Group {
     Vec32 normal, u, v;
-    int64_t plane;  ///< height of the surface along the normal, 2^-46 m
+    int64_t plane;  ///< height of the plane along the normal, from the shape's centre, 2^-46 m
     int64_t deepest;
-    uint32_t triangle, first;  ///< the one met deepest, and the lowest
+    uint32_t triangle, first;  ///< the triangle touched deepest, and the lowest index of all
     uint32_t touches;
     uint8_t material;
     bool on_face, doubtful, turns;
@@ -71,23 +73,24 @@ class SurfaceManifolds {
   Group group_[k_groups_max];
 };
 
-/// One flat contact of two bodies, one of which is a mesh, a height field or a compound.
+/// One planar contact of two bodies, one of which is a mesh, a height field or a compound.
 struct SurfaceContact {
-  ContactGeometry geometry;  ///< A is the surface; `normal` from it to the body
-  uint32_t key;              ///< the same while the body stays on the same plane or edge; distinct, never 0
-  uint32_t triangle;         ///< the one met deepest; 0 where there is no surface
-  uint8_t material;          ///< its own; likewise
+  /// A and B in the order of the call that fills this; for collide_mesh() and put_contact(), A is `ground`.
+  ContactGeometry geometry;
+  uint32_t key;       ///< the same while the body stays on the same plane or edge; distinct, never 0
+  uint32_t triangle;  ///< the triangle touched deepest; 0 if there is no terrain
+  uint8_t material;   ///< material of that triangle; 0 if there is no terrain
 };
 
 struct SurfaceContacts {
-  uint32_t count = 0;    ///< ascending by key
-  uint32_t dropped = 0;  ///< triangles, or pairs of parts, touched that have found no room: the deepest are kept
-  bool seam = false;     ///< as ContactGeometry::seam, of any
-  bool capped = false;   ///< a search met its cap, an asset's bytes are missing, or a position is out of range
+  uint32_t count = 0;    ///< number of contacts, in ascending order of key
+  uint32_t dropped = 0;  ///< touched triangles or pairs of parts dropped for lack of room; the deepest are kept
+  bool seam = false;     ///< whether ContactGeometry::seam is true for any contact
+  bool capped = false;   ///< a search reached its iteration cap, asset bytes are missing, or a position is out of range
   SurfaceContact contact[k_surface_manifolds_max];
 };
 
-/// The contact of two bodies, whose axes `rotation` turns to the world's: those of the manifold.
+/// Converts a manifold to a contact of two bodies. `rotation`: from the manifold's axes to the world's.
 void put_contact(const SurfaceManifold& manifold, const Matrix32& rotation, const CollisionBody& ground,
                  const CollisionBody& body, SurfaceContact& contact);
 

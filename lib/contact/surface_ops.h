@@ -5,16 +5,18 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The bound surface of a body that has one.
+/// A view of the terrain (mesh or height field) of a body that has one.
 inline Surface surface_of(const BodyTraits& traits, const AssetTable& assets) {
   return surface_view(assets.assets[traits.asset].bytes);
 }
 
-/// The contacts of two bodies of which one has a surface; normals from A to B. A pair of two surfaces has none.
+/// Finds the contacts of two bodies, one of which has terrain; normals from A to B. Two bodies with terrain have no
+/// contacts.
 void collide_surface(const CollisionBody& a, const CollisionBody& b, const ContactReach& reach,
                      const AssetTable& assets, SurfaceContacts& contacts);
 
-/// Likewise, of the body that has none only this convex part, in its axes; `middle`: of the part, 2^-46 m.
+/// The same for one convex part of the body without terrain. The part and its middle, `middle` (2^-46 m), are in the
+/// axes of that body.
 void collide_part_with_surface(const CollisionBody& a, const CollisionBody& b, const Convex& part, const Vec64& middle,
                                const ContactReach& reach, const AssetTable& assets, SurfaceContacts& contacts);
 

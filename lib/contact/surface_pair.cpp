@@ -7,13 +7,12 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr int k_shallow_power = 3;  ///< a contact no deeper than this part of the half thickness is on its face
-constexpr int k_lowest_power =
-    10;  ///< of the half thickness: points no higher than this above the lowest are the lowest
-constexpr int k_allowed_power = 7;  ///< an allowed normal may look this angle, rad, into what is about it
-constexpr int k_level_power = 6;    ///< edges whose slope is less, rad, lie along the contact
-constexpr int k_mild_power = 3;     ///< edges that turn by less, rad, are met along the faces' normals
-constexpr uint32_t k_fan_max = 64;  ///< triangles about a corner that are looked at
+constexpr int k_shallow_power = 3;  ///< a contact no deeper than 2^-3 of the half thickness belongs to its face
+constexpr int k_lowest_power = 10;  ///< points within 2^-10 of the half thickness above the lowest count as lowest
+constexpr int k_allowed_power = 7;  ///< an allowed normal may tilt by 2^-7 rad into the neighbouring triangles
+constexpr int k_level_power = 6;    ///< edges whose slope is less than 2^-6 rad lie along the contact
+constexpr int k_mild_power = 3;     ///< if two face normals enclose less than 2^-3 rad, contacts at the edge use them
+constexpr uint32_t k_fan_max = 64;  ///< number of triangles around a corner that are tested in each direction
 
 constexpr uint64_t longest(const Vec32& v) {
   uint64_t most = magnitude_32(v.x);
@@ -21,12 +20,13 @@ constexpr uint64_t longest(const Vec32& v) {
   return magnitude_32(v.z) > most ? magnitude_32(v.z) : most;
 }
 
-/// Whether a point `way` from where the normal stands lies on or below its plane, but for a small angle.
+/// Whether a point lies on or below the plane with this normal, within 2^-k_allowed_power rad. `way`: from a point of
+/// the plane to that point.
 bool is_below(const Vec32& normal, const Vec32& way) {
   return dot(normal, way) <= static_cast<int64_t>(longest(way) << (30 - k_allowed_power));
 }
 
-/// 18 bits that depend on all of the place.
+/// A hash of the position, of 18 bits.
 uint32_t corner_name(const Vec32& corner) {
   const uint32_t x = static_cast<uint32_t>(corner.x), y = static_cast<uint32_t>(corner.y),
                  z = static_cast<uint32_t>(corner.z);
@@ -43,13 +43,13 @@ bool allows_other_normals(EdgeKind kind) { return kind == EdgeKind::convex || ki
 
 }  // namespace
 
-/// A triangle from the side that the shape's middle is on.
+/// A triangle as seen from the side on which the shape's middle lies.
 struct SurfacePair::Side {
   SurfaceTriangle triangle;
   Vec32 normal;    ///< towards the shape
-  int64_t height;  ///< of the shape's lowest point along it
+  int64_t height;  ///< height of the shape's lowest point above the triangle's plane, 2^-46 m
   uint32_t index;
-  bool behind;  ///< the corners were turned round
+  bool behind;  ///< the shape is behind the triangle: the order of the corners is reversed
 
   bool has_free_edge() const {
     return allows_other_normals(triangle.kind[0]) || allows_other_normals(triangle.kind[1]) ||
@@ -133,13 +133,13 @@ SurfacePair::SurfacePair(const Surface& surface, const SurfacePlace& place, cons
   box_ = grid_box(surface, low, high);
 }
 
-/// The way from the shape's centre to a point of the grid, 2^-46 m.
+/// The displacement from the shape's centre to a point of the grid, 2^-46 m.
 Vec64 SurfacePair::from_centre(const Vec32& point) const {
   const int64_t step = int64_t{1} << grid_shift(surface_);
   return {point.x * step - centre_.x, point.y * step - centre_.y, point.z * step - centre_.z};
 }
 
-/// Of the shape's lowest point above the plane through a corner, 2^-46 m.
+/// The height of the shape's lowest point above the plane through a corner, 2^-46 m.
 int64_t SurfacePair::height(const Vec32& normal, const Vec32& corner) const {
   const int64_t lowest = dot(normal, support(alone_, negate(normal)).point) >> 30;
   return raw_from_block(lowest, shape_.exponent) - radius_ - dot(from_centre(corner), normal).round_shift(30);
@@ -150,8 +150,8 @@ bool SurfacePair::is_behind(const Vec64& point, const Vec32& normal, const Vec32
   return sign_of(dot(add(from_centre(corner), negate(point)), normal)) > 0;
 }
 
-/// Of what is left of a long or flat shape with its thickness taken off: the point nearest to a triangle's middle. Of
-/// others the shape's middle.
+/// For a capsule, box or cylinder, which may be long or flat: the point nearest to the triangle's middle inside the
+/// shape shrunk by its half thickness. For other shapes: the shape's middle.
 Vec64 SurfacePair::nearest_inside(const SurfaceTriangle& t) const {
   const auto beyond_thickness = [&](int k) {
     const int64_t extent = saturated_sum(raw_from_block(shape_.size[k], shape_.exponent), radius_);
@@ -171,9 +171,9 @@ Vec64 SurfacePair::nearest_inside(const SurfaceTriangle& t) const {
   return add(middle_, rotate(rotation_, Vec64{held(to.x, inner.x), held(to.y, inner.y), held(to.z, inner.z)}));
 }
 
-/// Whether the shape's middle lies beyond a convex edge of the triangle, and before the face there: then it is on the
-/// front though it lies behind the triangle's plane, as that of a rod that reaches over a ridge. Of several edges that
-/// which it lies farthest beyond counts.
+/// Whether the shape's middle lies beyond a convex edge of the triangle and in front of the neighbouring face. The
+/// shape is then on the front side although its middle is behind the triangle's plane, as with a rod that extends over
+/// a ridge. If the middle is beyond several edges, the edge that it is farthest beyond decides.
 bool SurfacePair::is_before_neighbour(const SurfaceTriangle& t, const Vec32& normal) const {
   int64_t most = 0;
   uint32_t farthest = 3;
@@ -212,7 +212,8 @@ SurfacePair::Side SurfacePair::side_of(uint32_t index) const {
   return side;
 }
 
-/// The triangle as A, with the shape's centre for its origin. False if it is too far away to matter.
+/// Makes the pair, with the triangle as A. The origin of both is the shape's centre. False if the triangle is too far
+/// away to matter.
 bool SurfacePair::make_pair(const Side& side, Convex& convex, RestingPair& pair) const {
   Vec64 corner[3];
   for (int k = 0; k < 3; ++k) corner[k] = from_centre(side.triangle.corner[k]);
@@ -230,14 +231,14 @@ bool SurfacePair::make_pair(const Side& side, Convex& convex, RestingPair& pair)
   return true;
 }
 
-/// Of the neighbour beyond a convex edge, seen from the side that the shape is on.
+/// The normal of the neighbour beyond a convex edge, on the side of the shape.
 Vec32 SurfacePair::normal_beyond(const Side& side, uint32_t edge) const {
   const SurfaceTriangle beyond = surface_.triangle(side.triangle.neighbour[edge]);
   const Vec32 normal = normal_of(beyond.corner[0], beyond.corner[1], beyond.corner[2]);
   return side.behind ? negate(normal) : normal;
 }
 
-/// Whether an edge is open, or convex and turns by more than k_mild_power.
+/// Whether an edge is open, or convex with an angle between the face normals of more than 2^-k_mild_power rad.
 bool SurfacePair::has_sharp_edge(const Side& side) const {
   constexpr int64_t k_mild_cosine = (int64_t{1} << 60) - (int64_t{1} << (59 - 2 * k_mild_power));
   for (uint32_t k = 0; k < 3; ++k) {
@@ -248,7 +249,8 @@ bool SurfacePair::has_sharp_edge(const Side& side) const {
   return false;
 }
 
-/// Whether beyond a convex or open edge the shape overlaps less than `deepest`.
+/// Whether the shape overlaps less than `deepest` (a separation, 2^-46 m) beyond a convex or open edge: along the
+/// normal of the neighbour, or outward from an open edge in the plane of the triangle.
 bool SurfacePair::has_nearer_way(const Side& side, int64_t deepest) const {
   for (uint32_t k = 0; k < 3; ++k) {
     const SurfaceTriangle& t = side.triangle;
@@ -266,7 +268,7 @@ bool SurfacePair::has_nearer_way(const Side& side, int64_t deepest) const {
   return false;
 }
 
-/// Whether nothing of the triangles about the corner rises above the normal's plane there.
+/// Whether no triangle around the corner rises above the plane through the corner with this normal.
 bool SurfacePair::allows_at_corner(uint32_t triangle, const Vec32& corner, const Vec32& normal) const {
   for (int direction = 0; direction < 2; ++direction) {
     uint32_t at = triangle;
@@ -309,20 +311,20 @@ bool SurfacePair::allows(const Side& side, const Vec32& normal) const {
   return allows_at_corner(side.index, corner[top], normal);
 }
 
-/// Across a side of the triangle, outward and 2^29 to 2^31 long; how far a point of the shape lies beyond it, 2^-46 m,
-/// at least a quarter: certain, but not sharp.
+/// A vector perpendicular to a side of the triangle, in its plane, outward, and 2^29 to 2^31 long.
 Vec32 SurfacePair::outward(const Side& side, uint32_t k) {
   const Vec32 &a = side.triangle.corner[k], &b = side.triangle.corner[(k + 1) % 3];
   return scaled_to_30_bits(cross(scaled_to_30_bits(subtract(b, a)), side.normal));
 }
 
-/// How far a point of the shape lies beyond a side, 2^-46 m, or up to four times less: certain, but not sharp.
+/// A lower bound of how far a point of the shape lies beyond a side, 2^-46 m. It is at least a quarter of that
+/// distance.
 int64_t SurfacePair::beyond(const Side& side, uint32_t k, const Vec32& out, const Vec32& point) const {
   return raw_from_block(dot(out, point) >> 31, shape_.exponent) -
          dot(from_centre(side.triangle.corner[k]), out).round_shift(31);
 }
 
-/// Whether the shape lies farther beyond a side than `clear`, 2^-46 m.
+/// Whether the shape's core lies farther beyond a side than `clear`, 2^-46 m.
 bool SurfacePair::is_beside(const Side& side, int64_t clear) const {
   for (uint32_t k = 0; k < 3; ++k) {
     const Vec32 out = outward(side, k);
@@ -331,7 +333,8 @@ bool SurfacePair::is_beside(const Side& side, int64_t clear) const {
   return false;
 }
 
-/// Whether the lowest point over the triangle does; of an edge or round side that lies level with it, the middle.
+/// Whether the lowest point of the core lies farther beyond a side than `clear`, 2^-46 m. For an edge or round side
+/// that is level with the triangle, its middle is tested.
 __attribute__((noinline)) bool SurfacePair::is_lowest_beside(const Side& side, int64_t clear) const {
   constexpr int64_t k_lying = k_one >> 12;
   Feature lowest;
@@ -344,8 +347,9 @@ __attribute__((noinline)) bool SurfacePair::is_lowest_beside(const Side& side, i
   return false;
 }
 
-/// Whether what has been found at an edge of the triangle, so deep and so much along its normal, Q60, is that of a seam
-/// (contact_seam.h): a sliver; or, of a normal much like the triangle's, an edge level with it.
+/// Whether a contact found at an edge of the triangle is a contact at a seam (contact_seam.h): a sliver, or an edge
+/// that is level with the triangle if the normals are alike. `facing`: the dot product of the contact normal and the
+/// triangle's normal, Q60. `deepest`: the least separation, 2^-46 m.
 bool SurfacePair::is_at_seam(const Side& side, int64_t facing, int64_t deepest) const {
   if (!rules_.smooth_seams || !side.has_free_edge()) return false;
   const auto within = [&](int64_t room) { return side.height >= -room && side.height <= room && deepest >= -room; };
@@ -356,7 +360,8 @@ bool SurfacePair::is_at_seam(const Side& side, int64_t facing, int64_t deepest) 
          dot(face.normal, side.normal) < -k_level_faces;
 }
 
-/// Gives a manifold another normal. The points come to lie under the core's: beside it they would turn a ball.
+/// Replaces the normal of a manifold. The points are moved under the points of the core; beside them, they would make a
+/// ball rotate.
 void SurfacePair::turn_to(const Vec32& normal, BlockManifold& manifold) const {
   for (uint32_t i = 0; i < manifold.count; ++i) {
     BlockPoint& point = manifold.point[i];
@@ -444,7 +449,7 @@ bool SurfacePair::touch(uint32_t index, SurfaceTouch& touch) const {
     return false;
   } else if (!allows(side, searched.normal)) {
     touch.doubtful = !shallow;
-    return over && (shallow || deepest_of(searched) <= 0);  // or only what lies beside it is deep
+    return over && (shallow || deepest_of(searched) <= 0);  // else the shape overlaps only beside the triangle
   }
   touch.on_face = facing >= k_upright_cosine;
   touch.manifold = searched;

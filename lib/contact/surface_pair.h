@@ -5,66 +5,70 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Where a shape lies in a surface's axes.
+/// The place of a shape in the axes of terrain (a mesh or height field).
 struct SurfacePlace {
-  Matrix32 surface;          ///< from the surface's axes to the world's
-  Matrix32 rotation;         ///< from the shape's axes to the surface's
-  Vec64 centre;              ///< of the shape, in the surface's axes, 2^-46 m
-  Vec64 middle = {0, 0, 0};  ///< of what is met, from there, likewise: which side of a triangle it is on
+  Matrix32 surface;   ///< from the terrain's axes to the world's
+  Matrix32 rotation;  ///< from the shape's axes to the terrain's
+  Vec64 centre;       ///< of the shape, in the terrain's axes, 2^-46 m
+  /// From `centre` to the middle of the part that collides, 2^-46 m, in the terrain's axes. It decides on which side of
+  /// a triangle the part is.
+  Vec64 middle = {0, 0, 0};
 };
 
-/// Errors: not_normalised; out_of_range for NaN and for positions 2^16 m apart.
+/// Errors: not_normalised; out_of_range for NaN and for positions 2^16 m or more apart.
 Status place_on_surface(const Pose& surface, const Pose& shape, SurfacePlace& place);
 
-/// 2^-46 m in grid steps are shifts by so many bits.
+/// The number of bits to shift right to convert 2^-46 m to grid steps.
 inline int grid_shift(const Surface& surface) { return k_metre_bits - 30 + surface.exponent(); }
-/// The least box of the grid that holds these coordinates, 2^-46 m, and a step more; held to the grid's range.
+/// The least box of the grid that contains these coordinates, 2^-46 m, and one step more. Clamped to +-INT32_MAX.
 GridBox grid_box(const Surface& surface, const Vec64& low, const Vec64& high);
 
-/// A triangle by its corners, 2^-46 m from its origin, in a unit of length of 2^exponent m. `bound`: at least their
-/// greatest distance from it, below the unit.
+/// Makes a triangle from its corners, 2^-46 m from its origin, in a unit of length of 2^exponent m. `bound`, 2^-46 m:
+/// at least the greatest distance of a corner from the origin, and below the unit.
 void set_triangle(const Vec64 (&corner)[3], int64_t bound, int exponent, Convex& convex);
-/// The corners' greatest distance from the origin, or a little more.
+/// The greatest distance of a corner from the origin, or slightly more (length_bound()).
 int64_t bound_of(const Vec64 (&corner)[3]);
 
-/// v turned from the axes of `m` to the world's, and back. Range: |v| < 2^62. Rounding: to nearest, once.
+/// rotate() converts v from the axes of `m` to the world's; rotate_back() is the inverse. Range: |v| < 2^62. Rounding:
+/// to nearest, once.
 Vec64 rotate(const Matrix32& m, const Vec64& v);
 Vec64 rotate_back(const Matrix32& m, const Vec64& v);
 
-/// An axis in the plane across a normal, the same for equal normals: the points that are kept of a plane are among
-/// those that are kept of its triangles.
+/// A unit vector perpendicular to a normal, Q30. Equal normals give the same vector. Therefore the points kept for a
+/// plane are among the points kept for its triangles.
 Vec32 axis_across(const Vec32& normal);
 
-/// What of a triangle a shape touches, along one normal.
+/// The contact of a shape with one triangle, along one normal.
 struct SurfaceTouch {
   uint32_t triangle;
   uint32_t part;  ///< as ContactGeometryPoint::part
   uint8_t material;
-  bool on_face;             ///< the normal is the triangle's own
-  bool seam;                ///< as ContactGeometry::seam, also where nothing is touched
-  bool doubtful;            ///< so deep that another way out is the right one, if there is one
-  BlockManifold manifold;   ///< the triangle is A, with the shape's centre for its origin; surface's axes
-  int64_t deepest;          ///< the least separation
-  uint32_t corner_name[3];  ///< of the triangle's corners: the same from all triangles about a corner
+  bool on_face;             ///< the normal is the triangle's normal
+  bool seam;                ///< as ContactGeometry::seam; set even if touch() returns false
+  bool doubtful;            ///< too deep to trust this normal: used only if there is no other contact
+  BlockManifold manifold;   ///< A is the triangle, its origin at the shape's centre; terrain's axes
+  int64_t deepest;          ///< the least separation, 2^-46 m
+  uint32_t corner_name[3];  ///< names of the corners; the same for all triangles that share a corner
 };
 
-/// A convex shape over a surface: finds what it touches, triangle by triangle, in the surface's axes.
+/// A convex shape over terrain. Finds its contacts triangle by triangle, in the terrain's axes.
 class SurfacePair {
  public:
-  /// All must outlive this.
+  /// The arguments must outlive this object.
   SurfacePair(const Surface& surface, const SurfacePlace& place, const Convex& shape, const ContactRules& rules);
 
-  /// Of the shape, grown by the reach.
+  /// Bounds of the shape, grown by the contact margin.
   const GridBox& box() const { return box_; }
-  /// The shape's least half extent, its ball included, 2^-46 m.
+  /// The shape's least half extent, its rounding ball included, 2^-46 m.
   int64_t half_thickness() const { return thickness_; }
 
-  /// False if the shape does not touch the triangle, or what it touches belongs to a neighbour.
+  /// Finds the contact with one triangle. False if the shape does not touch the triangle, or if the contact belongs to
+  /// a neighbour.
   ///
-  /// A normal is one that the surface allows: between flat and concave edges the triangle's own, at a convex or open
-  /// edge or a corner also what lies between the normals about it. Contact points over the triangle along its own
-  /// normal need no search; it is made only near a sharp edge, on a mild ridge beside its triangles, and where it is
-  /// deep.
+  /// The contact normal must be one that the terrain allows. Between flat and concave edges, this is only the
+  /// triangle's own normal. At a convex or open edge, or at a corner, the directions between the normals of the
+  /// adjacent faces are allowed too. Contact points over the triangle along its own normal need no search. A search
+  /// runs only near a sharp edge, at a mild ridge if no contact point is over the triangle, and for deep contacts.
   bool touch(uint32_t triangle, SurfaceTouch& touch) const;
 
  private:
@@ -94,7 +98,7 @@ class SurfacePair {
   Vec64 centre_, middle_;
   const ContactRules& rules_;
   int64_t reach_, radius_, thickness_;
-  Placed alone_;  ///< the shape in a block of its own unit
+  Placed alone_;  ///< the shape placed in a block of its own unit of length
   GridBox box_;
 };
 

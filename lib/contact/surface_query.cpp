@@ -7,9 +7,9 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr int32_t k_slack = 4;  ///< grid steps: what the rounding of ends may move
+constexpr int32_t k_slack = 4;  ///< grid steps; more than the rounding of the ends moves the segment
 
-/// The window of time in which the segment is in the box, k_slack steps grown. False if it never is.
+/// Limits [from, to] to the times at which the segment is in the box, grown by k_slack steps. False if there are none.
 bool clip(const GridBox& box, int shift, const Vec64& origin, const Vec64& way, int64_t& from, int64_t& to) {
   const auto axis = [&](int32_t low, int32_t high, int64_t start, int64_t along) {
     const int64_t first = (int64_t{low} - k_slack) * (int64_t{1} << shift) - start;
@@ -29,11 +29,12 @@ bool clip(const GridBox& box, int shift, const Vec64& origin, const Vec64& way, 
          axis(box.low.z, box.high.z, origin.z, way.z);
 }
 
-/// A segment of the grid.
+/// A segment whose ends are rounded to the grid.
 struct GridSegment {
   Vec32 from, to;
 
-  /// Exact, of the box grown by k_slack. Source: the separating axes of Gottschalk, Lin, Manocha, "OBBTree", 1996.
+  /// Whether the segment touches the box, grown by k_slack. Exact. Source: the separating axes of Gottschalk, Lin,
+  /// Manocha, "OBBTree", 1996.
   bool meets(const GridBox& box) const {
     const auto twice_apart = [](int32_t p, int32_t q, int32_t low, int32_t high) {
       return int64_t{p} + q - low - high;
@@ -65,7 +66,7 @@ int64_t quotient(Int128 part, Int128 whole) {
   return time > k_time_end ? k_time_end : time;
 }
 
-/// Whether the segment meets the triangle, when, and whether it comes from behind.
+/// Whether the segment hits the triangle. `time`: when it does. `from_behind`: whether it comes from behind.
 bool meets_triangle(const GridSegment& segment, const SurfaceTriangle& triangle, int64_t& time, bool& from_behind) {
   const Vec32 way = subtract(segment.to, segment.from);
   const Vec64 area = area_vector(triangle.corner[0], triangle.corner[1], triangle.corner[2]);
@@ -78,7 +79,8 @@ bool meets_triangle(const GridSegment& segment, const SurfaceTriangle& triangle,
     part = -part;
   }
   if (sign_of(part) < 0 || whole < part) return false;
-  // The neighbour finds the same number, negated, for a side that they share: nothing passes between them.
+  // For a shared side, the neighbouring triangle computes the same number with the opposite sign. So no segment passes
+  // between the two triangles.
   int left = 0, right = 0;
   for (int k = 0; k < 3; ++k) {
     const Vec32 a = subtract(triangle.corner[k], segment.from),
@@ -170,7 +172,7 @@ Status surface_convex(const Surface& surface, const Pose& pose, uint32_t triangl
   near.position.z = coord_advance(near.position.z, real_from_raw(way.z), saturated);
   Vec64 moved;
   if (saturated || !raw_difference(near.position, pose.position, moved)) return Status::out_of_range;
-  // What the coordinate's rounding moved it by is taken from the corners.
+  // Makes the corners relative to the rounded position, so that its rounding cancels.
   const Vec64 origin = rotate_back(matrix, moved);
   for (Vec64& at : corner) at = {at.x - origin.x, at.y - origin.y, at.z - origin.z};
   const int64_t bound = bound_of(corner);

@@ -6,12 +6,12 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Whether the distance is certainly more than `reach`, 2^-46 m, and `slack` ulps of the block.
+/// Sets `result` to whether the distance certainly exceeds `reach` (2^-46 m) plus `slack` ulps of the block.
 Status farther_by(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, int64_t reach,
                   int32_t slack, bool& result, DistanceCache* cache) {
   RestingPair pair;
   if (const Status status = rest(a, pose_a, b, pose_b, pair); status != Status::ok) return status;
-  // In the block, rounded up; beyond it nothing is that far.
+  // The threshold in the block, rounded up. No distance in the block exceeds INT32_MAX ulps.
   const int64_t needed = saturated_sum(saturated_sum(reach, pair.radius_a), pair.radius_b);
   const int64_t ulps = (needed >> (k_metre_bits - 30 + pair.exponent)) + (needed > 0 ? 1 : 0) + slack;
   result = false;

@@ -14,7 +14,7 @@ constexpr int64_t k_raw_size_max = int64_t{1} << (k_metre_bits + 14);
 bool is_raw_size(int64_t raw) { return raw >= k_raw_size_min && raw <= k_raw_size_max; }
 bool is_rounding(int64_t raw) { return raw == 0 || is_raw_size(raw); }
 
-/// 2^-46 m in 2^-30 of the unit of length 2^exponent m.
+/// Converts 2^-46 m to 2^-30 of the unit of length 2^exponent m.
 int32_t in_units(int64_t raw, int exponent) {
   return static_cast<int32_t>(round_shift_64(raw, k_metre_bits - 30 + exponent));
 }
@@ -24,7 +24,7 @@ void set_ball(int64_t rounding, Convex& convex) {
   convex.radius = in_units(rounding, convex.radius_exponent);
 }
 
-/// Sets the unit of length and the core radius for a core no farther than `bound` from the origin.
+/// Sets the unit of length and the core radius for a core whose points are at most `bound` from the origin.
 void set_core(int64_t bound, Convex& convex) {
   convex.exponent = raw_exponent_above(bound + 1);
   convex.core_radius = in_units(bound, convex.exponent) + 1;

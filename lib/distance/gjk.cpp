@@ -10,7 +10,7 @@ Vec32 difference_of(const Placed& a, const Placed& b, const Vec32& offset, const
   return add(offset, subtract(b.point(vertex.b.local), a.point(vertex.a.local)));
 }
 
-/// Places the core points of the simplex anew.
+/// Rebuilds the simplex from its core points at their current places.
 void restart(const Placed& a, const Placed& b, const Vec32& offset, Simplex& simplex) {
   const Simplex last = simplex;
   simplex.clear();
@@ -21,7 +21,8 @@ void restart(const Placed& a, const Placed& b, const Vec32& offset, Simplex& sim
   }
 }
 
-/// Four ulps along a direction of at least 2^29: more than what its rounding and the supports' may take.
+/// At least four ulps along a direction, which is shorter than 2^31: more than the rounding errors of the direction and
+/// of the supports.
 constexpr int64_t k_touching = int64_t{4} << 31;
 
 int32_t floor_30(int64_t value) { return static_cast<int32_t>(value >> 30); }
@@ -29,8 +30,8 @@ int32_t ceiling_30(int64_t value) { return static_cast<int32_t>((value + (int64_
 
 const SimplexVertex& newest(const Simplex& simplex) { return simplex.vertex(simplex.count() - 1); }
 
-/// The vertex of the placed core that is farthest along the simplex' nearest point v (`sign` -1: against it), exactly.
-/// The core point is left as it is where the core has no vertices.
+/// Sets `core` to the vertex of the placed core that is exactly the farthest along the simplex's nearest point v
+/// (`sign` -1: along -v). Leaves `core` as it is if the core has no vertices.
 void exact_support(const Placed& placed, const Simplex& simplex, int sign, CorePoint& core) {
   CorePoint vertex;
   Int128 most = Int128::from(0);
@@ -43,7 +44,7 @@ void exact_support(const Placed& placed, const Simplex& simplex, int sign, CoreP
   }
 }
 
-/// Only the plane's normal can part a half-space from the other shape.
+/// Only the plane's normal can separate a half-space from the other shape.
 GjkResult half_space_gjk(const Placed& a, const Placed& b, const Vec32& offset, Simplex& simplex) {
   const bool plane_is_a = a.convex->type == ShapeType::half_space;
   const Vec32 up = (plane_is_a ? a : b).rotation.column[1];
@@ -72,7 +73,7 @@ GjkResult gjk(const Placed& a, const Placed& b, const Vec32& offset, Simplex& si
   }
   Vec32 direction = is_zero(offset) ? Vec32{1 << 30, 0, 0} : scaled_to_30_bits(offset);
   for (;;) {
-    int64_t reach = 0;  // of the nearest point along the direction
+    int64_t reach = 0;  // direction . nearest point
     if (simplex.count() != 0) {
       if (simplex.holds_origin()) {
         result.outcome = GjkOutcome::overlap;
@@ -81,7 +82,7 @@ GjkResult gjk(const Placed& a, const Placed& b, const Vec32& offset, Simplex& si
       }
       direction = simplex.direction();
       reach = dot(direction, newest(simplex).difference);
-      // |direction| lies within [2^29, sqrt(3) 2^30]: the shift tells when it is worth knowing better.
+      // |direction| lies within [2^29, sqrt(3) 2^30], so this shift cheaply decides whether the exact test is needed.
       if (reach >> 31 <= limits.below) {
         result.normal = unit_vector_raw(direction);
         result.upper = ceiling_30(dot(result.normal, newest(simplex).difference));
@@ -95,7 +96,7 @@ GjkResult gjk(const Placed& a, const Placed& b, const Vec32& offset, Simplex& si
     SimplexVertex vertex = {add(offset, subtract(on_b.point, on_a.point)), on_a.core, on_b.core};
     const int64_t floor = dot(direction, vertex.difference);
     const int64_t progress = reach - floor;
-    // Nearer than this to touching, only exact tests decide: whether the cores meet is never a matter of rounding.
+    // If the gap is at most k_touching, only exact tests decide: rounding never decides whether the cores overlap.
     const bool touching = floor <= k_touching;
     const bool precise = simplex.count() != 0 && !touching && progress <= int64_t{1} << 30;
     const bool separate =

@@ -5,14 +5,14 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// More support points than this are never asked for; 13 is the most that a polytope was seen to need
-/// (tests/unit/distance).
+/// Iteration cap: gjk() evaluates at most this many support points. The tests (tests/unit/distance) need at most 13 for
+/// polytopes.
 inline constexpr int k_gjk_iterations_max = 24;
 
 enum class GjkOutcome {
-  apart,    ///< the cores are apart, by at least `lower` and at most `upper`
-  overlap,  ///< the cores meet or touch; the simplex holds the origin
-  capped,   ///< the iteration cap was met: `lower` and `upper` still hold
+  apart,    ///< the cores are separate; their distance is at least `lower` and at most `upper`
+  overlap,  ///< the cores overlap or touch; the simplex contains the origin
+  capped,   ///< the iteration cap was reached; `lower` and `upper` are still valid bounds
 };
 
 /// Lengths in ulps of the block.
@@ -20,32 +20,35 @@ struct GjkResult {
   GjkOutcome outcome;
   Vec32 normal;    ///< from A to B, Q30, within k_normalise_error of the direction of the nearest point
   int32_t upper;   ///< distance of the witness points, rounded up
-  int32_t lower;   ///< no two core points are nearer than this, less k_gjk_slack
-  int iterations;  ///< support points asked for
+  int32_t lower;   ///< no two core points are nearer than lower - k_gjk_slack
+  int iterations;  ///< number of support points evaluated
 };
 
-/// When to be content with less than the nearest points.
+/// Bounds at which gjk() stops early, before it has found the nearest points.
 struct GjkLimits {
   int32_t below = -1;         ///< stop once upper <= below
   int32_t above = INT32_MAX;  ///< stop once lower > above
 };
 
-/// Where the cores of A at the block's origin and B at `offset` are nearest (Gilbert, Johnson, Keerthi 1988), on the
-/// exact simplex. Starts from the core points in `simplex` (may be empty) and leaves the last one there.
+/// Finds where the cores of A (at the block's origin) and B (at `offset`) are nearest (Gilbert, Johnson, Keerthi 1988),
+/// with the exact simplex. Starts from the core points in `simplex` (may be empty) and leaves the last simplex there.
 GjkResult gjk(const Placed& a, const Placed& b, const Vec32& offset, Simplex& simplex, const GjkLimits& limits);
 
-/// As gjk(), and where the cap was met again from there: on rims that nearly touch, 24 supports may not do.
+/// As gjk(), but a capped search continues from its last simplex, up to k_gjk_rounds_max rounds in all: rims that
+/// nearly touch may need more than 24 supports.
 GjkResult gjk_on(const Placed& a, const Placed& b, const Vec32& offset, Simplex& simplex, const GjkLimits& limits);
 inline constexpr int k_gjk_rounds_max = 4;
 
-/// The points that the simplex' nearest point is the difference of, in the block, each from its shape's centre.
+/// The witness points, in the block, each from its shape's centre. offset + on_b - on_a is the simplex's point nearest
+/// to the origin.
 struct NearestPoints {
   Vec32 on_a, on_b;
 };
 NearestPoints nearest_points(const Placed& a, const Placed& b, const Simplex& simplex);
 
-/// Ulps of the block by which `lower` may exceed the least distance of the true cores along the normal: placing (1.5
-/// sqrt 3 each core), the normal's and the local direction's rounding, and the support's choice. Derived in DESIGN.md.
+/// Ulps of the block by which `lower` may exceed the least distance of the true cores along the normal. Sources:
+/// placing (1.5 sqrt 3 for each core), the rounding of the normal and of the local direction, and the choice of the
+/// support point. Derived in DESIGN.md.
 inline constexpr int k_gjk_slack = 16;
 
 }  // namespace DETENT_NAMESPACE

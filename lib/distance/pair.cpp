@@ -75,7 +75,7 @@ bool raw_from_quat(const Quat& q, Quat32& raw) {
   const uint64_t square = static_cast<uint64_t>(int64_t{raw.x} * raw.x) +
                           static_cast<uint64_t>(int64_t{raw.y} * raw.y) +
                           static_cast<uint64_t>(int64_t{raw.z} * raw.z) + static_cast<uint64_t>(int64_t{raw.w} * raw.w);
-  // Of length 1 within 2^-29, as every rotation is that the library made.
+  // Rotations made by the library are of length 1 within 2^-29 and stay as they are.
   if (square - ((uint64_t{1} << 60) - (uint64_t{1} << 32)) <= uint64_t{1} << 33) return true;
   return normalise_input(raw);
 }
@@ -89,7 +89,7 @@ bool raw_from_direction(const Vec3<Unit>& v, Vec32& raw) {
 
 namespace {
 
-/// The leading `bits` of a number >= 0.
+/// Keeps the leading `bits` bits of a number >= 0 and clears the others.
 int64_t truncated(int64_t value, int bits) {
   const int drop = bit_length_64(static_cast<uint64_t>(value)) - bits;
   return drop <= 0 ? value : (value >> drop) << drop;
@@ -97,7 +97,7 @@ int64_t truncated(int64_t value, int bits) {
 
 #if defined(DETENT_F64)
 int64_t difference_of(Coord a, Coord b) {
-  const FloatEnvironment environment;  // for the one operation here that isn't integer
+  const FloatEnvironment environment;  // for a - b, the only floating-point operation here
   bool saturated = false;
   return integer_from_float(a - b, k_metre_bits, saturated);
 }
@@ -177,7 +177,7 @@ int64_t raw_radius(const Convex& convex) {
 bool raw_difference(const Position& a, const Position& b, Vec64& raw) {
   if (!is_finite(a.x) || !is_finite(a.y) || !is_finite(a.z)) return false;
   if (!is_finite(b.x) || !is_finite(b.y) || !is_finite(b.z)) return false;
-  // Short of the ends, so that rounding to a block never overflows.
+  // Clamped a little below INT64_MAX, so that rounding to a block never overflows.
   constexpr int64_t k_limit = INT64_MAX - (int64_t{1} << 36);
   const auto component = [](Coord p, Coord q) {
     const int64_t difference = difference_of(p, q);

@@ -2,9 +2,9 @@
 
 #include "math/root.h"
 
-// Degrees and widths, with |vertex| < 2^30 and |edge| < 2^31: a face's normal below 2^62 (64 bits); its product with a
-// vertex below 2^92, its own square, the weight of a vertex in its face, and what a distance is the quotient of, below
-// 2^124 (128 bits).
+// Bit widths, with |vertex| < 2^30 and |edge| < 2^31. A face's normal is below 2^62 (64 bits). Its product with a
+// vertex is below 2^92. Its square, the weight of a vertex in its face, and the numerator of a distance are below 2^124
+// (128 bits).
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -15,8 +15,8 @@ constexpr int k_vertices_max = k_penetration_vertices_max;
 constexpr int k_faces_max = 2 * k_vertices_max - 4;
 static_assert(k_vertices_max <= 64, "edges are rows of 64 bits");
 
-/// How far the plane through `point` across `normal` lies from the origin, Q30 ulps, towards the normal. Rounding: the
-/// exact quotient within a relative 2^-62, to nearest.
+/// Distance from the origin to the plane through `point` perpendicular to `normal`, Q30 ulps, positive along the
+/// normal. Rounding: to nearest, from a quotient with a relative error below 2^-62.
 int64_t plane_distance(const Vec64& normal, const Vec32& point) {
   const Int128 square = dot(normal, normal);
   const int half_shift = (126 - bit_length_128(magnitude_128(square))) / 2;
@@ -24,47 +24,49 @@ int64_t plane_distance(const Vec64& normal, const Vec32& point) {
   const uint64_t length = square_root_nearest(Words128{static_cast<uint64_t>(scaled.high_word()), scaled.low_word()});
   return divide_rounded(dot(normal, point).shift_left(30 + half_shift), static_cast<int64_t>(length));
 }
-constexpr int64_t k_tie = 4;  ///< Q30 ulps: planes nearer to each other may be taken for one another
+/// Q30 ulps: if the distances of two planes differ by no more than this, rounding may hide which plane is nearer.
+constexpr int64_t k_tie = 4;
 
-/// Of the Minkowski difference B - A.
+/// A vertex of the Minkowski difference B - A.
 struct Vertex {
   Vec32 difference;
-  Vec32 on_a;  ///< the point of A that it is made of, from A's centre
+  Vec32 on_a;  ///< the point of A in this difference, from A's centre
 };
 
-/// Counter-clockwise from outside.
+/// A triangle; its vertices are counter-clockwise seen from outside.
 struct Face {
   uint8_t vertex[3];
-  int64_t distance;  ///< of its plane from the origin, Q30 ulps
+  int64_t distance;  ///< from the origin to its plane, Q30 ulps
 };
 
-/// The hull of some vertices of the difference, made of triangles.
+/// The convex hull of some vertices of the difference; its boundary consists of triangles.
 struct ExpandingPolytope {
   Vertex vertex[k_vertices_max];
   Face face[k_faces_max];
-  uint64_t edges[k_vertices_max];  ///< bit j of row i: the edge from i to j of a face about to go
+  uint64_t edges[k_vertices_max];  ///< bit j of row i: a face that is being removed has the edge from i to j
   int vertex_count = 0;
   int face_count = 0;
 
   const Vec32& at(const Face& f, int i) const { return vertex[f.vertex[i]].difference; }
   Vec64 normal_of(const Face& f) const { return cross(subtract(at(f, 1), at(f, 0)), subtract(at(f, 2), at(f, 0))); }
-  /// The point lies strictly beyond the face's plane.
+  /// Whether the point lies strictly outside the face's plane.
   bool faces(const Face& f, const Vec32& point) const {
     return sign_of(dot(normal_of(f), subtract(point, at(f, 0)))) > 0;
   }
 
   void add_face(int i, int j, int k);
-  /// Takes the last vertex in. Points in a face's plane don't see it, so whole facets go and no triangle is ever flat.
+  /// Extends the hull by the last vertex. Only faces whose plane it lies strictly outside are removed. So coplanar
+  /// triangles are removed together, and no new triangle is degenerate.
   void grow();
-  /// The point of the face's plane nearest to the origin lies in the face.
+  /// Whether the origin's projection onto the face's plane lies in the face.
   bool holds_foot(const Face& f) const;
-  /// The face nearest to the origin, and the least distance of all, but for rounding.
+  /// The face nearest to the origin, within rounding. `least`: the least plane distance, also within rounding.
   const Face& nearest_face(int64_t& least) const;
 };
 static_assert(sizeof(ExpandingPolytope) <= 4096);
 
 void ExpandingPolytope::add_face(int i, int j, int k) {
-  DETENT_VERIFY_RANGE(face_count < k_faces_max);  // by Euler
+  DETENT_VERIFY_RANGE(face_count < k_faces_max);  // by Euler's formula
   Face& f = face[face_count++];
   f = {{static_cast<uint8_t>(i), static_cast<uint8_t>(j), static_cast<uint8_t>(k)}, 0};
   f.distance = plane_distance(normal_of(f), at(f, 0));
@@ -104,20 +106,21 @@ const Face& ExpandingPolytope::nearest_face(int64_t& least) const {
     if (face[i].distance < face[best].distance) best = i;
   }
   least = face[best].distance;
-  // The nearest plane's foot lies in the polytope: where rounding can't tell planes apart, and among the triangles of a
-  // facet, that decides.
+  // The origin's projection onto the nearest plane lies in the polytope. This test selects the face among planes that
+  // rounding cannot distinguish, and among the triangles of one facet.
   for (int i = 0; i < face_count; ++i) {
     if (face[i].distance <= least + k_tie && holds_foot(face[i])) return face[i];
   }
   return face[best];
 }
 
-/// The vertex of the placed core farthest along `normal`, exactly, where `found` is nearly that. Left as it is where
-/// the core has no vertices.
+/// Replaces `found`, which is nearly the farthest along `normal`, by the exactly farthest vertex of the placed core.
+/// Leaves it as it is if the core has no vertices.
 void exact_support(const Placed& placed, const Vec64& normal, SupportPoint& found) {
   if (found.core.feature == k_no_feature) return;
-  // Beyond this, 2^-30 of the shape's unit times the direction, rounding cannot make a vertex the farthest: 4 ulps of
-  // the shape for the directions, 9 of the block for the two places.
+  // A vertex whose coordinate along the direction is smaller by more than `doubt` cannot be the farthest. Unit of
+  // `doubt`: 2^-30 of the shape's unit times the direction. It covers 4 ulps of the shape for the rounded directions
+  // and 9 ulps of the block for the two rounded places.
   const Vec32 direction = rotate_inverse(placed.rotation, scaled_to_30_bits(normal));
   const int64_t doubt = int64_t{16} << (30 + (placed.shift < 27 ? placed.shift : 27));
   const int64_t floor = dot(direction, found.core.local) - doubt;
@@ -144,7 +147,7 @@ bool is_curved(const Placed& placed) {
   return placed.convex->type == ShapeType::cylinder || placed.convex->type == ShapeType::cone;
 }
 
-/// From the origin to the nearest face of the difference.
+/// Searches for the face of the Minkowski difference that is nearest to the origin.
 class PenetrationSearch {
  public:
   PenetrationSearch(const Placed& a, const Placed& b, const Vec32& offset) : a_(a), b_(b), offset_(offset) {}
@@ -167,7 +170,8 @@ class PenetrationSearch {
   const Placed& b_;
   Vec32 offset_;
   ExpandingPolytope polytope_;
-  // The face whose plane, moved out to the difference's farthest point, was the nearest.
+  // The best face so far: its plane, moved outwards to the farthest point of the difference, is the nearest to the
+  // origin.
   Face best_;
   Vec32 outward_;
   int64_t reach_ = INT64_MAX / 2;
@@ -190,7 +194,7 @@ bool PenetrationSearch::add_where(const Vec64& direction, const Test& test) {
   return true;
 }
 
-/// A tetrahedron from the simplex. False if the difference is flat, with a direction across it.
+/// Extends the simplex to a tetrahedron. False if the difference is flat; `across` is then perpendicular to it.
 bool PenetrationSearch::complete(const Simplex& simplex, Vec64& across) {
   int& count = polytope_.vertex_count;
   const auto p = [&](int i) -> const Vec32& { return polytope_.vertex[i].difference; };
@@ -212,8 +216,8 @@ bool PenetrationSearch::complete(const Simplex& simplex, Vec64& across) {
     const Vec32 edge = subtract(p(1), p(0));
     const auto aside = [&](const Vec32& q) { return !is_zero(cross(edge, subtract(q, p(0)))); };
     const uint32_t x = magnitude_32(edge.x), y = magnitude_32(edge.y), z = magnitude_32(edge.z);
-    // Across the edge and the axis that it runs along least; y before the others, so that what lies level is parted
-    // upwards.
+    // `axis` is the coordinate axis along which the edge's extent is least; `across` is its part perpendicular to the
+    // edge. Of equal extents y comes first, so that level segments are separated upwards, then x.
     const Vec32 axis = y <= x && y <= z ? Vec32{0, 1, 0} : x <= z ? Vec32{1, 0, 0} : Vec32{0, 0, 1};
     const Vec64 level = cross(edge, axis);
     across = cross(scaled_to_30_bits(level), scaled_to_30_bits(edge));
@@ -267,7 +271,7 @@ void PenetrationSearch::expand() {
       best_ = face;
       outward_ = unit_vector_raw(direction);
     }
-    if (!beyond) return;  // a face of the difference itself
+    if (!beyond) return;  // the face lies on the boundary of the difference
     if (polytope_.vertex_count == k_vertices_max) {
       capped_ = true;
       return;
@@ -277,7 +281,7 @@ void PenetrationSearch::expand() {
   }
 }
 
-/// part / whole as Q30, within [0, 1]. Range: whole > 0.
+/// part / whole in Q30, clamped to [0, 1]. Range: whole > 0.
 int64_t fraction(Int128 part, Int128 whole) {
   if (sign_of(part) <= 0) return 0;
   if (!(part < whole)) return k_ulp;
@@ -345,7 +349,7 @@ Penetration half_space_penetration(const Placed& a, const Placed& b, const Vec32
   const Vec32 normal = plane_is_a ? up : negate(up);
   const Vec32 way = plane_is_a ? offset : negate(offset);
   const Vec32 deepest = support(plane_is_a ? b : a, negate(up)).point;
-  const int64_t height = dot(up, add(way, deepest));  // Q30, from the plane
+  const int64_t height = dot(up, add(way, deepest));  // above the plane, Q30
   const int64_t depth = height < 0 ? (-height + k_ulp - 1) >> 30 : 0;
   const int64_t below = round_shift_64(height, 30);
   const Vec32 foot = subtract(add(way, deepest), round_shift(Vec64{below * up.x, below * up.y, below * up.z}, 30));

@@ -4,32 +4,33 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// How deep two placed cores overlap. Lengths in ulps of the block.
+/// How deeply two placed cores overlap. Lengths in ulps of the block.
 struct Penetration {
-  Vec32 normal;            ///< from A to B, Q30: the way B must move
-  int32_t depth;           ///< moved by this along the normal, B leaves A, but for k_penetration_slack
-  int32_t lower;           ///< no shorter way of B parts the cores, but for k_penetration_slack
+  Vec32 normal;            ///< from A to B, Q30: the direction in which B must move
+  int32_t depth;           ///< moving B by this along the normal separates it from A, within k_penetration_slack
+  int32_t lower;           ///< no shorter translation of B separates the cores, within k_penetration_slack
   Vec32 point_a, point_b;  ///< the deepest points of A in B and of B in A, each from its own centre
-  int supports;            ///< support points asked for
-  bool capped;             ///< the cap of vertices was met: between `lower` and `depth` it is not decided
+  int supports;            ///< number of support points evaluated
+  bool capped;             ///< the vertex cap was reached; the true depth lies between `lower` and `depth`
 };
 
-/// The polytope holds at most so many vertices. Polytopes of few faces need far fewer (tests/unit/distance).
+/// The expanding polytope has at most this many vertices. Shapes with few faces need far fewer (tests/unit/distance).
 inline constexpr int k_penetration_vertices_max = 64;
 
-/// Ulps of the block. `depth` and `lower` are those of the placed vertices, rounded up and down; the normal errs by up
-/// to k_normalise_error in each component, together below 6 2^-30, and so does the place of a vertex shorter than 2^30
-/// along it.
+/// Error of `depth` and `lower`, ulps of the block. They are computed for the placed vertices and rounded up and down.
+/// The normal errs by up to k_normalise_error in each component, together by less than 6 2^-30. So the coordinate along
+/// the normal of a vertex shorter than 2^30 errs by less than 6 ulps.
 inline constexpr int k_penetration_slack = 8;
 
-/// For a cylinder or cone, the search ends when `depth - lower` is at most so many ulps: their supports err by as much.
+/// With a cylinder or cone, the search ends when `depth - lower` is at most this many ulps, which is also the error of
+/// their supports.
 inline constexpr int k_penetration_gap = 4;
 
-/// The least translation of B at `offset` that parts it from A at the block's origin, by an expanding polytope (van den
-/// Bergen 2001) whose every decision is an exact sign: it stays convex however flat its faces are.
-/// Starts from the simplex with which gjk() found the overlap. Cores whose Minkowski difference has no volume (two
-/// segments, a point and a triangle, triangles of one plane) have depth 0 across it.
-/// Range: gjk() ended with `overlap`. Stack: 4 KB and a little.
+/// Finds the least translation of B (at `offset`) that separates it from A (at the block's origin), by an expanding
+/// polytope (van den Bergen 2001). Every decision is an exact sign, so the polytope stays convex however flat its faces
+/// are. Starts from the simplex with which gjk() found the overlap. If the Minkowski difference of the cores has no
+/// volume (two segments, a point and a triangle, triangles in one plane), the depth is 0 and the normal is
+/// perpendicular to the difference. Range: gjk() ended with `overlap`. Stack: slightly more than 4 KB.
 Penetration penetration(const Placed& a, const Placed& b, const Vec32& offset, const Simplex& simplex);
 
 }  // namespace DETENT_NAMESPACE

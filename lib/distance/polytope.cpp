@@ -4,7 +4,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-// A box: bit i of a vertex is set where its coordinate i is negative.
+// A box: bit i of a vertex is set if its coordinate i is negative.
 constexpr uint8_t k_box_triangles[] = {0, 2, 6, 0, 6, 4, 1, 5, 7, 1, 7, 3, 0, 4, 5, 0, 5, 1,
                                        2, 3, 7, 2, 7, 6, 0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5};
 constexpr uint8_t k_box_neighbours[] = {1, 2, 3, 4, 5, 6, 0, 3, 5, 7, 0, 3, 6, 7, 0, 1, 2, 7,
@@ -64,8 +64,9 @@ EdgeFaces Polytope::faces(uint32_t from, uint32_t to) const {
   const Vec32 start = vertex(from), end = vertex(to);
   const HullIndices near = neighbours(from), far = neighbours(to);
   EdgeFaces faces = {{0, 0, 0}, {0, 0, 0}, false};
-  // The corners of the two triangles are neighbours of both ends; of those the ones that no other lies above. About the
-  // edge all lie within half a turn, and so in an order; at the ends of a whole half it is flat.
+  // The third corner of each adjacent triangle is a neighbour of both ends. Among these common neighbours, it is the
+  // one whose triangle's plane has no other above it. The common neighbours lie within an angle of pi about the edge,
+  // so they are ordered by angle. If they span exactly pi, the edge is flat.
   bool first = true;
   for (uint32_t i = 0, j = 0; i < near.count && j < far.count;) {
     const uint32_t common = near.index[i];

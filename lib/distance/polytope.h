@@ -4,30 +4,30 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The two faces beside an edge: their outward normals, in the shape's axes, of any length; zero for a degenerate one.
-/// The left one runs along the edge from its first vertex to its second, counter-clockwise from outside.
+/// The outward normals of the two faces at an edge, in the shape's axes, of any length; zero for a degenerate face. The
+/// left face has the edge from its first vertex to its second in counter-clockwise order, seen from outside.
 struct EdgeFaces {
   Vec64 left, right;
-  bool flat;  ///< they are one plane: the edge lies in a face
+  bool flat;  ///< both lie in one plane: the edge is inside a flat face
 };
 
-/// The boundary of a box, hull or triangle, triangulated. Vertices have the names of core_vertex() and lie in the
-/// shape's axes, in 2^-30 of its unit.
+/// The triangulated boundary of a box, hull or triangle. Vertices have the numbers of core_vertex(); their coordinates
+/// are in the shape's axes, in 2^-30 of its unit.
 class Polytope {
  public:
-  /// False for another shape, or one that is rounded.
+  /// Whether the convex is a box, hull or triangle without rounding.
   static bool is_one(const Convex& convex);
   /// Range: is_one(convex), which must outlive this.
   explicit Polytope(const Convex& convex);
 
   uint32_t vertex_count() const { return vertex_count_; }
   Vec32 vertex(uint32_t i) const;
-  /// Those it shares an edge with, ascending.
+  /// The vertices that share an edge with `vertex`, in ascending order.
   HullIndices neighbours(uint32_t vertex) const;
-  /// Of the edge between two neighbours.
+  /// The faces at the edge between two neighbours.
   EdgeFaces faces(uint32_t from, uint32_t to) const;
 
-  /// Calls visit(i, j, k) for each triangle, counter-clockwise from outside; for both sides of a triangle.
+  /// Calls visit(i, j, k) for each triangle, counter-clockwise from outside. A triangle shape has two, one per side.
   template <class Visit>
   void for_each_face(Visit&& visit) const {
     const uint32_t groups = convex_.type == ShapeType::hull ? hull_.face_count : 1;

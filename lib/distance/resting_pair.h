@@ -10,22 +10,23 @@ inline namespace DETENT_NAMESPACE {
 /// A pair at rest in its block, A's centre at the origin.
 struct RestingPair {
   int exponent;  ///< 2^exponent m is the pair's unit of length
-  Vec32 offset;  ///< from A's centre to B's, in the block; to or from a half-space its component along the normal
+  Vec32 offset;  ///< from A's centre to B's, in the block; with a half-space only its component along the normal
   Placed a, b;
-  int64_t radius_a, radius_b;  ///< of the balls, 2^-46 m
+  int64_t radius_a, radius_b;  ///< rounding radii, 2^-46 m
   Vec64 offset_metres;         ///< from A's position to B's, 2^-46 m
 
   bool planar() const { return a.convex->type == ShapeType::half_space || b.convex->type == ShapeType::half_space; }
-  /// 2^-46 m. Overflow: saturates.
+  /// Converts ulps of the block to 2^-46 m. Overflow: saturates.
   int64_t metres(int64_t block) const { return raw_from_block(block, exponent); }
-  /// Ulps of the block, rounded up; at most INT32_MAX. Range: raw >= 0.
+  /// Converts 2^-46 m to ulps of the block, rounded up; at most INT32_MAX. Range: raw >= 0.
   int32_t block_above(int64_t raw) const;
 };
 
-/// Errors: bad_argument for two half-spaces; not_normalised; out_of_range for NaN.
+/// Errors: bad_argument for two half-spaces; not_normalised; out_of_range for NaN and infinity, and with a half-space
+/// if a component of the offset is 2^16 m or more.
 Status rest(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, RestingPair& pair);
 
-/// The simplex that a cache holds for the pair, for gjk() to start from; and back.
+/// load_cache() reads the simplex from which gjk() starts; save_cache() stores the last simplex for the next call.
 void load_cache(const DistanceCache& cache, const RestingPair& pair, Simplex& simplex);
 void save_cache(const Simplex& simplex, DistanceCache& cache);
 

@@ -1,47 +1,49 @@
 #pragma once
 #include "distance/support.h"
 
-/// The simplex of GJK on integers: which of its faces, edges and vertices is nearest to the origin, decided by exact
-/// signs, so that it cannot cycle and cannot mistake touching for apart.
+/// The simplex of GJK on integers. Exact signs decide which of its faces, edges and vertices is nearest to the origin,
+/// so that GJK cannot cycle and cannot report touching cores as separate.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// A vertex of the Minkowski difference B - A. Range: |difference| < 2^30.
 struct SimplexVertex {
   Vec32 difference;
-  CorePoint a, b;  ///< the core points that it is the difference of
+  CorePoint a, b;  ///< the core points whose difference it is
 };
 
-/// One to four vertices whose hull's point nearest to the origin has every vertex in it, or holds the origin.
+/// Up to four vertices. Either their hull contains the origin, or the hull's point nearest to the origin has a positive
+/// weight of each vertex.
 class Simplex {
  public:
   int count() const { return count_; }
   const SimplexVertex& vertex(int i) const { return vertex_[i]; }
-  /// The hull of the vertices holds the origin.
+  /// Whether the hull of the vertices contains the origin.
   bool holds_origin() const { return holds_origin_; }
 
   void clear() {
     count_ = 0;
     holds_origin_ = false;
   }
-  /// Notes a vertex to start from: only its core points count.
+  /// Stores a vertex for gjk() to start from; gjk() uses only its core points.
   void start(const SimplexVertex& vertex) {
     if (count_ < 4) vertex_[count_++] = vertex;
   }
-  /// Takes `vertex` in, and drops what the nearest point does not need. False, and nothing changed, unless `vertex`
-  /// lies strictly on the origin's side of the plane through the nearest point that is perpendicular to it: then the
-  /// nearest point comes strictly nearer. As the vertices of two polytopes are finitely many, no sequence of insertions
-  /// is endless. Range: not holds_origin().
+  /// Adds `vertex` and drops the vertices that the new nearest point does not need. Returns false and changes nothing
+  /// unless `vertex` lies strictly on the origin's side of the plane through the nearest point v perpendicular to v. So
+  /// each insertion brings the nearest point strictly nearer. Two polytopes have finitely many vertices, so every
+  /// sequence of insertions ends. Range: not holds_origin().
   bool insert(const SimplexVertex& vertex);
 
-  /// A vector along the nearest point, from the origin, its largest component within [2^29, 2^30] in magnitude: rounded
-  /// to a relative 2^-29. Range: not holds_origin(), count > 0.
+  /// A vector from the origin towards the nearest point. Its largest component is within [2^29, 2^30] in magnitude.
+  /// Rounding: relative 2^-29. Range: not holds_origin(), count > 0.
   Vec32 direction() const;
 
-  /// v . p for the nearest point v, exactly, times a positive number. Range: not holds_origin(), |p| < 2^30.
+  /// v . p times a positive number, exact, for the nearest point v. Range: not holds_origin(), |p| < 2^30.
   Int128 reach(const Vec32& p) const;
 
-  /// The weights of the vertices in the nearest point, Q30, of sum 2^30 but for rounding; if the origin is held, any.
+  /// The weights of the vertices in the nearest point, Q30. Their sum is 2^30 within rounding. Arbitrary if the simplex
+  /// contains the origin.
   void weights(int32_t (&weight)[4]) const;
 
  private:
@@ -59,24 +61,26 @@ class Simplex {
   SimplexVertex vertex_[4];
   int count_ = 0;
   bool holds_origin_ = false;
-  // Edge (count 2): from vertex 1 to vertex 0. Triangle (count 3): `normal_` is across it, towards it from the origin.
+  // Edge (count 2): from vertex 1 to vertex 0. Triangle (count 3): `normal_` is perpendicular to it and points from the
+  // origin towards it.
   Vec32 edge_;
   int64_t edge_square_;
-  int64_t along_;  // of the nearest point from vertex 1, times the edge's length: in (0, edge_square_)
+  int64_t along_;  // nearest point's distance from vertex 1 times the edge's length, in (0, edge_square_)
   Vec64 normal_;
 };
 
-// Degrees and widths, with |a| < 2^30 and |b - a| < 2^31: dot and cross products below 2^62 (64 bits); a determinant
-// below 2^92, the weight of a vertex in a triangle below 2^122, the test of a vertex against an edge below 2^125 (128
-// bits).
+// Bit widths, with |a| < 2^30 and |b - a| < 2^31. Dot and cross products are below 2^62 (64 bits). A determinant is
+// below 2^92, the weight of a vertex in a triangle below 2^122, and the test of a vertex against an edge below 2^125
+// (128 bits).
 
-/// The sign of v.(y - a), v the point of the edge from a nearest to the origin, times the edge's square.
+/// The sign of v.(y - a), where v is the point nearest to the origin on the edge from a. The computed value is scaled
+/// by the edge's square.
 inline int side_of_edge(const Vec32& a, const Vec32& edge, int64_t square, int64_t along, const Vec32& y) {
   const Vec32 way = subtract(y, a);
   return sign_of(Int128::product(square, dot(a, way)) + Int128::product(along, dot(edge, way)));
 }
 
-/// a 2^-n to 64 bits, towards zero. Range: the result fits.
+/// value 2^-n as 64 bits. Range: the result fits. Rounding: to nearest, ties up.
 inline int64_t high_part(Int128 value, int n) { return n == 0 ? value.low_signed() : value.round_shift(n); }
 
 inline bool Simplex::insert(const SimplexVertex& vertex) {
@@ -124,7 +128,8 @@ inline void Simplex::keep(int a, int b, int c) {
   count_ = 3;
 }
 
-/// Whether the edge from a to b is where the nearest point of its line lies; leaves its data.
+/// Whether the nearest point of the line through a and b lies strictly between them. Sets edge_, edge_square_ and
+/// along_.
 inline bool Simplex::edge_holds(const Vec32& a, const Vec32& b) {
   edge_ = subtract(b, a);
   edge_square_ = dot(edge_, edge_);
@@ -137,8 +142,8 @@ inline void Simplex::reduce_edge() {
   keep(1);
 }
 
-/// Whether the nearest point of the triangle's plane lies within the triangle of the newest vertex a with b and c. That
-/// the newest takes part is known, so two of the three weights decide.
+/// Whether the nearest point of the triangle's plane lies within the triangle of the newest vertex a with b and c. The
+/// weight of a is known to be positive, so the other two weights decide. Sets normal_.
 inline bool Simplex::triangle_holds(const Vec32& a, const Vec32& b, const Vec32& c) {
   normal_ = cross(subtract(b, a), subtract(c, a));
   return sign_of(dot(cross(a, b), normal_)) > 0 && sign_of(dot(cross(c, a), normal_)) > 0;
@@ -170,7 +175,7 @@ inline void Simplex::reduce_tetrahedron() {
   const int volume = sign_of(dot(normals[0], ad));
   bool outside = volume == 0;
   for (int i = 0; i < 3; ++i) {
-    // Outside a face is where the fourth vertex isn't; a flat tetrahedron has no inside.
+    // The origin is outside a face if the fourth vertex lies on the other side of it; a flat tetrahedron has no inside.
     const int side = sign_of(dot(normals[i], a));
     if (volume != 0 && side != volume) continue;
     outside = true;

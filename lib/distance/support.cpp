@@ -10,7 +10,7 @@ namespace {
 /// The rim point of a disc of radius `radius` in the direction (x, z), at height y.
 CorePoint rim_point(int32_t radius, int32_t y, const Vec32& direction) {
   if ((direction.x | direction.z) == 0) return {{0, y, 0}, k_no_feature};
-  const Vec32 across = scaled_to_30_bits(Vec32{direction.x, 0, direction.z});  // a small one's length would be coarse
+  const Vec32 across = scaled_to_30_bits(Vec32{direction.x, 0, direction.z});  // a short vector's length is too coarse
   const int64_t length = length_across(across);
   const auto part = [&](int32_t a) {
     const int64_t product = int64_t{radius} * a;
@@ -32,7 +32,7 @@ CorePoint hull_vertex(const HullView& hull, uint32_t i) {
   return {{hull.x(i), hull.y(i), hull.z(i)}, static_cast<uint8_t>(i)};
 }
 
-/// How far the vertices of a hull lie along a direction.
+/// The coordinates of a hull's vertices along a direction.
 class Reach {
  public:
   Reach(const HullView& hull, const Vec32& direction)
@@ -51,7 +51,8 @@ class Reach {
   int64_t dx_, dy_, dz_;
 };
 
-/// From vertex to vertex as long as a neighbour lies farther: on a convex hull the last one lies farthest.
+/// Hill climbing: moves to the farthest neighbour as long as one lies farther. On a convex hull the last vertex is the
+/// farthest of all.
 uint32_t climb(const HullView& hull, const Reach& reach, uint32_t start) {
   uint32_t best = start < hull.vertex_count ? start : 0, last = best;
   int64_t best_value = reach.of(best);

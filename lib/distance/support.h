@@ -6,34 +6,34 @@
 #include "shape/hull.h"
 
 /// Support mappings. A pair of shapes is placed in a *block*: world axes, integers in 2^-30 of the pair's unit of
-/// length, which is so large that the Minkowski difference of the cores lies within 2^30 of the origin.
+/// length. The unit is so large that the Minkowski difference of the cores lies within 2^30 ulps of the origin.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// A point of a core in the shape's own axes, in 2^-30 of its own unit.
 struct CorePoint {
   Vec32 local;
-  uint8_t feature;  ///< names a vertex of the core; k_no_feature on a cylinder or cone
+  uint8_t feature;  ///< number of a vertex of the core; k_no_feature on a cylinder or cone
 };
 inline constexpr uint8_t k_no_feature = 255;
 
-/// The vertex `feature` of the core. False if it has none of that name.
+/// The vertex `feature` of the core. False if there is no such vertex.
 bool core_vertex(const Convex& convex, uint8_t feature, CorePoint& point);
 
-/// The hull of a convex, ready to be read; empty for other shapes.
+/// A view of the convex's hull; empty for other shapes.
 inline HullView hull_of(const Convex& convex) {
   return convex.type == ShapeType::hull ? hull_view(convex.hull) : HullView{};
 }
 
-/// The core's point farthest along `direction`, both in the shape's axes. `hull`: hull_of(convex), made once for many
-/// questions. `start`: a vertex to climb from on a large hull, best the last answer; any value is safe.
-/// Of equally far points always the same one. Exact but for cylinder and cone, whose points err by 1 in each component.
-/// Range: 0 < |direction| < 2^31. A half-space gives its origin.
+/// The core's point farthest along `direction`, both in the shape's axes. `hull`: hull_of(convex), computed once for
+/// many calls. `start`: the vertex from which hill climbing starts on a large hull, best the last result; any value is
+/// safe. Ties: the same arguments always give the same point. Exact except for cylinders and cones, whose points err by
+/// 1 in each component. Range: 0 < |direction| < 2^31. The result for a half-space is its origin.
 CorePoint local_support(const Convex& convex, const HullView& hull, const Vec32& direction, uint8_t start);
 inline CorePoint local_support(const Convex& convex, const Vec32& direction) {
   return local_support(convex, hull_of(convex), direction, 0);
 }
-/// Hulls of more vertices are climbed, not searched through.
+/// Hulls with more vertices use hill climbing instead of a linear search.
 inline constexpr uint32_t k_climbing_vertices = 8;
 
 /// A core in a block, relative to its own centre.
@@ -42,15 +42,15 @@ class Placed {
   const Convex* convex;
   HullView hull;  ///< hull_of(*convex)
   Matrix32 rotation;
-  int shift;      ///< own coordinates lose this many bits in the block, >= 0
-  Vec32 axis[3];  ///< box and capsule: the columns times the half extents
+  int shift;      ///< number of bits that the shape's own coordinates lose in the block, >= 0
+  Vec32 axis[3];  ///< box and capsule: the rotation's columns times the half extents
 
-  /// Where a local core point lies. Error: k_placing_error in each component.
+  /// The place of a local core point. Error: k_placing_error in each component.
   Vec32 point(const Vec32& local) const {
     if (convex->type == ShapeType::box) return box_point(local.x >> 31, local.y >> 31, local.z >> 31);
     return other_point(local);
   }
-  /// The vertex of a box whose coordinate i is negative where sign i is -1, and not where it is 0.
+  /// The vertex of a box. A coordinate is negative if its argument is -1, and positive if its argument is 0.
   Vec32 box_point(int32_t x, int32_t y, int32_t z) const {
     const auto sum = [&](int32_t a, int32_t b, int32_t c) { return ((a ^ x) - x) + ((b ^ y) - y) + ((c ^ z) - z); };
     return {sum(axis[0].x, axis[1].x, axis[2].x), sum(axis[0].y, axis[1].y, axis[2].y),
@@ -69,8 +69,8 @@ inline int64_t length_across(const Vec32& v) {
   return square_root_nearest(static_cast<uint64_t>(int64_t{v.x} * v.x) + static_cast<uint64_t>(int64_t{v.z} * v.z));
 }
 
-/// The largest value of direction . p over the core, and rate . p for the p that has it; both in the shape's axes.
-/// `start` is renewed.
+/// The largest value of direction . p over the points p of the core, and rate . p at the same p. Both vectors are in
+/// the shape's axes. Updates `start`.
 struct SupportValue {
   int64_t value, rate;
 };
@@ -87,7 +87,8 @@ struct SupportPoint {
 /// Range: 0 < |direction| < 2^31.
 inline SupportPoint support(const Placed& placed, const Vec32& direction, uint8_t start = 0);
 
-/// A box's vertex by the signs of its coordinates, -1 or 0: bit i of the feature is set where coordinate i is negative.
+/// A box's vertex from the signs of its coordinates (-1: negative, 0: positive). Bit i of the feature is set if
+/// coordinate i is negative.
 inline CorePoint box_vertex(const Convex& box, int32_t x, int32_t y, int32_t z) {
   const int32_t* size = box.size;
   return {{(size[0] ^ x) - x, (size[1] ^ y) - y, (size[2] ^ z) - z}, static_cast<uint8_t>((x & 1) | (y & 2) | (z & 4))};

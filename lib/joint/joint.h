@@ -8,92 +8,101 @@
 #include "motion/spin.h"
 #include "motion/step_settings.h"
 
-/// The joints of a step. A joint's row holds the speed
+/// The joints of a step. With the columns (v_A, w_A, v_B, w_B) of velocities and angular velocities, a joint's row has
+/// the Jacobian
 ///
-///     axis . (velocity B - velocity A) + arm B . spin B - arm A . spin A
+///     J = (-axis, -arm_A, axis, arm_B)
 ///
-/// and its impulse goes the same way back. The rows of all joints of an island, J, are held at once, whatever they
-/// form: with the bodies' responses W, the impulses x of J W J^T x = (wanted speeds - J v) come from a block L D L^T of
-/// the joints' graph, eliminated by minimum degree (joint_order.cpp, joint_factor.h), made anew in each substep. Each
-/// row is a little soft, so that rows that others hold already need no rule of their own.
+/// so its speed is J v = axis . (v_B - v_A) + arm_B . w_B - arm_A . w_A, and its impulse x applies the wrench J^T x. C
+/// is the row's error of position (JointRows::error); joint_rows.cpp has the J and C of each joint. All rows of an
+/// island are solved at once, whatever graph the joints form:
 ///
-/// A substep is made to gain no energy (joint_solve.cpp): holding the rows projects the motion, which only takes
-/// energy; what is then added so that joints follow the curve of their way is scaled to what the projection took; and
-/// errors of positions are made up for without speed. Source of the scheme's parts: Baraff, "Linear-time dynamics using
-/// Lagrange multipliers", SIGGRAPH 1996; Tournier, Nesme, Gilles, Faure, "Stable constrained dynamics", 2015; George,
-/// Liu, "The evolution of the minimum degree ordering algorithm", 1989.
+///     (K + S) x = target - J v,  K = J M^-1 J^T
+///
+/// S is a small diagonal softness, so redundant rows need no special rule; the row of a spring has a larger one. The
+/// factor of K + S is a block L D L^T over the graph of the joints, eliminated by minimum degree (joint_order.cpp,
+/// joint_factor.h). It is made anew in each substep.
+///
+/// A substep gains no energy (joint_solve.cpp). Solving the rows projects the velocities, which only removes energy.
+/// Then velocities are added that make the joints follow their curved paths; they are scaled so that they add no more
+/// energy than the projection has removed. Errors of position are corrected by shifts without velocity. Sources of the
+/// parts of the scheme: Baraff, "Linear-time dynamics using Lagrange multipliers", SIGGRAPH 1996; Tournier, Nesme,
+/// Gilles, Faure, "Stable constrained dynamics", 2015; George, Liu, "The evolution of the minimum degree ordering
+/// algorithm", 1989.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 inline constexpr uint32_t k_no_link = UINT32_MAX;
-inline constexpr Real k_joint_impulse_max = 16384.0;  ///< of a row, m/s
-/// What a joint keeps is what its force would give in 2^-k_kept_power of a tick, however many substeps that has.
+inline constexpr Real k_joint_impulse_max = 16384.0;  ///< limit of a stored row impulse, m/s
+/// The impulses that a joint stores are those of its force over 2^-k_kept_power of a tick, whatever the number of
+/// substeps is.
 inline constexpr int k_kept_power = 3;
 
-/// Lengths or speeds in units of 2^exponent, held within what a Unit holds.
+/// Lengths or speeds in units of 2^exponent, clamped to the range of a Unit.
 Vec3<Unit> unit_held(const Vec3<Real>& v, int exponent);
 
 struct JointStage {
-  Span<JointState> joints;  ///< the slots that were ever used
+  Span<JointState> joints;  ///< all slots that have ever been used
   Span<const BodyPose> poses;
   Span<const BodyActivity> activities;
-  Span<JointWork> work;           ///< of those at work, in the order of their slots
-  Span<JointBody> bodies;         ///< that they hold
-  Span<uint32_t> order;           ///< of `work`: island by island, in the order of elimination
-  Span<JointCoupling> couplings;  ///< of the factor
-  Span<Real> numbers;             ///< of its blocks
-  uint32_t count = 0;             ///< of `work`
-  uint32_t body_count = 0;        ///< of `bodies`
+  Span<JointWork> work;    ///< the active joints, in the order of their slots
+  Span<JointBody> bodies;  ///< the bodies of the active joints
+  /// Indices into `work`: island by island, in the order of elimination.
+  Span<uint32_t> order;
+  Span<JointCoupling> couplings;  ///< couplings of the factor
+  Span<Real> numbers;             ///< elements of the factor's blocks
+  uint32_t count = 0;             ///< number of entries in `work`
+  uint32_t body_count = 0;        ///< number of entries in `bodies`
 };
 
-/// Takes up all joints that hold a body that is awake, and the bodies that they hold, which have been started
-/// (predict.h). Fills `work`, `bodies`.
+/// Collects all joints with an awake body, and the bodies of these joints. start_body() (predict.h) must have been
+/// called for the bodies. Fills `work` and `bodies`.
 void collect_joints(const SolverBodies& bodies, JointStage& stage);
 
-/// Lists the joints of every island, whose bodies `slots` lists, in the order in which they are eliminated, with the
-/// couplings that their factor needs, and says how many substeps they need. Returns how many couplings had no room.
+/// Orders the joints of every island by elimination, makes the couplings that their factor needs, and sets the number
+/// of substeps that they need. `slots` lists the bodies by island. Returns the number of couplings that had no room.
 uint32_t order_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
                       Span<Island> islands, JointStage& stage);
 
-/// Begins a substep of an island, `elapsed` after the start of the tick: makes the joints' rows, notes how their bodies
-/// move before anything acts, and gives these the gyrations that the substep has for joints and contacts alike.
+/// Begins a substep of an island, `elapsed` after the start of the tick: makes the joints' rows, stores the velocities
+/// before anything acts, and sets the bodies' inverse inertias, which joints and contacts both use in the substep.
 void begin_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
                   const Island& island, Real elapsed, JointStage& stage);
 
-/// Whether a body's gyration is another than in the last substep.
+/// Whether a body's inverse inertia has changed since the last substep.
 inline bool has_renewed_gyration(const BodyWork& now, const JointStage& stage) {
   return now.joint_body != UINT32_MAX && stage.bodies[now.joint_body].renewed != 0;
 }
 
-/// Holds the joints' rows, `elapsed` after the start of the tick: of the bodies' velocities. Returns how many values
-/// were clamped, and adds to `undecided`.
+/// Solves the joints' rows for the bodies' current velocities, `elapsed` after the start of the tick. Returns the
+/// number of values that were clamped, and adds to `undecided`.
 uint32_t hold_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
                      const Island& island, Real elapsed, JointStage& stage, uint32_t& undecided);
 
-/// Takes out what contacts have added to the rows' speeds since. Returns how many values were clamped, and adds to
-/// `undecided`.
+/// Solves the rows again, to remove the speed that contacts have added since. Returns the number of values that were
+/// clamped, and adds to `undecided`.
 uint32_t hold_joints_again(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
                            const Island& island, Real elapsed, JointStage& stage, uint32_t& undecided);
 
-/// Adds what the curves of the joints' ways ask for, and finds the shifts that close gaps. Returns how many values were
-/// clamped.
+/// Adds the velocities by which the joints follow their curved paths, and computes the shifts that close gaps. Returns
+/// the number of values that were clamped.
 uint32_t follow_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
                        const Island& island, Real elapsed, JointStage& stage);
 
-/// Shifts the bodies, which have moved, so that gaps close, and lends them the momentum that they have with the inertia
-/// of the substep again. Returns how many values were clamped.
+/// Applies the shifts that close gaps, after the bodies have moved. Then converts the bodies' angular momenta back to
+/// those with the inertia of the substep. Returns the number of values that were clamped.
 uint32_t shift_joints(const SolverBodies& bodies, Span<const uint32_t> slots, JointStage& stage);
 
-/// Ends a substep of an island: takes out what contacts have added to the rows' speeds since, adds up what the joints
-/// gave, and gives the bodies their own gyrations and momenta. Returns how many values were clamped, and adds to
-/// `undecided`.
+/// Ends a substep of an island: removes the speed that contacts have added to the rows since, adds up the impulses of
+/// the joints, and restores the bodies' own inverse inertias and angular momenta. Returns the number of values that
+/// were clamped, and adds to `undecided`.
 uint32_t end_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
                     const Island& island, Real elapsed, JointStage& stage, uint32_t& undecided);
 
-/// Stores the reactions of the tick.
+/// Stores the forces and torques of the joints in the tick.
 void store_reactions(const StepSettings& settings, const SolverBodies& bodies, JointStage& stage);
 
-/// For a feature table.
+/// Entry of the feature table.
 struct JointOps {
   decltype(&collect_joints) collect;
   decltype(&order_joints) order;
@@ -106,77 +115,81 @@ struct JointOps {
   decltype(&store_reactions) store;
 };
 
-// Of the stages above.
+// Functions that the files of the stages share.
 
-/// Sets the fewest substeps that an island's joints may have, and the squared number that their motion asks for.
+/// Sets the lowest number of substeps for the joints of an island, and the squared number that their motion needs.
 void ask_for_substeps(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
                       const JointStage& stage, Island& island);
 
-/// Impulses that others cancel grow to the speeds that are asked for over the rows' softness: so they are over
-/// 2^k_impulse_power of the unit in which responses are near 1, and speeds under it.
+/// Impulses of rows that cancel each other grow up to (target speed) / softness. So impulses are stored divided by
+/// 2^k_impulse_power, in the unit in which responses are near 1, and speeds multiplied by it.
 inline constexpr int k_impulse_power = DETENT_FIXED ? 6 : 0;
 
 inline bool is_linear(const JointRow& row) { return !(row.axis == k_no_direction); }
-/// 0: linear; 1: angular.
+/// 0: linear row; 1: angular row.
 inline int row_kind(const JointRow& row) { return is_linear(row) ? 0 : 1; }
 inline int row_kind(const JointRows& rows, uint32_t k) { return k < 3 && rows.points != 0 ? 0 : row_kind(rows.row[k]); }
 
-/// Of a row's impulses: they are over 2^it reference masses.
+/// The unit of impulses of linear (0) or angular (1) rows is 2^impulse_power reference masses times m/s.
 inline int impulse_power(const JointWork& work, int kind) { return work.power[kind] + k_impulse_power; }
 
-/// Whether a slot has a joint that holds anything: not one that only keeps its bodies from colliding.
+/// Whether the slot has a joint with rows: not empty, and not a filter joint, which only disables collisions.
 inline bool holds(const JointState& joint) {
   return joint.type != 0 && joint.type != static_cast<uint32_t>(JointType::filter);
 }
-/// Whether a free motion is an angle.
+/// Whether the free motion is an angle.
 bool is_angular(JointType type, int motion);
-/// Those that an axis each describes: what is set of the others has no meaning, but the spring of a ball.
+/// Number of free motions that have their own settings. The settings of all others have no meaning, except the spring
+/// of a ball joint.
 int free_motion_count(JointType type);
-/// And with those that friction brakes, or the spring of a ball turns.
+/// Number of free motions that can be driven. This includes rotations that have only friction, or the spring of a ball
+/// joint.
 int driven_motion_count(const JointState& joint);
-/// Whether limits hold a free motion.
+/// Whether the free motion has limits.
 bool is_limited(const JointState& joint, int motion);
-/// Whether a limit, spring, motor or friction can act on it.
+/// Whether a limit, spring, motor or friction can act on the free motion.
 bool is_driven(const JointState& joint, int motion);
-/// Whether friction brakes it.
+/// Whether friction acts on the free motion.
 bool is_braked(const JointState& joint, int motion);
-/// The rows of a joint as its bodies are now.
+/// The rows of a joint at the current poses of its bodies.
 JointRows make_joint_rows(const JointStage& stage, const JointWork& work);
-/// Chooses how the free motions are driven, before anything is solved: a limit that the bodies would pass in this
-/// substep holds. Nothing has acted in it yet.
+/// Chooses the drive mode of each free motion, before the rows are solved and before anything acts in the substep: a
+/// limit that the motion would pass in this substep is activated.
 void choose_drives(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, JointWork& work);
-/// Whether, with the impulses that were found, a motor, spring or friction would do more than it can in the substep. If
-/// `changes`, it then does that.
+/// Whether the impulse of a motor, spring or friction exceeds its limit in the substep. If `changes`, replaces the row
+/// by a constant impulse at that limit.
 bool bound_drives(const JointState& joint, Scaled share, bool changes, JointWork& work);
-/// Whether a free motion is held where it is.
+/// Whether the free motion is locked or at a limit.
 inline bool is_at_limit(DriveMode mode) {
   return mode == DriveMode::held || mode == DriveMode::lower || mode == DriveMode::upper;
 }
-/// Whether a row holds something where it is: a limit does while it is reached.
+/// Whether the row locks a motion. An active limit does.
 inline bool is_held(const JointWork& work, uint32_t row) {
   return row < work.rows_held || (work.driven[0] == row && is_at_limit(work.mode[0])) ||
          (work.driven[1] == row && is_at_limit(work.mode[1]));
 }
-/// Whether the bodies, as they move now, would pass limits that did not act, by more than a little, or motors and
-/// friction at their greatest force take them beyond the speeds that they want: those limits act now, and those drives
-/// hold. Drives not where the island `touches`: contacts, which are held in turn, may load them yet.
+/// Activates limits that were not active and that the bodies, at their current velocities, would pass by more than
+/// k_passed. A motor or friction that acts with its greatest force gets a row again if it drives the motion beyond its
+/// target speed. Skips motors and friction if the island `touches`: contacts are solved in alternation and may still
+/// load them. Returns whether anything changed.
 bool take_up(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, bool touches,
              JointWork& work);
-/// Whether, with those impulses, a limit would pull. If `changes`, it does not act.
+/// Whether the impulse of an active limit would pull. If `changes`, deactivates that limit.
 bool release_limits(const JointState& joint, bool changes, JointWork& work);
-/// Adds the rows of the free motions that are driven, or notes what pushes without one.
+/// Adds the rows of the driven free motions.
 void add_driven_rows(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage,
                      JointWork& work);
-/// The force on B in the last substep, as it is kept: of the rows that push along something.
+/// The stored force on B in the last substep: the sum of the impulses along the axes of its linear rows.
 Real last_pull(const JointStage& stage, const JointWork& work);
-/// Gives a body the inertia that its joints' pulls let it have in this substep: about each of its axes no less than a
-/// substep's stiffness of the pulls, h sum |impulse| |arm|, so that heavy pulls at a light body do not make it sway
-/// faster than a substep can follow. Its gyration becomes that one's, its momentum stays, so it is slowed. And notes
-/// how it responds to forces and torques. The body is placed.
+/// Sets a body's inertia for this substep: about each of its axes at least the stiffness of the joints' pulls, h sum
+/// |impulse| |arm|. So strong forces on a light body do not make it oscillate faster than a substep can follow. Its
+/// inverse inertia becomes that of the substep and its angular momentum stays the same, so the body rotates more
+/// slowly. Also sets the body's response to forces and torques. The body's pose must be set.
 void load_inertia(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, JointBody& body);
-/// The momentum with its own inertia of a body that spins as it does with that of the substep.
+/// The angular momentum with the body's own inertia, at the angular velocity that it has with the inertia of the
+/// substep.
 Vec3<Real> own_momentum(const JointBody& body, const Vec3<Real>& momentum);
-/// And back. Overflow: clamps, and sets `saturated`.
+/// The inverse of own_momentum(). Overflow: clamps, and sets `saturated`.
 Vec3<Real> lent_momentum(const JointBody& body, const Vec3<Real>& momentum, bool& saturated);
 
 }  // namespace DETENT_NAMESPACE

@@ -7,7 +7,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// The body's place among those that joints hold; it gets one if it has none.
+/// The index of the body in `bodies`. Adds the body if it is new.
 uint32_t place_of(const SolverBodies& bodies, uint32_t slot, JointStage& stage) {
   uint32_t& place = bodies.work[slot].joint_body;
   if (place != k_no_link) return place;
@@ -33,13 +33,13 @@ void link_to(JointStage& stage, uint32_t joint, uint32_t end) {
   stage.work[joint].next[end] = k_no_link;
 }
 
-/// Makes a body's unit hold an arm of this length.
+/// Enlarges a body's unit so that an arm of this length fits.
 void reach_out(JointBody& body, Real arm) {
   const int exponent = exponent_above(arm);
   if (exponent > body.exponent) body.exponent = exponent;
 }
 
-/// Rows that a joint can have: what its type holds, and the free motions that something drives.
+/// The largest number of rows of a joint: the locked motions of its type, and the driven free motions.
 uint32_t rows_of(const JointState& joint) {
   const JointType type = static_cast<JointType>(joint.type);
   uint32_t rows = type == JointType::ball || type == JointType::cone_twist ? 3

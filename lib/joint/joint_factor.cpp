@@ -4,10 +4,11 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// A row is softer by this power of two of the largest response of its joint's rows of its kind: rows that others hold
-/// already have nothing else to stand on, and what they hold by it is below what the numbers can tell. What stands on
-/// the near singular, as a chain that is nearly straight, gives way by it: so it is as little as the numbers allow.
-/// Drives give way before what is held, and where make_softer() has been called all rows do, by the second power.
+/// Softness of a row: 2^k_softness_power times the largest diagonal element of the joint's rows of the same kind
+/// (linear or angular) is added to its diagonal element. A redundant row has only the softness as its pivot; its effect
+/// is then below the precision of the numbers. A nearly singular system, for example a chain that is nearly straight,
+/// yields by the softness, so it is as small as the precision allows. Rows of drives have k_soft_power, so they yield
+/// before locked rows. After make_softer() all rows have k_soft_power.
 #if defined(DETENT_F32)
 constexpr int k_softness_power = -20, k_soft_power = -17;
 #elif defined(DETENT_F64)
@@ -15,21 +16,21 @@ constexpr int k_softness_power = -27, k_soft_power = -20;
 #else
 constexpr int k_softness_power = -25, k_soft_power = -20;
 #endif
-/// Below this rounding holds rows that others hold already, and they bind: so smaller responses are softer.
+/// Lower bound of the softness of locked rows. With less, rounding errors make redundant rows act against each other.
 constexpr Real k_softness_min = DETENT_FIXED ? Real(0x1p-20) : k_zero;
 
-/// A pivot is at least so much, so that its reciprocal is one that multiply() takes.
+/// Lower bound of a pivot, so that its reciprocal is in the range of multiply().
 constexpr Real k_pivot_min = 0x1p-29;
-/// Of an impulse, before those of its joint are taken from it.
+/// Limit of an impulse before the other rows of its joint are subtracted.
 constexpr Real k_solved_max = k_solution_max * Real(4.0);
 #if DETENT_FIXED
-/// Near what the rows' responses are brought, and no more than so that their speeds fit a Real.
+/// Responses are scaled to about 2^k_joint_response_bits, but by at most 2^(2 k_power_max), so that speeds fit a Real.
 constexpr int k_joint_response_bits = 5, k_power_max = 9;
 #endif
-/// Of a spring: what is softer holds nothing.
+/// Upper bound of the softness of a spring: softer springs have no effect.
 constexpr Real k_spring_max = 16384.0;
 
-/// What a body's velocity and spin become for each row's unit of impulse.
+/// The columns of M^-1 J^T for one body: the change of its velocity and angular velocity by a unit impulse of each row.
 struct Reply {
   Vec3<Real> velocity[k_joint_rows_max], spin[k_joint_rows_max];
 
@@ -38,7 +39,7 @@ struct Reply {
       return Vec3<Real>{dot(body.turned[0], torque), dot(body.turned[1], torque), dot(body.turned[2], torque)};
     };
     if (work.points != 0) {
-      // Unit forces at the arm.
+      // Unit forces at the anchor: I^-1 (r x e_i).
       const Vec3<Unit>& r = work.arm[end];
       const Unit none = 0.0, minus_x = none - r.x, minus_y = none - r.y, minus_z = none - r.z;
       spin[0] = turn({none, r.z, minus_y});
@@ -56,14 +57,14 @@ struct Reply {
   }
 };
 
-/// Runs `visit` with the sizes of blocks: most are of joints that hold their points, which is written out.
+/// Calls `visit` with the sizes of blocks. The common case, joints with the three rows of anchor points, is unrolled.
 #if defined(__OPTIMIZE_SIZE__)
 template <class Visit, class... Sizes>
 inline void with_sizes(const Visit& visit, Sizes... sizes) {
   visit(sizes...);
 }
 #else
-struct Three {  ///< known at compile time
+struct Three {  ///< a size known at compile time
   explicit constexpr Three(uint32_t) {}
   constexpr operator uint32_t() const { return 3; }
 };
@@ -78,7 +79,7 @@ inline void with_sizes(const Visit& visit, Sizes... sizes) {
 
 using Rows = Real[k_joint_rows_max][k_joint_rows_max];
 
-/// The sum of a column of a block times a vector.
+/// The product of a column of a block and a vector.
 template <class Height>
 inline Real product(Height height, uint32_t width, const Real* block, uint32_t i, const Real* vector) {
   const uint32_t count = height;
@@ -87,7 +88,8 @@ inline Real product(Height height, uint32_t width, const Real* block, uint32_t i
   return sum.value();
 }
 
-/// L^-1 of a joint's block; and its columns over the pivots, as rows.
+/// Multiplies a coupling's block by L^-1 of the joint's own block. `scaled` becomes its transpose, divided by the
+/// pivots.
 template <class Height, class Width>
 inline void divide_block(const JointWork& work, Height height, Width width, Real* block, Rows& scaled) {
   for (uint32_t k = 1; k < height; ++k) {
@@ -98,7 +100,7 @@ inline void divide_block(const JointWork& work, Height height, Width width, Real
   }
 }
 
-/// What two joints without a coupling show of each other goes to their diagonals.
+/// Adds the sizes of the fill-in between two joints without a coupling to their diagonals.
 void make_up_product(uint32_t rows, const Real* block, const Rows& scaled, JointWork& third, JointWork& other) {
   for (uint32_t i = 0; i < third.rows; ++i) {
     for (uint32_t m = 0; m < other.rows; ++m) {
@@ -198,7 +200,7 @@ void JointFactor::make() {
     }
   }
   for (uint32_t k = 0; dropped_ && k < order_.count; ++k) make_up(order_[k]);
-  // The softness of each row.
+  // Add the softness of each row.
   for (const uint32_t index : order_) {
     JointWork& work = stage_.work[index];
     Real most[2] = {k_zero, k_zero};
@@ -221,7 +223,7 @@ bool JointFactor::make_softer() {
   return true;
 }
 
-/// Adds to a joint's diagonal what it shows in others without a coupling.
+/// Adds the sizes of a joint's elements with other joints without a coupling to its diagonal.
 void JointFactor::make_up(uint32_t index) {
   JointWork& work = stage_.work[index];
   for (uint32_t end = 0; end < 2; ++end) {
@@ -258,7 +260,7 @@ void JointFactor::eliminate(JointWork& work) {
     const JointCoupling& coupling = stage_.couplings[at];
     const uint32_t index = coupling.joint[1];
     JointWork& other = stage_.work[index];
-    Rows scaled = {};  // GCC does not see that all that is read is written
+    Rows scaled = {};  // GCC does not see that every element is written before it is read
     with_sizes(
         [&](auto height, auto width) {
           divide_block(work, height, width, block_of(coupling), scaled);
@@ -268,7 +270,7 @@ void JointFactor::eliminate(JointWork& work) {
           }
         },
         rows, other.rows);
-    // Those before it in the list are substituted already.
+    // The couplings before this one in the list already have L^-1 applied.
     for (uint32_t before = work.coupling; before != at; before = stage_.couplings[before].next[0]) {
       const JointCoupling& known = stage_.couplings[before];
       JointWork& third = stage_.work[known.joint[1]];
@@ -278,7 +280,7 @@ void JointFactor::eliminate(JointWork& work) {
         continue;
       }
       Real* const target = block_of(*between);
-      // What is between them lies the way of the one that is eliminated first.
+      // The block of a coupling has the rows of the joint that is eliminated first.
       const bool turned = other.place < third.place;
       with_sizes(
           [&](auto height, auto known_width, auto width) {

@@ -3,9 +3,8 @@
 #include "joint/joint.h"
 #include "math/scaled.h"
 
-/// How the rows of a joint and the bodies that it holds see each other, and the factor of all joints of an island:
-/// a block L D L^T, with a block of a joint's own rows in JointWork::response, and those of its couplings in
-/// JointStage::numbers.
+/// The factor of all joints of an island: a block L D L^T of the matrix K + S (joint.h). The block of a joint's own
+/// rows is in JointWork::response, the blocks of its couplings are in JointStage::numbers.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -13,7 +12,7 @@ inline Vec3<Real> real_from(const Vec3<Unit>& v) {
   return {real_from_unit(v.x, 0), real_from_unit(v.y, 0), real_from_unit(v.z, 0)};
 }
 
-/// The rows that are not those of the anchors begin here.
+/// Index of the first row that is not one of the three rows of the anchor points.
 inline uint32_t first_other(const JointRows& rows) { return rows.points != 0 ? 3 : 0; }
 
 /// Twice an energy over the reference mass: a sum of products of impulses and speeds.
@@ -26,7 +25,7 @@ class EnergySum {
     const bool negative = sum_ < Int128::from(0);
     const Int128 size = negative ? -sum_ : sum_;
     if (size.high_word() == 0) return from(negative, size.low_word(), 0);
-    const int shift = bit_length_64(static_cast<uint64_t>(size.high_word())) + 1;  // rounded up it still fits
+    const int shift = bit_length_64(static_cast<uint64_t>(size.high_word())) + 1;  // it still fits after rounding up
     return from(negative, static_cast<uint64_t>(size.round_shift(shift)), shift);
   }
 
@@ -65,7 +64,7 @@ class ProductSum {
 #endif
 };
 
-/// The speeds of the rows that a body's motion gives.
+/// Computes the part of J v that one body contributes, for the rows of a joint, without the sign of A.
 inline void show(const JointWork& work, uint32_t end, const Vec3<Real>& velocity, const Vec3<Real>& spin,
                  Real (&speed)[k_joint_rows_max]) {
   if (work.points != 0) {
@@ -78,18 +77,19 @@ inline void show(const JointWork& work, uint32_t end, const Vec3<Real>& velocity
     speed[k] = dot(velocity, work.row[k].axis) + dot(spin, work.row[k].arm[end]);
 }
 
-/// Of a row's impulse in a solution; beyond it all are made less.
+/// Limit of a row's impulse in a solution. If an impulse is larger, all are scaled down.
 #if defined(DETENT_F64)
 inline constexpr Real k_solution_max = 0x1p24;
 #else
 inline constexpr Real k_solution_max = 16384.0;
 #endif
-/// What a body gets from its joints at most, m/s: two of them fit a Real.
+/// Limit of the velocity change of a body by its joints, m/s: the sum of two fits a Real.
 inline constexpr Real k_gathered_max = 65504.0;
 
-/// Adds to a body's push and twist what the rows' impulses do to it at an end. False if that is beyond k_gathered_max.
+/// Adds the velocity changes M^-1 J^T x of a joint's impulses x to a body's `push` and `twist`. Returns false if a
+/// value exceeds k_gathered_max.
 inline bool gather(const JointWork& work, uint32_t end, JointBody& body) {
-  Real given[k_joint_rows_max], most = k_zero;  // by each row, m/s
+  Real given[k_joint_rows_max], most = k_zero;  // impulse of each row over the mass, m/s
   bool saturated = false;
   for (uint32_t k = 0; k < work.rows; ++k) {
     given[k] = multiply(work.impulse[k], scaled_by_power(body.share, work.row_power[k] + k_impulse_power), saturated);
@@ -102,7 +102,7 @@ inline bool gather(const JointWork& work, uint32_t end, JointBody& body) {
     twist = cross(work.arm[end], push);
   }
   for (uint32_t k = first_other(work); k < work.rows; ++k) {
-    if (!(greatest(twist) <= k_gathered_max)) return false;  // or this row's could wrap it
+    if (!(greatest(twist) <= k_gathered_max)) return false;  // the next row could overflow
     if (is_linear(work.row[k])) push += work.row[k].axis * given[k];
     twist += work.row[k].arm[end] * given[k];
   }
@@ -116,26 +116,27 @@ inline bool gather(const JointWork& work, uint32_t end, JointBody& body) {
   return greatest(body.push) <= k_gathered_max && greatest(body.twist) <= k_gathered_max;
 }
 
-/// Chooses the units of a joint's impulses, 2^power reference masses, for which its rows' responses are near 2^5: so
-/// impulses between heavy bodies stay within their range beside light ones. Range: the bodies' inertias are loaded, the
-/// rows are made.
+/// Chooses the units of a joint's impulses, 2^power reference masses, for which the responses of its rows are near 2^5:
+/// so impulses between heavy bodies stay in range in an island with light ones. Range: the bodies' inertias are loaded,
+/// and the rows are made.
 void choose_unit(const JointStage& stage, JointWork& work);
 
-/// A factor of the joints of an island.
+/// The factor of the joints of an island.
 class JointFactor {
  public:
-  /// `dropped`: some couplings had no room. What they would have been is made up for on the diagonal: then the rows are
-  /// held in part, which takes less energy than holding them.
+  /// `dropped`: some couplings had no room. Then the sizes of the missing elements are added to the diagonal: the rows
+  /// are enforced only partly, which removes less energy than enforcing them.
   JointFactor(JointStage& stage, Span<const uint32_t> order, bool dropped)
       : stage_(stage), order_(order), dropped_(dropped) {}
 
-  /// Makes it of the rows as they are, with the bodies' inertias.
+  /// Makes the factor from the current rows and the bodies' inertias.
   void make();
-  /// Makes it anew with softer rows. False if they are that already.
+  /// Makes the factor again with softer rows. Returns false if the rows are already soft.
   bool make_softer();
-  /// L^-1 of the sides. Returns the sides' energy: twice what they have as the motion of least energy that shows them.
+  /// Multiplies the right-hand sides b by L^-1. Returns b . (K + S)^-1 b: twice the least energy of a motion with these
+  /// row speeds.
   Scaled substitute();
-  /// The impulses of the sides that were substituted.
+  /// Computes the impulses from the substituted right-hand sides: x = L^-T D^-1 (L^-1 b).
   void solve();
   uint32_t saturated = 0;  ///< values that were clamped
 

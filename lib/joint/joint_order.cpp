@@ -3,14 +3,15 @@
 #include "math/scaled.h"
 #include "motion/step_settings.h"
 
-/// The order in which the joints of an island are eliminated: by minimum degree, so that the factor of a tree has no
-/// more blocks than the tree has couplings, and that of a loop few more. It follows from the joints' slots alone.
+/// The order in which the joints of an island are eliminated: minimum degree. The factor of a tree then has no more
+/// blocks than the tree has couplings, and that of a loop has few more. The order depends on the joints' slots alone.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
 constexpr int k_response_bits = 14;
-constexpr uint32_t k_degrees = 32;  ///< that are told apart; beyond it all count as one
+/// Number of degrees that are distinguished; all larger degrees count as the last one.
+constexpr uint32_t k_degrees = 32;
 
 class Eliminator {
  public:
@@ -18,10 +19,10 @@ class Eliminator {
       : couplings(couplings_used), numbers(numbers_used), stage_(stage) {
     for (uint32_t& head : head_) head = k_no_link;
   }
-  uint32_t couplings, numbers;  ///< used
+  uint32_t couplings, numbers;  ///< number used so far
   uint32_t dropped = 0;
 
-  /// Couples the joints of a body.
+  /// Couples all joints of a body with each other.
   void couple_all(uint32_t place) {
     for (uint32_t link = stage_.bodies[place].first; link != k_no_link;) {
       const uint32_t one = link / 2;
@@ -34,7 +35,7 @@ class Eliminator {
     }
   }
 
-  /// Eliminates the joints, and writes them over `order` as they are.
+  /// Eliminates the joints, and overwrites `order` with the order of elimination.
   void run(Span<uint32_t> order) {
     for (uint32_t k = order.count; k-- > 0;) enter(order[k]);
     for (uint32_t k = 0; k < order.count; ++k) {
@@ -45,7 +46,7 @@ class Eliminator {
     }
   }
 
-  /// Gives each joint the list of its couplings with those eliminated later, and these their blocks.
+  /// Makes each joint's list of couplings with joints that are eliminated later, and assigns their blocks.
   void list_columns(uint32_t from) {
     for (uint32_t k = from; k < couplings; ++k) {
       for (const uint32_t joint : stage_.couplings[k].joint) stage_.work[joint].coupling = k_no_link;
@@ -68,9 +69,10 @@ class Eliminator {
 
  private:
   JointStage& stage_;
-  uint32_t head_[k_degrees];  ///< of the joints of each degree
+  /// First joint in the list of each degree.
+  uint32_t head_[k_degrees];
 
-  /// Two joints between the same two bodies are coupled by the first of these.
+  /// Whether the two joints are already coupled by a lower body: two joints between the same bodies share both.
   bool is_coupled_before(uint32_t one, uint32_t other, uint32_t place) const {
     const JointWork &p = stage_.work[one], &q = stage_.work[other];
     const auto holds = [](const JointWork& work, uint32_t body) {
@@ -126,7 +128,7 @@ class Eliminator {
     return head_[degree];
   }
 
-  /// Visits the joints coupled with one that are not eliminated.
+  /// Visits the neighbours of a joint that are not eliminated.
   template <class Visit>
   void each_neighbour(uint32_t joint, const Visit& visit) {
     for (uint32_t link = stage_.work[joint].coupling; link != k_no_link;) {
@@ -137,7 +139,7 @@ class Eliminator {
     }
   }
 
-  /// What a joint was coupled with sees each other from now on.
+  /// Eliminates a joint: couples its neighbours with each other, if they are not coupled yet.
   void eliminate(uint32_t joint, uint32_t place) {
     stage_.work[joint].place = place;
     each_neighbour(joint, [&](uint32_t one) {
@@ -157,10 +159,10 @@ class Eliminator {
   }
 };
 
-/// Responses are over a mass that brings the largest of the island's bodies near 2^k_response_bits, whatever their
-/// proportions: so impulses are as small as they can be.
+/// Chooses the reference mass of the island such that the largest response of its bodies is near 2^k_response_bits,
+/// whatever their proportions are. So impulses are as small as possible.
 void weigh(const SolverBodies& bodies, Span<const uint32_t> slots, JointStage& stage) {
-  Scaled most = Scaled(0.0);  // of the responses to a torque
+  Scaled most = Scaled(0.0);  // largest response to a torque
   const auto each = [&](const auto& visit) {
     for (const uint32_t slot : slots) {
       const uint32_t place = bodies.work[slot].joint_body;
@@ -177,7 +179,7 @@ void weigh(const SolverBodies& bodies, Span<const uint32_t> slots, JointStage& s
   each([&](uint32_t slot, JointBody& body) { body.share = divide(reference, bodies.traits[slot].mass); });
 }
 
-/// What the kept impulses and the limits of motors are over.
+/// Sets the mass that the stored impulses are relative to, and the largest impulses of motors, springs and friction.
 void weigh_joint(const StepSettings& settings, const SolverBodies& bodies, JointStage& stage, JointWork& work) {
   const JointState& joint = stage.joints[work.joint];
   Scaled lighter = Scaled(0.0);
@@ -195,7 +197,7 @@ void weigh_joint(const StepSettings& settings, const SolverBodies& bodies, Joint
   const Scaled reference = multiply(lighter, work.over_lighter);
   bool saturated = false;
   const auto bound = [&](Scaled force, bool angular) {
-    const int power = angular ? -work.exponent : 0;  // torques are over 2^exponent m besides
+    const int power = angular ? -work.exponent : 0;  // torques are also over 2^exponent m
     const Scaled impulse = scaled_by_power(multiply(force, scaled_from(settings.tick_time)), power);
     return to_real(divide(impulse, reference), saturated);
   };
@@ -212,7 +214,7 @@ void weigh_joint(const StepSettings& settings, const SolverBodies& bodies, Joint
 
 uint32_t order_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
                       Span<Island> islands, JointStage& stage) {
-  // Counted, then placed: by island, in the order of their slots.
+  // Count the joints of each island, then list them: by island, in the order of their slots.
   const auto island_of = [&](const JointWork& work) -> Island& {
     const JointBody &a = stage.bodies[work.body[0]], &b = stage.bodies[work.body[1]];
     return islands[bodies.work[a.mobile != 0 ? a.slot : b.slot].island];

@@ -11,36 +11,46 @@ namespace {
 constexpr Unit k_zero_unit = 0.0;
 
 constexpr Real k_twist_rate_min = 0.75;
-/// How far beyond a limit a free motion may be heading before the limit is taken up: rad, or of the joint's unit.
+/// A limit is activated later in the substep if the free motion would pass it by more than this: rad, or fraction of
+/// the joint's unit of length.
 constexpr Real k_passed = 0.03125;
-/// What is no more beyond the speed that a motor or friction wants is at it, m/s.
+/// Tolerance of the target speed of motors and friction, m/s.
 constexpr Real k_overdriven = 0x1p-10;
 
 Vec3<Real> in_metres(const Vec3<Unit>& v, int exponent) {
   return {real_from_unit(v.x, exponent), real_from_unit(v.y, exponent), real_from_unit(v.z, exponent)};
 }
 
-/// The angle of a turn about an axis by twice atan2 of these, rad, in [-pi, pi].
+/// The angle of a rotation about an axis, 2 atan2(sine, cosine) of half the angle, rad, in [-pi, pi].
 Real twist_of(Unit sine, Unit cosine) {
-  const bool turned = cosine < k_zero_unit;  // q and -q are the same turn
+  const bool turned = cosine < k_zero_unit;  // q and -q are the same rotation
   return scale_by_power(radians(turned ? arc_tangent(-sine, -cosine) : arc_tangent(sine, cosine)), 1);
 }
 
-/// A joint's bodies as they are now, and the rows made of them.
+/// Makes the rows of a joint at its bodies' current poses. Its J are in the columns (v_A, w_A, v_B, w_B), with r_A and
+/// r_B the arms to the anchors, and angles in units of length: u is the joint's unit, m. For each row, with the angular
+/// parts -arm_A and arm_B of J,
+///
+///     K = J M^-1 J^T = 1/m_A + 1/m_B (linear rows only) + arm_A . I_A^-1 arm_A + arm_B . I_B^-1 arm_B
 struct RowMaker {
   const JointWork& joint;
   const JointBody& a;
   const JointBody& b;
   JointRows& rows;
-  Vec3<Real> gap = {};  ///< from A's anchor to B's, m
-  Matrix3 frame = {};   ///< of A, in the world
-  Quat relative = {};   ///< B's frame in A's
+  Vec3<Real> gap = {};  ///< from A's anchor to B's, m: p_B - p_A
+  Matrix3 frame = {};   ///< A's joint frame in the world
+  Quat relative = {};   ///< B's joint frame in A's
 
-  /// A row that acts along `axis` at B's anchor, whichever way off A's is.
+  /// A linear row along d = `axis` at B's anchor, also if A's anchor is elsewhere:
+  ///
+  ///     C = d . gap,  J = (-d, -(r_A + gap) x d, d, r_B x d)
   JointRow linear(const Vec3<Unit>& axis) const {
     const Vec3<Unit> way = unit_held(in_metres(rows.arm[0], a.exponent) + gap, a.exponent);
     return {axis, {held_cross(way, axis), held_cross(rows.arm[1], axis)}};
   }
+  /// An angular row about a = `axis`:
+  ///
+  ///     C = angle u,  J = (0, -a u, 0, a u)
   JointRow angular(const Vec3<Unit>& axis) const {
     return {{k_zero_unit, k_zero_unit, k_zero_unit},
             {scale_by_power(axis, joint.exponent - a.exponent), scale_by_power(axis, joint.exponent - b.exponent)}};
@@ -51,6 +61,9 @@ struct RowMaker {
     rows.error[rows.rows_held] = error;
     rows.row[rows.rows_held++] = row;
   }
+  /// Locks the anchors together: three rows, along the world's axes e.
+  ///
+  ///     C = e . gap,  J = (-e, -r_A x e, e, r_B x e)
   void hold_points() {
     rows.points = 1;
     rows.error[0] = gap.x;
@@ -58,12 +71,16 @@ struct RowMaker {
     rows.error[2] = gap.z;
     rows.rows_held = 3;
   }
-  /// Twice the vector part of the relative turn is the turn where it is small.
+  /// Locks the relative rotation q (`relative`) about one of A's axes. For a small rotation, twice the vector part of q
+  /// is the rotation vector: C = 2 q_axis u.
   void hold_turn(int axis, Unit part) {
     const Unit sine = relative.w < k_zero_unit ? -part : part;
     hold(angular(frame.column[axis]), length_of(scale_by_power(real_from_unit(sine, 0), 1)));
   }
-  /// Keeps A's axis `axis` on B's: two rows, about A's next two.
+  /// Keeps B's axis b = `axis` aligned with A's. Two angular rows, about A's next two axes. With the
+  /// components of b in A's frame:
+  ///
+  ///     C = -b_last u (row about the next axis),  C = b_next u (row about the last axis)
   void hold_axis(int axis) {
     const int next = (axis + 1) % 3, last = (axis + 2) % 3;
     const Matrix3 turned = matrix_from(relative);
@@ -76,13 +93,18 @@ struct RowMaker {
     rows.value[i] = value;
     rows.shown[i] = Real(1.0);
   }
+  /// The displacement along A's x axis: the value is d . gap.
   void free_slide(int i) { free_motion(i, linear(frame.column[0]), dot(gap, frame.column[0])); }
+  /// The rotation about one of A's axes: the value is angle u.
   void free_turn(int i, int axis, Unit sine) {
     free_motion(i, angular(frame.column[axis]), length_of(twist_of(sine, relative.w)));
   }
-  /// The twist about x that is left of the turn once x has leaned the shortest way: it goes with the spin about the sum
-  /// of the two x, over 1 and the cosine of the lean. Where that grows beyond an arm's range the row shows a part of
-  /// it.
+  /// The twist about x: the part of the relative rotation that remains after x has leaned from A's to B's by the
+  /// shortest rotation. With l the angle of that rotation, the rate of the twist is a . (w_B - w_A), where
+  ///
+  ///     a = (x_A + x_B) / (1 + cos l)
+  ///
+  /// If a exceeds the range of an arm, the row uses only a fraction of it (`shown`).
   void free_twist(int i) {
     const Vec3<Unit> x = {Unit(1.0), k_zero_unit, k_zero_unit}, leaning = rotate(relative, x);
     const Vec3<Unit> own = frame.column[0], other = multiply(frame, leaning);
@@ -95,7 +117,8 @@ struct RowMaker {
     free_motion(i, angular(axis), length_of(twist_of(relative.x, relative.w)));
     if (rate < k_twist_rate_min) rows.shown[i] = max(multiply(rate, share), k_zero);
   }
-  /// How far B's x leans off A's, about the axis that it leans about; and, without a value, the turn round the cone.
+  /// The angle between B's x and A's, about the axis that is perpendicular to both; and, without a value, the rotation
+  /// around the cone.
   void free_lean(int i) {
     const Vec3<Unit> x = {Unit(1.0), k_zero_unit, k_zero_unit}, leaning = rotate(relative, x);
     const Vec3<Real> about = {k_zero, real_from_unit(-leaning.z, 0), real_from_unit(leaning.y, 0)};
@@ -106,14 +129,14 @@ struct RowMaker {
     free_motion(i, angular(in_world), length_of(radians(arc_tangent(unit_from_real(sine, 0), leaning.x))));
     free_motion(i + 1, angular(unit_held(cross(in_metres(frame.column[0], 0), in_world), 0)), k_zero);
   }
-  /// All turns, about A's axes, for friction.
+  /// All rotations, about A's axes, without values: for friction.
   void free_turns() {
     for (int i = 0; i < k_free_motions; ++i) free_motion(i, angular(frame.column[i]), k_zero);
   }
-  /// For a spring, too: their values are the turn that takes A's frame to B's, as a vector.
+  /// All rotations for a spring: the values are the components of the rotation vector from A's frame to B's, times u.
   void free_turns_of_spring() {
     free_turns();
-    const Real sign = relative.w < k_zero_unit ? Real(-1.0) : Real(1.0);  // q and -q are the same turn
+    const Real sign = relative.w < k_zero_unit ? Real(-1.0) : Real(1.0);  // q and -q are the same rotation
     Vec3<Unit> about;
     Real sine = k_zero;
     if (!normalise(in_metres({relative.x, relative.y, relative.z}, 0) * sign, about, sine)) return;
@@ -122,11 +145,12 @@ struct RowMaker {
     rows.value[1] = length_of(angle * about.y);
     rows.value[2] = length_of(angle * about.z);
   }
+  /// The distance of the anchors, with d = gap / |gap|: the value is |gap|, J = (-d, -r_A x d, d, r_B x d).
   void free_distance() {
     Vec3<Unit> axis;
     Real apart = k_zero;
     if (!normalise(gap, axis, apart)) axis = {Unit(1.0), k_zero_unit, k_zero_unit};
-    // Each end is pulled at its own anchor.
+    // Each end has the arm to its own anchor.
     const JointRow row = {axis, {held_cross(rows.arm[0], axis), held_cross(rows.arm[1], axis)}};
     free_motion(0, row, apart);
   }
@@ -138,7 +162,7 @@ struct RowMaker {
   }
 };
 
-/// The response of a row with no joint but this one, over the joint's unit of impulses.
+/// K of a row alone, over the joint's unit of impulses.
 Scaled own_response(const SolverBodies& bodies, const JointStage& stage, const JointWork& work, const JointRow& row) {
   Scaled sum = Scaled(0.0);
   for (int end = 0; end < 2; ++end) {
@@ -157,25 +181,26 @@ Scaled own_response(const SolverBodies& bodies, const JointStage& stage, const J
 bool has_ball_spring(const JointState& joint) {
   return static_cast<JointType>(joint.type) == JointType::ball && joint.frequency[0] > k_zero;
 }
-/// The axis that describes what drives a free motion: the spring of a ball drives all its turns.
+/// The axis whose settings drive a free motion. The spring of a ball joint drives all its rotations with those of axis
+/// 0.
 int driving_axis(const JointState& joint, int i) {
   return static_cast<JointType>(joint.type) == JointType::ball ? 0 : i;
 }
 
-/// A place or speed of a free motion as rows have it: of an angle that at the joint's unit.
+/// A position or speed of a free motion in the units of rows: an angle is multiplied by the joint's unit.
 Real as_shown(const JointState& joint, const JointWork& work, int i, Real value) {
   return scale_by_power(value, is_angular(static_cast<JointType>(joint.type), i) ? work.exponent : 0);
 }
-/// What a spring pulls to: a ball's, to where the frames are one.
+/// The position that a spring pulls to. For a ball joint: both frames are equal.
 Real target_of(const JointState& joint, const JointWork& work, int i) {
   return has_ball_spring(joint) ? k_zero : as_shown(joint, work, i, joint.target[i]);
 }
-/// The speed that a motor or a spring wants.
+/// The target speed of a motor or a spring.
 Real speed_wanted(const JointState& joint, const JointWork& work, int i) {
   return has_ball_spring(joint) ? k_zero : as_shown(joint, work, i, joint.speed[i]);
 }
 
-/// A part of a tick's impulse, in a row's unit.
+/// The part of a tick's impulse that one substep has, in a row's unit.
 Real in_substep(Real impulse, Scaled share, const JointWork& work, const JointRow& row) {
   bool saturated = false;
   return min(multiply(impulse, scaled_by_power(share, -impulse_power(work, row_kind(row))), saturated),
@@ -187,15 +212,15 @@ Real largest_push(const JointState& joint, int i, Scaled share, const JointWork&
   if (!is_positive(joint.force_max[axis])) return k_joint_impulse_max;
   return in_substep(work.bound[axis], share, work, work.free_row[i]);
 }
-/// And of friction.
+/// The largest impulse of friction in a substep.
 Real largest_drag(int i, Scaled share, const JointWork& work) {
   return in_substep(work.brake[row_kind(work.free_row[i])], share, work, work.free_row[i]);
 }
 
-/// A damped spring whose stiffness is that of the frequency with the two bodies alone. Source: Catto, "Soft
-/// Constraints", GDC 2011.
+/// A damped spring. Its stiffness is the one at which the two bodies alone have the given frequency.
+/// Source: Catto, "Soft Constraints", GDC 2011.
 struct Spring {
-  Scaled rate;     ///< rad/s
+  Scaled rate;     ///< angular frequency, rad/s
   Scaled phase;    ///< rate x substep
   Scaled damping;  ///< 2 damping ratio + phase
 
@@ -203,7 +228,7 @@ struct Spring {
       : rate(scaled_from(k_two_pi * joint.frequency[driving_axis(joint, i)])),
         phase(multiply(rate, scaled_from(settings.time))),
         damping(add(scaled_by_power(scaled_from(joint.damping_ratio[driving_axis(joint, i)]), 1), phase)) {}
-  /// What it gives in a substep over what would stop the motion at once.
+  /// The ratio of its impulse in a substep to the impulse that stops the motion.
   Scaled stiffness() const { return multiply(phase, damping); }
 };
 
@@ -216,14 +241,15 @@ DriveMode free_mode(const JointState& joint, int i) {
   return is_braked(joint, i) ? DriveMode::brake : DriveMode::idle;
 }
 
-/// How fast a free motion goes before anything is solved, m/s.
+/// Speed of a free motion before anything is solved, m/s.
 Real speed_of(const JointStage& stage, const JointWork& work, int i) {
   const JointBody &a = stage.bodies[work.body[0]], &b = stage.bodies[work.body[1]];
   const JointRow& row = work.free_row[i];
   return dot(b.velocity - a.velocity, row.axis) + dot(b.spin, row.arm[1]) - dot(a.spin, row.arm[0]);
 }
 
-/// What of that gravity, forces and torques have just added: a damper that held against it would carry a part of it.
+/// The part of that speed that gravity, forces and torques have just added. A damper that acted on it would carry a
+/// part of these forces.
 Real speed_pushed(const SolverBodies& bodies, const JointStage& stage, const JointWork& work, int i) {
   const JointRow& row = work.free_row[i];
   Real speed = k_zero;
@@ -238,7 +264,8 @@ Real speed_pushed(const SolverBodies& bodies, const JointStage& stage, const Joi
   return speed;
 }
 
-/// A spring that is soft beside the substep needs no row: it pushes by where it is, which loses nothing of its swing.
+/// A spring that is soft relative to the substep needs no row: it pushes with the impulse at its current displacement.
+/// This loses no energy of its oscillation.
 void push_softly(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, int i,
                  JointWork& work) {
   const JointState& joint = stage.joints[work.joint];
@@ -257,7 +284,7 @@ void push_softly(const StepSettings& settings, const SolverBodies& bodies, const
   work.mode[i] = DriveMode::constant;
 }
 
-/// The pull of a stiff spring at its joint where it is.
+/// The impulse of a stiff spring at its current displacement, without its damping.
 Real standing_pull(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, int i,
                    const JointWork& work) {
   const JointState& joint = stage.joints[work.joint];
@@ -271,8 +298,9 @@ Real standing_pull(const StepSettings& settings, const SolverBodies& bodies, con
   return clamp(to_real(divide(pull, response), saturated), -most, most);
 }
 
-/// Friction beside a spring. A soft spring pushes, and friction holds against it; a stiff one is held where friction
-/// bears its pull, and else drags friction along.
+/// Combines friction with a spring. With a soft spring, a friction row acts against the spring's impulse. With a stiff
+/// spring: if friction can carry the spring's impulse, a friction row locks the motion; otherwise the spring has the
+/// row and friction is a constant impulse.
 void brake_spring(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, int i,
                   JointWork& work) {
   if (work.mode[i] == DriveMode::constant) {
@@ -290,14 +318,15 @@ void brake_spring(const StepSettings& settings, const SolverBodies& bodies, cons
   }
 }
 
-/// What is within a limit may go as far as that; what is beyond comes back, without speed.
+/// Sets the target of a limit's row. Within the limit: J v = -C / h, so that the motion may reach the limit. Beyond it:
+/// J v = 0, and a shift of positions corrects C.
 void drive_to_limit(const StepSettings& settings, Real over, bool within, uint32_t row, JointWork& work) {
   work.wanted[row] = within ? -speed_over(settings, over) : k_zero;
   work.error[row] = within ? k_zero : over;
 }
 
-/// What a motor or spring gives beside a limit that holds, if it pushes away from it: then the limit bears the rest, or
-/// is let go.
+/// The impulse of a motor or spring next to an active limit, if it pushes away from the limit. The limit then carries
+/// the rest, or is deactivated.
 Real push_off_limit(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, int i,
                     const JointWork& work) {
   const JointState& joint = stage.joints[work.joint];
@@ -312,7 +341,7 @@ Real push_off_limit(const StepSettings& settings, const SolverBodies& bodies, co
   return up ? max(push, k_zero) : min(push, k_zero);
 }
 
-/// Whether a motor or friction at its greatest force takes the motion beyond the speed that it wants.
+/// Whether a motor or friction at its greatest force drives the motion beyond its target speed.
 bool overdrives(const JointStage& stage, int i, const JointWork& work) {
   if (work.mode[i] != DriveMode::constant) return false;
   const JointState& joint = stage.joints[work.joint];
@@ -324,7 +353,7 @@ bool overdrives(const JointStage& stage, int i, const JointWork& work) {
   return push > k_zero ? beyond > k_overdriven : beyond < -k_overdriven;
 }
 
-/// The limit that a free motion would pass by that in the substep, or what its mode is.
+/// The limit that a free motion would pass by more than `passed` in the substep; if there is none, its current mode.
 DriveMode mode_at_limit(const StepSettings& settings, const JointStage& stage, int i, Real passed,
                         const JointWork& work) {
   const JointState& joint = stage.joints[work.joint];
@@ -349,7 +378,7 @@ int driven_motion_count(const JointState& joint) {
 }
 
 bool is_limited(const JointState& joint, int motion) {
-  // Unsigned: in compilers' eyes too, no motion of a joint without free ones is asked for a limit.
+  // Unsigned, so that compilers can see that the index is in range for joints without free motions.
   const uint32_t free_motions = static_cast<uint32_t>(free_motion_count(static_cast<JointType>(joint.type)));
   return static_cast<uint32_t>(motion) < free_motions && joint.limited[motion] != 0;
 }
@@ -531,7 +560,7 @@ bool release_limits(const JointState& joint, bool changes, JointWork& work) {
       work.given[i] += work.driven_total[i];
       work.driven_total[i] = k_zero;
     }
-    return true;  // the other one's is not what it would be without this one
+    return true;  // the impulse of the other limit must be computed again without this limit
   }
   return false;
 }

@@ -10,35 +10,46 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr uint32_t k_gathers = 4;  ///< of impulses that are beyond what bodies can take, before they are dropped
-constexpr Scaled k_gathered_share = 0.015625;  ///< of them that is tried next
-constexpr uint32_t k_decisions = 12;           ///< tries to solve with limits and motors as they must be
-constexpr uint32_t k_takings = 3;              ///< of those, in which limits are taken up: then they are only let go
+/// Number of tries to scale down impulses that exceed the bodies' range. The last try sets them to zero.
+constexpr uint32_t k_gathers = 4;
+constexpr Scaled k_gathered_share = 0.015625;  ///< factor of each other try
+/// Number of solves to find the drive modes of limits and motors.
+constexpr uint32_t k_decisions = 12;
+/// Limits and drives can be activated in the first k_takings of these solves. Later they are only deactivated.
+constexpr uint32_t k_takings = 3;
 
-/// What a substep makes up for of the errors of positions, and no faster than so.
+/// The fraction of the errors of position that a substep corrects, up to the speeds below.
 constexpr Unit k_closed = 0.15;
-/// And in an island with contacts, which learn of it only when they are pressed.
+/// The same in an island with contacts: contacts only react once the shifts have made their bodies overlap.
 constexpr Unit k_closed_with_contacts = 0.05;
 constexpr Real k_closing_speed_max = 4.0;  ///< m/s
 constexpr Real k_closing_spin_max = 16.0;  ///< rad/s
-constexpr int k_gap_power = 20;            ///< where all gaps are below 2^-k_gap_power of their joint's unit they stay
-constexpr int k_turned_power = 6;          ///< of a turn in rad: what has turned by less in the tick keeps its gyration
-constexpr int k_spin_power_max = 14;       ///< of a spin, m/s at the joints: beyond it a body is slowed
-constexpr int k_slowings = 16, k_slowing_power = 2;  ///< how often, and each time by how much
-constexpr int k_matrix_power = 3;                    ///< by how much a matrix of Units makes a vector greater at most
-constexpr int k_side_power_max = 16;                 ///< of the sides of a solve
-constexpr int k_straight_power = 20;                 ///< of rad: see any_turns()
+/// If all gaps are below 2^-k_gap_power of their joint's unit, they are not corrected.
+constexpr int k_gap_power = 20;
+/// A body that has rotated by less than 2^-k_turned_power rad in the tick keeps its inverse inertia.
+constexpr int k_turned_power = 6;
+/// Limit of a body's angular velocity, m/s, in the unit of its joints: 2^k_spin_power_max. A faster body is slowed
+/// down.
+constexpr int k_spin_power_max = 14;
+/// Number of times that a body is slowed down at most, and the power of two for each time.
+constexpr int k_slowings = 16, k_slowing_power = 2;
+/// A matrix of Units enlarges a vector by at most 2^k_matrix_power.
+constexpr int k_matrix_power = 3;
+/// Limit of the right-hand sides of a solve, as a power of two.
+constexpr int k_side_power_max = 16;
+/// Smallest rotation for curved paths, 2^-k_straight_power rad: see any_turns().
+constexpr int k_straight_power = 20;
 
-/// The sum of two lengths, held so that a Real tells its double.
+/// The sum of two lengths, clamped so that its double fits a Real.
 constexpr Real k_length_max = 32768.0;
 Real held_sum(Real a, Real b) { return min(a + min(b, k_length_max), k_length_max); }
 
-/// What a joint keeps of a substep's impulses.
+/// The ratio of the impulses that a joint stores to those of a substep.
 Scaled kept_share(const StepSettings& settings) {
   return scaled_by_power(scaled_from_count(settings.substeps), -k_kept_power);
 }
 
-/// Visits the bodies of an island that joints hold and that move.
+/// Visits the mobile bodies of an island that have joints.
 template <class Visit>
 void each_body(const SolverBodies& bodies, Span<const uint32_t> slots, JointStage& stage, const Visit& visit) {
   for (const uint32_t slot : slots) {
@@ -49,7 +60,7 @@ void each_body(const SolverBodies& bodies, Span<const uint32_t> slots, JointStag
   }
 }
 
-/// Solves one island's joints.
+/// Solves the joints of one island.
 struct Solver {
   const StepSettings& settings;
   const SolverBodies& bodies;
@@ -57,7 +68,7 @@ struct Solver {
   JointStage& stage;
   Span<const uint32_t> order;
   JointFactor factor;
-  bool touches;  ///< whether the island has contacts, which are held in turn
+  bool touches;  ///< the island has contacts, which are solved in alternation with the joints
   uint32_t clamped = 0, undecided = 0;
 
   Solver(const StepSettings& of_step, const SolverBodies& all, Span<const uint32_t> of_island, const Island& island,
@@ -80,7 +91,7 @@ struct Solver {
     for (const uint32_t index : order) visit(stage.work[index]);
   }
 
-  /// Where the bodies are now.
+  /// Sets the current poses of mobile bodies.
   void place_moving(Real elapsed) {
     each_mobile([&](JointBody& body) {
       const BodyWork& now = bodies.work[body.slot];
@@ -115,13 +126,13 @@ struct Solver {
   Vec3<Real> spin_from(const JointBody& body, const Vec3<Real>& momentum) const {
     return world_spin(bodies.traits[body.slot], bodies.work[body.slot].gyration, momentum, body.above);
   }
-  /// Whether a body's momentum gives a spin with which the speeds of rows fit a Real.
+  /// Whether the angular velocity of a body with this angular momentum is so small that the speeds of rows fit a Real.
   bool spins_within(const JointBody& body, const Vec3<Real>& momentum) const {
-    const int power = bodies.work[body.slot].gyration.exponent + body.above;  // of a matrix of 3 x 3 Units
+    const int power = bodies.work[body.slot].gyration.exponent + body.above;  // exponent of a matrix of 3 x 3 Units
     if (exponent_above(greatest(momentum)) + power + k_matrix_power <= k_spin_power_max) return true;
     return greatest(spin_from(body, momentum)) <= scale_by_power(Real(1.0), k_spin_power_max);
   }
-  /// A body that would turn faster keeps a part of its momentum.
+  /// Reduces the angular momentum of a body that would rotate faster.
   void slow_to_fit(const JointBody& body, Vec3<Real>& momentum) {
     for (int left = k_slowings; left > 0 && !spins_within(body, momentum); --left) {
       momentum = scale_by_power(momentum, -k_slowing_power);
@@ -134,7 +145,7 @@ struct Solver {
     body.spin = spin_from(body, motion.momentum);
   }
 
-  /// Whether a body that has turned in the tick has another gyration than at its start.
+  /// Whether the body's rotation in the tick has changed its inverse inertia.
   bool has_turned(const JointBody& body) const {
     const BodyTraits& traits = bodies.traits[body.slot];
     return !is_isotropic(traits) &&
@@ -164,7 +175,7 @@ struct Solver {
     if (elapsed == k_zero) each_joint([&](JointWork& work) { choose_unit(stage, work); });
   }
 
-  /// Takes up how the bodies move now, and chooses how the free motions are driven.
+  /// Reads the bodies' velocities, and chooses the drive modes of the free motions.
   void start() {
     each_mobile([&](JointBody& body) { load_motion(body); });
     each_joint([&](JointWork& work) {
@@ -174,7 +185,7 @@ struct Solver {
     });
   }
 
-  /// Motors at their greatest force, and soft springs, push without a row.
+  /// Applies the constant impulses of motors at their greatest force and of soft springs, which have no row.
   void push(const JointWork& work) {
     for (int i = 0; i < k_free_motions; ++i) {
       if (work.constant[i] == k_zero) continue;
@@ -190,7 +201,7 @@ struct Solver {
     }
   }
 
-  /// The speeds of a joint's rows.
+  /// Computes J v for a joint's rows.
   void speeds(const JointWork& work, Real (&speed)[k_joint_rows_max]) const {
     Real of_a[k_joint_rows_max];
     const JointBody &a = end_of(work, 0), &b = end_of(work, 1);
@@ -198,17 +209,17 @@ struct Solver {
     show(work, 1, b.velocity, b.spin, speed);
     for (uint32_t k = 0; k < work.rows; ++k) speed[k] -= of_a[k];
   }
-  /// Of a row's speeds in a solve.
+  /// Power of two between the speed of a row and its right-hand side.
   static int power_of(const JointWork& work, uint32_t row) { return work.row_power[row] - k_impulse_power; }
-  /// What a row asks for as a side of a solve.
+  /// The right-hand side for the given change of a row's speed.
   Real side_of(const JointWork& work, uint32_t row, Real speed) {
     const int power = power_of(work, row);
     clamped += clamp_component(speed, scale_by_power(Real(1.0), k_side_power_max - (power > 0 ? power : 0)));
     return scale_by_power(speed, power);
   }
 
-  /// Whether a body turns by more than 2^-k_straight_power rad in the substep: below, joints' ways do not bend by what
-  /// can be told. Rods turn without their bodies.
+  /// Whether a body rotates by more than 2^-k_straight_power rad in the substep. Below that, the curvature of the
+  /// anchors' paths is below the precision. A rod can rotate without its bodies, so a distance joint always counts.
   bool any_turns() {
     bool turns = false;
     each_mobile([&](JointBody& body) { load_motion(body); });
@@ -223,7 +234,7 @@ struct Solver {
     return turns;
   }
 
-  /// Twice the energy that holding the rows takes from the motion before the substep.
+  /// Twice the energy that solving the rows removes from the motion before the substep.
   Scaled energy_of_turning() {
     each_mobile([&](JointBody& body) {
       body.velocity = body.velocity_before;
@@ -237,7 +248,7 @@ struct Solver {
     return factor.substitute();
   }
 
-  /// Makes the factor of the rows that the joints have as they are driven.
+  /// Makes the factor of the joints' rows, with the current drive modes.
   void make_factor() {
     each_joint([&](JointWork& work) { add_driven_rows(settings, bodies, stage, work); });
     factor.make();
@@ -245,7 +256,7 @@ struct Solver {
     each_joint([&](JointWork& work) { push(work); });
   }
 
-  /// Asks the rows for the speeds that they want, from how the bodies move.
+  /// Sets the right-hand sides to target - J v, from the bodies' current velocities.
   void ask_for_speeds() {
     each_joint([&](JointWork& work) {
       Real speed[k_joint_rows_max];
@@ -257,7 +268,7 @@ struct Solver {
       }
     });
   }
-  /// Holds the rows, until all limits, motors and brakes are as they were taken to be.
+  /// Solves the rows, repeatedly until the drive modes of all limits, motors and friction agree with the impulses.
   void hold(Real elapsed) {
     for (uint32_t decision = 1;; ++decision) {
       each_mobile([&](JointBody& body) {
@@ -271,7 +282,7 @@ struct Solver {
       each_joint([&](JointWork& work) {
         if (bound_drives(stage.joints[work.joint], settings.share, !last, work)) wrong = true;
       });
-      if (!wrong) {  // a limit's impulse is what it is beside drives that stay within their bounds
+      if (!wrong) {  // a limit's impulse is valid only if all drives are within their bounds
         each_joint([&](JointWork& work) {
           if (release_limits(stage.joints[work.joint], !last, work)) wrong = true;
         });
@@ -287,7 +298,7 @@ struct Solver {
     each_joint([&](JointWork& work) { count_in(work); });
   }
 
-  /// Whether limits or drives are taken up again for how the bodies move with what has been gathered.
+  /// Activates limits and drives for the velocities with the gathered impulses. Returns whether anything changed.
   bool take_up_drives() {
     bool open = false;
     each_joint([&](const JointWork& work) {
@@ -317,10 +328,10 @@ struct Solver {
     return most;
   }
 
-  /// Solves for the sides that `ask` sets, and makes the impulses what the bodies get. Where rows ask for what others
-  /// do not allow, which takes impulses over their softness, beyond range, rows are softer from there on in this
-  /// substep. Where that is not enough all impulses are made less: a part of what holds the rows takes energy too.
-  /// Returns how often that was.
+  /// Solves for the right-hand sides that `ask` sets, and gathers the impulses of the bodies. Rows with contradictory
+  /// targets need impulses of target / softness, which can exceed the range. Then all rows become softer for the rest
+  /// of this substep. If this is not enough, all impulses are scaled down: a part of a projection also removes energy.
+  /// Returns the number of times that they were scaled.
   template <class Ask>
   uint32_t solve_for(const Ask& ask) {
     const uint32_t before = factor.saturated;
@@ -333,7 +344,7 @@ struct Solver {
       factor.saturated = before;
     }
   }
-  /// Returns how often the impulses were made less.
+  /// Scales the impulses down until they fit. Returns the number of times that they were scaled.
   uint32_t gather_less() {
     uint32_t lessened = 0;
     const Real most = greatest_impulse();
@@ -347,7 +358,7 @@ struct Solver {
     }
     return lessened;
   }
-  /// False if a body gets more than fits.
+  /// Computes the velocity changes of the bodies. Returns false if one exceeds its range.
   bool gather_joints() {
     bool fits = true;
     each_mobile([&](JointBody& body) { body.push = body.twist = k_zero_vector; });
@@ -365,16 +376,16 @@ struct Solver {
       for (uint32_t k = 0; k < work.rows; ++k) work.impulse[k] = multiply(work.impulse[k], share);
     });
   }
-  /// Whether nothing has left its range yet.
+  /// Whether no value has been clamped so far.
   bool is_sound() const { return clamped + factor.saturated == 0; }
-  /// What left its range on the way is no solution: as much of it as takes energy.
+  /// If a value was clamped, the impulses are not a solution: scales them so that they add no energy.
   void keep_sound(Real elapsed) {
     if (is_sound()) return;
     scale_all(share_within(Scaled(0.0)));
     place_still(elapsed);
   }
 
-  /// What the joints have given a body becomes its motion.
+  /// Adds the joints' velocity changes to the body's motion.
   void apply(JointBody& body) {
     BodyMotion& motion = bodies.motions[body.slot];
     BodyWork& now = bodies.work[body.slot];
@@ -383,14 +394,14 @@ struct Solver {
     motion.momentum += body.twist + body.given_twist;
     clamped += clamp_vector(motion.velocity, k_speed_work_max) + clamp_vector(motion.momentum, k_spin_work_max);
     slow_to_fit(body, motion.momentum);
-    if (DETENT_FIXED) {  // it is not the contacts' (contact_motion.h)
+    if (DETENT_FIXED) {  // not an impulse of contacts (contact_motion.h)
       now.contact_velocity -= motion.velocity - velocity_before;
       now.contact_momentum -= motion.momentum - momentum_before;
     }
     body.push = body.twist = body.given_push = body.given_twist = k_zero_vector;
   }
 
-  /// What has acted counts among what the joint gives in this substep.
+  /// Adds the applied impulses to the joint's sums for this substep.
   static void count_in(JointWork& work) {
     for (uint32_t k = 0; k < work.rows_held; ++k) work.total[k] += work.impulse[k];
     for (int i = 0; i < k_free_motions; ++i) {
@@ -400,17 +411,18 @@ struct Solver {
     }
   }
 
-  /// Holds the rows once more: takes out what contacts have added to their speeds.
+  /// Solves the rows once more: removes the speed that contacts have added.
   void hold_again(Real elapsed) {
     each_mobile([&](JointBody& body) {
-      apply(body);  // nothing: what contacts have made of its motion is brought within range
+      // Only clamps the motion after the contacts: no impulses of joints are pending.
+      apply(body);
       load_motion(body);
     });
     place_still(elapsed);
     hold(elapsed);
     renew_spins();
   }
-  /// The contacts' copy of the bodies' spins.
+  /// Updates the bodies' angular velocities that contacts read.
   void renew_spins() {
     each_mobile([&](JointBody& body) {
       BodyWork& now = bodies.work[body.slot];
@@ -418,8 +430,8 @@ struct Solver {
     });
   }
 
-  /// Asks the rows for what would take their errors to those where the bodies are heading: the rows hold along straight
-  /// ways, and joints turn.
+  /// Sets the right-hand sides such that the errors at the predicted poses stay equal to the current errors. This is
+  /// necessary because rows act along straight lines, while joints rotate.
   void ask_for_curves(Real elapsed) {
     each_mobile([&](JointBody& body) {
       const BodyMotion& motion = bodies.motions[body.slot];
@@ -448,7 +460,8 @@ struct Solver {
     place_moving(elapsed);
   }
 
-  /// Adds the motion that follows the joints' curves, as far as it has no more energy than holding the rows has taken.
+  /// Adds the velocities by which the joints follow their curved paths, scaled so that they add at most the energy
+  /// `taken`.
   void follow_curves(Real elapsed, Scaled taken) {
     clamped += solve_for([&] { ask_for_curves(elapsed); });
     scale_all(share_within(is_sound() ? taken : Scaled(0.0)));
@@ -456,9 +469,9 @@ struct Solver {
     each_joint([&](JointWork& work) { count_in(work); });
   }
 
-  /// The greatest x in [0, 1] for which x times the impulses, which have been gathered, add no more than that: with
-  /// what they have by themselves and what they share with the motion, x^2 own + 2 x shared <= allowed, all twice
-  /// energies.
+  /// The largest x in [0, 1] for which x times the gathered impulses add at most the energy `allowed`. With the energy
+  /// `own` of the impulses and the product `shared` of impulses and motion: x^2 own + 2 x shared <= allowed; all are
+  /// twice energies.
   Scaled share_within(Scaled allowed) {
     EnergySum own, shared;
     const auto add_up = [&](EnergySum& sum) {
@@ -492,7 +505,7 @@ struct Solver {
     scale_impulses(share);
   }
 
-  /// What does not move for the solver has no part in what it gives.
+  /// Sets the velocities of all other bodies to zero: they do not contribute to the energy of the impulses.
   void place_motionless() {
     each_joint([&](JointWork& work) {
       for (const uint32_t at : work.body) {
@@ -502,7 +515,7 @@ struct Solver {
     });
   }
 
-  /// Whether there is more than next to nothing to close.
+  /// Whether any error of position is large enough to be corrected.
   bool any_gaps() {
     bool opens = false;
     each_joint([&](const JointWork& work) {
@@ -512,7 +525,7 @@ struct Solver {
     return opens;
   }
 
-  /// Asks the rows for a part of their errors. Returns the sum of what that closes, m.
+  /// Sets the right-hand sides to a fraction of the errors. Returns the sum of the corrections, m.
   Real ask_for_gaps() {
     Real closed = k_zero;
     each_joint([&](JointWork& work) {
@@ -529,7 +542,7 @@ struct Solver {
     return closed;
   }
 
-  /// Finds the shifts that close gaps: of positions alone.
+  /// Computes the shifts of positions that close gaps, without changing velocities.
   void close_gaps() {
     if (!any_gaps()) {
       each_mobile([&](JointBody& body) { body.shift = body.shift_turn = k_zero_vector; });
@@ -537,9 +550,10 @@ struct Solver {
     }
     const uint32_t before = factor.saturated;
     Real closed = k_zero;
-    solve_for([&] { closed = ask_for_gaps(); });  // where the shifts are too large for a substep it closes a part
+    solve_for([&] { closed = ask_for_gaps(); });  // shifts that are too large for a substep are scaled down
     if (factor.saturated != before) scale_all(Scaled(0.0));
-    // The ways of turns bend by half of their square: no more than half of what they close.
+    // A rotation moves an anchor off its straight line by angle^2 / 2 of the arm. Scale the shifts so that this is at
+    // most half of what they close.
     Real bent = k_zero;
     each_mobile([&](JointBody& body) {
       body.shift = body.push * settings.time;
@@ -568,7 +582,7 @@ struct Solver {
     }
   }
 
-  /// Bodies turn with their own inertia, at the spin that they have with that of the substep.
+  /// Bodies rotate with their own inertia, at the angular velocity that they have with the inertia of the substep.
   void lend_momenta() {
     each_mobile([&](JointBody& body) {
       BodyMotion& motion = bodies.motions[body.slot];
@@ -576,7 +590,7 @@ struct Solver {
       motion.momentum = own_momentum(body, motion.momentum);
     });
   }
-  /// Gives the bodies their own gyrations and momenta.
+  /// Restores the bodies' own inverse inertias and angular momenta.
   void end() {
     each_mobile([&](JointBody& body) {
       body.renewed = body.slowed;
@@ -585,12 +599,12 @@ struct Solver {
       BodyWork& now = bodies.work[body.slot];
       const Vec3<Real> before = motion.momentum;
       motion.momentum = own_momentum(body, before);
-      if (DETENT_FIXED) now.contact_momentum += before - motion.momentum;  // it is not the contacts'
+      if (DETENT_FIXED) now.contact_momentum += before - motion.momentum;  // not an impulse of contacts
       now.gyration = world_gyration(bodies.traits[body.slot], body.axes);
     });
   }
 
-  /// The reactions of a joint.
+  /// Adds the impulses of a joint to its sums of force and torque.
   static void add_up(JointWork& work) {
     if (work.points != 0) work.force_sum += Vec3<Real>{work.total[0], work.total[1], work.total[2]};
     for (uint32_t k = first_other(work); k < work.rows_held; ++k) add_row(work, work.row[k], work.total[k]);
@@ -608,8 +622,7 @@ struct Solver {
       work.torque_sum += real_from(row.arm[1]) * impulse;
   }
 
-  /// What the next substep's inertias are made with: no more than k_joint_impulse_max of it counts, and nothing else
-  /// takes it.
+  /// Stores the impulses, which load_inertia() uses in the next substep. Each is clamped to k_joint_impulse_max.
   void keep(JointWork& work, Scaled share) const {
     Real(&kept)[k_joint_rows_max] = stage.joints[work.joint].impulse;
     const Scaled over_share = multiply(share, work.over_lighter);
@@ -623,8 +636,8 @@ struct Solver {
       store(work.rows_held + i, row_kind(work.free_row[i]), work.driven_total[i]);
     work.pull = last_pull(stage, work);
   }
-  /// Likewise with what the curves took, which counts for no more than the rest: of rows that hold the same thing twice
-  /// curves ask for what contradicts, and these pull against each other as hard as their softness lets them.
+  /// Stores the impulses including those of follow_curves(), such that the pull at most doubles. Redundant rows get
+  /// contradictory targets from the curves, and then pull against each other as hard as their softness permits.
   void keep_all(JointWork& work, Scaled share) const {
     const Real most = scale_by_power(work.pull, 1);
     keep(work, share);
@@ -694,12 +707,12 @@ uint32_t shift_joints(const SolverBodies& bodies, Span<const uint32_t> slots, Jo
   each_body(bodies, slots, stage, [&](const JointBody& body) {
     BodyWork& now = bodies.work[body.slot];
     BodyMotion& motion = bodies.motions[body.slot];
-    const Vec3<Real> before = body.momentum_before;  // as lent
+    const Vec3<Real> before = body.momentum_before;  // with the body's own inertia
     now.displacement += body.shift;
     if (!(body.shift_turn == k_zero_vector)) {
       const Quat turn = rotation_from_vector(body.shift_turn);
       now.rotation = normalise(multiply(turn, now.rotation));
-      // The momentum turns with the body: so its energy stays.
+      // The angular momentum rotates with the body: so its energy stays the same.
       motion.momentum = rotate(turn, motion.momentum);
       now.turn += scale_by_power(body.shift_turn, bodies.traits[body.slot].size_exponent);
     }

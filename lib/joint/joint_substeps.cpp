@@ -4,28 +4,37 @@
 #include "motion/gyration.h"
 #include "motion/spin.h"
 
-/// How many substeps joints need. What turns by w in a substep leaves the straight way that its joints are held along
-/// by w^2/2 of its arm. The solver makes up for that but for a part of w of it. So the square of the number of substeps
-/// goes with what the ways bend in a whole tick, over the smaller body's unit: a chain that hangs or swings slowly
-/// takes the fewest, and so does a wheel, which turns about its anchor.
+/// The number of substeps that joints need. If a body rotates by w in a substep, its anchors leave the straight lines
+/// along which the rows act, by w^2/2 of the arm. The solver corrects this, except for a fraction w of it. So the
+/// squared number of substeps is proportional to the curvature of the anchors' paths in a whole tick, over the smaller
+/// body's unit. A chain that hangs or swings slowly takes the fewest substeps. So does a wheel, which rotates about its
+/// anchor.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr Real k_turn_max = 4.0;  ///< rad, each component of a turn: beyond those the number is at its bound
+/// Limit of each component of a rotation vector, rad. With larger ones the number of substeps is at its bound.
+constexpr Real k_turn_max = 4.0;
 
-constexpr uint32_t k_least = 2;                ///< one substep would open what is taut by metres
-constexpr uint32_t k_least_of_loops = 3;       ///< also by what hangs on two places, which may be taut between them
-constexpr uint32_t k_least_with_contacts = 4;  ///< their impulses and those of the joints settle over the substeps
-constexpr Scaled k_needed_by_bend = 25.0;      ///< for each squared radian in a tick: 0.2 rad a substep
-constexpr int k_axes_power = 2;                ///< of axes that turn about each other: so much more
+/// A single substep would open taut joints by metres.
+constexpr uint32_t k_least = 2;
+/// For islands with loops: bodies that hang on two places may be taut between them.
+constexpr uint32_t k_least_of_loops = 3;
+/// For islands with contacts: the impulses of contacts and joints converge over the substeps.
+constexpr uint32_t k_least_with_contacts = 4;
+/// Squared substeps per squared radian of rotation in a tick: 0.2 rad per substep.
+constexpr Scaled k_needed_by_bend = 25.0;
+/// Power of two by which the rotation of the two bodies' axes about each other counts more.
+constexpr int k_axes_power = 2;
 constexpr Scaled k_needed_by_bend_max = 1024.0;
-constexpr Scaled k_needed_by_spring = 25.0;      ///< for each squared radian of its phase in a tick
-constexpr Scaled k_needed_by_spring_max = 16.0;  ///< stiffer ones are solved implicitly
+/// Squared substeps per squared radian of a spring's phase in a tick.
+constexpr Scaled k_needed_by_spring = 25.0;
+/// Limit for springs; stiffer springs are solved implicitly.
+constexpr Scaled k_needed_by_spring_max = 16.0;
 
 Scaled greater(Scaled a, Scaled b) { return less(a, b) ? b : a; }
 Scaled lesser(Scaled a, Scaled b) { return less(a, b) ? a : b; }
-/// The angle by which a body turns in a tick, each component held to +-k_turn_max.
+/// The rotation vector of a body in a tick. Each component is clamped to +-k_turn_max.
 Vec3<Real> turn_in_tick(const StepSettings& settings, const SolverBodies& bodies, const JointBody& body) {
   const BodyTraits& traits = bodies.traits[body.slot];
   if (type_of(traits) == BodyType::fixed) return k_zero_vector;
@@ -37,7 +46,7 @@ Vec3<Real> turn_in_tick(const StepSettings& settings, const SolverBodies& bodies
   return {angle(spin.x), angle(spin.y), angle(spin.z)};
 }
 
-/// How far the ways of a joint's anchors and axes bend in a tick, over half of the smaller body's unit: squared
+/// The curvature of the paths of a joint's anchors and axes in a tick, over half of the smaller body's unit: squared
 /// radians.
 Scaled bend_in_tick(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage,
                     const JointWork& work) {
@@ -53,7 +62,7 @@ Scaled bend_in_tick(const StepSettings& settings, const SolverBodies& bodies, co
   return add(bend, scaled_by_power(scaled_from(absolute_sum(cross(turn[0], turn[1]))), k_axes_power));
 }
 
-/// The squared angle by which a rod or a rope between two anchors turns in a tick, at most.
+/// An upper bound of the squared angle by which a rod or rope between two anchors rotates in a tick.
 Scaled squared_swing(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage,
                      const JointWork& work) {
   const JointState& joint = stage.joints[work.joint];

@@ -7,10 +7,10 @@
 #include "math/float_bits.h"
 #endif
 
-/// Products, quotients and vectors of the roles, with the same names in all configurations.
+/// Products, quotients and vectors of the number types, with the same names in all configurations.
 ///
 /// Fixed: every function forms its sum of products exactly and rounds once, to nearest, ties up. Results outside the
-/// format wrap unless a function says that it saturates; builds with DETENT_VERIFY stop there.
+/// format wrap unless a function says that it saturates; builds with DETENT_VERIFY trap there.
 /// Float: the plain expression, evaluated from left to right, each operation rounded to nearest, ties to even.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -26,7 +26,7 @@ inline constexpr int k_real_frac = Real::k_frac;
 inline constexpr Real k_real_max = Real::from_raw(INT64_MAX);
 inline constexpr Unit k_unit_max = Unit::from_raw(INT32_MAX);
 
-/// A Unit from a 64-bit result. Overflow: wraps; |value| < 2 by every caller's contract.
+/// A Unit from a 64-bit result. Overflow: wraps; every caller ensures |value| < 2.
 constexpr Unit unit_from_raw(int64_t raw) {
   DETENT_VERIFY_RANGE(raw == static_cast<int32_t>(raw));
   return Unit::from_raw(static_cast<int32_t>(raw));
@@ -37,10 +37,10 @@ constexpr Unit unit_from_product(uint64_t sum) {
 }
 constexpr uint64_t unit_product(Unit a, Unit b) { return static_cast<uint64_t>(int64_t{a.raw} * b.raw); }
 
-/// |a b| < 2.
+/// Range: |a b| < 2.
 DETENT_SHARED constexpr Unit operator*(Unit a, Unit b) { return unit_from_product(unit_product(a, b)); }
 
-/// Real results as they are called, as raw integers: most calling conventions of 32-bit machines return those in
+/// The functions with a Real result, on raw integers: most calling conventions of 32-bit machines return an integer in
 /// registers, but a struct in memory.
 namespace raw {
 DETENT_SHARED constexpr int64_t multiply(int64_t a, int32_t unit) { return Int128::narrow_sum<k_unit_frac>(a, unit); }
@@ -58,7 +58,7 @@ DETENT_SHARED constexpr int64_t min(int64_t a, int64_t b) { return b < a ? b : a
 DETENT_SHARED constexpr int64_t max(int64_t a, int64_t b) { return a < b ? b : a; }
 DETENT_SHARED constexpr int64_t abs(int64_t a) { return 0 < a ? a : subtract_wrapped(0, a); }
 int64_t divide(int64_t a, int64_t b);
-/// Of coordinates; see real_difference().
+/// The difference of coordinates; see real_difference().
 DETENT_SHARED constexpr int64_t difference(Coord::Raw a, Coord::Raw b) {
   constexpr int k_shift = k_real_frac - Coord::k_frac;
   const int64_t difference = subtract_wrapped(a, b);
@@ -85,7 +85,8 @@ inline constexpr int k_unit_step = -24;
 inline constexpr int k_unit_step = -53;
 #endif
 
-/// The common operations on one role. Both arguments equal: `a` is returned, so that signed zeros agree on all targets.
+/// Common operations on one number type. min and max return `a` if both arguments are equal, so that signed zeros agree
+/// on all targets.
 template <class T>
 constexpr T min(T a, T b) {
   return b < a ? b : a;
@@ -199,11 +200,11 @@ DETENT_PASSING constexpr Unit unit_from_real(Real r, int e) {
   return unit_from_raw(shift_64(r.raw, k_unit_frac - k_real_frac - e));
 }
 
-/// (a - b) 2^-e, the difference exact. Range: |result| < 2. Rounding: to nearest, ties up.
+/// (a - b) 2^-e from the exact difference. Range: |result| < 2. Rounding: to nearest, ties up.
 DETENT_SHARED constexpr Unit unit_difference(Coord a, Coord b, int e) {
   const int n = e + Coord::k_frac - k_unit_frac;
   if (n < 2) return unit_from_raw(shift_64(subtract_wrapped(a.raw, b.raw), -n));
-  // Halved first: the 64-bit difference itself can overflow, and the lowest bit cannot alter the rounding.
+  // Halved first, because the 64-bit difference can overflow. The lowest bit cannot change the rounding.
   const int64_t half = (int64_t{a.raw} >> 1) - (int64_t{b.raw} >> 1) - (int64_t{b.raw} & ~int64_t{a.raw} & 1);
   return unit_from_raw(shift_64(half, 1 - n));
 }
@@ -254,7 +255,7 @@ constexpr Real real_from_unit(Unit u, int e) { return scale_by_power(u, e); }
 constexpr Unit unit_from_real(Real r, int e) { return scale_by_power(r, -e); }
 
 #if defined(DETENT_F32)
-/// (a - b) 2^e, the difference exact, rounded once.
+/// (a - b) 2^e from the exact difference, rounded once.
 constexpr float scaled_difference(Coord a, Coord b, int e) {
   const bool negative = a < b;
   const uint64_t magnitude = negative ? static_cast<uint64_t>(b.raw) - static_cast<uint64_t>(a.raw)
@@ -300,7 +301,7 @@ constexpr Vec3<T> scale_by_power(const Vec3<T>& v, int n) {
 }
 /// |x| + |y| + |z|.
 constexpr Real absolute_sum(const Vec3<Real>& v) { return abs(v.x) + abs(v.y) + abs(v.z); }
-/// The greatest component's size.
+/// The greatest magnitude of a component.
 constexpr Real greatest(const Vec3<Real>& v) { return max(abs(v.x), max(abs(v.y), abs(v.z))); }
 
 }  // namespace DETENT_NAMESPACE

@@ -16,7 +16,7 @@ constexpr int k_coord_range = 31;
 #endif
 constexpr int k_scaled_range = 100;
 
-/// |value| < 2^range, finite. Zero, and subnormals read as zero, are within.
+/// Whether the value is finite and |value| < 2^range. True for zero and for subnormals, which are read as zero.
 constexpr bool is_within(const FloatParts& parts, int range) {
   return parts.finite && parts.exponent + bit_length_64(parts.mantissa) <= range;
 }

@@ -1,7 +1,8 @@
 #pragma once
 #include "math/bits.h"
 
-/// IEEE floats by their bits: the same on every target, whatever the rounding mode, flush-to-zero or x87 state is.
+/// IEEE floats by their bits: results are the same on every target, whatever its rounding mode, flush-to-zero mode or
+/// x87 state.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -30,9 +31,9 @@ constexpr Float power_of_two(int n) {
 }
 
 /// A finite float as (-1)^negative mantissa 2^exponent, exact. Subnormals are read as 0, so that flush-to-zero in the
-/// caller cannot matter.
+/// caller has no effect.
 struct FloatParts {
-  uint64_t mantissa;  ///< 0, or with its leading bit set at the format's fraction bits
+  uint64_t mantissa;  ///< 0, or its leading bit is bit k_fraction_bits of the format
   int exponent;
   bool negative;
   bool finite;

@@ -27,7 +27,7 @@ constexpr uint32_t reciprocal_root_guess(uint32_t value) {
   const auto high = [value](uint32_t b) { return static_cast<uint32_t>((uint64_t{value} * b) >> 32); };
   return 0x639898a5 - high(0xbd264567 - high(0xc75be3d4 - high(0x4e07e417)));
 }
-/// At least the square root, and at most 1.6 % and 2 more. Cheap: for bounds. Overflow: none for value < 2^62.
+/// A cheap upper bound of the square root, at most 1.6 % and 2 above it. Overflow: none for value < 2^62.
 DETENT_SHARED constexpr uint32_t square_root_bound(uint64_t value) {
   if (value == 0) return 0;
   const int half_shift = (64 - bit_length_64(value)) / 2;
@@ -44,14 +44,14 @@ int64_t length(const Vec3<Real>& v);
 /// Range: a >= 0. Rounding: to nearest. Overflow: none.
 Unit square_root(Unit a);
 DETENT_PASSING inline Real square_root(Real a) { return Real::from_raw(raw::square_root(a.raw)); }
-/// Range: result < 2. Rounding: the exact sum of squares' root, to nearest.
+/// Range: result < 2. Rounding: the root of the exact sum of squares, to nearest.
 Unit length(const Vec3<Unit>& v);
-/// m. Rounding: the exact sum of squares' root, to nearest. Overflow: saturates to +131072.
+/// m. Rounding: the root of the exact sum of squares, to nearest. Overflow: saturates to +131072.
 DETENT_PASSING inline Real length(const Vec3<Real>& v) { return Real::from_raw(raw::length(v)); }
 
-/// n = v / |v| and |v|. False, outputs untouched, if v is zero. Equally precise for the smallest v.
-/// Rounding: each component of n within k_normalise_error of the true direction, | |n| - 1 | <=
-/// k_normalise_length_error, `length` to nearest. Overflow: as length().
+/// Sets n = v / |v| and `length` = |v|. Returns false, with the outputs untouched, if v is zero. n is as precise for
+/// the smallest v as for others. Rounding: each component of n within k_normalise_error of the true direction,
+/// | |n| - 1 | <= k_normalise_length_error, `length` to nearest. Overflow: as length().
 bool normalise(const Vec3<Unit>& v, Vec3<Unit>& n, Unit& length);
 bool normalise(const Vec3<Real>& v, Vec3<Unit>& n, Real& length);
 #else
@@ -59,7 +59,7 @@ bool normalise(const Vec3<Real>& v, Vec3<Unit>& n, Real& length);
 float square_root_portable(float a);
 double square_root_portable(double a);
 
-// The compiler's square root only where it is known to be one instruction: elsewhere it would call libm.
+// Use the compiler's square root only where it is known to be one instruction: elsewhere it would call libm.
 #if defined(__SSE2_MATH__) || defined(__aarch64__) || defined(__riscv_fdiv) || defined(__s390x__) || \
     (defined(__mips_hard_float) && !defined(__mips_single_float)) || defined(__wasm__) ||            \
     (defined(__ARM_FP) && !defined(__SOFTFP__) && (__ARM_FP & 4) && (defined(DETENT_F32) || (__ARM_FP & 8)))
@@ -80,7 +80,8 @@ inline Real square_root(Real a) {
 }
 /// Range: components 0 or at least 2^-46 in magnitude, and below 2^40: the squares neither underflow nor overflow.
 inline Real length(const Vec3<Real>& v) { return square_root(dot(v, v)); }
-/// n = v / |v| and |v|. False, outputs untouched, if v is zero. Errors of n as in fixed.
+/// Sets n = v / |v| and `length` = |v|. Returns false, with the outputs untouched, if v is zero. The errors of n are
+/// those of the fixed configurations.
 bool normalise(const Vec3<Real>& v, Vec3<Unit>& n, Real& length);
 #endif
 

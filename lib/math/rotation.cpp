@@ -146,7 +146,7 @@ Quat rotation_about(const Vec3<Unit>& axis, Turn angle) {
 namespace {
 
 /// Small rotations by series: cheaper than a root and a sine, and precise relative to the angle in f32.
-/// Range: components of theta below 2^-4. The terms left out are below 2^-34.
+/// Range: components of theta below 2^-4. The omitted terms are below 2^-34.
 Quat small_rotation(const Vec3<Real>& theta) {
   const Vec3<Unit> t = {unit_from_real(theta.x, -3), unit_from_real(theta.y, -3), unit_from_real(theta.z, -3)};
   const Unit s = dot(t, t);  // 64 |theta|^2 < 3/4
@@ -157,7 +157,7 @@ Quat small_rotation(const Vec3<Real>& theta) {
   return {unit_from_real(v.x, 0), unit_from_real(v.y, 0), unit_from_real(v.z, 0), cosine};
 }
 
-/// Range: components of q's vector part below 2^-5, w > 0. The terms left out are below 2^-31 of the result.
+/// Range: components of q's vector part below 2^-5, w > 0. The omitted terms are below 2^-31 of the result.
 Vec3<Real> small_rotation_vector(const Quat& q) {
   const Vec3<Unit> v8 = {scale_by_power(q.x, 3), scale_by_power(q.y, 3), scale_by_power(q.z, 3)};
   const Unit s = dot(v8, v8);  // 64 |v|^2 < 3/16
@@ -180,7 +180,7 @@ Quat rotation_from_vector(const Vec3<Real>& theta) {
   if (all_below(theta, Real(0.0625))) return small_rotation(theta);
   Vec3<Unit> axis;
   Real angle;
-  if (!normalise(theta, axis, angle)) return k_identity;  // never: it is not short
+  if (!normalise(theta, axis, angle)) return k_identity;  // never: theta is not short
   Unit sine;
   Unit cosine;
   sine_cosine_of_half_radians(angle, sine, cosine);

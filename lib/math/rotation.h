@@ -43,15 +43,15 @@ DETENT_SHARED constexpr Vec3<T> multiply_transposed(const Matrix3& m, const Vec3
   return {dot(v, m.column[0]), dot(v, m.column[1]), dot(v, m.column[2])};
 }
 
-/// The rotation by `angle` (read in [-1/2, 1/2) turn) about a unit axis.
+/// The rotation by `angle`, reduced to [-1/2, 1/2) turn, about a unit axis.
 Quat rotation_about(const Vec3<Unit>& axis, Turn angle);
 /// The rotation by |theta| rad about theta. Range: |theta| <= 2^16. Exactly the identity for 0.
 Quat rotation_from_vector(const Vec3<Real>& theta);
 /// The rotation vector, rad, of length in [0, pi]; the same for q and -q.
 Vec3<Real> rotation_vector(const Quat& q);
 
-// Errors of a component in steps (k_unit_step), beyond what the arguments' own distance from length 1 causes.
-inline constexpr double k_normalise_quat_error = 4.0;  ///< of |q|, where | |q|^2 - 1 | < 2^-10 before
+// Errors of a component in steps (k_unit_step). Arguments whose length is not exactly 1 cause further errors.
+inline constexpr double k_normalise_quat_error = 4.0;  ///< of |q|, if | |q|^2 - 1 | < 2^-10 before
 inline constexpr double k_rotate_error = 4.0;          ///< for |v| <= 1; Real vectors: steps of Real, any |v|
 inline constexpr double k_rotation_error = 4.0;        ///< rotation_from_vector; float: times 1 + |theta|
 inline constexpr double k_rotation_vector_error = 10.0;

@@ -1,8 +1,7 @@
 #pragma once
 #include "math/vector_integer.h"
 
-/// Rotations in integers, Q2.30: those of the fixed configurations, and of lib/distance and lib/toi in every
-/// configuration.
+/// Integer rotations, Q2.30. The fixed configurations use them, and lib/distance and lib/toi in every configuration.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -10,7 +9,7 @@ struct Quat32 {
   int32_t x, y, z, w;
 };
 
-/// A rotation by columns, the images of the local axes.
+/// A rotation matrix; its columns are the images of the local axes.
 struct Matrix32 {
   Vec32 column[3];
 };
@@ -36,11 +35,11 @@ DETENT_SHARED constexpr Quat32 normalise(const Quat32& q) {
   return {scaled(q.x), scaled(q.y), scaled(q.z), scaled(q.w)};
 }
 
-/// Brings the length of a rotation that a user gives to 1. False, and nothing changed, unless | |q| - 1 | <= 2^-10.
+/// Normalises a rotation given by the user. Returns false and changes nothing unless | |q| - 1 | <= 2^-10.
 DETENT_SHARED constexpr bool normalise_input(Quat32& q) {
   constexpr uint64_t k_low = uint64_t{(1 << 20) - (1 << 10)} * ((1 << 20) - (1 << 10));
   constexpr uint64_t k_high = uint64_t{(1 << 20) + (1 << 10)} * ((1 << 20) + (1 << 10));
-  // Quarters of the squares, so that four of any size have a sum below 2^63.
+  // Uses a quarter of each square, so that the sum of four is always below 2^63.
   const auto quarter = [](int64_t a) { return static_cast<uint64_t>(a * a) >> 2; };
   const uint64_t sum = quarter(q.x) + quarter(q.y) + quarter(q.z) + quarter(q.w);
   if (sum < k_low << 18 || sum > k_high << 18) return false;
@@ -59,7 +58,7 @@ DETENT_SHARED constexpr Matrix32 matrix_from(const Quat32& q) {
            {entry(xz + wy), entry(yz - wx), entry(k_half - xx - yy)}}};
 }
 
-/// m v, Q30 more than v. Exact. Range: |v| < 2^32.
+/// m v, exact, with 30 more fraction bits than v. Range: |v| < 2^32.
 DETENT_SHARED constexpr Vec64 multiply(const Matrix32& m, const Vec32& v) {
   const Vec32* c = m.column;
   return {dot(v, Vec32{c[0].x, c[1].x, c[2].x}), dot(v, Vec32{c[0].y, c[1].y, c[2].y}),

@@ -37,7 +37,7 @@ uint64_t divide(uint64_t a_word, uint64_t b_word) {
   DETENT_VERIFY_RANGE(b.mantissa != 0);
   const uint64_t numerator = uint64_t{magnitude_32(a.mantissa)} << 32;
   const uint64_t divisor = magnitude_32(b.mantissa);
-  const uint64_t quotient = numerator / divisor;  // 0 or at least 2^31: its last bit may stand for the remainder
+  const uint64_t quotient = numerator / divisor;  // 0 or at least 2^31, so one sticky bit can stand for the remainder
   const uint64_t sticky = quotient * divisor != numerator ? 1 : 0;
   return scaled_from_parts((a.mantissa < 0) != (b.mantissa < 0), (quotient << 1) | sticky,
                            a.exponent - b.exponent - 33);
@@ -51,7 +51,7 @@ uint64_t add(uint64_t a_word, uint64_t b_word) {
   const Scaled small = a.exponent < b.exponent ? a : b;
   const int shift = large.exponent - small.exponent;
   if (shift > 33) return word_of(large);
-  // 31 fraction bits and a last one that stands for what the smaller number lost beyond them.
+  // 31 more fraction bits. The last one is sticky: it also stands for the lower bits that the smaller number loses.
   const int64_t head = int64_t{small.mantissa} * (int64_t{1} << 31);
   const int64_t shifted = head >> shift;
   const int64_t sticky = shifted * (int64_t{1} << shift) != head ? 1 : 0;
@@ -98,7 +98,7 @@ int64_t multiply_raw(int64_t raw, uint64_t b_word) {
   const Scaled b = to_scaled(b_word);
   DETENT_VERIFY_RANGE(b.mantissa == 0 || b.exponent < 0);
   const int n = -b.exponent;
-  // a b = high 2^32 + low, as in PortableInt128::product_narrow; only the wanted word is formed.
+  // a b = high 2^32 + low, as in PortableInt128::product_narrow; only the needed word is computed.
   const int64_t low_product = static_cast<int64_t>(static_cast<uint32_t>(raw)) * b.mantissa;
   const int64_t high = (raw >> 32) * b.mantissa + (low_product >> 32);
   if (n > 32) return shift_64(high, 32 - n);
@@ -110,7 +110,7 @@ int64_t multiply_raw(int64_t raw, uint64_t b_word) {
 
 int64_t multiply_raw(int64_t raw, uint64_t b_word, bool& saturated) {
   const Scaled b = to_scaled(b_word);
-  // The most that the product can be long; what is far from the limits is not looked at closer.
+  // An upper bound of the product's bit length. A product far from the limits needs no closer test.
   const int most = bit_length_64(magnitude_64(raw)) + 31 + b.exponent;
   if (most <= 62 && b.exponent < 0 && b.exponent >= -120)
     return Int128::product_narrow(raw, b.mantissa).round_shift(-b.exponent);

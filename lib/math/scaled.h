@@ -3,11 +3,10 @@
 
 #include "math/root.h"
 
-/// Numbers of wide range: masses, densities, forces, impulses.
+/// Numbers of a wide range: masses, densities, forces, impulses.
 ///
 /// Fixed. Rounding: the mantissa to nearest, ties away from zero (so that -a mirrors a); relative error of every
-/// function
-/// <= 2^-31. Overflow: clamps to +-(2 - 2^-30) 2^286; below 2^-226: 0.
+/// function <= 2^-31. Overflow: clamps to +-(2 - 2^-30) 2^286; below 2^-226: 0.
 /// Float: the plain expression.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -15,8 +14,8 @@ inline namespace DETENT_NAMESPACE {
 #if DETENT_FIXED
 inline constexpr int k_scaled_exponent_max = 256;
 
-/// The functions below as they are called. A Scaled is one word there, for most calling conventions of 32-bit machines
-/// pass structs of two through memory; a Real is its raw integer.
+/// The functions below on words. A Scaled is one 64-bit word, because most calling conventions of 32-bit machines pass
+/// a struct of two words through memory. A Real is its raw integer.
 namespace words {
 uint64_t scaled_from_parts(bool negative, uint64_t mantissa, int exponent);
 uint64_t scaled_from(int64_t raw, int frac);
@@ -30,7 +29,7 @@ uint64_t scaled_reciprocal(int64_t raw);
 int64_t multiply_raw(int64_t raw, uint64_t b);
 int64_t multiply_raw(int64_t raw, uint64_t b, bool& saturated);
 
-// Each is the one that its machines do without instructions.
+// Each variant takes no instructions on its machines.
 #if UINTPTR_MAX > 0xffffffff
 constexpr uint64_t word_of(Scaled a) { return __builtin_bit_cast(uint64_t, a); }
 constexpr Scaled to_scaled(uint64_t word) { return __builtin_bit_cast(Scaled, word); }
@@ -96,7 +95,7 @@ DETENT_PASSING inline Scaled scaled_reciprocal(Real a) { return words::to_scaled
 /// a b. Rounding: to nearest, ties up. Overflow: clamps to Real's range and sets `saturated` (else untouched).
 DETENT_PASSING inline Real multiply(Real a, Scaled b, bool& saturated) {
 #if DETENT_NATIVE_WIDE
-  // A product is below 2^62, and fits once it is rounded, if a is below 2^(n + 31): b's mantissa is below 2^31.
+  // b's mantissa is below 2^31. So if a is below 2^(n + 31), the rounded product is at most 2^62 and fits.
   const int n = -b.exponent;
   if (n > 0 && n <= 64 && static_cast<uint64_t>((a.raw >> (n < 32 ? n + 31 : 63)) + 1) <= 1)
     return Real::from_raw(Int128::product(a.raw, b.mantissa).round_shift(n));

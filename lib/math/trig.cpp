@@ -52,7 +52,8 @@ Real radians(Turn angle) {
 }
 
 Turn arc_tangent(Unit y, Unit x) {
-  // Both on the scale where the larger has 31 bits: what the smaller loses is below 2^-31 rad.
+  // Both are scaled so that the larger has 31 bits. The bits that the smaller loses change the angle by less than
+  // 2^-31 rad.
   const Unit large = max(abs(y), abs(x));
   const FloatParts parts = float_parts(large);
   const int frac = 7 - parts.exponent;

@@ -1,7 +1,8 @@
 #pragma once
 #include "math/arithmetic.h"
 
-/// Angles and their functions. fx64, fx32 and f32 share integer kernels; f64 has its own, of + - * / alone.
+/// Angles and their functions. fx64, fx32 and f32 share integer functions. f64 has its own functions, which use
+/// only the operations + - * /.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -26,22 +27,23 @@ struct Turn {
 
 /// Sine and cosine. Exact at quarter turns. Error: k_sine_error.
 void sine_cosine(Turn angle, Unit& sine, Unit& cosine);
-/// Sine and cosine of half the angle, read in [-1/2, 1/2) turn (f64: as it is). Error: k_sine_error.
+/// Sine and cosine of half the angle, which is first reduced to [-1/2, 1/2) turn (f64: not reduced). Error:
+/// k_sine_error.
 void sine_cosine_of_half(Turn angle, Unit& sine, Unit& cosine);
-/// Sine and cosine of half an angle in rad. Range: |angle| <= 2^17. Error: k_sine_error and 2^-34 turns.
+/// Sine and cosine of half an angle in rad. Range: |angle| <= 2^17. Error: k_sine_error plus 2^-34 turns.
 void sine_cosine_of_half_radians(Real angle, Unit& sine, Unit& cosine);
 
-/// The angle, wrapped to a turn. Range: |angle| <= 2^17 rad. Rounding: to nearest, 1/2 of 2^-32 turns and 2^-16 of
-/// that.
+/// The angle modulo one turn. Range: |angle| <= 2^17 rad. Rounding: to nearest; error at most (1/2 + 2^-16) 2^-32
+/// turns.
 Turn turn_from_radians(Real angle);
 /// rad, in [-pi, pi). Rounding: to nearest.
 Real radians(Turn angle);
 /// The angle of the point (x, y): atan2(y, x), in (-1/2, 1/2] turn. (0, 0) gives 0. Error: k_arc_tangent_error.
-/// Half a turn is the one angle whose `radians` have the other sign.
+/// For a result of exactly half a turn, radians() gives -pi: only there the sign differs.
 Turn arc_tangent(Unit y, Unit x);
 
 #if DETENT_FIXED
-inline constexpr double k_sine_error = 0.67;  ///< steps (k_unit_step); the exhaustive sweep finds 0.6615
+inline constexpr double k_sine_error = 0.67;  ///< steps (k_unit_step); the exhaustive test finds 0.6615
 #elif defined(DETENT_F32)
 inline constexpr double k_sine_error = 0.52;
 #else

@@ -49,7 +49,7 @@ void sine_cosine(Turn angle, Unit& sine, Unit& cosine) {
                             s * (0.00002480158728948233934724466 +
                                  s * (-0.000000275573143523721727687973 +
                                       s * (2.08757232781319945135107e-9 - s * 1.135964804225986135483053e-11)))));
-  // 1 - s/2 + rest with the rounding of 1 - s/2 put back.
+  // 1 - s/2 + rest, corrected by the rounding error of 1 - s/2.
   const double half = 0.5 * s;
   const double head = 1.0 - half;
   const double b = head + (((1.0 - head) - half) + rest);

@@ -10,7 +10,8 @@ SineCosineRaw sine_cosine_raw(int64_t phase) {
   const uint64_t square = static_cast<uint64_t>(t * t);  // Q64
   const uint32_t s = static_cast<uint32_t>(square >> 32);
 
-  // sin = t pi/2 - t s R(s), R minimax of degree 3, Q32: error 2^-38.6. The leading term is kept apart to 64 bits.
+  // sin = t pi/2 - t s R(s), R minimax of degree 3, Q32: error 2^-38.6. The leading term is computed separately, with
+  // 64 bits.
   const uint32_t r = 0xa55de72b - high_product(s, 0x1466bb96 - high_product(s, 0x132c9fd - high_product(s, 0xa5cf6)));
   const int64_t lead = t * (int64_t{1} << 30) + ((t * 0x921fb544) >> 2);            // Q62
   const int64_t sine = round_shift_64(lead - ((t * high_product(s, r)) >> 2), 32);  // Q30

@@ -1,7 +1,7 @@
 #pragma once
 #include "math/wide.h"
 
-/// The integer kernels of angles: those of fx64, fx32 and f32, and of lib/distance and lib/toi in every configuration.
+/// Integer functions of angles. fx64, fx32 and f32 use them, and lib/distance and lib/toi in every configuration.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -12,13 +12,13 @@ struct SineCosineRaw {
 };
 SineCosineRaw sine_cosine_raw(int64_t phase);
 
-/// atan2(y, x) in 2^-32 turns; y and x on one scale of the caller's choice. (0, 0) gives 0.
+/// atan2(y, x) in 2^-32 turns. y and x have the same scale, which the caller chooses. (0, 0) gives 0.
 /// Range: |y|, |x| <= 2^31; the larger at least 2^29 for the full precision (any smaller pair is itself exact).
 uint32_t arc_tangent_raw(int32_t y, int32_t x);
 
-/// angle, Q46 rad, in turns of 2^-(32 + extra_bits). Range: 0 <= extra_bits <= 2.
+/// Converts an angle from rad, Q46, to 2^-(32 + extra_bits) turns. Range: 0 <= extra_bits <= 2.
 int64_t turns_from_radians_raw(int64_t angle, int extra_bits);
-/// 2^-32 turns, signed, in rad with `frac` fraction bits. Range: 28 < frac <= 60. Rounding: to nearest.
+/// Converts signed 2^-32 turns to rad with `frac` fraction bits. Range: 28 < frac <= 60. Rounding: to nearest.
 int64_t radians_raw(int32_t turns, int frac);
 
 }  // namespace DETENT_NAMESPACE

@@ -4,7 +4,7 @@
 
 #include "math/wide.h"
 
-/// Vectors of integers, exact: what lib/distance and lib/toi computes with, the same in every configuration.
+/// Exact integer vectors. lib/distance and lib/toi compute with them, in the same way in every configuration.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 

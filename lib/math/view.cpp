@@ -15,10 +15,10 @@ float to_float(double value) {
   return float_from_parts<float>(parts.mantissa, parts.exponent, parts.negative);
 }
 float relative(Coord a, Coord camera) { return to_float(a - camera); }
-/// Exactly `to` at 1, and without jitter where both are the same.
+/// Returns exactly `to` at alpha = 1. There is no jitter if both are equal.
 Coord between(Coord from, Coord to, Unit alpha) { return alpha == 1.0 ? to : from + (to - from) * alpha; }
 #else
-/// a - camera, exact to 65 bits before its one rounding.
+/// a - camera: the difference is exact (65 bits), then rounded once.
 float relative(Coord a, Coord camera) {
   const bool negative = a < camera;
   const uint64_t low = static_cast<uint64_t>(int64_t{negative ? a.raw : camera.raw});

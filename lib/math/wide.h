@@ -2,7 +2,7 @@
 #include "math/bits.h"
 
 /// 128-bit integers for exact products, in two representations with one interface: NativeInt128 is the compiler's own,
-/// PortableInt128 is built from 32x32->64 products for targets that have none. Tests hold them equal.
+/// PortableInt128 is built from 32x32->64 products for targets that have none. Tests compare their results.
 /// Nothing here calls a 128-bit routine of the compiler's support library: some targets lack them.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -38,8 +38,8 @@ struct PortableInt128 {
   /// wraps.
   template <int n>
   static constexpr int64_t narrow_sum(int64_t a0, int32_t b0, int64_t a1, int32_t b1, int64_t a2, int32_t b2) {
-    // a = high 2^32 + low with a signed low half, so that each low product is below 2^62 and two of them fit. The high
-    // products are a multiple of 2^32: they need no rounding, and wrapping them is right modulo 2^64.
+    // a = high 2^32 + low with a signed low half. So each low product is below 2^62, and a sum of two fits in 64 bits.
+    // The high products are multiples of 2^32: they need no rounding, and wrapping them is correct modulo 2^64.
     static_assert(n >= 1 && n <= 32);
     constexpr int64_t k_mask = (int64_t{1} << n) - 1;
     const int64_t low_01 = low_product(a0, b0) + low_product(a1, b1);
@@ -160,7 +160,7 @@ struct NativeInt128 {
   constexpr NativeInt128 shift_left(int n) const { return {static_cast<Value>(static_cast<Bits>(value) << n)}; }
   constexpr int64_t round_shift(int n) const {
     if (n > 64) return round_shift_64(high_word(), n - 64);
-    // Shifted up, so that the wanted word is the high one.
+    // Shifted up, so that the result is the high word.
     const Bits up = static_cast<Bits>(value) << ((64 - n) & 63);
     return static_cast<int64_t>(static_cast<uint64_t>(up >> 64) + (static_cast<uint64_t>(up) >> 63));
   }
@@ -178,7 +178,7 @@ struct NativeInt128 {
 };
 #endif
 
-// wasm has the type, but multiplies it by a library call.
+// wasm has the type, but calls a library function for products.
 #if defined(__SIZEOF_INT128__) && !defined(__wasm__) && !defined(DETENT_PORTABLE_WIDE)
 #define DETENT_NATIVE_WIDE 1
 using Int128 = NativeInt128;

@@ -8,16 +8,16 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 constexpr int k_rest_power = -6;
-constexpr Real k_slow_max = 1024.0;  ///< m/s: what is faster does not rest, and its square may not fit
+constexpr Real k_slow_max = 1024.0;  ///< m/s: a faster body is not at rest, and its squared speed may overflow
 
-/// Whether a body that moves so, and has that momentum, has no point that is faster than `slow`, m/s, by about its
-/// kinetic energy: what is slender may roll faster about its axis than it may swing. Range: slow <= k_slow_max.
+/// Whether no point of a body is faster than `slow`, m/s, estimated from its kinetic energy: 2 (v . v + w . L / m) <
+/// slow^2. So a slender body may rotate faster about its long axis than about the others. Range: slow <= k_slow_max.
 bool is_slower(const Vec3<Real>& velocity, const Vec3<Real>& spin, const Vec3<Real>& momentum, Real slow) {
   if (greatest(velocity) > slow || greatest(spin) > k_slow_max || greatest(momentum) > k_slow_max) return false;
   return scale_by_power(dot(velocity, velocity) + dot(spin, momentum), 1) < slow * slow;
 }
 
-/// Whether neither the body's velocity nor its way in the tick is more than slow.
+/// Whether both the body's velocity and its displacement in the tick are slow.
 bool is_resting(const StepSettings& settings, const BodyTraits& traits, const BodyPose& pose, const BodySweep& sweep,
                 const BodyMotion& motion) {
   const Real slow = scale_by_power(fall_speed(settings, shape_extent(traits)), k_rest_power);

@@ -7,32 +7,34 @@
 #include "motion/spin.h"
 #include "motion/step_settings.h"
 
-/// Which bodies take part in a step, and when an island rests.
+/// Selects the bodies that take part in a step, and puts islands at rest to sleep.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-inline constexpr uint16_t k_still_ticks = 30;  ///< at rest before an island falls asleep
+inline constexpr uint16_t k_still_ticks = 30;  ///< ticks at rest before an island falls asleep
 
 inline bool is_awake(const BodyTraits& traits, const BodyActivity& activity) {
   return is_dynamic(traits) && activity.asleep == 0;
 }
 
-/// A body that moves, or may be moved, in this step: an awake dynamic one, or a kinematic one that has a velocity.
+/// True if the body moves, or can be moved, in this step: an awake dynamic body, or a kinematic body with a velocity.
 bool is_moving(const BodyTraits& traits, const BodyMotion& motion, const BodyActivity& activity);
 
-/// Wakes all bodies that fell asleep with the one in `slot`, sets their bits in `visits`, and leaves word of
-/// it. Returns how many.
+/// Wakes all bodies that fell asleep together with the body in `slot`, sets their bits in `visits`, and records an
+/// event for each. Returns their number.
 uint32_t wake_all_with(uint32_t slot, Span<BodyActivity> activities, BitSet visits);
 
-/// Counts the ticks that each body has been at rest, and puts islands of which all bodies have been for k_still_ticks
-/// to sleep: they stop. Returns how many bodies fell asleep.
-/// At rest is a point of the body's rim slower than a 64th of the speed of a fall by its smallest diameter, by its
-/// velocity and by its way in this tick: what is pushed out of another body, or towards its joint, moves without one.
+/// Counts the ticks that each body has been at rest. Puts an island to sleep, and sets its velocities to zero, if all
+/// its bodies have been at rest for k_still_ticks. Returns the number of bodies that fell asleep.
+///
+/// A body is at rest if no point of its rim is faster than 1/64 of the speed of a fall by its smallest diameter. Both
+/// its velocity and its displacement in this tick must satisfy this: a body that is pushed out of another body, or
+/// towards its joint, moves without a velocity.
 uint32_t fall_asleep(const StepSettings& settings, Span<const BodyTraits> traits, Span<const BodyPose> poses,
                      Span<const BodySweep> sweeps, Span<const Island> islands, Span<const uint32_t> bodies,
                      Span<BodyMotion> motions, Span<BodyActivity> activities);
 
-/// For a feature table.
+/// Entry of the feature table.
 struct SleepingOps {
   decltype(&fall_asleep) end_step;
 };

@@ -7,56 +7,58 @@
 #include "math/scaled.h"
 
 /// Block floating point for one contact. The numbers of a contact in a pass (speeds, impulses, or lengths) share one
-/// power of two, chosen from the largest, so that a product is one of 32 by 32 bits. State stays in Real: an impulse is
-/// rounded to the block once and then acts on both bodies, so what a block rounds moves no momentum.
-/// In float the same code works on plain numbers.
+/// power of two. It is chosen from the largest number, so that a product is one of 32 by 32 bits. State stays in Real:
+/// an impulse is rounded to the block once and then acts on both bodies, so the rounding of a block changes no linear
+/// momentum. In float the same code uses plain numbers.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 #if DETENT_FIXED
 
-/// A number of a block: 2^shift steps of Real.
+/// A number of a block, in units of 2^shift ulps of Real.
 using Ulps = int64_t;
-/// One that can be multiplied: within +-2^30, so that a sum of two products with Units is below 2^62.
+/// A number that can be multiplied: within +-2^30, so that a sum of two products with Units is below 2^62.
 using Factor = int32_t;
-/// A sum of products of factors and Units, 2^-30 ulps.
+/// A sum of products of factors and Units, in units of 2^-30 ulps.
 using UlpSum = int64_t;
 struct Mantissas {
   Factor x, y, z;
 };
 
 inline constexpr int64_t k_factor_max = int64_t{1} << 30;
-inline constexpr int k_mantissa_bits = 27;  ///< of motions: a sum of five stays below 2^30
-inline constexpr int k_number_bits = 28;    ///< of impulses: the sum of four is a factor
-inline constexpr int k_wrench_bits = 28;    ///< of each part of a wrench: so its torque on a body stays below 2^30
-inline constexpr int k_shift_min = 9;       ///< steps finer than 2^-37 are no one's business; beyond k_spin_power
-/// Spins of the solver are kept 2^-8: a slender body's leaves Real's range long before its momentum does.
+inline constexpr int k_mantissa_bits = 27;  ///< bits of a motion: a sum of five stays below 2^30
+inline constexpr int k_number_bits = 28;    ///< bits of an impulse: a sum of four is a factor
+inline constexpr int k_wrench_bits = 28;    ///< bits of each part of a wrench: its torque on a body stays below 2^30
+inline constexpr int k_shift_min = 9;  ///< the finest step is 2^-37, which is precise enough; more than k_spin_power
+/// The solver stores angular velocities scaled by 2^-8: the angular velocity of a slender body leaves the range of Real
+/// long before its angular momentum does.
 inline constexpr int k_spin_power = 8;
 
-// What a block is to hold is gathered in steps of 2^k_spin_power of Real's: what they drop is below the finest block.
+// The values for a block are collected in units of 2^k_spin_power ulps of Real. The bits that this drops are below the
+// finest step of a block.
 inline constexpr int k_bits_power = k_spin_power - k_mantissa_bits;
 inline constexpr int k_number_drop = k_number_bits + k_bits_power;
 static_assert(k_spin_power <= k_shift_min - k_bits_power && k_number_drop <= k_shift_min - k_bits_power);
 
-/// Held to the range of a factor.
+/// Clamped to the range of a factor.
 DETENT_SHARED inline Factor held(Ulps a) {
   return static_cast<Factor>(a < -k_factor_max ? -k_factor_max : a > k_factor_max ? k_factor_max : a);
 }
 
 class Block {
  public:
-  /// Makes room for `v` 2^exponent as mantissas, from settle() on. Range: exponent from 0 to k_spin_power.
+  /// Makes room for `v` 2^exponent as mantissas; effective from settle() on. Range: exponent from 0 to k_spin_power.
   DETENT_SHARED void include(const Vec3<Real>& v, int exponent) {
     bits_ |= (magnitude_64(v.x.raw) | magnitude_64(v.y.raw) | magnitude_64(v.z.raw)) >> (k_spin_power - exponent);
   }
-  /// Makes room for the first `used` as numbers, likewise.
+  /// Makes room for the first `used` values as numbers; effective from settle() on.
   template <unsigned count>
   void include(const Real (&values)[count], uint32_t used) {
     uint64_t all = 0;
     for (uint32_t i = 0; i < used; ++i) all |= magnitude_64(values[i].raw);
     bits_ |= all >> k_number_drop;
   }
-  /// Chooses the power of two.
+  /// Chooses the power of two of the block.
   void settle() {
     const int least = bit_length_64(bits_) + k_bits_power;
     if (least > shift_) shift_ = least;
@@ -70,18 +72,18 @@ class Block {
     return {static_cast<int32_t>(shift_64(v.x.raw, -n)), static_cast<int32_t>(shift_64(v.y.raw, -n)),
             static_cast<int32_t>(shift_64(v.z.raw, -n))};
   }
-  /// Rounded down.
+  /// The value as a number of the block, rounded down and clamped to the range of a factor.
   Factor held(Real value) const { return detent::held(floor_shift_64(value.raw, shift_)); }
-  /// Rounded down.
+  /// The value as a number of the block, rounded down.
   Ulps number(Real value) const { return floor_shift_64(value.raw, shift_); }
   Real real(Ulps ulps) const { return Real::from_raw(static_cast<int64_t>(static_cast<uint64_t>(ulps) << shift_)); }
-  /// A number of another block times 2^exponent as one of this, held to the range of a factor.
+  /// Converts a number of block `from`, times 2^exponent, to a number of this block, clamped to the range of a factor.
   DETENT_SHARED Factor converted(Factor ulps, const Block& from, int exponent) const {
     const int n = from.shift_ + exponent - shift_;
     if (n < 0) return detent::held(round_shift_64(ulps, n < -63 ? 63 : -n));
     return detent::held(int64_t{ulps} << (n < 31 ? n : 31));
   }
-  /// v x share 2^exponent.
+  /// v times share times 2^exponent, in Real.
   DETENT_SHARED Vec3<Real> real(const Mantissas& v, Scaled share, int exponent) const {
     const int64_t x = int64_t{v.x} * share.mantissa, y = int64_t{v.y} * share.mantissa,
                   z = int64_t{v.z} * share.mantissa;
@@ -91,7 +93,7 @@ class Block {
               Real::from_raw(round_shift_64(z, n))};
     return {Real::from_raw(shift_64(x, -n)), Real::from_raw(shift_64(y, -n)), Real::from_raw(shift_64(z, -n))};
   }
-  /// The least power of two that makes all `parts` fit a wrench: they are rounded to it.
+  /// Rounds all `parts` to the least power of two at which they fit into a wrench. The block takes that power.
   template <unsigned count>
   void coarsen(Ulps (&parts)[count]) {
     uint64_t all = 0;
@@ -103,7 +105,7 @@ class Block {
   }
 
  private:
-  uint64_t bits_ = 0;  ///< of all that is included
+  uint64_t bits_ = 0;  ///< the bits of the magnitudes of all included values, combined by `or`
   int shift_ = k_shift_min;
 };
 
@@ -111,16 +113,16 @@ inline UlpSum product(Factor a, Unit b) { return int64_t{a} * b.raw; }
 inline UlpSum whole(Factor a) { return int64_t{a} << k_unit_frac; }
 DETENT_SHARED inline Ulps rounded(UlpSum sum) { return round_shift_64(sum, k_unit_frac); }
 DETENT_SHARED inline Ulps times(Factor a, Unit b) { return rounded(product(a, b)); }
-/// a b 2^exponent. Range: exponent < 30.
+/// a times b times 2^exponent. Range: exponent < 30.
 inline Ulps times_scaled(Factor a, Unit b, int exponent) {
   return round_shift_64(product(a, b), k_unit_frac - exponent);
 }
-/// Sums of products with Units 2^exponent, and what they stand for. Range: exponent < 30.
+/// Conversion between numbers and sums of products with Units 2^exponent. Range: exponent < 30.
 inline UlpSum sum_from(Ulps a, int exponent) {
   return static_cast<int64_t>(static_cast<uint64_t>(a) << (k_unit_frac - exponent));
 }
 inline Ulps rounded(UlpSum sum, int exponent) { return round_shift_64(sum, k_unit_frac - exponent); }
-/// a b. Range: b >= 0.
+/// a times b. Range: b >= 0.
 DETENT_SHARED inline Factor times(Factor a, Scaled b) {
   if (b.exponent >= 0) return b.mantissa == 0 ? 0 : held(shift_64(a, 32));
   return b.exponent < -63 ? 0 : held(round_shift_64(int64_t{a} * b.mantissa, -b.exponent));
@@ -133,7 +135,7 @@ DETENT_SHARED inline Mantissas rounded(UlpSum x, UlpSum y, UlpSum z) {
 }
 inline constexpr Ulps k_no_ulps = 0;
 
-/// Brings a vector into a circle. Range: limit >= 0.
+/// Projects a vector into the circle of radius `limit` around zero. Range: limit >= 0.
 DETENT_SHARED inline void hold_to_circle(Factor (&v)[2], Factor limit) {
   const uint64_t x = magnitude_32(v[0]), y = magnitude_32(v[1]), radius = static_cast<uint32_t>(limit);
   if (x + y <= radius) return;

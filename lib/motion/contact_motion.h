@@ -3,22 +3,28 @@
 #include "motion/block.h"
 #include "motion/step_settings.h"
 
-/// How the two bodies of a contact move against each other, and what an impulse between them does: in the contact's
-/// frame (normal, then the tangents), at the middle of its points, in m/s. A spin is over the pair's unit of length.
+/// The relative motion of the two bodies of a contact, and the effect of an impulse between them. The frame is the
+/// contact's (normal n, tangents t and s), at the middle of its points. With r the arm from a body's centre to the
+/// middle, v the velocity and w the angular velocity of the bodies:
 ///
-/// All of it is written for a kind of number: one contact's (One), or those of four contacts at once (Four, quad.h).
+///     linear:  n, t, s . ((v_B + w_B x r_B) - (v_A + w_A x r_A)), m/s
+///     angular: n, t, s . (w_B - w_A) u, m/s; u is the pair's unit of length, m
+///
+/// The code is generic over the kind of number: those of one contact (One), or of four contacts at once (Four,
+/// quad_contact.h).
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The parts of a motion or of a wrench: along the normal and the tangents, then about them.
+/// The parts of a motion or of a wrench: linear along the normal and the tangents, then angular about them.
 enum Part { k_along_normal, k_along_first, k_along_second, k_about_normal, k_about_first, k_about_second, k_parts };
 
-/// Where the pair's response to part `k` shows in part `i`.
+/// Index of element (i, k) of the symmetric response matrix: the effect of part `k` of a wrench on part `i` of the
+/// motion.
 constexpr int response_index(int i, int k) { return i < k ? k * (k + 1) / 2 + i : i * (i + 1) / 2 + k; }
 
 constexpr int k_responses = response_index(k_parts - 1, k_parts - 1) + 1;
 
-/// A body that impulses act on, as the solver sees it. Its spin is kept beside its momentum.
+/// A body that impulses act on. The solver stores its angular velocity in addition to its angular momentum.
 struct SolvedBody {
   Vec3<Real>&velocity, &momentum, &spin;
   Vec3<Real>&contact_velocity, &contact_momentum;
@@ -46,7 +52,7 @@ struct SolvedBody {
         gyration(work.gyration) {}
 };
 
-/// The numbers of one contact.
+/// The kind of number for one contact.
 struct One {
   using Number = Ulps;
   using Factor = detent::Factor;
@@ -72,7 +78,8 @@ struct One {
   }
 };
 
-/// The motions of two bodies as mantissas of one block.
+/// The motions of two bodies as mantissas of one block: the relative linear motion (velocity or displacement), and the
+/// angular motion of each body.
 template <class Kind>
 struct PairMotion {
   typename Kind::Block block;
@@ -93,7 +100,7 @@ struct PairMotion {
   typename Kind::Factor along_normal(const typename Kind::Contact& contact) const {
     return held(rounded(dot(way, contact.normal) + (dot(spin_b, contact.lever_b) - dot(spin_a, contact.lever_a))));
   }
-  /// Relative velocity of the middle, world axes.
+  /// Relative velocity at the middle, world axes.
   typename Kind::Vector at_middle(const typename Kind::Contact& contact) const {
     const auto &a = contact.middle_a, &b = contact.middle_b;
     return rounded(
@@ -101,7 +108,7 @@ struct PairMotion {
         whole(way.y) + (cross_part(spin_b.z, b.x, spin_b.x, b.z) - cross_part(spin_a.z, a.x, spin_a.x, a.z)),
         whole(way.z) + (cross_part(spin_b.x, b.y, spin_b.y, b.x) - cross_part(spin_a.x, a.y, spin_a.y, a.x)));
   }
-  /// Relative spin, world axes.
+  /// Relative angular velocity times the pair's unit of length, world axes.
   typename Kind::Vector turning(const typename Kind::Contact& contact) const {
     const auto a = contact.unit_a, b = contact.unit_b;
     return rounded(product(spin_b.x, b) - product(spin_a.x, a), product(spin_b.y, b) - product(spin_a.y, a),
@@ -114,7 +121,8 @@ struct PairMotion {
   static typename Kind::Sum cross_part(Factor p, Unit q, Factor r, Unit s) { return product(p, q) - product(r, s); }
 };
 
-/// The part of a pair's motion that its points show along the normal.
+/// The parts of the relative motion that determine the normal velocity of the points. At point (x, y), in the tangents'
+/// axes relative to the middle, it is: along + about_first y - about_second x.
 template <class Kind>
 struct NormalMotion {
   typename Kind::Factor along, about_first, about_second;
@@ -132,17 +140,22 @@ struct NormalMotion {
   }
 };
 
-/// What contacts have added to a body's motion in this substep. Fixed point takes the difference from the start of the
-/// substep, which is exact; float keeps a sum, which does not lose a small push to a high speed.
+/// The change that contacts have made to a body's motion in this substep. Fixed point computes the difference from the
+/// value at the start of the substep, which is exact. Float keeps a sum, because a difference loses small impulses at
+/// high speeds.
 inline Vec3<Real> added_by_contacts(const Vec3<Real>& motion, const Vec3<Real>& kept) {
   return DETENT_FIXED ? motion + kept : kept;
 }
-/// What to keep from a motion that contacts have not acted on yet but for `added`.
+/// The value to keep for added_by_contacts(), from a motion without the impulses of contacts; `added` is their sum so
+/// far.
 inline Vec3<Real> kept_at_start(const Vec3<Real>& motion, const Vec3<Real>& added) {
   return DETENT_FIXED ? -motion : added;
 }
 
-/// Adds `force` and `torque`, the latter in the body's unit of length, times `share`, or takes them away.
+/// Applies a wrench to a body, or its opposite. `share` is the relative inverse mass; `torque` is in the body's unit of
+/// length:
+///
+///     velocity += share force;  momentum += share torque;  spin += share gyration torque
 template <class Kind, bool adds>
 inline void push(const typename Kind::Block& block, const typename Kind::Vector& force,
                  const typename Kind::Vector& torque, const typename Kind::Scaled& share, typename Kind::Body& body) {
@@ -165,7 +178,8 @@ inline void push(const typename Kind::Block& block, const typename Kind::Vector&
   add(body.spin, block.real(turned, share, gyration.exponent - k_spin_power));
 }
 
-/// Applies an impulse along the normal at the middle, and one about each tangent, to B, and their opposite to A.
+/// Applies the wrench of an impulse along the normal at the middle, and of one about each tangent, to B, and its
+/// opposite to A.
 template <class Kind>
 inline void apply_normal(const typename Kind::Contact& contact, typename Kind::Block block, typename Kind::Number along,
                          typename Kind::Number about_first, typename Kind::Number about_second, typename Kind::Body& a,

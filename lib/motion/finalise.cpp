@@ -8,16 +8,16 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Spin in the body's axes, as far as a Real tells.
+/// Angular velocity in the body's axes. Overflow: clamps to the range of Real.
 Vec3<Real> local_spin(const BodyTraits& traits, const Vec3<Real>& momentum) {
   bool saturated = false;
   return {multiply(momentum.x, traits.gyration[0], saturated), multiply(momentum.y, traits.gyration[1], saturated),
           multiply(momentum.z, traits.gyration[2], saturated)};
 }
 
-constexpr int k_quarterings_max = 64;  ///< gyrations lie far below 4^64
+constexpr int k_quarterings_max = 64;  ///< inverse inertias are far below 4^64
 
-/// Whether the spin is far below its bound, whatever the body's axes are.
+/// Whether the angular velocity is far below its bound, whatever the body's orientation is.
 bool is_slow(const BodyTraits& traits, const Vec3<Real>& momentum) {
   Scaled most = traits.gyration[0];
   for (int axis = 1; axis < 3; ++axis) most = less(most, traits.gyration[axis]) ? traits.gyration[axis] : most;
@@ -33,8 +33,9 @@ uint32_t hold_speeds(const BodyTraits& traits, const Quat& rotation, BodyMotion&
   if (is_slow(traits, motion.momentum)) return clamped;
   const bool turned = !is_isotropic(traits);
   Vec3<Real> local, spin;
-  // Joints and impacts may leave more than a Real tells. Beyond twice the bound along a body's axis, one of the world's
-  // has more than the bound. Where a Real does not tell how fast it is, it becomes a quarter each time.
+  // Joints and impacts may leave an angular velocity beyond the range of Real. If a component in the body's axes is
+  // more than twice the bound, then a component in world axes exceeds the bound. If the value has saturated, each pass
+  // divides it by about 4.
   for (int quartering = 0; quartering < k_quarterings_max; ++quartering) {
     local = turned ? rotate_inverse(rotation, motion.momentum) : motion.momentum;
     spin = local_spin(traits, local);
@@ -95,7 +96,7 @@ void store_contacts(Span<const ContactWork> work, Span<const ManifoldState> mani
     const uint64_t key_a = key_of(a), key_b = key_of(b);
     return key_a < key_b || (key_a == key_b && a.part < b.part);
   };
-  // Up to the first that is new or gone each goes where it was.
+  // Contacts before the first new or removed one keep their places.
   uint32_t same = 0;
   for (; same < work.count && same < awake_count; ++same) {
     const ContactState& state = work[same].state;
@@ -103,7 +104,7 @@ void store_contacts(Span<const ContactWork> work, Span<const ManifoldState> mani
     if (place.body_a != state.body_a || place.body_b != state.body_b || place.part != state.part) break;
     put(same, awake[same]);
   }
-  // Those that sleep close ranks, from where the first of the others was.
+  // Moves the contacts of sleeping bodies together, from the place of the first awake one on.
   uint32_t kept = same < awake_count ? awake[same] : before;
   for (uint32_t i = same; i < awake_count; ++i) {
     const uint32_t end = i + 1 < awake_count ? awake[i + 1] : before;

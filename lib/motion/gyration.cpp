@@ -10,7 +10,7 @@ WorldGyration world_gyration(const Scaled (&about)[3], const Matrix3& rotation) 
   WorldGyration world = {{{zero, zero, zero}, {zero, zero, zero}, {zero, zero, zero}}, 0};
 #if DETENT_FIXED
   for (const Scaled& axis : about) {
-    if (axis.mantissa == 0) continue;  // locked
+    if (axis.mantissa == 0) continue;
     const int above = axis.exponent + 31;
     world.exponent = above > world.exponent ? above : world.exponent;
   }
@@ -46,9 +46,10 @@ Vec3<Real> world_spin(const BodyTraits& traits, const WorldGyration& gyration, c
   const bool turns = is_dynamic(traits);
   if (turns) power += gyration.exponent;
 #if DETENT_FIXED
-  const Real limit = Real::from_raw(k_real_max.raw >> (power > 0 ? power : 0));  // rounded to nearest, half of it wraps
+  // not rounded up: such a limit would overflow when scaled
+  const Real limit = Real::from_raw(k_real_max.raw >> (power > 0 ? power : 0));
 #else
-  const Real limit = k_real_max;  // exponents are 0
+  const Real limit = k_real_max;  // exponents are 0 in float
 #endif
   const auto part = [&](Real own, const Vec3<Unit>& row) {
     return scale_by_power(clamp(turns ? dot(momentum, row) : own, -limit, limit), power);

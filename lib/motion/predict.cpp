@@ -31,7 +31,7 @@ Real start_body(const StepSettings& settings, const BodyTraits& traits, const Bo
   work.axes = matrix_from(pose.rotation);
   work.gyration = world_gyration(traits, work.axes);
   work.free_turn = free_turn_of(traits);
-  if (!is_non_colliding(traits)) {  // contacts alone read them
+  if (!is_non_colliding(traits)) {  // only contacts read these
     work.extent = shape_extent(traits);
     work.fall = fall_speed(settings, work.extent);
     if (!(motion.momentum == none)) spin = absolute_sum(spin_of(traits, pose.rotation, motion.momentum));
@@ -81,7 +81,7 @@ void bound(const StepSettings& settings, Span<const BodyPose> poses, Span<const 
     Vec3<Real> move = motion.velocity * settings.tick_time;
     if (is_dynamic(body)) move += fall;
     if (!(motion.momentum == Vec3<Real>{Real(0.0), Real(0.0), Real(0.0)})) {
-      // A turning body stays in its bounding ball.
+      // A rotating body stays in its bounding sphere.
       const Real ball = real_from_unit(body.bounding_radius, body.size_exponent) + margin;
       const Real swing = spin * settings.tick_time;
       reach = {min(reach.x + swing, ball), min(reach.y + swing, ball), min(reach.z + swing, ball)};

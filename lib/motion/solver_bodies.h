@@ -6,7 +6,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The bodies of a step, as the solver moves them.
+/// The bodies of a step, as the solver uses them.
 struct SolverBodies {
   Span<const BodyTraits> traits;
   Span<BodyMotion> motions;

@@ -11,8 +11,8 @@ struct BodyFrame {
   Real momentum[3];  ///< in the body's axes
 };
 
-/// Turns the frame about one of its axes at `rate` times the momentum about it for `time`; the momentum stays as it is
-/// in the world.
+/// Rotates the frame about one of its axes for `time`, at `rate` times the angular momentum about that axis. The
+/// angular momentum stays constant in the world.
 void turn_about(int axis, Scaled rate, int exponent, Real time, BodyFrame& frame, bool& clamped) {
   bool saturated = false;
   const Real spin = multiply(frame.momentum[axis], rate, saturated);
@@ -35,7 +35,7 @@ void turn_about(int axis, Scaled rate, int exponent, Real time, BodyFrame& frame
 Scaled difference(Scaled a, Scaled b) { return a == b ? Scaled(0.0) : add(a, negate(b)); }
 Scaled distance(Scaled a, Scaled b) { return less(a, b) ? difference(b, a) : difference(a, b); }
 
-/// The axis whose gyration is farthest from the other two.
+/// The axis whose inverse inertia differs most from the other two.
 int odd_axis(const Scaled (&gyration)[3]) {
   if (gyration[1] == gyration[2]) return 0;
   if (gyration[2] == gyration[0]) return 1;
@@ -46,7 +46,7 @@ int odd_axis(const Scaled (&gyration)[3]) {
   return less(apart[2], apart[least]) ? 2 : least;
 }
 
-/// Turns by `spin`, m/s at the radius 2^exponent m, for `time` about a world axis.
+/// Rotates for `time` about a world axis by the angular velocity `spin`, m/s at the radius 2^exponent m.
 Quat turned(const Quat& rotation, const Vec3<Real>& spin, int exponent, Real time, bool& clamped) {
   const Vec3<Real> angle = {angle_of(spin.x * time, exponent, clamped), angle_of(spin.y * time, exponent, clamped),
                             angle_of(spin.z * time, exponent, clamped)};
@@ -81,7 +81,7 @@ bool turn_freely(const BodyTraits& traits, const FreeTurn& free, const Vec3<Real
   if (spin == none) return true;
   const int a = free.odd, c = (a + 2) % 3;
   BodyFrame frame = {rotation, {local.x, local.y, local.z}};
-  // The turn about the momentum goes with all others: it is made once, at the end.
+  // The rotation about the angular momentum commutes with the other two: it is applied once, at the end.
   if (free.rest == Scaled(0.0)) {
     turn_about(a, free.odd_rate, exponent, time, frame, clamped);
   } else {

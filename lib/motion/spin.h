@@ -6,17 +6,23 @@
 #include "math/scaled.h"
 #include "shape/body.h"
 
-/// Rotation of a body from its angular momentum. Momentum and spin are in speeds: momentum = L / (m u) and
-/// spin = w u, where u = 2^size_exponent m, so that spin = gyration x momentum whatever the mass and the scale.
+/// Rotation of a body from its angular momentum. Angular quantities are stored as speeds, m/s, with the body's unit of
+/// length u = 2^size_exponent m, its mass m, its angular momentum L, its angular velocity w and its inertia I:
+///
+///     momentum = L / (m u);  spin = w u;  gyration = m u^2 / I (inverse inertia per unit mass)
+///
+/// So spin = gyration x momentum, whatever the mass and the scale are.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-inline constexpr Real k_speed_max = 16384.0;  ///< m/s, of state: each component of velocity
-inline constexpr Real k_spin_max = 32768.0;   ///< m/s, of state: likewise of spin; the rim moves at half of it or more
-inline constexpr Real k_speed_work_max = 32768.0;  ///< m/s, of velocity within a solve
-inline constexpr Real k_spin_work_max = 65536.0;   ///< m/s, of momentum within a solve; no gyration is below 1
+inline constexpr Real k_speed_max = 16384.0;  ///< m/s, in the state: each component of velocity
+/// In the state, m/s: each component of angular velocity times u; the rim moves at half of it or faster.
+inline constexpr Real k_spin_max = 32768.0;
+inline constexpr Real k_speed_work_max = 32768.0;  ///< m/s, velocity during a solve
+/// During a solve, m/s: angular momentum over m u; no inverse inertia is below 1.
+inline constexpr Real k_spin_work_max = 65536.0;
 
-/// Clamps to +-limit; returns how many components that changed.
+/// Clamps each component to +-limit. Returns the number of components that changed.
 inline uint32_t clamp_component(Real& value, Real limit) {
   const Real clamped = clamp(value, -limit, limit);
   const bool changed = !(clamped == value);
@@ -35,7 +41,7 @@ inline bool is_isotropic(const BodyTraits& traits) {
   return traits.gyration[0] == traits.gyration[1] && traits.gyration[1] == traits.gyration[2];
 }
 
-/// An arc, m, at radius 2^exponent m, as an angle, rad; `clamped` is set if it had to be held to 2^15 rad.
+/// Converts an arc, m, at radius 2^exponent m, to an angle, rad. Overflow: clamps to +-2^15 rad and sets `clamped`.
 inline Real angle_of(Real arc, int exponent, bool& clamped) {
   const Real limit = real_from_unit(Unit(1.0), exponent > 1 ? 16 : 15 + exponent);
   const Real held = clamp(arc, -limit, limit);
@@ -43,24 +49,25 @@ inline Real angle_of(Real arc, int exponent, bool& clamped) {
   return scale_by_power(held, -exponent);
 }
 
-/// gyration x v, in the body's axes.
+/// Inverse inertia times v, in the body's axes.
 inline Vec3<Real> gyrate(const BodyTraits& traits, const Vec3<Real>& v) {
   return {multiply(v.x, traits.gyration[0]), multiply(v.y, traits.gyration[1]), multiply(v.z, traits.gyration[2])};
 }
 
-/// gyration (world) x `momentum`; for a kinematic body the momentum is the spin. m/s, world.
+/// The angular velocity, m/s, world: inverse inertia times `momentum`. For a kinematic body `momentum` is the angular
+/// velocity.
 inline Vec3<Real> spin_of(const BodyTraits& traits, const Quat& rotation, const Vec3<Real>& momentum) {
   if (!is_dynamic(traits)) return momentum;
   if (is_isotropic(traits)) return gyrate(traits, momentum);
   return rotate(rotation, gyrate(traits, rotate_inverse(rotation, momentum)));
 }
 
-/// 1 / gyration about a body axis: its share of the spin as momentum; 0 if it is locked.
+/// Inertia per unit mass about a body axis: 1 / gyration; 0 if the axis is locked.
 inline Scaled inertia_about(const BodyTraits& traits, int axis) {
   return is_positive(traits.gyration[axis]) ? divide(Scaled(1.0), traits.gyration[axis]) : Scaled(0.0);
 }
 
-/// The momentum that has this spin: the inverse of spin_of().
+/// The angular momentum for this angular velocity: the inverse of spin_of().
 inline Vec3<Real> momentum_of(const BodyTraits& traits, const Quat& rotation, const Vec3<Real>& spin) {
   if (!is_dynamic(traits)) return spin;
   const Vec3<Real> local = is_isotropic(traits) ? spin : rotate_inverse(rotation, spin);
@@ -69,7 +76,8 @@ inline Vec3<Real> momentum_of(const BodyTraits& traits, const Quat& rotation, co
   return is_isotropic(traits) ? momentum : rotate(rotation, momentum);
 }
 
-/// What the turn locks leave of a momentum: contacts push about a locked axis too, and nothing comes of it.
+/// Removes the angular momentum about locked axes. Contacts also apply torques about a locked axis; these have no
+/// effect.
 inline Vec3<Real> without_locked(const BodyTraits& traits, const Quat& rotation, const Vec3<Real>& momentum) {
   if (traits.turn_locks == 0 || !is_dynamic(traits)) return momentum;
   const Real zero = 0.0;
@@ -80,13 +88,16 @@ inline Vec3<Real> without_locked(const BodyTraits& traits, const Quat& rotation,
                                      (traits.turn_locks & k_turn_lock_z) != 0 ? zero : local.z});
 }
 
-/// Turns `rotation` for `time`, s, by the free motion of a body of this momentum. With 1/I of two axes, b and c, near
-/// each other and that of the third, a, apart, the energy is |L|^2 / 2I_b, whose motion is a turn about L, and the
-/// rest: (1/I_a - 1/I_b) L_a^2 / 2 and (1/I_c - 1/I_b) L_c^2 / 2, whose motions are turns about those axes. Each is
-/// exact; the last is split in two halves about the other (Strang), so the momentum is kept exactly and the energy to
-/// second order in 1/I_c - 1/I_b: a symmetric body, however slender, moves exactly. `spin` becomes spin_of at the
-/// start. Returns false if an angle was clamped, to 2^15 rad. Source: Dullweber, Leimkuhler, McLachlan, "Symplectic
-/// splitting methods for rigid body molecular dynamics", 1997.
+/// Rotates `rotation` by the free motion over `time`, s, of a body with this angular momentum L. Let b and c be the two
+/// axes with the closest inverse inertias, and a the third. The energy is split into three terms:
+///
+///     |L|^2 / 2 I_b + (1/I_a - 1/I_b) L_a^2 / 2 + (1/I_c - 1/I_b) L_c^2 / 2
+///
+/// The motion of each term is an exact rotation: about L, about a, and about c. The rotation about c is done in two
+/// halves, before and after the one about a (Strang splitting), in 2^halvings steps. So the angular momentum is kept
+/// exactly, and the energy to second order in 1/I_c - 1/I_b: the motion of a symmetric body is exact, however slender
+/// the body is. `spin` becomes spin_of() at the start. Returns false if an angle was clamped to 2^15 rad.
+/// Source: Dullweber, Leimkuhler, McLachlan, "Symplectic splitting methods for rigid body molecular dynamics", 1997.
 bool turn_freely(const BodyTraits& traits, const FreeTurn& free, const Vec3<Real>& momentum, Real time, int halvings,
                  Quat& rotation, Vec3<Real>& spin);
 

@@ -8,10 +8,10 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Of WorldDef::damping_ratio: of contacts between bodies that move, and with what does not.
+/// Fractions of WorldDef::damping_ratio, for contacts between dynamic bodies, and for all other contacts.
 constexpr Unit k_dynamic_damping = 0.7, k_static_damping = 0.5;
 
-/// `stiffness`: the spring's frequency over the substep rate; `damping_ratio`: of critical damping.
+/// `stiffness`: the spring's frequency over the substep rate. `damping_ratio`: fraction of critical damping.
 Softness softness(Real stiffness, Real damping_ratio) {
   const Real one = 1.0;
   const Real phase = k_two_pi * stiffness;  // angular frequency x substep

@@ -8,56 +8,65 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Softness of a contact: a damped spring solved implicitly, in numbers that do not depend on the substep's length.
+/// Softness of a contact: a damped spring that is solved implicitly. Its numbers do not depend on the length of the
+/// substep.
 /// Source: Catto, "Soft Constraints", GDC 2011.
 struct Softness {
-  Unit rate;           ///< share of the overlap corrected in a substep
-  Unit mass_scale;     ///< of the effective mass
-  Unit impulse_scale;  ///< share of the accumulated impulse that the spring gives back
+  Unit rate;           ///< fraction of the overlap that is corrected in a substep
+  Unit mass_scale;     ///< factor of the effective mass
+  Unit impulse_scale;  ///< fraction of the accumulated impulse that the spring removes
 };
 
-/// The world's settings as the stages use them, derived once a step.
+/// The world's settings in the form that the stages use, derived once per step.
 struct StepSettings {
-  uint32_t substeps_fixed;  ///< 0: each island has its own
+  uint32_t substeps_fixed;  ///< 0: the number is chosen for each island
   uint32_t substeps_max;
-  Scaled substeps_per_rate;  ///< (substeps / contact frequency, rad/s)^2: of contacts between dynamic bodies, s^2
+  /// (substeps / w)^2, s^2, with w the angular frequency, rad/s, of contacts between dynamic bodies.
+  Scaled substeps_per_rate;
   uint32_t iterations;
   uint32_t convergence;
   bool post_stabilises;
   bool sleeping;
-  bool continuous;     ///< impacts are looked for
-  bool quads;          ///< four contacts at once where they may; the caller's choice, of no consequence for the result
+  bool continuous;  ///< continuous collision is on
+  /// Solve four contacts at once where possible. The caller's choice; it does not change the result.
+  bool quads;
   Real tick_time;      ///< s
-  uint32_t substeps;   ///< as set_substeps() has it, like the next three
-  Real time;           ///< of a substep, s
-  Scaled rate;         ///< substeps a second
-  Scaled share;        ///< of a tick that a substep is
+  uint32_t substeps;   ///< set by set_substeps(), like the next three
+  Real time;           ///< length of a substep, s
+  Scaled rate;         ///< substeps per second
+  Scaled share;        ///< length of a substep over that of a tick
   Unit rate_mantissa;  ///< rate = rate_mantissa 2^rate_exponent
   int32_t rate_exponent;
-  Real gap_max;  ///< what a speed of 2^15 m/s closes in a substep, m
+  /// The gap, m, that a speed of 2^15 m/s closes in a substep.
+  Real gap_max;
   Unit relaxation;
   Vec3<Real> gravity;  ///< m/s^2
-  Real gravity_size;   ///< m/s^2, at least 1: what speeds are measured against
+  /// Magnitude of gravity, m/s^2, at least 1: scale for comparing speeds.
+  Real gravity_size;
   Real restitution_threshold;
   ManifoldReduction reduction;
-  Real sunk;                  ///< how deep what rests is sunk in, about: a quarter of what gravity moves in a tick, m
-  Real breaking;              ///< of the smaller extent, like the next one
-  Real reuse;                 ///< 0: contact points are found anew in each tick
-  Softness dynamic_softness;  ///< of contacts between two dynamic bodies
-  Softness static_softness;   ///< of contacts with anything else: twice as stiff, less damped
+  /// Approximate depth to which a resting body sinks in, m: a quarter of the displacement by gravity in a tick.
+  Real sunk;
+  /// Contact margin, as a fraction of the smaller extent.
+  Real breaking;
+  /// Greatest motion at which a manifold is recycled, as a fraction of the smaller extent; 0: contact points are found
+  /// anew in each tick.
+  Real reuse;
+  Softness dynamic_softness;  ///< contacts between two dynamic bodies
+  Softness static_softness;   ///< all other contacts: twice as stiff, less damped
 };
 
 StepSettings step_settings(const WorldState& world);
-/// A length that is made up for in a substep, as a speed, m/s; held to +-2^15 m/s.
+/// The speed, m/s, that corrects `length`, m, in a substep. Overflow: clamps to +-2^15 m/s.
 inline Real speed_over(const StepSettings& settings, Real length) {
   return scale_by_power(clamp(length, -settings.gap_max, settings.gap_max) * settings.rate_mantissa,
                         settings.rate_exponent);
 }
-/// The speed of a fall by `extent`, m/s: what speeds are measured against. Range: extent <= 2^15 m.
+/// The speed of a fall by `extent`, m/s: scale for comparing speeds. Range: extent <= 2^15 m.
 Real fall_speed(const StepSettings& settings, Real extent);
-/// Makes them those of an island of so many substeps. Range: [1, 64].
+/// Sets the settings that depend on the number of substeps. Range: [1, 64].
 void set_substeps(uint32_t substeps, StepSettings& settings);
-/// Held to 2^17 - 1.
+/// Clamps to 2^17 - 1.
 Scaled scaled_from_count(uint32_t count);
 
 }  // namespace DETENT_NAMESPACE

@@ -27,7 +27,7 @@ DrawKind kind_of(const State& state, uint32_t slot) {
   }
 }
 
-/// The edges of an axis-aligned box.
+/// Draws the edges of the body's axis-aligned bounds.
 void draw_bounds(const State& state, uint32_t slot, const DebugDraw& to) {
   const BodyTraits& traits = state.traits[slot];
   if (is_half_space(traits)) return;
@@ -63,14 +63,14 @@ void draw_contact(const State& state, const Contact& contact, const DebugDraw& t
   }
 }
 
-/// The edges of a surface's triangles; those that two share twice.
+/// Draws the edges of a terrain's triangles. An edge that two triangles share is drawn twice.
 void draw_surface(const World& world, const State& state, BodyId id, const DebugDraw& to) {
   struct Lines {
     const DebugDraw& to;
     DrawKind kind;
   };
   Lines lines = {to, kind_of(state, id.slot - 1)};
-  // What has no bytes cannot be drawn; its bounds can.
+  // A terrain without asset bytes is not drawn; its bounds can be drawn.
   static_cast<void>(visit_triangles(world, id, &lines, [](void* user, const BodyTriangle& triangle) {
     const Lines& drawn = *static_cast<const Lines*>(user);
     for (int k = 0; k < 3; ++k)

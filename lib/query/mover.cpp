@@ -14,7 +14,7 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 constexpr Real k_way_max = 256.0;
-constexpr Real k_arm_max = 16384.0;  ///< m, from a turning ground's centre
+constexpr Real k_arm_max = 16384.0;  ///< m, from the centre of a rotating ground
 #if defined(DETENT_FX32)
 constexpr Real k_radius_min = 0x1p-4;
 #else
@@ -37,8 +37,8 @@ Status check_mover(const Mover& mover) {
   return normalise_input(mover.ground_pose.rotation, rotation) ? Status::ok : Status::not_normalised;
 }
 
-/// Where the ground's motion since the last call takes the mover's place; farther than a wish may go it does not
-/// follow.
+/// The displacement of the mover's position by the ground's motion since the last call; zero if it exceeds the limit of
+/// a requested displacement.
 Vec3<Real> way_of_ground(const Mover& mover, const Pose& now) {
   const Pose& then = mover.ground_pose;
   Vec3<Real> way = real_difference(now.position, then.position);
@@ -51,7 +51,7 @@ Vec3<Real> way_of_ground(const Mover& mover, const Pose& now) {
   return within(way, k_way_max) ? way : k_zero_vector;
 }
 
-/// What gives the body at the contact the speed of the wish.
+/// The impulse that gives the body at the contact the speed of the requested displacement, N s.
 Vec3<Scaled> impulse_of(const World& world, const MoverSettings& settings, const MoverContact& contact,
                         const Vec3<Real>& way) {
   const StateView<const uint8_t> state = view_of(world);
@@ -97,7 +97,7 @@ Status move_mover(const World& world, const MoverSettings& asked, const Vec3<Rea
     motion.slide(way_of_ground(mover, ground), MoverGait::fall);
     motion.pass({});
   }
-  made.contact_count = made.contacts_dropped = 0;  // of the wish alone
+  made.contact_count = made.contacts_dropped = 0;  // only contacts of the requested motion count
   const Position carried = motion.position();
   motion.recover();
   const Position start = motion.position();

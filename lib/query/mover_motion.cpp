@@ -11,17 +11,18 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr Footing k_footings[] = {Footing::floor, Footing::edge};  // what is better comes first
-/// Bodies are looked at from a thin capsule within: so a depth of up to 7/8 of the radius is a distance.
+constexpr Footing k_footings[] = {Footing::floor, Footing::edge};  // better footings come first
+/// Distances to bodies are measured from a shrunken core, a thin capsule inside the mover. An overlap of up to 7/8 of
+/// the radius is then still a positive distance.
 constexpr int k_core_power = -3;
 constexpr uint32_t k_recoveries = 4;
-constexpr uint32_t k_hits_passed = 3;  ///< by a cast
-/// Of normals that are told apart.
+constexpr uint32_t k_hits_passed = 3;  ///< hits that a cast may ignore
+/// Normals with a greater cosine between them count as equal.
 constexpr Unit k_apart_cosine = 0.9999;
-/// Of an edge to stand on: the least part of its normal along up.
+/// The smallest component along `up` of the normal of an edge to stand on.
 constexpr Unit k_edge_cosine = 0.125;
 
-/// Likewise of a surface: to the side of the triangle that the mover's centre is on.
+/// As way_out(), for a terrain: out to the side of the triangle on which the mover's centre is.
 bool way_out_of_surface(const World& world, const QueryHit& hit, const Shape& core, const Pose& at,
                         const Vec3<Unit>& up, Vec3<Unit>& normal, Real& depth) {
   const StateView<const uint8_t> state = view_of(world);
@@ -34,7 +35,8 @@ bool way_out_of_surface(const World& world, const QueryHit& hit, const Shape& co
   return true;
 }
 
-/// The way out of a body that even the core is in; of a compound that of the part that it is in deepest.
+/// The normal and the depth of a body that overlaps even the core; for a compound, those of the part with the deepest
+/// overlap.
 bool way_out(const World& world, BodyId body, const Shape& core, const Pose& at, Vec3<Unit>& normal, Real& depth) {
   const StateView<const uint8_t> state = view_of(world);
   const BodyTraits& traits = state.traits[body.slot - 1];
@@ -79,7 +81,7 @@ QueryReport MoverMotion::ask(Status (*call)(const World&, const Query&, QueryHit
   return answer;
 }
 
-/// No part of it is free to go.
+/// Whether the mover is stuck: even its core overlaps something, or a query failed.
 bool MoverMotion::caught() const {
   return status_ != Status::ok || free_radius_ < scale_by_power(settings_.radius, k_core_power);
 }
@@ -103,8 +105,8 @@ void MoverMotion::add_plane(const MoverPlane& plane) {
     planes_[plane_count_++] = plane;
 }
 
-/// The planes of a surface beside that of its nearest point, which was added last: a floor and walls may be of one
-/// body.
+/// Adds the planes of a terrain other than that of its nearest point, which was added last. One terrain may have both
+/// the floor and walls.
 void MoverMotion::add_surface(const QueryHit& hit) {
   const StateView<const uint8_t> state = view_of(world_);
   const BodyPose& ground = state.poses[hit.body.slot - 1];
@@ -143,7 +145,7 @@ void MoverMotion::add_near(const QueryHit& hit, const Shape& core) {
   if (hit.normal == k_no_direction) {
     out.normal = up_;
     out.point = position_;
-    Real depth = core.radius;  // of a body that cannot be asked
+    Real depth = core.radius;  // used if the body cannot be tested
     const Pose at = {position_, settings_.rotation};
     if (on_surface)
       way_out_of_surface(world_, hit, core, at, up_, out.normal, depth);
@@ -157,7 +159,7 @@ void MoverMotion::add_near(const QueryHit& hit, const Shape& core) {
   if (on_surface) add_surface(hit);
 }
 
-/// Finds the planes that are near, and the part of the mover that is free.
+/// Finds the planes of nearby bodies and the free radius of the mover.
 void MoverMotion::look_around() {
   if (known_ || status_ != Status::ok) return;
   known_ = true;
@@ -186,14 +188,14 @@ void MoverMotion::look_around() {
   free_radius_ = min(settings_.radius, query.shape.radius + nearest - half_gap);
 }
 
-/// Whether the part of the mover that is cast goes on through what it hit: it is not there for it, or it is within it.
+/// Whether the cast continues through a hit: the body is ignored, or the core already overlaps it and moves out.
 bool MoverMotion::passes(const QueryHit& hit, const Vec3<Real>& way) const {
   if (hit.body == passed_) return true;
   return caught() && hit.fraction.raw == 0 && !hit.undecided && dot(way, hit.normal) >= k_zero;
 }
 
-/// Goes along `way`, not shorter than k_mover_still, until the gap to what it meets, and keeps the plane there. If no
-/// part of it is free, then with its core.
+/// Moves along `way`, which is at least k_mover_still long, up to the gap before the first obstacle, and keeps the
+/// plane of that obstacle. If the mover is stuck, only its core is cast.
 void MoverMotion::step_along(const Vec3<Real>& way) {
   const Real core = scale_by_power(settings_.radius, k_core_power);
   CastQuery query;
@@ -202,14 +204,14 @@ void MoverMotion::step_along(const Vec3<Real>& way) {
   query.rotation = settings_.rotation;
   query.way = way;
   query.filter = settings_.filter;
-  query.all = caught() || passed_.slot != 0;  // to look beyond what it passes
+  query.all = caught() || passed_.slot != 0;  // to find hits behind the ignored ones
   QueryHit hits[k_hits_passed + 1];
   const uint32_t room_for = query.all ? k_hits_passed + 1 : 1;
   const uint32_t count = ask(query_cast, query, {hits, room_for}).hits;
   if (status_ != Status::ok) return;
   uint32_t first = 0;
   while (first < count && passes(hits[first], way)) ++first;
-  if (first == room_for) {  // what is behind these is not known
+  if (first == room_for) {  // the hits behind these are unknown
     ++report_.hits_dropped;
     return;
   }
@@ -223,7 +225,7 @@ void MoverMotion::step_along(const Vec3<Real>& way) {
     const Real closing = -dot(way, hit.normal);
     const Real wall = caught() ? k_zero : settings_.radius - free_radius_;
     const Real room = fraction * closing - wall - settings_.gap;
-    const bool straight = closing > k_mover_still;  // never so of what is undecided: it has no normal
+    const bool straight = closing > k_mover_still;  // false for undecided hits, which have no normal
     const Real part = straight ? divide(room, closing) : fraction - divide(settings_.gap, length(way));
     position_ = moved(position_, way * clamp(part, k_zero, fraction));
     report_.undecided += hit.undecided ? 1 : 0;
@@ -233,7 +235,7 @@ void MoverMotion::step_along(const Vec3<Real>& way) {
   for (uint32_t i = 0; i < met_count_; ++i) planes_[i].room += dot(gone, planes_[i].normal);
 }
 
-/// Whether what is beside the contact, under the mover's foot, is a floor.
+/// Tests by a ray whether the body beside the contact point, under the mover's foot, is a floor; sets the footing.
 void MoverMotion::find_footing(MoverPlane& plane) {
   if (plane.footing != Footing::unknown) return;
   plane.footing = Footing::none;
@@ -251,7 +253,7 @@ void MoverMotion::find_footing(MoverPlane& plane) {
   if (!hit.undecided && dot(hit.normal, up_) >= settings_.slope_cosine) plane.footing = Footing::edge;
 }
 
-/// The planes whose bits are set stood in the way.
+/// Adds the planes whose bits are set to the contacts of the report.
 void MoverMotion::note(uint32_t met) {
   for (uint32_t i = 0; i < plane_count_; ++i) {
     if ((met >> i & 1) == 0) continue;
@@ -291,7 +293,7 @@ Vec3<Real> MoverMotion::slide(Vec3<Real> way, MoverGait gait) {
     step_along(next);
     const Vec3<Real> gone = real_difference(position_, from);
     way -= gone;
-    if (gait == MoverGait::walk) way -= up_ * dot(way, up_);  // what floors lifted is no debt
+    if (gait == MoverGait::walk) way -= up_ * dot(way, up_);  // the lift by floors need not be undone
     if (within(way, k_mover_still) || (within(gone, k_mover_still) && met_count_ == met_before)) return way;
   }
   ++report_.slides_cut;
@@ -348,13 +350,13 @@ bool MoverMotion::climb(const Vec3<Real>& rest) {
   };
   go(up_ * settings_.step_height);
   if (rise() > half_gap) {
-    // Far enough to come to rest on the edge, and not in the gap before it.
+    // Far enough that the mover comes to rest on the edge and not in the gap before it.
     slide(forward * max(size, scale_by_power(settings_.gap, 1)), MoverGait::walk);
     if (gets_on()) {
       go(up_ * -rise());
       const MoverPlane* floor = find_floor();
       if (floor != nullptr && rise() > half_gap && gets_on()) {
-        // An edge may be far up the foot's side.
+        // An edge may touch the side of the mover high above its foot.
         const Real top =
             dot(real_difference(floor->point, start.position), up_) + settings_.half_length + settings_.radius;
         if (top <= settings_.step_height) return true;

@@ -6,37 +6,38 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Planes of bodies around a mover that it looks at, and turns of a motion, each of which may meet one more plane.
+/// Limits of a motion: planes of nearby bodies, and changes of direction, each of which can add one plane.
 inline constexpr uint32_t k_mover_near_max = 16, k_mover_turns_max = 8;
 inline constexpr uint32_t k_mover_planes_max = k_mover_near_max + k_mover_turns_max;
 
-/// A mover on its way: where it is, and what it knows of what is around it. Its questions are those of query.h.
+/// A mover during a motion: its position and the planes of the bodies around it, found by the queries of query.h.
 class MoverMotion {
  public:
-  /// `settings`: checked, its rotation normalised.
+  /// `settings`: in range, with a normalised rotation.
   MoverMotion(const World& world, const MoverSettings& settings, const Position& start, MoverReport& report);
 
   const Position& position() const { return position_; }
   const Vec3<Unit>& up() const { return up_; }
-  /// Of the first query that failed.
+  /// ok, or the status of the last query that failed.
   Status status() const { return status_; }
 
-  /// From now on this body is not there; null: all are.
+  /// Ignores this body from now on; null: ignores none.
   void pass(BodyId body) {
     passed_ = body;
     known_ = false;
   }
-  /// Moves along `way` as far as what it meets allows. Returns what is left of it.
+  /// Moves by `way`, sliding along obstacles. Returns the part of the displacement that is left.
   Vec3<Real> slide(Vec3<Real> way, MoverGait gait);
-  /// Moves along `way` until the gap to what it meets.
+  /// Moves along `way` and stops at the gap before the first obstacle.
   void go(const Vec3<Real>& way);
-  /// Moves out of what it is too near to; the report tells what is left.
+  /// Moves out of bodies that are nearer than the gap; the report holds the remaining overlap.
   void recover();
-  /// The floor that it stands on, or null. It may stand on an edge that is no floor by its normal.
+  /// The floor that the mover stands on, or null. It may be an edge whose normal is not that of a floor.
   const MoverPlane* find_floor();
-  /// Moves up against what stopped it, forward along `rest`, and down to a floor; or stays, and returns false.
+  /// Steps over an obstacle: moves up, forward along `rest`, and down to a floor. If that fails, restores the position
+  /// and returns false.
   bool climb(const Vec3<Real>& rest);
-  /// Moves down to the floor below it; or stays, and returns null.
+  /// Moves down to the floor below. If there is none, restores the position and returns null.
   const MoverPlane* descend();
 
  private:
@@ -68,10 +69,10 @@ class MoverMotion {
   BodyId passed_ = {};
   Status status_ = Status::ok;
   MoverPlane planes_[k_mover_planes_max];
-  uint32_t met_count_ = 0;    ///< the first of the planes: met on the motion
-  uint32_t plane_count_ = 0;  ///< and those that are near
-  bool known_ = false;        ///< the planes that are near are those of the position
-  Real free_radius_;          ///< of the part of it that is free
+  uint32_t met_count_ = 0;    ///< number of planes hit during the motion; they come first
+  uint32_t plane_count_ = 0;  ///< number of all planes; those of nearby bodies follow
+  bool known_ = false;        ///< the planes of nearby bodies are valid for the position
+  Real free_radius_;          ///< radius of the shrunken capsule that overlaps nothing, m
 };
 
 }  // namespace DETENT_NAMESPACE

@@ -8,7 +8,7 @@ namespace {
 
 constexpr uint32_t k_plane_sweeps = 32;
 
-/// A plane and where it pushes the way.
+/// A plane and the direction in which it corrects the displacement.
 struct PlanePush {
   Vec3<Unit> normal;
   Vec3<Unit> along;
@@ -28,7 +28,7 @@ PlanePush push_of(const MoverPlane& plane, const Vec3<Unit>& up, MoverGait gait)
   if (gait == MoverGait::fall || rise < Unit(0.0)) return push;
   Vec3<Unit> level;
   Unit size;
-  if (!normalise(plane.normal - up * rise, level, size)) return push;  // never: a floor is up
+  if (!normalise(plane.normal - up * rise, level, size)) return push;  // never: a normal along up is a floor
   push.normal = push.along = level;
   push.room = divide(push.room, real_from_unit(size, 0));
   return push;
@@ -58,7 +58,7 @@ Vec3<Real> way_between(Span<const MoverPlane> planes, const Vec3<Real>& wish, co
   for (uint32_t i = 0; i < planes.count; ++i) {
     if (pushes[i].pushed > k_mover_still) met |= 1u << i;
   }
-  // In a narrow wedge the sweeps end on the way there.
+  // In a narrow wedge the sweeps end before they converge, so scale the displacement to keep the gap.
   for (const MoverPlane& plane : planes) {
     const Real closing = -dot(way, plane.normal), room = max(plane.room, k_zero);
     if (closing > room + k_mover_still) way = way * divide(room, closing);
@@ -71,7 +71,7 @@ Vec3<Real> way_out_of(Span<const MoverPlane> planes) {
   for (uint32_t sweep = 0; sweep < k_plane_sweeps; ++sweep) {
     for (const MoverPlane& plane : planes) {
       const Real lacking = -plane.room - dot(way, plane.normal);
-      // By half: opposite planes then agree on a place between them.
+      // Correct by half, so that opposite planes converge to a place between them.
       if (lacking > k_zero) way += plane.normal * scale_by_power(lacking, -1);
     }
   }

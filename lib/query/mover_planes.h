@@ -4,49 +4,51 @@
 #include "base/span.h"
 #include "math/root.h"
 
-/// The planes around a mover, and the way that they leave it.
+/// The planes around a mover, and the displacement that they allow.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// How a motion takes what is steeper than a floor.
+/// How a motion treats a plane that is steeper than a floor.
 enum class MoverGait : uint32_t {
-  walk,  ///< as an upright wall
-  fall,  ///< as it is
+  walk,  ///< as a vertical wall
+  fall,  ///< with its real slope
 };
 
-/// What a mover can stand on.
+/// Whether a mover can stand on a plane.
 enum class Footing : uint32_t {
-  unknown,  ///< no floor by its normal
+  unknown,  ///< too steep by its normal; not tested for an edge yet
   none,
-  floor,  ///< by its normal
-  edge,   ///< of a floor
+  floor,  ///< flat enough by its normal
+  edge,   ///< the edge of a floor
 };
 
-/// A plane between a mover and a body. It parts the two wherever the mover goes on its side of it.
+/// A plane between a mover and a body. It separates the two as long as the mover stays on its side.
 struct MoverPlane {
-  Vec3<Unit> normal;  ///< of the body, outward
-  Real room;          ///< along the normal, to where the mover keeps its gap; negative: it is too near
+  Vec3<Unit> normal;  ///< outward normal of the body
+  Real room;          ///< distance along the normal until only the gap is left, m; negative: the mover is too near
   Footing footing;
   BodyId body;
   Position point;   ///< on the body
-  bool on_surface;  ///< the body has more planes, each in the report
+  bool on_surface;  ///< the body is a terrain: it may have several planes, each reported
 };
 
-/// What is shorter is no motion, m: two steps of a position where these are coarse.
+/// Displacements shorter than this count as no motion, m. It is two position steps in configurations with coarse
+/// positions.
 #if defined(DETENT_FX32)
 inline constexpr Real k_mover_still = Real(0x1p-15);
 #else
 inline constexpr Real k_mover_still = Real(0x1p-20);
 #endif
 
-/// The way nearest to `wish` that leaves no plane's gap; 0 always does. Floors move it along `up`, which keeps its
-/// level part; other planes as the gait says. Bit i of `met` is set for a plane that turned it. Source: Hildreth, "A
-/// quadratic programming procedure", 1957; Cottle, Pang, Stone, "The Linear Complementarity Problem", 5.2, for pushes
-/// that are not along the normal.
+/// The displacement nearest to `wish` that keeps the gap to every plane; zero always does. A floor changes it along
+/// `up`, which keeps its horizontal part; other planes change it according to the gait. Bit i of `met` is set if plane
+/// i changed it. Source: Hildreth, "A quadratic programming procedure", 1957; for corrections that are not along the
+/// normal, Cottle, Pang, Stone, "The Linear Complementarity Problem", 5.2.
 Vec3<Real> way_between(Span<const MoverPlane> planes, const Vec3<Real>& wish, const Vec3<Unit>& up, MoverGait gait,
                        uint32_t& met);
 
-/// A way out of the planes whose gap is not kept; of planes that leave no room, to somewhere in the middle.
+/// A displacement that restores the gap to planes that are too near. If the planes leave no room, it leads to a place
+/// in the middle.
 Vec3<Real> way_out_of(Span<const MoverPlane> planes);
 
 }  // namespace DETENT_NAMESPACE

@@ -27,8 +27,8 @@ Status get_velocity(const World& world, BodyId id, Vec3<Real>& velocity, Vec3<Re
   const BodyTraits& traits = state.traits[slot];
   const BodyMotion& motion = state.motions[slot];
   const Vec3<Real> speed = spin_of(traits, state.poses[slot].rotation, motion.momentum);
-  // A spin beyond Real's range, which only bodies below 12 cm can have, is held to it, but for what rounding would
-  // pass.
+  // An angular velocity beyond Real's range, which only bodies below 12 cm can have, is clamped to that range, less a
+  // margin for rounding.
   const int exponent = traits.size_exponent;
   const Real limit = exponent < 0 ? scale_by_power(Real(131071.0), exponent) : k_real_max;
   const auto per_radius = [&](Real value) { return scale_by_power(clamp(value, -limit, limit), -exponent); };

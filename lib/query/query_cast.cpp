@@ -15,7 +15,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// As time_of_impact() takes it.
+/// Whether time_of_impact() accepts the motion.
 bool is_motion(const Motion& motion) {
   const auto below = [](Real value) { return value > Real(-16384.0) && value < Real(16384.0); };
   const Vec3<Real>& way = motion.displacement;
@@ -23,7 +23,7 @@ bool is_motion(const Motion& motion) {
          within(motion.turn, Real(65536.0)) && length(motion.turn) <= Real(65536.0);
 }
 
-/// A shape that turns stays in its bounding ball.
+/// Half extents of the shape during the motion, 2^-46 m: those of its bounding sphere if it rotates.
 Vec64 half_of(const QueryShape& shape, const Motion& motion, const Quat& rotation) {
   if (motion.turn == k_zero_vector) return query_half(shape, rotation);
   const Real ball = real_from_unit(shape.traits.bounding_radius, shape.traits.size_exponent);
@@ -32,7 +32,7 @@ Vec64 half_of(const QueryShape& shape, const Motion& motion, const Quat& rotatio
   return raw;
 }
 
-/// Where a body that has a surface is hit; false if it is not.
+/// Finds the hit on a terrain. False if there is none.
 bool cast_at_surface(const QueryBodies& bodies, uint32_t slot, const QueryShape& shape, const Motion& motion,
                      Fraction entry, QueryHit& hit) {
   const BodyTraits& traits = bodies.state.traits[slot];
@@ -47,7 +47,7 @@ bool cast_at_surface(const QueryBodies& bodies, uint32_t slot, const QueryShape&
   return !asked || met;
 }
 
-/// The first hit on a part of the body, or what is left undecided before it. False if it could not be asked.
+/// The first hit on a part of the body, or an undecided result that is earlier. False if a part could not be tested.
 bool first_impact(const QueryBodies& bodies, const BodyTraits& traits, const Motion& still, const QueryShape& shape,
                   const Motion& motion, TimeOfImpact& first) {
   first.outcome = ToiOutcome::clear;
@@ -64,7 +64,7 @@ bool first_impact(const QueryBodies& bodies, const BodyTraits& traits, const Mot
   return parts.count() != 0;
 }
 
-/// Where the body is hit; false if it is not.
+/// Finds the hit on a body. False if there is none.
 bool cast_at(const QueryBodies& bodies, uint32_t slot, const QueryShape& shape, const Motion& motion, Fraction entry,
              QueryHit& hit) {
   const BodyTraits& traits = bodies.state.traits[slot];

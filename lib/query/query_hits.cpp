@@ -53,7 +53,7 @@ void HitCollector::add(const QueryHit& hit) {
   first_ = hit;
   count_ = 1;
   undecided_ = hit.undecided ? 1 : 0;
-  // One that is undecided rules out nothing: it comes after others that are as near.
+  // An undecided hit rules out nothing, because it comes after decided hits that are equally near.
   if (hit.undecided) return;
   end_ = hit.fraction;
   reach_ = hit.distance;

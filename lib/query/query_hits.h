@@ -6,38 +6,38 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The order of hits, and of those with the triangles of a surface. Of two that are as near the one that is decided
-/// comes first: so what a decided hit is known to beat need not be asked for.
+/// The order of hits, also of hits with the triangles of one terrain. Of two equally near hits the decided one comes
+/// before the undecided one. A candidate that cannot come before a decided hit therefore need not be tested.
 struct HitOrder {
   bool operator()(const QueryHit& a, const QueryHit& b) const;
 };
 
-/// Takes the hits of a query in whatever order they are found.
+/// Collects the hits of a query, in any order.
 class HitCollector {
  public:
-  /// `end`, `reach`: of what is looked for.
+  /// `end`, `reach`: the limits of the query, in time and in distance, m.
   HitCollector(bool all, QueryHits out, Fraction end, Real reach);
 
   void add(const QueryHit& hit);
-  /// Sorts what was found and tells of it.
+  /// Sorts the hits and fills the report.
   void finish(QueryReport& report);
 
-  /// What is later, or farther, cannot be among the hits.
+  /// The current limits in time and distance: a later or farther hit cannot be in the result.
   Fraction end() const { return end_; }
   Real reach() const { return reach_; }
-  /// Nor can a body of this slot or a higher one, wherever it is.
+  /// Whether no body with this slot or a higher one can be in the result, at any distance.
   bool rules_out(uint32_t slot) const { return first_slot_ <= slot; }
 
  private:
   bool all_;
   Fraction end_;
   Real reach_;
-  uint32_t first_slot_ = UINT32_MAX;  ///< of a decided hit right at the start
+  uint32_t first_slot_ = UINT32_MAX;  ///< slot of a decided hit at time and distance 0
   SmallestOf<QueryHit, HitOrder> kept_;
   QueryHit first_;
   uint32_t count_ = 0;
   uint32_t undecided_ = 0;
-  uint64_t digest_ = 0;  ///< the sum of the hits': their order is of no weight
+  uint64_t digest_ = 0;  ///< the sum of the hits' digests, so that their order does not matter
 };
 
 }  // namespace DETENT_NAMESPACE

@@ -14,7 +14,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// How near a body that has a surface is; false if it is beyond `reach`.
+/// The distance to a terrain. False if it is beyond `reach`.
 bool near_at_surface(const QueryBodies& bodies, uint32_t slot, const QueryShape& shape, const Pose& at, Real gap,
                      Real reach, QueryHit& hit) {
   const BodyTraits& traits = bodies.state.traits[slot];
@@ -29,7 +29,7 @@ bool near_at_surface(const QueryBodies& bodies, uint32_t slot, const QueryShape&
   return hit.distance <= reach && (!asked || met);
 }
 
-/// The nearest points of the body's parts, or what is left undecided nearer. False if they could not be asked.
+/// The nearest points of the body's parts, or an undecided result that is nearer. False if a part could not be tested.
 bool nearest_part(const QueryBodies& bodies, const BodyTraits& traits, const Pose& pose, const QueryShape& shape,
                   const Pose& at, Closest& nearest) {
   const ConvexParts parts(traits, bodies.world.assets);
@@ -44,7 +44,7 @@ bool nearest_part(const QueryBodies& bodies, const BodyTraits& traits, const Pos
   return parts.count() != 0;
 }
 
-/// How near the body is; false if it is beyond `reach`.
+/// The distance to a body. False if it is beyond `reach`.
 bool near_at(const QueryBodies& bodies, uint32_t slot, const QueryShape& shape, const Pose& at, Real gap, Real reach,
              QueryHit& hit) {
   const BodyTraits& traits = bodies.state.traits[slot];

@@ -10,21 +10,21 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// A tolerance is less than this part of the sizes and distances of a pair.
+/// The tolerance of the narrow phase is less than 2^-18 of the sizes and distances of a pair.
 constexpr int k_tolerance_power = 18;
-/// A way is looked along in up to 2^6 pieces, a reach by doubling what is 2^-8 of it: what is far from the hit is not
-/// asked then.
+/// A displacement is searched in up to 2^6 pieces. A search distance starts at 2^-8 of its value and is doubled.
+/// Triangles far from the hit are then not tested.
 constexpr int k_pieces_power = 6, k_reaches_power = 8;
 
-/// The triangles about a shape, in the surface's axes, one by one.
+/// A search over the triangles around a shape, in the terrain's axes.
 struct TriangleSearch {
   const AskedSurface& ground;
   const QueryShape& shape;
   SurfacePlace place = {};
   Placed alone = {};          ///< the shape in a block of its own unit
-  int64_t ball = 0;           ///< about a shape that turns; else 0. 2^-46 m, as what follows
-  int64_t radius = 0;         ///< of the shape's rounding, and the tolerance
-  Vec64 low = {}, high = {};  ///< of the shape, from its centre
+  int64_t ball = 0;           ///< bounding radius of a shape that rotates, else 0. This and the next members: 2^-46 m
+  int64_t radius = 0;         ///< the shape's rounding plus the tolerance
+  Vec64 low = {}, high = {};  ///< bounds of the shape relative to its centre
   QueryHit best = {};
   bool found = false;
   Status status = Status::ok;
@@ -42,10 +42,10 @@ struct TriangleSearch {
     alone = detent::place(shape.convex, place.rotation, shape.convex.exponent);
     low = {lowest({k_one, 0, 0}), lowest({0, k_one, 0}), lowest({0, 0, k_one})};
     high = {-lowest({-k_one, 0, 0}), -lowest({0, -k_one, 0}), -lowest({0, 0, -k_one})};
-    if (length_bound(place.centre) > int64_t{1} << 62) status = Status::out_of_range;  // what follows fits 63 bits
+    if (length_bound(place.centre) > int64_t{1} << 62) status = Status::out_of_range;  // later sums fit 63 bits
   }
 
-  /// Of the shape along an axis of the surface, from its centre.
+  /// The lowest coordinate of the shape along a unit axis in the terrain's axes, relative to its centre.
   int64_t lowest(const Vec32& axis) const {
     if (ball != 0) return -ball - radius;
     return raw_from_block(dot(axis, support(alone, negate(axis)).point) >> 30, shape.convex.exponent) - radius;
@@ -54,17 +54,17 @@ struct TriangleSearch {
   Vec64 from_corner(const Vec32& corner) const {
     return {place.centre.x - to_raw(corner.x), place.centre.y - to_raw(corner.y), place.centre.z - to_raw(corner.z)};
   }
-  /// Of the shape's centre over the triangle's plane.
+  /// Height of the shape's centre above the triangle's plane.
   int64_t height(const SurfaceTriangle& t, const Vec32& normal) const {
     return dot(from_corner(t.corner[0]), normal).round_shift(30);
   }
-  /// What a height may err by: a normal does by less than 2^-28.
+  /// Error bound of a height. The error of a normal is below 2^-28.
   int64_t height_error(const SurfaceTriangle& t) const { return (length_bound(from_corner(t.corner[0])) >> 26) + 64; }
   Vec3<Unit> to_world(const Vec32& normal) const {
     return units_from_raw(round_shift(multiply(place.surface, normal), 30));
   }
 
-  /// Whether a hit is one from behind, and there is no such side. What is undecided has no side.
+  /// Whether a hit is from behind on a one-sided terrain and does not count. An undecided hit has no side and counts.
   bool lets_through(const SurfaceTriangle& t, const Vec32& normal, const QueryHit& hit) const {
     if (!ground.surface.one_sided() || hit.undecided) return false;
     if (hit.normal == k_no_direction) return height(t, normal) < 0;
@@ -78,13 +78,13 @@ struct TriangleSearch {
 
   template <class Search>
   static void visit(Search& search, const Vec64& low, const Vec64& high) {
-    constexpr int64_t k_most = int64_t{1} << 61;  // no coordinate of a surface is more than half of it
+    constexpr int64_t k_most = int64_t{1} << 61;  // every coordinate of a terrain is at most half of this
     const auto held = [](int64_t value) { return value > k_most ? k_most : value < -k_most ? -k_most : value; };
     search.ground.code.visit(
         search.ground.surface, {held(low.x), held(low.y), held(low.z)}, {held(high.x), held(high.y), held(high.z)},
         [](void* context, uint32_t triangle) { ask(*static_cast<Search*>(context), triangle); }, &search);
   }
-  /// Asks a triangle that the search cannot rule out.
+  /// Tests a triangle unless the search rules it out.
   template <class Search>
   static void ask(Search& search, uint32_t index) {
     const AskedSurface& ground = search.ground;
@@ -108,7 +108,7 @@ struct TriangleSearch {
 
 struct CastSearch : TriangleSearch {
   const Motion& motion;
-  Vec64 way = {0, 0, 0};  ///< of the centre, in the surface's axes, 2^-46 m
+  Vec64 way = {0, 0, 0};  ///< displacement of the centre in the terrain's axes, 2^-46 m
 
   CastSearch(const AskedSurface& surface, const QueryShape& asked, const Motion& along)
       : TriangleSearch(surface, asked, along.start, !(along.turn == k_zero_vector)), motion(along) {
@@ -141,7 +141,7 @@ struct CastSearch : TriangleSearch {
     return asked;
   }
 
-  /// One piece of the way after the other, until the next would begin after a hit.
+  /// Searches the displacement piece by piece, until the next piece would begin after a hit.
   void run() {
     const Vec64 extent = {high.x - low.x, high.y - low.y, high.z - low.z};
     int power = 0;
@@ -162,12 +162,12 @@ struct CastSearch : TriangleSearch {
 
 struct NearSearch : TriangleSearch {
   const Pose& at;
-  int64_t reach = 0;  ///< up to which it is looked, 2^-46 m
+  int64_t reach = 0;  ///< current search distance, 2^-46 m
 
   NearSearch(const AskedSurface& surface, const QueryShape& asked, const Pose& where)
       : TriangleSearch(surface, asked, where, false), at(where) {}
 
-  /// Whether the triangle's plane or box is farther away than what was found.
+  /// Whether the triangle's plane or box is farther away than the nearest hit, or than `reach` if there is none.
   bool rules_out(const SurfaceTriangle& t, const Vec32& normal) const {
     const int64_t nearest = found ? raw_length(best.distance) : reach;
     const int64_t room = nearest + (nearest >> k_tolerance_power), error = height_error(t);
@@ -195,7 +195,7 @@ struct NearSearch : TriangleSearch {
     return asked;
   }
 
-  /// Looks farther and farther, until something is found that is no farther than what was looked at.
+  /// Doubles the search distance up to `farthest`, until a hit within the search distance is found.
   void run(int64_t farthest) {
     for (int power = farthest > 0 ? k_reaches_power : 0; power >= 0; --power) {
       reach = farthest >> power;

@@ -44,7 +44,7 @@ Status visit_triangles(const World& world, BodyId id, void* user,
   const SurfaceOps& code = walk.surface.code;
   if (const Status status = code.place(walk.surface.pose, walk.surface.pose, walk.place); status != Status::ok)
     return status;
-  constexpr int64_t k_all = int64_t{1} << 61;  // no coordinate of a surface is more than half of it
+  constexpr int64_t k_all = int64_t{1} << 61;  // every coordinate of a terrain is at most half of this
   code.visit(
       walk.surface.surface, {-k_all, -k_all, -k_all}, {k_all, k_all, k_all},
       [](void* context, uint32_t index) { static_cast<const Walk*>(context)->show(index); }, &walk);

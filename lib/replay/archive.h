@@ -5,16 +5,16 @@
 
 #include "state/fields.h"
 
-/// Three ways to go through a list of fields. A type lists its fields once, in a `visit(archive, value)`; the archive
-/// decides what happens: Writer makes canonical bytes of them, Reader takes them from bytes, Normaliser makes them fit
-/// to be written.
+/// Three operations on a list of fields. A type lists its fields once, in a `visit(archive, value)`; the archive
+/// decides the operation: Writer writes the fields as canonical bytes, Reader reads them from such bytes, Normaliser
+/// brings them into the form that can be written.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The lists are compiled once, for this type: so they are small.
+/// The base class of all archives. The field lists are compiled once, for this type, which keeps the code small.
 class Archive {
  public:
-  /// What an archive does; null: nothing.
+  /// The operations of an archive; a null function does nothing.
   struct Ways {
     void (*bits)(Archive& archive, const char* name, uint64_t& value, uint32_t byte_count);
     void (*require)(Archive& archive, const char* name, bool condition, Status otherwise);
@@ -31,7 +31,7 @@ class Archive {
   }
   bool normalises() const { return ways_.normalises; }
 
-  WordKind kind = WordKind::unsigned_integer;  ///< what the bits are that come next, for who shows them
+  WordKind kind = WordKind::unsigned_integer;  ///< kind of the next bits, for programs that display them
 
  protected:
   explicit Archive(const Ways& ways) : ways_(ways) {}
@@ -47,7 +47,7 @@ class Writer final : public Archive {
   uint8_t* bytes;
   uint32_t capacity;
   uint32_t count = 0;
-  bool full = false;  ///< a field did not fit: `bytes` holds a part only
+  bool full = false;  ///< a field did not fit: `bytes` holds only a part
 
  private:
   static void write(Archive& archive, const char* name, uint64_t& value, uint32_t byte_count);
@@ -63,7 +63,7 @@ class Reader final : public Archive {
   uint32_t count;
   uint32_t at;
   const char* failed = nullptr;  ///< the first field that is missing or wrong
-  uint32_t failed_at = 0;        ///< where it starts
+  uint32_t failed_at = 0;        ///< the index of its first byte
   uint32_t field_at = 0;
 
  private:
@@ -86,13 +86,13 @@ class Normaliser final : public Archive {
 void visit_word(Archive& archive, const char* name, uint32_t& value);
 /// One byte, 0 or 1.
 void visit_flag(Archive& archive, const char* name, bool& value);
-/// One byte of `first` to `last`.
+/// One byte with a value from `first` to `last`.
 void visit_byte(Archive& archive, const char* name, uint32_t& value, uint32_t first, uint32_t last);
-/// Two's complement; of Archive::kind, which is unsigned integers afterwards.
+/// Two's complement bits of the current Archive::kind. Afterwards the kind is unsigned_integer again.
 void visit_bits(Archive& archive, const char* name, int32_t& value);
 void visit_bits(Archive& archive, const char* name, int64_t& value);
 
-/// One byte; the enumeration's values are `first` to `last`.
+/// One byte with an enumeration value from `first` to `last`.
 template <class Enum>
 void visit_choice(Archive& archive, const char* name, Enum& value, Enum first, Enum last) {
   uint32_t number = static_cast<uint32_t>(value);
@@ -106,12 +106,13 @@ void visit_number(Archive& archive, const char* name, Fixed<Int, frac>& value) {
   archive.kind = WordsOf<Fixed<Int, frac>>::k_kind;
   visit_bits(archive, name, value.raw);
 }
-/// The IEEE bits. Only integer arithmetic, so the caller's floating-point modes don't matter. One zero, and no NaN:
-/// their bits differ between machines.
+/// The IEEE bits. The code uses only integer arithmetic, so the caller's floating-point modes do not matter. Negative
+/// zero, infinities and NaN are rejected; the Normaliser replaces negative zero by zero. The bits of zeros and NaN
+/// differ between machines.
 void visit_number(Archive& archive, const char* name, float& value);
 void visit_number(Archive& archive, const char* name, double& value);
 #if DETENT_FIXED
-/// Mantissa, exponent; canonical as scaled.h states it.
+/// Mantissa and exponent, in the canonical form of scaled.h.
 void visit_number(Archive& archive, const char* name, Scaled& value);
 #endif
 template <class T>

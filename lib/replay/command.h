@@ -6,12 +6,12 @@
 
 #include "replay/archive.h"
 
-/// Every mutating call as a value. Each command lists its fields once (`visit`), for writing and reading
-/// alike, and says how it is made (`apply`).
+/// Every mutating call as a value. Each command lists its fields once (`visit`), for writing and for reading, and has a
+/// function that makes the call (`apply`).
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The first byte of a record. Stored: a value is never reused.
+/// The first byte of a record. Stored in files: a value is never reused.
 enum class RecordTag : uint8_t {
   create_body = 1,
   destroy_body = 2,
@@ -45,22 +45,22 @@ enum class RecordTag : uint8_t {
   move_kinematic = 45,
   set_sensor = 46,
   set_filter = 48,
-  query = 49,  ///< a query and the digest of its answer (lib/replay/query_command.h), after their length
+  query = 49,  ///< the length, then a query and the digest of its answer (query_command.h)
   set_inertia = 50,
   create_joint = 64,
   destroy_joint = 65,
   set_joint = 66,
 };
 
-/// The enumerator's name, as that of the call; "" if there is none. Never null.
+/// The enumerator's name, which is also the name of the call; "" if there is none. Never null.
 const char* record_name(RecordTag tag);
 
 struct CreateBody {
   static constexpr RecordTag k_tag = RecordTag::create_body;
-  BodyId id = {};  ///< what the call gave
+  BodyId id = {};  ///< the id that the call returned
   BodyDef def = {};
 };
-/// The calls that need no more than a body.
+/// The calls whose only argument is a body.
 template <RecordTag tag, Status (*call)(World&, BodyId)>
 struct OnBody {
   static constexpr RecordTag k_tag = tag;
@@ -69,7 +69,7 @@ struct OnBody {
 using DestroyBody = OnBody<RecordTag::destroy_body, destroy_body>;
 using WakeBody = OnBody<RecordTag::wake_body, wake_body>;
 using PutToSleep = OnBody<RecordTag::put_to_sleep, put_to_sleep>;
-/// The calls that put a body somewhere.
+/// The calls with a body and a pose.
 template <RecordTag tag, Status (*call)(World&, BodyId, const Position&, const Quat&)>
 struct ToPose {
   static constexpr RecordTag k_tag = tag;
@@ -85,7 +85,7 @@ struct SetVelocity {
   Vec3<Real> velocity = {};
   Vec3<Real> spin = {};
 };
-/// The calls that push a body at a place: a vector from its centre of mass, or a point of the world.
+/// The calls that apply a force or impulse at a place: a vector from the centre of mass, or a point of the world.
 template <RecordTag tag, class Place, Status (*call)(World&, BodyId, const Vec3<Scaled>&, const Place&)>
 struct PushAt {
   static constexpr RecordTag k_tag = tag;
@@ -97,7 +97,7 @@ using ApplyImpulseAt = PushAt<RecordTag::apply_impulse_at, Vec3<Real>, apply_imp
 using ApplyForceAt = PushAt<RecordTag::apply_force_at, Vec3<Real>, apply_force_at>;
 using ApplyImpulseAtPoint = PushAt<RecordTag::apply_impulse_at_point, Position, apply_impulse_at_point>;
 using ApplyForceAtPoint = PushAt<RecordTag::apply_force_at_point, Position, apply_force_at_point>;
-/// The four calls that push a body by one vector.
+/// The four calls that apply one vector (force, torque, impulse, angular impulse) to a body.
 template <RecordTag tag, Status (*call)(World&, BodyId, const Vec3<Scaled>&)>
 struct Push {
   static constexpr RecordTag k_tag = tag;
@@ -112,7 +112,7 @@ struct SetGravity {
   static constexpr RecordTag k_tag = RecordTag::set_gravity;
   Vec3<Real> gravity = {};
 };
-/// The calls that give a body one value.
+/// The calls that set one value of a body.
 template <RecordTag tag, class Value, auto call>
 struct SetValue {
   static constexpr RecordTag k_tag = tag;
@@ -154,7 +154,7 @@ struct BindAsset {
 };
 struct CreateJoint {
   static constexpr RecordTag k_tag = RecordTag::create_joint;
-  JointId id = {};  ///< what the call gave
+  JointId id = {};  ///< the id that the call returned
   JointDef def = {};
 };
 struct DestroyJoint {
@@ -224,7 +224,7 @@ inline void visit(Archive& archive, BodyDef& def) {
   visit_flag(archive, "sensor", def.sensor);
 }
 
-/// All but the capacity, which is the recording's.
+/// All settings except the capacity, which is in the header of the recording.
 inline void visit(Archive& archive, WorldDef& def) {
   visit_number(archive, "gravity", def.gravity);
   visit_number(archive, "tick", def.tick);
@@ -393,7 +393,7 @@ inline Status apply(World& world, Explode& command) { return explode(world, comm
 inline Status apply(World& world, SetFilter& command) { return set_filter(world, command.id, command.filter); }
 inline Status apply(World& world, BindAsset& command) { return bind_asset(world, command.index); }
 
-/// What goes for all commands: `visit` and `apply` of a command of this type at `command`.
+/// The code of a command type. `command` points to a command of this type.
 struct CommandCode {
   RecordTag tag;
   void (*visit)(Archive& archive, void* command);
@@ -404,11 +404,11 @@ inline constexpr CommandCode k_command_code = {
     Command::k_tag, [](Archive& archive, void* command) { visit(archive, *static_cast<Command*>(command)); },
     [](World& world, void* command) { return apply(world, *static_cast<Command*>(command)); }};
 
-/// Of the largest command.
+/// The size of the largest command.
 inline constexpr uint32_t k_command_bytes_max = sizeof(SetJoint) > sizeof(CreateBody) ? sizeof(SetJoint)
                                                                                       : sizeof(CreateBody);
 
-/// The command of this tag, or null if no call has it.
+/// The code of the command with this tag, or null if no call has the tag.
 const CommandCode* find_command(RecordTag tag);
 
 }  // namespace DETENT_NAMESPACE

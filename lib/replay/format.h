@@ -9,15 +9,16 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 constexpr uint32_t k_magic_bytes = 8;
-/// A byte over 127, both line ends and an end-of-file mark: a transfer as text spoils the first eight bytes already.
+/// Contains a byte above 127, both kinds of line end and an end-of-file mark, so that a transfer in text mode already
+/// damages the first eight bytes.
 inline constexpr uint8_t k_recording_magic[k_magic_bytes] = {0x89, 'D', 'T', 'R', '\r', '\n', 0x1a, '\n'};
 
-constexpr uint32_t k_version_bytes = 4;  ///< the format version: the first thing after the magic, whatever follows
+constexpr uint32_t k_version_bytes = 4;  ///< the format version: it always follows the magic
 constexpr uint32_t k_info_bytes = 60;    ///< the header's fields
 constexpr uint32_t k_checksum_bytes = 4;
 constexpr uint32_t k_header_bytes = k_magic_bytes + k_info_bytes + k_checksum_bytes;
 
-/// Where those header fields start that can be refused after the checksum.
+/// Offsets of the header fields that can be refused after the checksum test.
 constexpr uint32_t k_simulation_at = 12;
 constexpr uint32_t k_config_at = 16;
 constexpr uint32_t k_capacity_at = 20;
@@ -27,23 +28,23 @@ constexpr uint32_t k_chunk_header_bytes = 16;
 constexpr uint32_t k_chunk_payload_bytes_max = 512;
 static_assert(k_chunk_header_bytes + k_chunk_payload_bytes_max + k_checksum_bytes <= k_recording_buffer_bytes);
 
-/// Stored: a value is never reused.
+/// Stored in files: a value is never reused.
 enum class ChunkType : uint32_t {
   seed = 1,   ///< a piece of the snapshot, in order
   calls = 2,  ///< whole records
   end = 3,
   keyframe = 0x8001,  ///< the digest of the state, then a piece of its snapshot, in order
   stages = 0x8002,    ///< a piece of a tick's trace at TraceLevel::stages (trace_stream.h), before the tick's record
-  state = 0x8003,     ///< and at TraceLevel::full
+  state = 0x8003,     ///< the same at TraceLevel::full
 };
-/// A reader passes over a chunk of an unknown type that has this bit, and refuses one that has it not.
+/// A reader skips a chunk of unknown type with this bit, and refuses one without it.
 constexpr uint32_t k_chunk_optional = 0x8000;
 
 struct ChunkHeader {
   uint64_t type = 0;
   uint64_t payload_count = 0;
   uint64_t sequence = 0;  ///< 0 for the first chunk
-  uint64_t tick = 0;      ///< ticks completed before what the chunk holds
+  uint64_t tick = 0;      ///< number of ticks completed before the contents of the chunk
 };
 
 inline void visit(Archive& archive, ChunkHeader& header) {
@@ -54,7 +55,7 @@ inline void visit(Archive& archive, ChunkHeader& header) {
 }
 
 struct Ending {
-  uint64_t ticks = 0;   ///< in the recording
+  uint64_t ticks = 0;   ///< number of ticks in the recording
   uint64_t digest = 0;  ///< of the final state
 };
 
@@ -93,12 +94,12 @@ inline void visit(Archive& archive, RecordingInfo& info) {
   visit_word(archive, "keyframe interval", info.keyframe_interval);
 }
 
-constexpr uint32_t k_keyframe_digest_bytes = 8;  ///< in front of its snapshot
+constexpr uint32_t k_keyframe_digest_bytes = 8;  ///< the digest before the snapshot of a keyframe
 
-/// Whether what comes every so many ticks comes after this one.
+/// Whether an action that is done every `interval` ticks is due after this tick. 0: never.
 constexpr bool is_due(uint32_t interval, uint64_t tick) { return interval != 0 && tick % interval == 0; }
 
-/// The CRC-32 at `bytes`, and back.
+/// These read and write the CRC-32 at `bytes`.
 inline uint32_t read_checksum(const uint8_t* bytes) {
   uint32_t checksum = 0;
   Reader reader{bytes, k_checksum_bytes};
@@ -110,7 +111,8 @@ inline void write_checksum(uint8_t* bytes, uint32_t checksum) {
   visit_word(writer, "checksum", checksum);
 }
 
-/// Puts the frame about a chunk's payload, which stands in `buffer` behind the room for the header. Its length, bytes.
+/// Adds the header and the checksum to a chunk's payload, which is in `buffer` after the space for the header. Returns
+/// the length of the chunk, bytes.
 inline uint32_t make_chunk(uint8_t* buffer, ChunkHeader header) {
   Writer writer{buffer, k_chunk_header_bytes};
   visit(writer, header);
@@ -119,7 +121,7 @@ inline uint32_t make_chunk(uint8_t* buffer, ChunkHeader header) {
   return count + k_checksum_bytes;
 }
 
-/// The end chunk. Its length, bytes.
+/// Makes the end chunk. Returns its length, bytes.
 inline uint32_t make_end(uint8_t* buffer, Ending ending, uint32_t sequence, uint64_t tick) {
   Writer writer{buffer + k_chunk_header_bytes, k_chunk_payload_bytes_max};
   visit(writer, ending);

@@ -3,7 +3,7 @@
 
 #include "base/digest.h"
 
-/// What sessions and the sync test need of a game's own bytes.
+/// Operations on a game's own bytes for rollback sessions and the sync test.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 

@@ -39,7 +39,7 @@ Status Player::open() {
   if (buffer_ == nullptr || buffer_bytes_ < k_recording_buffer_bytes)
     return fail(Status::buffer_too_small, 0, "buffer");
 
-  // The version says how long the header is, so it is judged before the checksum.
+  // The length of the header depends on the version, so the version is checked before the checksum.
   constexpr uint32_t k_start_bytes = k_magic_bytes + k_version_bytes;
   if (read(buffer_, k_magic_bytes, "magic") != Status::ok) return error_.status;
   if (memcmp(buffer_, k_recording_magic, k_magic_bytes) != 0) return fail(Status::not_detent, 0, "magic");
@@ -165,7 +165,8 @@ Status Player::begin_keyframe(uint64_t& digest) {
   return Status::ok;
 }
 
-/// Only its digest is compared; the bytes are those of a state with this digest, or `go_to` refuses them.
+/// Skips a keyframe and compares only its digest. The bytes are not checked here; go_to() refuses a keyframe whose
+/// bytes do not have this digest.
 Status Player::pass_keyframe(const World* world) {
   uint64_t recorded = 0;
   if (begin_keyframe(recorded) != Status::ok) return error_.status;
@@ -248,7 +249,7 @@ Status Player::call(World* world, uint32_t tag, Reader& reader, uint64_t offset)
   alignas(8) uint8_t command[k_command_bytes_max] = {};
   code->visit(reader, command);
   if (reader.failed != nullptr || world == nullptr) return Status::ok;
-  BodyId recorded, given;  // or a joint's
+  BodyId recorded, given;  // or joint ids
   memcpy(&recorded, command, sizeof recorded);
   const Status status = code->apply(*world, command);
   memcpy(&given, command, sizeof given);
@@ -258,7 +259,7 @@ Status Player::call(World* world, uint32_t tag, Reader& reader, uint64_t offset)
   return Status::ok;
 }
 
-/// What is whole ends before the chunk that isn't.
+/// Marks the recording as cut off: its valid part ends before the chunk that is damaged or incomplete.
 Status Player::cut() {
   if (error_.status == Status::truncated || error_.status == Status::corrupt) state_ = State::cut;
   return error_.status;

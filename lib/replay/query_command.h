@@ -4,12 +4,12 @@
 
 #include "replay/command.h"
 
-/// Every query of query.h as a value, like the calls of command.h. Its record has a length, so that a reader which does
-/// not repeat queries passes over it.
+/// Every query of query.h as a value, like the calls of command.h. The record of a query has a length, so that a reader
+/// which does not repeat queries can skip it.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The first byte after the length. Stored: a value is never reused.
+/// The first byte after the length. Stored in files: a value is never reused.
 enum class QueryKind : uint8_t {
   ray = 1,
   cast = 2,
@@ -39,7 +39,7 @@ inline void visit(Archive& archive, QueryFilter& filter) {
   visit(archive, filter.ignore);
 }
 
-/// What all queries end with.
+/// The last fields of all queries.
 template <class Query>
 void visit_choice_of_bodies(Archive& archive, Query& query) {
   visit(archive, query.filter);
@@ -78,12 +78,12 @@ inline void visit(Archive& archive, ClosestQuery& query) {
   visit_choice_of_bodies(archive, query);
 }
 
-/// What goes for all queries.
+/// The code of a query type.
 struct QueryCode {
   QueryKind kind;
-  /// What follows the kind, of a command of this type.
+  /// Visits the fields after the kind. `command` points to a command of this type.
   void (*visit)(Archive& archive, void* command);
-  /// Asks, and sets the command's digest.
+  /// Runs the query and sets the command's digest.
   Status (*ask)(const World& world, void* command, QueryHits hits, QueryReport& report);
   uint32_t digest_at;  ///< bytes from the command's start
 };
@@ -101,22 +101,22 @@ inline constexpr QueryCode k_query_code = {Command::k_kind,
                                            },
                                            __builtin_offsetof(Command, digest)};
 
-/// Of the largest query.
+/// The size of the largest query command.
 inline constexpr uint32_t k_query_command_bytes = sizeof(CastCommand);
-/// The query of this kind, or null.
+/// The code of this kind of query, or null.
 const QueryCode* find_query(uint64_t kind);
 
-/// With the length, from the kind on, and the kind.
+/// Visits the length of the rest of the record, the kind, and the fields of the query.
 void visit_query(Archive& archive, const QueryCode& code, void* command);
 template <QueryKind kind, class Query, Status (*call)(const World&, const Query&, QueryHits, QueryReport&)>
 void visit(Archive& archive, QueryCommand<kind, Query, call>& command) {
   visit_query(archive, k_query_code<QueryCommand<kind, Query, call>>, &command);
 }
 
-/// The way into the code that repeats queries, for a player.
+/// The entry point of the code that repeats queries, for a player. It is linked only if it is used.
 struct QueryRepeater {
-  /// Reads a query from its kind on, asks it, and gives the digests of both answers. What cannot be read the reader
-  /// tells of.
+  /// Reads a query, beginning with its kind, runs it, and returns the digests of the recorded and the new answer. If
+  /// the query cannot be read, `reader` holds the error.
   Status (*repeat)(const World& world, Reader& reader, uint64_t& recorded, uint64_t& replayed);
 };
 

@@ -12,7 +12,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// A record that is no call.
+/// The code of a record that is not a call.
 template <class Record>
 constexpr CommandCode k_record_code = {
     Record::k_tag, [](Archive& archive, void* record) { visit(archive, *static_cast<Record*>(record)); }, nullptr};
@@ -86,7 +86,7 @@ void Recorder::write_header() {
   write(buffer_, k_header_bytes);
 }
 
-/// The world's snapshot, after `payload_count` bytes that the buffer holds already.
+/// Writes the world's snapshot, after `payload_count` payload bytes that the buffer already holds.
 void Recorder::write_state(uint32_t type, uint32_t payload_count) {
   const uint32_t state_bytes = snapshot_bytes(get_info(world_).capacity);
   for (uint32_t offset = 0; offset < state_bytes && status_ == Status::ok; payload_count = 0) {
@@ -374,7 +374,8 @@ StepReport Recorder::step() {
   const bool digested = is_due(def_.digest_interval, report.tick);
   const bool keyframe = is_due(def_.keyframe_interval, report.tick);
   TickDigested command{digested || keyframe ? digest(world_) : 0};
-  // Logged before tick_ moves on: a chunk that starts with this record starts before this tick.
+  // The record is logged before tick_ increases: a chunk that starts with this record has the tick number before this
+  // tick.
   if (digested) {
     log(k_record_code<TickDigested>, &command);
   } else {

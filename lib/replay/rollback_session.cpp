@@ -29,7 +29,8 @@ Status RollbackSession::begin(const World& world, const RollbackDef& def, TickMa
   start_ = tick_ = info.tick;
   wrong_ = UINT64_MAX;
   desync_ = {};
-  // Nothing is done in the ticks before the first local input counts. The others hear of that like of any input.
+  // A local player's inputs are zero in the ticks before its first delayed input takes effect. The other machines
+  // receive these zero inputs like all other inputs.
   for (uint32_t player = 0; player < def.players; ++player) {
     next_[player] = start_;
     if (is_remote(player)) continue;
@@ -47,14 +48,15 @@ uint64_t& RollbackSession::stamp_of(uint32_t player, uint64_t tick) const {
   return stamps_[place(tick) * def_.players + player];
 }
 
-/// The first tick whose inputs somebody may still ask for. Who only watches may know more ticks than it has made.
+/// The first tick whose inputs another machine may still request. A session without local players may have inputs for
+/// more ticks than it has made.
 uint64_t RollbackSession::oldest() const {
   const uint64_t known = known_tick(), back = 2 * uint64_t{def_.window};
   const uint64_t now = known < tick_ ? known : tick_;
   return now - start_ > back ? now - back : start_;
 }
 
-/// The first tick of which an input is not known.
+/// The first tick with an unknown input.
 uint64_t RollbackSession::known_tick() const {
   uint64_t first = next_[0];
   for (uint32_t player = 1; player < def_.players; ++player) {
@@ -111,7 +113,7 @@ bool RollbackSession::lacks_local_input() const {
   return false;
 }
 
-/// Repeats the inputs of the tick before where this one's are not known. Returns a bit for each.
+/// Predicts the unknown inputs of a tick: repeats those of the tick before. Returns one bit for each predicted player.
 uint32_t RollbackSession::predict(uint64_t tick) {
   uint32_t predicted = 0;
   for (uint32_t player = 0; player < def_.players; ++player) {

@@ -5,7 +5,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The next chunk to read is the one at `place`.
+/// Moves to `place`, where the next chunk is read.
 Status Player::seek(const Place& place) {
   if (source_.seek(source_.context, place.offset) != Status::ok) return fail(Status::sink_failed, place.offset, "seek");
   offset_ = place.offset;
@@ -15,14 +15,15 @@ Status Player::seek(const Place& place) {
   return Status::ok;
 }
 
-/// Hops from `place` over the headers of chunks, whose checksums are left to whoever reads the chunks; a header that
-/// cannot be right ends the search as the end of the bytes does. `place` becomes that of the last keyframe at or before
-/// the tick, if one is found. A keyframe counts once a chunk comes after it: so it is whole.
+/// Searches the last keyframe at or before the tick, from `place` on, and sets `place` to it if there is one. It reads
+/// only chunk headers and does not test checksums; reading the chunk later does that. An impossible header ends the
+/// search like the end of the bytes. A keyframe counts only if another chunk follows it, which shows that it is
+/// complete.
 Status Player::find_keyframe(Place& place, uint64_t tick, bool& found, bool& beyond) {
   Place at = place, candidate = {};
   bool within = false;
   for (;;) {
-    // Not into the buffer: that may hold a chunk in use.
+    // The header is not read into the buffer, which may hold a chunk in use.
     uint8_t bytes[k_chunk_header_bytes];
     uint32_t got = 0;
     if (source_.seek(source_.context, at.offset) != Status::ok ||
@@ -62,7 +63,7 @@ Status Player::load_keyframe(World& world, const Place& place) {
   return compare(world, recorded, offset, "keyframe digest");
 }
 
-/// Without a tick played: to the nearest state before it.
+/// Loads the nearest state at or before the tick, without playing a tick.
 Status Player::approach(World& world, uint64_t tick) {
   const bool here = state_ == State::playing && tick >= tick_ && get_info(world).tick == tick_;
   if (source_.seek == nullptr) {

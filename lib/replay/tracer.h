@@ -4,9 +4,9 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The way into the code that traces, for a recorder.
+/// The entry point of the code that traces, for a recorder. It is linked only if it is used.
 struct Tracer {
-  /// Steps the recorder's world, and writes the trace of the tick in front of its record.
+  /// Steps the recorder's world, and writes the trace of the tick before the tick's record.
   StepReport (*step)(Recorder& recorder);
 };
 

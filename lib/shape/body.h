@@ -3,7 +3,7 @@
 #include <detent/detail/state.h>
 #include <detent/filter.h>
 
-/// What a body is, by its traits.
+/// Queries of body properties.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -15,11 +15,11 @@ inline ShapeType shape_of(const BodyTraits& traits) { return static_cast<ShapeTy
 inline bool is_half_space(const BodyTraits& traits) { return shape_of(traits) == ShapeType::half_space; }
 inline bool is_surface(const BodyTraits& traits) { return shape_of(traits) == ShapeType::surface; }
 inline bool is_compound(const BodyTraits& traits) { return shape_of(traits) == ShapeType::compound; }
-/// Whether a pair of bodies can have more contacts than one.
+/// Whether a pair of bodies can have more than one contact.
 inline bool has_parts(const BodyTraits& a, const BodyTraits& b) {
   return is_surface(a) || is_surface(b) || is_compound(a) || is_compound(b);
 }
-/// Whether a body has no thickness that the motion of others could be measured by.
+/// Whether a body has no thickness to which the motion of other bodies can be compared.
 inline bool is_ground(const BodyTraits& traits) { return is_half_space(traits) || is_surface(traits); }
 
 inline Filter filter_of(const BodyTraits& traits) { return {traits.category, traits.mask, traits.group, traits.rule}; }

@@ -20,9 +20,9 @@ inline constexpr Bounds k_everywhere = {{-k_coord_limit, -k_coord_limit, -k_coor
 /// Overlaps nothing.
 inline constexpr Bounds k_nowhere = {k_everywhere.upper, k_everywhere.lower};
 
-/// The least half size of axis-aligned bounds around the body's position that hold the shape, m, world axes. Not for a
-/// half-space. A hull's, a surface's and a compound's hold the box of its half extents, or its bounding ball where that
-/// is less. Rounding: within 2^-28 of the body's unit of length.
+/// The least half sizes of axis-aligned bounds that are centred at the body's position and contain the shape, m, world
+/// axes. Not for a half-space. For hulls, terrain and compounds each half size is that of the box of the half extents
+/// or of the bounding ball, whichever is less. Rounding: within 2^-28 of the body's unit of length.
 inline Vec3<Real> half_bounds(const BodyTraits& traits, const Matrix3& rotation) {
   const Unit zero = 0.0;
   Vec3<Unit> half = {zero, zero, zero};

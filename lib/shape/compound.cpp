@@ -14,10 +14,10 @@ int64_t length_of(const Vec32& v) {
   return static_cast<int64_t>(root + (root * root < square ? 1 : 0));
 }
 
-/// Rounded up. Range: 0 <= n < 62.
+/// value 2^-n, rounded up. Range: 0 <= n < 62.
 int64_t shift_up(int64_t value, int n) { return (value + (int64_t{1} << n) - 1) >> n; }
 
-/// The hull's depth behind a face, in its own steps, rounded down.
+/// The hull's depth behind a face, in 2^-30 of the hull's unit, rounded down.
 int64_t depth_behind(const HullView& hull, uint32_t face) {
   const HullPlane plane = hull.plane(face);
   const Vec32 normal = {plane.normal[0], plane.normal[1], plane.normal[2]};
@@ -75,7 +75,7 @@ bool header_is_good(const CompoundView& compound) {
   return true;
 }
 
-/// Reads the hull at `at`, and moves `at` behind it.
+/// Reads the hull at `at`, and sets `at` to the end of the hull.
 bool read_child_hull(const Asset& asset, uint32_t& at, int32_t exponent, HullView& hull) {
   if (asset.byte_count - at < k_hull_header_bytes) return false;
   const uint32_t bytes = cooked_u32(asset.bytes + at + k_hull_byte_count_at);
@@ -84,7 +84,7 @@ bool read_child_hull(const Asset& asset, uint32_t& at, int32_t exponent, HullVie
   return hull.frame() == HullFrame::source && hull.exponent() <= exponent;
 }
 
-/// No vertex of `inner` lies above a face of `outer`.
+/// Whether no vertex of `inner` lies above a face of `outer`.
 bool is_within(const HullView& inner, const HullView& outer) {
   const int shift = outer.exponent() - inner.exponent();
   if (shift < 0) return false;
@@ -167,7 +167,7 @@ Status read_compound(const Asset& asset, CompoundView& compound) {
     half = {most(box.low.x, box.high.x, half.x), most(box.low.y, box.high.y, half.y),
             most(box.low.z, box.high.z, half.z)};
   }
-  // The unit is the least power of two above the surface's distances, but for their rounding.
+  // The unit is the least power of two above the radius, within rounding.
   if (at != asset.byte_count || view.radius() != reach || reach < k_one / 2 - 2 || !(view.half_extents() == half) ||
       view.half_thickness() != thickness) {
     return Status::corrupt;

@@ -4,7 +4,7 @@
 #include "math/vector_integer.h"
 #include "shape/hull.h"
 
-/// A cooked compound as it lies in flash or a file: docs/compound.md is the format, these are its offsets and readers.
+/// Offsets and readers of a cooked compound in flash or in a file; docs/compound.md describes the format.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -12,19 +12,19 @@ inline constexpr uint8_t k_compound_magic[8] = {0x89, 'D', 'T', 'C', '\r', '\n',
 inline constexpr uint32_t k_compound_format_version = 1;
 inline constexpr uint32_t k_compound_children_max = 64;
 
-/// Where the header's fields start.
+/// Byte offsets of the header's fields.
 inline constexpr uint32_t k_compound_exponent_at = 20;
 inline constexpr uint32_t k_compound_radius_at = 24;
 inline constexpr uint32_t k_compound_child_count_at = 28;
 inline constexpr uint32_t k_compound_half_extents_at = 32;  ///< x, y, z
 inline constexpr uint32_t k_compound_half_thickness_at = 44;
 inline constexpr uint32_t k_compound_volume_at = 48;    ///< mantissa, exponent
-inline constexpr uint32_t k_compound_gyration_at = 56;  ///< three times mantissa, exponent
+inline constexpr uint32_t k_compound_gyration_at = 56;  ///< mantissa, exponent; three times
 inline constexpr uint32_t k_compound_origin_at = 80;    ///< three doubles
 inline constexpr uint32_t k_compound_rotation_at = 104;
 inline constexpr uint32_t k_compound_header_bytes = 128;  ///< zero from 120 on; the children follow
 
-/// Where a child's fields start, from its own start.
+/// Byte offsets of a child's fields from the child's start.
 inline constexpr uint32_t k_child_kind_at = 0;
 inline constexpr uint32_t k_child_radius_at = 4;
 inline constexpr uint32_t k_child_hull_at = 8;
@@ -34,29 +34,29 @@ inline constexpr uint32_t k_child_high_at = 28;
 inline constexpr uint32_t k_child_half_thickness_at = 40;
 inline constexpr uint32_t k_compound_child_bytes = 48;  ///< zero from 44 on
 
-/// Stored: a value is never reused.
+/// Values are stored in files and never reused.
 enum class ChildKind : uint32_t {
-  ball = 1,     ///< about `low`, which is `high` too
-  capsule = 2,  ///< from `low` to `high`, which are its ends, of any order
+  ball = 1,     ///< the centre is `low`; `high` is equal to it
+  capsule = 2,  ///< `low` and `high` are the ends, in any order
   hull = 3,     ///< a cooked hull in the compound's axes
 };
 
 /// One convex part. Lengths in 2^-30 of the compound's unit.
 struct CompoundChild {
   ChildKind kind;
-  int32_t radius;          ///< of the ball that rounds it
-  uint32_t hull_at;        ///< of a hull: where its bytes start, from the compound's start
-  uint32_t inner_at;       ///< likewise of the hull within it that deep bodies are tested by
-  Vec32 low, high;         ///< of a hull: the least and the greatest coordinates of its vertices
-  int32_t half_thickness;  ///< the least, over a hull's faces, of half of its depth; `radius` included
+  int32_t radius;          ///< rounding radius
+  uint32_t hull_at;        ///< hull: where its bytes start, from the compound's start
+  uint32_t inner_at;       ///< hull: where its inner hull starts; it is used to test bodies that penetrate deeply
+  Vec32 low, high;         ///< hull: the least and the greatest coordinates of its vertices
+  int32_t half_thickness;  ///< `radius`, plus half of a hull's least depth behind a face
 };
 
-/// Both ends included; in 2^-30 of the unit.
+/// An axis-aligned box; both ends are included. In 2^-30 of the unit.
 struct ChildBox {
   Vec32 low, high;
 };
 
-/// A cooked compound in place: nothing is copied. Its origin is the centre of mass, its axes are principal.
+/// A view of a cooked compound; it copies nothing. The compound's origin is the centre of mass, its axes are principal.
 struct CompoundView {
   const uint8_t* bytes = nullptr;
   uint32_t child_count = 0;
@@ -69,7 +69,7 @@ struct CompoundView {
   Vec32 half_extents() const { return vector(bytes + k_compound_half_extents_at); }
   /// The mass over the density, in unit^3.
   HullScaled volume() const { return scaled(k_compound_volume_at); }
-  /// m unit^2 / I about the body's axis (0 to 2).
+  /// Inverse inertia (per unit mass), m unit^2 / I, about the body's axis (0 to 2).
   HullScaled gyration(uint32_t axis) const { return scaled(k_compound_gyration_at + 8 * axis); }
   CompoundChild child(uint32_t i) const {
     DETENT_VERIFY_RANGE(i < child_count);
@@ -90,12 +90,12 @@ struct CompoundView {
   HullScaled scaled(uint32_t field) const { return {cooked_i32(bytes + field), cooked_i32(bytes + field + 4)}; }
 };
 
-/// The compound at `bytes`, which read_compound() has accepted: no checks.
+/// The compound at `bytes`. read_compound() must have accepted them; this function checks nothing.
 inline CompoundView compound_view(const uint8_t* bytes) {
   return {bytes, cooked_u32(bytes + k_compound_child_count_at)};
 }
 
-/// The child's bounds, its ball included. Range: |component| < 2^31.
+/// The child's bounds, including its rounding radius. Range: |component| < 2^31.
 inline ChildBox child_box(const CompoundChild& child) {
   const Vec32 &a = child.low, &b = child.high;
   const int32_t r = child.radius;
@@ -104,18 +104,19 @@ inline ChildBox child_box(const CompoundChild& child) {
   return {{least(a.x, b.x), least(a.y, b.y), least(a.z, b.z)}, {most(a.x, b.x), most(a.y, b.y), most(a.z, b.z)}};
 }
 
-/// What the header and the children say of themselves, found from the hulls and balls: the cook writes it, the reader
-/// compares it. `exponent`: the compound's; `hull`: the child's, or empty.
+/// Stored values of the header and the children, computed from the hulls and balls: `detent cook` writes them, and
+/// the reader compares them.
 struct ChildMeasure {
   Vec32 low, high;
   int64_t reach;  ///< greatest distance of its surface from the origin, rounded up
   int64_t half_thickness;
 };
+/// `exponent`: the compound's; `hull`: the child's, or empty.
 ChildMeasure measure_child(const CompoundChild& child, const HullView& hull, int32_t exponent);
 
-/// Checks bytes from anywhere: whatever is accepted has children that read_hull() accepts or balls and capsules, all
-/// within the stated bounds, each inner hull within its hull. Not checked: volume, gyration, origin and rotation,
-/// beyond their ranges. Errors: as compound_info().
+/// Checks untrusted bytes. The children of an accepted compound are balls, capsules and hulls that read_hull() accepts.
+/// They lie within the stated bounds, and each inner hull lies within its hull. Volume, gyration, origin and rotation
+/// are checked only for their ranges. Errors: as compound_info().
 Status read_compound(const Asset& asset, CompoundView& compound);
 
 }  // namespace DETENT_NAMESPACE

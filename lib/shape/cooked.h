@@ -4,20 +4,20 @@
 
 #include "base/bytes.h"
 
-/// What the formats of cooked data have in common: little-endian integers, and a header that begins with a magic of 8
-/// bytes, the format's version, the count of all bytes and their checksum.
+/// The common parts of all cooked formats: little-endian integers, and a header that begins with a magic of 8 bytes,
+/// the format's version, the count of all bytes and a checksum.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 inline constexpr uint32_t k_cooked_version_at = 8;
 inline constexpr uint32_t k_cooked_byte_count_at = 12;
-inline constexpr uint32_t k_cooked_checksum_at = 16;  ///< CRC-32 of all bytes but these four
+inline constexpr uint32_t k_cooked_checksum_at = 16;  ///< CRC-32 of all bytes except these four
 
 inline bool is_in(const AssetTable& table, uint32_t index) {
   return index < table.count && table.assets[index].bytes != nullptr;
 }
 
-/// The little-endian integer at `bytes`, which are aligned to its size.
+/// The little-endian integer at `bytes`. Range: `bytes` is aligned to the integer's size.
 inline uint32_t cooked_u32(const uint8_t* bytes) {
   uint32_t value;
   memcpy(&value, __builtin_assume_aligned(bytes, 4), sizeof value);
@@ -31,7 +31,7 @@ inline uint32_t cooked_u16(const uint8_t* bytes) {
 }
 inline int32_t cooked_i16(const uint8_t* bytes) { return static_cast<int16_t>(cooked_u16(bytes)); }
 
-/// Where a body's axes lie in those of its source: the origin, three doubles, and the rotation.
+/// Reads the frame of a body's axes in its source's axes: the origin (three doubles) and the rotation (Q30).
 inline void read_source_frame(const uint8_t* origin_bytes, const uint8_t* rotation_bytes, double (&origin)[3],
                               int32_t (&rotation)[4]) {
   for (uint32_t axis = 0; axis < 3; ++axis) {
@@ -41,7 +41,8 @@ inline void read_source_frame(const uint8_t* origin_bytes, const uint8_t* rotati
   for (uint32_t k = 0; k < 4; ++k) rotation[k] = cooked_i32(rotation_bytes + 4 * k);
 }
 
-/// The square of a unit vector or quaternion, Q60, and how far rounding may take it from there: four components 2^31.
+/// The square of a unit vector or quaternion, Q60, and its tolerance. Rounding of four components changes the square by
+/// about 2^31.
 inline constexpr uint64_t k_one_squared = uint64_t{1} << 60;
 inline constexpr uint64_t k_unit_vector_slack = uint64_t{1} << 32;
 
@@ -50,8 +51,8 @@ constexpr uint32_t align_8(uint32_t bytes) { return (bytes + 7) / 8 * 8; }
 /// Whether the bytes from `from` up to `to` are zero.
 bool cooked_is_zero(const uint8_t* bytes, uint32_t from, uint32_t to);
 
-/// Checks alignment, magic, version, count and checksum: after it the header may be read. `header_bytes` > 20.
-/// Errors: buffer_misaligned (8), not_detent, format_unknown, truncated, corrupt.
+/// Checks alignment, magic, version, count and checksum. If they are right, the header may be read. `header_bytes` >
+/// 20. Errors: buffer_misaligned (8), not_detent, format_unknown, truncated, corrupt.
 Status check_cooked(const Asset& asset, const uint8_t (&magic)[8], uint32_t version, uint32_t header_bytes);
 
 }  // namespace DETENT_NAMESPACE

@@ -6,7 +6,7 @@ namespace {
 
 bool in_range(int64_t value) { return value >= -k_surface_coordinate_max && value <= k_surface_coordinate_max; }
 
-/// Sizes positive and every sample in range, from the least and greatest height of the root.
+/// Whether the sizes are positive and all samples are in range, judged by the least and greatest height of the root.
 bool lengths_are_good(const HeightFieldView& field) {
   if (field.spacing_x <= 0 || field.spacing_z <= 0 || field.step <= 0) return false;
   const uint8_t* root = field.node(field.level_count - 1, 0, 0);
@@ -50,7 +50,7 @@ void height_node(const HeightFieldView& field, uint32_t level, uint32_t i, uint3
   }
 }
 
-// Counter-clockwise from above; edge 2 is the diagonal, edges 0 and 1 are sides of the cell.
+// Corners are counter-clockwise from above. Edge 2 is the diagonal; edges 0 and 1 are sides of the cell.
 void HeightFieldView::corners(uint32_t index, Vec32 (&corner)[3]) const {
   const uint32_t i = index / 2 % columns, j = index / 2 / columns;
   const bool second = index % 2 != 0, turned = (cell(i, j) & k_cell_turned) != 0;

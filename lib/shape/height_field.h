@@ -5,15 +5,14 @@
 #include "shape/cooked.h"
 #include "shape/surface_triangle.h"
 
-/// A cooked height field as it lies in flash or a file: docs/height_field.md is the format, these are its offsets and
-/// readers.
+/// Offsets and readers of a cooked height field in flash or in a file; docs/height_field.md describes the format.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 inline constexpr uint8_t k_height_field_magic[8] = {0x89, 'D', 'T', 'F', '\r', '\n', 0x1a, '\n'};
 inline constexpr uint32_t k_height_field_format_version = 1;
 
-/// Where the header's fields start, after what all formats have.
+/// Byte offsets of the header's fields after the fields that all formats have.
 inline constexpr uint32_t k_height_field_exponent_at = 20;
 inline constexpr uint32_t k_height_field_columns_at = 24;
 inline constexpr uint32_t k_height_field_rows_at = 28;
@@ -23,23 +22,23 @@ inline constexpr uint32_t k_height_field_spacing_at = 48;    ///< two int32: alo
 inline constexpr uint32_t k_height_field_step_at = 56;       ///< int32
 inline constexpr uint32_t k_height_field_header_bytes = 64;  ///< zero from 60 on
 
-inline constexpr uint32_t k_height_field_one_sided = 1;     ///< of the flags
+inline constexpr uint32_t k_height_field_one_sided = 1;     ///< a bit of the flags
 inline constexpr uint32_t k_height_field_cells_max = 4096;  ///< along a side
 inline constexpr uint8_t k_cell_hole = 0x80;                ///< no triangles
 inline constexpr uint8_t k_cell_turned = 0x40;  ///< the diagonal runs from (i + 1, j) to (i, j + 1), not from (i, j)
 inline constexpr uint8_t k_cell_material = 0x3f;
 
-inline constexpr uint32_t k_height_block_bits = 3;  ///< a leaf of the tree holds 8 x 8 cells
+inline constexpr uint32_t k_height_block_bits = 3;  ///< a leaf of the tree contains 8 x 8 cells
 inline constexpr uint32_t k_height_levels_max = 10;
 inline constexpr uint32_t k_height_node_bytes = 4;  ///< int16 least and greatest height
 
-/// Node (i, j) of a level holds the nodes (2 i, 2 j) to (2 i + 1, 2 j + 1) of the level below, if there are such.
+/// Node (i, j) of a level contains the nodes (2 i, 2 j) to (2 i + 1, 2 j + 1) of the level below, as far as they exist.
 struct HeightFieldView {
   const uint8_t* bytes = nullptr;
   uint32_t columns = 0, rows = 0;
   uint32_t heights_at = 0, cells_at = 0, nodes_at = 0, end = 0;
   uint32_t level_count = 0;
-  uint32_t level_start[k_height_levels_max + 1] = {};  ///< the node with which each level starts
+  uint32_t level_start[k_height_levels_max + 1] = {};  ///< the first node of each level
   Vec32 origin = {};
   int32_t spacing_x = 0, spacing_z = 0, step = 0;
 
@@ -58,7 +57,7 @@ struct HeightFieldView {
   int32_t x(uint32_t i) const { return origin.x + static_cast<int32_t>(i) * spacing_x; }
   int32_t z(uint32_t j) const { return origin.z + static_cast<int32_t>(j) * spacing_z; }
 
-  /// Triangles 2 (j columns + i) and the next are those of the cell (i, j); a hole has none.
+  /// The cell (i, j) has the triangle 2 (j columns + i) and the next one; a hole has none.
   SurfaceTriangle triangle(uint32_t index) const;
   uint32_t level_columns(uint32_t level) const { return blocks(columns, level); }
   uint32_t level_rows(uint32_t level) const { return blocks(rows, level); }
@@ -81,14 +80,13 @@ struct HeightFieldView {
   }
   GridBox bounds() const { return node_bounds(level_count - 1, 0, 0); }
 
-  /// Calls visit(triangle) for each triangle whose bounds meet, always in the same order. `meets` is asked of a
-  /// GridBox.
+  /// Calls visit(index) for each triangle whose bounds, a GridBox, satisfy `meets`; always in the same order.
   template <class Meets, class Visit>
   void walk(Meets&& meets, Visit&& visit) const;
 
  private:
   void corners(uint32_t index, Vec32 (&corner)[3]) const;
-  /// The triangle at a side of a cell, 0 to 3: x lower, z upper, x upper, z lower.
+  /// The triangle at a side of a cell. Sides 0 to 3: lower x, upper z, upper x, lower z.
   uint32_t triangle_at_side(uint32_t i, uint32_t j, uint32_t side) const {
     const bool turned = (cell(i, j) & k_cell_turned) != 0;
     const bool second = side == 2 || (side == 1 && turned) || (side == 3 && !turned);
@@ -98,13 +96,13 @@ struct HeightFieldView {
   void walk_cells(uint32_t i, uint32_t j, Meets&& meets, Visit&& visit) const;
 };
 
-/// The height field at `bytes`, which read_height_field() has accepted: no checks.
+/// The height field at `bytes`. read_height_field() must have accepted them; this function checks nothing.
 HeightFieldView height_field_view(const uint8_t* bytes);
 
-/// What is to be stored of a node: the least and the greatest height of its samples, or of the nodes below.
+/// The stored form of a node: the least and the greatest height of its samples, or of the nodes below.
 void height_node(const HeightFieldView& field, uint32_t level, uint32_t i, uint32_t j, int32_t& low, int32_t& high);
 
-/// Checks bytes from anywhere. Errors: buffer_misaligned (8), not_detent, format_unknown, truncated, corrupt,
+/// Checks untrusted bytes. Errors: buffer_misaligned (8), not_detent, format_unknown, truncated, corrupt,
 /// out_of_range (the exponent).
 Status read_height_field(const Asset& asset, HeightFieldView& field);
 
@@ -131,7 +129,7 @@ void HeightFieldView::walk(Meets&& meets, Visit&& visit) const {
   struct Entry {
     uint32_t level, i, j;
   };
-  Entry stack[3 * k_height_levels_max + 1];  // of each level no more than three wait
+  Entry stack[3 * k_height_levels_max + 1];  // at most three nodes wait per level
   uint32_t count = 0;
   stack[count++] = {level_count - 1, 0, 0};
   while (count > 0) {

@@ -29,7 +29,7 @@ bool gaps_are_zero(const HullView& hull) {
          cooked_is_zero(hull.bytes, at.edges + k_hull_edge_bytes * hull.edge_count, at.end);
 }
 
-/// Norms, the core radius, and the padding.
+/// Checks the vertices' norms, the core radius and the padding.
 bool vertices_are_good(const HullView& hull) {
   uint64_t greatest = 0;
   for (uint32_t i = 0; i < hull.vertex_count; ++i) {
@@ -42,11 +42,11 @@ bool vertices_are_good(const HullView& hull) {
     if (hull.x(i) != hull.x(0) || hull.y(i) != hull.y(0) || hull.z(i) != hull.z(0)) return false;
   }
   const int32_t radius = hull.core_radius();
-  // The unit is the least power of two above them all, but for the rounding of a vertex.
+  // The unit is the least power of two above all norms, within the rounding of a vertex.
   return radius >= (1 << 29) - 1 && radius <= (1 << 30) && greatest <= square(radius) && greatest > square(radius - 1);
 }
 
-/// `count` ranges, each of at least three values, that together are all `total` of them.
+/// Whether the offsets form `count` ranges of at least three values each, which together contain all `total` values.
 bool offsets_are_good(const uint8_t* offsets, uint32_t count, uint32_t total) {
   if (cooked_u16(offsets) != 0 || cooked_u16(offsets + 2 * count) != total) return false;
   for (uint32_t i = 0; i < count; ++i) {
@@ -56,7 +56,7 @@ bool offsets_are_good(const uint8_t* offsets, uint32_t count, uint32_t total) {
   return true;
 }
 
-/// Where `b` stands in `neighbours`, as a neighbour of `a`; k_half_edges_max if it is none.
+/// The position of `b` in `neighbours` as a neighbour of `a`; k_half_edges_max if it is not a neighbour.
 uint32_t half_edge(const HullView& hull, uint32_t a, uint32_t b) {
   const HullIndices around = hull.neighbours(a);
   uint32_t low = 0, high = around.count;
@@ -72,14 +72,14 @@ uint32_t half_edge(const HullView& hull, uint32_t a, uint32_t b) {
   return static_cast<uint32_t>(around.index + low - (hull.bytes + hull.at.neighbours));
 }
 
-/// The triangles are a closed surface whose sides are the neighbours, each plane has every vertex on it or below, and
-/// they enclose the stated volume. Then the triangles about a vertex cover the boundary there, so that a vertex which
-/// is not the furthest along a direction has a neighbour that is further. There are as many sides as neighbours: if
-/// each is found, and none twice, then the neighbours are in range, ascending, and no others.
+/// Whether the triangles form a closed surface whose sides are the neighbours, no vertex lies above a triangle's plane,
+/// and the surface encloses the stated volume. Then the triangles about a vertex cover the boundary there. So a vertex
+/// that is not the farthest along a direction has a neighbour that is farther. There are as many sides as neighbours:
+/// if each side is found, and none twice, then the neighbours are in range, ascending and complete.
 bool triangles_are_good(const HullView& hull) {
   uint8_t seen[(k_half_edges_max + 7) / 8] = {};
   const Vec32 apex = hull.vertex(0);
-  Int128 volume = Int128::from(0);  // 6 2^90 times; below 2^95
+  Int128 volume = Int128::from(0);  // the volume times 6 2^90; below 2^95
   const uint8_t* triangle = hull.bytes + hull.at.triangles;
   for (uint32_t i = 0; i < 2 * hull.vertex_count - 4; ++i, triangle += 3) {
     for (uint32_t k = 0; k < 3; ++k) {
@@ -104,7 +104,7 @@ bool triangles_are_good(const HullView& hull) {
   const int shift = stated.exponent + 90;  // -40 to 62
   const Int128 six = Int128::from(int64_t{6} * stated.mantissa).shift_left(shift > 0 ? shift : 0);
   const Int128 error =
-      six - (shift < 0 ? volume.shift_left(-shift) : volume);  // within one step of the mantissa: so it is positive
+      six - (shift < 0 ? volume.shift_left(-shift) : volume);  // at most one step, so the volume is positive
   const Int128 step = Int128::from(6).shift_left(shift > 0 ? shift : 0);
   return !(step < error) && !(step < -error);
 }
@@ -124,7 +124,7 @@ bool has_triangle_side(const HullIndices& triangles, uint32_t from, uint32_t to)
   return false;
 }
 
-/// The face's triangles are bounded by its loop, which passes no vertex twice.
+/// Whether the loop is the boundary of the face's triangles and has no vertex twice.
 bool loop_is_good(const HullView& hull, uint32_t face) {
   const HullIndices loop = hull.face(face), triangles = hull.triangles(face);
   for (uint32_t k = 0; k < loop.count; ++k) {
@@ -143,7 +143,8 @@ bool loop_is_good(const HullView& hull, uint32_t face) {
   return true;
 }
 
-/// No vertex lies above the face's plane, none of its own more than the slack below or outside a side.
+/// Whether no vertex lies above the face's plane, and no vertex of the face lies below the plane or outside a side by
+/// more than the slack.
 bool plane_is_good(const HullView& hull, uint32_t face) {
   const HullPlane plane = hull.plane(face);
   const auto& n = plane.normal;
@@ -171,7 +172,8 @@ bool plane_is_good(const HullView& hull, uint32_t face) {
   return true;
 }
 
-/// Ascending, each between two faces that pass it in opposite directions; together with their number, all of them.
+/// Whether the edges are ascending and each lies between two faces that have it in opposite directions. As their number
+/// is right, these are all edges.
 bool edges_are_good(const HullView& hull) {
   uint32_t last = 0;
   for (uint32_t i = 0; i < hull.edge_count; ++i) {
@@ -191,7 +193,7 @@ bool frame_is_good(const HullView& hull) {
   const bool principal = hull.frame() == HullFrame::principal;
   if (!principal && hull.frame() != HullFrame::source) return false;
   for (uint32_t axis = 0; axis < 3; ++axis) {
-    const HullScaled gyration = hull.gyration(axis);  // above 1, for no vertex is a unit away; below 2^70
+    const HullScaled gyration = hull.gyration(axis);  // above 1, as no vertex is a unit away; below 2^70
     if (principal && !gyration.is_canonical(-30, 40)) return false;
     if (!principal && (gyration.mantissa != 0 || gyration.exponent != 0)) return false;
     const uint64_t origin = load_u64(hull.bytes + k_hull_origin_at + 8 * axis);
@@ -218,14 +220,14 @@ Status read_hull(const Asset& asset, HullView& hull) {
   const uint32_t vertices = cooked_u32(bytes + k_hull_vertex_count_at);
   const uint32_t faces = cooked_u32(bytes + k_hull_face_count_at);
   if (vertices < k_hull_vertices_min || vertices > k_hull_vertices_max || faces < 4 || faces > 2 * vertices - 4 ||
-      cooked_u32(bytes + k_hull_edge_count_at) != vertices + faces - 2) {  // Euler: also the number of triangles
+      cooked_u32(bytes + k_hull_edge_count_at) != vertices + faces - 2) {  // by Euler; so the triangles are 2 V - 4
     return Status::corrupt;
   }
   const HullView view = hull_view(bytes);
   if (view.at.end != asset.byte_count) return Status::corrupt;
   if (view.exponent() < k_hull_exponent_min || view.exponent() > k_hull_exponent_max) return Status::out_of_range;
 
-  // In this order: each relies on those before it.
+  // The order matters: each check relies on the checks before it.
   if (!gaps_are_zero(view) || !frame_is_good(view) || !vertices_are_good(view) ||
       !offsets_are_good(bytes + view.at.loop_offsets, faces, 2 * view.edge_count) ||
       !offsets_are_good(bytes + view.at.neighbour_offsets, vertices, 6 * vertices - 12) || !triangles_are_good(view)) {

@@ -7,24 +7,24 @@
 #include "math/vector_integer.h"
 #include "shape/cooked.h"
 
-/// A cooked convex hull as it lies in flash or a file: docs/hull.md is the format, these are its offsets and readers.
+/// Offsets and readers of a cooked convex hull in flash or in a file; docs/hull.md describes the format.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 inline constexpr uint8_t k_hull_magic[8] = {0x89, 'D', 'T', 'H', '\r', '\n', 0x1a, '\n'};
 inline constexpr uint32_t k_hull_format_version = 1;
 
-/// Where the header's fields start.
+/// Byte offsets of the header's fields.
 inline constexpr uint32_t k_hull_version_at = 8;
 inline constexpr uint32_t k_hull_byte_count_at = 12;
-inline constexpr uint32_t k_hull_checksum_at = 16;  ///< CRC-32 of all bytes but these four
+inline constexpr uint32_t k_hull_checksum_at = 16;  ///< CRC-32 of all bytes except these four
 inline constexpr uint32_t k_hull_exponent_at = 20;
 inline constexpr uint32_t k_hull_core_radius_at = 24;
 inline constexpr uint32_t k_hull_vertex_count_at = 28;
 inline constexpr uint32_t k_hull_face_count_at = 32;
 inline constexpr uint32_t k_hull_edge_count_at = 36;
 inline constexpr uint32_t k_hull_volume_at = 40;    ///< mantissa, exponent
-inline constexpr uint32_t k_hull_gyration_at = 48;  ///< three times mantissa, exponent
+inline constexpr uint32_t k_hull_gyration_at = 48;  ///< mantissa, exponent; three times
 inline constexpr uint32_t k_hull_origin_at = 72;    ///< three doubles
 inline constexpr uint32_t k_hull_rotation_at = 96;  ///< x, y, z, w
 inline constexpr uint32_t k_hull_frame_at = 112;
@@ -32,14 +32,15 @@ inline constexpr uint32_t k_hull_header_bytes = 128;  ///< zero from 116 on
 
 inline constexpr uint32_t k_hull_vertices_min = 4;
 inline constexpr uint32_t k_hull_vertices_max = 255;
-inline constexpr uint32_t k_hull_padding = 16;  ///< vertices are padded to a multiple of this, with vertex 0
+inline constexpr uint32_t k_hull_padding = 16;  ///< vertices are padded to a multiple of this by copies of vertex 0
 inline constexpr int32_t k_hull_exponent_min = -14;
 inline constexpr int32_t k_hull_exponent_max = 15;
 /// Every vertex of a face lies at most this far below its plane, in 2^-30 of the unit; no vertex lies above it.
 inline constexpr int32_t k_hull_face_slack = 1 << 10;
 
-/// The parts after the header, in bytes from the start; each a multiple of 8. Of V vertices, F faces, E edges:
-/// the boundary has 2 V - 4 triangles with 3 V - 6 sides, and as many vertices in all face loops as 2 E.
+/// Byte offsets of the parts after the header, from the start of the file; all are multiples of 8. With V vertices, F
+/// faces and E edges, the boundary has 2 V - 4 triangles with 3 V - 6 sides, and all face loops together have 2 E
+/// vertices.
 struct HullLayout {
   uint32_t x, y, z;            ///< padded_count int32 each, in 2^-30 of the unit
   uint32_t planes;             ///< F times int32: unit normal x, y, z in 2^-30, offset in 2^-30 of the unit
@@ -81,12 +82,13 @@ struct HullPlane {
   int32_t normal[3];  ///< in 2^-30; of length 1 within 2^-29 (its square within 2^-28)
   int32_t offset;     ///< in 2^-30 of the unit
 };
-/// Two neighbouring faces: `left` runs along the edge from a to b, `right` from b to a. a < b.
+/// An edge and its two faces. The loop of `left` has the edge from a to b, the loop of `right` from b to a. a < b.
 struct HullEdge {
   uint8_t a, b;
   uint16_t left, right;
 };
-/// mantissa 2^exponent, 2^30 <= mantissa < 2^31; both 0 for nothing. As Scaled of the fixed configurations.
+/// mantissa 2^exponent, 2^30 <= mantissa < 2^31; for the value 0 both are 0. Same as Scaled in the fixed
+/// configurations.
 struct HullScaled {
   int32_t mantissa, exponent;
 
@@ -100,7 +102,7 @@ struct HullIndices {
   uint32_t count;
 };
 
-/// A cooked hull in place: nothing is copied. Vertices are in 2^-30 of the unit, |vertex| < 2^30.
+/// A view of a cooked hull; it copies nothing. Vertices are in 2^-30 of the unit, |vertex| < 2^30.
 struct HullView {
   const uint8_t* bytes = nullptr;
   uint32_t vertex_count = 0;
@@ -113,10 +115,10 @@ struct HullView {
   int32_t x(uint32_t i) const { return coordinate(at.x, i); }
   int32_t y(uint32_t i) const { return coordinate(at.y, i); }
   int32_t z(uint32_t i) const { return coordinate(at.z, i); }
-  /// Of the exact hull's boundary, triangulated: where no neighbour lies further along a direction, no vertex does.
-  /// Ascending.
+  /// The vertex's neighbours on the triangulated boundary of the exact hull, ascending. If no neighbour lies farther
+  /// along a direction, no vertex does.
   HullIndices neighbours(uint32_t vertex) const { return range(at.neighbour_offsets, at.neighbours, vertex); }
-  /// Counter-clockwise from outside. Flat and convex within k_hull_face_slack.
+  /// The face's vertices, counter-clockwise from outside. The face is flat and convex within k_hull_face_slack.
   HullIndices face(uint32_t i) const { return range(at.loop_offsets, at.loops, i); }
   HullPlane plane(uint32_t face) const {
     DETENT_VERIFY_RANGE(face < face_count);
@@ -142,7 +144,8 @@ struct HullView {
   HullFrame frame() const { return static_cast<HullFrame>(cooked_u32(bytes + k_hull_frame_at)); }
   /// In unit^3.
   HullScaled volume() const { return scaled(k_hull_volume_at); }
-  /// m unit^2 / I about the body's axis (0 to 2), for uniform density; 0 in the source frame.
+  /// Inverse inertia (per unit mass), m unit^2 / I, about the body's axis (0 to 2), for uniform density; 0 in the
+  /// source frame.
   HullScaled gyration(uint32_t axis) const { return scaled(k_hull_gyration_at + 8 * axis); }
 
  private:
@@ -158,7 +161,7 @@ struct HullView {
   HullScaled scaled(uint32_t field) const { return {cooked_i32(bytes + field), cooked_i32(bytes + field + 4)}; }
 };
 
-/// The hull at `bytes`, which read_hull() has accepted: no checks.
+/// The hull at `bytes`. read_hull() must have accepted them; this function checks nothing.
 DETENT_SHARED inline HullView hull_view(const uint8_t* bytes) {
   HullView hull;
   hull.bytes = bytes;
@@ -170,13 +173,13 @@ DETENT_SHARED inline HullView hull_view(const uint8_t* bytes) {
   return hull;
 }
 
-/// Checks bytes from anywhere: whatever is accepted is a convex solid, in range, whose every index is good, and on
-/// which climbing along neighbours finds the furthest vertex exactly. Not checked against the vertices: gyration,
-/// origin and rotation, beyond their ranges. Takes about 2 V^2 exact plane tests. Errors: buffer_misaligned (8),
-/// not_detent, format_unknown, truncated, corrupt, out_of_range (the exponent).
+/// Checks untrusted bytes. An accepted hull is a convex solid in range. Its indices are valid, and hill climbing along
+/// neighbours finds the farthest vertex exactly. Gyration, origin and rotation are checked only for their ranges, not
+/// against the vertices. Takes about 2 V^2 exact plane tests. Errors: buffer_misaligned (8), not_detent,
+/// format_unknown, truncated, corrupt, out_of_range (the exponent).
 Status read_hull(const Asset& asset, HullView& hull);
 
-/// For a feature table.
+/// The hull reader, for a feature table.
 struct HullOps {
   decltype(&read_hull) read;
 };

@@ -9,7 +9,7 @@ bool in_range(const Vec32& v) {
   return component(v.x) && component(v.y) && component(v.z);
 }
 
-/// The vertices' least box starts at `low`, and the shift is the least with which its size fits 16 bits.
+/// Whether the vertices' bounding box starts at `low`, and the shift is the least with which its size fits in 16 bits.
 bool vertices_are_good(const MeshView& mesh) {
   GridBox box = {mesh.vertex(0), mesh.vertex(0)};
   for (uint32_t i = 0; i < mesh.vertex_count; ++i) {
@@ -22,7 +22,7 @@ bool vertices_are_good(const MeshView& mesh) {
   return fits(mesh.shift) && (mesh.shift == 0 || !fits(mesh.shift - 1));
 }
 
-/// Words in range; so the corners may be read.
+/// Whether the triangle's words are in range and its corners are not on a line.
 bool triangle_is_good(const MeshView& mesh, uint32_t i) {
   for (uint32_t k = 0; k < 3; ++k) {
     if (mesh.vertex_of(i, k) >= mesh.vertex_count || (k > 0 && mesh.word(i, k) >> 24 != 0)) return false;
@@ -36,7 +36,8 @@ bool triangle_is_good(const MeshView& mesh, uint32_t i) {
   return !is_zero(area_vector(a, b, c));
 }
 
-/// The neighbour passes the edge the other way round, and names this triangle as its own neighbour there.
+/// Whether the neighbour has the edge in the opposite direction with this triangle as its neighbour there, and the edge
+/// kind matches the corners.
 bool edge_is_good(const MeshView& mesh, uint32_t i, uint32_t k) {
   const uint32_t other = mesh.neighbour(i, k);
   if (other == k_no_triangle) return true;

@@ -5,14 +5,14 @@
 #include "shape/cooked.h"
 #include "shape/surface_triangle.h"
 
-/// A cooked triangle mesh as it lies in flash or a file: docs/mesh.md is the format, these are its offsets and readers.
+/// Offsets and readers of a cooked triangle mesh in flash or in a file; docs/mesh.md describes the format.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 inline constexpr uint8_t k_mesh_magic[8] = {0x89, 'D', 'T', 'M', '\r', '\n', 0x1a, '\n'};
 inline constexpr uint32_t k_mesh_format_version = 1;
 
-/// Where the header's fields start, after what all formats have.
+/// Byte offsets of the header's fields after the fields that all formats have.
 inline constexpr uint32_t k_mesh_exponent_at = 20;
 inline constexpr uint32_t k_mesh_vertex_count_at = 24;
 inline constexpr uint32_t k_mesh_triangle_count_at = 28;
@@ -21,24 +21,25 @@ inline constexpr uint32_t k_mesh_low_at = 36;        ///< three int32: the least
 inline constexpr uint32_t k_mesh_shift_at = 48;      ///< bounds of nodes are in 2^shift grid steps from `low`
 inline constexpr uint32_t k_mesh_header_bytes = 64;  ///< zero from 52 on
 
-inline constexpr uint32_t k_mesh_one_sided = 1;  ///< of the flags
+inline constexpr uint32_t k_mesh_one_sided = 1;  ///< a bit of the flags
 inline constexpr uint32_t k_mesh_triangles_max = 1u << 20;
 inline constexpr uint32_t k_mesh_vertices_max = 3 * k_mesh_triangles_max;
 inline constexpr uint32_t k_mesh_vertex_bytes = 12;
-inline constexpr uint32_t k_mesh_triangle_bytes = 24;  ///< three vertices, three neighbours: 24 bits and 8 of their own
+/// Three words of vertices and three of neighbours: a 24-bit index, and 8 upper bits for the material or edge kind.
+inline constexpr uint32_t k_mesh_triangle_bytes = 24;
 inline constexpr uint32_t k_mesh_index_mask = (1u << 24) - 1;  ///< all ones: no neighbour
 inline constexpr uint32_t k_mesh_node_bytes = 12;              ///< uint16: low x, y, z, high x, y, z
 inline constexpr uint32_t k_mesh_leaf_triangles = 4;
 inline constexpr uint32_t k_mesh_levels_max = 19;
 
-/// The tree has no pointers: a leaf holds the next four triangles, and node i of a level the nodes 2 i and 2 i + 1 of
-/// the level below.
+/// The tree has no pointers: leaf i contains the triangles 4 i to 4 i + 3, and node i of a higher level contains the
+/// nodes 2 i and 2 i + 1 of the level below.
 struct MeshView {
   const uint8_t* bytes = nullptr;
   uint32_t vertex_count = 0, triangle_count = 0;
   uint32_t vertices_at = 0, triangles_at = 0, nodes_at = 0, end = 0;
   uint32_t level_count = 0;
-  uint32_t level_start[k_mesh_levels_max + 1] = {};  ///< the node with which each level starts; the leaves are level 0
+  uint32_t level_start[k_mesh_levels_max + 1] = {};  ///< the first node of each level; the leaves are level 0
   Vec32 low = {};
   int shift = 0;
 
@@ -74,7 +75,7 @@ struct MeshView {
     return bounds_of(vertex(vertex_of(i, 0)), vertex(vertex_of(i, 1)), vertex(vertex_of(i, 2)));
   }
   uint32_t level_size(uint32_t level) const { return level_start[level + 1] - level_start[level]; }
-  /// Of the node, rounded outwards. Overflow: the high end is held to the range of a coordinate.
+  /// The node's bounds, rounded outwards. Overflow: the high end is clamped to the range of a coordinate.
   GridBox node_bounds(uint32_t level, uint32_t i) const {
     const uint8_t* words = bytes + nodes_at + k_mesh_node_bytes * (level_start[level] + i);
     const auto at = [&](uint32_t k, int32_t from, uint32_t more) {
@@ -85,19 +86,19 @@ struct MeshView {
   }
   GridBox bounds() const { return node_bounds(level_count - 1, 0); }
 
-  /// Calls visit(triangle) for each triangle whose bounds meet, in ascending order. `meets` is asked of a GridBox.
+  /// Calls visit(index) for each triangle whose bounds, a GridBox, satisfy `meets`; in ascending order.
   template <class Meets, class Visit>
   void walk(Meets&& meets, Visit&& visit) const;
 };
 
-/// The mesh at `bytes`, which read_mesh() has accepted: no checks.
+/// The mesh at `bytes`. read_mesh() must have accepted them; this function checks nothing.
 MeshView mesh_view(const uint8_t* bytes);
 
-/// What is to be stored of a node: the bounds of its triangles, or of the nodes below, in steps of 2^shift from `low`.
+/// The stored form of a node: the bounds of its triangles, or of the nodes below, in steps of 2^shift from `low`.
 void mesh_node(const MeshView& mesh, uint32_t level, uint32_t i, uint16_t (&node)[6]);
 
-/// Checks bytes from anywhere: of what is accepted every index is good, neighbours are mutual, edges are of the kind
-/// that the corners tell, and the tree's bounds are the least ones. Errors: buffer_misaligned (8), not_detent,
+/// Checks untrusted bytes. In an accepted mesh the indices are valid, neighbours are mutual, the edge kinds match the
+/// corners, and the tree's bounds are the tightest possible. Errors: buffer_misaligned (8), not_detent,
 /// format_unknown, truncated, corrupt, out_of_range (the exponent).
 Status read_mesh(const Asset& asset, MeshView& mesh);
 
@@ -106,7 +107,7 @@ void MeshView::walk(Meets&& meets, Visit&& visit) const {
   struct Entry {
     uint32_t level, node;
   };
-  Entry stack[k_mesh_levels_max + 1];  // of each level no more than the second child waits
+  Entry stack[k_mesh_levels_max + 1];  // at most one node per level waits: a second child
   uint32_t count = 0;
   stack[count++] = {level_count - 1, 0};
   while (count > 0) {

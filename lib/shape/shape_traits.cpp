@@ -17,7 +17,7 @@ constexpr Scaled k_scaled_pi = 3.14159265358979323846;
 
 bool is_size(Real value) { return value >= k_size_min && value <= k_size_max; }
 
-/// A triangle is none.
+/// Whether a body can have this shape; no body can be a triangle.
 bool is_world_shape(ShapeType type) {
   return (type >= ShapeType::sphere && type <= ShapeType::hull) || type == ShapeType::surface ||
          type == ShapeType::compound;
@@ -47,20 +47,20 @@ Scaled scaled_from_hull(const HullScaled& value) {
 
 Scaled square(Scaled value) { return multiply(value, value); }
 
-/// A size with the ball that rounds the shape.
+/// A size plus the rounding of the shape.
 Scaled grown(const BodyTraits& traits, Unit size) {
   const Scaled sharp = scaled_from(size);
   return traits.rounding == Unit(0.0) ? sharp : add(sharp, scaled_from(traits.rounding));
 }
 
-/// Moments of a capsule over m unit^2: about its axis and across it.
+/// Moments of inertia of a capsule divided by m unit^2, about its axis and across it.
 void capsule_moments(Unit radius, Unit half_length, Scaled& along, Scaled& across) {
   const Scaled r = scaled_from(radius);
   const Scaled l = scaled_from(half_length);
   const Scaled rr = multiply(r, r);
   const Scaled ll = multiply(l, l);
   const Scaled total = add(multiply(Scaled(3.0), l), multiply(Scaled(2.0), r));
-  const Scaled cylinder = divide(multiply(Scaled(3.0), l), total);  // share of the mass
+  const Scaled cylinder = divide(multiply(Scaled(3.0), l), total);  // fraction of the mass
   const Scaled balls = divide(multiply(Scaled(2.0), r), total);
   along = multiply(rr, add(multiply(Scaled(0.5), cylinder), multiply(Scaled(0.4), balls)));
   const Scaled cylinder_across = add(multiply(Scaled(0.25), rr), divide(ll, Scaled(3.0)));
@@ -160,13 +160,13 @@ Scaled cylinder_volume(const BodyTraits&, const Sizes& size, const AssetTable&) 
 Scaled cone_volume(const BodyTraits&, const Sizes& size, const AssetTable&) {
   return multiply(multiply(k_scaled_pi, Scaled(2.0 / 3.0)), multiply(size.y, multiply(size.x, size.x)));
 }
-/// (3 r^2 + 4 h^2) / 12 across, r^2 / 2 along.
+/// I / m = (3 r^2 + 4 h^2) / 12 across the axis and r^2 / 2 about it, for the height 2 h.
 void set_cylinder_gyration(BodyTraits& traits, const Sizes& squares, const AssetTable&) {
   traits.gyration[0] = traits.gyration[2] =
       divide(Scaled(12.0), add(multiply(Scaled(3.0), squares.x), multiply(Scaled(4.0), squares.y)));
   traits.gyration[1] = divide(Scaled(2.0), squares.x);
 }
-/// 3 (r^2 + h^2) / 20 across, 3 r^2 / 10 along, for the height 2 h.
+/// I / m = 3 (r^2 + h^2) / 20 across the axis and 3 r^2 / 10 about it, for the height 2 h.
 void set_cone_gyration(BodyTraits& traits, const Sizes& squares, const AssetTable&) {
   traits.gyration[0] = traits.gyration[2] = divide(Scaled(20.0 / 3.0), add(squares.x, squares.y));
   traits.gyration[1] = divide(Scaled(10.0 / 3.0), squares.x);

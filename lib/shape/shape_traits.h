@@ -11,20 +11,21 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// A body's radius of gyration about an axis counts as at least 2^-7.5 of its unit: 5.5 mm of a rod of 1.6 m. What an
-/// impulse far off a thinner one's axis does to its spin would leave a Real's range, for two bodies at once.
+/// The greatest inverse inertia (per unit mass). So a body's radius of gyration about an axis is taken as at least
+/// 2^-7.5 of its unit of length: 5.5 mm for a rod of 1.6 m. For a thinner body, the change of angular velocity
+/// by an impulse far off its axis would leave the range of Real when it is summed over two bodies.
 inline constexpr Scaled k_gyration_max = 0x1p15;
 
-/// Of any unit of length.
+/// The least size_exponent of a body.
 inline constexpr int k_size_exponent_min = -14;
 
-/// Of all of the shape from its origin, m.
+/// The greatest distance of a point of the shape from its origin, m.
 inline Real bounding_radius_of(const BodyTraits& traits) {
   return real_from_unit(traits.bounding_radius, traits.size_exponent);
 }
 
-/// The greatest distance of a point of the core from the origin; not for hulls, surfaces and compounds. T: Real or
-/// Unit, of both sides.
+/// The greatest distance of a point of the core from the origin; 0 for hulls, terrain, compounds and half-spaces. T:
+/// Real or Unit, for the sizes and the result.
 template <class T>
 T core_bound(ShapeType type, const Vec3<T>& size) {
   const T zero = 0.0;
@@ -50,53 +51,55 @@ Vec3<Unit> hull_half_extents(const HullView& hull, int32_t exponent);
 /// The hull's core radius, in the unit 2^exponent m.
 Unit hull_radius(const HullView& hull, int32_t exponent);
 
-/// What a shape's sizes come to, m.
+/// Sizes derived from a shape, m.
 struct ShapeMeasure {
   Vec3<Real> size;  ///< as BodyTraits::size
-  Real smallest;    ///< of its sizes, and of the rounding
+  Real smallest;    ///< the least of its sizes and its rounding
   Real bound;       ///< the greatest distance of a point of the core from the origin
   int32_t exponent_min;
-  Real thickness = 0.0;  ///< of a compound: BodyTraits::rounding
+  Real thickness = 0.0;  ///< of a compound: the half thickness, kept in BodyTraits::rounding
 };
 
-/// One shape's own part of set_shape_traits(), shape_volume() and set_gyration(): the linker keeps those that a table
-/// names.
+/// The shape-specific parts of set_shape_traits(), shape_volume() and set_gyration(). The linker keeps only the shapes
+/// that a feature table refers to.
 struct ShapeOps {
   Status (*measure)(const Shape& shape, const AssetTable& assets, ShapeMeasure& measure);
-  void (*set_size)(const Shape& shape, const AssetTable& assets, BodyTraits& traits);  ///< null: from the measure
-  Scaled (*volume)(const BodyTraits& traits, const Vec3<Scaled>& sizes, const AssetTable& assets);  ///< null: none
+  void (*set_size)(const Shape& shape, const AssetTable& assets, BodyTraits& traits);  ///< null: `measure` suffices
+  Scaled (*volume)(const BodyTraits& traits, const Vec3<Scaled>& sizes, const AssetTable& assets);  ///< null: volume 0
   void (*set_gyration)(BodyTraits& traits, const Vec3<Scaled>& squares, const AssetTable& assets);
 };
 
 /// Null if the shape is not linked.
 const ShapeOps* ops_of(const FeatureTable& features, ShapeType type);
 
-/// Fills shape, size_exponent, size, bounding_radius, rounding and asset of `traits`. A hull, surface or
-/// compound is that of the table, whose bytes read_hull(), read_surface() or read_compound() has accepted. Errors:
+/// Fills shape, size_exponent, size, bounding_radius, rounding and asset of `traits`. A hull, terrain or compound is
+/// taken from the asset table; read_hull(), read_surface() or read_compound() must have accepted its bytes. Errors:
 /// bad_argument, out_of_range, asset_missing, feature_missing.
 Status set_shape_traits(const Shape& shape, BodyTraits& traits, const AssetTable& assets = {},
                         const FeatureTable& features = feature_table<Features::all>);
 
-/// Volume of the shape, m^3. Relative error below 2^-26. 0 for half-spaces and surfaces. A rounded shape counts as the
-/// sharp one whose sizes (of a hull: half extents, by which it is stretched) are greater by the rounding.
+/// Volume of the shape, m^3. Relative error below 2^-26. 0 for half-spaces and terrain. A rounded shape is treated as a
+/// sharp shape whose sizes are greater by the rounding; a hull is stretched so that its half extents grow by the
+/// rounding.
 Scaled shape_volume(const BodyTraits& traits, const AssetTable& assets = {},
                     const FeatureTable& features = feature_table<Features::all>);
 
-/// m (2^size_exponent)^2 / I about the body's axes, for uniform density: it does not depend on mass or scale. 0 about a
-/// locked axis.
-/// Relative error below 2^-24; a hull's is its file's. Rounded shapes as in shape_volume().
+/// Sets the inverse inertia (per unit mass), m (2^size_exponent)^2 / I, about the body's axes for uniform density. It
+/// does not depend on mass or scale. 0 about a locked axis; at most k_gyration_max.
+/// Relative error below 2^-24; for a hull the error of its file. Rounded shapes as in shape_volume().
 /// Source: the standard moments of the box, ball, cylinder, cone and half-ball.
 void set_gyration(BodyTraits& traits, const AssetTable& assets = {},
                   const FeatureTable& features = feature_table<Features::all>);
 
-/// Smallest diameter of the shape, m; what tolerances of a pair are fractions of. 2^14 for half-spaces and surfaces. Of
-/// a cone the lesser of height and base, up to 12 % too much; of a hull twice the least half extent, up to 50 %; of a
-/// compound that of its thinnest child.
+/// Smallest diameter of the shape, m; the tolerances of a pair are fractions of it. Half-spaces and terrain: 2^14.
+/// Cone: the lesser of height and base diameter, up to 12 % too large. Hull: twice the least half extent, up to 50 %
+/// too large. Compound: the smallest diameter of its thinnest child.
 Real shape_extent(const BodyTraits& traits);
-/// Of what is round about it, in the body's unit of length: of a ball, capsule or cylinder the radius, of others their
-/// rounding.
+/// Radius of the shape's round parts, in the body's unit of length. Ball, capsule and cylinder: the radius. Box, cone
+/// and hull: the rounding. Other shapes: 0.
 Unit round_radius(const BodyTraits& traits);
-/// What the margins of the shape's bounds are parts of, m: its extent; of a surface 2^-8 of its bounding radius.
+/// The length of which the margins of the shape's bounds are fractions, m: shape_extent(), or for terrain 2^-8 of its
+/// bounding radius.
 Real bounds_extent(const BodyTraits& traits);
 
 }  // namespace DETENT_NAMESPACE

@@ -5,9 +5,9 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// A mesh or a height field, in its own axes and grid: 2^-30 of the unit 2^exponent m.
+/// Terrain (a mesh or a height field), in its own axes. Coordinates are in 2^-30 of the unit 2^exponent m.
 struct Surface {
-  bool is_mesh = false;  ///< or a height field
+  bool is_mesh = false;  ///< false: a height field
   MeshView mesh;
   HeightFieldView field;
 
@@ -16,8 +16,7 @@ struct Surface {
   GridBox bounds() const { return is_mesh ? mesh.bounds() : field.bounds(); }
   SurfaceTriangle triangle(uint32_t i) const { return is_mesh ? mesh.triangle(i) : field.triangle(i); }
 
-  /// Calls visit(triangle) for each triangle whose bounds meet, always in the same order. `meets` is asked of a
-  /// GridBox.
+  /// Calls visit(index) for each triangle whose bounds, a GridBox, satisfy `meets`; always in the same order.
   template <class Meets, class Visit>
   void walk(Meets&& meets, Visit&& visit) const {
     if (is_mesh)
@@ -27,13 +26,13 @@ struct Surface {
   }
 };
 
-/// The surface at `bytes`, which read_surface() has accepted: no checks.
+/// The terrain at `bytes`. read_surface() must have accepted them; this function checks nothing.
 Surface surface_view(const uint8_t* bytes);
 
-/// For callers that must not link the readers of the formats.
+/// surface.triangle(index), for callers that must not link the readers of the formats.
 SurfaceTriangle surface_triangle(const Surface& surface, uint32_t index);
 
-/// Checks bytes from anywhere. Errors: as read_mesh(); not_detent if they are neither.
+/// Checks untrusted bytes. Errors: as read_mesh(); not_detent if they are neither a mesh nor a height field.
 Status read_surface(const Asset& asset, Surface& surface);
 
 }  // namespace DETENT_NAMESPACE

@@ -1,8 +1,9 @@
 #pragma once
 #include "math/vector_integer.h"
 
-/// What meshes and height fields have in common: triangles on a grid of integers, in 2^-30 of the surface's unit of
-/// length, |coordinate| < 2^30. So differences of corners fit 32 bits, and their cross products 64.
+/// The parts that meshes and height fields have in common: triangles with integer coordinates, in 2^-30 of the
+/// terrain's unit of length, |coordinate| < 2^30. So differences of corners fit in 32 bits, and their cross products in
+/// 64 bits.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -10,18 +11,18 @@ inline constexpr int32_t k_surface_exponent_min = -14;
 inline constexpr int32_t k_surface_exponent_max = 14;
 inline constexpr int32_t k_surface_coordinate_max = (1 << 30) - 1;
 
-/// How the neighbour goes on beyond an edge. Stored: a value is never reused.
+/// How the neighbouring triangle continues beyond an edge. Values are stored in files and never reused.
 enum class EdgeKind : uint8_t {
-  flat = 0,     ///< within k_flat_angle: nothing can be caught on it
+  flat = 0,     ///< within k_flat_angle: bodies cannot catch on the edge
   convex = 1,   ///< seen from the side that sees the corners counter-clockwise
-  concave = 2,  ///< likewise
+  concave = 2,  ///< seen from the same side
   open = 3,     ///< no neighbour
 };
 inline constexpr double k_flat_angle = 0x1p-6;  ///< rad
 
 inline constexpr uint32_t k_no_triangle = UINT32_MAX;
 
-/// Edge k runs from corner k to the next one; the neighbour passes it the other way round.
+/// Edge k runs from corner k to the next corner; the neighbour has this edge in the opposite direction.
 struct SurfaceTriangle {
   Vec32 corner[3];
   uint32_t neighbour[3];  ///< k_no_triangle beyond an open edge
@@ -29,7 +30,7 @@ struct SurfaceTriangle {
   uint8_t material;
 };
 
-/// Axis-aligned, both ends included.
+/// An axis-aligned box; both ends are included.
 struct GridBox {
   Vec32 low, high;
 };
@@ -60,8 +61,8 @@ inline Vec64 area_vector(const Vec32& a, const Vec32& b, const Vec32& c) {
 /// The unit normal, Q30. Range: the corners are not on a line.
 Vec32 normal_of(const Vec32& a, const Vec32& b, const Vec32& c);
 
-/// The kind of the edge from a to b between the triangles (a, b, c) and (b, a, d). Whether it is convex is exact; a
-/// fold back onto itself counts as convex.
+/// The kind of the edge from a to b between the triangles (a, b, c) and (b, a, d). The decision between convex and
+/// concave is exact; two triangles folded onto each other count as convex.
 EdgeKind edge_kind(const Vec32& a, const Vec32& b, const Vec32& c, const Vec32& d);
 
 }  // namespace DETENT_NAMESPACE

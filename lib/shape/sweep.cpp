@@ -7,10 +7,11 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr Real k_half_turn_limit = 3.0;  ///< below it an estimate cannot mean another whole turn
+constexpr Real k_half_turn_limit = 3.0;  ///< a smaller estimate cannot add a full revolution
 constexpr int32_t k_turns_max = 1 << 14;
 
-/// The nearest integer to a / b for b > 0, within +-k_turns_max, found by halving: no conversion to integers is needed.
+/// The nearest integer to a / b for b > 0, clamped to +-k_turns_max. Binary long division: it needs no conversion to
+/// integers.
 int32_t nearest_multiple(Real a, Real b) {
   const bool negative = a < Real(0.0);
   Real rest = abs(a) + scale_by_power(b, -1);
@@ -49,7 +50,7 @@ Sweep sweep_between(const Quat& start, const Quat& end, const Vec3<Real>& displa
     if (normalise(turn, axis, angle) && angle > Real(0x1p-10)) {
       const int32_t turns = nearest_multiple(dot(turn_estimate, axis) - angle, k_two_pi);
       turn = turn + axis * multiple(k_two_pi, turns);
-    } else if (normalise(turn_estimate, axis, angle)) {  // a whole number of turns: the estimate's axis
+    } else if (normalise(turn_estimate, axis, angle)) {  // full revolutions only: use the estimate's axis
       turn = turn + axis * multiple(k_two_pi, nearest_multiple(angle, k_two_pi));
     }
   }
@@ -65,7 +66,8 @@ Quat sweep_end_rotation(const Quat& start, const Sweep& sweep) {
 #if defined(DETENT_FX32)
 namespace {
 
-/// coordinate + remainder + d, split again; the coordinate is the floor, so that the remainder is never negative.
+/// Adds d to coordinate + remainder and splits the sum again. The coordinate is the floor, so the remainder is never
+/// negative.
 bool advance(Coord& coordinate, uint16_t& remainder, Real d) {
   const int64_t from = static_cast<int64_t>(coordinate.raw) * 65536 + remainder;  // 2^-32 m
   const int64_t to = from + ((d.raw + (int64_t{1} << 13)) >> 14);
@@ -107,7 +109,7 @@ Real part_of(Real whole, Fraction part) { return whole * float_from_integer<Real
 #endif
 
 #if defined(DETENT_F32)
-/// The product of the two in full: a float's error over a long way is more than positions have.
+/// Computes whole * part exactly: over a long displacement, the error of a float exceeds the resolution of positions.
 bool advance_part(Coord& coordinate, Real whole, Fraction part) {
   constexpr int k_bits = 46;
   bool saturated = false;

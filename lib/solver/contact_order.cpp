@@ -21,12 +21,13 @@ uint32_t pair_hash(Span<const BodyTraits> traits, const ContactState& contact) {
   return static_cast<uint32_t>(digest_finish(pair) >> 32);
 }
 
-/// Contacts of one colour may be solved in any order: those alike in work lie together, to be solved four at once.
+/// Contacts of one colour may be solved in any order. Contacts with the same kind of work are sorted together, to be
+/// solved four at once.
 uint16_t kind_of(const ContactWork& contact) {
   return static_cast<uint16_t>(contact.state.point_count | contact.angular_rows << 3);
 }
 
-/// The lowest colour free at both bodies, taken; or k_colour_overflow.
+/// Takes the lowest colour that is free at both bodies, or k_colour_overflow.
 uint16_t take_colour(Span<const BodyTraits> traits, const ContactState& contact, Span<BodyWork> work) {
   const bool colours_a = is_dynamic(traits[contact.body_a]), colours_b = is_dynamic(traits[contact.body_b]);
   uint64_t taken = 0;
@@ -58,7 +59,7 @@ uint32_t order_contacts(Span<const BodyTraits> traits, Span<const ContactWork> c
   radix_sort(
       order, spare,
       [](const ContactOrder& entry, int digit) { return uint32_t{digit == 0 ? entry.kind : entry.colour}; }, 2);
-  // Each island's have their place; what is before it in this order stays before it.
+  // Sorts by island: each contact goes to the next place of its island, which keeps the order within the island.
   for (uint32_t i = 0; i < order.count; ++i) spare[i] = order[i];
   for (uint32_t i = 0; i < islands.count; ++i) work[i].run = islands[i].first_contact;
   for (const ContactOrder& entry : spare.first(order.count)) order[work[entry.island].run++] = entry;

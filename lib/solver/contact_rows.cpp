@@ -11,12 +11,12 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// The exponent of mantissas up to `value` that leaves room for the sum of four; float needs none.
+/// The exponent for mantissas of values up to `value`, with room for the sum of four. Always 0 in float.
 int32_t exponent_for(Real value) { return DETENT_FIXED ? exponent_above(value) + 2 : 0; }
 
 #if DETENT_FIXED
-/// What mantissas 2^-exponent become Reals by: to multiply costs less than to shift each. Range: a Real has more
-/// fraction bits than what is brought to it, so that nothing is rounded.
+/// The factor that converts mantissas 2^-exponent to Reals; a multiplication costs less than shifting each mantissa.
+/// Range: a Real has more fraction bits than the mantissas, so that nothing is rounded.
 uint64_t real_power(int exponent) {
   DETENT_VERIFY_RANGE(exponent >= k_unit_frac - k_real_frac);
   return static_cast<uint64_t>(shift_64(1, exponent + k_real_frac - k_unit_frac));
@@ -29,8 +29,14 @@ uint64_t real_power(int) { return 1; }
 #endif
 Real real_part(Real value, uint64_t) { return value; }
 
-/// What a wrench on one body adds to the pair's motion, to `response`. `turning`: gyration in the contact's frame, in
-/// Real, or as mantissas 2^-exponent.
+/// Adds one body's part of K = J M^-1 J^T to `response`. In the contact's frame, with axes e_i (n, t, s), arm r,
+/// inverse inertia G (`turning`), the pair's unit u in the body's (`unit`), and the relative inverse mass `share`:
+///
+///     linear i, linear k:   share (delta_ik + (r x e_i) . G (r x e_k))
+///     angular i, linear k:  share u e_i . G (r x e_k)
+///     angular i, angular k: share u^2 G_ik
+///
+/// `turning` is in Real, or in mantissas 2^-exponent.
 template <class Number>
 void add_response(const ContactWork& work, const Number (&turning)[3][3], int exponent, const Vec3<Unit>& arm,
                   Unit unit, Scaled share, PairResponse& response) {
@@ -44,7 +50,7 @@ void add_response(const ContactWork& work, const Number (&turning)[3][3], int ex
   };
   DETENT_UNROLL
   for (int k = 0; k < 3; ++k) {
-    // A force along axis k turns the body about the two others.
+    // r x e_k has components along the two other axes.
     const int next = (k + 1) % 3, last = (k + 2) % 3;
     Number spin[3];
     DETENT_UNROLL
@@ -80,11 +86,12 @@ PairResponse respond(const WorldGyration& a, const WorldGyration& b, const Conta
   return response;
 }
 
-/// Effective mass of a direction: the lighter body's share is 1, so `response` is at least 1 but for rounding.
+/// Effective mass 1 / K over the reference mass. The relative inverse mass of the lighter body is 1, so `response` is
+/// at least 1, except for rounding.
 Unit mass_of(Real response) {
   if (!(response > Real(1.0))) return 1.0;
 #if DETENT_FIXED
-  // 2^(2 x 30) over the response as a mantissa of 31 bits.
+  // 2^(2 x 30) divided by the response as a mantissa of 31 bits.
   const int power = bit_length_64(magnitude_64(response.raw)) - 31;
   const uint64_t quotient = (uint64_t{1} << 60) / static_cast<uint64_t>(response.raw >> power);
   return Unit::from_raw(
@@ -97,7 +104,9 @@ Scaled angular_mass_of(Real response) {
   return response > Real(0.0) ? divide(Scaled(1.0), scaled_from(response)) : Scaled(0.0);
 }
 
-/// What an impulse along the normal at each point does to the normal speed at each, and its effective mass.
+/// Computes the K of the normal rows of each pair of points, and the effective mass of each point. The rows are j_i =
+/// (1, y_i, -x_i) over the parts of a wrench (along the normal, about the first and the second tangent). With the
+/// response R at the middle, K_ik = j_i R j_k^T.
 void couple(const PairResponse& response, ContactWork& work) {
   const auto part = [&](Part i, Part k) { return response.part[response_index(i, k)]; };
   const uint32_t count = work.state.point_count;
@@ -115,7 +124,8 @@ void couple(const PairResponse& response, ContactWork& work) {
     }
     work.inverse_mass[i] = mass_of(coupling[i][i]);
   }
-  constexpr int32_t k_most = 29;  // a thin body hit far from its centre; beyond it the sweep converges more slowly
+  // Reached by a thin body that is hit far from its centre; the sweep then converges more slowly.
+  constexpr int32_t k_most = 29;
   const int32_t exponent = exponent_for(most);
   work.coupling_exponent = exponent < k_most ? exponent : k_most;
   for (uint32_t i = 0; i < count; ++i) {
@@ -124,7 +134,7 @@ void couple(const PairResponse& response, ContactWork& work) {
   }
 }
 
-/// Two directions that make a right-handed frame with the normal.
+/// Two tangents that form a right-handed frame with the normal.
 /// Source: Duff and others, "Building an Orthonormal Basis, Revisited", JCGT 2017.
 void make_tangents(const Vec3<Unit>& n, Vec3<Unit> tangent[2]) {
   const Unit zero = 0.0, one = 1.0;
@@ -141,7 +151,7 @@ void make_tangents(const Vec3<Unit>& n, Vec3<Unit> tangent[2]) {
   tangent[1] = {down ? zero - both : both, down ? zero - second : second, zero - n.y};
 }
 
-/// The mean of two coefficients that counts by their ratio.
+/// The geometric mean of two coefficients.
 Scaled geometric_mean(Scaled a, Scaled b) {
   if (a == b) return a;
   return is_positive(a) && is_positive(b) ? square_root(multiply(a, b)) : Scaled(0.0);
@@ -153,7 +163,7 @@ Scaled pair_restitution(const BodyTraits& a, const BodyTraits& b) {
   return less(a.restitution, b.restitution) == smaller ? a.restitution : b.restitution;
 }
 
-/// Reference mass over each mass.
+/// Sets the relative inverse masses: the reference mass over the mass of each body; 0 if it is not dynamic.
 void share_mass(const BodyTraits& a, const BodyTraits& b, ContactWork& work) {
   const Scaled none = 0.0, one = 1.0;
   const bool dynamic_a = is_dynamic(a), dynamic_b = is_dynamic(b);
@@ -167,7 +177,8 @@ void share_mass(const BodyTraits& a, const BodyTraits& b, ContactWork& work) {
     work.share_a = divide(b.mass, a.mass);
 }
 
-/// The pair's unit of length as a power of two, m, and in those of the bodies.
+/// Returns the exponent of the pair's unit of length, a power of two in m, and sets that unit in the units of the
+/// bodies.
 int32_t share_length(const BodyTraits& a, const BodyTraits& b, ContactWork& work) {
   const bool moves_a = type_of(a) != BodyType::fixed, moves_b = type_of(b) != BodyType::fixed;
   int32_t unit = moves_a ? a.size_exponent : b.size_exponent;
@@ -187,19 +198,20 @@ Real gravity_along(const StepSettings& settings, const BodyTraits& body, const V
   return body.gravity_scale == Scaled(1.0) ? whole : multiply(whole, body.gravity_scale, saturated);
 }
 
-/// The normal velocity with which a point that approaches at `velocity` closes its gap under the relative acceleration
-/// `pull`: sqrt(v^2 + 2 a s). So a bounce neither gains nor loses height.
+/// The normal velocity at which a point that approaches at `velocity` < 0 closes its gap s under the relative
+/// acceleration `pull` < 0: -sqrt(v^2 - 2 pull s). With this, a bounce neither gains nor loses height.
 Real approach_at_touch(Real velocity, Real separation, Real pull) {
-  const Real zero = 0.0, fast = 256.0;  // where the fall through a gap is nothing any more, and squares leave the range
+  // Above 256 m/s the acceleration over a gap is negligible, and squares leave the range of Real.
+  const Real zero = 0.0, fast = 256.0;
   if (!(velocity < zero && velocity > -fast && separation > zero && pull < zero && pull > -fast)) return velocity;
   const Real gain = scale_by_power(pull * min(separation, Real(64.0)), 1);
   return -square_root(velocity * velocity - gain);
 }
 
-/// By how much more than along the normal what is round may part in a tick, as the normal turns while they slide past
-/// each other, m: s^2 / D for the way s across the normal and the distance D of the middles of their curvature. That is
-/// twice what it is to second order: what touches only as it passes would else be stopped along the normal of the
-/// start.
+/// For round bodies that slide past each other: how much more they may separate in a tick than the motion along the
+/// normal shows, because the normal rotates, m. Returns s^2 / D, with s the displacement across the normal and D the
+/// distance of the centres of curvature. That is twice the second-order term. Without it, bodies that touch only in
+/// passing would be stopped along the normal of the start.
 __attribute__((noinline)) Real parted_by_sliding(const StepSettings& settings, const RowBody& a, const RowBody& b,
                                                  const Vec3<Unit>& normal, const ContactGeometryPoint& point) {
   const Unit round_a = round_radius(a.traits), round_b = round_radius(b.traits);
@@ -216,7 +228,7 @@ __attribute__((noinline)) Real parted_by_sliding(const StepSettings& settings, c
   return way * divide(way, distance);
 }
 
-/// What each of so many points counts in a mean.
+/// The weight of each of `count` points in a mean.
 Unit share_of_points(uint32_t count) {
   constexpr Unit k_share[k_manifold_points_max] = {1.0, 0.5, 1.0 / 3.0, 0.25};
   return k_share[count - 1];
@@ -229,8 +241,8 @@ Vec3<Unit> mean(const ContactGeometry& geometry, Vec3<Unit> ContactGeometryPoint
   return sum;
 }
 
-/// Places the points about their middle by a body whose unit is the pair's, and returns the root of their mean squared
-/// distance from it.
+/// Sets the positions of the points in the tangents' axes, relative to their middle, from the arms of a body whose unit
+/// is the pair's. Returns the root mean square of their distances from the middle.
 Unit place_points(const ContactGeometry& geometry, Vec3<Unit> ContactGeometryPoint::*arm, const Vec3<Unit>& middle,
                   ContactWork& work) {
   const Unit share = share_of_points(geometry.count);
@@ -307,7 +319,7 @@ void make_rows(const StepSettings& settings, const RowBody& a, const RowBody& b,
     if (i >= work.angular_rows) continue;
     work.angular_impulse[i] = dot(work.state.angular_impulse, *axes[i]);
   }
-  // Speeds are measured against that of a fall by the smaller body's diameter.
+  // Limits of speeds are in terms of the speed of a fall by the smaller body's diameter.
   const Real fall = min(a.fall, b.fall);
   work.push_max = scale_by_power(fall, -1);
   work.rebound_min = settings.restitution_threshold * fall;

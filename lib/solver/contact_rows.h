@@ -9,8 +9,8 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// One body of a contact, as the rows see it: its gyration and its spin, 2^-k_spin_power m/s, are in world axes; its
-/// extent, m, and the speed of a fall by it, m/s.
+/// One body of a contact, as input for the rows. Its inverse inertia and its angular velocity, 2^-k_spin_power m/s, are
+/// in world axes. `extent` is its smallest diameter, m; `fall` is the speed of a fall by it, m/s.
 struct RowBody {
   const BodyTraits& traits;
   const BodyPose& pose;
@@ -18,34 +18,61 @@ struct RowBody {
   const WorldGyration& gyration;
   const Vec3<Real>& spin;
   Real extent, fall;
-  bool jointed = false;  ///< no impact stops it (impact.h): its contacts do
+  bool jointed = false;  ///< impacts do not stop the body (impact.h), only its contacts do
 };
 
-/// Fills the rows of `work`, whose `state` is set, from the geometry: arms, responses, effective masses, limits and the
-/// approach speeds of the start of the tick. Impulses of the state are taken over.
+/// Fills the rows of `work` from the geometry: arms, responses, effective masses, limits, and the approach speeds at
+/// the start of the tick. `work.state` is set before; its impulses are converted to the contact's frame.
+///
+/// With n the normal from A to B, t and s the tangents, r_A and r_B the arms from the centres, v and w the velocities
+/// and angular velocities, u the pair's unit of length, and columns (v_A, w_A, v_B, w_B), the rows are:
+///
+///     normal, point i:  C = separation along n >= 0
+///                       J = (-n, -(r_A x n), n, r_B x n), with the arms to the point
+///     friction along t: J = (-t, -(r_A x t), t, r_B x t), with the arms to the middle of the points; same for s
+///     twist:            J = (0, -n, 0, n) u
+///     rolling about t:  J = (0, -t, 0, t) u; same for s
+///
+/// For two linear rows of directions d and e, arms r and q:
+///
+///     K = J M^-1 J^T = (1/m_A + 1/m_B) d . e + (r_A x d) . I_A^-1 (q_A x e) + (r_B x d) . I_B^-1 (q_B x e)
+///
+/// All K are stored times the reference mass m, the mass of the lighter dynamic body: `coupling` has the K of the
+/// normal rows of each pair of points, `response` the K of the parts of a wrench at the middle. Effective masses are 1
+/// / (m K) of a row with itself: `inverse_mass`, `friction_mass`, `angular_mass`. Each row is solved by accumulated
+/// impulses:
+///
+///     normal:   impulse >= 0
+///     friction: |impulse| <= friction coefficient x sum of the normal impulses, as a vector along t and s
+///     twist:    |impulse| <= twist_arm x sum of the normal impulses
+///     rolling:  |impulse| <= rolling_arm x sum of the normal impulses, as a vector about t and s
+///
+/// A friction, twist or rolling row has no C: its target is J v = 0. contact_solver.h has the targets of the normal
+/// rows.
 void make_rows(const StepSettings& settings, const RowBody& a, const RowBody& b, const ContactGeometry& geometry,
                ContactWork& work);
 
-/// Leaves a contact to the impacts, whose bodies are not in each other and come together so fast that they rebound: the
-/// solver pushes nothing there. It would share a blow among all that touch; impacts come one after the other.
+/// Disables the normal rows of a contact whose bodies do not overlap and approach so fast that they rebound: it sets
+/// their effective masses to zero, and continuous collision resolves the impact. The solver would distribute the
+/// impulse among all bodies in contact, while impacts are resolved one after the other.
 void leave_to_impact(const StepSettings& settings, const RowBody& a, const RowBody& b, ContactWork& work);
 inline bool is_left_to_impact(const ContactWork& work) { return work.inverse_mass[0] == Unit(0.0); }
 
-/// Makes the responses and effective masses anew for the gyrations of A and B, where they have turned since; all else
-/// stays.
+/// Recomputes the responses and effective masses for the current inverse inertias of A and B. All else stays.
 void renew_response(const WorldGyration& a, const WorldGyration& b, ContactWork& work);
 
-/// What a wrench does to the motion of a pair, by response_index().
+/// The matrix K of a pair times the reference mass: the change of its motion by a wrench at the middle. Elements by
+/// response_index().
 struct PairResponse {
   Real part[k_responses];
 };
 
-/// As precise as Real allows: what make_rows() has in the work is rounded to 2^-30 of the largest part, which of a
-/// slender body is much.
+/// Computes the response with the precision of Real. The one that make_rows() stores is rounded to 2^-30 of the largest
+/// element, which is a large error for a slender body.
 PairResponse respond_exactly(const BodyTraits& a, const Quat& rotation_a, const BodyTraits& b, const Quat& rotation_b,
                              const ContactWork& work);
 
-/// Puts the impulses of the solve back into `work.state`.
+/// Stores the impulses of the solve in `work.state`, in world axes.
 void store_impulses(ContactWork& work);
 
 }  // namespace DETENT_NAMESPACE

@@ -5,13 +5,15 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Of push_max: a point that closes its gap within it meets in this substep.
+/// As a fraction of push_max: a point that comes to within this speed of closing its gap counts as in contact.
 inline constexpr Unit k_arrival = 1.0 / 512;
-/// Over a contact's points, until no impulse changes by more than this part of the greatest.
+/// Limits of the sweeps over a contact's points. They stop when no impulse changes by more than k_settled of the
+/// greatest.
 inline constexpr int k_normal_sweeps = 8, k_relax_sweeps = 8;
 inline constexpr Unit k_settled = 0x1p-14;
 
-/// The points of a contact in one pass: the bodies are needed only when it begins and when it ends.
+/// The normal rows of a contact in one pass. The bodies' motions are read when the pass begins and written when it
+/// ends.
 template <class Kind>
 struct Normals {
   using Number = typename Kind::Number;
@@ -19,8 +21,9 @@ struct Normals {
 
   const typename Kind::Contact& contact;
   const uint32_t count;
-  typename Kind::Sum velocity[k_manifold_points_max];  ///< along the normal, at each point, as the sweep has it by now
-  Number impulse[k_manifold_points_max];               ///< likewise
+  /// Normal velocity of each point, updated with each impulse.
+  typename Kind::Sum velocity[k_manifold_points_max];
+  Number impulse[k_manifold_points_max];  ///< accumulated normal impulses, updated with each change
   Number added[k_manifold_points_max];
 
   Normals(const typename Kind::Contact& of_pair, const typename Kind::Block& block, const NormalMotion<Kind>& motion)
@@ -33,7 +36,7 @@ struct Normals {
     }
   }
   Number speed(uint32_t i) const { return rounded(velocity[i], contact.coupling_exponent); }
-  /// Takes so much from the impulse at a point, or all of it. Returns what it has become more.
+  /// Subtracts `less` from the impulse at a point, at most all of it. Returns the change of the impulse.
   Factor change(uint32_t i, Number less) {
     const Factor more = held(max(impulse[i] - less, Number(Kind::zero())) - impulse[i]);
     impulse[i] += more;
@@ -42,7 +45,7 @@ struct Normals {
     for (uint32_t k = 0; k < k_manifold_points_max; ++k) velocity[k] += product(more, contact.coupling[i][k]);
     return more;
   }
-  /// Takes `less` of a point from its impulse, point by point, again and again until that settles.
+  /// Sweeps over the points and subtracts less(i) from the impulse of each, until the changes are small.
   template <class Less>
   void solve(int sweeps, const Less& less) {
     const Number none = Number(Kind::zero());
@@ -70,7 +73,7 @@ struct Normals {
       to.impulse_max[i] = max(to.impulse_max[i], total);
     }
   }
-  /// What has been added, as an impulse at the middle and one about each tangent.
+  /// The sum of the changes, as an impulse along the normal at the middle, and one about each tangent.
   void put(Number& along, Number& about_first, Number& about_second) const {
     along = about_first = about_second = Number(Kind::zero());
     DETENT_UNROLL
@@ -83,7 +86,7 @@ struct Normals {
   }
 };
 
-/// The whole motion of a pair while friction is solved, and what has acted on it.
+/// The relative motion of a pair in the pass with friction, and the wrench that was applied to it.
 template <class Kind>
 struct Sliding {
   using Number = typename Kind::Number;
@@ -109,7 +112,7 @@ struct Sliding {
   NormalMotion<Kind> normal() const {
     return {held(part[k_along_normal]), held(part[k_about_first]), held(part[k_about_second])};
   }
-  /// An impulse that the motion is to show.
+  /// Applies an impulse along or about one axis, and updates the motion by the column of the response matrix.
   template <Part by>
   void act(Factor more) {
     wrench[by] += more;
@@ -117,7 +120,7 @@ struct Sliding {
     for (int i = 0; i < k_parts; ++i)
       part[i] += times_scaled(more, contact.response[response_index(i, by)], contact.response_exponent);
   }
-  /// Brings an impulse to `after`.
+  /// Sets an accumulated impulse to `after`, and applies the difference.
   template <Part by>
   void bring(Factor after, typename Kind::Real& impulse) {
     const Factor more = held(after - block.number(impulse));
@@ -126,7 +129,7 @@ struct Sliding {
   }
 };
 
-/// A contact with its bodies in a pass over the contacts of an island.
+/// A contact and its bodies, in a pass over the contacts of an island.
 template <class Kind>
 struct ContactSolver {
   using Number = typename Kind::Number;
@@ -158,7 +161,15 @@ struct ContactSolver {
     apply_wrench<Kind>(contact, block, wrench, a, b);
   }
 
-  /// Pulls overlapping points apart as damped springs, and lets others close their gap and no more.
+  /// Solves the normal rows. With C the separation now, h the substep, v the velocities and m the effective mass, the
+  /// target of a row is:
+  ///
+  ///     C > 0, speculative: J v >= -C / h, so that the gap closes and no more
+  ///     C <= 0, soft:       J v = -max(rate C / h, -push_max)
+  ///
+  /// A soft row is a damped spring (Softness). Each sweep changes its impulse by
+  ///
+  ///     -(mass_scale m (J v - target) + impulse_scale impulse)
   void solve_normals() {
     typename Kind::Block near;
     near.include(contact.separation, contact.state.point_count);
@@ -179,7 +190,7 @@ struct ContactSolver {
       push[i] = none;
       apart[i] = Kind::all();
       if (i >= normals.count) continue;
-      // That of the start and what the bodies have moved since, to first order.
+      // The separation at the start of the tick plus the displacement since then, to first order.
       const Factor separation = held(moved.block.number(contact.separation[i]) + way.at(contact, i));
       apart[i] = separation > none;
       const Factor length = select(apart[i], separation, Factor(held(times(separation, soft.rate))));
@@ -195,7 +206,7 @@ struct ContactSolver {
     DETENT_UNROLL
     for (uint32_t i = 0; i < k_manifold_points_max; ++i) {
       if (i >= normals.count) break;
-      // What arrives by a hair is there.
+      // A point whose gap is almost closed counts as in contact.
       contact.apart[i] = Kind::flag(apart[i] & (normals.speed(i) + push[i] - arrival > Number(none)));
     }
     normals.store(block, contact);
@@ -204,14 +215,15 @@ struct ContactSolver {
     apply_normal<Kind>(contact, block, along, about_first, about_second, a, b);
   }
 
-  /// Takes the springs' speed out again, and solves friction.
+  /// Relaxation: removes the speed that the springs have added, with the target J v = 0 for points in contact, then
+  /// solves friction.
   void relax() {
     typename Kind::Block room;
     include_impulses(room);
     const PairMotion<Kind> motion = relative_motion(room);
     Sliding<Kind> sliding(contact, motion);
     Normals<Kind> normals(contact, motion.block, sliding.normal());
-    // Points that do not meet in this substep go on closing their gap.
+    // Points that do not come into contact in this substep keep closing their gap.
     normals.solve(k_relax_sweeps, [&](uint32_t i) {
       const Number none = Number(Kind::zero());
       const auto meets = Kind::is_unset(contact.apart[i]) | (normals.impulse[i] > none);
@@ -224,7 +236,7 @@ struct ContactSolver {
     sliding.template act<k_about_first>(held(about_first));
     sliding.template act<k_about_second>(held(about_second));
 
-    // Friction has the last word: what a slope's normals push along it would otherwise creep.
+    // Friction is solved last: otherwise the normal impulses on a slope leave a slow creep along it.
     const Factor normal = normal_impulse(motion.block);
     if (contact.angular_rows == 3) solve_rolling(normal, sliding);
     if (contact.angular_rows != 0) twist(normal, sliding);
@@ -248,12 +260,12 @@ struct ContactSolver {
     return held(sum);
   }
 
-  /// What stops a part of the motion, with an impulse that has acted along it.
+  /// The accumulated impulse that stops one part of the motion.
   template <class Mass>
   Factor stopped(const Sliding<Kind>& sliding, Part by, const typename Kind::Real& impulse, const Mass& mass) const {
     return held(sliding.block.number(impulse) - relaxed(times(held(sliding.part[by]), mass)));
   }
-  /// Stops two parts of the motion, with impulses within a circle.
+  /// Stops two parts of the motion, with accumulated impulses limited to a circle.
   template <Part first, Part second, class Mass>
   void stop_in_circle(typename Kind::Real* impulse, const Mass* mass, Factor radius, Sliding<Kind>& sliding) {
     Factor after[2] = {stopped(sliding, first, impulse[0], mass[0]), stopped(sliding, second, impulse[1], mass[1])};
@@ -261,18 +273,18 @@ struct ContactSolver {
     sliding.template bring<first>(after[0], impulse[0]);
     sliding.template bring<second>(after[1], impulse[1]);
   }
-  /// Spin about the tangents.
+  /// Rolling: angular velocity about the tangents.
   void solve_rolling(Factor normal, Sliding<Kind>& sliding) {
     stop_in_circle<k_about_first, k_about_second>(contact.angular_impulse + 1, contact.angular_mass + 1,
                                                   times(normal, contact.rolling_arm), sliding);
   }
-  /// Spin about the normal, within its limit.
+  /// Twist: angular velocity about the normal, within its limit.
   void twist(Factor normal, Sliding<Kind>& sliding) {
     const Factor limit = times(normal, contact.twist_arm);
     const Factor wanted = stopped(sliding, k_about_normal, contact.angular_impulse[0], contact.angular_mass[0]);
     sliding.template bring<k_about_normal>(clamp(wanted, Factor(-limit), limit), contact.angular_impulse[0]);
   }
-  /// Sliding, within the friction cone.
+  /// Sliding: velocity along the tangents, within the friction cone.
   void solve_friction(Factor normal, Sliding<Kind>& sliding) {
     stop_in_circle<k_along_first, k_along_second>(contact.friction_impulse, contact.friction_mass,
                                                   times(normal, contact.friction), sliding);

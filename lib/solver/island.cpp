@@ -6,7 +6,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// The first body of a set, by the links of one member of BodyWork; the way is halved as it is walked.
+/// The first body of a set, by the links in one member of BodyWork. The path is halved on the way.
 uint32_t first_of(Span<BodyWork> work, uint32_t BodyWork::*link, uint32_t body) {
   while (work[body].*link != body) {
     work[body].*link = work[work[body].*link].*link;
@@ -15,7 +15,7 @@ uint32_t first_of(Span<BodyWork> work, uint32_t BodyWork::*link, uint32_t body) 
   return body;
 }
 
-/// Joins two sets under the lower of their first bodies. Returns false if they were one already.
+/// Joins two sets; their first body is the lower of the two first bodies. Returns false if the sets were the same.
 bool join(Span<BodyWork> work, uint32_t BodyWork::*link, uint32_t a, uint32_t b, uint32_t& first, uint32_t& other) {
   a = first_of(work, link, a);
   b = first_of(work, link, b);
@@ -55,7 +55,7 @@ uint32_t find_islands(Span<const uint32_t> slots, Span<const BodyTraits> traits,
     if (a.mobile != 0 && b.mobile != 0) join(work, &BodyWork::island, a.slot, b.slot, first, other);
   }
 
-  // Every body is linked to the first of its set, which is visited before it and has by then the island's number.
+  // Links every body to the first of its set. That body is visited earlier and then has the island's number.
   for (const uint32_t slot : slots) {
     work[slot].island = first_of(work, &BodyWork::island, slot);
     work[slot].run_length = work[first_of(work, &BodyWork::run, slot)].run_length;

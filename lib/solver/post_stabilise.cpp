@@ -8,9 +8,9 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr int k_position_sweeps = 4;  ///< over the contacts of an island
+constexpr int k_position_sweeps = 4;  ///< sweeps over the contacts of an island
 
-/// The way and the turn of a body, as if they were its velocity and its spin.
+/// A body's displacement and rotation vector, in the form of a velocity and an angular velocity.
 struct MovedBody {
   BodyMotion motion;
   BodyWork& work;
@@ -25,7 +25,7 @@ struct MovedBody {
     work.displacement = motion.velocity;
     const Vec3<Real> more = scale_by_power(turn, k_spin_power);
     work.turn += more;
-    work.spin += turn;  // all of it: the rotation follows at the end
+    work.spin += turn;  // sum of all rotations: applied to `rotation` at the end
   }
 };
 

@@ -1,8 +1,8 @@
 #pragma once
 #include "motion/block.h"
 
-/// Four numbers at once, one of each of four contacts: the same operations as in block.h, lane by lane, with the same
-/// bits. Only for the files that are compiled for a machine that has such registers.
+/// Four lanes: one number of each of four contacts. Each operation of block.h is applied to every lane, with the same
+/// bits. Only for files that are compiled for processors with such registers.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -15,8 +15,8 @@ typedef int32_t QuadInt32 __attribute__((vector_size(16)));
 typedef int64_t QuadInt64 __attribute__((vector_size(32)));
 typedef uint64_t QuadUint64 __attribute__((vector_size(32)));
 
-/// Ulps, factors, sums of products, and the raw numbers of Reals and Units. Where a factor or a Unit is only multiplied
-/// its low half counts, and the high one may hold anything.
+/// Ulps, factors, sums of products, and the raw numbers of Reals and Units. A factor or Unit that is only multiplied
+/// uses its low half; the high half may contain anything.
 struct Quad {
   QuadInt64 v;
 };
@@ -64,20 +64,20 @@ DETENT_QUAD_INLINE Quad clamp(Quad value, Quad low, Quad high) { return min(max(
 
 DETENT_QUAD_INLINE Quad operator-(Quad a, int b) { return a - quad_of(b); }
 
-/// value 2^-n. Range: 0 <= n <= 63.
+/// value times 2^-n, rounded down. Range: 0 <= n <= 63.
 DETENT_QUAD_INLINE Quad shifted_down(Quad value, Quad n) {
   const QuadUint64 sign = reinterpret_cast<QuadUint64>(quad_of(INT64_MIN).v), by = reinterpret_cast<QuadUint64>(n.v);
   const QuadUint64 moved = (reinterpret_cast<QuadUint64>(value.v) ^ sign) >> by;
   return {reinterpret_cast<QuadInt64>(moved - (sign >> by))};
 }
-/// As round_shift_64(). Range: 1 <= n <= 63.
+/// Same result as round_shift_64(). Range: 1 <= n <= 63.
 DETENT_QUAD_INLINE Quad round_shift_any(Quad value, Quad n) {
   const QuadUint64 sign = reinterpret_cast<QuadUint64>(quad_of(INT64_MIN).v), by = reinterpret_cast<QuadUint64>(n.v);
   const QuadUint64 one = reinterpret_cast<QuadUint64>(quad_of(1).v);
   const QuadUint64 twice = (reinterpret_cast<QuadUint64>(value.v) ^ sign) >> (by - one);
   return {reinterpret_cast<QuadInt64>(((twice + one) >> one) - (sign >> by))};
 }
-/// As round_shift_64(). Range: |value| < 2^62, 1 <= n <= 63.
+/// Same result as round_shift_64(). Range: |value| < 2^62, 1 <= n <= 63.
 DETENT_QUAD_INLINE Quad round_shift(Quad value, Quad n) {
   const QuadUint64 bias = reinterpret_cast<QuadUint64>(quad_of(int64_t{1} << 62).v);
   const QuadUint64 one = reinterpret_cast<QuadUint64>(quad_of(1).v), by = reinterpret_cast<QuadUint64>(n.v);
@@ -116,7 +116,7 @@ class QuadBlock {
   DETENT_QUAD_INLINE void include(const Vec3<Quad>& v, int exponent) {
     include_bits(magnitude(v.x) | magnitude(v.y) | magnitude(v.z), k_spin_power - exponent);
   }
-  /// Numbers that are not negative, all at once: they take as many bits as their bits together.
+  /// Includes all numbers at once, combined by `or`. Range: not negative.
   template <unsigned count>
   DETENT_QUAD_INLINE void include(const Quad (&values)[count], uint32_t used) {
     QuadInt64 all = {0, 0, 0, 0};
@@ -209,7 +209,7 @@ class QuadBlock {
 DETENT_QUAD_INLINE Quad dot(const Vec3<Quad>& a, const Vec3<Quad>& b) {
   return product(a.x, b.x) + product(a.y, b.y) + product(a.z, b.z);
 }
-/// Of factors.
+/// The sums must round to factors.
 DETENT_QUAD_INLINE Vec3<Quad> rounded(Quad x, Quad y, Quad z) {
 #if DETENT_FIXED
   const auto part = [](Quad sum) {

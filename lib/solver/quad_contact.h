@@ -2,11 +2,11 @@
 #include "solver/contact_solver.h"
 #include "solver/quad.h"
 
-/// Four contacts, or four bodies, read from their places into quads and written back.
+/// Four contacts, or four bodies, read from memory into lanes and written back.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Rows become columns, of four numbers of 32 bits.
+/// Transposes a matrix of 4 x 4 words of 32 bits.
 template <class Row>
 DETENT_QUAD_INLINE void transpose_words(Row (&row)[4]) {
   const Row low_01 = __builtin_shufflevector(row[0], row[1], 0, 4, 1, 5);
@@ -19,14 +19,14 @@ DETENT_QUAD_INLINE void transpose_words(Row (&row)[4]) {
   row[3] = __builtin_shufflevector(high_01, high_23, 2, 3, 6, 7);
 }
 
-/// Four words at each of four places, by columns.
+/// Reads four words from each of four addresses, and transposes them.
 DETENT_QUAD_INLINE void read_four_words(const void* const (&from)[4], QuadInt32 (&words)[4]) {
   DETENT_UNROLL
   for (int k = 0; k < 4; ++k) __builtin_memcpy(&words[k], from[k], sizeof(words[k]));
   transpose_words(words);
 }
 
-/// Writes four words to each of four places.
+/// Transposes four words, and writes them to each of four addresses.
 DETENT_QUAD_INLINE void write_words(const QuadInt32 (&words)[4], void* const (&to)[4]) {
   QuadInt32 rows[4];
   const void* const from[4] = {&words[0], &words[1], &words[2], &words[3]};
@@ -42,8 +42,8 @@ DETENT_QUAD_INLINE Quad quad_of(Unit value) { return quad_of(int64_t{value.raw})
 
 typedef int64_t QuadHalf __attribute__((vector_size(16)));
 
-/// Two numbers of 64 bits at each of four places, by columns. The halves of a register are joined as they are read, and
-/// parted as they are written: to cross them costs more.
+/// Reads two numbers of 64 bits from each of four addresses, and transposes them. Register halves are joined on reading
+/// and separated on writing, because moving data across the halves costs more.
 DETENT_QUAD_INLINE void read_two(const void* const (&from)[4], QuadInt64& first, QuadInt64& second) {
   QuadHalf row[4];
   DETENT_UNROLL
@@ -62,7 +62,7 @@ DETENT_QUAD_INLINE void write_two(QuadInt64 first, QuadInt64 second, void* const
   for (int k = 0; k < 4; ++k) __builtin_memcpy(to[k], &row[k], sizeof(row[k]));
 }
 
-/// Four Reals at each of four places.
+/// Reads four Reals from each of four addresses, and transposes them.
 DETENT_QUAD_INLINE void read_reals(const Real* const (&from)[4], Quad (&to)[4]) {
   read_two({from[0], from[1], from[2], from[3]}, to[0].v, to[1].v);
   read_two({from[0] + 2, from[1] + 2, from[2] + 2, from[3] + 2}, to[2].v, to[3].v);
@@ -87,8 +87,8 @@ DETENT_QUAD_INLINE void write_three(const Quad (&from)[3], Real* const (&to)[4])
   write_real(from[2], {to[0] + 2, to[1] + 2, to[2] + 2, to[3] + 2});
 }
 
-/// The first `count` words of four arrays, two words to a register: of a factor the low half counts. Range: count is a
-/// multiple of 4, and as many can be read.
+/// The first `count` words of four arrays, two words per register. A factor uses the low half of its lane. Range: count
+/// is a multiple of 4, and that many words are readable.
 template <unsigned count>
 struct QuadWords {
   QuadInt64 pair[count / 2];
@@ -131,7 +131,7 @@ DETENT_QUAD_INLINE void write_real(Quad from, Real* const (&to)[4]) {
   DETENT_UNROLL
   for (int k = 0; k < 4; ++k) *to[k] = from.v[k];
 }
-/// The first three of four.
+/// Reads the first three Reals of four.
 DETENT_QUAD_INLINE void read_three(const Real* const (&from)[4], Quad (&to)[3]) {
   Quad row[4];
   read_reals(from, row);
@@ -149,7 +149,7 @@ DETENT_QUAD_INLINE void write_three(const Quad (&from)[3], Real* const (&to)[4])
   }
 }
 
-/// The first `count` words of four arrays. Range: count is a multiple of 4, and as many can be read.
+/// The first `count` words of four arrays. Range: count is a multiple of 4, and that many words are readable.
 template <unsigned count>
 struct QuadWords {
   QuadInt32 word[count];
@@ -178,7 +178,7 @@ struct QuadSoftness {
   Quad rate, mass_scale, impulse_scale;
 };
 
-/// Four contacts of as many points and angular rows.
+/// Four contacts with equal counts of points and of angular rows.
 struct QuadContact {
   struct {
     Quad normal_impulse[k_manifold_points_max];
@@ -212,7 +212,7 @@ struct QuadBody {
 
 namespace {
 
-/// The numbers of four contacts.
+/// The kind of number for four contacts.
 struct Four {
   using Number = Quad;
   using Factor = Quad;
@@ -228,7 +228,7 @@ struct Four {
 
   DETENT_QUAD_INLINE static Quad zero() { return quad_of(QuadNumber{0}); }
   DETENT_QUAD_INLINE static Quad unit(detent::Unit value) { return quad_of(value); }
-  /// What is not dynamic has a share of 0, and is not written back.
+  /// A body that is not dynamic has a relative inverse mass of 0, and is not written back.
   DETENT_QUAD_INLINE static bool takes_impulses(const QuadScaled&) { return true; }
   DETENT_QUAD_INLINE static QuadMask flag(QuadMask mask) { return mask; }
   DETENT_QUAD_INLINE static QuadMask all() { return quad_of(QuadNumber{1}) > zero(); }
@@ -249,7 +249,7 @@ DETENT_QUAD_INLINE Vec3<Quad> operator+(const Vec3<Quad>& a, const Vec3<Quad>& b
   return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
 
-/// Where `pick` of four contacts or bodies lies.
+/// Reads the vector that `pick` selects from each of four contacts or bodies.
 template <class Item, class Pick>
 DETENT_QUAD_INLINE void read_vector(Item* const (&items)[4], const Pick& pick, Vec3<Quad>& to) {
   Quad row[3];

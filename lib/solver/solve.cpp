@@ -14,8 +14,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// What acts without contacts. From the second substep of a tick on, contacts first push as they did in the last one:
-/// that is the warm start of all of a body's contacts at once.
+/// Applies gravity, forces, torques and damping. From the second substep of a tick on, it also applies the contact
+/// impulses of the last substep: the warm start of all contacts of a body at once.
 uint32_t integrate_velocities(const SolverBodies& bodies, Span<const uint32_t> island, bool first, bool touches) {
   const Scaled one = 1.0;
   uint32_t clamped = 0;
@@ -33,7 +33,7 @@ uint32_t integrate_velocities(const SolverBodies& bodies, Span<const uint32_t> i
     motion.velocity += pushed;
     motion.momentum += turned;
     clamped += clamp_vector(motion.velocity, k_speed_work_max) + clamp_vector(motion.momentum, k_spin_work_max);
-    // Contacts alone read it.
+    // Only contacts read it.
     if (touches) now.spin = world_spin(bodies.traits[slot], now.gyration, motion.momentum, -k_spin_power);
   }
   return clamped;
@@ -52,7 +52,8 @@ uint32_t integrate_positions(const SolverBodies& bodies, Span<const uint32_t> is
   for (const uint32_t slot : island) {
     const BodyMotion& motion = bodies.motions[slot];
     BodyWork& now = bodies.work[slot];
-    // What no contact or joint acts on is in free flight: at the mean of its velocities before and after the push.
+    // A body in free flight, without contact or joint impulses, moves at the mean of its velocities before and after
+    // the push.
     const bool flies =
         now.joint_body == k_no_link && added_by_contacts(motion.velocity, now.contact_velocity) == k_zero_vector;
     now.displacement += (flies ? motion.velocity - scale_by_power(now.push, -1) : motion.velocity) * time;
@@ -63,7 +64,7 @@ uint32_t integrate_positions(const SolverBodies& bodies, Span<const uint32_t> is
 
 constexpr int k_rebound_sweeps_max = 32;
 
-/// Newton's law of impact, for points that closed faster than the threshold and were pushed.
+/// Applies Newton's law of impact to points that approached faster than the threshold and had a normal impulse.
 void rebound(ContactSolver<One>& solver) {
   ContactWork& contact = solver.contact;
   if (!is_positive(contact.restitution)) return;
@@ -77,7 +78,8 @@ void rebound(ContactSolver<One>& solver) {
   const PairMotion<One> motion = solver.relative_motion(room);
   Normals<One> normals(contact, motion.block, NormalMotion<One>(motion, contact));
   bool rebounds[k_manifold_points_max] = {};
-  // Points that leave together share the blow: one alone would turn the body against the others.
+  // Points that rebound together divide the impulse among them: the impulse at one point would rotate the body against
+  // the others.
   bool settled = false;
   for (int sweep = 0; sweep < k_rebound_sweeps_max && !settled; ++sweep) {
     settled = true;
@@ -94,18 +96,19 @@ void rebound(ContactSolver<One>& solver) {
   normals.put(along, about_first, about_second);
   apply_normal<One>(contact, motion.block, along, about_first, about_second, solver.a, solver.b);
   for (uint32_t i = 0; i < count; ++i) {
-    if (rebounds[i]) contact.state.normal_impulse[i] = k_zero;  // it leaves: nothing is carried over to the next tick
+    // The point separates: no impulse is carried over to the next tick.
+    if (rebounds[i]) contact.state.normal_impulse[i] = k_zero;
   }
 }
 
-constexpr uint32_t k_joint_rounds = 4;  ///< in which contacts and joints of a substep are held by turns
+constexpr uint32_t k_joint_rounds = 4;  ///< rounds per substep that alternate between contacts and joints
 
-/// Keeps the velocities of before a sweep, in a place that only the sweeps use.
+/// Stores the velocities before a sweep.
 void remember(const SolverBodies& bodies, Span<const uint32_t> island) {
   for (const uint32_t slot : island) bodies.work[slot].velocity_before = bodies.motions[slot].velocity;
 }
 
-/// True if the last sweep changed no velocity by more than `enough`.
+/// True if no component of a velocity changed by more than `enough` in the last sweep.
 bool has_settled(const SolverBodies& bodies, Span<const uint32_t> island, Real enough) {
   for (const uint32_t slot : island) {
     const Vec3<Real> change = bodies.motions[slot].velocity - bodies.work[slot].velocity_before;
@@ -114,7 +117,8 @@ bool has_settled(const SolverBodies& bodies, Span<const uint32_t> island, Real e
   return true;
 }
 
-/// One pass over contacts in their order: `one` of them, or `four` that may be solved at once.
+/// One pass over the contacts in their order. Calls `one` with a contact, or `four` with four contacts that may be
+/// solved at once.
 template <class TakeOne, class TakeFour>
 void pass(const StepSettings& settings, const SolverBodies& bodies, Span<const ContactOrder> order,
           Span<ContactWork> contacts, const TakeOne& one, const TakeFour& four) {
@@ -139,14 +143,14 @@ void pass(const StepSettings& settings, const SolverBodies& bodies, Span<const C
   }
 }
 
-/// Where a kinematic body is once `time` of the tick has gone; its momentum is its spin.
+/// The displacement and rotation of a kinematic body after `time` of the tick. Its momentum is its angular velocity.
 void place_kinematic(const BodyTraits& traits, const BodyMotion& motion, Real time, BodyWork& now) {
   if (type_of(traits) != BodyType::kinematic) return;
   now.displacement = motion.velocity * time;
   now.turn = motion.momentum * time;
 }
 
-/// Contacts of jointed bodies see the inertia that the joints see.
+/// Contacts of jointed bodies use the same inertias as the joints.
 void renew_responses(const SolverBodies& bodies, const JointStage& stage, Span<const ContactOrder> order,
                      Span<ContactWork> contacts) {
   for (const ContactOrder& entry : order) {
@@ -176,7 +180,7 @@ SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<
   Real elapsed = 0.0;
   const Real enough = scale_by_power(settings.gravity_size * settings.time, -static_cast<int>(settings.convergence));
   const Real enough_for_joints = scale_by_power(settings.gravity_size * settings.time, -2);
-  /// Sweeps until nothing changes by more than that.
+  /// Sweeps until no velocity changes by more than `enough`.
   const auto sweep = [&](const auto& one, const auto& four) {
     for (uint32_t iteration = 1;; ++iteration) {
       const bool last = iteration == settings.iterations;

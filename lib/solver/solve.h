@@ -9,14 +9,15 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 struct SolveCount {
-  uint32_t clamped = 0;       ///< values
-  uint32_t sweeps_saved = 0;  ///< over the island's contacts, since the ones before changed nothing any more
+  uint32_t clamped = 0;  ///< values that were clamped
+  /// Sweeps over the island's contacts that were skipped, because the sweeps before no longer changed anything.
+  uint32_t sweeps_saved = 0;
 };
 
 struct JointStage;
 struct JointOps;
 
-/// The joints of an island; `code` null if it has none.
+/// The joints of an island. `code` is null if it has none.
 struct IslandJoints {
   const JointOps* code = nullptr;
   const Island* island = nullptr;
@@ -24,18 +25,18 @@ struct IslandJoints {
   uint32_t* undecided = nullptr;
 };
 
-/// Runs an island's substeps: velocities, warm start, soft normals, joints, positions, relaxation with
-/// friction; then
-/// restitution once. SOR over the contacts in the given order, in velocity units. `settings` has the island's substeps.
+/// Runs an island's substeps. Each substep integrates velocities, warm starts, solves soft normals and joints,
+/// integrates positions, and relaxes with friction. Restitution is applied once after all substeps. The solver is SOR
+/// over the contacts in the given order, in velocity units. `settings` has the island's substeps.
 /// Source: Macklin and others, "Small Steps in Physics Simulation", 2019; Catto, "Solver2D", 2024 (soft step).
 SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> island,
                  Span<const ContactOrder> order, Span<ContactWork> contacts, const IslandJoints& joints);
 
-/// Moves an island without contacts: under constant acceleration its centre's way is exact, and each body's turning is
-/// split in four (spin.h).
+/// Moves an island without contacts. Under constant acceleration the displacement is exact; each body's rotation is
+/// split into four steps per substep (spin.h). Returns the number of values that were clamped.
 uint32_t integrate_free(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> island);
 
-/// Moves the kinematic bodies through the tick.
+/// Moves the kinematic bodies through the tick. Returns the number of values that were clamped.
 uint32_t integrate_kinematic(const StepSettings& settings, const SolverBodies& bodies);
 
 }  // namespace DETENT_NAMESPACE

@@ -21,7 +21,7 @@ DETENT_QUAD_INLINE void hold_lane(Quad (&v)[2], Quad limit, int lane) {
 
 }  // namespace
 
-/// Few contacts slide: those lanes one by one.
+/// Few contacts slide: processes their lanes one by one.
 DETENT_QUAD_INLINE void hold_to_circle(Quad (&v)[2], Quad limit) {
   const Quad none = quad_of(0);
   const Quad size = select(none > v[0], -v[0], v[0]) + select(none > v[1], -v[1], v[1]);
@@ -36,7 +36,7 @@ namespace {
 
 using Contacts = ContactWork* const (&)[4];
 
-/// Words of ContactWork from a member on.
+/// Words of ContactWork from a given member on.
 template <unsigned count>
 struct Words {
   QuadWords<count> words;
@@ -170,7 +170,7 @@ DETENT_QUAD_INLINE void write_relaxed(const QuadContact& from, Contacts to) {
               reals_at(to[2], DETENT_AT(angular_impulse[2])), reals_at(to[3], DETENT_AT(angular_impulse[2]))});
 }
 
-/// Four bodies: those that take impulses are written back.
+/// Four bodies. Those that take impulses are written back.
 struct Bodies {
   BodyMotion* motion[4];
   BodyWork* work[4];
@@ -202,7 +202,8 @@ struct Bodies {
     to.gyration.exponent = words.exponent(9);
   }
   DETENT_QUAD_INLINE void write(const QuadBody& from, Contacts contacts, Scaled ContactWork::*share) const {
-    BodyMotion no_motion;  // of what takes no impulses, and may be another contact's body as well
+    // Receives the result of bodies that take no impulses: such a body may also be a body of another contact.
+    BodyMotion no_motion;
     BodyWork no_work;
     BodyMotion* motions[4];
     BodyWork* works[4];
@@ -231,8 +232,8 @@ Bodies bodies_of(const SolverBodies& bodies, Contacts contacts, uint32_t Contact
   return result;
 }
 
-/// Reads four contacts and their bodies, lets `solve` work on them, and writes back what contacts and bodies share;
-/// `read` and `write` take the rest of the contacts.
+/// Reads four contacts and their bodies, calls `solve` on them, and writes the bodies back. `read` reads the members
+/// that only this pass needs, and `write` writes the contacts back.
 template <class Read, class Solve, class Write>
 DETENT_QUAD_INLINE void pass(const StepSettings& settings, const SolverBodies& bodies, Contacts contacts, bool with_way,
                              const Read& read, const Solve& solve, const Write& write) {

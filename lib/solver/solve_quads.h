@@ -1,17 +1,18 @@
 #pragma once
 #include "solver/solve.h"
 
-/// The passes of the solver over four contacts at once, where the machine has registers for it. Lane by lane the
-/// operations are those of one contact, so the bits are the same (tests/unit/solver/quads_test.cpp).
+/// The passes of the solver over four contacts at once, for processors with such registers. Each lane executes the
+/// operations of one contact, so the bits are the same (tests/unit/solver/quads_test.cpp).
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 #if DETENT_QUADS
 inline constexpr bool k_built_with_quads = true;
-/// True if this machine can. Where it is virtual, the answer can take longer than a small world's step.
+/// True if this machine has the registers. On a virtual machine the query can take longer than a small world's step.
 bool has_quads();
 
-/// As the passes of ContactSolver<One>. Range: no dynamic body twice; equal counts of points and of angular rows.
+/// Do the same as the passes of ContactSolver<One>. Range: no dynamic body twice; equal counts of points and of angular
+/// rows.
 void warm_start_quad(const StepSettings& settings, const SolverBodies& bodies, ContactWork* const (&contacts)[4]);
 void solve_normals_quad(const StepSettings& settings, const SolverBodies& bodies, ContactWork* const (&contacts)[4]);
 void relax_quad(const StepSettings& settings, const SolverBodies& bodies, ContactWork* const (&contacts)[4]);

@@ -11,24 +11,24 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 constexpr uint32_t k_notches[] = {1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64};
-/// Fewer substeps are in reserve if this part of what they hold would do.
+/// A lower number of substeps is enough if the need is at most this fraction of its square.
 constexpr Scaled k_in_hand = 0.6;
-/// A row of no more bodies than this does not buckle before it sinks.
+/// A run of fewer bodies than this does not buckle before it sinks.
 constexpr uint32_t k_run_min = 3;
-constexpr uint32_t k_contact_substeps_min = 2;  ///< where there are contacts
+constexpr uint32_t k_contact_substeps_min = 2;  ///< for islands with contacts
 
 Scaled square_of(uint32_t n) {
   const Scaled scaled = scaled_from_count(n);
   return multiply(scaled, scaled);
 }
 
-/// Squared substeps that hold the contact.
+/// The squared number of substeps that the contact needs.
 Scaled needed(const StepSettings& settings, const ContactWork& contact, const BodyTraits& a, const BodyTraits& b,
               uint32_t run) {
   Scaled stiffness = 0.0;
   for (uint32_t i = 0; i < contact.state.point_count; ++i)
     stiffness = add(stiffness, scaled_from(contact.inverse_mass[i]));
-  if (contact.static_pair != 0) stiffness = scaled_by_power(stiffness, 2);  // of twice the frequency
+  if (contact.static_pair != 0) stiffness = scaled_by_power(stiffness, 2);  // twice the frequency
   if (!is_positive(stiffness)) return Scaled(0.0);
   const Scaled extent = scaled_from(min(shape_extent(a), shape_extent(b)));
   const Scaled load = scaled_from(contact.state.load);
@@ -39,7 +39,7 @@ Scaled needed(const StepSettings& settings, const ContactWork& contact, const Bo
   return less(sag, buckling) ? buckling : sag;
 }
 
-/// The fewest substeps that hold `need`, of those from `least` to `most`.
+/// The lowest notch between `least` and `most` whose square is at least `need`; `most` if there is none.
 uint32_t notch_for(Scaled need, uint32_t least, uint32_t most) {
   for (const uint32_t notch : k_notches) {
     if (notch < least) continue;
@@ -74,13 +74,13 @@ void scale_impulses(Scaled ratio, ContactWork& contact) {
   for (Real& impulse : contact.angular_impulse) scale(impulse);
 }
 
-/// Impulses of a substep of a tick that had `before` of them, for one that has `now`.
+/// Scales impulses of a tick with `before` substeps for a tick with `now` substeps.
 void rescale(uint32_t before, uint32_t now, ContactWork& contact) {
   if (before == now || before == 0) return;
   scale_impulses(divide(scaled_from_count(before), scaled_from_count(now)), contact);
 }
 
-/// Which body of a contact lies on the other, or k_neither for one that stands beside it.
+/// The body of a contact that lies on the other one, or k_neither if they are side by side.
 constexpr uint32_t k_neither = UINT32_MAX;
 uint32_t upper_body(const Vec3<Unit>& down, const ContactWork& contact) {
   const Unit slope = dot(down, contact.normal);
@@ -88,7 +88,7 @@ uint32_t upper_body(const Vec3<Unit>& down, const ContactWork& contact) {
   return slope > Unit(0.0) ? contact.state.body_a : contact.state.body_b;
 }
 
-/// Starts the loads: heights, masses, and no supports yet.
+/// Initialises the loads: heights, masses, and no supports.
 void weigh(Span<const BodyPose> poses, Span<const BodyTraits> traits, Span<const uint32_t> bodies,
            const Vec3<Unit>& down, Span<BodyWork> work) {
   const Position& origin = poses[bodies[0]].position;
@@ -100,7 +100,7 @@ void weigh(Span<const BodyPose> poses, Span<const BodyTraits> traits, Span<const
   }
 }
 
-/// Each body's load goes in equal parts to those it rests on, from the top down.
+/// Divides each body's load equally among the bodies that it rests on, from the top down.
 void hand_down(Span<const BodyTraits> traits, const Vec3<Unit>& down, Span<const ContactOrder> order,
                Span<ContactOrder> spare, Span<BodyWork> work, Span<ContactWork> contacts) {
   uint32_t count = 0;
@@ -134,7 +134,7 @@ void choose_substeps(const StepSettings& settings, Span<const BodyTraits> traits
     const uint32_t alone = island.contact_count != 0 ? k_contact_substeps_min : 1;
     const uint32_t least = alone < island.substeps ? island.substeps : alone;
     const uint32_t for_joints = jointed ? notch_for(island.joint_need, least, settings.substeps_max) : 0;
-    Scaled need[2] = {0.0, 0.0};  // of what stands, and of what rolls
+    Scaled need[2] = {0.0, 0.0};  // largest need of contacts on edges and faces, and of rolling contacts
     for (uint32_t i = 0; i < island.contact_count; ++i) {
       const ContactWork& contact = contacts[order[island.first_contact + i].contact];
       const uint32_t a = contact.state.body_a, b = contact.state.body_b;
@@ -229,7 +229,7 @@ void estimate_loads(const StepSettings& settings, Span<const BodyPose> poses, Sp
 
 void store_load(const StepSettings& settings, ContactWork& contact) {
   Real impulse = 0.0;
-  // Four may come to more than a Real holds, which would wrap.
+  // The sum of four may exceed the range of Real, and would wrap.
   for (const Real part : contact.state.normal_impulse) impulse += min(part, k_real_max - impulse);
   bool saturated = false;
   const Real force = multiply(impulse, settings.rate, saturated);

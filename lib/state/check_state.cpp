@@ -36,14 +36,14 @@ bool is_pose(const BodyPose& pose) {
 
 bool is_unit_size(Unit value) { return value >= Unit(0.0) && value <= Unit(1.0); }
 
-/// The bounding radius as set_shape_traits() gives it, but for the rounding of the sizes: body_convex() allows for so
-/// much.
+/// Whether the bounding radius is that of set_shape_traits(), except for the rounding of the sizes. body_convex()
+/// allows this difference.
 bool is_bound(Unit bound, Unit expected) {
   constexpr Unit k_error = sizeof(Unit) == 4 && !DETENT_FIXED ? 0x1p-23 : 0x1p-28;
   return bound >= Unit(0.49) && bound <= Unit(1.0) && abs(bound - expected) <= k_error;
 }
 
-/// Of a core and its rounding, whose sum need not fit a Unit.
+/// The same for a core with rounding; their sum need not fit a Unit.
 bool is_bound_of(Unit core, const BodyTraits& traits) {
   return core <= Unit(1.5) - traits.rounding && is_bound(traits.bounding_radius, core + traits.rounding);
 }
@@ -52,7 +52,7 @@ bool is_bound_of_core(const BodyTraits& traits) {
   return is_bound_of(core_bound(shape_of(traits), traits.size), traits);
 }
 
-/// `assets`: as check_assets() has found them.
+/// `assets`: already checked by check_assets().
 bool is_hull(const BodyTraits& traits, AssetTable assets, Span<const AssetState> bound) {
   if (traits.asset >= bound.count || bound[traits.asset].kind != static_cast<uint32_t>(AssetKind::hull)) return false;
   const HullView hull = hull_view(assets.assets[traits.asset].bytes);
@@ -129,7 +129,7 @@ bool has_mass(const BodyTraits& traits) {
          traits.gyration[2] == none;
 }
 
-/// What the world that the state is of has linked.
+/// The features that the state's world has linked.
 Features features_of(const State& state) {
   return without(Features::all, static_cast<Features>(state.header.left_out));
 }
@@ -165,7 +165,7 @@ bool is_empty_slot(const State& state, uint32_t slot) {
   return is_zero(rest) && is_zero(state.poses[slot]) && is_zero(state.motions[slot]) && is_zero(state.activities[slot]);
 }
 
-/// A group of sleepers is named after a body that sleeps in it.
+/// Whether the sleeping data of a body is valid. A sleeping group is identified by one of its bodies.
 bool is_activity(const State& state, uint32_t slot) {
   const BodyActivity& activity = state.activities[slot];
   if (!is_dynamic(state.traits[slot])) return is_zero(activity);
@@ -264,7 +264,7 @@ bool are_manifolds(const State& state) {
   return !reuses || state.manifolds.count == state.contacts.count;
 }
 
-/// The bytes that align an array's end.
+/// Whether the alignment bytes at the ends of arrays are zero.
 bool are_fills(const uint8_t* block, const Layout& layout) {
   for (uint32_t i = 0; i < k_section_count; ++i) {
     const uint32_t bytes = section_bytes(layout, i);
@@ -322,7 +322,7 @@ Status check_state(const uint8_t* block, Capacity capacity, AssetTable assets, c
   if (world.joint_count != 0 && !contains(features_of(state), Features::joints)) return Status::corrupt;
   if (world.sensor_count != 0 && !contains(features_of(state), Features::sensors)) return Status::corrupt;
   if (!are_slots(state) || !are_assets(state) || !are_fills(block, state.layout)) return Status::corrupt;
-  // Before the bodies, which are checked against the hulls that they have.
+  // Assets are checked before the bodies, because the bodies are checked against their hulls.
   if (const Status status = check_assets(assets, features, state.assets); status != Status::ok) return status;
   if (!are_bodies(state, assets, features) || !are_contacts(state) || !are_manifolds(state) || !are_joints(state) ||
       !are_sensed(state) || (world.idle != 0 && !is_idle(state))) {

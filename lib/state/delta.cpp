@@ -6,9 +6,9 @@
 #include "state/snapshot.h"
 #include "state/view.h"
 
-// A header of three words of eight bytes (magic and format, the base's tick, bytes of the snapshot), then of each word
-// behind the snapshot's header that differs a mask of its bytes that differ and these bytes; an empty mask is followed
-// by how many words are as they were.
+// Format: a header of three 8-byte words (magic and format, the base's tick, size of the snapshot in bytes), then the
+// 8-byte words after the snapshot's header in order. A word that differs is a mask of its differing bytes, followed by
+// these bytes. A run of equal words is an empty mask, followed by the length of the run.
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -17,7 +17,7 @@ namespace {
 constexpr uint32_t k_delta_magic = 0x4c444e44;  // "DNDL" in canonical bytes
 constexpr uint32_t k_delta_format = 1;
 constexpr uint32_t k_tick_offset = sizeof(BlockHeader) + __builtin_offsetof(WorldState, tick);
-constexpr uint32_t k_piece = 256;  ///< of a snapshot, where the machine's bytes are not the canonical ones
+constexpr uint32_t k_piece = 256;  ///< bytes of a snapshot converted at a time on big-endian machines
 
 void store_u64(uint8_t* bytes, uint64_t value) {
   if (k_big_endian) value = __builtin_bswap64(value);
@@ -41,11 +41,11 @@ struct DeltaWriter {
     for (; value >= 128; value >>= 7) put(static_cast<uint8_t>(value | 128));
     put(static_cast<uint8_t>(value));
   }
-  /// Those bytes of a word that differ from the base's, behind their mask.
+  /// Writes the mask of a word, then its bytes that differ from the base.
   void put_word(const uint8_t* word, uint64_t difference) {
     uint8_t made[9];
     uint32_t size = 1, mask = 0;
-    for (uint32_t i = 0; i < 8; ++i) {  // a byte that does not differ is overwritten by the next
+    for (uint32_t i = 0; i < 8; ++i) {  // the next byte overwrites a byte that does not differ
       const uint32_t differs = (difference >> (8 * i) & 255) != 0 ? 1 : 0;
       mask |= differs << i;
       made[size] = word[i];
@@ -61,10 +61,10 @@ struct DeltaWriter {
   }
 };
 
-/// Words of canonical bytes, compared as they come: what is written does not depend on the pieces that they come in.
+/// Compares words of canonical bytes as they arrive. The output does not depend on how they are divided into pieces.
 struct Differ {
   DeltaWriter& writer;
-  uint32_t same = 0;  ///< words since the last one that differs
+  uint32_t same = 0;  ///< number of equal words since the last word that differs
 
   void add(const uint8_t* now, const uint8_t* base, uint32_t bytes) {
     for (const uint8_t* const end = now + bytes; now != end; now += 8, base += 8) {
@@ -106,7 +106,7 @@ struct DeltaReader {
   }
 };
 
-/// Goes through all words, and changes them in `bytes` unless it is null. False if they don't fit `words`.
+/// Reads all words of a delta, and changes them in `bytes` unless it is null. False if they do not fit `words`.
 bool read_words(DeltaReader reader, uint32_t words, uint8_t* bytes) {
   for (uint32_t at = 0; reader.left != 0;) {
     uint8_t mask = 0;
@@ -129,14 +129,14 @@ bool read_words(DeltaReader reader, uint32_t words, uint8_t* bytes) {
   return true;
 }
 
-/// `snapshot`: the base, or null if it only shall be seen whether the delta's words fit it.
+/// `snapshot`: the base, or null to check only whether the delta's words fit it.
 bool apply_words(uint8_t* snapshot, uint32_t snapshot_size, const uint8_t* delta, uint32_t delta_bytes) {
   constexpr uint32_t k_head = sizeof(BlockHeader);
   return read_words({delta + k_delta_header_bytes, delta_bytes - k_delta_header_bytes}, (snapshot_size - k_head) / 8,
                     snapshot == nullptr ? nullptr : snapshot + k_head);
 }
 
-/// Whether the delta is one, and of this base.
+/// Checks that `delta` is a delta and belongs to this base.
 Status check_delta(const uint8_t* base, uint32_t base_bytes, const uint8_t* delta, uint32_t delta_bytes) {
   if (base == nullptr || base_bytes < sizeof(BlockHeader) + sizeof(WorldState)) return Status::truncated;
   if (delta == nullptr || delta_bytes < k_delta_header_bytes) return Status::truncated;
@@ -148,7 +148,7 @@ Status check_delta(const uint8_t* base, uint32_t base_bytes, const uint8_t* delt
   return apply_words(nullptr, base_bytes, delta, delta_bytes) ? Status::ok : Status::corrupt;
 }
 
-/// Whether `base` is a snapshot that the world could be restored from.
+/// Checks that `base` is a snapshot from which the world can be restored.
 Status check_base(const World& world, const uint8_t* base, uint32_t base_bytes) {
   const StateView<const uint8_t> state = view_of(world);
   if (base == nullptr || base_bytes < sizeof(BlockHeader)) return Status::truncated;

@@ -9,8 +9,8 @@ namespace {
 
 constexpr uint64_t k_world_seed = 0x646574656e74u;
 
-/// The leaf of one element: its canonical bytes under its section and index; 0 for an element of zeros, so that unused
-/// capacity does not count.
+/// The digest of one element's canonical bytes, seeded by its section and index. It is 0 for an element of zeros, so
+/// that unused capacity does not change the digest.
 uint64_t leaf(const Section& section, uint32_t section_index, const uint8_t* element, uint32_t bytes, uint32_t index) {
   uint64_t any = 0;
   uint32_t at = 0;
@@ -30,7 +30,7 @@ uint64_t leaf(const Section& section, uint32_t section_index, const uint8_t* ele
 uint64_t digest(const World& world) {
   const StateView<const uint8_t> state = view_of(world);
   uint64_t running = digest_step(k_world_seed, static_cast<uint64_t>(k_config));
-  for (uint32_t i = 1; i < k_section_count; ++i) {  // 0 is the header: what the block is, not what it holds
+  for (uint32_t i = 1; i < k_section_count; ++i) {  // 0 is the header, which is not part of the contents
     const Section& section = k_sections[i];
     const uint8_t* element = world.block + state.layout.*section.offset;
     const uint32_t bytes = section_bytes(state.layout, i);

@@ -1,12 +1,12 @@
 #pragma once
 #include <detent/detail/layout.h>
 
-/// The layout table: every array of the persistent state and every field of its elements, once. The big-endian swap,
-/// the digest, the checks of incoming snapshots and the difference tool read it.
+/// The layout table: it lists every array of the persistent state and every field of its elements once. The big-endian
+/// swap, the digest, the checks of incoming snapshots and the difference tool use it.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// What the words of a field are.
+/// The type of the words of a field.
 enum class WordKind : uint8_t {
   unsigned_integer,
   signed_integer,
@@ -14,15 +14,15 @@ enum class WordKind : uint8_t {
   real,
   unit,
   fraction,
-  scaled,  ///< a mantissa and an exponent: two words a number
+  scaled,  ///< a mantissa and an exponent: two words per number
 };
 
-/// A field: `count` words of `width` bytes from `offset` on.
+/// A field: `count` words of `width` bytes that begin at `offset`.
 struct Field {
   const char* name;
   uint32_t offset, width, count;
   WordKind kind;
-  uint32_t components;  ///< numbers of a vector or rotation, or 1; there may be several of them
+  uint32_t components;  ///< numbers per value: of a vector or rotation, else 1; a field may hold several values
   const char* measured_in;
 };
 
@@ -32,7 +32,8 @@ struct Section {
   uint32_t Layout::*offset;
 };
 
-/// What its elements are made of. Apart, for a little-endian program needs none of it in its flash.
+/// The fields of a section's elements. It is a separate table because a little-endian program does not need it in
+/// flash.
 struct SectionFields {
   const char* name;
   const Field* fields;
@@ -77,7 +78,7 @@ struct WordsOf<Quat> : WordsOf<Unit> {
 template <class T, unsigned long long n>
 struct WordsOf<T[n]> : WordsOf<T> {};
 
-/// The field `member` of `type`, and what it is measured in.
+/// The description of a field of type `T`. `measured_in`: its unit.
 template <class T>
 constexpr Field make_field(const char* name, uint32_t offset, const char* measured_in) {
   return {name,
@@ -227,7 +228,7 @@ inline constexpr Field k_sensed_fields[] = {
     DETENT_FIELD(SensedState, sensor),
     DETENT_FIELD(SensedState, body),
 };
-/// True if the fields follow one another without a gap and fill the element: no byte is padding.
+/// Whether the fields follow one another without gaps and fill the element, so that no byte is padding.
 template <uint32_t n>
 constexpr bool tiles(const Field (&fields)[n], uint32_t element_bytes) {
   uint32_t end = 0;
@@ -255,7 +256,7 @@ inline constexpr Section k_sections[] = {
 };
 inline constexpr uint32_t k_section_count = sizeof k_sections / sizeof k_sections[0];
 
-/// Of the largest element.
+/// The size of the largest element.
 inline constexpr uint32_t k_element_bytes_max = [] {
   uint32_t most = 0;
   for (const Section& section : k_sections) most = section.element_bytes > most ? section.element_bytes : most;
@@ -275,7 +276,8 @@ inline constexpr SectionFields k_section_fields[k_section_count] = {
     section_fields("joints", k_joint_fields),  section_fields("sensed", k_sensed_fields),
 };
 
-/// Elements of a section, alignment fill included as further elements or left-over bytes that are always zero.
+/// The size of a section, with its alignment fill. The fill counts as further elements or left-over bytes; it is always
+/// zero.
 inline uint32_t section_bytes(const Layout& layout, uint32_t index) {
   const uint32_t end = index + 1 < k_section_count ? layout.*k_sections[index + 1].offset : layout.persistent_bytes;
   return end - layout.*k_sections[index].offset;

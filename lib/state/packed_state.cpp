@@ -6,8 +6,8 @@
 #include "base/bytes.h"
 #include "state/used.h"
 
-// The header and the world as they are, how many assets are in use, then each section's elements in use. An element
-// with rare parts, which are left out where they are zero, begins with a byte that says which of them are there.
+// Format: the header and the world unchanged, the number of assets in use, then the used elements of each section. Rare
+// parts of an element are left out if they are zero; such an element begins with a byte that flags the present parts.
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -47,7 +47,7 @@ class Packer {
   void rare_part(const uint8_t* element) {
     const uint32_t there = is_zero<end - first>(element + first) ? 0 : 1;
     *flags_ = static_cast<uint8_t>(*flags_ | there << bit_++);
-    memcpy(at_, element + first, end - first);  // what is not there is overwritten by the next
+    memcpy(at_, element + first, end - first);  // the next part overwrites one that is left out
     at_ += there * (end - first);
   }
 
@@ -84,7 +84,7 @@ class Unpacker {
   uint32_t flags_ = 0;
 };
 
-/// The parts of an element of each section that has rare ones, for both ways.
+/// The parts of an element of each section with rare parts, for packing and unpacking.
 struct MotionParts {
   template <class Mover, class Byte>
   static void move(Mover& mover, Byte* motion) {
@@ -113,7 +113,7 @@ struct ManifoldParts {
   }
 };
 
-/// By value: what is written as bytes could be a mover that others know.
+/// The mover is passed by value: with a reference, the compiler must assume that written bytes alias the mover.
 template <class Parts, class Mover, class Byte>
 Mover move_elements(Mover mover, Byte* element, uint32_t count, uint32_t element_bytes) {
   for (Byte* const end = element + count * element_bytes; element != end; element += element_bytes) {
@@ -123,7 +123,7 @@ Mover move_elements(Mover mover, Byte* element, uint32_t count, uint32_t element
   return mover;
 }
 
-/// All behind the world.
+/// Packs or unpacks all sections after the world.
 template <class Mover, class Byte>
 void move_sections(Mover& mover, const StateView<Byte>& state, const UsedCounts& counts) {
   Byte* const block = reinterpret_cast<Byte*>(&state.header);

@@ -7,7 +7,7 @@
 #include "math/scaled.h"
 #include "shape/shape_traits.h"
 
-/// The ranges of what comes from outside: calls, and snapshots. NaN is outside every range.
+/// The valid ranges of values from outside: from calls and from snapshots. NaN is outside every range.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -28,7 +28,7 @@ DETENT_SHARED inline bool within(const Vec3<Real>& v, Real limit) {
 }
 
 #if DETENT_FIXED
-/// Canonical, and small enough that products of three stay in range.
+/// Whether the value is canonical and small enough that products of three such values stay in range.
 DETENT_SHARED inline bool is_number(Scaled value) {
   if (value.mantissa == 0) return value.exponent == 0;
   const uint32_t magnitude = magnitude_32(value.mantissa);
@@ -51,7 +51,7 @@ DETENT_SHARED inline bool is_between(Scaled value, Scaled low, Scaled high) {
 }
 DETENT_SHARED inline bool is_mass(Scaled value) { return is_between(value, Scaled(0x1p-60), Scaled(0x1p60)); }
 
-/// Of a dynamic body: no solid's is below 1.
+/// Whether the value is a valid inverse inertia per unit mass of a dynamic body. No solid has a value below 1.
 inline bool is_gyration(Scaled value) { return is_between(value, Scaled(1.0), k_gyration_max); }
 
 DETENT_SHARED inline bool are_gyrations(const BodyTraits& traits) {
@@ -78,12 +78,12 @@ inline bool is_reduction(ManifoldReduction reduction) {
   return reduction == ManifoldReduction::projected_extremes || reduction == ManifoldReduction::deepest_area;
 }
 
-inline constexpr Real k_friction_max = 16.0;  ///< and of rolling resistance
+inline constexpr Real k_friction_max = 16.0;  ///< also the limit of rolling resistance
 inline constexpr Real k_damping_max = 1024.0;
 inline constexpr Real k_gravity_max = 1024.0;
 inline constexpr Real k_gravity_scale_max = 1024.0;
 
-/// The settings of a world: as documented in WorldDef.
+/// Whether the settings of a world are within the ranges documented in WorldDef.
 DETENT_SHARED inline bool are_settings(const Vec3<Real>& gravity, Real tick, uint32_t substeps, uint32_t substeps_max,
                                        uint32_t iterations, uint32_t convergence, Real relaxation, Real stiffness,
                                        Real damping_ratio, Real restitution_threshold, Real breaking, Real reuse) {

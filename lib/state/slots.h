@@ -5,7 +5,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// A slot whose bodies have used this generation is never given out again.
+/// A slot that has used this generation is retired: it is never assigned again.
 inline constexpr uint32_t k_generation_last = UINT32_MAX;
 
 inline uint32_t slot_bit(uint32_t slot) { return 1u << (slot % 32); }
@@ -26,7 +26,7 @@ inline bool take_slot(StateView<uint8_t>& state, uint32_t& slot) {
   return false;
 }
 
-/// Frees the slot of a destroyed body, or retires it when its generations are used up.
+/// Frees the slot of a destroyed body, or retires it if its generations are used up.
 inline void give_slot_back(StateView<uint8_t>& state, uint32_t slot) {
   --state.world.body_count;
   if (state.traits[slot].generation == k_generation_last) {

@@ -4,7 +4,7 @@
 #include "state/packed_state.h"
 #include "state/snapshot.h"
 
-// A place holds a packed state, whose header's magic is 0 while nothing is kept.
+// A place of the ring holds a packed state. The magic in its header is 0 while the place is empty.
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

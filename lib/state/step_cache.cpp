@@ -22,11 +22,11 @@ Span<const uint32_t> partition_bodies(const StepCacheView& step, const StepSetti
                                       Span<uint32_t> slots) {
   step.cache.tree.visited = 0;
   if (step.cache.fresh == 0) make_anew(step, state);
-  // All leave before one enters: the keys of those that stay must be what they were.
+  // All bodies of the active set leave the tree before one enters: the keys of the remaining bodies must not change.
   step.visits.for_each([&](uint32_t slot) {
     if (step.tree.has(slot)) step.tree.remove(slot);
   });
-  // What moves fills the list from the front, and what rests from the back.
+  // Moving bodies fill the list from the front, resting bodies from the back.
   uint32_t moving = 0, resting = slots.count;
   step.visits.for_each([&](uint32_t slot) {
     if (is_moving(state.traits[slot], state.motions[slot], state.activities[slot])) {

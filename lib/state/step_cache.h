@@ -4,14 +4,15 @@
 #include "motion/step_settings.h"
 #include "state/view.h"
 
-/// What steps keep from tick to tick, and what calls between steps tell them. Whoever changes a body without a step
-/// notes it here: the next step then looks at it. create_world's zeros, restore and load make all of it anew.
+/// Data that steps keep from tick to tick, and changes that calls make between steps. A call that changes a body marks
+/// the body here, and the next step evaluates it. After create_world(), restore and load the next step builds all of it
+/// anew.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 struct StepCacheView {
   StepCache& cache;
-  BitSet visits;  ///< bodies that moved in the last step, or were changed since
+  BitSet visits;  ///< the active set: bodies that moved in the last step or were changed since
   Span<uint32_t> awake_contacts;
   Span<Bounds> bounds;
   RestingTree tree;
@@ -33,17 +34,16 @@ inline StepCacheView cache_of(StateView<uint8_t>& state) {
   return cache_of(reinterpret_cast<uint8_t*>(&state.header), state.layout, capacity_of(state.header));
 }
 
-/// The state was put in from outside.
+/// Invalidates the cache, after the state was replaced from outside.
 inline void forget_steps(World& world) { at_offset<StepCache>(world.block, view_of(world).layout.cache)->fresh = 0; }
 
-/// Sorts the bodies that a step must look at into those that move, which it returns, ascending, and those that rest,
-/// which enter the tree; starts their tick and takes their bounds. `slots` is work space for as many bodies as there
-/// may be.
+/// Partitions the active set into moving bodies, which it returns in ascending order, and resting bodies, which enter
+/// the tree. It starts their tick and computes their bounds. `slots` is work space for the body capacity.
 Span<const uint32_t> partition_bodies(const StepCacheView& step, const StepSettings& settings,
                                       const StateView<uint8_t>& state, Span<BodyWork> work, Span<BodySweep> sweeps,
                                       Span<uint32_t> slots);
 
-/// The places of all contacts of which a body is awake, ascending.
+/// The indices of all contacts with an awake body, ascending.
 Span<const uint32_t> list_awake_contacts(const StepCacheView& step, const StateView<uint8_t>& state);
 
 }  // namespace DETENT_NAMESPACE

@@ -8,7 +8,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The work space of a step in a block, as spans over its capacity.
+/// The work space of a step in a block, as spans of full capacity.
 struct Scratch {
   Span<uint32_t> moving_bodies;
   BitSet candidates;

@@ -71,7 +71,7 @@ constexpr TracePart work_part(uint32_t number, const char* name, const Field (&f
 enum StatePlace : uint32_t { k_state_parts = 11, k_contact_work = k_state_parts, k_body_work, k_body_sweeps, k_bounds };
 constexpr uint32_t k_first_work_number = 32;
 
-/// Puts the copy of an element that a visitor may keep into canonical order.
+/// Converts the copy of an element to canonical byte order and passes it to the visitor, unless it is zero.
 void give(const TraceVisitor& visitor, const TracePart& part, uint32_t place, uint8_t* copy) {
   uint32_t any = 0;
   for (uint32_t i = 0; i < part.element_bytes; ++i) any |= copy[i];
@@ -125,7 +125,7 @@ void visit_body(const BodyWork& work, bool aloof, uint32_t slot, const TraceVisi
   body.displacement = work.displacement;
   body.turn = work.turn;
   body.spin = work.spin;
-  if (!aloof) {  // else they are not made
+  if (!aloof) {  // otherwise they are not computed
     body.extent = work.extent;
     body.fall = work.fall;
     body.speed = work.speed;
@@ -169,7 +169,7 @@ uint64_t trace_digest(const TracePart& part, uint32_t place, const uint8_t* byte
   return digest_finish(digest_bytes(bytes, part.element_bytes, digest_step(part.number, part.sorted ? 0 : place)));
 }
 
-/// What lies in the work space at the end of which stage: step.cpp, layout.h.
+/// Which data the work space holds at the end of which stage: step.cpp, layout.h.
 void visit_trace(const World& world, TraceStage stage, uint32_t contacts, const TraceVisitor& visitor) {
   const StateView<const uint8_t> state = view_of(world);
   visit_state(world, state, visitor);

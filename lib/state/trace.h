@@ -1,12 +1,13 @@
 #pragma once
 #include "state/fields.h"
 
-/// What of a world is compared at the end of each stage of a step, so that the first difference of two machines is
-/// found where it arises: the persistent state as it is then, and what in the work space will decide it.
+/// The data of a world that is compared at the end of each stage of a step, to find the first difference between two
+/// machines where it arises: the current persistent state, and the work-space data from which the next state follows.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Stored: a value is never reused. Between the first and the last the stages of StepStage; an idle step has none.
+/// Stored in files: a value is never reused. The values between the first and the last are the stages of StepStage; an
+/// idle step has none of them.
 enum class TraceStage : uint32_t {
   calls = 0,  ///< after the calls, before the step
   find_pairs = 1,
@@ -19,26 +20,26 @@ constexpr TraceStage trace_stage(StepStage stage) {
   return static_cast<TraceStage>(static_cast<uint32_t>(stage) + static_cast<uint32_t>(TraceStage::find_pairs));
 }
 
-/// What the elements of a part are.
+/// The kind of the elements of a part.
 enum class TraceKind : uint32_t { world, body, slot_word, contact, asset, joint, sensed };
 
 /// A kind of element that is compared.
 struct TracePart {
-  uint32_t number;  ///< stored: a value is never reused. Those of the state are the indices of its sections
+  uint32_t number;  ///< stored: never reused. For the state, the index of the section
   const char* name;
   const Field* fields;
   uint32_t field_count;
   uint32_t element_bytes;
   TraceKind kind;
-  uint32_t key_words;  ///< leading words of four bytes that name the element
-  bool sorted;         ///< by them: an element's place in the array means nothing
+  uint32_t key_words;  ///< number of leading 4-byte words that identify the element
+  bool sorted;         ///< sorted by these words: the index in the array has no meaning
 };
 inline constexpr uint32_t k_trace_part_count = 15;
 extern const TracePart k_trace_parts[k_trace_part_count];
-/// The part of this number, or null.
+/// The part with this number, or null.
 const TracePart* find_trace_part(uint32_t number);
 
-/// A contact while a step works on it.
+/// The data of a contact in the work space of a step.
 struct TraceContact {
   ContactState state;
   Real separation[k_manifold_points_max];  ///< 0 beyond the points, like `approach`
@@ -49,7 +50,7 @@ struct TraceContact {
   Unit friction_mass[2];
   Unit response[21];
 };
-/// A body that moves, likewise.
+/// The data of a moving body in the work space of a step.
 struct TraceBody {
   Vec3<Real> displacement, turn, spin;
   Real extent, fall, speed;
@@ -63,18 +64,18 @@ struct TraceSweep {
   Vec3<Real> displacement, turn;
 };
 
-/// Takes an element's canonical bytes. `place`: in its array, of bodies the slot index.
+/// Receives an element's canonical bytes. `place`: the index in its array; for bodies, the slot index.
 struct TraceVisitor {
   void (*take)(void* context, const TracePart& part, uint32_t place, const uint8_t* bytes);
   void* context;
 };
-/// Visits all elements that are not all zero. `contacts`: of the step, in its work space.
+/// Visits all elements that are not zero. `contacts`: number of contacts in the work space of the step.
 void visit_trace(const World& world, TraceStage stage, uint32_t contacts, const TraceVisitor& visitor);
 
-/// The digest of an element; a stage's is their sum.
+/// The digest of an element. The digest of a stage is the sum over its elements.
 uint64_t trace_digest(const TracePart& part, uint32_t place, const uint8_t* bytes);
 
-/// Of the largest element.
+/// The size of the largest element.
 inline constexpr uint32_t k_trace_bytes_max = sizeof(TraceContact) > k_element_bytes_max ? sizeof(TraceContact)
                                                                                          : k_element_bytes_max;
 static_assert(sizeof(TraceBody) <= k_trace_bytes_max && sizeof(TraceSweep) <= k_trace_bytes_max);

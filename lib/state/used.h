@@ -2,26 +2,27 @@
 #include "state/fields.h"
 #include "state/view.h"
 
-/// What of a state is in use. All else is zero, so a copy may leave it out.
+/// The parts of a state that are in use. All other bytes are zero, so a copy may leave them out.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Elements of each section, from its front.
+/// The number of used elements of each section, from its front.
 struct UsedCounts {
   uint32_t of[k_section_count];
 };
 
-/// `assets`: how many bound assets have to be looked at.
+/// `assets`: as used_assets().
 UsedCounts used_counts(const WorldState& world, uint32_t assets, bool has_manifolds);
 UsedCounts used_counts(const StateView<const uint8_t>& state);
 
+/// The number of asset entries up to the last bound one.
 uint32_t used_assets(const StateView<const uint8_t>& state);
 
-/// Makes what was in use before and is no longer zero.
+/// Sets to zero the elements that were in use before and are no longer in use.
 void clear_unused(const StateView<uint8_t>& state, const UsedCounts& before, const UsedCounts& now);
 
-/// Copies all but the header and what is not in use. `to` holds a state, whose rest becomes zero. The room must
-/// suffice.
+/// Copies the used elements without the header. `to` must hold a state and have enough capacity; its remaining elements
+/// become zero.
 void copy_used(const StateView<const uint8_t>& from, const StateView<uint8_t>& to);
 
 inline StateView<const uint8_t> const_view_of(const uint8_t* block) {

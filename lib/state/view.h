@@ -9,11 +9,11 @@ inline namespace DETENT_NAMESPACE {
 inline constexpr uint32_t k_snapshot_magic = 0x544e5444;  // "DTNT" in canonical bytes
 inline constexpr uint32_t k_snapshot_format = 5;
 
-/// BlockHeader::left_out of a world that has this table.
+/// BlockHeader::left_out of a world with this feature table.
 inline uint32_t left_out(const FeatureTable& features) {
   return static_cast<uint32_t>(without(Features::all, features.features));
 }
-/// What a world's settings need.
+/// The features that a world's settings need.
 inline Features features_of(bool continuous, bool sleeping) {
   return (continuous ? Features::continuous : Features::none) | (sleeping ? Features::sleeping : Features::none);
 }
@@ -23,7 +23,7 @@ inline Capacity capacity_of(const BlockHeader& header) {
           header.manifolds != 0,  header.capacity_joints,   header.capacity_sensed};
 }
 
-/// `T`, const where `Byte` is.
+/// `T`, const if `Byte` is const.
 template <class T, class Byte>
 struct Select {
   using Type = T;
@@ -47,11 +47,11 @@ struct StateView {
   Span<Of<BodyTraits>> traits;
   Span<Of<BodyActivity>> activities;
   Span<Of<uint32_t>> slots;
-  Span<Of<ContactState>> contacts;  ///< all of the capacity
+  Span<Of<ContactState>> contacts;  ///< the full capacity
   Span<Of<AssetState>> assets;
-  Span<Of<ManifoldState>> manifolds;  ///< of the contacts, if there is room for them
-  Span<Of<JointState>> joints;        ///< all of the capacity
-  Span<Of<SensedState>> sensed;       ///< likewise
+  Span<Of<ManifoldState>> manifolds;  ///< one per contact if the world has room for them, else empty
+  Span<Of<JointState>> joints;        ///< the full capacity
+  Span<Of<SensedState>> sensed;       ///< the full capacity
 };
 
 template <class T, class Byte>
@@ -59,7 +59,7 @@ typename Select<T, Byte>::Type* at_offset(Byte* block, uint32_t offset) {
   return reinterpret_cast<typename Select<T, Byte>::Type*>(block + offset);
 }
 
-/// The arrays of a block of the given capacity, which is in range.
+/// The arrays of a block of the given capacity. Range: a valid capacity.
 template <class Byte>
 DETENT_SHARED StateView<Byte> view_of(Byte* block, Capacity capacity) {
   bool fits = false;
@@ -86,10 +86,10 @@ DETENT_SHARED inline StateView<const uint8_t> view_of(const World& world) {
   return view_of(block, capacity_of(*at_offset<BlockHeader>(block, 0)));
 }
 
-/// The slot of a live body, or false.
+/// Finds the slot of a live body. False if there is none.
 template <class Byte>
 bool find_body(const StateView<Byte>& state, BodyId id, uint32_t& slot) {
-  slot = id.slot - 1;  // null wraps beyond every capacity
+  slot = id.slot - 1;  // the null id wraps to a slot beyond every capacity
   return slot < state.traits.count && state.traits[slot].type != 0 && state.traits[slot].generation == id.generation;
 }
 

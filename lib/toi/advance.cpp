@@ -3,19 +3,20 @@
 #include "math/root.h"
 #include "math/trig_integer.h"
 
-// Formats: parts of the horizon and lengths of the block Q30; spins, ways and directions Q29; separations Q56.
+// Formats: parts of the horizon and lengths of the block Q30; rotation vectors, translations and directions Q29;
+// separations Q56.
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// n x u, Q29, of n in Q30 and u in Q29.
+/// n x u, Q29, with n in Q30 and u in Q29.
 Vec32 cross_29(const Vec32& n, const Vec32& u) { return round_shift(cross(n, u), 30); }
 
-/// a b 2^-n, rounded up, of numbers >= 0.
+/// a b 2^-n, rounded up. Range: a, b >= 0.
 int64_t product_above(int64_t a, int64_t b, int n) { return ((a * b) >> n) + 1; }
 
-/// The image of v in a body's axes, one bit less.
+/// The vector v in a body's axes, with one fractional bit less than v.
 Vec32 to_local_29(const Matrix32& rotation, const Vec32& v) {
   const auto component = [&](const Vec32& column) {
     return static_cast<int32_t>((dot(v, column) + (int64_t{1} << 30)) >> 31);
@@ -23,10 +24,11 @@ Vec32 to_local_29(const Matrix32& rotation, const Vec32& v) {
   return {component(rotation.column[0]), component(rotation.column[1]), component(rotation.column[2])};
 }
 
-/// One body as an axis that turns by `spin` sees it: its share of the separation, and of the bound K of its curvature.
+/// One body relative to an axis that rotates by `spin`: its part of the separation and of the curvature bound K.
 class Side {
  public:
-  /// `sign`: 1 for B, whose farthest point against the axis counts, -1 for A.
+  /// `sign`: -1 for A, which contributes its farthest point along the axis; 1 for B, which contributes its farthest
+  /// point against the axis.
   Side(const Convex& convex, const Turning& turning, const Vec32& own_spin, const Vec32& spin, int32_t core,
        int pair_exponent, int sign)
       : convex_(convex),
@@ -44,7 +46,8 @@ class Side {
     twist_ = is_zero(own_spin) || is_zero(spin) ? 0 : length_bound_32(round_shift(cross(relative_, spin), 29));
   }
 
-  /// Takes the axis at a pass's start. For a body at rest with the axis the first one holds for ever.
+  /// Sets the axis at the start of a pass. For a body that rotates with the axis the first call is valid for all
+  /// passes.
   void look(const Matrix32& rotation, const Vec32& normal) {
     normal_ = to_local_29(rotation, normal);
     if (still_) {
@@ -59,7 +62,7 @@ class Side {
   bool present() const { return present_; }
   Matrix32 rotation_at(int64_t time) const { return turning_.at(time); }
 
-  /// rho (|n x u| |u| + |w x spin|), Q26; |n x u| grows by at most |n x spin| |u| in the unit of time.
+  /// rho (|n x u| |u| + |w x spin|), Q26. |n x u| grows by at most |n x spin| |u| per unit of time.
   int64_t curvature(int64_t tilt, int64_t rest) const {
     if (!moves()) return 0;
     const int64_t grown = across_ + (tilt == 0 ? 0 : product_above(product_above(tilt, speed_, 29), rest, 30));
@@ -97,7 +100,7 @@ class Side {
   mutable uint8_t start_ = 0;
 };
 
-/// The separation along a turning axis, certified from the start of one pass.
+/// The certified separation along a rotating axis, from the start of one pass on.
 class Separation {
  public:
   Separation(const MovingPair& pair, const Horizon& horizon, const Vec32& normal, const Vec32& spin, int32_t floor)
@@ -131,9 +134,9 @@ class Separation {
 
   struct Value {
     int64_t separation;  ///< less the floor, Q56
-    int64_t slope;       ///< at this time and with the points that are farthest here; Q30
+    int64_t slope;       ///< at this time, with the support points of this time; Q30
   };
-  /// `x`, Q30 of the horizon, after the pass's start.
+  /// `x`: time since the pass's start, Q30 of the horizon.
   Value at(int64_t x) const {
     const Side::Share a = a_.at(x), b = b_.at(x);
     return {centre_ + ((centre_slope_ * x) >> 4) + a.value + b.value - ((curvature_ * (((x * x) >> 30) + 1)) >> 1),
@@ -154,10 +157,10 @@ class Separation {
   int32_t floor_;
   Side a_, b_;
   int64_t tilt_ = 0, centre_curvature_ = 0, curvature_ = 0;
-  int64_t centre_ = 0, centre_slope_ = 0;  ///< n.C less the floor, Q56; Q30
+  int64_t centre_ = 0, centre_slope_ = 0;  ///< n.C less the floor, Q56; its slope, Q30
 };
 
-/// Where separation + slope x - K x^2/2 ends, Q30, or `limit` if that comes first. Only a proposal.
+/// The root x > 0 of separation + slope x - K x^2/2, Q30, at most `limit`. It is only a first guess.
 int64_t parabola_root(int64_t separation, int64_t slope, int64_t curvature, int64_t limit) {
   const int64_t s = separation >> 28;                                         // Q28
   const int64_t b = slope >> 4;                                               // Q26
@@ -193,7 +196,7 @@ Horizon horizon_over(const MovingPair& pair, int64_t start, int64_t length) {
 TurningAxis::TurningAxis(const Vec32& normal, const Vec32& spin) : normal_(normal), turns_(!is_zero(spin)) {
   if (!turns_) return;
   axis_ = unit_vector_raw(scaled_to_30_bits(spin));
-  rate_ = dot(axis_, spin) >> 30;  // |axis| errs by 2^-28: so does the angle, of 3 rad at most
+  rate_ = dot(axis_, spin) >> 30;  // the relative error of |axis|, 2^-28, is also that of the angle (at most 3 rad)
   along_ = static_cast<int32_t>(dot(axis_, normal) >> 30);
   across_ = round_shift(cross(axis_, normal), 30);
 }
@@ -229,12 +232,13 @@ int32_t advance(const MovingPair& pair, const Frames& frames, const Horizon& hor
     for (int step = 0;; ++step) {
       const Separation::Value value = separation.at(x);
       if (value.separation >= 0) break;
-      // The chord from the start lies below the concave function: safe always, and good enough when it loses 3 %.
+      // The chord from the start lies below the concave function, so its root is always safe. It is good enough when it
+      // loses 3 %.
       if (step == 4 || value.slope >= 0 || -value.separation < first.separation >> 5) {
         x = x * (first.separation >> 26) / ((first.separation - value.separation + (int64_t{1} << 26)) >> 26);
         break;
       }
-      // |separation| < 32 (tests/proofs): from 2 on in coarser steps, so that the product fits.
+      // |separation| < 32 (tests/proofs). From 2 on the steps are coarser, so that the product fits.
       const int coarse = -value.separation >> 57 != 0 ? 4 : 0;
       const int64_t fall = -value.slope >> coarse;
       const int64_t back = (-value.separation >> (26 + coarse)) * k_one_64 / (fall > 0 ? fall : 1) + 1;

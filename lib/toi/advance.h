@@ -4,14 +4,14 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// More intervals than this are not certified along one axis.
+/// The maximum number of intervals that are certified along one axis.
 inline constexpr int k_passes_max = 24;
 
-/// The motion of a pair over a horizon, a part of the step: everything per horizon.
+/// The motion of a pair over a horizon, which is a part of the step. All motion is per horizon.
 struct Horizon {
-  int64_t start, length;  ///< of the step
-  Vec32 way;              ///< of B relative to A, Q29 of the pair's unit
-  Vec32 spin_a, spin_b;   ///< rad, Q29
+  int64_t start, length;  ///< parts of the step, 2^-62
+  Vec32 way;              ///< translation of B relative to A, Q29 of the pair's unit
+  Vec32 spin_a, spin_b;   ///< rotation vectors, rad, Q29
 
   /// The time at `part`, Q30, of the horizon, rounded down.
   int64_t time_at(int64_t part) const {
@@ -21,40 +21,41 @@ struct Horizon {
            static_cast<int64_t>((static_cast<uint64_t>(product.high_word()) << 34) | (product.low_word() >> 30));
   }
 };
-/// The longest horizon that a search takes: 2 rad, in quarter radians. The formats of advance() hold 3.
+/// The longest horizon of a search, in quarter radians: 2 rad. The number formats of advance() hold 3 rad.
 inline constexpr int k_horizon_quarters = 8;
 
-/// From `start` on, at most `length` of the step and at most so long that both bodies together turn by `turn` quarter
-/// radians.
+/// The horizon that begins at `start` and lasts at most `length`. It is shortened so that the rotation angles of both
+/// bodies add up to at most `turn_quarters` quarter radians.
 Horizon horizon_from(const MovingPair& pair, int64_t start, int64_t length, int turn_quarters);
 
-/// From `start` on, exactly `length` of the step.
+/// The horizon that begins at `start` and lasts exactly `length`.
 Horizon horizon_over(const MovingPair& pair, int64_t start, int64_t length);
 
-/// How far from the horizon's start the shapes are certain to stay `floor` ulps apart, by the axis
-/// n(t) = exp(t spin) normal; `frames` are those at its start: a part of the horizon, Q30. 0 if they are not even so at
-/// the start. Range: |spin_x - spin| + 1 < 4 for both bodies, |spin| < 3. Derivation: DESIGN.md, "Never late".
+/// Certifies how long the cores stay `floor` ulps apart along the rotating axis n(t) = exp(t spin) normal. `frames`
+/// are the poses at the horizon's start. Returns a part of the horizon, Q30; 0 if the cores are closer than that at the
+/// start. Range: |spin_x - spin| + 1 < 4 for both bodies, |spin| < 3. Derivation: DESIGN.md, "Never late".
 int32_t advance(const MovingPair& pair, const Frames& frames, const Horizon& horizon, const Vec32& normal,
                 const Vec32& spin, int32_t floor, uint32_t& passes);
 
-/// The same on and on, horizon after horizon of the same length, until the axis leads no farther: a time.
+/// Calls advance() for consecutive horizons of the same length, at most k_horizons_max of them, until the axis
+/// certifies no more or the window ends. Returns the time that it reached.
 int64_t advance_on(const MovingPair& pair, const Frames& frames, const Horizon& horizon, const Vec32& normal,
                    const Vec32& spin, int32_t floor, uint32_t& passes);
 inline constexpr int k_horizons_max = 8;
 
-/// The same by one step of the paper's bound, or of the first-order one.
+/// As advance(), by a single step: with the first-order bound if `tight`, otherwise with the paper's bound.
 int32_t advance_once(const MovingPair& pair, const Frames& frames, const Horizon& horizon, const Vec32& normal,
                      bool tight, int32_t floor, uint32_t& passes);
 
-/// How far apart the cores are along `normal`, less `floor` ulps; Q56 of the pair's unit. Too large by no more than the
-/// rounding budget (DESIGN.md), and negative where they overlap along it.
+/// The separation of the cores along `normal`, less `floor` ulps; Q56 of the pair's unit. It is too large by at most
+/// the rounding budget (DESIGN.md). It is negative where the cores are closer than `floor` along `normal`.
 int64_t separation_along(const MovingPair& pair, const Frames& frames, const Vec32& normal, int32_t floor);
 
-/// An axis that turns by `spin`, Q29, over a horizon.
+/// An axis that rotates by the rotation vector `spin`, Q29, over a horizon.
 class TurningAxis {
  public:
   TurningAxis(const Vec32& normal, const Vec32& spin);
-  /// At a part of the horizon, Q30. Of length 1 within k_turning_axis_error.
+  /// The axis at a part of the horizon, Q30. Its length is 1 within k_turning_axis_error.
   Vec32 at(int64_t part) const;
 
  private:

@@ -3,11 +3,12 @@
 #include "distance/pair.h"
 #include "toi/moving_pair.h"
 
-/// What the methods of impact share that go from axis to axis: where GJK is asked, what is a hit, and how it is told.
+/// The search that the time-of-impact methods with a sequence of axes share: where it calls GJK, when it reports a hit,
+/// and what it reports.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Where the shapes are nearest at `time`, on A's surface, m, from A's position.
+/// The point on A's surface that is nearest to B at `time`, m, relative to A's position.
 inline Vec3<Real> point_on_a(const MovingPair& pair, const Placed& a, const Placed& b, const Simplex& simplex,
                              const GjkResult& nearest, int64_t time) {
   const NearestPoints points = nearest_points(a, b, simplex);
@@ -18,12 +19,12 @@ inline Vec3<Real> point_on_a(const MovingPair& pair, const Placed& a, const Plac
   return half_space_point(offset, points.on_b, pair.exponent, nearest.normal, nearest.upper);
 }
 
-/// GJK at a time, then as far as `next_time` leads from there, and so on: until the shapes are within the tolerance,
-/// the window ends, `next_time` leads no farther, or more than `iterations_max` axes were needed, which is undecided.
-/// `next_time(frames, simplex, nearest, iteration, floor)` gives a time from frames.time on, until which its method
-/// holds the cores for `floor` ulps apart. `enough`, ulps: clear at once where no core points are nearer than this when
-/// the window begins; INT32_MAX not to look. Inlined always: time_of_impact() then costs no more than with a loop of
-/// its own.
+/// Alternates GJK at a time and an advance of the time by `next_time`. Stops when the shapes are within the tolerance
+/// or the window ends. The result is undecided if `next_time` makes no progress or more than `iterations_max` axes are
+/// needed. `next_time(frames, simplex, nearest, iteration, floor)` returns a time >= frames.time up to which its method
+/// finds the cores at least `floor` ulps apart. `enough`, ulps: the result is clear at once if all core points are
+/// farther apart than this when the window begins; INT32_MAX disables this test. Always inlined, so that
+/// time_of_impact() costs no more than with a loop of its own.
 template <class NextTime>
 [[gnu::always_inline]] inline void advance_by_axes(const MovingPair& pair, int iterations_max, int32_t enough,
                                                    TimeOfImpact& result, NextTime next_time) {
@@ -40,7 +41,8 @@ template <class NextTime>
     if (iteration == 0 && nearest.lower > enough) return set_clear(result);
     result.time = Fraction::from_raw(time);
     const bool meet = nearest.outcome == GjkOutcome::overlap, hit = meet || nearest.upper <= touching;
-    result.gjk_calls += nearest.iterations > (hit && iteration > 0 ? 1 : 0) ? 1 : 0;  // one may but confirm the hit
+    // A call whose single iteration only confirms the hit is not counted.
+    result.gjk_calls += nearest.iterations > (hit && iteration > 0 ? 1 : 0) ? 1 : 0;
     result.normal = units_from_raw(meet ? Vec32{0, 0, 0} : nearest.normal);
     if (hit) {
       result.outcome = ToiOutcome::hit;
@@ -49,8 +51,8 @@ template <class NextTime>
     }
     const int64_t next = next_time(frames, simplex, nearest, iteration, floor);
     if (next >= pair.to) return set_clear(result);
-    // On a rim the supports have no end: where the cap left too coarse an axis, the next round goes on from its
-    // simplex.
+    // A rim has infinitely many support points. If GJK stopped at its iteration cap with too coarse an axis, the next
+    // round continues from its simplex.
     if (next == time && nearest.outcome != GjkOutcome::capped) break;
     time = next;
     result.time = Fraction::from_raw(time);

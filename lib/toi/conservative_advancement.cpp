@@ -9,10 +9,10 @@ namespace {
 
 constexpr Vec32 k_no_spin = {0, 0, 0};
 
-/// An axis is foreseen only where the plain ones have not led there.
+/// The search tries this many plain axes before it predicts an axis.
 constexpr int k_plain_iterations = 1;
 
-/// How far the axis of `nearest` is certain to lead.
+/// The time up to which the axis of `nearest` certifies the separation.
 int64_t next_time(const MovingPair& pair, ToiMethod method, const Frames& frames, const Simplex& simplex,
                   const GjkResult& nearest, int iteration, int32_t floor, int64_t& progress, TimeOfImpact& result) {
   const int64_t time = frames.time;
@@ -23,7 +23,7 @@ int64_t next_time(const MovingPair& pair, ToiMethod method, const Frames& frames
     return advance_tracking(pair, frames, simplex, features, nearest, floor, progress, result);
   }
   const Horizon horizon = horizon_from(pair, time, pair.to - time, k_horizon_quarters);
-  if (pair.planar) {  // no other axis than the plane's can part them
+  if (pair.planar) {  // only the plane's normal can separate them
     const Vec32& plane = pair.a->type == ShapeType::half_space ? horizon.spin_a : horizon.spin_b;
     return advance_on(pair, frames, horizon, nearest.normal, plane, floor, result.passes);
   }
@@ -35,7 +35,7 @@ int64_t next_time(const MovingPair& pair, ToiMethod method, const Frames& frames
           advance_once(pair, frames, horizon, nearest.normal, method == ToiMethod::first_order, floor, result.passes));
     case ToiMethod::second_order:
       break;
-    default:  // the axis turns with a body
+    default:  // the axis rotates with a body
       spin = features.base_spin(horizon);
       break;
   }
@@ -45,7 +45,7 @@ int64_t next_time(const MovingPair& pair, ToiMethod method, const Frames& frames
 }  // namespace
 
 void conservative_advancement(const MovingPair& pair, ToiMethod method, TimeOfImpact& result, int32_t enough) {
-  int64_t progress = k_time_end;  // of the last foreseen axis
+  int64_t progress = k_time_end;  // time gained by the last predicted axis
   const int iterations_max = method >= ToiMethod::world_space ? k_toi_iterations_max : k_toi_iterations_compared_max;
   advance_by_axes(
       pair, iterations_max, enough, result,

@@ -6,9 +6,9 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-inline constexpr int k_axis_methods = 6;  ///< the first of ToiMethod, which move along certified axes (advance.h)
+inline constexpr int k_axis_methods = 6;  ///< the first values of ToiMethod: methods with certified axes (advance.h)
 
-/// The library's own method: the one that is never far from the best on any kind of query (docs/bench).
+/// The library's own method: on no kind of query is it much slower than the best method (docs/bench).
 #if defined(DETENT_TOI_METHOD)
 inline constexpr ToiMethod k_toi_method = ToiMethod::DETENT_TOI_METHOD;
 #else
@@ -16,17 +16,19 @@ inline constexpr ToiMethod k_toi_method = ToiMethod::constant_spin;
 #endif
 static_assert(static_cast<int>(k_toi_method) < k_axis_methods, "of every shape, and never late");
 
-/// Whether the method moves both bodies of a prepared pair (MovingPair::absolute).
+/// Whether the method moves both bodies of a prepared pair in world space (MovingPair::absolute).
 constexpr bool moves_both(ToiMethod method, const MovingPair& pair) {
   return method == ToiMethod::world_space && !pair.planar;
 }
 
-/// More axes than this are not looked for. The other methods, there for comparison, need many on hard queries.
+/// The maximum number of axes of a search. The second limit is for the methods that exist only for comparison: they
+/// need many axes on hard queries.
 inline constexpr int k_toi_iterations_max = 24;
 inline constexpr int k_toi_iterations_compared_max = 256;
 
-/// The time of impact of a prepared pair by conservative advancement along axes of the method's kind, one of the first
-/// k_axis_methods. `enough`, ulps: clear at once where no core points are nearer than this when the window begins.
+/// The time of impact of a prepared pair by conservative advancement along axes of the method's kind. `method` is one
+/// of the first k_axis_methods. `enough`, ulps: the result is clear at once if all core points are farther apart than
+/// this when the window begins.
 void conservative_advancement(const MovingPair& pair, ToiMethod method, TimeOfImpact& result,
                               int32_t enough = INT32_MAX);
 

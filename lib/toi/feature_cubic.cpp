@@ -4,7 +4,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// The value 2^-n, rounded down. Range: it fits.
+/// value times 2^-n, rounded down. Range: the result fits 64 bits.
 int64_t floor_shift(Int128 value, int n) {
   if (n == 0) return value.low_signed();
   return (value - Int128::from(1).shift_left(n - 1)).round_shift(n);
@@ -19,8 +19,8 @@ int longest_of(const Int128 (&value)[4], Int128 error) {
   return length;
 }
 
-/// The least x, Q30, rounded down, at which the lower hull of Bernstein coefficients is not above 0; above 1 if it is
-/// above 0 everywhere. Range: below 2^31.
+/// The least x, Q30, rounded down, at which the lower convex hull of the Bernstein coefficients is not above 0; above 1
+/// if the hull is above 0 everywhere. Range: coefficients below 2^31.
 int64_t first_descent(const int64_t (&c)[4]) {
   if (c[0] <= 0) return 0;
   int64_t first = 3 * (k_whole + 1);
@@ -78,11 +78,12 @@ OpenPart reduced_roots(const Vec64 (&corner)[4][3], const int64_t (&weight)[4], 
   const auto weighted = [&](int i, int64_t factor) {
     return Int128::product(floor_shift(volume[i], n), factor * weight[i]);
   };
-  // Of a weighted volume, and of the most that a cubic makes of four: a weight is off by less than 2 in its last place.
+  // The error of a weighted volume, times the largest sum of factors in a coefficient of the cubic. A weight is off by
+  // less than 2 units in its last place.
   constexpr int64_t k_factors = 5 + 18 + 9 + 2;
   const Int128 error = Int128::product(floor_shift(volume_error, n) + 2, k_factors * weight_most) +
                        Int128::from(2 * k_factors).shift_left(length - n);
-  // The cubic through its values at 0, 1/3, 2/3 and 1, six times.
+  // Six times the cubic through its values at 0, 1/3, 2/3 and 1.
   return roots_of({{weighted(0, 6), weighted(0, -5) + weighted(1, 18) + weighted(2, -9) + weighted(3, 2),
                     weighted(0, 2) + weighted(1, -9) + weighted(2, 18) + weighted(3, -5), weighted(3, 6)},
                    error});

@@ -1,42 +1,44 @@
 #pragma once
 #include "math/vector_integer.h"
 
-/// Where corners of moving features may lie in one plane with the origin: roots of cubics, with all rounding outwards.
+/// Finds the times at which corners of moving features may be coplanar with the origin: roots of cubics. All rounding
+/// is outwards.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The part of an interval in which something may be, Q30; nowhere if from > to.
+/// The part of an interval that may hold a root or a contact, Q30; empty if from > to.
 struct OpenPart {
   int64_t from, to;
 };
 inline constexpr int64_t k_whole = int64_t{1} << 30;
 inline constexpr OpenPart k_open = {0, k_whole}, k_closed = {1, 0};
 
-/// What is lost where corners are brought to 29 bits and a sign, so that products of two fit 64 bits and of three 128
-/// (tests/proofs/feature.g).
+/// The error of corners that are rounded to 29 bits and a sign. Products of two such components fit 64 bits, products
+/// of three fit 128 bits (tests/proofs/feature.g).
 struct Shortening {
-  int shift;      ///< as many bits, to nearest
-  int64_t reach;  ///< no component is larger then
-  int64_t ball;   ///< with what rounding took; at most the reach and 1
+  int shift;      ///< the number of bits dropped; rounding is to nearest
+  int64_t reach;  ///< bound on every component after the shift
+  int64_t ball;   ///< error radius after the shift, rounding included; at most reach + 1
 
-  /// Of components with the bits `magnitudes`, within a ball.
+  /// `magnitudes`: the bitwise or of all component magnitudes. `ball_before`: the error radius before the shift.
   Shortening(uint64_t magnitudes, int64_t ball_before) {
     constexpr int k_bits = 29;
     const int length = bit_length_64(magnitudes | static_cast<uint64_t>(ball_before));
     shift = length > k_bits ? length - k_bits : 0;
     reach = int64_t{1} << (length - shift);
-    // Rounding takes a half: the whole is rounded up once.
+    // Rounding to nearest adds half a unit; the sum is rounded up once.
     const int64_t unit = int64_t{1} << shift;
     ball = (ball_before + (unit >> 1) + unit - 1) >> shift;
   }
-  /// Such a ball hides all products, and their errors would overflow.
+  /// Whether the error radius is so large that products carry no information and their error bounds would overflow.
   bool is_blind() const { return 8 * ball > reach; }
 
-  /// The most by which |(a + d) x (b + e) - a x b| differs in a component, d and e within the ball.
+  /// The largest component of |(a + d) x (b + e) - a x b|, with d and e within the ball.
   int64_t moment_error() const { return 2 * ball * (2 * reach + ball); }
-  /// The same of the volume of three corners p, q, r, off by d, e, f: |d.(q x r)|, |(d x e).r| and their like, and
-  /// |(d x e).f|. `moments` is the sum of the components' magnitudes of the three cross products, below 2^62: a flat
-  /// triangle has small ones, so what counts is its area, not its length.
+  /// The error bound of the volume of three corners p, q, r that are off by d, e, f. It bounds |d.(q x r)|, |(d x
+  /// e).r|, their permutations, and |(d x e).f|. `moments` is the sum of the component magnitudes of the three cross
+  /// products, below 2^62. A flat triangle has small cross products, so the bound depends on its area and not on its
+  /// length.
   Int128 volume_error(int64_t moments) const {
     return Int128::product_narrow(moments + 18 * ball * reach + 6 * ball * ball, static_cast<int32_t>(ball));
   }
@@ -47,17 +49,19 @@ constexpr int64_t magnitude_sum(const Vec64& v) {
   return static_cast<int64_t>(magnitude_64(v.x) + magnitude_64(v.y) + magnitude_64(v.z));
 }
 
-/// A cubic over an interval in Bernstein form. Range: below 2^120 in magnitude.
+/// A cubic over an interval in Bernstein form. Range: coefficients below 2^120 in magnitude.
 struct Cubic {
   Int128 coefficient[4];
   Int128 error;
 };
-/// Where the hull of the coefficients, give or take the error, holds 0 (Bezier clipping).
+/// The part of the interval in which the convex hull of the coefficients, widened by the error, contains 0 (Bezier
+/// clipping).
 OpenPart roots_of(const Cubic& cubic);
 
-/// Three corners at the beginning of an interval, after one and two thirds of it, and at its end, where their volume
-/// times `weight` is a cubic in time: the roots of that. Components below 2^63 and within `ball`; weights, Q28, from 1
-/// to 32, within 2 of their last place.
+/// The part of an interval in which the volume of three corners may be 0. The volume times `weight` is a cubic in time.
+/// The corners and weights are given at the beginning of the interval, after one and two thirds of it, and at its end.
+/// Components are below 2^63 and within `ball`. Weights, Q28, are from 1 to 32, with an error below 2 units in the last
+/// place.
 OpenPart reduced_roots(const Vec64 (&corner)[4][3], const int64_t (&weight)[4], int64_t ball);
 
 }  // namespace DETENT_NAMESPACE

@@ -4,7 +4,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// In straight lines the differences move in straight lines too, and are their own chords.
+/// Corners that move in straight lines have differences that move in straight lines, equal to their chords.
 struct LinearPath {
   int count;
   Vec64 start[4], way[4];
@@ -13,7 +13,7 @@ struct LinearPath {
   FeatureSpan span(int64_t from, int64_t to) const {
     FeatureSpan span;
     span.count = count;
-    span.ball = ball + 1;  // times are rounded down, at either end
+    span.ball = ball + 1;  // positions at both ends are rounded down
     for (int i = 0; i < count; ++i) {
       span.from[i] = add(start[i], over_time(way[i], from));
       span.to[i] = add(start[i], over_time(way[i], to));
@@ -41,7 +41,7 @@ Status feature_toi_linear(FeatureKind kind, const Vec3<Real> (&start)[4], const 
   if (!is_kind(kind)) return Status::bad_argument;
   LinearFeatures features;
   features.kind = kind;
-  features.ball = 1;  // a corner may have been rounded by a half
+  features.ball = 1;  // the rounding of a corner is at most 1/2
   if (!raw_corners(start, k_range_bits, features.start) || !raw_corners(end, k_range_bits, features.end))
     return Status::out_of_range;
   features.first_contact(result);

@@ -4,13 +4,13 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Features whose corners move in straight lines, in a unit of the caller's choice.
+/// Features whose corners move in straight lines. The caller chooses the unit of length.
 struct LinearFeatures {
   FeatureKind kind;
-  Vec64 start[4], end[4];  ///< as FeatureKind orders them. Range: components at most 2^60
-  int64_t ball;            ///< in each component a difference of corners is never farther off than this
+  Vec64 start[4], end[4];  ///< in the order of FeatureKind. Range: components at most 2^60
+  int64_t ball;            ///< bound on the error of a difference of corners, in each component
 
-  /// A hit is early in gap by at most k_feature_tolerance of the size and 32 of the unit.
+  /// Finds the first contact. At a hit the gap is at most k_feature_tolerance times the size plus 32 units.
   void first_contact(FeatureToi& result) const;
 };
 

@@ -1,49 +1,49 @@
 #pragma once
 #include "toi/feature_search.h"
 
-/// Features of two bodies in motion: what a motion has to know, and how features go along with it.
+/// Features of two moving bodies: the interface of a motion, and the paths of features under it.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Where two bodies are at a time, in one frame.
+/// The poses of two bodies at a time, in one frame.
 struct PlacedPair {
   Matrix32 a, b;
   Vec64 offset;  ///< from A's position to B's, 2^-46 m
 };
 
-/// Bounds on the paths of points of a body that turns about its position.
+/// Bounds on the paths of points of a body that rotates about its position.
 struct RotationBound {
-  int64_t reach;  ///< their farthest from it, 2^-46 m
+  int64_t reach;  ///< the largest distance of a point from the position, 2^-46 m
   int64_t angle;  ///< 2^-46 rad over the step; a point's acceleration is at most angle^2 reach
 
-  /// How far a point may be from its chord over an interval so long: an eighth of the acceleration and the interval's
-  /// square. No farther than a diameter anyway.
+  /// The largest distance of a point from its chord over an interval of this length: an eighth of the acceleration
+  /// times the square of the length, and at most a diameter.
   int64_t bend(int64_t length) const {
     const int64_t part = turn(length);
     if (part >= int64_t{1} << 31) return 2 * reach;
     return part_of(reach, ((part * part) >> 33) + 1) + 1;
   }
-  /// The angle over an interval so long, Q30, rounded up.
+  /// The rotation angle over an interval of this length, Q30 rad, rounded up.
   int64_t turn(int64_t length) const { return (over_time(angle, length) >> 16) + 1; }
 };
 
-/// Two bodies whose positions go straight.
+/// Two bodies whose positions move in straight lines.
 struct SweptPair {
   RotationBound bound_a, bound_b;
 
-  /// Of a difference of any two points of theirs, in an interval so long.
+  /// As RotationBound::bend(), for the difference of any point of A and any point of B.
   int64_t bend(int64_t length) const { return bound_a.bend(length) + bound_b.bend(length); }
-  /// The bodies turn relative to each other by no more than that in an interval so long, Q30 rad.
+  /// Bound on the relative rotation of the bodies over an interval of this length, Q30 rad.
   int64_t turn(int64_t length) const { return bound_a.turn(length) + bound_b.turn(length); }
-  /// Of a difference of two points at a time. The rotations' 16 2^-30 of the reach, and eight roundings: of two
-  /// corners, their images, the positions, the ways.
+  /// Error bound of a difference of two points at a time: 16 2^-30 of the distance for each rotation, and eight
+  /// roundings (two corners, their images, the positions, the translations).
   int64_t ball() const {
     static_assert(k_turning_error == 16);
     return ((bound_a.reach + bound_b.reach) >> 26) + 9;
   }
 };
 
-/// Two bodies of constant velocity and constant spin, in world axes.
+/// Two bodies of constant velocity and constant angular velocity, in world axes.
 struct SteadyMotion : SweptPair {
   Turning turning_a, turning_b;
   Vec64 offset, displacement;  ///< of B from A, 2^-46 m
@@ -53,21 +53,21 @@ struct SteadyMotion : SweptPair {
   }
 };
 
-/// Two poses of a pair between which it is asked about.
+/// The poses of a pair at both ends of the searched interval.
 struct Ends {
   int64_t from, to;
   PlacedPair begin, end;
 };
 
-/// Features of two bodies in a motion that has at(), bend(), turn() and ball() as SteadyMotion.
+/// Features of two bodies in a motion. `Motion` has at(), bend(), turn() and ball() with the meaning of SteadyMotion's.
 template <class Motion>
 struct FeaturePath {
   const Motion& motion;
-  Ends ends;  ///< not asked of the motion again
+  Ends ends;  ///< cached, so that motion.at() is not evaluated again at the ends
   FeatureKind kind;
-  bool swapped;     ///< the corners that FeatureKind gives to A are B's
-  Vec64 corner[4];  ///< in their bodies' axes, 2^-46 m
-  int64_t ball;     ///< of a difference at either end of an interval
+  bool swapped;     ///< the corners that FeatureKind assigns to A belong to B
+  Vec64 corner[4];  ///< in the axes of their bodies, 2^-46 m
+  int64_t ball;     ///< error of a difference at either end of an interval
 
   FeatureSpan span(int64_t from, int64_t to) const {
     FeatureSpan span;

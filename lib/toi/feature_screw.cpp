@@ -4,13 +4,13 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// A's corners at rest and B's in a screw, in A's frame.
+/// A's corners at rest and B's corners in a screw motion, in A's frame.
 struct ScrewPath {
   FeatureKind kind;
-  Vec64 corner[4];  ///< of B from its position at the start, in A's axes, 2^-46 m
+  Vec64 corner[4];  ///< in A's axes, 2^-46 m; B's are relative to B's position at the start
   ScrewMotion screw;
-  int64_t bend;  ///< the most that a corner is off its chord over the whole step
-  int64_t ball;  ///< of a difference at either end of an interval
+  int64_t bend;  ///< bound on the distance of a corner from its chord over the whole step
+  int64_t ball;  ///< error of a difference at either end of an interval
 
   FeatureSpan span(int64_t from, int64_t to) const {
     FeatureSpan span;

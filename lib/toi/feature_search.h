@@ -5,7 +5,7 @@
 #include "toi/feature_span.h"
 #include "toi/moving_pair.h"
 
-/// What all motions of features share: the search for the first contact, and how corners become differences.
+/// Code that all motions of features share: the search for the first contact, and the differences of corners.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -19,18 +19,18 @@ constexpr int64_t largest_component(const Vec64& v) {
 /// Corners, displacements and offsets lie within 2^14 m.
 inline constexpr int k_range_bits = 14;
 
-/// Whether no component is beyond 2^bits m, of 2^-46 m.
+/// Whether every component, 2^-46 m, is within 2^bits m.
 constexpr bool in_range(const Vec64& v, int bits) {
   return largest_component(v) <= int64_t{1} << (k_metre_bits + bits);
 }
-/// False for corners out of range, or not numbers.
+/// False if a corner is out of range or not a number.
 inline bool raw_corners(const Vec3<Real> (&corner)[4], int bits, Vec64 (&raw)[4]) {
   for (int i = 0; i < 4; ++i) {
     if (!raw_from_real(corner[i], raw[i]) || !in_range(raw[i], bits)) return false;
   }
   return true;
 }
-/// The farthest of some corners from the origin, rounded up.
+/// The largest distance of the corners from the origin, rounded up.
 inline int64_t reach_of(const Vec64* corner, int count) {
   int64_t reach = 0;
   for (int i = 0; i < count; ++i) reach = larger(reach, length_above(corner[i]));
@@ -46,7 +46,8 @@ constexpr bool is_kind(FeatureKind kind) { return kind == FeatureKind::vertex_fa
 /// The first corner of B.
 constexpr int first_of_b(FeatureKind kind) { return kind == FeatureKind::vertex_face ? 1 : 2; }
 
-/// Corners, each relative to the same point, as FeatureKind orders them: B's less A's, in order round the polygon.
+/// The differences of corners, those of B minus those of A, in order around the polygon. `corner` is in the order of
+/// FeatureKind, relative to one common point.
 inline void set_differences(FeatureKind kind, const Vec64 (&corner)[4], Vec64 (&difference)[4]) {
   const auto between = [&corner](int a, int b) { return add(corner[b], negate(corner[a])); };
   if (kind == FeatureKind::vertex_face) {
@@ -67,12 +68,12 @@ inline int64_t size_of(FeatureKind kind, const Vec64 (&corner)[4]) {
   return larger(larger(edge(1, 2), edge(1, 3)), edge(2, 3));
 }
 
-/// Features nearer than this are said to meet where an interval that begins so may hold a contact. More than what
-/// open_part() needs, so that whatever is not near is ruled out in the end; the rest of k_feature_tolerance is for
-/// rounding.
+/// The gap below which features count as touching at the beginning of an interval that may hold a contact. It is more
+/// than open_part() needs, so that the search always rules out features that are not near. The rest of
+/// k_feature_tolerance is for rounding.
 constexpr int64_t near_gap(int64_t size, int64_t ball) { return larger(size >> 22, 2 * ball + 8); }
 
-/// value part, Q30. Rounding: down. Range: 0 <= part <= 1.
+/// value times part, with `part` in Q30. Rounding: down. Range: 0 <= part <= 1.
 inline int64_t part_of(int64_t value, int64_t part) {
   const Int128 product = Int128::product(value, part);
   return static_cast<int64_t>((static_cast<uint64_t>(product.high_word()) << 34) | (product.low_word() >> 30));
@@ -82,17 +83,18 @@ constexpr OpenPart both(const OpenPart& a, const OpenPart& b) {
   return {larger(a.from, b.from), a.to < b.to ? a.to : b.to};
 }
 
-/// Of time.
+/// An interval of time.
 struct Interval {
   int64_t from, to;
 };
-/// The first contact, by intervals of time from the left to the right: what is certain to be clear is cut off, what is
-/// left is halved until nothing is left, or the features are near where it begins, or it is too short to halve. `Path`
-/// has span(from, to), a FeatureSpan, and roots(from, to) if it knows better than its chords where the corners are
-/// coplanar.
+/// Searches the first contact in intervals of time, earliest first. It cuts off the parts of an interval that are
+/// certainly clear and halves the rest. An interval ends the search with a hit if the features are near at its
+/// beginning or if it is too short to halve. The result is clear if no interval is left. `Path` has span(from, to),
+/// which returns a FeatureSpan. It may have roots(from, to), if it can bound the times of coplanar corners better than
+/// by chords.
 template <class Path>
 void search(const Path& path, int64_t gap, FeatureToi& result, Interval now = {0, k_time_end}) {
-  // Each halves what the one before it leaves: no more than the bits of a time wait at once.
+  // Each waiting interval is at most half as long as the one before it, so there are at most k_time_bits of them.
   Interval waiting[k_time_bits + 1];
   int count = 0;
   result = {};

@@ -7,7 +7,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// A span as short integers.
+/// A span rounded to short integers.
 struct ShortSpan {
   Vec32 corner[8];  ///< `count` at the beginning, then as many at the end
   int count;
@@ -30,8 +30,8 @@ struct ShortSpan {
   }
 };
 
-/// Some axis parts the points from the cube about the origin whose half edge is the ball: GJK's, so that hardly any
-/// other does if that does not. A fixed axis that parts the ends of chords parts the chords.
+/// Whether the axis that GJK finds separates the points from the cube around the origin with half edge `ball`. If it
+/// does not, hardly any other axis does. A fixed axis that separates the ends of chords also separates the chords.
 bool parted(const Vec32* point, int count, int64_t ball) {
   Vec64 sum = {0, 0, 0};
   for (int i = 0; i < count; ++i) sum = add(sum, Vec64{point[i].x, point[i].y, point[i].z});
@@ -48,13 +48,13 @@ bool parted(const Vec32* point, int count, int64_t ball) {
     }
     const int64_t length = int64_t{magnitude_32(direction.x)} + magnitude_32(direction.y) + magnitude_32(direction.z);
     if (least > ball * length) return true;
-    // Finitely many points, each nearer than those before it: the loop ends.
+    // The loop ends: the points are finitely many, and each is nearer than those before it.
     if (!simplex.insert(nearest) || simplex.holds_origin()) return false;
     direction = simplex.direction();
   }
 }
 
-/// A coordinate axis parts all corners.
+/// Whether a coordinate axis separates all corners from the origin.
 bool parted_by_bounds(const ShortSpan& span) {
   Vec32 low = span.corner[0], high = low;
   for (int i = 1; i < 2 * span.count; ++i) {
@@ -68,14 +68,14 @@ bool parted_by_bounds(const ShortSpan& span) {
 
 /// The cross product of two corners over the interval, quadratic in time, in Bernstein form.
 struct Moment {
-  Vec64 from, middle, to;  ///< the middle one twice
+  Vec64 from, middle, to;  ///< `middle` is twice the middle coefficient
 
   Moment(const ShortSpan& span, int i, int j)
       : from(cross(span.from(i), span.from(j))),
         middle(add(cross(span.from(i), span.to(j)), cross(span.to(i), span.from(j)))),
         to(cross(span.to(i), span.to(j))) {}
 
-  /// The magnitudes of its components never add up to more than this.
+  /// Bound on the sum of the magnitudes of its components over the interval.
   int64_t bound() const {
     const int64_t begins = magnitude_sum(from), ends = magnitude_sum(to), between = magnitude_sum(middle) / 2 + 1;
     const int64_t end = begins > ends ? begins : ends;
@@ -83,8 +83,8 @@ struct Moment {
   }
 };
 
-/// In the projection along a coordinate axis the polygon holds the origin only if it goes round it one way at each of
-/// its edges: q(i) x q(i + 1) has one sign at all of them.
+/// Whether a projection along a coordinate axis shows that the polygon never contains the origin. A projected polygon
+/// contains the origin only if q(i) x q(i + 1) has the same sign at all of its edges.
 bool passes_by(const ShortSpan& span) {
   const int64_t error = span.is.moment_error();
   bool left[3] = {false, false, false}, right[3] = {false, false, false};
@@ -102,7 +102,7 @@ bool passes_by(const ShortSpan& span) {
   return (left[0] && right[0]) || (left[1] && right[1]) || (left[2] && right[2]);
 }
 
-/// Three times the volume of three corners: 0 where the polygon's plane holds the origin.
+/// Three times the volume of three corners, which is 0 where the polygon's plane contains the origin.
 Cubic coplanarity(const ShortSpan& span) {
   const int last = span.count - 1;
   const Moment far(span, 1, last), first(span, 0, 1), second(span, last, 0);
@@ -125,7 +125,7 @@ OpenPart open_part(const FeatureSpan& span) {
 }
 
 bool begins_near(const FeatureSpan& span, int64_t gap) {
-  // By the corners at the beginning alone: those at the end may be so far off that the gap were lost in rounding.
+  // Only the corners at the beginning count: those at the end may be so far away that rounding would hide the gap.
   uint64_t magnitudes = 0;
   for (int i = 0; i < span.count; ++i) magnitudes |= magnitude_bits(span.from[i]);
   const Shortening is(magnitudes, 0);

@@ -2,25 +2,25 @@
 #include "toi/feature_cubic.h"
 
 /// Two features over an interval of time, as the polygon of the differences of their corners: a triangle for a vertex
-/// and a face, a parallelogram for two edges. They meet where the polygon holds the origin.
+/// and a face, a parallelogram for two edges. The features touch when the polygon contains the origin.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Lengths in one unit of the caller's choice. Range: components and ball below 2^63.
+/// All lengths are in one unit that the caller chooses. Range: components and ball below 2^63.
 struct FeatureSpan {
-  int count;      ///< of corners, 3 or 4, in their order round the polygon
-  Vec64 from[4];  ///< the corners at the interval's beginning
-  Vec64 to[4];    ///< and at its end
-  int64_t ball;   ///< in each component a corner is never farther than this from its chord
+  int count;      ///< number of corners, 3 or 4, in order around the polygon
+  Vec64 from[4];  ///< the corners at the beginning of the interval
+  Vec64 to[4];    ///< the corners at its end
+  int64_t ball;   ///< bound on the distance of a corner from its chord, in each component
 };
 
-/// Certain outside of the part that it leaves, whatever the corners are. An interval is closed altogether at the latest
-/// where the hull of all corners, at both ends, stays off the origin by more than 1.8 balls and 2^-26 of the largest
-/// corner.
+/// The part of the interval that may hold a contact. There is certainly no contact outside of it, for any corners. The
+/// result is empty at the latest when the hull of all corners at both ends is farther from the origin than 1.8 balls
+/// plus 2^-26 of the largest corner.
 OpenPart open_part(const FeatureSpan& span);
 
-/// Whether the features are nearer than `gap` at the interval's beginning: at least where they are, and at most where
-/// they are nearer than 1.8 of it and 2^-26 of the largest corner then.
+/// Whether the features are nearer than `gap` at the beginning of the interval. True for every distance below `gap`;
+/// false for every distance above 1.8 gap plus 2^-26 of the largest corner at that time.
 bool begins_near(const FeatureSpan& span, int64_t gap);
 
 }  // namespace DETENT_NAMESPACE

@@ -7,22 +7,22 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 constexpr int k_tries_max = 3;
-constexpr int k_tracking_quarters = 4;  ///< a foreseen spin is worth nothing over more than 1 rad
+constexpr int k_tracking_quarters = 4;  ///< a predicted axis rotation is useless over more than 1 rad
 constexpr int32_t k_relative_spin_max =
-    3 << 28;  ///< 1.5 rad, Q29, relative to the base: what the formats of advance() hold
+    3 << 28;  ///< 1.5 rad, Q29, relative to the base rotation: the limit of the formats of advance()
 
-/// The axis between them, and how far they are apart along it.
+/// The axis between two features, and their separation along it.
 struct FeatureAxis {
   Vec32 normal;  ///< Q30
   int64_t gap;   ///< ulps
 };
 
-/// A core point in the block, from its shape's centre.
+/// A core point relative to its shape's centre, in ulps of the block.
 Vec32 placed_point(const MovingPair& pair, const Convex& convex, const Matrix32& rotation, const Vec32& local) {
   return round_shift(multiply(rotation, local), 30 + pair.exponent - convex.exponent);
 }
 
-/// The features, world axes.
+/// The features of a pair at a time, world axes, ulps.
 struct PlacedFeatures {
   Vec32 way;             ///< from A's first point to B's
   Vec32 edge_a, edge_b;  ///< zero for a vertex
@@ -36,8 +36,8 @@ struct PlacedFeatures {
     if (features.count_b == 2) edge_b = subtract(placed_point(pair, *pair.b, frames.b, features.b[1]), to);
   }
 
-  /// The axis between them. False if they touch, or their edges are parallel. Of two edges the one that had the side
-  /// `side` of `towards`; 0 to find out which.
+  /// The axis between the features. False if they touch or their edges are parallel. For two edges, `side` selects the
+  /// sign of the cross product; at 0 the function sets it so that the axis points to the side of `towards`.
   bool axis(const Vec32& towards, int& side, FeatureAxis& axis) const {
     Vec64 across;
     if (!is_zero(edge_a) && !is_zero(edge_b)) {
@@ -60,7 +60,7 @@ struct PlacedFeatures {
   }
 };
 
-/// The speed at which the gap closes now, ulps over the horizon.
+/// The current speed at which the gap closes, ulps over the horizon.
 int64_t closing_speed(const MovingPair& pair, const NearFeatures& features, const Frames& frames,
                       const Horizon& horizon, const Vec32& normal) {
   const auto rim_speed = [&](const Convex& convex, const Matrix32& rotation, const Vec32& spin, const Vec32& local) {
@@ -147,7 +147,7 @@ int64_t advance_tracking(const MovingPair& pair, const Frames& frames, const Sim
   const int64_t kept = !edges && distance * 3 / 10 > floor ? distance * 3 / 10 : floor;
   const int64_t speed = closing_speed(pair, features, frames, widest, normal);
   if (speed > 0) length = part_rounded(widest.length, ratio(distance - kept, speed));
-  // Past a close approach no speed tells how long an axis will do.
+  // After a close approach the speed says nothing about how long an axis is valid.
   if (progress < widest.length / 4) {
     const int64_t hope = 4 * progress + (int64_t{1} << 20);
     if (length > hope) length = hope;
@@ -162,7 +162,7 @@ int64_t advance_tracking(const MovingPair& pair, const Frames& frames, const Sim
       foreseen = PlacedFeatures(pair, features, ahead).axis(normal, side, then);
       return;
     }
-    // A rim's nearest point moves along it: only GJK tells where to.
+    // The nearest point of a rim moves along the rim; only GJK can find it.
     Simplex warm = simplex;
     const GjkResult there =
         gjk(place(*pair.a, ahead.a, pair.exponent), place(*pair.b, ahead.b, pair.exponent), ahead.offset, warm, {});

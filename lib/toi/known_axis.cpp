@@ -9,8 +9,9 @@ namespace {
 
 bool has_rim(const Convex& convex) { return convex.type == ShapeType::cylinder || convex.type == ShapeType::cone; }
 
-/// The window in one piece; false where the bodies turn too far, or there is none. Of two rims that nearly touch gjk()
-/// may meet its cap and the search end undecided: so it shall then.
+/// The window as one horizon. False if the bodies rotate too far or the window is empty. Also false for two rims: near
+/// contact gjk() may reach its iteration cap there and the full search ends undecided, and this test must not change
+/// that result.
 bool window_of(const MovingPair& pair, Horizon& window) {
   if (pair.planar || pair.from > pair.to || (has_rim(*pair.a) && has_rim(*pair.b))) return false;
   window = horizon_from(pair, pair.from, pair.to - pair.from, k_horizon_quarters);

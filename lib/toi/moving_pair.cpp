@@ -9,17 +9,17 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 constexpr int64_t k_raw_turn_max = int64_t{1} << (k_metre_bits + 16);  ///< rad
-/// Rounding of all that a certified axis adds up, ulps of the block: derived in DESIGN.md.
+/// Bound on the sum of all roundings in a certified separation, ulps of the block; derived in DESIGN.md.
 constexpr int32_t k_budget = 32;
 
-/// A body whose core is a point at its centre is held not to turn.
+/// Sets the rotation of a body. A body whose core is a point at its centre counts as not rotating.
 Status set_turning(const Convex& convex, const Motion& motion, Turning& turning) {
   if (const Status status = turning_of(motion, turning); status != Status::ok) return status;
   if (convex.core_radius == 0 && convex.type != ShapeType::half_space) turning = still(turning.start);
   return Status::ok;
 }
 
-/// At least the distance from centre to centre, 2^-46 m.
+/// An upper bound of the distance between the centres, 2^-46 m.
 int64_t distance_at(const MovingPair& pair, int64_t time) {
   return length_bound(add(pair.offset, over_time(pair.displacement, time)));
 }
@@ -31,14 +31,14 @@ int64_t root_above(Int128 value) {
          1;
 }
 
-/// The window in which |offset + t displacement| <= reach, 2^-46 m; widened by all rounding.
-/// Returns by how much the window is wider than that, at most.
+/// Sets the window in which |offset + t displacement| <= reach, 2^-46 m, widened by all rounding. Returns a bound on
+/// the excess of the distance over `reach` in the widened window, 2^-46 m.
 int64_t set_window(MovingPair& pair, int64_t reach) {
   const Vec64 &c = pair.offset, &d = pair.displacement;
   const int length = bit_length_64(static_cast<uint64_t>(reach) | magnitudes(c) | magnitudes(d));
   const int n = length > 29 ? length - 29 : 0;  // components below 2^29, norms below 2^30
   const Vec32 from = round_shift(c, n), way = round_shift(d, n);
-  const int64_t r = (reach >> n) + 4;  // what offset and displacement lost, and this
+  const int64_t r = (reach >> n) + 4;  // for the rounding of offset, displacement and reach
   const int64_t square = dot(way, way), along = dot(from, way), rest = dot(from, from) - r * r;
   const int64_t rounding = int64_t{12} << n;
   pair.from = 0;
@@ -67,7 +67,7 @@ int64_t set_window(MovingPair& pair, int64_t reach) {
       return 0;
     }
   }
-  const int64_t leave = root - along;  // over `square`; rounded up by the root
+  const int64_t leave = root - along;  // times `square`; the root rounds it up
   if (leave >= 0 && leave < square) {
     const int64_t to = time_quotient(leave, square);
     if (to < k_time_end - 1) pair.to = to + 1;
@@ -77,7 +77,7 @@ int64_t set_window(MovingPair& pair, int64_t reach) {
 
 DETENT_SHARED int32_t ulps_above(int64_t raw, int exponent) {
   const int n = exponent + 16;
-  return static_cast<int32_t>((raw >> n) + ((raw & ((int64_t{1} << n) - 1)) != 0 ? 1 : 0));  // of INT64_MAX too
+  return static_cast<int32_t>((raw >> n) + ((raw & ((int64_t{1} << n) - 1)) != 0 ? 1 : 0));  // valid for INT64_MAX
 }
 
 }  // namespace
@@ -131,7 +131,7 @@ Status turning_of(const Motion& motion, Turning& turning) {
       magnitude_64(turn.z) > k_raw_turn_max) {
     return Status::out_of_range;
   }
-  // Components below 2^62: the square fits 128 bits.
+  // The components are below 2^62, so the square fits 128 bits.
   const Int128 longest = Int128::product(k_raw_turn_max, k_raw_turn_max);
   if (longest < dot(turn, turn)) return Status::out_of_range;
   const Vec64 way = turn;
@@ -140,7 +140,7 @@ Status turning_of(const Motion& motion, Turning& turning) {
   turning.turns = true;
   turning.turn = way;
   turning.axis = unit_vector_raw(scaled_to_30_bits(turn));
-  // |turn| = axis . turn / |axis|, whose square is 1 + excess: the axis' own rounding drops out to the second order.
+  // |turn| = axis . turn / |axis| with |axis|^2 = 1 + excess. The rounding of the axis only has a second-order effect.
   const int64_t excess = dot(turning.axis, turning.axis) - (int64_t{1} << 60);
   const int64_t along = dot(turn, turning.axis).round_shift(30);
   turning.angle = along - Int128::product(along, excess).round_shift(61);
@@ -168,7 +168,7 @@ Status set_block(const Vec64& offset, const Vec64& displacement, MovingPair& pai
   const int64_t cores = raw_core_radius(a) + raw_core_radius(b), balls = raw_radius(a) + raw_radius(b);
   const int64_t close = cores + balls + ((cores + balls) >> 18) + 64;
   if (magnitudes(pair.offset) >> 62 != 0) {
-    // Sums would overflow: too far to meet, or too far to tell.
+    // Sums would overflow. The shapes are either certainly too far apart to touch, or the call fails.
     const auto parted = [close](int64_t c, int64_t d) {
       return magnitude_64(c) > magnitude_64(d) + static_cast<uint64_t>(close);
     };
@@ -180,7 +180,7 @@ Status set_block(const Vec64& offset, const Vec64& displacement, MovingPair& pai
   }
   int64_t reach = close;
   if (pair.planar) {
-    // A plane is everywhere: the whole step, in a block that holds both ends of the way.
+    // A plane is unbounded: the window is the whole step, and the block holds both ends of the translation.
     pair.from = 0;
     pair.to = k_time_end;
     const int64_t begins = distance_at(pair, 0), ends = distance_at(pair, k_time_end);
@@ -197,7 +197,7 @@ Status set_block(const Vec64& offset, const Vec64& displacement, MovingPair& pai
   pair.core_b = ulps_above(raw_core_radius(b), pair.exponent);
   pair.radius_a = raw_radius(a);
   pair.radius = ulps_above(balls, pair.exponent);
-  // 0.9 2^-20 of the larger core's diameter, and no less than four times what rounding may take.
+  // 0.9 2^-20 of the larger core's diameter, and at least four times the rounding budget.
   const int64_t larger = pair.core_a > pair.core_b ? pair.core_a : pair.core_b;
   const int32_t wanted = static_cast<int32_t>((larger * 59) >> 25);
   pair.tolerance = wanted > 4 * k_budget ? wanted : 4 * k_budget;

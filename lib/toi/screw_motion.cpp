@@ -18,7 +18,7 @@ Vec64 cross_tangent(const Vec32& g, const Vec64& v) {
 
 constexpr Quat32 conjugate(const Quat32& q) { return {-q.x, -q.y, -q.z, q.w}; }
 
-/// The tangent of half the angle of the rotation from one pose to another, along its axis. False if it is beyond 4.
+/// The tangent of half the rotation angle from one pose to another, along the rotation axis. False if it is above 4.
 bool tangent_between(const Quat32& from, const Quat32& to, Vec32& tangent) {
   const Quat32 turn = multiply(to, conjugate(from));
   const int64_t w = turn.w;
@@ -53,7 +53,7 @@ int64_t ScrewMotion::tangent_length() const {
 }
 
 int64_t ScrewMotion::bend(int64_t reach) const {
-  // With r the distance from the axis |x''| <= 4 g^2 r, and g r <= |d| sqrt(1 + g^2) / 2 + g |x|.
+  // With r the distance from the axis, |x''| <= 4 g^2 r and g r <= |d| sqrt(1 + g^2) / 2 + g |x|.
   const int64_t far = length_above(way), g = tangent_length();
   const auto times_g = [g](int64_t value) { return Int128::product(value, g).round_shift(k_tangent_bits) + 1; };
   const int64_t swing = times_g(times_g(reach)), drift = times_g(far + times_g(far));

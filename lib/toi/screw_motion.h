@@ -1,31 +1,32 @@
 #pragma once
 #include "toi/feature_search.h"
 
-/// The screw between two poses, as S. Redon, A. Kheddar and S. Coquillart use it.
+/// The screw motion between two poses, as in S. Redon, A. Kheddar and S. Coquillart (redon.h).
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// B in A's frame.
+/// The pose of B in A's frame.
 struct RelativePose {
   Quat32 rotation;
   Vec64 position;  ///< 2^-46 m
 };
-/// Of bodies with these rotations, B's position `offset` from A's, world axes, 2^-46 m.
+/// The relative pose of bodies with these rotations. `offset`: from A's position to B's, world axes, 2^-46 m.
 RelativePose relative_pose(const Quat32& a, const Quat32& b, const Vec64& offset);
 
 inline constexpr int k_tangent_bits = 28;
-/// Components of B's position in A's frame lie within 2^10 m, and so do those of its corners from there.
+/// Components of B's position in A's frame are within 2^10 m, and so are those of B's corners relative to that
+/// position.
 inline constexpr int k_screw_range_bits = 10;
 
-/// B's screw in A's frame. With g along its axis and as long as the tangent of half its angle, and d the way of B's
-/// position, the point that is x from B's position c at the start is at time t at
-///   c + x + t d + t (g x y + t g x (g x y)) / (1 + t^2 g^2),  y = 2 x - (1 - t) d:
-/// neither the axis nor the angle is needed, and without a turn it is a straight line. With |g| <= 4 and |y| < 2^59 the
-/// two products, at right angles to each other, have a sum below 2^63.
+/// The screw motion of B in A's frame. The vector g points along the screw axis; its length is the tangent of half the
+/// angle. c is the position of B at the start and d its displacement. The point that starts at c + x is at time t at
+///   c + x + t d + t (g x y + t g x (g x y)) / (1 + t^2 g^2),  y = 2 x - (1 - t) d.
+/// The formula needs neither the place of the axis nor the angle, and gives a straight line if there is no rotation.
+/// With |g| <= 4 and |y| < 2^59 the two products are perpendicular to each other and their sum is below 2^63.
 struct ScrewMotion {
-  Vec64 first, way;  ///< of B's position from A's: at the start, and d; 2^-46 m
+  Vec64 first, way;  ///< B's position relative to A's at the start (c), and d; 2^-46 m
   Vec32 tangent;     ///< g, Q28
-  int64_t square;    ///< of g, Q56
+  int64_t square;    ///< |g|^2, Q56
 
   /// |g|, Q28, rounded up.
   int64_t tangent_length() const;
@@ -33,28 +34,28 @@ struct ScrewMotion {
   int64_t weight_at(int64_t time) const {
     return (int64_t{1} << (2 * k_tangent_bits)) + over_time(over_time(square, time), time);
   }
-  /// Q62.
+  /// 1 / weight_at(time), Q62.
   int64_t inverse_weight_at(int64_t time) const {
     return time_quotient(int64_t{1} << (2 * k_tangent_bits), weight_at(time));
   }
-  /// What t (g x y + t g x (g x y)) / (1 + t^2 g^2) is of a y.
+  /// t (g x y + t g x (g x y)) / (1 + t^2 g^2).
   Vec64 turned(const Vec64& y, int64_t time, int64_t inverse_weight) const;
-  /// Where a point is that is `x` from B's position at the start, from A's position.
+  /// The position, relative to A's, of the point that is `x` from B's position at the start.
   Vec64 at(const Vec64& x, int64_t time, int64_t inverse_weight) const;
-  /// The most that a point within `reach` of B's position is off its chord over the whole step.
+  /// Bound on the distance from its chord over the whole step, for points within `reach` of B's position.
   int64_t bend(int64_t reach) const;
 };
 
-/// Of a difference of a corner of A and one of B that is `reach` from its position, 2^-46 m: rotations composed from
-/// rounded ones, a tangent rounded after a division by 1/4 or more; sums rounded.
+/// Error bound of a difference of a corner of A and a corner of B that is `reach` from B's position, 2^-46 m. Sources:
+/// rotations composed from rounded ones, a tangent rounded after a division by 1/4 or more, rounded sums.
 inline int64_t screw_ball(int64_t reach, const RelativePose& start, const RelativePose& end) {
   return (reach >> 24) + ((length_above(start.position) + length_above(end.position)) >> 26) + 64;
 }
 
-/// Where the features of a path are coplanar, which has set_differences_at(), a kind and a ball. Whether a line at rest
-/// meets a moving line, or a point a plane, is linear in the moving one's coordinates. Those are entries of its
-/// rotation, which are quadratic after multiplication by 1 + t^2 g^2, and such times the way along the axis, which is
-/// linear: in all a cubic.
+/// The part of an interval in which the features of a path may be coplanar. `Path` has set_differences_at(), a kind and
+/// a ball. The condition that a moving line meets a line at rest, or a point a plane, is linear in the moving feature's
+/// coordinates. These are entries of its rotation, which are quadratic after multiplication by 1 + t^2 g^2, and such
+/// entries times the displacement along the axis, which is linear in t. The condition is therefore a cubic.
 template <class Path>
 OpenPart screw_roots(const Path& path, const ScrewMotion& screw, int64_t from, int64_t to) {
   Vec64 corners[4][3];
@@ -71,7 +72,8 @@ OpenPart screw_roots(const Path& path, const ScrewMotion& screw, int64_t from, i
   return reduced_roots(corners, weight, path.ball + 1);  // a third of the interval is rounded down
 }
 
-/// The shorter way round. Errors: out_of_range for a turn of more than 2.65 rad, and positions out of range.
+/// The screw with the smaller rotation angle. Errors: out_of_range for a rotation of more than 2.65 rad, and for
+/// positions out of range.
 Status screw_between(const RelativePose& start, const RelativePose& end, ScrewMotion& screw);
 
 }  // namespace DETENT_NAMESPACE

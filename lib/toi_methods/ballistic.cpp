@@ -10,25 +10,25 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr int k_steps_max = 12;                       ///< of Newton's method along one normal; each is certified
-constexpr int64_t k_quarter_turn = int64_t{1} << 32;  ///< 2^-34 turns
-constexpr int64_t k_phase_error = 2;                  ///< of the rate and of its shift, in those, rounded up
-constexpr int64_t k_sine_error_above = 1;             ///< of sine_cosine_raw(), 2^-30, rounded up
+constexpr int k_steps_max = 12;                       ///< steps of Newton's method along one normal, all certified
+constexpr int64_t k_quarter_turn = int64_t{1} << 32;  ///< 2^-34 revolutions
+constexpr int64_t k_phase_error = 2;                  ///< of the rate and of its shift, 2^-34 revolutions, rounded up
+constexpr int64_t k_sine_error_above = 1;             ///< error of sine_cosine_raw(), 2^-30, rounded up
 
-/// What is taken of a separation, at most.
+/// Bounds on the reduction of a separation.
 struct Taken {
   int64_t way;    ///< ulps
   int64_t speed;  ///< ulps over the step
 };
 
-/// What a body's rotation may take of the separation along a normal.
+/// Bound on the reduction of the separation along a normal by a body's rotation.
 class Swing {
  public:
   /// `core`: its core radius, ulps.
   Swing(const Turning& turning, const Vec32& normal, int64_t core) : turning_(turning) {
     if (!turning.turns || core == 0) return;
     const Vec32 across = round_shift(cross(normal, turning.axis), 30);
-    // The axis, the length of either and these roundings err by less than 20 2^-30 together.
+    // The errors of the axis, of both lengths and of these roundings add up to less than 20 2^-30.
     const int64_t length = int64_t{square_root_nearest(static_cast<uint64_t>(dot(across, across)))} + 20;
     chord_ = ((2 * core * length) >> 30) + 1;
   }
@@ -39,7 +39,7 @@ class Swing {
     if (half_angle >= k_quarter_turn) return {chord_, 0};
     const SineCosineRaw half = sine_cosine_raw(half_angle);
     const auto part = [this](int64_t of_one) { return ((chord_ * of_one) >> 30) + 1; };
-    const int64_t lever = part(half.cosine + k_sine_error_above + 2 * k_phase_error);  // a phase is less than 2^-31 rad
+    const int64_t lever = part(half.cosine + k_sine_error_above + 2 * k_phase_error);  // phase error < 2^-31 rad
     return {part(half.sine + k_sine_error_above), Int128::product(lever, turning_.angle).round_shift(47) + 1};
   }
 
@@ -48,12 +48,12 @@ class Swing {
   int64_t chord_ = 0;  ///< 2 rho |n x axis|, ulps, rounded up
 };
 
-/// The speed at which B leaves A along a normal: ulps over the step, rounded down.
+/// The speed at which B moves away from A along a normal: ulps over the step, rounded down.
 int64_t leaving_speed(const MovingPair& pair, const Vec32& normal) {
   return ((dot(pair.displacement, normal).round_shift(30) - 1) >> (pair.exponent + 16)) - 1;
 }
 
-/// How far the normal is certain to lead, as a time.
+/// The time up to which the normal certifies the separation.
 int64_t ballistic_time(const MovingPair& pair, const Frames& frames, const Vec32& normal, int32_t floor,
                        uint32_t& passes) {
   const int64_t room = separation_along(pair, frames, normal, floor) >> 26;  // ulps
@@ -66,11 +66,11 @@ int64_t ballistic_time(const MovingPair& pair, const Frames& frames, const Vec32
     const int64_t left = room + over_time(speed, elapsed) - a.way - b.way;
     if (left <= 0) break;
     const int64_t fall = a.speed + b.speed - speed;
-    if (fall <= 0) return pair.to;  // and less so from here on
+    if (fall <= 0) return pair.to;  // fall only decreases from here on
     const int64_t gain = time_quotient(left, fall);
     if (gain >= rest - elapsed) return pair.to;
     elapsed += gain;
-    if (gain < elapsed >> 5) break;  // another normal does more
+    if (gain < elapsed >> 5) break;  // a new normal gains more
   }
   return frames.time + elapsed;
 }

@@ -9,12 +9,13 @@ namespace {
 
 constexpr int64_t k_raw_pi = 221069929750888;  // 2^-46, rounded down
 
-/// A rotation whose quaternion goes from one to another in a straight line, on the shorter side.
+/// A rotation whose quaternion moves in a straight line from one quaternion to another, with the sign that makes the
+/// line shorter.
 struct QuaternionLine {
   Quat32 start;
   int64_t way[4];
 
-  /// Q30; not of length 1.
+  /// The quaternion at a time, Q30; not of length 1.
   Quat32 at(int64_t time) const {
     const auto component = [&](int32_t from, int64_t way_along) {
       return static_cast<int32_t>(from + over_time(way_along, time));
@@ -22,7 +23,7 @@ struct QuaternionLine {
     return {component(start.x, way[0]), component(start.y, way[1]), component(start.z, way[2]),
             component(start.w, way[3])};
   }
-  /// The square of its length, Q60: from 1/2 to 1.
+  /// The square of the quaternion's length, Q60: from 1/2 to 1.
   static uint64_t square(const Quat32& q) {
     const auto squared = [](int64_t v) { return static_cast<uint64_t>(v * v); };
     return squared(q.x) + squared(q.y) + squared(q.z) + squared(q.w);
@@ -40,7 +41,7 @@ Matrix32 rotation_of(const Quat32& q) {
   return matrix_from(Quat32{scaled(q.x), scaled(q.y), scaled(q.z), scaled(q.w)});
 }
 
-/// Both bodies, in world axes.
+/// The motion of both bodies, in world axes.
 struct LerpMotion : SweptPair {
   QuaternionLine line_a, line_b;
   Vec64 offset, displacement;
@@ -48,7 +49,7 @@ struct LerpMotion : SweptPair {
   PlacedPair at(int64_t time) const {
     return {rotation_of(line_a.at(time)), rotation_of(line_b.at(time)), add(offset, over_time(displacement, time))};
   }
-  /// What makes a polynomial of the features' volume: the product of the quaternions' squares, Q30.
+  /// The factor that makes the features' volume a polynomial: the product of the quaternions' squares, Q30.
   int64_t weight_at(int64_t time) const {
     const int64_t a = clipped_32(QuaternionLine::square(line_a.at(time))) >> 2;
     const int64_t b = clipped_32(QuaternionLine::square(line_b.at(time))) >> 2;
@@ -58,10 +59,10 @@ struct LerpMotion : SweptPair {
 
 constexpr int k_degree = 5;
 
-/// In Bernstein form over an interval.
+/// A polynomial of degree five in Bernstein form over an interval.
 struct Quintic {
   int64_t coefficient[k_degree + 1];
-  int64_t noise;  ///< where none is larger they tell nothing
+  int64_t noise;  ///< coefficients that are all within +-noise carry no information
 
   bool changes_sign() const {
     bool above = false, below = false;
@@ -77,7 +78,7 @@ struct Quintic {
     }
     return true;
   }
-  /// Leaves the left half; returns the right one (de Casteljau).
+  /// Replaces the polynomial by its left half and returns its right half (de Casteljau).
   Quintic halve() {
     Quintic right;
     right.noise = noise;
@@ -91,7 +92,7 @@ struct Quintic {
   }
 };
 
-/// Through its values, below 2^49, at six places evenly apart.
+/// 240 times the polynomial through values, below 2^49, at six evenly spaced times.
 Quintic through(const int64_t (&value)[k_degree + 1], int64_t noise) {
   constexpr int64_t k_first[] = {-308, 1200, -1200, 800, -300, 48};
   constexpr int64_t k_second[] = {269, -1450, 2950, -2300, 925, -154};
@@ -105,7 +106,7 @@ Quintic through(const int64_t (&value)[k_degree + 1], int64_t noise) {
   return quintic;
 }
 
-/// The volume of a feature pair's corners, times what makes it a polynomial, in some unit.
+/// The volume of a feature pair's corners times weight_at(), in some unit.
 template <class Path>
 Quintic coplanarity(const Path& path, const Interval& interval) {
   Vec64 corner[k_degree + 1][3];
@@ -182,7 +183,7 @@ struct NumericalRoots {
           return;
         }
         if (depth != 0) continue;
-        // The volume's own error may have moved the root: once more, from near by.
+        // The error of the volume may have moved the root: search a small interval around it once more.
         const int64_t margin = (interval.to - interval.from) >> 8, end = piece.from + piece.length;
         find(path, gap,
              {larger(piece.from - margin, interval.from), interval.to - end < margin ? interval.to : end + margin}, 1,
@@ -198,7 +199,8 @@ struct NumericalRoots {
   }
 };
 
-/// Errors: as time_of_impact(); out_of_range for more than half a turn.
+/// Sets the rotation of one body and its bound. Errors: as time_of_impact(); out_of_range for a rotation of more than
+/// pi.
 Status set_line(const Motion& motion, int64_t reach, QuaternionLine& line, RotationBound& bound) {
   Turning turning;
   if (const Status status = turning_of(motion, turning); status != Status::ok) return status;
@@ -207,7 +209,7 @@ Status set_line(const Motion& motion, int64_t reach, QuaternionLine& line, Rotat
   const Quat32 end = turning.rotation_at(k_time_end);
   const int32_t from[4] = {line.start.x, line.start.y, line.start.z, line.start.w},
                 to[4] = {end.x, end.y, end.z, end.w};
-  uint64_t squares[2] = {0, 0};  // of the difference and of the sum
+  uint64_t squares[2] = {0, 0};  // of half the difference and of half the sum
   int64_t along = 0;
   for (int i = 0; i < 4; ++i) along += int64_t{from[i]} * to[i] >> 2;
   for (int i = 0; i < 4; ++i) {
@@ -216,8 +218,8 @@ Status set_line(const Motion& motion, int64_t reach, QuaternionLine& line, Rotat
     squares[0] += static_cast<uint64_t>(line.way[i] / 2 * (line.way[i] / 2));
     squares[1] += static_cast<uint64_t>(sum * sum);
   }
-  // With k the tangent of a quarter of the angle, the rotation's speed is at most 4 k, and with its acceleration a
-  // point's is at most 16.9 k^2 of its reach.
+  // With k the tangent of a quarter of the angle, the angular speed is at most 4 k. With the angular acceleration, the
+  // acceleration of a point is at most 16.9 k^2 times its distance from the position.
   const int64_t k = ((int64_t{square_root_floor(squares[0])} + 2) << 30) / square_root_floor(squares[1]);  // Q30
   bound = {reach, turning.turns ? (33 * k) << 13 : 0};
   return Status::ok;

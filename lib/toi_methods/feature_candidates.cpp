@@ -13,8 +13,9 @@ Vec32 turned(const Matrix32& rotation, const Vec32& v) { return round_shift(mult
 }  // namespace
 
 bool may_touch(const EdgeFan& a, const EdgeFan& b, const StepPart& part) {
-  // Their common normal is n = s a x b for a sign s. It lies between the faces of A, n = x left + y right with x, y >=
-  // 0, only if s left.b >= 0 >= s right.b; and -n, which is s b x a, between those of B likewise.
+  // Their common normal is n = s a x b for a sign s. It lies between the face normals of A, n = x left + y right with
+  // x, y >= 0, only if s left.b >= 0 >= s right.b. The same condition with a and b exchanged holds for -n = s b x a and
+  // the face normals of B.
   const int64_t slack = (part.turn + CandidateSide::k_unit_error) << 30;
   const int64_t left_a = dot(a.left, b.along), right_a = dot(a.right, b.along);
   const int64_t left_b = dot(b.left, a.along), right_b = dot(b.right, a.along);
@@ -65,8 +66,8 @@ int64_t separation(const PlacedPair& pair, const Vec32& direction, const Candida
 }
 
 bool choose(const StepPart& part, const Vec32& normal, CandidateSide& a, CandidateSide& b, int64_t (&apart)[2]) {
-  // Along a fixed direction the least of points on chords is concave in time, and so is how far one is beyond the
-  // least: it is greatest at an end.
+  // Along a fixed direction, the minimum over points on chords is concave in time. The amount by which a point is
+  // beyond this minimum is therefore convex, and greatest at an end.
   const PlacedPair* const end[2] = {&part.begin, &part.end};
   Vec32 of_a[2], of_b[2];
   int64_t least_a[2], least_b[2];

@@ -2,40 +2,43 @@
 #include "distance/polytope.h"
 #include "toi/feature_path.h"
 
-/// Which features of two polytopes may be the first to meet in a part of a step. Where polytopes first touch, the
-/// outward normals that they have there in common, one's and the other's negated, are a cone. Each ray on its border is
-/// the normal of a face of one of them, and that face touches a vertex; or it is perpendicular to an edge of each, and
-/// those touch. So a pair counts only if it can be extreme like that, and only if its vertices' ways bring them
-/// together.
+/// Selects the features of two polytopes that may be the first to touch in a part of a step. Where polytopes first
+/// touch, the outward normals of A that are also negated outward normals of B form a cone. Each ray on the border of
+/// the cone is either the normal of a face that touches a vertex of the other polytope, or it is perpendicular to an
+/// edge of each polytope, and these edges touch. A pair of features is therefore a candidate only if it can be extreme
+/// in this sense, and only if the displacements of its vertices bring it together.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// A part of a step, and where the bodies are at its ends.
+/// A part of a step, and the poses of the bodies at its ends.
 struct StepPart {
   Interval interval;
   PlacedPair begin, end;
-  int64_t turn;   ///< Q30 rad; the bodies turn no more relative to each other
-  int64_t bend;   ///< 2^-46 m; a difference of a point of each is never farther from its chord, roundings included
-  Vec64 way;      ///< of B from A over the part, 2^-46 m
-  int64_t stray;  ///< 2^-46 m; along a normal as it is at the beginning, points that touch move by `way`, give or take
-                  ///< this, if they go on over the part as they do then
+  int64_t turn;  ///< bound on the relative rotation of the bodies, Q30 rad
+  /// Bound on the distance from its chord of a difference of a point of A and a point of B, 2^-46 m, roundings
+  /// included.
+  int64_t bend;
+  Vec64 way;  ///< translation of B relative to A over the part, 2^-46 m
+  /// 2^-46 m. Along a normal as it is at the beginning, touching points that keep their motion over the whole part move
+  /// by `way` within +-stray.
+  int64_t stray;
 
-  /// Whether points that touch with this outward normal of A, at the beginning, may come nearer: of the normals that
-  /// two bodies have in common when they first touch, one that bounds them is such.
+  /// Whether points that touch with this outward normal of A at the beginning may approach. When two bodies first
+  /// touch, at least one of the normals that bound their common cone has this property.
   bool approaches(const Vec32& normal) const { return dot(way, normal).round_shift(30) <= stray; }
 };
 
-/// An edge and the outward normals of the faces beside it as EdgeFaces, world axes, of length 1 in Q30; zero where they
-/// are degenerate.
+/// An edge and the outward normals of its two faces as in EdgeFaces, world axes, of length 1 in Q30; zero for a
+/// degenerate edge or face.
 struct EdgeFan {
   uint8_t from, to;
   Vec32 along, left, right;
 };
 
-/// Whether two edges of A and B can touch from outside in a part, and come nearer.
+/// Whether an edge of A and an edge of B can touch from outside during a part and approach.
 bool may_touch(const EdgeFan& a, const EdgeFan& b, const StepPart& part);
 
-/// One of two polytopes, and its vertices that count.
+/// One of two polytopes, and its candidate vertices.
 class CandidateSide {
  public:
   explicit CandidateSide(const Convex& convex) : convex_(convex), hull_(hull_of(convex)), polytope_(convex) {}
@@ -45,20 +48,21 @@ class CandidateSide {
   bool counts(uint32_t vertex) const { return counts_[vertex]; }
   bool counts(uint32_t from, uint32_t to) const { return counts_[from] || counts_[to]; }
 
-  /// In the body's axes, 2^-46 m.
+  /// The position of a vertex in the body's axes, 2^-46 m.
   Vec64 corner(uint32_t vertex) const;
-  /// How far the body comes from its position along a direction in its axes of length 1, Q30: 2^-46 m.
+  /// The support distance of the body from its position along a unit direction in its axes, Q30: 2^-46 m.
   int64_t reach(const Vec32& direction) const { return metres(farthest(direction)); }
-  /// Those vertices count that come `least` far, 2^-46 m, in such a direction at the beginning or at the end.
+  /// Selects as candidates the vertices that extend at least `least`, 2^-46 m, along the direction at the beginning or
+  /// at the end.
   void choose(const Vec32 (&direction)[2], const int64_t (&least)[2]);
-  /// How far some vertices come in that direction, at the most, at either end.
+  /// The largest distance of some vertices along the direction of `end`, 2^-46 m.
   int64_t reach(const uint32_t* vertex, int count, int end) const {
     int64_t most = INT64_MIN;
     for (int i = 0; i < count; ++i) most = larger(most, dot(direction_[end], polytope_.vertex(vertex[i])));
     return metres(most);
   }
-  /// Of the vertices that count, those that are the farthest in such a direction, or can be after a turn: calls
-  /// visit(vertex).
+  /// Calls visit(vertex) for the candidate vertices that are the farthest in a direction, or can be after a rotation by
+  /// `turn`, Q30 rad.
   template <class Visit>
   void for_each_extreme(const Vec32& direction, int64_t turn, Visit&& visit) const {
     const int64_t least = farthest(direction) - 2 * int64_t{convex_.core_radius} * (turn + k_unit_error);
@@ -66,14 +70,14 @@ class CandidateSide {
       if (dot(direction, polytope_.vertex(chosen_[i])) >= least) visit(uint32_t{chosen_[i]});
     }
   }
-  /// False for an edge that lies in a face.
+  /// Computes the fan of an edge. False for an edge that lies within a face.
   bool fan(uint32_t from, uint32_t to, const Matrix32& rotation, EdgeFan& fan) const;
 
-  /// Of the product of two rotated unit vectors: 2^-30.
+  /// Error of the product of two rotated unit vectors, 2^-30.
   static constexpr int64_t k_unit_error = 64;
 
  private:
-  /// 2^-30 of Q30 of the unit.
+  /// The support distance along a direction, in Q60 of the shape's unit.
   int64_t farthest(const Vec32& direction) const {
     return dot(direction, local_support(convex_, hull_, direction, 0).local);
   }
@@ -83,19 +87,19 @@ class CandidateSide {
   const HullView hull_;
   const Polytope polytope_;
   bool counts_[k_polytope_vertices_max] = {};
-  uint8_t chosen_[k_polytope_vertices_max];  ///< those that count, ascending
+  uint8_t chosen_[k_polytope_vertices_max];  ///< the candidate vertices, ascending
   uint32_t count_ = 0;
   Vec32 direction_[2] = {};
 };
 
-/// How far the bodies are apart along a direction, A first, of length 1 in Q30, world axes: 2^-46 m.
+/// The separation of the bodies along a unit direction from A to B, Q30, world axes: 2^-46 m.
 int64_t separation(const PlacedPair& pair, const Vec32& direction, const CandidateSide& a, const CandidateSide& b);
 
-/// Leaves in both sides those vertices whose ways can bring them together along `normal`, from A to B, world axes.
-/// Whether any are left.
+/// Selects on both sides the vertices whose paths can bring them together along `normal`, which points from A to B in
+/// world axes. Returns whether there are any.
 bool choose(const StepPart& part, const Vec32& normal, CandidateSide& a, CandidateSide& b, int64_t (&apart)[2]);
 
-/// The direction of a unit vector in a body's axes.
+/// A world direction in the axes of a body.
 inline Vec32 in_axes(const Matrix32& rotation, const Vec32& direction) { return rotate_inverse(rotation, direction); }
 /// The normal of a face, in world axes, of length 1 in Q30; zero for a degenerate one.
 Vec32 face_normal(const Polytope& polytope, uint32_t i, uint32_t j, uint32_t k, const Matrix32& rotation);

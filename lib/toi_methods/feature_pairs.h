@@ -7,13 +7,13 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The step is taken in parts in which the bodies turn no more than one of these relative to each other, Q30 rad.
+/// The search divides the step into parts. Each is limited by one of these relative rotations of the bodies, Q30 rad.
 inline constexpr int k_lengths = 3;
 inline constexpr int64_t k_part_turn[k_lengths] = {1 << 30, 1 << 28, 1 << 25};
-/// After so many parts the answer is `undecided`.
+/// The maximum number of parts; after them the result is `undecided`.
 inline constexpr uint32_t k_parts_max = 4096;
 
-/// The first contact of two features in an interval, certain.
+/// The certified first contact of two features in an interval.
 struct CertifiedSearch {
   template <class Path>
   static void find(const Path& path, int64_t gap, const Interval& interval, FeatureToi& result) {
@@ -21,7 +21,7 @@ struct CertifiedSearch {
   }
 };
 
-/// The first contact of two polytopes in a motion as FeaturePath has it, as that of their features.
+/// The first contact of two polytopes as the first contact of their features. `Motion` is as in FeaturePath.
 template <class Motion, class Search = CertifiedSearch>
 class FeaturePairs {
  public:
@@ -34,7 +34,7 @@ class FeaturePairs {
     for (int i = 0; i < k_lengths; ++i) length_max_[i] = time_quotient(k_part_turn[i], motion.turn(k_time_end));
   }
 
-  /// Of a hit the normal and the point are in the axes of the motion.
+  /// Finds the first contact in the window. The normal and the point of a hit are in the axes of the motion.
   void first_contact(const Interval& window, TimeOfImpact& result) {
     result = {};
     if (window.from > window.to) return set_clear(result);
@@ -68,7 +68,7 @@ class FeaturePairs {
   }
 
  private:
-  /// Finds the axis that parts them at the part's beginning. Whether they meet there.
+  /// Finds the axis that separates the bodies at the beginning of the part. Returns whether they touch there.
   bool look(bool hit, TimeOfImpact& result) {
     const int exponent = raw_exponent_above(saturated_sum(length_bound(part_.begin.offset), cores_ + 64));
     const Placed a = place(a_.convex(), part_.begin.a, exponent), b = place(b_.convex(), part_.begin.b, exponent);
@@ -92,8 +92,8 @@ class FeaturePairs {
     part_.stray = 8 * bend + part_of(cores_ + length_bound(part_.way), part_.turn) + 2 * ball;
   }
 
-  /// Chooses where a part that begins at `from` ends: as late as the normal is certain to part the bodies; else about
-  /// where they are `depth_` beyond each other along it.
+  /// Chooses the end of a part that begins at `from`. It is the end of the longest allowed length over which the normal
+  /// certainly separates the bodies; if there is none, about the time at which they overlap by `depth_` along it.
   void set_part(int64_t from, int64_t to) {
     for (int i = 0; i < k_lengths; ++i) {
       const int64_t length = to - from < length_max_[i] ? to - from : length_max_[i];
@@ -101,14 +101,14 @@ class FeaturePairs {
       const int64_t last = separation(part_.end, normal_, a_, b_) - part_.bend;
       if (last >= 0) return;
       if (i < k_lengths - 1 || last >= -depth_) continue;
-      // Apart on chords is concave in time: they are no deeper there.
+      // The separation on chords is concave in time, so the overlap there is not deeper.
       const int64_t first = larger(separation(part_.begin, normal_, a_, b_), 0);
       const int64_t shorter = over_time(length, time_quotient(first + depth_, first - last));
       if (shorter > 0) set_end(from, from + shorter);
     }
   }
 
-  /// Asks the features that are nearest at the beginning: where they meet in the part, few others may before.
+  /// Tests the features that are nearest at the beginning. If they touch in the part, few others can touch earlier.
   void guess(FeatureToi& first) {
     uint32_t of_a[4], of_b[4];
     const int count_a = distinct(&SimplexVertex::a, of_a), count_b = distinct(&SimplexVertex::b, of_b);
@@ -130,7 +130,7 @@ class FeaturePairs {
     return count;
   }
 
-  /// The first contact of all pairs in the part, which is cut off there.
+  /// The first contact of all feature pairs in the part. The part is cut off at a contact.
   void find(FeatureToi& first) {
     find_on_faces(a_, b_, true, first);
     find_on_faces(b_, a_, false, first);
@@ -145,7 +145,7 @@ class FeaturePairs {
     find_on_edges(fans, count, first);
   }
 
-  /// Vertices of one and faces of the other.
+  /// Tests vertices of `side` and faces of `other`.
   void find_on_faces(const CandidateSide& side, const CandidateSide& other, bool side_is_a, FeatureToi& first) {
     const Matrix32 &rotation = side_is_a ? part_.begin.a : part_.begin.b,
                    &rotation_other = side_is_a ? part_.begin.b : part_.begin.a;
@@ -160,7 +160,7 @@ class FeaturePairs {
     });
   }
 
-  /// Edges of A and these of B.
+  /// Tests all edges of A against these edges of B.
   void find_on_edges(const EdgeFan* fans, int count, FeatureToi& first) {
     if (count == 0) return;
     for_each_edge(a_, part_.begin.a, [&](const EdgeFan& of_a) {
@@ -185,8 +185,8 @@ class FeaturePairs {
     }
   }
 
-  /// Of a feature of one side and one of the other, which `vertex` names as FeatureKind has its corners. A contact cuts
-  /// the part off.
+  /// Tests a feature of `side` against a feature of `other`. `vertex` lists the vertices in the corner order of
+  /// FeatureKind. The part is cut off at a contact.
   void ask(FeatureKind kind, const CandidateSide& side, const CandidateSide& other, const uint32_t (&vertex)[4],
            FeatureToi& first) {
     const int split = first_of_b(kind);
@@ -209,21 +209,21 @@ class FeaturePairs {
   }
 
   static constexpr int k_depth_shift = 5;
-  static constexpr int k_fans = 32;      ///< of B's edges, kept at once
+  static constexpr int k_fans = 32;      ///< capacity for edges of B that are tested together
   static constexpr int32_t k_near = 64;  ///< ulps by which GJK's bound may be too large
 
   CandidateSide a_, b_;
   const Motion& motion_;
   int64_t cores_, gap_, depth_;    ///< 2^-46 m
-  int64_t length_max_[k_lengths];  ///< of a part
+  int64_t length_max_[k_lengths];  ///< limits for the length of a part
   StepPart part_;
   Vec32 normal_;
-  int64_t apart_[2];  ///< along it, of the positions at both ends of the part, less the bends
+  int64_t apart_[2];  ///< distance of the positions along normal_ at both ends of the part, less the bend
   Simplex simplex_;
 };
 
-/// By the step's own motion, certain: never late. Errors: bad_argument for a shape that is no polytope; as
-/// time_of_impact().
+/// The time of impact of two polytopes by their features, in the step's own motion. Certified: never late. Errors:
+/// bad_argument for a shape that is not a polytope; as time_of_impact().
 Status time_of_impact_by_features(const Convex& a, const Motion& motion_a, const Convex& b, const Motion& motion_b,
                                   TimeOfImpact& result);
 

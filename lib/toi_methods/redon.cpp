@@ -7,12 +7,12 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// In A's axes.
+/// The screw motion of B relative to A, in A's axes.
 struct RelativeScrew {
   ScrewMotion screw;
   Matrix32 start;      ///< B's rotation
-  int64_t bend_whole;  ///< of any point of B over the whole step, 2^-46 m
-  int64_t angle;       ///< the bodies turn no faster, Q30 rad a step
+  int64_t bend_whole;  ///< bound for any point of B over the whole step, 2^-46 m
+  int64_t angle;       ///< bound on the relative angular speed, Q30 rad per step
   int64_t rounding;
 
   PlacedPair at(int64_t time) const {
@@ -63,7 +63,7 @@ Status time_of_impact_by_redon(const Convex& a, const Motion& motion_a, const Co
   if (const Status status = screw_between(start, end, motion.screw); status != Status::ok) return status;
   motion.start = matrix_from(start.rotation);
   motion.bend_whole = motion.screw.bend(raw_core_radius(b));
-  // Its angle grows by 2 |g| / (1 + t^2 g^2).
+  // The angular speed of the screw is 2 |g| / (1 + t^2 g^2).
   motion.angle = motion.screw.tangent_length() << (1 + 30 - k_tangent_bits);
   motion.rounding = screw_ball(raw_core_radius(b), start, end) + (raw_core_radius(a) >> 26);
   FeaturePairs<RelativeScrew>(a, b, motion).first_contact({0, k_time_end}, result);

@@ -11,7 +11,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// By a method of prepared pairs.
+/// The time of impact by a method that takes a prepared pair.
 template <void (*method)(const MovingPair&, TimeOfImpact&)>
 Status time_of_impact_of(const Convex& a, const Motion& motion_a, const Convex& b, const Motion& motion_b,
                          TimeOfImpact& result) {

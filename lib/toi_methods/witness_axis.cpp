@@ -7,41 +7,42 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// No separation, Q56: where a witness has no normal.
+/// Stands for the separation, Q56, of a witness that has no normal.
 constexpr int64_t k_no_witness = -(int64_t{1} << 56);
 
 enum class MovesWith {
   nothing,
-  a,      ///< a face, or an edge towards a vertex
-  b,      ///< likewise
-  edges,  ///< one of each
+  a,      ///< a face of A, or an edge of A towards a vertex
+  b,      ///< the same of B
+  edges,  ///< an edge of each
 };
 
 MovesWith moves_with(const MovingPair& pair, const NearFeatures& features) {
   if (pair.planar) return pair.a->type == ShapeType::half_space ? MovesWith::a : MovesWith::b;
   if (features.count_a >= 3) return MovesWith::a;
   if (features.count_b >= 3) return MovesWith::b;
-  if (features.curved) return MovesWith::nothing;  // the points on a rim are others in a moment
+  if (features.curved) return MovesWith::nothing;  // the nearest points move along a rim
   if (features.count_a == 2) return features.count_b == 2 ? MovesWith::edges : MovesWith::a;
   return features.count_b == 2 ? MovesWith::b : MovesWith::nothing;
 }
 
 class Witness {
  public:
-  /// `normal`: of the plane at `frames`, world axes.
+  /// `normal`: the plane's normal at `frames`, world axes.
   Witness(const MovingPair& pair, const NearFeatures& features, MovesWith with, const Frames& frames,
           const Vec32& normal)
       : pair_(pair), features_(features), with_(with), normal_(normal) {
     if (with == MovesWith::a) normal_ = rotate_inverse(frames.a, normal);
     if (with == MovesWith::b) normal_ = rotate_inverse(frames.b, normal);
-    Vec32 between;  // of edges: to see on which side of them it is
+    Vec32 between;  // for edges: finds the side of the normal
     if (with == MovesWith::edges) axis_between(pair, features, frames, normal_, side_, between);
   }
 
-  /// The first time found, from that of `frames` on, after which the cores are less than `floor` ulps apart along the
-  /// witness; the end of the window if they are not there. That of `frames` if they are at once.
+  /// Finds a time, from that of `frames` on, after which the cores are less than `floor` ulps apart along the witness.
+  /// Returns the end of the window if they are not that close at the end, and the time of `frames` if they are already
+  /// that close then.
   int64_t leads_to(const Frames& frames, int32_t floor, uint32_t& passes) const {
-    // A separation within [0, 2 aim] will do: the floor and that are within the tolerance.
+    // Any separation within [0, 2 aim] is good enough: together with the floor it is within the tolerance.
     const int64_t aim = int64_t{pair_.tolerance} << 24;
     int64_t from = frames.time, to = pair_.to;
     int64_t above = separation(frames, floor, passes) - aim;
@@ -70,7 +71,7 @@ class Witness {
   }
 
  private:
-  /// Less `floor` ulps; Q56.
+  /// The separation along the witness less `floor` ulps; Q56.
   int64_t separation(const Frames& frames, int32_t floor, uint32_t& passes) const {
     ++passes;
     Vec32 normal = normal_;
@@ -95,7 +96,7 @@ class Witness {
   const MovingPair& pair_;
   const NearFeatures& features_;
   MovesWith with_;
-  Vec32 normal_;  ///< in the axes of the body that it moves with
+  Vec32 normal_;  ///< in the axes of the body that it rotates with
   int side_ = 0;
 };
 

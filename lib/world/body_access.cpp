@@ -14,7 +14,7 @@ namespace {
 
 constexpr Scaled k_default_density = 1000.0;
 
-/// The body for a getter, or null.
+/// The properties of a body for a getter, or null.
 struct Read {
   StateView<const uint8_t> state;
   const BodyTraits* traits = nullptr;
@@ -64,7 +64,7 @@ Material material_from(const BodyTraits& traits) {
           static_cast<RestitutionRule>(traits.restitution_rule)};
 }
 
-/// A body and its traits as they are to be, checked before it is changed.
+/// A change of a body: its new properties, which are checked before the body is changed.
 struct Change {
   StateView<uint8_t> state;
   bool found = false;
@@ -79,7 +79,7 @@ struct Change {
     motion = state.motions[slot];
   }
   const Quat& rotation() const { return state.poses[slot].rotation; }
-  /// Gives the changed traits this spin, in their own unit. Errors: bad_argument, out_of_range.
+  /// Sets this angular velocity, in the unit of the changed properties. Errors: bad_argument, out_of_range.
   Status turn_with(const Vec3<Real>& spin) {
     const Real zero = 0.0;
     const bool turns = !(spin == Vec3<Real>{zero, zero, zero});
@@ -95,7 +95,7 @@ struct Change {
     state.traits[slot] = traits;
     state.motions[slot] = motion;
   }
-  /// As make(), for a body that is another one to its contacts.
+  /// As make(), for a change that invalidates the body's contacts.
   void make_anew() {
     end_contacts(state, slot);
     make();
@@ -205,13 +205,14 @@ Status get_velocity_at(const World& world, BodyId id, const Vec3<Real>& arm, Vec
   const FloatEnvironment environment;
   const Read body(world, id);
   if (body.traits == nullptr) return Status::bad_id;
-  const int exponent = body.traits->size_exponent + 1;  // in halves of the unit: twice the radius fits a Unit
+  // In units of twice the length unit, so that an arm of twice the radius fits a Unit.
+  const int exponent = body.traits->size_exponent + 1;
   if (!within(arm, real_from_unit(body.traits->bounding_radius, exponent))) return Status::out_of_range;
   const BodyMotion& motion = body.state.motions[body.slot];
   const Vec3<Unit> halved = {unit_from_real(arm.x, exponent), unit_from_real(arm.y, exponent),
                              unit_from_real(arm.z, exponent)};
   const Vec3<Real> half = cross(spin_of(*body.traits, body.state.poses[body.slot].rotation, motion.momentum), halved);
-  if (!within(half, Real(56000.0))) return Status::out_of_range;  // of which twice, and a velocity, is a Real
+  if (!within(half, Real(56000.0))) return Status::out_of_range;  // twice this plus a velocity fits a Real
   velocity =
       motion.velocity + Vec3<Real>{scale_by_power(half.x, 1), scale_by_power(half.y, 1), scale_by_power(half.z, 1)};
   return Status::ok;

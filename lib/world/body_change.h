@@ -3,11 +3,12 @@
 #include "motion/activity.h"
 #include "state/step_cache.h"
 
-/// What a call that changes bodies between steps owes to the steps.
+/// Updates of the step cache and of sleeping that a call must make when it changes bodies between steps.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// What changes a body from outside wakes it.
+/// Wakes the body, with all bodies of its sleeping group, and puts it into the active set. Every change from outside
+/// does this.
 inline void wake_slot(StateView<uint8_t>& state, uint32_t slot) {
   const StepCacheView step = cache_of(state);
   state.world.idle = 0;
@@ -15,12 +16,12 @@ inline void wake_slot(StateView<uint8_t>& state, uint32_t slot) {
   state.activities[slot].still_ticks = 0;
   step.visits.set(slot);
 }
-/// The next step looks at the body anew, which sleeps on.
+/// The next step evaluates the body again; a sleeping body stays asleep.
 inline void look_at_again(StateView<uint8_t>& state, uint32_t slot) {
   state.world.idle = 0;
   cache_of(state).visits.set(slot);
 }
-/// And what takes it away wakes those that it touches or is joined to.
+/// Wakes the bodies that touch the body or share a joint with it. Every change that takes it away does this.
 inline void wake_neighbours(StateView<uint8_t>& state, uint32_t slot) {
   for (const ContactState& contact : state.contacts.first(state.world.contact_count)) {
     if (contact.body_a == slot) wake_slot(state, contact.body_b);
@@ -32,7 +33,7 @@ inline void wake_neighbours(StateView<uint8_t>& state, uint32_t slot) {
     if (joint.body_b == slot) wake_slot(state, joint.body_a);
   }
 }
-/// Wakes all, for what they rest by has changed.
+/// Wakes all bodies, because the conditions under which they came to rest have changed.
 inline void rouse_world(StateView<uint8_t>& state) {
   state.world.idle = 0;
   const StepCacheView step = cache_of(state);
@@ -46,7 +47,7 @@ inline void rouse_world(StateView<uint8_t>& state) {
     activity.news = static_cast<uint16_t>(BodyEventType::woke);
   }
 }
-/// The body is no longer what its contacts were made with.
+/// Ends all contacts of a body that has changed so much that they are no longer valid.
 inline void end_contacts(StateView<uint8_t>& state, uint32_t slot) {
   wake_slot(state, slot);
   wake_neighbours(state, slot);

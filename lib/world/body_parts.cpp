@@ -100,7 +100,7 @@ Status make_motion(const BodyTraits& traits, const Quat& rotation, const Vec3<Re
                    BodyMotion& motion) {
   if (!within(velocity, k_speed_max)) return Status::out_of_range;
   const int32_t exponent = traits.size_exponent;
-  // |spin| <= k_spin_max 2^-exponent, or any Real where that is more than a Real holds.
+  // |spin| <= k_spin_max 2^-exponent, or any Real if that limit exceeds the range of Real.
   const Real limit = exponent < -1 ? k_real_max : scale_by_power(k_spin_max, -exponent);
   if (!within(spin, limit)) return Status::out_of_range;
   const bool moves = !(velocity == k_zero_vector), turns = !(spin == k_zero_vector);

@@ -3,21 +3,22 @@
 
 #include "state/view.h"
 
-/// The parts of a body, checked: what creating one and changing one share.
+/// Sets single properties of a body after checking them. The calls that create and change bodies share this code.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Whether a body of this type may have the shape. Errors: bad_argument; of a hull or surface out_of_range,
+/// Whether a body of this type may have the shape. Errors: bad_argument; for shapes with an asset also out_of_range and
 /// asset_missing.
 Status suits(const World& world, ShapeType shape, uint32_t asset, BodyType type);
-/// The shape's part of `traits` for a body of this type. Errors: bad_argument, out_of_range, asset_missing,
+/// Sets the shape properties of `traits` for a body of this type. Errors: bad_argument, out_of_range, asset_missing,
 /// feature_missing.
 Status set_body_shape(const World& world, const Shape& shape, BodyType type, BodyTraits& traits);
-/// Sets the gyration, by the shape, the type and the turn locks. Errors: out_of_range.
+/// Sets the inverse inertia (`gyration`) from the shape, the type and the rotation locks. Errors: out_of_range.
 Status set_body_gyration(const World& world, BodyTraits& traits);
-/// Sets the gyration of a dynamic body, by moments of inertia about its axes, kg m^2. Errors: out_of_range.
+/// Sets the inverse inertia (`gyration`) of a dynamic body from moments of inertia about its axes, kg m^2. Errors:
+/// out_of_range.
 Status set_body_inertia(const Vec3<Scaled>& inertia, BodyTraits& traits);
-/// The mass of the shape at `density`. Errors: out_of_range.
+/// Sets the mass from the volume of the shape and `density`, kg/m^3. Errors: out_of_range.
 Status set_body_density(const World& world, Scaled density, BodyTraits& traits);
 /// Errors: bad_argument, out_of_range.
 Status set_body_material(const Material& material, BodyTraits& traits);
@@ -27,11 +28,12 @@ Status set_body_turn_locks(uint32_t locks, BodyTraits& traits);
 
 /// Errors: out_of_range, not_normalised.
 Status make_pose(const Position& position, const Quat& rotation, BodyPose& pose);
-/// Sets the motion of a body from what a user gives. Errors: bad_argument, out_of_range.
+/// Sets the motion of a body from a velocity, m/s, and an angular velocity, rad/s, both in world axes. Errors:
+/// bad_argument, out_of_range.
 Status make_motion(const BodyTraits& traits, const Quat& rotation, const Vec3<Real>& velocity, const Vec3<Real>& spin,
                    BodyMotion& motion);
 
-/// True of a dynamic body's motion that state may hold.
+/// Whether the state may hold this motion of a dynamic body.
 bool speeds_fit(const BodyTraits& traits, const Quat& rotation, const BodyMotion& motion);
 
 }  // namespace DETENT_NAMESPACE

@@ -13,7 +13,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Of the lighter dynamic body: what the impulses of a contact are over.
+/// The mass of the lighter dynamic body, by which the stored impulses of a contact are divided.
 Scaled reference_mass(const BodyTraits& a, const BodyTraits& b) {
   if (!is_dynamic(a)) return b.mass;
   return is_dynamic(b) && less(b.mass, a.mass) ? b.mass : a.mass;
@@ -36,7 +36,7 @@ __attribute__((noinline)) ContactGeometry part_geometry(const CollisionBody& a, 
   return best == nullptr ? ContactGeometry{} : *best;
 }
 
-/// Where the points are now: those that may have parted a little in the last step too.
+/// The contact points at the current poses, including points that separated a little in the last step.
 ContactGeometry geometry_of(const World& world, const StateView<const uint8_t>& state, const ContactState& contact) {
   const BodyPose &pose_a = state.poses[contact.body_a], &pose_b = state.poses[contact.body_b];
   const BodyTraits &a = state.traits[contact.body_a], &b = state.traits[contact.body_b];
@@ -77,7 +77,7 @@ Status get_contact(const World& world, uint32_t index, Contact& contact) {
   made.normal_force = divide(made.normal_impulse, scaled_from(state.world.tick_time));
 
   const ContactGeometry geometry = geometry_of(world, state, from);
-  const bool by_a = is_dynamic(a);  // whose centre the points are written from: a half-space's may be far
+  const bool by_a = is_dynamic(a);  // points are relative to a dynamic body's centre: a half-space's may be far away
   const Position& centre = state.poses[mover].position;
   const int exponent = state.traits[mover].size_exponent;
   if (geometry.count != 0) made.normal = geometry.normal;

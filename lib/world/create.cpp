@@ -23,7 +23,7 @@ void set_filter(const Filter& filter, BodyTraits& traits) {
   traits.rule = filter.rule;
 }
 
-/// Everything about a body that is not where it is and how it moves.
+/// All properties of a body except its pose and its motion.
 Status make_traits(const World& world, const BodyDef& def, BodyTraits& traits) {
   if (const Status status = set_body_shape(world, def.shape, def.type, traits); status != Status::ok) return status;
   if (const Status status = set_body_material(def.material, traits); status != Status::ok) return status;
@@ -49,7 +49,8 @@ Status make_traits(const World& world, const BodyDef& def, BodyTraits& traits) {
   return Status::ok;
 }
 
-/// A contact that has become forbidden ends when the step does not find its pair: both bodies must be awake for it.
+/// Wakes both bodies of every contact that the filter now forbids. Such a contact ends when the step does not find its
+/// pair, and this requires both bodies to be awake.
 void rouse_forbidden(const World& world, StateView<uint8_t>& state, uint32_t slot) {
   const PairFilter filter = {state.traits, world.filter_rules};
   for (const ContactState& contact : state.contacts.first(state.world.contact_count)) {

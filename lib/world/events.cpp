@@ -8,7 +8,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// The greatest closing speed of the points that were pushed.
+/// The greatest closing speed of the points that received an impulse.
 Real approach_of(const ContactWork& contact) {
   Real least = k_zero;
   for (uint32_t i = 0; i < contact.state.point_count; ++i) {
@@ -71,7 +71,7 @@ EventCount raise_events(Span<const BodyPose> poses, Span<const BodyTraits> trait
   EventWriter writer = {poses, traits, events};
   uint32_t old = 0;
   const auto old_contact = [&]() -> const ContactState& { return before[awake[old]]; };
-  /// Passes over the contacts of one pair, its parts. True if one of them touched.
+  /// Skips the contacts of one pair (of its parts). True if one of them touched.
   const auto pass_pair = [&] {
     const uint64_t key = key_of(old_contact());
     bool touched = false;

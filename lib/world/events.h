@@ -12,17 +12,17 @@ struct EventCount {
   uint32_t dropped = 0;
 };
 
-/// Compares the contacts of the last step with those of this one, both sorted by their bodies, and writes what began,
-/// went on, ended and hit; of a pair whose parts touch in several places the hardest. `poses` are those of the start of
-/// the step. Of the contacts `before` those that sleep are passed over: `awake` lists the others. Sets the contacts'
-/// `touching`.
+/// Compares the contacts of the last step with those of this step, both sorted by their bodies. Writes an event for
+/// each contact that began, continued, ended or hit. If the parts of a pair touch in several places, only the contact
+/// with the greatest closing speed counts. `poses` are those of the start of the step. `awake` lists the contacts of
+/// `before` that do not sleep; the others are skipped. Sets `touching` of the contacts.
 EventCount raise_events(Span<const BodyPose> poses, Span<const BodyTraits> traits, Span<const uint32_t> awake,
                         Span<const ContactState> before, Span<ContactWork> contacts, Span<ContactEvent> events);
 
-/// Puts the impacts of continuous collision, which come in the order of their times, among the events.
+/// Inserts the impacts of continuous collision into the sorted events. `hits` is in the order of time.
 void add_hits(Span<const BodyTraits> traits, Span<const ImpactHit> hits, Span<ContactEvent> events, EventCount& count);
 
-/// Tells who fell asleep and who woke among the bodies that move, and forgets the news.
+/// Writes the pending events (fell asleep, woke) of the bodies in the active set and clears them.
 EventCount raise_body_events(BitSet visits, Span<const BodyTraits> traits, Span<BodyActivity> activities,
                              Span<BodyEvent> events);
 

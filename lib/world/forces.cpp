@@ -9,7 +9,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// An impulse, N s, over the mass times a power of two, as a speed. False if it leaves Real's range.
+/// An impulse, N s, divided by the mass times 2^exponent, as a speed. False if it leaves Real's range.
 bool speed_from(const Vec3<Scaled>& impulse, Scaled mass, int exponent, Vec3<Real>& speed) {
   bool saturated = false;
   const Scaled over = scaled_by_power(mass, exponent);
@@ -18,7 +18,7 @@ bool speed_from(const Vec3<Scaled>& impulse, Scaled mass, int exponent, Vec3<Rea
   return !saturated;
 }
 
-/// A dynamic body and its change of motion, checked before it is made.
+/// A change of a dynamic body's motion, which is checked before it is stored.
 struct BodyPush {
   StateView<uint8_t> state;
   uint32_t slot = 0;
@@ -32,12 +32,13 @@ struct BodyPush {
     return Status::ok;
   }
   const BodyTraits& traits() const { return state.traits[slot]; }
-  /// A change of velocity at `arm`, m from the centre of mass, world axes. Errors: out_of_range.
+  /// Adds the effect of an impulse per mass, `speed`, that acts at `arm` from the centre of mass, m, world axes.
+  /// Errors: out_of_range.
   Status push_at(const Vec3<Real>& speed, const Vec3<Real>& arm, Vec3<Real>& velocity, Vec3<Real>& momentum) const {
     const int exponent = traits().size_exponent;
     if (!within(arm, real_from_unit(traits().bounding_radius, exponent + 1))) return Status::out_of_range;
     if (!within(speed, k_speed_work_max)) return Status::out_of_range;
-    // In halves of the unit of length, so that an arm of twice the radius fits a Unit.
+    // In units of twice the length unit, so that an arm of twice the radius fits a Unit.
     const Vec3<Unit> arm_halved = {unit_from_real(arm.x, exponent + 1), unit_from_real(arm.y, exponent + 1),
                                    unit_from_real(arm.z, exponent + 1)};
     const Vec3<Real> turn = cross(arm_halved, speed);
@@ -83,13 +84,14 @@ Status force_at(BodyPush& push, const Vec3<Scaled>& force, const Vec3<Real>& arm
   return status == Status::ok ? push.commit() : status;
 }
 
-/// What an explosion gives a dynamic body, N s; zero if it does not reach it.
+/// The impulse of an explosion on a dynamic body, N s; zero if the body is out of range. `way`: from the centre of the
+/// explosion to the body, m.
 Vec3<Scaled> blast(const Explosion& explosion, const BodyTraits& traits, const Vec3<Real>& way) {
   const Scaled none = 0.0, pi = 3.14159265358979323846;
   const Real zero = 0.0, ball = real_from_unit(traits.bounding_radius, traits.size_exponent);
   Vec3<Unit> direction;
   Real distance = zero;
-  // Far components first: their length would not fit.
+  // The components are tested first, because the length of a distant vector would not fit.
   if (!within(way, explosion.radius + ball) || !normalise(way, direction, distance)) return {none, none, none};
   const Real gap = max(distance - ball, zero);
   if (gap >= explosion.radius) return {none, none, none};
@@ -174,7 +176,7 @@ Status explode(World& world, const Explosion& explosion) {
     return Status::out_of_range;
   }
   const StateView<uint8_t> state = view_of(world);
-  // Once to see whether all speeds stay in range, and then to push.
+  // The first round checks that all speeds stay in range; the second round applies the impulses.
   for (int round = 0; round < 2; ++round) {
     for (uint32_t slot = 0; slot < state.world.slots_used; ++slot) {
       const BodyTraits& traits = state.traits[slot];

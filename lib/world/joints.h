@@ -2,23 +2,23 @@
 #include "joint/joint.h"
 #include "state/step_cache.h"
 
-/// The joints of a world around its step.
+/// The operations of a step on the joints of a world outside of the solver.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Frees the slot of a joint; its bodies wake.
+/// Frees the slot of a joint and wakes its bodies.
 void remove_joint(StateView<uint8_t>& state, uint32_t slot);
-/// And those of all joints of a body.
+/// Removes all joints of a body.
 void remove_joints_of(StateView<uint8_t>& state, uint32_t body);
 
-/// Wakes whoever is joined to a body that moves, and whoever they are joined to. Returns how many woke.
+/// Wakes sleeping bodies joined to moving bodies, transitively. Returns the number of bodies that woke.
 uint32_t wake_jointed(Span<const JointState> joints, Span<const BodyTraits> traits, Span<const BodyMotion> motions,
                       Span<BodyActivity> activities, const StepCacheView& cache);
 
-/// The pairs that their joints keep from colliding, ascending. `keys` has room for as many as there may be joints.
+/// Lists the pairs whose joints disable collision, ascending. `keys` has room for the joint capacity.
 Span<const uint64_t> list_apart(Span<const JointState> joints, Span<uint64_t> keys);
 
-/// Takes away the joints that the step that ends now has broken, and says so.
+/// Removes the joints that broke in the step that ends now, and reports them.
 void break_joints(World& world, StepReport& report);
 
 }  // namespace DETENT_NAMESPACE

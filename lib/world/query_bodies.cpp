@@ -51,7 +51,7 @@ Pose pose_near(const BodyTraits& traits, const BodyPose& pose, const Position& p
       abs(real_difference(place.y, pose.position.y)) < k_near &&
       abs(real_difference(place.z, pose.position.z)) < k_near)
     return whole;
-  // Farther from the surface than a query reaches the height is of no weight.
+  // Beyond the range of a query the exact height above the plane does not matter.
   const Vec3<Unit> up = matrix_from(pose.rotation).column[1];
   const Real height = clamp(distance_along(pose.position, place, up), -k_near, k_near);
   return {moved(place, up * -height), pose.rotation};
@@ -61,7 +61,7 @@ Bounds QueryBodies::ball_bounds_of(uint32_t slot) const {
   const BodyTraits& traits = state.traits[slot];
   if (is_half_space(traits)) return k_everywhere;
   const Real ball = real_from_unit(traits.bounding_radius, traits.size_exponent);
-  const Real room = ball + scale_by_power(ball, -20);  // for the rounding of bounds
+  const Real room = ball + scale_by_power(ball, -20);  // margin for the rounding of bounds
   const Vec3<Real> half = {room, room, room};
   return {moved(state.poses[slot].position, -half), moved(state.poses[slot].position, half)};
 }

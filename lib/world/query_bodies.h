@@ -6,29 +6,29 @@
 #include "broad_phase/swept_box.h"
 #include "state/step_cache.h"
 
-/// The bodies that a query asks.
+/// The bodies that a query tests.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The shape of a query, as that of a body.
+/// The shape of a query, in the form of a body's shape.
 struct QueryShape {
   BodyTraits traits;
   Convex convex;
 };
 
-/// Errors: as create_body(); bad_argument for a half-space.
+/// Converts the shape of a query. Errors: as create_body(); bad_argument for a half-space, a terrain or a compound.
 Status make_query_shape(const World& world, const Shape& shape, QueryShape& made);
-/// A ray's.
+/// The shape of a ray: a sphere of radius 0.
 QueryShape query_point();
 
 /// Half of the shape's bounds at rest, 2^-46 m.
 Vec64 query_half(const QueryShape& shape, const Quat& rotation);
 
-/// A half-space's position moved along its surface to where a query is made: the narrow phase takes positions less than
-/// 2^16 m apart.
+/// The pose of a body for a query at `place`. The position of a distant half-space is moved along its plane to the
+/// query, because the narrow phase accepts only positions less than 2^16 m apart.
 Pose pose_near(const BodyTraits& traits, const BodyPose& pose, const Position& place);
 
-/// The bodies that a query's filter lets through; no sensors.
+/// The bodies that pass a query's filter, without sensors.
 struct QueryBodies {
   const World& world;
   StateView<const uint8_t> state;
@@ -42,13 +42,14 @@ struct QueryBodies {
         filter(query_filter) {}
 
   BodyId id_of(uint32_t slot) const { return {slot + 1, state.traits[slot].generation}; }
-  /// Of the body as it is now.
+  /// Bounds of the body at its current pose.
   Bounds bounds_of(uint32_t slot) const;
-  /// Larger, and cheap.
+  /// Bounds of the body's bounding sphere: larger, but cheaper to compute.
   Bounds ball_bounds_of(uint32_t slot) const;
 
-  /// Visits the bodies that may be at bounds of which `meets` is true; it may become stricter on the way. Only reads
-  /// the world: what lies in the tree is found there, if it is up to date, but for what has changed since.
+  /// Visits the bodies whose bounds may satisfy `meets`, which may become stricter during the search. It only reads the
+  /// world. If the tree is up to date, resting bodies are found in the tree, and the active set is searched one by one;
+  /// otherwise all bodies are searched one by one.
   template <class Meets, class Swaps, class Visit>
   void for_each(const Meets& meets, const Swaps& swaps, const Visit& visit) const {
     const auto look_at = [&](uint32_t slot) {

@@ -16,11 +16,12 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Of the smaller extent, as a power of two: more than the tolerance of a time of impact, so that what is found on the
-/// way is within there, and less than the room of reach_of().
+/// The distance that counts as inside, as a power of two of the smaller extent. It is more than the tolerance of a time
+/// of impact, so that a body found on its path is inside at that time, and less than the margin of reach_of().
 constexpr int k_within_power = -14;
 
-/// Bounds that hold the body until the tick ends, with room for what counts as within and for the rounding of bounds.
+/// Bounds that contain the body until the tick ends, with a margin for the distance that counts as inside and for the
+/// rounding of bounds.
 Bounds reach_of(const SensorStage& stage, uint32_t slot) {
   const BodyTraits& traits = stage.traits[slot];
   if (is_half_space(traits)) return k_everywhere;
@@ -34,7 +35,7 @@ Bounds reach_of(const SensorStage& stage, uint32_t slot) {
   return {moved(moved(from, back), {-room, -room, -room}), moved(moved(from, ahead), {room, room, room})};
 }
 
-/// The body at the end of its sweep, as finalise() will have it.
+/// The pose at the end of the body's sweep, equal to the one that finalise() computes.
 BodyPose end_pose(const SensorStage& stage, uint32_t slot) {
   BodyPose pose = stage.poses[slot];
   const Sweep rest = rest_of_tick(stage.sweeps[slot]);
@@ -43,12 +44,13 @@ BodyPose end_pose(const SensorStage& stage, uint32_t slot) {
   return pose;
 }
 
-/// A half-space is put where the other body is, within the range of the narrow phase.
+/// Moves a half-space along its plane to the other body, into the range of the narrow phase.
 void bring_near(const BodyTraits& traits, const BodyPose& other, BodyPose& pose) {
   pose.position = pose_near(traits, pose, other.position).position;
 }
 
-/// Whether all parts of two bodies are farther apart than `reach`. False if it could not be asked.
+/// Sets `farther`: whether all parts of two bodies are farther apart than `reach`. Returns false if a part could not be
+/// tested.
 bool find_farther(const SensorStage& stage, const BodyTraits& a, const Pose& pose_a, const BodyTraits& b,
                   const Pose& pose_b, Real reach, bool& farther) {
   const ConvexParts parts_a(a, stage.assets), parts_b(b, stage.assets);
@@ -85,7 +87,7 @@ bool is_within(SensorStage& stage, uint32_t sensor, uint32_t body) {
   return !asked || !farther;
 }
 
-/// Whether the two meet from where the body's sweep begins until `until`.
+/// Whether sensor and body touch between the start of the body's sweep and `until`.
 bool meets(SensorStage& stage, uint32_t sensor, uint32_t body, Fraction until) {
   const BodyTraits &a = stage.traits[sensor], &b = stage.traits[body];
   BodyPose pose_a = stage.poses[sensor], pose_b = stage.poses[body];
@@ -126,7 +128,8 @@ bool was_within(const SensorStage& stage, uint64_t key) {
   return low < stage.before.count && key_of(stage.before[low]) == key;
 }
 
-/// The place of a pair among those that passed, or their count: only impacts make a sweep of more than one stretch.
+/// The index of a pair in `passed`, or the count if it is not there. The list is short: only impacts divide a sweep
+/// into segments.
 uint32_t find_passed(const SensorStage& stage, uint64_t key) {
   uint32_t place = 0;
   while (place < stage.passed.count && stage.passed.storage[place] != key) ++place;
@@ -138,7 +141,7 @@ void add(SensorStage& stage, SensedKeys& keys, uint64_t key) {
   if (keys.add(key, lost)) stage.losses.add(CapacityEventType::sensed, pair_low(lost), pair_high(lost) >> 1);
 }
 
-/// Finds whether a body is within a sensor when the tick ends, or was on the last stretch of its way.
+/// Finds whether a body is inside a sensor at the end of the tick, or was on the last segment of its sweep.
 void evaluate_pair(SensorStage& stage, uint32_t sensor, uint32_t body) {
   if (!may_sense(stage, sensor, body)) return;
   const uint64_t within = sensed_key(sensor, body, false), through = sensed_key(sensor, body, true);
@@ -154,7 +157,7 @@ void evaluate_pair(SensorStage& stage, uint32_t sensor, uint32_t body) {
   if (meets(stage, sensor, body, k_whole_step)) add(stage, stage.found, through);
 }
 
-/// Each pair of which a body has changed, once: by its sensor if that has.
+/// Evaluates each pair with a changed body once: from its sensor if the sensor has changed.
 void settle_changed(SensorStage& stage) {
   const StepCacheView& cache = stage.cache;
   for (uint32_t i = 0; i < stage.changed.words.count; ++i) stage.changed.words[i] |= cache.visits.words[i];
@@ -180,7 +183,7 @@ void settle_changed(SensorStage& stage) {
   });
 }
 
-/// Raises the events of a step, from who was within and who was found, both sorted.
+/// Raises the events of a step from the pairs that were inside and the pairs found, both sorted.
 struct SensorEvents {
   Span<const BodyTraits> traits;
   Span<SensorEvent> events;
@@ -212,7 +215,7 @@ struct SensorEvents {
 }  // namespace
 
 void note_changed(const StepCacheView& cache, uint32_t slots_used, BitSet changed) {
-  const bool known = cache.cache.fresh != 0;  // else the visits are of another state
+  const bool known = cache.cache.fresh != 0;  // otherwise the active set belongs to another state
   for (uint32_t i = 0; i < changed.words.count; ++i) changed.words[i] = known ? cache.visits.words[i] : 0;
   for (uint32_t slot = 0; !known && slot < slots_used; ++slot) changed.set(slot);
 }
@@ -251,7 +254,7 @@ void sense(SensorStage& stage, const StateView<uint8_t>& state, SensorEventBuffe
   report.sensor_events_dropped = buffer.capacity == 0 ? 0 : events.dropped;
   report.sensed_dropped = stage.passed.dropped + stage.found.dropped;
   report.sensed_undecided = stage.undecided;
-  // Those left out may be within: the next step asks about all.
+  // Dropped pairs may be inside, so the next step tests all pairs.
   if (stage.found.dropped != 0) stage.cache.cache.fresh = 0;
 
   uint32_t count = 0;

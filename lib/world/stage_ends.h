@@ -4,8 +4,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The ends of a step's stages, for whoever wants to know of them: the profile gets the time since the last one, the
-/// observer is told.
+/// Reports the ends of a step's stages: adds the time since the last stage end to the profile, and calls the observer.
 class StageEnds {
  public:
   explicit StageEnds(const World& world)
@@ -16,7 +15,7 @@ class StageEnds {
     ++profile_->steps;
     last_ = profile_->now(profile_->user);
   }
-  /// `contacts`: of this step, so far.
+  /// `contacts`: number of contacts of this step so far.
   void end(StepStage stage, uint32_t contacts) {
     if (profile_ != nullptr) {
       const uint64_t now = profile_->now(profile_->user);

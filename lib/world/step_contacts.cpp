@@ -11,19 +11,21 @@ namespace {
 
 /// Lengths of a pair, m.
 struct PairLengths {
-  Real at_rest;  ///< how far apart it has contact points if it does not move
-  Real reach;    ///< and as it moves: what it can close in this tick is added, up to a quarter of the smaller body, or
-                 ///< twice that body where joints hold one
-  Real reuse;    ///< how far it may move until its contact points are found anew
+  Real at_rest;  ///< contact margin of a pair that does not move
+  /// Speculative distance of the moving pair: `at_rest` plus the distance that it can close in this tick. The addition
+  /// is at most a quarter of the smaller body's extent, or twice that extent if a body has joints.
+  Real reach;
+  Real reuse;  ///< largest relative motion for which its contact points are recycled
 
-  /// A point that was out of reach when they were found is still farther off than the pair can close in this tick.
+  /// Whether a point that was beyond `reach` when the points were found is still farther away than the pair can close
+  /// in this tick.
   bool is_slow() const { return reach + reuse <= scale_by_power(at_rest, 1); }
 };
 
 PairLengths lengths_of(const StepSettings& settings, const BodyWork& a, const BodyWork& b) {
   const Real extent = min(a.extent, b.extent), speed = a.speed + b.speed;
   const Real at_rest = extent * settings.breaking;
-  // What joints hold is not stopped on its way (impact.h): its contacts foresee more.
+  // Jointed bodies are not stopped by impacts (impact.h), so their contacts use a longer speculative distance.
   const bool jointed = a.joint_body != k_no_link || b.joint_body != k_no_link;
   const Real reach_max = scale_by_power(extent, jointed ? 1 : -2);
   return {at_rest, at_rest + min(reach_max, speed * settings.tick_time), extent * settings.reuse};
@@ -33,14 +35,15 @@ ContactReach reach_of(const StepSettings& settings, const PairLengths& lengths) 
   return {lengths.reach, settings.sunk};
 }
 
-/// A contact of the last tick; `manifold` null where none are kept.
+/// A contact of the last tick; `manifold` is null if the world keeps none.
 struct ContactBefore {
   const ContactState* contact = nullptr;
   const ManifoldState* manifold = nullptr;
 };
 
-/// Contact points of a pair of bodies that have been started: those of the last tick where they will do, which sets
-/// `reused`, or else new ones. Fills `manifold`, unless it is null, with what is kept of them.
+/// Contact points of a pair of bodies that have been started. It recycles the points of the last tick if they are still
+/// valid, which sets `reused`; otherwise it finds new points. Fills `manifold`, unless it is null, with the data for
+/// recycling in the next tick.
 void collide_pair(const StepSettings& settings, uint32_t slot_a, uint32_t slot_b, const StepBodies& bodies,
                   const ContactBefore& before, ContactGeometry& geometry, ManifoldState* manifold, bool& reused) {
   const CollisionBody body_a = bodies.collider(slot_a), body_b = bodies.collider(slot_b);
@@ -53,7 +56,7 @@ void collide_pair(const StepSettings& settings, uint32_t slot_a, uint32_t slot_b
   if (manifold != nullptr) *manifold = lengths.is_slow() ? kept_manifold(body_a, body_b, geometry) : ManifoldState{};
 }
 
-/// Apart, for what it needs of the stack.
+/// A separate function, because it needs much stack.
 __attribute__((noinline)) bool parts_touch(const StepSettings& settings, uint32_t slot_a, uint32_t slot_b,
                                            const StepBodies& bodies) {
   SurfaceContacts contacts;
@@ -77,7 +80,7 @@ Real depth_of(const ContactWork& contact) {
   return -least;
 }
 
-/// Whether the bodies were pushed apart in the last tick.
+/// Whether a point of the contact had a normal impulse in the last tick.
 bool is_pushed(const ContactWork& contact) {
   bool pushed = false;
   for (uint32_t i = 0; i < contact.state.point_count; ++i)
@@ -85,7 +88,8 @@ bool is_pushed(const ContactWork& contact) {
   return pushed;
 }
 
-/// Deeper contacts first, of equals the earlier one. `key` is the number under which a contact was found.
+/// Orders deeper contacts first; of equally deep ones, the earlier one first. `key` is the number in the order of
+/// finding.
 struct DeeperContact {
   Span<const ContactWork> contacts;
 
@@ -95,7 +99,7 @@ struct DeeperContact {
   }
 };
 
-/// Without a copy on the stack, which would be large.
+/// Swaps two contacts word by word, because a whole copy on the stack would be large.
 void swap(ContactWork& a, ContactWork& b) {
   static_assert(sizeof(ContactWork) % sizeof(uint64_t) == 0);
   uint8_t *at_a = reinterpret_cast<uint8_t*>(&a), *at_b = reinterpret_cast<uint8_t*>(&b);
@@ -117,14 +121,15 @@ struct Collider {
   Losses& losses;
   ContactCount count = {};
   uint32_t next = 0;
-  bool rebounds = false;  ///< a contact of two dynamic bodies may
+  bool rebounds = false;  ///< a contact of two dynamic bodies may rebound
   uint32_t last_started = UINT32_MAX;
 
   bool reuses() const { return last.manifolds.count != 0; }
 
   void meet(uint64_t key) {
     const uint32_t slot_a = pair_low(key), slot_b = pair_high(key);
-    // Who still sleeps was not touched when it could wake; points used again could tell otherwise.
+    // A body that still sleeps was not touched when wake_touched() tested it; recycled points could give another
+    // result.
     if (bodies.asleep(slot_a) || bodies.asleep(slot_b) || (!bodies.awake(slot_a) && !bodies.awake(slot_b))) return;
     start(slot_a);
     start(slot_b);
@@ -143,7 +148,7 @@ struct Collider {
     if (geometry.count != 0) add(key, 0, geometry, manifold, before.contact);
   }
 
-  /// The contacts lie as they were found again, where some were left out.
+  /// Restores the order in which the contacts were found, after some were dropped.
   __attribute__((noinline)) void put_in_order() {
     const Span<ContactOrder> place = room.by_depth();
     heap_sort(place, [](const ContactOrder& a, const ContactOrder& b) { return a.key < b.key; });
@@ -164,8 +169,8 @@ struct Collider {
     }
   }
 
-  /// Blows are left to the impacts, between bodies that no other dynamic body leans on: within a pile they would be
-  /// many.
+  /// Leaves rebounds to continuous collision (impacts) for pairs of dynamic bodies that no other dynamic body pushes
+  /// on. Within a pile there would be too many impacts.
   __attribute__((noinline)) void leave_blows_to_impacts() const {
     const Span<ContactWork> contacts = room.contacts().first(count.contacts);
     const auto for_each_leaning = [&](const auto& visit) {
@@ -185,7 +190,8 @@ struct Collider {
   }
 
  private:
-  /// One that rests is started when its pairs come; those of the ground come one after the other.
+  /// Starts a resting body when its pairs come. The pairs of a ground body come one after the other, so the last
+  /// started body is enough to remember.
   void start(uint32_t slot) {
     if (bodies.visits.has(slot) || slot == last_started) return;
     bodies.start(settings, slot);
@@ -241,7 +247,7 @@ struct Collider {
     if (count.dropped != dropped_before) forget_manifolds(key);
   }
 
-  /// The contacts of the last tick, where all of the pair will do.
+  /// Recycles the contacts of the last tick. False unless all contacts of the pair can be recycled.
   bool reuse_parts(const PairBefore& pair, uint32_t slot_a, uint32_t slot_b, const PairLengths& lengths,
                    SurfaceContacts& found, ManifoldState (&manifold)[k_surface_manifolds_max]) const {
     found.count = found.dropped = 0;
@@ -257,15 +263,15 @@ struct Collider {
     return found.count != 0;
   }
 
-  /// So that all contacts of the pair are found anew: some of them are missing.
+  /// Clears the manifolds of a pair with dropped contacts, so that the next tick finds all of its contacts anew.
   __attribute__((noinline)) void forget_manifolds(uint64_t key) {
     for (uint32_t i = 0; room.keeps_manifolds && i < count.contacts; ++i) {
       if (key_of(room.contacts()[i].state) == key) room.manifolds()[i] = {};
     }
   }
 
-  /// Whether the shallowest contact is shallower than `depth`: it has the first place in the order by depth, and is to
-  /// be replaced.
+  /// Counts a dropped contact. Returns true if the shallowest contact is shallower than `depth`: it is then the first
+  /// in the order by depth, and the caller replaces it.
   __attribute__((noinline)) bool leave_out_shallowest(Real depth, uint64_t key) {
     if (count.dropped++ == 0) {
       for (uint32_t i = 0; i < room.by_depth().count; ++i) {

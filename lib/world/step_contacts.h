@@ -9,7 +9,7 @@
 #include "state/step_cache.h"
 #include "state/step_scratch.h"
 
-/// The narrow phase of a step: who of those that sleep is touched, and the contacts of all pairs.
+/// The narrow phase of a step: wakes sleeping bodies that are touched, and finds the contacts of all pairs.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -20,7 +20,7 @@ struct StepBodies {
   Span<const BodyMotion> motions;
   Span<BodyActivity> activities;
   Span<BodyWork> work;
-  BitSet visits;  ///< of those that move
+  BitSet visits;  ///< the active set
   AssetTable assets;
   const FeatureTable& features;
 
@@ -39,8 +39,8 @@ struct StepBodies {
   bool has_parts(uint32_t slot_a, uint32_t slot_b) const { return detent::has_parts(traits[slot_a], traits[slot_b]); }
 };
 
-/// Wakes whoever is touched by a body that moves, and whoever they touch: they leave the tree, and their pairs are
-/// found. Returns how many woke.
+/// Wakes sleeping bodies touched by moving ones, transitively. Removes them from the tree and finds their pairs.
+/// Returns the number of bodies that woke.
 uint32_t wake_touched(const StepSettings& settings, const StepBodies& bodies, const StepCacheView& cache,
                       PairPool& pool);
 
@@ -48,7 +48,7 @@ struct ContactCount {
   uint32_t contacts = 0;
   uint32_t points = 0;
   uint32_t dropped = 0;
-  uint32_t parts_dropped = 0;  ///< shallower than those that their pairs keep
+  uint32_t parts_dropped = 0;  ///< contacts of parts, shallower than those that their pair keeps
   uint32_t capped = 0;
   uint32_t reused = 0;
 };
@@ -56,14 +56,14 @@ struct ContactCount {
 /// The contacts of the last tick.
 struct LastContacts {
   Span<const ContactState> contacts;    ///< sorted by pair and part
-  Span<const ManifoldState> manifolds;  ///< of them, or none
-  Span<const uint32_t> awake;           ///< those that may go on
+  Span<const ManifoldState> manifolds;  ///< of these contacts, or empty
+  Span<const uint32_t> awake;           ///< the places of the contacts that may continue
 };
 
 /// Room for the contacts of a tick.
 struct ContactRoom {
   const Scratch& scratch;
-  uint32_t count;  ///< of the places that may be taken
+  uint32_t count;  ///< number of places that may be used
   bool keeps_manifolds;
 
   Span<ContactWork> contacts() const { return scratch.contacts.first(count); }
@@ -72,8 +72,8 @@ struct ContactRoom {
   BitSet leaning() const { return scratch.candidates; }
 };
 
-/// Collides pairs in ascending order and makes the rows of those that touch, sorted by pair and part. Of more than
-/// there is room for the shallowest are left out.
+/// Collides pairs in ascending order and makes the rows of those that touch, sorted by pair and part. If there is not
+/// enough room, the shallowest contacts are dropped.
 ContactCount collide_pairs(const StepSettings& settings, const StepBodies& bodies, const LastContacts& last,
                            const ContactRoom& room, Losses& losses, Span<const uint64_t> pairs);
 

@@ -6,7 +6,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// As step(), for tests: the sweeps that bodies were given are written down, and filters can be switched off.
+/// As step(), for tests: the probe records the sweeps of the bodies, and it can switch filters off.
 StepReport step_probed(World& world, ImpactProbe& probe);
 
 }  // namespace DETENT_NAMESPACE

@@ -3,13 +3,13 @@
 #include <detent/detail/shared.h>
 #include <detent/world.h>
 
-/// Where everything lies in a block: one list of arrays, persistent first. world_bytes, the snapshot, the digest and
-/// the step all read it from here.
+/// The layout of a block: one list of arrays, persistent arrays first. world_bytes, the snapshot, the digest and the
+/// step all use it.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 constexpr uint32_t k_capacity_max = 1u << 20;
-constexpr uint32_t k_pairs_per_contact = 2;  ///< room for pairs whose bounds overlap without contact
+constexpr uint32_t k_pairs_per_contact = 2;  ///< leaves room for pairs whose bounds overlap without contact
 
 /// Byte offsets of the arrays in a block.
 struct Layout {
@@ -23,22 +23,23 @@ struct Layout {
   uint32_t bytes;
 };
 
-/// Contacts whose manifolds there is room for.
+/// Number of contacts whose manifolds can be stored.
 constexpr uint32_t manifold_count(Capacity capacity) { return capacity.manifolds ? capacity.contacts : 0; }
 
-/// Bodies that joints can hold in a step.
+/// Largest number of bodies with joints in a step.
 constexpr uint32_t joint_body_count(Capacity capacity) {
   return 2 * capacity.joints < capacity.bodies ? 2 * capacity.joints : capacity.bodies;
 }
 
-/// Room for couplings of the joints' factor: 16 a joint, or for each two joints one, which is all there can be. A chain
-/// of hinges takes one a joint, a net of ball joints ten by ten 9.
+/// Room for couplings of the joints' factor: 16 for each joint, or one for each pair of joints (the upper limit) if
+/// that is less. A chain of hinges needs 1 for each joint; a net of 10 x 10 ball joints needs 9.
 constexpr uint32_t joint_coupling_count(Capacity capacity) {
   constexpr uint32_t k_each = 16;
   const uint32_t joints = capacity.joints;
   return joints > 2 * k_each ? joints * k_each : joints * (joints > 0 ? joints - 1 : 0) / 2;
 }
-/// And for the numbers of their blocks: 256 a joint, or all. Those take 25 to 36 a joint, and 81.
+/// Room for the numbers of the couplings' blocks: 256 for each joint, or 36 for each coupling if that is less. The
+/// chain needs 25 to 36 for each joint, the net 81.
 constexpr uint32_t joint_number_count(Capacity capacity) {
   constexpr uint32_t k_each = 256, k_block = 36;
   const uint32_t all = joint_coupling_count(capacity) * k_block, most = capacity.joints * k_each;
@@ -83,7 +84,7 @@ DETENT_SHARED constexpr Layout layout_of(Capacity capacity, bool& fits) {
   layout.awake_contacts = place(sizeof(uint32_t), capacity.contacts);
   layout.bounds = place(sizeof(Bounds), capacity.bodies);
   layout.pairs = place(sizeof(uint64_t), capacity.contacts * k_pairs_per_contact);
-  // Once the pairs are found their work space is that of the contacts.
+  // After the pairs are found, the contacts use their work space.
   const uint64_t shared = end;
   layout.bounds_keys = place(sizeof(BoundsKey), capacity.bodies);
   layout.bounds_sort = place(sizeof(BoundsKey), capacity.bodies);
@@ -95,7 +96,7 @@ DETENT_SHARED constexpr Layout layout_of(Capacity capacity, bool& fits) {
   layout.islands = place(sizeof(Island), capacity.bodies);
   layout.island_bodies = place(sizeof(uint32_t), capacity.bodies);
   layout.sweeps = place(sizeof(BodySweep), capacity.bodies);
-  // Once the sweeps are made the space of the substeps is that of the impacts.
+  // After the sweeps are made, the impacts use the work space of the substeps.
   const uint64_t moved = end;
   layout.body_work = place(sizeof(BodyWork), capacity.bodies);
   layout.contact_order = place(sizeof(ContactOrder), capacity.contacts);

@@ -1,9 +1,9 @@
 #pragma once
 
-/// DETENT_SHARED: before a function that many call and that takes more code than a call of it. Built for size (-Os) a
-/// program has one copy of it; at other levels the compiler decides.
+/// DETENT_SHARED marks a function with many callers whose code is larger than a call. Built for size (-Os), a program
+/// has one copy of it; at other levels the compiler decides.
 ///
-/// DETENT_PASSING: before a function that only passes words on to such a one: at -Os it is never a call of its own.
+/// DETENT_PASSING marks a function that only passes its arguments to such a function: at -Os it is always inlined.
 #if !defined(__OPTIMIZE_SIZE__)
 #define DETENT_SHARED
 #define DETENT_PASSING
