@@ -4,7 +4,8 @@
 #include <detent/world.h>
 #include <math.h>
 
-/// How far a joint has given way, m: how far B's anchor is from A's, but for where it may slide. Not for `distance`.
+/// The error of a joint, m: the distance between the anchors of A and B, without the part along a sliding axis. Not
+/// valid for `distance` joints.
 inline double joint_error(const detent::World& world, detent::JointId id) {
   using namespace detent;
   JointDef joint;

@@ -2,7 +2,7 @@
 #include <detent/recording.h>
 #include <stdio.h>
 
-/// A recorder's sink that writes to a file of the host. Without a path nothing is written and the sink records nothing.
+/// A recorder's sink that writes to a file. Without a path the sink is empty and nothing is recorded.
 class RecordingFile {
  public:
   explicit RecordingFile(const char* path) : file_(path != nullptr ? fopen(path, "wb") : nullptr) {}
@@ -13,7 +13,7 @@ class RecordingFile {
   bool is_open() const { return file_ != nullptr; }
   detent::Sink sink() { return is_open() ? detent::Sink{write, file_} : detent::Sink{}; }
   uint8_t* buffer() { return buffer_; }
-  /// False if what was written did not reach the file.
+  /// False if some of the written bytes did not reach the file.
   bool close() {
     const bool written = file_ == nullptr || fclose(file_) == 0;
     file_ = nullptr;

@@ -4,7 +4,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The name of a configuration, "unknown" for what is none.
+/// The name of a configuration; "unknown" for an invalid one.
 constexpr const char* config_text(Config config) {
   switch (config) {
     case Config::fx64:

@@ -7,9 +7,9 @@ inline namespace DETENT_NAMESPACE {
 namespace billiards {
 namespace {
 
-constexpr uint32_t k_ball_mark = 0x100;  ///< user data of a ball is this + its number; of fixed bodies it is less
+constexpr uint32_t k_ball_mark = 0x100;  ///< user data of a ball: this + its number; fixed bodies have less
 
-/// Below this a ball lies still; well above what the solver leaves of gravity in a resting ball.
+/// A ball slower than this is at rest. The limits are well above the speed that gravity leaves in a resting ball.
 constexpr Real k_still_speed = Real(0.02);  // m/s
 constexpr Real k_still_spin = Real(0.7);    // rad/s: 0.02 m/s at the ball's surface
 
@@ -24,7 +24,7 @@ constexpr double k_corner_gap = k_corner_mouth * 0.70710678118654752;  ///< from
 constexpr double k_cushion_half_height = 0.02;
 constexpr double k_cushion_y = k_nose_height + k_cushion_half_height;
 
-/// `end` is -1 at the head and 1 at the foot, `side` -1 or 1 across. The cushions end square; a real one is cut back at
+/// `end` is -1 at the head and 1 at the foot, `side` -1 or 1 across. The cushions end square; real ones are cut back at
 /// the pockets.
 consteval Cushion end_cushion(double end) {
   return {point(end * (k_half_length + k_cushion_width / 2), k_cushion_y, 0.0),
@@ -60,7 +60,7 @@ constexpr RackedBall k_rack[] = {
     {13, rack_place(4, 2, 45, 11)}, {3, rack_place(4, 3, -2, -43)},  {12, rack_place(4, 4, 37, 20)},
 };
 
-/// Where a pocketed cue ball comes back: the first of these places on the head string that no ball is near, or the
+/// Places on the head string for a pocketed cue ball. It is put on the first place that no ball is near, or else on the
 /// last.
 constexpr Position k_cue_places[] = {
     point(-k_string, k_ball_radius, 0.0), point(-k_string, k_ball_radius, 0.15), point(-k_string, k_ball_radius, -0.15),
@@ -94,15 +94,15 @@ Position position_of(const World& world, BodyId ball) {
   return pose.position;
 }
 
-/// A ball drops where its centre passes the line of the noses, which it can only do between the cushions. The slate of
-/// a table with common shelves (1 5/8 to 1 7/8 in behind a corner's mouth, 0 to 3/8 in behind a side's: Billiard
-/// Congress of America, "Equipment Specifications") ends within 20 mm of it.
+/// A ball is pocketed when its centre passes the line of the noses, which is possible only between the cushions. The
+/// slate of a table with common shelves (1 5/8 to 1 7/8 in behind a corner's mouth, 0 to 3/8 in behind a side's:
+/// Billiard Congress of America, "Equipment Specifications") ends within 20 mm of that line.
 bool is_pocketed(const World& world, BodyId ball) {
   const Position position = position_of(world, ball);
   return !(within(position.x, k_nose_x) && within(position.z, k_nose_z));
 }
 
-/// A ball that only spins in place lies still.
+/// A ball that only spins in place counts as still.
 bool is_still(const World& world, BodyId ball) {
   Vec3<Real> velocity, spin;
   must(get_velocity(world, ball, velocity, spin));

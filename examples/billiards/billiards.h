@@ -2,11 +2,11 @@
 #include "examples/billiards/shots.h"
 #include "tests/scenes/scene.h"
 
-/// A match of eight-ball on a nine-foot table, from the break on, at 1000 ticks a second. README.md has the table, the
-/// simplifications and their reasons.
+/// A match of eight-ball on a nine-foot table, from the break on, at 1000 ticks a second. README.md describes the
+/// table, the simplifications and their reasons.
 ///
-/// The scene keeps nothing outside the world: the number of shots played is the cloth's user data, and each ball's
-/// user data is its number. A snapshot in the middle of a match goes on with the right shot.
+/// The scene stores no state outside the world: the number of shots played is the cloth's user data, and each ball's
+/// user data contains its number. So a match that continues from a snapshot plays the right next shot.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace billiards {
@@ -20,8 +20,8 @@ inline constexpr Capacity k_capacity = {.bodies = 1 + 6 + k_ball_count, .contact
 WorldDef world();
 /// Lays out the cloth, the cushions, the cue ball on the head spot and the rack on the foot spot.
 void build(Recorder& recorder);
-/// Takes pocketed balls off the table; when all others lie still, puts a pocketed cue ball back on the head string and
-/// plays the next shot.
+/// Removes pocketed balls from the table. When all others lie still, puts a pocketed cue ball back on the head string
+/// and plays the next shot.
 void before_tick(Recorder& recorder, uint32_t tick);
 
 /// Shots played so far, at most k_shot_count.

@@ -12,7 +12,7 @@ using namespace detent;
 
 namespace {
 
-/// Says what the last tick did: balls that left the table or came back, and the shot that began.
+/// Prints the events of the last tick: balls that left the table or came back, and the shot that began.
 class Commentary {
  public:
   void add(const World& world, uint32_t tick) {

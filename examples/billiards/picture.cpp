@@ -37,7 +37,8 @@ constexpr double k_cushion = k_cushion_width * 1000;
 constexpr double k_rail = 6 * 25.4;        // from the noses to the table's edge [WPA] 6: 4 to 7.5 in
 constexpr double k_sight = 3.6875 * 25.4;  // [WPA] 6: from the noses to the sights
 
-/// Drawn where the slate of a table with common shelves ends: 1.75 in behind a corner's mouth, 0.19 in behind a side's.
+/// Each hole is drawn where the slate of a table with common shelves ends: 1.75 in behind a corner's mouth, 0.19 in
+/// behind a side's.
 struct Hole {
   double x, y, radius;
 };
@@ -46,9 +47,9 @@ constexpr Hole side_hole(double side) { return {0, side * (k_y + 69), 64}; }
 constexpr Hole k_holes[] = {corner_hole(-1, -1), corner_hole(-1, 1), corner_hole(1, -1),
                             corner_hole(1, 1),   side_hole(-1),      side_hole(1)};
 
-// The marks on a ball, in its radii. A mark whose direction is t off the vertical is drawn as a disc, t / 90 degrees
-// times `rim` off the ball's centre, and cut off at its outline: a number is out of sight from 90 degrees on, a cap
-// from 120.
+// The marks on a ball, in ball radii. A mark whose direction is at the angle t from the vertical is drawn as a disc at
+// t / 90 degrees times `rim` from the ball's centre, clipped at the ball's outline. So a number is hidden from 90
+// degrees on, a cap from 120.
 constexpr double k_number = 0.46;
 constexpr double k_number_rim = 1 + k_number;
 constexpr double k_cap = 0.78;
@@ -76,10 +77,10 @@ Vec3<double> axis_z(const Quat& q) {
 }
 Vec3<double> opposite(const Vec3<double>& v) { return {-v.x, -v.y, -v.z}; }
 
-/// How far this direction is from upwards, rad.
+/// The angle between this direction and the vertical, rad.
 double tilt(const Vec3<double>& direction) { return acos(fmin(fmax(direction.y, -1.0), 1.0)); }
 
-/// Where a mark in this direction is drawn.
+/// The drawn position of a mark in this direction.
 Track::Key mark(int tick, const Vec3<double>& direction, double rim) {
   const double across = hypot(direction.x, direction.z);
   const double scale = across < 1e-9 ? 0.0 : rim * k_r * tilt(direction) / (std::numbers::pi / 2) / across;
@@ -90,7 +91,7 @@ double speed(const Shot& shot) { return hypot(real_to_host(shot.velocity.x), rea
 
 double distance(const Track::Key& a, const Track::Key& b) { return hypot(a.x - b.x, a.y - b.y); }
 
-/// In steps of 1 / `steps`, so that %g writes few digits; 0 for -0.
+/// Rounds to steps of 1 / `steps`, so that %g writes few digits; converts -0 to 0.
 double rounded(double value, double steps = 10) { return round(value * steps) / steps + 0.0; }
 
 std::string text(double value) {
@@ -100,7 +101,7 @@ std::string text(double value) {
 }
 std::string text(const Track::Key& key) { return text(key.x) + ' ' + text(key.y); }
 
-/// What an animated attribute is at a tick; those before the match are negative.
+/// The value of an animated attribute at a tick. Ticks before the match are negative.
 struct Value {
   int tick;
   std::string text;
@@ -142,7 +143,7 @@ void Picture::add_ball(Ball& ball, const World& world, int tick, bool moved) {
   must(get_pose(world, ball.id, pose));
   ball.centre.add({tick, coord_to_host(pose.position.x) * 1000, coord_to_host(pose.position.z) * 1000}, moved);
 
-  // There is a number at both ends of an axis: the upper one is drawn.
+  // Both ends of the axis have a number: the upper one is drawn.
   Vec3<double> number = axis_y(pose.rotation);
   if (number.y < 0) number = opposite(number);
   const Track::Key spot = mark(tick, number, k_number_rim);
@@ -201,7 +202,7 @@ class Page {
   }
 
  private:
-  /// Animates the element that is open. `what`: the animation's name and attributes but for times and values.
+  /// Adds an animation to the open element. `what`: the animation's name and its attributes except times and values.
   void animate(const char* what, const std::vector<Value>& values) {
     const double ticks = k_lead + picture_.ticks_ + k_hold;
     fprintf(file_, "<%s dur='%gs' repeatCount='indefinite' keyTimes='0", what, ticks / k_second);
@@ -210,7 +211,7 @@ class Page {
     for (const Value& value : values) fprintf(file_, ";%s", value.text.c_str());
     fprintf(file_, ";%s'/>", values.back().text.c_str());
   }
-  /// Opens a group that is where the track begins, and moves along it.
+  /// Opens a group that starts at the track's first point and moves along the track.
   void open_group(const Track& track, const char* attributes = "") {
     fprintf(file_, "<g%s transform='translate(%s)'>", attributes, text(track.keys().front()).c_str());
     std::vector<Value> values;
@@ -233,7 +234,7 @@ class Page {
     }
     write_clock();
   }
-  /// A strip of seconds and one of tenths, of which a window shows a row each.
+  /// Draws a strip of seconds and one of tenths; a window shows one row of each.
   void write_clock() {
     constexpr int tenth_ticks = k_second / 10;
     std::vector<Value> seconds, tenths;
@@ -288,7 +289,7 @@ class Page {
             k_string * 1000, k_y, 2 * k_y, k_string * 1000);
   }
 
-  /// The path of a ball, in pieces that each belong to one shot.
+  /// Draws the path of a ball, in pieces of one shot each.
   void write_trails(uint32_t number) {
     const Track& track = picture_.balls_[number].centre;
     fprintf(file_, "<g fill='none' stroke='%s' stroke-width='5' stroke-linejoin='round'>\n", colours_of(number).trail);
@@ -308,12 +309,13 @@ class Page {
     write_trail(piece, shots);
     fprintf(file_, "</g>\n");
   }
-  /// `shots`: how many were played by then; the next one dims the trail.
+  /// `shots`: the number of shots played so far; the next shot dims the trail.
   void write_trail(const std::vector<Track::Key>& piece, size_t shots) {
     double length = 0;
     for (size_t i = 1; i < piece.size(); ++i) length += distance(piece[i - 1], piece[i]);
     if (length < 1) return;
-    // A dash longer than the trail, shifted so that it ends at the ball. Before the match all of it is there, faintly.
+    // The trail is drawn as a dash longer than the trail, shifted so that it ends at the ball. Before the match the
+    // whole trail is visible, faintly.
     const double dash = ceil(length) + 1;
     double hidden = dash;
     std::vector<Value> offset = {{-k_lead, "0"}, {0, "0"}, {0, text(hidden)}};
@@ -334,7 +336,8 @@ class Page {
     fprintf(file_, "</path>\n");
   }
 
-  /// What is painted on a ball, and the light on it. `rolls`: or lies as at the start.
+  /// Draws a ball's marks and its highlight. `rolls`: the marks move as the ball rolls; otherwise they stay as at the
+  /// start.
   void write_face(uint32_t number, bool rolls) {
     const Picture::Ball& ball = picture_.balls_[number];
     const auto open_mark = [&](const Track& track) {
@@ -358,7 +361,7 @@ class Page {
     }
     fprintf(file_, "</g></g><use href='#light'/>");
   }
-  /// A ball that was taken off the table falls into the pocket.
+  /// Draws a pocketed ball that falls into its pocket.
   void write_drop(const Picture::Drop& drop) {
     const Hole* hole = k_holes;
     for (const Hole& other : k_holes) {
@@ -385,7 +388,7 @@ class Page {
     fprintf(file_, "</g>\n");
   }
 
-  /// A dot for each shot, above it the balls that are pocketed.
+  /// Draws a dot for each shot, and above the line the pocketed balls.
   void write_timeline() {
     const double length = k_right - k_left;
     const auto x = [&](int tick) { return rounded(k_left + length * tick / picture_.ticks_); };

@@ -9,13 +9,13 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace billiards {
 
-/// The match seen from above, as an animation that plays in real time, over and over: one SVG file, animated by SMIL,
-/// without scripts. It only reads the world; its doubles never reach the simulation.
+/// The match seen from above, as an animation that repeats in real time: one SVG file, animated by SMIL, without
+/// scripts. It only reads the world; its doubles never reach the simulation.
 class Picture {
  public:
-  /// Takes the poses after so many completed ticks: before each step, and after the last.
+  /// Records the poses after `tick` completed ticks: call it before each step and after the last one.
   void add(const World& world, int tick);
-  /// `digest`: of the state that was added last. False if the file could not be written.
+  /// Writes the file; `digest` belongs to the last recorded state. False if the file could not be written.
   bool write(const char* path, uint64_t digest) const;
 
  private:
@@ -25,7 +25,7 @@ class Picture {
     Track centre{0.5};                         ///< x along the table, y across
     Track number{1.0};                         ///< the spot with the number
     Track caps[2] = {Track{1.0}, Track{1.0}};  ///< the white ends of a striped ball
-    std::vector<std::pair<int, bool>> seen;    ///< from this tick on it is on the table, or off it
+    std::vector<std::pair<int, bool>> seen;    ///< from this tick on the ball is on the table, or off it
   };
   struct Cushion {
     double x, y, half_length, half_width;

@@ -5,20 +5,20 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace billiards {
 
-/// A stroke as the cue ball leaves it.
+/// A stroke: the cue ball's velocities after it.
 struct Shot {
   const char* name;
   Vec3<Real> velocity;  ///< m/s
   Vec3<Real> spin;      ///< rad/s
 };
 
-/// A stroke by a level cue. `direction` is horizontal and of length 1 within 1e-3; `speed` is the ball's, m/s.
-/// The tip strikes `right` and `above` of the ball's centre, as seen by the player, in ball radii; beyond 0.5 from the
-/// centre it would slip off (D. Alciatore, "The Lag Shot", Billiards Digest, October 2011: miscue limit 0.5 R).
+/// A stroke by a level cue. `direction` is horizontal and of length 1 within 1e-3; `speed` is the ball's, m/s. The tip
+/// hits the ball `right` and `above` of its centre, as seen by the player, in ball radii. Beyond 0.5 from the centre
+/// the tip would slip off (D. Alciatore, "The Lag Shot", Billiards Digest, October 2011: miscue limit 0.5 R).
 ///
-/// The impulse m v at the offset b turns the ball by m v b = 2/5 m r^2 w, so w = 5/2 (v / r) (b / r): about the
-/// horizontal axis across the direction for `above`, about the vertical one for `right`. That the cue of a ball struck
-/// to the side is pushed aside (squirt) is left out.
+/// The impulse m v at the offset b gives the ball an angular velocity w with m v b = 2/5 m r^2 w, so w = 5/2 (v / r) (b
+/// / r): about the horizontal axis across the direction for `above`, about the vertical axis for `right`. The model
+/// leaves out squirt: a hit to the side also pushes the cue aside.
 consteval Shot stroke(const char* name, double direction_x, double direction_z, double speed, double right,
                       double above) {
   const double square = direction_x * direction_x + direction_z * direction_z;
@@ -30,17 +30,18 @@ consteval Shot stroke(const char* name, double direction_x, double direction_z, 
 
 /// The match. Speeds are within those of D. Alciatore, "How fast does the CB travel for a range of shots?"
 /// (billiards.colostate.edu/faq/speed/typical): slow 0.45 to 0.89 m/s, medium to 1.9, fast to 3.2, power to 4.5, a
-/// powerful break 11 to 13. Each shot is played where the one before left the balls; they were aimed in fx64, and in
-/// the other configurations, whose balls lie elsewhere after the break, the same strokes meet what they meet.
+/// powerful break 11 to 13. Each shot starts from the positions that the previous shot left. The shots were aimed in
+/// fx64. In the other configurations the balls lie elsewhere after the break, so the same strokes may hit other balls.
 inline constexpr Shot k_shots[] = {
     stroke("break", 1.0000, 0.0087, 8.9, 0.0, 0.1),
-    stroke("stun", 0.9613, 0.2756, 2.4, 0.0, 0.0),            // no spin: stops at the ball, or leaves it square
-    stroke("draw", -0.9613, -0.2756, 2.8, 0.0, -0.35),        // back spin: comes back from the ball
-    stroke("follow", 0.9781, 0.2079, 1.9, 0.0, 0.4),          // struck at 2/5 r, it rolls from the start
+    // no spin: the cue ball stops, or leaves the other at 90 degrees
+    stroke("stun", 0.9613, 0.2756, 2.4, 0.0, 0.0),
+    stroke("draw", -0.9613, -0.2756, 2.8, 0.0, -0.35),        // back spin: it rolls back from the ball
+    stroke("follow", 0.9781, 0.2079, 1.9, 0.0, 0.4),          // hit at 2/5 r above the centre, it rolls from the start
     stroke("bank", 0.7254, 0.6884, 2.6, 0.0, 0.2),            // the ball goes to its pocket off a cushion
-    stroke("right english", 0.8829, -0.4695, 1.5, 0.4, 0.1),  // side spin, which bites at a cushion
+    stroke("right english", 0.8829, -0.4695, 1.5, 0.4, 0.1),  // side spin, which changes the rebound at a cushion
     stroke("left english", -0.3746, -0.9272, 1.4, -0.35, 0.2),
-    stroke("drag", 0.3090, 0.9511, 1.6, 0.0, -0.1),  // a little back spin that the cloth takes off
+    stroke("drag", 0.3090, 0.9511, 1.6, 0.0, -0.1),  // a little back spin, which the cloth's friction removes
 };
 inline constexpr uint32_t k_shot_count = sizeof(k_shots) / sizeof(k_shots[0]);
 

@@ -29,10 +29,10 @@ inline constexpr double k_nose_height = 0.635 * 2 * k_ball_radius;  ///< [WPA] 7
 /// kg. [Alciatore] 6 oz.
 inline constexpr double k_ball_mass = 6 * 0.028349523125;
 
-/// The pairs as published, and what they ask of each material.
+/// The published values of pairs, and the material values that follow from them.
 ///
-/// Friction and rolling resistance of a pair are geometric means, so that a ball's own value is that of two balls, and
-/// a surface needs the square of the pair's over the ball's:
+/// Friction and rolling resistance of a pair are geometric means. So a ball's own value is that of two balls, and cloth
+/// or cushion needs the square of the pair's value over the ball's value:
 ///
 ///   friction            ball-ball 0.05 [Alciatore: 0.03 to 0.08]           ball 0.05
 ///                       ball-cloth 0.2 [Alciatore: 0.15 to 0.4, typ. 0.2]  cloth 0.2^2 / 0.05 = 0.8
@@ -44,8 +44,8 @@ inline constexpr double k_ball_mass = 6 * 0.028349523125;
 /// 7/5 x 0.01 = 0.014 = sqrt(0.98 x 0.0002). It acts about the vertical axis too, and slows a ball that spins in place
 /// by 0.014 g / (2/5 r) = 12 rad/s^2 [Alciatore: 5 to 15].
 ///
-/// The restitution of a pair is the larger of two unless a surface asks for the smaller, as cloth and cushions do:
-/// ball-ball 0.93 [Alciatore: 0.92 to 0.98], ball-cushion 0.8 [0.6 to 0.9], ball-cloth 0.5 [0.5].
+/// The restitution of a pair is the larger of the two values, unless a material selects the smaller, as cloth and
+/// cushions do: ball-ball 0.93 [Alciatore: 0.92 to 0.98], ball-cushion 0.8 [0.6 to 0.9], ball-cloth 0.5 [0.5].
 inline constexpr double k_ball_friction = 0.05;
 inline constexpr double k_ball_rolling = 0.0002;
 inline constexpr double k_ball_restitution = 0.93;
@@ -55,7 +55,7 @@ inline constexpr double k_cloth_restitution = 0.5;
 inline constexpr double k_cushion_friction = 0.8;
 inline constexpr double k_cushion_restitution = 0.8;
 
-/// Literals of any configuration: in a floating-point one the rounding to it is meant.
+/// Converts literals at compile time, in every configuration. Rounding to floating point is intended.
 consteval Vec3<Real> vector(double x, double y, double z) {
   return {static_cast<Real>(x), static_cast<Real>(y), static_cast<Real>(z)};
 }

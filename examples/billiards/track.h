@@ -3,7 +3,7 @@
 
 #include <vector>
 
-/// A moving point as a few keys, between which it moves straight and evenly.
+/// A moving point, stored as a few keys with linear motion between them.
 class Track {
  public:
   struct Key {
@@ -12,11 +12,11 @@ class Track {
     friend bool operator==(const Key&, const Key&) = default;
   };
 
-  /// `tolerance`: how far a point between two keys may lie from where it was, along each axis.
+  /// `tolerance`: the largest error of a point between two keys, along each axis.
   explicit Track(double tolerance) : tolerance_(tolerance) {}
 
-  /// Where the point is at a tick; ticks rise. `jump`: it stayed until this tick where it was before, so that two keys
-  /// have the same tick.
+  /// Adds the point's position at a tick; ticks rise. `jump`: the point stayed at its last position until this tick, so
+  /// two keys have the same tick.
   void add(const Key& point, bool jump = false) {
     if (keys_.empty()) {
       last_ = point;
@@ -32,7 +32,7 @@ class Track {
       narrow();
     }
   }
-  /// Makes a key of the last point.
+  /// Stores the last point as a key.
   void make_key() {
     if (keys_.empty() || keys_.back() != last_) keys_.push_back(last_);
     x_ = y_ = {};
@@ -43,7 +43,7 @@ class Track {
   const std::vector<Key>& keys() const { return keys_; }
 
  private:
-  /// The speeds from the last key that pass every point since then within the tolerance.
+  /// The range of speeds from the last key on that pass every later point within the tolerance.
   struct Speeds {
     double min = -INFINITY, max = INFINITY;
   };

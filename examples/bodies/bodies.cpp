@@ -12,7 +12,7 @@ using namespace detent;
 
 namespace {
 
-/// Ends the program where a call was refused.
+/// Ends the program if a call failed.
 void must(Status status) {
   if (status == Status::ok) return;
   printf("refused: %s\n", status_text(status));
@@ -54,11 +54,11 @@ int main() {
   // Change
   must(set_material(world, crate, {.friction = 0.2, .restitution = 0.5}));
   must(set_damping(world, hero, 0.5, 4.0));
-  must(set_type(world, crate, BodyType::fixed));    // nailed down,
-  must(set_type(world, crate, BodyType::dynamic));  // and free again, of the same mass
+  must(set_type(world, crate, BodyType::fixed));    // fixed,
+  must(set_type(world, crate, BodyType::dynamic));  // and dynamic again, with the same mass
   must(set_shape(world, crate, box({0.5, 0.25, 0.5})));
   must(set_density(world, crate, 100.0));
-  must(set_inertia(world, crate, {8.0, 12.0, 8.0}));  // kg m^2, about its axes
+  must(set_inertia(world, crate, {8.0, 12.0, 8.0}));  // kg m^2, about its principal axes
   WorldDef settings = get_settings(world);
   settings.gravity = {0.0, -3.7, 0.0};
   must(set_settings(world, settings));

@@ -9,7 +9,7 @@ namespace dominoes {
 inline constexpr uint32_t k_count = 200;
 inline constexpr uint32_t k_count_short = 40;  ///< for small memories and slow machines
 
-/// A floor and the dominoes: each on the floor and against at most three others while they lie on one another.
+/// A floor and the dominoes. Each domino touches the floor and at most three others that lie on it or under it.
 constexpr Capacity capacity_of(uint32_t count) { return {.bodies = 1 + count, .contacts = 4 * count}; }
 
 WorldDef world();

@@ -1,5 +1,6 @@
-// A ball falls onto the ground; its height goes to the serial monitor. Detent is C++20, which most cores must be told:
-// compiler.cpp.extra_flags=-std=gnu++20 -ffp-contract=off -fno-strict-overflow -fno-lra-remat, in platform.local.txt.
+// A ball falls onto the ground; its height is printed to the serial monitor. Detent needs C++20. Most cores need this
+// line in platform.local.txt:
+// compiler.cpp.extra_flags=-std=gnu++20 -ffp-contract=off -fno-strict-overflow -fno-lra-remat
 #include <detent.h>
 using namespace detent;
 

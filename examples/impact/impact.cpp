@@ -11,7 +11,7 @@ int main() {
       make_convex(rounded(box({0.2, 0.2, 0.2}), 0.05), crate) != Status::ok) {
     return 1;
   }
-  // Over the step the door swings by 3 rad, and the crate falls by 3 m.
+  // During the step the door rotates by 3 rad, and the crate falls by 3 m.
   const Motion swing = {.start = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}}, .turn = {0.0, 0.0, 3.0}};
   const Motion fall = {.start = {{0.0, 2.0, 0.0}, {0.0, 0.0, 0.0, 1.0}}, .displacement = {0.0, -3.0, 0.0}};
 

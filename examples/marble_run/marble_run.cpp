@@ -4,7 +4,8 @@
 
 using namespace detent;
 
-// detent cook --kind mesh track.obj track.mesh. It is read where it lies, in flash too, and worlds may share it.
+// Made by: detent cook --kind mesh track.obj track.mesh. The world reads the asset in place, also from flash. Several
+// worlds may share it.
 alignas(8) const uint8_t track[] = {
 #include "track.inc"
 };
@@ -15,9 +16,9 @@ int main() {
   World world;
   BodyId run, marble;
   if (storage.create({}, world, {k_assets, 1}) != Status::ok) return 1;
-  // Every byte of it is checked here.
+  // bind_asset checks every byte of the asset.
   if (bind_asset(world, 0) != Status::ok) return 1;
-  // A pair takes the mean of two materials: this is of both.
+  // Friction and rolling resistance of a pair are means of both materials, so both bodies get this material.
   const Material smooth = {.friction = 0.3, .rolling_resistance = 0.01};
   BodyDef def = {.type = BodyType::fixed, .shape = surface(0), .material = smooth};
   if (create_body(world, def, run) != Status::ok) return 1;
@@ -32,7 +33,7 @@ int main() {
            coord_to_host(pose.position.y), coord_to_host(pose.position.z));
   }
 
-  // What it lies on: the track's triangles are of material 0, the cup's of 1, as track.obj names them.
+  // The triangle under the marble. Material 0 is the track, 1 the cup, as track.obj names them.
   const RayQuery down = {.origin = pose.position, .way = {0.0, -1.0, 0.0}, .filter = {.ignore = marble}};
   QueryHit hit;
   QueryReport report;

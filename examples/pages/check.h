@@ -3,14 +3,14 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/// What the pages' programs do with a status: go on if it is ok, or else say what it is and stop.
+/// Continues if the status is ok; otherwise prints it and ends the program.
 inline void check(detent::Status status, int line = __builtin_LINE()) {
   if (status == detent::Status::ok) return;
   printf("line %d: %s\n", line, detent::status_text(status));
   exit(1);
 }
 
-/// And with what a page claims.
+/// Ends the program if a claim of the page is false.
 inline void check(bool claim, int line = __builtin_LINE()) {
   if (claim) return;
   printf("line %d: not so\n", line);

@@ -9,7 +9,7 @@ using namespace detent;
 
 namespace {
 
-/// Where a bullet of 1 cm is after a tick in which it flies 10 m towards a wall of 2 cm, 5 m away.
+/// The position of a bullet of 1 cm after a tick in which it moves 10 m towards a wall of 2 cm, 5 m away.
 double fired(bool continuous) {
   static WorldStorage<Capacity{.bodies = 2, .contacts = 2}> storage;
   World world;
@@ -34,7 +34,7 @@ int main() {
   Convex door, crate;
   check(make_convex(box({0.5, 0.1, 0.5}), door));
   check(make_convex(rounded(box({0.2, 0.2, 0.2}), 0.05), crate));
-  const Motion swing = {.turn = {0.0, 0.0, 3.0}};  // over the step, rad
+  const Motion swing = {.turn = {0.0, 0.0, 3.0}};  // during the step, rad
   const Motion fall = {.start = {{0.0, 2.0, 0.0}, {0.0, 0.0, 0.0, 1.0}}, .displacement = {0.0, -3.0, 0.0}};
   TimeOfImpact impact;
   check(time_of_impact(door, swing, crate, fall, impact));

@@ -9,7 +9,7 @@ namespace {
 
 using Storage = WorldStorage<Capacity{.bodies = 8, .contacts = 32}>;
 
-/// The same calls in the same order.
+/// Both worlds are built by the same calls in the same order.
 void build(Storage& storage, World& world, BodyId& player) {
   check(storage.create({}, world));
   BodyId ground;
@@ -17,7 +17,7 @@ void build(Storage& storage, World& world, BodyId& player) {
   check(create_body(world, {.position = {0.0, 1.0, 0.0}, .shape = sphere(0.5)}, player));
 }
 
-/// What travels between the machines: integers.
+/// The data sent between the machines: integers only.
 struct Input {
   int16_t push;  ///< 1/256 N s
 };

@@ -9,12 +9,12 @@ namespace {
 
 uint32_t heard[5];  ///< events by type
 
-/// What a game does with an event.
+/// A game's reaction to an event.
 void hear(const World& world, const ContactEvent& event) {
   ++heard[static_cast<uint32_t>(event.type)];
   if (event.type != ContactEventType::hit) return;
   uint32_t who = 0;
-  check(get_user_data(world, event.b, who));  // which of the game's things
+  check(get_user_data(world, event.b, who));  // the game's number of this object
   const double speed = real_to_host(event.approach_speed);
   printf("thing %u hit the ground at %.2f m/s\n", static_cast<unsigned>(who), speed);
   check(who == 2 && speed < 6.0);
@@ -50,7 +50,7 @@ int main() {
   check(is_awake(world, ball, awake));
   check(!awake);
 
-  world.contact_events = {};  // nobody listens
+  world.contact_events = {};  // no buffer: no events
   check(wake_body(world, ball));
   check(step(world).contact_events == 0);
 }

@@ -7,16 +7,16 @@
 using namespace detent;
 
 int main() {
-  // A corner of cloth falls by 2 m onto a triangle that is lifted on one side meanwhile.
+  // A corner of cloth falls by 2 m onto a triangle while one side of the triangle is lifted.
   const Vec3<Real> start[4] = {{0.0, 1.0, 0.0}, {-1.0, 0.0, -1.0}, {1.0, 0.0, -1.0}, {0.0, 0.0, 1.0}};
   const Vec3<Real> end[4] = {{0.0, -1.0, 0.0}, {-1.0, 0.0, -1.0}, {1.0, 0.0, -1.0}, {0.0, 1.0, 1.0}};
   FeatureToi fallen;
   check(feature_toi_linear(FeatureKind::vertex_face, start, end, fallen));
   if (fallen.outcome == ToiOutcome::hit) printf("at %.6f of the step\n", fraction_to_host(fallen.time));
-  // The triangle is t / 2 high under the corner, which is 1 - 2 t high.
+  // At time t the triangle under the corner is at height t / 2, and the corner at height 1 - 2 t.
   check(fallen.outcome == ToiOutcome::hit && fabs(fraction_to_host(fallen.time) - 0.4) < 1e-5);
 
-  // An edge of a bar that turns by 3 rad comes round to an edge of a post.
+  // A bar rotates by 3 rad, and one of its edges hits an edge of a post.
   const Vec3<Real> corners[4] = {{0.25, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, {0.0, 0.0, 1.0}};
   const Motion turns = {.turn = {0.0, 0.0, 3.0}};
   const Motion stands = {.start = {{0.0, 0.5, 0.0}, {0.0, 0.0, 0.0, 1.0}}};

@@ -17,7 +17,7 @@ int main() {
   check(storage.create({.sleeping = false}, world));
   world.filter_rules = {k_rules, 1};  // after create_world(), before a body names a rule
 
-  // Two of one team overlap, and push each other apart; the third, of another, is left alone.
+  // Two bodies of one team overlap and push each other apart. The third, of another team, collides with neither.
   BodyDef def = {.shape = sphere(0.5), .gravity_scale = 0.0, .user_data = 7};
   def.filter = {.category = 4, .rule = 1};
   BodyId id;

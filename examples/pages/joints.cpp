@@ -35,13 +35,13 @@ int main() {
   check(create_body(world, {.position = {0.0, -1.5, 3.0}, .shape = sphere(0.1), .mass = 10.0}, ball));
   check(create_body(world, {.position = {0.0, 0.0, 6.0}, .shape = box({0.2, 0.2, 0.2}), .mass = 10.0}, lift));
 
-  // A hinge: where the bodies are now, about the world's y, ajar by at most 1.5 rad.
+  // A hinge at the bodies' present poses, about the world's y. It opens by at most 1.5 rad.
   JointDef hinge = {.type = JointType::hinge, .a = post, .b = door};
   check(place_joint(world, {0.1, 0.0, 0.0}, k_x_is_up, hinge));
   hinge.axis.limited = true;
   hinge.axis.lower = Real(-0.1);
   hinge.axis.upper = Real(1.5);
-  hinge.axis.frequency = Real(0.5);  // it falls shut
+  hinge.axis.frequency = Real(0.5);  // a spring closes it
   JointId id;
   check(create_joint(world, hinge, id));
 
@@ -55,7 +55,7 @@ int main() {
   check(get_pose(world, door, pose));
   check(coord_to_host(pose.position.z) < -0.4);
 
-  // A rope of 2 m, and one that breaks.
+  // A rope of 2 m, and then a rope that breaks.
   JointDef rope = {.type = JointType::distance, .a = post, .b = ball};
   rope.anchor_a = {0.0, 0.0, 3.0};
   rope.axis.limited = true;
@@ -75,7 +75,7 @@ int main() {
   for (uint32_t i = 0; i < report.joint_events; ++i) check(broken[i].joint == hung);
   check(report.joints_broken == 1 && !is_valid(world, hung));
 
-  // A slider with a spring: the lift comes back to where it was.
+  // A slider with a spring: the lift returns to its first position.
   JointDef rail = {.type = JointType::slider, .a = post, .b = lift};
   check(set_pose(world, lift, {0.0, 0.0, 6.0}, {0.0, 0.0, 0.0, 1.0}));
   check(set_velocity(world, lift, {}, {}));

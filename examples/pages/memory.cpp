@@ -20,12 +20,12 @@ void fixed_at_compile_time() {
 void chosen_at_run_time(uint32_t bodies) {
   const WorldDef def = {.capacity = {.bodies = bodies, .contacts = 4 * bodies}};
   const uint32_t bytes = world_bytes(def.capacity);
-  check(bytes != 0);                                      // 0: a capacity that no world has
+  check(bytes != 0);                                      // 0: an invalid capacity
   uint8_t* block = static_cast<uint8_t*>(malloc(bytes));  // aligned to 8
   World world;
   check(create_world(block, bytes, def, {}, world));
   step(world);
-  free(block);  // a world owns nothing: this is its end
+  free(block);  // ends the world, which owns nothing else
 }
 
 void full() {

@@ -10,16 +10,16 @@ using namespace detent;
 namespace {
 
 constexpr Real k_tick = Real(1.0 / 60), k_zero = 0.0;
-constexpr Real k_way = Real(3.0 / 60);      ///< of a tick at 3 m/s
-constexpr Real k_drop = Real(9.81 / 3600);  ///< more in each tick of a fall
+constexpr Real k_way = Real(3.0 / 60);      ///< m in a tick, at 3 m/s
+constexpr Real k_drop = Real(9.81 / 3600);  ///< m: increase of the fall's displacement from tick to tick, g / 60^2
 
-/// What a game keeps of a character.
+/// A game's state of a character.
 struct Character {
   Mover mover;
-  Real rise = k_zero;  ///< of the next tick, m
+  Real rise = k_zero;  ///< displacement up in the next tick, m
 };
 
-/// One tick: a wish along x, and perhaps a jump.
+/// One tick: a desired displacement along x, and a jump if `jump` is set.
 MoverReport play(World& world, const MoverSettings& settings, Character& character, Real way, bool jump) {
   if (jump && character.mover.ground.slot != 0) character.rise = Real(5.0 / 60);
   character.rise -= k_drop;
@@ -47,7 +47,7 @@ int main() {
   BodyId id, lift, crate;
   check(create_body(world, {.type = BodyType::fixed, .shape = half_space()}, id));
   const Coord step_x[] = {4.0, Coord(4.4), Coord(4.8), Coord(5.2)};
-  const Real step_top[] = {Real(0.1), Real(0.2), Real(0.3), Real(0.4)};  // half of each
+  const Real step_top[] = {Real(0.1), Real(0.2), Real(0.3), Real(0.4)};  // half heights
   for (int i = 0; i < 4; ++i) {
     BodyDef stair = {.type = BodyType::fixed, .shape = box({2.0, step_top[i], 2.0})};
     stair.position = {step_x[i], Coord(0.0), Coord(0.0)};
@@ -63,12 +63,12 @@ int main() {
   MoverSettings settings;
   settings.radius = Real(0.3);
   settings.half_length = Real(0.6);  // 1.8 m tall
-  settings.filter.category = 2;      // whom it meets, and who meets it
+  settings.filter.category = 2;      // decides which bodies it collides with
 
   Character character;
   character.mover.position = {Coord(0.0), Coord(0.91), Coord(0.0)};
 
-  // Up the stairs and onto the platform: eight tenths of a metre.
+  // Up the stairs and onto the platform: a rise of 0.8 m.
   uint32_t steps = 0;
   bool stands = true;
   for (int tick = 0; tick < 165; ++tick) {
@@ -80,7 +80,7 @@ int main() {
   printf("up %u steps: x %.2f m, y %.2f m\n", static_cast<unsigned>(steps), x_of(character), y_of(character));
   check(steps >= 4 && stands && is_about(y_of(character), 0.8 + 0.91));
 
-  // The platform carries it.
+  // The platform carries the character.
   check(set_velocity(world, lift, {k_zero, 1.0, k_zero}, {k_zero, k_zero, k_zero}));
   for (int tick = 0; tick < 60; ++tick) {
     step(world);
@@ -89,7 +89,7 @@ int main() {
   }
   check(is_about(y_of(character), 1.8 + 0.91));
 
-  // What the platform's user takes back is what the snapshot of the world and the bytes of the mover hold.
+  // The snapshot of the world and the bytes of the mover are enough to go back and replay (`rise` is 0 on the ground).
   static uint8_t snapshot[snapshot_bytes({.bodies = 16, .contacts = 32})];
   uint8_t bytes[k_mover_bytes];
   check(save(world, snapshot, sizeof snapshot));
@@ -108,7 +108,7 @@ int main() {
   }
   check(character.mover.position == there);
 
-  // Down again, and against the crate.
+  // Down the stairs again, and against the crate.
   for (int tick = 0; tick < 260; ++tick) {
     step(world);
     play(world, settings, character, -k_way, false);

@@ -10,7 +10,7 @@ using namespace detent;
 namespace {
 
 constexpr Capacity k_capacity = {.bodies = 8, .contacts = 16};
-constexpr uint32_t k_window = 8;  // ticks that can be taken back
+constexpr uint32_t k_window = 8;  // ticks that can be undone
 
 struct Match {
   WorldStorage<k_capacity> storage;
@@ -39,8 +39,8 @@ void roll_back() {
   build(here);
   build(there);
   for (uint64_t tick = 0; tick < 20; ++tick) {
-    advance(here, false);        // here nobody has heard of a jump yet
-    advance(there, tick == 15);  // there it happened
+    advance(here, false);        // this machine has not received the jump yet
+    advance(there, tick == 15);  // the jump happens on this machine
   }
   check(digest(here.world) != digest(there.world));
 
@@ -56,11 +56,11 @@ void join_late() {
   for (int tick = 0; tick < 10; ++tick) advance(server, false);
 
   alignas(8) static uint8_t bytes[snapshot_bytes(k_capacity)];
-  check(save(server.world, bytes, sizeof bytes));  // sent to whoever joins
+  check(save(server.world, bytes, sizeof bytes));  // sent to the machine that joins
 
   World joined;
   check(storage.create({}, joined));
-  check(load(joined, bytes, sizeof bytes));  // checks every field, and uses the bytes up
+  check(load(joined, bytes, sizeof bytes));  // checks every field, and uses the bytes as scratch memory
   check(digest(joined) == digest(server.world));
 
   check(save(server.world, bytes, sizeof bytes));
@@ -76,12 +76,12 @@ void send_differences() {
   alignas(8) static uint8_t base[snapshot_bytes(k_capacity)];
   static uint8_t delta[delta_bytes_max(k_capacity)];
   uint32_t bytes = 0;
-  check(save(server.world, base, sizeof base));  // both have it
+  check(save(server.world, base, sizeof base));  // both machines have it
   advance(server, true);
   check(save_delta(server.world, base, sizeof base, delta, sizeof delta, bytes));
   check(bytes < 300);
 
-  check(apply_delta(base, sizeof base, delta, bytes));  // there: base becomes the snapshot
+  check(apply_delta(base, sizeof base, delta, bytes));  // on the client: base becomes the new snapshot
   check(load(client.world, base, sizeof base));
   check(checksum32(client.world) == checksum32(server.world));
 
@@ -123,7 +123,7 @@ void join(Machine& machine, uint32_t player) {
   check(machine.session.begin(machine.world, def, {make_tick, &machine}, machine.memory, sizeof machine.memory));
 }
 
-/// What a player does, and what is to be sent of it.
+/// A player's input in a tick, and a checksum to send with it.
 struct Message {
   uint64_t tick;
   uint8_t input;
@@ -136,7 +136,7 @@ Message play(Machine& machine, uint32_t player, bool jump) {
   check(machine.session.add_local_input(player, &message.input, message.tick));
   RollbackReport report;
   const Status status = machine.session.advance(machine.world, report);
-  if (status != Status::waiting) check(status);  // waiting: no tick was made, call it again when more has come
+  if (status != Status::waiting) check(status);  // waiting: no tick was made; retry after more inputs arrive
   machine.session.checksums(&message.checksum, 1);
   return message;
 }
@@ -215,7 +215,7 @@ void record(Tape& tape) {
 
   uint8_t buffer[k_recording_buffer_bytes];
   Recorder recorder(world, {write_tape, &tape}, buffer, sizeof buffer);
-  check(recorder.begin({.keyframe_interval = 20}));  // ticks: the whole state, to go to
+  check(recorder.begin({.keyframe_interval = 20}));  // ticks between keyframes, for go_to
   BodyId ball;
   check(recorder.create_body({.position = {0.0, 5.0, 0.0}, .shape = sphere(0.5)}, ball));
   for (int tick = 0; tick < 60; ++tick) recorder.step();
@@ -228,7 +228,7 @@ void replay(Tape& tape) {
   uint8_t buffer[k_recording_buffer_bytes];
   Player player({read_tape, &tape}, buffer, sizeof buffer);
   check(player.open());
-  check(storage.create({}, world));  // of the capacity that player.info() names
+  check(storage.create({}, world));  // with the capacity that player.info() gives
   check(player.start(world));
   for (TickResult result; !result.finished;) {
     const Status status = player.next_tick(world, result);
@@ -246,8 +246,8 @@ void look_back(Tape& tape) {
   tape.at = 0;
   check(player.open());
   check(storage.create({}, world));
-  check(player.go_to(world, 50));  // from the keyframe after tick 40
-  check(player.go_to(world, 12));  // from the seed
+  check(player.go_to(world, 50));  // replays from the keyframe after tick 40
+  check(player.go_to(world, 12));  // replays from the seed
   check(get_info(world).tick == 12);
 }
 

@@ -3,10 +3,10 @@
 #include <stdio.h>
 using namespace detent;
 
-// Who is what: a ray that looks for guards passes through ghosts.
+// Filter categories: a ray that tests for guards passes through ghosts.
 constexpr uint32_t k_wall = 1, k_guard = 2, k_ghost = 4;
 
-// Ghosts touch what has the same user data, and nothing else. A pure function: replays ask it again.
+// A ghost touches only bodies with the same user data. The function must be pure, because replays call it again.
 bool haunts(const FilterBody& own, const FilterBody& other) { return own.user_data == other.user_data; }
 constexpr FilterRule k_rules[] = {haunts};
 
@@ -30,14 +30,14 @@ int main() {
   if (create_body(world, def, ghost) != Status::ok) return 1;
   step(world);
 
-  // What is in sight: the first hit, but for ghosts.
+  // The first hit in sight, without ghosts.
   QueryHit hit;
   QueryReport report;
   RayQuery sight = {.origin = {0.0, 1.5, 0.0}, .way = {16.0, 0.0, 0.0}, .filter = {.mask = k_wall | k_guard}};
   if (query_ray(world, sight, {&hit, 1}, report) != Status::ok || report.hits == 0) return 1;
   printf("in sight: body %u at %.2f m\n", hit.body.slot, 16 * fraction_to_host(hit.fraction));
 
-  // All that a bullet would go through, the nearest first; an undecided hit would count as one.
+  // All bodies in the path of a bullet, nearest first. An undecided hit would count as a hit.
   QueryHit hits[4];
   sight.all = true;
   sight.origin.y = 1.75;
@@ -46,7 +46,7 @@ int main() {
   for (uint32_t i = 0; i < report.hits; ++i)
     printf("  %u. body %u at %.2f m\n", i + 1, hits[i].body.slot, 16 * fraction_to_host(hits[i].fraction));
 
-  // How far a crate can be thrown that turns on its way.
+  // How far a rotating crate can be thrown before it hits the wall.
   const CastQuery crate = {.shape = box({0.3, 0.2, 0.4}),
                            .position = {0.0, 1.0, 1.0},
                            .way = {8.0, 0.0, 0.0},
@@ -57,7 +57,7 @@ int main() {
          8 * fraction_to_host(hit.fraction), unit_to_host(hit.normal.x), unit_to_host(hit.normal.y),
          unit_to_host(hit.normal.z));
 
-  // Whom a blast reaches, and who is nearest to a point.
+  // The bodies within the radius of a blast, and the guard nearest to a point.
   const OverlapQuery blast = {.shape = sphere(4.5), .position = {5.0, 5.0, 0.0}, .all = true};
   if (query_overlap(world, blast, {hits, 4}, report) != Status::ok) return 1;
   printf("the blast reaches %u bodies\n", report.hits);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr uint32_t k_steps = 12, k_ticks = 240;
 
-/// Stairs that lead down along x, from the origin on, to the ground at y = 0.
+/// Stairs that go down along x, from the origin to the ground at y = 0.
 Status make_stairs(World& world) {
   BodyId id;
   BodyDef ground;

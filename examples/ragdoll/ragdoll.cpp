@@ -14,7 +14,7 @@ constexpr uint32_t k_middle = 0;
 
 struct Part {
   Shape shape;
-  Vec3<Real> place;  ///< from between the feet, m
+  Vec3<Real> place;  ///< from the point between the feet, m
   Quat rotation;
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <detent/world.h>
 
-/// A figure of boxes and capsules, held together by joints with limits. Its tests: tests/stress/ragdoll_test.cpp.
+/// A figure of boxes and capsules, connected by joints with limits. Its tests: tests/stress/ragdoll_test.cpp.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace ragdoll {
@@ -9,17 +9,17 @@ namespace ragdoll {
 inline constexpr uint32_t k_parts = 11, k_joints = 10;
 inline constexpr double k_height = 1.8;  ///< m
 
-/// Of k_parts and k_joints: the order of the table in ragdoll.cpp.
+/// The k_parts bodies and k_joints joints, in the order of the tables in ragdoll.cpp.
 struct Ragdoll {
   BodyId part[k_parts] = {};
   JointId joint[k_joints] = {};
 };
 
-/// Stands on its feet, in the x-y plane, with its arms stretched out along x; its face looks along z.
-/// Errors: as create_body and create_joint.
+/// Makes a figure that stands on its feet in the x-y plane, with its arms stretched out along x and its face along z.
+/// Errors: those of create_body and create_joint.
 Status make(World& world, const Position& feet, Ragdoll& ragdoll);
 
-/// Turns the figure about its hips by |turn| rad about the direction of `turn`, and lets it fly, m/s.
+/// Rotates the figure about its hips by the rotation vector `turn`, rad, and sets the velocity of all its parts, m/s.
 /// Errors: bad_id, out_of_range.
 Status throw_figure(World& world, const Ragdoll& ragdoll, const Vec3<Real>& turn, const Vec3<Real>& velocity);
 

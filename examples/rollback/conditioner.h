@@ -8,16 +8,17 @@
 
 namespace detent_rollback {
 
-/// How bad a link is, one way.
+/// The quality of a link, in one direction.
 struct LinkConditions {
-  double loss = 0;       ///< of packets, [0, 1]
-  double duplicate = 0;  ///< of packets, [0, 1]
+  double loss = 0;       ///< fraction of packets lost, [0, 1]
+  double duplicate = 0;  ///< fraction of packets duplicated, [0, 1]
   double latency = 0;    ///< s
-  double jitter = 0;     ///< s: each packet is up to so much faster or slower, and so overtakes others
+  /// s: each packet's latency varies by up to this much in both directions, so packets overtake each other.
+  double jitter = 0;
 };
 
-/// Holds what is sent for as long as a bad link would, loses some and doubles some: by the seed and the order of the
-/// calls alone. The time is the caller's.
+/// Simulates a bad link: delays packets, loses some and duplicates some. The result depends only on the seed and the
+/// order of the calls. The caller passes the time.
 class Conditioner {
  public:
   Conditioner(const LinkConditions& conditions, uint64_t seed) : conditions_(conditions), random_(seed) {}
@@ -32,7 +33,7 @@ class Conditioner {
     }
   }
 
-  /// Calls deliver(to, bytes, count) for all whose time has come.
+  /// Calls deliver(to, bytes, count) for each packet whose delivery time has come.
   template <class Deliver>
   void deliver_due(double now, Deliver deliver) {
     const auto later = [now](const Item& item) { return item.due > now; };

@@ -8,7 +8,7 @@ inline namespace DETENT_NAMESPACE {
 namespace pitch {
 namespace {
 
-constexpr uint32_t k_shot_ticks = 90;  ///< how long a shot lasts
+constexpr uint32_t k_shot_ticks = 90;  ///< lifetime of a shot
 constexpr uint32_t k_ball_category = 2;
 
 constexpr double k_goal_half_width = 2, k_wall_half_height = 2, k_wall_half_thickness = 0.25;
@@ -23,7 +23,7 @@ uint32_t data_of(const World& world, BodyId body) {
   return data;
 }
 
-/// Literals of any configuration.
+/// Converts literals at compile time, in every configuration.
 consteval Position point(double x, double y, double z) {
   return {static_cast<Coord>(x), static_cast<Coord>(y), static_cast<Coord>(z)};
 }
@@ -41,7 +41,7 @@ consteval Wall side_wall(double side) {
   return {point(0, k_wall_half_height, side * (k_half_width + k_wall_half_thickness)),
           vector(k_half_length, k_wall_half_height, k_wall_half_thickness), false};
 }
-/// From z = `from` to `to` at one end.
+/// A wall at one end, from z = `from` to `to`.
 consteval Wall end_wall(double end, double from, double to) {
   return {point(end * (k_half_length + k_wall_half_thickness), k_wall_half_height, (from + to) / 2),
           vector(k_wall_half_thickness, k_wall_half_height, (to - from) / 2),
@@ -64,12 +64,12 @@ constexpr Position k_crates[] = {point(-4, 0.4, -3), point(-4, 0.4, 3), point(4,
 constexpr Position k_starts[k_players_max] = {point(-6, 0.5, -1), point(6, 0.5, 1), point(-6, 0.5, 1),
                                               point(6, 0.5, -1)};
 
-/// -1, 0 or 1, plus 1: the index of what follows. Tables, for what is not multiplied cannot be rounded.
+/// The direction -1, 0 or 1, plus 1: an index into the tables below. A table needs no multiplication, so no rounding.
 uint32_t way_x(uint8_t input) { return 1 + (input & k_right ? 1u : 0u) - (input & k_left ? 1u : 0u); }
 uint32_t way_z(uint8_t input) { return 1 + (input & k_near ? 1u : 0u) - (input & k_far ? 1u : 0u); }
-constexpr Scaled k_pushes[] = {-20.0, 0.0, 20.0};                     // N s a tick
-constexpr Real k_speeds[] = {Real(-12.0), Real(0.0), Real(12.0)};     // m/s, of a shot
-constexpr Coord k_steps[] = {Coord(-0.75), Coord(0.0), Coord(0.75)};  // m, from the player to the shot
+constexpr Scaled k_pushes[] = {-20.0, 0.0, 20.0};                     // impulse in a tick, N s
+constexpr Real k_speeds[] = {Real(-12.0), Real(0.0), Real(12.0)};     // speed of a shot, m/s
+constexpr Coord k_steps[] = {Coord(-0.75), Coord(0.0), Coord(0.75)};  // offset of a new shot from the player, m
 
 BodyId make_round(Recorder& recorder, const Position& position, Real radius, Scaled mass, uint32_t data) {
   BodyDef def;
@@ -97,7 +97,7 @@ void make_ball(Recorder& recorder) {
   make_round(recorder, point(0, 0.75, 0), Real(0.35), Scaled(6.0), data_of(Kind::ball, 0, 0));
 }
 
-/// The bodies that the rules are about.
+/// The bodies that the rules of the game use.
 struct Cast {
   BodyId ground, ball, players[k_players_max], shots[k_players_max];
 };
@@ -120,7 +120,7 @@ Position position_of(const World& world, BodyId body) {
   return pose.position;
 }
 
-/// A ball that is past an end counts and comes back to the middle.
+/// When the ball has passed an end, counts the goal and makes a new ball in the middle.
 void judge(Recorder& recorder, const Cast& cast) {
   constexpr Coord k_end = static_cast<Coord>(k_half_length + 2 * k_wall_half_thickness);
   const Coord x = position_of(recorder.world(), cast.ball).x;
@@ -136,7 +136,7 @@ void judge(Recorder& recorder, const Cast& cast) {
 void throw_shot(Recorder& recorder, BodyId body, uint32_t player, uint8_t input) {
   uint32_t x = way_x(input);
   const uint32_t z = way_z(input);
-  if (x == 1 && z == 1) x = player % 2 == 0 ? 2 : 0;  // who stands throws at the goal
+  if (x == 1 && z == 1) x = player % 2 == 0 ? 2 : 0;  // a player that does not move throws at the opponents' goal
   Position position = position_of(recorder.world(), body);
   position = {position.x + k_steps[x], position.y + Coord(0.25), position.z + k_steps[z]};
   const uint32_t tick = static_cast<uint32_t>(get_info(recorder.world()).tick);

@@ -5,18 +5,20 @@
 
 namespace detent_rollback {
 
-/// What has become of a packet.
+/// The result of checking a packet.
 enum class Verdict : uint32_t {
   used,
-  repeated,  ///< came before, or is older than the memory of what came: networks do that, so nobody is blamed
-  refused,   ///< is none, says what cannot be, or is one too many
+  /// Received before, or older than the last 64 sequence numbers. Networks duplicate and delay packets, so the sender
+  /// is not blamed.
+  repeated,
+  refused,  ///< not a valid packet, impossible content, or above the rate limit
 };
 
-/// Watches over what one sender sends.
+/// Checks the packets of one sender.
 class Guard {
  public:
-  /// Whether a packet more is too many. A frame sends one, so a second brings 60, or after a pause of
-  /// this machine's all of the pause's.
+  /// Counts one more packet; whether it is above the rate limit. A sender sends one packet a frame, 60 a second. After
+  /// a pause of this machine, all packets of the pause arrive at once.
   bool is_flood(double now) {
     tokens_ = std::min(k_burst, tokens_ + std::max(0.0, now - time_) * k_rate);
     time_ = std::max(time_, now);
@@ -24,7 +26,7 @@ class Guard {
     tokens_ -= 1;
     return false;
   }
-  /// Whether a packet of this number came before, or may have: remembered are the last 64.
+  /// Whether a packet with this number was received before, or may have been: only the last 64 numbers are stored.
   bool is_repeated(uint32_t sequence) const {
     const uint32_t back = newest_ - sequence;
     return sequence <= newest_ && (back >= 64 || (seen_ >> back & 1) != 0);
@@ -41,15 +43,16 @@ class Guard {
 
   void refuse() { ++refused_; }
   uint32_t refused() const { return refused_; }
-  /// Has sent so much that was refused that it is no accident.
+  /// Whether the sender has sent more refused packets than accidents explain.
   bool is_hostile() const { return refused_ > k_refused_max; }
 
  private:
-  static constexpr double k_rate = 180, k_burst = 3600;  ///< packets a second; packets, of a minute
+  /// Allowed packets a second, and allowed packets at once, as after a pause of a minute.
+  static constexpr double k_rate = 180, k_burst = 3600;
   static constexpr uint32_t k_refused_max = 100;
 
   double tokens_ = k_burst, time_ = 0;
-  uint32_t newest_ = 0;  ///< sequences begin at 1
+  uint32_t newest_ = 0;  ///< the first sequence number is 1
   uint64_t seen_ = 1;
   uint32_t refused_ = 0;
 };

@@ -7,7 +7,7 @@
 namespace detent_rollback {
 namespace {
 
-constexpr uint32_t k_patience_ms = 2000;  ///< with who joined and says nothing
+constexpr uint32_t k_patience_ms = 2000;  ///< wait for the Hello of a guest
 constexpr uint32_t k_join_ms = 10000;
 
 Hello own_hello(const Options& options) {
@@ -21,7 +21,7 @@ bool is_our_hello(const Transport::Event& event, const Options& options) {
          hello.simulation == own.simulation && hello.config == own.config && hello.key == own.key;
 }
 
-/// Who has joined, in the order in which they came.
+/// The peers that have joined, in the order of their arrival.
 class Guests {
  public:
   struct Guest {

@@ -3,10 +3,10 @@
 #include "examples/rollback/options.h"
 #include "examples/rollback/transport.h"
 
-/// How machines come together before a match.
+/// Brings the machines together before a match.
 namespace detent_rollback {
 
-/// Who is who: the peers of the players with whom this machine speaks.
+/// The players that this machine exchanges packets with, and the transport peer of each.
 struct Peers {
   bool is_there[k_players_max] = {};
   uint32_t peer[k_players_max] = {};
@@ -18,10 +18,10 @@ struct Peers {
   }
 };
 
-/// Waits until everybody has joined and said a Hello of this program's version and the options' key, and tells them
-/// that the match begins. Who does not, within two seconds, is dropped. False: `stop` was set.
+/// Waits until all players have joined and sent a Hello with this program's version and the options' key; then sends
+/// each its Welcome. Drops a guest that sends no such Hello within two seconds. Returns false if `stop` was set.
 bool gather(Transport& transport, const Options& options, const volatile int& stop, Welcome& welcome, Peers& peers);
-/// Joins a host and waits for its Welcome. Null, or why it came to nothing.
+/// Joins a host and waits for its Welcome. Returns null, or the reason of the failure.
 const char* join(Transport& transport, const Options& options, const volatile int& stop, Welcome& welcome,
                  Peers& peers);
 

@@ -13,7 +13,7 @@ using namespace detent_rollback;
 
 volatile sig_atomic_t stop = 0;
 
-/// "HOST:PORT". False: it is not.
+/// Splits "HOST:PORT" into the options. False if it has another form.
 bool split(const std::string& there, Options& options) {
   const size_t colon = there.rfind(':');
   if (colon == std::string::npos || colon == 0) return false;
@@ -24,7 +24,7 @@ bool split(const std::string& there, Options& options) {
   return true;
 }
 
-/// The confirmed match, from its first tick on, for `detent verify`.
+/// Writes a recording of the confirmed match, from its first tick on, for `detent verify`.
 bool record(const Play& play, const std::string& path) {
   RecordingFile file(path.c_str());
   const auto& match = play.match();

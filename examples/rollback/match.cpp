@@ -21,7 +21,7 @@ constexpr uint32_t k_checksum_interval = 10;
 uint8_t* bytes_of(std::vector<uint64_t>& words) { return reinterpret_cast<uint8_t*>(words.data()); }
 uint32_t byte_count(const std::vector<uint64_t>& words) { return static_cast<uint32_t>(words.size() * 8); }
 
-/// The session's TickMaker. The recorder records nothing here: it is how the game is told from which world to play.
+/// The session's TickMaker. The recorder records nothing here; it only passes the world to the game's code.
 void make_tick(void*, World& world, const TickInputs& inputs) {
   Recorder recorder(world, {}, nullptr, 0);
   play(recorder, inputs.inputs, inputs.players);
@@ -96,7 +96,7 @@ bool Match::speaks_with(uint32_t other) const {
   return def_.player == 0 || other == 0;
 }
 
-/// Whether `from` is who tells a machine about this player's inputs: the player itself, or the host.
+/// Whether a machine accepts this player's inputs from `from`: the player itself or the host.
 bool Match::passes_on(uint32_t player, uint32_t from) const {
   return player != def_.player && (from == 0 || from == player);
 }
@@ -164,13 +164,13 @@ Verdict Match::take(uint32_t from, const uint8_t* bytes, uint32_t count, double 
   return Verdict::used;
 }
 
-/// The first tick of which an input is not known.
+/// The first tick for which some player's input is not known.
 uint64_t Match::known_tick() const { return session_.next_input(slowest()); }
 
-/// Whether a machine that keeps the rules can have sent this. Nobody makes more than a window of ticks without the
-/// inputs of all, nor gives inputs for more than a delay ahead, which is a window at most; so nobody is two windows and
-/// two delays before what is known here, nor a window and two delays before what is made here. A run begins at what we
-/// have said we lack, which we may know by now.
+/// Whether a correct machine can have sent this packet. No machine makes more than `window` ticks without the inputs of
+/// all players, and none gives inputs more than `delay` <= `window` ticks ahead. So no machine is more than two windows
+/// and two delays ahead of the inputs known here, or more than a window and two delays ahead of the ticks made here. A
+/// run starts at the first input that we reported as missing; we may have received that input since then.
 bool Match::is_plausible(const Packet& packet) const {
   const uint64_t end = std::min(known_tick(), session_.tick()) + 4 * uint64_t{def_.window};
   if (packet.tick > end) return false;
@@ -198,7 +198,7 @@ void Match::use(const Packet& packet) {
     const Run& run = packet.runs[i];
     for (uint32_t k = 0; k < run.count; ++k) must(session_.add_input(run.player, run.first + k, &run.inputs[k]));
   }
-  // What comes too late or too early to be compared is of no use; what differs the session remembers.
+  // Ignores checksums that arrive too late or too early to compare; the session stores a mismatch.
   if (packet.has_checksum) {
     static_cast<void>(session_.add_checksum(packet.player, {packet.checksum_tick, packet.checksum}));
   }

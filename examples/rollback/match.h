@@ -7,12 +7,13 @@
 #include "examples/rollback/guard.h"
 #include "examples/rollback/packet.h"
 
-/// One machine's part in a match: a RollbackSession, and what it takes from and sends to the others as bytes. It knows
+/// One machine's part in a match: a RollbackSession, plus the bytes that it exchanges with the other machines. It uses
 /// neither sockets nor clocks.
 ///
-/// Player 0 is the host, and everybody speaks with the host alone, who passes on the inputs that it knows. So only one
-/// machine has to be reachable; nobody can tell two players two different things; and when somebody leaves, the host
-/// alone says from which tick on they do nothing. The price is the way over the host between two clients.
+/// Player 0 is the host. Every client exchanges packets with the host only, and the host passes on the inputs that it
+/// has. So only the host has to be reachable, no client can send different inputs to different players, and when a
+/// client leaves, the host alone decides from which tick on its input is 0. The cost: data between two clients travels
+/// through the host.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace pitch {
@@ -20,17 +21,17 @@ namespace pitch {
 using detent_rollback::Guard;
 using detent_rollback::Verdict;
 
-/// What a machine's part is.
+/// Settings of one machine's part in the match.
 struct MatchDef {
-  uint32_t match = 0;    ///< a number that tells it from other matches
-  uint32_t player = 0;   ///< who plays here
+  uint32_t match = 0;    ///< identifies the match
+  uint32_t player = 0;   ///< the player at this machine, below `players`
   uint32_t players = 2;  ///< [2, k_players_max]
   uint32_t window = 16;  ///< RollbackDef::window
   uint32_t delay = 2;    ///< RollbackDef::delay
-  uint32_t ticks = 600;  ///< how long it lasts
+  uint32_t ticks = 600;  ///< length of the match
 };
 
-/// What it took.
+/// Counts over the whole match: rollbacks, resimulated ticks, waits and traffic.
 struct MatchFigures {
   uint64_t rollbacks = 0, ticks_again = 0, longest_rollback = 0, waits = 0;
   uint64_t packets_in = 0, packets_out = 0, bytes_in = 0, bytes_out = 0, repeated = 0;
@@ -44,27 +45,30 @@ class Match {
 
   /// The tick that the next local input is for.
   uint64_t input_tick() const { return session_.tick() + def_.delay; }
-  /// Makes a tick with this local input, or waits for those of others; after the last one only corrects.
+  /// Makes a tick with this local input, or waits for the inputs of other players. After the last tick it only
+  /// corrects.
   void frame(uint8_t input);
-  /// Whom this machine speaks with: the host with everybody who has not left, the others with the host.
+  /// Whether this machine exchanges packets with `other`: the host with every player that has not left, a client with
+  /// the host.
   bool speaks_with(uint32_t other) const;
-  /// What `other` is to be told after this frame. Returns the number of bytes, at most k_packet_bytes_max.
+  /// Writes the packet for `other` after this frame. Returns the number of bytes, at most k_packet_bytes_max.
   uint32_t write_for(uint32_t other, uint8_t* bytes);
-  /// What `from` sent, at a time in s. What is refused has changed nothing.
+  /// Reads a packet that `from` sent; `now`: s. A refused packet changes nothing but the guard's counts.
   Verdict take(uint32_t from, const uint8_t* bytes, uint32_t count, double now);
-  /// Whether a sender should be thrown out.
+  /// Whether the connection to this sender should be closed.
   bool is_hostile(uint32_t from) const { return others_[from].guard.is_hostile(); }
-  /// At the host: a client is gone, and does nothing from the first tick on of which no input has come.
+  /// Host only: marks a client as gone. Its input is 0 from the first tick on for which no input has arrived.
   void leave(uint32_t player) { left_ |= 1u << player; }
   bool has_left(uint32_t player) const { return (left_ >> player & 1) != 0; }
 
-  /// Every input of every tick is known, and used.
+  /// Whether every input of every tick is known and simulated.
   bool is_over() const { return confirmed_.size() == size_t{def_.ticks} * def_.players; }
-  /// The player whose inputs are least known: who is waited for, if anybody is.
+  /// The player whose inputs are known for the fewest ticks: the one to wait for, if this machine waits.
   uint32_t slowest() const;
-  /// How many ticks this machine is ahead of who is farthest behind; who is ahead should take it slower.
+  /// How many ticks this machine is ahead of the slowest other machine, at least 0; the faster machine should slow
+  /// down.
   double ticks_ahead() const;
-  /// The longest way to another machine and back, in ticks, frames included.
+  /// The longest round trip to another machine, in ticks, including the wait for its next frame.
   double round_trip_ticks() const;
 
   const MatchDef& def() const { return def_; }
@@ -72,16 +76,18 @@ class Match {
   const RollbackSession& session() const { return session_; }
   const MatchFigures& figures() const { return figures_; }
   uint64_t refused() const;
-  /// The inputs of the ticks that can no longer change, of all players.
+  /// The inputs of all players in the ticks that can no longer change.
   const std::vector<uint8_t>& confirmed_inputs() const { return confirmed_; }
 
  private:
   struct Other {
     Guard guard;
-    uint32_t sequence = 0;                ///< of the last packet to it
-    uint32_t tick = 0;                    ///< the newest that it told
-    uint32_t wanted[k_players_max] = {};  ///< the first input of each player that it lacks, as far as we know
-    double ahead = 0, behind = 0;  ///< how far we see us before it, and it sees itself before us; means of the last
+    uint32_t sequence = 0;  ///< of the last packet sent to this machine
+    uint32_t tick = 0;      ///< the newest tick that this machine has reported
+    /// For each player: the first input that this machine lacks, as far as we know.
+    uint32_t wanted[k_players_max] = {};
+    /// How far we are ahead of it by our count, and it ahead of us by its count, ticks; moving averages.
+    double ahead = 0, behind = 0;
   };
 
   bool passes_on(uint32_t player, uint32_t from) const;
@@ -103,7 +109,8 @@ class Match {
   MatchFigures figures_;
 };
 
-/// The digest after these ticks, in a world that never went back; recorded into `sink` on the way. 0 if that failed.
+/// Replays these inputs in a world without rollbacks and records it into `sink`. Returns the final digest, 0 on
+/// failure.
 uint64_t replay_inputs(const std::vector<uint8_t>& inputs, uint32_t players, Sink sink);
 
 }  // namespace pitch

@@ -5,11 +5,10 @@
 
 namespace detent_rollback {
 
-/// What the command line says. The host's word counts for what all must have alike: players, ticks, window, speed,
-/// seed.
+/// The command line's options. All machines use the host's values of players, ticks, window, speed and seed.
 struct Options {
   bool hosts = false;
-  std::string address;  ///< of the host, if this machine joins
+  std::string address;  ///< of the host, if this machine joins a match
   uint16_t port = 0;
   uint32_t key = 0;
 
@@ -18,7 +17,7 @@ struct Options {
   uint64_t seed = 1;
 
   uint32_t delay = 2;
-  bool bot = false;  ///< nobody looks and plays here
+  bool bot = false;  ///< a bot plays here, and nothing is drawn
   LinkConditions conditions;
   std::string recording;  ///< a path, or empty
 };

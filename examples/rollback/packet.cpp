@@ -5,7 +5,7 @@
 namespace detent_rollback {
 namespace {
 
-/// The first four bytes of a message.
+/// The first four bytes of a message, which give its kind.
 constexpr uint32_t tag(uint32_t kind) { return 'd' | 't' << 8 | k_protocol << 16 | kind << 24; }
 constexpr uint32_t k_packet_tag = tag('p'), k_hello_tag = tag('h'), k_welcome_tag = tag('w'), k_farewell_tag = tag('f');
 
@@ -23,7 +23,7 @@ bool read_run(Reader& reader, const Packet& packet, Run& run) {
   return true;
 }
 
-/// Those of the players are in their order, so that none is there twice.
+/// Requires the runs in rising order of their players, so that no player appears twice.
 bool read_runs(Reader& reader, Packet& packet) {
   packet.run_count = reader.take_u8();
   if (packet.run_count > packet.players) return false;

@@ -11,8 +11,8 @@ using detent::pitch::MatchDef;
 
 namespace {
 
-constexpr double k_patience = 10;       ///< s, with who stands still
-constexpr double k_debt_max = 0.25;     ///< s of ticks that are made up for at once, after a pause
+constexpr double k_patience = 10;       ///< s without progress before a player is dropped
+constexpr double k_debt_max = 0.25;     ///< s of ticks that are caught up at once after a pause
 constexpr double k_shown_every = 0.25;  ///< s
 
 double host_seconds() {
@@ -50,14 +50,14 @@ void Play::run(const volatile int& stop) {
   transport_.close(2000);
 }
 
-/// All that has come; if there is nothing, waits a millisecond for it.
+/// Handles all events that have arrived; if a frame is not due yet, waits up to a millisecond for the first one.
 void Play::receive() {
   for (uint32_t wait = now() < next_frame_ ? 1 : 0;; wait = 0) {
     const Transport::Event event = transport_.next(wait);
     if (event.kind == Transport::Kind::nothing) return;
     const uint32_t player = peers_.player_at(event.peer);
     if (player == k_players_max || !match_.speaks_with(player)) {
-      if (event.kind != Transport::Kind::left) transport_.drop(event.peer);  // too late, or for the second time
+      if (event.kind != Transport::Kind::left) transport_.drop(event.peer);  // too late, or a second connection
     } else if (event.kind == Transport::Kind::left) {
       lose(player);
     } else {
@@ -96,7 +96,7 @@ void Play::frame() {
     uint8_t bytes[k_message_bytes_max];
     if (match_.speaks_with(player)) link_.send(player, bytes, match_.write_for(player, bytes), now());
   }
-  // Who is ahead takes it slower, by a fifth at most, until the others are as far.
+  // A machine that is ahead slows down, by at most a fifth, until the others have caught up.
   next_frame_ += (1 + std::min(match_.ticks_ahead(), 4.0) * 0.05) / 60;
   next_frame_ = std::max(next_frame_, now() - k_debt_max);
 
@@ -119,8 +119,8 @@ void Play::say_farewell(uint32_t player) {
   transport_.send(peers_.peer[player], bytes, write_farewell(farewell, bytes), true);
 }
 
-/// The clients tell the host when they know all inputs, and the host tells them when all have: until then they need
-/// what the others say.
+/// A client sends its result to the host when it has all inputs. The host sends its result when it has the results of
+/// all clients: until then they need its packets.
 void Play::end() {
   if (over_ || !match_.is_over()) return;
   const bool said = has_ended_[welcome_.player];

@@ -6,16 +6,16 @@
 
 namespace detent_rollback {
 
-/// A match over the network, by the clock, to its end.
+/// Runs a network match in real time, to its end.
 class Play {
  public:
   Play(Transport& transport, const Peers& peers, const Welcome& welcome, const Options& options);
 
-  /// Until the match is over and all have said how it ended, the host is gone, or `stop` is set.
+  /// Runs until the match is over and all players have sent their results, or the host is gone, or `stop` is set.
   void run(const volatile int& stop);
-  /// All that is to be said of it, in lines.
+  /// Prints the results, one a line.
   void print_summary() const;
-  /// Whether all ticks were made, and all that are left ended with the same digest and never differed.
+  /// Whether all ticks were made, no checksum differed, and all remaining players ended with the same digest.
   bool is_good() const;
 
   const detent::pitch::Match& match() const { return match_; }
@@ -36,16 +36,16 @@ class Play {
   const Peers peers_;
   const Welcome welcome_;
   const Options options_;
-  Conditioner link_;  ///< what this machine sends goes through it
+  Conditioner link_;  ///< every packet of this machine passes through it
   detent::pitch::Match match_;
   std::unique_ptr<Keyboard> keyboard_;  ///< null where a bot plays
   const double start_;                  ///< s, of the host's clock
-  double next_frame_ = 0;               ///< s of the match's clock, as all that follow
-  double last_progress_ = 0;            ///< when a tick was made for the last time, or an end heard of
+  double next_frame_ = 0;               ///< s of the match's clock, as the two times below
+  double last_progress_ = 0;            ///< the time of the last new tick, or of the last result received
   double last_shown_ = 0;
   bool over_ = false;
   bool host_is_gone_ = false;
-  bool has_ended_[k_players_max] = {};  ///< who has said how it ended
+  bool has_ended_[k_players_max] = {};  ///< the players that have sent their results
   uint64_t digests_[k_players_max] = {};
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <stdint.h>
 
-/// Numbers that look random and are the same everywhere.
+/// Pseudo-random numbers, the same on every machine.
 namespace detent_rollback {
 
 /// SplitMix64's finaliser (Steele, Lea, Flood 2014).

@@ -42,7 +42,8 @@ Transport::Event Transport::event_of(ENetEvent& event) {
   switch (event.type) {
     case ENET_EVENT_TYPE_CONNECT:
       result.kind = Kind::joined;
-      // ENet would send less to who answers late, which a bad link does; a match sends little.
+      // By default ENet sends less to a peer that answers late, as on a bad link. A match sends little, so this is
+      // disabled.
       enet_peer_throttle_configure(event.peer, ENET_PEER_PACKET_THROTTLE_INTERVAL, ENET_PEER_PACKET_THROTTLE_SCALE, 0);
       break;
     case ENET_EVENT_TYPE_DISCONNECT:
@@ -58,8 +59,8 @@ Transport::Event Transport::event_of(ENetEvent& event) {
 }
 
 Transport::Event Transport::next(uint32_t timeout_ms) {
-  // A datagram larger than ENet reads ends enet_host_service with an error, and is gone then: an attacker's, for ours
-  // are small. So an error is no reason to stop.
+  // A datagram larger than ENet's read buffer makes enet_host_service return an error and is dropped. It comes from an
+  // attacker, because the datagrams of a match are small. So an error does not end the loop.
   ENetEvent event = {};
   for (uint32_t errors = 0; errors < 64; ++errors) {
     if (enet_host_service(host_, &event, timeout_ms) >= 0) return event_of(event);

@@ -28,7 +28,7 @@ char symbol(const World& world, BodyId body) {
   }
 }
 
-/// Left and right of the pitch, with gaps where the goals are.
+/// The left and right border of a row, open at the goals.
 char end_of_row(int row) { return row < k_rows * 3 / 10 || row >= k_rows * 7 / 10 ? '|' : ' '; }
 
 }  // namespace

@@ -7,18 +7,18 @@
 
 namespace detent_rollback {
 
-/// The pitch from above, in characters, from the terminal's upper left corner on.
+/// Draws the pitch from above, in characters, from the terminal's upper left corner on.
 std::string draw(const detent::World& world);
 
-/// The keys of this terminal: w, a, s, d go on going that way, x stops, the space bar throws. A terminal tells when a
-/// key goes down, but not when it comes up.
+/// The keys of this terminal: w, a, s, d set the direction, x stops, the space bar throws. A direction stays until the
+/// next key, because a terminal reports that a key goes down, but not that it comes up.
 class Keyboard {
  public:
   Keyboard();
   ~Keyboard();
   Keyboard(const Keyboard&) = delete;
   Keyboard& operator=(const Keyboard&) = delete;
-  /// The input that the keys mean now.
+  /// The input for the keys pressed so far.
   uint8_t input();
 
  private:

@@ -1,7 +1,7 @@
 #pragma once
 #include <stdint.h>
 
-/// Numbers as bytes, the lowest first, the same on every machine.
+/// Integers as bytes, lowest byte first, the same on every machine.
 namespace detent_rollback {
 
 class Writer {
@@ -20,7 +20,7 @@ class Writer {
   uint32_t count_ = 0;
 };
 
-/// Reads as far as there are bytes; beyond them zeros, and `is_at_end` is false for good.
+/// Reads the bytes in order. A read past the end returns 0, and `is_at_end` is then false for good.
 class Reader {
  public:
   Reader(const uint8_t* bytes, uint32_t count) : bytes_(bytes), left_(count) {}
@@ -38,7 +38,7 @@ class Reader {
   uint8_t take_u8() { return static_cast<uint8_t>(take(1)); }
   uint32_t take_u32() { return static_cast<uint32_t>(take(4)); }
   uint64_t take_u64() { return take(8); }
-  /// Whether every byte was read, and none was missing.
+  /// Whether all bytes were read, and no read went past the end.
   bool is_at_end() const { return !short_ && left_ == 0; }
 
  private:

@@ -12,16 +12,16 @@ constexpr uint32_t k_bumps = 18, k_wheels = 4, k_ticks = 900, k_turn_ticks = 90;
 constexpr Real k_half_track = Real(0.75), k_half_base = Real(1.3);  // m
 constexpr Quat k_upright = {Unit(0.0), Unit(0.0), Unit(0.0), Unit(1.0)};
 constexpr Quat k_across = {Unit(0.70710678118), Unit(0.0), Unit(0.0), Unit(0.70710678118)};  ///< y to z
-/// The frame of a wheel's joint: x, the suspension, is up; z, the axle, lies across.
+/// The frame of a wheel's joint: x, the suspension, points up; z, the axle, lies across.
 constexpr Quat k_suspension = {Unit(0.0), Unit(0.0), Unit(0.70710678118), Unit(0.70710678118)};
 constexpr Real k_wheel_speed = Real(-24.0);                                ///< rad/s: 30 km/h along x
-constexpr Real k_steering_max = Real(0.12), k_steering_step = Real(0.01);  ///< rad, and rad a tick
+constexpr Real k_steering_max = Real(0.12), k_steering_step = Real(0.01);  ///< rad; rad a tick
 
 /// Bodies and joints are made in this order: front left, front right, rear left, rear right.
 struct Vehicle {
   BodyId chassis, wheel[k_wheels];
   JointId joint[k_wheels];
-  JointDef straight[k_wheels];  ///< as the wheels steer straight ahead
+  JointDef straight[k_wheels];  ///< the joints when the wheels steer straight ahead
 };
 
 Status make_road(World& world) {
@@ -63,12 +63,14 @@ Status make_vehicle(World& world, Vehicle& vehicle) {
     joint.type = JointType::wheel;
     joint.a = vehicle.chassis;
     joint.b = vehicle.wheel[i];
-    joint.axis.limited = true;  // 15 cm of travel each way
+    joint.axis.limited = true;  // 15 cm of travel in each direction
     joint.axis.lower = Real(-0.15);
     joint.axis.upper = Real(0.15);
-    joint.axis.frequency = Real(6.0);  // of the wheel, beside which the chassis is heavy; the chassis rides at 1.7 Hz
+    // Hz, for the effective mass of wheel and chassis, which is about the wheel's. The chassis itself oscillates at 1.7
+    // Hz.
+    joint.axis.frequency = Real(6.0);
     joint.axis.damping_ratio = Real(1.5);
-    joint.axis.target = Real(-0.09);  // what the chassis' weight presses in again
+    joint.axis.target = Real(-0.09);  // m; the chassis' weight compresses the spring again by as much
     joint.second.speed = k_wheel_speed;
     joint.second.force_max = Scaled(150.0);
     status = place_joint(world, wheel.position, k_suspension, joint);
@@ -77,7 +79,7 @@ Status make_vehicle(World& world, Vehicle& vehicle) {
   return status;
 }
 
-/// Turns the front wheels' axles by an angle about the chassis' y.
+/// Rotates the front wheels' axles by an angle about the chassis' y.
 Status steer(World& world, const Vehicle& vehicle, Real angle) {
   Status status = Status::ok;
   for (uint32_t i = 0; i < 2 && status == Status::ok; ++i) {
@@ -101,7 +103,7 @@ int main() {
   Real steering = Real(0.0);
   double worst = 0, left = 0, right = 0;
   for (uint32_t tick = 1; tick <= k_ticks; ++tick) {
-    // To and fro, from the middle to a side and on from side to side.
+    // Steers from the middle to one side, then from side to side.
     const bool to_left = (tick + k_turn_ticks / 2) / k_turn_ticks % 2 == 0;
     if (tick > 60 && (to_left ? steering < k_steering_max : -k_steering_max < steering)) {
       steering += to_left ? k_steering_step : -k_steering_step;

@@ -6,7 +6,7 @@ namespace {
 uint32_t word(const volatile void* pointer) { return static_cast<uint32_t>(reinterpret_cast<uintptr_t>(pointer)); }
 uint32_t word(MachineFile file) { return static_cast<uint32_t>(file.handle); }
 
-// Reads and writes answer with the number of bytes that they did not move.
+// Reads and writes return the number of bytes that they did not transfer.
 uint32_t transfer(Semihosting operation, MachineFile file, const void* bytes, uint32_t byte_count) {
   const uint32_t block[] = {word(file), word(bytes), byte_count};
   const uint32_t left = static_cast<uint32_t>(semihosting(operation, block));

@@ -3,14 +3,14 @@
 #include <stddef.h>
 #include <sys/stat.h>
 
-// Runs a program that is written for a host: with main() in place of machine_main(), and with printf().
+// Runs a program written for a host, which has main() in place of machine_main() and uses printf().
 
-// By its symbol, for C++ lets nobody call main().
+// Refers to main() by its symbol, because C++ does not allow a call of main().
 extern "C" int host_main() __asm__("main");
 
 int machine_main(int, char**) { return host_main(); }
 
-// What newlib's printf() asks of a system. Picolibc brings that itself (--oslib=semihost).
+// The system calls that newlib's printf() needs. Picolibc brings its own (--oslib=semihost).
 #if defined(__NEWLIB__) && !defined(__PICOLIBC__)
 extern "C" {
 int _write(int, const char* text, int byte_count) {
@@ -18,7 +18,7 @@ int _write(int, const char* text, int byte_count) {
   return static_cast<int>(machine_write(console, text, static_cast<uint32_t>(byte_count)));
 }
 
-// What a double takes as text; the stream's own buffer finds no room, so that it has none.
+// Enough memory to print a double. The stream's own buffer does not fit, so the stream is unbuffered.
 void* _sbrk(ptrdiff_t byte_count) {
   alignas(8) static char heap[768];
   static ptrdiff_t used;

@@ -10,7 +10,7 @@ uint32_t bytes_between(const volatile void* low, const volatile void* high) {
 }  // namespace
 
 void paint_stack() {
-  // Volatile, so that the loop stays a loop: a call to memset would have its frame in what it fills.
+  // Volatile keeps this a loop: a call to memset would have its frame in the memory that it fills.
   volatile uint32_t* const bottom = reinterpret_cast<volatile uint32_t*>(link_bss_end);
   volatile uint32_t* const here = static_cast<volatile uint32_t*>(__builtin_frame_address(0));
   constexpr uint32_t k_own_frame_words = 32;

@@ -1,7 +1,7 @@
 #pragma once
 #include <stdint.h>
 
-/// The symbols of link.ld.in. Only their addresses mean anything; those named _bytes are numbers, not places.
+/// The symbols of link.ld.in. Only their addresses are meaningful; those named _bytes are sizes, not addresses.
 extern "C" {
 using MachineConstructor = void (*)();
 extern MachineConstructor link_constructors[];
@@ -16,5 +16,5 @@ extern uint8_t link_flash_bytes[];
 extern uint8_t link_ram_bytes[];
 }
 
-/// Fills the unused stack with a pattern, so that machine_stack_used can tell how deep the program has been.
+/// Fills the unused stack with a pattern, so that machine_stack_used can find the deepest use.
 void paint_stack();

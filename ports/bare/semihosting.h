@@ -1,8 +1,8 @@
 #pragma once
 #include <stdint.h>
 
-/// Operations of the host behind the debugger. Source: Arm, "Semihosting for AArch32 and AArch64", 2.0; RISC-V takes
-/// the same numbers and blocks.
+/// Operations of the host behind the debugger. Source: Arm, "Semihosting for AArch32 and AArch64", 2.0. RISC-V uses the
+/// same numbers and blocks.
 enum class Semihosting : uint32_t {
   open = 0x01,
   close = 0x02,
@@ -15,6 +15,6 @@ enum class Semihosting : uint32_t {
   exit = 0x20,
 };
 
-/// `argument` is the operation's block of words, or the text of write_text. The result is the operation's own.
-/// Each core has its own instruction for it (ports/cortex_m, ports/riscv).
+/// `argument` is the operation's block of words, or the text of write_text. The result depends on the operation. Each
+/// core implements it with its own instruction (ports/cortex_m, ports/riscv).
 int32_t semihosting(Semihosting operation, const void* argument);

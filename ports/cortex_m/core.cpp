@@ -10,7 +10,7 @@ int32_t semihosting(Semihosting operation, const void* argument) {
 }
 
 extern "C" {
-// Small on purpose: until the floating-point unit is on, no function may save its registers.
+// Kept small: until the floating-point unit is on, no function may save its registers.
 [[noreturn]] void machine_reset() {
 #if defined(__ARM_FP)
   volatile uint32_t& coprocessor_access = *reinterpret_cast<volatile uint32_t*>(0xE000ED88);
@@ -20,8 +20,8 @@ extern "C" {
   machine_start();
 }
 
-// The hardware pushed 8 registers, the seventh of which is the address. The stack starts anew, for it may be what
-// failed.
+// The hardware pushed 8 registers; the seventh is the address of the fault. The stack starts anew, because it may have
+// caused the fault.
 [[gnu::naked]] void machine_fault_handler() {
   asm volatile(
       "mrs r0, msp\n"

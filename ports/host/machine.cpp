@@ -20,7 +20,8 @@ int main(int argc, char** argv) {
 #if defined(_WIN32)
   _setmode(_fileno(stdout), _O_BINARY);  // "\n" is one byte in text, as everywhere else
 #elif defined(__wasi__)
-  const char* const directory = getenv("PWD");  // WASI has no current directory; ports/wasm/run.mjs tells us the host's
+  // WASI has no current directory; ports/wasm/run.mjs passes the host's in PWD.
+  const char* const directory = getenv("PWD");
   if (directory != nullptr && chdir(directory) != 0) machine_panic("the current directory does not exist");
 #endif
   machine_exit(machine_main(argc, argv));

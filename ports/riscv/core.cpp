@@ -1,8 +1,8 @@
 #include <ports/bare/semihosting.h>
 #include <ports/bare/start.h>
 
-// The three instructions are the request; they must be uncompressed and in one page.
-// Source: RISC-V International, "RISC-V Semihosting", 1.0.
+// The host recognises the request by these three instructions; they must be uncompressed and in one page. Source:
+// RISC-V International, "RISC-V Semihosting", 1.0.
 int32_t semihosting(Semihosting operation, const void* argument) {
   register uint32_t a0 asm("a0") = static_cast<uint32_t>(operation);
   register const void* a1 asm("a1") = argument;
@@ -20,7 +20,7 @@ int32_t semihosting(Semihosting operation, const void* argument) {
   return static_cast<int32_t>(a0);
 }
 
-// The board starts at the first byte of the program, without a stack. A trap starts it anew, for it may be what failed.
+// The board starts at the program's first byte, without a stack. A trap resets the stack, which may have caused it.
 asm(R"(
   .section .vectors, "ax", @progbits
   .global machine_reset

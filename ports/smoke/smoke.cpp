@@ -14,7 +14,7 @@ int fail(const char* what) {
   return k_failed;
 }
 
-// bytes.bin holds every value, then those that a text mode would translate or end at.
+// bytes.bin contains every byte value, then the bytes that a text mode would translate or treat as the end.
 constexpr char k_translated[] = "\r\n\x1a\r\n";
 constexpr uint32_t k_byte_count = 256 + sizeof k_translated - 1;
 
@@ -96,7 +96,7 @@ int check_layout(const char* byte_order, const char* word_bits) {
   return k_passed;
 }
 
-// Arrays, so that a compiler takes its vector unit, whose float rules may differ.
+// Uses arrays, so that the compiler uses its vector unit, whose float rules may differ.
 int check_denormals() {
   constexpr uint32_t k_smallest_normal = 0x00800000;
   float sums[16];

@@ -19,10 +19,10 @@ double kinetic(const Inertia& inertia, const State& state) {
 
 Triple anchor_of(const State& state, const Triple& anchor) { return state.position + rotate(state.rotation, anchor); }
 
-/// Between two axes, rad.
+/// The angle between two axes, rad.
 double angle_between(const Triple& a, const Triple& b) { return atan2(length(cross(a, b)), dot(a, b)); }
 
-/// How fast the anchors part along the way between them, or as A's frame sees B's anchor go, m/s.
+/// The speed at which the anchors separate along the line between them, or the speed of B's anchor in A's frame, m/s.
 double slide_rate(const SceneJoint& joint, const State& a, const State& b) {
   const Triple from = anchor_of(a, joint.anchor_a), to = anchor_of(b, joint.anchor_b);
   const Triple way = to - from;
@@ -43,7 +43,7 @@ double energy_of(const Scene& scene, const std::vector<Inertia>& inertia, const 
 }
 
 double scale_of(const Scene& scene, const std::vector<Inertia>& inertia, const States& start) {
-  // A scene at rest may creep by what numbers are rounded to, in every configuration.
+  // A scene at rest may creep by rounding errors, in every configuration.
   constexpr double k_speed_least = 1e-2;  // m/s
   double mass = 0, sum = 0;
   for (size_t i = 0; i < start.size(); ++i) {

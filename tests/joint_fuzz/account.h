@@ -1,10 +1,10 @@
 #pragma once
 #include "tests/joint_fuzz/scene.h"
 
-/// The energy of a scene and the gaps of its joints, in doubles, from what a world says of its bodies.
+/// The energy of a scene and the gaps of its joints, computed in doubles from the world's poses and velocities.
 namespace detent_joint_fuzz {
 
-/// How a body is.
+/// The pose and motion of a body.
 struct State {
   Triple position = {};  ///< m
   Rotation rotation = {0, 0, 0, 1};
@@ -13,29 +13,29 @@ struct State {
 };
 using States = std::vector<State>;
 
-/// What moves of a body: its mass, kg, and moments of inertia about its own axes, kg m^2; 0 of a wall.
+/// A body's mass, kg, and moments of inertia about its own axes, kg m^2; 0 for a wall.
 struct Inertia {
   double mass = 0;
   Triple moments = {};
 };
 
-/// Kinetic, and potential above y = 0, J. Not a number if a state is none.
+/// Kinetic and potential energy, J; potential energy is 0 at y = 0. NaN if a state is not a number.
 double energy_of(const Scene& scene, const std::vector<Inertia>& inertia, const States& states);
-/// What a growth is measured by, J: the kinetic energy at the start, and a tenth of what the whole weighs times its
-/// extent. Never quite 0.
+/// The energy that growth is compared with, J: the kinetic energy at the start, plus a tenth of the total weight times
+/// the scene's extent. Always above 0.
 double scale_of(const Scene& scene, const std::vector<Inertia>& inertia, const States& start);
 
-/// By how much a joint gives way.
+/// The error of a joint.
 struct Gap {
-  double length = 0;  ///< m; of a distance beyond its limits
-  double angle = 0;   ///< rad, between axes that are to be one
+  double length = 0;  ///< m; for a distance joint the part beyond its limits
+  double angle = 0;   ///< rad, between axes that should coincide
 };
 Gap gap_of(const SceneJoint& joint, const States& states);
-/// Of all joints.
+/// The greatest over all joints.
 Gap greatest_gap(const Scene& scene, const States& states);
 
-/// The power that the drives of a scene can give at most at these states, W: each force_max times the rate, or the
-/// motor's speed if that is more. Brakes, and springs that are at rest at the start, give none.
+/// An upper bound of the drives' power at these states, W: each force_max times the present rate, or times the motor's
+/// speed if that is greater. Brakes, and springs at rest at the start, count as 0.
 double power_max(const Scene& scene, const States& states);
 
 }  // namespace detent_joint_fuzz

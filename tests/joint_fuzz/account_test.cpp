@@ -8,7 +8,7 @@ namespace detent_joint_fuzz {
 namespace {
 
 const double k_half = std::sqrt(0.5);
-const Rotation k_x_to_y = {0, 0, k_half, k_half};  ///< a quarter turn about z
+const Rotation k_x_to_y = {0, 0, k_half, k_half};  ///< a rotation by 90 degrees about z
 
 /// Two bodies, the first a wall at the origin.
 Scene scene_with(const SceneJoint& joint) {
@@ -25,14 +25,14 @@ Scene scene_with(const SceneJoint& joint) {
 TEST(joint_fuzz_account, energy_is_that_of_the_motion_the_turn_and_the_height) {
   const Scene scene = scene_with({});
   const std::vector<Inertia> inertia = {{}, {2, {1, 2, 3}}};
-  // About the world's y, which is the body's x.
+  // The rotation about the world's y is about the body's x.
   const States states = {{}, {{5, 7, 0}, k_x_to_y, {0, 0, 3}, {0, 4, 0}}};
   EXPECT_NEAR(energy_of(scene, inertia, states), 9 + 8 + 2 * 9.81 * 7, 1e-9);
   EXPECT_NEAR(scale_of(scene, inertia, states), 9 + 8 + 0.1 * 2 * 9.81 * 2, 1e-3);
 }
 
 TEST(joint_fuzz_account, gaps_are_what_a_joint_does_not_leave_free) {
-  // B is turned about z by a quarter, and its anchor lies at (3, 4, 0) from A's.
+  // B is rotated about z by 90 degrees, and its anchor is at (3, 4, 0) from A's.
   const States states = {{}, {{3, 4, 0}, k_x_to_y, {}, {}}};
   const double quarter = std::acos(0.0);
   const auto gap_as = [&](Hold hold, double upper) {

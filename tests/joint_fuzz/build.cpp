@@ -74,7 +74,7 @@ uint32_t Builder::add_wall(const Triple& position) {
 
 Hold Builder::any_hold() {
   if (!style_.mixed) return style_.hold;
-  // Most joints of games are balls and hinges.
+  // In games most joints are ball joints and hinges, so they are more frequent here.
   constexpr Hold k_often[] = {Hold::ball,  Hold::ball,     Hold::ball,  Hold::hinge,      Hold::hinge, Hold::cone_twist,
                               Hold::wheel, Hold::distance, Hold::fixed, Hold::cone_twist, Hold::slider};
   return k_often[random_.below(sizeof k_often / sizeof *k_often)];
@@ -95,7 +95,7 @@ void Builder::join(uint32_t a, uint32_t b, const Triple& point, Hold hold, const
   joint.a = a;
   joint.b = b;
   const double half_lean = hold == Hold::cone_twist && random_.chance(0.5) ? random_.uniform(0.05, 0.5) : 0;
-  // About an axis across x, so that there is no twist.
+  // The axis is across x, so that there is no twist.
   const Rotation frame_b = product(frame, turn_about(random_.perpendicular(k_x), half_lean));
   joint.anchor_a = unrotate(first.rotation, point - first.position);
   joint.anchor_b = unrotate(other.rotation, point + rotate(frame, k_x) * apart - other.position);
@@ -108,7 +108,8 @@ void Builder::join(uint32_t a, uint32_t b, const Triple& point, Hold hold, const
     joint.axis.upper = rod || random_.chance(0.3) ? apart : apart * random_.uniform(1, 1.3);
   }
   if (style_.limits) add_limits(joint, apart, angle_of(half_lean));
-  // What slides for seconds has arms of a thousand times its size. Of a pair another joint may hold it.
+  // Without limits a slide of several seconds makes arms of a thousand times the body's size. In a pair a second joint
+  // may limit it.
   const bool bounded = scene_.kind != Kind::pair || random_.chance(0.5);
   if (slides(hold) && !joint.axis.limited && bounded)
     joint.axis = {.limited = true, .lower = apart - style_.reach, .upper = apart + style_.reach};
@@ -155,7 +156,7 @@ void Builder::add_drives(SceneJoint& joint) {
         axis.target = middle + random_.uniform(-1, 1) * swing;
         axis.force_max = force;
         break;
-      case 2:  // at rest where it is: it gives no more than it has taken
+      case 2:  // at rest at the start, so it returns at most the energy that it has stored
         if (joint.hold != Hold::hinge) break;
         axis.frequency = spread(random_, 0.2, 20);
         axis.damping_ratio = random_.uniform(0, 2);

@@ -2,46 +2,47 @@
 #include "tests/joint_fuzz/scene.h"
 #include "tests/queries/random.h"
 
-/// The parts that random scenes are put together from.
+/// The parts of random scenes.
 namespace detent_joint_fuzz {
 
 using detent_queries::Random;
 
-/// What all bodies and joints of a scene have in common.
+/// Common properties of a scene's bodies and joints.
 struct Style {
   double reach = 1;        ///< m: the longest arm
-  double size = 1;         ///< of a body, of the arm
-  double mass = 1;         ///< kg: the least
-  double mass_ratio = 1;   ///< the greatest over the least
+  double size = 1;         ///< of a body, relative to the longest arm
+  double mass = 1;         ///< kg: the smallest mass
+  double mass_ratio = 1;   ///< greatest over smallest mass
   bool mixed = false;      ///< joints of any type
-  Hold hold = Hold::ball;  ///< else all of this one
-  bool limits = false;     ///< half of the free motions have them
-  bool drives = false;     ///< and motors and springs
+  Hold hold = Hold::ball;  ///< the type of all joints if not mixed
+  bool limits = false;     ///< half of the free motions have limits
+  bool drives = false;     ///< the joints have motors and springs
 };
 
-/// Log-uniform, a float: libraries whose logarithms differ in the last bit make the same scene.
+/// Log-uniform and rounded to float, so that C libraries whose logarithms differ in the last bit make the same scene.
 double spread(Random& random, double low, double high);
-/// Of any direction, and of a length up to `most`.
+/// A vector of random direction and of a length up to `most`.
 Triple any_vector(Random& random, double most);
 
-/// Puts bodies and joints into a scene.
+/// Adds bodies and joints to a scene.
 class Builder {
  public:
   Builder(Scene& scene, const Style& style, Random& random) : scene_(scene), style_(style), random_(random) {}
 
   const Style& style() const { return style_; }
-  /// m; from a body's centre to a joint: seldom 0.
+  /// A random vector from a body's centre to a joint, m; seldom 0.
   Triple arm();
 
-  /// A body of random shape and pose. Its index.
+  /// Adds a body of random shape and rotation; returns its index.
   uint32_t add_body(const Triple& position);
-  /// A small body that does not move.
+  /// Adds a small fixed body; returns its index.
   uint32_t add_wall(const Triple& position);
-  /// The next joint's type, as the style has it.
+  /// The type of the next joint, by the style.
   Hold any_hold();
-  /// A joint between two bodies where they are, with A's anchor at `point`, m, world.
+  /// Adds a joint between two bodies at their present poses, with A's anchor at `point`, m, world.
   void join(uint32_t a, uint32_t b, const Triple& point, Hold hold);
-  /// A joint whose frame is given, and how far B's anchor lies from A's where they may be apart, m, along x.
+  /// Adds a joint with a given frame. `apart`: distance of B's anchor from A's along the frame's x, m, if the type
+  /// allows one.
   void join(uint32_t a, uint32_t b, const Triple& point, Hold hold, const Rotation& frame, double apart);
 
  private:
@@ -53,10 +54,10 @@ class Builder {
   Random& random_;
 };
 
-/// Sets velocities that fit the joints: of a tree whose joints come in the order of its bodies, from the first on, any;
-/// else of the whole as one piece, and none where a wall holds it.
+/// Sets velocities that fit the joints. In a tree whose joints are in the order of its bodies the motion of each joint
+/// is random. In any other scene all bodies move as one rigid body, or not at all if a wall holds them.
 void set_fitting_velocities(Scene& scene, bool is_tree, double speed, double spin, Random& random);
-/// Sets velocities at random.
+/// Sets random velocities.
 void set_any_velocities(Scene& scene, double speed, double spin, Random& random);
 
 }  // namespace detent_joint_fuzz

@@ -27,13 +27,14 @@ DETENT_TEST(joint_fuzz, no_graph_of_joints_gains_energy) {
   for (uint64_t seed = 1; seed <= scenes; ++seed) expect_no_gain(seed);
 }
 
-/// 19488, 29685: needles with which joints turn, slowed by their pulls, kept the momentum of their old place.
+/// Seeds 19488, 29685: thin rods that their joints rotate and slow down gained energy, because they kept the angular
+/// momentum of their old orientation.
 DETENT_TEST(joint_fuzz, graphs_that_gained_energy_gain_none) {
   for (const uint64_t seed : {uint64_t{19488}, uint64_t{29685}}) expect_no_gain(seed);
 }
 
 #if DETENT_FIXED
-/// Loops whose rows ask for what others do not allow. Where the impulses of that left their range all were made less,
+/// Loops whose joints contradict each other. When an impulse of these left its range, all impulses were scaled down,
 /// and the joints came apart by up to 2 m.
 DETENT_TEST(joint_fuzz, graphs_whose_rows_contradict_each_other_hold) {
   for (const uint64_t seed : {uint64_t{58}, uint64_t{67}, uint64_t{111}, uint64_t{159}, uint64_t{170}, uint64_t{180}}) {
@@ -53,7 +54,7 @@ DETENT_TEST(joint_fuzz, graphs_start_as_their_joints_ask) {
       gap = start.gap.length;
       angle = start.gap.angle;
     });
-    // Positions of fx32 are 1.5e-5 m apart; arms of f32 are of 16 m.
+    // Positions of fx32 have steps of 1.5e-5 m; the arms in f32 are up to 16 m long.
     EXPECT_LE(gap, 4e-5) << "seed " << seed;
     EXPECT_LE(angle, 1e-6) << "seed " << seed;
   }

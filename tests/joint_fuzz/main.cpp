@@ -53,7 +53,7 @@ void print_scene(const Scene& scene) {
   }
 }
 
-/// Replays one scene, a line a tick.
+/// Replays one scene, with one line for each tick.
 int follow(const Options& options, const Engine& engine) {
   const Scene scene = random_scene(*options.seed_only);
   print_scene(scene);

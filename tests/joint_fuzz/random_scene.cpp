@@ -15,11 +15,11 @@ constexpr double k_gravity = 9.81;
 constexpr double k_pi = 3.14159265358979323846;
 constexpr double k_tip_speed_max = 200;  ///< m/s
 constexpr uint32_t k_bodies_max = 24;
-constexpr uint32_t k_tries = 200;  ///< for a scene whose bodies start clear of each other
+constexpr uint32_t k_tries = 200;  ///< attempts to find a scene whose bodies do not overlap at the start
 
-/// What came of a scene's shape.
+/// The result of a scene's construction.
 struct Made {
-  bool is_tree = true;  ///< joint k holds body k + 1
+  bool is_tree = true;  ///< joint k connects body k + 1 to an earlier body
 };
 
 Style any_style(Kind kind, Random& random) {
@@ -41,7 +41,7 @@ Style any_style(Kind kind, Random& random) {
   return style;
 }
 
-/// One joint more for each body, at bodies that are there: a chain, a bush, or between.
+/// Adds bodies until there are `count`, each with a joint to an earlier body: a chain, a bush, or a mixture.
 void grow_tree(Builder& build, Scene& scene, uint32_t count, Random& random) {
   const double chain = random.uniform(0, 1);
   while (scene.bodies.size() < count) {
@@ -54,7 +54,7 @@ void grow_tree(Builder& build, Scene& scene, uint32_t count, Random& random) {
   }
 }
 
-/// A joint between two bodies that are there, somewhere between them or near one.
+/// Adds a joint between two existing bodies, near a point between them.
 void close_loop(Builder& build, const Scene& scene, uint32_t a, uint32_t b, Random& random) {
   const Triple &from = scene.bodies[a].position, &to = scene.bodies[b].position;
   const Triple middle = from + (to - from) * random.uniform(0, 1);
@@ -83,7 +83,7 @@ Made make_tree(Builder& build, Scene& scene, Random& random, bool hung) {
   return {};
 }
 
-/// Bodies on a circle that is none quite, with what hangs from it.
+/// Bodies on a rough circle, with attached trees.
 Made make_loop(Builder& build, Scene& scene, Random& random, bool hung) {
   const uint32_t count = 3 + random.below(10);
   const double reach = build.style().reach, radius = reach * count / k_pi;
@@ -162,12 +162,12 @@ Made make_rope(Builder& build, Scene& scene, Random& random, bool hung) {
   return {};
 }
 
-/// Links of one length in a row, at first and last held by walls.
+/// Links of equal length in a row, the first and last held by walls.
 Made make_taut(Builder& build, Random& random) {
   const uint32_t count = 1 + random.below(k_bodies_max - 2);
   const double reach = build.style().reach;
   const Triple way = random.direction();
-  // Turned alike, so that its hinges turn it about one axis, or each for itself.
+  // If alike, all hinges rotate about the same axis; otherwise each has its own axis.
   const bool alike = random.chance(0.5);
   const Rotation frame = normalised(random.rotation());
   build.add_wall({0, 0, 0});
@@ -210,7 +210,7 @@ double radius_of(const SceneBody& body) {
   return body.solid == Solid::capsule ? body.size[0] + body.size[1] : length(body.size);
 }
 
-/// Whether balls about two bodies that may meet overlap.
+/// Whether the bounding spheres of two bodies that may collide overlap.
 bool overlaps(const Scene& scene) {
   for (uint32_t b = 0; b < scene.bodies.size(); ++b) {
     for (uint32_t a = 0; a < b; ++a) {
@@ -224,7 +224,7 @@ bool overlaps(const Scene& scene) {
   return false;
 }
 
-/// Lifts all, so that no body is in the ground; joints do not change.
+/// Lifts all bodies, so that none is in the ground; the joints do not change.
 void lift(Scene& scene, double above) {
   double lowest = 0;
   for (const SceneBody& body : scene.bodies) {

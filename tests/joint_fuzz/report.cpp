@@ -65,7 +65,7 @@ Cells row_of(const std::string& name, const std::vector<Verdict>& verdicts, cons
 
 bool is_passive(const Verdict& verdict) { return verdict.kind < Kind::contact; }
 
-/// By what makes a scene hard.
+/// A table by the properties that make a scene hard.
 std::vector<Cells> hardness_of(const std::vector<Verdict>& verdicts) {
   constexpr double k_slow = 6, k_fast = 30, k_alike = 10, k_short = 4;
   struct Part {

@@ -22,7 +22,7 @@ using detent_joint_fuzz::Solid;
 using detent_joint_fuzz::States;
 using detent_joint_fuzz::Triple;
 
-/// Numbers of the library, and the first refusal.
+/// Converts to the library's numbers and keeps the first refusal.
 struct Numbers {
   Status status = Status::ok;
 
@@ -151,7 +151,7 @@ class DetentRun : public detent_joint_fuzz::Run {
     def.velocity = numbers.vector(body.velocity);
     def.spin = numbers.vector(body.spin);
     def.mass = numbers.scaled(body.mass);
-    // A group that does not meet itself still meets the ground.
+    // The group keeps the bodies from colliding with each other; they still collide with the ground.
     if (!scene.collisions) def.filter.group = -1;
     BodyId id;
     if (numbers.status == Status::ok) numbers.take(create_body(world_, def, id));

@@ -6,7 +6,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// This library in the configuration that the source is compiled for.
+/// The library in the configuration of this compilation.
 detent_joint_fuzz::Engine joint_fuzz_engine();
 
 }  // namespace DETENT_NAMESPACE

@@ -6,28 +6,29 @@
 
 #include "tests/queries/triple.h"
 
-/// A graph of jointed bodies, in plain numbers that every configuration is given alike. SI units, Y up.
+/// A graph of jointed bodies, in plain numbers that are the same for every configuration. SI units, Y up.
 namespace detent_joint_fuzz {
 
 using detent_queries::Rotation;
 using detent_queries::Triple;
 
-/// What a scene is. Those before `contact` have neither contacts nor drives: nothing may give them energy.
+/// The kind of a scene. Kinds before `contact` have neither contacts nor drives, so their energy must not grow.
 enum class Kind : uint32_t {
-  pair,     ///< two bodies, one or two joints
-  tree,     ///< up to 24 bodies
-  loop,     ///< one ring, with or without what hangs from it
-  net,      ///< many loops: a grid, or a tree with more joints between its bodies
-  rope,     ///< two to four bodies on short ropes or rods at long arms
-  taut,     ///< straight from one wall to another, exactly as long as the way
-  contact,  ///< a tree or net whose bodies meet
+  pair,  ///< two bodies, one or two joints
+  tree,  ///< up to 24 bodies
+  loop,  ///< one ring, with or without attached trees
+  net,   ///< many loops: a grid, or a tree with more joints between its bodies
+  rope,  ///< two to four bodies on short ropes or rods at long arms
+  /// A straight chain between two walls, exactly as long as their distance.
+  taut,
+  contact,  ///< a tree or net whose bodies collide
   ground,   ///< a tree or net that falls onto the ground
   drive,    ///< a tree, loop or net with motors and springs
 };
 inline constexpr uint32_t k_kinds = 9;
 const char* name_of(Kind kind);
 
-/// JointType, by its numbers.
+/// JointType, with the same numbers.
 enum class Hold : uint32_t { ball = 1, hinge, slider, distance, fixed, cone_twist, wheel };
 inline constexpr uint32_t k_holds = 7;
 const char* name_of(Hold hold);
@@ -74,13 +75,13 @@ struct Scene {
   Kind kind = Kind::pair;
   double gravity = 0;       ///< m/s^2, downwards
   double extent = 0;        ///< m: the diagonal of the box about all centres and anchors
-  bool collisions = false;  ///< whether bodies that no joint holds meet
+  bool collisions = false;  ///< whether bodies without a common joint collide
   bool ground = false;      ///< y <= 0 is solid
   std::vector<SceneBody> bodies;
   std::vector<SceneJoint> joints;
 };
 
-/// The type of all joints, or none if there are several.
+/// The name of the type of all joints; "mixed" if there are several types, "none" without joints.
 inline const char* types_of(const Scene& scene) {
   for (const SceneJoint& joint : scene.joints) {
     if (joint.hold != scene.joints[0].hold) return "mixed";

@@ -1,7 +1,7 @@
 #pragma once
 #include "tests/queries/triple.h"
 
-/// Products of rotations x, y, z, w of length 1.
+/// Products of unit quaternions x, y, z, w.
 namespace detent_joint_fuzz {
 
 using detent_queries::Rotation;
@@ -16,13 +16,13 @@ using detent_queries::rotate;
 
 inline Rotation conjugate(const Rotation& q) { return {-q[0], -q[1], -q[2], q[3]}; }
 
-/// First b, then a.
+/// The rotation b followed by a.
 inline Rotation product(const Rotation& a, const Rotation& b) {
   return {a[3] * b[0] + a[0] * b[3] + a[1] * b[2] - a[2] * b[1], a[3] * b[1] - a[0] * b[2] + a[1] * b[3] + a[2] * b[0],
           a[3] * b[2] + a[0] * b[1] - a[1] * b[0] + a[2] * b[3], a[3] * b[3] - a[0] * b[0] - a[1] * b[1] - a[2] * b[2]};
 }
 
-/// Of length 1.
+/// Scales the quaternion to length 1.
 inline Rotation normalised(const Rotation& q) {
   const double scale = 1 / sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
   return {q[0] * scale, q[1] * scale, q[2] * scale, q[3] * scale};

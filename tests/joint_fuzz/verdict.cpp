@@ -11,8 +11,9 @@ namespace detent_joint_fuzz {
 
 namespace {
 
-constexpr uint32_t k_settling_ticks = 30;  ///< velocities that do not fit the joints open them at first
-constexpr double k_tick = 1.0 / 60;        ///< s
+/// the gaps in the first ticks come from velocities that do not fit the joints
+constexpr uint32_t k_settling_ticks = 30;
+constexpr double k_tick = 1.0 / 60;  ///< s
 
 double processor_nanoseconds() {
   timespec now;

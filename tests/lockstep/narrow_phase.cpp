@@ -13,14 +13,15 @@
 #include "math/arithmetic.h"
 #include "narrow_phase_pairs.h"
 
-/// The questions of the narrow phase on any target, a microcontroller too: no allocation, no C library beyond string.h.
+/// Runs the functions of the narrow phase on any target, including microcontrollers: no allocation, no C library beyond
+/// string.h.
 ///
 ///   narrow_phase [QUESTION[=DIGEST]]...
 ///
-/// Asks seeded pairs each question, or only those named, and prints a digest of every bit of the answers:
-/// "narrow_phase <configuration> <question> <pairs> <digest>". Each question is asked twice, the second time on a stack
-/// that was scribbled on before every call. Exit code 0 only if both digests agree, and are DIGEST where one is given;
-/// 1 if not, 2 for wrong usage.
+/// Calls the function of each question, or of the named ones, for seeded pairs, and prints a digest of every bit of the
+/// results: "narrow_phase <configuration> <question> <pairs> <digest>". Each question runs twice, the second time with
+/// a stack that is overwritten before every call. Exit code 0 only if both digests agree, and equal DIGEST if it is
+/// given; 1 if not, 2 for wrong usage.
 
 namespace {
 
@@ -35,7 +36,7 @@ constexpr uint32_t k_pairs = 4000;
 constexpr uint64_t k_seed = 0x6e6172726f77;
 constexpr uint32_t k_scribbled_bytes = DETENT_SCRIBBLED_BYTES;
 
-/// The digest so far. Numbers enter by their own bits, one word each.
+/// The digest so far. Each number adds its bits as one word.
 class Answers {
  public:
   void add(uint64_t word) { digest_ = digest_step(digest_, word); }
@@ -63,7 +64,8 @@ class Answers {
   uint64_t digest_ = k_seed;
 };
 
-/// Asks, adds the answer, and says whether the pair meets. `cache`: null for none; the others have none.
+/// Calls the function, adds its result, and returns whether the pair collides. `cache`: null for none; functions
+/// without a cache ignore it.
 using Ask = bool (*)(const Pair& pair, DistanceCache* cache, Answers& answers);
 
 bool ask_closest(const Pair& pair, DistanceCache* cache, Answers& answers) {
@@ -143,7 +145,7 @@ bool ask_shape(const Pair& pair, DistanceCache*, Answers& answers) {
   return add_hit(hit, answers);
 }
 
-/// Corners of a core from `first` on, m, in its body's axes. False if it has not so many.
+/// The corners of a core from index `first` on, m, in its body's axes. False if it has fewer.
 bool corners_of(const Convex& convex, int first, int count, Vec3<Real>* corner) {
   const int shift = k_metre_bits - 30 + convex.exponent;
   for (int i = 0; i < count; ++i) {
@@ -155,7 +157,7 @@ bool corners_of(const Convex& convex, int first, int count, Vec3<Real>* corner) 
   return true;
 }
 
-/// Asks for the first contacts of some of the pair's vertices with some triangles, and of some edges.
+/// Tests the first contacts of some of the pair's vertices with some triangles, and of some edges with each other.
 template <class AskOne>
 bool ask_features(const Pair& pair, Answers& answers, AskOne ask_one) {
   bool meets = false;
@@ -180,7 +182,7 @@ bool ask_feature_toi(const Pair& pair, DistanceCache*, Answers& answers) {
   });
 }
 
-/// From B's pose to A's.
+/// B moves from its own pose to A's.
 bool ask_feature_toi_screw(const Pair& pair, DistanceCache*, Answers& answers) {
   const PosePair a = {pair.motion_a.start, pair.motion_a.start}, b = {pair.motion_b.start, pair.motion_a.start};
   return ask_features(pair, answers, [&](FeatureKind kind, const Vec3<Real>(&corner)[4], FeatureToi& contact) {
@@ -188,7 +190,7 @@ bool ask_feature_toi_screw(const Pair& pair, DistanceCache*, Answers& answers) {
   });
 }
 
-/// Each corner of B goes its own way: through A to where the next one would be there.
+/// Each corner of B moves on its own: through A to the place of the next corner there.
 bool ask_feature_toi_linear(const Pair& pair, DistanceCache*, Answers& answers) {
   return ask_features(pair, answers, [&pair](FeatureKind kind, const Vec3<Real>(&corner)[4], FeatureToi& contact) {
     Vec3<Real> start[4], end[4];
@@ -206,8 +208,8 @@ struct Question {
   const char* name;
   Ask ask;
   bool caches = false;
-  bool polytopes = false;  ///< it has an answer to these alone: seven of eight pairs are such
-  /// Those that know polytopes alone take long, and are asked fewer pairs.
+  bool polytopes = false;  ///< only polytopes have an answer: seven of eight pairs are polytopes
+  /// Questions for polytopes only take long, so they get fewer pairs.
   constexpr uint32_t pairs() const { return polytopes ? k_pairs / 4 : k_pairs; }
 };
 constexpr Question k_questions[] = {
@@ -233,7 +235,7 @@ constexpr Question k_questions[] = {
     {"cast_shape", ask_shape},
 };
 
-/// What the next call of this depth finds on its stack.
+/// Overwrites the part of the stack that the next call of this depth uses.
 __attribute__((noinline)) void scribble(uint32_t word) {
   volatile uint32_t stack[k_scribbled_bytes / sizeof(uint32_t)];
   for (volatile uint32_t& place : stack) place = word;
@@ -241,14 +243,14 @@ __attribute__((noinline)) void scribble(uint32_t word) {
 
 struct Outcome {
   uint64_t digest;
-  uint32_t met;  ///< pairs that meet
+  uint32_t met;  ///< pairs that collide
 };
 
 Outcome ask_all(const Question& question, const Hulls& hulls, bool scribbles) {
   Random random(k_seed), noise(k_seed + 1);
   Answers answers;
   uint32_t met = 0;
-  DistanceCache cache;  // each pair's is the last pair's: any content is safe
+  DistanceCache cache;  // each pair starts with the previous pair's content: any content must be safe
   Pair pair;
   for (uint32_t i = 0; i < question.pairs(); ++i) {
     if (question.polytopes && i % 8 != 0)
@@ -292,7 +294,7 @@ bool is_text_of(const char* text, uint64_t digest) {
   return text[k_digits] == '\0';
 }
 
-/// `expected`: null for any.
+/// `expected`: null for any digest.
 bool examine(const Question& question, const Hulls& hulls, const char* expected) {
   const Outcome outcome = ask_all(question, hulls, false);
   print_digest(question, outcome.digest);
@@ -301,7 +303,7 @@ bool examine(const Question& question, const Hulls& hulls, const char* expected)
     print_digest(question, again.digest);
     return fail(question.name, "the answers depend on what lay on the stack");
   }
-  // Where few pairs meet, or few do not, the digest would show little.
+  // If few pairs collide, or few do not, the digest would cover too little.
   const uint32_t met_min = question.pairs() / 8;
   if (outcome.met < met_min) return fail(question.name, "too few pairs meet");
   if (outcome.met > question.pairs() - met_min) return fail(question.name, "too few pairs do not meet");
@@ -311,7 +313,7 @@ bool examine(const Question& question, const Hulls& hulls, const char* expected)
   return true;
 }
 
-/// The question that an argument names, and the digest it expects. Errors: null.
+/// The question that an argument names, and the digest that it expects. Null if there is none.
 const Question* find_question(const char* argument, const char*& expected) {
   for (const Question& question : k_questions) {
     const size_t length = strlen(question.name);

@@ -27,7 +27,7 @@ struct Integers {
   int32_t x, y, z;
 };
 
-/// Each draw is its own statement or stands in braces: their order is then the same with every compiler.
+/// Each draw is a separate statement or in braces, so that their order is the same with every compiler.
 Integers within(Random& random, int32_t limit) {
   return {random.within(limit), random.within(limit), random.within(limit)};
 }
@@ -50,14 +50,14 @@ Quat draw_rotation(Random& random) {
   while (square >> (2 * shift) >= 4) ++shift;
   const Vec3<Unit> u = exact<Unit>(v, shift);
   const Quat rotation = {u.x, u.y, u.z, Exact<Unit>::of(w, shift)};
-  // Most of the few that stay as they are have another length, and are refused.
+  // Most of the few rotations that are not normalised have another length than 1, and are refused.
   return random.one_in(64) ? rotation : normalise_any(rotation);
 }
 
-/// 2^-10 of the pair's scale to 1, mostly more than 1/16; seldom far less than a core's other sizes.
+/// 2^-10 of the pair's scale to 1, mostly more than 1/16; seldom far smaller than the core's other sizes.
 int32_t draw_size(Random& random) { return random.one_in(12) ? 2 + random.below(15) : 64 + random.below(960); }
 
-/// What a pair is drawn of, and whether some are rounded.
+/// The shape types of a pair, and whether some are rounded.
 struct Kinds {
   ShapeType types[8];
   int32_t count;
@@ -69,7 +69,7 @@ constexpr Kinds k_all = {{ShapeType::sphere, ShapeType::capsule, ShapeType::box,
                          true};
 constexpr Kinds k_polytopes = {{ShapeType::box, ShapeType::hull, ShapeType::triangle}, 3, false};
 
-/// `extent`: how far the shape reaches along its x, in 2^-`shift` m, where that is known.
+/// `extent`: half the shape's extent along its x, in 2^-`shift` m, if it is known.
 Convex draw_convex(Random& random, ShapeType type, bool rounds, int shift, const Hulls& hulls, int32_t& extent) {
   Convex convex;
   extent = 0;
@@ -157,7 +157,7 @@ void make_pair_of(const Kinds& kinds, Random& random, const Hulls& hulls, Pair& 
   pose_b.position = moved(base, offset, shift);
   pair.offset = exact<Real>(offset, shift);
 
-  // B's way in eighths: from nowhere to twice as far as A, and some way past it.
+  // B's displacement in eighths of its offset from A: from none to twice the distance, plus a lateral part.
   const int32_t eighths = random.below(17);
   const Integers aside = random.one_in(4) ? Integers{0, 0, 0} : within(random, 1 << 12);
   const Integers way = {aside.x - offset.x * eighths, aside.y - offset.y * eighths, aside.z - offset.z * eighths};

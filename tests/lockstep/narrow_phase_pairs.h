@@ -4,8 +4,8 @@
 
 #include "tests/support/random.h"
 
-/// Seeded pairs of convex shapes whose every number is exact in each configuration: an integer below 2^24 times a power
-/// of two no finer than fx32's positions. Rotations are exact too, until the library brings them to length 1.
+/// Seeded pairs of convex shapes whose numbers are exact in each configuration: an integer below 2^24 times a power of
+/// two no finer than fx32's positions. Rotations are exact too, until the library normalises them.
 namespace detent_lockstep {
 
 using namespace detent;
@@ -14,9 +14,9 @@ class Random {
  public:
   explicit Random(uint64_t seed) : state_(seed) {}
   uint64_t bits() { return detent_test::split_mix(state_); }
-  /// Of [0, count).
+  /// In [0, count).
   int32_t below(int32_t count);
-  /// Of [-limit, limit].
+  /// In [-limit, limit].
   int32_t within(int32_t limit) { return below(2 * limit + 1) - limit; }
   bool one_in(int32_t count) { return below(count) == 0; }
 
@@ -24,12 +24,12 @@ class Random {
   uint64_t state_;
 };
 
-/// The cooked hulls, made ready once: the checks of their bytes take longer than a query.
+/// The cooked hulls, prepared once: the checks of their bytes take longer than a query.
 struct Hulls {
   static constexpr int k_count = 3;
   Convex sharp[k_count], round[k_count];
 };
-/// Panics if the library refuses one.
+/// Panics if the library refuses a hull.
 void make_hulls(Hulls& hulls);
 
 struct Pair {
@@ -39,9 +39,9 @@ struct Pair {
   Vec3<Real> way;             ///< B's displacement relative to A, m
   Real reach;                 ///< m
 };
-/// All types, rounded and not, in all rotations or along the axes; some exactly touching, some far from the origin.
+/// All types, rounded and not, in all rotations or along the axes; some touch exactly, some are far from the origin.
 void make_pair(Random& random, const Hulls& hulls, Pair& pair);
-/// Likewise, boxes, hulls and triangles alone, none rounded.
+/// As make_pair(), with boxes, hulls and triangles only, none rounded.
 void make_polytopes(Random& random, const Hulls& hulls, Pair& pair);
 
 }  // namespace detent_lockstep

@@ -7,11 +7,11 @@
 #include "state/snapshot.h"
 #include "tests/scenes/scene.h"
 
-/// Replays a recording on any target, a microcontroller too: no allocation, no C library beyond memcpy and strcmp.
+/// Replays a recording on any target, including microcontrollers: no allocation, no C library beyond memcpy and strcmp.
 ///
 ///   replay FILE [--each] [--memory] [--save-at TICK OUT] [--load-at TICK IN]
 ///
-/// --each prints every tick's digest; --save-at writes the state after TICK ticks of the world; --load-at starts from
+/// --each prints every tick's digest. --save-at writes the state after TICK ticks of the world. --load-at starts from
 /// such a state, of this or another machine, instead of the seed. Exit code 0 only if every tick agrees, 1 if not, 2
 /// for wrong usage.
 
@@ -118,7 +118,7 @@ Status read_at(void* file, uint32_t offset, uint8_t* bytes, uint32_t count) {
   return machine_read(source, bytes, count) == count ? Status::ok : Status::truncated;
 }
 
-/// In pieces: the whole snapshot need not fit beside the world.
+/// Saves in pieces: the whole snapshot need not fit beside the world.
 bool save_state(const World& world, const char* path) {
   MachineFile file = machine_open(path, MachineMode::write);
   if (!file.is_open()) return false;
@@ -176,7 +176,7 @@ int replay(const Options& options, MachineFile& file) {
   bool saved = options.save_path == nullptr;
   TickResult result;
   for (;; ++ticks) {
-    // Before the calls of the next tick: the state after exactly this many.
+    // Before the calls of the next tick: this is the state after exactly save_tick ticks.
     if (!saved && get_info(world).tick == options.save_tick) {
       if (!save_state(world, options.save_path)) return fail(options.save_path, "cannot be written");
       saved = true;

@@ -2,23 +2,23 @@
 
 #include "tests/scenes/scene.h"
 
-/// Records a scene out of the serial port of an MPS2 board (AN385, AN386, AN500): a microcontroller needs a world, a
-/// buffer of a chunk, and a sink that waits until the port has taken each byte.
+/// Records a scene through the serial port of an MPS2 board (AN385, AN386, AN500). A microcontroller needs a world, a
+/// buffer of one chunk, and a sink that waits until the port has taken each byte.
 
 namespace {
 
 using namespace detent;
 
-constexpr uint32_t k_ticks = 300;  // tests/lockstep/regenerate: those of the committed recording
+constexpr uint32_t k_ticks = 300;  // tests/lockstep/regenerate: the length of the committed recording
 
 /// Source: Arm, "Cortex-M System Design Kit", DDI0479, 4.3, "APB UART".
 struct Uart {
   volatile uint32_t data, state, control, interrupts, baud_divider;
 };
 constexpr uintptr_t k_uart_address = 0x40004000;
-constexpr uint32_t k_transmitter_full = 1;    // of `state`
-constexpr uint32_t k_enable_transmitter = 1;  // of `control`
-constexpr uint32_t k_baud_divider = 217;      // 115,200 baud of 25 MHz
+constexpr uint32_t k_transmitter_full = 1;    // in `state`
+constexpr uint32_t k_enable_transmitter = 1;  // in `control`
+constexpr uint32_t k_baud_divider = 217;      // 25 MHz / 217 = 115,200 baud
 
 Status send(void* context, const uint8_t* bytes, uint32_t count) {
   Uart& uart = *static_cast<Uart*>(context);

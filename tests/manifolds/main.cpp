@@ -40,7 +40,7 @@ void print_pose(const char* name, const Pose& pose) {
          pose.position[2], pose.rotation[0], pose.rotation[1], pose.rotation[2], pose.rotation[3]);
 }
 
-/// One pair in full.
+/// Prints one pair in full.
 void print(uint64_t seed, const Engine& engine) {
   const Scene scene = random_scene(seed);
   printf("%s, seed %llu: %s, %s, %s, gap %g m, lean %g rad, tolerance %g m, mesh of %u cells\n", engine.config.c_str(),

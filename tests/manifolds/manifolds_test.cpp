@@ -15,7 +15,7 @@ using detent_manifolds::Verdict;
 
 constexpr uint64_t k_pairs = 550;  ///< 50 of each kind
 
-/// What lies on a face, along a line or on a point.
+/// The contact region: a face, a line or a point.
 enum class Base { face, line, point };
 Base base_of(Kind kind) {
   switch (kind) {
@@ -31,7 +31,7 @@ Base base_of(Kind kind) {
   }
 }
 
-/// Of the pairs' worst ticks: the most that the median, the 90th percentile and the worst are in any configuration.
+/// Bounds for the pairs' worst ticks: the median, the 90th percentile and the maximum in any configuration.
 struct Bound {
   Measure measure;
   double median, most, worst;
@@ -50,7 +50,7 @@ void expect_within(const std::vector<Verdict>& verdicts, Base base, std::initial
   }
 }
 
-/// What the worst ones are, and why: docs/contacts.md. In one test, for the pairs are measured once.
+/// The worst values, and their reasons: docs/contacts.md. One test, because the pairs are measured only once.
 DETENT_TEST(manifolds, of_pairs_that_rest_and_slide_are_as_deep_and_wide_as_measured_and_change_as_little) {
   std::vector<Verdict> verdicts;
   Verdict sum;
@@ -59,7 +59,7 @@ DETENT_TEST(manifolds, of_pairs_that_rest_and_slide_are_as_deep_and_wide_as_meas
     verdicts.push_back(judge(scene, manifolds_engine().follow(scene)));
     const Verdict& verdict = verdicts.back();
     ASSERT_EQ(verdict.problem, "");
-    // Points are there where the solids are within reach of each other, and nowhere else.
+    // Points exist if and only if the solids are within the contact margin.
     EXPECT_EQ(verdict.lost, 0u) << "seed " << seed;
     EXPECT_EQ(verdict.idle, 0u) << "seed " << seed;
     EXPECT_EQ(verdict.capped, 0u) << "seed " << seed;
@@ -107,12 +107,12 @@ DETENT_TEST(manifolds, of_pairs_that_rest_and_slide_are_as_deep_and_wide_as_meas
                    {Measure::stale, 8e-5, 8e-5, 8e-5},
                    {Measure::seam, 3e-7, 0.11, 0.15}});
   }
-  // Names of points that only the last bit disturbs. Steps of fx32's positions are a part of the smallest bodies'
-  // reach.
+  // Names of points that only the last bit disturbs. In fx32 the steps of positions are a considerable part of the
+  // smallest bodies' contact margin.
   const double least = k_config == Config::fx32 ? 0.98 : 0.998;
   EXPECT_GE(sum.names_kept, least * sum.names);
   EXPECT_GE(sum.names_anew_kept, least * sum.names_anew);
-  EXPECT_GT(sum.reused * 5, sum.ticks);  // or it is not they that are measured
+  EXPECT_GT(sum.reused * 5, sum.ticks);  // otherwise the test does not measure recycled points
 }
 
 double worst_of(uint64_t seed, std::initializer_list<Measure> measures) {
@@ -124,39 +124,39 @@ double worst_of(uint64_t seed, std::initializer_list<Measure> measures) {
   return worst;
 }
 
-/// Faces with a corner of less than 2.5 degrees, which had no point; hulls whose level sides are two triangles beside
-/// others that lean a little, of which one had points. Up to 0.98 of the size was not supported.
+/// Faces with a corner of less than 2.5 degrees had no points. Hulls whose flat side consists of two triangles, beside
+/// others that lean a little, had points on one triangle only. Up to 0.98 of the size was unsupported.
 DETENT_TEST(manifolds, of_pointed_faces_and_of_triangles_that_are_level_support_all_of_the_face) {
   for (const uint64_t seed : {2616u, 2280u, 13u, 2497u, 3969u})
     EXPECT_LE(worst_of(seed, {Measure::loss, Measure::parted}), 0.002) << "seed " << seed;
 }
 
-/// Bodies smaller than what rests sinks in: an edge near a face was level with it, up to 0.37 of the thickness too
-/// deep.
+/// Bodies smaller than the depth at which bodies rest: an edge near a face was treated as level with it, which gave up
+/// to 0.37 of the thickness too much depth.
 DETENT_TEST(manifolds, of_small_bodies_beside_an_edge_are_no_deeper_than_they_are) {
   for (const uint64_t seed : {7848u, 798u, 3295u, 688u})
     EXPECT_LE(worst_of(seed, {Measure::depth, Measure::seam}), 0.03) << "seed " << seed;
 }
 
-/// There was one point, where the last bit put it.
+/// The contact had one point, at a place that depended on the last bit.
 DETENT_TEST(manifolds, of_a_capsule_along_a_boxs_edge_support_all_of_it) {
   for (const uint64_t seed : {2997u, 2502u, 1644u, 6187u, 8420u})
     EXPECT_LE(worst_of(seed, {Measure::loss, Measure::parted, Measure::jump}), 0.002) << "seed " << seed;
 }
 
-/// Several of the four extremes are one corner: two or three points were left of more.
+/// Several of the four extremes are the same corner: only two or three of more points remained.
 DETENT_TEST(manifolds, of_long_patches_cover_them_with_four_points) {
   for (const uint64_t seed : {1210u, 880u, 3146u})
     EXPECT_LE(worst_of(seed, {Measure::uncovered}), 0.2) << "seed " << seed;
 }
 
-/// Each triangle kept points along its own diagonals: of a disc up to 0.35 of the size was not supported, which is 0.15
-/// on one face.
+/// Each triangle kept points along its own diagonals: up to 0.35 of a disc's size was unsupported, against 0.15 on a
+/// single face.
 DETENT_TEST(manifolds, of_a_disc_on_a_mesh_support_what_those_on_one_face_do) {
   for (const uint64_t seed : {527u, 3255u, 2419u}) EXPECT_LE(worst_of(seed, {Measure::loss}), 0.16) << "seed " << seed;
 }
 
-/// They had points at the ends of both, where they are apart.
+/// The contact had points at the ends of both edges, where the edges are apart.
 DETENT_TEST(manifolds, of_edges_that_cross_at_a_small_angle_lie_where_they_cross) {
   for (const uint64_t seed : {7298u, 1842u}) {
     EXPECT_LE(worst_of(seed, {Measure::point}), 0.02) << "seed " << seed;

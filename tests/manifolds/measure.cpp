@@ -29,12 +29,13 @@ struct Points {
   std::vector<Arrow> at{};
 };
 
-/// What the outline of the points and that of the true patch are made of, in A's axes.
+/// The points of the contact and the corners of the true patch, in A's axes. `bearing`: the points that overlap or are
+/// about as deep as the deepest.
 struct Support {
-  std::vector<Arrow> points{}, bearing{}, corners{};  ///< all points; those that are about as deep as any or overlap
+  std::vector<Arrow> points{}, bearing{}, corners{};
 };
 
-/// Solid by solid and tick by tick.
+/// Compares the contact with the exact solids, tick by tick.
 class Judge {
  public:
   explicit Judge(const Scene& scene) : scene_(scene), a_(solid_of(scene.a)), b_(solid_of(scene.b)) {
@@ -59,7 +60,7 @@ class Judge {
   double size_, thickness_;
   Placement placement_{};
   Arrow hint_ = {0, 0, 0};
-  // Of the tick before.
+  // Data of the tick before.
   bool has_last_ = false;
   Placement last_placement_{};
   Support last_{};
@@ -133,7 +134,7 @@ void Judge::measure_points(const Tick& tick, const Points& points, const Patch& 
   const bool parted = reading.gap > thickness_ / 256;
   set(parted ? Measure::parted : Measure::loss, loss / size_);
   if (tick.stepped.reused) set(Measure::stale, staleness_of(tick, patch, kept) / size_);
-  // Of a patch narrower than a fiftieth of the size the loss says all.
+  // For a patch narrower than a fiftieth of the size, `loss` is sufficient.
   Number diameter = 0;
   for (const Spot& p : patch.outline) {
     for (const Spot& q : patch.outline) diameter = std::max(diameter, hypotl(p.u - q.u, p.v - q.v));
@@ -146,7 +147,7 @@ void Judge::measure_points(const Tick& tick, const Points& points, const Patch& 
     const PointReading point = read_point(tick, points, i, middle);
     reading.points.push_back(point);
     outside = std::max(outside, static_cast<Number>(point.outside));
-    // Where neither says that the surfaces touch there is nothing to bear.
+    // Without a contact by either value there is nothing to support.
     const double separation = tick.stepped.points[i].separation;
     if (std::min(separation, point.gap) <= std::max(reading.gap, 0.0) + thickness_ * 0x1p-10)
       error = std::max(error, fabsl(separation - point.gap));
@@ -178,8 +179,8 @@ PointReading Judge::read_point(const Tick& tick, const Points& points, size_t i,
   const auto across = [&](const Arrow& way) { return way - points.normal * dot(way, points.normal); };
   Number outside = 0;
   if (!within(at)) {
-    // Where the solids are within reach is convex: on the way to its middle there is one place where it starts. It may
-    // be nearer aside.
+    // The region within the contact margin is convex, so the line to its middle enters it once. The nearest point of
+    // the region may be to the side.
     const Arrow to_middle = across(middle - at);
     Number low = 0, part = 1;
     for (int k = 0; k < 44; ++k) {
@@ -199,7 +200,7 @@ PointReading Judge::read_point(const Tick& tick, const Points& points, size_t i,
     }
     at = start;
   }
-  // What lies beyond the sides of a face by no more than a 64th counts as over it (include/detent/contact.h), so there
+  // A place beyond the sides of a face by no more than a 64th counts as over it (include/detent/contact.h), so there
   // the surfaces may be farther apart than the planes.
   const Arrow to_middle = across(middle - at);
   const Number run = detent_oracle::length(to_middle);
@@ -222,7 +223,7 @@ double Judge::jump_of(const Support& now, const Patch& patch, double motion) con
   for (int i = 0; i < k_directions; ++i) {
     const double angle = 2 * k_pi * i / k_directions;
     const Arrow direction = patch.u * cos(angle) + patch.v * sin(angle);
-    // Points that are apart come and go: only what bears counts as lost or won.
+    // Speculative points come and go: only supporting points count as lost or gained.
     const Number lost = reach(last_.bearing, direction) - reach(now.points, direction);
     const Number won = reach(now.bearing, direction) - reach(last_.points, direction);
     const Number explained = fabsl(reach(now.corners, direction) - reach(last_.corners, direction));

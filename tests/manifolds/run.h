@@ -8,22 +8,23 @@ namespace detent_manifolds {
 struct FoundPoint {
   Triple from_a = {};     ///< midway between the surfaces, m, from A's position, world axes
   double separation = 0;  ///< m
-  uint64_t feature = 0;   ///< distinct within the contact; with the plane's key on a mesh
+  /// Distinct within the contact; on a mesh it includes the plane's key.
+  uint64_t feature = 0;
 };
 
-/// What the library says of a pair in one tick.
+/// The library's contact of a pair in one tick.
 struct Found {
-  Triple normal = {};  ///< from A to B; of several planes the deepest point's
+  Triple normal = {};  ///< from A to B; with several planes, that of the deepest point
   std::vector<FoundPoint> points{};
   bool seam = false, capped = false;
-  bool reused = false;  ///< the points are those of an earlier tick, moved along
+  bool reused = false;  ///< the points were recycled from an earlier tick
 };
 
 struct Tick {
-  Pose a{}, b{};     ///< as the configuration holds them
-  double reach = 0;  ///< m: how far apart they have contact points
-  Found stepped{};   ///< as a step goes on from the tick before
-  Found anew{};      ///< from nothing
+  Pose a{}, b{};     ///< as rounded by the configuration
+  double reach = 0;  ///< m: the contact margin, up to which the pair has contact points
+  Found stepped{};   ///< continued from the tick before, as in a step
+  Found anew{};      ///< computed without earlier data
 };
 
 struct Followed {

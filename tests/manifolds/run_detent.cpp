@@ -31,7 +31,7 @@ using detent_manifolds::Tick;
 using detent_manifolds::Triple;
 using detent_oracle::Dice;
 
-/// Cooked bytes at an address that is a multiple of 8.
+/// Cooked bytes, aligned to 8.
 struct Bytes {
   std::vector<uint64_t> words{};
   uint32_t count = 0;
@@ -46,7 +46,7 @@ struct Bytes {
 
 double metres(const Unit& value, int exponent) { return ldexp(unit_to_host(value), exponent); }
 
-/// One step of the number, up or down.
+/// Changes the number by one step up or down, or not at all.
 void disturb(Unit& value, Dice& dice) {
   const int step = dice.below(3) - 1;
 #if DETENT_FIXED
@@ -66,7 +66,7 @@ void disturb(Position& position, Dice& dice) {
   }
 }
 
-/// How far a body's points move in a tick at most, m.
+/// An upper bound of the movement of a body's points in a tick, m.
 double motion_of(const detent_manifolds::Pose& from, const detent_manifolds::Pose& to, const BodyTraits& traits) {
   double way = 0, turn = 0;
   for (size_t k = 0; k < 3; ++k) way += (to.position[k] - from.position[k]) * (to.position[k] - from.position[k]);
@@ -74,7 +74,7 @@ double motion_of(const detent_manifolds::Pose& from, const detent_manifolds::Pos
   return sqrt(way) + 2 * sqrt(turn) * metres(traits.bounding_radius, traits.size_exponent);
 }
 
-/// A pair as a step has it: what the last tick kept goes into the next one.
+/// A pair as in a step: the data stored in one tick are used in the next.
 class Pair {
  public:
   Status make(const Scene& scene) {
@@ -216,9 +216,9 @@ void Pair::add(const ContactGeometry& geometry, uint32_t key, const Triple& offs
   found.capped = found.capped || geometry.capped;
 }
 
-/// As the step collides a pair: lib/world/step_contacts.cpp.
+/// Collides the pair as a step does: lib/world/step_contacts.cpp.
 void Pair::collide_at(const CollisionBody& a, const CollisionBody& b, double reach, SurfaceContacts& contacts) const {
-  // What rests is sunk in by a quarter of what gravity moves in a tick.
+  // A resting body penetrates by a quarter of gravity's displacement in a tick.
   Real distance{}, sunk{};
   if (real_from_host(reach, distance) != Status::ok || real_from_host(9.81 / 60 / 60 / 4, sunk) != Status::ok) return;
   const ContactReach asked(distance, sunk);

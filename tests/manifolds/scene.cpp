@@ -29,7 +29,7 @@ Quaternion normalised(Quaternion q) {
 }
 Arrow turned(const Quaternion& q, const Arrow& v) { return to_world(detent_oracle::frame_of(q), v); }
 
-/// The rotation that takes `out` to +y or -y and `along` to x.
+/// The rotation that maps `out` to +y or -y and `along` to x.
 Quaternion seated(const Seat& seat, double up) {
   const Arrow local[3] = {seat.along, seat.out, cross(seat.along, seat.out)};
   const Arrow world[3] = {{1, 0, 0}, {0, up, 0}, {0, 0, up}};
@@ -40,7 +40,7 @@ Quaternion seated(const Seat& seat, double up) {
       for (int j = 0; j < 3; ++j) m[i][j] += w[i] * l[j];
     }
   }
-  // The largest component by itself, the others over it.
+  // The row of the largest component: proportional to the quaternion, and the most precise.
   const Number square[4] = {1 + m[0][0] - m[1][1] - m[2][2], 1 - m[0][0] + m[1][1] - m[2][2],
                             1 - m[0][0] - m[1][1] + m[2][2], 1 + m[0][0] + m[1][1] + m[2][2]};
   const long best = std::max_element(square, square + 4) - square;
@@ -55,7 +55,7 @@ Quaternion seated(const Seat& seat, double up) {
 
 double spread(Dice& dice, double low, double high) { return low * pow(high / low, dice.between(0, 1)); }
 
-/// Positions in `long double` while a scene is made.
+/// A pose in `long double` during the construction of a scene.
 struct Place {
   Arrow position = {0, 0, 0};
   Quaternion rotation = {0, 0, 0, 1};
@@ -87,7 +87,7 @@ class Maker {
     scene_.seed = seed;
     scene_.kind = kind_of(seed);
   }
-  /// False if the pair does not meet as its kind asks.
+  /// False if the pair does not touch as its kind requires.
   bool make() {
     choose_solids();
     if (!place()) return false;
@@ -143,7 +143,7 @@ void Maker::choose_solids() {
   scene_.tolerance = thickness_ * (flat ? 0x1p-10 : 0x1p-20);
 }
 
-/// From A's middle to B's, across the normal.
+/// The offset from A's middle to B's across the normal.
 Arrow Maker::lateral() {
   const double angle = dice_.between(0, 2 * k_pi);
   const Arrow way = {cos(angle), 0, sin(angle)};
@@ -177,7 +177,7 @@ bool Maker::set_gap() {
     const detent_oracle::Separation found = separation_of(
         a, b, {detent_oracle::frame_of(a_.rotation), detent_oracle::frame_of(b_.rotation), b_.position - a_.position},
         {thickness_ * 1e-9L, 1e-3L}, {0, 1, 0});
-    // Along the face's normal, or that of edges which cross, but for what B leans.
+    // The axis must be near the face's normal or the normal of crossing edges, except for B's lean.
     if (found.axis.y < 0.98L) return false;
     const Number off = scene_.gap - found.gap;
     if (fabsl(off) < thickness_ * 1e-8L) return true;
@@ -210,7 +210,7 @@ bool Maker::place() {
   return set_gap();
 }
 
-/// The poses of all ticks, the whole turned and moved in half of the scenes.
+/// Computes the poses of all ticks. In half of the scenes the whole pair is also rotated and moved.
 void Maker::move() {
   scene_.motion = static_cast<Motion>(dice_.below(k_motions));
   const double step = std::min(5e-3, thickness_ / 4) * spread(dice_, 1e-3, 1), angle = dice_.between(0, 2 * k_pi);

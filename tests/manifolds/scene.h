@@ -7,8 +7,8 @@
 #include "tests/oracle/convex_distance.h"
 #include "tests/queries/query.h"
 
-/// Pairs of bodies placed as things rest and slide, and where they are in the ticks that follow. Host code of no
-/// configuration.
+/// Pairs of bodies in resting and sliding configurations, and their poses in the following ticks. Host code,
+/// independent of the configuration.
 namespace detent_manifolds {
 
 using detent_oracle::Arrow;
@@ -18,61 +18,64 @@ using detent_queries::Solid;
 using SolidKind = detent_queries::Kind;
 using detent_queries::Triple;
 
-/// How B lies on A.
+/// The contact of B with A.
 enum class Kind : uint32_t {
-  aligned,   ///< face on face, their axes alike
-  turned,    ///< face on face, turned about the normal
-  overhang,  ///< likewise, partly beyond A's side
-  leaning,   ///< face on face, 1e-6 to 0.1 rad apart
-  edge,      ///< an edge, or the side of what is round, on a face
-  along,     ///< edge along edge, up to 0.1 rad apart, or round side along round side
+  aligned,   ///< face on face, aligned axes
+  turned,    ///< face on face, rotated about the normal
+  overhang,  ///< as `turned`, partly beyond A's side
+  leaning,   ///< face on face, tilted by 1e-6 to 0.1 rad
+  edge,      ///< an edge, or the side of a round solid, on a face
+  /// Edge along edge, at an angle of up to 0.1 rad, or round side along round side.
+  along,
   crossing,  ///< edge across edge
   corner,    ///< a corner, an apex or a ball on a face
   rim,       ///< the rim of a cylinder or a cone on a face
-  large,     ///< face on the face of a box that is 10 to 1,000 times larger
+  large,     ///< a face on the face of a box that is 10 to 1,000 times larger
   mesh,      ///< anything on a flat mesh of triangles
 };
 inline constexpr uint32_t k_kinds = 11;
 const char* name_of(Kind kind);
 
 enum class Motion : uint32_t {
-  still,   ///< disturbed by the last bit
-  slide,   ///< across the normal
-  turn,    ///< about the normal
-  rock,    ///< about an axis across the normal, by a part of the depth allowed
-  carried  ///< slides on a body that moves and turns
+  still,  ///< disturbed by the last bit
+  slide,  ///< translation across the normal
+  turn,   ///< rotation about the normal
+  /// Rotation about an axis across the normal, by a fraction of the allowed depth.
+  rock,
+  carried  ///< sliding on a body that moves and rotates
 };
 inline constexpr uint32_t k_motions = 5;
 const char* name_of(Motion motion);
 
 struct Pose {
-  Triple position = {};                           ///< m
+  Triple position = {};                           ///< x, y, z, w, not normalised
   std::array<double, 4> rotation = {0, 0, 0, 1};  ///< x, y, z, w, to be normalised
 };
 
 inline constexpr uint32_t k_ticks = 16;
 
-/// All sizes are multiples of 2^-20 m of at most 24 bits: no configuration rounds them.
+/// All sizes are multiples of 2^-20 m of at most 24 bits, so no configuration rounds them.
 struct Scene {
   uint64_t seed = 0;
   Kind kind = Kind::aligned;
   Motion motion = Motion::still;
   Solid a{}, b{};
-  uint32_t mesh_cells = 0;  ///< A is a flat mesh of so many cells a side at y = 0; `a` then is a block under it
-  double gap = 0;           ///< m, at the start; negative where they overlap
-  double lean = 0;          ///< rad
-  /// m: what is no more than this farther from B than the deepest place belongs to the patch.
+  /// If not 0, A is a flat mesh at y = 0 with this many cells a side; `a` is then a block below it.
+  uint32_t mesh_cells = 0;
+  double gap = 0;   ///< m, at the start; negative where they overlap
+  double lean = 0;  ///< rad
+  /// Places of A at most this much farther from B than the deepest place belong to the patch, m.
   double tolerance = 0;
   std::vector<Pose> pose_a{}, pose_b{};  ///< k_ticks + 1 of each
   std::string shapes() const;            ///< e.g. "box/cylinder", in the order of the names
 };
 
-/// The pair of a seed: the same everywhere but for the last bits of libm.
+/// The pair of a seed: the same everywhere except for the last bits of libm.
 Scene random_scene(uint64_t seed);
-/// Without making it.
+/// The kind of a seed's pair, without making the pair.
 Kind kind_of(uint64_t seed);
 
-/// The thickness of a solid, m: twice its least half extent, as the library counts.
+/// The thickness of a solid, m: twice its least half extent, as in the library.
 double thickness_of(const Solid& solid);
 const char* name_of(const Solid& solid);
 

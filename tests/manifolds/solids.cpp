@@ -18,11 +18,11 @@ Arrow any_across(const Arrow& out) {
 }
 Arrow around(double angle) { return {cos(angle), 0, sin(angle)}; }
 
-/// A number between, even over magnitudes.
+/// A log-uniform random number in [low, high].
 double spread(Dice& dice, double low, double high) { return low * pow(high / low, dice.between(0, 1)); }
 
-/// Of a prism: `count` corners of radius r, their height over the middle off by up to `uneven`; of a wedge or a block
-/// whose upper side is smaller, `top` of it.
+/// Adds the corners of a prism: `count` corners of radius r, with heights that differ by up to `uneven`. For a wedge,
+/// or a block with a smaller upper side, `top` is the scale of the upper side.
 void add_prism(Dice& dice, int count, const Triple& half, double top, double uneven, Solid& solid) {
   const double start = dice.between(0, 1);
   for (int i = 0; i < count; ++i) {
@@ -35,7 +35,7 @@ void add_prism(Dice& dice, int count, const Triple& half, double top, double une
   }
 }
 
-/// Drawn one by one: as arguments every compiler would take them in an order of its own.
+/// Draws each number in its own statement: the order of evaluation of arguments depends on the compiler.
 Solid random_hull(Dice& dice, const Triple& half) {
   Solid solid;
   solid.kind = SolidKind::hull;
@@ -69,10 +69,10 @@ Solid random_hull(Dice& dice, const Triple& half) {
   return solid;
 }
 
-/// Across two unit normals, between them: 0 is the first, 1 the second.
+/// A direction between two unit normals: 0 is the first, 1 the second.
 Arrow between(const Arrow& a, const Arrow& b, double part) { return unit(a * (1 - part) + b * part); }
 
-/// The mean of the points that lie farthest out.
+/// The mean of the support points in a direction.
 Arrow middle_of(const detent_oracle::ConvexSolid& solid, const Arrow& out) {
   if (solid.core == detent_oracle::CoreKind::points) {
     const Number most = support_value(solid, out);
@@ -119,7 +119,7 @@ Solid random_solid(Dice& dice, Part part, double size) {
                                      SolidKind::hull, SolidKind::hull,   SolidKind::capsule};
   constexpr SolidKind k_rims[] = {SolidKind::cylinder, SolidKind::cone};
   const auto thin = [&] { return dice.below(3) == 0 ? spread(dice, 0.01, 1) : dice.between(0.2, 1); };
-  // No thinner than a millimetre, so that steps of positions do not count.
+  // At least a millimetre thick, so that steps of positions do not matter.
   const auto length = [&] { return held(std::max(size * thin(), 1e-3)); };
   const Triple half = {length(), length(), length()};
   const SolidKind kind = part == Part::face     ? k_faces[dice.below(6)]
@@ -163,7 +163,7 @@ Seat random_seat(Dice& dice, const Solid& solid, Part part) {
     const auto on = [&](const detent_oracle::FacePlane& face, const Arrow& p) {
       return fabsl(dot(face.normal, p) - face.limit) < 1e-9L * convex.reach;
     };
-    // An edge: two corners on two faces at once. The sides of nearly flat faces are none.
+    // An edge: two corners that lie on two faces. Nearly coplanar faces have no edge.
     for (int attempt = 0; attempt < 64; ++attempt) {
       const detent_oracle::FacePlane& face = faces[static_cast<size_t>(dice.below(static_cast<int>(faces.size())))];
       std::vector<Arrow> corners;

@@ -7,7 +7,7 @@
 #include "tests/stress/scenes.h"
 #include "tests/unit/world/lab.h"
 
-/// Motions that a formula gives.
+/// Motions with a closed formula.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
@@ -23,7 +23,7 @@ using detent_stress::operator-;
 using Triple = std::array<double, 3>;
 
 constexpr double k_gravity = 9.81;
-/// What the numbers of a configuration leave of a motion of some seconds, in parts of its way and speed.
+/// Relative error of displacement and speed that a configuration's numbers allow in a motion of some seconds.
 constexpr double k_exact = k_config == Config::f32 ? 1e-4 : k_config == Config::fx32 ? 1e-5 : 1e-6;
 
 std::unique_ptr<Run> made(const Stage& stage) {
@@ -42,7 +42,7 @@ States after(const Stage& stage, uint32_t ticks) {
   return run->states();
 }
 
-/// As the cases are held: to what is wanted, or to what bounds.h says of it.
+/// Uses the same bounds as the cases: the target, or the regression bound of bounds.h.
 void expect_reached(const char* scene, const char* measure, double value) {
   const auto* wanted = detent_stress::find_wanted(scene, measure);
   const auto* gap = detent_stress::find_gap(scene, stress_engine().config, 1, measure);
@@ -76,7 +76,7 @@ DETENT_TEST(analytic, a_falling_ball_is_where_galilei_says) {
 }
 
 DETENT_TEST(analytic, a_projectile_comes_down_as_fast_as_it_rose_and_as_far_as_its_range) {
-  const double rise = 2 * k_gravity;  // back at its height after 4 s
+  const double rise = 2 * k_gravity;  // back at its first height after 4 s
   Stage stage;
   stage.bodies = {ball(1, {0, 1, 0}, {30, rise, -5})};
   const BodyState top = after(stage, 120)[0], end = after(stage, 240)[0];
@@ -87,7 +87,7 @@ DETENT_TEST(analytic, a_projectile_comes_down_as_fast_as_it_rose_and_as_far_as_i
   EXPECT_NEAR(end.velocity[1], -rise, rise * k_exact);
 }
 
-/// A slope that falls towards +x, with a body on it whose centre is half a metre above.
+/// A slope that descends towards +x, with a body on it whose centre is half a metre above.
 Stage slope(double tangent, double friction, Solid solid) {
   Stage stage = detent_stress::incline(1, tangent);
   for (StageBody& body : stage.bodies) body.friction = friction;
@@ -95,7 +95,7 @@ Stage slope(double tangent, double friction, Solid solid) {
   return stage;
 }
 
-/// How far and how fast a body is down a slope.
+/// The distance and speed of a body down a slope.
 struct Down {
   double way = 0, speed = 0, spin = 0;
 };
@@ -118,7 +118,7 @@ DETENT_TEST(analytic, a_box_slides_down_a_slope_at_what_friction_leaves_of_its_p
       const Stage stage = slope(tangent, friction, Solid::box);
       const Down first = down(stage, after(stage, 30)), last = down(stage, after(stage, 210));
       EXPECT_NEAR((last.speed - first.speed) / (3 * pull), 1, 2e-3) << tangent << " " << friction;
-      // What is gained in a substep moves the box for all of it: half a substep's gain too far.
+      // The speed gained in a substep moves the box for the whole substep: half a substep's gain too far.
       EXPECT_NEAR((last.way - first.way) / (3 * first.speed + 4.5 * pull), 1, 3e-3) << tangent << " " << friction;
     }
   }
@@ -157,7 +157,7 @@ DETENT_TEST(analytic, balls_that_meet_head_on_keep_momentum_and_energy) {
   for (const double ratio : {1.0, 2.0, 50.0, 1e4, 1e-4}) {
     const Stage stage = pair_of(ball(1, {-1.5, 0, 0}, {3, 0, 0}), ball(ratio, {1.5, 0, 0}, {-1, 0, 0}));
     const States end = after(stage, 90);
-    const double mean = (3 - ratio) / (1 + ratio);  // which both speeds are mirrored at
+    const double mean = (3 - ratio) / (1 + ratio);  // both speeds are mirrored at it
     EXPECT_NEAR(end[0].velocity[0], 2 * mean - 3, 4e-5) << ratio;
     EXPECT_NEAR(end[1].velocity[0], 2 * mean + 1, 4e-5) << ratio;
     for (const BodyState& state : end) {
@@ -173,12 +173,12 @@ DETENT_TEST(analytic, balls_that_meet_off_centre_exchange_what_lies_along_the_li
     for (const double ratio : {1.0, 4.0}) {
       const Stage stage = pair_of(ball(1, {-2, offset, 0}, {k_speed, 0, 0}), ball(ratio, {0, 0, 0}, {0, 0, 0}));
       const States end = after(stage, 240);
-      // The line of centres when they touch, a metre apart.
+      // The line of centres at contact, with centres a metre apart.
       const Triple line = {sqrt(1 - offset * offset), -offset, 0};
       const double exchanged = 2 * ratio / (1 + ratio) * k_speed * line[0];  // of the first ball's speed
       for (size_t i = 0; i < 2; ++i) {
         const double first = (i == 0 ? k_speed : 0) - exchanged * line[i], second = exchanged * line[i] / ratio;
-        // They may be seen to touch up to a tick late, which turns the line.
+        // Contact may be detected up to a tick late, which rotates the line.
         error = fmax(error, fabs(end[0].velocity[i] - first) / k_speed);
         error = fmax(error, fabs(end[1].velocity[i] - second) / k_speed);
       }
@@ -190,7 +190,7 @@ DETENT_TEST(analytic, balls_that_meet_off_centre_exchange_what_lies_along_the_li
   expect_reached("collision", "oblique", error);
 }
 
-/// v, turned about an axis of length 1.
+/// Rotates v about an axis of length 1.
 Triple turned(const Triple& v, const Triple& axis, double angle) {
   const double q[4] = {axis[0] * sin(angle / 2), axis[1] * sin(angle / 2), axis[2] * sin(angle / 2), cos(angle / 2)};
   return detent_stress::to_world(q, v);
@@ -243,8 +243,8 @@ DETENT_TEST(analytic, a_free_rod_that_turns_end_over_end_keeps_its_energy) {
 }
 
 DETENT_TEST(analytic, a_gyroscope_precesses_at_the_torque_over_its_angular_momentum) {
-  // A fast ball, its axis level, whose weight acts an arm away from the point that holds it: the torque of the weight
-  // is given, and the force that holds it takes the weight away.
+  // A fast rotating ball with a horizontal axis, whose weight acts at an arm from its support. The test applies the
+  // torque of the weight; the support's force cancels the weight.
   WorldDef world;
   world.gravity = {0.0, 0.0, 0.0};
   Lab lab({1, 1, 0}, world);
@@ -258,7 +258,7 @@ DETENT_TEST(analytic, a_gyroscope_precesses_at_the_torque_over_its_angular_momen
   double angle = 0, right = 0, axis[3] = {1, 0, 0}, momentum = 0.4 * mass * radius * radius * spin;
   const double rate = torque / momentum;
   for (uint32_t tick = 0; tick < 600; ++tick) {
-    // Of the weight, -y, at `arm` along the axis.
+    // The torque of the weight, -y, at `arm` along the axis.
     EXPECT_OK(apply_torque(lab.world, id, scaleds(torque * axis[2], 0, -torque * axis[0])));
     lab.run(1);
     const Motion motion = lab.motion(id);
@@ -267,7 +267,7 @@ DETENT_TEST(analytic, a_gyroscope_precesses_at_the_torque_over_its_angular_momen
     axis[0] = motion.spin[0] / size;
     axis[2] = motion.spin[2] / size;
     angle += asin(before[0] * axis[2] - before[2] * axis[0]);
-    // Given for a tick across the momentum, the torque turns it, and makes it larger.
+    // Applied for a tick across the angular momentum, the torque rotates it and increases it.
     right += atan(given / momentum);
     momentum = sqrt(momentum * momentum + given * given);
   }
@@ -292,7 +292,7 @@ DETENT_TEST(analytic, a_wave_of_dominoes_runs_at_one_speed) {
   const auto interval = [&](uint32_t from, uint32_t to) { return (struck[to] - struck[from]) / double(to - from); };
   const double middle = interval(third - 1, 2 * third - 1), last = interval(2 * third - 1, count - 1);
   EXPECT_NEAR(last / middle, 1, 0.15);
-  // In roots of g x height, which is the only speed that the row knows.
+  // In units of sqrt(g x height), the only speed scale of the row.
   const double speed = 0.4 / (middle / 60) / sqrt(k_gravity);
   ::testing::Test::RecordProperty("speed", ::testing::PrintToString(speed));
   EXPECT_GT(speed, 0.5);

@@ -2,14 +2,14 @@
 #include <string>
 #include <vector>
 
-/// What every scene is wanted to reach, and where it does not yet. Lengths in the scene's unit, speeds in the root of
-/// it, so that a bound holds at every scale.
+/// The target of every scene, and the measures that exceed it today. Lengths are in the scene's unit, speeds in its
+/// square root, so that a bound is valid at every scale.
 namespace detent_stress {
 
 struct Wanted {
-  const char* scene;  ///< as cases.h names them; all whose name starts so
+  const char* scene;  ///< as cases.h names them; applies to all scenes whose names start with it
   const char* measure;
-  double bound;  ///< at most
+  double bound;  ///< upper bound
 };
 
 inline constexpr Wanted k_wanted[] = {
@@ -25,7 +25,7 @@ inline constexpr Wanted k_wanted[] = {
     {"tower", "penetration", 0.01},
     {"tower", "speed", 1e-3},
     {"tower", "speed_settling", 0.02},
-    {"cube_10", "fallen", 0},  // and of 100, 1000; 10,000 is measured alone
+    {"cube_10", "fallen", 0},  // also of 100, 1000; 10,000 is measured on demand
     {"slab", "fallen", 0},
     {"slab_1000:1", "sag_max", 0.005},
     {"pit", "escaped", 0},
@@ -55,44 +55,45 @@ inline constexpr Wanted k_wanted[] = {
     {"stacks_asleep", "awake", 0},
     {"far", "ticks_differ", 0},
     {"bounce", "apex", 5e-4},
-    // Of analytic_test.cpp: the error of a speed, in parts of the speed before; the change of a spinning rod's energy.
+    // For analytic_test.cpp: the error of a speed, relative to the speed before; the energy change of a rotating rod.
     {"collision", "oblique", 0.02},
     {"rod", "energy", 1e-3},
 };
 
-/// Figures that miss what is wanted, as they are now: a regression bound for each. A row goes when its figure does.
+/// Measures that exceed their targets today, with a regression bound for each. A row is removed once its measure
+/// reaches the target.
 struct Gap {
-  const char* scene;   ///< all whose name starts so
-  const char* config;  ///< "" for all
-  double scale;        ///< 0 for all
+  const char* scene;   ///< applies to all scenes whose names start with it
+  const char* config;  ///< "": all configurations
+  double scale;        ///< 0: all scales
   const char* measure;
-  double held;  ///< at most
+  double held;  ///< upper bound
 };
 
 inline constexpr Gap k_gaps[] = {
-    // A thin rod that is hit spins about its length faster than the range of a spin, which is that of its rim if it
-    // were as thick as it is long: most of the 1,000 shots at 2000 m/s.
+    // A thin rod that is hit rotates about its length faster than the range of angular velocity, which is that of the
+    // rim speed of a body as thick as the rod is long. This concerns most of the 1,000 shots at 2000 m/s.
     {"wall_rod", "", 0, "saturations", 1000},
     {"plate_rod", "", 0, "saturations", 1000},
-    // Of a rod of 1 cm that range holds it, but get_velocity() does not: a spin is read up to 131,071 rad/s along each
-    // axis, and what is held to that along some axes has another energy. Its flight is that of its momentum.
+    // For a rod of 1 cm the range is large enough, but get_velocity() is not: it returns up to 131,071 rad/s along each
+    // axis. An angular velocity clamped along some axes gives another energy. The motion itself conserves the angular
+    // momentum.
     {"wall_rod", "", 0.0125, "energy_gained", 100},
     {"plate_rod", "", 0.0125, "energy_gained", 100},
-    // And of 1 m, a few of 1,000 at 100 m/s leave a contact spinning about their length. Inferred, not proven: one that
-    // tumbles while it
-    // touches has the gyration of the tick's start. (To renew it in the tick, but not the contacts' response, is
-    // worse.)
+    // For a rod of 1 m, a few of 1,000 shots at 100 m/s leave a contact with a fast rotation about the rod's length.
+    // Inferred, not proven: a rod that tumbles during a contact uses the inverse inertia of the tick's start. (Renewing
+    // it within the tick, but not the contacts' response, is worse.)
     {"wall_rod", "", 1, "energy_gained", 20},
     {"plate_rod", "", 1, "energy_gained", 20},
-    // Floats: momenta of a rod and a plate that meet several times in a tick.
+    // Floats: rounding of the momenta of a rod and a plate that collide several times in a tick.
     {"plate_rod", "f32", 0, "momentum", 3e-6},
-    // The scene starts 3e-8 of its energy from where it would never flip: a rotation is kept in steps of 1e-9.
+    // The start differs by 3e-8 of its energy from a state that never flips; a rotation is stored in steps of 1e-9.
     {"spin", "fx64", 0, "flips", 6},
     {"spin", "fx32", 0, "flips", 6},
     {"spin", "f32", 0, "flips", 46},
-    // A float of a pose's rotation turns the slope's normal.
+    // The float rounding of the pose's rotation tilts the slope's normal.
     {"incline_holds", "f32", 0, "creep", 1.5e-6},
-    // A position in steps of 1.5e-5 m, of which it may take one; of boxes of 1 cm.
+    // Positions have steps of 1.5e-5 m; the creep may be one step, or more for boxes of 1 cm.
     {"incline_holds", "fx32", 1, "creep", 1.6e-5},
     {"wall_ball", "fx32", 0.0125, "rebound", 0.04},
     {"tower_40", "fx32", 0.01, "drift", 0.3},
@@ -104,11 +105,11 @@ inline constexpr Gap k_gaps[] = {
     {"far", "f64", 0, "ticks_differ", 600},
 };
 
-/// Scenes that the library refuses at a scale, for a number is out of its range.
+/// Scenes that the library refuses at some scale, because a number is out of range.
 struct Refused {
-  const char* scene;   ///< all whose name starts so
-  const char* config;  ///< "" for all
-  double scale;        ///< 0 for all
+  const char* scene;   ///< applies to all scenes whose names start with it
+  const char* config;  ///< "": all configurations
+  double scale;        ///< 0: all scales
 };
 inline constexpr Refused k_refused[] = {
     {"wall_ball_2000", "", 100},  // 20 km/s
@@ -117,9 +118,9 @@ inline constexpr Refused k_refused[] = {
 };
 bool is_refused(const std::string& scene, const std::string& config, double scale);
 
-/// Null if nothing is wanted of the measure.
+/// The target of a measure; null if there is none.
 const Wanted* find_wanted(const std::string& scene, const std::string& measure);
-/// The first that is for it; null if the measure is held to what is wanted.
+/// The first gap that applies; null if the measure must reach its target.
 const Gap* find_gap(const std::string& scene, const std::string& config, double scale, const std::string& measure);
 
 }  // namespace detent_stress

@@ -47,12 +47,13 @@ void run_spin(const Trial& trial, Outcome& outcome) {
 }
 
 void run_dominoes(const Trial& trial, Outcome& outcome, uint32_t count) {
-  // Cosines of the tilt that the wave brings (0.1 rad; the first starts at 0.2), and of the one that counts as fallen.
+  // Cosines of the tilt that counts as hit by the wave (0.1 rad; the first starts at 0.2), and of the tilt that counts
+  // as fallen.
   constexpr double k_struck = 0.995, k_upright = 0.7071;
   const Stage stage = varied(dominoes(trial.pick(count, count / 5, count / 20)), trial.seed);
   Ride ride(trial, stage, outcome);
   if (!ride.good()) return;
-  // In the order of the row, which starts at the one that is tilted. Body 0 is the floor.
+  // The bodies in the order of the row, which starts at the tilted domino. Body 0 is the floor.
   const Stage& placed = ride.stage();
   const auto upright_at_start = [&](size_t i) { return to_world(placed.bodies[i].rotation, {0, 1, 0})[1]; };
   size_t first = 1;
@@ -134,13 +135,13 @@ void run_bounce(const Trial& trial, Outcome& outcome) {
     const double height = ride.length(ball.position[1]), rise = ride.speed(ball.velocity[1]);
     if (before <= 0 && rise > 0) ++bounces;
     if (before > 0 && rise <= 0) {
-      // The tick nearest to the apex, and what is left to rise or has fallen since.
+      // The height at the tick nearest to the apex, plus the remaining rise or the drop since the apex.
       apex = height + rise * rise / (2 * stage.gravity);
       error = fmax(error, fabs(apex - k_height));
     }
     before = rise;
   }
-  // Of a ball that never bounces there is no apex.
+  // A ball that never bounces has no apex.
   outcome.add("apex", bounces == 0 ? k_height : error);
   outcome.add("apex_last", apex);
   outcome.add("bounces", bounces);

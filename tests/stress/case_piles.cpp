@@ -5,16 +5,16 @@ namespace detent_stress {
 
 namespace {
 
-constexpr uint32_t k_sample = 10;        ///< ticks between looks at a pile
-constexpr uint32_t k_depth_sample = 60;  ///< and between measures of its depths
+constexpr uint32_t k_sample = 10;        ///< ticks between checks of a pile
+constexpr uint32_t k_depth_sample = 60;  ///< ticks between measurements of its depths
 
-/// Of what is to rest.
+/// Measures of a pile that should be at rest.
 struct Rest {
   double sag_max = 0, speed = 0;
-  Depths depths;  ///< the largest of those seen
+  Depths depths;  ///< the largest measured
 };
 
-/// Steps `ticks`, and takes the mean speed and the depths of the last `last` of them.
+/// Steps `ticks`, and measures the mean speed and the depths in the last `last` of them.
 Rest rest_for(Ride& ride, uint32_t ticks, uint32_t last) {
   const DepthMeter meter(ride.stage());
   Rest rest;
@@ -37,7 +37,7 @@ Rest rest_for(Ride& ride, uint32_t ticks, uint32_t last) {
   return rest;
 }
 
-/// Bodies that have moved farther than this from where they started.
+/// The number of bodies that have moved farther than `distance` from their start.
 uint32_t fallen(const Stage& stage, const States& states, double distance) {
   uint32_t count = 0;
   for (size_t i = 0; i < states.size(); ++i) {
@@ -59,7 +59,7 @@ void add_rest(const Ride& ride, Effort effort, const Rest& rest, double fall, Ou
   outcome.add("penetration", ride.length(rest.depths.max));
   outcome.add("sag_max", ride.length(rest.sag_max));
   outcome.add("sag_end", ride.length(sag(ride.stage(), states)));
-  // What is wanted is wanted after all of the scene's time.
+  // The target speed applies only after the scene's full time.
   outcome.add(effort == Effort::full ? "speed" : "speed_settling", ride.speed(rest.speed));
 }
 
@@ -129,7 +129,7 @@ void run_stacks(const Trial& trial, Outcome& outcome, uint32_t stacks, bool slee
 
 void run_far(const Trial& trial, Outcome& outcome, double distance) {
   const Stage stage = varied(pyramid(trial.pick(20, 8, 4)), trial.seed);
-  // The stage is on the grid that a move keeps, after it is scaled.
+  // The stage must be on the grid that moved() uses after it is scaled.
   Trial unscaled = trial;
   unscaled.scale = 1;
   const Stage placed = scaled(stage, trial.scale);

@@ -9,19 +9,20 @@ namespace {
 
 using Point = std::array<double, 3>;
 
-/// A world point in the target's axes.
+/// Transforms a world point to the target's frame.
 Point in_target(const BodyState& target, const Point& point) {
   return to_local(target.rotation, point - Point{target.position[0], target.position[1], target.position[2]});
 }
 
-/// Whether the segment crosses the target's plane within this half side of it.
+/// Whether the segment crosses the target's plane within `side` of its centre along both axes.
 bool crosses(const Point& from, const Point& to, double side) {
   if ((from[2] > 0) == (to[2] > 0)) return false;
   const double part = from[2] / (from[2] - to[2]);
   return fabs(from[0] + (to[0] - from[0]) * part) < side && fabs(from[1] + (to[1] - from[1]) * part) < side;
 }
 
-/// The rotation vector that takes one rotation to another in `time`: of those that do, the one nearest to the spin.
+/// The rotation vector from one rotation to another in `time`: of the possible vectors, the one nearest to the angular
+/// velocity.
 Point turn_between(const BodyState& from, const BodyState& to, double time) {
   constexpr double k_two_pi = 6.28318530717958647693;
   const double *a = to.rotation, *b = from.rotation;
@@ -36,7 +37,7 @@ Point turn_between(const BodyState& from, const BodyState& to, double time) {
   return {v[0] / sine * angle, v[1] / sine * angle, v[2] / sine * angle};
 }
 
-/// The body at a part of a tick, as if it moved and turned evenly.
+/// The body's state at a fraction of a tick, with constant linear and angular velocity.
 BodyState state_between(const BodyState& from, const BodyState& to, const Point& turn, double part) {
   BodyState state = to;
   const double angle = length(turn) * part, half = angle > 0 ? sin(angle / 2) / length(turn) : 0;
@@ -50,8 +51,8 @@ BodyState state_between(const BodyState& from, const BodyState& to, const Point&
 }
 
 struct Flight {
-  bool through = false;     ///< its centre has passed the target and is behind it
-  bool skewered = false;    ///< its ends are on both sides
+  bool through = false;     ///< its centre has passed the target and is behind it at the end
+  bool skewered = false;    ///< its ends are on different sides
   bool wrong_side = false;  ///< its centre has passed the target at some time
 };
 
@@ -60,10 +61,10 @@ Flight fly(Ride& ride) {
   const StageBody& shot = ride.stage().bodies[1];
   const bool rod = shot.solid == Solid::box;
   const double reach = rod ? shot.size[1] : shot.size[0];
-  // Nearer to the rim, the projectile may go around it.
+  // Nearer to the rim, the projectile may pass beside the target.
   const double side = slab.size[0] - reach;
   Flight flight;
-  // A target that turns turns away from under the way of the tick: each is looked at in parts.
+  // A rotating target moves away from the projectile's straight path within a tick, so each tick is tested in parts.
   constexpr uint32_t k_parts = 64;
   const auto centre_in = [](const BodyState& target, const BodyState& body) {
     return in_target(target, {body.position[0], body.position[1], body.position[2]});
@@ -98,7 +99,7 @@ Flight fly(Ride& ride) {
   return flight;
 }
 
-/// How far the ball's velocity is from what it is after an impact without rebound, in parts of its speed.
+/// The difference of the ball's velocity from that after an impact without rebound, relative to its speed.
 double rebound_error(const Ride& ride) {
   const Stage& stage = ride.stage();
   const BodyState now = ride.states()[1];
@@ -107,7 +108,7 @@ double rebound_error(const Ride& ride) {
   for (size_t i = 0; i < 3; ++i) along += normal[i] * stage.bodies[1].velocity[i];
   Point tangential;
   for (size_t i = 0; i < 3; ++i) tangential[i] = stage.bodies[1].velocity[i] - along * normal[i];
-  // Friction brakes it until it rolls, when 2/7 of its speed along the wall are gone.
+  // Friction slows the ball until it rolls; then 2/7 of its speed along the wall are lost.
   const double speed = length(tangential), friction = stage.bodies[1].friction;
   const double left = speed > 0 ? 1 - fmin(friction * fabs(along) / speed, 2.0 / 7) : 0;
   double square = 0, whole = 0;

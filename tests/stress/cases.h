@@ -5,14 +5,14 @@
 
 #include "tests/stress/run.h"
 
-/// The scenes as they are run and measured.
+/// Runs and measures the scenes.
 namespace detent_stress {
 
-/// How much of a scene is run.
+/// The part of a scene that is run.
 enum class Effort : uint32_t {
   tiny,   ///< for emulators
-  brief,  ///< for every day
-  full,   ///< as long and as large as the scene is written
+  brief,  ///< for daily runs
+  full,   ///< with the scene's full length and size
 };
 
 struct Trial {
@@ -29,15 +29,15 @@ struct Trial {
 
 struct Measured {
   std::string name;
-  double value = 0;  ///< lengths in the scene's unit, speeds in the root of it
+  double value = 0;  ///< lengths in the scene's unit, speeds in its square root
 };
 
 struct Outcome {
-  std::string problem;  ///< why there is nothing measured
+  std::string problem;  ///< why nothing was measured
   std::vector<Measured> measured;
   uint64_t digest = 0;  ///< of the last state
   uint64_t ticks = 0;
-  double step_seconds = 0;  ///< spent in steps
+  double step_seconds = 0;  ///< total time in steps
 
   void add(const std::string& name, double value) { measured.push_back({name, value}); }
 };
@@ -45,7 +45,7 @@ struct Outcome {
 struct Case {
   std::string group;  ///< S1 to S12
   std::string name;
-  bool extra = false;  ///< nothing is wanted of it: measured when it is asked for
+  bool extra = false;  ///< has no target: measured only on demand
   std::function<void(const Trial& trial, Outcome& outcome)> run;
 };
 

@@ -14,7 +14,8 @@ using detent_stress::Measured;
 using detent_stress::Outcome;
 using detent_stress::Trial;
 
-/// All that is measured of a group of scenes at a scale is within its bound: what is wanted, or what is held of it.
+/// Checks that all measures of a group of scenes at a scale are within their bounds: the target, or the regression
+/// bound.
 void expect_reached(const std::string& group, double scale) {
   const uint32_t effort = detent_oracle::rounds(4);
   Trial trial;
@@ -43,7 +44,7 @@ void expect_reached(const std::string& group, double scale) {
   }
 }
 
-// Of S5, a wall of a tenth of a millimetre is below the least size of a shape: 1.25 cm is as small as it gets.
+// For S5 a wall of 0.1 mm is below the least size of a shape, so its smallest scale is 1.25 cm.
 constexpr double k_small = 0.01, k_small_wall = 0.0125, k_large = 100;
 
 DETENT_TEST(stress, a_pyramid_stands) { expect_reached("S1", 1); }

@@ -11,7 +11,7 @@ namespace detent_stress {
 
 struct DepthMeter::Solids {
   std::vector<detent::Convex> convexes;
-  std::vector<std::array<double, 4>> rotations;  ///< from the convex's axes to the body's
+  std::vector<std::array<double, 4>> rotations;  ///< from the convex shape's axes to the body's
   std::vector<double> radii;
   std::vector<bool> moves;
   std::vector<CookedIcosahedron> hulls;
@@ -23,7 +23,7 @@ using detent::Real;
 
 Real real(double value) {
   Real result = 0.0;
-  // What is too large for the library is far from everything.
+  // A value beyond the library's range is far from everything.
   if (detent::real_from_host(value, result) != detent::Status::ok) result = 65536.0;
   return result;
 }

@@ -10,7 +10,7 @@ namespace detent_stress {
 struct CookedIcosahedron {
   std::vector<uint64_t> words;
   uint32_t byte_count = 0;
-  /// x, y, z, w: from the cooked axes, which are principal ones, to the stage's.
+  /// x, y, z, w: from the cooked axes, which are the principal axes, to the stage's.
   std::array<double, 4> rotation = {0, 0, 0, 1};
 };
 CookedIcosahedron cook_icosahedron(double radius);

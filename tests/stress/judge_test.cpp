@@ -6,7 +6,7 @@
 #include "tests/stress/measures.h"
 #include "tests/support/test.h"
 
-/// What the cases say of engines whose faults are known.
+/// The results of the cases for engines with known faults.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
@@ -24,10 +24,10 @@ using detent_stress::Trial;
 
 enum class Fault {
   still,     ///< nothing moves
-  ghostly,   ///< bodies fly on as they were shot, through everything
-  sticking,  ///< what reaches body 0 is held fast with half of it on the other side
-  turning,   ///< what reaches body 0 goes back as it came
-  losing,    ///< nothing moves, and each step loses a contact
+  ghostly,   ///< bodies move as they were shot, through everything
+  sticking,  ///< a body that touches body 0 sticks to it with half of it on the other side
+  turning,   ///< a body that touches body 0 moves back as it came
+  losing,    ///< nothing moves, and each step drops a contact
 };
 
 class FaultyRun : public detent_stress::Run {
@@ -46,14 +46,14 @@ class FaultyRun : public detent_stress::Run {
       for (size_t k = 0; k < 3; ++k) from[k] = state.position[k] - target.position[k];
       from = detent_stress::to_local(target.rotation, from);
       if (from[2] > 0) continue;
-      // Back to the target's plane, or to where it came from.
+      // The body moves to the target's plane, or back to its start.
       const bool turns = fault_ == Fault::turning;
       for (size_t k = 0; k < 3; ++k) {
         state.position[k] = turns ? state.position[k] - state.velocity[k] * stage_.tick : target.position[k];
         state.velocity[k] = turns ? -state.velocity[k] : 0;
       }
       if (turns) continue;
-      // Upright on the plane: a turn by a right angle takes y to z.
+      // Upright on the plane: a rotation by a right angle maps y to z.
       const double half = sqrt(0.5), turn[4] = {half, 0, 0, half}, *q = target.rotation;
       const double upright[4] = {q[3] * turn[0] + q[0] * turn[3], q[1] * turn[3] + q[2] * turn[0],
                                  q[2] * turn[3] - q[1] * turn[0], q[3] * turn[3] - q[0] * turn[0]};
@@ -73,7 +73,7 @@ class FaultyRun : public detent_stress::Run {
   Fault fault_;
 };
 
-/// -1 where it is not measured.
+/// The measured value; -1 if it is not measured.
 double measured(const std::string& scene, Fault fault, const std::string& measure) {
   Trial trial;
   trial.effort = Effort::tiny;

@@ -23,7 +23,7 @@ struct Options {
   std::string markdown, json;
 };
 
-/// A group by its whole name, a scene by how its name starts; S5 is no part of S52.
+/// Selects a group by its full name, a scene by a prefix of its name; S5 does not select S52.
 bool wanted(const std::vector<std::string>& names, const Case& which) {
   if (names.empty()) return !which.extra;
   return std::any_of(names.begin(), names.end(), [&](const std::string& name) {

@@ -8,7 +8,7 @@
 #include "tests/stress/scenes.h"
 #include "tests/unit/world/lab.h"
 
-/// What the scenes are judged by.
+/// Tests of the measures of the scenes.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
@@ -30,7 +30,7 @@ StageBody solid(Solid solid, double a, double b, double c) {
   return body;
 }
 
-/// Whether a point of the body's axes is in it.
+/// Whether a point in the body's frame is inside the body.
 bool holds(const StageBody& body, const double (&p)[3]) {
   const double r = body.size[0];
   switch (body.solid) {
@@ -91,7 +91,7 @@ DETENT_TEST(measures, mass_is_the_librarys) {
   }
 }
 
-/// Of a body this deep in the ground of the scenes, whatever its rotation.
+/// A body of any rotation, at this depth in the ground of the scenes.
 DETENT_TEST(measures, depth_is_how_far_a_body_is_in_the_ground) {
   detent_queries::Random random(1);
   for (const StageBody& body : k_solids) {
@@ -101,7 +101,7 @@ DETENT_TEST(measures, depth_is_how_far_a_body_is_in_the_ground) {
       States states = states_at_start(stage);
       const detent_queries::Rotation q = random.rotation();
       for (size_t i = 0; i < 4; ++i) states[1].rotation[i] = q[i];
-      // The lowest point, by the body's vertices and ball.
+      // The lowest point, from the body's vertices and radius.
       double low = 0;
       std::vector<std::array<double, 3>> points;
       if (body.solid == Solid::icosahedron) points = detent_stress::icosahedron_points(body.size[0]);
@@ -149,7 +149,7 @@ DETENT_TEST(measures, a_scaled_scene_is_the_same_in_its_own_units) {
   EXPECT_EQ(large.bodies[1].size[1], 50);
   EXPECT_NEAR(large.tick, one.tick * 10, 1e-12);
   EXPECT_NEAR(mass_of(large.bodies[1]) / mass_of(one.bodies[1]), 1e6, 1e-3);
-  // The way that gravity makes in a tick.
+  // Both scales have the same ratio of gravity's displacement in a tick to the unit.
   EXPECT_NEAR(large.tick * large.tick / (one.tick * one.tick), 100, 1e-9);
   EXPECT_EQ(drift(large, states_at_start(large)), 0);
   States states = states_at_start(large);

@@ -8,7 +8,7 @@
 #include "tests/queries/random.h"
 #include "tests/unit/joint/joint_lab.h"
 
-/// Figures thrown onto the ground, as hard as games throw them.
+/// Figures thrown onto the ground at speeds that occur in games.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
@@ -18,7 +18,7 @@ using Random = detent_queries::Random;
 constexpr uint32_t k_ticks = 360;
 constexpr double k_speed_max = 60, k_energy_gain = 1.1, k_gap = 0.01 * ragdoll::k_height;
 
-/// Of any direction, and of a length up to `most`.
+/// A vector of random direction and of a length up to `most`.
 Vector any_vector(Random& random, double most) {
   const detent_queries::Triple way = random.direction();
   const double size = random.uniform(0, most);
@@ -26,7 +26,7 @@ Vector any_vector(Random& random, double most) {
 }
 Vec3<Real> reals_of(Vector v) { return reals(v.x, v.y, v.z); }
 
-/// Of any pose, and flying and turning as one piece.
+/// Gives the figure a random pose and throws it as one rigid body.
 void throw_any_way(Lab& lab, const ragdoll::Ragdoll& figure, Random& random) {
   const Vector turn = any_vector(random, 3.1), velocity = any_vector(random, 20), spin = any_vector(random, 10);
   EXPECT_OK(ragdoll::throw_figure(lab.world, figure, reals_of(turn), reals_of(velocity)));
@@ -38,7 +38,7 @@ void throw_any_way(Lab& lab, const ragdoll::Ragdoll& figure, Random& random) {
   }
 }
 
-/// The energy of a figure above the ground, J, and its fastest part, m/s.
+/// The energy of a figure, J, with height measured from the ground, and the speed of its fastest part, m/s.
 struct Energy {
   double sum = 0, fastest = 0;
 
@@ -61,9 +61,9 @@ struct Energy {
 };
 
 struct Throw {
-  double fastest = 0;  ///< m/s, of any part
-  double energy = 0;   ///< at most, over that of the start
-  double gap = 0;      ///< of any joint, m
+  double fastest = 0;  ///< m/s, over all parts
+  double energy = 0;   ///< greatest energy over that at the start
+  double gap = 0;      ///< greatest of all joints, m
   double gap_at_end = 0;
   uint32_t saturations = 0, undecided = 0;
 };

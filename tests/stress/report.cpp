@@ -13,7 +13,7 @@ namespace detent_stress {
 
 namespace {
 
-/// A measure of a scene at a scale, the worst of all its seeds, for each configuration.
+/// A measure of a scene at a scale: for each configuration the worst over all seeds.
 struct Cell {
   std::string group, scene, measure;
   double scale = 1;
@@ -47,7 +47,7 @@ std::vector<Cell> cells_of(const std::vector<Row>& rows) {
 
 std::string quoted(const std::string& text) { return "\"" + text + "\""; }
 
-/// A figure that misses what is wanted.
+/// A value that exceeds its target.
 struct Miss {
   std::string config;
   double scale = 1, value = 0;
@@ -62,7 +62,7 @@ bool are_alike(const std::vector<Miss>& misses) {
   return high <= 2 * low;
 }
 
-/// Of k_gaps; held to half as much again as the worst.
+/// A row of k_gaps, with 1.5 times the worst value as bound.
 std::string gap_row(const Cell& cell, const std::string& config, double scale, const std::vector<Miss>& misses) {
   double worst = 0;
   for (const Miss& miss : misses) worst = fmax(worst, miss.value);
@@ -166,7 +166,8 @@ std::string gaps_of(const std::vector<Row>& rows) {
     if (std::find(done.begin(), done.end(), key) != done.end()) continue;
     done.push_back(key);
     const Wanted* wanted = find_wanted(first.scene, first.measure);
-    // One row where all configurations and scales miss by much the same, else one a configuration, else one each.
+    // One row if all configurations and scales have similar values; otherwise one for each configuration, or one for
+    // each value.
     std::vector<Miss> all;
     size_t measured = 0;
     std::vector<std::string> configs;

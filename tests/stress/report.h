@@ -14,14 +14,14 @@ struct Row {
   Outcome outcome;
 };
 
-/// A figure as people read it.
+/// A number, formatted for reading.
 std::string figure(double value);
-/// One line: what was measured, and what of it misses what is wanted.
+/// One line: the measured values, and those that exceed their bounds.
 std::string line_of(const Row& row);
-/// A table: the worst of all seeds, a column a configuration.
+/// A table of the worst values over all seeds, one column for each configuration.
 std::string markdown_of(const std::vector<Row>& rows);
 std::string json_of(const std::vector<Row>& rows);
-/// Rows of k_gaps in bounds.h for what misses what is wanted: the worst of all seeds and half as much again.
+/// Rows of k_gaps in bounds.h for the values that exceed their targets: 1.5 times the worst value over all seeds.
 std::string gaps_of(const std::vector<Row>& rows);
 
 }  // namespace detent_stress

@@ -6,12 +6,12 @@
 
 namespace detent_stress {
 
-/// A trial's world, under way: steps it, and sums up what is lost.
+/// A trial's running world: steps it and sums up the overflow counts.
 class Ride {
  public:
-  /// `stage` at scale 1. Where the engine refuses it, `outcome` says so and the ride is not good().
+  /// `stage` is at scale 1. If the engine refuses it, `outcome` has the problem and good() is false.
   Ride(const Trial& trial, const Stage& stage, Outcome& outcome);
-  ~Ride();  ///< adds what every ride measures to the outcome
+  ~Ride();  ///< adds the measures of every ride to the outcome
   Ride(const Ride&) = delete;
   Ride& operator=(const Ride&) = delete;
 

@@ -10,7 +10,7 @@
 
 namespace detent_stress {
 
-/// What a run sets otherwise than the library's defaults.
+/// Settings that differ from the library's defaults.
 struct Settings {
   std::optional<uint32_t> substeps, iterations;
   std::optional<double> reuse;
@@ -18,12 +18,12 @@ struct Settings {
   bool continuous = true;
 };
 
-/// What a step did, of the report's counts.
+/// Counts of a step, from its report.
 struct Counts {
   uint32_t contacts = 0;
   uint32_t contact_points = 0;
-  uint32_t substeps_max = 0;  ///< of any island; 0 where the report does not say
-  uint32_t awake = 0;         ///< bodies; all that can move where the report does not say
+  uint32_t substeps_max = 0;  ///< greatest of any island; 0 if the report has no count
+  uint32_t awake = 0;         ///< awake bodies; all movable bodies if the report has no count
   uint32_t lost = 0;          ///< pairs and contacts beyond their pools
   uint32_t saturations = 0;
   double lost_time = 0;  ///< of continuous collision, ticks
@@ -34,15 +34,15 @@ class Run {
  public:
   virtual ~Run() = default;
   virtual Counts step() = 0;
-  /// Of every body of the stage, in its order.
+  /// The states of all bodies, in the stage's order.
   virtual States states() const = 0;
   virtual uint64_t digest() const = 0;
-  /// Of the poses and motions alone, positions as exact differences to the first body's.
+  /// The digest of the poses and velocities only, with positions as exact differences to the first body's.
   virtual uint64_t relative_digest() const = 0;
   virtual uint32_t bytes() const = 0;  ///< of the world's block
 };
 
-/// Makes the stage's world; null, with a line in `problem`, if the engine refuses a part of it.
+/// Makes the stage's world. Returns null, with a line in `problem`, if the engine refuses a part of it.
 using Maker = std::function<std::unique_ptr<Run>(const Stage& stage, const Settings& settings, std::string& problem)>;
 
 struct Engine {

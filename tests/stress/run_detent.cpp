@@ -45,7 +45,7 @@ void from_vector(const Vec3<Real>& v, double (&result)[3]) {
   result[2] = real_to_host(v.z);
 }
 
-/// a b of rotations x, y, z, w; `sign` -1 takes the inverse of b.
+/// The product a b of quaternions x, y, z, w; `sign` -1 uses the inverse of b.
 void turn(const double (&a)[4], const std::array<double, 4>& b, double sign, double (&result)[4]) {
   const double x = sign * b[0], y = sign * b[1], z = sign * b[2], w = b[3];
   const double product[4] = {a[3] * x + a[0] * w + a[1] * z - a[2] * y, a[3] * y - a[0] * z + a[1] * w + a[2] * x,
@@ -53,7 +53,7 @@ void turn(const double (&a)[4], const std::array<double, 4>& b, double sign, dou
   memcpy(result, product, sizeof product);
 }
 
-/// The bits of a number that a digest reads.
+/// The bits of a number, for a digest.
 template <class T>
 uint64_t bits_of(T value) {
   if constexpr (std::is_floating_point_v<T>) {
@@ -70,7 +70,7 @@ class DetentRun : public detent_stress::Run {
   Status make(const Stage& stage, const Settings& settings) {
     WorldDef def;
     def.capacity.bodies = static_cast<uint32_t>(stage.bodies.size());
-    // A body in a heap touches some 12 others, each pair counted once; in a row of boxes it has 2 more that are near.
+    // A body in a heap touches about 12 others, and each pair counts once; a body in a row of boxes has 2 more near it.
     def.capacity.contacts = 8 * def.capacity.bodies + 16;
     def.capacity.joints = static_cast<uint32_t>(stage.joints.size());
     for (const StageBody& body : stage.bodies) {
@@ -169,7 +169,7 @@ class DetentRun : public detent_stress::Run {
  private:
   struct Body {
     BodyId id;
-    std::array<double, 4> cooked = {0, 0, 0, 1};  ///< from the library's axes of the body to the stage's
+    std::array<double, 4> cooked = {0, 0, 0, 1};  ///< from the body's axes in the library to the stage's
   };
 
   Status add(const StageBody& body, bool collides, uint32_t& next_hull) {

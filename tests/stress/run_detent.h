@@ -6,9 +6,9 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// This library in the configuration that the source is compiled for.
+/// The library in the configuration of this compilation.
 detent_stress::Engine stress_engine();
-/// The world of one of its runs.
+/// The world of one of the engine's runs.
 World& world_of(detent_stress::Run& run);
 
 }  // namespace DETENT_NAMESPACE

@@ -18,7 +18,7 @@ using detent_queries::Triple;
 
 enum class Axis : uint32_t { x, y, z };
 
-/// By an angle within [-1, 1] rad. A series, for sin() differs between machines.
+/// The rotation by an angle in [-1, 1] rad. Uses a series, because sin() differs between machines.
 Rotation rotation_about(Axis axis, double angle) {
   const double half = angle / 2;
   double sine = half, term = half;
@@ -62,7 +62,7 @@ Stage on_floor(const std::string& name, uint32_t ticks) {
   return stage;
 }
 
-/// The direction at an angle to +z whose cosine is uniform in [cosine_min, 1].
+/// A direction whose angle to +z has a cosine uniform in [cosine_min, 1].
 Triple near_z(Random& random, double cosine_min) {
   const double cosine = random.uniform(cosine_min, 1), sine = sqrt(1 - cosine * cosine);
   const Triple z = {0, 0, 1};
@@ -125,7 +125,7 @@ Stage pit(uint32_t bodies, uint64_t seed) {
   Stage stage;
   stage.name = "pit";
   stage.ticks = 600;
-  const double height = (bodies / (k_side * k_side) + 3) * k_layer / 2;  // half
+  const double height = (bodies / (k_side * k_side) + 3) * k_layer / 2;  // half height
   stage.bodies.push_back(fixed_box({5 + 2 * k_wall_half, 1, 5 + 2 * k_wall_half}, {0, -1, 0}));
   for (const double side : {-1.0, 1.0}) {
     stage.bodies.push_back(
@@ -137,7 +137,7 @@ Stage pit(uint32_t bodies, uint64_t seed) {
     const uint32_t layer = i / (k_side * k_side), x = i % k_side, z = i / k_side % k_side;
     const Triple at = {(x - (k_side - 1) * 0.5) * k_distance, (layer + 1) * k_layer,
                        (z - (k_side - 1) * 0.5) * k_distance};
-    // By turns along each row, and from row to row.
+    // The solids alternate along each row and from row to row.
     const uint32_t kind = (i + i / k_side) % 4;
     Triple size = {};
     switch (static_cast<Solid>(kind)) {
@@ -167,7 +167,7 @@ Stage paper_shot(Target target, Projectile projectile, double speed, uint64_t se
   Stage stage;
   stage.name = "paper_shot";
   stage.gravity = 0;
-  stage.ticks = 13;  // the first of which the projectile may still be under way, and 12 more
+  stage.ticks = 13;  // the projectile reaches the target in the first tick, and 12 ticks more
   const bool wall = target == Target::wall;
   Random random(seed);
   const Rotation turn = random.rotation();
@@ -208,7 +208,7 @@ Stage chain(uint32_t links, double ratio) {
   StageBody hook = body_of(Solid::sphere, {0.1, 0, 0}, {0, 0, 0});
   hook.role = Role::fixed;
   stage.bodies.push_back(hook);
-  /// Hangs the body's point on the last one's.
+  /// Connects a point of the body with a point of the previous body.
   const auto hang = [&stage](const StageBody& body, const Triple& anchor_last, const Triple& anchor) {
     StageJoint joint;
     joint.a = static_cast<uint32_t>(stage.bodies.size() - 1);
@@ -219,7 +219,7 @@ Stage chain(uint32_t links, double ratio) {
     stage.bodies.push_back(body);
   };
   StageBody link = body_of(Solid::capsule, {0.05, 0.2, 0}, {});
-  set(link.rotation, Rotation{0, 0, -k_root, k_root});  // its y along x
+  set(link.rotation, Rotation{0, 0, -k_root, k_root});  // the link's y along x
   for (uint32_t i = 0; i < links; ++i) {
     set(link.position, Triple{(2 * i + 1) * k_half, 0, 0});
     hang(link, {0, i == 0 ? 0 : k_half, 0}, {0, -k_half, 0});
@@ -248,7 +248,7 @@ Stage dominoes(uint32_t count) {
     const double x = (i - (count - 1) * 0.5) * 0.4;
     StageBody body = body_of(Solid::box, {0.05, 0.5, 0.25}, {x, 0.5, 0});
     if (i == 0) {
-      // About the lower edge that faces the second.
+      // Rotated about the lower edge towards the second domino.
       const Rotation tilt = rotation_about(Axis::z, -0.2);
       set(body.rotation, tilt);
       set(body.position, rotate(tilt, Triple{-0.05, 0.5, 0}) + Triple{x + 0.05, 0, 0});
@@ -261,7 +261,7 @@ Stage dominoes(uint32_t count) {
 Stage incline(double friction, double part) {
   Stage stage = on_floor("incline", 61 * 60);
   const double tangent = friction * part, cosine = 1 / sqrt(1 + tangent * tangent);
-  const double half = sqrt((1 + cosine) / 2);  // of half the slope
+  const double half = sqrt((1 + cosine) / 2);  // cosine of half the slope
   const Rotation tilt = {0, 0, -tangent * cosine / (2 * half), half};
   StageBody& floor = stage.bodies[0];
   set(floor.rotation, tilt);

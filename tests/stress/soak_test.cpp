@@ -6,7 +6,7 @@
 #include "tests/queries/random.h"
 #include "tests/unit/world/lab.h"
 
-/// A world that bodies come to and go from, for very long.
+/// A very long run in which bodies are created and destroyed.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
@@ -15,7 +15,7 @@ using detent_queries::Random;
 
 constexpr uint32_t k_bodies = 40;   ///< besides the pit's five
 constexpr uint32_t k_change = 4;    ///< ticks between changes
-constexpr uint32_t k_check = 1000;  ///< ticks between looks at the whole state
+constexpr uint32_t k_check = 1000;  ///< ticks between checks of the whole state
 constexpr double k_side = 3, k_height = 30;
 
 /// Four walls and a ground.
@@ -33,7 +33,7 @@ void make_pit(Lab& lab) {
   }
 }
 
-/// One after the other, whatever order a compiler evaluates arguments in.
+/// Draws in braces, so that their order does not depend on the compiler.
 detent_queries::Triple any_triple(Random& random, double low, double high) {
   return {random.uniform(low, high), random.uniform(low, high), random.uniform(low, high)};
 }
@@ -67,10 +67,11 @@ BodyDef any_body(Random& random) {
 
 struct Soak {
   uint64_t digest = 0, losses = 0, escaped = 0, created = 0;
-  uint64_t stopped = 0;  ///< bodies that stayed behind in a tick: more impacts than a tick has room for
+  /// Bodies stopped early in a tick: they had more impacts than a tick allows.
+  uint64_t stopped = 0;
 };
 
-/// `contacts`: the capacity.
+/// `contacts`: the world's capacity.
 Soak soak(uint32_t ticks, uint32_t contacts) {
   Lab lab({k_bodies + 5, contacts, 0}), copy({k_bodies + 5, contacts, 0});
   Random random(4);
@@ -79,7 +80,7 @@ Soak soak(uint32_t ticks, uint32_t contacts) {
   Soak result;
   for (uint32_t tick = 0; tick < ticks; ++tick) {
     if (tick % k_change == 0) {
-      // The fewer there are the likelier one comes; at times all go.
+      // The fewer bodies there are, the likelier a new one is; sometimes all are destroyed.
       if (random.below(2000) == 0) {
         for (const BodyId id : ids) EXPECT_OK(destroy_body(lab.world, id));
         ids.clear();
@@ -125,7 +126,7 @@ Soak soak(uint32_t ticks, uint32_t contacts) {
   }
   result.digest = digest(lab.world);
 
-  // Nothing has leaked: once all are gone there is nothing left, and there is room for as many as at first.
+  // Nothing leaks: when all bodies are destroyed the world is empty, and it has room for as many as at first.
   for (const BodyId id : ids) EXPECT_OK(destroy_body(lab.world, id));
   EXPECT_EQ(get_info(lab.world).contacts, 0u);
   EXPECT_EQ(get_info(lab.world).bodies, 5u);
@@ -135,7 +136,7 @@ Soak soak(uint32_t ticks, uint32_t contacts) {
   return result;
 }
 
-/// What a soak ends with, on every target. A change of the simulation version changes them.
+/// The final digests, the same on every target. A change of the simulation version changes them.
 struct Ending {
   uint32_t ticks;
   uint64_t digest;
@@ -150,7 +151,7 @@ constexpr Ending k_endings[] = {{10000, 0x219a35a3ac21d647}};
 constexpr Ending k_endings[] = {{10000, 0xc7611a26f584e532}};
 #endif
 
-/// A million ticks where time does not matter.
+/// A million ticks if DETENT_FULL is set.
 uint32_t ticks_of_a_soak() {
   const uint32_t ticks = detent_oracle::rounds(10000);
   return ticks > 10000 ? 1000000 : ticks;

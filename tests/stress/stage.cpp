@@ -14,8 +14,8 @@ namespace detent_stress {
 namespace {
 
 constexpr double k_pi = 3.14159265358979323846;
-/// Of an icosahedron: the circumradius over the edge, the volume over the cube of the edge, and the gyration over the
-/// square of the edge.
+/// For an icosahedron: circumradius over edge, volume over the cube of the edge, and moment of inertia per unit mass
+/// over the square of the edge.
 constexpr double k_radius_of_edge = 0.95105651629515357212;
 constexpr double k_volume_of_edge = 2.18169499062491237350;
 constexpr double k_gyration_of_edge = 0.26180339887498948482;
@@ -37,7 +37,7 @@ double volume_of(const StageBody& body) {
   return 0;
 }
 
-/// a b of quaternions x, y, z, w: b followed by a.
+/// The product a b of quaternions x, y, z, w: b followed by a.
 void multiply(const double (&a)[4], const double (&b)[4], double (&result)[4]) {
   const double product[4] = {
       a[3] * b[0] + a[0] * b[3] + a[1] * b[2] - a[2] * b[1], a[3] * b[1] - a[0] * b[2] + a[1] * b[3] + a[2] * b[0],
@@ -103,7 +103,7 @@ Stage varied(const Stage& stage, uint64_t seed) {
   detent_queries::Random random(seed);
   size_t first = 0;
   while (first < result.bodies.size() && result.bodies[first].role != Role::dynamic) ++first;
-  std::vector<uint32_t> was(result.bodies.size());  // of each body, which one it was
+  std::vector<uint32_t> was(result.bodies.size());  // for each body its index in the original stage
   std::iota(was.begin(), was.end(), 0);
   for (size_t i = result.bodies.size(); i > first + 1; --i) {
     const size_t other = first + random.below(static_cast<uint32_t>(i - first));
@@ -147,7 +147,7 @@ std::array<double, 3> gyration_of(const StageBody& body) {
     case Solid::sphere:
       return {0.4 * r * r, 0.4 * r * r, 0.4 * r * r};
     case Solid::capsule: {
-      // A cylinder of half length l and two half balls, whose centres are 3 r / 8 above its ends.
+      // A cylinder of half length l and two half balls; the half balls' centres of mass are 3 r / 8 beyond its ends.
       const double l = body.size[1], ball = 4.0 / 3 * cube(r), tube = 2 * r * r * l, mass = ball + tube;
       const double about = tube * r * r / 2 + ball * 0.4 * r * r;
       const double across = tube * (r * r / 4 + l * l / 3) + ball * (0.4 * r * r + l * l + 0.75 * l * r);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-/// The scenes of the stress tests and of the whole-step benchmark, in plain numbers that every engine is given alike.
+/// The scenes of the stress tests and of the whole-step benchmark, in plain numbers that are the same for every engine.
 /// SI units, Y up.
 namespace detent_stress {
 
@@ -28,30 +28,30 @@ struct StageBody {
   double spin[3] = {0, 0, 0};         ///< rad/s, world
   double density = 1000;              ///< kg/m^3
   double mass = 0;                    ///< kg; 0: from the density
-  double friction = 0.6;              ///< of any pair: the geometric mean of both
-  double restitution = 0;             ///< of any pair: the larger of both
+  double friction = 0.6;              ///< of a pair: the geometric mean of both
+  double restitution = 0;             ///< of a pair: the larger of both
 };
 
-/// A ball joint: two points, one of each body, stay one.
+/// A ball joint: keeps a point of A and a point of B together.
 struct StageJoint {
-  uint32_t a = 0, b = 0;           ///< indices of bodies, of which one at least is dynamic
+  uint32_t a = 0, b = 0;           ///< indices of bodies, at least one of them dynamic
   double anchor_a[3] = {0, 0, 0};  ///< from A's centre of mass, m, A's axes
-  double anchor_b[3] = {0, 0, 0};  ///< likewise of B
+  double anchor_b[3] = {0, 0, 0};  ///< from B's centre of mass, m, B's axes
 };
 
 struct Stage {
   std::string name;
-  std::vector<StageBody> bodies;  ///< those that do not move first
+  std::vector<StageBody> bodies;  ///< fixed bodies first
   std::vector<StageJoint> joints;
-  bool collisions = true;  ///< whether any two bodies touch
+  bool collisions = true;  ///< whether bodies collide
   double gravity = 9.81;   ///< m/s^2, downwards
   double tick = 1.0 / 60;  ///< s
-  double unit = 1;         ///< m: the scale of the scene, 1 as scenes.md has it
+  double unit = 1;         ///< m: the scale of the scene; 1 in scenes.md
   uint32_t ticks = 600;
   bool sleeping = false;
 };
 
-/// How a body of a stage is at some tick, in the same numbers.
+/// The state of a body of a stage at some tick, in the same units.
 struct BodyState {
   double position[3] = {0, 0, 0};
   double rotation[4] = {0, 0, 0, 1};  ///< x, y, z, w
@@ -60,26 +60,26 @@ struct BodyState {
 };
 using States = std::vector<BodyState>;
 States states_at_start(const Stage& stage);
-/// Where a point of a body is, m, world: given from its centre of mass, m, in its axes.
+/// The world position of a body's point, m; `point` is given from its centre of mass, m, in its axes.
 std::array<double, 3> point_of(const BodyState& state, const double (&point)[3]);
 
-/// Every length and position times `factor`, and every speed (and with it the time scale) times its root, so that the
-/// same motion is seen under the same gravity; the tick is scaled alike.
+/// Multiplies every length and position by `factor`, and every speed and time by its square root. So the same motion
+/// appears under the same gravity; the tick is scaled as a time.
 Stage scaled(const Stage& stage, double factor);
-/// Everything moved by (distance, distance, distance): whole metres, below 2^24. Positions are rounded to 2^-28 m
-/// first, so that the sum is exact; moved(stage, 0) is what a moved one is to be compared with.
+/// Moves everything by (distance, distance, distance): whole metres, below 2^24. Positions are rounded to 2^-28 m
+/// first, so that the sum is exact; compare a moved stage with moved(stage, 0).
 Stage moved(const Stage& stage, double distance);
-/// The same scene as another: what can move in a random order of creation, all of it turned about y by a random angle.
-/// Seed 0 leaves it as it is.
+/// A variant of the scene: movable bodies in a random order of creation, and the whole scene rotated about y by a
+/// random angle. Seed 0 changes nothing.
 Stage varied(const Stage& stage, uint64_t seed);
 
-/// kg; of any role.
+/// The mass, kg, of a body of any role.
 double mass_of(const StageBody& body);
-/// Of the principal moments of inertia over the mass, about the body's axes, m^2.
+/// Principal moments of inertia per unit mass about the body's axes, m^2.
 std::array<double, 3> gyration_of(const StageBody& body);
-/// m; of a ball about the centre of mass that holds the body.
+/// The radius of a sphere about the centre of mass that contains the body, m.
 double bounding_radius(const StageBody& body);
-/// The vertices of an icosahedron of this circumradius, m.
+/// The vertices of an icosahedron with this circumradius, m.
 std::vector<std::array<double, 3>> icosahedron_points(double radius);
 
 }  // namespace detent_stress

@@ -6,7 +6,7 @@
 
 namespace detent_test {
 
-/// A file of the public data sets under $DETENT_DATA, or under the folder that the build was told of; else empty.
+/// The path of a file in the public data sets, under $DETENT_DATA or the folder given to the build; empty if not found.
 inline std::string data_file(const std::string& path) {
 #if defined(DETENT_DATA)
   const char* folder = DETENT_DATA;

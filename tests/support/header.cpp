@@ -1,1 +1,1 @@
-// Nothing: the precompiled header of the tests needs a source to be compiled with.
+// Empty: the precompiled header of the tests needs a source file.

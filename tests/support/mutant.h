@@ -10,7 +10,7 @@ namespace detent_test {
 
 using Bytes = std::vector<uint8_t>;
 
-/// A word that sits on the edge of something.
+/// A word near the limits of a range.
 inline uint32_t edge_word(detent_queries::Random& random) {
   constexpr uint32_t k_words[] = {0, 1, 2, 3, 4, 7, 16, 64, 0xff, 0x100, 0xffff, 0x10000, 0x3fffffff, 0x40000000};
   const uint32_t word = k_words[random.below(sizeof k_words / sizeof *k_words)];
@@ -18,7 +18,8 @@ inline uint32_t edge_word(detent_queries::Random& random) {
   return random.chance(0.3) ? ~(word | bits) : word | bits;
 }
 
-/// One change, or up to four: bits, bytes, words and parts of other places; seldom a length. The same on every machine.
+/// Makes one change, or up to four: of bits, bytes and words, copies from other places, seldom of the length. The same
+/// on every machine.
 inline Bytes mutated(Bytes bytes, detent_queries::Random& random) {
   const uint32_t changes = random.chance(0.6) ? 1 : 2 + random.below(3);
   for (uint32_t left = changes; left != 0 && bytes.size() >= 8; --left) {

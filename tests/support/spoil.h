@@ -6,8 +6,8 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Makes nonsense of all that a step may not read before it has written it: what a new world has no zeros in. What the
-/// world keeps from step to step must be forgotten then (forget_steps, restore).
+/// Overwrites the memory that a step may not read before it has written it. A new world does not clear this memory. If
+/// the world has made steps, call forget_steps() or restore() afterwards, because it keeps data between steps there.
 inline void spoil_work_space(World& world, int byte) {
   const Layout layout = view_of(world).layout;
   memset(world.block + layout.persistent_bytes, byte, layout.candidates - layout.persistent_bytes);

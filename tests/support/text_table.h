@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-/// Tables of what a program has measured, for a terminal or as Markdown.
+/// Tables of measured values, for a terminal or as Markdown.
 namespace detent_text {
 
 /// The cells of a row.
 using Cells = std::vector<std::string>;
 
-/// As printf() writes it; at most 255 characters.
+/// Formats as printf() does; at most 255 characters.
 [[gnu::format(printf, 1, 2)]] inline std::string text(const char* format, ...) {
   char line[256];
   va_list arguments;
@@ -22,7 +22,7 @@ using Cells = std::vector<std::string>;
   return line;
 }
 
-/// Of values at a share of their count, 0 to 1; 0 of none.
+/// The quantile of the values at `share`, 0 to 1; 0 if there are no values.
 inline double quantile(std::vector<double> values, double share) {
   if (values.empty()) return 0;
   const auto place = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
@@ -30,7 +30,7 @@ inline double quantile(std::vector<double> values, double share) {
   return *place;
 }
 
-/// The first row is the header; empty rows are left out.
+/// Writes a table whose first row is the header; empty rows are left out.
 inline std::string table_of(const std::vector<Cells>& rows, bool markdown) {
   std::vector<size_t> width(rows[0].size());
   for (const Cells& row : rows) {

@@ -8,7 +8,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Another world of the same kind takes the state over as it is.
+/// Checks that another world of the same kind can load this state and gets the same digest.
 inline void expect_loadable(const World& world) {
   const WorldDef def = get_settings(world);
   std::vector<uint64_t> bytes(snapshot_bytes(def.capacity) / 8);
@@ -19,7 +19,7 @@ inline void expect_loadable(const World& world) {
   EXPECT_EQ(digest(other.world), digest(world));
 }
 
-/// Whatever state `load` lets in, every question has an answer, and steps lead to states that can be loaded.
+/// Checks a state that `load` has accepted: every query returns an answer, and steps lead to states that can be loaded.
 inline void expect_usable(World& world) {
   for (BodyId id = next_body(world, {}); !(id == BodyId{}); id = next_body(world, id)) {
     BodyDef def;

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-/// What the harness sees of a world, in doubles. Of no configuration. m, kg, s, rad; world frame where nothing else is
-/// said.
+/// The harness's view of a world, in doubles, independent of the configuration. m, kg, s, rad; world frame unless
+/// stated otherwise.
 namespace detent_zoo {
 
 struct Vector {
@@ -28,7 +28,7 @@ struct BodyFrame {
   Vector velocity, spin;
 };
 
-/// As JointType has them.
+/// As JointType.
 enum class Held : uint32_t { ball = 1, hinge, slider, distance, fixed, cone_twist, wheel, parallel, filter };
 
 struct AxisFrame {
@@ -40,16 +40,16 @@ struct AxisFrame {
 
 struct JointFrame {
   Held type = Held::ball;
-  uint32_t a = 0, b = 0;  ///< of Frame::bodies
+  uint32_t a = 0, b = 0;  ///< indices into Frame::bodies
   Vector anchor_a, anchor_b;
   Rotation frame_a, frame_b;
   AxisFrame axes[2];
 };
 
-/// Two bodies that touch; a pair may be there several times.
+/// Two bodies in contact; a pair may occur several times.
 struct ContactFrame {
-  uint32_t a = 0, b = 0;  ///< of Frame::bodies
-  double depth = 0;       ///< of the deepest point, m; negative if there is a gap
+  uint32_t a = 0, b = 0;  ///< indices into Frame::bodies
+  double depth = 0;       ///< of the deepest point, m; negative for a gap
 };
 
 struct Frame {
@@ -60,33 +60,34 @@ struct Frame {
   std::vector<ContactFrame> contacts;
 };
 
-/// What a step told.
+/// Counts of a step's report.
 struct StepFigures {
-  uint64_t lost = 0;      ///< pairs, contacts and ranges that were dropped or clamped, decisions left, bodies stopped
+  /// Pairs, contacts and ranges that were dropped or clamped, joint decisions left, bodies stopped.
+  uint64_t lost = 0;
   uint32_t substeps = 0;  ///< greatest of any island
   uint32_t awake = 0;
   double seconds = 0;
 };
 
-/// A scene that plays in one configuration.
+/// A scene that runs in one configuration.
 class Play {
  public:
   virtual ~Play() = default;
-  /// The calls before the next tick. Whether there were any, or `problem`.
+  /// Makes the calls before the next tick. Returns whether there were any; on failure sets `problem`.
   virtual bool call(std::string& problem) = 0;
   virtual StepFigures step() = 0;
   virtual Frame frame() const = 0;
   virtual uint32_t ticks() const = 0;  ///< the scene's length
-  /// The body of Frame::bodies, as messages name it.
+  /// The name of a body of Frame::bodies, for messages.
   virtual std::string body_name(uint32_t index) const = 0;
-  /// The joint of Frame::joints, likewise.
+  /// The name of a joint of Frame::joints, for messages.
   virtual std::string joint_name(uint32_t index) const = 0;
 };
 
 /// The library in one configuration.
 struct Engine {
   const char* config;
-  /// The scene of that file at its beginning, or null and what is wrong.
+  /// Opens a scene file at its start; null, with the problem, on failure.
   std::unique_ptr<Play> (*open)(const std::string& path, std::string& problem);
 };
 std::vector<Engine> all_engines();

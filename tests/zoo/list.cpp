@@ -11,12 +11,12 @@ namespace {
 constexpr const char* k_head = "scene,source,wants,why,gaps";
 constexpr size_t k_columns = 5;
 
-/// Bounds where a scene says nothing else (docs/zoo.md).
+/// Bounds for checks that a scene does not list (docs/zoo.md).
 const std::map<std::string, double> k_defaults = {{"gain", 0.05}, {"gap", 0.02},    {"angle", 0.02}, {"limit", 0.05},
                                                   {"sunk", 0.02}, {"pierced", 0.5}, {"lost", 0},     {"speed", 3}};
 const std::map<std::string, double> k_free_defaults = {{"momentum", 1e-3}, {"spin", 0.02}};
 
-constexpr double k_some_time = 1e9;  // a tick by which a scene has ended
+constexpr double k_some_time = 1e9;  // later than the end of any scene
 
 std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> cells(1);
@@ -49,7 +49,7 @@ bool is_check(const std::string& name) {
   return false;
 }
 
-/// What is wrong with the word, or nothing.
+/// Adds a word of the column "wants". Returns the problem; empty if none.
 std::string take_wanted(const std::string& word, Entry& entry) {
   if (word == "rests") {
     entry.rests = true;
@@ -79,7 +79,7 @@ std::string take_wanted(const std::string& word, Entry& entry) {
   return "";
 }
 
-/// "fx64:gain+gap f32:lost"
+/// Adds a word such as "fx64:gain+gap" of the column of gaps. Returns the problem; empty if none.
 std::string take_gap(const std::string& word, Entry& entry) {
   const size_t colon = word.find(':');
   if (colon == std::string::npos) return "\"" + word + "\" is no gap: fx64:gain+gap";

@@ -8,7 +8,7 @@ namespace {
 
 constexpr Vector k_x = {1, 0, 0}, k_z = {0, 0, 1};
 
-/// 1 / I n, in the world.
+/// I^-1 torque, world axes.
 Vector answer_to_torque(const BodyFrame& body, const Vector& torque) {
   if (body.kind != Kind::dynamic) return {};
   const Vector own = rotate(inverse(body.rotation), torque);
@@ -36,7 +36,7 @@ double linear_mass(const BodyFrame& a, const BodyFrame& b, const Vector& arm_a, 
 
 double angle_between(const Vector& a, const Vector& b) { return atan2(length(cross(a, b)), dot(a, b)); }
 
-/// Of a rotation about one of its axes, in (-pi, pi].
+/// The angle of a rotation about one of its axes, in (-pi, pi].
 double twist(double sine, double cosine) {
   const double angle = 2 * atan2(sine, cosine);
   return angle > M_PI ? angle - 2 * M_PI : angle <= -M_PI ? angle + 2 * M_PI : angle;

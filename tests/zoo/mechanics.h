@@ -3,7 +3,7 @@
 
 #include "tests/zoo/frame.h"
 
-/// Mechanics of what the harness sees.
+/// Mechanics of the harness's frames.
 namespace detent_zoo {
 
 inline Vector operator+(const Vector& a, const Vector& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
@@ -20,25 +20,26 @@ Vector rotate(const Rotation& rotation, const Vector& v);
 
 /// I w, kg m^2/s.
 Vector angular_momentum(const BodyFrame& body);
-/// J.
+/// Kinetic energy, J.
 double kinetic_energy(const BodyFrame& body);
-/// J, 0 at the origin.
+/// Potential energy, J, 0 at the origin.
 double potential_energy(const BodyFrame& body, const Vector& gravity);
-/// The length of a rod with the body's greatest moment of inertia, m: of a ball 2.2 radii. 0 if it does not turn.
+/// The length of a rod with the body's greatest moment of inertia, m; for a ball 2.2 radii. 0 if it cannot rotate.
 double size_of(const BodyFrame& body);
-/// The least side of a box with the body's moments of inertia, m: of a ball 1.55 radii. 0 if it turns about fewer than
-/// three axes.
+/// The least side of a box with the body's moments of inertia, m; for a ball 1.55 radii. 0 if it can rotate about fewer
+/// than three axes.
 double thickness_of(const BodyFrame& body);
 
-/// What a joint does not hold, and where its free motions are.
+/// The errors of a joint and its free motions.
 struct JointState {
-  double gap =
-      0;  ///< between the anchors, m, but for what the type lets slide; of `distance` what is beyond its limits
-  double angle = 0;       ///< between axes that should be one, rad
-  double limit = 0;       ///< beyond the limits of an angle, rad, or of a length, m
-  double values[3] = {};  ///< of the free motions; of a ball with a spring: the turn, as a vector in A's axes, rad
-  bool free[3] = {};      ///< whether there is one
-  double masses[3] = {};  ///< that its springs feel, kg or kg m^2
+  /// Distance of the anchors, m, without the part along a sliding axis; for `distance` the part beyond its limits.
+  double gap = 0;
+  double angle = 0;  ///< between axes that should coincide, rad
+  double limit = 0;  ///< beyond a limit, rad or m
+  /// Values of the free motions; for a ball joint with a spring: the rotation vector in A's axes, rad.
+  double values[3] = {};
+  bool free[3] = {};      ///< whether the motion exists
+  double masses[3] = {};  ///< effective masses that its springs act on, kg or kg m^2
 };
 JointState state_of(const JointFrame& joint, const Frame& frame);
 

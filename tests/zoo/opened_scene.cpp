@@ -148,7 +148,7 @@ BodyFrame OpenedScene::body_of(BodyId id) const {
   return body;
 }
 
-/// False, and the first problem, if there is one.
+/// Returns false and sets `problem` to the first problem, if there is one.
 bool OpenedScene::take_problem(std::string& problem) const {
   if (reading_.problems.empty()) return true;
   problem = problem_text(path_, reading_.problems.front());

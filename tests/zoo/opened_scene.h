@@ -5,19 +5,19 @@
 #include "scene_world.h"
 #include "tests/zoo/frame.h"
 
-/// A scene that `detent run` would play, in one configuration.
+/// A scene file as `detent run` plays it, in one configuration.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 class OpenedScene {
  public:
-  /// Null, and what is wrong, if it cannot be opened.
+  /// Null, with the problem, if it cannot be opened.
   static std::unique_ptr<OpenedScene> open(const std::string& path, std::string& problem);
 
-  /// The calls before that tick. Whether there were any, or `problem`.
+  /// Makes the calls before that tick. Returns whether there were any; on failure sets `problem`.
   bool call(uint32_t tick, std::string& problem);
   detent_zoo::Frame frame() const;
-  /// Those of the frame, in its order.
+  /// The ids of the frame's bodies and joints, in its order.
   std::vector<BodyId> bodies() const;
   std::vector<JointId> joints() const;
 

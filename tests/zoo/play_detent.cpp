@@ -13,7 +13,7 @@ namespace {
 using detent_zoo::Frame;
 using detent_zoo::StepFigures;
 
-/// A scene stepped from outside.
+/// A scene that the caller steps.
 class DetentPlay : public detent_zoo::Play {
  public:
   explicit DetentPlay(std::unique_ptr<OpenedScene> scene) : scene_(std::move(scene)) {}

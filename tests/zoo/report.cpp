@@ -22,10 +22,10 @@ std::string joined(const std::set<std::string>& names) {
   return text;
 }
 
-/// A scene's verdicts, a configuration each.
+/// The verdicts of a scene, one for each configuration.
 using Scene = std::vector<const Row*>;
 
-/// The worst of the configurations, in bold where it fails in one.
+/// The worst value of all configurations, in bold if it fails in one.
 std::string judged(const Scene& scene, const std::string& check) {
   const bool always = check == "asleep";
   if (!always && scene.front()->entry->bounds.count(check) == 0) return "";

@@ -9,9 +9,9 @@ struct Row {
   Verdict verdict;
 };
 
-/// One line of what was measured, and what fails.
+/// One line of the measured values and the failed checks.
 std::string line_of(const Row& row);
-/// docs/zoo.md: the text of `page` up to its table, and that anew. `rows`: a scene after the other.
+/// docs/zoo.md: the text of `page` up to its table, and a new table. `rows`: grouped by scene.
 std::string page_of(const std::string& page, const std::vector<Row>& rows);
 
 }  // namespace detent_zoo

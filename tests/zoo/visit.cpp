@@ -7,8 +7,8 @@ namespace detent_zoo {
 
 namespace {
 
-constexpr double k_hopeless = 10;      // times the bound of the speed: to play on takes long and says no more
-constexpr double k_rest_speed = 1e-3;  // m/s, mean of the bodies
+constexpr double k_hopeless = 10;      // times the bound of the speed: a longer run gives no more information
+constexpr double k_rest_speed = 1e-3;  // m/s, mean over the bodies
 constexpr double k_rest_spin = 1e-2;   // rad/s
 
 std::string number(double value) {

@@ -7,7 +7,7 @@ namespace detent_zoo {
 
 namespace {
 
-constexpr double k_gravity_least = 9.81;  // m/s^2, of what a kinematic body may push
+constexpr double k_gravity_least = 9.81;  // m/s^2, for the work of kinematic bodies
 constexpr double k_weights_pushed = 10;
 
 double energy_of(const Frame& frame) {
@@ -28,7 +28,7 @@ double mass_of(const Frame& frame) {
   return mass;
 }
 
-/// The diagonal of what the dynamic bodies span, and the largest of them, m.
+/// The diagonal of the dynamic bodies' extent, or the size of the largest if that is greater, m.
 double span_of(const Frame& frame) {
   Vector low = {1e300, 1e300, 1e300}, high = {-1e300, -1e300, -1e300};
   double size = 0;
@@ -44,7 +44,7 @@ double span_of(const Frame& frame) {
   return any ? length(high - low) + size : 0;
 }
 
-/// How far the highest body is above the lowest, those that are fixed too, m.
+/// The height difference of the highest and the lowest body, including fixed ones, m.
 double height_of(const Frame& frame) {
   double low = 1e300, high = -1e300;
   for (const BodyFrame& body : frame.bodies) {
@@ -54,7 +54,7 @@ double height_of(const Frame& frame) {
   return std::max(0.0, high - low);
 }
 
-/// Of a body's centre, or of the ends of the rods that turn as it does about its axes, m/s.
+/// The speed of a body's centre, or of the ends of rods that rotate with it about its axes, m/s.
 double speed_of(const BodyFrame& body) {
   const double turning = body.mass > 0 ? dot(body.spin, angular_momentum(body)) / body.mass : 0;
   return std::max(length(body.velocity), sqrt(3 * turning));
@@ -69,7 +69,7 @@ void sum_momentum(const Frame& frame, Vector& momentum, Vector& spin) {
   }
 }
 
-/// Not a number counts as the greatest.
+/// Converts NaN to infinity, so that it counts as the greatest value.
 double finite(double value) { return isfinite(value) ? value : std::numeric_limits<double>::infinity(); }
 
 }  // namespace
@@ -99,7 +99,7 @@ void Watch::widen(const Frame& frame) {
   momentum_scale_ = std::max(momentum_scale_, momentum);
   spin_scale_ = std::max(spin_scale_, spin);
   for (const BodyFrame& body : frame.bodies) speed_first_ = std::max(speed_first_, speed_of(body));
-  double size = 0;  // of the longest body that a motor may turn
+  double size = 0;  // size of the longest body that a motor may rotate
   for (const BodyFrame& body : frame.bodies) size = std::max(size, size_of(body));
   for (const JointFrame& joint : frame.joints) {
     for (const AxisFrame& axis : joint.axes)
@@ -152,7 +152,7 @@ double Watch::mover_power(const Frame& now) const {
 
 double Watch::work(const Frame& now) const {
   double work = mover_power(now) * now.tick_time;
-  if (now.joints.size() != before_.joints.size()) return work;  // one broke in this tick
+  if (now.joints.size() != before_.joints.size()) return work;  // a joint broke in this tick
   for (size_t i = 0; i < now.joints.size(); ++i) {
     const JointState then = state_of(before_.joints[i], before_), state = state_of(now.joints[i], now);
     for (int j = 0; j < 3; ++j) {
@@ -202,7 +202,7 @@ void Watch::take_joints(const Frame& now) {
 }
 
 void Watch::take_speeds(const Frame& now) {
-  span_ = std::max(span_, height_of(now));  // what falls off everything
+  span_ = std::max(span_, height_of(now));  // bodies may fall off everything
   const double explained = speed_first_ + sqrt(2 * length(now.gravity) * span_) + motor_speed_;
   for (const BodyFrame& body : now.bodies) {
     if (body.kind == Kind::dynamic && explained > 0) figures_.speed.take(finite(speed_of(body) / explained), tick_);

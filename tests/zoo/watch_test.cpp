@@ -39,7 +39,7 @@ Rotation about(const Vector& axis, double angle) {
   return {axis.x * sine, axis.y * sine, axis.z * sine, cos(angle / 2)};
 }
 
-/// Ticks in which nothing changes.
+/// Runs ticks in which nothing changes.
 void let_settle(Watch& watch, const Frame& frame) {
   for (int i = 0; i < 30; ++i) watch.tick(frame, {});
 }
@@ -98,7 +98,7 @@ TEST(zoo_watch, a_motor_may_do_its_work_and_no_more) {
   frame.joints[0].axes[0].force_max = 30;
   frame.joints[0].axes[0].speed = 2;
   Watch watch(frame);
-  frame.bodies[1].velocity = {0, 0, sqrt(2)};  // 1 J more, which is what 30 N m 2 rad/s do in a sixtieth
+  frame.bodies[1].velocity = {0, 0, sqrt(2)};  // 1 J more, the work of 30 N m at 2 rad/s in a sixtieth of a second
   watch.tick(frame, {});
   EXPECT_NEAR(watch.finish().gain.value, 0, 1e-12);
   frame.bodies[1].velocity = {0, 0, 2};
@@ -121,7 +121,7 @@ TEST(zoo_watch, a_spring_gives_back_what_it_took) {
   frame.joints[0].axes[0].frequency = 3;
   Watch watch(frame);
   const Frame start = frame;
-  for (int i = 1; i <= 40; ++i) {  // an undamped swing of 1 m
+  for (int i = 1; i <= 40; ++i) {  // an undamped oscillation of 1 m
     frame.bodies[1].position = {1 + sin(rate * i * k_tick), 0, 0};
     frame.bodies[1].velocity = {rate * cos(rate * i * k_tick), 0, 0};
     watch.tick(frame, {});
@@ -209,7 +209,7 @@ TEST(zoo_watch, momentum_that_changes_is_told) {
   EXPECT_NEAR(watch.finish().spin.value, 0.5 / 4, 1e-12);
 }
 
-/// A ball that lies on another body, that is fixed.
+/// A ball that lies on a fixed body.
 Frame lying(double depth) {
   Frame frame = pair(Held::ball);
   frame.joints.clear();

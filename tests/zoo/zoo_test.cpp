@@ -10,7 +10,7 @@ namespace {
 
 const std::string k_folder = DETENT_ROOT "/tests/zoo/scenes";
 
-/// A scene of the list in one configuration: what fails is what zoo.csv lists as its gaps.
+/// Plays a scene of the list in one configuration: the failed checks must be the gaps of zoo.csv.
 class SceneTest : public testing::Test {
  public:
   SceneTest(const Entry& entry, const Engine& engine) : entry_(entry), engine_(engine) {}

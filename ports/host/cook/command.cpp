@@ -21,7 +21,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A path need not be valid UTF-8: bytes that are not are replaced.
+/// A path need not be valid UTF-8: invalid bytes are replaced.
 void print_json(const Json& json) { printf("%s\n", json.dump(-1, ' ', false, Json::error_handler_t::replace).c_str()); }
 
 bool fail(const std::string& path, const std::string& problem, bool json) {
@@ -33,8 +33,7 @@ bool fail(const std::string& path, const std::string& problem, bool json) {
   return false;
 }
 
-/// The bytes of what is to be cooked, for as long as this lives. False, and a line to standard error, if there are
-/// none.
+/// The bytes of the source file. read() returns false, with a line on standard error, if there are none.
 struct Source {
   std::vector<uint8_t> bytes;
   std::string_view text;

@@ -14,10 +14,11 @@ namespace detent_cook {
 namespace {
 
 constexpr double k_one = 0x1p30;
-constexpr double k_coordinate_max = 0x1p31;  // m, as world positions
+constexpr double k_coordinate_max = 0x1p31;  // m, the limit of world positions
 constexpr int k_exponent_min = -14, k_exponent_max = 15;
-constexpr double k_depth_min = 64;  // steps: 2^-24 of the unit, what the rounding of floats leaves of a flat cloud
-constexpr int k_frame_passes = 4;   // the second already sees the hull in nearly its final axes
+// Steps: 2^-24 of the unit, the thickness that float rounding gives a flat cloud.
+constexpr double k_depth_min = 64;
+constexpr int k_frame_passes = 4;  // the second pass already uses nearly the final axes
 constexpr uint32_t k_vertices_max = 255;
 
 template <class... Arguments>
@@ -27,7 +28,7 @@ std::string text(const char* format, Arguments... arguments) {
   return line;
 }
 
-/// Where the body's frame lies in the source frame.
+/// The body's frame in the source frame.
 struct Placement {
   Point origin{};
   GridRotation rotation = k_no_rotation;
@@ -43,14 +44,15 @@ struct Placement {
 
 double length(const Point& p) { return sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]); }
 
-/// Distinct points of the grid, ascending, each with a point of the cloud that it stands for.
+/// Distinct points of the grid, ascending, each with one point of the cloud that it represents.
 struct GridCloud {
   int exponent = 0;
   std::vector<GridPoint> points{};
   std::vector<Point> source{};
 };
 
-/// The cloud in the body's frame, in steps of 2^-30 of its unit, the least power of two above them all after rounding.
+/// The cloud in the body's frame, in steps of 2^-30 of its unit: the least power of two above all coordinates after
+/// rounding.
 GridCloud to_grid(const std::vector<Point>& cloud, const Placement& placement) {
   std::vector<Point> local;
   double greatest = 0;
@@ -84,13 +86,13 @@ GridCloud to_grid(const std::vector<Point>& cloud, const Placement& placement) {
   return grid;
 }
 
-/// Leaves out every point that lies within `weld` of one kept before, in ascending order.
+/// Leaves out every point within `weld` of a point kept before, in ascending order.
 std::vector<Point> welded(std::vector<Point> points, double weld) {
   std::sort(points.begin(), points.end());
   points.erase(std::unique(points.begin(), points.end()), points.end());
   if (!(weld > 0)) return points;
   std::vector<Point> kept;
-  size_t first = 0;  // kept points before it are too far away along x
+  size_t first = 0;  // earlier kept points are too far away along x
   for (const Point& p : points) {
     while (first < kept.size() && p[0] - kept[first][0] > weld) ++first;
     const bool near = std::any_of(kept.begin() + static_cast<ptrdiff_t>(first), kept.end(), [&](const Point& q) {
@@ -101,7 +103,7 @@ std::vector<Point> welded(std::vector<Point> points, double weld) {
   return kept;
 }
 
-/// Empty if the cloud may be cooked.
+/// The reason to refuse the cloud; empty if it may be cooked.
 std::string reason_against(const std::vector<Point>& points, const CookOptions& options) {
   if (options.vertex_limit < 4 || options.vertex_limit > k_vertices_max) {
     return text("the vertex limit is %u; it must be from 4 to %u", options.vertex_limit, k_vertices_max);
@@ -137,7 +139,7 @@ std::string reason_against(const GridCloud& grid, const ExactHull& hull) {
   return {};
 }
 
-/// The middle of the cloud's bounds.
+/// The centre of the cloud's bounds.
 Point middle(const std::vector<Point>& points) {
   Point low = points[0], high = points[0];
   for (const Point& p : points) {
@@ -162,7 +164,7 @@ void set_hull(const std::vector<Point>& points, Body& body) {
   if (body.hull.span == Span::solid) body.moments = moments(body.grid.points, body.hull);
 }
 
-/// Moves the frame to the centre of mass and turns it to the principal axes.
+/// Moves the frame to the centre of mass and rotates it to the principal axes.
 Placement principal_placement(const Body& body) {
   const Matrix axes = matrix_from(body.placement.rotation);
   const double unit = ldexp(1, body.grid.exponent);
@@ -182,7 +184,7 @@ std::vector<Point> of_vertices(const GridCloud& grid, const ExactHull& hull) {
   return points;
 }
 
-/// The hull with vertices alone, numbered from 0 on.
+/// Removes all points but the hull's vertices and numbers those from 0 on.
 void drop_others(Body& body) {
   std::vector<uint32_t> index(body.grid.points.size());
   std::vector<GridPoint> kept;
@@ -199,8 +201,8 @@ void drop_others(Body& body) {
   body.grid.source.clear();
 }
 
-/// Moves the origin to the point of the grid that is nearest to the centre of mass. The vertices keep their places: to
-/// round them anew would move the centre of a thin hull again. Where one would leave the unit, nothing is moved.
+/// Moves the origin to the grid point nearest to the centre of mass. The vertices keep their places: rounding them
+/// again would move the centre of a thin hull. If a vertex would leave the unit, nothing is moved.
 void centre(Body& body) {
   std::array<int32_t, 3> steps;
   for (size_t k = 0; k < 3; ++k) steps[k] = static_cast<int32_t>(floor(body.moments.centre[k] * k_one + 0.5));
@@ -257,7 +259,8 @@ CookResult cook_hull(const std::vector<Point>& points, const CookOptions& option
   if (!reason.empty()) return refused(reason);
   const std::vector<Point> cloud = welded(points, options.weld);
 
-  // Which points are vertices, as seen from the middle; then the frame, which moves and turns those.
+  // First finds the vertices, with the origin at the middle; then fits the frame, which moves and rotates only the
+  // vertices.
   Body body;
   body.placement.origin = middle(cloud);
   body.grid = to_grid(cloud, body.placement);
@@ -295,7 +298,7 @@ CookResult cook_hull(const std::vector<Point>& points, const CookOptions& option
   const int32_t tolerance = static_cast<int32_t>(std::clamp(width / 1024, 4.0, 1024.0));
   const HullHeader header = header_of(body, principal);
   std::vector<PolygonFace> faces;
-  // Where polygons joined within a tolerance would not make a solid, the triangles as they are do.
+  // If polygons joined within the tolerance do not form a solid, the separate triangles are used.
   for (const int32_t joined_within : {tolerance, -1}) {
     faces = join_faces(body.grid.points, body.hull, joined_within);
     result.bytes = encode_hull(body.grid.points, faces, header);

@@ -5,48 +5,51 @@
 #include <string>
 #include <vector>
 
-/// Cooking: from a cloud of points to the bytes of a `.hull` (docs/hull.md). On the host, where floating point and
-/// allocation are at hand; the same bytes on every host, for it computes with integers and with +, -, *, / and sqrt of
-/// doubles alone.
+/// Cooking: converts a cloud of points to the bytes of a `.hull` (docs/hull.md). Runs on the host, which has floating
+/// point and allocation. The same bytes on every host, because it computes only with integers and with +, -, *, / and
+/// sqrt of doubles.
 namespace detent_cook {
 
 using Point = std::array<double, 3>;  ///< m
 
 enum class Frame {
-  principal,  ///< of a body: origin at the centre of mass, principal axes
-  source,     ///< origin and axes of the points: for queries; of a compound, the body's
+  principal,  ///< a body's frame: origin at the centre of mass, principal axes
+  source,     ///< the points' frame: for queries; for a compound, the body's frame
 };
 
 struct CookOptions {
   Frame frame = Frame::principal;
-  double weld = 0;              ///< m; a point this near to another one that is kept is left out. 0: only equal points
+  /// m; a point this near to a kept point is left out. 0: only equal points are left out.
+  double weld = 0;
   uint32_t vertex_limit = 255;  ///< 4 to 255
-  bool reduce = true;           ///< a hull of more vertices is reduced to the limit, with `error`; else refused
+  /// true: a hull of more vertices is reduced to the limit, with `error`; false: it is refused.
+  bool reduce = true;
 };
 
 struct CookResult {
-  std::vector<uint8_t> bytes{};  ///< of the .hull; empty if it is refused
-  std::string reason{};          ///< why it is refused: one line
+  std::vector<uint8_t> bytes{};  ///< of the .hull; empty if refused
+  std::string reason{};          ///< why it is refused, in one line; empty if not
   uint32_t vertex_count = 0, face_count = 0, edge_count = 0;
-  int32_t exponent = 0;  ///< of the unit of length, 2^exponent m
-  bool reduced = false;  ///< to the vertex limit
-  double volume = 0;     ///< m^3; relative error below 2^-44 for the vertices as they are stored
-  Point centre{};        ///< m; of mass, in the source frame
+  int32_t exponent = 0;                           ///< of the unit of length, 2^exponent m
+  bool reduced = false;                           ///< to the vertex limit
+  double volume = 0;                              ///< m^3; relative error below 2^-44 for the stored vertices
+  Point centre{};                                 ///< m; of mass, in the source frame
   std::array<double, 4> rotation = {0, 0, 0, 1};  ///< x, y, z, w: from the body to the source frame
-  std::array<double, 3> gyration{};               ///< unit^2 / (I / m) about each axis; 0 in the source frame
-  double width = 0;                               ///< m; at least the width, at most a few times it
+  /// Inverse inertia per unit mass, unit^2 / (I / m), about each axis; 0 in the source frame.
+  std::array<double, 3> gyration{};
+  double width = 0;  ///< m; an upper bound of the width, at most a few times the width
   double error = 0;  ///< m; no point of the cloud lies further than this above any face's plane
 };
 
-/// The convex hull of the points, or the reason why there is none: fewer than four points, a coordinate that is no
+/// The convex hull of the points, or the reason why there is none: fewer than four points, a coordinate that is not a
 /// number or beyond 2^31 m, all points equal, on a line or in a plane, a thickness below 2^-24 of the size, a size
-/// outside [2^-15, 2^15] m, too many vertices. Neither the points' order nor equal points matter.
+/// outside [2^-15, 2^15] m, too many vertices. The result does not depend on the points' order or on repeated points.
 ///
-/// Precision: a vertex is a point of the cloud, rounded to nearest in the body's frame, 2^-30 of the unit a step.
+/// Precision: a vertex is a point of the cloud, rounded in the body's frame to the nearest step of 2^-30 of the unit.
 /// Points less than a step outside the hull of the others may be left out. The centre of mass lies within a step of the
-/// body's origin, if the origin's doubles allow; the products of inertia are below 2^-22 of the geometric mean of their
-/// moments, or the axes within 2^-29 rad. The faces are flat within 2^-20 of the unit and within 2^-10 of the width, or
-/// four steps.
+/// body's origin, if the origin's doubles are precise enough. The products of inertia are below 2^-22 of the geometric
+/// mean of their moments, or the axes are within 2^-29 rad. The faces are flat within 2^-20 of the unit and within
+/// 2^-10 of the width, or within four steps.
 CookResult cook_hull(const std::vector<Point>& points, const CookOptions& options = {});
 
 }  // namespace detent_cook

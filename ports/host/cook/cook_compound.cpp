@@ -15,10 +15,10 @@ namespace {
 
 constexpr double k_one = 0x1p30;
 constexpr double k_pi = 3.14159265358979323846;
-constexpr double k_inner_scale = 0.5;  ///< of the hull within a hull, about its centre of mass
+constexpr double k_inner_scale = 0.5;  ///< scale of a hull's inner hull about its centre of mass
 constexpr int k_exponent_min = -14, k_exponent_max = 15;
 
-/// Second moments about a centre over the mass: xx, yy, zz, xy, yz, zx.
+/// Second moments about a centre, divided by the mass: xx, yy, zz, xy, yz, zx.
 using Second = std::array<double, 6>;
 
 struct PartMass {
@@ -31,7 +31,7 @@ std::string part_text(size_t i) { return "part " + std::to_string(i + 1) + ": ";
 
 bool is_length(double value) { return value >= 0x1p-15 && value <= 0x1p15; }
 
-/// R diag(d) R*, of which R's columns are axes.
+/// R diag(d) R*; the columns of R are the axes.
 Second turned(const Matrix& r, const std::array<double, 3>& d) {
   const auto entry = [&](size_t i, size_t j) {
     return r[i][0] * d[0] * r[j][0] + r[i][1] * d[1] * r[j][1] + r[i][2] * d[2] * r[j][2];
@@ -51,7 +51,7 @@ PartMass capsule_mass(const CompoundPart& part) {
   const double cylinder = k_pi * r * r * length, balls = 4 * k_pi / 3 * r * r * r, mass = cylinder + balls;
   const double across = (cylinder * r * r / 4 + balls * r * r / 5) / mass;
   const double along = (cylinder * h * h / 3 + balls * (h * h + 0.75 * h * r + r * r / 5)) / mass;
-  // across everywhere, and the rest along the axis
+  // `across` in every direction, and the rest along the axis
   const double n[3] = {way[0] / length, way[1] / length, way[2] / length}, more = along - across;
   return {mass,
           {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2},
@@ -71,7 +71,7 @@ std::vector<Point> grown(const std::vector<Point>& points, double radius) {
   return result;
 }
 
-/// Empty if all is well.
+/// Returns the problem; empty if there is none.
 std::string hull_mass(const CompoundPart& part, PartMass& mass) {
   const CookResult sharp = cook_hull(part.points, {});
   if (sharp.bytes.empty()) return sharp.reason;
@@ -113,7 +113,7 @@ std::string mass_of(const CompoundPart& part, PartMass& mass) {
   return {};
 }
 
-/// Of all parts, about the common centre, or about the origin.
+/// Sums all parts about the common centre, or about the origin in the source frame.
 PartMass total_of(const std::vector<PartMass>& masses, Frame frame) {
   PartMass total;
   for (const PartMass& part : masses) total.mass += part.mass;
@@ -131,7 +131,7 @@ PartMass total_of(const std::vector<PartMass>& masses, Frame frame) {
   return total;
 }
 
-/// Where the body's frame lies in the source frame.
+/// The body's frame in the source frame.
 struct Placement {
   Point origin{};
   GridRotation rotation = k_no_rotation;
@@ -143,14 +143,14 @@ struct Placement {
     for (size_t i = 0; i < 3; ++i) result[i] = axes[0][i] * d[0] + axes[1][i] * d[1] + axes[2][i] * d[2];
     return result;
   }
-  /// The second moment along the body's axis.
+  /// The second moment along an axis of the body.
   double along(size_t axis, const Second& s) const {
     const double x = axes[0][axis], y = axes[1][axis], z = axes[2][axis];
     return s[0] * x * x + s[1] * y * y + s[2] * z * z + 2 * (s[3] * x * y + s[4] * y * z + s[5] * z * x);
   }
 };
 
-/// A part in the body's frame, its hulls cooked.
+/// A part in the body's frame, with cooked hulls.
 struct Child {
   CompoundPart part;
   std::vector<uint8_t> hull{}, inner{};
@@ -176,7 +176,7 @@ std::string cook_child(const CompoundPart& part, const PartMass& mass, const Pla
   return {};
 }
 
-/// Bytes where the library may read them.
+/// Copies the bytes to an 8-byte aligned block, as the library requires.
 std::vector<uint64_t> aligned_to_8(const std::vector<uint8_t>& bytes) {
   std::vector<uint64_t> words(bytes.size() / 8);
   if (!bytes.empty()) memcpy(words.data(), bytes.data(), bytes.size());
@@ -188,7 +188,7 @@ struct Measured {
   detent::ChildMeasure measure;
 };
 
-/// Each child in steps of the unit 2^exponent m. False if one reaches beyond the unit.
+/// Measures each child in steps of 2^-30 of the unit 2^exponent m. False if a child extends beyond the unit.
 bool measure_all(const std::vector<Child>& children, int exponent, std::vector<Measured>& measured) {
   measured.clear();
   for (const Child& from : children) {

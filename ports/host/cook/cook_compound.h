@@ -9,35 +9,36 @@ namespace detent_cook {
 struct CompoundPart {
   enum class Kind { ball, capsule, hull };
   Kind kind = Kind::hull;
-  std::vector<Point> points{};  ///< m: a ball's centre, a capsule's two ends, or the cloud that a hull is of
-  double radius = 0;            ///< m; of a hull that of the ball that rounds it, or 0
-  double density = 1;           ///< as a multiple of the body's
+  std::vector<Point> points{};  ///< m: a ball's centre, a capsule's two ends, or a hull's points
+  double radius = 0;            ///< m; for a hull the radius of the ball that rounds it, or 0
+  double density = 1;           ///< multiple of the body's density
 };
 
 struct CompoundResult {
-  std::vector<uint8_t> bytes{};  ///< of the .compound; empty if it is refused
-  std::string reason{};          ///< why it is refused: one line
+  std::vector<uint8_t> bytes{};  ///< of the .compound; empty if refused
+  std::string reason{};          ///< why it is refused, in one line; empty if not
 };
 
 /// A compound of 1 to 64 parts, or the reason why there is none: a part that cook_hull() refuses, a radius or density
-/// that is no positive number, a size outside [2^-15, 2^15] m.
+/// that is not a positive number, a size outside [2^-15, 2^15] m.
 ///
-/// Mass: parts are taken as apart, so what two of them share counts twice. A rounded hull counts as its points grown by
-/// a cube of half the size `radius` in the axes of the source, as boxes along them do everywhere. Volume and gyration
-/// err by less than 2^-28; products of inertia as in cook_hull(). In the source frame the body's centre of mass is the
-/// origin of the points, and its gyration that of the parts about their axes, without the products.
+/// Mass: each part counts in full, so the common volume of two parts counts twice. A rounded hull counts as its points
+/// grown by a cube of half size `radius` along the axes of the source, as for boxes elsewhere. Volume and inverse
+/// inertia have a relative error below 2^-28; products of inertia as in cook_hull(). In the source frame the body's
+/// centre of mass is the origin of the points, and its inertia is that of the parts about these axes, without the
+/// products.
 CompoundResult cook_compound(const std::vector<CompoundPart>& parts, Frame frame = Frame::principal);
 
-/// The corners of a box about `centre`, turned by the quaternion x, y, z, w of any length but 0.
+/// The corners of a box about `centre`, rotated by the quaternion x, y, z, w of any length but 0.
 std::vector<Point> box_points(const Point& centre, const Point& half, const std::array<double, 4>& rotation);
 
 struct CompoundRead {
   std::vector<CompoundPart> parts{};
-  std::string problem{};  ///< one line, with the line's number where there is one; empty if all is well
+  std::string problem{};  ///< one line, with the line number if known; empty if there is none
 };
 
-/// A Wavefront OBJ with lines of our own (docs/compound.md): the faces of each group, object or file without either are
-/// a hull; `ball`, `capsule` and `box` lines are parts each.
+/// Reads a Wavefront OBJ with additional lines (docs/compound.md). The faces of each group, of each object, or of a
+/// file without either form a hull. Each `ball`, `capsule` or `box` line is a part.
 CompoundRead read_compound_text(std::string_view text);
 
 }  // namespace detent_cook

@@ -70,7 +70,7 @@ HeightFieldResult cook_height_field(const HeightFieldSource& source) {
     highest = std::max(highest, fabs(height));
   }
   int exponent = 0;
-  // A hundredth more, for what rounding adds to spacings and heights.
+  // One percent more, for the rounding of spacings and heights.
   frexp(greatest * 1.01, &exponent);
   exponent = std::min(std::max(exponent, int{detent::k_surface_exponent_min}), int{detent::k_surface_exponent_max});
   const auto steps = [&](double metres) { return static_cast<int32_t>(floor(ldexp(metres, 30 - exponent) + 0.5)); };

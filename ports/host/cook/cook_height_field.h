@@ -7,21 +7,21 @@ namespace detent_cook {
 struct HeightFieldSource {
   uint32_t columns = 0, rows = 0;       ///< cells along x and z
   std::vector<double> heights{};        ///< m; (columns + 1) (rows + 1) of them, x first
-  std::vector<uint8_t> cells{};         ///< columns rows of them, as docs/height_field.md; none: all of material 0
-  Point origin{};                       ///< m; where the first sample lies, but for its height
+  std::vector<uint8_t> cells{};         ///< columns x rows of them, docs/height_field.md; empty: all of material 0
+  Point origin{};                       ///< m; of the first sample, at height 0
   double spacing_x = 1, spacing_z = 1;  ///< m
   bool one_sided = true;
 };
 
 struct HeightFieldResult {
-  std::vector<uint8_t> bytes{};  ///< docs/height_field.md; empty if it is refused
-  std::string reason{};          ///< why it is refused: one line
-  double step = 0;               ///< m; of the grid that the spacing is rounded to
-  double height_step = 0;        ///< m; heights are rounded to it
+  std::vector<uint8_t> bytes{};  ///< docs/height_field.md; empty if refused
+  std::string reason{};          ///< why it is refused, in one line; empty if not
+  double step = 0;               ///< m; of the grid of the spacing
+  double height_step = 0;        ///< m; of the grid of the heights
 };
 
-/// The cooked height field, or the reason why there is none: sizes that don't agree, more than 4096 cells along a side,
-/// an extent of more than 16 km. The same bytes on every host.
+/// The cooked height field, or the reason why there is none: inconsistent sizes, more than 4096 cells along a side, an
+/// extent of more than 16 km. The same bytes on every host.
 HeightFieldResult cook_height_field(const HeightFieldSource& source);
 
 }  // namespace detent_cook

@@ -49,7 +49,7 @@ std::string reason_against(const MeshSource& source, const MeshOptions& options)
   return {};
 }
 
-/// The vertices on the grid of the least power of two above them all.
+/// Puts the vertices on the grid of the least power of two above all coordinates.
 void round_vertices(const MeshSource& source, GridMesh& mesh) {
   double greatest = 0;
   for (const Point& p : source.vertices) {
@@ -62,13 +62,14 @@ void round_vertices(const MeshSource& source, GridMesh& mesh) {
     for (size_t k = 0; k < 3; ++k) {
       const double steps = floor(ldexp(p[k], 30 - mesh.exponent) + 0.5);
       constexpr double k_most = detent::k_surface_coordinate_max;
-      v[k] = static_cast<int32_t>(std::min(std::max(steps, -k_most), k_most));  // what rounds up to the unit itself
+      // a value may round up to the unit itself
+      v[k] = static_cast<int32_t>(std::min(std::max(steps, -k_most), k_most));
     }
     mesh.vertices.push_back({v[0], v[1], v[2]});
   }
 }
 
-/// For each vertex the one that it becomes: in ascending order, one kept before within `weld` steps, the least such.
+/// For each vertex, the vertex that replaces it: in ascending order, the least one kept before within `weld` steps.
 std::vector<uint32_t> welded_to(const std::vector<Vec32>& vertices, double weld) {
   std::vector<uint32_t> order(vertices.size());
   for (uint32_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -113,7 +114,7 @@ std::vector<uint32_t> welded_to(const std::vector<Vec32>& vertices, double weld)
   return result;
 }
 
-/// Leaves out what has no area, and repetitions; `mesh.vertices` keeps what is not used.
+/// Takes the faces except those without area and repetitions. `mesh.vertices` still contains unused vertices.
 void take_faces(const MeshSource& source, const std::vector<uint32_t>& becomes, GridMesh& mesh, MeshResult& result) {
   std::map<std::array<uint32_t, 3>, bool> seen;
   for (const MeshSource::Triangle& triangle : source.triangles) {
@@ -134,7 +135,7 @@ void take_faces(const MeshSource& source, const std::vector<uint32_t>& becomes, 
   }
 }
 
-/// Numbers the vertices that are used, ascending.
+/// Numbers the used vertices in ascending order.
 void renumber(GridMesh& mesh) {
   std::map<std::array<int32_t, 3>, uint32_t> number;
   for (const Face& face : mesh.faces) {
@@ -151,7 +152,7 @@ void renumber(GridMesh& mesh) {
   mesh.vertices = used;
 }
 
-/// Orders the faces for the tree: each half of a node's leaves is the half along the widest axis of the centres.
+/// Orders the faces for the tree: each node's leaves are halved along the widest axis of the triangles' centres.
 class Orderer {
  public:
   Orderer(GridMesh& mesh, const CookProgress& progress) : mesh_(mesh), progress_(progress) {
@@ -176,7 +177,7 @@ class Orderer {
   }
 
  private:
-  /// `span`: of triangles in a full node of this level.
+  /// `span`: triangles in a full node of this level.
   void split(uint32_t from, uint32_t to, uint32_t span) {
     if (span <= detent::k_mesh_leaf_triangles) {
       std::sort(order_.data() + from, order_.data() + to);
@@ -213,7 +214,7 @@ class Orderer {
   std::vector<uint32_t> order_{};
 };
 
-/// A face's passage along an edge.
+/// The direction in which a face passes along an edge.
 struct Passage {
   uint32_t low, high;  ///< vertices
   bool forward;
@@ -257,7 +258,7 @@ void put_triangles(const GridMesh& mesh, const detent::MeshView& view, Writer& w
   }
 }
 
-/// From the leaves up, each read back for the one above.
+/// Writes the nodes from the leaves up; each node is read back for its parent.
 void put_nodes(const detent::MeshView& view, Writer& writer) {
   for (uint32_t level = 0; level < view.level_count; ++level) {
     for (uint32_t i = 0; i < view.level_size(level); ++i) {

@@ -18,7 +18,8 @@ int32_t core_radius(const std::vector<GridPoint>& vertices) {
   for (const GridPoint& v : vertices) {
     greatest = std::max(greatest, static_cast<uint64_t>(int64_t{v.x} * v.x + int64_t{v.y} * v.y + int64_t{v.z} * v.z));
   }
-  uint64_t radius = static_cast<uint64_t>(sqrt(static_cast<double>(greatest)));  // to a step; then exactly
+  // to within a step; the loop makes it exact
+  uint64_t radius = static_cast<uint64_t>(sqrt(static_cast<double>(greatest)));
   while (radius * radius < greatest) ++radius;
   while (radius > 0 && (radius - 1) * (radius - 1) >= greatest) --radius;
   return static_cast<int32_t>(radius);

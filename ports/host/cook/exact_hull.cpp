@@ -11,7 +11,7 @@ namespace {
 
 constexpr uint32_t k_none = ~uint32_t{0};
 
-/// Its sign is exact; its size is the volume of a parallelepiped, below 2^94.
+/// A triangle's plane. The sign of a height is exact; its size is the volume of a parallelepiped, below 2^94.
 struct Plane {
   std::array<int64_t, 3> normal;
   Int128 offset;
@@ -36,11 +36,11 @@ Plane plane_through(const GridPoint& a, const GridPoint& b, const GridPoint& c) 
 
 struct Face {
   Triangle vertex;
-  std::array<uint32_t, 3> across;  ///< the face beyond the side from vertex k to vertex k + 1
+  std::array<uint32_t, 3> across;  ///< the face beyond the edge from vertex k to vertex k + 1
   Plane plane;
   std::vector<uint32_t> outside{};  ///< points above this face, each on the list of one face
   uint32_t furthest = k_none;
-  double distance = 0;  ///< of the furthest
+  double distance = 0;  ///< of the furthest point
   bool alive = true;
 };
 
@@ -49,7 +49,7 @@ class Builder {
  public:
   explicit Builder(const std::vector<GridPoint>& points) : points_(points) {}
 
-  /// The points that make a first tetrahedron, or what the cloud spans instead.
+  /// Finds the points of a first tetrahedron, or the cloud's lower dimension.
   Span start() {
     if (points_.size() < 2) return Span::point;
     const uint32_t a = 0, b = static_cast<uint32_t>(points_.size() - 1);
@@ -99,7 +99,7 @@ class Builder {
     return best;
   }
 
-  /// Replaces what the face's furthest point sees by a cone from that point.
+  /// Replaces the faces visible from the face's furthest point by a cone from that point.
   void grow(uint32_t face) {
     const uint32_t apex = faces_[face].furthest;
     std::vector<uint32_t> seen = {face};
@@ -174,7 +174,7 @@ class Builder {
       }
     }
   }
-  /// Puts the point on the list of the face, of those from `first` on, that it lies furthest above, if any.
+  /// Adds the point to the list of the face that it lies furthest above, among the faces from `first` on, if any.
   void assign(uint32_t point, uint32_t first) {
     uint32_t best = k_none;
     double distance = -1;
@@ -208,7 +208,8 @@ std::vector<uint32_t> vertices_of(const std::vector<Triangle>& triangles) {
   return vertices;
 }
 
-/// Those that touch three or more planes: the others lie within a face or a side, where equally far points put them.
+/// The vertices that touch three or more planes. The others lie inside a face or an edge, where equally distant points
+/// were inserted.
 std::vector<uint32_t> extreme_vertices(const std::vector<GridPoint>& points, const std::vector<Triangle>& triangles) {
   std::vector<std::vector<uint32_t>> around(points.size());
   for (uint32_t i = 0; i < triangles.size(); ++i) {
@@ -256,7 +257,7 @@ ExactHull exact_hull(const std::vector<GridPoint>& points, uint32_t vertex_limit
   const std::vector<uint32_t> extreme = extreme_vertices(points, hull.triangles);
   if (extreme.size() == hull.vertices.size()) return hull;
 
-  // Of the extreme ones alone, every one of which must be inserted.
+  // Repeats the hull with the extreme vertices only; each of them must be inserted.
   std::vector<GridPoint> kept;
   for (const uint32_t vertex : extreme) kept.push_back(points[vertex]);
   ExactHull smaller = exact_hull(kept, ~uint32_t{0});

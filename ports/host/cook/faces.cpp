@@ -16,7 +16,7 @@ constexpr int64_t k_one = int64_t{1} << 30;
 
 using Side = std::pair<uint32_t, uint32_t>;  ///< from one vertex to another
 
-/// The loop about the triangles, its least index first; empty if they do not make a disc without a vertex inside.
+/// The loop around the triangles, its least index first; empty if they do not form a disc without an inner vertex.
 std::vector<uint32_t> loop_about(const std::vector<Triangle>& triangles) {
   std::map<Side, uint32_t> sides;
   for (const Triangle& t : triangles) {
@@ -57,7 +57,7 @@ void set_plane(const std::vector<GridPoint>& points, const ExactHull& hull, Poly
   face.offset = static_cast<int32_t>((top + k_one - 1) >> 30);
 }
 
-/// Whether the loop lies within the tolerance of the plane, and to the left of each of its sides.
+/// Whether the loop lies within the tolerance of the plane, and is convex within the tolerance.
 bool is_flat_and_convex(const std::vector<GridPoint>& points, const PolygonFace& face, int32_t tolerance) {
   const auto& n = face.normal;
   for (size_t k = 0; k < face.loop.size(); ++k) {
@@ -78,19 +78,19 @@ bool is_flat_and_convex(const std::vector<GridPoint>& points, const PolygonFace&
 }
 
 struct Seam {
-  double bend;  ///< how far the corner beyond lies below the other's plane
+  double bend;  ///< the greater depth of a triangle's free corner below the other's plane
   Side side;
   uint32_t left, right;
 };
 
-/// The sides between two triangles, the flattest first.
+/// The edges between two triangles, the flattest first.
 std::vector<Seam> seams_of(const std::vector<GridPoint>& points, const ExactHull& hull) {
   std::map<Side, uint32_t> owner;
   for (uint32_t i = 0; i < hull.triangles.size(); ++i) {
     const Triangle& t = hull.triangles[i];
     for (uint32_t k = 0; k < 3; ++k) owner[{t[k], t[(k + 1) % 3]}] = i;
   }
-  const auto depth = [&](uint32_t under, uint32_t of) {  // of the corner of `of` that `under` has not
+  const auto depth = [&](uint32_t under, uint32_t of) {  // of the corner of `of` that `under` lacks
     const Triangle& t = hull.triangles[under];
     const auto normal = area_normal(points[t[0]], points[t[1]], points[t[2]]);
     std::array<double, 3> n;
@@ -152,10 +152,10 @@ std::vector<PolygonFace> join_faces(const std::vector<GridPoint>& points, const 
   for (PolygonFace& group : groups) {
     if (group.triangles.empty()) continue;
     std::sort(group.triangles.begin(), group.triangles.end());
-    set_plane(points, hull, group);  // again, for the sum's rounding depends on the order
+    set_plane(points, hull, group);  // again, because the sum's rounding depends on the order
     faces.push_back(group);
   }
-  // Not by the vectors' own <: on a big-endian machine GCC 12's compares but a quarter of their bytes.
+  // The vectors' own < is not used: on big-endian machines GCC 12's compares only a quarter of their bytes.
   std::sort(faces.begin(), faces.end(), [](const PolygonFace& a, const PolygonFace& b) {
     return std::lexicographical_compare(a.loop.begin(), a.loop.end(), b.loop.begin(), b.loop.end());
   });

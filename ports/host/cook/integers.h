@@ -5,7 +5,7 @@ namespace detent_cook {
 
 using detent::Int128;
 
-/// Each part is converted exactly, so that only the sums round: some compilers' conversion of a 64-bit unsigned integer
+/// Converts each part exactly, so that only the sums round: some compilers' conversion of a 64-bit unsigned integer
 /// rounds twice. Relative error below 2^-52.
 inline double to_double(Int128 value) {
   const detent::Words128 words = detent::magnitude_128(value);

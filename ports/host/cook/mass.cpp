@@ -45,8 +45,8 @@ Moments moments(const std::vector<GridPoint>& points, const ExactHull& hull) {
       second[m] += determinant * product;
     }
   }
-  // Over a tetrahedron from the origin: its volume is determinant / 6, the mean of x is sum / 4, that of x y is
-  // (sum_x sum_y + x_0 y_0 + x_1 y_1 + x_2 y_2) / 20.
+  // Moments of a tetrahedron with one corner at the origin: its volume is determinant / 6, the mean of x is sum / 4,
+  // and the mean of x y is (sum_x sum_y + x_0 y_0 + x_1 y_1 + x_2 y_2) / 20.
   Moments result;
   result.volume = volume / 6 * 0x1p-90;
   const std::array<double, 3> mean = {first[0] / volume / 4, first[1] / volume / 4, first[2] / volume / 4};
@@ -102,7 +102,7 @@ Matrix product(const Matrix& a, const Matrix& b) {
 }
 
 GridRotation rotation_from(const Matrix& m) {
-  // Four times each component squared; the greatest is at least 1.
+  // Four times each quaternion component squared; the greatest is at least 1.
   const std::array<double, 4> four = {1 + m[0][0] - m[1][1] - m[2][2], 1 - m[0][0] + m[1][1] - m[2][2],
                                       1 - m[0][0] - m[1][1] + m[2][2], 1 + m[0][0] + m[1][1] + m[2][2]};
   size_t greatest = 3;

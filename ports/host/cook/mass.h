@@ -3,7 +3,7 @@
 
 namespace detent_cook {
 
-/// Of a solid of density 1, lengths in steps of 2^-30 of a unit, answers in units.
+/// Moments of a solid of density 1. Input lengths are in steps of 2^-30 of a unit, results in units.
 struct Moments {
   double volume = 0;
   std::array<double, 3> centre{};  ///< of mass
@@ -18,18 +18,18 @@ using Matrix = std::array<std::array<double, 3>, 3>;
 
 inline constexpr GridRotation k_no_rotation = {0, 0, 0, 1 << 30};
 
-/// Integrals over the hull as tetrahedra from one of its vertices, none of them negative, so that no sum cancels: the
-/// volume to 2^-44, the second moments about that vertex likewise. The shift to the centre costs at most 4 bits more
-/// along a principal axis. The determinants are exact integers.
+/// Integrates over the hull as tetrahedra from one of its vertices. None of them is negative, so no sum cancels: the
+/// volume and the second moments about that vertex have a relative error of 2^-44. The shift to the centre costs at
+/// most 4 bits more along a principal axis. The determinants are exact integers.
 Moments moments(const std::vector<GridPoint>& points, const ExactHull& hull);
 
-/// The rotation from principal axes to these; it is the nearest to none that makes the products of inertia vanish.
-/// Those below 2^-22 of the geometric mean of their moments are taken for 0: a cube of floats keeps its axes. Source:
-/// Jacobi's method; Golub, Van Loan, Matrix Computations, 8.5.
+/// The rotation from the principal axes to the source axes. Of all such rotations it is the nearest to the identity.
+/// Products of inertia below 2^-22 of the geometric mean of their moments count as 0: a cube of floats keeps its axes.
+/// Source: Jacobi's method; Golub, Van Loan, Matrix Computations, 8.5.
 Matrix principal_axes(const std::array<double, 6>& second);
 
 Matrix product(const Matrix& a, const Matrix& b);
-/// The nearest in integers, with w >= 0.
+/// The nearest rotation in integers, with w >= 0.
 GridRotation rotation_from(const Matrix& matrix);
 Matrix matrix_from(const GridRotation& rotation);
 

@@ -5,10 +5,10 @@
 namespace detent_cook {
 namespace {
 
-constexpr size_t k_corners_max = size_t{1} << 24;  ///< of a hull's faces
-constexpr size_t k_parts_max = size_t{1} << 16;    ///< far more than are cooked
+constexpr size_t k_corners_max = size_t{1} << 24;  ///< vertices of a hull's faces
+constexpr size_t k_parts_max = size_t{1} << 16;    ///< far more than cook_compound() accepts
 
-/// `count` numbers and no more; or, if `optional`, none at all.
+/// Reads exactly `count` numbers; if `optional`, also none.
 std::string read_numbers(std::string_view& line, double* numbers, size_t count, bool optional = false) {
   for (size_t i = 0; i < count; ++i) {
     const std::string_view word = next_word(line);

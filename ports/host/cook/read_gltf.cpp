@@ -13,7 +13,7 @@ namespace {
 
 constexpr int k_depth_max = 64;
 
-/// Columns, as in glTF.
+/// A matrix in column order, as in glTF.
 using Transform = std::array<double, 16>;
 
 Transform product(const Transform& a, const Transform& b) {
@@ -55,7 +55,8 @@ class Reader {
  public:
   explicit Reader(const tinygltf::Model& model) : model_(model), added_(model.nodes.size()) {}
 
-  /// Each once, as glTF has it: of nodes that share their parts a small file could make more than any machine can hold.
+  /// Adds each node once, as glTF requires: with shared nodes a small file could create more triangles than fit in
+  /// memory.
   void add_node(int index, const Transform& parent, int depth) {
     if (index < 0 || static_cast<size_t>(index) >= model_.nodes.size() || depth > k_depth_max) {
       return fail("a node that is missing, or too deep");
@@ -104,7 +105,7 @@ class Reader {
     if (result.problem.empty()) result.problem = "the glTF names " + what;
   }
 
-  /// The bytes of element i, `size` of them; null if they are not all there.
+  /// The `size` bytes of element i; null if some are missing.
   const unsigned char* element(const tinygltf::Accessor& accessor, size_t i, size_t size) const {
     if (accessor.bufferView < 0 || static_cast<size_t>(accessor.bufferView) >= model_.bufferViews.size())
       return nullptr;
@@ -148,7 +149,7 @@ class Reader {
       return fail("more triangles than can be cooked");
     }
     const auto material = static_cast<uint8_t>(primitive.material < 0 ? 0 : primitive.material & 255);
-    // A mirrored node turns its triangles round.
+    // A mirrored node reverses the order of its triangles' corners.
     const Transform& m = place;
     const bool mirrored =
         m[0] * (m[5] * m[10] - m[9] * m[6]) - m[4] * (m[1] * m[10] - m[9] * m[2]) + m[8] * (m[1] * m[6] - m[5] * m[2]) <
@@ -178,17 +179,18 @@ class Reader {
   }
 
   const tinygltf::Model& model_;
-  std::vector<bool> added_;  ///< nodes
+  std::vector<bool> added_;  ///< by node
 };
 
 bool no_image(tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*, int, void*) {
   return true;
 }
 
-/// The buffers that lie in files of their own.
+/// Reads the buffers that are separate files.
 struct Buffers {
   std::vector<std::string> paths;
-  uint64_t bytes_left = detent_tool::k_whole_file_bytes_max;  ///< of all of them, for a glTF may name one file often
+  /// summed over all buffers, because a glTF may name one file repeatedly
+  uint64_t bytes_left = detent_tool::k_whole_file_bytes_max;
 };
 
 bool read_buffer(std::vector<unsigned char>* bytes, std::string* problem, const std::string& path, void* context) {

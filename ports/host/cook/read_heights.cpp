@@ -7,11 +7,11 @@
 namespace detent_cook {
 namespace {
 
-constexpr uint32_t k_samples_max = 4097;  ///< along a side
+constexpr uint32_t k_samples_max = 4097;  ///< along one side
 
 bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
-/// The next number of the header, or of a text picture, off the front; comments run from # to the line's end.
+/// Takes the next number of the header, or of a text picture, off the front. Comments extend from # to the line's end.
 bool take_number(std::string_view& bytes, uint32_t most, uint32_t& number) {
   size_t at = 0;
   for (bool comment = false; at < bytes.size() && (comment || is_space(bytes[at]) || bytes[at] == '#'); ++at) {
@@ -27,7 +27,7 @@ bool take_number(std::string_view& bytes, uint32_t most, uint32_t& number) {
   return at != 0;
 }
 
-/// The next pixel of a binary picture.
+/// Takes the next pixel of a binary picture off the front.
 bool take_pixel(std::string_view& bytes, uint32_t byte_count, uint32_t& number) {
   if (bytes.size() < byte_count) return false;
   number = 0;
@@ -56,7 +56,7 @@ HeightsRead read_pgm(std::string_view bytes, double spacing, double height) {
   field.rows = rows - 1;
   field.spacing_x = field.spacing_z = spacing;
   field.origin = {-0.5 * spacing * field.columns, 0, -0.5 * spacing * field.rows};
-  field.heights.reserve(std::min(size_t{width} * rows, bytes.size()));  // a pixel takes a byte at least
+  field.heights.reserve(std::min(size_t{width} * rows, bytes.size()));  // a pixel takes at least one byte
   for (size_t i = 0; i < size_t{width} * rows; ++i) {
     uint32_t value = 0;
     const bool taken = text ? take_number(bytes, brightest, value) : take_pixel(bytes, brightest > 255 ? 2 : 1, value);

@@ -7,12 +7,12 @@ namespace detent_cook {
 
 struct HeightsRead {
   HeightFieldSource field{};
-  std::string problem{};  ///< one line; empty if all is well
+  std::string problem{};  ///< one line; empty if there is none
 };
 
-/// The picture of a PGM (P2 or P5, of 8 or 16 bits): a sample a pixel, rows from north (-z) to south; black is height 0
-/// and the brightest possible pixel `height`, m. The picture's middle lies over the origin; `spacing`: of the pixels,
-/// m.
+/// Reads the picture of a PGM (P2 or P5, of 8 or 16 bits): one sample per pixel, rows from north (-z) to south. Black
+/// is height 0, and the brightest possible pixel is `height`, m. The picture's middle lies at the origin; `spacing`:
+/// distance of the pixels, m.
 HeightsRead read_pgm(std::string_view bytes, double spacing, double height);
 
 }  // namespace detent_cook

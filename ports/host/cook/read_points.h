@@ -7,20 +7,20 @@ namespace detent_cook {
 
 struct PointsRead {
   std::vector<Point> points{};
-  std::string problem{};  ///< one line, with the line's number where there is one; empty if all is well
+  std::string problem{};  ///< one line, with the line number if known; empty if there is none
 };
 
-/// The three numbers of an OBJ's vertex, off its line; or the problem with them.
+/// Takes the three numbers of an OBJ vertex off its line. Returns the problem; empty if none.
 std::string read_vertex(std::string_view& line, Point& point);
 
-/// The vertices of a Wavefront OBJ: lines of `v` and three numbers or more. All other lines are passed over.
+/// Reads the vertices of a Wavefront OBJ: lines of `v` and three or more numbers. Skips all other lines.
 PointsRead read_obj(std::string_view text);
 
-/// One of the clouds in a file of them: a uint32 point count, then that many float32 x, y, z, little-endian; repeated
-/// to the end of the file. `index` counts from 0.
+/// Reads one cloud of a file with several. Each cloud is a uint32 point count and that many float32 x, y, z,
+/// little-endian. `index` counts from 0.
 PointsRead read_clouds(std::string_view bytes, uint32_t index);
 
-/// By the name's end: `.bin` holds clouds, all else is an OBJ.
+/// Reads points by the file's suffix: `.bin` contains clouds, any other file is an OBJ.
 PointsRead read_points(const std::string& path, std::string_view bytes, uint32_t index);
 
 }  // namespace detent_cook

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-/// Reading of text by lines and words.
+/// Reads text by lines and words.
 namespace detent_cook {
 
 /// Takes the next line off the text.
@@ -29,14 +29,14 @@ inline std::string_view next_word(std::string_view& line) {
   return word;
 }
 
-/// The whole word as a finite number; whatever the locale.
+/// Reads the whole word as a finite number, independent of the locale.
 inline bool number_from(std::string_view word, double& value) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   return error == std::errc() && end == word.data() + word.size() && isfinite(value);
 }
 
-/// An OBJ's number of a vertex: from 1 on, or backwards from -1; what follows a slash is passed over.
+/// Reads an OBJ's vertex number: from 1 on, or backwards from -1. Ignores text from a slash on.
 inline bool index_from(std::string_view word, size_t vertex_count, uint32_t& index) {
   word = word.substr(0, word.find('/'));
   int64_t number = 0;
@@ -52,7 +52,7 @@ inline std::string at_line(size_t number, const std::string& problem) {
   return "line " + std::to_string(number) + ": " + problem;
 }
 
-/// A word of the file for a message: without what would not print.
+/// Quotes a word of the file for a message, without unprintable characters.
 inline std::string quoted(std::string_view word) {
   std::string text = "'";
   for (const char letter : word.substr(0, 40)) text += letter >= ' ' && letter <= '~' ? letter : '?';

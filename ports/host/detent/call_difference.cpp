@@ -10,13 +10,13 @@ using namespace detent_tool;
 
 namespace {
 
-/// Takes a record's fields from its bytes, by the lists that they were written by.
+/// Reads a record's fields from its bytes, with the field lists that wrote them.
 class FieldList final : public Archive {
  public:
   struct Item {
     std::string name;
     WordKind kind;
-    std::vector<uint8_t> bytes;  ///< of a scaled number with its exponent
+    std::vector<uint8_t> bytes;  ///< a scaled number's include its exponent
   };
   FieldList(const uint8_t* bytes, uint32_t count) : Archive(k_ways), bytes_(bytes), count_(count) {}
   std::vector<Item> items;
@@ -25,7 +25,7 @@ class FieldList final : public Archive {
   static void list(Archive& archive, const char* name, uint64_t& value, uint32_t byte_count) {
     FieldList& to = static_cast<FieldList&>(archive);
     value = 0;
-    if (byte_count > to.count_ - to.at_) return;  // cannot be: the player has read it
+    if (byte_count > to.count_ - to.at_) return;  // impossible: the player has read it
     const uint8_t* const bytes = to.bytes_ + to.at_;
     for (uint32_t i = 0; i < byte_count; ++i) value |= uint64_t{bytes[i]} << (8 * i);
     to.at_ += byte_count;
@@ -39,10 +39,10 @@ class FieldList final : public Archive {
   const uint8_t* bytes_;
   uint32_t count_;
   uint32_t at_ = 0;
-  bool mantissa_ = false;  ///< came last
+  bool mantissa_ = false;  ///< the last word was a mantissa
 };
 
-/// The components of vectors and rotations have one name.
+/// Adds component suffixes: the components of a vector or rotation have the same name.
 void name_components(std::vector<FieldList::Item>& items) {
   constexpr const char* k_components[] = {".x", ".y", ".z", ".w"};
   for (size_t first = 0; first < items.size();) {
@@ -92,7 +92,7 @@ void compare_fields(const std::vector<uint8_t>& a, const std::vector<uint8_t>& b
   }
 }
 
-/// Of a call that only one side makes.
+/// Lists the fields of a call that only one side makes.
 void list_fields(const std::vector<uint8_t>& record, bool in_a, CallDifference& difference) {
   difference.record = record;
   for (const FieldList::Item& item : fields_of(record)) {
@@ -113,7 +113,7 @@ bool find_call_difference(const CallRecords& a, const CallRecords& b, CallDiffer
   while (i < a.size() && i < b.size() && a[i] == b[i]) ++i;
   if (i == a.size() && i == b.size()) return false;
   difference.index = static_cast<uint32_t>(i + 1);
-  // One that is left out, or added, has the other side's next one behind it, or nothing.
+  // If one side omits or adds a call, its next call equals this call of the other side, or it has no further call.
   const bool only_a = i < a.size() && (i == b.size() || (a.size() > b.size() && a[i + 1] == b[i]));
   const bool only_b = i < b.size() && (i == a.size() || (b.size() > a.size() && b[i + 1] == a[i]));
   if (!only_b) difference.a = name_of(a[i]);

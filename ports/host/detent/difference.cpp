@@ -12,26 +12,27 @@ using namespace detent_tool;
 
 namespace {
 
-constexpr uint64_t k_ticks_traced_max = 64;  ///< on the way to a difference
+constexpr uint64_t k_ticks_traced_max = 64;  ///< when searching for a difference
 
 void no_progress(uint64_t, uint64_t) {}
 
-/// A side of the comparison.
+/// One side of the comparison.
 struct Side {
   Recorded recorded;
-  bool here = false;  ///< its states are this machine's
+  bool here = false;  ///< this machine computes its states
 };
 
-/// What reading both side by side shows.
+/// The result of reading both sides in parallel.
 struct Survey {
   std::string problem;
   bool other_config = false;
   bool states_differ = false;
   bool after_last_tick = false;
-  bool traced = false;  ///< the difference of the states is that of two traces
+  bool traced = false;  ///< the state difference comes from two traces
   uint64_t first = 0, last = 0, equal_to = 0, tick = 0;
-  TickTrace a, b;                                      ///< of `tick`
-  uint64_t first_traced[2] = {}, last_traced[2] = {};  ///< after `equal_to`; 0: none
+  TickTrace a, b;  ///< of `tick`
+  /// first and last traced tick of each side after `equal_to`; 0: none
+  uint64_t first_traced[2] = {}, last_traced[2] = {};
   bool same_start = false;
   Difference found;
 };
@@ -109,7 +110,8 @@ Survey survey_of(const Side& side_a, const Side& side_b) {
     if (!compare_tick(a, b, survey)) return survey;
   }
   if (a.finished && b.finished && a.tick == b.tick) {
-    const bool whole = side_a.recorded.bytes == nullptr && side_b.recorded.bytes == nullptr;  // no window of one
+    // bytes in memory may cover only a window of ticks
+    const bool whole = side_a.recorded.bytes == nullptr && side_b.recorded.bytes == nullptr;
     if (whole) compare_calls(a, b, a.tick + 1, survey);
     if (a.digest != b.digest) {
       survey.states_differ = true;
@@ -124,7 +126,7 @@ Survey survey_of(const Side& side_a, const Side& side_b) {
   return survey;
 }
 
-/// The first differing fields of the two seeds. False if they are equal, or cannot be loaded here.
+/// Finds the first differing fields of the two seeds. False if they are equal or cannot be loaded here.
 bool compare_seeds(const Side& a, const Side& b, const Assets& assets, Difference& difference) {
   OwnReplay in_a(a.recorded, assets, {}), in_b(b.recorded, assets, {});
   if (!in_a.begin(0) || !in_b.begin(0)) return false;
@@ -139,7 +141,8 @@ bool compare_seeds(const Side& a, const Side& b, const Assets& assets, Differenc
   return true;
 }
 
-/// The side with a trace of these ticks that this machine makes; as it was if that isn't known to be the recording's.
+/// Replaces the side by a trace of these ticks that this machine computes. False, and the side is unchanged, if the
+/// trace may not be the recording's.
 bool trace_here(Side& side, uint64_t from, uint64_t to, const Assets& assets) {
   auto bytes = std::make_shared<std::vector<uint8_t>>();
   const auto keep = [](void* context, const uint8_t* piece, uint32_t count) {
@@ -154,7 +157,7 @@ bool trace_here(Side& side, uint64_t from, uint64_t to, const Assets& assets) {
   return true;
 }
 
-/// Where both sides' states can be had here: makes the tick exact.
+/// Finds the exact tick of the difference, if this machine can compute both sides' states.
 void narrow(const Side& a, const Side& b, const Assets& assets, Survey& survey) {
   OwnReplay in_a(a.recorded, assets, {}), in_b(b.recorded, assets, {});
   if (!in_a.begin(survey.equal_to) || !in_b.begin(survey.equal_to)) return;
@@ -172,7 +175,7 @@ void narrow(const Side& a, const Side& b, const Assets& assets, Survey& survey) 
   survey.a = survey.b = {};
 }
 
-/// Of a side that has a keyframe there.
+/// The state of a side that has a keyframe at this tick.
 TickTrace keyframe_at(const Side& side, uint64_t tick, const Assets& assets) {
   TickTrace trace;
   std::string problem;
@@ -201,11 +204,11 @@ void want_trace(const Side& side, const Survey& survey, Difference& difference) 
                               std::to_string(survey.equal_to + 1) + " --to " + std::to_string(survey.tick));
 }
 
-/// Looks for stage and field where two digests differ.
+/// Finds the stage and field where two digests differ.
 void explain_states(Side a, Side b, const Assets& assets, Survey& survey) {
   if (!survey.traced && survey.tick - survey.equal_to > 1) narrow(a, b, assets, survey);
   uint64_t from = survey.equal_to + 1, to = survey.tick;
-  if (to - from > 1) {  // as far as the other side is traced
+  if (to - from > 1) {  // as far as the other side has traces
     for (const int other : {0, 1}) {
       if (survey.first_traced[other] == 0 || survey.first_traced[1 - other] != 0) continue;
       from = survey.first_traced[other];
@@ -243,7 +246,7 @@ void explain_states(Side a, Side b, const Assets& assets, Survey& survey) {
   if (!has_b) want_trace(b, survey, survey.found);
 }
 
-/// A call that only one side makes may be one that the other makes later.
+/// If only one side makes a call, notes whether the other side makes it later.
 void note_late_call(const Side& a, const Side& b, Difference& difference) {
   constexpr uint64_t k_ticks_late_max = 60;
   const CallDifference& call = difference.calls.front();
@@ -268,7 +271,7 @@ Difference compare(const Side& a, const Side& b, const Assets& assets) {
   if (survey.states_differ || calls_differ) {
     if (survey.states_differ && calls_differ && survey.found.calls[0].tick > survey.equal_to &&
         survey.found.calls[0].tick < survey.tick) {
-      survey.tick = survey.found.calls[0].tick;  // digests are sparse: that is where it begins
+      survey.tick = survey.found.calls[0].tick;  // digests are sparse: the difference begins here
       survey.equal_to = survey.tick - 1;
       survey.a = survey.b = {};
     }

@@ -15,7 +15,7 @@ std::string decimal(double value, int digits) {
   return text;
 }
 
-/// With as many digits as tell the two apart.
+/// Writes both numbers with as many digits as are needed to make them differ.
 void write_numbers(double a, double b, std::string& text_a, std::string& text_b) {
   for (int digits = 6; digits <= 17; ++digits) {
     text_a = decimal(a, digits);
@@ -38,7 +38,7 @@ std::string name_of(const ElementName& element) {
   return name;
 }
 
-/// Values of the work space are told from those of the state by their table.
+/// Values of the work space have their table's name, because fields of the state may have the same name.
 std::string place_of(const FieldDifference& field) {
   const bool work =
       field.part == "contact work" || field.part == "body work" || field.part == "sweep" || field.part == "bounds";
@@ -81,7 +81,7 @@ std::string line_of(const CallDifference& call, const std::string& a, const std:
   return line;
 }
 
-/// What is found first, on the line; it stands in no list again.
+/// The first difference, for the first line; the lists do not repeat it.
 std::string first_of(const Difference& difference, const std::string& a, const std::string& b) {
   if (!difference.calls.empty() && difference.stage == "calls") return line_of(difference.calls.front(), a, b);
   return difference.fields.empty() ? "" : line_of(difference.fields.front(), a, b);

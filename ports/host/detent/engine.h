@@ -5,8 +5,9 @@
 #include <string>
 #include <vector>
 
-/// What the tool asks of one math configuration. The implementation is compiled once per configuration; nothing here
-/// depends on one, so that the program can hold all four and take the one that a recording's header names.
+/// The tool's interface to one math configuration. The implementation is compiled once for each configuration. Nothing
+/// here depends on a configuration, so the program can contain all four and select the one that a recording's header
+/// names.
 namespace detent_tool {
 
 struct SceneLine {
@@ -34,37 +35,39 @@ struct Header {
 
 enum class Verdict : uint32_t {
   good,
-  refused,  ///< sound as far as it was read, but of another simulation version, configuration or format
-  bad,      ///< damaged, unreadable, or the replay went another way
+  /// Valid as far as it was read, but of another simulation version, configuration or format.
+  refused,
+  bad,  ///< damaged, unreadable, or the replay differs
 };
 
-/// What became of one file.
+/// The result for one file.
 struct Outcome {
   Verdict verdict = Verdict::good;
   std::string problem;          ///< one line, without the file's name: empty if good
-  std::string status;           ///< the library's words for the problem
-  std::string field;            ///< what is wrong
-  uint64_t offset = 0;          ///< where in the file, bytes
-  uint64_t tick = 0;            ///< after how many completed ticks
-  uint64_t first_bad_tick = 0;  ///< the first tick that is not known to be right
-  bool digests_differ = false;  ///< of a state after a tick: the recorded and this machine's
-  std::string difference_text;  ///< what more the recording tells of that, for people
-  std::string difference;       ///< of a digest that differs: a JSON object (difference.h)
-  std::string lost;             ///< what a recovered recording had: as `problem`
+  std::string status;           ///< the library's text for the problem
+  std::string field;            ///< the faulty field
+  uint64_t offset = 0;          ///< of the fault in the file, bytes
+  uint64_t tick = 0;            ///< completed ticks at the fault
+  uint64_t first_bad_tick = 0;  ///< the first tick that may be wrong
+  bool digests_differ = false;  ///< the recorded and the computed digest after a tick differ
+  std::string difference_text;  ///< details of that difference, as text
+  std::string difference;       ///< details of that difference, as a JSON object (difference.h)
+  std::string lost;             ///< the damage of a recovered recording, in the form of `problem`
 
   bool header_known = false;
-  bool other_config = false;  ///< refused for its configuration: another engine may hold it
+  bool other_config = false;  ///< refused for its configuration: another engine may read it
   Header header;
   uint64_t file_bytes = 0;
-  uint64_t ticks = 0;    ///< made, or read
-  uint64_t digests = 0;  ///< of ticks: compared and equal, or read, or written
-  uint64_t calls = 0;    ///< besides steps
+  uint64_t ticks = 0;    ///< computed or read
+  uint64_t digests = 0;  ///< of ticks: compared and equal, read, or written
+  uint64_t calls = 0;    ///< except steps
   uint64_t digest = 0;   ///< of the final state
   double seconds = 0;
-  std::string release;  ///< the tool of another simulation version that said this; empty: this one
+  /// The tool of another simulation version that produced this outcome; empty: this tool.
+  std::string release;
 };
 
-/// Called now and then during long work.
+/// Called from time to time during long work.
 using Progress = std::function<void(uint64_t done, uint64_t total)>;
 
 struct RecordRequest {
@@ -76,7 +79,7 @@ struct RecordRequest {
   bool compressed = false;
 };
 
-/// What a file is by its first bytes.
+/// The kind of a file, determined from its first bytes.
 enum class FileKind : uint32_t {
   other,
   recording,
@@ -85,9 +88,9 @@ enum class FileKind : uint32_t {
   compound,
   mesh,
   height_field
-};  // cooked from hull on
+};  // all kinds from hull on are cooked files
 inline constexpr uint32_t k_file_kind_bytes = 8;
-/// What to say of a file that is not what was asked for: "is a cooked hull, not " and what `wanted` names.
+/// The message for a file of the wrong kind: "is a cooked hull, not " and `wanted`.
 inline std::string is_not(FileKind kind, const std::string& wanted) {
   constexpr const char* k_texts[] = {
       "", "a recording", "a snapshot", "a cooked hull", "a cooked compound", "a cooked mesh", "a cooked height field"};
@@ -95,14 +98,14 @@ inline std::string is_not(FileKind kind, const std::string& wanted) {
   return std::string("is ") + k_texts[static_cast<uint32_t>(kind)] + ", not " + wanted;
 }
 
-/// The bytes of a cooked file, at addresses that are multiples of 8.
+/// The bytes of a cooked file, aligned to 8.
 struct AssetBytes {
   std::vector<uint64_t> words;
   uint32_t byte_count = 0;
   FileKind kind = FileKind::other;
 };
 using Assets = std::vector<AssetBytes>;
-/// What went wrong, or nothing. A file that is not cooked is wrong.
+/// Reads a cooked file. Returns the problem, also for a file that is not cooked; empty if none.
 std::string read_asset(const std::string& path, AssetBytes& asset);
 
 struct ObjectInfo;
@@ -110,11 +113,11 @@ struct RunLine;
 struct RunOutcome;
 struct RunRequest;
 
-/// What to read, by the ticks that the world has completed.
+/// The file and the range of completed ticks to read.
 struct ReadRequest {
   std::string path;
-  Assets assets = {};  ///< of the recorded world; those of the scenes if there are none
-  uint64_t from = 0;   ///< from the seed on, if that is later
+  Assets assets = {};  ///< of the recorded world; empty: the assets of the built-in scenes
+  uint64_t from = 0;   ///< the seed's tick if that is later
   uint64_t to = UINT64_MAX;
 };
 
@@ -125,14 +128,14 @@ struct DiffRequest {
 };
 
 struct TraceRequest {
-  ReadRequest reading = {};  ///< the window: both are ticks that are completed with it
+  ReadRequest reading = {};  ///< the window: from and to are completed ticks
   std::string output;
   bool full = true;
 };
 
 struct Difference;
 
-/// A body, m, m/s, rad/s, in the world.
+/// A body's state: m, m/s, rad/s, world frame.
 struct BodyLine {
   uint32_t slot = 0;
   uint32_t generation = 0;
@@ -152,19 +155,19 @@ struct Engine {
   std::vector<SceneLine> (*scenes)();
   Outcome (*record)(const RecordRequest& request, const Progress& progress);
   Outcome (*verify)(const ReadRequest& request, const Progress& progress);
-  /// Without a world.
+  /// Reads without a world.
   Outcome (*info)(const ReadRequest& request, const Progress& progress);
   /// The bodies after `request.to` ticks.
   Outcome (*state)(const ReadRequest& request, std::vector<BodyLine>& bodies);
-  /// Writes what is whole of a recording, with an end, to `path`.
+  /// Writes the intact part of a recording, with an end, to `path`.
   Outcome (*recover)(const ReadRequest& request, const std::string& path, const Progress& progress);
-  /// Where two recordings part.
+  /// Finds the first difference of two recordings.
   Difference (*diff)(const DiffRequest& request);
-  /// Where a recording and this machine part, whose digests differ first after `tick` ticks.
+  /// Finds the difference of a recording and this machine, whose digests first differ after `tick` ticks.
   Difference (*explain)(const ReadRequest& request, uint64_t tick);
-  /// Writes a recording of the same calls with this machine's states, traced.
+  /// Writes a recording of the same calls with traces of this machine's states.
   Outcome (*trace)(const TraceRequest& request, const Progress& progress);
-  /// Scenes as data (run.h).
+  /// Plays scene files (run.h).
   RunOutcome (*run)(const RunRequest& request, const std::function<void(const RunLine&)>& print,
                     const Progress& progress);
   std::vector<ObjectInfo> (*scene_format)();
@@ -173,9 +176,9 @@ struct Engine {
 /// The engines of this build, in the order fx64, fx32, f32, f64.
 const std::vector<Engine>& engines();
 
-/// Of all bytes of a file, or the first ones.
+/// `bytes`: all bytes of a file, or the first ones.
 FileKind kind_of(const std::vector<uint8_t>& bytes);
-/// `other` also of a file that cannot be read.
+/// Also `other` for a file that cannot be read.
 FileKind kind_of_file(const std::string& path);
 
 }  // namespace detent_tool

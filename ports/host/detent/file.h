@@ -11,7 +11,7 @@
 
 namespace detent_tool {
 
-/// No file that is read whole may be larger, bytes. An OBJ of the largest mesh takes about half of it.
+/// The largest file that is read whole, bytes. An OBJ of the largest mesh takes about half of it.
 inline constexpr uint64_t k_whole_file_bytes_max = uint64_t{1} << 28;
 
 struct CloseFile {
@@ -19,7 +19,8 @@ struct CloseFile {
 };
 using File = std::unique_ptr<FILE, CloseFile>;
 
-/// Binary on every system. `mode`: as fopen() has it. Null if it can't be opened, or is a folder; `errno` says why.
+/// Opens a file as binary on every system. `mode`: as for fopen(). Null if the file can't be opened or is a folder;
+/// `errno` has the reason.
 inline File open_file(const std::string& path, const char* mode) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) {
@@ -29,10 +30,10 @@ inline File open_file(const std::string& path, const char* mode) {
   return File(fopen(path.c_str(), mode));
 }
 
-/// `what`, and the reason that `errno` has.
+/// Appends the reason in `errno` to `what`.
 inline std::string with_reason(const std::string& what) { return errno == 0 ? what : what + ": " + strerror(errno); }
 
-/// Appends what the stream gives, up to its end. What went wrong, or nothing.
+/// Appends the stream's bytes up to its end. Returns the problem; empty if none.
 inline std::string read_stream(FILE* file, uint64_t bytes_max, std::vector<uint8_t>& bytes) {
   constexpr size_t k_piece_bytes = 65536;
   const size_t before = bytes.size();
@@ -46,22 +47,21 @@ inline std::string read_stream(FILE* file, uint64_t bytes_max, std::vector<uint8
   return ferror(file) == 0 ? "" : with_reason("cannot be read");
 }
 
-/// All bytes of a file, which may be a device or a pipe. What went wrong, or nothing.
+/// Reads all bytes of a file, which may be a device or a pipe. Returns the problem; empty if none.
 inline std::string read_file(const std::string& path, std::vector<uint8_t>& bytes,
                              uint64_t bytes_max = k_whole_file_bytes_max) {
   const File file = open_file(path, "rb");
   return file == nullptr ? with_reason("cannot be read") : read_stream(file.get(), bytes_max, bytes);
 }
 
-/// 0 if it is unknown.
+/// The file's size, 0 if unknown.
 inline uint64_t file_bytes(const std::string& path) {
   std::error_code error;
   const auto bytes = std::filesystem::file_size(path, error);
   return error ? 0 : bytes;
 }
 
-/// Whether both paths lead to the same file on a disk, also by links. Not of devices and pipes, and not of what is not
-/// there.
+/// Whether both paths lead to the same regular file, also by links. False for devices, pipes and missing files.
 inline bool is_same_file(const std::string& a, const std::string& b) {
   std::error_code error;
   return std::filesystem::is_regular_file(a, error) && std::filesystem::equivalent(a, b, error);

@@ -44,7 +44,7 @@ int run_record(const RecordRequest& request, const std::string& config, const Re
   return outcome.verdict == Verdict::good ? k_exit_good : k_exit_bad;
 }
 
-/// False, and a line to standard error, if one cannot be read.
+/// False, with a line on standard error, if a file cannot be read.
 bool read_assets(const std::vector<std::string>& paths, Assets& assets) {
   for (const std::string& path : paths) {
     assets.push_back({});
@@ -56,7 +56,7 @@ bool read_assets(const std::vector<std::string>& paths, Assets& assets) {
   return true;
 }
 
-/// Whether the output is one of the files that are read, by whatever name; then there is a line on standard error.
+/// Whether the output is one of the input files, also by another path. Then prints a line to standard error.
 bool overwrites(const std::string& output, const std::vector<std::string>& inputs) {
   for (const std::string& input : inputs) {
     if (!is_same_file(input, output)) continue;
@@ -111,7 +111,7 @@ int run_trace(TraceRequest request, uint32_t level, const std::vector<std::strin
   return outcome.verdict == Verdict::good ? k_exit_good : k_exit_bad;
 }
 
-/// 0: equal, 1: different, 2: they cannot be compared, or not to the end.
+/// Exit code. 0: equal, 1: different, 2: the files cannot be compared, or not to the end.
 int run_diff(DiffRequest request, const std::vector<std::string>& asset_paths, const Report& report) {
   if (!read_assets(asset_paths, request.assets)) return k_exit_usage;
   Difference difference;
@@ -186,7 +186,7 @@ int run_cook_mesh(const MeshRequest& request, const Report& report) {
   return good ? k_exit_good : k_exit_bad;
 }
 
-/// What is wrong with the first word, which is to be a sub-command; or nothing.
+/// The problem with the first word, which must be a sub-command; empty if none.
 std::string command_problem(const CLI::App& app, int argc, char** argv) {
   const std::string word = argc > 1 ? argv[1] : "";
   if (!word.empty() && word[0] == '-')
@@ -205,7 +205,7 @@ int run_scenes(const Report& report) {
   return k_exit_good;
 }
 
-/// The exit code.
+/// Returns the exit code.
 int run_command(int argc, char** argv) {
   CLI::App app(
       "Records, verifies and describes recordings of the Detent physics library, plays scenes, and cooks hulls and "
@@ -382,7 +382,7 @@ int run_command(int argc, char** argv) {
     command->add_flag("--json", report.json, "Print one JSON object per file, each on one line");
   }
 
-  // A short line is more use than the parser's two.
+  // Prints one short line instead of the parser's two.
   app.failure_message([](const CLI::App*, const CLI::Error& error) {
     return "detent: " + printable(error.what()) + " (see: detent --help)\n";
   });

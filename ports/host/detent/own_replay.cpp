@@ -72,7 +72,7 @@ void OwnReplay::call(const uint8_t* record, uint32_t count) {
   } else if (const CommandCode* const code = find_command(tag)) {
     alignas(8) uint8_t command[k_command_bytes_max] = {};
     code->visit(reader, command);
-    BodyId recorded, given;  // or a joint's
+    BodyId recorded, given;  // or joint ids
     memcpy(&recorded, command, sizeof recorded);
     status = recorder_->make(*code, command);
     memcpy(&given, command, sizeof given);
@@ -136,7 +136,7 @@ Outcome trace(const TraceRequest& request, const Progress& progress) {
   Recorded recorded;
   recorded.path = request.reading.path;
   {
-    // As the others do: what is said of a file that cannot be read, or is of another configuration.
+    // Returns the same outcome as the other commands for a file that cannot be read or has another configuration.
     std::string problem;
     const std::unique_ptr<Input> input = recorded.open(problem);
     if (input == nullptr) return failed(problem);

@@ -2,23 +2,23 @@
 #include "reading.h"
 #include "recorded.h"
 
-/// What this machine makes of a recording, whatever digests it holds.
+/// Replays a recording on this machine, without regard to the recorded digests.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Makes the calls of a recording in a world of this machine's own, through a recorder.
+/// Makes the calls of a recording in a world of its own, through a recorder.
 class OwnReplay {
  public:
-  /// `sink`: of the recorder; a null one records nothing.
+  /// `sink`: the recorder's sink; a null sink records nothing.
   OwnReplay(const detent_tool::Recorded& recorded, const detent_tool::Assets& assets, Sink sink);
   OwnReplay(const OwnReplay&) = delete;
 
-  /// Goes to the state after this tick, or of the seed if that is later: by the nearest keyframe, or from the seed if
-  /// this machine's states differ before.
+  /// Goes to the state after this tick, or to the seed if that is later. Uses the nearest keyframe, or the seed if this
+  /// machine's states differ before that keyframe.
   bool begin(uint64_t tick);
-  /// Makes the next tick, or the calls after the last one. False at the end, and if there is a problem.
+  /// Makes the next tick, or the calls after the last one. False at the end, and on a problem.
   bool next();
-  /// Goes on to the next digest that the recording holds: whether all that were passed are those of this machine.
+  /// Goes on to the next recorded digest. Returns whether all digests so far equal this machine's.
   bool verified();
 
   Recorder& recorder() { return *recorder_; }
@@ -26,11 +26,11 @@ class OwnReplay {
   const RecordingInfo& info() const { return player_->info(); }
 
   std::string problem;
-  bool refused = false;  ///< the problem is a call that this machine does not make, or makes in another way
+  bool refused = false;  ///< the problem: a call fails here, or gives another id
   bool finished = false;
-  bool compared = false;     ///< the recording holds a digest of the state of now
+  bool compared = false;     ///< the recording has a digest of the present state
   uint64_t tick = 0;         ///< completed
-  uint64_t first_other = 0;  ///< the first tick whose recorded digest is another; 0: none
+  uint64_t first_other = 0;  ///< the first tick whose recorded digest differs; 0: none
 
  private:
   bool open();
@@ -48,15 +48,15 @@ class OwnReplay {
   std::unique_ptr<Recorder> recorder_;
 };
 
-/// What `trace` made.
+/// The result of trace_to().
 struct TraceMade {
-  std::string problem;       ///< it ends before its time; empty: it does not
+  std::string problem;       ///< the reason of an early end; empty: none
   uint64_t ticks = 0;        ///< in the recording
   uint64_t last = 0;         ///< ticks completed at its end
   uint64_t first_other = 0;  ///< OwnReplay's, up to the first digest after the window
   uint64_t digest = 0;
 };
-/// A recording of the same calls, from the tick before the window to its end, with this machine's states.
+/// Writes a recording of the same calls, from the tick before the window to its end, with this machine's states.
 TraceMade trace_to(const detent_tool::Recorded& recorded, const detent_tool::Assets& assets, const TraceDef& def,
                    Sink sink, const detent_tool::Progress& progress);
 

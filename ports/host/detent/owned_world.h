@@ -5,11 +5,11 @@
 #include <memory>
 #include <new>
 
-/// What the engine's files share, in each configuration.
+/// Shared by the engine's files, in each configuration.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// A world in memory of its own; `block` is null if there is not enough.
+/// A world with memory of its own; `block` is null if there is not enough memory.
 struct OwnedWorld {
   std::unique_ptr<uint64_t[]> block;
   World world;

@@ -6,7 +6,7 @@
 
 namespace detent_tool {
 
-/// A bar on standard error, for work that takes longer than half a second, on a terminal only. Gone when the work is.
+/// A progress bar on standard error, shown only on a terminal and after half a second; removed when the work is done.
 class ProgressBar {
  public:
   explicit ProgressBar(std::string label);
@@ -14,7 +14,7 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
   void show(uint64_t done, uint64_t total);
-  /// Until it is shown again: before a line is printed.
+  /// Removes the bar until its next update: call it before printing a line.
   void hide();
 
  private:

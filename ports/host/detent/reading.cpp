@@ -28,7 +28,7 @@ Status seek_input(void* input, uint64_t offset) {
   return static_cast<Input*>(input)->seek(offset) ? Status::ok : Status::sink_failed;
 }
 
-/// A recording that is being read, with a world or without.
+/// A recording that is being read, with or without a world.
 class Reading {
  public:
   explicit Reading(const ReadRequest& request) : request_(request) {
@@ -75,7 +75,7 @@ class Reading {
     take(status);
   }
 
-  /// To the end, or to the request's last tick.
+  /// Reads to the end, or to the request's last tick.
   void play(bool with_world, const Progress& progress) {
     const Stopwatch stopwatch;
     const uint64_t first_byte = good() ? player_->bytes_read() : 0;
@@ -123,9 +123,9 @@ class Reading {
     outcome.field = error.field;
     outcome.offset = error.offset;
     outcome.tick = error.tick;
-    // What a digest covers is the state after the tick; all else stands before the next tick.
+    // A digest covers the state after its tick; any other fault lies before the next tick.
     outcome.first_bad_tick = ends_with(outcome.field, "digest") ? error.tick : error.tick + 1;
-    // Not of the calls after the last tick.
+    // False for calls after the last tick.
     outcome.digests_differ = status == Status::digest_differs && ends_with(outcome.field, "digest") &&
                              (outcome.field != "final digest" || !is_due(player_->info().digest_interval, error.tick));
     outcome.problem = problem_text(error, *input_);
@@ -164,7 +164,7 @@ BodyLine line_of(const World& world, BodyId id) {
   Vec3<Real> velocity, spin;
   if (get_type(world, id, type) != Status::ok || get_pose(world, id, pose) != Status::ok ||
       get_velocity(world, id, velocity, spin) != Status::ok || is_awake(world, id, line.awake) != Status::ok) {
-    return line;  // cannot be: the world gave the id
+    return line;  // impossible: the world gave the id
   }
   line.slot = id.slot;
   line.generation = id.generation;
@@ -179,7 +179,7 @@ BodyLine line_of(const World& world, BodyId id) {
   return line;
 }
 
-/// The first `count` bytes of a recording and an end behind them. What went wrong, or nothing.
+/// Copies the first `count` bytes of a recording and appends an end. Returns the problem; empty if none.
 std::string copy(const std::string& from, uint64_t count, const std::vector<uint8_t>& end, const std::string& to,
                  uint64_t& bytes_written) {
   std::string problem;
@@ -249,7 +249,8 @@ std::string problem_text(const ReplayError& error, Input& input) {
 }
 
 Status ReplayWorld::create(const RecordingInfo& info, const Input& input, const Assets& assets) {
-  // A hostile header could ask for gigabytes: the seed is as large as the capacity says, so a small file can't.
+  // Prevents a hostile header from reserving gigabytes: the seed's size follows from the capacity, so a small file
+  // cannot contain a large one.
   if (info.snapshot_bytes > input.snapshot_bytes_max) return Status::truncated;
   WorldDef def;
   def.capacity = info.capacity;

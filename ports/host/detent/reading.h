@@ -6,15 +6,15 @@
 #include "owned_world.h"
 #include "stream.h"
 
-/// What an engine reads, in each configuration: the functions of Engine by their names.
+/// The readers of an engine, in each configuration: the functions of Engine with the same names.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 Source source_of(detent_tool::Input& input);
 Sink sink_of(detent_tool::Output& output);
-/// By the first k_file_kind_bytes of a file, or fewer.
+/// Determines the kind of a file from its first k_file_kind_bytes, or fewer.
 detent_tool::FileKind kind_of(const uint8_t* bytes, uint32_t count);
-/// One line about where and why a replay stopped.
+/// One line with the place and the reason where a replay stopped.
 std::string problem_text(const ReplayError& error, detent_tool::Input& input);
 
 /// The world that a recording is replayed in.

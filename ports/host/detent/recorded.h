@@ -5,9 +5,9 @@
 
 namespace detent_tool {
 
-/// A recording that can be read as often as one likes: a file, or bytes.
+/// A recording that can be read repeatedly: a file, or bytes.
 struct Recorded {
-  std::string name;  ///< to tell of
+  std::string name;  ///< for messages
   std::string path;
   std::shared_ptr<std::vector<uint8_t>> bytes;  ///< instead of the file
 

@@ -43,7 +43,7 @@ Outcome unanswered(const std::string& release, const std::string& why) {
   return outcome;
 }
 
-/// `line` is what another program says: nothing in it is taken for granted.
+/// `line` is the output of another program, so every field of it is checked.
 Outcome outcome_of(const std::string& release, const std::string& line) {
   using Json = nlohmann::json;
   const Json json = Json::parse(line, nullptr, false);
@@ -102,7 +102,7 @@ std::string find_release(uint32_t simulation_version) {
   for (size_t start = 0; start < folders.size();) {
     const size_t end = std::min(folders.find(':', start), folders.size());
     const std::filesystem::path candidate = std::filesystem::path(folders.substr(start, end - start)) / name;
-    // An empty entry would be the current folder: nothing is run from there.
+    // An empty entry of PATH means the current folder: no program is run from there.
     if (end != start && is_program(candidate)) return candidate.string();
     start = end + 1;
   }

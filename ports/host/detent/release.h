@@ -3,24 +3,24 @@
 
 #include "engine.h"
 
-/// Recordings of other simulation versions are for the tools of other releases.
+/// Recordings of other simulation versions are verified by the tools of other releases.
 namespace detent_tool {
 
-/// What every format version has in its first bytes.
+/// The versions, which every format version stores in its first bytes.
 struct Versions {
   uint32_t format = 0;
   uint32_t simulation = 0;
 };
-/// Nothing if the file is no recording, or cannot be read.
+/// Empty if the file is no recording or cannot be read.
 std::optional<Versions> versions_of(const std::string& path);
 
 /// The path of `detent-<simulation version>`, beside this program or on the PATH; empty if there is none.
 std::string find_release(uint32_t simulation_version);
 
-/// `release verify --json`, and what it says. The release is not asked to look for a further one.
+/// Runs `release verify --json` and returns its result. That release does not search for a further one.
 Outcome verify_by_release(const std::string& release, const std::vector<std::string>& asset_paths,
                           const ReadRequest& request);
-/// Whether this program was called so.
+/// Whether another release started this program.
 bool called_by_another_release();
 
 }  // namespace detent_tool

@@ -18,7 +18,7 @@ double rate(const Outcome& outcome) {
 
 std::string text(uint64_t value) { return std::to_string(value); }
 
-/// At once: a run that is ended leaves a log of what it has done.
+/// Flushed at once, so that an aborted run leaves a log of its finished files.
 void put(const std::string& line) {
   printf("%s\n", line.c_str());
   fflush(stdout);
@@ -31,7 +31,7 @@ void print_problem(const std::string& path, const Outcome& outcome) {
   fprintf(stderr, "%s\n", (printable(path + ": " + outcome.problem) + more).c_str());
 }
 
-/// A path need not be valid UTF-8: bytes that are not are replaced.
+/// A path need not be valid UTF-8: invalid bytes are replaced.
 void print_json(const Json& json) { put(json.dump(-1, ' ', false, Json::error_handler_t::replace)); }
 
 Json json_of(const std::string& path, const Outcome& outcome) {

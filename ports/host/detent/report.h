@@ -4,8 +4,8 @@
 #include "difference.h"
 #include "engine.h"
 
-/// What the tool says about a file: one line for a reader, or one JSON object on one line. Good news and JSON go to
-/// standard output, problems to standard error.
+/// The tool's output about a file: one line of text, or one JSON object on one line. Results and JSON go to standard
+/// output, problems to standard error.
 namespace detent_tool {
 
 struct Report {
@@ -13,11 +13,11 @@ struct Report {
 
   void recorded(const RecordRequest& request, const Outcome& outcome) const;
   void verified(const std::string& path, const Outcome& outcome) const;
-  /// Of many files: the sum, to standard error beside JSON.
+  /// The sum over many files; goes to standard error when JSON is on.
   void verified_all(uint64_t files, uint64_t bad, uint64_t passed_over, uint64_t ticks, double seconds) const;
   void recovered(const std::string& from, const std::string& to, const Outcome& outcome) const;
   void traced(const TraceRequest& request, const Outcome& outcome) const;
-  /// False if they could not be compared.
+  /// False if the files could not be compared.
   bool compared(const std::string& a, const std::string& b, const Difference& difference) const;
   void compressed(const std::string& from, const std::string& to, uint64_t before, uint64_t after) const;
   void state(const std::string& path, const Outcome& outcome, const std::vector<BodyLine>& bodies) const;

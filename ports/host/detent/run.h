@@ -8,10 +8,10 @@
 #include "scene_format.h"
 #include "scene_json.h"
 
-/// `detent run`: a scene as data (docs/scene.md) played by the engine of a configuration.
+/// `detent run`: plays a scene file (docs/scene.md) with the engine of one configuration.
 namespace detent_tool {
 
-/// Something to tell of a run, as names and values.
+/// One line of a run's output, as names and values.
 struct RunLine {
   struct Value {
     const char* name;
@@ -29,34 +29,35 @@ struct RunLine {
 };
 
 struct RunPrints {
-  bool bodies = false;   ///< where they are at the end
-  bool events = false;   ///< of contacts, sensors, joints, sleep
-  bool queries = false;  ///< what they found
-  bool ticks = false;    ///< the digest after each
+  bool bodies = false;   ///< the bodies' poses at the end
+  bool events = false;   ///< of contacts, sensors, joints and sleep
+  bool queries = false;  ///< the results of queries
+  bool ticks = false;    ///< the digest after each tick
 };
 
 struct RunRequest {
-  std::string path;  ///< of the scene: its assets lie beside it
+  std::string path;  ///< of the scene file; its assets are in the same folder
   const Node* root = nullptr;
   bool ticks_given = false;
   uint32_t ticks = 0;
-  std::string recording;  ///< to be written; empty: none
+  std::string recording;  ///< path to write; empty: none
   uint32_t digest_interval = 1;
   uint32_t world_bytes_max = 1u << 30;  ///< a scene whose world is larger is refused
   RunPrints prints;
 };
 
 struct RunOutcome {
-  std::vector<Problem> problems;  ///< empty if all went well
+  std::vector<Problem> problems;  ///< empty on success
   std::string description;
-  std::vector<std::string> assets;  ///< the table's files, from the scene's folder, in order
+  std::vector<std::string> assets;  ///< files of the asset table, relative to the scene's folder, in order
   std::vector<std::string> asset_digests;
   uint32_t bodies = 0;  ///< at the end
   uint32_t joints = 0;
   uint64_t ticks = 0;
-  uint64_t ticks_incomplete = 0;  ///< steps that lost something: pairs, contacts, range
-  uint64_t ticks_full = 0;        ///< of those: for want of room
-  uint32_t bodies_fit = 0, contacts_fit = 0, joints_fit = 0, sensed_fit = 0;  ///< a capacity that would have had it
+  uint64_t ticks_incomplete = 0;  ///< steps that dropped or clamped something: pairs, contacts, range
+  uint64_t ticks_full = 0;        ///< those steps in which a capacity was too small
+  /// A capacity that would have been large enough.
+  uint32_t bodies_fit = 0, contacts_fit = 0, joints_fit = 0, sensed_fit = 0;
   uint64_t calls = 0;
   uint64_t digest = 0;
   uint64_t recording_bytes = 0;
@@ -71,7 +72,7 @@ struct RunCommand {
   RunRequest request;
   bool json = false;
 };
-/// Reads, plays, prints. False, and lines to standard error, if anything was wrong.
+/// Reads, plays and prints a scene. False if anything failed; the problems go to standard error.
 bool run_scene_file(const RunCommand& command);
 
 /// The JSON Schema of scenes, and the tables of docs/scene.md, as text.

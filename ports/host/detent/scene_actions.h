@@ -1,7 +1,7 @@
 #pragma once
 #include "scene_fields.h"
 
-/// The keys of an action: those of all, and each call's own.
+/// The keys of an action: the common ones, and those of each call.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -12,7 +12,7 @@ void visit_query(F& fields, SceneAction& action) {
   fields.flag({"all", "every body found, and not only the first"}, action.flag);
 }
 
-/// A shape that a query places in the world.
+/// A query's shape and its pose in the world.
 template <class F>
 void visit_asking_shape(F& fields, SceneAction& action) {
   fields.named(required({"shape", "convex"}), action.shape);
@@ -25,7 +25,7 @@ void visit_push(F& fields, SceneAction& action, const char* key, const char* doc
   fields.scaleds(required({key, doc}), action.push);
 }
 
-/// Where a force or impulse acts.
+/// The point where a force or impulse acts.
 template <class F>
 void visit_place_of_push(F& fields, SceneAction& action) {
   action.at_arm = fields.vector(optional({"arm", "where it acts, from the centre of mass, m, world axes"}), action.way);
@@ -96,7 +96,7 @@ void visit_one_body(F& fields, SceneAction& action) {
     case Call::set_sensor:
       fields.flag(required({"sensor", "it pushes nothing, and tells who is within it"}), action.flag);
       break;
-    default:  // destroy_body, wake_body, put_to_sleep: nothing but the body
+    default:  // destroy_body, wake_body, put_to_sleep: no key but the body
       break;
   }
 }

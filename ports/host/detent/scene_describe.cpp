@@ -21,7 +21,7 @@ std::string bracketed(const std::vector<double>& values) {
 }
 std::string quoted(const std::string& text) { return "\"" + text + "\""; }
 
-/// Notes the keys that visit() shows, with what its argument holds as their initial values.
+/// Notes the keys that visit() passes, with the values of its argument as their initial values.
 class ObjectDescriber {
  public:
   ObjectDescriber(std::vector<ObjectInfo>& objects, size_t variant) : objects_(objects), variant_(variant) {}
@@ -106,7 +106,7 @@ class ObjectDescriber {
   std::vector<FieldInfo> fields;
   std::string tag_key, tag_doc, tag_value;
   size_t variant_count = 1;
-  size_t common = 0;  ///< fields before the tag
+  size_t common = 0;  ///< number of fields before the tag
 
  private:
   bool add(const SceneField& field, FieldKind kind, const std::string& initial) {
@@ -130,7 +130,7 @@ class ObjectDescriber {
   size_t variant_;
 };
 
-/// Adds T's object, and those of its fields' types behind it, once.
+/// Adds T's object, and after it the objects of its fields' types, each once.
 template <class T>
 void describe(std::vector<ObjectInfo>& objects) {
   const std::string name = TypeText<T>::k_name;

@@ -1,12 +1,12 @@
 #pragma once
 #include "scene_text.h"
 
-/// The one list of a scene's keys. visit() shows each key of an object to `fields`: a reader takes the value from the
-/// JSON (scene_reader.h), a describer notes it for the schema and the docs (scene_describe.cpp).
+/// The single list of a scene's keys. visit() passes each key of an object to `fields`: a reader takes the value from
+/// the JSON (scene_reader.h), a describer notes the key for the schema and the docs (scene_describe.cpp).
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The name of a type in the schema, and what it is.
+/// The name of a type in the schema, and its description.
 template <class T>
 struct TypeText;
 #define DETENT_TYPE_TEXT(type, type_name, text)      \
@@ -118,7 +118,7 @@ void visit(F& fields, Shape& shape) {
     case ShapeType::surface:
       fields.asset(shape);
       break;
-    default:  // a half-space has no size; a triangle is none of the choices
+    default:  // a half-space has no size; a triangle is not among the choices
       break;
   }
 }

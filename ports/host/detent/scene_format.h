@@ -3,15 +3,15 @@
 #include <string>
 #include <vector>
 
-/// What the scene format consists of, as data: the reader, the schema and the tables of docs/scene.md come from it.
-/// Independent of the configuration.
+/// The parts of the scene format, as data. The reader, the schema and the tables of docs/scene.md use it. Independent
+/// of the configuration.
 namespace detent_tool {
 
-/// low <= x <= high; or low < x.
+/// low <= x <= high; with `above`: low < x <= high.
 struct Range {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
-  bool above = false;  ///< low itself is left out
+  bool above = false;  ///< low itself is excluded
 };
 constexpr Range k_any;
 constexpr Range between(double low, double high) { return {low, high, false}; }
@@ -26,13 +26,13 @@ struct SceneField {
   const char* doc;
   Range range = k_any;
   bool required = false;
-  bool initial = true;  ///< if it is left out, it is what its member is by itself
+  bool initial = true;  ///< a missing key leaves the member's initial value
 };
 constexpr SceneField required(SceneField field) {
   field.required = true;
   return field;
 }
-/// To leave it out means something else.
+/// A field whose absence has a meaning of its own.
 constexpr SceneField optional(SceneField field) {
   field.initial = false;
   return field;
@@ -43,16 +43,16 @@ enum class FieldKind : unsigned {
   integer,
   boolean,
   text,
-  body,        ///< the name of one
-  joint,       ///< likewise
+  body,        ///< the name of a body
+  joint,       ///< the name of a joint
   vector,      ///< three numbers
   rotation,    ///< a quaternion, an axis and an angle, or three angles
-  choice,      ///< one of the names
-  choices,     ///< any of the names
-  object,      ///< of the type
-  named,       ///< likewise, or the name of one
-  list,        ///< of objects of the type
-  dictionary,  ///< names and objects of the type
+  choice,      ///< one of the given names
+  choices,     ///< any number of the given names
+  object,      ///< an object of the type
+  named,       ///< an object of the type, or the name of one
+  list,        ///< a list of objects of the type
+  dictionary,  ///< names with objects of the type
 };
 
 struct FieldInfo {
@@ -62,11 +62,11 @@ struct FieldInfo {
   bool required = false;
   FieldKind kind = FieldKind::number;
   std::string type;                ///< an ObjectInfo's name
-  std::vector<std::string> names;  ///< of choices
-  std::string initial;             ///< what it is if it is left out, as JSON; empty: nothing
+  std::vector<std::string> names;  ///< of a choice
+  std::string initial;             ///< the value of a missing key, as JSON; empty: none
 };
 
-/// What an object consists of where its tag has one of its values.
+/// The fields of an object for one value of its tag.
 struct VariantInfo {
   std::string tag;
   std::vector<FieldInfo> fields;
@@ -75,9 +75,9 @@ struct VariantInfo {
 struct ObjectInfo {
   std::string name;
   std::string doc;
-  std::string tag_key;  ///< empty: there is one variant, without a tag
+  std::string tag_key;  ///< empty: one variant without a tag
   std::string tag_doc;
-  std::vector<FieldInfo> common;  ///< of every variant
+  std::vector<FieldInfo> common;  ///< the fields of every variant
   std::vector<VariantInfo> variants;
 };
 

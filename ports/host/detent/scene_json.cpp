@@ -13,12 +13,13 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// How far the parser has read.
+/// The parser's position in the text.
 class Place {
  public:
   explicit Place(const char* begin) : read_(begin), counted_(begin) {}
   void read_one(const char* character) { read_ = character + 1; }
-  /// Of the last character read. A number ends where the next character is read, so a line's end belongs to its line.
+  /// The line of the last character read. The parser reads one character beyond a number, so a line end belongs to its
+  /// line.
   uint32_t line() {
     const char* const last = read_ == counted_ ? read_ : read_ - 1;
     line_ += static_cast<uint32_t>(std::count(counted_, last, '\n'));
@@ -32,7 +33,7 @@ class Place {
   uint32_t line_ = 1;
 };
 
-/// Reads the text and tells how far it is.
+/// An iterator over the text that reports its position.
 struct Reading {
   using iterator_category = std::input_iterator_tag;
   using value_type = char;
@@ -65,11 +66,11 @@ class Builder {
   }
   bool number_integer(int64_t value) { return number(static_cast<double>(value)); }
   bool number_unsigned(uint64_t value) { return number(static_cast<double>(value)); }
-  /// Of the text, for what the C library makes of it depends on the machine.
+  /// Parses the text itself, because the C library's conversion depends on the machine.
   bool number_float(double, const std::string& text) {
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error == std::errc::result_out_of_range) value = 0;  // too small: what is too large was refused before
+    if (error == std::errc::result_out_of_range) value = 0;  // too small; values that are too large were refused before
     return number(value);
   }
   bool string(std::string& text) {
@@ -137,7 +138,7 @@ class Builder {
     return node;
   }
   bool open(NodeKind kind) {
-    // An object's line is that of its name, where a reader looks for it.
+    // An object gets the line of its name, where a reader looks for it.
     if (open_.size() == k_json_depth_max) {
       return fail(place_.line(), "nested deeper than " + std::to_string(k_json_depth_max));
     }
@@ -151,7 +152,7 @@ class Builder {
   Place& place_;
   Node& root_;
   Problem& problem_;
-  std::vector<Node*> open_;  ///< a parent takes no further child while one is open, so these stay where they are
+  std::vector<Node*> open_;  ///< the pointers stay valid: a parent takes no child while one is open
   uint32_t key_line_ = 0;
   uint32_t values_ = 0;
 };

@@ -8,13 +8,13 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The names of what is alive. Id: BodyId or JointId.
+/// The names of the existing objects. Id: BodyId or JointId.
 template <class Id>
 class SceneNames {
  public:
-  /// Of one with an empty name it gives "body 7": its slot.
+  /// An object with an empty name is called by its kind and slot: "body 7".
   explicit SceneNames(const char* kind) : kind_(kind) {}
-  /// Null if nothing has the name, or what had it is gone.
+  /// Null if no existing object has the name.
   Id find(const std::string& name) const {
     const auto found = ids_.find(name);
     return found == ids_.end() ? Id{} : found->second;

@@ -15,9 +15,9 @@ inline namespace DETENT_NAMESPACE {
 
 namespace {
 
-constexpr uint32_t k_events_max = 4096;  // of each kind and step
+constexpr uint32_t k_events_max = 4096;  // of each kind in a step
 
-/// Room for the events that a step tells.
+/// Buffers for the events of a step.
 struct EventRoom {
   std::vector<ContactEvent> contacts;
   std::vector<SensorEvent> sensors;
@@ -33,7 +33,7 @@ struct EventRoom {
   }
 };
 
-/// Steps the world; the first problem ends it.
+/// Steps the world until the end or the first problem.
 void step_through(const RunRequest& request, uint32_t ticks, Recorder& recorder, ScenePlayer& player,
                   RunOutcome& outcome, const RunPrinter& print, const Progress& progress) {
   CapacityUse use;

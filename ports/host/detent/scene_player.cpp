@@ -60,7 +60,7 @@ bool ScenePlayer::make(const SceneJoint& joint) {
 bool ScenePlayer::before_tick(uint32_t tick) {
   const std::vector<SceneAction>& actions = reading_.scene.actions;
   for (; next_ < order_.size() && actions[order_[next_]].tick == tick; ++next_) running_.push_back(order_[next_]);
-  std::sort(running_.begin(), running_.end());  // those of one tick are made in the file's order
+  std::sort(running_.begin(), running_.end());  // actions of one tick are made in the file's order
   for (const uint32_t index : running_) {
     if (!play(actions[index], tick)) return false;
   }

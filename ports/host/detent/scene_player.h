@@ -3,7 +3,7 @@
 #include "scene_names.h"
 #include "scene_reader.h"
 
-/// Carries a scene's definitions and actions out through a recorder.
+/// Executes a scene's definitions and actions through a recorder.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -12,15 +12,16 @@ class ScenePlayer {
   ScenePlayer(SceneReading& reading, Recorder& recorder, const RunPrints& prints, const RunPrinter& print)
       : reading_(reading), recorder_(recorder), prints_(prints), print_(print) {}
 
-  /// Binds the assets and makes the first bodies and joints. False, and a problem, at the first that fails.
+  /// Binds the assets and creates the first bodies and joints. Stops at the first failure: returns false and adds a
+  /// problem.
   bool build();
-  /// The calls before a tick; `tick` are completed. Likewise. Ticks come in order, from 0 on.
+  /// Makes the calls before a tick; `tick`: number of completed ticks, in order from 0 on. Failures as in build().
   bool before_tick(uint32_t tick);
-  /// What the last step told.
+  /// Prints the events of the last step.
   void print_events(const World& world, const StepReport& report) const;
   void print_bodies(const World& world, uint64_t tick) const;
   uint64_t calls() const { return calls_; }
-  /// Of a body that is there, or "body 7": its slot.
+  /// The body's name, or its kind and slot: "body 7".
   std::string name_of(BodyId id) const { return bodies_.of(id); }
 
  private:
@@ -39,9 +40,9 @@ class ScenePlayer {
   const RunPrinter& print_;
   SceneNames<BodyId> bodies_{"body"};
   SceneNames<JointId> joints_{"joint"};
-  std::vector<uint32_t> order_;    ///< of the actions, by their first tick
-  std::vector<uint32_t> running_;  ///< whose time has come and not gone
-  size_t next_ = 0;                ///< of order_
+  std::vector<uint32_t> order_;    ///< indices of the actions, by their first tick
+  std::vector<uint32_t> running_;  ///< indices of the actions between their first and last tick
+  size_t next_ = 0;                ///< index into order_
   uint64_t calls_ = 0;
 };
 

@@ -1,7 +1,7 @@
 #include "scene_player.h"
 #include "text.h"
 
-// What a run tells: answers of queries, events, where bodies are.
+// Prints the results of a run: hits of queries, events, poses of bodies.
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -100,7 +100,7 @@ Status ScenePlayer::ask(const SceneAction& action) {
 void ScenePlayer::print_events(const World& world, const StepReport& report) const {
   for (uint32_t i = 0; i < report.contact_events; ++i) {
     const ContactEvent& event = world.contact_events.data[i];
-    if (event.type == ContactEventType::touch) continue;  // one a pair and tick: too much to read
+    if (event.type == ContactEventType::touch) continue;  // one for each pair and tick: too many to read
     RunLine line = {report.tick, event_name(event.type), {}};
     line.add("a", bodies_.of(event.a));
     line.add("b", bodies_.of(event.b));

@@ -34,8 +34,8 @@ bool in_range(double value, const Range& range) {
   return value <= range.high && (range.above ? value > range.low : value >= range.low);
 }
 
-/// The turn by `degrees` about an axis of any length. Sums, products, quotients and roots of doubles alone, which are
-/// the same everywhere, and then the library's own.
+/// Rotates by `degrees` about an axis of any length. Uses only sums, products, quotients and roots of doubles, which
+/// are the same everywhere, and then the library's own rotation.
 Quat turned_about(const Quat& rotation, const double (&axis)[3], double degrees) {
   const double length = sqrt(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
   const double angle = degrees * (3.14159265358979323846 / 180.0);
@@ -192,7 +192,7 @@ bool ObjectReader::rotation(const SceneField& field, Quat& value) {
   }
   Unit* const component[4] = {&value.x, &value.y, &value.z, &value.w};
   for (size_t i = 0; i < 4; ++i) {
-    if (unit_from_host(read[i], *component[i]) != Status::ok) return true;  // within 1: it always is
+    if (unit_from_host(read[i], *component[i]) != Status::ok) return true;  // never: a component is within 1
   }
   return true;
 }
@@ -284,7 +284,7 @@ void ObjectReader::judge_keys() {
 
 namespace {
 
-/// Names are there once, and references name something.
+/// Checks that each name is defined once and that each reference has a definition.
 void judge_names(SceneReading& reading) {
   std::set<std::string> first[2], all[2];
   const auto take = [&](const std::string& name, const SceneOrigin& origin, bool joint, bool action) {
@@ -310,7 +310,7 @@ void judge_names(SceneReading& reading) {
   }
 }
 
-/// What the file leaves out.
+/// Computes the capacities that the file leaves out.
 void count_capacity(SceneReading& reading) {
   const SceneText& scene = reading.scene;
   uint32_t bodies = static_cast<uint32_t>(scene.bodies.size()), joints = static_cast<uint32_t>(scene.joints.size());

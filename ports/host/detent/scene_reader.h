@@ -1,43 +1,43 @@
 #pragma once
 #include "scene_actions.h"
 
-/// From JSON to definitions.
+/// Reads definitions from JSON.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// A name that something must have.
+/// A name that must exist in the scene.
 struct SceneReference {
   SceneOrigin origin;
   std::string name;
   bool joint = false;
-  bool action = false;  ///< a name of what an action creates will do
+  bool action = false;  ///< refers to the changes that later calls make to an object created by an action
 };
 
-/// What is gathered while a scene is read.
+/// The results and problems collected while a scene is read.
 struct SceneReading {
   std::vector<Problem> problems;
   std::vector<SceneAsset> assets;
   std::vector<SceneReference> references;
   SceneText scene;
 
-  /// Those beyond a screenful are left out.
+  /// Further problems than a screenful are dropped.
   bool is_full() const { return problems.size() >= k_problems_max; }
   void problem(const SceneOrigin& origin, const std::string& text);
   void problem(const Node& node, const std::string& path, const std::string& text);
 };
 
-/// Reads the whole scene. Good if there are no problems then. `root` must outlive it.
+/// Reads the whole scene. The scene is good if there are no problems afterwards. `root` must outlive it.
 void read_scene(const Node& root, SceneReading& reading);
 
-/// The keys of one object. What a key's value is wrong for is a problem, and the member stays as it is; a key that is
-/// not there leaves its member alone too. All but tag() return whether the key is there.
+/// Reads the keys of one object. A wrong value is a problem, and the member stays unchanged; a missing key leaves its
+/// member unchanged too. All functions but tag() return whether the key is present.
 class ObjectReader {
  public:
   ObjectReader(SceneReading& reading, const Node& node, const std::string& path);
 
   bool given(const char* key) const { return index_of(key) < node_.keys.size(); }
   void problem(const char* key, const std::string& text);
-  /// Entries of the lists have no such keys any more (scene_repeat.h).
+  /// Reports keys of a repeat as problems. Entries of lists no longer have such keys here (scene_repeat.h).
   void repeated();
   void origin(SceneOrigin& origin) const { origin = {node_.line, path_}; }
   bool real(const SceneField& field, Real& value);
@@ -50,7 +50,7 @@ class ObjectReader {
   bool text(const SceneField& field, std::string& value);
   bool body(const SceneField& field, std::string& value) { return name(field, value, false); }
   bool joint(const SceneField& field, std::string& value) { return name(field, value, true); }
-  /// Of a shape whose type is known.
+  /// Reads the asset of a shape whose type is known.
   void asset(Shape& shape);
 
   template <class T>
@@ -82,7 +82,7 @@ class ObjectReader {
     }
     return true;
   }
-  /// False if it is not there or has no such value: then no further key can be judged.
+  /// False if the key is missing or has no valid value: then no further key can be checked.
   template <class T, size_t count>
   bool tag(const SceneField& field, T& value, const Choice<T> (&choices)[count]) {
     const Node* const node = take(required(field));
@@ -121,10 +121,11 @@ class ObjectReader {
     const Node* const node = take(field);
     if (node == nullptr || !is(*node, NodeKind::array, path_of(field.key))) return;
     size_t problems = 0;
-    // A definition takes a kilobyte, and a wrong one three letters: a hostile file would take all memory.
+    // A definition takes a kilobyte of memory, and a wrong one three letters of the file: without the limit a hostile
+    // file would use up all memory.
     for (size_t i = 0; i < node->items.size() && !reading_.is_full(); ++i) {
       const Node& item = node->items[i];
-      // What is wrong with one copy is wrong with all.
+      // A problem with one copy is a problem with all copies, so it is reported once.
       const bool again = i > 0 && !item.copy.empty() && item.entry == node->items[i - 1].entry;
       if (again && reading_.problems.size() != problems) continue;
       problems = reading_.problems.size();
@@ -141,7 +142,7 @@ class ObjectReader {
       read(reading_, node->items[i], path_of(field.key) + "." + node->keys[i], values[node->keys[i]]);
     }
   }
-  /// Judged now, and made later of the definition as it is then.
+  /// Checks the definition now; the action applies it later to the definition of that time.
   template <class T>
   void changes(const SceneField& field, const Node*& kept) {
     T scratch;

@@ -22,7 +22,7 @@ constexpr Range k_degrees = within(36000), k_axis = within(1e6);
 
 using Index = std::array<uint32_t, k_letters>;
 
-/// What an entry says of its copies.
+/// The repeat keys of an entry.
 struct Repeat {
   bool given[k_letters] = {};
   Index counts = {1, 1, 1};
@@ -31,7 +31,7 @@ struct Repeat {
   SceneTurn turn[k_letters];
 
   uint64_t copies() const { return uint64_t{counts[0]} * counts[1] * counts[2]; }
-  /// ", i=2, j=0"
+  /// For example ", i=2, j=0".
   std::string text(const Index& index) const {
     std::string result;
     for (size_t i = 0; i < k_letters; ++i) {
@@ -42,7 +42,7 @@ struct Repeat {
   }
 };
 
-/// What a part of a scene takes.
+/// The size of a part of a scene.
 struct Amount {
   uint64_t copies = 0;
   uint64_t values = 0;
@@ -56,7 +56,7 @@ struct Amount {
   }
 };
 
-/// Reads and copies one entry; the first problem ends it.
+/// Reads and copies one entry; stops at the first problem.
 class Writer {
  public:
   Writer(std::vector<Problem>& problems, const std::string& path, bool joints)
@@ -100,7 +100,7 @@ class Writer {
     if (!fill_templates(made, "", repeat, index)) return false;
     if (!repeat.stepped && !repeat.turned) return true;
     Node* placed = &made;
-    for (const char* key : {"body", "joint"}) {  // of an action that creates one
+    for (const char* key : {"body", "joint"}) {  // for an action that creates one
       Node* const inner = member_of(made, key);
       if (inner != nullptr && inner->kind == NodeKind::object) placed = inner;
     }
@@ -112,7 +112,7 @@ class Writer {
     problems_.push_back({node.line, path_ + (path.empty() ? "" : "." + path), text});
     return false;
   }
-  /// Takes the member out of the entry; null if it is not there.
+  /// Takes the member out of the entry; returns a null node if it is missing.
   static Node take(Node& entry, const char* key) {
     Node* const node = member_of(entry, key);
     if (node == nullptr) return {};
@@ -168,7 +168,7 @@ class Writer {
     return a[0] * a[0] + a[1] * a[1] + a[2] * a[2] >= 1e-12 || fail(node, path + ".axis", "has no direction");
   }
 
-  /// The number that a template stands for. `text`: what is between its braces.
+  /// The number that a template stands for. `text`: the text between its braces.
   static std::optional<int64_t> value_of(const std::string& text, const Repeat& repeat, const Index& index) {
     const auto letter = std::find_if(std::begin(k_letter_names), std::end(k_letter_names),
                                      [&](const char* name) { return text.compare(0, 1, name) == 0; });
@@ -214,7 +214,7 @@ class Writer {
     if (point == nullptr && (joints_ || member_of(entry, "shape") == nullptr)) {
       return fail(entry, repeat.stepped ? "step" : "revolve", "moves nothing: there is no point or position");
     }
-    if (point == nullptr) {  // a body is at the origin if it does not say where
+    if (point == nullptr) {  // a body without a position is at the origin
       entry.keys.push_back("position");
       Node& added = entry.items.emplace_back();
       added.kind = NodeKind::array;
@@ -226,7 +226,7 @@ class Writer {
       }
       point = &added;
     }
-    if (is_numbers(*point, 3)) {  // or the reader refuses it
+    if (is_numbers(*point, 3)) {  // otherwise the reader refuses it
       for (size_t i = 0; i < 3; ++i) {
         double& value = point->items[i].number;
         for (size_t letter = 0; letter < k_letters; ++letter) value += index[letter] * repeat.step[letter][i];
@@ -250,7 +250,7 @@ class Writer {
   bool joints_;
 };
 
-/// Appends the copies of an entry that repeats.
+/// Appends the copies of a repeating entry.
 void write_out(const std::string& list, uint32_t number, Node& entry, Amount& taken, std::vector<Node>& written,
                std::vector<Problem>& problems) {
   const std::string path = list + "[" + std::to_string(number) + "]";
@@ -316,7 +316,7 @@ FieldInfo needed(FieldInfo info) {
   return info;
 }
 
-/// An object that has something for each letter.
+/// An object with one field for each letter.
 ObjectInfo lettered(const char* name, const char* doc, const FieldInfo& value) {
   ObjectInfo object = {name, doc, "", "", {}, {{"", {}}}};
   const char* const docs[k_letters] = {"the outermost", "the next", "the innermost, which counts first"};

@@ -11,7 +11,7 @@ using Json = nlohmann::ordered_json;
 
 Json reference_to(const std::string& name) { return {{"$ref", "#/$defs/" + name}}; }
 
-/// A whole number is written as one.
+/// Writes an integer without a decimal point.
 Json number_json(double value) {
   if (value == std::floor(value) && std::fabs(value) < 1e15) return static_cast<int64_t>(value);
   return value;
@@ -147,7 +147,7 @@ std::string row(const std::string& key, const FieldInfo& field) {
          (field.required ? "**needed**" : field.initial) + " | " + field.doc + " |\n";
 }
 
-/// What fits a line is on one.
+/// Writes a value on one line if it fits.
 std::string laid_out(const Json& json, const std::string& indentation) {
   constexpr size_t k_line_max = 120;
   const std::string flat = json.dump();

@@ -9,7 +9,7 @@
 #include "scene_format.h"
 #include "scene_json.h"
 
-/// What a scene holds.
+/// The content of a scene.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -21,7 +21,7 @@ struct Choice {
   T value;
 };
 
-/// Where something stands in the file.
+/// The place of a value in the file.
 struct SceneOrigin {
   uint32_t line = 0;
   std::string path;
@@ -31,7 +31,7 @@ struct SceneOrigin {
 struct SceneAsset {
   ShapeType type = ShapeType::hull;
   SceneOrigin file_origin, digest_origin;
-  std::string file;    ///< from the scene's folder
+  std::string file;    ///< relative to the scene's folder
   std::string digest;  ///< 16 hexadecimal digits, or empty: any
 };
 
@@ -45,7 +45,7 @@ struct SceneJoint {
   SceneOrigin origin;
   std::string name;
   std::string a, b;
-  bool placed = false;  ///< at `point`, where the bodies are, instead of by its anchors
+  bool placed = false;  ///< placed at `point`, with the bodies' present poses, instead of by its anchors
   Position point = {0.0, 0.0, 0.0};
   Quat frame = {0.0, 0.0, 0.0, 1.0};
   JointDef def;
@@ -126,7 +126,7 @@ constexpr Choice<Call> k_calls[] = {
 };
 inline const char* call_name(Call call) { return k_calls[static_cast<uint32_t>(call)].name; }
 
-/// Whom a query asks: a QueryFilter whose `ignore` is a name.
+/// The bodies that a query tests: a QueryFilter whose `ignore` is a name.
 struct SceneQueryFilter {
   std::string ignore;
   QueryFilter filter;
@@ -143,15 +143,15 @@ struct SceneAction {
   std::string joint;
   SceneBody new_body;
   SceneJoint new_joint;
-  const Node* changes = nullptr;  ///< of a definition, all of whose other fields stay
+  const Node* changes = nullptr;  ///< the changed fields of a definition; all its other fields stay
   Position position = {0.0, 0.0, 0.0};
   Position upper = {0.0, 0.0, 0.0};
   Quat rotation = {0.0, 0.0, 0.0, 1.0};
   Vec3<Real> way = {0.0, 0.0, 0.0};
   Vec3<Real> turn = {0.0, 0.0, 0.0};
   Vec3<Scaled> push = {0.0, 0.0, 0.0};
-  bool at_arm = false;    ///< pushed at `way` from the centre of mass
-  bool at_point = false;  ///< pushed at `position`
+  bool at_arm = false;    ///< applied at `way` from the centre of mass
+  bool at_point = false;  ///< applied at `position`
   Real first = 0.0;
   Real second = 0.0;
   Scaled mass = 0.0;
@@ -164,7 +164,7 @@ struct SceneAction {
   SceneQueryFilter asked = {};
 };
 
-/// Stands for a capacity that is not given.
+/// The value of a capacity that is not given.
 constexpr uint32_t k_counted = UINT32_MAX;
 
 struct SceneText {

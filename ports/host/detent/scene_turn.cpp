@@ -10,19 +10,19 @@ namespace {
 
 constexpr double k_radians = 3.14159265358979323846 / 180.0;
 
-/// A rotation x, y, z, w.
+/// A rotation quaternion x, y, z, w.
 struct Turn {
   double x = 0, y = 0, z = 0, w = 1;
 };
 
-/// First b, then a.
+/// The rotation b followed by a.
 Turn product(const Turn& a, const Turn& b) {
   return {a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
           a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
 }
 
-/// Sine and cosine of an angle within +-pi/2 by their series, whose rest is below an ulp: the C library's differ from
-/// machine to machine.
+/// Sine and cosine of an angle within +-pi/2 by their series, whose remainder is below an ulp. The C library's
+/// functions differ from machine to machine.
 void sine_and_cosine(double angle, double& sine, double& cosine) {
   constexpr int k_terms = 13;
   const double square = angle * angle;
@@ -53,13 +53,13 @@ void rotate(const Turn& turn, double (&v)[3]) {
   v[2] = result.z;
 }
 
-/// In the forms that docs/scene.md names.
+/// Reads the forms listed in docs/scene.md.
 bool read_rotation(const Node& node, Turn& turn) {
   if (is_numbers(node, 4)) {
     const auto& items = node.items;
     turn = {items[0].number, items[1].number, items[2].number, items[3].number};
     const double square = turn.x * turn.x + turn.y * turn.y + turn.z * turn.z + turn.w * turn.w;
-    return square > 0.998 && square < 1.002;  // what the reader lets in
+    return square > 0.998 && square < 1.002;  // the reader's limits
   }
   if (node.kind != NodeKind::object) return false;
   if (const Node* const angles = member_of(node, "euler_degrees")) {
@@ -103,7 +103,7 @@ void turn_vector(Node& entry, const char* key, const Turn& turn, const double (&
   for (size_t i = 0; i < 3; ++i) node->items[i].number = v[i] + about[i];
 }
 
-/// `beside`: the key whose presence means that one which is left out is no turn at all.
+/// `beside`: if this key is present, a missing `key` means no rotation, and it is added.
 void turn_rotation(Node& entry, const char* key, const char* beside, const Turn& turn) {
   Node* const node = member_of(entry, key);
   Turn own;

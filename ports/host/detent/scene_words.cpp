@@ -11,9 +11,9 @@ namespace {
 
 constexpr size_t k_word_max = 32;
 constexpr size_t k_named_max = 24;
-constexpr size_t k_compared_max = 10000;  // of a hostile file: it would take minutes
+constexpr size_t k_compared_max = 10000;  // names; more from a hostile file would take minutes
 
-/// Letters to change, add or leave out. Source: Levenshtein 1966.
+/// The edit distance: letters to change, add or remove. Source: Levenshtein 1966.
 size_t edits(const std::string& a, const std::string& b) {
   std::vector<size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), size_t{0});

@@ -4,7 +4,7 @@
 
 namespace detent_tool {
 
-/// ", did you mean "radius"?": the nearest of the names, if one is near; or what there is, if that is little.
+/// The nearest of the names, if one is near: ", did you mean "radius"?"; otherwise all names if there are few.
 std::string suggestion(const std::string& word, const std::vector<std::string>& names);
 
 }  // namespace detent_tool

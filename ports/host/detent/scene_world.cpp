@@ -11,7 +11,7 @@ inline namespace DETENT_NAMESPACE {
 
 namespace {
 
-/// Why a cooked file is refused as a shape of this type.
+/// The reason why a cooked file cannot be a shape of this type.
 std::string refusal(FileKind kind, ShapeType type) {
   const bool surface = kind == FileKind::mesh || kind == FileKind::height_field;
   if (type == ShapeType::hull && kind != FileKind::hull) return is_not(kind, "a cooked hull");

@@ -3,7 +3,7 @@
 #include "run.h"
 #include "scene_reader.h"
 
-/// The world of a scene that is read, and the cooked files that it names.
+/// Creates the world of a scene and reads its cooked files.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -12,11 +12,11 @@ struct SceneAssets {
   std::vector<Asset> table;
   std::vector<std::string> digests;
 
-  /// False, and a problem, if one cannot be read or has another digest than the scene says.
+  /// False, with a problem, if a file cannot be read or its digest differs from the scene's.
   bool read(SceneReading& reading, const RunRequest& request);
 };
 
-/// False, and a problem, if it cannot be.
+/// False, with a problem, on failure.
 bool make_world(SceneReading& reading, const SceneAssets& assets, uint32_t bytes_max, OwnedWorld& owned);
 
 }  // namespace DETENT_NAMESPACE

@@ -66,7 +66,7 @@ struct PlainOutput final : Output {
   File file;
 };
 
-/// A signal that ends the program removes the temporary file that was begun last.
+/// The newest temporary file; a signal that ends the program removes it.
 char temporary_to_remove[4096];
 
 void remove_temporary(int signal_number) {
@@ -90,13 +90,13 @@ void remove_at_signals(const std::string& path) {
 }
 
 #if defined(_WIN32)
-/// A new file; null if there is one, or for another reason that `errno` has.
+/// Creates a file. Null if the file exists or creation fails; `errno` has the reason.
 File create_file(const std::string& path) {
   const int file = _open(path.c_str(), _O_CREAT | _O_EXCL | _O_WRONLY | _O_BINARY, _S_IREAD | _S_IWRITE);
   return File(file < 0 ? nullptr : _fdopen(file, "wb"));
 }
 
-/// Standard output for these bytes alone: what is printed goes to standard error from here on.
+/// Reserves standard output for these bytes: all printed text goes to standard error from here on.
 File take_standard_output() {
   fflush(stdout);
   const int file = _dup(_fileno(stdout));
@@ -117,7 +117,7 @@ File take_standard_output() {
 }
 #endif
 
-/// A file beside `path`, of a name that no file has. Null, and `errno`.
+/// Creates a file beside `path` with an unused name. Null on failure; `errno` has the reason.
 File create_temporary(const std::string& path, std::string& temporary_path) {
   constexpr uint32_t k_names = 1000;
   for (uint32_t i = 0; i < k_names; ++i) {
@@ -128,7 +128,7 @@ File create_temporary(const std::string& path, std::string& temporary_path) {
   return nullptr;
 }
 
-/// The path that symbolic links lead to, where there need not be a file yet.
+/// The path that symbolic links lead to; the file there need not exist yet.
 std::string resolved(const std::string& path) {
   constexpr uint32_t k_links_max = 40;
   std::error_code error;
@@ -207,7 +207,7 @@ std::unique_ptr<Output> Output::open(const std::string& path, bool compressed, s
     file = open_file(path, "wb");
   } else {
     target = resolved(path);
-    // A file that may not be written is not replaced either.
+    // A file that may not be written must not be replaced either.
     if (!exists || open_file(target, "r+b") != nullptr) file = create_temporary(target, temporary_path);
     if (file != nullptr && exists) std::filesystem::permissions(temporary_path, status.permissions(), error);
     if (file != nullptr) remove_at_signals(temporary_path);

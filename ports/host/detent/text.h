@@ -13,7 +13,7 @@ inline std::string hexadecimal(uint64_t value) {
   return text;
 }
 
-/// What a file says may be anything: a terminal shall not obey it.
+/// Replaces control characters: text from a file may contain anything, and a terminal must not execute it.
 inline std::string printable(std::string text) {
   for (char& letter : text) {
     if (static_cast<unsigned char>(letter) < ' ' || letter == 0x7f) letter = '?';

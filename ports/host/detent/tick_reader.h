@@ -7,24 +7,24 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// A recording that is read tick by tick, without a world.
+/// Reads a recording tick by tick, without a world.
 class TickReader {
  public:
   explicit TickReader(const detent_tool::Recorded& recorded);
   TickReader(const TickReader&) = delete;
 
-  /// Reads the next tick, or what comes after the last. False at the end, and if there is a problem.
+  /// Reads the next tick, or the end after the last tick. False at the end, and on a problem.
   bool next();
   const RecordingInfo& info() const { return player_->info(); }
 
   std::string problem;
-  bool other_config = false;                ///< the problem is that it is of another configuration
-  bool finished = false;                    ///< all ticks were read; the rest is that of the end
+  bool other_config = false;                ///< the problem is another configuration
+  bool finished = false;                    ///< all ticks were read; the other members describe the end
   uint64_t tick = 0;                        ///< completed
-  std::vector<std::vector<uint8_t>> calls;  ///< records, before the tick
+  std::vector<std::vector<uint8_t>> calls;  ///< records before the tick
   TickTrace trace;                          ///< of the tick
   bool compared = false;
-  uint64_t digest = 0;  ///< if `compared`
+  uint64_t digest = 0;  ///< valid if `compared`
 
  private:
   std::unique_ptr<detent_tool::Input> input_;

@@ -34,7 +34,7 @@ void add(StageTrace& stage, const TracePart& part, uint32_t place, const uint8_t
                         : static_cast<uint32_t>(word_at(bytes + key_bytes, k_trace_digest_bytes));
 }
 
-/// From the bits of a number, by the library's own conversions.
+/// Converts the bits of a number by the library's own conversions.
 double number_of(WordKind kind, uint32_t width, const uint8_t* bytes) {
   const uint64_t word = word_at(bytes, width);
   switch (kind) {
@@ -51,7 +51,7 @@ double number_of(WordKind kind, uint32_t width, const uint8_t* bytes) {
       return unit_to_host(Unit::from_raw(static_cast<int32_t>(word)));
     case WordKind::scaled: {
       const int32_t exponent = static_cast<int32_t>(word_at(bytes + 4, 4));
-      if (exponent < -256 || exponent > 256) return 0;  // no such number: damaged bytes
+      if (exponent < -256 || exponent > 256) return 0;  // no valid number: damaged bytes
       return scaled_to_host(Scaled::from_parts(static_cast<int32_t>(word), exponent));
     }
 #elif defined(DETENT_F32)
@@ -80,7 +80,7 @@ std::string name_of(const Field& field, uint32_t number) {
   return name;
 }
 
-/// The names of what a stage's elements are called by, from either side.
+/// Names the elements of a stage, by the slots and generations of either side.
 class Names {
  public:
   Names(const StageTrace& a, const StageTrace& b) : sides_{&a, &b} {}
@@ -132,7 +132,7 @@ class Names {
   }
   void add_body(uint32_t slot, ElementName& name) const {
     name.slots.push_back(slot + 1);
-    name.generations.push_back(second_word(k_trace_parts[3], slot));  // of the traits
+    name.generations.push_back(second_word(k_trace_parts[3], slot));  // from the table of body properties
   }
   uint32_t second_word(const TracePart& part, uint32_t place) const {
     for (const StageTrace* side : sides_) {
@@ -147,7 +147,7 @@ class Names {
   const StageTrace* sides_[2];
 };
 
-/// What differs in one element, to the list; `null`: that side has none.
+/// Adds the differences of one element to the list; a null pointer: that side has no such element.
 void compare_element(const TracePart& part, const ElementName& name, const StageTrace::Element* a,
                      const StageTrace::Element* b, bool full, Difference& difference) {
   const auto tell = [&](FieldDifference&& field) {
@@ -158,7 +158,7 @@ void compare_element(const TracePart& part, const ElementName& name, const Stage
     difference.fields.push_back(std::move(field));
   };
   const std::vector<uint8_t> zeros(part.element_bytes, 0);
-  const bool both = (a != nullptr && b != nullptr) || !part.sorted;  // what is not there of the others is zero
+  const bool both = (a != nullptr && b != nullptr) || !part.sorted;  // in the other parts a missing element is zero
   if (!full || !both) {
     if (a != nullptr && b != nullptr && a->digest == b->digest) return;
     FieldDifference field;
@@ -185,7 +185,7 @@ void compare_element(const TracePart& part, const ElementName& name, const Stage
   }
 }
 
-/// Whether a stage differs; what differs goes to the list.
+/// Whether a stage differs; adds the differences to the list.
 bool compare_stages(const StageTrace& a, const StageTrace& b, bool full, Difference& difference) {
   const Names names(a, b);
   const uint64_t before = difference.field_count;
@@ -203,7 +203,7 @@ bool compare_stages(const StageTrace& a, const StageTrace& b, bool full, Differe
       compare_element(k_trace_parts[i], names.of(k_trace_parts[i], key), element_a, element_b, full, difference);
     }
   }
-  // Of digests of 32 bits two may be equal by chance.
+  // Two different states may have equal digests of 32 bits by chance.
   if (difference.field_count != before || a.digest == b.digest || full) return difference.field_count != before;
   FieldDifference field;
   field.element.kind = "some element";

@@ -20,7 +20,7 @@ namespace {
 
 bool is_recording_name(const std::string& name) { return ends_with(name, ".rec") || ends_with(name, ".rec.zst"); }
 
-/// The recordings below a folder, in the order of their names. False if it cannot be read.
+/// Finds the recordings below a folder, in the order of their names. False if the folder cannot be read.
 bool find_recordings(const std::string& folder, std::vector<std::string>& paths) {
   std::error_code error;
   std::vector<std::string> found;
@@ -34,7 +34,7 @@ bool find_recordings(const std::string& folder, std::vector<std::string>& paths)
   return !error && !found.empty();
 }
 
-/// The lines of a file that are not empty. What went wrong, or nothing.
+/// Reads the non-empty lines of a file. Returns the problem; empty if none.
 std::string read_lines(const std::string& path, std::vector<std::string>& lines) {
   std::vector<uint8_t> bytes;
   const std::string problem = path == "-" ? read_stream(stdin, k_whole_file_bytes_max, bytes) : read_file(path, bytes);
@@ -46,8 +46,8 @@ std::string read_lines(const std::string& path, std::vector<std::string>& lines)
   return problem;
 }
 
-/// Which files a run has told about, and whether they were good: the last word counts. Lines that it could not finish,
-/// or that are of something else, say nothing.
+/// The files that an earlier run reported, and whether each was good; a later line replaces an earlier one. Unfinished
+/// lines and other JSON are ignored.
 std::map<std::string, bool> log_of(const std::vector<std::string>& lines) {
   std::map<std::string, bool> log;
   for (const std::string& line : lines) {
@@ -66,7 +66,7 @@ Outcome verify_here(const VerificationRequest& request, const ReadRequest& readi
   if (!versions || versions->simulation == first.simulation_version || called_by_another_release()) {
     return by_its_engine([&](const Engine& engine) {
       Outcome outcome = engine.verify(reading, progress);
-      // Of a digest that differs the recording may tell more than where.
+      // If a digest differs, the recording may contain more details than the tick.
       if (outcome.digests_differ) {
         const Difference difference = engine.explain(reading, outcome.first_bad_tick);
         outcome.difference_text = difference_text(difference, "the recording", "this machine");
@@ -92,7 +92,7 @@ struct Total {
   uint64_t bad = 0;
   uint64_t passed_over = 0;
   uint64_t ticks = 0;
-  double seconds = 0;  ///< of all cores
+  double seconds = 0;  ///< summed over all cores
 
   void add(const Outcome& outcome) {
     ++files;
@@ -128,7 +128,7 @@ Verification verify_all(VerificationRequest request, const Report& report) {
   }
 
   Total total;
-  // A log that is not there yet says nothing.
+  // A log that does not exist yet is empty.
   std::error_code error;
   if (!request.log.empty() && std::filesystem::exists(request.log, error)) {
     std::vector<std::string> lines;

@@ -1,15 +1,15 @@
 #pragma once
 #include "report.h"
 
-/// Many recordings, on many cores.
+/// Verifies many recordings on many cores.
 namespace detent_tool {
 
 struct VerificationRequest {
   std::vector<std::string> paths = {};  ///< recordings, and folders of them
-  std::string list = {};                ///< a file with a path a line; "-": standard input; empty: none
-  std::string log = {};                 ///< the JSON lines of an earlier run: what it names is passed over
+  std::string list = {};                ///< a file with one path a line; "-": standard input; empty: none
+  std::string log = {};                 ///< the JSON lines of an earlier run; files in it are skipped
   std::vector<std::string> asset_paths = {};
-  ReadRequest reading = {};  ///< but for the path
+  ReadRequest reading = {};  ///< except for the path
   uint32_t jobs = 1;
 };
 
@@ -21,7 +21,7 @@ enum class Verification : uint32_t {
 /// Reports each file as soon as it is done, and the sum of all.
 Verification verify_all(VerificationRequest request, const Report& report);
 
-/// By the engine whose configuration the header names; by the first that can say anything if none holds it.
+/// Reads with the engine of the header's configuration, or with the first engine if no engine has it.
 template <class Read>
 Outcome by_its_engine(const Read& read) {
   Outcome outcome;

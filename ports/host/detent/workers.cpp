@@ -25,7 +25,7 @@ namespace detent_tool {
 
 namespace {
 
-/// The fields of an outcome as bytes from a process to its parent: the same program on the same machine.
+/// The fields of an outcome as bytes, from a process to its parent: the same program on the same machine.
 class Parcel {
  public:
   explicit Parcel(std::string bytes = {}) : bytes_(std::move(bytes)) {}
@@ -62,7 +62,7 @@ class Parcel {
   bool good_ = true;
 };
 
-/// Each field once, for both ways.
+/// Lists each field once, for writing and reading.
 template <class Outcomes, class Move>
 void visit(Outcomes& outcome, const Move& move) {
   move(outcome.verdict);
@@ -97,7 +97,7 @@ void visit(Outcomes& outcome, const Move& move) {
 
 struct Worker {
   pid_t process = -1;
-  int answer = -1;  ///< the end of its pipe
+  int answer = -1;  ///< the read end of its pipe
   size_t path = 0;
   std::string bytes;
 };
@@ -169,7 +169,7 @@ void verify_in_workers(const std::vector<std::string>& paths, uint32_t jobs,
         done(paths[next], broken("no process can be started"));
         ++ended;
       } else {
-        break;  // once another has ended
+        break;  // retry after another worker has ended
       }
       ++next;
     }

@@ -14,7 +14,7 @@ namespace detent_tool {
 
 namespace {
 
-constexpr int k_level = 9;  // beyond it a recording gets no smaller, only slower
+constexpr int k_level = 9;  // beyond this level recordings take longer and get no smaller
 
 struct FreeDecoder {
   void operator()(ZSTD_DCtx* decoder) const { ZSTD_freeDCtx(decoder); }
@@ -23,8 +23,8 @@ struct FreeEncoder {
   void operator()(ZSTD_CCtx* encoder) const { ZSTD_freeCCtx(encoder); }
 };
 
-/// Unpacks what is asked for and no more, so a hostile file can claim time, not memory: of memory there is one window,
-/// at most the 128 MB of zstd's own limit. Its end, also in the midst of a frame, is the end of the bytes.
+/// Decompresses only the requested bytes, so a hostile file can cost time, but not memory: the memory is one window, at
+/// most the 128 MB of zstd's own limit. If the file ends, also in the middle of a frame, the bytes end there.
 class PackedInput final : public Input {
  public:
   explicit PackedInput(File file)
@@ -74,7 +74,7 @@ class PackedInput final : public Input {
   std::unique_ptr<ZSTD_DCtx, FreeDecoder> decoder_;
   std::vector<uint8_t> packed_;
   ZSTD_inBuffer in_ = {};
-  uint64_t at_ = 0;  ///< unpacked bytes given
+  uint64_t at_ = 0;  ///< decompressed bytes returned so far
   bool ended_ = false;
 };
 

@@ -2,12 +2,12 @@
 #include "file.h"
 #include "stream.h"
 
-/// Zstandard (RFC 8878), where the build found it.
+/// Zstandard (RFC 8878), if the build found it.
 namespace detent_tool {
 
 inline constexpr uint8_t k_zstandard_magic[4] = {0x28, 0xb5, 0x2f, 0xfd};
 
-/// Null, and why not. `file` stands at its start.
+/// Null on failure, with the reason in `problem`. `file` is at its start.
 std::unique_ptr<Input> unpack(File file, std::string& problem);
 std::unique_ptr<Output> pack(File file, std::string& problem);
 

@@ -10,9 +10,9 @@
 #include "shape/hull.h"
 #include "tests/lockstep/narrow_phase_pairs.h"
 
-/// What questions cost on a Cortex-M3, in instructions, beside a float GJK on the same pairs. QEMU runs it with
-/// `-icount shift=6` (CMakeLists.txt), so that the board's timer counts instructions. Prints a line of CSV for each:
-/// question, pairs, mean, most. Exit code 1 if the two disagree about a distance.
+/// The cost of queries on a Cortex-M3, in instructions, compared with a float GJK on the same pairs. QEMU runs it with
+/// `-icount shift=6` (CMakeLists.txt), so that the board's timer counts instructions. Prints one line of CSV for each
+/// query: name, pairs, mean, maximum. Exit code 1 if the two disagree about a distance.
 
 namespace {
 
@@ -74,7 +74,7 @@ Real real_of(int32_t numerator, int shift) {
 #endif
 }
 
-/// The same for both: placed by integers.
+/// The same pose for both libraries, in integers.
 struct Body {
   int32_t position[3];  ///< 2^-10 m
   Pose pose;
@@ -120,7 +120,7 @@ Body draw_body(Random& random, int32_t far) {
 
 struct Solid {
   Convex convex;
-  float_gjk::Solid climbing, searching;  ///< the same one for a box
+  float_gjk::Solid climbing, searching;  ///< the same for a box
 };
 
 Solid draw_box(Random& random) {
@@ -159,8 +159,8 @@ Solid make_round_hull() {
 
 float magnitude(float value) { return value < 0 ? -value : value; }
 
-/// Pairs that are apart, by metres at most. `draw`: makes a solid. The warm questions are about pairs that moved by
-/// some millimetres. `searching_name`: null where no float support searches.
+/// Pairs that are apart, by metres at most. `draw`: makes a solid. The warm queries use pairs that moved by some
+/// millimetres. `searching_name`: null if no float support searches.
 template <class Draw>
 bool measure_distance(const char* const (&names)[4], const char* searching_name, const Draw& draw) {
   Random random(k_seed);
@@ -201,7 +201,7 @@ bool measure_distance(const char* const (&names)[4], const char* searching_name,
   return good;
 }
 
-/// Boxes that B flies at A, both turning by up to a radian.
+/// Boxes of which B moves towards A; both rotate by up to a radian.
 bool measure_toi() {
   Random random(k_seed);
   Cost hits, misses;

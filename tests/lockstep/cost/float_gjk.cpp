@@ -20,7 +20,7 @@ Vector cross(const Vector& a, const Vector& b) {
 struct Placed {
   const Solid* solid;
   Vector position, column[3];
-  uint32_t start = 0;  // of the climb: the last answer
+  uint32_t start = 0;  // of the hill climbing: the last result
 };
 
 Placed place(const Solid& solid, const Pose& p) {
@@ -196,7 +196,7 @@ Result distance(const Solid& a, const Pose& pose_a, const Solid& b, const Pose& 
     }
     const Vector next = nearest(s);
     const float next_square = dot(next, next);
-    if (s.count != 1 && next_square >= square) break;  // rounding: no nearer
+    if (s.count != 1 && next_square >= square) break;  // not nearer: rounding limit
     v = next;
     square = next_square;
     if (square <= 1e-14f) return result;

@@ -1,8 +1,8 @@
 #pragma once
 #include <stdint.h>
 
-/// The distance of two convex shapes as textbooks have it, in single precision: what a port of a common engine to a
-/// processor without floating point would run.
+/// The distance of two convex shapes by the textbook method in single precision, as a port of a common engine to a
+/// processor without floating point would compute it.
 namespace float_gjk {
 
 struct Vector {
@@ -12,10 +12,11 @@ struct Vector {
 struct Solid {
   bool is_box = true;
   Vector half_extents = {};          ///< m; box
-  const Vector* vertices = nullptr;  ///< m; else
+  const Vector* vertices = nullptr;  ///< m; otherwise
   uint32_t vertex_count = 0;
   const uint16_t* neighbour_offsets =
-      nullptr;  ///< if not null, supports climb: vertex_count + 1 places in `neighbours`
+      /// If not null, supports use hill climbing: vertex_count + 1 offsets into `neighbours`.
+      nullptr;
   const uint8_t* neighbours = nullptr;
 };
 
@@ -25,7 +26,7 @@ struct Pose {
 };
 
 struct Result {
-  float distance;  ///< m; 0 if the solids meet
+  float distance;  ///< m; 0 if the solids overlap
   Vector point_a, point_b;
   uint32_t iterations;
 };
