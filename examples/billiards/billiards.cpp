@@ -10,8 +10,8 @@ namespace {
 constexpr uint32_t k_ball_mark = 0x100;  ///< user data of a ball: this + its number; fixed bodies have less
 
 /// A ball slower than this is at rest. The limits are well above the speed that gravity leaves in a resting ball.
-constexpr Real k_still_speed = Real(0.02);  // m/s
-constexpr Real k_still_spin = Real(0.7);    // rad/s: 0.02 m/s at the ball's surface
+constexpr Real k_still_speed = Real(0.02);            // m/s
+constexpr Real k_still_angular_velocity = Real(0.7);  // rad/s: 0.02 m/s at the ball's surface
 
 struct Cushion {
   Position centre;
@@ -102,12 +102,13 @@ bool is_pocketed(const World& world, BodyId ball) {
   return !(within(position.x, k_nose_x) && within(position.z, k_nose_z));
 }
 
-/// A ball that only spins in place counts as still.
+/// A ball that only angular velocities in place counts as still.
 bool is_still(const World& world, BodyId ball) {
-  Vec3<Real> velocity, spin;
-  must(get_velocity(world, ball, velocity, spin));
-  return within(velocity.x, k_still_speed) && within(velocity.y, k_still_speed) && within(velocity.z, k_still_speed) &&
-         within(spin.x, k_still_spin) && within(spin.z, k_still_spin);
+  Vec3<Real> linear_velocity, angular_velocity;
+  must(get_velocity(world, ball, linear_velocity, angular_velocity));
+  return within(linear_velocity.x, k_still_speed) && within(linear_velocity.y, k_still_speed) &&
+         within(linear_velocity.z, k_still_speed) && within(angular_velocity.x, k_still_angular_velocity) &&
+         within(angular_velocity.z, k_still_angular_velocity);
 }
 
 bool is_free(const World& world, const Position& place) {
@@ -174,7 +175,7 @@ void before_tick(Recorder& recorder, uint32_t) {
     while (!is_free(world, *place) && place + 1 != k_cue_places + k_cue_place_count) ++place;
     cue = create_ball(recorder, 0, *place);
   }
-  must(recorder.set_velocity(cue, k_shots[shots].velocity, k_shots[shots].spin));
+  must(recorder.set_velocity(cue, k_shots[shots].linear_velocity, k_shots[shots].angular_velocity));
   must(recorder.set_user_data(cloth(world), shots + 1));
 }
 

@@ -29,7 +29,7 @@ class Commentary {
     }
     if (billiards::shots_played(world) == shots_) return;
     const billiards::Shot& shot = billiards::k_shots[shots_++];
-    const double speed = hypot(real_to_host(shot.velocity.x), real_to_host(shot.velocity.z));
+    const double speed = hypot(real_to_host(shot.linear_velocity.x), real_to_host(shot.linear_velocity.z));
     printf("%7.3f s  %s, %.1f m/s\n", time, shot.name, speed);
   }
 

@@ -87,7 +87,9 @@ Track::Key mark(int tick, const Vec3<double>& direction, double rim) {
   return {tick, direction.x * scale, direction.z * scale};
 }
 
-double speed(const Shot& shot) { return hypot(real_to_host(shot.velocity.x), real_to_host(shot.velocity.z)); }
+double speed(const Shot& shot) {
+  return hypot(real_to_host(shot.linear_velocity.x), real_to_host(shot.linear_velocity.z));
+}
 
 double distance(const Track::Key& a, const Track::Key& b) { return hypot(a.x - b.x, a.y - b.y); }
 

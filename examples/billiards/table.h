@@ -41,8 +41,8 @@ inline constexpr double k_ball_mass = 6 * 0.028349523125;
 ///
 /// The published rolling resistance is the deceleration over g of a ball that rolls; ours is a torque over (normal
 /// force x radius). A torque t slows a rolling ball of moment 2/5 m r^2 by t / (7/5 m r), so the pair needs
-/// 7/5 x 0.01 = 0.014 = sqrt(0.98 x 0.0002). It acts about the vertical axis too, and slows a ball that spins in place
-/// by 0.014 g / (2/5 r) = 12 rad/s^2 [Alciatore: 5 to 15].
+/// 7/5 x 0.01 = 0.014 = sqrt(0.98 x 0.0002). It acts about the vertical axis too, and slows a ball that angular
+/// velocities in place by 0.014 g / (2/5 r) = 12 rad/s^2 [Alciatore: 5 to 15].
 ///
 /// The restitution of a pair is the larger of the two values, unless a material selects the smaller, as cloth and
 /// cushions do: ball-ball 0.93 [Alciatore: 0.92 to 0.98], ball-cushion 0.8 [0.6 to 0.9], ball-cloth 0.5 [0.5].

@@ -46,7 +46,7 @@ int main() {
                    {.position = {3.0, 0.9, 0.0},
                     .shape = capsule(0.3, 0.6),
                     .mass = 80.0,
-                    .turn_locks = k_turn_lock_x | k_turn_lock_z},
+                    .rotation_locks = k_rotation_lock_x | k_rotation_lock_z},
                    hero));
   must(create_body(world, {.type = BodyType::kinematic, .position = {-3.0, 0.25, 0.0}, .shape = box({1.0, 0.25, 1.0})},
                    lift));

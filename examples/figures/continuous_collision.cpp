@@ -28,7 +28,7 @@ std::vector<double> shoot(bool continuous) {
   BodyDef plate = {.type = BodyType::fixed, .position = position(k_wall, 0, 0)};
   plate.shape = box(vector(k_wall_half, 1, 1));
   must(create_body(world, plate, wall));
-  BodyDef ball = {.velocity = vector(k_speed, 0, 0), .shape = sphere(real(k_radius))};
+  BodyDef ball = {.linear_velocity = vector(k_speed, 0, 0), .shape = sphere(real(k_radius))};
   ball.material.restitution = real(0.5);
   must(create_body(world, ball, bullet));
   std::vector<double> places;
@@ -73,14 +73,14 @@ void draw_wall(Svg& svg, double y) {
 
 void draw_shots(Svg& svg) {
   constexpr double off = 88, on = 218;
-  svg.text({24, 26}, "continuous = false: only the poses at the ticks' ends are looked at", {.size = 14, .bold = true});
+  svg.text({24, 26}, "continuous = false: only the poses at the ends of ticks are tested", {.size = 14, .bold = true});
   const std::vector<double> through = shoot(false);
   draw_wall(svg, off);
   draw_sweep(svg, off, through.front(), through.back(), k_sky);
   for (size_t i = 0; i < k_poses; ++i) draw_ball(svg, off, through[i], i);
   svg.text({x_of(k_wall) + 14, off - 30}, "wall", {.colour = k_grey});
 
-  svg.text({24, on - 62}, "continuous = true: the bullet meets the wall within the third tick",
+  svg.text({24, on - 62}, "continuous = true: the bullet hits the wall within the third tick",
            {.size = 14, .bold = true});
   const std::vector<double> back = shoot(true);
   const double before = back[2], part = impact_after(before);
@@ -94,14 +94,15 @@ void draw_shots(Svg& svg) {
   svg.text({x_of(k_wall) + 20, on - 8}, "time of impact: " + number(part, 3) + " of the tick", {.colour = k_red});
   svg.text({x_of(k_wall) + 20, on + 8}, "there the bullet bounces off the wall,", {.colour = k_ink});
   svg.text({x_of(k_wall) + 20, on + 24}, "and flies back for the rest of the tick", {.colour = k_ink});
-  svg.text({x_of(back[4]) - 28, on + 44}, "the way back, drawn lower", {.colour = k_grey, .anchor = "end"});
+  svg.text({x_of(back[4]) - 28, on + 44}, "the path back, drawn lower", {.colour = k_grey, .anchor = "end"});
 }
 
 Pose pose_at(const Motion& motion, double part) {
-  const Vector start = host(motion.start.position), way = host_vector(motion.displacement),
-               turn = host_vector(motion.turn);
-  return {position(start.x + part * way.x, start.y + part * way.y, start.z + part * way.z),
-          turned_by(motion.start.rotation, vector(part * turn.x, part * turn.y, part * turn.z))};
+  const Vector start = host(motion.start.position), displacement = host_vector(motion.displacement),
+               rotation_vector = host_vector(motion.rotation_vector);
+  return {position(start.x + part * displacement.x, start.y + part * displacement.y, start.z + part * displacement.z),
+          rotated_by(motion.start.rotation,
+                     vector(part * rotation_vector.x, part * rotation_vector.y, part * rotation_vector.z))};
 }
 
 /// The door and the crate of the page.
@@ -114,7 +115,7 @@ void draw_swing(Svg& svg) {
   Convex door, crate;
   must(make_convex(box({0.5, 0.1, 0.5}), door));
   must(make_convex(rounded(box({0.2, 0.2, 0.2}), 0.05), crate));
-  const Motion swing = {.turn = {0.0, 0.0, 3.0}};
+  const Motion swing = {.rotation_vector = {0.0, 0.0, 3.0}};
   const Motion fall = {.start = {{0.0, 2.0, 0.0}, k_unturned}, .displacement = {0.0, -3.0, 0.0}};
   TimeOfImpact impact;
   must(time_of_impact(door, swing, crate, fall, impact));
@@ -144,7 +145,7 @@ void draw_swing(Svg& svg) {
   const Vector point = host(pose_at(swing, time).position) + host_vector(impact.point);
   svg.circle(at(point), 4, {.stroke = "#fbfcfd", .fill = k_red});
   const Point words = {at(point).x + 90, at(point).y - 60};
-  svg.text(words, "the shapes meet at " + number(time, 3) + " of the step, at the dot", {.colour = k_red});
+  svg.text(words, "the shapes touch at " + number(time, 3) + " of the step, at the dot", {.colour = k_red});
   svg.text(words + Point{0, 20}, "bold: both at that time");
   svg.text(words + Point{0, 40}, "thin: both at 0, 1/4, 1/2, 3/4 of that time");
 }

@@ -23,9 +23,9 @@ struct Sample {
 };
 
 double rise_of(const World& world, BodyId ball) {
-  Vec3<Real> velocity, spin;
-  must(get_velocity(world, ball, velocity, spin));
-  return real_to_host(velocity.y);
+  Vec3<Real> linear_velocity, angular_velocity;
+  must(get_velocity(world, ball, linear_velocity, angular_velocity));
+  return real_to_host(linear_velocity.y);
 }
 
 /// A ball falls on a table, bounces, rolls over its edge.
@@ -38,7 +38,7 @@ std::vector<Sample> play() {
   BodyId table, ball;
   must(create_body(world, {.type = BodyType::fixed, .position = {-3.0, -0.5, 0.0}, .shape = box({3.0, 0.5, 1.0})},
                    table));
-  BodyDef def = {.position = position(-2.4, 1.2 + k_radius, 0), .velocity = vector(1.2, 0, 0)};
+  BodyDef def = {.position = position(-2.4, 1.2 + k_radius, 0), .linear_velocity = vector(1.2, 0, 0)};
   def.shape = sphere(real(k_radius));
   def.material.restitution = real(0.6);
   def.mass = Scaled(k_mass);
@@ -109,14 +109,14 @@ Svg draw_events() {
   draw_axes(svg);
 
   int edge = 0;
-  std::vector<Point> way;
+  std::vector<Point> displacement;
   for (const Sample& sample : samples) {
-    if (sample.height > k_height_min) way.push_back({x_of(sample.tick), y_of(sample.height)});
+    if (sample.height > k_height_min) displacement.push_back({x_of(sample.tick), y_of(sample.height)});
     if (sample.on_table) edge = sample.tick;
   }
   svg.rect({k_left, y_of(0)}, x_of(edge) - k_left, 10, {.fill = k_solid});
   svg.text({x_of(4), y_of(0) + 25}, "table", {.colour = k_grey});
-  svg.path(way, {.stroke = k_blue, .width = 2});
+  svg.path(displacement, {.stroke = k_blue, .width = 2});
 
   double foot = k_lanes_top;
   for (const Lane& lane : k_lanes) {

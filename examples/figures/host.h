@@ -45,6 +45,6 @@ inline Vector world_point(const detent::Pose& pose, double x, double y, double z
 
 inline constexpr detent::Quat k_unturned = {0.0, 0.0, 0.0, 1.0};
 /// A turn about z, rad.
-inline detent::Quat turned(double angle) { return detent::turned_by(k_unturned, vector(0, 0, angle)); }
+inline detent::Quat turned(double angle) { return detent::rotated_by(k_unturned, vector(0, 0, angle)); }
 
 }  // namespace figures

@@ -96,10 +96,11 @@ class Diagram {
   }
   void draw_a() { draw(def_.a, "#8a96a0", k_solid, 0.85, nullptr); }
   void draw_b() { draw(def_.b, k_blue, k_sky, 0.5, nullptr); }
-  /// B where it comes to with this velocity, m/s, and spin, rad/s, in so many ticks.
-  void draw_other_b(const Vector& velocity, const Vector& spin, int ticks) {
+  /// B where it comes to with this velocity, m/s, and angular velocity, rad/s, in so many ticks.
+  void draw_other_b(const Vector& linear_velocity, const Vector& angular_velocity, int ticks) {
     must(save(world_, snapshot_, sizeof snapshot_));
-    must(set_velocity(world_, def_.b, vector(velocity.x, velocity.y, velocity.z), vector(spin.x, spin.y, spin.z)));
+    must(set_velocity(world_, def_.b, vector(linear_velocity.x, linear_velocity.y, linear_velocity.z),
+                      vector(angular_velocity.x, angular_velocity.y, angular_velocity.z)));
     for (int tick = 0; tick < ticks; ++tick) step(world_);
     draw(def_.b, k_blue, k_sky, 0.06, "4 3");
     must(restore(world_, snapshot_, sizeof snapshot_));
@@ -121,8 +122,8 @@ class Diagram {
   Vector anchor_b() const { return host(to_world(pose_of(def_.b), def_.anchor_b)); }
 
   /// An axis of a frame.
-  void axis(const Vector& from, const Vector& way, const char* name, Point label) {
-    const Point end = camera_.at(from + way);
+  void axis(const Vector& from, const Vector& displacement, const char* name, Point label) {
+    const Point end = camera_.at(from + displacement);
     svg_.arrow({camera_.at(from), end}, k_green, 1.8);
     svg_.text(end + label, name, {.colour = k_green, .bold = true, .halo = true});
   }
@@ -131,7 +132,8 @@ class Diagram {
     svg_.arrow({camera_.at(from), camera_.at(to)}, k_orange, 2.5, true);
   }
   /// A free turn from u towards v, rad.
-  void turn(const Vector& centre, const Vector& u, const Vector& v, double radius, double lower, double upper) {
+  void rotation_vector(const Vector& centre, const Vector& u, const Vector& v, double radius, double lower,
+                       double upper) {
     svg_.arrow(arc(centre, u, v, radius, lower, upper), k_orange, 2.5, true);
   }
   void dashed(const std::vector<Point>& points, const char* colour, bool closed = false) {
@@ -248,22 +250,22 @@ const Vector k_arm = {0.45, 0.12, 0.2};
 
 void draw_ball(Svg& svg, int index) {
   Diagram diagram(svg, index);
-  diagram.draw_titles("ball", "turns about the common anchor;", "axis: a spring that turns B to frame_a");
+  diagram.draw_titles("ball", "rotates about the common anchor;", "axis: a spring from B's frame to A's");
   diagram.make(body({-0.65, 0, 0}, k_arm), body({0.65, 0, 0}, k_arm), joint(JointType::ball), k_none);
   diagram.draw_a();
   diagram.draw_other_b({0, 1.95, 0}, {0, 0, 3}, 14);
   diagram.draw_other_b({0, 0, 1.95}, {0, -3, 0}, 14);
   diagram.draw_b();
   diagram.draw_anchors();
-  diagram.turn(k_none, k_x, k_y, 1.3, 0.1, 0.75);
-  diagram.turn(k_none, k_x, k_z, 1.3, 0.1, 0.8);
+  diagram.rotation_vector(k_none, k_x, k_y, 1.3, 0.1, 0.75);
+  diagram.rotation_vector(k_none, k_x, k_z, 1.3, 0.1, 0.8);
   diagram.label({-0.65, 0.12, 0}, {-20, -14}, "anchor_a");
   diagram.label({0.3, -0.12, 0.2}, {-16, 26}, "anchor_b", k_blue, "end");
 }
 
 void draw_hinge(Svg& svg, int index) {
   Diagram diagram(svg, index, {-46, -4});
-  diagram.draw_titles("hinge", "turns about x, the x axes are one;", "axis: the angle about x");
+  diagram.draw_titles("hinge", "rotates about x, the common axis;", "axis: the angle about x");
   diagram.make(body({-0.15, 0, 0}, {0.1, 0.7, 0.1}), body({0.6, 0, 0}, {0.55, 0.6, 0.05}),
                limited(JointType::hinge, -0.4, 1.2), {0, 0, 0}, k_x_up);
   diagram.draw_other_b({0, 0, -1.2}, {0, 2, 0}, 90);
@@ -271,14 +273,14 @@ void draw_hinge(Svg& svg, int index) {
   diagram.draw_b();
   diagram.draw_other_b({0, 0, 1.2}, {0, -2, 0}, 90);
   diagram.axis({0, -0.7, 0}, {0, 1.75, 0}, "x", {6, 6});
-  diagram.turn({0, -0.6, 0}, k_x, {0, 0, -1}, 1.15, -0.4, 1.2);
+  diagram.rotation_vector({0, -0.6, 0}, k_x, {0, 0, -1}, 1.15, -0.4, 1.2);
   diagram.label({1.15 * cos(1.2), -0.6, -1.15 * sin(1.2)}, {14, 2}, "upper");
   diagram.label({1.15 * cos(-0.4), -0.6, -1.15 * sin(-0.4)}, {-8, 8}, "lower", k_ink, "end");
 }
 
 void draw_slider(Svg& svg, int index) {
   Diagram diagram(svg, index);
-  diagram.draw_titles("slider", "slides along A's x, does not turn;", "axis: the way along x");
+  diagram.draw_titles("slider", "slides along A's x, no rotation;", "axis: the displacement along x");
   diagram.make(body({0, -0.3, 0}, {1.2, 0.08, 0.2}), body({-0.1, 0.02, 0}, {0.22, 0.22, 0.22}),
                limited(JointType::slider, -0.7, 0.8), {-0.1, -0.2, 0});
   diagram.draw_a();
@@ -338,7 +340,7 @@ void draw_cone_twist(Svg& svg, int index) {
   diagram.draw_other_b({0, 1.1, 0}, {0, 0, 2}, 60);
   diagram.draw_b();
   diagram.axis(k_none, {1.5, 0, 0}, "x", {4, 12});
-  diagram.turn({1.1, 0, 0}, k_y, k_z, 0.3, -0.4, 2.2);
+  diagram.rotation_vector({1.1, 0, 0}, k_y, k_z, 0.3, -0.4, 2.2);
   diagram.label({1.15 * cos(cone), 1.15 * sin(cone), 0}, {10, -14}, "second.upper", k_ink, "middle");
   diagram.label({1.1, -0.3, 0}, {12, 24}, "axis", k_ink, "middle");
 }
@@ -347,7 +349,7 @@ void draw_wheel(Svg& svg, int index) {
   Diagram diagram(svg, index, {10, -18});
   diagram.draw_titles("wheel", "axis: the suspension along A's x;", "second: the angle about z, the axle");
   BodyDef tyre = {.position = position(0, -0.5, 0.3)};
-  tyre.rotation = turned_by(k_unturned, vector(k_pi / 2, 0, 0));
+  tyre.rotation = rotated_by(k_unturned, vector(k_pi / 2, 0, 0));
   tyre.shape = cylinder(real(0.42), real(0.1));
   diagram.make(body({0.1, 0.25, -0.35}, {1, 0.2, 0.35}), tyre, limited(JointType::wheel, -0.3, 0.2), {0, -0.5, 0.3},
                k_x_up);
@@ -356,7 +358,7 @@ void draw_wheel(Svg& svg, int index) {
   diagram.draw_b();
   diagram.axis({0, -0.5, 0.3}, {0, 1.35, 0}, "x", {6, 6});
   diagram.axis({0, -0.5, 0.3}, {0, 0, 0.95}, "z", {-12, 6});
-  diagram.turn({0, -0.5, 0.42}, k_x, k_y, 0.3, -0.9, 1.1);
+  diagram.rotation_vector({0, -0.5, 0.42}, k_x, k_y, 0.3, -0.9, 1.1);
   diagram.slide({0.9, -0.8, 0.3}, {0.9, -0.3, 0.3});
   diagram.label({0.9, -0.3, 0.3}, {10, 8}, "upper");
   diagram.label({0.9, -0.8, 0.3}, {10, 2}, "lower");
@@ -372,7 +374,7 @@ void draw_parallel(Svg& svg, int index) {
   diagram.draw_other_b({2, 0.9, 0}, {0, 2, 0}, 26);
   diagram.axis({-0.75, 0, 0}, {0, 0.95, 0}, "x", {6, 6});
   diagram.axis({0.35, 0, 0}, {0, 0.95, 0}, "x", {6, 6});
-  diagram.turn({0.35, 0.6, 0}, k_x, {0, 0, -1}, 0.3, -2.6, 1.0);
+  diagram.rotation_vector({0.35, 0.6, 0}, k_x, {0, 0, -1}, 0.3, -2.6, 1.0);
   diagram.slide({0.7, -0.5, 0}, {1.4, -0.5, 0});
   diagram.slide({0.35, -0.3, 0.45}, {0.35, -0.3, 1.1});
 }

@@ -84,7 +84,7 @@ class Walk {
 
 constexpr Paint k_ground = {.stroke = "#8a96a0", .width = 1, .fill = k_solid};
 constexpr Paint k_outline = {.stroke = k_blue, .width = 1, .fill = k_sky, .opacity = 0.15};
-constexpr Paint k_way = {.stroke = k_blue, .width = 2};
+constexpr Paint k_path = {.stroke = k_blue, .width = 2};
 
 void draw_side(Svg& svg) {
   static constexpr Point origin = {40, 246};
@@ -96,14 +96,14 @@ void draw_side(Svg& svg) {
       walk.add_slab(1.5, 0.3, 2.3, 0.3), walk.add_slab(2.3, 0.6, 4.2, 0.6),    walk.add_slab(4.2, 0.6, 5.7, 0),
       walk.add_slab(7, 0, 8.2, 0.84),    walk.add_slab(8.2, 0.84, 9.3, 2.745),
   };
-  std::vector<Point> way, places;
+  std::vector<Point> path, places;
   std::vector<Point> steps;
   for (int tick = 0; tick < 190; ++tick) {
     const MoverReport report = walk.move(k_speed, 0);
     const Vector place = walk.place();
-    way.push_back(at(place.x, place.y));
-    if (tick % k_ticks_shown == 0 && (places.empty() || places.back().x + 2 < way.back().x))
-      places.push_back(way.back());
+    path.push_back(at(place.x, place.y));
+    if (tick % k_ticks_shown == 0 && (places.empty() || places.back().x + 2 < path.back().x))
+      places.push_back(path.back());
     if (report.stepped) steps.push_back(at(place.x, place.y));
   }
   const double width = 2 * k_scale * k_radius, height = 2 * k_scale * (k_radius + k_half_length);
@@ -114,7 +114,7 @@ void draw_side(Svg& svg) {
     const Point from = at(top[0].x, top[0].y), to = at(top[1].x, top[1].y);
     svg.path({{from.x, origin.y}, from, to, {to.x, origin.y}}, {.stroke = k_solid, .fill = k_solid}, true);
   }
-  svg.path(way, k_way);
+  svg.path(path, k_path);
   for (const Point& step : steps) svg.circle(step, 3.5, {.stroke = "#fbfcfd", .fill = k_red});
 
   const Lettering label = {.anchor = "middle"};
@@ -139,10 +139,10 @@ void draw_top(Svg& svg) {
   const double angle = degrees(30);
   const Vector wish = {k_speed * cos(angle), 0, -k_speed * sin(angle)};
   std::vector<Vector> places;
-  std::vector<Point> way;
+  std::vector<Point> path;
   for (int tick = 0; tick < 222; ++tick) {
     walk.move(wish.x, wish.z);
-    way.push_back(at(walk.place()));
+    path.push_back(at(walk.place()));
     if (tick % k_ticks_shown == 0) places.push_back(walk.place());
   }
   for (const Outline& wall : walls) {
@@ -151,21 +151,21 @@ void draw_top(Svg& svg) {
     svg.path(points, k_ground, true);
   }
   for (const Vector& place : places) svg.circle(at(place), k_scale * k_radius, k_outline);
-  svg.path(way, k_way);
+  svg.path(path, k_path);
   for (const Vector& place : places) {
     const Point from = at(place);
     svg.arrow({from, from + 9 * Point{wish.x, wish.z}}, k_orange);
   }
   svg.arrow({{250, 515}, Point{250, 515} + 9 * Point{wish.x, wish.z}}, k_orange);
-  svg.text({284, 512}, "the wish, the same in each tick");
-  svg.line({500, 508}, {530, 508}, k_way);
-  svg.text({538, 512}, "the way of the capsule's centre");
+  svg.text({284, 512}, "the wanted velocity, the same in each tick");
+  svg.line({500, 508}, {530, 508}, k_path);
+  svg.text({538, 512}, "the path of the capsule's centre");
 }
 
 }  // namespace
 
 Svg draw_mover() {
-  Svg svg(540, "A mover's way over steps and slopes, and along a wall");
+  Svg svg(540, "The path of a mover over steps and slopes, and along a wall");
   draw_side(svg);
   draw_top(svg);
   return svg;

@@ -21,8 +21,8 @@ std::vector<Point> take_head(std::vector<Point>& points) {
   const Point tip = points.back();
   while (points.size() > 2 && hypot(points.back().x - tip.x, points.back().y - tip.y) < k_head) points.pop_back();
   if (hypot(points.back().x - tip.x, points.back().y - tip.y) < k_head) points.pop_back();
-  const Point way = tip - points.back();
-  const Point along = (1 / hypot(way.x, way.y)) * way;
+  const Point path = tip - points.back();
+  const Point along = (1 / hypot(path.x, path.y)) * path;
   const Point foot = tip - k_head * along;
   const Point across = {-k_head_half * along.y, k_head_half * along.x};
   points.push_back(foot);
@@ -60,12 +60,12 @@ void Svg::add(const std::string& element, const Paint& paint) {
 void Svg::line(Point from, Point to, const Paint& paint) { path({from, to}, paint); }
 
 void Svg::path(const std::vector<Point>& points, const Paint& paint, bool closed) {
-  std::string way;
+  std::string path;
   for (const Point& point : points) {
-    way += way.empty() ? 'M' : 'L';
-    way += number(point.x) + ' ' + number(point.y);
+    path += path.empty() ? 'M' : 'L';
+    path += number(point.x) + ' ' + number(point.y);
   }
-  add("path" + attribute("d", way + (closed ? "z" : "")) + " stroke-linejoin='round'", paint);
+  add("path" + attribute("d", path + (closed ? "z" : "")) + " stroke-linejoin='round'", paint);
 }
 
 void Svg::circle(Point centre, double radius, const Paint& paint) {

@@ -12,7 +12,7 @@ int main() {
     return 1;
   }
   // During the step the door rotates by 3 rad, and the crate falls by 3 m.
-  const Motion swing = {.start = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}}, .turn = {0.0, 0.0, 3.0}};
+  const Motion swing = {.start = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}}, .rotation_vector = {0.0, 0.0, 3.0}};
   const Motion fall = {.start = {{0.0, 2.0, 0.0}, {0.0, 0.0, 0.0, 1.0}}, .displacement = {0.0, -3.0, 0.0}};
 
   Closest closest;

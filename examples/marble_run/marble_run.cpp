@@ -20,7 +20,7 @@ int main() {
   if (bind_asset(world, 0) != Status::ok) return 1;
   // Friction and rolling resistance of a pair are means of both materials, so both bodies get this material.
   const Material smooth = {.friction = 0.3, .rolling_resistance = 0.01};
-  BodyDef def = {.type = BodyType::fixed, .shape = surface(0), .material = smooth};
+  BodyDef def = {.type = BodyType::fixed, .shape = terrain(0), .material = smooth};
   if (create_body(world, def, run) != Status::ok) return 1;
   def = {.position = {1.0, 2.1, 0.1}, .shape = sphere(0.08), .material = smooth};
   if (create_body(world, def, marble) != Status::ok) return 1;
@@ -34,7 +34,7 @@ int main() {
   }
 
   // The triangle under the marble. Material 0 is the track, 1 the cup, as track.obj names them.
-  const RayQuery down = {.origin = pose.position, .way = {0.0, -1.0, 0.0}, .filter = {.ignore = marble}};
+  const RayQuery down = {.origin = pose.position, .displacement = {0.0, -1.0, 0.0}, .filter = {.ignore = marble}};
   QueryHit hit;
   QueryReport report;
   if (query_ray(world, down, {&hit, 1}, report) != Status::ok || report.hits == 0) return 1;

@@ -17,7 +17,7 @@ double fired(bool continuous) {
   BodyId wall, bullet;
   const Shape plate = box({Real(0.01), 2.0, 2.0});
   check(create_body(world, {.type = BodyType::fixed, .position = {5.0, 0.0, 0.0}, .shape = plate}, wall));
-  check(create_body(world, {.velocity = {600.0, 0.0, 0.0}, .shape = sphere(Real(0.005))}, bullet));
+  check(create_body(world, {.linear_velocity = {600.0, 0.0, 0.0}, .shape = sphere(Real(0.005))}, bullet));
   const StepReport report = step(world);
   check(report.impacts == (continuous ? 1 : 0));
   Pose pose;
@@ -34,7 +34,7 @@ int main() {
   Convex door, crate;
   check(make_convex(box({0.5, 0.1, 0.5}), door));
   check(make_convex(rounded(box({0.2, 0.2, 0.2}), 0.05), crate));
-  const Motion swing = {.turn = {0.0, 0.0, 3.0}};  // during the step, rad
+  const Motion swing = {.rotation_vector = {0.0, 0.0, 3.0}};  // during the step, rad
   const Motion fall = {.start = {{0.0, 2.0, 0.0}, {0.0, 0.0, 0.0, 1.0}}, .displacement = {0.0, -3.0, 0.0}};
   TimeOfImpact impact;
   check(time_of_impact(door, swing, crate, fall, impact));

@@ -18,7 +18,7 @@ int main() {
 
   // A bar rotates by 3 rad, and one of its edges hits an edge of a post.
   const Vec3<Real> corners[4] = {{0.25, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, {0.0, 0.0, 1.0}};
-  const Motion turns = {.turn = {0.0, 0.0, 3.0}};
+  const Motion turns = {.rotation_vector = {0.0, 0.0, 3.0}};
   const Motion stands = {.start = {{0.0, 0.5, 0.0}, {0.0, 0.0, 0.0, 1.0}}};
   FeatureToi struck;
   check(feature_toi(FeatureKind::edge_edge, corners, turns, stands, struck));

@@ -20,11 +20,11 @@ struct Character {
 };
 
 /// One tick: a desired displacement along x, and a jump if `jump` is set.
-MoverReport play(World& world, const MoverSettings& settings, Character& character, Real way, bool jump) {
+MoverReport play(World& world, const MoverSettings& settings, Character& character, Real displacement, bool jump) {
   if (jump && character.mover.ground.slot != 0) character.rise = Real(5.0 / 60);
   character.rise -= k_drop;
   MoverReport report;
-  check(move_mover(world, settings, {way, character.rise, k_zero}, character.mover, report));
+  check(move_mover(world, settings, {displacement, character.rise, k_zero}, character.mover, report));
   if (report.on_ground) character.rise = k_zero;
   for (uint32_t i = 0; i < report.contact_count; ++i) {
     const MoverContact& contact = report.contacts[i];

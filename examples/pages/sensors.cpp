@@ -25,8 +25,8 @@ int main() {
   const Shape hall = box({1.0, 1.0, 1.0});
   check(
       create_body(world, {.type = BodyType::fixed, .position = {0.0, 1.0, 9.0}, .shape = hall, .sensor = true}, room));
-  check(create_body(world, {.position = {0.0, 1.0, 0.0}, .velocity = {500.0, 0.0, 0.0}, .shape = sphere(Real(0.01))},
-                    bullet));
+  check(create_body(
+      world, {.position = {0.0, 1.0, 0.0}, .linear_velocity = {500.0, 0.0, 0.0}, .shape = sphere(Real(0.01))}, bullet));
   check(create_body(world, {.position = {0.0, 0.5, 9.0}, .shape = box({0.5, 0.5, 0.5})}, crate));
 
   StepReport report = step(world);

@@ -10,7 +10,7 @@ int main() {
   Convex door, crate;
   check(make_convex(box({0.5, 0.1, 0.5}), door));
   check(make_convex(box({0.25, 0.25, 0.25}), crate));
-  const Motion swing = {.turn = {0.0, 0.0, 2.0}};  // during the step, rad
+  const Motion swing = {.rotation_vector = {0.0, 0.0, 2.0}};  // during the step, rad
   const Motion fall = {.start = {{0.0, 2.0, 0.0}, {0.0, 0.0, 0.0, 1.0}}, .displacement = {0.0, -3.0, 0.0}};
 
   TimeOfImpact impact;

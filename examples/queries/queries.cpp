@@ -33,7 +33,7 @@ int main() {
   // The first hit in sight, without ghosts.
   QueryHit hit;
   QueryReport report;
-  RayQuery sight = {.origin = {0.0, 1.5, 0.0}, .way = {16.0, 0.0, 0.0}, .filter = {.mask = k_wall | k_guard}};
+  RayQuery sight = {.origin = {0.0, 1.5, 0.0}, .displacement = {16.0, 0.0, 0.0}, .filter = {.mask = k_wall | k_guard}};
   if (query_ray(world, sight, {&hit, 1}, report) != Status::ok || report.hits == 0) return 1;
   printf("in sight: body %u at %.2f m\n", hit.body.slot, 16 * fraction_to_host(hit.fraction));
 
@@ -49,8 +49,8 @@ int main() {
   // How far a rotating crate can be thrown before it hits the wall.
   const CastQuery crate = {.shape = box({0.3, 0.2, 0.4}),
                            .position = {0.0, 1.0, 1.0},
-                           .way = {8.0, 0.0, 0.0},
-                           .turn = {0.0, 0.0, 5.0},
+                           .displacement = {8.0, 0.0, 0.0},
+                           .rotation_vector = {0.0, 0.0, 5.0},
                            .filter = {.mask = k_wall}};
   if (query_cast(world, crate, {&hit, 1}, report) != Status::ok || report.hits == 0) return 1;
   printf("the crate meets body %u after %.2f m, normal (%.1f, %.1f, %.1f)\n", hit.body.slot,
@@ -62,7 +62,7 @@ int main() {
   if (query_overlap(world, blast, {hits, 4}, report) != Status::ok) return 1;
   printf("the blast reaches %u bodies\n", report.hits);
   const ClosestQuery nearest = {
-      .shape = sphere(0.0), .position = {7.0, 3.0, 0.0}, .reach = 8.0, .filter = {.mask = k_guard}};
+      .shape = sphere(0.0), .position = {7.0, 3.0, 0.0}, .distance_max = 8.0, .filter = {.mask = k_guard}};
   if (query_closest(world, nearest, {&hit, 1}, report) != Status::ok || report.hits == 0) return 1;
   printf("the nearest guard is %.2f m away\n", real_to_host(hit.distance));
 }

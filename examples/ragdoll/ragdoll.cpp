@@ -96,16 +96,18 @@ Status make(World& world, const Position& feet, Ragdoll& ragdoll) {
   return Status::ok;
 }
 
-Status throw_figure(World& world, const Ragdoll& ragdoll, const Vec3<Real>& turn, const Vec3<Real>& velocity) {
+Status throw_figure(World& world, const Ragdoll& ragdoll, const Vec3<Real>& rotation_vector,
+                    const Vec3<Real>& linear_velocity) {
   Pose middle;
   if (const Status status = get_pose(world, ragdoll.part[k_middle], middle); status != Status::ok) return status;
-  const Pose before = {middle.position, k_upright}, after = {middle.position, turned_by(k_upright, turn)};
+  const Pose before = {middle.position, k_upright}, after = {middle.position, rotated_by(k_upright, rotation_vector)};
   for (const BodyId part : ragdoll.part) {
     Pose pose;
     Status status = get_pose(world, part, pose);
     const Vec3<Real> arm = vector_to_world(after.rotation, to_local(before, pose.position));
-    if (status == Status::ok) status = set_pose(world, part, to_world(before, arm), turned_by(pose.rotation, turn));
-    if (status == Status::ok) status = set_velocity(world, part, velocity, {Real(0.0), Real(0.0), Real(0.0)});
+    if (status == Status::ok)
+      status = set_pose(world, part, to_world(before, arm), rotated_by(pose.rotation, rotation_vector));
+    if (status == Status::ok) status = set_velocity(world, part, linear_velocity, {Real(0.0), Real(0.0), Real(0.0)});
     if (status != Status::ok) return status;
   }
   return Status::ok;

@@ -19,9 +19,10 @@ struct Ragdoll {
 /// Errors: those of create_body and create_joint.
 Status make(World& world, const Position& feet, Ragdoll& ragdoll);
 
-/// Rotates the figure about its hips by the rotation vector `turn`, rad, and sets the velocity of all its parts, m/s.
-/// Errors: bad_id, out_of_range.
-Status throw_figure(World& world, const Ragdoll& ragdoll, const Vec3<Real>& turn, const Vec3<Real>& velocity);
+/// Rotates the figure about its hips by the rotation vector `rotation_vector`, rad, and sets the velocity of all its
+/// parts, m/s. Errors: bad_id, out_of_range.
+Status throw_figure(World& world, const Ragdoll& ragdoll, const Vec3<Real>& rotation_vector,
+                    const Vec3<Real>& linear_velocity);
 
 }  // namespace ragdoll
 }  // namespace DETENT_NAMESPACE

@@ -74,19 +74,19 @@ uint8_t Keyboard::input() {
   for (char key = 0; is_terminal_ && read(STDIN_FILENO, &key, 1) == 1;) {
     switch (key) {
       case 'w':
-        way_ = pitch::k_far;
+        displacement_ = pitch::k_far;
         break;
       case 's':
-        way_ = pitch::k_near;
+        displacement_ = pitch::k_near;
         break;
       case 'a':
-        way_ = pitch::k_left;
+        displacement_ = pitch::k_left;
         break;
       case 'd':
-        way_ = pitch::k_right;
+        displacement_ = pitch::k_right;
         break;
       case 'x':
-        way_ = 0;
+        displacement_ = 0;
         break;
       case ' ':
         once = pitch::k_throw;
@@ -95,7 +95,7 @@ uint8_t Keyboard::input() {
         break;
     }
   }
-  return way_ | once;
+  return displacement_ | once;
 }
 
 }  // namespace detent_rollback

@@ -24,7 +24,7 @@ class Keyboard {
  private:
   termios before_ = {};
   bool is_terminal_;
-  uint8_t way_ = 0;
+  uint8_t displacement_ = 0;
 };
 
 }  // namespace detent_rollback

@@ -84,7 +84,7 @@ Status steer(World& world, const Vehicle& vehicle, Real angle) {
   Status status = Status::ok;
   for (uint32_t i = 0; i < 2 && status == Status::ok; ++i) {
     JointDef turned = vehicle.straight[i];
-    turned.frame_a = turned_by(turned.frame_a, {Real(0.0), angle, Real(0.0)});
+    turned.frame_a = rotated_by(turned.frame_a, {Real(0.0), angle, Real(0.0)});
     status = set_joint(world, vehicle.joint[i], turned);
   }
   return status;

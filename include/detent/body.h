@@ -35,20 +35,20 @@ struct Material {
 /// Bits for the body axes about which a dynamic body cannot rotate, as if its inertia about them were infinite. Combine
 /// with |. Angular velocity about a locked axis is removed. If two axes are locked, the third keeps its direction in
 /// the world: to keep a figure upright, lock x and z.
-inline constexpr uint32_t k_turn_lock_x = 1;
-inline constexpr uint32_t k_turn_lock_y = 2;     ///< as k_turn_lock_x, for the y axis
-inline constexpr uint32_t k_turn_lock_z = 4;     ///< as k_turn_lock_x, for the z axis
-inline constexpr uint32_t k_turn_locks_all = 7;  ///< no rotation at all
+inline constexpr uint32_t k_rotation_lock_x = 1;
+inline constexpr uint32_t k_rotation_lock_y = 2;     ///< as k_rotation_lock_x, for the y axis
+inline constexpr uint32_t k_rotation_lock_z = 4;     ///< as k_rotation_lock_x, for the z axis
+inline constexpr uint32_t k_rotation_locks_all = 7;  ///< no rotation at all
 
 /// The properties of a body that `create_body` makes. Every field has a working default.
 struct BodyDef {
   /// How the body moves; a half-space or a terrain (a mesh or height field) must be fixed or kinematic.
   BodyType type = BodyType::dynamic;
-  Position position = {0.0, 0.0, 0.0};    ///< of the centre of mass, m, world
-  Quat rotation = {0.0, 0.0, 0.0, 1.0};   ///< local to world; length 1 within 2^-10, normalised on entry
-  Vec3<Real> velocity = {0.0, 0.0, 0.0};  ///< m/s, world; each component within +-16384
+  Position position = {0.0, 0.0, 0.0};           ///< of the centre of mass, m, world
+  Quat rotation = {0.0, 0.0, 0.0, 1.0};          ///< local to world; length 1 within 2^-10, normalised on entry
+  Vec3<Real> linear_velocity = {0.0, 0.0, 0.0};  ///< m/s, world; each component within +-16384
   /// Angular velocity, rad/s, world; each component x bounding radius within +-16384 m/s.
-  Vec3<Real> spin = {0.0, 0.0, 0.0};
+  Vec3<Real> angular_velocity = {0.0, 0.0, 0.0};
   /// In the body's frame, whose origin is the centre of mass.
   Shape shape = {};
   /// Applies to the whole surface of the body.
@@ -60,12 +60,12 @@ struct BodyDef {
   Scaled density = 1000.0;
   /// kg, [2^-60, 2^60]; or 0: computed from the density. A body that is not dynamic stores it for a later set_type().
   Scaled mass = 0.0;
-  Real linear_damping = 0.0;   ///< 1/s, [0, 1024]
-  Real angular_damping = 0.0;  ///< 1/s, [0, 1024]
-  Real gravity_scale = 1.0;    ///< factor on the world's gravity, [-1024, 1024]
-  uint32_t user_data = 0;      ///< stored, digested and recorded; only filter rules read it
-  uint32_t turn_locks = 0;     ///< k_turn_lock_x, ...: body axes about which the body cannot rotate
-  Filter filter = {};          ///< what it collides with
+  Real linear_damping = 0.0;    ///< 1/s, [0, 1024]
+  Real angular_damping = 0.0;   ///< 1/s, [0, 1024]
+  Real gravity_scale = 1.0;     ///< factor on the world's gravity, [-1024, 1024]
+  uint32_t user_data = 0;       ///< stored, digested and recorded; only filter rules read it
+  uint32_t rotation_locks = 0;  ///< k_rotation_lock_x, ...: body axes about which the body cannot rotate
+  Filter filter = {};           ///< what it collides with
   /// A sensor has no contact forces, and queries and movers ignore it. It reports the bodies within it (sensor.h).
   bool sensor = false;
 };

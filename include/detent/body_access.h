@@ -21,8 +21,8 @@ Status get_material(const World& world, BodyId id, Material& material);
 Status get_damping(const World& world, BodyId id, Real& linear, Real& angular);
 /// BodyDef::gravity_scale.
 Status get_gravity_scale(const World& world, BodyId id, Real& scale);
-/// BodyDef::turn_locks.
-Status get_turn_locks(const World& world, BodyId id, uint32_t& locks);
+/// BodyDef::rotation_locks.
+Status get_rotation_locks(const World& world, BodyId id, uint32_t& locks);
 /// BodyDef::sensor.
 Status get_sensor(const World& world, BodyId id, bool& sensor);
 /// The moments of inertia about the body's axes, kg m^2; 0 for fixed and kinematic bodies and about locked axes.
@@ -48,7 +48,7 @@ Status set_mass(World& world, BodyId id, Scaled mass);
 /// Sets the moments of inertia about the body's axes, kg m^2, in place of those of its shape. Range: [2^-15 mass r^2,
 /// mass r^2], where r is the power of two, m, above the bounding radius and at most twice that radius. The value about
 /// a locked axis has no effect, but must be in (0, mass r^2]. The angular velocity stays. set_mass() scales the moments
-/// with the mass; set_shape(), set_type() and set_turn_locks() restore those of the shape.
+/// with the mass; set_shape(), set_type() and set_rotation_locks() restore those of the shape.
 /// Errors: bad_argument (the body is not dynamic), out_of_range.
 Status set_inertia(World& world, BodyId id, const Vec3<Scaled>& inertia);
 /// As set_mass(), with the mass of the shape's volume at `density`, kg/m^3, [2^-60, 2^60].
@@ -60,9 +60,9 @@ Status set_material(World& world, BodyId id, const Material& material);
 Status set_damping(World& world, BodyId id, Real linear, Real angular);
 /// BodyDef::gravity_scale, [-1024, 1024]. Errors: out_of_range.
 Status set_gravity_scale(World& world, BodyId id, Real scale);
-/// BodyDef::turn_locks. The angular velocity about the other axes stays. An inertia set by set_inertia() is replaced by
-/// that of the shape. Errors: bad_argument (other bits than those of k_turn_locks_all).
-Status set_turn_locks(World& world, BodyId id, uint32_t locks);
+/// BodyDef::rotation_locks. The angular velocity about the other axes stays. An inertia set by set_inertia() is
+/// replaced by that of the shape. Errors: bad_argument (other bits than those of k_rotation_locks_all).
+Status set_rotation_locks(World& world, BodyId id, uint32_t locks);
 /// BodyDef::sensor. A change ends the body's contacts at once and removes it from the stored sensor overlaps, as a
 /// sensor and as a sensed body; no leave events are written for that. Errors: pool_full (Capacity::sensed is 0),
 /// feature_missing.

@@ -28,8 +28,8 @@ struct ContactManifold {
   ManifoldPoint point[k_contact_points_max];  ///< the first `count` are in use
 };
 
-/// Finds the contact manifold of two convex shapes that overlap, or whose distance is at most `reach`, m (the search
-/// distance): the normal, and up to four points of the contact area. Without contact, `manifold` has no points.
+/// Finds the contact manifold of two convex shapes that overlap, or whose distance is at most `distance_max`, m (the
+/// search distance): the normal, and up to four points of the contact area. Without contact, `manifold` has no points.
 ///
 /// The contact axis is the direction between the closest points or, if the cores overlap, the direction of the least
 /// translation that separates them. The normal is this axis, except that the normal of a face replaces it in three
@@ -49,7 +49,7 @@ struct ContactManifold {
 ///
 /// Precision: as closest_points(). Errors: bad_argument for two half-spaces; not_normalised; out_of_range for reach < 0
 /// and NaN, and as closest_points() for a half-space.
-Status contact_points(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Real reach,
+Status contact_points(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Real distance_max,
                       ContactManifold& manifold, DistanceCache* cache = nullptr,
                       ManifoldReduction reduction = ManifoldReduction::projected_extremes);
 

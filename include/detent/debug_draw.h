@@ -7,14 +7,14 @@ inline namespace DETENT_NAMESPACE {
 
 /// The kind of an object to draw, from which the caller chooses its colour.
 enum class DrawKind : uint32_t {
-  fixed,      ///< a fixed body
-  kinematic,  ///< a kinematic body
-  awake,      ///< a dynamic body that takes part in the next step
-  asleep,     ///< a dynamic body that sleeps
-  bounds,     ///< an edge of a body's bounds
-  contact,    ///< a contact point
-  normal,     ///< the normal at a contact point
-  velocity,   ///< the velocity of a body
+  fixed,            ///< a fixed body
+  kinematic,        ///< a kinematic body
+  awake,            ///< a dynamic body that takes part in the next step
+  asleep,           ///< a dynamic body that sleeps
+  bounds,           ///< an edge of a body's bounds
+  contact,          ///< a contact point
+  normal,           ///< the normal at a contact point
+  linear_velocity,  ///< the velocity of a body
 };
 
 /// The caller's drawing functions. A null function is not called.

@@ -43,10 +43,10 @@ Status closest_points(const Convex& a, const Pose& pose_a, const Convex& b, cons
 Status overlap(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, bool& result,
                DistanceCache* cache = nullptr);
 
-/// Whether the shapes are farther apart than `reach`, m. True is certain; false may be wrong by k_distance_error.
-/// Errors: as closest_points(), and out_of_range for reach < 0.
-Status farther_than(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Real reach, bool& result,
-                    DistanceCache* cache = nullptr);
+/// Whether the shapes are farther apart than `distance_max`, m. True is certain; false may be wrong by
+/// k_distance_error. Errors: as closest_points(), and out_of_range for reach < 0.
+Status farther_than(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Real distance_max,
+                    bool& result, DistanceCache* cache = nullptr);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

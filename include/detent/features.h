@@ -25,7 +25,7 @@ enum class Features : uint32_t {
   cylinder = 1u << static_cast<uint32_t>(ShapeType::cylinder),
   cone = 1u << static_cast<uint32_t>(ShapeType::cone),
   hull = 1u << static_cast<uint32_t>(ShapeType::hull),
-  surface = 1u << static_cast<uint32_t>(ShapeType::surface),
+  terrain = 1u << static_cast<uint32_t>(ShapeType::terrain),
   compound = 1u << static_cast<uint32_t>(ShapeType::compound),
   /// @}
   rounding = 1u << 16,    ///< rounded boxes, cylinders, cones and hulls
@@ -34,7 +34,7 @@ enum class Features : uint32_t {
   joints = 1u << 19,      ///< create_joint()
   sensors = 1u << 20,     ///< BodyDef::sensor
   /// All shapes.
-  shapes = sphere | capsule | box | half_space | cylinder | cone | hull | surface | compound | rounding,
+  shapes = sphere | capsule | box | half_space | cylinder | cone | hull | terrain | compound | rounding,
   /// The default of create_world().
   all = shapes | continuous | sleeping | joints | sensors,
 };
@@ -62,9 +62,9 @@ struct PairOps;
 struct HalfSpaceOps;
 struct ConvexOps;
 struct HullOps;
-struct SurfaceOps;
-struct SurfaceImpactOps;
-struct SurfaceDistanceOps;
+struct TerrainOps;
+struct TerrainImpactOps;
+struct TerrainDistanceOps;
 struct CompoundOps;
 struct CompoundImpactOps;
 struct ContinuousOps;
@@ -72,14 +72,14 @@ struct SleepingOps;
 struct JointOps;
 struct SensorOps;
 extern const ShapeOps k_sphere_ops, k_capsule_ops, k_box_ops, k_half_space_shape_ops, k_cylinder_ops, k_cone_ops,
-    k_hull_shape_ops, k_surface_shape_ops, k_compound_shape_ops;
+    k_hull_shape_ops, k_terrain_shape_ops, k_compound_shape_ops;
 extern const PairOps k_round_pair_ops, k_box_round_pair_ops, k_box_pair_ops;
 extern const HalfSpaceOps k_half_space_ops;
 extern const ConvexOps k_convex_ops;
 extern const HullOps k_hull_ops;
-extern const SurfaceOps k_surface_ops;
-extern const SurfaceImpactOps k_surface_impact_ops;
-extern const SurfaceDistanceOps k_surface_distance_ops;
+extern const TerrainOps k_terrain_ops;
+extern const TerrainImpactOps k_terrain_impact_ops;
+extern const TerrainDistanceOps k_terrain_distance_ops;
 extern const CompoundOps k_compound_ops;
 extern const CompoundImpactOps k_compound_impact_ops;
 extern const ContinuousOps k_continuous_ops;
@@ -93,15 +93,15 @@ extern const SensorOps k_sensor_ops;
 struct FeatureTable {
   Features features;  ///< the features that are linked
   /// @cond
-  const ShapeOps *sphere, *capsule, *box, *half_space_shape, *cylinder, *cone, *hull_shape, *surface_shape,
+  const ShapeOps *sphere, *capsule, *box, *half_space_shape, *cylinder, *cone, *hull_shape, *terrain_shape,
       *compound_shape;
   const PairOps *round_pair, *box_round_pair, *box_pair;
   const HalfSpaceOps* half_space;
   const ConvexOps* convex;  ///< pairs in which a shape is a cylinder, cone, hull or rounded
   const HullOps* hull;
-  const SurfaceOps* surface;
-  const SurfaceImpactOps* surface_impact;
-  const SurfaceDistanceOps* surface_distance;
+  const TerrainOps* terrain;
+  const TerrainImpactOps* terrain_impact;
+  const TerrainDistanceOps* terrain_distance;
   const CompoundOps* compound;
   const CompoundImpactOps* compound_impact;  ///< compounds with continuous collision or sensors
   const ContinuousOps* continuous;
@@ -124,7 +124,7 @@ constexpr FeatureTable make_feature_table(Features features) {
   if (any(Features::cylinder)) table.cylinder = &k_cylinder_ops;
   if (any(Features::cone)) table.cone = &k_cone_ops;
   if (any(Features::hull)) table.hull_shape = &k_hull_shape_ops;
-  if (any(Features::surface)) table.surface_shape = &k_surface_shape_ops;
+  if (any(Features::terrain)) table.terrain_shape = &k_terrain_shape_ops;
   if (any(Features::compound)) table.compound_shape = &k_compound_shape_ops;
   if (round) table.round_pair = &k_round_pair_ops;
   if (box && round) table.box_round_pair = &k_box_round_pair_ops;
@@ -132,10 +132,10 @@ constexpr FeatureTable make_feature_table(Features features) {
   if (any(Features::half_space)) table.half_space = &k_half_space_ops;
   if (any(Features::cylinder | Features::cone | Features::hull | Features::rounding)) table.convex = &k_convex_ops;
   if (any(Features::hull)) table.hull = &k_hull_ops;
-  if (any(Features::surface)) table.surface = &k_surface_ops;
-  if (any(Features::surface) && any(Features::continuous | Features::sensors))
-    table.surface_impact = &k_surface_impact_ops;
-  if (any(Features::surface) && any(Features::sensors)) table.surface_distance = &k_surface_distance_ops;
+  if (any(Features::terrain)) table.terrain = &k_terrain_ops;
+  if (any(Features::terrain) && any(Features::continuous | Features::sensors))
+    table.terrain_impact = &k_terrain_impact_ops;
+  if (any(Features::terrain) && any(Features::sensors)) table.terrain_distance = &k_terrain_distance_ops;
   if (any(Features::compound)) table.compound = &k_compound_ops;
   if (any(Features::compound) && any(Features::continuous | Features::sensors))
     table.compound_impact = &k_compound_impact_ops;

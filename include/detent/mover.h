@@ -54,7 +54,7 @@ inline constexpr uint32_t k_mover_contacts_max = 8;
 struct MoverReport {
   Vec3<Real> carried = {};        ///< displacement by the motion of the ground, m, world
   Vec3<Real> recovered = {};      ///< displacement out of overlaps and gaps that are too small, m, world
-  Vec3<Real> moved = {};          ///< displacement made for `way`, steps and slopes included, m, world
+  Vec3<Real> moved = {};          ///< displacement made for `displacement`, steps and slopes included, m, world
   bool on_ground = false;         ///< it stands on a floor
   bool stepped = false;           ///< it climbed a step
   Vec3<Unit> ground_normal = {};  ///< of the ground, or of a step's edge, world
@@ -70,9 +70,9 @@ struct MoverReport {
   MoverContact contacts[k_mover_contacts_max] = {};
 };
 
-/// Moves `mover` by `way`, m, world: the desired displacement for this tick, each component within 2^8. Its part along
-/// up is falling and jumping, which the caller integrates. Call it once a tick, after step(), so that the mover follows
-/// ground that moved.
+/// Moves `mover` by `displacement`, m, world: the desired displacement for this tick, each component within 2^8. Its
+/// part along up is falling and jumping, which the caller integrates. Call it once a tick, after step(), so that the
+/// mover follows ground that moved.
 ///
 ///  - First the mover moves with the point of the ground that it stands on, and then out of bodies that overlap it.
 ///  - Then the horizontal part of the displacement is applied: full length over floors (measured horizontally), sliding
@@ -86,7 +86,7 @@ struct MoverReport {
 /// however fast it is. An undecided hit stops the mover, and is counted. Precision: that of the queries, and one step
 /// of a position for each motion. Errors: out_of_range, not_normalised, feature_missing (capsules); then nothing
 /// changes.
-Status move_mover(const World& world, const MoverSettings& settings, const Vec3<Real>& way, Mover& mover,
+Status move_mover(const World& world, const MoverSettings& settings, const Vec3<Real>& displacement, Mover& mover,
                   MoverReport& report);
 
 /// Bytes of a saved mover.

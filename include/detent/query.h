@@ -12,7 +12,7 @@
 /// the narrow phase reaches an iteration cap, or cannot test a body, the body is still reported as a hit, marked
 /// `undecided`: its fraction or distance is a lower bound, before which the body is certainly not hit.
 ///
-/// A terrain (surface()) gives one hit: its first or nearest triangle, at equal values the one with the lower index. A
+/// A terrain (terrain()) gives one hit: its first or nearest triangle, at equal values the one with the lower index. A
 /// one-sided terrain is not hit from behind.
 ///
 /// Errors of all queries: out_of_range, not_normalised; for shapes as create_body(). Outputs are then untouched.
@@ -36,7 +36,7 @@ struct QueryHit {
   Real distance = 0.0;      ///< query_closest(): the distance of the surfaces, m; 0 where they overlap
   Position point = {};      ///< on the body's surface, m, world; 0 from query_bounds()
   Vec3<Unit> normal = {};   ///< of the body there, outward, world; 0 where the cores overlap, and from query_bounds()
-  /// The triangle that is hit, if the body is a terrain (surface() in shape.h); else, and from query_bounds(),
+  /// The triangle that is hit, if the body is a terrain (terrain() in shape.h); else, and from query_bounds(),
   /// UINT32_MAX.
   uint32_t triangle = UINT32_MAX;
   uint32_t material = 0;  ///< the material of that triangle, as cooked
@@ -56,24 +56,24 @@ struct QueryReport {
   uint64_t digest = 0;     ///< a hash of all hits, written or dropped
 };
 
-/// A ray: the straight segment from `origin` to `origin + way`.
+/// A ray: the straight segment from `origin` to `origin + displacement`.
 struct RayQuery {
-  Position origin = {0.0, 0.0, 0.0};  ///< m, world
-  Vec3<Real> way = {0.0, 0.0, 0.0};   ///< displacement, m, world; each component within 2^14
-  QueryFilter filter = {};            ///< the bodies that it tests
-  bool all = false;                   ///< true: find every body that the ray hits; false: only the first
+  Position origin = {0.0, 0.0, 0.0};          ///< m, world
+  Vec3<Real> displacement = {0.0, 0.0, 0.0};  ///< displacement, m, world; each component within 2^14
+  QueryFilter filter = {};                    ///< the bodies that it tests
+  bool all = false;                           ///< true: find every body that the ray hits; false: only the first
 };
 
 /// A moving shape: straight at constant velocity, rotating at a constant rate about a constant axis. `shape`: as of a
 /// body, or a sphere of radius 0, which is a point; not a half-space, terrain or compound.
 struct CastQuery {
-  Shape shape = {};                      ///< as of a body, or a point
-  Position position = {0.0, 0.0, 0.0};   ///< at the start, m, world
-  Quat rotation = {0.0, 0.0, 0.0, 1.0};  ///< at the start, local to world
-  Vec3<Real> way = {0.0, 0.0, 0.0};      ///< displacement, m, world; each component within 2^14
-  Vec3<Real> turn = {0.0, 0.0, 0.0};     ///< rotation vector, world, rad; |turn| <= 2^16
-  QueryFilter filter = {};               ///< the bodies that it tests
-  bool all = false;                      ///< true: find every body that the shape hits; false: only the first
+  Shape shape = {};                              ///< as of a body, or a point
+  Position position = {0.0, 0.0, 0.0};           ///< at the start, m, world
+  Quat rotation = {0.0, 0.0, 0.0, 1.0};          ///< at the start, local to world
+  Vec3<Real> displacement = {0.0, 0.0, 0.0};     ///< displacement, m, world; each component within 2^14
+  Vec3<Real> rotation_vector = {0.0, 0.0, 0.0};  ///< rotation vector, world, rad; |turn| <= 2^16
+  QueryFilter filter = {};                       ///< the bodies that it tests
+  bool all = false;                              ///< true: find every body that the shape hits; false: only the first
 };
 
 /// A shape at rest; shapes as in CastQuery.
@@ -99,9 +99,9 @@ struct ClosestQuery {
   Shape shape = {};                      ///< as of a body, or a point
   Position position = {0.0, 0.0, 0.0};   ///< m, world
   Quat rotation = {0.0, 0.0, 0.0, 1.0};  ///< local to world
-  Real reach = 16.0;                     ///< search distance between the surfaces, m, [0, 2^14]
+  Real distance_max = 16.0;              ///< search distance between the surfaces, m, [0, 2^14]
   QueryFilter filter = {};               ///< the bodies that it tests
-  bool all = false;                      ///< true: find every body within `reach`; false: only the nearest
+  bool all = false;                      ///< true: find every body within `distance_max`; false: only the nearest
 };
 
 /// Finds the bodies that the ray hits. A body that contains the origin is hit at fraction 0. No ray passes between the

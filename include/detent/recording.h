@@ -125,7 +125,7 @@ class Recorder {
   Status create_body(const BodyDef& def, BodyId& id);
   Status destroy_body(BodyId id);
   Status set_pose(BodyId id, const Position& position, const Quat& rotation);
-  Status set_velocity(BodyId id, const Vec3<Real>& velocity, const Vec3<Real>& spin);
+  Status set_velocity(BodyId id, const Vec3<Real>& velocity, const Vec3<Real>& angular_velocity);
   Status apply_force(BodyId id, const Vec3<Scaled>& force);
   Status apply_torque(BodyId id, const Vec3<Scaled>& torque);
   Status apply_impulse(BodyId id, const Vec3<Scaled>& impulse);
@@ -148,7 +148,7 @@ class Recorder {
   Status set_material(BodyId id, const Material& material);
   Status set_damping(BodyId id, Real linear, Real angular);
   Status set_gravity_scale(BodyId id, Real scale);
-  Status set_turn_locks(BodyId id, uint32_t locks);
+  Status set_rotation_locks(BodyId id, uint32_t locks);
   Status set_sensor(BodyId id, bool sensor);
   Status set_settings(const WorldDef& def);
   Status apply_force_at(BodyId id, const Vec3<Scaled>& force, const Vec3<Real>& arm);

@@ -16,7 +16,7 @@ enum class ShapeType : uint32_t {
   cone = 6,        ///< cone()
   hull = 7,        ///< hull(): a cooked asset of the world; or made by make_hull() (convex.h)
   triangle = 8,    ///< made by make_triangle() (convex.h)
-  surface = 9,     ///< surface()
+  terrain = 9,     ///< terrain()
   compound = 10,   ///< compound()
 };
 
@@ -88,9 +88,9 @@ constexpr Shape rounded(Shape shape, Real rounding) {
 /// after bind_asset() has bound it; for fixed and kinematic bodies only. Its origin is the body's. A terrain has no
 /// inside: a body that ends up behind it is pushed out on that side; behind a one-sided terrain it is not pushed at
 /// all.
-constexpr Shape surface(uint32_t asset) {
+constexpr Shape terrain(uint32_t asset) {
   Shape shape;
-  shape.type = ShapeType::surface;
+  shape.type = ShapeType::terrain;
   shape.asset = asset;
   return shape;
 }

@@ -11,7 +11,7 @@ inline namespace DETENT_NAMESPACE {
 struct Motion {
   Pose start = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}};  ///< at the beginning of the step
   Vec3<Real> displacement = {};                          ///< m over the step; each component within 2^14
-  Vec3<Real> turn = {};                                  ///< rotation vector over the step, rad; |turn| <= 2^16
+  Vec3<Real> rotation_vector = {};                       ///< rotation vector over the step, rad; |turn| <= 2^16
 };
 
 /// The result for a step.

@@ -16,8 +16,9 @@ Vec3<Real> to_local(const Pose& pose, const Position& point);
 Vec3<Real> vector_to_world(const Quat& rotation, const Vec3<Real>& vector);
 /// Transforms a vector from the world's axes to the body's.
 Vec3<Real> vector_to_local(const Quat& rotation, const Vec3<Real>& vector);
-/// `rotation` followed by the rotation vector `turn`: |turn| rad about the direction of `turn`, world. Of length 1.
-Quat turned_by(const Quat& rotation, const Vec3<Real>& turn);
+/// `rotation` followed by the rotation vector `rotation_vector`: |turn| rad about the direction of `rotation_vector`,
+/// world. Of length 1.
+Quat rotated_by(const Quat& rotation, const Vec3<Real>& rotation_vector);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

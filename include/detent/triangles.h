@@ -1,7 +1,7 @@
 #pragma once
 #include <detent/world.h>
 
-/// The triangles of bodies whose shape is a terrain (surface() in shape.h), for drawing. Not linked unless called; only
+/// The triangles of bodies whose shape is a terrain (terrain() in shape.h), for drawing. Not linked unless called; only
 /// reads the world.
 namespace detent {
 inline namespace DETENT_NAMESPACE {

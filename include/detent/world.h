@@ -24,7 +24,7 @@ struct Capacity {
   uint32_t bodies = 0;    ///< at least 1
   uint32_t contacts = 0;  ///< one for a pair of convex bodies, up to 8 for a pair with a terrain or compound
   uint32_t assets = 0;    ///< assets that can be bound
-  /// Room to recycle contact points (WorldDef::reuse); takes 160 bytes a contact (f64: 272).
+  /// Room to recycle contact points (WorldDef::contact_recycle_distance); takes 160 bytes a contact (f64: 272).
   bool manifolds = true;
   uint32_t joints = 0;  ///< joints
   uint32_t sensed = 0;  ///< pairs of a sensor and a body within it; 0: no sensors
@@ -63,8 +63,8 @@ struct WorldDef {
   uint32_t convergence = 12;
   /// How the solver corrects penetration.
   Stabilisation stabilisation = Stabilisation::soft;
-  Real relaxation = 1.0;        ///< over-relaxation factor of the SOR solver, [1/4, 7/4]
-  Real stiffness = Real(0.14);  ///< frequency of soft contacts as a fraction of the substep rate, [1/64, 1/4]
+  Real relaxation = 1.0;                ///< over-relaxation factor of the SOR solver, [1/4, 7/4]
+  Real contact_frequency = Real(0.14);  ///< frequency of soft contacts as a fraction of the substep rate, [1/64, 1/4]
   /// Damping ratio of soft contacts, [0, 64]. Contacts between two dynamic bodies use 0.7 of it, all others half of it.
   Real damping_ratio = 10.0;
   /// Approach speed below which a contact does not rebound, as a multiple of sqrt(g x smaller extent); [0, 64].
@@ -73,10 +73,10 @@ struct WorldDef {
   bool sleeping = true;    ///< islands at rest fall asleep: steps skip them until something wakes them
   /// Contact margin (breaking distance) of a pair at rest, as a fraction of its smaller extent, [2^-10, 2^-4]: surfaces
   /// that are closer have contact points. A step adds the distance that the pair can close in a tick.
-  Real breaking = Real(1.0 / 64);
+  Real contact_margin = Real(1.0 / 64);
   /// A pair's contact points are recycled until the pair has moved by more than this fraction of its smaller extent
   /// since they were computed; [0, 1/64]. Counts as 0 if the capacity has no room for manifolds.
-  Real reuse = Real(1.0 / 256);
+  Real contact_recycle_distance = Real(1.0 / 256);
   ManifoldReduction reduction = ManifoldReduction::projected_extremes;  ///< which of more than four points are kept
 };
 
@@ -104,19 +104,19 @@ struct World {
 
 /// The counts of one step. Every count is of this step alone.
 struct StepReport {
-  uint64_t tick = 0;              ///< ticks completed since the world was created
-  uint32_t bodies = 0;            ///< bodies in the world
-  uint32_t awake = 0;             ///< dynamic bodies that took part in the step
-  uint32_t islands = 0;           ///< groups of awake bodies that contacts or joints connect; a single body counts
-  uint32_t substeps_max = 0;      ///< the largest number of substeps of any island
-  uint32_t fell_asleep = 0;       ///< bodies that fell asleep at the end of the step
-  uint32_t woke = 0;              ///< sleeping bodies that contacts, joints or impacts woke in the step
-  uint32_t sweeps_saved = 0;      ///< solver iterations skipped because an island converged (WorldDef::convergence)
-  uint32_t pairs = 0;             ///< pairs with overlapping bounds and a moving body; dropped pairs count too
-  uint64_t contact_substeps = 0;  ///< sum over all contacts of their islands' substeps: the work of the solver
-  uint32_t contacts = 0;          ///< contacts of awake bodies, each with at least one contact point
-  uint32_t contact_points = 0;    ///< points of all these contacts, at most four each
-  uint32_t contacts_reused = 0;   ///< contacts whose points were recycled because the pair had hardly moved
+  uint64_t tick = 0;               ///< ticks completed since the world was created
+  uint32_t bodies = 0;             ///< bodies in the world
+  uint32_t awake = 0;              ///< dynamic bodies that took part in the step
+  uint32_t islands = 0;            ///< groups of awake bodies that contacts or joints connect; a single body counts
+  uint32_t substeps_max = 0;       ///< the largest number of substeps of any island
+  uint32_t fell_asleep = 0;        ///< bodies that fell asleep at the end of the step
+  uint32_t woke = 0;               ///< sleeping bodies that contacts, joints or impacts woke in the step
+  uint32_t sweeps_saved = 0;       ///< solver iterations skipped because an island converged (WorldDef::convergence)
+  uint32_t pairs = 0;              ///< pairs with overlapping bounds and a moving body; dropped pairs count too
+  uint64_t contact_substeps = 0;   ///< sum over all contacts of their islands' substeps: the work of the solver
+  uint32_t contacts = 0;           ///< contacts of awake bodies, each with at least one contact point
+  uint32_t contact_points = 0;     ///< points of all these contacts, at most four each
+  uint32_t contacts_recycled = 0;  ///< contacts whose points were recycled because the pair had hardly moved
   /// Pairs whose contact search hit its iteration cap (the normal may not be the direction of least penetration), or
   /// that have no contact because an asset's bytes are missing.
   uint32_t contacts_capped = 0;
@@ -195,9 +195,9 @@ Status destroy_body(World& world, BodyId id);
 /// Moves a body to a pose, m, world, without collision on the way. The body keeps its velocity and wakes.
 /// Errors: bad_id, out_of_range, not_normalised.
 Status set_pose(World& world, BodyId id, const Position& position, const Quat& rotation);
-/// Sets a body's velocity, m/s, and angular velocity `spin`, rad/s, world frame; ranges as in BodyDef. Errors: bad_id,
-/// bad_argument (a fixed body), out_of_range.
-Status set_velocity(World& world, BodyId id, const Vec3<Real>& velocity, const Vec3<Real>& spin);
+/// Sets a body's velocity, m/s, and angular velocity `angular velocity`, rad/s, world frame; ranges as in BodyDef.
+/// Errors: bad_id, bad_argument (a fixed body), out_of_range.
+Status set_velocity(World& world, BodyId id, const Vec3<Real>& velocity, const Vec3<Real>& angular_velocity);
 /// Adds a force, N, world frame, that acts at the centre of mass during the next step.
 /// Errors: bad_id, bad_argument (not dynamic), out_of_range (the resulting speed would leave its range).
 Status apply_force(World& world, BodyId id, const Vec3<Scaled>& force);
@@ -235,9 +235,10 @@ StepReport step(World& world);
 bool is_valid(const World& world, BodyId id);
 /// The pose of a body, m, world. Errors: bad_id.
 Status get_pose(const World& world, BodyId id, Pose& pose);
-/// The velocity of the centre of mass, m/s, and the angular velocity `spin`, rad/s, world frame. Overflow: components
-/// of the angular velocity are clamped to the range of Real, which only bodies below 12 cm can exceed. Errors: bad_id.
-Status get_velocity(const World& world, BodyId id, Vec3<Real>& velocity, Vec3<Real>& spin);
+/// The velocity of the centre of mass, m/s, and the angular velocity `angular velocity`, rad/s, world frame. Overflow:
+/// components of the angular velocity are clamped to the range of Real, which only bodies below 12 cm can exceed.
+/// Errors: bad_id.
+Status get_velocity(const World& world, BodyId id, Vec3<Real>& velocity, Vec3<Real>& angular_velocity);
 /// The mass, kg; 0 for fixed and kinematic bodies. Getters of the other properties: body_access.h, world_access.h.
 /// Errors: bad_id.
 Status get_mass(const World& world, BodyId id, Scaled& mass);

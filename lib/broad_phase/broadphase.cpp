@@ -4,7 +4,7 @@
 #include "broad_phase/bounds_integer.h"
 #include "contact/collide_half_space.h"
 #include "math/bits.h"
-#include "shape/shape_traits.h"
+#include "shape/shape_properties.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -48,7 +48,9 @@ bool are_apart(const BoundsKey& a, const BoundsKey& b) {
   return left != k_across_guards;
 }
 
-bool is_dynamic_type(const BodyTraits& traits) { return traits.type == static_cast<uint32_t>(BodyType::dynamic); }
+bool is_dynamic_type(const BodyProperties& properties) {
+  return properties.type == static_cast<uint32_t>(BodyType::dynamic);
+}
 
 /// Converts a length to steps of a coordinate.
 int64_t steps_of(Real length) {
@@ -78,8 +80,8 @@ uint64_t depth_within(const BodyPose& half_space, const Bounds& box) {
 
 uint64_t DeeperPair::depth(uint64_t key) const {
   const uint32_t low = pair_low(key), high = pair_high(key);
-  if (is_half_space(traits[low])) return depth_within(poses[low], bounds[high]);
-  if (is_half_space(traits[high])) return depth_within(poses[high], bounds[low]);
+  if (is_half_space(properties[low])) return depth_within(poses[low], bounds[high]);
+  if (is_half_space(properties[high])) return depth_within(poses[high], bounds[low]);
   const Bounds &a = bounds[low], &b = bounds[high];
   uint64_t least = UINT64_MAX;
   for (const auto axis : k_axes) {
@@ -98,16 +100,16 @@ bool DeeperPair::operator()(uint64_t a, uint64_t b) const {
 }
 
 void PairPool::consider(uint32_t a, uint32_t b) {
-  if (!is_dynamic_type(traits[a]) && !is_dynamic_type(traits[b])) return;
+  if (!is_dynamic_type(properties[a]) && !is_dynamic_type(properties[b])) return;
   if (!overlap(bounds[a], bounds[b]) || !filter.allows(a, b)) return;
   uint64_t lost;
-  if (found.add(key_of_pair(a, b), lost) && losses != nullptr)
-    losses->add(CapacityEventType::pair, pair_low(lost), pair_high(lost));
+  if (found.add(key_of_pair(a, b), lost) && overflow != nullptr)
+    overflow->add(CapacityEventType::pair, pair_low(lost), pair_high(lost));
 }
 
 /// Sorts by the higher slot and then, stably, by the lower slot. Uses only as many digits as slot numbers have.
 void PairPool::sort() {
-  const int bytes = traits.count <= 256 ? 1 : traits.count <= 65536 ? 2 : 3;
+  const int bytes = properties.count <= 256 ? 1 : properties.count <= 65536 ? 2 : 3;
   radix_sort(
       found.storage.first(found.count), spare,
       [bytes](uint64_t pair, int digit) {
@@ -154,7 +156,7 @@ void find_pairs(Span<const uint32_t> moving, const RestingTree& resting, Span<Bo
     key = {grid[0].cell_of(at.lower.*grid[0].axis),
            grid[0].cell_of(at.upper.*grid[0].axis),
            slot,
-           is_dynamic_type(pool.traits[slot]) ? 1u : 0u,
+           is_dynamic_type(pool.properties[slot]) ? 1u : 0u,
            across(grid[1].cell_of(at.lower.*grid[1].axis), grid[2].cell_of(at.lower.*grid[2].axis)),
            across(grid[1].cell_of(at.upper.*grid[1].axis), grid[2].cell_of(at.upper.*grid[2].axis))};
   }

@@ -1,7 +1,7 @@
 #pragma once
 #include "base/heap.h"
 #include "base/span.h"
-#include "broad_phase/losses.h"
+#include "broad_phase/overflow.h"
 #include "broad_phase/pair_filter.h"
 #include "broad_phase/resting_tree.h"
 
@@ -15,7 +15,7 @@ inline namespace DETENT_NAMESPACE {
 /// coordinate (f64: 2^-20 m).
 struct DeeperPair {
   Span<const BodyPose> poses;
-  Span<const BodyTraits> traits;
+  Span<const BodyProperties> properties;
   Span<const Bounds> bounds;
 
   uint64_t depth(uint64_t key) const;
@@ -24,21 +24,21 @@ struct DeeperPair {
 
 /// The pairs of a step. If there is not room for all, the deepest are kept, whatever the order in which they are added.
 struct PairPool {
-  Span<const BodyTraits> traits;
+  Span<const BodyProperties> properties;
   PairFilter filter;
   Span<const Bounds> bounds;
   Span<uint64_t> spare;  ///< work space as large as the pool
   SmallestOf<uint64_t, DeeperPair> found;
-  Losses* losses = nullptr;  ///< receives the pairs that are not kept; may be null
+  Overflow* overflow = nullptr;  ///< receives the pairs that are not kept; may be null
 
-  PairPool(Span<const BodyPose> body_poses, Span<const BodyTraits> body_traits, Span<const Bounds> body_bounds,
+  PairPool(Span<const BodyPose> body_poses, Span<const BodyProperties> body_properties, Span<const Bounds> body_bounds,
            Span<uint64_t> sort_space, Span<uint64_t> storage, const FilterRuleTable& rules = {},
-           Span<const uint64_t> apart = {})
-      : traits(body_traits),
-        filter{body_traits, rules, apart},
+           Span<const uint64_t> disabled_pairs = {})
+      : properties(body_properties),
+        filter{body_properties, rules, disabled_pairs},
         bounds(body_bounds),
         spare(sort_space),
-        found{storage, {body_poses, body_traits, body_bounds}} {}
+        found{storage, {body_poses, body_properties, body_bounds}} {}
 
   /// The kept pairs; after sort(), in ascending order of key.
   Span<const uint64_t> pairs() const { return found.storage.first(found.count); }

@@ -15,8 +15,8 @@ constexpr bool masks_meet(uint32_t category_a, uint32_t mask_a, uint32_t categor
 }
 
 /// Whether the body can touch or sense no other body, whatever the filters of the others are.
-inline bool is_non_colliding(const BodyTraits& traits) {
-  return traits.group <= 0 && (traits.category == 0 || traits.mask == 0);
+inline bool is_non_colliding(const BodyProperties& properties) {
+  return properties.group <= 0 && (properties.category == 0 || properties.mask == 0);
 }
 
 inline bool has_rule(const FilterRuleTable& table, uint32_t rule) {
@@ -25,25 +25,25 @@ inline bool has_rule(const FilterRuleTable& table, uint32_t rule) {
 
 /// Decides whether two bodies may touch. Sensors never touch. All code that finds pairs uses this test.
 struct PairFilter {
-  Span<const BodyTraits> traits;
+  Span<const BodyProperties> properties;
   FilterRuleTable rules;
-  Span<const uint64_t> apart = {};  ///< pairs whose collision is disabled by joints, ascending
+  Span<const uint64_t> disabled_pairs = {};  ///< pairs whose collision is disabled by joints, ascending
 
   bool allows(uint32_t slot_a, uint32_t slot_b) const {
-    return (traits[slot_a].sensor | traits[slot_b].sensor) == 0 && lets_through(slot_a, slot_b);
+    return (properties[slot_a].sensor | properties[slot_b].sensor) == 0 && lets_through(slot_a, slot_b);
   }
   /// Whether filters and joints allow the two bodies to interact. One of them may be a sensor.
   bool lets_through(uint32_t slot_a, uint32_t slot_b) const {
-    const BodyTraits &a = traits[slot_a], &b = traits[slot_b];
+    const BodyProperties &a = properties[slot_a], &b = properties[slot_b];
     const bool grouped = a.group != 0 && a.group == b.group;
     if (grouped ? a.group < 0 : !masks_meet(a.category, a.mask, b.category, b.mask)) return false;
-    if (apart.count != 0 && has_pair(apart, key_of_pair(slot_a, slot_b))) return false;
+    if (disabled_pairs.count != 0 && has_pair(disabled_pairs, key_of_pair(slot_a, slot_b))) return false;
     return (a.rule | b.rule) == 0 || (rule_allows(a, b) && rule_allows(b, a));
   }
 
  private:
   /// A rule that is not in the table forbids nothing; create_body(), set_filter() and load() reject such rules.
-  bool rule_allows(const BodyTraits& own, const BodyTraits& other) const {
+  bool rule_allows(const BodyProperties& own, const BodyProperties& other) const {
     if (own.rule == 0 || !has_rule(rules, own.rule)) return true;
     return rules.rules[own.rule - 1]({own.user_data, filter_of(own)}, {other.user_data, filter_of(other)});
   }

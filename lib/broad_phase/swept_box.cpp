@@ -28,34 +28,35 @@ int64_t rounded_up(int64_t raw, int bits) { return (raw + (int64_t{1} << bits) -
 
 }  // namespace
 
-SweptBox::SweptBox(const Position& centre, const Vec64& half, const Vec64& way, int64_t reach) {
-  const uint64_t largest = magnitudes(half) | magnitudes(way) | static_cast<uint64_t>(reach);
+SweptBox::SweptBox(const Position& centre, const Vec64& half, const Vec64& displacement, int64_t distance_max) {
+  const uint64_t largest = magnitudes(half) | magnitudes(displacement) | static_cast<uint64_t>(distance_max);
   const int length = bit_length_64(largest) + 1;  // + 1: for the sum of two lengths
   cell_bits_ = length - k_cells_bits > k_grain_bits ? length - k_cells_bits : k_grain_bits;
   grain_shift_ = cell_bits_ - k_grain_bits;
-  const int64_t ways[3] = {way.x, way.y, way.z}, halves[3] = {half.x, half.y, half.z};
+  const int64_t displacements[3] = {displacement.x, displacement.y, displacement.z},
+                halves[3] = {half.x, half.y, half.z};
   int widest = 0;
   int64_t tolerance = 0;  // 2^-k_tolerance_bits of the largest diameter
   for (const int64_t side : halves)
     tolerance = side >> (k_tolerance_bits - 1) > tolerance ? side >> (k_tolerance_bits - 1) : tolerance;
   for (int i = 0; i < 3; ++i) {
     centre_[i] = grains_of(centre.*k_axes[i]);
-    way_[i] = static_cast<int32_t>(ways[i] >> cell_bits_);
-    // + 1: for the rounding of way_
+    displacement_[i] = static_cast<int32_t>(displacements[i] >> cell_bits_);
+    // + 1: for the rounding of displacement_
     half_[i] = static_cast<int32_t>(rounded_up(halves[i] + tolerance, cell_bits_) + 1);
-    if (magnitude_64(ways[i]) > magnitude_64(ways[widest])) widest = i;
+    if (magnitude_64(displacements[i]) > magnitude_64(displacements[widest])) widest = i;
   }
   axis_ = k_axes[widest];
-  forward_ = ways[widest] > 0;
+  forward_ = displacements[widest] > 0;
   shorten(1.0);
 }
 
 void SweptBox::shorten(Fraction end) {
   const int64_t part = (end.raw + (int64_t{1} << 32) - 1) >> 32;  // 2^-30, rounded up
   for (int i = 0; i < 3; ++i) {
-    const int64_t way = way_[i] * part;
-    from_[i] = way < 0 ? way >> 30 : 0;
-    to_[i] = way > 0 ? (way + (int64_t{1} << 30) - 1) >> 30 : 0;
+    const int64_t displacement = displacement_[i] * part;
+    from_[i] = displacement < 0 ? displacement >> 30 : 0;
+    to_[i] = displacement > 0 ? (displacement + (int64_t{1} << 30) - 1) >> 30 : 0;
   }
 }
 
@@ -96,8 +97,8 @@ bool SweptBox::meets(const Place& place) const {
   DETENT_UNROLL
   for (int i = 0; i < 3; ++i) {
     const int y = i == 2 ? 0 : i + 1, z = 3 - i - y;
-    const uint64_t across = magnitude_64(way_[y] * sum[z] - way_[z] * sum[y]);
-    if (across > magnitude_64(way_[y] * side[z]) + magnitude_64(way_[z] * side[y])) return false;
+    const uint64_t across = magnitude_64(displacement_[y] * sum[z] - displacement_[z] * sum[y]);
+    if (across > magnitude_64(displacement_[y] * side[z]) + magnitude_64(displacement_[z] * side[y])) return false;
   }
   return true;
 }
@@ -106,9 +107,9 @@ Fraction SweptBox::entry(const Place& place) const {
   constexpr int k_bits = 33;
   uint64_t latest = 0;
   for (int i = 0; i < 3; ++i) {
-    const int64_t ahead = held_place(way_[i] > 0 ? place.low[i] : -place.high[i]);
-    if (way_[i] == 0 || ahead <= 0) continue;
-    const uint64_t part = (static_cast<uint64_t>(ahead) << k_bits) / magnitude_64(way_[i]);
+    const int64_t ahead = held_place(displacement_[i] > 0 ? place.low[i] : -place.high[i]);
+    if (displacement_[i] == 0 || ahead <= 0) continue;
+    const uint64_t part = (static_cast<uint64_t>(ahead) << k_bits) / magnitude_64(displacement_[i]);
     latest = part > latest ? part : latest;
   }
   constexpr uint64_t k_tick_end = uint64_t{1} << k_bits;
@@ -116,9 +117,9 @@ Fraction SweptBox::entry(const Place& place) const {
       static_cast<int64_t>((latest < k_tick_end ? latest : k_tick_end) << (Fraction::k_frac - k_bits)));
 }
 
-bool SweptBox::is_near(const Place& place, int64_t reach) const {
+bool SweptBox::is_near(const Place& place, int64_t distance_max) const {
   // A distance also has an error proportional to the distance of the centres.
-  const int64_t cells = rounded_up(reach + (reach >> 22), cell_bits_) + 1;
+  const int64_t cells = rounded_up(distance_max + (distance_max >> 22), cell_bits_) + 1;
   for (int i = 0; i < 3; ++i) {
     if (place.low[i] > cells || place.high[i] < -cells) return false;
   }

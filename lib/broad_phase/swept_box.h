@@ -19,9 +19,9 @@ class SweptBox {
     int64_t low[3], high[3];
   };
 
-  /// `half`: half extents of the box. `way`: displacement of its centre. `reach`: the greatest search distance that
-  /// is_near() will be called with. All in 2^-46 m, below 2^61.
-  SweptBox(const Position& centre, const Vec64& half, const Vec64& way, int64_t reach);
+  /// `half`: half extents of the box. `displacement`: displacement of its centre. `distance_max`: the greatest search
+  /// distance that is_near() will be called with. All in 2^-46 m, below 2^61.
+  SweptBox(const Position& centre, const Vec64& half, const Vec64& displacement, int64_t distance_max);
   /// Shortens the path to its part up to `end`.
   void shorten(Fraction end);
 
@@ -30,9 +30,9 @@ class SweptBox {
   bool meets(const Place& place) const;
   /// The fraction of the path up to which the box certainly does not touch these bounds.
   Fraction entry(const Place& place) const;
-  /// Whether these bounds may be within `reach`, 2^-46 m, of the box at the start. If false, gap() is more than
-  /// `reach`.
-  bool is_near(const Place& place, int64_t reach) const;
+  /// Whether these bounds may be within `distance_max`, 2^-46 m, of the box at the start. If false, gap() is more than
+  /// `distance_max`.
+  bool is_near(const Place& place, int64_t distance_max) const;
   /// The greatest distance along an axis between these bounds and the box at the start, 2^-46 m; 0 if they overlap.
   /// Overflow: clamped to 2^29 cells, which is more than any search distance.
   int64_t gap(const Place& place) const;
@@ -44,7 +44,7 @@ class SweptBox {
 
  private:
   int64_t centre_[3];        ///< grains, rounded down
-  int32_t way_[3];           ///< displacement of the centre, cells, rounded down
+  int32_t displacement_[3];  ///< displacement of the centre, cells, rounded down
   int32_t half_[3];          ///< cells, rounded up
   int64_t from_[3], to_[3];  ///< range of the path up to its end, cells
   int grain_shift_;          ///< a cell is 2^grain_shift_ grains

@@ -1,6 +1,6 @@
 #include "ccd/compound_impact.h"
 
-#include "ccd/surface_impact.h"
+#include "ccd/terrain_impact.h"
 #include "math/root.h"
 
 namespace detent {
@@ -13,7 +13,7 @@ struct PartSearch {
   const FeatureTable& features;
   const SweptBody &a, &b;
   const Fraction time;
-  const Ladder& ladder;
+  const ShrunkenCores& cores;
   Meeting& meeting;
   const ConvexParts parts_a, parts_b;
   const Motion motion_a, motion_b;
@@ -21,10 +21,11 @@ struct PartSearch {
   Real closing = 0.0;
   bool bounded = false;  ///< `closing` is valid
 
-  bool inset_part(const SweptBody& body, const ConvexParts& parts, uint32_t i, Real inset, Convex& convex) const {
-    if (!is_compound(body.traits)) return inset_convex(assets, body.traits, inset, convex);
-    return parts.convex(i, inset_halvings(inset, shape_extent(body.traits)) != 0, convex) &&
-           inset_convex(inset, 0, convex);
+  bool shrink_part(const SweptBody& body, const ConvexParts& parts, uint32_t i, Real shrink_depth,
+                   Convex& convex) const {
+    if (!is_compound(body.properties)) return shrink_convex(assets, body.properties, shrink_depth, convex);
+    return parts.convex(i, shrink_halvings(shrink_depth, shape_extent(body.properties)) != 0, convex) &&
+           shrink_convex(shrink_depth, 0, convex);
   }
 
   /// The centre of a part's bounds, m, relative to A's position, world axes.
@@ -39,23 +40,23 @@ struct PartSearch {
 
   bool may_meet(uint32_t i, uint32_t j) const {
     if (!bounded) return true;
-    const Vec3<Real> way = middle_of(parts_b, j, motion_b.start) - middle_of(parts_a, i, motion_a.start);
-    const Real far = max(abs(way.x), max(abs(way.y), abs(way.z)));
-    const Real reach = parts_a.reach(i) + parts_b.reach(j) + closing;
-    return far <= reach + scale_by_power(reach + far, -10);
+    const Vec3<Real> offset = middle_of(parts_b, j, motion_b.start) - middle_of(parts_a, i, motion_a.start);
+    const Real far = max(abs(offset.x), max(abs(offset.y), abs(offset.z)));
+    const Real radius = parts_a.radius(i) + parts_b.radius(j) + closing;
+    return far <= radius + scale_by_power(radius + far, -10);
   }
 
-  bool ask_surface() {
-    const bool ground_is_a = is_surface(a.traits);
+  bool ask_terrain() {
+    const bool ground_is_a = is_terrain(a.properties);
     const SweptBody& body = ground_is_a ? b : a;
     const ConvexParts& parts = ground_is_a ? parts_b : parts_a;
     for (uint32_t i = 0; i < parts.count(); ++i) {
-      const auto on_rung = [&](Real inset, TimeOfImpact& found) {
+      const auto at_depth = [&](Real shrink_depth, TimeOfImpact& found) {
         Convex convex;
-        return inset_part(body, parts, i, inset, convex) &&
-               features.surface_impact->impact(assets, *features.surface, a, b, convex, time, found);
+        return shrink_part(body, parts, i, shrink_depth, convex) &&
+               features.terrain_impact->impact(assets, *features.terrain, a, b, convex, time, found);
       };
-      if (!climb(a, b, time, ladder, on_rung, meeting)) return false;
+      if (!climb(a, b, time, cores, at_depth, meeting)) return false;
     }
     return parts.count() != 0;
   }
@@ -64,12 +65,13 @@ struct PartSearch {
     for (uint32_t i = 0; i < parts_a.count(); ++i) {
       for (uint32_t j = 0; j < parts_b.count(); ++j) {
         if (!may_meet(i, j)) continue;
-        const auto on_rung = [&](Real inset, TimeOfImpact& found) {
+        const auto at_depth = [&](Real shrink_depth, TimeOfImpact& found) {
           Convex convex_a, convex_b;
-          return inset_part(a, parts_a, i, inset, convex_a) && inset_part(b, parts_b, j, inset, convex_b) &&
+          return shrink_part(a, parts_a, i, shrink_depth, convex_a) &&
+                 shrink_part(b, parts_b, j, shrink_depth, convex_b) &&
                  time_of_impact(convex_a, motion_a, convex_b, motion_b, found) == Status::ok;
         };
-        if (!climb(a, b, time, ladder, on_rung, meeting)) return false;
+        if (!climb(a, b, time, cores, at_depth, meeting)) return false;
       }
     }
     return parts_a.count() != 0 && parts_b.count() != 0;
@@ -79,21 +81,21 @@ struct PartSearch {
 }  // namespace
 
 bool compound_impact(const AssetTable& assets, const FeatureTable& features, const SweptBody& a, const SweptBody& b,
-                     Fraction time, const Ladder& ladder, Meeting& meeting) {
+                     Fraction time, const ShrunkenCores& cores, Meeting& meeting) {
   PartSearch search = {assets,
                        features,
                        a,
                        b,
                        time,
-                       ladder,
+                       cores,
                        meeting,
-                       ConvexParts(a.traits, assets),
-                       ConvexParts(b.traits, assets),
+                       ConvexParts(a.properties, assets),
+                       ConvexParts(b.properties, assets),
                        motion_from(a, time),
                        motion_from(b, time)};
-  const bool is_plane = is_half_space(a.traits) || is_half_space(b.traits);
+  const bool is_plane = is_half_space(a.properties) || is_half_space(b.properties);
   search.bounded = !is_plane && closing_bound(a, b, time, search.closing);
-  return is_surface(a.traits) || is_surface(b.traits) ? search.ask_surface() : search.ask_parts();
+  return is_terrain(a.properties) || is_terrain(b.properties) ? search.ask_terrain() : search.ask_parts();
 }
 
 const CompoundImpactOps k_compound_impact_ops = {compound_impact};

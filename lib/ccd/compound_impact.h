@@ -10,7 +10,7 @@ inline namespace DETENT_NAMESPACE {
 /// shrink depths (impact_pair.h) separately: one pair may separate while another one would pass through. For the deep
 /// shrink depths of a hull it uses the smaller hull that was cooked for them.
 bool compound_impact(const AssetTable& assets, const FeatureTable& features, const SweptBody& a, const SweptBody& b,
-                     Fraction time, const Ladder& ladder, Meeting& meeting);
+                     Fraction time, const ShrunkenCores& cores, Meeting& meeting);
 
 /// Entry of the feature table.
 struct CompoundImpactOps {

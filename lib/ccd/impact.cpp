@@ -10,8 +10,8 @@ namespace {
 /// The pair with the earliest event, ties by the lower key; null if there is none.
 ImpactPair* next(const ImpactStage& stage) {
   ImpactPair* best = nullptr;
-  for (uint32_t i = 0; i < stage.met_count; ++i) {
-    ImpactPair& pair = stage.met[i];
+  for (uint32_t i = 0; i < stage.impact_count; ++i) {
+    ImpactPair& pair = stage.impacts[i];
     if (pair.next == k_next_none) continue;
     if (best == nullptr || pair.time < best->time || (pair.time == best->time && pair.key < best->key)) best = &pair;
   }
@@ -20,16 +20,17 @@ ImpactPair* next(const ImpactStage& stage) {
 
 /// The shrink depth, m, for a pair that has collided at a seam: deeper than resting bodies sink in, and not deeper than
 /// necessary.
-Real seam_inset(const ImpactStage& stage, uint64_t key) {
+Real seam_shrink_depth(const ImpactStage& stage, uint64_t key) {
   const Real extent = stage.extent_of(key);
-  return min(max(scale_by_power(extent, -6), scale_by_power(stage.settings.sunk, 1)), contact_inset(extent, k_zero));
+  return min(max(scale_by_power(extent, -6), scale_by_power(stage.settings.sunk, 1)),
+             contact_shrink_depth(extent, k_zero));
 }
 
 /// Processes the event of a pair.
 void go_on(ImpactStage& stage, ImpactPair& pair) {
   const Fraction time = pair.time;
   const bool undecided = pair.next == k_next_undecided;
-  if (pair.next == k_next_look) {
+  if (pair.next == k_next_test) {
     stage.test(pair.key, time, k_zero, &pair);
     stage.test_all_changed(time);
     return;
@@ -46,13 +47,14 @@ void go_on(ImpactStage& stage, ImpactPair& pair) {
   for (const uint32_t slot : slots) {
     if (!stage.dynamic(slot)) continue;
     stage.move_to(slot, time);
-    stage.report.clamped += hold_turn(stage.bodies.traits[slot], stage.settings.tick_time, stage.bodies.sweeps[slot]);
+    stage.report.clamped +=
+        clamp_rotation(stage.bodies.properties[slot], stage.settings.tick_time, stage.bodies.sweeps[slot]);
   }
   const BodyPose pose_a = pose_at(stage.body(slots[0]), time), pose_b = pose_at(stage.body(slots[1]), time);
   stage.first_approach = k_zero;
   if (stage.resolve(pair, undecided, pose_a, pose_b)) {
     pair.farther_in = 1;  // both bodies continue on their sweeps: this is not an impact
-    stage.test(pair.key, time, seam_inset(stage, pair.key), &pair);
+    stage.test(pair.key, time, seam_shrink_depth(stage, pair.key), &pair);
     stage.test_all_changed(time);
     return;
   }
@@ -71,16 +73,16 @@ void go_on(ImpactStage& stage, ImpactPair& pair) {
 }  // namespace
 
 ImpactReport advance_to_impacts(const StepSettings& settings, const AssetTable& assets, const FeatureTable& features,
-                                const ImpactPairs& pairs, const ImpactBodies& bodies, Span<ImpactPair> met,
+                                const ImpactPairs& pairs, const ImpactBodies& bodies, Span<ImpactPair> impacts,
                                 Span<ImpactHit> hits, ImpactProbe* probe) {
   ImpactStage stage = {settings, assets, features,
-                       pairs,    bodies, met,
+                       pairs,    bodies, impacts,
                        hits,     probe,  divide(Scaled(1.0), scaled_from(settings.tick_time))};
   stage.start_sweeps();
   stage.find_first();
   stage.test_all_changed(Fraction(0.0));
   while (ImpactPair* pair = next(stage)) go_on(stage, *pair);
-  stage.carry_to_end();
+  stage.finish_momentum();
   return stage.report;
 }
 

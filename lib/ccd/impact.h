@@ -50,7 +50,7 @@ struct ImpactReport {
   uint32_t undecided = 0;       ///< times of impact that were found only in part, or that could not be computed
   uint32_t overlaps_left = 0;   ///< pairs that overlap too deeply to be tested
   uint32_t bodies_stopped = 0;  ///< bodies stopped until the end of the tick
-  uint32_t pairs_dropped = 0;   ///< impacts that had no room in `met`; their bodies are stopped
+  uint32_t pairs_dropped = 0;   ///< impacts that had no room in `impacts`; their bodies are stopped
   uint32_t hits_dropped = 0;    ///< impacts that had no room in `hits`
   uint32_t hits = 0;            ///< entries written to `hits`
   uint32_t tests = 0;           ///< times of impact computed
@@ -69,7 +69,7 @@ struct StretchListener {
 
 /// The bodies of the stage. Each pose is the pose at sweep.from, and is updated with it.
 struct ImpactBodies {
-  Span<const BodyTraits> traits;
+  Span<const BodyProperties> properties;
   Span<BodyPose> poses;
   Span<BodyMotion> motions;
   Span<BodySweep> sweeps;  ///< zero for a body at rest
@@ -77,10 +77,10 @@ struct ImpactBodies {
   /// In: the bounds that the pairs were found with. Out: the bounds of the sweeps.
   Span<Bounds> bounds;
   RestingTree resting;  ///< bodies that are hit are removed from it
-  BitSet visits;        ///< the moving bodies, and those that are hit or woken
+  BitSet active;        ///< the moving bodies, and those that are hit or woken
   BitSet candidates;    ///< work space, empty before and after
-  /// Work space: for each dynamic body, the head of the list of its entries in `met`: the entry's index + 1, or 0.
-  Span<uint32_t> first_met;
+  /// Work space: for each dynamic body, the head of the list of its entries in `impacts`: the entry's index + 1, or 0.
+  Span<uint32_t> first_impact;
   FilterRuleTable filter_rules = {};
   StretchListener listener = {};
 };
@@ -91,13 +91,13 @@ struct ImpactPairs {
   Span<const uint64_t> pairs;
   /// The contacts that had points at the start of the tick, ascending by pair.
   Span<const ContactWork> contacts;
-  bool complete;               ///< true if no pair and no contact was dropped
-  Span<const uint64_t> apart;  ///< disabled pairs, ascending
+  bool complete;                        ///< true if no pair and no contact was dropped
+  Span<const uint64_t> disabled_pairs;  ///< disabled pairs, ascending
 };
 
-/// `met` is work space. `hits` is filled in the order of the impacts.
+/// `impacts` is work space. `hits` is filled in the order of the impacts.
 ImpactReport advance_to_impacts(const StepSettings& settings, const AssetTable& assets, const FeatureTable& features,
-                                const ImpactPairs& pairs, const ImpactBodies& bodies, Span<ImpactPair> met,
+                                const ImpactPairs& pairs, const ImpactBodies& bodies, Span<ImpactPair> impacts,
                                 Span<ImpactHit> hits, ImpactProbe* probe = nullptr);
 
 /// Entry of the feature table.

@@ -1,12 +1,12 @@
 #include "ccd/impact_pair.h"
 
 #include "ccd/compound_impact.h"
-#include "ccd/surface_impact.h"
+#include "ccd/terrain_impact.h"
 #include "contact/body_convex.h"
 #include "distance/pair.h"
 #include "math/root.h"
-#include "motion/spin.h"
-#include "shape/shape_traits.h"
+#include "motion/angular_velocity.h"
+#include "shape/shape_properties.h"
 #include "toi/conservative_advancement.h"
 #include "toi/known_axis.h"
 
@@ -14,7 +14,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-ShapeType shape_type(const BodyTraits& traits) { return static_cast<ShapeType>(traits.shape); }
+ShapeType shape_type(const BodyProperties& properties) { return static_cast<ShapeType>(properties.shape); }
 
 /// Converts `depth`, 2^-46 m, to units of 2^(exponent - 30) m, rounded up. Returns INT32_MAX if the result is larger.
 int32_t depth_in_units(int64_t depth, int exponent) {
@@ -52,123 +52,125 @@ void shrink(int64_t depth, int halvings, Convex& convex) {
 
 /// The largest distance, m, from the centre to a part of the surface that a rotation moves. It is 0 for a sphere, which
 /// looks the same after a rotation.
-Real swing_radius(const BodyTraits& traits) {
-  switch (shape_type(traits)) {
+Real swing_radius(const BodyProperties& properties) {
+  switch (shape_type(properties)) {
     case ShapeType::sphere:
       return Real(0.0);
     case ShapeType::capsule:
-      return real_from_unit(traits.size.y, traits.size_exponent);
+      return real_from_unit(properties.size.y, properties.size_exponent);
     default:
-      return real_from_unit(traits.bounding_radius, traits.size_exponent);
+      return real_from_unit(properties.bounding_radius, properties.size_exponent);
   }
 }
 
-Real swing(const BodyTraits& traits, const Vec3<Real>& turn, bool& bounded) {
-  const Real zero = 0.0, angle = length(turn);
+Real swing(const BodyProperties& properties, const Vec3<Real>& rotation_vector, bool& bounded) {
+  const Real zero = 0.0, angle = length(rotation_vector);
   if (angle == zero) return zero;
-  if (is_half_space(traits)) bounded = false;
+  if (is_half_space(properties)) bounded = false;
   // Half a revolution moves a point by at most the diameter. The limit also keeps the product in range.
-  return swing_radius(traits) * min(angle, Real(4.0));
+  return swing_radius(properties) * min(angle, Real(4.0));
 }
 
 }  // namespace
 
-Real next_inset(Real extent, Real inset) {
-  if (inset == Real(0.0)) return scale_by_power(extent, -10);
-  if (inset < scale_by_power(extent, -4)) return scale_by_power(inset, 2);
-  return inset + scale_by_power(extent, -5);
+Real next_shrink_depth(Real extent, Real shrink_depth) {
+  if (shrink_depth == Real(0.0)) return scale_by_power(extent, -10);
+  if (shrink_depth < scale_by_power(extent, -4)) return scale_by_power(shrink_depth, 2);
+  return shrink_depth + scale_by_power(extent, -5);
 }
 
-Real contact_inset(Real extent, Real depth) {
+Real contact_shrink_depth(Real extent, Real depth) {
   return max(scale_by_power(extent, -3), scale_by_power(depth + scale_by_power(extent, -5), -1));
 }
 
-Real last_inset(Real extent) { return scale_by_power(extent, -1); }
+Real last_shrink_depth(Real extent) { return scale_by_power(extent, -1); }
 
 Sweep rest_of(const BodySweep& sweep, Fraction time) {
-  const Sweep whole = {sweep.displacement, sweep.turn};
+  const Sweep whole = {sweep.displacement, sweep.rotation_vector};
   return time.raw == 0 ? whole : sweep_part(whole, k_whole_step - time);
 }
 
 BodyPose pose_at(const SweptBody& body, Fraction time) {
   BodyPose pose = body.pose;
   if (time > body.sweep.from) {
-    advance_along({body.sweep.displacement, body.sweep.turn}, time - body.sweep.from, pose);
+    advance_along({body.sweep.displacement, body.sweep.rotation_vector}, time - body.sweep.from, pose);
   }
   return pose;
 }
 
 bool is_parting(const SweptBody& a, const SweptBody& b, Fraction time, const TimeOfImpact& impact) {
   const Vec3<Real> offset = offset_of(pose_at(a, time), pose_at(b, time));
-  const Vec3<Real> way = b.sweep.displacement - a.sweep.displacement;
+  const Vec3<Real> relative = b.sweep.displacement - a.sweep.displacement;
   const Vec3<Real> arm_b = impact.point - offset;
-  const Real swing_a = dot(cross(impact.point, impact.normal), a.sweep.turn);
-  const Real swing_b = dot(cross(arm_b, impact.normal), b.sweep.turn);
+  const Real swing_a = dot(cross(impact.point, impact.normal), a.sweep.rotation_vector);
+  const Real swing_b = dot(cross(arm_b, impact.normal), b.sweep.rotation_vector);
   // A slower approach does not pass through the next shrink depth in this tick.
-  const Real slow = scale_by_power(min(shape_extent(a.traits), shape_extent(b.traits)), -12);
-  return dot(way, impact.normal) + (swing_b - swing_a) >= -slow;
+  const Real slow = scale_by_power(min(shape_extent(a.properties), shape_extent(b.properties)), -12);
+  return dot(relative, impact.normal) + (swing_b - swing_a) >= -slow;
 }
 
 Motion motion_from(const SweptBody& body, Fraction time) {
   const BodyPose from = pose_at(body, time);
   const Sweep rest = rest_of(body.sweep, time);
-  return {{from.position, from.rotation}, rest.displacement, rest.turn};
+  return {{from.position, from.rotation}, rest.displacement, rest.rotation_vector};
 }
 
 bool motion_bound(const SweptBody& body, Fraction time, Real& bound) {
   const Sweep rest = rest_of(body.sweep, time);
   bool bounded = true;
-  bound = length(rest.displacement) + swing(body.traits, rest.turn, bounded);
+  bound = length(rest.displacement) + swing(body.properties, rest.rotation_vector, bounded);
   return bounded;
 }
 
 bool closing_bound(const SweptBody& a, const SweptBody& b, Fraction time, Real& bound) {
   const Sweep rest_a = rest_of(a.sweep, time), rest_b = rest_of(b.sweep, time);
   bool bounded = true;
-  bound = length(rest_b.displacement - rest_a.displacement) + swing(a.traits, rest_a.turn, bounded) +
-          swing(b.traits, rest_b.turn, bounded);
+  bound = length(rest_b.displacement - rest_a.displacement) + swing(a.properties, rest_a.rotation_vector, bounded) +
+          swing(b.properties, rest_b.rotation_vector, bounded);
   return bounded;
 }
 
-bool inset_convex(const AssetTable& assets, const BodyTraits& traits, Real inset, Convex& convex) {
+bool shrink_convex(const AssetTable& assets, const BodyProperties& properties, Real shrink_depth, Convex& convex) {
   Convex made;
-  if (!body_convex(traits, assets, made) || !inset_convex(inset, inset_halvings(inset, shape_extent(traits)), made))
+  if (!body_convex(properties, assets, made) ||
+      !shrink_convex(shrink_depth, shrink_halvings(shrink_depth, shape_extent(properties)), made))
     return false;
   convex = made;
   return true;
 }
 
-bool inset_convex(Real inset, int halvings, Convex& convex) {
+bool shrink_convex(Real shrink_depth, int halvings, Convex& convex) {
   const Real zero = 0.0;
   Vec64 raw;
-  if (!(inset > zero)) return true;
-  if (!raw_from_real({inset, zero, zero}, raw)) return false;
+  if (!(shrink_depth > zero)) return true;
+  if (!raw_from_real({shrink_depth, zero, zero}, raw)) return false;
   shrink(raw.x, halvings, convex);
   return true;
 }
 
-int inset_halvings(Real inset, Real extent) {
+int shrink_halvings(Real shrink_depth, Real extent) {
   // One halving at the depths of contacts, two at the deepest ones.
-  return (inset > scale_by_power(extent, -4) ? 1 : 0) + (inset > scale_by_power(extent, -2) ? 1 : 0);
+  return (shrink_depth > scale_by_power(extent, -4) ? 1 : 0) + (shrink_depth > scale_by_power(extent, -2) ? 1 : 0);
 }
 
 bool PairSearch::prepare_pair() {
   const Motion motion_a = motion_from(a_, time_), motion_b = motion_from(b_, time_);
-  if (is_half_space(a_.traits) || is_half_space(b_.traits)) {
+  if (is_half_space(a_.properties) || is_half_space(b_.properties)) {
     prepared_ = prepare(convex_a_, motion_a, convex_b_, motion_b, pair_) == Status::ok;
     return prepared_;
   }
   pair_.a = &convex_a_;
   pair_.b = &convex_b_;
-  if (set_ways(motion_a, motion_b, pair_) != Status::ok) return false;
+  if (set_displacements(motion_a, motion_b, pair_) != Status::ok) return false;
   if (pair_.from > pair_.to) return true;  // the bounding spheres never touch: skip the rotation setup
   pair_.absolute = moves_both(k_toi_method, pair_);
   prepared_ = set_turnings(motion_a, motion_b, pair_) == Status::ok;
   return prepared_;
 }
 
-bool PairSearch::find_convex(Real inset, const Vec3<Unit>& axis, TimeOfImpact& impact) {
-  if (!inset_convex(assets_, a_.traits, inset, convex_a_) || !inset_convex(assets_, b_.traits, inset, convex_b_))
+bool PairSearch::find_convex(Real shrink_depth, const Vec3<Unit>& axis, TimeOfImpact& impact) {
+  if (!shrink_convex(assets_, a_.properties, shrink_depth, convex_a_) ||
+      !shrink_convex(assets_, b_.properties, shrink_depth, convex_b_))
     return false;
   if (!(prepared_ ? set_block(pair_.offset_whole, pair_.displacement_whole, pair_) == Status::ok : prepare_pair()))
     return false;
@@ -183,24 +185,24 @@ bool PairSearch::find_convex(Real inset, const Vec3<Unit>& axis, TimeOfImpact& i
   return true;
 }
 
-bool PairSearch::find(const Ladder& ladder, Vec3<Unit> axis, Meeting& meeting) {
+bool PairSearch::find(const ShrunkenCores& cores, Vec3<Unit> axis, Meeting& meeting) {
   bool known;
-  if (is_compound(a_.traits) || is_compound(b_.traits)) {
-    known = features_.compound_impact->find(assets_, features_, a_, b_, time_, ladder, meeting);
-  } else if (is_surface(a_.traits) || is_surface(b_.traits)) {
-    const BodyTraits& body = (is_surface(a_.traits) ? b_ : a_).traits;
-    const auto on_rung = [&](Real inset, TimeOfImpact& impact) {
+  if (is_compound(a_.properties) || is_compound(b_.properties)) {
+    known = features_.compound_impact->find(assets_, features_, a_, b_, time_, cores, meeting);
+  } else if (is_terrain(a_.properties) || is_terrain(b_.properties)) {
+    const BodyProperties& body = (is_terrain(a_.properties) ? b_ : a_).properties;
+    const auto at_depth = [&](Real shrink_depth, TimeOfImpact& impact) {
       Convex convex;
-      return inset_convex(assets_, body, inset, convex) &&
-             features_.surface_impact->impact(assets_, *features_.surface, a_, b_, convex, time_, impact);
+      return shrink_convex(assets_, body, shrink_depth, convex) &&
+             features_.terrain_impact->impact(assets_, *features_.terrain, a_, b_, convex, time_, impact);
     };
-    known = climb(a_, b_, time_, ladder, on_rung, meeting);
+    known = climb(a_, b_, time_, cores, at_depth, meeting);
   } else {
-    const auto on_rung = [&](Real inset, TimeOfImpact& impact) {
+    const auto at_depth = [&](Real shrink_depth, TimeOfImpact& impact) {
       if (is_direction(impact.normal)) axis = impact.normal;
-      return find_convex(inset, axis, impact);
+      return find_convex(shrink_depth, axis, impact);
     };
-    known = climb(a_, b_, time_, ladder, on_rung, meeting);
+    known = climb(a_, b_, time_, cores, at_depth, meeting);
   }
   meeting.impact.time = time_ + fraction_product(k_whole_step - time_, meeting.impact.time);
   return known;

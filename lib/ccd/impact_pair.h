@@ -16,19 +16,19 @@ inline namespace DETENT_NAMESPACE {
 /// depth for a pair that is in contact at the start of the tick. So a resting or sliding pair is not stopped, and still
 /// cannot pass through. `extent` is the smaller body's smallest diameter.
 ///
-/// Returns the shrink depth after `inset`. The first one is 1/1024 of the extent. Up to 1/16 of the extent each is four
-/// times the one before; then each is larger by 1/32 of the extent.
-Real next_inset(Real extent, Real inset);
+/// Returns the shrink depth after `shrink_depth`. The first one is 1/1024 of the extent. Up to 1/16 of the extent each
+/// is four times the one before; then each is larger by 1/32 of the extent.
+Real next_shrink_depth(Real extent, Real shrink_depth);
 /// The shrink depth, m, for a pair that is in contact, `depth` deep, at the start of the tick: 1/8 of the extent, or
 /// half of `depth` plus 1/64 of the extent if that is more. So the pair cannot sink deeper by more than 1/32 of the
 /// extent.
-Real contact_inset(Real extent, Real depth);
+Real contact_shrink_depth(Real extent, Real depth);
 /// The largest shrink depth, m: extent / 2. Bodies that overlap more deeply are not tested.
-Real last_inset(Real extent);
+Real last_shrink_depth(Real extent);
 
 /// A body and its sweep, for the tests of this stage.
 struct SweptBody {
-  const BodyTraits& traits;
+  const BodyProperties& properties;
   const BodyPose& pose;  ///< at sweep.from
   const BodySweep& sweep;
 };
@@ -58,16 +58,16 @@ bool motion_bound(const SweptBody& body, Fraction time, Real& bound);
 /// if there is no bound.
 bool closing_bound(const SweptBody& a, const SweptBody& b, Fraction time, Real& bound);
 
-/// Makes the body's shape smaller by `inset`, m, on all sides. Returns false if the shape is not available.
-bool inset_convex(const AssetTable& assets, const BodyTraits& traits, Real inset, Convex& convex);
+/// Makes the body's shape smaller by `shrink_depth`, m, on all sides. Returns false if the shape is not available.
+bool shrink_convex(const AssetTable& assets, const BodyProperties& properties, Real shrink_depth, Convex& convex);
 
-/// Makes a given shape smaller by `inset`, m. A hull or cone is instead halved in size `halvings` times.
-bool inset_convex(Real inset, int halvings, Convex& convex);
-/// The number of halvings of a hull or cone at shrink depth `inset`, for a body with this extent.
-int inset_halvings(Real inset, Real extent);
+/// Makes a given shape smaller by `shrink_depth`, m. A hull or cone is instead halved in size `halvings` times.
+bool shrink_convex(Real shrink_depth, int halvings, Convex& convex);
+/// The number of halvings of a hull or cone at shrink depth `shrink_depth`, for a body with this extent.
+int shrink_halvings(Real shrink_depth, Real extent);
 
 /// The shrink depths that a pair is tested at.
-struct Ladder {
+struct ShrunkenCores {
   Real first;   ///< first shrink depth, m
   Real extent;  ///< extent of the pair, m: the smaller body's smallest diameter
   bool climbs;  ///< continue with the next shrink depth if the cores touch at the start time
@@ -98,27 +98,28 @@ struct Meeting {
 /// touch at `time` without approaching, or touch and are marked as resolved. Returns false if `find` does, which means
 /// that the shapes could not be tested.
 template <class Find>
-bool climb(const SweptBody& a, const SweptBody& b, Fraction time, const Ladder& ladder, const Find& find,
+bool climb(const SweptBody& a, const SweptBody& b, Fraction time, const ShrunkenCores& cores, const Find& find,
            Meeting& meeting) {
   TimeOfImpact found;
   bool looked_ahead = false;
-  for (Real inset = ladder.first; !(inset > last_inset(ladder.extent)); inset = next_inset(ladder.extent, inset)) {
+  for (Real shrink_depth = cores.first; !(shrink_depth > last_shrink_depth(cores.extent));
+       shrink_depth = next_shrink_depth(cores.extent, shrink_depth)) {
     ++meeting.tests;
-    if (inset > ladder.first) meeting.climbed = true;
-    if (!find(inset, found)) return false;
+    if (shrink_depth > cores.first) meeting.climbed = true;
+    if (!find(shrink_depth, found)) return false;
     // Cores that overlap have no normal.
     const bool now =
         found.outcome != ToiOutcome::clear && !(time + fraction_product(k_whole_step - time, found.time) > time);
     const auto closes = [&] {
-      return !ladder.resolved &&
+      return !cores.resolved &&
              (found.outcome == ToiOutcome::undecided || (is_direction(found.normal) && !is_parting(a, b, time, found)));
     };
-    if (now && ladder.climbs && !closes()) {
+    if (now && cores.climbs && !closes()) {
       // Cores that overlap at the last shrink depth overlap at all.
       if (looked_ahead || is_direction(found.normal)) continue;
       looked_ahead = meeting.climbed = true;
       ++meeting.tests;
-      if (!find(last_inset(ladder.extent), found)) return false;
+      if (!find(last_shrink_depth(cores.extent), found)) return false;
       if (found.outcome == ToiOutcome::clear || is_direction(found.normal)) continue;
       break;
     }
@@ -126,7 +127,7 @@ bool climb(const SweptBody& a, const SweptBody& b, Fraction time, const Ladder& 
     return true;
   }
   meeting.left = true;
-  if (ladder.resolved && !(is_direction(found.normal) && is_parting(a, b, time, found))) meeting.stuck = true;
+  if (cores.resolved && !(is_direction(found.normal) && is_parting(a, b, time, found))) meeting.stuck = true;
   return true;
 }
 
@@ -143,11 +144,11 @@ class PairSearch {
   /// Finds the earliest impact. Its time is a fraction of the whole tick. `axis` is a direction from A to B that may
   /// separate the bodies, or zero: it saves work and does not change the result. Returns false if the test was
   /// impossible: a shape is not available, or is out of the query's range.
-  bool find(const Ladder& ladder, Vec3<Unit> axis, Meeting& meeting);
+  bool find(const ShrunkenCores& cores, Vec3<Unit> axis, Meeting& meeting);
 
  private:
   bool prepare_pair();
-  bool find_convex(Real inset, const Vec3<Unit>& axis, TimeOfImpact& impact);
+  bool find_convex(Real shrink_depth, const Vec3<Unit>& axis, TimeOfImpact& impact);
 
   const AssetTable& assets_;
   const FeatureTable& features_;

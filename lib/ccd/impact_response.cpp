@@ -1,9 +1,9 @@
 #include "ccd/impact_response.h"
 
 #include "math/root.h"
+#include "motion/angular_velocity.h"
 #include "motion/contact_motion.h"
-#include "motion/gyration.h"
-#include "motion/spin.h"
+#include "motion/inverse_inertia.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -20,20 +20,20 @@ Vec3<Real> scaled(const Vec3<Real>& v, Scaled factor) {
 
 /// Twice the kinetic energy of rotation per unit mass: L . (I^-1 L) over the mass, from the angular momentum L in the
 /// body's axes.
-Scaled energy_of(const BodyTraits& traits, const Vec3<Real>& local) {
+Scaled energy_of(const BodyProperties& properties, const Vec3<Real>& local) {
   const auto term = [&](Real value, int i) {
     const Scaled factor = scaled_from(value);
-    return multiply(multiply(factor, factor), traits.gyration[i]);
+    return multiply(multiply(factor, factor), properties.inverse_inertia[i]);
   };
   return add(term(local.x, 0), add(term(local.y, 1), term(local.z, 2)));
 }
 
 /// True if one principal moment of inertia is more than 16 times another.
-bool is_slender(const BodyTraits& traits) {
-  Scaled least = traits.gyration[0], most = least;
-  for (const Scaled& gyration : traits.gyration) {
-    if (less(gyration, least)) least = gyration;
-    if (less(most, gyration)) most = gyration;
+bool is_slender(const BodyProperties& properties) {
+  Scaled least = properties.inverse_inertia[0], most = least;
+  for (const Scaled& inverse_inertia : properties.inverse_inertia) {
+    if (less(inverse_inertia, least)) least = inverse_inertia;
+    if (less(most, inverse_inertia)) most = inverse_inertia;
   }
   return less(scaled_by_power(least, 4), most);
 }
@@ -46,7 +46,7 @@ struct Impact {
   PairResponse response;
   Real motion[k_parts];
   Real wrench[k_parts] = {k_zero, k_zero, k_zero, k_zero, k_zero, k_zero};
-  Real wanted[k_manifold_points_max];  ///< target of the normal velocity after the impact
+  Real target[k_manifold_points_max];  ///< target of the normal velocity after the impact
   Real normal_impulse[k_manifold_points_max];
   Real friction_impulse[2] = {k_zero, k_zero};
   Real largest = k_zero;  ///< largest change of an impulse in a sweep
@@ -54,17 +54,18 @@ struct Impact {
   Impact(const ContactWork& of_pair, uint32_t points, const ImpactBody& a, const ImpactBody& b)
       : contact(of_pair),
         count(points),
-        response(respond_exactly(a.traits, a.rotation, b.traits, b.rotation, of_pair)) {
-    look(a, b);
+        response(respond_exactly(a.properties, a.rotation, b.properties, b.rotation, of_pair)) {
+    update(a, b);
   }
 
   /// Reads the relative motion of the bodies.
-  void look(const ImpactBody& a, const ImpactBody& b) {
-    const Vec3<Real> spin_a = spin_of(a.traits, a.rotation, a.motion.momentum);
-    const Vec3<Real> spin_b = spin_of(b.traits, b.rotation, b.motion.momentum);
+  void update(const ImpactBody& a, const ImpactBody& b) {
+    const Vec3<Real> angular_velocity_a = angular_velocity_of(a.properties, a.rotation, a.motion.angular_momentum);
+    const Vec3<Real> angular_velocity_b = angular_velocity_of(b.properties, b.rotation, b.motion.angular_momentum);
     const Vec3<Real> velocity =
-        (b.motion.velocity - a.motion.velocity) + (cross(spin_b, contact.middle_b) - cross(spin_a, contact.middle_a));
-    const Vec3<Real> turning = spin_b * contact.unit_b - spin_a * contact.unit_a;
+        (b.motion.linear_velocity - a.motion.linear_velocity) +
+        (cross(angular_velocity_b, contact.middle_b) - cross(angular_velocity_a, contact.middle_a));
+    const Vec3<Real> turning = angular_velocity_b * contact.unit_b - angular_velocity_a * contact.unit_a;
     for (int i = 0; i < 3; ++i) {
       motion[i] = dot(velocity, axis(i));
       motion[i + 3] = dot(turning, axis(i));
@@ -78,7 +79,7 @@ struct Impact {
   Real shown(int i, Part k) const { return response.part[response_index(i, k)]; }
 
   void push(uint32_t i) {
-    const Real after = max(normal_impulse[i] + (wanted[i] - velocity(i)) * contact.inverse_mass[i], k_zero);
+    const Real after = max(normal_impulse[i] + (target[i] - velocity(i)) * contact.inverse_mass[i], k_zero);
     const Real change = after - normal_impulse[i];
     if (change == k_zero) return;
     normal_impulse[i] = after;
@@ -118,14 +119,16 @@ struct Impact {
     const auto in_world = [&](int first) {
       return axis(0) * wrench[first] + (axis(1) * wrench[first + 1] + axis(2) * wrench[first + 2]);
     };
-    const Vec3<Real> force = in_world(k_along_normal), turn = in_world(k_about_normal);
-    if (is_positive(contact.share_a)) {
-      a.motion.velocity -= scaled(force, contact.share_a);
-      a.motion.momentum -= scaled(cross(contact.middle_a, force) + turn * contact.unit_a, contact.share_a);
+    const Vec3<Real> force = in_world(k_along_normal), rotation_vector = in_world(k_about_normal);
+    if (is_positive(contact.inverse_mass_a)) {
+      a.motion.linear_velocity -= scaled(force, contact.inverse_mass_a);
+      a.motion.angular_momentum -=
+          scaled(cross(contact.middle_a, force) + rotation_vector * contact.unit_a, contact.inverse_mass_a);
     }
-    if (is_positive(contact.share_b)) {
-      b.motion.velocity += scaled(force, contact.share_b);
-      b.motion.momentum += scaled(cross(contact.middle_b, force) + turn * contact.unit_b, contact.share_b);
+    if (is_positive(contact.inverse_mass_b)) {
+      b.motion.linear_velocity += scaled(force, contact.inverse_mass_b);
+      b.motion.angular_momentum +=
+          scaled(cross(contact.middle_b, force) + rotation_vector * contact.unit_b, contact.inverse_mass_b);
     }
     for (Real& part : wrench) part = k_zero;
   }
@@ -133,60 +136,69 @@ struct Impact {
 
 }  // namespace
 
-uint32_t hold_turn(const BodyTraits& traits, Real tick_time, BodySweep& sweep) {
+uint32_t clamp_rotation(const BodyProperties& properties, Real tick_time, BodySweep& sweep) {
   bool clamped = false;
-  const Real limit = angle_of(k_spin_max * tick_time, traits.size_exponent, clamped);
-  const Real fastest = max(abs(sweep.turn.x), max(abs(sweep.turn.y), abs(sweep.turn.z)));
+  const Real limit = angle_of(k_angular_velocity_max * tick_time, properties.size_exponent, clamped);
+  const Real fastest =
+      max(abs(sweep.rotation_vector.x), max(abs(sweep.rotation_vector.y), abs(sweep.rotation_vector.z)));
   if (fastest <= limit) return 0;
   const Real factor = divide(limit, fastest);
-  sweep.turn = {sweep.turn.x * factor, sweep.turn.y * factor, sweep.turn.z * factor};
+  sweep.rotation_vector = {sweep.rotation_vector.x * factor, sweep.rotation_vector.y * factor,
+                           sweep.rotation_vector.z * factor};
   return 1;
 }
 
-BodyMotion motion_of_sweep(const BodyTraits& traits, const Quat& rotation, const BodySweep& sweep, Scaled tick_rate) {
+BodyMotion motion_of_sweep(const BodyProperties& properties, const Quat& rotation, const BodySweep& sweep,
+                           Scaled tick_rate) {
   // In the order that keeps each result in its range.
-  const int power = traits.size_exponent;
-  const Vec3<Real> spin = power < 0 ? scaled(scale_by_power(sweep.turn, power), tick_rate)
-                                    : scale_by_power(scaled(sweep.turn, tick_rate), power);
-  return {scaled(sweep.displacement, tick_rate), momentum_of(traits, rotation, spin), k_zero_vector, k_zero_vector};
+  const int power = properties.size_exponent;
+  const Vec3<Real> angular_velocity = power < 0 ? scaled(scale_by_power(sweep.rotation_vector, power), tick_rate)
+                                                : scale_by_power(scaled(sweep.rotation_vector, tick_rate), power);
+  return {scaled(sweep.displacement, tick_rate), angular_momentum_of(properties, rotation, angular_velocity),
+          k_zero_vector, k_zero_vector};
 }
 
-Vec3<Real> carried_momentum(const BodyTraits& traits, const Quat& from, const Quat& to, const Vec3<Real>& momentum) {
-  if (is_isotropic(traits) || from == to) return momentum;
-  const Vec3<Real> before = rotate_inverse(from, momentum), after = rotate_inverse(to, momentum);
-  const Scaled energy_before = energy_of(traits, before), energy_after = energy_of(traits, after);
-  if (!less(add(energy_before, scaled_by_power(energy_before, -16)), energy_after)) return momentum;
-  if (is_slender(traits) || less(add(energy_before, scaled_by_power(energy_before, -2)), energy_after))
+Vec3<Real> carried_angular_momentum(const BodyProperties& properties, const Quat& from, const Quat& to,
+                                    const Vec3<Real>& angular_momentum) {
+  if (is_isotropic(properties) || from == to) return angular_momentum;
+  const Vec3<Real> before = rotate_inverse(from, angular_momentum), after = rotate_inverse(to, angular_momentum);
+  const Scaled energy_before = energy_of(properties, before), energy_after = energy_of(properties, after);
+  if (!less(add(energy_before, scaled_by_power(energy_before, -16)), energy_after)) return angular_momentum;
+  if (is_slender(properties) || less(add(energy_before, scaled_by_power(energy_before, -2)), energy_after))
     return rotate(to, before);
-  return scaled(momentum, square_root(divide(energy_before, energy_after)));
+  return scaled(angular_momentum, square_root(divide(energy_before, energy_after)));
 }
 
-uint32_t hold_spin(const BodyTraits& traits, const Quat& rotation, BodyMotion& motion) {
-  if (!is_dynamic(traits)) return 0;
-  const Vec3<Real> local = rotate_inverse(rotation, motion.momentum);
+uint32_t hold_angular_velocity(const BodyProperties& properties, const Quat& rotation, BodyMotion& motion) {
+  if (!is_dynamic(properties)) return 0;
+  const Vec3<Real> local = rotate_inverse(rotation, motion.angular_momentum);
   bool saturated = false;
-  const auto spin = [&](Real value, int i) { return abs(multiply(value, traits.gyration[i], saturated)); };
-  const Real fastest = max(spin(local.x, 0), max(spin(local.y, 1), spin(local.z, 2)));
-  if (fastest <= k_spin_max) return 0;
+  const auto angular_velocity = [&](Real value, int i) {
+    return abs(multiply(value, properties.inverse_inertia[i], saturated));
+  };
+  const Real fastest =
+      max(angular_velocity(local.x, 0), max(angular_velocity(local.y, 1), angular_velocity(local.z, 2)));
+  if (fastest <= k_angular_velocity_max) return 0;
   const auto held = [&](Real value, int i) {
-    const Real limit = multiply(k_spin_max, inertia_about(traits, i));
+    const Real limit = multiply(k_angular_velocity_max, inertia_about(properties, i));
     return clamp(value, -limit, limit);
   };
-  motion.momentum = rotate(rotation, Vec3<Real>{held(local.x, 0), held(local.y, 1), held(local.z, 2)});
+  motion.angular_momentum = rotate(rotation, Vec3<Real>{held(local.x, 0), held(local.y, 1), held(local.z, 2)});
   return 1;
 }
 
-uint32_t add_to_sweep(const BodyTraits& traits, const Quat& rotation, const BodyMotion& before, const BodyMotion& after,
-                      Real tick_time, BodySweep& sweep) {
-  const Vec3<Real> spin = spin_of(traits, rotation, after.momentum - before.momentum);
+uint32_t add_to_sweep(const BodyProperties& properties, const Quat& rotation, const BodyMotion& before,
+                      const BodyMotion& after, Real tick_time, BodySweep& sweep) {
+  const Vec3<Real> angular_velocity =
+      angular_velocity_of(properties, rotation, after.angular_momentum - before.angular_momentum);
   bool turns_clamped = false;
-  const auto angle = [&](Real value) { return angle_of(value * tick_time, traits.size_exponent, turns_clamped); };
-  sweep.displacement += (after.velocity - before.velocity) * tick_time;
-  sweep.turn += {angle(spin.x), angle(spin.y), angle(spin.z)};
+  const auto angle = [&](Real value) { return angle_of(value * tick_time, properties.size_exponent, turns_clamped); };
+  sweep.displacement += (after.linear_velocity - before.linear_velocity) * tick_time;
+  sweep.rotation_vector += {angle(angular_velocity.x), angle(angular_velocity.y), angle(angular_velocity.z)};
   // The limits of the state; time_of_impact() accepts twice as much.
-  constexpr Real k_sweep_turn_max = 32768.0, k_sweep_way_max = 8192.0;
-  return clamp_vector(sweep.displacement, k_sweep_way_max) + clamp_vector(sweep.turn, k_sweep_turn_max) +
-         (turns_clamped ? 1 : 0);
+  constexpr Real k_sweep_rotation_max = 32768.0, k_sweep_displacement_max = 8192.0;
+  return clamp_vector(sweep.displacement, k_sweep_displacement_max) +
+         clamp_vector(sweep.rotation_vector, k_sweep_rotation_max) + (turns_clamped ? 1 : 0);
 }
 
 bool resolve_impact(const ContactWork& contact, uint32_t count, Real least, Real parting, const ImpactBody& a,
@@ -196,7 +208,7 @@ bool resolve_impact(const ContactWork& contact, uint32_t count, Real least, Real
   for (uint32_t i = 0; i < count; ++i) {
     const Real velocity = impact.velocity(i);
     const bool rebounds = is_positive(contact.restitution) && velocity <= -contact.rebound_min;
-    impact.wanted[i] = rebounds ? max(-multiply(velocity, contact.restitution), parting) : parting;
+    impact.target[i] = rebounds ? max(-multiply(velocity, contact.restitution), parting) : parting;
     impact.normal_impulse[i] = k_zero;
     approach = max(approach, -velocity);
   }
@@ -215,7 +227,7 @@ bool resolve_impact(const ContactWork& contact, uint32_t count, Real least, Real
       for (uint32_t i = 0; i < count; ++i) impact.push(i);
     }
     impact.act(a, b);
-    impact.look(a, b);
+    impact.update(a, b);
   }
   return true;
 }

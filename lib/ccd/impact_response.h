@@ -8,32 +8,34 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Clamps the rotation of a sweep to the range of angular velocities, k_spin_max in each component. The sweep of a
-/// slender body can leave that range. Returns 1 if it clamped, else 0.
-uint32_t hold_turn(const BodyTraits& traits, Real tick_time, BodySweep& sweep);
+/// Clamps the rotation of a sweep to the range of angular velocities, k_angular_velocity_max in each component. The
+/// sweep of a slender body can leave that range. Returns 1 if it clamped, else 0.
+uint32_t clamp_rotation(const BodyProperties& properties, Real tick_time, BodySweep& sweep);
 
-/// The velocity and angular momentum of a body that moves along its sweep. The `momentum` of a kinematic body is its
-/// angular velocity, as in its state.
-BodyMotion motion_of_sweep(const BodyTraits& traits, const Quat& rotation, const BodySweep& sweep, Scaled tick_rate);
+/// The velocity and angular momentum of a body that moves along its sweep. The `angular_momentum` of a kinematic body
+/// is its angular velocity, as in its state.
+BodyMotion motion_of_sweep(const BodyProperties& properties, const Quat& rotation, const BodySweep& sweep,
+                           Scaled tick_rate);
 
 /// The angular momentum of a body after its sweep has rotated it from one rotation to another. It is constant in the
 /// world, unless that raises the body's energy. The energy can rise because a sweep has a constant angular velocity:
 /// for a slender body that tumbles, the sweep differs from the free motion. The angular momentum is then scaled to the
 /// old energy. For a slender body, or if the energy grows by more than a quarter, it is instead constant in the body's
 /// axes, as it is on the sweep.
-Vec3<Real> carried_momentum(const BodyTraits& traits, const Quat& from, const Quat& to, const Vec3<Real>& momentum);
+Vec3<Real> carried_angular_momentum(const BodyProperties& properties, const Quat& from, const Quat& to,
+                                    const Vec3<Real>& angular_momentum);
 
 /// Adds the change of motion from `before` to `after` to the sweep. Returns the number of components that were clamped.
-uint32_t add_to_sweep(const BodyTraits& traits, const Quat& rotation, const BodyMotion& before, const BodyMotion& after,
-                      Real tick_time, BodySweep& sweep);
+uint32_t add_to_sweep(const BodyProperties& properties, const Quat& rotation, const BodyMotion& before,
+                      const BodyMotion& after, Real tick_time, BodySweep& sweep);
 
-/// Clamps the angular velocity to k_spin_max in each component, in the body's axes. It handles values far beyond that
-/// range: an impulse on the edge of a rod can demand them. Returns 1 if it clamped, else 0.
-uint32_t hold_spin(const BodyTraits& traits, const Quat& rotation, BodyMotion& motion);
+/// Clamps the angular velocity to k_angular_velocity_max in each component, in the body's axes. It handles values far
+/// beyond that range: an impulse on the edge of a rod can demand them. Returns 1 if it clamped, else 0.
+uint32_t hold_angular_velocity(const BodyProperties& properties, const Quat& rotation, BodyMotion& motion);
 
 /// A body of an impact.
 struct ImpactBody {
-  const BodyTraits& traits;
+  const BodyProperties& properties;
   const Quat& rotation;
   BodyMotion& motion;
 };

@@ -8,10 +8,10 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// For a pair that touches after an impact: the time to its next test is 2^k_look_power of a tick, and doubles each
+/// For a pair that touches after an impact: the time to its next test is 2^k_test_power of a tick, and doubles each
 /// time.
-constexpr int k_look_power = -10;
-constexpr uint32_t k_looks_max = 16;
+constexpr int k_test_power = -10;
+constexpr uint32_t k_tests_max = 16;
 
 /// The contacts of a pair at the start of a list.
 Span<const ContactWork> pair_contacts(Span<const ContactWork> from, uint64_t key) {
@@ -35,18 +35,21 @@ Span<const ContactWork> find_contacts(Span<const ContactWork> contacts, uint64_t
 
 bool jointed(const ImpactStage& stage, uint32_t slot) { return stage.bodies.sweeps[slot].marks >= k_mark_jointed; }
 bool is_ball(const ImpactStage& stage, uint32_t slot) {
-  return shape_of(stage.bodies.traits[slot]) == ShapeType::sphere;
+  return shape_of(stage.bodies.properties[slot]) == ShapeType::sphere;
 }
 
-bool is_curved(const ImpactStage& stage, uint32_t slot) { return round_radius(stage.bodies.traits[slot]) > Unit(0.0); }
+bool is_curved(const ImpactStage& stage, uint32_t slot) {
+  return round_radius(stage.bodies.properties[slot]) > Unit(0.0);
+}
 
 /// False for pairs that are disabled by filters or joints, and for pairs within one island of joints. If a body is
 /// jointed, also false for half-spaces: contacts alone keep bodies from passing them, because a single body that stops
 /// tears at its joints.
 bool may_meet(const ImpactStage& stage, uint32_t a, uint32_t b) {
-  if (!PairFilter{stage.bodies.traits, stage.bodies.filter_rules, stage.known.apart}.allows(a, b)) return false;
+  if (!PairFilter{stage.bodies.properties, stage.bodies.filter_rules, stage.known.disabled_pairs}.allows(a, b))
+    return false;
   if (!jointed(stage, a) && !jointed(stage, b)) return true;
-  if (is_half_space(stage.bodies.traits[a]) || is_half_space(stage.bodies.traits[b])) return false;
+  if (is_half_space(stage.bodies.properties[a]) || is_half_space(stage.bodies.properties[b])) return false;
   return stage.bodies.sweeps[a].marks / k_mark_jointed != stage.bodies.sweeps[b].marks / k_mark_jointed;
 }
 
@@ -54,7 +57,7 @@ bool may_meet(const ImpactStage& stage, uint32_t a, uint32_t b) {
 __attribute__((noinline)) void find_near(const ImpactStage& stage, uint32_t slot) {
   const Bounds& box = stage.bodies.bounds[slot];
   stage.bodies.resting.for_each_near(box, [&](uint32_t other) { stage.bodies.candidates.set(other); });
-  stage.bodies.visits.for_each([&](uint32_t other) {
+  stage.bodies.active.for_each([&](uint32_t other) {
     if (overlap(box, stage.bodies.bounds[other])) stage.bodies.candidates.set(other);
   });
 }
@@ -71,19 +74,19 @@ void for_each_near(const ImpactStage& stage, uint32_t slot, const Visit& visit) 
   });
 }
 
-ImpactPair* find_met(const ImpactStage& stage, uint64_t key) {
+ImpactPair* find_impact(const ImpactStage& stage, uint64_t key) {
   ImpactPair* found = nullptr;
   const uint32_t low = pair_low(key);
-  stage.for_each_met(stage.dynamic(low) ? low : pair_high(key), [&](ImpactPair& pair) {
+  stage.for_each_impact(stage.dynamic(low) ? low : pair_high(key), [&](ImpactPair& pair) {
     if (pair.key == key) found = &pair;
   });
   return found;
 }
 
-Real free_inset(const ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts, Real& apart) {
+Real free_shrink_depth(const ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts, Real& disabled_pairs) {
   const Real extent = stage.extent_of(key);
   if (contacts.count == 0) {
-    apart = stage.known.complete ? scale_by_power(extent, -6) : k_zero;
+    disabled_pairs = stage.known.complete ? scale_by_power(extent, -6) : k_zero;
     return k_zero;
   }
   Real least = contacts[0].separation[0];
@@ -93,59 +96,61 @@ Real free_inset(const ImpactStage& stage, uint64_t key, Span<const ContactWork> 
     rebounds = rebounds || is_positive(contact.restitution);
   }
   if (is_left_to_impact(contacts[0])) {
-    apart = k_zero;
+    disabled_pairs = k_zero;
     return k_zero;
   }
   // A round body may be nearer than its contacts say: their separation includes the distance gained by sliding past.
   const bool round = is_curved(stage, pair_low(key)) || is_curved(stage, pair_high(key));
   if (least > scale_by_power(extent, -10)) {
-    apart = round ? k_zero : scale_by_power(least, -1);
+    disabled_pairs = round ? k_zero : scale_by_power(least, -1);
     // A ball that the solver has made bounce touches at the end of the tick. Within the tolerance of the query that
     // would be an impact, so start one shrink depth deeper. Other shapes may collide at another point first.
     const bool bounces = is_ball(stage, pair_low(key)) || is_ball(stage, pair_high(key));
-    return bounces && rebounds && stage.is_pushed(key) ? next_inset(extent, k_zero) : k_zero;
+    return bounces && rebounds && stage.is_pushed(key) ? next_shrink_depth(extent, k_zero) : k_zero;
   }
-  const Real inset = contact_inset(extent, -least);
+  const Real shrink_depth = contact_shrink_depth(extent, -least);
   // Adds only one of the two shrink depths: the points of a contact need not show its whole depth.
-  apart = (round ? min(least, k_zero) : least) + inset;
-  return inset;
+  disabled_pairs = (round ? min(least, k_zero) : least) + shrink_depth;
+  return shrink_depth;
 }
 
-/// The first shrink depth, m, of a pair with these contacts, or none. `apart` becomes a lower bound of the distance of
-/// the cores at that depth, m. For a jointed body the depth is larger, so that only those collisions count in which the
-/// body would otherwise pass through.
-Real first_inset(const ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts, Real& apart) {
-  const Real inset = free_inset(stage, key, contacts, apart);
-  if (!jointed(stage, pair_low(key)) && !jointed(stage, pair_high(key))) return inset;
-  const Real held = max(inset, scale_by_power(stage.extent_of(key), -2) + scale_by_power(stage.extent_of(key), -3));
-  apart += held - inset;
+/// The first shrink depth, m, of a pair with these contacts, or none. `disabled_pairs` becomes a lower bound of the
+/// distance of the cores at that depth, m. For a jointed body the depth is larger, so that only those collisions count
+/// in which the body would otherwise pass through.
+Real first_shrink_depth(const ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts,
+                        Real& disabled_pairs) {
+  const Real shrink_depth = free_shrink_depth(stage, key, contacts, disabled_pairs);
+  if (!jointed(stage, pair_low(key)) && !jointed(stage, pair_high(key))) return shrink_depth;
+  const Real held =
+      max(shrink_depth, scale_by_power(stage.extent_of(key), -2) + scale_by_power(stage.extent_of(key), -3));
+  disabled_pairs += held - shrink_depth;
   return held;
 }
 
-/// The pair's entry in `met`. It is made if there is none. Returns null if there is no room.
+/// The pair's entry in `impacts`. It is made if there is none. Returns null if there is no room.
 ImpactPair* entry_of(ImpactStage& stage, uint64_t key, ImpactPair* entry) {
   if (entry != nullptr) return entry;
-  if (stage.met_count == stage.met.count) return nullptr;
-  if (stage.met_count == 0) {
-    for (uint32_t& first : stage.bodies.first_met) first = 0;
+  if (stage.impact_count == stage.impacts.count) return nullptr;
+  if (stage.impact_count == 0) {
+    for (uint32_t& first : stage.bodies.first_impact) first = 0;
   }
-  entry = &stage.met[stage.met_count++];
+  entry = &stage.impacts[stage.impact_count++];
   *entry = {};
   entry->key = key;
   const uint32_t slots[2] = {pair_low(key), pair_high(key)};
   for (int i = 0; i < 2; ++i) {
     if (!stage.dynamic(slots[i])) continue;
-    entry->more[i] = stage.bodies.first_met[slots[i]];
-    stage.bodies.first_met[slots[i]] = stage.met_count;
+    entry->more[i] = stage.bodies.first_impact[slots[i]];
+    stage.bodies.first_impact[slots[i]] = stage.impact_count;
   }
   return entry;
 }
 
-/// The time of the next test of a pair that was found touching `looks` times; 1 for never.
-Fraction look_after(Fraction time, uint32_t looks) {
-  if (looks == 0 || looks > k_looks_max) return k_whole_step;
-  const uint32_t power = looks < 10 ? looks - 1 : 9;
-  const int64_t after = (int64_t{1} << (Fraction::k_frac + k_look_power)) << power;
+/// The time of the next test of a pair that was found touching `tests` times; 1 for never.
+Fraction next_test_after(Fraction time, uint32_t tests) {
+  if (tests == 0 || tests > k_tests_max) return k_whole_step;
+  const uint32_t power = tests < 10 ? tests - 1 : 9;
+  const int64_t after = (int64_t{1} << (Fraction::k_frac + k_test_power)) << power;
   return after < k_whole_step.raw - time.raw ? Fraction::from_raw(time.raw + after) : k_whole_step;
 }
 
@@ -163,25 +168,25 @@ void test_at_start(ImpactStage& stage, uint64_t key, Span<const ContactWork> con
   if (!stage.dynamic(low) && !stage.dynamic(high)) return;
   if (is_at_rest(stage.bodies.sweeps[low]) && is_at_rest(stage.bodies.sweeps[high])) return;
   if (!overlap(stage.bodies.bounds[low], stage.bodies.bounds[high]) || !may_meet(stage, low, high)) return;
-  Real apart = k_zero, closing = k_zero;
-  const Real inset = first_inset(stage, key, contacts, apart);
+  Real disabled_pairs = k_zero, closing = k_zero;
+  const Real shrink_depth = first_shrink_depth(stage, key, contacts, disabled_pairs);
   const Fraction start = 0.0;
   // The sum of both bounds is cheap to compute, and mostly sufficient.
-  const bool slow = stage.bodies.sweeps[low].reach + stage.bodies.sweeps[high].reach < apart;
+  const bool slow = stage.bodies.sweeps[low].motion_bound + stage.bodies.sweeps[high].motion_bound < disabled_pairs;
   if (stage.filters() &&
-      (slow || (closing_bound(stage.body(low), stage.body(high), start, closing) && closing < apart))) {
+      (slow || (closing_bound(stage.body(low), stage.body(high), start, closing) && closing < disabled_pairs))) {
     ++stage.report.skipped;
     return;
   }
-  stage.test(key, start, inset, nullptr);
+  stage.test(key, start, shrink_depth, nullptr);
 }
 
 /// Whether the bodies of a pair in contact approach so fast that they rebound. Returns false if they overlap, or if the
 /// solver has applied an impulse between them.
-bool is_blow(const ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts) {
+bool is_new_impact(const ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts) {
   const uint32_t low = pair_low(key), high = pair_high(key);
   if (contacts.count == 0 || jointed(stage, low) || jointed(stage, high)) return false;
-  const Vec3<Real> way = stage.bodies.sweeps[high].displacement - stage.bodies.sweeps[low].displacement;
+  const Vec3<Real> relative = stage.bodies.sweeps[high].displacement - stage.bodies.sweeps[low].displacement;
   const Real touching = -scale_by_power(stage.extent_of(key), -10);
   bool rebounds = false;
   for (const ContactWork& contact : contacts) {
@@ -189,7 +194,7 @@ bool is_blow(const ImpactStage& stage, uint64_t key, Span<const ContactWork> con
       if (contact.separation[i] < touching || contact.impulse_max[i] > k_zero) return false;
     }
     rebounds = rebounds || (is_positive(contact.restitution) &&
-                            dot(way, contact.normal) <= -contact.rebound_min * stage.settings.tick_time);
+                            dot(relative, contact.normal) <= -contact.rebound_min * stage.settings.tick_time);
   }
   return rebounds;
 }
@@ -202,9 +207,9 @@ void test_changed(ImpactStage& stage, uint32_t slot, Fraction time) {
     if (is_at_rest(stage.bodies.sweeps[slot]) && is_at_rest(stage.bodies.sweeps[other])) return;
     const uint64_t key = key_of_pair(slot, other);
     const Span<const ContactWork> contacts = find_contacts(stage.known.contacts, key);
-    Real apart = k_zero, inset = k_zero;
-    if (!is_blow(stage, key, contacts)) inset = first_inset(stage, key, contacts, apart);
-    stage.test(key, time, inset, find_met(stage, key));
+    Real disabled_pairs = k_zero, shrink_depth = k_zero;
+    if (!is_new_impact(stage, key, contacts)) shrink_depth = first_shrink_depth(stage, key, contacts, disabled_pairs);
+    stage.test(key, time, shrink_depth, find_impact(stage, key));
   });
 }
 
@@ -218,16 +223,16 @@ bool ImpactStage::is_pushed(uint64_t key) const {
   return pushed;
 }
 
-void ImpactStage::test(uint64_t key, Fraction time, Real inset, ImpactPair* entry) {
+void ImpactStage::test(uint64_t key, Fraction time, Real shrink_depth, ImpactPair* entry) {
   const SweptBody a = body(pair_low(key)), b = body(pair_high(key));
   const bool resolved = entry != nullptr && entry->impacts != 0 && entry->last == time;
-  if (is_spent()) inset = max(inset, contact_inset(extent_of(key), k_zero));
+  if (is_spent()) shrink_depth = max(shrink_depth, contact_shrink_depth(extent_of(key), k_zero));
   PairSearch search(assets, features, a, b, time);
   Meeting meeting;
   const TimeOfImpact& impact = meeting.impact;
   const Vec3<Unit> axis = known_axis(*this, key, entry);
   if (entry != nullptr) entry->next = k_next_none;
-  const bool asked = search.find({inset, extent_of(key), true, resolved}, axis, meeting);
+  const bool asked = search.find({shrink_depth, extent_of(key), true, resolved}, axis, meeting);
   report.tests += meeting.tests;
   take_work(meeting.tests);
   if (!asked) {
@@ -244,9 +249,10 @@ void ImpactStage::test(uint64_t key, Fraction time, Real inset, ImpactPair* entr
     }
     if (impact.outcome == ToiOutcome::clear) return;
   }
-  const Fraction look = look_after(time, !meeting.climbed ? 0 : 1 + (entry == nullptr ? 0 : entry->looks));
-  const bool meets = impact.outcome != ToiOutcome::clear, looks = look < k_whole_step && inset == k_zero && !is_spent();
-  if (!meets && !looks) return;
+  const Fraction next_test = next_test_after(time, !meeting.climbed ? 0 : 1 + (entry == nullptr ? 0 : entry->tests));
+  const bool meets = impact.outcome != ToiOutcome::clear,
+             tests = next_test < k_whole_step && shrink_depth == k_zero && !is_spent();
+  if (!meets && !tests) return;
   entry = entry_of(*this, key, entry);
   if (entry == nullptr) {
     if (!meets) return;
@@ -255,10 +261,10 @@ void ImpactStage::test(uint64_t key, Fraction time, Real inset, ImpactPair* entr
     stop(pair_high(key), time);
     return;
   }
-  if (looks && (!meets || look < impact.time)) {
-    ++entry->looks;
-    entry->next = k_next_look;
-    entry->time = look;
+  if (tests && (!meets || next_test < impact.time)) {
+    ++entry->tests;
+    entry->next = k_next_test;
+    entry->time = next_test;
     return;
   }
   entry->next = impact.outcome == ToiOutcome::undecided ? k_next_undecided : k_next_impact;
@@ -275,11 +281,11 @@ void ImpactStage::find_first() {
     test_at_start(*this, key, pair_contacts(rest, key));
   }
   uint32_t moving = 0;
-  bodies.visits.for_each([&](uint32_t a) {
+  bodies.active.for_each([&](uint32_t a) {
     ++moving;
-    if ((bodies.sweeps[a].marks & k_mark_strayed) == 0) return;
+    if ((bodies.sweeps[a].marks & k_mark_left_bounds) == 0) return;
     for_each_near(*this, a, [&](uint32_t b) {
-      if (b < a && (bodies.sweeps[b].marks & k_mark_strayed) != 0) return;
+      if (b < a && (bodies.sweeps[b].marks & k_mark_left_bounds) != 0) return;
       const uint64_t key = key_of_pair(a, b);
       if (!has_pair(known.pairs, key)) test_at_start(*this, key, find_contacts(known.contacts, key));
     });
@@ -291,7 +297,7 @@ void ImpactStage::test_all_changed(Fraction time) {
   while (changed_count != 0) {
     const uint32_t first = changed_first;
     changed_first = UINT32_MAX;
-    bodies.visits.while_each(first, [&](uint32_t slot) {
+    bodies.active.while_each(first, [&](uint32_t slot) {
       if ((bodies.sweeps[slot].marks & k_mark_changed) != 0) test_changed(*this, slot, time);
       return changed_count != 0;
     });

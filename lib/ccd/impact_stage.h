@@ -2,11 +2,11 @@
 #include "broad_phase/pair_key.h"
 #include "ccd/impact.h"
 #include "ccd/impact_pair.h"
-#include "motion/spin.h"
-#include "shape/shape_traits.h"
+#include "motion/angular_velocity.h"
+#include "shape/shape_properties.h"
 
 /// Declarations that the files of continuous collision share. impact.cpp processes the impacts in the order of their
-/// times, impact_search.cpp finds when pairs collide, impact_blow.cpp resolves impacts, impact_sweeps.cpp keeps the
+/// times, impact_search.cpp finds when pairs collide, impact_solve.cpp resolves impacts, impact_sweeps.cpp keeps the
 /// bodies' sweeps.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -16,14 +16,14 @@ inline constexpr uint8_t k_next_none = 0;
 inline constexpr uint8_t k_next_impact = 1;
 inline constexpr uint8_t k_next_undecided = 2;  ///< the pair is clear up to that time
 /// The pair is tested again; if it has separated, at a smaller shrink depth.
-inline constexpr uint8_t k_next_look = 3;
+inline constexpr uint8_t k_next_test = 3;
 
 // Marks of a body's sweep, in addition to k_mark_jointed.
-inline constexpr uint32_t k_mark_stopped = 1;  ///< the body stays where it is until the tick ends
-inline constexpr uint32_t k_mark_changed = 2;  ///< the new sweep has not been tested yet
-inline constexpr uint32_t k_mark_strayed = 4;  ///< the sweep leaves the bounds that the pairs were found with
-inline constexpr uint32_t k_mark_struck = 8;   ///< the body was hit: its angular momentum follows its sweep
-inline constexpr uint32_t k_mark_slept = 16;   ///< the body was asleep when the tick began
+inline constexpr uint32_t k_mark_stopped = 1;      ///< the body stays where it is until the tick ends
+inline constexpr uint32_t k_mark_changed = 2;      ///< the new sweep has not been tested yet
+inline constexpr uint32_t k_mark_left_bounds = 4;  ///< the sweep leaves the bounds that the pairs were found with
+inline constexpr uint32_t k_mark_hit = 8;          ///< the body was hit: its angular momentum follows its sweep
+inline constexpr uint32_t k_mark_slept = 16;       ///< the body was asleep when the tick began
 
 /// The state of the stage during a tick.
 struct ImpactStage {
@@ -32,37 +32,37 @@ struct ImpactStage {
   const FeatureTable& features;
   const ImpactPairs& known;
   const ImpactBodies& bodies;
-  Span<ImpactPair> met;
+  Span<ImpactPair> impacts;
   Span<ImpactHit> hits;
   ImpactProbe* probe;
   Scaled tick_rate;
   uint32_t work_left = UINT32_MAX;  ///< see k_impact_work_times; set by find_first()
-  uint32_t met_count = 0;
+  uint32_t impact_count = 0;
   uint32_t changed_count = 0;
   uint32_t changed_first = 0;  ///< no body with a lower slot has k_mark_changed
   Real first_approach = 0.0;   ///< closing speed of the impact that is being resolved, m/s
   ImpactReport report = {};
 
-  SweptBody body(uint32_t slot) const { return {bodies.traits[slot], bodies.poses[slot], bodies.sweeps[slot]}; }
-  bool dynamic(uint32_t slot) const { return is_dynamic(bodies.traits[slot]); }
+  SweptBody body(uint32_t slot) const { return {bodies.properties[slot], bodies.poses[slot], bodies.sweeps[slot]}; }
+  bool dynamic(uint32_t slot) const { return is_dynamic(bodies.properties[slot]); }
   /// Whether pairs that cannot collide are skipped.
   bool filters() const { return probe == nullptr || probe->filters; }
   /// Subtracts `count` tests or impulses from the work that is left.
   void take_work(uint32_t count) { work_left -= count < work_left ? count : work_left; }
   bool is_spent() const { return work_left == 0; }
-  /// Visits the entries in `met` of a dynamic body: its pairs with a coming impact, and those that have had one.
+  /// Visits the entries in `impacts` of a dynamic body: its pairs with a coming impact, and those that have had one.
   template <class Visit>
-  void for_each_met(uint32_t slot, const Visit& visit) const {
-    if (met_count == 0) return;
-    for (uint32_t at = bodies.first_met[slot]; at != 0;) {
-      ImpactPair& pair = met[at - 1];
+  void for_each_impact(uint32_t slot, const Visit& visit) const {
+    if (impact_count == 0) return;
+    for (uint32_t at = bodies.first_impact[slot]; at != 0;) {
+      ImpactPair& pair = impacts[at - 1];
       at = pair.more[pair_high(pair.key) == slot ? 1 : 0];
       visit(pair);
     }
   }
   /// The smaller body's smallest diameter, m.
   Real extent_of(uint64_t key) const {
-    return min(shape_extent(bodies.traits[pair_low(key)]), shape_extent(bodies.traits[pair_high(key)]));
+    return min(shape_extent(bodies.properties[pair_low(key)]), shape_extent(bodies.properties[pair_high(key)]));
   }
 
   // impact_sweeps.cpp
@@ -77,22 +77,22 @@ struct ImpactStage {
   /// Stops the body at `time` until the tick ends.
   void stop(uint32_t slot, Fraction time);
   /// Moves the angular momentum of the bodies that were hit to the end of the tick.
-  void carry_to_end();
+  void finish_momentum();
 
   // impact_search.cpp
 
   /// Finds the first impact of every pair that may collide. The number of tests and of moving bodies sets the budget of
   /// work for the rest of the tick.
   void find_first();
-  /// Finds when a pair collides next, and stores the impact if there is one. `inset`: the first shrink depth, m.
-  /// `entry`: the pair's entry in `met`, or null.
-  void test(uint64_t key, Fraction time, Real inset, ImpactPair* entry);
+  /// Finds when a pair collides next, and stores the impact if there is one. `shrink_depth`: the first shrink depth, m.
+  /// `entry`: the pair's entry in `impacts`, or null.
+  void test(uint64_t key, Fraction time, Real shrink_depth, ImpactPair* entry);
   /// Tests the sweeps that have changed against all other bodies.
   void test_all_changed(Fraction time);
   /// Whether the solver pushed the pair apart in this tick.
   bool is_pushed(uint64_t key) const;
 
-  // impact_blow.cpp
+  // impact_solve.cpp
 
   /// Separates the bodies of a pair, which are at the time of its impact. Returns true if they collide at a seam for
   /// the first time; nothing has changed then.

@@ -14,26 +14,27 @@ bool holds(const Bounds& outer, const Bounds& inner) {
 }
 
 /// Bounds of a body over a sweep. Their margin is smaller than that of the bounds that the pairs were found with.
-Bounds bounds_over(const BodyTraits& traits, const BodyPose& pose, const Sweep& sweep) {
-  if (is_non_colliding(traits)) return k_nowhere;
-  if (is_half_space(traits)) return k_everywhere;
-  const Real margin = scale_by_power(bounds_extent(traits), -8);
-  Vec3<Real> reach = half_bounds(traits, matrix_from(pose.rotation));
-  if (!(sweep.turn == k_zero_vector)) {
-    const Real ball = real_from_unit(traits.bounding_radius, traits.size_exponent);
-    const Real swing = ball * min(length(sweep.turn), Real(4.0));
-    reach = {min(reach.x + swing, ball), min(reach.y + swing, ball), min(reach.z + swing, ball)};
+Bounds bounds_over(const BodyProperties& properties, const BodyPose& pose, const Sweep& sweep) {
+  if (is_non_colliding(properties)) return k_nowhere;
+  if (is_half_space(properties)) return k_everywhere;
+  const Real margin = scale_by_power(bounds_extent(properties), -8);
+  Vec3<Real> motion_bound = half_bounds(properties, matrix_from(pose.rotation));
+  if (!(sweep.rotation_vector == k_zero_vector)) {
+    const Real ball = real_from_unit(properties.bounding_radius, properties.size_exponent);
+    const Real swing = ball * min(length(sweep.rotation_vector), Real(4.0));
+    motion_bound = {min(motion_bound.x + swing, ball), min(motion_bound.y + swing, ball),
+                    min(motion_bound.z + swing, ball)};
   }
-  reach += {margin, margin, margin};
-  const Vec3<Real>& way = sweep.displacement;
+  motion_bound += {margin, margin, margin};
+  const Vec3<Real>& displacement = sweep.displacement;
   bool beyond = false;  // clamped bounds still contain the body
   const Position& at = pose.position;
-  return {{coord_advance(at.x, min(way.x, k_zero) - reach.x, beyond),
-           coord_advance(at.y, min(way.y, k_zero) - reach.y, beyond),
-           coord_advance(at.z, min(way.z, k_zero) - reach.z, beyond)},
-          {coord_advance(at.x, max(way.x, k_zero) + reach.x, beyond),
-           coord_advance(at.y, max(way.y, k_zero) + reach.y, beyond),
-           coord_advance(at.z, max(way.z, k_zero) + reach.z, beyond)}};
+  return {{coord_advance(at.x, min(displacement.x, k_zero) - motion_bound.x, beyond),
+           coord_advance(at.y, min(displacement.y, k_zero) - motion_bound.y, beyond),
+           coord_advance(at.z, min(displacement.z, k_zero) - motion_bound.z, beyond)},
+          {coord_advance(at.x, max(displacement.x, k_zero) + motion_bound.x, beyond),
+           coord_advance(at.y, max(displacement.y, k_zero) + motion_bound.y, beyond),
+           coord_advance(at.z, max(displacement.z, k_zero) + motion_bound.z, beyond)}};
 }
 
 /// Computes the bounds of the body's sweep from now on, and records the sweep in the probe.
@@ -41,16 +42,16 @@ void begin_sweep(const ImpactStage& stage, uint32_t slot) {
   const BodySweep& sweep = stage.bodies.sweeps[slot];
   const Sweep rest = rest_of(sweep, sweep.from);
   const BodyPose& pose = stage.bodies.poses[slot];
-  stage.bodies.bounds[slot] = bounds_over(stage.bodies.traits[slot], pose, rest);
+  stage.bodies.bounds[slot] = bounds_over(stage.bodies.properties[slot], pose, rest);
   if (stage.probe == nullptr) return;
   const uint32_t at = stage.probe->segment_count++;
   if (at >= stage.probe->segments.count) return;
-  stage.probe->segments[at] = {slot, 0, sweep.from, pose, rest.displacement, rest.turn};
+  stage.probe->segments[at] = {slot, 0, sweep.from, pose, rest.displacement, rest.rotation_vector};
 }
 
 /// Adds the body to the moving bodies and removes it from the tree of resting ones.
 void leave_rest(const ImpactStage& stage, uint32_t slot) {
-  stage.bodies.visits.set(slot);
+  stage.bodies.active.set(slot);
   if (stage.bodies.resting.has(slot)) stage.bodies.resting.remove(slot);
 }
 
@@ -63,43 +64,46 @@ Quat end_rotation(const ImpactStage& stage, uint32_t slot) {
 }  // namespace
 
 void ImpactStage::start_sweeps() {
-  bodies.visits.for_each([&](uint32_t slot) {
+  bodies.active.for_each([&](uint32_t slot) {
     BodySweep& sweep = bodies.sweeps[slot];
-    if (is_non_colliding(bodies.traits[slot])) {
+    if (is_non_colliding(bodies.properties[slot])) {
       begin_sweep(*this, slot);
       return;
     }
     if (!is_at_rest(sweep)) {
       const Bounds found_by = bodies.bounds[slot];
       begin_sweep(*this, slot);
-      if (!holds(found_by, bodies.bounds[slot])) sweep.marks |= k_mark_strayed;
-      if (!motion_bound(body(slot), sweep.from, sweep.reach)) sweep.reach = scale_by_power(k_real_max, -2);
+      if (!holds(found_by, bodies.bounds[slot])) sweep.marks |= k_mark_left_bounds;
+      if (!motion_bound(body(slot), sweep.from, sweep.motion_bound))
+        sweep.motion_bound = scale_by_power(k_real_max, -2);
     }
-    if (!filters() || !known.complete) sweep.marks |= k_mark_strayed;
+    if (!filters() || !known.complete) sweep.marks |= k_mark_left_bounds;
   });
 }
 
 void ImpactStage::move_to(uint32_t slot, Fraction time) {
   leave_rest(*this, slot);
   BodySweep& sweep = bodies.sweeps[slot];
-  const bool struck = (sweep.marks & k_mark_struck) != 0;
-  sweep.marks |= k_mark_struck;
+  const bool hit = (sweep.marks & k_mark_hit) != 0;
+  sweep.marks |= k_mark_hit;
   // The angular momentum that the solver leaves is the one at the end of the tick.
-  const Quat from = struck ? bodies.poses[slot].rotation : end_rotation(*this, slot);
+  const Quat from = hit ? bodies.poses[slot].rotation : end_rotation(*this, slot);
   if (time > sweep.from) {
     if (bodies.listener.ended != nullptr) bodies.listener.ended(bodies.listener.context, slot, time);
     bodies.poses[slot] = pose_at(body(slot), time);
   }
   sweep.from = time;
-  Vec3<Real>& momentum = bodies.motions[slot].momentum;
-  momentum = carried_momentum(bodies.traits[slot], from, bodies.poses[slot].rotation, momentum);
+  Vec3<Real>& angular_momentum = bodies.motions[slot].angular_momentum;
+  angular_momentum =
+      carried_angular_momentum(bodies.properties[slot], from, bodies.poses[slot].rotation, angular_momentum);
 }
 
-void ImpactStage::carry_to_end() {
-  bodies.visits.for_each([&](uint32_t slot) {
-    if ((bodies.sweeps[slot].marks & k_mark_struck) == 0) return;
-    Vec3<Real>& momentum = bodies.motions[slot].momentum;
-    momentum = carried_momentum(bodies.traits[slot], bodies.poses[slot].rotation, end_rotation(*this, slot), momentum);
+void ImpactStage::finish_momentum() {
+  bodies.active.for_each([&](uint32_t slot) {
+    if ((bodies.sweeps[slot].marks & k_mark_hit) == 0) return;
+    Vec3<Real>& angular_momentum = bodies.motions[slot].angular_momentum;
+    angular_momentum = carried_angular_momentum(bodies.properties[slot], bodies.poses[slot].rotation,
+                                                end_rotation(*this, slot), angular_momentum);
   });
 }
 
@@ -109,14 +113,14 @@ void ImpactStage::change(uint32_t slot) {
   if ((sweep.marks & k_mark_changed) == 0) ++changed_count;
   changed_first = slot < changed_first ? slot : changed_first;
   sweep.marks |= k_mark_changed;
-  for_each_met(slot, [](ImpactPair& pair) { pair.next = k_next_none; });
+  for_each_impact(slot, [](ImpactPair& pair) { pair.next = k_next_none; });
 }
 
 void ImpactStage::stop(uint32_t slot, Fraction time) {
   BodySweep& sweep = bodies.sweeps[slot];
   if (!dynamic(slot) || (sweep.marks & k_mark_stopped) != 0) return;
   move_to(slot, time);
-  sweep.displacement = sweep.turn = k_zero_vector;
+  sweep.displacement = sweep.rotation_vector = k_zero_vector;
   sweep.marks |= k_mark_stopped;
   ++report.bodies_stopped;
   report.lost_time += sweep_part({{Real(1.0), k_zero, k_zero}, k_zero_vector}, k_whole_step - time).displacement.x;

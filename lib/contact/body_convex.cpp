@@ -2,7 +2,7 @@
 
 #include "math/arithmetic.h"
 #include "shape/hull.h"
-#include "shape/shape_traits.h"
+#include "shape/shape_properties.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -33,26 +33,28 @@ void set_core(const int32_t (&size)[3], int32_t bound, int32_t exponent, Convex&
 
 }  // namespace
 
-bool body_convex(const BodyTraits& traits, const AssetTable& assets, Convex& convex) {
+bool body_convex(const BodyProperties& properties, const AssetTable& assets, Convex& convex) {
   Convex made;
-  made.type = static_cast<ShapeType>(traits.shape);
-  made.radius = raw_from_unit(traits.rounding);
-  made.radius_exponent = traits.size_exponent;
-  int32_t size[3] = {raw_from_unit(traits.size.x), raw_from_unit(traits.size.y), raw_from_unit(traits.size.z)};
+  made.type = static_cast<ShapeType>(properties.shape);
+  made.radius = raw_from_unit(properties.rounding);
+  made.radius_exponent = properties.size_exponent;
+  int32_t size[3] = {raw_from_unit(properties.size.x), raw_from_unit(properties.size.y),
+                     raw_from_unit(properties.size.z)};
   switch (made.type) {
     case ShapeType::capsule:
       made.radius = size[0];
       size[0] = 0;
-      if (size[1] != 0) set_core(size, size[1], traits.size_exponent, made);
+      if (size[1] != 0) set_core(size, size[1], properties.size_exponent, made);
       break;
     case ShapeType::box:
     case ShapeType::cylinder:
     case ShapeType::cone:
-      set_core(size, raw_from_unit(traits.bounding_radius) - made.radius + k_bound_slack, traits.size_exponent, made);
+      set_core(size, raw_from_unit(properties.bounding_radius) - made.radius + k_bound_slack, properties.size_exponent,
+               made);
       break;
     case ShapeType::hull: {
-      if (!is_in(assets, traits.asset)) return false;
-      made.hull = assets.assets[traits.asset].bytes;
+      if (!is_in(assets, properties.asset)) return false;
+      made.hull = assets.assets[properties.asset].bytes;
       made.exponent = cooked_i32(made.hull + k_hull_exponent_at);
       made.core_radius = cooked_i32(made.hull + k_hull_core_radius_at);
       made.vertex_count = cooked_u32(made.hull + k_hull_vertex_count_at);

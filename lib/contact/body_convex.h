@@ -9,7 +9,7 @@ inline namespace DETENT_NAMESPACE {
 /// body's sizes and takes no roots. The core radius is rounded up by at most 2^-7 of its value. Returns false, and
 /// leaves `convex` unchanged, for a compound and for a hull whose asset is not in the table. Succeeds for all other
 /// bodies.
-bool body_convex(const BodyTraits& traits, const AssetTable& assets, Convex& convex);
+bool body_convex(const BodyProperties& properties, const AssetTable& assets, Convex& convex);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

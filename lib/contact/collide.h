@@ -19,15 +19,15 @@ struct ContactGeometryPoint {
 };
 
 /// Limits and options for the contact points of two bodies.
-struct ContactReach {
+struct ContactMargins {
   Real distance;    ///< contact margin: the greatest separation of a contact point, m
   Real sunk = 0.0;  ///< typical penetration of resting bodies, m
   /// Whether bodies slide smoothly over the seam between two other bodies: slivers are left out, and an edge that is
   /// level with a face within `sunk` counts as the face (contact_seam.h).
   bool smooth_seams = false;
 
-  ContactReach(Real within) : distance(within) {}
-  ContactReach(Real within, Real sunk_in) : distance(within), sunk(sunk_in), smooth_seams(true) {}
+  ContactMargins(Real within) : distance(within) {}
+  ContactMargins(Real within, Real sunk_in) : distance(within), sunk(sunk_in), smooth_seams(true) {}
 };
 
 /// Contact of two bodies, world axes.
@@ -50,16 +50,16 @@ inline Real depth_of(const ContactGeometry& geometry) {
 /// The data of a body that collide() reads. `rotation` is the rotation matrix of `pose`.
 struct CollisionBody {
   const BodyPose& pose;
-  const BodyTraits& traits;
+  const BodyProperties& properties;
   const Matrix3& rotation;
 };
 
-/// Finds the contact points of a pair whose separation is at most `reach.distance`, m. The result is empty if there are
-/// none. Spheres, capsules, unrounded boxes and half-spaces have specialised functions for each pair of them; all other
-/// pairs go through contact_points(). `features` must include those of both shapes, and `rounding` if a shape is
+/// Finds the contact points of a pair whose separation is at most `margin.distance`, m. The result is empty if there
+/// are none. Spheres, capsules, unrounded boxes and half-spaces have specialised functions for each pair of them; all
+/// other pairs go through contact_points(). `features` must include those of both shapes, and `rounding` if a shape is
 /// rounded. Precision (fixed point; tests/unit/contact): 2^-26 of the larger body's bounding diameter. Against a
 /// half-space: 2^-26 of the other body's size and 2^-31 of its distance from the plane's origin.
-void collide(const CollisionBody& a, const CollisionBody& b, const ContactReach& reach, ContactGeometry& contact,
+void collide(const CollisionBody& a, const CollisionBody& b, const ContactMargins& margin, ContactGeometry& contact,
              const AssetTable& assets = {}, ManifoldReduction reduction = ManifoldReduction::projected_extremes,
              const FeatureTable& features = feature_table<Features::all>);
 

@@ -69,8 +69,8 @@ Unit closest_along(const BoxAndSegment& pair) {
     const Unit speed = abs(pair.direction.v[axis]);
     for (int side = 0; side < 2; ++side) {
       const Unit face = side == 0 ? pair.half.v[axis] : -pair.half.v[axis];
-      const Unit way = pair.direction.v[axis] < zero ? pair.centre.v[axis] - face : face - pair.centre.v[axis];
-      if (abs(way) < limit * speed) visit(divide(way, speed));
+      const Unit shift = pair.direction.v[axis] < zero ? pair.centre.v[axis] - face : face - pair.centre.v[axis];
+      if (abs(shift) < limit * speed) visit(divide(shift, speed));
     }
   }
   if (zero_low <= zero_high) return zero_low + scale_by_power(zero_high - zero_low, -1);
@@ -234,7 +234,7 @@ void collide_box_round(const PairFrame& frame, PairManifold& manifold) {
   Unit distance = zero;
   BoxContact contact;
   if (normalise(vector_of(excess), normal, distance) && distance > k_meeting) {
-    if (distance - radius > frame.reach) return;
+    if (distance - radius > frame.margin) return;
     contact = {axes_of(normal), -1, along};
     const Unit aside = scale_by_power(distance, k_upright_power);
     for (int axis = 0; axis < 3; ++axis) {
@@ -253,35 +253,35 @@ void collide_box_round(const PairFrame& frame, PairManifold& manifold) {
   }
   manifold.normal = multiply(rotation, vector_of(contact.normal));
 
-  const auto add = [&](Unit at, Unit surface, uint32_t feature) {
+  const auto add = [&](Unit at, Unit terrain, uint32_t feature) {
     Axes point;
     for (int i = 0; i < 3; ++i) point.v[i] = pair.at(i, at);
-    const Unit separation = dot(vector_of(point), vector_of(contact.normal)) - surface - radius;
-    if (separation > frame.reach) return;
+    const Unit separation = dot(vector_of(point), vector_of(contact.normal)) - terrain - radius;
+    if (separation > frame.margin) return;
     const Unit inward = radius + scale_by_power(separation, -1);
     manifold.add({multiply(rotation, vector_of(point) - vector_of(contact.normal) * inward), separation, feature});
   };
   if (contact.face >= 0) {
     const int face = contact.face;
     const uint32_t base = 1 + 4 * static_cast<uint32_t>(2 * face + (contact.normal.v[face] < zero ? 1 : 0));
-    const Unit surface = pair.half.v[face];
+    const Unit terrain = pair.half.v[face];
     Unit low = zero, high = zero;
     if (pair.half_length > zero && clip_to_face(pair, face, low, high) && low < high) {
-      add(low, surface, base);
-      add(high, surface, base + 1);
+      add(low, terrain, base);
+      add(high, terrain, base + 1);
     } else {
-      add(along, surface, base + 2);
+      add(along, terrain, base + 2);
     }
     return;
   }
-  Unit surface = zero;
-  for (int i = 0; i < 3; ++i) surface += pair.half.v[i] * abs(contact.normal.v[i]);
+  Unit terrain = zero;
+  for (int i = 0; i < 3; ++i) terrain += pair.half.v[i] * abs(contact.normal.v[i]);
   Unit low = zero, high = zero;
   if (clip_to_edge(pair, contact, thickness, low, high)) {
-    add(low, surface, 65);
-    add(high, surface, 66);
+    add(low, terrain, 65);
+    add(high, terrain, 66);
   } else {
-    add(contact.along, surface, 64);
+    add(contact.along, terrain, 64);
   }
 }
 

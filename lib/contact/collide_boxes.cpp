@@ -88,18 +88,18 @@ struct FaceAxes {
 
 /// Finds the face axis of largest separation. Faces of A are preferred to faces of B by `preference`, 1/64 of the
 /// smaller box, so that a resting pair keeps its features. False if a face axis separates the boxes by more than
-/// `reach`.
-bool find_face_axis(const AxisTable& table, Unit reach, Unit preference, FaceAxes& face, SeparatingAxis& best) {
+/// `margin`.
+bool find_face_axis(const AxisTable& table, Unit margin, Unit preference, FaceAxes& face, SeparatingAxis& best) {
   best = {AxisKind::face_a, 0, 0, -1.5};
   for (int i = 0; i < 3; ++i) {
     face.a[i] = face_a_separation(table, i);
-    if (face.a[i] > reach) return false;
+    if (face.a[i] > margin) return false;
     if (face.a[i] > best.separation) best = {AxisKind::face_a, i, 0, face.a[i]};
   }
   Unit to_beat = best.separation + preference;
   for (int j = 0; j < 3; ++j) {
     face.b[j] = face_b_separation(table, j);
-    if (face.b[j] > reach) return false;
+    if (face.b[j] > margin) return false;
     if (face.b[j] > to_beat) {
       best = {AxisKind::face_b, 0, j, face.b[j]};
       to_beat = face.b[j];
@@ -132,16 +132,16 @@ __attribute__((noinline)) bool is_box_sliver(const AxisTable& table, const FaceA
 }
 
 /// Finds the axis of largest separation. Faces are preferred to edges by `preference`, as faces of A are to faces of B.
-/// False if an axis separates the boxes by more than `reach`.
-__attribute__((noinline)) bool find_axis(const AxisTable& table, Unit reach, Unit preference, FaceAxes& face,
+/// False if an axis separates the boxes by more than `margin`.
+__attribute__((noinline)) bool find_axis(const AxisTable& table, Unit margin, Unit preference, FaceAxes& face,
                                          SeparatingAxis& best) {
-  if (!find_face_axis(table, reach, preference, face, best)) return false;
+  if (!find_face_axis(table, margin, preference, face, best)) return false;
   Unit to_beat = best.separation + preference;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
       Unit separation = 0.0;
       if (!edge_separation(table, i, j, separation)) continue;
-      if (separation > reach) return false;
+      if (separation > margin) return false;
       if (separation > to_beat) {
         best = {AxisKind::edges, i, j, separation};
         to_beat = separation;
@@ -269,7 +269,7 @@ __attribute__((noinline)) void collide_face(const PairShape& reference, const Pa
                          12 * (2 * static_cast<uint32_t>(opposed) + (side < Unit(0.0) ? 1u : 0u));
   uint32_t near = 0;
   for (uint32_t i = 0; i < count; ++i) {
-    if (polygon[i].w <= frame.reach) polygon[near++] = polygon[i];
+    if (polygon[i].w <= frame.margin) polygon[near++] = polygon[i];
   }
   uint32_t chosen[k_manifold_points_max];
   Unit smallest = half.v[0];
@@ -340,11 +340,11 @@ void collide_edges(const PairFrame& frame, const SeparatingAxis& axis, PairManif
   Unit along_a = 0.0, along_b = 0.0;
   closest_points(edge_a, edge_b, along_a, along_b);
   const Vec3<Unit> on_a = point_at(edge_a, along_a), on_b = point_at(edge_b, along_b);
-  const Vec3<Unit> half_way = {scale_by_power(on_b.x - on_a.x, -1), scale_by_power(on_b.y - on_a.y, -1),
+  const Vec3<Unit> half_gap = {scale_by_power(on_b.x - on_a.x, -1), scale_by_power(on_b.y - on_a.y, -1),
                                scale_by_power(on_b.z - on_a.z, -1)};
   const Unit separation = dot(on_b - on_a, manifold.normal);
-  if (separation > frame.reach) return;
-  manifold.add({on_a + half_way, separation, 0x10000 + 16 * which_a + which_b});
+  if (separation > frame.margin) return;
+  manifold.add({on_a + half_gap, separation, 0x10000 + 16 * which_a + which_b});
 }
 
 }  // namespace
@@ -354,7 +354,7 @@ void collide_boxes(const PairFrame& frame, PairManifold& manifold) {
   const Unit preference = preference_of(table.half_a, table.half_b);
   FaceAxes face;
   SeparatingAxis axis;
-  if (!find_axis(table, frame.reach, preference, face, axis)) return;
+  if (!find_axis(table, frame.margin, preference, face, axis)) return;
   const Unit room = max(scale_by_power(preference, 1), min(frame.sunk, scale_by_power(preference, 3)));
   manifold.seam = frame.smooth_seams && is_box_sliver(table, face, axis, room);
   if (manifold.seam) return;

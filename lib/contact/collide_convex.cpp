@@ -6,7 +6,7 @@
 #include "contact/collide_half_space.h"
 #include "contact/contact_arm.h"
 #include "math/arithmetic.h"
-#include "shape/shape_traits.h"
+#include "shape/shape_properties.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -18,40 +18,40 @@ void add_points(const CollisionBody& a, const CollisionBody& b, const ContactMan
   contact.capped = manifold.capped;
   for (uint32_t i = 0; i < manifold.count; ++i) {
     const ManifoldPoint& point = manifold.point[i];
-    contact.point[contact.count++] = {arm_of_way(point.from_a, a.traits.size_exponent),
-                                      arm_of_way(point.from_b, b.traits.size_exponent), point.separation,
+    contact.point[contact.count++] = {arm_of_offset(point.from_a, a.properties.size_exponent),
+                                      arm_of_offset(point.from_b, b.properties.size_exponent), point.separation,
                                       point.feature};
   }
 }
 
 /// Moves the origin of the plane to the point of the plane nearest to the body, because the origin may be too far away
-/// for contact_points(). This point is rounded to a coordinate; the resulting error of the distance (`missing`) is
+/// for contact_points(). This point is rounded to a coordinate; the resulting error of the distance (`height_error`) is
 /// added back.
 Status meet_half_space(const CollisionBody& plane, const CollisionBody& body, const Convex& convex, bool plane_is_a,
-                       Real reach, ManifoldReduction reduction, ContactManifold& manifold) {
+                       Real margin, ManifoldReduction reduction, ContactManifold& manifold) {
   const Vec3<Unit>& up = plane.rotation.column[1];
   const Real height = distance_along(plane.pose.position, body.pose.position, up);
-  const Real radius = bounding_radius_of(body.traits);
-  if (height > radius + reach) return Status::ok;
+  const Real radius = bounding_radius_of(body.properties);
+  if (height > radius + margin) return Status::ok;
   // The depth is clamped: a body this far below the plane is completely below it.
-  const Real down = clamp(height, scale_by_power(-radius, 1), radius + reach);
+  const Real down = clamp(height, scale_by_power(-radius, 1), radius + margin);
   const Position centre = {0.0, 0.0, 0.0};
   Position foot = centre;
   bool saturated = false;  // never set: the displacement is of the size of a body
   foot.x = coord_advance(foot.x, -(down * up.x), saturated);
   foot.y = coord_advance(foot.y, -(down * up.y), saturated);
   foot.z = coord_advance(foot.z, -(down * up.z), saturated);
-  const Real missing = height - distance_along(foot, centre, up);
+  const Real height_error = height - distance_along(foot, centre, up);
   Convex ground;
   ground.type = ShapeType::half_space;
   const Pose pose_ground = {foot, plane.pose.rotation}, pose_body = {centre, body.pose.rotation};
-  const Real asked = max(reach - missing, Real(0.0));
+  const Real asked = max(margin - height_error, Real(0.0));
   const Status status =
       plane_is_a ? contact_points(ground, pose_ground, convex, pose_body, asked, manifold, nullptr, reduction)
                  : contact_points(convex, pose_body, ground, pose_ground, asked, manifold, nullptr, reduction);
   for (uint32_t i = 0; i < manifold.count; ++i) {
     ManifoldPoint& point = manifold.point[i];
-    point.separation += missing;
+    point.separation += height_error;
     (plane_is_a ? point.from_a : point.from_b) = {0.0, 0.0, 0.0};  // the arm of a plane has no effect
   }
   return status;
@@ -59,22 +59,23 @@ Status meet_half_space(const CollisionBody& plane, const CollisionBody& body, co
 
 }  // namespace
 
-bool make_rules(const ContactReach& reach, ManifoldReduction reduction, ContactRules& rules) {
+bool make_rules(const ContactMargins& margin, ManifoldReduction reduction, ContactRules& rules) {
   Vec64 raw;
-  if (!raw_from_real({reach.distance, reach.sunk, Real(0.0)}, raw) || raw.x < 0) return false;
-  rules = {raw.x, raw.y, reduction, true, reach.smooth_seams};
+  if (!raw_from_real({margin.distance, margin.sunk, Real(0.0)}, raw) || raw.x < 0) return false;
+  rules = {raw.x, raw.y, reduction, true, margin.smooth_seams};
   return true;
 }
 
 void collide_convexes(const CollisionBody& a, const Convex& convex_a, const CollisionBody& b, const Convex& convex_b,
-                      const ContactReach& reach, ManifoldReduction reduction, ContactGeometry& contact) {
+                      const ContactMargins& margin, ManifoldReduction reduction, ContactGeometry& contact) {
   ContactManifold manifold;
   ContactKind kind;
   const auto meet = [&] {
-    if (is_half_space(a.traits)) return meet_half_space(a, b, convex_b, true, reach.distance, reduction, manifold);
-    if (is_half_space(b.traits)) return meet_half_space(b, a, convex_a, false, reach.distance, reduction, manifold);
+    if (is_half_space(a.properties)) return meet_half_space(a, b, convex_b, true, margin.distance, reduction, manifold);
+    if (is_half_space(b.properties))
+      return meet_half_space(b, a, convex_a, false, margin.distance, reduction, manifold);
     ContactRules rules;
-    if (!make_rules(reach, reduction, rules)) return Status::out_of_range;
+    if (!make_rules(margin, reduction, rules)) return Status::out_of_range;
     return contact_points_by(rules, convex_a, {a.pose.position, a.pose.rotation}, convex_b,
                              {b.pose.position, b.pose.rotation}, nullptr, manifold, kind);
   };
@@ -85,11 +86,11 @@ void collide_convexes(const CollisionBody& a, const Convex& convex_a, const Coll
   contact.capped = contact.capped || status != Status::ok;
 }
 
-void collide_convex(const CollisionBody& a, const CollisionBody& b, const ContactReach& reach, const AssetTable& assets,
-                    ManifoldReduction reduction, ContactGeometry& contact) {
+void collide_convex(const CollisionBody& a, const CollisionBody& b, const ContactMargins& margin,
+                    const AssetTable& assets, ManifoldReduction reduction, ContactGeometry& contact) {
   Convex convex_a, convex_b;
-  contact.capped = !body_convex(a.traits, assets, convex_a) || !body_convex(b.traits, assets, convex_b);
-  if (!contact.capped) collide_convexes(a, convex_a, b, convex_b, reach, reduction, contact);
+  contact.capped = !body_convex(a.properties, assets, convex_a) || !body_convex(b.properties, assets, convex_b);
+  if (!contact.capped) collide_convexes(a, convex_a, b, convex_b, margin, reduction, contact);
 }
 
 const ConvexOps k_convex_ops = {collide_convex};

@@ -7,23 +7,23 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Makes the rules for contact_points_by(). False if `reach.distance` is negative, or if a length is NaN or infinite.
-bool make_rules(const ContactReach& reach, ManifoldReduction reduction, ContactRules& rules);
+/// Makes the rules for contact_points_by(). False if `margin.distance` is negative, or if a length is NaN or infinite.
+bool make_rules(const ContactMargins& margin, ManifoldReduction reduction, ContactRules& rules);
 
 struct ConvexOps {
-  void (*collide)(const CollisionBody& a, const CollisionBody& b, const ContactReach& reach, const AssetTable& assets,
-                  ManifoldReduction reduction, ContactGeometry& contact);
+  void (*collide)(const CollisionBody& a, const CollisionBody& b, const ContactMargins& margin,
+                  const AssetTable& assets, ManifoldReduction reduction, ContactGeometry& contact);
 };
 
 /// Finds the contact of any two convex shapes except two half-spaces, by contact_points(). `contact` must be empty.
 /// Also sets `capped` if the bytes of a hull are missing or a position is out of range.
-void collide_convex(const CollisionBody& a, const CollisionBody& b, const ContactReach& reach, const AssetTable& assets,
-                    ManifoldReduction reduction, ContactGeometry& contact);
+void collide_convex(const CollisionBody& a, const CollisionBody& b, const ContactMargins& margin,
+                    const AssetTable& assets, ManifoldReduction reduction, ContactGeometry& contact);
 
 /// The same for the given convex shapes at the poses of the bodies. Each shape is the shape of its body or a part of
 /// it.
 void collide_convexes(const CollisionBody& a, const Convex& convex_a, const CollisionBody& b, const Convex& convex_b,
-                      const ContactReach& reach, ManifoldReduction reduction, ContactGeometry& contact);
+                      const ContactMargins& margin, ManifoldReduction reduction, ContactGeometry& contact);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

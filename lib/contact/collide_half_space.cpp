@@ -37,13 +37,13 @@ namespace {
 struct Collector {
   Vec3<Unit> normal;
   Real height;  ///< of the body's centre over the plane
-  Real reach;
+  Real margin;
   int exponent;
   ContactGeometry& contact;
 
   void add(const Vec3<Unit>& offset, uint32_t feature) {
     const Real separation = height + real_from_unit(dot(normal, offset), exponent);
-    if (separation > reach) return;
+    if (separation > margin) return;
     // Clamps the depth for the arm only: a body far below the plane is still in contact.
     const Real unit = real_from_unit(Unit(1.0), exponent);
     const Unit half = unit_from_real(scale_by_power(max(separation, -unit), -1), exponent);
@@ -52,8 +52,8 @@ struct Collector {
 };
 
 /// Adds the four corners of the face whose outward normal points most directly at the plane.
-void collide_box(const BodyTraits& traits, const Matrix3& rotation, Collector& collector) {
-  const Unit half[3] = {traits.size.x, traits.size.y, traits.size.z};
+void collide_box(const BodyProperties& properties, const Matrix3& rotation, Collector& collector) {
+  const Unit half[3] = {properties.size.x, properties.size.y, properties.size.z};
   int face = 0;
   Unit facing = -1.0;
   for (int i = 0; i < 3; ++i) {
@@ -77,24 +77,24 @@ void collide_box(const BodyTraits& traits, const Matrix3& rotation, Collector& c
 
 }  // namespace
 
-void collide_half_space(const CollisionBody& plane, const CollisionBody& body, Real reach, ContactGeometry& contact) {
+void collide_half_space(const CollisionBody& plane, const CollisionBody& body, Real margin, ContactGeometry& contact) {
   contact.normal = plane.rotation.column[1];
-  const BodyTraits& traits = body.traits;
-  Collector collector = {contact.normal, distance_along(plane.pose.position, body.pose.position, contact.normal), reach,
-                         traits.size_exponent, contact};
-  switch (static_cast<ShapeType>(traits.shape)) {
+  const BodyProperties& properties = body.properties;
+  Collector collector = {contact.normal, distance_along(plane.pose.position, body.pose.position, contact.normal),
+                         margin, properties.size_exponent, contact};
+  switch (static_cast<ShapeType>(properties.shape)) {
     case ShapeType::sphere:
-      collector.add(-(contact.normal * traits.size.x), 1);
+      collector.add(-(contact.normal * properties.size.x), 1);
       break;
     case ShapeType::capsule: {
-      const Vec3<Unit> axis = body.rotation.column[1] * traits.size.y;
-      const Vec3<Unit> down = contact.normal * traits.size.x;
+      const Vec3<Unit> axis = body.rotation.column[1] * properties.size.y;
+      const Vec3<Unit> down = contact.normal * properties.size.x;
       collector.add(axis - down, 1);
       collector.add(-axis - down, 2);
       break;
     }
     case ShapeType::box:
-      collide_box(traits, body.rotation, collector);
+      collide_box(properties, body.rotation, collector);
       break;
     default:
       break;

@@ -5,7 +5,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 struct HalfSpaceOps {
-  void (*collide)(const CollisionBody& plane, const CollisionBody& body, Real reach, ContactGeometry& contact);
+  void (*collide)(const CollisionBody& plane, const CollisionBody& body, Real margin, ContactGeometry& contact);
 };
 
 /// (to - from) . direction, m. The plane's origin may be 10,000 km away. Fixed point: exact but for one rounding,
@@ -14,7 +14,7 @@ Real distance_along(const Position& from, const Position& to, const Vec3<Unit>& 
 
 /// Finds the contact of a half-space (A) with a sphere, capsule or unrounded box (B): the lowest points of B above the
 /// plane. `contact` must be empty.
-void collide_half_space(const CollisionBody& plane, const CollisionBody& body, Real reach, ContactGeometry& contact);
+void collide_half_space(const CollisionBody& plane, const CollisionBody& body, Real margin, ContactGeometry& contact);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -21,25 +21,25 @@ uint32_t feature_of(uint32_t feature, const uint32_t (&corner)[3]) {
 
 }  // namespace
 
-void collide_mesh(const Surface& surface, const CollisionBody& ground, const CollisionBody& body, const Convex& shape,
-                  const Vec64& middle, const ContactReach& reach, SurfaceContacts& contacts) {
+void collide_mesh(const Terrain& terrain, const CollisionBody& ground, const CollisionBody& body, const Convex& shape,
+                  const Vec64& middle, const ContactMargins& margin, TerrainContacts& contacts) {
   contacts.count = 0;
   contacts.dropped = 0;
   contacts.seam = false;
   contacts.capped = true;
-  SurfacePlace place;
+  TerrainPlace place;
   ContactRules rules;
-  if (!make_rules(reach, ManifoldReduction::projected_extremes, rules) ||
-      place_on_surface({ground.pose.position, ground.pose.rotation}, {body.pose.position, body.pose.rotation}, place) !=
+  if (!make_rules(margin, ManifoldReduction::projected_extremes, rules) ||
+      place_on_terrain({ground.pose.position, ground.pose.rotation}, {body.pose.position, body.pose.rotation}, place) !=
           Status::ok) {
     return;
   }
   place.middle = rotate(place.rotation, middle);
-  const SurfacePair pair(surface, place, shape, rules);
-  SurfaceManifolds found(pair.half_thickness());
-  surface.walk([&](const GridBox& box) { return meet(box, pair.box()); },
+  const TerrainPair pair(terrain, place, shape, rules);
+  TerrainManifolds found(pair.half_thickness());
+  terrain.walk([&](const GridBox& box) { return meet(box, pair.box()); },
                [&](uint32_t triangle) {
-                 SurfaceTouch touch;
+                 TerrainTouch touch;
                  const bool touches = pair.touch(triangle, touch);
                  contacts.seam = contacts.seam || touch.seam;
                  if (!touches) return;
@@ -49,12 +49,12 @@ void collide_mesh(const Surface& surface, const CollisionBody& ground, const Col
                  }
                  found.add(touch);
                });
-  SurfaceManifold manifold[k_surface_manifolds_max];
+  TerrainManifold manifold[k_terrain_manifolds_max];
   contacts.count = found.finish(manifold);
   contacts.dropped = found.dropped();
   contacts.capped = found.capped();
   for (uint32_t i = 0; i < contacts.count; ++i)
-    put_contact(manifold[i], place.surface, ground, body, contacts.contact[i]);
+    put_contact(manifold[i], place.terrain, ground, body, contacts.contact[i]);
 }
 
 }  // namespace DETENT_NAMESPACE

@@ -36,13 +36,13 @@ void collide_round(const PairFrame& frame, PairManifold& manifold) {
   Vec3<Unit> gap = point_at(b, along_b) - point_at(a, along_a);
   Unit distance = zero;
   if (!normalise(gap, manifold.normal, distance)) manifold.normal = normal_of_meeting(a, b);
-  if (distance - radius_a - radius_b > frame.reach) return;
+  if (distance - radius_a - radius_b > frame.margin) return;
 
   const auto add = [&](Unit at_a, Unit at_b, uint32_t feature) {
     const Vec3<Unit> core_a = point_at(a, at_a);
     const Vec3<Unit> core_b = point_at(b, at_b);
     const Unit separation = dot(core_b - core_a, manifold.normal) - radius_a - radius_b;
-    if (separation > frame.reach) return;
+    if (separation > frame.margin) return;
     const Vec3<Unit> surface_a = core_a + manifold.normal * radius_a;
     manifold.add({surface_a + manifold.normal * scale_by_power(separation, -1), separation, feature});
   };

@@ -4,7 +4,7 @@
 #include "contact/manifold.h"
 
 /// Contact functions for pairs of given shape types, in the pair's frame. Each function fills an empty manifold, or
-/// leaves it empty if the shapes are farther apart than `frame.reach`. Lengths err by at most 2^-26 of the pair's unit
+/// leaves it empty if the shapes are farther apart than `frame.margin`. Lengths err by at most 2^-26 of the pair's unit
 /// of length.
 namespace detent {
 inline namespace DETENT_NAMESPACE {

@@ -2,7 +2,7 @@
 
 #include "contact/body_convex.h"
 #include "contact/collide_convex.h"
-#include "contact/surface_manifolds.h"
+#include "contact/terrain_manifolds.h"
 #include "math/root.h"
 
 namespace detent {
@@ -57,7 +57,7 @@ uint32_t name_of_part(uint32_t part, uint32_t name) {
   return mixed == 0 ? 1 : mixed;
 }
 
-Vec64 raw_way(const Vec3<Unit>& arm, int32_t exponent, bool& known) {
+Vec64 raw_offset(const Vec3<Unit>& arm, int32_t exponent, bool& known) {
   Vec64 raw = {0, 0, 0};
   known =
       raw_from_real({real_from_unit(arm.x, exponent), real_from_unit(arm.y, exponent), real_from_unit(arm.z, exponent)},
@@ -67,9 +67,9 @@ Vec64 raw_way(const Vec3<Unit>& arm, int32_t exponent, bool& known) {
 }
 
 /// The half thickness of the thinnest part of both compounds, 2^-46 m.
-int64_t half_thickness_of(const BodyTraits& a, const BodyTraits& b) {
-  const auto own = [](const BodyTraits& traits) {
-    return is_compound(traits) ? raw_size(traits.rounding, traits.size_exponent) : INT64_MAX;
+int64_t half_thickness_of(const BodyProperties& a, const BodyProperties& b) {
+  const auto own = [](const BodyProperties& properties) {
+    return is_compound(properties) ? raw_size(properties.rounding, properties.size_exponent) : INT64_MAX;
   };
   const int64_t of_a = own(a), of_b = own(b);
   return of_a < of_b ? of_a : of_b;
@@ -79,24 +79,24 @@ int64_t half_thickness_of(const BodyTraits& a, const BodyTraits& b) {
 class PartContacts {
  public:
   PartContacts(const CollisionBody& a, const CollisionBody& b)
-      : swapped_(is_half_space(b.traits)),
+      : swapped_(is_half_space(b.properties)),
         ground_(swapped_ ? b : a),
         body_(swapped_ ? a : b),
-        found_(half_thickness_of(a.traits, b.traits)) {}
+        found_(half_thickness_of(a.properties, b.properties)) {}
 
   /// `part`: as ContactGeometryPoint::part. `contact.key`: distinct among the contacts of a part.
-  void add(const SurfaceContact& contact, uint32_t part) {
+  void add(const TerrainContact& contact, uint32_t part) {
     ContactGeometry geometry = contact.geometry;
     if (geometry.count == 0) return;
     if (swapped_) swap_bodies(geometry);
     bool known = true;
-    SurfaceTouch touch = {};
+    TerrainTouch touch = {};
     touch.triangle = contact.triangle;
     touch.material = contact.material;
     touch.part = part;
     touch.on_face = true;
     touch.manifold.turns = geometry.turns;
-    touch.manifold.normal = round_shift(raw_way(geometry.normal, 0, known), k_metre_bits - 30);
+    touch.manifold.normal = round_shift(raw_offset(geometry.normal, 0, known), k_metre_bits - 30);
     touch.manifold.count = geometry.count;
     touch.deepest = INT64_MAX;
     for (uint32_t i = 0; i < geometry.count; ++i) {
@@ -104,7 +104,7 @@ class PartContacts {
       Vec64 separation = {0, 0, 0};
       known = raw_from_real({point.separation, Real(0.0), Real(0.0)}, separation) && known;
       touch.manifold.point[i] = {{0, 0, 0},
-                                 raw_way(point.arm_b, body_.traits.size_exponent, known),
+                                 raw_offset(point.arm_b, body_.properties.size_exponent, known),
                                  separation.x,
                                  name_of_part(part ^ contact.key, point.feature)};
       touch.deepest = separation.x < touch.deepest ? separation.x : touch.deepest;
@@ -113,9 +113,9 @@ class PartContacts {
     found_.add(touch);
   }
 
-  void finish(SurfaceContacts& contacts) {
+  void finish(TerrainContacts& contacts) {
     constexpr Matrix32 k_world = {{{k_one, 0, 0}, {0, k_one, 0}, {0, 0, k_one}}};
-    SurfaceManifold manifold[k_surface_manifolds_max];
+    TerrainManifold manifold[k_terrain_manifolds_max];
     contacts.count = found_.finish(manifold);
     contacts.dropped += found_.dropped();
     contacts.capped = contacts.capped || found_.capped();
@@ -127,13 +127,13 @@ class PartContacts {
  private:
   bool swapped_;
   const CollisionBody &ground_, &body_;
-  SurfaceManifolds found_;
+  TerrainManifolds found_;
 };
 
-void collide_with_surface(const CollisionBody& a, const CollisionBody& b, const ContactReach& reach,
-                          const AssetTable& assets, const FeatureTable& features, SurfaceContacts& contacts) {
+void collide_with_terrain(const CollisionBody& a, const CollisionBody& b, const ContactMargins& margin,
+                          const AssetTable& assets, const FeatureTable& features, TerrainContacts& contacts) {
   PartContacts collected(a, b);
-  const ConvexParts parts((is_surface(a.traits) ? b : a).traits, assets);
+  const ConvexParts parts((is_terrain(a.properties) ? b : a).properties, assets);
   for (uint32_t i = 0; i < parts.count(); ++i) {
     Convex convex;
     Vec64 middle, half;
@@ -142,29 +142,30 @@ void collide_with_surface(const CollisionBody& a, const CollisionBody& b, const 
       contacts.capped = true;
       return;
     }
-    SurfaceContacts found;
-    features.surface->collide_part(a, b, convex, middle, reach, assets, found);
+    TerrainContacts found;
+    features.terrain->collide_part(a, b, convex, middle, margin, assets, found);
     contacts.capped = contacts.capped || found.capped;
     contacts.seam = contacts.seam || found.seam;
     contacts.dropped += found.dropped;
     for (uint32_t k = 0; k < found.count; ++k)
-      collected.add(found.contact[k], is_surface(a.traits) ? parts.name(i) : parts.name(i) << 16);
+      collected.add(found.contact[k], is_terrain(a.properties) ? parts.name(i) : parts.name(i) << 16);
   }
   collected.finish(contacts);
 }
 
 /// Tests the bounds of B's parts, converted to A's axes, against the bounds of A's parts.
 struct PartCulling {
-  SurfacePlace place;
-  int64_t reach;
+  TerrainPlace place;
+  int64_t margin;
   bool known;
 
   PartCulling(const CollisionBody& a, const CollisionBody& b, Real distance) {
     Vec64 raw;
     known =
-        !is_half_space(a.traits) && !is_half_space(b.traits) && raw_from_real({distance, Real(0.0), Real(0.0)}, raw) &&
-        place_on_surface({a.pose.position, a.pose.rotation}, {b.pose.position, b.pose.rotation}, place) == Status::ok;
-    reach = known ? raw.x + (raw.x >> 10) + 1024 : 0;
+        !is_half_space(a.properties) && !is_half_space(b.properties) &&
+        raw_from_real({distance, Real(0.0), Real(0.0)}, raw) &&
+        place_on_terrain({a.pose.position, a.pose.rotation}, {b.pose.position, b.pose.rotation}, place) == Status::ok;
+    margin = known ? raw.x + (raw.x >> 10) + 1024 : 0;
   }
   /// Converts a box from B's axes to A's axes.
   void bring(Vec64& middle, Vec64& half) const {
@@ -183,7 +184,7 @@ struct PartCulling {
     if (!known) return true;
     const auto near = [this](int64_t a, int64_t ha, int64_t b, int64_t hb) {
       // The rotation errs by less than 2^-27.
-      const int64_t room = saturated_sum(saturated_sum(ha, hb), reach + (hb >> 20) + (ha >> 20));
+      const int64_t room = saturated_sum(saturated_sum(ha, hb), margin + (hb >> 20) + (ha >> 20));
       return static_cast<int64_t>(magnitude_64(saturated_sum(b, -a))) <=
              saturated_sum(room, static_cast<int64_t>(magnitude_64(b) >> 24));
     };
@@ -194,17 +195,17 @@ struct PartCulling {
 
 }  // namespace
 
-ConvexParts::ConvexParts(const BodyTraits& traits, const AssetTable& assets)
-    : traits_(traits), assets_(assets), count_(1) {
-  if (!is_compound(traits)) return;
+ConvexParts::ConvexParts(const BodyProperties& properties, const AssetTable& assets)
+    : properties_(properties), assets_(assets), count_(1) {
+  if (!is_compound(properties)) return;
   count_ = 0;
-  if (!is_in(assets, traits.asset)) return;
-  compound_ = compound_view(assets.assets[traits.asset].bytes);
+  if (!is_in(assets, properties.asset)) return;
+  compound_ = compound_view(assets.assets[properties.asset].bytes);
   count_ = compound_.child_count;
 }
 
 bool ConvexParts::convex(uint32_t i, bool inner, Convex& convex) const {
-  if (whole()) return body_convex(traits_, assets_, convex);
+  if (whole()) return body_convex(properties_, assets_, convex);
   const CompoundChild child = compound_.child(i);
   const int32_t exponent = compound_.exponent();
   Convex made;
@@ -221,7 +222,7 @@ bool ConvexParts::convex(uint32_t i, bool inner, Convex& convex) const {
 void ConvexParts::place(uint32_t i, Vec64& middle, Vec64& half) const {
   if (whole()) {
     middle = {0, 0, 0};
-    const int64_t ball = raw_size(traits_.bounding_radius, traits_.size_exponent);
+    const int64_t ball = raw_size(properties_.bounding_radius, properties_.size_exponent);
     half = {ball, ball, ball};
     return;
   }
@@ -233,24 +234,24 @@ void ConvexParts::place(uint32_t i, Vec64& middle, Vec64& half) const {
   half = {raw(int64_t{high.x} - low.x), raw(int64_t{high.y} - low.y), raw(int64_t{high.z} - low.z)};
 }
 
-Real ConvexParts::reach(uint32_t i) const {
+Real ConvexParts::radius(uint32_t i) const {
   Vec64 middle, half;
   place(i, middle, half);
   return whole() ? real_from_raw(half.x) : real_from_raw(length_bound(half));
 }
 
-void collide_compound(const CollisionBody& a, const CollisionBody& b, const ContactReach& reach,
+void collide_compound(const CollisionBody& a, const CollisionBody& b, const ContactMargins& margin,
                       const AssetTable& assets, ManifoldReduction reduction, const FeatureTable& features,
-                      SurfaceContacts& contacts) {
+                      TerrainContacts& contacts) {
   contacts.count = contacts.dropped = 0;
   contacts.seam = contacts.capped = false;
-  if (is_surface(a.traits) || is_surface(b.traits)) {
-    collide_with_surface(a, b, reach, assets, features, contacts);
+  if (is_terrain(a.properties) || is_terrain(b.properties)) {
+    collide_with_terrain(a, b, margin, assets, features, contacts);
     return;
   }
-  const ConvexParts parts_a(a.traits, assets), parts_b(b.traits, assets);
+  const ConvexParts parts_a(a.properties, assets), parts_b(b.properties, assets);
   contacts.capped = parts_a.count() == 0 || parts_b.count() == 0;
-  const PartCulling culling(a, b, reach.distance);
+  const PartCulling culling(a, b, margin.distance);
   PartContacts collected(a, b);
   for (uint32_t j = 0; j < parts_b.count(); ++j) {
     Convex convex_b;
@@ -264,9 +265,9 @@ void collide_compound(const CollisionBody& a, const CollisionBody& b, const Cont
       parts_a.place(i, middle_a, half_a);
       if (!culling.meet(middle_a, half_a, middle_b, half_b)) continue;
       Convex convex_a;
-      SurfaceContact contact = {};
+      TerrainContact contact = {};
       if (parts_a.convex(i, false, convex_a))
-        collide_convexes(a, convex_a, b, convex_b, reach, reduction, contact.geometry);
+        collide_convexes(a, convex_a, b, convex_b, margin, reduction, contact.geometry);
       else
         contact.geometry.capped = true;
       contacts.capped = contacts.capped || contact.geometry.capped;

@@ -1,9 +1,9 @@
 #pragma once
 #include <detent/reduction.h>
 
-#include "contact/surface_ops.h"
+#include "contact/terrain_ops.h"
 #include "shape/compound.h"
-#include "shape/shape_traits.h"
+#include "shape/shape_properties.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -12,7 +12,7 @@ inline namespace DETENT_NAMESPACE {
 /// body's frame, so the body's pose and motion apply to each of them.
 class ConvexParts {
  public:
-  ConvexParts(const BodyTraits& traits, const AssetTable& assets);
+  ConvexParts(const BodyProperties& properties, const AssetTable& assets);
 
   uint32_t count() const { return count_; }
   /// Makes part `i`. False if an asset is missing. `inner`: for a hull child of a compound, take its inner hull.
@@ -24,22 +24,22 @@ class ConvexParts {
   /// cull it.
   void place(uint32_t i, Vec64& middle, Vec64& half) const;
   /// Radius of a ball about the part's middle that contains the part, m.
-  Real reach(uint32_t i) const;
+  Real radius(uint32_t i) const;
 
  private:
   bool whole() const { return compound_.bytes == nullptr; }
 
-  const BodyTraits& traits_;
+  const BodyProperties& properties_;
   const AssetTable& assets_;
   CompoundView compound_;
   uint32_t count_;
 };
 
 /// Finds the contacts of two bodies, at least one of which is a compound. Normals point from A to B. Points in one
-/// plane form one contact, whichever parts they belong to. Only the deepest k_surface_manifolds_max planes are kept.
-void collide_compound(const CollisionBody& a, const CollisionBody& b, const ContactReach& reach,
+/// plane form one contact, whichever parts they belong to. Only the deepest k_terrain_manifolds_max planes are kept.
+void collide_compound(const CollisionBody& a, const CollisionBody& b, const ContactMargins& margin,
                       const AssetTable& assets, ManifoldReduction reduction, const FeatureTable& features,
-                      SurfaceContacts& contacts);
+                      TerrainContacts& contacts);
 
 /// For a feature table.
 struct CompoundOps {
@@ -48,13 +48,13 @@ struct CompoundOps {
 };
 
 /// Finds the contacts of two bodies that can have several contacts: those for which has_parts() is true.
-inline void collide_parts(const CollisionBody& a, const CollisionBody& b, const ContactReach& reach,
+inline void collide_parts(const CollisionBody& a, const CollisionBody& b, const ContactMargins& margin,
                           const AssetTable& assets, ManifoldReduction reduction, const FeatureTable& features,
-                          SurfaceContacts& contacts) {
-  if (is_compound(a.traits) || is_compound(b.traits))
-    features.compound->collide(a, b, reach, assets, reduction, features, contacts);
+                          TerrainContacts& contacts) {
+  if (is_compound(a.properties) || is_compound(b.properties))
+    features.compound->collide(a, b, margin, assets, reduction, features, contacts);
   else
-    features.surface->collide(a, b, reach, assets, contacts);
+    features.terrain->collide(a, b, margin, assets, contacts);
 }
 
 }  // namespace DETENT_NAMESPACE

@@ -28,10 +28,10 @@ Vec3<Unit> arm_of_point(const Vec3<Unit>& point, int power) {
   return held_arm({component(point.x), component(point.y), component(point.z)});
 }
 
-Vec3<Unit> arm_of_way(const Vec3<Real>& way, int32_t exponent) {
+Vec3<Unit> arm_of_offset(const Vec3<Real>& offset, int32_t exponent) {
   const Real limit = real_from_unit(k_arm_max, exponent);
   const auto component = [&](Real value) { return unit_from_real(clamp(value, -limit, limit), exponent); };
-  return held_arm({component(way.x), component(way.y), component(way.z)});
+  return held_arm({component(offset.x), component(offset.y), component(offset.z)});
 }
 
 }  // namespace DETENT_NAMESPACE

@@ -14,7 +14,7 @@ inline constexpr Unit k_arm_max = 1.25;
 Vec3<Unit> arm_of_point(const Vec3<Unit>& point, int power);
 /// Converts a displacement in m to an arm, for a body whose unit is 2^exponent m. Overflow: the length is clamped to
 /// k_arm_max.
-Vec3<Unit> arm_of_way(const Vec3<Real>& way, int32_t exponent);
+Vec3<Unit> arm_of_offset(const Vec3<Real>& offset, int32_t exponent);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

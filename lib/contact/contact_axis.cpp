@@ -46,8 +46,8 @@ bool find_contact_axis(const RestingPair& pair, int32_t above, DistanceCache* ca
   const NearestPoints nearest = nearest_points(pair.a, pair.b, simplex);
   axis = {found.normal, found.upper, nearest.on_a, nearest.on_b, capped};
   if (pair.planar()) {  // the plane's point is the projection of the other point
-    const Vec32 way = subtract(add(pair.offset, axis.point_b), axis.point_a);
-    const int64_t height = dot(axis.normal, way) >> 30;
+    const Vec32 offset = subtract(add(pair.offset, axis.point_b), axis.point_a);
+    const int64_t height = dot(axis.normal, offset) >> 30;
     if (pair.a.convex->type == ShapeType::half_space) {
       axis.point_a = subtract(add(pair.offset, axis.point_b), scaled(axis.normal, height));
     } else {

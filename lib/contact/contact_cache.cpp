@@ -1,6 +1,6 @@
 #include "contact/contact_cache.h"
 
-#include "contact/surface_manifolds.h"
+#include "contact/terrain_manifolds.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -14,15 +14,15 @@ uint32_t shared_features(const ContactGeometry& geometry, const ContactState& co
   return count;
 }
 
-void continue_keys(const PairBefore& before, SurfaceContacts& contacts) {
-  bool goes_on[k_surface_manifolds_max] = {}, is_known[k_surface_manifolds_max] = {};
+void continue_keys(const PairBefore& before, TerrainContacts& contacts) {
+  bool goes_on[k_terrain_manifolds_max] = {}, is_known[k_terrain_manifolds_max] = {};
   for (uint32_t i = 0; i < contacts.count; ++i) {
     for (uint32_t j = 0; j < before.count; ++j) {
       if (before[j].part == contacts.contact[i].key) goes_on[j] = is_known[i] = true;
     }
   }
   for (uint32_t i = 0; i < contacts.count; ++i) {
-    SurfaceContact& contact = contacts.contact[i];
+    TerrainContact& contact = contacts.contact[i];
     uint32_t best = before.count, most = 0;
     for (uint32_t j = 0; !is_known[i] && j < before.count; ++j) {
       const uint32_t shared = goes_on[j] ? 0 : shared_features(contact.geometry, before[j]);
@@ -36,7 +36,7 @@ void continue_keys(const PairBefore& before, SurfaceContacts& contacts) {
   }
   for (uint32_t i = 1; i < contacts.count; ++i) {
     for (uint32_t k = i; k > 0 && contacts.contact[k].key < contacts.contact[k - 1].key; --k) {
-      const SurfaceContact swapped = contacts.contact[k];
+      const TerrainContact swapped = contacts.contact[k];
       contacts.contact[k] = contacts.contact[k - 1];
       contacts.contact[k - 1] = swapped;
     }

@@ -7,13 +7,13 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-struct SurfaceContacts;
+struct TerrainContacts;
 
 /// The contacts of a pair in the last tick, in the order of their parts.
 struct PairBefore {
   const ContactState* contacts;  ///< all contacts of the world
   const uint32_t* index;         ///< `count` indices of the pair's contacts in `contacts`
-  uint32_t count = 0;            ///< at most k_surface_manifolds_max
+  uint32_t count = 0;            ///< at most k_terrain_manifolds_max
 
   const ContactState& operator[](uint32_t i) const { return contacts[index[i]]; }
 };
@@ -24,7 +24,7 @@ uint32_t shared_features(const ContactGeometry& geometry, const ContactState& co
 /// Continues the keys of the last tick. A contact whose key is new takes the key of the contact of the last tick with
 /// which it shares the most features. This is needed because a plane gets a new name when it tilts slightly or merges
 /// with another plane. Keeps the contacts in ascending order of key.
-void continue_keys(const PairBefore& before, SurfaceContacts& contacts);
+void continue_keys(const PairBefore& before, TerrainContacts& contacts);
 
 /// Makes the contact of this tick from its geometry and from the contact of the last tick, `before` (null if the pair
 /// did not touch). A point whose feature persists keeps its impulse; other points start at 0.

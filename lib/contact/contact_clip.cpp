@@ -27,7 +27,7 @@ int64_t distance_squared(const AreaPoint& p, const AreaPoint& q) {
 
 /// The coordinate of a point along one of four diagonals. They are rotated slightly from the diagonals of a square, so
 /// that even a regular octagon or dodecagon has a single extreme along each.
-int64_t reach_along(const AreaPoint& p, int diagonal) {
+int64_t extent_along(const AreaPoint& p, int diagonal) {
   const int64_t along = (diagonal & 1) == 0 ? 4 * p.u + 5 * p.v : 4 * p.v - 5 * p.u;
   return diagonal < 2 ? along : -along;
 }
@@ -35,7 +35,7 @@ int64_t reach_along(const AreaPoint& p, int diagonal) {
 }  // namespace
 
 __attribute__((noinline)) void AreaChoice::add(const AreaPoint& point) {
-  if (point.w > (filling_ ? reach_ : level_)) return;
+  if (point.w > (filling_ ? margin_ : level_)) return;
   if (filling_) {
     const int64_t gain = gain_of(point);
     if (gain > most_) {
@@ -47,7 +47,7 @@ __attribute__((noinline)) void AreaChoice::add(const AreaPoint& point) {
   }
   if (count_ < 4) chosen_[chosen_count_++] = point;
   for (int i = 0; i < k_diagonals; ++i) {
-    if (count_ == 0 || reach_along(point, i) > reach_along(farthest_[i], i)) farthest_[i] = point;
+    if (count_ == 0 || extent_along(point, i) > extent_along(farthest_[i], i)) farthest_[i] = point;
   }
   if (count_ == 0 || point.w < deepest_.w) deepest_ = point;
   ++count_;
@@ -95,7 +95,7 @@ __attribute__((noinline)) bool AreaChoice::again() {
     if (!found_) return false;
     chosen_[chosen_count_++] = next_;
   } else {
-    if (count_ <= 4 && level_ == reach_) return false;
+    if (count_ <= 4 && level_ == margin_) return false;
     filling_ = true;
     chosen_count_ = 0;
     if (reduction_ == ManifoldReduction::deepest_area)
@@ -254,12 +254,12 @@ void Reference::offer_corners(const Flat* points, const Feature& incident, AreaC
   for (int k = 1; k < incident.count; ++k) lowest = points[k].w < lowest ? points[k].w : lowest;
   for (int i = 0; i < side_count_; ++i) {
     const Side &side = side_[i], &last = side_[i == 0 ? side_count_ - 1 : i - 1];
-    const int64_t turn = k_one_64 + ((int64_t{side.u} * last.u + int64_t{side.v} * last.v) >> 30);
-    if (turn < k_one_64 >> 18) continue;  // a corner of less than 0.16 degrees
+    const int64_t cross_product = k_one_64 + ((int64_t{side.u} * last.u + int64_t{side.v} * last.v) >> 30);
+    if (cross_product < k_one_64 >> 18) continue;  // a corner of less than 0.16 degrees
     // The intersection of the previous side and this side, both moved outward.
     const Flat& corner = corner_[i];
-    const int64_t u = corner.u + slack_ * (int64_t{side.u} + last.u) / turn;
-    const int64_t v = corner.v + slack_ * (int64_t{side.v} + last.v) / turn;
+    const int64_t u = corner.u + slack_ * (int64_t{side.u} + last.u) / cross_product;
+    const int64_t v = corner.v + slack_ * (int64_t{side.v} + last.v) / cross_product;
     bool inside = true;
     for (int k = 0; k < incident.count && inside; ++k) {
       const Flat &p = points[k], &q = points[k + 1 == incident.count ? 0 : k + 1];

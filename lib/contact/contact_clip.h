@@ -30,11 +30,11 @@ inline int64_t distance(const AreaPoint& p, const AreaPoint& q) {
 /// to the points that add most to the area. Ties: the earlier point.
 class AreaChoice {
  public:
-  /// Points higher than `reach` are left out.
-  AreaChoice(int64_t reach, int64_t drop, ManifoldReduction reduction) : AreaChoice(reach, reach, drop, reduction) {}
-  /// Points higher than `level`, up to `reach`, only fill places that the points up to `level` leave free.
-  AreaChoice(int64_t level, int64_t reach, int64_t drop, ManifoldReduction reduction)
-      : level_(level), reach_(reach), drop_(drop), reduction_(reduction) {}
+  /// Points higher than `margin` are left out.
+  AreaChoice(int64_t margin, int64_t drop, ManifoldReduction reduction) : AreaChoice(margin, margin, drop, reduction) {}
+  /// Points higher than `level`, up to `margin`, only fill places that the points up to `level` leave free.
+  AreaChoice(int64_t level, int64_t margin, int64_t drop, ManifoldReduction reduction)
+      : level_(level), margin_(margin), drop_(drop), reduction_(reduction) {}
   void add(const AreaPoint& point);
   /// True if the caller must add all points once more, in the same order. The points are not stored because there may
   /// be many.
@@ -50,7 +50,7 @@ class AreaChoice {
   int64_t least_gain() const;
   int64_t gain_of(const AreaPoint& point) const;
   void choose_extremes();
-  int64_t level_, reach_, drop_;
+  int64_t level_, margin_, drop_;
   ManifoldReduction reduction_;
   bool filling_ = false, found_ = false;  ///< each pass now adds one point; next_ is the best point of this pass
   uint32_t count_ = 0;

@@ -24,8 +24,8 @@ constexpr Vec32 k_eighth[8] = {
 void round_face(const Placed& placed, bool bottom, Feature& face) {
   for (int n = 0; n < 8; ++n) {
     const int i = bottom ? n : 7 - n;  // from x to z is clockwise as seen from above
-    const Vec32 way = {k_eighth[i].x, bottom ? -k_one : 1, k_eighth[i].z};
-    face.add(placed.point(local_support(*placed.convex, way).local), static_cast<uint32_t>(i) + (bottom ? 8 : 0));
+    const Vec32 offset = {k_eighth[i].x, bottom ? -k_one : 1, k_eighth[i].z};
+    face.add(placed.point(local_support(*placed.convex, offset).local), static_cast<uint32_t>(i) + (bottom ? 8 : 0));
   }
   const Vec32& up = placed.rotation.column[1];
   face.normal = bottom ? negate(up) : up;
@@ -96,7 +96,7 @@ void find_outline(const HullView& hull, const Vec32& normal, BitSet set, VertexP
   const Vec32 w = round_shift(cross(normal, u), 30);
   uint8_t best[k_feature_points_max] = {};
   int64_t most[k_feature_points_max];
-  for (int64_t& reach : most) reach = INT64_MIN;
+  for (int64_t& margin : most) margin = INT64_MIN;
   for (uint32_t v = 0; v < hull.vertex_count; ++v) {
     if (!set.has(v)) continue;
     const Vec32 at = hull.vertex(v);
@@ -106,9 +106,9 @@ void find_outline(const HullView& hull, const Vec32& normal, BitSet set, VertexP
       const int32_t c = k_sine[8 - part], s = k_sine[part];
       const int32_t x = quarter == 0 ? c : quarter == 1 ? -s : quarter == 2 ? -c : s;
       const int32_t y = quarter == 0 ? s : quarter == 1 ? c : quarter == 2 ? -s : -c;
-      const int64_t reach = right * x + up * y;
-      if (reach <= most[i]) continue;
-      most[i] = reach;
+      const int64_t margin = right * x + up * y;
+      if (margin <= most[i]) continue;
+      most[i] = margin;
       best[i] = static_cast<uint8_t>(v);
     }
   }
@@ -285,9 +285,9 @@ void round_line(const Placed& placed, const Vec32& d, Feature& edge) {
 }
 
 int64_t slope_of(const Vec32& from, const Vec32& to, const Vec32& direction) {
-  const Vec32 way = subtract(to, from);
-  if (is_zero(way)) return k_one;
-  const int64_t rise = dot(unit(Vec64{way.x, way.y, way.z}), direction);
+  const Vec32 offset = subtract(to, from);
+  if (is_zero(offset)) return k_one;
+  const int64_t rise = dot(unit(Vec64{offset.x, offset.y, offset.z}), direction);
   return (rise < 0 ? -rise : rise) >> 30;
 }
 

@@ -131,11 +131,11 @@ void Builder::add_point(const Vec32& normal, const Vec64& twice_middle, int64_t 
   Vec64 from_b = {component(m.x - 2 * int64_t{o.x}, normal.x), component(m.y - 2 * int64_t{o.y}, normal.y),
                   component(m.z - 2 * int64_t{o.z}, normal.z)};
   // A half-space's position may lie anywhere in its plane, too far away for the block.
-  const Vec64& way = pair_.offset_metres;
+  const Vec64& shift = pair_.offset_metres;
   if (pair_.a.convex->type == ShapeType::half_space)
-    from_a = {saturated(from_b.x, way.x), saturated(from_b.y, way.y), saturated(from_b.z, way.z)};
+    from_a = {saturated(from_b.x, shift.x), saturated(from_b.y, shift.y), saturated(from_b.z, shift.z)};
   else if (pair_.b.convex->type == ShapeType::half_space)
-    from_b = {saturated(from_a.x, -way.x), saturated(from_a.y, -way.y), saturated(from_a.z, -way.z)};
+    from_b = {saturated(from_a.x, -shift.x), saturated(from_a.y, -shift.y), saturated(from_a.z, -shift.z)};
   manifold.point[manifold.count++] = {from_a, from_b, separation, feature_pair(on_a, on_b)};
 }
 
@@ -157,8 +157,8 @@ void Builder::add_on_axis(const Vec32& normal, int64_t separation, BlockManifold
     if (manifold.point[i].feature == feature_pair(on_a, on_b)) return;
   }
   const Vec32 &a = axis_.point_a, &b = axis_.point_b, &offset = pair_.offset;
-  const auto twice = [](int32_t on_a_core, int32_t on_b_core, int32_t way) {
-    return int64_t{on_a_core} + on_b_core + way;
+  const auto twice = [](int32_t on_a_core, int32_t on_b_core, int32_t shift) {
+    return int64_t{on_a_core} + on_b_core + shift;
   };
   add_point(normal, {twice(a.x, b.x, offset.x), twice(a.y, b.y, offset.y), twice(a.z, b.z, offset.z)}, separation, on_a,
             on_b, manifold);
@@ -169,7 +169,7 @@ bool Builder::fill(const Reference& reference, bool reference_is_a, const Featur
                    BlockManifold& manifold) const {
   const Half& other = reference_is_a ? half_b_ : half_a_;
   const int64_t radii = pair_.radius_a + pair_.radius_b;
-  AreaChoice choice(pair_.block_above(saturated_sum(rules_.reach, radii)), drop_, rules_.reduction);
+  AreaChoice choice(pair_.block_above(saturated_sum(rules_.margin, radii)), drop_, rules_.reduction);
   do reference.clip(other.centre, incident, choice);
   while (choice.again());
   const Vec32 normal = reference_is_a ? reference.up() : negate(reference.up());
@@ -184,7 +184,7 @@ bool Builder::fill(const Reference& reference, bool reference_is_a, const Featur
   for (int i = 0; i < choice.count(); ++i) {
     const AreaPoint& point = choice[i];
     const int64_t separation = pair_.metres(point.w) - radii;
-    if (i == left_out || separation > rules_.reach) continue;
+    if (i == left_out || separation > rules_.margin) continue;
     const uint32_t on_reference = reference.name_on_reference(point);
     const uint32_t on_incident = reference.name_on_incident(other.placed, incident, point);
     add_point(normal, reference.twice_middle(point), separation, reference_is_a ? on_reference : on_incident,
@@ -254,8 +254,8 @@ bool Builder::build_on_edge(BlockManifold& manifold) const {
   supporting_edge(pair_.b, half_b_.outward, k_level, edge_b);
   if (edge_a.count != 2 || edge_b.count != 2) return false;
   const auto direction = [](const Feature& edge) {
-    const Vec32 way = subtract(edge.point[1], edge.point[0]);
-    return is_zero(way) ? way : unit_vector_raw(scaled_to_30_bits(way));
+    const Vec32 shift = subtract(edge.point[1], edge.point[0]);
+    return is_zero(shift) ? shift : unit_vector_raw(scaled_to_30_bits(shift));
   };
   const Vec32 along_a = direction(edge_a), along_b = direction(edge_b);
   if (is_zero(along_a) || is_zero(along_b) || !is_parallel(along_a, along_b, k_level)) return false;
@@ -283,7 +283,7 @@ bool Builder::build_level_with_face(BlockManifold& manifold) const {
 
 void Builder::build(BlockManifold& manifold) const {
   const int64_t separation = pair_.metres(axis_.separation) - pair_.radius_a - pair_.radius_b;
-  if (separation > rules_.reach) return;
+  if (separation > rules_.margin) return;
   if (rules_.smooth_seams) {
     const int64_t thin_a = in_block(pair_.a, half_a_.thickness), thin_b = in_block(pair_.b, half_b_.thickness);
     if (is_sliver(pair_, axis_, sliver_room(pair_.metres(thin_a < thin_b ? thin_a : thin_b), rules_.sunk))) {
@@ -321,13 +321,13 @@ void Builder::build_over_face(const Feature& face, BlockManifold& manifold) {
 __attribute__((noinline)) void find_contact_points(const RestingPair& pair, const ContactRules& rules,
                                                    DistanceCache* cache, BlockManifold& manifold) {
   manifold = {};
-  const int32_t needed = pair.block_above(saturated_sum(rules.reach, pair.radius_a + pair.radius_b));
+  const int32_t needed = pair.block_above(saturated_sum(rules.margin, pair.radius_a + pair.radius_b));
   ContactAxis axis;
   if (find_contact_axis(pair, needed >= INT32_MAX - k_gjk_slack ? INT32_MAX : needed + k_gjk_slack, cache, axis))
     Builder(pair, axis, rules).build(manifold);
 }
 
-__attribute__((noinline)) void contact_points_over_face(const RestingPair& pair, const Feature& face, int64_t reach,
+__attribute__((noinline)) void contact_points_over_face(const RestingPair& pair, const Feature& face, int64_t margin,
                                                         ManifoldReduction reduction, BlockManifold& manifold) {
   manifold = {};
   const Vec32 nearest = support(pair.b, negate(face.normal)).point;
@@ -336,7 +336,7 @@ __attribute__((noinline)) void contact_points_over_face(const RestingPair& pair,
       subtract(add(pair.offset, nearest),
                round_shift(Vec64{face.normal.x * height, face.normal.y * height, face.normal.z * height}, 30));
   const ContactAxis axis = {face.normal, height, foot, nearest, false};
-  Builder(pair, axis, rules_of(reach, reduction)).build_over_face(face, manifold);
+  Builder(pair, axis, rules_of(margin, reduction)).build_over_face(face, manifold);
 }
 
 __attribute__((noinline)) Status contact_points_by(const ContactRules& rules, const Convex& a, const Pose& pose_a,
@@ -344,7 +344,7 @@ __attribute__((noinline)) Status contact_points_by(const ContactRules& rules, co
                                                    ContactManifold& manifold, ContactKind& kind) {
   RestingPair pair;
   if (const Status status = rest(a, pose_a, b, pose_b, pair); status != Status::ok) return status;
-  if (rules.reach < 0) return Status::out_of_range;
+  if (rules.margin < 0) return Status::out_of_range;
   BlockManifold found;
   find_contact_points(pair, rules, cache, found);
   ContactManifold made;
@@ -363,11 +363,11 @@ __attribute__((noinline)) Status contact_points_by(const ContactRules& rules, co
   return Status::ok;
 }
 
-Status contact_points(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Real reach,
+Status contact_points(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Real margin,
                       ContactManifold& manifold, DistanceCache* cache, ManifoldReduction reduction) {
   Vec64 raw;
   ContactKind kind;
-  const bool known = raw_from_real({reach, Real(0.0), Real(0.0)}, raw);
+  const bool known = raw_from_real({margin, Real(0.0), Real(0.0)}, raw);
   return contact_points_by(rules_of(known ? raw.x : -1, reduction), a, pose_a, b, pose_b, cache, manifold, kind);
 }
 

@@ -29,13 +29,15 @@ struct BlockManifold {
 
 /// The rules by which contact points are found. Lengths in 2^-46 m.
 struct ContactRules {
-  int64_t reach;  ///< contact margin: the greatest separation of a point
-  int64_t sunk;   ///< typical penetration of resting bodies
+  int64_t margin;  ///< contact margin: the greatest separation of a point
+  int64_t sunk;    ///< typical penetration of resting bodies
   ManifoldReduction reduction;
   bool leans;         ///< where edges cross, the normal may be that of a slightly tilted face
   bool smooth_seams;  ///< slivers are left out, and edges level with a face count as the face: contact_seam.h
 };
-inline ContactRules rules_of(int64_t reach, ManifoldReduction reduction) { return {reach, 0, reduction, true, false}; }
+inline ContactRules rules_of(int64_t margin, ManifoldReduction reduction) {
+  return {margin, 0, reduction, true, false};
+}
 
 /// As contact_points(), for a pair in its block.
 void find_contact_points(const RestingPair& pair, const ContactRules& rules, DistanceCache* cache,
@@ -53,7 +55,7 @@ Status contact_points_by(const ContactRules& rules, const Convex& a, const Pose&
 /// Finds the contact points between A's `face` and the feature of B that is farthest against the face's normal. The
 /// contact normal is the face's normal. Only points over the face, or at most 1/64 of its size beyond its sides, are
 /// found; there may be none. It makes no search, so the result is never capped.
-void contact_points_over_face(const RestingPair& pair, const Feature& face, int64_t reach, ManifoldReduction reduction,
+void contact_points_over_face(const RestingPair& pair, const Feature& face, int64_t margin, ManifoldReduction reduction,
                               BlockManifold& manifold);
 
 }  // namespace DETENT_NAMESPACE

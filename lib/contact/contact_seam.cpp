@@ -105,8 +105,8 @@ __attribute__((noinline)) bool find_level_face(const RestingPair& pair, int64_t 
       ContactAxis level = axis;
       if (dot(normal, axis.normal) < k_alike || !is_level(apart_along(pair, normal, level))) continue;
       // The contact point goes under the core of the round shape. Beside the core, it would make a ball rotate.
-      const Vec64 way = {normal.x * level.separation, normal.y * level.separation, normal.z * level.separation};
-      const Vec32 across = round_shift(way, 30);
+      const Vec64 offset = {normal.x * level.separation, normal.y * level.separation, normal.z * level.separation};
+      const Vec32 across = round_shift(offset, 30);
       if (side == 0)
         axis.point_a = subtract(add(pair.offset, axis.point_b), across);
       else

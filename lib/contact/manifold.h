@@ -41,8 +41,8 @@ struct PairShape {
 /// hundred metres.
 struct PairFrame {
   int exponent;
-  Unit reach;  ///< contact margin: points farther apart than this are left out
-  Unit sunk;   ///< as ContactReach::sunk
+  Unit margin;  ///< contact margin: points farther apart than this are left out
+  Unit sunk;    ///< as ContactReach::sunk
   bool smooth_seams;
   ManifoldReduction reduction;
   PairShape a, b;

@@ -28,16 +28,17 @@ inline Unit divide_clamped(Unit numerator, Unit denominator, Unit limit) {
 /// of length.
 /// Source: the common perpendicular of two lines, clamped as in Ericson, "Real-Time Collision Detection", 5.1.9.
 inline void closest_points(const Segment& a, const Segment& b, Unit& along_a, Unit& along_b) {
-  const Vec3<Unit> way = b.centre - a.centre;
+  const Vec3<Unit> between = b.centre - a.centre;
   const Unit cosine = dot(a.direction, b.direction);
   Vec3<Unit> across;
   Unit sine = 0.0;
   along_a = 0.0;
   if (normalise(cross(a.direction, b.direction), across, sine) && sine > Unit(0x1p-11))
-    along_a = divide_clamped(dot(cross(way, b.direction), across), sine, a.half_length);
-  const Unit free_b = cosine * along_a - dot(b.direction, way);
+    along_a = divide_clamped(dot(cross(between, b.direction), across), sine, a.half_length);
+  const Unit free_b = cosine * along_a - dot(b.direction, between);
   along_b = clamp(free_b, -b.half_length, b.half_length);
-  if (!(along_b == free_b)) along_a = clamp(cosine * along_b + dot(a.direction, way), -a.half_length, a.half_length);
+  if (!(along_b == free_b))
+    along_a = clamp(cosine * along_b + dot(a.direction, between), -a.half_length, a.half_length);
 }
 
 /// Shortens the range [low, high] of a segment to the part that is within the lateral distance `room` of a line. The

@@ -6,13 +6,13 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Sets `result` to whether the distance certainly exceeds `reach` (2^-46 m) plus `slack` ulps of the block.
-Status farther_by(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, int64_t reach,
+/// Sets `result` to whether the distance certainly exceeds `distance_max` (2^-46 m) plus `slack` ulps of the block.
+Status farther_by(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, int64_t distance_max,
                   int32_t slack, bool& result, DistanceCache* cache) {
   RestingPair pair;
   if (const Status status = rest(a, pose_a, b, pose_b, pair); status != Status::ok) return status;
   // The threshold in the block, rounded up. No distance in the block exceeds INT32_MAX ulps.
-  const int64_t needed = saturated_sum(saturated_sum(reach, pair.radius_a), pair.radius_b);
+  const int64_t needed = saturated_sum(saturated_sum(distance_max, pair.radius_a), pair.radius_b);
   const int64_t ulps = (needed >> (k_metre_bits - 30 + pair.exponent)) + (needed > 0 ? 1 : 0) + slack;
   result = false;
   if (ulps >= INT32_MAX) return Status::ok;
@@ -70,10 +70,10 @@ Status overlap(const Convex& a, const Pose& pose_a, const Convex& b, const Pose&
   return Status::ok;
 }
 
-Status farther_than(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Real reach, bool& result,
-                    DistanceCache* cache) {
+Status farther_than(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Real distance_max,
+                    bool& result, DistanceCache* cache) {
   Vec64 raw;
-  if (!raw_from_real({reach, Real(0.0), Real(0.0)}, raw) || raw.x < 0) return Status::out_of_range;
+  if (!raw_from_real({distance_max, Real(0.0), Real(0.0)}, raw) || raw.x < 0) return Status::out_of_range;
   return farther_by(a, pose_a, b, pose_b, raw.x, k_gjk_slack, result, cache);
 }
 

@@ -36,10 +36,10 @@ void exact_support(const Placed& placed, const Simplex& simplex, int sign, CoreP
   CorePoint vertex;
   Int128 most = Int128::from(0);
   for (uint32_t i = 0; i < k_no_feature && core_vertex(*placed.convex, static_cast<uint8_t>(i), vertex); ++i) {
-    const Int128 along = simplex.reach(placed.point(vertex.local));
-    const Int128 reach = sign < 0 ? -along : along;
-    if (i != 0 && !(most < reach)) continue;
-    most = reach;
+    const Int128 along = simplex.support(placed.point(vertex.local));
+    const Int128 along_direction = sign < 0 ? -along : along;
+    if (i != 0 && !(most < along_direction)) continue;
+    most = along_direction;
     core = vertex;
   }
 }
@@ -73,7 +73,7 @@ GjkResult gjk(const Placed& a, const Placed& b, const Vec32& offset, Simplex& si
   }
   Vec32 direction = is_zero(offset) ? Vec32{1 << 30, 0, 0} : scaled_to_30_bits(offset);
   for (;;) {
-    int64_t reach = 0;  // direction . nearest point
+    int64_t along_direction = 0;  // direction . nearest point
     if (simplex.count() != 0) {
       if (simplex.holds_origin()) {
         result.outcome = GjkOutcome::overlap;
@@ -81,9 +81,9 @@ GjkResult gjk(const Placed& a, const Placed& b, const Vec32& offset, Simplex& si
         return result;
       }
       direction = simplex.direction();
-      reach = dot(direction, newest(simplex).difference);
+      along_direction = dot(direction, newest(simplex).difference);
       // |direction| lies within [2^29, sqrt(3) 2^30], so this shift cheaply decides whether the exact test is needed.
-      if (reach >> 31 <= limits.below) {
+      if (along_direction >> 31 <= limits.below) {
         result.normal = unit_vector_raw(direction);
         result.upper = ceiling_30(dot(result.normal, newest(simplex).difference));
         if (result.upper <= limits.below) return result;
@@ -95,7 +95,7 @@ GjkResult gjk(const Placed& a, const Placed& b, const Vec32& offset, Simplex& si
     ++result.iterations;
     SimplexVertex vertex = {add(offset, subtract(on_b.point, on_a.point)), on_a.core, on_b.core};
     const int64_t floor = dot(direction, vertex.difference);
-    const int64_t progress = reach - floor;
+    const int64_t progress = along_direction - floor;
     // If the gap is at most k_touching, only exact tests decide: rounding never decides whether the cores overlap.
     const bool touching = floor <= k_touching;
     const bool precise = simplex.count() != 0 && !touching && progress <= int64_t{1} << 30;

@@ -128,9 +128,9 @@ void exact_support(const Placed& placed, const Vec64& normal, SupportPoint& foun
   const auto consider = [&](const CorePoint& core) {
     if (dot(direction, core.local) < floor) return;
     const Vec32 point = placed.point(core.local);
-    const Int128 reach = dot(normal, point);
-    if (!(most < reach)) return;
-    most = reach;
+    const Int128 support = dot(normal, point);
+    if (!(most < support)) return;
+    most = support;
     found = {point, core};
   };
   const HullView& hull = placed.hull;
@@ -174,7 +174,7 @@ class PenetrationSearch {
   // origin.
   Face best_;
   Vec32 outward_;
-  int64_t reach_ = INT64_MAX / 2;
+  int64_t support_ = INT64_MAX / 2;
   int64_t lower_ = 0;
   int supports_ = 0;
   bool capped_ = false;
@@ -251,7 +251,7 @@ void PenetrationSearch::expand() {
   uint8_t start_a = 0, start_b = 0;
   for (;;) {
     const Face face = polytope_.nearest_face(lower_);
-    if (curved && reach_ - lower_ <= k_penetration_gap * k_ulp) return;
+    if (curved && support_ - lower_ <= k_penetration_gap * k_ulp) return;
     const Vec64 normal = polytope_.normal_of(face);
     const Vec32 direction = scaled_to_30_bits(normal);
     SupportPoint on_a = support(a_, negate(direction), start_a), on_b = support(b_, direction, start_b);
@@ -265,9 +265,9 @@ void PenetrationSearch::expand() {
       vertex = vertex_of(on_a, on_b);
     }
     const bool beyond = polytope_.faces(face, vertex.difference);
-    const int64_t reach = beyond ? plane_distance(normal, vertex.difference) : face.distance;
-    if (reach < reach_ || !beyond) {
-      reach_ = reach;
+    const int64_t support = beyond ? plane_distance(normal, vertex.difference) : face.distance;
+    if (support < support_ || !beyond) {
+      support_ = support;
       best_ = face;
       outward_ = unit_vector_raw(direction);
     }
@@ -311,7 +311,7 @@ Penetration PenetrationSearch::answer() const {
     difference = add(difference, {weight[i] * v.difference.x, weight[i] * v.difference.y, weight[i] * v.difference.z});
   }
   const Vec32 point_a = round_shift(on_a, 30);
-  const int64_t depth = (reach_ + k_ulp - 1) >> 30;
+  const int64_t depth = (support_ + k_ulp - 1) >> 30;
   const int64_t lower = lower_ >> 30;
   return {negate(outward_),
           static_cast<int32_t>(depth > 0 ? depth : 0),
@@ -347,12 +347,13 @@ Penetration half_space_penetration(const Placed& a, const Placed& b, const Vec32
   const bool plane_is_a = is_half_space(a);
   const Vec32 up = (plane_is_a ? a : b).rotation.column[1];
   const Vec32 normal = plane_is_a ? up : negate(up);
-  const Vec32 way = plane_is_a ? offset : negate(offset);
+  const Vec32 displacement = plane_is_a ? offset : negate(offset);
   const Vec32 deepest = support(plane_is_a ? b : a, negate(up)).point;
-  const int64_t height = dot(up, add(way, deepest));  // above the plane, Q30
+  const int64_t height = dot(up, add(displacement, deepest));  // above the plane, Q30
   const int64_t depth = height < 0 ? (-height + k_ulp - 1) >> 30 : 0;
   const int64_t below = round_shift_64(height, 30);
-  const Vec32 foot = subtract(add(way, deepest), round_shift(Vec64{below * up.x, below * up.y, below * up.z}, 30));
+  const Vec32 foot =
+      subtract(add(displacement, deepest), round_shift(Vec64{below * up.x, below * up.y, below * up.z}, 30));
   return {normal,
           static_cast<int32_t>(depth),
           static_cast<int32_t>(depth),

@@ -76,11 +76,11 @@ EdgeFaces Polytope::faces(uint32_t from, uint32_t to) const {
     }
     ++i;
     ++j;
-    const Vec32 corner = vertex(common), way = subtract(corner, start);
-    const int above = first ? 1 : sign_of(dot(faces.left, way));
+    const Vec32 corner = vertex(common), displacement = subtract(corner, start);
+    const int above = first ? 1 : sign_of(dot(faces.left, displacement));
     if (above > 0) faces.left = across(start, end, corner);
     if (above == 0) faces.flat = faces.flat || sign_of(dot(faces.left, across(start, end, corner))) < 0;
-    if (first || sign_of(dot(faces.right, way)) > 0) faces.right = across(start, corner, end);
+    if (first || sign_of(dot(faces.right, displacement)) > 0) faces.right = across(start, corner, end);
     first = false;
   }
   return faces;

@@ -23,8 +23,8 @@ Status rest(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& po
     offset = component_along(offset, (plane_is_a ? matrix_a : matrix_b).column[1]);
   }
   const int64_t cores = raw_core_radius(a) + raw_core_radius(b) + 64, apart = length_bound(offset);
-  const int64_t reach = saturated_sum(apart, cores);
-  pair.exponent = reach == INT64_MAX ? k_exponent_max : raw_exponent_above(reach);
+  const int64_t extent = saturated_sum(apart, cores);
+  pair.exponent = extent == INT64_MAX ? k_exponent_max : raw_exponent_above(extent);
   pair.offset = round_shift(offset, k_metre_bits - 30 + pair.exponent);
   pair.a = place(a, matrix_a, pair.exponent);
   pair.b = place(b, matrix_b, pair.exponent);

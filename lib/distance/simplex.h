@@ -40,7 +40,7 @@ class Simplex {
   Vec32 direction() const;
 
   /// v . p times a positive number, exact, for the nearest point v. Range: not holds_origin(), |p| < 2^30.
-  Int128 reach(const Vec32& p) const;
+  Int128 support(const Vec32& p) const;
 
   /// The weights of the vertices in the nearest point, Q30. Their sum is 2^30 within rounding. Arbitrary if the simplex
   /// contains the origin.
@@ -76,8 +76,8 @@ class Simplex {
 /// The sign of v.(y - a), where v is the point nearest to the origin on the edge from a. The computed value is scaled
 /// by the edge's square.
 inline int side_of_edge(const Vec32& a, const Vec32& edge, int64_t square, int64_t along, const Vec32& y) {
-  const Vec32 way = subtract(y, a);
-  return sign_of(Int128::product(square, dot(a, way)) + Int128::product(along, dot(edge, way)));
+  const Vec32 displacement = subtract(y, a);
+  return sign_of(Int128::product(square, dot(a, displacement)) + Int128::product(along, dot(edge, displacement)));
 }
 
 /// value 2^-n as 64 bits. Range: the result fits. Rounding: to nearest, ties up.
@@ -100,10 +100,10 @@ inline bool Simplex::insert(const SimplexVertex& vertex) {
 
 inline bool Simplex::is_nearer(const Vec32& difference) const {
   const Vec32& a = vertex_[count_ - 1].difference;
-  const Vec32 way = subtract(difference, a);
-  if (count_ == 1) return dot(a, way) < 0;
+  const Vec32 displacement = subtract(difference, a);
+  if (count_ == 1) return dot(a, displacement) < 0;
   if (count_ == 2) return side_of_edge(a, edge_, edge_square_, along_, difference) < 0;
-  return sign_of(dot(normal_, way)) < 0;
+  return sign_of(dot(normal_, displacement)) < 0;
 }
 
 inline void Simplex::keep(int a) {
@@ -209,7 +209,7 @@ inline Vec32 Simplex::direction() const {
   }
 }
 
-inline Int128 Simplex::reach(const Vec32& p) const {
+inline Int128 Simplex::support(const Vec32& p) const {
   const Vec32& a = vertex_[count_ - 1].difference;
   if (count_ == 1) return Int128::from(dot(a, p));
   if (count_ == 2) return Int128::product(edge_square_, dot(a, p)) + Int128::product(along_, dot(edge_, p));

@@ -33,9 +33,9 @@ CorePoint hull_vertex(const HullView& hull, uint32_t i) {
 }
 
 /// The coordinates of a hull's vertices along a direction.
-class Reach {
+class Projection {
  public:
-  Reach(const HullView& hull, const Vec32& direction)
+  Projection(const HullView& hull, const Vec32& direction)
       : x_(hull.bytes + hull.at.x),
         y_(hull.bytes + hull.at.y),
         z_(hull.bytes + hull.at.z),
@@ -53,16 +53,16 @@ class Reach {
 
 /// Hill climbing: moves to the farthest neighbour as long as one lies farther. On a convex hull the last vertex is the
 /// farthest of all.
-uint32_t climb(const HullView& hull, const Reach& reach, uint32_t start) {
+uint32_t climb(const HullView& hull, const Projection& projection, uint32_t start) {
   uint32_t best = start < hull.vertex_count ? start : 0, last = best;
-  int64_t best_value = reach.of(best);
+  int64_t best_value = projection.of(best);
   for (uint32_t step = 0; step < hull.vertex_count; ++step) {
     const HullIndices around = hull.neighbours(best);
     uint32_t next = best;
     for (uint32_t k = 0; k < around.count; ++k) {
       const uint32_t i = around.index[k];
       if (i == last) continue;
-      const int64_t value = reach.of(i);
+      const int64_t value = projection.of(i);
       if (value > best_value) {
         best_value = value;
         next = i;
@@ -76,12 +76,12 @@ uint32_t climb(const HullView& hull, const Reach& reach, uint32_t start) {
 }
 
 CorePoint hull_support(const HullView& hull, const Vec32& direction, uint32_t start) {
-  const Reach reach(hull, direction);
-  if (hull.vertex_count > k_climbing_vertices) return hull_vertex(hull, climb(hull, reach, start));
+  const Projection projection(hull, direction);
+  if (hull.vertex_count > k_climbing_vertices) return hull_vertex(hull, climb(hull, projection, start));
   uint32_t best = 0;
   int64_t best_value = INT64_MIN;
   for (uint32_t i = 0; i < hull.vertex_count; ++i) {
-    const int64_t value = reach.of(i);
+    const int64_t value = projection.of(i);
     if (value > best_value) {
       best_value = value;
       best = i;
@@ -148,7 +148,7 @@ CorePoint local_support(const Convex& convex, const HullView& hull, const Vec32&
     }
     case ShapeType::sphere:
     case ShapeType::half_space:
-    case ShapeType::surface:
+    case ShapeType::terrain:
     case ShapeType::compound:
       break;
   }

@@ -4,8 +4,8 @@
 #include <detent/joint.h>
 
 #include "base/span.h"
+#include "motion/angular_velocity.h"
 #include "motion/solver_bodies.h"
-#include "motion/spin.h"
 #include "motion/step_settings.h"
 
 /// The joints of a step. With the columns (v_A, w_A, v_B, w_B) of velocities and angular velocities, a joint's row has
@@ -70,7 +70,7 @@ void begin_joints(const StepSettings& settings, const SolverBodies& bodies, Span
                   const Island& island, Real elapsed, JointStage& stage);
 
 /// Whether a body's inverse inertia has changed since the last substep.
-inline bool has_renewed_gyration(const BodyWork& now, const JointStage& stage) {
+inline bool has_renewed_inverse_inertia(const BodyWork& now, const JointStage& stage) {
   return now.joint_body != UINT32_MAX && stage.bodies[now.joint_body].renewed != 0;
 }
 
@@ -188,9 +188,9 @@ Real last_pull(const JointStage& stage, const JointWork& work);
 void load_inertia(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, JointBody& body);
 /// The angular momentum with the body's own inertia, at the angular velocity that it has with the inertia of the
 /// substep.
-Vec3<Real> own_momentum(const JointBody& body, const Vec3<Real>& momentum);
+Vec3<Real> own_angular_momentum(const JointBody& body, const Vec3<Real>& angular_momentum);
 /// The inverse of own_momentum(). Overflow: clamps, and sets `saturated`.
-Vec3<Real> lent_momentum(const JointBody& body, const Vec3<Real>& momentum, bool& saturated);
+Vec3<Real> lent_angular_momentum(const JointBody& body, const Vec3<Real>& angular_momentum, bool& saturated);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -1,7 +1,7 @@
 #include "joint/joint.h"
 #include "math/root.h"
 #include "math/scaled.h"
-#include "motion/spin.h"
+#include "motion/angular_velocity.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -15,10 +15,10 @@ uint32_t place_of(const SolverBodies& bodies, uint32_t slot, JointStage& stage) 
   JointBody& body = stage.bodies[place];
   static_cast<JointBodyStart&>(body) = {};
   body.slot = slot;
-  body.mobile = is_dynamic(bodies.traits[slot]) && stage.activities[slot].asleep == 0 ? 1 : 0;
+  body.mobile = is_dynamic(bodies.properties[slot]) && stage.activities[slot].asleep == 0 ? 1 : 0;
   body.first = body.last = k_no_link;
-  body.exponent = bodies.traits[slot].size_exponent;
-  body.share = Scaled(0.0);
+  body.exponent = bodies.properties[slot].size_exponent;
+  body.inverse_mass = Scaled(0.0);
   return place;
 }
 
@@ -34,7 +34,7 @@ void link_to(JointStage& stage, uint32_t joint, uint32_t end) {
 }
 
 /// Enlarges a body's unit so that an arm of this length fits.
-void reach_out(JointBody& body, Real arm) {
+void extend_arm(JointBody& body, Real arm) {
   const int exponent = exponent_above(arm);
   if (exponent > body.exponent) body.exponent = exponent;
 }
@@ -52,7 +52,7 @@ uint32_t rows_of(const JointState& joint) {
   return rows;
 }
 
-bool takes_way(const JointState& joint) {
+bool has_slide(const JointState& joint) {
   const JointType type = static_cast<JointType>(joint.type);
   return type == JointType::slider || type == JointType::wheel;
 }
@@ -68,7 +68,7 @@ Vec3<Unit> unit_held(const Vec3<Real>& v, int exponent) {
 void collect_joints(const SolverBodies& bodies, JointStage& stage) {
   stage.count = stage.body_count = 0;
   const auto moves = [&](uint32_t slot) {
-    return is_dynamic(bodies.traits[slot]) && stage.activities[slot].asleep == 0;
+    return is_dynamic(bodies.properties[slot]) && stage.activities[slot].asleep == 0;
   };
   for (uint32_t slot = 0; slot < stage.joints.count; ++slot) {
     const JointState& joint = stage.joints[slot];
@@ -86,13 +86,13 @@ void collect_joints(const SolverBodies& bodies, JointStage& stage) {
     JointBody &a = stage.bodies[work.body[0]], &b = stage.bodies[work.body[1]];
     const Position &from = stage.poses[joint.body_a].position, &to = stage.poses[joint.body_b].position;
     work.between = real_difference(to, from);
-    Real way = Real(0.0);
-    if (takes_way(joint)) way = scale_by_power(absolute_sum(work.between) + absolute_sum(joint.anchor_b), 1);
-    reach_out(a, max(absolute_sum(joint.anchor_a), way));
-    reach_out(b, absolute_sum(joint.anchor_b));
+    Real displacement = Real(0.0);
+    if (has_slide(joint)) displacement = scale_by_power(absolute_sum(work.between) + absolute_sum(joint.anchor_b), 1);
+    extend_arm(a, max(absolute_sum(joint.anchor_a), displacement));
+    extend_arm(b, absolute_sum(joint.anchor_b));
   }
   for (JointBody& body : stage.bodies.first(stage.body_count))
-    body.above = body.exponent - bodies.traits[body.slot].size_exponent;
+    body.above = body.exponent - bodies.properties[body.slot].size_exponent;
   for (JointWork& work : stage.work.first(stage.count)) {
     const JointState& joint = stage.joints[work.joint];
     work.anchor[0] = unit_held(joint.anchor_a, stage.bodies[work.body[0]].exponent);

@@ -31,28 +31,28 @@ constexpr int k_joint_response_bits = 5, k_power_max = 9;
 constexpr Real k_spring_max = 16384.0;
 
 /// The columns of M^-1 J^T for one body: the change of its velocity and angular velocity by a unit impulse of each row.
-struct Reply {
-  Vec3<Real> velocity[k_joint_rows_max], spin[k_joint_rows_max];
+struct Response {
+  Vec3<Real> linear_velocity[k_joint_rows_max], angular_velocity[k_joint_rows_max];
 
-  Reply(const JointWork& work, const JointBody& body, uint32_t end) {
-    const auto turn = [&](const Vec3<Unit>& torque) {
+  Response(const JointWork& work, const JointBody& body, uint32_t end) {
+    const auto turned = [&](const Vec3<Unit>& torque) {
       return Vec3<Real>{dot(body.turned[0], torque), dot(body.turned[1], torque), dot(body.turned[2], torque)};
     };
     if (work.points != 0) {
       // Unit forces at the anchor: I^-1 (r x e_i).
       const Vec3<Unit>& r = work.arm[end];
       const Unit none = 0.0, minus_x = none - r.x, minus_y = none - r.y, minus_z = none - r.z;
-      spin[0] = turn({none, r.z, minus_y});
-      spin[1] = turn({minus_z, none, r.x});
-      spin[2] = turn({r.y, minus_x, none});
-      velocity[0] = {body.pushed, k_zero, k_zero};
-      velocity[1] = {k_zero, body.pushed, k_zero};
-      velocity[2] = {k_zero, k_zero, body.pushed};
+      angular_velocity[0] = turned({none, r.z, minus_y});
+      angular_velocity[1] = turned({minus_z, none, r.x});
+      angular_velocity[2] = turned({r.y, minus_x, none});
+      linear_velocity[0] = {body.pushed, k_zero, k_zero};
+      linear_velocity[1] = {k_zero, body.pushed, k_zero};
+      linear_velocity[2] = {k_zero, k_zero, body.pushed};
     }
     for (uint32_t k = first_other(work); k < work.rows; ++k) {
       const JointRow& row = work.row[k];
-      velocity[k] = {body.pushed * row.axis.x, body.pushed * row.axis.y, body.pushed * row.axis.z};
-      spin[k] = turn(row.arm[end]);
+      linear_velocity[k] = {body.pushed * row.axis.x, body.pushed * row.axis.y, body.pushed * row.axis.z};
+      angular_velocity[k] = turned(row.arm[end]);
     }
   }
 };
@@ -124,10 +124,10 @@ void choose_unit([[maybe_unused]] const JointStage& stage, JointWork& work) {
   for (uint32_t end = 0; end < 2; ++end) {
     const JointBody& body = stage.bodies[work.body[end]];
     if (body.mobile == 0) continue;
-    const Reply reply(work, body, end);
+    const Response reaction(work, body, end);
     for (uint32_t k = 0; k < work.rows; ++k) {
       Real speed[k_joint_rows_max];
-      show(work, end, reply.velocity[k], reply.spin[k], speed);
+      show(work, end, reaction.linear_velocity[k], reaction.angular_velocity[k], speed);
       response[k] += speed[k];
     }
   }
@@ -173,10 +173,10 @@ void JointFactor::make() {
     for (uint32_t end = 0; end < 2; ++end) {
       const JointBody& body = stage_.bodies[work.body[end]];
       if (body.mobile == 0) continue;
-      const Reply reply(work, body, end);
+      const Response reaction(work, body, end);
       for (uint32_t k = 0; k < work.rows; ++k) {
         Real speed[k_joint_rows_max];
-        show(work, end, reply.velocity[k], reply.spin[k], speed);
+        show(work, end, reaction.linear_velocity[k], reaction.angular_velocity[k], speed);
         for (uint32_t m = 0; m <= k; ++m)
           work.response[k][m] += scale_by_power(speed[m], work.row_power[k] + work.row_power[m]);
       }
@@ -189,7 +189,7 @@ void JointFactor::make() {
           if (other.body[far] != work.body[end]) continue;
           for (uint32_t k = 0; k < work.rows; ++k) {
             Real speed[k_joint_rows_max];
-            show(other, far, reply.velocity[k], reply.spin[k], speed);
+            show(other, far, reaction.linear_velocity[k], reaction.angular_velocity[k], speed);
             for (uint32_t m = 0; m < other.rows; ++m) {
               const Real scaled = scale_by_power(speed[m], work.row_power[k] + other.row_power[m]);
               block[k * other.rows + m] += end == far ? scaled : -scaled;
@@ -229,7 +229,7 @@ void JointFactor::make_up(uint32_t index) {
   for (uint32_t end = 0; end < 2; ++end) {
     const JointBody& body = stage_.bodies[work.body[end]];
     if (body.mobile == 0) continue;
-    const Reply reply(work, body, end);
+    const Response reaction(work, body, end);
     for (uint32_t link = body.first; link != k_no_link;) {
       const uint32_t other_index = link / 2, far = link % 2;
       const JointWork& other = stage_.work[other_index];
@@ -237,7 +237,7 @@ void JointFactor::make_up(uint32_t index) {
       if (other_index == index || find(index, other_index) != nullptr) continue;
       for (uint32_t k = 0; k < work.rows; ++k) {
         Real speed[k_joint_rows_max];
-        show(other, far, reply.velocity[k], reply.spin[k], speed);
+        show(other, far, reaction.linear_velocity[k], reaction.angular_velocity[k], speed);
         for (uint32_t m = 0; m < other.rows; ++m)
           work.response[k][k] += abs(scale_by_power(speed[m], work.row_power[k] + other.row_power[m]));
       }

@@ -65,16 +65,16 @@ class ProductSum {
 };
 
 /// Computes the part of J v that one body contributes, for the rows of a joint, without the sign of A.
-inline void show(const JointWork& work, uint32_t end, const Vec3<Real>& velocity, const Vec3<Real>& spin,
-                 Real (&speed)[k_joint_rows_max]) {
+inline void show(const JointWork& work, uint32_t end, const Vec3<Real>& linear_velocity,
+                 const Vec3<Real>& angular_velocity, Real (&speed)[k_joint_rows_max]) {
   if (work.points != 0) {
-    const Vec3<Real> at_point = velocity + cross(spin, work.arm[end]);
+    const Vec3<Real> at_point = linear_velocity + cross(angular_velocity, work.arm[end]);
     speed[0] = at_point.x;
     speed[1] = at_point.y;
     speed[2] = at_point.z;
   }
   for (uint32_t k = first_other(work); k < work.rows; ++k)
-    speed[k] = dot(velocity, work.row[k].axis) + dot(spin, work.row[k].arm[end]);
+    speed[k] = dot(linear_velocity, work.row[k].axis) + dot(angular_velocity, work.row[k].arm[end]);
 }
 
 /// Limit of a row's impulse in a solution. If an impulse is larger, all are scaled down.
@@ -92,7 +92,8 @@ inline bool gather(const JointWork& work, uint32_t end, JointBody& body) {
   Real given[k_joint_rows_max], most = k_zero;  // impulse of each row over the mass, m/s
   bool saturated = false;
   for (uint32_t k = 0; k < work.rows; ++k) {
-    given[k] = multiply(work.impulse[k], scaled_by_power(body.share, work.row_power[k] + k_impulse_power), saturated);
+    given[k] =
+        multiply(work.impulse[k], scaled_by_power(body.inverse_mass, work.row_power[k] + k_impulse_power), saturated);
     most = max(most, abs(given[k]));
   }
   if (saturated || !(most <= k_gathered_max * Unit(0.5))) return false;

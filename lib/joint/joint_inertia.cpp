@@ -1,8 +1,8 @@
 #include "joint/joint.h"
 #include "math/root.h"
 #include "math/scaled.h"
-#include "motion/gyration.h"
-#include "motion/spin.h"
+#include "motion/angular_velocity.h"
+#include "motion/inverse_inertia.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -34,48 +34,50 @@ Real last_pull(const JointStage& stage, const JointWork& work) {
 }
 
 void load_inertia(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, JointBody& body) {
-  const BodyTraits& traits = bodies.traits[body.slot];
+  const BodyProperties& properties = bodies.properties[body.slot];
   BodyWork& now = bodies.work[body.slot];
-  // Over the mass and the square of the body's own unit, like the inertia 1 / gyration.
+  // Over the mass and the square of the body's own unit, like the inertia 1 / inverse inertia.
   const Scaled pulls = multiply(pulls_on(stage, body), multiply(scaled_from(settings.time), settings.share));
-  const Scaled least = scaled_by_power(pulls, k_kept_power + body.exponent - 2 * traits.size_exponent);
+  const Scaled least = scaled_by_power(pulls, k_kept_power + body.exponent - 2 * properties.size_exponent);
   body.slowed = 0;
   Scaled about[3];
   for (int i = 0; i < 3; ++i) {
-    body.kept_turn[i] = Scaled(1.0);
-    about[i] = traits.gyration[i];
-    const Scaled over = multiply(least, traits.gyration[i]);
+    body.kept_rotation[i] = Scaled(1.0);
+    about[i] = properties.inverse_inertia[i];
+    const Scaled over = multiply(least, properties.inverse_inertia[i]);
     if (!less(Scaled(1.0), over)) continue;
     body.slowed = 1;
-    body.kept_turn[i] = divide(Scaled(1.0), over);
+    body.kept_rotation[i] = divide(Scaled(1.0), over);
     about[i] = divide(Scaled(1.0), least);
   }
   if (body.slowed != 0) {
-    now.gyration = world_gyration(about, body.axes);
+    now.inverse_inertia = world_inverse_inertia(about, body.axes);
     body.renewed = 1;
   }
-  const WorldGyration& gyration = now.gyration;
-  const Scaled turn = scaled_by_power(body.share, gyration.exponent + 2 * body.above);
+  const WorldInverseInertia& inverse_inertia = now.inverse_inertia;
+  const Scaled rotational = scaled_by_power(body.inverse_mass, inverse_inertia.exponent + 2 * body.above);
   bool saturated = false;
-  body.pushed = to_real(body.share, saturated);
+  body.pushed = to_real(body.inverse_mass, saturated);
   for (int i = 0; i < 3; ++i) {
-    const Vec3<Unit>& row = gyration.row[i];
-    body.turned[i] = multiply({real_from_unit(row.x, 0), real_from_unit(row.y, 0), real_from_unit(row.z, 0)}, turn);
+    const Vec3<Unit>& row = inverse_inertia.row[i];
+    body.turned[i] =
+        multiply({real_from_unit(row.x, 0), real_from_unit(row.y, 0), real_from_unit(row.z, 0)}, rotational);
   }
 }
 
-Vec3<Real> own_momentum(const JointBody& body, const Vec3<Real>& momentum) {
-  if (body.slowed == 0) return momentum;
-  const Vec3<Real> local = multiply_transposed(body.axes, momentum);
-  return multiply(body.axes, Vec3<Real>{multiply(local.x, body.kept_turn[0]), multiply(local.y, body.kept_turn[1]),
-                                        multiply(local.z, body.kept_turn[2])});
+Vec3<Real> own_angular_momentum(const JointBody& body, const Vec3<Real>& angular_momentum) {
+  if (body.slowed == 0) return angular_momentum;
+  const Vec3<Real> local = multiply_transposed(body.axes, angular_momentum);
+  return multiply(body.axes,
+                  Vec3<Real>{multiply(local.x, body.kept_rotation[0]), multiply(local.y, body.kept_rotation[1]),
+                             multiply(local.z, body.kept_rotation[2])});
 }
 
-Vec3<Real> lent_momentum(const JointBody& body, const Vec3<Real>& momentum, bool& saturated) {
-  if (body.slowed == 0) return momentum;
-  const Vec3<Real> local = multiply_transposed(body.axes, momentum);
+Vec3<Real> lent_angular_momentum(const JointBody& body, const Vec3<Real>& angular_momentum, bool& saturated) {
+  if (body.slowed == 0) return angular_momentum;
+  const Vec3<Real> local = multiply_transposed(body.axes, angular_momentum);
   const auto lent = [&](Real part, int axis) {
-    return multiply(part, divide(Scaled(1.0), body.kept_turn[axis]), saturated);
+    return multiply(part, divide(Scaled(1.0), body.kept_rotation[axis]), saturated);
   };
   return multiply(body.axes, Vec3<Real>{lent(local.x, 0), lent(local.y, 1), lent(local.z, 2)});
 }

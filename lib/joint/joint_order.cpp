@@ -170,13 +170,13 @@ void weigh(const SolverBodies& bodies, Span<const uint32_t> slots, JointStage& s
     }
   };
   each([&](uint32_t slot, const JointBody& body) {
-    const int turn = DETENT_FIXED ? bodies.work[slot].gyration.exponent + 2 * body.above : 0;
-    const Scaled own = scaled_by_power(divide(Scaled(1.0), bodies.traits[slot].mass), turn < 0 ? 0 : turn);
+    const int exponent = DETENT_FIXED ? bodies.work[slot].inverse_inertia.exponent + 2 * body.above : 0;
+    const Scaled own = scaled_by_power(divide(Scaled(1.0), bodies.properties[slot].mass), exponent < 0 ? 0 : exponent);
     if (less(most, own)) most = own;
   });
   if (!is_positive(most)) return;
   const Scaled reference = scaled_by_power(divide(Scaled(1.0), most), DETENT_FIXED ? k_response_bits : 0);
-  each([&](uint32_t slot, JointBody& body) { body.share = divide(reference, bodies.traits[slot].mass); });
+  each([&](uint32_t slot, JointBody& body) { body.inverse_mass = divide(reference, bodies.properties[slot].mass); });
 }
 
 /// Sets the mass that the stored impulses are relative to, and the largest impulses of motors, springs and friction.
@@ -185,14 +185,14 @@ void weigh_joint(const StepSettings& settings, const SolverBodies& bodies, Joint
   Scaled lighter = Scaled(0.0);
   for (const uint32_t place : work.body) {
     const JointBody& body = stage.bodies[place];
-    const Scaled mass = bodies.traits[body.slot].mass;
+    const Scaled mass = bodies.properties[body.slot].mass;
     if (body.mobile == 0 || (is_positive(lighter) && !less(mass, lighter))) continue;
     lighter = mass;
-    work.over_lighter = body.share;
+    work.over_lighter = body.inverse_mass;
   }
   for (uint32_t end = 0; end < 2; ++end) {
     const JointBody& body = stage.bodies[work.body[end]];
-    work.lighter_over[end] = body.mobile != 0 ? divide(lighter, bodies.traits[body.slot].mass) : Scaled(0.0);
+    work.lighter_over[end] = body.mobile != 0 ? divide(lighter, bodies.properties[body.slot].mass) : Scaled(0.0);
   }
   const Scaled reference = multiply(lighter, work.over_lighter);
   bool saturated = false;

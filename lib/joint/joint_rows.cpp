@@ -1,8 +1,8 @@
 #include "joint/joint.h"
 #include "math/root.h"
 #include "math/scaled.h"
-#include "motion/gyration.h"
-#include "motion/spin.h"
+#include "motion/angular_velocity.h"
+#include "motion/inverse_inertia.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -45,8 +45,8 @@ struct RowMaker {
   ///
   ///     C = d . gap,  J = (-d, -(r_A + gap) x d, d, r_B x d)
   JointRow linear(const Vec3<Unit>& axis) const {
-    const Vec3<Unit> way = unit_held(in_metres(rows.arm[0], a.exponent) + gap, a.exponent);
-    return {axis, {held_cross(way, axis), held_cross(rows.arm[1], axis)}};
+    const Vec3<Unit> displacement = unit_held(in_metres(rows.arm[0], a.exponent) + gap, a.exponent);
+    return {axis, {held_cross(displacement, axis), held_cross(rows.arm[1], axis)}};
   }
   /// An angular row about a = `axis`:
   ///
@@ -73,7 +73,7 @@ struct RowMaker {
   }
   /// Locks the relative rotation q (`relative`) about one of A's axes. For a small rotation, twice the vector part of q
   /// is the rotation vector: C = 2 q_axis u.
-  void hold_turn(int axis, Unit part) {
+  void clamp_rotation(int axis, Unit part) {
     const Unit sine = relative.w < k_zero_unit ? -part : part;
     hold(angular(frame.column[axis]), length_of(scale_by_power(real_from_unit(sine, 0), 1)));
   }
@@ -96,7 +96,7 @@ struct RowMaker {
   /// The displacement along A's x axis: the value is d . gap.
   void free_slide(int i) { free_motion(i, linear(frame.column[0]), dot(gap, frame.column[0])); }
   /// The rotation about one of A's axes: the value is angle u.
-  void free_turn(int i, int axis, Unit sine) {
+  void free_rotation(int i, int axis, Unit sine) {
     free_motion(i, angular(frame.column[axis]), length_of(twist_of(sine, relative.w)));
   }
   /// The twist about x: the part of the relative rotation that remains after x has leaned from A's to B's by the
@@ -168,12 +168,13 @@ Scaled own_response(const SolverBodies& bodies, const JointStage& stage, const J
   for (int end = 0; end < 2; ++end) {
     const JointBody& body = stage.bodies[work.body[end]];
     if (body.mobile == 0) continue;
-    const WorldGyration& gyration = bodies.work[body.slot].gyration;
+    const WorldInverseInertia& inverse_inertia = bodies.work[body.slot].inverse_inertia;
     const Vec3<Unit>& arm = row.arm[end];
-    const Unit turn = scale_by_power(dot(scale_by_power(multiply(gyration, scale_by_power(arm, -1)), -1), arm), 0);
-    const Scaled angular = scaled_by_power(scaled_from(turn), gyration.exponent + 2 * body.above + 2);
+    const Unit rotational =
+        scale_by_power(dot(scale_by_power(multiply(inverse_inertia, scale_by_power(arm, -1)), -1), arm), 0);
+    const Scaled angular = scaled_by_power(scaled_from(rotational), inverse_inertia.exponent + 2 * body.above + 2);
     const Scaled linear = scaled_from(dot(scale_by_power(row.axis, -1), row.axis));
-    sum = add(sum, multiply(body.share, add(scaled_by_power(linear, 1), angular)));
+    sum = add(sum, multiply(body.inverse_mass, add(scaled_by_power(linear, 1), angular)));
   }
   return scaled_by_power(sum, impulse_power(work, row_kind(row)));
 }
@@ -196,7 +197,7 @@ Real target_of(const JointState& joint, const JointWork& work, int i) {
   return has_ball_spring(joint) ? k_zero : as_shown(joint, work, i, joint.target[i]);
 }
 /// The target speed of a motor or a spring.
-Real speed_wanted(const JointState& joint, const JointWork& work, int i) {
+Real target_speed(const JointState& joint, const JointWork& work, int i) {
   return has_ball_spring(joint) ? k_zero : as_shown(joint, work, i, joint.speed[i]);
 }
 
@@ -245,7 +246,8 @@ DriveMode free_mode(const JointState& joint, int i) {
 Real speed_of(const JointStage& stage, const JointWork& work, int i) {
   const JointBody &a = stage.bodies[work.body[0]], &b = stage.bodies[work.body[1]];
   const JointRow& row = work.free_row[i];
-  return dot(b.velocity - a.velocity, row.axis) + dot(b.spin, row.arm[1]) - dot(a.spin, row.arm[0]);
+  return dot(b.linear_velocity - a.linear_velocity, row.axis) + dot(b.angular_velocity, row.arm[1]) -
+         dot(a.angular_velocity, row.arm[0]);
 }
 
 /// The part of that speed that gravity, forces and torques have just added. A damper that acted on it would carry a
@@ -257,8 +259,9 @@ Real speed_pushed(const SolverBodies& bodies, const JointStage& stage, const Joi
     const JointBody& body = stage.bodies[work.body[end]];
     if (body.mobile == 0) continue;
     const BodyWork& now = bodies.work[body.slot];
-    const Vec3<Real> spin = world_spin(bodies.traits[body.slot], now.gyration, now.twist, body.above);
-    const Real own = dot(now.push, row.axis) + dot(spin, row.arm[end]);
+    const Vec3<Real> angular_velocity =
+        world_angular_velocity(bodies.properties[body.slot], now.inverse_inertia, now.twist, body.above);
+    const Real own = dot(now.push, row.axis) + dot(angular_velocity, row.arm[end]);
     speed += end == 0 ? -own : own;
   }
   return speed;
@@ -272,7 +275,7 @@ void push_softly(const StepSettings& settings, const SolverBodies& bodies, const
   const Spring spring(settings, joint, i);
   if (!less(spring.stiffness(), Scaled(0.25))) return;
   const Real off = work.value[i] - target_of(joint, work, i);
-  const Real fast = speed_of(stage, work, i) - speed_pushed(bodies, stage, work, i) - speed_wanted(joint, work, i);
+  const Real fast = speed_of(stage, work, i) - speed_pushed(bodies, stage, work, i) - target_speed(joint, work, i);
   const Scaled pull = multiply(multiply(spring.rate, spring.phase), scaled_from(off));
   const Scaled damping = scaled_by_power(scaled_from(joint.damping_ratio[driving_axis(joint, i)]), 1);
   const Scaled drag = multiply(multiply(spring.phase, damping), scaled_from(fast));
@@ -321,7 +324,7 @@ void brake_spring(const StepSettings& settings, const SolverBodies& bodies, cons
 /// Sets the target of a limit's row. Within the limit: J v = -C / h, so that the motion may reach the limit. Beyond it:
 /// J v = 0, and a shift of positions corrects C.
 void drive_to_limit(const StepSettings& settings, Real over, bool within, uint32_t row, JointWork& work) {
-  work.wanted[row] = within ? -speed_over(settings, over) : k_zero;
+  work.target[row] = within ? -speed_over(settings, over) : k_zero;
   work.error[row] = within ? k_zero : over;
 }
 
@@ -347,9 +350,9 @@ bool overdrives(const JointStage& stage, int i, const JointWork& work) {
   const JointState& joint = stage.joints[work.joint];
   const DriveMode mode = free_mode(joint, i);
   if (mode != DriveMode::rigid && mode != DriveMode::brake) return false;
-  const Real wanted = mode == DriveMode::rigid ? speed_wanted(joint, work, i) * work.shown[i] : k_zero;
+  const Real target = mode == DriveMode::rigid ? target_speed(joint, work, i) * work.shown[i] : k_zero;
   const Real push = work.constant[i] + work.driven_total[i] + work.given[i];
-  const Real beyond = speed_of(stage, work, i) - wanted;
+  const Real beyond = speed_of(stage, work, i) - target;
   return push > k_zero ? beyond > k_overdriven : beyond < -k_overdriven;
 }
 
@@ -357,9 +360,9 @@ bool overdrives(const JointStage& stage, int i, const JointWork& work) {
 DriveMode mode_at_limit(const StepSettings& settings, const JointStage& stage, int i, Real passed,
                         const JointWork& work) {
   const JointState& joint = stage.joints[work.joint];
-  const Real reach = clamp(speed_of(stage, work, i), -k_speed_work_max, k_speed_work_max) * settings.time;
-  if (work.value[i] + min(reach, k_zero) + passed <= as_shown(joint, work, i, joint.lower[i])) return DriveMode::lower;
-  if (work.value[i] + max(reach, k_zero) - passed >= as_shown(joint, work, i, joint.upper[i])) return DriveMode::upper;
+  const Real travel = clamp(speed_of(stage, work, i), -k_speed_work_max, k_speed_work_max) * settings.time;
+  if (work.value[i] + min(travel, k_zero) + passed <= as_shown(joint, work, i, joint.lower[i])) return DriveMode::lower;
+  if (work.value[i] + max(travel, k_zero) - passed >= as_shown(joint, work, i, joint.upper[i])) return DriveMode::upper;
   return work.mode[i];
 }
 
@@ -423,14 +426,14 @@ JointRows make_joint_rows(const JointStage& stage, const JointWork& work) {
     case JointType::hinge:
       make.hold_points();
       make.hold_axis(0);
-      make.free_turn(0, 0, relative.x);
+      make.free_rotation(0, 0, relative.x);
       break;
     case JointType::slider:
       make.hold(make.linear(make.frame.column[1]), dot(make.gap, make.frame.column[1]));
       make.hold(make.linear(make.frame.column[2]), dot(make.gap, make.frame.column[2]));
-      make.hold_turn(0, relative.x);
-      make.hold_turn(1, relative.y);
-      make.hold_turn(2, relative.z);
+      make.clamp_rotation(0, relative.x);
+      make.clamp_rotation(1, relative.y);
+      make.clamp_rotation(2, relative.z);
       make.free_slide(0);
       break;
     case JointType::distance:
@@ -438,9 +441,9 @@ JointRows make_joint_rows(const JointStage& stage, const JointWork& work) {
       break;
     case JointType::fixed:
       make.hold_points();
-      make.hold_turn(0, relative.x);
-      make.hold_turn(1, relative.y);
-      make.hold_turn(2, relative.z);
+      make.clamp_rotation(0, relative.x);
+      make.clamp_rotation(1, relative.y);
+      make.clamp_rotation(2, relative.z);
       break;
     case JointType::cone_twist:
       make.hold_points();
@@ -452,11 +455,11 @@ JointRows make_joint_rows(const JointStage& stage, const JointWork& work) {
       make.hold(make.linear(make.frame.column[2]), dot(make.gap, make.frame.column[2]));
       make.hold_axis(2);
       make.free_slide(0);
-      make.free_turn(1, 2, relative.z);
+      make.free_rotation(1, 2, relative.z);
       break;
     case JointType::parallel:
       make.hold_axis(0);
-      make.free_turn(0, 0, relative.x);
+      make.free_rotation(0, 0, relative.x);
       break;
     default:
       break;
@@ -523,7 +526,7 @@ void add_driven_rows(const StepSettings& settings, const SolverBodies& bodies, c
     work.driven[i] = row;
     work.row[row] = work.free_row[i];
     work.error[row] = k_zero;
-    work.spring[row] = work.wanted[row] = k_zero;
+    work.spring[row] = work.target[row] = k_zero;
     if (mode == DriveMode::brake) continue;
     if (is_at_limit(mode)) {
       const Real limit = mode == DriveMode::upper ? joint.upper[i] : joint.lower[i];
@@ -531,19 +534,19 @@ void add_driven_rows(const StepSettings& settings, const SolverBodies& bodies, c
       const bool within = mode == DriveMode::upper ? over < k_zero : mode == DriveMode::lower && over > k_zero;
       drive_to_limit(settings, over, within, row, work);
     } else {
-      work.wanted[row] = speed_wanted(joint, work, i);
+      work.target[row] = target_speed(joint, work, i);
     }
     if (mode == DriveMode::spring) {
       const Spring spring(settings, joint, i);
       bool saturated = false;
       const Real off = work.value[i] - target_of(joint, work, i);
-      work.wanted[row] -= multiply(off, divide(spring.rate, spring.damping), saturated);
+      work.target[row] -= multiply(off, divide(spring.rate, spring.damping), saturated);
       const Scaled response = own_response(bodies, stage, work, work.free_row[i]);
       work.spring[row] = to_real(scaled_by_power(divide(response, spring.stiffness()),
                                                  work.power[row_kind(work.free_row[i])] - k_impulse_power),
                                  saturated);
     }
-    work.wanted[row] = work.wanted[row] * work.shown[i];
+    work.target[row] = work.target[row] * work.shown[i];
   }
 }
 

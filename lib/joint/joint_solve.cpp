@@ -2,9 +2,9 @@
 #include "joint/joint_factor.h"
 #include "math/rotation.h"
 #include "math/scaled.h"
+#include "motion/angular_velocity.h"
 #include "motion/contact_motion.h"
-#include "motion/gyration.h"
-#include "motion/spin.h"
+#include "motion/inverse_inertia.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -22,15 +22,15 @@ constexpr uint32_t k_takings = 3;
 constexpr Unit k_closed = 0.15;
 /// The same in an island with contacts: contacts only react once the shifts have made their bodies overlap.
 constexpr Unit k_closed_with_contacts = 0.05;
-constexpr Real k_closing_speed_max = 4.0;  ///< m/s
-constexpr Real k_closing_spin_max = 16.0;  ///< rad/s
+constexpr Real k_closing_speed_max = 4.0;              ///< m/s
+constexpr Real k_closing_angular_velocity_max = 16.0;  ///< rad/s
 /// If all gaps are below 2^-k_gap_power of their joint's unit, they are not corrected.
 constexpr int k_gap_power = 20;
 /// A body that has rotated by less than 2^-k_turned_power rad in the tick keeps its inverse inertia.
 constexpr int k_turned_power = 6;
-/// Limit of a body's angular velocity, m/s, in the unit of its joints: 2^k_spin_power_max. A faster body is slowed
-/// down.
-constexpr int k_spin_power_max = 14;
+/// Limit of a body's angular velocity, m/s, in the unit of its joints: 2^k_angular_velocity_power_max. A faster body is
+/// slowed down.
+constexpr int k_angular_velocity_power_max = 14;
 /// Number of times that a body is slowed down at most, and the power of two for each time.
 constexpr int k_slowings = 16, k_slowing_power = 2;
 /// A matrix of Units enlarges a vector by at most 2^k_matrix_power.
@@ -105,51 +105,56 @@ struct Solver {
       for (const uint32_t at : work.body) {
         JointBody& body = stage.bodies[at];
         if (body.mobile != 0) continue;
-        const BodyTraits& traits = bodies.traits[body.slot];
+        const BodyProperties& properties = bodies.properties[body.slot];
         const BodyMotion& motion = bodies.motions[body.slot];
         const BodyWork& now = bodies.work[body.slot];
         Quat rotation = now.rotation;
-        body.velocity = body.spin = k_zero_vector;
-        if (type_of(traits) == BodyType::kinematic) {
-          Vec3<Real> spin;
-          turn_freely(traits, now.free_turn, motion.momentum, elapsed, 0, rotation, spin);
-          body.velocity = motion.velocity;
-          body.spin = world_spin(traits, now.gyration, motion.momentum, body.above);
+        body.linear_velocity = body.angular_velocity = k_zero_vector;
+        if (type_of(properties) == BodyType::kinematic) {
+          Vec3<Real> angular_velocity;
+          rotate_freely(properties, now.free_rotation, motion.angular_momentum, elapsed, 0, rotation, angular_velocity);
+          body.linear_velocity = motion.linear_velocity;
+          body.angular_velocity =
+              world_angular_velocity(properties, now.inverse_inertia, motion.angular_momentum, body.above);
         }
         body.rotation = rotation;
         body.axes = matrix_from(rotation);
-        body.place = body.velocity * elapsed;
+        body.place = body.linear_velocity * elapsed;
       }
     });
   }
 
-  Vec3<Real> spin_from(const JointBody& body, const Vec3<Real>& momentum) const {
-    return world_spin(bodies.traits[body.slot], bodies.work[body.slot].gyration, momentum, body.above);
+  Vec3<Real> angular_velocity_from(const JointBody& body, const Vec3<Real>& angular_momentum) const {
+    return world_angular_velocity(bodies.properties[body.slot], bodies.work[body.slot].inverse_inertia,
+                                  angular_momentum, body.above);
   }
   /// Whether the angular velocity of a body with this angular momentum is so small that the speeds of rows fit a Real.
-  bool spins_within(const JointBody& body, const Vec3<Real>& momentum) const {
-    const int power = bodies.work[body.slot].gyration.exponent + body.above;  // exponent of a matrix of 3 x 3 Units
-    if (exponent_above(greatest(momentum)) + power + k_matrix_power <= k_spin_power_max) return true;
-    return greatest(spin_from(body, momentum)) <= scale_by_power(Real(1.0), k_spin_power_max);
+  bool angular_velocities_within(const JointBody& body, const Vec3<Real>& angular_momentum) const {
+    const int power =
+        bodies.work[body.slot].inverse_inertia.exponent + body.above;  // exponent of a matrix of 3 x 3 Units
+    if (exponent_above(greatest(angular_momentum)) + power + k_matrix_power <= k_angular_velocity_power_max)
+      return true;
+    return greatest(angular_velocity_from(body, angular_momentum)) <=
+           scale_by_power(Real(1.0), k_angular_velocity_power_max);
   }
   /// Reduces the angular momentum of a body that would rotate faster.
-  void slow_to_fit(const JointBody& body, Vec3<Real>& momentum) {
-    for (int left = k_slowings; left > 0 && !spins_within(body, momentum); --left) {
-      momentum = scale_by_power(momentum, -k_slowing_power);
+  void slow_to_fit(const JointBody& body, Vec3<Real>& angular_momentum) {
+    for (int left = k_slowings; left > 0 && !angular_velocities_within(body, angular_momentum); --left) {
+      angular_momentum = scale_by_power(angular_momentum, -k_slowing_power);
       ++clamped;
     }
   }
   void load_motion(JointBody& body) {
     const BodyMotion& motion = bodies.motions[body.slot];
-    body.velocity = motion.velocity;
-    body.spin = spin_from(body, motion.momentum);
+    body.linear_velocity = motion.linear_velocity;
+    body.angular_velocity = angular_velocity_from(body, motion.angular_momentum);
   }
 
   /// Whether the body's rotation in the tick has changed its inverse inertia.
-  bool has_turned(const JointBody& body) const {
-    const BodyTraits& traits = bodies.traits[body.slot];
-    return !is_isotropic(traits) &&
-           absolute_sum(bodies.work[body.slot].turn) > real_from_unit(Unit(1.0), traits.size_exponent - k_turned_power);
+  bool has_rotated(const JointBody& body) const {
+    const BodyProperties& properties = bodies.properties[body.slot];
+    return !is_isotropic(properties) && absolute_sum(bodies.work[body.slot].rotation_vector) >
+                                            real_from_unit(Unit(1.0), properties.size_exponent - k_turned_power);
   }
 
   void begin(Real elapsed) {
@@ -160,12 +165,12 @@ struct Solver {
       const BodyMotion& motion = bodies.motions[body.slot];
       body.push = body.twist = body.given_push = body.given_twist = k_zero_vector;
       body.renewed = body.slowed;
-      if (elapsed != k_zero && has_turned(body)) {
-        now.gyration = world_gyration(bodies.traits[body.slot], body.axes);
+      if (elapsed != k_zero && has_rotated(body)) {
+        now.inverse_inertia = world_inverse_inertia(bodies.properties[body.slot], body.axes);
         body.renewed = 1;
       }
-      body.velocity_before = motion.velocity;
-      body.momentum_before = motion.momentum;
+      body.velocity_before = motion.linear_velocity;
+      body.angular_momentum_before = motion.angular_momentum;
     });
     each_joint([&](JointWork& work) {
       static_cast<JointRows&>(work) = make_joint_rows(stage, work);
@@ -180,7 +185,7 @@ struct Solver {
     each_mobile([&](JointBody& body) { load_motion(body); });
     each_joint([&](JointWork& work) {
       for (Real& total : work.total) total = k_zero;
-      for (uint32_t k = 0; k < work.rows_held; ++k) work.spring[k] = work.wanted[k] = k_zero;
+      for (uint32_t k = 0; k < work.rows_held; ++k) work.spring[k] = work.target[k] = k_zero;
       choose_drives(settings, bodies, stage, work);
     });
   }
@@ -191,13 +196,13 @@ struct Solver {
       if (work.constant[i] == k_zero) continue;
       const JointRow& row = work.free_row[i];
       const int power = impulse_power(work, row_kind(row));
-      const auto give = [&](JointBody& body, uint32_t end, Real impulse) {
+      const auto apply = [&](JointBody& body, uint32_t end, Real impulse) {
         if (body.mobile == 0) return;
-        body.given_push += multiply(row.axis * impulse, scaled_by_power(body.share, power));
-        body.given_twist += multiply(row.arm[end] * impulse, scaled_by_power(body.share, power + body.above));
+        body.given_push += multiply(row.axis * impulse, scaled_by_power(body.inverse_mass, power));
+        body.given_twist += multiply(row.arm[end] * impulse, scaled_by_power(body.inverse_mass, power + body.above));
       };
-      give(end_of(work, 1), 1, work.constant[i]);
-      give(end_of(work, 0), 0, -work.constant[i]);
+      apply(end_of(work, 1), 1, work.constant[i]);
+      apply(end_of(work, 0), 0, -work.constant[i]);
     }
   }
 
@@ -205,8 +210,8 @@ struct Solver {
   void speeds(const JointWork& work, Real (&speed)[k_joint_rows_max]) const {
     Real of_a[k_joint_rows_max];
     const JointBody &a = end_of(work, 0), &b = end_of(work, 1);
-    show(work, 0, a.velocity, a.spin, of_a);
-    show(work, 1, b.velocity, b.spin, speed);
+    show(work, 0, a.linear_velocity, a.angular_velocity, of_a);
+    show(work, 1, b.linear_velocity, b.angular_velocity, speed);
     for (uint32_t k = 0; k < work.rows; ++k) speed[k] -= of_a[k];
   }
   /// Power of two between the speed of a row and its right-hand side.
@@ -227,7 +232,7 @@ struct Solver {
       for (const uint32_t at : work.body) {
         const JointBody& body = stage.bodies[at];
         const Real least = real_from_unit(Unit(1.0), body.exponent - k_straight_power);
-        if (absolute_sum(body.spin) * settings.time > least) turns = true;
+        if (absolute_sum(body.angular_velocity) * settings.time > least) turns = true;
       }
       if (static_cast<JointType>(stage.joints[work.joint].type) == JointType::distance) turns = true;
     });
@@ -235,10 +240,10 @@ struct Solver {
   }
 
   /// Twice the energy that solving the rows removes from the motion before the substep.
-  Scaled energy_of_turning() {
+  Scaled rotational_energy() {
     each_mobile([&](JointBody& body) {
-      body.velocity = body.velocity_before;
-      body.spin = spin_from(body, body.momentum_before);
+      body.linear_velocity = body.velocity_before;
+      body.angular_velocity = angular_velocity_from(body, body.angular_momentum_before);
     });
     each_joint([&](JointWork& work) {
       Real speed[k_joint_rows_max];
@@ -261,7 +266,7 @@ struct Solver {
     each_joint([&](JointWork& work) {
       Real speed[k_joint_rows_max];
       speeds(work, speed);
-      for (uint32_t k = 0; k < work.rows; ++k) work.side[k] = side_of(work, k, work.wanted[k] - speed[k]);
+      for (uint32_t k = 0; k < work.rows; ++k) work.side[k] = side_of(work, k, work.target[k] - speed[k]);
       for (int i = 0; i < k_free_motions; ++i) {
         const uint32_t row = work.driven[i];
         if (row != k_joint_rows_max) work.side[row] -= work.spring[row] * work.driven_total[i];
@@ -273,8 +278,8 @@ struct Solver {
     for (uint32_t decision = 1;; ++decision) {
       each_mobile([&](JointBody& body) {
         const BodyMotion& motion = bodies.motions[body.slot];
-        body.velocity = motion.velocity + body.given_push;
-        body.spin = spin_from(body, motion.momentum + body.given_twist);
+        body.linear_velocity = motion.linear_velocity + body.given_push;
+        body.angular_velocity = angular_velocity_from(body, motion.angular_momentum + body.given_twist);
       });
       const uint32_t lessened = solve_for([&] { ask_for_speeds(); });
       bool wrong = false;
@@ -310,8 +315,8 @@ struct Solver {
     if (!open) return false;
     each_mobile([&](JointBody& body) {
       const BodyMotion& motion = bodies.motions[body.slot];
-      body.velocity = motion.velocity + body.push + body.given_push;
-      body.spin = spin_from(body, motion.momentum + body.twist + body.given_twist);
+      body.linear_velocity = motion.linear_velocity + body.push + body.given_push;
+      body.angular_velocity = angular_velocity_from(body, motion.angular_momentum + body.twist + body.given_twist);
     });
     bool taken = false;
     each_joint([&](JointWork& work) {
@@ -368,7 +373,7 @@ struct Solver {
         if (body.mobile != 0 && !gather(work, end, body)) fits = false;
       }
     });
-    each_mobile([&](const JointBody& body) { fits = fits && spins_within(body, body.twist); });
+    each_mobile([&](const JointBody& body) { fits = fits && angular_velocities_within(body, body.twist); });
     return fits;
   }
   void scale_impulses(Scaled share) {
@@ -389,14 +394,15 @@ struct Solver {
   void apply(JointBody& body) {
     BodyMotion& motion = bodies.motions[body.slot];
     BodyWork& now = bodies.work[body.slot];
-    const Vec3<Real> velocity_before = motion.velocity, momentum_before = motion.momentum;
-    motion.velocity += body.push + body.given_push;
-    motion.momentum += body.twist + body.given_twist;
-    clamped += clamp_vector(motion.velocity, k_speed_work_max) + clamp_vector(motion.momentum, k_spin_work_max);
-    slow_to_fit(body, motion.momentum);
+    const Vec3<Real> velocity_before = motion.linear_velocity, angular_momentum_before = motion.angular_momentum;
+    motion.linear_velocity += body.push + body.given_push;
+    motion.angular_momentum += body.twist + body.given_twist;
+    clamped += clamp_vector(motion.linear_velocity, k_speed_work_max) +
+               clamp_vector(motion.angular_momentum, k_angular_velocity_work_max);
+    slow_to_fit(body, motion.angular_momentum);
     if (DETENT_FIXED) {  // not an impulse of contacts (contact_motion.h)
-      now.contact_velocity -= motion.velocity - velocity_before;
-      now.contact_momentum -= motion.momentum - momentum_before;
+      now.contact_velocity -= motion.linear_velocity - velocity_before;
+      now.contact_angular_momentum -= motion.angular_momentum - angular_momentum_before;
     }
     body.push = body.twist = body.given_push = body.given_twist = k_zero_vector;
   }
@@ -420,13 +426,15 @@ struct Solver {
     });
     place_still(elapsed);
     hold(elapsed);
-    renew_spins();
+    renew_angular_velocities();
   }
   /// Updates the bodies' angular velocities that contacts read.
-  void renew_spins() {
+  void renew_angular_velocities() {
     each_mobile([&](JointBody& body) {
       BodyWork& now = bodies.work[body.slot];
-      now.spin = world_spin(bodies.traits[body.slot], now.gyration, bodies.motions[body.slot].momentum, -k_spin_power);
+      now.angular_velocity =
+          world_angular_velocity(bodies.properties[body.slot], now.inverse_inertia,
+                                 bodies.motions[body.slot].angular_momentum, -k_angular_velocity_power);
     });
   }
 
@@ -436,11 +444,12 @@ struct Solver {
     each_mobile([&](JointBody& body) {
       const BodyMotion& motion = bodies.motions[body.slot];
       const BodyWork& now = bodies.work[body.slot];
-      Vec3<Real> spin;
-      turn_freely(bodies.traits[body.slot], now.free_turn, own_momentum(body, motion.momentum), settings.time, 0,
-                  body.rotation, spin);
+      Vec3<Real> angular_velocity;
+      rotate_freely(bodies.properties[body.slot], now.free_rotation,
+                    own_angular_momentum(body, motion.angular_momentum), settings.time, 0, body.rotation,
+                    angular_velocity);
       body.axes = matrix_from(body.rotation);
-      body.place += motion.velocity * settings.time;
+      body.place += motion.linear_velocity * settings.time;
     });
     place_still(elapsed + settings.time);
     each_joint([&](JointWork& work) {
@@ -453,8 +462,8 @@ struct Solver {
       for (int i = 0; i < k_free_motions; ++i) {
         const uint32_t row = work.driven[i];
         if (row == k_joint_rows_max || !is_held(work, row)) continue;
-        const Real way = work.wanted[row] * settings.time;
-        ask(row, work.error[row] + (then.value[i] - work.value[i] - way));
+        const Real displacement = work.target[row] * settings.time;
+        ask(row, work.error[row] + (then.value[i] - work.value[i] - displacement));
       }
     });
     place_moving(elapsed);
@@ -484,8 +493,8 @@ struct Solver {
     each_mobile([&](JointBody& body) { load_motion(body); });
     add_up(shared);
     each_mobile([&](JointBody& body) {
-      body.velocity = body.push;
-      body.spin = spin_from(body, body.twist);
+      body.linear_velocity = body.push;
+      body.angular_velocity = angular_velocity_from(body, body.twist);
     });
     place_motionless();
     add_up(own);
@@ -510,7 +519,7 @@ struct Solver {
     each_joint([&](JointWork& work) {
       for (const uint32_t at : work.body) {
         JointBody& body = stage.bodies[at];
-        if (body.mobile == 0) body.velocity = body.spin = k_zero_vector;
+        if (body.mobile == 0) body.linear_velocity = body.angular_velocity = k_zero_vector;
       }
     });
   }
@@ -529,7 +538,7 @@ struct Solver {
   Real ask_for_gaps() {
     Real closed = k_zero;
     each_joint([&](JointWork& work) {
-      const Real angular_max = scale_by_power(k_closing_spin_max, work.exponent < 12 ? work.exponent : 12);
+      const Real angular_max = scale_by_power(k_closing_angular_velocity_max, work.exponent < 12 ? work.exponent : 12);
       for (uint32_t k = 0; k < work.rows; ++k) {
         const bool linear = row_kind(work, k) == 0;
         const Real most = linear ? k_closing_speed_max : angular_max;
@@ -545,7 +554,7 @@ struct Solver {
   /// Computes the shifts of positions that close gaps, without changing velocities.
   void close_gaps() {
     if (!any_gaps()) {
-      each_mobile([&](JointBody& body) { body.shift = body.shift_turn = k_zero_vector; });
+      each_mobile([&](JointBody& body) { body.shift = body.shift_rotation = k_zero_vector; });
       return;
     }
     const uint32_t before = factor.saturated;
@@ -557,27 +566,28 @@ struct Solver {
     Real bent = k_zero;
     each_mobile([&](JointBody& body) {
       body.shift = body.push * settings.time;
-      const Vec3<Real> spin = spin_from(body, body.twist);
+      const Vec3<Real> angular_velocity = angular_velocity_from(body, body.twist);
       bool held = false;
       const auto angle = [&](Real part) {
         return clamp(angle_of(part * settings.time, body.exponent, held), Real(-1.0), Real(1.0));
       };
-      body.shift_turn = {angle(spin.x), angle(spin.y), angle(spin.z)};
+      body.shift_rotation = {angle(angular_velocity.x), angle(angular_velocity.y), angle(angular_velocity.z)};
       body.push = body.twist = k_zero_vector;
     });
     each_joint([&](JointWork& work) {
       for (uint32_t end = 0; end < 2; ++end) {
         const JointBody& body = end_of(work, end);
         if (body.mobile == 0) continue;
-        const Real turn = absolute_sum(body.shift_turn);
-        bent = held_sum(bent, (turn * turn) * real_from_unit(work.arm_length[end], body.exponent - 1));
+        const Real rotation_vector = absolute_sum(body.shift_rotation);
+        bent = held_sum(bent,
+                        (rotation_vector * rotation_vector) * real_from_unit(work.arm_length[end], body.exponent - 1));
       }
     });
     if (scale_by_power(bent, 1) > closed) {
       const Scaled share = divide(scaled_from(closed), scaled_from(scale_by_power(bent, 1)));
       each_mobile([&](JointBody& body) {
         body.shift = multiply(body.shift, share);
-        body.shift_turn = multiply(body.shift_turn, share);
+        body.shift_rotation = multiply(body.shift_rotation, share);
       });
     }
   }
@@ -586,8 +596,8 @@ struct Solver {
   void lend_momenta() {
     each_mobile([&](JointBody& body) {
       BodyMotion& motion = bodies.motions[body.slot];
-      body.momentum_before = motion.momentum;
-      motion.momentum = own_momentum(body, motion.momentum);
+      body.angular_momentum_before = motion.angular_momentum;
+      motion.angular_momentum = own_angular_momentum(body, motion.angular_momentum);
     });
   }
   /// Restores the bodies' own inverse inertias and angular momenta.
@@ -597,10 +607,10 @@ struct Solver {
       if (body.slowed == 0) return;
       BodyMotion& motion = bodies.motions[body.slot];
       BodyWork& now = bodies.work[body.slot];
-      const Vec3<Real> before = motion.momentum;
-      motion.momentum = own_momentum(body, before);
-      if (DETENT_FIXED) now.contact_momentum += before - motion.momentum;  // not an impulse of contacts
-      now.gyration = world_gyration(bodies.traits[body.slot], body.axes);
+      const Vec3<Real> before = motion.angular_momentum;
+      motion.angular_momentum = own_angular_momentum(body, before);
+      if (DETENT_FIXED) now.contact_angular_momentum += before - motion.angular_momentum;  // not an impulse of contacts
+      now.inverse_inertia = world_inverse_inertia(bodies.properties[body.slot], body.axes);
     });
   }
 
@@ -662,7 +672,7 @@ uint32_t hold_joints(const StepSettings& settings, const SolverBodies& bodies, S
   solver.start();
   solver.make_factor();
   solver.hold(elapsed);
-  if (solver.touches) solver.renew_spins();
+  if (solver.touches) solver.renew_angular_velocities();
   undecided += solver.undecided;
   return solver.clamped + solver.factor.saturated;
 }
@@ -680,11 +690,11 @@ uint32_t follow_joints(const StepSettings& settings, const SolverBodies& bodies,
   Solver solver(settings, bodies, slots, island, stage);
   solver.each_joint([&](JointWork& work) { solver.keep(work, kept_share(settings)); });
   if (solver.any_turns()) {
-    const Scaled taken = solver.energy_of_turning();
+    const Scaled taken = solver.rotational_energy();
     solver.follow_curves(elapsed, taken);
   }
   solver.close_gaps();
-  if (solver.touches) solver.renew_spins();
+  if (solver.touches) solver.renew_angular_velocities();
   solver.lend_momenta();
   return solver.clamped + solver.factor.saturated;
 }
@@ -707,17 +717,17 @@ uint32_t shift_joints(const SolverBodies& bodies, Span<const uint32_t> slots, Jo
   each_body(bodies, slots, stage, [&](const JointBody& body) {
     BodyWork& now = bodies.work[body.slot];
     BodyMotion& motion = bodies.motions[body.slot];
-    const Vec3<Real> before = body.momentum_before;  // with the body's own inertia
+    const Vec3<Real> before = body.angular_momentum_before;  // with the body's own inertia
     now.displacement += body.shift;
-    if (!(body.shift_turn == k_zero_vector)) {
-      const Quat turn = rotation_from_vector(body.shift_turn);
-      now.rotation = normalise(multiply(turn, now.rotation));
+    if (!(body.shift_rotation == k_zero_vector)) {
+      const Quat rotation_vector = rotation_from_vector(body.shift_rotation);
+      now.rotation = normalise(multiply(rotation_vector, now.rotation));
       // The angular momentum rotates with the body: so its energy stays the same.
-      motion.momentum = rotate(turn, motion.momentum);
-      now.turn += scale_by_power(body.shift_turn, bodies.traits[body.slot].size_exponent);
+      motion.angular_momentum = rotate(rotation_vector, motion.angular_momentum);
+      now.rotation_vector += scale_by_power(body.shift_rotation, bodies.properties[body.slot].size_exponent);
     }
-    motion.momentum = lent_momentum(body, motion.momentum, saturated);
-    if (DETENT_FIXED) now.contact_momentum += before - motion.momentum;
+    motion.angular_momentum = lent_angular_momentum(body, motion.angular_momentum, saturated);
+    if (DETENT_FIXED) now.contact_angular_momentum += before - motion.angular_momentum;
   });
   return saturated ? 1 : 0;
 }
@@ -727,7 +737,7 @@ void store_reactions(const StepSettings& settings, const SolverBodies& bodies, J
   for (const JointWork& work : stage.work.first(stage.count)) {
     const JointBody &a = stage.bodies[work.body[0]], &b = stage.bodies[work.body[1]];
     const JointBody& mobile = b.mobile != 0 ? b : a;
-    const Scaled unit = multiply(multiply(bodies.traits[mobile.slot].mass, mobile.share), rate);
+    const Scaled unit = multiply(multiply(bodies.properties[mobile.slot].mass, mobile.inverse_mass), rate);
     const auto store = [&](const Vec3<Real>& sum, int power, Vec3<Scaled>& to) {
       const Scaled factor = scaled_by_power(unit, power);
       to = {multiply(scaled_from(sum.x), factor), multiply(scaled_from(sum.y), factor),

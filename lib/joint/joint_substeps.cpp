@@ -1,8 +1,8 @@
 #include "joint/joint.h"
 #include "math/root.h"
 #include "math/scaled.h"
-#include "motion/gyration.h"
-#include "motion/spin.h"
+#include "motion/angular_velocity.h"
+#include "motion/inverse_inertia.h"
 
 /// The number of substeps that joints need. If a body rotates by w in a substep, its anchors leave the straight lines
 /// along which the rows act, by w^2/2 of the arm. The solver corrects this, except for a fraction w of it. So the
@@ -14,7 +14,7 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 /// Limit of each component of a rotation vector, rad. With larger ones the number of substeps is at its bound.
-constexpr Real k_turn_max = 4.0;
+constexpr Real k_rotation_max = 4.0;
 
 /// A single substep would open taut joints by metres.
 constexpr uint32_t k_least = 2;
@@ -34,32 +34,34 @@ constexpr Scaled k_needed_by_spring_max = 16.0;
 
 Scaled greater(Scaled a, Scaled b) { return less(a, b) ? b : a; }
 Scaled lesser(Scaled a, Scaled b) { return less(a, b) ? a : b; }
-/// The rotation vector of a body in a tick. Each component is clamped to +-k_turn_max.
-Vec3<Real> turn_in_tick(const StepSettings& settings, const SolverBodies& bodies, const JointBody& body) {
-  const BodyTraits& traits = bodies.traits[body.slot];
-  if (type_of(traits) == BodyType::fixed) return k_zero_vector;
-  const Vec3<Real> spin = world_spin(traits, bodies.work[body.slot].gyration, bodies.motions[body.slot].momentum, 0);
+/// The rotation vector of a body in a tick. Each component is clamped to +-k_rotation_max.
+Vec3<Real> rotation_in_tick(const StepSettings& settings, const SolverBodies& bodies, const JointBody& body) {
+  const BodyProperties& properties = bodies.properties[body.slot];
+  if (type_of(properties) == BodyType::fixed) return k_zero_vector;
+  const Vec3<Real> angular_velocity = world_angular_velocity(properties, bodies.work[body.slot].inverse_inertia,
+                                                             bodies.motions[body.slot].angular_momentum, 0);
   bool held = false;
   const auto angle = [&](Real speed) {
-    return clamp(angle_of(speed * settings.tick_time, traits.size_exponent, held), -k_turn_max, k_turn_max);
+    return clamp(angle_of(speed * settings.tick_time, properties.size_exponent, held), -k_rotation_max, k_rotation_max);
   };
-  return {angle(spin.x), angle(spin.y), angle(spin.z)};
+  return {angle(angular_velocity.x), angle(angular_velocity.y), angle(angular_velocity.z)};
 }
 
 /// The curvature of the paths of a joint's anchors and axes in a tick, over half of the smaller body's unit: squared
 /// radians.
 Scaled bend_in_tick(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage,
                     const JointWork& work) {
-  Vec3<Real> turn[2];
+  Vec3<Real> rotation_vector[2];
   Scaled bend = Scaled(0.0);
   for (int end = 0; end < 2; ++end) {
     const JointBody& body = stage.bodies[work.body[end]];
-    turn[end] = turn_in_tick(settings, bodies, body);
+    rotation_vector[end] = rotation_in_tick(settings, bodies, body);
     const Vec3<Unit> arm = multiply(bodies.work[body.slot].axes, work.anchor[end]);
-    const Vec3<Real> inwards = cross(turn[end], cross(turn[end], arm));
+    const Vec3<Real> inwards = cross(rotation_vector[end], cross(rotation_vector[end], arm));
     bend = add(bend, scaled_by_power(scaled_from(absolute_sum(inwards)), body.exponent - work.exponent));
   }
-  return add(bend, scaled_by_power(scaled_from(absolute_sum(cross(turn[0], turn[1]))), k_axes_power));
+  return add(bend,
+             scaled_by_power(scaled_from(absolute_sum(cross(rotation_vector[0], rotation_vector[1]))), k_axes_power));
 }
 
 /// An upper bound of the squared angle by which a rod or rope between two anchors rotates in a tick.
@@ -71,18 +73,19 @@ Scaled squared_swing(const StepSettings& settings, const SolverBodies& bodies, c
   Vec3<Real> apart = k_zero_vector;
   for (int end = 0; end < 2; ++end) {
     const JointBody& body = stage.bodies[work.body[end]];
-    const BodyTraits& traits = bodies.traits[body.slot];
-    if (type_of(traits) == BodyType::fixed) continue;
+    const BodyProperties& properties = bodies.properties[body.slot];
+    if (type_of(properties) == BodyType::fixed) continue;
     const BodyMotion& motion = bodies.motions[body.slot];
     const BodyWork& now = bodies.work[body.slot];
     const Vec3<Unit> arm = multiply(now.axes, work.anchor[end]);
-    const Vec3<Real> spin = world_spin(traits, now.gyration, motion.momentum, body.above);
-    const Vec3<Real> velocity = motion.velocity + cross(spin, arm);
-    apart = end == 0 ? apart - velocity : apart + velocity;
+    const Vec3<Real> angular_velocity =
+        world_angular_velocity(properties, now.inverse_inertia, motion.angular_momentum, body.above);
+    const Vec3<Real> linear_velocity = motion.linear_velocity + cross(angular_velocity, arm);
+    apart = end == 0 ? apart - linear_velocity : apart + linear_velocity;
   }
-  const Scaled way = multiply(scaled_from(absolute_sum(apart)), scaled_from(settings.tick_time));
-  const Scaled turn = divide(way, scaled_from(joint.upper[0]));
-  return multiply(turn, turn);
+  const Scaled displacement = multiply(scaled_from(absolute_sum(apart)), scaled_from(settings.tick_time));
+  const Scaled rotation_vector = divide(displacement, scaled_from(joint.upper[0]));
+  return multiply(rotation_vector, rotation_vector);
 }
 
 }  // namespace

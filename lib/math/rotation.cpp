@@ -135,7 +135,7 @@ Matrix3 matrix_from(const Quat& q) {
 
 Vec3<Unit> rotate_inverse(const Quat& q, const Vec3<Unit>& v) { return rotate(conjugate(q), v); }
 
-Quat rotation_about(const Vec3<Unit>& axis, Turn angle) {
+Quat rotation_about(const Vec3<Unit>& axis, Angle angle) {
   Unit sine;
   Unit cosine;
   sine_cosine_of_half(angle, sine, cosine);
@@ -195,7 +195,7 @@ Quat rotation_from_vector(const Vec3<Real>& theta) {
 #endif
 }
 
-Vec3<Real> rotation_vector(const Quat& q) {
+Vec3<Real> rotation_vector_from(const Quat& q) {
   const Quat p = q.w < Unit(0.0) ? Quat{-q.x, -q.y, -q.z, -q.w} : q;
 #if !defined(DETENT_F64)
   if (all_below(vector_part(p), Unit(0.03125))) return small_rotation_vector(p);

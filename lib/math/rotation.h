@@ -44,11 +44,11 @@ DETENT_SHARED constexpr Vec3<T> multiply_transposed(const Matrix3& m, const Vec3
 }
 
 /// The rotation by `angle`, reduced to [-1/2, 1/2) turn, about a unit axis.
-Quat rotation_about(const Vec3<Unit>& axis, Turn angle);
+Quat rotation_about(const Vec3<Unit>& axis, Angle angle);
 /// The rotation by |theta| rad about theta. Range: |theta| <= 2^16. Exactly the identity for 0.
 Quat rotation_from_vector(const Vec3<Real>& theta);
 /// The rotation vector, rad, of length in [0, pi]; the same for q and -q.
-Vec3<Real> rotation_vector(const Quat& q);
+Vec3<Real> rotation_vector_from(const Quat& q);
 
 // Errors of a component in steps (k_unit_step). Arguments whose length is not exactly 1 cause further errors.
 inline constexpr double k_normalise_quat_error = 4.0;  ///< of |q|, if | |q|^2 - 1 | < 2^-10 before

@@ -29,9 +29,9 @@ void set(const SineCosineRaw& raw, Unit& sine, Unit& cosine) {
 
 }  // namespace
 
-void sine_cosine(Turn angle, Unit& sine, Unit& cosine) { set(sine_cosine_raw(int64_t{angle.raw} * 4), sine, cosine); }
+void sine_cosine(Angle angle, Unit& sine, Unit& cosine) { set(sine_cosine_raw(int64_t{angle.raw} * 4), sine, cosine); }
 
-void sine_cosine_of_half(Turn angle, Unit& sine, Unit& cosine) {
+void sine_cosine_of_half(Angle angle, Unit& sine, Unit& cosine) {
   set(sine_cosine_raw(int64_t{static_cast<int32_t>(angle.raw)} * 2), sine, cosine);
 }
 
@@ -39,19 +39,19 @@ void sine_cosine_of_half_radians(Real angle, Unit& sine, Unit& cosine) {
   set(sine_cosine_raw(turns_from_radians_raw(radians_q46(angle), 1)), sine, cosine);
 }
 
-Turn turn_from_radians(Real angle) { return {static_cast<uint32_t>(turns_from_radians_raw(radians_q46(angle), 0))}; }
+Angle angle_from_radians(Real angle) { return {static_cast<uint32_t>(turns_from_radians_raw(radians_q46(angle), 0))}; }
 
 #if DETENT_FIXED
-Real radians(Turn angle) { return Real::from_raw(radians_raw(static_cast<int32_t>(angle.raw), k_real_frac)); }
+Real radians(Angle angle) { return Real::from_raw(radians_raw(static_cast<int32_t>(angle.raw), k_real_frac)); }
 
-Turn arc_tangent(Unit y, Unit x) { return {arc_tangent_raw(y.raw, x.raw)}; }
+Angle arc_tangent(Unit y, Unit x) { return {arc_tangent_raw(y.raw, x.raw)}; }
 #else
-Real radians(Turn angle) {
+Real radians(Angle angle) {
   constexpr int k_frac = 60;  // so that the smallest angle keeps 24 bits
   return float_from_integer<float>(radians_raw(static_cast<int32_t>(angle.raw), k_frac), -k_frac);
 }
 
-Turn arc_tangent(Unit y, Unit x) {
+Angle arc_tangent(Unit y, Unit x) {
   // Both are scaled so that the larger has 31 bits. The bits that the smaller loses change the angle by less than
   // 2^-31 rad.
   const Unit large = max(abs(y), abs(x));

@@ -8,39 +8,39 @@ inline namespace DETENT_NAMESPACE {
 
 #if !defined(DETENT_F64)
 /// An angle as a fraction of a turn: raw 2^-32 turns. Sums wrap, as angles do.
-struct Turn {
+struct Angle {
   uint32_t raw;
-  friend constexpr bool operator==(Turn a, Turn b) { return a.raw == b.raw; }
-  friend constexpr Turn operator+(Turn a, Turn b) { return {a.raw + b.raw}; }
-  friend constexpr Turn operator-(Turn a, Turn b) { return {a.raw - b.raw}; }
-  friend constexpr Turn operator-(Turn a) { return {uint32_t{0} - a.raw}; }
+  friend constexpr bool operator==(Angle a, Angle b) { return a.raw == b.raw; }
+  friend constexpr Angle operator+(Angle a, Angle b) { return {a.raw + b.raw}; }
+  friend constexpr Angle operator-(Angle a, Angle b) { return {a.raw - b.raw}; }
+  friend constexpr Angle operator-(Angle a) { return {uint32_t{0} - a.raw}; }
 };
 #else
-struct Turn {
+struct Angle {
   double radians;
-  friend constexpr bool operator==(Turn a, Turn b) { return a.radians == b.radians; }
-  friend constexpr Turn operator+(Turn a, Turn b) { return {a.radians + b.radians}; }
-  friend constexpr Turn operator-(Turn a, Turn b) { return {a.radians - b.radians}; }
-  friend constexpr Turn operator-(Turn a) { return {-a.radians}; }
+  friend constexpr bool operator==(Angle a, Angle b) { return a.radians == b.radians; }
+  friend constexpr Angle operator+(Angle a, Angle b) { return {a.radians + b.radians}; }
+  friend constexpr Angle operator-(Angle a, Angle b) { return {a.radians - b.radians}; }
+  friend constexpr Angle operator-(Angle a) { return {-a.radians}; }
 };
 #endif
 
 /// Sine and cosine. Exact at quarter turns. Error: k_sine_error.
-void sine_cosine(Turn angle, Unit& sine, Unit& cosine);
+void sine_cosine(Angle angle, Unit& sine, Unit& cosine);
 /// Sine and cosine of half the angle, which is first reduced to [-1/2, 1/2) turn (f64: not reduced). Error:
 /// k_sine_error.
-void sine_cosine_of_half(Turn angle, Unit& sine, Unit& cosine);
+void sine_cosine_of_half(Angle angle, Unit& sine, Unit& cosine);
 /// Sine and cosine of half an angle in rad. Range: |angle| <= 2^17. Error: k_sine_error plus 2^-34 turns.
 void sine_cosine_of_half_radians(Real angle, Unit& sine, Unit& cosine);
 
 /// The angle modulo one turn. Range: |angle| <= 2^17 rad. Rounding: to nearest; error at most (1/2 + 2^-16) 2^-32
 /// turns.
-Turn turn_from_radians(Real angle);
+Angle angle_from_radians(Real angle);
 /// rad, in [-pi, pi). Rounding: to nearest.
-Real radians(Turn angle);
+Real radians(Angle angle);
 /// The angle of the point (x, y): atan2(y, x), in (-1/2, 1/2] turn. (0, 0) gives 0. Error: k_arc_tangent_error.
 /// For a result of exactly half a turn, radians() gives -pi: only there the sign differs.
-Turn arc_tangent(Unit y, Unit x);
+Angle arc_tangent(Unit y, Unit x);
 
 #if DETENT_FIXED
 inline constexpr double k_sine_error = 0.67;  ///< steps (k_unit_step); the exhaustive test finds 0.6615

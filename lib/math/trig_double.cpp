@@ -32,7 +32,7 @@ double arc_tangent_near_zero(double z) {
 
 }  // namespace
 
-void sine_cosine(Turn angle, Unit& sine, Unit& cosine) {
+void sine_cosine(Angle angle, Unit& sine, Unit& cosine) {
   const int32_t n = nearest_integer(angle.radians * k_two_over_pi);
   const double x = ((angle.radians - n * k_half_pi_high) - n * k_half_pi_middle) - n * k_half_pi_low;
   const double s = x * x;
@@ -61,20 +61,20 @@ void sine_cosine(Turn angle, Unit& sine, Unit& cosine) {
   cosine = quarter == 1 || quarter == 2 ? -v : v;
 }
 
-void sine_cosine_of_half(Turn angle, Unit& sine, Unit& cosine) { sine_cosine({0.5 * angle.radians}, sine, cosine); }
+void sine_cosine_of_half(Angle angle, Unit& sine, Unit& cosine) { sine_cosine({0.5 * angle.radians}, sine, cosine); }
 
 void sine_cosine_of_half_radians(Real angle, Unit& sine, Unit& cosine) { sine_cosine({0.5 * angle}, sine, cosine); }
 
-Turn turn_from_radians(Real angle) { return {angle}; }
+Angle angle_from_radians(Real angle) { return {angle}; }
 
-Real radians(Turn angle) {
+Real radians(Angle angle) {
   if (-k_pi <= angle.radians && angle.radians < k_pi) return angle.radians;
   const int32_t n = 4 * nearest_integer(angle.radians * (0.25 * k_two_over_pi));
   const double wrapped = ((angle.radians - n * k_half_pi_high) - n * k_half_pi_middle) - n * k_half_pi_low;
   return wrapped < k_pi ? wrapped : -k_pi;
 }
 
-Turn arc_tangent(Unit y, Unit x) {
+Angle arc_tangent(Unit y, Unit x) {
   const double y_size = abs(y);
   const double x_size = abs(x);
   const bool steep = y_size > x_size;

@@ -1,7 +1,7 @@
 #include "motion/activity.h"
 
-#include "motion/spin.h"
-#include "shape/shape_traits.h"
+#include "motion/angular_velocity.h"
+#include "shape/shape_properties.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -12,32 +12,36 @@ constexpr Real k_slow_max = 1024.0;  ///< m/s: a faster body is not at rest, and
 
 /// Whether no point of a body is faster than `slow`, m/s, estimated from its kinetic energy: 2 (v . v + w . L / m) <
 /// slow^2. So a slender body may rotate faster about its long axis than about the others. Range: slow <= k_slow_max.
-bool is_slower(const Vec3<Real>& velocity, const Vec3<Real>& spin, const Vec3<Real>& momentum, Real slow) {
-  if (greatest(velocity) > slow || greatest(spin) > k_slow_max || greatest(momentum) > k_slow_max) return false;
-  return scale_by_power(dot(velocity, velocity) + dot(spin, momentum), 1) < slow * slow;
+bool is_slower(const Vec3<Real>& velocity, const Vec3<Real>& angular_velocity, const Vec3<Real>& angular_momentum,
+               Real slow) {
+  if (greatest(velocity) > slow || greatest(angular_velocity) > k_slow_max || greatest(angular_momentum) > k_slow_max)
+    return false;
+  return scale_by_power(dot(velocity, velocity) + dot(angular_velocity, angular_momentum), 1) < slow * slow;
 }
 
 /// Whether both the body's velocity and its displacement in the tick are slow.
-bool is_resting(const StepSettings& settings, const BodyTraits& traits, const BodyPose& pose, const BodySweep& sweep,
-                const BodyMotion& motion) {
-  const Real slow = scale_by_power(fall_speed(settings, shape_extent(traits)), k_rest_power);
-  const Vec3<Real> spin = spin_of(traits, pose.rotation, motion.momentum);
-  if (!is_slower(motion.velocity, spin, motion.momentum, slow) || greatest(sweep.turn) > Real(1.0)) return false;
+bool is_resting(const StepSettings& settings, const BodyProperties& properties, const BodyPose& pose,
+                const BodySweep& sweep, const BodyMotion& motion) {
+  const Real slow = scale_by_power(fall_speed(settings, shape_extent(properties)), k_rest_power);
+  const Vec3<Real> angular_velocity = angular_velocity_of(properties, pose.rotation, motion.angular_momentum);
+  if (!is_slower(motion.linear_velocity, angular_velocity, motion.angular_momentum, slow) ||
+      greatest(sweep.rotation_vector) > Real(1.0))
+    return false;
   const Real rate = divide(Real(1.0), settings.tick_time);
   const Vec3<Real> velocity = sweep.displacement * rate;
-  const Vec3<Real> turning = scale_by_power(sweep.turn * rate, traits.size_exponent);
-  return is_slower(velocity, turning, momentum_of(traits, pose.rotation, turning), slow);
+  const Vec3<Real> turning = scale_by_power(sweep.rotation_vector * rate, properties.size_exponent);
+  return is_slower(velocity, turning, angular_momentum_of(properties, pose.rotation, turning), slow);
 }
 
 }  // namespace
 
-bool is_moving(const BodyTraits& traits, const BodyMotion& motion, const BodyActivity& activity) {
-  if (is_dynamic(traits)) return activity.asleep == 0;
-  return type_of(traits) == BodyType::kinematic &&
-         !(motion.velocity == k_zero_vector && motion.momentum == k_zero_vector);
+bool is_moving(const BodyProperties& properties, const BodyMotion& motion, const BodyActivity& activity) {
+  if (is_dynamic(properties)) return activity.asleep == 0;
+  return type_of(properties) == BodyType::kinematic &&
+         !(motion.linear_velocity == k_zero_vector && motion.angular_momentum == k_zero_vector);
 }
 
-uint32_t wake_all_with(uint32_t slot, Span<BodyActivity> activities, BitSet visits) {
+uint32_t wake_all_with(uint32_t slot, Span<BodyActivity> activities, BitSet active) {
   const uint32_t group = activities[slot].asleep;
   if (group == 0) return 0;
   uint32_t count = 0;
@@ -46,14 +50,14 @@ uint32_t wake_all_with(uint32_t slot, Span<BodyActivity> activities, BitSet visi
     if (activity.asleep != group) continue;
     activity.asleep = 0;
     activity.still_ticks = 0;
-    activity.news = static_cast<uint16_t>(BodyEventType::woke);
-    visits.set(other);
+    activity.pending_event = static_cast<uint16_t>(BodyEventType::woke);
+    active.set(other);
     ++count;
   }
   return count;
 }
 
-uint32_t fall_asleep(const StepSettings& settings, Span<const BodyTraits> traits, Span<const BodyPose> poses,
+uint32_t fall_asleep(const StepSettings& settings, Span<const BodyProperties> properties, Span<const BodyPose> poses,
                      Span<const BodySweep> sweeps, Span<const Island> islands, Span<const uint32_t> bodies,
                      Span<BodyMotion> motions, Span<BodyActivity> activities) {
   uint32_t asleep = 0;
@@ -61,7 +65,7 @@ uint32_t fall_asleep(const StepSettings& settings, Span<const BodyTraits> traits
     bool still = true;
     for (uint32_t i = 0; i < island.body_count; ++i) {
       const uint32_t slot = bodies[island.first_body + i];
-      const bool rests = is_resting(settings, traits[slot], poses[slot], sweeps[slot], motions[slot]);
+      const bool rests = is_resting(settings, properties[slot], poses[slot], sweeps[slot], motions[slot]);
       uint16_t& ticks = activities[slot].still_ticks;
       ticks = static_cast<uint16_t>(!rests ? 0 : ticks < k_still_ticks ? ticks + 1 : ticks);
       still = still && ticks == k_still_ticks;
@@ -70,9 +74,9 @@ uint32_t fall_asleep(const StepSettings& settings, Span<const BodyTraits> traits
     const uint32_t group = bodies[island.first_body] + 1;
     for (uint32_t i = 0; i < island.body_count; ++i) {
       const uint32_t slot = bodies[island.first_body + i];
-      motions[slot].velocity = motions[slot].momentum = k_zero_vector;
+      motions[slot].linear_velocity = motions[slot].angular_momentum = k_zero_vector;
       activities[slot].asleep = group;
-      activities[slot].news = static_cast<uint16_t>(BodyEventType::fell_asleep);
+      activities[slot].pending_event = static_cast<uint16_t>(BodyEventType::fell_asleep);
     }
     asleep += island.body_count;
   }

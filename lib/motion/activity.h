@@ -4,7 +4,7 @@
 #include <detent/features.h>
 
 #include "base/bit_set.h"
-#include "motion/spin.h"
+#include "motion/angular_velocity.h"
 #include "motion/step_settings.h"
 
 /// Selects the bodies that take part in a step, and puts islands at rest to sleep.
@@ -13,16 +13,16 @@ inline namespace DETENT_NAMESPACE {
 
 inline constexpr uint16_t k_still_ticks = 30;  ///< ticks at rest before an island falls asleep
 
-inline bool is_awake(const BodyTraits& traits, const BodyActivity& activity) {
-  return is_dynamic(traits) && activity.asleep == 0;
+inline bool is_awake(const BodyProperties& properties, const BodyActivity& activity) {
+  return is_dynamic(properties) && activity.asleep == 0;
 }
 
 /// True if the body moves, or can be moved, in this step: an awake dynamic body, or a kinematic body with a velocity.
-bool is_moving(const BodyTraits& traits, const BodyMotion& motion, const BodyActivity& activity);
+bool is_moving(const BodyProperties& properties, const BodyMotion& motion, const BodyActivity& activity);
 
-/// Wakes all bodies that fell asleep together with the body in `slot`, sets their bits in `visits`, and records an
+/// Wakes all bodies that fell asleep together with the body in `slot`, sets their bits in `active`, and records an
 /// event for each. Returns their number.
-uint32_t wake_all_with(uint32_t slot, Span<BodyActivity> activities, BitSet visits);
+uint32_t wake_all_with(uint32_t slot, Span<BodyActivity> activities, BitSet active);
 
 /// Counts the ticks that each body has been at rest. Puts an island to sleep, and sets its velocities to zero, if all
 /// its bodies have been at rest for k_still_ticks. Returns the number of bodies that fell asleep.
@@ -30,7 +30,7 @@ uint32_t wake_all_with(uint32_t slot, Span<BodyActivity> activities, BitSet visi
 /// A body is at rest if no point of its rim is faster than 1/64 of the speed of a fall by its smallest diameter. Both
 /// its velocity and its displacement in this tick must satisfy this: a body that is pushed out of another body, or
 /// towards its joint, moves without a velocity.
-uint32_t fall_asleep(const StepSettings& settings, Span<const BodyTraits> traits, Span<const BodyPose> poses,
+uint32_t fall_asleep(const StepSettings& settings, Span<const BodyProperties> properties, Span<const BodyPose> poses,
                      Span<const BodySweep> sweeps, Span<const Island> islands, Span<const uint32_t> bodies,
                      Span<BodyMotion> motions, Span<BodyActivity> activities);
 

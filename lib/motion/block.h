@@ -29,16 +29,17 @@ inline constexpr int64_t k_factor_max = int64_t{1} << 30;
 inline constexpr int k_mantissa_bits = 27;  ///< bits of a motion: a sum of five stays below 2^30
 inline constexpr int k_number_bits = 28;    ///< bits of an impulse: a sum of four is a factor
 inline constexpr int k_wrench_bits = 28;    ///< bits of each part of a wrench: its torque on a body stays below 2^30
-inline constexpr int k_shift_min = 9;  ///< the finest step is 2^-37, which is precise enough; more than k_spin_power
+inline constexpr int k_shift_min =
+    9;  ///< the finest step is 2^-37, which is precise enough; more than k_angular_velocity_power
 /// The solver stores angular velocities scaled by 2^-8: the angular velocity of a slender body leaves the range of Real
 /// long before its angular momentum does.
-inline constexpr int k_spin_power = 8;
+inline constexpr int k_angular_velocity_power = 8;
 
-// The values for a block are collected in units of 2^k_spin_power ulps of Real. The bits that this drops are below the
-// finest step of a block.
-inline constexpr int k_bits_power = k_spin_power - k_mantissa_bits;
+// The values for a block are collected in units of 2^k_angular_velocity_power ulps of Real. The bits that this drops
+// are below the finest step of a block.
+inline constexpr int k_bits_power = k_angular_velocity_power - k_mantissa_bits;
 inline constexpr int k_number_drop = k_number_bits + k_bits_power;
-static_assert(k_spin_power <= k_shift_min - k_bits_power && k_number_drop <= k_shift_min - k_bits_power);
+static_assert(k_angular_velocity_power <= k_shift_min - k_bits_power && k_number_drop <= k_shift_min - k_bits_power);
 
 /// Clamped to the range of a factor.
 DETENT_SHARED inline Factor held(Ulps a) {
@@ -47,9 +48,11 @@ DETENT_SHARED inline Factor held(Ulps a) {
 
 class Block {
  public:
-  /// Makes room for `v` 2^exponent as mantissas; effective from settle() on. Range: exponent from 0 to k_spin_power.
+  /// Makes room for `v` 2^exponent as mantissas; effective from settle() on. Range: exponent from 0 to
+  /// k_angular_velocity_power.
   DETENT_SHARED void include(const Vec3<Real>& v, int exponent) {
-    bits_ |= (magnitude_64(v.x.raw) | magnitude_64(v.y.raw) | magnitude_64(v.z.raw)) >> (k_spin_power - exponent);
+    bits_ |= (magnitude_64(v.x.raw) | magnitude_64(v.y.raw) | magnitude_64(v.z.raw)) >>
+             (k_angular_velocity_power - exponent);
   }
   /// Makes room for the first `used` values as numbers; effective from settle() on.
   template <unsigned count>
@@ -154,7 +157,7 @@ using Factor = Real;
 using UlpSum = Real;
 using Mantissas = Vec3<Real>;
 
-inline constexpr int k_spin_power = 0;
+inline constexpr int k_angular_velocity_power = 0;
 
 class Block {
  public:

@@ -11,7 +11,7 @@
 ///     angular: n, t, s . (w_B - w_A) u, m/s; u is the pair's unit of length, m
 ///
 /// The code is generic over the kind of number: those of one contact (One), or of four contacts at once (Four,
-/// quad_contact.h).
+/// lanes_contact.h).
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -26,30 +26,31 @@ constexpr int k_responses = response_index(k_parts - 1, k_parts - 1) + 1;
 
 /// A body that impulses act on. The solver stores its angular velocity in addition to its angular momentum.
 struct SolvedBody {
-  Vec3<Real>&velocity, &momentum, &spin;
-  Vec3<Real>&contact_velocity, &contact_momentum;
-  const Vec3<Real>&displacement, &turn;
-  const WorldGyration& gyration;
+  Vec3<Real>&linear_velocity, &angular_momentum, &angular_velocity;
+  Vec3<Real>&contact_velocity, &contact_angular_momentum;
+  const Vec3<Real>&displacement, &rotation_vector;
+  const WorldInverseInertia& inverse_inertia;
 
-  SolvedBody(Vec3<Real>& of_velocity, Vec3<Real>& of_momentum, Vec3<Real>& of_spin, Vec3<Real>& from_contacts,
-             Vec3<Real>& turned_by_contacts, const Vec3<Real>& way, const Vec3<Real>& turned, const WorldGyration& own)
-      : velocity(of_velocity),
-        momentum(of_momentum),
-        spin(of_spin),
+  SolvedBody(Vec3<Real>& of_velocity, Vec3<Real>& of_angular_momentum, Vec3<Real>& of_angular_velocity,
+             Vec3<Real>& from_contacts, Vec3<Real>& rotated_by_contacts, const Vec3<Real>& translation,
+             const Vec3<Real>& turned, const WorldInverseInertia& own)
+      : linear_velocity(of_velocity),
+        angular_momentum(of_angular_momentum),
+        angular_velocity(of_angular_velocity),
         contact_velocity(from_contacts),
-        contact_momentum(turned_by_contacts),
-        displacement(way),
-        turn(turned),
-        gyration(own) {}
+        contact_angular_momentum(rotated_by_contacts),
+        displacement(translation),
+        rotation_vector(turned),
+        inverse_inertia(own) {}
   SolvedBody(BodyMotion& motion, BodyWork& work)
-      : velocity(motion.velocity),
-        momentum(motion.momentum),
-        spin(work.spin),
+      : linear_velocity(motion.linear_velocity),
+        angular_momentum(motion.angular_momentum),
+        angular_velocity(work.angular_velocity),
         contact_velocity(work.contact_velocity),
-        contact_momentum(work.contact_momentum),
+        contact_angular_momentum(work.contact_angular_momentum),
         displacement(work.displacement),
-        turn(work.turn),
-        gyration(work.gyration) {}
+        rotation_vector(work.rotation_vector),
+        inverse_inertia(work.inverse_inertia) {}
 };
 
 /// The kind of number for one contact.
@@ -83,7 +84,7 @@ struct One {
 template <class Kind>
 struct PairMotion {
   typename Kind::Block block;
-  typename Kind::Vector way, spin_a, spin_b;
+  typename Kind::Vector translation, angular_velocity_a, angular_velocity_b;
 
   PairMotion(const typename Kind::Block& room, const Vec3<typename Kind::Real>& relative,
              const Vec3<typename Kind::Real>& of_a, const Vec3<typename Kind::Real>& of_b, int exponent)
@@ -92,27 +93,31 @@ struct PairMotion {
     block.include(of_a, exponent);
     block.include(of_b, exponent);
     block.settle();
-    way = block.mantissas(relative, 0);
-    spin_a = block.mantissas(of_a, exponent);
-    spin_b = block.mantissas(of_b, exponent);
+    translation = block.mantissas(relative, 0);
+    angular_velocity_a = block.mantissas(of_a, exponent);
+    angular_velocity_b = block.mantissas(of_b, exponent);
   }
 
   typename Kind::Factor along_normal(const typename Kind::Contact& contact) const {
-    return held(rounded(dot(way, contact.normal) + (dot(spin_b, contact.lever_b) - dot(spin_a, contact.lever_a))));
+    return held(rounded(dot(translation, contact.normal) +
+                        (dot(angular_velocity_b, contact.moment_b) - dot(angular_velocity_a, contact.moment_a))));
   }
   /// Relative velocity at the middle, world axes.
   typename Kind::Vector at_middle(const typename Kind::Contact& contact) const {
     const auto &a = contact.middle_a, &b = contact.middle_b;
-    return rounded(
-        whole(way.x) + (cross_part(spin_b.y, b.z, spin_b.z, b.y) - cross_part(spin_a.y, a.z, spin_a.z, a.y)),
-        whole(way.y) + (cross_part(spin_b.z, b.x, spin_b.x, b.z) - cross_part(spin_a.z, a.x, spin_a.x, a.z)),
-        whole(way.z) + (cross_part(spin_b.x, b.y, spin_b.y, b.x) - cross_part(spin_a.x, a.y, spin_a.y, a.x)));
+    return rounded(whole(translation.x) + (cross_part(angular_velocity_b.y, b.z, angular_velocity_b.z, b.y) -
+                                           cross_part(angular_velocity_a.y, a.z, angular_velocity_a.z, a.y)),
+                   whole(translation.y) + (cross_part(angular_velocity_b.z, b.x, angular_velocity_b.x, b.z) -
+                                           cross_part(angular_velocity_a.z, a.x, angular_velocity_a.x, a.z)),
+                   whole(translation.z) + (cross_part(angular_velocity_b.x, b.y, angular_velocity_b.y, b.x) -
+                                           cross_part(angular_velocity_a.x, a.y, angular_velocity_a.y, a.x)));
   }
   /// Relative angular velocity times the pair's unit of length, world axes.
   typename Kind::Vector turning(const typename Kind::Contact& contact) const {
     const auto a = contact.unit_a, b = contact.unit_b;
-    return rounded(product(spin_b.x, b) - product(spin_a.x, a), product(spin_b.y, b) - product(spin_a.y, a),
-                   product(spin_b.z, b) - product(spin_a.z, a));
+    return rounded(product(angular_velocity_b.x, b) - product(angular_velocity_a.x, a),
+                   product(angular_velocity_b.y, b) - product(angular_velocity_a.y, a),
+                   product(angular_velocity_b.z, b) - product(angular_velocity_a.z, a));
   }
 
  private:
@@ -155,27 +160,27 @@ inline Vec3<Real> kept_at_start(const Vec3<Real>& motion, const Vec3<Real>& adde
 /// Applies a wrench to a body, or its opposite. `share` is the relative inverse mass; `torque` is in the body's unit of
 /// length:
 ///
-///     velocity += share force;  momentum += share torque;  spin += share gyration torque
+///     velocity += share force;  momentum += share torque;  angular velocity += share inverse inertia torque
 template <class Kind, bool adds>
 inline void push(const typename Kind::Block& block, const typename Kind::Vector& force,
                  const typename Kind::Vector& torque, const typename Kind::Scaled& share, typename Kind::Body& body) {
-  const auto& gyration = body.gyration;
+  const auto& inverse_inertia = body.inverse_inertia;
   const auto add = [](auto& to, const auto& more) {
     if constexpr (adds)
       to += more;
     else
       to -= more;
   };
-  const auto velocity = block.real(force, share, 0), momentum = block.real(torque, share, 0);
-  add(body.velocity, velocity);
-  add(body.momentum, momentum);
+  const auto linear_velocity = block.real(force, share, 0), angular_momentum = block.real(torque, share, 0);
+  add(body.linear_velocity, linear_velocity);
+  add(body.angular_momentum, angular_momentum);
   if constexpr (!DETENT_FIXED) {
-    add(body.contact_velocity, velocity);
-    add(body.contact_momentum, momentum);
+    add(body.contact_velocity, linear_velocity);
+    add(body.contact_angular_momentum, angular_momentum);
   }
-  const typename Kind::Vector turned =
-      rounded(dot(torque, gyration.row[0]), dot(torque, gyration.row[1]), dot(torque, gyration.row[2]));
-  add(body.spin, block.real(turned, share, gyration.exponent - k_spin_power));
+  const typename Kind::Vector turned = rounded(dot(torque, inverse_inertia.row[0]), dot(torque, inverse_inertia.row[1]),
+                                               dot(torque, inverse_inertia.row[2]));
+  add(body.angular_velocity, block.real(turned, share, inverse_inertia.exponent - k_angular_velocity_power));
 }
 
 /// Applies the wrench of an impulse along the normal at the middle, and of one about each tangent, to B, and its
@@ -189,17 +194,18 @@ inline void apply_normal(const typename Kind::Contact& contact, typename Kind::B
   const typename Kind::Factor part[3] = {held(sum[0]), held(sum[1]), held(sum[2])};
   const auto &n = contact.normal, &t = contact.tangent[0], &s = contact.tangent[1];
   const auto force = rounded(product(part[0], n.x), product(part[0], n.y), product(part[0], n.z));
-  const auto turn =
+  const auto rotation_vector =
       rounded(product(part[1], t.x) + product(part[2], s.x), product(part[1], t.y) + product(part[2], s.y),
               product(part[1], t.z) + product(part[2], s.z));
   const auto torque = [&](const auto& lever, const auto& unit) {
-    return rounded(product(part[0], lever.x) + product(turn.x, unit), product(part[0], lever.y) + product(turn.y, unit),
-                   product(part[0], lever.z) + product(turn.z, unit));
+    return rounded(product(part[0], lever.x) + product(rotation_vector.x, unit),
+                   product(part[0], lever.y) + product(rotation_vector.y, unit),
+                   product(part[0], lever.z) + product(rotation_vector.z, unit));
   };
-  if (Kind::takes_impulses(contact.share_a))
-    push<Kind, false>(block, force, torque(contact.lever_a, contact.unit_a), contact.share_a, a);
-  if (Kind::takes_impulses(contact.share_b))
-    push<Kind, true>(block, force, torque(contact.lever_b, contact.unit_b), contact.share_b, b);
+  if (Kind::takes_impulses(contact.inverse_mass_a))
+    push<Kind, false>(block, force, torque(contact.moment_a, contact.unit_a), contact.inverse_mass_a, a);
+  if (Kind::takes_impulses(contact.inverse_mass_b))
+    push<Kind, true>(block, force, torque(contact.moment_b, contact.unit_b), contact.inverse_mass_b, b);
 }
 
 /// Applies a wrench at the middle to B, and its opposite to A.
@@ -221,16 +227,16 @@ inline void apply_wrench(const typename Kind::Contact& contact, typename Kind::B
     };
     return rounded(along(n.x, t.x, s.x), along(n.y, t.y, s.y), along(n.z, t.z, s.z));
   };
-  const auto force = in_world(k_along_normal), turn = in_world(k_about_normal);
+  const auto force = in_world(k_along_normal), rotation_vector = in_world(k_about_normal);
   const auto torque = [&](const auto& arm, const auto& unit) {
-    return rounded(product(force.z, arm.y) - product(force.y, arm.z) + product(turn.x, unit),
-                   product(force.x, arm.z) - product(force.z, arm.x) + product(turn.y, unit),
-                   product(force.y, arm.x) - product(force.x, arm.y) + product(turn.z, unit));
+    return rounded(product(force.z, arm.y) - product(force.y, arm.z) + product(rotation_vector.x, unit),
+                   product(force.x, arm.z) - product(force.z, arm.x) + product(rotation_vector.y, unit),
+                   product(force.y, arm.x) - product(force.x, arm.y) + product(rotation_vector.z, unit));
   };
-  if (Kind::takes_impulses(contact.share_a))
-    push<Kind, false>(block, force, torque(contact.middle_a, contact.unit_a), contact.share_a, a);
-  if (Kind::takes_impulses(contact.share_b))
-    push<Kind, true>(block, force, torque(contact.middle_b, contact.unit_b), contact.share_b, b);
+  if (Kind::takes_impulses(contact.inverse_mass_a))
+    push<Kind, false>(block, force, torque(contact.middle_a, contact.unit_a), contact.inverse_mass_a, a);
+  if (Kind::takes_impulses(contact.inverse_mass_b))
+    push<Kind, true>(block, force, torque(contact.middle_b, contact.unit_b), contact.inverse_mass_b, b);
 }
 
 }  // namespace DETENT_NAMESPACE

@@ -1,7 +1,7 @@
 #include "motion/finalise.h"
 
 #include "broad_phase/pair_key.h"
-#include "motion/spin.h"
+#include "motion/angular_velocity.h"
 #include "shape/sweep.h"
 
 namespace detent {
@@ -9,76 +9,79 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 /// Angular velocity in the body's axes. Overflow: clamps to the range of Real.
-Vec3<Real> local_spin(const BodyTraits& traits, const Vec3<Real>& momentum) {
+Vec3<Real> local_angular_velocity(const BodyProperties& properties, const Vec3<Real>& angular_momentum) {
   bool saturated = false;
-  return {multiply(momentum.x, traits.gyration[0], saturated), multiply(momentum.y, traits.gyration[1], saturated),
-          multiply(momentum.z, traits.gyration[2], saturated)};
+  return {multiply(angular_momentum.x, properties.inverse_inertia[0], saturated),
+          multiply(angular_momentum.y, properties.inverse_inertia[1], saturated),
+          multiply(angular_momentum.z, properties.inverse_inertia[2], saturated)};
 }
 
 constexpr int k_quarterings_max = 64;  ///< inverse inertias are far below 4^64
 
 /// Whether the angular velocity is far below its bound, whatever the body's orientation is.
-bool is_slow(const BodyTraits& traits, const Vec3<Real>& momentum) {
-  Scaled most = traits.gyration[0];
-  for (int axis = 1; axis < 3; ++axis) most = less(most, traits.gyration[axis]) ? traits.gyration[axis] : most;
+bool is_slow(const BodyProperties& properties, const Vec3<Real>& angular_momentum) {
+  Scaled most = properties.inverse_inertia[0];
+  for (int axis = 1; axis < 3; ++axis)
+    most = less(most, properties.inverse_inertia[axis]) ? properties.inverse_inertia[axis] : most;
   bool saturated = false;
-  const Real spin = multiply(greatest(momentum), most, saturated);
-  return !saturated && spin < scale_by_power(k_spin_max, -3);
+  const Real angular_velocity = multiply(greatest(angular_momentum), most, saturated);
+  return !saturated && angular_velocity < scale_by_power(k_angular_velocity_max, -3);
 }
 
 }  // namespace
 
-uint32_t hold_speeds(const BodyTraits& traits, const Quat& rotation, BodyMotion& motion) {
-  uint32_t clamped = clamp_vector(motion.velocity, k_speed_max) + clamp_vector(motion.momentum, k_spin_work_max);
-  if (is_slow(traits, motion.momentum)) return clamped;
-  const bool turned = !is_isotropic(traits);
-  Vec3<Real> local, spin;
+uint32_t hold_speeds(const BodyProperties& properties, const Quat& rotation, BodyMotion& motion) {
+  uint32_t clamped = clamp_vector(motion.linear_velocity, k_speed_max) +
+                     clamp_vector(motion.angular_momentum, k_angular_velocity_work_max);
+  if (is_slow(properties, motion.angular_momentum)) return clamped;
+  const bool turned = !is_isotropic(properties);
+  Vec3<Real> local, angular_velocity;
   // Joints and impacts may leave an angular velocity beyond the range of Real. If a component in the body's axes is
   // more than twice the bound, then a component in world axes exceeds the bound. If the value has saturated, each pass
   // divides it by about 4.
   for (int quartering = 0; quartering < k_quarterings_max; ++quartering) {
-    local = turned ? rotate_inverse(rotation, motion.momentum) : motion.momentum;
-    spin = local_spin(traits, local);
-    const Real fastest = greatest(spin);
-    if (!(fastest > scale_by_power(k_spin_max, 1))) break;
-    motion.momentum = motion.momentum * divide(k_spin_max, fastest);
+    local = turned ? rotate_inverse(rotation, motion.angular_momentum) : motion.angular_momentum;
+    angular_velocity = local_angular_velocity(properties, local);
+    const Real fastest = greatest(angular_velocity);
+    if (!(fastest > scale_by_power(k_angular_velocity_max, 1))) break;
+    motion.angular_momentum = motion.angular_momentum * divide(k_angular_velocity_max, fastest);
     ++clamped;
   }
-  if (turned) spin = rotate(rotation, spin);
-  const Real fastest = greatest(spin);
-  if (fastest > k_spin_max) {
-    motion.momentum = motion.momentum * divide(k_spin_max, fastest);
+  if (turned) angular_velocity = rotate(rotation, angular_velocity);
+  const Real fastest = greatest(angular_velocity);
+  if (fastest > k_angular_velocity_max) {
+    motion.angular_momentum = motion.angular_momentum * divide(k_angular_velocity_max, fastest);
     ++clamped;
   }
   return clamped;
 }
 
-uint32_t make_sweeps(Span<const uint32_t> slots, Span<const BodyTraits> traits, Span<const BodyWork> work,
+uint32_t make_sweeps(Span<const uint32_t> slots, Span<const BodyProperties> properties, Span<const BodyWork> work,
                      Span<const BodyPose> poses, Span<BodySweep> sweeps) {
   uint32_t clamped = 0;
   for (const uint32_t slot : slots) {
     const BodyWork& now = work[slot];
     bool turns_clamped = false;
-    const int exponent = traits[slot].size_exponent;
-    const Vec3<Real> turn = {angle_of(now.turn.x, exponent, turns_clamped),
-                             angle_of(now.turn.y, exponent, turns_clamped),
-                             angle_of(now.turn.z, exponent, turns_clamped)};
-    const Sweep sweep = sweep_between(poses[slot].rotation, now.rotation, now.displacement, turn);
+    const int exponent = properties[slot].size_exponent;
+    const Vec3<Real> rotation_vector = {angle_of(now.rotation_vector.x, exponent, turns_clamped),
+                                        angle_of(now.rotation_vector.y, exponent, turns_clamped),
+                                        angle_of(now.rotation_vector.z, exponent, turns_clamped)};
+    const Sweep sweep = sweep_between(poses[slot].rotation, now.rotation, now.displacement, rotation_vector);
     sweeps[slot] = {};
     sweeps[slot].displacement = sweep.displacement;
-    sweeps[slot].turn = sweep.turn;
+    sweeps[slot].rotation_vector = sweep.rotation_vector;
     clamped += turns_clamped ? 1 : 0;
   }
   return clamped;
 }
 
-uint32_t finalise(const BodyTraits& traits, const BodySweep& sweep, BodyPose& pose, BodyMotion& motion) {
+uint32_t finalise(const BodyProperties& properties, const BodySweep& sweep, BodyPose& pose, BodyMotion& motion) {
   const Sweep rest = rest_of_tick(sweep);
   pose.rotation = sweep_end_rotation(pose.rotation, rest);
   const uint32_t clamped = sweep_end_position(pose, rest);
-  if (!is_dynamic(traits)) return clamped;
-  motion.momentum = without_locked(traits, pose.rotation, motion.momentum);
-  return clamped + hold_speeds(traits, pose.rotation, motion);
+  if (!is_dynamic(properties)) return clamped;
+  motion.angular_momentum = without_locked(properties, pose.rotation, motion.angular_momentum);
+  return clamped + hold_speeds(properties, pose.rotation, motion);
 }
 
 void store_contacts(Span<const ContactWork> work, Span<const ManifoldState> manifold_work, uint32_t awake_count,

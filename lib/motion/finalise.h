@@ -9,22 +9,22 @@ inline namespace DETENT_NAMESPACE {
 
 /// Computes the sweep over the tick of each body in `slots`, from the start pose to the pose after the substeps.
 /// Returns the number of components that were clamped.
-uint32_t make_sweeps(Span<const uint32_t> slots, Span<const BodyTraits> traits, Span<const BodyWork> work,
+uint32_t make_sweeps(Span<const uint32_t> slots, Span<const BodyProperties> properties, Span<const BodyWork> work,
                      Span<const BodyPose> poses, Span<BodySweep> sweeps);
 
 /// The part of a body's sweep from sweep.from to the end of the tick.
 inline Sweep rest_of_tick(const BodySweep& sweep) {
-  const Sweep whole = {sweep.displacement, sweep.turn};
+  const Sweep whole = {sweep.displacement, sweep.rotation_vector};
   return sweep.from.raw == 0 ? whole : sweep_part(whole, k_whole_step - sweep.from);
 }
 
 /// Ends the tick of a body that may have moved: its pose becomes the pose at the end of its sweep, and its velocities
 /// are clamped to their range. Returns the number of components that were clamped.
-uint32_t finalise(const BodyTraits& traits, const BodySweep& sweep, BodyPose& pose, BodyMotion& motion);
+uint32_t finalise(const BodyProperties& properties, const BodySweep& sweep, BodyPose& pose, BodyMotion& motion);
 
-/// Clamps velocity to k_speed_max, angular momentum to k_spin_work_max and angular velocity to k_spin_max. Returns the
-/// number of components that were clamped.
-uint32_t hold_speeds(const BodyTraits& traits, const Quat& rotation, BodyMotion& motion);
+/// Clamps velocity to k_speed_max, angular momentum to k_angular_velocity_work_max and angular velocity to
+/// k_angular_velocity_max. Returns the number of components that were clamped.
+uint32_t hold_speeds(const BodyProperties& properties, const Quat& rotation, BodyMotion& motion);
 
 /// Replaces the contacts of the last tick that are listed in `awake` with the contacts of this tick, and their
 /// manifolds if there are any. All lists are sorted. The other contacts belong to sleeping bodies and stay. `before` is

@@ -8,7 +8,7 @@ inline namespace DETENT_NAMESPACE {
 
 /// The bodies of a step, as the solver uses them.
 struct SolverBodies {
-  Span<const BodyTraits> traits;
+  Span<const BodyProperties> properties;
   Span<BodyMotion> motions;
   Span<BodyWork> work;
 };

@@ -11,10 +11,10 @@ namespace {
 /// Fractions of WorldDef::damping_ratio, for contacts between dynamic bodies, and for all other contacts.
 constexpr Unit k_dynamic_damping = 0.7, k_static_damping = 0.5;
 
-/// `stiffness`: the spring's frequency over the substep rate. `damping_ratio`: fraction of critical damping.
-Softness softness(Real stiffness, Real damping_ratio) {
+/// `contact_frequency`: the spring's frequency over the substep rate. `damping_ratio`: fraction of critical damping.
+Softness softness(Real contact_frequency, Real damping_ratio) {
   const Real one = 1.0;
-  const Real phase = k_two_pi * stiffness;  // angular frequency x substep
+  const Real phase = k_two_pi * contact_frequency;  // angular frequency x substep
   const Real a1 = scale_by_power(damping_ratio, 1) + phase;
   const Real a2 = phase * a1;
   const Real inverse = reciprocal(one + a2);
@@ -48,8 +48,8 @@ StepSettings step_settings(const WorldState& world) {
   settings.tick_time = world.tick_time;
   settings.sleeping = world.sleeping != 0;
   settings.continuous = world.continuous != 0;
-  settings.quads = false;
-  const Scaled rate = divide(scaled_from(world.tick_time), scaled_from(k_two_pi * world.stiffness));
+  settings.lanes = false;
+  const Scaled rate = divide(scaled_from(world.tick_time), scaled_from(k_two_pi * world.contact_frequency));
   settings.substeps_per_rate = multiply(rate, rate);
   set_substeps(world.substeps == 0 ? 1 : world.substeps, settings);
   settings.relaxation = unit_from_real(world.relaxation, 0);
@@ -57,8 +57,8 @@ StepSettings step_settings(const WorldState& world) {
   settings.gravity_size = max(length(world.gravity), Real(1.0));
   settings.sunk = scale_by_power(settings.gravity_size * settings.tick_time * settings.tick_time, -2);
   settings.restitution_threshold = world.restitution_threshold;
-  settings.breaking = world.breaking;
-  settings.reuse = world.reuse;
+  settings.contact_margin = world.contact_margin;
+  settings.contact_recycle_distance = world.contact_recycle_distance;
   settings.reduction = static_cast<ManifoldReduction>(world.reduction);
   settings.convergence = world.convergence;
   settings.post_stabilises = static_cast<Stabilisation>(world.stabilisation) == Stabilisation::post;
@@ -66,8 +66,9 @@ StepSettings step_settings(const WorldState& world) {
     settings.dynamic_softness = settings.static_softness = {Unit(0.0), Unit(1.0), Unit(0.0)};
     return settings;
   }
-  settings.dynamic_softness = softness(world.stiffness, world.damping_ratio * k_dynamic_damping);
-  settings.static_softness = softness(scale_by_power(world.stiffness, 1), world.damping_ratio * k_static_damping);
+  settings.dynamic_softness = softness(world.contact_frequency, world.damping_ratio * k_dynamic_damping);
+  settings.static_softness =
+      softness(scale_by_power(world.contact_frequency, 1), world.damping_ratio * k_static_damping);
   return settings;
 }
 

@@ -29,7 +29,7 @@ struct StepSettings {
   bool sleeping;
   bool continuous;  ///< continuous collision is on
   /// Solve four contacts at once where possible. The caller's choice; it does not change the result.
-  bool quads;
+  bool lanes;
   Real tick_time;      ///< s
   uint32_t substeps;   ///< set by set_substeps(), like the next three
   Real time;           ///< length of a substep, s
@@ -48,10 +48,10 @@ struct StepSettings {
   /// Approximate depth to which a resting body sinks in, m: a quarter of the displacement by gravity in a tick.
   Real sunk;
   /// Contact margin, as a fraction of the smaller extent.
-  Real breaking;
+  Real contact_margin;
   /// Greatest motion at which a manifold is recycled, as a fraction of the smaller extent; 0: contact points are found
   /// anew in each tick.
-  Real reuse;
+  Real contact_recycle_distance;
   Softness dynamic_softness;  ///< contacts between two dynamic bodies
   Softness static_softness;   ///< all other contacts: twice as stiff, less damped
 };

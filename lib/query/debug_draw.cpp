@@ -4,9 +4,9 @@
 #include <detent/triangles.h>
 
 #include "base/float_environment.h"
-#include "motion/spin.h"
+#include "motion/angular_velocity.h"
 #include "shape/bounds.h"
-#include "shape/shape_traits.h"
+#include "shape/shape_properties.h"
 #include "shape/sweep.h"
 #include "state/view.h"
 
@@ -17,7 +17,7 @@ namespace {
 using State = StateView<const uint8_t>;
 
 DrawKind kind_of(const State& state, uint32_t slot) {
-  switch (type_of(state.traits[slot])) {
+  switch (type_of(state.properties[slot])) {
     case BodyType::fixed:
       return DrawKind::fixed;
     case BodyType::kinematic:
@@ -29,10 +29,10 @@ DrawKind kind_of(const State& state, uint32_t slot) {
 
 /// Draws the edges of the body's axis-aligned bounds.
 void draw_bounds(const State& state, uint32_t slot, const DebugDraw& to) {
-  const BodyTraits& traits = state.traits[slot];
-  if (is_half_space(traits)) return;
+  const BodyProperties& properties = state.properties[slot];
+  if (is_half_space(properties)) return;
   const BodyPose& pose = state.poses[slot];
-  const Vec3<Real> half = half_bounds(traits, matrix_from(pose.rotation));
+  const Vec3<Real> half = half_bounds(properties, matrix_from(pose.rotation));
   const auto corner = [&](int index) {
     return moved(pose.position, {(index & 1) != 0 ? half.x : -half.x, (index & 2) != 0 ? half.y : -half.y,
                                  (index & 4) != 0 ? half.z : -half.z});
@@ -45,26 +45,26 @@ void draw_bounds(const State& state, uint32_t slot, const DebugDraw& to) {
 }
 
 void draw_velocity(const State& state, uint32_t slot, const DebugDraw& to) {
-  const Vec3<Real> velocity = state.motions[slot].velocity;
+  const Vec3<Real> velocity = state.motions[slot].linear_velocity;
   const Real zero = 0.0, time = 0.1;
   if (velocity == Vec3<Real>{zero, zero, zero}) return;
   const Position& from = state.poses[slot].position;
-  to.line(to.user, from, moved(from, velocity * time), DrawKind::velocity);
+  to.line(to.user, from, moved(from, velocity * time), DrawKind::linear_velocity);
 }
 
 void draw_contact(const State& state, const Contact& contact, const DebugDraw& to) {
   const Real length = scale_by_power(
-      min(shape_extent(state.traits[contact.a.slot - 1]), shape_extent(state.traits[contact.b.slot - 1])), -2);
+      min(shape_extent(state.properties[contact.a.slot - 1]), shape_extent(state.properties[contact.b.slot - 1])), -2);
   for (uint32_t i = 0; i < contact.point_count; ++i) {
     const Position& at = contact.point[i].position;
-    const Vec3<Real> way = {length * contact.normal.x, length * contact.normal.y, length * contact.normal.z};
+    const Vec3<Real> offset = {length * contact.normal.x, length * contact.normal.y, length * contact.normal.z};
     if (to.point != nullptr) to.point(to.user, at, DrawKind::contact);
-    if (to.line != nullptr) to.line(to.user, at, moved(at, way), DrawKind::normal);
+    if (to.line != nullptr) to.line(to.user, at, moved(at, offset), DrawKind::normal);
   }
 }
 
 /// Draws the edges of a terrain's triangles. An edge that two triangles share is drawn twice.
-void draw_surface(const World& world, const State& state, BodyId id, const DebugDraw& to) {
+void draw_terrain(const World& world, const State& state, BodyId id, const DebugDraw& to) {
   struct Lines {
     const DebugDraw& to;
     DrawKind kind;
@@ -86,8 +86,8 @@ void draw_body(const World& world, const State& state, BodyId id, const DebugDra
     to.solid(to.user, id, shape, {pose.position, pose.rotation}, kind_of(state, slot));
   }
   if (to.line == nullptr) return;
-  if (to.solid == nullptr && contains(flags, DrawFlags::bodies) && is_surface(state.traits[slot]))
-    draw_surface(world, state, id, to);
+  if (to.solid == nullptr && contains(flags, DrawFlags::bodies) && is_terrain(state.properties[slot]))
+    draw_terrain(world, state, id, to);
   if (contains(flags, DrawFlags::bounds)) draw_bounds(state, slot, to);
   if (contains(flags, DrawFlags::velocities)) draw_velocity(state, slot, to);
 }

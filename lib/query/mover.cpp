@@ -3,7 +3,7 @@
 
 #include "base/bytes.h"
 #include "base/float_environment.h"
-#include "motion/spin.h"
+#include "motion/angular_velocity.h"
 #include "query/mover_motion.h"
 #include "shape/sweep.h"
 #include "state/ranges.h"
@@ -13,7 +13,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr Real k_way_max = 256.0;
+constexpr Real k_displacement_max = 256.0;
 constexpr Real k_arm_max = 16384.0;  ///< m, from the centre of a rotating ground
 #if defined(DETENT_FX32)
 constexpr Real k_radius_min = 0x1p-4;
@@ -39,36 +39,36 @@ Status check_mover(const Mover& mover) {
 
 /// The displacement of the mover's position by the ground's motion since the last call; zero if it exceeds the limit of
 /// a requested displacement.
-Vec3<Real> way_of_ground(const Mover& mover, const Pose& now) {
+Vec3<Real> displacement_of_ground(const Mover& mover, const Pose& now) {
   const Pose& then = mover.ground_pose;
-  Vec3<Real> way = real_difference(now.position, then.position);
-  if (!within(way, k_way_max)) return k_zero_vector;
+  Vec3<Real> displacement = real_difference(now.position, then.position);
+  if (!within(displacement, k_displacement_max)) return k_zero_vector;
   if (!(now.rotation == then.rotation)) {
     const Vec3<Real> arm = real_difference(mover.position, then.position);
     if (!within(arm, k_arm_max)) return k_zero_vector;
-    way += rotate(normalise(multiply(now.rotation, conjugate(then.rotation))), arm) - arm;
+    displacement += rotate(normalise(multiply(now.rotation, conjugate(then.rotation))), arm) - arm;
   }
-  return within(way, k_way_max) ? way : k_zero_vector;
+  return within(displacement, k_displacement_max) ? displacement : k_zero_vector;
 }
 
 /// The impulse that gives the body at the contact the speed of the requested displacement, N s.
 Vec3<Scaled> impulse_of(const World& world, const MoverSettings& settings, const MoverContact& contact,
-                        const Vec3<Real>& way) {
+                        const Vec3<Real>& displacement) {
   const StateView<const uint8_t> state = view_of(world);
   const uint32_t slot = contact.body.slot - 1;
   const Scaled none = 0.0;
   const Vec3<Scaled> nothing = {none, none, none};
-  const BodyTraits& traits = state.traits[slot];
+  const BodyProperties& properties = state.properties[slot];
   const Vec3<Unit> up = matrix_from(settings.rotation).column[1];
   Vec3<Real> velocity;
-  if (!is_dynamic(traits) || dot(contact.normal, up) >= settings.slope_cosine ||
+  if (!is_dynamic(properties) || dot(contact.normal, up) >= settings.slope_cosine ||
       get_velocity_at(world, contact.body, real_difference(contact.point, state.poses[slot].position), velocity) !=
           Status::ok)
     return nothing;
   const Real time = state.world.tick_time;
-  const Real speed = divide(-dot(way, contact.normal), time) + dot(velocity, contact.normal);
+  const Real speed = divide(-dot(displacement, contact.normal), time) + dot(velocity, contact.normal);
   if (speed <= k_zero) return nothing;
-  const Scaled wanted = multiply(traits.mass, scaled_from(speed));
+  const Scaled wanted = multiply(properties.mass, scaled_from(speed));
   const Scaled most = multiply(settings.push_force, scaled_from(time));
   const Scaled size = less(wanted, most) ? wanted : most;
   return {multiply(size, scaled_from(-contact.normal.x)), multiply(size, scaled_from(-contact.normal.y)),
@@ -77,24 +77,24 @@ Vec3<Scaled> impulse_of(const World& world, const MoverSettings& settings, const
 
 }  // namespace
 
-Status move_mover(const World& world, const MoverSettings& asked, const Vec3<Real>& way, Mover& mover,
+Status move_mover(const World& world, const MoverSettings& asked, const Vec3<Real>& displacement, Mover& mover,
                   MoverReport& report) {
   const FloatEnvironment environment;
   MoverSettings settings = asked;
-  if (!are_settings(asked) || !within(way, k_way_max)) return Status::out_of_range;
+  if (!are_settings(asked) || !within(displacement, k_displacement_max)) return Status::out_of_range;
   if (!normalise_input(asked.rotation, settings.rotation)) return Status::not_normalised;
   if (const Status status = check_mover(mover); status != Status::ok) return status;
 
   MoverReport made;
   MoverMotion motion(world, settings, mover.position, made);
   const Vec3<Unit> up = motion.up();
-  const Real rise = dot(way, up);
+  const Real rise = dot(displacement, up);
 
   Pose ground;
   const bool stood = get_pose(world, mover.ground, ground) == Status::ok;
   if (stood) {
     motion.pass(mover.ground);
-    motion.slide(way_of_ground(mover, ground), MoverGait::fall);
+    motion.slide(displacement_of_ground(mover, ground), MoverGait::fall);
     motion.pass({});
   }
   made.contact_count = made.contacts_dropped = 0;  // only contacts of the requested motion count
@@ -102,7 +102,7 @@ Status move_mover(const World& world, const MoverSettings& asked, const Vec3<Rea
   motion.recover();
   const Position start = motion.position();
 
-  const Vec3<Real> rest = motion.slide(way - up * rise, MoverGait::walk);
+  const Vec3<Real> rest = motion.slide(displacement - up * rise, MoverGait::walk);
   const bool rests = stood && rise <= k_zero;
   if (rests && !within(rest, k_mover_still)) made.stepped = motion.climb(rest);
 
@@ -125,7 +125,7 @@ Status move_mover(const World& world, const MoverSettings& asked, const Vec3<Rea
     made.ground_normal = floor->normal;
   }
   for (uint32_t i = 0; i < made.contact_count; ++i)
-    made.contacts[i].impulse = impulse_of(world, settings, made.contacts[i], way);
+    made.contacts[i].impulse = impulse_of(world, settings, made.contacts[i], displacement);
   mover = next;
   report = made;
   return Status::ok;

@@ -3,7 +3,7 @@
 #include <detent/contact.h>
 
 #include "contact/compound_ops.h"
-#include "query/query_surface.h"
+#include "query/query_terrain.h"
 #include "shape/sweep.h"
 #include "state/ranges.h"
 
@@ -22,14 +22,14 @@ constexpr Unit k_apart_cosine = 0.9999;
 /// The smallest component along `up` of the normal of an edge to stand on.
 constexpr Unit k_edge_cosine = 0.125;
 
-/// As way_out(), for a terrain: out to the side of the triangle on which the mover's centre is.
-bool way_out_of_surface(const World& world, const QueryHit& hit, const Shape& core, const Pose& at,
-                        const Vec3<Unit>& up, Vec3<Unit>& normal, Real& depth) {
+/// As push_out(), for a terrain: out to the side of the triangle on which the mover's centre is.
+bool push_out_of_terrain(const World& world, const QueryHit& hit, const Shape& core, const Pose& at,
+                         const Vec3<Unit>& up, Vec3<Unit>& normal, Real& depth) {
   const StateView<const uint8_t> state = view_of(world);
   const uint32_t slot = hit.body.slot - 1;
   Real height;
-  if (side_of_triangle(asked_surface(world, state.traits[slot], state.poses[slot]), hit.triangle, at, normal, height) !=
-      Status::ok)
+  if (side_of_triangle(asked_terrain(world, state.properties[slot], state.poses[slot]), hit.triangle, at, normal,
+                       height) != Status::ok)
     return false;
   depth = max(core.radius + abs(core.half_length * dot(normal, up)) - height, k_zero);
   return true;
@@ -37,11 +37,11 @@ bool way_out_of_surface(const World& world, const QueryHit& hit, const Shape& co
 
 /// The normal and the depth of a body that overlaps even the core; for a compound, those of the part with the deepest
 /// overlap.
-bool way_out(const World& world, BodyId body, const Shape& core, const Pose& at, Vec3<Unit>& normal, Real& depth) {
+bool push_out(const World& world, BodyId body, const Shape& core, const Pose& at, Vec3<Unit>& normal, Real& depth) {
   const StateView<const uint8_t> state = view_of(world);
-  const BodyTraits& traits = state.traits[body.slot - 1];
-  const Pose pose = pose_near(traits, state.poses[body.slot - 1], at.position);
-  const ConvexParts parts(traits, world.assets);
+  const BodyProperties& properties = state.properties[body.slot - 1];
+  const Pose pose = pose_near(properties, state.poses[body.slot - 1], at.position);
+  const ConvexParts parts(properties, world.assets);
   QueryShape shape;
   if (make_query_shape(world, core, shape) != Status::ok) return false;
   bool found = false;
@@ -107,7 +107,7 @@ void MoverMotion::add_plane(const MoverPlane& plane) {
 
 /// Adds the planes of a terrain other than that of its nearest point, which was added last. One terrain may have both
 /// the floor and walls.
-void MoverMotion::add_surface(const QueryHit& hit) {
+void MoverMotion::add_terrain(const QueryHit& hit) {
   const StateView<const uint8_t> state = view_of(world_);
   const BodyPose& ground = state.poses[hit.body.slot - 1];
   QueryShape shape;
@@ -115,10 +115,11 @@ void MoverMotion::add_surface(const QueryHit& hit) {
   BodyPose pose = {};
   pose.position = position_;
   pose.rotation = settings_.rotation;
-  const Real reach = settings_.gap + scale_by_power(settings_.gap, -1);
-  SurfaceContacts contacts;
-  world_.features->surface->collide({ground, state.traits[hit.body.slot - 1], matrix_from(ground.rotation)},
-                                    {pose, shape.traits, matrix_from(pose.rotation)}, reach, world_.assets, contacts);
+  const Real distance_max = settings_.gap + scale_by_power(settings_.gap, -1);
+  TerrainContacts contacts;
+  world_.features->terrain->collide({ground, state.properties[hit.body.slot - 1], matrix_from(ground.rotation)},
+                                    {pose, shape.properties, matrix_from(pose.rotation)}, distance_max, world_.assets,
+                                    contacts);
   if (contacts.dropped != 0) ++report_.hits_dropped;
   const Vec3<Unit> nearest = planes_[plane_count_ - 1].normal;
   for (uint32_t i = 0; i < contacts.count; ++i) {
@@ -131,32 +132,32 @@ void MoverMotion::add_surface(const QueryHit& hit) {
     QueryHit beside = hit;
     beside.normal = geometry.normal;
     const Vec3<Unit>& arm = point.arm_b;
-    const int exponent = shape.traits.size_exponent;
-    const Vec3<Real> way = {real_from_unit(arm.x, exponent), real_from_unit(arm.y, exponent),
-                            real_from_unit(arm.z, exponent)};
-    beside.point = moved(position_, way - geometry.normal * scale_by_power(point.separation, -1));
+    const int exponent = shape.properties.size_exponent;
+    const Vec3<Real> displacement = {real_from_unit(arm.x, exponent), real_from_unit(arm.y, exponent),
+                                     real_from_unit(arm.z, exponent)};
+    beside.point = moved(position_, displacement - geometry.normal * scale_by_power(point.separation, -1));
     add_plane(plane_at(beside, point.separation - settings_.gap));
   }
 }
 
 void MoverMotion::add_near(const QueryHit& hit, const Shape& core) {
-  const bool on_surface = hit.triangle != UINT32_MAX;
+  const bool on_terrain = hit.triangle != UINT32_MAX;
   QueryHit out = hit;
   if (hit.normal == k_no_direction) {
     out.normal = up_;
     out.point = position_;
     Real depth = core.radius;  // used if the body cannot be tested
     const Pose at = {position_, settings_.rotation};
-    if (on_surface)
-      way_out_of_surface(world_, hit, core, at, up_, out.normal, depth);
+    if (on_terrain)
+      push_out_of_terrain(world_, hit, core, at, up_, out.normal, depth);
     else
-      way_out(world_, hit.body, core, at, out.normal, depth);
+      push_out(world_, hit.body, core, at, out.normal, depth);
     out.distance = -depth;
   }
   const Real apart = out.distance - (settings_.radius - core.radius);
   report_.overlap = max(report_.overlap, -apart);
   add_plane(plane_at(out, apart - settings_.gap));
-  if (on_surface) add_surface(hit);
+  if (on_terrain) add_terrain(hit);
 }
 
 /// Finds the planes of nearby bodies and the free radius of the mover.
@@ -170,13 +171,13 @@ void MoverMotion::look_around() {
   query.shape = capsule(scale_by_power(settings_.radius, k_core_power), settings_.half_length);
   query.position = position_;
   query.rotation = settings_.rotation;
-  query.reach = settings_.radius - query.shape.radius + settings_.gap + half_gap;
+  query.distance_max = settings_.radius - query.shape.radius + settings_.gap + half_gap;
   query.filter = settings_.filter;
   query.all = true;
   QueryHit hits[k_mover_near_max];
   const QueryReport answer = ask(query_closest, query, {hits, k_mover_near_max});
   report_.hits_dropped += answer.dropped;
-  Real nearest = query.reach;
+  Real nearest = query.distance_max;
   for (uint32_t i = 0; i < answer.hits; ++i) {
     if (hits[i].body == passed_) continue;
     nearest = min(nearest, hits[i].distance);
@@ -189,20 +190,20 @@ void MoverMotion::look_around() {
 }
 
 /// Whether the cast continues through a hit: the body is ignored, or the core already overlaps it and moves out.
-bool MoverMotion::passes(const QueryHit& hit, const Vec3<Real>& way) const {
+bool MoverMotion::passes(const QueryHit& hit, const Vec3<Real>& displacement) const {
   if (hit.body == passed_) return true;
-  return caught() && hit.fraction.raw == 0 && !hit.undecided && dot(way, hit.normal) >= k_zero;
+  return caught() && hit.fraction.raw == 0 && !hit.undecided && dot(displacement, hit.normal) >= k_zero;
 }
 
-/// Moves along `way`, which is at least k_mover_still long, up to the gap before the first obstacle, and keeps the
-/// plane of that obstacle. If the mover is stuck, only its core is cast.
-void MoverMotion::step_along(const Vec3<Real>& way) {
+/// Moves along `displacement`, which is at least k_mover_still long, up to the gap before the first obstacle, and keeps
+/// the plane of that obstacle. If the mover is stuck, only its core is cast.
+void MoverMotion::step_along(const Vec3<Real>& displacement) {
   const Real core = scale_by_power(settings_.radius, k_core_power);
   CastQuery query;
   query.shape = capsule(max(free_radius_, core), settings_.half_length);
   query.position = position_;
   query.rotation = settings_.rotation;
-  query.way = way;
+  query.displacement = displacement;
   query.filter = settings_.filter;
   query.all = caught() || passed_.slot != 0;  // to find hits behind the ignored ones
   QueryHit hits[k_hits_passed + 1];
@@ -210,7 +211,7 @@ void MoverMotion::step_along(const Vec3<Real>& way) {
   const uint32_t count = ask(query_cast, query, {hits, room_for}).hits;
   if (status_ != Status::ok) return;
   uint32_t first = 0;
-  while (first < count && passes(hits[first], way)) ++first;
+  while (first < count && passes(hits[first], displacement)) ++first;
   if (first == room_for) {  // the hits behind these are unknown
     ++report_.hits_dropped;
     return;
@@ -218,18 +219,18 @@ void MoverMotion::step_along(const Vec3<Real>& way) {
   known_ = false;
   const Position from = position_;
   if (first == count) {
-    position_ = moved(position_, way);
+    position_ = moved(position_, displacement);
   } else {
     const QueryHit& hit = hits[first];
     const Real fraction = real_from_fraction(hit.fraction);
-    const Real closing = -dot(way, hit.normal);
+    const Real closing = -dot(displacement, hit.normal);
     const Real wall = caught() ? k_zero : settings_.radius - free_radius_;
     const Real room = fraction * closing - wall - settings_.gap;
     const bool straight = closing > k_mover_still;  // false for undecided hits, which have no normal
-    const Real part = straight ? divide(room, closing) : fraction - divide(settings_.gap, length(way));
-    position_ = moved(position_, way * clamp(part, k_zero, fraction));
+    const Real part = straight ? divide(room, closing) : fraction - divide(settings_.gap, length(displacement));
+    position_ = moved(position_, displacement * clamp(part, k_zero, fraction));
     report_.undecided += hit.undecided ? 1 : 0;
-    if (straight && met_count_ < k_mover_turns_max) planes_[met_count_++] = plane_at(hit, room);
+    if (straight && met_count_ < k_mover_rounds_max) planes_[met_count_++] = plane_at(hit, room);
   }
   const Vec3<Real> gone = real_difference(position_, from);
   for (uint32_t i = 0; i < met_count_; ++i) planes_[i].room += dot(gone, planes_[i].normal);
@@ -245,7 +246,7 @@ void MoverMotion::find_footing(MoverPlane& plane) {
   const Vec3<Unit> inward = up_ * rise - plane.normal;
   RayQuery query;
   query.origin = moved(plane.point, (up_ + inward) * over);
-  query.way = up_ * scale_by_power(-over, 1);
+  query.displacement = up_ * scale_by_power(-over, 1);
   query.filter = settings_.filter;
   QueryHit hit;
   if (ask(query_ray, query, {&hit, 1}).hits == 0) return;
@@ -261,7 +262,7 @@ void MoverMotion::note(uint32_t met) {
     for (uint32_t k = 0; k < report_.contact_count; ++k) {
       const MoverContact& other = report_.contacts[k];
       known |= other.body == planes_[i].body &&
-               (!planes_[i].on_surface || dot(other.normal, planes_[i].normal) >= k_apart_cosine);
+               (!planes_[i].on_terrain || dot(other.normal, planes_[i].normal) >= k_apart_cosine);
     }
     if (known) continue;
     if (report_.contact_count == k_mover_contacts_max) {
@@ -276,35 +277,36 @@ void MoverMotion::note(uint32_t met) {
   }
 }
 
-Vec3<Real> MoverMotion::slide(Vec3<Real> way, MoverGait gait) {
+Vec3<Real> MoverMotion::slide(Vec3<Real> displacement, MoverGait gait) {
   if (met_count_ != 0) known_ = false;
   met_count_ = 0;
-  if (within(way, k_mover_still)) return way;
-  for (uint32_t turn = 0; turn < k_mover_turns_max; ++turn) {
+  if (within(displacement, k_mover_still)) return displacement;
+  for (uint32_t round = 0; round < k_mover_rounds_max; ++round) {
     look_around();
-    if (caught()) return way;
+    if (caught()) return displacement;
     for (uint32_t i = 0; i < plane_count_ && gait == MoverGait::fall; ++i) find_footing(planes_[i]);
     uint32_t met = 0;
-    const Vec3<Real> next = way_between({planes_, plane_count_}, way, up_, gait, met);
+    const Vec3<Real> next = slide_between({planes_, plane_count_}, displacement, up_, gait, met);
     note(met);
-    if (within(next, k_mover_still)) return way;
+    if (within(next, k_mover_still)) return displacement;
     const Position from = position_;
     const uint32_t met_before = met_count_;
     step_along(next);
     const Vec3<Real> gone = real_difference(position_, from);
-    way -= gone;
-    if (gait == MoverGait::walk) way -= up_ * dot(way, up_);  // the lift by floors need not be undone
-    if (within(way, k_mover_still) || (within(gone, k_mover_still) && met_count_ == met_before)) return way;
+    displacement -= gone;
+    if (gait == MoverGait::walk) displacement -= up_ * dot(displacement, up_);  // the lift by floors need not be undone
+    if (within(displacement, k_mover_still) || (within(gone, k_mover_still) && met_count_ == met_before))
+      return displacement;
   }
   ++report_.slides_cut;
-  return way;
+  return displacement;
 }
 
-void MoverMotion::go(const Vec3<Real>& way) {
+void MoverMotion::go(const Vec3<Real>& displacement) {
   met_count_ = 0;
   known_ = false;
   look_around();
-  if (!caught() && !within(way, k_mover_still)) step_along(way);
+  if (!caught() && !within(displacement, k_mover_still)) step_along(displacement);
 }
 
 void MoverMotion::recover() {
@@ -313,22 +315,22 @@ void MoverMotion::recover() {
     Real least = k_zero;
     for (uint32_t i = 0; i < plane_count_; ++i) least = min(least, planes_[i].room);
     if (status_ != Status::ok || least >= scale_by_power(-settings_.gap, -2)) break;
-    Vec3<Real> way = way_out_of({planes_, plane_count_});
-    const Real size = length(way), most = scale_by_power(settings_.radius, -1);
-    if (size > most) way = way * divide(most, size);
-    if (within(way, k_mover_still)) break;
-    step_along(way);
+    Vec3<Real> displacement = push_out_of({planes_, plane_count_});
+    const Real size = length(displacement), most = scale_by_power(settings_.radius, -1);
+    if (size > most) displacement = displacement * divide(most, size);
+    if (within(displacement, k_mover_still)) break;
+    step_along(displacement);
   }
 }
 
 const MoverPlane* MoverMotion::find_floor() {
   look_around();
   const MoverPlane* best = nullptr;
-  const Real reach = scale_by_power(settings_.gap, -1);
+  const Real distance_max = scale_by_power(settings_.gap, -1);
   for (const Footing wanted : k_footings) {
     for (uint32_t i = 0; i < plane_count_; ++i) {
       MoverPlane& plane = planes_[i];
-      if (plane.room > reach) continue;
+      if (plane.room > distance_max) continue;
       if (wanted == Footing::edge) find_footing(plane);
       if (plane.footing != wanted) continue;
       if (best == nullptr || dot(plane.normal, up_) > dot(best->normal, up_)) best = &plane;

@@ -7,8 +7,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// Limits of a motion: planes of nearby bodies, and changes of direction, each of which can add one plane.
-inline constexpr uint32_t k_mover_near_max = 16, k_mover_turns_max = 8;
-inline constexpr uint32_t k_mover_planes_max = k_mover_near_max + k_mover_turns_max;
+inline constexpr uint32_t k_mover_near_max = 16, k_mover_rounds_max = 8;
+inline constexpr uint32_t k_mover_planes_max = k_mover_near_max + k_mover_rounds_max;
 
 /// A mover during a motion: its position and the planes of the bodies around it, found by the queries of query.h.
 class MoverMotion {
@@ -26,10 +26,10 @@ class MoverMotion {
     passed_ = body;
     known_ = false;
   }
-  /// Moves by `way`, sliding along obstacles. Returns the part of the displacement that is left.
-  Vec3<Real> slide(Vec3<Real> way, MoverGait gait);
-  /// Moves along `way` and stops at the gap before the first obstacle.
-  void go(const Vec3<Real>& way);
+  /// Moves by `displacement`, sliding along obstacles. Returns the part of the displacement that is left.
+  Vec3<Real> slide(Vec3<Real> displacement, MoverGait gait);
+  /// Moves along `displacement` and stops at the gap before the first obstacle.
+  void go(const Vec3<Real>& displacement);
   /// Moves out of bodies that are nearer than the gap; the report holds the remaining overlap.
   void recover();
   /// The floor that the mover stands on, or null. It may be an edge whose normal is not that of a floor.
@@ -52,9 +52,9 @@ class MoverMotion {
   void look_around();
   void add_plane(const MoverPlane& plane);
   void add_near(const QueryHit& hit, const Shape& core);
-  void add_surface(const QueryHit& hit);
-  bool passes(const QueryHit& hit, const Vec3<Real>& way) const;
-  void step_along(const Vec3<Real>& way);
+  void add_terrain(const QueryHit& hit);
+  bool passes(const QueryHit& hit, const Vec3<Real>& displacement) const;
+  void step_along(const Vec3<Real>& displacement);
   void find_footing(MoverPlane& plane);
   void note(uint32_t met);
   template <class Query>

@@ -36,20 +36,20 @@ PlanePush push_of(const MoverPlane& plane, const Vec3<Unit>& up, MoverGait gait)
 
 }  // namespace
 
-Vec3<Real> way_between(Span<const MoverPlane> planes, const Vec3<Real>& wish, const Vec3<Unit>& up, MoverGait gait,
-                       uint32_t& met) {
+Vec3<Real> slide_between(Span<const MoverPlane> planes, const Vec3<Real>& wish, const Vec3<Unit>& up, MoverGait gait,
+                         uint32_t& met) {
   PlanePush pushes[k_mover_planes_max];
   for (uint32_t i = 0; i < planes.count; ++i) pushes[i] = push_of(planes[i], up, gait);
-  Vec3<Real> way = wish;
+  Vec3<Real> displacement = wish;
   for (uint32_t sweep = 0; sweep < k_plane_sweeps; ++sweep) {
     Real most = k_zero;
     for (uint32_t i = 0; i < planes.count; ++i) {
       PlanePush& push = pushes[i];
-      const Real lacking = (-push.room - dot(way, push.normal)) * push.share;
+      const Real lacking = (-push.room - dot(displacement, push.normal)) * push.share;
       const Real pushed = max(push.pushed + lacking, k_zero);
       const Real change = pushed - push.pushed;
       push.pushed = pushed;
-      way += push.along * change;
+      displacement += push.along * change;
       most = max(most, abs(change));
     }
     if (most < k_mover_still) break;
@@ -60,22 +60,22 @@ Vec3<Real> way_between(Span<const MoverPlane> planes, const Vec3<Real>& wish, co
   }
   // In a narrow wedge the sweeps end before they converge, so scale the displacement to keep the gap.
   for (const MoverPlane& plane : planes) {
-    const Real closing = -dot(way, plane.normal), room = max(plane.room, k_zero);
-    if (closing > room + k_mover_still) way = way * divide(room, closing);
+    const Real closing = -dot(displacement, plane.normal), room = max(plane.room, k_zero);
+    if (closing > room + k_mover_still) displacement = displacement * divide(room, closing);
   }
-  return way;
+  return displacement;
 }
 
-Vec3<Real> way_out_of(Span<const MoverPlane> planes) {
-  Vec3<Real> way = {k_zero, k_zero, k_zero};
+Vec3<Real> push_out_of(Span<const MoverPlane> planes) {
+  Vec3<Real> displacement = {k_zero, k_zero, k_zero};
   for (uint32_t sweep = 0; sweep < k_plane_sweeps; ++sweep) {
     for (const MoverPlane& plane : planes) {
-      const Real lacking = -plane.room - dot(way, plane.normal);
+      const Real lacking = -plane.room - dot(displacement, plane.normal);
       // Correct by half, so that opposite planes converge to a place between them.
-      if (lacking > k_zero) way += plane.normal * scale_by_power(lacking, -1);
+      if (lacking > k_zero) displacement += plane.normal * scale_by_power(lacking, -1);
     }
   }
-  return way;
+  return displacement;
 }
 
 }  // namespace DETENT_NAMESPACE

@@ -29,7 +29,7 @@ struct MoverPlane {
   Footing footing;
   BodyId body;
   Position point;   ///< on the body
-  bool on_surface;  ///< the body is a terrain: it may have several planes, each reported
+  bool on_terrain;  ///< the body is a terrain: it may have several planes, each reported
 };
 
 /// Displacements shorter than this count as no motion, m. It is two position steps in configurations with coarse
@@ -44,12 +44,12 @@ inline constexpr Real k_mover_still = Real(0x1p-20);
 /// `up`, which keeps its horizontal part; other planes change it according to the gait. Bit i of `met` is set if plane
 /// i changed it. Source: Hildreth, "A quadratic programming procedure", 1957; for corrections that are not along the
 /// normal, Cottle, Pang, Stone, "The Linear Complementarity Problem", 5.2.
-Vec3<Real> way_between(Span<const MoverPlane> planes, const Vec3<Real>& wish, const Vec3<Unit>& up, MoverGait gait,
-                       uint32_t& met);
+Vec3<Real> slide_between(Span<const MoverPlane> planes, const Vec3<Real>& wish, const Vec3<Unit>& up, MoverGait gait,
+                         uint32_t& met);
 
 /// A displacement that restores the gap to planes that are too near. If the planes leave no room, it leads to a place
 /// in the middle.
-Vec3<Real> way_out_of(Span<const MoverPlane> planes);
+Vec3<Real> push_out_of(Span<const MoverPlane> planes);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

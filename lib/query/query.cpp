@@ -19,21 +19,21 @@ Status get_pose(const World& world, BodyId id, Pose& pose) {
   return Status::ok;
 }
 
-Status get_velocity(const World& world, BodyId id, Vec3<Real>& velocity, Vec3<Real>& spin) {
+Status get_velocity(const World& world, BodyId id, Vec3<Real>& velocity, Vec3<Real>& angular_velocity) {
   const FloatEnvironment environment;
   const StateView<const uint8_t> state = view_of(world);
   uint32_t slot = 0;
   if (!find_body(state, id, slot)) return Status::bad_id;
-  const BodyTraits& traits = state.traits[slot];
+  const BodyProperties& properties = state.properties[slot];
   const BodyMotion& motion = state.motions[slot];
-  const Vec3<Real> speed = spin_of(traits, state.poses[slot].rotation, motion.momentum);
+  const Vec3<Real> speed = angular_velocity_of(properties, state.poses[slot].rotation, motion.angular_momentum);
   // An angular velocity beyond Real's range, which only bodies below 12 cm can have, is clamped to that range, less a
   // margin for rounding.
-  const int exponent = traits.size_exponent;
+  const int exponent = properties.size_exponent;
   const Real limit = exponent < 0 ? scale_by_power(Real(131071.0), exponent) : k_real_max;
   const auto per_radius = [&](Real value) { return scale_by_power(clamp(value, -limit, limit), -exponent); };
-  velocity = motion.velocity;
-  spin = {per_radius(speed.x), per_radius(speed.y), per_radius(speed.z)};
+  velocity = motion.linear_velocity;
+  angular_velocity = {per_radius(speed.x), per_radius(speed.y), per_radius(speed.z)};
   return Status::ok;
 }
 
@@ -41,7 +41,7 @@ Status get_mass(const World& world, BodyId id, Scaled& mass) {
   const StateView<const uint8_t> state = view_of(world);
   uint32_t slot = 0;
   if (!find_body(state, id, slot)) return Status::bad_id;
-  mass = is_dynamic(state.traits[slot]) ? state.traits[slot].mass : Scaled(0.0);
+  mass = is_dynamic(state.properties[slot]) ? state.properties[slot].mass : Scaled(0.0);
   return Status::ok;
 }
 
@@ -49,7 +49,7 @@ Status get_user_data(const World& world, BodyId id, uint32_t& user_data) {
   const StateView<const uint8_t> state = view_of(world);
   uint32_t slot = 0;
   if (!find_body(state, id, slot)) return Status::bad_id;
-  user_data = state.traits[slot].user_data;
+  user_data = state.properties[slot].user_data;
   return Status::ok;
 }
 
@@ -57,7 +57,7 @@ Status get_filter(const World& world, BodyId id, Filter& filter) {
   const StateView<const uint8_t> state = view_of(world);
   uint32_t slot = 0;
   if (!find_body(state, id, slot)) return Status::bad_id;
-  filter = filter_of(state.traits[slot]);
+  filter = filter_of(state.properties[slot]);
   return Status::ok;
 }
 
@@ -65,7 +65,7 @@ Status is_awake(const World& world, BodyId id, bool& awake) {
   const StateView<const uint8_t> state = view_of(world);
   uint32_t slot = 0;
   if (!find_body(state, id, slot)) return Status::bad_id;
-  awake = is_moving(state.traits[slot], state.motions[slot], state.activities[slot]);
+  awake = is_moving(state.properties[slot], state.motions[slot], state.activities[slot]);
   return Status::ok;
 }
 
@@ -78,7 +78,7 @@ WorldInfo get_info(const World& world) {
 BodyId next_body(const World& world, BodyId previous) {
   const StateView<const uint8_t> state = view_of(world);
   for (uint32_t slot = previous.slot; slot < state.world.slots_used; ++slot) {
-    if (state.traits[slot].type != 0) return {slot + 1, state.traits[slot].generation};
+    if (state.properties[slot].type != 0) return {slot + 1, state.properties[slot].generation};
   }
   return {};
 }

@@ -5,8 +5,8 @@
 #include "distance/pair.h"
 #include "math/root.h"
 #include "query/query_hits.h"
-#include "query/query_surface.h"
-#include "shape/shape_traits.h"
+#include "query/query_terrain.h"
+#include "shape/shape_properties.h"
 #include "shape/sweep.h"
 #include "state/ranges.h"
 #include "world/query_bodies.h"
@@ -18,28 +18,29 @@ namespace {
 /// Whether time_of_impact() accepts the motion.
 bool is_motion(const Motion& motion) {
   const auto below = [](Real value) { return value > Real(-16384.0) && value < Real(16384.0); };
-  const Vec3<Real>& way = motion.displacement;
-  return is_position(motion.start.position) && below(way.x) && below(way.y) && below(way.z) &&
-         within(motion.turn, Real(65536.0)) && length(motion.turn) <= Real(65536.0);
+  const Vec3<Real>& displacement = motion.displacement;
+  return is_position(motion.start.position) && below(displacement.x) && below(displacement.y) &&
+         below(displacement.z) && within(motion.rotation_vector, Real(65536.0)) &&
+         length(motion.rotation_vector) <= Real(65536.0);
 }
 
 /// Half extents of the shape during the motion, 2^-46 m: those of its bounding sphere if it rotates.
 Vec64 half_of(const QueryShape& shape, const Motion& motion, const Quat& rotation) {
-  if (motion.turn == k_zero_vector) return query_half(shape, rotation);
-  const Real ball = real_from_unit(shape.traits.bounding_radius, shape.traits.size_exponent);
+  if (motion.rotation_vector == k_zero_vector) return query_half(shape, rotation);
+  const Real ball = real_from_unit(shape.properties.bounding_radius, shape.properties.size_exponent);
   Vec64 raw;
   if (!raw_from_real({ball, ball, ball}, raw)) return {0, 0, 0};  // never: it is finite
   return raw;
 }
 
 /// Finds the hit on a terrain. False if there is none.
-bool cast_at_surface(const QueryBodies& bodies, uint32_t slot, const QueryShape& shape, const Motion& motion,
+bool cast_at_terrain(const QueryBodies& bodies, uint32_t slot, const QueryShape& shape, const Motion& motion,
                      Fraction entry, QueryHit& hit) {
-  const BodyTraits& traits = bodies.state.traits[slot];
+  const BodyProperties& properties = bodies.state.properties[slot];
   bool met = false;
-  const bool asked = has_surface_bytes(bodies.world, traits) &&
-                     cast_on_surface(asked_surface(bodies.world, traits, bodies.state.poses[slot]), shape, motion, hit,
-                                     met) == Status::ok;
+  const bool asked = has_terrain_bytes(bodies.world, properties) &&
+                     cast_on_terrain(asked_terrain(bodies.world, properties, bodies.state.poses[slot]), shape, motion,
+                                     hit, met) == Status::ok;
   if (!asked) hit = {};
   hit.body = bodies.id_of(slot);
   hit.undecided = hit.undecided || !asked;
@@ -48,10 +49,10 @@ bool cast_at_surface(const QueryBodies& bodies, uint32_t slot, const QueryShape&
 }
 
 /// The first hit on a part of the body, or an undecided result that is earlier. False if a part could not be tested.
-bool first_impact(const QueryBodies& bodies, const BodyTraits& traits, const Motion& still, const QueryShape& shape,
-                  const Motion& motion, TimeOfImpact& first) {
+bool first_impact(const QueryBodies& bodies, const BodyProperties& properties, const Motion& still,
+                  const QueryShape& shape, const Motion& motion, TimeOfImpact& first) {
   first.outcome = ToiOutcome::clear;
-  const ConvexParts parts(traits, bodies.world.assets);
+  const ConvexParts parts(properties, bodies.world.assets);
   for (uint32_t i = 0; i < parts.count(); ++i) {
     Convex convex;
     TimeOfImpact impact;
@@ -67,13 +68,13 @@ bool first_impact(const QueryBodies& bodies, const BodyTraits& traits, const Mot
 /// Finds the hit on a body. False if there is none.
 bool cast_at(const QueryBodies& bodies, uint32_t slot, const QueryShape& shape, const Motion& motion, Fraction entry,
              QueryHit& hit) {
-  const BodyTraits& traits = bodies.state.traits[slot];
-  if (is_surface(traits)) return cast_at_surface(bodies, slot, shape, motion, entry, hit);
-  const Pose pose = pose_near(traits, bodies.state.poses[slot], motion.start.position);
+  const BodyProperties& properties = bodies.state.properties[slot];
+  if (is_terrain(properties)) return cast_at_terrain(bodies, slot, shape, motion, entry, hit);
+  const Pose pose = pose_near(properties, bodies.state.poses[slot], motion.start.position);
   TimeOfImpact impact;
   hit = {};
   hit.body = bodies.id_of(slot);
-  const bool asked = first_impact(bodies, traits, {pose, k_zero_vector, k_zero_vector}, shape, motion, impact);
+  const bool asked = first_impact(bodies, properties, {pose, k_zero_vector, k_zero_vector}, shape, motion, impact);
   if (!asked || impact.outcome == ToiOutcome::undecided) {
     hit.undecided = true;
     hit.fraction = asked && impact.time > entry ? impact.time : entry;
@@ -91,9 +92,9 @@ Status cast(const World& world, const QueryShape& shape, const Motion& motion, c
   Quat unit;
   if (!is_motion(motion)) return Status::out_of_range;
   if (!normalise_input(motion.start.rotation, unit)) return Status::not_normalised;
-  Vec64 way;
-  if (!raw_from_real(motion.displacement, way)) return Status::out_of_range;
-  SweptBox box(motion.start.position, half_of(shape, motion, unit), way, 0);
+  Vec64 displacement;
+  if (!raw_from_real(motion.displacement, displacement)) return Status::out_of_range;
+  SweptBox box(motion.start.position, half_of(shape, motion, unit), displacement, 0);
   const QueryBodies bodies(world, filter);
   HitCollector hits(all, out, k_whole_step, Real(0.0));
   bodies.for_each([&](const Bounds& bounds) { return box.meets(box.place_of(bounds)); },
@@ -114,7 +115,7 @@ Status cast(const World& world, const QueryShape& shape, const Motion& motion, c
 
 Status query_ray(const World& world, const RayQuery& query, QueryHits hits, QueryReport& report) {
   const FloatEnvironment environment;
-  const Motion motion = {{query.origin, k_identity}, query.way, k_zero_vector};
+  const Motion motion = {{query.origin, k_identity}, query.displacement, k_zero_vector};
   return cast(world, query_point(), motion, query.filter, query.all, hits, report);
 }
 
@@ -122,7 +123,7 @@ Status query_cast(const World& world, const CastQuery& query, QueryHits hits, Qu
   const FloatEnvironment environment;
   QueryShape shape;
   if (const Status status = make_query_shape(world, query.shape, shape); status != Status::ok) return status;
-  const Motion motion = {{query.position, query.rotation}, query.way, query.turn};
+  const Motion motion = {{query.position, query.rotation}, query.displacement, query.rotation_vector};
   return cast(world, shape, motion, query.filter, query.all, hits, report);
 }
 

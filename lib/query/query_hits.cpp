@@ -38,8 +38,8 @@ bool HitOrder::operator()(const QueryHit& a, const QueryHit& b) const {
   return a.triangle < b.triangle;
 }
 
-HitCollector::HitCollector(bool all, QueryHits out, Fraction end, Real reach)
-    : all_(all), end_(end), reach_(reach), kept_{{out.data, out.capacity}, {}} {}
+HitCollector::HitCollector(bool all, QueryHits out, Fraction end, Real distance_max)
+    : all_(all), end_(end), distance_max_(distance_max), kept_{{out.data, out.capacity}, {}} {}
 
 void HitCollector::add(const QueryHit& hit) {
   if (all_) {
@@ -56,7 +56,7 @@ void HitCollector::add(const QueryHit& hit) {
   // An undecided hit rules out nothing, because it comes after decided hits that are equally near.
   if (hit.undecided) return;
   end_ = hit.fraction;
-  reach_ = hit.distance;
+  distance_max_ = hit.distance;
   if (hit.fraction.raw == 0 && hit.distance == Real(0.0)) first_slot_ = hit.body.slot - 1;
 }
 

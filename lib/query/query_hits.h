@@ -15,8 +15,8 @@ struct HitOrder {
 /// Collects the hits of a query, in any order.
 class HitCollector {
  public:
-  /// `end`, `reach`: the limits of the query, in time and in distance, m.
-  HitCollector(bool all, QueryHits out, Fraction end, Real reach);
+  /// `end`, `distance_max`: the limits of the query, in time and in distance, m.
+  HitCollector(bool all, QueryHits out, Fraction end, Real distance_max);
 
   void add(const QueryHit& hit);
   /// Sorts the hits and fills the report.
@@ -24,14 +24,14 @@ class HitCollector {
 
   /// The current limits in time and distance: a later or farther hit cannot be in the result.
   Fraction end() const { return end_; }
-  Real reach() const { return reach_; }
+  Real distance_max() const { return distance_max_; }
   /// Whether no body with this slot or a higher one can be in the result, at any distance.
   bool rules_out(uint32_t slot) const { return first_slot_ <= slot; }
 
  private:
   bool all_;
   Fraction end_;
-  Real reach_;
+  Real distance_max_;
   uint32_t first_slot_ = UINT32_MAX;  ///< slot of a decided hit at time and distance 0
   SmallestOf<QueryHit, HitOrder> kept_;
   QueryHit first_;

@@ -4,8 +4,8 @@
 #include "contact/compound_ops.h"
 #include "distance/pair.h"
 #include "query/query_hits.h"
-#include "query/query_surface.h"
-#include "shape/shape_traits.h"
+#include "query/query_terrain.h"
+#include "shape/shape_properties.h"
 #include "shape/sweep.h"
 #include "state/ranges.h"
 #include "world/query_bodies.h"
@@ -14,25 +14,25 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// The distance to a terrain. False if it is beyond `reach`.
-bool near_at_surface(const QueryBodies& bodies, uint32_t slot, const QueryShape& shape, const Pose& at, Real gap,
-                     Real reach, QueryHit& hit) {
-  const BodyTraits& traits = bodies.state.traits[slot];
+/// The distance to a terrain. False if it is beyond `distance_max`.
+bool near_at_terrain(const QueryBodies& bodies, uint32_t slot, const QueryShape& shape, const Pose& at, Real gap,
+                     Real distance_max, QueryHit& hit) {
+  const BodyProperties& properties = bodies.state.properties[slot];
   bool met = false;
-  const bool asked = has_surface_bytes(bodies.world, traits) &&
-                     near_on_surface(asked_surface(bodies.world, traits, bodies.state.poses[slot]), shape, at, reach,
-                                     hit, met) == Status::ok;
+  const bool asked = has_terrain_bytes(bodies.world, properties) &&
+                     near_on_terrain(asked_terrain(bodies.world, properties, bodies.state.poses[slot]), shape, at,
+                                     distance_max, hit, met) == Status::ok;
   if (!asked) hit = {};
   hit.body = bodies.id_of(slot);
   hit.undecided = hit.undecided || !asked;
   if (hit.undecided) hit.distance = max(hit.distance, gap);
-  return hit.distance <= reach && (!asked || met);
+  return hit.distance <= distance_max && (!asked || met);
 }
 
 /// The nearest points of the body's parts, or an undecided result that is nearer. False if a part could not be tested.
-bool nearest_part(const QueryBodies& bodies, const BodyTraits& traits, const Pose& pose, const QueryShape& shape,
-                  const Pose& at, Closest& nearest) {
-  const ConvexParts parts(traits, bodies.world.assets);
+bool nearest_part(const QueryBodies& bodies, const BodyProperties& properties, const Pose& pose,
+                  const QueryShape& shape, const Pose& at, Closest& nearest) {
+  const ConvexParts parts(properties, bodies.world.assets);
   for (uint32_t i = 0; i < parts.count(); ++i) {
     Convex convex;
     Closest closest;
@@ -44,42 +44,44 @@ bool nearest_part(const QueryBodies& bodies, const BodyTraits& traits, const Pos
   return parts.count() != 0;
 }
 
-/// The distance to a body. False if it is beyond `reach`.
-bool near_at(const QueryBodies& bodies, uint32_t slot, const QueryShape& shape, const Pose& at, Real gap, Real reach,
-             QueryHit& hit) {
-  const BodyTraits& traits = bodies.state.traits[slot];
-  if (is_surface(traits)) return near_at_surface(bodies, slot, shape, at, gap, reach, hit);
-  const Pose pose = pose_near(traits, bodies.state.poses[slot], at.position);
+/// The distance to a body. False if it is beyond `distance_max`.
+bool near_at(const QueryBodies& bodies, uint32_t slot, const QueryShape& shape, const Pose& at, Real gap,
+             Real distance_max, QueryHit& hit) {
+  const BodyProperties& properties = bodies.state.properties[slot];
+  if (is_terrain(properties)) return near_at_terrain(bodies, slot, shape, at, gap, distance_max, hit);
+  const Pose pose = pose_near(properties, bodies.state.poses[slot], at.position);
   Closest closest;
   hit = {};
   hit.body = bodies.id_of(slot);
-  const bool asked = nearest_part(bodies, traits, pose, shape, at, closest);
+  const bool asked = nearest_part(bodies, properties, pose, shape, at, closest);
   if (!asked || closest.capped) {
     hit.undecided = true;
     hit.distance = asked && closest.distance > gap ? closest.distance : gap;
-    return hit.distance <= reach;
+    return hit.distance <= distance_max;
   }
   hit.distance = closest.distance;
   hit.point = moved(pose.position, closest.point_a);
   hit.normal = closest.normal;
-  return hit.distance <= reach;
+  return hit.distance <= distance_max;
 }
 
-Status find_bodies_near(const World& world, const Shape& asked, const Pose& at, Real reach, const QueryFilter& filter,
-                        bool all, QueryHits out, QueryReport& report) {
+Status find_bodies_near(const World& world, const Shape& asked, const Pose& at, Real distance_max,
+                        const QueryFilter& filter, bool all, QueryHits out, QueryReport& report) {
   const FloatEnvironment environment;
   QueryShape shape;
   if (const Status status = make_query_shape(world, asked, shape); status != Status::ok) return status;
   Quat unit;
-  if (!is_position(at.position) || !within(reach, Real(0.0), Real(16384.0))) return Status::out_of_range;
+  if (!is_position(at.position) || !within(distance_max, Real(0.0), Real(16384.0))) return Status::out_of_range;
   if (!normalise_input(at.rotation, unit)) return Status::not_normalised;
-  const SweptBox box(at.position, query_half(shape, unit), {0, 0, 0}, raw_length(reach));
+  const SweptBox box(at.position, query_half(shape, unit), {0, 0, 0}, raw_length(distance_max));
   const QueryBodies bodies(world, filter);
-  HitCollector hits(all, out, k_whole_step, reach);
-  const auto is_near = [&](const SweptBox::Place& place) { return box.is_near(place, raw_length(hits.reach())); };
+  HitCollector hits(all, out, k_whole_step, distance_max);
+  const auto is_near = [&](const SweptBox::Place& place) {
+    return box.is_near(place, raw_length(hits.distance_max()));
+  };
   bodies.for_each([&](const Bounds& bounds) { return is_near(box.place_of(bounds)); },
                   [&](const Bounds& a, const Bounds& b) {
-                    return reach > Real(0.0) && box.gap(box.place_of(b)) < box.gap(box.place_of(a));
+                    return distance_max > Real(0.0) && box.gap(box.place_of(b)) < box.gap(box.place_of(a));
                   },
                   [&](uint32_t slot) {
                     if (hits.rules_out(slot)) return;
@@ -87,7 +89,7 @@ Status find_bodies_near(const World& world, const Shape& asked, const Pose& at, 
                     QueryHit hit;
                     if (!is_near(place)) return;
                     const Real gap = real_from_raw(box.gap(place));
-                    if (near_at(bodies, slot, shape, at, gap, reach, hit)) hits.add(hit);
+                    if (near_at(bodies, slot, shape, at, gap, distance_max, hit)) hits.add(hit);
                   });
   hits.finish(report);
   return Status::ok;
@@ -96,8 +98,8 @@ Status find_bodies_near(const World& world, const Shape& asked, const Pose& at, 
 }  // namespace
 
 Status query_closest(const World& world, const ClosestQuery& query, QueryHits hits, QueryReport& report) {
-  return find_bodies_near(world, query.shape, {query.position, query.rotation}, query.reach, query.filter, query.all,
-                          hits, report);
+  return find_bodies_near(world, query.shape, {query.position, query.rotation}, query.distance_max, query.filter,
+                          query.all, hits, report);
 }
 
 Status query_overlap(const World& world, const OverlapQuery& query, QueryHits hits, QueryReport& report) {

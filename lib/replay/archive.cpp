@@ -31,9 +31,9 @@ void Normaliser::check(Archive& archive, const char*, bool condition, Status oth
   if (!condition && normaliser.status == Status::ok) normaliser.status = otherwise;
 }
 
-const Archive::Ways Writer::k_ways = {write, nullptr, false};
-const Archive::Ways Reader::k_ways = {read, check, false};
-const Archive::Ways Normaliser::k_ways = {nullptr, check, true};
+const Archive::Operations Writer::k_operations = {write, nullptr, false};
+const Archive::Operations Reader::k_operations = {read, check, false};
+const Archive::Operations Normaliser::k_operations = {nullptr, check, true};
 
 void visit_word(Archive& archive, const char* name, uint32_t& value) {
   uint64_t bits = value;

@@ -15,7 +15,7 @@ inline namespace DETENT_NAMESPACE {
 class Archive {
  public:
   /// The operations of an archive; a null function does nothing.
-  struct Ways {
+  struct Operations {
     void (*bits)(Archive& archive, const char* name, uint64_t& value, uint32_t byte_count);
     void (*require)(Archive& archive, const char* name, bool condition, Status otherwise);
     bool normalises;
@@ -23,26 +23,26 @@ class Archive {
 
   /// One little-endian integer.
   void bits(const char* name, uint64_t& value, uint32_t byte_count) {
-    if (ways_.bits != nullptr) ways_.bits(*this, name, value, byte_count);
+    if (operations_.bits != nullptr) operations_.bits(*this, name, value, byte_count);
   }
   /// A condition on the field just visited.
   void require(const char* name, bool condition, Status otherwise) {
-    if (ways_.require != nullptr) ways_.require(*this, name, condition, otherwise);
+    if (operations_.require != nullptr) operations_.require(*this, name, condition, otherwise);
   }
-  bool normalises() const { return ways_.normalises; }
+  bool normalises() const { return operations_.normalises; }
 
   WordKind kind = WordKind::unsigned_integer;  ///< kind of the next bits, for programs that display them
 
  protected:
-  explicit Archive(const Ways& ways) : ways_(ways) {}
+  explicit Archive(const Operations& operations) : operations_(operations) {}
 
  private:
-  const Ways& ways_;
+  const Operations& operations_;
 };
 
 class Writer final : public Archive {
  public:
-  Writer(uint8_t* to, uint32_t byte_capacity) : Archive(k_ways), bytes(to), capacity(byte_capacity) {}
+  Writer(uint8_t* to, uint32_t byte_capacity) : Archive(k_operations), bytes(to), capacity(byte_capacity) {}
 
   uint8_t* bytes;
   uint32_t capacity;
@@ -51,13 +51,13 @@ class Writer final : public Archive {
 
  private:
   static void write(Archive& archive, const char* name, uint64_t& value, uint32_t byte_count);
-  static const Ways k_ways;
+  static const Operations k_operations;
 };
 
 class Reader final : public Archive {
  public:
   Reader(const uint8_t* from, uint32_t byte_count, uint32_t first = 0)
-      : Archive(k_ways), bytes(from), count(byte_count), at(first) {}
+      : Archive(k_operations), bytes(from), count(byte_count), at(first) {}
 
   const uint8_t* bytes;
   uint32_t count;
@@ -69,18 +69,18 @@ class Reader final : public Archive {
  private:
   static void read(Archive& archive, const char* name, uint64_t& value, uint32_t byte_count);
   static void check(Archive& archive, const char* name, bool condition, Status otherwise);
-  static const Ways k_ways;
+  static const Operations k_operations;
 };
 
 class Normaliser final : public Archive {
  public:
-  Normaliser() : Archive(k_ways) {}
+  Normaliser() : Archive(k_operations) {}
 
   Status status = Status::ok;  ///< of the first field that cannot be written
 
  private:
   static void check(Archive& archive, const char* name, bool condition, Status otherwise);
-  static const Ways k_ways;
+  static const Operations k_operations;
 };
 
 void visit_word(Archive& archive, const char* name, uint32_t& value);

@@ -11,7 +11,7 @@ struct List {
 };
 using All = List<CreateBody, DestroyBody, SetPose, SetVelocity, ApplyForce, ApplyTorque, ApplyImpulse, ApplyImpulseAt,
                  ApplyAngularImpulse, SetGravity, SetUserData, BindAsset, WakeBody, PutToSleep, SetType, SetShape,
-                 SetMass, SetInertia, SetDensity, SetMaterial, SetDamping, SetGravityScale, SetTurnLocks, SetSensor,
+                 SetMass, SetInertia, SetDensity, SetMaterial, SetDamping, SetGravityScale, SetRotationLocks, SetSensor,
                  SetSettings, ApplyForceAt, ApplyForceAtPoint, ApplyImpulseAtPoint, Explode, MoveKinematic, SetFilter,
                  CreateJoint, DestroyJoint, SetJoint>;
 

@@ -36,7 +36,7 @@ enum class RecordTag : uint8_t {
   set_material = 36,
   set_damping = 37,
   set_gravity_scale = 38,
-  set_turn_locks = 39,
+  set_rotation_locks = 39,
   set_settings = 40,
   apply_force_at = 41,
   apply_force_at_point = 42,
@@ -82,8 +82,8 @@ using MoveKinematic = ToPose<RecordTag::move_kinematic, move_kinematic>;
 struct SetVelocity {
   static constexpr RecordTag k_tag = RecordTag::set_velocity;
   BodyId id = {};
-  Vec3<Real> velocity = {};
-  Vec3<Real> spin = {};
+  Vec3<Real> linear_velocity = {};
+  Vec3<Real> angular_velocity = {};
 };
 /// The calls that apply a force or impulse at a place: a vector from the centre of mass, or a point of the world.
 template <RecordTag tag, class Place, Status (*call)(World&, BodyId, const Vec3<Scaled>&, const Place&)>
@@ -127,7 +127,7 @@ using SetInertia = SetValue<RecordTag::set_inertia, Vec3<Scaled>, set_inertia>;
 using SetDensity = SetValue<RecordTag::set_density, Scaled, set_density>;
 using SetMaterial = SetValue<RecordTag::set_material, Material, set_material>;
 using SetGravityScale = SetValue<RecordTag::set_gravity_scale, Real, set_gravity_scale>;
-using SetTurnLocks = SetValue<RecordTag::set_turn_locks, uint32_t, set_turn_locks>;
+using SetRotationLocks = SetValue<RecordTag::set_rotation_locks, uint32_t, set_rotation_locks>;
 using SetSensor = SetValue<RecordTag::set_sensor, bool, set_sensor>;
 struct SetDamping {
   static constexpr RecordTag k_tag = RecordTag::set_damping;
@@ -209,8 +209,8 @@ inline void visit(Archive& archive, BodyDef& def) {
   visit_choice(archive, "body type", def.type, BodyType::fixed, BodyType::dynamic);
   visit_number(archive, "position", def.position);
   visit_number(archive, "rotation", def.rotation);
-  visit_number(archive, "velocity", def.velocity);
-  visit_number(archive, "spin", def.spin);
+  visit_number(archive, "linear_velocity", def.linear_velocity);
+  visit_number(archive, "angular_velocity", def.angular_velocity);
   visit(archive, def.shape);
   visit(archive, def.material);
   visit_number(archive, "density", def.density);
@@ -219,7 +219,7 @@ inline void visit(Archive& archive, BodyDef& def) {
   visit_number(archive, "angular damping", def.angular_damping);
   visit_number(archive, "gravity scale", def.gravity_scale);
   visit_word(archive, "user data", def.user_data);
-  visit_word(archive, "turn locks", def.turn_locks);
+  visit_word(archive, "rotation locks", def.rotation_locks);
   visit(archive, def.filter);
   visit_flag(archive, "sensor", def.sensor);
 }
@@ -234,13 +234,13 @@ inline void visit(Archive& archive, WorldDef& def) {
   visit_word(archive, "convergence", def.convergence);
   visit_choice(archive, "stabilisation", def.stabilisation, Stabilisation::soft, Stabilisation::post);
   visit_number(archive, "relaxation", def.relaxation);
-  visit_number(archive, "stiffness", def.stiffness);
+  visit_number(archive, "contact_frequency", def.contact_frequency);
   visit_number(archive, "damping ratio", def.damping_ratio);
   visit_number(archive, "restitution threshold", def.restitution_threshold);
   visit_flag(archive, "continuous", def.continuous);
   visit_flag(archive, "sleeping", def.sleeping);
-  visit_number(archive, "breaking", def.breaking);
-  visit_number(archive, "reuse", def.reuse);
+  visit_number(archive, "contact_margin", def.contact_margin);
+  visit_number(archive, "contact_recycle_distance", def.contact_recycle_distance);
   visit_choice(archive, "reduction", def.reduction, ManifoldReduction::projected_extremes,
                ManifoldReduction::deepest_area);
 }
@@ -310,8 +310,8 @@ void visit(Archive& archive, ToPose<tag, call>& command) {
 }
 inline void visit(Archive& archive, SetVelocity& command) {
   visit(archive, command.id);
-  visit_number(archive, "velocity", command.velocity);
-  visit_number(archive, "spin", command.spin);
+  visit_number(archive, "linear_velocity", command.linear_velocity);
+  visit_number(archive, "angular_velocity", command.angular_velocity);
 }
 template <RecordTag tag, class Place, Status (*call)(World&, BodyId, const Vec3<Scaled>&, const Place&)>
 void visit(Archive& archive, PushAt<tag, Place, call>& command) {
@@ -370,7 +370,7 @@ Status apply(World& world, ToPose<tag, call>& command) {
   return call(world, command.id, command.position, command.rotation);
 }
 inline Status apply(World& world, SetVelocity& command) {
-  return set_velocity(world, command.id, command.velocity, command.spin);
+  return set_velocity(world, command.id, command.linear_velocity, command.angular_velocity);
 }
 template <RecordTag tag, class Place, Status (*call)(World&, BodyId, const Vec3<Scaled>&, const Place&)>
 Status apply(World& world, PushAt<tag, Place, call>& command) {

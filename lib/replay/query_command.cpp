@@ -7,14 +7,14 @@ namespace {
 /// Counts the bytes of fields.
 class Counter final : public Archive {
  public:
-  Counter() : Archive(k_ways) {}
+  Counter() : Archive(k_operations) {}
   uint32_t count = 0;
 
  private:
   static void add(Archive& archive, const char*, uint64_t&, uint32_t byte_count) {
     static_cast<Counter&>(archive).count += byte_count;
   }
-  static constexpr Ways k_ways = {add, nullptr, false};
+  static constexpr Operations k_operations = {add, nullptr, false};
 };
 
 }  // namespace

@@ -48,15 +48,15 @@ void visit_choice_of_bodies(Archive& archive, Query& query) {
 
 inline void visit(Archive& archive, RayQuery& query) {
   visit_number(archive, "origin", query.origin);
-  visit_number(archive, "way", query.way);
+  visit_number(archive, "displacement", query.displacement);
   visit_choice_of_bodies(archive, query);
 }
 inline void visit(Archive& archive, CastQuery& query) {
   visit(archive, query.shape);
   visit_number(archive, "position", query.position);
   visit_number(archive, "rotation", query.rotation);
-  visit_number(archive, "way", query.way);
-  visit_number(archive, "turn", query.turn);
+  visit_number(archive, "displacement", query.displacement);
+  visit_number(archive, "rotation_vector", query.rotation_vector);
   visit_choice_of_bodies(archive, query);
 }
 inline void visit(Archive& archive, OverlapQuery& query) {
@@ -74,7 +74,7 @@ inline void visit(Archive& archive, ClosestQuery& query) {
   visit(archive, query.shape);
   visit_number(archive, "position", query.position);
   visit_number(archive, "rotation", query.rotation);
-  visit_number(archive, "reach", query.reach);
+  visit_number(archive, "distance_max", query.distance_max);
   visit_choice_of_bodies(archive, query);
 }
 

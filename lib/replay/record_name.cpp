@@ -53,8 +53,8 @@ const char* record_name(RecordTag tag) {
       return "set_damping";
     case RecordTag::set_gravity_scale:
       return "set_gravity_scale";
-    case RecordTag::set_turn_locks:
-      return "set_turn_locks";
+    case RecordTag::set_rotation_locks:
+      return "set_rotation_locks";
     case RecordTag::set_settings:
       return "set_settings";
     case RecordTag::apply_force_at:

@@ -179,8 +179,8 @@ Status Recorder::set_pose(BodyId id, const Position& position, const Quat& rotat
   return apply_and_log(command);
 }
 
-Status Recorder::set_velocity(BodyId id, const Vec3<Real>& velocity, const Vec3<Real>& spin) {
-  SetVelocity command{id, velocity, spin};
+Status Recorder::set_velocity(BodyId id, const Vec3<Real>& linear_velocity, const Vec3<Real>& angular_velocity) {
+  SetVelocity command{id, linear_velocity, angular_velocity};
   return apply_and_log(command);
 }
 
@@ -279,8 +279,8 @@ Status Recorder::set_gravity_scale(BodyId id, Real scale) {
   return apply_and_log(command);
 }
 
-Status Recorder::set_turn_locks(BodyId id, uint32_t locks) {
-  SetTurnLocks command{id, locks};
+Status Recorder::set_rotation_locks(BodyId id, uint32_t locks) {
+  SetRotationLocks command{id, locks};
   return apply_and_log(command);
 }
 

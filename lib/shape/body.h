@@ -7,22 +7,24 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-inline BodyType type_of(const BodyTraits& traits) { return static_cast<BodyType>(traits.type); }
-inline bool is_dynamic(const BodyTraits& traits) { return type_of(traits) == BodyType::dynamic; }
-inline bool is_sensor(const BodyTraits& traits) { return traits.sensor != 0; }
+inline BodyType type_of(const BodyProperties& properties) { return static_cast<BodyType>(properties.type); }
+inline bool is_dynamic(const BodyProperties& properties) { return type_of(properties) == BodyType::dynamic; }
+inline bool is_sensor(const BodyProperties& properties) { return properties.sensor != 0; }
 
-inline ShapeType shape_of(const BodyTraits& traits) { return static_cast<ShapeType>(traits.shape); }
-inline bool is_half_space(const BodyTraits& traits) { return shape_of(traits) == ShapeType::half_space; }
-inline bool is_surface(const BodyTraits& traits) { return shape_of(traits) == ShapeType::surface; }
-inline bool is_compound(const BodyTraits& traits) { return shape_of(traits) == ShapeType::compound; }
+inline ShapeType shape_of(const BodyProperties& properties) { return static_cast<ShapeType>(properties.shape); }
+inline bool is_half_space(const BodyProperties& properties) { return shape_of(properties) == ShapeType::half_space; }
+inline bool is_terrain(const BodyProperties& properties) { return shape_of(properties) == ShapeType::terrain; }
+inline bool is_compound(const BodyProperties& properties) { return shape_of(properties) == ShapeType::compound; }
 /// Whether a pair of bodies can have more than one contact.
-inline bool has_parts(const BodyTraits& a, const BodyTraits& b) {
-  return is_surface(a) || is_surface(b) || is_compound(a) || is_compound(b);
+inline bool has_parts(const BodyProperties& a, const BodyProperties& b) {
+  return is_terrain(a) || is_terrain(b) || is_compound(a) || is_compound(b);
 }
 /// Whether a body has no thickness to which the motion of other bodies can be compared.
-inline bool is_ground(const BodyTraits& traits) { return is_half_space(traits) || is_surface(traits); }
+inline bool is_ground(const BodyProperties& properties) { return is_half_space(properties) || is_terrain(properties); }
 
-inline Filter filter_of(const BodyTraits& traits) { return {traits.category, traits.mask, traits.group, traits.rule}; }
+inline Filter filter_of(const BodyProperties& properties) {
+  return {properties.category, properties.mask, properties.group, properties.rule};
+}
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

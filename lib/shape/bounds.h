@@ -23,37 +23,38 @@ inline constexpr Bounds k_nowhere = {k_everywhere.upper, k_everywhere.lower};
 /// The least half sizes of axis-aligned bounds that are centred at the body's position and contain the shape, m, world
 /// axes. Not for a half-space. For hulls, terrain and compounds each half size is that of the box of the half extents
 /// or of the bounding ball, whichever is less. Rounding: within 2^-28 of the body's unit of length.
-inline Vec3<Real> half_bounds(const BodyTraits& traits, const Matrix3& rotation) {
+inline Vec3<Real> half_bounds(const BodyProperties& properties, const Matrix3& rotation) {
   const Unit zero = 0.0;
   Vec3<Unit> half = {zero, zero, zero};
-  switch (static_cast<ShapeType>(traits.shape)) {
+  switch (static_cast<ShapeType>(properties.shape)) {
     case ShapeType::sphere:
-      half = {traits.size.x, traits.size.x, traits.size.x};
+      half = {properties.size.x, properties.size.x, properties.size.x};
       break;
     case ShapeType::capsule: {
       const Vec3<Unit>& axis = rotation.column[1];
-      half = {abs(axis.x) * traits.size.y + traits.size.x, abs(axis.y) * traits.size.y + traits.size.x,
-              abs(axis.z) * traits.size.y + traits.size.x};
+      half = {abs(axis.x) * properties.size.y + properties.size.x, abs(axis.y) * properties.size.y + properties.size.x,
+              abs(axis.z) * properties.size.y + properties.size.x};
       break;
     }
     case ShapeType::hull:
-    case ShapeType::surface:
+    case ShapeType::terrain:
     case ShapeType::compound:
     case ShapeType::box: {
       const Vec3<Unit>&x = rotation.column[0], &y = rotation.column[1], &z = rotation.column[2];
-      half = {dot(Vec3<Unit>{abs(x.x), abs(y.x), abs(z.x)}, traits.size),
-              dot(Vec3<Unit>{abs(x.y), abs(y.y), abs(z.y)}, traits.size),
-              dot(Vec3<Unit>{abs(x.z), abs(y.z), abs(z.z)}, traits.size)};
+      half = {dot(Vec3<Unit>{abs(x.x), abs(y.x), abs(z.x)}, properties.size),
+              dot(Vec3<Unit>{abs(x.y), abs(y.y), abs(z.y)}, properties.size),
+              dot(Vec3<Unit>{abs(x.z), abs(y.z), abs(z.z)}, properties.size)};
       break;
     }
     case ShapeType::cylinder:
     case ShapeType::cone: {
       const Vec3<Unit>&x = rotation.column[0], &y = rotation.column[1], &z = rotation.column[2];
-      const auto disc = [&](Unit a, Unit b) { return length(Vec3<Unit>{a, b, zero}) * traits.size.x; };
+      const auto disc = [&](Unit a, Unit b) { return length(Vec3<Unit>{a, b, zero}) * properties.size.x; };
       const Vec3<Unit> rim = {disc(x.x, z.x), disc(x.y, z.y), disc(x.z, z.z)};
-      const Vec3<Unit> axis = {abs(y.x) * traits.size.y, abs(y.y) * traits.size.y, abs(y.z) * traits.size.y};
+      const Vec3<Unit> axis = {abs(y.x) * properties.size.y, abs(y.y) * properties.size.y,
+                               abs(y.z) * properties.size.y};
       half = rim + axis;
-      if (static_cast<ShapeType>(traits.shape) == ShapeType::cylinder) break;
+      if (static_cast<ShapeType>(properties.shape) == ShapeType::cylinder) break;
       const auto cone = [](Unit a, Unit r) { return max(a + scale_by_power(a, -1), scale_by_power(a, -1) + r); };
       half = {cone(axis.x, rim.x), cone(axis.y, rim.y), cone(axis.z, rim.z)};
       break;
@@ -61,15 +62,15 @@ inline Vec3<Real> half_bounds(const BodyTraits& traits, const Matrix3& rotation)
     default:
       break;
   }
-  const ShapeType shape = static_cast<ShapeType>(traits.shape);
-  if (!(traits.rounding == zero) && shape != ShapeType::compound)
-    half += Vec3<Unit>{traits.rounding, traits.rounding, traits.rounding};
-  if (shape == ShapeType::hull || shape == ShapeType::surface || shape == ShapeType::compound) {
-    const Unit ball = traits.bounding_radius;
+  const ShapeType shape = static_cast<ShapeType>(properties.shape);
+  if (!(properties.rounding == zero) && shape != ShapeType::compound)
+    half += Vec3<Unit>{properties.rounding, properties.rounding, properties.rounding};
+  if (shape == ShapeType::hull || shape == ShapeType::terrain || shape == ShapeType::compound) {
+    const Unit ball = properties.bounding_radius;
     half = {min(half.x, ball), min(half.y, ball), min(half.z, ball)};
   }
-  return {real_from_unit(half.x, traits.size_exponent), real_from_unit(half.y, traits.size_exponent),
-          real_from_unit(half.z, traits.size_exponent)};
+  return {real_from_unit(half.x, properties.size_exponent), real_from_unit(half.y, properties.size_exponent),
+          real_from_unit(half.z, properties.size_exponent)};
 }
 
 inline bool overlap(const Bounds& a, const Bounds& b) {

@@ -43,7 +43,7 @@ void measure_hull(const HullView& hull, int shift, ChildMeasure& measure) {
   const auto up = [shift](int32_t value) { return static_cast<int32_t>(shift_up(value, shift)); };
   measure.low = {low.x >> shift, low.y >> shift, low.z >> shift};
   measure.high = {up(high.x), up(high.y), up(high.z)};
-  measure.reach += shift_up(hull.core_radius(), shift);
+  measure.radius += shift_up(hull.core_radius(), shift);
   int64_t depth = INT32_MAX;
   for (uint32_t face = 0; face < hull.face_count; ++face) {
     const int64_t behind = depth_behind(hull, face);
@@ -69,7 +69,7 @@ bool header_is_good(const CompoundView& compound) {
   }
   if (norm < k_one_squared - k_unit_vector_slack || norm > k_one_squared + k_unit_vector_slack) return false;
   for (uint32_t axis = 0; axis < 3; ++axis) {
-    if (!compound.gyration(axis).is_canonical(-30, 40)) return false;
+    if (!compound.inverse_inertia(axis).is_canonical(-30, 40)) return false;
     if ((load_u64(bytes + k_compound_origin_at + 8 * axis) >> 52 & 0x7ff) == 0x7ff) return false;
   }
   return true;
@@ -121,7 +121,7 @@ bool read_child(const Asset& asset, const CompoundView& compound, uint32_t i, ui
   }
   measure = measure_child(child, hull, compound.exponent());
   return measure.low == child.low && measure.high == child.high && measure.half_thickness == child.half_thickness &&
-         measure.half_thickness > 0 && measure.reach < k_one;
+         measure.half_thickness > 0 && measure.radius < k_one;
 }
 
 }  // namespace
@@ -132,7 +132,7 @@ ChildMeasure measure_child(const CompoundChild& child, const HullView& hull, int
     measure_hull(hull, exponent - hull.exponent(), measure);
   } else {
     const int64_t a = length_of(child.low), b = length_of(child.high);
-    measure.reach += a > b ? a : b;
+    measure.radius += a > b ? a : b;
   }
   return measure;
 }
@@ -151,13 +151,13 @@ Status read_compound(const Asset& asset, CompoundView& compound) {
   if (view.exponent() < k_hull_exponent_min || view.exponent() > k_hull_exponent_max) return Status::out_of_range;
   if (!header_is_good(view)) return Status::corrupt;
   uint32_t at = k_compound_header_bytes + k_compound_child_bytes * count;
-  int64_t reach = 0;
+  int64_t radius = 0;
   Vec32 half = {0, 0, 0};
   int64_t thickness = INT32_MAX;
   for (uint32_t i = 0; i < count; ++i) {
     ChildMeasure measure;
     if (!read_child(asset, view, i, at, measure)) return Status::corrupt;
-    reach = measure.reach > reach ? measure.reach : reach;
+    radius = measure.radius > radius ? measure.radius : radius;
     thickness = measure.half_thickness < thickness ? measure.half_thickness : thickness;
     const ChildBox box = child_box(view.child(i));
     const auto most = [](int32_t low, int32_t high, int32_t before) {
@@ -168,7 +168,7 @@ Status read_compound(const Asset& asset, CompoundView& compound) {
             most(box.low.z, box.high.z, half.z)};
   }
   // The unit is the least power of two above the radius, within rounding.
-  if (at != asset.byte_count || view.radius() != reach || reach < k_one / 2 - 2 || !(view.half_extents() == half) ||
+  if (at != asset.byte_count || view.radius() != radius || radius < k_one / 2 - 2 || !(view.half_extents() == half) ||
       view.half_thickness() != thickness) {
     return Status::corrupt;
   }

@@ -18,9 +18,9 @@ inline constexpr uint32_t k_compound_radius_at = 24;
 inline constexpr uint32_t k_compound_child_count_at = 28;
 inline constexpr uint32_t k_compound_half_extents_at = 32;  ///< x, y, z
 inline constexpr uint32_t k_compound_half_thickness_at = 44;
-inline constexpr uint32_t k_compound_volume_at = 48;    ///< mantissa, exponent
-inline constexpr uint32_t k_compound_gyration_at = 56;  ///< mantissa, exponent; three times
-inline constexpr uint32_t k_compound_origin_at = 80;    ///< three doubles
+inline constexpr uint32_t k_compound_volume_at = 48;           ///< mantissa, exponent
+inline constexpr uint32_t k_compound_inverse_inertia_at = 56;  ///< mantissa, exponent; three times
+inline constexpr uint32_t k_compound_origin_at = 80;           ///< three doubles
 inline constexpr uint32_t k_compound_rotation_at = 104;
 inline constexpr uint32_t k_compound_header_bytes = 128;  ///< zero from 120 on; the children follow
 
@@ -70,7 +70,7 @@ struct CompoundView {
   /// The mass over the density, in unit^3.
   HullScaled volume() const { return scaled(k_compound_volume_at); }
   /// Inverse inertia (per unit mass), m unit^2 / I, about the body's axis (0 to 2).
-  HullScaled gyration(uint32_t axis) const { return scaled(k_compound_gyration_at + 8 * axis); }
+  HullScaled inverse_inertia(uint32_t axis) const { return scaled(k_compound_inverse_inertia_at + 8 * axis); }
   CompoundChild child(uint32_t i) const {
     DETENT_VERIFY_RANGE(i < child_count);
     const uint8_t* words = bytes + k_compound_header_bytes + k_compound_child_bytes * i;
@@ -108,15 +108,15 @@ inline ChildBox child_box(const CompoundChild& child) {
 /// the reader compares them.
 struct ChildMeasure {
   Vec32 low, high;
-  int64_t reach;  ///< greatest distance of its surface from the origin, rounded up
+  int64_t radius;  ///< greatest distance of its surface from the origin, rounded up
   int64_t half_thickness;
 };
 /// `exponent`: the compound's; `hull`: the child's, or empty.
 ChildMeasure measure_child(const CompoundChild& child, const HullView& hull, int32_t exponent);
 
 /// Checks untrusted bytes. The children of an accepted compound are balls, capsules and hulls that read_hull() accepts.
-/// They lie within the stated bounds, and each inner hull lies within its hull. Volume, gyration, origin and rotation
-/// are checked only for their ranges. Errors: as compound_info().
+/// They lie within the stated bounds, and each inner hull lies within its hull. Volume, inverse inertia, origin and
+/// rotation are checked only for their ranges. Errors: as compound_info().
 Status read_compound(const Asset& asset, CompoundView& compound);
 
 }  // namespace DETENT_NAMESPACE

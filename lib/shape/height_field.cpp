@@ -4,7 +4,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-bool in_range(int64_t value) { return value >= -k_surface_coordinate_max && value <= k_surface_coordinate_max; }
+bool in_range(int64_t value) { return value >= -k_terrain_coordinate_max && value <= k_terrain_coordinate_max; }
 
 /// Whether the sizes are positive and all samples are in range, judged by the least and greatest height of the root.
 bool lengths_are_good(const HeightFieldView& field) {
@@ -66,10 +66,10 @@ void HeightFieldView::corners(uint32_t index, Vec32 (&corner)[3]) const {
   }
 }
 
-SurfaceTriangle HeightFieldView::triangle(uint32_t index) const {
+TerrainTriangle HeightFieldView::triangle(uint32_t index) const {
   const uint32_t i = index / 2 % columns, j = index / 2 / columns;
   const bool second = index % 2 != 0, turned = (cell(i, j) & k_cell_turned) != 0;
-  SurfaceTriangle result;
+  TerrainTriangle result;
   corners(index, result.corner);
   result.material = cell(i, j) & k_cell_material;
   const uint32_t sides[2] = {second ? (turned ? 1u : 2u) : (turned ? 3u : 0u),
@@ -140,7 +140,7 @@ Status read_height_field(const Asset& asset, HeightFieldView& field) {
   }
   const HeightFieldView view = height_field_view(bytes);
   if (view.end != asset.byte_count) return Status::corrupt;
-  if (view.exponent() < k_surface_exponent_min || view.exponent() > k_surface_exponent_max) return Status::out_of_range;
+  if (view.exponent() < k_terrain_exponent_min || view.exponent() > k_terrain_exponent_max) return Status::out_of_range;
   if (!cooked_is_zero(bytes, k_height_field_step_at + 4, k_height_field_header_bytes) ||
       !cooked_is_zero(bytes, view.heights_at + 2 * (columns + 1) * (rows + 1), view.cells_at) ||
       !cooked_is_zero(bytes, view.cells_at + columns * rows, view.nodes_at) ||

@@ -3,7 +3,7 @@
 
 #include "base/check.h"
 #include "shape/cooked.h"
-#include "shape/surface_triangle.h"
+#include "shape/terrain_triangle.h"
 
 /// Offsets and readers of a cooked height field in flash or in a file; docs/height_field.md describes the format.
 namespace detent {
@@ -58,7 +58,7 @@ struct HeightFieldView {
   int32_t z(uint32_t j) const { return origin.z + static_cast<int32_t>(j) * spacing_z; }
 
   /// The cell (i, j) has the triangle 2 (j columns + i) and the next one; a hole has none.
-  SurfaceTriangle triangle(uint32_t index) const;
+  TerrainTriangle triangle(uint32_t index) const;
   uint32_t level_columns(uint32_t level) const { return blocks(columns, level); }
   uint32_t level_rows(uint32_t level) const { return blocks(rows, level); }
   static uint32_t blocks(uint32_t cells, uint32_t level) {

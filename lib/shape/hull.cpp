@@ -193,9 +193,9 @@ bool frame_is_good(const HullView& hull) {
   const bool principal = hull.frame() == HullFrame::principal;
   if (!principal && hull.frame() != HullFrame::source) return false;
   for (uint32_t axis = 0; axis < 3; ++axis) {
-    const HullScaled gyration = hull.gyration(axis);  // above 1, as no vertex is a unit away; below 2^70
-    if (principal && !gyration.is_canonical(-30, 40)) return false;
-    if (!principal && (gyration.mantissa != 0 || gyration.exponent != 0)) return false;
+    const HullScaled inverse_inertia = hull.inverse_inertia(axis);  // above 1, as no vertex is a unit away; below 2^70
+    if (principal && !inverse_inertia.is_canonical(-30, 40)) return false;
+    if (!principal && (inverse_inertia.mantissa != 0 || inverse_inertia.exponent != 0)) return false;
     const uint64_t origin = load_u64(hull.bytes + k_hull_origin_at + 8 * axis);
     if (principal ? !is_finite(origin) : origin != 0) return false;
   }

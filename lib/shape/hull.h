@@ -23,10 +23,10 @@ inline constexpr uint32_t k_hull_core_radius_at = 24;
 inline constexpr uint32_t k_hull_vertex_count_at = 28;
 inline constexpr uint32_t k_hull_face_count_at = 32;
 inline constexpr uint32_t k_hull_edge_count_at = 36;
-inline constexpr uint32_t k_hull_volume_at = 40;    ///< mantissa, exponent
-inline constexpr uint32_t k_hull_gyration_at = 48;  ///< mantissa, exponent; three times
-inline constexpr uint32_t k_hull_origin_at = 72;    ///< three doubles
-inline constexpr uint32_t k_hull_rotation_at = 96;  ///< x, y, z, w
+inline constexpr uint32_t k_hull_volume_at = 40;           ///< mantissa, exponent
+inline constexpr uint32_t k_hull_inverse_inertia_at = 48;  ///< mantissa, exponent; three times
+inline constexpr uint32_t k_hull_origin_at = 72;           ///< three doubles
+inline constexpr uint32_t k_hull_rotation_at = 96;         ///< x, y, z, w
 inline constexpr uint32_t k_hull_frame_at = 112;
 inline constexpr uint32_t k_hull_header_bytes = 128;  ///< zero from 116 on
 
@@ -146,7 +146,7 @@ struct HullView {
   HullScaled volume() const { return scaled(k_hull_volume_at); }
   /// Inverse inertia (per unit mass), m unit^2 / I, about the body's axis (0 to 2), for uniform density; 0 in the
   /// source frame.
-  HullScaled gyration(uint32_t axis) const { return scaled(k_hull_gyration_at + 8 * axis); }
+  HullScaled inverse_inertia(uint32_t axis) const { return scaled(k_hull_inverse_inertia_at + 8 * axis); }
 
  private:
   int32_t coordinate(uint32_t column, uint32_t i) const {
@@ -174,8 +174,8 @@ DETENT_SHARED inline HullView hull_view(const uint8_t* bytes) {
 }
 
 /// Checks untrusted bytes. An accepted hull is a convex solid in range. Its indices are valid, and hill climbing along
-/// neighbours finds the farthest vertex exactly. Gyration, origin and rotation are checked only for their ranges, not
-/// against the vertices. Takes about 2 V^2 exact plane tests. Errors: buffer_misaligned (8), not_detent,
+/// neighbours finds the farthest vertex exactly. InverseInertia, origin and rotation are checked only for their ranges,
+/// not against the vertices. Takes about 2 V^2 exact plane tests. Errors: buffer_misaligned (8), not_detent,
 /// format_unknown, truncated, corrupt, out_of_range (the exponent).
 Status read_hull(const Asset& asset, HullView& hull);
 

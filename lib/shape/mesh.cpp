@@ -5,7 +5,7 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 bool in_range(const Vec32& v) {
-  const auto component = [](int32_t a) { return a >= -k_surface_coordinate_max && a <= k_surface_coordinate_max; };
+  const auto component = [](int32_t a) { return a >= -k_terrain_coordinate_max && a <= k_terrain_coordinate_max; };
   return component(v.x) && component(v.y) && component(v.z);
 }
 
@@ -127,7 +127,7 @@ Status read_mesh(const Asset& asset, MeshView& mesh) {
   }
   const MeshView view = mesh_view(bytes);
   if (view.end != asset.byte_count) return Status::corrupt;
-  if (view.exponent() < k_surface_exponent_min || view.exponent() > k_surface_exponent_max) return Status::out_of_range;
+  if (view.exponent() < k_terrain_exponent_min || view.exponent() > k_terrain_exponent_max) return Status::out_of_range;
   if (!cooked_is_zero(bytes, k_mesh_shift_at + 4, k_mesh_header_bytes) ||
       !cooked_is_zero(bytes, view.vertices_at + k_mesh_vertex_bytes * vertices, view.triangles_at) ||
       !cooked_is_zero(bytes, view.nodes_at + k_mesh_node_bytes * view.level_start[view.level_count], view.end) ||

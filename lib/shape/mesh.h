@@ -3,7 +3,7 @@
 
 #include "base/check.h"
 #include "shape/cooked.h"
-#include "shape/surface_triangle.h"
+#include "shape/terrain_triangle.h"
 
 /// Offsets and readers of a cooked triangle mesh in flash or in a file; docs/mesh.md describes the format.
 namespace detent {
@@ -61,8 +61,8 @@ struct MeshView {
     DETENT_VERIFY_RANGE(triangle < triangle_count && k < 6);
     return cooked_u32(bytes + triangles_at + k_mesh_triangle_bytes * triangle + 4 * k);
   }
-  SurfaceTriangle triangle(uint32_t i) const {
-    SurfaceTriangle result;
+  TerrainTriangle triangle(uint32_t i) const {
+    TerrainTriangle result;
     for (uint32_t k = 0; k < 3; ++k) {
       result.corner[k] = vertex(vertex_of(i, k));
       result.neighbour[k] = neighbour(i, k);
@@ -80,7 +80,7 @@ struct MeshView {
     const uint8_t* words = bytes + nodes_at + k_mesh_node_bytes * (level_start[level] + i);
     const auto at = [&](uint32_t k, int32_t from, uint32_t more) {
       const int64_t value = from + ((static_cast<int64_t>(cooked_u16(words + 2 * k)) + more) << shift) - more;
-      return static_cast<int32_t>(value > k_surface_coordinate_max ? k_surface_coordinate_max : value);
+      return static_cast<int32_t>(value > k_terrain_coordinate_max ? k_terrain_coordinate_max : value);
     };
     return {{at(0, low.x, 0), at(1, low.y, 0), at(2, low.z, 0)}, {at(3, low.x, 1), at(4, low.y, 1), at(5, low.z, 1)}};
   }

@@ -39,28 +39,28 @@ Real multiple(Real value, int32_t count) {
 }  // namespace
 
 Sweep sweep_between(const Quat& start, const Quat& end, const Vec3<Real>& displacement,
-                    const Vec3<Real>& turn_estimate) {
+                    const Vec3<Real>& angle_estimate) {
   const Real zero = 0.0;
-  const Real bound = abs(turn_estimate.x) + abs(turn_estimate.y) + abs(turn_estimate.z);
+  const Real bound = abs(angle_estimate.x) + abs(angle_estimate.y) + abs(angle_estimate.z);
   if (bound == zero && start == end) return {displacement, {zero, zero, zero}};
-  Vec3<Real> turn = rotation_vector(multiply(end, conjugate(start)));
+  Vec3<Real> rotation_vector = rotation_vector_from(multiply(end, conjugate(start)));
   if (bound > k_half_turn_limit) {
     Vec3<Unit> axis;
     Real angle = zero;
-    if (normalise(turn, axis, angle) && angle > Real(0x1p-10)) {
-      const int32_t turns = nearest_multiple(dot(turn_estimate, axis) - angle, k_two_pi);
-      turn = turn + axis * multiple(k_two_pi, turns);
-    } else if (normalise(turn_estimate, axis, angle)) {  // full revolutions only: use the estimate's axis
-      turn = turn + axis * multiple(k_two_pi, nearest_multiple(angle, k_two_pi));
+    if (normalise(rotation_vector, axis, angle) && angle > Real(0x1p-10)) {
+      const int32_t turns = nearest_multiple(dot(angle_estimate, axis) - angle, k_two_pi);
+      rotation_vector = rotation_vector + axis * multiple(k_two_pi, turns);
+    } else if (normalise(angle_estimate, axis, angle)) {  // full revolutions only: use the estimate's axis
+      rotation_vector = rotation_vector + axis * multiple(k_two_pi, nearest_multiple(angle, k_two_pi));
     }
   }
-  return {displacement, turn};
+  return {displacement, rotation_vector};
 }
 
 Quat sweep_end_rotation(const Quat& start, const Sweep& sweep) {
   const Real zero = 0.0;
-  if (sweep.turn == Vec3<Real>{zero, zero, zero}) return start;
-  return normalise(multiply(rotation_from_vector(sweep.turn), start));
+  if (sweep.rotation_vector == Vec3<Real>{zero, zero, zero}) return start;
+  return normalise(multiply(rotation_from_vector(sweep.rotation_vector), start));
 }
 
 #if defined(DETENT_FX32)
@@ -113,8 +113,8 @@ Real part_of(Real whole, Fraction part) { return whole * float_from_integer<Real
 bool advance_part(Coord& coordinate, Real whole, Fraction part) {
   constexpr int k_bits = 46;
   bool saturated = false;
-  const int64_t way = integer_from_float(whole, k_bits, saturated);
-  const int64_t step = Int128::product(way, part.raw).round_shift(Fraction::k_frac + k_bits - Coord::k_frac);
+  const int64_t displacement = integer_from_float(whole, k_bits, saturated);
+  const int64_t step = Int128::product(displacement, part.raw).round_shift(Fraction::k_frac + k_bits - Coord::k_frac);
   const int64_t sum = add_wrapped(coordinate.raw, step);
   if (((coordinate.raw ^ sum) & (step ^ sum)) < 0) {
     saturated = true;
@@ -132,7 +132,7 @@ Sweep sweep_part(const Sweep& sweep, Fraction part) {
   const auto of = [part](const Vec3<Real>& v) {
     return Vec3<Real>{part_of(v.x, part), part_of(v.y, part), part_of(v.z, part)};
   };
-  return {of(sweep.displacement), of(sweep.turn)};
+  return {of(sweep.displacement), of(sweep.rotation_vector)};
 }
 
 uint32_t advance_along(const Sweep& sweep, Fraction part, BodyPose& pose) {

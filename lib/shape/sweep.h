@@ -11,23 +11,23 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// `from` translated by `way`, clamped to Coord's range.
-inline Position moved(const Position& from, const Vec3<Real>& way) {
+/// `from` translated by `displacement`, clamped to Coord's range.
+inline Position moved(const Position& from, const Vec3<Real>& displacement) {
   bool beyond = false;
-  return {coord_advance(from.x, way.x, beyond), coord_advance(from.y, way.y, beyond),
-          coord_advance(from.z, way.z, beyond)};
+  return {coord_advance(from.x, displacement.x, beyond), coord_advance(from.y, displacement.y, beyond),
+          coord_advance(from.z, displacement.z, beyond)};
 }
 
 struct Sweep {
-  Vec3<Real> displacement;  ///< of the centre of mass over the step, m
-  Vec3<Real> turn;          ///< rotation vector over the step, world, rad
+  Vec3<Real> displacement;     ///< of the centre of mass over the step, m
+  Vec3<Real> rotation_vector;  ///< rotation vector over the step, world, rad
 };
 
 /// The sweep that starts at `start` and ends at rotation `end` after moving by `displacement`. Several rotation vectors
-/// lead to `end`; they differ by full revolutions. The sweep gets the one nearest to `turn_estimate` (rotation vector,
+/// lead to `end`; they differ by full revolutions. The sweep gets the one nearest to `angle_estimate` (rotation vector,
 /// rad).
 Sweep sweep_between(const Quat& start, const Quat& end, const Vec3<Real>& displacement,
-                    const Vec3<Real>& turn_estimate);
+                    const Vec3<Real>& angle_estimate);
 
 /// Rotation at the end of the sweep from `start`. Error (fixed): 2^-28 in each component. Unit length within 2^-29.
 Quat sweep_end_rotation(const Quat& start, const Sweep& sweep);

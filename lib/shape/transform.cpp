@@ -26,9 +26,9 @@ Vec3<Real> vector_to_local(const Quat& rotation, const Vec3<Real>& vector) {
   return rotate_inverse(rotation, vector);
 }
 
-Quat turned_by(const Quat& rotation, const Vec3<Real>& turn) {
+Quat rotated_by(const Quat& rotation, const Vec3<Real>& rotation_vector) {
   const FloatEnvironment environment;
-  return normalise(multiply(rotation_from_vector(turn), rotation));
+  return normalise(multiply(rotation_from_vector(rotation_vector), rotation));
 }
 
 }  // namespace DETENT_NAMESPACE

@@ -10,13 +10,13 @@ namespace {
 
 constexpr uint64_t k_order_seed = 0x6465746e74736f72u;
 
-uint64_t id_word(Span<const BodyTraits> traits, uint32_t slot) {
-  return (uint64_t{traits[slot].generation} << 32) | (slot + 1);
+uint64_t id_word(Span<const BodyProperties> properties, uint32_t slot) {
+  return (uint64_t{properties[slot].generation} << 32) | (slot + 1);
 }
 
-uint32_t pair_hash(Span<const BodyTraits> traits, const ContactState& contact) {
-  const uint64_t low = digest_step(k_order_seed, id_word(traits, contact.body_a));
-  uint64_t pair = digest_step(low, id_word(traits, contact.body_b));
+uint32_t pair_hash(Span<const BodyProperties> properties, const ContactState& contact) {
+  const uint64_t low = digest_step(k_order_seed, id_word(properties, contact.body_a));
+  uint64_t pair = digest_step(low, id_word(properties, contact.body_b));
   if (contact.part != 0) pair = digest_step(pair, contact.part);
   return static_cast<uint32_t>(digest_finish(pair) >> 32);
 }
@@ -28,8 +28,8 @@ uint16_t kind_of(const ContactWork& contact) {
 }
 
 /// Takes the lowest colour that is free at both bodies, or k_colour_overflow.
-uint16_t take_colour(Span<const BodyTraits> traits, const ContactState& contact, Span<BodyWork> work) {
-  const bool colours_a = is_dynamic(traits[contact.body_a]), colours_b = is_dynamic(traits[contact.body_b]);
+uint16_t take_colour(Span<const BodyProperties> properties, const ContactState& contact, Span<BodyWork> work) {
+  const bool colours_a = is_dynamic(properties[contact.body_a]), colours_b = is_dynamic(properties[contact.body_b]);
   uint64_t taken = 0;
   if (colours_a) taken |= work[contact.body_a].colours;
   if (colours_b) taken |= work[contact.body_b].colours;
@@ -43,16 +43,17 @@ uint16_t take_colour(Span<const BodyTraits> traits, const ContactState& contact,
 
 }  // namespace
 
-uint32_t order_contacts(Span<const BodyTraits> traits, Span<const ContactWork> contacts, Span<const Island> islands,
-                        Span<BodyWork> work, Span<ContactOrder> spare, Span<ContactOrder> order) {
+uint32_t order_contacts(Span<const BodyProperties> properties, Span<const ContactWork> contacts,
+                        Span<const Island> islands, Span<BodyWork> work, Span<ContactOrder> spare,
+                        Span<ContactOrder> order) {
   for (uint32_t i = 0; i < contacts.count; ++i) {
-    order[i] = {pair_hash(traits, contacts[i].state), i, 0, 0, island_of(traits, work, contacts[i].state)};
+    order[i] = {pair_hash(properties, contacts[i].state), i, 0, 0, island_of(properties, work, contacts[i].state)};
   }
   radix_sort(
       order, spare, [](const ContactOrder& entry, int digit) { return entry.key >> (8 * digit) & 255; }, 4);
   uint32_t overflows = 0;
   for (ContactOrder& entry : order) {
-    entry.colour = take_colour(traits, contacts[entry.contact].state, work);
+    entry.colour = take_colour(properties, contacts[entry.contact].state, work);
     overflows += entry.colour == k_colour_overflow ? 1 : 0;
   }
   for (ContactOrder& entry : order) entry.kind = kind_of(contacts[entry.contact]);

@@ -18,8 +18,9 @@ inline constexpr uint16_t k_colour_overflow = 64;
 ///
 /// In: `work` has the bodies' islands and `islands` the places of their contacts, from find_islands(). `spare` is work
 /// space as large as `order`. Returns the number of contacts that found no free colour.
-uint32_t order_contacts(Span<const BodyTraits> traits, Span<const ContactWork> contacts, Span<const Island> islands,
-                        Span<BodyWork> work, Span<ContactOrder> spare, Span<ContactOrder> order);
+uint32_t order_contacts(Span<const BodyProperties> properties, Span<const ContactWork> contacts,
+                        Span<const Island> islands, Span<BodyWork> work, Span<ContactOrder> spare,
+                        Span<ContactOrder> order);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

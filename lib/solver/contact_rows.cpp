@@ -2,10 +2,10 @@
 
 #include "base/unroll.h"
 #include "math/root.h"
+#include "motion/angular_velocity.h"
 #include "motion/contact_motion.h"
-#include "motion/gyration.h"
-#include "motion/spin.h"
-#include "shape/shape_traits.h"
+#include "motion/inverse_inertia.h"
+#include "shape/shape_properties.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -40,7 +40,7 @@ Real real_part(Real value, uint64_t) { return value; }
 template <class Number>
 void add_response(const ContactWork& work, const Number (&turning)[3][3], int exponent, const Vec3<Unit>& arm,
                   Unit unit, Scaled share, PairResponse& response) {
-  const Unit reach[3] = {dot(arm, work.normal), dot(arm, work.tangent[0]), dot(arm, work.tangent[1])};
+  const Unit along[3] = {dot(arm, work.normal), dot(arm, work.tangent[0]), dot(arm, work.tangent[1])};
   const bool whole = share == Scaled(1.0);
   const uint64_t power = real_power(exponent);
   const auto add_part = [&](int i, int k, Number part, bool moves) {
@@ -52,37 +52,38 @@ void add_response(const ContactWork& work, const Number (&turning)[3][3], int ex
   for (int k = 0; k < 3; ++k) {
     // r x e_k has components along the two other axes.
     const int next = (k + 1) % 3, last = (k + 2) % 3;
-    Number spin[3];
+    Number angular_velocity[3];
     DETENT_UNROLL
     for (int i = 0; i < 3; ++i) {
-      spin[i] = turning[i][next] * reach[last] - turning[i][last] * reach[next];
-      add_part(i + 3, k, spin[i] * unit, false);
+      angular_velocity[i] = turning[i][next] * along[last] - turning[i][last] * along[next];
+      add_part(i + 3, k, angular_velocity[i] * unit, false);
     }
     DETENT_UNROLL
     for (int i = 0; i < 3; ++i) {
       if (i > k) continue;
       const int after = (i + 1) % 3, before = (i + 2) % 3;
-      add_part(i, k, spin[after] * reach[before] - spin[before] * reach[after], i == k);
+      add_part(i, k, angular_velocity[after] * along[before] - angular_velocity[before] * along[after], i == k);
       add_part(i + 3, k + 3, (turning[i][k] * unit) * unit, false);
     }
   }
 }
 
-PairResponse respond(const WorldGyration& a, const WorldGyration& b, const ContactWork& work) {
+PairResponse respond(const WorldInverseInertia& a, const WorldInverseInertia& b, const ContactWork& work) {
   PairResponse response = {};
-  const auto add_body = [&](const WorldGyration& gyration, const Vec3<Unit>& arm, Unit unit, Scaled share) {
+  const auto add_body = [&](const WorldInverseInertia& inverse_inertia, const Vec3<Unit>& arm, Unit unit,
+                            Scaled share) {
     if (!is_positive(share)) return;
     const Vec3<Unit>* const axis[3] = {&work.normal, &work.tangent[0], &work.tangent[1]};
     Unit turning[3][3];
     DETENT_UNROLL
     for (int k = 0; k < 3; ++k) {
-      const Vec3<Unit> turned = multiply(gyration, *axis[k]);
+      const Vec3<Unit> turned = multiply(inverse_inertia, *axis[k]);
       for (int i = 0; i <= k; ++i) turning[i][k] = turning[k][i] = dot(*axis[i], turned);
     }
-    add_response(work, turning, gyration.exponent, arm, unit, share, response);
+    add_response(work, turning, inverse_inertia.exponent, arm, unit, share, response);
   };
-  add_body(a, work.middle_a, work.unit_a, work.share_a);
-  add_body(b, work.middle_b, work.unit_b, work.share_b);
+  add_body(a, work.middle_a, work.unit_a, work.inverse_mass_a);
+  add_body(b, work.middle_b, work.unit_b, work.inverse_mass_b);
   return response;
 }
 
@@ -157,33 +158,33 @@ Scaled geometric_mean(Scaled a, Scaled b) {
   return is_positive(a) && is_positive(b) ? square_root(multiply(a, b)) : Scaled(0.0);
 }
 
-Scaled pair_restitution(const BodyTraits& a, const BodyTraits& b) {
+Scaled pair_restitution(const BodyProperties& a, const BodyProperties& b) {
   constexpr uint32_t k_smaller = static_cast<uint32_t>(RestitutionRule::smaller);
   const bool smaller = a.restitution_rule == k_smaller || b.restitution_rule == k_smaller;
   return less(a.restitution, b.restitution) == smaller ? a.restitution : b.restitution;
 }
 
 /// Sets the relative inverse masses: the reference mass over the mass of each body; 0 if it is not dynamic.
-void share_mass(const BodyTraits& a, const BodyTraits& b, ContactWork& work) {
+void share_mass(const BodyProperties& a, const BodyProperties& b, ContactWork& work) {
   const Scaled none = 0.0, one = 1.0;
   const bool dynamic_a = is_dynamic(a), dynamic_b = is_dynamic(b);
-  work.share_a = dynamic_a ? one : none;
-  work.share_b = dynamic_b ? one : none;
+  work.inverse_mass_a = dynamic_a ? one : none;
+  work.inverse_mass_b = dynamic_b ? one : none;
   work.static_pair = dynamic_a && dynamic_b ? 0 : 1;
   if (!dynamic_a || !dynamic_b || a.mass == b.mass) return;
   if (less(a.mass, b.mass))
-    work.share_b = divide(a.mass, b.mass);
+    work.inverse_mass_b = divide(a.mass, b.mass);
   else
-    work.share_a = divide(b.mass, a.mass);
+    work.inverse_mass_a = divide(b.mass, a.mass);
 }
 
 /// Returns the exponent of the pair's unit of length, a power of two in m, and sets that unit in the units of the
 /// bodies.
-int32_t share_length(const BodyTraits& a, const BodyTraits& b, ContactWork& work) {
+int32_t share_length(const BodyProperties& a, const BodyProperties& b, ContactWork& work) {
   const bool moves_a = type_of(a) != BodyType::fixed, moves_b = type_of(b) != BodyType::fixed;
   int32_t unit = moves_a ? a.size_exponent : b.size_exponent;
   if (moves_b && b.size_exponent < unit) unit = b.size_exponent;
-  const auto in_unit_of = [unit](bool moves, const BodyTraits& body) {
+  const auto in_unit_of = [unit](bool moves, const BodyProperties& body) {
     return moves ? scale_by_power(Unit(1.0), unit - body.size_exponent) : Unit(0.0);
   };
   work.unit_a = in_unit_of(moves_a, a);
@@ -191,7 +192,7 @@ int32_t share_length(const BodyTraits& a, const BodyTraits& b, ContactWork& work
   return unit;
 }
 
-Real gravity_along(const StepSettings& settings, const BodyTraits& body, const Vec3<Unit>& normal) {
+Real gravity_along(const StepSettings& settings, const BodyProperties& body, const Vec3<Unit>& normal) {
   bool saturated = false;
   if (!is_dynamic(body)) return 0.0;
   const Real whole = dot(settings.gravity, normal);
@@ -214,18 +215,18 @@ Real approach_at_touch(Real velocity, Real separation, Real pull) {
 /// passing would be stopped along the normal of the start.
 __attribute__((noinline)) Real parted_by_sliding(const StepSettings& settings, const RowBody& a, const RowBody& b,
                                                  const Vec3<Unit>& normal, const ContactGeometryPoint& point) {
-  const Unit round_a = round_radius(a.traits), round_b = round_radius(b.traits);
+  const Unit round_a = round_radius(a.properties), round_b = round_radius(b.properties);
   const auto velocity_of = [](const RowBody& body, const Vec3<Unit>& arm) {
-    const Vec3<Real> turning = cross(body.spin, arm);
-    return body.motion.velocity + scale_by_power(turning, k_spin_power);
+    const Vec3<Real> turning = cross(body.angular_velocity, arm);
+    return body.motion.linear_velocity + scale_by_power(turning, k_angular_velocity_power);
   };
   const Vec3<Real> velocity =
       velocity_of(b, point.arm_b + normal * round_b) - velocity_of(a, point.arm_a - normal * round_a);
   const Vec3<Real> across = velocity - normal * dot(velocity, normal);
-  const Real distance = real_from_unit(round_a, a.traits.size_exponent) +
-                        real_from_unit(round_b, b.traits.size_exponent) + point.separation;
-  const Real way = min(length(across) * settings.tick_time, distance);
-  return way * divide(way, distance);
+  const Real distance = real_from_unit(round_a, a.properties.size_exponent) +
+                        real_from_unit(round_b, b.properties.size_exponent) + point.separation;
+  const Real displacement = min(length(across) * settings.tick_time, distance);
+  return displacement * divide(displacement, distance);
 }
 
 /// The weight of each of `count` points in a mean.
@@ -261,7 +262,7 @@ Unit place_points(const ContactGeometry& geometry, Vec3<Unit> ContactGeometryPoi
 
 }  // namespace
 
-void renew_response(const WorldGyration& a, const WorldGyration& b, ContactWork& work) {
+void renew_response(const WorldInverseInertia& a, const WorldInverseInertia& b, ContactWork& work) {
   const PairResponse response = respond(a, b, work);
   const auto own = [&](Part part) { return response.part[response_index(part, part)]; };
   Real most = 1.0;
@@ -278,23 +279,25 @@ void make_rows(const StepSettings& settings, const RowBody& a, const RowBody& b,
                ContactWork& work) {
   work.normal = geometry.normal;
   make_tangents(work.normal, work.tangent);
-  share_mass(a.traits, b.traits, work);
-  const int32_t unit = share_length(a.traits, b.traits, work);
+  share_mass(a.properties, b.properties, work);
+  const int32_t unit = share_length(a.properties, b.properties, work);
   work.middle_a = mean(geometry, &ContactGeometryPoint::arm_a);
   work.middle_b = mean(geometry, &ContactGeometryPoint::arm_b);
-  work.lever_a = cross(work.middle_a, work.normal);
-  work.lever_b = cross(work.middle_b, work.normal);
+  work.moment_a = cross(work.middle_a, work.normal);
+  work.moment_b = cross(work.middle_b, work.normal);
   const Unit patch = work.unit_a == Unit(1.0)
                          ? place_points(geometry, &ContactGeometryPoint::arm_a, work.middle_a, work)
                          : place_points(geometry, &ContactGeometryPoint::arm_b, work.middle_b, work);
 
-  renew_response(a.gyration, b.gyration, work);
+  renew_response(a.inverse_inertia, b.inverse_inertia, work);
 
-  const Real pull = gravity_along(settings, b.traits, work.normal) - gravity_along(settings, a.traits, work.normal);
-  const PairMotion<One> motion(Block(), b.motion.velocity - a.motion.velocity, a.spin, b.spin, k_spin_power);
+  const Real pull =
+      gravity_along(settings, b.properties, work.normal) - gravity_along(settings, a.properties, work.normal);
+  const PairMotion<One> motion(Block(), b.motion.linear_velocity - a.motion.linear_velocity, a.angular_velocity,
+                               b.angular_velocity, k_angular_velocity_power);
   const NormalMotion<One> start(motion, work);
   const bool is_round = geometry.turns && !a.jointed && !b.jointed &&
-                        (round_radius(a.traits) > Unit(0.0) || round_radius(b.traits) > Unit(0.0));
+                        (round_radius(a.properties) > Unit(0.0) || round_radius(b.properties) > Unit(0.0));
   for (uint32_t i = 0; i < geometry.count; ++i) {
     const ContactGeometryPoint& point = geometry.point[i];
     work.separation[i] = point.separation;
@@ -305,9 +308,9 @@ void make_rows(const StepSettings& settings, const RowBody& a, const RowBody& b,
   }
   for (int i = 0; i < 2; ++i) work.friction_impulse[i] = dot(work.state.friction_impulse, work.tangent[i]);
 
-  work.friction = geometric_mean(a.traits.friction, b.traits.friction);
-  work.restitution = pair_restitution(a.traits, b.traits);
-  const Scaled &rolls_a = a.traits.rolling_resistance, &rolls_b = b.traits.rolling_resistance;
+  work.friction = geometric_mean(a.properties.friction, b.properties.friction);
+  work.restitution = pair_restitution(a.properties, b.properties);
+  const Scaled &rolls_a = a.properties.rolling_resistance, &rolls_b = b.properties.rolling_resistance;
   const Scaled rolling = less(rolls_a, rolls_b) ? rolls_b : rolls_a;
   const Real extent = min(a.extent, b.extent);
   work.rolling_arm = multiply(rolling, scaled_by_power(scaled_from(extent), -1 - unit));
@@ -337,24 +340,24 @@ void leave_to_impact(const StepSettings& settings, const RowBody& a, const RowBo
   for (Unit& mass : work.inverse_mass) mass = Unit(0.0);
 }
 
-PairResponse respond_exactly(const BodyTraits& a, const Quat& rotation_a, const BodyTraits& b, const Quat& rotation_b,
-                             const ContactWork& work) {
+PairResponse respond_exactly(const BodyProperties& a, const Quat& rotation_a, const BodyProperties& b,
+                             const Quat& rotation_b, const ContactWork& work) {
   PairResponse response = {};
-  const auto add_body = [&](const BodyTraits& traits, const Quat& rotation, const Vec3<Unit>& arm, Unit unit,
+  const auto add_body = [&](const BodyProperties& properties, const Quat& rotation, const Vec3<Unit>& arm, Unit unit,
                             Scaled share) {
     if (!is_positive(share)) return;
     const Vec3<Unit>* const axis[3] = {&work.normal, &work.tangent[0], &work.tangent[1]};
     Real turning[3][3];
     for (int k = 0; k < 3; ++k) {
-      const Vec3<Real> momentum = {real_from_unit(axis[k]->x, 0), real_from_unit(axis[k]->y, 0),
-                                   real_from_unit(axis[k]->z, 0)};
-      const Vec3<Real> turned = spin_of(traits, rotation, momentum);
+      const Vec3<Real> angular_momentum = {real_from_unit(axis[k]->x, 0), real_from_unit(axis[k]->y, 0),
+                                           real_from_unit(axis[k]->z, 0)};
+      const Vec3<Real> turned = angular_velocity_of(properties, rotation, angular_momentum);
       for (int i = 0; i <= k; ++i) turning[i][k] = turning[k][i] = dot(turned, *axis[i]);
     }
     add_response(work, turning, 0, arm, unit, share, response);
   };
-  add_body(a, rotation_a, work.middle_a, work.unit_a, work.share_a);
-  add_body(b, rotation_b, work.middle_b, work.unit_b, work.share_b);
+  add_body(a, rotation_a, work.middle_a, work.unit_a, work.inverse_mass_a);
+  add_body(b, rotation_b, work.middle_b, work.unit_b, work.inverse_mass_b);
   return response;
 }
 

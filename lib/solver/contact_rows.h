@@ -9,14 +9,15 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// One body of a contact, as input for the rows. Its inverse inertia and its angular velocity, 2^-k_spin_power m/s, are
-/// in world axes. `extent` is its smallest diameter, m; `fall` is the speed of a fall by it, m/s.
+/// One body of a contact, as input for the rows. Its inverse inertia and its angular velocity,
+/// 2^-k_angular_velocity_power m/s, are in world axes. `extent` is its smallest diameter, m; `fall` is the speed of a
+/// fall by it, m/s.
 struct RowBody {
-  const BodyTraits& traits;
+  const BodyProperties& properties;
   const BodyPose& pose;
   const BodyMotion& motion;
-  const WorldGyration& gyration;
-  const Vec3<Real>& spin;
+  const WorldInverseInertia& inverse_inertia;
+  const Vec3<Real>& angular_velocity;
   Real extent, fall;
   bool jointed = false;  ///< impacts do not stop the body (impact.h), only its contacts do
 };
@@ -59,7 +60,7 @@ void leave_to_impact(const StepSettings& settings, const RowBody& a, const RowBo
 inline bool is_left_to_impact(const ContactWork& work) { return work.inverse_mass[0] == Unit(0.0); }
 
 /// Recomputes the responses and effective masses for the current inverse inertias of A and B. All else stays.
-void renew_response(const WorldGyration& a, const WorldGyration& b, ContactWork& work);
+void renew_response(const WorldInverseInertia& a, const WorldInverseInertia& b, ContactWork& work);
 
 /// The matrix K of a pair times the reference mass: the change of its motion by a wrench at the middle. Elements by
 /// response_index().
@@ -69,8 +70,8 @@ struct PairResponse {
 
 /// Computes the response with the precision of Real. The one that make_rows() stores is rounded to 2^-30 of the largest
 /// element, which is a large error for a slender body.
-PairResponse respond_exactly(const BodyTraits& a, const Quat& rotation_a, const BodyTraits& b, const Quat& rotation_b,
-                             const ContactWork& work);
+PairResponse respond_exactly(const BodyProperties& a, const Quat& rotation_a, const BodyProperties& b,
+                             const Quat& rotation_b, const ContactWork& work);
 
 /// Stores the impulses of the solve in `work.state`, in world axes.
 void store_impulses(ContactWork& work);

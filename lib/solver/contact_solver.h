@@ -173,8 +173,8 @@ struct ContactSolver {
   void solve_normals() {
     typename Kind::Block near;
     near.include(contact.separation, contact.state.point_count);
-    const PairMotion<Kind> moved(near, b.displacement - a.displacement, a.turn, b.turn, 0);
-    const NormalMotion<Kind> way(moved, contact);
+    const PairMotion<Kind> moved(near, b.displacement - a.displacement, a.rotation_vector, b.rotation_vector, 0);
+    const NormalMotion<Kind> displacement(moved, contact);
     typename Kind::Block room;
     room.include(contact.state.normal_impulse, contact.state.point_count);
     const PairMotion<Kind> motion = relative_motion(room);
@@ -191,7 +191,7 @@ struct ContactSolver {
       apart[i] = Kind::all();
       if (i >= normals.count) continue;
       // The separation at the start of the tick plus the displacement since then, to first order.
-      const Factor separation = held(moved.block.number(contact.separation[i]) + way.at(contact, i));
+      const Factor separation = held(moved.block.number(contact.separation[i]) + displacement.at(contact, i));
       apart[i] = separation > none;
       const Factor length = select(apart[i], separation, Factor(held(times(separation, soft.rate))));
       const Factor speed =
@@ -199,9 +199,9 @@ struct ContactSolver {
       push[i] = select(apart[i], speed, max(speed, Factor(-push_max)));
     }
     normals.solve(k_normal_sweeps, [&](uint32_t i) {
-      const Factor wanted = held(times(held(normals.speed(i) + push[i]), contact.inverse_mass[i]));
-      const Number softly = times(wanted, soft.mass_scale) + times(held(normals.impulse[i]), soft.impulse_scale);
-      return relaxed(select(apart[i], Number(wanted), softly));
+      const Factor step = held(times(held(normals.speed(i) + push[i]), contact.inverse_mass[i]));
+      const Number softly = times(step, soft.mass_scale) + times(held(normals.impulse[i]), soft.impulse_scale);
+      return relaxed(select(apart[i], Number(step), softly));
     });
     DETENT_UNROLL
     for (uint32_t i = 0; i < k_manifold_points_max; ++i) {
@@ -245,7 +245,8 @@ struct ContactSolver {
   }
 
   PairMotion<Kind> relative_motion(const typename Kind::Block& room) const {
-    return {room, b.velocity - a.velocity, a.spin, b.spin, k_spin_power};
+    return {room, b.linear_velocity - a.linear_velocity, a.angular_velocity, b.angular_velocity,
+            k_angular_velocity_power};
   }
 
  private:
@@ -281,8 +282,8 @@ struct ContactSolver {
   /// Twist: angular velocity about the normal, within its limit.
   void twist(Factor normal, Sliding<Kind>& sliding) {
     const Factor limit = times(normal, contact.twist_arm);
-    const Factor wanted = stopped(sliding, k_about_normal, contact.angular_impulse[0], contact.angular_mass[0]);
-    sliding.template bring<k_about_normal>(clamp(wanted, Factor(-limit), limit), contact.angular_impulse[0]);
+    const Factor step = stopped(sliding, k_about_normal, contact.angular_impulse[0], contact.angular_mass[0]);
+    sliding.template bring<k_about_normal>(clamp(step, Factor(-limit), limit), contact.angular_impulse[0]);
   }
   /// Sliding: velocity along the tangents, within the friction cone.
   void solve_friction(Factor normal, Sliding<Kind>& sliding) {

@@ -27,9 +27,9 @@ bool join(Span<BodyWork> work, uint32_t BodyWork::*link, uint32_t a, uint32_t b,
 
 }  // namespace
 
-uint32_t find_islands(Span<const uint32_t> slots, Span<const BodyTraits> traits, Span<const BodyActivity> activities,
-                      Span<const ContactWork> contacts, const JointStage& joints, Span<BodyWork> work,
-                      Span<Island> islands, Span<uint32_t> bodies) {
+uint32_t find_islands(Span<const uint32_t> slots, Span<const BodyProperties> properties,
+                      Span<const BodyActivity> activities, Span<const ContactWork> contacts, const JointStage& joints,
+                      Span<BodyWork> work, Span<Island> islands, Span<uint32_t> bodies) {
   for (const uint32_t slot : slots) {
     BodyWork& now = work[slot];
     now.island = now.run = slot;
@@ -62,7 +62,7 @@ uint32_t find_islands(Span<const uint32_t> slots, Span<const BodyTraits> traits,
   }
   uint32_t count = 0;
   for (const uint32_t slot : slots) {
-    if (!is_awake(traits[slot], activities[slot])) continue;
+    if (!is_awake(properties[slot], activities[slot])) continue;
     uint32_t& island = work[slot].island;
     if (island == slot) {
       islands[count] = {};
@@ -72,7 +72,7 @@ uint32_t find_islands(Span<const uint32_t> slots, Span<const BodyTraits> traits,
     }
     ++islands[island].body_count;
   }
-  for (const ContactWork& contact : contacts) ++islands[island_of(traits, work, contact.state)].contact_count;
+  for (const ContactWork& contact : contacts) ++islands[island_of(properties, work, contact.state)].contact_count;
   uint32_t first_body = 0, first_contact = 0;
   for (Island& island : islands.first(count)) {
     island.first_body = first_body;
@@ -82,7 +82,7 @@ uint32_t find_islands(Span<const uint32_t> slots, Span<const BodyTraits> traits,
     island.body_count = 0;
   }
   for (const uint32_t slot : slots) {
-    if (!is_awake(traits[slot], activities[slot])) continue;
+    if (!is_awake(properties[slot], activities[slot])) continue;
     Island& island = islands[work[slot].island];
     bodies[island.first_body + island.body_count++] = slot;
   }

@@ -3,7 +3,7 @@
 
 #include "base/span.h"
 #include "joint/joint.h"
-#include "motion/spin.h"
+#include "motion/angular_velocity.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -16,13 +16,14 @@ inline namespace DETENT_NAMESPACE {
 /// island and sets their range in the order of the solve. Returns the number of islands.
 ///
 /// A *run* is a row of bodies that touch at most two others each, for example a tower.
-uint32_t find_islands(Span<const uint32_t> slots, Span<const BodyTraits> traits, Span<const BodyActivity> activities,
-                      Span<const ContactWork> contacts, const JointStage& joints, Span<BodyWork> work,
-                      Span<Island> islands, Span<uint32_t> bodies);
+uint32_t find_islands(Span<const uint32_t> slots, Span<const BodyProperties> properties,
+                      Span<const BodyActivity> activities, Span<const ContactWork> contacts, const JointStage& joints,
+                      Span<BodyWork> work, Span<Island> islands, Span<uint32_t> bodies);
 
 /// The island of a contact is that of its dynamic body.
-inline uint32_t island_of(Span<const BodyTraits> traits, Span<const BodyWork> work, const ContactState& contact) {
-  return work[is_dynamic(traits[contact.body_a]) ? contact.body_a : contact.body_b].island;
+inline uint32_t island_of(Span<const BodyProperties> properties, Span<const BodyWork> work,
+                          const ContactState& contact) {
+  return work[is_dynamic(properties[contact.body_a]) ? contact.body_a : contact.body_b].island;
 }
 
 }  // namespace DETENT_NAMESPACE

@@ -1,7 +1,7 @@
 #include "solver/post_stabilise.h"
 
 #include "math/trig.h"
-#include "motion/spin.h"
+#include "motion/angular_velocity.h"
 #include "solver/contact_solver.h"
 
 namespace detent {
@@ -14,28 +14,30 @@ constexpr int k_position_sweeps = 4;  ///< sweeps over the contacts of an island
 struct MovedBody {
   BodyMotion motion;
   BodyWork& work;
-  Vec3<Real> turn = k_zero_vector;
+  Vec3<Real> rotation_vector = k_zero_vector;
   Vec3<Real> none = k_zero_vector;
 
   explicit MovedBody(BodyWork& of) : motion{of.displacement, k_zero_vector, k_zero_vector, k_zero_vector}, work(of) {}
   SolvedBody solved() {
-    return {motion.velocity, motion.momentum, turn, none, none, work.displacement, work.turn, work.gyration};
+    return {motion.linear_velocity, motion.angular_momentum, rotation_vector,     none, none,
+            work.displacement,      work.rotation_vector,    work.inverse_inertia};
   }
   void store() {
-    work.displacement = motion.velocity;
-    const Vec3<Real> more = scale_by_power(turn, k_spin_power);
-    work.turn += more;
-    work.spin += turn;  // sum of all rotations: applied to `rotation` at the end
+    work.displacement = motion.linear_velocity;
+    const Vec3<Real> more = scale_by_power(rotation_vector, k_angular_velocity_power);
+    work.rotation_vector += more;
+    work.angular_velocity += rotation_vector;  // sum of all rotations: applied to `rotation` at the end
   }
 };
 
 void part(const StepSettings& settings, ContactWork& contact, BodyWork& work_a, BodyWork& work_b) {
   Block room;
   room.include(contact.separation, contact.state.point_count);
-  const PairMotion<One> moved(room, work_b.displacement - work_a.displacement, work_a.turn, work_b.turn, 0);
+  const PairMotion<One> moved(room, work_b.displacement - work_a.displacement, work_a.rotation_vector,
+                              work_b.rotation_vector, 0);
   const Block& block = moved.block;
-  const NormalMotion<One> way(moved, contact);
-  Normals<One> normals(contact, block, way);
+  const NormalMotion<One> displacement(moved, contact);
+  Normals<One> normals(contact, block, displacement);
   const Factor most = block.held(contact.push_max * settings.tick_time);
   for (uint32_t i = 0; i < normals.count; ++i) {
     normals.impulse[i] = k_no_ulps;
@@ -52,15 +54,15 @@ void part(const StepSettings& settings, ContactWork& contact, BodyWork& work_a, 
   MovedBody a(work_a), b(work_b);
   SolvedBody solved_a = a.solved(), solved_b = b.solved();
   apply_normal<One>(contact, block, along, about_first, about_second, solved_a, solved_b);
-  if (is_positive(contact.share_a)) a.store();
-  if (is_positive(contact.share_b)) b.store();
+  if (is_positive(contact.inverse_mass_a)) a.store();
+  if (is_positive(contact.inverse_mass_b)) b.store();
 }
 
 }  // namespace
 
 uint32_t post_stabilise(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> island,
                         Span<const ContactOrder> order, Span<ContactWork> contacts) {
-  for (const uint32_t slot : island) bodies.work[slot].spin = k_zero_vector;
+  for (const uint32_t slot : island) bodies.work[slot].angular_velocity = k_zero_vector;
   for (int sweep = 0; sweep < k_position_sweeps; ++sweep) {
     for (const ContactOrder& entry : order) {
       ContactWork& contact = contacts[entry.contact];
@@ -70,11 +72,12 @@ uint32_t post_stabilise(const StepSettings& settings, const SolverBodies& bodies
   bool clamped = false;
   for (const uint32_t slot : island) {
     BodyWork& work = bodies.work[slot];
-    const int exponent = bodies.traits[slot].size_exponent;
-    const Vec3<Real> turn = scale_by_power(work.spin, k_spin_power);
-    if (turn == k_zero_vector) continue;
-    const Vec3<Real> angle = {angle_of(turn.x, exponent, clamped), angle_of(turn.y, exponent, clamped),
-                              angle_of(turn.z, exponent, clamped)};
+    const int exponent = bodies.properties[slot].size_exponent;
+    const Vec3<Real> rotation_vector = scale_by_power(work.angular_velocity, k_angular_velocity_power);
+    if (rotation_vector == k_zero_vector) continue;
+    const Vec3<Real> angle = {angle_of(rotation_vector.x, exponent, clamped),
+                              angle_of(rotation_vector.y, exponent, clamped),
+                              angle_of(rotation_vector.z, exponent, clamped)};
     work.rotation = normalise(multiply(rotation_from_vector(angle), work.rotation));
   }
   return clamped ? 1 : 0;

@@ -2,13 +2,13 @@
 
 #include "base/processor.h"
 #include "joint/joint.h"
-#include "motion/gyration.h"
-#include "motion/spin.h"
+#include "motion/angular_velocity.h"
+#include "motion/inverse_inertia.h"
 #include "solver/contact_order.h"
 #include "solver/contact_rows.h"
 #include "solver/contact_solver.h"
 #include "solver/post_stabilise.h"
-#include "solver/solve_quads.h"
+#include "solver/solve_lanes.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -22,28 +22,33 @@ uint32_t integrate_velocities(const SolverBodies& bodies, Span<const uint32_t> i
   for (const uint32_t slot : island) {
     BodyMotion& motion = bodies.motions[slot];
     BodyWork& now = bodies.work[slot];
-    const Vec3<Real> pushed = first ? k_zero_vector : added_by_contacts(motion.velocity, now.contact_velocity);
-    const Vec3<Real> turned = first ? k_zero_vector : added_by_contacts(motion.momentum, now.contact_momentum);
-    motion.velocity += now.push;
-    motion.momentum += now.twist;
-    if (!(now.linear_kept == one)) motion.velocity = multiply(motion.velocity, now.linear_kept);
-    if (!(now.angular_kept == one)) motion.momentum = multiply(motion.momentum, now.angular_kept);
-    now.contact_velocity = kept_at_start(motion.velocity, pushed);
-    now.contact_momentum = kept_at_start(motion.momentum, turned);
-    motion.velocity += pushed;
-    motion.momentum += turned;
-    clamped += clamp_vector(motion.velocity, k_speed_work_max) + clamp_vector(motion.momentum, k_spin_work_max);
+    const Vec3<Real> pushed = first ? k_zero_vector : added_by_contacts(motion.linear_velocity, now.contact_velocity);
+    const Vec3<Real> turned =
+        first ? k_zero_vector : added_by_contacts(motion.angular_momentum, now.contact_angular_momentum);
+    motion.linear_velocity += now.push;
+    motion.angular_momentum += now.twist;
+    if (!(now.linear_kept == one)) motion.linear_velocity = multiply(motion.linear_velocity, now.linear_kept);
+    if (!(now.angular_kept == one)) motion.angular_momentum = multiply(motion.angular_momentum, now.angular_kept);
+    now.contact_velocity = kept_at_start(motion.linear_velocity, pushed);
+    now.contact_angular_momentum = kept_at_start(motion.angular_momentum, turned);
+    motion.linear_velocity += pushed;
+    motion.angular_momentum += turned;
+    clamped += clamp_vector(motion.linear_velocity, k_speed_work_max) +
+               clamp_vector(motion.angular_momentum, k_angular_velocity_work_max);
     // Only contacts read it.
-    if (touches) now.spin = world_spin(bodies.traits[slot], now.gyration, motion.momentum, -k_spin_power);
+    if (touches)
+      now.angular_velocity = world_angular_velocity(bodies.properties[slot], now.inverse_inertia,
+                                                    motion.angular_momentum, -k_angular_velocity_power);
   }
   return clamped;
 }
 
-uint32_t turn(const BodyTraits& traits, const BodyMotion& motion, Real time, int halvings, BodyWork& now) {
-  if (motion.momentum == Vec3<Real>{k_zero, k_zero, k_zero}) return 0;
-  Vec3<Real> spin;
-  const bool whole = turn_freely(traits, now.free_turn, motion.momentum, time, halvings, now.rotation, spin);
-  now.turn += spin * time;
+uint32_t rotate(const BodyProperties& properties, const BodyMotion& motion, Real time, int halvings, BodyWork& now) {
+  if (motion.angular_momentum == Vec3<Real>{k_zero, k_zero, k_zero}) return 0;
+  Vec3<Real> angular_velocity;
+  const bool whole = rotate_freely(properties, now.free_rotation, motion.angular_momentum, time, halvings, now.rotation,
+                                   angular_velocity);
+  now.rotation_vector += angular_velocity * time;
   return whole ? 0 : 1;
 }
 
@@ -55,9 +60,9 @@ uint32_t integrate_positions(const SolverBodies& bodies, Span<const uint32_t> is
     // A body in free flight, without contact or joint impulses, moves at the mean of its velocities before and after
     // the push.
     const bool flies =
-        now.joint_body == k_no_link && added_by_contacts(motion.velocity, now.contact_velocity) == k_zero_vector;
-    now.displacement += (flies ? motion.velocity - scale_by_power(now.push, -1) : motion.velocity) * time;
-    clamped += turn(bodies.traits[slot], motion, time, halvings, now);
+        now.joint_body == k_no_link && added_by_contacts(motion.linear_velocity, now.contact_velocity) == k_zero_vector;
+    now.displacement += (flies ? motion.linear_velocity - scale_by_power(now.push, -1) : motion.linear_velocity) * time;
+    clamped += rotate(bodies.properties[slot], motion, time, halvings, now);
   }
   return clamped;
 }
@@ -85,10 +90,10 @@ void rebound(ContactSolver<One>& solver) {
     settled = true;
     for (uint32_t i = 0; i < count; ++i) {
       if (contact.approach[i] > -contact.rebound_min || contact.impulse_max[i] == k_zero) continue;
-      const Ulps missing = normals.speed(i) + motion.block.held(multiply(contact.approach[i], contact.restitution));
+      const Ulps residual = normals.speed(i) + motion.block.held(multiply(contact.approach[i], contact.restitution));
       const Ulps impulse = normals.impulse[i], little = motion.block.held(scale_by_power(contact.approach[i], -20));
-      normals.change(i, times(held(missing), contact.inverse_mass[i]));
-      settled = settled && (count == 1 || max(missing, -missing) <= -little || normals.impulse[i] == impulse);
+      normals.change(i, times(held(residual), contact.inverse_mass[i]));
+      settled = settled && (count == 1 || max(residual, -residual) <= -little || normals.impulse[i] == impulse);
       rebounds[i] = true;
     }
   }
@@ -105,13 +110,13 @@ constexpr uint32_t k_joint_rounds = 4;  ///< rounds per substep that alternate b
 
 /// Stores the velocities before a sweep.
 void remember(const SolverBodies& bodies, Span<const uint32_t> island) {
-  for (const uint32_t slot : island) bodies.work[slot].velocity_before = bodies.motions[slot].velocity;
+  for (const uint32_t slot : island) bodies.work[slot].velocity_before = bodies.motions[slot].linear_velocity;
 }
 
 /// True if no component of a velocity changed by more than `enough` in the last sweep.
 bool has_settled(const SolverBodies& bodies, Span<const uint32_t> island, Real enough) {
   for (const uint32_t slot : island) {
-    const Vec3<Real> change = bodies.motions[slot].velocity - bodies.work[slot].velocity_before;
+    const Vec3<Real> change = bodies.motions[slot].linear_velocity - bodies.work[slot].velocity_before;
     if (greatest(change) > enough) return false;
   }
   return true;
@@ -124,7 +129,7 @@ void pass(const StepSettings& settings, const SolverBodies& bodies, Span<const C
           Span<ContactWork> contacts, const TakeOne& one, const TakeFour& four) {
   for (uint32_t i = 0; i < order.count;) {
     const ContactOrder& first = order[i];
-    if (settings.quads && i + 4 <= order.count && first.colour != k_colour_overflow) {
+    if (settings.lanes && i + 4 <= order.count && first.colour != k_colour_overflow) {
       const ContactOrder& last = order[i + 3];
       if (first.colour == last.colour && first.kind == last.kind) {
         four(settings, bodies,
@@ -144,10 +149,10 @@ void pass(const StepSettings& settings, const SolverBodies& bodies, Span<const C
 }
 
 /// The displacement and rotation of a kinematic body after `time` of the tick. Its momentum is its angular velocity.
-void place_kinematic(const BodyTraits& traits, const BodyMotion& motion, Real time, BodyWork& now) {
-  if (type_of(traits) != BodyType::kinematic) return;
-  now.displacement = motion.velocity * time;
-  now.turn = motion.momentum * time;
+void place_kinematic(const BodyProperties& properties, const BodyMotion& motion, Real time, BodyWork& now) {
+  if (type_of(properties) != BodyType::kinematic) return;
+  now.displacement = motion.linear_velocity * time;
+  now.rotation_vector = motion.angular_momentum * time;
 }
 
 /// Contacts of jointed bodies use the same inertias as the joints.
@@ -156,15 +161,15 @@ void renew_responses(const SolverBodies& bodies, const JointStage& stage, Span<c
   for (const ContactOrder& entry : order) {
     ContactWork& contact = contacts[entry.contact];
     const uint32_t a = contact.state.body_a, b = contact.state.body_b;
-    if (has_renewed_gyration(bodies.work[a], stage) || has_renewed_gyration(bodies.work[b], stage))
-      renew_response(bodies.work[a].gyration, bodies.work[b].gyration, contact);
+    if (has_renewed_inverse_inertia(bodies.work[a], stage) || has_renewed_inverse_inertia(bodies.work[b], stage))
+      renew_response(bodies.work[a].inverse_inertia, bodies.work[b].inverse_inertia, contact);
   }
 }
 
 }  // namespace
 
 #if DETENT_QUADS
-bool has_quads() {
+bool has_lanes() {
 #if defined(__x86_64__)
   return has_avx2();
 #else
@@ -201,16 +206,16 @@ SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<
     count.clamped += integrate_velocities(bodies, island, substep == 0, order.count != 0);
     if (substep == 0)
       pass(
-          settings, bodies, order, contacts, [](Solver& contact) { contact.warm_start(); }, warm_start_quad);
+          settings, bodies, order, contacts, [](Solver& contact) { contact.warm_start(); }, warm_start_lanes);
     for (const ContactOrder& entry : order) {
       const ContactWork& contact = contacts[entry.contact];
       if (contact.static_pair == 0) continue;
       const uint32_t a = contact.state.body_a, b = contact.state.body_b;
-      place_kinematic(bodies.traits[a], bodies.motions[a], elapsed, bodies.work[a]);
-      place_kinematic(bodies.traits[b], bodies.motions[b], elapsed, bodies.work[b]);
+      place_kinematic(bodies.properties[a], bodies.motions[a], elapsed, bodies.work[a]);
+      place_kinematic(bodies.properties[b], bodies.motions[b], elapsed, bodies.work[b]);
     }
     if (joints.code == nullptr) {
-      sweep([](Solver& contact) { contact.solve_normals(); }, solve_normals_quad);
+      sweep([](Solver& contact) { contact.solve_normals(); }, solve_normals_lanes);
     } else {
       const Island& own = *joints.island;
       JointStage& stage = *joints.stage;
@@ -220,7 +225,7 @@ SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<
         remember(bodies, island);
         for (uint32_t left = round == 0 ? settings.iterations + 1 : 1; left > 0; --left)
           pass(
-              settings, bodies, order, contacts, [](Solver& contact) { contact.solve_normals(); }, solve_normals_quad);
+              settings, bodies, order, contacts, [](Solver& contact) { contact.solve_normals(); }, solve_normals_lanes);
         if (has_settled(bodies, island, enough)) break;
         const bool last = has_settled(bodies, island, enough_for_joints);
         count.clamped += joints.code->hold_again(settings, bodies, island, own, elapsed, stage, undecided);
@@ -230,7 +235,7 @@ SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<
     }
     count.clamped += integrate_positions(bodies, island, settings.time);
     if (joints.code != nullptr) count.clamped += joints.code->shift(bodies, island, *joints.stage);
-    sweep([](Solver& contact) { contact.relax(); }, relax_quad);
+    sweep([](Solver& contact) { contact.relax(); }, relax_lanes);
     if (joints.code != nullptr)
       count.clamped +=
           joints.code->end(settings, bodies, island, *joints.island, elapsed, *joints.stage, *joints.undecided);
@@ -238,8 +243,8 @@ SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<
   }
   if (joints.code != nullptr) renew_responses(bodies, *joints.stage, order, contacts);
   StepSettings one_by_one = settings;
-  one_by_one.quads = false;
-  pass(one_by_one, bodies, order, contacts, rebound, relax_quad);
+  one_by_one.lanes = false;
+  pass(one_by_one, bodies, order, contacts, rebound, relax_lanes);
   if (settings.post_stabilises) count.clamped += post_stabilise(settings, bodies, island, order, contacts);
   return count;
 }
@@ -256,13 +261,14 @@ uint32_t integrate_free(const StepSettings& settings, const SolverBodies& bodies
 
 uint32_t integrate_kinematic(const StepSettings& settings, const SolverBodies& bodies) {
   uint32_t clamped = 0;
-  for (uint32_t slot = 0; slot < bodies.traits.count; ++slot) {
-    const BodyTraits& traits = bodies.traits[slot];
-    if (type_of(traits) != BodyType::kinematic) continue;
+  for (uint32_t slot = 0; slot < bodies.properties.count; ++slot) {
+    const BodyProperties& properties = bodies.properties[slot];
+    if (type_of(properties) != BodyType::kinematic) continue;
     BodyWork& now = bodies.work[slot];
-    place_kinematic(traits, bodies.motions[slot], settings.tick_time, now);
-    Vec3<Real> spin;
-    if (!turn_freely(traits, now.free_turn, bodies.motions[slot].momentum, settings.tick_time, 0, now.rotation, spin))
+    place_kinematic(properties, bodies.motions[slot], settings.tick_time, now);
+    Vec3<Real> angular_velocity;
+    if (!rotate_freely(properties, now.free_rotation, bodies.motions[slot].angular_momentum, settings.tick_time, 0,
+                       now.rotation, angular_velocity))
       ++clamped;
   }
   return clamped;

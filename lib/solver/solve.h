@@ -33,7 +33,7 @@ SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<
                  Span<const ContactOrder> order, Span<ContactWork> contacts, const IslandJoints& joints);
 
 /// Moves an island without contacts. Under constant acceleration the displacement is exact; each body's rotation is
-/// split into four steps per substep (spin.h). Returns the number of values that were clamped.
+/// split into four steps per substep (angular velocity.h). Returns the number of values that were clamped.
 uint32_t integrate_free(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> island);
 
 /// Moves the kinematic bodies through the tick. Returns the number of values that were clamped.

@@ -3,7 +3,7 @@
 #include "base/heap.h"
 #include "math/root.h"
 #include "math/scaled.h"
-#include "shape/shape_traits.h"
+#include "shape/shape_properties.h"
 #include "solver/island.h"
 
 namespace detent {
@@ -23,16 +23,16 @@ Scaled square_of(uint32_t n) {
 }
 
 /// The squared number of substeps that the contact needs.
-Scaled needed(const StepSettings& settings, const ContactWork& contact, const BodyTraits& a, const BodyTraits& b,
-              uint32_t run) {
-  Scaled stiffness = 0.0;
+Scaled needed(const StepSettings& settings, const ContactWork& contact, const BodyProperties& a,
+              const BodyProperties& b, uint32_t run) {
+  Scaled contact_frequency = 0.0;
   for (uint32_t i = 0; i < contact.state.point_count; ++i)
-    stiffness = add(stiffness, scaled_from(contact.inverse_mass[i]));
-  if (contact.static_pair != 0) stiffness = scaled_by_power(stiffness, 2);  // twice the frequency
-  if (!is_positive(stiffness)) return Scaled(0.0);
+    contact_frequency = add(contact_frequency, scaled_from(contact.inverse_mass[i]));
+  if (contact.static_pair != 0) contact_frequency = scaled_by_power(contact_frequency, 2);  // twice the frequency
+  if (!is_positive(contact_frequency)) return Scaled(0.0);
   const Scaled extent = scaled_from(min(shape_extent(a), shape_extent(b)));
   const Scaled load = scaled_from(contact.state.load);
-  const Scaled rate = multiply(divide(load, multiply(stiffness, extent)), settings.substeps_per_rate);
+  const Scaled rate = multiply(divide(load, multiply(contact_frequency, extent)), settings.substeps_per_rate);
   const Scaled sag = scaled_by_power(rate, -k_sag_power);
   if (run < k_run_min) return sag;
   const Scaled buckling = multiply(rate, square_of(run));
@@ -89,24 +89,24 @@ uint32_t upper_body(const Vec3<Unit>& down, const ContactWork& contact) {
 }
 
 /// Initialises the loads: heights, masses, and no supports.
-void weigh(Span<const BodyPose> poses, Span<const BodyTraits> traits, Span<const uint32_t> bodies,
+void weigh(Span<const BodyPose> poses, Span<const BodyProperties> properties, Span<const uint32_t> bodies,
            const Vec3<Unit>& down, Span<BodyWork> work) {
   const Position& origin = poses[bodies[0]].position;
   for (const uint32_t slot : bodies) {
     const Position& at = poses[slot].position;
     work[slot].height = dot(real_difference(origin, at), down);
-    work[slot].carried = traits[slot].mass;
+    work[slot].carried = properties[slot].mass;
     work[slot].supports = 0;
   }
 }
 
 /// Divides each body's load equally among the bodies that it rests on, from the top down.
-void hand_down(Span<const BodyTraits> traits, const Vec3<Unit>& down, Span<const ContactOrder> order,
+void hand_down(Span<const BodyProperties> properties, const Vec3<Unit>& down, Span<const ContactOrder> order,
                Span<ContactOrder> spare, Span<BodyWork> work, Span<ContactWork> contacts) {
   uint32_t count = 0;
   for (const ContactOrder& entry : order) {
     const uint32_t upper = upper_body(down, contacts[entry.contact]);
-    if (upper == k_neither || !is_dynamic(traits[upper])) continue;
+    if (upper == k_neither || !is_dynamic(properties[upper])) continue;
     ++work[upper].supports;
     spare[count] = entry;
     spare[count++].island = upper;
@@ -118,7 +118,7 @@ void hand_down(Span<const BodyTraits> traits, const Vec3<Unit>& down, Span<const
   for (const ContactOrder& entry : spare.first(count)) {
     const ContactState& state = contacts[entry.contact].state;
     const uint32_t upper = entry.island, lower = upper == state.body_a ? state.body_b : state.body_a;
-    if (!is_dynamic(traits[lower])) continue;
+    if (!is_dynamic(properties[lower])) continue;
     BodyWork& below = work[lower];
     below.carried = add(below.carried, divide(work[upper].carried, scaled_from_count(work[upper].supports)));
   }
@@ -126,7 +126,7 @@ void hand_down(Span<const BodyTraits> traits, const Vec3<Unit>& down, Span<const
 
 }  // namespace
 
-void choose_substeps(const StepSettings& settings, Span<const BodyTraits> traits, Span<const BodyWork> work,
+void choose_substeps(const StepSettings& settings, Span<const BodyProperties> properties, Span<const BodyWork> work,
                      Span<const uint32_t> bodies, Span<const ContactOrder> order, Span<Island> islands,
                      Span<ContactWork> contacts, Span<BodyActivity> activities) {
   for (Island& island : islands) {
@@ -138,8 +138,8 @@ void choose_substeps(const StepSettings& settings, Span<const BodyTraits> traits
     for (uint32_t i = 0; i < island.contact_count; ++i) {
       const ContactWork& contact = contacts[order[island.first_contact + i].contact];
       const uint32_t a = contact.state.body_a, b = contact.state.body_b;
-      const uint32_t run = work[is_dynamic(traits[a]) ? a : b].run_length;
-      const Scaled wanted = needed(settings, contact, traits[a], traits[b], run);
+      const uint32_t run = work[is_dynamic(properties[a]) ? a : b].run_length;
+      const Scaled wanted = needed(settings, contact, properties[a], properties[b], run);
       Scaled& most = need[contact.state.point_count < k_edge_points ? 1 : 0];
       if (less(most, wanted)) most = wanted;
     }
@@ -184,7 +184,7 @@ void choose_substeps(const StepSettings& settings, Span<const BodyTraits> traits
     for (uint32_t i = 0; i < island.contact_count; ++i) {
       ContactWork& contact = contacts[order[island.first_contact + i].contact];
       const ContactState& state = contact.state;
-      const uint32_t body = is_dynamic(traits[state.body_a]) ? state.body_a : state.body_b;
+      const uint32_t body = is_dynamic(properties[state.body_a]) ? state.body_a : state.body_b;
       rescale(activities[body].substeps, now, contact);
     }
     for (uint32_t i = 0; i < island.body_count; ++i) {
@@ -195,7 +195,7 @@ void choose_substeps(const StepSettings& settings, Span<const BodyTraits> traits
   }
 }
 
-void estimate_loads(const StepSettings& settings, Span<const BodyPose> poses, Span<const BodyTraits> traits,
+void estimate_loads(const StepSettings& settings, Span<const BodyPose> poses, Span<const BodyProperties> properties,
                     Span<const uint32_t> bodies, Span<const Island> islands, Span<const ContactOrder> order,
                     Span<ContactOrder> spare, Span<BodyWork> work, Span<ContactWork> contacts) {
   Vec3<Unit> down;
@@ -208,19 +208,19 @@ void estimate_loads(const StepSettings& settings, Span<const BodyPose> poses, Sp
     if (fresh == 0) continue;
     const Span<const ContactOrder> all = {order.data + island.first_contact, island.contact_count};
     if (2 * fresh > island.contact_count) {
-      weigh(poses, traits, {bodies.data + island.first_body, island.body_count}, down, work);
-      hand_down(traits, down, all, {spare.data + island.first_contact, island.contact_count}, work, contacts);
+      weigh(poses, properties, {bodies.data + island.first_body, island.body_count}, down, work);
+      hand_down(properties, down, all, {spare.data + island.first_contact, island.contact_count}, work, contacts);
     }
     for (const ContactOrder& entry : all) {
       ContactWork& contact = contacts[entry.contact];
       if (contact.state.age != 0) continue;
       const uint32_t upper = upper_body(down, contact);
-      if (upper == k_neither || !is_dynamic(traits[upper])) continue;
+      if (upper == k_neither || !is_dynamic(properties[upper])) continue;
       const Scaled carried = 2 * fresh > island.contact_count
                                  ? divide(work[upper].carried, scaled_from_count(work[upper].supports))
-                                 : traits[upper].mass;
-      const Scaled share = upper == contact.state.body_a ? contact.share_a : contact.share_b;
-      const Scaled weights = multiply(divide(carried, traits[upper].mass), divide(Scaled(1.0), share));
+                                 : properties[upper].mass;
+      const Scaled share = upper == contact.state.body_a ? contact.inverse_mass_a : contact.inverse_mass_b;
+      const Scaled weights = multiply(divide(carried, properties[upper].mass), divide(Scaled(1.0), share));
       bool saturated = false;
       contact.state.load = multiply(gravity, weights, saturated);
     }

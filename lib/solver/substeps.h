@@ -33,7 +33,7 @@ inline constexpr uint32_t k_joint_calm_ticks = 8;
 /// the needs of its joints, which `islands` has. The number grows at once. It falls by one notch after k_calm_ticks;
 /// with joints, to the number that is needed after k_joint_calm_ticks. Impulses from a tick with another number of
 /// substeps are scaled.
-void choose_substeps(const StepSettings& settings, Span<const BodyTraits> traits, Span<const BodyWork> work,
+void choose_substeps(const StepSettings& settings, Span<const BodyProperties> properties, Span<const BodyWork> work,
                      Span<const uint32_t> bodies, Span<const ContactOrder> order, Span<Island> islands,
                      Span<ContactWork> contacts, Span<BodyActivity> activities);
 
@@ -41,7 +41,7 @@ void choose_substeps(const StepSettings& settings, Span<const BodyTraits> traits
 /// as at the start of a scene, it instead uses the weight of the upper body and of all bodies on it, divided among its
 /// supports. So nothing sinks before the loads are measured, and no tower begins to sway. `spare` is work space as
 /// large as `order`.
-void estimate_loads(const StepSettings& settings, Span<const BodyPose> poses, Span<const BodyTraits> traits,
+void estimate_loads(const StepSettings& settings, Span<const BodyPose> poses, Span<const BodyProperties> properties,
                     Span<const uint32_t> bodies, Span<const Island> islands, Span<const ContactOrder> order,
                     Span<ContactOrder> spare, Span<BodyWork> work, Span<ContactWork> contacts);
 

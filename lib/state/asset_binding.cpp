@@ -12,16 +12,16 @@ constexpr uint64_t k_asset_seed = 0x6173736574u;
 }
 
 Status describe_asset(AssetTable table, uint32_t index, const FeatureTable& features, AssetState& description) {
-  if (features.hull == nullptr && features.surface == nullptr && features.compound == nullptr)
+  if (features.hull == nullptr && features.terrain == nullptr && features.compound == nullptr)
     return Status::feature_missing;
   if (!is_in(table, index)) return Status::asset_missing;
   const Asset& asset = table.assets[index];
   HullView hull;
-  Surface surface;
+  Terrain terrain;
   CompoundView compound;
   AssetKind kind = AssetKind::other;
   if (features.hull != nullptr && features.hull->read(asset, hull) == Status::ok) kind = AssetKind::hull;
-  if (features.surface != nullptr && features.surface->read(asset, surface) == Status::ok) kind = AssetKind::surface;
+  if (features.terrain != nullptr && features.terrain->read(asset, terrain) == Status::ok) kind = AssetKind::terrain;
   if (features.compound != nullptr && features.compound->read(asset, compound) == Status::ok)
     kind = AssetKind::compound;
   description = {digest_bytes(asset.bytes, asset.byte_count, k_asset_seed), asset.byte_count,

@@ -11,11 +11,11 @@ inline namespace DETENT_NAMESPACE {
 /// The kind of asset that a shape needs; none for shapes without an asset.
 inline AssetKind asset_kind_of(ShapeType shape) {
   return shape == ShapeType::hull       ? AssetKind::hull
-         : shape == ShapeType::surface  ? AssetKind::surface
+         : shape == ShapeType::terrain  ? AssetKind::terrain
          : shape == ShapeType::compound ? AssetKind::compound
                                         : AssetKind::none;
 }
-inline bool is_shape_of(const BodyTraits& body, uint32_t asset) {
+inline bool is_shape_of(const BodyProperties& body, uint32_t asset) {
   return body.type != 0 && asset_kind_of(static_cast<ShapeType>(body.shape)) != AssetKind::none && body.asset == asset;
 }
 

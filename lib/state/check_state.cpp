@@ -1,10 +1,10 @@
 #include "base/float_environment.h"
 #include "broad_phase/pair_filter.h"
 #include "broad_phase/pair_key.h"
-#include "contact/manifold_reuse.h"
+#include "contact/manifold_recycling.h"
 #include "math/root.h"
 #include "motion/activity.h"
-#include "shape/shape_traits.h"
+#include "shape/shape_properties.h"
 #include "solver/substeps.h"
 #include "state/asset_binding.h"
 #include "state/fields.h"
@@ -36,7 +36,7 @@ bool is_pose(const BodyPose& pose) {
 
 bool is_unit_size(Unit value) { return value >= Unit(0.0) && value <= Unit(1.0); }
 
-/// Whether the bounding radius is that of set_shape_traits(), except for the rounding of the sizes. body_convex()
+/// Whether the bounding radius is that of set_shape_properties(), except for the rounding of the sizes. body_convex()
 /// allows this difference.
 bool is_bound(Unit bound, Unit expected) {
   constexpr Unit k_error = sizeof(Unit) == 4 && !DETENT_FIXED ? 0x1p-23 : 0x1p-28;
@@ -44,89 +44,95 @@ bool is_bound(Unit bound, Unit expected) {
 }
 
 /// The same for a core with rounding; their sum need not fit a Unit.
-bool is_bound_of(Unit core, const BodyTraits& traits) {
-  return core <= Unit(1.5) - traits.rounding && is_bound(traits.bounding_radius, core + traits.rounding);
+bool is_bound_of(Unit core, const BodyProperties& properties) {
+  return core <= Unit(1.5) - properties.rounding && is_bound(properties.bounding_radius, core + properties.rounding);
 }
 
-bool is_bound_of_core(const BodyTraits& traits) {
-  return is_bound_of(core_bound(shape_of(traits), traits.size), traits);
+bool is_bound_of_core(const BodyProperties& properties) {
+  return is_bound_of(core_bound(shape_of(properties), properties.size), properties);
 }
 
 /// `assets`: already checked by check_assets().
-bool is_hull(const BodyTraits& traits, AssetTable assets, Span<const AssetState> bound) {
-  if (traits.asset >= bound.count || bound[traits.asset].kind != static_cast<uint32_t>(AssetKind::hull)) return false;
-  const HullView hull = hull_view(assets.assets[traits.asset].bytes);
-  if (is_dynamic(traits) && hull.frame() != HullFrame::principal) return false;
-  if (traits.size_exponent < hull.exponent()) return false;
-  return hull_half_extents(hull, traits.size_exponent) == traits.size &&
-         is_bound_of(hull_radius(hull, traits.size_exponent), traits);
+bool is_hull(const BodyProperties& properties, AssetTable assets, Span<const AssetState> bound) {
+  if (properties.asset >= bound.count || bound[properties.asset].kind != static_cast<uint32_t>(AssetKind::hull))
+    return false;
+  const HullView hull = hull_view(assets.assets[properties.asset].bytes);
+  if (is_dynamic(properties) && hull.frame() != HullFrame::principal) return false;
+  if (properties.size_exponent < hull.exponent()) return false;
+  return hull_half_extents(hull, properties.size_exponent) == properties.size &&
+         is_bound_of(hull_radius(hull, properties.size_exponent), properties);
 }
 
-bool is_compound_of(const BodyTraits& traits, AssetTable assets, const FeatureTable& features,
+bool is_compound_of(const BodyProperties& properties, AssetTable assets, const FeatureTable& features,
                     Span<const AssetState> bound) {
-  if (traits.asset >= bound.count || bound[traits.asset].kind != static_cast<uint32_t>(AssetKind::compound))
+  if (properties.asset >= bound.count || bound[properties.asset].kind != static_cast<uint32_t>(AssetKind::compound))
     return false;
-  BodyTraits expected = traits;
-  return set_shape_traits(compound(traits.asset), expected, assets, features) == Status::ok &&
-         expected.size == traits.size && expected.size_exponent == traits.size_exponent &&
-         expected.bounding_radius == traits.bounding_radius && expected.rounding == traits.rounding;
+  BodyProperties expected = properties;
+  return set_shape_properties(compound(properties.asset), expected, assets, features) == Status::ok &&
+         expected.size == properties.size && expected.size_exponent == properties.size_exponent &&
+         expected.bounding_radius == properties.bounding_radius && expected.rounding == properties.rounding;
 }
 
-bool is_surface_of(const BodyTraits& traits, AssetTable assets, const FeatureTable& features,
+bool is_terrain_of(const BodyProperties& properties, AssetTable assets, const FeatureTable& features,
                    Span<const AssetState> bound) {
-  if (is_dynamic(traits) || traits.asset >= bound.count ||
-      bound[traits.asset].kind != static_cast<uint32_t>(AssetKind::surface))
+  if (is_dynamic(properties) || properties.asset >= bound.count ||
+      bound[properties.asset].kind != static_cast<uint32_t>(AssetKind::terrain))
     return false;
-  BodyTraits expected = traits;
-  return set_shape_traits(surface(traits.asset), expected, assets, features) == Status::ok &&
-         expected.size == traits.size && expected.size_exponent == traits.size_exponent &&
-         expected.bounding_radius == traits.bounding_radius;
+  BodyProperties expected = properties;
+  return set_shape_properties(terrain(properties.asset), expected, assets, features) == Status::ok &&
+         expected.size == properties.size && expected.size_exponent == properties.size_exponent &&
+         expected.bounding_radius == properties.bounding_radius;
 }
 
-bool is_shape(const BodyTraits& traits, AssetTable assets, const FeatureTable& features,
+bool is_shape(const BodyProperties& properties, AssetTable assets, const FeatureTable& features,
               Span<const AssetState> bound_assets) {
-  if (traits.size_exponent < -14 || traits.size_exponent > 15 || traits.turn_locks > k_turn_locks_all) return false;
-  if (!is_unit_size(traits.size.x) || !is_unit_size(traits.size.y) || !is_unit_size(traits.size.z)) return false;
+  if (properties.size_exponent < -14 || properties.size_exponent > 15 ||
+      properties.rotation_locks > k_rotation_locks_all)
+    return false;
+  if (!is_unit_size(properties.size.x) || !is_unit_size(properties.size.y) || !is_unit_size(properties.size.z))
+    return false;
   const Unit zero = 0.0, smallest = 0x1p-16;
-  const Unit bound = traits.bounding_radius;
-  const ShapeType shape = shape_of(traits);
+  const Unit bound = properties.bounding_radius;
+  const ShapeType shape = shape_of(properties);
   const bool rounds = shape == ShapeType::box || shape == ShapeType::cylinder || shape == ShapeType::cone ||
                       shape == ShapeType::hull || shape == ShapeType::compound;
-  const bool sharp = traits.rounding == zero;
-  if (!sharp && (!rounds || !is_unit_size(traits.rounding) || traits.rounding < smallest)) return false;
-  if (asset_kind_of(shape) == AssetKind::none && traits.asset != 0) return false;
+  const bool sharp = properties.rounding == zero;
+  if (!sharp && (!rounds || !is_unit_size(properties.rounding) || properties.rounding < smallest)) return false;
+  if (asset_kind_of(shape) == AssetKind::none && properties.asset != 0) return false;
   switch (shape) {
     case ShapeType::sphere:
-      return bound == traits.size.x && is_bound(bound, traits.size.x) && traits.size.y == zero && traits.size.z == zero;
+      return bound == properties.size.x && is_bound(bound, properties.size.x) && properties.size.y == zero &&
+             properties.size.z == zero;
     case ShapeType::capsule:
-      return traits.size.x >= smallest && is_bound(bound, traits.size.x + traits.size.y) && traits.size.z == zero;
+      return properties.size.x >= smallest && is_bound(bound, properties.size.x + properties.size.y) &&
+             properties.size.z == zero;
     case ShapeType::cylinder:
     case ShapeType::cone:
-      return traits.size.x >= smallest && traits.size.y >= smallest && traits.size.z == zero &&
-             is_bound_of_core(traits);
+      return properties.size.x >= smallest && properties.size.y >= smallest && properties.size.z == zero &&
+             is_bound_of_core(properties);
     case ShapeType::box:
-      return traits.size.x >= smallest && traits.size.y >= smallest && traits.size.z >= smallest &&
-             is_bound_of_core(traits);
+      return properties.size.x >= smallest && properties.size.y >= smallest && properties.size.z >= smallest &&
+             is_bound_of_core(properties);
     case ShapeType::hull:
-      return traits.size.x >= smallest && traits.size.y >= smallest && traits.size.z >= smallest &&
-             is_hull(traits, assets, bound_assets);
-    case ShapeType::surface:
-      return is_surface_of(traits, assets, features, bound_assets);
+      return properties.size.x >= smallest && properties.size.y >= smallest && properties.size.z >= smallest &&
+             is_hull(properties, assets, bound_assets);
+    case ShapeType::terrain:
+      return is_terrain_of(properties, assets, features, bound_assets);
     case ShapeType::compound:
-      return is_compound_of(traits, assets, features, bound_assets);
+      return is_compound_of(properties, assets, features, bound_assets);
     case ShapeType::half_space:
-      return traits.type != static_cast<uint32_t>(BodyType::dynamic) && traits.size_exponent == 0 && bound == zero &&
-             traits.size == Vec3<Unit>{zero, zero, zero};
+      return properties.type != static_cast<uint32_t>(BodyType::dynamic) && properties.size_exponent == 0 &&
+             bound == zero && properties.size == Vec3<Unit>{zero, zero, zero};
     default:
       return false;
   }
 }
 
-bool has_mass(const BodyTraits& traits) {
-  if (is_dynamic(traits)) return is_mass(traits.mass) && are_gyrations(traits);
+bool has_mass(const BodyProperties& properties) {
+  if (is_dynamic(properties)) return is_mass(properties.mass) && are_inverse_inertias(properties);
   const Scaled none = 0.0;
-  return (traits.mass == none || is_mass(traits.mass)) && traits.gyration[0] == none && traits.gyration[1] == none &&
-         traits.gyration[2] == none;
+  return (properties.mass == none || is_mass(properties.mass)) && properties.inverse_inertia[0] == none &&
+         properties.inverse_inertia[1] == none && properties.inverse_inertia[2] == none;
 }
 
 /// The features that the state's world has linked.
@@ -134,33 +140,36 @@ Features features_of(const State& state) {
   return without(Features::all, static_cast<Features>(state.header.left_out));
 }
 
-bool is_linked(const State& state, const BodyTraits& traits) {
-  const bool sharp = traits.rounding == Unit(0.0) || is_compound(traits);
-  const Features needed = feature_of(shape_of(traits)) | (sharp ? Features::none : Features::rounding);
+bool is_linked(const State& state, const BodyProperties& properties) {
+  const bool sharp = properties.rounding == Unit(0.0) || is_compound(properties);
+  const Features needed = feature_of(shape_of(properties)) | (sharp ? Features::none : Features::rounding);
   return contains(features_of(state), needed);
 }
 
-bool is_body(const State& state, const BodyTraits& traits, AssetTable assets, const FeatureTable& features) {
+bool is_body(const State& state, const BodyProperties& properties, AssetTable assets, const FeatureTable& features) {
   const Scaled none = 0.0;
-  return traits.type <= static_cast<uint32_t>(BodyType::dynamic) && traits.generation != 0 && traits.sensor <= 1 &&
-         is_shape(traits, assets, features, state.assets) && is_linked(state, traits) && has_mass(traits) &&
-         is_between(traits.friction, none, scaled_from(k_friction_max)) &&
-         is_between(traits.restitution, none, Scaled(1.0)) &&
-         is_between(traits.rolling_resistance, none, scaled_from(k_friction_max)) &&
-         is_between(traits.linear_damping, none, scaled_from(k_damping_max)) &&
-         is_between(traits.angular_damping, none, scaled_from(k_damping_max)) &&
-         is_between(traits.gravity_scale, negate(scaled_from(k_gravity_scale_max)), scaled_from(k_gravity_scale_max)) &&
-         is_rule(static_cast<RestitutionRule>(traits.restitution_rule));
+  return properties.type <= static_cast<uint32_t>(BodyType::dynamic) && properties.generation != 0 &&
+         properties.sensor <= 1 && is_shape(properties, assets, features, state.assets) &&
+         is_linked(state, properties) && has_mass(properties) &&
+         is_between(properties.friction, none, scaled_from(k_friction_max)) &&
+         is_between(properties.restitution, none, Scaled(1.0)) &&
+         is_between(properties.rolling_resistance, none, scaled_from(k_friction_max)) &&
+         is_between(properties.linear_damping, none, scaled_from(k_damping_max)) &&
+         is_between(properties.angular_damping, none, scaled_from(k_damping_max)) &&
+         is_between(properties.gravity_scale, negate(scaled_from(k_gravity_scale_max)),
+                    scaled_from(k_gravity_scale_max)) &&
+         is_rule(static_cast<RestitutionRule>(properties.restitution_rule));
 }
 
-bool is_motion(const BodyTraits& traits, const BodyMotion& motion) {
-  if (type_of(traits) == BodyType::fixed) return is_zero(motion);
-  return within(motion.velocity, k_speed_max) && within(motion.momentum, k_spin_work_max) &&
-         within(motion.pending_velocity, k_speed_max) && within(motion.pending_momentum, k_spin_work_max);
+bool is_motion(const BodyProperties& properties, const BodyMotion& motion) {
+  if (type_of(properties) == BodyType::fixed) return is_zero(motion);
+  return within(motion.linear_velocity, k_speed_max) && within(motion.angular_momentum, k_angular_velocity_work_max) &&
+         within(motion.pending_velocity, k_speed_max) &&
+         within(motion.pending_angular_momentum, k_angular_velocity_work_max);
 }
 
 bool is_empty_slot(const State& state, uint32_t slot) {
-  BodyTraits rest = state.traits[slot];
+  BodyProperties rest = state.properties[slot];
   rest.generation = 0;
   return is_zero(rest) && is_zero(state.poses[slot]) && is_zero(state.motions[slot]) && is_zero(state.activities[slot]);
 }
@@ -168,10 +177,11 @@ bool is_empty_slot(const State& state, uint32_t slot) {
 /// Whether the sleeping data of a body is valid. A sleeping group is identified by one of its bodies.
 bool is_activity(const State& state, uint32_t slot) {
   const BodyActivity& activity = state.activities[slot];
-  if (!is_dynamic(state.traits[slot])) return is_zero(activity);
+  if (!is_dynamic(state.properties[slot])) return is_zero(activity);
   if (activity.substeps > 64 || activity.calm_ticks > k_calm_ticks || activity.still_ticks > k_still_ticks)
     return false;
-  if (activity.news != 0 && (activity.news != static_cast<uint16_t>(BodyEventType::woke) || activity.asleep != 0))
+  if (activity.pending_event != 0 &&
+      (activity.pending_event != static_cast<uint16_t>(BodyEventType::woke) || activity.asleep != 0))
     return false;
   if (activity.asleep == 0) return true;
   if (!contains(features_of(state), Features::sleeping)) return false;
@@ -180,24 +190,24 @@ bool is_activity(const State& state, uint32_t slot) {
 
 bool is_idle(const State& state) {
   for (uint32_t slot = 0; slot < state.world.slots_used; ++slot) {
-    if (is_moving(state.traits[slot], state.motions[slot], state.activities[slot])) return false;
+    if (is_moving(state.properties[slot], state.motions[slot], state.activities[slot])) return false;
   }
   return true;
 }
 
 bool are_bodies(const State& state, AssetTable assets, const FeatureTable& features) {
   uint32_t bodies = 0, retired = 0, used = 0;
-  for (uint32_t slot = 0; slot < state.traits.count; ++slot) {
-    const BodyTraits& traits = state.traits[slot];
+  for (uint32_t slot = 0; slot < state.properties.count; ++slot) {
+    const BodyProperties& properties = state.properties[slot];
     const bool taken = (state.slots[slot / 32] & slot_bit(slot)) != 0;
-    if (traits.generation != 0) used = slot + 1;
-    if (traits.type == 0) {
-      if (!is_empty_slot(state, slot) || taken != (traits.generation == k_generation_last)) return false;
+    if (properties.generation != 0) used = slot + 1;
+    if (properties.type == 0) {
+      if (!is_empty_slot(state, slot) || taken != (properties.generation == k_generation_last)) return false;
       retired += taken ? 1 : 0;
       continue;
     }
-    if (!taken || !is_body(state, traits, assets, features) || !is_pose(state.poses[slot]) ||
-        !is_motion(traits, state.motions[slot]) || !is_activity(state, slot))
+    if (!taken || !is_body(state, properties, assets, features) || !is_pose(state.poses[slot]) ||
+        !is_motion(properties, state.motions[slot]) || !is_activity(state, slot))
       return false;
     ++bodies;
   }
@@ -209,16 +219,16 @@ bool are_slots(const State& state) {
     for (uint32_t bit = 0; bit < 32; ++bit) {
       const uint32_t slot = word * 32 + bit;
       const bool taken = (state.slots[word] >> bit & 1) != 0;
-      if (slot >= state.traits.count && taken) return false;
-      if (slot < state.traits.count && word < state.world.free_word && !taken) return false;
+      if (slot >= state.properties.count && taken) return false;
+      if (slot < state.properties.count && word < state.world.free_word && !taken) return false;
     }
   }
   return state.world.free_word < state.slots.count;
 }
 
 bool is_contact(const State& state, const ContactState& contact) {
-  if (contact.body_a >= contact.body_b || contact.body_b >= state.traits.count) return false;
-  const BodyTraits &a = state.traits[contact.body_a], &b = state.traits[contact.body_b];
+  if (contact.body_a >= contact.body_b || contact.body_b >= state.properties.count) return false;
+  const BodyProperties &a = state.properties[contact.body_a], &b = state.properties[contact.body_b];
   if (a.type == 0 || b.type == 0 || (!is_dynamic(a) && !is_dynamic(b))) return false;
   if (contact.touching > 1 || contact.point_count < 1 || contact.point_count > k_manifold_points_max) return false;
   for (uint32_t i = 0; i < k_manifold_points_max; ++i) {
@@ -252,13 +262,13 @@ bool are_contacts(const State& state) {
 }
 
 bool are_manifolds(const State& state) {
-  const bool reuses = state.world.reuse > Real(0.0);
+  const bool reuses = state.world.contact_recycle_distance > Real(0.0);
   for (uint32_t i = 0; i < state.manifolds.count; ++i) {
     const ManifoldState& manifold = state.manifolds[i];
     if (is_zero(manifold)) continue;
     if (!reuses || i >= state.world.contact_count) return false;
     const ContactState& contact = state.contacts[i];
-    if (!is_manifold(state.traits[contact.body_a], state.traits[contact.body_b], contact.point_count, manifold))
+    if (!is_manifold(state.properties[contact.body_a], state.properties[contact.body_b], contact.point_count, manifold))
       return false;
   }
   return !reuses || state.manifolds.count == state.contacts.count;
@@ -284,7 +294,7 @@ bool are_assets(const State& state) {
 
 bool are_sensed(const State& state) {
   uint32_t sensors = 0;
-  for (const BodyTraits& traits : state.traits) sensors += is_sensor(traits) ? 1u : 0u;
+  for (const BodyProperties& properties : state.properties) sensors += is_sensor(properties) ? 1u : 0u;
   const uint32_t count = state.world.sensed_count;
   if (sensors != state.world.sensor_count || count > state.sensed.count) return false;
   if (sensors != 0 && state.sensed.count == 0) return false;
@@ -294,8 +304,8 @@ bool are_sensed(const State& state) {
       if (sensed.sensor != 0 || sensed.body != 0) return false;
       continue;
     }
-    if (sensed.sensor >= state.traits.count || sensed.body >= state.traits.count) return false;
-    const BodyTraits &sensor = state.traits[sensed.sensor], &body = state.traits[sensed.body];
+    if (sensed.sensor >= state.properties.count || sensed.body >= state.properties.count) return false;
+    const BodyProperties &sensor = state.properties[sensed.sensor], &body = state.properties[sensed.body];
     if (!is_sensor(sensor) || is_sensor(body) || body.type == 0) return false;
     if (i == 0) continue;
     const SensedState& before = state.sensed[i - 1];
@@ -314,8 +324,8 @@ Status check_state(const uint8_t* block, Capacity capacity, AssetTable assets, c
       !is_stabilisation(static_cast<Stabilisation>(world.stabilisation)) || world.sleeping > 1 ||
       world.continuous > 1 || world.idle > 1 ||
       !are_settings(world.gravity, world.tick_time, world.substeps, world.substeps_max, world.iterations,
-                    world.convergence, world.relaxation, world.stiffness, world.damping_ratio,
-                    world.restitution_threshold, world.breaking, world.reuse)) {
+                    world.convergence, world.relaxation, world.contact_frequency, world.damping_ratio,
+                    world.restitution_threshold, world.contact_margin, world.contact_recycle_distance)) {
     return Status::corrupt;
   }
   if (!contains(features_of(state), features_of(world.continuous != 0, world.sleeping != 0))) return Status::corrupt;
@@ -328,8 +338,8 @@ Status check_state(const uint8_t* block, Capacity capacity, AssetTable assets, c
       !are_sensed(state) || (world.idle != 0 && !is_idle(state))) {
     return Status::corrupt;
   }
-  for (const BodyTraits& traits : state.traits) {
-    if (!has_rule(rules, traits.rule)) return Status::rule_missing;
+  for (const BodyProperties& properties : state.properties) {
+    if (!has_rule(rules, properties.rule)) return Status::rule_missing;
   }
   return Status::ok;
 }

@@ -15,10 +15,10 @@ using State = StateView<const uint8_t>;
 
 bool has_room(const State& from, const State& to) {
   const WorldState& world = from.world;
-  return world.slots_used <= to.traits.count && world.contact_count <= to.contacts.count &&
+  return world.slots_used <= to.properties.count && world.contact_count <= to.contacts.count &&
          world.joints_used <= to.joints.count && world.sensed_count <= to.sensed.count &&
          used_assets(from) <= to.assets.count && (world.sensor_count == 0 || to.sensed.count != 0) &&
-         (world.reuse == Real(0.0) || to.header.manifolds != 0);
+         (world.contact_recycle_distance == Real(0.0) || to.header.manifolds != 0);
 }
 
 /// Checks that the handle of `to` has the features, assets and filter rules that the state needs.
@@ -31,8 +31,8 @@ Status check_handle(const World& from, const State& state, const World& to) {
     const Status status = check_assets(to.assets, *to.features, state.assets);
     if (status != Status::ok) return status;
   }
-  for (const BodyTraits& traits : state.traits.first(state.world.slots_used)) {
-    if (!has_rule(to.filter_rules, traits.rule)) return Status::rule_missing;
+  for (const BodyProperties& properties : state.properties.first(state.world.slots_used)) {
+    if (!has_rule(to.filter_rules, properties.rule)) return Status::rule_missing;
   }
   return Status::ok;
 }

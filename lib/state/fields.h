@@ -124,11 +124,11 @@ inline constexpr Field k_world_fields[] = {
     DETENT_FIELD_IN(WorldState, gravity, "m/s^2"),
     DETENT_FIELD_IN(WorldState, tick_time, "s"),
     DETENT_FIELD(WorldState, relaxation),
-    DETENT_FIELD(WorldState, stiffness),
+    DETENT_FIELD(WorldState, contact_frequency),
     DETENT_FIELD(WorldState, damping_ratio),
     DETENT_FIELD(WorldState, restitution_threshold),
-    DETENT_FIELD(WorldState, breaking),
-    DETENT_FIELD(WorldState, reuse),
+    DETENT_FIELD(WorldState, contact_margin),
+    DETENT_FIELD(WorldState, contact_recycle_distance),
 };
 inline constexpr Field k_pose_fields[] = {
     DETENT_FIELD_IN(BodyPose, position, "m"),
@@ -139,40 +139,40 @@ inline constexpr Field k_pose_fields[] = {
     DETENT_FIELD(BodyPose, rotation),
 };
 inline constexpr Field k_motion_fields[] = {
-    DETENT_FIELD_IN(BodyMotion, velocity, "m/s"),
-    DETENT_FIELD_IN(BodyMotion, momentum, "m/s"),
+    DETENT_FIELD_IN(BodyMotion, linear_velocity, "m/s"),
+    DETENT_FIELD_IN(BodyMotion, angular_momentum, "m/s"),
     DETENT_FIELD_IN(BodyMotion, pending_velocity, "m/s"),
-    DETENT_FIELD_IN(BodyMotion, pending_momentum, "m/s"),
+    DETENT_FIELD_IN(BodyMotion, pending_angular_momentum, "m/s"),
 };
-inline constexpr Field k_traits_fields[] = {
-    DETENT_FIELD(BodyTraits, type),
-    DETENT_FIELD(BodyTraits, generation),
-    DETENT_FIELD(BodyTraits, shape),
-    DETENT_FIELD(BodyTraits, size_exponent),
-    DETENT_FIELD(BodyTraits, category),
-    DETENT_FIELD(BodyTraits, mask),
-    DETENT_FIELD(BodyTraits, group),
-    DETENT_FIELD(BodyTraits, rule),
-    DETENT_FIELD(BodyTraits, size),
-    DETENT_FIELD(BodyTraits, bounding_radius),
-    DETENT_FIELD(BodyTraits, rounding),
-    DETENT_FIELD_IN(BodyTraits, mass, "kg"),
-    DETENT_FIELD(BodyTraits, gyration),
-    DETENT_FIELD(BodyTraits, friction),
-    DETENT_FIELD(BodyTraits, restitution),
-    DETENT_FIELD(BodyTraits, rolling_resistance),
-    DETENT_FIELD_IN(BodyTraits, linear_damping, "1/s"),
-    DETENT_FIELD_IN(BodyTraits, angular_damping, "1/s"),
-    DETENT_FIELD(BodyTraits, gravity_scale),
-    DETENT_FIELD(BodyTraits, user_data),
-    DETENT_FIELD(BodyTraits, restitution_rule),
-    DETENT_FIELD(BodyTraits, asset),
-    DETENT_FIELD(BodyTraits, turn_locks),
-    DETENT_FIELD(BodyTraits, sensor),
+inline constexpr Field k_properties_fields[] = {
+    DETENT_FIELD(BodyProperties, type),
+    DETENT_FIELD(BodyProperties, generation),
+    DETENT_FIELD(BodyProperties, shape),
+    DETENT_FIELD(BodyProperties, size_exponent),
+    DETENT_FIELD(BodyProperties, category),
+    DETENT_FIELD(BodyProperties, mask),
+    DETENT_FIELD(BodyProperties, group),
+    DETENT_FIELD(BodyProperties, rule),
+    DETENT_FIELD(BodyProperties, size),
+    DETENT_FIELD(BodyProperties, bounding_radius),
+    DETENT_FIELD(BodyProperties, rounding),
+    DETENT_FIELD_IN(BodyProperties, mass, "kg"),
+    DETENT_FIELD(BodyProperties, inverse_inertia),
+    DETENT_FIELD(BodyProperties, friction),
+    DETENT_FIELD(BodyProperties, restitution),
+    DETENT_FIELD(BodyProperties, rolling_resistance),
+    DETENT_FIELD_IN(BodyProperties, linear_damping, "1/s"),
+    DETENT_FIELD_IN(BodyProperties, angular_damping, "1/s"),
+    DETENT_FIELD(BodyProperties, gravity_scale),
+    DETENT_FIELD(BodyProperties, user_data),
+    DETENT_FIELD(BodyProperties, restitution_rule),
+    DETENT_FIELD(BodyProperties, asset),
+    DETENT_FIELD(BodyProperties, rotation_locks),
+    DETENT_FIELD(BodyProperties, sensor),
 };
 inline constexpr Field k_activity_fields[] = {
     DETENT_FIELD(BodyActivity, substeps),    DETENT_FIELD(BodyActivity, calm_ticks),
-    DETENT_FIELD(BodyActivity, still_ticks), DETENT_FIELD(BodyActivity, news),
+    DETENT_FIELD(BodyActivity, still_ticks), DETENT_FIELD(BodyActivity, pending_event),
     DETENT_FIELD(BodyActivity, asleep),
 };
 inline constexpr Field k_slot_fields[] = {make_field<uint32_t>("taken", 0, "")};
@@ -240,19 +240,25 @@ constexpr bool tiles(const Field (&fields)[n], uint32_t element_bytes) {
 }
 static_assert(tiles(k_header_fields, sizeof(BlockHeader)) && tiles(k_world_fields, sizeof(WorldState)));
 static_assert(tiles(k_pose_fields, sizeof(BodyPose)) && tiles(k_motion_fields, sizeof(BodyMotion)));
-static_assert(tiles(k_traits_fields, sizeof(BodyTraits)) && tiles(k_slot_fields, sizeof(uint32_t)));
+static_assert(tiles(k_properties_fields, sizeof(BodyProperties)) && tiles(k_slot_fields, sizeof(uint32_t)));
 static_assert(tiles(k_activity_fields, sizeof(BodyActivity)));
 static_assert(tiles(k_contact_fields, sizeof(ContactState)) && tiles(k_asset_fields, sizeof(AssetState)));
 static_assert(tiles(k_manifold_fields, sizeof(ManifoldState)) && tiles(k_joint_fields, sizeof(JointState)));
 static_assert(tiles(k_sensed_fields, sizeof(SensedState)));
 
 inline constexpr Section k_sections[] = {
-    {sizeof(BlockHeader), &Layout::header}, {sizeof(WorldState), &Layout::world},
-    {sizeof(BodyPose), &Layout::poses},     {sizeof(BodyMotion), &Layout::motions},
-    {sizeof(BodyTraits), &Layout::traits},  {sizeof(BodyActivity), &Layout::activities},
-    {sizeof(uint32_t), &Layout::slots},     {sizeof(ContactState), &Layout::contacts},
-    {sizeof(AssetState), &Layout::assets},  {sizeof(ManifoldState), &Layout::manifolds},
-    {sizeof(JointState), &Layout::joints},  {sizeof(SensedState), &Layout::sensed},
+    {sizeof(BlockHeader), &Layout::header},
+    {sizeof(WorldState), &Layout::world},
+    {sizeof(BodyPose), &Layout::poses},
+    {sizeof(BodyMotion), &Layout::motions},
+    {sizeof(BodyProperties), &Layout::properties},
+    {sizeof(BodyActivity), &Layout::activities},
+    {sizeof(uint32_t), &Layout::slots},
+    {sizeof(ContactState), &Layout::contacts},
+    {sizeof(AssetState), &Layout::assets},
+    {sizeof(ManifoldState), &Layout::manifolds},
+    {sizeof(JointState), &Layout::joints},
+    {sizeof(SensedState), &Layout::sensed},
 };
 inline constexpr uint32_t k_section_count = sizeof k_sections / sizeof k_sections[0];
 
@@ -268,12 +274,18 @@ constexpr SectionFields section_fields(const char* name, const Field (&fields)[n
   return {name, fields, n};
 }
 inline constexpr SectionFields k_section_fields[k_section_count] = {
-    section_fields("header", k_header_fields), section_fields("world", k_world_fields),
-    section_fields("poses", k_pose_fields),    section_fields("motions", k_motion_fields),
-    section_fields("traits", k_traits_fields), section_fields("activities", k_activity_fields),
-    section_fields("slots", k_slot_fields),    section_fields("contacts", k_contact_fields),
-    section_fields("assets", k_asset_fields),  section_fields("manifolds", k_manifold_fields),
-    section_fields("joints", k_joint_fields),  section_fields("sensed", k_sensed_fields),
+    section_fields("header", k_header_fields),
+    section_fields("world", k_world_fields),
+    section_fields("poses", k_pose_fields),
+    section_fields("motions", k_motion_fields),
+    section_fields("properties", k_properties_fields),
+    section_fields("activities", k_activity_fields),
+    section_fields("slots", k_slot_fields),
+    section_fields("contacts", k_contact_fields),
+    section_fields("assets", k_asset_fields),
+    section_fields("manifolds", k_manifold_fields),
+    section_fields("joints", k_joint_fields),
+    section_fields("sensed", k_sensed_fields),
 };
 
 /// The size of a section, with its alignment fill. The fill counts as further elements or left-over bytes; it is always

@@ -53,10 +53,10 @@ bool are_joints(const StateView<const uint8_t>& state) {
       continue;
     }
     ++count;
-    if (joint.generation == 0 || joint.body_a == joint.body_b || joint.body_a >= state.traits.count ||
-        joint.body_b >= state.traits.count)
+    if (joint.generation == 0 || joint.body_a == joint.body_b || joint.body_a >= state.properties.count ||
+        joint.body_b >= state.properties.count)
       return false;
-    const BodyTraits &a = state.traits[joint.body_a], &b = state.traits[joint.body_b];
+    const BodyProperties &a = state.properties[joint.body_a], &b = state.properties[joint.body_b];
     Quat ignored;
     if (a.type == 0 || b.type == 0 || !normalise_input(joint.frame_a, ignored) ||
         !normalise_input(joint.frame_b, ignored) || !is_joint(joint) || !is_number(joint.force) ||

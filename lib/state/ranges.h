@@ -5,7 +5,7 @@
 
 #include "math/arithmetic.h"
 #include "math/scaled.h"
-#include "shape/shape_traits.h"
+#include "shape/shape_properties.h"
 
 /// The valid ranges of values from outside: from calls and from snapshots. NaN is outside every range.
 namespace detent {
@@ -52,12 +52,14 @@ DETENT_SHARED inline bool is_between(Scaled value, Scaled low, Scaled high) {
 DETENT_SHARED inline bool is_mass(Scaled value) { return is_between(value, Scaled(0x1p-60), Scaled(0x1p60)); }
 
 /// Whether the value is a valid inverse inertia per unit mass of a dynamic body. No solid has a value below 1.
-inline bool is_gyration(Scaled value) { return is_between(value, Scaled(1.0), k_gyration_max); }
+inline bool is_inverse_inertia(Scaled value) { return is_between(value, Scaled(1.0), k_inverse_inertia_max); }
 
-DETENT_SHARED inline bool are_gyrations(const BodyTraits& traits) {
+DETENT_SHARED inline bool are_inverse_inertias(const BodyProperties& properties) {
   for (uint32_t axis = 0; axis < 3; ++axis) {
-    const bool locked = (traits.turn_locks >> axis & 1) != 0;
-    if (locked ? !(traits.gyration[axis] == Scaled(0.0)) : !is_gyration(traits.gyration[axis])) return false;
+    const bool locked = (properties.rotation_locks >> axis & 1) != 0;
+    if (locked ? !(properties.inverse_inertia[axis] == Scaled(0.0))
+               : !is_inverse_inertia(properties.inverse_inertia[axis]))
+      return false;
   }
   return true;
 }
@@ -85,13 +87,15 @@ inline constexpr Real k_gravity_scale_max = 1024.0;
 
 /// Whether the settings of a world are within the ranges documented in WorldDef.
 DETENT_SHARED inline bool are_settings(const Vec3<Real>& gravity, Real tick, uint32_t substeps, uint32_t substeps_max,
-                                       uint32_t iterations, uint32_t convergence, Real relaxation, Real stiffness,
-                                       Real damping_ratio, Real restitution_threshold, Real breaking, Real reuse) {
+                                       uint32_t iterations, uint32_t convergence, Real relaxation,
+                                       Real contact_frequency, Real damping_ratio, Real restitution_threshold,
+                                       Real contact_margin, Real contact_recycle_distance) {
   return within(gravity, k_gravity_max) && within(tick, Real(0x1p-14), Real(0.25)) && substeps <= 64 &&
          substeps_max >= 1 && substeps_max <= 64 && iterations >= 1 && iterations <= 64 && convergence <= 30 &&
-         within(relaxation, Real(0.25), Real(1.75)) && within(stiffness, Real(0x1p-6), Real(0.25)) &&
+         within(relaxation, Real(0.25), Real(1.75)) && within(contact_frequency, Real(0x1p-6), Real(0.25)) &&
          within(damping_ratio, Real(0.0), Real(64.0)) && within(restitution_threshold, Real(0.0), Real(64.0)) &&
-         within(breaking, Real(0x1p-10), Real(0x1p-4)) && within(reuse, Real(0.0), Real(0x1p-6));
+         within(contact_margin, Real(0x1p-10), Real(0x1p-4)) &&
+         within(contact_recycle_distance, Real(0.0), Real(0x1p-6));
 }
 
 }  // namespace DETENT_NAMESPACE

@@ -15,7 +15,7 @@ inline bool take_slot(StateView<uint8_t>& state, uint32_t& slot) {
   for (uint32_t word = state.world.free_word; word < state.slots.count; ++word) {
     if (state.slots[word] == UINT32_MAX) continue;
     const uint32_t candidate = word * 32 + static_cast<uint32_t>(__builtin_ctz(~state.slots[word]));
-    if (candidate >= state.traits.count) return false;
+    if (candidate >= state.properties.count) return false;
     state.slots[word] |= slot_bit(candidate);
     state.world.free_word = word;
     if (candidate >= state.world.slots_used) state.world.slots_used = candidate + 1;
@@ -29,7 +29,7 @@ inline bool take_slot(StateView<uint8_t>& state, uint32_t& slot) {
 /// Frees the slot of a destroyed body, or retires it if its generations are used up.
 inline void give_slot_back(StateView<uint8_t>& state, uint32_t slot) {
   --state.world.body_count;
-  if (state.traits[slot].generation == k_generation_last) {
+  if (state.properties[slot].generation == k_generation_last) {
     ++state.world.slots_retired;
     return;
   }

@@ -11,8 +11,8 @@ void make_anew(const StepCacheView& step, const StateView<uint8_t>& state) {
   step.cache.fresh = 1;
   step.cache.contacts_known = 0;
   step.tree.make_empty();
-  for (uint32_t& word : step.visits.words) word = 0;
-  for (uint32_t slot = 0; slot < state.world.slots_used; ++slot) step.visits.set(slot);
+  for (uint32_t& word : step.active.words) word = 0;
+  for (uint32_t slot = 0; slot < state.world.slots_used; ++slot) step.active.set(slot);
 }
 
 }  // namespace
@@ -23,22 +23,22 @@ Span<const uint32_t> partition_bodies(const StepCacheView& step, const StepSetti
   step.cache.tree.visited = 0;
   if (step.cache.fresh == 0) make_anew(step, state);
   // All bodies of the active set leave the tree before one enters: the keys of the remaining bodies must not change.
-  step.visits.for_each([&](uint32_t slot) {
+  step.active.for_each([&](uint32_t slot) {
     if (step.tree.has(slot)) step.tree.remove(slot);
   });
   // Moving bodies fill the list from the front, resting bodies from the back.
   uint32_t moving = 0, resting = slots.count;
-  step.visits.for_each([&](uint32_t slot) {
-    if (is_moving(state.traits[slot], state.motions[slot], state.activities[slot])) {
+  step.active.for_each([&](uint32_t slot) {
+    if (is_moving(state.properties[slot], state.motions[slot], state.activities[slot])) {
       slots[moving++] = slot;
       return;
     }
-    step.visits.clear(slot);
-    if (state.traits[slot].type != 0) slots[--resting] = slot;
+    step.active.clear(slot);
+    if (state.properties[slot].type != 0) slots[--resting] = slot;
   });
   const Span<const uint32_t> newly_resting = {slots.data + resting, slots.count - resting};
-  bound(settings, state.poses, state.traits, state.motions, slots.first(moving), work, step.bounds);
-  bound(settings, state.poses, state.traits, state.motions, newly_resting, work, step.bounds);
+  bound(settings, state.poses, state.properties, state.motions, slots.first(moving), work, step.bounds);
+  bound(settings, state.poses, state.properties, state.motions, newly_resting, work, step.bounds);
   for (const uint32_t slot : newly_resting) {
     sweeps[slot] = {};
     step.tree.insert(slot);
@@ -47,7 +47,7 @@ Span<const uint32_t> partition_bodies(const StepCacheView& step, const StepSetti
 }
 
 Span<const uint32_t> list_awake_contacts(const StepCacheView& step, const StateView<uint8_t>& state) {
-  const auto awake = [&](uint32_t slot) { return is_awake(state.traits[slot], state.activities[slot]); };
+  const auto awake = [&](uint32_t slot) { return is_awake(state.properties[slot], state.activities[slot]); };
   uint32_t count = 0;
   const auto list = [&](uint32_t place) {
     const ContactState& contact = state.contacts[place];

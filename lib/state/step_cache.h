@@ -12,7 +12,7 @@ inline namespace DETENT_NAMESPACE {
 
 struct StepCacheView {
   StepCache& cache;
-  BitSet visits;  ///< the active set: bodies that moved in the last step or were changed since
+  BitSet active;  ///< the active set: bodies that moved in the last step or were changed since
   Span<uint32_t> awake_contacts;
   Span<Bounds> bounds;
   RestingTree tree;
@@ -22,7 +22,7 @@ DETENT_SHARED inline StepCacheView cache_of(uint8_t* block, const Layout& layout
   StepCache& cache = *at_offset<StepCache>(block, layout.cache);
   const Span<Bounds> bounds = {at_offset<Bounds>(block, layout.bounds), capacity.bodies};
   return {cache,
-          {{at_offset<uint32_t>(block, layout.visits), slot_words(capacity.bodies)}},
+          {{at_offset<uint32_t>(block, layout.active), slot_words(capacity.bodies)}},
           {at_offset<uint32_t>(block, layout.awake_contacts), capacity.contacts},
           bounds,
           {cache.tree,

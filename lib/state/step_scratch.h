@@ -28,7 +28,7 @@ struct Scratch {
   Span<uint32_t> joint_order;
   Span<JointCoupling> joint_couplings;
   Span<Real> joint_numbers;
-  Span<uint64_t> apart;
+  Span<uint64_t> disabled_pairs;
   Span<uint64_t> sensed, sensed_passed;
   BitSet changed;
 };
@@ -55,7 +55,7 @@ inline Scratch scratch_of(uint8_t* block, const Layout& layout, Capacity capacit
           {at_offset<uint32_t>(block, layout.joint_order), capacity.joints},
           {at_offset<JointCoupling>(block, layout.joint_couplings), joint_coupling_count(capacity)},
           {at_offset<Real>(block, layout.joint_numbers), joint_number_count(capacity)},
-          {at_offset<uint64_t>(block, layout.apart), capacity.joints},
+          {at_offset<uint64_t>(block, layout.disabled_pairs), capacity.joints},
           {at_offset<uint64_t>(block, layout.sensed_work), capacity.sensed},
           {at_offset<uint64_t>(block, layout.sensed_passed), capacity.sensed},
           {{at_offset<uint32_t>(block, layout.changed), capacity.sensed == 0 ? 0 : slot_words(capacity.bodies)}}};

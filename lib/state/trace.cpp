@@ -35,20 +35,20 @@ constexpr Field k_contact_work_fields[] = {
 };
 constexpr Field k_body_work_fields[] = {
     DETENT_FIELD_IN(TraceBody, displacement, "m"),
-    DETENT_FIELD_IN(TraceBody, turn, "m"),
-    DETENT_FIELD_IN(TraceBody, spin, "m/s"),
+    DETENT_FIELD_IN(TraceBody, rotation_vector, "m"),
+    DETENT_FIELD_IN(TraceBody, angular_velocity, "m/s"),
     DETENT_FIELD_IN(TraceBody, extent, "m"),
     DETENT_FIELD_IN(TraceBody, fall, "m/s"),
     DETENT_FIELD_IN(TraceBody, speed, "m/s"),
     DETENT_FIELD(TraceBody, rotation),
     make_field<Vec3<Unit>[3]>("axes", static_cast<uint32_t>(__builtin_offsetof(TraceBody, axes)), ""),
-    DETENT_FIELD(TraceBody, gyration),
-    DETENT_FIELD(TraceBody, gyration_exponent),
+    DETENT_FIELD(TraceBody, inverse_inertia),
+    DETENT_FIELD(TraceBody, inverse_inertia_exponent),
 };
 constexpr Field k_sweep_fields[] = {
     DETENT_FIELD(TraceSweep, from),
     DETENT_FIELD_IN(TraceSweep, displacement, "m"),
-    DETENT_FIELD_IN(TraceSweep, turn, "rad"),
+    DETENT_FIELD_IN(TraceSweep, rotation_vector, "rad"),
 };
 constexpr Field k_bounds_fields[] = {
     DETENT_FIELD_IN(Bounds, lower, "m"),
@@ -119,21 +119,21 @@ void visit_contact(const ContactWork& work, uint32_t place, const TraceVisitor& 
   give_value(visitor, k_contact_work, place, contact);
 }
 
-void visit_body(const BodyWork& work, bool aloof, uint32_t slot, const TraceVisitor& visitor) {
+void visit_body(const BodyWork& work, bool left_out, uint32_t slot, const TraceVisitor& visitor) {
   TraceBody body;
   memset(&body, 0, sizeof body);
   body.displacement = work.displacement;
-  body.turn = work.turn;
-  body.spin = work.spin;
-  if (!aloof) {  // otherwise they are not computed
+  body.rotation_vector = work.rotation_vector;
+  body.angular_velocity = work.angular_velocity;
+  if (!left_out) {  // otherwise they are not computed
     body.extent = work.extent;
     body.fall = work.fall;
     body.speed = work.speed;
   }
   body.rotation = work.rotation;
   body.axes = work.axes;
-  for (int i = 0; i < 3; ++i) body.gyration[i] = work.gyration.row[i];
-  body.gyration_exponent = work.gyration.exponent;
+  for (int i = 0; i < 3; ++i) body.inverse_inertia[i] = work.inverse_inertia.row[i];
+  body.inverse_inertia_exponent = work.inverse_inertia.exponent;
   give_value(visitor, k_body_work, slot, body);
 }
 
@@ -186,12 +186,12 @@ void visit_trace(const World& world, TraceStage stage, uint32_t contacts, const 
   const bool works = within(StepStage::find_pairs, StepStage::events), sweeps = is(StepStage::advance);
   if (!works && !sweeps) return;
   const StepCacheView cache = cache_of(world.block, state.layout, capacity);
-  cache.visits.for_each([&](uint32_t slot) {
-    if (works) visit_body(scratch.bodies[slot], is_non_colliding(state.traits[slot]), slot, visitor);
+  cache.active.for_each([&](uint32_t slot) {
+    if (works) visit_body(scratch.bodies[slot], is_non_colliding(state.properties[slot]), slot, visitor);
     if (is(StepStage::find_pairs)) give_value(visitor, k_bounds, slot, cache.bounds[slot]);
     if (!sweeps) return;
     const BodySweep& sweep = scratch.sweeps[slot];
-    give_value(visitor, k_body_sweeps, slot, TraceSweep{sweep.from, sweep.displacement, sweep.turn});
+    give_value(visitor, k_body_sweeps, slot, TraceSweep{sweep.from, sweep.displacement, sweep.rotation_vector});
   });
 }
 

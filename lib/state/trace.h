@@ -52,16 +52,16 @@ struct TraceContact {
 };
 /// The data of a moving body in the work space of a step.
 struct TraceBody {
-  Vec3<Real> displacement, turn, spin;
+  Vec3<Real> displacement, rotation_vector, angular_velocity;
   Real extent, fall, speed;
   Quat rotation;
   Matrix3 axes;
-  Vec3<Unit> gyration[3];
-  int64_t gyration_exponent;
+  Vec3<Unit> inverse_inertia[3];
+  int64_t inverse_inertia_exponent;
 };
 struct TraceSweep {
   Fraction from;
-  Vec3<Real> displacement, turn;
+  Vec3<Real> displacement, rotation_vector;
 };
 
 /// Receives an element's canonical bytes. `place`: the index in its array; for bodies, the slot index.

@@ -44,7 +44,7 @@ struct StateView {
   Of<WorldState>& world;
   Span<Of<BodyPose>> poses;
   Span<Of<BodyMotion>> motions;
-  Span<Of<BodyTraits>> traits;
+  Span<Of<BodyProperties>> properties;
   Span<Of<BodyActivity>> activities;
   Span<Of<uint32_t>> slots;
   Span<Of<ContactState>> contacts;  ///< the full capacity
@@ -69,7 +69,7 @@ DETENT_SHARED StateView<Byte> view_of(Byte* block, Capacity capacity) {
           *at_offset<WorldState>(block, layout.world),
           {at_offset<BodyPose>(block, layout.poses), capacity.bodies},
           {at_offset<BodyMotion>(block, layout.motions), capacity.bodies},
-          {at_offset<BodyTraits>(block, layout.traits), capacity.bodies},
+          {at_offset<BodyProperties>(block, layout.properties), capacity.bodies},
           {at_offset<BodyActivity>(block, layout.activities), capacity.bodies},
           {at_offset<uint32_t>(block, layout.slots), slot_words(capacity.bodies)},
           {at_offset<ContactState>(block, layout.contacts), capacity.contacts},
@@ -90,7 +90,8 @@ DETENT_SHARED inline StateView<const uint8_t> view_of(const World& world) {
 template <class Byte>
 bool find_body(const StateView<Byte>& state, BodyId id, uint32_t& slot) {
   slot = id.slot - 1;  // the null id wraps to a slot beyond every capacity
-  return slot < state.traits.count && state.traits[slot].type != 0 && state.traits[slot].generation == id.generation;
+  return slot < state.properties.count && state.properties[slot].type != 0 &&
+         state.properties[slot].generation == id.generation;
 }
 
 }  // namespace DETENT_NAMESPACE

@@ -24,13 +24,14 @@ Vec32 to_local_29(const Matrix32& rotation, const Vec32& v) {
   return {component(rotation.column[0]), component(rotation.column[1]), component(rotation.column[2])};
 }
 
-/// One body relative to an axis that rotates by `spin`: its part of the separation and of the curvature bound K.
+/// One body relative to an axis that rotates by `angular velocity`: its part of the separation and of the curvature
+/// bound K.
 class Side {
  public:
   /// `sign`: -1 for A, which contributes its farthest point along the axis; 1 for B, which contributes its farthest
   /// point against the axis.
-  Side(const Convex& convex, const Turning& turning, const Vec32& own_spin, const Vec32& spin, int32_t core,
-       int pair_exponent, int sign)
+  Side(const Convex& convex, const Turning& turning, const Vec32& own_angular_velocity, const Vec32& angular_velocity,
+       int32_t core, int pair_exponent, int sign)
       : convex_(convex),
         hull_(hull_of(convex)),
         turning_(turning),
@@ -38,12 +39,14 @@ class Side {
         shift_(pair_exponent - convex.exponent),
         sign_(sign) {
     present_ = core != 0;
-    relative_ = subtract(own_spin, spin);
+    relative_ = subtract(own_angular_velocity, angular_velocity);
     still_ = is_zero(relative_);
     if (!present_ || still_) return;
     speed_ = length_bound_32(relative_);
-    // |w x spin| = |u x spin|
-    twist_ = is_zero(own_spin) || is_zero(spin) ? 0 : length_bound_32(round_shift(cross(relative_, spin), 29));
+    // |w x angular velocity| = |u x angular velocity|
+    twist_ = is_zero(own_angular_velocity) || is_zero(angular_velocity)
+                 ? 0
+                 : length_bound_32(round_shift(cross(relative_, angular_velocity), 29));
   }
 
   /// Sets the axis at the start of a pass. For a body that rotates with the axis the first call is valid for all
@@ -62,7 +65,8 @@ class Side {
   bool present() const { return present_; }
   Matrix32 rotation_at(int64_t time) const { return turning_.at(time); }
 
-  /// rho (|n x u| |u| + |w x spin|), Q26. |n x u| grows by at most |n x spin| |u| per unit of time.
+  /// rho (|n x u| |u| + |w x angular velocity|), Q26. |n x u| grows by at most |n x angular velocity| |u| per unit of
+  /// time.
   int64_t curvature(int64_t tilt, int64_t rest) const {
     if (!moves()) return 0;
     const int64_t grown = across_ + (tilt == 0 ? 0 : product_above(product_above(tilt, speed_, 29), rest, 30));
@@ -93,8 +97,8 @@ class Side {
   int64_t core_;
   int shift_, sign_;
   bool present_, still_;
-  Vec32 relative_;                                ///< u = w - spin, Q29
-  int64_t speed_ = 0, twist_ = 0, across_ = 0;    ///< |u|, |w x spin|, |n x u|, Q29
+  Vec32 relative_;                                ///< u = w - angular velocity, Q29
+  int64_t speed_ = 0, twist_ = 0, across_ = 0;    ///< |u|, |w x angular velocity|, |n x u|, Q29
   Vec32 normal_ = {0, 0, 0}, slope_ = {0, 0, 0};  ///< n and n x u, Q29, in the body's axes
   int64_t value_ = 0;
   mutable uint8_t start_ = 0;
@@ -103,17 +107,19 @@ class Side {
 /// The certified separation along a rotating axis, from the start of one pass on.
 class Separation {
  public:
-  Separation(const MovingPair& pair, const Horizon& horizon, const Vec32& normal, const Vec32& spin, int32_t floor)
+  Separation(const MovingPair& pair, const Horizon& horizon, const Vec32& normal, const Vec32& angular_velocity,
+             int32_t floor)
       : pair_(pair),
         horizon_(horizon),
-        spin_(spin),
+        angular_velocity_(angular_velocity),
         floor_(floor),
-        a_(*pair.a, pair.turning_a, horizon.spin_a, spin, pair.core_a, pair.exponent, -1),
-        b_(*pair.b, pair.turning_b, horizon.spin_b, spin, pair.core_b, pair.exponent, 1) {
-    if (is_zero(spin)) return;
-    tilt_ = length_bound_32(cross_29(normal, spin));
-    // |n x spin| (2 |V| + |spin| max |C|)
-    const int64_t speed = 2 * length_bound_32(horizon.way) + product_above(length_bound_32(spin), pair.reach, 30);
+        a_(*pair.a, pair.turning_a, horizon.angular_velocity_a, angular_velocity, pair.core_a, pair.exponent, -1),
+        b_(*pair.b, pair.turning_b, horizon.angular_velocity_b, angular_velocity, pair.core_b, pair.exponent, 1) {
+    if (is_zero(angular_velocity)) return;
+    tilt_ = length_bound_32(cross_29(normal, angular_velocity));
+    // |n x angular velocity| (2 |V| + |angular velocity| max |C|)
+    const int64_t speed = 2 * length_bound_32(horizon.displacement) +
+                          product_above(length_bound_32(angular_velocity), pair.distance_max, 30);
     centre_curvature_ = product_above(tilt_, speed, 32);
   }
 
@@ -146,14 +152,14 @@ class Separation {
  private:
   void set_centre(const Vec32& offset, const Vec32& normal, int64_t part) {
     centre_ = (dot(normal, offset) >> 4) - (int64_t{floor_} << 26);
-    centre_slope_ = dot(normal, horizon_.way) >> 29;
-    if (!is_zero(spin_)) centre_slope_ += dot(cross_29(spin_, normal), offset) >> 29;
+    centre_slope_ = dot(normal, horizon_.displacement) >> 29;
+    if (!is_zero(angular_velocity_)) centre_slope_ += dot(cross_29(angular_velocity_, normal), offset) >> 29;
     curvature_ = centre_curvature_ + a_.curvature(tilt_, k_one_64 - part) + b_.curvature(tilt_, k_one_64 - part);
   }
 
   const MovingPair& pair_;
   const Horizon& horizon_;
-  Vec32 spin_;
+  Vec32 angular_velocity_;
   int32_t floor_;
   Side a_, b_;
   int64_t tilt_ = 0, centre_curvature_ = 0, curvature_ = 0;
@@ -176,8 +182,8 @@ int64_t parabola_root(int64_t separation, int64_t slope, int64_t curvature, int6
 
 }  // namespace
 
-Horizon horizon_from(const MovingPair& pair, int64_t start, int64_t length, int turn_quarters) {
-  const int64_t half_limit = int64_t{turn_quarters} << 43;  // 2^-46 rad
+Horizon horizon_from(const MovingPair& pair, int64_t start, int64_t length, int angle_quarters) {
+  const int64_t half_limit = int64_t{angle_quarters} << 43;  // 2^-46 rad
   const int64_t half_angle = pair.turning_a.angle / 2 + pair.turning_b.angle / 2 + 1;
   if (over_time(half_angle, length) > half_limit) length = time_quotient(half_limit, half_angle);
   return horizon_over(pair, start, length);
@@ -187,21 +193,23 @@ Horizon horizon_over(const MovingPair& pair, int64_t start, int64_t length) {
   Horizon horizon;
   horizon.start = start;
   horizon.length = length;
-  horizon.way = round_shift(over_time(pair.displacement, length), pair.exponent + 17);
-  horizon.spin_a = round_shift(over_time(pair.turning_a.turn, length), 17);
-  horizon.spin_b = round_shift(over_time(pair.turning_b.turn, length), 17);
+  horizon.displacement = round_shift(over_time(pair.displacement, length), pair.exponent + 17);
+  horizon.angular_velocity_a = round_shift(over_time(pair.turning_a.rotation_vector, length), 17);
+  horizon.angular_velocity_b = round_shift(over_time(pair.turning_b.rotation_vector, length), 17);
   return horizon;
 }
 
-TurningAxis::TurningAxis(const Vec32& normal, const Vec32& spin) : normal_(normal), turns_(!is_zero(spin)) {
+RotatingAxis::RotatingAxis(const Vec32& normal, const Vec32& angular_velocity)
+    : normal_(normal), turns_(!is_zero(angular_velocity)) {
   if (!turns_) return;
-  axis_ = unit_vector_raw(scaled_to_30_bits(spin));
-  rate_ = dot(axis_, spin) >> 30;  // the relative error of |axis|, 2^-28, is also that of the angle (at most 3 rad)
+  axis_ = unit_vector_raw(scaled_to_30_bits(angular_velocity));
+  rate_ = dot(axis_, angular_velocity) >>
+          30;  // the relative error of |axis|, 2^-28, is also that of the angle (at most 3 rad)
   along_ = static_cast<int32_t>(dot(axis_, normal) >> 30);
   across_ = round_shift(cross(axis_, normal), 30);
 }
 
-Vec32 TurningAxis::at(int64_t part) const {
+Vec32 RotatingAxis::at(int64_t part) const {
   if (!turns_ || part == 0) return normal_;
   constexpr int64_t k_radian = 2734261103;  // 2^34 / 2 pi
   const SineCosineRaw full = sine_cosine_raw((((rate_ * part) >> 30) * k_radian) >> 29);
@@ -214,9 +222,9 @@ Vec32 TurningAxis::at(int64_t part) const {
 }
 
 int32_t advance(const MovingPair& pair, const Frames& frames, const Horizon& horizon, const Vec32& normal,
-                const Vec32& spin, int32_t floor, uint32_t& passes) {
-  Separation separation(pair, horizon, normal, spin, floor);
-  const TurningAxis axis(normal, spin);
+                const Vec32& angular_velocity, int32_t floor, uint32_t& passes) {
+  Separation separation(pair, horizon, normal, angular_velocity, floor);
+  const RotatingAxis axis(normal, angular_velocity);
   const int64_t enough = int64_t{pair.tolerance} << 24;  // a quarter of the tolerance, Q56
   int64_t part = 0;
   for (int count = 0; count < k_passes_max; ++count) {
@@ -252,21 +260,22 @@ int32_t advance(const MovingPair& pair, const Frames& frames, const Horizon& hor
 }
 
 int64_t advance_on(const MovingPair& pair, const Frames& frames, const Horizon& horizon, const Vec32& normal,
-                   const Vec32& spin, int32_t floor, uint32_t& passes) {
+                   const Vec32& angular_velocity, int32_t floor, uint32_t& passes) {
   Frames at = frames;
   Horizon ahead = horizon;
-  Vec32 axis = normal, turn = spin;
+  Vec32 axis = normal, rotation_vector = angular_velocity;
   for (int count = 0; count < k_horizons_max; ++count) {
-    const int32_t part = advance(pair, at, ahead, axis, turn, floor, passes);
+    const int32_t part = advance(pair, at, ahead, axis, rotation_vector, floor, passes);
     const int64_t reached = ahead.time_at(part);
     if (part < k_one_64 || reached >= pair.to) return reached;
-    axis = TurningAxis(axis, turn).at(k_one_64);
+    axis = RotatingAxis(axis, rotation_vector).at(k_one_64);
     at = pair.at(reached);
     const int64_t rest = pair.to - reached, length = rest < horizon.length ? rest : horizon.length;
     ahead = horizon_over(pair, reached, length);
     if (length < horizon.length) {
       const int64_t share = time_quotient(length, horizon.length);
-      turn = round_shift(over_time(Vec64{spin.x, spin.y, spin.z}, share), 0);
+      rotation_vector =
+          round_shift(over_time(Vec64{angular_velocity.x, angular_velocity.y, angular_velocity.z}, share), 0);
     }
   }
   return at.time;
@@ -279,12 +288,13 @@ int32_t advance_once(const MovingPair& pair, const Frames& frames, const Horizon
   at_rest.start(frames, normal);
   const int64_t room = at_rest.at(0).separation >> 26;  // Q30
   if (room <= 0) return 0;
-  const auto turning = [&](const Vec32& spin, int32_t core) {
-    if (is_zero(spin) || core == 0) return int64_t{0};
-    return product_above(length_bound_32(tight ? cross_29(normal, spin) : spin), core, 29);
+  const auto turning = [&](const Vec32& angular_velocity, int32_t core) {
+    if (is_zero(angular_velocity) || core == 0) return int64_t{0};
+    return product_above(length_bound_32(tight ? cross_29(normal, angular_velocity) : angular_velocity), core, 29);
   };
-  const int64_t approach = -(dot(normal, horizon.way) >> 29) + 1 + turning(horizon.spin_a, pair.core_a) +
-                           turning(horizon.spin_b, pair.core_b);
+  const int64_t approach = -(dot(normal, horizon.displacement) >> 29) + 1 +
+                           turning(horizon.angular_velocity_a, pair.core_a) +
+                           turning(horizon.angular_velocity_b, pair.core_b);
   if (approach <= 0 || room >= approach) return static_cast<int32_t>(k_one_64);
   return static_cast<int32_t>((room << 30) / approach);
 }

@@ -9,9 +9,9 @@ inline constexpr int k_passes_max = 24;
 
 /// The motion of a pair over a horizon, which is a part of the step. All motion is per horizon.
 struct Horizon {
-  int64_t start, length;  ///< parts of the step, 2^-62
-  Vec32 way;              ///< translation of B relative to A, Q29 of the pair's unit
-  Vec32 spin_a, spin_b;   ///< rotation vectors, rad, Q29
+  int64_t start, length;                         ///< parts of the step, 2^-62
+  Vec32 displacement;                            ///< translation of B relative to A, Q29 of the pair's unit
+  Vec32 angular_velocity_a, angular_velocity_b;  ///< rotation vectors, rad, Q29
 
   /// The time at `part`, Q30, of the horizon, rounded down.
   int64_t time_at(int64_t part) const {
@@ -25,22 +25,23 @@ struct Horizon {
 inline constexpr int k_horizon_quarters = 8;
 
 /// The horizon that begins at `start` and lasts at most `length`. It is shortened so that the rotation angles of both
-/// bodies add up to at most `turn_quarters` quarter radians.
-Horizon horizon_from(const MovingPair& pair, int64_t start, int64_t length, int turn_quarters);
+/// bodies add up to at most `angle_quarters` quarter radians.
+Horizon horizon_from(const MovingPair& pair, int64_t start, int64_t length, int angle_quarters);
 
 /// The horizon that begins at `start` and lasts exactly `length`.
 Horizon horizon_over(const MovingPair& pair, int64_t start, int64_t length);
 
-/// Certifies how long the cores stay `floor` ulps apart along the rotating axis n(t) = exp(t spin) normal. `frames`
-/// are the poses at the horizon's start. Returns a part of the horizon, Q30; 0 if the cores are closer than that at the
-/// start. Range: |spin_x - spin| + 1 < 4 for both bodies, |spin| < 3. Derivation: DESIGN.md, "Never late".
+/// Certifies how long the cores stay `floor` ulps apart along the rotating axis n(t) = exp(t angular velocity) normal.
+/// `frames` are the poses at the horizon's start. Returns a part of the horizon, Q30; 0 if the cores are closer than
+/// that at the start. Range: |angular_velocity_x - angular velocity| + 1 < 4 for both bodies, |angular velocity| < 3.
+/// Derivation: DESIGN.md, "Never late".
 int32_t advance(const MovingPair& pair, const Frames& frames, const Horizon& horizon, const Vec32& normal,
-                const Vec32& spin, int32_t floor, uint32_t& passes);
+                const Vec32& angular_velocity, int32_t floor, uint32_t& passes);
 
 /// Calls advance() for consecutive horizons of the same length, at most k_horizons_max of them, until the axis
 /// certifies no more or the window ends. Returns the time that it reached.
 int64_t advance_on(const MovingPair& pair, const Frames& frames, const Horizon& horizon, const Vec32& normal,
-                   const Vec32& spin, int32_t floor, uint32_t& passes);
+                   const Vec32& angular_velocity, int32_t floor, uint32_t& passes);
 inline constexpr int k_horizons_max = 8;
 
 /// As advance(), by a single step: with the first-order bound if `tight`, otherwise with the paper's bound.
@@ -51,16 +52,16 @@ int32_t advance_once(const MovingPair& pair, const Frames& frames, const Horizon
 /// the rounding budget (DESIGN.md). It is negative where the cores are closer than `floor` along `normal`.
 int64_t separation_along(const MovingPair& pair, const Frames& frames, const Vec32& normal, int32_t floor);
 
-/// An axis that rotates by the rotation vector `spin`, Q29, over a horizon.
-class TurningAxis {
+/// An axis that rotates by the rotation vector `angular velocity`, Q29, over a horizon.
+class RotatingAxis {
  public:
-  TurningAxis(const Vec32& normal, const Vec32& spin);
+  RotatingAxis(const Vec32& normal, const Vec32& angular_velocity);
   /// The axis at a part of the horizon, Q30. Its length is 1 within k_turning_axis_error.
   Vec32 at(int64_t part) const;
 
  private:
   Vec32 normal_, axis_, across_;  ///< across_ = axis x normal
-  int64_t rate_, along_;          ///< |spin|, Q29; axis . normal
+  int64_t rate_, along_;          ///< |angular velocity|, Q29; axis . normal
   bool turns_;
 };
 inline constexpr double k_turning_axis_error = 8.0;  ///< 2^-30

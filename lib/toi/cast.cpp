@@ -19,14 +19,14 @@ CastHit hit_of(const TimeOfImpact& impact) {
 
 }  // namespace
 
-Status cast_ray(const Convex& convex, const Pose& pose, const Vec3<Real>& origin, const Vec3<Real>& way,
+Status cast_ray(const Convex& convex, const Pose& pose, const Vec3<Real>& origin, const Vec3<Real>& displacement,
                 CastHit& result) {
   Convex point;
   point.type = ShapeType::sphere;  // of radius 0
   Quat32 rotation;
   if (!raw_from_quat(pose.rotation, rotation)) return Status::not_normalised;
   Vec64 from, along;
-  if (!raw_from_real(origin, from) || !raw_from_real(way, along)) return Status::out_of_range;
+  if (!raw_from_real(origin, from) || !raw_from_real(displacement, along)) return Status::out_of_range;
   MovingPair pair;
   pair.a = &convex;
   pair.b = &point;
@@ -39,12 +39,12 @@ Status cast_ray(const Convex& convex, const Pose& pose, const Vec3<Real>& origin
   return Status::ok;
 }
 
-Status cast_shape(const Convex& moving, const Pose& start, const Vec3<Real>& way, const Convex& convex,
+Status cast_shape(const Convex& moving, const Pose& start, const Vec3<Real>& displacement, const Convex& convex,
                   const Pose& pose, CastHit& result) {
   const Real zero = 0.0;
   const Vec3<Real> still = {zero, zero, zero};
   TimeOfImpact impact;
-  const Status status = time_of_impact(convex, {pose, still, still}, moving, {start, way, still}, impact);
+  const Status status = time_of_impact(convex, {pose, still, still}, moving, {start, displacement, still}, impact);
   if (status == Status::ok) result = hit_of(impact);
   return status;
 }

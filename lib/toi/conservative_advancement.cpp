@@ -7,7 +7,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr Vec32 k_no_spin = {0, 0, 0};
+constexpr Vec32 k_no_angular_velocity = {0, 0, 0};
 
 /// The search tries this many plain axes before it predicts an axis.
 constexpr int k_plain_iterations = 1;
@@ -24,10 +24,11 @@ int64_t next_time(const MovingPair& pair, ToiMethod method, const Frames& frames
   }
   const Horizon horizon = horizon_from(pair, time, pair.to - time, k_horizon_quarters);
   if (pair.planar) {  // only the plane's normal can separate them
-    const Vec32& plane = pair.a->type == ShapeType::half_space ? horizon.spin_a : horizon.spin_b;
+    const Vec32& plane =
+        pair.a->type == ShapeType::half_space ? horizon.angular_velocity_a : horizon.angular_velocity_b;
     return advance_on(pair, frames, horizon, nearest.normal, plane, floor, result.passes);
   }
-  Vec32 spin = k_no_spin;
+  Vec32 angular_velocity = k_no_angular_velocity;
   switch (method) {
     case ToiMethod::paper:
     case ToiMethod::first_order:
@@ -36,10 +37,10 @@ int64_t next_time(const MovingPair& pair, ToiMethod method, const Frames& frames
     case ToiMethod::second_order:
       break;
     default:  // the axis rotates with a body
-      spin = features.base_spin(horizon);
+      angular_velocity = features.base_angular_velocity(horizon);
       break;
   }
-  return advance_on(pair, frames, horizon, nearest.normal, spin, floor, result.passes);
+  return advance_on(pair, frames, horizon, nearest.normal, angular_velocity, floor, result.passes);
 }
 
 }  // namespace

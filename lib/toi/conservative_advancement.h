@@ -12,7 +12,7 @@ inline constexpr int k_axis_methods = 6;  ///< the first values of ToiMethod: me
 #if defined(DETENT_TOI_METHOD)
 inline constexpr ToiMethod k_toi_method = ToiMethod::DETENT_TOI_METHOD;
 #else
-inline constexpr ToiMethod k_toi_method = ToiMethod::constant_spin;
+inline constexpr ToiMethod k_toi_method = ToiMethod::constant_angular_velocity;
 #endif
 static_assert(static_cast<int>(k_toi_method) < k_axis_methods, "of every shape, and never late");
 

@@ -16,31 +16,31 @@ inline constexpr OpenPart k_open = {0, k_whole}, k_closed = {1, 0};
 /// The error of corners that are rounded to 29 bits and a sign. Products of two such components fit 64 bits, products
 /// of three fit 128 bits (tests/proofs/feature.g).
 struct Shortening {
-  int shift;      ///< the number of bits dropped; rounding is to nearest
-  int64_t reach;  ///< bound on every component after the shift
-  int64_t ball;   ///< error radius after the shift, rounding included; at most reach + 1
+  int shift;             ///< the number of bits dropped; rounding is to nearest
+  int64_t distance_max;  ///< bound on every component after the shift
+  int64_t ball;          ///< error radius after the shift, rounding included; at most reach + 1
 
   /// `magnitudes`: the bitwise or of all component magnitudes. `ball_before`: the error radius before the shift.
   Shortening(uint64_t magnitudes, int64_t ball_before) {
     constexpr int k_bits = 29;
     const int length = bit_length_64(magnitudes | static_cast<uint64_t>(ball_before));
     shift = length > k_bits ? length - k_bits : 0;
-    reach = int64_t{1} << (length - shift);
+    distance_max = int64_t{1} << (length - shift);
     // Rounding to nearest adds half a unit; the sum is rounded up once.
     const int64_t unit = int64_t{1} << shift;
     ball = (ball_before + (unit >> 1) + unit - 1) >> shift;
   }
   /// Whether the error radius is so large that products carry no information and their error bounds would overflow.
-  bool is_blind() const { return 8 * ball > reach; }
+  bool is_blind() const { return 8 * ball > distance_max; }
 
   /// The largest component of |(a + d) x (b + e) - a x b|, with d and e within the ball.
-  int64_t moment_error() const { return 2 * ball * (2 * reach + ball); }
+  int64_t moment_error() const { return 2 * ball * (2 * distance_max + ball); }
   /// The error bound of the volume of three corners p, q, r that are off by d, e, f. It bounds |d.(q x r)|, |(d x
   /// e).r|, their permutations, and |(d x e).f|. `moments` is the sum of the component magnitudes of the three cross
   /// products, below 2^62. A flat triangle has small cross products, so the bound depends on its area and not on its
   /// length.
   Int128 volume_error(int64_t moments) const {
-    return Int128::product_narrow(moments + 18 * ball * reach + 6 * ball * ball, static_cast<int32_t>(ball));
+    return Int128::product_narrow(moments + 18 * ball * distance_max + 6 * ball * ball, static_cast<int32_t>(ball));
   }
 };
 

@@ -7,7 +7,7 @@ namespace {
 /// Corners that move in straight lines have differences that move in straight lines, equal to their chords.
 struct LinearPath {
   int count;
-  Vec64 start[4], way[4];
+  Vec64 start[4], displacement[4];
   int64_t ball;
 
   FeatureSpan span(int64_t from, int64_t to) const {
@@ -15,8 +15,8 @@ struct LinearPath {
     span.count = count;
     span.ball = ball + 1;  // positions at both ends are rounded down
     for (int i = 0; i < count; ++i) {
-      span.from[i] = add(start[i], over_time(way[i], from));
-      span.to[i] = add(start[i], over_time(way[i], to));
+      span.from[i] = add(start[i], over_time(displacement[i], from));
+      span.to[i] = add(start[i], over_time(displacement[i], to));
     }
     return span;
   }
@@ -31,7 +31,7 @@ void LinearFeatures::first_contact(FeatureToi& result) const {
   Vec64 last[4];
   set_differences(kind, start, path.start);
   set_differences(kind, end, last);
-  for (int i = 0; i < path.count; ++i) path.way[i] = add(last[i], negate(path.start[i]));
+  for (int i = 0; i < path.count; ++i) path.displacement[i] = add(last[i], negate(path.start[i]));
   const int64_t first_size = size_of(kind, start), last_size = size_of(kind, end);
   search(path, near_gap(larger(first_size, last_size), ball + 1), result);
 }

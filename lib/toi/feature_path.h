@@ -13,18 +13,18 @@ struct PlacedPair {
 
 /// Bounds on the paths of points of a body that rotates about its position.
 struct RotationBound {
-  int64_t reach;  ///< the largest distance of a point from the position, 2^-46 m
-  int64_t angle;  ///< 2^-46 rad over the step; a point's acceleration is at most angle^2 reach
+  int64_t radius;  ///< the largest distance of a point from the position, 2^-46 m
+  int64_t angle;   ///< 2^-46 rad over the step; a point's acceleration is at most angle^2 reach
 
   /// The largest distance of a point from its chord over an interval of this length: an eighth of the acceleration
   /// times the square of the length, and at most a diameter.
   int64_t bend(int64_t length) const {
-    const int64_t part = turn(length);
-    if (part >= int64_t{1} << 31) return 2 * reach;
-    return part_of(reach, ((part * part) >> 33) + 1) + 1;
+    const int64_t part = angle_in(length);
+    if (part >= int64_t{1} << 31) return 2 * radius;
+    return part_of(radius, ((part * part) >> 33) + 1) + 1;
   }
   /// The rotation angle over an interval of this length, Q30 rad, rounded up.
-  int64_t turn(int64_t length) const { return (over_time(angle, length) >> 16) + 1; }
+  int64_t angle_in(int64_t length) const { return (over_time(angle, length) >> 16) + 1; }
 };
 
 /// Two bodies whose positions move in straight lines.
@@ -34,12 +34,12 @@ struct SweptPair {
   /// As RotationBound::bend(), for the difference of any point of A and any point of B.
   int64_t bend(int64_t length) const { return bound_a.bend(length) + bound_b.bend(length); }
   /// Bound on the relative rotation of the bodies over an interval of this length, Q30 rad.
-  int64_t turn(int64_t length) const { return bound_a.turn(length) + bound_b.turn(length); }
+  int64_t angle_in(int64_t length) const { return bound_a.angle_in(length) + bound_b.angle_in(length); }
   /// Error bound of a difference of two points at a time: 16 2^-30 of the distance for each rotation, and eight
   /// roundings (two corners, their images, the positions, the translations).
   int64_t ball() const {
     static_assert(k_turning_error == 16);
-    return ((bound_a.reach + bound_b.reach) >> 26) + 9;
+    return ((bound_a.radius + bound_b.radius) >> 26) + 9;
   }
 };
 

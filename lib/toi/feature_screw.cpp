@@ -57,9 +57,9 @@ Status feature_toi_screw(FeatureKind kind, const Vec3<Real> (&corner)[4], const 
   const int split = first_of_b(kind);
   const Matrix32 rotation = matrix_from(start.rotation);
   for (int i = split; i < 4; ++i) path.corner[i] = rotated(rotation, path.corner[i]);
-  const int64_t reach = reach_of(path.corner + split, 4 - split);
-  path.bend = path.screw.bend(reach);
-  path.ball = screw_ball(reach, start, end);
+  const int64_t radius = radius_of(path.corner + split, 4 - split);
+  path.bend = path.screw.bend(radius);
+  path.ball = screw_ball(radius, start, end);
   search(path, near_gap(size, path.ball), result);
   return Status::ok;
 }

@@ -31,10 +31,10 @@ inline bool raw_corners(const Vec3<Real> (&corner)[4], int bits, Vec64 (&raw)[4]
   return true;
 }
 /// The largest distance of the corners from the origin, rounded up.
-inline int64_t reach_of(const Vec64* corner, int count) {
-  int64_t reach = 0;
-  for (int i = 0; i < count; ++i) reach = larger(reach, length_above(corner[i]));
-  return reach;
+inline int64_t radius_of(const Vec64* corner, int count) {
+  int64_t radius = 0;
+  for (int i = 0; i < count; ++i) radius = larger(radius, length_above(corner[i]));
+  return radius;
 }
 /// The rotation of v. Rounding: to nearest.
 inline Vec64 rotated(const Matrix32& m, const Vec64& v) {

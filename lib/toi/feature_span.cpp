@@ -131,7 +131,7 @@ bool begins_near(const FeatureSpan& span, int64_t gap) {
   const Shortening is(magnitudes, 0);
   Vec32 corner[4];
   for (int i = 0; i < span.count; ++i) corner[i] = round_shift(span.from[i], is.shift);
-  return gap >> is.shift >= is.reach || !parted(corner, span.count, gap >> is.shift);
+  return gap >> is.shift >= is.distance_max || !parted(corner, span.count, gap >> is.shift);
 }
 
 }  // namespace DETENT_NAMESPACE

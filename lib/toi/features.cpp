@@ -8,7 +8,7 @@ namespace {
 
 constexpr int k_tries_max = 3;
 constexpr int k_tracking_quarters = 4;  ///< a predicted axis rotation is useless over more than 1 rad
-constexpr int32_t k_relative_spin_max =
+constexpr int32_t k_relative_angular_velocity_max =
     3 << 28;  ///< 1.5 rad, Q29, relative to the base rotation: the limit of the formats of advance()
 
 /// The axis between two features, and their separation along it.
@@ -24,13 +24,13 @@ Vec32 placed_point(const MovingPair& pair, const Convex& convex, const Matrix32&
 
 /// The features of a pair at a time, world axes, ulps.
 struct PlacedFeatures {
-  Vec32 way;             ///< from A's first point to B's
+  Vec32 displacement;    ///< from A's first point to B's
   Vec32 edge_a, edge_b;  ///< zero for a vertex
 
   PlacedFeatures(const MovingPair& pair, const NearFeatures& features, const Frames& frames) {
     const Vec32 from = placed_point(pair, *pair.a, frames.a, features.a[0]);
     const Vec32 to = placed_point(pair, *pair.b, frames.b, features.b[0]);
-    way = subtract(add(frames.offset, to), from);
+    displacement = subtract(add(frames.offset, to), from);
     edge_a = edge_b = {0, 0, 0};
     if (features.count_a == 2) edge_a = subtract(placed_point(pair, *pair.a, frames.a, features.a[1]), from);
     if (features.count_b == 2) edge_b = subtract(placed_point(pair, *pair.b, frames.b, features.b[1]), to);
@@ -46,16 +46,16 @@ struct PlacedFeatures {
       if (side == 0) side = dot(scaled_to_30_bits(across), towards) < 0 ? -1 : 1;
       if (side < 0) across = negate(across);
     } else if (is_zero(edge_a) && is_zero(edge_b)) {
-      across = {way.x, way.y, way.z};
+      across = {displacement.x, displacement.y, displacement.z};
     } else {
       const Vec32& edge = is_zero(edge_a) ? edge_b : edge_a;
-      const Vec64 moment = cross(edge, way);
+      const Vec64 moment = cross(edge, displacement);
       if (is_zero(moment)) return false;
       across = cross(scaled_to_30_bits(moment), edge);
     }
     if (is_zero(across)) return false;
     axis.normal = unit_vector_raw(scaled_to_30_bits(across));
-    axis.gap = dot(axis.normal, way) >> 30;
+    axis.gap = dot(axis.normal, displacement) >> 30;
     return true;
   }
 };
@@ -63,12 +63,14 @@ struct PlacedFeatures {
 /// The current speed at which the gap closes, ulps over the horizon.
 int64_t closing_speed(const MovingPair& pair, const NearFeatures& features, const Frames& frames,
                       const Horizon& horizon, const Vec32& normal) {
-  const auto rim_speed = [&](const Convex& convex, const Matrix32& rotation, const Vec32& spin, const Vec32& local) {
-    if (is_zero(spin)) return int64_t{0};
-    return dot(round_shift(cross(normal, spin), 30), placed_point(pair, convex, rotation, local)) >> 29;
+  const auto rim_speed = [&](const Convex& convex, const Matrix32& rotation, const Vec32& angular_velocity,
+                             const Vec32& local) {
+    if (is_zero(angular_velocity)) return int64_t{0};
+    return dot(round_shift(cross(normal, angular_velocity), 30), placed_point(pair, convex, rotation, local)) >> 29;
   };
-  return -(dot(normal, horizon.way) >> 29) + rim_speed(*pair.a, frames.a, horizon.spin_a, features.nearest_a) -
-         rim_speed(*pair.b, frames.b, horizon.spin_b, features.nearest_b);
+  return -(dot(normal, horizon.displacement) >> 29) +
+         rim_speed(*pair.a, frames.a, horizon.angular_velocity_a, features.nearest_a) -
+         rim_speed(*pair.b, frames.b, horizon.angular_velocity_b, features.nearest_b);
 }
 
 /// numerator / denominator as Q30, at most 1. Range: denominator > 0.
@@ -119,11 +121,11 @@ NearFeatures::NearFeatures(const Simplex& simplex) {
   count_b = count_distinct(&SimplexVertex::b, b);
 }
 
-Vec32 NearFeatures::base_spin(const Horizon& horizon) const {
-  if (count_a >= 3) return horizon.spin_a;
-  if (count_b >= 3) return horizon.spin_b;
-  if (count_a == 2) return horizon.spin_a;
-  if (count_b == 2) return horizon.spin_b;
+Vec32 NearFeatures::base_angular_velocity(const Horizon& horizon) const {
+  if (count_a >= 3) return horizon.angular_velocity_a;
+  if (count_b >= 3) return horizon.angular_velocity_b;
+  if (count_a == 2) return horizon.angular_velocity_a;
+  if (count_b == 2) return horizon.angular_velocity_b;
   return {0, 0, 0};
 }
 
@@ -190,21 +192,23 @@ int64_t advance_tracking(const MovingPair& pair, const Frames& frames, const Sim
   for (int attempt = 0; attempt < k_tries_max; ++attempt) {
     const bool last = attempt == k_tries_max - 1 || !foreseen;
     Horizon horizon = horizon_from(pair, time, last ? pair.to - time : length, last ? 8 : k_tracking_quarters);
-    Vec32 spin = features.base_spin(horizon);
+    Vec32 angular_velocity = features.base_angular_velocity(horizon);
     if (attempt > 0 && !last) foresee();
     if (!last && foreseen) {
-      const Vec32 base = spin;
+      const Vec32 base = angular_velocity;
       for (int round = 0; round < 3; ++round) {
-        spin = add(spin, round_shift(cross(TurningAxis(normal, spin).at(k_one_64), then.normal), 31));
+        angular_velocity = add(
+            angular_velocity, round_shift(cross(RotatingAxis(normal, angular_velocity).at(k_one_64), then.normal), 31));
       }
-      const Vec32 more = subtract(spin, base);
-      if (dot(more, more) > int64_t{k_relative_spin_max} * k_relative_spin_max) spin = base;
+      const Vec32 more = subtract(angular_velocity, base);
+      if (dot(more, more) > int64_t{k_relative_angular_velocity_max} * k_relative_angular_velocity_max)
+        angular_velocity = base;
     }
-    const int64_t reached = advance_on(pair, frames, horizon, normal, spin, floor, result.passes);
+    const int64_t reached = advance_on(pair, frames, horizon, normal, angular_velocity, floor, result.passes);
     if (reached > best) best = reached;
     if (last || best >= pair.to || best - time >= part_rounded(length, k_one_64 * 3 / 5)) break;
-    const int64_t reach = best - time > length / 100 ? best - time : length / 100;
-    length = 2 * reach > length ? length / 2 : geometric_mean(reach, length);
+    const int64_t distance_max = best - time > length / 100 ? best - time : length / 100;
+    length = 2 * distance_max > length ? length / 2 : geometric_mean(distance_max, length);
   }
   progress = best - time;
   return best;

@@ -19,7 +19,7 @@ struct NearFeatures {
   bool has_face() const { return !curved && (count_a >= 3 || count_b >= 3); }
   /// The rotation vector of the body that has the face, or otherwise the edge, to which the axis is perpendicular. Zero
   /// between two vertices.
-  Vec32 base_spin(const Horizon& horizon) const;
+  Vec32 base_angular_velocity(const Horizon& horizon) const;
 };
 
 /// The axis between the features at `frames`, Q30. False if they touch or are parallel edges. For two edges, `side`

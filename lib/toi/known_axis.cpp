@@ -26,17 +26,19 @@ bool stays_clear(const MovingPair& pair, const Vec32& normal) {
   const Frames frames = pair.at(pair.from);
   const int32_t floor = pair.radius + pair.tolerance + k_certain;
   uint32_t passes = 0;
-  const int32_t part = advance(pair, frames, window, normal, window.spin_a, floor, passes);
+  const int32_t part = advance(pair, frames, window, normal, window.angular_velocity_a, floor, passes);
   if (part == k_one) return true;
-  return part != 0 && advance(pair, frames, window, normal, window.spin_b, floor, passes) == k_one;
+  return part != 0 && advance(pair, frames, window, normal, window.angular_velocity_b, floor, passes) == k_one;
 }
 
 int32_t enough_apart(const MovingPair& pair) {
   Horizon window;
   if (!window_of(pair, window)) return INT32_MAX;
-  const auto turning = [](const Vec32& spin, int64_t core) { return ((length_bound_32(spin) * core) >> 29) + 1; };
-  const int64_t closing =
-      2 * length_bound_32(window.way) + turning(window.spin_a, pair.core_a) + turning(window.spin_b, pair.core_b);
+  const auto turning = [](const Vec32& angular_velocity, int64_t core) {
+    return ((length_bound_32(angular_velocity) * core) >> 29) + 1;
+  };
+  const int64_t closing = 2 * length_bound_32(window.displacement) + turning(window.angular_velocity_a, pair.core_a) +
+                          turning(window.angular_velocity_b, pair.core_b);
   const int64_t enough = pair.radius + pair.tolerance + k_certain + closing;
   return enough < INT32_MAX ? static_cast<int32_t>(enough) : INT32_MAX;
 }

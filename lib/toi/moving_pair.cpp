@@ -8,7 +8,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr int64_t k_raw_turn_max = int64_t{1} << (k_metre_bits + 16);  ///< rad
+constexpr int64_t k_raw_rotation_max = int64_t{1} << (k_metre_bits + 16);  ///< rad
 /// Bound on the sum of all roundings in a certified separation, ulps of the block; derived in DESIGN.md.
 constexpr int32_t k_budget = 32;
 
@@ -32,14 +32,15 @@ int64_t root_above(Int128 value) {
 }
 
 /// Sets the window in which |offset + t displacement| <= reach, 2^-46 m, widened by all rounding. Returns a bound on
-/// the excess of the distance over `reach` in the widened window, 2^-46 m.
-int64_t set_window(MovingPair& pair, int64_t reach) {
+/// the excess of the distance over `distance_max` in the widened window, 2^-46 m.
+int64_t set_window(MovingPair& pair, int64_t distance_max) {
   const Vec64 &c = pair.offset, &d = pair.displacement;
-  const int length = bit_length_64(static_cast<uint64_t>(reach) | magnitudes(c) | magnitudes(d));
+  const int length = bit_length_64(static_cast<uint64_t>(distance_max) | magnitudes(c) | magnitudes(d));
   const int n = length > 29 ? length - 29 : 0;  // components below 2^29, norms below 2^30
-  const Vec32 from = round_shift(c, n), way = round_shift(d, n);
-  const int64_t r = (reach >> n) + 4;  // for the rounding of offset, displacement and reach
-  const int64_t square = dot(way, way), along = dot(from, way), rest = dot(from, from) - r * r;
+  const Vec32 from = round_shift(c, n), displacement = round_shift(d, n);
+  const int64_t r = (distance_max >> n) + 4;  // for the rounding of offset, displacement and reach
+  const int64_t square = dot(displacement, displacement), along = dot(from, displacement),
+                rest = dot(from, from) - r * r;
   const int64_t rounding = int64_t{12} << n;
   pair.from = 0;
   pair.to = k_time_end;
@@ -103,16 +104,16 @@ Status set_turnings(const Motion& motion_a, const Motion& motion_b, MovingPair& 
   return set_turning(*pair.b, motion_b, pair.turning_b);
 }
 
-Status set_ways(const Motion& motion_a, const Motion& motion_b, MovingPair& pair) {
-  Vec64 way_a, way_b;
-  if (!raw_from_real(motion_a.displacement, way_a) || !raw_from_real(motion_b.displacement, way_b)) {
+Status set_displacements(const Motion& motion_a, const Motion& motion_b, MovingPair& pair) {
+  Vec64 displacement_a, displacement_b;
+  if (!raw_from_real(motion_a.displacement, displacement_a) || !raw_from_real(motion_b.displacement, displacement_b)) {
     return Status::out_of_range;
   }
-  if (((magnitudes(way_a) | magnitudes(way_b)) >> 60) != 0) return Status::out_of_range;
-  pair.way_a = way_a;
+  if (((magnitudes(displacement_a) | magnitudes(displacement_b)) >> 60) != 0) return Status::out_of_range;
+  pair.displacement_a = displacement_a;
   Vec64 offset;
   if (!raw_difference(motion_b.start.position, motion_a.start.position, offset)) return Status::out_of_range;
-  return set_block(offset, add(way_b, negate(way_a)), pair);
+  return set_block(offset, add(displacement_b, negate(displacement_a)), pair);
 }
 
 Status prepare(const Convex& a, const Motion& motion_a, const Convex& b, const Motion& motion_b, MovingPair& pair) {
@@ -120,29 +121,29 @@ Status prepare(const Convex& a, const Motion& motion_a, const Convex& b, const M
   pair.a = &a;
   pair.b = &b;
   if (const Status status = set_turnings(motion_a, motion_b, pair); status != Status::ok) return status;
-  return set_ways(motion_a, motion_b, pair);
+  return set_displacements(motion_a, motion_b, pair);
 }
 
 Status turning_of(const Motion& motion, Turning& turning) {
   if (!raw_from_quat(motion.start.rotation, turning.start)) return Status::not_normalised;
-  if (!raw_from_real(motion.turn, turning.turn)) return Status::out_of_range;
-  const Vec64& turn = turning.turn;
-  if (magnitude_64(turn.x) > k_raw_turn_max || magnitude_64(turn.y) > k_raw_turn_max ||
-      magnitude_64(turn.z) > k_raw_turn_max) {
+  if (!raw_from_real(motion.rotation_vector, turning.rotation_vector)) return Status::out_of_range;
+  const Vec64& rotation_vector = turning.rotation_vector;
+  if (magnitude_64(rotation_vector.x) > k_raw_rotation_max || magnitude_64(rotation_vector.y) > k_raw_rotation_max ||
+      magnitude_64(rotation_vector.z) > k_raw_rotation_max) {
     return Status::out_of_range;
   }
   // The components are below 2^62, so the square fits 128 bits.
-  const Int128 longest = Int128::product(k_raw_turn_max, k_raw_turn_max);
-  if (longest < dot(turn, turn)) return Status::out_of_range;
-  const Vec64 way = turn;
+  const Int128 longest = Int128::product(k_raw_rotation_max, k_raw_rotation_max);
+  if (longest < dot(rotation_vector, rotation_vector)) return Status::out_of_range;
+  const Vec64 displacement = rotation_vector;
   turning = still(turning.start);
-  if (is_zero(way)) return Status::ok;
+  if (is_zero(displacement)) return Status::ok;
   turning.turns = true;
-  turning.turn = way;
-  turning.axis = unit_vector_raw(scaled_to_30_bits(turn));
+  turning.rotation_vector = displacement;
+  turning.axis = unit_vector_raw(scaled_to_30_bits(rotation_vector));
   // |turn| = axis . turn / |axis| with |axis|^2 = 1 + excess. The rounding of the axis only has a second-order effect.
   const int64_t excess = dot(turning.axis, turning.axis) - (int64_t{1} << 60);
-  const int64_t along = dot(turn, turning.axis).round_shift(30);
+  const int64_t along = dot(rotation_vector, turning.axis).round_shift(30);
   turning.angle = along - Int128::product(along, excess).round_shift(61);
   constexpr int64_t k_inverse_two_pi = 2935890503282001226;  // Q64
   turning.rate = Int128::product(turning.angle, k_inverse_two_pi).round_shift(64);
@@ -178,21 +179,21 @@ Status set_block(const Vec64& offset, const Vec64& displacement, MovingPair& pai
     pair.to = 0;
     return Status::ok;
   }
-  int64_t reach = close;
+  int64_t distance_max = close;
   if (pair.planar) {
     // A plane is unbounded: the window is the whole step, and the block holds both ends of the translation.
     pair.from = 0;
     pair.to = k_time_end;
     const int64_t begins = distance_at(pair, 0), ends = distance_at(pair, k_time_end);
-    reach = saturated_sum(begins > ends ? begins : ends, close);
+    distance_max = saturated_sum(begins > ends ? begins : ends, close);
   } else {
     const int64_t rounding = set_window(pair, close);
     if (pair.from > pair.to) return Status::ok;
-    reach += rounding;
+    distance_max += rounding;
   }
-  const int64_t whole = saturated_sum(reach, cores + 64);
+  const int64_t whole = saturated_sum(distance_max, cores + 64);
   pair.exponent = whole == INT64_MAX ? k_exponent_max : raw_exponent_above(whole);
-  pair.reach = ulps_above(reach, pair.exponent);
+  pair.distance_max = ulps_above(distance_max, pair.exponent);
   pair.core_a = ulps_above(raw_core_radius(a), pair.exponent);
   pair.core_b = ulps_above(raw_core_radius(b), pair.exponent);
   pair.radius_a = raw_radius(a);

@@ -34,11 +34,11 @@ inline void set_clear(TimeOfImpact& result) {
 struct Turning {
   Quat32 start;
   Matrix32 start_matrix;
-  bool turns;     ///< false also if the core is a point
-  Vec32 axis;     ///< of the rotation, world axes, Q30
-  int64_t rate;   ///< 2^-46 revolutions over the step
-  Vec64 turn;     ///< rotation vector, 2^-46 rad over the step
-  int64_t angle;  ///< |turn|, rounded up
+  bool turns;             ///< false also if the core is a point
+  Vec32 axis;             ///< of the rotation, world axes, Q30
+  int64_t rate;           ///< 2^-46 revolutions over the step
+  Vec64 rotation_vector;  ///< rotation vector, 2^-46 rad over the step
+  int64_t angle;          ///< |turn|, rounded up
 
   /// The rotation at a time. Error of a rotated unit vector: k_turning_error.
   Matrix32 at(int64_t time) const { return turns ? matrix_from(rotation_at(time)) : start_matrix; }
@@ -67,13 +67,13 @@ struct MovingPair {
   Vec64 offset;                            ///< from A's position to B's at the start, 2^-46 m
   Vec64 displacement;                      ///< of B relative to A over the step, 2^-46 m
   bool absolute = false;                   ///< A and B are moved one by one, and then the difference is taken
-  Vec64 way_a;                             ///< translation of A over the step, 2^-46 m
+  Vec64 displacement_a;                    ///< translation of A over the step, 2^-46 m
   Vec64 offset_whole, displacement_whole;  ///< with the part along a resting half-space's plane
   bool planar;                             ///< one of the two shapes is a half-space
   int64_t from, to;                        ///< the window in which the shapes can touch; from > to: never
   int exponent;            ///< 2^exponent m is the pair's unit of length; the block's ulp is 2^-30 of it
   int32_t core_a, core_b;  ///< core radii, ulps of the block, rounded up
-  int64_t reach;           ///< bound on the distance of the centres in the window, ulps
+  int64_t distance_max;    ///< bound on the distance of the centres in the window, ulps
   int64_t radius_a;        ///< radius of A's ball (its rounding), 2^-46 m
   int32_t radius;          ///< sum of both balls' radii, ulps, rounded up
   int32_t tolerance;       ///< ulps: a distance of at most radius + tolerance is a hit
@@ -81,7 +81,7 @@ struct MovingPair {
   Frames at(int64_t time) const { return {time, turning_a.at(time), turning_b.at(time), offset_at(time)}; }
   Vec32 offset_at(int64_t time) const {
     if (!absolute) return in_block(add(offset, over_time(displacement, time)));
-    const Vec64 moved_a = over_time(way_a, time), moved_b = over_time(add(displacement, way_a), time);
+    const Vec64 moved_a = over_time(displacement_a, time), moved_b = over_time(add(displacement, displacement_a), time);
     return subtract(in_block(add(offset, moved_b)), in_block(moved_a));
   }
 
@@ -98,10 +98,10 @@ struct MovingPair {
 /// or if the centres are 2^16 m or more apart and the spheres may still touch.
 Status set_block(const Vec64& offset, const Vec64& displacement, MovingPair& pair);
 /// These set the rotations, and the translations with the window and the block, of a pair whose shapes are set. If one
-/// shape is a half-space, call set_turnings() first; otherwise set_ways() does not need it. Errors: as
+/// shape is a half-space, call set_turnings() first; otherwise set_displacements() does not need it. Errors: as
 /// time_of_impact().
 Status set_turnings(const Motion& motion_a, const Motion& motion_b, MovingPair& pair);
-Status set_ways(const Motion& motion_a, const Motion& motion_b, MovingPair& pair);
+Status set_displacements(const Motion& motion_a, const Motion& motion_b, MovingPair& pair);
 /// Sets all of the pair: shapes, rotations, translations and block. Errors: as time_of_impact().
 Status prepare(const Convex& a, const Motion& motion_a, const Convex& b, const Motion& motion_b, MovingPair& pair);
 

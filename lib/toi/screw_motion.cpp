@@ -20,11 +20,11 @@ constexpr Quat32 conjugate(const Quat32& q) { return {-q.x, -q.y, -q.z, q.w}; }
 
 /// The tangent of half the rotation angle from one pose to another, along the rotation axis. False if it is above 4.
 bool tangent_between(const Quat32& from, const Quat32& to, Vec32& tangent) {
-  const Quat32 turn = multiply(to, conjugate(from));
-  const int64_t w = turn.w;
+  const Quat32 rotation_vector = multiply(to, conjugate(from));
+  const int64_t w = rotation_vector.w;
   if (magnitude_64(w) < uint64_t{1} << 27) return false;
   const auto part = [w](int32_t v) { return (int64_t{v} << k_tangent_bits) / w; };
-  const Vec64 g = {part(turn.x), part(turn.y), part(turn.z)};
+  const Vec64 g = {part(rotation_vector.x), part(rotation_vector.y), part(rotation_vector.z)};
   if (largest_component(g) > k_tangent_max) return false;
   tangent = {static_cast<int32_t>(g.x), static_cast<int32_t>(g.y), static_cast<int32_t>(g.z)};
   return dot(tangent, tangent) <= k_tangent_max * k_tangent_max;
@@ -43,8 +43,8 @@ Vec64 ScrewMotion::turned(const Vec64& y, int64_t time, int64_t inverse_weight) 
 }
 
 Vec64 ScrewMotion::at(const Vec64& x, int64_t time, int64_t inverse_weight) const {
-  const Vec64 moved = over_time(way, time);
-  const Vec64 y = add(add(x, x), add(moved, negate(way)));
+  const Vec64 moved = over_time(displacement, time);
+  const Vec64 y = add(add(x, x), add(moved, negate(displacement)));
   return add(add(first, x), add(moved, turned(y, time, inverse_weight)));
 }
 
@@ -52,11 +52,11 @@ int64_t ScrewMotion::tangent_length() const {
   return static_cast<int64_t>(square_root_nearest(Words128{0, static_cast<uint64_t>(square)})) + 1;
 }
 
-int64_t ScrewMotion::bend(int64_t reach) const {
+int64_t ScrewMotion::bend(int64_t radius) const {
   // With r the distance from the axis, |x''| <= 4 g^2 r and g r <= |d| sqrt(1 + g^2) / 2 + g |x|.
-  const int64_t far = length_above(way), g = tangent_length();
+  const int64_t far = length_above(displacement), g = tangent_length();
   const auto times_g = [g](int64_t value) { return Int128::product(value, g).round_shift(k_tangent_bits) + 1; };
-  const int64_t swing = times_g(times_g(reach)), drift = times_g(far + times_g(far));
+  const int64_t swing = times_g(times_g(radius)), drift = times_g(far + times_g(far));
   return (swing >> 1) + (drift >> 2) + 2;
 }
 
@@ -66,7 +66,7 @@ Status screw_between(const RelativePose& start, const RelativePose& end, ScrewMo
     return Status::out_of_range;
   }
   screw.first = start.position;
-  screw.way = add(end.position, negate(start.position));
+  screw.displacement = add(end.position, negate(start.position));
   screw.square = dot(screw.tangent, screw.tangent);
   return Status::ok;
 }

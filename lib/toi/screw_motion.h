@@ -24,9 +24,9 @@ inline constexpr int k_screw_range_bits = 10;
 /// The formula needs neither the place of the axis nor the angle, and gives a straight line if there is no rotation.
 /// With |g| <= 4 and |y| < 2^59 the two products are perpendicular to each other and their sum is below 2^63.
 struct ScrewMotion {
-  Vec64 first, way;  ///< B's position relative to A's at the start (c), and d; 2^-46 m
-  Vec32 tangent;     ///< g, Q28
-  int64_t square;    ///< |g|^2, Q56
+  Vec64 first, displacement;  ///< B's position relative to A's at the start (c), and d; 2^-46 m
+  Vec32 tangent;              ///< g, Q28
+  int64_t square;             ///< |g|^2, Q56
 
   /// |g|, Q28, rounded up.
   int64_t tangent_length() const;
@@ -42,14 +42,14 @@ struct ScrewMotion {
   Vec64 turned(const Vec64& y, int64_t time, int64_t inverse_weight) const;
   /// The position, relative to A's, of the point that is `x` from B's position at the start.
   Vec64 at(const Vec64& x, int64_t time, int64_t inverse_weight) const;
-  /// Bound on the distance from its chord over the whole step, for points within `reach` of B's position.
-  int64_t bend(int64_t reach) const;
+  /// Bound on the distance from its chord over the whole step, for points within `radius` of B's position.
+  int64_t bend(int64_t radius) const;
 };
 
-/// Error bound of a difference of a corner of A and a corner of B that is `reach` from B's position, 2^-46 m. Sources:
+/// Error bound of a difference of a corner of A and a corner of B that is `radius` from B's position, 2^-46 m. Sources:
 /// rotations composed from rounded ones, a tangent rounded after a division by 1/4 or more, rounded sums.
-inline int64_t screw_ball(int64_t reach, const RelativePose& start, const RelativePose& end) {
-  return (reach >> 24) + ((length_above(start.position) + length_above(end.position)) >> 26) + 64;
+inline int64_t screw_ball(int64_t radius, const RelativePose& start, const RelativePose& end) {
+  return (radius >> 24) + ((length_above(start.position) + length_above(end.position)) >> 26) + 64;
 }
 
 /// The part of an interval in which the features of a path may be coplanar. `Path` has set_differences_at(), a kind and

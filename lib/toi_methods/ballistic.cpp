@@ -17,8 +17,8 @@ constexpr int64_t k_sine_error_above = 1;             ///< error of sine_cosine_
 
 /// Bounds on the reduction of a separation.
 struct Taken {
-  int64_t way;    ///< ulps
-  int64_t speed;  ///< ulps over the step
+  int64_t displacement;  ///< ulps
+  int64_t speed;         ///< ulps over the step
 };
 
 /// Bound on the reduction of the separation along a normal by a body's rotation.
@@ -63,7 +63,7 @@ int64_t ballistic_time(const MovingPair& pair, const Frames& frames, const Vec32
   for (int step = 0; step < k_steps_max; ++step) {
     ++passes;
     const Taken a = swing_a.at(elapsed), b = swing_b.at(elapsed);
-    const int64_t left = room + over_time(speed, elapsed) - a.way - b.way;
+    const int64_t left = room + over_time(speed, elapsed) - a.displacement - b.displacement;
     if (left <= 0) break;
     const int64_t fall = a.speed + b.speed - speed;
     if (fall <= 0) return pair.to;  // fall only decreases from here on

@@ -13,15 +13,15 @@ constexpr int64_t k_raw_pi = 221069929750888;  // 2^-46, rounded down
 /// line shorter.
 struct QuaternionLine {
   Quat32 start;
-  int64_t way[4];
+  int64_t displacement[4];
 
   /// The quaternion at a time, Q30; not of length 1.
   Quat32 at(int64_t time) const {
-    const auto component = [&](int32_t from, int64_t way_along) {
-      return static_cast<int32_t>(from + over_time(way_along, time));
+    const auto component = [&](int32_t from, int64_t displacement_along) {
+      return static_cast<int32_t>(from + over_time(displacement_along, time));
     };
-    return {component(start.x, way[0]), component(start.y, way[1]), component(start.z, way[2]),
-            component(start.w, way[3])};
+    return {component(start.x, displacement[0]), component(start.y, displacement[1]),
+            component(start.z, displacement[2]), component(start.w, displacement[3])};
   }
   /// The square of the quaternion's length, Q60: from 1/2 to 1.
   static uint64_t square(const Quat32& q) {
@@ -201,7 +201,7 @@ struct NumericalRoots {
 
 /// Sets the rotation of one body and its bound. Errors: as time_of_impact(); out_of_range for a rotation of more than
 /// pi.
-Status set_line(const Motion& motion, int64_t reach, QuaternionLine& line, RotationBound& bound) {
+Status set_line(const Motion& motion, int64_t distance_max, QuaternionLine& line, RotationBound& bound) {
   Turning turning;
   if (const Status status = turning_of(motion, turning); status != Status::ok) return status;
   if (turning.angle > k_raw_pi) return Status::out_of_range;
@@ -214,14 +214,14 @@ Status set_line(const Motion& motion, int64_t reach, QuaternionLine& line, Rotat
   for (int i = 0; i < 4; ++i) along += int64_t{from[i]} * to[i] >> 2;
   for (int i = 0; i < 4; ++i) {
     const int64_t last = along < 0 ? -int64_t{to[i]} : to[i], sum = (from[i] + last) / 2;
-    line.way[i] = last - from[i];
-    squares[0] += static_cast<uint64_t>(line.way[i] / 2 * (line.way[i] / 2));
+    line.displacement[i] = last - from[i];
+    squares[0] += static_cast<uint64_t>(line.displacement[i] / 2 * (line.displacement[i] / 2));
     squares[1] += static_cast<uint64_t>(sum * sum);
   }
   // With k the tangent of a quarter of the angle, the angular speed is at most 4 k. With the angular acceleration, the
   // acceleration of a point is at most 16.9 k^2 times its distance from the position.
   const int64_t k = ((int64_t{square_root_floor(squares[0])} + 2) << 30) / square_root_floor(squares[1]);  // Q30
-  bound = {reach, turning.turns ? (33 * k) << 13 : 0};
+  bound = {distance_max, turning.turns ? (33 * k) << 13 : 0};
   return Status::ok;
 }
 

@@ -16,7 +16,7 @@ bool may_touch(const EdgeFan& a, const EdgeFan& b, const StepPart& part) {
   // Their common normal is n = s a x b for a sign s. It lies between the face normals of A, n = x left + y right with
   // x, y >= 0, only if s left.b >= 0 >= s right.b. The same condition with a and b exchanged holds for -n = s b x a and
   // the face normals of B.
-  const int64_t slack = (part.turn + CandidateSide::k_unit_error) << 30;
+  const int64_t slack = (part.angle + CandidateSide::k_unit_error) << 30;
   const int64_t left_a = dot(a.left, b.along), right_a = dot(a.right, b.along);
   const int64_t left_b = dot(b.left, a.along), right_b = dot(b.right, a.along);
   const bool plus = left_a >= -slack && right_a <= slack && left_b >= -slack && right_b <= slack;
@@ -51,18 +51,18 @@ void CandidateSide::choose(const Vec32 (&direction)[2], const int64_t (&least)[2
 bool CandidateSide::fan(uint32_t from, uint32_t to, const Matrix32& rotation, EdgeFan& fan) const {
   const EdgeFaces faces = polytope_.faces(from, to);
   if (faces.flat) return false;
-  const Vec32 way = subtract(polytope_.vertex(to), polytope_.vertex(from));
+  const Vec32 displacement = subtract(polytope_.vertex(to), polytope_.vertex(from));
   fan.from = static_cast<uint8_t>(from);
   fan.to = static_cast<uint8_t>(to);
-  fan.along = turned(rotation, unit_or_zero({way.x, way.y, way.z}));
+  fan.along = turned(rotation, unit_or_zero({displacement.x, displacement.y, displacement.z}));
   fan.left = turned(rotation, unit_or_zero(faces.left));
   fan.right = turned(rotation, unit_or_zero(faces.right));
   return true;
 }
 
 int64_t separation(const PlacedPair& pair, const Vec32& direction, const CandidateSide& a, const CandidateSide& b) {
-  return dot(pair.offset, direction).round_shift(30) - a.reach(in_axes(pair.a, direction)) -
-         b.reach(in_axes(pair.b, negate(direction)));
+  return dot(pair.offset, direction).round_shift(30) - a.extent(in_axes(pair.a, direction)) -
+         b.extent(in_axes(pair.b, negate(direction)));
 }
 
 bool choose(const StepPart& part, const Vec32& normal, CandidateSide& a, CandidateSide& b, int64_t (&apart)[2]) {
@@ -76,10 +76,10 @@ bool choose(const StepPart& part, const Vec32& normal, CandidateSide& a, Candida
     of_a[i] = in_axes(end[i]->a, normal);
     of_b[i] = in_axes(end[i]->b, negate(normal));
     apart[i] = dot(end[i]->offset, normal).round_shift(30) - part.bend;
-    const int64_t reach_a = a.reach(of_a[i]), reach_b = b.reach(of_b[i]);
-    least_a[i] = apart[i] - reach_b;
-    least_b[i] = apart[i] - reach_a;
-    any = any || reach_a >= least_a[i];
+    const int64_t extent_a = a.extent(of_a[i]), extent_b = b.extent(of_b[i]);
+    least_a[i] = apart[i] - extent_b;
+    least_b[i] = apart[i] - extent_a;
+    any = any || extent_a >= least_a[i];
   }
   if (!any) return false;
   a.choose(of_a, least_a);

@@ -14,18 +14,18 @@ inline namespace DETENT_NAMESPACE {
 struct StepPart {
   Interval interval;
   PlacedPair begin, end;
-  int64_t turn;  ///< bound on the relative rotation of the bodies, Q30 rad
+  int64_t angle;  ///< bound on the relative rotation of the bodies, Q30 rad
   /// Bound on the distance from its chord of a difference of a point of A and a point of B, 2^-46 m, roundings
   /// included.
   int64_t bend;
-  Vec64 way;  ///< translation of B relative to A over the part, 2^-46 m
+  Vec64 displacement;  ///< translation of B relative to A over the part, 2^-46 m
   /// 2^-46 m. Along a normal as it is at the beginning, touching points that keep their motion over the whole part move
-  /// by `way` within +-stray.
+  /// by `displacement` within +-stray.
   int64_t stray;
 
   /// Whether points that touch with this outward normal of A at the beginning may approach. When two bodies first
   /// touch, at least one of the normals that bound their common cone has this property.
-  bool approaches(const Vec32& normal) const { return dot(way, normal).round_shift(30) <= stray; }
+  bool approaches(const Vec32& normal) const { return dot(displacement, normal).round_shift(30) <= stray; }
 };
 
 /// An edge and the outward normals of its two faces as in EdgeFaces, world axes, of length 1 in Q30; zero for a
@@ -51,21 +51,21 @@ class CandidateSide {
   /// The position of a vertex in the body's axes, 2^-46 m.
   Vec64 corner(uint32_t vertex) const;
   /// The support distance of the body from its position along a unit direction in its axes, Q30: 2^-46 m.
-  int64_t reach(const Vec32& direction) const { return metres(farthest(direction)); }
+  int64_t extent(const Vec32& direction) const { return metres(farthest(direction)); }
   /// Selects as candidates the vertices that extend at least `least`, 2^-46 m, along the direction at the beginning or
   /// at the end.
   void choose(const Vec32 (&direction)[2], const int64_t (&least)[2]);
   /// The largest distance of some vertices along the direction of `end`, 2^-46 m.
-  int64_t reach(const uint32_t* vertex, int count, int end) const {
+  int64_t extent(const uint32_t* vertex, int count, int end) const {
     int64_t most = INT64_MIN;
     for (int i = 0; i < count; ++i) most = larger(most, dot(direction_[end], polytope_.vertex(vertex[i])));
     return metres(most);
   }
   /// Calls visit(vertex) for the candidate vertices that are the farthest in a direction, or can be after a rotation by
-  /// `turn`, Q30 rad.
+  /// `angle`, Q30 rad.
   template <class Visit>
-  void for_each_extreme(const Vec32& direction, int64_t turn, Visit&& visit) const {
-    const int64_t least = farthest(direction) - 2 * int64_t{convex_.core_radius} * (turn + k_unit_error);
+  void for_each_extreme(const Vec32& direction, int64_t angle, Visit&& visit) const {
+    const int64_t least = farthest(direction) - 2 * int64_t{convex_.core_radius} * (angle + k_unit_error);
     for (uint32_t i = 0; i < count_; ++i) {
       if (dot(direction, polytope_.vertex(chosen_[i])) >= least) visit(uint32_t{chosen_[i]});
     }

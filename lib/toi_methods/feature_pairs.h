@@ -31,7 +31,7 @@ class FeaturePairs {
     cores_ = core_a + core_b;
     depth_ = (core_a < core_b ? core_a : core_b) >> k_depth_shift;
     gap_ = near_gap(2 * larger(core_a, core_b), motion.ball());
-    for (int i = 0; i < k_lengths; ++i) length_max_[i] = time_quotient(k_part_turn[i], motion.turn(k_time_end));
+    for (int i = 0; i < k_lengths; ++i) length_max_[i] = time_quotient(k_part_turn[i], motion.angle_in(k_time_end));
   }
 
   /// Finds the first contact in the window. The normal and the point of a hit are in the axes of the motion.
@@ -85,11 +85,11 @@ class FeaturePairs {
   void set_end(int64_t from, int64_t to) {
     part_.interval = {from, to};
     part_.end = motion_.at(to);
-    part_.turn = motion_.turn(to - from);
+    part_.angle = motion_.angle_in(to - from);
     const int64_t bend = motion_.bend(to - from), ball = motion_.ball();
     part_.bend = bend + 2 * ball;
-    part_.way = add(part_.end.offset, negate(part_.begin.offset));
-    part_.stray = 8 * bend + part_of(cores_ + length_bound(part_.way), part_.turn) + 2 * ball;
+    part_.displacement = add(part_.end.offset, negate(part_.begin.offset));
+    part_.stray = 8 * bend + part_of(cores_ + length_bound(part_.displacement), part_.angle) + 2 * ball;
   }
 
   /// Chooses the end of a part that begins at `from`. It is the end of the longest allowed length over which the normal
@@ -154,7 +154,7 @@ class FeaturePairs {
       const Vec32 outward = face_normal(other.polytope(), i, j, k, rotation_other);
       const Vec32 inward = negate(outward);
       if (!part_.approaches(side_is_a ? inward : outward)) return;
-      side.for_each_extreme(in_axes(rotation, inward), part_.turn, [&](uint32_t vertex) {
+      side.for_each_extreme(in_axes(rotation, inward), part_.angle, [&](uint32_t vertex) {
         ask(FeatureKind::vertex_face, side, other, {vertex, i, j, k}, first);
       });
     });
@@ -192,7 +192,7 @@ class FeaturePairs {
     const int split = first_of_b(kind);
     bool meet = false;
     for (int end = 0; end < 2; ++end) {
-      meet = meet || side.reach(vertex, split, end) + other.reach(vertex + split, 4 - split, end) >= apart_[end];
+      meet = meet || side.extent(vertex, split, end) + other.extent(vertex + split, 4 - split, end) >= apart_[end];
     }
     if (!meet) return;
     FeaturePath<Motion> path = {motion_, {part_.interval.from, part_.interval.to, part_.begin, part_.end},

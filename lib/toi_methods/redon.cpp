@@ -25,7 +25,7 @@ struct RelativeScrew {
     return pair;
   }
   int64_t bend(int64_t length) const { return over_time(over_time(bend_whole, length) + 1, length) + 1; }
-  int64_t turn(int64_t length) const { return over_time(angle, length) + 1; }
+  int64_t angle_in(int64_t length) const { return over_time(angle, length) + 1; }
   int64_t ball() const { return rounding; }
   template <class Path>
   OpenPart roots(const Path& path, int64_t from, int64_t to) const {
@@ -49,16 +49,16 @@ Status time_of_impact_by_redon(const Convex& a, const Motion& motion_a, const Co
   Quat32 of_a[2], of_b[2];
   if (const Status status = quaternion_of(motion_a, of_a); status != Status::ok) return status;
   if (const Status status = quaternion_of(motion_b, of_b); status != Status::ok) return status;
-  Vec64 way_a, way_b, offset;
-  if (!raw_from_real(motion_a.displacement, way_a) || !raw_from_real(motion_b.displacement, way_b) ||
+  Vec64 displacement_a, displacement_b, offset;
+  if (!raw_from_real(motion_a.displacement, displacement_a) || !raw_from_real(motion_b.displacement, displacement_b) ||
       !raw_difference(motion_b.start.position, motion_a.start.position, offset) ||
-      !in_range(offset, k_screw_range_bits) || !in_range(way_a, k_screw_range_bits) ||
-      !in_range(way_b, k_screw_range_bits) || raw_core_radius(a) >> (k_metre_bits + k_screw_range_bits) != 0 ||
+      !in_range(offset, k_screw_range_bits) || !in_range(displacement_a, k_screw_range_bits) ||
+      !in_range(displacement_b, k_screw_range_bits) || raw_core_radius(a) >> (k_metre_bits + k_screw_range_bits) != 0 ||
       raw_core_radius(b) >> (k_metre_bits + k_screw_range_bits) != 0) {
     return Status::out_of_range;
   }
   const RelativePose start = relative_pose(of_a[0], of_b[0], offset);
-  const RelativePose end = relative_pose(of_a[1], of_b[1], add(offset, add(way_b, negate(way_a))));
+  const RelativePose end = relative_pose(of_a[1], of_b[1], add(offset, add(displacement_b, negate(displacement_a))));
   RelativeScrew motion;
   if (const Status status = screw_between(start, end, motion.screw); status != Status::ok) return status;
   motion.start = matrix_from(start.rotation);

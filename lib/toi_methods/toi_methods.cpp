@@ -31,7 +31,7 @@ Status time_of_impact_by(ToiMethod method, const Convex& a, const Motion& motion
     case ToiMethod::second_order:
     case ToiMethod::corotating:
     case ToiMethod::world_space:
-    case ToiMethod::constant_spin:
+    case ToiMethod::constant_angular_velocity:
       return time_of_impact_on_axes(method, a, motion_a, b, motion_b, result);
     case ToiMethod::mirtich:
       return time_of_impact_of<ballistic_advancement>(a, motion_a, b, motion_b, result);

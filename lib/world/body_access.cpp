@@ -2,7 +2,7 @@
 
 #include "base/float_environment.h"
 #include "broad_phase/pair_filter.h"
-#include "shape/shape_traits.h"
+#include "shape/shape_properties.h"
 #include "state/ranges.h"
 #include "world/body_change.h"
 #include "world/body_parts.h"
@@ -17,11 +17,11 @@ constexpr Scaled k_default_density = 1000.0;
 /// The properties of a body for a getter, or null.
 struct Read {
   StateView<const uint8_t> state;
-  const BodyTraits* traits = nullptr;
+  const BodyProperties* properties = nullptr;
   uint32_t slot = 0;
 
   Read(const World& world, BodyId id) : state(view_of(world)) {
-    if (find_body(state, id, slot)) traits = &state.traits[slot];
+    if (find_body(state, id, slot)) properties = &state.properties[slot];
   }
 };
 
@@ -30,28 +30,28 @@ Real real_from(Scaled value) {
   return to_real(value, saturated);
 }
 
-Shape shape_from(const BodyTraits& traits) {
-  const auto size = [&](Unit value) { return real_from_unit(value, traits.size_exponent); };
+Shape shape_from(const BodyProperties& properties) {
+  const auto size = [&](Unit value) { return real_from_unit(value, properties.size_exponent); };
   Shape shape;
-  shape.type = shape_of(traits);
-  if (shape.type != ShapeType::compound) shape.rounding = size(traits.rounding);
+  shape.type = shape_of(properties);
+  if (shape.type != ShapeType::compound) shape.rounding = size(properties.rounding);
   switch (shape.type) {
     case ShapeType::sphere:
-      shape.radius = size(traits.size.x);
+      shape.radius = size(properties.size.x);
       break;
     case ShapeType::capsule:
     case ShapeType::cylinder:
     case ShapeType::cone:
-      shape.radius = size(traits.size.x);
-      shape.half_length = size(traits.size.y);
+      shape.radius = size(properties.size.x);
+      shape.half_length = size(properties.size.y);
       break;
     case ShapeType::box:
-      shape.half_extents = {size(traits.size.x), size(traits.size.y), size(traits.size.z)};
+      shape.half_extents = {size(properties.size.x), size(properties.size.y), size(properties.size.z)};
       break;
     case ShapeType::hull:
-    case ShapeType::surface:
+    case ShapeType::terrain:
     case ShapeType::compound:
-      shape.asset = traits.asset;
+      shape.asset = properties.asset;
       break;
     default:
       break;
@@ -59,9 +59,9 @@ Shape shape_from(const BodyTraits& traits) {
   return shape;
 }
 
-Material material_from(const BodyTraits& traits) {
-  return {real_from(traits.friction), real_from(traits.restitution), real_from(traits.rolling_resistance),
-          static_cast<RestitutionRule>(traits.restitution_rule)};
+Material material_from(const BodyProperties& properties) {
+  return {real_from(properties.friction), real_from(properties.restitution), real_from(properties.rolling_resistance),
+          static_cast<RestitutionRule>(properties.restitution_rule)};
 }
 
 /// A change of a body: its new properties, which are checked before the body is changed.
@@ -69,30 +69,31 @@ struct Change {
   StateView<uint8_t> state;
   bool found = false;
   uint32_t slot = 0;
-  BodyTraits traits = {};
+  BodyProperties properties = {};
   BodyMotion motion = {};
 
   Change(World& world, BodyId id) : state(view_of(world)) {
     found = find_body(state, id, slot);
     if (!found) return;
-    traits = state.traits[slot];
+    properties = state.properties[slot];
     motion = state.motions[slot];
   }
   const Quat& rotation() const { return state.poses[slot].rotation; }
   /// Sets this angular velocity, in the unit of the changed properties. Errors: bad_argument, out_of_range.
-  Status turn_with(const Vec3<Real>& spin) {
+  Status turn_with(const Vec3<Real>& angular_velocity) {
     const Real zero = 0.0;
-    const bool turns = !(spin == Vec3<Real>{zero, zero, zero});
-    if (turns && is_half_space(traits)) return Status::bad_argument;
-    if (!within(spin, k_spin_max)) return Status::out_of_range;
-    if (!is_dynamic(traits) && !within(spin * traits.bounding_radius, k_speed_max)) return Status::out_of_range;
-    motion.momentum = momentum_of(traits, rotation(), spin);
+    const bool turns = !(angular_velocity == Vec3<Real>{zero, zero, zero});
+    if (turns && is_half_space(properties)) return Status::bad_argument;
+    if (!within(angular_velocity, k_angular_velocity_max)) return Status::out_of_range;
+    if (!is_dynamic(properties) && !within(angular_velocity * properties.bounding_radius, k_speed_max))
+      return Status::out_of_range;
+    motion.angular_momentum = angular_momentum_of(properties, rotation(), angular_velocity);
     return Status::ok;
   }
   void make() {
     wake_slot(state, slot);
     wake_neighbours(state, slot);
-    state.traits[slot] = traits;
+    state.properties[slot] = properties;
     state.motions[slot] = motion;
   }
   /// As make(), for a change that invalidates the body's contacts.
@@ -119,84 +120,85 @@ bool scale(int power, Vec3<Real>& v) {
 Status get_body_def(const World& world, BodyId id, BodyDef& def) {
   const FloatEnvironment environment;
   const Read body(world, id);
-  if (body.traits == nullptr) return Status::bad_id;
-  const BodyTraits& traits = *body.traits;
+  if (body.properties == nullptr) return Status::bad_id;
+  const BodyProperties& properties = *body.properties;
   BodyDef made;
-  if (const Status status = get_velocity(world, id, made.velocity, made.spin); status != Status::ok) return status;
-  made.type = type_of(traits);
+  if (const Status status = get_velocity(world, id, made.linear_velocity, made.angular_velocity); status != Status::ok)
+    return status;
+  made.type = type_of(properties);
   made.position = body.state.poses[body.slot].position;
   made.rotation = body.state.poses[body.slot].rotation;
-  made.shape = shape_from(traits);
-  made.material = material_from(traits);
-  made.mass = traits.mass;
-  made.linear_damping = real_from(traits.linear_damping);
-  made.angular_damping = real_from(traits.angular_damping);
-  made.gravity_scale = real_from(traits.gravity_scale);
-  made.user_data = traits.user_data;
-  made.turn_locks = traits.turn_locks;
-  made.filter = filter_of(traits);
-  made.sensor = traits.sensor != 0;
+  made.shape = shape_from(properties);
+  made.material = material_from(properties);
+  made.mass = properties.mass;
+  made.linear_damping = real_from(properties.linear_damping);
+  made.angular_damping = real_from(properties.angular_damping);
+  made.gravity_scale = real_from(properties.gravity_scale);
+  made.user_data = properties.user_data;
+  made.rotation_locks = properties.rotation_locks;
+  made.filter = filter_of(properties);
+  made.sensor = properties.sensor != 0;
   def = made;
   return Status::ok;
 }
 
 Status get_type(const World& world, BodyId id, BodyType& type) {
   const Read body(world, id);
-  if (body.traits == nullptr) return Status::bad_id;
-  type = type_of(*body.traits);
+  if (body.properties == nullptr) return Status::bad_id;
+  type = type_of(*body.properties);
   return Status::ok;
 }
 
 Status get_shape(const World& world, BodyId id, Shape& shape) {
   const FloatEnvironment environment;
   const Read body(world, id);
-  if (body.traits == nullptr) return Status::bad_id;
-  shape = shape_from(*body.traits);
+  if (body.properties == nullptr) return Status::bad_id;
+  shape = shape_from(*body.properties);
   return Status::ok;
 }
 
 Status get_material(const World& world, BodyId id, Material& material) {
   const Read body(world, id);
-  if (body.traits == nullptr) return Status::bad_id;
-  material = material_from(*body.traits);
+  if (body.properties == nullptr) return Status::bad_id;
+  material = material_from(*body.properties);
   return Status::ok;
 }
 
 Status get_damping(const World& world, BodyId id, Real& linear, Real& angular) {
   const Read body(world, id);
-  if (body.traits == nullptr) return Status::bad_id;
-  linear = real_from(body.traits->linear_damping);
-  angular = real_from(body.traits->angular_damping);
+  if (body.properties == nullptr) return Status::bad_id;
+  linear = real_from(body.properties->linear_damping);
+  angular = real_from(body.properties->angular_damping);
   return Status::ok;
 }
 
 Status get_gravity_scale(const World& world, BodyId id, Real& gravity_scale) {
   const Read body(world, id);
-  if (body.traits == nullptr) return Status::bad_id;
-  gravity_scale = real_from(body.traits->gravity_scale);
+  if (body.properties == nullptr) return Status::bad_id;
+  gravity_scale = real_from(body.properties->gravity_scale);
   return Status::ok;
 }
 
-Status get_turn_locks(const World& world, BodyId id, uint32_t& locks) {
+Status get_rotation_locks(const World& world, BodyId id, uint32_t& locks) {
   const Read body(world, id);
-  if (body.traits == nullptr) return Status::bad_id;
-  locks = body.traits->turn_locks;
+  if (body.properties == nullptr) return Status::bad_id;
+  locks = body.properties->rotation_locks;
   return Status::ok;
 }
 
 Status get_sensor(const World& world, BodyId id, bool& sensor) {
   const Read body(world, id);
-  if (body.traits == nullptr) return Status::bad_id;
-  sensor = body.traits->sensor != 0;
+  if (body.properties == nullptr) return Status::bad_id;
+  sensor = body.properties->sensor != 0;
   return Status::ok;
 }
 
 Status get_inertia(const World& world, BodyId id, Vec3<Scaled>& inertia) {
   const FloatEnvironment environment;
   const Read body(world, id);
-  if (body.traits == nullptr) return Status::bad_id;
-  const Scaled scaled_mass = scaled_by_power(body.traits->mass, 2 * body.traits->size_exponent);
-  const auto about = [&](int axis) { return multiply(scaled_mass, inertia_about(*body.traits, axis)); };
+  if (body.properties == nullptr) return Status::bad_id;
+  const Scaled scaled_mass = scaled_by_power(body.properties->mass, 2 * body.properties->size_exponent);
+  const auto about = [&](int axis) { return multiply(scaled_mass, inertia_about(*body.properties, axis)); };
   inertia = {about(0), about(1), about(2)};
   return Status::ok;
 }
@@ -204,17 +206,18 @@ Status get_inertia(const World& world, BodyId id, Vec3<Scaled>& inertia) {
 Status get_velocity_at(const World& world, BodyId id, const Vec3<Real>& arm, Vec3<Real>& velocity) {
   const FloatEnvironment environment;
   const Read body(world, id);
-  if (body.traits == nullptr) return Status::bad_id;
+  if (body.properties == nullptr) return Status::bad_id;
   // In units of twice the length unit, so that an arm of twice the radius fits a Unit.
-  const int exponent = body.traits->size_exponent + 1;
-  if (!within(arm, real_from_unit(body.traits->bounding_radius, exponent))) return Status::out_of_range;
+  const int exponent = body.properties->size_exponent + 1;
+  if (!within(arm, real_from_unit(body.properties->bounding_radius, exponent))) return Status::out_of_range;
   const BodyMotion& motion = body.state.motions[body.slot];
   const Vec3<Unit> halved = {unit_from_real(arm.x, exponent), unit_from_real(arm.y, exponent),
                              unit_from_real(arm.z, exponent)};
-  const Vec3<Real> half = cross(spin_of(*body.traits, body.state.poses[body.slot].rotation, motion.momentum), halved);
+  const Vec3<Real> half = cross(
+      angular_velocity_of(*body.properties, body.state.poses[body.slot].rotation, motion.angular_momentum), halved);
   if (!within(half, Real(56000.0))) return Status::out_of_range;  // twice this plus a velocity fits a Real
-  velocity =
-      motion.velocity + Vec3<Real>{scale_by_power(half.x, 1), scale_by_power(half.y, 1), scale_by_power(half.z, 1)};
+  velocity = motion.linear_velocity +
+             Vec3<Real>{scale_by_power(half.x, 1), scale_by_power(half.y, 1), scale_by_power(half.z, 1)};
   return Status::ok;
 }
 
@@ -222,19 +225,23 @@ Status set_type(World& world, BodyId id, BodyType type) {
   const FloatEnvironment environment;
   Change change(world, id);
   if (!change.found) return Status::bad_id;
-  BodyTraits& traits = change.traits;
-  if (const Status status = suits(world, shape_of(traits), traits.asset, type); status != Status::ok) return status;
-  if (type == type_of(traits)) return Status::ok;
+  BodyProperties& properties = change.properties;
+  if (const Status status = suits(world, shape_of(properties), properties.asset, type); status != Status::ok)
+    return status;
+  if (type == type_of(properties)) return Status::ok;
   const Vec3<Real> none = {0.0, 0.0, 0.0};
-  const Vec3<Real> spin = type == BodyType::fixed ? none : spin_of(traits, change.rotation(), change.motion.momentum);
-  traits.type = static_cast<uint32_t>(type);
-  if (is_dynamic(traits) && traits.mass == Scaled(0.0)) {
-    if (const Status status = set_body_density(world, k_default_density, traits); status != Status::ok) return status;
+  const Vec3<Real> angular_velocity =
+      type == BodyType::fixed ? none
+                              : angular_velocity_of(properties, change.rotation(), change.motion.angular_momentum);
+  properties.type = static_cast<uint32_t>(type);
+  if (is_dynamic(properties) && properties.mass == Scaled(0.0)) {
+    if (const Status status = set_body_density(world, k_default_density, properties); status != Status::ok)
+      return status;
   }
-  if (const Status status = set_body_gyration(world, traits); status != Status::ok) return status;
-  if (const Status status = change.turn_with(spin); status != Status::ok) return status;
-  if (type == BodyType::fixed) change.motion.velocity = none;
-  change.motion.pending_velocity = change.motion.pending_momentum = none;
+  if (const Status status = set_body_inverse_inertia(world, properties); status != Status::ok) return status;
+  if (const Status status = change.turn_with(angular_velocity); status != Status::ok) return status;
+  if (type == BodyType::fixed) change.motion.linear_velocity = none;
+  change.motion.pending_velocity = change.motion.pending_angular_momentum = none;
   change.make_anew();
   change.state.activities[change.slot] = BodyActivity{};
   return Status::ok;
@@ -244,17 +251,19 @@ Status set_shape(World& world, BodyId id, const Shape& shape) {
   const FloatEnvironment environment;
   Change change(world, id);
   if (!change.found) return Status::bad_id;
-  BodyTraits& traits = change.traits;
-  const int before = traits.size_exponent;
-  Vec3<Real> spin = spin_of(traits, change.rotation(), change.motion.momentum);
-  if (const Status status = set_body_shape(world, shape, type_of(traits), traits); status != Status::ok) return status;
-  if (const Status status = set_body_gyration(world, traits); status != Status::ok) return status;
-  Vec3<Real>& torque = change.motion.pending_momentum;
-  if (!scale(traits.size_exponent - before, spin) || !scale(before - traits.size_exponent, torque) ||
-      !within(torque, k_spin_work_max) || !within(spin_of(traits, change.rotation(), torque), k_spin_max)) {
+  BodyProperties& properties = change.properties;
+  const int before = properties.size_exponent;
+  Vec3<Real> angular_velocity = angular_velocity_of(properties, change.rotation(), change.motion.angular_momentum);
+  if (const Status status = set_body_shape(world, shape, type_of(properties), properties); status != Status::ok)
+    return status;
+  if (const Status status = set_body_inverse_inertia(world, properties); status != Status::ok) return status;
+  Vec3<Real>& torque = change.motion.pending_angular_momentum;
+  if (!scale(properties.size_exponent - before, angular_velocity) ||
+      !scale(before - properties.size_exponent, torque) || !within(torque, k_angular_velocity_work_max) ||
+      !within(angular_velocity_of(properties, change.rotation(), torque), k_angular_velocity_max)) {
     return Status::out_of_range;
   }
-  if (const Status status = change.turn_with(spin); status != Status::ok) return status;
+  if (const Status status = change.turn_with(angular_velocity); status != Status::ok) return status;
   change.make_anew();
   return Status::ok;
 }
@@ -263,7 +272,7 @@ Status set_mass(World& world, BodyId id, Scaled mass) {
   Change change(world, id);
   if (!change.found) return Status::bad_id;
   if (!is_mass(mass)) return Status::out_of_range;
-  change.traits.mass = mass;
+  change.properties.mass = mass;
   change.make();
   return Status::ok;
 }
@@ -272,66 +281,68 @@ Status set_inertia(World& world, BodyId id, const Vec3<Scaled>& inertia) {
   const FloatEnvironment environment;
   Change change(world, id);
   if (!change.found) return Status::bad_id;
-  BodyTraits& traits = change.traits;
-  if (!is_dynamic(traits)) return Status::bad_argument;
-  const Vec3<Real> spin = spin_of(traits, change.rotation(), change.motion.momentum);
-  if (const Status status = set_body_inertia(inertia, traits); status != Status::ok) return status;
-  if (!within(spin_of(traits, change.rotation(), change.motion.pending_momentum), k_spin_max))
+  BodyProperties& properties = change.properties;
+  if (!is_dynamic(properties)) return Status::bad_argument;
+  const Vec3<Real> angular_velocity =
+      angular_velocity_of(properties, change.rotation(), change.motion.angular_momentum);
+  if (const Status status = set_body_inertia(inertia, properties); status != Status::ok) return status;
+  if (!within(angular_velocity_of(properties, change.rotation(), change.motion.pending_angular_momentum),
+              k_angular_velocity_max))
     return Status::out_of_range;
-  return change.make_if(change.turn_with(spin));
+  return change.make_if(change.turn_with(angular_velocity));
 }
 
 Status set_density(World& world, BodyId id, Scaled density) {
   const FloatEnvironment environment;
   Change change(world, id);
   if (!change.found) return Status::bad_id;
-  if (is_ground(change.traits)) return Status::bad_argument;
-  return change.make_if(set_body_density(world, density, change.traits));
+  if (is_ground(change.properties)) return Status::bad_argument;
+  return change.make_if(set_body_density(world, density, change.properties));
 }
 
 Status set_material(World& world, BodyId id, const Material& material) {
   Change change(world, id);
   if (!change.found) return Status::bad_id;
-  return change.make_if(set_body_material(material, change.traits));
+  return change.make_if(set_body_material(material, change.properties));
 }
 
 Status set_damping(World& world, BodyId id, Real linear, Real angular) {
   Change change(world, id);
   if (!change.found) return Status::bad_id;
-  return change.make_if(set_body_damping(linear, angular, change.traits));
+  return change.make_if(set_body_damping(linear, angular, change.properties));
 }
 
 Status set_gravity_scale(World& world, BodyId id, Real gravity_scale) {
   Change change(world, id);
   if (!change.found) return Status::bad_id;
-  return change.make_if(set_body_gravity_scale(gravity_scale, change.traits));
+  return change.make_if(set_body_gravity_scale(gravity_scale, change.properties));
 }
 
 Status set_sensor(World& world, BodyId id, bool sensor) {
   const FloatEnvironment environment;
   Change change(world, id);
   if (!change.found) return Status::bad_id;
-  if (sensor == (change.traits.sensor != 0)) return Status::ok;
+  if (sensor == (change.properties.sensor != 0)) return Status::ok;
   if (sensor) {
     if (const Status status = check_sensors(world); status != Status::ok) return status;
   }
-  change.traits.sensor = sensor ? 1 : 0;
+  change.properties.sensor = sensor ? 1 : 0;
   change.state.world.sensor_count += sensor ? 1u : UINT32_MAX;
   change.make_anew();
   forget_sensed(change.state, change.slot);
   return Status::ok;
 }
 
-Status set_turn_locks(World& world, BodyId id, uint32_t locks) {
+Status set_rotation_locks(World& world, BodyId id, uint32_t locks) {
   const FloatEnvironment environment;
   Change change(world, id);
   if (!change.found) return Status::bad_id;
-  BodyTraits& traits = change.traits;
-  if (const Status status = set_body_turn_locks(locks, traits); status != Status::ok) return status;
-  if (const Status status = set_body_gyration(world, traits); status != Status::ok) return status;
+  BodyProperties& properties = change.properties;
+  if (const Status status = set_body_rotation_locks(locks, properties); status != Status::ok) return status;
+  if (const Status status = set_body_inverse_inertia(world, properties); status != Status::ok) return status;
   BodyMotion& motion = change.motion;
-  motion.momentum = without_locked(traits, change.rotation(), motion.momentum);
-  motion.pending_momentum = without_locked(traits, change.rotation(), motion.pending_momentum);
+  motion.angular_momentum = without_locked(properties, change.rotation(), motion.angular_momentum);
+  motion.pending_angular_momentum = without_locked(properties, change.rotation(), motion.pending_angular_momentum);
   change.make();
   return Status::ok;
 }

@@ -12,14 +12,14 @@ inline namespace DETENT_NAMESPACE {
 inline void wake_slot(StateView<uint8_t>& state, uint32_t slot) {
   const StepCacheView step = cache_of(state);
   state.world.idle = 0;
-  if (wake_all_with(slot, state.activities, step.visits) != 0) step.cache.contacts_known = 0;
+  if (wake_all_with(slot, state.activities, step.active) != 0) step.cache.contacts_known = 0;
   state.activities[slot].still_ticks = 0;
-  step.visits.set(slot);
+  step.active.set(slot);
 }
 /// The next step evaluates the body again; a sleeping body stays asleep.
 inline void look_at_again(StateView<uint8_t>& state, uint32_t slot) {
   state.world.idle = 0;
-  cache_of(state).visits.set(slot);
+  cache_of(state).active.set(slot);
 }
 /// Wakes the bodies that touch the body or share a joint with it. Every change that takes it away does this.
 inline void wake_neighbours(StateView<uint8_t>& state, uint32_t slot) {
@@ -34,7 +34,7 @@ inline void wake_neighbours(StateView<uint8_t>& state, uint32_t slot) {
   }
 }
 /// Wakes all bodies, because the conditions under which they came to rest have changed.
-inline void rouse_world(StateView<uint8_t>& state) {
+inline void wake_world(StateView<uint8_t>& state) {
   state.world.idle = 0;
   const StepCacheView step = cache_of(state);
   step.cache.contacts_known = 0;
@@ -42,9 +42,9 @@ inline void rouse_world(StateView<uint8_t>& state) {
     BodyActivity& activity = state.activities[slot];
     activity.still_ticks = 0;
     if (activity.asleep == 0) continue;
-    step.visits.set(slot);
+    step.active.set(slot);
     activity.asleep = 0;
-    activity.news = static_cast<uint16_t>(BodyEventType::woke);
+    activity.pending_event = static_cast<uint16_t>(BodyEventType::woke);
   }
 }
 /// Ends all contacts of a body that has changed so much that they are no longer valid.

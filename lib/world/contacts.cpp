@@ -3,9 +3,9 @@
 #include "base/float_environment.h"
 #include "contact/compound_ops.h"
 #include "contact/contact_cache.h"
-#include "motion/spin.h"
+#include "motion/angular_velocity.h"
 #include "motion/step_settings.h"
-#include "shape/shape_traits.h"
+#include "shape/shape_properties.h"
 #include "shape/sweep.h"
 #include "state/view.h"
 
@@ -14,20 +14,20 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 /// The mass of the lighter dynamic body, by which the stored impulses of a contact are divided.
-Scaled reference_mass(const BodyTraits& a, const BodyTraits& b) {
+Scaled reference_mass(const BodyProperties& a, const BodyProperties& b) {
   if (!is_dynamic(a)) return b.mass;
   return is_dynamic(b) && less(b.mass, a.mass) ? b.mass : a.mass;
 }
 
-__attribute__((noinline)) ContactGeometry part_geometry(const CollisionBody& a, const CollisionBody& b, Real reach,
+__attribute__((noinline)) ContactGeometry part_geometry(const CollisionBody& a, const CollisionBody& b, Real margin,
                                                         ManifoldReduction reduction, const World& world,
                                                         const ContactState& contact) {
-  SurfaceContacts contacts;
-  collide_parts(a, b, reach, world.assets, reduction, *world.features, contacts);
+  TerrainContacts contacts;
+  collide_parts(a, b, margin, world.assets, reduction, *world.features, contacts);
   const ContactGeometry* best = nullptr;
   uint32_t most = 0;
   for (uint32_t i = 0; i < contacts.count; ++i) {
-    const SurfaceContact& found = contacts.contact[i];
+    const TerrainContact& found = contacts.contact[i];
     const uint32_t alike = 2 * shared_features(found.geometry, contact) + (found.key == contact.part ? 1 : 0);
     if (alike <= most) continue;
     most = alike;
@@ -39,14 +39,14 @@ __attribute__((noinline)) ContactGeometry part_geometry(const CollisionBody& a, 
 /// The contact points at the current poses, including points that separated a little in the last step.
 ContactGeometry geometry_of(const World& world, const StateView<const uint8_t>& state, const ContactState& contact) {
   const BodyPose &pose_a = state.poses[contact.body_a], &pose_b = state.poses[contact.body_b];
-  const BodyTraits &a = state.traits[contact.body_a], &b = state.traits[contact.body_b];
+  const BodyProperties &a = state.properties[contact.body_a], &b = state.properties[contact.body_b];
   const Matrix3 axes_a = matrix_from(pose_a.rotation), axes_b = matrix_from(pose_b.rotation);
-  const Real reach = scale_by_power(min(shape_extent(a), shape_extent(b)), -2);
+  const Real margin = scale_by_power(min(shape_extent(a), shape_extent(b)), -2);
   const CollisionBody body_a = {pose_a, a, axes_a}, body_b = {pose_b, b, axes_b};
   const ManifoldReduction reduction = static_cast<ManifoldReduction>(state.world.reduction);
-  if (has_parts(a, b)) return part_geometry(body_a, body_b, reach, reduction, world, contact);
+  if (has_parts(a, b)) return part_geometry(body_a, body_b, margin, reduction, world, contact);
   ContactGeometry geometry;
-  collide(body_a, body_b, reach, geometry, world.assets, reduction, *world.features);
+  collide(body_a, body_b, margin, geometry, world.assets, reduction, *world.features);
   return geometry;
 }
 
@@ -57,7 +57,7 @@ Status get_contact(const World& world, uint32_t index, Contact& contact) {
   const StateView<const uint8_t> state = view_of(world);
   if (index >= state.world.contact_count) return Status::out_of_range;
   const ContactState& from = state.contacts[index];
-  const BodyTraits &a = state.traits[from.body_a], &b = state.traits[from.body_b];
+  const BodyProperties &a = state.properties[from.body_a], &b = state.properties[from.body_b];
   const uint32_t mover = is_dynamic(a) ? from.body_a : from.body_b;
   const uint32_t substeps = state.activities[mover].substeps;
   const Scaled none = 0.0, scale = multiply(reference_mass(a, b), scaled_from_count(substeps));
@@ -79,7 +79,7 @@ Status get_contact(const World& world, uint32_t index, Contact& contact) {
   const ContactGeometry geometry = geometry_of(world, state, from);
   const bool by_a = is_dynamic(a);  // points are relative to a dynamic body's centre: a half-space's may be far away
   const Position& centre = state.poses[mover].position;
-  const int exponent = state.traits[mover].size_exponent;
+  const int exponent = state.properties[mover].size_exponent;
   if (geometry.count != 0) made.normal = geometry.normal;
   made.point_count = geometry.count;
   for (uint32_t i = 0; i < geometry.count; ++i) {

@@ -2,7 +2,7 @@
 #include "base/float_environment.h"
 #include "broad_phase/pair_filter.h"
 #include "motion/activity.h"
-#include "solver/solve_quads.h"
+#include "solver/solve_lanes.h"
 #include "state/asset_binding.h"
 #include "state/ranges.h"
 #include "state/slots.h"
@@ -16,43 +16,44 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-void set_filter(const Filter& filter, BodyTraits& traits) {
-  traits.category = filter.category;
-  traits.mask = filter.mask;
-  traits.group = filter.group;
-  traits.rule = filter.rule;
+void set_filter(const Filter& filter, BodyProperties& properties) {
+  properties.category = filter.category;
+  properties.mask = filter.mask;
+  properties.group = filter.group;
+  properties.rule = filter.rule;
 }
 
 /// All properties of a body except its pose and its motion.
-Status make_traits(const World& world, const BodyDef& def, BodyTraits& traits) {
-  if (const Status status = set_body_shape(world, def.shape, def.type, traits); status != Status::ok) return status;
-  if (const Status status = set_body_material(def.material, traits); status != Status::ok) return status;
-  if (const Status status = set_body_damping(def.linear_damping, def.angular_damping, traits); status != Status::ok)
+Status make_properties(const World& world, const BodyDef& def, BodyProperties& properties) {
+  if (const Status status = set_body_shape(world, def.shape, def.type, properties); status != Status::ok) return status;
+  if (const Status status = set_body_material(def.material, properties); status != Status::ok) return status;
+  if (const Status status = set_body_damping(def.linear_damping, def.angular_damping, properties); status != Status::ok)
     return status;
-  if (const Status status = set_body_gravity_scale(def.gravity_scale, traits); status != Status::ok) return status;
-  if (const Status status = set_body_turn_locks(def.turn_locks, traits); status != Status::ok) return status;
+  if (const Status status = set_body_gravity_scale(def.gravity_scale, properties); status != Status::ok) return status;
+  if (const Status status = set_body_rotation_locks(def.rotation_locks, properties); status != Status::ok)
+    return status;
   if (!has_rule(world.filter_rules, def.filter.rule)) return Status::rule_missing;
-  set_filter(def.filter, traits);
-  traits.type = static_cast<uint32_t>(def.type);
+  set_filter(def.filter, properties);
+  properties.type = static_cast<uint32_t>(def.type);
   if (!(def.mass == Scaled(0.0))) {
     if (!is_mass(def.mass)) return Status::out_of_range;
-    traits.mass = def.mass;
+    properties.mass = def.mass;
   } else if (def.type == BodyType::dynamic) {
-    if (const Status status = set_body_density(world, def.density, traits); status != Status::ok) return status;
+    if (const Status status = set_body_density(world, def.density, properties); status != Status::ok) return status;
   }
-  if (const Status status = set_body_gyration(world, traits); status != Status::ok) return status;
+  if (const Status status = set_body_inverse_inertia(world, properties); status != Status::ok) return status;
   if (def.sensor) {
     if (const Status status = check_sensors(world); status != Status::ok) return status;
-    traits.sensor = 1;
+    properties.sensor = 1;
   }
-  traits.user_data = def.user_data;
+  properties.user_data = def.user_data;
   return Status::ok;
 }
 
 /// Wakes both bodies of every contact that the filter now forbids. Such a contact ends when the step does not find its
 /// pair, and this requires both bodies to be awake.
-void rouse_forbidden(const World& world, StateView<uint8_t>& state, uint32_t slot) {
-  const PairFilter filter = {state.traits, world.filter_rules};
+void wake_forbidden(const World& world, StateView<uint8_t>& state, uint32_t slot) {
+  const PairFilter filter = {state.properties, world.filter_rules};
   for (const ContactState& contact : state.contacts.first(state.world.contact_count)) {
     if ((contact.body_a != slot && contact.body_b != slot) || filter.allows(contact.body_a, contact.body_b)) continue;
     wake_slot(state, contact.body_a);
@@ -83,32 +84,33 @@ Status create_world(uint8_t* block, uint32_t block_bytes, const WorldDef& def, A
                                        def.capacity.joints,
                                        def.capacity.sensed,
                                        0};
-  world = {block, assets, {}, {}, &features, has_quads() ? 4u : 1u};
+  world = {block, assets, {}, {}, &features, has_lanes() ? 4u : 1u};
   store_settings(def, view_of(world).world, def.capacity.manifolds);
   return Status::ok;
 }
 
 Status create_body(World& world, const BodyDef& def, BodyId& id) {
   const FloatEnvironment environment;
-  BodyTraits traits{};
+  BodyProperties properties{};
   BodyPose pose{};
   BodyMotion motion{};
-  if (const Status status = make_traits(world, def, traits); status != Status::ok) return status;
+  if (const Status status = make_properties(world, def, properties); status != Status::ok) return status;
   if (const Status status = make_pose(def.position, def.rotation, pose); status != Status::ok) return status;
-  if (const Status status = make_motion(traits, pose.rotation, def.velocity, def.spin, motion); status != Status::ok) {
+  if (const Status status = make_motion(properties, pose.rotation, def.linear_velocity, def.angular_velocity, motion);
+      status != Status::ok) {
     return status;
   }
   StateView<uint8_t> state = view_of(world);
   uint32_t slot = 0;
   if (!take_slot(state, slot)) return Status::pool_full;
-  traits.generation = state.traits[slot].generation + 1;
-  state.traits[slot] = traits;
+  properties.generation = state.properties[slot].generation + 1;
+  state.properties[slot] = properties;
   state.poses[slot] = pose;
   state.motions[slot] = motion;
   state.world.idle = 0;
-  state.world.sensor_count += traits.sensor;
-  cache_of(state).visits.set(slot);
-  id = {slot + 1, traits.generation};
+  state.world.sensor_count += properties.sensor;
+  cache_of(state).active.set(slot);
+  id = {slot + 1, properties.generation};
   return Status::ok;
 }
 
@@ -119,13 +121,13 @@ Status destroy_body(World& world, BodyId id) {
   remove_joints_of(state, slot);
   end_contacts(state, slot);
   forget_sensed(state, slot);
-  state.world.sensor_count -= state.traits[slot].sensor;
-  const uint32_t generation = state.traits[slot].generation;
+  state.world.sensor_count -= state.properties[slot].sensor;
+  const uint32_t generation = state.properties[slot].generation;
   state.poses[slot] = BodyPose{};
   state.motions[slot] = BodyMotion{};
   state.activities[slot] = BodyActivity{};
-  state.traits[slot] = BodyTraits{};
-  state.traits[slot].generation = generation;
+  state.properties[slot] = BodyProperties{};
+  state.properties[slot].generation = generation;
   give_slot_back(state, slot);
   return Status::ok;
 }
@@ -142,13 +144,14 @@ Status set_pose(World& world, BodyId id, const Position& position, const Quat& r
   return Status::ok;
 }
 
-Status set_velocity(World& world, BodyId id, const Vec3<Real>& velocity, const Vec3<Real>& spin) {
+Status set_velocity(World& world, BodyId id, const Vec3<Real>& velocity, const Vec3<Real>& angular_velocity) {
   const FloatEnvironment environment;
   StateView<uint8_t> state = view_of(world);
   uint32_t slot = 0;
   if (!find_body(state, id, slot)) return Status::bad_id;
   BodyMotion motion = state.motions[slot];
-  const Status status = make_motion(state.traits[slot], state.poses[slot].rotation, velocity, spin, motion);
+  const Status status =
+      make_motion(state.properties[slot], state.poses[slot].rotation, velocity, angular_velocity, motion);
   if (status != Status::ok) return status;
   state.motions[slot] = motion;
   wake_slot(state, slot);
@@ -159,7 +162,7 @@ Status wake_body(World& world, BodyId id) {
   StateView<uint8_t> state = view_of(world);
   uint32_t slot = 0;
   if (!find_body(state, id, slot)) return Status::bad_id;
-  if (!is_dynamic(state.traits[slot])) return Status::bad_argument;
+  if (!is_dynamic(state.properties[slot])) return Status::bad_argument;
   wake_slot(state, slot);
   return Status::ok;
 }
@@ -168,13 +171,13 @@ Status put_to_sleep(World& world, BodyId id) {
   StateView<uint8_t> state = view_of(world);
   uint32_t slot = 0;
   if (!find_body(state, id, slot)) return Status::bad_id;
-  if (!is_dynamic(state.traits[slot])) return Status::bad_argument;
+  if (!is_dynamic(state.properties[slot])) return Status::bad_argument;
   if (!contains(world.features->features, Features::sleeping)) return Status::feature_missing;
   if (state.activities[slot].asleep != 0) return Status::ok;
   state.motions[slot] = BodyMotion{};
   state.activities[slot].still_ticks = k_still_ticks;
   state.activities[slot].asleep = slot + 1;
-  state.activities[slot].news = 0;
+  state.activities[slot].pending_event = 0;
   return Status::ok;
 }
 
@@ -182,9 +185,9 @@ Status set_user_data(World& world, BodyId id, uint32_t user_data) {
   StateView<uint8_t> state = view_of(world);
   uint32_t slot = 0;
   if (!find_body(state, id, slot)) return Status::bad_id;
-  state.traits[slot].user_data = user_data;
+  state.properties[slot].user_data = user_data;
   if (world.filter_rules.count == 0) return Status::ok;
-  rouse_forbidden(world, state, slot);
+  wake_forbidden(world, state, slot);
   if (state.world.sensor_count != 0) look_at_again(state, slot);
   return Status::ok;
 }
@@ -194,9 +197,9 @@ Status set_filter(World& world, BodyId id, const Filter& filter) {
   uint32_t slot = 0;
   if (!find_body(state, id, slot)) return Status::bad_id;
   if (!has_rule(world.filter_rules, filter.rule)) return Status::rule_missing;
-  set_filter(filter, state.traits[slot]);
+  set_filter(filter, state.properties[slot]);
   wake_slot(state, slot);
-  rouse_forbidden(world, state, slot);
+  wake_forbidden(world, state, slot);
   return Status::ok;
 }
 
@@ -208,7 +211,7 @@ Status bind_asset(World& world, uint32_t index) {
     return status;
   AssetState& before = state.assets[index];
   if (before.digest != bound.digest || before.byte_count != bound.byte_count) {
-    for (const BodyTraits& body : state.traits) {
+    for (const BodyProperties& body : state.properties) {
       if (is_shape_of(body, index)) return Status::asset_mismatch;
     }
   }

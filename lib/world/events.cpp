@@ -1,7 +1,7 @@
 #include "world/events.h"
 
 #include "broad_phase/broadphase.h"
-#include "motion/spin.h"
+#include "motion/angular_velocity.h"
 #include "shape/sweep.h"
 
 namespace detent {
@@ -25,11 +25,11 @@ bool pushes(const ContactWork& contact) {
 
 struct EventWriter {
   Span<const BodyPose> poses;
-  Span<const BodyTraits> traits;
+  Span<const BodyProperties> properties;
   Span<ContactEvent> events;
   EventCount count = {};
 
-  BodyId id_of(uint32_t slot) const { return {slot + 1, traits[slot].generation}; }
+  BodyId id_of(uint32_t slot) const { return {slot + 1, properties[slot].generation}; }
   void add(const ContactEvent& event) {
     if (count.kept == events.count)
       ++count.dropped;
@@ -46,10 +46,10 @@ struct EventWriter {
   }
   void add_contact(const ContactWork& contact, bool touched) {
     const ContactState& state = contact.state;
-    const bool from_a = is_dynamic(traits[state.body_a]);
+    const bool from_a = is_dynamic(properties[state.body_a]);
     const uint32_t body = from_a ? state.body_a : state.body_b;
     const Vec3<Unit>& arm = from_a ? contact.middle_a : contact.middle_b;
-    const int exponent = traits[body].size_exponent;
+    const int exponent = properties[body].size_exponent;
     ContactEvent event =
         event_of(touched ? ContactEventType::touch : ContactEventType::begin, state.body_a, state.body_b);
     event.normal = contact.normal;
@@ -66,9 +66,9 @@ struct EventWriter {
 
 }  // namespace
 
-EventCount raise_events(Span<const BodyPose> poses, Span<const BodyTraits> traits, Span<const uint32_t> awake,
+EventCount raise_events(Span<const BodyPose> poses, Span<const BodyProperties> properties, Span<const uint32_t> awake,
                         Span<const ContactState> before, Span<ContactWork> contacts, Span<ContactEvent> events) {
-  EventWriter writer = {poses, traits, events};
+  EventWriter writer = {poses, properties, events};
   uint32_t old = 0;
   const auto old_contact = [&]() -> const ContactState& { return before[awake[old]]; };
   /// Skips the contacts of one pair (of its parts). True if one of them touched.
@@ -105,7 +105,8 @@ EventCount raise_events(Span<const BodyPose> poses, Span<const BodyTraits> trait
   return writer.count;
 }
 
-void add_hits(Span<const BodyTraits> traits, Span<const ImpactHit> hits, Span<ContactEvent> events, EventCount& count) {
+void add_hits(Span<const BodyProperties> properties, Span<const ImpactHit> hits, Span<ContactEvent> events,
+              EventCount& count) {
   const auto comes_before = [](const ContactEvent& a, const ContactEvent& b) {
     if (a.a.slot != b.a.slot) return a.a.slot < b.a.slot;
     if (a.b.slot != b.b.slot) return a.b.slot < b.b.slot;
@@ -113,9 +114,12 @@ void add_hits(Span<const BodyTraits> traits, Span<const ImpactHit> hits, Span<Co
   };
   for (const ImpactHit& hit : hits) {
     const uint32_t a = pair_low(hit.key), b = pair_high(hit.key);
-    const ContactEvent event = {
-        ContactEventType::hit, {a + 1, traits[a].generation}, {b + 1, traits[b].generation}, hit.normal, hit.point,
-        hit.approach};
+    const ContactEvent event = {ContactEventType::hit,
+                                {a + 1, properties[a].generation},
+                                {b + 1, properties[b].generation},
+                                hit.normal,
+                                hit.point,
+                                hit.approach};
     uint32_t place = count.kept;
     while (place > 0 && comes_before(event, events[place - 1])) --place;
     const bool full = count.kept == events.count;
@@ -127,17 +131,17 @@ void add_hits(Span<const BodyTraits> traits, Span<const ImpactHit> hits, Span<Co
   }
 }
 
-EventCount raise_body_events(BitSet visits, Span<const BodyTraits> traits, Span<BodyActivity> activities,
+EventCount raise_body_events(BitSet active, Span<const BodyProperties> properties, Span<BodyActivity> activities,
                              Span<BodyEvent> events) {
   EventCount count;
-  visits.for_each([&](uint32_t slot) {
-    uint16_t& news = activities[slot].news;
-    if (news == 0) return;
+  active.for_each([&](uint32_t slot) {
+    uint16_t& pending_event = activities[slot].pending_event;
+    if (pending_event == 0) return;
     if (count.kept == events.count)
       ++count.dropped;
     else
-      events[count.kept++] = {static_cast<BodyEventType>(news), {slot + 1, traits[slot].generation}};
-    news = 0;
+      events[count.kept++] = {static_cast<BodyEventType>(pending_event), {slot + 1, properties[slot].generation}};
+    pending_event = 0;
   });
   return count;
 }

@@ -26,33 +26,35 @@ struct BodyPush {
 
   Status find(BodyId id, const Vec3<Scaled>& cause) {
     if (!find_body(state, id, slot)) return Status::bad_id;
-    if (!is_dynamic(state.traits[slot])) return Status::bad_argument;
+    if (!is_dynamic(state.properties[slot])) return Status::bad_argument;
     if (!is_number(cause)) return Status::out_of_range;
     motion = state.motions[slot];
     return Status::ok;
   }
-  const BodyTraits& traits() const { return state.traits[slot]; }
+  const BodyProperties& properties() const { return state.properties[slot]; }
   /// Adds the effect of an impulse per mass, `speed`, that acts at `arm` from the centre of mass, m, world axes.
   /// Errors: out_of_range.
-  Status push_at(const Vec3<Real>& speed, const Vec3<Real>& arm, Vec3<Real>& velocity, Vec3<Real>& momentum) const {
-    const int exponent = traits().size_exponent;
-    if (!within(arm, real_from_unit(traits().bounding_radius, exponent + 1))) return Status::out_of_range;
+  Status push_at(const Vec3<Real>& speed, const Vec3<Real>& arm, Vec3<Real>& velocity,
+                 Vec3<Real>& angular_momentum) const {
+    const int exponent = properties().size_exponent;
+    if (!within(arm, real_from_unit(properties().bounding_radius, exponent + 1))) return Status::out_of_range;
     if (!within(speed, k_speed_work_max)) return Status::out_of_range;
     // In units of twice the length unit, so that an arm of twice the radius fits a Unit.
     const Vec3<Unit> arm_halved = {unit_from_real(arm.x, exponent + 1), unit_from_real(arm.y, exponent + 1),
                                    unit_from_real(arm.z, exponent + 1)};
-    const Vec3<Real> turn = cross(arm_halved, speed);
+    const Vec3<Real> change_of_rotation = cross(arm_halved, speed);
     velocity += speed;
-    momentum += Vec3<Real>{scale_by_power(turn.x, 1), scale_by_power(turn.y, 1), scale_by_power(turn.z, 1)};
+    angular_momentum += Vec3<Real>{scale_by_power(change_of_rotation.x, 1), scale_by_power(change_of_rotation.y, 1),
+                                   scale_by_power(change_of_rotation.z, 1)};
     return Status::ok;
   }
   Vec3<Real> arm_to(const Position& point) const { return real_difference(point, state.poses[slot].position); }
   bool fits() {
     const Quat& rotation = state.poses[slot].rotation;
-    motion.momentum = without_locked(traits(), rotation, motion.momentum);
-    motion.pending_momentum = without_locked(traits(), rotation, motion.pending_momentum);
-    const BodyMotion pending = {motion.pending_velocity, motion.pending_momentum, k_zero_vector, k_zero_vector};
-    return speeds_fit(traits(), rotation, motion) && speeds_fit(traits(), rotation, pending);
+    motion.angular_momentum = without_locked(properties(), rotation, motion.angular_momentum);
+    motion.pending_angular_momentum = without_locked(properties(), rotation, motion.pending_angular_momentum);
+    const BodyMotion pending = {motion.pending_velocity, motion.pending_angular_momentum, k_zero_vector, k_zero_vector};
+    return speeds_fit(properties(), rotation, motion) && speeds_fit(properties(), rotation, pending);
   }
   void make() {
     state.motions[slot] = motion;
@@ -72,27 +74,27 @@ Vec3<Scaled> over_tick(const Vec3<Scaled>& force, const WorldState& world) {
 
 Status impulse_at(BodyPush& push, const Vec3<Scaled>& impulse, const Vec3<Real>& arm) {
   Vec3<Real> speed;
-  if (!speed_from(impulse, push.traits().mass, 0, speed)) return Status::out_of_range;
-  const Status status = push.push_at(speed, arm, push.motion.velocity, push.motion.momentum);
+  if (!speed_from(impulse, push.properties().mass, 0, speed)) return Status::out_of_range;
+  const Status status = push.push_at(speed, arm, push.motion.linear_velocity, push.motion.angular_momentum);
   return status == Status::ok ? push.commit() : status;
 }
 
 Status force_at(BodyPush& push, const Vec3<Scaled>& force, const Vec3<Real>& arm) {
   Vec3<Real> speed;
-  if (!speed_from(over_tick(force, push.state.world), push.traits().mass, 0, speed)) return Status::out_of_range;
-  const Status status = push.push_at(speed, arm, push.motion.pending_velocity, push.motion.pending_momentum);
+  if (!speed_from(over_tick(force, push.state.world), push.properties().mass, 0, speed)) return Status::out_of_range;
+  const Status status = push.push_at(speed, arm, push.motion.pending_velocity, push.motion.pending_angular_momentum);
   return status == Status::ok ? push.commit() : status;
 }
 
-/// The impulse of an explosion on a dynamic body, N s; zero if the body is out of range. `way`: from the centre of the
-/// explosion to the body, m.
-Vec3<Scaled> blast(const Explosion& explosion, const BodyTraits& traits, const Vec3<Real>& way) {
+/// The impulse of an explosion on a dynamic body, N s; zero if the body is out of range. `offset`: from the centre of
+/// the explosion to the body, m.
+Vec3<Scaled> blast(const Explosion& explosion, const BodyProperties& properties, const Vec3<Real>& offset) {
   const Scaled none = 0.0, pi = 3.14159265358979323846;
-  const Real zero = 0.0, ball = real_from_unit(traits.bounding_radius, traits.size_exponent);
+  const Real zero = 0.0, ball = real_from_unit(properties.bounding_radius, properties.size_exponent);
   Vec3<Unit> direction;
   Real distance = zero;
   // The components are tested first, because the length of a distant vector would not fit.
-  if (!within(way, explosion.radius + ball) || !normalise(way, direction, distance)) return {none, none, none};
+  if (!within(offset, explosion.radius + ball) || !normalise(offset, direction, distance)) return {none, none, none};
   const Real gap = max(distance - ball, zero);
   if (gap >= explosion.radius) return {none, none, none};
   const Scaled area = multiply(pi, multiply(scaled_from(ball), scaled_from(ball)));
@@ -109,7 +111,7 @@ Status apply_force(World& world, BodyId id, const Vec3<Scaled>& force) {
   BodyPush push = {view_of(world)};
   if (const Status status = push.find(id, force); status != Status::ok) return status;
   Vec3<Real> speed;
-  if (!speed_from(over_tick(force, push.state.world), push.traits().mass, 0, speed)) return Status::out_of_range;
+  if (!speed_from(over_tick(force, push.state.world), push.properties().mass, 0, speed)) return Status::out_of_range;
   push.motion.pending_velocity += speed;
   return push.commit();
 }
@@ -119,10 +121,10 @@ Status apply_torque(World& world, BodyId id, const Vec3<Scaled>& torque) {
   BodyPush push = {view_of(world)};
   if (const Status status = push.find(id, torque); status != Status::ok) return status;
   Vec3<Real> speed;
-  const int exponent = push.traits().size_exponent;
-  if (!speed_from(over_tick(torque, push.state.world), push.traits().mass, exponent, speed))
+  const int exponent = push.properties().size_exponent;
+  if (!speed_from(over_tick(torque, push.state.world), push.properties().mass, exponent, speed))
     return Status::out_of_range;
-  push.motion.pending_momentum += speed;
+  push.motion.pending_angular_momentum += speed;
   return push.commit();
 }
 
@@ -164,8 +166,8 @@ Status apply_angular_impulse(World& world, BodyId id, const Vec3<Scaled>& impuls
   BodyPush push = {view_of(world)};
   if (const Status status = push.find(id, impulse); status != Status::ok) return status;
   Vec3<Real> speed;
-  if (!speed_from(impulse, push.traits().mass, push.traits().size_exponent, speed)) return Status::out_of_range;
-  push.motion.momentum += speed;
+  if (!speed_from(impulse, push.properties().mass, push.properties().size_exponent, speed)) return Status::out_of_range;
+  push.motion.angular_momentum += speed;
   return push.commit();
 }
 
@@ -179,14 +181,15 @@ Status explode(World& world, const Explosion& explosion) {
   // The first round checks that all speeds stay in range; the second round applies the impulses.
   for (int round = 0; round < 2; ++round) {
     for (uint32_t slot = 0; slot < state.world.slots_used; ++slot) {
-      const BodyTraits& traits = state.traits[slot];
-      if (!is_dynamic(traits)) continue;
+      const BodyProperties& properties = state.properties[slot];
+      if (!is_dynamic(properties)) continue;
       BodyPush push = {state, slot, state.motions[slot]};
-      const Vec3<Scaled> impulse = blast(explosion, traits, -push.arm_to(explosion.centre));
+      const Vec3<Scaled> impulse = blast(explosion, properties, -push.arm_to(explosion.centre));
       if (impulse == Vec3<Scaled>{Scaled(0.0), Scaled(0.0), Scaled(0.0)}) continue;
       Vec3<Real> speed;
-      if (!speed_from(impulse, traits.mass, 0, speed) || !within(speed, k_speed_work_max)) return Status::out_of_range;
-      push.motion.velocity += speed;
+      if (!speed_from(impulse, properties.mass, 0, speed) || !within(speed, k_speed_work_max))
+        return Status::out_of_range;
+      push.motion.linear_velocity += speed;
       if (!push.fits()) return Status::out_of_range;
       if (round == 1) push.make();
     }
@@ -199,26 +202,26 @@ Status move_kinematic(World& world, BodyId id, const Position& position, const Q
   StateView<uint8_t> state = view_of(world);
   uint32_t slot = 0;
   if (!find_body(state, id, slot)) return Status::bad_id;
-  const BodyTraits& traits = state.traits[slot];
-  if (type_of(traits) != BodyType::kinematic) return Status::bad_argument;
+  const BodyProperties& properties = state.properties[slot];
+  if (type_of(properties) != BodyType::kinematic) return Status::bad_argument;
   BodyPose target{};
   if (const Status status = make_pose(position, rotation, target); status != Status::ok) return status;
   const BodyPose& pose = state.poses[slot];
-  Vec3<Real> way = real_difference(position, pose.position);
+  Vec3<Real> offset = real_difference(position, pose.position);
 #if defined(DETENT_FX32)
   const auto rest = [&](int i) {
     return Real::from_raw(static_cast<int64_t>(pose.remainder[i]) << (Real::k_frac - 32));
   };
-  way -= Vec3<Real>{rest(0), rest(1), rest(2)};
+  offset -= Vec3<Real>{rest(0), rest(1), rest(2)};
 #endif
-  const Quat turn = multiply(target.rotation, conjugate(pose.rotation));
-  const Vec3<Real> angle = target.rotation == pose.rotation ? k_zero_vector : rotation_vector(turn);
+  const Quat change_of_rotation = multiply(target.rotation, conjugate(pose.rotation));
+  const Vec3<Real> angle = target.rotation == pose.rotation ? k_zero_vector : rotation_vector_from(change_of_rotation);
   const auto over_time = [&](const Vec3<Real>& v) {
     const Real time = state.world.tick_time;
     return Vec3<Real>{divide(v.x, time), divide(v.y, time), divide(v.z, time)};
   };
   BodyMotion motion = state.motions[slot];
-  const Status status = make_motion(traits, pose.rotation, over_time(way), over_time(angle), motion);
+  const Status status = make_motion(properties, pose.rotation, over_time(offset), over_time(angle), motion);
   if (status != Status::ok) return status;
   state.motions[slot] = motion;
   wake_slot(state, slot);

@@ -76,7 +76,7 @@ bool take_joint_slot(StateView<uint8_t>& state, uint32_t& slot) {
 }
 
 BodyId body_id(const StateView<const uint8_t>& state, uint32_t slot) {
-  return {slot + 1, state.traits[slot].generation};
+  return {slot + 1, state.properties[slot].generation};
 }
 
 Scaled size_of(const Vec3<Scaled>& v) {
@@ -110,15 +110,15 @@ void remove_joints_of(StateView<uint8_t>& state, uint32_t body) {
   }
 }
 
-uint32_t wake_jointed(Span<const JointState> joints, Span<const BodyTraits> traits, Span<const BodyMotion> motions,
-                      Span<BodyActivity> activities, const StepCacheView& cache) {
+uint32_t wake_jointed(Span<const JointState> joints, Span<const BodyProperties> properties,
+                      Span<const BodyMotion> motions, Span<BodyActivity> activities, const StepCacheView& cache) {
   for (uint32_t woke = 0;;) {
     const uint32_t before = woke;
     for (const JointState& joint : joints) {
       if (!holds(joint)) continue;
       const auto wake = [&](uint32_t sleeper, uint32_t other) {
-        if (activities[sleeper].asleep != 0 && is_moving(traits[other], motions[other], activities[other]))
-          woke += wake_all_with(sleeper, activities, cache.visits);
+        if (activities[sleeper].asleep != 0 && is_moving(properties[other], motions[other], activities[other]))
+          woke += wake_all_with(sleeper, activities, cache.active);
       };
       wake(joint.body_a, joint.body_b);
       wake(joint.body_b, joint.body_a);
@@ -128,7 +128,7 @@ uint32_t wake_jointed(Span<const JointState> joints, Span<const BodyTraits> trai
   }
 }
 
-Span<const uint64_t> list_apart(Span<const JointState> joints, Span<uint64_t> keys) {
+Span<const uint64_t> list_disabled_pairs(Span<const JointState> joints, Span<uint64_t> keys) {
   uint32_t count = 0;
   bool sorted = true;
   for (const JointState& joint : joints) {
@@ -169,7 +169,7 @@ Status create_joint(World& world, const JointDef& def, JointId& id) {
   if (!contains(world.features->features, Features::joints)) return Status::feature_missing;
   uint32_t a = 0, b = 0, slot = 0;
   if (!find_body(state, def.a, a) || !find_body(state, def.b, b)) return Status::bad_id;
-  if (a == b || (!is_dynamic(state.traits[a]) && !is_dynamic(state.traits[b]))) return Status::bad_argument;
+  if (a == b || (!is_dynamic(state.properties[a]) && !is_dynamic(state.properties[b]))) return Status::bad_argument;
   JointState joint{};
   if (const Status status = make_joint(def, a, b, joint); status != Status::ok) return status;
   if (!take_joint_slot(state, slot)) return Status::pool_full;
@@ -261,11 +261,11 @@ Status place_joint(const World& world, const Position& point, const Quat& frame,
   Quat unit;
   if (!normalise_input(frame, unit)) return Status::not_normalised;
   JointDef placed = def;
-  const auto place = [&](const BodyPose& pose, Vec3<Real>& anchor, Quat& turn) {
-    const Vec3<Real> way = real_difference(point, pose.position);
-    if (!within(way, k_anchor_max)) return false;
-    anchor = rotate_inverse(pose.rotation, way);
-    turn = normalise(multiply(conjugate(pose.rotation), unit));
+  const auto place = [&](const BodyPose& pose, Vec3<Real>& anchor, Quat& orientation) {
+    const Vec3<Real> offset = real_difference(point, pose.position);
+    if (!within(offset, k_anchor_max)) return false;
+    anchor = rotate_inverse(pose.rotation, offset);
+    orientation = normalise(multiply(conjugate(pose.rotation), unit));
     return true;
   };
   if (!place(state.poses[a], placed.anchor_a, placed.frame_a) ||

@@ -12,11 +12,11 @@ void remove_joint(StateView<uint8_t>& state, uint32_t slot);
 void remove_joints_of(StateView<uint8_t>& state, uint32_t body);
 
 /// Wakes sleeping bodies joined to moving bodies, transitively. Returns the number of bodies that woke.
-uint32_t wake_jointed(Span<const JointState> joints, Span<const BodyTraits> traits, Span<const BodyMotion> motions,
-                      Span<BodyActivity> activities, const StepCacheView& cache);
+uint32_t wake_jointed(Span<const JointState> joints, Span<const BodyProperties> properties,
+                      Span<const BodyMotion> motions, Span<BodyActivity> activities, const StepCacheView& cache);
 
 /// Lists the pairs whose joints disable collision, ascending. `keys` has room for the joint capacity.
-Span<const uint64_t> list_apart(Span<const JointState> joints, Span<uint64_t> keys);
+Span<const uint64_t> list_disabled_pairs(Span<const JointState> joints, Span<uint64_t> keys);
 
 /// Removes the joints that broke in the step that ends now, and reports them.
 void break_joints(World& world, StepReport& report);

@@ -4,7 +4,7 @@
 #include "contact/collide_half_space.h"
 #include "distance/pair.h"
 #include "shape/bounds.h"
-#include "shape/shape_traits.h"
+#include "shape/shape_properties.h"
 #include "shape/sweep.h"
 #include "state/asset_binding.h"
 
@@ -13,7 +13,7 @@ inline namespace DETENT_NAMESPACE {
 
 QueryShape query_point() {
   QueryShape point{};
-  point.traits.shape = static_cast<uint32_t>(ShapeType::sphere);
+  point.properties.shape = static_cast<uint32_t>(ShapeType::sphere);
   point.convex.type = ShapeType::sphere;
   return point;
 }
@@ -23,30 +23,32 @@ Status make_query_shape(const World& world, const Shape& shape, QueryShape& made
     made = query_point();
     return Status::ok;
   }
-  if (shape.type == ShapeType::half_space || shape.type == ShapeType::surface || shape.type == ShapeType::compound)
+  if (shape.type == ShapeType::half_space || shape.type == ShapeType::terrain || shape.type == ShapeType::compound)
     return Status::bad_argument;
   if (shape.type == ShapeType::hull) {
     if (const Status status = find_shape(world, shape.type, shape.asset, BodyType::fixed); status != Status::ok)
       return status;
   }
   QueryShape shaped{};
-  if (const Status status = set_shape_traits(shape, shaped.traits, world.assets, *world.features); status != Status::ok)
+  if (const Status status = set_shape_properties(shape, shaped.properties, world.assets, *world.features);
+      status != Status::ok)
     return status;
-  if (!body_convex(shaped.traits, world.assets, shaped.convex)) return Status::asset_missing;
+  if (!body_convex(shaped.properties, world.assets, shaped.convex)) return Status::asset_missing;
   made = shaped;
   return Status::ok;
 }
 
 Vec64 query_half(const QueryShape& shape, const Quat& rotation) {
   Vec64 raw;
-  if (!raw_from_real(half_bounds(shape.traits, matrix_from(rotation)), raw)) return {0, 0, 0};  // never: it is finite
+  if (!raw_from_real(half_bounds(shape.properties, matrix_from(rotation)), raw))
+    return {0, 0, 0};  // never: it is finite
   return raw;
 }
 
-Pose pose_near(const BodyTraits& traits, const BodyPose& pose, const Position& place) {
+Pose pose_near(const BodyProperties& properties, const BodyPose& pose, const Position& place) {
   const Pose whole = {pose.position, pose.rotation};
   constexpr Real k_near = 32768.0;
-  if (!is_half_space(traits)) return whole;
+  if (!is_half_space(properties)) return whole;
   if (abs(real_difference(place.x, pose.position.x)) < k_near &&
       abs(real_difference(place.y, pose.position.y)) < k_near &&
       abs(real_difference(place.z, pose.position.z)) < k_near)
@@ -58,19 +60,19 @@ Pose pose_near(const BodyTraits& traits, const BodyPose& pose, const Position& p
 }
 
 Bounds QueryBodies::ball_bounds_of(uint32_t slot) const {
-  const BodyTraits& traits = state.traits[slot];
-  if (is_half_space(traits)) return k_everywhere;
-  const Real ball = real_from_unit(traits.bounding_radius, traits.size_exponent);
+  const BodyProperties& properties = state.properties[slot];
+  if (is_half_space(properties)) return k_everywhere;
+  const Real ball = real_from_unit(properties.bounding_radius, properties.size_exponent);
   const Real room = ball + scale_by_power(ball, -20);  // margin for the rounding of bounds
   const Vec3<Real> half = {room, room, room};
   return {moved(state.poses[slot].position, -half), moved(state.poses[slot].position, half)};
 }
 
 Bounds QueryBodies::bounds_of(uint32_t slot) const {
-  const BodyTraits& traits = state.traits[slot];
-  if (is_half_space(traits)) return k_everywhere;
+  const BodyProperties& properties = state.properties[slot];
+  if (is_half_space(properties)) return k_everywhere;
   const BodyPose& pose = state.poses[slot];
-  const Vec3<Real> half = half_bounds(traits, matrix_from(pose.rotation));
+  const Vec3<Real> half = half_bounds(properties, matrix_from(pose.rotation));
   return {moved(pose.position, -half), moved(pose.position, half)};
 }
 

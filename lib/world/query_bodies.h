@@ -12,7 +12,7 @@ inline namespace DETENT_NAMESPACE {
 
 /// The shape of a query, in the form of a body's shape.
 struct QueryShape {
-  BodyTraits traits;
+  BodyProperties properties;
   Convex convex;
 };
 
@@ -26,7 +26,7 @@ Vec64 query_half(const QueryShape& shape, const Quat& rotation);
 
 /// The pose of a body for a query at `place`. The position of a distant half-space is moved along its plane to the
 /// query, because the narrow phase accepts only positions less than 2^16 m apart.
-Pose pose_near(const BodyTraits& traits, const BodyPose& pose, const Position& place);
+Pose pose_near(const BodyProperties& properties, const BodyPose& pose, const Position& place);
 
 /// The bodies that pass a query's filter, without sensors.
 struct QueryBodies {
@@ -41,7 +41,7 @@ struct QueryBodies {
         cache(cache_of(asked.block, state.layout, capacity_of(state.header))),
         filter(query_filter) {}
 
-  BodyId id_of(uint32_t slot) const { return {slot + 1, state.traits[slot].generation}; }
+  BodyId id_of(uint32_t slot) const { return {slot + 1, state.properties[slot].generation}; }
   /// Bounds of the body at its current pose.
   Bounds bounds_of(uint32_t slot) const;
   /// Bounds of the body's bounding sphere: larger, but cheaper to compute.
@@ -60,16 +60,17 @@ struct QueryBodies {
       return;
     }
     cache.tree.walk(meets, swaps, [&](uint32_t slot) {
-      if (!cache.visits.has(slot) && asks(slot)) visit(slot);
+      if (!cache.active.has(slot) && asks(slot)) visit(slot);
     });
-    cache.visits.for_each(look_at);
+    cache.active.for_each(look_at);
   }
 
  private:
   bool asks(uint32_t slot) const {
-    const BodyTraits& traits = state.traits[slot];
-    return traits.type != 0 && traits.sensor == 0 &&
-           masks_meet(traits.category, traits.mask, filter.category, filter.mask) && !(id_of(slot) == filter.ignore);
+    const BodyProperties& properties = state.properties[slot];
+    return properties.type != 0 && properties.sensor == 0 &&
+           masks_meet(properties.category, properties.mask, filter.category, filter.mask) &&
+           !(id_of(slot) == filter.ignore);
   }
 };
 

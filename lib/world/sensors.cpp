@@ -5,11 +5,11 @@
 
 #include "ccd/impact_pair.h"
 #include "contact/compound_ops.h"
-#include "contact/surface_distance.h"
+#include "contact/terrain_distance.h"
+#include "motion/angular_velocity.h"
 #include "motion/finalise.h"
-#include "motion/spin.h"
 #include "shape/bounds.h"
-#include "shape/shape_traits.h"
+#include "shape/shape_properties.h"
 #include "world/query_bodies.h"
 
 namespace detent {
@@ -22,16 +22,16 @@ constexpr int k_within_power = -14;
 
 /// Bounds that contain the body until the tick ends, with a margin for the distance that counts as inside and for the
 /// rounding of bounds.
-Bounds reach_of(const SensorStage& stage, uint32_t slot) {
-  const BodyTraits& traits = stage.traits[slot];
-  if (is_half_space(traits)) return k_everywhere;
-  const Real ball = real_from_unit(traits.bounding_radius, traits.size_exponent);
+Bounds sensed_bounds(const SensorStage& stage, uint32_t slot) {
+  const BodyProperties& properties = stage.properties[slot];
+  if (is_half_space(properties)) return k_everywhere;
+  const Real ball = real_from_unit(properties.bounding_radius, properties.size_exponent);
   const Real room = ball + scale_by_power(ball, -8) + Real(0x1p-13);
   const BodySweep& sweep = stage.sweeps[slot];
-  const Vec3<Real> way = rest_of(sweep, sweep.from).displacement;
+  const Vec3<Real> displacement = rest_of(sweep, sweep.from).displacement;
   const Position& from = stage.poses[slot].position;
-  const Vec3<Real> back = {min(way.x, k_zero), min(way.y, k_zero), min(way.z, k_zero)};
-  const Vec3<Real> ahead = {max(way.x, k_zero), max(way.y, k_zero), max(way.z, k_zero)};
+  const Vec3<Real> back = {min(displacement.x, k_zero), min(displacement.y, k_zero), min(displacement.z, k_zero)};
+  const Vec3<Real> ahead = {max(displacement.x, k_zero), max(displacement.y, k_zero), max(displacement.z, k_zero)};
   return {moved(moved(from, back), {-room, -room, -room}), moved(moved(from, ahead), {room, room, room})};
 }
 
@@ -45,28 +45,29 @@ BodyPose end_pose(const SensorStage& stage, uint32_t slot) {
 }
 
 /// Moves a half-space along its plane to the other body, into the range of the narrow phase.
-void bring_near(const BodyTraits& traits, const BodyPose& other, BodyPose& pose) {
-  pose.position = pose_near(traits, pose, other.position).position;
+void bring_near(const BodyProperties& properties, const BodyPose& other, BodyPose& pose) {
+  pose.position = pose_near(properties, pose, other.position).position;
 }
 
-/// Sets `farther`: whether all parts of two bodies are farther apart than `reach`. Returns false if a part could not be
-/// tested.
-bool find_farther(const SensorStage& stage, const BodyTraits& a, const Pose& pose_a, const BodyTraits& b,
-                  const Pose& pose_b, Real reach, bool& farther) {
+/// Sets `farther`: whether all parts of two bodies are farther apart than `distance_max`. Returns false if a part could
+/// not be tested.
+bool find_farther(const SensorStage& stage, const BodyProperties& a, const Pose& pose_a, const BodyProperties& b,
+                  const Pose& pose_b, Real distance_max, bool& farther) {
   const ConvexParts parts_a(a, stage.assets), parts_b(b, stage.assets);
   farther = true;
   for (uint32_t j = 0; j < parts_b.count() && farther; ++j) {
     Convex convex_b;
     if (!parts_b.convex(j, false, convex_b)) return false;
-    if (is_surface(a)) {
-      if (!stage.features.surface_distance->farther(stage.assets, a, pose_a, b, convex_b, pose_b, reach, farther))
+    if (is_terrain(a)) {
+      if (!stage.features.terrain_distance->farther(stage.assets, a, pose_a, b, convex_b, pose_b, distance_max,
+                                                    farther))
         return false;
       continue;
     }
     for (uint32_t i = 0; i < parts_a.count() && farther; ++i) {
       Convex convex_a;
       if (!parts_a.convex(i, false, convex_a) ||
-          farther_than(convex_a, pose_a, convex_b, pose_b, reach, farther) != Status::ok)
+          farther_than(convex_a, pose_a, convex_b, pose_b, distance_max, farther) != Status::ok)
         return false;
     }
   }
@@ -74,22 +75,22 @@ bool find_farther(const SensorStage& stage, const BodyTraits& a, const Pose& pos
 }
 
 bool is_within(SensorStage& stage, uint32_t sensor, uint32_t body) {
-  const BodyTraits &a = stage.traits[sensor], &b = stage.traits[body];
+  const BodyProperties &a = stage.properties[sensor], &b = stage.properties[body];
   BodyPose end_a = end_pose(stage, sensor), end_b = end_pose(stage, body);
   bring_near(a, end_b, end_a);
   bring_near(b, end_a, end_b);
   const Pose pose_a = {end_a.position, end_a.rotation}, pose_b = {end_b.position, end_b.rotation};
-  const Real reach = scale_by_power(min(shape_extent(a), shape_extent(b)), k_within_power);
+  const Real distance_max = scale_by_power(min(shape_extent(a), shape_extent(b)), k_within_power);
   bool farther = false;
-  const bool asked = is_surface(b) ? find_farther(stage, b, pose_b, a, pose_a, reach, farther)
-                                   : find_farther(stage, a, pose_a, b, pose_b, reach, farther);
+  const bool asked = is_terrain(b) ? find_farther(stage, b, pose_b, a, pose_a, distance_max, farther)
+                                   : find_farther(stage, a, pose_a, b, pose_b, distance_max, farther);
   if (!asked) ++stage.undecided;
   return !asked || !farther;
 }
 
 /// Whether sensor and body touch between the start of the body's sweep and `until`.
 bool meets(SensorStage& stage, uint32_t sensor, uint32_t body, Fraction until) {
-  const BodyTraits &a = stage.traits[sensor], &b = stage.traits[body];
+  const BodyProperties &a = stage.properties[sensor], &b = stage.properties[body];
   BodyPose pose_a = stage.poses[sensor], pose_b = stage.poses[body];
   bring_near(a, pose_b, pose_a);
   bring_near(b, pose_a, pose_b);
@@ -108,7 +109,7 @@ bool meets(SensorStage& stage, uint32_t sensor, uint32_t body, Fraction until) {
 }
 
 bool may_sense(const SensorStage& stage, uint32_t sensor, uint32_t body) {
-  const BodyTraits &a = stage.traits[sensor], &b = stage.traits[body];
+  const BodyProperties &a = stage.properties[sensor], &b = stage.properties[body];
   if (is_sensor(b) || (!is_dynamic(a) && type_of(b) == BodyType::fixed)) return false;
   if (is_ground(a) && is_ground(b)) return false;
   return stage.filter.lets_through(sensor, body);
@@ -138,7 +139,7 @@ uint32_t find_passed(const SensorStage& stage, uint64_t key) {
 
 void add(SensorStage& stage, SensedKeys& keys, uint64_t key) {
   uint64_t lost = 0;
-  if (keys.add(key, lost)) stage.losses.add(CapacityEventType::sensed, pair_low(lost), pair_high(lost) >> 1);
+  if (keys.add(key, lost)) stage.overflow.add(CapacityEventType::sensed, pair_low(lost), pair_high(lost) >> 1);
 }
 
 /// Finds whether a body is inside a sensor at the end of the tick, or was on the last segment of its sweep.
@@ -160,32 +161,32 @@ void evaluate_pair(SensorStage& stage, uint32_t sensor, uint32_t body) {
 /// Evaluates each pair with a changed body once: from its sensor if the sensor has changed.
 void settle_changed(SensorStage& stage) {
   const StepCacheView& cache = stage.cache;
-  for (uint32_t i = 0; i < stage.changed.words.count; ++i) stage.changed.words[i] |= cache.visits.words[i];
-  cache.visits.for_each([&](uint32_t slot) {
-    if (!cache.tree.has(slot)) cache.bounds[slot] = reach_of(stage, slot);
+  for (uint32_t i = 0; i < stage.changed.words.count; ++i) stage.changed.words[i] |= cache.active.words[i];
+  cache.active.for_each([&](uint32_t slot) {
+    if (!cache.tree.has(slot)) cache.bounds[slot] = sensed_bounds(stage, slot);
   });
   stage.changed.for_each([&](uint32_t slot) {
-    const BodyTraits& traits = stage.traits[slot];
-    if (traits.type == 0) return;
-    const Bounds reach = reach_of(stage, slot);
-    if (!is_sensor(traits)) {
-      cache.tree.for_each_near(reach, [&](uint32_t other) {
-        if (is_sensor(stage.traits[other]) && !stage.changed.has(other)) evaluate_pair(stage, other, slot);
+    const BodyProperties& properties = stage.properties[slot];
+    if (properties.type == 0) return;
+    const Bounds bounds = sensed_bounds(stage, slot);
+    if (!is_sensor(properties)) {
+      cache.tree.for_each_near(bounds, [&](uint32_t other) {
+        if (is_sensor(stage.properties[other]) && !stage.changed.has(other)) evaluate_pair(stage, other, slot);
       });
       return;
     }
-    cache.tree.for_each_near(reach, [&](uint32_t other) {
-      if (!cache.visits.has(other)) evaluate_pair(stage, slot, other);
+    cache.tree.for_each_near(bounds, [&](uint32_t other) {
+      if (!cache.active.has(other)) evaluate_pair(stage, slot, other);
     });
-    cache.visits.for_each([&](uint32_t other) {
-      if (overlap(reach, cache.bounds[other])) evaluate_pair(stage, slot, other);
+    cache.active.for_each([&](uint32_t other) {
+      if (overlap(bounds, cache.bounds[other])) evaluate_pair(stage, slot, other);
     });
   });
 }
 
 /// Raises the events of a step from the pairs that were inside and the pairs found, both sorted.
 struct SensorEvents {
-  Span<const BodyTraits> traits;
+  Span<const BodyProperties> properties;
   Span<SensorEvent> events;
   uint32_t kept = 0, dropped = 0;
 
@@ -195,7 +196,7 @@ struct SensorEvents {
       return;
     }
     const uint32_t sensor = pair_low(key), body = pair_high(key) >> 1;
-    events[kept++] = {type, {sensor + 1, traits[sensor].generation}, {body + 1, traits[body].generation}};
+    events[kept++] = {type, {sensor + 1, properties[sensor].generation}, {body + 1, properties[body].generation}};
   }
   void raise_all(Span<const SensedState> before, Span<const uint64_t> found) {
     uint32_t old = 0, now = 0;
@@ -216,24 +217,24 @@ struct SensorEvents {
 
 void note_changed(const StepCacheView& cache, uint32_t slots_used, BitSet changed) {
   const bool known = cache.cache.fresh != 0;  // otherwise the active set belongs to another state
-  for (uint32_t i = 0; i < changed.words.count; ++i) changed.words[i] = known ? cache.visits.words[i] : 0;
+  for (uint32_t i = 0; i < changed.words.count; ++i) changed.words[i] = known ? cache.active.words[i] : 0;
   for (uint32_t slot = 0; !known && slot < slots_used; ++slot) changed.set(slot);
 }
 
-void sense_stretch(void* context, uint32_t slot, Fraction until) {
+void sense_sweep(void* context, uint32_t slot, Fraction until) {
   SensorStage& stage = *static_cast<SensorStage*>(context);
-  const Bounds reach = reach_of(stage, slot);
+  const Bounds bounds = sensed_bounds(stage, slot);
   const auto pass = [&](uint32_t sensor) {
     if (!may_sense(stage, sensor, slot) || was_within(stage, sensed_key(sensor, slot, false))) return;
     const uint64_t key = sensed_key(sensor, slot, true);
     if (find_passed(stage, key) == stage.passed.count && meets(stage, sensor, slot, until))
       add(stage, stage.passed, key);
   };
-  stage.cache.tree.for_each_near(reach, [&](uint32_t other) {
-    if (is_sensor(stage.traits[other]) && !stage.cache.visits.has(other)) pass(other);
+  stage.cache.tree.for_each_near(bounds, [&](uint32_t other) {
+    if (is_sensor(stage.properties[other]) && !stage.cache.active.has(other)) pass(other);
   });
-  stage.cache.visits.for_each([&](uint32_t other) {
-    if (is_sensor(stage.traits[other]) && overlap(reach, reach_of(stage, other))) pass(other);
+  stage.cache.active.for_each([&](uint32_t other) {
+    if (is_sensor(stage.properties[other]) && overlap(bounds, sensed_bounds(stage, other))) pass(other);
   });
 }
 
@@ -248,7 +249,7 @@ void sense(SensorStage& stage, const StateView<uint8_t>& state, SensorEventBuffe
   const Span<uint64_t> found = stage.found.storage.first(stage.found.count);
   heap_sort(found, stage.found.less);
 
-  SensorEvents events = {stage.traits, {buffer.data, buffer.capacity}};
+  SensorEvents events = {stage.properties, {buffer.data, buffer.capacity}};
   events.raise_all(stage.before, found);
   report.sensor_events = events.kept;
   report.sensor_events_dropped = buffer.capacity == 0 ? 0 : events.dropped;
@@ -265,7 +266,7 @@ void sense(SensorStage& stage, const StateView<uint8_t>& state, SensorEventBuffe
   state.world.sensed_count = count;
 }
 
-const SensorOps k_sensor_ops = {note_changed, sense_stretch, sense};
+const SensorOps k_sensor_ops = {note_changed, sense_sweep, sense};
 
 void forget_sensed(StateView<uint8_t>& state, uint32_t slot) {
   uint32_t kept = 0;
@@ -285,10 +286,11 @@ Status get_sensed(const World& world, BodyId id, BodyId* bodies, uint32_t capaci
   const StateView<const uint8_t> state = view_of(world);
   uint32_t slot = 0, found = 0;
   if (!find_body(state, id, slot)) return Status::bad_id;
-  if (!is_sensor(state.traits[slot])) return Status::bad_argument;
+  if (!is_sensor(state.properties[slot])) return Status::bad_argument;
   for (const SensedState& sensed : state.sensed.first(state.world.sensed_count)) {
     if (sensed.sensor != slot) continue;
-    if (bodies != nullptr && found < capacity) bodies[found] = {sensed.body + 1, state.traits[sensed.body].generation};
+    if (bodies != nullptr && found < capacity)
+      bodies[found] = {sensed.body + 1, state.properties[sensed.body].generation};
     ++found;
   }
   count = found;

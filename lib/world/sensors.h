@@ -2,7 +2,7 @@
 #include <detent/features.h>
 
 #include "base/heap.h"
-#include "broad_phase/losses.h"
+#include "broad_phase/overflow.h"
 #include "broad_phase/pair_filter.h"
 #include "state/step_cache.h"
 
@@ -28,14 +28,14 @@ struct SensorStage {
   AssetTable assets;
   const FeatureTable& features;
   PairFilter filter;
-  Span<const BodyTraits> traits;
+  Span<const BodyProperties> properties;
   Span<const BodyPose> poses;
   Span<const BodySweep> sweeps;
   StepCacheView cache;
   BitSet changed;                  ///< bodies that moved in the last step or were changed since
   Span<const SensedState> before;  ///< pairs that were inside at the end of the last step
   SensedKeys passed, found;        ///< pairs found before the last segment of the body's sweep; all pairs found
-  Losses& losses;
+  Overflow& overflow;
   uint32_t undecided = 0;
 };
 
@@ -44,7 +44,7 @@ void note_changed(const StepCacheView& cache, uint32_t slots_used, BitSet change
 
 /// Notes the sensors that the body `slot` touches on a segment of its sweep. An impact ends such a segment at `until`,
 /// before the tick ends. `stage`: a SensorStage.
-void sense_stretch(void* stage, uint32_t slot, Fraction until);
+void sense_sweep(void* stage, uint32_t slot, Fraction until);
 
 /// Finds the pairs that are inside and those that passed through, raises the events, and stores the pairs that are
 /// inside. Call it once all sweeps are final.
@@ -53,7 +53,7 @@ void sense(SensorStage& stage, const StateView<uint8_t>& state, SensorEventBuffe
 /// The functions of the sensor feature, for a feature table.
 struct SensorOps {
   decltype(&note_changed) start;
-  decltype(&sense_stretch) stretch;
+  decltype(&sense_sweep) sweep;
   decltype(&sense) end;
 };
 

@@ -11,8 +11,8 @@ inline namespace DETENT_NAMESPACE {
 
 Status check_settings(const WorldDef& def, const FeatureTable& features) {
   if (!are_settings(def.gravity, def.tick, def.substeps, def.substeps_max, def.iterations, def.convergence,
-                    def.relaxation, def.stiffness, def.damping_ratio, def.restitution_threshold, def.breaking,
-                    def.reuse)) {
+                    def.relaxation, def.contact_frequency, def.damping_ratio, def.restitution_threshold,
+                    def.contact_margin, def.contact_recycle_distance)) {
     return Status::out_of_range;
   }
   if (!is_reduction(def.reduction) || !is_stabilisation(def.stabilisation)) return Status::bad_argument;
@@ -31,19 +31,19 @@ void store_settings(const WorldDef& def, WorldState& world, bool has_manifolds) 
   world.gravity = def.gravity;
   world.tick_time = def.tick;
   world.relaxation = def.relaxation;
-  world.stiffness = def.stiffness;
+  world.contact_frequency = def.contact_frequency;
   world.damping_ratio = def.damping_ratio;
   world.restitution_threshold = def.restitution_threshold;
   world.reduction = static_cast<uint32_t>(def.reduction);
-  world.breaking = def.breaking;
-  world.reuse = has_manifolds ? def.reuse : Real(0.0);
+  world.contact_margin = def.contact_margin;
+  world.contact_recycle_distance = has_manifolds ? def.contact_recycle_distance : Real(0.0);
 }
 
 Status set_gravity(World& world, const Vec3<Real>& gravity) {
   if (!within(gravity, k_gravity_max)) return Status::out_of_range;
   StateView<uint8_t> state = view_of(world);
   state.world.gravity = gravity;
-  rouse_world(state);
+  wake_world(state);
   return Status::ok;
 }
 
@@ -60,13 +60,13 @@ WorldDef get_settings(const World& world) {
   def.convergence = from.convergence;
   def.stabilisation = static_cast<Stabilisation>(from.stabilisation);
   def.relaxation = from.relaxation;
-  def.stiffness = from.stiffness;
+  def.contact_frequency = from.contact_frequency;
   def.damping_ratio = from.damping_ratio;
   def.restitution_threshold = from.restitution_threshold;
   def.continuous = from.continuous != 0;
   def.sleeping = from.sleeping != 0;
-  def.breaking = from.breaking;
-  def.reuse = from.reuse;
+  def.contact_margin = from.contact_margin;
+  def.contact_recycle_distance = from.contact_recycle_distance;
   def.reduction = static_cast<ManifoldReduction>(from.reduction);
   return def;
 }
@@ -79,7 +79,7 @@ Status set_settings(World& world, const WorldDef& def) {
   // The stored manifolds were made with the old settings.
   for (ManifoldState& manifold : state.manifolds.first(state.manifolds.count == 0 ? 0 : state.world.contact_count))
     manifold = ManifoldState{};
-  rouse_world(state);
+  wake_world(state);
   return Status::ok;
 }
 

@@ -3,7 +3,7 @@
 #include "base/heap.h"
 #include "contact/compound_ops.h"
 #include "contact/contact_cache.h"
-#include "contact/manifold_reuse.h"
+#include "contact/manifold_recycling.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -14,25 +14,25 @@ struct PairLengths {
   Real at_rest;  ///< contact margin of a pair that does not move
   /// Speculative distance of the moving pair: `at_rest` plus the distance that it can close in this tick. The addition
   /// is at most a quarter of the smaller body's extent, or twice that extent if a body has joints.
-  Real reach;
-  Real reuse;  ///< largest relative motion for which its contact points are recycled
+  Real margin;
+  Real recycle_distance;  ///< largest relative motion for which its contact points are recycled
 
-  /// Whether a point that was beyond `reach` when the points were found is still farther away than the pair can close
+  /// Whether a point that was beyond `margin` when the points were found is still farther away than the pair can close
   /// in this tick.
-  bool is_slow() const { return reach + reuse <= scale_by_power(at_rest, 1); }
+  bool is_slow() const { return margin + recycle_distance <= scale_by_power(at_rest, 1); }
 };
 
 PairLengths lengths_of(const StepSettings& settings, const BodyWork& a, const BodyWork& b) {
   const Real extent = min(a.extent, b.extent), speed = a.speed + b.speed;
-  const Real at_rest = extent * settings.breaking;
+  const Real at_rest = extent * settings.contact_margin;
   // Jointed bodies are not stopped by impacts (impact.h), so their contacts use a longer speculative distance.
   const bool jointed = a.joint_body != k_no_link || b.joint_body != k_no_link;
-  const Real reach_max = scale_by_power(extent, jointed ? 1 : -2);
-  return {at_rest, at_rest + min(reach_max, speed * settings.tick_time), extent * settings.reuse};
+  const Real margin_max = scale_by_power(extent, jointed ? 1 : -2);
+  return {at_rest, at_rest + min(margin_max, speed * settings.tick_time), extent * settings.contact_recycle_distance};
 }
 
-ContactReach reach_of(const StepSettings& settings, const PairLengths& lengths) {
-  return {lengths.reach, settings.sunk};
+ContactMargins margins_of(const StepSettings& settings, const PairLengths& lengths) {
+  return {lengths.margin, settings.sunk};
 }
 
 /// A contact of the last tick; `manifold` is null if the world keeps none.
@@ -42,26 +42,26 @@ struct ContactBefore {
 };
 
 /// Contact points of a pair of bodies that have been started. It recycles the points of the last tick if they are still
-/// valid, which sets `reused`; otherwise it finds new points. Fills `manifold`, unless it is null, with the data for
+/// valid, which sets `recycled`; otherwise it finds new points. Fills `manifold`, unless it is null, with the data for
 /// recycling in the next tick.
 void collide_pair(const StepSettings& settings, uint32_t slot_a, uint32_t slot_b, const StepBodies& bodies,
-                  const ContactBefore& before, ContactGeometry& geometry, ManifoldState* manifold, bool& reused) {
+                  const ContactBefore& before, ContactGeometry& geometry, ManifoldState* manifold, bool& recycled) {
   const CollisionBody body_a = bodies.collider(slot_a), body_b = bodies.collider(slot_b);
   const PairLengths lengths = lengths_of(settings, bodies.work[slot_a], bodies.work[slot_b]);
-  reused = before.manifold != nullptr && manifold != nullptr && lengths.is_slow() &&
-           reuse_manifold(body_a, body_b, *before.manifold, before.contact->feature, before.contact->point_count,
-                          lengths.reuse, lengths.reach, geometry, *manifold);
-  if (reused) return;
-  collide(body_a, body_b, reach_of(settings, lengths), geometry, bodies.assets, settings.reduction, bodies.features);
+  recycled = before.manifold != nullptr && manifold != nullptr && lengths.is_slow() &&
+             recycle_manifold(body_a, body_b, *before.manifold, before.contact->feature, before.contact->point_count,
+                              lengths.recycle_distance, lengths.margin, geometry, *manifold);
+  if (recycled) return;
+  collide(body_a, body_b, margins_of(settings, lengths), geometry, bodies.assets, settings.reduction, bodies.features);
   if (manifold != nullptr) *manifold = lengths.is_slow() ? kept_manifold(body_a, body_b, geometry) : ManifoldState{};
 }
 
 /// A separate function, because it needs much stack.
 __attribute__((noinline)) bool parts_touch(const StepSettings& settings, uint32_t slot_a, uint32_t slot_b,
                                            const StepBodies& bodies) {
-  SurfaceContacts contacts;
+  TerrainContacts contacts;
   const PairLengths lengths = lengths_of(settings, bodies.work[slot_a], bodies.work[slot_b]);
-  collide_parts(bodies.collider(slot_a), bodies.collider(slot_b), reach_of(settings, lengths), bodies.assets,
+  collide_parts(bodies.collider(slot_a), bodies.collider(slot_b), margins_of(settings, lengths), bodies.assets,
                 settings.reduction, bodies.features, contacts);
   return contacts.count != 0;
 }
@@ -69,8 +69,8 @@ __attribute__((noinline)) bool parts_touch(const StepSettings& settings, uint32_
 bool touch(const StepSettings& settings, uint32_t slot_a, uint32_t slot_b, const StepBodies& bodies) {
   if (bodies.has_parts(slot_a, slot_b)) return parts_touch(settings, slot_a, slot_b, bodies);
   ContactGeometry geometry;
-  bool reused = false;
-  collide_pair(settings, slot_a, slot_b, bodies, {}, geometry, nullptr, reused);
+  bool recycled = false;
+  collide_pair(settings, slot_a, slot_b, bodies, {}, geometry, nullptr, recycled);
   return geometry.count != 0;
 }
 
@@ -118,13 +118,13 @@ struct Collider {
   const StepBodies& bodies;
   const LastContacts& last;
   const ContactRoom& room;
-  Losses& losses;
+  Overflow& overflow;
   ContactCount count = {};
   uint32_t next = 0;
   bool rebounds = false;  ///< a contact of two dynamic bodies may rebound
   uint32_t last_started = UINT32_MAX;
 
-  bool reuses() const { return last.manifolds.count != 0; }
+  bool recycles() const { return last.manifolds.count != 0; }
 
   void meet(uint64_t key) {
     const uint32_t slot_a = pair_low(key), slot_b = pair_high(key);
@@ -139,12 +139,12 @@ struct Collider {
     }
     ContactGeometry geometry;
     ManifoldState manifold;
-    bool reused = false;
+    bool recycled = false;
     const PairBefore pair = find_pair(key);
     const ContactBefore before = pair.count != 0 && pair[0].part == 0 ? before_at(pair, 0) : ContactBefore{};
-    collide_pair(settings, slot_a, slot_b, bodies, before, geometry, reuses() ? &manifold : nullptr, reused);
+    collide_pair(settings, slot_a, slot_b, bodies, before, geometry, recycles() ? &manifold : nullptr, recycled);
     count.capped += geometry.capped ? 1 : 0;
-    count.reused += reused ? 1 : 0;
+    count.recycled += recycled ? 1 : 0;
     if (geometry.count != 0) add(key, 0, geometry, manifold, before.contact);
   }
 
@@ -193,7 +193,7 @@ struct Collider {
   /// Starts a resting body when its pairs come. The pairs of a ground body come one after the other, so the last
   /// started body is enough to remember.
   void start(uint32_t slot) {
-    if (bodies.visits.has(slot) || slot == last_started) return;
+    if (bodies.active.has(slot) || slot == last_started) return;
     bodies.start(settings, slot);
     last_started = slot;
   }
@@ -203,31 +203,31 @@ struct Collider {
     while (next < last.awake.count && key_at(next) < key) ++next;
     PairBefore pair = {last.contacts.data, last.awake.data + next};
     while (next < last.awake.count && key_at(next) == key) {
-      if (pair.count < k_surface_manifolds_max) ++pair.count;
+      if (pair.count < k_terrain_manifolds_max) ++pair.count;
       ++next;
     }
     return pair;
   }
 
   ContactBefore before_at(const PairBefore& pair, uint32_t i) const {
-    return {&pair[i], reuses() ? &last.manifolds[pair.index[i]] : nullptr};
+    return {&pair[i], recycles() ? &last.manifolds[pair.index[i]] : nullptr};
   }
 
   __attribute__((noinline)) void collide_all_parts(uint64_t key) {
     const uint32_t slot_a = pair_low(key), slot_b = pair_high(key);
     const PairLengths lengths = lengths_of(settings, bodies.work[slot_a], bodies.work[slot_b]);
     const PairBefore pair = find_pair(key);
-    SurfaceContacts found;
-    ManifoldState manifold[k_surface_manifolds_max];
-    const bool reused = lengths.is_slow() && reuse_parts(pair, slot_a, slot_b, lengths, found, manifold);
-    if (reused) {
-      count.reused += found.count;
+    TerrainContacts found;
+    ManifoldState manifold[k_terrain_manifolds_max];
+    const bool recycled = lengths.is_slow() && recycle_parts(pair, slot_a, slot_b, lengths, found, manifold);
+    if (recycled) {
+      count.recycled += found.count;
     } else {
       const CollisionBody body_a = bodies.collider(slot_a), body_b = bodies.collider(slot_b);
-      collide_parts(body_a, body_b, reach_of(settings, lengths), bodies.assets, settings.reduction, bodies.features,
+      collide_parts(body_a, body_b, margins_of(settings, lengths), bodies.assets, settings.reduction, bodies.features,
                     found);
       continue_keys(pair, found);
-      bool kept = reuses() && lengths.is_slow() && !found.capped && found.dropped == 0;
+      bool kept = recycles() && lengths.is_slow() && !found.capped && found.dropped == 0;
       for (uint32_t i = 0; kept && i < found.count; ++i) {
         manifold[i] = kept_manifold(body_a, body_b, found.contact[i].geometry);
         kept = is_kept(manifold[i]);
@@ -236,10 +236,10 @@ struct Collider {
     }
     count.capped += found.capped ? 1 : 0;
     count.parts_dropped += found.dropped;
-    if (found.dropped != 0) losses.add(CapacityEventType::contact, slot_a, slot_b);
+    if (found.dropped != 0) overflow.add(CapacityEventType::contact, slot_a, slot_b);
     const uint32_t dropped_before = count.dropped;
     for (uint32_t i = 0; i < found.count; ++i) {
-      const SurfaceContact& contact = found.contact[i];
+      const TerrainContact& contact = found.contact[i];
       const ContactState* before = nullptr;
       for (uint32_t k = 0; k < pair.count; ++k) before = pair[k].part == contact.key ? &pair[k] : before;
       add(key, contact.key, contact.geometry, manifold[i], before);
@@ -248,16 +248,16 @@ struct Collider {
   }
 
   /// Recycles the contacts of the last tick. False unless all contacts of the pair can be recycled.
-  bool reuse_parts(const PairBefore& pair, uint32_t slot_a, uint32_t slot_b, const PairLengths& lengths,
-                   SurfaceContacts& found, ManifoldState (&manifold)[k_surface_manifolds_max]) const {
+  bool recycle_parts(const PairBefore& pair, uint32_t slot_a, uint32_t slot_b, const PairLengths& lengths,
+                     TerrainContacts& found, ManifoldState (&manifold)[k_terrain_manifolds_max]) const {
     found.count = found.dropped = 0;
     found.capped = false;
     const CollisionBody body_a = bodies.collider(slot_a), body_b = bodies.collider(slot_b);
-    for (uint32_t i = 0; reuses() && i < pair.count; ++i) {
-      SurfaceContact& contact = found.contact[found.count];
+    for (uint32_t i = 0; recycles() && i < pair.count; ++i) {
+      TerrainContact& contact = found.contact[found.count];
       contact.key = pair[i].part;
-      if (!reuse_manifold(body_a, body_b, last.manifolds[pair.index[i]], pair[i].feature, pair[i].point_count,
-                          lengths.reuse, lengths.reach, contact.geometry, manifold[found.count++]))
+      if (!recycle_manifold(body_a, body_b, last.manifolds[pair.index[i]], pair[i].feature, pair[i].point_count,
+                            lengths.recycle_distance, lengths.margin, contact.geometry, manifold[found.count++]))
         return false;
     }
     return found.count != 0;
@@ -287,7 +287,7 @@ struct Collider {
       has_room = depth_of(shallowest) < depth;
       if (has_room) lost = key_of(shallowest.state);
     }
-    losses.add(CapacityEventType::contact, pair_low(lost), pair_high(lost));
+    overflow.add(CapacityEventType::contact, pair_low(lost), pair_high(lost));
     if (has_room && bodies.has_parts(pair_low(lost), pair_high(lost))) forget_manifolds(lost);
     return has_room;
   }
@@ -299,7 +299,7 @@ struct Collider {
     const bool is_full = count.contacts == room.count;
     if (is_full && !leave_out_shallowest(depth_of(geometry), key)) return;
     const uint32_t place = is_full ? room.by_depth()[0].contact : count.contacts++;
-    if (reuses()) room.manifolds()[place] = manifold;
+    if (recycles()) room.manifolds()[place] = manifold;
     ContactWork& work = room.contacts()[place];
     work.state = continued_contact(slot_a, slot_b, part, geometry, before);
     make_rows(settings, bodies.at(slot_a), bodies.at(slot_b), geometry, work);
@@ -325,12 +325,12 @@ uint32_t wake_touched(const StepSettings& settings, const StepBodies& bodies, co
       if (!wakes_low && !(bodies.asleep(high) && bodies.moving(low))) continue;
       bodies.start(settings, wakes_low ? low : high);
       if (!touch(settings, low, high, bodies)) continue;
-      woke += wake_all_with(wakes_low ? low : high, bodies.activities, cache.visits);
+      woke += wake_all_with(wakes_low ? low : high, bodies.activities, cache.active);
     }
     if (woke == woken_before) return woke;
     cache.cache.contacts_known = 0;
     pool.go_on();
-    cache.visits.for_each([&](uint32_t slot) {
+    cache.active.for_each([&](uint32_t slot) {
       if (!cache.tree.has(slot)) return;
       cache.tree.remove(slot);
       find_resting_near(slot, cache.tree, pool);
@@ -340,8 +340,8 @@ uint32_t wake_touched(const StepSettings& settings, const StepBodies& bodies, co
 }
 
 ContactCount collide_pairs(const StepSettings& settings, const StepBodies& bodies, const LastContacts& last,
-                           const ContactRoom& room, Losses& losses, Span<const uint64_t> pairs) {
-  Collider collider = {settings, bodies, last, room, losses};
+                           const ContactRoom& room, Overflow& overflow, Span<const uint64_t> pairs) {
+  Collider collider = {settings, bodies, last, room, overflow};
   for (const uint64_t key : pairs) collider.meet(key);
   if (collider.count.dropped != 0) collider.put_in_order();
   if (collider.rebounds) collider.leave_blows_to_impacts();

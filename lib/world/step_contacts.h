@@ -1,10 +1,10 @@
 #pragma once
 #include "broad_phase/broadphase.h"
-#include "broad_phase/losses.h"
+#include "broad_phase/overflow.h"
 #include "joint/joint.h"
 #include "motion/activity.h"
 #include "motion/predict.h"
-#include "shape/shape_traits.h"
+#include "shape/shape_properties.h"
 #include "solver/contact_rows.h"
 #include "state/step_cache.h"
 #include "state/step_scratch.h"
@@ -16,27 +16,29 @@ inline namespace DETENT_NAMESPACE {
 /// The bodies of a step, as the stages before the solve read them.
 struct StepBodies {
   Span<const BodyPose> poses;
-  Span<const BodyTraits> traits;
+  Span<const BodyProperties> properties;
   Span<const BodyMotion> motions;
   Span<BodyActivity> activities;
   Span<BodyWork> work;
-  BitSet visits;  ///< the active set
+  BitSet active;  ///< the active set
   AssetTable assets;
   const FeatureTable& features;
 
   RowBody at(uint32_t slot) const {
     const BodyWork& now = work[slot];
-    return {traits[slot], poses[slot], motions[slot], now.gyration,
-            now.spin,     now.extent,  now.fall,      now.joint_body != k_no_link};
+    return {properties[slot],     poses[slot], motions[slot], now.inverse_inertia,
+            now.angular_velocity, now.extent,  now.fall,      now.joint_body != k_no_link};
   }
-  CollisionBody collider(uint32_t slot) const { return {poses[slot], traits[slot], work[slot].axes}; }
+  CollisionBody collider(uint32_t slot) const { return {poses[slot], properties[slot], work[slot].axes}; }
   void start(const StepSettings& settings, uint32_t slot) const {
-    start_body(settings, traits[slot], poses[slot], motions[slot], work[slot]);
+    start_body(settings, properties[slot], poses[slot], motions[slot], work[slot]);
   }
-  bool awake(uint32_t slot) const { return is_awake(traits[slot], activities[slot]); }
-  bool moving(uint32_t slot) const { return is_moving(traits[slot], motions[slot], activities[slot]); }
+  bool awake(uint32_t slot) const { return is_awake(properties[slot], activities[slot]); }
+  bool moving(uint32_t slot) const { return is_moving(properties[slot], motions[slot], activities[slot]); }
   bool asleep(uint32_t slot) const { return activities[slot].asleep != 0; }
-  bool has_parts(uint32_t slot_a, uint32_t slot_b) const { return detent::has_parts(traits[slot_a], traits[slot_b]); }
+  bool has_parts(uint32_t slot_a, uint32_t slot_b) const {
+    return detent::has_parts(properties[slot_a], properties[slot_b]);
+  }
 };
 
 /// Wakes sleeping bodies touched by moving ones, transitively. Removes them from the tree and finds their pairs.
@@ -50,7 +52,7 @@ struct ContactCount {
   uint32_t dropped = 0;
   uint32_t parts_dropped = 0;  ///< contacts of parts, shallower than those that their pair keeps
   uint32_t capped = 0;
-  uint32_t reused = 0;
+  uint32_t recycled = 0;
 };
 
 /// The contacts of the last tick.
@@ -75,7 +77,7 @@ struct ContactRoom {
 /// Collides pairs in ascending order and makes the rows of those that touch, sorted by pair and part. If there is not
 /// enough room, the shallowest contacts are dropped.
 ContactCount collide_pairs(const StepSettings& settings, const StepBodies& bodies, const LastContacts& last,
-                           const ContactRoom& room, Losses& losses, Span<const uint64_t> pairs);
+                           const ContactRoom& room, Overflow& overflow, Span<const uint64_t> pairs);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -39,7 +39,7 @@ bool to_pose(const Path& path, Pose& pose) {
 
 bool to_motion(const Path& path, Motion& motion) {
   return to_pose(path, motion.start) && to_vector(path.displacement, motion.displacement) &&
-         to_vector(path.turn, motion.turn);
+         to_vector(path.rotation_vector, motion.rotation_vector);
 }
 
 bool to_convex(const Solid& solid, Convex& convex) {
@@ -163,7 +163,7 @@ void add_bench_engines(EngineList& engines) {
   toi("second_order", prepare<DetentToi<by_method<ToiMethod::second_order>>>);
   toi("corotating", prepare<DetentToi<by_method<ToiMethod::corotating>>>);
   toi("world_space", prepare<DetentToi<by_method<ToiMethod::world_space>>>);
-  toi("constant_spin", prepare<DetentToi<by_method<ToiMethod::constant_spin>>>);
+  toi("constant_angular_velocity", prepare<DetentToi<by_method<ToiMethod::constant_angular_velocity>>>);
   toi("mirtich", prepare<DetentToi<by_method<ToiMethod::mirtich>>>);
   toi("baraff", prepare<DetentToi<by_method<ToiMethod::baraff>>>);
   toi("feature_pairs", prepare<DetentToi<by_method<ToiMethod::feature_pairs>>>);

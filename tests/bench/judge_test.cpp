@@ -171,7 +171,7 @@ namespace {
 Query query_of(bool turns, bool polytopes) {
   Query query = spheres(0);
   if (polytopes) query.a = query.b = detent_queries::box({1, 1, 1});
-  if (turns) query.path_a.turn = {0, 0, 1};
+  if (turns) query.path_a.rotation_vector = {0, 0, 1};
   return query;
 }
 

@@ -143,12 +143,12 @@ class ContinuousCollision : public Prepared {
 };
 
 /// A turn of 3 rad or more is not to be had between two poses, and from pi/4 on Bullet clamps it: in parts, then.
-constexpr double k_turn_max = 3, k_part_max = 0.785;
+constexpr double k_rotation_max = 3, k_part_max = 0.785;
 
 std::unique_ptr<Prepared> prepare_parts(const Query& query, bool in_parts) {
-  const double turn = turn_of(query);
+  const double rotation_vector = turn_of(query);
   auto prepared = std::make_unique<ContinuousCollision>();
-  const double parts = in_parts || turn > k_turn_max ? fmax(1, ceil(turn / k_part_max)) : 1;
+  const double parts = in_parts || rotation_vector > k_rotation_max ? fmax(1, ceil(rotation_vector / k_part_max)) : 1;
   if (!prepared->make(query, static_cast<uint32_t>(parts))) return nullptr;
   return prepared;
 }

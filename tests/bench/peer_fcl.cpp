@@ -18,7 +18,7 @@ using namespace detent_bench;
 using detent_queries::Kind;
 using detent_queries::Solid;
 
-constexpr double k_turn_max = 3;  ///< rad; of which two poses can tell
+constexpr double k_rotation_max = 3;  ///< rad; of which two poses can tell
 
 using Geometry = std::shared_ptr<fcl::CollisionGeometryd>;
 
@@ -77,7 +77,7 @@ class Advancement : public Prepared {
     request_.ccd_solver_type = fcl::CCDC_CONSERVATIVE_ADVANCEMENT;
     request_.ccd_motion_type = fcl::CCDM_LINEAR;
     request_.gjk_solver_type = solver;
-    const uint32_t parts = static_cast<uint32_t>(fmax(1, ceil(turn_of(query) / k_turn_max)));
+    const uint32_t parts = static_cast<uint32_t>(fmax(1, ceil(turn_of(query) / k_rotation_max)));
     for (uint32_t i = 0; i <= parts; ++i) {
       const double time = static_cast<double>(i) / parts;
       poses_a_.push_back(transform_of(query.a, pose_at(query.path_a, time)));

@@ -17,7 +17,7 @@ ANGLES = [("tangent", 0, "tangent's screw", "tab:purple", ":"), ("nlerp", 0, "nl
 def draw_lines(axes, rows, lines, value):
     for motion, lever, label, colour, style in lines:
         points = [row for row in rows if row["motion"] == motion and row["lever"] == lever]
-        axes.plot([row["turn"] for row in points], [row[value] for row in points], label=label, color=colour,
+        axes.plot([row["rotation_vector"] for row in points], [row[value] for row in points], label=label, color=colour,
                   linestyle=style, linewidth=1.2)
     axes.set_xscale("log")
     axes.set_yscale("log")

@@ -25,9 +25,9 @@ inline Rotation product(const Rotation& a, const Rotation& b) {
 inline PoseAt pose_at(const Path& path, double time) {
   using namespace detent_queries;
   PoseAt pose = {path.position + path.displacement * time, path.rotation};
-  const double angle = length(path.turn) * time;
+  const double angle = length(path.rotation_vector) * time;
   if (angle != 0) {
-    const Triple v = path.turn * (time * sin(angle / 2) / angle);
+    const Triple v = path.rotation_vector * (time * sin(angle / 2) / angle);
     pose.rotation = product({v[0], v[1], v[2], cos(angle / 2)}, path.rotation);
   }
   double square = 0;
@@ -38,7 +38,8 @@ inline PoseAt pose_at(const Path& path, double time) {
 
 /// The larger turn of the two, rad.
 inline double turn_of(const Query& query) {
-  return fmax(detent_queries::length(query.path_a.turn), detent_queries::length(query.path_b.turn));
+  return fmax(detent_queries::length(query.path_a.rotation_vector),
+              detent_queries::length(query.path_b.rotation_vector));
 }
 
 }  // namespace detent_bench

@@ -44,7 +44,7 @@ def compared(rows, name, time, unit, own, wrong):
     show([name, "fx64, us", "f32, us", "fastest peer, us", "which", "fx64 over it"] + (["wrong", "its wrong"] if wrong else []), lines)
 
 
-METHODS = ("paper", "first_order", "second_order", "corotating", "world_space", "constant_spin", "mirtich", "baraff", "feature_pairs",
+METHODS = ("paper", "first_order", "second_order", "corotating", "world_space", "constant_angular_velocity", "mirtich", "baraff", "feature_pairs",
            "redon", "canny")
 
 

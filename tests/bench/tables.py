@@ -24,7 +24,7 @@ TOI_SETS = [
     ("game hulls, turning", "game rotating"), ("1c with cylinders and cones, turning", "1c rotating"),
     ("3c rods, cylinders and cones", "3c"),
 ]
-METHODS = ["paper", "first_order", "second_order", "corotating", "world_space", "constant_spin", "mirtich", "baraff",
+METHODS = ["paper", "first_order", "second_order", "corotating", "world_space", "constant_angular_velocity", "mirtich", "baraff",
            "feature_pairs", "redon", "canny"]
 POLYTOPE_SETS = [
     ("1 turning", "1 rotating polytopes"), ("1 linear", "1 linear polytopes"), ("3", "3 rotating polytopes"),
@@ -114,11 +114,11 @@ def methods_early(rows):
 def triangles(rows):
     lines = []
     for name, of_set in (("11, turning", "11 rotating"), ("11, linear", "11 linear")):
-        pair = [rows.get(of_set, method) for method in ("constant_spin", "feature_pairs")]
+        pair = [rows.get(of_set, method) for method in ("constant_angular_velocity", "feature_pairs")]
         known = None not in pair
         lines.append([name] + [micro(row) if row else "-" for row in pair] +
                      [", ".join(f"{pair[1][key] / pair[0][key]:.1f}" for key in ("ns_mean", "ns_p99")) if known else "-"])
-    return table(["set", "`constant_spin`, us: mean, p99, max", "`feature_pairs`", "times as long: mean, p99"], lines)
+    return table(["set", "`constant_angular_velocity`, us: mean, p99, max", "`feature_pairs`", "times as long: mean, p99"], lines)
 
 
 def distance(rows):

@@ -45,7 +45,7 @@ class Digest {
     add_all(path.position);
     add_all(path.rotation);
     add_all(path.displacement);
-    add_all(path.turn);
+    add_all(path.rotation_vector);
   }
   uint64_t value() const { return state_; }
 

@@ -9,12 +9,12 @@
 #include "read_mesh.h"
 #include "shape/mesh.h"
 #include "tests/support/data_file.h"
-#include "tests/unit/shape/surfaces.h"
+#include "tests/unit/shape/terrains.h"
 
 namespace {
 
 using namespace detent_cook;
-using namespace detent_surfaces;
+using namespace detent_terrains;
 
 detent::MeshView view_of(const Bytes& bytes) {
   detent::MeshView mesh;

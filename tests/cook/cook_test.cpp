@@ -77,11 +77,12 @@ TEST(cook, a_hundred_hulls_give_the_same_bytes_on_every_machine) {
   Random random = {8};
   uint32_t digest = 0;
   for (int round = 0; round < 100; ++round) {
-    const std::array<double, 4> turn = {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1), 1};
+    const std::array<double, 4> rotation_vector = {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1),
+                                                   1};
     const std::array<double, 3> size = {1, random.uniform(0.01, 1),
                                         random.uniform(0.01, 1)};  // arguments have no order
     const std::array<double, 3> away = {random.uniform(-9, 9), 0, 1};
-    const Cloud cloud = placed(ellipsoid(random, 5 + 3 * round, size[0], size[1], size[2]), turn, away);
+    const Cloud cloud = placed(ellipsoid(random, 5 + 3 * round, size[0], size[1], size[2]), rotation_vector, away);
     CookOptions options;
     if (round % 5 == 4) options.frame = Frame::source;
     const std::vector<uint8_t> bytes = cooked(cloud, options).bytes;
@@ -200,13 +201,13 @@ TEST(cook, every_point_lies_on_or_within_the_hull_and_every_vertex_is_a_point) {
   }
 }
 
-TEST(cook, the_source_frame_keeps_origin_and_axes_and_has_no_gyration) {
+TEST(cook, the_source_frame_keeps_origin_and_axes_and_has_no_inverse_inertia) {
   CookOptions options;
   options.frame = Frame::source;
   const CookResult result = cooked(placed(box_corners(0.25, 0.25, 0.25), {0, 0, 0, 1}, {1, 2, 3}), options);
   EXPECT_EQ(result.centre, (Point{1, 2, 3}));
   EXPECT_EQ(result.rotation, (std::array<double, 4>{0, 0, 0, 1}));
-  EXPECT_EQ(result.gyration, (std::array<double, 3>{0, 0, 0}));
+  EXPECT_EQ(result.inverse_inertia, (std::array<double, 3>{0, 0, 0}));
   EXPECT_EQ(result.exponent, 3);  // |(1.25, 2.25, 3.25)| = 4.1
   EXPECT_NEAR(stored_volume(result.bytes), 0.125, 1e-9);
   Cloud vertices = source_vertices(result.bytes);

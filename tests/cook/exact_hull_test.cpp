@@ -139,14 +139,14 @@ TEST(mass, principal_axes_diagonalise_and_leave_small_products_alone) {
   EXPECT_EQ(axes, (Matrix{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}));
   Random random = {4};
   for (int round = 0; round < 500; ++round) {
-    const Matrix turn =
+    const Matrix rotation_vector =
         matrix_from({static_cast<int32_t>(random.uniform(-1e9, 1e9)), static_cast<int32_t>(random.uniform(-1e9, 1e9)),
                      static_cast<int32_t>(random.uniform(-1e9, 1e9)), 1 << 29});
     const std::array<double, 3> moments = {1, random.uniform(1e-6, 1), random.uniform(1e-6, 1)};
     Matrix a{};
     for (size_t i = 0; i < 3; ++i) {
       for (size_t j = 0; j < 3; ++j) {
-        for (size_t k = 0; k < 3; ++k) a[i][j] += turn[i][k] * moments[k] * turn[j][k];
+        for (size_t k = 0; k < 3; ++k) a[i][j] += rotation_vector[i][k] * moments[k] * rotation_vector[j][k];
       }
     }
     const Matrix r = principal_axes({a[0][0], a[1][1], a[2][2], a[0][1], a[1][2], a[0][2]});

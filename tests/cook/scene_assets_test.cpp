@@ -6,7 +6,7 @@
 #include <iterator>
 
 #include "ports/host/cook/cook_compound.h"
-#include "tests/unit/shape/surfaces.h"
+#include "tests/unit/shape/terrains.h"
 
 /// The surfaces of the scenes (tests/scenes/assets) are what is cooked here. Run with DETENT_WRITE_ASSETS=1 to write
 /// them anew.
@@ -41,7 +41,7 @@ void expect_committed(const char* name, const Cooked& bytes) {
 /// A valley along z with a wall across it, 8 m by 8 m.
 TEST(scene_assets, have_the_valley) {
   const auto height = [](double x, double z) { return 0.5 * fabs(x) + (fabs(z) > 3.5 ? 1.0 : 0.0); };
-  expect_committed("valley.mesh", detent_cook::cook_mesh(detent_surfaces::ground(8, 1, height), {}).bytes);
+  expect_committed("valley.mesh", detent_cook::cook_mesh(detent_terrains::ground(8, 1, height), {}).bytes);
 }
 
 /// Hills of 12 m by 12 m.

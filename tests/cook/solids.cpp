@@ -143,8 +143,8 @@ std::array<double, 3> stored_inertia(const std::vector<uint8_t>& bytes) {
   const Reader reader(bytes);
   std::array<double, 3> inertia;
   for (uint32_t axis = 0; axis < 3; ++axis) {
-    const detent::HullScaled gyration = reader.hull.gyration(axis);
-    inertia[axis] = ldexp(1.0 / gyration.mantissa, 2 * reader.hull.exponent() - gyration.exponent);
+    const detent::HullScaled inverse_inertia = reader.hull.inverse_inertia(axis);
+    inertia[axis] = ldexp(1.0 / inverse_inertia.mantissa, 2 * reader.hull.exponent() - inverse_inertia.exponent);
   }
   return inertia;
 }

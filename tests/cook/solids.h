@@ -39,7 +39,7 @@ struct Integrals {
 };
 Integrals integrals_of(const std::vector<uint8_t>& bytes);
 
-/// unit^2 over the gyration in the bytes, m^2: the inertia over the mass.
+/// unit^2 over the inverse inertia in the bytes, m^2: the inertia over the mass.
 std::array<double, 3> stored_inertia(const std::vector<uint8_t>& bytes);
 double stored_volume(const std::vector<uint8_t>& bytes);
 

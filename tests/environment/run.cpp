@@ -45,7 +45,7 @@ WorldDef fading_world() { return world_of(1, 0); }
 /// A ball whose speed falls through the denormals of float, and later of double, on its way to zero.
 void build_fading(Recorder& recorder) {
   BodyDef ball;
-  ball.velocity.x = Real(1.0);
+  ball.linear_velocity.x = Real(1.0);
   ball.linear_damping = Real(1024.0);
   ball.gravity_scale = Real(0.0);
   make_body(recorder, ball);
@@ -58,14 +58,14 @@ bool ask(const World& world) {
   CastQuery cast;
   cast.shape = box({Real(0.3), Real(0.1), Real(0.7)});
   cast.position = {Coord(0.1), Coord(8.3), Coord(-0.2)};
-  cast.way = {Real(0.7), Real(-9.1), Real(0.3)};
-  cast.turn = {Real(0.1), Real(1.3), Real(-0.7)};
+  cast.displacement = {Real(0.7), Real(-9.1), Real(0.3)};
+  cast.rotation_vector = {Real(0.1), Real(1.3), Real(-0.7)};
   ClosestQuery closest;
   closest.shape = cast.shape;
   closest.position = cast.position;
   closest.all = cast.all = true;
   QueryReport ray, hit, near;
-  if (query_ray(world, {cast.position, cast.way}, {}, ray) != Status::ok ||
+  if (query_ray(world, {cast.position, cast.displacement}, {}, ray) != Status::ok ||
       query_cast(world, cast, {}, hit) != Status::ok || query_closest(world, closest, {}, near) != Status::ok)
     return false;
   const uint64_t sum = ray.digest + 3 * hit.digest + 5 * near.digest;
@@ -132,7 +132,7 @@ bool change_and_read() {
   plane.shape = half_space();
   body.position.y = Coord(0.5);
   body.shape = box({0.5, 0.5, 0.5});
-  body.spin = {0.1, 0.2, 0.3};
+  body.angular_velocity = {0.1, 0.2, 0.3};
   if (create_world(block, sizeof block, world_of(3, 9), {}, world) != Status::ok ||
       create_body(world, plane, ground) != Status::ok || create_body(world, body, crate) != Status::ok) {
     return false;
@@ -150,7 +150,7 @@ bool change_and_read() {
         explode(world, {{0.1, -0.3, 0.2}, 3.3, 0.7}) == Status::ok &&
         move_kinematic(world, lift, {5.1, 0.3, 0.7}, turned) == Status::ok &&
         set_shape(world, lift, cone(0.3, 0.7)) == Status::ok && set_density(world, crate, 3.3) == Status::ok &&
-        set_turn_locks(world, crate, tick % 8) == Status::ok &&
+        set_rotation_locks(world, crate, tick % 8) == Status::ok &&
         set_type(world, lift, tick % 2 == 0 ? BodyType::dynamic : BodyType::kinematic) == Status::ok &&
         set_type(world, lift, BodyType::kinematic) == Status::ok && set_settings(world, changed) == Status::ok;
     if (!done || !kept("a change of a body")) return false;
@@ -160,15 +160,15 @@ bool change_and_read() {
            static_cast<unsigned long>(state >> 32), static_cast<unsigned long>(state & 0xffffffffu));
     BodyDef def;
     Vec3<Scaled> inertia;
-    Vec3<Real> velocity;
+    Vec3<Real> linear_velocity;
     Contact contact;
     if (get_body_def(world, crate, def) != Status::ok || get_inertia(world, crate, inertia) != Status::ok ||
-        get_velocity_at(world, crate, {0.1, 0.2, 0.3}, velocity) != Status::ok || !kept("a getter")) {
+        get_velocity_at(world, crate, {0.1, 0.2, 0.3}, linear_velocity) != Status::ok || !kept("a getter")) {
       return false;
     }
-    print_bytes(def.spin);
+    print_bytes(def.angular_velocity);
     print_bytes(inertia);
-    print_bytes(velocity);
+    print_bytes(linear_velocity);
     if (get_info(world).contacts != 0 && get_contact(world, 0, contact) == Status::ok) {
       print_bytes(contact.normal);
       print_bytes(contact.point[0].position);

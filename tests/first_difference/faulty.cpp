@@ -64,7 +64,7 @@ class Machine {
       def.gravity.y = -9.5;
       take(recorder.set_settings(def));
     }
-    if (is("flip")) flip(view_of(world_).motions[run_.body - 1].velocity.y);
+    if (is("flip")) flip(view_of(world_).motions[run_.body - 1].linear_velocity.y);
   }
 
   /// "created": a ball and a box; "created-in-other-order".
@@ -95,7 +95,8 @@ class Machine {
     const Scratch scratch = scratch_of(world.block, state.layout, capacity_of(state.header));
     if (machine.is("contact") && stage == StepStage::collide && contacts != 0)
       machine.flip(scratch.contacts[0].normal.y);
-    if (machine.is("solve") && stage == StepStage::solve) machine.flip(state.motions[machine.run_.body - 1].velocity.y);
+    if (machine.is("solve") && stage == StepStage::solve)
+      machine.flip(state.motions[machine.run_.body - 1].linear_velocity.y);
     if (machine.is("sweep") && stage == StepStage::advance)
       machine.flip(scratch.sweeps[machine.run_.body - 1].displacement.y);
   }

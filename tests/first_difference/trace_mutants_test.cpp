@@ -78,7 +78,7 @@ Bytes traced_variety() {
   for (uint32_t i = 0; i < 4; ++i) {
     body.position = {places[i], 0.5, 0.0};
     body.shape = i < 2 ? box({0.5, 0.5, 0.5}) : sphere(0.5);
-    body.velocity = {0.25, 0.0, 0.0};
+    body.linear_velocity = {0.25, 0.0, 0.0};
     EXPECT_OK(recorder.create_body(body, ids[i + 1]));
   }
   body.sensor = true;

@@ -50,8 +50,8 @@ ShapeType describe(const Asset& asset) {
     }
     return ShapeType::compound;
   }
-  if (mesh_info(asset, of_mesh) == Status::ok) return ShapeType::surface;
-  return height_field_info(asset, of_field) == Status::ok ? ShapeType::surface : ShapeType::sphere;
+  if (mesh_info(asset, of_mesh) == Status::ok) return ShapeType::terrain;
+  return height_field_info(asset, of_field) == Status::ok ? ShapeType::terrain : ShapeType::sphere;
 }
 
 void ask(const World& world) {
@@ -61,8 +61,8 @@ void ask(const World& world) {
   CastQuery cast;
   cast.shape = box(reals(0.25, 0.125, 0.5));
   cast.position = position(0.5, 3, 0);
-  cast.way = reals(-1, -6, 0.5);
-  cast.turn = reals(1, 2, 3);
+  cast.displacement = reals(-1, -6, 0.5);
+  cast.rotation_vector = reals(1, 2, 3);
   EXPECT_OK(query_cast(world, cast, {hit, 4}, report));
   ClosestQuery closest;
   closest.position = position(-1, 1, 1);
@@ -73,7 +73,7 @@ void ask(const World& world) {
 /// Bodies meet it, and questions are asked of it.
 void use(World& world, ShapeType type) {
   BodyDef def;
-  def.type = type == ShapeType::surface ? BodyType::kinematic : BodyType::dynamic;
+  def.type = type == ShapeType::terrain ? BodyType::kinematic : BodyType::dynamic;
   def.shape.type = type;
   BodyId id, other;
   if (create_body(world, def, id) != Status::ok) return;  // of a size that no body has, or in its source frame
@@ -81,14 +81,14 @@ void use(World& world, ShapeType type) {
   for (uint32_t i = 0; i < 2; ++i) {
     def.shape = i == 0 ? box(reals(0.5, 0.25, 0.5)) : capsule(real(0.25), real(0.5));
     def.position = position(0.25 * i, 1.5 + i, 0.125);
-    def.velocity = reals(0, -20, 0);
-    def.spin = reals(3, 1, 2);
+    def.linear_velocity = reals(0, -20, 0);
+    def.angular_velocity = reals(3, 1, 2);
     EXPECT_OK(create_body(world, def, other));
   }
   EXPECT_OK(set_velocity(world, id, reals(0, 1, 0), reals(0, 0.5, 0)));
   for (uint32_t tick = 0; tick < 6; ++tick) step(world);
   ask(world);
-  if (type != ShapeType::surface) return;
+  if (type != ShapeType::terrain) return;
   uint32_t triangles = 0;
   const auto count = [](void* user, const BodyTriangle&) { ++*static_cast<uint32_t*>(user); };
   const Status status = visit_triangles(world, id, &triangles, count);

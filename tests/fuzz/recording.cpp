@@ -63,7 +63,7 @@ class Reading {
   }
 
  private:
-  bool has(uint8_t way) const { return (ways_ & way) != 0; }
+  bool has(uint8_t displacement) const { return (ways_ & displacement) != 0; }
 
   Status pass() {
     TickResult result;
@@ -173,7 +173,7 @@ Bytes record_keyframes() {
     if (tick == 3) {
       def = {};
       def.position = position(0.25, 2, 0);
-      def.velocity = reals(0, -10, 0);
+      def.linear_velocity = reals(0, -10, 0);
       EXPECT_OK(recorder.create_body(def, ball));
     }
     if (tick == 5) {
@@ -217,7 +217,7 @@ std::vector<Bytes> seeds() {
   const Bytes keyframes = record_keyframes();
   const uint8_t ways[] = {k_mend | k_repeat_queries, k_repeat_queries, k_mend | k_jump,
                           k_mend | k_jump | k_repeat_queries, k_mend | k_without_world};
-  for (const uint8_t way : ways) add(keyframes, way);
+  for (const uint8_t displacement : ways) add(keyframes, displacement);
   return made;
 }
 

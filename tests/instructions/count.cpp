@@ -45,7 +45,7 @@ int machine_main(int, char**) {
 
   WorldDef def;
   def.sleeping = false;
-  def.reuse = Real(0.0);
+  def.contact_recycle_distance = Real(0.0);
   World world;
   if (storage.create(def, world, {}, k_counted_features) != Status::ok) machine_panic("the world is refused");
   if (build_crib(world) != Status::ok) machine_panic("a plank is refused");

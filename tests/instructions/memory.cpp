@@ -53,7 +53,7 @@ int machine_main(int, char**) {
   WorldDef def;
   def.sleeping = false;
   def.continuous = false;
-  def.reuse = Real(0.0);
+  def.contact_recycle_distance = Real(0.0);
   bool good = storage.create(def, world, {}, feature_table<Features::box | Features::half_space>) == Status::ok;
   good = good && build_crib(world) == Status::ok;
   StepReport report;

@@ -11,9 +11,9 @@ namespace {
 constexpr Triple k_axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
 double kinetic(const Inertia& inertia, const State& state) {
-  const Triple spin = unrotate(state.rotation, state.spin);
-  double sum = inertia.mass * dot(state.velocity, state.velocity);
-  for (size_t i = 0; i < 3; ++i) sum += inertia.moments[i] * spin[i] * spin[i];
+  const Triple angular_velocity = unrotate(state.rotation, state.angular_velocity);
+  double sum = inertia.mass * dot(state.linear_velocity, state.linear_velocity);
+  for (size_t i = 0; i < 3; ++i) sum += inertia.moments[i] * angular_velocity[i] * angular_velocity[i];
   return sum / 2;
 }
 
@@ -25,11 +25,12 @@ double angle_between(const Triple& a, const Triple& b) { return atan2(length(cro
 /// The speed at which the anchors separate along the line between them, or the speed of B's anchor in A's frame, m/s.
 double slide_rate(const SceneJoint& joint, const State& a, const State& b) {
   const Triple from = anchor_of(a, joint.anchor_a), to = anchor_of(b, joint.anchor_b);
-  const Triple way = to - from;
-  const Triple of_b = b.velocity + cross(b.spin, to - b.position);
-  const Triple of_a = a.velocity + cross(a.spin, (joint.hold == Hold::distance ? from : to) - a.position);
-  const double apart = length(way);
-  if (joint.hold == Hold::distance && apart > 0) return dot(of_b - of_a, way) / apart;
+  const Triple displacement = to - from;
+  const Triple of_b = b.linear_velocity + cross(b.angular_velocity, to - b.position);
+  const Triple of_a =
+      a.linear_velocity + cross(a.angular_velocity, (joint.hold == Hold::distance ? from : to) - a.position);
+  const double apart = length(displacement);
+  if (joint.hold == Hold::distance && apart > 0) return dot(of_b - of_a, displacement) / apart;
   return length(of_b - of_a);
 }
 
@@ -56,19 +57,19 @@ double scale_of(const Scene& scene, const std::vector<Inertia>& inertia, const S
 Gap gap_of(const SceneJoint& joint, const States& states) {
   const State &a = states[joint.a], &b = states[joint.b];
   const Rotation frame_a = product(a.rotation, joint.frame_a), frame_b = product(b.rotation, joint.frame_b);
-  const Triple way = anchor_of(b, joint.anchor_b) - anchor_of(a, joint.anchor_a);
+  const Triple displacement = anchor_of(b, joint.anchor_b) - anchor_of(a, joint.anchor_a);
   const auto between = [&](const Triple& axis) { return angle_between(rotate(frame_a, axis), rotate(frame_b, axis)); };
   Gap gap;
   switch (joint.hold) {
     case Hold::distance: {
-      const double apart = length(way);
+      const double apart = length(displacement);
       gap.length = std::max({0.0, apart - joint.axis.upper, joint.axis.lower - apart});
       return gap;
     }
     case Hold::slider:
     case Hold::wheel: {
       const Triple x = rotate(frame_a, k_axes[0]);
-      gap.length = length(way - x * dot(way, x));
+      gap.length = length(displacement - x * dot(displacement, x));
       gap.angle = between(k_axes[2]);
       if (joint.hold == Hold::slider) gap.angle = std::max(gap.angle, between(k_axes[0]));
       return gap;
@@ -82,7 +83,7 @@ Gap gap_of(const SceneJoint& joint, const States& states) {
     default:
       break;
   }
-  gap.length = length(way);
+  gap.length = length(displacement);
   return gap;
 }
 
@@ -104,7 +105,7 @@ double power_max(const Scene& scene, const States& states) {
     const auto add = [&](const SceneAxis& axis, bool length_axis) {
       const bool brake = axis.frequency == 0 && axis.speed == 0;
       if (axis.force_max == 0 || brake) return;
-      const double rate = length_axis ? slide_rate(joint, a, b) : length(b.spin - a.spin);
+      const double rate = length_axis ? slide_rate(joint, a, b) : length(b.angular_velocity - a.angular_velocity);
       power += axis.force_max * std::max(rate, fabs(axis.speed));
     };
     add(joint.axis, slides);

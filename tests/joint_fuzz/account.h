@@ -8,8 +8,8 @@ namespace detent_joint_fuzz {
 struct State {
   Triple position = {};  ///< m
   Rotation rotation = {0, 0, 0, 1};
-  Triple velocity = {};  ///< m/s
-  Triple spin = {};      ///< rad/s, world
+  Triple linear_velocity = {};   ///< m/s
+  Triple angular_velocity = {};  ///< rad/s, world
 };
 using States = std::vector<State>;
 

@@ -12,11 +12,11 @@ using detent_queries::to_float;
 
 constexpr Triple k_x = {1, 0, 0};
 
-Rotation turn_about(const Triple& axis, double half_tangent) {
+Rotation rotate_about(const Triple& axis, double half_tangent) {
   return normalised({axis[0] * half_tangent, axis[1] * half_tangent, axis[2] * half_tangent, 1});
 }
 
-/// The angle of turn_about(), rad.
+/// The angle of rotate_about(), rad.
 double angle_of(double half_tangent) { return 2 * atan(half_tangent); }
 
 bool slides(Hold hold) { return hold == Hold::slider || hold == Hold::wheel; }
@@ -26,18 +26,18 @@ bool slides(Hold hold) { return hold == Hold::slider || hold == Hold::wheel; }
 double spread(Random& random, double low, double high) { return to_float(random.log_uniform(low, high)); }
 
 Triple any_vector(Random& random, double most) {
-  const Triple way = random.direction();
-  return way * random.uniform(0, most);
+  const Triple displacement = random.direction();
+  return displacement * random.uniform(0, most);
 }
 
 Triple Builder::arm() {
-  const Triple way = random_.direction();
-  return random_.chance(0.05) ? Triple{} : way * (style_.reach * random_.uniform(0.1, 1));
+  const Triple displacement = random_.direction();
+  return random_.chance(0.05) ? Triple{} : displacement * (style_.distance_max * random_.uniform(0.1, 1));
 }
 
 uint32_t Builder::add_body(const Triple& position) {
   SceneBody body;
-  const double size = style_.size * style_.reach;
+  const double size = style_.size * style_.distance_max;
   switch (random_.below(5)) {
     case 0:
       body.solid = Solid::sphere;
@@ -64,7 +64,7 @@ uint32_t Builder::add_body(const Triple& position) {
 
 uint32_t Builder::add_wall(const Triple& position) {
   SceneBody wall;
-  const double size = to_float(0.1 * style_.reach);
+  const double size = to_float(0.1 * style_.distance_max);
   wall.fixed = true;
   wall.size = {size, size, size};
   wall.position = to_float(position);
@@ -83,8 +83,8 @@ Hold Builder::any_hold() {
 void Builder::join(uint32_t a, uint32_t b, const Triple& point, Hold hold) {
   const Rotation frame = normalised(random_.rotation());
   double apart = 0;
-  if (hold == Hold::distance) apart = style_.reach * random_.uniform(0.2, 2);
-  if (slides(hold) && random_.chance(0.5)) apart = style_.reach * random_.uniform(-1, 1);
+  if (hold == Hold::distance) apart = style_.distance_max * random_.uniform(0.2, 2);
+  if (slides(hold) && random_.chance(0.5)) apart = style_.distance_max * random_.uniform(-1, 1);
   join(a, b, point, hold, frame, apart);
 }
 
@@ -96,7 +96,7 @@ void Builder::join(uint32_t a, uint32_t b, const Triple& point, Hold hold, const
   joint.b = b;
   const double half_lean = hold == Hold::cone_twist && random_.chance(0.5) ? random_.uniform(0.05, 0.5) : 0;
   // The axis is across x, so that there is no twist.
-  const Rotation frame_b = product(frame, turn_about(random_.perpendicular(k_x), half_lean));
+  const Rotation frame_b = product(frame, rotate_about(random_.perpendicular(k_x), half_lean));
   joint.anchor_a = unrotate(first.rotation, point - first.position);
   joint.anchor_b = unrotate(other.rotation, point + rotate(frame, k_x) * apart - other.position);
   joint.frame_a = normalised(product(conjugate(first.rotation), frame));
@@ -112,7 +112,7 @@ void Builder::join(uint32_t a, uint32_t b, const Triple& point, Hold hold, const
   // may limit it.
   const bool bounded = scene_.kind != Kind::pair || random_.chance(0.5);
   if (slides(hold) && !joint.axis.limited && bounded)
-    joint.axis = {.limited = true, .lower = apart - style_.reach, .upper = apart + style_.reach};
+    joint.axis = {.limited = true, .lower = apart - style_.distance_max, .upper = apart + style_.distance_max};
   if (style_.drives) add_drives(joint);
   scene_.joints.push_back(joint);
 }
@@ -130,7 +130,7 @@ void Builder::add_limits(SceneJoint& joint, double apart, double lean) {
       break;
     case Hold::slider:
     case Hold::wheel:
-      about(joint.axis, apart, style_.reach);
+      about(joint.axis, apart, style_.distance_max);
       break;
     case Hold::cone_twist:
       about(joint.axis, 0, 2);
@@ -165,7 +165,7 @@ void Builder::add_drives(SceneJoint& joint) {
         break;
     }
   };
-  const double length = style_.reach;
+  const double length = style_.distance_max;
   switch (joint.hold) {
     case Hold::hinge:
       drive(joint.axis, 0, 1, length);
@@ -188,28 +188,28 @@ void Builder::add_drives(SceneJoint& joint) {
   }
 }
 
-void set_any_velocities(Scene& scene, double speed, double spin, Random& random) {
+void set_any_velocities(Scene& scene, double speed, double angular_velocity, Random& random) {
   for (SceneBody& body : scene.bodies) {
     if (body.fixed) continue;
-    body.velocity = to_float(any_vector(random, speed));
-    body.spin = to_float(any_vector(random, spin));
+    body.linear_velocity = to_float(any_vector(random, speed));
+    body.angular_velocity = to_float(any_vector(random, angular_velocity));
   }
 }
 
-void set_fitting_velocities(Scene& scene, bool is_tree, double speed, double spin, Random& random) {
+void set_fitting_velocities(Scene& scene, bool is_tree, double speed, double angular_velocity, Random& random) {
   const bool held = std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const SceneBody& b) { return b.fixed; });
-  const Triple turn = any_vector(random, spin), way = any_vector(random, speed);
+  const Triple rotation_vector = any_vector(random, angular_velocity), displacement = any_vector(random, speed);
   if (!is_tree) {
     for (SceneBody& body : scene.bodies) {
       if (held) continue;
-      body.spin = turn;
-      body.velocity = way + cross(turn, body.position - scene.bodies[0].position);
+      body.angular_velocity = rotation_vector;
+      body.linear_velocity = displacement + cross(rotation_vector, body.position - scene.bodies[0].position);
     }
     return;
   }
   if (!scene.bodies[0].fixed) {
-    scene.bodies[0].spin = turn;
-    scene.bodies[0].velocity = way;
+    scene.bodies[0].angular_velocity = rotation_vector;
+    scene.bodies[0].linear_velocity = displacement;
   }
   for (const SceneJoint& joint : scene.joints) {
     const SceneBody& a = scene.bodies[joint.a];
@@ -217,16 +217,16 @@ void set_fitting_velocities(Scene& scene, bool is_tree, double speed, double spi
     const Rotation frame = product(a.rotation, joint.frame_a);
     const Triple x = rotate(frame, k_x);
     const Triple anchor = b.position + rotate(b.rotation, joint.anchor_b);
-    const double rate = random.uniform(-1, 1) * spin, slide = random.uniform(-1, 1) * speed;
+    const double rate = random.uniform(-1, 1) * angular_velocity, slide = random.uniform(-1, 1) * speed;
     Triple own = {}, along = {};
     if (joint.hold == Hold::hinge) own = x * rate;
     if (joint.hold == Hold::wheel) own = rotate(frame, {0, 0, 1}) * rate;
     if (joint.hold == Hold::ball || joint.hold == Hold::cone_twist || joint.hold == Hold::distance)
-      own = any_vector(random, spin);
+      own = any_vector(random, angular_velocity);
     if (slides(joint.hold)) along = x * slide;
-    b.spin = a.spin + own;
-    const Triple at_anchor = a.velocity + cross(a.spin, anchor - a.position) + along;
-    b.velocity = at_anchor - cross(b.spin, anchor - b.position);
+    b.angular_velocity = a.angular_velocity + own;
+    const Triple at_anchor = a.linear_velocity + cross(a.angular_velocity, anchor - a.position) + along;
+    b.linear_velocity = at_anchor - cross(b.angular_velocity, anchor - b.position);
   }
 }
 

@@ -9,14 +9,14 @@ using detent_queries::Random;
 
 /// Common properties of a scene's bodies and joints.
 struct Style {
-  double reach = 1;        ///< m: the longest arm
-  double size = 1;         ///< of a body, relative to the longest arm
-  double mass = 1;         ///< kg: the smallest mass
-  double mass_ratio = 1;   ///< greatest over smallest mass
-  bool mixed = false;      ///< joints of any type
-  Hold hold = Hold::ball;  ///< the type of all joints if not mixed
-  bool limits = false;     ///< half of the free motions have limits
-  bool drives = false;     ///< the joints have motors and springs
+  double distance_max = 1;  ///< m: the longest arm
+  double size = 1;          ///< of a body, relative to the longest arm
+  double mass = 1;          ///< kg: the smallest mass
+  double mass_ratio = 1;    ///< greatest over smallest mass
+  bool mixed = false;       ///< joints of any type
+  Hold hold = Hold::ball;   ///< the type of all joints if not mixed
+  bool limits = false;      ///< half of the free motions have limits
+  bool drives = false;      ///< the joints have motors and springs
 };
 
 /// Log-uniform and rounded to float, so that C libraries whose logarithms differ in the last bit make the same scene.
@@ -56,8 +56,8 @@ class Builder {
 
 /// Sets velocities that fit the joints. In a tree whose joints are in the order of its bodies the motion of each joint
 /// is random. In any other scene all bodies move as one rigid body, or not at all if a wall holds them.
-void set_fitting_velocities(Scene& scene, bool is_tree, double speed, double spin, Random& random);
+void set_fitting_velocities(Scene& scene, bool is_tree, double speed, double angular_velocity, Random& random);
 /// Sets random velocities.
-void set_any_velocities(Scene& scene, double speed, double spin, Random& random);
+void set_any_velocities(Scene& scene, double speed, double angular_velocity, Random& random);
 
 }  // namespace detent_joint_fuzz

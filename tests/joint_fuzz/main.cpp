@@ -39,7 +39,7 @@ void print_scene(const Scene& scene) {
     printf("body %zu: %s %g %g %g, %s %g kg, at %g %g %g, %.3g m/s, %.3g rad/s\n", i,
            k_solids[static_cast<uint32_t>(body.solid)], body.size[0], body.size[1], body.size[2],
            body.fixed ? "fixed" : "of", body.fixed ? 0 : body.mass, body.position[0], body.position[1],
-           body.position[2], length(body.velocity), length(body.spin));
+           body.position[2], length(body.linear_velocity), length(body.angular_velocity));
   }
   for (const SceneJoint& joint : scene.joints) {
     printf("%s %u to %u: arms %.3g and %.3g m", name_of(joint.hold), joint.a, joint.b, length(joint.anchor_a),

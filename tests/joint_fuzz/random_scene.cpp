@@ -26,9 +26,9 @@ Style any_style(Kind kind, Random& random) {
   Style style;
   const bool far = kind == Kind::pair || kind == Kind::tree;
   const bool many = kind == Kind::contact || kind == Kind::ground;
-  style.reach = many ? spread(random, 0.05, 1) : spread(random, 0.01, far ? 16 : 4);
-  if (kind == Kind::rope) style.reach = spread(random, 1, 16);
-  const double least = std::max(0.02, 0.003 / style.reach);
+  style.distance_max = many ? spread(random, 0.05, 1) : spread(random, 0.01, far ? 16 : 4);
+  if (kind == Kind::rope) style.distance_max = spread(random, 1, 16);
+  const double least = std::max(0.02, 0.003 / style.distance_max);
   style.size = random.chance(0.6) ? spread(random, 0.3, 1) : spread(random, std::min(least, 0.5), 1);
   if (kind == Kind::contact) style.size = spread(random, 0.05, 0.3);
   style.mass = spread(random, 0.01, 100);
@@ -86,8 +86,8 @@ Made make_tree(Builder& build, Scene& scene, Random& random, bool hung) {
 /// Bodies on a rough circle, with attached trees.
 Made make_loop(Builder& build, Scene& scene, Random& random, bool hung) {
   const uint32_t count = 3 + random.below(10);
-  const double reach = build.style().reach, radius = reach * count / k_pi;
-  const double noise = random.chance(0.3) ? 0 : 0.4 * reach;
+  const double distance_max = build.style().distance_max, radius = distance_max * count / k_pi;
+  const double noise = random.chance(0.3) ? 0 : 0.4 * distance_max;
   for (uint32_t i = 0; i < count; ++i) {
     const double angle = 2 * k_pi * i / count;
     const Triple place = {radius * to_float(cos(angle)), radius * to_float(sin(angle)), 0};
@@ -109,9 +109,9 @@ Made make_loop(Builder& build, Scene& scene, Random& random, bool hung) {
 
 Made make_grid(Builder& build, Scene& scene, Random& random, bool hung) {
   const uint32_t columns = 2 + random.below(4), rows = 2 + random.below(std::min(k_bodies_max / columns, 5u) - 1);
-  const double reach = build.style().reach, noise = random.chance(0.5) ? 0 : 0.3 * reach;
+  const double distance_max = build.style().distance_max, noise = random.chance(0.5) ? 0 : 0.3 * distance_max;
   for (uint32_t i = 0; i < rows * columns; ++i) {
-    const Triple place = {reach * 2 * (i % columns), reach * -2 * (i / columns), 0};
+    const Triple place = {distance_max * 2 * (i % columns), distance_max * -2 * (i / columns), 0};
     if (i == 0 && hung) {
       build.add_wall(place);
     } else {
@@ -137,7 +137,7 @@ Made make_net(Builder& build, Scene& scene, Random& random, bool hung) {
   for (uint32_t left = 1 + random.below(count); left != 0; --left) {
     const uint32_t a = random.below(count), b = (a + 1 + random.below(count - 1)) % count;
     const double apart = length(scene.bodies[b].position - scene.bodies[a].position);
-    if (apart <= 8 * build.style().reach) close_loop(build, scene, a, b, random);
+    if (apart <= 8 * build.style().distance_max) close_loop(build, scene, a, b, random);
   }
   return {false};
 }
@@ -165,17 +165,17 @@ Made make_rope(Builder& build, Scene& scene, Random& random, bool hung) {
 /// Links of equal length in a row, the first and last held by walls.
 Made make_taut(Builder& build, Random& random) {
   const uint32_t count = 1 + random.below(k_bodies_max - 2);
-  const double reach = build.style().reach;
-  const Triple way = random.direction();
+  const double distance_max = build.style().distance_max;
+  const Triple displacement = random.direction();
   // If alike, all hinges rotate about the same axis; otherwise each has its own axis.
   const bool alike = random.chance(0.5);
   const Rotation frame = normalised(random.rotation());
   build.add_wall({0, 0, 0});
-  for (uint32_t i = 0; i < count; ++i) build.add_body(way * (reach * (2 * i + 1)));
-  build.add_wall(way * (reach * 2 * count));
+  for (uint32_t i = 0; i < count; ++i) build.add_body(displacement * (distance_max * (2 * i + 1)));
+  build.add_wall(displacement * (distance_max * 2 * count));
   for (uint32_t i = 0; i <= count; ++i) {
     const Hold hold = build.any_hold();
-    const Triple point = way * (reach * 2 * i);
+    const Triple point = displacement * (distance_max * 2 * i);
     if (alike && hold != Hold::distance) {
       build.join(i, i + 1, point, hold, frame, 0);
     } else {
@@ -251,14 +251,14 @@ double extent_of(const Scene& scene) {
   return length(high - low);
 }
 
-void set_velocities(Scene& scene, const Made& made, double reach, Random& random) {
-  constexpr double k_spins[] = {0, 5, 5, 80, 80};
-  const double spin = std::min(k_spins[random.below(5)], k_tip_speed_max / (2 * reach));
+void set_velocities(Scene& scene, const Made& made, double distance_max, Random& random) {
+  constexpr double k_angular_velocities[] = {0, 5, 5, 80, 80};
+  const double angular_velocity = std::min(k_angular_velocities[random.below(5)], k_tip_speed_max / (2 * distance_max));
   const double speed = random.chance(0.2) ? 0.1 : 5;
   if (random.chance(0.5)) {
-    set_fitting_velocities(scene, made.is_tree, speed, spin, random);
+    set_fitting_velocities(scene, made.is_tree, speed, angular_velocity, random);
   } else {
-    set_any_velocities(scene, speed, spin, random);
+    set_any_velocities(scene, speed, angular_velocity, random);
   }
 }
 
@@ -288,8 +288,8 @@ Scene random_scene(uint64_t seed) {
     made = make(build, scene, random);
     if (!scene.collisions || !overlaps(scene)) break;
   }
-  if (scene.ground) lift(scene, style.reach * random.uniform(0, 2));
-  set_velocities(scene, made, style.reach, random);
+  if (scene.ground) lift(scene, style.distance_max * random.uniform(0, 2));
+  set_velocities(scene, made, style.distance_max, random);
   scene.extent = extent_of(scene);
   return scene;
 }

@@ -104,15 +104,16 @@ class DetentRun : public detent_joint_fuzz::Run {
     states.resize(ids_.size());
     for (size_t i = 0; i < ids_.size(); ++i) {
       Pose pose;
-      Vec3<Real> velocity, spin;
-      if (get_pose(world_, ids_[i], pose) != Status::ok || get_velocity(world_, ids_[i], velocity, spin) != Status::ok)
+      Vec3<Real> linear_velocity, angular_velocity;
+      if (get_pose(world_, ids_[i], pose) != Status::ok ||
+          get_velocity(world_, ids_[i], linear_velocity, angular_velocity) != Status::ok)
         continue;
       const Position& p = pose.position;
       const Quat& q = pose.rotation;
       states[i] = {{coord_to_host(p.x), coord_to_host(p.y), coord_to_host(p.z)},
                    {unit_to_host(q.x), unit_to_host(q.y), unit_to_host(q.z), unit_to_host(q.w)},
-                   triple_of(velocity),
-                   triple_of(spin)};
+                   triple_of(linear_velocity),
+                   triple_of(angular_velocity)};
     }
   }
 
@@ -148,8 +149,8 @@ class DetentRun : public detent_joint_fuzz::Run {
     def.type = body.fixed ? BodyType::fixed : BodyType::dynamic;
     def.position = numbers.position(body.position);
     def.rotation = numbers.rotation(body.rotation);
-    def.velocity = numbers.vector(body.velocity);
-    def.spin = numbers.vector(body.spin);
+    def.linear_velocity = numbers.vector(body.linear_velocity);
+    def.angular_velocity = numbers.vector(body.angular_velocity);
     def.mass = numbers.scaled(body.mass);
     // The group keeps the bodies from colliding with each other; they still collide with the ground.
     if (!scene.collisions) def.filter.group = -1;

@@ -45,9 +45,9 @@ struct SceneBody {
   Triple size = {0.5, 0.5, 0.5};
   Triple position = {};  ///< m
   Rotation rotation = {0, 0, 0, 1};
-  double mass = 1;       ///< kg
-  Triple velocity = {};  ///< m/s
-  Triple spin = {};      ///< rad/s, world
+  double mass = 1;               ///< kg
+  Triple linear_velocity = {};   ///< m/s
+  Triple angular_velocity = {};  ///< rad/s, world
 };
 
 /// As detent::JointAxis.

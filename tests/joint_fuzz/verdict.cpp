@@ -32,7 +32,7 @@ void describe(const Scene& scene, Verdict& verdict) {
   const auto take = [&](const SceneBody& body, const Triple& anchor) {
     if (body.fixed) return;
     const double arm = length(anchor);
-    verdict.tip_speed = fmax(verdict.tip_speed, length(body.velocity) + length(body.spin) * arm);
+    verdict.tip_speed = fmax(verdict.tip_speed, length(body.linear_velocity) + length(body.angular_velocity) * arm);
     verdict.arm_ratio = fmax(verdict.arm_ratio, arm / *std::max_element(body.size.begin(), body.size.end()));
   };
   for (const SceneJoint& joint : scene.joints) {

@@ -90,14 +90,16 @@ bool ask_overlap(const Pair& pair, DistanceCache* cache, Answers& answers) {
 
 bool ask_farther(const Pair& pair, DistanceCache* cache, Answers& answers) {
   bool farther = false;
-  answers.add(farther_than(pair.a, pair.motion_a.start, pair.b, pair.motion_b.start, pair.reach, farther, cache));
+  answers.add(
+      farther_than(pair.a, pair.motion_a.start, pair.b, pair.motion_b.start, pair.distance_max, farther, cache));
   answers.add(uint64_t{farther});
   return !farther;
 }
 
 bool ask_contact(const Pair& pair, DistanceCache* cache, Answers& answers) {
   ContactManifold manifold;
-  answers.add(contact_points(pair.a, pair.motion_a.start, pair.b, pair.motion_b.start, pair.reach, manifold, cache));
+  answers.add(
+      contact_points(pair.a, pair.motion_a.start, pair.b, pair.motion_b.start, pair.distance_max, manifold, cache));
   answers.vector(manifold.normal);
   answers.add(uint64_t{manifold.count});
   answers.add(uint64_t{manifold.capped});
@@ -135,13 +137,13 @@ bool add_hit(const CastHit& hit, Answers& answers) {
 
 bool ask_ray(const Pair& pair, DistanceCache*, Answers& answers) {
   CastHit hit;
-  answers.add(cast_ray(pair.a, pair.motion_a.start, pair.offset, pair.way, hit));
+  answers.add(cast_ray(pair.a, pair.motion_a.start, pair.offset, pair.displacement, hit));
   return add_hit(hit, answers);
 }
 
 bool ask_shape(const Pair& pair, DistanceCache*, Answers& answers) {
   CastHit hit;
-  answers.add(cast_shape(pair.b, pair.motion_b.start, pair.way, pair.a, pair.motion_a.start, hit));
+  answers.add(cast_shape(pair.b, pair.motion_b.start, pair.displacement, pair.a, pair.motion_a.start, hit));
   return add_hit(hit, answers);
 }
 
@@ -222,7 +224,7 @@ constexpr Question k_questions[] = {
     {"toi_second_order", ask_toi<ToiMethod::second_order>},
     {"toi_corotating", ask_toi<ToiMethod::corotating>},
     {"toi_world_space", ask_toi<ToiMethod::world_space>},
-    {"toi_constant_spin", ask_toi<ToiMethod::constant_spin>},
+    {"toi_constant_angular_velocity", ask_toi<ToiMethod::constant_angular_velocity>},
     {"toi_mirtich", ask_toi<ToiMethod::mirtich>},
     {"toi_baraff", ask_toi<ToiMethod::baraff>},
     {.name = "toi_feature_pairs", .ask = ask_toi<ToiMethod::feature_pairs>, .polytopes = true},

@@ -160,14 +160,16 @@ void make_pair_of(const Kinds& kinds, Random& random, const Hulls& hulls, Pair& 
   // B's displacement in eighths of its offset from A: from none to twice the distance, plus a lateral part.
   const int32_t eighths = random.below(17);
   const Integers aside = random.one_in(4) ? Integers{0, 0, 0} : within(random, 1 << 12);
-  const Integers way = {aside.x - offset.x * eighths, aside.y - offset.y * eighths, aside.z - offset.z * eighths};
+  const Integers displacement = {aside.x - offset.x * eighths, aside.y - offset.y * eighths,
+                                 aside.z - offset.z * eighths};
   const Integers own = within(random, 1 << 12);
-  pair.way = exact<Real>(way, shift + 3);
+  pair.displacement = exact<Real>(displacement, shift + 3);
   pair.motion_a.displacement = exact<Real>(own, shift + 3);
-  pair.motion_b.displacement = exact<Real>({way.x + own.x, way.y + own.y, way.z + own.z}, shift + 3);
-  pair.motion_a.turn = draw_turn(random);
-  pair.motion_b.turn = draw_turn(random);
-  pair.reach = Exact<Real>::of(random.below(1 << 10), shift);
+  pair.motion_b.displacement =
+      exact<Real>({displacement.x + own.x, displacement.y + own.y, displacement.z + own.z}, shift + 3);
+  pair.motion_a.rotation_vector = draw_turn(random);
+  pair.motion_b.rotation_vector = draw_turn(random);
+  pair.distance_max = Exact<Real>::of(random.below(1 << 10), shift);
 }
 
 }  // namespace

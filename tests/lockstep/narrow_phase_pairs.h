@@ -36,8 +36,8 @@ struct Pair {
   Convex a, b;
   Motion motion_a, motion_b;  ///< relative to A's, B's displacement is mostly towards A
   Vec3<Real> offset;          ///< from A's position to B's, m
-  Vec3<Real> way;             ///< B's displacement relative to A, m
-  Real reach;                 ///< m
+  Vec3<Real> displacement;    ///< B's displacement relative to A, m
+  Real distance_max;          ///< m
 };
 /// All types, rounded and not, in all rotations or along the axes; some touch exactly, some are far from the origin.
 void make_pair(Random& random, const Hulls& hulls, Pair& pair);

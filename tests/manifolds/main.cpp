@@ -53,7 +53,7 @@ void print(uint64_t seed, const Engine& engine) {
   judge(scene, followed, [](uint32_t index, const Tick& tick, const Reading& reading) {
     printf("tick %u%s%s%s, gap %.9g m of %g m, normal %.6Lf %.6Lf %.6Lf in A's axes, patch %g m^2\n", index,
            tick.stepped.reused ? ", reused" : "", tick.stepped.seam ? ", seam" : "",
-           tick.stepped.capped ? ", capped" : "", reading.gap, tick.reach, reading.normal.x, reading.normal.y,
+           tick.stepped.capped ? ", capped" : "", reading.gap, tick.distance_max, reading.normal.x, reading.normal.y,
            reading.normal.z, reading.patch_area);
     for (uint32_t i = 0; i < k_measures; ++i) printf("  %s %.3g", name_of(static_cast<Measure>(i)), reading.value[i]);
     printf("%s%s\n", reading.lost ? "  LOST" : "", reading.idle ? "  IDLE" : "");

@@ -40,7 +40,7 @@ class Judge {
  public:
   explicit Judge(const Scene& scene) : scene_(scene), a_(solid_of(scene.a)), b_(solid_of(scene.b)) {
     const auto size = [](const FacedSolid& solid) {
-      return static_cast<double>(2 * (solid.solid().reach + solid.solid().rounding));
+      return static_cast<double>(2 * (solid.solid().distance_max + solid.solid().rounding));
     };
     size_ = scene.mesh_cells != 0 ? size(b_) : std::min(size(a_), size(b_));
     thickness_ = scene.mesh_cells != 0 ? thickness_of(scene.b) : std::min(thickness_of(scene.a), thickness_of(scene.b));
@@ -96,17 +96,17 @@ Reading Judge::read(const Tick& tick) {
   }
   support.points = points.at;
   if (points.at.empty()) {
-    reading.lost = reading.gap < 0.9 * tick.reach && !tick.stepped.seam;
+    reading.lost = reading.gap < 0.9 * tick.distance_max && !tick.stepped.seam;
     has_last_ = false;
     return reading;
   }
-  reading.idle = reading.gap > tick.reach + 1e-3 * thickness_;
+  reading.idle = reading.gap > tick.distance_max + 1e-3 * thickness_;
   if (!patch.outline.empty() && !reading.idle) {
     measure_points(tick, points, patch, middle, reading);
     double motion = static_cast<double>(detent_oracle::length(placement_.offset - last_placement_.offset));
     for (int i = 0; i < 3; ++i)
       motion += static_cast<double>(detent_oracle::length(placement_.b.axis[i] - last_placement_.b.axis[i]) *
-                                    (b_.solid().reach + b_.solid().rounding));
+                                    (b_.solid().distance_max + b_.solid().rounding));
     if (has_last_ && !tick.stepped.seam)
       reading.value[static_cast<uint32_t>(Measure::jump)] = jump_of(support, patch, motion);
   }
@@ -170,13 +170,15 @@ Number Judge::staleness_of(const Tick& tick, const Patch& patch, const Polygon& 
 }
 
 PointReading Judge::read_point(const Tick& tick, const Points& points, size_t i, const Arrow& middle) const {
-  const Number reach = tick.reach + 1e-6L * thickness_, separation = tick.stepped.points[i].separation;
+  const Number distance_max = tick.distance_max + 1e-6L * thickness_, separation = tick.stepped.points[i].separation;
   Arrow at = points.at[i];
   Number gap = 0;
   const auto within = [&](const Arrow& place) {
-    return gap_over(a_, b_, placement_, points.normal, place, gap) && gap <= reach;
+    return gap_over(a_, b_, placement_, points.normal, place, gap) && gap <= distance_max;
   };
-  const auto across = [&](const Arrow& way) { return way - points.normal * dot(way, points.normal); };
+  const auto across = [&](const Arrow& displacement) {
+    return displacement - points.normal * dot(displacement, points.normal);
+  };
   Number outside = 0;
   if (!within(at)) {
     // The region within the contact margin is convex, so the line to its middle enters it once. The nearest point of
@@ -189,7 +191,7 @@ PointReading Judge::read_point(const Tick& tick, const Points& points, size_t i,
     }
     outside = part * detent_oracle::length(to_middle);
     Arrow start = at + to_middle * part;
-    const Patch near = patch_of(a_, b_, placement_, points.normal, reach);
+    const Patch near = patch_of(a_, b_, placement_, points.normal, distance_max);
     if (!near.outline.empty()) {
       const Spot from = near.spot(at), to = nearest_in(near.outline, from);
       const Number aside = hypotl(to.u - from.u, to.v - from.v);
@@ -213,7 +215,7 @@ PointReading Judge::read_point(const Tick& tick, const Points& points, size_t i,
 }
 
 double Judge::jump_of(const Support& now, const Patch& patch, double motion) const {
-  const auto reach = [](const std::vector<Arrow>& arrows, const Arrow& direction) {
+  const auto distance_max = [](const std::vector<Arrow>& arrows, const Arrow& direction) {
     Number most = -HUGE_VALL;
     for (const Arrow& arrow : arrows) most = std::max(most, dot(arrow, direction));
     return most;
@@ -224,9 +226,9 @@ double Judge::jump_of(const Support& now, const Patch& patch, double motion) con
     const double angle = 2 * k_pi * i / k_directions;
     const Arrow direction = patch.u * cos(angle) + patch.v * sin(angle);
     // Speculative points come and go: only supporting points count as lost or gained.
-    const Number lost = reach(last_.bearing, direction) - reach(now.points, direction);
-    const Number won = reach(now.bearing, direction) - reach(last_.points, direction);
-    const Number explained = fabsl(reach(now.corners, direction) - reach(last_.corners, direction));
+    const Number lost = distance_max(last_.bearing, direction) - distance_max(now.points, direction);
+    const Number won = distance_max(now.bearing, direction) - distance_max(last_.points, direction);
+    const Number explained = fabsl(distance_max(now.corners, direction) - distance_max(last_.corners, direction));
     most = std::max(most, std::max(lost, won) - explained - 2 * motion);
   }
   return static_cast<double>(most) / size_;

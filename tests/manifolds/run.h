@@ -21,10 +21,10 @@ struct Found {
 };
 
 struct Tick {
-  Pose a{}, b{};     ///< as rounded by the configuration
-  double reach = 0;  ///< m: the contact margin, up to which the pair has contact points
-  Found stepped{};   ///< continued from the tick before, as in a step
-  Found anew{};      ///< computed without earlier data
+  Pose a{}, b{};            ///< as rounded by the configuration
+  double distance_max = 0;  ///< m: the contact margin, up to which the pair has contact points
+  Found stepped{};          ///< continued from the tick before, as in a step
+  Found anew{};             ///< computed without earlier data
 };
 
 struct Followed {

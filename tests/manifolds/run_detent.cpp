@@ -8,10 +8,10 @@
 #include "contact/collide.h"
 #include "contact/compound_ops.h"
 #include "contact/contact_cache.h"
-#include "contact/manifold_reuse.h"
+#include "contact/manifold_recycling.h"
 #include "ports/host/cook/cook.h"
 #include "ports/host/cook/cook_mesh.h"
-#include "shape/shape_traits.h"
+#include "shape/shape_properties.h"
 #include "tests/oracle/random_solids.h"
 
 #define DETENT_MANIFOLDS_TEXT_OF(name) #name
@@ -67,11 +67,14 @@ void disturb(Position& position, Dice& dice) {
 }
 
 /// An upper bound of the movement of a body's points in a tick, m.
-double motion_of(const detent_manifolds::Pose& from, const detent_manifolds::Pose& to, const BodyTraits& traits) {
-  double way = 0, turn = 0;
-  for (size_t k = 0; k < 3; ++k) way += (to.position[k] - from.position[k]) * (to.position[k] - from.position[k]);
-  for (size_t k = 0; k < 4; ++k) turn += (to.rotation[k] - from.rotation[k]) * (to.rotation[k] - from.rotation[k]);
-  return sqrt(way) + 2 * sqrt(turn) * metres(traits.bounding_radius, traits.size_exponent);
+double motion_of(const detent_manifolds::Pose& from, const detent_manifolds::Pose& to,
+                 const BodyProperties& properties) {
+  double displacement = 0, rotation_vector = 0;
+  for (size_t k = 0; k < 3; ++k)
+    displacement += (to.position[k] - from.position[k]) * (to.position[k] - from.position[k]);
+  for (size_t k = 0; k < 4; ++k)
+    rotation_vector += (to.rotation[k] - from.rotation[k]) * (to.rotation[k] - from.rotation[k]);
+  return sqrt(displacement) + 2 * sqrt(rotation_vector) * metres(properties.bounding_radius, properties.size_exponent);
 }
 
 /// A pair as in a step: the data stored in one tick are used in the next.
@@ -81,18 +84,18 @@ class Pair {
     mesh_ = scene.mesh_cells != 0;
     if (mesh_) {
       bytes_[0].set(mesh_bytes(scene));
-      set(set_shape_traits(surface(0), traits_a_, set_assets()));
+      set(set_shape_properties(terrain(0), properties_a_, set_assets()));
     } else {
-      make_shape(scene.a, 0, traits_a_);
+      make_shape(scene.a, 0, properties_a_);
     }
-    make_shape(scene.b, 1, traits_b_);
+    make_shape(scene.b, 1, properties_b_);
     if (status_ != Status::ok) return status_;
-    traits_a_.type = static_cast<uint32_t>(BodyType::fixed);
-    traits_b_.type = static_cast<uint32_t>(BodyType::dynamic);
+    properties_a_.type = static_cast<uint32_t>(BodyType::fixed);
+    properties_b_.type = static_cast<uint32_t>(BodyType::dynamic);
     const WorldDef def;
-    const double extent = fmin(real_to_host(shape_extent(traits_a_)), real_to_host(shape_extent(traits_b_)));
-    at_rest_ = extent * real_to_host(def.breaking);
-    reuse_ = extent * real_to_host(def.reuse);
+    const double extent = fmin(real_to_host(shape_extent(properties_a_)), real_to_host(shape_extent(properties_b_)));
+    at_rest_ = extent * real_to_host(def.contact_margin);
+    reuse_ = extent * real_to_host(def.contact_recycle_distance);
     extent_ = extent;
     return status_;
   }
@@ -132,7 +135,7 @@ class Pair {
     options.one_sided = true;
     return detent_cook::cook_mesh(source, options).bytes;
   }
-  void make_shape(const Solid& solid, uint32_t asset, BodyTraits& traits) {
+  void make_shape(const Solid& solid, uint32_t asset, BodyProperties& properties) {
     using detent_manifolds::SolidKind;
     Shape shape;
     switch (solid.kind) {
@@ -162,7 +165,7 @@ class Pair {
       }
     }
     const AssetTable table = set_assets();
-    set(set_shape_traits(shape, traits, table));
+    set(set_shape_properties(shape, properties, table));
   }
   void pose(const detent_manifolds::Pose& from, BodyPose& to) {
     set(coord_from_host(from.position[0], to.position.x));
@@ -178,29 +181,29 @@ class Pair {
             {unit_to_host(q.x), unit_to_host(q.y), unit_to_host(q.z), unit_to_host(q.w)}};
   }
   void add(const ContactGeometry& geometry, uint32_t key, const Triple& offset, Found& found) const;
-  void collide_at(const CollisionBody& a, const CollisionBody& b, double reach, SurfaceContacts& contacts) const;
-  bool reuse(const CollisionBody& a, const CollisionBody& b, double reach, SurfaceContacts& contacts,
-             ManifoldState (&manifold)[k_surface_manifolds_max]) const;
+  void collide_at(const CollisionBody& a, const CollisionBody& b, double distance_max, TerrainContacts& contacts) const;
+  bool reuse(const CollisionBody& a, const CollisionBody& b, double distance_max, TerrainContacts& contacts,
+             ManifoldState (&manifold)[k_terrain_manifolds_max]) const;
 
   bool mesh_ = false;
   Status status_ = Status::ok;
   Bytes bytes_[2];
   Asset assets_[2];
-  BodyTraits traits_a_{}, traits_b_{};
+  BodyProperties properties_a_{}, properties_b_{};
   double at_rest_ = 0, reuse_ = 0, extent_ = 0;
   uint32_t count_ = 0;
-  ContactState before_[k_surface_manifolds_max] = {};
-  ManifoldState kept_[k_surface_manifolds_max] = {};
+  ContactState before_[k_terrain_manifolds_max] = {};
+  ManifoldState kept_[k_terrain_manifolds_max] = {};
 };
 
 void Pair::add(const ContactGeometry& geometry, uint32_t key, const Triple& offset, Found& found) const {
-  const bool by_a = !mesh_ && traits_a_.size_exponent <= traits_b_.size_exponent;
+  const bool by_a = !mesh_ && properties_a_.size_exponent <= properties_b_.size_exponent;
   double deepest = found.points.empty() ? INFINITY : found.points[0].separation;
   for (const FoundPoint& point : found.points) deepest = fmin(deepest, point.separation);
   for (uint32_t i = 0; i < geometry.count; ++i) {
     const ContactGeometryPoint& point = geometry.point[i];
     const Vec3<Unit>& arm = by_a ? point.arm_a : point.arm_b;
-    const int exponent = by_a ? traits_a_.size_exponent : traits_b_.size_exponent;
+    const int exponent = by_a ? properties_a_.size_exponent : properties_b_.size_exponent;
     FoundPoint made = {{metres(arm.x, exponent), metres(arm.y, exponent), metres(arm.z, exponent)},
                        real_to_host(point.separation),
                        uint64_t{key} << 32 | point.feature};
@@ -217,18 +220,20 @@ void Pair::add(const ContactGeometry& geometry, uint32_t key, const Triple& offs
 }
 
 /// Collides the pair as a step does: lib/world/step_contacts.cpp.
-void Pair::collide_at(const CollisionBody& a, const CollisionBody& b, double reach, SurfaceContacts& contacts) const {
+void Pair::collide_at(const CollisionBody& a, const CollisionBody& b, double distance_max,
+                      TerrainContacts& contacts) const {
   // A resting body penetrates by a quarter of gravity's displacement in a tick.
   Real distance{}, sunk{};
-  if (real_from_host(reach, distance) != Status::ok || real_from_host(9.81 / 60 / 60 / 4, sunk) != Status::ok) return;
-  const ContactReach asked(distance, sunk);
+  if (real_from_host(distance_max, distance) != Status::ok || real_from_host(9.81 / 60 / 60 / 4, sunk) != Status::ok)
+    return;
+  const ContactMargins asked(distance, sunk);
   contacts.count = contacts.dropped = 0;
   contacts.seam = contacts.capped = false;
   if (mesh_) {
     collide_parts(a, b, asked, assets(), ManifoldReduction::projected_extremes, feature_table<Features::all>, contacts);
     return;
   }
-  SurfaceContact& contact = contacts.contact[0];
+  TerrainContact& contact = contacts.contact[0];
   contact.key = 0;
   collide(a, b, asked, contact.geometry, assets());
   contacts.seam = contact.geometry.seam;
@@ -236,18 +241,19 @@ void Pair::collide_at(const CollisionBody& a, const CollisionBody& b, double rea
   contacts.count = contact.geometry.count != 0 ? 1 : 0;
 }
 
-bool Pair::reuse(const CollisionBody& a, const CollisionBody& b, double reach, SurfaceContacts& contacts,
-                 ManifoldState (&manifold)[k_surface_manifolds_max]) const {
+bool Pair::reuse(const CollisionBody& a, const CollisionBody& b, double distance_max, TerrainContacts& contacts,
+                 ManifoldState (&manifold)[k_terrain_manifolds_max]) const {
   Real tolerance{}, distance{};
-  if (real_from_host(reuse_, tolerance) != Status::ok || real_from_host(reach, distance) != Status::ok) return false;
+  if (real_from_host(reuse_, tolerance) != Status::ok || real_from_host(distance_max, distance) != Status::ok)
+    return false;
   contacts.count = contacts.dropped = 0;
   contacts.seam = contacts.capped = false;
   for (uint32_t i = 0; i < count_; ++i) {
-    SurfaceContact& contact = contacts.contact[contacts.count];
+    TerrainContact& contact = contacts.contact[contacts.count];
     contact.key = before_[i].part;
     contact.geometry.seam = false;
-    if (!reuse_manifold(a, b, kept_[i], before_[i].feature, before_[i].point_count, tolerance, distance,
-                        contact.geometry, manifold[contacts.count++]))
+    if (!recycle_manifold(a, b, kept_[i], before_[i].feature, before_[i].point_count, tolerance, distance,
+                          contact.geometry, manifold[contacts.count++]))
       return false;
   }
   return contacts.count != 0;
@@ -265,22 +271,22 @@ void Pair::tick(const Scene& scene, uint32_t index, Dice& dice, Tick& tick) {
   tick.a = host_pose(pose_a);
   tick.b = host_pose(pose_b);
   const Matrix3 rotation_a = matrix_from(pose_a.rotation), rotation_b = matrix_from(pose_b.rotation);
-  const CollisionBody a = {pose_a, traits_a_, rotation_a}, b = {pose_b, traits_b_, rotation_b};
+  const CollisionBody a = {pose_a, properties_a_, rotation_a}, b = {pose_b, properties_b_, rotation_b};
   Triple offset = {};
   for (size_t k = 0; k < 3; ++k) offset[k] = tick.b.position[k] - tick.a.position[k];
   const uint32_t last = index == 0 ? 1 : index;
-  const double moved = motion_of(scene.pose_a[last - 1], scene.pose_a[last], traits_a_) +
-                       motion_of(scene.pose_b[last - 1], scene.pose_b[last], traits_b_);
-  const double reach = at_rest_ + fmin(extent_ / 4, moved);
-  tick.reach = reach;
-  const bool slow = reach + reuse_ <= 2 * at_rest_;
+  const double moved = motion_of(scene.pose_a[last - 1], scene.pose_a[last], properties_a_) +
+                       motion_of(scene.pose_b[last - 1], scene.pose_b[last], properties_b_);
+  const double distance_max = at_rest_ + fmin(extent_ / 4, moved);
+  tick.distance_max = distance_max;
+  const bool slow = distance_max + reuse_ <= 2 * at_rest_;
 
-  SurfaceContacts fresh, contacts;
-  collide_at(a, b, reach, fresh);
-  ManifoldState manifold[k_surface_manifolds_max] = {};
-  tick.stepped.reused = index != 0 && slow && reuse(a, b, reach, contacts, manifold);
+  TerrainContacts fresh, contacts;
+  collide_at(a, b, distance_max, fresh);
+  ManifoldState manifold[k_terrain_manifolds_max] = {};
+  tick.stepped.reused = index != 0 && slow && reuse(a, b, distance_max, contacts, manifold);
   PairBefore pair = {before_, nullptr, count_};
-  uint32_t order[k_surface_manifolds_max] = {0, 1, 2, 3, 4, 5, 6, 7};
+  uint32_t order[k_terrain_manifolds_max] = {0, 1, 2, 3, 4, 5, 6, 7};
   pair.index = order;
   if (!tick.stepped.reused) {
     contacts = fresh;
@@ -292,7 +298,7 @@ void Pair::tick(const Scene& scene, uint32_t index, Dice& dice, Tick& tick) {
     }
     for (uint32_t i = 0; !kept && i < contacts.count; ++i) manifold[i] = {};
   }
-  const auto tell = [&](const SurfaceContacts& from, Found& found) {
+  const auto tell = [&](const TerrainContacts& from, Found& found) {
     for (uint32_t i = 0; i < from.count; ++i) add(from.contact[i].geometry, from.contact[i].key, offset, found);
     found.seam = found.seam || from.seam;
     found.capped = found.capped || from.capped;

@@ -146,28 +146,28 @@ void Maker::choose_solids() {
 /// The offset from A's middle to B's across the normal.
 Arrow Maker::lateral() {
   const double angle = dice_.between(0, 2 * k_pi);
-  const Arrow way = {cos(angle), 0, sin(angle)};
+  const Arrow displacement = {cos(angle), 0, sin(angle)};
   const detent_oracle::ConvexSolid a = solid_of(scene_.a), b = solid_of(scene_.b);
-  const auto reach = [](const detent_oracle::ConvexSolid& solid, const Place& at, const Arrow& to) {
+  const auto distance_max = [](const detent_oracle::ConvexSolid& solid, const Place& at, const Arrow& to) {
     return support_value(solid, to_local(detent_oracle::frame_of(at.rotation), to)) + solid.rounding +
            dot(at.position, to);
   };
-  const Number of_a = reach(a, a_, way), of_b = reach(b, b_, -way);
-  const Number width = std::min(of_a + reach(a, a_, -way), of_b + reach(b, b_, way));
+  const Number of_a = distance_max(a, a_, displacement), of_b = distance_max(b, b_, -displacement);
+  const Number width = std::min(of_a + distance_max(a, a_, -displacement), of_b + distance_max(b, b_, displacement));
   switch (scene_.kind) {
     case Kind::overhang:
-      return way * (of_a + of_b - width * dice_.between(0.1, 0.9));
+      return displacement * (of_a + of_b - width * dice_.between(0.1, 0.9));
     case Kind::along: {
-      const Number half = std::min(reach(a, a_, {1, 0, 0}), reach(b, b_, {1, 0, 0}));
+      const Number half = std::min(distance_max(a, a_, {1, 0, 0}), distance_max(b, b_, {1, 0, 0}));
       return Arrow{1, 0, 0} * (half * dice_.between(-0.8, 0.8));
     }
     case Kind::crossing:
       return {0, 0, 0};
     case Kind::large:
     case Kind::mesh:
-      return way * (of_a * dice_.between(0, 0.4));
+      return displacement * (of_a * dice_.between(0, 0.4));
     default:
-      return dice_.coin() ? Arrow{0, 0, 0} : way * (of_a * dice_.between(0, 0.6));
+      return dice_.coin() ? Arrow{0, 0, 0} : displacement * (of_a * dice_.between(0, 0.6));
   }
 }
 
@@ -215,8 +215,9 @@ void Maker::move() {
   scene_.motion = static_cast<Motion>(dice_.below(k_motions));
   const double step = std::min(5e-3, thickness_ / 4) * spread(dice_, 1e-3, 1), angle = dice_.between(0, 2 * k_pi);
   const bool ridge = scene_.kind == Kind::along || scene_.kind == Kind::crossing;
-  const Arrow way = ridge ? Arrow{1, 0, 0} : Arrow{cos(angle), 0, sin(angle)};
-  const double spin = spread(dice_, 1e-5, 1e-2), amplitude = 0.01 * thickness_ / size_ * spread(dice_, 1e-3, 1);
+  const Arrow displacement = ridge ? Arrow{1, 0, 0} : Arrow{cos(angle), 0, sin(angle)};
+  const double angular_velocity = spread(dice_, 1e-5, 1e-2),
+               amplitude = 0.01 * thickness_ / size_ * spread(dice_, 1e-3, 1);
   const bool anywhere = dice_.coin();
   const Triple axis = dice_.direction();
   const Quaternion frame =
@@ -228,12 +229,12 @@ void Maker::move() {
   for (uint32_t tick = 0; tick <= k_ticks; ++tick) {
     Place a = a_, b = b_;
     if (scene_.motion == Motion::slide || scene_.motion == Motion::carried)
-      b.position = b.position + way * (step * tick);
-    Quaternion turn = {0, 0, 0, 1};
-    if (scene_.motion == Motion::turn) turn = about({0, 1, 0}, spin * tick);
-    if (scene_.motion == Motion::rock) turn = about(lean_axis_, amplitude * sin(2 * k_pi * tick / k_ticks));
-    b.position = pivot + (b.position - b_.position) + turned(turn, b_.position - pivot);
-    b.rotation = times(turn, b.rotation);
+      b.position = b.position + displacement * (step * tick);
+    Quaternion rotation_vector = {0, 0, 0, 1};
+    if (scene_.motion == Motion::rotation_vector) rotation_vector = about({0, 1, 0}, angular_velocity * tick);
+    if (scene_.motion == Motion::rock) rotation_vector = about(lean_axis_, amplitude * sin(2 * k_pi * tick / k_ticks));
+    b.position = pivot + (b.position - b_.position) + turned(rotation_vector, b_.position - pivot);
+    b.rotation = times(rotation_vector, b.rotation);
     Quaternion whole = frame;
     Arrow shift = at;
     if (scene_.motion == Motion::carried) {
@@ -268,7 +269,7 @@ const char* name_of(Kind kind) {
   return k_names[static_cast<uint32_t>(kind)];
 }
 const char* name_of(Motion motion) {
-  constexpr const char* k_names[] = {"still", "slide", "turn", "rock", "carried"};
+  constexpr const char* k_names[] = {"still", "slide", "rotation_vector", "rock", "carried"};
   return k_names[static_cast<uint32_t>(motion)];
 }
 const char* name_of(const Solid& solid) {

@@ -37,9 +37,9 @@ inline constexpr uint32_t k_kinds = 11;
 const char* name_of(Kind kind);
 
 enum class Motion : uint32_t {
-  still,  ///< disturbed by the last bit
-  slide,  ///< translation across the normal
-  turn,   ///< rotation about the normal
+  still,            ///< disturbed by the last bit
+  slide,            ///< translation across the normal
+  rotation_vector,  ///< rotation about the normal
   /// Rotation about an axis across the normal, by a fraction of the allowed depth.
   rock,
   carried  ///< sliding on a body that moves and rotates

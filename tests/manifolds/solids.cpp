@@ -79,7 +79,7 @@ Arrow middle_of(const detent_oracle::ConvexSolid& solid, const Arrow& out) {
     Arrow sum = {0, 0, 0};
     int count = 0;
     for (const Arrow& p : solid.points) {
-      if (detent_oracle::dot(p, out) < most - 1e-9L * solid.reach) continue;
+      if (detent_oracle::dot(p, out) < most - 1e-9L * solid.distance_max) continue;
       sum = sum + p;
       ++count;
     }
@@ -92,7 +92,7 @@ Arrow middle_of(const detent_oracle::ConvexSolid& solid, const Arrow& out) {
   const Arrow aside = {out.x / across * solid.radius, 0, out.z / across * solid.radius};
   const Number at_low = dot(out, aside) + out.y * low, at_high = (cone ? 0 : dot(out, aside)) + out.y * high;
   const Arrow foot = aside + Arrow{0, low, 0}, head = (cone ? Arrow{0, 0, 0} : aside) + Arrow{0, high, 0};
-  if (fabsl(at_low - at_high) < 1e-9L * solid.reach) return (foot + head) * 0.5L;
+  if (fabsl(at_low - at_high) < 1e-9L * solid.distance_max) return (foot + head) * 0.5L;
   return at_low > at_high ? foot : head;
 }
 
@@ -161,7 +161,7 @@ Seat random_seat(Dice& dice, const Solid& solid, Part part) {
   } else {
     const std::vector<detent_oracle::FacePlane> faces = detent_oracle::FacedSolid(convex).planes({0, 1, 0});
     const auto on = [&](const detent_oracle::FacePlane& face, const Arrow& p) {
-      return fabsl(dot(face.normal, p) - face.limit) < 1e-9L * convex.reach;
+      return fabsl(dot(face.normal, p) - face.limit) < 1e-9L * convex.distance_max;
     };
     // An edge: two corners that lie on two faces. Nearly coplanar faces have no edge.
     for (int attempt = 0; attempt < 64; ++attempt) {

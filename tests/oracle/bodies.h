@@ -3,7 +3,7 @@
 #include <detent/detail/state.h>
 
 #include "math/arithmetic.h"
-#include "shape/shape_traits.h"
+#include "shape/shape_properties.h"
 #include "tests/oracle/convex.h"
 #include "tests/oracle/effort.h"
 #include "tests/support/test.h"
@@ -25,7 +25,7 @@ inline Vector host(const Vec3<Real>& v) { return {{real_to_host(v.x), real_to_ho
 inline Quaternion host(const Quat& q) {
   return {unit_to_host(q.x), unit_to_host(q.y), unit_to_host(q.z), unit_to_host(q.w)};
 }
-inline double unit_of(const BodyTraits& traits) { return ldexp(1.0, traits.size_exponent); }
+inline double unit_of(const BodyProperties& properties) { return ldexp(1.0, properties.size_exponent); }
 
 /// b - a, m: the exact difference, to the nearest double.
 inline Vector difference(const Position& b, const Position& a) {
@@ -39,19 +39,19 @@ inline Vector difference(const Position& b, const Position& a) {
 
 struct OracleBody {
   BodyPose pose{};
-  BodyTraits traits{};
+  BodyProperties properties{};
 };
 
 /// The body as a solid, in world axes around `origin`.
 inline Solid solid_of(const OracleBody& body, const Position& origin) {
   Solid solid;
-  const ShapeType type = static_cast<ShapeType>(body.traits.shape);
+  const ShapeType type = static_cast<ShapeType>(body.properties.shape);
   solid.kind = type == ShapeType::half_space ? detent_oracle::Kind::half_space
                : type == ShapeType::box      ? detent_oracle::Kind::box
                                              : detent_oracle::Kind::round;
   solid.centre = difference(body.pose.position, origin);
   for (int i = 0; i < 3; ++i) solid.axis[i] = detent_oracle::axis_of(host(body.pose.rotation), i);
-  solid.size = host(body.traits.size) * unit_of(body.traits);
+  solid.size = host(body.properties.size) * unit_of(body.properties);
   return solid;
 }
 
@@ -92,17 +92,17 @@ inline Position position_near(const Vector& v) {
   EXPECT_OK(coord_from_host(v[2], result.z));
   return result;
 }
-inline BodyTraits traits_of(const Shape& shape) {
-  BodyTraits traits{};
-  traits.type = static_cast<uint32_t>(BodyType::dynamic);
-  EXPECT_OK(set_shape_traits(shape, traits));
-  return traits;
+inline BodyProperties properties_of(const Shape& shape) {
+  BodyProperties properties{};
+  properties.type = static_cast<uint32_t>(BodyType::dynamic);
+  EXPECT_OK(set_shape_properties(shape, properties));
+  return properties;
 }
-inline BodyTraits sphere_traits(double radius) { return traits_of(sphere(real_near(radius))); }
-inline BodyTraits capsule_traits(double radius, double half_length) {
-  return traits_of(capsule(real_near(radius), real_near(half_length)));
+inline BodyProperties sphere_properties(double radius) { return properties_of(sphere(real_near(radius))); }
+inline BodyProperties capsule_properties(double radius, double half_length) {
+  return properties_of(capsule(real_near(radius), real_near(half_length)));
 }
-inline BodyTraits box_traits(const Vector& half) { return traits_of(box(reals_near(half))); }
+inline BodyProperties box_properties(const Vector& half) { return properties_of(box(reals_near(half))); }
 
 /// `count` steps of a Unit near 1.
 inline double unit_steps(double count) { return ldexp(count, k_unit_step); }

@@ -71,21 +71,22 @@ Span span_of_rod(const Arrow& end_a, const Arrow& end_b, Number radius, const Ar
     result.to = std::max(result.to, to);
   };
   for (const Arrow* end : {&end_a, &end_b}) {
-    const Arrow way = p - *end;
-    const Number half = dot(way, d), rest = dot(way, way) - radius * radius, root = half * half - rest;
+    const Arrow displacement = p - *end;
+    const Number half = dot(displacement, d), rest = dot(displacement, displacement) - radius * radius,
+                 root = half * half - rest;
     if (root >= 0) take(-half - sqrtl(root), -half + sqrtl(root));
   }
   const Arrow axis = end_b - end_a;
   const Number size = length(axis);
   if (size == 0) return result;
-  const Arrow along = axis * (1 / size), way = p - end_a;
-  const Arrow across = way - along * dot(way, along), rate = d - along * dot(d, along);
+  const Arrow along = axis * (1 / size), displacement = p - end_a;
+  const Arrow across = displacement - along * dot(displacement, along), rate = d - along * dot(d, along);
   const Number a = dot(rate, rate), half = dot(across, rate),
                root = half * half - a * (dot(across, across) - radius * radius);
   if (a <= 0 || root < 0) return result;
   Span side = {(-half - sqrtl(root)) / a, (-half + sqrtl(root)) / a};
-  side.hold(-dot(way, along), -dot(d, along));
-  side.hold(dot(way, along) - size, dot(d, along));
+  side.hold(-dot(displacement, along), -dot(d, along));
+  side.hold(dot(displacement, along) - size, dot(d, along));
   if (!side.empty()) take(side.from, side.to);
   return result;
 }
@@ -162,14 +163,14 @@ void add_planes(const FacedSolid& solid, const Frame& frame, const Arrow& at, co
 }  // namespace
 
 FacedSolid::FacedSolid(const ConvexSolid& solid) : solid_(solid) {
-  if (solid.core == CoreKind::points && solid.points.size() > 3) faces_ = faces_of(solid.points, solid.reach);
+  if (solid.core == CoreKind::points && solid.points.size() > 3) faces_ = faces_of(solid.points, solid.distance_max);
 }
 
 std::vector<FacePlane> FacedSolid::planes(const Arrow& direction) const {
   if (!faces_.empty()) return faces_;
   std::vector<FacePlane> planes;
   if (solid_.core == CoreKind::points) {
-    const Number grown = 1e-7L * std::max(solid_.reach, solid_.rounding);
+    const Number grown = 1e-7L * std::max(solid_.distance_max, solid_.rounding);
     const Arrow axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     for (const Arrow& axis : axes) {
       for (const Arrow& normal : {axis, -axis}) planes.push_back({normal, support_value(solid_, normal) + grown});
@@ -216,8 +217,8 @@ Patch patch_of(const FacedSolid& a, const FacedSolid& b, const Placement& placem
   std::vector<FlatPlane> planes;
   add_planes(a, placement.a, normal * a.solid().rounding, normal, patch, true, planes);
   add_planes(b, placement.b, placement.offset - normal * (b.solid().rounding + level), -normal, patch, false, planes);
-  const Number size =
-      2 * (a.solid().reach + b.solid().reach + a.solid().rounding + b.solid().rounding + length(placement.offset));
+  const Number size = 2 * (a.solid().distance_max + b.solid().distance_max + a.solid().rounding + b.solid().rounding +
+                           length(placement.offset));
   patch.outline = {{-size, -size}, {size, -size}, {size, size}, {-size, size}};
   const auto hold = [&](Number u, Number v, Number limit) {
     const Number across_size = hypotl(u, v);

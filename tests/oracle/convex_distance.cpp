@@ -99,7 +99,7 @@ struct Difference {
       axes_a[i] = cast<T>(placement.a.axis[i]);
       axes_b[i] = cast<T>(placement.b.axis[i]);
     }
-    extent = norm(offset) + static_cast<T>(a.reach + b.reach);
+    extent = norm(offset) + static_cast<T>(a.distance_max + b.distance_max);
   }
   static Vector3<T> support_in_world(const ConvexSolid& solid, const Vector3<T> (&axes)[3], const Vector3<T>& n) {
     const Vector3<T> p = support_point<T>(solid, {dot(axes[0], n), dot(axes[1], n), dot(axes[2], n)});
@@ -458,9 +458,9 @@ Depth<T> expand(Difference<T>& difference, Gjk<T>& start, T rounding, T absolute
     if (nearest < 0) return depth;
     const auto& facet = polytope.facet(nearest);
     const Vertex<T> vertex = difference.nearest_along(-facet.normal);
-    const T reach = dot(facet.normal, vertex.w);
-    if (reach < depth.most) {
-      depth.most = reach;
+    const T distance_max = dot(facet.normal, vertex.w);
+    if (distance_max < depth.most) {
+      depth.most = distance_max;
       depth.axis = -facet.normal;
     }
     depth.least = polytope.floor(nearest);
@@ -524,7 +524,7 @@ Separation against_half_space(const ConvexSolid& a, const ConvexSolid& b, const 
 }  // namespace
 
 Number rounding_of(const ConvexSolid& a, const ConvexSolid& b, const Arrow& offset) {
-  return 32 * std::numeric_limits<Number>::epsilon() * (length(offset) + a.reach + b.reach);
+  return 32 * std::numeric_limits<Number>::epsilon() * (length(offset) + a.distance_max + b.distance_max);
 }
 
 Number separation_along(const ConvexSolid& a, const ConvexSolid& b, const Placement& placement, const Arrow& axis) {

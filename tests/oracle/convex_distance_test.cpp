@@ -24,7 +24,7 @@ Solid ball(double radius) {
 }
 /// Moves B along a line until the rounded solids have the gap, up to about 1e-19.
 void set_gap(const ConvexSolid& a, const ConvexSolid& b, Placement& placement, const Arrow& direction, Number gap) {
-  Number low = 0, high = 4 * (a.reach + b.reach + a.rounding + b.rounding) + fabsl(gap);
+  Number low = 0, high = 4 * (a.distance_max + b.distance_max + a.rounding + b.rounding) + fabsl(gap);
   for (int i = 0; i < 70; ++i) {
     const Number middle = (low + high) / 2;
     placement.offset = direction * middle;
@@ -46,8 +46,8 @@ TEST(convex_distance, of_spheres_and_points_and_rods_is_the_closed_form) {
     rod.radius = 0.125;
     rod.half_length = dice.between(0.1, 1);
     const Arrow along = placement.a.axis[1];
-    const Number reach = rod.half_length;
-    const Number nearest = std::clamp(dot(along, placement.offset), -reach, reach);
+    const Number distance_max = rod.half_length;
+    const Number nearest = std::clamp(dot(along, placement.offset), -distance_max, distance_max);
     const Number truth = length(placement.offset - along * nearest) - 0.125L - b.rounding;
     worst = std::max(worst, fabsl(separation_of(solid_of(rod), b, placement).gap - truth));
   }

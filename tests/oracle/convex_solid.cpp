@@ -14,10 +14,10 @@ Arrow difference(const detent_queries::Triple& b, const detent_queries::Triple& 
 
 }  // namespace
 
-Arrow turned(const Arrow& v, const Arrow& turn) {
-  const Number angle = length(turn);
+Arrow turned(const Arrow& v, const Arrow& rotation_vector) {
+  const Number angle = length(rotation_vector);
   if (angle == 0) return v;
-  const Arrow axis = turn * (1 / angle);
+  const Arrow axis = rotation_vector * (1 / angle);
   const Number half_sine = sinl(angle / 2);
   const Arrow across = cross(axis, v);
   return v + across * sinl(angle) + cross(axis, across) * (2 * half_sine * half_sine);
@@ -64,9 +64,9 @@ ConvexSolid solid_of(const detent_queries::Solid& solid) {
       result.core = CoreKind::half_space;
       break;
   }
-  for (const Arrow& point : result.points) result.reach = std::max(result.reach, length(point));
-  if (result.core == CoreKind::cylinder) result.reach = hypotl(result.radius, half);
-  if (result.core == CoreKind::cone) result.reach = std::max(hypotl(result.radius, half / 2), 3 * half / 2);
+  for (const Arrow& point : result.points) result.distance_max = std::max(result.distance_max, length(point));
+  if (result.core == CoreKind::cylinder) result.distance_max = hypotl(result.radius, half);
+  if (result.core == CoreKind::cone) result.distance_max = std::max(hypotl(result.radius, half / 2), 3 * half / 2);
   return result;
 }
 
@@ -89,13 +89,13 @@ Number support_value(const ConvexSolid& solid, const Arrow& direction) {
 }
 
 Number reach_from_line(const ConvexSolid& solid, const Arrow& line) {
-  Number best = solid.core == CoreKind::points ? 0 : solid.reach;
+  Number best = solid.core == CoreKind::points ? 0 : solid.distance_max;
   for (const Arrow& point : solid.points) best = std::max(best, length(cross(line, point)));
   return best;
 }
 
 Number size_of(const ConvexSolid& a, const ConvexSolid& b) {
-  const Number core = 2 * std::max(a.reach, b.reach);
+  const Number core = 2 * std::max(a.distance_max, b.distance_max);
   return core > 0 ? core : 2 * std::max(a.rounding, b.rounding);
 }
 
@@ -106,8 +106,8 @@ Encounter encounter_of(const detent_queries::Query& query) {
                    frame_of(query.path_b.rotation),
                    difference(query.path_b.position, query.path_a.position),
                    difference(query.path_b.displacement, query.path_a.displacement),
-                   arrow_of(query.path_a.turn),
-                   arrow_of(query.path_b.turn),
+                   arrow_of(query.path_a.rotation_vector),
+                   arrow_of(query.path_b.rotation_vector),
                    0};
   result.size = size_of(result.a, result.b);
   return result;

@@ -55,7 +55,7 @@ inline Arrow to_local(const Frame& frame, const Arrow& v) {
 }
 
 /// v turned by |turn| rad about turn.
-Arrow turned(const Arrow& v, const Arrow& turn);
+Arrow turned(const Arrow& v, const Arrow& rotation_vector);
 /// The rotation of a quaternion (x, y, z, w) of any length but 0.
 Frame frame_of(const std::array<double, 4>& rotation);
 
@@ -68,7 +68,7 @@ struct ConvexSolid {
   Number radius = 0;            ///< m; of a cylinder, or a cone's base
   Number half_length = 0;       ///< m; of a cylinder or cone
   Number rounding = 0;          ///< m; of the ball
-  Number reach = 0;             ///< m; the greatest distance of a core point from the body's origin; 0 for a half-space
+  Number distance_max = 0;      ///< m; the greatest distance of a core point from the body's origin; 0 for a half-space
 };
 ConvexSolid solid_of(const detent_queries::Solid& solid);
 

@@ -25,24 +25,25 @@ struct Span {
 };
 
 /// What the bounds need of one body.
-struct Spin {
-  Arrow turn;
-  Number rate;        ///< |turn|
-  Number reach;       ///< from the origin
-  Number reach_axis;  ///< from the axis of the spin
+struct AngularVelocity {
+  Arrow rotation_vector;
+  Number rate;          ///< |turn|
+  Number distance_max;  ///< from the origin
+  Number reach_axis;    ///< from the axis of the angular velocity
 };
-Spin spin_of(const ConvexSolid& solid, const Frame& frame, const Arrow& turn) {
-  const Number rate = length(turn);
-  const Number reach_axis = rate > 0 ? reach_from_line(solid, to_local(frame, turn * (1 / rate))) : solid.reach;
-  return {turn, rate, solid.reach, reach_axis};
+AngularVelocity angular_velocity_of(const ConvexSolid& solid, const Frame& frame, const Arrow& rotation_vector) {
+  const Number rate = length(rotation_vector);
+  const Number reach_axis =
+      rate > 0 ? reach_from_line(solid, to_local(frame, rotation_vector * (1 / rate))) : solid.distance_max;
+  return {rotation_vector, rate, solid.distance_max, reach_axis};
 }
 
 class Search {
  public:
   explicit Search(const Encounter& encounter)
       : e_(encounter),
-        spin_a_(spin_of(e_.a, e_.frame_a, e_.turn_a)),
-        spin_b_(spin_of(e_.b, e_.frame_b, e_.turn_b)),
+        angular_velocity_a_(angular_velocity_of(e_.a, e_.frame_a, e_.turn_a)),
+        angular_velocity_b_(angular_velocity_of(e_.b, e_.frame_b, e_.turn_b)),
         half_space_a_(e_.a.core == CoreKind::half_space),
         half_space_(half_space_a_ || e_.b.core == CoreKind::half_space),
         radii_(e_.a.rounding + e_.b.rounding),
@@ -52,8 +53,10 @@ class Search {
     dip_ = std::max(k_dip * e_.size, 4 * rounding_);
     // A half-space's far points move as fast as one likes; that nearest to B moves so fast at most.
     const Number far = half_space_ ? length(e_.offset) + velocity_ : 0;
-    speed_ = velocity_ + spin_a_.rate * (half_space_a_ ? far + e_.b.reach : spin_a_.reach_axis) +
-             spin_b_.rate * (half_space_ && !half_space_a_ ? far + e_.a.reach : spin_b_.reach_axis);
+    speed_ = velocity_ +
+             angular_velocity_a_.rate * (half_space_a_ ? far + e_.b.distance_max : angular_velocity_a_.reach_axis) +
+             angular_velocity_b_.rate *
+                 (half_space_ && !half_space_a_ ? far + e_.a.distance_max : angular_velocity_b_.reach_axis);
   }
 
   Verdict run();
@@ -80,11 +83,13 @@ class Search {
     const Number across = length(cross(axis, omega)), rate = length(omega);
     const Number far = std::max(length(offset_at(from)), length(offset_at(to)));
     Number sum = across * (2 * velocity_ + rate * far);
-    for (const Spin* spin : {&spin_a_, &spin_b_}) {
-      const Arrow u = spin->turn - omega;
+    for (const AngularVelocity* angular_velocity : {&angular_velocity_a_, &angular_velocity_b_}) {
+      const Arrow u = angular_velocity->rotation_vector - omega;
       const Number size = length(u);
       const Number sine = std::min(size, length(cross(axis, u)) + (to - from) * across * size);
-      sum += rate > 0 ? spin->reach * (sine * size + length(cross(spin->turn, omega))) : spin->reach_axis * sine * size;
+      sum += rate > 0 ? angular_velocity->distance_max *
+                            (sine * size + length(cross(angular_velocity->rotation_vector, omega)))
+                      : angular_velocity->reach_axis * sine * size;
     }
     return sum;
   }
@@ -102,7 +107,7 @@ class Search {
   Sample deepest_after(const Sample& contact);
 
   const Encounter& e_;
-  Spin spin_a_, spin_b_;
+  AngularVelocity angular_velocity_a_, angular_velocity_b_;
   bool half_space_a_, half_space_;
   Number radii_, velocity_, rounding_ = 0, contact_ = 0, dip_ = 0, speed_ = 0;
   int samples_ = 0;
@@ -121,20 +126,20 @@ void keep(const Sample& x, const Sample& y, Number first, Number second, Span& o
 
 void Search::cover_by_spheres(Number level, const Sample& x, const Sample& y, Span& open) const {
   if (half_space_) return;
-  const Number reach = e_.a.reach + e_.b.reach + radii_ + level + rounding_;
+  const Number distance_max = e_.a.distance_max + e_.b.distance_max + radii_ + level + rounding_;
   const Arrow p = x.placement.offset, d = y.placement.offset - p;
-  if (reach < 0) {
+  if (distance_max < 0) {
     open.to = open.from;
     return;
   }
-  const Number a = dot(d, d), half = dot(p, d), c = dot(p, p) - reach * reach;
+  const Number a = dot(d, d), half = dot(p, d), c = dot(p, p) - distance_max * distance_max;
   if (!(a > 0)) {
     if (c > 0) open.to = open.from;
     return;
   }
   const Number nearest = -half / a;
   const Arrow off = p + d * nearest;
-  const Number square = (reach * reach - dot(off, off)) / a;
+  const Number square = (distance_max * distance_max - dot(off, off)) / a;
   if (square < 0) {
     open.to = open.from;
     return;
@@ -205,17 +210,17 @@ Span Search::uncovered(Number level, const Sample& x, const Sample& y) const {
     cover_by_axis(level, x, y, *from, still, open);
     if (done()) return open;
   }
-  if (!(spin_a_.rate > 0 || spin_b_.rate > 0)) return open;
+  if (!(angular_velocity_a_.rate > 0 || angular_velocity_b_.rate > 0)) return open;
   const Arrow across = cross(x.is.axis, y.is.axis);
   const Number sine = length(across), cosine = dot(x.is.axis, y.is.axis);
   if (sine > 1e-15L) {
     cover_by_axis(level, x, y, x, across * (atan2l(sine, cosine) / (sine * (y.time - x.time))), open);
     if (done()) return open;
   }
-  for (const Spin* spin : {&spin_a_, &spin_b_}) {
-    if (!(spin->rate > 0)) continue;
+  for (const AngularVelocity* angular_velocity : {&angular_velocity_a_, &angular_velocity_b_}) {
+    if (!(angular_velocity->rate > 0)) continue;
     for (const Sample* from : {&x, &y}) {
-      cover_by_axis(level, x, y, *from, spin->turn, open);
+      cover_by_axis(level, x, y, *from, angular_velocity->rotation_vector, open);
       if (done()) return open;
     }
   }

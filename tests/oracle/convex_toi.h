@@ -11,10 +11,10 @@
 ///   n.(offset + b - a) is a smooth f(t) with |f''| <= K, so that f is not below its chord less K (t - x)(y - t) / 2,
 ///   and therefore neither is the least of all vertices: s(t) >= chord of s(x) and s(y) - K (t - x)(y - t) / 2.
 ///   Only support values at the ends are needed, for curved cores too.
-///   With w a body's spin, r its reach, u = w - Omega, V the relative velocity:
+///   With w a body's angular velocity, r its reach, u = w - Omega, V the relative velocity:
 ///   K = |n x Omega| (2 |V| + |Omega| max |offset|), and for each body r (|n x u| |u| + |w x Omega|),
-///   where |n x u| <= min(|u|, |n(x) x u| + L |n x Omega| |u|); for Omega = 0 r is the reach from the axis of spin.
-///   Tried: Omega 0, A's spin, B's spin, and from the nearest axis at x to that at y.
+///   where |n x u| <= min(|u|, |n(x) x u| + L |n x Omega| |u|); for Omega = 0 r is the reach from the axis of angular
+///   velocity. Tried: Omega 0, A's angular velocity, B's angular velocity, and from the nearest axis at x to that at y.
 ///
 /// Intervals are cut until each time of the step is under such a bound, less rounding_of(). So certified are, with
 /// dip = 1e-12 of the size or 4 rounding_of(), whichever is larger:

@@ -51,21 +51,21 @@ TEST(convex_toi, of_spheres_is_the_root_of_the_quadratic) {
     Query query;
     query.a = ball(dice.between(0.1, 1));
     query.b = ball(dice.between(0.1, 1));
-    const double reach = dice.between(2.1, 5), wide = dice.between(0, 1.5);
-    query.path_b.position = {reach, wide, 0};
+    const double distance_max = dice.between(2.1, 5), wide = dice.between(0, 1.5);
+    query.path_b.position = {distance_max, wide, 0};
     query.path_b.displacement = {-10, 0, 0};
-    query.path_b.turn = {1, 2, 3};
-    query.path_a.turn = dice.direction();
+    query.path_b.rotation_vector = {1, 2, 3};
+    query.path_a.rotation_vector = dice.direction();
     const Number sum = static_cast<Number>(query.a.radius) + query.b.radius;
     const Verdict verdict = judge(query);
     ASSERT_EQ(verdict.hit, wide < sum);
     EXPECT_TRUE(verdict.certain);
     if (verdict.hit) {
       ++hits;
-      worst = worst_of(worst, verdict.time - (reach - sqrtl(sum * sum - static_cast<Number>(wide) * wide)) / 10);
+      worst = worst_of(worst, verdict.time - (distance_max - sqrtl(sum * sum - static_cast<Number>(wide) * wide)) / 10);
     } else {
       worst_gap = worst_of(worst_gap, verdict.gap_min - (wide - sum));
-      EXPECT_NEAR(static_cast<double>(verdict.gap_min_time), reach / 10, 1e-6);
+      EXPECT_NEAR(static_cast<double>(verdict.gap_min_time), distance_max / 10, 1e-6);
       EXPECT_LE(verdict.gap_min_floor, verdict.gap_min);
     }
   }
@@ -81,7 +81,7 @@ TEST(convex_toi, of_what_falls_on_a_plane_is_its_height_over_its_speed) {
     const char* name;
     Solid solid;
     std::array<double, 4> rotation;
-    Number reach;  ///< down
+    Number distance_max;  ///< down
   };
   // The corner: (1, 1, 1) turned down, about (1, 0, -1) by pi - acos(1 / sqrt 3).
   const double half = (M_PI - acos(1 / corner)) / 2, s = sin(half) / sqrt(2.0);
@@ -107,7 +107,7 @@ TEST(convex_toi, of_what_falls_on_a_plane_is_its_height_over_its_speed) {
       query.path_b.displacement = {0.5, -4, 0};
       const Verdict verdict = judge(query);
       ASSERT_TRUE(verdict.hit && verdict.certain) << c.name;
-      const double error = static_cast<double>(fabsl(verdict.time - (3 - c.reach) / 4));
+      const double error = static_cast<double>(fabsl(verdict.time - (3 - c.distance_max) / 4));
       EXPECT_LT(error, 1e-14) << c.name << (slab ? " on a slab" : "");
       worst = std::max(worst, error);
     }
@@ -153,7 +153,8 @@ TEST(convex_toi, of_a_turning_rods_tip_on_a_plane_is_the_root_of_its_height) {
   double worst = 0, worst_least = 0;
   int hits = 0, clears = 0;
   for (int i = 0; i < 60; ++i) {
-    const double radius = dice.between(0.01, 0.1), half = dice.between(0.3, 1), spin = dice.between(-12, 12);
+    const double radius = dice.between(0.01, 0.1), half = dice.between(0.3, 1),
+                 angular_velocity = dice.between(-12, 12);
     const double height = dice.between(1.2, 1.6), fall = dice.between(0, 2);
     const bool box_rod = i % 2 == 0;
     Query query;
@@ -163,9 +164,9 @@ TEST(convex_toi, of_a_turning_rods_tip_on_a_plane_is_the_root_of_its_height) {
     query.path_b.position = {0, height, 0};
     if (!box_rod) query.path_b.rotation = quarter_about_z();
     query.path_b.displacement = {0, -fall, 0};
-    query.path_b.turn = {0, 0, spin};
+    query.path_b.rotation_vector = {0, 0, angular_velocity};
     const auto gap = [&](Number t) {
-      const Number sine = fabsl(sinl(spin * t)), cosine = fabsl(cosl(spin * t));
+      const Number sine = fabsl(sinl(angular_velocity * t)), cosine = fabsl(cosl(angular_velocity * t));
       return height - fall * t - half * sine - radius * (box_rod ? cosine : 1);
     };
     const Number root = first_root(gap);
@@ -199,7 +200,7 @@ TEST(convex_toi, of_a_sweeping_rod_and_a_post_is_an_arc_sine) {
     // The rod lies along x and turns about z, the post stands along z.
     query.path_a.rotation = quarter_about_z();
     query.path_b.rotation = {1, 0, 0, 1};
-    query.path_a.turn = {0, 0, 3.125};
+    query.path_a.rotation_vector = {0, 0, 3.125};
     query.path_b.position = {away * cos(angle), away * sin(angle), 0};
     const Number x = query.path_b.position[0], y = query.path_b.position[1];
     const Number truth = (atan2l(y, x) - asinl(0.125L / hypotl(x, y))) / 3.125L;
@@ -214,7 +215,7 @@ TEST(convex_toi, of_a_sweeping_rod_and_a_post_is_an_arc_sine) {
 TEST(convex_toi, of_a_turning_half_space_is_the_root_of_its_height) {
   Query query;
   query.a = ground();
-  query.path_a.turn = {0, 0, 1};
+  query.path_a.rotation_vector = {0, 0, 1};
   query.b = box(0.25, 0.25, 0.25);
   query.path_b.position = {2, 1, 0};
   for (const bool swapped : {false, true}) {
@@ -259,7 +260,7 @@ TEST(convex_toi, tells_a_graze_from_a_near_miss) {
 }
 
 TEST(convex_toi, tells_a_spinning_graze_from_a_near_miss) {
-  // A square spins over a plane; its corner passes the lowest point at an eighth of a turn.
+  // A square angular velocities over a plane; its corner passes the lowest point at an eighth of a turn.
   for (const double clearance : {1e-3, 1e-6, 1e-9}) {
     for (const double sign : {1.0, -1.0}) {
       for (const bool slab : {false, true}) {
@@ -268,7 +269,7 @@ TEST(convex_toi, tells_a_spinning_graze_from_a_near_miss) {
         query.path_a.position = {0, slab ? -0.5 : 0, 0};
         query.b = box(1, 1, 0.125);
         query.path_b.position = {0.125, sqrt(2.0) + sign * clearance, 0};
-        query.path_b.turn = {0, 0, 12};
+        query.path_b.rotation_vector = {0, 0, 12};
         const Verdict verdict = judge(query);
         ASSERT_EQ(verdict.hit, sign < 0) << clearance;
         EXPECT_TRUE(verdict.certain);
@@ -296,11 +297,11 @@ TEST(convex_toi, starts_close_or_overlapped) {
   query.path_b.displacement = {0.25, 0, 0};
   EXPECT_FALSE(judge(query).hit) << "sliding";
   EXPECT_NEAR(static_cast<double>(judge(query).gap_min), gap, 1e-17);
-  query.path_b.turn = {0, 6, 0};
+  query.path_b.rotation_vector = {0, 6, 0};
   EXPECT_FALSE(judge(query).hit) << "spinning about the normal";
-  query.path_b.turn = {0, 0, 1};
+  query.path_b.rotation_vector = {0, 0, 1};
   EXPECT_TRUE(judge(query).hit) << "tilting";
-  query.path_b.turn = {0, 0, 0};
+  query.path_b.rotation_vector = {0, 0, 0};
   query.path_b.displacement = {0, -0.5, 0};
   EXPECT_NEAR(static_cast<double>(judge(query).time), 2 * gap, 1e-15) << "approaching";
   query.path_b.position = {0, 1, 0};
@@ -320,11 +321,11 @@ Query random_query(Dice& dice, Kind kind_a, Kind kind_b, double size) {
     const double length = dice.between(0, most);
     return Triple{v[0] * length, v[1] * length, v[2] * length};
   };
-  const double spin = dice.below(3) == 0 ? 12 : 2;
+  const double angular_velocity = dice.below(3) == 0 ? 12 : 2;
   query.path_a.rotation = dice.rotation();
   query.path_b.rotation = dice.rotation();
-  if (dice.below(4) != 0) query.path_a.turn = vector(spin);
-  if (dice.below(4) != 0) query.path_b.turn = vector(spin);
+  if (dice.below(4) != 0) query.path_a.rotation_vector = vector(angular_velocity);
+  if (dice.below(4) != 0) query.path_b.rotation_vector = vector(angular_velocity);
   const Triple away = dice.direction();
   const Triple aside = vector(1.2 * size);
   const double far = size * dice.between(0.5, 5), speed = dice.coin() ? dice.between(0, 2) : 0.1;

@@ -12,16 +12,17 @@ struct Placed {
 /// Two poses: the second is the first after a way, m, and a turn about the position, rad, at most half of one.
 struct PosesOfStep {
   Placed start;
-  Vector displacement, turn;
+  Vector displacement, rotation_vector;
 };
 
 /// On the screw through both poses, when `time` of the way along its axis is done and `angle` of its turn: the position
 /// is on the arc whose chord across the axis is known.
 inline Placed screw_at(const PosesOfStep& poses, double time, double angle) {
-  const double whole = length(poses.turn);
-  const Vector& way = poses.displacement;
-  if (whole == 0) return {poses.start.position + way * time, poses.start.rotation};
-  const Vector axis = poses.turn * (1 / whole), along = axis * dot(axis, way), across = way - along;
+  const double whole = length(poses.rotation_vector);
+  const Vector& displacement = poses.displacement;
+  if (whole == 0) return {poses.start.position + displacement * time, poses.start.rotation};
+  const Vector axis = poses.rotation_vector * (1 / whole), along = axis * dot(axis, displacement),
+               across = displacement - along;
   const double to_chord = (angle - whole) / 2;
   const Vector arc = (across * cos(to_chord) + cross(axis, across) * sin(to_chord)) * (sin(angle / 2) / sin(whole / 2));
   return {poses.start.position + along * time + arc, rotation_by(axis * angle) * poses.start.rotation};
@@ -29,29 +30,29 @@ inline Placed screw_at(const PosesOfStep& poses, double time, double angle) {
 
 /// The screw at constant speed.
 inline Placed even_screw_at(const PosesOfStep& poses, double time) {
-  return screw_at(poses, time, time * length(poses.turn));
+  return screw_at(poses, time, time * length(poses.rotation_vector));
 }
 
 /// The screw with the tangent of half the angle as its clock: that of feature_toi_screw().
 inline Placed tangent_screw_at(const PosesOfStep& poses, double time) {
-  return screw_at(poses, time, 2 * atan(time * tan(length(poses.turn) / 2)));
+  return screw_at(poses, time, 2 * atan(time * tan(length(poses.rotation_vector) / 2)));
 }
 
 /// Position and quaternion each on the chord.
 inline Placed normalised_lerp_at(const PosesOfStep& poses, double time) {
-  const Quaternion p = poses.start.rotation, q = rotation_by(poses.turn) * p;
+  const Quaternion p = poses.start.rotation, q = rotation_by(poses.rotation_vector) * p;
   const double rest = 1 - time;
   return {
       poses.start.position + poses.displacement * time,
       normalised({rest * p.x + time * q.x, rest * p.y + time * q.y, rest * p.z + time * q.z, rest * p.w + time * q.w})};
 }
 
-/// `count` steps of constant velocity and spin, one after the other, through poses of the even screw.
+/// `count` steps of constant velocity and angular velocity, one after the other, through poses of the even screw.
 inline Placed pieces_at(const PosesOfStep& poses, int count, double time) {
   const double piece = fmin(floor(time * count), count - 1), part = time * count - piece;
   const Vector from = even_screw_at(poses, piece / count).position,
                to = even_screw_at(poses, (piece + 1) / count).position;
-  return {from + (to - from) * part, rotation_by(poses.turn * time) * poses.start.rotation};
+  return {from + (to - from) * part, rotation_by(poses.rotation_vector * time) * poses.start.rotation};
 }
 
 /// How far two motions are apart.
@@ -65,12 +66,12 @@ inline Quaternion conjugate(const Quaternion& q) { return {-q.x, -q.y, -q.z, q.w
 /// Points within `radius` are moved apart by the way between the positions and by whatever a disc across the axis of
 /// the turn between the rotations holds.
 inline Apart apart(const Placed& a, const Placed& b, double radius) {
-  const Quaternion turn = normalised(a.rotation) * conjugate(normalised(b.rotation));
-  const Vector v = {{turn.x, turn.y, turn.z}}, way = a.position - b.position;
+  const Quaternion rotation_vector = normalised(a.rotation) * conjugate(normalised(b.rotation));
+  const Vector v = {{rotation_vector.x, rotation_vector.y, rotation_vector.z}}, displacement = a.position - b.position;
   const double sine = length(v), disc = 2 * radius * sine;
-  if (sine == 0) return {length(way), 0};
-  const double along = dot(way, v) / sine, across = length(way - v * (along / sine));
-  return {hypot(along, across + disc), 2 * atan2(sine, fabs(turn.w))};
+  if (sine == 0) return {length(displacement), 0};
+  const double along = dot(displacement, v) / sine, across = length(displacement - v * (along / sine));
+  return {hypot(along, across + disc), 2 * atan2(sine, fabs(rotation_vector.w))};
 }
 
 /// The greatest of `samples` + 1 times.

@@ -62,7 +62,7 @@ inline Number area_of(const Polygon& polygon) {
 inline Polygon overlap_of(Polygon polygon, const Polygon& other) {
   if (other.size() < 3) return {};
   for (size_t i = 0; i < other.size() && !polygon.empty(); ++i) {
-    const Spot way = other[(i + 1) % other.size()] - other[i], across = {way.v, -way.u};
+    const Spot displacement = other[(i + 1) % other.size()] - other[i], across = {displacement.v, -displacement.u};
     cut(polygon, across, across.u * other[i].u + across.v * other[i].v);
   }
   return polygon;
@@ -74,11 +74,12 @@ inline Spot nearest_in(const Polygon& polygon, const Spot& spot) {
   Spot best = polygon[0];
   Number least = HUGE_VALL;
   for (size_t i = 0; i < polygon.size(); ++i) {
-    const Spot way = polygon[(i + 1) % polygon.size()] - polygon[i], to = spot - polygon[i];
-    inside = inside && cross(way, to) >= 0;
-    const Number square = way.u * way.u + way.v * way.v;
-    const Number part = square > 0 ? std::clamp((way.u * to.u + way.v * to.v) / square, 0.0L, 1.0L) : 0;
-    const Spot place = {polygon[i].u + way.u * part, polygon[i].v + way.v * part};
+    const Spot displacement = polygon[(i + 1) % polygon.size()] - polygon[i], to = spot - polygon[i];
+    inside = inside && cross(displacement, to) >= 0;
+    const Number square = displacement.u * displacement.u + displacement.v * displacement.v;
+    const Number part =
+        square > 0 ? std::clamp((displacement.u * to.u + displacement.v * to.v) / square, 0.0L, 1.0L) : 0;
+    const Spot place = {polygon[i].u + displacement.u * part, polygon[i].v + displacement.v * part};
     const Number distance = hypotl(spot.u - place.u, spot.v - place.v);
     if (distance >= least) continue;
     least = distance;

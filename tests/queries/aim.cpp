@@ -22,12 +22,12 @@ bool wrap(const std::vector<Triple>& vertices, const Triple& corner, const Tripl
           Triple& found) {
   double least = INFINITY;
   for (const Triple& vertex : vertices) {
-    const Triple way = vertex - corner;
-    const double rise = dot(tilt, way);
-    if (rise <= k_flat * length(tilt) * length(way)) continue;
-    const double turn = -dot(normal, way) / rise;
-    if (turn >= least) continue;
-    least = turn;
+    const Triple displacement = vertex - corner;
+    const double rise = dot(tilt, displacement);
+    if (rise <= k_flat * length(tilt) * length(displacement)) continue;
+    const double rotation_vector = -dot(normal, displacement) / rise;
+    if (rotation_vector >= least) continue;
+    least = rotation_vector;
     found = vertex;
   }
   if (least == INFINITY) return false;
@@ -74,7 +74,7 @@ Meeting aim_at_feature(Random& random, Query& query, bool edges, const Aim& aim)
 
   const Triple from_a = triple_of(to_world(placement.a, arrow_of(meeting.point_a)));
   const Triple from_b = triple_of(to_world(placement.b, arrow_of(meeting.point_b)));
-  meeting.way = (from_a - from_b + sideways * meeting.beside - apart) * (1 / meeting.time);
+  meeting.displacement = (from_a - from_b + sideways * meeting.beside - apart) * (1 / meeting.time);
   return meeting;
 }
 

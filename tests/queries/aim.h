@@ -9,7 +9,7 @@ Triple point_facing(Random& random, const Solid& solid, const Triple& direction,
 
 /// Where two features are to come together.
 struct Meeting {
-  Triple way;               ///< of B, seen from A, over the step, m
+  Triple displacement;      ///< of B, seen from A, over the step, m
   double time = 0;          ///< in the step or not long after it
   Triple point_a, point_b;  ///< of the features, body frames, m
   double beside = 0;        ///< m; by how much these pass each other then

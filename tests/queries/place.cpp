@@ -27,9 +27,9 @@ Query at_one_place(Random& random, const Solid& a, const Solid& b, double scale)
   return query;
 }
 
-void spin(Random& random, Query& query, double angle_min, double angle_max) {
+void angular_velocity(Random& random, Query& query, double angle_min, double angle_max) {
   for (Path* path : {&query.path_a, &query.path_b})
-    path->turn = to_float(random.direction() * random.uniform(angle_min, angle_max));
+    path->rotation_vector = to_float(random.direction() * random.uniform(angle_min, angle_max));
 }
 
 void share_motion(Random& random, Query& query, const Triple& relative, double common) {

@@ -8,7 +8,7 @@ namespace detent_queries {
 Query at_one_place(Random& random, const Solid& a, const Solid& b, double scale);
 
 /// Turns of a random axis and angle, rad.
-void spin(Random& random, Query& query, double angle_min, double angle_max);
+void angular_velocity(Random& random, Query& query, double angle_min, double angle_max);
 
 /// Shares a displacement of B relative to A out between the two, on top of a common one.
 void share_motion(Random& random, Query& query, const Triple& relative, double common);

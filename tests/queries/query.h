@@ -26,7 +26,7 @@ struct Path {
   Triple position = {};
   std::array<double, 4> rotation = {0, 0, 0, 1};
   Triple displacement = {};
-  Triple turn = {};  ///< rad, world axes
+  Triple rotation_vector = {};  ///< rad, world axes
 };
 
 struct Query {

@@ -19,11 +19,11 @@ constexpr double k_degree = 3.14159265358979323846 / 180;
 
 bool turning(uint32_t index) { return index % 2 == 0; }
 
-/// Sets 1, 5, 6, 8 and game: sent from apart, every other query with a spin.
+/// Sets 1, 5, 6, 8 and game: sent from apart, every other query with an angular velocity.
 Query sent(Random& random, uint32_t index, const Solid& a, const Solid& b, const Aim& aim) {
   Query query = at_one_place(random, a, b, aim.scale);
   send(random, query, aim);
-  if (turning(index)) spin(random, query, 0.05, 1);
+  if (turning(index)) angular_velocity(random, query, 0.05, 1);
   return query;
 }
 
@@ -80,7 +80,7 @@ Query rods_of(Random& random, double turn_min, double turn_max, bool round) {
   const Triple apart = query.path_b.position - query.path_a.position;
   const Triple beside = random.direction() * (0.25 * bound_a * random.uniform(0, 1));
   share_motion(random, query, (beside - apart) * random.uniform(0, 1.2), 0.5);
-  spin(random, query, turn_min, turn_max);
+  angular_velocity(random, query, turn_min, turn_max);
   return query;
 }
 
@@ -110,10 +110,10 @@ Query farthest(Random& random, uint32_t index, const Sources&) { return far_of(r
 
 /// Set 6, in turn at 1 mm, at 100 m and thin.
 Query scaled(Random& random, uint32_t index, const Sources&) {
-  const uint32_t turn = index / 2 % 3;
-  if (turn < 2) {
+  const uint32_t rotation_vector = index / 2 % 3;
+  if (rotation_vector < 2) {
     Aim aim;
-    aim.scale = turn == 0 ? 1e-3 : 100;
+    aim.scale = rotation_vector == 0 ? 1e-3 : 100;
     const auto one = [&] { return draw(random, k_mixed, 0.6 * aim.scale, 1.2 * aim.scale); };
     const Solid a = one(), b = one();
     return sent(random, index, a, b, aim);
@@ -145,7 +145,7 @@ Query near(Random& random, uint32_t index, const Sources&) {
       break;
   }
   share_motion(random, query, relative, 0.5);
-  if (turning(index)) spin(random, query, 0.05, 1);
+  if (turning(index)) angular_velocity(random, query, 0.05, 1);
   return query;
 }
 
@@ -235,13 +235,13 @@ Query triangles(Random& random, uint32_t index, const Sources&) {
   const Solid b = partner == 0 ? one() : draw(random, partner == 1 ? boxes : hulls, k_extent_min, k_extent_max);
   Query query = at_one_place(random, a, b, 1);
   const bool rests = random.chance(0.5), edges = random.chance(0.5);
-  if (turning(index)) spin(random, query, 0.05, 1);
-  if (rests) query.path_a.turn = {};
-  const Triple way = aim_at_feature(random, query, edges, {}).way;
+  if (turning(index)) angular_velocity(random, query, 0.05, 1);
+  if (rests) query.path_a.rotation_vector = {};
+  const Triple displacement = aim_at_feature(random, query, edges, {}).displacement;
   if (rests)
-    query.path_b.displacement = to_float(way);
+    query.path_b.displacement = to_float(displacement);
   else
-    share_motion(random, query, way, 0.5);
+    share_motion(random, query, displacement, 0.5);
   return query;
 }
 
@@ -263,10 +263,10 @@ uint64_t hash_of(const char* text) {
 
 const std::vector<Set>& all_sets() {
   static const std::vector<Set> sets = {
-      {"1", "mixed: 0.05 to 2 m apart, spin 0.05 to 1 rad", true, mixed},
+      {"1", "mixed: 0.05 to 2 m apart, angular velocity 0.05 to 1 rad", true, mixed},
       {"1c", "as 1, with cylinders and cones", true, mixed_all},
       {"1r", "as 1, boxes, hulls, cylinders and cones rounded by a ball", true, mixed_rounded},
-      {"2", "paper: 1 to 20 cm at slabs 1 to 20 mm thick, from 1 to 60 m, no spin", true, paper},
+      {"2", "paper: 1 to 20 cm at slabs 1 to 20 mm thick, from 1 to 60 m, no angular_velocity", true, paper},
       {"3", "rods 1 to 6 m long, within each other's bounds, all turn by 0.5 to 3 rad", true, rods},
       {"3c", "as 3, the rods cylinders and cones", true, rods_round},
       {"4", "grazing: the closest approach is +-1e-6 to 1e-3 of size", true, grazing},
@@ -305,6 +305,8 @@ std::vector<Query> make_queries(const Set& set, uint64_t seed, uint32_t count, c
   return queries;
 }
 
-bool turns(const Query& query) { return length(query.path_a.turn) != 0 || length(query.path_b.turn) != 0; }
+bool turns(const Query& query) {
+  return length(query.path_a.rotation_vector) != 0 || length(query.path_b.rotation_vector) != 0;
+}
 
 }  // namespace detent_queries

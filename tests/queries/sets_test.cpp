@@ -47,7 +47,7 @@ void expect_floats(const Path& path) {
   EXPECT_NEAR(square, 1, 1e-6);
   expect_floats(path.position);
   expect_floats(path.displacement);
-  expect_floats(path.turn);
+  expect_floats(path.rotation_vector);
 }
 
 bool same(const Solid& a, const Solid& b) {
@@ -55,7 +55,8 @@ bool same(const Solid& a, const Solid& b) {
          a.half_extents == b.half_extents && a.rounding == b.rounding && a.points == b.points;
 }
 bool same(const Path& a, const Path& b) {
-  return a.position == b.position && a.rotation == b.rotation && a.displacement == b.displacement && a.turn == b.turn;
+  return a.position == b.position && a.rotation == b.rotation && a.displacement == b.displacement &&
+         a.rotation_vector == b.rotation_vector;
 }
 bool same(const Query& a, const Query& b) {
   return same(a.a, b.a) && same(a.b, b.b) && same(a.path_a, b.path_a) && same(a.path_b, b.path_b);
@@ -144,8 +145,8 @@ TEST(sets, rods_turn_as_far_as_stated_and_start_within_each_others_bounds) {
   for (const auto& [name, low, high] : {std::tuple{"3", 0.5, 3.0}, {"3c", 0.5, 3.0}, {"9", 3.2, 12.0}}) {
     for (const Query& query : queries_of(name)) {
       for (const Path* path : {&query.path_a, &query.path_b}) {
-        EXPECT_GE(length(path->turn), low - 1e-6);
-        EXPECT_LE(length(path->turn), high + 1e-6);
+        EXPECT_GE(length(path->rotation_vector), low - 1e-6);
+        EXPECT_LE(length(path->rotation_vector), high + 1e-6);
       }
       EXPECT_LT(length(query.path_b.position - query.path_a.position), bound_of(query.a) + bound_of(query.b));
     }
@@ -187,7 +188,7 @@ TEST(sets, triangles_meet_triangles_boxes_and_hulls_and_half_are_slivers) {
     const double aspect = length(cross(corner[1] - corner[0], corner[2] - corner[0])) / (side * side);
     thinnest = std::min(thinnest, aspect);
     slivers += aspect < 0.1 ? 1u : 0u;
-    rest += length(query.path_a.displacement) + length(query.path_a.turn) == 0 ? 1u : 0u;
+    rest += length(query.path_a.displacement) + length(query.path_a.rotation_vector) == 0 ? 1u : 0u;
   }
   for (const uint32_t count : partners) EXPECT_EQ(count, 8 * k_count / 3);
   EXPECT_GT(thinnest, 0.0099);
@@ -220,7 +221,7 @@ TEST(sets, features_that_are_aimed_at_each_other_meet_or_pass_as_stated) {
   for (uint32_t i = 0; i < 200; ++i) {
     const Solid a = box({0.5, 1, 2}), b = box({1, 0.25, 0.75});
     Query query = at_one_place(random, a, b, 1);
-    spin(random, query, 0.05, 1);
+    angular_velocity(random, query, 0.05, 1);
     const bool edges = i % 2 == 0;
     const Meeting meeting = aim_at_feature(random, query, edges, {});
     EXPECT_GT(gap_at(query, 0), 0);
@@ -228,7 +229,7 @@ TEST(sets, features_that_are_aimed_at_each_other_meet_or_pass_as_stated) {
     EXPECT_EQ(corners_a == 2, edges);
     EXPECT_EQ(corners_a + corners_b, 4u);
 
-    query.path_b.displacement = meeting.way;
+    query.path_b.displacement = meeting.displacement;
     const detent_oracle::Placement placement = placement_at(detent_oracle::encounter_of(query), meeting.time);
     const auto arrow = [](const Triple& v) { return detent_oracle::Arrow{v[0], v[1], v[2]}; };
     const detent_oracle::Arrow at_a = to_world(placement.a, arrow(meeting.point_a));

@@ -118,8 +118,8 @@ Solid ellipsoid_hull(Random& random, const Triple& semi_axes, uint32_t count) {
 
 Solid triangle(Random& random, double side, double height) {
   // The apex is where neither of the other sides is the longer.
-  const double reach = sqrt(side * side - height * height);
-  const double apex = random.uniform(side - reach, reach);
+  const double distance_max = sqrt(side * side - height * height);
+  const double apex = random.uniform(side - distance_max, distance_max);
   Solid solid = of_kind(Kind::triangle);
   const Triple centroid = {(side + apex) / 3, height / 3, 0};
   for (const Triple& corner : {Triple{0, 0, 0}, Triple{side, 0, 0}, Triple{apex, height, 0}})

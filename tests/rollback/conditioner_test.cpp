@@ -15,7 +15,7 @@ DETENT_TEST(rollback_conditioner, loses_doubles_delays_and_reorders_as_it_is_tol
   Conditioner conditioner({0.05, 0.01, 0.08, 0.04}, 1);
   std::vector<uint32_t> came(k_packets);
   uint32_t overtaken = 0, newest = 0;
-  double way = 0, shortest = 1, longest = 0, now = 0;
+  double displacement = 0, shortest = 1, longest = 0, now = 0;
   const auto arrive = [&](uint32_t to, const uint8_t* bytes, uint32_t count) {
     EXPECT_EQ(to, 3u);
     ASSERT_EQ(count, 2u);
@@ -24,7 +24,7 @@ DETENT_TEST(rollback_conditioner, loses_doubles_delays_and_reorders_as_it_is_tol
     overtaken += packet < newest ? 1u : 0u;
     newest = packet > newest ? packet : newest;
     const double took = now - packet / 100.0;
-    way += took;
+    displacement += took;
     shortest = took < shortest ? took : shortest;
     longest = took > longest ? took : longest;
   };
@@ -43,7 +43,7 @@ DETENT_TEST(rollback_conditioner, loses_doubles_delays_and_reorders_as_it_is_tol
   }
   EXPECT_NEAR(lost, 0.05 * k_packets, 100);
   EXPECT_NEAR(twice, 0.0095 * k_packets, 50);
-  EXPECT_NEAR(way / (k_packets - lost + twice), 0.08, 0.002);
+  EXPECT_NEAR(displacement / (k_packets - lost + twice), 0.08, 0.002);
   EXPECT_NEAR(shortest, 0.04, 0.002);
   EXPECT_NEAR(longest, 0.12, 0.002);
   EXPECT_GT(overtaken, k_packets / 4);

@@ -84,7 +84,7 @@ int attack_from_outside(uint16_t port, double seconds) {
 }
 
 /// Of five kinds, in turn. The good ones come again and again.
-std::vector<uint8_t> players_message(Seeded& random, const Welcome& welcome, uint32_t turn) {
+std::vector<uint8_t> players_message(Seeded& random, const Welcome& welcome, uint32_t rotation_vector) {
   Packet packet;
   packet.match = welcome.match;
   packet.sequence = static_cast<uint32_t>(1 + random.next() % 40);
@@ -92,12 +92,12 @@ std::vector<uint8_t> players_message(Seeded& random, const Welcome& welcome, uin
   packet.players = welcome.players;
   packet.run_count = 1;
   packet.runs[0] = {welcome.player, 0, 1, {1}};
-  if (turn % 5 == 1) packet.runs[0].first = 1000000;
-  if (turn % 5 == 2) packet.runs[0].player = 0;
-  if (turn % 5 == 3) packet.wanted[0] = 1000000;
+  if (rotation_vector % 5 == 1) packet.runs[0].first = 1000000;
+  if (rotation_vector % 5 == 2) packet.runs[0].player = 0;
+  if (rotation_vector % 5 == 3) packet.wanted[0] = 1000000;
   std::vector<uint8_t> bytes(k_packet_bytes_max);
   bytes.resize(write_packet(packet, bytes.data()));
-  if (turn % 5 == 4) bytes[random.next() % bytes.size()] ^= 0x40;
+  if (rotation_vector % 5 == 4) bytes[random.next() % bytes.size()] ^= 0x40;
   return bytes;
 }
 
@@ -110,11 +110,11 @@ int attack_as_player(uint16_t port, double seconds) {
   if (!transport.connect("127.0.0.1", port) || join(transport, options, stop, welcome, peers) != nullptr) return 2;
   Seeded random(2);
   const uint32_t start = enet_time_get();
-  for (uint32_t turn = 0; enet_time_get() - start < seconds * 1000; ++turn) {
-    const std::vector<uint8_t> bytes = players_message(random, welcome, turn);
+  for (uint32_t rotation_vector = 0; enet_time_get() - start < seconds * 1000; ++rotation_vector) {
+    const std::vector<uint8_t> bytes = players_message(random, welcome, rotation_vector);
     transport.send(0, bytes.data(), static_cast<uint32_t>(bytes.size()), false);
-    if (transport.next(turn % 10 == 0 ? 1 : 0).kind == Transport::Kind::left) {
-      printf("thrown out after %u packets\n", turn);
+    if (transport.next(rotation_vector % 10 == 0 ? 1 : 0).kind == Transport::Kind::left) {
+      printf("thrown out after %u packets\n", rotation_vector);
       return 0;
     }
   }

@@ -42,7 +42,7 @@ TEST(scene_refuses, values_of_another_kind) {
   expect_refused("\"world\": {\"gravity\": [0, 1]}", "2: world.gravity: is not a list of 3 numbers\n");
   expect_refused("\"world\": {\"gravity\": [0,\n\"1\", 0]}", "3: world.gravity[1]: is not a number\n");
   expect_refused("\"world\": {\"reduction\": 1}", "2: world.reduction: is not a text\n");
-  expect_body_refused("\"turn_locks\": \"x\"", "3: bodies[0].turn_locks: is not a list\n");
+  expect_body_refused("\"rotation_locks\": \"x\"", "3: bodies[0].rotation_locks: is not a list\n");
 }
 
 TEST(scene_refuses, values_out_of_range) {
@@ -54,7 +54,7 @@ TEST(scene_refuses, values_out_of_range) {
   expect_body_refused("\"user_data\": 4294967296", "3: bodies[0].user_data: 4294967296 is not in [0, 4294967295]\n");
   expect_body_refused("\"position\": [0, 1e300, 0]", "3: bodies[0].position[1]: 1e+300 is out of range\n");
   expect_body_refused("\"density\": 1e200", "3: bodies[0].density: 1e+200 is out of range\n");
-  expect_body_refused("\"spin\": [1e6, 0, 0]", "3: bodies[0].spin[0]: 1e+06 is out of range\n");
+  expect_body_refused("\"angular_velocity\": [1e6, 0, 0]", "3: bodies[0].angular_velocity[0]: 1e+06 is out of range\n");
   expect_shape_refused("\"type\": \"sphere\",\n\"radius\": 0",
                        "4: bodies[0].shape.radius: 0 is not in [6.103515625e-05, 16384]\n");
 }
@@ -80,8 +80,8 @@ TEST(scene_refuses, unknown_keys_and_names_with_the_nearest) {
   expect_shape_refused("\"radius\": 1", "2: bodies[0].shape.type: is missing\n");
   expect_shape_refused("\"type\": \"box\"", "2: bodies[0].shape.half_extents: is missing\n");
   expect_body_refused("\"type\": \"dynmic\"", "3: bodies[0].type: \"dynmic\" is unknown, did you mean \"dynamic\"?\n");
-  expect_body_refused("\"turn_locks\": [\"x\", \"w\"]",
-                      "3: bodies[0].turn_locks[1]: \"w\" is unknown, did you mean \"x\"?\n");
+  expect_body_refused("\"rotation_locks\": [\"x\", \"w\"]",
+                      "3: bodies[0].rotation_locks[1]: \"w\" is unknown, did you mean \"x\"?\n");
   expect_body_refused("\"material\": \"ice\"", "3: bodies[0].material: no material has the name \"ice\"\n");
   expect_action_refused("\"tick\": 0, \"call\": \"aply_impulse\"",
                         "3: actions[0].call: \"aply_impulse\" is unknown, did you mean \"apply_impulse\"?\n");
@@ -119,7 +119,7 @@ TEST(scene_refuses, keys_that_do_not_go_together) {
 
 TEST(scene_refuses, what_the_library_refuses) {
   expect_refused("\"bodies\": [{\"shape\": {\"type\": \"half_space\"}}]",
-                 "2: bodies[0].type: is dynamic, which a half-space or surface cannot be\n");
+                 "2: bodies[0].type: is dynamic, which a half-space or terrain cannot be\n");
   const std::string ball = "{\"name\": \"a\", \"shape\": {\"type\": \"sphere\", \"radius\": 1}}";
   expect_refused("\"world\": {\"capacity\": {\"bodies\": 1}}, \"bodies\": [" + ball +
                      ",\n{\"shape\": {\"type\": \"sphere\", \"radius\": 1}}]",
@@ -175,11 +175,11 @@ TEST(scene_refuses, or_plays_whatever_is_damaged) {
   for (int round = 0; round < 400; ++round) {
     std::string text = whole;
     const size_t place = below(text.size() - 60), length = below(40), to = below(text.size());
-    const size_t letter = below(letters.size()), way = below(4);
-    if (way == 0) text.erase(place, length);
-    if (way == 1) text.insert(to, text.substr(place, length));
-    if (way == 2) text[place] = letters[letter];
-    if (way == 3) text[text.find_first_of("0123456789", place)] = static_cast<char>('0' + letter % 10);
+    const size_t letter = below(letters.size()), displacement = below(4);
+    if (displacement == 0) text.erase(place, length);
+    if (displacement == 1) text.insert(to, text.substr(place, length));
+    if (displacement == 2) text[place] = letters[letter];
+    if (displacement == 3) text[text.find_first_of("0123456789", place)] = static_cast<char>('0' + letter % 10);
     const Played result = play(text, engines().front(), 4);
     (result.problems.empty() ? played : refused) += 1;
   }

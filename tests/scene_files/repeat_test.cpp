@@ -2,7 +2,7 @@
 
 #include "play.h"
 #include "scene_repeat.h"
-#include "scene_turn.h"
+#include "scene_revolve.h"
 
 namespace detent_tool {
 namespace {
@@ -65,13 +65,13 @@ std::string places(const std::string& text, const Engine& engine) {
 TEST(scene_repeat, turns_places_rotations_and_velocities) {
   const std::string repeated =
       bodies(R"({"repeat": {"i": 3}, "revolve": {"i": {"about": [0, 4, 0], "axis": [0, 0, 2], "degrees": 180}},
-                "position": [2, 4, 1], "velocity": [1, 0, 3], "spin": [0, 5, 1], "shape": "plank"},
+                "position": [2, 4, 1], "linear_velocity": [1, 0, 3], "angular_velocity": [0, 5, 1], "shape": "plank"},
                 {"repeat": {"i": 2}, "revolve": {"i": {"axis": [0, 1, 0], "degrees": 360}}, "shape": "plank"})");
   const std::string written_out =
-      bodies(R"({"position": [2, 4, 1], "velocity": [1, 0, 3], "spin": [0, 5, 1], "shape": "plank"},
-                {"position": [-2, 4, 1], "rotation": [0, 0, -1, 0], "velocity": [-1, 0, 3], "spin": [0, -5, 1],
+      bodies(R"({"position": [2, 4, 1], "linear_velocity": [1, 0, 3], "angular_velocity": [0, 5, 1], "shape": "plank"},
+                {"position": [-2, 4, 1], "rotation": [0, 0, -1, 0], "linear_velocity": [-1, 0, 3], "angular_velocity": [0, -5, 1],
                  "shape": "plank"},
-                {"position": [2, 4, 1], "velocity": [1, 0, 3], "spin": [0, 5, 1], "shape": "plank"},
+                {"position": [2, 4, 1], "linear_velocity": [1, 0, 3], "angular_velocity": [0, 5, 1], "shape": "plank"},
                 {"shape": "plank"}, {"shape": "plank"})");
   for (const Engine& engine : engines()) {
     EXPECT_EQ(places(repeated, engine), places(written_out, engine)) << engine.config;
@@ -90,11 +90,11 @@ TEST(scene_repeat, turns_every_form_of_a_rotation) {
   for (const char* form : {R"({"axis": [1, 0, 0], "degrees": 90})", R"({"euler_degrees": [90, 0, 0]})",
                            R"({"euler_degrees": [90, 0, 360]})", "[0.70710678118654752, 0, 0, 0.70710678118654752]"}) {
     Node entry = parsed(std::string(R"({"point": [1, 0, 0], "frame": )") + form + "}");
-    SceneTurn turn;
-    turn.about[1] = 1;
-    turn.axis[2] = 3;
-    turn.degrees = 90;
-    turn_entry(entry, turn);
+    SceneRevolution revolution;
+    revolution.about[1] = 1;
+    revolution.axis[2] = 3;
+    revolution.degrees = 90;
+    revolve_entry(entry, revolution);
     const Node& frame = *member_of(entry, "frame");
     const double expected[4] = {0.5, 0.5, 0.5, 0.5};
     for (size_t i = 0; i < 4; ++i) EXPECT_NEAR(frame.items[i].number, expected[i], 1e-15) << form << i;
@@ -103,10 +103,10 @@ TEST(scene_repeat, turns_every_form_of_a_rotation) {
     EXPECT_NEAR(point.items[1].number, 2, 1e-15);
   }
   Node plain = parsed(R"({"position": [1, 0, 0]})");
-  SceneTurn turn;
-  turn.axis[1] = 1;
-  turn.degrees = -90;
-  turn_entry(plain, turn);
+  SceneRevolution revolution;
+  revolution.axis[1] = 1;
+  revolution.degrees = -90;
+  revolve_entry(plain, revolution);
   EXPECT_NEAR(member_of(plain, "rotation")->items[1].number, -half, 1e-15);
   EXPECT_NEAR(member_of(plain, "position")->items[2].number, 1, 1e-15);
 }

@@ -63,7 +63,7 @@ void leave_out_each(Json& scene, Json& part, const std::string& path, const Play
   }
   for (const std::string& key : keys) {
     // These change nothing that is played; where there is no room for manifolds, `reuse` neither.
-    if (key == "$schema" || key == "digest" || key == "reuse") continue;
+    if (key == "$schema" || key == "digest" || key == "contact_recycle_distance") continue;
     const Json full = part;
     part.erase(key);
     const Played left = play(scene.dump());
@@ -96,18 +96,18 @@ TEST(scene_run, definitions_of_a_file_are_those_of_code) {
   settings.gravity = {0.5, -5.0, 0.25};
   settings.tick = Real(0.01);
   settings.iterations = 2;
-  settings.stiffness = 0.125;
+  settings.contact_frequency = 0.125;
   settings.damping_ratio = 5.0;
-  settings.breaking = 0.03125;
-  settings.reuse = 0.001953125;
+  settings.contact_margin = 0.03125;
+  settings.contact_recycle_distance = 0.001953125;
   World world;
   ASSERT_EQ(block->storage.create(settings, world), Status::ok);
   BodyDef ball;
   ball.type = BodyType::kinematic;
   ball.position = {1.0, 2.0, 3.0};
   ball.rotation = {0.5, -0.5, 0.5, 0.5};
-  ball.velocity = {4.0, 5.0, 6.0};
-  ball.spin = {7.0, 8.0, 9.0};
+  ball.linear_velocity = {4.0, 5.0, 6.0};
+  ball.angular_velocity = {7.0, 8.0, 9.0};
   ball.shape = capsule(0.25, 0.75);
   ball.material = {0.125, 0.25, 0.375, RestitutionRule::smaller};
   ball.mass = 3.0;
@@ -121,7 +121,7 @@ TEST(scene_run, definitions_of_a_file_are_those_of_code) {
   crate.position = {8.0, 0.0, 0.0};
   crate.shape = rounded(box({0.5, 1.0, 1.5}), 0.0625);
   crate.density = 20.0;
-  crate.turn_locks = k_turn_lock_y;
+  crate.rotation_locks = k_rotation_lock_y;
   BodyId ids[2];
   ASSERT_EQ(create_body(world, ball, ids[0]), Status::ok);
   ASSERT_EQ(create_body(world, crate, ids[1]), Status::ok);
@@ -145,15 +145,15 @@ TEST(scene_run, definitions_of_a_file_are_those_of_code) {
   ASSERT_EQ(create_joint(world, joint, joint_id), Status::ok);
 
   const Played played = play(R"({"format": 1, "ticks": 0,
-    "world": {"gravity": [0.5, -5, 0.25], "tick": 0.01, "iterations": 2, "stiffness": 0.125, "damping_ratio": 5,
-              "breaking": 0.03125, "reuse": 0.001953125},
+    "world": {"gravity": [0.5, -5, 0.25], "tick": 0.01, "iterations": 2, "contact_frequency": 0.125, "damping_ratio": 5,
+              "contact_margin": 0.03125, "contact_recycle_distance": 0.001953125},
     "bodies": [
       {"name": "ball", "type": "kinematic", "position": [1, 2, 3], "rotation": [0.5, -0.5, 0.5, 0.5],
-       "velocity": [4, 5, 6], "spin": [7, 8, 9], "shape": {"type": "capsule", "radius": 0.25, "half_length": 0.75},
+       "linear_velocity": [4, 5, 6], "angular_velocity": [7, 8, 9], "shape": {"type": "capsule", "radius": 0.25, "half_length": 0.75},
        "material": {"friction": 0.125, "restitution": 0.25, "rolling_resistance": 0.375, "restitution_rule": "smaller"},
        "mass": 3, "linear_damping": 0.5, "angular_damping": 0.75, "gravity_scale": 2, "user_data": 11,
        "filter": {"category": 12, "mask": 13, "group": -14}, "sensor": true},
-      {"name": "crate", "position": [8, 0, 0], "density": 20, "turn_locks": ["y"],
+      {"name": "crate", "position": [8, 0, 0], "density": 20, "rotation_locks": ["y"],
        "shape": {"type": "box", "half_extents": [0.5, 1, 1.5], "rounding": 0.0625}}],
     "joints": [
       {"type": "wheel", "a": "ball", "b": "crate", "anchor_a": [1, 2, 3], "anchor_b": [4, 5, 6],
@@ -175,7 +175,7 @@ TEST(scene_run, angles_in_degrees_turn_as_they_say) {
              rotation + "}]}");
     EXPECT_EQ(played.problems, "");
     const size_t start = played.lines.find("rotation");
-    return played.lines.substr(start, played.lines.find(" velocity") - start);
+    return played.lines.substr(start, played.lines.find(" linear_velocity") - start);
   };
   const std::string quarter_x = "rotation  0.707107 0.000000 0.000000 0.707107";
   EXPECT_EQ(turned("{\"axis\": [5, 0, 0], \"degrees\": 90}"), quarter_x);
@@ -189,9 +189,9 @@ TEST(scene_run, actions_come_before_their_ticks_in_the_order_of_the_file) {
   const Played played = play(R"({"format": 1, "ticks": 4, "world": {"gravity": [0, 0, 0], "tick": 0.125},
     "bodies": [{"name": "a", "shape": {"type": "sphere", "radius": 1}}],
     "actions": [
-      {"tick": 2, "until": 3, "call": "set_velocity", "body": "a", "velocity": [0, 8, 0], "spin": [0, 0, 0]},
-      {"tick": 0, "call": "set_velocity", "body": "a", "velocity": [8, 0, 0], "spin": [0, 0, 0]},
-      {"tick": 3, "call": "set_velocity", "body": "a", "velocity": [0, 0, 8], "spin": [0, 0, 0]}]})");
+      {"tick": 2, "until": 3, "call": "set_velocity", "body": "a", "linear_velocity": [0, 8, 0], "angular_velocity": [0, 0, 0]},
+      {"tick": 0, "call": "set_velocity", "body": "a", "linear_velocity": [8, 0, 0], "angular_velocity": [0, 0, 0]},
+      {"tick": 3, "call": "set_velocity", "body": "a", "linear_velocity": [0, 0, 8], "angular_velocity": [0, 0, 0]}]})");
   EXPECT_EQ(played.problems, "");
   EXPECT_EQ(played.outcome.calls, 4u);
   EXPECT_NE(played.lines.find("4 at body a position  2.000000 1.000000 1.000000"), std::string::npos) << played.lines;
@@ -201,7 +201,7 @@ TEST(scene_run, a_capacity_that_is_left_out_has_room_for_all) {
   const Played played = play(R"({"format": 1, "ticks": 40,
     "bodies": [{"type": "fixed", "shape": {"type": "half_space"}}],
     "actions": [{"tick": 3, "until": 32, "call": "create_body",
-                 "body": {"shape": {"type": "sphere", "radius": 0.5}, "position": [0, 9, 0], "velocity": [9, 0, 0]}}]})");
+                 "body": {"shape": {"type": "sphere", "radius": 0.5}, "position": [0, 9, 0], "linear_velocity": [9, 0, 0]}}]})");
   EXPECT_EQ(played.problems, "");
   EXPECT_EQ(played.outcome.bodies, 31u);
   EXPECT_EQ(played.outcome.ticks_incomplete, 0u);
@@ -245,7 +245,7 @@ TEST(scene_run, what_a_file_says_is_printed_without_what_a_terminal_obeys) {
   command.request.prints = {true, true, true, true};
   std::ofstream(command.path) << R"({"format": 1, "ticks": 1,
     "bodies": [{"name": "\u001b[2J", "shape": {"type": "sphere", "radius": 0.5}}],
-    "actions": [{"tick": 0, "call": "query_ray", "name": "\u0007", "origin": [0, 8, 0], "way": [0, -10, 0]}]})";
+    "actions": [{"tick": 0, "call": "query_ray", "name": "\u0007", "origin": [0, 8, 0], "displacement": [0, -10, 0]}]})";
   testing::internal::CaptureStdout();
   EXPECT_TRUE(run_scene_file(command));
   const std::string printed = testing::internal::GetCapturedStdout();
@@ -263,8 +263,8 @@ TEST(scene_run, events_and_answers_are_told_by_name) {
                {"name": "hook", "type": "fixed", "position": [9, 3, 0], "shape": {"type": "sphere", "radius": 0.5}},
                {"name": "bag", "position": [9, 1, 0], "shape": {"type": "sphere", "radius": 0.5}}],
     "joints": [{"name": "thread", "a": "hook", "b": "bag", "point": [9, 3, 0], "break_force": 1}],
-    "actions": [{"tick": 0, "call": "query_ray", "name": "down", "origin": [0, 8, 0], "way": [0, -10, 0]},
-                {"tick": 0, "call": "query_ray", "name": "bodies", "origin": [0, 8, 0], "way": [0, -10, 0],
+    "actions": [{"tick": 0, "call": "query_ray", "name": "down", "origin": [0, 8, 0], "displacement": [0, -10, 0]},
+                {"tick": 0, "call": "query_ray", "name": "bodies", "origin": [0, 8, 0], "displacement": [0, -10, 0],
                  "all": true}]})");
   EXPECT_EQ(played.problems, "");
   for (const char* line :

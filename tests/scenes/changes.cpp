@@ -17,15 +17,15 @@ void ask(Recorder& recorder, BodyId ignored) {
   QueryReport report;
   RayQuery ray;
   ray.origin = {-4.0, 0.5, 0.0};
-  ray.way = {Real(8.0), Real(0.0), Real(0.0)};
+  ray.displacement = {Real(8.0), Real(0.0), Real(0.0)};
   ray.filter.ignore = ignored;
   ray.all = true;
   must(recorder.query_ray(ray, {hits, 4}, report));
   CastQuery cast;
   cast.shape = capsule(0.25, 0.25);
   cast.position = {0.0, 5.0, 0.0};
-  cast.way = {Real(0.0), Real(-5.0), Real(0.0)};
-  cast.turn = {Real(0.0), Real(0.0), Real(2.0)};
+  cast.displacement = {Real(0.0), Real(-5.0), Real(0.0)};
+  cast.rotation_vector = {Real(0.0), Real(0.0), Real(2.0)};
   must(recorder.query_cast(cast, {hits, 4}, report));
 }
 
@@ -48,7 +48,7 @@ void change(Recorder& recorder, BodyId id, uint32_t tick) {
       must(recorder.set_gravity_scale(id, tick % 40 < 20 ? Real(0.5) : Real(1.0)));
       break;
     case 5:
-      must(recorder.set_turn_locks(id, tick % 40 < 20 ? k_turn_lock_x | k_turn_lock_z : 0));
+      must(recorder.set_rotation_locks(id, tick % 40 < 20 ? k_rotation_lock_x | k_rotation_lock_z : 0));
       break;
     case 6:
       must(recorder.set_filter(id, {tick % 40 < 20 ? 2u : 1u, ~0u, 0, 0}));
@@ -96,8 +96,8 @@ void before_tick(Recorder& recorder, uint32_t tick) {
   const BodyId platform = nth_body(state, k_platform);
   // To and fro between two poses, in steps of a quarter of the way.
   const Coord height[4] = {0.5, 0.625, 0.75, 0.625};
-  const Quat turn[2] = {{0.0, 0.28, 0.0, 0.96}, {0.0, 0.0, 0.0, 1.0}};
-  must(recorder.move_kinematic(platform, {0.0, height[tick / 8 % 4], 0.0}, turn[tick / 32 % 2]));
+  const Quat rotation_vector[2] = {{0.0, 0.28, 0.0, 0.96}, {0.0, 0.0, 0.0, 1.0}};
+  must(recorder.move_kinematic(platform, {0.0, height[tick / 8 % 4], 0.0}, rotation_vector[tick / 32 % 2]));
   if (tick % 2 == 1) change(recorder, nth_body(state, k_first + tick / 20 % k_bodies), tick);
   if (tick % 16 == 4) ask(recorder, platform);
   if (tick % 70 == 60) {
@@ -111,7 +111,7 @@ void before_tick(Recorder& recorder, uint32_t tick) {
     WorldDef settings = get_settings(state);
     settings.gravity = {Real(0.5), Real(-6.0), Real(0.0)};
     settings.substeps = 4;
-    settings.reuse = 0.0;
+    settings.contact_recycle_distance = 0.0;
     must(recorder.set_settings(settings));
   }
 }

@@ -104,7 +104,7 @@ void make_chain_and_ring(Recorder& recorder) {
   turning.type = BodyType::kinematic;
   turning.shape = box({0.75, 0.125, 0.125});
   turning.position = {0.0, 5.0, 0.0};
-  turning.spin = {Real(0.0), Real(1.5), Real(0.0)};
+  turning.angular_velocity = {Real(0.0), Real(1.5), Real(0.0)};
   BodyId last = make_body(recorder, turning);
   Coord height = 5.0;
   for (uint32_t link = 0; link < 6; ++link) {

@@ -87,7 +87,7 @@ void build_balls(Recorder& recorder) {
     ball.position.z = row % 2 == 0 ? Coord(-1.875) : Coord(-1.625);  // else the rows would never meet
     for (uint32_t column = 0; column < 4; ++column) {
       ball.shape = sphere(radii[(row + column) % 4]);
-      ball.velocity = {speeds[(2 * row + column) % 3], Real(1.5), Real(0.0)};
+      ball.linear_velocity = {speeds[(2 * row + column) % 3], Real(1.5), Real(0.0)};
       make_body(recorder, ball);
       ball.position.z += Coord(1.25);
     }

@@ -13,7 +13,7 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 constexpr Scene k_scenes[] = {piles::k_tiny,      piles::k_stack,    piles::k_capsules,       piles::k_balls,
-                              traffic::k_scene,   changes::k_scene,  jointed::k_scene,        terrain::k_scene,
+                              traffic::k_scene,   changes::k_scene,  jointed::k_scene,        terrain_scene::k_scene,
                               billiards::k_scene, dominoes::k_scene, dominoes::k_scene_short, pitch::k_scene};
 
 bool equal(const char* a, const char* b) {

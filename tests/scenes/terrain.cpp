@@ -4,18 +4,18 @@
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
-namespace terrain {
+namespace terrain_scene {
 
 namespace {
 
 constexpr Coord k_hills_x = 16.0;
 
-void make_surface(Recorder& recorder, uint32_t asset, const Position& position, BodyType type) {
+void make_terrain(Recorder& recorder, uint32_t asset, const Position& position, BodyType type) {
   BodyDef def;
   def.type = type;
-  def.shape = surface(asset);
+  def.shape = terrain(asset);
   def.position = position;
-  if (type == BodyType::kinematic) def.spin = {Real(0.0), Real(0.75), Real(0.0)};
+  if (type == BodyType::kinematic) def.angular_velocity = {Real(0.0), Real(0.75), Real(0.0)};
   make_body(recorder, def);
 }
 
@@ -35,7 +35,7 @@ void drop(Recorder& recorder, Coord x) {
     def.shape = shape;
     def.position = {x, 3.0, z};
     def.rotation = {0.5, 0.1, 0.3, 0.8062257748298549};
-    def.spin = {Real(1.5), Real(0.5), Real(-1.0)};
+    def.angular_velocity = {Real(1.5), Real(0.5), Real(-1.0)};
     make_body(recorder, def);
     z = z + Coord(0.75);
   }
@@ -47,7 +47,7 @@ void make_sensor(Recorder& recorder, Coord x, BodyType type) {
   def.shape = box({2.0, 0.03125, 2.0});
   def.position = {x, 4.0, 0.0};
   def.sensor = true;
-  if (type == BodyType::kinematic) def.spin = {Real(0.0), Real(0.0), Real(2.0)};
+  if (type == BodyType::kinematic) def.angular_velocity = {Real(0.0), Real(0.0), Real(2.0)};
   make_body(recorder, def);
 }
 
@@ -62,9 +62,9 @@ WorldDef world() {
 
 void build(Recorder& recorder) {
   for (uint32_t asset = 0; asset < 4; ++asset) must(recorder.bind_asset(asset));
-  make_surface(recorder, k_asset_valley, {0.0, 0.0, 0.0}, BodyType::fixed);
-  make_surface(recorder, k_asset_hills, {k_hills_x, 0.0, 0.0}, BodyType::fixed);
-  make_surface(recorder, k_asset_valley, {Coord(-16.0), 0.0, 0.0}, BodyType::kinematic);
+  make_terrain(recorder, k_asset_valley, {0.0, 0.0, 0.0}, BodyType::fixed);
+  make_terrain(recorder, k_asset_hills, {k_hills_x, 0.0, 0.0}, BodyType::fixed);
+  make_terrain(recorder, k_asset_valley, {Coord(-16.0), 0.0, 0.0}, BodyType::kinematic);
   make_sensor(recorder, 0.0, BodyType::fixed);
   make_sensor(recorder, k_hills_x, BodyType::kinematic);
   drop(recorder, 0.25);
@@ -76,7 +76,7 @@ void before_tick(Recorder& recorder, uint32_t tick) {
   BodyDef shot;
   shot.shape = tick < 100 ? sphere(0.125) : box({0.125, 0.125, 0.125});
   shot.position = {tick % 120 < 60 ? Coord(0.0) : k_hills_x, 6.0, 0.5};
-  shot.velocity = {Real(20.0), Real(-300.0), Real(7.0)};
+  shot.linear_velocity = {Real(20.0), Real(-300.0), Real(7.0)};
   make_body(recorder, shot);
   BodyDef rider;
   rider.shape = box({0.375, 0.125, 0.375});
@@ -84,6 +84,6 @@ void before_tick(Recorder& recorder, uint32_t tick) {
   if (tick < 70) make_body(recorder, rider);
 }
 
-}  // namespace terrain
+}  // namespace terrain_scene
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -5,7 +5,7 @@
 /// sensors, and a valley that turns.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
-namespace terrain {
+namespace terrain_scene {
 
 WorldDef world();
 void build(Recorder& recorder);
@@ -15,6 +15,6 @@ inline constexpr Scene k_scene = {
     "terrain",  "all shapes on a mesh and a height field, and shots at them through sensors", 240, world, build,
     before_tick};
 
-}  // namespace terrain
+}  // namespace terrain_scene
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

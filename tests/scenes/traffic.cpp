@@ -16,8 +16,8 @@ constexpr uint32_t k_guest = k_first_box + k_boxes;  ///< comes and goes: each t
 void invite_guest(Recorder& recorder, uint32_t tick) {
   BodyDef guest;
   guest.position = {0.5, 3.0, 0.125};
-  guest.velocity = {Real(0.0), Real(-2.0), Real(0.0)};
-  guest.spin = {Real(0.0), Real(1.0), Real(3.0)};
+  guest.linear_velocity = {Real(0.0), Real(-2.0), Real(0.0)};
+  guest.angular_velocity = {Real(0.0), Real(1.0), Real(3.0)};
   guest.mass = Scaled(48.0);
   guest.gravity_scale = Real(1.5);
   guest.shape = tick % 80 == 0 ? sphere(Real(0.375)) : capsule(Real(0.25), Real(0.25));
@@ -34,7 +34,7 @@ void build(Recorder& recorder) {
   mover.type = BodyType::kinematic;
   mover.shape = box({0.25, 0.5, 1.0});
   mover.position = {-3.0, 0.5, 0.0};
-  mover.velocity = {Real(1.0), Real(0.0), Real(0.0)};
+  mover.linear_velocity = {Real(1.0), Real(0.0), Real(0.0)};
   make_body(recorder, mover);
   BodyDef crate;
   crate.shape = box({0.25, 0.375, 0.25});

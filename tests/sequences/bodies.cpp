@@ -29,7 +29,7 @@ void expect_same(const Shape& is, const Shape& was) {
     case ShapeType::hull:
       EXPECT_EQ(is.asset, was.asset);
       break;
-    case ShapeType::surface:
+    case ShapeType::terrain:
     case ShapeType::compound:
       EXPECT_EQ(is.asset, was.asset);
       return;
@@ -62,9 +62,9 @@ BodyId Game::pick() {
 
 /// Assets 0 and 1 are surfaces, 2 and 3 hulls, 4 is a compound.
 bool Game::lacks_asset(const Shape& shape) const {
-  constexpr ShapeType k_types[] = {ShapeType::surface, ShapeType::surface, ShapeType::hull, ShapeType::hull,
+  constexpr ShapeType k_types[] = {ShapeType::terrain, ShapeType::terrain, ShapeType::hull, ShapeType::hull,
                                    ShapeType::compound};
-  if (shape.type != ShapeType::surface && shape.type != ShapeType::hull && shape.type != ShapeType::compound)
+  if (shape.type != ShapeType::terrain && shape.type != ShapeType::hull && shape.type != ShapeType::compound)
     return false;
   return shape.asset > 4 || k_types[shape.asset] != shape.type || (model_.bound >> shape.asset & 1) == 0;
 }
@@ -76,19 +76,19 @@ void Game::create() {
   def.position = draw_.place();
   def.rotation = draw_.rotation(wrong);
   if (def.type == BodyType::kinematic || def.type == BodyType::dynamic) {
-    def.velocity = draw_.vector(5, wrong);
-    def.spin = draw_.vector(5, wrong);
+    def.linear_velocity = draw_.vector(5, wrong);
+    def.angular_velocity = draw_.vector(5, wrong);
   }
   bool size_wrong = false;
   def.shape = draw_.shape(size_wrong);
   wrong = wrong || lacks_asset(def.shape) || (def.shape.type == ShapeType::half_space && def.type != BodyType::fixed) ||
-          (def.shape.type == ShapeType::surface && def.type == BodyType::dynamic);
+          (def.shape.type == ShapeType::terrain && def.type == BodyType::dynamic);
   def.material = draw_.material(wrong);
   def.linear_damping = draw_.number(0, 2, wrong);
   def.angular_damping = draw_.number(0, 2, wrong);
   def.gravity_scale = draw_.number(-1, 2, wrong);
   def.mass = scaled(draw_.order(0.1, 100));
-  def.turn_locks = draw_.chance(0.5) ? 0 : draw_.locks(wrong);
+  def.rotation_locks = draw_.chance(0.5) ? 0 : draw_.locks(wrong);
   def.filter = draw_.filter();
   def.user_data = draw_.word();
   def.sensor = draw_.chance(0.15);
@@ -109,8 +109,9 @@ void Game::create() {
   }
   EXPECT_EQ(model_.bodies.count(id.slot), 0u);
   for (uint32_t slot = 1; slot < id.slot; ++slot) EXPECT_EQ(model_.bodies.count(slot), 1u) << "the lowest free slot";
-  Known known = {def.type, def.shape,     def.material,   def.linear_damping, def.angular_damping, def.gravity_scale,
-                 def.mass, def.user_data, def.turn_locks, def.filter,         def.sensor};
+  Known known = {def.type,          def.shape, def.material,  def.linear_damping, def.angular_damping,
+                 def.gravity_scale, def.mass,  def.user_data, def.rotation_locks, def.filter,
+                 def.sensor};
   model_.bodies[id.slot] = {id, known};
 }
 
@@ -184,7 +185,7 @@ void Game::change(BodyId id, uint32_t which) {
     }
     case 8: {
       const uint32_t to = draw_.locks(wrong);
-      if (judge("set_turn_locks", recorder.set_turn_locks(id, to), there, wrong)) body->turn_locks = to;
+      if (judge("set_rotation_locks", recorder.set_rotation_locks(id, to), there, wrong)) body->rotation_locks = to;
       break;
     }
     case 9:
@@ -203,10 +204,10 @@ void Game::change_shape(BodyId id) {
   bool size_wrong = false;
   const Shape to = draw_.shape(size_wrong);
   const bool plane = to.type == ShapeType::half_space;
-  const bool open = plane || to.type == ShapeType::surface;
+  const bool open = plane || to.type == ShapeType::terrain;
   const bool wrong = lacks_asset(to) || (open && body != nullptr && body->type == BodyType::dynamic);
   const Status status = recorder_->set_shape(id, to);
-  if (size_wrong || (plane && !wrong)) {  // a size out of use, or a spin that no plane may have
+  if (size_wrong || (plane && !wrong)) {  // a size out of use, or an angular velocity that no plane may have
     note(static_cast<uint64_t>(status));
     EXPECT_TRUE(status != Status::ok || (body != nullptr && !wrong));
     if (status != Status::ok) expect_unchanged();
@@ -246,11 +247,11 @@ void Game::move(BodyId id) {
     }
     case 1: {
       wrong = there && (body->type == BodyType::fixed || plane);
-      const Vec3<Real> velocity = draw_.vector(10, wrong), spin = draw_.vector(10, wrong);
-      if (!judge("set_velocity", recorder_->set_velocity(id, velocity, spin), there, wrong)) break;
+      const Vec3<Real> linear_velocity = draw_.vector(10, wrong), angular_velocity = draw_.vector(10, wrong);
+      if (!judge("set_velocity", recorder_->set_velocity(id, linear_velocity, angular_velocity), there, wrong)) break;
       Vec3<Real> now, turning;
       EXPECT_OK(get_velocity(world(), id, now, turning));
-      expect_near(now, velocity);
+      expect_near(now, linear_velocity);
       break;
     }
     case 2: {
@@ -344,10 +345,10 @@ void Game::read_triangles(BodyId id) {
     so_far.last = triangle.index;
     if (so_far.count++ % 16 == 0) so_far.game.note_number(real(coord_to_host(triangle.corner[1].y)));
   };
-  const bool is_surface = body != nullptr && body->shape.type == ShapeType::surface;
+  const bool is_terrain = body != nullptr && body->shape.type == ShapeType::terrain;
   const Status status = visit_triangles(world(), id, &visited, visit);
-  EXPECT_EQ(status, body == nullptr ? Status::bad_id : is_surface ? Status::ok : Status::bad_argument);
-  EXPECT_EQ(visited.count != 0, is_surface);
+  EXPECT_EQ(status, body == nullptr ? Status::bad_id : is_terrain ? Status::ok : Status::bad_argument);
+  EXPECT_EQ(visited.count != 0, is_terrain);
   note(uint64_t{visited.count});
 }
 
@@ -365,7 +366,7 @@ void Game::read_parts(BodyId id, const Known& body) {
   EXPECT_OK(get_material(world(), id, material));
   EXPECT_OK(get_damping(world(), id, linear, angular));
   EXPECT_OK(get_gravity_scale(world(), id, scale));
-  EXPECT_OK(get_turn_locks(world(), id, locks));
+  EXPECT_OK(get_rotation_locks(world(), id, locks));
   EXPECT_OK(get_user_data(world(), id, user_data));
   EXPECT_OK(get_filter(world(), id, filter));
   EXPECT_OK(get_sensor(world(), id, sensor));
@@ -375,7 +376,7 @@ void Game::read_parts(BodyId id, const Known& body) {
   expect_near(linear, body.linear_damping);
   expect_near(angular, body.angular_damping);
   expect_near(scale, body.gravity_scale);
-  EXPECT_TRUE(locks == body.turn_locks && user_data == body.user_data && filter == body.filter &&
+  EXPECT_TRUE(locks == body.rotation_locks && user_data == body.user_data && filter == body.filter &&
               sensor == body.sensor);
 }
 
@@ -385,11 +386,11 @@ void Game::read(BodyId id) {
   const Status expected = body != nullptr ? Status::ok : Status::bad_id;
   Scaled mass = 0.0;
   Vec3<Scaled> inertia = {};
-  Vec3<Real> velocity = {}, spin = {}, at = {};
+  Vec3<Real> linear_velocity = {}, angular_velocity = {}, at = {};
   bool awake = false, wrong = false;
   EXPECT_EQ(get_mass(world(), id, mass), expected);
   EXPECT_EQ(get_inertia(world(), id, inertia), expected);
-  EXPECT_EQ(get_velocity(world(), id, velocity, spin), expected);
+  EXPECT_EQ(get_velocity(world(), id, linear_velocity, angular_velocity), expected);
   EXPECT_EQ(is_awake(world(), id, awake), expected);
   const Vec3<Real> arm = draw_.vector(0.2, wrong);
   judge("get_velocity_at", get_velocity_at(world(), id, arm, at), body != nullptr, wrong, true);
@@ -403,12 +404,12 @@ void Game::read(BodyId id) {
     EXPECT_GT(scaled_to_host(mass), 0);
   }
   if (body->type == BodyType::fixed) {
-    EXPECT_TRUE(is_none(velocity) && is_none(spin) && !awake);
+    EXPECT_TRUE(is_none(linear_velocity) && is_none(angular_velocity) && !awake);
   }
   note_number(mass);
   note(inertia);
-  note(velocity);
-  note(spin);
+  note(linear_velocity);
+  note(angular_velocity);
   note(at);
   note(uint64_t{awake});
   uint32_t count = 0;
@@ -429,7 +430,7 @@ void Game::check(BodyId id, const Known& known) {
   EXPECT_EQ(def.type, known.type);
   expect_same(def.shape, known.shape);
   EXPECT_EQ(def.user_data, known.user_data);
-  EXPECT_EQ(def.turn_locks, known.turn_locks);
+  EXPECT_EQ(def.rotation_locks, known.rotation_locks);
   EXPECT_TRUE(def.filter == known.filter && def.sensor == known.sensor);
   expect_near(def.material.friction, known.material.friction);
   expect_near(def.material.restitution, known.material.restitution);
@@ -442,7 +443,7 @@ void Game::check(BodyId id, const Known& known) {
     EXPECT_TRUE(def.mass == known.mass);
   }
   if (known.type == BodyType::fixed) {
-    EXPECT_TRUE(is_none(def.velocity));
+    EXPECT_TRUE(is_none(def.linear_velocity));
   }
 }
 

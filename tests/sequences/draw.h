@@ -87,7 +87,7 @@ class Draw {
       case 6:
         return rounded(hull(3), c);
       case 7:
-        return surface(bad() ? random_.below(8) : random_.below(2));
+        return terrain(bad() ? random_.below(8) : random_.below(2));
       case 8:
       case 9:
         return compound(bad() ? random_.below(8) : 4);
@@ -161,7 +161,7 @@ class Draw {
     now.convergence = random_.below(31);
     now.relaxation = number(0.5, 1.5, wrong);
     now.damping_ratio = number(1, 20, wrong);
-    now.reuse = random_.chance(0.5) ? real(0) : real(0.004);
+    now.contact_recycle_distance = random_.chance(0.5) ? real(0) : real(0.004);
     now.stabilisation = random_.chance(0.5) ? Stabilisation::soft : Stabilisation::post;
     now.reduction = random_.chance(0.5) ? ManifoldReduction::projected_extremes : ManifoldReduction::deepest_area;
     now.continuous = random_.chance(0.7);
@@ -176,7 +176,7 @@ class Draw {
  private:
   Real wild() {
 #if DETENT_FIXED
-    return Real::from_raw(INT64_MIN);  // the largest of all is a spin that a small body may have
+    return Real::from_raw(INT64_MIN);  // the largest of all is an angular velocity that a small body may have
 #else
     return random_.chance(0.5) ? std::numeric_limits<Real>::quiet_NaN() : std::numeric_limits<Real>::infinity();
 #endif

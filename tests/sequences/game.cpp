@@ -213,7 +213,7 @@ void Game::change_world() {
       EXPECT_TRUE(now.substeps == def.substeps && now.substeps_max == def.substeps_max);
       EXPECT_TRUE(now.iterations == def.iterations && now.convergence == def.convergence);
       EXPECT_TRUE(now.relaxation == def.relaxation && now.damping_ratio == def.damping_ratio);
-      EXPECT_TRUE(now.reuse == (capacity().manifolds ? def.reuse : Real(0.0)) &&
+      EXPECT_TRUE(now.contact_recycle_distance == (capacity().manifolds ? def.contact_recycle_distance : Real(0.0)) &&
                   now.stabilisation == def.stabilisation && now.reduction == def.reduction);
       EXPECT_TRUE(now.continuous == def.continuous && now.sleeping == def.sleeping);
       break;

@@ -21,13 +21,13 @@ struct Known {
   Material material = {};
   Real linear_damping = 0.0, angular_damping = 0.0, gravity_scale = 1.0;
   Scaled mass = 0.0;  ///< 0: not known
-  uint32_t user_data = 0, turn_locks = 0;
+  uint32_t user_data = 0, rotation_locks = 0;
   Filter filter = {};
   bool sensor = false;
 
   bool plane() const { return shape.type == ShapeType::half_space; }
   /// Without a volume, and so never dynamic.
-  bool open() const { return plane() || shape.type == ShapeType::surface; }
+  bool open() const { return plane() || shape.type == ShapeType::terrain; }
 };
 
 /// A world, as the documentation of the calls made so far has it.

@@ -18,7 +18,7 @@ void Game::query() {
   const bool shaped = kind == QueryKind::cast || kind == QueryKind::overlap || kind == QueryKind::closest;
   const Shape shape = shaped ? draw_.asked_shape(size_wrong) : Shape();
   const Quat turned = shaped ? draw_.rotation(wrong) : Quat{0.0, 0.0, 0.0, 1.0};
-  wrong = wrong || shape.type == ShapeType::half_space || shape.type == ShapeType::surface ||
+  wrong = wrong || shape.type == ShapeType::half_space || shape.type == ShapeType::terrain ||
           shape.type == ShapeType::compound || lacks_asset(shape);
   Status status = Status::ok;
   switch (kind) {
@@ -26,8 +26,8 @@ void Game::query() {
       status = recorder_->query_ray({from, draw_.vector(8, wrong), filter, all}, hits, report);
       break;
     case QueryKind::cast: {
-      const Vec3<Real> way = draw_.vector(8, wrong), turn = draw_.vector(3, wrong);
-      status = recorder_->query_cast({shape, from, turned, way, turn, filter, all}, hits, report);
+      const Vec3<Real> displacement = draw_.vector(8, wrong), rotation_vector = draw_.vector(3, wrong);
+      status = recorder_->query_cast({shape, from, turned, displacement, rotation_vector, filter, all}, hits, report);
       break;
     }
     case QueryKind::overlap:
@@ -40,8 +40,8 @@ void Game::query() {
       break;
     }
     default: {
-      const Real reach = draw_.number(0, 8, wrong);
-      status = recorder_->query_closest({shape, from, turned, reach, filter, all}, hits, report);
+      const Real distance_max = draw_.number(0, 8, wrong);
+      status = recorder_->query_closest({shape, from, turned, distance_max, filter, all}, hits, report);
       break;
     }
   }
@@ -66,7 +66,7 @@ void Game::check_hits(QueryHits hits, const QueryReport& report, const QueryFilt
     ASSERT_NE(body, nullptr);
     EXPECT_TRUE((body->filter.category & filter.mask) != 0 && (body->filter.mask & filter.category) != 0);
     EXPECT_FALSE(body->sensor || hit.body == filter.ignore);
-    const bool names_triangle = body->shape.type == ShapeType::surface && kind != QueryKind::bounds;
+    const bool names_triangle = body->shape.type == ShapeType::terrain && kind != QueryKind::bounds;
     EXPECT_TRUE((hit.triangle != UINT32_MAX) == names_triangle || hit.undecided);
     note(hit.body);
     note(uint64_t{hit.triangle});
@@ -88,10 +88,10 @@ void Game::move_character() {
   settings.filter.mask = draw_.chance(0.7) ? ~0u : draw_.below(8);
   settings.filter.ignore = pick();
   MoverReport report;
-  const Vec3<Real> way = draw_.vector(0.5, wrong);
+  const Vec3<Real> displacement = draw_.vector(0.5, wrong);
   uint8_t before[k_mover_bytes], after[k_mover_bytes];
   save_mover(mover_, before);
-  const Status status = move_mover(world(), settings, way, mover_, report);
+  const Status status = move_mover(world(), settings, displacement, mover_, report);
   save_mover(mover_, after);
   judge("move_mover", status, true, wrong);
   expect_unchanged();

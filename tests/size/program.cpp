@@ -67,7 +67,7 @@ bool ask(const World& world) {
   const Vec3<Real> down = {0.0, -16.0, 0.0};
   CastQuery cast;
   cast.position = above;
-  cast.way = down;
+  cast.displacement = down;
   return query_ray(world, {above, down}, out, report) == Status::ok && report.hits == 1 &&
          query_cast(world, cast, out, report) == Status::ok && report.hits == 1 &&
          query_overlap(world, {}, out, report) == Status::ok && report.hits == 1 &&
@@ -128,7 +128,7 @@ bool run() {
   def.continuous = has(Features::continuous);
   def.sleeping = has(Features::sleeping);
   if (storage.create(def, world, {}, feature_table<k_features>) != Status::ok) return false;
-  if constexpr (has(Features::hull) || has(Features::surface)) {
+  if constexpr (has(Features::hull) || has(Features::terrain)) {
     if (bind_asset(world, 0) != Status::asset_missing) return false;  // there is none, but its code is linked
   }
   bool good = false;

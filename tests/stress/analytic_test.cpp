@@ -50,13 +50,13 @@ void expect_reached(const char* scene, const char* measure, double value) {
   EXPECT_LE(value, gap != nullptr ? gap->held : wanted->bound) << "wanted " << wanted->bound;
 }
 
-StageBody ball(double mass, const Triple& position, const Triple& velocity) {
+StageBody ball(double mass, const Triple& position, const Triple& linear_velocity) {
   StageBody body;
   body.solid = Solid::sphere;
   body.mass = mass;
   for (size_t i = 0; i < 3; ++i) {
     body.position[i] = position[i];
-    body.velocity[i] = velocity[i];
+    body.linear_velocity[i] = linear_velocity[i];
   }
   return body;
 }
@@ -68,9 +68,9 @@ DETENT_TEST(analytic, a_falling_ball_is_where_galilei_says) {
   for (uint32_t tick = 1; tick <= 240; ++tick) {
     run->step();
     const BodyState now = run->states()[0];
-    const double time = tick / 60.0, way = k_gravity * time * time / 2;
-    ASSERT_NEAR(now.position[1], 100 - way, 100 * k_exact) << tick;
-    ASSERT_NEAR(now.velocity[1], -k_gravity * time, 40 * k_exact) << tick;
+    const double time = tick / 60.0, displacement = k_gravity * time * time / 2;
+    ASSERT_NEAR(now.position[1], 100 - displacement, 100 * k_exact) << tick;
+    ASSERT_NEAR(now.linear_velocity[1], -k_gravity * time, 40 * k_exact) << tick;
     ASSERT_EQ(now.position[0], 3);
   }
 }
@@ -84,7 +84,7 @@ DETENT_TEST(analytic, a_projectile_comes_down_as_fast_as_it_rose_and_as_far_as_i
   EXPECT_NEAR(end.position[0], 120, 120 * k_exact);
   EXPECT_NEAR(end.position[1], 1, 20 * k_exact);
   EXPECT_NEAR(end.position[2], -20, 20 * k_exact);
-  EXPECT_NEAR(end.velocity[1], -rise, rise * k_exact);
+  EXPECT_NEAR(end.linear_velocity[1], -rise, rise * k_exact);
 }
 
 /// A slope that descends towards +x, with a body on it whose centre is half a metre above.
@@ -97,16 +97,16 @@ Stage slope(double tangent, double friction, Solid solid) {
 
 /// The distance and speed of a body down a slope.
 struct Down {
-  double way = 0, speed = 0, spin = 0;
+  double displacement = 0, speed = 0, angular_velocity = 0;
 };
 Down down(const Stage& stage, const States& states) {
   const Triple along = detent_stress::to_world(stage.bodies[0].rotation, {1, 0, 0});
   Down result;
   for (size_t i = 0; i < 3; ++i) {
-    result.way += along[i] * (states[1].position[i] - stage.bodies[1].position[i]);
-    result.speed += along[i] * states[1].velocity[i];
+    result.displacement += along[i] * (states[1].position[i] - stage.bodies[1].position[i]);
+    result.speed += along[i] * states[1].linear_velocity[i];
   }
-  result.spin = -states[1].spin[2];
+  result.angular_velocity = -states[1].angular_velocity[2];
   return result;
 }
 
@@ -119,7 +119,8 @@ DETENT_TEST(analytic, a_box_slides_down_a_slope_at_what_friction_leaves_of_its_p
       const Down first = down(stage, after(stage, 30)), last = down(stage, after(stage, 210));
       EXPECT_NEAR((last.speed - first.speed) / (3 * pull), 1, 2e-3) << tangent << " " << friction;
       // The speed gained in a substep moves the box for the whole substep: half a substep's gain too far.
-      EXPECT_NEAR((last.way - first.way) / (3 * first.speed + 4.5 * pull), 1, 3e-3) << tangent << " " << friction;
+      EXPECT_NEAR((last.displacement - first.displacement) / (3 * first.speed + 4.5 * pull), 1, 3e-3)
+          << tangent << " " << friction;
     }
   }
 }
@@ -130,16 +131,17 @@ DETENT_TEST(analytic, a_ball_rolls_down_a_slope_at_five_sevenths_of_its_pull) {
     const Stage stage = slope(tangent, 0.6, Solid::sphere);
     const Down first = down(stage, after(stage, 30)), last = down(stage, after(stage, 210));
     EXPECT_NEAR((last.speed - first.speed) / (3 * pull), 1, 2e-3) << tangent;
-    EXPECT_NEAR(last.spin * 0.5 / last.speed, 1, 1e-3) << tangent;
+    EXPECT_NEAR(last.angular_velocity * 0.5 / last.speed, 1, 1e-3) << tangent;
   }
 }
 
-DETENT_TEST(analytic, on_a_steep_slope_a_ball_slips_and_its_spin_is_what_friction_gives) {
+DETENT_TEST(analytic, on_a_steep_slope_a_ball_slips_and_its_angular_velocity_is_what_friction_gives) {
   const double tangent = 1.5, friction = 0.2, cosine = 1 / sqrt(1 + tangent * tangent);
   const Stage stage = slope(tangent, friction, Solid::sphere);
   const Down first = down(stage, after(stage, 30)), last = down(stage, after(stage, 150));
   EXPECT_NEAR((last.speed - first.speed) / (2 * k_gravity * cosine * (tangent - friction)), 1, 2e-3);
-  EXPECT_NEAR((last.spin - first.spin) * 0.5 / (2 * 2.5 * friction * k_gravity * cosine), 1, 2e-3);
+  EXPECT_NEAR((last.angular_velocity - first.angular_velocity) * 0.5 / (2 * 2.5 * friction * k_gravity * cosine), 1,
+              2e-3);
 }
 
 Stage pair_of(const StageBody& a, const StageBody& b) {
@@ -158,10 +160,10 @@ DETENT_TEST(analytic, balls_that_meet_head_on_keep_momentum_and_energy) {
     const Stage stage = pair_of(ball(1, {-1.5, 0, 0}, {3, 0, 0}), ball(ratio, {1.5, 0, 0}, {-1, 0, 0}));
     const States end = after(stage, 90);
     const double mean = (3 - ratio) / (1 + ratio);  // both speeds are mirrored at it
-    EXPECT_NEAR(end[0].velocity[0], 2 * mean - 3, 4e-5) << ratio;
-    EXPECT_NEAR(end[1].velocity[0], 2 * mean + 1, 4e-5) << ratio;
+    EXPECT_NEAR(end[0].linear_velocity[0], 2 * mean - 3, 4e-5) << ratio;
+    EXPECT_NEAR(end[1].linear_velocity[0], 2 * mean + 1, 4e-5) << ratio;
     for (const BodyState& state : end) {
-      for (int i = 0; i < 3; ++i) EXPECT_NEAR(state.spin[i], 0, 1e-5);
+      for (int i = 0; i < 3; ++i) EXPECT_NEAR(state.angular_velocity[i], 0, 1e-5);
     }
   }
 }
@@ -179,8 +181,8 @@ DETENT_TEST(analytic, balls_that_meet_off_centre_exchange_what_lies_along_the_li
       for (size_t i = 0; i < 2; ++i) {
         const double first = (i == 0 ? k_speed : 0) - exchanged * line[i], second = exchanged * line[i] / ratio;
         // Contact may be detected up to a tick late, which rotates the line.
-        error = fmax(error, fabs(end[0].velocity[i] - first) / k_speed);
-        error = fmax(error, fabs(end[1].velocity[i] - second) / k_speed);
+        error = fmax(error, fabs(end[0].linear_velocity[i] - first) / k_speed);
+        error = fmax(error, fabs(end[1].linear_velocity[i] - second) / k_speed);
       }
       const detent_stress::Sums before = sums_of(stage, states_at_start(stage)), now = sums_of(stage, end);
       EXPECT_NEAR(now.energy / before.energy, 1, 1e-3) << offset << " " << ratio;
@@ -201,12 +203,13 @@ DETENT_TEST(analytic, a_free_symmetric_top_goes_round_its_angular_momentum) {
   stage.gravity = 0;
   StageBody top;
   top.size[0] = top.size[2] = 0.2;
-  const Triple spin = {2, 10, 1};
-  for (size_t i = 0; i < 3; ++i) top.spin[i] = spin[i];
+  const Triple angular_velocity = {2, 10, 1};
+  for (size_t i = 0; i < 3; ++i) top.angular_velocity[i] = angular_velocity[i];
   stage.bodies = {top};
-  const Triple gyration = detent_stress::gyration_of(top);
-  const Triple momentum = {gyration[0] * spin[0], gyration[1] * spin[1], gyration[2] * spin[2]};
-  const double size = detent_stress::length(momentum), rate = size / gyration[0];
+  const Triple inverse_inertia = detent_stress::inverse_inertia_of(top);
+  const Triple momentum = {inverse_inertia[0] * angular_velocity[0], inverse_inertia[1] * angular_velocity[1],
+                           inverse_inertia[2] * angular_velocity[2]};
+  const double size = detent_stress::length(momentum), rate = size / inverse_inertia[0];
   const Triple axis = {momentum[0] / size, momentum[1] / size, momentum[2] / size};
   const auto run = made(stage);
   double error = 0;
@@ -226,8 +229,8 @@ DETENT_TEST(analytic, a_free_rod_that_turns_end_over_end_keeps_its_energy) {
       stage.gravity = 0;
       StageBody rod;
       rod.size[0] = rod.size[2] = 0.01;
-      rod.spin[0] = speed * cos(angle);
-      rod.spin[2] = speed * sin(angle);
+      rod.angular_velocity[0] = speed * cos(angle);
+      rod.angular_velocity[2] = speed * sin(angle);
       stage.bodies = {rod};
       const double before = sums_of(stage, states_at_start(stage)).energy;
       const auto run = made(stage);
@@ -248,24 +251,25 @@ DETENT_TEST(analytic, a_gyroscope_precesses_at_the_torque_over_its_angular_momen
   WorldDef world;
   world.gravity = {0.0, 0.0, 0.0};
   Lab lab({1, 1, 0}, world);
-  const double mass = 2, arm = 0.1, spin = 200, radius = 0.1;
+  const double mass = 2, arm = 0.1, angular_velocity = 200, radius = 0.1;
   BodyDef def;
   def.shape = sphere(real(radius));
   def.mass = scaled(mass);
-  def.spin = reals(spin, 0, 0);
+  def.angular_velocity = reals(angular_velocity, 0, 0);
   const BodyId id = lab.add(def);
   const double torque = arm * mass * k_gravity, given = torque / 60;
-  double angle = 0, right = 0, axis[3] = {1, 0, 0}, momentum = 0.4 * mass * radius * radius * spin;
+  double angle = 0, right = 0, axis[3] = {1, 0, 0}, momentum = 0.4 * mass * radius * radius * angular_velocity;
   const double rate = torque / momentum;
   for (uint32_t tick = 0; tick < 600; ++tick) {
     // The torque of the weight, -y, at `arm` along the axis.
     EXPECT_OK(apply_torque(lab.world, id, scaleds(torque * axis[2], 0, -torque * axis[0])));
     lab.run(1);
     const Motion motion = lab.motion(id);
-    const double size = sqrt(motion.spin[0] * motion.spin[0] + motion.spin[2] * motion.spin[2]);
+    const double size = sqrt(motion.angular_velocity[0] * motion.angular_velocity[0] +
+                             motion.angular_velocity[2] * motion.angular_velocity[2]);
     const double before[3] = {axis[0], 0, axis[2]};
-    axis[0] = motion.spin[0] / size;
-    axis[2] = motion.spin[2] / size;
+    axis[0] = motion.angular_velocity[0] / size;
+    axis[2] = motion.angular_velocity[2] / size;
     angle += asin(before[0] * axis[2] - before[2] * axis[0]);
     // Applied for a tick across the angular momentum, the torque rotates it and increases it.
     right += atan(given / momentum);
@@ -273,7 +277,7 @@ DETENT_TEST(analytic, a_gyroscope_precesses_at_the_torque_over_its_angular_momen
   }
   EXPECT_NEAR(fabs(angle) / right, 1, 1e-3);
   EXPECT_NEAR(right / (rate * 10), 1, 0.1) << "of steady precession";
-  EXPECT_NEAR(lab.motion(id).spin[1], 0, 1e-3);
+  EXPECT_NEAR(lab.motion(id).angular_velocity[1], 0, 1e-3);
 }
 
 DETENT_TEST(analytic, a_wave_of_dominoes_runs_at_one_speed) {

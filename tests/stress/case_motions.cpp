@@ -18,9 +18,9 @@ void run_chain(const Trial& trial, Outcome& outcome, double ratio) {
   outcome.add("stretch_late", late_mean(stretches));
 }
 
-void run_spin(const Trial& trial, Outcome& outcome) {
+void run_angular_velocity(const Trial& trial, Outcome& outcome) {
   constexpr double k_flips = 74, k_degree = 3.14159265358979 / 180;
-  const Stage stage = varied(free_spin(), trial.seed);
+  const Stage stage = varied(free_angular_velocity(), trial.seed);
   Ride ride(trial, stage, outcome);
   if (!ride.good()) return;
   const Sums start = sums_of(ride.stage(), ride.states());
@@ -29,8 +29,9 @@ void run_spin(const Trial& trial, Outcome& outcome) {
   for (uint32_t tick = 1; tick <= stage.ticks; ++tick) {
     ride.step();
     const States states = ride.states();
-    const double* spin = states[0].spin;
-    if (to_local(states[0].rotation, {spin[0], spin[1], spin[2]})[1] * side < -5 / sqrt(ride.stage().unit)) {
+    const double* angular_velocity = states[0].angular_velocity;
+    if (to_local(states[0].rotation, {angular_velocity[0], angular_velocity[1], angular_velocity[2]})[1] * side <
+        -5 / sqrt(ride.stage().unit)) {
       ++flips;
       side = -side;
     }
@@ -86,13 +87,13 @@ void run_dominoes(const Trial& trial, Outcome& outcome, uint32_t count) {
     disorder += i > 0 && struck[i] < struck[i - 1] ? 1u : 0u;
     last = std::max(last, fell[i]);
   }
-  const std::array<double, 3> way = from_first(row.back());
+  const std::array<double, 3> displacement = from_first(row.back());
   const States states = ride.states();
   double sideways = 0;
   for (const size_t i : row) {
     const double x = states[i].position[0] - placed.bodies[i].position[0];
     const double z = states[i].position[2] - placed.bodies[i].position[2];
-    sideways = fmax(sideways, fabs(x * way[2] - z * way[0]) / length(way));
+    sideways = fmax(sideways, fabs(x * displacement[2] - z * displacement[0]) / length(displacement));
   }
   outcome.add("standing", standing);
   outcome.add("disorder", disorder);
@@ -111,15 +112,15 @@ void run_incline(const Trial& trial, Outcome& outcome, double part) {
   const BodyState start = ride.states()[1];
   const uint32_t ticks = trial.pick(3600, 600, 600);
   ride.skip(ticks);
-  const double way = ride.length(along(ride.states()[1].position) - along(start.position));
+  const double displacement = ride.length(along(ride.states()[1].position) - along(start.position));
   if (part < 1) {
-    outcome.add("creep", fabs(way));
+    outcome.add("creep", fabs(displacement));
     return;
   }
   const double tangent = k_friction * part, cosine = 1 / sqrt(1 + tangent * tangent);
   const double pull = stage.gravity * cosine * (tangent - k_friction), time = ticks / 60.0;
-  const double right = ride.speed(along(start.velocity)) * time + pull * time * time / 2;
-  outcome.add("distance", fabs(way / right - 1));
+  const double right = ride.speed(along(start.linear_velocity)) * time + pull * time * time / 2;
+  outcome.add("distance", fabs(displacement / right - 1));
 }
 
 void run_bounce(const Trial& trial, Outcome& outcome) {
@@ -132,7 +133,7 @@ void run_bounce(const Trial& trial, Outcome& outcome) {
   for (uint32_t tick = 1; tick <= stage.ticks; ++tick) {
     ride.step();
     const BodyState ball = ride.states()[1];
-    const double height = ride.length(ball.position[1]), rise = ride.speed(ball.velocity[1]);
+    const double height = ride.length(ball.position[1]), rise = ride.speed(ball.linear_velocity[1]);
     if (before <= 0 && rise > 0) ++bounces;
     if (before > 0 && rise <= 0) {
       // The height at the tick nearest to the apex, plus the remaining rise or the drop since the apex.

@@ -44,8 +44,8 @@ uint32_t fallen(const Stage& stage, const States& states, double distance) {
     if (stage.bodies[i].role != Role::dynamic) continue;
     double square = 0;
     for (int k = 0; k < 3; ++k) {
-      const double way = states[i].position[k] - stage.bodies[i].position[k];
-      square += way * way;
+      const double displacement = states[i].position[k] - stage.bodies[i].position[k];
+      square += displacement * displacement;
     }
     count += square <= distance * distance ? 0 : 1;
   }

@@ -32,16 +32,17 @@ Point turn_between(const BodyState& from, const BodyState& to, double time) {
   const double w = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3], sine = length(v);
   if (sine < 1e-12) return {0, 0, 0};
   double angle = 2 * atan2(sine, w), along = 0;
-  for (size_t i = 0; i < 3; ++i) along += v[i] / sine * to.spin[i] * time;
+  for (size_t i = 0; i < 3; ++i) along += v[i] / sine * to.angular_velocity[i] * time;
   angle += k_two_pi * rint((along - angle) / k_two_pi);
   return {v[0] / sine * angle, v[1] / sine * angle, v[2] / sine * angle};
 }
 
 /// The body's state at a fraction of a tick, with constant linear and angular velocity.
-BodyState state_between(const BodyState& from, const BodyState& to, const Point& turn, double part) {
+BodyState state_between(const BodyState& from, const BodyState& to, const Point& rotation_vector, double part) {
   BodyState state = to;
-  const double angle = length(turn) * part, half = angle > 0 ? sin(angle / 2) / length(turn) : 0;
-  const double q[4] = {turn[0] * half, turn[1] * half, turn[2] * half, cos(angle / 2)}, *r = from.rotation;
+  const double angle = length(rotation_vector) * part, half = angle > 0 ? sin(angle / 2) / length(rotation_vector) : 0;
+  const double q[4] = {rotation_vector[0] * half, rotation_vector[1] * half, rotation_vector[2] * half, cos(angle / 2)},
+               *r = from.rotation;
   const double product[4] = {
       q[3] * r[0] + q[0] * r[3] + q[1] * r[2] - q[2] * r[1], q[3] * r[1] - q[0] * r[2] + q[1] * r[3] + q[2] * r[0],
       q[3] * r[2] + q[0] * r[1] - q[1] * r[0] + q[2] * r[3], q[3] * r[3] - q[0] * r[0] - q[1] * r[1] - q[2] * r[2]};
@@ -60,9 +61,9 @@ Flight fly(Ride& ride) {
   const StageBody& slab = ride.stage().bodies[0];
   const StageBody& shot = ride.stage().bodies[1];
   const bool rod = shot.solid == Solid::box;
-  const double reach = rod ? shot.size[1] : shot.size[0];
+  const double distance_max = rod ? shot.size[1] : shot.size[0];
   // Nearer to the rim, the projectile may pass beside the target.
-  const double side = slab.size[0] - reach;
+  const double side = slab.size[0] - distance_max;
   Flight flight;
   // A rotating target moves away from the projectile's straight path within a tick, so each tick is tested in parts.
   constexpr uint32_t k_parts = 64;
@@ -74,11 +75,11 @@ Flight fly(Ride& ride) {
     const States before = states;
     ride.step();
     states = ride.states();
-    const Point turn = turn_between(before[0], states[0], ride.stage().tick);
+    const Point rotation_vector = turn_between(before[0], states[0], ride.stage().tick);
     Point from = centre_in(before[0], before[1]);
     for (uint32_t i = 1; i <= k_parts; ++i) {
       const double part = static_cast<double>(i) / k_parts;
-      const BodyState target = i == k_parts ? states[0] : state_between(before[0], states[0], turn, part);
+      const BodyState target = i == k_parts ? states[0] : state_between(before[0], states[0], rotation_vector, part);
       const Point to = centre_in(target, state_between(before[1], states[1], {0, 0, 0}, part));
       if (crosses(from, to, side)) {
         flight.wrong_side = true;
@@ -105,16 +106,16 @@ double rebound_error(const Ride& ride) {
   const BodyState now = ride.states()[1];
   const Point normal = to_world(stage.bodies[0].rotation, {0, 0, 1});
   double along = 0;
-  for (size_t i = 0; i < 3; ++i) along += normal[i] * stage.bodies[1].velocity[i];
+  for (size_t i = 0; i < 3; ++i) along += normal[i] * stage.bodies[1].linear_velocity[i];
   Point tangential;
-  for (size_t i = 0; i < 3; ++i) tangential[i] = stage.bodies[1].velocity[i] - along * normal[i];
+  for (size_t i = 0; i < 3; ++i) tangential[i] = stage.bodies[1].linear_velocity[i] - along * normal[i];
   // Friction slows the ball until it rolls; then 2/7 of its speed along the wall are lost.
   const double speed = length(tangential), friction = stage.bodies[1].friction;
   const double left = speed > 0 ? 1 - fmin(friction * fabs(along) / speed, 2.0 / 7) : 0;
   double square = 0, whole = 0;
   for (size_t i = 0; i < 3; ++i) {
-    square += (now.velocity[i] - tangential[i] * left) * (now.velocity[i] - tangential[i] * left);
-    whole += stage.bodies[1].velocity[i] * stage.bodies[1].velocity[i];
+    square += (now.linear_velocity[i] - tangential[i] * left) * (now.linear_velocity[i] - tangential[i] * left);
+    whole += stage.bodies[1].linear_velocity[i] * stage.bodies[1].linear_velocity[i];
   }
   return sqrt(square / whole);
 }

@@ -28,7 +28,7 @@ Real real(double value) {
   return result;
 }
 
-detent::Pose pose_of(const BodyState& state, const double (&origin)[3], const std::array<double, 4>& turn) {
+detent::Pose pose_of(const BodyState& state, const double (&origin)[3], const std::array<double, 4>& rotation_vector) {
   detent::Pose pose;
   detent::Coord* const coordinates[3] = {&pose.position.x, &pose.position.y, &pose.position.z};
   for (int i = 0; i < 3; ++i) {
@@ -36,10 +36,11 @@ detent::Pose pose_of(const BodyState& state, const double (&origin)[3], const st
     static_cast<void>(detent::coord_from_host(state.position[i] - origin[i], *coordinates[i]));
   }
   const double(&a)[4] = state.rotation;
-  double q[4] = {a[3] * turn[0] + a[0] * turn[3] + a[1] * turn[2] - a[2] * turn[1],
-                 a[3] * turn[1] - a[0] * turn[2] + a[1] * turn[3] + a[2] * turn[0],
-                 a[3] * turn[2] + a[0] * turn[1] - a[1] * turn[0] + a[2] * turn[3],
-                 a[3] * turn[3] - a[0] * turn[0] - a[1] * turn[1] - a[2] * turn[2]};
+  double q[4] = {
+      a[3] * rotation_vector[0] + a[0] * rotation_vector[3] + a[1] * rotation_vector[2] - a[2] * rotation_vector[1],
+      a[3] * rotation_vector[1] - a[0] * rotation_vector[2] + a[1] * rotation_vector[3] + a[2] * rotation_vector[0],
+      a[3] * rotation_vector[2] + a[0] * rotation_vector[1] - a[1] * rotation_vector[0] + a[2] * rotation_vector[3],
+      a[3] * rotation_vector[3] - a[0] * rotation_vector[0] - a[1] * rotation_vector[1] - a[2] * rotation_vector[2]};
   const double norm = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
   detent::Unit* const units[4] = {&pose.rotation.x, &pose.rotation.y, &pose.rotation.z, &pose.rotation.w};
   for (int i = 0; i < 4; ++i) {
@@ -101,13 +102,13 @@ Depths DepthMeter::measure(const States& states) const {
     const uint32_t a = order[first];
     for (size_t second = first + 1; second < order.size(); ++second) {
       const uint32_t b = order[second];
-      const double reach = solids.radii[a] + solids.radii[b];
+      const double distance_max = solids.radii[a] + solids.radii[b];
       if (low(b) > states[a].position[0] + solids.radii[a]) break;
       if (!solids.moves[a] && !solids.moves[b]) continue;
       double square = 0;
       for (int i = 0; i < 3; ++i)
         square += (states[a].position[i] - states[b].position[i]) * (states[a].position[i] - states[b].position[i]);
-      if (!(square < reach * reach)) continue;
+      if (!(square < distance_max * distance_max)) continue;
       detent::ContactManifold manifold;
       if (contact_points(solids.convexes[a], poses[a], solids.convexes[b], poses[b], real(0), manifold) !=
           detent::Status::ok)

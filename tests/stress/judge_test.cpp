@@ -39,7 +39,7 @@ class FaultyRun : public detent_stress::Run {
     if (fault_ == Fault::still || fault_ == Fault::losing) return counts;
     for (size_t i = 0; i < states_.size(); ++i) {
       BodyState& state = states_[i];
-      for (int k = 0; k < 3; ++k) state.position[k] += state.velocity[k] * stage_.tick;
+      for (int k = 0; k < 3; ++k) state.position[k] += state.linear_velocity[k] * stage_.tick;
       if (i == 0 || fault_ == Fault::ghostly) continue;
       const BodyState& target = states_[0];
       std::array<double, 3> from;
@@ -49,14 +49,15 @@ class FaultyRun : public detent_stress::Run {
       // The body moves to the target's plane, or back to its start.
       const bool turns = fault_ == Fault::turning;
       for (size_t k = 0; k < 3; ++k) {
-        state.position[k] = turns ? state.position[k] - state.velocity[k] * stage_.tick : target.position[k];
-        state.velocity[k] = turns ? -state.velocity[k] : 0;
+        state.position[k] = turns ? state.position[k] - state.linear_velocity[k] * stage_.tick : target.position[k];
+        state.linear_velocity[k] = turns ? -state.linear_velocity[k] : 0;
       }
       if (turns) continue;
       // Upright on the plane: a rotation by a right angle maps y to z.
-      const double half = sqrt(0.5), turn[4] = {half, 0, 0, half}, *q = target.rotation;
-      const double upright[4] = {q[3] * turn[0] + q[0] * turn[3], q[1] * turn[3] + q[2] * turn[0],
-                                 q[2] * turn[3] - q[1] * turn[0], q[3] * turn[3] - q[0] * turn[0]};
+      const double half = sqrt(0.5), rotation_vector[4] = {half, 0, 0, half}, *q = target.rotation;
+      const double upright[4] = {
+          q[3] * rotation_vector[0] + q[0] * rotation_vector[3], q[1] * rotation_vector[3] + q[2] * rotation_vector[0],
+          q[2] * rotation_vector[3] - q[1] * rotation_vector[0], q[3] * rotation_vector[3] - q[0] * rotation_vector[0]};
       for (int k = 0; k < 4; ++k) state.rotation[k] = upright[k];
       for (size_t k = 0; k < 3; ++k) state.position[k] += 1e-6 * detent_stress::to_world(target.rotation, {0, 0, 1})[k];
     }
@@ -116,15 +117,15 @@ DETENT_TEST(judge, sees_what_does_not_move_at_all) {
   EXPECT_EQ(measured("pyramid", Fault::still, "drift"), 0);
   EXPECT_EQ(measured("pyramid", Fault::still, "fallen"), 0);
   EXPECT_EQ(measured("dominoes", Fault::still, "standing"), 10);
-  EXPECT_EQ(measured("spin", Fault::still, "flips"), 74);
+  EXPECT_EQ(measured("angular_velocity", Fault::still, "flips"), 74);
   EXPECT_EQ(measured("incline_slides", Fault::still, "distance"), 1);
   EXPECT_EQ(measured("bounce", Fault::still, "bounces"), 0);
   EXPECT_EQ(measured("bounce", Fault::still, "apex"), 5) << "of no bounce at all";
 }
 
 DETENT_TEST(judge, counts_what_is_lost_and_what_is_another_far_away) {
-  EXPECT_EQ(measured("spin", Fault::losing, "lost"), 10000);
-  EXPECT_EQ(measured("spin", Fault::still, "lost"), 0);
+  EXPECT_EQ(measured("angular_velocity", Fault::losing, "lost"), 10000);
+  EXPECT_EQ(measured("angular_velocity", Fault::still, "lost"), 0);
   EXPECT_EQ(measured("far_1km", Fault::still, "ticks_differ"), 30) << "its digest is not relative";
 }
 
@@ -132,7 +133,7 @@ DETENT_TEST(judge, finds_bounds_by_scene_configuration_and_scale) {
   const auto* tower = detent_stress::find_wanted("tower_40", "drift");
   ASSERT_NE(tower, nullptr);
   EXPECT_EQ(tower->bound, 0.05);
-  EXPECT_NE(detent_stress::find_wanted("spin", "lost"), nullptr) << "of every scene";
+  EXPECT_NE(detent_stress::find_wanted("angular_velocity", "lost"), nullptr) << "of every scene";
   EXPECT_EQ(detent_stress::find_wanted("tower_40", "escaped"), nullptr);
   EXPECT_TRUE(detent_stress::is_refused("far_100km", "fx32", 1));
   EXPECT_FALSE(detent_stress::is_refused("far_100km", "fx64", 1));

@@ -79,7 +79,8 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--substeps", options.settings.substeps, "Instead of the library's default");
   app.add_option("--iterations", options.settings.iterations, "Instead of the library's default");
-  app.add_option("--reuse", options.settings.reuse, "Instead of the library's default; 0: contact points always anew");
+  app.add_option("--reuse", options.settings.contact_recycle_distance,
+                 "Instead of the library's default; 0: contact points always anew");
   app.add_option("--reduction", options.settings.reduction, "1 projected extremes, 2 deepest and area");
   app.add_flag(
       "--full", [&options](int64_t) { options.effort = Effort::full; },

@@ -59,7 +59,7 @@ double speed_mean(const Stage& stage, const States& states) {
   uint32_t count = 0;
   for (size_t i = 0; i < states.size(); ++i) {
     if (!can_move(stage.bodies[i])) continue;
-    sum += length(triple(states[i].velocity));
+    sum += length(triple(states[i].linear_velocity));
     ++count;
   }
   return count != 0 ? sum / count : 0;
@@ -89,18 +89,18 @@ Sums sums_of(const Stage& stage, const States& states) {
     if (!can_move(body)) continue;
     const BodyState& state = states[i];
     const double mass = mass_of(body);
-    const Triple velocity = triple(state.velocity), position = triple(state.position);
-    const Triple spin = to_local(state.rotation, triple(state.spin));
-    const std::array<double, 3> gyration = gyration_of(body);
+    const Triple linear_velocity = triple(state.linear_velocity), position = triple(state.position);
+    const Triple angular_velocity = to_local(state.rotation, triple(state.angular_velocity));
+    const std::array<double, 3> inverse_inertia = inverse_inertia_of(body);
     Triple own;
     double turning = 0;
     for (size_t axis = 0; axis < 3; ++axis) {
-      own[axis] = mass * gyration[axis] * spin[axis];
-      turning += own[axis] * spin[axis] / 2;
+      own[axis] = mass * inverse_inertia[axis] * angular_velocity[axis];
+      turning += own[axis] * angular_velocity[axis] / 2;
     }
-    sums.linear = sums.linear + velocity * mass;
-    sums.angular = sums.angular + to_world(state.rotation, own) + cross(position, velocity * mass);
-    sums.energy += mass * dot(velocity, velocity) / 2 + turning;
+    sums.linear = sums.linear + linear_velocity * mass;
+    sums.angular = sums.angular + to_world(state.rotation, own) + cross(position, linear_velocity * mass);
+    sums.energy += mass * dot(linear_velocity, linear_velocity) / 2 + turning;
     sums.potential += mass * stage.gravity * position[1];
   }
   return sums;

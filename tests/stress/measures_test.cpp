@@ -55,7 +55,7 @@ bool holds(const StageBody& body, const double (&p)[3]) {
 const StageBody k_solids[] = {solid(Solid::box, 0.3, 0.5, 0.2), solid(Solid::sphere, 0.4, 0, 0),
                               solid(Solid::capsule, 0.2, 0.3, 0), solid(Solid::icosahedron, 0.5, 0, 0)};
 
-DETENT_TEST(measures, mass_and_gyration_are_those_of_points_spread_over_the_body) {
+DETENT_TEST(measures, mass_and_inverse_inertia_are_those_of_points_spread_over_the_body) {
   for (const StageBody& body : k_solids) {
     constexpr uint32_t k_points = 400000;
     detent_queries::Random random(2);
@@ -69,9 +69,9 @@ DETENT_TEST(measures, mass_and_gyration_are_those_of_points_spread_over_the_body
       for (int k = 0; k < 3; ++k) squares[k] += p[k] * p[k];
     }
     EXPECT_NEAR(count / k_points * cube * body.density / mass_of(body), 1, 0.015);
-    const std::array<double, 3> gyration = gyration_of(body);
+    const std::array<double, 3> inverse_inertia = inverse_inertia_of(body);
     for (size_t k = 0; k < 3; ++k)
-      EXPECT_NEAR((squares[(k + 1) % 3] + squares[(k + 2) % 3]) / count / gyration[k], 1, 0.015);
+      EXPECT_NEAR((squares[(k + 1) % 3] + squares[(k + 2) % 3]) / count / inverse_inertia[k], 1, 0.015);
   }
 }
 
@@ -133,8 +133,8 @@ DETENT_TEST(measures, sums_are_those_of_a_body_that_moves_and_turns) {
   for (int i = 0; i < 4; ++i) body.rotation[i] = rotation[i];
   body.position[0] = 3;
   body.position[1] = 1;
-  body.velocity[1] = 4;
-  body.spin[2] = 5;
+  body.linear_velocity[1] = 4;
+  body.angular_velocity[2] = 5;
   stage.bodies = {body};
   const detent_stress::Sums sums = sums_of(stage, states_at_start(stage));
   const double inertia = 2 * (0.3 * 0.3 + 0.2 * 0.2) / 3;

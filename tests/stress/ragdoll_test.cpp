@@ -20,21 +20,22 @@ constexpr double k_speed_max = 60, k_energy_gain = 1.1, k_gap = 0.01 * ragdoll::
 
 /// A vector of random direction and of a length up to `most`.
 Vector any_vector(Random& random, double most) {
-  const detent_queries::Triple way = random.direction();
+  const detent_queries::Triple displacement = random.direction();
   const double size = random.uniform(0, most);
-  return {way[0] * size, way[1] * size, way[2] * size};
+  return {displacement[0] * size, displacement[1] * size, displacement[2] * size};
 }
 Vec3<Real> reals_of(Vector v) { return reals(v.x, v.y, v.z); }
 
 /// Gives the figure a random pose and throws it as one rigid body.
 void throw_any_way(Lab& lab, const ragdoll::Ragdoll& figure, Random& random) {
-  const Vector turn = any_vector(random, 3.1), velocity = any_vector(random, 20), spin = any_vector(random, 10);
-  EXPECT_OK(ragdoll::throw_figure(lab.world, figure, reals_of(turn), reals_of(velocity)));
+  const Vector rotation_vector = any_vector(random, 3.1), linear_velocity = any_vector(random, 20),
+               angular_velocity = any_vector(random, 10);
+  EXPECT_OK(ragdoll::throw_figure(lab.world, figure, reals_of(rotation_vector), reals_of(linear_velocity)));
   const auto place = [&](BodyId id) { return joint_end(lab.world, id, reals(0, 0, 0), BodyDef().rotation).anchor; };
   const Vector middle = place(figure.part[0]);
   for (const BodyId id : figure.part) {
-    const Vector with_spin = velocity + cross(spin, place(id) - middle);
-    EXPECT_OK(set_velocity(lab.world, id, reals_of(with_spin), reals_of(spin)));
+    const Vector with_angular_velocity = linear_velocity + cross(angular_velocity, place(id) - middle);
+    EXPECT_OK(set_velocity(lab.world, id, reals_of(with_angular_velocity), reals_of(angular_velocity)));
   }
 }
 
@@ -50,12 +51,14 @@ struct Energy {
       EXPECT_OK(get_mass(lab.world, id, mass));
       EXPECT_OK(get_inertia(lab.world, id, inertia));
       const JointEnd axes = joint_end(lab.world, id, reals(0, 0, 0), BodyDef().rotation);
-      const Vector velocity = {motion.velocity[0], motion.velocity[1], motion.velocity[2]};
-      const Vector spin = {motion.spin[0], motion.spin[1], motion.spin[2]};
+      const Vector linear_velocity = {motion.linear_velocity[0], motion.linear_velocity[1], motion.linear_velocity[2]};
+      const Vector angular_velocity = {motion.angular_velocity[0], motion.angular_velocity[1],
+                                       motion.angular_velocity[2]};
       const double moment[3] = {scaled_to_host(inertia.x), scaled_to_host(inertia.y), scaled_to_host(inertia.z)};
-      sum += scaled_to_host(mass) * (dot(velocity, velocity) / 2 + 9.81 * motion.position[1]);
-      for (int i = 0; i < 3; ++i) sum += moment[i] * dot(spin, axes.axis[i]) * dot(spin, axes.axis[i]) / 2;
-      fastest = std::max(fastest, length(velocity));
+      sum += scaled_to_host(mass) * (dot(linear_velocity, linear_velocity) / 2 + 9.81 * motion.position[1]);
+      for (int i = 0; i < 3; ++i)
+        sum += moment[i] * dot(angular_velocity, axes.axis[i]) * dot(angular_velocity, axes.axis[i]) / 2;
+      fastest = std::max(fastest, length(linear_velocity));
     }
   }
 };

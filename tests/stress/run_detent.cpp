@@ -46,7 +46,7 @@ void from_vector(const Vec3<Real>& v, double (&result)[3]) {
 }
 
 /// The product a b of quaternions x, y, z, w; `sign` -1 uses the inverse of b.
-void turn(const double (&a)[4], const std::array<double, 4>& b, double sign, double (&result)[4]) {
+void rotation_vector(const double (&a)[4], const std::array<double, 4>& b, double sign, double (&result)[4]) {
   const double x = sign * b[0], y = sign * b[1], z = sign * b[2], w = b[3];
   const double product[4] = {a[3] * x + a[0] * w + a[1] * z - a[2] * y, a[3] * y - a[0] * z + a[1] * w + a[2] * x,
                              a[3] * z + a[0] * y - a[1] * x + a[2] * w, a[3] * w - a[0] * x - a[1] * y - a[2] * z};
@@ -85,8 +85,10 @@ class DetentRun : public detent_stress::Run {
     if (const Status status = real_from_host(stage.tick, def.tick); status != Status::ok) return status;
     if (settings.substeps) def.substeps = *settings.substeps;
     if (settings.iterations) def.iterations = *settings.iterations;
-    if (settings.reuse) {
-      if (const Status status = real_from_host(*settings.reuse, def.reuse); status != Status::ok) return status;
+    if (settings.contact_recycle_distance) {
+      if (const Status status = real_from_host(*settings.contact_recycle_distance, def.contact_recycle_distance);
+          status != Status::ok)
+        return status;
     }
     if (settings.reduction) def.reduction = static_cast<ManifoldReduction>(*settings.reduction);
     def.sleeping = stage.sleeping;
@@ -124,18 +126,18 @@ class DetentRun : public detent_stress::Run {
     States states;
     for (const Body& body : bodies_) {
       Pose pose;
-      Vec3<Real> velocity, spin;
+      Vec3<Real> linear_velocity, angular_velocity;
       BodyState state;
       if (get_pose(world_, body.id, pose) == Status::ok &&
-          get_velocity(world_, body.id, velocity, spin) == Status::ok) {
+          get_velocity(world_, body.id, linear_velocity, angular_velocity) == Status::ok) {
         const Quat& q = pose.rotation;
         state.position[0] = coord_to_host(pose.position.x);
         state.position[1] = coord_to_host(pose.position.y);
         state.position[2] = coord_to_host(pose.position.z);
         const double rotation[4] = {unit_to_host(q.x), unit_to_host(q.y), unit_to_host(q.z), unit_to_host(q.w)};
-        turn(rotation, body.cooked, -1, state.rotation);
-        from_vector(velocity, state.velocity);
-        from_vector(spin, state.spin);
+        rotation_vector(rotation, body.cooked, -1, state.rotation);
+        from_vector(linear_velocity, state.linear_velocity);
+        from_vector(angular_velocity, state.angular_velocity);
       }
       states.push_back(state);
     }
@@ -149,15 +151,17 @@ class DetentRun : public detent_stress::Run {
     const auto add = [&running](auto value) { running = digest_step(running, bits_of(value)); };
     Pose origin, pose;
     for (const Body& body : bodies_) {
-      Vec3<Real> velocity, spin;
+      Vec3<Real> linear_velocity, angular_velocity;
       if (get_pose(world_, bodies_[0].id, origin) != Status::ok || get_pose(world_, body.id, pose) != Status::ok ||
-          get_velocity(world_, body.id, velocity, spin) != Status::ok)
+          get_velocity(world_, body.id, linear_velocity, angular_velocity) != Status::ok)
         continue;
       add(pose.position.x - origin.position.x);
       add(pose.position.y - origin.position.y);
       add(pose.position.z - origin.position.z);
       for (const Unit value : {pose.rotation.x, pose.rotation.y, pose.rotation.z, pose.rotation.w}) add(value);
-      for (const Real value : {velocity.x, velocity.y, velocity.z, spin.x, spin.y, spin.z}) add(value);
+      for (const Real value : {linear_velocity.x, linear_velocity.y, linear_velocity.z, angular_velocity.x,
+                               angular_velocity.y, angular_velocity.z})
+        add(value);
     }
     return digest_finish(running);
   }
@@ -197,9 +201,10 @@ class DetentRun : public detent_stress::Run {
                : body.role == Role::kinematic ? BodyType::kinematic
                                               : BodyType::dynamic;
     double rotation[4];
-    turn(body.rotation, made.cooked, 1, rotation);
+    rotation_vector(body.rotation, made.cooked, 1, rotation);
     if (!to_position(body.position, def.position) || !to_rotation(rotation, def.rotation) ||
-        !to_vector(body.velocity, def.velocity) || !to_vector(body.spin, def.spin))
+        !to_vector(body.linear_velocity, def.linear_velocity) ||
+        !to_vector(body.angular_velocity, def.angular_velocity))
       return Status::out_of_range;
     for (const Status status : {scaled_from_host(body.density, def.density), scaled_from_host(body.mass, def.mass),
                                 real_from_host(body.friction, def.material.friction),

@@ -170,12 +170,12 @@ Stage paper_shot(Target target, Projectile projectile, double speed, uint64_t se
   stage.ticks = 13;  // the projectile reaches the target in the first tick, and 12 ticks more
   const bool wall = target == Target::wall;
   Random random(seed);
-  const Rotation turn = random.rotation();
+  const Rotation rotation_vector = random.rotation();
 
   const double half = wall ? 5 : 1;
   StageBody slab = body_of(Solid::box, {half, half, 0.005}, {0, 0, 0});
   slab.role = wall ? Role::fixed : Role::dynamic;
-  set(slab.rotation, turn);
+  set(slab.rotation, rotation_vector);
   stage.bodies.push_back(slab);
 
   const double spread = wall ? 2 : 0.1;  // m
@@ -183,15 +183,15 @@ Stage paper_shot(Target target, Projectile projectile, double speed, uint64_t se
   while (length(aim) > spread) aim = {random.uniform(-spread, spread), random.uniform(-spread, spread), 0};
   const Triple back = near_z(random, wall ? k_cosine_60_degrees : k_cosine_1_degree);
   const double distance = 0.8 + random.uniform(0.3, 1.3) * speed * stage.tick;
-  StageBody shot = body_of(Solid::sphere, {0.05, 0, 0}, rotate(turn, aim + back * distance));
+  StageBody shot = body_of(Solid::sphere, {0.05, 0, 0}, rotate(rotation_vector, aim + back * distance));
   shot.density = 7800;
   const Rotation rotation = random.rotation();
   set(shot.rotation, rotation);
-  set(shot.velocity, rotate(turn, back * -speed));
+  set(shot.linear_velocity, rotate(rotation_vector, back * -speed));
   if (projectile == Projectile::rod) {
     shot.solid = Solid::box;
     set(shot.size, Triple{0.01, 0.5, 0.01});
-    set(shot.spin, random.perpendicular(rotate(rotation, Triple{0, 1, 0})) * 40);
+    set(shot.angular_velocity, random.perpendicular(rotate(rotation, Triple{0, 1, 0})) * 40);
   }
   stage.bodies.push_back(shot);
   return stage;
@@ -231,13 +231,13 @@ Stage chain(uint32_t links, double ratio) {
   return stage;
 }
 
-Stage free_spin() {
+Stage free_angular_velocity() {
   Stage stage;
-  stage.name = "free_spin";
+  stage.name = "free_angular_velocity";
   stage.gravity = 0;
   stage.ticks = 10000;
   StageBody body = body_of(Solid::box, {0.5, 0.2, 0.05}, {0, 0, 0});
-  set(body.spin, Triple{0.01, 10, 0.01});
+  set(body.angular_velocity, Triple{0.01, 10, 0.01});
   stage.bodies.push_back(body);
   return stage;
 }

@@ -56,8 +56,8 @@ BodyDef any_body(Random& random) {
   const detent_queries::Rotation q = random.rotation();
   def.rotation = {unit(q[0]), unit(q[1]), unit(q[2]), unit(q[3])};
   def.position = position(place[0], place[1] + 6, place[2]);
-  def.velocity = reals_of(any_triple(random, -4, 4));
-  def.spin = reals_of(any_triple(random, -5, 5));
+  def.linear_velocity = reals_of(any_triple(random, -4, 4));
+  def.angular_velocity = reals_of(any_triple(random, -5, 5));
   def.density = scaled(random.uniform(100, 2000));
   def.material.friction = real(random.uniform(0, 1));
   def.material.restitution = real(random.chance(0.2) ? random.uniform(0, 0.8) : 0);

@@ -18,7 +18,7 @@ constexpr double k_pi = 3.14159265358979323846;
 /// over the square of the edge.
 constexpr double k_radius_of_edge = 0.95105651629515357212;
 constexpr double k_volume_of_edge = 2.18169499062491237350;
-constexpr double k_gyration_of_edge = 0.26180339887498948482;
+constexpr double k_inverse_inertia_of_edge = 0.26180339887498948482;
 
 double cube(double value) { return value * value * value; }
 
@@ -53,8 +53,8 @@ States states_at_start(const Stage& stage) {
     BodyState state;
     for (int i = 0; i < 3; ++i) {
       state.position[i] = body.position[i];
-      state.velocity[i] = body.velocity[i];
-      state.spin[i] = body.spin[i];
+      state.linear_velocity[i] = body.linear_velocity[i];
+      state.angular_velocity[i] = body.angular_velocity[i];
     }
     for (int i = 0; i < 4; ++i) state.rotation[i] = body.rotation[i];
     states.push_back(state);
@@ -77,8 +77,8 @@ Stage scaled(const Stage& stage, double factor) {
     for (int i = 0; i < 3; ++i) {
       body.size[i] *= factor;
       body.position[i] *= factor;
-      body.velocity[i] *= root;
-      body.spin[i] /= root;
+      body.linear_velocity[i] *= root;
+      body.angular_velocity[i] /= root;
     }
     body.mass *= cube(factor);
   }
@@ -123,21 +123,21 @@ Stage varied(const Stage& stage, uint64_t seed) {
   const double norm = sqrt(s * s + c * c);
   s /= norm;
   c /= norm;
-  const double turn[4] = {0, s, 0, c}, sine = 2 * s * c, cosine = c * c - s * s;
+  const double rotation_vector[4] = {0, s, 0, c}, sine = 2 * s * c, cosine = c * c - s * s;
   for (StageBody& body : result.bodies) {
-    for (double* v : {body.position, body.velocity, body.spin}) {
+    for (double* v : {body.position, body.linear_velocity, body.angular_velocity}) {
       const double x = v[0], z = v[2];
       v[0] = cosine * x + sine * z;
       v[2] = cosine * z - sine * x;
     }
-    multiply(turn, body.rotation, body.rotation);
+    multiply(rotation_vector, body.rotation, body.rotation);
   }
   return result;
 }
 
 double mass_of(const StageBody& body) { return body.mass != 0 ? body.mass : body.density * volume_of(body); }
 
-std::array<double, 3> gyration_of(const StageBody& body) {
+std::array<double, 3> inverse_inertia_of(const StageBody& body) {
   const double r = body.size[0];
   switch (body.solid) {
     case Solid::box: {
@@ -154,7 +154,7 @@ std::array<double, 3> gyration_of(const StageBody& body) {
       return {across / mass, about / mass, across / mass};
     }
     case Solid::icosahedron: {
-      const double edge = r / k_radius_of_edge, square = k_gyration_of_edge * edge * edge;
+      const double edge = r / k_radius_of_edge, square = k_inverse_inertia_of_edge * edge * edge;
       return {square, square, square};
     }
   }

@@ -22,14 +22,14 @@ struct StageBody {
   Solid solid = Solid::box;
   Role role = Role::dynamic;
   double size[3] = {0.5, 0.5, 0.5};
-  double position[3] = {0, 0, 0};     ///< of the centre of mass, m
-  double rotation[4] = {0, 0, 0, 1};  ///< x, y, z, w
-  double velocity[3] = {0, 0, 0};     ///< m/s
-  double spin[3] = {0, 0, 0};         ///< rad/s, world
-  double density = 1000;              ///< kg/m^3
-  double mass = 0;                    ///< kg; 0: from the density
-  double friction = 0.6;              ///< of a pair: the geometric mean of both
-  double restitution = 0;             ///< of a pair: the larger of both
+  double position[3] = {0, 0, 0};          ///< of the centre of mass, m
+  double rotation[4] = {0, 0, 0, 1};       ///< x, y, z, w
+  double linear_velocity[3] = {0, 0, 0};   ///< m/s
+  double angular_velocity[3] = {0, 0, 0};  ///< rad/s, world
+  double density = 1000;                   ///< kg/m^3
+  double mass = 0;                         ///< kg; 0: from the density
+  double friction = 0.6;                   ///< of a pair: the geometric mean of both
+  double restitution = 0;                  ///< of a pair: the larger of both
 };
 
 /// A ball joint: keeps a point of A and a point of B together.
@@ -55,8 +55,8 @@ struct Stage {
 struct BodyState {
   double position[3] = {0, 0, 0};
   double rotation[4] = {0, 0, 0, 1};  ///< x, y, z, w
-  double velocity[3] = {0, 0, 0};
-  double spin[3] = {0, 0, 0};
+  double linear_velocity[3] = {0, 0, 0};
+  double angular_velocity[3] = {0, 0, 0};
 };
 using States = std::vector<BodyState>;
 States states_at_start(const Stage& stage);
@@ -76,7 +76,7 @@ Stage varied(const Stage& stage, uint64_t seed);
 /// The mass, kg, of a body of any role.
 double mass_of(const StageBody& body);
 /// Principal moments of inertia per unit mass about the body's axes, m^2.
-std::array<double, 3> gyration_of(const StageBody& body);
+std::array<double, 3> inverse_inertia_of(const StageBody& body);
 /// The radius of a sphere about the centre of mass that contains the body, m.
 double bounding_radius(const StageBody& body);
 /// The vertices of an icosahedron with this circumradius, m.

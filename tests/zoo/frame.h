@@ -25,7 +25,7 @@ struct BodyFrame {
   double gravity_scale = 1;
   Vector position;
   Rotation rotation;
-  Vector velocity, spin;
+  Vector linear_velocity, angular_velocity;
 };
 
 /// As JointType.

@@ -14,7 +14,7 @@ constexpr size_t k_columns = 5;
 /// Bounds for checks that a scene does not list (docs/zoo.md).
 const std::map<std::string, double> k_defaults = {{"gain", 0.05}, {"gap", 0.02},    {"angle", 0.02}, {"limit", 0.05},
                                                   {"sunk", 0.02}, {"pierced", 0.5}, {"lost", 0},     {"speed", 3}};
-const std::map<std::string, double> k_free_defaults = {{"momentum", 1e-3}, {"spin", 0.02}};
+const std::map<std::string, double> k_free_defaults = {{"momentum", 1e-3}, {"angular_momentum", 0.02}};
 
 constexpr double k_some_time = 1e9;  // later than the end of any scene
 

@@ -8,9 +8,9 @@
 namespace detent_zoo {
 
 /// The names of the checks, as in zoo.csv.
-inline constexpr const char* k_checks[] = {"gain",    "loss",   "gap",   "angle",    "limit", "sunk",
-                                           "pierced", "lost",   "speed", "momentum", "spin",  "rest",
-                                           "moved",   "fallen", "risen", "asleep"};
+inline constexpr const char* k_checks[] = {
+    "gain", "loss",  "gap",    "angle", "limit", "sunk", "pierced", "lost", "speed", "momentum", "angular_momentum",
+    "rest", "moved", "fallen", "risen", "asleep"};
 
 struct Entry {
   std::string scene;                                  ///< its file is scenes/<scene>.json

@@ -22,12 +22,12 @@ double angular_mass(const BodyFrame& a, const BodyFrame& b, const Vector& axis) 
 }
 
 double linear_mass(const BodyFrame& a, const BodyFrame& b, const Vector& arm_a, const Vector& arm_b,
-                   const Vector& way) {
+                   const Vector& displacement) {
   double answer = 0;
   const auto add = [&](const BodyFrame& body, const Vector& arm) {
     if (body.kind != Kind::dynamic) return;
-    const Vector turn = cross(arm, way);
-    answer += 1 / body.mass + dot(turn, answer_to_torque(body, turn));
+    const Vector rotation_vector = cross(arm, displacement);
+    answer += 1 / body.mass + dot(rotation_vector, answer_to_torque(body, rotation_vector));
   };
   add(a, arm_a);
   add(b, arm_b);
@@ -55,18 +55,19 @@ Rotation operator*(const Rotation& a, const Rotation& b) {
 Rotation inverse(const Rotation& rotation) { return {-rotation.x, -rotation.y, -rotation.z, rotation.w}; }
 Vector rotate(const Rotation& q, const Vector& v) {
   const Vector axis = {q.x, q.y, q.z};
-  const Vector turn = 2.0 * cross(axis, v);
-  return v + q.w * turn + cross(axis, turn);
+  const Vector rotation_vector = 2.0 * cross(axis, v);
+  return v + q.w * rotation_vector + cross(axis, rotation_vector);
 }
 
-Vector angular_momentum(const BodyFrame& body) {
-  const Vector own = rotate(inverse(body.rotation), body.spin);
+Vector angular_momentum_of(const BodyFrame& body) {
+  const Vector own = rotate(inverse(body.rotation), body.angular_velocity);
   return rotate(body.rotation, {body.inertia.x * own.x, body.inertia.y * own.y, body.inertia.z * own.z});
 }
 
 double kinetic_energy(const BodyFrame& body) {
   if (body.kind != Kind::dynamic) return 0;
-  return 0.5 * (body.mass * dot(body.velocity, body.velocity) + dot(body.spin, angular_momentum(body)));
+  return 0.5 * (body.mass * dot(body.linear_velocity, body.linear_velocity) +
+                dot(body.angular_velocity, angular_momentum_of(body)));
 }
 
 double potential_energy(const BodyFrame& body, const Vector& gravity) {
@@ -100,7 +101,7 @@ JointState state_of(const JointFrame& joint, const Frame& frame) {
     state.masses[0] = linear_mass(a, b, arm_a + gap, arm_b, x_a);
     state.free[0] = true;
   };
-  const auto turn = [&](int i, double value, const Vector& axis) {
+  const auto rotation_vector = [&](int i, double value, const Vector& axis) {
     state.values[i] = value;
     state.masses[i] = angular_mass(a, b, axis);
     state.free[i] = true;
@@ -111,9 +112,9 @@ JointState state_of(const JointFrame& joint, const Frame& frame) {
       if (joint.axes[0].frequency == 0) break;
       const Vector axis = {between.x, between.y, between.z};
       const double sine = length(axis), share = sine > 1e-12 ? copysign(whole_turn, between.w) / sine : 0;
-      turn(0, share * axis.x, x_a);
-      turn(1, share * axis.y, rotate(frame_a, {0, 1, 0}));
-      turn(2, share * axis.z, rotate(frame_a, k_z));
+      rotation_vector(0, share * axis.x, x_a);
+      rotation_vector(1, share * axis.y, rotate(frame_a, {0, 1, 0}));
+      rotation_vector(2, share * axis.z, rotate(frame_a, k_z));
       return state;
     }
     case Held::filter:
@@ -124,7 +125,7 @@ JointState state_of(const JointFrame& joint, const Frame& frame) {
       [[fallthrough]];
     case Held::hinge:
       state.angle = angle_between(x_a, x_b);
-      turn(0, twist(between.x, between.w), x_a);
+      rotation_vector(0, twist(between.x, between.w), x_a);
       break;
     case Held::slider:
       slide();
@@ -132,10 +133,10 @@ JointState state_of(const JointFrame& joint, const Frame& frame) {
       break;
     case Held::distance: {
       const double apart = state.gap;
-      const Vector way = apart > 0 ? (1 / apart) * gap : x_a;
+      const Vector displacement = apart > 0 ? (1 / apart) * gap : x_a;
       state.values[0] = apart;
       state.free[0] = true;
-      state.masses[0] = linear_mass(a, b, arm_a, arm_b, way);
+      state.masses[0] = linear_mass(a, b, arm_a, arm_b, displacement);
       state.gap = beyond(joint.axes[0], apart);
       return state;
     }
@@ -143,16 +144,16 @@ JointState state_of(const JointFrame& joint, const Frame& frame) {
       state.angle = whole_turn;
       break;
     case Held::cone_twist: {
-      turn(0, twist(between.x, between.w), x_a);
+      rotation_vector(0, twist(between.x, between.w), x_a);
       const Vector across = cross(x_a, x_b);
       const double sine = length(across);
-      turn(1, angle_between(x_a, x_b), sine > 1e-9 ? (1 / sine) * across : rotate(frame_a, k_z));
+      rotation_vector(1, angle_between(x_a, x_b), sine > 1e-9 ? (1 / sine) * across : rotate(frame_a, k_z));
       break;
     }
     case Held::wheel:
       slide();
       state.angle = angle_between(rotate(frame_a, k_z), rotate(frame_b, k_z));
-      turn(1, twist(between.z, between.w), rotate(frame_a, k_z));
+      rotation_vector(1, twist(between.z, between.w), rotate(frame_a, k_z));
       break;
   }
   for (int i = 0; i < 2; ++i) {

@@ -19,7 +19,7 @@ Rotation inverse(const Rotation& rotation);
 Vector rotate(const Rotation& rotation, const Vector& v);
 
 /// I w, kg m^2/s.
-Vector angular_momentum(const BodyFrame& body);
+Vector angular_momentum_of(const BodyFrame& body);
 /// Kinetic energy, J.
 double kinetic_energy(const BodyFrame& body);
 /// Potential energy, J, 0 at the origin.

@@ -143,8 +143,8 @@ BodyFrame OpenedScene::body_of(BodyId id) const {
   body.gravity_scale = real_to_host(def.gravity_scale);
   body.position = place_of(def.position);
   body.rotation = rotation_of(def.rotation);
-  body.velocity = vector_of(def.velocity);
-  body.spin = vector_of(def.spin);
+  body.linear_velocity = vector_of(def.linear_velocity);
+  body.angular_velocity = vector_of(def.angular_velocity);
   return body;
 }
 

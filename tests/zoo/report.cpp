@@ -60,8 +60,8 @@ std::string line_of(const Row& row) {
                      ", tick " + std::to_string(f.moved.tick) + "), fallen " + figure(f.fallen.value) + ", risen " +
                      figure(f.risen.value) + ", lost " + figure(f.lost.value) + ", speed " + figure(f.speed.value);
   if (row.entry->bounds.count("momentum") != 0)
-    text += ", momentum " + figure(f.momentum.value) + ", spin " + figure(f.spin.value);
-  text += ", end " + figure(f.rest_speed) + " m/s " + figure(f.rest_spin) + " rad/s, asleep " + asleep(f) +
+    text += ", momentum " + figure(f.momentum.value) + ", angular momentum " + figure(f.angular_momentum.value);
+  text += ", end " + figure(f.rest_speed) + " m/s " + figure(f.rest_angular_velocity) + " rad/s, asleep " + asleep(f) +
           ", substeps " + figure(f.substeps_mean) + "/" + std::to_string(f.substeps_max) + ", " +
           figure(f.microseconds) + " us";
   if (!verdict.failed.empty()) text += "; FAILS " + joined(verdict.failed);

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double k_hopeless = 10;      // times the bound of the speed: a longer run gives no more information
 constexpr double k_rest_speed = 1e-3;  // m/s, mean over the bodies
-constexpr double k_rest_spin = 1e-2;   // rad/s
+constexpr double k_rest_angular_velocity = 1e-2;  // rad/s
 
 std::string number(double value) {
   char text[32];
@@ -28,7 +28,7 @@ double measured(const Figures& figures, const std::string& check) {
   if (check == "lost") return figures.lost.value;
   if (check == "speed") return figures.speed.value;
   if (check == "momentum") return figures.momentum.value;
-  if (check == "spin") return figures.spin.value;
+  if (check == "angular_momentum") return figures.angular_momentum.value;
   if (check == "sunk") return figures.sunk.value;
   if (check == "pierced") return figures.pierced.value;
   if (check == "moved") return figures.moved.value;
@@ -36,7 +36,7 @@ double measured(const Figures& figures, const std::string& check) {
   if (check == "risen") return figures.risen.value;
   if (check == "asleep")
     return figures.asleep_from != 0 ? figures.asleep_from : std::numeric_limits<double>::infinity();
-  return std::max(figures.rest_speed / k_rest_speed, figures.rest_spin / k_rest_spin);
+  return std::max(figures.rest_speed / k_rest_speed, figures.rest_angular_velocity / k_rest_angular_velocity);
 }
 
 Verdict visit(const Entry& entry, const Engine& engine, const std::string& folder) {

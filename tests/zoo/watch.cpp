@@ -56,16 +56,16 @@ double height_of(const Frame& frame) {
 
 /// The speed of a body's centre, or of the ends of rods that rotate with it about its axes, m/s.
 double speed_of(const BodyFrame& body) {
-  const double turning = body.mass > 0 ? dot(body.spin, angular_momentum(body)) / body.mass : 0;
-  return std::max(length(body.velocity), sqrt(3 * turning));
+  const double turning = body.mass > 0 ? dot(body.angular_velocity, angular_momentum_of(body)) / body.mass : 0;
+  return std::max(length(body.linear_velocity), sqrt(3 * turning));
 }
 
-void sum_momentum(const Frame& frame, Vector& momentum, Vector& spin) {
+void sum_momentum(const Frame& frame, Vector& momentum, Vector& angular_momentum) {
   for (const BodyFrame& body : frame.bodies) {
     if (body.kind != Kind::dynamic) continue;
-    const Vector own = body.mass * body.velocity;
+    const Vector own = body.mass * body.linear_velocity;
     momentum = momentum + own;
-    spin = spin + cross(body.position, own) + angular_momentum(body);
+    angular_momentum = angular_momentum + cross(body.position, own) + angular_momentum_of(body);
   }
 }
 
@@ -77,7 +77,7 @@ double finite(double value) { return isfinite(value) ? value : std::numeric_limi
 Watch::Watch(const Frame& start) : before_(start), first_(start), settled_(start) {
   energy_ = least_ = first_energy_ = energy_of(start);
   widen(start);
-  sum_momentum(start, momentum_, spin_);
+  sum_momentum(start, momentum_, angular_momentum_);
 }
 
 void Watch::widen(const Frame& frame) {
@@ -86,18 +86,18 @@ void Watch::widen(const Frame& frame) {
   scale_ = std::max(scale_, kinetic_of(frame) + lever);
   Vector centre;
   const double mass = mass_of(frame);
-  double momentum = 0, spin = 0;
+  double momentum = 0, angular_momentum = 0;
   for (const BodyFrame& body : frame.bodies) {
     if (body.kind == Kind::dynamic) centre = centre + (body.mass / mass) * body.position;
   }
   for (const BodyFrame& body : frame.bodies) {
     if (body.kind != Kind::dynamic) continue;
-    const double own = body.mass * length(body.velocity);
+    const double own = body.mass * length(body.linear_velocity);
     momentum += own;
-    spin += own * length(body.position - centre) + length(angular_momentum(body));
+    angular_momentum += own * length(body.position - centre) + length(angular_momentum_of(body));
   }
   momentum_scale_ = std::max(momentum_scale_, momentum);
-  spin_scale_ = std::max(spin_scale_, spin);
+  angular_momentum_scale_ = std::max(angular_momentum_scale_, angular_momentum);
   for (const BodyFrame& body : frame.bodies) speed_first_ = std::max(speed_first_, speed_of(body));
   double size = 0;  // size of the longest body that a motor may rotate
   for (const BodyFrame& body : frame.bodies) size = std::max(size, size_of(body));
@@ -108,11 +108,11 @@ void Watch::widen(const Frame& frame) {
 }
 
 void Watch::calls(const Frame& after) {
-  Vector momentum, spin, momentum_before, spin_before;
-  sum_momentum(after, momentum, spin);
-  sum_momentum(before_, momentum_before, spin_before);
+  Vector momentum, angular_momentum, momentum_before, angular_momentum_before;
+  sum_momentum(after, momentum, angular_momentum);
+  sum_momentum(before_, momentum_before, angular_momentum_before);
   momentum_ = momentum_ + momentum - momentum_before;
-  spin_ = spin_ + spin - spin_before;
+  angular_momentum_ = angular_momentum_ + angular_momentum - angular_momentum_before;
   const double energy = energy_of(after);
   allowed_ += energy - energy_;
   least_ = std::min(least_, energy - allowed_);
@@ -130,19 +130,21 @@ double Watch::mover_power(const Frame& now) const {
   double power = 0;
   for (size_t i = 0; i < now.bodies.size(); ++i) {
     if (now.bodies[i].kind != Kind::kinematic) continue;
-    double reach = 0;
+    double distance_max = 0;
     for (const JointFrame& joint : now.joints) {
-      if (joint.a == i) reach = std::max(reach, length(joint.anchor_a));
-      if (joint.b == i) reach = std::max(reach, length(joint.anchor_b));
+      if (joint.a == i) distance_max = std::max(distance_max, length(joint.anchor_a));
+      if (joint.b == i) distance_max = std::max(distance_max, length(joint.anchor_b));
     }
     for (const Frame* frame : {&before_, &now}) {
       for (const ContactFrame& contact : frame->contacts) {
         if (contact.a != i && contact.b != i) continue;
         const BodyFrame& other = frame->bodies[contact.a == i ? contact.b : contact.a];
-        reach = std::max(reach, length(other.position - frame->bodies[i].position));
+        distance_max = std::max(distance_max, length(other.position - frame->bodies[i].position));
       }
     }
-    const auto speed = [reach](const BodyFrame& body) { return length(body.velocity) + reach * length(body.spin); };
+    const auto speed = [distance_max](const BodyFrame& body) {
+      return length(body.linear_velocity) + distance_max * length(body.angular_velocity);
+    };
     double most = speed(now.bodies[i]);
     if (i < before_.bodies.size()) most = std::max(most, speed(before_.bodies[i]));
     power += k_weights_pushed * weight * most;
@@ -163,13 +165,13 @@ double Watch::work(const Frame& now) const {
         work += axis.force_max * fabs(axis.speed) * now.tick_time;
         continue;
       }
-      double way = state.values[j] - then.values[j];
-      if (fabs(way) > M_PI && (now.joints[i].type == Held::hinge || now.joints[i].type == Held::parallel))
-        way -= copysign(2 * M_PI, way);
+      double displacement = state.values[j] - then.values[j];
+      if (fabs(displacement) > M_PI && (now.joints[i].type == Held::hinge || now.joints[i].type == Held::parallel))
+        displacement -= copysign(2 * M_PI, displacement);
       const double rate = 2 * M_PI * axis.frequency, mass = then.masses[j];
-      double force = -mass * rate * rate * (then.values[j] + way / 2 - axis.target);
+      double force = -mass * rate * rate * (then.values[j] + displacement / 2 - axis.target);
       if (axis.force_max > 0) force = std::clamp(force, -axis.force_max, axis.force_max);
-      work += force * way + std::max(0.0, 2 * axis.damping_ratio * rate * mass * axis.speed * way);
+      work += force * displacement + std::max(0.0, 2 * axis.damping_ratio * rate * mass * axis.speed * displacement);
     }
   }
   return work;
@@ -210,10 +212,12 @@ void Watch::take_speeds(const Frame& now) {
 }
 
 void Watch::take_momentum(const Frame& now) {
-  Vector momentum, spin;
-  sum_momentum(now, momentum, spin);
+  Vector momentum, angular_momentum;
+  sum_momentum(now, momentum, angular_momentum);
   if (momentum_scale_ > 0) figures_.momentum.take(finite(length(momentum - momentum_) / momentum_scale_), tick_);
-  if (spin_scale_ > 0) figures_.spin.take(finite(length(spin - spin_) / spin_scale_), tick_);
+  if (angular_momentum_scale_ > 0)
+    figures_.angular_momentum.take(finite(length(angular_momentum - angular_momentum_) / angular_momentum_scale_),
+                                   tick_);
 }
 
 void Watch::take_contacts(const Frame& now) {
@@ -277,12 +281,12 @@ Figures Watch::finish() {
   for (const BodyFrame& body : before_.bodies) {
     if (body.kind != Kind::dynamic) continue;
     ++dynamic;
-    figures_.rest_speed += length(body.velocity);
-    figures_.rest_spin += length(body.spin);
+    figures_.rest_speed += length(body.linear_velocity);
+    figures_.rest_angular_velocity += length(body.angular_velocity);
   }
   if (dynamic > 0) {
     figures_.rest_speed = finite(figures_.rest_speed / dynamic);
-    figures_.rest_spin = finite(figures_.rest_spin / dynamic);
+    figures_.rest_angular_velocity = finite(figures_.rest_angular_velocity / dynamic);
   }
   figures_.ticks = tick_;
   figures_.bodies = before_.bodies.size();

@@ -34,15 +34,15 @@ struct Figures {
   Worst speed;  ///< over the speed that the scene's heights, first speeds and motors explain
   /// Change without calls, relative to the sum of the bodies' momenta at the start or after calls.
   Worst momentum;
-  Worst spin;  ///< of angular momentum, as `momentum`
+  Worst angular_momentum;  ///< of angular momentum, as `momentum`
   /// Depth of a pair that lasts for 10 ticks, relative to the thickness of the thinner dynamic body.
   Worst sunk;
-  Worst pierced;                         ///< depth of a pair in one tick, relative to the same thickness
-  Worst moved;                           ///< displacement of a body's centre since tick 30, relative to its size
-  Worst fallen;                          ///< of a body's centre below the height 0, m
-  Worst risen;                           ///< of a body's centre above its start, m
-  double rest_speed = 0, rest_spin = 0;  ///< means over the dynamic bodies at the end, m/s, rad/s
-  uint32_t asleep_from = 0;              ///< the tick from which all slept to the end; 0: not all
+  Worst pierced;  ///< depth of a pair in one tick, relative to the same thickness
+  Worst moved;    ///< displacement of a body's centre since tick 30, relative to its size
+  Worst fallen;   ///< of a body's centre below the height 0, m
+  Worst risen;    ///< of a body's centre above its start, m
+  double rest_speed = 0, rest_angular_velocity = 0;  ///< means over the dynamic bodies at the end, m/s, rad/s
+  uint32_t asleep_from = 0;                          ///< the tick from which all slept to the end; 0: not all
   double substeps_mean = 0;
   uint32_t substeps_max = 0;
   double microseconds = 0;  ///< mean over the ticks
@@ -87,8 +87,8 @@ class Watch {
   double energy_ = 0, allowed_ = 0, least_ = 0, first_energy_ = 0, scale_ = 0;
   double speed_first_ = 0, span_ = 0, motor_speed_ = 0;
   std::map<std::pair<uint32_t, uint32_t>, std::vector<double>> depths_;  ///< of pairs, in the last ticks
-  Vector momentum_, spin_;
-  double momentum_scale_ = 0, spin_scale_ = 0;
+  Vector momentum_, angular_momentum_;
+  double momentum_scale_ = 0, angular_momentum_scale_ = 0;
   uint64_t substeps_ = 0;
   double seconds_ = 0;
 };

@@ -11,21 +11,21 @@ namespace {
 
 constexpr double k_tick = 1.0 / 60;
 
-BodyFrame ball(const Vector& position, const Vector& velocity = {}) {
+BodyFrame ball(const Vector& position, const Vector& linear_velocity = {}) {
   BodyFrame body;
   body.kind = Kind::dynamic;
   body.mass = 2;
   body.inertia = {0.5, 0.5, 0.5};
   body.position = position;
-  body.velocity = velocity;
+  body.linear_velocity = linear_velocity;
   return body;
 }
 
 /// A fixed body at the origin and a ball 1 m beside it, without gravity.
-Frame pair(Held type, const Vector& velocity = {}) {
+Frame pair(Held type, const Vector& linear_velocity = {}) {
   Frame frame;
   frame.tick_time = k_tick;
-  frame.bodies = {BodyFrame(), ball({1, 0, 0}, velocity)};
+  frame.bodies = {BodyFrame(), ball({1, 0, 0}, linear_velocity)};
   JointFrame joint;
   joint.type = type;
   joint.b = 1;
@@ -47,9 +47,9 @@ void let_settle(Watch& watch, const Frame& frame) {
 TEST(zoo_watch, energy_that_comes_from_nowhere_is_a_gain) {
   Frame frame = pair(Held::ball, {0, 1, 0});
   Watch watch(frame);
-  frame.bodies[1].velocity = {0, 0.5, 0};
+  frame.bodies[1].linear_velocity = {0, 0.5, 0};
   watch.tick(frame, {});
-  frame.bodies[1].velocity = {0, 1, 0};
+  frame.bodies[1].linear_velocity = {0, 1, 0};
   watch.tick(frame, {});
   const Figures figures = watch.finish();
   EXPECT_NEAR(figures.gain.value, 0.75, 1e-12) << "over the least before, not over the first";
@@ -59,11 +59,11 @@ TEST(zoo_watch, energy_that_comes_from_nowhere_is_a_gain) {
 TEST(zoo_watch, energy_that_goes_is_a_loss_since_the_start_and_a_call_is_none) {
   Frame frame = pair(Held::ball, {0, 2, 0});
   Watch watch(frame);
-  frame.bodies[1].velocity = {0, 1, 0};
+  frame.bodies[1].linear_velocity = {0, 1, 0};
   watch.calls(frame);
   watch.tick(frame, {});
   EXPECT_NEAR(watch.finish().loss.value, 0, 1e-12);
-  frame.bodies[1].velocity = {0, 0, 0};
+  frame.bodies[1].linear_velocity = {0, 0, 0};
   watch.tick(frame, {});
   EXPECT_NEAR(watch.finish().loss.value, 1.0 / 4, 1e-12);
   EXPECT_NEAR(watch.finish().gain.value, 0, 1e-12);
@@ -75,22 +75,22 @@ TEST(zoo_watch, height_counts_as_energy_and_what_falls_gains_none) {
   frame.bodies.push_back(ball({9, 0, 0}));
   Watch watch(frame);
   frame.bodies[1].position = {1, -1.25, 0};
-  frame.bodies[1].velocity = {0, -5, 0};
+  frame.bodies[1].linear_velocity = {0, -5, 0};
   watch.tick(frame, {});
   EXPECT_NEAR(watch.finish().gain.value, 0, 1e-12);
-  frame.bodies[1].velocity = {0, -6, 0};
+  frame.bodies[1].linear_velocity = {0, -6, 0};
   watch.tick(frame, {});
   const double scale = 0.1 * 4 * 10 * (8 + size_of(frame.bodies[1]));
   EXPECT_NEAR(watch.finish().gain.value, 11 / scale, 1e-12);
 }
 
-TEST(zoo_watch, spin_counts_with_the_inertia_about_the_bodys_own_axes) {
+TEST(zoo_watch, angular_velocity_counts_with_the_inertia_about_the_bodys_own_axes) {
   BodyFrame body = ball({});
   body.inertia = {1, 2, 3};
-  body.spin = {0, 4, 0};
+  body.angular_velocity = {0, 4, 0};
   body.rotation = about({0, 0, 1}, M_PI / 2);
   EXPECT_NEAR(kinetic_energy(body), 0.5 * 1 * 16, 1e-12);
-  EXPECT_NEAR(angular_momentum(body).y, 4, 1e-12);
+  EXPECT_NEAR(angular_momentum_of(body).y, 4, 1e-12);
 }
 
 TEST(zoo_watch, a_motor_may_do_its_work_and_no_more) {
@@ -98,10 +98,11 @@ TEST(zoo_watch, a_motor_may_do_its_work_and_no_more) {
   frame.joints[0].axes[0].force_max = 30;
   frame.joints[0].axes[0].speed = 2;
   Watch watch(frame);
-  frame.bodies[1].velocity = {0, 0, sqrt(2)};  // 1 J more, the work of 30 N m at 2 rad/s in a sixtieth of a second
+  frame.bodies[1].linear_velocity = {0, 0,
+                                     sqrt(2)};  // 1 J more, the work of 30 N m at 2 rad/s in a sixtieth of a second
   watch.tick(frame, {});
   EXPECT_NEAR(watch.finish().gain.value, 0, 1e-12);
-  frame.bodies[1].velocity = {0, 0, 2};
+  frame.bodies[1].linear_velocity = {0, 0, 2};
   watch.tick(frame, {});
   EXPECT_NEAR(watch.finish().gain.value, 1, 1e-12);
 }
@@ -110,7 +111,7 @@ TEST(zoo_watch, a_brake_does_no_work) {
   Frame frame = pair(Held::hinge, {0, 0, 1});
   frame.joints[0].axes[0].force_max = 1e6;
   Watch watch(frame);
-  frame.bodies[1].velocity = {0, 0, 1.1};
+  frame.bodies[1].linear_velocity = {0, 0, 1.1};
   watch.tick(frame, {});
   EXPECT_NEAR(watch.finish().gain.value, 0.21, 1e-12);
 }
@@ -123,7 +124,7 @@ TEST(zoo_watch, a_spring_gives_back_what_it_took) {
   const Frame start = frame;
   for (int i = 1; i <= 40; ++i) {  // an undamped oscillation of 1 m
     frame.bodies[1].position = {1 + sin(rate * i * k_tick), 0, 0};
-    frame.bodies[1].velocity = {rate * cos(rate * i * k_tick), 0, 0};
+    frame.bodies[1].linear_velocity = {rate * cos(rate * i * k_tick), 0, 0};
     watch.tick(frame, {});
   }
   EXPECT_NEAR(watch.finish().gain.value, 0, 1e-12);
@@ -132,11 +133,11 @@ TEST(zoo_watch, a_spring_gives_back_what_it_took) {
 TEST(zoo_watch, a_call_is_no_gain_and_the_next_tick_is_measured_from_it) {
   Frame frame = pair(Held::ball, {0, 1, 0});
   Watch watch(frame);
-  frame.bodies[1].velocity = {0, 3, 0};
+  frame.bodies[1].linear_velocity = {0, 3, 0};
   watch.calls(frame);
   watch.tick(frame, {});
   EXPECT_NEAR(watch.finish().gain.value, 0, 1e-12);
-  frame.bodies[1].velocity = {0, 6, 0};
+  frame.bodies[1].linear_velocity = {0, 6, 0};
   watch.tick(frame, {});
   EXPECT_NEAR(watch.finish().gain.value, 3, 1e-12);
 }
@@ -145,7 +146,7 @@ TEST(zoo_watch, what_is_not_a_number_is_the_worst) {
   Frame frame = pair(Held::ball, {0, 1, 0});
   Watch watch(frame);
   let_settle(watch, frame);
-  frame.bodies[1].position.x = frame.bodies[1].velocity.y = std::numeric_limits<double>::quiet_NaN();
+  frame.bodies[1].position.x = frame.bodies[1].linear_velocity.y = std::numeric_limits<double>::quiet_NaN();
   watch.tick(frame, {});
   const Figures figures = watch.finish();
   for (const Worst& worst : {figures.gain, figures.gap, figures.momentum}) EXPECT_TRUE(isinf(worst.value));
@@ -200,13 +201,13 @@ TEST(zoo_watch, momentum_that_changes_is_told) {
   frame.joints.clear();
   frame.bodies = {ball({0, 0, 0}, {0, 1, 0}), ball({2, 0, 0}, {0, -1, 0})};
   Watch watch(frame);
-  frame.bodies[0].velocity = {0, 1.1, 0};
+  frame.bodies[0].linear_velocity = {0, 1.1, 0};
   watch.tick(frame, {});
   EXPECT_NEAR(watch.finish().momentum.value, 0.2 / 4, 1e-12);
-  frame.bodies[0].velocity = {0, 1, 0};
-  frame.bodies[0].spin = {0, 0, 1};
+  frame.bodies[0].linear_velocity = {0, 1, 0};
+  frame.bodies[0].angular_velocity = {0, 0, 1};
   watch.tick(frame, {});
-  EXPECT_NEAR(watch.finish().spin.value, 0.5 / 4, 1e-12);
+  EXPECT_NEAR(watch.finish().angular_momentum.value, 0.5 / 4, 1e-12);
 }
 
 /// A ball that lies on a fixed body.
@@ -299,15 +300,15 @@ TEST(zoo_watch, a_kinematic_body_that_turns_may_push_what_lies_far_from_its_cent
   frame.joints.clear();
   frame.gravity = {0, -10, 0};
   frame.bodies[0].kind = Kind::kinematic;
-  frame.bodies[0].spin = {0, 0, 1};
+  frame.bodies[0].angular_velocity = {0, 0, 1};
   Watch alone(frame);
-  frame.bodies[1].velocity = {0, 1, 0};
+  frame.bodies[1].linear_velocity = {0, 1, 0};
   alone.tick(frame, {});
   EXPECT_GT(alone.finish().gain.value, 0.1);
-  frame.bodies[1].velocity = {};
+  frame.bodies[1].linear_velocity = {};
   frame.contacts = {{0, 1, 0}};
   Watch touching(frame);
-  frame.bodies[1].velocity = {0, 1, 0};
+  frame.bodies[1].linear_velocity = {0, 1, 0};
   touching.tick(frame, {});
   EXPECT_EQ(touching.finish().gain.value, 0);
 }

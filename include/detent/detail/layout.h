@@ -13,12 +13,12 @@ constexpr uint32_t k_pairs_per_contact = 2;  ///< leaves room for pairs whose bo
 
 /// Byte offsets of the arrays in a block.
 struct Layout {
-  uint32_t header, world, poses, motions, traits, activities, slots, contacts, assets, manifolds, joints, sensed;
+  uint32_t header, world, poses, motions, properties, activities, slots, contacts, assets, manifolds, joints, sensed;
   uint32_t persistent_bytes;  ///< end of the snapshot
-  uint32_t cache, tree_nodes, tree_parents, visits, candidates, moving_bodies, awake_contacts;
+  uint32_t cache, tree_nodes, tree_parents, active, candidates, moving_bodies, awake_contacts;
   uint32_t bounds, bounds_keys, bounds_sort, pairs, pair_sort, contact_work, islands, island_bodies, sweeps;
   uint32_t body_work, contact_order, contact_sort, impact_pairs, impact_hits;
-  uint32_t manifold_work, joint_work, joint_bodies, joint_order, joint_couplings, joint_numbers, apart;
+  uint32_t manifold_work, joint_work, joint_bodies, joint_order, joint_couplings, joint_numbers, disabled_pairs;
   uint32_t sensed_work, sensed_passed, changed;
   uint32_t bytes;
 };
@@ -66,7 +66,7 @@ DETENT_SHARED constexpr Layout layout_of(Capacity capacity, bool& fits) {
   layout.world = place(sizeof(WorldState), 1);
   layout.poses = place(sizeof(BodyPose), capacity.bodies);
   layout.motions = place(sizeof(BodyMotion), capacity.bodies);
-  layout.traits = place(sizeof(BodyTraits), capacity.bodies);
+  layout.properties = place(sizeof(BodyProperties), capacity.bodies);
   layout.activities = place(sizeof(BodyActivity), capacity.bodies);
   layout.slots = place(sizeof(uint32_t), slot_words(capacity.bodies));
   layout.contacts = place(sizeof(ContactState), capacity.contacts);
@@ -78,7 +78,7 @@ DETENT_SHARED constexpr Layout layout_of(Capacity capacity, bool& fits) {
   layout.cache = place(sizeof(StepCache), 1);
   layout.tree_nodes = place(sizeof(TreeNode), capacity.bodies);
   layout.tree_parents = place(sizeof(uint32_t), capacity.bodies);
-  layout.visits = place(sizeof(uint32_t), slot_words(capacity.bodies));
+  layout.active = place(sizeof(uint32_t), slot_words(capacity.bodies));
   layout.candidates = place(sizeof(uint32_t), slot_words(capacity.bodies));
   layout.moving_bodies = place(sizeof(uint32_t), capacity.bodies);
   layout.awake_contacts = place(sizeof(uint32_t), capacity.contacts);
@@ -112,7 +112,7 @@ DETENT_SHARED constexpr Layout layout_of(Capacity capacity, bool& fits) {
   layout.joint_order = place(sizeof(uint32_t), capacity.joints);
   layout.joint_couplings = place(sizeof(JointCoupling), joint_coupling_count(capacity));
   layout.joint_numbers = place(sizeof(Real), joint_number_count(capacity));
-  layout.apart = place(sizeof(uint64_t), capacity.joints);
+  layout.disabled_pairs = place(sizeof(uint64_t), capacity.joints);
   layout.sensed_work = place(sizeof(uint64_t), capacity.sensed);
   layout.sensed_passed = place(sizeof(uint64_t), capacity.sensed);
   layout.changed = place(sizeof(uint32_t), capacity.sensed == 0 ? 0 : slot_words(capacity.bodies));

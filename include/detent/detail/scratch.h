@@ -46,16 +46,16 @@ struct BoundsKey {
   uint32_t across_lower, across_upper;  ///< along the other two axes, 15 bits each
 };
 
-/// A body's inverse inertia (per unit mass) in world axes: angular velocity = gyration x angular momentum, in the units
-/// of spin.h. A symmetric matrix; values are mantissas times 2^exponent.
-struct alignas(sizeof(Unit)) WorldGyration {
+/// A body's inverse inertia (per unit mass) in world axes: angular velocity = inverse inertia x angular momentum, in the units
+/// of angular velocity.h. A symmetric matrix; values are mantissas times 2^exponent.
+struct alignas(sizeof(Unit)) WorldInverseInertia {
   Vec3<Unit> row[3];
   int32_t exponent;
 };
 
-/// The inverse inertias (per unit mass) of a body about its axes, split for its free rotation (turn_freely() in
-/// spin.h): two of the axes have similar values, and the *odd* axis differs most.
-struct alignas(sizeof(Unit)) FreeTurn {
+/// The inverse inertias (per unit mass) of a body about its axes, split for its free rotation (rotate_freely() in
+/// angular velocity.h): two of the axes have similar values, and the *odd* axis differs most.
+struct alignas(sizeof(Unit)) FreeRotation {
   Scaled common;    ///< inverse inertia about the axis after the odd axis
   Scaled odd_rate;  ///< inverse inertia about the odd axis minus `common`
   Scaled rest;      ///< inverse inertia about the third axis minus `common`
@@ -75,20 +75,20 @@ struct alignas(8) BodyWork {
   Real height;    ///< height above the island's first body, against gravity, m, while loads are estimated
   Quat rotation;  ///< current
   Matrix3 axes;
-  WorldGyration gyration;
-  FreeTurn free_turn;
+  WorldInverseInertia inverse_inertia;
+  FreeRotation free_rotation;
   Real extent;              ///< shape_extent(), m
   Real fall;                ///< fall_speed() of `extent`, m/s
   Real speed;               ///< upper bound of the speed of any point of the body, m/s
   Vec3<Real> displacement;  ///< since the start of the tick, m
-  Vec3<Real> turn;          ///< sum of angular velocity x substep x 2^size_exponent since the start of the tick, m
-  Vec3<Real> spin;          ///< angular velocity x 2^size_exponent, in units of 2^-k_spin_power m/s
+  Vec3<Real> rotation_vector;          ///< sum of angular velocity x substep x 2^size_exponent since the start of the tick, m
+  Vec3<Real> angular_velocity;          ///< angular velocity x 2^size_exponent, in units of 2^-k_angular_velocity_power m/s
   Vec3<Real> push;          ///< velocity that gravity and forces add in a substep, m/s
   Vec3<Real> twist;         ///< momentum that torques add in a substep, m/s
   /// The velocity and the momentum that contacts added in this substep, m/s. In float they are sums. In fixed point,
   /// where differences are exact, they are minus the motion at the start of the substep (contact_motion.h).
   Vec3<Real> contact_velocity;
-  Vec3<Real> contact_momentum;
+  Vec3<Real> contact_angular_momentum;
   Vec3<Real> velocity_before;  ///< velocity before the last solver iteration, if there are several, m/s
   Scaled linear_kept;          ///< fraction of the velocity that damping leaves in a substep
   Scaled angular_kept;         ///< fraction of the momentum that damping leaves in a substep
@@ -97,13 +97,13 @@ struct alignas(8) BodyWork {
 /// A contact during the step. Impulses and masses are relative to the reference mass: the mass of the lighter dynamic
 /// body. The pair's unit of length is that of its smaller moving body. The vector solver reads four contacts at once,
 /// in groups of four words or four Reals. Members that it needs for normal impulses come before those for friction
-/// (lib/solver/quad_contact.h).
+/// (lib/solver/lanes_contact.h).
 struct alignas(8) ContactWork {
   ContactState state;  ///< becomes the world's contact when the step ends
 
   Vec3<Unit> normal;  ///< from A to B
   Vec3<Unit> tangent[2];
-  Vec3<Unit> lever_a, lever_b;  ///< r x n: middle_a x normal, middle_b x normal
+  Vec3<Unit> moment_a, moment_b;  ///< r x n: middle_a x normal, middle_b x normal
   Unit unit_a, unit_b;          ///< the pair's unit of length, in the body's unit; 0 for a fixed body
   /// Normal speed at point i per unit normal impulse at point k: mantissas, times 2^coupling_exponent.
   Unit coupling[k_manifold_points_max][k_manifold_points_max];
@@ -115,8 +115,8 @@ struct alignas(8) ContactWork {
   uint32_t apart[k_manifold_points_max];     ///< 1 if the point does not touch in the substep
   uint32_t static_pair;                      ///< 1 if only one of the bodies is dynamic
   uint32_t angular_rows;                     ///< 0: none; 1: twist friction; 3: twist and rolling friction
-  alignas(sizeof(Unit)) Scaled share_a;      ///< relative inverse mass of A: reference mass / mass; 0 if not dynamic
-  Scaled share_b;                            ///< relative inverse mass of B
+  alignas(sizeof(Unit)) Scaled inverse_mass_a;      ///< relative inverse mass of A: reference mass / mass; 0 if not dynamic
+  Scaled inverse_mass_b;                            ///< relative inverse mass of B
 
   Vec3<Unit> middle_a, middle_b;  ///< the points' middle, from each centre of mass, in the body's unit of length
   /// Motion of the pair per unit wrench, by response_index(): mantissas, times 2^response_exponent.
@@ -166,31 +166,31 @@ struct alignas(8) JointBodyStart {
   uint32_t first, last;                ///< ends of the list of its joints, as 2 x joint + end; UINT32_MAX: empty
   int32_t exponent;                    ///< the body's unit for joints is 2^exponent m
   int32_t above;                       ///< `exponent` minus the body's size_exponent
-  uint32_t renewed;                    ///< 1 if its gyration differs from that of the last substep
-  uint32_t slowed;                     ///< 1 if its joints increase its inertia: some kept_turn is less than 1
-  alignas(sizeof(Real)) Scaled share;  ///< relative inverse mass: reference mass / mass; 0 if no joint moves it
+  uint32_t renewed;                    ///< 1 if its inverse inertia differs from that of the last substep
+  uint32_t slowed;                     ///< 1 if its joints increase its inertia: some kept_rotation is less than 1
+  alignas(sizeof(Real)) Scaled inverse_mass;  ///< relative inverse mass: reference mass / mass; 0 if no joint moves it
 };
 /// The part that each substep recomputes. The body's *unit* is a power of two, m, that is at least as long as its
-/// joints' arms; angular velocities and angular momenta are in this unit (spin.h). A body that the solver does not move
+/// joints' arms; angular velocities and angular momenta are in this unit (angular velocity.h). A body that the solver does not move
 /// has only a velocity and an angular velocity here.
 struct alignas(8) JointBody : JointBodyStart {
   Vec3<Real> velocity_before;  ///< at the start of the substep, before forces and impulses, m/s
-  /// Angular momentum at the start of the substep, before forces and impulses, m/s (spin.h). While positions are
+  /// Angular momentum at the start of the substep, before forces and impulses, m/s (angular velocity.h). While positions are
   /// integrated: the angular momentum with the inertia of the substep.
-  Vec3<Real> momentum_before;
+  Vec3<Real> angular_momentum_before;
   Quat rotation;              ///< current
   Matrix3 axes;               ///< current
   Vec3<Real> place;           ///< displacement of its centre since the start of the tick, m
-  Vec3<Real> velocity, spin;  ///< velocity and angular velocity from which the rows' speeds are computed, m/s
+  Vec3<Real> linear_velocity, angular_velocity;  ///< velocity and angular velocity from which the rows' speeds are computed, m/s
   Real pushed;                ///< velocity per unit impulse
   Vec3<Real> turned[3];       ///< angular velocity per unit angular impulse: rows of a symmetric matrix
   /// Fraction of the angular momentum about each axis that remains with the body's own inertia, at the same angular
   /// velocity: joint_inertia.cpp.
-  alignas(sizeof(Real)) Scaled kept_turn[3];
+  alignas(sizeof(Real)) Scaled kept_rotation[3];
   Vec3<Real> push, twist;              ///< velocity and momentum that the rows' impulses add, m/s
   Vec3<Real> given_push, given_twist;  ///< the same by impulses without a row: motors at their limit, soft springs
   Vec3<Real> shift;                    ///< translation of its centre in this substep that closes gaps, m
-  Vec3<Real> shift_turn;               ///< rotation vector in this substep that closes gaps, rad
+  Vec3<Real> shift_rotation;               ///< rotation vector in this substep that closes gaps, rad
 };
 
 /// One row of a joint: it constrains the motion along `axis`, or, if `axis` is 0, a rotation.
@@ -251,7 +251,7 @@ struct alignas(8) JointWork : JointWorkStart, JointRows {
   alignas(sizeof(Real)) Scaled inverse[k_joint_rows_max];  ///< reciprocals of the pivots
   Real least[k_joint_rows_max];                            ///< lower bound of each pivot: the row's softness
   Real spring[k_joint_rows_max];                           ///< softness of a spring, added to the row's response
-  Real wanted[k_joint_rows_max];                           ///< target speed of each row, m/s
+  Real target[k_joint_rows_max];                           ///< target speed of each row, m/s
   Real response[k_joint_rows_max][k_joint_rows_max];       ///< lower half of the matrix, then L of its L D L^T
   Real side[k_joint_rows_max];                             ///< right-hand side of a solve, then L^-1 times it
   Real impulse[k_joint_rows_max];                          ///< solution of a solve
@@ -274,8 +274,8 @@ struct JointCoupling {
 struct BodySweep {
   Fraction from;
   Vec3<Real> displacement;  ///< in a whole tick at this velocity, m
-  Vec3<Real> turn;          ///< rotation vector in a whole tick at this angular velocity, rad
-  Real reach;               ///< upper bound of the path of any surface point in the tick without impacts, m
+  Vec3<Real> rotation_vector;          ///< rotation vector in a whole tick at this angular velocity, rad
+  Real motion_bound;               ///< upper bound of the path of any surface point in the tick without impacts, m
   uint32_t impacts;         ///< impacts of the body in this tick
   uint32_t marks;           ///< flags of the impact stage
 };
@@ -290,7 +290,7 @@ struct ImpactPair {
   uint32_t more[2];   ///< index + 1 of the next pair in the lists of the lower and the higher slot; 0 at the end
   uint8_t next;       ///< the next event: none, an impact, an undecided time, or a new test with less shrink depth
   uint8_t impacts;    ///< impacts so far
-  uint8_t looks;      ///< new tests so far
+  uint8_t tests;      ///< new tests so far
   /// 1 after the shrink depth was increased, because the pair hit at a seam or the work budget was spent. The pair's
   /// next event is then handled as an impact.
   uint8_t farther_in;
@@ -312,7 +312,7 @@ struct SweepSegment {
   Fraction from;
   BodyPose start;           ///< at `from`
   Vec3<Real> displacement;  ///< from `from` to the end of the tick, m
-  Vec3<Real> turn;          ///< rotation vector from `from` to the end of the tick, rad
+  Vec3<Real> rotation_vector;          ///< rotation vector from `from` to the end of the tick, rad
 };
 
 }  // namespace DETENT_NAMESPACE

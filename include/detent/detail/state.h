@@ -46,11 +46,11 @@ struct alignas(8) WorldState {
   Vec3<Real> gravity;      ///< m/s^2
   Real tick_time;          ///< s
   Real relaxation;
-  Real stiffness;
+  Real contact_frequency;
   Real damping_ratio;
   Real restitution_threshold;
-  Real breaking;  ///< contact margin, over the smaller extent
-  Real reuse;     ///< largest motion with which contact points are recycled, over the smaller extent
+  Real contact_margin;            ///< contact margin, over the smaller extent
+  Real contact_recycle_distance;  ///< largest motion with which contact points are recycled, over the smaller extent
 };
 
 struct BodyPose {
@@ -63,14 +63,16 @@ struct BodyPose {
 };
 
 struct BodyMotion {
-  Vec3<Real> velocity;  ///< m/s
+  Vec3<Real> linear_velocity;  ///< m/s
   /// Dynamic: angular momentum / (mass x 2^size_exponent), m/s. Kinematic: angular velocity x 2^size_exponent, m/s.
-  Vec3<Real> momentum;
-  Vec3<Real> pending_velocity;  ///< added to `velocity` during the next step by forces applied since the last, m/s
-  Vec3<Real> pending_momentum;  ///< added to `momentum` during the next step by torques applied since the last, m/s
+  Vec3<Real> angular_momentum;
+  Vec3<Real>
+      pending_velocity;  ///< added to `linear_velocity` during the next step by forces applied since the last, m/s
+  Vec3<Real> pending_angular_momentum;  ///< added to `angular_momentum` during the next step by torques applied since
+                                        ///< the last, m/s
 };
 
-struct BodyTraits {
+struct BodyProperties {
   uint32_t type;        ///< BodyType; 0: the slot is empty, and all members but the generation are zero
   uint32_t generation;  ///< of the body in the slot, or of the last body that was in it
   uint32_t shape;       ///< ShapeType
@@ -87,8 +89,9 @@ struct BodyTraits {
   /// In the body's unit: radius of the ball that rounds a box, cylinder, cone or hull; of a compound the least half
   /// thickness of a child; else 0.
   Unit rounding;
-  Scaled mass;         ///< kg; of a body that is not dynamic the mass that it gets when it becomes dynamic, or 0
-  Scaled gyration[3];  ///< inverse inertia: m (2^size_exponent)^2 / I about each body axis; 0 if locked or not dynamic
+  Scaled mass;                ///< kg; of a body that is not dynamic the mass that it gets when it becomes dynamic, or 0
+  Scaled inverse_inertia[3];  ///< inverse inertia: m (2^size_exponent)^2 / I about each body axis; 0 if locked or not
+                              ///< dynamic
   Scaled friction;
   Scaled restitution;
   Scaled rolling_resistance;
@@ -98,17 +101,18 @@ struct BodyTraits {
   uint32_t user_data;
   uint32_t restitution_rule;  ///< RestitutionRule
   uint32_t asset;             ///< of a hull, terrain or compound: its index in the world's asset table; else 0
-  uint16_t turn_locks;        ///< k_turn_lock_x, ...: body axes about which the body cannot rotate; their gyration is 0
+  uint16_t rotation_locks;    ///< k_rotation_lock_x, ...: body axes about which the body cannot rotate; their inverse
+                              ///< inertia is 0
   uint16_t sensor;            ///< 1 if the body is a sensor
 };
 
 /// Substeps and sleep of a body. All zero for a body that is not dynamic.
 struct BodyActivity {
-  uint32_t substeps;     ///< of its island in the last tick; 0 before the first tick, and without contacts
-  uint32_t calm_ticks;   ///< ticks in a row in which fewer substeps would have been enough
-  uint16_t still_ticks;  ///< ticks in a row at rest
-  uint16_t news;         ///< pending BodyEventType, which the end of the step reports, or 0; between steps woke or 0
-  uint32_t asleep;       ///< slot + 1 of the first of the bodies that fell asleep together; 0: awake
+  uint32_t substeps;       ///< of its island in the last tick; 0 before the first tick, and without contacts
+  uint32_t calm_ticks;     ///< ticks in a row in which fewer substeps would have been enough
+  uint16_t still_ticks;    ///< ticks in a row at rest
+  uint16_t pending_event;  ///< pending BodyEventType, which the end of the step reports, or 0; between steps woke or 0
+  uint32_t asleep;         ///< slot + 1 of the first of the bodies that fell asleep together; 0: awake
 };
 
 constexpr uint32_t k_manifold_points_max = 4;
@@ -184,7 +188,7 @@ enum class AssetKind : uint32_t {
   none = 0,      ///< not bound
   other = 1,     ///< bytes that the library does not read
   hull = 2,      ///< a cooked hull, checked in full
-  surface = 3,   ///< a cooked mesh or height field (terrain), checked in full
+  terrain = 3,   ///< a cooked mesh or height field (terrain), checked in full
   compound = 4,  ///< a cooked compound, checked in full
 };
 

@@ -74,39 +74,39 @@ void print_text(const std::string& path, const detent_cook::HullDescription& hul
   }
 }
 
-Json json_of(const std::string& path, const detent_cook::SurfaceDescription& surface) {
+Json json_of(const std::string& path, const detent_cook::TerrainDescription& terrain) {
   Json json = {{"file", path}, {"ok", true}};
-  json["kind"] = surface.is_mesh ? "mesh" : "height field";
-  json["vertices"] = surface.vertex_count;
-  json["triangles"] = surface.triangle_count;
-  if (surface.is_mesh) {
-    json["nodes"] = surface.node_count;
-    json["flat"] = surface.edges[0];
-    json["convex"] = surface.edges[1];
-    json["concave"] = surface.edges[2];
-    json["open"] = surface.edges[3];
+  json["kind"] = terrain.is_mesh ? "mesh" : "height field";
+  json["vertices"] = terrain.vertex_count;
+  json["triangles"] = terrain.triangle_count;
+  if (terrain.is_mesh) {
+    json["nodes"] = terrain.node_count;
+    json["flat"] = terrain.edges[0];
+    json["convex"] = terrain.edges[1];
+    json["concave"] = terrain.edges[2];
+    json["open"] = terrain.edges[3];
   } else {
-    json["columns"] = surface.columns;
-    json["rows"] = surface.rows;
+    json["columns"] = terrain.columns;
+    json["rows"] = terrain.rows;
   }
-  json["one_sided"] = surface.one_sided;
-  json["step"] = surface.step;
-  json["low"] = surface.low;
-  json["high"] = surface.high;
+  json["one_sided"] = terrain.one_sided;
+  json["step"] = terrain.step;
+  json["low"] = terrain.low;
+  json["high"] = terrain.high;
   return json;
 }
 
-void print_text(const std::string& path, const detent_cook::SurfaceDescription& surface) {
+void print_text(const std::string& path, const detent_cook::TerrainDescription& terrain) {
   printf("%s: ", printable(path).c_str());
-  if (surface.is_mesh) {
-    printf("%u triangles, %u vertices, sides: %u flat, %u convex, %u concave, %u open", surface.triangle_count,
-           surface.vertex_count, surface.edges[0], surface.edges[1], surface.edges[2], surface.edges[3]);
+  if (terrain.is_mesh) {
+    printf("%u triangles, %u vertices, sides: %u flat, %u convex, %u concave, %u open", terrain.triangle_count,
+           terrain.vertex_count, terrain.edges[0], terrain.edges[1], terrain.edges[2], terrain.edges[3]);
   } else {
-    printf("%u by %u cells, %u triangles", surface.columns, surface.rows, surface.triangle_count);
+    printf("%u by %u cells, %u triangles", terrain.columns, terrain.rows, terrain.triangle_count);
   }
   printf(", %s, from (%.6g, %.6g, %.6g) to (%.6g, %.6g, %.6g) m, step %.3g m",
-         surface.one_sided ? "one-sided" : "two-sided", surface.low[0], surface.low[1], surface.low[2], surface.high[0],
-         surface.high[1], surface.high[2], surface.step);
+         terrain.one_sided ? "one-sided" : "two-sided", terrain.low[0], terrain.low[1], terrain.low[2], terrain.high[0],
+         terrain.high[1], terrain.high[2], terrain.step);
 }
 
 Json json_of(const std::string& path, const detent_cook::CompoundDescription& compound) {
@@ -171,9 +171,9 @@ bool cook_mesh_file(const MeshRequest& request, bool json, const detent_cook::Co
   if (const std::string problem = write_file(request.output, result.bytes); !problem.empty())
     return fail(request.output, problem, json);
 
-  const detent_cook::SurfaceDescription surface = detent_cook::describe_surface(result.bytes);
+  const detent_cook::TerrainDescription terrain = detent_cook::describe_terrain(result.bytes);
   if (json) {
-    Json object = json_of(request.output, surface);
+    Json object = json_of(request.output, terrain);
     object["welded"] = result.welded;
     object["degenerate"] = result.degenerate;
     object["repeated"] = result.repeated;
@@ -182,7 +182,7 @@ bool cook_mesh_file(const MeshRequest& request, bool json, const detent_cook::Co
     print_json(object);
     return true;
   }
-  print_text(request.output, surface);
+  print_text(request.output, terrain);
   printf("; of %zu triangles %u degenerate and %u repeated left out, %u vertices welded, %u edges forked, %zu bytes\n",
          read.mesh.triangles.size(), result.degenerate, result.repeated, result.welded, result.forked_edges,
          result.bytes.size());
@@ -200,28 +200,28 @@ bool cook_height_field_file(const HeightFieldRequest& request, bool json) {
   if (const std::string problem = write_file(request.output, result.bytes); !problem.empty())
     return fail(request.output, problem, json);
 
-  const detent_cook::SurfaceDescription surface = detent_cook::describe_surface(result.bytes);
+  const detent_cook::TerrainDescription terrain = detent_cook::describe_terrain(result.bytes);
   if (json) {
-    Json object = json_of(request.output, surface);
+    Json object = json_of(request.output, terrain);
     object["height_step"] = result.height_step;
     object["bytes"] = result.bytes.size();
     print_json(object);
     return true;
   }
-  print_text(request.output, surface);
+  print_text(request.output, terrain);
   printf("; heights in steps of %.3g m, %zu bytes\n", result.height_step, result.bytes.size());
   return true;
 }
 
-bool describe_surface_file(const std::string& path, bool json) {
+bool describe_terrain_file(const std::string& path, bool json) {
   std::vector<uint8_t> bytes;
   if (const std::string problem = read_file(path, bytes); !problem.empty()) return fail(path, problem, json);
-  const detent_cook::SurfaceDescription surface = detent_cook::describe_surface(bytes);
-  if (!surface.problem.empty()) return fail(path, surface.problem, json);
+  const detent_cook::TerrainDescription terrain = detent_cook::describe_terrain(bytes);
+  if (!terrain.problem.empty()) return fail(path, terrain.problem, json);
   if (json) {
-    print_json(json_of(path, surface));
+    print_json(json_of(path, terrain));
   } else {
-    print_text(path, surface);
+    print_text(path, terrain);
     printf("\n");
   }
   return true;

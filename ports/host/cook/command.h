@@ -37,7 +37,7 @@ struct HeightFieldRequest {
 bool cook_height_field_file(const HeightFieldRequest& request, bool json);
 
 /// Prints the content of a .mesh or .field. False if the library refuses it.
-bool describe_surface_file(const std::string& path, bool json);
+bool describe_terrain_file(const std::string& path, bool json);
 
 /// Reads the parts, cooks them, writes the .compound and prints its description. Failures as in cook_file().
 bool cook_compound_file(const std::string& input, const std::string& output, detent_cook::Frame frame, bool json);

@@ -241,7 +241,8 @@ HullHeader header_of(const Body& body, bool principal) {
   header.volume = body.moments.volume;
   if (!principal) return header;
   const auto& second = body.moments.second;
-  for (size_t axis = 0; axis < 3; ++axis) header.gyration[axis] = 1 / (second[(axis + 1) % 3] + second[(axis + 2) % 3]);
+  for (size_t axis = 0; axis < 3; ++axis)
+    header.inverse_inertia[axis] = 1 / (second[(axis + 1) % 3] + second[(axis + 2) % 3]);
   for (size_t axis = 0; axis < 3; ++axis) header.origin[axis] = body.placement.origin[axis] + 0.0;  // never -0
   header.rotation = body.placement.rotation;
   return header;
@@ -320,7 +321,7 @@ CookResult cook_hull(const std::vector<Point>& points, const CookOptions& option
   for (size_t i = 0; i < 3; ++i) {
     result.centre[i] = body.placement.origin[i];
     for (size_t k = 0; k < 3; ++k) result.centre[i] += axes[i][k] * body.moments.centre[k] * unit;
-    result.gyration[i] = header.gyration[i];
+    result.inverse_inertia[i] = header.inverse_inertia[i];
   }
   for (size_t k = 0; k < 4; ++k) result.rotation[k] = body.placement.rotation[k] / k_one;
   result.width = width / k_one * unit;

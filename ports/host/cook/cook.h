@@ -36,7 +36,7 @@ struct CookResult {
   Point centre{};                                 ///< m; of mass, in the source frame
   std::array<double, 4> rotation = {0, 0, 0, 1};  ///< x, y, z, w: from the body to the source frame
   /// Inverse inertia per unit mass, unit^2 / (I / m), about each axis; 0 in the source frame.
-  std::array<double, 3> gyration{};
+  std::array<double, 3> inverse_inertia{};
   double width = 0;  ///< m; an upper bound of the width, at most a few times the width
   double error = 0;  ///< m; no point of the cloud lies further than this above any face's plane
 };

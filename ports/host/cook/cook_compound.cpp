@@ -46,13 +46,16 @@ PartMass ball_mass(const CompoundPart& part) {
 
 PartMass capsule_mass(const CompoundPart& part) {
   const Point &a = part.points[0], &b = part.points[1];
-  const Point way = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-  const double length = sqrt(way[0] * way[0] + way[1] * way[1] + way[2] * way[2]), h = length / 2, r = part.radius;
+  const Point displacement = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+  const double length = sqrt(displacement[0] * displacement[0] + displacement[1] * displacement[1] +
+                             displacement[2] * displacement[2]),
+               h = length / 2, r = part.radius;
   const double cylinder = k_pi * r * r * length, balls = 4 * k_pi / 3 * r * r * r, mass = cylinder + balls;
   const double across = (cylinder * r * r / 4 + balls * r * r / 5) / mass;
   const double along = (cylinder * h * h / 3 + balls * (h * h + 0.75 * h * r + r * r / 5)) / mass;
   // `across` in every direction, and the rest along the axis
-  const double n[3] = {way[0] / length, way[1] / length, way[2] / length}, more = along - across;
+  const double n[3] = {displacement[0] / length, displacement[1] / length, displacement[2] / length},
+               more = along - across;
   return {mass,
           {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2},
           {across + more * n[0] * n[0], across + more * n[1] * n[1], across + more * n[2] * n[2], more * n[0] * n[1],
@@ -79,7 +82,7 @@ std::string hull_mass(const CompoundPart& part, PartMass& mass) {
   if (hull.bytes.empty()) return hull.reason;
   std::array<double, 3> inertia;
   const double unit = ldexp(1, hull.exponent);
-  for (size_t k = 0; k < 3; ++k) inertia[k] = unit * unit / hull.gyration[k];
+  for (size_t k = 0; k < 3; ++k) inertia[k] = unit * unit / hull.inverse_inertia[k];
   const double half = (inertia[0] + inertia[1] + inertia[2]) / 2;
   GridRotation rotation;
   for (size_t k = 0; k < 4; ++k) rotation[k] = static_cast<int32_t>(hull.rotation[k] * k_one);
@@ -216,7 +219,7 @@ bool measure_all(const std::vector<Child>& children, int exponent, std::vector<M
       one.child.high = vector(from.part.points.back());
     }
     one.measure = detent::measure_child(one.child, hull, exponent);
-    if (one.measure.reach >= int64_t{1} << 30) return false;
+    if (one.measure.radius >= int64_t{1} << 30) return false;
     measured.push_back(one);
   }
   return true;
@@ -248,7 +251,7 @@ std::vector<uint8_t> encode(const std::vector<Child>& children, const std::vecto
     const detent::ChildMeasure& measure = measured[i].measure;
     child.low = measure.low;
     child.high = measure.high;
-    radius = std::max(radius, measure.reach);
+    radius = std::max(radius, measure.radius);
     thickness = std::min(thickness, measure.half_thickness);
     const detent::ChildBox box = detent::child_box(child);
     half = {std::max({half.x, -box.low.x, box.high.x}), std::max({half.y, -box.low.y, box.high.y}),
@@ -273,7 +276,7 @@ std::vector<uint8_t> encode(const std::vector<Child>& children, const std::vecto
   writer.put_scaled(detent::k_compound_volume_at, ldexp(mass.mass, -3 * exponent));
   for (uint32_t axis = 0; axis < 3; ++axis) {
     const double inertia = placement.along((axis + 1) % 3, mass.second) + placement.along((axis + 2) % 3, mass.second);
-    writer.put_scaled(detent::k_compound_gyration_at + 8 * axis, ldexp(1, 2 * exponent) / inertia);
+    writer.put_scaled(detent::k_compound_inverse_inertia_at + 8 * axis, ldexp(1, 2 * exponent) / inertia);
     const double origin = placement.origin[axis] + 0.0;  // never -0
     uint64_t bits;
     memcpy(&bits, &origin, sizeof bits);

@@ -72,7 +72,7 @@ HeightFieldResult cook_height_field(const HeightFieldSource& source) {
   int exponent = 0;
   // One percent more, for the rounding of spacings and heights.
   frexp(greatest * 1.01, &exponent);
-  exponent = std::min(std::max(exponent, int{detent::k_surface_exponent_min}), int{detent::k_surface_exponent_max});
+  exponent = std::min(std::max(exponent, int{detent::k_terrain_exponent_min}), int{detent::k_terrain_exponent_max});
   const auto steps = [&](double metres) { return static_cast<int32_t>(floor(ldexp(metres, 30 - exponent) + 0.5)); };
   const int32_t height_step = static_cast<int32_t>(ceil(ldexp(highest, 30 - exponent) / k_height_steps)) + 1;
   const int32_t spacing_x = steps(source.spacing_x), spacing_z = steps(source.spacing_z);

@@ -56,12 +56,12 @@ void round_vertices(const MeshSource& source, GridMesh& mesh) {
     for (const double value : p) greatest = std::max(greatest, fabs(value));
   }
   frexp(greatest, &mesh.exponent);
-  mesh.exponent = std::max(mesh.exponent, int{detent::k_surface_exponent_min});
+  mesh.exponent = std::max(mesh.exponent, int{detent::k_terrain_exponent_min});
   for (const Point& p : source.vertices) {
     std::array<int32_t, 3> v;
     for (size_t k = 0; k < 3; ++k) {
       const double steps = floor(ldexp(p[k], 30 - mesh.exponent) + 0.5);
-      constexpr double k_most = detent::k_surface_coordinate_max;
+      constexpr double k_most = detent::k_terrain_coordinate_max;
       // a value may round up to the unit itself
       v[k] = static_cast<int32_t>(std::min(std::max(steps, -k_most), k_most));
     }

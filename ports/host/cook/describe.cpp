@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "shape/compound.h"
-#include "shape/surface.h"
+#include "shape/terrain.h"
 
 namespace detent_cook {
 
@@ -52,23 +52,23 @@ CompoundDescription describe_compound(const std::vector<uint8_t>& bytes) {
   return description;
 }
 
-SurfaceDescription describe_surface(const std::vector<uint8_t>& bytes) {
-  SurfaceDescription description;
+TerrainDescription describe_terrain(const std::vector<uint8_t>& bytes) {
+  TerrainDescription description;
   std::vector<uint64_t> aligned(bytes.size() / 8 + 1);
   if (!bytes.empty()) memcpy(aligned.data(), bytes.data(), bytes.size());
   const detent::Asset asset = {reinterpret_cast<const uint8_t*>(aligned.data()), static_cast<uint32_t>(bytes.size())};
-  detent::Surface surface;
-  const detent::Status status = detent::read_surface(asset, surface);
+  detent::Terrain terrain;
+  const detent::Status status = detent::read_terrain(asset, terrain);
   if (status != detent::Status::ok) {
     description.problem = detent::status_text(status);
     return description;
   }
-  description.is_mesh = surface.is_mesh;
-  description.one_sided = surface.one_sided();
-  description.step = ldexp(1.0, surface.exponent() - 30);
-  detent::GridBox box = surface.bounds();
-  if (surface.is_mesh) {
-    const detent::MeshView& mesh = surface.mesh;
+  description.is_mesh = terrain.is_mesh;
+  description.one_sided = terrain.one_sided();
+  description.step = ldexp(1.0, terrain.exponent() - 30);
+  detent::GridBox box = terrain.bounds();
+  if (terrain.is_mesh) {
+    const detent::MeshView& mesh = terrain.mesh;
     description.vertex_count = mesh.vertex_count;
     description.triangle_count = mesh.triangle_count;
     description.node_count = mesh.level_start[mesh.level_count];
@@ -78,7 +78,7 @@ SurfaceDescription describe_surface(const std::vector<uint8_t>& bytes) {
       for (uint32_t k = 0; k < 3; ++k) ++description.edges[static_cast<size_t>(mesh.kind(i, k))];
     }
   } else {
-    const detent::HeightFieldView& field = surface.field;
+    const detent::HeightFieldView& field = terrain.field;
     description.columns = field.columns;
     description.rows = field.rows;
     description.vertex_count = (field.columns + 1) * (field.rows + 1);

@@ -37,7 +37,7 @@ struct CompoundDescription {
 CompoundDescription describe_compound(const std::vector<uint8_t>& bytes);
 
 /// The content of a .mesh or a .field, as the library reads it.
-struct SurfaceDescription {
+struct TerrainDescription {
   std::string problem{};  ///< why the library refuses it; empty if it accepts it
   bool is_mesh = true;    ///< otherwise a height field
   uint32_t vertex_count = 0, triangle_count = 0;
@@ -50,6 +50,6 @@ struct SurfaceDescription {
 };
 
 /// Describes the bytes of a file after all checks of the library.
-SurfaceDescription describe_surface(const std::vector<uint8_t>& bytes);
+TerrainDescription describe_terrain(const std::vector<uint8_t>& bytes);
 
 }  // namespace detent_cook

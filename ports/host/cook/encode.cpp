@@ -94,7 +94,7 @@ std::vector<uint8_t> encode_hull(const std::vector<GridPoint>& vertices, const s
   writer.put(detent::k_hull_edge_count_at, edge_count);
   writer.put_scaled(detent::k_hull_volume_at, header.volume);
   for (uint32_t axis = 0; axis < 3; ++axis) {
-    writer.put_scaled(detent::k_hull_gyration_at + 8 * axis, header.gyration[axis]);
+    writer.put_scaled(detent::k_hull_inverse_inertia_at + 8 * axis, header.inverse_inertia[axis]);
     uint64_t bits;
     memcpy(&bits, &header.origin[axis], sizeof bits);
     writer.put(detent::k_hull_origin_at + 8 * axis, bits);

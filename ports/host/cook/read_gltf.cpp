@@ -40,11 +40,12 @@ Transform transform_of(const tinygltf::Node& node) {
   }
   const double x = component(node.rotation, 0, 0), y = component(node.rotation, 1, 0),
                z = component(node.rotation, 2, 0), w = component(node.rotation, 3, 1);
-  const double turn[3][3] = {{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
-                             {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
-                             {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}};
+  const double rotation_vector[3][3] = {{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
+                                        {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
+                                        {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}};
   for (size_t column = 0; column < 3; ++column) {
-    for (size_t row = 0; row < 3; ++row) m[4 * column + row] = turn[column][row] * component(node.scale, column, 1);
+    for (size_t row = 0; row < 3; ++row)
+      m[4 * column + row] = rotation_vector[column][row] * component(node.scale, column, 1);
     m[12 + column] = component(node.translation, column, 0);
   }
   m[15] = 1;

@@ -18,7 +18,7 @@ class FieldList final : public Archive {
     WordKind kind;
     std::vector<uint8_t> bytes;  ///< a scaled number's include its exponent
   };
-  FieldList(const uint8_t* bytes, uint32_t count) : Archive(k_ways), bytes_(bytes), count_(count) {}
+  FieldList(const uint8_t* bytes, uint32_t count) : Archive(k_operations), bytes_(bytes), count_(count) {}
   std::vector<Item> items;
 
  private:
@@ -34,7 +34,7 @@ class FieldList final : public Archive {
     if (exponent) return to.items.back().bytes.insert(to.items.back().bytes.end(), bytes, bytes + byte_count), void();
     to.items.push_back({name, to.kind, {bytes, bytes + byte_count}});
   }
-  static constexpr Ways k_ways = {list, nullptr, false};
+  static constexpr Operations k_operations = {list, nullptr, false};
 
   const uint8_t* bytes_;
   uint32_t count_;

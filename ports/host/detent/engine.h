@@ -143,8 +143,8 @@ struct BodyLine {
   bool awake = false;
   double position[3] = {};
   double rotation[4] = {};  ///< x, y, z, w
-  double velocity[3] = {};
-  double spin[3] = {};
+  double linear_velocity[3] = {};
+  double angular_velocity[3] = {};
 };
 
 struct Engine {

@@ -149,7 +149,7 @@ int run_info(const std::vector<std::string>& paths, const Report& report) {
     if (kind >= FileKind::hull) {
       const auto describe = kind == FileKind::hull       ? describe_hull_file
                             : kind == FileKind::compound ? describe_compound_file
-                                                         : describe_surface_file;
+                                                         : describe_terrain_file;
       if (!describe(path, report.json)) code = k_exit_bad;
       continue;
     }

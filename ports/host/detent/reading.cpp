@@ -161,9 +161,10 @@ BodyLine line_of(const World& world, BodyId id) {
   BodyLine line;
   BodyType type = BodyType::fixed;
   Pose pose;
-  Vec3<Real> velocity, spin;
+  Vec3<Real> linear_velocity, angular_velocity;
   if (get_type(world, id, type) != Status::ok || get_pose(world, id, pose) != Status::ok ||
-      get_velocity(world, id, velocity, spin) != Status::ok || is_awake(world, id, line.awake) != Status::ok) {
+      get_velocity(world, id, linear_velocity, angular_velocity) != Status::ok ||
+      is_awake(world, id, line.awake) != Status::ok) {
     return line;  // impossible: the world gave the id
   }
   line.slot = id.slot;
@@ -174,8 +175,8 @@ BodyLine line_of(const World& world, BodyId id) {
   line.position[2] = coord_to_host(pose.position.z);
   const Unit parts[] = {pose.rotation.x, pose.rotation.y, pose.rotation.z, pose.rotation.w};
   for (int i = 0; i < 4; ++i) line.rotation[i] = unit_to_host(parts[i]);
-  take_vector(velocity, line.velocity);
-  take_vector(spin, line.spin);
+  take_vector(linear_velocity, line.linear_velocity);
+  take_vector(angular_velocity, line.angular_velocity);
   return line;
 }
 

@@ -170,8 +170,8 @@ void Report::state(const std::string& path, const Outcome& outcome, const std::v
                                   {"awake", body.awake},
                                   {"position", body.position},
                                   {"rotation", body.rotation},
-                                  {"velocity", body.velocity},
-                                  {"spin", body.spin}});
+                                  {"linear_velocity", body.linear_velocity},
+                                  {"angular_velocity", body.angular_velocity}});
     }
     return print_json(object);
   }
@@ -180,9 +180,9 @@ void Report::state(const std::string& path, const Outcome& outcome, const std::v
         " bodies, digest " + hexadecimal(outcome.digest));
   print(
       "slot:gen  type       position, m                     rotation x y z w                    velocity, m/s"
-      "                   spin, rad/s");
+      "                   angular velocity, rad/s");
   for (const BodyLine& body : bodies) {
-    const double *p = body.position, *r = body.rotation, *v = body.velocity, *w = body.spin;
+    const double *p = body.position, *r = body.rotation, *v = body.linear_velocity, *w = body.angular_velocity;
     printf("%4u:%-4u %-9s %c %10.5f %10.5f %10.5f  %8.5f %8.5f %8.5f %8.5f  %10.5f %10.5f %10.5f  %9.5f %9.5f %9.5f\n",
            static_cast<unsigned>(body.slot), static_cast<unsigned>(body.generation), body.type.c_str(),
            body.awake ? '*' : ' ', p[0], p[1], p[2], r[0], r[1], r[2], r[3], v[0], v[1], v[2], w[0], w[1], w[2]);

@@ -28,7 +28,8 @@ void visit_push(F& fields, SceneAction& action, const char* key, const char* doc
 /// The point where a force or impulse acts.
 template <class F>
 void visit_place_of_push(F& fields, SceneAction& action) {
-  action.at_arm = fields.vector(optional({"arm", "where it acts, from the centre of mass, m, world axes"}), action.way);
+  action.at_arm =
+      fields.vector(optional({"arm", "where it acts, from the centre of mass, m, world axes"}), action.displacement);
   action.at_point = fields.position(optional({"point", "where it acts, m, world"}), action.position);
   if (action.at_arm && action.at_point) fields.problem("point", "does not go with `arm`");
 }
@@ -42,8 +43,8 @@ void visit_one_body(F& fields, SceneAction& action) {
       fields.rotation(required({"rotation", "local to world"}), action.rotation);
       break;
     case Call::set_velocity:
-      fields.vector(required({"velocity", "m/s, world", within(16384)}), action.way);
-      fields.vector(required({"spin", "rad/s, world"}), action.turn);
+      fields.vector(required({"linear_velocity", "m/s, world", within(16384)}), action.displacement);
+      fields.vector(required({"angular_velocity", "rad/s, world"}), action.rotation_vector);
       break;
     case Call::apply_force:
       visit_push(fields, action, "force", "N, world, during the tick");
@@ -90,7 +91,7 @@ void visit_one_body(F& fields, SceneAction& action) {
     case Call::set_gravity_scale:
       fields.real(required({"scale", "times the world's gravity", within(1024)}), action.first);
       break;
-    case Call::set_turn_locks:
+    case Call::set_rotation_locks:
       turn_locks_of_body(fields, action.number, true);
       break;
     case Call::set_sensor:
@@ -131,7 +132,7 @@ void visit(F& fields, SceneAction& action) {
       fields.template changes<WorldDef>(required({"changes", "the rest stays"}), action.changes);
       break;
     case Call::set_gravity:
-      fields.vector(required({"gravity", "m/s^2", within(1024)}), action.way);
+      fields.vector(required({"gravity", "m/s^2", within(1024)}), action.displacement);
       break;
     case Call::explode:
       fields.position(required({"centre", "m, world"}), action.position);
@@ -140,13 +141,13 @@ void visit(F& fields, SceneAction& action) {
       break;
     case Call::query_ray:
       fields.position(required({"origin", "m, world"}), action.position);
-      fields.vector(required({"way", "m, world", within(0x1p14)}), action.way);
+      fields.vector(required({"displacement", "m, world", within(0x1p14)}), action.displacement);
       visit_query(fields, action);
       break;
     case Call::query_cast:
       visit_asking_shape(fields, action);
-      fields.vector(required({"way", "m, world", within(0x1p14)}), action.way);
-      fields.vector({"turn", "rotation vector, world, rad", within(0x1p16)}, action.turn);
+      fields.vector(required({"displacement", "m, world", within(0x1p14)}), action.displacement);
+      fields.vector({"rotation_vector", "rotation vector, world, rad", within(0x1p16)}, action.rotation_vector);
       visit_query(fields, action);
       break;
     case Call::query_overlap:
@@ -160,7 +161,7 @@ void visit(F& fields, SceneAction& action) {
       break;
     case Call::query_closest:
       visit_asking_shape(fields, action);
-      fields.real(required({"reach", "between the surfaces, m", between(0, 0x1p14)}), action.first);
+      fields.real(required({"distance_max", "between the surfaces, m", between(0, 0x1p14)}), action.first);
       visit_query(fields, action);
       break;
     default:

@@ -57,16 +57,18 @@ void visit(F& fields, WorldDef& world) {
   fields.integer({"convergence", "sweeps end early below 2^-convergence", between(0, 30)}, world.convergence);
   fields.choice({"stabilisation", "how overlap is undone"}, world.stabilisation, k_stabilisations);
   fields.real({"relaxation", "over-relaxation factor of the SOR solver", between(0.25, 1.75)}, world.relaxation);
-  fields.real({"stiffness", "contact frequency over the substep rate", between(1.0 / 64, 0.25)}, world.stiffness);
+  fields.real({"contact_frequency", "contact frequency over the substep rate", between(1.0 / 64, 0.25)},
+              world.contact_frequency);
   fields.real({"damping_ratio", "of the soft contacts", between(0, 64)}, world.damping_ratio);
   fields.real({"restitution_threshold", "slowest rebound, in sqrt(g x smaller extent)", between(0, 64)},
               world.restitution_threshold);
   fields.flag({"continuous", "nothing passes through anything"}, world.continuous);
   fields.flag({"sleeping", "what rests is left out of the step"}, world.sleeping);
-  fields.real({"breaking", "gap with contact points, over the smaller extent", between(0x1p-10, 0x1p-4)},
-              world.breaking);
-  fields.real({"reuse", "motion within which contact points are used again, likewise", between(0, 1.0 / 64)},
-              world.reuse);
+  fields.real({"contact_margin", "gap with contact points, over the smaller extent", between(0x1p-10, 0x1p-4)},
+              world.contact_margin);
+  fields.real(
+      {"contact_recycle_distance", "motion within which contact points are used again, likewise", between(0, 1.0 / 64)},
+      world.contact_recycle_distance);
   fields.choice({"reduction", "which contact points are kept"}, world.reduction, k_reductions);
 }
 
@@ -87,7 +89,7 @@ void visit(F& fields, Shape& shape) {
   constexpr Choice<ShapeType> k_types[] = {
       {"sphere", ShapeType::sphere},         {"capsule", ShapeType::capsule},   {"box", ShapeType::box},
       {"cylinder", ShapeType::cylinder},     {"cone", ShapeType::cone},         {"hull", ShapeType::hull},
-      {"half_space", ShapeType::half_space}, {"compound", ShapeType::compound}, {"surface", ShapeType::surface},
+      {"half_space", ShapeType::half_space}, {"compound", ShapeType::compound}, {"terrain", ShapeType::terrain},
   };
   if (!fields.tag({"type", "which shape"}, shape.type, k_types)) return;
   const SceneField rounding = {"rounding", "grown by a ball of this radius, m; 0, or a size", k_size_or_zero};
@@ -115,7 +117,7 @@ void visit(F& fields, Shape& shape) {
       fields.real(rounding, shape.rounding);
       break;
     case ShapeType::compound:
-    case ShapeType::surface:
+    case ShapeType::terrain:
       fields.asset(shape);
       break;
     default:  // a half-space has no size; a triangle is not among the choices
@@ -141,8 +143,8 @@ void type_of_body(F& fields, BodyType& type, bool needed) {
 
 template <class F>
 void turn_locks_of_body(F& fields, uint32_t& locks, bool needed) {
-  constexpr Choice<uint32_t> k_locks[] = {{"x", k_turn_lock_x}, {"y", k_turn_lock_y}, {"z", k_turn_lock_z}};
-  fields.choices({"turn_locks", "its axes about which it does not turn", k_any, needed}, locks, k_locks);
+  constexpr Choice<uint32_t> k_locks[] = {{"x", k_rotation_lock_x}, {"y", k_rotation_lock_y}, {"z", k_rotation_lock_z}};
+  fields.choices({"rotation_locks", "its axes about which it does not turn", k_any, needed}, locks, k_locks);
 }
 
 template <class F>
@@ -154,8 +156,9 @@ void visit(F& fields, SceneBody& body) {
   type_of_body(fields, def.type, false);
   fields.position({"position", "of the centre of mass, m, world"}, def.position);
   fields.rotation({"rotation", "local to world"}, def.rotation);
-  fields.vector({"velocity", "m/s, world", within(16384)}, def.velocity);
-  fields.vector({"spin", "rad/s, world; its length x bounding radius within 16384 m/s"}, def.spin);
+  fields.vector({"linear_velocity", "m/s, world", within(16384)}, def.linear_velocity);
+  fields.vector({"angular_velocity", "rad/s, world; its length x bounding radius within 16384 m/s"},
+                def.angular_velocity);
   fields.named(required({"shape", "in its frame, about its centre of mass"}), def.shape);
   fields.named({"material", "of the whole surface"}, def.material);
   fields.scaled({"density", "kg/m^3; used where there is no mass", above(0)}, def.density);
@@ -164,12 +167,12 @@ void visit(F& fields, SceneBody& body) {
   fields.real({"angular_damping", "1/s", between(0, 1024)}, def.angular_damping);
   fields.real({"gravity_scale", "times the world's gravity", within(1024)}, def.gravity_scale);
   fields.integer({"user_data", "kept and recorded", k_word}, def.user_data);
-  turn_locks_of_body(fields, def.turn_locks, false);
+  turn_locks_of_body(fields, def.rotation_locks, false);
   fields.named({"filter", "what it collides with"}, def.filter);
   fields.flag({"sensor", "it pushes nothing, and tells who is within it"}, def.sensor);
   if (def.type == BodyType::dynamic &&
-      (def.shape.type == ShapeType::half_space || def.shape.type == ShapeType::surface)) {
-    fields.problem("type", "is dynamic, which a half-space or surface cannot be");
+      (def.shape.type == ShapeType::half_space || def.shape.type == ShapeType::terrain)) {
+    fields.problem("type", "is dynamic, which a half-space or terrain cannot be");
   }
 }
 

@@ -98,7 +98,7 @@ Status ScenePlayer::call(const SceneAction& action) {
       return recorder_.set_settings(def);
     }
     case Call::set_gravity:
-      return recorder_.set_gravity(action.way);
+      return recorder_.set_gravity(action.displacement);
     case Call::explode:
       return recorder_.explode({action.position, action.first, action.mass});
     case Call::query_ray:
@@ -121,7 +121,7 @@ Status ScenePlayer::call_of_body(const SceneAction& action, BodyId id) {
     case Call::move_kinematic:
       return recorder_.move_kinematic(id, action.position, action.rotation);
     case Call::set_velocity:
-      return recorder_.set_velocity(id, action.way, action.turn);
+      return recorder_.set_velocity(id, action.displacement, action.rotation_vector);
     case Call::apply_torque:
       return recorder_.apply_torque(id, action.push);
     case Call::apply_angular_impulse:
@@ -150,8 +150,8 @@ Status ScenePlayer::call_of_body(const SceneAction& action, BodyId id) {
       return recorder_.set_damping(id, action.first, action.second);
     case Call::set_gravity_scale:
       return recorder_.set_gravity_scale(id, action.first);
-    case Call::set_turn_locks:
-      return recorder_.set_turn_locks(id, action.number);
+    case Call::set_rotation_locks:
+      return recorder_.set_rotation_locks(id, action.number);
     case Call::set_sensor:
       return recorder_.set_sensor(id, action.flag);
     default:
@@ -162,8 +162,8 @@ Status ScenePlayer::call_of_body(const SceneAction& action, BodyId id) {
 Status ScenePlayer::push(const SceneAction& action, BodyId id) {
   const bool force = action.call == Call::apply_force;
   if (action.at_arm) {
-    return force ? recorder_.apply_force_at(id, action.push, action.way)
-                 : recorder_.apply_impulse_at(id, action.push, action.way);
+    return force ? recorder_.apply_force_at(id, action.push, action.displacement)
+                 : recorder_.apply_impulse_at(id, action.push, action.displacement);
   }
   if (action.at_point) {
     return force ? recorder_.apply_force_at_point(id, action.push, action.position)

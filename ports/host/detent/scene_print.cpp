@@ -50,11 +50,12 @@ Status ScenePlayer::ask(const SceneAction& action) {
   Status status = Status::ok;
   switch (action.call) {
     case Call::query_ray:
-      status = recorder_.query_ray({action.position, action.way, filter, action.flag}, hits, report);
+      status = recorder_.query_ray({action.position, action.displacement, filter, action.flag}, hits, report);
       break;
     case Call::query_cast:
-      status = recorder_.query_cast(
-          {action.shape, action.position, action.rotation, action.way, action.turn, filter, action.flag}, hits, report);
+      status = recorder_.query_cast({action.shape, action.position, action.rotation, action.displacement,
+                                     action.rotation_vector, filter, action.flag},
+                                    hits, report);
       break;
     case Call::query_overlap:
       status =
@@ -139,14 +140,16 @@ void ScenePlayer::print_events(const World& world, const StepReport& report) con
 void ScenePlayer::print_bodies(const World& world, uint64_t tick) const {
   for (BodyId id = next_body(world, {}); id.slot != 0; id = next_body(world, id)) {
     Pose pose;
-    Vec3<Real> velocity, spin;
-    if (get_pose(world, id, pose) != Status::ok || get_velocity(world, id, velocity, spin) != Status::ok) continue;
+    Vec3<Real> linear_velocity, angular_velocity;
+    if (get_pose(world, id, pose) != Status::ok ||
+        get_velocity(world, id, linear_velocity, angular_velocity) != Status::ok)
+      continue;
     RunLine line = {tick, "at", {}};
     line.add("body", bodies_.of(id));
     line.add("position", numbers(pose.position));
     line.add("rotation", units(pose.rotation));
-    line.add("velocity", reals(velocity));
-    line.add("spin", reals(spin));
+    line.add("linear_velocity", reals(linear_velocity));
+    line.add("angular_velocity", reals(angular_velocity));
     print_(line);
   }
 }

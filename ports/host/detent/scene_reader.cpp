@@ -39,13 +39,13 @@ bool in_range(double value, const Range& range) {
 Quat turned_about(const Quat& rotation, const double (&axis)[3], double degrees) {
   const double length = sqrt(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
   const double angle = degrees * (3.14159265358979323846 / 180.0);
-  Vec3<Real> turn = {0.0, 0.0, 0.0};
-  Real* const part[3] = {&turn.x, &turn.y, &turn.z};
+  Vec3<Real> rotation_vector = {0.0, 0.0, 0.0};
+  Real* const part[3] = {&rotation_vector.x, &rotation_vector.y, &rotation_vector.z};
   for (int i = 0; i < 3; ++i) {
     // The angle is bounded, and the quotient within [-1, 1].
     if (real_from_host(axis[i] / length * angle, *part[i]) != Status::ok) return rotation;
   }
-  return turned_by(rotation, turn);
+  return rotated_by(rotation, rotation_vector);
 }
 
 }  // namespace

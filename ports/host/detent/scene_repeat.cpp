@@ -7,7 +7,7 @@
 #include <charconv>
 #include <optional>
 
-#include "scene_turn.h"
+#include "scene_revolve.h"
 #include "scene_words.h"
 
 namespace detent_tool {
@@ -28,7 +28,7 @@ struct Repeat {
   Index counts = {1, 1, 1};
   bool stepped = false, turned = false;
   double step[k_letters][3] = {};
-  SceneTurn turn[k_letters];
+  SceneRevolution revolution[k_letters];
 
   uint64_t copies() const { return uint64_t{counts[0]} * counts[1] * counts[2]; }
   /// For example ", i=2, j=0".
@@ -90,7 +90,7 @@ class Writer {
                                            })) &&
            (!repeat.turned ||
             each_letter(turns, "revolve", [&](size_t letter, const Node& node, const std::string& path) {
-              return is_repeated(letter, node, path) && read_turn(node, path, repeat.turn[letter]);
+              return is_repeated(letter, node, path) && read_turn(node, path, repeat.revolution[letter]);
             }));
   }
 
@@ -148,23 +148,23 @@ class Writer {
     }
     return true;
   }
-  bool read_turn(const Node& node, const std::string& path, SceneTurn& turn) {
+  bool read_turn(const Node& node, const std::string& path, SceneRevolution& revolution) {
     if (node.kind != NodeKind::object) return fail(node, path, "is not an object");
     for (size_t i = 0; i < node.keys.size(); ++i) {
       const std::string &key = node.keys[i], inner = path + "." + key;
       if (key != "axis" && key != "degrees" && key != "about") {
         return fail(node.items[i], inner, "is unknown here" + suggestion(key, {"axis", "degrees", "about"}));
       }
-      if (!(key == "degrees" ? number(node.items[i], inner, k_degrees, turn.degrees)
+      if (!(key == "degrees" ? number(node.items[i], inner, k_degrees, revolution.degrees)
                              : vector(node.items[i], inner, key == "axis" ? k_axis : k_any,
-                                      key == "axis" ? turn.axis : turn.about))) {
+                                      key == "axis" ? revolution.axis : revolution.about))) {
         return false;
       }
     }
     for (const char* key : {"axis", "degrees"}) {
       if (member_of(node, key) == nullptr) return fail(node, path + "." + key, "is missing");
     }
-    const double(&a)[3] = turn.axis;
+    const double(&a)[3] = revolution.axis;
     return a[0] * a[0] + a[1] * a[1] + a[2] * a[2] >= 1e-12 || fail(node, path + ".axis", "has no direction");
   }
 
@@ -233,9 +233,9 @@ class Writer {
       }
     }
     for (size_t letter = 0; letter < k_letters; ++letter) {
-      SceneTurn turn = repeat.turn[letter];
-      turn.degrees *= index[letter];
-      turn_entry(entry, turn);
+      SceneRevolution revolution = repeat.revolution[letter];
+      revolution.degrees *= index[letter];
+      revolve_entry(entry, revolution);
     }
     return true;
   }
@@ -347,15 +347,18 @@ std::vector<FieldInfo> repeat_fields() {
 }
 
 std::vector<ObjectInfo> repeat_objects() {
-  ObjectInfo turn = {"revolution", "A turn from copy to copy, about a line in the world.", "", "", {}, {{"", {}}}};
-  turn.variants.front().fields = {needed(field("axis", "of any length, by the right hand", FieldKind::vector, k_axis)),
-                                  needed(field("degrees", "from one copy to the next", FieldKind::number, k_degrees)),
-                                  field("about", "a point of the line, m, world", FieldKind::vector)};
-  turn.variants.front().fields.back().initial = "[0, 0, 0]";
+  ObjectInfo revolution = {"revolution", "A turn from copy to copy, about a line in the world.", "", "", {},
+                           {{"", {}}}};
+  revolution.variants.front().fields = {
+      needed(field("axis", "of any length, by the right hand", FieldKind::vector, k_axis)),
+      needed(field("degrees", "from one copy to the next", FieldKind::number, k_degrees)),
+      field("about", "a point of the line, m, world", FieldKind::vector)};
+  revolution.variants.front().fields.back().initial = "[0, 0, 0]";
   return {lettered("repeat", "How often an entry is there, at least one of the letters.",
                    field("", "", FieldKind::integer, k_counts)),
           lettered("step", "How far a copy is from the one before, m, world.", field("", "", FieldKind::vector)),
-          lettered("revolve", "How a copy is turned from the one before.", object_field("", "", "revolution")), turn};
+          lettered("revolve", "How a copy is turned from the one before.", object_field("", "", "revolution")),
+          revolution};
 }
 
 }  // namespace detent_tool

@@ -61,16 +61,17 @@ Json schema_of(const FieldInfo& field) {
 
 Json rotation_schema() {
   const Json angle = ranged("number", within(36000));
-  const Json turn = {{"type", "object"},
-                     {"properties", {{"axis", list_of(ranged("number", within(1e6)), 3)}, {"degrees", angle}}},
-                     {"required", {"axis", "degrees"}},
-                     {"additionalProperties", false}};
+  const Json rotation_vector = {
+      {"type", "object"},
+      {"properties", {{"axis", list_of(ranged("number", within(1e6)), 3)}, {"degrees", angle}}},
+      {"required", {"axis", "degrees"}},
+      {"additionalProperties", false}};
   const Json euler = {{"type", "object"},
                       {"properties", {{"euler_degrees", list_of(angle, 3)}}},
                       {"required", {"euler_degrees"}},
                       {"additionalProperties", false}};
   return {{"description", "A quaternion x, y, z, w of length 1; or a turn about an axis; or turns about x, y, z."},
-          {"anyOf", {list_of(ranged("number", within(1)), 4), turn, euler}}};
+          {"anyOf", {list_of(ranged("number", within(1)), 4), rotation_vector, euler}}};
 }
 
 Json schema_of(const ObjectInfo& object, const VariantInfo& variant) {

@@ -79,7 +79,7 @@ enum class Call : uint32_t {
   set_material,
   set_damping,
   set_gravity_scale,
-  set_turn_locks,
+  set_rotation_locks,
   set_sensor,
   query_ray,
   query_cast,
@@ -116,7 +116,7 @@ constexpr Choice<Call> k_calls[] = {
     {"set_material", Call::set_material},
     {"set_damping", Call::set_damping},
     {"set_gravity_scale", Call::set_gravity_scale},
-    {"set_turn_locks", Call::set_turn_locks},
+    {"set_rotation_locks", Call::set_rotation_locks},
     {"set_sensor", Call::set_sensor},
     {"query_ray", Call::query_ray},
     {"query_cast", Call::query_cast},
@@ -147,10 +147,10 @@ struct SceneAction {
   Position position = {0.0, 0.0, 0.0};
   Position upper = {0.0, 0.0, 0.0};
   Quat rotation = {0.0, 0.0, 0.0, 1.0};
-  Vec3<Real> way = {0.0, 0.0, 0.0};
-  Vec3<Real> turn = {0.0, 0.0, 0.0};
+  Vec3<Real> displacement = {0.0, 0.0, 0.0};
+  Vec3<Real> rotation_vector = {0.0, 0.0, 0.0};
   Vec3<Scaled> push = {0.0, 0.0, 0.0};
-  bool at_arm = false;    ///< applied at `way` from the centre of mass
+  bool at_arm = false;    ///< applied at `displacement` from the centre of mass
   bool at_point = false;  ///< applied at `position`
   Real first = 0.0;
   Real second = 0.0;

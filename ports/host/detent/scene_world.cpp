@@ -13,10 +13,10 @@ namespace {
 
 /// The reason why a cooked file cannot be a shape of this type.
 std::string refusal(FileKind kind, ShapeType type) {
-  const bool surface = kind == FileKind::mesh || kind == FileKind::height_field;
+  const bool terrain = kind == FileKind::mesh || kind == FileKind::height_field;
   if (type == ShapeType::hull && kind != FileKind::hull) return is_not(kind, "a cooked hull");
   if (type == ShapeType::compound && kind != FileKind::compound) return is_not(kind, "a cooked compound");
-  if (type == ShapeType::surface && !surface) return is_not(kind, "a cooked mesh or height field");
+  if (type == ShapeType::terrain && !terrain) return is_not(kind, "a cooked mesh or height field");
   return "is damaged, or of another format version";
 }
 

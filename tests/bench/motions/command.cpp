@@ -17,11 +17,11 @@ using namespace detent_oracle;
 constexpr const char* k_help =
     R"(How far motions between the same two poses of a body are apart on the way: the greatest over the step, of the point
 where it is greatest in parts of the body's radius, and of the rotation in rad. The library's motion, of constant velocity
-and spin, is asked of the library. A lever is how far the axis of the screw is from the body's centre, in radii.
+and angular_velocity, is asked of the library. A lever is how far the axis of the screw is from the body's centre, in radii.
   screw          from the library's motion: the screw at constant speed; the rotations are the same
   tangent        from the library's motion: the screw with the tangent of half its angle as clock; up to 2.65 rad
   nlerp          from the library's motion: positions and normalised quaternions on chords
-  2, 4, 8 pieces from the screw: constant velocity and spin through so many poses of it; one piece is the library's
+  2, 4, 8 pieces from the screw: constant velocity and angular_velocity through so many poses of it; one piece is the library's
                  motion, and the rotations are the same)";
 
 constexpr double k_pi = 3.141592653589793;
@@ -41,7 +41,7 @@ PosesOfStep poses_of(double lever, double angle) {
   PosesOfStep poses;
   poses.start = {{{0, 0, 0}}, rotation_by(Vector{{0.3, -1.1, 0.7}})};
   poses.displacement = axis * 0.5 + across * (2 * lever * sin(angle / 2));
-  poses.turn = axis * angle;
+  poses.rotation_vector = axis * angle;
   return poses;
 }
 
@@ -108,7 +108,7 @@ int run_motions(const MotionsOptions& options) {
       for (const Row& row : rows)
         all.push_back({{"motion", row.motion},
                        {"lever", row.lever},
-                       {"turn", row.angle},
+                       {"rotation_vector", row.angle},
                        {"distance", rounded(row.apart.distance)},
                        {"angle", rounded(row.apart.angle)}});
     }

@@ -87,8 +87,8 @@ class BulletRun : public WorldRun {
       for (int i = 0; i < 4; ++i) state.rotation[i] = static_cast<double>(rotation[i]);
       for (int i = 0; i < 3; ++i) {
         state.position[i] = static_cast<double>(pose.getOrigin()[i]);
-        state.velocity[i] = static_cast<double>(body->getLinearVelocity()[i]);
-        state.spin[i] = static_cast<double>(body->getAngularVelocity()[i]);
+        state.linear_velocity[i] = static_cast<double>(body->getLinearVelocity()[i]);
+        state.angular_velocity[i] = static_cast<double>(body->getAngularVelocity()[i]);
       }
     }
   }
@@ -100,10 +100,11 @@ class BulletRun : public WorldRun {
   void add(const StageBody& given, const Stage& stage) {
     shapes_.push_back(shape_of(given));
     const double mass = given.role == Role::dynamic ? detent_stress::mass_of(given) : 0;
-    const auto gyration = detent_stress::gyration_of(given);
+    const auto inverse_inertia = detent_stress::inverse_inertia_of(given);
     btRigidBody::btRigidBodyConstructionInfo info(
         scalar(mass), nullptr, shapes_.back().get(),
-        btVector3(scalar(mass * gyration[0]), scalar(mass * gyration[1]), scalar(mass * gyration[2])));
+        btVector3(scalar(mass * inverse_inertia[0]), scalar(mass * inverse_inertia[1]),
+                  scalar(mass * inverse_inertia[2])));
     info.m_startWorldTransform.setRotation(btQuaternion(scalar(given.rotation[0]), scalar(given.rotation[1]),
                                                         scalar(given.rotation[2]), scalar(given.rotation[3])));
     info.m_startWorldTransform.setOrigin(vector_of(given.position));
@@ -112,8 +113,8 @@ class BulletRun : public WorldRun {
     auto body = std::make_unique<btRigidBody>(info);
     if (given.role == Role::kinematic)
       body->setCollisionFlags(body->getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
-    body->setLinearVelocity(vector_of(given.velocity));
-    body->setAngularVelocity(vector_of(given.spin));
+    body->setLinearVelocity(vector_of(given.linear_velocity));
+    body->setAngularVelocity(vector_of(given.angular_velocity));
     if (!stage.sleeping) body->setActivationState(DISABLE_DEACTIVATION);
     if (stage.collisions)
       world_->addRigidBody(body.get());

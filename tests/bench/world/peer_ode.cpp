@@ -112,7 +112,7 @@ class OdeRun : public WorldRun {
       const dReal* const position = dGeomGetPosition(geoms_[i]);
       dQuaternion rotation;
       dGeomGetQuaternion(geoms_[i], rotation);
-      if (along_z_[i]) turn(rotation, -1);
+      if (along_z_[i]) rotation_vector(rotation, -1);
       for (int axis = 0; axis < 3; ++axis) {
         state.position[axis] = position[axis];
         state.rotation[axis] = rotation[axis + 1];
@@ -121,8 +121,8 @@ class OdeRun : public WorldRun {
       const dBodyID body = dGeomGetBody(geoms_[i]);
       if (body == nullptr) continue;
       for (int axis = 0; axis < 3; ++axis) {
-        state.velocity[axis] = dBodyGetLinearVel(body)[axis];
-        state.spin[axis] = dBodyGetAngularVel(body)[axis];
+        state.linear_velocity[axis] = dBodyGetLinearVel(body)[axis];
+        state.angular_velocity[axis] = dBodyGetAngularVel(body)[axis];
       }
     }
   }
@@ -132,7 +132,7 @@ class OdeRun : public WorldRun {
 
  private:
   /// ODE's capsule lies along z: turned by a quarter about x, there (sign 1) and back (-1).
-  static void turn(dReal (&rotation)[4], double sign) {
+  static void rotation_vector(dReal (&rotation)[4], double sign) {
     const double half = 0.70710678118654752440;
     const dQuaternion quarter = {half, -sign * half, 0, 0};
     dQuaternion before = {rotation[0], rotation[1], rotation[2], rotation[3]};
@@ -199,19 +199,19 @@ class OdeRun : public WorldRun {
       dMass mass;
       dMassSetZero(&mass);
       const double kilograms = detent_stress::mass_of(given);
-      const auto gyration = detent_stress::gyration_of(given);
+      const auto inverse_inertia = detent_stress::inverse_inertia_of(given);
       const size_t y = along_z_.back() ? 2 : 1, z = along_z_.back() ? 1 : 2;
-      dMassSetParameters(&mass, kilograms, 0, 0, 0, kilograms * gyration[0], kilograms * gyration[y],
-                         kilograms * gyration[z], 0, 0, 0);
+      dMassSetParameters(&mass, kilograms, 0, 0, 0, kilograms * inverse_inertia[0], kilograms * inverse_inertia[y],
+                         kilograms * inverse_inertia[z], 0, 0, 0);
       dBodySetMass(body, &mass);
       if (given.role == Role::kinematic) dBodySetKinematic(body);
-      dBodySetLinearVel(body, given.velocity[0], given.velocity[1], given.velocity[2]);
-      dBodySetAngularVel(body, given.spin[0], given.spin[1], given.spin[2]);
+      dBodySetLinearVel(body, given.linear_velocity[0], given.linear_velocity[1], given.linear_velocity[2]);
+      dBodySetAngularVel(body, given.angular_velocity[0], given.angular_velocity[1], given.angular_velocity[2]);
       dGeomSetBody(geom, body);
     }
     dGeomSetPosition(geom, given.position[0], given.position[1], given.position[2]);
     dQuaternion rotation = {given.rotation[3], given.rotation[0], given.rotation[1], given.rotation[2]};
-    if (along_z_.back()) turn(rotation, 1);
+    if (along_z_.back()) rotation_vector(rotation, 1);
     dGeomSetQuaternion(geom, rotation);
   }
 

@@ -21,8 +21,8 @@ Stage stage_10_one_awake() {
   ball.solid = detent_stress::Solid::sphere;
   ball.size[0] = ball.position[1] = 0.25;
   ball.position[0] = -46;
-  ball.velocity[0] = 2;
-  ball.spin[2] = -8;
+  ball.linear_velocity[0] = 2;
+  ball.angular_velocity[2] = -8;
   stage.bodies.push_back(ball);
   return stage;
 }

@@ -21,7 +21,7 @@ double measure(const Watch& watch, const States& states, const std::string& name
 }
 
 /// Turned about z.
-void turn(detent_stress::BodyState& state, double angle) {
+void rotation_vector(detent_stress::BodyState& state, double angle) {
   state.rotation[2] = sin(angle / 2);
   state.rotation[3] = cos(angle / 2);
 }
@@ -33,9 +33,9 @@ TEST(watch, energy_of_a_fall_stays_and_of_a_halt_is_lost) {
   States states = states_at_start(stage);
   watch.begin(states);
   states[1].position[1] -= 2;
-  states[1].velocity[1] = -sqrt(2 * stage.gravity * 2);
+  states[1].linear_velocity[1] = -sqrt(2 * stage.gravity * 2);
   EXPECT_NEAR(measure(watch, states, "energy"), 0, 1e-12);
-  states[1].velocity[1] = 0;
+  states[1].linear_velocity[1] = 0;
   EXPECT_NEAR(measure(watch, states, "energy"), -2 * stage.gravity, 1e-12);
 }
 
@@ -60,9 +60,9 @@ TEST(watch, a_domino_falls_once_and_the_last_one_gives_the_time) {
   watch.begin(states);
   watch.tick(states, 0);
   EXPECT_EQ(measure(watch, states, "fallen"), 0);
-  turn(states[1], -1.1);
+  rotation_vector(states[1], -1.1);
   watch.tick(states, 1);
-  turn(states[2], -1.1);
+  rotation_vector(states[2], -1.1);
   states[2].position[2] = -0.25;
   watch.tick(states, 2);
   watch.tick(states, 3);
@@ -111,10 +111,10 @@ TEST(watch, depths_and_speeds_are_of_the_window_alone) {
   EXPECT_NEAR(measure(watch, states, "penetration_max"), 0.25, 1e-5);
   watch.begin_window();
   states[2].position[1] += 0.125;
-  states[2].velocity[0] = 3;
+  states[2].linear_velocity[0] = 3;
   watch.sample(states);
   states[2].position[1] += 0.0625;
-  states[2].velocity[0] = 1;
+  states[2].linear_velocity[0] = 1;
   watch.sample(states);
   EXPECT_NEAR(measure(watch, states, "penetration_max"), 0.125, 1e-5);
   EXPECT_NEAR(measure(watch, states, "penetration_mean"), 0.09375, 1e-5);

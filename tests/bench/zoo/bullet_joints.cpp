@@ -133,8 +133,9 @@ std::string make_bullet_joint(const JointFrame& joint, const Ties& ties, btRigid
       if (!first.limited || !second.limited) return "cone twist without limits";
       // Its twist has the same limit on both sides: A's frame is turned to the middle of them.
       const double middle = 0.5 * (first.lower + first.upper), span = 0.5 * (first.upper - first.lower);
-      const Rotation turn = {sin(middle / 2), 0, 0, cos(middle / 2)};
-      auto cone = std::make_unique<btConeTwistConstraint>(a, b, bullet(joint.frame_a * turn, joint.anchor_a), frame_b);
+      const Rotation rotation_vector = {sin(middle / 2), 0, 0, cos(middle / 2)};
+      auto cone = std::make_unique<btConeTwistConstraint>(a, b, bullet(joint.frame_a * rotation_vector, joint.anchor_a),
+                                                          frame_b);
       cone->setLimit(bullet(second.upper), bullet(second.upper), bullet(span));
       constraint = std::move(cone);
       return "";

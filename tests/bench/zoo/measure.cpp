@@ -50,10 +50,10 @@ SceneResults measure_scene(const Entry& entry, const std::vector<Engine>& engine
   }
   for (uint32_t repetition = 0; repetition < repetitions; ++repetition) {
     for (size_t i = 0; i < engines.size(); ++i) {
-      const size_t turn = (i + repetition) % engines.size();
-      if (!scene.results[turn].played()) continue;
-      progress(entry.scene + ": times, " + engines[turn].config);
-      time_once(engines[turn], folder + "/" + entry.scene + ".json", least[turn]);
+      const size_t rotation_vector = (i + repetition) % engines.size();
+      if (!scene.results[rotation_vector].played()) continue;
+      progress(entry.scene + ": times, " + engines[rotation_vector].config);
+      time_once(engines[rotation_vector], folder + "/" + entry.scene + ".json", least[rotation_vector]);
     }
   }
   for (size_t i = 0; i < engines.size(); ++i) {

@@ -27,7 +27,7 @@ struct OdeMesh {
 struct OdeBody {
   Id id = 0;
   Kind kind = Kind::fixed;
-  Traits traits;
+  Properties properties;
   double mass = 0, gravity_scale = 1;
   Vector position;  ///< of a fixed one
   Rotation rotation;

@@ -86,7 +86,7 @@ dGeomID geom_of(dSpaceID space, const Part& part, OdeBody& body, std::string& pr
 }  // namespace
 
 std::string make_ode_geoms(dSpaceID space, OdeBody& body) {
-  for (const Part& part : body.traits.parts) {
+  for (const Part& part : body.properties.parts) {
     if (part.rounding > 0) return "rounded shape";
     std::string problem;
     const dGeomID geom = geom_of(space, part, body, problem);
@@ -97,15 +97,15 @@ std::string make_ode_geoms(dSpaceID space, OdeBody& body) {
     const bool along_z = part.solid == Solid::capsule || part.solid == Solid::cylinder;
     const Vector position =
         part.solid == Solid::hull ? part.position + rotate(part.rotation, middle_of(part)) : part.position;
-    const Rotation turn = along_z ? part.rotation * k_y_to_z : part.rotation;
+    const Rotation rotation_vector = along_z ? part.rotation * k_y_to_z : part.rotation;
     if (body.body != nullptr) {
-      const dQuaternion q = {turn.w, turn.x, turn.y, turn.z};
+      const dQuaternion q = {rotation_vector.w, rotation_vector.x, rotation_vector.y, rotation_vector.z};
       dGeomSetBody(geom, body.body);
       dGeomSetOffsetPosition(geom, position.x, position.y, position.z);
       dGeomSetOffsetQuaternion(geom, q);
     } else {
       const Vector place = body.position + rotate(body.rotation, position);
-      const Rotation whole = body.rotation * turn;
+      const Rotation whole = body.rotation * rotation_vector;
       const dQuaternion q = {whole.w, whole.x, whole.y, whole.z};
       dGeomSetPosition(geom, place.x, place.y, place.z);
       dGeomSetQuaternion(geom, q);

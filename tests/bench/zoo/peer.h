@@ -15,7 +15,7 @@ class Peer {
  public:
   virtual ~Peer() = default;
   virtual void set_gravity(const Vector& gravity) = 0;
-  virtual std::string add_body(Id id, const BodyFrame& body, const Traits& traits) = 0;
+  virtual std::string add_body(Id id, const BodyFrame& body, const Properties& properties) = 0;
   /// It has no joints any more.
   virtual void remove_body(Id id) = 0;
   /// `state`: as the bodies lie now.

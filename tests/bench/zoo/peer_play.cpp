@@ -19,8 +19,8 @@ bool same_joint(const JointFrame& a, const JointFrame& b) {
          same(a.frame_b, b.frame_b) && same(a.axes[0], b.axes[0]) && same(a.axes[1], b.axes[1]);
 }
 bool same_state(const BodyFrame& a, const BodyFrame& b) {
-  return same(a.position, b.position) && same(a.rotation, b.rotation) && same(a.velocity, b.velocity) &&
-         same(a.spin, b.spin);
+  return same(a.position, b.position) && same(a.rotation, b.rotation) && same(a.linear_velocity, b.linear_velocity) &&
+         same(a.angular_velocity, b.angular_velocity);
 }
 bool has(const std::vector<Id>& ids, Id id) { return std::find(ids.begin(), ids.end(), id) != ids.end(); }
 
@@ -98,8 +98,8 @@ class PeerPlay : public Play {
   bool add_new(const Cast& before, std::string& problem) {
     for (size_t i = 0; i < cast_.bodies.size(); ++i) {
       if (has(before.bodies, cast_.bodies[i])) continue;
-      const Traits traits = script_->traits(cast_.bodies[i]);
-      problem = traits.sensor ? "sensor" : peer_->add_body(cast_.bodies[i], cast_.frame.bodies[i], traits);
+      const Properties properties = script_->properties(cast_.bodies[i]);
+      problem = properties.sensor ? "sensor" : peer_->add_body(cast_.bodies[i], cast_.frame.bodies[i], properties);
       if (!problem.empty()) return false;
     }
     const Frame now = frame();

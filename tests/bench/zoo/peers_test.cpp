@@ -100,11 +100,11 @@ TEST_P(PeerTest, a_motor_turns_the_way_that_it_is_told_as_hard_as_it_may) {
     open(pin(type) + k_arm, hinge(R"({"speed": 2, "force_max": 100000})"));
     run(k_second / 2);
     EXPECT_NEAR(joint().values[0], 1, 0.05);
-    EXPECT_NEAR(body(1).spin.z, 2, 0.05);
+    EXPECT_NEAR(body(1).angular_velocity.z, 2, 0.05);
     const double inertia = 80 * (4 + 0.04) / 12 + 80;  // of the arm's 80 kg, about its end
     open(pin(type) + k_arm, hinge(R"({"speed": -50, "force_max": 200})"));
     run(k_second / 2);
-    EXPECT_NEAR(body(1).spin.z, -200 * 0.5 / inertia, 0.05);
+    EXPECT_NEAR(body(1).angular_velocity.z, -200 * 0.5 / inertia, 0.05);
   }
 }
 
@@ -141,7 +141,7 @@ TEST_P(PeerTest, a_slider_drives_along_its_axis_up_to_its_limit) {
 }
 
 TEST_P(PeerTest, friction_stops_a_box_and_a_rebound_keeps_its_share) {
-  open(std::string(k_ground) + R"({"position": [0, 0.2, 0], "velocity": [3, 0, 0], "material": {"friction": 0.4},
+  open(std::string(k_ground) + R"({"position": [0, 0.2, 0], "linear_velocity": [3, 0, 0], "material": {"friction": 0.4},
     "shape": {"type": "box", "half_extents": [0.5, 0.2, 0.5]}},
     {"position": [0, 2.2, 5], "shape": {"type": "sphere", "radius": 0.2}, "material": {"restitution": 0.5}})");
   double top = 0;
@@ -157,35 +157,36 @@ TEST_P(PeerTest, friction_stops_a_box_and_a_rebound_keeps_its_share) {
 
 TEST_P(PeerTest, a_light_ball_is_slowed_by_its_rolling_resistance) {
   // Of few newtons: Bullet's is bounded by more than the force.
-  open(std::string(k_ground) + R"({"position": [0, 0.1, 0], "velocity": [2, 0, 0], "spin": [0, 0, -20], "mass": 0.1,
+  open(std::string(k_ground) +
+       R"({"position": [0, 0.1, 0], "linear_velocity": [2, 0, 0], "angular_velocity": [0, 0, -20], "mass": 0.1,
     "shape": {"type": "sphere", "radius": 0.1}, "material": {"rolling_resistance": 0.05}})");
   run(2 * k_second);
-  EXPECT_NEAR(body(1).velocity.x, 2 - 2 * 0.05 * k_gravity / 1.4, 0.15);
+  EXPECT_NEAR(body(1).linear_velocity.x, 2 - 2 * 0.05 * k_gravity / 1.4, 0.15);
 }
 
 TEST_P(PeerTest, a_platform_carries_a_box_and_a_damped_body_slows) {
-  open(R"({"type": "kinematic", "velocity": [1, 0, 0], "shape": {"type": "box", "half_extents": [1, 0.1, 1]}},
+  open(R"({"type": "kinematic", "linear_velocity": [1, 0, 0], "shape": {"type": "box", "half_extents": [1, 0.1, 1]}},
     {"position": [0, 0.3, 0], "shape": {"type": "box", "half_extents": [0.2, 0.2, 0.2]}},
-    {"position": [0, 5, 5], "velocity": [0, 0, 2], "linear_damping": 1, "gravity_scale": 0,
+    {"position": [0, 5, 5], "linear_velocity": [0, 0, 2], "linear_damping": 1, "gravity_scale": 0,
      "shape": {"type": "sphere", "radius": 0.2}},
     {"position": [0, 5, 9], "gravity_scale": 0.5, "shape": {"type": "sphere", "radius": 0.2}})");
   run(k_second);
   EXPECT_NEAR(body(0).position.x, 1, 1e-6);
   EXPECT_NEAR(body(1).position.x, 1, 0.1);
-  EXPECT_NEAR(body(2).velocity.z, 2 * exp(-1), 0.05);
-  EXPECT_NEAR(body(3).velocity.y, -k_gravity / 2, 0.05);
+  EXPECT_NEAR(body(2).linear_velocity.z, 2 * exp(-1), 0.05);
+  EXPECT_NEAR(body(3).linear_velocity.y, -k_gravity / 2, 0.05);
 }
 
 TEST_P(PeerTest, calls_reach_it) {
   open(R"({"name": "puck", "position": [1, 2, 3], "gravity_scale": 0, "mass": 2,
     "shape": {"type": "box", "half_extents": [0.3, 0.3, 0.3]}})",
        R"(, "actions": [{"tick": 3, "call": "apply_impulse", "body": "puck", "impulse": [4, 0, 0], "arm": [0, 0.3, 0]},
-    {"tick": 30, "call": "set_velocity", "body": "puck", "velocity": [0, 1, 0], "spin": [0, 0, 0]}])");
+    {"tick": 30, "call": "set_velocity", "body": "puck", "linear_velocity": [0, 1, 0], "angular_velocity": [0, 0, 0]}])");
   run(20);
-  EXPECT_NEAR(body(0).velocity.x, 2, 1e-3);
-  EXPECT_NEAR(body(0).spin.z, -4 * 0.3 / (2 * 0.36 / 6), 0.1);
+  EXPECT_NEAR(body(0).linear_velocity.x, 2, 1e-3);
+  EXPECT_NEAR(body(0).angular_velocity.z, -4 * 0.3 / (2 * 0.36 / 6), 0.1);
   run(20);
-  EXPECT_NEAR(body(0).velocity.y, 1, 1e-3);
+  EXPECT_NEAR(body(0).linear_velocity.y, 1, 1e-3);
 }
 
 TEST_P(PeerTest, says_what_it_cannot_express) {

@@ -13,35 +13,35 @@ namespace {
 struct BulletBody {
   Id id = 0;
   Kind kind = Kind::fixed;
-  Traits traits;
+  Properties properties;
   BulletShape shape;
   double gravity_scale = 1;
   std::unique_ptr<btRigidBody> body;
-  Vector velocity, spin;  ///< that a kinematic one is given
+  Vector linear_velocity, angular_velocity;  ///< that a kinematic one is given
 
-  bool moves() const { return length(velocity) > 0 || length(spin) > 0; }
+  bool moves() const { return length(linear_velocity) > 0 || length(angular_velocity) > 0; }
 };
 
 const BulletBody& owner_of(const btCollisionObject* object) {
   return *static_cast<const BulletBody*>(object->getUserPointer());
 }
-const Traits& traits_of(const btCollisionObject* object) { return owner_of(object).traits; }
+const Properties& properties_of(const btCollisionObject* object) { return owner_of(object).properties; }
 
 btScalar friction_of(const btCollisionObject* a, const btCollisionObject* b) {
-  return bullet(pair_friction(traits_of(a), traits_of(b)));
+  return bullet(pair_friction(properties_of(a), properties_of(b)));
 }
 btScalar restitution_of(const btCollisionObject* a, const btCollisionObject* b) {
-  return bullet(pair_restitution(traits_of(a), traits_of(b)));
+  return bullet(pair_restitution(properties_of(a), properties_of(b)));
 }
 btScalar rolling_arm_of(const btCollisionObject* a, const btCollisionObject* b) {
-  return bullet(pair_rolling_arm(traits_of(a), traits_of(b)));
+  return bullet(pair_rolling_arm(properties_of(a), properties_of(b)));
 }
 
 struct Filter : btOverlapFilterCallback {
   bool needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const override {
     const BulletBody& one = owner_of(static_cast<const btCollisionObject*>(a->m_clientObject));
     const BulletBody& other = owner_of(static_cast<const btCollisionObject*>(b->m_clientObject));
-    return (one.kind == Kind::dynamic || other.kind == Kind::dynamic) && pair_touches(one.traits, other.traits);
+    return (one.kind == Kind::dynamic || other.kind == Kind::dynamic) && pair_touches(one.properties, other.properties);
   }
 };
 
@@ -68,19 +68,19 @@ class BulletPeer : public Peer {
     for (auto& [id, body] : bodies_) take_gravity(*body);
   }
 
-  std::string add_body(Id id, const BodyFrame& given, const Traits& traits) override {
+  std::string add_body(Id id, const BodyFrame& given, const Properties& properties) override {
     auto made = std::make_unique<BulletBody>();
     made->id = id;
     made->kind = given.kind;
-    made->traits = traits;
+    made->properties = properties;
     made->gravity_scale = given.gravity_scale;
-    if (std::string problem = make_bullet_shape(traits.parts, made->shape); !problem.empty()) return problem;
+    if (std::string problem = make_bullet_shape(properties.parts, made->shape); !problem.empty()) return problem;
     const double mass = given.kind == Kind::dynamic ? given.mass : 0;
     // About a locked axis the inertia is 0, which is how Bullet has such an axis too.
     btRigidBody::btRigidBodyConstructionInfo info(bullet(mass), nullptr, made->shape.whole, bullet(given.inertia));
     info.m_startWorldTransform = bullet(given.rotation, given.position);
-    info.m_linearDamping = bullet(1 - exp(-traits.linear_damping));
-    info.m_angularDamping = bullet(1 - exp(-traits.angular_damping));
+    info.m_linearDamping = bullet(1 - exp(-properties.linear_damping));
+    info.m_angularDamping = bullet(1 - exp(-properties.angular_damping));
     made->body = std::make_unique<btRigidBody>(info);
     btRigidBody& body = *made->body;
     body.setUserPointer(made.get());
@@ -142,14 +142,14 @@ class BulletPeer : public Peer {
       body.setInterpolationWorldTransform(pose);
       world_.getPairCache()->cleanProxyFromPairs(body.getBroadphaseHandle(), &dispatcher_);
     }
-    owner.velocity = state.velocity;
-    owner.spin = state.spin;
+    owner.linear_velocity = state.linear_velocity;
+    owner.angular_velocity = state.angular_velocity;
     if (owner.kind == Kind::kinematic) {
       // One that moves keeps awake what it touches; one that stands lets it sleep.
       body.forceActivationState(owner.moves() ? DISABLE_DEACTIVATION : ISLAND_SLEEPING);
     } else if (owner.kind == Kind::dynamic) {
-      body.setLinearVelocity(bullet(state.velocity));
-      body.setAngularVelocity(bullet(state.spin));
+      body.setLinearVelocity(bullet(state.linear_velocity));
+      body.setAngularVelocity(bullet(state.angular_velocity));
       body.activate(true);
     }
   }
@@ -172,8 +172,10 @@ class BulletPeer : public Peer {
     const btRigidBody& body = *owner.body;
     state.position = from_bullet(body.getWorldTransform().getOrigin());
     state.rotation = from_bullet(body.getWorldTransform().getRotation());
-    state.velocity = owner.kind == Kind::kinematic ? owner.velocity : from_bullet(body.getLinearVelocity());
-    state.spin = owner.kind == Kind::kinematic ? owner.spin : from_bullet(body.getAngularVelocity());
+    state.linear_velocity =
+        owner.kind == Kind::kinematic ? owner.linear_velocity : from_bullet(body.getLinearVelocity());
+    state.angular_velocity =
+        owner.kind == Kind::kinematic ? owner.angular_velocity : from_bullet(body.getAngularVelocity());
   }
 
   std::vector<Touch> contacts() const override {
@@ -211,8 +213,8 @@ class BulletPeer : public Peer {
   /// To where it is at the end of the tick: Bullet finds its velocity from that.
   void move(BulletBody& body) {
     btTransform pose;
-    btTransformUtil::integrateTransform(body.body->getWorldTransform(), bullet(body.velocity), bullet(body.spin),
-                                        bullet(tick_), pose);
+    btTransformUtil::integrateTransform(body.body->getWorldTransform(), bullet(body.linear_velocity),
+                                        bullet(body.angular_velocity), bullet(tick_), pose);
     body.body->setWorldTransform(pose);
   }
 

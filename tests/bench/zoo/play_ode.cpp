@@ -63,11 +63,11 @@ class OdePeer : public Peer {
     dWorldSetGravity(world_, gravity.x, gravity.y, gravity.z);
   }
 
-  std::string add_body(Id id, const BodyFrame& given, const Traits& traits) override {
+  std::string add_body(Id id, const BodyFrame& given, const Properties& properties) override {
     auto made = std::make_unique<OdeBody>();
     made->id = id;
     made->kind = given.kind;
-    made->traits = traits;
+    made->properties = properties;
     made->mass = given.mass;
     made->gravity_scale = given.gravity_scale;
     made->position = given.position;
@@ -80,13 +80,13 @@ class OdePeer : public Peer {
         const Vector& inertia = given.inertia;
         if (inertia.x <= 0 || inertia.y <= 0 || inertia.z <= 0) {
           dBodyDestroy(made->body);
-          return "turn locks";
+          return "rotation locks";
         }
         dMass mass;
         dMassSetParameters(&mass, given.mass, 0, 0, 0, inertia.x, inertia.y, inertia.z, 0, 0, 0);
         dBodySetMass(made->body, &mass);
-        dBodySetLinearDamping(made->body, 1 - exp(-traits.linear_damping * tick_));
-        dBodySetAngularDamping(made->body, 1 - exp(-traits.angular_damping * tick_));
+        dBodySetLinearDamping(made->body, 1 - exp(-properties.linear_damping * tick_));
+        dBodySetAngularDamping(made->body, 1 - exp(-properties.angular_damping * tick_));
         if (given.gravity_scale != 1) dBodySetGravityMode(made->body, 0);
       }
     }
@@ -141,8 +141,8 @@ class OdePeer : public Peer {
     const dQuaternion rotation = {state.rotation.w, state.rotation.x, state.rotation.y, state.rotation.z};
     dBodySetPosition(body, state.position.x, state.position.y, state.position.z);
     dBodySetQuaternion(body, rotation);
-    dBodySetLinearVel(body, state.velocity.x, state.velocity.y, state.velocity.z);
-    dBodySetAngularVel(body, state.spin.x, state.spin.y, state.spin.z);
+    dBodySetLinearVel(body, state.linear_velocity.x, state.linear_velocity.y, state.linear_velocity.z);
+    dBodySetAngularVel(body, state.angular_velocity.x, state.angular_velocity.y, state.angular_velocity.z);
     dBodyEnable(body);
   }
 
@@ -163,9 +163,9 @@ class OdePeer : public Peer {
     const dBodyID body = bodies_.at(id)->body;
     state.position = vector_from_ode(dBodyGetPosition(body));
     state.rotation = from_ode(dBodyGetQuaternion(body));
-    state.velocity = vector_from_ode(dBodyGetLinearVel(body));
-    state.spin = vector_from_ode(dBodyGetAngularVel(body));
-    if (faulty_) state.velocity = {NAN, NAN, NAN};
+    state.linear_velocity = vector_from_ode(dBodyGetLinearVel(body));
+    state.angular_velocity = vector_from_ode(dBodyGetAngularVel(body));
+    if (faulty_) state.linear_velocity = {NAN, NAN, NAN};
   }
 
   std::vector<Touch> contacts() const override { return touches_; }
@@ -217,15 +217,15 @@ class OdePeer : public Peer {
     const bool awake_one = one.body != nullptr && dBodyIsEnabled(one.body) != 0;
     const bool awake_other = other.body != nullptr && dBodyIsEnabled(other.body) != 0;
     if (!awake_one && !awake_other) return;
-    if (!pair_touches(one.traits, other.traits)) return;
+    if (!pair_touches(one.properties, other.properties)) return;
     if (!pairs_apart_.empty() && pairs_apart_.count(std::minmax(one.id, other.id)) != 0) return;
     const bool mesh = dGeomGetClass(a) == dTriMeshClass || dGeomGetClass(b) == dTriMeshClass;
     dContact contacts[k_mesh_contacts_max];
     const int count = dCollide(a, b, mesh ? k_mesh_contacts_max : k_contacts_max, &contacts[0].geom, sizeof(dContact));
     if (count == 0) return;
-    const double friction = pair_friction(one.traits, other.traits);
-    const double restitution = pair_restitution(one.traits, other.traits);
-    const double arm = pair_rolling_arm(one.traits, other.traits);
+    const double friction = pair_friction(one.properties, other.properties);
+    const double restitution = pair_restitution(one.properties, other.properties);
+    const double arm = pair_rolling_arm(one.properties, other.properties);
     double depth = -1e300;
     for (int i = 0; i < count; ++i) {
       dContact& contact = contacts[i];

@@ -25,7 +25,7 @@ struct Part {
 };
 
 /// What a body is besides where it is.
-struct Traits {
+struct Properties {
   std::vector<Part> parts;
   double friction = 0, restitution = 0, rolling_resistance = 0;
   bool damps = false;     ///< RestitutionRule::smaller
@@ -44,10 +44,10 @@ struct Ties {
 };
 
 /// Of a pair, as the library has it.
-double pair_friction(const Traits& a, const Traits& b);
-double pair_restitution(const Traits& a, const Traits& b);
-double pair_rolling_arm(const Traits& a, const Traits& b);  ///< m: torque over normal force
-bool pair_touches(const Traits& a, const Traits& b);        ///< by their filters
+double pair_friction(const Properties& a, const Properties& b);
+double pair_restitution(const Properties& a, const Properties& b);
+double pair_rolling_arm(const Properties& a, const Properties& b);  ///< m: torque over normal force
+bool pair_touches(const Properties& a, const Properties& b);        ///< by their filters
 
 /// Bodies and joints by numbers that are never given twice.
 using Id = uint64_t;
@@ -61,7 +61,7 @@ class Script {
   /// Those of the frame, in its order.
   virtual std::vector<Id> bodies() const = 0;
   virtual std::vector<Id> joints() const = 0;
-  virtual Traits traits(Id body) const = 0;
+  virtual Properties properties(Id body) const = 0;
   virtual Ties ties(Id joint) const = 0;
   virtual std::string body_name(Id body) const = 0;
 

@@ -19,10 +19,10 @@ using detent_zoo::BodyFrame;
 using detent_zoo::Frame;
 using detent_zoo::Id;
 using detent_zoo::Part;
+using detent_zoo::Properties;
 using detent_zoo::Rotation;
 using detent_zoo::Solid;
 using detent_zoo::Ties;
-using detent_zoo::Traits;
 using detent_zoo::Vector;
 
 constexpr double k_endless = 1e6;  // m: the width of a ground
@@ -54,10 +54,10 @@ bool pose_from(const BodyFrame& body, Position& position, Quat& rotation) {
 }
 
 /// The turn that takes y to that direction.
-Rotation from_y_to(const Vector& way) {
-  const double along = length(way);
+Rotation from_y_to(const Vector& displacement) {
+  const double along = length(displacement);
   if (along == 0) return {};
-  const Vector unit = (1 / along) * way;
+  const Vector unit = (1 / along) * displacement;
   if (unit.y < -0.999999) return {1, 0, 0, 0};
   const Vector axis = detent_zoo::cross({0, 1, 0}, unit);
   const double w = 1 + unit.y, norm = sqrt(dot(axis, axis) + w * w);
@@ -161,25 +161,26 @@ class DetentScript : public detent_zoo::Script {
     return ids;
   }
 
-  Traits traits(Id body) const override {
+  Properties properties(Id body) const override {
     BodyDef def;
-    Traits traits;
+    Properties properties;
     const BodyId id = handle_of<BodyId>(body);
-    if (get_body_def(scene_->world(), id, def) != Status::ok) return traits;
-    traits.parts = parts_of(id, def.shape);
-    traits.friction = real_to_host(def.material.friction);
-    traits.restitution = real_to_host(def.material.restitution);
-    traits.rolling_resistance = real_to_host(def.material.rolling_resistance);
-    traits.damps = def.material.restitution_rule == RestitutionRule::smaller;
-    traits.half_width = k_endless;
-    for (const Part& part : traits.parts) traits.half_width = std::min(traits.half_width, half_width_of(part));
-    traits.linear_damping = real_to_host(def.linear_damping);
-    traits.angular_damping = real_to_host(def.angular_damping);
-    traits.category = def.filter.category;
-    traits.mask = def.filter.mask;
-    traits.group = def.filter.group;
-    traits.sensor = def.sensor;
-    return traits;
+    if (get_body_def(scene_->world(), id, def) != Status::ok) return properties;
+    properties.parts = parts_of(id, def.shape);
+    properties.friction = real_to_host(def.material.friction);
+    properties.restitution = real_to_host(def.material.restitution);
+    properties.rolling_resistance = real_to_host(def.material.rolling_resistance);
+    properties.damps = def.material.restitution_rule == RestitutionRule::smaller;
+    properties.half_width = k_endless;
+    for (const Part& part : properties.parts)
+      properties.half_width = std::min(properties.half_width, half_width_of(part));
+    properties.linear_damping = real_to_host(def.linear_damping);
+    properties.angular_damping = real_to_host(def.angular_damping);
+    properties.category = def.filter.category;
+    properties.mask = def.filter.mask;
+    properties.group = def.filter.group;
+    properties.sensor = def.sensor;
+    return properties;
   }
 
   Ties ties(Id joint) const override {
@@ -204,14 +205,14 @@ class DetentScript : public detent_zoo::Script {
       if (bodies[i].kind == detent_zoo::Kind::fixed) continue;
       Position position;
       Quat rotation;
-      Vec3<Real> velocity, spin;
+      Vec3<Real> linear_velocity, angular_velocity;
       // What is too fast or too far for the library stays where it was: its scene has failed by then.
-      if (!pose_from(bodies[i], position, rotation) || !vector_from(bodies[i].velocity, velocity) ||
-          !vector_from(bodies[i].spin, spin)) {
+      if (!pose_from(bodies[i], position, rotation) || !vector_from(bodies[i].linear_velocity, linear_velocity) ||
+          !vector_from(bodies[i].angular_velocity, angular_velocity)) {
         continue;
       }
       static_cast<void>(recorder.set_pose(ids[i], position, rotation));
-      static_cast<void>(recorder.set_velocity(ids[i], velocity, spin));
+      static_cast<void>(recorder.set_velocity(ids[i], linear_velocity, angular_velocity));
     }
   }
 

@@ -212,16 +212,16 @@ bool measure_toi() {
     motion_a.start = body_a.pose;
     motion_b.start = body_b.pose;
     const int32_t aside[3] = {random.within(1 << 10), random.within(1 << 10), random.within(1 << 10)};
-    const auto way = [&](int k) { return real_of(body_a.position[k] - body_b.position[k] + aside[k], 10); };
+    const auto displacement = [&](int k) { return real_of(body_a.position[k] - body_b.position[k] + aside[k], 10); };
     const Real zero = 0.0;
     motion_a.displacement = {zero, zero, zero};
-    motion_b.displacement = {way(0), way(1), way(2)};
+    motion_b.displacement = {displacement(0), displacement(1), displacement(2)};
     const auto draw_turn = [&] {
-      const int32_t turn[3] = {random.within(148), random.within(148), random.within(148)};
-      return Vec3<Real>{real_of(turn[0], 8), real_of(turn[1], 8), real_of(turn[2], 8)};
+      const int32_t rotation_vector[3] = {random.within(148), random.within(148), random.within(148)};
+      return Vec3<Real>{real_of(rotation_vector[0], 8), real_of(rotation_vector[1], 8), real_of(rotation_vector[2], 8)};
     };
-    motion_a.turn = draw_turn();
-    motion_b.turn = draw_turn();
+    motion_a.rotation_vector = draw_turn();
+    motion_b.rotation_vector = draw_turn();
     TimeOfImpact impact;
     if (time_of_impact(a.convex, motion_a, b.convex, motion_b, impact) != Status::ok) return false;
     Status status = Status::ok;

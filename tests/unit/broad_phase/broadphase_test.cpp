@@ -12,7 +12,7 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 struct Crowd {
-  std::vector<BodyTraits> traits;
+  std::vector<BodyProperties> properties;
   std::vector<Bounds> bounds;
   std::vector<bool> rests;
 };
@@ -22,20 +22,20 @@ struct Crowd {
 Crowd random_crowd(Samples& samples, uint32_t count, double room) {
   Crowd crowd;
   for (uint32_t i = 0; i < count; ++i) {
-    BodyTraits traits{};
-    traits.category = traits.mask = 1;
+    BodyProperties properties{};
+    properties.category = properties.mask = 1;
     if (samples.below(4) == 0) {
-      traits.category = 1 + samples.below(3);
-      traits.mask = samples.below(4);
-      traits.group = static_cast<int32_t>(samples.below(5)) - 2;
+      properties.category = 1 + samples.below(3);
+      properties.mask = samples.below(4);
+      properties.group = static_cast<int32_t>(samples.below(5)) - 2;
     }
-    traits.type = samples.below(8) == 0 ? 0 : samples.below(4) == 0 ? 1 + samples.below(2) : 3;
+    properties.type = samples.below(8) == 0 ? 0 : samples.below(4) == 0 ? 1 + samples.below(2) : 3;
     const auto edge = [&] { return floor(uniform(samples, -room, room) * 4) / 4; };
     const Vector low = {{edge(), edge(), edge()}};
     const double size = floor(exp2(uniform(samples, 0, 4))) / 4;
     Bounds bounds = {position_near(low), position_near(low + Vector{{size, size / 2, size * 2}})};
     if (samples.below(50) == 0) bounds = k_everywhere;
-    crowd.traits.push_back(traits);
+    crowd.properties.push_back(properties);
     crowd.bounds.push_back(bounds);
     crowd.rests.push_back(samples.below(3) != 0);
   }
@@ -51,7 +51,7 @@ bool meet(const Bounds& a, const Bounds& b) {
 }
 
 /// As filter.h has it.
-bool may_touch(const BodyTraits& a, const BodyTraits& b) {
+bool may_touch(const BodyProperties& a, const BodyProperties& b) {
   if (a.group != 0 && a.group == b.group) return a.group > 0;
   return (a.category & b.mask) != 0 && (b.category & a.mask) != 0;
 }
@@ -70,12 +70,12 @@ uint64_t depth_of(const Bounds& a, const Bounds& b) {
 /// Every pair with a body that moves tried, in the order of the keys.
 std::vector<uint64_t> all_pairs(const Crowd& crowd) {
   std::vector<uint64_t> keys;
-  for (uint32_t a = 0; a < crowd.traits.size(); ++a) {
-    for (uint32_t b = a + 1; b < crowd.traits.size(); ++b) {
-      if (crowd.traits[a].type == 0 || crowd.traits[b].type == 0) continue;
+  for (uint32_t a = 0; a < crowd.properties.size(); ++a) {
+    for (uint32_t b = a + 1; b < crowd.properties.size(); ++b) {
+      if (crowd.properties[a].type == 0 || crowd.properties[b].type == 0) continue;
       if (crowd.rests[a] && crowd.rests[b]) continue;
-      if (crowd.traits[a].type != 3 && crowd.traits[b].type != 3) continue;
-      if (!may_touch(crowd.traits[a], crowd.traits[b])) continue;
+      if (crowd.properties[a].type != 3 && crowd.properties[b].type != 3) continue;
+      if (!may_touch(crowd.properties[a], crowd.properties[b])) continue;
       if (meet(crowd.bounds[a], crowd.bounds[b])) keys.push_back(uint64_t{a} << 32 | b);
     }
   }
@@ -125,15 +125,15 @@ struct Found {
 };
 
 Found found_in(const Crowd& crowd, const RestingTree& tree, uint32_t capacity) {
-  const uint32_t count = static_cast<uint32_t>(crowd.traits.size());
+  const uint32_t count = static_cast<uint32_t>(crowd.properties.size());
   std::vector<BoundsKey> bounds_keys(count), bounds_spare(count);
   std::vector<uint64_t> keys(capacity + 1, 77), spare(capacity);
   std::vector<uint32_t> moving;
   for (uint32_t slot = 0; slot < count; ++slot) {
-    if (crowd.traits[slot].type != 0 && !crowd.rests[slot]) moving.push_back(slot);
+    if (crowd.properties[slot].type != 0 && !crowd.rests[slot]) moving.push_back(slot);
   }
   PairPool pool = {{},
-                   {crowd.traits.data(), count},
+                   {crowd.properties.data(), count},
                    {crowd.bounds.data(), count},
                    {spare.data(), capacity},
                    {keys.data(), capacity}};
@@ -147,8 +147,8 @@ Found found_in(const Crowd& crowd, const RestingTree& tree, uint32_t capacity) {
 
 Found found_in(const Crowd& crowd, uint32_t capacity) {
   Tree tree(crowd);
-  for (uint32_t slot = 0; slot < crowd.traits.size(); ++slot) {
-    if (crowd.traits[slot].type != 0 && crowd.rests[slot]) tree.tree.insert(slot);
+  for (uint32_t slot = 0; slot < crowd.properties.size(); ++slot) {
+    if (crowd.properties[slot].type != 0 && crowd.rests[slot]) tree.tree.insert(slot);
   }
   return found_in(crowd, tree.tree, capacity);
 }
@@ -189,7 +189,7 @@ DETENT_TEST(broadphase, pairs_found_after_sorting_are_kept_by_depth_alike) {
     const uint32_t count = 100, capacity = static_cast<uint32_t>(right.size() / 3);
     std::vector<uint64_t> keys(capacity), spare(capacity);
     PairPool pool = {{},
-                     {crowd.traits.data(), count},
+                     {crowd.properties.data(), count},
                      {crowd.bounds.data(), count},
                      {spare.data(), capacity},
                      {keys.data(), capacity}};
@@ -212,7 +212,7 @@ DETENT_TEST(broadphase, the_tree_finds_the_same_however_bodies_come_and_go_and_i
     Tree tree(crowd);
     for (int change = 0; change < 400; ++change) {
       const uint32_t slot = samples.below(120);
-      if (crowd.traits[slot].type == 0) continue;
+      if (crowd.properties[slot].type == 0) continue;
       if (crowd.rests[slot])
         tree.tree.remove(slot);
       else

@@ -48,7 +48,7 @@ struct Trace {
     if (now == nullptr) return still;
     const double from = time_of(now->from), part = from < 1 ? (time - from) / (1 - from) : 0;
     return {difference(now->start.position, Position{}) + host(now->displacement) * part,
-            detent_oracle::rotation_by(host(now->turn) * part) * host(now->start.rotation)};
+            detent_oracle::rotation_by(host(now->rotation_vector) * part) * host(now->start.rotation)};
   }
 };
 

@@ -5,7 +5,7 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 struct Cell {
-  bool rod;      ///< a rod of 2 cm x 1 m that spins, or a ball of 5 cm
+  bool rod;      ///< a rod of 2 cm x 1 m that angular velocities, or a ball of 5 cm
   bool plate;    ///< a plate that moves, or a fixed wall
   double speed;  ///< m/s
   double restitution;
@@ -49,7 +49,7 @@ struct Range {
   Solid solid(uint32_t slot, const SegmentPose& at) {
     const auto state = view_of(lab.world);
     OracleBody body;
-    body.traits = state.traits[slot];
+    body.properties = state.properties[slot];
     Solid result = solid_of(body, Position{});
     result.centre = at.position;
     for (int i = 0; i < 3; ++i) result.axis[i] = detent_oracle::axis_of(at.rotation, i);
@@ -60,7 +60,7 @@ struct Range {
 /// Velocity of the shot's point on its target, against it, and the analytic velocities after an impact that sticks.
 struct Analytic {
   bool sticks = false;
-  Vector velocity, spin;
+  Vector linear_velocity, angular_velocity;
 };
 
 Vector solve3(const Vector (&m)[3], const Vector& r) {  // columns
@@ -78,14 +78,15 @@ struct OracleMass {
   }
 };
 
-OracleMass mass_of(const BodyTraits& traits, const Quaternion& rotation) {
+OracleMass mass_of(const BodyProperties& properties, const Quaternion& rotation) {
   OracleMass result;
   result.rotation = rotation;
-  const double mass = scaled_to_host(traits.mass);
+  const double mass = scaled_to_host(properties.mass);
   if (mass == 0) return result;
   result.inverse_mass = 1 / mass;
   for (int i = 0; i < 3; ++i) {
-    result.inverse_inertia[i] = scaled_to_host(traits.gyration[i]) / (mass * unit_of(traits) * unit_of(traits));
+    result.inverse_inertia[i] =
+        scaled_to_host(properties.inverse_inertia[i]) / (mass * unit_of(properties) * unit_of(properties));
   }
   return result;
 }
@@ -93,9 +94,10 @@ OracleMass mass_of(const BodyTraits& traits, const Quaternion& rotation) {
 /// Newton's law along the normal n from the target to the shot, and no slip, at the point that lies at arm_a of the
 /// target and at arm_b of the shot.
 Analytic analytic_impact(const OracleMass& a, const OracleMass& b, const Vector& arm_a, const Vector& arm_b,
-                         const Vector& n, const Vector& velocity_a, const Vector& spin_a, const Vector& velocity_b,
-                         const Vector& spin_b, double restitution, double friction) {
-  const Vector u = velocity_b + cross(spin_b, arm_b) - (velocity_a + cross(spin_a, arm_a));
+                         const Vector& n, const Vector& velocity_a, const Vector& angular_velocity_a,
+                         const Vector& velocity_b, const Vector& angular_velocity_b, double restitution,
+                         double friction) {
+  const Vector u = velocity_b + cross(angular_velocity_b, arm_b) - (velocity_a + cross(angular_velocity_a, arm_a));
   Vector k[3];
   for (int i = 0; i < 3; ++i) {
     Vector e = {{0, 0, 0}};
@@ -103,13 +105,13 @@ Analytic analytic_impact(const OracleMass& a, const OracleMass& b, const Vector&
     k[i] = e * (a.inverse_mass + b.inverse_mass) + cross(a.apply(cross(arm_a, e)), arm_a) +
            cross(b.apply(cross(arm_b, e)), arm_b);
   }
-  const Vector wanted = n * (-restitution * dot(u, n));
-  const Vector impulse = solve3(k, wanted - u);
+  const Vector target = n * (-restitution * dot(u, n));
+  const Vector impulse = solve3(k, target - u);
   const double along = dot(impulse, n);
   Analytic result;
   result.sticks = length(impulse - n * along) <= friction * along * 0.999;
-  result.velocity = velocity_b + impulse * b.inverse_mass;
-  result.spin = spin_b + b.apply(cross(arm_b, impulse));
+  result.linear_velocity = velocity_b + impulse * b.inverse_mass;
+  result.angular_velocity = angular_velocity_b + b.apply(cross(arm_b, impulse));
   return result;
 }
 
@@ -143,7 +145,8 @@ void shoot(const Cell& cell, Samples& samples, Outcome& outcome) {
   range.target = range.lab.add(target);
 
   const double angle = uniform(samples, 0, cell.plate ? 0.01745 : 1.0472), around = uniform(samples, 0, 6.283);
-  const Vector way = turned(target_rotation, {{sin(angle) * cos(around), sin(angle) * sin(around), -cos(angle)}});
+  const Vector displacement =
+      turned(target_rotation, {{sin(angle) * cos(around), sin(angle) * sin(around), -cos(angle)}});
   const double spread = cell.plate ? 0.0707 : 1;
   const Vector aim =
       turned(target_rotation, {{uniform(samples, -spread, spread), uniform(samples, -spread, spread), 0}});
@@ -151,9 +154,9 @@ void shoot(const Cell& cell, Samples& samples, Outcome& outcome) {
   shot.shape = cell.rod ? box(reals_near(range.shot_half)) : sphere(real_near(0.05));
   shot.density = scaled(7800);
   shot.rotation = rotation_near(any_rotation(samples));
-  shot.position = position_near(aim - way * (0.8 + uniform(samples, 0.3, 1.3) * cell.speed / 60));
-  shot.velocity = reals_near(way * cell.speed);
-  if (cell.rod) shot.spin = reals_near(any_direction(samples) * 40);
+  shot.position = position_near(aim - displacement * (0.8 + uniform(samples, 0.3, 1.3) * cell.speed / 60));
+  shot.linear_velocity = reals_near(displacement * cell.speed);
+  if (cell.rod) shot.angular_velocity = reals_near(any_direction(samples) * 40);
   shot.material.restitution = real_near(cell.restitution);
   range.shot = range.lab.add(shot);
 
@@ -162,7 +165,7 @@ void shoot(const Cell& cell, Samples& samples, Outcome& outcome) {
   double side = 1;
   for (int tick = 0; tick < 12; ++tick) {
     const SegmentPose before_target = range.pose(0), before_shot = range.pose(1);
-    const Vector momentum_before = host(view_of(range.lab.world).motions[1].momentum);
+    const Vector momentum_before = host(view_of(range.lab.world).motions[1].angular_momentum);
     const Motion from_target = range.lab.motion(range.target), from_shot = range.lab.motion(range.shot);
     const StepReport report = trace.step(range.lab.world);
     outcome.lost_time += real_to_host(report.lost_time);
@@ -205,38 +208,40 @@ void shoot(const Cell& cell, Samples& samples, Outcome& outcome) {
       Quaternion before_end = before_shot.rotation;  // of the sweep that was not to be
       for (uint32_t i = 0; i < trace.probe.segment_count; ++i) {
         if (trace.segments[i].body == 1 && trace.segments[i].from.raw == 0) {
-          before_end = detent_oracle::rotation_by(host(trace.segments[i].turn)) * before_shot.rotation;
+          before_end = detent_oracle::rotation_by(host(trace.segments[i].rotation_vector)) * before_shot.rotation;
           break;
         }
       }
-      const Vector spin_at_impact =
-          mass_of(state.traits[1], at_shot.rotation)
-              .apply(momentum_before * (scaled_to_host(state.traits[1].mass) * unit_of(state.traits[1])));
-      const Analytic after =
-          analytic_impact(mass_of(state.traits[0], at_target.rotation), mass_of(state.traits[1], at_shot.rotation),
-                          arm_a, arm_b, host(hit.normal), vector_of(from_target.velocity), vector_of(from_target.spin),
-                          vector_of(from_shot.velocity), spin_at_impact, cell.restitution, 0.6);
+      const Vector angular_velocity_at_impact =
+          mass_of(state.properties[1], at_shot.rotation)
+              .apply(momentum_before * (scaled_to_host(state.properties[1].mass) * unit_of(state.properties[1])));
+      const Analytic after = analytic_impact(
+          mass_of(state.properties[0], at_target.rotation), mass_of(state.properties[1], at_shot.rotation), arm_a,
+          arm_b, host(hit.normal), vector_of(from_target.linear_velocity), vector_of(from_target.angular_velocity),
+          vector_of(from_shot.linear_velocity), angular_velocity_at_impact, cell.restitution, 0.6);
       const Vector local_momentum = local(before_end, momentum_before);
-      const OracleMass shot_mass = mass_of(state.traits[1], at_shot.rotation);
+      const OracleMass shot_mass = mass_of(state.properties[1], at_shot.rotation);
       const Analytic after_carried =
-          analytic_impact(mass_of(state.traits[0], at_target.rotation), shot_mass, arm_a, arm_b, host(hit.normal),
-                          vector_of(from_target.velocity), vector_of(from_target.spin), vector_of(from_shot.velocity),
+          analytic_impact(mass_of(state.properties[0], at_target.rotation), shot_mass, arm_a, arm_b, host(hit.normal),
+                          vector_of(from_target.linear_velocity), vector_of(from_target.angular_velocity),
+                          vector_of(from_shot.linear_velocity),
                           shot_mass.apply(turned(at_shot.rotation, local_momentum) *
-                                          (scaled_to_host(state.traits[1].mass) * unit_of(state.traits[1]))),
+                                          (scaled_to_host(state.properties[1].mass) * unit_of(state.properties[1]))),
                           cell.restitution, 0.6);
       const Motion now = range.lab.motion(range.shot);
       if (report.impacts == 1 && report.contacts == 0 && after.sticks &&
           is_one_point(range, at_shot, host(hit.normal))) {
         ++outcome.judged;
-        const double error = std::min(length(vector_of(now.velocity) - after.velocity),
-                                      length(vector_of(now.velocity) - after_carried.velocity));
+        const double error = std::min(length(vector_of(now.linear_velocity) - after.linear_velocity),
+                                      length(vector_of(now.linear_velocity) - after_carried.linear_velocity));
         outcome.rebound_error = std::max(outcome.rebound_error, error / cell.speed);
       }
       const Motion plate = range.lab.motion(range.target);
       if (cell.plate) {
-        const double mass_a = scaled_to_host(state.traits[0].mass), mass_b = scaled_to_host(state.traits[1].mass);
-        const Vector change = (vector_of(now.velocity) - vector_of(from_shot.velocity)) * mass_b +
-                              (vector_of(plate.velocity) - vector_of(from_target.velocity)) * mass_a;
+        const double mass_a = scaled_to_host(state.properties[0].mass),
+                     mass_b = scaled_to_host(state.properties[1].mass);
+        const Vector change = (vector_of(now.linear_velocity) - vector_of(from_shot.linear_velocity)) * mass_b +
+                              (vector_of(plate.linear_velocity) - vector_of(from_target.linear_velocity)) * mass_a;
         outcome.momentum_error = std::max(outcome.momentum_error, length(change) / (mass_b * cell.speed));
       }
     }

@@ -8,7 +8,7 @@ BodyDef ball(double radius, double x, double speed, double restitution) {
   BodyDef def;
   def.shape = sphere(real(radius));
   def.position = position(x, 0, 0);
-  def.velocity = reals(speed, 0, 0);
+  def.linear_velocity = reals(speed, 0, 0);
   def.material.restitution = real(restitution);
   return def;
 }
@@ -54,7 +54,7 @@ DETENT_TEST(impact_stage, three_balls_in_a_row_pass_a_blow_on_in_one_tick) {
   EXPECT_TRUE(report.complete());
   const double error = sizeof(Real) == 4 ? 1e-3 : 1e-5;
   for (int i = 0; i < 4; ++i)
-    EXPECT_NEAR(lab.motion(balls[static_cast<size_t>(i)]).velocity[0], i == 3 ? 600 : 0, error);
+    EXPECT_NEAR(lab.motion(balls[static_cast<size_t>(i)]).linear_velocity[0], i == 3 ? 600 : 0, error);
   EXPECT_NEAR(lab.motion(balls[0]).position[0], 0.8, 1e-3);
   EXPECT_NEAR(lab.motion(balls[3]).position[0], 0.6 + 10, 1e-3) << "each gap of 0.8 m is crossed once, by one of them";
 }
@@ -63,17 +63,17 @@ DETENT_TEST(impact_stage, a_kinematic_plate_drives_a_ball_and_is_not_stopped) {
   Lab lab({2, 4, 0}, weightless());
   BodyDef plate = wall(-3);
   plate.type = BodyType::kinematic;
-  plate.velocity = reals(200, 0, 0);
+  plate.linear_velocity = reals(200, 0, 0);
   const BodyId driver = lab.add(plate), driven = lab.add(ball(0.05, 0, 0, 0));
   for (int tick = 1; tick <= 20; ++tick) {
     EXPECT_EQ(lab.run(1).bodies_stopped, 0u);
     EXPECT_NEAR(lab.motion(driver).position[0], -3 + tick * 200 / 60.0, 1e-3);
     EXPECT_GT(lab.motion(driven).position[0], lab.motion(driver).position[0] + 0.04);
   }
-  EXPECT_NEAR(lab.motion(driven).velocity[0], 200, 1e-2);
+  EXPECT_NEAR(lab.motion(driven).linear_velocity[0], 200, 1e-2);
 }
 
-DETENT_TEST(impact_stage, a_spin_that_a_blow_takes_out_of_its_range_is_held_and_counted) {
+DETENT_TEST(impact_stage, a_angular_velocity_that_a_blow_takes_out_of_its_range_is_held_and_counted) {
   Lab lab({2, 16, 0}, weightless());
   BodyDef post;
   post.type = BodyType::fixed;
@@ -83,7 +83,7 @@ DETENT_TEST(impact_stage, a_spin_that_a_blow_takes_out_of_its_range_is_held_and_
   BodyDef rod;
   rod.shape = capsule(real(0.01), real(1));
   rod.position = position(-16000 / 120.0 - 0.2, 0, 0);
-  rod.velocity = reals(16000, 0, 0);
+  rod.linear_velocity = reals(16000, 0, 0);
   rod.material.restitution = real(1);
   lab.add(rod);
   const StepReport report = lab.run(1);
@@ -92,13 +92,13 @@ DETENT_TEST(impact_stage, a_spin_that_a_blow_takes_out_of_its_range_is_held_and_
 }
 
 /// The sum was found by running it; it is the same in every configuration, and less if one of the counts is left out:
-/// of the spin after an impact, of the sweep that it changes, and of the motion that the state keeps.
+/// of the angular velocity after an impact, of the sweep that it changes, and of the motion that the state keeps.
 DETENT_TEST(impact_stage, every_clamp_of_rods_that_strike_a_post_is_counted) {
   uint32_t clamped = 0;
   for (const double tick : {0.25, 1 / 60.0}) {
     for (const double speed : {50.0, 1000.0, 16000.0}) {
       for (const double half : {0.1, 1.0}) {
-        for (const double spin : {0.0, 1000.0, 16000.0}) {
+        for (const double angular_velocity : {0.0, 1000.0, 16000.0}) {
           WorldDef def = weightless();
           def.tick = real(tick);
           Lab lab({2, 16, 0}, def);
@@ -110,8 +110,8 @@ DETENT_TEST(impact_stage, every_clamp_of_rods_that_strike_a_post_is_counted) {
           BodyDef rod;
           rod.shape = capsule(real(0.03), real(half));
           rod.position = position(-speed * tick / 2 - 0.2, 0, 0);
-          rod.velocity = reals(speed, 0, 0);
-          rod.spin = reals(0, 0, spin);
+          rod.linear_velocity = reals(speed, 0, 0);
+          rod.angular_velocity = reals(0, 0, angular_velocity);
           rod.material.restitution = real(1);
           BodyId id;
           if (create_body(lab.world, rod, id) != Status::ok) continue;  // its ends would be too fast
@@ -132,10 +132,10 @@ DETENT_TEST(impact_stage, a_ball_that_drops_rebounds_to_where_gravity_takes_it) 
   double apex = 0;
   int rising = 0;
   for (int tick = 0; tick < 1200; ++tick) {
-    const double before = lab.motion(id).velocity[1];
+    const double before = lab.motion(id).linear_velocity[1];
     lab.run(1);
     apex = std::max(apex, lab.motion(id).position[1]);
-    if (before > 0 && lab.motion(id).velocity[1] <= 0) ++rising;
+    if (before > 0 && lab.motion(id).linear_velocity[1] <= 0) ++rising;
   }
   EXPECT_GE(rising, 9);
   EXPECT_LT(apex, 5.5 * 1.05);
@@ -163,8 +163,8 @@ Lab make_crowd(uint64_t seed, uint32_t contacts) {
     if (i % 3 == 2) def.shape = capsule(real_near(size * 0.5), real_near(size));
     def.position = position_near({{(i % 3 - 1) * 0.9, 0.6 + 0.6 * (i / 9), (i / 3 % 3 - 1) * 0.9}});
     def.rotation = rotation_near(any_rotation(samples));
-    if (i % 4 == 0) def.velocity = reals_near(any_direction(samples) * uniform(samples, 10, 80));
-    if (i % 5 == 0) def.spin = reals_near(any_direction(samples) * 30);
+    if (i % 4 == 0) def.linear_velocity = reals_near(any_direction(samples) * uniform(samples, 10, 80));
+    if (i % 5 == 0) def.angular_velocity = reals_near(any_direction(samples) * 30);
     def.material.restitution = real_near(i % 2 * 0.5);
     lab.add(def);
   }
@@ -192,7 +192,7 @@ DETENT_TEST(impact_stage, leaving_out_pairs_that_cannot_meet_changes_no_bit) {
 
 Solid solid_at(Lab& lab, uint32_t slot, const SegmentPose& at) {
   OracleBody body;
-  body.traits = view_of(lab.world).traits[slot];
+  body.properties = view_of(lab.world).properties[slot];
   Solid result = solid_of(body, Position{});
   result.centre = at.position;
   for (int i = 0; i < 3; ++i) result.axis[i] = detent_oracle::axis_of(at.rotation, i);
@@ -227,8 +227,8 @@ DETENT_TEST(impact_stage, the_committed_sweeps_make_no_deep_overlap_and_none_esc
           const double far = length(start[a].position - start[b].position);
           if (a >= 5 && far > 2.5) continue;
           const double before = gap_of(solid_at(lab, a, start[a]), solid_at(lab, b, start[b]));
-          const double extent =
-              std::min(real_to_host(shape_extent(state.traits[a])), real_to_host(shape_extent(state.traits[b])));
+          const double extent = std::min(real_to_host(shape_extent(state.properties[a])),
+                                         real_to_host(shape_extent(state.properties[b])));
           for (int part = 1; part <= 8; ++part) {
             const double gap = gap_of(solid_at(lab, a, trace.at(a, part / 8.0, start[a])),
                                       solid_at(lab, b, trace.at(b, part / 8.0, start[b])));
@@ -239,7 +239,7 @@ DETENT_TEST(impact_stage, the_committed_sweeps_make_no_deep_overlap_and_none_esc
         }
       }
       for (uint32_t i = 5; i < start.size(); ++i) {
-        const Motion motion = lab.motion({i + 1, state.traits[i].generation});
+        const Motion motion = lab.motion({i + 1, state.properties[i].generation});
         if (motion.position[1] > 7) left[i] = true;  // over the walls
         if (left[i]) continue;
         EXPECT_GT(motion.position[1], 0);
@@ -279,13 +279,13 @@ DETENT_TEST(impact_stage, the_work_of_a_tick_goes_with_what_there_is_to_look_at)
   EXPECT_LT(tests_max, 15000u) << "24 sheets, 276 pairs";
 }
 
-/// The ladder's other rungs are not tried where not even the last one parts them.
+/// The cores's other rungs are not tried where not even the last one parts them.
 DETENT_TEST(impact_stage, what_lies_in_one_place_costs_two_tests_a_pair) {
   Lab lab({40, 100, 0}, weightless());  // beyond the pairs that there is room for all are tested
   for (int i = 0; i < 40; ++i) {
     BodyDef def;
     def.shape = sphere(real(0.25));
-    def.velocity = reals(0.01 * i, 0, 0);
+    def.linear_velocity = reals(0.01 * i, 0, 0);
     lab.add(def);
   }
   const StepReport report = lab.run(1);
@@ -303,8 +303,8 @@ DETENT_TEST(impact_stage, momentum_is_kept_whatever_meets) {
     if (i % 2 == 0) def.shape = box(reals_near({{0.2, 0.1, 0.3}}));
     if (i % 2 == 1) def.shape = sphere(real_near(0.2));
     def.position = position_near(at * 2);
-    def.velocity = reals_near(at * -100 + any_direction(samples) * 30);
-    def.spin = reals_near(any_direction(samples) * 10);
+    def.linear_velocity = reals_near(at * -100 + any_direction(samples) * 30);
+    def.angular_velocity = reals_near(any_direction(samples) * 10);
     def.material.restitution = real(0.7);
     lab.add(def);
   }
@@ -312,7 +312,7 @@ DETENT_TEST(impact_stage, momentum_is_kept_whatever_meets) {
     Vector linear = {{0, 0, 0}};
     const auto state = view_of(lab.world);
     for (uint32_t i = 0; i < state.world.slots_used; ++i) {
-      const Vector part = host(state.motions[i].velocity) * scaled_to_host(state.traits[i].mass);
+      const Vector part = host(state.motions[i].linear_velocity) * scaled_to_host(state.properties[i].mass);
       linear = linear + part;
       size += length(part);
     }
@@ -398,7 +398,7 @@ DETENT_TEST(impact_stage, of_what_sleeps_only_what_is_struck_is_looked_at_and_it
   EXPECT_EQ(report.impacts, 6u);
   EXPECT_EQ(report.woke, 6u);
   EXPECT_TRUE(report.complete());
-  EXPECT_NEAR(lab.motion(balls[5]).velocity[0], 900, 1e-2);
+  EXPECT_NEAR(lab.motion(balls[5]).linear_velocity[0], 900, 1e-2);
   EXPECT_EQ(lab.run(1).awake, 7u);
 }
 

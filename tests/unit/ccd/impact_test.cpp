@@ -13,7 +13,7 @@ BodyDef ball(double mass, double x, double speed) {
   def.shape = sphere(real(0.5));
   def.mass = scaled(mass);
   def.position = position(x, 0, 0);
-  def.velocity = reals(speed, 0, 0);
+  def.linear_velocity = reals(speed, 0, 0);
   def.material.restitution = real(1);
   return def;
 }
@@ -25,9 +25,9 @@ DETENT_TEST(impact, balls_that_meet_head_on_part_as_newton_says) {
     const BodyId a = lab.add(ball(1, -0.75, 2)), b = lab.add(ball(ratio, 0.75, -1));
     lab.run(60);
     const double mean = (2 - ratio) / (1 + ratio);  // speed of the centre of mass, which each speed is mirrored at
-    EXPECT_NEAR(lab.motion(a).velocity[0], 2 * mean - 2, 3 * error) << ratio;
-    EXPECT_NEAR(lab.motion(b).velocity[0], 2 * mean + 1, 3 * error) << ratio;
-    EXPECT_NEAR(lab.motion(a).velocity[1], 0, error);
+    EXPECT_NEAR(lab.motion(a).linear_velocity[0], 2 * mean - 2, 3 * error) << ratio;
+    EXPECT_NEAR(lab.motion(b).linear_velocity[0], 2 * mean + 1, 3 * error) << ratio;
+    EXPECT_NEAR(lab.motion(a).linear_velocity[1], 0, error);
   }
 }
 
@@ -39,11 +39,12 @@ DETENT_TEST(impact, balls_that_meet_off_centre_without_friction_exchange_what_li
   const BodyId a = lab.add(moving), b = lab.add(resting);
   lab.run(120);
   const Motion first = lab.motion(a), second = lab.motion(b);
-  EXPECT_NEAR(first.velocity[0] + second.velocity[0], 2, 1e-5);
-  EXPECT_NEAR(first.velocity[1] + second.velocity[1], 0, 1e-5);
-  const double product = first.velocity[0] * second.velocity[0] + first.velocity[1] * second.velocity[1];
+  EXPECT_NEAR(first.linear_velocity[0] + second.linear_velocity[0], 2, 1e-5);
+  EXPECT_NEAR(first.linear_velocity[1] + second.linear_velocity[1], 0, 1e-5);
+  const double product =
+      first.linear_velocity[0] * second.linear_velocity[0] + first.linear_velocity[1] * second.linear_velocity[1];
   EXPECT_NEAR(product, 0, 1e-3) << "equal balls part at a right angle";
-  EXPECT_NEAR(second.velocity[1] / second.velocity[0], -tan(asin(0.5)), 0.05);
+  EXPECT_NEAR(second.linear_velocity[1] / second.linear_velocity[0], -tan(asin(0.5)), 0.05);
 }
 
 struct Sums {
@@ -62,9 +63,9 @@ Sums sums_of(Lab& lab, const std::vector<Vector>& positions) {
   Sums sums;
   const auto state = view_of(lab.world);
   for (uint32_t i = 0; i < state.world.slots_used; ++i) {
-    const double mass = scaled_to_host(state.traits[i].mass);
-    const Vector linear = host(state.motions[i].velocity) * mass;
-    const Vector own = host(state.motions[i].momentum) * (mass * unit_of(state.traits[i]));
+    const double mass = scaled_to_host(state.properties[i].mass);
+    const Vector linear = host(state.motions[i].linear_velocity) * mass;
+    const Vector own = host(state.motions[i].angular_momentum) * (mass * unit_of(state.properties[i]));
     const Vector orbital = cross(positions[i], linear);
     sums.linear = sums.linear + linear;
     sums.angular = sums.angular + orbital + own;
@@ -86,8 +87,8 @@ DETENT_TEST(impact, an_isolated_cluster_keeps_its_momentum) {
     def.shape = box(reals_near(half));
     def.position = position_near(at * 1.2);
     def.rotation = rotation_near(any_rotation(samples));
-    def.velocity = reals_near(at * -1.5 + any_direction(samples));
-    def.spin = reals_near(any_direction(samples) * 2);
+    def.linear_velocity = reals_near(at * -1.5 + any_direction(samples));
+    def.angular_velocity = reals_near(any_direction(samples) * 2);
     lab.add(def);
   }
   const Sums start = sums_of(lab, positions_in(lab));
@@ -124,7 +125,8 @@ void expect_stack_stands(const int (&order)[5]) {
     if (tick < 60) continue;
     for (const BodyId id : ids) {
       const Motion motion = lab.motion(id);
-      speed += length(Vector{{motion.velocity[0], motion.velocity[1], motion.velocity[2]}}) / (540 * 5);
+      speed +=
+          length(Vector{{motion.linear_velocity[0], motion.linear_velocity[1], motion.linear_velocity[2]}}) / (540 * 5);
     }
   }
   EXPECT_LT(speed, 1e-3);

@@ -17,15 +17,18 @@ Sums sums_of(Lab& lab) {
   Sums sums;
   const auto state = view_of(lab.world);
   for (uint32_t i = 0; i < state.world.slots_used; ++i) {
-    const double mass = scaled_to_host(state.traits[i].mass), unit = std::ldexp(1.0, state.traits[i].size_exponent);
-    const Vector velocity = host(state.motions[i].velocity), turning = host(state.motions[i].momentum) * unit;
-    const Motion motion = lab.motion({i + 1, state.traits[i].generation});
+    const double mass = scaled_to_host(state.properties[i].mass),
+                 unit = std::ldexp(1.0, state.properties[i].size_exponent);
+    const Vector linear_velocity = host(state.motions[i].linear_velocity),
+                 turning = host(state.motions[i].angular_momentum) * unit;
+    const Motion motion = lab.motion({i + 1, state.properties[i].generation});
     const Vector at = {{motion.position[0], motion.position[1], motion.position[2]}};
-    const Vector spin = {{motion.spin[0], motion.spin[1], motion.spin[2]}};
-    sums.momentum = sums.momentum + velocity * mass;
-    sums.angular = sums.angular + (cross(at, velocity) + turning) * mass;
-    sums.energy += 0.5 * mass * (dot(velocity, velocity) + dot(turning, spin));
-    sums.size += mass * length(velocity);
+    const Vector angular_velocity = {
+        {motion.angular_velocity[0], motion.angular_velocity[1], motion.angular_velocity[2]}};
+    sums.momentum = sums.momentum + linear_velocity * mass;
+    sums.angular = sums.angular + (cross(at, linear_velocity) + turning) * mass;
+    sums.energy += 0.5 * mass * (dot(linear_velocity, linear_velocity) + dot(turning, angular_velocity));
+    sums.size += mass * length(linear_velocity);
   }
   return sums;
 }
@@ -39,13 +42,14 @@ DETENT_TEST(rebound, a_row_of_balls_passes_a_blow_on_to_the_last) {
         BodyDef def;
         def.shape = sphere(real(0.5));
         def.position = position(i == 0 ? start : (1 + gap) * (i - 1), 0, 0);
-        if (i == 0) def.velocity = reals(4, 0, 0);
+        if (i == 0) def.linear_velocity = reals(4, 0, 0);
         def.material.restitution = real(1);
         lab.add(def);
       }
       lab.run(60);
       for (uint32_t i = 0; i < 5; ++i)
-        EXPECT_NEAR(lab.motion({i + 1, 1}).velocity[0], i == 4 ? 4 : 0, 1e-3) << gap << ", " << start << ", ball " << i;
+        EXPECT_NEAR(lab.motion({i + 1, 1}).linear_velocity[0], i == 4 ? 4 : 0, 1e-3)
+            << gap << ", " << start << ", ball " << i;
     }
   }
 }
@@ -59,13 +63,13 @@ DETENT_TEST(rebound, is_left_to_the_solver_where_it_is_slow_or_in_a_heap) {
   def.material.restitution = real(0.8);
   for (int i = 0; i < 2; ++i) {
     def.position = position(0.502 * i, 0, 0);
-    def.velocity = reals(0.1 - 0.1 * i, 0, 0);
+    def.linear_velocity = reals(0.1 - 0.1 * i, 0, 0);
     slow.add(def);
   }
   EXPECT_EQ(slow.run(1).impacts + slow.run(1).impacts, 0u);
-  EXPECT_NEAR(slow.motion({1, 1}).velocity[0], slow.motion({2, 1}).velocity[0], 1e-6);
+  EXPECT_NEAR(slow.motion({1, 1}).linear_velocity[0], slow.motion({2, 1}).linear_velocity[0], 1e-6);
   heap.add_ground();
-  def.velocity = reals(0, 0, 0);
+  def.linear_velocity = reals(0, 0, 0);
   uint32_t impacts = 0;
   for (int i = 0; i < 64; ++i) {
     def.position = position(0.51 * (i % 4) + 0.01 * (i / 16), 0.3 + 0.6 * (i / 16), 0.51 * (i / 4 % 4));
@@ -80,15 +84,15 @@ DETENT_TEST(rebound, is_left_to_the_solver_where_it_is_slow_or_in_a_heap) {
   EXPECT_LT(impacts, 64 * 7u);
 }
 
-struct Losses {
+struct Overflow {
   std::vector<double> angular;  ///< over the sizes of the momenta, times a metre; ascending
   double energy = 0;            ///< the most
 };
 
 /// Balls, or balls and boxes, that fly at each other from a ring around.
-Losses throw_together(uint32_t count, bool boxes, int throws) {
+Overflow throw_together(uint32_t count, bool boxes, int throws) {
   Samples samples = {count};
-  Losses losses;
+  Overflow overflow;
   for (int i = 0; i < throws; ++i) {
     Lab lab({count, 40, 0}, weightless());
     for (uint32_t k = 0; k < count; ++k) {
@@ -99,9 +103,9 @@ Losses throw_together(uint32_t count, bool boxes, int throws) {
                       ? sphere(real(size))
                       : box(reals(size, size * uniform(samples, 0.4, 1), size * uniform(samples, 0.4, 1)));
       def.position = position_near(out * uniform(samples, 2, 2.8));
-      def.velocity = reals_near(out * -5 + any_direction(samples) * 0.5);
+      def.linear_velocity = reals_near(out * -5 + any_direction(samples) * 0.5);
       def.rotation = rotation_near(any_rotation(samples));
-      def.spin = reals_near(any_direction(samples) * 3);
+      def.angular_velocity = reals_near(any_direction(samples) * 3);
       def.material.restitution = real(1);
       def.material.friction = real(0);
       lab.add(def);
@@ -110,28 +114,28 @@ Losses throw_together(uint32_t count, bool boxes, int throws) {
     lab.run(60);
     const Sums end = sums_of(lab);
     EXPECT_LT(length(end.momentum - start.momentum) / start.size, 1e-6);
-    losses.angular.push_back(length(end.angular - start.angular) / start.size);
-    losses.energy = std::max(losses.energy, fabs(end.energy / start.energy - 1));
+    overflow.angular.push_back(length(end.angular - start.angular) / start.size);
+    overflow.energy = std::max(overflow.energy, fabs(end.energy / start.energy - 1));
   }
-  std::sort(losses.angular.begin(), losses.angular.end());
-  return losses;
+  std::sort(overflow.angular.begin(), overflow.angular.end());
+  return overflow;
 }
 
 DETENT_TEST(rebound, balls_keep_their_energy_and_angular_momentum) {
   for (const uint32_t count : {2u, 5u}) {
-    const Losses losses = throw_together(count, false, 40);
-    EXPECT_LT(losses.angular.back(), 1e-4) << count;
-    EXPECT_LT(losses.energy, 1e-3) << count;
+    const Overflow overflow = throw_together(count, false, 40);
+    EXPECT_LT(overflow.angular.back(), 1e-4) << count;
+    EXPECT_LT(overflow.energy, 1e-3) << count;
   }
 }
 
 /// A box turns on its sweep as it would not in free flight: what that is wrong by is taken out of its momentum.
 DETENT_TEST(rebound, boxes_and_balls_nearly_keep_them) {
   for (const uint32_t count : {2u, 5u}) {
-    const Losses losses = throw_together(count, true, 40);
-    EXPECT_LT(losses.angular[20], 5e-4) << count;
-    EXPECT_LT(losses.angular.back(), 0.02) << count;
-    EXPECT_LT(losses.energy, 0.02) << count;
+    const Overflow overflow = throw_together(count, true, 40);
+    EXPECT_LT(overflow.angular[20], 5e-4) << count;
+    EXPECT_LT(overflow.angular.back(), 0.02) << count;
+    EXPECT_LT(overflow.energy, 0.02) << count;
   }
 }
 

@@ -55,8 +55,8 @@ void expect_kept(uint64_t seed, uint32_t bodies, double speed, double thickness,
       def.shape = any_shape(samples);
       def.rotation = rotation_near(any_rotation(samples));
       def.position = position(1.2 * (i % 3) - 1.2, 1.2 * (i / 3) - 1.2, uniform(samples, -1.2, 1.2));
-      def.velocity = reals_near(any_direction(samples) * speed);
-      def.spin = reals_near(any_direction(samples) * 20);
+      def.linear_velocity = reals_near(any_direction(samples) * speed);
+      def.angular_velocity = reals_near(any_direction(samples) * 20);
       def.material.restitution = real(restitution);
       ids.push_back(lab.add(def));
     }

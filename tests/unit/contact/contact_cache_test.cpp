@@ -1,6 +1,6 @@
 #include "contact/contact_cache.h"
 
-#include "contact/surface_manifolds.h"
+#include "contact/terrain_manifolds.h"
 #include "tests/oracle/bodies.h"
 
 /// How the contacts of a pair's parts go on from tick to tick.
@@ -22,8 +22,8 @@ struct Last {
   }
 };
 
-void add(SurfaceContacts& contacts, uint32_t key, uint32_t first, uint32_t second) {
-  SurfaceContact& made = contacts.contact[contacts.count++];
+void add(TerrainContacts& contacts, uint32_t key, uint32_t first, uint32_t second) {
+  TerrainContact& made = contacts.contact[contacts.count++];
   made = {};
   made.key = key;
   made.geometry.count = 2;
@@ -36,7 +36,7 @@ DETENT_TEST(contact_cache, a_contact_with_a_new_key_goes_on_with_that_whose_feat
   last.add(10, 1, 2);
   last.add(20, 3, 4);
   last.add(30, 5, 6);
-  SurfaceContacts found;
+  TerrainContacts found;
   add(found, 11, 4, 3);  // all of 20's
   add(found, 15, 7, 8);  // nothing of any
   add(found, 30, 1, 2);  // 30 is there, whatever its features are
@@ -51,7 +51,7 @@ DETENT_TEST(contact_cache, a_contact_with_a_new_key_goes_on_with_that_whose_feat
 DETENT_TEST(contact_cache, two_contacts_do_not_go_on_with_one) {
   Last last;
   last.add(10, 1, 2);
-  SurfaceContacts found;
+  TerrainContacts found;
   add(found, 11, 1, 9);
   add(found, 12, 1, 2);
   continue_keys(last.pair, found);

@@ -84,10 +84,10 @@ Placement placement(const Arrow& at, double x, double y, double z, double w) {
   result.axis[2] = {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)};
   return result;
 }
-/// Turned by `turn`, rad, small or large.
-Placement turned(const Arrow& at, const Arrow& turn) {
-  const double angle = length(turn), s = angle == 0 ? 0 : sin(angle / 2) / angle;
-  return placement(at, turn.x * s, turn.y * s, turn.z * s, cos(angle / 2));
+/// Turned by `rotation_vector`, rad, small or large.
+Placement turned(const Arrow& at, const Arrow& rotation_vector) {
+  const double angle = length(rotation_vector), s = angle == 0 ? 0 : sin(angle / 2) / angle;
+  return placement(at, rotation_vector.x * s, rotation_vector.y * s, rotation_vector.z * s, cos(angle / 2));
 }
 Placement random_placement(Samples& samples, const Arrow& at) {
   return turned(at, random_direction(samples) * uniform(samples, 0, 3));
@@ -210,20 +210,20 @@ struct Tally {
   double axis_max = 0;
 };
 
-void check_manifold(const Body& a, const Placement& at_a, const Body& b, const Placement& at_b, double reach,
+void check_manifold(const Body& a, const Placement& at_a, const Body& b, const Placement& at_b, double distance_max,
                     Samples& samples, Tally& tally) {
   ContactManifold manifold;
-  ASSERT_OK(contact_points(a.convex, at_a.pose(), b.convex, at_b.pose(), real(reach), manifold));
+  ASSERT_OK(contact_points(a.convex, at_a.pose(), b.convex, at_b.pose(), real(distance_max), manifold));
   Closest closest;
   ASSERT_OK(closest_points(a.convex, at_a.pose(), b.convex, at_b.pose(), closest));
   const double distance = to_host(closest.distance);
   if (manifold.count == 0) {
     ASSERT_FALSE(closest.overlap);
-    ASSERT_GT(distance, reach - k_ulps);
+    ASSERT_GT(distance, distance_max - k_ulps);
     return;
   }
   tally.capped += manifold.capped ? 1 : 0;
-  ASSERT_LT(distance, reach + k_ulps);
+  ASSERT_LT(distance, distance_max + k_ulps);
   ++tally.contacts;
   tally.points += manifold.count;
   const Arrow n = unit_arrow(manifold.normal);
@@ -242,7 +242,7 @@ void check_manifold(const Body& a, const Placement& at_a, const Body& b, const P
     least = std::min(least, separation);
     ASSERT_NE(point.feature, 0u);
     for (uint32_t k = 0; k < i; ++k) ASSERT_NE(point.feature, manifold.point[k].feature);
-    ASSERT_LE(separation, reach + k_ulps);
+    ASSERT_LE(separation, distance_max + k_ulps);
     // An edge goes on for a 64th beyond its end, and it may slope by a 32nd.
     ASSERT_GE(separation, gap - size / 2048 - k_ulps) << "deeper than the shapes are along the normal";
     // Both surfaces are half the separation away, in the shapes but for what the areas' sides are moved out by.
@@ -258,7 +258,7 @@ void check_manifold(const Body& a, const Placement& at_a, const Body& b, const P
   }
   // The deepest is not missed: neither against the least distance nor against the depth along the normal.
   tally.above_max = std::max(tally.above_max, (least - gap) / size);
-  ASSERT_LE(least, (closest.overlap ? reach : distance) + size / 32 + k_ulps);
+  ASSERT_LE(least, (closest.overlap ? distance_max : distance) + size / 32 + k_ulps);
   // A face that leans against edges that cross parts them by a little less, and is deeper beside itself; none of its
   // points is deeper than the axis by more than a 64th.
   const bool leans = manifold.count > 1 && (best - gap > size / 64 + k_ulps || least - gap > size / 32);
@@ -271,7 +271,7 @@ void check_manifold(const Body& a, const Placement& at_a, const Body& b, const P
   if (least - gap > size / (leans ? 12 : 32)) ++tally.shallow;
   // A and B change places.
   ContactManifold other;
-  ASSERT_OK(contact_points(b.convex, at_b.pose(), a.convex, at_a.pose(), real(reach), other));
+  ASSERT_OK(contact_points(b.convex, at_b.pose(), a.convex, at_a.pose(), real(distance_max), other));
   // On a round surface the search may end anywhere where the depth is within ulps of the least.
   const bool curved = a.radius > 0 || b.radius > 0;
   const double place_error = curved ? 2e-3 : 1e-5;
@@ -314,11 +314,11 @@ DETENT_TEST(contact, points_of_every_pair_of_shapes_lie_on_both_and_none_deeper_
       for (uint32_t i = 0; i < rounds; ++i) {
         const Body a = random_body(samples, type_a), b = random_body(samples, type_b);
         const Placement at_a = random_placement(samples, {0.25, -1, 3});
-        const Arrow way = random_direction(samples);
+        const Arrow displacement = random_direction(samples);
         Placement at_b = random_placement(samples, at_a.position);
-        // Parted along `way`, then brought back.
-        const double apart = -gap_along(a, at_a, b, at_b, way);
-        at_b.position = at_b.position + way * (apart + uniform(samples, -0.1, 0.1));
+        // Parted along `displacement`, then brought back.
+        const double apart = -gap_along(a, at_a, b, at_b, displacement);
+        at_b.position = at_b.position + displacement * (apart + uniform(samples, -0.1, 0.1));
         settle(at_b);
         check_manifold(a, at_a, b, at_b, 0.05, samples, tally);
         if (HasFatalFailure()) {
@@ -351,9 +351,9 @@ Arrow random_face(const Body& body, Samples& samples) {
     case ShapeType::capsule:
     case ShapeType::cylinder:
     case ShapeType::cone: {
-      const uint32_t way = samples.below(3);
-      if (way == 0) return {0, -1, 0};
-      if (way == 1 && body.convex.type != ShapeType::cone) return {0, 1, 0};
+      const uint32_t displacement = samples.below(3);
+      if (displacement == 0) return {0, -1, 0};
+      if (displacement == 1 && body.convex.type != ShapeType::cone) return {0, 1, 0};
       const double angle = uniform(samples, 0, 6.28), rise = body.convex.type == ShapeType::cone ? body.radius : 0;
       const double across = body.convex.type == ShapeType::cone ? 2 * body.half_length : 1;
       const double size = sqrt(rise * rise + across * across);
@@ -375,9 +375,9 @@ Placement facing(Samples& samples, const Arrow& face, const Arrow& towards, doub
   axis = axis * (1 / length(axis));
   const double half = acos(std::max(-1.0, std::min(1.0, cosine))) / 2;
   const Arrow p = axis * sin(half);
-  const double w = cos(half), spin = straight ? 0 : uniform(samples, 0, 3);
-  const Arrow about = towards * sin(spin) + random_direction(samples) * (tilt / 2);
-  const double v = cos(spin);
+  const double w = cos(half), angular_velocity = straight ? 0 : uniform(samples, 0, 3);
+  const Arrow about = towards * sin(angular_velocity) + random_direction(samples) * (tilt / 2);
+  const double v = cos(angular_velocity);
   const Arrow q = about * w + p * v + cross(about, p);
   return placement({0, 0, 0}, q.x, q.y, q.z, v * w - dot(about, p));
 }
@@ -394,14 +394,15 @@ DETENT_TEST(contact, of_faces_and_sides_that_meet_flush_or_nearly_is_of_several_
         constexpr double k_tilts[] = {0, 1e-7, 1e-5, 1e-3, 0.02};
         const Placement at_a = random_placement(samples, {0.25, -1, 3});
         const Arrow face = random_face(a, samples);
-        const Arrow way = at_a.axis[0] * face.x + at_a.axis[1] * face.y + at_a.axis[2] * face.z;
+        const Arrow displacement = at_a.axis[0] * face.x + at_a.axis[1] * face.y + at_a.axis[2] * face.z;
         Placement at_b =
-            facing(samples, random_face(b, samples), -way, k_tilts[samples.below(5)], samples.below(2) == 0);
-        const Arrow aside = cross(way, random_direction(samples)) * (samples.below(3) == 0 ? 0.0 : 0.7 * a.size);
+            facing(samples, random_face(b, samples), -displacement, k_tilts[samples.below(5)], samples.below(2) == 0);
+        const Arrow aside =
+            cross(displacement, random_direction(samples)) * (samples.below(3) == 0 ? 0.0 : 0.7 * a.size);
         at_b.position = at_a.position + aside;
-        const double apart = -gap_along(a, at_a, b, at_b, way);
+        const double apart = -gap_along(a, at_a, b, at_b, displacement);
         constexpr double k_gaps[] = {0, 1e-9, -1e-9, 1e-6, -1e-6, 0.01, -0.01};
-        at_b.position = at_b.position + way * (apart + k_gaps[samples.below(7)]);
+        at_b.position = at_b.position + displacement * (apart + k_gaps[samples.below(7)]);
         settle(at_b);
         check_manifold(a, at_a, b, at_b, 0.05, samples, tally);
         if (HasFatalFailure()) {
@@ -424,8 +425,9 @@ DETENT_TEST(contact, of_fat_capsules_nearly_parallel_is_as_deep_as_they_are) {
     const Placement at_a = turned({0.25, -1, 3}, tilt * -0.5);
     Placement at_b = turned(at_a.position + Arrow{0, uniform(samples, -0.3, 0.3), 0}, tilt);
     const double angle = uniform(samples, 0, 6.28);
-    const Arrow way = {cos(angle), 0, sin(angle)};
-    at_b.position = at_b.position + way * (uniform(samples, -0.02, 0.02) - gap_along(a, at_a, b, at_b, way));
+    const Arrow displacement = {cos(angle), 0, sin(angle)};
+    at_b.position =
+        at_b.position + displacement * (uniform(samples, -0.02, 0.02) - gap_along(a, at_a, b, at_b, displacement));
     settle(at_b);
     check_manifold(a, at_a, b, at_b, 0.05, samples, tally);
     ASSERT_FALSE(HasFatalFailure()) << "round " << i;
@@ -800,15 +802,15 @@ DETENT_TEST(contact, has_a_sound_normal_where_the_cores_all_but_touch) {
   ASSERT_OK(make_convex(cylinder(0.5, 0.5), drum));
   for (int i = 0; i < 2000; ++i) {
     const double angle = uniform(samples, 0, 6.28);
-    const Arrow way = {cos(angle), 0, sin(angle)};
-    Placement at =
-        turned(way * (0.5 + uniform(samples, -1e-8, 1e-8)) + Arrow{0, uniform(samples, -0.4, 0.4), 0}, {0, 0, 0});
+    const Arrow displacement = {cos(angle), 0, sin(angle)};
+    Placement at = turned(
+        displacement * (0.5 + uniform(samples, -1e-8, 1e-8)) + Arrow{0, uniform(samples, -0.4, 0.4), 0}, {0, 0, 0});
     settle(at);
     const double apart = sqrt(at.position.x * at.position.x + at.position.z * at.position.z) - 0.5;
     ContactManifold manifold;
     ASSERT_OK(contact_points(drum, turned({0, 0, 0}, {0, 0, 0}).pose(), ball, at.pose(), 0.0, manifold));
     ASSERT_EQ(manifold.count, 1u);
-    ASSERT_GT(dot(unit_arrow(manifold.normal), way), 0.9999);
+    ASSERT_GT(dot(unit_arrow(manifold.normal), displacement), 0.9999);
     ASSERT_NEAR(to_host(manifold.point[0].separation), apart - 0.25, 1e-6);
   }
 }

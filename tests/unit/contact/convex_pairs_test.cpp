@@ -48,8 +48,8 @@ Status made(const Shape& shape, Convex& convex) {
 
 OracleBody body_of(const Shape& shape) {
   OracleBody body;
-  EXPECT_OK(set_shape_traits(shape, body.traits, k_table));
-  body.traits.type = static_cast<uint32_t>(BodyType::dynamic);
+  EXPECT_OK(set_shape_properties(shape, body.properties, k_table));
+  body.properties.type = static_cast<uint32_t>(BodyType::dynamic);
   return body;
 }
 
@@ -64,8 +64,8 @@ DETENT_TEST(body_convex, is_what_make_convex_makes_of_the_shape_but_for_the_roun
     const OracleBody body = body_of(shape);
     Convex right, given;
     ASSERT_OK(made(shape, right));
-    ASSERT_TRUE(body_convex(body.traits, k_table, given));
-    const double step = k_step * ldexp(1.0, body.traits.size_exponent - 30);
+    ASSERT_TRUE(body_convex(body.properties, k_table, given));
+    const double step = k_step * ldexp(1.0, body.properties.size_exponent - 30);
     EXPECT_EQ(given.type, right.type);
     EXPECT_EQ(given.hull, right.hull);
     EXPECT_EQ(given.vertex_count, right.vertex_count);
@@ -89,18 +89,20 @@ DETENT_TEST(body_convex, of_a_hull_is_refused_only_if_its_bytes_are_missing) {
   Convex convex;
   convex.radius = 77;
   const Asset hole[] = {k_assets[0], {}};
-  EXPECT_FALSE(body_convex(body.traits, {}, convex));
-  EXPECT_FALSE(body_convex(body.traits, {k_assets, 1}, convex));
-  EXPECT_FALSE(body_convex(body.traits, {hole, 2}, convex));
+  EXPECT_FALSE(body_convex(body.properties, {}, convex));
+  EXPECT_FALSE(body_convex(body.properties, {k_assets, 1}, convex));
+  EXPECT_FALSE(body_convex(body.properties, {hole, 2}, convex));
   EXPECT_EQ(convex.radius, 77);
-  EXPECT_TRUE(body_convex(body.traits, k_table, convex));
+  EXPECT_TRUE(body_convex(body.properties, k_table, convex));
 }
 
-ContactGeometry collided(const OracleBody& a, const OracleBody& b, double reach, const AssetTable& assets = k_table) {
+ContactGeometry collided(const OracleBody& a, const OracleBody& b, double distance_max,
+                         const AssetTable& assets = k_table) {
   const Matrix3 rotation_a = matrix_from(a.pose.rotation), rotation_b = matrix_from(b.pose.rotation);
   ContactGeometry contact;
   contact.capped = true;
-  collide({a.pose, a.traits, rotation_a}, {b.pose, b.traits, rotation_b}, real_near(reach), contact, assets);
+  collide({a.pose, a.properties, rotation_a}, {b.pose, b.properties, rotation_b}, real_near(distance_max), contact,
+          assets);
   return contact;
 }
 
@@ -139,21 +141,21 @@ DETENT_TEST(convex_pairs, agree_with_contact_points_of_the_same_shapes) {
                             random_shape(samples, kind_b, 0.25, rounding)};
     OracleBody a = body_of(shapes[0]), b = body_of(shapes[1]);
     const Vector start = any_direction(samples) * uniform(samples, 0, 8000);
-    const double apart =
-        (host(a.traits.bounding_radius) * unit_of(a.traits) + host(b.traits.bounding_radius) * unit_of(b.traits)) *
-        uniform(samples, 0.3, 1.0);
+    const double apart = (host(a.properties.bounding_radius) * unit_of(a.properties) +
+                          host(b.properties.bounding_radius) * unit_of(b.properties)) *
+                         uniform(samples, 0.3, 1.0);
     a.pose.position = position_near(start);
     b.pose.position = position_near(start + any_direction(samples) * apart);
     a.pose.rotation = rotation_near(any_rotation(samples));
     b.pose.rotation = rotation_near(any_rotation(samples));
-    const double reach = 0.01;
+    const double distance_max = 0.01;
     Convex convex_a, convex_b;
     ASSERT_OK(made(shapes[0], convex_a));
     ASSERT_OK(made(shapes[1], convex_b));
     ContactManifold right;
     ASSERT_OK(contact_points(convex_a, {a.pose.position, a.pose.rotation}, convex_b, {b.pose.position, b.pose.rotation},
-                             real_near(reach), right));
-    const ContactGeometry given = collided(a, b, reach);
+                             real_near(distance_max), right));
+    const ContactGeometry given = collided(a, b, distance_max);
     EXPECT_EQ(given.capped, right.capped);
     EXPECT_EQ(given.count != 0, right.count != 0);
     if (given.count == 0 || given.count != right.count) continue;
@@ -167,10 +169,10 @@ DETENT_TEST(convex_pairs, agree_with_contact_points_of_the_same_shapes) {
       EXPECT_NE(given.point[k].feature, 0u);
       for (uint32_t other = 0; other < k; ++other) EXPECT_NE(given.point[k].feature, given.point[other].feature);
       // Both arms lead to one point.
-      const Vector from_a = host(given.point[k].arm_a) * unit_of(a.traits);
-      const Vector from_b = host(given.point[k].arm_b) * unit_of(b.traits);
+      const Vector from_a = host(given.point[k].arm_a) * unit_of(a.properties);
+      const Vector from_b = host(given.point[k].arm_b) * unit_of(b.properties);
       const Vector between = difference(b.pose.position, a.pose.position);
-      EXPECT_LE(length(from_a - (from_b + between)), k_length_error * (unit_of(a.traits) + unit_of(b.traits)));
+      EXPECT_LE(length(from_a - (from_b + between)), k_length_error * (unit_of(a.properties) + unit_of(b.properties)));
     }
     EXPECT_NEAR(deepest_given, deepest_right, error);
     EXPECT_NEAR(length(host(given.normal)), 1, k_length_error);
@@ -184,19 +186,19 @@ DETENT_TEST(convex_pairs, agree_with_contact_points_of_the_same_shapes) {
 struct OnPlane {
   OracleBody plane, body;
   OnPlane(Samples& samples, const Shape& shape, const Vector& origin, double away, double sunk) {
-    plane.traits = traits_of(half_space());
-    plane.traits.type = static_cast<uint32_t>(BodyType::fixed);
+    plane.properties = properties_of(half_space());
+    plane.properties.type = static_cast<uint32_t>(BodyType::fixed);
     plane.pose.rotation = rotation_near({0, 0, 0, 1});
     body = body_of(shape);
     body.pose.rotation = rotation_near(any_rotation(samples));
     plane.pose.position = position_near(origin + Vector{{away, 0, away / 3}});
     double low = 0;  // of the centre over the lowest point: by bisection on the answer's own sign
-    double high = 2 * unit_of(body.traits);
+    double high = 2 * unit_of(body.properties);
     for (int i = 0; i < 40; ++i) {
       const double middle = (low + high) / 2;
       body.pose.position = position_near(origin + Vector{{0, middle, 0}});
-      const ContactGeometry contact = collided(plane, body, 4 * unit_of(body.traits));
-      double least = 8 * unit_of(body.traits);
+      const ContactGeometry contact = collided(plane, body, 4 * unit_of(body.properties));
+      double least = 8 * unit_of(body.properties);
       for (uint32_t k = 0; k < contact.count; ++k) least = fmin(least, real_to_host(contact.point[k].separation));
       (least > -sunk ? high : low) = middle;
     }
@@ -237,7 +239,7 @@ DETENT_TEST(convex_pairs, a_body_far_below_a_plane_is_still_in_contact_within_it
   for (uint32_t i = 0; i < 28; ++i) {
     const Shape shape = random_shape(samples, 3 + i % 4, 0.25, 0);
     OracleBody plane, body = body_of(shape);
-    plane.traits = traits_of(half_space());
+    plane.properties = properties_of(half_space());
     plane.pose.rotation = rotation_near({0, 0, 0, 1});
     body.pose.rotation = rotation_near(any_rotation(samples));
     for (const double depth : {1.0, 100.0, sizeof(Coord) == 4 ? 10000.0 : 100000.0}) {
@@ -250,7 +252,7 @@ DETENT_TEST(convex_pairs, a_body_far_below_a_plane_is_still_in_contact_within_it
         for (int axis = 0; axis < 3; ++axis) EXPECT_LE(fabs(host(contact.point[k].arm_b)[axis]), 1.5);
       }
       EXPECT_LE(least, -depth);
-      EXPECT_GE(least, -depth - unit_of(body.traits));
+      EXPECT_GE(least, -depth - unit_of(body.properties));
     }
   }
 }
@@ -306,14 +308,14 @@ DETENT_TEST(body_convex, a_small_box_stands_on_all_corners_near_the_rim_of_a_fac
 
 DETENT_TEST(body_convex, of_a_part_of_a_compound_has_the_half_thickness_of_its_core) {
   for (const double rounding : {0.0, 0.0625}) {
-    const detent_surfaces::Bytes bytes =
+    const detent_terrains::Bytes bytes =
         detent_compounds::cooked({detent_compounds::box({0, 0, 0}, {0.5, 0.25, 0.5}, rounding),
                                   detent_compounds::box({1, 0, 0}, {0.5, 0.25, 0.125}, rounding)});
     const Asset asset = {bytes.data(), bytes.count()};
     const AssetTable table = {&asset, 1};
-    BodyTraits traits{};
-    ASSERT_OK(set_shape_traits(compound(0), traits, table));
-    const ConvexParts parts(traits, table);
+    BodyProperties properties{};
+    ASSERT_OK(set_shape_properties(compound(0), properties, table));
+    const ConvexParts parts(properties, table);
     ASSERT_EQ(parts.count(), 2u);
     for (uint32_t i = 0; i < 2; ++i) {
       Convex convex;

@@ -8,10 +8,10 @@ namespace {
 constexpr double k_quarter = 1.57079632679489662;
 constexpr double k_reach = 0.01;
 
-OracleBody body(const BodyTraits& traits, const Vector& at, const Vector& turn = {{0, 0, 0}}) {
-  OracleBody result = {{}, traits};
+OracleBody body(const BodyProperties& properties, const Vector& at, const Vector& rotation_vector = {{0, 0, 0}}) {
+  OracleBody result = {{}, properties};
   result.pose.position = position_near(at);
-  result.pose.rotation = rotation_near(detent_oracle::rotation_by(turn));
+  result.pose.rotation = rotation_near(detent_oracle::rotation_by(rotation_vector));
   return result;
 }
 
@@ -35,13 +35,14 @@ ContactGeometry expect_sound(const OracleBody& a, const OracleBody& b, double de
 
 /// Every form at the same centre, at the same or another rotation.
 DETENT_TEST(degenerate, concentric_shapes_of_every_kind_have_a_normal) {
-  const BodyTraits kinds[] = {sphere_traits(0.5),      sphere_traits(0.25),           capsule_traits(0.25, 0.5),
-                              capsule_traits(0.25, 0), box_traits({{0.5, 0.5, 0.5}}), box_traits({{0.25, 0.5, 0.75}})};
-  for (const BodyTraits& a : kinds) {
-    for (const BodyTraits& b : kinds) {
-      for (const Vector& turn : {Vector{{0, 0, 0}}, Vector{{k_quarter, 0, 0}}, Vector{{0.3, -0.2, 0.7}}}) {
-        expect_sound(body(a, {{1, 2, 3}}), body(b, {{1, 2, 3}}, turn), 0.25);
-        expect_sound(body(a, {{1, 2, 3}}, turn), body(b, {{1, 2, 3}}, turn), 0.25);
+  const BodyProperties kinds[] = {
+      sphere_properties(0.5),      sphere_properties(0.25),           capsule_properties(0.25, 0.5),
+      capsule_properties(0.25, 0), box_properties({{0.5, 0.5, 0.5}}), box_properties({{0.25, 0.5, 0.75}})};
+  for (const BodyProperties& a : kinds) {
+    for (const BodyProperties& b : kinds) {
+      for (const Vector& rotation_vector : {Vector{{0, 0, 0}}, Vector{{k_quarter, 0, 0}}, Vector{{0.3, -0.2, 0.7}}}) {
+        expect_sound(body(a, {{1, 2, 3}}), body(b, {{1, 2, 3}}, rotation_vector), 0.25);
+        expect_sound(body(a, {{1, 2, 3}}, rotation_vector), body(b, {{1, 2, 3}}, rotation_vector), 0.25);
       }
     }
   }
@@ -49,14 +50,15 @@ DETENT_TEST(degenerate, concentric_shapes_of_every_kind_have_a_normal) {
 
 DETENT_TEST(degenerate, centres_one_step_apart_have_a_normal) {
   const double step = sizeof(Coord) == 4 ? 0x1p-16 : 0x1p-32;
-  const BodyTraits kinds[] = {sphere_traits(0.5), capsule_traits(0.25, 0.5), box_traits({{0.5, 0.5, 0.5}})};
-  for (const BodyTraits& a : kinds) {
-    for (const BodyTraits& b : kinds) expect_sound(body(a, {{0, 0, 0}}), body(b, {{step, 0, -step}}), 0.25);
+  const BodyProperties kinds[] = {sphere_properties(0.5), capsule_properties(0.25, 0.5),
+                                  box_properties({{0.5, 0.5, 0.5}})};
+  for (const BodyProperties& a : kinds) {
+    for (const BodyProperties& b : kinds) expect_sound(body(a, {{0, 0, 0}}), body(b, {{step, 0, -step}}), 0.25);
   }
 }
 
 DETENT_TEST(degenerate, parallel_capsules_touch_along_a_line) {
-  const BodyTraits pill = capsule_traits(0.25, 0.5);
+  const BodyProperties pill = capsule_properties(0.25, 0.5);
   for (const double along : {0.0, 0.5, 0.999, -0.25}) {
     const ContactGeometry contact = expect_sound(body(pill, {{0, 0, 0}}), body(pill, {{0.4, along, 0}}), 0.09);
     EXPECT_EQ(contact.count, 2u) << along;
@@ -71,13 +73,13 @@ DETENT_TEST(degenerate, parallel_capsules_touch_along_a_line) {
 }
 
 DETENT_TEST(degenerate, capsules_in_line_whose_cores_overlap_have_a_normal) {
-  const BodyTraits pill = capsule_traits(0.25, 0.5);
+  const BodyProperties pill = capsule_properties(0.25, 0.5);
   expect_sound(body(pill, {{0, 0, 0}}), body(pill, {{0, 0.5, 0}}), 0.25);
   expect_sound(body(pill, {{0, 0, 0}}), body(pill, {{0, 1.0, 0}}), 0.25);
 }
 
 DETENT_TEST(degenerate, crossed_capsules_that_meet_at_their_cores_part_across_both) {
-  const BodyTraits pill = capsule_traits(0.25, 0.5);
+  const BodyProperties pill = capsule_properties(0.25, 0.5);
   const ContactGeometry contact =
       expect_sound(body(pill, {{0, 0, 0}}), body(pill, {{0, 0.1, 0}}, {{k_quarter, 0, 0}}), 0.49);
   EXPECT_NEAR(fabs(host(contact.normal)[0]), 1, unit_steps(64));
@@ -87,9 +89,9 @@ DETENT_TEST(degenerate, a_capsule_without_length_is_a_sphere) {
   Samples samples = {31};
   for (uint32_t i = 0; i < detent_oracle::rounds(500); ++i) {
     const Vector at = any_direction(samples) * uniform(samples, 0.6, 0.8);
-    const OracleBody ball = body(sphere_traits(0.25), at), pill = body(capsule_traits(0.25, 0), at);
-    const OracleBody others[] = {body(box_traits({{0.5, 0.5, 0.5}}), {{0, 0, 0}}),
-                                 body(sphere_traits(0.5), {{0, 0, 0}})};
+    const OracleBody ball = body(sphere_properties(0.25), at), pill = body(capsule_properties(0.25, 0), at);
+    const OracleBody others[] = {body(box_properties({{0.5, 0.5, 0.5}}), {{0, 0, 0}}),
+                                 body(sphere_properties(0.5), {{0, 0, 0}})};
     for (const OracleBody& other : others) {
       const ContactGeometry a = contact_of(other, ball, 0.1), b = contact_of(other, pill, 0.1);
       ASSERT_EQ(a.count, b.count);
@@ -100,7 +102,7 @@ DETENT_TEST(degenerate, a_capsule_without_length_is_a_sphere) {
 }
 
 DETENT_TEST(degenerate, a_capsule_that_pierces_a_box_is_pushed_out_the_shorter_way) {
-  const BodyTraits crate = box_traits({{1, 0.5, 1}}), pill = capsule_traits(0.125, 2);
+  const BodyProperties crate = box_properties({{1, 0.5, 1}}), pill = capsule_properties(0.125, 2);
   const ContactGeometry upright = expect_sound(body(crate, {{0, 0, 0}}), body(pill, {{0.75, 0, 0}}), 0.37);
   EXPECT_NEAR(host(upright.normal)[0], 1, unit_steps(12));
   const ContactGeometry flat =
@@ -110,7 +112,7 @@ DETENT_TEST(degenerate, a_capsule_that_pierces_a_box_is_pushed_out_the_shorter_w
 }
 
 DETENT_TEST(degenerate, flush_equal_boxes_touch_at_four_corners) {
-  const BodyTraits cube = box_traits({{0.5, 0.5, 0.5}});
+  const BodyProperties cube = box_properties({{0.5, 0.5, 0.5}});
   for (int axis = 0; axis < 3; ++axis) {
     for (const double side : {-1.0, 1.0}) {
       Vector at = {{0, 0, 0}};
@@ -127,7 +129,7 @@ DETENT_TEST(degenerate, flush_equal_boxes_touch_at_four_corners) {
 }
 
 DETENT_TEST(degenerate, crossed_edges_of_boxes_touch_at_one_point_across_both) {
-  const BodyTraits cube = box_traits({{0.5, 0.5, 0.5}});
+  const BodyProperties cube = box_properties({{0.5, 0.5, 0.5}});
   // One edge up along z, one down along x: they cross over the origin of both.
   const double height = 2 * sqrt(0.5) - 0.01;
   const ContactGeometry contact = expect_sound(body(cube, {{0, 0, 0}}, {{0, 0, k_quarter / 2}}),
@@ -139,7 +141,7 @@ DETENT_TEST(degenerate, crossed_edges_of_boxes_touch_at_one_point_across_both) {
 
 /// It would touch at the one side in one tick and at the other in the next.
 DETENT_TEST(degenerate, a_capsule_that_leans_over_a_face_touches_at_both_of_its_sides) {
-  const BodyTraits cube = box_traits({{0.5, 0.5, 0.5}}), rod = capsule_traits(0.1, 0.8);
+  const BodyProperties cube = box_properties({{0.5, 0.5, 0.5}}), rod = capsule_properties(0.1, 0.8);
   for (const double lean : {0.0, 1e-4, -1e-3, 0.004, -0.01}) {
     const ContactGeometry contact =
         expect_sound(body(cube, {{0, 0, 0}}), body(rod, {{0.05, 0.595, 0.1}}, {{0, 0, k_quarter + lean}}), 0.0049);
@@ -153,7 +155,7 @@ DETENT_TEST(degenerate, a_capsule_that_leans_over_a_face_touches_at_both_of_its_
 }
 
 DETENT_TEST(degenerate, a_corner_on_a_face_touches_at_one_point_along_the_faces_normal) {
-  const BodyTraits cube = box_traits({{0.5, 0.5, 0.5}}), floor = box_traits({{3, 0.5, 3}});
+  const BodyProperties cube = box_properties({{0.5, 0.5, 0.5}}), floor = box_properties({{3, 0.5, 3}});
   // The diagonal of the cube stands upright.
   const Vector across = detent_oracle::normalised(detent_oracle::cross({{1, 1, 1}}, {{0, 1, 0}}));
   const ContactGeometry contact =
@@ -167,11 +169,11 @@ DETENT_TEST(degenerate, a_corner_on_a_face_touches_at_one_point_along_the_faces_
 
 DETENT_TEST(degenerate, bodies_far_apart_have_no_contact_and_bodies_deep_in_a_plane_have_one) {
   const double far = sizeof(Coord) == 4 ? 30000 : 1e7;
-  const OracleBody ball = body(sphere_traits(0.5), {{-far, far, far}});
-  EXPECT_EQ(contact_of(ball, body(box_traits({{0.5, 0.5, 0.5}}), {{far, -far, far}}), k_reach).count, 0u);
-  const OracleBody plane = body(traits_of(half_space()), {{far, 0, 0}});
+  const OracleBody ball = body(sphere_properties(0.5), {{-far, far, far}});
+  EXPECT_EQ(contact_of(ball, body(box_properties({{0.5, 0.5, 0.5}}), {{far, -far, far}}), k_reach).count, 0u);
+  const OracleBody plane = body(properties_of(half_space()), {{far, 0, 0}});
   EXPECT_EQ(contact_of(ball, plane, k_reach).count, 0u);
-  const ContactGeometry deep = contact_of(plane, body(sphere_traits(0.5), {{0, -1000, 0}}), k_reach);
+  const ContactGeometry deep = contact_of(plane, body(sphere_properties(0.5), {{0, -1000, 0}}), k_reach);
   EXPECT_EQ(deep.count, 1u);
   EXPECT_NEAR(real_to_host(deep.point[0].separation), -1000.5, 0.001);
   expect_arms_held(deep.point[0]);

@@ -75,11 +75,12 @@ constexpr Quaternion k_upright = {0, 0, 0, 1};
 /// Unit cubes 100 m from their frames' origins: what a hull's thickness is must not depend on that.
 DETENT_TEST(hull_face, does_not_depend_on_where_the_frame_is) {
   const HullShape cube(box_points({{99.5, 99.5, 99.5}}, {{100.5, 100.5, 100.5}}));
-  const Quaternion turn = {-0.067375552151483983, 0.80460079670757689, -0.45307617678679085, 0.37788896641484493};
-  const Vector centre = {{100, 100, 100}}, way = {{-1.3, 0.19, 0.71}};
-  const Vector turned = (axis_of(turn, 0) + axis_of(turn, 1) + axis_of(turn, 2)) * 100;
-  const ContactManifold manifold =
-      contact_between(cube.convex, pose_of(centre * -1, k_upright), cube.convex, pose_of(way - turned, turn));
+  const Quaternion rotation_vector = {-0.067375552151483983, 0.80460079670757689, -0.45307617678679085,
+                                      0.37788896641484493};
+  const Vector centre = {{100, 100, 100}}, displacement = {{-1.3, 0.19, 0.71}};
+  const Vector turned = (axis_of(rotation_vector, 0) + axis_of(rotation_vector, 1) + axis_of(rotation_vector, 2)) * 100;
+  const ContactManifold manifold = contact_between(cube.convex, pose_of(centre * -1, k_upright), cube.convex,
+                                                   pose_of(displacement - turned, rotation_vector));
   ASSERT_GT(manifold.count, 0u);
   EXPECT_NEAR(unit_to_host(manifold.normal.x), -1, 1e-3);
   EXPECT_NEAR(unit_to_host(manifold.normal.y), 0, 1e-3);
@@ -96,9 +97,9 @@ DETENT_TEST(hull_face, on_whose_edge_a_hull_stands_touches_with_both_ends) {
   Convex ground;
   EXPECT_OK(make_convex(half_space(), ground));
   for (const double lean : {0.0, 5e-4, -9e-4}) {
-    const Quaternion turn = detent_oracle::rotation_by({{0, 0, lean}});
+    const Quaternion rotation_vector = detent_oracle::rotation_by({{0, 0, lean}});
     const double depth = 0.001 + 0.5 * fabs(lean);
-    const Pose pose = pose_of({{0, -0.5 - depth + 0.5 * fabs(lean), 0}}, turn);
+    const Pose pose = pose_of({{0, -0.5 - depth + 0.5 * fabs(lean), 0}}, rotation_vector);
     for (const ContactManifold& manifold :
          {contact_between(ground, pose_of({{0, 0, 0}}, k_upright), wedge.convex, pose),
           contact_between(block.convex, pose_of({{0, -0.5, 0}}, k_upright), wedge.convex, pose)}) {
@@ -114,9 +115,10 @@ DETENT_TEST(hull_face, that_is_not_quite_flat_carries_as_a_whole) {
   Samples samples = {5};
   for (int round = 0; round < 200; ++round) {
     const HullShape lower(uneven_prism(samples, 0.0005)), upper(uneven_prism(samples, 0.0005));
-    const double lean = uniform(samples, 0, 5e-3), turn = uniform(samples, 0, 6), about = uniform(samples, 0, 6);
+    const double lean = uniform(samples, 0, 5e-3), rotation_vector = uniform(samples, 0, 6),
+                 about = uniform(samples, 0, 6);
     const Quaternion rotation = detent_oracle::rotation_by({{lean * cos(about), 0, lean * sin(about)}}) *
-                                detent_oracle::rotation_by({{0, turn, 0}});
+                                detent_oracle::rotation_by({{0, rotation_vector, 0}});
     const ContactManifold manifold = contact_between(lower.convex, pose_of({{0, -0.25, 0}}, k_upright), upper.convex,
                                                      pose_of({{0.1, 0.249, 0.05}}, rotation));
     ASSERT_EQ(manifold.count, 4u) << round;
@@ -131,11 +133,11 @@ DETENT_TEST(hull_face, that_leans_against_edges_that_cross_touches_in_several_po
   EXPECT_OK(make_convex(box(reals_near({{0.2, 0.02, 0.04}})), bar));
   const double leans[][2] = {{0.02, 0.004}, {-0.02, 0.005}, {0.01, -0.004}, {0.02, 0}};
   for (const double(&lean)[2] : leans) {
-    const Quaternion turn =
+    const Quaternion rotation_vector =
         detent_oracle::rotation_by({{lean[0], 0, lean[1]}}) * detent_oracle::rotation_by({{0, 1.5, 0}});
-    const double reach = 0.04 + 0.04 * (fabs(lean[0]) + fabs(lean[1]));
-    const ContactManifold manifold =
-        contact_between(bar, pose_of({{0, 0, 0}}, k_upright), bar, pose_of({{0, reach - 0.001, 0}}, turn));
+    const double distance_max = 0.04 + 0.04 * (fabs(lean[0]) + fabs(lean[1]));
+    const ContactManifold manifold = contact_between(bar, pose_of({{0, 0, 0}}, k_upright), bar,
+                                                     pose_of({{0, distance_max - 0.001, 0}}, rotation_vector));
     EXPECT_GE(manifold.count, 2u) << lean[0] << " " << lean[1];
     EXPECT_GT(unit_to_host(manifold.normal.y), 0.99) << lean[0] << " " << lean[1];
   }

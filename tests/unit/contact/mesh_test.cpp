@@ -12,14 +12,14 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-using namespace detent_surfaces;
+using namespace detent_terrains;
 
 constexpr double k_normal_error = sizeof(Unit) == 4 && !DETENT_FIXED ? 0x1p-22 : 0x1p-26;
 constexpr double k_length_error = sizeof(Coord) == 4                   ? 0x1p-16  // a position's step
                                   : sizeof(Unit) == 4 && !DETENT_FIXED ? 0x1p-20
                                                                        : 0x1p-24;
 
-double normal_error(const SurfaceContact& contact, const Vector& right) {
+double normal_error(const TerrainContact& contact, const Vector& right) {
   return length(host(contact.geometry.normal) - right);
 }
 
@@ -46,20 +46,20 @@ Shape shape_of(uint32_t kind) {
 /// How far the body's lowest point is below its centre, by a half-space.
 double depth_below(const OracleBody& body) {
   OracleBody plane;
-  plane.traits = traits_of(half_space());
+  plane.properties = properties_of(half_space());
   plane.pose.rotation = {0.0, 0.0, 0.0, 1.0};
   plane.pose.position = position_near({{0, 0, 0}});
   OracleBody low = body;
   low.pose.position = position_near({{0, 0, 0}});
   const Matrix3 a = matrix_from(plane.pose.rotation), b = matrix_from(low.pose.rotation);
   ContactGeometry contact;
-  collide({plane.pose, plane.traits, a}, {low.pose, low.traits, b}, real_near(10), contact, k_table);
+  collide({plane.pose, plane.properties, a}, {low.pose, low.properties, b}, real_near(10), contact, k_table);
   double least = 1e9;
   for (uint32_t i = 0; i < contact.count; ++i) least = fmin(least, real_to_host(contact.point[i].separation));
   return -least;
 }
 
-Quaternion turn_about(const Vector& axis, double angle) {
+Quaternion rotate_about(const Vector& axis, double angle) {
   const Vector n = normalised(axis) * sin(angle / 2);
   return {n[0], n[1], n[2], cos(angle / 2)};
 }
@@ -67,7 +67,7 @@ Quaternion turn_about(const Vector& axis, double angle) {
 /// The turn that takes y there. Range: not straight down.
 Quaternion turn_from_up(const Vector& to) {
   const Vector axis = {{to[2], 0, -to[0]}};
-  return turn_about(axis, acos(to[1]));
+  return rotate_about(axis, acos(to[1]));
 }
 
 DETENT_TEST(mesh_contact, anything_slid_over_a_tessellated_plane_sees_its_normal_alone_and_no_jump_of_depth) {
@@ -77,8 +77,8 @@ DETENT_TEST(mesh_contact, anything_slid_over_a_tessellated_plane_sees_its_normal
     for (uint32_t pose = 0; pose < 4; ++pose) {
       OracleBody body = body_of(shape_of(kind));
       body.pose.rotation = rotation_near(pose == 0   ? Quaternion{0, 0, 0, 1}
-                                         : pose == 1 ? turn_about({{1, 0, 0}}, 1.5707963267948966)
-                                         : pose == 2 ? turn_about({{0, 1, 0}}, 0.3)
+                                         : pose == 1 ? rotate_about({{1, 0, 0}}, 1.5707963267948966)
+                                         : pose == 2 ? rotate_about({{0, 1, 0}}, 0.3)
                                                      : any_rotation(samples));
       const double depth = depth_below(body);
       for (const double gap : {0.02, 0.0, -0.005}) {
@@ -86,7 +86,7 @@ DETENT_TEST(mesh_contact, anything_slid_over_a_tessellated_plane_sees_its_normal
           // Past corners, along edges and diagonals.
           const double x = -1 + step * 0.03125, z = pose % 2 == 0 ? 0.25 : x * 0.7;
           body.pose.position = position_near({{x, depth + gap, z}});
-          const SurfaceContacts contacts = contacts_of(ground, body);
+          const TerrainContacts contacts = contacts_of(ground, body);
           ASSERT_EQ(contacts.count, 1u) << kind << " " << pose << " " << gap << " " << x;
           EXPECT_EQ(contacts.dropped, 0u);
           EXPECT_FALSE(contacts.capped);
@@ -103,15 +103,15 @@ DETENT_TEST(mesh_contact, a_box_lying_on_a_tessellated_plane_has_its_four_corner
   OracleBody body = body_of(box({0.5, 0.25, 0.375}));
   uint32_t key = 0, features[4] = {};
   for (uint32_t step = 0; step < 50; ++step) {
-    body.pose.rotation = rotation_near(turn_about({{0, 1, 0}}, 0.2));
+    body.pose.rotation = rotation_near(rotate_about({{0, 1, 0}}, 0.2));
     body.pose.position = position_near({{-0.7 + step * 0.029, 0.249, 0.13}});
-    const SurfaceContacts contacts = contacts_of(ground, body);
+    const TerrainContacts contacts = contacts_of(ground, body);
     ASSERT_EQ(contacts.count, 1u);
-    const SurfaceContact& contact = contacts.contact[0];
+    const TerrainContact& contact = contacts.contact[0];
     ASSERT_EQ(contact.geometry.count, 4u);
     std::vector<uint32_t> names;
     for (uint32_t k = 0; k < 4; ++k) {
-      const Vector arm = host(contact.geometry.point[k].arm_b) * unit_of(body.traits);
+      const Vector arm = host(contact.geometry.point[k].arm_b) * unit_of(body.properties);
       EXPECT_NEAR(length(arm), sqrt(0.25 + 0.140625 + 0.0625), 0.002);
       EXPECT_NEAR(real_to_host(contact.geometry.point[k].separation), -0.001, 8 * k_length_error);
       names.push_back(contact.geometry.point[k].feature);
@@ -140,7 +140,7 @@ DETENT_TEST(mesh_contact, a_ball_on_a_finely_tessellated_dome_does_not_fall_betw
       const double depth = depth_below(body);
       for (uint32_t step = 0; step < detent_oracle::rounds(12); ++step) {
         body.pose.position = position_near({{0.01 * size * step, depth - 0.001, 0.007 * size * step}});
-        const SurfaceContacts contacts = contacts_of(dome, body);
+        const TerrainContacts contacts = contacts_of(dome, body);
         ASSERT_GE(contacts.count, 1u) << size << " " << kind << " " << step;
         EXPECT_NEAR(deepest_of(contacts), -0.001, 1.5e-3) << size << " " << kind << " " << step;
         for (uint32_t i = 0; i < contacts.count; ++i) {
@@ -153,7 +153,7 @@ DETENT_TEST(mesh_contact, a_ball_on_a_finely_tessellated_dome_does_not_fall_betw
 }
 
 DETENT_TEST(mesh_contact, a_real_edge_gives_what_the_box_itself_gives) {
-  const Ground ground(box_surface(1, 1, 1, 4), true);
+  const Ground ground(box_terrain(1, 1, 1, 4), true);
   OracleBody block = body_of(box({1.0, 1.0, 1.0}));
   block.pose.rotation = {0.0, 0.0, 0.0, 1.0};
   block.pose.position = position_near({{0, 0, 0}});
@@ -164,23 +164,24 @@ DETENT_TEST(mesh_contact, a_real_edge_gives_what_the_box_itself_gives) {
     OraclePair pair = {block, body_of(shape_of(kind == 2 ? 3 : kind))};
     pair.b.pose.rotation = rotation_near(any_rotation(samples));
     // About an edge or a corner: two or three components alike.
-    Vector way = any_direction(samples) * 0.3 + Vector{{1, samples.below(2) == 0 ? 1.0 : -1.0, samples.below(2) * 1.0}};
+    Vector displacement =
+        any_direction(samples) * 0.3 + Vector{{1, samples.below(2) == 0 ? 1.0 : -1.0, samples.below(2) * 1.0}};
     double near = 0, far = 4;
     const double gap = kind == 2 ? 0.01 : -0.01;
     Convex a, b;
-    ASSERT_TRUE(body_convex(pair.a.traits, k_table, a));
-    ASSERT_TRUE(body_convex(pair.b.traits, k_table, b));
+    ASSERT_TRUE(body_convex(pair.a.properties, k_table, a));
+    ASSERT_TRUE(body_convex(pair.b.properties, k_table, b));
     ContactManifold right;
     for (int i = 0; i < 24; ++i) {
       const double middle = (near + far) / 2;
-      pair.b.pose.position = position_near(way * middle);
+      pair.b.pose.position = position_near(displacement * middle);
       ASSERT_OK(contact_points(a, {pair.a.pose.position, pair.a.pose.rotation}, b,
                                {pair.b.pose.position, pair.b.pose.rotation}, real_near(4), right));
       double least = 1e9;
       for (uint32_t k = 0; k < right.count; ++k) least = fmin(least, real_to_host(right.point[k].separation));
       (least < gap ? near : far) = middle;
     }
-    const SurfaceContacts contacts = contacts_of(ground, pair.b);
+    const TerrainContacts contacts = contacts_of(ground, pair.b);
     ASSERT_GE(contacts.count, 1u) << n;
     uint32_t best = 0;
     double least = 1e9;
@@ -192,7 +193,7 @@ DETENT_TEST(mesh_contact, a_real_edge_gives_what_the_box_itself_gives) {
         least = fmin(least, separation);
       }
       // Nothing that the block's own corners would not give.
-      EXPECT_GT(dot(host(geometry.normal), way), 0) << n;
+      EXPECT_GT(dot(host(geometry.normal), displacement), 0) << n;
     }
     EXPECT_NEAR(least, gap, 1e-4) << n;
     EXPECT_LE(length(host(contacts.contact[best].geometry.normal) - host(right.normal)), 0.05) << n;
@@ -202,13 +203,13 @@ DETENT_TEST(mesh_contact, a_real_edge_gives_what_the_box_itself_gives) {
 }
 
 DETENT_TEST(mesh_contact, a_box_beside_a_tessellated_wall_and_on_the_ground_is_not_lifted_by_the_walls_top) {
-  const Ground wall(box_surface(1, 0.5, 1, 5), true);
+  const Ground wall(box_terrain(1, 0.5, 1, 5), true);
   OracleBody body = body_of(box({0.25, 0.75, 0.25}));
   body.pose.rotation = {0.0, 0.0, 0.0, 1.0};
   for (const double gap : {0.01, 0.0, -0.001, -0.004}) {
     for (uint32_t step = 0; step < 20; ++step) {
       body.pose.position = position_near({{1.25 + gap, 0.25, -0.7 + 0.07 * step}});
-      const SurfaceContacts contacts = contacts_of(wall, body);
+      const TerrainContacts contacts = contacts_of(wall, body);
       ASSERT_EQ(contacts.count, 1u) << gap << " " << step;
       EXPECT_LE(normal_error(contacts.contact[0], {{1, 0, 0}}), k_normal_error);
       EXPECT_NEAR(deepest_of(contacts), gap, 2e-5);
@@ -222,12 +223,12 @@ DETENT_TEST(mesh_contact, a_stick_across_a_mild_ridge_lies_on_both_sides_of_its_
   OracleBody body = body_of(box(reals_near({{0.4, 0.03, 0.03}})));
   body.pose.rotation = {0.0, 0.0, 0.0, 1.0};
   body.pose.position = position_near({{0, 0.03 - 0.0001, 0.3}});
-  const SurfaceContacts contacts = contacts_of(ridge, body);
+  const TerrainContacts contacts = contacts_of(ridge, body);
   uint32_t on_ridge = 0;
   for (uint32_t i = 0; i < contacts.count; ++i) {
     for (uint32_t k = 0; k < contacts.contact[i].geometry.count; ++k) {
       const ContactGeometryPoint& point = contacts.contact[i].geometry.point[k];
-      const Vector arm = host(point.arm_b) * unit_of(body.traits);
+      const Vector arm = host(point.arm_b) * unit_of(body.properties);
       if (real_to_host(point.separation) > 0) continue;
       EXPECT_LT(fabs(arm[0]), 0.011);
       EXPECT_NEAR(fabs(arm[2]), 0.03, 1e-3);
@@ -242,14 +243,14 @@ DETENT_TEST(mesh_contact, a_rod_that_reaches_over_a_ridge_is_not_pulled_through_
   const double slope = 0.5;
   const Ground ridge(ground(4, 1, [&](double x, double) { return -slope * fabs(x); }));
   OracleBody body = body_of(capsule(real_near(0.01), real_near(0.5)));
-  const double turn = -atan(slope);
-  body.pose.rotation = rotation_near(turn_about({{0, 0, 1}}, turn - M_PI / 2));
+  const double rotation_vector = -atan(slope);
+  body.pose.rotation = rotation_near(rotate_about({{0, 0, 1}}, rotation_vector - M_PI / 2));
   for (const double over : {0.002, 0.01, 0.03}) {
     // Along the slope, `over` beyond the ridge, on it.
     const double along = 0.5 - over, lift = 0.01;
-    body.pose.position =
-        position_near({{along * cos(turn) - lift * sin(turn), along * sin(turn) + lift * cos(turn), 0.3}});
-    const SurfaceContacts contacts = contacts_of(ridge, body);
+    body.pose.position = position_near({{along * cos(rotation_vector) - lift * sin(rotation_vector),
+                                         along * sin(rotation_vector) + lift * cos(rotation_vector), 0.3}});
+    const TerrainContacts contacts = contacts_of(ridge, body);
     ASSERT_GE(contacts.count, 1u) << over;
     for (uint32_t i = 0; i < contacts.count; ++i) EXPECT_GT(host(contacts.contact[i].geometry.normal)[1], 0.8) << over;
     EXPECT_NEAR(deepest_of(contacts), 0, 1e-4) << over;
@@ -277,7 +278,7 @@ DETENT_TEST(mesh_contact, a_rod_that_lies_over_waves_is_met_from_above_alone) {
       lift = fmax(lift, height(at[0], at[2]) - at[1]);
     }
     body.pose.position = position_near({{middle[0], lift + k_radius / 2, middle[2]}});
-    const SurfaceContacts contacts = contacts_of(waves, body, 0.001);
+    const TerrainContacts contacts = contacts_of(waves, body, 0.001);
     for (uint32_t i = 0; i < contacts.count; ++i) {
       ++touching;
       EXPECT_GT(host(contacts.contact[i].geometry.normal)[1], 0.5) << trial;
@@ -293,14 +294,14 @@ DETENT_TEST(mesh_contact, in_a_concave_corner_each_wall_gives_its_own_normal) {
   for (uint32_t kind = 0; kind < 4; ++kind) {
     OracleBody body = body_of(kind == 0 ? sphere(0.5) : kind == 1 ? capsule(0.25, 0.5) : shape_of(kind));
     if (kind == 1)
-      body.pose.rotation = rotation_near(turn_about({{1, 0, 0}}, 1.5707963267948966));
+      body.pose.rotation = rotation_near(rotate_about({{1, 0, 0}}, 1.5707963267948966));
     else
       body.pose.rotation = {0.0, 0.0, 0.0, 1.0};
     const double size = kind == 0 ? 0.5 / scale : kind == 1 ? 0.25 / scale : 0;
     // A box on its edges: its lower corners at +-0.5.
     const double height = kind < 2 ? size : kind == 2 ? 0.25 + 0.5 * slope : 0.25 + 0.5 * slope + 0.125 / scale;
     body.pose.position = position_near({{0, height, 0.1}});
-    const SurfaceContacts contacts = contacts_of(valley, body);
+    const TerrainContacts contacts = contacts_of(valley, body);
     ASSERT_EQ(contacts.count, 2u) << kind;
     for (uint32_t i = 0; i < 2; ++i) {
       const double side = host(contacts.contact[i].geometry.normal)[0] > 0 ? 1 : -1;
@@ -311,7 +312,7 @@ DETENT_TEST(mesh_contact, in_a_concave_corner_each_wall_gives_its_own_normal) {
   }
 }
 
-DETENT_TEST(mesh_contact, a_one_sided_surface_is_met_from_its_front_alone) {
+DETENT_TEST(mesh_contact, a_one_sided_terrain_is_met_from_its_front_alone) {
   const Ground one(plane(4, 0.5), true), both(plane(4, 0.5), false);
   OracleBody body = body_of(sphere(0.5));
   body.pose.rotation = {0.0, 0.0, 0.0, 1.0};
@@ -320,7 +321,7 @@ DETENT_TEST(mesh_contact, a_one_sided_surface_is_met_from_its_front_alone) {
   EXPECT_EQ(contacts_of(both, body).count, 1u);
   body.pose.position = position_near({{0.1, -0.49, 0.2}});
   EXPECT_EQ(contacts_of(one, body).count, 0u);
-  const SurfaceContacts contacts = contacts_of(both, body);
+  const TerrainContacts contacts = contacts_of(both, body);
   ASSERT_EQ(contacts.count, 1u);
   EXPECT_LE(normal_error(contacts.contact[0], {{0, -1, 0}}), k_normal_error);
   EXPECT_NEAR(deepest_of(contacts), -0.01, k_length_error);
@@ -337,10 +338,10 @@ DETENT_TEST(mesh_contact, a_height_field_is_the_mesh_of_its_triangles) {
   field.cells[40] = 0x80;
   const Ground heights(Bytes(detent_cook::cook_height_field(field).bytes));
   Source source;
-  const int exponent = heights.surface.exponent();
+  const int exponent = heights.terrain.exponent();
   for (uint32_t i = 0; i < 2 * 144; ++i) {
     if (i / 2 == 40) continue;
-    const SurfaceTriangle t = heights.surface.triangle(i);
+    const TerrainTriangle t = heights.terrain.triangle(i);
     uint32_t v[3];
     for (int k = 0; k < 3; ++k) {
       const auto metres = [&](int32_t raw) { return ldexp(raw, exponent - 30); };
@@ -349,13 +350,13 @@ DETENT_TEST(mesh_contact, a_height_field_is_the_mesh_of_its_triangles) {
     add_triangle(source, v[0], v[1], v[2], t.material);
   }
   const Ground mesh(source, true);
-  ASSERT_EQ(mesh.surface.exponent(), exponent);
+  ASSERT_EQ(mesh.terrain.exponent(), exponent);
   for (uint32_t n = 0; n < detent_oracle::rounds(200); ++n) {
     OracleBody body = body_of(shape_of(n % 7));
     body.pose.rotation = rotation_near(any_rotation(samples));
     body.pose.position =
         position_near({{uniform(samples, -3, 3), uniform(samples, 0.1, 0.6), uniform(samples, -3, 3)}});
-    const SurfaceContacts a = contacts_of(heights, body), b = contacts_of(mesh, body);
+    const TerrainContacts a = contacts_of(heights, body), b = contacts_of(mesh, body);
     // Triangles come in another order, which may decide what is one manifold; the deepest is the same.
     EXPECT_EQ(a.count == 0, b.count == 0);
     EXPECT_EQ(deepest_of(a), deepest_of(b)) << n;
@@ -364,7 +365,7 @@ DETENT_TEST(mesh_contact, a_height_field_is_the_mesh_of_its_triangles) {
 
 DETENT_TEST(mesh_contact, over_rough_ground_the_deepest_point_is_as_near_as_the_nearest_triangle) {
   Samples samples = {29};
-  const Ground ground(detent_surfaces::ground(12, 0.4, [&](double, double) { return 0.25 * uniform(samples, -1, 1); }));
+  const Ground ground(detent_terrains::ground(12, 0.4, [&](double, double) { return 0.25 * uniform(samples, -1, 1); }));
   uint32_t met = 0;
   for (uint32_t n = 0; n < detent_oracle::rounds(60); ++n) {
     OracleBody body = body_of(shape_of(n % 7));
@@ -379,7 +380,7 @@ DETENT_TEST(mesh_contact, over_rough_ground_the_deepest_point_is_as_near_as_the_
     }
     body.pose.position = position_near({{x, high, z}});
     const double right = distance_from(ground, body, normal);
-    const SurfaceContacts contacts = contacts_of(ground, body);
+    const TerrainContacts contacts = contacts_of(ground, body);
     ASSERT_GE(contacts.count, 1u) << n;
     EXPECT_NEAR(deepest_of(contacts), right, 1e-3) << n;
     bool found = false;
@@ -396,13 +397,13 @@ DETENT_TEST(mesh_contact, over_rough_ground_the_deepest_point_is_as_near_as_the_
 
 DETENT_TEST(mesh_contact, what_finds_no_room_is_counted_and_the_deepest_stay) {
   // Narrow ridges side by side under one large box.
-  const Ground ground(detent_surfaces::ground(
+  const Ground ground(detent_terrains::ground(
       24, 0.1, [](double x, double z) { return 0.03 * sin(37 * x + 11 * z) + 0.02 * sin(29 * z + 3 * x) - 0.01 * x; }));
   OracleBody body = body_of(box({1.0, 0.25, 1.0}));
   body.pose.rotation = {0.0, 0.0, 0.0, 1.0};
   body.pose.position = position_near({{0, 0.25 + 0.065, 0}});
-  const SurfaceContacts contacts = contacts_of(ground, body, 0.2);
-  EXPECT_EQ(contacts.count, k_surface_manifolds_max);
+  const TerrainContacts contacts = contacts_of(ground, body, 0.2);
+  EXPECT_EQ(contacts.count, k_terrain_manifolds_max);
   EXPECT_GT(contacts.dropped, 0u);
   for (uint32_t i = 1; i < contacts.count; ++i) EXPECT_LT(contacts.contact[i - 1].key, contacts.contact[i].key);
   Vector normal{};
@@ -417,7 +418,7 @@ DETENT_TEST(mesh_contact, sizes_of_any_kind_together_stay_in_range) {
   const double least = sizeof(Coord) == 4 ? -3 : -11;
   for (uint32_t n = 0; n < detent_oracle::rounds(300); ++n) {
     const double size = exp2(uniform(samples, least, 11)), body_size = exp2(uniform(samples, least, 12));
-    Ground ground(detent_surfaces::ground(4, size, [&](double, double) { return size * uniform(samples, -0.3, 0.3); }));
+    Ground ground(detent_terrains::ground(4, size, [&](double, double) { return size * uniform(samples, -0.3, 0.3); }));
     ground.pose.rotation = rotation_near(any_rotation(samples));
     OracleBody body = body_of(n % 3 == 0   ? sphere(real_near(body_size))
                               : n % 3 == 1 ? box(reals_near(Vector{{1, 0.5, 0.7}} * body_size))
@@ -425,8 +426,8 @@ DETENT_TEST(mesh_contact, sizes_of_any_kind_together_stay_in_range) {
     body.pose.rotation = rotation_near(any_rotation(samples));
     const double far = n % 4 == 0 ? 4 : uniform(samples, 0, 1.2);
     body.pose.position = position_near(any_direction(samples) * (far * (size + body_size)));
-    const SurfaceContacts contacts = contacts_of(ground, body, body_size / 16);
-    EXPECT_LE(contacts.count, k_surface_manifolds_max);
+    const TerrainContacts contacts = contacts_of(ground, body, body_size / 16);
+    EXPECT_LE(contacts.count, k_terrain_manifolds_max);
     for (uint32_t i = 0; i < contacts.count; ++i) {
       const ContactGeometry& geometry = contacts.contact[i].geometry;
       EXPECT_NEAR(length(host(geometry.normal)), 1, 1e-5);
@@ -451,7 +452,7 @@ DETENT_TEST(mesh_contact, a_small_body_rests_on_a_triangle_of_many_kilometres) {
   body.pose.rotation = {0.0, 0.0, 0.0, 1.0};
   for (uint32_t step = 0; step < 20; ++step) {
     body.pose.position = position_near({{-7000 + 700.0 * step, 0.249, 0.31 * step}});
-    const SurfaceContacts contacts = contacts_of(ground, body);
+    const TerrainContacts contacts = contacts_of(ground, body);
     ASSERT_EQ(contacts.count, 1u);
     EXPECT_EQ(contacts.contact[0].geometry.count, 4u) << step;
     EXPECT_LE(normal_error(contacts.contact[0], {{0, 1, 0}}), 1e-4);
@@ -459,7 +460,7 @@ DETENT_TEST(mesh_contact, a_small_body_rests_on_a_triangle_of_many_kilometres) {
   }
 }
 
-DETENT_TEST(mesh_contact, a_turned_and_moved_surface_gives_turned_and_moved_contacts) {
+DETENT_TEST(mesh_contact, a_turned_and_moved_terrain_gives_turned_and_moved_contacts) {
   Ground ground(plane(16, 0.25));
   Samples samples = {19};
   for (uint32_t n = 0; n < detent_oracle::rounds(200); ++n) {
@@ -471,7 +472,7 @@ DETENT_TEST(mesh_contact, a_turned_and_moved_surface_gives_turned_and_moved_cont
     OracleBody body = body_of(sphere(0.5));
     body.pose.rotation = rotation_near(any_rotation(samples));
     body.pose.position = position_near(at + up * 0.49);
-    const SurfaceContacts contacts = contacts_of(ground, body);
+    const TerrainContacts contacts = contacts_of(ground, body);
     ASSERT_EQ(contacts.count, 1u);
     EXPECT_LE(normal_error(contacts.contact[0], up), 4 * k_normal_error);
     EXPECT_NEAR(deepest_of(contacts), -0.01, 4 * k_length_error + (sizeof(Coord) == 4 ? 3e-5 : 1e-8));

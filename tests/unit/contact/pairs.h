@@ -16,17 +16,17 @@ inline const char* name_of(Form form) {
 }
 
 /// A shape whose smallest radius or half extent is `size`, m, or up to three times that.
-inline BodyTraits random_traits(Samples& samples, Form form, double size) {
+inline BodyProperties random_properties(Samples& samples, Form form, double size) {
   const auto some = [&] { return size * uniform(samples, 1, 3); };
   switch (form) {
     case Form::half_space:
-      return traits_of(half_space());
+      return properties_of(half_space());
     case Form::box:
-      return box_traits({{some(), some(), some()}});
+      return box_properties({{some(), some(), some()}});
     case Form::capsule:
-      return capsule_traits(some(), some());
+      return capsule_properties(some(), some());
     default:
-      return sphere_traits(some());
+      return sphere_properties(some());
   }
 }
 
@@ -34,10 +34,10 @@ struct OraclePair {
   OracleBody a, b;
 };
 
-inline ContactGeometry contact_of(const OracleBody& a, const OracleBody& b, double reach) {
+inline ContactGeometry contact_of(const OracleBody& a, const OracleBody& b, double distance_max) {
   const Matrix3 rotation_a = matrix_from(a.pose.rotation), rotation_b = matrix_from(b.pose.rotation);
   ContactGeometry contact;
-  collide({a.pose, a.traits, rotation_a}, {b.pose, b.traits, rotation_b}, real_near(reach), contact);
+  collide({a.pose, a.properties, rotation_a}, {b.pose, b.properties, rotation_b}, real_near(distance_max), contact);
   return contact;
 }
 
@@ -49,49 +49,50 @@ inline void expect_arms_held(const ContactGeometryPoint& point) {
 }
 
 inline double extent_of(const OraclePair& pair) {
-  return fmin(real_to_host(shape_extent(pair.a.traits)), real_to_host(shape_extent(pair.b.traits)));
+  return fmin(real_to_host(shape_extent(pair.a.properties)), real_to_host(shape_extent(pair.b.properties)));
 }
 
 /// Length that one step of a Unit is worth in this pair, m: that of the larger body, the half-space having no size.
 inline double step_of(const OraclePair& pair) {
-  const bool plane = static_cast<ShapeType>(pair.a.traits.shape) == ShapeType::half_space;
-  const double unit = plane ? unit_of(pair.b.traits) : fmax(unit_of(pair.a.traits), unit_of(pair.b.traits));
+  const bool plane = static_cast<ShapeType>(pair.a.properties.shape) == ShapeType::half_space;
+  const double unit = plane ? unit_of(pair.b.properties) : fmax(unit_of(pair.a.properties), unit_of(pair.b.properties));
   return unit * unit_steps(1);
 }
 
-/// B's centre as near to A's along `way` as leaves them `gap` apart, m.
-inline void place(OraclePair& pair, const Vector& start, const Vector& way, double gap) {
+/// B's centre as near to A's along `displacement` as leaves them `gap` apart, m.
+inline void place(OraclePair& pair, const Vector& start, const Vector& displacement, double gap) {
   pair.a.pose.position = position_near(start);
-  double near = 0, far = 4 * (unit_of(pair.a.traits) + unit_of(pair.b.traits));
+  double near = 0, far = 4 * (unit_of(pair.a.properties) + unit_of(pair.b.properties));
   Solid a = solid_of(pair.a, pair.a.pose.position), b = solid_of(pair.b, pair.a.pose.position);
   if (a.kind == detent_oracle::Kind::half_space) {
-    b.centre = way * 0;
-    far = (gap - gap_along(a, b, a.axis[1])) / dot(way, a.axis[1]);
+    b.centre = displacement * 0;
+    far = (gap - gap_along(a, b, a.axis[1])) / dot(displacement, a.axis[1]);
     near = far;
   }
   for (int i = 0; i < 24 && near != far; ++i) {
     const double middle = (near + far) / 2;
-    b.centre = way * middle;
+    b.centre = displacement * middle;
     (separation_of(a, b).value < gap ? near : far) = middle;
   }
-  pair.b.pose.position = position_near(start + way * far);
+  pair.b.pose.position = position_near(start + displacement * far);
 }
 
 /// A pair with A of no later form than B, about `gap` times the smaller body's size apart.
 inline OraclePair random_pair(Samples& samples, Form form_a, Form form_b, double size_a, double size_b, double gap) {
   OraclePair pair;
-  pair.a.traits = random_traits(samples, form_a, size_a);
-  pair.b.traits = random_traits(samples, form_b, size_b);
+  pair.a.properties = random_properties(samples, form_a, size_a);
+  pair.b.properties = random_properties(samples, form_b, size_b);
   pair.a.pose.rotation = rotation_near(any_rotation(samples));
   pair.b.pose.rotation = rotation_near(any_rotation(samples));
   const double place_size = sizeof(Coord) == 4 ? 8192 : 1e6;
   const Vector start = any_direction(samples) * uniform(samples, 0, place_size);
-  Vector way = any_direction(samples);
+  Vector displacement = any_direction(samples);
   if (form_a == Form::half_space) {
     const Vector up = solid_of(pair.a, pair.a.pose.position).axis[1];
-    way = normalised(way + up * (1.5 - fmin(dot(way, up), 0)));  // above the plane, and away from its origin
+    displacement = normalised(
+        displacement + up * (1.5 - fmin(dot(displacement, up), 0)));  // above the plane, and away from its origin
   }
-  place(pair, start, way, gap * extent_of(pair));
+  place(pair, start, displacement, gap * extent_of(pair));
   return pair;
 }
 

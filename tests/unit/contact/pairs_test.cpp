@@ -62,17 +62,17 @@ double preference_of(const Solid& a, const Solid& b, const Separation& right) {
 }
 
 /// Judges the contact of A and B, A of no later form than B, given from A to B.
-void judge(const OraclePair& pair, const ContactGeometry& contact, double reach, Seen& seen) {
+void judge(const OraclePair& pair, const ContactGeometry& contact, double distance_max, Seen& seen) {
   const Solid a = solid_of(pair.a, pair.a.pose.position), b = solid_of(pair.b, pair.a.pose.position);
   const Separation right = separation_of(a, b);
   const double step = step_of(pair), error = k_error_steps * step;
   const bool boxes = a.kind == Kind::box && b.kind == Kind::box;
   if (contact.count == 0) {
-    if (right.value > reach - error)
+    if (right.value > distance_max - error)
       ++seen.apart;
     else if (!boxes || right.value < -error)
       ++seen.missed;
-    else if (detent_oracle::distance_of_boxes(a, b) < reach - error)
+    else if (detent_oracle::distance_of_boxes(a, b) < distance_max - error)
       ++seen.missed_ahead;
     return;
   }
@@ -84,8 +84,8 @@ void judge(const OraclePair& pair, const ContactGeometry& contact, double reach,
   // Where shapes that are almost aligned are taken as aligned, lengths err to second order: at a box's rim by 2^-27 of
   // the distance, between cores that are within 2^-8 rad of parallel by less. Only f64 is fine enough to see it.
   const bool parallel = a.kind == Kind::round && fabs(dot(a.axis[1], b.axis[1])) > 0.9999;
-  const double aligned = a.kind == Kind::box && !boxes ? 0x1.1p-27 * (b.size[0] + reach)
-                         : parallel                    ? 0x1p-40 * unit_of(pair.b.traits)
+  const double aligned = a.kind == Kind::box && !boxes ? 0x1.1p-27 * (b.size[0] + distance_max)
+                         : parallel                    ? 0x1p-40 * unit_of(pair.b.properties)
                                                        : 0;
   // A face that leans against edges that cross parts them by a little less.
   const double preference = preference_of(a, b, right), lost = right.value - preference - along - aligned;
@@ -97,7 +97,7 @@ void judge(const OraclePair& pair, const ContactGeometry& contact, double reach,
   if (!crosses) worst(seen.gap, leans ? lost - 4 * preference : lost);
 
   // A box takes a sphere or capsule just beyond its rim, by 2^-13 of the distance, as being over the face.
-  const double slack = boxes ? side_slack(a, b) : a.kind == Kind::box ? 0x1.1p-13 * (b.size[0] + reach) : 0;
+  const double slack = boxes ? side_slack(a, b) : a.kind == Kind::box ? 0x1.1p-13 * (b.size[0] + distance_max) : 0;
   // A tilted capsule is met at its core's ends, where the points may lie within its surface.
   const bool tilted = b.size[1] > 0 && (a.kind == Kind::half_space || contact.count > 1 || crosses ||
                                         (a.kind == Kind::round && fabs(dot(a.axis[1], b.axis[1])) > 0.99));
@@ -107,10 +107,10 @@ void judge(const OraclePair& pair, const ContactGeometry& contact, double reach,
     const ContactGeometryPoint& point = contact.point[i];
     const double separation = real_to_host(point.separation);
     deepest = fmin(deepest, separation);
-    worst(seen.beyond, separation - reach);
+    worst(seen.beyond, separation - distance_max);
     worst(seen.too_deep, along - separation);
-    const Vector at = b.centre + host(point.arm_b) * unit_of(pair.b.traits);
-    if (a.kind != Kind::half_space) worst(seen.arms, length(host(point.arm_a) * unit_of(pair.a.traits) - at));
+    const Vector at = b.centre + host(point.arm_b) * unit_of(pair.b.properties);
+    if (a.kind != Kind::half_space) worst(seen.arms, length(host(point.arm_a) * unit_of(pair.a.properties) - at));
     const double on_a = distance_to_surface(a, at - n * (separation / 2));
     const double on_b = distance_to_surface(b, at + n * (separation / 2));
     if (exact)
@@ -158,13 +158,13 @@ void judge_many(Form form_a, Form form_b, uint64_t seed) {
   for (uint32_t i = 0; i < count; ++i) {
     const double gap = uniform(samples, -0.2, 0.3), part = uniform(samples, 0, 0.25);
     const OraclePair pair = random_pair(samples, form_a, form_b, k_sizes[i % 3], k_sizes[i / 3 % 3], gap);
-    const double reach = real_to_host(real_near(part * extent_of(pair)));
-    const ContactGeometry contact = contact_of(pair.a, pair.b, reach);
-    const ContactGeometry swapped = contact_of(pair.b, pair.a, reach);
-    judge(pair, contact, reach, seen);
+    const double distance_max = real_to_host(real_near(part * extent_of(pair)));
+    const ContactGeometry contact = contact_of(pair.a, pair.b, distance_max);
+    const ContactGeometry swapped = contact_of(pair.b, pair.a, distance_max);
+    judge(pair, contact, distance_max, seen);
     const bool same_bits = form_a != form_b && form_a <= Form::box;
     if (!boxes && !is_mirrored(contact, swapped, same_bits, k_error_steps * step_of(pair))) ++seen.mirrored_wrong;
-    if (form_a == form_b) judge({pair.b, pair.a}, swapped, reach, seen);
+    if (form_a == form_b) judge({pair.b, pair.a}, swapped, distance_max, seen);
   }
   const double largest = fmax(fmax(fmax(seen.gap, seen.too_deep), fmax(seen.deepest, seen.arms)), seen.midway);
   ::testing::Test::RecordProperty("error_steps", ::testing::PrintToString(largest));
@@ -206,7 +206,7 @@ DETENT_TEST(pairs, of_two_spheres_agree_with_the_oracle) { judge_many(Form::sphe
 /// Their edges cross at the least depth; the faces are as good.
 DETENT_TEST(pairs, of_bars_that_cross_and_rock_touch_in_several_points) {
   OraclePair pair;
-  pair.a.traits = pair.b.traits = box_traits({{0.2, 0.02, 0.04}});
+  pair.a.properties = pair.b.properties = box_properties({{0.2, 0.02, 0.04}});
   pair.a.pose.rotation = rotation_near({0, 0, 0, 1});
   const double leans[][2] = {{0.02, 0.004}, {-0.02, 0.005}, {0.01, -0.004}, {0.02, 0}, {0, 0}};
   for (const double(&lean)[2] : leans) {

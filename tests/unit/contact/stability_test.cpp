@@ -19,16 +19,16 @@ bool same_features(const ContactGeometry& a, const ContactGeometry& b) {
 /// B rests on top of A: on a face, turned about it and moved over it at random, sunk in by 1/500 of its size.
 OraclePair resting_pair(Samples& samples, Form form_a, Form form_b) {
   OraclePair pair;
-  pair.a.traits = random_traits(samples, form_a, 0.5);
-  pair.b.traits = random_traits(samples, form_b, 0.5);
-  if (form_a == Form::box) pair.a.traits = box_traits({{2, uniform(samples, 0.2, 1), uniform(samples, 1, 2)}});
-  const Quaternion turn = detent_oracle::rotation_by({{0, uniform(samples, -3, 3), 0}});
+  pair.a.properties = random_properties(samples, form_a, 0.5);
+  pair.b.properties = random_properties(samples, form_b, 0.5);
+  if (form_a == Form::box) pair.a.properties = box_properties({{2, uniform(samples, 0.2, 1), uniform(samples, 1, 2)}});
+  const Quaternion rotation_vector = detent_oracle::rotation_by({{0, uniform(samples, -3, 3), 0}});
   const double quarter = 1.57079632679489662;
   const Quaternion lie = form_b == Form::capsule ? detent_oracle::rotation_by({{quarter, 0, 0}})
                                                  : detent_oracle::rotation_by({{0, 0, quarter * samples.below(4)}});
   const Quaternion frame = any_rotation(samples);
   pair.a.pose.rotation = rotation_near(normalised(frame));
-  pair.b.pose.rotation = rotation_near(normalised(frame * (turn * lie)));
+  pair.b.pose.rotation = rotation_near(normalised(frame * (rotation_vector * lie)));
   pair.a.pose.position = position_near({{10, -20, 30}});
   pair.b.pose.position = pair.a.pose.position;
   const Solid a = solid_of(pair.a, pair.a.pose.position), b = solid_of(pair.b, pair.a.pose.position);
@@ -42,12 +42,12 @@ OraclePair resting_pair(Samples& samples, Form form_a, Form form_b) {
 /// Moves and turns a body by 1e-5 of its size.
 OracleBody trembled(const OracleBody& body, Samples& samples) {
   OracleBody moved = body;
-  const double size = unit_of(body.traits);
+  const double size = unit_of(body.properties);
   const Vector at = {
       {coord_to_host(body.pose.position.x), coord_to_host(body.pose.position.y), coord_to_host(body.pose.position.z)}};
   moved.pose.position = position_near(at + any_direction(samples) * (1e-5 * size));
-  const Quaternion turn = detent_oracle::rotation_by(any_direction(samples) * 1e-5);
-  moved.pose.rotation = rotation_near(normalised(turn * normalised(host(body.pose.rotation))));
+  const Quaternion rotation_vector = detent_oracle::rotation_by(any_direction(samples) * 1e-5);
+  moved.pose.rotation = rotation_near(normalised(rotation_vector * normalised(host(body.pose.rotation))));
   return moved;
 }
 
@@ -57,9 +57,9 @@ void expect_stable(Form form_a, Form form_b, uint64_t seed) {
   uint32_t changed = 0;
   for (uint32_t i = 0; i < count; ++i) {
     const OraclePair pair = resting_pair(samples, form_a, form_b);
-    const double reach = extent_of(pair) / 64;
-    const ContactGeometry before = contact_of(pair.a, pair.b, reach);
-    const ContactGeometry after = contact_of(pair.a, trembled(pair.b, samples), reach);
+    const double distance_max = extent_of(pair) / 64;
+    const ContactGeometry before = contact_of(pair.a, pair.b, distance_max);
+    const ContactGeometry after = contact_of(pair.a, trembled(pair.b, samples), distance_max);
     ASSERT_GT(before.count, 0u);
     if (!same_features(before, after)) ++changed;
   }
@@ -78,7 +78,7 @@ DETENT_TEST(stability, a_sphere_at_rest_on_a_box_keeps_its_features) { expect_st
 DETENT_TEST(stability, equal_boxes_stacked_flush_keep_their_features_whichever_way_they_tremble) {
   Samples samples = {26};
   OraclePair pair;
-  pair.a.traits = pair.b.traits = box_traits({{0.5, 0.5, 0.5}});
+  pair.a.properties = pair.b.properties = box_properties({{0.5, 0.5, 0.5}});
   pair.a.pose.rotation = pair.b.pose.rotation = rotation_near({0, 0, 0, 1});
   pair.b.pose.position = position_near({{0, 0.999, 0}});
   const ContactGeometry before = contact_of(pair.a, pair.b, 1.0 / 64);
@@ -102,8 +102,8 @@ DETENT_TEST(stability, the_deepest_point_of_two_boxes_is_kept_by_either_reductio
     for (const ManifoldReduction reduction : {ManifoldReduction::projected_extremes, ManifoldReduction::deepest_area}) {
       const int which = reduction == ManifoldReduction::deepest_area ? 1 : 0;
       ContactGeometry contact;
-      collide({pair.a.pose, pair.a.traits, rotation_a}, {pair.b.pose, pair.b.traits, rotation_b}, real_near(0.5),
-              contact, {}, reduction);
+      collide({pair.a.pose, pair.a.properties, rotation_a}, {pair.b.pose, pair.b.properties, rotation_b},
+              real_near(0.5), contact, {}, reduction);
       count[which] = contact.count;
       for (uint32_t k = 0; k < contact.count; ++k)
         least[which] = fmin(least[which], real_to_host(contact.point[k].separation));
@@ -118,7 +118,7 @@ DETENT_TEST(stability, the_deepest_point_of_two_boxes_is_kept_by_either_reductio
 DETENT_TEST(stability, parallel_capsules_keep_their_features) {
   Samples samples = {27};
   OraclePair pair;
-  pair.a.traits = pair.b.traits = capsule_traits(0.25, 0.5);
+  pair.a.properties = pair.b.properties = capsule_properties(0.25, 0.5);
   pair.a.pose.rotation = pair.b.pose.rotation = rotation_near(any_rotation(samples));
   const Solid a = solid_of(pair.a, pair.a.pose.position);
   pair.b.pose.position = position_near(a.axis[0] * 0.499 + a.axis[1] * 0.3);

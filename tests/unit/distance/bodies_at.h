@@ -35,10 +35,11 @@ struct BodyAt {
   Vector position = {{0, 0, 0}};
   Quaternion rotation = {0, 0, 0, 1};
   Vector displacement = {{0, 0, 0}};
-  Vector turn = {{0, 0, 0}};
+  Vector rotation_vector = {{0, 0, 0}};
 
   BodyAt at(double time) const {
-    return {position + displacement * time, rotation_by(turn * time) * rotation, displacement, turn};
+    return {position + displacement * time, rotation_by(rotation_vector * time) * rotation, displacement,
+            rotation_vector};
   }
   Vector to_world(const Vector& local) const {
     return position + axis_of(rotation, 0) * local[0] + axis_of(rotation, 1) * local[1] +
@@ -62,7 +63,9 @@ inline Pose pose_of(const BodyAt& body) {
   EXPECT_OK(unit_from_host(q.w, pose.rotation.w));
   return pose;
 }
-inline Motion motion_of(const BodyAt& body) { return {pose_of(body), reals(body.displacement), reals(body.turn)}; }
+inline Motion motion_of(const BodyAt& body) {
+  return {pose_of(body), reals(body.displacement), reals(body.rotation_vector)};
+}
 
 /// The same body with each number as the configuration holds it.
 inline BodyAt held(const BodyAt& body) {
@@ -72,7 +75,7 @@ inline BodyAt held(const BodyAt& body) {
   return {{{coord_to_host(p.x), coord_to_host(p.y), coord_to_host(p.z)}},
           normalised(Quaternion{unit_to_host(q.x), unit_to_host(q.y), unit_to_host(q.z), unit_to_host(q.w)}),
           host(motion.displacement),
-          host(motion.turn)};
+          host(motion.rotation_vector)};
 }
 
 inline double uniform(Samples& samples, double low, double high) {

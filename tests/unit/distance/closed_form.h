@@ -22,7 +22,7 @@ struct KnownShape {
 
   ShapeType type() const { return convex.type; }
   /// Greatest distance of a core point from the origin, m.
-  double reach() const { return ldexp(convex.core_radius, convex.exponent - 30); }
+  double distance_max() const { return ldexp(convex.core_radius, convex.exponent - 30); }
 };
 
 inline Asset tetrahedron_bytes() { return {detent_hulls::k_tetrahedron, sizeof detent_hulls::k_tetrahedron}; }
@@ -219,7 +219,7 @@ inline double extent_of(const KnownShape& a, const BodyAt& body_a, const KnownSh
   double apart = length(centres);
   if (a.type() == ShapeType::half_space) apart = fabs(dot(centres, axis_of(body_a.rotation, 1)));
   if (b.type() == ShapeType::half_space) apart = fabs(dot(centres, axis_of(body_b.rotation, 1)));
-  return 2 * (a.reach() + b.reach()) + apart;
+  return 2 * (a.distance_max() + b.distance_max()) + apart;
 }
 
 }  // namespace DETENT_NAMESPACE

@@ -285,7 +285,7 @@ DETENT_TEST(convex, questions_refuse_nan_and_infinity_in_poses_and_motions) {
       (&turned.start.rotation.x)[i] = Unit(bad);
       if (i < 3) {
         (&moved.displacement.x)[i] = Real(bad);
-        (&spun.turn.x)[i] = Real(bad);
+        (&spun.rotation_vector.x)[i] = Real(bad);
       }
       for (const Question& question : questions()) {
         SCOPED_TRACE(question.text);
@@ -331,8 +331,8 @@ DETENT_TEST(convex, questions_refuse_displacements_and_turns_beyond_the_range) {
       Motion far = still_motion(), spun = still_motion(), spun_in_range = still_motion(), near = still_motion();
       far.displacement = reals(along * (sign * 0x1p15));
       near.displacement = reals(along * (sign * 0x1p13));
-      spun.turn = reals(along * (sign * 0x1.0001p16));
-      spun_in_range.turn = reals(along * (sign * 0x1p16));
+      spun.rotation_vector = reals(along * (sign * 0x1.0001p16));
+      spun_in_range.rotation_vector = reals(along * (sign * 0x1p16));
       for (const Question& question : questions()) {
         if (!question.moves) continue;
         EXPECT_EQ(question.ask(block, far, block, still_motion()), Status::out_of_range);
@@ -349,7 +349,7 @@ DETENT_TEST(convex, questions_refuse_displacements_and_turns_beyond_the_range) {
   }
   // The turn's length counts, not its components alone.
   Motion spun = still_motion();
-  spun.turn = reals({{0x1.8p15, 0x1.8p15, 0x1.8p15}});
+  spun.rotation_vector = reals({{0x1.8p15, 0x1.8p15, 0x1.8p15}});
   EXPECT_EQ(time_of_impact(block, spun, block, still_motion(), impact), Status::out_of_range);
 }
 
@@ -357,8 +357,8 @@ DETENT_TEST(convex, farther_than_refuses_a_negative_reach) {
   const Convex ball = known(sphere(1.0)).convex;
   const Pose here = still_motion().start, there = pose_of({{{5, 0, 0}}});
   bool farther = false;
-  for (const double reach : {-1.0, -0x1p-40, -1e5}) {
-    EXPECT_EQ(farther_than(ball, here, ball, there, real(reach), farther), Status::out_of_range) << reach;
+  for (const double distance_max : {-1.0, -0x1p-40, -1e5}) {
+    EXPECT_EQ(farther_than(ball, here, ball, there, real(distance_max), farther), Status::out_of_range) << distance_max;
     EXPECT_FALSE(farther);
   }
   EXPECT_OK(farther_than(ball, here, ball, there, real(0), farther));

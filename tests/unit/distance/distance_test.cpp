@@ -41,8 +41,8 @@ void expect_witnesses(const Pair& pair, const Closest& closest) {
   if (closest.capped || closest.overlap) return;
   EXPECT_LE(off_surface(pair.a, pair.body_a, from), slack);
   EXPECT_LE(off_surface(pair.b, pair.body_b, to), slack);
-  const Vector way = pair.body_b.position - pair.body_a.position + to - from;
-  EXPECT_LE(length(way - normal * host(closest.distance)), slack);
+  const Vector displacement = pair.body_b.position - pair.body_a.position + to - from;
+  EXPECT_LE(length(displacement - normal * host(closest.distance)), slack);
 }
 
 /// `distance`: of the surfaces, m; 0 or less if they overlap.
@@ -91,7 +91,7 @@ DETENT_TEST(distance, of_a_ball_from_every_shape_is_that_of_its_centre_in_closed
     local = pair.body_a.to_local(pair.body_b.position);
     const double core = core_distance(pair.a, local);
     const bool solid = pair.a.points.size() > 3 && pair.a.type() != ShapeType::box;
-    if (solid && length(local) < pair.a.reach()) continue;  // the closed form does not know the inside
+    if (solid && length(local) < pair.a.distance_max()) continue;  // the closed form does not know the inside
     SCOPED_TRACE(testing::Message() << "pair " << i << ", kind " << kind << ", scale " << scale);
     expect_distance(pair, core - pair.a.ball - pair.b.ball);
     if (HasFailure()) return;
@@ -116,7 +116,7 @@ DETENT_TEST(distance, of_polytopes_is_that_of_their_nearest_features) {
     pair.body_a = held({random_direction(samples) * scale, random_quaternion(samples)});
     // Every third pair has an axis in common.
     const Quaternion rotation = i % 3 == 0 ? pair.body_a.rotation : random_quaternion(samples);
-    const double near = pair.a.reach() + pair.b.reach() + pair.a.ball + pair.b.ball;
+    const double near = pair.a.distance_max() + pair.b.distance_max() + pair.a.ball + pair.b.ball;
     pair.body_b =
         held({pair.body_a.position + random_direction(samples) * (near * uniform(samples, 0.5, 1.5)), rotation});
     const Closest closest = pair.closest();
@@ -340,20 +340,20 @@ DETENT_TEST(distance, agrees_with_overlap_and_farther_than) {
     const double reaches[] = {0,        distance / 2, distance - 8 * slack, distance - slack,
                               distance, extent,       distance + 2 * slack, 2 * distance + extent,
                               0x1p13};
-    for (const double reach : reaches) {
-      if (reach < 0) continue;
+    for (const double distance_max : reaches) {
+      if (distance_max < 0) continue;
       for (DistanceCache* cache : {static_cast<DistanceCache*>(nullptr), &caches[1]}) {
         bool farther = false;
-        const double asked = host(real(reach));
-        EXPECT_OK(farther_than(pair.a.convex, pose_a, pair.b.convex, pose_b, real(reach), farther, cache));
+        const double asked = host(real(distance_max));
+        EXPECT_OK(farther_than(pair.a.convex, pose_a, pair.b.convex, pose_b, real(distance_max), farther, cache));
         if (farther && !closest.capped) {
-          EXPECT_GT(distance * (1 + rounding), asked) << reach;
+          EXPECT_GT(distance * (1 + rounding), asked) << distance_max;
         }
         if (closest.overlap) {
           EXPECT_FALSE(farther);
         }
         if (!closest.capped && distance > asked + 4 * slack) {
-          EXPECT_TRUE(farther) << reach << " of " << distance;
+          EXPECT_TRUE(farther) << distance_max << " of " << distance;
         }
       }
     }
@@ -409,8 +409,8 @@ DETENT_TEST(distance, of_far_bodies_holds_and_saturates_beyond_2_to_the_17_m) {
   }
 #if !defined(DETENT_FX32)
   for (const double distance : {0x1p17, 0x1p18, 1e6, 1e9}) {
-    for (const Vector& way : {Vector{{1, 0, 0}}, Vector{{-0.6, 0.8, 0}}, Vector{{0.6, 0.64, 0.48}}}) {
-      const BodyAt left = {way * (-distance / 2)}, right = {way * (distance / 2)};
+    for (const Vector& displacement : {Vector{{1, 0, 0}}, Vector{{-0.6, 0.8, 0}}, Vector{{0.6, 0.64, 0.48}}}) {
+      const BodyAt left = {displacement * (-distance / 2)}, right = {displacement * (distance / 2)};
       for (const KnownShape& other : {cube, ball, known(cylinder(1.0, 1.0))}) {
         Closest closest;
         EXPECT_OK(closest_points(ball.convex, pose_of(left), other.convex, pose_of(right), closest));
@@ -432,10 +432,10 @@ DETENT_TEST(distance, of_far_bodies_holds_and_saturates_beyond_2_to_the_17_m) {
 DETENT_TEST(distance, beyond_2_to_the_17_m_has_a_normal_towards_the_other_body) {
   const KnownShape ball = known(sphere(1.0)), cube = known(box({0.5, 0.5, 0.5}));
   for (const double distance : {0x1p17, 0x1p18, 1e9}) {
-    for (const Vector& way : {Vector{{1, 0, 0}}, Vector{{-0.6, 0.8, 0}}, Vector{{0.6, 0.64, 0.48}}}) {
-      const Pair pair = {ball, cube, {way * (-distance / 2)}, {way * (distance / 2)}};
-      EXPECT_GT(dot(host_units(pair.closest().normal), way), 0.5)
-          << way[0] << ' ' << way[1] << ' ' << way[2] << " times " << distance;
+    for (const Vector& displacement : {Vector{{1, 0, 0}}, Vector{{-0.6, 0.8, 0}}, Vector{{0.6, 0.64, 0.48}}}) {
+      const Pair pair = {ball, cube, {displacement * (-distance / 2)}, {displacement * (distance / 2)}};
+      EXPECT_GT(dot(host_units(pair.closest().normal), displacement), 0.5)
+          << displacement[0] << ' ' << displacement[1] << ' ' << displacement[2] << " times " << distance;
     }
   }
 }
@@ -471,8 +471,8 @@ DETENT_TEST(distance, is_the_same_to_the_bit_wherever_the_pair_is) {
     const Closest here = pair.closest();
     Pose pose_a = pose_of(pair.body_a), pose_b = pose_of(pair.body_b);
     const auto moved = [&] {
-      const double way = uniform(samples, -1, 1) * (k_config == Config::fx32 ? 32e3 : 1e9);
-      return static_cast<Coord::Raw>(ldexp(way, Coord::k_frac));
+      const double displacement = uniform(samples, -1, 1) * (k_config == Config::fx32 ? 32e3 : 1e9);
+      return static_cast<Coord::Raw>(ldexp(displacement, Coord::k_frac));
     };
     const Position by = {Coord::from_raw(moved()), Coord::from_raw(moved()), Coord::from_raw(moved())};
     for (Pose* pose : {&pose_a, &pose_b}) {

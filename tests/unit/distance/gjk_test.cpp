@@ -92,8 +92,8 @@ void check(const Placed& a, const Placed& b, const Vec32& offset, Outcome& outco
     for (int j = 0; j < 255 && core_vertex(*b.convex, static_cast<uint8_t>(j), on_b); ++j) {
       const Point w = exact(add(offset, subtract(b.point(on_b.local), a.point(on_a.local))));
       ASSERT_GT(dot(v, w), 0);
-      const Exact reach = dot(normal, w);
-      least = reach < least ? reach : least;
+      const Exact distance_max = dot(normal, w);
+      least = distance_max < least ? distance_max : least;
     }
   }
   ASSERT_GE(least, (Exact{result.lower} - 2) << 30);

@@ -27,8 +27,8 @@ void check_parted(const Placed& a, const Placed& b, const Vec32& offset, const P
   ASSERT_EQ(out.outcome, GjkOutcome::apart);
   ASSERT_LE(out.upper, 4 * k_penetration_slack);
   // The deepest points are one straight above the other.
-  const Vec32 way = subtract(add(offset, found.point_b), found.point_a);
-  ASSERT_NEAR(along(found.normal, way), -found.depth, 2 * k_penetration_slack);
+  const Vec32 displacement = subtract(add(offset, found.point_b), found.point_a);
+  ASSERT_NEAR(along(found.normal, displacement), -found.depth, 2 * k_penetration_slack);
 }
 
 void check_polytopes(const Placed& a, const Placed& b, const Vec32& offset, Tally& tally) {
@@ -57,8 +57,8 @@ void check_polytopes(const Placed& a, const Placed& b, const Vec32& offset, Tall
   ASSERT_LE(reach_along(solid_a, solid_b, offset, back), found.depth + k_penetration_slack);
   check_parted(a, b, offset, found);
   // The deepest points lie one straight above the other.
-  const Vec32 way = subtract(add(offset, found.point_b), found.point_a);
-  ASSERT_LE(length(arrow(way)), found.depth + 4 * k_penetration_slack);
+  const Vec32 displacement = subtract(add(offset, found.point_b), found.point_a);
+  ASSERT_LE(length(arrow(displacement)), found.depth + 4 * k_penetration_slack);
 }
 
 DETENT_TEST(penetration, finds_the_least_way_out_of_integer_and_posed_polytopes) {
@@ -154,8 +154,8 @@ DETENT_TEST(penetration, of_cylinders_and_cones_is_the_least_over_all_directions
     const Convex b = core(k_types[samples.below(5)], size(), size(), size());
     const Placed placed_a = place(a, random_rotation(samples), k_exponent);
     const Placed placed_b = place(b, random_rotation(samples), k_exponent);
-    const auto way = [&] { return static_cast<int32_t>(samples.below(1 << 28)) - (1 << 27); };
-    const Vec32 offset = {way(), way(), way()};
+    const auto displacement = [&] { return static_cast<int32_t>(samples.below(1 << 28)) - (1 << 27); };
+    const Vec32 offset = {displacement(), displacement(), displacement()};
     Simplex simplex;
     if (gjk(placed_a, placed_b, offset, simplex, {}).outcome != GjkOutcome::overlap) continue;
     ++overlaps;
@@ -267,8 +267,10 @@ DETENT_TEST(penetration, of_needles_plates_and_what_just_touches) {
   for (int i = 0; i < 20000; ++i) {
     const Placed a = place(samples.below(2) == 0 ? needle : plate, random_rotation(samples), k_exponent);
     const Placed b = place(samples.below(2) == 0 ? needle : plate, random_rotation(samples), k_exponent);
-    const auto way = [&] { return static_cast<int32_t>(samples.below(2 * length)) - length; };
-    check_polytopes(a, b, samples.below(4) == 0 ? Vec32{0, 0, 0} : Vec32{way(), way() / 1000, way()}, tally);
+    const auto displacement = [&] { return static_cast<int32_t>(samples.below(2 * length)) - length; };
+    check_polytopes(
+        a, b, samples.below(4) == 0 ? Vec32{0, 0, 0} : Vec32{displacement(), displacement() / 1000, displacement()},
+        tally);
     if (HasFatalFailure()) FAIL() << "pair " << i;
   }
   printf("%u overlap, at most %d supports, error at most %.2f ulps\n", tally.overlaps, tally.supports_max,

@@ -23,7 +23,7 @@ struct Flywheel {
     EXPECT_OK(get_mass(lab.world, wheel, mass));
     inertia = 0.4 * scaled_to_host(mass) * 0.25;
   }
-  double speed() { return lab.motion(wheel).spin[2]; }
+  double speed() { return lab.motion(wheel).angular_velocity[2]; }
   double angle() { return joint_ends(lab.world, joint).turned(0); }
 };
 
@@ -97,8 +97,8 @@ struct BallSpring {
     Pose pose;
     EXPECT_OK(get_joint(lab.world, joint, def));
     EXPECT_OK(get_pose(lab.world, ball, pose));
-    const Turned is(pose.rotation), wanted(def.frame_a);
-    const double cosine = std::abs(dot(is.vector, wanted.vector) + is.w * wanted.w);
+    const Turned is(pose.rotation), target(def.frame_a);
+    const double cosine = std::abs(dot(is.vector, target.vector) + is.w * target.w);
     return 2 * std::acos(std::min(1.0, cosine));
   }
 };
@@ -140,9 +140,9 @@ DETENT_TEST(joint, the_spring_of_a_ball_joint_gives_no_more_torque_than_it_may) 
     BallSpring spring(frequency, 0, 2, {0.0, 0.0, 0.96, 0.28});
     spring.lab.run(6);
     const Motion motion = spring.lab.motion(spring.ball);
-    EXPECT_NEAR(motion.spin[2], 2 / spring.inertia * 0.1, 0.01 * 2 / spring.inertia * 0.1);
-    EXPECT_NEAR(motion.spin[0], 0, 1e-6);
-    EXPECT_NEAR(motion.spin[1], 0, 1e-6);
+    EXPECT_NEAR(motion.angular_velocity[2], 2 / spring.inertia * 0.1, 0.01 * 2 / spring.inertia * 0.1);
+    EXPECT_NEAR(motion.angular_velocity[0], 0, 1e-6);
+    EXPECT_NEAR(motion.angular_velocity[1], 0, 1e-6);
   }
 }
 
@@ -160,10 +160,10 @@ DETENT_TEST(joint, a_slider_motor_lifts_what_it_can_and_no_more) {
   const JointId joint = add_joint(lab, JointType::slider, ground, lift, 0, 0, 0, rest, k_x_to_y);
   for (int tick = 1; tick <= 5; ++tick) {
     lab.run(1);
-    EXPECT_NEAR(lab.motion(lift).velocity[1], 5 * tick / 60.0, 1e-4);
+    EXPECT_NEAR(lab.motion(lift).linear_velocity[1], 5 * tick / 60.0, 1e-4);
   }
   lab.run(60);
-  EXPECT_NEAR(lab.motion(lift).velocity[1], 0.5, 1e-3);
+  EXPECT_NEAR(lab.motion(lift).linear_velocity[1], 0.5, 1e-3);
   JointReaction reaction;
   ASSERT_OK(get_joint_reaction(lab.world, joint, reaction));
   EXPECT_NEAR(scaled_to_host(reaction.force.y), 98.1, 0.01);
@@ -172,7 +172,7 @@ DETENT_TEST(joint, a_slider_motor_lifts_what_it_can_and_no_more) {
   weaker.axis.force_max = scaled(98.1 - 10);
   ASSERT_OK(set_joint(lab.world, joint, weaker));
   lab.run(30);
-  EXPECT_NEAR(lab.motion(lift).velocity[1], 0.5 - 0.5, 5e-3) << "1 m/s^2 too little";
+  EXPECT_NEAR(lab.motion(lift).linear_velocity[1], 0.5 - 0.5, 5e-3) << "1 m/s^2 too little";
 }
 
 DETENT_TEST(joint, friction_brakes_turns_and_then_holds_them) {
@@ -189,9 +189,9 @@ DETENT_TEST(joint, friction_brakes_turns_and_then_holds_them) {
     ASSERT_OK(set_velocity(lab.world, wheel, reals(0, 0, 0), reals(0, 0, 0.5)));
     lab.run(30);
     const double slower = 20 / (0.4 * scaled_to_host(mass) * 0.25) * 0.5;
-    EXPECT_NEAR(lab.motion(wheel).spin[2], 0.5 - slower, 0.01 * slower);
+    EXPECT_NEAR(lab.motion(wheel).angular_velocity[2], 0.5 - slower, 0.01 * slower);
     lab.run(90);
-    EXPECT_NEAR(lab.motion(wheel).spin[2], 0, 1e-6);
+    EXPECT_NEAR(lab.motion(wheel).angular_velocity[2], 0, 1e-6);
   }
 }
 
@@ -309,21 +309,21 @@ DETENT_TEST(joint, a_limit_holds_in_the_substep_in_which_holding_the_joint_turns
 
 DETENT_TEST(joint, motors_and_springs_leave_a_limit_that_they_start_from) {
   for (const bool spring : {false, true}) {
-    for (const double way : {1.0, -1.0}) {
+    for (const double displacement : {1.0, -1.0}) {
       JointAxis axis;
       axis.limited = true;
-      axis.lower = real(way > 0 ? 0 : -1);
-      axis.upper = real(way > 0 ? 1 : 0);
+      axis.lower = real(displacement > 0 ? 0 : -1);
+      axis.upper = real(displacement > 0 ? 1 : 0);
       if (spring) {
         axis.frequency = real(1);
-        axis.target = real(0.5 * way);
+        axis.target = real(0.5 * displacement);
       } else {
-        axis.speed = real(way);
+        axis.speed = real(displacement);
         axis.force_max = scaled(1000);
       }
       Flywheel flywheel(axis);
       flywheel.lab.run(30);
-      EXPECT_GT(flywheel.angle() * way, 0.3) << spring << way;
+      EXPECT_GT(flywheel.angle() * displacement, 0.3) << spring << displacement;
     }
   }
 }
@@ -358,7 +358,7 @@ DETENT_TEST(joint, a_rope_is_slack_until_it_is_taut) {
   JointId joint;
   ASSERT_OK(create_joint(lab.world, def, joint));
   lab.run(20);
-  EXPECT_NEAR(lab.motion(ball).velocity[1], -9.81 / 3, 1e-3) << "it falls freely";
+  EXPECT_NEAR(lab.motion(ball).linear_velocity[1], -9.81 / 3, 1e-3) << "it falls freely";
   double lowest = 0;
   for (int tick = 0; tick < 120; ++tick) {
     lab.run(1);
@@ -384,9 +384,10 @@ DETENT_TEST(joint, a_cone_leans_no_farther_and_twists_no_farther_than_it_may) {
     const auto draw = [&] { return (samples.below(6001) - 3000.0) / 1000; };
     const double x = draw(), y = draw(), z = draw();
     const Motion now = lab.motion(arm);
-    const Vector spin = {x, y, z}, way = {now.position[0], now.position[1], now.position[2]};
-    const Vector velocity = cross(spin, way);
-    ASSERT_OK(set_velocity(lab.world, arm, reals(velocity.x, velocity.y, velocity.z), reals(x, y, z)));
+    const Vector angular_velocity = {x, y, z}, displacement = {now.position[0], now.position[1], now.position[2]};
+    const Vector linear_velocity = cross(angular_velocity, displacement);
+    ASSERT_OK(
+        set_velocity(lab.world, arm, reals(linear_velocity.x, linear_velocity.y, linear_velocity.z), reals(x, y, z)));
     for (int tick = 0; tick < 60; ++tick) {
       lab.run(1);
       const JointEnds ends = joint_ends(lab.world, joint);
@@ -408,17 +409,19 @@ DETENT_TEST(joint, what_swings_round_a_wide_cone_gains_nothing_from_the_limits_o
   add_joint(lab, JointType::cone_twist, ground, arm, 0, 0, 0, rest);
   Samples samples = {9};
   const auto energy = [&](const Motion& motion) {  // over half the mass, m^2/s^2
-    const Vector velocity = {motion.velocity[0], motion.velocity[1], motion.velocity[2]};
-    const Vector spin = {motion.spin[0], motion.spin[1], motion.spin[2]};
-    return dot(velocity, velocity) + 0.4 * 0.04 * dot(spin, spin);
+    const Vector linear_velocity = {motion.linear_velocity[0], motion.linear_velocity[1], motion.linear_velocity[2]};
+    const Vector angular_velocity = {motion.angular_velocity[0], motion.angular_velocity[1],
+                                     motion.angular_velocity[2]};
+    return dot(linear_velocity, linear_velocity) + 0.4 * 0.04 * dot(angular_velocity, angular_velocity);
   };
   for (int round = 0; round < 20; ++round) {
     const auto draw = [&] { return (samples.below(6001) - 3000.0) / 300; };
     const double x = draw(), y = draw(), z = draw();
     const Motion now = lab.motion(arm);
-    const Vector spin = {x, y, z}, way = {now.position[0], now.position[1], now.position[2]};
-    const Vector velocity = cross(spin, way);
-    ASSERT_OK(set_velocity(lab.world, arm, reals(velocity.x, velocity.y, velocity.z), reals(x, y, z)));
+    const Vector angular_velocity = {x, y, z}, displacement = {now.position[0], now.position[1], now.position[2]};
+    const Vector linear_velocity = cross(angular_velocity, displacement);
+    ASSERT_OK(
+        set_velocity(lab.world, arm, reals(linear_velocity.x, linear_velocity.y, linear_velocity.z), reals(x, y, z)));
     const double start = energy(lab.motion(arm));
     for (int tick = 0; tick < 60; ++tick) {
       lab.run(1);
@@ -455,7 +458,7 @@ DETENT_TEST(joint, a_motor_gives_no_more_than_it_can_beside_a_loop) {
   ASSERT_OK(get_mass(axle.lab.world, axle.wheel, mass));
   axle.lab.run(60);
   const double gained = 20 / (0.4 * scaled_to_host(mass) * 0.25);
-  EXPECT_NEAR(axle.lab.motion(axle.wheel).spin[2], gained, 0.02 * gained);
+  EXPECT_NEAR(axle.lab.motion(axle.wheel).angular_velocity[2], gained, 0.02 * gained);
   JointReaction reaction;
   ASSERT_OK(get_joint_reaction(axle.lab.world, axle.joint, reaction));
   EXPECT_NEAR(scaled_to_host(reaction.torque.z), 20, 0.4);

@@ -18,13 +18,14 @@ uint32_t substeps_for(double squared) {
 
 /// The measure of lib/joint/joint_substeps.cpp in doubles, for bodies whose unit of length is 1 m; motions are those
 /// of a tick.
-double bend_of(JointType type, const Vector (&velocity)[2], const Vector (&spin)[2], const Vector (&anchor)[2],
-               double length) {
+double bend_of(JointType type, const Vector (&linear_velocity)[2], const Vector (&angular_velocity)[2],
+               const Vector (&anchor)[2], double length) {
   const auto size = [](Vector v) { return fabs(v.x) + fabs(v.y) + fabs(v.z); };
-  double bend = 4 * size(cross(spin[0], spin[1]));
-  for (int i = 0; i < 2; ++i) bend += size(cross(spin[i], cross(spin[i], anchor[i])));
+  double bend = 4 * size(cross(angular_velocity[0], angular_velocity[1]));
+  for (int i = 0; i < 2; ++i) bend += size(cross(angular_velocity[i], cross(angular_velocity[i], anchor[i])));
   if (type != JointType::distance) return bend;
-  const Vector apart = (velocity[1] + cross(spin[1], anchor[1])) - (velocity[0] + cross(spin[0], anchor[0]));
+  const Vector apart = (linear_velocity[1] + cross(angular_velocity[1], anchor[1])) -
+                       (linear_velocity[0] + cross(angular_velocity[0], anchor[0]));
   const double swing = size(apart) / length;
   return fmax(bend, swing * swing);
 }
@@ -39,13 +40,14 @@ DETENT_TEST(joint, substeps_are_those_that_the_bends_of_its_ways_ask_for) {
   for (const JointType type : k_joint_types) {
     uint32_t seen[33] = {};
     for (uint32_t round = 0; round < 60; ++round) {
-      // Some pairs have one velocity, joints at the centres, or no spin.
+      // Some pairs have one velocity, joints at the centres, or no angular velocity.
       const double fast = exp2(-static_cast<double>(round % 6));
-      Vector velocity[2] = {vector(4 * fast), vector(4 * fast)}, spin[2] = {vector(6 * fast), vector(6 * fast)};
+      Vector linear_velocity[2] = {vector(4 * fast), vector(4 * fast)},
+             angular_velocity[2] = {vector(6 * fast), vector(6 * fast)};
       Vector anchor[2] = {vector(0.3), vector(0.3)};
-      if (round % 5 == 0) velocity[1] = velocity[0];
+      if (round % 5 == 0) linear_velocity[1] = linear_velocity[0];
       if (round % 7 == 0) anchor[0] = anchor[1] = {0, 0, 0};
-      if (round % 10 == 0) spin[0] = spin[1] = {0, 0, 0};
+      if (round % 10 == 0) angular_velocity[0] = angular_velocity[1] = {0, 0, 0};
       const double length = 0.5 + fabs(draw(2));
       WorldDef def = weightless();
       def.tick = real(0.25);
@@ -58,16 +60,16 @@ DETENT_TEST(joint, substeps_are_those_that_the_bends_of_its_ways_ask_for) {
         BodyDef body;
         body.shape = box(reals(0.5, 0.5, 0.5));
         body.position = position(1.5 * i, 0, 0);
-        body.velocity = reals(velocity[i].x, velocity[i].y, velocity[i].z);
-        body.spin = reals(spin[i].x, spin[i].y, spin[i].z);
+        body.linear_velocity = reals(linear_velocity[i].x, linear_velocity[i].y, linear_velocity[i].z);
+        body.angular_velocity = reals(angular_velocity[i].x, angular_velocity[i].y, angular_velocity[i].z);
         (i == 0 ? joint.a : joint.b) = lab.add(body);
         (i == 0 ? joint.anchor_a : joint.anchor_b) = reals(anchor[i].x, anchor[i].y, anchor[i].z);
-        velocity[i] = velocity[i] * 0.25;
-        spin[i] = spin[i] * 0.25;
+        linear_velocity[i] = linear_velocity[i] * 0.25;
+        angular_velocity[i] = angular_velocity[i] * 0.25;
       }
       JointId id;
       ASSERT_OK(create_joint(lab.world, joint, id));
-      const uint32_t expected = substeps_for(25 * bend_of(type, velocity, spin, anchor, length));
+      const uint32_t expected = substeps_for(25 * bend_of(type, linear_velocity, angular_velocity, anchor, length));
       const uint32_t taken = lab.run(1).substeps_max;
       if (expected != 0) {
         EXPECT_EQ(taken, expected) << static_cast<int>(type) << " " << round;

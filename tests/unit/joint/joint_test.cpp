@@ -23,13 +23,13 @@ void expect_held(uint32_t substeps, double metres, double radians) {
     for (int tick = 0; tick < 300; ++tick) {
       pair.lab.run(1);
       const JointEnds ends = joint_ends(pair.lab.world, pair.joint);
-      const Vector way = ends.gap();
-      const double along = dot(way, ends.a.axis[0]);
-      gap = std::max(gap, length(way));
-      aside = std::max(aside, length(way - ends.a.axis[0] * along));
+      const Vector displacement = ends.gap();
+      const double along = dot(displacement, ends.a.axis[0]);
+      gap = std::max(gap, length(displacement));
+      aside = std::max(aside, length(displacement - ends.a.axis[0] * along));
       lean_x = std::max(lean_x, ends.between(0));
       lean_z = std::max(lean_z, ends.between(2));
-      away = std::max(away, std::abs(length(way) - 1.2));
+      away = std::max(away, std::abs(length(displacement) - 1.2));
     }
     const bool points = type == JointType::ball || type == JointType::hinge || type == JointType::fixed ||
                         type == JointType::cone_twist;
@@ -80,8 +80,8 @@ double energy_lost(uint32_t substeps) {
   for (int tick = 0; tick < 1800; ++tick) {
     lab.run(1);
     const Motion motion = lab.motion(bob);
-    const Vector velocity = {motion.velocity[0], motion.velocity[1], motion.velocity[2]};
-    const double energy = dot(velocity, velocity) / 2 * (1 + 0.4 * 0.01) + 9.81 * motion.position[1];
+    const Vector linear_velocity = {motion.linear_velocity[0], motion.linear_velocity[1], motion.linear_velocity[2]};
+    const double energy = dot(linear_velocity, linear_velocity) / 2 * (1 + 0.4 * 0.01) + 9.81 * motion.position[1];
     worst = std::max(worst, std::abs(energy) / 9.81);
   }
   return worst;
@@ -105,15 +105,18 @@ DETENT_TEST(joint, what_a_joint_gives_one_body_it_takes_from_the_other) {
         const double m = scaled_to_host(mass);
         const Vector half = id == pair.a ? Vector{0.4, 0.2, 0.3} : Vector{0.5, 0.1, 0.2};
         const Vector at = {motion.position[0], motion.position[1], motion.position[2]};
-        const Vector velocity = {motion.velocity[0], motion.velocity[1], motion.velocity[2]};
-        const Vector spin = {motion.spin[0], motion.spin[1], motion.spin[2]};
+        const Vector linear_velocity = {motion.linear_velocity[0], motion.linear_velocity[1],
+                                        motion.linear_velocity[2]};
+        const Vector angular_velocity = {motion.angular_velocity[0], motion.angular_velocity[1],
+                                         motion.angular_velocity[2]};
         const JointEnd axes = joint_end(pair.lab.world, id, reals(0, 0, 0), {0.0, 0.0, 0.0, 1.0});
         const double inertia[3] = {m * (half.y * half.y + half.z * half.z) / 3,
                                    m * (half.z * half.z + half.x * half.x) / 3,
                                    m * (half.x * half.x + half.y * half.y) / 3};
-        linear = linear + velocity * m;
-        angular = angular + cross(at, velocity) * m;
-        for (int i = 0; i < 3; ++i) angular = angular + axes.axis[i] * (inertia[i] * dot(spin, axes.axis[i]));
+        linear = linear + linear_velocity * m;
+        angular = angular + cross(at, linear_velocity) * m;
+        for (int i = 0; i < 3; ++i)
+          angular = angular + axes.axis[i] * (inertia[i] * dot(angular_velocity, axes.axis[i]));
       }
     };
     Vector linear, angular, linear_after, angular_after;
@@ -138,8 +141,10 @@ DETENT_TEST(joint, a_pair_that_is_held_twice_keeps_its_angular_momentum) {
     for (const BodyId id : {a, b}) {
       const Motion motion = lab.motion(id);
       const Vector at = {motion.position[0], motion.position[1], motion.position[2]};
-      const Vector velocity = {motion.velocity[0], motion.velocity[1], motion.velocity[2]};
-      sum = sum + cross(at, velocity) + Vector{motion.spin[0], motion.spin[1], motion.spin[2]} * (0.4 * 0.3 * 0.3);
+      const Vector linear_velocity = {motion.linear_velocity[0], motion.linear_velocity[1], motion.linear_velocity[2]};
+      sum = sum + cross(at, linear_velocity) +
+            Vector{motion.angular_velocity[0], motion.angular_velocity[1], motion.angular_velocity[2]} *
+                (0.4 * 0.3 * 0.3);
     }
     return sum;
   };
@@ -153,7 +158,7 @@ DETENT_TEST(joint, a_body_hangs_from_a_kinematic_one_as_that_turns) {
   BodyDef arm;
   arm.type = BodyType::kinematic;
   arm.shape = box(reals(0.5, 0.1, 0.1));
-  arm.spin = reals(0, 1, 0);
+  arm.angular_velocity = reals(0, 1, 0);
   const BodyId turning = lab.add(arm);
   const BodyId ball = add_shape(lab, sphere(real(0.1)), 0.5, -0.6, 0);
   const JointId joint = add_joint(lab, JointType::ball, turning, ball, 0.5, 0, 0);
@@ -236,7 +241,7 @@ DETENT_TEST(joint, one_that_bears_more_than_it_can_breaks_and_says_so) {
   EXPECT_TRUE(events[0].joint == joint && events[0].a == ground && events[0].b == box && events[0].user_data == 77);
   EXPECT_NEAR(scaled_to_host(events[0].reaction.force.y), 98.1 + 5, 0.05);
   lab.run(1);
-  EXPECT_LT(lab.motion(box).velocity[1], -0.1) << "it falls";
+  EXPECT_LT(lab.motion(box).linear_velocity[1], -0.1) << "it falls";
 }
 
 }  // namespace

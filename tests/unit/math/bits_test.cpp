@@ -33,7 +33,7 @@ struct Hash {
     take(Vec3<Unit>{q.x, q.y, q.z});
     take(q.w);
   }
-  void take(Turn angle) {
+  void take(Angle angle) {
 #if defined(DETENT_F64)
     take(angle.radians);
 #else
@@ -116,17 +116,17 @@ uint64_t hash_of_rotations() {
     q = normalise(multiply(step, q));
     hash.take(step);
     hash.take(q);
-    hash.take(rotation_vector(q));
+    hash.take(rotation_vector_from(q));
     hash.take(rotate(q, samples.reals(60)));
     hash.take(rotate(q, samples.fractions() * Unit(0.5)));
     hash.take(matrix_from(q).column[2]);
     const Vec3<Unit> point = samples.uniforms();
-    const Turn angle = arc_tangent(point.y, point.x);
+    const Angle angle = arc_tangent(point.y, point.x);
     hash.take(angle);
     hash.take(radians(angle));
-    hash.take(turn_from_radians(theta.x));
+    hash.take(angle_from_radians(theta.x));
     Unit s, c;
-    sine_cosine(turn_from_radians(theta.y), s, c);
+    sine_cosine(angle_from_radians(theta.y), s, c);
     hash.take(s);
     hash.take(c);
   }

@@ -23,7 +23,7 @@ constexpr const char* k_strided = "strided";
   return Big::scaled(phase, exponent + 1) * Big::pi();
 }
 
-Big to_radians([[maybe_unused]] Turn angle) {
+Big to_radians([[maybe_unused]] Angle angle) {
 #if defined(DETENT_F64)
   return big(angle.radians);
 #else
@@ -31,7 +31,7 @@ Big to_radians([[maybe_unused]] Turn angle) {
 #endif
 }
 
-Turn any_turn(Samples& samples) {
+Angle any_turn(Samples& samples) {
 #if defined(DETENT_F64)
   return {static_cast<double>(samples.integer(60)) * 0x1p-43};
 #else
@@ -39,7 +39,7 @@ Turn any_turn(Samples& samples) {
 #endif
 }
 
-std::string show(Turn angle) {
+std::string show(Angle angle) {
 #if defined(DETENT_F64)
   return show(angle.radians);
 #else
@@ -253,7 +253,7 @@ DETENT_TEST(numbers, sines_and_cosines_are_within_their_bound) {
             "step"};
   Samples samples{15};
   for (int i = 0; i < k_count; ++i) {
-    const Turn angle = any_turn(samples);
+    const Angle angle = any_turn(samples);
     Unit s;
     Unit c;
     const auto take = [&](Line& line, const Big& radians) {
@@ -286,7 +286,7 @@ DETENT_TEST(numbers, arc_tangents_are_within_their_bound) {
     const Unit y = i % 2 == 0 ? samples.unit() : samples.uniform();
     const Unit x = i % 4 < 2 ? samples.unit() : samples.uniform();
     if (y == Unit(0.0) && x == Unit(0.0)) continue;
-    const Turn angle = arc_tangent(y, x);
+    const Angle angle = arc_tangent(y, x);
     const Big truth = oracle::arc_tangent(big(y), big(x));
 #if defined(DETENT_F64)
     line.take(oracle::distance(big(angle.radians), truth, -53), [&] { return show(y) + " " + show(x); });
@@ -302,7 +302,7 @@ DETENT_TEST(numbers, arc_tangents_are_within_their_bound) {
 
 #if !defined(DETENT_F64)
 DETENT_TEST(numbers, radians_and_turns_convert_to_nearest) {
-  Line to_turn{k_config_name, 54, "turn_from_radians", "angle < 2^17", "to nearest", "2^-32 turns"};
+  Line to_turn{k_config_name, 54, "angle_from_radians", "angle < 2^17", "to nearest", "2^-32 turns"};
   Line to_real{k_config_name, 55, "radians", "all turns", "to nearest", DETENT_FIXED ? "2^-46" : "2^-24 of the result"};
   Samples samples{17};
   for (int i = 0; i < k_count; ++i) {
@@ -310,7 +310,7 @@ DETENT_TEST(numbers, radians_and_turns_convert_to_nearest) {
     Big true_turns = big(angle) / (Big(2.0) * Big::pi());
     Big whole;
     mpfr_floor(whole.value, true_turns.value);
-    const double error = oracle::distance(Big::scaled(turn_from_radians(angle).raw, -32), true_turns - whole, -32);
+    const double error = oracle::distance(Big::scaled(angle_from_radians(angle).raw, -32), true_turns - whole, -32);
     to_turn.take(std::min(error, std::abs(4294967296.0 - error)), [&] { return show(angle); });
     const int32_t raw = static_cast<int32_t>(samples.integer(31));
     const Big truth = turns(raw, -32);
@@ -388,8 +388,8 @@ DETENT_TEST(numbers, rotation_vectors_become_quaternions_and_return) {
   Line forth{k_config_name,  70,          "rotation_from_vector",
              "angle < 2^16", "component", DETENT_FIXED ? "step" : "step x (1 + angle)"};
   Line tiny{k_config_name, 71, "rotation_from_vector", "components < 2^-4", "component", "step"};
-  Line back{k_config_name, 72, "rotation_vector", "unit quaternions", "component, rad", "step"};
-  Line tiny_back{k_config_name, 73, "rotation_vector", "components < 2^-5", "component, rad", "step"};
+  Line back{k_config_name, 72, "rotation_vector_from", "unit quaternions", "component, rad", "step"};
+  Line tiny_back{k_config_name, 73, "rotation_vector_from", "components < 2^-5", "component, rad", "step"};
   Samples samples{19};
   for (int i = 0; i < k_count; ++i) {
     const bool is_tiny = i % 2 == 0;
@@ -422,9 +422,9 @@ DETENT_TEST(numbers, rotation_vectors_become_quaternions_and_return) {
     if (size.number() < 0.04) true_angle = oracle::apply<mpfr_asin>(size);
     const Big scale = Big(2.0) * true_angle / size;
     (size.number() < 0.03 ? tiny_back : back)
-        .take(oracle::distance(big(rotation_vector(p)), {u.x * scale, u.y * scale, u.z * scale}, k_unit_step),
+        .take(oracle::distance(big(rotation_vector_from(p)), {u.x * scale, u.y * scale, u.z * scale}, k_unit_step),
               [&] { return show(p); });
-    EXPECT_EQ(rotation_vector(p), rotation_vector({-p.x, -p.y, -p.z, -p.w}));
+    EXPECT_EQ(rotation_vector_from(p), rotation_vector_from({-p.x, -p.y, -p.z, -p.w}));
   }
   forth.finish(k_rotation_error, k_strided);
   tiny.finish(k_rotation_error, k_strided);

@@ -23,7 +23,7 @@ Quat any_rotation(Samples& samples) {
 }
 
 DETENT_TEST(rotation, a_quarter_turn_about_z_takes_x_to_y) {
-  const Quat q = rotation_about(k_z, turn_from_radians(Real(1.5707963267948966)));
+  const Quat q = rotation_about(k_z, angle_from_radians(Real(1.5707963267948966)));
   EXPECT_TRUE(is_near(rotate(q, k_x), k_y));
   EXPECT_TRUE(is_near(rotate(q, k_y), -k_x));
   EXPECT_TRUE(is_near(rotate(q, k_z), k_z));
@@ -32,10 +32,10 @@ DETENT_TEST(rotation, a_quarter_turn_about_z_takes_x_to_y) {
 
 DETENT_TEST(rotation, no_rotation_is_exactly_the_identity) {
   EXPECT_EQ(rotation_from_vector({Real(0.0), Real(0.0), Real(0.0)}), k_identity);
-  EXPECT_EQ(rotation_about(k_y, turn_from_radians(Real(0.0))), k_identity);
+  EXPECT_EQ(rotation_about(k_y, angle_from_radians(Real(0.0))), k_identity);
   EXPECT_EQ(normalise(k_identity), k_identity);
   EXPECT_EQ(multiply(k_identity, k_identity), k_identity);
-  EXPECT_EQ(rotation_vector(k_identity), (Vec3<Real>{Real(0.0), Real(0.0), Real(0.0)}));
+  EXPECT_EQ(rotation_vector_from(k_identity), (Vec3<Real>{Real(0.0), Real(0.0), Real(0.0)}));
   Samples samples{61};
   for (int i = 0; i < 1000; ++i) {
     const Vec3<Unit> v = samples.fractions();
@@ -79,7 +79,7 @@ DETENT_TEST(rotation, rotation_vectors_return_from_their_quaternions) {
     const Vec3<Unit> u = samples.uniforms();
     const Vec3<Real> theta = {real_from_unit(u.x, exponent), real_from_unit(u.y, exponent),
                               real_from_unit(u.z, exponent)};
-    const Vec3<Real> back = rotation_vector(rotation_from_vector(theta));
+    const Vec3<Real> back = rotation_vector_from(rotation_from_vector(theta));
     const Vec3<Real> error = abs(back - theta);
     EXPECT_LE(max(error.x, max(error.y, error.z)), scale_by_power(Real(1.0), k_unit_step + 4));
   }

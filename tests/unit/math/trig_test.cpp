@@ -21,7 +21,7 @@ DETENT_TEST(trig, quarter_turns_are_exact) {
 DETENT_TEST(trig, sine_is_odd_and_shifts_to_cosine_exactly) {
   Samples samples{41};
   for (int i = 0; i < 20000; ++i) {
-    const Turn angle = {static_cast<uint32_t>(samples.bits())};
+    const Angle angle = {static_cast<uint32_t>(samples.bits())};
     if (((angle.raw + 0x20000000) & 0x3fffffff) == 0) continue;  // an eighth turn belongs to one side
     Unit s, c, shifted_s, shifted_c, negative_s, negative_c;
     sine_cosine(angle, s, c);
@@ -64,22 +64,22 @@ DETENT_TEST(trig, arc_tangents_on_axes_and_diagonals_are_exact) {
 DETENT_TEST(trig, radians_and_turns_are_inverse) {
   Samples samples{43};
   for (int i = 0; i < 20000; ++i) {
-    const Turn angle = {static_cast<uint32_t>(samples.bits())};
-    const uint32_t back = turn_from_radians(radians(angle)).raw;
+    const Angle angle = {static_cast<uint32_t>(samples.bits())};
+    const uint32_t back = angle_from_radians(radians(angle)).raw;
     // In f32 an angle near pi is rounded by up to 2^-23 rad.
     EXPECT_LE(magnitude_32(static_cast<int32_t>(back - angle.raw)), DETENT_FIXED ? 0u : 82u) << angle.raw;
   }
-  EXPECT_EQ(turn_from_radians(Real(0.0)).raw, 0u);
-  EXPECT_EQ(radians(Turn{0}), Real(0.0));
-  EXPECT_LT(radians(Turn{uint32_t{1} << 31}), Real(-3.14159));
+  EXPECT_EQ(angle_from_radians(Real(0.0)).raw, 0u);
+  EXPECT_EQ(radians(Angle{0}), Real(0.0));
+  EXPECT_LT(radians(Angle{uint32_t{1} << 31}), Real(-3.14159));
 }
 #else
 DETENT_TEST(trig, angles_wrap_to_the_range_of_radians) {
-  EXPECT_EQ(radians(Turn{1.0}), 1.0);
-  EXPECT_NEAR(radians(Turn{4.0}), 4.0 - 6.283185307179586, 1e-15);
-  EXPECT_NEAR(radians(Turn{-100000.0}), -100000.0 + 15915 * 6.283185307179586, 1e-10);
+  EXPECT_EQ(radians(Angle{1.0}), 1.0);
+  EXPECT_NEAR(radians(Angle{4.0}), 4.0 - 6.283185307179586, 1e-15);
+  EXPECT_NEAR(radians(Angle{-100000.0}), -100000.0 + 15915 * 6.283185307179586, 1e-10);
   for (int i = -1000; i < 1000; ++i) {
-    const double wrapped = radians(Turn{0.1 * i});
+    const double wrapped = radians(Angle{0.1 * i});
     EXPECT_GE(wrapped, -3.141592653589794);
     EXPECT_LT(wrapped, 3.141592653589794);
   }
@@ -91,7 +91,7 @@ DETENT_TEST(trig, the_angle_of_a_sine_and_cosine_is_the_angle) {
   for (int i = 0; i < 20000; ++i) {
     const Real angle = real_from_unit(samples.uniform(), 1);  // within +-2 rad
     Unit s, c;
-    sine_cosine(turn_from_radians(angle), s, c);
+    sine_cosine(angle_from_radians(angle), s, c);
     const Real back = radians(arc_tangent(s, c));
     EXPECT_LE(abs(back - angle), scale_by_power(Real(1.0), k_unit_step + 3));
   }

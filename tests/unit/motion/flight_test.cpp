@@ -22,33 +22,33 @@ BodyDef ball(double radius, double x, double y) {
 DETENT_TEST(flight, a_projectile_follows_the_parabola) {
   Lab lab({1, 1, 0});
   BodyDef def = ball(0.5, 0, 100);
-  def.velocity = reals(3, 4, -5);
+  def.linear_velocity = reals(3, 4, -5);
   const BodyId id = lab.add(def);
   lab.run(240);
   const double t = 4, g = -9.81;
   const Motion motion = lab.motion(id);
-  EXPECT_NEAR(motion.velocity[1], 4 + g * t, 40 * k_sum_error);
+  EXPECT_NEAR(motion.linear_velocity[1], 4 + g * t, 40 * k_sum_error);
   EXPECT_NEAR(motion.position[0], 3 * t, 100 * k_sum_error + k_position_step);
   EXPECT_NEAR(motion.position[1], 100 + 4 * t + g * t * t / 2, 100 * k_sum_error + k_position_step);
   EXPECT_NEAR(motion.position[2], -5 * t, 100 * k_sum_error + k_position_step);
 }
 
-DETENT_TEST(flight, damping_divides_speed_and_spin_by_one_plus_rate_times_substep_every_substep) {
+DETENT_TEST(flight, damping_divides_speed_and_angular_velocity_by_one_plus_rate_times_substep_every_substep) {
   WorldDef world;
   world.gravity = {0.0, 0.0, 0.0};
   world.substeps = 4;
   Lab lab({1, 1, 0}, world);
   BodyDef def = ball(0.5, 0, 0);
-  def.velocity = reals(8, 0, 0);
-  def.spin = reals(0, 6, 0);
+  def.linear_velocity = reals(8, 0, 0);
+  def.angular_velocity = reals(0, 6, 0);
   def.linear_damping = real(0.5);
   def.angular_damping = real(2);
   const BodyId id = lab.add(def);
   constexpr int k_ticks = 120;
   lab.run(k_ticks);
   const double h = 1.0 / 240;
-  EXPECT_NEAR(lab.motion(id).velocity[0], 8 * pow(1 + 0.5 * h, -4 * k_ticks), 8 * k_sum_error);
-  EXPECT_NEAR(lab.motion(id).spin[1], 6 * pow(1 + 2 * h, -4 * k_ticks), 6 * k_sum_error);
+  EXPECT_NEAR(lab.motion(id).linear_velocity[0], 8 * pow(1 + 0.5 * h, -4 * k_ticks), 8 * k_sum_error);
+  EXPECT_NEAR(lab.motion(id).angular_velocity[1], 6 * pow(1 + 2 * h, -4 * k_ticks), 6 * k_sum_error);
 }
 
 DETENT_TEST(flight, a_kinematic_wall_pushes_what_stands_before_it_and_is_not_slowed) {
@@ -58,7 +58,7 @@ DETENT_TEST(flight, a_kinematic_wall_pushes_what_stands_before_it_and_is_not_slo
   BodyDef wall;
   wall.type = BodyType::kinematic;
   wall.shape = box(reals(0.5, 2, 2));
-  wall.velocity = reals(2, 0, 0);
+  wall.linear_velocity = reals(2, 0, 0);
   const BodyId pusher = lab.add(wall);
   BodyDef crate;
   crate.shape = box(reals(0.5, 0.5, 0.5));
@@ -67,9 +67,9 @@ DETENT_TEST(flight, a_kinematic_wall_pushes_what_stands_before_it_and_is_not_slo
   const BodyId pushed = lab.add(crate);
   lab.run(120);
   EXPECT_NEAR(lab.motion(pusher).position[0], 4, 100 * k_sum_error + k_position_step);
-  EXPECT_EQ(lab.motion(pusher).velocity[0], 2);
+  EXPECT_EQ(lab.motion(pusher).linear_velocity[0], 2);
   // One sweep a substep leaves a part of the push that undid the first overlap.
-  EXPECT_NEAR(lab.motion(pushed).velocity[0], 2, 0.02);
+  EXPECT_NEAR(lab.motion(pushed).linear_velocity[0], 2, 0.02);
   EXPECT_NEAR(lab.motion(pushed).position[0] - lab.motion(pusher).position[0], 1, 0.05);
 }
 

@@ -81,9 +81,9 @@ DETENT_TEST(mover, walks_on_flat_ground_at_its_exact_speed) {
   stage.walk(0);
   ASSERT_TRUE(stage.report.on_ground);
   const Position start = stage.mover.position;
-  const Vec3<Real> way = reals(0.0625, -0.0027, 0.03125);
+  const Vec3<Real> displacement = reals(0.0625, -0.0027, 0.03125);
   for (int i = 0; i < 600; ++i) {
-    ASSERT_OK(move_mover(stage.lab.world, stage.settings, way, stage.mover, stage.report));
+    ASSERT_OK(move_mover(stage.lab.world, stage.settings, displacement, stage.mover, stage.report));
     ASSERT_TRUE(stage.report.on_ground);
     ASSERT_EQ(stage.report.contact_count, 0u);
     ASSERT_EQ(stage.report.queries, 3u);
@@ -127,14 +127,14 @@ DETENT_TEST(mover, slides_along_a_wall) {
 }
 
 DETENT_TEST(mover, stops_in_a_corner) {
-  for (const double turn : {0.0, 0.4}) {
+  for (const double rotation_vector : {0.0, 0.4}) {
     Stage stage;
     stage.add_box(3, 2, 0, 0.5, 2, 40, 0);
     BodyDef side;
     side.type = BodyType::fixed;
     side.shape = box(reals(40, 2, 0.5));
     side.position = position(0, 2, 3);
-    side.rotation = {unit(0), unit(sin(turn / 2)), unit(0), unit(cos(turn / 2))};
+    side.rotation = {unit(0), unit(sin(rotation_vector / 2)), unit(0), unit(cos(rotation_vector / 2))};
     stage.lab.add(side);
     stage.walk_for(150, 3, 3);
     const Mover there = stage.mover;
@@ -267,7 +267,7 @@ DETENT_TEST(mover, is_carried_around_by_a_turning_platform) {
   def.type = BodyType::kinematic;
   def.shape = cylinder(real(4), real(0.5));
   def.position = position(0, -0.5, 0);
-  def.spin = reals(0, 1, 0);
+  def.angular_velocity = reals(0, 1, 0);
   stage.lab.add(def);
   stage.put(3, k_foot, 0);
   stage.walk(0);
@@ -352,7 +352,7 @@ DETENT_TEST(mover, pushes_a_crate_by_no_more_than_its_force) {
       ASSERT_OK(apply_impulse_at_point(stage.lab.world, contact.body, contact.impulse, contact.point));
     }
     stage.lab.run(1);
-    const double now = stage.lab.motion(crate).velocity[0];
+    const double now = stage.lab.motion(crate).linear_velocity[0];
     ASSERT_LE(now - speed, 5 * k_tick * 1.01);
     speed = now;
   }
@@ -406,9 +406,9 @@ DETENT_TEST(mover, refuses_what_is_out_of_range_and_changes_nothing) {
   stage.walk(0);
   const Mover mover = stage.mover;
   const MoverReport report = stage.report;
-  const auto refused = [&](const MoverSettings& settings, const Vec3<Real>& way, Mover from) {
+  const auto refused = [&](const MoverSettings& settings, const Vec3<Real>& displacement, Mover from) {
     const Mover was = from;
-    const Status status = move_mover(stage.lab.world, settings, way, from, stage.report);
+    const Status status = move_mover(stage.lab.world, settings, displacement, from, stage.report);
     EXPECT_TRUE(same(was, from));
     EXPECT_EQ(report.queries, stage.report.queries);
     return status;
@@ -516,8 +516,10 @@ void furnish(Stage& stage, Samples& samples) {
                 : kind == 2 ? capsule(real(a), real(b))
                             : box(reals(a, b, c));
     def.position = position(x, y, z);
-    const double turn = between(samples, -1.5, 1.5), tilt = samples.below(2) == 0 ? 0 : between(samples, -0.6, 0.6);
-    def.rotation = turned_by(turned_by({unit(0), unit(0), unit(0), unit(1)}, reals(0, 0, tilt)), reals(0, turn, 0));
+    const double rotation_vector = between(samples, -1.5, 1.5),
+                 tilt = samples.below(2) == 0 ? 0 : between(samples, -0.6, 0.6);
+    def.rotation =
+        rotated_by(rotated_by({unit(0), unit(0), unit(0), unit(1)}, reals(0, 0, tilt)), reals(0, rotation_vector, 0));
     stage.lab.add(def);
   }
 }
@@ -565,7 +567,7 @@ void be_thrown_at(uint64_t seed, uint32_t& pressed) {
     const double x = between(samples, 2, 4) * (samples.below(2) == 0 ? 1 : -1), y = between(samples, 0.5, 2);
     def.position = position(x, y, between(samples, -4, 4));
     const double speed = between(samples, 0.5, 5), side = between(samples, -1, 1);
-    def.velocity = reals(x > 0 ? -speed : speed, 0, side);
+    def.linear_velocity = reals(x > 0 ? -speed : speed, 0, side);
     stage.lab.add(def);
   }
   double x = 0, z = 0;

@@ -87,7 +87,7 @@ BodyDef any_body(Samples& samples) {
   const uint32_t kind = samples.below(6);
   def.type = kind < 2 ? BodyType::fixed : kind == 2 ? BodyType::kinematic : BodyType::dynamic;
   if (def.type != BodyType::fixed && samples.below(2) == 0)
-    def.velocity = reals_near(any_direction(samples) * uniform(samples, 1, 20));
+    def.linear_velocity = reals_near(any_direction(samples) * uniform(samples, 1, 20));
   if (samples.below(3) == 0) def.filter.category = 2;
   return def;
 }
@@ -121,10 +121,11 @@ std::vector<QueryHit> ask_all(const World& world, const QueryFilter& filter, con
   const StateView<const uint8_t> state = view_of(world);
   std::vector<QueryHit> hits;
   for (BodyId id = next_body(world, {}); id.slot != 0; id = next_body(world, id)) {
-    const BodyTraits& traits = state.traits[id.slot - 1];
-    if ((traits.category & filter.mask) == 0 || (filter.category & traits.mask) == 0 || id == filter.ignore) continue;
+    const BodyProperties& properties = state.properties[id.slot - 1];
+    if ((properties.category & filter.mask) == 0 || (filter.category & properties.mask) == 0 || id == filter.ignore)
+      continue;
     Convex convex;
-    EXPECT_TRUE(body_convex(traits, world.assets, convex));
+    EXPECT_TRUE(body_convex(properties, world.assets, convex));
     QueryHit hit;
     hit.body = id;
     Pose pose;
@@ -143,9 +144,9 @@ Convex convex_of(const Shape& shape) {
     convex.type = ShapeType::sphere;
     return convex;
   }
-  BodyTraits traits{};
-  EXPECT_OK(set_shape_traits(shape, traits, k_table));
-  EXPECT_TRUE(body_convex(traits, k_table, convex));
+  BodyProperties properties{};
+  EXPECT_OK(set_shape_properties(shape, properties, k_table));
+  EXPECT_TRUE(body_convex(properties, k_table, convex));
   return convex;
 }
 
@@ -154,7 +155,7 @@ std::vector<QueryHit> ask_all(const World& world, const CastQuery& query) {
   return ask_all(world, query.filter, [&](const Convex& convex, const Pose& pose, QueryHit& hit) {
     TimeOfImpact impact;
     EXPECT_OK(time_of_impact(convex, {pose, k_none, k_none}, moving,
-                             {{query.position, query.rotation}, query.way, query.turn}, impact));
+                             {{query.position, query.rotation}, query.displacement, query.rotation_vector}, impact));
     EXPECT_NE(impact.outcome, ToiOutcome::undecided);
     hit.fraction = impact.time;
     hit.point = moved(pose.position, impact.point);
@@ -172,7 +173,7 @@ std::vector<QueryHit> ask_all(const World& world, const ClosestQuery& query) {
     hit.distance = closest.distance;
     hit.point = moved(pose.position, closest.point_a);
     hit.normal = closest.normal;
-    return closest.distance <= query.reach;
+    return closest.distance <= query.distance_max;
   });
 }
 
@@ -180,7 +181,7 @@ std::vector<QueryHit> ask_all(const World& world, const BoundsQuery& query) {
   const StateView<const uint8_t> state = view_of(world);
   return ask_all(world, query.filter, [&](const Convex& convex, const Pose& pose, QueryHit& hit) {
     if (convex.type == ShapeType::half_space) return true;
-    const Vec3<Real> half = half_bounds(state.traits[hit.body.slot - 1], matrix_from(pose.rotation));
+    const Vec3<Real> half = half_bounds(state.properties[hit.body.slot - 1], matrix_from(pose.rotation));
     return overlap({moved(pose.position, -half), moved(pose.position, half)}, {query.lower, query.upper});
   });
 }
@@ -227,17 +228,17 @@ void expect_all_answers(Samples& samples, const std::vector<const World*>& world
   cast.shape = any_shape(samples);
   cast.position = any_position(samples, 8);
   cast.rotation = rotation_near(any_rotation(samples));
-  cast.way = reals_near(any_direction(samples) * uniform(samples, 0, 16));
+  cast.displacement = reals_near(any_direction(samples) * uniform(samples, 0, 16));
   cast.filter = filter;
   counts.cast += expect_answers(worlds, query_cast, cast, ask_all(world, cast));
-  cast.turn = reals_near(any_direction(samples) * uniform(samples, 0.5, 5));
+  cast.rotation_vector = reals_near(any_direction(samples) * uniform(samples, 0.5, 5));
   counts.cast += expect_answers(worlds, query_cast, cast, ask_all(world, cast));
 
-  const RayQuery ray = {any_position(samples, 8), cast.way, filter};
+  const RayQuery ray = {any_position(samples, 8), cast.displacement, filter};
   CastQuery point;
   point.shape = sphere(Real(0.0));
   point.position = ray.origin;
-  point.way = ray.way;
+  point.displacement = ray.displacement;
   point.filter = filter;
   counts.ray += expect_answers(worlds, query_ray, ray, ask_all(world, point));
   counts.ray += expect_answers(worlds, query_cast, point, ask_all(world, point));
@@ -246,10 +247,10 @@ void expect_all_answers(Samples& samples, const std::vector<const World*>& world
   closest.shape = samples.below(3) == 0 ? sphere(Real(0.0)) : cast.shape;
   closest.position = any_position(samples, 4);
   closest.rotation = cast.rotation;
-  closest.reach = real_near(uniform(samples, 0, 4));
+  closest.distance_max = real_near(uniform(samples, 0, 4));
   closest.filter = filter;
   counts.closest += expect_answers(worlds, query_closest, closest, ask_all(world, closest));
-  closest.reach = Real(0.0);
+  closest.distance_max = Real(0.0);
   const OverlapQuery overlapping = {closest.shape, closest.position, closest.rotation, filter};
   counts.overlap += expect_answers(worlds, query_overlap, overlapping, ask_all(world, closest));
 
@@ -335,7 +336,7 @@ DETENT_TEST(query, what_is_grazed_within_the_tolerance_is_never_ruled_out_by_its
     const double height = (shape.type == ShapeType::box ? thin : size) + half;
     const double offset = uniform(samples, -2, 4) * 1e-6 * (size + top);
     query.position = position_near({{-20, height + offset, uniform(samples, -0.5, 0.5) * thin}});
-    query.way = reals_near({{uniform(samples, 10, 40), 0, 0}});
+    query.displacement = reals_near({{uniform(samples, 10, 40), 0, 0}});
     const std::vector<QueryHit> expected = ask_all(place.world, query);
     expect_answers({&place.world}, query_cast, query, expected);
     (expected.empty() ? misses : hits) += 1;
@@ -367,8 +368,8 @@ DETENT_TEST(query, an_undecided_answer_does_not_depend_on_what_the_world_keeps_e
       cast.shape = box(reals_near({{0.01, 1, 0.01}}));
       cast.position = any_position(samples, 8);
       cast.rotation = rotation_near(any_rotation(samples));
-      cast.way = reals_near(any_direction(samples) * uniform(samples, 0, 16));
-      cast.turn = reals_near(any_direction(samples) * uniform(samples, 1000, 30000));
+      cast.displacement = reals_near(any_direction(samples) * uniform(samples, 0, 16));
+      cast.rotation_vector = reals_near(any_direction(samples) * uniform(samples, 1000, 30000));
       const Answer all = ask(query_cast, kept.world, cast), first = ask(query_cast, kept.world, cast, false);
       EXPECT_EQ(all.report.digest, ask(query_cast, forgets.world, cast).report.digest);
       EXPECT_EQ(first.report.digest, ask(query_cast, forgets.world, cast, false).report.digest);
@@ -417,10 +418,10 @@ uint64_t digest_of_fixed_answers() {
     cast.rotation = rotations[samples.below(4)];
     const Vector from = place(), to = place();
     cast.position = position_near(from);
-    cast.way = reals_near(to - from);
-    if (i % 2 == 0) cast.turn = reals_near(place() * 0.25);
+    cast.displacement = reals_near(to - from);
+    if (i % 2 == 0) cast.rotation_vector = reals_near(place() * 0.25);
     sum = sum * 31 + ask(query_cast, world.world, cast).report.digest;
-    sum = sum * 31 + ask(query_ray, world.world, RayQuery{cast.position, cast.way}, i % 4 != 0).report.digest;
+    sum = sum * 31 + ask(query_ray, world.world, RayQuery{cast.position, cast.displacement}, i % 4 != 0).report.digest;
     sum = sum * 31 +
           ask(query_overlap, world.world, OverlapQuery{cast.shape, cast.position, cast.rotation}).report.digest;
     sum = sum * 31 + ask(query_closest, world.world, ClosestQuery{cast.shape, cast.position, cast.rotation, Real(2.5)})
@@ -449,7 +450,7 @@ Place make_row(uint32_t count) {
 }
 RayQuery ray_along(double length) {
   RayQuery ray;
-  ray.way = reals_near({{length, 0, 0}});
+  ray.displacement = reals_near({{length, 0, 0}});
   return ray;
 }
 
@@ -607,7 +608,7 @@ DETENT_TEST(query, a_plane_is_hit_however_far_its_position_is) {
   for (const double far : {1e3, 5e4, 1e5, 1e8}) {
     RayQuery ray;
     ray.origin = position_near({{far, 10, -far}});
-    ray.way = reals_near({{5, -20, 0}});
+    ray.displacement = reals_near({{5, -20, 0}});
     const Answer answer = ask(query_ray, place.world, ray);
     ASSERT_EQ(answer.hits.size(), 1u) << far;
     EXPECT_FALSE(answer.hits[0].undecided);
@@ -626,7 +627,7 @@ DETENT_TEST(query, what_is_out_of_range_is_refused_and_writes_nothing) {
   report.hits = 77;
   const QueryHits out = {&hit, 1};
   RayQuery ray;
-  ray.way.x = Real(16384.0);
+  ray.displacement.x = Real(16384.0);
   EXPECT_EQ(query_ray(place.world, ray, out, report), Status::out_of_range);
   CastQuery cast;
   cast.shape = half_space();
@@ -639,12 +640,12 @@ DETENT_TEST(query, what_is_out_of_range_is_refused_and_writes_nothing) {
   cast.rotation.w = Unit(0.5);
   EXPECT_EQ(query_cast(place.world, cast, out, report), Status::not_normalised);
   cast.rotation.w = Unit(1.0);
-  cast.turn = {Real(60000.0), Real(60000.0), Real(0.0)};
+  cast.rotation_vector = {Real(60000.0), Real(60000.0), Real(0.0)};
   EXPECT_EQ(query_cast(place.world, cast, out, report), Status::out_of_range);
   ClosestQuery closest;
-  closest.reach = Real(-1.0);
+  closest.distance_max = Real(-1.0);
   EXPECT_EQ(query_closest(place.world, closest, out, report), Status::out_of_range);
-  closest.reach = Real(16385.0);
+  closest.distance_max = Real(16385.0);
   EXPECT_EQ(query_closest(place.world, closest, out, report), Status::out_of_range);
   OverlapQuery within;
   within.rotation = {Unit(0.0), Unit(0.0), Unit(0.0), Unit(0.0)};
@@ -653,10 +654,10 @@ DETENT_TEST(query, what_is_out_of_range_is_refused_and_writes_nothing) {
   bounds.lower.x = Coord(1.0);
   EXPECT_EQ(query_bounds(place.world, bounds, out, report), Status::out_of_range);
 #if !DETENT_FIXED
-  ray.way.x = Real(NAN);
+  ray.displacement.x = Real(NAN);
   EXPECT_EQ(query_ray(place.world, ray, out, report), Status::out_of_range);
-  cast.turn = k_none;
-  cast.way.y = Real(NAN);
+  cast.rotation_vector = k_none;
+  cast.displacement.y = Real(NAN);
   EXPECT_EQ(query_cast(place.world, cast, out, report), Status::out_of_range);
 #endif
   EXPECT_EQ(hit.body.slot, 77u);
@@ -671,8 +672,8 @@ DETENT_TEST(query, a_ray_over_a_thousand_resting_bodies_looks_at_few_of_them) {
   const StateView<uint8_t> state = view_of(place.world);
   const StepCacheView cache = cache_of(place.world.block, state.layout, {1025, 8, 2});
   uint32_t looks = 0, found = 0;
-  const Vec64 none = {0, 0, 0}, way = {int64_t{90} << 46, 0, int64_t{80} << 46};
-  const SweptBox box_there(position_near({{-1, 0.5, -1}}), none, way, 0);
+  const Vec64 none = {0, 0, 0}, displacement = {int64_t{90} << 46, 0, int64_t{80} << 46};
+  const SweptBox box_there(position_near({{-1, 0.5, -1}}), none, displacement, 0);
   cache.tree.walk(
       [&](const Bounds& bounds) {
         ++looks;

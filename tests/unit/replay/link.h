@@ -12,7 +12,7 @@ inline namespace DETENT_NAMESPACE {
 /// What one machine sends another: inputs from the first that the other lacks on, and how its states were.
 struct Packet {
   uint32_t player = 0;  ///< whose they are
-  uint64_t wanted = 0;  ///< the first tick of which the sender lacks the receiver's input
+  uint64_t target = 0;  ///< the first tick of which the sender lacks the receiver's input
   uint64_t first = 0;   ///< the tick of the first input
   std::vector<uint8_t> inputs;
   std::vector<TickChecksum> checksums;

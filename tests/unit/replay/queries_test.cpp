@@ -27,8 +27,8 @@ void ask_all(Recorder& recorder) {
   EXPECT_EQ(asked.report.dropped, 1u);
   CastQuery cast;
   cast.position = k_above;
-  cast.way = k_down;
-  cast.turn.x = Real(3.0);
+  cast.displacement = k_down;
+  cast.rotation_vector.x = Real(3.0);
   cast.shape = box({Real(0.25), Real(0.5), Real(0.25)});
   EXPECT_EQ(recorder.query_cast(cast, asked.room(), asked.report), Status::ok);
   EXPECT_EQ(asked.report.hits, 1u);
@@ -43,7 +43,7 @@ void ask_all(Recorder& recorder) {
   EXPECT_EQ(recorder.query_closest(closest, asked.room(), asked.report), Status::ok);
   EXPECT_EQ(asked.report.hits, 1u);
   EXPECT_EQ(asked.hit[0].body.slot, 2u);
-  ray.way.x = Real(20000.0);
+  ray.displacement.x = Real(20000.0);
   EXPECT_EQ(recorder.query_ray(ray, asked.room(), asked.report), Status::out_of_range) << "and is not recorded";
 }
 
@@ -140,11 +140,12 @@ void expect_round_trip(Command command) {
 DETENT_TEST(replay_queries, every_query_survives_writing_and_reading) {
   const Position place = {Coord(-100.5), Coord(0.0), Coord(20000.25)}, other = {Coord(1.0), Coord(2.0), Coord(3.5)};
   const Quat rotation = {Unit(0.0), Unit(-0.6), Unit(0.0), Unit(0.8)};
-  const Vec3<Real> way = {Real(1.25), Real(-2.5), Real(0.0)}, turn = {Real(3.0), Real(0.0), Real(0.5)};
+  const Vec3<Real> displacement = {Real(1.25), Real(-2.5), Real(0.0)},
+                   rotation_vector = {Real(3.0), Real(0.0), Real(0.5)};
   const QueryFilter filter = {3, 0x80000001, {7, 8}};
   const Shape shape = rounded(hull(5), Real(0.375));
-  expect_round_trip(RayCommand{{place, way, filter, true}, 0xfedcba9876543210u});
-  expect_round_trip(CastCommand{{shape, place, rotation, way, turn, filter, true}, 1});
+  expect_round_trip(RayCommand{{place, displacement, filter, true}, 0xfedcba9876543210u});
+  expect_round_trip(CastCommand{{shape, place, rotation, displacement, rotation_vector, filter, true}, 1});
   expect_round_trip(OverlapCommand{{shape, place, rotation, filter, true}, 2});
   expect_round_trip(BoundsCommand{{place, other, filter, true}, 3});
   expect_round_trip(ClosestCommand{{shape, place, rotation, Real(2.5), filter, true}, 4});

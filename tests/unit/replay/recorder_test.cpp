@@ -154,7 +154,7 @@ DETENT_TEST(recorder, a_negative_zero_replays) {
   Recording recording(OwnedWorld::def_of({1, 0, 0}));
   EXPECT_EQ(recording.recorder.begin(), Status::ok);
   BodyDef def;
-  def.velocity.x = Real(-0.0);
+  def.linear_velocity.x = Real(-0.0);
   def.shape.half_length = Real(-0.0);
   BodyId id;
   EXPECT_EQ(recording.recorder.create_body(def, id), Status::ok);

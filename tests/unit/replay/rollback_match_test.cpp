@@ -19,11 +19,11 @@ struct Machine {
   Random random;
   uint8_t held[k_arena_input_bytes] = {5, 0};
   Bytes given;                   ///< all local inputs
-  std::vector<uint64_t> wanted;  ///< by each other machine
+  std::vector<uint64_t> target;  ///< by each other machine
   uint32_t waits = 0, desyncs_told = 0;
 
   Machine(uint32_t players, uint32_t own, uint64_t seed)
-      : arena(players), player(own), random(seed * 16 + own), wanted(players) {
+      : arena(players), player(own), random(seed * 16 + own), target(players) {
     RollbackDef def;
     def.players = players;
     def.local = 1u << own;
@@ -39,7 +39,7 @@ struct Machine {
   static uint32_t byte_count(const std::vector<uint64_t>& words) { return static_cast<uint32_t>(words.size() * 8); }
 
   void take(const Packet& packet) {
-    if (packet.wanted > wanted[packet.player]) wanted[packet.player] = packet.wanted;
+    if (packet.target > target[packet.player]) target[packet.player] = packet.target;
     const size_t count = packet.inputs.size() / k_arena_input_bytes;
     for (size_t i = 0; i < count; ++i) {
       const Status status = session.add_input(packet.player, packet.first + i, &packet.inputs[i * k_arena_input_bytes]);
@@ -55,8 +55,8 @@ struct Machine {
   Packet packet_for(uint32_t other) {
     Packet packet;
     packet.player = player;
-    packet.wanted = session.next_input(other);
-    packet.first = wanted[other];
+    packet.target = session.next_input(other);
+    packet.first = target[other];
     for (uint64_t tick = packet.first; tick < session.next_input(player); ++tick) {
       uint8_t input[k_arena_input_bytes];
       EXPECT_OK(session.get_input(player, tick, input));

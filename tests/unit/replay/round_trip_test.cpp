@@ -54,8 +54,8 @@ DETENT_TEST(replay_round_trip, every_command_survives_writing_and_reading) {
   create.def.type = BodyType::kinematic;
   create.def.position = k_position;
   create.def.rotation = k_rotation;
-  create.def.velocity = k_reals;
-  create.def.spin = k_more_reals;
+  create.def.linear_velocity = k_reals;
+  create.def.angular_velocity = k_more_reals;
   create.def.shape = capsule(Real(0.75), Real(2.0));
   create.def.material = {Real(0.25), Real(0.5), Real(0.125), RestitutionRule::smaller};
   create.def.density = Scaled(7850.0);
@@ -64,7 +64,7 @@ DETENT_TEST(replay_round_trip, every_command_survives_writing_and_reading) {
   create.def.angular_damping = Real(1.5);
   create.def.gravity_scale = Real(-2.0);
   create.def.user_data = 0xdeadbeef;
-  create.def.turn_locks = 6;
+  create.def.rotation_locks = 6;
   create.def.sensor = true;
   create.def.filter = {6, 0x80000001, -7, 3};
   expect_round_trip(create);
@@ -110,7 +110,7 @@ DETENT_TEST(replay_round_trip, every_command_survives_writing_and_reading) {
   expect_round_trip(SetMaterial{k_id, {Real(0.25), Real(0.5), Real(0.125), RestitutionRule::smaller}});
   expect_round_trip(SetDamping{k_id, Real(0.5), Real(0.25)});
   expect_round_trip(SetGravityScale{k_id, Real(-2.0)});
-  expect_round_trip(SetTurnLocks{k_id, 5});
+  expect_round_trip(SetRotationLocks{k_id, 5});
   expect_round_trip(SetSensor{k_id, true});
   WorldDef def;
   def.gravity = k_reals;

@@ -7,12 +7,12 @@ namespace {
 
 /// half_bounds against the farthest points of the solid along the world's axes: it contains them, and by no more than
 /// the stated rounding. In floats, where nothing is stated, 16 steps.
-void expect_tight(const BodyTraits& traits, const Quat& rotation) {
-  const double error = unit_of(traits) * (DETENT_FIXED ? 0x1p-28 : unit_steps(16));
-  OracleBody body = {{}, traits};
+void expect_tight(const BodyProperties& properties, const Quat& rotation) {
+  const double error = unit_of(properties) * (DETENT_FIXED ? 0x1p-28 : unit_steps(16));
+  OracleBody body = {{}, properties};
   body.pose.rotation = rotation;
   const Solid solid = solid_of(body, body.pose.position);
-  const Vec3<Real> half = half_bounds(traits, matrix_from(rotation));
+  const Vec3<Real> half = half_bounds(properties, matrix_from(rotation));
   const double given[3] = {real_to_host(half.x), real_to_host(half.y), real_to_host(half.z)};
   for (int i = 0; i < 3; ++i) {
     Vector world_axis = {{0, 0, 0}};
@@ -26,9 +26,9 @@ DETENT_TEST(bounds, contain_the_shape_and_are_tight) {
   for (uint32_t i = 0; i < detent_oracle::rounds(4000); ++i) {
     const double size = exp2(uniform(samples, -14, 10)), aspect = exp2(uniform(samples, 0, 12));
     const Quat rotation = rotation_near(any_rotation(samples));
-    expect_tight(sphere_traits(size), rotation);
-    expect_tight(capsule_traits(size, fmin(size * aspect, 16384.0)), rotation);
-    expect_tight(box_traits({{size, fmin(size * aspect, 8192.0), fmin(size * sqrt(aspect), 8192.0)}}), rotation);
+    expect_tight(sphere_properties(size), rotation);
+    expect_tight(capsule_properties(size, fmin(size * aspect, 16384.0)), rotation);
+    expect_tight(box_properties({{size, fmin(size * aspect, 8192.0), fmin(size * sqrt(aspect), 8192.0)}}), rotation);
   }
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 using detent_compounds::cooked;
 using detent_compounds::Parts;
-using detent_surfaces::Bytes;
+using detent_terrains::Bytes;
 
 Asset asset_of(const Bytes& bytes) { return {bytes.data(), bytes.count()}; }
 
@@ -75,7 +75,7 @@ DETENT_TEST(compound, mass_is_that_of_its_parts) {
   const double mean = (xx + yy) / 2, off = sqrt(square((xx - yy) / 2) + xy * xy);
   double expected[3] = {mean - off + zz, mean + off + zz, 2 * mean}, found[3];
   const double unit = ldexp(1, compound.exponent());
-  for (uint32_t axis = 0; axis < 3; ++axis) found[axis] = unit * unit / number(compound.gyration(axis));
+  for (uint32_t axis = 0; axis < 3; ++axis) found[axis] = unit * unit / number(compound.inverse_inertia(axis));
   std::sort(found, found + 3);
   std::sort(expected, expected + 3);
   for (int k = 0; k < 3; ++k) EXPECT_NEAR(found[k], expected[k], 1e-7 * expected[k]) << k;
@@ -98,7 +98,7 @@ DETENT_TEST(compound, in_the_source_frame_has_its_centre_where_the_points_have_t
   const double yy = (m1 * (square(0.25) / 3 + square(0.25)) + m2 * (square(0.75) / 3 + square(1.25))) / m;
   const double zz = square(0.5) / 3, expected[3] = {yy + zz, zz + xx, xx + yy};
   for (uint32_t axis = 0; axis < 3; ++axis)
-    EXPECT_NEAR(unit * unit / number(compound.gyration(axis)), expected[axis], 1e-7) << axis;
+    EXPECT_NEAR(unit * unit / number(compound.inverse_inertia(axis)), expected[axis], 1e-7) << axis;
 }
 
 DETENT_TEST(compound, mass_of_a_capsule_is_the_standard_one) {
@@ -110,9 +110,9 @@ DETENT_TEST(compound, mass_of_a_capsule_is_the_standard_one) {
   const double along = (cylinder * r * r / 2 + balls * 0.4 * r * r) / m;
   const double across = (cylinder * (r * r / 4 + h * h / 3) + balls * (0.4 * r * r + h * h + 0.75 * r * h)) / m;
   const double unit = ldexp(1, compound.exponent());
-  EXPECT_NEAR(unit * unit / number(compound.gyration(1)), along, 1e-8);
-  EXPECT_NEAR(unit * unit / number(compound.gyration(0)), across, 1e-8);
-  EXPECT_NEAR(unit * unit / number(compound.gyration(2)), across, 1e-8);
+  EXPECT_NEAR(unit * unit / number(compound.inverse_inertia(1)), along, 1e-8);
+  EXPECT_NEAR(unit * unit / number(compound.inverse_inertia(0)), across, 1e-8);
+  EXPECT_NEAR(unit * unit / number(compound.inverse_inertia(2)), across, 1e-8);
 }
 
 DETENT_TEST(compound, every_flipped_bit_is_refused) {
@@ -126,7 +126,8 @@ DETENT_TEST(compound, every_flipped_bit_is_refused) {
   }
 }
 
-/// Under a right checksum only what is not checked against the children gets in: volume, gyration, origin, rotation.
+/// Under a right checksum only what is not checked against the children gets in: volume, inverse inertia, origin,
+/// rotation.
 DETENT_TEST(compound, every_flipped_bit_under_a_right_checksum_is_refused_or_harmless) {
   Bytes bytes = cooked(mixed());
   uint32_t let_in = 0;

@@ -1,7 +1,7 @@
 #pragma once
 #include "ports/host/cook/cook_compound.h"
 #include "tests/support/test.h"
-#include "tests/unit/shape/surfaces.h"
+#include "tests/unit/shape/terrains.h"
 
 /// Small compounds for tests, and their cooked bytes.
 namespace detent_compounds {
@@ -35,10 +35,10 @@ inline Parts jack(double half, double radius) {
           capsule({0, 0, -half}, {0, 0, half}, radius)};
 }
 
-inline detent_surfaces::Bytes cooked(const Parts& parts) {
+inline detent_terrains::Bytes cooked(const Parts& parts) {
   const detent_cook::CompoundResult result = detent_cook::cook_compound(parts);
   EXPECT_EQ(result.reason, "");
-  return detent_surfaces::Bytes(result.bytes);
+  return detent_terrains::Bytes(result.bytes);
 }
 
 }  // namespace detent_compounds

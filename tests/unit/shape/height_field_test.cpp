@@ -3,17 +3,17 @@
 #include <set>
 
 #include "base/crc.h"
-#include "shape/surface.h"
+#include "shape/terrain.h"
 #include "tests/oracle/effort.h"
 #include "tests/support/test.h"
 #include "tests/unit/math/samples.h"
-#include "tests/unit/shape/surfaces.h"
+#include "tests/unit/shape/terrains.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-using namespace detent_surfaces;
+using namespace detent_terrains;
 
 Asset asset_of(const Bytes& bytes) { return {bytes.data(), bytes.count()}; }
 
@@ -54,14 +54,14 @@ DETENT_TEST(height_field, neighbours_are_mutual_and_edges_alike_from_both_sides)
   uint32_t shared = 0;
   for (uint32_t i = 0; i < field.triangle_count(); ++i) {
     if ((field.cell(i / 2 % 11, i / 2 / 11) & k_cell_hole) != 0) continue;
-    const SurfaceTriangle t = field.triangle(i);
+    const TerrainTriangle t = field.triangle(i);
     EXPECT_GT(area_vector(t.corner[0], t.corner[1], t.corner[2]).y, 0);
     for (uint32_t k = 0; k < 3; ++k) {
       if (t.neighbour[k] == k_no_triangle) {
         EXPECT_EQ(t.kind[k], EdgeKind::open);
         continue;
       }
-      const SurfaceTriangle other = field.triangle(t.neighbour[k]);
+      const TerrainTriangle other = field.triangle(t.neighbour[k]);
       uint32_t back = 3;
       for (uint32_t n = 0; n < 3; ++n) {
         if (other.corner[n] == t.corner[(k + 1) % 3] && other.corner[(n + 1) % 3] == t.corner[k]) back = n;
@@ -94,7 +94,7 @@ DETENT_TEST(height_field, tree_finds_what_a_search_through_all_triangles_finds) 
     EXPECT_LE(asked, 500 + 4 * found.size()) << "nodes that the box does not meet are skipped";
     for (uint32_t i = 0; i < field.triangle_count(); ++i) {
       if ((field.cell(i / 2 % 40, i / 2 / 40) & k_cell_hole) != 0) continue;
-      const SurfaceTriangle t = field.triangle(i);
+      const TerrainTriangle t = field.triangle(i);
       if (meet(box, bounds_of(t.corner[0], t.corner[1], t.corner[2]))) right.insert(i);
     }
     EXPECT_EQ(found, right);
@@ -119,7 +119,7 @@ DETENT_TEST(height_field, every_flipped_bit_is_refused_and_under_a_right_checksu
     const GridBox all = field.bounds();
     field.walk([&](const GridBox& box) { return meet(box, all); },
                [&](uint32_t i) {
-                 const SurfaceTriangle t = field.triangle(i);
+                 const TerrainTriangle t = field.triangle(i);
                  for (const uint32_t other : t.neighbour)
                    EXPECT_TRUE(other == k_no_triangle || other < field.triangle_count());
                });

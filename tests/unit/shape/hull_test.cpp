@@ -142,11 +142,11 @@ DETENT_TEST(hull, of_a_tetrahedron_reads_as_it_was_cooked) {
   EXPECT_NEAR(volume, 1.0 / 6, 1e-8);
   // Second moments about the centre: 3/80 along the axes of the source, -1/80 between them: 1/80 along (1, 1, 1) and
   // 4/80 across.
-  double gyration[3];
+  double inverse_inertia[3];
   for (uint32_t axis = 0; axis < 3; ++axis)
-    gyration[axis] = hull.gyration(axis).mantissa * exp2(hull.gyration(axis).exponent);
+    inverse_inertia[axis] = hull.inverse_inertia(axis).mantissa * exp2(hull.inverse_inertia(axis).exponent);
   int along_diagonal = 0;
-  for (const double value : gyration) {
+  for (const double value : inverse_inertia) {
     if (fabs(value - 10) < 1e-7)
       ++along_diagonal;
     else
@@ -256,7 +256,7 @@ DETENT_TEST(hull, with_a_hostile_header_and_a_right_checksum_is_refused_or_keeps
       if (bytes.read(hull) != Status::ok) continue;
       EXPECT_EQ(broken_promise(hull, samples), "") << at << " " << value;
       const bool free = at == k_hull_checksum_at || at == k_hull_exponent_at ||
-                        (at >= k_hull_gyration_at && at < k_hull_rotation_at + 16);
+                        (at >= k_hull_inverse_inertia_at && at < k_hull_rotation_at + 16);
       EXPECT_TRUE(free) << "accepted " << value << " at " << at;
     }
   }
@@ -403,23 +403,23 @@ DETENT_TEST(hull, with_a_right_checksum_but_wrong_contents_is_refused) {
   expect_corrupt("padding", [](Bytes& bytes, const HullLayout& at) { bytes.put(at.y + 4 * 15, 0); });
   expect_corrupt("an infinite origin",
                  [](Bytes& bytes, const HullLayout&) { bytes.put(k_hull_origin_at + 4, 0x7ff00000); });
-  expect_corrupt("no gyration", [](Bytes& bytes, const HullLayout&) {
-    bytes.put(k_hull_gyration_at + 8, 0);
-    bytes.put(k_hull_gyration_at + 12, 0);
+  expect_corrupt("no inverse_inertia", [](Bytes& bytes, const HullLayout&) {
+    bytes.put(k_hull_inverse_inertia_at + 8, 0);
+    bytes.put(k_hull_inverse_inertia_at + 12, 0);
   });
-  expect_corrupt("a gyration whose mantissa is not canonical",
-                 [](Bytes& bytes, const HullLayout&) { bytes.put(k_hull_gyration_at, (1u << 30) - 1); });
-  expect_corrupt("a gyration less than any of this size", [](Bytes& bytes, const HullLayout&) {
-    bytes.put(k_hull_gyration_at + 4, static_cast<uint32_t>(-31));
+  expect_corrupt("an inverse inertia whose mantissa is not canonical",
+                 [](Bytes& bytes, const HullLayout&) { bytes.put(k_hull_inverse_inertia_at, (1u << 30) - 1); });
+  expect_corrupt("an inverse inertia less than any of this size", [](Bytes& bytes, const HullLayout&) {
+    bytes.put(k_hull_inverse_inertia_at + 4, static_cast<uint32_t>(-31));
   });
   expect_corrupt("a rotation of another length",
                  [](Bytes& bytes, const HullLayout&) { bytes.put(k_hull_rotation_at + 12, 1u << 29); });
   expect_corrupt("an unknown frame", [](Bytes& bytes, const HullLayout&) { bytes.put(k_hull_frame_at, 3); });
   expect_corrupt("the source's frame, but turned", [](Bytes& bytes, const HullLayout&) {
     bytes.put(k_hull_frame_at, 2);
-    memset(bytes.data() + k_hull_gyration_at, 0, k_hull_rotation_at - k_hull_gyration_at);
+    memset(bytes.data() + k_hull_inverse_inertia_at, 0, k_hull_rotation_at - k_hull_inverse_inertia_at);
   });
-  expect_corrupt("the source's frame, but moved and with gyration", [](Bytes& bytes, const HullLayout&) {
+  expect_corrupt("the source's frame, but moved and with inverse_inertia", [](Bytes& bytes, const HullLayout&) {
     bytes.put(k_hull_frame_at, 2);
     memset(bytes.data() + k_hull_rotation_at, 0, 12);
     bytes.put(k_hull_rotation_at + 12, 1u << 30);

@@ -3,10 +3,10 @@
 
 #include "ports/host/cook/read_mesh.h"
 #include "tests/support/data_file.h"
-#include "tests/unit/shape/surfaces.h"
+#include "tests/unit/shape/terrains.h"
 
 /// Real levels, of the public data sets under $DETENT_DATA.
-namespace detent_surfaces {
+namespace detent_terrains {
 
 inline constexpr const char* k_levels[] = {"building.obj", "stairs.obj", "conveyor.obj", "test_map01.obj",
                                            "voxel_mesh_01.obj"};
@@ -21,4 +21,4 @@ inline bool read_level(const char* name, Source& source) {
   return true;
 }
 
-}  // namespace detent_surfaces
+}  // namespace detent_terrains

@@ -6,9 +6,9 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 constexpr double k_pi = 3.14159265358979323846;
-// What shape_traits.h states; in floats, where it states nothing, 16 roundings.
+// What shape_properties.h states; in floats, where it states nothing, 16 roundings.
 constexpr double k_volume_error = DETENT_FIXED ? 0x1p-26 : 16 * (sizeof(Real) == 4 ? 0x1p-24 : 0x1p-52);
-constexpr double k_gyration_error = DETENT_FIXED ? 0x1p-24 : 16 * (sizeof(Real) == 4 ? 0x1p-24 : 0x1p-52);
+constexpr double k_inverse_inertia_error = DETENT_FIXED ? 0x1p-24 : 16 * (sizeof(Real) == 4 ? 0x1p-24 : 0x1p-52);
 
 /// The integral of a polynomial of degree 5 or less, by Gauss's three points.
 template <class Function>
@@ -42,24 +42,25 @@ MassProperties of_rectangles(const Vector& half) {
 }
 
 struct Worst {
-  double volume = 0, gyration = 0;
+  double volume = 0, inverse_inertia = 0;
 
-  void take(const BodyTraits& shape, const MassProperties& right) {
-    BodyTraits traits = shape;
-    set_gyration(traits);
-    volume = fmax(volume, fabs(scaled_to_host(shape_volume(traits)) / right.volume - 1));
-    const double unit = unit_of(traits);
+  void take(const BodyProperties& shape, const MassProperties& right) {
+    BodyProperties properties = shape;
+    set_inverse_inertia(properties);
+    volume = fmax(volume, fabs(scaled_to_host(shape_volume(properties)) / right.volume - 1));
+    const double unit = unit_of(properties);
     for (int i = 0; i < 3; ++i) {
-      const double gyration_right = fmin(unit * unit / right.inertia[i], scaled_to_host(k_gyration_max));
-      gyration = fmax(gyration, fabs(scaled_to_host(traits.gyration[i]) / gyration_right - 1));
+      const double inverse_inertia_right = fmin(unit * unit / right.inertia[i], scaled_to_host(k_inverse_inertia_max));
+      inverse_inertia =
+          fmax(inverse_inertia, fabs(scaled_to_host(properties.inverse_inertia[i]) / inverse_inertia_right - 1));
     }
   }
   void expect_within_bounds() const {
     ::testing::Test::RecordProperty("volume_error", ::testing::PrintToString(volume));
-    ::testing::Test::RecordProperty("gyration_error", ::testing::PrintToString(gyration));
+    ::testing::Test::RecordProperty("inverse_inertia_error", ::testing::PrintToString(inverse_inertia));
     EXPECT_LE(volume, k_volume_error);
-    EXPECT_LE(gyration, k_gyration_error);
-    EXPECT_GT(gyration, 0) << "nothing was measured";
+    EXPECT_LE(inverse_inertia, k_inverse_inertia_error);
+    EXPECT_GT(inverse_inertia, 0) << "nothing was measured";
   }
 };
 
@@ -69,7 +70,7 @@ DETENT_TEST(mass, of_spheres_and_capsules_of_every_size_agrees_with_a_sum_of_dis
   for (uint32_t i = 0; i < detent_oracle::rounds(4000); ++i) {
     const double radius = exp2(uniform(samples, -14, 13.9));
     const double half_length = i % 8 == 0 ? 0 : fmin(radius * exp2(uniform(samples, -13, 13)), 16384.0);
-    const BodyTraits ball = sphere_traits(radius), pill = capsule_traits(radius, half_length);
+    const BodyProperties ball = sphere_properties(radius), pill = capsule_properties(radius, half_length);
     const Vector ball_size = host(ball.size) * unit_of(ball), pill_size = host(pill.size) * unit_of(pill);
     worst.take(ball, of_discs(ball_size[0], 0));
     worst.take(pill, of_discs(pill_size[0], pill_size[1]));
@@ -85,8 +86,8 @@ DETENT_TEST(mass, of_boxes_of_every_size_and_aspect_agrees_with_a_sum_of_rectang
     Vector half;
     for (int k = 0; k < 3; ++k) half[k] = fmin(smallest * exp2(uniform(samples, 0, 13)), 16384.0);
     half[static_cast<int>(i % 3)] = smallest;
-    const BodyTraits traits = box_traits(half);
-    worst.take(traits, of_rectangles(host(traits.size) * unit_of(traits)));
+    const BodyProperties properties = box_properties(half);
+    worst.take(properties, of_rectangles(host(properties.size) * unit_of(properties)));
   }
   worst.expect_within_bounds();
 }
@@ -96,18 +97,20 @@ DETENT_TEST(mass, size_is_kept_to_half_a_step_of_the_bodys_unit_of_length) {
   for (uint32_t i = 0; i < detent_oracle::rounds(1000); ++i) {
     const double smallest = exp2(uniform(samples, -14, 13));
     const Vec3<Real> half = reals_near({{smallest, fmin(smallest * exp2(uniform(samples, 0, 13)), 16384.0), smallest}});
-    const BodyTraits traits = traits_of(box(half));
-    EXPECT_NEAR(host(traits.size.x) * unit_of(traits), real_to_host(half.x), unit_of(traits) * unit_steps(0.5));
-    EXPECT_NEAR(host(traits.size.y) * unit_of(traits), real_to_host(half.y), unit_of(traits) * unit_steps(0.5));
-    EXPECT_GE(host(traits.bounding_radius), 0.5);
-    EXPECT_LE(host(traits.bounding_radius), 1.0);
-    EXPECT_EQ(real_to_host(shape_extent(traits)), ldexp(host(traits.size.x), traits.size_exponent + 1));
+    const BodyProperties properties = properties_of(box(half));
+    EXPECT_NEAR(host(properties.size.x) * unit_of(properties), real_to_host(half.x),
+                unit_of(properties) * unit_steps(0.5));
+    EXPECT_NEAR(host(properties.size.y) * unit_of(properties), real_to_host(half.y),
+                unit_of(properties) * unit_steps(0.5));
+    EXPECT_GE(host(properties.bounding_radius), 0.5);
+    EXPECT_LE(host(properties.bounding_radius), 1.0);
+    EXPECT_EQ(real_to_host(shape_extent(properties)), ldexp(host(properties.size.x), properties.size_exponent + 1));
   }
 }
 
 DETENT_TEST(mass, shapes_are_allowed_up_to_the_limits_of_size_and_aspect_and_no_further) {
-  BodyTraits traits{};
-  const auto allowed = [&](const Shape& shape) { return set_shape_traits(shape, traits) == Status::ok; };
+  BodyProperties properties{};
+  const auto allowed = [&](const Shape& shape) { return set_shape_properties(shape, properties) == Status::ok; };
   for (int power = -14; power <= 13; ++power) {
     const double size = ldexp(1.0, power), longest = fmin(size * 0x1p14, 0x1p14);
     EXPECT_TRUE(allowed(box(reals_near({{size, size, size}})))) << size;
@@ -124,9 +127,9 @@ DETENT_TEST(mass, shapes_are_allowed_up_to_the_limits_of_size_and_aspect_and_no_
 }
 
 DETENT_TEST(mass, of_a_half_space_is_none) {
-  const BodyTraits traits = traits_of(half_space());
-  EXPECT_EQ(scaled_to_host(shape_volume(traits)), 0.0);
-  EXPECT_EQ(real_to_host(shape_extent(traits)), 16384.0);
+  const BodyProperties properties = properties_of(half_space());
+  EXPECT_EQ(scaled_to_host(shape_volume(properties)), 0.0);
+  EXPECT_EQ(real_to_host(shape_extent(properties)), 16384.0);
 }
 
 }  // namespace

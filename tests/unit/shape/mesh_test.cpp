@@ -5,17 +5,17 @@
 #include <algorithm>
 
 #include "base/crc.h"
-#include "shape/surface.h"
+#include "shape/terrain.h"
 #include "tests/oracle/effort.h"
 #include "tests/support/test.h"
 #include "tests/unit/math/samples.h"
-#include "tests/unit/shape/surfaces.h"
+#include "tests/unit/shape/terrains.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-using namespace detent_surfaces;
+using namespace detent_terrains;
 
 Asset asset_of(const Bytes& bytes) { return {bytes.data(), bytes.count()}; }
 
@@ -94,7 +94,7 @@ Status read_with(Bytes& bytes, uint32_t at, uint32_t word) {
 }
 
 DETENT_TEST(mesh, with_edges_that_contradict_its_triangles_is_refused) {
-  for (const Source& source : {ground(2, 1, bump), box_surface(1, 2, 3, 1)}) {
+  for (const Source& source : {ground(2, 1, bump), box_terrain(1, 2, 3, 1)}) {
     Bytes bytes = cooked(source);
     MeshView mesh;
     ASSERT_OK(read_mesh(asset_of(bytes), mesh));
@@ -223,7 +223,7 @@ DETENT_TEST(mesh, tree_finds_what_a_search_through_all_triangles_finds) {
 }
 
 DETENT_TEST(mesh, edges_are_known_for_what_they_are) {
-  const Bytes bytes = cooked(box_surface(1, 2, 3, 3));
+  const Bytes bytes = cooked(box_terrain(1, 2, 3, 3));
   MeshView mesh;
   ASSERT_OK(read_mesh(asset_of(bytes), mesh));
   uint32_t count[4] = {};

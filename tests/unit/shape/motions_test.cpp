@@ -31,7 +31,7 @@ PosesOfStep random_poses(Samples& samples, double angle, double lever) {
   poses.start.position = {{uniform(samples, -1, 1), 0, 1}};
   poses.start.rotation = any_rotation(samples);
   poses.displacement = axis * along + across * (2 * lever * sin(angle / 2));
-  poses.turn = axis * angle;
+  poses.rotation_vector = axis * angle;
   return poses;
 }
 
@@ -101,14 +101,14 @@ DETENT_TEST(motions, that_differ_are_as_far_apart_as_the_farthest_point_within_t
   Samples samples = {5};
   for (uint32_t i = 0; i < rounds(100); ++i) {
     const double size = uniform(samples, 0, 2);
-    const Vector way = any_direction(samples) * size;
+    const Vector displacement = any_direction(samples) * size;
     const Quaternion p = any_rotation(samples), q = any_rotation(samples);
     const double radius = uniform(samples, 0.1, 2);
-    const double told = apart({way, p}, {{{0, 0, 0}}, q}, radius).distance;
+    const double told = apart({displacement, p}, {{{0, 0, 0}}, q}, radius).distance;
     double greatest = 0;
     for (int point = 0; point < 3000; ++point) {
       const Vector r = any_direction(samples) * radius;
-      Vector moved = way;
+      Vector moved = displacement;
       for (int axis = 0; axis < 3; ++axis) moved = moved + (axis_of(p, axis) - axis_of(q, axis)) * r[axis];
       greatest = fmax(greatest, length(moved));
     }

@@ -9,11 +9,11 @@ namespace {
 using namespace detent_oracle;
 
 constexpr int k_parts = 16;  ///< of the step
-/// What a spin and a velocity found from two poses a part apart is off, rad and m over the step.
-constexpr double k_spin_error = k_parts * (k_config == Config::f64   ? 1e-13
-                                           : k_config == Config::f32 ? 0x1p-20
-                                                                     : 0x1p-26);
-constexpr double k_velocity_error = k_spin_error * 4 + k_parts * (k_config == Config::fx32 ? 0x1p-14 : 0);
+/// What an angular velocity and a velocity found from two poses a part apart is off, rad and m over the step.
+constexpr double k_angular_velocity_error = k_parts * (k_config == Config::f64   ? 1e-13
+                                                       : k_config == Config::f32 ? 0x1p-20
+                                                                                 : 0x1p-26);
+constexpr double k_velocity_error = k_angular_velocity_error * 4 + k_parts * (k_config == Config::fx32 ? 0x1p-14 : 0);
 /// What changes changes by more, in the pairs that are drawn.
 constexpr double k_least_change = 0.03;
 
@@ -25,7 +25,7 @@ struct Pair {
 Vector to_axes(const Quaternion& q, const Vector& v) {
   return {{dot(axis_of(q, 0), v), dot(axis_of(q, 1), v), dot(axis_of(q, 2), v)}};
 }
-Vector rotation_vector(const Quaternion& q) {
+Vector rotation_vector_from(const Quaternion& q) {
   const Vector v = {{q.x, q.y, q.z}};
   const double sine = length(v);
   if (sine == 0) return v;
@@ -40,24 +40,26 @@ Placed relative_at(const Pair& pair, double time) {
 
 /// Over one part of the step, in A's frame, as if it lasted for all of it.
 struct Velocities {
-  Vector spin, linear;
+  Vector angular_velocity, linear;
 };
 Velocities velocities_in(const Pair& pair, int part) {
   const Placed from = relative_at(pair, static_cast<double>(part) / k_parts);
   const Placed to = relative_at(pair, static_cast<double>(part + 1) / k_parts);
-  return {rotation_vector(to.rotation * conjugate(from.rotation)) * k_parts, (to.position - from.position) * k_parts};
+  return {rotation_vector_from(to.rotation * conjugate(from.rotation)) * k_parts,
+          (to.position - from.position) * k_parts};
 }
 
 /// The greatest changes since the first part.
 struct Change {
-  double spin = 0, linear = 0;
+  double angular_velocity = 0, linear = 0;
 };
 Change change_of(const Pair& pair) {
   const Velocities first = velocities_in(pair, 0);
   Change change;
   for (int part = 1; part < k_parts; ++part) {
     const Velocities now = velocities_in(pair, part);
-    change = {fmax(change.spin, length(now.spin - first.spin)), fmax(change.linear, length(now.linear - first.linear))};
+    change = {fmax(change.angular_velocity, length(now.angular_velocity - first.angular_velocity)),
+              fmax(change.linear, length(now.linear - first.linear))};
   }
   return change;
 }
@@ -66,7 +68,7 @@ Change change_of(const Pair& pair) {
 double off_screw(const Pair& pair) {
   const Placed first = relative_at(pair, 0), last = relative_at(pair, 1);
   const PosesOfStep poses = {first, last.position - first.position,
-                             rotation_vector(last.rotation * conjugate(first.rotation))};
+                             rotation_vector_from(last.rotation * conjugate(first.rotation))};
   return farthest_apart([&](double t) { return relative_at(pair, t); },
                         [&](double t) { return even_screw_at(poses, t); }, 1, k_parts)
       .distance;
@@ -91,49 +93,57 @@ Vector any_along(Samples& samples, const Vector& axis) {
 
 const Vector k_none = {{0, 0, 0}};
 
-/// With spins, the way from A to B and the difference of their velocities as they are given.
-Pair pair_of(Samples& samples, const Vector& spin_a, const Vector& spin_b, const Vector& way, const Vector& velocity) {
+/// With angular velocities, the way from A to B and the difference of their velocities as they are given.
+Pair pair_of(Samples& samples, const Vector& angular_velocity_a, const Vector& angular_velocity_b,
+             const Vector& displacement, const Vector& linear_velocity) {
   Pair pair;
   pair.a.start = {any_vector(samples, 0, 1), any_rotation(samples)};
-  pair.b.start = {pair.a.start.position + way, any_rotation(samples)};
+  pair.b.start = {pair.a.start.position + displacement, any_rotation(samples)};
   pair.a.displacement = any_vector(samples, 0, 1);
-  pair.b.displacement = pair.a.displacement + velocity;
-  pair.a.turn = spin_a;
-  pair.b.turn = spin_b;
+  pair.b.displacement = pair.a.displacement + linear_velocity;
+  pair.a.rotation_vector = angular_velocity_a;
+  pair.b.rotation_vector = angular_velocity_b;
   return pair;
 }
 
 DETENT_TEST(relative_motion, has_the_difference_of_the_spins_turned_back_and_the_velocity_of_a_turning_frame) {
   Samples samples = {1};
   for (uint32_t i = 0; i < rounds(200); ++i) {
-    const Vector spin_a = any_vector(samples, 0, 1.2), spin_b = any_vector(samples, 0, 1.2);
-    const Vector way = any_vector(samples, 0, 2), velocity = any_vector(samples, 0, 2);
-    const Pair pair = pair_of(samples, spin_a, spin_b, way, velocity);
+    const Vector angular_velocity_a = any_vector(samples, 0, 1.2), angular_velocity_b = any_vector(samples, 0, 1.2);
+    const Vector displacement = any_vector(samples, 0, 2), linear_velocity = any_vector(samples, 0, 2);
+    const Pair pair = pair_of(samples, angular_velocity_a, angular_velocity_b, displacement, linear_velocity);
     for (int part = 0; part < k_parts; ++part) {
       const double middle = (part + 0.5) / k_parts;
-      const Quaternion frame = rotation_by(spin_a * middle) * pair.a.start.rotation;
+      const Quaternion frame = rotation_by(angular_velocity_a * middle) * pair.a.start.rotation;
       const Velocities found = velocities_in(pair, part);
       const double curvature = 0.3 / (k_parts * k_parts);  // third derivatives up to 7, over 24
-      EXPECT_LE(length(found.spin - to_axes(frame, spin_b - spin_a)), k_spin_error + curvature);
-      EXPECT_LE(length(found.linear - to_axes(frame, velocity - cross(spin_a, way + velocity * middle))),
+      EXPECT_LE(length(found.angular_velocity - to_axes(frame, angular_velocity_b - angular_velocity_a)),
+                k_angular_velocity_error + curvature);
+      EXPECT_LE(length(found.linear - to_axes(frame, linear_velocity - cross(angular_velocity_a,
+                                                                             displacement + linear_velocity * middle))),
                 k_velocity_error + curvature * 3);
     }
   }
 }
 
-DETENT_TEST(relative_motion, has_constant_spin_if_the_spins_are_parallel_and_only_then) {
+DETENT_TEST(relative_motion, has_constant_angular_velocity_if_the_spins_are_parallel_and_only_then) {
   Samples samples = {2};
   for (uint32_t i = 0; i < rounds(100); ++i) {
-    const Vector spin = any_vector(samples, 0.5, 1.2), along = any_along(samples, spin);
-    const Vector beside = any_vector_beside(samples, spin);
-    const Vector way = any_vector(samples, 0.5, 1.5), velocity = any_vector(samples, 0.5, 1.5);
-    EXPECT_LE(change_of(pair_of(samples, spin, along, way, velocity)).spin, k_spin_error);
-    EXPECT_LE(change_of(pair_of(samples, spin, k_none, way, velocity)).spin, k_spin_error);
-    EXPECT_LE(change_of(pair_of(samples, k_none, spin, way, velocity)).spin, k_spin_error);
-    // The spin turns back about A's by A's angle, so the first and the last differ by a chord.
-    const double change = change_of(pair_of(samples, spin, beside, way, velocity)).spin;
-    const double rate = length(cross(spin, beside)), angle = length(spin) * (k_parts - 1) / k_parts;
-    EXPECT_NEAR(change, 2 * rate / length(spin) * sin(angle / 2), k_spin_error + 0.01 * rate);
+    const Vector angular_velocity = any_vector(samples, 0.5, 1.2), along = any_along(samples, angular_velocity);
+    const Vector beside = any_vector_beside(samples, angular_velocity);
+    const Vector displacement = any_vector(samples, 0.5, 1.5), linear_velocity = any_vector(samples, 0.5, 1.5);
+    EXPECT_LE(change_of(pair_of(samples, angular_velocity, along, displacement, linear_velocity)).angular_velocity,
+              k_angular_velocity_error);
+    EXPECT_LE(change_of(pair_of(samples, angular_velocity, k_none, displacement, linear_velocity)).angular_velocity,
+              k_angular_velocity_error);
+    EXPECT_LE(change_of(pair_of(samples, k_none, angular_velocity, displacement, linear_velocity)).angular_velocity,
+              k_angular_velocity_error);
+    // The angular velocity turns back about A's by A's angle, so the first and the last differ by a chord.
+    const double change =
+        change_of(pair_of(samples, angular_velocity, beside, displacement, linear_velocity)).angular_velocity;
+    const double rate = length(cross(angular_velocity, beside)),
+                 angle = length(angular_velocity) * (k_parts - 1) / k_parts;
+    EXPECT_NEAR(change, 2 * rate / length(angular_velocity) * sin(angle / 2), k_angular_velocity_error + 0.01 * rate);
     EXPECT_GT(change, k_least_change);
   }
 }
@@ -141,21 +151,23 @@ DETENT_TEST(relative_motion, has_constant_spin_if_the_spins_are_parallel_and_onl
 DETENT_TEST(relative_motion, has_constant_velocity_if_its_frame_does_not_turn_or_all_lies_on_its_axis_and_only_then) {
   Samples samples = {3};
   for (uint32_t i = 0; i < rounds(100); ++i) {
-    const Vector spin = any_vector(samples, 0.5, 1.2), other = any_vector(samples, 0.5, 1.2);
-    const Vector way = any_vector_beside(samples, spin), velocity = any_vector_beside(samples, spin);
-    const Vector way_along = any_along(samples, spin), velocity_along = any_along(samples, spin);
-    const auto change = [&](const Vector& spin_a, const Vector& from, const Vector& speed) {
-      return change_of(pair_of(samples, spin_a, other, from, speed)).linear;
+    const Vector angular_velocity = any_vector(samples, 0.5, 1.2), other = any_vector(samples, 0.5, 1.2);
+    const Vector displacement = any_vector_beside(samples, angular_velocity),
+                 linear_velocity = any_vector_beside(samples, angular_velocity);
+    const Vector displacement_along = any_along(samples, angular_velocity),
+                 velocity_along = any_along(samples, angular_velocity);
+    const auto change = [&](const Vector& angular_velocity_a, const Vector& from, const Vector& speed) {
+      return change_of(pair_of(samples, angular_velocity_a, other, from, speed)).linear;
     };
-    EXPECT_LE(change(k_none, way, velocity), k_velocity_error);
-    EXPECT_LE(change(spin, way_along, velocity_along), k_velocity_error);
-    EXPECT_LE(change(spin, way_along, k_none), k_velocity_error);
-    EXPECT_LE(change(spin, k_none, velocity_along), k_velocity_error);
-    EXPECT_GT(change(spin, way, velocity_along), k_least_change);
-    EXPECT_GT(change(spin, way, k_none), k_least_change);
-    EXPECT_GT(change(spin, way_along, velocity), k_least_change);
-    EXPECT_GT(change(spin, k_none, velocity), k_least_change);
-    EXPECT_GT(change(spin, way, velocity), k_least_change);
+    EXPECT_LE(change(k_none, displacement, linear_velocity), k_velocity_error);
+    EXPECT_LE(change(angular_velocity, displacement_along, velocity_along), k_velocity_error);
+    EXPECT_LE(change(angular_velocity, displacement_along, k_none), k_velocity_error);
+    EXPECT_LE(change(angular_velocity, k_none, velocity_along), k_velocity_error);
+    EXPECT_GT(change(angular_velocity, displacement, velocity_along), k_least_change);
+    EXPECT_GT(change(angular_velocity, displacement, k_none), k_least_change);
+    EXPECT_GT(change(angular_velocity, displacement_along, linear_velocity), k_least_change);
+    EXPECT_GT(change(angular_velocity, k_none, linear_velocity), k_least_change);
+    EXPECT_GT(change(angular_velocity, displacement, linear_velocity), k_least_change);
   }
 }
 
@@ -163,23 +175,27 @@ DETENT_TEST(relative_motion, is_a_screw_in_the_cases_that_are_proven_and_in_no_o
   Samples samples = {4};
   const double same = k_velocity_error / 2, apart = 0.005;
   for (uint32_t i = 0; i < rounds(100); ++i) {
-    const Vector spin = any_vector(samples, 0.5, 1.2), parallel = any_along(samples, spin);
-    const Vector beside = any_vector_beside(samples, spin);
-    const Vector way = any_vector_beside(samples, spin), velocity = any_vector_beside(samples, spin);
-    const Vector way_along = any_along(samples, spin), velocity_along = any_along(samples, spin);
-    const auto off = [&](const Vector& spin_a, const Vector& spin_b, const Vector& from, const Vector& speed) {
-      return off_screw(pair_of(samples, spin_a, spin_b, from, speed));
+    const Vector angular_velocity = any_vector(samples, 0.5, 1.2), parallel = any_along(samples, angular_velocity);
+    const Vector beside = any_vector_beside(samples, angular_velocity);
+    const Vector displacement = any_vector_beside(samples, angular_velocity),
+                 linear_velocity = any_vector_beside(samples, angular_velocity);
+    const Vector displacement_along = any_along(samples, angular_velocity),
+                 velocity_along = any_along(samples, angular_velocity);
+    const auto off = [&](const Vector& angular_velocity_a, const Vector& angular_velocity_b, const Vector& from,
+                         const Vector& speed) {
+      return off_screw(pair_of(samples, angular_velocity_a, angular_velocity_b, from, speed));
     };
-    EXPECT_LE(off(k_none, k_none, way, velocity), same);      // neither turns
-    EXPECT_LE(off(spin, k_none, way, velocity_along), same);  // one turns, and they part along its spin
-    EXPECT_LE(off(k_none, spin, way, velocity_along), same);
-    EXPECT_LE(off(spin, parallel, way_along, velocity_along), same);  // both, on one axis
-    EXPECT_GT(off(spin, k_none, way, velocity), apart);
-    EXPECT_GT(off(k_none, spin, way, velocity), apart);
-    EXPECT_GT(off(spin, parallel, way, velocity_along), apart);
-    EXPECT_GT(off(spin, parallel, way_along, velocity), apart);
-    EXPECT_GT(off(spin, beside, way_along, velocity_along), apart);
-    EXPECT_GT(off(spin, beside, way, velocity), apart);
+    EXPECT_LE(off(k_none, k_none, displacement, linear_velocity), same);  // neither turns
+    EXPECT_LE(off(angular_velocity, k_none, displacement, velocity_along),
+              same);  // one turns, and they part along its angular velocity
+    EXPECT_LE(off(k_none, angular_velocity, displacement, velocity_along), same);
+    EXPECT_LE(off(angular_velocity, parallel, displacement_along, velocity_along), same);  // both, on one axis
+    EXPECT_GT(off(angular_velocity, k_none, displacement, linear_velocity), apart);
+    EXPECT_GT(off(k_none, angular_velocity, displacement, linear_velocity), apart);
+    EXPECT_GT(off(angular_velocity, parallel, displacement, velocity_along), apart);
+    EXPECT_GT(off(angular_velocity, parallel, displacement_along, linear_velocity), apart);
+    EXPECT_GT(off(angular_velocity, beside, displacement_along, velocity_along), apart);
+    EXPECT_GT(off(angular_velocity, beside, displacement, linear_velocity), apart);
   }
 }
 

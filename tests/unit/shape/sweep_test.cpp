@@ -19,7 +19,7 @@ double distance(const Quaternion& q, const Quaternion& r) {
 constexpr double k_end_error = DETENT_FIXED ? 4.0 : 8.0;
 
 /// Steps within which sweep_end_rotation comes back to the end that the sweep was made from: the errors of
-/// rotation_vector and back again, and the whole turns times the error of their axis' length; half of each, as
+/// rotation_vector_from and back again, and the whole turns times the error of their axis' length; half of each, as
 /// quaternions are half angles.
 double goal_error(double angle) {
   const double back_and_forth = (k_rotation_vector_error + k_rotation_error * (DETENT_FIXED ? 1 : 1 + angle)) / 2 + 4;
@@ -43,19 +43,19 @@ Worst measure(uint64_t seed, uint32_t count, double turns_low, double turns_high
     // Close to a whole or a half turn, the same end is as well told about another axis.
     const double rest = uniform(samples, 0.02, 0.48) + (samples.below(2) == 0 ? 0.5 : 0.0);
     const double angle = k_turn * (floor(uniform(samples, turns_low, turns_high + 1)) + rest);
-    const Vector turn = any_direction(samples) * angle;
-    const Quat end = rotation_near(normalised(detent_oracle::rotation_by(turn) * normalised(host(start))));
-    const Vec3<Real> estimate = reals_near(turn * (1 + uniform(samples, -0.4, 0.4) / (1 + angle)));
+    const Vector rotation_vector = any_direction(samples) * angle;
+    const Quat end = rotation_near(normalised(detent_oracle::rotation_by(rotation_vector) * normalised(host(start))));
+    const Vec3<Real> estimate = reals_near(rotation_vector * (1 + uniform(samples, -0.4, 0.4) / (1 + angle)));
     const Sweep sweep = sweep_between(start, end, k_still, estimate);
     const Quaternion reached = host(sweep_end_rotation(start, sweep));
-    const Quaternion right = detent_oracle::rotation_by(host(sweep.turn)) * normalised(host(start));
+    const Quaternion right = detent_oracle::rotation_by(host(sweep.rotation_vector)) * normalised(host(start));
     const double size =
         sqrt(reached.x * reached.x + reached.y * reached.y + reached.z * reached.z + reached.w * reached.w);
     const double end_error = unit_steps(k_end_error) * (DETENT_FIXED ? 1 : 1 + angle);
     worst.end = fmax(worst.end, distance(reached, right) / end_error);
     worst.size = fmax(worst.size, fabs(size - 1) / unit_steps(DETENT_FIXED ? 2 : 4));
     worst.goal = fmax(worst.goal, distance(reached, host(end)) / unit_steps(goal_error(angle)));
-    if (length(host(sweep.turn) - turn) > 0.01) ++worst.turns_wrong;
+    if (length(host(sweep.rotation_vector) - rotation_vector) > 0.01) ++worst.turns_wrong;
   }
   return worst;
 }
@@ -83,19 +83,19 @@ DETENT_TEST(sweep, of_nearly_whole_turns_ends_where_it_was_told_to) {
     const Quat start = rotation_near(any_rotation(samples));
     const double rest = exp2(uniform(samples, -30, -6)) * (samples.below(2) == 0 ? 1 : -1);
     const double angle = k_turn * (samples.below(100) + 1) + (i % 4 == 0 ? 0 : rest);
-    const Vector turn = any_direction(samples) * angle;
-    const Quat end = rotation_near(normalised(detent_oracle::rotation_by(turn) * normalised(host(start))));
-    const Sweep sweep = sweep_between(start, end, k_still, reals_near(turn));
+    const Vector rotation_vector = any_direction(samples) * angle;
+    const Quat end = rotation_near(normalised(detent_oracle::rotation_by(rotation_vector) * normalised(host(start))));
+    const Sweep sweep = sweep_between(start, end, k_still, reals_near(rotation_vector));
     EXPECT_LE(distance(host(sweep_end_rotation(start, sweep)), host(end)), unit_steps(goal_error(angle))) << angle;
     // A rest too small to have an axis is added along its own direction, and the whole turns along the estimate's.
-    EXPECT_LE(fabs(length(host(sweep.turn)) - angle), 0x1p-6) << angle;
+    EXPECT_LE(fabs(length(host(sweep.rotation_vector)) - angle), 0x1p-6) << angle;
   }
 }
 
 DETENT_TEST(sweep, of_a_body_at_rest_leaves_every_bit) {
   const Quat start = {0.5, -0.5, 0.5, 0.5};
   const Sweep sweep = sweep_between(start, start, k_still, k_still);
-  EXPECT_EQ(sweep.turn, k_still);
+  EXPECT_EQ(sweep.rotation_vector, k_still);
   EXPECT_EQ(sweep_end_rotation(start, sweep), start);
   BodyPose pose{};
   pose.position = position_near({{1, -2, 3}});
@@ -106,11 +106,11 @@ DETENT_TEST(sweep, of_a_body_at_rest_leaves_every_bit) {
 
 /// Where the body is beyond `origin`, m, with the remainder that fx32 carries.
 Vector travelled(const BodyPose& pose, const Position& origin) {
-  Vector way = difference(pose.position, origin);
+  Vector displacement = difference(pose.position, origin);
 #if defined(DETENT_FX32)
-  for (int i = 0; i < 3; ++i) way[i] += ldexp(pose.remainder[i], -32);
+  for (int i = 0; i < 3; ++i) displacement[i] += ldexp(pose.remainder[i], -32);
 #endif
-  return way;
+  return displacement;
 }
 
 DETENT_TEST(sweep, a_hundred_thousand_tiny_motions_add_up) {

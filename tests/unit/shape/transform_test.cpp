@@ -30,11 +30,11 @@ DETENT_TEST(transform, a_point_goes_to_the_world_and_back) {
 DETENT_TEST(transform, turns_are_about_the_axes_of_the_world) {
   const Quat none = {0.0, 0.0, 0.0, 1.0};
   constexpr double quarter = 1.57079632679489661923;
-  const Quat about_z = turned_by(none, {0.0, 0.0, Real(quarter)});
+  const Quat about_z = rotated_by(none, {0.0, 0.0, Real(quarter)});
   expect_near(vector_to_world(about_z, {1.0, 0.0, 0.0}), 0, 1, 0);
-  const Quat then_x = turned_by(about_z, {Real(quarter), 0.0, 0.0});
+  const Quat then_x = rotated_by(about_z, {Real(quarter), 0.0, 0.0});
   expect_near(vector_to_world(then_x, {1.0, 0.0, 0.0}), 0, 0, 1);
-  const Quat back = turned_by(then_x, {Real(-quarter), 0.0, 0.0});
+  const Quat back = rotated_by(then_x, {Real(-quarter), 0.0, 0.0});
   expect_near(vector_to_world(back, {1.0, 0.0, 0.0}), 0, 1, 0);
 }
 

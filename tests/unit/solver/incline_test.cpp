@@ -29,15 +29,15 @@ DETENT_TEST(incline, a_box_slides_when_friction_is_one_percent_too_small_and_sta
     def.material.friction = real(friction);
     const BodyId id = lab.add(def);
     lab.run(60);
-    const double speed = lab.motion(id).velocity[0];
+    const double speed = lab.motion(id).linear_velocity[0];
     lab.run(180);
     const Motion motion = lab.motion(id);
     if (part < 1) {
       // The first substep has no friction yet, so speed is gained from the first second on.
-      EXPECT_NEAR(motion.velocity[0] - speed, 3 * k_gravity * (sin(k_slope) - friction * cos(k_slope)), 0.001);
+      EXPECT_NEAR(motion.linear_velocity[0] - speed, 3 * k_gravity * (sin(k_slope) - friction * cos(k_slope)), 0.001);
       EXPECT_NEAR(speed, k_gravity * (sin(k_slope) - friction * cos(k_slope)), k_gravity * sin(k_slope) / 120);
     } else {
-      EXPECT_NEAR(motion.velocity[0], 0, 1e-4);
+      EXPECT_NEAR(motion.linear_velocity[0], 0, 1e-4);
       EXPECT_NEAR(motion.position[0], 0, 0.01);
     }
   }
@@ -51,16 +51,16 @@ DETENT_TEST(incline, a_sliding_box_brakes_by_friction_and_stops) {
   BodyDef def;
   def.shape = box(reals(0.5, 0.25, 0.5));
   def.position = position(0, 0.25, 0);
-  def.velocity = reals(3, 0, -4);
+  def.linear_velocity = reals(3, 0, -4);
   def.material.friction = real(0.5);
   const BodyId id = lab.add(def);
   lab.run(60);
-  EXPECT_NEAR(lab.motion(id).velocity[0], (5 - 0.5 * k_gravity) * 0.6, 0.01);
+  EXPECT_NEAR(lab.motion(id).linear_velocity[0], (5 - 0.5 * k_gravity) * 0.6, 0.01);
   lab.run(60);
-  for (const double v : lab.motion(id).velocity) EXPECT_NEAR(v, 0, 1e-4);
-  const double way = 25 / (2 * 0.5 * k_gravity);
-  EXPECT_NEAR(lab.motion(id).position[0], 0.6 * way, 0.02);
-  EXPECT_NEAR(lab.motion(id).position[2], -0.8 * way, 0.02);
+  for (const double v : lab.motion(id).linear_velocity) EXPECT_NEAR(v, 0, 1e-4);
+  const double displacement = 25 / (2 * 0.5 * k_gravity);
+  EXPECT_NEAR(lab.motion(id).position[0], 0.6 * displacement, 0.02);
+  EXPECT_NEAR(lab.motion(id).position[2], -0.8 * displacement, 0.02);
 }
 
 DETENT_TEST(incline, a_ball_rolls_down_at_five_sevenths_of_the_slopes_pull) {
@@ -72,8 +72,8 @@ DETENT_TEST(incline, a_ball_rolls_down_at_five_sevenths_of_the_slopes_pull) {
   lab.run(240);
   const double right = 5.0 / 7 * k_gravity * sin(k_slope) * 4;
   const Motion motion = lab.motion(id);
-  EXPECT_NEAR(motion.velocity[0] / right, 1, 2e-3);
-  EXPECT_NEAR(-motion.spin[2] * 0.25 / motion.velocity[0], 1, 2e-3) << "it does not slip";
+  EXPECT_NEAR(motion.linear_velocity[0] / right, 1, 2e-3);
+  EXPECT_NEAR(-motion.angular_velocity[2] * 0.25 / motion.linear_velocity[0], 1, 2e-3) << "it does not slip";
 }
 
 DETENT_TEST(incline, a_ball_on_a_slope_with_enough_rolling_resistance_stays) {
@@ -94,7 +94,7 @@ DETENT_TEST(incline, a_ball_on_a_slope_with_enough_rolling_resistance_stays) {
     const BodyId id = lab.add(def);
     lab.run(240);
     const double right = fmax(5.0 / 7 * k_gravity * (1 - fabs(part)) * sin(0.05) * 4, 0);
-    EXPECT_NEAR(lab.motion(id).velocity[0], right, 0.01) << part;
+    EXPECT_NEAR(lab.motion(id).linear_velocity[0], right, 0.01) << part;
   }
 }
 

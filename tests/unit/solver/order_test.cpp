@@ -6,7 +6,7 @@
 
 #include "broad_phase/broadphase.h"
 #include "motion/predict.h"
-#include "shape/shape_traits.h"
+#include "shape/shape_properties.h"
 #include "solver/contact_order.h"
 #include "solver/contact_rows.h"
 #include "solver/island.h"
@@ -21,17 +21,17 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 struct Graph {
-  std::vector<BodyTraits> traits;
+  std::vector<BodyProperties> properties;
   std::vector<ContactWork> contacts;
   std::vector<ContactOrder> order;
   std::vector<Island> islands;
   std::vector<uint32_t> island_bodies;
   uint32_t overflows = 0;
 
-  explicit Graph(uint32_t bodies) : traits(bodies) {
+  explicit Graph(uint32_t bodies) : properties(bodies) {
     for (uint32_t i = 0; i < bodies; ++i) {
-      traits[i].type = static_cast<uint32_t>(BodyType::dynamic);
-      traits[i].generation = 1 + i % 3;
+      properties[i].type = static_cast<uint32_t>(BodyType::dynamic);
+      properties[i].generation = 1 + i % 3;
     }
   }
   void connect(uint32_t a, uint32_t b) {
@@ -41,14 +41,15 @@ struct Graph {
     contacts.push_back(work);
   }
   void colour() {
-    const uint32_t body_count = static_cast<uint32_t>(traits.size()), count = static_cast<uint32_t>(contacts.size());
+    const uint32_t body_count = static_cast<uint32_t>(properties.size()),
+                   count = static_cast<uint32_t>(contacts.size());
     std::vector<BodyWork> work(body_count, BodyWork{});
     std::vector<BodyActivity> activities(body_count, BodyActivity{});
     std::vector<ContactOrder> spare(count);
     order.resize(count);
     islands.resize(body_count);
     island_bodies.resize(body_count);
-    const Span<const BodyTraits> all = {traits.data(), body_count};
+    const Span<const BodyProperties> all = {properties.data(), body_count};
     const Span<ContactWork> contact_span = {contacts.data(), count};
     for (ContactWork& contact : contacts)
       contact.static_pair = is_dynamic(contact.state.body_a) && is_dynamic(contact.state.body_b) ? 0 : 1;
@@ -60,7 +61,7 @@ struct Graph {
     overflows = order_contacts(all, contact_span, {islands.data(), static_cast<uint32_t>(islands.size())},
                                {work.data(), body_count}, {spare.data(), count}, {order.data(), count});
   }
-  bool is_dynamic(uint32_t body) const { return traits[body].type == static_cast<uint32_t>(BodyType::dynamic); }
+  bool is_dynamic(uint32_t body) const { return properties[body].type == static_cast<uint32_t>(BodyType::dynamic); }
   /// Every contact once, sorted by (island, colour, key), no dynamic body twice in a colour but the overflow's, which
   /// is counted. Bodies in contact are of one island, and each awake one is listed once.
   void expect_right() const {
@@ -89,7 +90,7 @@ struct Graph {
     }
     for (const uint32_t times : seen) EXPECT_EQ(times, 1u);
     EXPECT_EQ(overflowed, overflows);
-    std::vector<uint32_t> island(traits.size(), UINT32_MAX);
+    std::vector<uint32_t> island(properties.size(), UINT32_MAX);
     for (uint32_t i = 0; i < islands.size(); ++i) {
       for (uint32_t k = 0; k < islands[i].body_count; ++k) {
         const uint32_t body = island_bodies[islands[i].first_body + k];
@@ -102,7 +103,7 @@ struct Graph {
         for (const uint32_t body : {state.body_a, state.body_b}) EXPECT_TRUE(!is_dynamic(body) || island[body] == i);
       }
     }
-    for (uint32_t body = 0; body < traits.size(); ++body) EXPECT_EQ(island[body] != UINT32_MAX, is_dynamic(body));
+    for (uint32_t body = 0; body < properties.size(); ++body) EXPECT_EQ(island[body] != UINT32_MAX, is_dynamic(body));
   }
 };
 
@@ -110,9 +111,9 @@ DETENT_TEST(order, contacts_of_one_colour_share_no_dynamic_body) {
   Samples samples = {61};
   for (uint32_t round = 0; round < detent_oracle::rounds(30); ++round) {
     Graph graph(2 + samples.below(60));
-    const uint32_t bodies = static_cast<uint32_t>(graph.traits.size());
-    for (BodyTraits& traits : graph.traits) {
-      if (samples.below(8) == 0) traits.type = static_cast<uint32_t>(BodyType::fixed);
+    const uint32_t bodies = static_cast<uint32_t>(graph.properties.size());
+    for (BodyProperties& properties : graph.properties) {
+      if (samples.below(8) == 0) properties.type = static_cast<uint32_t>(BodyType::fixed);
     }
     std::vector<uint64_t> pairs;
     for (uint32_t i = 0; i < samples.below(400); ++i) {
@@ -138,7 +139,7 @@ DETENT_TEST(order, a_body_that_touches_a_hundred_others_overflows_by_thirty_six)
 
 DETENT_TEST(order, a_fixed_body_that_touches_a_hundred_others_needs_one_colour) {
   Graph graph(101);
-  graph.traits[0].type = static_cast<uint32_t>(BodyType::fixed);
+  graph.properties[0].type = static_cast<uint32_t>(BodyType::fixed);
   for (uint32_t i = 1; i <= 100; ++i) graph.connect(0, i);
   graph.colour();
   graph.expect_right();
@@ -166,14 +167,14 @@ DETENT_TEST(order, depends_on_the_ids_alone) {
   std::reverse(graph.contacts.begin(), graph.contacts.end());
   graph.colour();
   EXPECT_EQ(places(graph), before);
-  graph.traits[3].generation += 1;
+  graph.properties[3].generation += 1;
   graph.colour();
   EXPECT_NE(places(graph), before);
 }
 
 /// Everything that a solve reads and writes.
 struct Scene {
-  std::vector<BodyTraits> traits;
+  std::vector<BodyProperties> properties;
   std::vector<BodyPose> poses;
   std::vector<BodyMotion> motions;
   std::vector<BodyWork> work;
@@ -183,13 +184,13 @@ struct Scene {
   std::vector<uint32_t> slots;  ///< of all islands
   StepSettings settings;
 
-  uint32_t body_count() const { return static_cast<uint32_t>(traits.size()); }
+  uint32_t body_count() const { return static_cast<uint32_t>(properties.size()); }
   uint32_t contact_count() const { return static_cast<uint32_t>(contacts.size()); }
 
   explicit Scene(Lab& lab) {
     const auto state = view_of(lab.world);
     const uint32_t used = state.world.slots_used;
-    traits.assign(state.traits.data, state.traits.data + used);
+    properties.assign(state.properties.data, state.properties.data + used);
     poses.assign(state.poses.data, state.poses.data + used);
     motions.assign(state.motions.data, state.motions.data + used);
     work.resize(used, BodyWork{});
@@ -197,20 +198,22 @@ struct Scene {
     set_substeps(4, settings);
     activities.assign(state.activities.data, state.activities.data + used);
     for (uint32_t slot = 0; slot < used; ++slot)
-      start_body(settings, traits[slot], poses[slot], motions[slot], work[slot]);
+      start_body(settings, properties[slot], poses[slot], motions[slot], work[slot]);
     for (uint32_t i = 0; i < state.world.contact_count; ++i) {
       const ContactState& before = state.contacts[i];
       const uint32_t a = before.body_a, b = before.body_b;
       const Matrix3 rotation_a = matrix_from(poses[a].rotation), rotation_b = matrix_from(poses[b].rotation);
       ContactGeometry geometry;
-      collide({poses[a], traits[a], rotation_a}, {poses[b], traits[b], rotation_b}, real(0.01), geometry);
+      collide({poses[a], properties[a], rotation_a}, {poses[b], properties[b], rotation_b}, real(0.01), geometry);
       if (geometry.count == 0) continue;
       ContactWork contact{};
       contact.state = before;
       contact.state.point_count = static_cast<uint8_t>(geometry.count);
       make_rows(settings,
-                {traits[a], poses[a], motions[a], work[a].gyration, work[a].spin, work[a].extent, work[a].fall},
-                {traits[b], poses[b], motions[b], work[b].gyration, work[b].spin, work[b].extent, work[b].fall},
+                {properties[a], poses[a], motions[a], work[a].inverse_inertia, work[a].angular_velocity, work[a].extent,
+                 work[a].fall},
+                {properties[b], poses[b], motions[b], work[b].inverse_inertia, work[b].angular_velocity, work[b].extent,
+                 work[b].fall},
                 geometry, contact);
       contacts.push_back(contact);
     }
@@ -220,7 +223,7 @@ struct Scene {
     slots.resize(used);
     std::vector<uint32_t> every(used);
     for (uint32_t slot = 0; slot < used; ++slot) every[slot] = slot;
-    const Span<const BodyTraits> all = {traits.data(), used};
+    const Span<const BodyProperties> all = {properties.data(), used};
     const Span<ContactWork> contact_span = {contacts.data(), contact_count()};
     const uint32_t count = find_islands({every.data(), used}, all, {activities.data(), used}, contact_span, {},
                                         {work.data(), used}, {islands.data(), used}, {slots.data(), used});
@@ -234,7 +237,7 @@ struct Scene {
   /// All islands at once: they do not touch.
   void run() {
     const SolverBodies bodies = {
-        {traits.data(), body_count()}, {motions.data(), body_count()}, {work.data(), body_count()}};
+        {properties.data(), body_count()}, {motions.data(), body_count()}, {work.data(), body_count()}};
     solve(settings, bodies, {slots.data(), static_cast<uint32_t>(slots.size())}, {order.data(), contact_count()},
           {contacts.data(), contact_count()}, {});
   }
@@ -280,7 +283,7 @@ DETENT_TEST(order, contacts_of_one_colour_may_be_solved_in_any_order) {
 
 /// One island of boxes, as choose_substeps() sees it.
 struct Pile {
-  std::vector<BodyTraits> traits;
+  std::vector<BodyProperties> properties;
   std::vector<BodyWork> work;
   std::vector<BodyActivity> activities;
   std::vector<ContactWork> contacts;
@@ -295,10 +298,10 @@ struct Pile {
     lab.add_box(0.5, 0, 0, 0);
     const auto state = view_of(lab.world);
     settings = step_settings(state.world);
-    traits.assign(contact_count + 1, state.traits[0]);
-    work.assign(traits.size(), BodyWork{});
-    activities.assign(traits.size(), BodyActivity{});
-    for (uint32_t i = 0; i < traits.size(); ++i) slots.push_back(i);
+    properties.assign(contact_count + 1, state.properties[0]);
+    work.assign(properties.size(), BodyWork{});
+    activities.assign(properties.size(), BodyActivity{});
+    for (uint32_t i = 0; i < properties.size(); ++i) slots.push_back(i);
     for (BodyWork& body : work) body.run_length = run;
     for (uint32_t i = 0; i < contact_count; ++i) {
       ContactWork contact{};
@@ -310,19 +313,19 @@ struct Pile {
       order.push_back({});
       order.back().contact = i;
     }
-    island.body_count = static_cast<uint32_t>(traits.size());
+    island.body_count = static_cast<uint32_t>(properties.size());
     island.contact_count = contact_count;
   }
   /// Squared substeps that a contact of this load needs without buckling.
   double needed(double load) const {
-    return 128 * load * scaled_to_host(settings.substeps_per_rate) / real_to_host(shape_extent(traits[0]));
+    return 128 * load * scaled_to_host(settings.substeps_per_rate) / real_to_host(shape_extent(properties[0]));
   }
   double load_for(double substeps) const { return substeps * substeps / needed(1); }
   uint32_t choose(double load) {
     island.substeps = 0;  // without joints
     for (ContactWork& contact : contacts) contact.state.load = real(load);
-    const uint32_t bodies = static_cast<uint32_t>(traits.size()), count = static_cast<uint32_t>(contacts.size());
-    choose_substeps(settings, {traits.data(), bodies}, {work.data(), bodies}, {slots.data(), bodies},
+    const uint32_t bodies = static_cast<uint32_t>(properties.size()), count = static_cast<uint32_t>(contacts.size());
+    choose_substeps(settings, {properties.data(), bodies}, {work.data(), bodies}, {slots.data(), bodies},
                     {order.data(), count}, {&island, 1}, {contacts.data(), count}, {activities.data(), bodies});
     return island.substeps;
   }

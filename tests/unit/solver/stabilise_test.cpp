@@ -49,7 +49,7 @@ DETENT_TEST(convergence, is_the_worlds_own_and_goes_with_its_snapshot) {
 double energy_of(Lab& lab, BodyId id) {
   const Motion motion = lab.motion(id);
   double square = 0;
-  for (int i = 0; i < 3; ++i) square += motion.velocity[i] * motion.velocity[i];
+  for (int i = 0; i < 3; ++i) square += motion.linear_velocity[i] * motion.linear_velocity[i];
   return square / 2 + 9.81 * motion.position[1];
 }
 
@@ -62,11 +62,11 @@ DETENT_TEST(post_stabilisation, moves_bodies_apart_without_giving_them_speed) {
   double fastest = 0;
   for (int tick = 0; tick < 60; ++tick) {
     lab.run(1);
-    fastest = std::max(fastest, std::abs(lab.motion(box).velocity[1]));
+    fastest = std::max(fastest, std::abs(lab.motion(box).linear_velocity[1]));
   }
   EXPECT_LT(fastest, 1e-3) << "m/s";
   EXPECT_NEAR(lab.motion(box).position[1], 0.5, 1e-3);
-  for (int i = 0; i < 3; ++i) EXPECT_NEAR(lab.motion(box).spin[i], 0, 1e-4);
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(lab.motion(box).angular_velocity[i], 0, 1e-4);
 }
 
 DETENT_TEST(post_stabilisation, turns_a_body_that_overlaps_on_one_side) {

@@ -21,7 +21,7 @@ BodyDef ball(double radius, double mass, double x, double speed, double restitut
   def.shape = sphere(real(radius));
   def.mass = scaled(mass);
   def.position = position(x, 0, 0);
-  def.velocity = reals(speed, 0, 0);
+  def.linear_velocity = reals(speed, 0, 0);
   def.material.restitution = real(restitution);
   return def;
 }
@@ -46,7 +46,7 @@ double hit(double mass_a, double speed_a, double mass_b, double speed_b, double 
     saturations += report.saturations;
     touched = touched || report.contacts != 0;
   }
-  const double v_a = lab.motion(a).velocity[0], v_b = lab.motion(b).velocity[0];
+  const double v_a = lab.motion(a).linear_velocity[0], v_b = lab.motion(b).linear_velocity[0];
   EXPECT_TRUE(touched);
   EXPECT_TRUE(v_a != speed_a || v_b != speed_b);
   return fabs(m_a * v_a + m_b * v_b - before) / size;
@@ -89,7 +89,7 @@ DETENT_TEST(range, a_world_moved_far_away_does_what_it_does_at_the_origin) {
     std::vector<double> result;
     for (const BodyId id : ids) {
       const Motion motion = lab.motion(id);
-      for (const double v : motion.velocity) result.push_back(v);
+      for (const double v : motion.linear_velocity) result.push_back(v);
       Pose pose;
       EXPECT_OK(get_pose(lab.world, id, pose));
       for (const Coord p : {pose.position.x, pose.position.y, pose.position.z}) {
@@ -113,7 +113,7 @@ DETENT_TEST(range, a_position_that_leaves_its_range_is_held_and_counted) {
   Lab lab({1, 1, 0});
   BodyDef def;
   def.position.x = Coord::from_raw(static_cast<Coord::Raw>(sizeof(Coord) == 8 ? INT64_MAX : INT32_MAX));
-  def.velocity = reals(100, 0, 0);
+  def.linear_velocity = reals(100, 0, 0);
   lab.add(def);
   EXPECT_GT(lab.run(1).saturations, 0u);
   EXPECT_FALSE(lab.run(1).complete());
@@ -123,11 +123,11 @@ DETENT_TEST(range, a_position_that_leaves_its_range_is_held_and_counted) {
 DETENT_TEST(range, a_speed_that_leaves_its_range_is_held_and_counted) {
   Lab lab({1, 1, 0});
   BodyDef def;
-  def.velocity = reals(0, -16384, 0);
+  def.linear_velocity = reals(0, -16384, 0);
   def.gravity_scale = real(1000);
   const BodyId id = lab.add(def);
   EXPECT_GT(lab.run(1).saturations, 0u);
-  EXPECT_EQ(lab.motion(id).velocity[1], -16384);
+  EXPECT_EQ(lab.motion(id).linear_velocity[1], -16384);
 }
 
 DETENT_TEST(range, a_turn_that_leaves_its_range_is_counted_by_the_integrator_and_by_the_sweep) {
@@ -143,21 +143,21 @@ DETENT_TEST(range, a_turn_that_leaves_its_range_is_counted_by_the_integrator_and
       lab.add(def);
       // A turn of more than 2^15 rad in the tick, which a loaded state may ask for.
       const Real momentum = type == BodyType::dynamic ? Real(3000.0) : Real(10000.0);
-      for (uint32_t slot = 0; slot <= i; ++slot) view_of(lab.world).motions[slot].momentum.y = momentum;
+      for (uint32_t slot = 0; slot <= i; ++slot) view_of(lab.world).motions[slot].angular_momentum.y = momentum;
       EXPECT_EQ(lab.run(1).saturations, 2 * (i + 1));
     }
   }
 }
 
-DETENT_TEST(range, spin_of_sixteen_kilometres_a_second_at_the_rim_is_kept) {
+DETENT_TEST(range, angular_velocity_of_sixteen_kilometres_a_second_at_the_rim_is_kept) {
   for (const double radius : {0.125, 0.5, 40.0}) {
     Lab lab({1, 1, 0});
     BodyDef def;
     def.shape = sphere(real(radius));
-    def.spin = reals(0, 16000 / radius, 0);
+    def.angular_velocity = reals(0, 16000 / radius, 0);
     const BodyId id = lab.add(def);
     EXPECT_EQ(lab.run(60).saturations, 0u);
-    EXPECT_NEAR(lab.motion(id).spin[1] * radius, 16000, 0.01);
+    EXPECT_NEAR(lab.motion(id).angular_velocity[1] * radius, 16000, 0.01);
   }
 }
 

@@ -94,20 +94,20 @@ Status load_spoiled(Spoil spoil) { return load_spoiled(make_pile, spoil); }
 
 DETENT_TEST(state, motions_beyond_their_range_are_refused) {
   EXPECT_OK(load_spoiled([](const auto& state) {
-    state.motions[1].velocity.x = state.motions[1].pending_velocity.y = k_speed_max;
-    state.motions[1].momentum.z = state.motions[1].pending_momentum.x = -k_spin_work_max;
+    state.motions[1].linear_velocity.x = state.motions[1].pending_velocity.y = k_speed_max;
+    state.motions[1].angular_momentum.z = state.motions[1].pending_angular_momentum.x = -k_angular_velocity_work_max;
   }));
   const Spoil spoils[] = {
-      [](const auto& state) { state.motions[1].velocity.x = k_speed_max + Real(1.0); },
-      [](const auto& state) { state.motions[2].velocity.y = -k_speed_max - Real(1.0); },
-      [](const auto& state) { state.motions[3].momentum.z = k_spin_work_max + Real(1.0); },
+      [](const auto& state) { state.motions[1].linear_velocity.x = k_speed_max + Real(1.0); },
+      [](const auto& state) { state.motions[2].linear_velocity.y = -k_speed_max - Real(1.0); },
+      [](const auto& state) { state.motions[3].angular_momentum.z = k_angular_velocity_work_max + Real(1.0); },
       [](const auto& state) { state.motions[4].pending_velocity.x = k_speed_max + Real(1.0); },
       [](const auto& state) { state.motions[4].pending_velocity.z = -k_speed_max - Real(1.0); },
-      [](const auto& state) { state.motions[5].pending_momentum.y = k_spin_work_max + Real(1.0); },
-      [](const auto& state) { state.motions[5].pending_momentum.x = -k_spin_work_max - Real(1.0); },
-      [](const auto& state) { state.motions[0].velocity.x = Real(1.0); },
-      [](const auto& state) { state.motions[0].pending_momentum.y = Real(1.0); },
-      [](const auto& state) { state.motions[6].velocity.x = Real(1.0); },
+      [](const auto& state) { state.motions[5].pending_angular_momentum.y = k_angular_velocity_work_max + Real(1.0); },
+      [](const auto& state) { state.motions[5].pending_angular_momentum.x = -k_angular_velocity_work_max - Real(1.0); },
+      [](const auto& state) { state.motions[0].linear_velocity.x = Real(1.0); },
+      [](const auto& state) { state.motions[0].pending_angular_momentum.y = Real(1.0); },
+      [](const auto& state) { state.motions[6].linear_velocity.x = Real(1.0); },
   };
   for (const Spoil& spoil : spoils) EXPECT_EQ(load_spoiled(spoil), Status::corrupt) << &spoil - spoils;
 }
@@ -182,8 +182,8 @@ DETENT_TEST(state, slots_that_are_free_before_the_free_word_or_beyond_the_capaci
   const auto empty = [](const StateView<uint8_t>& state, uint32_t slot) {
     state.poses[slot] = {};
     state.motions[slot] = {};
-    state.traits[slot] = {};
-    state.traits[slot].generation = 1;
+    state.properties[slot] = {};
+    state.properties[slot].generation = 1;
     state.activities[slot] = {};
     state.slots[slot / 32] &= ~(1u << slot % 32);
     --state.world.body_count;
@@ -229,8 +229,8 @@ DETENT_TEST(state, counts_that_are_not_those_of_the_bodies_are_refused) {
       [](const auto& state) { state.world.stabilisation = 99; },
       [](const auto& state) { state.world.iterations = 0; },
       [](const auto& state) { state.world.gravity.x = Real(2000.0); },
-      [](const auto& state) { state.traits[6].generation = k_generation_last; },
-      [](const auto& state) { state.traits[6].user_data = 1; },
+      [](const auto& state) { state.properties[6].generation = k_generation_last; },
+      [](const auto& state) { state.properties[6].user_data = 1; },
       [](const auto& state) { state.poses[6].position.x = Coord(1.0); },
       [](const auto& state) { state.activities[6].still_ticks = 1; },
       [](const auto& state) { state.assets[0].kind = 5; },
@@ -242,55 +242,55 @@ DETENT_TEST(state, counts_that_are_not_those_of_the_bodies_are_refused) {
 
 DETENT_TEST(state, bodies_that_no_call_makes_are_refused) {
   const Spoil spoils[] = {
-      [](const auto& state) { state.traits[1].type = 4; },
-      [](const auto& state) { state.traits[1].generation = 0; },
-      [](const auto& state) { state.traits[1].sensor = 2; },
-      [](const auto& state) { state.traits[1].shape = 99; },
-      [](const auto& state) { state.traits[1].size_exponent = 16; },
-      [](const auto& state) { state.traits[1].size_exponent = -15; },
-      [](const auto& state) { state.traits[1].turn_locks = k_turn_locks_all + 1; },
-      [](const auto& state) { state.traits[1].turn_locks = 1; },
-      [](const auto& state) { state.traits[1].asset = 1; },
-      [](const auto& state) { state.traits[1].size.x = Unit(-0.25); },
-      [](const auto& state) { state.traits[1].size.y = Unit(0.0); },
-      [](const auto& state) { state.traits[1].size.z = Unit(0.0); },
-      [](const auto& state) { state.traits[1].bounding_radius = Unit(0.75); },
-      [](const auto& state) { state.traits[1].rounding = Unit(-0.125); },
-      [](const auto& state) { state.traits[1].rounding = Unit(0x1p-17); },
-      [](const auto& state) { state.traits[5].rounding = Unit(0x1p-3); },
-      [](const auto& state) { state.traits[5].size.x = Unit(0.5), state.traits[5].size.y = Unit(0.25); },
-      [](const auto& state) { state.traits[5].size.z = Unit(0.25); },
-      [](const auto& state) { state.traits[1].mass = Scaled(0.0); },
-      [](const auto& state) { state.traits[1].mass = Scaled(0x1p61); },
-      [](const auto& state) { state.traits[1].mass = scaled_by_power(Scaled(1.0), -61); },
-      [](const auto& state) { state.traits[1].gyration[0] = Scaled(0.5); },
-      [](const auto& state) { state.traits[1].gyration[1] = Scaled(0.0); },
-      [](const auto& state) { state.traits[1].gyration[2] = Scaled(0x1p31); },
-      [](const auto& state) { state.traits[1].friction = Scaled(16.5); },
-      [](const auto& state) { state.traits[1].friction = Scaled(-0.5); },
-      [](const auto& state) { state.traits[1].restitution = Scaled(1.25); },
-      [](const auto& state) { state.traits[1].restitution = Scaled(-0.25); },
-      [](const auto& state) { state.traits[1].rolling_resistance = Scaled(16.25); },
-      [](const auto& state) { state.traits[1].rolling_resistance = Scaled(-0.25); },
-      [](const auto& state) { state.traits[1].linear_damping = Scaled(1025.0); },
-      [](const auto& state) { state.traits[1].linear_damping = Scaled(-1.0); },
-      [](const auto& state) { state.traits[1].angular_damping = Scaled(1025.0); },
-      [](const auto& state) { state.traits[1].angular_damping = Scaled(-1.0); },
-      [](const auto& state) { state.traits[1].gravity_scale = Scaled(1025.0); },
-      [](const auto& state) { state.traits[1].gravity_scale = Scaled(-1025.0); },
-      [](const auto& state) { state.traits[1].restitution_rule = 99; },
-      [](const auto& state) { state.traits[0].size_exponent = 1; },
-      [](const auto& state) { state.traits[0].size.x = Unit(0.5); },
-      [](const auto& state) { state.traits[0].bounding_radius = Unit(0.5); },
-      [](const auto& state) { state.traits[0].gyration[2] = Scaled(1.0); },
-      [](const auto& state) { state.traits[0].type = static_cast<uint32_t>(BodyType::dynamic); },
+      [](const auto& state) { state.properties[1].type = 4; },
+      [](const auto& state) { state.properties[1].generation = 0; },
+      [](const auto& state) { state.properties[1].sensor = 2; },
+      [](const auto& state) { state.properties[1].shape = 99; },
+      [](const auto& state) { state.properties[1].size_exponent = 16; },
+      [](const auto& state) { state.properties[1].size_exponent = -15; },
+      [](const auto& state) { state.properties[1].rotation_locks = k_rotation_locks_all + 1; },
+      [](const auto& state) { state.properties[1].rotation_locks = 1; },
+      [](const auto& state) { state.properties[1].asset = 1; },
+      [](const auto& state) { state.properties[1].size.x = Unit(-0.25); },
+      [](const auto& state) { state.properties[1].size.y = Unit(0.0); },
+      [](const auto& state) { state.properties[1].size.z = Unit(0.0); },
+      [](const auto& state) { state.properties[1].bounding_radius = Unit(0.75); },
+      [](const auto& state) { state.properties[1].rounding = Unit(-0.125); },
+      [](const auto& state) { state.properties[1].rounding = Unit(0x1p-17); },
+      [](const auto& state) { state.properties[5].rounding = Unit(0x1p-3); },
+      [](const auto& state) { state.properties[5].size.x = Unit(0.5), state.properties[5].size.y = Unit(0.25); },
+      [](const auto& state) { state.properties[5].size.z = Unit(0.25); },
+      [](const auto& state) { state.properties[1].mass = Scaled(0.0); },
+      [](const auto& state) { state.properties[1].mass = Scaled(0x1p61); },
+      [](const auto& state) { state.properties[1].mass = scaled_by_power(Scaled(1.0), -61); },
+      [](const auto& state) { state.properties[1].inverse_inertia[0] = Scaled(0.5); },
+      [](const auto& state) { state.properties[1].inverse_inertia[1] = Scaled(0.0); },
+      [](const auto& state) { state.properties[1].inverse_inertia[2] = Scaled(0x1p31); },
+      [](const auto& state) { state.properties[1].friction = Scaled(16.5); },
+      [](const auto& state) { state.properties[1].friction = Scaled(-0.5); },
+      [](const auto& state) { state.properties[1].restitution = Scaled(1.25); },
+      [](const auto& state) { state.properties[1].restitution = Scaled(-0.25); },
+      [](const auto& state) { state.properties[1].rolling_resistance = Scaled(16.25); },
+      [](const auto& state) { state.properties[1].rolling_resistance = Scaled(-0.25); },
+      [](const auto& state) { state.properties[1].linear_damping = Scaled(1025.0); },
+      [](const auto& state) { state.properties[1].linear_damping = Scaled(-1.0); },
+      [](const auto& state) { state.properties[1].angular_damping = Scaled(1025.0); },
+      [](const auto& state) { state.properties[1].angular_damping = Scaled(-1.0); },
+      [](const auto& state) { state.properties[1].gravity_scale = Scaled(1025.0); },
+      [](const auto& state) { state.properties[1].gravity_scale = Scaled(-1025.0); },
+      [](const auto& state) { state.properties[1].restitution_rule = 99; },
+      [](const auto& state) { state.properties[0].size_exponent = 1; },
+      [](const auto& state) { state.properties[0].size.x = Unit(0.5); },
+      [](const auto& state) { state.properties[0].bounding_radius = Unit(0.5); },
+      [](const auto& state) { state.properties[0].inverse_inertia[2] = Scaled(1.0); },
+      [](const auto& state) { state.properties[0].type = static_cast<uint32_t>(BodyType::dynamic); },
       [](const auto& state) { state.poses[1].rotation.w = Unit(0.5); },
       [](const auto& state) { state.activities[0].still_ticks = 1; },
       [](const auto& state) { state.activities[1].substeps = 65; },
       [](const auto& state) { state.activities[1].calm_ticks = 61; },
       [](const auto& state) { state.activities[1].still_ticks = UINT16_MAX; },
-      [](const auto& state) { state.activities[1].news = 99; },
-      [](const auto& state) { state.activities[1].news = static_cast<uint16_t>(BodyEventType::fell_asleep); },
+      [](const auto& state) { state.activities[1].pending_event = 99; },
+      [](const auto& state) { state.activities[1].pending_event = static_cast<uint16_t>(BodyEventType::fell_asleep); },
       [](const auto& state) { state.activities[1].asleep = 3; },
       [](const auto& state) { state.activities[1].asleep = 8; },
   };

@@ -22,7 +22,7 @@ BodyDef any_body(Samples& samples) {
   def.position = position_near({{uniform(samples, -6, 6), uniform(samples, 0.5, 4), uniform(samples, -6, 6)}});
   def.type = samples.below(6) == 0 ? BodyType::fixed : samples.below(8) == 0 ? BodyType::kinematic : BodyType::dynamic;
   if (def.type != BodyType::fixed && samples.below(4) == 0)
-    def.velocity = reals_near(any_direction(samples) * uniform(samples, 1, 60));
+    def.linear_velocity = reals_near(any_direction(samples) * uniform(samples, 1, 60));
   return def;
 }
 
@@ -62,18 +62,18 @@ std::vector<uint64_t> all_pairs(const StateView<uint8_t>& state) {
   std::vector<BodyWork> work(used);
   std::vector<uint32_t> slots;
   for (uint32_t slot = 0; slot < used; ++slot) {
-    if (state.traits[slot].type != 0) slots.push_back(slot);
+    if (state.properties[slot].type != 0) slots.push_back(slot);
   }
-  bound(step_settings(state.world), state.poses, state.traits, state.motions,
+  bound(step_settings(state.world), state.poses, state.properties, state.motions,
         {slots.data(), static_cast<uint32_t>(slots.size())}, {work.data(), used}, {bounds.data(), used});
   const auto moves = [&](uint32_t slot) {
-    return is_moving(state.traits[slot], state.motions[slot], state.activities[slot]);
+    return is_moving(state.properties[slot], state.motions[slot], state.activities[slot]);
   };
   std::vector<uint64_t> keys;
   for (const uint32_t a : slots) {
     for (const uint32_t b : slots) {
       if (a >= b || (!moves(a) && !moves(b)) || !overlap(bounds[a], bounds[b])) continue;
-      if (is_dynamic(state.traits[a]) || is_dynamic(state.traits[b])) keys.push_back(pair_key(a, b));
+      if (is_dynamic(state.properties[a]) || is_dynamic(state.properties[b])) keys.push_back(pair_key(a, b));
     }
   }
   return keys;
@@ -95,7 +95,7 @@ std::vector<uint64_t> pairs_of_next_step(World world) {
   const Span<const uint32_t> moving =
       partition_bodies(cache, step_settings(state.world), state, {work.data(), capacity.bodies},
                        {sweeps.data(), capacity.bodies}, {slots.data(), capacity.bodies});
-  PairPool pool = {state.poses, state.traits, cache.bounds, {pairs_spare.data(), 20000}, {pairs.data(), 20000}};
+  PairPool pool = {state.poses, state.properties, cache.bounds, {pairs_spare.data(), 20000}, {pairs.data(), 20000}};
   find_pairs(moving, cache.tree, {keys.data(), capacity.bodies}, {keys_spare.data(), capacity.bodies}, pool);
   pool.sort();
   return {pool.pairs().begin(), pool.pairs().end()};
@@ -161,7 +161,7 @@ struct Field {
     BodyDef def;
     def.shape = sphere(real(0.25));
     def.position = position(0, 0.25, 1.5);
-    def.velocity = reals(2, 0, 0);
+    def.linear_velocity = reals(2, 0, 0);
     ball = lab.add(def);
     lab.run(1);
   }
@@ -194,7 +194,7 @@ DETENT_TEST(step_cache, a_step_with_one_body_awake_reads_nothing_of_those_that_s
   std::vector<uint64_t> snapshot = field.lab.snapshot();
   ASSERT_OK(load(healthy.world, bytes_of(snapshot), byte_count(snapshot)));
   for (uint32_t slot = 65; slot < 129; ++slot) {
-    memset(&state.traits[slot], 0x5a, sizeof(BodyTraits));
+    memset(&state.properties[slot], 0x5a, sizeof(BodyProperties));
     memset(&state.poses[slot], 0x5a, sizeof(BodyPose));
     memset(&state.motions[slot], 0x5a, sizeof(BodyMotion));
   }

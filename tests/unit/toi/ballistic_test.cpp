@@ -19,7 +19,7 @@ void expect_hit(const Encounter& encounter, double time, double early, uint32_t 
     EXPECT_GE(fraction_to_host(impact.time), time - early);
     EXPECT_LE(impact.gjk_calls, calls);
     const TimeOfImpact usual = either.impact();
-    if (usual.outcome == ToiOutcome::undecided) continue;  // of the fastest spin, by horizons of 2 rad
+    if (usual.outcome == ToiOutcome::undecided) continue;  // of the fastest angular velocity, by horizons of 2 rad
     EXPECT_LE(length(host_units(impact.normal) - host_units(usual.normal)), 1e-3);
     EXPECT_LE(fabs(dot(host_units(impact.normal), host(impact.point) - host(usual.point))), 1e-3);
   }
@@ -37,11 +37,11 @@ DETENT_TEST(ballistic, bound_of_bodies_that_do_not_turn_leads_to_the_impact_at_o
   }
 }
 
-/// What a spin about the normal moves does not come nearer, however fast it is.
-DETENT_TEST(ballistic, bound_takes_nothing_for_a_spin_about_the_normal) {
+/// What an angular velocity about the normal moves does not come nearer, however fast it is.
+DETENT_TEST(ballistic, bound_takes_nothing_for_a_angular_velocity_about_the_normal) {
   const KnownShape slab = known(box({4.0, 0.5, 4.0})), cube = known(box({0.5, 0.5, 0.5}));
-  for (const double spin : {1.0, 30.0, 1000.0}) {
-    const BodyAt falling = {{{0, 3, 0}}, k_upright, {{0, -4, 0}}, {{0, spin, 0}}};
+  for (const double angular_velocity : {1.0, 30.0, 1000.0}) {
+    const BodyAt falling = {{{0, 3, 0}}, k_upright, {{0, -4, 0}}, {{0, angular_velocity, 0}}};
     expect_hit({slab, {}, cube, falling}, 0.5, 1e-6, 3);
     expect_hit({known(half_space()), {{{0, 0.5, 0}}}, cube, falling}, 0.5, 1e-6, 3);
   }
@@ -63,17 +63,21 @@ DETENT_TEST(ballistic, bound_of_a_rod_that_turns_into_a_wall) {
   const Quaternion lying = {0, 0, sqrt(0.5), sqrt(0.5)};
   const double ball = 0.0625, height = 0.75;
   const KnownShape rod = known(capsule(real(ball), real(1))), slab = known(box({4.0, 0.5, 4.0}));
-  for (const double spin : {0.9, 1.5, 3.0, 2 * k_pi, 12.0, -1.5, -12.0}) {
-    SCOPED_TRACE(spin);
-    const double time = asin(height - ball) / fabs(spin);
-    expect_hit({known(half_space()), {}, rod, {{{5, height, 0}}, lying, {{0, 0, 0}}, {{0, 0, spin}}}}, time, 4e-5, 60);
-    expect_hit({slab, {{{5, -0.5, 0}}}, rod, {{{5, height, 0}}, lying, {{0, 0, 0}}, {{0, 0, spin}}}}, time, 4e-5, 60);
-    EXPECT_EQ(ballistic({slab, {{{5, -0.5, 0}}}, rod, {{{5, 1.125, 0}}, lying, {{0, 0, 0}}, {{0, 0, spin}}}}).outcome,
-              ToiOutcome::clear);
+  for (const double angular_velocity : {0.9, 1.5, 3.0, 2 * k_pi, 12.0, -1.5, -12.0}) {
+    SCOPED_TRACE(angular_velocity);
+    const double time = asin(height - ball) / fabs(angular_velocity);
+    expect_hit({known(half_space()), {}, rod, {{{5, height, 0}}, lying, {{0, 0, 0}}, {{0, 0, angular_velocity}}}}, time,
+               4e-5, 60);
+    expect_hit({slab, {{{5, -0.5, 0}}}, rod, {{{5, height, 0}}, lying, {{0, 0, 0}}, {{0, 0, angular_velocity}}}}, time,
+               4e-5, 60);
+    EXPECT_EQ(
+        ballistic({slab, {{{5, -0.5, 0}}}, rod, {{{5, 1.125, 0}}, lying, {{0, 0, 0}}, {{0, 0, angular_velocity}}}})
+            .outcome,
+        ToiOutcome::clear);
   }
 }
 
-DETENT_TEST(ballistic, bound_is_never_late_however_fast_bodies_spin_and_agrees_with_the_default) {
+DETENT_TEST(ballistic, bound_is_never_late_however_fast_bodies_angular_velocity_and_agrees_with_the_default) {
   Samples samples{21};
   uint32_t decided = 0, hits = 0;
   const uint32_t count = rounds(400);

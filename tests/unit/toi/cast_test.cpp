@@ -13,42 +13,44 @@ using detent_oracle::rounds;
 struct Ray {
   KnownShape shape;
   BodyAt body;
-  Vector origin, way;
+  Vector origin, displacement;
 
   Ray(const KnownShape& target, const BodyAt& at, const Vector& from, const Vector& along)
-      : shape(target), body(held(at)), origin(host(reals(from))), way(host(reals(along))) {}
+      : shape(target), body(held(at)), origin(host(reals(from))), displacement(host(reals(along))) {}
 
   CastHit cast() const {
     CastHit hit;
-    EXPECT_OK(cast_ray(shape.convex, pose_of(body), reals(origin), reals(way), hit));
+    EXPECT_OK(cast_ray(shape.convex, pose_of(body), reals(origin), reals(displacement), hit));
     return hit;
   }
   /// Distance of the ray's point at `time` from the surface, m; less than 0 in the ball around the core.
   double gap(double time) const {
-    return core_distance(shape, body.to_local(body.position + origin + way * time)) - shape.ball;
+    return core_distance(shape, body.to_local(body.position + origin + displacement * time)) - shape.ball;
   }
-  double reach() const {
-    const double far = shape.type() == ShapeType::half_space ? length(origin) + length(way) : 0;
-    return shape.reach() + shape.ball + far;
+  double distance_max() const {
+    const double far = shape.type() == ShapeType::half_space ? length(origin) + length(displacement) : 0;
+    return shape.distance_max() + shape.ball + far;
   }
-  double tolerance() const { return std::max(k_toi_tolerance * 2 * shape.reach(), 100 * 0x1p-29 * 1.02 * reach()); }
+  double tolerance() const {
+    return std::max(k_toi_tolerance * 2 * shape.distance_max(), 100 * 0x1p-29 * 1.02 * distance_max());
+  }
   /// What rounding the rotation, the way and the block may take, m.
-  double slack() const { return 4 * k_number_error * (reach() + length(origin)); }
+  double slack() const { return 4 * k_number_error * (distance_max() + length(origin)); }
 };
 
 /// The first time at which the line meets a triangle of the points; 1 if it does not.
-double first_crossing(const std::vector<Vector>& points, const Vector& origin, const Vector& way) {
+double first_crossing(const std::vector<Vector>& points, const Vector& origin, const Vector& displacement) {
   double first = 1;
   const size_t count = points.size();
   for (size_t i = 0; i < count; ++i) {
     for (size_t j = i + 1; j < count; ++j) {
       for (size_t k = j + 1; k < count; ++k) {
         const Vector u = points[j] - points[i], v = points[k] - points[i], n = cross(u, v);
-        const double speed = dot(n, way);
+        const double speed = dot(n, displacement);
         if (speed == 0) continue;
         const double time = dot(n, points[i] - origin) / speed;
         if (time < 0 || time >= first) continue;
-        const Vector p = origin + way * time - points[i];
+        const Vector p = origin + displacement * time - points[i];
         const double square = dot(n, n), s = dot(cross(p, v), n) / square, t = dot(cross(u, p), n) / square;
         if (s >= 0 && t >= 0 && s + t <= 1) first = time;
       }
@@ -66,7 +68,7 @@ Truth truth_of(const Ray& ray) {
   double end = 1;
   if (!ray.shape.points.empty() && ray.shape.type() != ShapeType::box) {
     const Vector from = ray.body.to_local(ray.body.position + ray.origin);
-    const Vector to = ray.body.to_local(ray.body.position + ray.origin + ray.way);
+    const Vector to = ray.body.to_local(ray.body.position + ray.origin + ray.displacement);
     end = first_crossing(ray.shape.points, from, to - from);
   }
   double low = 0, high = end;
@@ -97,9 +99,9 @@ void expect_hit(const Ray& ray, const CastHit& hit, double time) {
   const double found = fraction_to_host(hit.time), slack = ray.slack();
   ASSERT_TRUE(hit.hit);
   EXPECT_FALSE(hit.undecided);
-  EXPECT_LE(found, time + slack / length(ray.way) + 1e-12) << "late";
+  EXPECT_LE(found, time + slack / length(ray.displacement) + 1e-12) << "late";
   EXPECT_LE(ray.gap(found), ray.tolerance() + slack);
-  const Vector normal = host_units(hit.normal), point = host(hit.point), at = ray.origin + ray.way * found;
+  const Vector normal = host_units(hit.normal), point = host(hit.point), at = ray.origin + ray.displacement * found;
   EXPECT_NEAR(length(normal), 1, 4 * k_number_error);
   EXPECT_LE(length(at - point), ray.tolerance() + 2 * slack);
   EXPECT_LE(fabs(core_distance(ray.shape, ray.body.to_local(ray.body.position + point)) - ray.shape.ball),
@@ -109,10 +111,10 @@ void expect_hit(const Ray& ray, const CastHit& hit, double time) {
     EXPECT_LE(length(normal - axis_of(ray.body.rotation, 1)), 4 * k_number_error);
   } else {
     const double farthest = -lowest(ray.shape, ray.body, normal * -1) + ray.shape.ball - dot(normal, ray.body.position);
-    EXPECT_LE(farthest - dot(normal, point), 2 * slack + k_normal_error * ray.reach());
+    EXPECT_LE(farthest - dot(normal, point), 2 * slack + k_normal_error * ray.distance_max());
   }
   // Against the way, but for what the tolerance lets it pass by.
-  EXPECT_LE(dot(normal, ray.way) / length(ray.way), k_normal_error);
+  EXPECT_LE(dot(normal, ray.displacement) / length(ray.displacement), k_normal_error);
 }
 
 DETENT_TEST(cast, of_a_ray_at_every_shape_hits_where_the_closed_form_does) {
@@ -123,7 +125,7 @@ DETENT_TEST(cast, of_a_ray_at_every_shape_hits_where_the_closed_form_does) {
     const uint32_t kind = i % (k_known_kinds + k_known_hulls);
     const double scale = kind < k_known_kinds ? ldexp(1, static_cast<int>(samples.below(15)) - 8) : 1;
     const KnownShape shape = random_shape(samples, kind, scale);
-    const double near = shape.type() == ShapeType::half_space ? scale : shape.reach() + shape.ball;
+    const double near = shape.type() == ShapeType::half_space ? scale : shape.distance_max() + shape.ball;
     const Vector origin = random_direction(samples) * (near * uniform(samples, 1.01, 4));
     const Vector aim = random_direction(samples) * (near * uniform(samples, 0, 1.1));
     const Ray ray(shape, {random_direction(samples) * scale, random_quaternion(samples)}, origin,
@@ -151,7 +153,7 @@ DETENT_TEST(cast, of_a_ray_at_every_shape_hits_where_the_closed_form_does) {
 struct RayByHand {
   const char* text;
   KnownShape shape;
-  Vector origin, way;
+  Vector origin, displacement;
   double time;  ///< above 1: none
   Vector normal;
 };
@@ -189,13 +191,13 @@ DETENT_TEST(cast, of_rays_placed_by_hand) {
   };
   Samples samples{2};
   for (const RayByHand& placed : rays) {
-    for (int turn = 0; turn < 4; ++turn) {
+    for (int rotation_vector = 0; rotation_vector < 4; ++rotation_vector) {
       SCOPED_TRACE(placed.text);
       BodyAt body;
-      if (turn != 0) body = held({random_direction(samples) * 10, random_quaternion(samples)});
+      if (rotation_vector != 0) body = held({random_direction(samples) * 10, random_quaternion(samples)});
       const Vector origin = body.to_world(placed.origin) - body.position,
-                   way = body.to_world(placed.way) - body.position;
-      const Ray ray(placed.shape, body, origin, way);
+                   displacement = body.to_world(placed.displacement) - body.position;
+      const Ray ray(placed.shape, body, origin, displacement);
       const CastHit hit = ray.cast();
       if (placed.time > 1) {
         EXPECT_FALSE(hit.hit || hit.undecided);
@@ -227,18 +229,18 @@ std::vector<KnownShape> solids() {
 DETENT_TEST(cast, of_a_ray_that_starts_inside_hits_at_once) {
   const Vector ways[] = {{{5, 0, 0}}, {{0, -5, 0}}, {{0, 0, 0}}};
   for (const KnownShape& shape : solids()) {
-    for (const Vector& way : ways) {
+    for (const Vector& displacement : ways) {
       const Vector inside = shape.type() == ShapeType::half_space ? Vector{{5, -0.25, 3}} : Vector{{0.01, 0.01, 0.01}};
-      const CastHit hit = Ray(shape, {}, inside, way).cast();
+      const CastHit hit = Ray(shape, {}, inside, displacement).cast();
       EXPECT_TRUE(hit.hit);
       EXPECT_TRUE(hit.time == Fraction(0.0));
     }
   }
   for (const KnownShape& round :
        {known(sphere(0.5)), known(capsule(0.5, 0.5)), known(rounded(box({0.25, 0.25, 0.25}), 0.5))}) {
-    for (const Vector& way : ways) {
+    for (const Vector& displacement : ways) {
       for (const Vector& inside : {Vector{{0, 0, 0}}, Vector{{0.375, 0.125, 0.0625}}, Vector{{-0.25, 0, 0.25}}}) {
-        const CastHit hit = Ray(round, {}, inside, way).cast();
+        const CastHit hit = Ray(round, {}, inside, displacement).cast();
         EXPECT_TRUE(hit.hit);
         EXPECT_TRUE(hit.time == Fraction(0.0));
       }
@@ -313,13 +315,14 @@ DETENT_TEST(cast, of_a_sphere_is_a_ray_at_the_shape_grown_by_it) {
     // Its start is a point of the grid of coordinates.
     const BodyAt start = held({random_direction(samples) * 4, {0, 0, 0, 1}});
     const Vector aim = random_direction(samples) * 0.5;
-    const Vec3<Real> way = reals((aim - start.position) * 2);
-    const Ray ray(known(rounded(bare, radius)), body, start.position, host(way));
+    const Vec3<Real> displacement = reals((aim - start.position) * 2);
+    const Ray ray(known(rounded(bare, radius)), body, start.position, host(displacement));
     CastHit swept;
     const CastHit hit = ray.cast();
-    EXPECT_OK(cast_shape(known(sphere(radius)).convex, pose_of(start), way, known(bare).convex, pose_of(body), swept));
+    EXPECT_OK(cast_shape(known(sphere(radius)).convex, pose_of(start), displacement, known(bare).convex, pose_of(body),
+                         swept));
     EXPECT_EQ(swept.hit, hit.hit);
-    EXPECT_LE(fabs(fraction_to_host(swept.time) - fraction_to_host(hit.time)) * length(host(way)), 1e-2);
+    EXPECT_LE(fabs(fraction_to_host(swept.time) - fraction_to_host(hit.time)) * length(host(displacement)), 1e-2);
     if (swept.hit) {
       EXPECT_LE(fabs(ray.gap(fraction_to_host(swept.time))), ray.tolerance() + ray.slack());
     }

@@ -35,20 +35,21 @@ struct Encounter {
   }
   bool planar() const { return a.type() == ShapeType::half_space || b.type() == ShapeType::half_space; }
   /// Of the block's reach, m: what its ulps are parts of.
-  double reach() const {
+  double distance_max() const {
     double centres = 0;
     if (planar()) {
       for (const double time : {0.0, 1.0})
         centres = std::max(centres, length(body_b.at(time).position - body_a.at(time).position));
     }
-    return a.reach() + b.reach() + a.ball + b.ball + centres;
+    return a.distance_max() + b.distance_max() + a.ball + b.ball + centres;
   }
   /// How early a hit may be, m: the stated part of the larger core diameter, or 96 ulps of the block.
   double tolerance() const {
-    return std::max(k_toi_tolerance * 2 * std::max(a.reach(), b.reach()), 100 * 0x1p-29 * 1.02 * reach());
+    return std::max(k_toi_tolerance * 2 * std::max(a.distance_max(), b.distance_max()),
+                    100 * 0x1p-29 * 1.02 * distance_max());
   }
   /// Error of gap(), m: poses at a time are rounded anew.
-  double slack() const { return 2 * k_position_step + (k_distance_error + 2 * k_number_error) * 2 * reach(); }
+  double slack() const { return 2 * k_position_step + (k_distance_error + 2 * k_number_error) * 2 * distance_max(); }
   /// At a time of the step, m; 0 if they meet.
   double gap(double time) const {
     const Closest closest = closest_at(time);
@@ -101,15 +102,16 @@ inline Encounter random_encounter(Samples& samples, double scale, double turn_ma
   for (;;) {
     const KnownShape a = random_shape(samples, samples.below(10), scale),
                      b = random_shape(samples, samples.below(11), scale);
-    const double near = a.reach() + b.reach() + a.ball + b.ball;
+    const double near = a.distance_max() + b.distance_max() + a.ball + b.ball;
     const Vector start = random_direction(samples) * (near * uniform(samples, 0.6, 2));
     const Vector aim = random_direction(samples) * (near * uniform(samples, 0, 0.8));
-    const auto turn = [&] { return random_direction(samples) * uniform(samples, 0, turn_max); };
+    const auto rotation_vector = [&] { return random_direction(samples) * uniform(samples, 0, turn_max); };
     const BodyAt body_a = {random_direction(samples) * scale, random_quaternion(samples),
-                           random_direction(samples) * scale, samples.below(3) == 0 ? Vector{{0, 0, 0}} : turn()};
+                           random_direction(samples) * scale,
+                           samples.below(3) == 0 ? Vector{{0, 0, 0}} : rotation_vector()};
     const BodyAt body_b = {body_a.position + start, random_quaternion(samples),
                            body_a.displacement + (aim - start) * uniform(samples, 0.3, 2),
-                           samples.below(3) == 0 ? Vector{{0, 0, 0}} : turn()};
+                           samples.below(3) == 0 ? Vector{{0, 0, 0}} : rotation_vector()};
     const Encounter encounter = {a, body_a, b, body_b};
     if (encounter.gap(0) > 0.01 * scale) return encounter;
   }
@@ -144,10 +146,10 @@ inline uint64_t digest_of_answers(ToiMethod method, uint32_t seed, int count) {
     for (Motion& m : motion) {
       const double away = &m == motion ? -2.5 : 2.5;
       const Vector at = exact_vector(samples, 256) + Vector{{away, 0, 0}};
-      const Vector way = exact_vector(samples, 256) - Vector{{away, 0, 0}};
+      const Vector displacement = exact_vector(samples, 256) - Vector{{away, 0, 0}};
       m.start = exact_pose(samples, at);
-      m.displacement = reals(way);
-      m.turn = reals(exact_vector(samples, i % 3 == 0 ? 2560 : 512));
+      m.displacement = reals(displacement);
+      m.rotation_vector = reals(exact_vector(samples, i % 3 == 0 ? 2560 : 512));
     }
     TimeOfImpact result;
     EXPECT_OK(time_of_impact_by(method, a.convex, motion[0], b.convex, motion[1], result));

@@ -7,7 +7,7 @@
 #include "tests/unit/toi/feature_pairs.h"
 #include "tests/unit/toi/spread.h"
 
-/// Features of bodies with constant velocity and spin.
+/// Features of bodies with constant velocity and angular velocity.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
@@ -37,11 +37,11 @@ struct MovingFeatures {
     place(time, placed);
     return feature_volume(placed);
   }
-  double reach() const {
+  double distance_max() const {
     double of_a = 0, of_b = 0;
     for (int i = 0; i < 4; ++i) {
-      double& reach = i < first_of_b(kind) ? of_a : of_b;
-      reach = std::max(reach, length(corner[i]));
+      double& distance_max = i < first_of_b(kind) ? of_a : of_b;
+      distance_max = std::max(distance_max, length(corner[i]));
     }
     return of_a + of_b;
   }
@@ -81,18 +81,18 @@ MovingFeatures random_features(Samples& samples, double turn_max) {
   MovingFeatures f;
   f.kind = samples.below(2) == 0 ? FeatureKind::vertex_face : FeatureKind::edge_edge;
   for (Vector& corner : f.corner) {
-    const Vector way = random_direction(samples);
-    corner = host(reals(way * uniform(samples, 0.2, 1)));
+    const Vector displacement = random_direction(samples);
+    corner = host(reals(displacement * uniform(samples, 0.2, 1)));
   }
   for (BodyAt* body : {&f.a, &f.b}) {
     body->rotation = random_quaternion(samples);
     const Vector axis = random_direction(samples);
-    body->turn = axis * uniform(samples, 0, turn_max);
+    body->rotation_vector = axis * uniform(samples, 0, turn_max);
   }
   // Towards each other, from outside or from within reach.
-  const Vector way = random_direction(samples), across = random_direction(samples);
-  f.b.position = way * uniform(samples, 0.5, 2.5);
-  f.b.displacement = way * -uniform(samples, 0.5, 3.5);
+  const Vector displacement = random_direction(samples), across = random_direction(samples);
+  f.b.position = displacement * uniform(samples, 0.5, 2.5);
+  f.b.displacement = displacement * -uniform(samples, 0.5, 3.5);
   f.b.displacement = f.b.displacement + across * uniform(samples, 0, 0.7);
   f.a = held(f.a);
   f.b = held(f.b);
@@ -125,7 +125,7 @@ double crossing_before(const MovingFeatures& f, double end, int count) {
 void expect_not_late(const MovingFeatures& f, double time, int count) {
   const double contact = crossing_before(f, time, count);
   if (contact < time) {
-    EXPECT_LE(f.gap(time), k_pose_error * f.reach()) << "a contact at " << contact << " was missed";
+    EXPECT_LE(f.gap(time), k_pose_error * f.distance_max()) << "a contact at " << contact << " was missed";
   }
 }
 
@@ -135,8 +135,8 @@ void expect_agreement(const MovingFeatures& f, Figures& figures, uint32_t& hits,
   const TimeOfImpact other = f.advanced(figures);
   const double time = fraction_to_host(result.time), other_time = fraction_to_host(other.time);
   // A pose is rounded where the reference holds it in doubles.
-  const double tolerance = k_feature_tolerance * f.size() + 0x1p-23 * f.reach() + 1e-12;
-  const double other_tolerance = k_toi_tolerance * 2 * f.reach() + 160 * 0x1p-28 * f.reach();
+  const double tolerance = k_feature_tolerance * f.size() + 0x1p-23 * f.distance_max() + 1e-12;
+  const double other_tolerance = k_toi_tolerance * 2 * f.distance_max() + 160 * 0x1p-28 * f.distance_max();
   EXPECT_NE(result.outcome, ToiOutcome::undecided);
   if (result.outcome == ToiOutcome::hit) {
     ++hits;
@@ -182,7 +182,7 @@ DETENT_TEST(feature_motion, many_turns_are_decided_or_safe) {
     undecided += result.outcome == ToiOutcome::undecided ? 1u : 0u;
     expect_not_late(f, time, 600);
     if (result.outcome == ToiOutcome::hit) {
-      EXPECT_LE(f.gap(time), k_feature_tolerance * f.size() + 0x1p-23 * f.reach() + 1e-12);
+      EXPECT_LE(f.gap(time), k_feature_tolerance * f.size() + 0x1p-23 * f.distance_max() + 1e-12);
     }
   }
   figures.print(60);
@@ -191,7 +191,7 @@ DETENT_TEST(feature_motion, many_turns_are_decided_or_safe) {
   MovingFeatures f = random_features(samples, 0);
   f.b.position = {{0, 0, 6}};
   f.b.displacement = {{0, 0, -4.5}};
-  f.b.turn = {{60000, 0, 0}};
+  f.b.rotation_vector = {{60000, 0, 0}};
   f.b = held(f.b);
   const FeatureToi result = f.answer();
   EXPECT_NE(result.outcome, ToiOutcome::clear);
@@ -202,7 +202,7 @@ DETENT_TEST(feature_motion, a_turning_edge_meets_one_at_rest_when_it_lies_along_
   // A quarter turn about z brings the edge from x to y, where the other waits 0.5 above.
   const Vector corner[4] = {{{0.25, 0, 0}}, {{1, 0, 0}}, {{0, 0.5, -1}}, {{0, 0.5, 1}}};
   MovingFeatures f = {FeatureKind::edge_edge, {corner[0], corner[1], corner[2], corner[3]}, {}, {}};
-  f.a.turn = {{0, 0, acos(-1.0)}};
+  f.a.rotation_vector = {{0, 0, acos(-1.0)}};
   f.a = held(f.a);
   const FeatureToi result = f.answer();
   EXPECT_EQ(result.outcome, ToiOutcome::hit);
@@ -214,7 +214,7 @@ DETENT_TEST(feature_motion, a_vertex_that_grazes_a_face_at_the_top_of_its_arc_is
   // The vertex goes round at 1 m; its arc touches the plane y = 1 in mid-step, and that of y = 1.00001 not.
   for (const double height : {1.0, 1.00001, 0.99999, 0.5}) {
     MovingFeatures f = {FeatureKind::vertex_face, {{{1, 0, 0}}, {{-2, 0, -2}}, {{2, 0, -2}}, {{0, 0, 2}}}, {}, {}};
-    f.a.turn = {{0, 0, acos(-1.0)}};
+    f.a.rotation_vector = {{0, 0, acos(-1.0)}};
     f.b.position = {{0, height, 0}};
     f.a = held(f.a);
     f.b = held(f.b);
@@ -230,7 +230,7 @@ DETENT_TEST(feature_motion, a_vertex_that_grazes_a_face_at_the_top_of_its_arc_is
 DETENT_TEST(feature_motion, a_vertex_that_turns_in_the_plane_of_a_face_meets_its_edge) {
   // The face's nearest edge is x = -0.5; the vertex comes round to it at 120 degrees.
   MovingFeatures f = {FeatureKind::vertex_face, {{{1, 0, 0}}, {{-0.5, -2, 0}}, {{-0.5, 2, 0}}, {{-3, 0, 0}}}, {}, {}};
-  f.a.turn = {{0, 0, acos(-1.0)}};
+  f.a.rotation_vector = {{0, 0, acos(-1.0)}};
   f.a = held(f.a);
   const FeatureToi result = f.answer();
   EXPECT_EQ(result.outcome, ToiOutcome::hit);
@@ -255,7 +255,7 @@ DETENT_TEST(feature_motion, bad_questions_are_refused_and_change_nothing) {
   EXPECT_EQ(ask(motion, still_motion), Status::not_normalised);
   EXPECT_EQ(ask(still_motion, motion), Status::not_normalised);
   motion = still_motion;
-  motion.turn.y = real(65537);
+  motion.rotation_vector.y = real(65537);
   EXPECT_EQ(ask(motion, still_motion), Status::out_of_range);
   motion = still_motion;
   motion.displacement.z = real(-16385);
@@ -279,7 +279,7 @@ DETENT_TEST(feature_motion, answers_are_the_same_in_every_configuration_and_on_e
     for (Motion& m : motion) {
       m.start = exact_pose(samples, vector(300));
       m.displacement = reals(vector(512));
-      m.turn = reals(vector(i % 3 == 0 ? 1 : 512));
+      m.rotation_vector = reals(vector(i % 3 == 0 ? 1 : 512));
     }
     const Vec3<Real> corner[4] = {reals(vector(256)), reals(vector(256)), reals(vector(256)), reals(vector(256))};
     FeatureToi result;

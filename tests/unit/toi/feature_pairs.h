@@ -80,11 +80,11 @@ inline PlantedPair planted_pair(Samples& samples, Special special) {
   }
   const int first_of_b = edges ? 2 : 1;
   const int bits = 12 + static_cast<int>(samples.below(30)), speed = static_cast<int>(samples.below(44));
-  Vec64 corner[4], velocity[4];
+  Vec64 corner[4], linear_velocity[4];
   for (int i = 0; i < 4; ++i) {
     corner[i] = times(random_corner(samples, bits), 64);
-    velocity[i] = times(random_corner(samples, speed + 1), 64);
-    if (special == Special::flat) corner[i].z = velocity[i].z = 0;
+    linear_velocity[i] = times(random_corner(samples, speed + 1), 64);
+    if (special == Special::flat) corner[i].z = linear_velocity[i].z = 0;
   }
   if (special == Special::line) {  // the edges are parallel, or the face's corners on one line
     const Vec64 edge = difference(corner[3], corner[2]);
@@ -94,7 +94,7 @@ inline PlantedPair planted_pair(Samples& samples, Special special) {
   if (special == Special::point) {
     for (int i = 1; i < (edges ? 2 : 4); ++i) {
       corner[i] = corner[edges ? 0 : 1];
-      velocity[i] = velocity[edges ? 0 : 1];
+      linear_velocity[i] = linear_velocity[edges ? 0 : 1];
     }
   }
   // A is moved as a whole, at the contact to where B is, and before and after as it should.
@@ -103,7 +103,7 @@ inline PlantedPair planted_pair(Samples& samples, Special special) {
     for (int i = 0; i < 4; ++i) sum = add(sum, times(v[i], i < first_of_b ? -weight[i] : weight[i]));
     return Vec64{sum.x / 64, sum.y / 64, sum.z / 64};
   };
-  const Vec64 way = gap_of(corner), speed_gap = gap_of(velocity);
+  const Vec64 displacement = gap_of(corner), speed_gap = gap_of(linear_velocity);
   Vec64 along = {0, 0, 0};
   if (special == Special::tangent) {
     const Vec64 first = difference(corner[edges ? 1 : 2], corner[edges ? 0 : 1]);
@@ -113,23 +113,23 @@ inline PlantedPair planted_pair(Samples& samples, Special special) {
                 times(Vec64{second.x / 64, second.y / 64, second.z / 64}, along_second));
   }
   for (int i = 0; i < first_of_b; ++i) {
-    corner[i] = add(corner[i], way);
-    if (special == Special::tangent) velocity[i] = add(velocity[i], add(speed_gap, along));
+    corner[i] = add(corner[i], displacement);
+    if (special == Special::tangent) linear_velocity[i] = add(linear_velocity[i], add(speed_gap, along));
   }
   if (special == Special::rigid) {
-    for (int i = 1; i < 4; ++i) velocity[i] = velocity[0];
+    for (int i = 1; i < 4; ++i) linear_velocity[i] = linear_velocity[0];
   }
   pair.time = static_cast<int>(samples.below(65));
   for (int i = 0; i < 4; ++i) {
-    f.start[i] = difference(corner[i], times(velocity[i], pair.time));
-    f.end[i] = add(corner[i], times(velocity[i], 64 - pair.time));
+    f.start[i] = difference(corner[i], times(linear_velocity[i], pair.time));
+    f.end[i] = add(corner[i], times(linear_velocity[i], 64 - pair.time));
   }
   // Its axes in any order and sense.
-  const uint32_t turn = samples.below(3), mirror = samples.below(2);
+  const uint32_t rotation_vector = samples.below(3), mirror = samples.below(2);
   for (Vec64* corners : {f.start, f.end}) {
     for (int i = 0; i < 4; ++i) {
       const Vec64 v = corners[i];
-      corners[i] = turn == 0 ? v : turn == 1 ? Vec64{v.y, v.z, v.x} : Vec64{v.z, v.x, v.y};
+      corners[i] = rotation_vector == 0 ? v : rotation_vector == 1 ? Vec64{v.y, v.z, v.x} : Vec64{v.z, v.x, v.y};
       if (mirror != 0) corners[i].x = -corners[i].x;
     }
   }

@@ -25,13 +25,13 @@ struct Screw {
   FeatureKind kind;
   Vector corner[4];  ///< at the start, in A's axes from A's position
   Vector axis, on_axis;
-  double tangent, along, reach, size;
+  double tangent, along, radius, size;
 
   void place(double time, Vector (&placed)[4]) const {
-    const Quaternion turn = detent_oracle::rotation_by(axis * (2 * atan(time * tangent)));
+    const Quaternion rotation_vector = detent_oracle::rotation_by(axis * (2 * atan(time * tangent)));
     for (int i = 0; i < 4; ++i) {
-      placed[i] =
-          i < first_of_b(kind) ? corner[i] : on_axis + turned(turn, corner[i] - on_axis) + axis * (along * time);
+      placed[i] = i < first_of_b(kind) ? corner[i]
+                                       : on_axis + turned(rotation_vector, corner[i] - on_axis) + axis * (along * time);
     }
   }
   double gap(double time) const {
@@ -67,22 +67,23 @@ struct Bodies {
   Screw screw() const {
     Screw s;
     s.kind = kind;
-    const Vector first = start_a.to_local(start_b.position), last = end_a.to_local(end_b.position), way = last - first;
+    const Vector first = start_a.to_local(start_b.position), last = end_a.to_local(end_b.position),
+                 displacement = last - first;
     const Quaternion from = conjugate(normalised(start_a.rotation)) * normalised(start_b.rotation);
     const Quaternion to = conjugate(normalised(end_a.rotation)) * normalised(end_b.rotation);
-    const Quaternion turn = to * conjugate(from);
-    const Vector g = Vector{{turn.x, turn.y, turn.z}} * (1 / turn.w);
+    const Quaternion rotation_vector = to * conjugate(from);
+    const Vector g = Vector{{rotation_vector.x, rotation_vector.y, rotation_vector.z}} * (1 / rotation_vector.w);
     s.tangent = length(g);
     s.axis = g * (1 / s.tangent);
-    s.along = dot(way, s.axis);
-    const Vector across = way - s.axis * s.along;
+    s.along = dot(displacement, s.axis);
+    const Vector across = displacement - s.axis * s.along;
     s.on_axis = first + (across - cross(s.axis, across) * -(1 / s.tangent)) * 0.5;
-    double reach = 0;
+    double radius = 0;
     for (int i = 0; i < 4; ++i) {
       s.corner[i] = i < first_of_b(kind) ? corner[i] : first + turned(from, corner[i]);
-      if (i >= first_of_b(kind)) reach = std::max(reach, length(corner[i]));
+      if (i >= first_of_b(kind)) radius = std::max(radius, length(corner[i]));
     }
-    s.reach = reach + length(first) + length(last);
+    s.radius = radius + length(first) + length(last);
     const auto edge = [this](int i, int j) { return length(corner[i] - corner[j]); };
     s.size = kind == FeatureKind::edge_edge ? std::max(edge(0, 1), edge(2, 3))
                                             : std::max({edge(1, 2), edge(1, 3), edge(2, 3)});
@@ -94,24 +95,24 @@ Bodies random_bodies(Samples& samples) {
   Bodies bodies;
   bodies.kind = samples.below(2) == 0 ? FeatureKind::vertex_face : FeatureKind::edge_edge;
   for (Vector& corner : bodies.corner) {
-    const Vector way = random_direction(samples);
-    corner = host(reals(way * uniform(samples, 0.2, 1)));
+    const Vector displacement = random_direction(samples);
+    corner = host(reals(displacement * uniform(samples, 0.2, 1)));
   }
   const double angle = uniform(samples, 0.01, 1.2);
   const auto pose_near = [&](const BodyAt& body) {
-    const Vector axis = random_direction(samples), way = random_direction(samples);
+    const Vector axis = random_direction(samples), displacement = random_direction(samples);
     BodyAt other = body;
     other.rotation = detent_oracle::rotation_by(axis * angle) * body.rotation;
-    other.position = body.position + way * uniform(samples, 0, 0.5);
+    other.position = body.position + displacement * uniform(samples, 0, 0.5);
     return other;
   };
-  const Vector way = random_direction(samples);
+  const Vector displacement = random_direction(samples);
   bodies.start_a.rotation = random_quaternion(samples);
   bodies.end_a = pose_near(bodies.start_a);
   bodies.start_b.rotation = random_quaternion(samples);
-  bodies.start_b.position = way * uniform(samples, 0.5, 2);
+  bodies.start_b.position = displacement * uniform(samples, 0.5, 2);
   bodies.end_b = pose_near(bodies.start_b);
-  bodies.end_b.position = bodies.end_b.position + way * -uniform(samples, 0.5, 3);
+  bodies.end_b.position = bodies.end_b.position + displacement * -uniform(samples, 0.5, 3);
   for (BodyAt* body : {&bodies.start_a, &bodies.end_a, &bodies.start_b, &bodies.end_b}) *body = held(*body);
   return bodies;
 }
@@ -160,7 +161,7 @@ DETENT_TEST(feature_screw, agrees_with_the_roots_of_the_reduced_cubic) {
       if (contact > 1 && screw.gap(root) < 1e-11) contact = root;
     }
     const double time = fraction_to_host(result.time);
-    const double tolerance = k_feature_tolerance * screw.size + 0x1p-21 * screw.reach + pose_error * screw.reach;
+    const double tolerance = k_feature_tolerance * screw.size + 0x1p-21 * screw.radius + pose_error * screw.radius;
     EXPECT_NE(result.outcome, ToiOutcome::undecided);
     if (result.outcome == ToiOutcome::hit) {
       ++hits;
@@ -168,7 +169,7 @@ DETENT_TEST(feature_screw, agrees_with_the_roots_of_the_reduced_cubic) {
       later += contact > time + 1e-4 ? 1u : 0u;
     }
     if (contact < time) {
-      EXPECT_LE(screw.gap(time), pose_error * screw.reach) << "a contact at " << contact << " was missed";
+      EXPECT_LE(screw.gap(time), pose_error * screw.radius) << "a contact at " << contact << " was missed";
     }
     if (testing::Test::HasFailure()) return;
   }
@@ -206,18 +207,18 @@ DETENT_TEST(feature_screw, bad_questions_are_refused_and_change_nothing) {
   };
   const PosePair rest;
   EXPECT_EQ(feature_toi_screw(static_cast<FeatureKind>(7), corners, rest, rest, result), Status::bad_argument);
-  const auto turned_by = [](double angle) {
+  const auto rotated_by = [](double angle) {
     PosePair poses;
     BodyAt body;
-    body.turn = {{0, 0, angle}};
+    body.rotation_vector = {{0, 0, angle}};
     poses.end = pose_of(body.at(1));
     return poses;
   };
   // A turn of B against A counts, the shorter way round: the tangent of 2.66 / 2 is above 4.
   for (const double angle : {2.66, 3.0, 3.15, 3.6}) {
-    EXPECT_EQ(ask(turned_by(angle), rest), Status::out_of_range);
-    EXPECT_EQ(ask(rest, turned_by(angle)), Status::out_of_range);
-    EXPECT_EQ(ask(turned_by(angle / 2), turned_by(-angle / 2)), Status::out_of_range);
+    EXPECT_EQ(ask(rotated_by(angle), rest), Status::out_of_range);
+    EXPECT_EQ(ask(rest, rotated_by(angle)), Status::out_of_range);
+    EXPECT_EQ(ask(rotated_by(angle / 2), rotated_by(-angle / 2)), Status::out_of_range);
   }
   PosePair bad = rest;
   bad.end.rotation.w = Unit(0.5);
@@ -231,7 +232,7 @@ DETENT_TEST(feature_screw, bad_questions_are_refused_and_change_nothing) {
   far[3].z = real(1025);
   EXPECT_EQ(feature_toi_screw(FeatureKind::edge_edge, far, rest, rest, result), Status::out_of_range);
   EXPECT_EQ(result.intervals, 77u);
-  for (const double angle : {2.64, -2.64, 3.7}) EXPECT_OK(ask(rest, turned_by(angle)));
+  for (const double angle : {2.64, -2.64, 3.7}) EXPECT_OK(ask(rest, rotated_by(angle)));
 }
 
 /// Numbers that every configuration holds exactly, so that its answers may be compared.

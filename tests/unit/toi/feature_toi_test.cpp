@@ -123,10 +123,13 @@ DETENT_TEST(feature_toi, what_begins_near_and_flies_off_is_clear) {
     const Vec64 start[2][4] = {{{0, gap, 0}, {-unit, 0, -unit}, {unit, 0, -unit}, {0, 0, unit}},
                                {{-unit, gap, 0}, {unit, gap, 0}, {0, 0, -unit}, {0, 0, unit}}};
     const int speed = static_cast<int>(samples.below(23));
-    const Vec64 way = random_corner(samples, 37 + speed);
+    const Vec64 displacement = random_corner(samples, 37 + speed);
     for (int k = 0; k < 4; ++k) {
       f.start[k] = start[i % 2][k];
-      f.end[k] = k < first_of_b(f.kind) ? add(f.start[k], Vec64{way.x, way.y < 0 ? -way.y : way.y, way.z}) : f.start[k];
+      f.end[k] = k < first_of_b(f.kind)
+                     ? add(f.start[k],
+                           Vec64{displacement.x, displacement.y < 0 ? -displacement.y : displacement.y, displacement.z})
+                     : f.start[k];
     }
     EXPECT_EQ(answer_to(f).outcome, ToiOutcome::clear) << "pair " << i;
   }

@@ -25,7 +25,7 @@ struct Passing {
       : a(random_shape(samples, kind_a, 1)), b(random_shape(samples, kind_b, 1)) {
     body_a.rotation = random_quaternion(samples);
     body_b.rotation = random_quaternion(samples);
-    body_b.position = random_direction(samples) * (2.1 * (a.reach() + b.reach() + a.ball + b.ball));
+    body_b.position = random_direction(samples) * (2.1 * (a.distance_max() + b.distance_max() + a.ball + b.ball));
   }
   Passing(const Passing&) = delete;
   Passing& operator=(const Passing&) = delete;
@@ -46,17 +46,19 @@ struct Passing {
 /// The tolerance of a pair as it stands, m; none if they are too far apart to be placed.
 double tolerance_of(const MovingPair& pair) { return ldexp(pair.tolerance, pair.exponent - 30); }
 
-/// Sets a motion in which the pair's distance changes by about `way`, m, and turns by at most `turn`, rad.
-void set_motion(Samples& samples, Passing& passing, double way, double turn) {
+/// Sets a motion in which the pair's distance changes by about `displacement`, m, and turns by at most
+/// `rotation_vector`, rad.
+void set_motion(Samples& samples, Passing& passing, double displacement, double rotation_vector) {
   const Vector& n = passing.normal;
   const Vector any = random_direction(samples);
   const double along = samples.below(3) == 0 ? 0 : uniform(samples, 0, 1), off = uniform(samples, -0.3, 1);
   passing.body_a.displacement = random_direction(samples) * uniform(samples, 0, 1);
-  passing.body_b.displacement = passing.body_a.displacement + (any - n * dot(any, n)) * along + n * (off * way);
+  passing.body_b.displacement =
+      passing.body_a.displacement + (any - n * dot(any, n)) * along + n * (off * displacement);
   for (BodyAt* body : {&passing.body_a, &passing.body_b}) {
     const Vector axis = random_direction(samples);
-    const double angle = samples.below(2) == 0 ? 0 : turn * uniform(samples, 0, 1);
-    body->turn = axis * angle;
+    const double angle = samples.below(2) == 0 ? 0 : rotation_vector * uniform(samples, 0, 1);
+    body->rotation_vector = axis * angle;
   }
 }
 
@@ -107,9 +109,9 @@ DETENT_TEST(known_axis, clears_nothing_that_the_search_does_not) {
     ASSERT_OK(passing.prepare_pair());
     const double tolerance = tolerance_of(passing.pair);
     if (close) passing.bring_to(tolerance * uniform(samples, 0.3, 4));
-    const double way = close ? tolerance * pow(10, uniform(samples, -1, 4)) : 0.5;
-    const double turn = close ? pow(10, uniform(samples, -7, 0)) : 2;
-    set_motion(samples, passing, way, turn);
+    const double displacement = close ? tolerance * pow(10, uniform(samples, -1, 4)) : 0.5;
+    const double rotation_vector = close ? pow(10, uniform(samples, -7, 0)) : 2;
+    set_motion(samples, passing, displacement, rotation_vector);
     ASSERT_OK(passing.prepare_pair());
     SCOPED_TRACE(testing::Message() << "pair " << i << " of kinds " << kind_a << " and " << kind_b);
     expect_as_searched(samples, passing.pair, passing.normal, counts);

@@ -67,13 +67,13 @@ void check_distance(const Query& query) {
                                             detent_oracle::solid_of(query.b).rounding),
                 distance, closest.capped ? extent : 2 * slack);
   }
-  for (const double reach : {0.0, gap - 2 * slack, gap - slack / 2, gap, gap + slack, 2 * gap}) {
-    if (reach < 0) continue;
+  for (const double distance_max : {0.0, gap - 2 * slack, gap - slack / 2, gap, gap + slack, 2 * gap}) {
+    if (distance_max < 0) continue;
     bool farther = false;
-    EXPECT_OK(farther_than(a, pose_a, b, pose_b, real(reach), farther));
+    EXPECT_OK(farther_than(a, pose_a, b, pose_b, real(distance_max), farther));
     // True is certain, but for what the numbers lost.
     if (farther) {
-      EXPECT_GE(gap, host(real(reach)) - k_number_error * extent);
+      EXPECT_GE(gap, host(real(distance_max)) - k_number_error * extent);
     }
   }
 }
@@ -104,9 +104,9 @@ Query random_rims(Samples& samples, double gap) {
     const Quaternion p = random_quaternion(samples), q = random_quaternion(samples);
     query.path_a.rotation = {p.x, p.y, p.z, p.w};
     query.path_b.rotation = {q.x, q.y, q.z, q.w};
-    const Vector way = random_direction(samples);
+    const Vector displacement = random_direction(samples);
     const auto set = [&](double distance) {
-      for (size_t i = 0; i < 3; ++i) query.path_b.position[i] = way[static_cast<int>(i)] * distance;
+      for (size_t i = 0; i < 3; ++i) query.path_b.position[i] = displacement[static_cast<int>(i)] * distance;
     };
     double low = 0, high = 6;
     for (int i = 0; i < 26; ++i) {

@@ -36,16 +36,16 @@ Encounter random_polytopes(Samples& samples, double turn_max) {
   for (;;) {
     const double scale = samples.below(4) == 0 ? ldexp(1, static_cast<int>(samples.below(7)) - 3) : 1;
     const KnownShape a = random_polytope(samples, scale), b = random_polytope(samples, scale);
-    const double near = a.reach() + b.reach();
+    const double near = a.distance_max() + b.distance_max();
     const Vector start = random_direction(samples) * (near * uniform(samples, 0.6, 2));
     const Vector aim = random_direction(samples) * (near * uniform(samples, 0, 0.8));
-    const auto turn = [&] { return random_direction(samples) * uniform(samples, 0, turn_max); };
-    const Vector place = random_direction(samples) * scale, way = random_direction(samples) * scale;
+    const auto rotation_vector = [&] { return random_direction(samples) * uniform(samples, 0, turn_max); };
+    const Vector place = random_direction(samples) * scale, displacement = random_direction(samples) * scale;
     const Quaternion rotation_a = random_quaternion(samples), rotation_b = random_quaternion(samples);
-    const Vector turn_a = samples.below(3) == 0 ? Vector{{0, 0, 0}} : turn();
-    const Vector turn_b = samples.below(3) == 0 ? Vector{{0, 0, 0}} : turn();
-    const BodyAt body_a = {place, rotation_a, way, turn_a};
-    const BodyAt body_b = {place + start, rotation_b, way + (aim - start) * uniform(samples, 0.3, 2), turn_b};
+    const Vector turn_a = samples.below(3) == 0 ? Vector{{0, 0, 0}} : rotation_vector();
+    const Vector turn_b = samples.below(3) == 0 ? Vector{{0, 0, 0}} : rotation_vector();
+    const BodyAt body_a = {place, rotation_a, displacement, turn_a};
+    const BodyAt body_b = {place + start, rotation_b, displacement + (aim - start) * uniform(samples, 0.3, 2), turn_b};
     const Encounter encounter = {a, body_a, b, body_b};
     if (encounter.gap(0) > 0.01 * scale) return encounter;
   }
@@ -133,8 +133,9 @@ DETENT_TEST(feature_pairs, that_slide_along_each_other_are_answered) {
   // Face on face, a millionth apart and more: clear, or a hit within the tolerance; not undecided.
   const KnownShape cube = known(box({0.5, 0.5, 0.5}));
   for (const double gap : {1e-7, 1e-6, 1e-5, 1e-3}) {
-    for (const double spin : {0.0, 1.0}) {
-      const Encounter encounter = {cube, {}, cube, {{{-3, 1 + gap, 0.25}}, k_upright, {{6, 0, 0}}, {{0, spin, 0}}}};
+    for (const double angular_velocity : {0.0, 1.0}) {
+      const Encounter encounter = {
+          cube, {}, cube, {{{-3, 1 + gap, 0.25}}, k_upright, {{6, 0, 0}}, {{0, angular_velocity, 0}}}};
       const TimeOfImpact impact = encounter.impact_by(ToiMethod::feature_pairs);
       expect_never_late(encounter, impact, 100);
       EXPECT_NE(impact.outcome, ToiOutcome::undecided);
@@ -145,11 +146,11 @@ DETENT_TEST(feature_pairs, that_slide_along_each_other_are_answered) {
 
 DETENT_TEST(feature_pairs, of_fast_spins_are_never_late_and_end) {
   const KnownShape rod = known(box({1.0, 0.03125, 0.03125})), cube = known(box({0.5, 0.5, 0.5}));
-  for (const double spin : {20.0, 100.0, 300.0}) {
+  for (const double angular_velocity : {20.0, 100.0, 300.0}) {
     const Encounter encounter = {rod,
-                                 {{{0, 0, 0}}, k_upright, {{0, 0, 0}}, {{0, 0, spin}}},
+                                 {{{0, 0, 0}}, k_upright, {{0, 0, 0}}, {{0, 0, angular_velocity}}},
                                  cube,
-                                 {{{2, 0, 0}}, k_upright, {{-3, 0, 0}}, {{spin, 0, 0}}}};
+                                 {{{2, 0, 0}}, k_upright, {{-3, 0, 0}}, {{angular_velocity, 0, 0}}}};
     const TimeOfImpact impact = encounter.impact_by(ToiMethod::feature_pairs);
     EXPECT_EQ(impact.outcome, ToiOutcome::hit);
     expect_never_late(encounter, impact, 1000);
@@ -172,7 +173,9 @@ double gap_of(const Encounter& encounter, const BothPlaced& placed) {
   EXPECT_OK(closest_points(encounter.a.convex, pose_of(at_a), encounter.b.convex, pose_of(at_b), closest));
   return closest.overlap ? 0 : host(closest.distance);
 }
-PosesOfStep poses_of(const BodyAt& body) { return {{body.position, body.rotation}, body.displacement, body.turn}; }
+PosesOfStep poses_of(const BodyAt& body) {
+  return {{body.position, body.rotation}, body.displacement, body.rotation_vector};
+}
 
 /// A's frame: B's first pose and its last, with the turn between.
 PosesOfStep relative_poses(const Encounter& encounter) {
@@ -181,10 +184,11 @@ PosesOfStep relative_poses(const Encounter& encounter) {
     return Placed{a.to_local(b.position), detent_oracle::conjugate(a.rotation) * b.rotation};
   };
   const Placed first = seen(0), last = seen(1);
-  Quaternion turn = normalised(last.rotation * detent_oracle::conjugate(first.rotation));
-  if (turn.w < 0) turn = {-turn.x, -turn.y, -turn.z, -turn.w};
-  const Vector v = {{turn.x, turn.y, turn.z}};
-  const double sine = length(v), angle = 2 * atan2(sine, turn.w);
+  Quaternion rotation_vector = normalised(last.rotation * detent_oracle::conjugate(first.rotation));
+  if (rotation_vector.w < 0)
+    rotation_vector = {-rotation_vector.x, -rotation_vector.y, -rotation_vector.z, -rotation_vector.w};
+  const Vector v = {{rotation_vector.x, rotation_vector.y, rotation_vector.z}};
+  const double sine = length(v), angle = 2 * atan2(sine, rotation_vector.w);
   return {first, last.position - first.position, sine == 0 ? Vector{{0, 0, 0}} : v * (angle / sine)};
 }
 
@@ -195,10 +199,12 @@ struct OwnMotion {
   uint32_t late = 0;    ///< hits at whose time they overlap
 };
 
-/// Asks a method about random polytopes, of which some turn too far for it: by more than `turn_limit`, rad. `turn` and
-/// `placed` say how far they turn, and where they are at a time, in its motion. A hit is within the tolerance.
+/// Asks a method about random polytopes, of which some turn too far for it: by more than `turn_limit`, rad.
+/// `rotation_vector` and `placed` say how far they turn, and where they are at a time, in its motion. A hit is within
+/// the tolerance.
 template <class Turn, class PlacedAt>
-OwnMotion ask_in_own_motion(ToiMethod method, Samples samples, double turn_limit, Turn turn, PlacedAt placed) {
+OwnMotion ask_in_own_motion(ToiMethod method, Samples samples, double turn_limit, Turn rotation_vector,
+                            PlacedAt placed) {
   constexpr int k_samples = 40;
   OwnMotion found;
   for (uint32_t i = 0; i < rounds(2000) && !testing::Test::HasFailure(); ++i) {
@@ -208,15 +214,15 @@ OwnMotion ask_in_own_motion(ToiMethod method, Samples samples, double turn_limit
     const Status status = time_of_impact_by(method, encounter.a.convex, motion_of(encounter.body_a), encounter.b.convex,
                                             motion_of(encounter.body_b), impact);
     if (status == Status::out_of_range) {
-      EXPECT_GT(turn(encounter), turn_limit - 1e-3);
+      EXPECT_GT(rotation_vector(encounter), turn_limit - 1e-3);
       ++found.refused;
       continue;
     }
     EXPECT_EQ(status, Status::ok);
-    EXPECT_LT(turn(encounter), turn_limit + 1e-3);
+    EXPECT_LT(rotation_vector(encounter), turn_limit + 1e-3);
     EXPECT_NE(impact.outcome, ToiOutcome::undecided);
     ++found.asked;
-    const double time = fraction_to_host(impact.time), slack = encounter.slack() + 1e-7 * encounter.reach();
+    const double time = fraction_to_host(impact.time), slack = encounter.slack() + 1e-7 * encounter.distance_max();
     const auto gap_at = [&](double when) { return gap_of(encounter, placed(encounter, when)); };
     if (impact.outcome == ToiOutcome::hit) {
       ++found.hits;
@@ -238,7 +244,7 @@ OwnMotion ask_in_own_motion(ToiMethod method, Samples samples, double turn_limit
 DETENT_TEST(redon, is_never_late_in_the_screw_between_the_poses) {
   const OwnMotion found = ask_in_own_motion(
       ToiMethod::redon, Samples{3}, 2 * atan(4.0),
-      [](const Encounter& encounter) { return length(relative_poses(encounter).turn); },
+      [](const Encounter& encounter) { return length(relative_poses(encounter).rotation_vector); },
       [](const Encounter& encounter, double time) {
         return BothPlaced{{{{0, 0, 0}}, {0, 0, 0, 1}},
                           detent_oracle::tangent_screw_at(relative_poses(encounter), time)};
@@ -250,7 +256,9 @@ DETENT_TEST(redon, is_never_late_in_the_screw_between_the_poses) {
 DETENT_TEST(canny, hits_within_the_tolerance_and_passes_hardly_any_contact_of_its_motion) {
   const OwnMotion found = ask_in_own_motion(
       ToiMethod::canny, Samples{4}, k_pi,
-      [](const Encounter& encounter) { return std::max(length(encounter.body_a.turn), length(encounter.body_b.turn)); },
+      [](const Encounter& encounter) {
+        return std::max(length(encounter.body_a.rotation_vector), length(encounter.body_b.rotation_vector));
+      },
       [](const Encounter& encounter, double time) {
         return BothPlaced{detent_oracle::normalised_lerp_at(poses_of(encounter.body_a), time),
                           detent_oracle::normalised_lerp_at(poses_of(encounter.body_b), time)};
@@ -264,7 +272,7 @@ DETENT_TEST(canny, passes_what_is_coplanar_all_the_time) {
   const Vector corners[3] = {{{-0.5, 0, -0.5}}, {{0.5, 0, -0.5}}, {{0, 0, 0.5}}};
   const KnownShape triangle = known_triangle(corners, 0);
   const Encounter encounter = {triangle, {}, triangle, {{{3, 0, 0}}, k_upright, {{-4, 0, 0}}}};
-  for (const ToiMethod method : {ToiMethod::constant_spin, ToiMethod::feature_pairs, ToiMethod::redon}) {
+  for (const ToiMethod method : {ToiMethod::constant_angular_velocity, ToiMethod::feature_pairs, ToiMethod::redon}) {
     const TimeOfImpact impact = encounter.impact_by(method);
     EXPECT_EQ(impact.outcome, ToiOutcome::hit);
     EXPECT_NEAR(fraction_to_host(impact.time), 0.5, 1e-6);

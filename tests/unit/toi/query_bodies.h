@@ -51,7 +51,7 @@ inline Convex convex_of(const detent_queries::Solid& solid) {
 inline BodyAt body_of(const detent_queries::Path& path) {
   const std::array<double, 4>& q = path.rotation;
   return {vector_of(path.position), normalised(Quaternion{q[0], q[1], q[2], q[3]}), vector_of(path.displacement),
-          vector_of(path.turn)};
+          vector_of(path.rotation_vector)};
 }
 
 /// The query with its positions on the configuration's grid: where that is coarse, another query is asked and judged.

@@ -81,9 +81,10 @@ DETENT_TEST(toi, of_a_sphere_and_a_plane_either_of_which_moves) {
   expect_clear({ground, {}, ball, {{{10, 2.5, 7}}, k_upright, {{30, -1.875, 1}}}});
   expect_clear({ground, {}, ball, {{{10, 2.5, 7}}, k_upright, {{30, 1, 1}}}});
   // The plane turns about its position: its height above the ball's centre is -x sin + y cos.
-  const double spin = 1.5, x = 3, y = 2.5;
-  const double time = (acos(0.5 / hypot(x, y)) - atan2(x, y)) / spin;
-  expect_hit({ground, {{{0, 0, 0}}, k_upright, {{0, 0, 0}}, {{0, 0, spin}}}, ball, {{{x, y, 4}}}}, time, 1e-6, k_late);
+  const double angular_velocity = 1.5, x = 3, y = 2.5;
+  const double time = (acos(0.5 / hypot(x, y)) - atan2(x, y)) / angular_velocity;
+  expect_hit({ground, {{{0, 0, 0}}, k_upright, {{0, 0, 0}}, {{0, 0, angular_velocity}}}, ball, {{{x, y, 4}}}}, time,
+             1e-6, k_late);
   expect_clear({ground, {{{0, 0, 0}}, k_upright, {{0, 0, 0}}, {{0, 0, -1}}}, ball, {{{x, y, 4}}}});
 }
 
@@ -94,15 +95,16 @@ DETENT_TEST(toi, of_a_turning_rod_whose_tip_meets_a_plane) {
   const KnownShape rods[] = {known(capsule(real(ball), real(1))),
                              known(rounded(box({real(0x1p-12), real(1), real(0x1p-12)}), real(ball)))};
   for (const KnownShape& rod : rods) {
-    for (const double spin : {0.9, 1.5, 3.0, 2 * k_pi, 12.0, -1.5, -12.0}) {
-      SCOPED_TRACE(spin);
-      const double time = asin((height - ball) / 1) / fabs(spin);
-      expect_hit({ground, {}, rod, {{{5, height, 0}}, lying, {{0, 0, 0}}, {{0, 0, spin}}}}, time, 1e-3, k_late);
+    for (const double angular_velocity : {0.9, 1.5, 3.0, 2 * k_pi, 12.0, -1.5, -12.0}) {
+      SCOPED_TRACE(angular_velocity);
+      const double time = asin((height - ball) / 1) / fabs(angular_velocity);
+      expect_hit({ground, {}, rod, {{{5, height, 0}}, lying, {{0, 0, 0}}, {{0, 0, angular_velocity}}}}, time, 1e-3,
+                 k_late);
       // The same onto a large flat box.
       const KnownShape slab = known(box({4.0, 0.5, 4.0}));
-      expect_hit({slab, {{{5, -0.5, 0}}}, rod, {{{5, height, 0}}, lying, {{0, 0, 0}}, {{0, 0, spin}}}}, time, 1e-3,
-                 k_late);
-      const Encounter high = {ground, {}, rod, {{{5, 1.125, 0}}, lying, {{0, 0, 0}}, {{0, 0, spin}}}};
+      expect_hit({slab, {{{5, -0.5, 0}}}, rod, {{{5, height, 0}}, lying, {{0, 0, 0}}, {{0, 0, angular_velocity}}}},
+                 time, 1e-3, k_late);
+      const Encounter high = {ground, {}, rod, {{{5, 1.125, 0}}, lying, {{0, 0, 0}}, {{0, 0, angular_velocity}}}};
       expect_clear(high);
       expect_clear({slab, {{{5, -0.5, 0}}}, rod, high.body_b});
     }
@@ -113,16 +115,16 @@ DETENT_TEST(toi, of_a_turning_rod_that_sweeps_a_ball) {
   const double ball = 0.125, far = 0.75, thick = 0.0625;
   const KnownShape rod = known(capsule(real(thick), real(1))), target = known(sphere(real(ball)));
   // The rod points along y and sweeps towards -x; the ball lies `angle` ahead.
-  for (const double spin : {1.0, 3.0, 2 * k_pi, 12.0}) {
+  for (const double angular_velocity : {1.0, 3.0, 2 * k_pi, 12.0}) {
     for (const double angle : {0.5, 1.0, 2.5}) {
-      if (angle > spin) continue;
-      SCOPED_TRACE(testing::Message() << spin << " rad, ball at " << angle);
+      if (angle > angular_velocity) continue;
+      SCOPED_TRACE(testing::Message() << angular_velocity << " rad, ball at " << angle);
       const Vector at = {{-far * sin(angle), far * cos(angle), 0}};
-      const BodyAt turning = {{{0, 0, 0}}, k_upright, {{0, 0, 0}}, {{0, 0, spin}}};
+      const BodyAt turning = {{{0, 0, 0}}, k_upright, {{0, 0, 0}}, {{0, 0, angular_velocity}}};
       const double first = angle > k_pi / 2 ? angle - k_pi : angle;  // its other end may come first
       const double lead = asin((ball + thick) / far);
       const double ahead = first - lead > 0 ? first : first + k_pi;
-      const double time = (ahead - lead) / spin;
+      const double time = (ahead - lead) / angular_velocity;
       if (time <= 1) {
         expect_hit({rod, turning, target, {at}}, time, 4e-6, k_late + 4 * k_position_step);
       }
@@ -202,9 +204,10 @@ DETENT_TEST(toi, of_shapes_that_touch_at_the_start_is_0_whether_they_part_or_not
   const KnownShape ball = known(sphere(0.5)), cube = known(box({0.5, 0.5, 0.5})), rod = known(capsule(0.25, 0.25));
   for (const KnownShape& a : {ball, cube, rod}) {
     for (const KnownShape& b : {ball, cube, rod}) {
-      for (const double way : {-1.0, 0.0, 1.0}) {
-        for (const double spin : {0.0, 1.0}) {
-          const Encounter encounter = {a, {}, b, {{{0, 1, 0}}, k_upright, {{0, way, 0}}, {{0, spin, 0}}}};
+      for (const double displacement : {-1.0, 0.0, 1.0}) {
+        for (const double angular_velocity : {0.0, 1.0}) {
+          const Encounter encounter = {
+              a, {}, b, {{{0, 1, 0}}, k_upright, {{0, displacement, 0}}, {{0, angular_velocity, 0}}}};
           const TimeOfImpact impact = encounter.impact();
           EXPECT_EQ(impact.outcome, ToiOutcome::hit);
           EXPECT_TRUE(impact.time == Fraction(0.0));
@@ -268,12 +271,13 @@ DETENT_TEST(toi, of_tiny_bodies_at_250_m_a_step) {
 DETENT_TEST(toi, of_a_turning_needle_of_1_to_1000) {
   const double half = 1, thick = 0x1p-10, far = 0.875, ball = 0x1p-9;
   const KnownShape needle = known(box({real(half), real(thick), real(thick)})), target = known(sphere(real(ball)));
-  for (const double spin : {0.75, 3.0, 12.0}) {
+  for (const double angular_velocity : {0.75, 3.0, 12.0}) {
     for (const double angle : {0.25, 0.5}) {
       const double lead = asin((ball + thick) / far);
       const Vector at = {{far * cos(angle), far * sin(angle), 0}};
-      const Encounter encounter = {needle, {{{0, 0, 0}}, k_upright, {{0, 0, 0}}, {{0, 0, spin}}}, target, {at}};
-      const double time = (angle - lead) / spin;
+      const Encounter encounter = {
+          needle, {{{0, 0, 0}}, k_upright, {{0, 0, 0}}, {{0, 0, angular_velocity}}}, target, {at}};
+      const double time = (angle - lead) / angular_velocity;
       expect_hit(encounter, time, 3e-6 + 4 * k_position_step, k_late + 4 * k_position_step);
     }
   }
@@ -282,17 +286,17 @@ DETENT_TEST(toi, of_a_turning_needle_of_1_to_1000) {
 DETENT_TEST(toi, of_the_fastest_spins_is_never_late) {
   const KnownShape rod = known(capsule(0.0625, 1.0)), ball = known(sphere(0.125));
   const KnownShape cube = known(box({0.5, 0.5, 0.5}));
-  for (const double spin : {100.0, 1e3, 1e4, 0x1p15, 0x1p16}) {
+  for (const double angular_velocity : {100.0, 1e3, 1e4, 0x1p15, 0x1p16}) {
     for (const Vector& axis : {Vector{{0, 0, 1}}, Vector{{0, 0, -1}}, Vector{{0, 1, 0}}}) {
       for (const bool both : {false, true}) {
-        SCOPED_TRACE(testing::Message() << spin << " rad about " << axis[0] << axis[1] << axis[2]
+        SCOPED_TRACE(testing::Message() << angular_velocity << " rad about " << axis[0] << axis[1] << axis[2]
                                         << (both ? ", both" : ""));
-        const Vector turn = axis * spin;
-        if (both && spin == 0x1p16) continue;  // has a test of its own
+        const Vector rotation_vector = axis * angular_velocity;
+        if (both && angular_velocity == 0x1p16) continue;  // has a test of its own
         // A ball comes in along x: the rod sweeps a disc of 1.0625 m, so they meet by then plus half a turn at the
         // latest.
-        const BodyAt turning = {{{0, 0, 0}}, k_upright, {{0, 0, 0}}, turn};
-        const BodyAt coming = {{{2, 0, 0}}, k_upright, {{-3, 0, 0}}, both ? turn : Vector{{0, 0, 0}}};
+        const BodyAt turning = {{{0, 0, 0}}, k_upright, {{0, 0, 0}}, rotation_vector};
+        const BodyAt coming = {{{2, 0, 0}}, k_upright, {{-3, 0, 0}}, both ? rotation_vector : Vector{{0, 0, 0}}};
         for (const KnownShape& other : {ball, cube}) {
           const Encounter encounter = {rod, turning, other, coming};
           for (const Encounter& either : {encounter, encounter.swapped()}) {
@@ -300,7 +304,7 @@ DETENT_TEST(toi, of_the_fastest_spins_is_never_late) {
             EXPECT_NE(impact.outcome, ToiOutcome::clear);
             if (axis[1] == 0) {
               // By half a turn after the ball is within the disc by its own radius.
-              const double in_reach = 1.0 / 3 + k_pi / spin, time = fraction_to_host(impact.time);
+              const double in_reach = 1.0 / 3 + k_pi / angular_velocity, time = fraction_to_host(impact.time);
               EXPECT_LE(time, in_reach);
             } else {
               const double met = (other.type() == ShapeType::sphere ? 2 - 0.1875 : 2 - 0.5 - 0.0625) / 3;
@@ -308,21 +312,24 @@ DETENT_TEST(toi, of_the_fastest_spins_is_never_late) {
             }
           }
         }
-        expect_never_late({rod, turning, ball, {{{2, 0, 0}}, k_upright, {{0, 1, 0}}, both ? turn : Vector{{0, 0, 0}}}},
-                          Encounter(rod, turning, ball, {{{2, 0, 0}}, k_upright, {{0, 1, 0}}}).impact(), 10);
+        expect_never_late(
+            {rod, turning, ball, {{{2, 0, 0}}, k_upright, {{0, 1, 0}}, both ? rotation_vector : Vector{{0, 0, 0}}}},
+            Encounter(rod, turning, ball, {{{2, 0, 0}}, k_upright, {{0, 1, 0}}}).impact(), 10);
       }
     }
   }
 }
 
-DETENT_TEST(toi, of_two_bodies_that_both_spin_as_fast_as_may_be_is_not_late) {
+DETENT_TEST(toi, of_two_bodies_that_both_angular_velocity_as_fast_as_may_be_is_not_late) {
   const KnownShape rod = known(capsule(0.0625, 1.0));
-  const Vector turn = {{0, 0, 0x1p16}};
+  const Vector rotation_vector = {{0, 0, 0x1p16}};
   for (const KnownShape& other : {known(capsule(0.0625, 0.0625)), known(box({0.5, 0.5, 0.5}))}) {
-    const Encounter encounter = {
-        rod, {{{0, 0, 0}}, k_upright, {{0, 0, 0}}, turn}, other, {{{2, 0, 0}}, k_upright, {{-3, 0, 0}}, turn}};
-    EXPECT_LE(fraction_to_host(encounter.impact().time), 1.0 / 3 + k_pi / turn[2]);
-    EXPECT_LE(fraction_to_host(encounter.swapped().impact().time), 1.0 / 3 + k_pi / turn[2]);
+    const Encounter encounter = {rod,
+                                 {{{0, 0, 0}}, k_upright, {{0, 0, 0}}, rotation_vector},
+                                 other,
+                                 {{{2, 0, 0}}, k_upright, {{-3, 0, 0}}, rotation_vector}};
+    EXPECT_LE(fraction_to_host(encounter.impact().time), 1.0 / 3 + k_pi / rotation_vector[2]);
+    EXPECT_LE(fraction_to_host(encounter.swapped().impact().time), 1.0 / 3 + k_pi / rotation_vector[2]);
   }
 }
 
@@ -353,7 +360,7 @@ DETENT_TEST(toi, is_never_late_and_hits_within_the_tolerance) {
 }
 
 constexpr ToiMethod k_methods[] = {ToiMethod::paper,      ToiMethod::first_order, ToiMethod::second_order,
-                                   ToiMethod::corotating, ToiMethod::world_space, ToiMethod::constant_spin,
+                                   ToiMethod::corotating, ToiMethod::world_space, ToiMethod::constant_angular_velocity,
                                    ToiMethod::mirtich};
 static_assert(sizeof k_methods / sizeof *k_methods == k_axis_methods + 1);
 
@@ -364,8 +371,8 @@ DETENT_TEST(toi, is_never_late_by_any_method) {
     const uint32_t count = rounds(300);
     for (uint32_t i = 0; i < count; ++i) {
       const Encounter encounter = random_encounter(samples, 1, i % 3 == 0 ? 12 : 2);
-      const Vector& turn_a = encounter.body_a.turn;
-      const Vector& turn_b = encounter.body_b.turn;
+      const Vector& turn_a = encounter.body_a.rotation_vector;
+      const Vector& turn_b = encounter.body_b.rotation_vector;
       if (encounter.planar() && length(encounter.b.type() == ShapeType::half_space ? turn_b : turn_a) != 0) continue;
       const TimeOfImpact impact = encounter.impact_by(method), best = encounter.impact();
       SCOPED_TRACE(testing::Message() << "pair " << i << ", method " << static_cast<int>(method));
@@ -383,9 +390,12 @@ DETENT_TEST(toi, is_never_late_by_any_method) {
 
 DETENT_TEST(toi, of_a_turning_plane_is_not_late_by_any_method) {
   // n(t) = (-sin, cos, 0), so that the ball at (x, y) is met when -x sin + y cos is its radius.
-  const double spin = 1.5, x = 3, y = 2.5, time = (acos(0.5 / hypot(x, y)) - atan2(x, y)) / spin;
-  const Encounter encounter = {
-      known(half_space()), {{{0, 0, 0}}, k_upright, {{0, 0, 0}}, {{0, 0, spin}}}, known(sphere(0.5)), {{{x, y, 4}}}};
+  const double angular_velocity = 1.5, x = 3, y = 2.5,
+               time = (acos(0.5 / hypot(x, y)) - atan2(x, y)) / angular_velocity;
+  const Encounter encounter = {known(half_space()),
+                               {{{0, 0, 0}}, k_upright, {{0, 0, 0}}, {{0, 0, angular_velocity}}},
+                               known(sphere(0.5)),
+                               {{{x, y, 4}}}};
   for (const ToiMethod method : k_methods) {
     EXPECT_LE(fraction_to_host(encounter.impact_by(method).time), time + k_late) << static_cast<int>(method);
     EXPECT_LE(fraction_to_host(encounter.swapped().impact_by(method).time), time + k_late) << static_cast<int>(method);
@@ -432,9 +442,10 @@ DETENT_TEST(toi, of_a_ball_far_above_or_below_a_plane_is_not_taken_for_the_other
 }
 /// So far that sums of lengths end at the largest number there is.
 DETENT_TEST(toi, of_a_turning_plane_and_a_ball_as_far_as_may_be_is_not_late) {
-  const double spin = 1.5, x = 65000, y = 60000, time = (acos(0.5 / hypot(x, y)) - atan2(x, y)) / spin;
+  const double angular_velocity = 1.5, x = 65000, y = 60000,
+               time = (acos(0.5 / hypot(x, y)) - atan2(x, y)) / angular_velocity;
   const Encounter encounter = {known(half_space()),
-                               {{{0, 0, 0}}, k_upright, {{0, 0, -16000}}, {{0, 0, spin}}},
+                               {{{0, 0, 0}}, k_upright, {{0, 0, -16000}}, {{0, 0, angular_velocity}}},
                                known(sphere(0.5)),
                                {{{x, y, 65000}}, k_upright, {{0, 0, 16000}}}};
   for (const ToiMethod method : k_methods) {
@@ -451,8 +462,8 @@ DETENT_TEST(toi, is_the_same_to_the_bit_wherever_the_pair_is) {
     const Encounter encounter = random_encounter(samples, 1, 3);
     Motion motion_a = motion_of(encounter.body_a), motion_b = motion_of(encounter.body_b);
     const auto moved = [&] {
-      const double way = uniform(samples, -1, 1) * (k_config == Config::fx32 ? 32e3 : 1e7);
-      return static_cast<Coord::Raw>(ldexp(way, Coord::k_frac));
+      const double displacement = uniform(samples, -1, 1) * (k_config == Config::fx32 ? 32e3 : 1e7);
+      return static_cast<Coord::Raw>(ldexp(displacement, Coord::k_frac));
     };
     const Position by = {Coord::from_raw(moved()), Coord::from_raw(moved()), Coord::from_raw(moved())};
     for (Position* p : {&motion_a.start.position, &motion_b.start.position})

@@ -23,9 +23,9 @@ DETENT_TEST(turning, at_any_time_is_within_its_error_of_the_exact_rotation) {
     Turning turning = still({0, 0, 0, 1 << 30});
     MovingPair pair;
     const Quaternion start = random_quaternion(samples);
-    const Vector turn = random_direction(samples) * pow(2, uniform(samples, -20, 5));
+    const Vector rotation_vector = random_direction(samples) * pow(2, uniform(samples, -20, 5));
     const KnownShape cube = known(box({0.5, 0.5, 0.5}));
-    const BodyAt body = {{{0, 0, 0}}, start, {{0, 0, 0}}, turn};
+    const BodyAt body = {{{0, 0, 0}}, start, {{0, 0, 0}}, rotation_vector};
     const Motion motion = motion_of(body), other = motion_of(held({{{0.5, 0, 0}}}));
     ASSERT_OK(prepare(cube.convex, motion, cube.convex, other, pair));
     turning = pair.turning_a;
@@ -34,7 +34,8 @@ DETENT_TEST(turning, at_any_time_is_within_its_error_of_the_exact_rotation) {
     const Quat& q = motion.start.rotation;
     const Quaternion given = detent_oracle::normalised(
         Quaternion{unit_to_host(q.x), unit_to_host(q.y), unit_to_host(q.z), unit_to_host(q.w)});
-    const Vector rate = {{real_to_host(motion.turn.x), real_to_host(motion.turn.y), real_to_host(motion.turn.z)}};
+    const Vector rate = {{real_to_host(motion.rotation_vector.x), real_to_host(motion.rotation_vector.y),
+                          real_to_host(motion.rotation_vector.z)}};
     const double part = ldexp(static_cast<double>(time), -62);
     const Quaternion exact = detent_oracle::rotation_by(rate * part) * given;
     const Matrix32 rotation = turning.at(time);
@@ -58,7 +59,7 @@ DETENT_TEST(turning, of_an_axis_keeps_it_of_length_1) {
       return Vec32{static_cast<int32_t>(v[0]), static_cast<int32_t>(v[1]), static_cast<int32_t>(v[2])};
     };
     const Vec32 normal = unit_vector_raw(scaled_to_30_bits(vector_of(1, 30)));
-    const TurningAxis axis(normal, vector_of(uniform(samples, 0, 2.5), 29));
+    const RotatingAxis axis(normal, vector_of(uniform(samples, 0, 2.5), 29));
     const Vector turned = from_raw(axis.at(static_cast<int64_t>(samples.bits() >> 34)));
     error_max = std::max(error_max, fabs(length(turned) - 1) / k_step);
   }

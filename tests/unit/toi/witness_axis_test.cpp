@@ -46,37 +46,43 @@ DETENT_TEST(witness_axis, of_a_rod_that_turns_into_a_wall) {
   const double ball = 0.0625, height = 0.75;
   const KnownShape rod = known(capsule(real(ball), real(1))), slab = known(box({4.0, 0.5, 4.0}));
   const double angle = asin(height - ball);
-  for (const double spin : {0.9, 1.5, 2.0, -1.5}) {  // less than until it has left the wall again
-    SCOPED_TRACE(spin);
-    const double time = angle / fabs(spin);
-    expect_hit({known(half_space()), {}, rod, {{{5, height, 0}}, lying, {{0, 0, 0}}, {{0, 0, spin}}}}, time, 1e-5);
-    expect_hit({slab, {{{5, -0.5, 0}}}, rod, {{{5, height, 0}}, lying, {{0, 0, 0}}, {{0, 0, spin}}}}, time, 1e-5);
-    expect_clear({slab, {{{5, -0.5, 0}}}, rod, {{{5, 1.125, 0}}, lying, {{0, 0, 0}}, {{0, 0, spin}}}});
+  for (const double angular_velocity : {0.9, 1.5, 2.0, -1.5}) {  // less than until it has left the wall again
+    SCOPED_TRACE(angular_velocity);
+    const double time = angle / fabs(angular_velocity);
+    expect_hit({known(half_space()), {}, rod, {{{5, height, 0}}, lying, {{0, 0, 0}}, {{0, 0, angular_velocity}}}}, time,
+               1e-5);
+    expect_hit({slab, {{{5, -0.5, 0}}}, rod, {{{5, height, 0}}, lying, {{0, 0, 0}}, {{0, 0, angular_velocity}}}}, time,
+               1e-5);
+    expect_clear({slab, {{{5, -0.5, 0}}}, rod, {{{5, 1.125, 0}}, lying, {{0, 0, 0}}, {{0, 0, angular_velocity}}}});
   }
 }
 
 /// n(t) = (-sin, cos, 0), so that the ball at (x, y) is met when -x sin + y cos is its radius.
 DETENT_TEST(witness_axis, of_a_turning_plane_turns_with_it) {
-  const double spin = 1.5, x = 3, y = 2.5, time = (acos(0.5 / hypot(x, y)) - atan2(x, y)) / spin;
-  expect_hit(
-      {known(half_space()), {{{0, 0, 0}}, k_upright, {{0, 0, 0}}, {{0, 0, spin}}}, known(sphere(0.5)), {{{x, y, 4}}}},
-      time, 1e-5);
+  const double angular_velocity = 1.5, x = 3, y = 2.5,
+               time = (acos(0.5 / hypot(x, y)) - atan2(x, y)) / angular_velocity;
+  expect_hit({known(half_space()),
+              {{{0, 0, 0}}, k_upright, {{0, 0, 0}}, {{0, 0, angular_velocity}}},
+              known(sphere(0.5)),
+              {{{x, y, 4}}}},
+             time, 1e-5);
 }
 
 /// A cube falls with an edge down onto the upper edge, across it, of one that turns that edge about the falling one's:
 /// the cross product of the edges is (0, cos, sin).
 DETENT_TEST(witness_axis, of_two_edges_turns_with_their_cross_product) {
   const KnownShape cube = known(box({0.5, 0.5, 0.5}));
-  const double sine = sin(k_pi / 8), cosine = cos(k_pi / 8), edge = sqrt(0.5), height = 2.5, way = 2, spin = 0.75;
+  const double sine = sin(k_pi / 8), cosine = cos(k_pi / 8), edge = sqrt(0.5), height = 2.5, displacement = 2,
+               angular_velocity = 0.75;
   double from = 0, to = 1;  // of a root of what is left between the edges
   for (int i = 0; i < 60; ++i) {
     const double time = (from + to) / 2;
-    ((height - way * time - edge) * cos(spin * time) - edge > 0 ? from : to) = time;
+    ((height - displacement * time - edge) * cos(angular_velocity * time) - edge > 0 ? from : to) = time;
   }
   const Encounter encounter = {cube,
-                               {{{0, 0, 0}}, {0, 0, sine, cosine}, {{0, 0, 0}}, {{spin, 0, 0}}},
+                               {{{0, 0, 0}}, {0, 0, sine, cosine}, {{0, 0, 0}}, {{angular_velocity, 0, 0}}},
                                cube,
-                               {{{0, height, 0}}, {sine, 0, 0, cosine}, {{0, -way, 0}}}};
+                               {{{0, height, 0}}, {sine, 0, 0, cosine}, {{0, -displacement, 0}}}};
   expect_hit(encounter, from, 2e-6);
   EXPECT_LE(witnessed(encounter).gjk_calls, 2u);
 }
@@ -96,13 +102,13 @@ DETENT_TEST(witness_axis, passes_by_what_has_parted_again_at_the_end) {
 
 /// Of a hit all is checked, of the rest how often it differs from what is certified.
 DETENT_TEST(witness_axis, hits_are_within_the_tolerance_and_few_differ_from_the_default) {
-  for (const double turn : {0.5, 2.0, 12.0}) {
+  for (const double rotation_vector : {0.5, 2.0, 12.0}) {
     Samples samples{31};
     uint32_t hits = 0, passed = 0, late = 0, undecided = 0, calls = 0;
     const uint32_t count = rounds(600);
     for (uint32_t i = 0; i < count; ++i) {
       const double scale = i % 4 == 0 ? ldexp(1, static_cast<int>(samples.below(9)) - 3) : 1;
-      const Encounter encounter = random_encounter(samples, scale, turn);
+      const Encounter encounter = random_encounter(samples, scale, rotation_vector);
       const TimeOfImpact impact = witnessed(encounter), usual = encounter.impact();
       SCOPED_TRACE(testing::Message() << "pair " << i << ", scale " << scale);
       const double time = fraction_to_host(impact.time);
@@ -125,12 +131,12 @@ DETENT_TEST(witness_axis, hits_are_within_the_tolerance_and_few_differ_from_the_
       }
       if (HasFailure()) return;
     }
-    printf("turns up to %4.1f: %u pairs, %u hits; passed by %u, late %u, undecided %u; at most %u calls of GJK\n", turn,
-           count, hits, passed, late, undecided, calls);
+    printf("turns up to %4.1f: %u pairs, %u hits; passed by %u, late %u, undecided %u; at most %u calls of GJK\n",
+           rotation_vector, count, hits, passed, late, undecided, calls);
     EXPECT_GT(hits, count / 3);
     EXPECT_LE(calls, static_cast<uint32_t>(k_witnesses_max));
     const uint32_t others = passed + late + undecided;
-    EXPECT_LE(others, turn < 1 ? count / 50 : turn < 3 ? count / 25 : count / 6);
+    EXPECT_LE(others, rotation_vector < 1 ? count / 50 : rotation_vector < 3 ? count / 25 : count / 6);
   }
 }
 

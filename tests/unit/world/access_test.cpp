@@ -14,8 +14,8 @@ BodyDef unusual_body() {
   BodyDef def;
   def.position = position(1, 2, 3);
   def.rotation = {0.5, 0.5, -0.5, 0.5};
-  def.velocity = reals(1, -2, 3);
-  def.spin = reals(0.5, 0.25, -1);
+  def.linear_velocity = reals(1, -2, 3);
+  def.angular_velocity = reals(0.5, 0.25, -1);
   def.shape = rounded(box(reals(0.5, 0.75, 1.25)), real(0.125));
   def.material = {real(0.3), real(0.7), real(0.01), RestitutionRule::smaller};
   def.mass = scaled(12.5);
@@ -23,7 +23,7 @@ BodyDef unusual_body() {
   def.angular_damping = real(0.2);
   def.gravity_scale = real(-1.5);
   def.user_data = 77;
-  def.turn_locks = k_turn_lock_z;
+  def.rotation_locks = k_rotation_lock_z;
   return def;
 }
 
@@ -47,8 +47,8 @@ void expect_same(const Shape& a, const Shape& b) {
 void expect_same(const BodyDef& a, const BodyDef& b) {
   EXPECT_EQ(a.type, b.type);
   EXPECT_TRUE(a.position == b.position);
-  expect_near(a.velocity, b.velocity);
-  expect_near(a.spin, b.spin);
+  expect_near(a.linear_velocity, b.linear_velocity);
+  expect_near(a.angular_velocity, b.angular_velocity);
   expect_same(a.shape, b.shape);
   expect_near(a.material.friction, b.material.friction);
   expect_near(a.material.restitution, b.material.restitution);
@@ -59,7 +59,7 @@ void expect_same(const BodyDef& a, const BodyDef& b) {
   expect_near(a.angular_damping, b.angular_damping);
   expect_near(a.gravity_scale, b.gravity_scale);
   EXPECT_EQ(a.user_data, b.user_data);
-  EXPECT_EQ(a.turn_locks, b.turn_locks);
+  EXPECT_EQ(a.rotation_locks, b.rotation_locks);
 }
 
 /// The state is one that `load` lets in, and the step goes on from it alike.
@@ -98,8 +98,8 @@ DETENT_TEST(access, a_definition_read_back_is_what_was_given_and_creates_the_sam
                           cone(real(0.4), real(0.6))};
   for (const Shape& shape : shapes) {
     given.shape = shape;
-    given.spin.z = Real(0.0);
-    given.turn_locks = 0;
+    given.angular_velocity.z = Real(0.0);
+    given.rotation_locks = 0;
     Lab lab({2, 2, 0}), other({2, 2, 0});
     const BodyId id = lab.add(given);
     BodyDef read, again;
@@ -125,8 +125,8 @@ DETENT_TEST(access, what_is_set_is_read_back) {
   ASSERT_OK(set_mass(lab.world, id, want.mass));
   ASSERT_OK(set_user_data(lab.world, id, want.user_data));
   ASSERT_OK(set_pose(lab.world, id, want.position, want.rotation));
-  ASSERT_OK(set_velocity(lab.world, id, want.velocity, want.spin));
-  ASSERT_OK(set_turn_locks(lab.world, id, want.turn_locks));
+  ASSERT_OK(set_velocity(lab.world, id, want.linear_velocity, want.angular_velocity));
+  ASSERT_OK(set_rotation_locks(lab.world, id, want.rotation_locks));
   Lab other({2, 2, 0});
   const BodyId made = other.add(want);
   BodyDef read, expected;
@@ -143,36 +143,36 @@ DETENT_TEST(access, what_is_set_is_read_back) {
   ASSERT_OK(get_damping(lab.world, id, linear, angular));
   ASSERT_OK(get_gravity_scale(lab.world, id, gravity_scale));
   ASSERT_OK(get_type(lab.world, id, type));
-  ASSERT_OK(get_turn_locks(lab.world, id, locks));
+  ASSERT_OK(get_rotation_locks(lab.world, id, locks));
   expect_same(shape, want.shape);
   expect_near(material.friction, want.material.friction);
   expect_near(angular, want.angular_damping);
   expect_near(linear, want.linear_damping);
   expect_near(gravity_scale, want.gravity_scale);
   EXPECT_EQ(type, BodyType::dynamic);
-  EXPECT_EQ(locks, want.turn_locks);
+  EXPECT_EQ(locks, want.rotation_locks);
   expect_sound(lab);
 }
 
 DETENT_TEST(access, a_body_that_becomes_fixed_stops_and_has_its_mass_when_it_is_dynamic_again) {
   Lab lab({2, 2, 0});
   BodyDef def = unusual_body();
-  def.turn_locks = 0;
+  def.rotation_locks = 0;
   const BodyId id = lab.add(def);
   ASSERT_OK(set_type(lab.world, id, BodyType::kinematic));
   const Motion carried = lab.motion(id);
-  EXPECT_NEAR(carried.velocity[2], 3, 1e-6);
-  EXPECT_NEAR(carried.spin[2], -1, 1e-5);
+  EXPECT_NEAR(carried.linear_velocity[2], 3, 1e-6);
+  EXPECT_NEAR(carried.angular_velocity[2], -1, 1e-5);
   expect_sound(lab);
   Scaled mass{};
   ASSERT_OK(get_mass(lab.world, id, mass));
   EXPECT_EQ(scaled_to_host(mass), 0);
   ASSERT_OK(set_type(lab.world, id, BodyType::dynamic));
-  EXPECT_NEAR(lab.motion(id).spin[0], 0.5, 1e-5);
+  EXPECT_NEAR(lab.motion(id).angular_velocity[0], 0.5, 1e-5);
   ASSERT_OK(set_type(lab.world, id, BodyType::fixed));
   expect_sound(lab);
-  EXPECT_EQ(lab.motion(id).velocity[2], 0);
-  EXPECT_EQ(lab.motion(id).spin[0], 0);
+  EXPECT_EQ(lab.motion(id).linear_velocity[2], 0);
+  EXPECT_EQ(lab.motion(id).angular_velocity[0], 0);
   EXPECT_EQ(apply_impulse(lab.world, id, scaleds(1, 0, 0)), Status::bad_argument);
   ASSERT_OK(set_type(lab.world, id, BodyType::dynamic));
   ASSERT_OK(get_mass(lab.world, id, mass));
@@ -231,14 +231,14 @@ DETENT_TEST(access, a_sleeper_that_becomes_fixed_wakes_those_on_it_and_holds) {
   EXPECT_NEAR(lab.motion(high).position[1], 1.5, 0.02);
 }
 
-DETENT_TEST(access, a_shape_can_be_changed_in_motion_and_keeps_speed_and_spin_and_mass) {
+DETENT_TEST(access, a_shape_can_be_changed_in_motion_and_keeps_speed_and_angular_velocity_and_mass) {
   WorldDef calm;
   calm.gravity = {0.0, 0.0, 0.0};
   Lab lab({2, 2, 0}, calm);
   BodyDef def;
   def.shape = box(reals(0.25, 0.5, 0.25));
-  def.velocity = reals(1, 2, 3);
-  def.spin = reals(0, 2, 0);
+  def.linear_velocity = reals(1, 2, 3);
+  def.angular_velocity = reals(0, 2, 0);
   const BodyId id = lab.add(def);
   Scaled before{}, after{};
   ASSERT_OK(get_mass(lab.world, id, before));
@@ -247,13 +247,14 @@ DETENT_TEST(access, a_shape_can_be_changed_in_motion_and_keeps_speed_and_spin_an
   ASSERT_OK(set_shape(lab.world, id, box(reals(2, 2, 2))));
   ASSERT_OK(get_mass(lab.world, id, after));
   EXPECT_TRUE(before == after);
-  EXPECT_NEAR(lab.motion(id).velocity[2], 3, 1e-6);
-  EXPECT_NEAR(lab.motion(id).spin[1], 2, 1e-5);
+  EXPECT_NEAR(lab.motion(id).linear_velocity[2], 3, 1e-6);
+  EXPECT_NEAR(lab.motion(id).angular_velocity[1], 2, 1e-5);
   Vec3<Scaled> moments{};
   ASSERT_OK(get_inertia(lab.world, id, moments));
   EXPECT_NEAR(scaled_to_host(moments.y) / inertia, 1, 1e-6);
   expect_sound(lab);  // a step
-  EXPECT_NEAR(lab.motion(id).spin[1], 2 + 30.0 / 60 / inertia, 1e-5) << "the torque that was applied still acts";
+  EXPECT_NEAR(lab.motion(id).angular_velocity[1], 2 + 30.0 / 60 / inertia, 1e-5)
+      << "the torque that was applied still acts";
 }
 
 DETENT_TEST(access, a_shape_that_grows_under_a_sleeper_lifts_it) {
@@ -269,14 +270,14 @@ DETENT_TEST(access, a_heavier_body_keeps_its_speed_and_is_pushed_less) {
   Lab lab({2, 2, 0});
   BodyDef def;
   def.mass = scaled(1);
-  def.velocity = reals(4, 0, 0);
-  def.spin = reals(0, 3, 0);
+  def.linear_velocity = reals(4, 0, 0);
+  def.angular_velocity = reals(0, 3, 0);
   const BodyId id = lab.add(def);
   ASSERT_OK(set_mass(lab.world, id, scaled(8)));
-  EXPECT_EQ(lab.motion(id).velocity[0], 4);
-  EXPECT_NEAR(lab.motion(id).spin[1], 3, 1e-5);
+  EXPECT_EQ(lab.motion(id).linear_velocity[0], 4);
+  EXPECT_NEAR(lab.motion(id).angular_velocity[1], 3, 1e-5);
   ASSERT_OK(apply_impulse(lab.world, id, scaleds(8, 0, 0)));
-  EXPECT_NEAR(lab.motion(id).velocity[0], 5, 1e-6);
+  EXPECT_NEAR(lab.motion(id).linear_velocity[0], 5, 1e-6);
   expect_sound(lab);
 }
 
@@ -286,15 +287,15 @@ DETENT_TEST(access, an_inertia_that_is_set_turns_the_body_and_goes_with_its_mass
   Lab lab({2, 2, 0}, calm);
   BodyDef def;  // a ball of 1/2 m: its unit is 1 m
   def.mass = scaled(2);
-  def.spin = reals(0, 3, 0);
+  def.angular_velocity = reals(0, 3, 0);
   const BodyId id = lab.add(def);
   Vec3<Scaled> moments{};
   ASSERT_OK(set_inertia(lab.world, id, scaleds(0.5, 0.25, 1)));
   ASSERT_OK(get_inertia(lab.world, id, moments));
   EXPECT_NEAR(scaled_to_host(moments.y), 0.25, 1e-9);
-  EXPECT_NEAR(lab.motion(id).spin[1], 3, 1e-6) << "the spin stays";
+  EXPECT_NEAR(lab.motion(id).angular_velocity[1], 3, 1e-6) << "the angular velocity stays";
   ASSERT_OK(apply_angular_impulse(lab.world, id, scaleds(0, 0.5, 0)));
-  EXPECT_NEAR(lab.motion(id).spin[1], 5, 1e-6);
+  EXPECT_NEAR(lab.motion(id).angular_velocity[1], 5, 1e-6);
   expect_sound(lab);  // it is loaded from its snapshot, among others
   ASSERT_OK(set_mass(lab.world, id, scaled(4)));
   ASSERT_OK(get_inertia(lab.world, id, moments));
@@ -308,7 +309,7 @@ DETENT_TEST(access, an_inertia_that_no_body_can_have_is_refused) {
   Lab lab({2, 2, 0});
   BodyDef def;
   def.mass = scaled(2);
-  def.turn_locks = k_turn_lock_x;
+  def.rotation_locks = k_rotation_lock_x;
   const BodyId id = lab.add(def), ground = lab.add_ground();
   const uint64_t before = digest(lab.world);
   EXPECT_EQ(set_inertia(lab.world, id, scaleds(1, 0, 1)), Status::out_of_range);
@@ -334,10 +335,10 @@ DETENT_TEST(access, settings_of_a_body_act_on_what_sleeps_against_it) {
   EXPECT_NEAR(lab.motion(id).position[0], 0, 0.02);
   ASSERT_OK(set_material(lab.world, ground, {real(0), real(0), real(0), RestitutionRule::larger}));
   lab.run(60);
-  EXPECT_NEAR(lab.motion(id).velocity[0], 3, 0.1);
+  EXPECT_NEAR(lab.motion(id).linear_velocity[0], 3, 0.1);
   ASSERT_OK(set_damping(lab.world, id, real(1000), real(0)));
   lab.run(1);
-  EXPECT_LT(lab.motion(id).velocity[0], 0.3);
+  EXPECT_LT(lab.motion(id).linear_velocity[0], 0.3);
   ASSERT_OK(set_gravity_scale(lab.world, id, real(-1)));
   ASSERT_OK(set_damping(lab.world, id, real(0), real(0)));
   lab.run(60);
@@ -348,15 +349,15 @@ DETENT_TEST(access, a_point_of_a_turning_body_has_its_velocity) {
   Lab lab({1, 1, 0});
   BodyDef def;
   def.shape = sphere(real(1));
-  def.velocity = reals(1, 0, 0);
-  def.spin = reals(0, 0, 2);
+  def.linear_velocity = reals(1, 0, 0);
+  def.angular_velocity = reals(0, 0, 2);
   const BodyId id = lab.add(def);
-  Vec3<Real> velocity = {};
-  ASSERT_OK(get_velocity_at(lab.world, id, reals(0, 1.5, 0), velocity));
-  EXPECT_NEAR(real_to_host(velocity.x), 1 - 3, 1e-5);
-  ASSERT_OK(get_velocity_at(lab.world, id, reals(1, 0, 0), velocity));
-  EXPECT_NEAR(real_to_host(velocity.y), 2, 1e-5);
-  EXPECT_EQ(get_velocity_at(lab.world, id, reals(2.5, 0, 0), velocity), Status::out_of_range);
+  Vec3<Real> linear_velocity = {};
+  ASSERT_OK(get_velocity_at(lab.world, id, reals(0, 1.5, 0), linear_velocity));
+  EXPECT_NEAR(real_to_host(linear_velocity.x), 1 - 3, 1e-5);
+  ASSERT_OK(get_velocity_at(lab.world, id, reals(1, 0, 0), linear_velocity));
+  EXPECT_NEAR(real_to_host(linear_velocity.y), 2, 1e-5);
+  EXPECT_EQ(get_velocity_at(lab.world, id, reals(2.5, 0, 0), linear_velocity), Status::out_of_range);
 }
 
 DETENT_TEST(access, bad_arguments_get_their_status_and_change_nothing) {
@@ -365,7 +366,7 @@ DETENT_TEST(access, bad_arguments_get_their_status_and_change_nothing) {
   const BodyId id = lab.add_box(0.5, 0, 0.5, 0);
   BodyDef wheel;
   wheel.type = BodyType::kinematic;
-  wheel.spin = reals(0, 1, 0);
+  wheel.angular_velocity = reals(0, 1, 0);
   wheel.position = position(5, 5, 5);
   const BodyId spinning = lab.add(wheel);
   lab.run(5);
@@ -383,7 +384,7 @@ DETENT_TEST(access, bad_arguments_get_their_status_and_change_nothing) {
     EXPECT_EQ(set_material(world, bad, material), Status::bad_id);
     EXPECT_EQ(set_damping(world, bad, real(1), real(1)), Status::bad_id);
     EXPECT_EQ(set_gravity_scale(world, bad, real(1)), Status::bad_id);
-    EXPECT_EQ(set_turn_locks(world, bad, 1), Status::bad_id);
+    EXPECT_EQ(set_rotation_locks(world, bad, 1), Status::bad_id);
     EXPECT_EQ(get_body_def(world, bad, def), Status::bad_id);
     EXPECT_EQ(get_shape(world, bad, shape), Status::bad_id);
   }
@@ -404,7 +405,7 @@ DETENT_TEST(access, bad_arguments_get_their_status_and_change_nothing) {
   EXPECT_EQ(set_damping(world, id, real(1), real(-1)), Status::out_of_range);
   EXPECT_EQ(set_damping(world, id, real(1025), real(1)), Status::out_of_range);
   EXPECT_EQ(set_gravity_scale(world, id, real(1025)), Status::out_of_range);
-  EXPECT_EQ(set_turn_locks(world, id, 8), Status::bad_argument);
+  EXPECT_EQ(set_rotation_locks(world, id, 8), Status::bad_argument);
   WorldDef settings = get_settings(world);
   settings.tick = real(1);
   EXPECT_EQ(set_settings(world, settings), Status::out_of_range);
@@ -447,17 +448,17 @@ DETENT_TEST(access, a_shape_is_refused_where_its_code_or_its_bytes_are_missing) 
   EXPECT_EQ(bind_asset(world, 0), Status::ok);
 }
 
-DETENT_TEST(access, a_fast_spin_that_a_larger_shape_cannot_have_is_refused) {
+DETENT_TEST(access, a_fast_angular_velocity_that_a_larger_shape_cannot_have_is_refused) {
   Lab lab({1, 1, 0});
   BodyDef def;
   def.shape = sphere(real(0.25));
-  def.spin = reals(0, 30000, 0);
+  def.angular_velocity = reals(0, 30000, 0);
   const BodyId id = lab.add(def);
   const uint64_t before = digest(lab.world);
   EXPECT_EQ(set_shape(lab.world, id, sphere(real(1000))), Status::out_of_range);
   EXPECT_EQ(digest(lab.world), before);
   ASSERT_OK(set_shape(lab.world, id, sphere(real(0.125))));
-  EXPECT_NEAR(lab.motion(id).spin[1], 30000, 0.1);
+  EXPECT_NEAR(lab.motion(id).angular_velocity[1], 30000, 0.1);
 }
 
 DETENT_TEST(access, settings_read_back_create_the_same_world) {
@@ -471,13 +472,13 @@ DETENT_TEST(access, settings_read_back_create_the_same_world) {
   def.convergence = 9;
   def.stabilisation = Stabilisation::post;
   def.relaxation = real(1.25);
-  def.stiffness = real(0.125);
+  def.contact_frequency = real(0.125);
   def.damping_ratio = real(3);
   def.restitution_threshold = real(0.5);
   def.continuous = false;
   def.sleeping = false;
-  def.breaking = real(0.03125);
-  def.reuse = real(0.0078125);
+  def.contact_margin = real(0.03125);
+  def.contact_recycle_distance = real(0.0078125);
   def.reduction = ManifoldReduction::deepest_area;
   Lab lab(def.capacity, def);
   Lab again(def.capacity, get_settings(lab.world)), changed(def.capacity);
@@ -493,7 +494,7 @@ DETENT_TEST(access, settings_change_in_the_middle_of_a_pile) {
   for (const double tick : {1.0 / 240, 1.0 / 30, 1.0 / 60}) {
     WorldDef def = first;
     def.tick = real(tick);
-    def.reuse = tick < 0.01 ? real(0) : first.reuse;
+    def.contact_recycle_distance = tick < 0.01 ? real(0) : first.contact_recycle_distance;
     def.substeps = tick < 0.01 ? 4 : 0;
     def.stabilisation = tick > 0.02 ? Stabilisation::post : Stabilisation::soft;
     ASSERT_OK(set_settings(lab.world, def));

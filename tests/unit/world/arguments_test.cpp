@@ -40,9 +40,9 @@ DETENT_TEST(arguments, a_default_body_is_accepted) { EXPECT_OK(try_create(BodyDe
 
 DETENT_TEST(arguments, numbers_that_are_none_are_refused_in_every_field) {
   for (const Real wild : wild_numbers()) {
-    EXPECT_EQ(try_changed([&](BodyDef& d) { d.velocity.x = wild; }), Status::out_of_range);
-    EXPECT_EQ(try_changed([&](BodyDef& d) { d.velocity.z = wild; }), Status::out_of_range);
-    EXPECT_EQ(try_changed([&](BodyDef& d) { d.spin.y = wild; }), Status::out_of_range);
+    EXPECT_EQ(try_changed([&](BodyDef& d) { d.linear_velocity.x = wild; }), Status::out_of_range);
+    EXPECT_EQ(try_changed([&](BodyDef& d) { d.linear_velocity.z = wild; }), Status::out_of_range);
+    EXPECT_EQ(try_changed([&](BodyDef& d) { d.angular_velocity.y = wild; }), Status::out_of_range);
     EXPECT_EQ(try_changed([&](BodyDef& d) { d.shape = sphere(wild); }), Status::out_of_range);
     EXPECT_EQ(try_changed([&](BodyDef& d) { d.shape = box({real(1), wild, real(1)}); }), Status::out_of_range);
     EXPECT_EQ(try_changed([&](BodyDef& d) { d.shape = capsule(real(1), wild); }), Status::out_of_range);
@@ -115,7 +115,7 @@ DETENT_TEST(arguments, kinds_outside_their_list_are_refused) {
   EXPECT_EQ(try_changed([&](BodyDef& d) { d.shape = half_space(); }), Status::bad_argument);
   EXPECT_EQ(try_changed([&](BodyDef& d) {
               d.type = BodyType::fixed;
-              d.velocity = reals(1, 0, 0);
+              d.linear_velocity = reals(1, 0, 0);
             }),
             Status::bad_argument);
 }
@@ -163,14 +163,14 @@ DETENT_TEST(arguments, a_world_needs_its_block_and_sound_settings) {
   EXPECT_EQ(make([](WorldDef& d) { d.tick = real(0); }), Status::out_of_range);
   EXPECT_EQ(make([](WorldDef& d) { d.tick = real(1); }), Status::out_of_range);
   EXPECT_EQ(make([](WorldDef& d) { d.relaxation = real(2); }), Status::out_of_range);
-  EXPECT_EQ(make([](WorldDef& d) { d.stiffness = real(0.5); }), Status::out_of_range);
+  EXPECT_EQ(make([](WorldDef& d) { d.contact_frequency = real(0.5); }), Status::out_of_range);
   EXPECT_EQ(make([](WorldDef& d) { d.gravity = reals(0, 2000, 0); }), Status::out_of_range);
   EXPECT_EQ(make([](WorldDef& d) { d.convergence = 31; }), Status::out_of_range);
   EXPECT_EQ(make([](WorldDef& d) { d.stabilisation = static_cast<Stabilisation>(3); }), Status::bad_argument);
-  EXPECT_EQ(make([](WorldDef& d) { d.reuse = real(-0.001); }), Status::out_of_range);
-  EXPECT_EQ(make([](WorldDef& d) { d.reuse = real(0.016); }), Status::out_of_range);
-  EXPECT_EQ(make([](WorldDef& d) { d.breaking = real(0); }), Status::out_of_range);
-  EXPECT_EQ(make([](WorldDef& d) { d.breaking = real(0.07); }), Status::out_of_range);
+  EXPECT_EQ(make([](WorldDef& d) { d.contact_recycle_distance = real(-0.001); }), Status::out_of_range);
+  EXPECT_EQ(make([](WorldDef& d) { d.contact_recycle_distance = real(0.016); }), Status::out_of_range);
+  EXPECT_EQ(make([](WorldDef& d) { d.contact_margin = real(0); }), Status::out_of_range);
+  EXPECT_EQ(make([](WorldDef& d) { d.contact_margin = real(0.07); }), Status::out_of_range);
   EXPECT_OK(make([](WorldDef& d) { d.capacity.manifolds = false; }));
   EXPECT_OK(make([](WorldDef& d) { d.reduction = ManifoldReduction::deepest_area; }));
   EXPECT_EQ(make([](WorldDef& d) { d.reduction = static_cast<ManifoldReduction>(0); }), Status::bad_argument);

@@ -52,7 +52,7 @@ DETENT_TEST(body_event, who_falls_asleep_and_who_is_woken_is_told_once_in_the_or
   BodyDef ball;
   ball.shape = sphere(real(0.25));
   ball.position = position(-3, 1.5, 0);
-  ball.velocity = reals(300, 0, 0);
+  ball.linear_velocity = reals(300, 0, 0);
   watch.lab.add(ball);
   uint32_t woke = 0;
   for (int tick = 0; tick < 4; ++tick) {

@@ -40,7 +40,7 @@ DETENT_TEST(capacity_use, suggests_a_capacity_in_which_nothing_is_dropped) {
   Capacity capacity = {40, 8, 0};
   CapacityUse use = use_of_a_heap(capacity);
   EXPECT_GT(use.steps_full, 0u);
-  for (int turn = 0; turn < 4 && use.steps_full != 0; ++turn) {
+  for (int rotation_vector = 0; rotation_vector < 4 && use.steps_full != 0; ++rotation_vector) {
     capacity = suggest_capacity(use, capacity);
     use = use_of_a_heap(capacity);
   }

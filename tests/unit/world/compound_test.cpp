@@ -17,22 +17,22 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 using detent_compounds::Parts;
-using detent_surfaces::Bytes;
+using detent_terrains::Bytes;
 
 /// A world whose asset 0 is a compound, and asset 1 a surface, if one is given.
 class CompoundLab : public Lab {
  public:
   explicit CompoundLab(const Parts& parts, WorldDef def = {}, bool sleeping = false)
       : CompoundLab(parts, Bytes({}), def, sleeping) {}
-  CompoundLab(const Parts& parts, const Bytes& surface, WorldDef def = {}, bool sleeping = false,
+  CompoundLab(const Parts& parts, const Bytes& terrain, WorldDef def = {}, bool sleeping = false,
               uint32_t contacts = 256)
-      : Lab({32, contacts, 2}, def, sleeping), compound_(detent_compounds::cooked(parts)), surface_(surface) {
+      : Lab({32, contacts, 2}, def, sleeping), compound_(detent_compounds::cooked(parts)), terrain_(terrain) {
     assets_[0] = {compound_.data(), compound_.count()};
-    assets_[1] = {surface_.data(), surface_.count()};
-    const bool has_surface = surface_.count() != 0;
-    world.assets = {assets_, has_surface ? 2u : 1u};
+    assets_[1] = {terrain_.data(), terrain_.count()};
+    const bool has_terrain = terrain_.count() != 0;
+    world.assets = {assets_, has_terrain ? 2u : 1u};
     EXPECT_OK(bind_asset(world, 0));
-    if (has_surface) {
+    if (has_terrain) {
       EXPECT_OK(bind_asset(world, 1));
     }
     EXPECT_OK(compound_info(assets_[0], info));
@@ -59,16 +59,17 @@ class CompoundLab : public Lab {
   /// Over the mass, J/kg.
   double turning_energy(BodyId id) {
     Pose pose;
-    Vec3<Real> velocity, spin;
+    Vec3<Real> linear_velocity, angular_velocity;
     EXPECT_OK(get_pose(world, id, pose));
-    EXPECT_OK(get_velocity(world, id, velocity, spin));
-    const Vec3<Real> local = vector_to_local(pose.rotation, spin);
+    EXPECT_OK(get_velocity(world, id, linear_velocity, angular_velocity));
+    const Vec3<Real> local = vector_to_local(pose.rotation, angular_velocity);
     const double turns[3] = {real_to_host(local.x), real_to_host(local.y), real_to_host(local.z)};
     const CompoundView view = compound_view(compound_.data());
     double energy = 0;
     for (uint32_t axis = 0; axis < 3; ++axis) {
-      const HullScaled gyration = view.gyration(axis);
-      energy += turns[axis] * turns[axis] / 2 * ldexp(1, 2 * view.exponent() - gyration.exponent) / gyration.mantissa;
+      const HullScaled inverse_inertia = view.inverse_inertia(axis);
+      energy += turns[axis] * turns[axis] / 2 * ldexp(1, 2 * view.exponent() - inverse_inertia.exponent) /
+                inverse_inertia.mantissa;
     }
     return energy;
   }
@@ -76,13 +77,13 @@ class CompoundLab : public Lab {
   CompoundInfo info;
 
  private:
-  Bytes compound_, surface_;
+  Bytes compound_, terrain_;
   Asset assets_[2];
 };
 
 double speed_of(const Motion& motion) {
-  return hypot(hypot(motion.velocity[0], motion.velocity[1]), motion.velocity[2]) +
-         hypot(hypot(motion.spin[0], motion.spin[1]), motion.spin[2]);
+  return hypot(hypot(motion.linear_velocity[0], motion.linear_velocity[1]), motion.linear_velocity[2]) +
+         hypot(hypot(motion.angular_velocity[0], motion.angular_velocity[1]), motion.angular_velocity[2]);
 }
 
 DETENT_TEST(compounds, rest_on_their_feet) {
@@ -124,8 +125,8 @@ DETENT_TEST(compounds, of_one_box_behave_as_it_does) {
   CompoundLab lab({detent_compounds::box({0, 0, 0}, {0.5, 0.25, 0.3})});
   lab.add_ground();
   BodyDef def = lab.compound_def(0, 1.5, 0);
-  def.velocity = reals(0.5, 0, 0.2);
-  def.spin = reals(0.3, 1, -0.2);
+  def.linear_velocity = reals(0.5, 0, 0.2);
+  def.angular_velocity = reals(0.3, 1, -0.2);
   const BodyId one = lab.add(def);
   def.shape = box(reals(0.5, 0.25, 0.3));
   def.position = position(20, 1.5, 0);
@@ -147,7 +148,7 @@ DETENT_TEST(compounds, of_one_box_behave_as_it_does) {
 DETENT_TEST(compounds, turn_freely_without_losing_energy) {
   CompoundLab lab(detent_compounds::letter_l(), weightless());
   BodyDef def = lab.compound_def(0, 0, 0);
-  def.spin = reals(3, 0.5, 4);
+  def.angular_velocity = reals(3, 0.5, 4);
   const BodyId id = lab.add(def);
   const double before = lab.turning_energy(id);
   lab.run(1200);
@@ -159,37 +160,37 @@ DETENT_TEST(compounds, of_two_balls_roll) {
   CompoundLab lab(detent_compounds::dumbbell());
   lab.add_ground();
   BodyDef def = lab.compound_def(0, 0.5, 0);
-  def.velocity = reals(0, 0, 2);
-  def.spin = reals(4, 0, 0);
+  def.linear_velocity = reals(0, 0, 2);
+  def.angular_velocity = reals(4, 0, 0);
   const BodyId id = lab.add(def);
   lab.run(240);
   const Motion motion = lab.motion(id);
   EXPECT_NEAR(motion.position[2], 8, 0.05);
   EXPECT_NEAR(motion.position[1], 0.5, 2e-3);
-  EXPECT_NEAR(motion.velocity[2], 2, 0.02);
-  EXPECT_NEAR(motion.spin[0], 4, 0.05);
+  EXPECT_NEAR(motion.linear_velocity[2], 2, 0.02);
+  EXPECT_NEAR(motion.angular_velocity[0], 4, 0.05);
   EXPECT_EQ(get_info(lab.world).contacts, 1u);
 }
 
 /// Dropped into a bowl made of triangles, turning and fast.
 DETENT_TEST(compounds, never_fall_through_a_mesh) {
-  const Bytes bowl = detent_surfaces::cooked(
-      detent_surfaces::ground(16, 0.5, [](double x, double z) { return 0.15 * (x * x + z * z); }));
+  const Bytes bowl = detent_terrains::cooked(
+      detent_terrains::ground(16, 0.5, [](double x, double z) { return 0.15 * (x * x + z * z); }));
   const Parts kinds[] = {detent_compounds::jack(0.4, 0.1), detent_compounds::letter_l()};
   for (const Parts& parts : kinds) {
     CompoundLab lab(parts, bowl);
     BodyDef ground;
     ground.type = BodyType::fixed;
-    ground.shape = surface(1);
+    ground.shape = terrain(1);
     lab.add(ground);
     detent_queries::Random random(5);
     const uint32_t rounds = detent_oracle::rounds(50);
     for (uint32_t round = 0; round < rounds; ++round) {
-      const double x = random.uniform(-1, 1), z = random.uniform(-1, 1), spin = random.uniform(-20, 20);
+      const double x = random.uniform(-1, 1), z = random.uniform(-1, 1), angular_velocity = random.uniform(-20, 20);
       const double speed = random.uniform(1, 60);
       BodyDef def = lab.compound_def(x, 2.5, z);
-      def.velocity = reals(0, -speed, 0);
-      def.spin = reals(spin, 0.3 * spin, -spin);
+      def.linear_velocity = reals(0, -speed, 0);
+      def.angular_velocity = reals(angular_velocity, 0.3 * angular_velocity, -angular_velocity);
       const BodyId id = lab.add(def);
       for (int tick = 0; tick < 90; ++tick) {
         lab.run(1);
@@ -211,10 +212,10 @@ DETENT_TEST(compounds, never_leave_a_closed_room_in_silence) {
   uint32_t thrown = 0, left = 0;
   const Parts kinds[] = {detent_compounds::letter_l(), detent_compounds::table(), detent_compounds::dumbbell()};
   for (const Parts& parts : kinds) {
-    CompoundLab lab(parts, detent_surfaces::cooked(detent_surfaces::box_surface(8, 6, 7, 4)));
+    CompoundLab lab(parts, detent_terrains::cooked(detent_terrains::box_terrain(8, 6, 7, 4)));
     BodyDef room;
     room.type = BodyType::fixed;
-    room.shape = surface(1);
+    room.shape = terrain(1);
     lab.add(room);
     detent_queries::Random random(23);
     const uint32_t rounds = detent_oracle::rounds(150);
@@ -222,9 +223,9 @@ DETENT_TEST(compounds, never_leave_a_closed_room_in_silence) {
       BodyDef def = lab.compound_def(0, 0, 0);
       const double speed = random.uniform(50, 500) / sqrt(3.0);
       const auto side = [&] { return random.uniform(-1, 1) < 0 ? -speed : speed; };
-      const double x = side(), y = side(), z = side(), spin = random.uniform(-30, 30);
-      def.velocity = reals(x, y, z);
-      def.spin = reals(spin, 0.5 * spin, -spin);
+      const double x = side(), y = side(), z = side(), angular_velocity = random.uniform(-30, 30);
+      def.linear_velocity = reals(x, y, z);
+      def.angular_velocity = reals(angular_velocity, 0.5 * angular_velocity, -angular_velocity);
       def.material.restitution = real(0.5);
       const BodyId id = lab.add(def);
       bool inside = true, told = false;
@@ -248,12 +249,12 @@ DETENT_TEST(compounds, let_bullets_through_where_they_are_hollow) {
     for (const bool turning : {false, true}) {
       CompoundLab lab(detent_compounds::table(), weightless());
       BodyDef def = lab.compound_def(0, 0, 0);
-      if (turning) def.spin = reals(0, 0.001, 0);
+      if (turning) def.angular_velocity = reals(0, 0.001, 0);
       const BodyId id = lab.add(def);
       BodyDef bullet;
       bullet.shape = sphere(real(0.03));
       bullet.position = position(-8, 0.45, aimed ? 0.93 : 0.2);
-      bullet.velocity = reals(300, 0, 0);
+      bullet.linear_velocity = reals(300, 0, 0);
       const BodyId shot = lab.add(bullet);
       lab.run(4);
       const Motion motion = lab.motion(shot), struck = lab.motion(id);
@@ -278,16 +279,16 @@ DETENT_TEST(compounds, meet_in_flight_with_the_part_that_is_in_the_way) {
     post.position = position(12, 0.3, before_leg ? 0.93 : 0);
     lab.add(post);
     BodyDef def = lab.compound_def(0, 0, 0);
-    def.velocity = reals(300, 0, 0);
+    def.linear_velocity = reals(300, 0, 0);
     const BodyId id = lab.add(def);
     lab.run(4);
     const Motion motion = lab.motion(id);
     if (before_leg) {
-      EXPECT_LT(motion.velocity[0], 290);
-      EXPECT_GT(fabs(motion.spin[1]), 10);
+      EXPECT_LT(motion.linear_velocity[0], 290);
+      EXPECT_GT(fabs(motion.angular_velocity[1]), 10);
     } else {
       EXPECT_NEAR(motion.position[0], 20, 1e-3);
-      EXPECT_NEAR(motion.velocity[0], 300, 1e-3);
+      EXPECT_NEAR(motion.linear_velocity[0], 300, 1e-3);
     }
   }
 }
@@ -318,16 +319,16 @@ DETENT_TEST(compounds, that_rest_find_no_contact_anew) {
   lab.run(60);
   for (int tick = 0; tick < 60; ++tick) {
     const StepReport report = lab.run(1);
-    EXPECT_EQ(report.contacts_reused, report.contacts) << tick;
+    EXPECT_EQ(report.contacts_recycled, report.contacts) << tick;
   }
 }
 
 DETENT_TEST(compounds, tell_which_children_touch_a_mesh) {
   CompoundLab lab(detent_compounds::table(),
-                  detent_surfaces::cooked(detent_surfaces::ground(8, 1, [](double, double) { return 0.0; })));
+                  detent_terrains::cooked(detent_terrains::ground(8, 1, [](double, double) { return 0.0; })));
   BodyDef ground;
   ground.type = BodyType::fixed;
-  ground.shape = surface(1);
+  ground.shape = terrain(1);
   lab.add(ground);
   lab.add_compound(0, 0, 0);
   lab.run(60);
@@ -349,7 +350,7 @@ DETENT_TEST(compounds, that_tilt_keep_their_contacts) {
   BodyDef floor = lab.compound_def(0, 0, 0);
   floor.type = BodyType::kinematic;
   floor.material.friction = real(1);
-  floor.spin = reals(0, 0, 0.2);
+  floor.angular_velocity = reals(0, 0, 0.2);
   lab.add(floor);
   BodyDef crate;
   crate.shape = box(reals(0.25, 0.25, 0.25));
@@ -421,9 +422,10 @@ DETENT_TEST(compounds, come_to_rest_in_a_pile) {
     detent_queries::Random random(9);
     std::vector<BodyId> ids;
     for (int i = 0; i < 12; ++i) {
-      const double x = random.uniform(-0.8, 0.8), z = random.uniform(-0.8, 0.8), turn = random.uniform(-1, 1);
+      const double x = random.uniform(-0.8, 0.8), z = random.uniform(-0.8, 0.8),
+                   rotation_vector = random.uniform(-1, 1);
       BodyDef def = lab.compound_def(x, 1.5 + 1.8 * i, z);
-      def.spin = reals(turn, 0.7, -turn);
+      def.angular_velocity = reals(rotation_vector, 0.7, -rotation_vector);
       ids.push_back(lab.add(def));
     }
     uint32_t dropped = 0, capped = 0;
@@ -460,14 +462,14 @@ DETENT_TEST(compounds, of_balls_touch_in_single_points) {
 /// Its centre lies within the ridge: each ball is on the side where it is itself. Two are on each.
 DETENT_TEST(compounds, stand_astride_a_ridge) {
   const Bytes ridge =
-      detent_surfaces::cooked(detent_surfaces::ground(8, 1, [](double x, double) { return 1 - fabs(x); }));
+      detent_terrains::cooked(detent_terrains::ground(8, 1, [](double x, double) { return 1 - fabs(x); }));
   const Parts arch = {detent_compounds::ball(-1, 0, -0.5, 0.2), detent_compounds::ball(1, 0, -0.5, 0.2),
                       detent_compounds::ball(-1, 0, 0.5, 0.2), detent_compounds::ball(1, 0, 0.5, 0.2),
                       detent_compounds::capsule({-1, 1.2, 0}, {1, 1.2, 0}, 0.1)};
   CompoundLab lab(arch, ridge);
   BodyDef ground;
   ground.type = BodyType::fixed;
-  ground.shape = surface(1);
+  ground.shape = terrain(1);
   ground.material.friction = real(1);
   lab.add(ground);
   const double rest = 0.2 * sqrt(2.0);
@@ -501,7 +503,7 @@ DETENT_TEST(compounds, are_asked_part_by_part) {
   QueryReport report;
   RayQuery ray;
   ray.origin = position(-5, 0.45, 0.5);
-  ray.way = reals(10, 0, 0);
+  ray.displacement = reals(10, 0, 0);
   EXPECT_OK(query_ray(lab.world, ray, {hit, 1}, report));
   EXPECT_EQ(report.hits, 0u);
   ray.origin = position(-5, 0.45, 0.95);
@@ -591,8 +593,8 @@ DETENT_TEST(compounds, without_their_asset_touch_nothing_which_is_counted) {
   const StepReport report = lab.run(30);
   EXPECT_FALSE(report.complete());
   EXPECT_GT(report.contacts_capped, 0u);
-  EXPECT_LT(lab.motion(lower).velocity[1], -1) << "it falls";
-  EXPECT_LT(lab.motion(upper).velocity[1], -1);
+  EXPECT_LT(lab.motion(lower).linear_velocity[1], -1) << "it falls";
+  EXPECT_LT(lab.motion(upper).linear_velocity[1], -1);
   EXPECT_NEAR(lab.motion(box_below).position[1], 0.25, 0.01);
   lab.world.assets = assets;
 }

@@ -32,11 +32,11 @@ DETENT_TEST(contact, a_box_slides_with_less_friction_and_stays_with_more) {
     def.position = position(0, 0.5, 0);
     def.shape = box(reals(0.5, 0.5, 0.5));
     def.material.friction = real(friction);
-    def.velocity = reals(2, 0, 0);
+    def.linear_velocity = reals(2, 0, 0);
     const BodyId id = lab.add(def);
     lab.run(120);
     EXPECT_NEAR(lab.motion(id).position[0], 4 / (2 * friction * 9.81), 0.02);
-    EXPECT_NEAR(lab.motion(id).velocity[0], 0, 1e-4);
+    EXPECT_NEAR(lab.motion(id).linear_velocity[0], 0, 1e-4);
   }
 }
 
@@ -46,11 +46,12 @@ DETENT_TEST(contact, a_hit_rebounds_by_the_larger_restitution) {
   BodyDef def;
   def.shape = sphere(real(0.5));
   def.position = position(0, 0.52, 0);
-  def.velocity = reals(0, -4, 0);
+  def.linear_velocity = reals(0, -4, 0);
   def.material.restitution = real(0.5);
   const BodyId id = lab.add(def);
   lab.run(1);
-  EXPECT_NEAR(lab.motion(id).velocity[1], sqrt(16 + 2 * 9.81 * 0.02) / 2, 1e-3);  // it falls through the gap first
+  EXPECT_NEAR(lab.motion(id).linear_velocity[1], sqrt(16 + 2 * 9.81 * 0.02) / 2,
+              1e-3);  // it falls through the gap first
 }
 
 /// Its four corners share the blow: none turns it, and together they give no energy.
@@ -70,12 +71,12 @@ DETENT_TEST(contact, a_box_that_falls_flat_rebounds_flat) {
     double speed = -1, height = 0;
     for (int tick = 0; tick < 120 && speed < 0; ++tick) {
       lab.run(1);
-      speed = lab.motion(id).velocity[1];
+      speed = lab.motion(id).linear_velocity[1];
       height = lab.motion(id).position[1];
     }
     EXPECT_GT(speed, 0) << half;
     EXPECT_NEAR(speed * speed / 2 + 9.81 * height, 98.1, 1) << half;
-    for (int k = 0; k < 3; ++k) EXPECT_NEAR(lab.motion(id).spin[k], 0, 1e-3) << half;
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(lab.motion(id).angular_velocity[k], 0, 1e-3) << half;
   }
 }
 
@@ -120,8 +121,8 @@ DETENT_TEST(contact, nothing_escapes_a_closed_box_of_mixed_shapes) {
     else
       def.shape = capsule(real(0.15), real(0.2));
     def.position = position(i % 5 - 2, i / 25 - 1, i / 5 % 5 - 2);
-    def.velocity = reals(i % 7 - 3, i % 5 - 2, i % 3 - 1);
-    def.spin = reals(i % 4, -i % 3, 1);
+    def.linear_velocity = reals(i % 7 - 3, i % 5 - 2, i % 3 - 1);
+    def.angular_velocity = reals(i % 4, -i % 3, 1);
     ids.push_back(lab.add(def));
   }
   for (int tick = 0; tick < 300; ++tick) EXPECT_TRUE(lab.run(1).complete());

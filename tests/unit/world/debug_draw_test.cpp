@@ -40,7 +40,7 @@ Lab make_scene() {
   lab.run(200);
   BodyDef def;
   def.position = position(9, 20, 0);
-  def.velocity = reals(1, 0, 0);
+  def.linear_velocity = reals(1, 0, 0);
   lab.add(def);
   def.type = BodyType::kinematic;
   def.position = position(-9, 20, 0);
@@ -60,7 +60,7 @@ DETENT_TEST(debug_draw, all_of_a_world_is_shown_and_nothing_changes) {
   EXPECT_EQ(drawing.count(drawing.solids, DrawKind::awake), 1u);
   EXPECT_EQ(drawing.count(drawing.solids, DrawKind::kinematic), 1u);
   EXPECT_EQ(drawing.count(drawing.lines, DrawKind::bounds), 4u * 12);
-  EXPECT_EQ(drawing.count(drawing.lines, DrawKind::velocity), 2u);
+  EXPECT_EQ(drawing.count(drawing.lines, DrawKind::linear_velocity), 2u);
   EXPECT_EQ(drawing.count(drawing.points, DrawKind::contact), 8u);
   EXPECT_EQ(drawing.count(drawing.lines, DrawKind::normal), 8u);
   EXPECT_NEAR(drawing.lowest, 0, 0.02);
@@ -72,7 +72,7 @@ DETENT_TEST(debug_draw, flags_and_null_functions_leave_out) {
   Drawing drawing;
   draw(lab.world, drawing.callbacks(), DrawFlags::bounds | DrawFlags::contacts);
   EXPECT_EQ(drawing.last_slot, 0u);
-  EXPECT_EQ(drawing.count(drawing.lines, DrawKind::velocity), 0u);
+  EXPECT_EQ(drawing.count(drawing.lines, DrawKind::linear_velocity), 0u);
   EXPECT_EQ(drawing.count(drawing.points, DrawKind::contact), 8u);
   draw(lab.world, {});
   Drawing points;

@@ -40,7 +40,7 @@ DETENT_TEST(events, a_ball_that_bounces_begins_hits_and_ends_each_time) {
   int begins = 0, ends = 0, hits = 0;
   double last_speed = 100;
   for (int tick = 0; tick < 80; ++tick) {
-    const double fall = listener.lab.motion(ball).velocity[1];
+    const double fall = listener.lab.motion(ball).linear_velocity[1];
     const double gap = fmax(listener.lab.motion(ball).position[1] - 0.25, 0);
     for (const ContactEvent& event : listener.run()) {
       EXPECT_EQ(event.a, (BodyId{1, 1}));
@@ -107,7 +107,7 @@ DETENT_TEST(events, what_is_met_on_the_way_is_a_hit_in_the_same_step) {
   def = {};
   def.shape = sphere(real(0.125));
   def.position = position(-2, 1, 0.5);
-  def.velocity = reals(600, 0, 0);
+  def.linear_velocity = reals(600, 0, 0);
   def.material.restitution = real(1);
   const BodyId ball = listener.lab.add(def);
   const std::vector<ContactEvent> events = listener.run();
@@ -118,7 +118,7 @@ DETENT_TEST(events, what_is_met_on_the_way_is_a_hit_in_the_same_step) {
   EXPECT_NEAR(coord_to_host(events[0].point.x), -0.01, 1e-3);
   EXPECT_NEAR(coord_to_host(events[0].point.y), 1, 1e-3);
   EXPECT_NEAR(real_to_host(events[0].approach_speed), 600, 1e-3);
-  EXPECT_NEAR(listener.lab.motion(ball).velocity[0], -600, 0.1);
+  EXPECT_NEAR(listener.lab.motion(ball).linear_velocity[0], -600, 0.1);
 }
 
 DETENT_TEST(events, beyond_the_buffer_are_dropped_and_counted_and_alter_nothing) {
@@ -140,8 +140,8 @@ DETENT_TEST(events, beyond_the_buffer_are_dropped_and_counted_and_alter_nothing)
 
 DETENT_TEST(events, hits_are_sorted_by_their_bodies_among_the_other_events_and_the_last_are_dropped) {
   Samples samples = {91};
-  std::vector<BodyTraits> traits(5);
-  for (uint32_t i = 0; i < 5; ++i) traits[i].generation = i + 7;
+  std::vector<BodyProperties> properties(5);
+  for (uint32_t i = 0; i < 5; ++i) properties[i].generation = i + 7;
   for (const uint32_t room : {0u, 1u, 5u, 12u, 40u}) {
     // The buffer starts with sorted events of contacts; the hits are added one by one.
     std::vector<ContactEvent> events(room), expected;
@@ -171,7 +171,7 @@ DETENT_TEST(events, hits_are_sorted_by_their_bodies_among_the_other_events_and_t
       event.approach_speed = hit.approach;
       expected.push_back(event);
     }
-    add_hits({traits.data(), 5}, {hits.data(), 24}, {events.data(), room}, count);
+    add_hits({properties.data(), 5}, {hits.data(), 24}, {events.data(), room}, count);
     std::stable_sort(expected.begin(), expected.end(), [](const ContactEvent& a, const ContactEvent& b) {
       return std::make_tuple(a.a.slot, a.b.slot, a.type) < std::make_tuple(b.a.slot, b.b.slot, b.type);
     });

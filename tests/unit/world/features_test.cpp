@@ -31,7 +31,7 @@ struct Lean {
     def.type = type;
     def.shape = shape;
     def.position = position(x, y, 0.1 * x);
-    def.velocity = reals(type == BodyType::dynamic ? -x : 0, 0, 0);
+    def.linear_velocity = reals(type == BodyType::dynamic ? -x : 0, 0, 0);
     BodyId id;
     return create_body(world, def, id);
   }
@@ -119,7 +119,7 @@ DETENT_TEST(features, each_shape_that_is_left_out_is_refused_and_changes_nothing
   }
   Lean no_plane(feature_table<without(Features::all, Features::half_space)>);
   EXPECT_EQ(no_plane.add(half_space(), 0, 0, BodyType::fixed), Status::feature_missing);
-  Lean no_hull(feature_table<without(Features::all, Features::hull | Features::surface | Features::compound)>);
+  Lean no_hull(feature_table<without(Features::all, Features::hull | Features::terrain | Features::compound)>);
   EXPECT_EQ(bind_asset(no_hull.world, 0), Status::feature_missing);
 }
 

@@ -37,7 +37,7 @@ bool touch(const Filter& a, const Filter& b, uint32_t data_a = 0, uint32_t data_
   fixed.type = BodyType::fixed;
   lab.add(fixed);
   BodyDef falling = box_at(1.2, b, data_b);
-  falling.velocity = reals(0, -speed, 0);
+  falling.linear_velocity = reals(0, -speed, 0);
   return rests_on(lab, lab.add(falling), 1);
 }
 
@@ -182,7 +182,7 @@ DETENT_TEST(filter, what_rebounds_within_a_tick_passes_through_what_it_may_not_t
     BodyDef ball;
     ball.shape = sphere(real(0.125));
     ball.position = position(-2, 1, 0.5);
-    ball.velocity = reals(600, 0, 0);
+    ball.linear_velocity = reals(600, 0, 0);
     ball.material.restitution = real(1);
     const BodyId id = lab.add(ball);
     lab.run(1);
@@ -196,7 +196,7 @@ DETENT_TEST(filter, a_sleeper_is_not_woken_by_what_may_not_touch_it) {
   Sleepers sleepers;
   BodyDef def = box_at(0.5, {2, ~0u, 0, 0});
   def.filter.mask = 4;
-  def.velocity = reals(0, 0, 1);
+  def.linear_velocity = reals(0, 0, 1);
   def.gravity_scale = real(0);
   sleepers.lab.add(def);
   const StepReport report = sleepers.lab.run(3);

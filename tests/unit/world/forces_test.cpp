@@ -21,11 +21,11 @@ DETENT_TEST(forces, a_force_off_the_centre_moves_and_turns_for_one_step) {
   Lab lab({1, 1, 0}, weightless());
   const BodyId id = lab.add(ball(0.5, 2));
   ASSERT_OK(apply_force_at(lab.world, id, scaleds(240, 0, 0), reals(0, 0.25, 0)));
-  EXPECT_EQ(lab.motion(id).velocity[0], 0);
+  EXPECT_EQ(lab.motion(id).linear_velocity[0], 0);
   for (int tick = 0; tick < 2; ++tick) {
     lab.run(1);
-    EXPECT_NEAR(lab.motion(id).velocity[0], 2, 1e-5);
-    EXPECT_NEAR(lab.motion(id).spin[2], -0.25 * 4 / (0.4 * 2 * 0.25), 1e-4);
+    EXPECT_NEAR(lab.motion(id).linear_velocity[0], 2, 1e-5);
+    EXPECT_NEAR(lab.motion(id).angular_velocity[2], -0.25 * 4 / (0.4 * 2 * 0.25), 1e-4);
   }
 }
 
@@ -64,9 +64,9 @@ DETENT_TEST(forces, an_explosion_pushes_by_area_and_distance) {
   for (int i = 0; i < 4; ++i) {
     const double gap = fabs(x[i]) - radius[i];
     const double impulse = gap < 10 ? 30 * k_pi * radius[i] * radius[i] * (1 - gap / 10) : 0;
-    EXPECT_NEAR(lab.motion(id[i]).velocity[0], impulse / 2 * (x[i] > 0 ? 1 : -1), 1e-4) << i;
-    EXPECT_EQ(lab.motion(id[i]).velocity[1], 0);
-    EXPECT_EQ(lab.motion(id[i]).spin[2], 0);
+    EXPECT_NEAR(lab.motion(id[i]).linear_velocity[0], impulse / 2 * (x[i] > 0 ? 1 : -1), 1e-4) << i;
+    EXPECT_EQ(lab.motion(id[i]).linear_velocity[1], 0);
+    EXPECT_EQ(lab.motion(id[i]).angular_velocity[2], 0);
   }
 }
 

@@ -13,8 +13,9 @@ struct Errors {
   double position = 0, rotation = 0;
 };
 
-/// How far from the target a body is after a step, over random ways of up to `reach` m and turns of up to half a turn.
-Errors errors_of(const Shape& shape, double reach, int count) {
+/// How far from the target a body is after a step, over random ways of up to `distance_max` m and turns of up to half a
+/// turn.
+Errors errors_of(const Shape& shape, double distance_max, int count) {
   detent_queries::Random random(1);
   Lab lab({1, 1, 0});
   BodyDef def;
@@ -24,7 +25,7 @@ Errors errors_of(const Shape& shape, double reach, int count) {
   Errors errors;
   double at[3] = {0, 0, 0};
   for (int i = 0; i < count; ++i) {
-    for (double& x : at) x += random.uniform(-reach, reach);
+    for (double& x : at) x += random.uniform(-distance_max, distance_max);
     const auto q = random.rotation();
     const Position target = position(at[0], at[1], at[2]);
     EXPECT_OK(move_kinematic(lab.world, id, target, {unit(q[0]), unit(q[1]), unit(q[2]), unit(q[3])}));
@@ -68,8 +69,8 @@ DETENT_TEST(kinematic, a_target_that_is_the_pose_stops_the_body) {
   Lab lab({1, 1, 0});
   BodyDef def;
   def.type = BodyType::kinematic;
-  def.velocity = reals(1, 2, 3);
-  def.spin = reals(1, 2, 3);
+  def.linear_velocity = reals(1, 2, 3);
+  def.angular_velocity = reals(1, 2, 3);
   const BodyId id = lab.add(def);
   lab.run(3);
   Pose pose;
@@ -78,8 +79,8 @@ DETENT_TEST(kinematic, a_target_that_is_the_pose_stops_the_body) {
   lab.run(1);
   const Motion motion = lab.motion(id);
   for (int i = 0; i < 3; ++i) {
-    EXPECT_NEAR(motion.velocity[i], 0, 2e-3) << "fx32 makes up for what the last step rounded";
-    EXPECT_EQ(motion.spin[i], 0);
+    EXPECT_NEAR(motion.linear_velocity[i], 0, 2e-3) << "fx32 makes up for what the last step rounded";
+    EXPECT_EQ(motion.angular_velocity[i], 0);
   }
   EXPECT_EQ(motion.position[0], coord_to_host(pose.position.x));
 }

@@ -42,7 +42,7 @@ inline WorldDef weightless(uint32_t substeps = 0) {
 }
 
 struct Motion {
-  double position[3], velocity[3], spin[3];
+  double position[3], linear_velocity[3], angular_velocity[3];
 };
 
 class Lab {
@@ -81,12 +81,12 @@ class Lab {
   }
   Motion motion(BodyId id) {
     Pose pose;
-    Vec3<Real> velocity, spin;
+    Vec3<Real> linear_velocity, angular_velocity;
     EXPECT_OK(get_pose(world, id, pose));
-    EXPECT_OK(get_velocity(world, id, velocity, spin));
+    EXPECT_OK(get_velocity(world, id, linear_velocity, angular_velocity));
     return {{coord_to_host(pose.position.x), coord_to_host(pose.position.y), coord_to_host(pose.position.z)},
-            {real_to_host(velocity.x), real_to_host(velocity.y), real_to_host(velocity.z)},
-            {real_to_host(spin.x), real_to_host(spin.y), real_to_host(spin.z)}};
+            {real_to_host(linear_velocity.x), real_to_host(linear_velocity.y), real_to_host(linear_velocity.z)},
+            {real_to_host(angular_velocity.x), real_to_host(angular_velocity.y), real_to_host(angular_velocity.z)}};
   }
   std::vector<uint64_t> snapshot() {
     std::vector<uint64_t> bytes(snapshot_bytes(get_info(world).capacity) / 8);
@@ -126,8 +126,8 @@ inline Lab make_pile() {
   BodyDef ball;
   ball.shape = sphere(real(0.25));
   ball.position = position(2, 0.25, 0);
-  ball.velocity = reals(1, 0, 0.5);
-  ball.spin = reals(0, 3, 0);
+  ball.linear_velocity = reals(1, 0, 0.5);
+  ball.angular_velocity = reals(0, 3, 0);
   ball.user_data = 0xfeedbeef;
   lab.add(ball);
   lab.run(20);

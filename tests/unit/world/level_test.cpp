@@ -27,41 +27,41 @@ double deepest_contact(const World& world) {
 /// A world with a level.
 struct LevelWorld {
   explicit LevelWorld(const Source& source, const WorldDef& def = {})
-      : bytes(detent_surfaces::cooked(source)), asset{bytes.data(), bytes.count()} {
+      : bytes(detent_terrains::cooked(source)), asset{bytes.data(), bytes.count()} {
     EXPECT_OK(storage.create(def, world, {&asset, 1}));
     EXPECT_OK(bind_asset(world, 0));
     BodyDef ground;
     ground.type = BodyType::fixed;
-    ground.shape = surface(0);
+    ground.shape = terrain(0);
     BodyId id;
     EXPECT_OK(create_body(world, ground, id));
-    level = surface_view(asset.bytes);
+    level = terrain_view(asset.bytes);
     size = level.exponent() > 8 ? 50 : 0.5;
   }
   LevelWorld(const LevelWorld&) = delete;
   LevelWorld& operator=(const LevelWorld&) = delete;
 
-  SurfaceTriangle any_triangle(detent_queries::Random& random) const {
+  TerrainTriangle any_triangle(detent_queries::Random& random) const {
     return level.triangle(random.below(level.mesh.triangle_count));
   }
-  double middle(const SurfaceTriangle& t, int32_t Vec32::*c) const {
+  double middle(const TerrainTriangle& t, int32_t Vec32::*c) const {
     return ldexp(1.0, level.exponent() - 30) * (t.corner[0].*c / 3.0 + t.corner[1].*c / 3.0 + t.corner[2].*c / 3.0);
   }
 
-  const detent_surfaces::Bytes bytes;
+  const detent_terrains::Bytes bytes;
   const Asset asset;
   WorldStorage<Capacity{2, 8, 1}> storage;
   World world;
-  Surface level;
+  Terrain level;
   double size = 0;  ///< of what is put into it, twice, m
 };
 
 /// Real levels, shot at from beside their triangles: no centre ever comes to lie behind what it was before.
 DETENT_TEST(levels, are_stood_rolled_and_shot_at) {
   uint32_t levels = 0, hit = 0;
-  for (const char* name : detent_surfaces::k_levels) {
+  for (const char* name : detent_terrains::k_levels) {
     Source source;
-    if (!detent_surfaces::read_level(name, source)) continue;
+    if (!detent_terrains::read_level(name, source)) continue;
     ++levels;
     WorldDef def;
     def.tick = real_near(1.0 / 240);
@@ -71,7 +71,7 @@ DETENT_TEST(levels, are_stood_rolled_and_shot_at) {
     BodyId id;
     detent_queries::Random random(5);
     for (uint32_t n = 0; n < detent_oracle::rounds(40); ++n) {
-      const SurfaceTriangle t = level.any_triangle(random);
+      const TerrainTriangle t = level.any_triangle(random);
       const Vec32 normal = normal_of(t.corner[0], t.corner[1], t.corner[2]);
       const double side = random.sign(), away = random.uniform(1, 3) * size, speed = random.uniform(0, 200) * size;
       const double n_x = side * normal.x / 0x1p30, n_y = side * normal.y / 0x1p30, n_z = side * normal.z / 0x1p30;
@@ -81,7 +81,7 @@ DETENT_TEST(levels, are_stood_rolled_and_shot_at) {
                    : n % 3 == 1 ? box(reals_near(Vector{{0.4 * size, 0.25 * size, 0.3 * size}}))
                                 : capsule(real_near(0.25 * size), real_near(0.4 * size));
       body.position = position_near(Vector{{at(&Vec32::x, n_x), at(&Vec32::y, n_y), at(&Vec32::z, n_z)}});
-      body.velocity = reals_near(Vector{{-speed * n_x, -speed * n_y, -speed * n_z}});
+      body.linear_velocity = reals_near(Vector{{-speed * n_x, -speed * n_y, -speed * n_z}});
       body.gravity_scale = real_near(size);
       ASSERT_OK(create_body(world, body, id));
       const Pose origin = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}};
@@ -94,11 +94,14 @@ DETENT_TEST(levels, are_stood_rolled_and_shot_at) {
           break;  // made within the level
         Pose now;
         EXPECT_OK(get_pose(world, id, now));
-        const auto way = [](Coord from, Coord to) { return real_near(coord_to_host(to) - coord_to_host(from)); };
+        const auto displacement = [](Coord from, Coord to) {
+          return real_near(coord_to_host(to) - coord_to_host(from));
+        };
         const Position &p = before.position, &q = now.position, &o = origin.position;
-        SurfaceHit found;
-        ASSERT_OK(cast_ray_on_surface(level.level, origin, {way(o.x, p.x), way(o.y, p.y), way(o.z, p.z)},
-                                      {way(p.x, q.x), way(p.y, q.y), way(p.z, q.z)}, found));
+        TerrainHit found;
+        ASSERT_OK(cast_ray_on_terrain(level.level, origin,
+                                      {displacement(o.x, p.x), displacement(o.y, p.y), displacement(o.z, p.z)},
+                                      {displacement(p.x, q.x), displacement(p.y, q.y), displacement(p.z, q.z)}, found));
         EXPECT_FALSE(found.hit) << name << ", body " << n << ", tick " << tick;
         if (found.hit) break;
         before = now;
@@ -113,9 +116,9 @@ DETENT_TEST(levels, are_stood_rolled_and_shot_at) {
 /// A character that is thrown about in them is never in a wall, and gets on.
 DETENT_TEST(levels, are_walked_through) {
   uint32_t levels = 0, grounded = 0, moves = 0;
-  for (const char* name : detent_surfaces::k_levels) {
+  for (const char* name : detent_terrains::k_levels) {
     Source source;
-    if (!detent_surfaces::read_level(name, source)) continue;
+    if (!detent_terrains::read_level(name, source)) continue;
     ++levels;
     LevelWorld level(source);
     World& world = level.world;
@@ -127,7 +130,7 @@ DETENT_TEST(levels, are_walked_through) {
     settings.step_height = settings.snap = real_near(0.35 * size);
     detent_queries::Random random(7);
     for (uint32_t n = 0; n < detent_oracle::rounds(16); ++n) {
-      const SurfaceTriangle t = level.any_triangle(random);
+      const TerrainTriangle t = level.any_triangle(random);
       Mover mover;
       mover.position = position_near(
           Vector{{level.middle(t, &Vec32::x), level.middle(t, &Vec32::y) + 1.2 * size, level.middle(t, &Vec32::z)}});

@@ -22,7 +22,7 @@ DETENT_TEST(pool, the_null_id_and_made_up_ids_are_refused_by_every_call) {
   const BodyId bad[] = {{}, {1, 2}, {1, 0}, {2, 1}, {3, 1}, {UINT32_MAX, 1}, {0, 1}};
   for (const BodyId id : bad) {
     Pose pose{};
-    Vec3<Real> velocity{}, spin{};
+    Vec3<Real> linear_velocity{}, angular_velocity{};
     Scaled mass{};
     uint32_t user_data = 7;
     EXPECT_FALSE(is_valid(lab.world, id));
@@ -36,7 +36,7 @@ DETENT_TEST(pool, the_null_id_and_made_up_ids_are_refused_by_every_call) {
     EXPECT_EQ(apply_angular_impulse(lab.world, id, scaleds(1, 0, 0)), Status::bad_id);
     EXPECT_EQ(set_user_data(lab.world, id, 1), Status::bad_id);
     EXPECT_EQ(get_pose(lab.world, id, pose), Status::bad_id);
-    EXPECT_EQ(get_velocity(lab.world, id, velocity, spin), Status::bad_id);
+    EXPECT_EQ(get_velocity(lab.world, id, linear_velocity, angular_velocity), Status::bad_id);
     EXPECT_EQ(get_mass(lab.world, id, mass), Status::bad_id);
     EXPECT_EQ(get_user_data(lab.world, id, user_data), Status::bad_id);
     EXPECT_EQ(user_data, 7u);
@@ -69,7 +69,7 @@ DETENT_TEST(pool, a_slot_whose_generations_are_used_up_is_retired_and_counted) {
   StateView<uint8_t> state = view_of(lab.world);
   const BodyId old = lab.add_box(0.5, 0, 0, 0);
   ASSERT_OK(destroy_body(lab.world, old));
-  state.traits[0].generation = k_generation_last - 2;
+  state.properties[0].generation = k_generation_last - 2;
   for (uint32_t generation = k_generation_last - 1; generation != 0; ++generation) {
     const BodyId id = lab.add_box(0.5, 0, 0, 0);
     ASSERT_EQ(id, (BodyId{1, generation}));

@@ -33,18 +33,19 @@ DETENT_TEST(seam, between_tiles_takes_no_speed_from_a_box_that_lies_askew) {
   for (int round = 0; round < 100; ++round) {
     Lab lab({40, 64, 1});
     add_tiles(lab);
-    const double turn = random.uniform(0, 1.6), length = random.uniform(0.1, 0.6), height = random.uniform(0.05, 0.3),
-                 width = random.uniform(0.1, 0.6), speed = random.uniform(1, 12), aside = random.uniform(-0.3, 0.3);
+    const double rotation_vector = random.uniform(0, 1.6), length = random.uniform(0.1, 0.6),
+                 height = random.uniform(0.05, 0.3), width = random.uniform(0.1, 0.6), speed = random.uniform(1, 12),
+                 aside = random.uniform(-0.3, 0.3);
     BodyDef def = slippery(box(reals(length, height, width)), random.uniform(0, 1), height, random.uniform(-0.5, 0.5));
-    def.rotation = {Unit(0.0), unit(sin(turn / 2)), Unit(0.0), unit(cos(turn / 2))};
-    def.velocity = reals(speed, 0, aside);
+    def.rotation = {Unit(0.0), unit(sin(rotation_vector / 2)), Unit(0.0), unit(cos(rotation_vector / 2))};
+    def.linear_velocity = reals(speed, 0, aside);
     const BodyId id = lab.add(def);
     while (lab.motion(id).position[0] < 5.5) {
       behind += lab.run(1).complete() ? 0 : 1;
       const Motion motion = lab.motion(id);
-      ASSERT_NEAR(motion.velocity[0], speed, 1e-3 * speed) << round;
-      ASSERT_NEAR(motion.velocity[1], 0, 1e-3 * speed) << round;
-      ASSERT_NEAR(motion.velocity[2], aside, 1e-3 * speed) << round;
+      ASSERT_NEAR(motion.linear_velocity[0], speed, 1e-3 * speed) << round;
+      ASSERT_NEAR(motion.linear_velocity[1], 0, 1e-3 * speed) << round;
+      ASSERT_NEAR(motion.linear_velocity[2], aside, 1e-3 * speed) << round;
       ASSERT_NEAR(motion.position[1], height, 1e-3) << round;
     }
   }
@@ -57,10 +58,10 @@ DETENT_TEST(seam, whose_side_is_met_with_an_edge_first_takes_no_speed) {
   add_tiles(lab);
   BodyDef def = slippery(box(reals(0.3, 0.1, 0.15)), 0, 0.1, 0.1);
   def.rotation = {Unit(0.0), unit(sin(0.35)), Unit(0.0), unit(cos(0.35))};
-  def.velocity = reals(5, 0, 0.3);
+  def.linear_velocity = reals(5, 0, 0.3);
   const BodyId id = lab.add(def);
   lab.run(60);
-  EXPECT_NEAR(lab.motion(id).velocity[0], 5, 1e-3);
+  EXPECT_NEAR(lab.motion(id).linear_velocity[0], 5, 1e-3);
 }
 
 /// Of which each body meets many in a tick.
@@ -73,14 +74,14 @@ DETENT_TEST(seam, of_many_in_a_tick_keeps_nothing_behind) {
   }
   BodyDef def = slippery(box(reals(0.3, 0.1, 0.2)), 0.5, 0.1, 0.1);
   def.rotation = {Unit(0.0), unit(sin(0.2)), Unit(0.0), unit(cos(0.2))};
-  def.velocity = reals(60, 0, 0);
+  def.linear_velocity = reals(60, 0, 0);
   const BodyId id = lab.add(def);
   for (int tick = 0; tick < 14; ++tick) {
     const StepReport report = lab.run(1);
     EXPECT_TRUE(report.complete()) << tick;
     EXPECT_LE(report.toi_tests, 200u) << tick;
   }
-  EXPECT_NEAR(lab.motion(id).velocity[0], 60, 0.06);
+  EXPECT_NEAR(lab.motion(id).linear_velocity[0], 60, 0.06);
 }
 
 DETENT_TEST(seam, between_tiles_takes_no_speed_from_what_is_round) {
@@ -92,12 +93,12 @@ DETENT_TEST(seam, between_tiles_takes_no_speed_from_what_is_round) {
     Lab lab({40, 64, 1});
     add_tiles(lab);
     BodyDef def = slippery(body.shape, 0, body.height, 0.1);
-    def.velocity = reals(5, 0, 0.3);
+    def.linear_velocity = reals(5, 0, 0.3);
     const BodyId id = lab.add(def);
     for (int tick = 0; tick < 60; ++tick) {
       lab.run(1);
-      EXPECT_NEAR(lab.motion(id).velocity[0], 5, 5e-3) << body.height << " " << tick;
-      EXPECT_NEAR(lab.motion(id).velocity[1], 0, 5e-3) << body.height << " " << tick;
+      EXPECT_NEAR(lab.motion(id).linear_velocity[0], 5, 5e-3) << body.height << " " << tick;
+      EXPECT_NEAR(lab.motion(id).linear_velocity[1], 0, 5e-3) << body.height << " " << tick;
     }
   }
 }
@@ -110,10 +111,10 @@ DETENT_TEST(seam, is_not_where_a_tile_stands_out) {
   step.type = BodyType::fixed;
   lab.add(step);
   BodyDef def = slippery(box(reals(0.3, 0.3, 0.3)), 0, 0.3, 0.1);
-  def.velocity = reals(5, 0, 0);
+  def.linear_velocity = reals(5, 0, 0);
   const BodyId id = lab.add(def);
   lab.run(60);
-  EXPECT_LT(lab.motion(id).velocity[0], 3);
+  EXPECT_LT(lab.motion(id).linear_velocity[0], 3);
 }
 
 /// Their surfaces come no nearer to each other than half a millimetre.
@@ -125,12 +126,12 @@ DETENT_TEST(passing, balls_do_not_touch) {
       Lab lab({4, 8, 1}, still);
       const BodyId other = lab.add(slippery(sphere(real(0.3)), 0, 0, 0));
       BodyDef def = slippery(sphere(real(0.2)), -1 - speed / 60 * start / 7, 0.5005, 0);
-      def.velocity = reals(speed, 0, 0);
+      def.linear_velocity = reals(speed, 0, 0);
       const BodyId id = lab.add(def);
       for (int tick = 0; tick < 120 && lab.motion(id).position[0] < 1; ++tick) lab.run(1);
-      EXPECT_NEAR(lab.motion(id).velocity[0], speed, 1e-6) << speed << " " << start;
-      EXPECT_NEAR(lab.motion(id).velocity[1], 0, 1e-6) << speed << " " << start;
-      EXPECT_EQ(lab.motion(other).velocity[1], 0) << speed << " " << start;
+      EXPECT_NEAR(lab.motion(id).linear_velocity[0], speed, 1e-6) << speed << " " << start;
+      EXPECT_NEAR(lab.motion(id).linear_velocity[1], 0, 1e-6) << speed << " " << start;
+      EXPECT_EQ(lab.motion(other).linear_velocity[1], 0) << speed << " " << start;
     }
   }
 }
@@ -151,7 +152,7 @@ DETENT_TEST(standing, of_a_slender_pillar_is_still) {
     for (int tick = 0; tick < 120; ++tick) {
       lab.run(1);
       const Motion motion = lab.motion(id);
-      EXPECT_LT(hypot(motion.spin[0], motion.spin[2]) * height, 0.012) << height << " " << tick;
+      EXPECT_LT(hypot(motion.angular_velocity[0], motion.angular_velocity[2]) * height, 0.012) << height << " " << tick;
     }
     bool awake = true;
     EXPECT_OK(is_awake(lab.world, id, awake));

@@ -19,11 +19,11 @@ inline BodyDef sensor_def(const Shape& shape, double x = 0, double y = 0, double
   return def;
 }
 
-inline BodyDef ball_def(double radius, double x, double y, double z, const Vec3<Real>& velocity = {}) {
+inline BodyDef ball_def(double radius, double x, double y, double z, const Vec3<Real>& linear_velocity = {}) {
   BodyDef def;
   def.shape = sphere(real(radius));
   def.position = position(x, y, z);
-  def.velocity = velocity;
+  def.linear_velocity = linear_velocity;
   return def;
 }
 

@@ -8,7 +8,7 @@
 
 #include "broad_phase/pair_filter.h"
 #include "contact/body_convex.h"
-#include "shape/shape_traits.h"
+#include "shape/shape_properties.h"
 #include "shape/sweep.h"
 #include "state/view.h"
 #include "tests/unit/world/sensor_lab.h"
@@ -35,9 +35,9 @@ struct Fair {
       BodyDef def = ball_def(size, x, y, z);
       if (i % 3 == 1) def.shape = box(reals(size, size / 2, size));
       if (i % 3 == 2) def.shape = capsule(real(size / 2), real(size));
-      const double vx = draw(-40, 40), vy = draw(-20, 20), vz = draw(-40, 40), spin = draw(-20, 20);
-      def.velocity = i % 4 == 0 ? reals(10 * vx, vy, 10 * vz) : reals(vx / 20, vy / 20, vz / 20);
-      def.spin = reals(spin, spin / 2, -spin);
+      const double vx = draw(-40, 40), vy = draw(-20, 20), vz = draw(-40, 40), angular_velocity = draw(-20, 20);
+      def.linear_velocity = i % 4 == 0 ? reals(10 * vx, vy, 10 * vz) : reals(vx / 20, vy / 20, vz / 20);
+      def.angular_velocity = reals(angular_velocity, angular_velocity / 2, -angular_velocity);
       def.material.restitution = real(0.5);
       def.linear_damping = real(0.25);
       solids.push_back(lab.add(def));
@@ -47,8 +47,8 @@ struct Fair {
       const double x = draw(-3, 3), y = draw(0, 2), z = draw(-3, 3), thin = draw(0.005, 0.5), wide = draw(1, 3);
       const BodyType types[] = {BodyType::fixed, BodyType::kinematic, BodyType::dynamic};
       BodyDef def = sensor_def(box(reals(thin, wide, 2)), x, y, z, types[i % 3]);
-      if (i % 3 == 1) def.spin = reals(0, 3, 1);
-      if (i % 3 == 1) def.velocity = reals(-x, 0.25, -z);
+      if (i % 3 == 1) def.angular_velocity = reals(0, 3, 1);
+      if (i % 3 == 1) def.linear_velocity = reals(-x, 0.25, -z);
       if (i == 2) def.gravity_scale = real(0);
       lab.add(def);
     }
@@ -62,12 +62,13 @@ DETENT_TEST(sensor, no_other_body_is_moved_by_one_by_a_bit) {
     without_sensors.lab.run(1);
     for (const BodyId id : with.solids) {
       Pose a, b;
-      Vec3<Real> velocity_a, velocity_b, spin_a, spin_b;
+      Vec3<Real> velocity_a, velocity_b, angular_velocity_a, angular_velocity_b;
       ASSERT_OK(get_pose(with.lab.world, id, a));
       ASSERT_OK(get_pose(without_sensors.lab.world, id, b));
-      ASSERT_OK(get_velocity(with.lab.world, id, velocity_a, spin_a));
-      ASSERT_OK(get_velocity(without_sensors.lab.world, id, velocity_b, spin_b));
-      ASSERT_TRUE(a.position == b.position && a.rotation == b.rotation && velocity_a == velocity_b && spin_a == spin_b)
+      ASSERT_OK(get_velocity(with.lab.world, id, velocity_a, angular_velocity_a));
+      ASSERT_OK(get_velocity(without_sensors.lab.world, id, velocity_b, angular_velocity_b));
+      ASSERT_TRUE(a.position == b.position && a.rotation == b.rotation && velocity_a == velocity_b &&
+                  angular_velocity_a == angular_velocity_b)
           << "tick " << tick << " slot " << id.slot;
       bool awake_a = false, awake_b = false;
       ASSERT_OK(is_awake(with.lab.world, id, awake_a));
@@ -103,24 +104,24 @@ std::vector<BodyId> near_by_force(const World& world, BodyId sensor) {
   const StateView<const uint8_t> state = view_of(world);
   std::vector<BodyId> found;
   const auto of = [&](uint32_t slot, Convex& convex, Pose& pose) {
-    EXPECT_TRUE(body_convex(state.traits[slot], {}, convex));
+    EXPECT_TRUE(body_convex(state.properties[slot], {}, convex));
     pose = {state.poses[slot].position, state.poses[slot].rotation};
   };
   const uint32_t slot = sensor.slot - 1;
-  const BodyTraits& traits = state.traits[slot];
-  const PairFilter filter = {state.traits, {}};
-  for (uint32_t other = 0; other < state.traits.count; ++other) {
-    const BodyTraits& body = state.traits[other];
-    const bool senses_fixed = static_cast<BodyType>(traits.type) == BodyType::dynamic;
+  const BodyProperties& properties = state.properties[slot];
+  const PairFilter filter = {state.properties, {}};
+  for (uint32_t other = 0; other < state.properties.count; ++other) {
+    const BodyProperties& body = state.properties[other];
+    const bool senses_fixed = static_cast<BodyType>(properties.type) == BodyType::dynamic;
     if (body.type == 0 || body.sensor != 0 || !filter.lets_through(slot, other)) continue;
     if (static_cast<BodyType>(body.type) == BodyType::fixed && !senses_fixed) continue;
     Convex a, b;
     Pose pose_a, pose_b;
     of(slot, a, pose_a);
     of(other, b, pose_b);
-    const Real reach = scale_by_power(min(shape_extent(traits), shape_extent(body)), -14);
+    const Real distance_max = scale_by_power(min(shape_extent(properties), shape_extent(body)), -14);
     bool farther = true;
-    EXPECT_OK(farther_than(a, pose_a, b, pose_b, reach, farther));
+    EXPECT_OK(farther_than(a, pose_a, b, pose_b, distance_max, farther));
     if (!farther) found.push_back({other + 1, body.generation});
   }
   return found;
@@ -143,8 +144,8 @@ DETENT_TEST(sensor, whatever_is_called_who_is_within_is_who_overlaps_also_after_
       const double x = draw(-3, 3), y = draw(0, 2), z = draw(-3, 3), size = draw(0.1, 0.6);
       const uint32_t choice = below(3) + 1;
       const StateView<const uint8_t> state = view_of(static_cast<const World&>(world));
-      const BodyId id = {slot + 1, state.traits[slot].generation};
-      const bool ground = slot == 0, sensor = state.traits[slot].sensor != 0;
+      const BodyId id = {slot + 1, state.properties[slot].generation};
+      const bool ground = slot == 0, sensor = state.properties[slot].sensor != 0;
       Status status = Status::ok;  // what is refused changes nothing
       if (kind == 0 && !ground) status = set_pose(world, id, position(x, y, z), {0.0, 0.0, 0.0, 1.0});
       if (kind == 1) status = set_velocity(world, id, reals(20 * x, 20 * y, 20 * z), reals(x, y, z));
@@ -243,7 +244,7 @@ DETENT_TEST(sensor, a_replay_makes_and_unmakes_the_same_sensors) {
 }
 
 /// How deep two bodies overlap at least when their rounded poses do, for certain.
-bool overlap_by(const BodyTraits& a, const BodyPose& pose_a, const BodyTraits& b, const BodyPose& pose_b,
+bool overlap_by(const BodyProperties& a, const BodyPose& pose_a, const BodyProperties& b, const BodyPose& pose_b,
                 double depth) {
   Convex convex_a, convex_b;
   EXPECT_TRUE(body_convex(a, {}, convex_a) && body_convex(b, {}, convex_b));
@@ -268,9 +269,9 @@ DETENT_TEST(sensor, no_throw_whose_way_overlaps_goes_unnoticed) {
     BodyDef gate = sensor_def(rounded(box(reals(0.02, 0.4, 0.4)), real(0.01)), 0, 0, 0,
                               round % 2 == 0 ? BodyType::fixed : BodyType::kinematic);
     if (round % 2 != 0) {
-      const double spin = draw(-60, 60), vy = draw(-30, 30);
-      gate.spin = reals(spin, spin / 3, -spin / 2);
-      gate.velocity = reals(0, vy, 0);
+      const double angular_velocity = draw(-60, 60), vy = draw(-30, 30);
+      gate.angular_velocity = reals(angular_velocity, angular_velocity / 3, -angular_velocity / 2);
+      gate.linear_velocity = reals(0, vy, 0);
     }
     const BodyId sensor = trap.lab.add(gate);
     // A plate that deals the bodies back, so that the way has a bend.
@@ -280,10 +281,10 @@ DETENT_TEST(sensor, no_throw_whose_way_overlaps_goes_unnoticed) {
     wall.position = position(1.2, 0, 0);
     trap.lab.add(wall);
     const double y = draw(-0.8, 0.8), z = draw(-0.8, 0.8), vx = draw(20, 300), vy = draw(-40, 40), vz = draw(-40, 40);
-    const double turn = draw(-80, 80);
+    const double rotation_vector = draw(-80, 80);
     BodyDef def = ball_def(0.05, -1, y, z, reals(vx, vy, vz));
     if (round % 3 != 0) def.shape = capsule(real(0.03), real(0.2));
-    def.spin = reals(turn, -turn / 2, turn / 3);
+    def.angular_velocity = reals(rotation_vector, -rotation_vector / 2, rotation_vector / 3);
     def.material.restitution = real(1);
     const BodyId body = trap.lab.add(def);
     SweepSegment segments[64];
@@ -305,15 +306,16 @@ DETENT_TEST(sensor, no_throw_whose_way_overlaps_goes_unnoticed) {
         // The segment is what is left of the tick: its part until `time`.
         const double part = whole == 0 ? 0 : fraction_to_host(time - last->from) / whole;
         rest.displacement = last->displacement;
-        rest.turn = last->turn;
+        rest.rotation_vector = last->rotation_vector;
         BodyPose pose = last->start;
-        advance_along({rest.displacement, rest.turn}, Fraction::from_raw(static_cast<int64_t>(ldexp(part, 62))), pose);
+        advance_along({rest.displacement, rest.rotation_vector},
+                      Fraction::from_raw(static_cast<int64_t>(ldexp(part, 62))), pose);
         return pose;
       };
       bool overlaps = was;
       for (int i = 0; i <= 1000 && !overlaps; ++i) {
         const Fraction time = Fraction::from_raw((int64_t{1} << 62) / 1000 * i);
-        overlaps = overlap_by(state.traits[slots[1]], pose_then(slots[1], time), state.traits[slots[0]],
+        overlaps = overlap_by(state.properties[slots[1]], pose_then(slots[1], time), state.properties[slots[0]],
                               pose_then(slots[0], time), sizeof(Coord) == 4 ? 1e-4 : 2e-6);
       }
       const bool noticed = was || report.sensor_events != 0;

@@ -1,7 +1,7 @@
 #include <detent/body_access.h>
 #include <detent/query.h>
 
-#include "tests/unit/shape/surfaces.h"
+#include "tests/unit/shape/terrains.h"
 #include "tests/unit/world/sensor_lab.h"
 
 /// Who is within a sensor, and who was on the way.
@@ -47,7 +47,7 @@ DETENT_TEST(sensor, a_bullet_through_a_thin_one_enters_and_leaves_in_the_same_st
     EXPECT_TRUE(trap.within(gate).empty());
     EXPECT_EQ(trap.report.impacts, 0u);
     EXPECT_EQ(trap.report.sensed_undecided, 0u);
-    EXPECT_NEAR(trap.lab.motion(bullet).velocity[0], 500, 1e-3);
+    EXPECT_NEAR(trap.lab.motion(bullet).linear_velocity[0], 500, 1e-3);
     EXPECT_TRUE(trap.run().empty());
   }
 }
@@ -245,10 +245,10 @@ DETENT_TEST(sensor, a_rule_sees_new_user_data_though_all_are_asleep) {
 DETENT_TEST(sensor, one_that_moves_or_turns_finds_what_rests) {
   Trap trap(room_for(3));
   BodyDef arm = sensor_def(box(reals(2, 0.01, 0.01)), 0, 0, 0, BodyType::kinematic);
-  arm.spin = reals(0, 90, 0);  // a quarter of a turn a tick
+  arm.angular_velocity = reals(0, 90, 0);  // a quarter of a turn a tick
   const BodyId blade = trap.lab.add(arm);
   BodyDef thin = sensor_def(box(reals(0.005, 1, 1)), -3, 5, 0, BodyType::kinematic);
-  thin.velocity = reals(500, 0, 0);
+  thin.linear_velocity = reals(500, 0, 0);
   const BodyId wave = trap.lab.add(thin);
   BodyDef post = ball_def(0.0625, 1, 0, -1);
   post.type = BodyType::kinematic;
@@ -418,7 +418,7 @@ DETENT_TEST(sensor, a_world_without_room_or_code_for_them_refuses_them) {
 }
 
 DETENT_TEST(sensor, one_that_falls_through_a_mesh_senses_it_as_long_as_it_touches_and_on_its_way) {
-  const detent_surfaces::Bytes bytes = detent_surfaces::cooked(detent_surfaces::plane(8, 0.5));
+  const detent_terrains::Bytes bytes = detent_terrains::cooked(detent_terrains::plane(8, 0.5));
   const Asset asset = {bytes.data(), bytes.count()};
   Capacity capacity = room_for(4);
   capacity.assets = 1;
@@ -427,10 +427,10 @@ DETENT_TEST(sensor, one_that_falls_through_a_mesh_senses_it_as_long_as_it_touche
   ASSERT_OK(bind_asset(trap.lab.world, 0));
   BodyDef def;
   def.type = BodyType::fixed;
-  def.shape = surface(0);
+  def.shape = terrain(0);
   const BodyId ground = trap.lab.add(def);
   BodyDef probe = sensor_def(sphere(real(0.25)), 0.1, 1, 0.2, BodyType::dynamic);
-  probe.velocity = reals(0, -3, 0);
+  probe.linear_velocity = reals(0, -3, 0);
   const BodyId slow = trap.lab.add(probe);
   int enters = 0, leaves = 0;
   for (int tick = 0; tick < 60; ++tick) {
@@ -447,7 +447,7 @@ DETENT_TEST(sensor, one_that_falls_through_a_mesh_senses_it_as_long_as_it_touche
   }
   EXPECT_EQ(enters, 1);
   EXPECT_EQ(leaves, 1);
-  probe.velocity = reals(0, -500, 0);
+  probe.linear_velocity = reals(0, -500, 0);
   const BodyId fast = trap.lab.add(probe);
   const std::vector<SensorEvent> events = trap.run();
   ASSERT_EQ(events.size(), 2u);

@@ -33,8 +33,8 @@ Lab make_lab(uint32_t bound = 2) {
 struct Named {
   const char* name;
   Shape shape;
-  double height;   ///< of the centre of mass, m, where it rests flat
-  double turn[4];  ///< x, y, z, w: to rest flat
+  double height;              ///< of the centre of mass, m, where it rests flat
+  double rotation_vector[4];  ///< x, y, z, w: to rest flat
 };
 
 /// One of each shape that goes through contact_points(), about half a metre in size.
@@ -56,7 +56,8 @@ BodyDef def_of(const Named& named, double x, double y, double z) {
   BodyDef def;
   def.shape = named.shape;
   def.position = position(x, y, z);
-  def.rotation = {unit(named.turn[0]), unit(named.turn[1]), unit(named.turn[2]), unit(named.turn[3])};
+  def.rotation = {unit(named.rotation_vector[0]), unit(named.rotation_vector[1]), unit(named.rotation_vector[2]),
+                  unit(named.rotation_vector[3])};
   // A cylinder on its side and what falls on a corner would roll on for ever, and rightly so.
   def.material.rolling_resistance = real(0.05);
   return def;
@@ -65,7 +66,9 @@ BodyDef def_of(const Named& named, double x, double y, double z) {
 double speed_of(Lab& lab, BodyId id) {
   const Motion motion = lab.motion(id);
   double sum = 0;
-  for (int i = 0; i < 3; ++i) sum += motion.velocity[i] * motion.velocity[i] + 0.25 * motion.spin[i] * motion.spin[i];
+  for (int i = 0; i < 3; ++i)
+    sum += motion.linear_velocity[i] * motion.linear_velocity[i] +
+           0.25 * motion.angular_velocity[i] * motion.angular_velocity[i];
   return sqrt(sum);
 }
 
@@ -161,10 +164,11 @@ DETENT_TEST(world_shapes, a_hull_has_to_be_bound_and_a_hull) {
 }
 
 DETENT_TEST(world_shapes, a_hull_in_its_sources_frame_is_for_bodies_that_nothing_moves) {
-  // The tetrahedron, said to be in its source's frame: gyration, origin and rotation are then those of that frame.
+  // The tetrahedron, said to be in its source's frame: inverse inertia, origin and rotation are then those of that
+  // frame.
   alignas(8) static uint8_t bytes[sizeof detent_hulls::k_tetrahedron];
   memcpy(bytes, detent_hulls::k_tetrahedron, sizeof bytes);
-  memset(bytes + k_hull_gyration_at, 0, 24 + 24 + 12);
+  memset(bytes + k_hull_inverse_inertia_at, 0, 24 + 24 + 12);
   const uint32_t one = 1u << 30;
   for (uint32_t i = 0; i < 4; ++i) bytes[k_hull_rotation_at + 12 + i] = static_cast<uint8_t>(one >> (8 * i));
   bytes[k_hull_frame_at] = 2;
@@ -256,11 +260,12 @@ DETENT_TEST(world_shapes, a_snapshot_with_hulls_is_taken_back_only_with_their_by
 }
 
 /// A body of the snapshot altered by `alter`; what load() says.
-Status load_altered(const std::vector<uint64_t>& good, uint32_t slot, const std::function<void(BodyTraits&)>& alter) {
+Status load_altered(const std::vector<uint64_t>& good, uint32_t slot,
+                    const std::function<void(BodyProperties&)>& alter) {
   Lab fresh(k_capacity);
   fresh.world.assets = k_table;
   std::vector<uint64_t> bytes = good;
-  alter(view_of(bytes_of(bytes), k_capacity).traits[slot]);
+  alter(view_of(bytes_of(bytes), k_capacity).properties[slot]);
   return load(fresh.world, bytes_of(bytes), byte_count(bytes));
 }
 
@@ -269,29 +274,30 @@ DETENT_TEST(world_shapes, a_snapshot_whose_shapes_are_not_what_create_body_makes
   Lab lab = make_heap();
   const std::vector<uint64_t> good = lab.snapshot();
   constexpr uint32_t k_cylinder = 1, k_round_box = 4, k_prism = 7, k_round_prism = 8;
-  const auto refused = [&](uint32_t slot, const std::function<void(BodyTraits&)>& alter) {
+  const auto refused = [&](uint32_t slot, const std::function<void(BodyProperties&)>& alter) {
     return load_altered(good, slot, alter) == Status::corrupt;
   };
-  EXPECT_OK(load_altered(good, k_prism, [](BodyTraits&) {}));
-  EXPECT_TRUE(refused(k_prism, [](BodyTraits& body) { body.asset = 0; })) << "the other hull";
-  EXPECT_TRUE(refused(k_prism, [](BodyTraits& body) { body.asset = 2; })) << "not bound";
-  EXPECT_TRUE(refused(k_prism, [](BodyTraits& body) { body.asset = 3; })) << "beyond the table";
-  EXPECT_TRUE(refused(k_prism, [](BodyTraits& body) { body.asset = 0xffffffff; }));
-  EXPECT_TRUE(refused(k_prism, [](BodyTraits& body) { body.turn_locks = 1; })) << "whose gyration is not 0";
-  EXPECT_TRUE(refused(k_prism, [](BodyTraits& body) { ++body.size_exponent; }));
-  EXPECT_TRUE(refused(k_prism, [](BodyTraits& body) { --body.size_exponent; }));
-  EXPECT_TRUE(refused(k_prism, [](BodyTraits& body) { body.size.x = body.size.y; }));
-  EXPECT_TRUE(refused(k_prism, [](BodyTraits& body) { body.rounding = Unit(0.125); }));
-  EXPECT_TRUE(refused(k_prism, [](BodyTraits& body) { body.shape = 8; })) << "a triangle";
-  EXPECT_TRUE(refused(k_round_prism, [](BodyTraits& body) { body.rounding = Unit(0.0); }));
-  EXPECT_TRUE(refused(k_round_box, [](BodyTraits& body) { body.rounding = -body.rounding; }));
-  EXPECT_TRUE(refused(k_round_box, [](BodyTraits& body) { body.rounding = Unit(0x1p-20); }));
-  EXPECT_TRUE(refused(k_round_box, [](BodyTraits& body) { body.bounding_radius = Unit(0.5); }));
-  EXPECT_TRUE(refused(k_cylinder, [](BodyTraits& body) { body.rounding = Unit(0.125); }));
-  EXPECT_TRUE(refused(k_cylinder, [](BodyTraits& body) { body.asset = 1; }));
-  EXPECT_TRUE(refused(k_cylinder, [](BodyTraits& body) { body.size.z = body.size.y; }));
-  EXPECT_TRUE(refused(k_cylinder, [](BodyTraits& body) { body.shape = static_cast<uint32_t>(ShapeType::cone); }));
-  EXPECT_TRUE(refused(0, [](BodyTraits& body) { body.rounding = Unit(0.125); })) << "a rounded half-space";
+  EXPECT_OK(load_altered(good, k_prism, [](BodyProperties&) {}));
+  EXPECT_TRUE(refused(k_prism, [](BodyProperties& body) { body.asset = 0; })) << "the other hull";
+  EXPECT_TRUE(refused(k_prism, [](BodyProperties& body) { body.asset = 2; })) << "not bound";
+  EXPECT_TRUE(refused(k_prism, [](BodyProperties& body) { body.asset = 3; })) << "beyond the table";
+  EXPECT_TRUE(refused(k_prism, [](BodyProperties& body) { body.asset = 0xffffffff; }));
+  EXPECT_TRUE(refused(k_prism, [](BodyProperties& body) { body.rotation_locks = 1; }))
+      << "whose inverse inertia is not 0";
+  EXPECT_TRUE(refused(k_prism, [](BodyProperties& body) { ++body.size_exponent; }));
+  EXPECT_TRUE(refused(k_prism, [](BodyProperties& body) { --body.size_exponent; }));
+  EXPECT_TRUE(refused(k_prism, [](BodyProperties& body) { body.size.x = body.size.y; }));
+  EXPECT_TRUE(refused(k_prism, [](BodyProperties& body) { body.rounding = Unit(0.125); }));
+  EXPECT_TRUE(refused(k_prism, [](BodyProperties& body) { body.shape = 8; })) << "a triangle";
+  EXPECT_TRUE(refused(k_round_prism, [](BodyProperties& body) { body.rounding = Unit(0.0); }));
+  EXPECT_TRUE(refused(k_round_box, [](BodyProperties& body) { body.rounding = -body.rounding; }));
+  EXPECT_TRUE(refused(k_round_box, [](BodyProperties& body) { body.rounding = Unit(0x1p-20); }));
+  EXPECT_TRUE(refused(k_round_box, [](BodyProperties& body) { body.bounding_radius = Unit(0.5); }));
+  EXPECT_TRUE(refused(k_cylinder, [](BodyProperties& body) { body.rounding = Unit(0.125); }));
+  EXPECT_TRUE(refused(k_cylinder, [](BodyProperties& body) { body.asset = 1; }));
+  EXPECT_TRUE(refused(k_cylinder, [](BodyProperties& body) { body.size.z = body.size.y; }));
+  EXPECT_TRUE(refused(k_cylinder, [](BodyProperties& body) { body.shape = static_cast<uint32_t>(ShapeType::cone); }));
+  EXPECT_TRUE(refused(0, [](BodyProperties& body) { body.rounding = Unit(0.125); })) << "a rounded half-space";
 }
 
 DETENT_TEST(world_shapes, no_bit_of_a_shape_can_be_flipped_into_a_crash) {
@@ -299,7 +305,7 @@ DETENT_TEST(world_shapes, no_bit_of_a_shape_can_be_flipped_into_a_crash) {
   const std::vector<uint64_t> good = lab.snapshot();
   std::vector<uint64_t> place = good;
   const StateView<uint8_t> view = view_of(bytes_of(place), k_capacity);
-  const uint32_t first = static_cast<uint32_t>(reinterpret_cast<uint8_t*>(view.traits.data) - bytes_of(place));
+  const uint32_t first = static_cast<uint32_t>(reinterpret_cast<uint8_t*>(view.properties.data) - bytes_of(place));
   const uint32_t bodies = get_info(lab.world).bodies;
   Lab other = make_lab();
   uint32_t loaded = 0, refused = 0;
@@ -314,7 +320,8 @@ DETENT_TEST(world_shapes, no_bit_of_a_shape_can_be_flipped_into_a_crash) {
     other.run(2);  // any state that is let in can be stepped
   };
   const uint32_t stride = detent_oracle::rounds(4) < 4 ? 7 : 1;  // an emulator tries one in seven
-  for (uint32_t bit = 8 * first; bit < 8 * (first + bodies * uint32_t{sizeof(BodyTraits)}); bit += stride) try_bit(bit);
+  for (uint32_t bit = 8 * first; bit < 8 * (first + bodies * uint32_t{sizeof(BodyProperties)}); bit += stride)
+    try_bit(bit);
   for (uint32_t bit = 8 * (byte_count(good) - 3 * uint32_t{sizeof(AssetState)}); bit < 8 * byte_count(good); ++bit)
     try_bit(bit);
   EXPECT_GT(loaded, 0u);

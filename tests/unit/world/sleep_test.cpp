@@ -80,7 +80,7 @@ DETENT_TEST(sleep, a_body_thrown_at_a_stack_wakes_all_of_it_in_the_tick_it_touch
   BodyDef ball;
   ball.shape = sphere(real(0.25));
   ball.position = position(-4, 1.5, 0);
-  ball.velocity = reals(8, 1, 0);
+  ball.linear_velocity = reals(8, 1, 0);
   stacks.lab.add(ball);
   uint32_t woke = 0, contacts = 0;
   for (int i = 0; i < 60 && woke == 0; ++i) {
@@ -92,7 +92,7 @@ DETENT_TEST(sleep, a_body_thrown_at_a_stack_wakes_all_of_it_in_the_tick_it_touch
   EXPECT_EQ(woke, 3u);
   EXPECT_GE(contacts, 4u) << "what stands on each other still does";
   stacks.expect(true, false);
-  EXPECT_GT(stacks.lab.motion(stacks.left[1]).velocity[0], 0.01) << "nothing of the blow is lost";
+  EXPECT_GT(stacks.lab.motion(stacks.left[1]).linear_velocity[0], 0.01) << "nothing of the blow is lost";
 }
 
 DETENT_TEST(sleep, bodies_that_fell_asleep_apart_wake_each_other_within_a_tick) {
@@ -194,7 +194,7 @@ std::vector<double> neighbours_of_a_tower(double mass, uint32_t& substeps_max) {
     EXPECT_LE(view_of(lab.world).activities[id.slot - 1].substeps, 3u) << "a light island stays cheap";
     const Motion motion = lab.motion(id);
     result.insert(result.end(), motion.position, motion.position + 3);
-    result.insert(result.end(), motion.velocity, motion.velocity + 3);
+    result.insert(result.end(), motion.linear_velocity, motion.linear_velocity + 3);
   }
   return result;
 }

@@ -17,7 +17,7 @@ inline WorldDef turmoil_settings(uint64_t seed, Capacity capacity = k_turmoil_ca
   WorldDef def;
   def.capacity = capacity;
   def.sleeping = seed % 2 == 0;
-  def.reuse = seed % 3 == 0 ? Real(0.0) : Real(1.0 / 256);
+  def.contact_recycle_distance = seed % 3 == 0 ? Real(0.0) : Real(1.0 / 256);
   return def;
 }
 
@@ -37,7 +37,7 @@ inline void create_any_body(World& world, Draw& draw) {
   def.type = draw.type(wrong);
   def.position = draw.place();
   def.rotation = draw.rotation(wrong);
-  def.velocity = draw.vector(5, wrong);
+  def.linear_velocity = draw.vector(5, wrong);
   def.sensor = draw.chance(0.1);
   BodyId id;
   ignore(create_body(world, def, id));

@@ -1,0 +1,21 @@
+#pragma once
+#include <detent/detail/state.h>
+#include <detent/event.h>
+
+#include "base/span.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// The overflow events of a step, in the caller's buffer, sorted and without duplicates. If there are more events than
+/// fit, the first ones in sort order are kept.
+struct Overflow {
+  Span<const BodyProperties> properties;
+  Span<CapacityEvent> events;
+  uint32_t count = 0;
+
+  void add(CapacityEventType type, uint32_t slot_a, uint32_t slot_b);
+};
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,286 @@
+#include "ccd/impact_response.h"
+#include "ccd/impact_stage.h"
+#include "contact/compound_ops.h"
+#include "contact/contact_arm.h"
+#include "math/root.h"
+#include "motion/activity.h"
+#include "motion/angular_velocity.h"
+#include "motion/inverse_inertia.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+constexpr int k_rounds_max = 64;  ///< rounds of propagating an impulse
+
+/// Takes the contact of the part whose normal is nearest to that of the impact. If the impact has no normal, takes the
+/// deepest contact.
+__attribute__((noinline)) void find_part_points(const ImpactStage& stage, const ImpactPair& pair,
+                                                const CollisionBody& a, const CollisionBody& b,
+                                                const ContactMargins& margin, ContactGeometry& geometry) {
+  TerrainContacts contacts;
+  collide_parts(a, b, margin, stage.assets, stage.settings.reduction, stage.features, contacts);
+  const TerrainContact* best = nullptr;
+  Real most = k_zero;
+  for (uint32_t i = 0; i < contacts.count; ++i) {
+    const ContactGeometry& found = contacts.contact[i].geometry;
+    Real rank = real_from_unit(dot(found.normal, pair.normal), 0);
+    for (uint32_t k = 0; !is_direction(pair.normal) && k < found.count; ++k)
+      rank = max(rank, -found.point[k].separation);
+    if (best != nullptr && !(rank > most)) continue;
+    best = &contacts.contact[i];
+    most = rank;
+  }
+  geometry.count = 0;
+  if (best != nullptr) geometry = best->geometry;
+  geometry.seam = contacts.seam;
+}
+
+/// Finds the contact points of the bodies themselves. Returns no points if their normal does not agree with the impact:
+/// deep within a thin body, the direction of least penetration may lead through it. If the bodies lie on each other, no
+/// deeper than resting bodies sink in, then an edge that is also hit counts as the edge of a seam.
+void find_points(const ImpactStage& stage, const ImpactPair& pair, const BodyPose& pose_a, const BodyPose& pose_b,
+                 ContactGeometry& geometry) {
+  const BodyProperties &a = stage.bodies.properties[pair_low(pair.key)],
+                       &b = stage.bodies.properties[pair_high(pair.key)];
+  const Matrix3 rotation_a = matrix_from(pose_a.rotation), rotation_b = matrix_from(pose_b.rotation);
+  const Real about = scale_by_power(stage.extent_of(pair.key), -10);
+  const ContactMargins margin = {about, stage.settings.sunk};
+  const CollisionBody body_a = {pose_a, a, rotation_a}, body_b = {pose_b, b, rotation_b};
+  if (has_parts(a, b))
+    find_part_points(stage, pair, body_a, body_b, margin, geometry);
+  else
+    collide(body_a, body_b, margin, geometry, stage.assets, stage.settings.reduction, stage.features);
+  if (!is_direction(pair.normal) || geometry.count == 0) return;
+  const Unit along = dot(geometry.normal, pair.normal);
+  const bool lies_aside = abs(along) < Unit(0.5);
+  const bool lies_flat = geometry.count > 2;
+  geometry.seam = geometry.seam || ((lies_aside || lies_flat) && depth_of(geometry) <= stage.settings.sunk);
+  if (!(along > Unit(0.0))) geometry.count = 0;
+}
+
+/// Makes a contact from the point that the time of impact was found at.
+void take_point(const ImpactStage& stage, const ImpactPair& pair, const BodyPose& pose_a, const BodyPose& pose_b,
+                ContactGeometry& geometry) {
+  const BodyProperties &a = stage.bodies.properties[pair_low(pair.key)],
+                       &b = stage.bodies.properties[pair_high(pair.key)];
+  const auto arm = [](const BodyProperties& properties, const Vec3<Real>& point) {
+    const Unit zero = 0.0;
+    if (is_half_space(properties)) return Vec3<Unit>{zero, zero, zero};
+    return arm_of_offset(point, properties.size_exponent);
+  };
+  geometry.count = 1;
+  geometry.normal = pair.normal;
+  geometry.point[0] = {arm(a, pair.point), arm(b, pair.point - offset_of(pose_a, pose_b)), k_zero, 1};
+}
+
+/// The mean of the points, world.
+Position point_of(const ContactGeometry& geometry, const BodyPose& pose_a, const BodyPose& pose_b,
+                  const BodyProperties& a, const BodyProperties& b) {
+  static constexpr Unit k_share[k_manifold_points_max] = {1.0, 0.5, 1.0 / 3.0, 0.25};
+  const bool by_b = is_ground(a);  // A may be large, or its points have no arms
+  const int exponent = by_b ? b.size_exponent : a.size_exponent;
+  Vec3<Real> sum = k_zero_vector;
+  for (uint32_t i = 0; i < geometry.count; ++i) {
+    const Vec3<Unit> arm = (by_b ? geometry.point[i].arm_b : geometry.point[i].arm_a) * k_share[geometry.count - 1];
+    sum += {real_from_unit(arm.x, exponent), real_from_unit(arm.y, exponent), real_from_unit(arm.z, exponent)};
+  }
+  return moved((by_b ? pose_b : pose_a).position, sum);
+}
+void wake(ImpactStage& stage, uint32_t slot) {
+  if (stage.bodies.activities[slot].asleep == 0) return;
+  stage.bodies.sweeps[slot].marks |= k_mark_slept;
+  stage.report.woke += wake_all_with(slot, stage.bodies.activities, stage.bodies.active);
+}
+
+/// The velocity that gravity adds to a body in the part of the tick after `time`.
+Vec3<Real> fall_after(const ImpactStage& stage, uint32_t slot, Fraction time) {
+  const BodyProperties& properties = stage.bodies.properties[slot];
+  if (!is_dynamic(properties) || (stage.bodies.sweeps[slot].marks & k_mark_slept) != 0) return k_zero_vector;
+  const Vec3<Real> fall = stage.settings.gravity * stage.settings.tick_time;
+  bool saturated = false;
+  const Vec3<Real> own = {multiply(fall.x, properties.gravity_scale, saturated),
+                          multiply(fall.y, properties.gravity_scale, saturated),
+                          multiply(fall.z, properties.gravity_scale, saturated)};
+  return sweep_part({own, k_zero_vector}, k_whole_step - time).displacement;
+}
+
+/// The speed, m/s, at which the rotation of both bodies can bring them together again in the rest of the tick. Returns
+/// 1/16 of it at the second impact of the pair, then twice as much each time, up to all of it.
+Real bend_speed(const ImpactStage& stage, const ImpactPair& pair) {
+  const uint32_t a = pair_low(pair.key), b = pair_high(pair.key);
+  const auto radius = [&](uint32_t slot) {
+    const BodyProperties& properties = stage.bodies.properties[slot];
+    return real_from_unit(properties.bounding_radius, properties.size_exponent);
+  };
+  const BodySweep &sweep_a = stage.bodies.sweeps[a], &sweep_b = stage.bodies.sweeps[b];
+  constexpr Real k_angle_max = 2.0;  // a larger rotation moves the points apart again
+  const Real angle_a = min(length(sweep_a.rotation_vector), k_angle_max),
+             angle_b = min(length(sweep_b.rotation_vector), k_angle_max);
+  const Real displacement = length(sweep_b.displacement - sweep_a.displacement);
+  const Real bend = angle_a * angle_a * radius(a) + angle_b * angle_b * radius(b) + (angle_a + angle_b) * displacement;
+  const Real part = sweep_part({{bend, k_zero, k_zero}, k_zero_vector}, k_whole_step - pair.time).displacement.x;
+  const int power = (pair.impacts < 5 ? pair.impacts : 5) - 5;
+  bool saturated = false;
+  return multiply(scale_by_power(part, power), stage.tick_rate, saturated);
+}
+
+/// The lowest speed, m/s, at which a pair separates on its sweeps. An overlap is corrected. A body that rotates or
+/// rolls on an edge collides again and again; if the pair has already collided in this tick, the speed grows with the
+/// number of its impacts, so that a few impacts are enough for the tick. The velocities of the bodies' state are not
+/// changed by it.
+Real parting_speed(const ImpactStage& stage, const ImpactPair& pair, const ContactWork& contact, uint32_t count) {
+  bool saturated = false;
+  Real depth = k_zero, approach = k_zero;
+  for (uint32_t i = 0; i < count; ++i) {
+    depth = max(depth, -contact.separation[i]);
+    approach = max(approach, -contact.approach[i]);
+  }
+  const Real half_in_a_tick = scale_by_power(multiply(depth, stage.tick_rate, saturated), -1);
+  if (pair.impacts == 0)
+    return max(half_in_a_tick, min(scale_by_power(half_in_a_tick, 6), scale_by_power(approach, -2)));
+  const int power = pair.impacts < 2 ? -2 : pair.impacts < 5 ? -1 : 0;
+  return max(max(half_in_a_tick, scale_by_power(approach, power)), bend_speed(stage, pair));
+}
+
+/// Separates the bodies of a pair at the given points. Returns false and changes nothing if the bodies do not approach
+/// there. `again`: the impulse is a propagated one and is not counted again.
+bool resolve_at(ImpactStage& stage, ImpactPair& pair, const ContactGeometry& geometry, const BodyPose& pose_a,
+                const BodyPose& pose_b, bool again) {
+  const uint32_t a = pair_low(pair.key), b = pair_high(pair.key);
+  const BodyProperties &properties_a = stage.bodies.properties[a], &properties_b = stage.bodies.properties[b];
+  stage.take_work(1);
+  const BodyMotion before_a = motion_of_sweep(properties_a, pose_a.rotation, stage.bodies.sweeps[a], stage.tick_rate);
+  const BodyMotion before_b = motion_of_sweep(properties_b, pose_b.rotation, stage.bodies.sweeps[b], stage.tick_rate);
+  ContactWork contact;
+  contact.state = {};
+  contact.state.point_count = static_cast<uint8_t>(geometry.count);
+  const WorldInverseInertia inverse_inertia_a = world_inverse_inertia(properties_a, matrix_from(pose_a.rotation));
+  const WorldInverseInertia inverse_inertia_b = world_inverse_inertia(properties_b, matrix_from(pose_b.rotation));
+  const Vec3<Real> angular_velocity_a =
+      world_angular_velocity(properties_a, inverse_inertia_a, before_a.angular_momentum, -k_angular_velocity_power);
+  const Vec3<Real> angular_velocity_b =
+      world_angular_velocity(properties_b, inverse_inertia_b, before_b.angular_momentum, -k_angular_velocity_power);
+  const Real extent_a = shape_extent(properties_a), extent_b = shape_extent(properties_b);
+  make_rows(stage.settings,
+            {properties_a, pose_a, before_a, inverse_inertia_a, angular_velocity_a, extent_a,
+             fall_speed(stage.settings, extent_a)},
+            {properties_b, pose_b, before_b, inverse_inertia_b, angular_velocity_b, extent_b,
+             fall_speed(stage.settings, extent_b)},
+            geometry, contact);
+  BodyMotion after_a = before_a, after_b = before_b;
+  Real approach = k_zero;
+  const Real parting = again ? k_zero : parting_speed(stage, pair, contact, geometry.count);
+  const Real least = again ? scale_by_power(stage.first_approach, -12) : k_zero;
+  const auto resolves = [&](Real least_approach, Real leave, BodyMotion& motion_a, BodyMotion& motion_b, Real& found) {
+    return resolve_impact(contact, geometry.count, least_approach, leave, {properties_a, pose_a.rotation, motion_a},
+                          {properties_b, pose_b.rotation, motion_b}, found);
+  };
+  if (!resolves(least, parting, after_a, after_b, approach)) return false;
+  wake(stage, a);
+  wake(stage, b);
+  stage.report.clamped += hold_angular_velocity(properties_a, pose_a.rotation, after_a) +
+                          hold_angular_velocity(properties_b, pose_b.rotation, after_b);
+  const auto change_sweep = [&](uint32_t slot, const BodyPose& pose, const BodyMotion& before,
+                                const BodyMotion& after) {
+    if (!stage.dynamic(slot) || (stage.bodies.sweeps[slot].marks & k_mark_stopped) != 0) return;
+    stage.report.clamped += add_to_sweep(stage.bodies.properties[slot], pose.rotation, before, after,
+                                         stage.settings.tick_time, stage.bodies.sweeps[slot]);
+  };
+  change_sweep(a, pose_a, before_a, after_a);
+  change_sweep(b, pose_b, before_b, after_b);
+
+  const Vec3<Real> fall_a = fall_after(stage, a, pair.time), fall_b = fall_after(stage, b, pair.time);
+  BodyMotion motion_a = stage.bodies.motions[a], motion_b = stage.bodies.motions[b];
+  motion_a.linear_velocity -= fall_a;
+  motion_b.linear_velocity -= fall_b;
+  Real approach_of_state = k_zero;
+  // If the solver has pushed the pair apart, a slow remaining approach is left to the solver in the next tick.
+  const Real least_of_state = stage.is_pushed(pair.key) ? contact.rebound_min : k_zero;
+  if (resolves(least_of_state, k_zero, motion_a, motion_b, approach_of_state)) {
+    motion_a.linear_velocity += fall_a;
+    motion_b.linear_velocity += fall_b;
+    stage.report.clamped += hold_angular_velocity(properties_a, pose_a.rotation, motion_a) +
+                            hold_angular_velocity(properties_b, pose_b.rotation, motion_b);
+    if (stage.dynamic(a)) stage.bodies.motions[a] = motion_a;
+    if (stage.dynamic(b)) stage.bodies.motions[b] = motion_b;
+  }
+
+  if (again) return true;
+  stage.first_approach = approach;
+  ++stage.report.impacts;
+  if (pair.impacts < UINT8_MAX) ++pair.impacts;
+  if (stage.report.hits < stage.hits.count)
+    stage.hits[stage.report.hits++] = {
+        pair.key, pair.time, point_of(geometry, pose_a, pose_b, properties_a, properties_b), geometry.normal, approach};
+  else
+    ++stage.report.hits_dropped;
+  return true;
+}
+
+/// The pair with the lowest key above `after` that has collided in this tick and shares a dynamic body with the first
+/// pair.
+ImpactPair* next_touching(const ImpactStage& stage, uint64_t first_key, uint64_t after) {
+  ImpactPair* best = nullptr;
+  const uint32_t slots[2] = {pair_low(first_key), pair_high(first_key)};
+  for (const uint32_t slot : slots) {
+    if (!stage.dynamic(slot)) continue;
+    stage.for_each_impact(slot, [&](ImpactPair& pair) {
+      if (pair.impacts == 0 || pair.key <= after || (best != nullptr && pair.key > best->key)) return;
+      best = &pair;
+    });
+  }
+  return best;
+}
+
+/// Resolves a pair that may still touch. Returns false if its bodies do not touch or do not approach.
+bool meet_again(ImpactStage& stage, ImpactPair& pair, Fraction time) {
+  const uint32_t slots[2] = {pair_low(pair.key), pair_high(pair.key)};
+  const BodyPose pose_a = pose_at(stage.body(slots[0]), time), pose_b = pose_at(stage.body(slots[1]), time);
+  ContactGeometry geometry;
+  const Fraction next_time = pair.time;
+  pair.time = time;
+  find_points(stage, pair, pose_a, pose_b, geometry);
+  for (const uint32_t slot : slots) {
+    if (geometry.count != 0 && stage.dynamic(slot)) stage.move_to(slot, time);
+  }
+  if (geometry.count == 0 || !resolve_at(stage, pair, geometry, pose_a, pose_b, true)) {
+    pair.time = next_time;
+    return false;
+  }
+  pair.last = time;
+  for (const uint32_t slot : slots) {
+    if (stage.dynamic(slot)) stage.change(slot);
+  }
+  return true;
+}
+
+}  // namespace
+
+bool ImpactStage::resolve(ImpactPair& pair, bool undecided, const BodyPose& pose_a, const BodyPose& pose_b) {
+  ContactGeometry geometry;
+  find_points(*this, pair, pose_a, pose_b, geometry);
+  if (geometry.count != 0 && resolve_at(*this, pair, geometry, pose_a, pose_b, false)) return false;
+  if (undecided || !is_direction(pair.normal)) return false;
+  if (geometry.seam && pair.farther_in == 0) return true;
+  take_point(*this, pair, pose_a, pose_b, geometry);
+  resolve_at(*this, pair, geometry, pose_a, pose_b, false);
+  return false;
+}
+
+void ImpactStage::pass_on(const ImpactPair& first, Fraction time) {
+  const uint64_t first_key = first.key;
+  for (int round = 0; round < k_rounds_max && !is_spent(); ++round) {
+    bool again = false;
+    uint64_t after = 0;
+    while (ImpactPair* pair = next_touching(*this, first_key, after)) {
+      after = pair->key;
+      if (round == 0 && after == first_key) continue;
+      again = meet_again(*this, *pair, time) || again;
+    }
+    if (!again) break;
+  }
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

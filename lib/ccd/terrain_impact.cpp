@@ -1,0 +1,173 @@
+#include "ccd/terrain_impact.h"
+
+#include "math/root.h"
+#include "shape/shape_properties.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+constexpr int k_parts_power_max = 8;  ///< a long path is searched in at most 2^k_parts_power_max parts
+
+/// Tests the triangles of a terrain, one by one, against a moving body.
+struct TerrainSearch {
+  const TerrainOps& code;
+  const SweptBody& ground;
+  const Terrain terrain;
+  const Motion ground_motion;
+  const Convex& convex;
+  const Motion motion;
+  const Fraction time;
+  const bool ground_is_a, turns;
+  Matrix32 matrix;  ///< rotation of the terrain at `time`
+  /// Of the body, relative to the terrain, in its axes at `time`, without its rotation over the tick; 2^-46 m.
+  Vec64 centre, displacement;
+  int64_t radius;  ///< bounding radius of the body, 2^-46 m
+  uint32_t triangle = k_no_triangle;
+  TimeOfImpact first = {};
+  bool failed = false;
+
+  /// Height of the body's centre above the triangle's plane at `time`, 2^-46 m.
+  int64_t height(const TerrainTriangle& t, const Vec32& normal) const { return dot(from(t), normal).round_shift(30); }
+  Vec64 from(const TerrainTriangle& t) const {
+    const int64_t step = int64_t{1} << grid_shift(terrain);
+    return {centre.x - t.corner[0].x * step, centre.y - t.corner[0].y * step, centre.z - t.corner[0].z * step};
+  }
+
+  /// Whether the body's bounding sphere stays on one side of the plane.
+  bool passes_by(const TerrainTriangle& t, const Vec32& normal) const {
+    const int64_t start = height(t, normal), end = start + dot(displacement, normal).round_shift(30);
+    // The error of a normal is less than 2^-28.
+    const int64_t clear = radius + (radius >> 10) + ((length_bound(from(t)) + length_bound(displacement)) >> 26) + 64;
+    return (start > clear && end > clear) || (start < -clear && end < -clear);
+  }
+
+  /// Makes the triangle as a convex shape. If the terrain rotates, the triangle is placed relative to the terrain's
+  /// centre of rotation; otherwise relative to a point near the triangle, which is more precise.
+  bool place(uint32_t index, const TerrainTriangle& t, Pose& placed, Convex& made) const {
+    placed = ground_motion.start;
+    if (!turns) return code.convex(terrain, placed, index, placed, made) == Status::ok;
+    const int64_t step = int64_t{1} << grid_shift(terrain);
+    Vec64 corner[3];
+    for (int k = 0; k < 3; ++k) corner[k] = {t.corner[k].x * step, t.corner[k].y * step, t.corner[k].z * step};
+    const int64_t bound = bound_of(corner);
+    set_triangle(corner, bound, raw_exponent_above(bound + 1), made);
+    return true;
+  }
+
+  bool from_behind(const TerrainTriangle& t, const Vec32& normal, const TimeOfImpact& found) const {
+    const Unit zero = 0.0;
+    if (found.normal == Vec3<Unit>{zero, zero, zero}) return height(t, normal) < 0;
+    const Fraction when = time + fraction_product(k_whole_step - time, found.time);
+    const Vec3<Unit> front = rotate(pose_at(ground, when).rotation, units_from_raw(normal));
+    return (dot(front, found.normal) < zero) == ground_is_a;
+  }
+
+  void ask(uint32_t index) {
+    if (index == triangle) return;  // already tested in the part of the path before
+    const TerrainTriangle t = terrain.triangle(index);
+    const Vec32 normal = normal_of(t.corner[0], t.corner[1], t.corner[2]);
+    if (!turns && passes_by(t, normal)) return;
+    Pose placed;
+    Convex made;
+    TimeOfImpact found;
+    if (!place(index, t, placed, made)) {
+      failed = true;
+      return;
+    }
+    const Motion moved = {placed, ground_motion.displacement, ground_motion.rotation_vector};
+    const Status status = ground_is_a ? time_of_impact(made, moved, convex, motion, found)
+                                      : time_of_impact(convex, motion, made, moved, found);
+    failed = failed || status != Status::ok;
+    if (status != Status::ok || found.outcome == ToiOutcome::clear) return;
+    if (terrain.one_sided() && from_behind(t, normal, found)) return;
+    if (triangle != k_no_triangle && !(found.time < first.time || (found.time == first.time && index < triangle)))
+      return;
+    triangle = index;
+    first = found;
+    const Position &near = placed.position, &whole = ground_motion.start.position;
+    if (ground_is_a)
+      first.point +=
+          {real_difference(near.x, whole.x), real_difference(near.y, whole.y), real_difference(near.z, whole.z)};
+  }
+
+  /// Visits the triangles in the bounds of the body's path relative to the terrain, enlarged for the terrain's
+  /// rotation.
+  void walk() {
+    int64_t padding = radius + (radius >> 10);
+    if (turns) {
+      constexpr Real k_far = 32768.0, k_most = 2.0;
+      const Real angle = min(length(ground_motion.rotation_vector), k_most);
+      const Real distance = min(real_from_raw(length_bound(centre)), k_far);
+      const Real swept = min(length(motion.displacement - ground_motion.displacement), k_far);
+      padding = saturated_sum(padding, saturated_sum(raw_length(angle * distance), raw_length(angle * swept)));
+    }
+    constexpr int64_t k_all = int64_t{1} << 61;  // no coordinate of a terrain is more than half of it
+    if (padding >= k_all) {
+      visit({-k_all, -k_all, -k_all}, {k_all, k_all, k_all});
+      return;
+    }
+    // Search a long path part by part, and stop at the part with the first impact: a box around the whole path would
+    // contain many more triangles.
+    const auto size = [](int64_t along) { return along < 0 ? -along : along; };
+    const auto larger = [](int64_t p, int64_t q) { return p < q ? q : p; };
+    const int64_t longest = larger(size(displacement.x), larger(size(displacement.y), size(displacement.z)));
+    int power = 0;
+    while (!turns && power < k_parts_power_max && longest >> power > 4 * padding) ++power;
+    const int64_t parts = int64_t{1} << power, margin = padding + parts - 1;  // the step is rounded down
+    const Vec64 step = {displacement.x >> power, displacement.y >> power, displacement.z >> power};
+    for (int64_t part = 0; part < parts; ++part) {
+      const auto low = [&](int64_t at, int64_t along) { return at + along * part + (along < 0 ? along : 0) - margin; };
+      const auto high = [&](int64_t at, int64_t along) { return at + along * part + (along > 0 ? along : 0) + margin; };
+      visit({low(centre.x, step.x), low(centre.y, step.y), low(centre.z, step.z)},
+            {high(centre.x, step.x), high(centre.y, step.y), high(centre.z, step.z)});
+      if (triangle != k_no_triangle && first.time.raw <= (k_whole_step.raw >> power) * (part + 1)) return;
+    }
+  }
+  void visit(const Vec64& low, const Vec64& high) {
+    code.visit(
+        terrain, low, high, [](void* search, uint32_t index) { static_cast<TerrainSearch*>(search)->ask(index); },
+        this);
+  }
+};
+
+}  // namespace
+
+bool terrain_impact(const AssetTable& assets, const TerrainOps& code, const SweptBody& a, const SweptBody& b,
+                    const Convex& convex, Fraction time, TimeOfImpact& impact) {
+  const bool ground_is_a = is_terrain(a.properties);
+  const SweptBody &ground = ground_is_a ? a : b, &body = ground_is_a ? b : a;
+  if (!is_in(assets, ground.properties.asset)) return false;
+  const Motion ground_motion = motion_from(ground, time), motion = motion_from(body, time);
+  TerrainPlace place;
+  Vec64 displacement;
+  if (place_on_terrain(ground_motion.start, motion.start, place) != Status::ok ||
+      !raw_from_real(motion.displacement - ground_motion.displacement, displacement))
+    return false;
+  TerrainSearch search = {code,
+                          ground,
+                          terrain_of(ground.properties, assets),
+                          ground_motion,
+                          convex,
+                          motion,
+                          time,
+                          ground_is_a,
+                          !(ground_motion.rotation_vector == Vec3<Real>{k_zero, k_zero, k_zero}),
+                          place.terrain,
+                          place.centre,
+                          rotate_back(place.terrain, displacement),
+                          raw_length(real_from_unit(body.properties.bounding_radius, body.properties.size_exponent))};
+  search.walk();
+  if (search.failed) return false;
+  impact = search.first;
+  if (search.triangle != k_no_triangle) return true;
+  impact = {};
+  impact.outcome = ToiOutcome::clear;
+  impact.time = k_whole_step;
+  return true;
+}
+
+const TerrainImpactOps k_terrain_impact_ops = {terrain_impact};
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,33 @@
+#pragma once
+#include "contact/collide.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// Makes the data from which later ticks can recycle a pair's contact. The data is all zero for contacts that are not
+/// recycled: those with fewer than three points, about which a body rotates or rolls; those with a half-space, which
+/// are found anew as fast; capped searches; and bodies that overlap deeply.
+ManifoldState kept_manifold(const CollisionBody& a, const CollisionBody& b, const ContactGeometry& contact);
+
+/// False if the data is all zero.
+bool is_kept(const ManifoldState& manifold);
+
+/// Recycles the contact `before`, whose features are `feature`, at the current poses. The normal and the surface of the
+/// base (the larger body) move with the base, the points move with the other body, and the separations follow the
+/// motion along the normal. Points farther apart than `margin`, m, are left out of `contact` and of `after`. False if a
+/// point of the smaller body may have moved relative to the larger body by more than `tolerance`, m, or if fewer than
+/// three points are left. The caller must then collide the pair anew.
+///
+/// Precision: that of collide(), and 2^-17 of the motion. Each call starts from the stored data, so errors do not
+/// accumulate. The direction of the normal errs by no more than the relative rotation of the pair since then, which is
+/// at most 2 tolerance / (bounding diameter of the smaller body).
+bool recycle_manifold(const CollisionBody& a, const CollisionBody& b, const ManifoldState& before,
+                      const uint32_t (&feature)[k_manifold_points_max], uint32_t count, Real tolerance, Real margin,
+                      ContactGeometry& contact, ManifoldState& after);
+
+/// Whether kept_manifold() can have made this data for a contact of `count` points, or the data can be recycled just as
+/// safely.
+bool is_manifold(const BodyProperties& a, const BodyProperties& b, uint32_t count, const ManifoldState& manifold);
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,23 @@
+#pragma once
+#include <detent/asset.h>
+#include <detent/convex.h>
+#include <detent/detail/state.h>
+#include <detent/features.h>
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// As farther_than(), for a body `ground` with terrain (a mesh or height field) and a convex shape at `pose`, which is
+/// the shape of `body` or a part of it. False if the test cannot be made, for example because the bytes of the terrain
+/// are missing.
+bool farther_than_terrain(const AssetTable& assets, const BodyProperties& ground, const Pose& ground_pose,
+                          const BodyProperties& body, const Convex& convex, const Pose& pose, Real margin,
+                          bool& farther);
+
+/// For a feature table.
+struct TerrainDistanceOps {
+  decltype(&farther_than_terrain) farther;
+};
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

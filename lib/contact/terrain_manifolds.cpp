@@ -1,0 +1,242 @@
+#include "contact/terrain_manifolds.h"
+
+#include "contact/contact_arm.h"
+#include "contact/contact_clip.h"
+#include "math/root.h"
+#include "shape/shape_properties.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+constexpr int64_t k_same_cosine = (int64_t{1} << 60) - (int64_t{1} << 49);     // 2^-5 rad
+constexpr int64_t k_similar_cosine = (int64_t{1} << 60) - (int64_t{1} << 55);  // 2^-2 rad
+constexpr int k_plane_power = 4;  ///< planes at most 2^-4 of the half thickness apart count as one plane
+constexpr uint32_t k_edge_key = 0x80000000u;
+
+int64_t along(const Vec64& v, const Vec32& direction) { return dot(v, direction).round_shift(30); }
+
+/// The name of a normal: its components, coarsely rounded. A normal along an axis lies in the middle of the range of
+/// normals with the same name.
+uint32_t normal_name(const Vec32& normal) {
+  const auto part = [](int32_t a) { return static_cast<uint32_t>((a + (1 << 24)) >> 25) & 0x7f; };
+  return 1u << 29 | part(normal.x) << 22 | part(normal.y) << 15 | part(normal.z) << 8;
+}
+
+}  // namespace
+
+TerrainManifolds::Group* TerrainManifolds::group_for(const TerrainTouch& touch, int64_t plane) {
+  const Vec32& normal = touch.manifold.normal;
+  Group* similar = nullptr;
+  int64_t most = k_similar_cosine;
+  for (uint32_t i = 0; i < count_; ++i) {
+    Group& group = group_[i];
+    const int64_t cosine = dot(group.normal, normal), apart = plane - group.plane;
+    if (cosine >= k_same_cosine && (apart < 0 ? -apart : apart) <= size_ >> k_plane_power) return &group;
+    if (cosine <= most) continue;
+    most = cosine;
+    similar = &group;
+  }
+  if (count_ == k_groups_max && similar != nullptr) return similar;
+  Group* fresh = &group_[count_];
+  if (count_ == k_groups_max) {
+    fresh = &group_[0];
+    for (Group& group : group_) fresh = group.deepest > fresh->deepest ? &group : fresh;
+    if (fresh->deepest <= touch.deepest) {
+      ++dropped_;
+      return nullptr;
+    }
+    dropped_ += fresh->touches;
+  } else {
+    ++count_;
+  }
+  *fresh = {};
+  fresh->normal = normal;
+  fresh->u = axis_across(normal);
+  fresh->v = round_shift(cross(normal, fresh->u), 30);
+  fresh->plane = plane;
+  fresh->deepest = INT64_MAX;
+  fresh->first = touch.triangle;
+  fresh->doubtful = true;
+  return fresh;
+}
+
+void TerrainManifolds::add(const TerrainTouch& touch) {
+  const BlockManifold& manifold = touch.manifold;
+  capped_ = capped_ || manifold.capped;
+  uint32_t deepest = 0;
+  for (uint32_t i = 1; i < manifold.count; ++i)
+    deepest = manifold.point[i].separation < manifold.point[deepest].separation ? i : deepest;
+  const BlockPoint& point = manifold.point[deepest];
+  const int64_t plane = along(point.from_b, manifold.normal) - point.separation / 2;
+  if (Group* group = group_for(touch, plane); group != nullptr) join(touch, plane, *group);
+}
+
+void TerrainManifolds::join(const TerrainTouch& touch, int64_t plane, Group& group) {
+  if (touch.deepest < group.deepest) {
+    group.deepest = touch.deepest;
+    group.normal = touch.manifold.normal;
+    group.plane = plane;
+    group.triangle = touch.triangle;
+    group.material = touch.material;
+    group.turns = touch.manifold.turns;
+  }
+  group.first = touch.triangle < group.first ? touch.triangle : group.first;
+  group.on_face = group.on_face || touch.on_face;
+  group.doubtful = group.doubtful && touch.doubtful;
+  ++group.touches;
+  for (uint32_t i = 0; i < touch.manifold.count; ++i) {
+    const BlockPoint& point = touch.manifold.point[i];
+    add_point({point.from_b, point.separation, point.feature, touch.part}, group);
+  }
+}
+
+void TerrainManifolds::add_point(const TerrainManifold::Point& contact, Group& group) const {
+  const Point point = {contact, along(contact.from_shape, group.u), along(contact.from_shape, group.v)};
+  for (uint32_t i = 0; i < group.count; ++i) {
+    if (group.point[i].contact.feature != contact.feature) continue;
+    if (contact.separation < group.point[i].contact.separation) group.point[i] = point;
+    return;
+  }
+  if (group.count == k_points_max) {
+    const uint32_t spare = spare_point(group);
+    for (uint32_t i = spare; i + 1 < group.count; ++i) group.point[i] = group.point[i + 1];
+    --group.count;
+  }
+  group.point[group.count++] = point;
+}
+
+uint32_t TerrainManifolds::deepest_of(const Group& group) {
+  uint32_t deepest = 0;
+  for (uint32_t i = 1; i < group.count; ++i) {
+    deepest = group.point[i].contact.separation < group.point[deepest].contact.separation ? i : deepest;
+  }
+  return deepest;
+}
+
+/// The points that AreaChoice chooses, as bits; if `fill` is false, only the extremes.
+uint32_t TerrainManifolds::chosen_of(const Group& group, int64_t level, int64_t drop, bool fill) {
+  const Point& first = group.point[0];
+  uint64_t spread = 0;
+  for (uint32_t i = 1; i < group.count; ++i) {
+    spread |= magnitude_64(group.point[i].u - first.u) | magnitude_64(group.point[i].v - first.v);
+  }
+  const int bits = bit_length_64(spread), shift = bits > 28 ? bits - 28 : 0;  // so that areas of triangles fit 64 bits
+  AreaChoice choice(level, INT64_MAX, drop, ManifoldReduction::projected_extremes);
+  do {
+    for (uint32_t i = 0; i < group.count; ++i) {
+      const Point& p = group.point[i];
+      choice.add({(p.u - first.u) >> shift, (p.v - first.v) >> shift, p.contact.separation, AreaPoint::Kind::vertex,
+                  static_cast<uint8_t>(i), 0});
+    }
+  } while (choice.again() && fill);
+  uint32_t chosen = 0;
+  for (int i = 0; i < choice.count(); ++i) chosen |= 1u << choice[i].incident;
+  return chosen;
+}
+
+/// The index of the point to give up: the highest point that is neither an extreme nor the deepest. Of eight points, at
+/// least three qualify. Among points of about the same height, the first.
+uint32_t TerrainManifolds::spare_point(const Group& group) const {
+  const uint32_t needed = chosen_of(group, INT64_MAX, INT64_MAX / 2, false) | 1u << deepest_of(group);
+  uint32_t spare = k_points_max;
+  int64_t higher = INT64_MIN;
+  for (uint32_t i = 0; i < group.count; ++i) {
+    const int64_t separation = group.point[i].contact.separation;
+    if ((needed >> i & 1) != 0 || separation <= higher) continue;
+    spare = i;
+    higher = separation + (size_ >> k_drop_power);
+  }
+  return spare;
+}
+
+/// Chooses up to four of the points. Points about as deep as the deepest are preferred.
+void TerrainManifolds::choose(const Group& group, TerrainManifold& manifold) const {
+  uint32_t chosen = ~0u;
+  if (group.count > k_contact_points_max) {
+    const int64_t deepest = group.point[deepest_of(group)].contact.separation;
+    chosen = chosen_of(group, deepest + (size_ >> k_plane_power), size_ >> k_drop_power, true);
+  }
+  manifold.count = 0;
+  for (uint32_t i = 0; i < group.count; ++i) {
+    if ((chosen >> i & 1) != 0) manifold.point[manifold.count++] = group.point[i].contact;
+  }
+  manifold.normal = group.normal;
+  manifold.triangle = group.triangle;
+  manifold.material = group.material;
+  manifold.turns = group.turns;
+}
+
+/// Removes doubtful groups, unless all groups are doubtful. A very deep contact along a normal that the terrain forces
+/// on it counts only if there is no other contact.
+void TerrainManifolds::leave_out_doubtful() {
+  bool certain = false;
+  for (uint32_t i = 0; i < count_; ++i) certain = certain || !group_[i].doubtful;
+  if (!certain) return;
+  uint32_t kept = 0;
+  for (uint32_t i = 0; i < count_; ++i) {
+    if (group_[i].doubtful) continue;
+    if (kept != i) group_[kept] = group_[i];
+    ++kept;
+  }
+  count_ = kept;
+}
+
+uint32_t TerrainManifolds::finish(TerrainManifold (&manifold)[k_terrain_manifolds_max]) {
+  leave_out_doubtful();
+  while (count_ > k_terrain_manifolds_max) {
+    uint32_t shallowest = 0;
+    for (uint32_t i = 1; i < count_; ++i) {
+      shallowest = group_[i].deepest >= group_[shallowest].deepest ? i : shallowest;
+    }
+    dropped_ += group_[shallowest].touches;
+    for (uint32_t i = shallowest; i + 1 < count_; ++i) group_[i] = group_[i + 1];
+    --count_;
+  }
+  // Sorts by key, and planes of the same name by their height.
+  const auto key_of = [](const Group& group) {
+    return group.on_face ? normal_name(group.normal) : k_edge_key | group.first;
+  };
+  for (uint32_t i = 1; i < count_; ++i) {
+    for (uint32_t k = i; k > 0; --k) {
+      Group &low = group_[k - 1], &high = group_[k];
+      const uint32_t low_key = key_of(low), high_key = key_of(high);
+      if (low_key < high_key || (low_key == high_key && low.plane <= high.plane)) break;
+      const Group swapped = low;
+      low = high;
+      high = swapped;
+    }
+  }
+  for (uint32_t i = 0; i < count_; ++i) {
+    choose(group_[i], manifold[i]);
+    manifold[i].key = key_of(group_[i]);
+    if (i > 0 && manifold[i].key <= manifold[i - 1].key) manifold[i].key = manifold[i - 1].key + 1;
+  }
+  return count_;
+}
+
+void put_contact(const TerrainManifold& manifold, const Matrix32& rotation, const CollisionBody& ground,
+                 const CollisionBody& body, TerrainContact& contact) {
+  const bool is_plane = is_half_space(ground.properties);  // the arm of a half-space has no effect
+  const Position &from = ground.pose.position, &to = body.pose.position;
+  const Vec3<Real> offset = {real_difference(to.x, from.x), real_difference(to.y, from.y),
+                             real_difference(to.z, from.z)};
+  contact.key = manifold.key;
+  contact.triangle = manifold.triangle;
+  contact.material = manifold.material;
+  contact.geometry = {};
+  contact.geometry.turns = manifold.turns;
+  contact.geometry.normal = units_from_raw(round_shift(multiply(rotation, manifold.normal), 30));
+  for (uint32_t i = 0; i < manifold.count; ++i) {
+    const TerrainManifold::Point& point = manifold.point[i];
+    const Vec64 arm = rotate(rotation, point.from_shape);
+    const Vec3<Real> from_body = {real_from_raw(arm.x), real_from_raw(arm.y), real_from_raw(arm.z)};
+    contact.geometry.point[contact.geometry.count++] = {
+        is_plane ? Vec3<Unit>{0.0, 0.0, 0.0} : arm_of_offset(offset + from_body, ground.properties.size_exponent),
+        arm_of_offset(from_body, body.properties.size_exponent), real_from_raw(point.separation), point.feature,
+        point.part};
+  }
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,98 @@
+#pragma once
+#include "contact/collide.h"
+#include "contact/terrain_pair.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+inline constexpr uint32_t k_terrain_manifolds_max = 8;
+
+/// One planar contact of a shape with terrain (a mesh or height field), in the terrain's axes.
+struct TerrainManifold {
+  Vec32 normal;       ///< from the terrain to the shape, Q30
+  uint32_t key;       ///< the same while the shape stays on the same plane or edge; distinct, never 0
+  uint32_t triangle;  ///< the triangle touched deepest
+  uint8_t material;   ///< material of that triangle
+  bool turns;         ///< as ContactGeometry::turns
+  uint32_t count;
+  struct Point {
+    Vec64 from_shape;    ///< midway between the surfaces, 2^-46 m, from the shape's centre
+    int64_t separation;  ///< 2^-46 m
+    uint32_t feature;    ///< as ManifoldPoint::feature
+    uint32_t part;       ///< as ContactGeometryPoint::part
+  } point[k_contact_points_max];
+};
+
+/// Collects the touches of a shape, triangle by triangle or part by part, into a few manifolds: all touches in one
+/// plane form one manifold. It processes touches one at a time, so their number is not limited. Features must be
+/// distinct within a plane.
+class TerrainManifolds {
+ public:
+  /// `size`: the shape's half thickness, 2^-46 m.
+  explicit TerrainManifolds(int64_t size) : size_(size) {}
+  void add(const TerrainTouch& touch);
+  /// Writes the manifolds in ascending order of key and returns their count. If there are too many, the deepest are
+  /// kept.
+  uint32_t finish(TerrainManifold (&manifold)[k_terrain_manifolds_max]);
+  /// Number of touches dropped so far for lack of room.
+  uint32_t dropped() const { return dropped_; }
+  bool capped() const { return capped_; }
+
+ private:
+  static constexpr uint32_t k_groups_max = 12;
+  static constexpr uint32_t k_points_max = 8;
+  struct Point {
+    TerrainManifold::Point contact;
+    int64_t u, v;  ///< in the group's plane, 2^-46 m
+  };
+  struct Group {
+    Vec32 normal, u, v;
+    int64_t plane;  ///< height of the plane along the normal, from the shape's centre, 2^-46 m
+    int64_t deepest;
+    uint32_t triangle, first;  ///< the triangle touched deepest, and the lowest index of all
+    uint32_t touches;
+    uint8_t material;
+    bool on_face, doubtful, turns;
+    uint32_t count;
+    Point point[k_points_max];
+  };
+
+  Group* group_for(const TerrainTouch& touch, int64_t plane);
+  void join(const TerrainTouch& touch, int64_t plane, Group& group);
+  void add_point(const TerrainManifold::Point& contact, Group& group) const;
+  static uint32_t deepest_of(const Group& group);
+  static uint32_t chosen_of(const Group& group, int64_t level, int64_t drop, bool fill);
+  uint32_t spare_point(const Group& group) const;
+  void choose(const Group& group, TerrainManifold& manifold) const;
+  void leave_out_doubtful();
+
+  int64_t size_;
+  uint32_t count_ = 0;
+  uint32_t dropped_ = 0;
+  bool capped_ = false;
+  Group group_[k_groups_max];
+};
+
+/// One planar contact of two bodies, one of which is a mesh, a height field or a compound.
+struct TerrainContact {
+  /// A and B in the order of the call that fills this; for collide_mesh() and put_contact(), A is `ground`.
+  ContactGeometry geometry;
+  uint32_t key;       ///< the same while the body stays on the same plane or edge; distinct, never 0
+  uint32_t triangle;  ///< the triangle touched deepest; 0 if there is no terrain
+  uint8_t material;   ///< material of that triangle; 0 if there is no terrain
+};
+
+struct TerrainContacts {
+  uint32_t count = 0;    ///< number of contacts, in ascending order of key
+  uint32_t dropped = 0;  ///< touched triangles or pairs of parts dropped for lack of room; the deepest are kept
+  bool seam = false;     ///< whether ContactGeometry::seam is true for any contact
+  bool capped = false;   ///< a search reached its iteration cap, asset bytes are missing, or a position is out of range
+  TerrainContact contact[k_terrain_manifolds_max];
+};
+
+/// Converts a manifold to a contact of two bodies. `rotation`: from the manifold's axes to the world's.
+void put_contact(const TerrainManifold& manifold, const Matrix32& rotation, const CollisionBody& ground,
+                 const CollisionBody& body, TerrainContact& contact);
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,106 @@
+#pragma once
+#include "contact/contact_points.h"
+#include "shape/terrain.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// The place of a shape in the axes of terrain (a mesh or height field).
+struct TerrainPlace {
+  Matrix32 terrain;   ///< from the terrain's axes to the world's
+  Matrix32 rotation;  ///< from the shape's axes to the terrain's
+  Vec64 centre;       ///< of the shape, in the terrain's axes, 2^-46 m
+  /// From `centre` to the middle of the part that collides, 2^-46 m, in the terrain's axes. It decides on which side of
+  /// a triangle the part is.
+  Vec64 middle = {0, 0, 0};
+};
+
+/// Errors: not_normalised; out_of_range for NaN and for positions 2^16 m or more apart.
+Status place_on_terrain(const Pose& terrain, const Pose& shape, TerrainPlace& place);
+
+/// The number of bits to shift right to convert 2^-46 m to grid steps.
+inline int grid_shift(const Terrain& terrain) { return k_metre_bits - 30 + terrain.exponent(); }
+/// The least box of the grid that contains these coordinates, 2^-46 m, and one step more. Clamped to +-INT32_MAX.
+GridBox grid_box(const Terrain& terrain, const Vec64& low, const Vec64& high);
+
+/// Makes a triangle from its corners, 2^-46 m from its origin, in a unit of length of 2^exponent m. `bound`, 2^-46 m:
+/// at least the greatest distance of a corner from the origin, and below the unit.
+void set_triangle(const Vec64 (&corner)[3], int64_t bound, int exponent, Convex& convex);
+/// The greatest distance of a corner from the origin, or slightly more (length_bound()).
+int64_t bound_of(const Vec64 (&corner)[3]);
+
+/// rotate() converts v from the axes of `m` to the world's; rotate_back() is the inverse. Range: |v| < 2^62. Rounding:
+/// to nearest, once.
+Vec64 rotate(const Matrix32& m, const Vec64& v);
+Vec64 rotate_back(const Matrix32& m, const Vec64& v);
+
+/// A unit vector perpendicular to a normal, Q30. Equal normals give the same vector. Therefore the points kept for a
+/// plane are among the points kept for its triangles.
+Vec32 axis_across(const Vec32& normal);
+
+/// The contact of a shape with one triangle, along one normal.
+struct TerrainTouch {
+  uint32_t triangle;
+  uint32_t part;  ///< as ContactGeometryPoint::part
+  uint8_t material;
+  bool on_face;             ///< the normal is the triangle's normal
+  bool seam;                ///< as ContactGeometry::seam; set even if touch() returns false
+  bool doubtful;            ///< too deep to trust this normal: used only if there is no other contact
+  BlockManifold manifold;   ///< A is the triangle, its origin at the shape's centre; terrain's axes
+  int64_t deepest;          ///< the least separation, 2^-46 m
+  uint32_t corner_name[3];  ///< names of the corners; the same for all triangles that share a corner
+};
+
+/// A convex shape over terrain. Finds its contacts triangle by triangle, in the terrain's axes.
+class TerrainPair {
+ public:
+  /// The arguments must outlive this object.
+  TerrainPair(const Terrain& terrain, const TerrainPlace& place, const Convex& shape, const ContactRules& rules);
+
+  /// Bounds of the shape, grown by the contact margin.
+  const GridBox& box() const { return box_; }
+  /// The shape's least half extent, its rounding ball included, 2^-46 m.
+  int64_t half_thickness() const { return thickness_; }
+
+  /// Finds the contact with one triangle. False if the shape does not touch the triangle, or if the contact belongs to
+  /// a neighbour.
+  ///
+  /// The contact normal must be one that the terrain allows. Between flat and concave edges, this is only the
+  /// triangle's own normal. At a convex or open edge, or at a corner, the directions between the normals of the
+  /// adjacent faces are allowed too. Contact points over the triangle along its own normal need no search. A search
+  /// runs only near a sharp edge, at a mild ridge if no contact point is over the triangle, and for deep contacts.
+  bool touch(uint32_t triangle, TerrainTouch& touch) const;
+
+ private:
+  struct Side;
+  bool is_behind(const Vec64& point, const Vec32& normal, const Vec32& corner) const;
+  Vec64 nearest_inside(const TerrainTriangle& triangle) const;
+  bool is_before_neighbour(const TerrainTriangle& triangle, const Vec32& normal) const;
+  Side side_of(uint32_t triangle) const;
+  Vec64 from_centre(const Vec32& point) const;
+  int64_t height(const Vec32& normal, const Vec32& corner) const;
+  bool make_pair(const Side& side, Convex& convex, RestingPair& pair) const;
+  static Vec32 outward(const Side& side, uint32_t k);
+  int64_t beyond(const Side& side, uint32_t k, const Vec32& out, const Vec32& point) const;
+  bool is_beside(const Side& side, int64_t clear) const;
+  bool is_lowest_beside(const Side& side, int64_t clear) const;
+  Vec32 normal_beyond(const Side& side, uint32_t edge) const;
+  bool is_at_seam(const Side& side, int64_t facing, int64_t deepest) const;
+  void turn_to(const Vec32& normal, BlockManifold& manifold) const;
+  bool has_sharp_edge(const Side& side) const;
+  bool has_nearer_exit(const Side& side, int64_t deepest) const;
+  bool allows(const Side& side, const Vec32& normal) const;
+  bool allows_at_corner(uint32_t triangle, const Vec32& corner, const Vec32& normal) const;
+
+  const Terrain& terrain_;
+  const Matrix32& rotation_;
+  const Convex& shape_;
+  Vec64 centre_, middle_;
+  const ContactRules& rules_;
+  int64_t margin_, radius_, thickness_;
+  Placed alone_;  ///< the shape placed in a block of its own unit of length
+  GridBox box_;
+};
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

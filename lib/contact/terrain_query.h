@@ -1,0 +1,35 @@
+#pragma once
+#include <detent/fraction.h>
+
+#include "contact/terrain_pair.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+struct TerrainHit {
+  bool hit = false;
+  Fraction time = 0.0;     ///< fraction of the segment at the hit; 1 if there is no hit
+  Vec3<Unit> normal = {};  ///< of the triangle, on the side from which the ray comes; world axes
+  uint32_t triangle = k_no_triangle;
+  uint8_t material = 0;
+};
+
+/// Finds the first triangle of terrain (a mesh or height field) at `pose` that a segment hits. The segment goes from
+/// `origin` (m, from the terrain's position, world axes) along `displacement` (m). Ties: the lower index. One-sided
+/// terrain ignores hits from behind. No ray passes through an edge between two triangles: the ends are rounded to the
+/// grid and the side tests are then exact, so the hit errs by up to one grid step. A ray in a triangle's plane does not
+/// hit the triangle. Errors: not_normalised; out_of_range, also for components of 2^15 m or more.
+Status cast_ray_on_terrain(const Terrain& terrain, const Pose& pose, const Vec3<Real>& origin,
+                           const Vec3<Real>& displacement, TerrainHit& hit);
+
+/// Calls visit(context, triangle) for each triangle whose bounds overlap a box in the terrain's axes, given by `low`
+/// and `high`, 2^-46 m. For a swept body, pass the box around its sweep.
+void visit_terrain(const Terrain& terrain, const Vec64& low, const Vec64& high,
+                   void (*visit)(void* context, uint32_t triangle), void* context);
+
+/// Makes a convex shape from one triangle, at the pose `placed`, for time_of_impact(). Its position is the coordinate
+/// nearest to the triangle's first corner. Errors: not_normalised; out_of_range if that position is out of range.
+Status terrain_convex(const Terrain& terrain, const Pose& pose, uint32_t triangle, Pose& placed, Convex& convex);
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,103 @@
+#include "motion/angular_velocity.h"
+
+#include "math/trig.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+struct BodyFrame {
+  Quat rotation;
+  Real angular_momentum[3];  ///< in the body's axes
+};
+
+/// Rotates the frame about one of its axes for `time`, at `rate` times the angular momentum about that axis. The
+/// angular momentum stays constant in the world.
+void rotate_about(int axis, Scaled rate, int exponent, Real time, BodyFrame& frame, bool& clamped) {
+  bool saturated = false;
+  const Real angular_velocity = multiply(frame.angular_momentum[axis], rate, saturated);
+  const Real angle = angle_of(angular_velocity * time, exponent, clamped);
+  clamped = clamped || saturated;
+  Unit sine = 0.0, cosine = 1.0;
+  sine_cosine_of_half_radians(angle, sine, cosine);
+  Unit part[3] = {0.0, 0.0, 0.0};
+  part[axis] = sine;
+  frame.rotation = multiply(frame.rotation, Quat{part[0], part[1], part[2], cosine});
+  const Unit sine_whole = scale_by_power(sine * cosine, 1);
+  const Unit cosine_whole = cosine * cosine - sine * sine;
+  Real& next = frame.angular_momentum[(axis + 1) % 3];
+  Real& after = frame.angular_momentum[(axis + 2) % 3];
+  const Real turned = next * cosine_whole + after * sine_whole;
+  after = after * cosine_whole - next * sine_whole;
+  next = turned;
+}
+
+Scaled difference(Scaled a, Scaled b) { return a == b ? Scaled(0.0) : add(a, negate(b)); }
+Scaled distance(Scaled a, Scaled b) { return less(a, b) ? difference(b, a) : difference(a, b); }
+
+/// The axis whose inverse inertia differs most from the other two.
+int odd_axis(const Scaled (&inverse_inertia)[3]) {
+  if (inverse_inertia[1] == inverse_inertia[2]) return 0;
+  if (inverse_inertia[2] == inverse_inertia[0]) return 1;
+  if (inverse_inertia[0] == inverse_inertia[1]) return 2;
+  const Scaled apart[3] = {distance(inverse_inertia[1], inverse_inertia[2]),
+                           distance(inverse_inertia[2], inverse_inertia[0]),
+                           distance(inverse_inertia[0], inverse_inertia[1])};
+  const int least = less(apart[1], apart[0]) ? 1 : 0;
+  return less(apart[2], apart[least]) ? 2 : least;
+}
+
+/// Rotates for `time` about a world axis by the angular velocity `angular velocity`, m/s at the radius 2^exponent m.
+Quat turned(const Quat& rotation, const Vec3<Real>& angular_velocity, int exponent, Real time, bool& clamped) {
+  const Vec3<Real> angle = {angle_of(angular_velocity.x * time, exponent, clamped),
+                            angle_of(angular_velocity.y * time, exponent, clamped),
+                            angle_of(angular_velocity.z * time, exponent, clamped)};
+  return normalise(multiply(rotation_from_vector(angle), rotation));
+}
+
+}  // namespace
+
+FreeRotation free_rotation_of(const BodyProperties& properties) {
+  FreeRotation free = {Scaled(0.0), Scaled(0.0), Scaled(0.0), 0};
+  if (!is_dynamic(properties) || is_isotropic(properties)) return free;
+  free.odd = odd_axis(properties.inverse_inertia);
+  free.common = properties.inverse_inertia[(free.odd + 1) % 3];
+  free.odd_rate = difference(properties.inverse_inertia[free.odd], free.common);
+  free.rest = difference(properties.inverse_inertia[(free.odd + 2) % 3], free.common);
+  return free;
+}
+
+bool rotate_freely(const BodyProperties& properties, const FreeRotation& free, const Vec3<Real>& angular_momentum,
+                   Real time, int halvings, Quat& rotation, Vec3<Real>& angular_velocity) {
+  const Real zero = 0.0;
+  const Vec3<Real> none = {zero, zero, zero};
+  const int exponent = properties.size_exponent;
+  bool clamped = false;
+  if (!is_dynamic(properties) || is_isotropic(properties)) {
+    angular_velocity = angular_velocity_of(properties, rotation, angular_momentum);
+    if (!(angular_velocity == none)) rotation = turned(rotation, angular_velocity, exponent, time, clamped);
+    return !clamped;
+  }
+  const Vec3<Real> local = rotate_inverse(rotation, angular_momentum);
+  angular_velocity = rotate(rotation, gyrate(properties, local));
+  if (angular_velocity == none) return true;
+  const int a = free.odd, c = (a + 2) % 3;
+  BodyFrame frame = {rotation, {local.x, local.y, local.z}};
+  // The rotation about the angular momentum commutes with the other two: it is applied once, at the end.
+  if (free.rest == Scaled(0.0)) {
+    rotate_about(a, free.odd_rate, exponent, time, frame, clamped);
+  } else {
+    const Real part = scale_by_power(time, -halvings), half = scale_by_power(part, -1);
+    const int steps = 1 << halvings;
+    for (int step = 0; step < steps; ++step) {
+      rotate_about(c, free.rest, exponent, step == 0 ? half : part, frame, clamped);
+      rotate_about(a, free.odd_rate, exponent, part, frame, clamped);
+    }
+    rotate_about(c, free.rest, exponent, half, frame, clamped);
+  }
+  rotation = turned(frame.rotation, multiply(angular_momentum, free.common), exponent, time, clamped);
+  return !clamped;
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

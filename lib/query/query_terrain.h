@@ -1,0 +1,40 @@
+#pragma once
+#include "contact/terrain_ops.h"
+#include "world/query_bodies.h"
+
+/// Queries against a body that is a terrain (a mesh or height field), triangle by triangle. They call the terrain code
+/// only through the world's feature table, so that a program without terrains does not link it.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// A body that is a terrain and whose asset bytes are present.
+struct AskedSurface {
+  const TerrainOps& code;
+  Terrain terrain;
+  Pose pose;
+};
+
+/// Whether the program has the bytes of a body's terrain.
+inline bool has_terrain_bytes(const World& world, const BodyProperties& properties) {
+  return is_in(world.assets, properties.asset);
+}
+inline AskedSurface asked_terrain(const World& world, const BodyProperties& properties, const BodyPose& pose) {
+  const TerrainOps& code = *world.features->terrain;
+  return {code, code.view(world.assets.assets[properties.asset].bytes), {pose.position, pose.rotation}};
+}
+
+/// The first triangle that the shape hits on its path. A point is cast as a ray. `met` is set if there is one; `hit`
+/// receives its data except the body. Errors: those of the narrow phase, for any of the nearby triangles.
+Status cast_on_terrain(const AskedSurface& ground, const QueryShape& shape, const Motion& motion, QueryHit& hit,
+                       bool& met);
+/// The triangle nearest to the shape within the search distance `distance_max`, m. Results as for cast_on_terrain().
+Status near_on_terrain(const AskedSurface& ground, const QueryShape& shape, const Pose& at, Real distance_max,
+                       QueryHit& hit, bool& met);
+/// The normal of a triangle on the side of a point, in world axes, and the height of the point above the plane on that
+/// side, m. For a one-sided terrain it is always the front, and the height may be negative. Errors: as
+/// place_on_terrain().
+Status side_of_triangle(const AskedSurface& ground, uint32_t triangle, const Pose& at, Vec3<Unit>& normal,
+                        Real& height);
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

@@ -1,0 +1,103 @@
+#include "tests/unit/math/samples.h"
+#include "tests/unit/world/lab.h"
+
+// The solver's passes over four contacts at once against the same over one: every digest of every tick is equal.
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+/// A pile of all shapes that fall on each other, some rolling, some heavy, beside a lift and a spinning table.
+void build(Lab& lab, uint64_t seed) {
+  Samples samples = {seed};
+  const auto within = [&](double low, double high) {
+    return low + (high - low) * (static_cast<double>(samples.below(1u << 20)) / (1 << 20));
+  };
+  BodyDef ground;
+  ground.type = BodyType::fixed;
+  ground.shape = half_space();
+  lab.add(ground);
+  BodyDef table;
+  table.type = BodyType::kinematic;
+  table.shape = box(reals(2, 0.25, 2));
+  table.position = position(0, 0.5, 0);
+  table.linear_velocity = reals(0, 0.25, 0);
+  table.angular_velocity = reals(0, 1, 0);
+  lab.add(table);
+  for (int i = 0; i < 60; ++i) {
+    BodyDef def;
+    const double size = within(0.2, 0.5), x = within(-2, 2), z = within(-2, 2);
+    const double density = within(100, 4000), restitution = within(-0.5, 0.5);
+    const double rolling = within(-0.05, 0.05), friction = within(0, 1);
+    switch (i % 5) {
+      case 0:
+        def.shape = sphere(real(size));
+        break;
+      case 1:
+        def.shape = capsule(real(size), real(size));
+        break;
+      case 2:
+        def.shape = cylinder(real(size), real(size));
+        break;
+      default:
+        def.shape = box(reals(size, 0.3, 0.4));
+        break;
+    }
+    def.position = position(x, 1.5 + 0.4 * i, z);
+    def.density = scaled(density);
+    def.material.friction = real(friction);
+    def.material.restitution = real(restitution < 0 ? 0 : restitution);
+    def.material.rolling_resistance = real(rolling < 0 ? 0 : rolling);
+    lab.add(def);
+  }
+}
+
+void expect_same_bits(WorldDef def) {
+  for (const uint64_t seed : {1u, 2u, 3u}) {
+    Lab one({64, 400, 0}, def), four({64, 400, 0}, def);
+    build(one, seed);
+    build(four, seed);
+    one.world.lanes = 1;
+    if (four.world.lanes == 1) GTEST_SKIP() << "this machine, or this build, takes one contact at a time";
+    uint64_t solved = 0;
+    for (int tick = 0; tick < 240; ++tick) {
+      solved += step(one.world).contact_substeps;
+      (void)step(four.world);
+      ASSERT_EQ(digest(one.world), digest(four.world)) << "seed " << seed << ", tick " << tick;
+    }
+    EXPECT_GT(solved, 10000u);
+  }
+}
+
+/// Also in a build that has none: then one by one.
+DETENT_TEST(lanes, that_are_asked_for_solve_every_contact) {
+  Lab one({64, 400, 0}), asked({64, 400, 0});
+  build(one, 1);
+  build(asked, 1);
+#if defined(__x86_64__) && !defined(DETENT_F64)
+  if (one.world.lanes == 1) GTEST_SKIP() << "this machine takes one contact at a time";
+#endif
+  one.world.lanes = 1;
+  asked.world.lanes = 4;
+  for (int tick = 0; tick < 240; ++tick) {
+    (void)step(one.world);
+    (void)step(asked.world);
+    ASSERT_EQ(digest(one.world), digest(asked.world)) << tick;
+  }
+}
+
+DETENT_TEST(lanes, give_the_bits_of_one_contact_at_a_time) { expect_same_bits({}); }
+
+DETENT_TEST(lanes, give_the_same_bits_whatever_the_settings) {
+  WorldDef def;
+  def.relaxation = real(1.25);
+  def.iterations = 3;
+  def.substeps = 5;
+  def.damping_ratio = real(2);
+  def.gravity = reals(3, -20, 1);
+  expect_same_bits(def);
+}
+
+}  // namespace
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent
