@@ -7,14 +7,14 @@ inline namespace DETENT_NAMESPACE {
 
 /// The stages of a step, in their order.
 enum class StepStage : uint32_t {
-  find_pairs,  ///< moving bodies, their bounds, pairs with overlapping bounds, and bodies that wake
-  collide,     ///< contact points of pairs, and the rows of the solver
-  islands,     ///< islands, solve order, loads, numbers of substeps
-  solve,       ///< the substeps
-  events,      ///< contact events
-  advance,     ///< sweeps, continuous collision and sensors
-  finalise,    ///< new poses
-  store,       ///< bodies that fall asleep, contacts for the next tick, broken joints, body events
+  find_pairs,     ///< moving bodies, their bounds, pairs with overlapping bounds, and bodies that wake
+  collide_pairs,  ///< contact points of pairs, and the rows of the solver
+  build_islands,  ///< islands, solve order, loads, numbers of substeps
+  solve_islands,  ///< the substeps
+  raise_events,   ///< contact events
+  advance,        ///< sweeps, continuous collision and sensors
+  finalise,       ///< new poses
+  store,          ///< bodies that fall asleep, contacts for the next tick, broken joints, body events
 };
 inline constexpr uint32_t k_step_stage_count = 8;  ///< how many stages there are
 /// The name of the enumerator. Never null.

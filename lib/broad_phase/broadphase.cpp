@@ -126,8 +126,8 @@ void find_resting_near(uint32_t slot, const RestingTree& resting, PairPool& pool
   resting.for_each_near(resting.bounds[slot], [&](uint32_t other) { pool.consider(slot, other); });
 }
 
-void find_pairs(Span<const uint32_t> moving, const RestingTree& resting, Span<BoundsKey> keys, Span<BoundsKey> spare,
-                PairPool& pool) {
+void add_moving_pairs(Span<const uint32_t> moving, const RestingTree& resting, Span<BoundsKey> keys,
+                      Span<BoundsKey> spare, PairPool& pool) {
   const Span<const Bounds> bounds = pool.bounds;
   Grid grid[3];
   for (int i = 0; i < 3; ++i) grid[i].axis = k_axes[i];

@@ -54,8 +54,8 @@ struct PairPool {
 /// Finds all pairs of moving bodies, with each other and with the bodies in the tree. It sorts and sweeps along the
 /// axis on which the moving bodies spread farthest: O(n + number of pairs that overlap on this axis). `keys` and
 /// `spare` are work space with one element for each moving body.
-void find_pairs(Span<const uint32_t> moving, const RestingTree& resting, Span<BoundsKey> keys, Span<BoundsKey> spare,
-                PairPool& pool);
+void add_moving_pairs(Span<const uint32_t> moving, const RestingTree& resting, Span<BoundsKey> keys,
+                      Span<BoundsKey> spare, PairPool& pool);
 
 /// Finds all pairs of a body with the bodies in the tree.
 void find_resting_near(uint32_t slot, const RestingTree& resting, PairPool& pool);

@@ -75,7 +75,7 @@ uint32_t make_sweeps(Span<const uint32_t> slots, Span<const BodyProperties> prop
   return clamped;
 }
 
-uint32_t finalise(const BodyProperties& properties, const BodySweep& sweep, BodyPose& pose, BodyMotion& motion) {
+uint32_t finalise_body(const BodyProperties& properties, const BodySweep& sweep, BodyPose& pose, BodyMotion& motion) {
   const Sweep rest = rest_of_tick(sweep);
   pose.rotation = sweep_end_rotation(pose.rotation, rest);
   const uint32_t clamped = sweep_end_position(pose, rest);

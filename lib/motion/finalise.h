@@ -20,7 +20,7 @@ inline Sweep rest_of_tick(const BodySweep& sweep) {
 
 /// Ends the tick of a body that may have moved: its pose becomes the pose at the end of its sweep, and its velocities
 /// are clamped to their range. Returns the number of components that were clamped.
-uint32_t finalise(const BodyProperties& properties, const BodySweep& sweep, BodyPose& pose, BodyMotion& motion);
+uint32_t finalise_body(const BodyProperties& properties, const BodySweep& sweep, BodyPose& pose, BodyMotion& motion);
 
 /// Clamps velocity to k_speed_max, angular momentum to k_angular_velocity_work_max and angular velocity to
 /// k_angular_velocity_max. Returns the number of components that were clamped.

@@ -180,10 +180,10 @@ void visit_trace(const World& world, TraceStage stage, uint32_t contacts, const 
   };
   const Capacity capacity = capacity_of(state.header);
   const Scratch scratch = scratch_of(world.block, state.layout, capacity);
-  if (within(StepStage::collide, StepStage::store)) {
+  if (within(StepStage::collide_pairs, StepStage::store)) {
     for (uint32_t i = 0; i < contacts; ++i) visit_contact(scratch.contacts[i], i, visitor);
   }
-  const bool works = within(StepStage::find_pairs, StepStage::events), sweeps = is(StepStage::advance);
+  const bool works = within(StepStage::find_pairs, StepStage::raise_events), sweeps = is(StepStage::advance);
   if (!works && !sweeps) return;
   const StepCacheView cache = cache_of(world.block, state.layout, capacity);
   cache.active.for_each([&](uint32_t slot) {

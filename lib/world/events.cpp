@@ -66,8 +66,9 @@ struct EventWriter {
 
 }  // namespace
 
-EventCount raise_events(Span<const BodyPose> poses, Span<const BodyProperties> properties, Span<const uint32_t> awake,
-                        Span<const ContactState> before, Span<ContactWork> contacts, Span<ContactEvent> events) {
+EventCount raise_contact_events(Span<const BodyPose> poses, Span<const BodyProperties> properties,
+                                Span<const uint32_t> awake, Span<const ContactState> before, Span<ContactWork> contacts,
+                                Span<ContactEvent> events) {
   EventWriter writer = {poses, properties, events};
   uint32_t old = 0;
   const auto old_contact = [&]() -> const ContactState& { return before[awake[old]]; };

@@ -16,8 +16,9 @@ struct EventCount {
 /// each contact that began, continued, ended or hit. If the parts of a pair touch in several places, only the contact
 /// with the greatest closing speed counts. `poses` are those of the start of the step. `awake` lists the contacts of
 /// `before` that do not sleep; the others are skipped. Sets `touching` of the contacts.
-EventCount raise_events(Span<const BodyPose> poses, Span<const BodyProperties> properties, Span<const uint32_t> awake,
-                        Span<const ContactState> before, Span<ContactWork> contacts, Span<ContactEvent> events);
+EventCount raise_contact_events(Span<const BodyPose> poses, Span<const BodyProperties> properties,
+                                Span<const uint32_t> awake, Span<const ContactState> before, Span<ContactWork> contacts,
+                                Span<ContactEvent> events);
 
 /// Inserts the impacts of continuous collision into the sorted events. `hits` is in the order of time.
 void add_hits(Span<const BodyProperties> properties, Span<const ImpactHit> hits, Span<ContactEvent> events,

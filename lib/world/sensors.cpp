@@ -35,7 +35,7 @@ Bounds sensed_bounds(const SensorStage& stage, uint32_t slot) {
   return {moved(moved(from, back), {-room, -room, -room}), moved(moved(from, ahead), {room, room, room})};
 }
 
-/// The pose at the end of the body's sweep, equal to the one that finalise() computes.
+/// The pose at the end of the body's sweep, equal to the one that finalise_body() computes.
 BodyPose end_pose(const SensorStage& stage, uint32_t slot) {
   BodyPose pose = stage.poses[slot];
   const Sweep rest = rest_of_tick(stage.sweeps[slot]);

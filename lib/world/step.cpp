@@ -46,35 +46,6 @@ uint32_t integrate_kinematic_bodies(const StepSettings& settings, const SolverBo
   return clamped;
 }
 
-uint32_t solve_islands(StepSettings settings, const SolverBodies& bodies, Span<const Island> islands,
-                       const Scratch& scratch, Span<ContactWork> contacts, const JointOps* joint_ops,
-                       JointStage& joints, StepReport& report) {
-  uint32_t clamped = 0;
-  for (const Island& island : islands) {
-    const Span<const uint32_t> slots = {scratch.island_bodies.data + island.first_body, island.body_count};
-    const Span<const ContactOrder> order = {scratch.contact_order.data + island.first_contact, island.contact_count};
-    if (island.substeps != settings.substeps) set_substeps(island.substeps, settings);
-    predict(settings, bodies.properties, slots, bodies.motions, bodies.work);
-    const bool jointed = island.joint_count != 0;
-    const IslandJoints island_joints = {jointed ? joint_ops : nullptr, &island, &joints, &report.joint_decisions_left};
-    if (order.count == 0 && !jointed) {
-      clamped += integrate_free(settings, bodies, slots);
-    } else {
-      const SolveCount count = solve(settings, bodies, slots, order, contacts, island_joints);
-      clamped += count.clamped;
-      report.sweeps_saved += count.sweeps_saved;
-    }
-    for (const ContactOrder& entry : order) {
-      store_load(settings, contacts[entry.contact]);
-      store_impulses(contacts[entry.contact]);
-    }
-    report.contact_substeps += uint64_t{island.substeps} * island.contact_count;
-    report.substeps_max = island.substeps > report.substeps_max ? island.substeps : report.substeps_max;
-    report.awake += island.body_count;
-  }
-  return clamped;
-}
-
 void report_impacts(const ImpactReport& impacts, StepReport& report) {
   report.impacts = impacts.impacts;
   report.impacts_undecided = impacts.undecided;
@@ -88,191 +59,296 @@ void report_impacts(const ImpactReport& impacts, StepReport& report) {
   report.saturations += impacts.clamped;
 }
 
-const SensorOps* sensor_ops_of(const World& world, const StateView<uint8_t>& state) {
-  return state.world.sensor_count == 0 ? nullptr : world.features->sensors;
+/// The settings of a step. Contacts are solved in lanes if create_world() found that the processor can.
+StepSettings settings_of(const World& world, const WorldState& state) {
+  StepSettings settings = step_settings(state);
+  settings.lanes = k_built_with_lanes && world.lanes == 4;
+  return settings;
 }
 
-Span<ContactEvent> contact_events_of(const World& world) {
-  return {world.contact_events.data, world.contact_events.capacity};
-}
+/// One step: its stages in order, and what they hand on to each other.
+class Step {
+ public:
+  Step(World& world, ImpactProbe* probe, StepReport& report);
+  void run();
 
-/// Bodies that would meet on their sweeps meet, and sensors see who is within them or passes through. Apart, for what
-/// it needs of the stack.
-__attribute__((noinline)) void advance(World& world, const StateView<uint8_t>& state, const Scratch& scratch,
-                                       const StepCacheView& cache, const StepSettings& settings,
-                                       const ImpactPairs& known, Overflow& overflow, ImpactProbe* probe,
-                                       EventCount& event_count, StepReport& report) {
-  const uint32_t used = state.world.slots_used;
-  const Span<BodyPose> poses = state.poses.first(used);
-  const Span<BodyProperties> properties = state.properties.first(used);
-  const Span<BodySweep> sweeps = scratch.sweeps.first(used);
-  const SensorOps* const sensor_ops = sensor_ops_of(world, state);
-  SensorStage sensors = {world.assets,
-                         *world.features,
-                         {properties, world.filter_rules, known.disabled_pairs},
-                         properties,
-                         poses,
-                         sweeps,
-                         cache,
-                         scratch.changed,
-                         state.sensed.first(state.world.sensed_count),
-                         {scratch.sensed_passed, {}},
-                         {scratch.sensed, {}},
-                         overflow};
-  if (state.world.continuous != 0) {
-    const ImpactBodies bodies = {properties,
-                                 poses,
-                                 state.motions.first(used),
-                                 sweeps,
-                                 state.activities.first(used),
-                                 cache.bounds,
-                                 cache.tree,
-                                 cache.active,
-                                 scratch.candidates,
-                                 scratch.moving_bodies.first(used),
-                                 world.filter_rules,
-                                 {sensor_ops == nullptr ? nullptr : sensor_ops->sweep, &sensors}};
-    const ImpactReport impacts = world.features->continuous->advance(
-        settings, world.assets, *world.features, known, bodies, scratch.impact_pairs, scratch.impact_hits, probe);
-    report_impacts(impacts, report);
-    if (impacts.woke != 0) cache.cache.contacts_known = 0;
-    add_hits(properties, scratch.impact_hits.first(impacts.hits), contact_events_of(world), event_count);
-    event_count.dropped += impacts.hits_dropped;
+ private:
+  // The stages, named as in StepStage.
+  void find_pairs();
+  void collide_pairs();
+  void build_islands();
+  void solve_islands();
+  void raise_events();
+  void advance();
+  void finalise();
+  void store();
+
+  void start_joints();
+  void wake_touched_bodies();
+  void advance_bodies();
+  void end(StepStage stage) { ends_.end(stage, contacts_.count); }
+  /// Manifolds of the last tick; empty if contact points are not recycled.
+  Span<ManifoldState> manifolds() const {
+    return state_.manifolds.first(settings_.contact_recycle_distance > Real(0.0) ? state_.manifolds.count : 0);
   }
-  if (sensor_ops != nullptr) sensor_ops->end(sensors, state, world.sensor_events, report);
+  ContactRoom room() const {
+    return {scratch_, state_.contacts.count - (contacts_before_ - awake_contacts_.count), manifolds().count != 0};
+  }
+  Span<ContactOrder> contact_order() const { return scratch_.contact_order.first(contacts_.count); }
+  Span<ContactEvent> contact_events() const { return {world_.contact_events.data, world_.contact_events.capacity}; }
+
+  World& world_;
+  ImpactProbe* const probe_;
+  StepReport& report_;
+  StageEnds ends_;
+  const StateView<uint8_t> state_;
+  const uint32_t used_ = state_.world.slots_used, contacts_before_ = state_.world.contact_count;
+  const Scratch scratch_;
+  const StepCacheView cache_;
+  const Span<BodyPose> poses_ = state_.poses.first(used_);
+  const Span<BodyMotion> motions_ = state_.motions.first(used_);
+  const Span<BodyProperties> properties_ = state_.properties.first(used_);
+  const Span<BodyActivity> activities_ = state_.activities.first(used_);
+  const Span<BodyWork> work_ = scratch_.bodies.first(used_);
+  const Span<BodySweep> sweeps_ = scratch_.sweeps.first(used_);
+  const StepSettings settings_;
+  const StepBodies bodies_ = {poses_, properties_,   motions_,      activities_,
+                              work_,  cache_.active, world_.assets, *world_.features};
+  const SolverBodies solver_bodies_ = {properties_, motions_, work_};
+  const JointOps* const joint_ops_ = state_.world.joint_count == 0 ? nullptr : world_.features->joints;
+  const SensorOps* const sensor_ops_ = state_.world.sensor_count == 0 ? nullptr : world_.features->sensors;
+  JointStage joints_;
+  Overflow overflow_ = {properties_, {world_.capacity_events.data, world_.capacity_events.capacity}};
+  const Span<const uint64_t> disabled_pairs_;
+  PairPool pool_;
+  Span<const uint32_t> moving_ = {};          ///< moving bodies, ascending
+  Span<const uint32_t> awake_contacts_ = {};  ///< contacts of the last tick between bodies of which one is awake
+  ContactCount count_ = {};
+  Span<ContactWork> contacts_ = {};
+  Span<Island> islands_ = {};
+  EventCount event_count_ = {};
+};
+
+Step::Step(World& world, ImpactProbe* probe, StepReport& report)
+    : world_(world),
+      probe_(probe),
+      report_(report),
+      ends_(world),
+      state_(view_of(world)),
+      scratch_(scratch_of(world.block, state_.layout, capacity_of(state_.header))),
+      cache_(cache_of(world.block, state_.layout, capacity_of(state_.header))),
+      settings_(settings_of(world, state_.world)),
+      joints_{state_.joints.first(joint_ops_ == nullptr ? 0 : state_.world.joints_used),
+              poses_,
+              activities_,
+              scratch_.joints,
+              scratch_.joint_bodies,
+              scratch_.joint_order,
+              scratch_.joint_couplings,
+              scratch_.joint_numbers},
+      disabled_pairs_(list_disabled_pairs(joints_.joints, scratch_.disabled_pairs)),
+      pool_(poses_, properties_, cache_.bounds, scratch_.pair_sort, scratch_.pairs, world.filter_rules,
+            disabled_pairs_) {
+  pool_.overflow = &overflow_;
 }
 
-/// The stages of a step, in order. Separate from `step`, so that nothing of it moves across the change of the
-/// floating-point environment.
-__attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, StepReport& report) {
-  StageEnds stages(world);
-  const StateView<uint8_t> state = view_of(world);
-  const Scratch scratch = scratch_of(world.block, state.layout, capacity_of(state.header));
-  const uint32_t used = state.world.slots_used, before = state.world.contact_count;
-  const Span<BodyPose> poses = state.poses.first(used);
-  const Span<BodyMotion> motions = state.motions.first(used);
-  const Span<BodyProperties> properties = state.properties.first(used);
-  const Span<BodyActivity> activities = state.activities.first(used);
-  const Span<BodyWork> work = scratch.bodies.first(used);
-  const Span<BodySweep> sweeps = scratch.sweeps.first(used);
-  StepSettings settings = step_settings(state.world);
-  settings.lanes = k_built_with_lanes && world.lanes == 4;  // create_world() asked the processor
-  const StepCacheView cache = cache_of(world.block, state.layout, capacity_of(state.header));
-  const StepBodies bodies = {poses, properties, motions, activities, work, cache.active, world.assets, *world.features};
-  const SolverBodies solver_bodies = {properties, motions, work};
+void Step::run() {
+  find_pairs();
+  end(StepStage::find_pairs);
+  collide_pairs();
+  end(StepStage::collide_pairs);
+  build_islands();
+  end(StepStage::build_islands);
+  solve_islands();
+  end(StepStage::solve_islands);
+  raise_events();
+  end(StepStage::raise_events);
+  advance();
+  end(StepStage::advance);
+  finalise();
+  end(StepStage::finalise);
+  store();
+  end(StepStage::store);
+}
 
-  const JointOps* const joint_ops = state.world.joint_count == 0 ? nullptr : world.features->joints;
-  JointStage joints = {state.joints.first(joint_ops == nullptr ? 0 : state.world.joints_used),
-                       poses,
-                       activities,
-                       scratch.joints,
-                       scratch.joint_bodies,
-                       scratch.joint_order,
-                       scratch.joint_couplings,
-                       scratch.joint_numbers};
-  report.woke = wake_jointed(joints.joints, properties, motions, activities, cache);
-  const Span<const uint64_t> disabled_pairs = list_disabled_pairs(joints.joints, scratch.disabled_pairs);
-  Overflow overflow = {properties, {world.capacity_events.data, world.capacity_events.capacity}};
-  const SensorOps* const sensor_ops = sensor_ops_of(world, state);
-  if (sensor_ops != nullptr) sensor_ops->start(cache, used, scratch.changed);
-  Span<const uint32_t> moving = partition_bodies(cache, settings, state, work, scratch.sweeps, scratch.moving_bodies);
-  PairPool pool = {poses,         properties,         cache.bounds,  scratch.pair_sort,
-                   scratch.pairs, world.filter_rules, disabled_pairs};
-  pool.overflow = &overflow;
-  find_pairs(moving, cache.tree, scratch.bounds_keys, scratch.bounds_sort, pool);
-  pool.sort();
-  const auto start_joined = [&] {
-    if (joint_ops == nullptr) return;
-    for (const JointState& joint : joints.joints) {
-      if (joint.type == 0) continue;
-      const uint32_t ends[2] = {joint.body_a, joint.body_b};
-      for (const uint32_t slot : ends) {
-        if (!cache.active.has(slot)) bodies.start(settings, slot);
-      }
-    }
-    joint_ops->collect(solver_bodies, joints);
-    report.joints = joints.count;
-  };
-  start_joined();
-  // Whoever wakes and is held by joints reaches farther (lengths_of), and may touch more.
-  while (const uint32_t touched = wake_touched(settings, bodies, cache, pool)) {
-    report.woke += touched;
-    moving = list_moving(cache.active, scratch.moving_bodies);
-    for (const uint32_t slot : moving) bodies.start(settings, slot);
-    start_joined();
-    if (joint_ops == nullptr) break;
-  }
-  stages.end(StepStage::find_pairs, 0);
-  const Span<const uint64_t> pairs = pool.pairs();
-  const Span<const uint32_t> awake_contacts = list_awake_contacts(cache, state);
-  const uint32_t room = state.contacts.count - (before - awake_contacts.count);
-  const bool recycles = settings.contact_recycle_distance > Real(0.0);
-  const Span<ManifoldState> manifolds = state.manifolds.first(recycles ? state.manifolds.count : 0);
-  const ContactRoom places = {scratch, room, recycles && state.manifolds.count != 0};
-  const ContactCount count =
-      collide_pairs(settings, bodies, {state.contacts, manifolds, awake_contacts}, places, overflow, pairs);
-  const Span<ContactWork> contacts = scratch.contacts.first(count.contacts);
-  const Span<ContactOrder> order = scratch.contact_order.first(count.contacts);
-  stages.end(StepStage::collide, contacts.count);
+void Step::find_pairs() {
+  report_.woke = wake_jointed(joints_.joints, properties_, motions_, activities_, cache_);
+  if (sensor_ops_ != nullptr) sensor_ops_->start(cache_, used_, scratch_.changed);
+  moving_ = partition_bodies(cache_, settings_, state_, work_, scratch_.sweeps, scratch_.moving_bodies);
+  add_moving_pairs(moving_, cache_.tree, scratch_.bounds_keys, scratch_.bounds_sort, pool_);
+  pool_.sort();
+  start_joints();
+  wake_touched_bodies();
+}
 
-  report.islands =
-      find_islands(moving, properties, activities, contacts, joints, work, scratch.islands, scratch.island_bodies);
-  const Span<Island> islands = scratch.islands.first(report.islands);
-  report.colour_overflows = order_contacts(properties, contacts, islands, work, scratch.contact_sort, order);
-  estimate_loads(settings, poses, properties, scratch.island_bodies, islands, order, scratch.contact_sort, work,
-                 contacts);
-  if (joint_ops != nullptr)
-    report.joint_couplings_dropped = joint_ops->order(settings, solver_bodies, scratch.island_bodies, islands, joints);
-  choose_substeps(settings, properties, work, scratch.island_bodies, order, islands, contacts, activities);
-  stages.end(StepStage::islands, contacts.count);
-  report.saturations = solve_islands(settings, solver_bodies, islands, scratch, contacts, joint_ops, joints, report);
-  report.saturations += integrate_kinematic_bodies(settings, solver_bodies, moving);
-  stages.end(StepStage::solve, contacts.count);
-  EventCount event_count =
-      raise_events(poses, properties, awake_contacts, state.contacts, contacts, contact_events_of(world));
-  stages.end(StepStage::events, contacts.count);
-  report.saturations += make_sweeps(moving, properties, work, poses, sweeps);
-  if (joint_ops != nullptr) {
-    joint_ops->store(settings, solver_bodies, joints);
-    for (const JointBody& body : joints.bodies.first(joints.body_count)) {
-      if (body.mobile != 0) sweeps[body.slot].marks = k_mark_jointed * (work[body.slot].island + 1);
+/// Collects the joints of the step, and starts those of their bodies that do not move.
+void Step::start_joints() {
+  if (joint_ops_ == nullptr) return;
+  for (const JointState& joint : joints_.joints) {
+    if (joint.type == 0) continue;
+    const uint32_t ends[2] = {joint.body_a, joint.body_b};
+    for (const uint32_t slot : ends) {
+      if (!cache_.active.has(slot)) bodies_.start(settings_, slot);
     }
   }
-  const ImpactPairs known = {pairs, contacts, pool.dropped() == 0 && count.dropped == 0, disabled_pairs};
-  advance(world, state, scratch, cache, settings, known, overflow, probe, event_count, report);
-  stages.end(StepStage::advance, contacts.count);
-  report.contact_events = event_count.kept;
-  report.contact_events_dropped = world.contact_events.capacity == 0 ? 0 : event_count.dropped;
-  cache.active.for_each([&](uint32_t slot) {
-    report.saturations += finalise(properties[slot], sweeps[slot], poses[slot], motions[slot]);
+  joint_ops_->collect(solver_bodies_, joints_);
+  report_.joints = joints_.count;
+}
+
+/// Wakes the bodies that moving bodies touch. A body that wakes and has joints then has a longer speculative distance,
+/// and may touch more.
+void Step::wake_touched_bodies() {
+  while (const uint32_t woke = wake_touched(settings_, bodies_, cache_, pool_)) {
+    report_.woke += woke;
+    moving_ = list_moving(cache_.active, scratch_.moving_bodies);
+    for (const uint32_t slot : moving_) bodies_.start(settings_, slot);
+    start_joints();
+    if (joint_ops_ == nullptr) break;
+  }
+}
+
+void Step::collide_pairs() {
+  awake_contacts_ = list_awake_contacts(cache_, state_);
+  count_ = find_contacts(settings_, bodies_, {state_.contacts, manifolds(), awake_contacts_}, room(), overflow_,
+                         pool_.pairs());
+  contacts_ = scratch_.contacts.first(count_.contacts);
+}
+
+void Step::build_islands() {
+  report_.islands = find_islands(moving_, properties_, activities_, contacts_, joints_, work_, scratch_.islands,
+                                 scratch_.island_bodies);
+  islands_ = scratch_.islands.first(report_.islands);
+  const Span<const uint32_t> slots = scratch_.island_bodies;
+  report_.colour_overflows =
+      order_contacts(properties_, contacts_, islands_, work_, scratch_.contact_sort, contact_order());
+  estimate_loads(settings_, poses_, properties_, slots, islands_, contact_order(), scratch_.contact_sort, work_,
+                 contacts_);
+  if (joint_ops_ != nullptr)
+    report_.joint_couplings_dropped = joint_ops_->order(settings_, solver_bodies_, slots, islands_, joints_);
+  choose_substeps(settings_, properties_, work_, slots, contact_order(), islands_, contacts_, activities_);
+}
+
+void Step::solve_islands() {
+  StepSettings settings = settings_;
+  for (const Island& island : islands_) {
+    const Span<const uint32_t> slots = {scratch_.island_bodies.data + island.first_body, island.body_count};
+    const Span<const ContactOrder> order = {scratch_.contact_order.data + island.first_contact, island.contact_count};
+    if (island.substeps != settings.substeps) set_substeps(island.substeps, settings);
+    predict(settings, properties_, slots, motions_, work_);
+    const bool jointed = island.joint_count != 0;
+    const IslandJoints joints = {jointed ? joint_ops_ : nullptr, &island, &joints_, &report_.joint_decisions_left};
+    if (order.count == 0 && !jointed) {
+      report_.saturations += integrate_free(settings, solver_bodies_, slots);
+    } else {
+      const SolveCount count = solve(settings, solver_bodies_, slots, order, contacts_, joints);
+      report_.saturations += count.clamped;
+      report_.sweeps_saved += count.sweeps_saved;
+    }
+    for (const ContactOrder& entry : order) {
+      store_load(settings, contacts_[entry.contact]);
+      store_impulses(contacts_[entry.contact]);
+    }
+    report_.contact_substeps += uint64_t{island.substeps} * island.contact_count;
+    report_.substeps_max = island.substeps > report_.substeps_max ? island.substeps : report_.substeps_max;
+    report_.awake += island.body_count;
+  }
+  report_.saturations += integrate_kinematic_bodies(settings_, solver_bodies_, moving_);
+}
+
+void Step::raise_events() {
+  event_count_ =
+      raise_contact_events(poses_, properties_, awake_contacts_, state_.contacts, contacts_, contact_events());
+}
+
+/// Makes the sweeps of the tick, moves bodies along them to their impacts, and finds what is inside sensors.
+void Step::advance() {
+  report_.saturations += make_sweeps(moving_, properties_, work_, poses_, sweeps_);
+  if (joint_ops_ != nullptr) {
+    joint_ops_->store(settings_, solver_bodies_, joints_);
+    for (const JointBody& body : joints_.bodies.first(joints_.body_count)) {
+      if (body.mobile != 0) sweeps_[body.slot].marks = k_mark_jointed * (work_[body.slot].island + 1);
+    }
+  }
+  advance_bodies();
+  report_.contact_events = event_count_.kept;
+  report_.contact_events_dropped = world_.contact_events.capacity == 0 ? 0 : event_count_.dropped;
+}
+
+/// A separate function, because it needs much stack.
+__attribute__((noinline)) void Step::advance_bodies() {
+  SensorStage sensors = {world_.assets,
+                         *world_.features,
+                         {properties_, world_.filter_rules, disabled_pairs_},
+                         properties_,
+                         poses_,
+                         sweeps_,
+                         cache_,
+                         scratch_.changed,
+                         state_.sensed.first(state_.world.sensed_count),
+                         {scratch_.sensed_passed, {}},
+                         {scratch_.sensed, {}},
+                         overflow_};
+  if (state_.world.continuous != 0) {
+    const ImpactPairs known = {pool_.pairs(), contacts_, pool_.dropped() == 0 && count_.dropped == 0, disabled_pairs_};
+    const ImpactBodies bodies = {properties_,
+                                 poses_,
+                                 motions_,
+                                 sweeps_,
+                                 activities_,
+                                 cache_.bounds,
+                                 cache_.tree,
+                                 cache_.active,
+                                 scratch_.candidates,
+                                 scratch_.moving_bodies.first(used_),
+                                 world_.filter_rules,
+                                 {sensor_ops_ == nullptr ? nullptr : sensor_ops_->sweep, &sensors}};
+    const ImpactReport impacts = world_.features->continuous->advance(
+        settings_, world_.assets, *world_.features, known, bodies, scratch_.impact_pairs, scratch_.impact_hits, probe_);
+    report_impacts(impacts, report_);
+    if (impacts.woke != 0) cache_.cache.contacts_known = 0;
+    add_hits(properties_, scratch_.impact_hits.first(impacts.hits), contact_events(), event_count_);
+    event_count_.dropped += impacts.hits_dropped;
+  }
+  if (sensor_ops_ != nullptr) sensor_ops_->end(sensors, state_, world_.sensor_events, report_);
+}
+
+void Step::finalise() {
+  cache_.active.for_each([&](uint32_t slot) {
+    report_.saturations += finalise_body(properties_[slot], sweeps_[slot], poses_[slot], motions_[slot]);
   });
-  stages.end(StepStage::finalise, contacts.count);
-  if (settings.sleeping)
-    report.fell_asleep = world.features->sleeping->end_step(settings, properties, poses, sweeps, islands,
-                                                            scratch.island_bodies, motions, activities);
-  store_contacts(contacts, places.manifolds(), awake_contacts.count, before, state.contacts, manifolds,
-                 cache.awake_contacts);
-  cache.cache.awake_contact_count = contacts.count;
+}
 
-  state.world.contact_count = before - awake_contacts.count + contacts.count;
-  if (joint_ops != nullptr) break_joints(world, report);
-  report.pairs = pairs.count + pool.dropped();
-  report.pairs_dropped = pool.dropped();
-  report.contacts = count.contacts;
-  report.contact_points = count.points;
-  report.contacts_recycled = count.recycled;
-  report.contacts_dropped = count.dropped + count.parts_dropped;
-  report.contact_parts_dropped = count.parts_dropped;
-  report.contacts_capped = count.capped;
-  const EventCount body_events =
-      raise_body_events(cache.active, properties, activities, {world.body_events.data, world.body_events.capacity});
-  report.body_events = body_events.kept;
-  report.body_events_dropped = world.body_events.capacity == 0 ? 0 : body_events.dropped;
-  report.capacity_events = overflow.count;
+/// Lets islands fall asleep, stores the contacts for the next tick, removes broken joints, and fills the report.
+void Step::store() {
+  if (settings_.sleeping)
+    report_.fell_asleep = world_.features->sleeping->end_step(settings_, properties_, poses_, sweeps_, islands_,
+                                                              scratch_.island_bodies, motions_, activities_);
+  store_contacts(contacts_, room().manifolds(), awake_contacts_.count, contacts_before_, state_.contacts, manifolds(),
+                 cache_.awake_contacts);
+  cache_.cache.awake_contact_count = contacts_.count;
+  state_.world.contact_count = contacts_before_ - awake_contacts_.count + contacts_.count;
+  if (joint_ops_ != nullptr) break_joints(world_, report_);
+  report_.pairs = pool_.pairs().count + pool_.dropped();
+  report_.pairs_dropped = pool_.dropped();
+  report_.contacts = count_.contacts;
+  report_.contact_points = count_.points;
+  report_.contacts_recycled = count_.recycled;
+  report_.contacts_dropped = count_.dropped + count_.parts_dropped;
+  report_.contact_parts_dropped = count_.parts_dropped;
+  report_.contacts_capped = count_.capped;
+  const EventCount events = raise_body_events(cache_.active, properties_, activities_,
+                                              {world_.body_events.data, world_.body_events.capacity});
+  report_.body_events = events.kept;
+  report_.body_events_dropped = world_.body_events.capacity == 0 ? 0 : events.dropped;
+  report_.capacity_events = overflow_.count;
   bool moves = false;
-  cache.active.for_each([&](uint32_t slot) { moves = moves || bodies.moving(slot); });
-  state.world.idle = moves ? 0 : 1;
-  stages.end(StepStage::store, contacts.count);
+  cache_.active.for_each([&](uint32_t slot) { moves = moves || bodies_.moving(slot); });
+  state_.world.idle = moves ? 0 : 1;
+}
+
+/// Separate from `step`, so that nothing of it moves across the change of the floating-point environment.
+__attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, StepReport& report) {
+  Step(world, probe, report).run();
 }
 
 StepReport step_with(World& world, ImpactProbe* probe) {

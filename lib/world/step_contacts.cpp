@@ -339,7 +339,7 @@ uint32_t wake_touched(const StepSettings& settings, const StepBodies& bodies, co
   }
 }
 
-ContactCount collide_pairs(const StepSettings& settings, const StepBodies& bodies, const LastContacts& last,
+ContactCount find_contacts(const StepSettings& settings, const StepBodies& bodies, const LastContacts& last,
                            const ContactRoom& room, Overflow& overflow, Span<const uint64_t> pairs) {
   Collider collider = {settings, bodies, last, room, overflow};
   for (const uint64_t key : pairs) collider.meet(key);

@@ -76,7 +76,7 @@ struct ContactRoom {
 
 /// Collides pairs in ascending order and makes the rows of those that touch, sorted by pair and part. If there is not
 /// enough room, the shallowest contacts are dropped.
-ContactCount collide_pairs(const StepSettings& settings, const StepBodies& bodies, const LastContacts& last,
+ContactCount find_contacts(const StepSettings& settings, const StepBodies& bodies, const LastContacts& last,
                            const ContactRoom& room, Overflow& overflow, Span<const uint64_t> pairs);
 
 }  // namespace DETENT_NAMESPACE

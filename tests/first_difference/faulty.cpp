@@ -93,9 +93,9 @@ class Machine {
     const StateView<uint8_t> state = view_of(machine.world_);
     if (state.world.tick + 1 != machine.run_.tick) return;
     const Scratch scratch = scratch_of(world.block, state.layout, capacity_of(state.header));
-    if (machine.is("contact") && stage == StepStage::collide && contacts != 0)
+    if (machine.is("contact") && stage == StepStage::collide_pairs && contacts != 0)
       machine.flip(scratch.contacts[0].normal.y);
-    if (machine.is("solve") && stage == StepStage::solve)
+    if (machine.is("solve") && stage == StepStage::solve_islands)
       machine.flip(state.motions[machine.run_.body - 1].linear_velocity.y);
     if (machine.is("sweep") && stage == StepStage::advance)
       machine.flip(scratch.sweeps[machine.run_.body - 1].displacement.y);

@@ -78,7 +78,7 @@ constexpr FeatureTable k_counted_features = counted_features();
     return (function)(__VA_ARGS__);          \
   }())
 #define partition_bodies(...) DETENT_COUNTED(pairs, partition_bodies, __VA_ARGS__)
-#define find_pairs(...) DETENT_COUNTED(pairs, find_pairs, __VA_ARGS__)
+#define add_moving_pairs(...) DETENT_COUNTED(pairs, add_moving_pairs, __VA_ARGS__)
 #define collide(...) DETENT_COUNTED(collide, collide, __VA_ARGS__)
 #define make_rows(...) DETENT_COUNTED(rows, make_rows, __VA_ARGS__)
 #define find_islands(...) DETENT_COUNTED(islands, find_islands, __VA_ARGS__)
@@ -89,9 +89,9 @@ constexpr FeatureTable k_counted_features = counted_features();
 #define solve(...) DETENT_COUNTED(solve, solve, __VA_ARGS__)
 #define integrate_free(...) DETENT_COUNTED(solve, integrate_free, __VA_ARGS__)
 #define make_sweeps(...) DETENT_COUNTED(finalise, make_sweeps, __VA_ARGS__)
-#define finalise(...) DETENT_COUNTED(finalise, finalise, __VA_ARGS__)
+#define finalise_body(...) DETENT_COUNTED(finalise, finalise_body, __VA_ARGS__)
 #define wake_touched counted_wake_touched
-#define collide_pairs counted_collide_pairs
+#define find_contacts counted_find_contacts
 #define step counted_step
 #define step_probed counted_step_probed
 #include "world/step_contacts.cpp"

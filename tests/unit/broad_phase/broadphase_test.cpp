@@ -137,7 +137,7 @@ Found found_in(const Crowd& crowd, const RestingTree& tree, uint32_t capacity) {
                    {crowd.bounds.data(), count},
                    {spare.data(), capacity},
                    {keys.data(), capacity}};
-  find_pairs({moving.data(), static_cast<uint32_t>(moving.size())}, tree, {bounds_keys.data(), count},
+  add_moving_pairs({moving.data(), static_cast<uint32_t>(moving.size())}, tree, {bounds_keys.data(), count},
              {bounds_spare.data(), count}, pool);
   pool.sort();
   EXPECT_EQ(keys[capacity], 77u) << "written beyond the buffer";

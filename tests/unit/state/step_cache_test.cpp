@@ -96,7 +96,7 @@ std::vector<uint64_t> pairs_of_next_step(World world) {
       partition_bodies(cache, step_settings(state.world), state, {work.data(), capacity.bodies},
                        {sweeps.data(), capacity.bodies}, {slots.data(), capacity.bodies});
   PairPool pool = {state.poses, state.properties, cache.bounds, {pairs_spare.data(), 20000}, {pairs.data(), 20000}};
-  find_pairs(moving, cache.tree, {keys.data(), capacity.bodies}, {keys_spare.data(), capacity.bodies}, pool);
+  add_moving_pairs(moving, cache.tree, {keys.data(), capacity.bodies}, {keys_spare.data(), capacity.bodies}, pool);
   pool.sort();
   return {pool.pairs().begin(), pool.pairs().end()};
 }
