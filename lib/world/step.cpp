@@ -105,20 +105,21 @@ class Step {
   const uint32_t used_ = state_.world.slots_used, contacts_before_ = state_.world.contact_count;
   const Scratch scratch_;
   const StepCacheView cache_;
-  const Span<BodyPose> poses_ = state_.poses.first(used_);
-  const Span<BodyMotion> motions_ = state_.motions.first(used_);
-  const Span<BodyProperties> properties_ = state_.properties.first(used_);
-  const Span<BodyActivity> activities_ = state_.activities.first(used_);
-  const Span<BodyWork> work_ = scratch_.bodies.first(used_);
   const Span<BodySweep> sweeps_ = scratch_.sweeps.first(used_);
   const StepSettings settings_;
-  const StepBodies bodies_ = {poses_, properties_,   motions_,      activities_,
-                              work_,  cache_.active, world_.assets, *world_.features};
-  const SolverBodies solver_bodies_ = {properties_, motions_, work_};
+  const StepBodies bodies_ = {state_.poses.first(used_),
+                              state_.properties.first(used_),
+                              state_.motions.first(used_),
+                              state_.activities.first(used_),
+                              scratch_.bodies.first(used_),
+                              cache_.active,
+                              world_.assets,
+                              *world_.features};
+  const SolverBodies solver_bodies_ = {bodies_.properties, state_.motions.first(used_), bodies_.work};
   const JointOps* const joint_ops_ = state_.world.joint_count == 0 ? nullptr : world_.features->joints;
   const SensorOps* const sensor_ops_ = state_.world.sensor_count == 0 ? nullptr : world_.features->sensors;
   JointStage joints_;
-  Overflow overflow_ = {properties_, {world_.capacity_events.data, world_.capacity_events.capacity}};
+  Overflow overflow_ = {bodies_.properties, {world_.capacity_events.data, world_.capacity_events.capacity}};
   const Span<const uint64_t> disabled_pairs_;
   PairPool pool_;
   Span<const uint32_t> moving_ = {};          ///< moving bodies, ascending
@@ -139,15 +140,15 @@ Step::Step(World& world, ImpactProbe* probe, StepReport& report)
       cache_(cache_of(world.block, state_.layout, capacity_of(state_.header))),
       settings_(settings_of(world, state_.world)),
       joints_{state_.joints.first(joint_ops_ == nullptr ? 0 : state_.world.joints_used),
-              poses_,
-              activities_,
+              bodies_.poses,
+              bodies_.activities,
               scratch_.joints,
               scratch_.joint_bodies,
               scratch_.joint_order,
               scratch_.joint_couplings,
               scratch_.joint_numbers},
       disabled_pairs_(list_disabled_pairs(joints_.joints, scratch_.disabled_pairs)),
-      pool_(poses_, properties_, cache_.bounds, scratch_.pair_sort, scratch_.pairs, world.filter_rules,
+      pool_(bodies_.poses, bodies_.properties, cache_.bounds, scratch_.pair_sort, scratch_.pairs, world.filter_rules,
             disabled_pairs_) {
   pool_.overflow = &overflow_;
 }
@@ -172,9 +173,9 @@ void Step::run() {
 }
 
 void Step::find_pairs() {
-  report_.woke = wake_jointed(joints_.joints, properties_, motions_, activities_, cache_);
+  report_.woke = wake_jointed(joints_.joints, bodies_.properties, solver_bodies_.motions, bodies_.activities, cache_);
   if (sensor_ops_ != nullptr) sensor_ops_->start(cache_, used_, scratch_.changed);
-  moving_ = partition_bodies(cache_, settings_, state_, work_, scratch_.sweeps, scratch_.moving_bodies);
+  moving_ = partition_bodies(cache_, settings_, state_, bodies_.work, scratch_.sweeps, scratch_.moving_bodies);
   add_moving_pairs(moving_, cache_.tree, scratch_.bounds_keys, scratch_.bounds_sort, pool_);
   pool_.sort();
   start_joints();
@@ -215,17 +216,18 @@ void Step::collide_pairs() {
 }
 
 void Step::build_islands() {
-  report_.islands = find_islands(moving_, properties_, activities_, contacts_, joints_, work_, scratch_.islands,
-                                 scratch_.island_bodies);
+  report_.islands = find_islands(moving_, bodies_.properties, bodies_.activities, contacts_, joints_, bodies_.work,
+                                 scratch_.islands, scratch_.island_bodies);
   islands_ = scratch_.islands.first(report_.islands);
   const Span<const uint32_t> slots = scratch_.island_bodies;
   report_.colour_overflows =
-      order_contacts(properties_, contacts_, islands_, work_, scratch_.contact_sort, contact_order());
-  estimate_loads(settings_, poses_, properties_, slots, islands_, contact_order(), scratch_.contact_sort, work_,
-                 contacts_);
+      order_contacts(bodies_.properties, contacts_, islands_, bodies_.work, scratch_.contact_sort, contact_order());
+  estimate_loads(settings_, bodies_.poses, bodies_.properties, slots, islands_, contact_order(), scratch_.contact_sort,
+                 bodies_.work, contacts_);
   if (joint_ops_ != nullptr)
     report_.joint_couplings_dropped = joint_ops_->order(settings_, solver_bodies_, slots, islands_, joints_);
-  choose_substeps(settings_, properties_, work_, slots, contact_order(), islands_, contacts_, activities_);
+  choose_substeps(settings_, bodies_.properties, bodies_.work, slots, contact_order(), islands_, contacts_,
+                  bodies_.activities);
 }
 
 void Step::solve_islands() {
@@ -234,7 +236,7 @@ void Step::solve_islands() {
     const Span<const uint32_t> slots = {scratch_.island_bodies.data + island.first_body, island.body_count};
     const Span<const ContactOrder> order = {scratch_.contact_order.data + island.first_contact, island.contact_count};
     if (island.substeps != settings.substeps) set_substeps(island.substeps, settings);
-    predict(settings, properties_, slots, motions_, work_);
+    predict(settings, bodies_.properties, slots, solver_bodies_.motions, bodies_.work);
     const bool jointed = island.joint_count != 0;
     const IslandJoints joints = {jointed ? joint_ops_ : nullptr, &island, &joints_, &report_.joint_decisions_left};
     if (order.count == 0 && !jointed) {
@@ -256,17 +258,17 @@ void Step::solve_islands() {
 }
 
 void Step::raise_events() {
-  event_count_ =
-      raise_contact_events(poses_, properties_, awake_contacts_, state_.contacts, contacts_, contact_events());
+  event_count_ = raise_contact_events(bodies_.poses, bodies_.properties, awake_contacts_, state_.contacts, contacts_,
+                                      contact_events());
 }
 
 /// Makes the sweeps of the tick, moves bodies along them to their impacts, and finds what is inside sensors.
 void Step::advance() {
-  report_.saturations += make_sweeps(moving_, properties_, work_, poses_, sweeps_);
+  report_.saturations += make_sweeps(moving_, bodies_.properties, bodies_.work, bodies_.poses, sweeps_);
   if (joint_ops_ != nullptr) {
     joint_ops_->store(settings_, solver_bodies_, joints_);
     for (const JointBody& body : joints_.bodies.first(joints_.body_count)) {
-      if (body.mobile != 0) sweeps_[body.slot].marks = k_mark_jointed * (work_[body.slot].island + 1);
+      if (body.mobile != 0) sweeps_[body.slot].marks = k_mark_jointed * (bodies_.work[body.slot].island + 1);
     }
   }
   advance_bodies();
@@ -278,9 +280,9 @@ void Step::advance() {
 __attribute__((noinline)) void Step::advance_bodies() {
   SensorStage sensors = {world_.assets,
                          *world_.features,
-                         {properties_, world_.filter_rules, disabled_pairs_},
-                         properties_,
-                         poses_,
+                         {bodies_.properties, world_.filter_rules, disabled_pairs_},
+                         bodies_.properties,
+                         bodies_.poses,
                          sweeps_,
                          cache_,
                          scratch_.changed,
@@ -290,11 +292,11 @@ __attribute__((noinline)) void Step::advance_bodies() {
                          overflow_};
   if (state_.world.continuous != 0) {
     const ImpactPairs known = {pool_.pairs(), contacts_, pool_.dropped() == 0 && count_.dropped == 0, disabled_pairs_};
-    const ImpactBodies bodies = {properties_,
-                                 poses_,
-                                 motions_,
+    const ImpactBodies bodies = {bodies_.properties,
+                                 state_.poses.first(used_),
+                                 solver_bodies_.motions,
                                  sweeps_,
-                                 activities_,
+                                 bodies_.activities,
                                  cache_.bounds,
                                  cache_.tree,
                                  cache_.active,
@@ -306,7 +308,7 @@ __attribute__((noinline)) void Step::advance_bodies() {
         settings_, world_.assets, *world_.features, known, bodies, scratch_.impact_pairs, scratch_.impact_hits, probe_);
     report_impacts(impacts, report_);
     if (impacts.woke != 0) cache_.cache.contacts_known = 0;
-    add_hits(properties_, scratch_.impact_hits.first(impacts.hits), contact_events(), event_count_);
+    add_hits(bodies_.properties, scratch_.impact_hits.first(impacts.hits), contact_events(), event_count_);
     event_count_.dropped += impacts.hits_dropped;
   }
   if (sensor_ops_ != nullptr) sensor_ops_->end(sensors, state_, world_.sensor_events, report_);
@@ -314,15 +316,17 @@ __attribute__((noinline)) void Step::advance_bodies() {
 
 void Step::finalise() {
   cache_.active.for_each([&](uint32_t slot) {
-    report_.saturations += finalise_body(properties_[slot], sweeps_[slot], poses_[slot], motions_[slot]);
+    report_.saturations +=
+        finalise_body(bodies_.properties[slot], sweeps_[slot], state_.poses[slot], state_.motions[slot]);
   });
 }
 
 /// Lets islands fall asleep, stores the contacts for the next tick, removes broken joints, and fills the report.
 void Step::store() {
   if (settings_.sleeping)
-    report_.fell_asleep = world_.features->sleeping->end_step(settings_, properties_, poses_, sweeps_, islands_,
-                                                              scratch_.island_bodies, motions_, activities_);
+    report_.fell_asleep =
+        world_.features->sleeping->end_step(settings_, bodies_.properties, bodies_.poses, sweeps_, islands_,
+                                            scratch_.island_bodies, solver_bodies_.motions, bodies_.activities);
   store_contacts(contacts_, room().manifolds(), awake_contacts_.count, contacts_before_, state_.contacts, manifolds(),
                  cache_.awake_contacts);
   cache_.cache.awake_contact_count = contacts_.count;
@@ -336,7 +340,7 @@ void Step::store() {
   report_.contacts_dropped = count_.dropped + count_.parts_dropped;
   report_.contact_parts_dropped = count_.parts_dropped;
   report_.contacts_capped = count_.capped;
-  const EventCount events = raise_body_events(cache_.active, properties_, activities_,
+  const EventCount events = raise_body_events(cache_.active, bodies_.properties, bodies_.activities,
                                               {world_.body_events.data, world_.body_events.capacity});
   report_.body_events = events.kept;
   report_.body_events_dropped = world_.body_events.capacity == 0 ? 0 : events.dropped;
