@@ -95,7 +95,7 @@ int main() {
   // Time
   Profile profile;
   profile.now = nanoseconds;
-  world.profile = &profile;
+  world.hooks.profile = &profile;
   must(wake_body(world, crate));
   step(world);
   for (uint32_t i = 0; i < k_step_stage_count; ++i) {

@@ -32,9 +32,8 @@ double rise_of(const World& world, BodyId ball) {
 std::vector<Sample> play() {
   static WorldStorage<Capacity{.bodies = 2, .contacts = 4}> storage;
   World world;
-  must(storage.create({}, world));
   static ContactEvent events[8];
-  world.contact_events = {events, 8};
+  must(storage.create({}, {.contact_events = {events, 8}}, world));
   BodyId table, ball;
   must(create_body(world, {.type = BodyType::fixed, .position = {-3.0, -0.5, 0.0}, .shape = box({3.0, 0.5, 1.0})},
                    table));
@@ -55,7 +54,7 @@ std::vector<Sample> play() {
     sample.height = host(pose.position).y - k_radius;
     sample.on_table = host(pose.position).x < 0;
     sample.impulse = k_mass * (rise_of(world, ball) - before + k_gravity * k_tick);
-    for (uint32_t i = 0; i < report.contact_events; ++i) {
+    for (uint32_t i = 0; i < report.events.contact; ++i) {
       sample.heard[static_cast<uint32_t>(events[i].type)] = true;
       if (events[i].type == ContactEventType::hit) sample.speed = real_to_host(events[i].approach_speed);
     }

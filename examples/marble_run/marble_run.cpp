@@ -15,7 +15,7 @@ int main() {
   static WorldStorage<Capacity{.bodies = 2, .contacts = 16, .assets = 1}> storage;
   World world;
   BodyId run, marble;
-  if (storage.create({}, world, {k_assets, 1}) != Status::ok) return 1;
+  if (storage.create({}, {.assets = {k_assets, 1}}, world) != Status::ok) return 1;
   // bind_asset checks every byte of the asset.
   if (bind_asset(world, 0) != Status::ok) return 1;
   // Friction and rolling resistance of a pair are means of both materials, so both bodies get this material.

@@ -19,7 +19,7 @@ double fired(bool continuous) {
   check(create_body(world, {.type = BodyType::fixed, .position = {5.0, 0.0, 0.0}, .shape = plate}, wall));
   check(create_body(world, {.linear_velocity = {600.0, 0.0, 0.0}, .shape = sphere(Real(0.005))}, bullet));
   const StepReport report = step(world);
-  check(report.impacts == (continuous ? 1 : 0));
+  check(report.ccd.impacts == (continuous ? 1 : 0));
   Pose pose;
   check(get_pose(world, bullet, pose));
   return coord_to_host(pose.position.x);

@@ -14,7 +14,7 @@ World world;
 BodyId ball;
 
 Status start() {
-  Status status = storage.create({.continuous = false, .sleeping = false}, world, {}, feature_table<k_features>);
+  Status status = storage.create({.continuous = false, .sleeping = false}, {}, feature_table<k_features>, world);
   if (status != Status::ok) return status;
   BodyId ground;
   status = create_body(world, {.type = BodyType::fixed, .shape = half_space()}, ground);

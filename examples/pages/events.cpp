@@ -25,10 +25,8 @@ void hear(const World& world, const ContactEvent& event) {
 int main() {
   static WorldStorage<Capacity{.bodies = 2, .contacts = 4}> storage;
   World world;
-  check(storage.create({}, world));
-
   static ContactEvent events[8];
-  world.contact_events = {events, 8};
+  check(storage.create({}, {.contact_events = {events, 8}}, world));
 
   BodyId ground, ball;
   check(create_body(world, {.type = BodyType::fixed, .shape = half_space(), .user_data = 1}, ground));
@@ -38,8 +36,8 @@ int main() {
 
   for (int tick = 0; tick < 300; ++tick) {
     const StepReport report = step(world);
-    for (uint32_t i = 0; i < report.contact_events; ++i) hear(world, events[i]);
-    if (report.contact_events_dropped != 0) return 1;  // the buffer was too small
+    for (uint32_t i = 0; i < report.events.contact; ++i) hear(world, events[i]);
+    if (report.events.contact_dropped != 0) return 1;  // the buffer was too small
   }
   const uint32_t begins = heard[static_cast<uint32_t>(ContactEventType::begin)];
   const uint32_t ends = heard[static_cast<uint32_t>(ContactEventType::end)];
@@ -50,7 +48,7 @@ int main() {
   check(is_awake(world, ball, awake));
   check(!awake);
 
-  world.contact_events = {};  // no buffer: no events
+  world.hooks.contact_events = {};  // no buffer: no events
   check(wake_body(world, ball));
-  check(step(world).contact_events == 0);
+  check(step(world).events.contact == 0);
 }

@@ -25,9 +25,8 @@ void run(World& world, int ticks) {
 int main() {
   static WorldStorage<Capacity{.bodies = 8, .contacts = 8, .joints = 4}> storage;
   World world;
-  check(storage.create({}, world));
   static JointEvent broken[4];
-  world.joint_events = {broken, 4};
+  check(storage.create({}, {.joint_events = {broken, 4}}, world));
 
   BodyId post, door, ball, lift;
   check(create_body(world, {.type = BodyType::fixed, .shape = box({0.1, 1.0, 0.1})}, post));
@@ -72,8 +71,8 @@ int main() {
   rope.break_force = Scaled(50.0);
   check(set_joint(world, hung, rope));
   const StepReport report = step(world);
-  for (uint32_t i = 0; i < report.joint_events; ++i) check(broken[i].joint == hung);
-  check(report.joints_broken == 1 && !is_valid(world, hung));
+  for (uint32_t i = 0; i < report.events.joint; ++i) check(broken[i].joint == hung);
+  check(report.joints.broken == 1 && !is_valid(world, hung));
 
   // A slider with a spring: the lift returns to its first position.
   JointDef rail = {.type = JointType::slider, .a = post, .b = lift};

@@ -39,8 +39,8 @@ void full() {
   check(create_body(world, {}, id) == Status::pool_full);
 
   const StepReport report = step(world);
-  if (!report.complete()) printf("%u contacts did not fit\n", static_cast<unsigned>(report.contacts_dropped));
-  check(!report.complete() && report.contacts_dropped == 1);
+  if (!report.complete()) printf("%u contacts did not fit\n", static_cast<unsigned>(report.lost.contacts));
+  check(!report.complete() && report.lost.contacts == 1);
 }
 
 void fitted() {

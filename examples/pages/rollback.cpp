@@ -176,7 +176,7 @@ void test_the_maker() {
   alignas(8) static uint8_t memory[sync_test_bytes(k_capacity, 3)];
   SyncTestReport report;
   const SyncTestDef def = {.ticks = 3, .inputs = inputs, .players = 2, .input_bytes = 1};
-  check(sync_test(machine.world, def, {make_tick, &machine}, memory, sizeof memory, report));
+  check(sync_test(machine.world, def, {make_tick, &machine}, memory, sizeof memory, {}, report));
 }
 
 /// A recording in memory.

@@ -8,14 +8,15 @@ using namespace detent;
 int main() {
   static WorldStorage<Capacity{.bodies = 8, .contacts = 16, .sensed = 8}> storage;
   World world;
-  check(storage.create({}, world));
-
   static SensorEvent sensed[8];
   static BodyEvent slept[8];
   static CapacityEvent lost[8];
-  world.sensor_events = {sensed, 8};
-  world.body_events = {slept, 8};
-  world.capacity_events = {lost, 8};
+  const WorldHooks hooks = {
+      .sensor_events = {sensed, 8},
+      .body_events = {slept, 8},
+      .capacity_events = {lost, 8},
+  };
+  check(storage.create({}, hooks, world));
 
   BodyId ground, gate, room, bullet, crate;
   check(create_body(world, {.type = BodyType::fixed, .shape = half_space()}, ground));
@@ -30,13 +31,13 @@ int main() {
   check(create_body(world, {.position = {0.0, 0.5, 9.0}, .shape = box({0.5, 0.5, 0.5})}, crate));
 
   StepReport report = step(world);
-  for (uint32_t i = 0; i < report.sensor_events; ++i) {
+  for (uint32_t i = 0; i < report.events.sensor; ++i) {
     const SensorEvent& event = sensed[i];
     const bool enter = event.type == SensorEventType::enter;
     printf("body %u %s sensor %u\n", static_cast<unsigned>(event.body.slot), enter ? "enters" : "leaves",
            static_cast<unsigned>(event.sensor.slot));
   }
-  check(report.sensor_events == 3);  // the bullet in and out of the gate, the crate into the room
+  check(report.events.sensor == 3);  // the bullet in and out of the gate, the crate into the room
 
   BodyId within[4];
   uint32_t count = 0;
@@ -47,16 +48,16 @@ int main() {
   uint32_t asleep = 0;
   for (int tick = 0; tick < 120; ++tick) {
     report = step(world);
-    for (uint32_t i = 0; i < report.body_events; ++i) asleep += slept[i].type == BodyEventType::fell_asleep ? 1 : 0;
-    check(report.sensor_events == 0);
+    for (uint32_t i = 0; i < report.events.body; ++i) asleep += slept[i].type == BodyEventType::fell_asleep ? 1 : 0;
+    check(report.events.sensor == 0);
   }
   check(asleep == 1);
   check(get_sensed(world, room, within, 4, count));
   check(count == 1);  // asleep, and still there
 
-  for (uint32_t i = 0; i < report.capacity_events; ++i) {
+  for (uint32_t i = 0; i < report.events.capacity; ++i) {
     if (lost[i].type == CapacityEventType::contact)
       printf("body %u lost a contact\n", static_cast<unsigned>(lost[i].b.slot));
   }
-  check(report.capacity_events == 0);
+  check(report.events.capacity == 0);
 }

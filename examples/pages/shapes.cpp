@@ -56,7 +56,7 @@ const Asset assets[] = {{rock, sizeof rock}};
 void hulls() {
   static WorldStorage<Capacity{.bodies = 2, .contacts = 2, .assets = 1}> storage;
   World world;
-  check(storage.create({}, world, {assets, 1}));
+  check(storage.create({}, {.assets = {assets, 1}}, world));
   check(bind_asset(world, 0));
   BodyId stone;
   check(create_body(world, {.position = {0.0, 2.0, 0.0}, .shape = hull(0)}, stone));

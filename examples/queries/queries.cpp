@@ -14,8 +14,7 @@ int main() {
   static WorldStorage<Capacity{.bodies = 8, .contacts = 16}> storage;
   World world;
   BodyId ground, wall, guard, ghost;
-  if (storage.create({}, world) != Status::ok) return 1;
-  world.filter_rules = {k_rules, 1};
+  if (storage.create({}, {.filter_rules = {k_rules, 1}}, world) != Status::ok) return 1;
   BodyDef def = {.type = BodyType::fixed, .shape = half_space()};
   if (create_body(world, def, ground) != Status::ok) return 1;
   def = {.type = BodyType::fixed, .position = {4.0, 1.0, 0.0}, .shape = box({0.25, 1.0, 2.0})};

@@ -26,13 +26,13 @@ constexpr void note_use(const StepReport& report, const WorldInfo& after, Capaci
     most = most < wanted ? wanted : most;
   };
   note(use.bodies, after.bodies, 0);
-  const uint32_t contacts_dropped = report.contacts_dropped - report.contact_parts_dropped;
+  const uint32_t contacts_dropped = report.lost.contacts - report.lost.contact_parts;
   note(use.contacts, after.contacts, contacts_dropped);
-  note(use.pairs, report.pairs, 0);
-  if (report.impacts_dropped != 0) note(use.impacts, after.capacity.contacts, report.impacts_dropped);
+  note(use.pairs, report.contacts.pairs, 0);
+  if (report.lost.impacts != 0) note(use.impacts, after.capacity.contacts, report.lost.impacts);
   note(use.joints, after.joints, 0);
-  note(use.sensed, after.sensed, report.sensed_dropped);
-  if (report.pairs_dropped != 0 || contacts_dropped != 0 || report.impacts_dropped != 0 || report.sensed_dropped != 0)
+  note(use.sensed, after.sensed, report.lost.sensed);
+  if (report.lost.pairs != 0 || contacts_dropped != 0 || report.lost.impacts != 0 || report.lost.sensed != 0)
     ++use.steps_full;
 }
 

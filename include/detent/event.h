@@ -32,7 +32,7 @@ struct ContactEvent {
 /// more than `capacity` events, those with the largest slots are dropped, and counted in the report.
 struct ContactEventBuffer {
   ContactEvent* data = nullptr;  ///< room for `capacity` events; null: no events are written
-  uint32_t capacity = 0;         ///< number of events; must be 0 if `data` is null
+  uint32_t capacity = 0;         ///< number of events
 };
 
 /// The type of a sensor event.
@@ -52,7 +52,7 @@ struct SensorEvent {
 /// As ContactEventBuffer, in the order of (sensor.slot, body.slot, type).
 struct SensorEventBuffer {
   SensorEvent* data = nullptr;  ///< room for `capacity` events; null: no events are written
-  uint32_t capacity = 0;        ///< number of events; must be 0 if `data` is null
+  uint32_t capacity = 0;        ///< number of events
 };
 
 /// The type of a body event.
@@ -70,7 +70,7 @@ struct BodyEvent {
 /// As ContactEventBuffer, in the order of the bodies' slots.
 struct BodyEventBuffer {
   BodyEvent* data = nullptr;  ///< room for `capacity` events; null: no events are written
-  uint32_t capacity = 0;      ///< number of events; must be 0 if `data` is null
+  uint32_t capacity = 0;      ///< number of events
 };
 
 /// Which pool of a step was full.
@@ -91,7 +91,7 @@ struct CapacityEvent {
 /// beyond `capacity`.
 struct CapacityEventBuffer {
   CapacityEvent* data = nullptr;  ///< room for `capacity` events; null: no events are written
-  uint32_t capacity = 0;          ///< number of events; must be 0 if `data` is null
+  uint32_t capacity = 0;          ///< number of events
 };
 
 }  // namespace DETENT_NAMESPACE

@@ -6,7 +6,7 @@
 /// sleeping, joints, sensors) through a table. The table refers only to the selected features, so that the linker
 /// removes the code of the others from the unmodified library (-Wl,--gc-sections).
 ///
-///     create_world(block, bytes, def, assets, world, feature_table<Features::sphere | Features::half_space>);
+///     create_world(block, bytes, def, hooks, feature_table<Features::sphere | Features::half_space>, world);
 ///
 /// A call that needs a feature which is not linked returns feature_missing. The selection never changes what a tick
 /// computes.
@@ -35,7 +35,7 @@ enum class Features : uint32_t {
   sensors = 1u << 20,     ///< BodyDef::sensor
   /// All shapes.
   shapes = sphere | capsule | box | half_space | cylinder | cone | hull | terrain | compound | rounding,
-  /// The default of create_world().
+  /// What create_world() takes if no table is given.
   all = shapes | continuous | sleeping | joints | sensors,
 };
 /// The features that are in `a` or in `b`.

@@ -13,7 +13,7 @@ struct Filter {
   uint32_t category = 1;  ///< bits: the categories of the body
   uint32_t mask = ~0u;    ///< bits: the categories with which the body can collide
   int32_t group = 0;      ///< 0: no group
-  uint32_t rule = 0;      ///< 0: no rule; else the number, from 1 on, of a rule in World::filter_rules
+  uint32_t rule = 0;      ///< 0: no rule; else the number, from 1 on, of a rule in WorldHooks::filter_rules
   /// Whether all fields are equal.
   friend constexpr bool operator==(const Filter& a, const Filter& b) {
     return a.category == b.category && a.mask == b.mask && a.group == b.group && a.rule == b.rule;

@@ -8,8 +8,8 @@ inline namespace DETENT_NAMESPACE {
 
 struct World;
 
-/// A callback at the end of each stage of each step that is not idle. Set World::observer to use it; it does not change
-/// the state. For tools that find the stage in which two machines begin to differ.
+/// A callback at the end of each stage of each step that is not idle. Set WorldHooks::observer to use it; it does not
+/// change the state. For tools that find the stage in which two machines begin to differ.
 struct StepObserver {
   /// `contacts`: number of contacts that the step has found so far, in its work space. It must not change the world.
   /// The state is incomplete within the step: of world.h it may only call `digest`, `save` and the getters.

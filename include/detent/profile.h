@@ -1,7 +1,8 @@
 #pragma once
 #include <detent/config.h>
 
-/// Times of a step's stages, by the caller's clock. Set World::profile to measure them; it does not change the state.
+/// Times of a step's stages, by the caller's clock. Set WorldHooks::profile to measure them; it does not change the
+/// state.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 

@@ -97,8 +97,8 @@ class Recorder {
 
   /// Traces these ticks, to find the first difference of two machines (docs/first_difference.md). `step` writes the
   /// trace to the sink in chunks; a tick takes about ten times the state in use. While the recorder steps, it replaces
-  /// World::observer, and calls the world's own observer first. A program that never calls this function links none of
-  /// its code. Errors: bad_argument (begun already, an unknown level, or `from` after `to`).
+  /// WorldHooks::observer, and calls the world's own observer first. A program that never calls this function links
+  /// none of its code. Errors: bad_argument (begun already, an unknown level, or `from` after `to`).
   Status trace(const TraceDef& def) {
     if (state_ != State::idle || def.level > TraceLevel::full || def.from > def.to) return Status::bad_argument;
     trace_ = def;

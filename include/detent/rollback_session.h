@@ -243,11 +243,12 @@ constexpr uint32_t sync_test_bytes(Capacity capacity, uint32_t ticks, uint32_t g
 }
 
 /// Makes ticks, restores the state before them, repeats them, and compares the digests: a test of a session's maker.
-/// Afterwards the world and `game` have the state of the repetition.
+/// `game`: what the maker changes besides the world; {}: nothing. Afterwards the world and `game` have the state of the
+/// repetition.
 /// Errors: digest_differs (`report` has the tick; the world is at this tick), out_of_range, buffer_too_small,
 /// buffer_misaligned, bad_argument (no maker; inputs without bytes; a maker that did not step the world exactly once).
 Status sync_test(World& world, const SyncTestDef& def, TickMaker maker, uint8_t* memory, uint32_t memory_bytes,
-                 SyncTestReport& report, GameState game = {});
+                 GameState game, SyncTestReport& report);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

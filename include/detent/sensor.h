@@ -12,7 +12,7 @@
 /// A body is *within* a sensor if, at the end of a step, the distance of their surfaces is at most 2^-14 of the lesser
 /// of their smallest diameters. During the step, bodies are tested by their time of impact, also if the world is not
 /// continuous: a body that passes through a sensor in one step enters and leaves it, however fast it is. An undecided
-/// test counts as within, or as passing through, and is counted in StepReport::sensed_undecided.
+/// test counts as within, or as passing through, and is counted in StepReport::lost.sensed_undecided.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 

@@ -29,7 +29,7 @@ enum class [[nodiscard]] Status : uint32_t{
     digest_differs,      ///< a state differs from the recorded or expected state
     sink_failed,         ///< the caller's sink or source reported failure
     feature_missing,     ///< the call needs a feature that this world's feature table lacks (features.h)
-    rule_missing,        ///< a filter names a rule that World::filter_rules does not have
+    rule_missing,        ///< a filter names a rule that WorldHooks::filter_rules does not have
     waiting,             ///< inputs of other players are missing: call again when they have arrived
 };
 

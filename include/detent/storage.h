@@ -14,11 +14,16 @@ struct WorldStorage {
   alignas(8) uint8_t block[k_bytes];  ///< the world's memory; nothing else may write to it
 
   /// As create_world, in this block and with this capacity; `def.capacity` is ignored.
-  Status create(WorldDef def, World& world, AssetTable assets = {},
-                const FeatureTable& features = feature_table<Features::all>) {
+  Status create(WorldDef def, const WorldHooks& hooks, const FeatureTable& features, World& world) {
     def.capacity = capacity;
-    return create_world(block, k_bytes, def, assets, world, features);
+    return create_world(block, k_bytes, def, hooks, features, world);
   }
+  /// The same with all features.
+  Status create(const WorldDef& def, const WorldHooks& hooks, World& world) {
+    return create(def, hooks, feature_table<Features::all>, world);
+  }
+  /// The same without hooks.
+  Status create(const WorldDef& def, World& world) { return create(def, {}, world); }
 };
 
 }  // namespace DETENT_NAMESPACE

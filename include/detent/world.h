@@ -83,87 +83,121 @@ struct WorldDef {
 /// Bytes of the block that a world of this capacity needs; 0 if the capacity is out of range. The same on every target.
 constexpr uint32_t world_bytes(Capacity capacity);
 
-/// A world in the caller's block. A value of a few words: copy it freely; it owns nothing.
+/// What the caller lends to a world. Its memory must outlive the world. All by default: nothing.
+/// An event buffer without `data` counts as no buffer, whatever its capacity.
+struct WorldHooks {
+  AssetTable assets = {};  ///< the assets that can be bound (asset.h)
+  /// The rules that Filter::rule names.
+  FilterRuleTable filter_rules = {};
+  ContactEventBuffer contact_events = {};    ///< each step fills it from its front
+  JointEventBuffer joint_events = {};        ///< as contact_events: joints that broke
+  SensorEventBuffer sensor_events = {};      ///< as contact_events: bodies that entered or left a sensor
+  BodyEventBuffer body_events = {};          ///< as contact_events: bodies that fell asleep or woke
+  CapacityEventBuffer capacity_events = {};  ///< as contact_events: what a full pool dropped
+  Profile* profile = nullptr;                ///< times of the stages of each step (profile.h)
+  const StepObserver* observer = nullptr;    ///< called at the end of each stage of each step (observer.h)
+};
+
+/// A world in the caller's block. A small value: copy it freely; it owns nothing.
 struct World {
   uint8_t* block = nullptr;                ///< the block passed to create_world()
-  AssetTable assets = {};                  ///< the assets passed to create_world()
-  ContactEventBuffer contact_events = {};  ///< each step fills it from its front; no buffer by default
-  JointEventBuffer joint_events = {};      ///< as contact_events
   const FeatureTable* features = nullptr;  ///< the features passed to create_world()
   /// Contacts that the solver processes at once: create_world() sets 4 if this machine supports it, else 1. The results
   /// are bit-identical.
   uint32_t lanes = 1;
-  /// The rules that Filter::rule names; none by default. Set it before any body names a rule.
-  FilterRuleTable filter_rules = {};
-  Profile* profile = nullptr;                ///< times of the stages of each step (profile.h)
-  SensorEventBuffer sensor_events = {};      ///< as contact_events
-  BodyEventBuffer body_events = {};          ///< as contact_events
-  CapacityEventBuffer capacity_events = {};  ///< as contact_events
-  const StepObserver* observer = nullptr;    ///< called at the end of each stage of each step (observer.h)
+  /// The hooks passed to create_world(). They may be changed between calls, but bodies must find the assets and filter
+  /// rules that they use.
+  WorldHooks hooks = {};
+};
+
+/// The contacts of awake bodies in one step.
+struct ContactReport {
+  uint32_t pairs = 0;     ///< pairs with overlapping bounds and a moving body; dropped pairs count too
+  uint32_t count = 0;     ///< contacts, each with at least one contact point
+  uint32_t points = 0;    ///< points of all these contacts, at most four each
+  uint32_t recycled = 0;  ///< contacts whose points were recycled because the pair had hardly moved
+  /// Pairs whose contact search hit its iteration cap (the normal may not be the direction of least penetration), or
+  /// that have no contact because an asset's bytes are missing.
+  uint32_t capped = 0;
+  uint32_t sweeps_saved = 0;  ///< solver iterations skipped because an island converged (WorldDef::convergence)
+  uint64_t substeps = 0;      ///< sum over all contacts of their islands' substeps: the work of the solver
+  /// Contacts without a free colour: the other contacts of their two bodies use all 64. They are solved after the rest.
+  uint32_t colour_overflows = 0;
+};
+
+/// The joints in one step.
+struct JointReport {
+  uint32_t count = 0;      ///< joints of at least one awake body
+  uint32_t broken = 0;     ///< joints that broke and were removed
+  uint32_t undecided = 0;  ///< joint solves that ended with a limit or motor undecided after the last try
+};
+
+/// Continuous collision in one step.
+struct CcdReport {
+  uint32_t impacts = 0;        ///< impacts within the tick that changed how bodies move
+  uint32_t undecided = 0;      ///< times of impact known only as a lower bound, or that could not be computed
+  uint32_t overlaps_left = 0;  ///< pairs that overlap too deeply for continuous collision
+  /// Bodies stopped early in this tick: they had too many impacts (docs/continuous_collision.md), the impact pool was
+  /// full, or an overlap was too deep. They stay at their last safe pose until the tick ends.
+  uint32_t bodies_stopped = 0;
+  Real lost_time = 0.0;  ///< sum over these bodies of the fraction of the tick that they missed
+  uint32_t tests = 0;    ///< times of impact computed
+  uint32_t skipped = 0;  ///< pairs not tested for impact because they are too slow to collide in the tick
+};
+
+/// What one step lost: entries for which a pool had no room, and sensor tests left undecided.
+struct LossReport {
+  /// Pairs beyond the pair buffer (the shallowest, by their bounds): they have no contacts in this tick, but continuous
+  /// collision tests all of them.
+  uint32_t pairs = 0;
+  /// Contacts beyond Capacity::contacts or beyond eight for one pair (the shallowest): not solved in this tick.
+  uint32_t contacts = 0;
+  /// The part of `contacts` that was beyond eight for one pair: a larger capacity does not prevent it.
+  uint32_t contact_parts = 0;
+  /// Couplings between joints beyond the room of the joint solver, where joints form too many loops: the joints that
+  /// they couple are softer.
+  uint32_t joint_couplings = 0;
+  uint32_t impacts = 0;  ///< impacts beyond the impact pool (Capacity::contacts): their bodies stop early
+  /// Bodies in or through a sensor beyond Capacity::sensed: the sensor does not report them.
+  uint32_t sensed = 0;
+  uint32_t sensed_undecided = 0;  ///< bodies that count as in or through a sensor because the test was undecided
+};
+
+/// The events that one step wrote to the buffers of WorldHooks, and those that it dropped. 0 for an event without a
+/// buffer.
+struct EventReport {
+  uint32_t contact = 0;   ///< events written to WorldHooks::contact_events
+  uint32_t joint = 0;     ///< events written to WorldHooks::joint_events
+  uint32_t sensor = 0;    ///< events written to WorldHooks::sensor_events (sensor.h)
+  uint32_t body = 0;      ///< events written to WorldHooks::body_events (bodies that fell asleep or woke)
+  uint32_t capacity = 0;  ///< events written to WorldHooks::capacity_events
+  /// Contact events beyond the capacity of their buffer, and hits beyond Capacity::contacts.
+  uint32_t contact_dropped = 0;
+  uint32_t joint_dropped = 0;   ///< joint events beyond the capacity of their buffer
+  uint32_t sensor_dropped = 0;  ///< sensor events beyond the capacity of their buffer
+  uint32_t body_dropped = 0;    ///< body events beyond the capacity of their buffer
 };
 
 /// The counts of one step. Every count is of this step alone.
 struct StepReport {
-  uint64_t tick = 0;               ///< ticks completed since the world was created
-  uint32_t bodies = 0;             ///< bodies in the world
-  uint32_t awake = 0;              ///< dynamic bodies that took part in the step
-  uint32_t islands = 0;            ///< groups of awake bodies that contacts or joints connect; a single body counts
-  uint32_t substeps_max = 0;       ///< the largest number of substeps of any island
-  uint32_t fell_asleep = 0;        ///< bodies that fell asleep at the end of the step
-  uint32_t woke = 0;               ///< sleeping bodies that contacts, joints or impacts woke in the step
-  uint32_t sweeps_saved = 0;       ///< solver iterations skipped because an island converged (WorldDef::convergence)
-  uint32_t pairs = 0;              ///< pairs with overlapping bounds and a moving body; dropped pairs count too
-  uint64_t contact_substeps = 0;   ///< sum over all contacts of their islands' substeps: the work of the solver
-  uint32_t contacts = 0;           ///< contacts of awake bodies, each with at least one contact point
-  uint32_t contact_points = 0;     ///< points of all these contacts, at most four each
-  uint32_t contacts_recycled = 0;  ///< contacts whose points were recycled because the pair had hardly moved
-  /// Pairs whose contact search hit its iteration cap (the normal may not be the direction of least penetration), or
-  /// that have no contact because an asset's bytes are missing.
-  uint32_t contacts_capped = 0;
-  uint32_t contact_events = 0;  ///< events written to World::contact_events
-  /// Events beyond the capacity of that buffer, and hits beyond Capacity::contacts; 0 if there is no buffer.
-  uint32_t contact_events_dropped = 0;
-  /// Pairs beyond the pair buffer (the shallowest, by their bounds): they have no contacts in this tick, but continuous
-  /// collision tests all of them.
-  uint32_t pairs_dropped = 0;
-  /// Contacts beyond Capacity::contacts or beyond eight for one pair (the shallowest): not solved in this tick.
-  uint32_t contacts_dropped = 0;
-  /// The part of contacts_dropped that was beyond eight for one pair: a larger capacity does not prevent it.
-  uint32_t contact_parts_dropped = 0;
-  uint32_t saturations = 0;           ///< state components clamped to their range
-  uint32_t joints = 0;                ///< joints of at least one awake body
-  uint32_t joints_broken = 0;         ///< joints that broke and were removed
-  uint32_t joint_events = 0;          ///< events written to World::joint_events
-  uint32_t joint_events_dropped = 0;  ///< events beyond the capacity of that buffer
-  /// Couplings between joints beyond the room of the joint solver, where joints form too many loops: the joints that
-  /// they couple are softer.
-  uint32_t joint_couplings_dropped = 0;
-  uint32_t joint_decisions_left = 0;  ///< joint solves that ended with a limit or motor undecided after the last try
-  uint32_t impacts = 0;               ///< impacts within the tick that changed how bodies move
-  uint32_t impacts_undecided = 0;     ///< times of impact known only as a lower bound, or that could not be computed
-  uint32_t impacts_dropped = 0;       ///< impacts beyond the impact pool (Capacity::contacts): their bodies stop early
-  uint32_t overlaps_left = 0;         ///< pairs that overlap too deeply for continuous collision
-  /// Bodies stopped early in this tick: they had too many impacts (docs/continuous_collision.md), the impact pool was
-  /// full, or an overlap was too deep. They stay at their last safe pose until the tick ends.
-  uint32_t bodies_stopped = 0;
-  Real lost_time = 0.0;      ///< sum over these bodies of the fraction of the tick that they missed
-  uint32_t toi_tests = 0;    ///< times of impact computed
-  uint32_t toi_skipped = 0;  ///< pairs not tested for impact because they are too slow to collide in the tick
-  /// Contacts without a free colour: the other contacts of their two bodies use all 64. They are solved after the rest.
-  uint32_t colour_overflows = 0;
-  uint32_t sensor_events = 0;          ///< events written to World::sensor_events (sensor.h)
-  uint32_t sensor_events_dropped = 0;  ///< events beyond the capacity of that buffer; 0 if there is no buffer
-  /// Bodies in or through a sensor beyond Capacity::sensed: the sensor does not report them.
-  uint32_t sensed_dropped = 0;
-  uint32_t sensed_undecided = 0;     ///< bodies that count as in or through a sensor because the test was undecided
-  uint32_t body_events = 0;          ///< events written to World::body_events (bodies that fell asleep or woke)
-  uint32_t body_events_dropped = 0;  ///< events beyond the capacity of that buffer; 0 if there is no buffer
-  uint32_t capacity_events = 0;      ///< events written to World::capacity_events
+  uint64_t tick = 0;            ///< ticks completed since the world was created
+  uint32_t bodies = 0;          ///< bodies in the world
+  uint32_t awake = 0;           ///< dynamic bodies that took part in the step
+  uint32_t islands = 0;         ///< groups of awake bodies that contacts or joints connect; a single body counts
+  uint32_t substeps_max = 0;    ///< the largest number of substeps of any island
+  uint32_t woke = 0;            ///< sleeping bodies that contacts, joints or impacts woke in the step
+  uint32_t fell_asleep = 0;     ///< bodies that fell asleep at the end of the step
+  ContactReport contacts = {};  ///< pairs and contacts
+  JointReport joints = {};      ///< joints
+  uint32_t saturations = 0;     ///< state components clamped to their range
+  CcdReport ccd = {};           ///< continuous collision
+  LossReport lost = {};         ///< what the step lost
+  EventReport events = {};      ///< events written and dropped
   /// True if the step dropped no pair, contact or sensed body, capped no contact search, clamped no value and stopped
   /// no body early. Dropped events and the joint counts are not part of it.
   constexpr bool complete() const {
-    return pairs_dropped == 0 && contacts_dropped == 0 && contacts_capped == 0 && saturations == 0 &&
-           bodies_stopped == 0 && sensed_dropped == 0;
+    return lost.pairs == 0 && lost.contacts == 0 && contacts.capped == 0 && saturations == 0 &&
+           ccd.bodies_stopped == 0 && lost.sensed == 0;
   }
 };
 
@@ -179,11 +213,16 @@ struct WorldInfo {
 };
 
 /// Makes an empty world in `block` (8-byte aligned, at least world_bytes(def.capacity) bytes).
-/// `features`: the features of the world, and so the code that the program links (features.h); all by default.
-/// Errors: buffer_too_small, buffer_misaligned, out_of_range, bad_argument (`reduction` or `stabilisation` is not a
-/// value of its enumeration), feature_missing.
-Status create_world(uint8_t* block, uint32_t block_bytes, const WorldDef& def, AssetTable assets, World& world,
-                    const FeatureTable& features = feature_table<Features::all>);
+/// `hooks`: what the caller lends to the world; {}: nothing. `features`: the features of the world, and so the code
+/// that the program links (features.h). Errors: buffer_too_small, buffer_misaligned, out_of_range, bad_argument
+/// (`reduction` or `stabilisation` is not a value of its enumeration), feature_missing.
+Status create_world(uint8_t* block, uint32_t block_bytes, const WorldDef& def, const WorldHooks& hooks,
+                    const FeatureTable& features, World& world);
+/// The same with all features.
+inline Status create_world(uint8_t* block, uint32_t block_bytes, const WorldDef& def, const WorldHooks& hooks,
+                           World& world) {
+  return create_world(block, block_bytes, def, hooks, feature_table<Features::all>, world);
+}
 
 /// Creates a body in the lowest free slot; it takes part in the next step.
 /// Errors: pool_full (also for a sensor if Capacity::sensed is 0), bad_argument, out_of_range, not_normalised,

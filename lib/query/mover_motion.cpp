@@ -41,7 +41,7 @@ bool push_out(const World& world, BodyId body, const Shape& core, const Pose& at
   const StateView<const uint8_t> state = view_of(world);
   const BodyProperties& properties = state.properties[body.slot - 1];
   const Pose pose = pose_near(properties, state.poses[body.slot - 1], at.position);
-  const ConvexParts parts(properties, world.assets);
+  const ConvexParts parts(properties, world.hooks.assets);
   QueryShape shape;
   if (make_query_shape(world, core, shape) != Status::ok) return false;
   bool found = false;
@@ -118,8 +118,8 @@ void MoverMotion::add_terrain(const QueryHit& hit) {
   const Real distance_max = settings_.gap + scale_by_power(settings_.gap, -1);
   TerrainContacts contacts;
   world_.features->terrain->collide({ground, state.properties[hit.body.slot - 1], matrix_from(ground.rotation)},
-                                    {pose, shape.properties, matrix_from(pose.rotation)}, distance_max, world_.assets,
-                                    contacts);
+                                    {pose, shape.properties, matrix_from(pose.rotation)}, distance_max,
+                                    world_.hooks.assets, contacts);
   if (contacts.dropped != 0) ++report_.hits_dropped;
   const Vec3<Unit> nearest = planes_[plane_count_ - 1].normal;
   for (uint32_t i = 0; i < contacts.count; ++i) {

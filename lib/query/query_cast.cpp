@@ -52,7 +52,7 @@ bool cast_at_terrain(const QueryBodies& bodies, uint32_t slot, const QueryShape&
 bool first_impact(const QueryBodies& bodies, const BodyProperties& properties, const Motion& still,
                   const QueryShape& shape, const Motion& motion, TimeOfImpact& first) {
   first.outcome = ToiOutcome::clear;
-  const ConvexParts parts(properties, bodies.world.assets);
+  const ConvexParts parts(properties, bodies.world.hooks.assets);
   for (uint32_t i = 0; i < parts.count(); ++i) {
     Convex convex;
     TimeOfImpact impact;

@@ -32,7 +32,7 @@ bool near_at_terrain(const QueryBodies& bodies, uint32_t slot, const QueryShape&
 /// The nearest points of the body's parts, or an undecided result that is nearer. False if a part could not be tested.
 bool nearest_part(const QueryBodies& bodies, const BodyProperties& properties, const Pose& pose,
                   const QueryShape& shape, const Pose& at, Closest& nearest) {
-  const ConvexParts parts(properties, bodies.world.assets);
+  const ConvexParts parts(properties, bodies.world.hooks.assets);
   for (uint32_t i = 0; i < parts.count(); ++i) {
     Convex convex;
     Closest closest;

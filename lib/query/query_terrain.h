@@ -16,11 +16,11 @@ struct AskedSurface {
 
 /// Whether the program has the bytes of a body's terrain.
 inline bool has_terrain_bytes(const World& world, const BodyProperties& properties) {
-  return is_in(world.assets, properties.asset);
+  return is_in(world.hooks.assets, properties.asset);
 }
 inline AskedSurface asked_terrain(const World& world, const BodyProperties& properties, const BodyPose& pose) {
   const TerrainOps& code = *world.features->terrain;
-  return {code, code.view(world.assets.assets[properties.asset].bytes), {pose.position, pose.rotation}};
+  return {code, code.view(world.hooks.assets.assets[properties.asset].bytes), {pose.position, pose.rotation}};
 }
 
 /// The first triangle that the shape hits on its path. A point is cast as a ray. `met` is set if there is one; `hit`

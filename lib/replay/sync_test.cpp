@@ -17,7 +17,7 @@ bool make_tick(World& world, const SyncTestDef& def, TickMaker maker, uint32_t i
 }  // namespace
 
 Status sync_test(World& world, const SyncTestDef& def, TickMaker maker, uint8_t* memory, uint32_t memory_bytes,
-                 SyncTestReport& report, GameState game) {
+                 GameState game, SyncTestReport& report) {
   const WorldInfo info = get_info(world);
   const uint32_t needed = sync_test_bytes(info.capacity, def.ticks, game.count);
   const uint64_t input_bytes = uint64_t{def.ticks} * def.players * def.input_bytes;

@@ -83,12 +83,12 @@ struct TraceWriter {
   static StepReport step(Recorder& recorder) {
     recorder.flush_records();
     recorder.chunk_tick_ = recorder.tick_;
-    TraceWriter writer{recorder, recorder.world_.observer};
+    TraceWriter writer{recorder, recorder.world_.hooks.observer};
     writer.write(TraceStage::calls, 0);
     const StepObserver observer = {stage_ended, &writer};
-    recorder.world_.observer = &observer;
+    recorder.world_.hooks.observer = &observer;
     const StepReport report = detent::step(recorder.world_);
-    recorder.world_.observer = writer.before;
+    recorder.world_.hooks.observer = writer.before;
     writer.write(TraceStage::end, 0);
     writer.flush();
     return report;

@@ -45,10 +45,10 @@ Status find_shape(const World& world, ShapeType shape, uint32_t asset, BodyType 
   const Span<const AssetState> bound = view_of(world).assets;
   if (asset >= bound.count) return Status::out_of_range;
   const AssetKind kind = static_cast<AssetKind>(bound[asset].kind);
-  if (kind == AssetKind::none || !is_in(world.assets, asset)) return Status::asset_missing;
+  if (kind == AssetKind::none || !is_in(world.hooks.assets, asset)) return Status::asset_missing;
   if (kind != asset_kind_of(shape)) return Status::bad_argument;
   if (kind != AssetKind::hull) return Status::ok;
-  const bool principal = hull_view(world.assets.assets[asset].bytes).frame() == HullFrame::principal;
+  const bool principal = hull_view(world.hooks.assets.assets[asset].bytes).frame() == HullFrame::principal;
   return type == BodyType::dynamic && !principal ? Status::bad_argument : Status::ok;
 }
 

@@ -25,14 +25,15 @@ bool has_room(const State& from, const State& to) {
 Status check_handle(const World& from, const State& state, const World& to) {
   const Features needed = without(Features::all, static_cast<Features>(state.header.left_out));
   if (!contains(to.features->features, needed)) return Status::feature_missing;
-  const bool same_table = from.assets.assets == to.assets.assets && from.assets.count <= to.assets.count;
+  const bool same_table =
+      from.hooks.assets.assets == to.hooks.assets.assets && from.hooks.assets.count <= to.hooks.assets.count;
   if (!same_table) {
     const FloatEnvironment environment;
-    const Status status = check_assets(to.assets, *to.features, state.assets);
+    const Status status = check_assets(to.hooks.assets, *to.features, state.assets);
     if (status != Status::ok) return status;
   }
   for (const BodyProperties& properties : state.properties.first(state.world.slots_used)) {
-    if (!has_rule(to.filter_rules, properties.rule)) return Status::rule_missing;
+    if (!has_rule(to.hooks.filter_rules, properties.rule)) return Status::rule_missing;
   }
   return Status::ok;
 }

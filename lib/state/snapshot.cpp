@@ -84,7 +84,7 @@ Status load(World& world, uint8_t* bytes, uint32_t byte_count) {
   if (byte_count < layout.persistent_bytes) return Status::truncated;
   if (byte_count > layout.persistent_bytes) return Status::corrupt;
   swap_state(bytes, layout);
-  if (const Status status = check_state(bytes, capacity, world.assets, *world.features, world.filter_rules);
+  if (const Status status = check_state(bytes, capacity, world.hooks.assets, *world.features, world.hooks.filter_rules);
       status != Status::ok)
     return status;
   memcpy(world.block, bytes, layout.persistent_bytes);
@@ -125,7 +125,7 @@ Status empty_world(World& world, Capacity capacity) {
   def.continuous = world.features->continuous != nullptr;
   def.sleeping = world.features->sleeping != nullptr;
   World same;
-  return create_world(world.block, world_bytes(capacity), def, world.assets, same, *world.features);
+  return create_world(world.block, world_bytes(capacity), def, {}, *world.features, same);
 }
 
 Status load_from(World& world, Status (*read)(void* context, uint32_t offset, uint8_t* bytes, uint32_t count),
@@ -148,7 +148,8 @@ Status load_from(World& world, Status (*read)(void* context, uint32_t offset, ui
     if (header != Status::ok) return fail(header);
   }
   swap_state(world.block, layout);
-  const Status status = check_state(world.block, capacity, world.assets, *world.features, world.filter_rules);
+  const Status status =
+      check_state(world.block, capacity, world.hooks.assets, *world.features, world.hooks.filter_rules);
   if (status != Status::ok) return fail(status);
   take_over(world);
   return Status::ok;

@@ -25,13 +25,13 @@ Status suits(const World& world, ShapeType shape, uint32_t asset, BodyType type)
 
 Status set_body_shape(const World& world, const Shape& shape, BodyType type, BodyProperties& properties) {
   if (const Status status = suits(world, shape.type, shape.asset, type); status != Status::ok) return status;
-  return set_shape_properties(shape, properties, world.assets, *world.features);
+  return set_shape_properties(shape, properties, world.hooks.assets, *world.features);
 }
 
 Status set_body_inverse_inertia(const World& world, BodyProperties& properties) {
   for (Scaled& inverse_inertia : properties.inverse_inertia) inverse_inertia = Scaled(0.0);
   if (!is_dynamic(properties)) return Status::ok;
-  set_inverse_inertia(properties, world.assets, *world.features);
+  set_inverse_inertia(properties, world.hooks.assets, *world.features);
   return are_inverse_inertias(properties) ? Status::ok : Status::out_of_range;
 }
 
@@ -47,7 +47,7 @@ Status set_body_inertia(const Vec3<Scaled>& inertia, BodyProperties& properties)
 
 Status set_body_density(const World& world, Scaled density, BodyProperties& properties) {
   if (!is_mass(density)) return Status::out_of_range;
-  properties.mass = multiply(density, shape_volume(properties, world.assets, *world.features));
+  properties.mass = multiply(density, shape_volume(properties, world.hooks.assets, *world.features));
   return is_mass(properties.mass) ? Status::ok : Status::out_of_range;
 }
 

@@ -23,7 +23,7 @@ __attribute__((noinline)) ContactGeometry part_geometry(const CollisionBody& a, 
                                                         ManifoldReduction reduction, const World& world,
                                                         const ContactState& contact) {
   TerrainContacts contacts;
-  collide_parts(a, b, margin, world.assets, reduction, *world.features, contacts);
+  collide_parts(a, b, margin, world.hooks.assets, reduction, *world.features, contacts);
   const ContactGeometry* best = nullptr;
   uint32_t most = 0;
   for (uint32_t i = 0; i < contacts.count; ++i) {
@@ -46,7 +46,7 @@ ContactGeometry geometry_of(const World& world, const StateView<const uint8_t>& 
   const ManifoldReduction reduction = static_cast<ManifoldReduction>(state.world.reduction);
   if (has_parts(a, b)) return part_geometry(body_a, body_b, margin, reduction, world, contact);
   ContactGeometry geometry;
-  collide(body_a, body_b, margin, geometry, world.assets, reduction, *world.features);
+  collide(body_a, body_b, margin, geometry, world.hooks.assets, reduction, *world.features);
   return geometry;
 }
 

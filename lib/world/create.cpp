@@ -32,7 +32,7 @@ Status make_properties(const World& world, const BodyDef& def, BodyProperties& p
   if (const Status status = set_body_gravity_scale(def.gravity_scale, properties); status != Status::ok) return status;
   if (const Status status = set_body_rotation_locks(def.rotation_locks, properties); status != Status::ok)
     return status;
-  if (!has_rule(world.filter_rules, def.filter.rule)) return Status::rule_missing;
+  if (!has_rule(world.hooks.filter_rules, def.filter.rule)) return Status::rule_missing;
   set_filter(def.filter, properties);
   properties.type = static_cast<uint32_t>(def.type);
   if (!(def.mass == Scaled(0.0))) {
@@ -53,7 +53,7 @@ Status make_properties(const World& world, const BodyDef& def, BodyProperties& p
 /// Wakes both bodies of every contact that the filter now forbids. Such a contact ends when the step does not find its
 /// pair, and this requires both bodies to be awake.
 void wake_forbidden(const World& world, StateView<uint8_t>& state, uint32_t slot) {
-  const PairFilter filter = {state.properties, world.filter_rules};
+  const PairFilter filter = {state.properties, world.hooks.filter_rules};
   for (const ContactState& contact : state.contacts.first(state.world.contact_count)) {
     if ((contact.body_a != slot && contact.body_b != slot) || filter.allows(contact.body_a, contact.body_b)) continue;
     wake_slot(state, contact.body_a);
@@ -63,8 +63,8 @@ void wake_forbidden(const World& world, StateView<uint8_t>& state, uint32_t slot
 
 }  // namespace
 
-Status create_world(uint8_t* block, uint32_t block_bytes, const WorldDef& def, AssetTable assets, World& world,
-                    const FeatureTable& features) {
+Status create_world(uint8_t* block, uint32_t block_bytes, const WorldDef& def, const WorldHooks& hooks,
+                    const FeatureTable& features, World& world) {
   const FloatEnvironment environment;
   if (const Status status = check_settings(def, features); status != Status::ok) return status;
   const uint32_t bytes = world_bytes(def.capacity);
@@ -84,7 +84,7 @@ Status create_world(uint8_t* block, uint32_t block_bytes, const WorldDef& def, A
                                        def.capacity.joints,
                                        def.capacity.sensed,
                                        0};
-  world = {block, assets, {}, {}, &features, has_lanes() ? 4u : 1u};
+  world = {block, &features, has_lanes() ? 4u : 1u, hooks};
   store_settings(def, view_of(world).world, def.capacity.manifolds);
   return Status::ok;
 }
@@ -186,7 +186,7 @@ Status set_user_data(World& world, BodyId id, uint32_t user_data) {
   uint32_t slot = 0;
   if (!find_body(state, id, slot)) return Status::bad_id;
   state.properties[slot].user_data = user_data;
-  if (world.filter_rules.count == 0) return Status::ok;
+  if (world.hooks.filter_rules.count == 0) return Status::ok;
   wake_forbidden(world, state, slot);
   if (state.world.sensor_count != 0) look_at_again(state, slot);
   return Status::ok;
@@ -196,7 +196,7 @@ Status set_filter(World& world, BodyId id, const Filter& filter) {
   StateView<uint8_t> state = view_of(world);
   uint32_t slot = 0;
   if (!find_body(state, id, slot)) return Status::bad_id;
-  if (!has_rule(world.filter_rules, filter.rule)) return Status::rule_missing;
+  if (!has_rule(world.hooks.filter_rules, filter.rule)) return Status::rule_missing;
   set_filter(filter, state.properties[slot]);
   wake_slot(state, slot);
   wake_forbidden(world, state, slot);
@@ -207,7 +207,7 @@ Status bind_asset(World& world, uint32_t index) {
   StateView<uint8_t> state = view_of(world);
   if (index >= state.assets.count) return Status::out_of_range;
   AssetState bound{};
-  if (const Status status = describe_asset(world.assets, index, *world.features, bound); status != Status::ok)
+  if (const Status status = describe_asset(world.hooks.assets, index, *world.features, bound); status != Status::ok)
     return status;
   AssetState& before = state.assets[index];
   if (before.digest != bound.digest || before.byte_count != bound.byte_count) {

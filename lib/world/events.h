@@ -12,6 +12,12 @@ struct EventCount {
   uint32_t dropped = 0;
 };
 
+/// The room of an event buffer of the caller: none without `data`.
+template <class Buffer>
+auto room_of(const Buffer& buffer) {
+  return Span(buffer.data, buffer.data == nullptr ? 0u : buffer.capacity);
+}
+
 /// Compares the contacts of the last step with those of this step, both sorted by their bodies. Writes an event for
 /// each contact that began, continued, ended or hit. If the parts of a pair touch in several places, only the contact
 /// with the greatest closing speed counts. `poses` are those of the start of the step. `awake` lists the contacts of

@@ -9,6 +9,7 @@
 #include "state/ranges.h"
 #include "state/slots.h"
 #include "world/body_change.h"
+#include "world/events.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -143,24 +144,25 @@ Span<const uint64_t> list_disabled_pairs(Span<const JointState> joints, Span<uin
 
 void break_joints(World& world, StepReport& report) {
   StateView<uint8_t> state = view_of(world);
+  const Span<JointEvent> room = room_of(world.hooks.joint_events);
   uint32_t events = 0;
   for (uint32_t slot = 0; slot < state.world.joints_used; ++slot) {
     const JointState& joint = state.joints[slot];
     if (joint.type == 0 || !is_broken(joint)) continue;
-    ++report.joints_broken;
-    if (events < world.joint_events.capacity) {
+    ++report.joints.broken;
+    if (events < room.count) {
       const StateView<const uint8_t> read = view_of(static_cast<const World&>(world));
-      world.joint_events.data[events++] = {{slot + 1, joint.generation},
-                                           body_id(read, joint.body_a),
-                                           body_id(read, joint.body_b),
-                                           joint.user_data,
-                                           {joint.force, joint.torque}};
-    } else if (world.joint_events.capacity != 0) {
-      ++report.joint_events_dropped;
+      room[events++] = {{slot + 1, joint.generation},
+                        body_id(read, joint.body_a),
+                        body_id(read, joint.body_b),
+                        joint.user_data,
+                        {joint.force, joint.torque}};
+    } else if (room.count != 0) {
+      ++report.events.joint_dropped;
     }
     remove_joint(state, slot);
   }
-  report.joint_events = events;
+  report.events.joint = events;
 }
 
 Status create_joint(World& world, const JointDef& def, JointId& id) {

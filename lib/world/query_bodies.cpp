@@ -30,10 +30,10 @@ Status make_query_shape(const World& world, const Shape& shape, QueryShape& made
       return status;
   }
   QueryShape shaped{};
-  if (const Status status = set_shape_properties(shape, shaped.properties, world.assets, *world.features);
+  if (const Status status = set_shape_properties(shape, shaped.properties, world.hooks.assets, *world.features);
       status != Status::ok)
     return status;
-  if (!body_convex(shaped.properties, world.assets, shaped.convex)) return Status::asset_missing;
+  if (!body_convex(shaped.properties, world.hooks.assets, shaped.convex)) return Status::asset_missing;
   made = shaped;
   return Status::ok;
 }

@@ -10,6 +10,7 @@
 #include "motion/finalise.h"
 #include "shape/bounds.h"
 #include "shape/shape_properties.h"
+#include "world/events.h"
 #include "world/query_bodies.h"
 
 namespace detent {
@@ -249,12 +250,13 @@ void sense(SensorStage& stage, const StateView<uint8_t>& state, SensorEventBuffe
   const Span<uint64_t> found = stage.found.storage.first(stage.found.count);
   heap_sort(found, stage.found.less);
 
-  SensorEvents events = {stage.properties, {buffer.data, buffer.capacity}};
+  const Span<SensorEvent> room = room_of(buffer);
+  SensorEvents events = {stage.properties, room};
   events.raise_all(stage.before, found);
-  report.sensor_events = events.kept;
-  report.sensor_events_dropped = buffer.capacity == 0 ? 0 : events.dropped;
-  report.sensed_dropped = stage.passed.dropped + stage.found.dropped;
-  report.sensed_undecided = stage.undecided;
+  report.events.sensor = events.kept;
+  report.events.sensor_dropped = room.count == 0 ? 0 : events.dropped;
+  report.lost.sensed = stage.passed.dropped + stage.found.dropped;
+  report.lost.sensed_undecided = stage.undecided;
   // Dropped pairs may be inside, so the next step tests all pairs.
   if (stage.found.dropped != 0) stage.cache.cache.fresh = 0;
 

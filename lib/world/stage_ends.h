@@ -9,8 +9,9 @@ class StageEnds {
  public:
   explicit StageEnds(const World& world)
       : world_(world),
-        profile_(world.profile != nullptr && world.profile->now != nullptr ? world.profile : nullptr),
-        observer_(world.observer != nullptr && world.observer->stage_ended != nullptr ? world.observer : nullptr) {
+        profile_(world.hooks.profile != nullptr && world.hooks.profile->now != nullptr ? world.hooks.profile : nullptr),
+        observer_(world.hooks.observer != nullptr && world.hooks.observer->stage_ended != nullptr ? world.hooks.observer
+                                                                                                  : nullptr) {
     if (profile_ == nullptr) return;
     ++profile_->steps;
     last_ = profile_->now(profile_->user);

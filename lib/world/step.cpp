@@ -47,14 +47,14 @@ uint32_t integrate_kinematic_bodies(const StepSettings& settings, const SolverBo
 }
 
 void report_impacts(const ImpactReport& impacts, StepReport& report) {
-  report.impacts = impacts.impacts;
-  report.impacts_undecided = impacts.undecided;
-  report.impacts_dropped = impacts.pairs_dropped;
-  report.overlaps_left = impacts.overlaps_left;
-  report.bodies_stopped = impacts.bodies_stopped;
-  report.lost_time = impacts.lost_time;
-  report.toi_tests = impacts.tests;
-  report.toi_skipped = impacts.skipped;
+  report.ccd.impacts = impacts.impacts;
+  report.ccd.undecided = impacts.undecided;
+  report.lost.impacts = impacts.pairs_dropped;
+  report.ccd.overlaps_left = impacts.overlaps_left;
+  report.ccd.bodies_stopped = impacts.bodies_stopped;
+  report.ccd.lost_time = impacts.lost_time;
+  report.ccd.tests = impacts.tests;
+  report.ccd.skipped = impacts.skipped;
   report.woke += impacts.woke;
   report.saturations += impacts.clamped;
 }
@@ -95,7 +95,7 @@ class Step {
     return {scratch_, state_.contacts.count - (contacts_before_ - awake_contacts_.count), manifolds().count != 0};
   }
   Span<ContactOrder> contact_order() const { return scratch_.contact_order.first(contacts_.count); }
-  Span<ContactEvent> contact_events() const { return {world_.contact_events.data, world_.contact_events.capacity}; }
+  Span<ContactEvent> contact_events() const { return room_of(world_.hooks.contact_events); }
 
   World& world_;
   ImpactProbe* const probe_;
@@ -107,19 +107,15 @@ class Step {
   const StepCacheView cache_;
   const Span<BodySweep> sweeps_ = scratch_.sweeps.first(used_);
   const StepSettings settings_;
-  const StepBodies bodies_ = {state_.poses.first(used_),
-                              state_.properties.first(used_),
-                              state_.motions.first(used_),
-                              state_.activities.first(used_),
-                              scratch_.bodies.first(used_),
-                              cache_.active,
-                              world_.assets,
-                              *world_.features};
+  const StepBodies bodies_ = {state_.poses.first(used_),    state_.properties.first(used_),
+                              state_.motions.first(used_),  state_.activities.first(used_),
+                              scratch_.bodies.first(used_), cache_.active,
+                              world_.hooks.assets,          *world_.features};
   const SolverBodies solver_bodies_ = {bodies_.properties, state_.motions.first(used_), bodies_.work};
   const JointOps* const joint_ops_ = state_.world.joint_count == 0 ? nullptr : world_.features->joints;
   const SensorOps* const sensor_ops_ = state_.world.sensor_count == 0 ? nullptr : world_.features->sensors;
   JointStage joints_;
-  Overflow overflow_ = {bodies_.properties, {world_.capacity_events.data, world_.capacity_events.capacity}};
+  Overflow overflow_ = {bodies_.properties, room_of(world_.hooks.capacity_events)};
   const Span<const uint64_t> disabled_pairs_;
   PairPool pool_;
   Span<const uint32_t> moving_ = {};          ///< moving bodies, ascending
@@ -148,8 +144,8 @@ Step::Step(World& world, ImpactProbe* probe, StepReport& report)
               scratch_.joint_couplings,
               scratch_.joint_numbers},
       disabled_pairs_(list_disabled_pairs(joints_.joints, scratch_.disabled_pairs)),
-      pool_(bodies_.poses, bodies_.properties, cache_.bounds, scratch_.pair_sort, scratch_.pairs, world.filter_rules,
-            disabled_pairs_) {
+      pool_(bodies_.poses, bodies_.properties, cache_.bounds, scratch_.pair_sort, scratch_.pairs,
+            world.hooks.filter_rules, disabled_pairs_) {
   pool_.overflow = &overflow_;
 }
 
@@ -193,7 +189,7 @@ void Step::start_joints() {
     }
   }
   joint_ops_->collect(solver_bodies_, joints_);
-  report_.joints = joints_.count;
+  report_.joints.count = joints_.count;
 }
 
 /// Wakes the bodies that moving bodies touch. A body that wakes and has joints then has a longer speculative distance,
@@ -220,12 +216,12 @@ void Step::build_islands() {
                                  scratch_.islands, scratch_.island_bodies);
   islands_ = scratch_.islands.first(report_.islands);
   const Span<const uint32_t> slots = scratch_.island_bodies;
-  report_.colour_overflows =
+  report_.contacts.colour_overflows =
       order_contacts(bodies_.properties, contacts_, islands_, bodies_.work, scratch_.contact_sort, contact_order());
   estimate_loads(settings_, bodies_.poses, bodies_.properties, slots, islands_, contact_order(), scratch_.contact_sort,
                  bodies_.work, contacts_);
   if (joint_ops_ != nullptr)
-    report_.joint_couplings_dropped = joint_ops_->order(settings_, solver_bodies_, slots, islands_, joints_);
+    report_.lost.joint_couplings = joint_ops_->order(settings_, solver_bodies_, slots, islands_, joints_);
   choose_substeps(settings_, bodies_.properties, bodies_.work, slots, contact_order(), islands_, contacts_,
                   bodies_.activities);
 }
@@ -238,19 +234,19 @@ void Step::solve_islands() {
     if (island.substeps != settings.substeps) set_substeps(island.substeps, settings);
     predict(settings, bodies_.properties, slots, solver_bodies_.motions, bodies_.work);
     const bool jointed = island.joint_count != 0;
-    const IslandJoints joints = {jointed ? joint_ops_ : nullptr, &island, &joints_, &report_.joint_decisions_left};
+    const IslandJoints joints = {jointed ? joint_ops_ : nullptr, &island, &joints_, &report_.joints.undecided};
     if (order.count == 0 && !jointed) {
       report_.saturations += integrate_free(settings, solver_bodies_, slots);
     } else {
       const SolveCount count = solve(settings, solver_bodies_, slots, order, contacts_, joints);
       report_.saturations += count.clamped;
-      report_.sweeps_saved += count.sweeps_saved;
+      report_.contacts.sweeps_saved += count.sweeps_saved;
     }
     for (const ContactOrder& entry : order) {
       store_load(settings, contacts_[entry.contact]);
       store_impulses(contacts_[entry.contact]);
     }
-    report_.contact_substeps += uint64_t{island.substeps} * island.contact_count;
+    report_.contacts.substeps += uint64_t{island.substeps} * island.contact_count;
     report_.substeps_max = island.substeps > report_.substeps_max ? island.substeps : report_.substeps_max;
     report_.awake += island.body_count;
   }
@@ -272,15 +268,15 @@ void Step::advance() {
     }
   }
   advance_bodies();
-  report_.contact_events = event_count_.kept;
-  report_.contact_events_dropped = world_.contact_events.capacity == 0 ? 0 : event_count_.dropped;
+  report_.events.contact = event_count_.kept;
+  report_.events.contact_dropped = contact_events().count == 0 ? 0 : event_count_.dropped;
 }
 
 /// A separate function, because it needs much stack.
 __attribute__((noinline)) void Step::advance_bodies() {
-  SensorStage sensors = {world_.assets,
+  SensorStage sensors = {world_.hooks.assets,
                          *world_.features,
-                         {bodies_.properties, world_.filter_rules, disabled_pairs_},
+                         {bodies_.properties, world_.hooks.filter_rules, disabled_pairs_},
                          bodies_.properties,
                          bodies_.poses,
                          sweeps_,
@@ -302,16 +298,17 @@ __attribute__((noinline)) void Step::advance_bodies() {
                                  cache_.active,
                                  scratch_.candidates,
                                  scratch_.moving_bodies.first(used_),
-                                 world_.filter_rules,
+                                 world_.hooks.filter_rules,
                                  {sensor_ops_ == nullptr ? nullptr : sensor_ops_->sweep, &sensors}};
-    const ImpactReport impacts = world_.features->continuous->advance(
-        settings_, world_.assets, *world_.features, known, bodies, scratch_.impact_pairs, scratch_.impact_hits, probe_);
+    const ImpactReport impacts =
+        world_.features->continuous->advance(settings_, world_.hooks.assets, *world_.features, known, bodies,
+                                             scratch_.impact_pairs, scratch_.impact_hits, probe_);
     report_impacts(impacts, report_);
     if (impacts.woke != 0) cache_.cache.contacts_known = 0;
     add_hits(bodies_.properties, scratch_.impact_hits.first(impacts.hits), contact_events(), event_count_);
     event_count_.dropped += impacts.hits_dropped;
   }
-  if (sensor_ops_ != nullptr) sensor_ops_->end(sensors, state_, world_.sensor_events, report_);
+  if (sensor_ops_ != nullptr) sensor_ops_->end(sensors, state_, world_.hooks.sensor_events, report_);
 }
 
 void Step::finalise() {
@@ -332,19 +329,19 @@ void Step::store() {
   cache_.cache.awake_contact_count = contacts_.count;
   state_.world.contact_count = contacts_before_ - awake_contacts_.count + contacts_.count;
   if (joint_ops_ != nullptr) break_joints(world_, report_);
-  report_.pairs = pool_.pairs().count + pool_.dropped();
-  report_.pairs_dropped = pool_.dropped();
-  report_.contacts = count_.contacts;
-  report_.contact_points = count_.points;
-  report_.contacts_recycled = count_.recycled;
-  report_.contacts_dropped = count_.dropped + count_.parts_dropped;
-  report_.contact_parts_dropped = count_.parts_dropped;
-  report_.contacts_capped = count_.capped;
-  const EventCount events = raise_body_events(cache_.active, bodies_.properties, bodies_.activities,
-                                              {world_.body_events.data, world_.body_events.capacity});
-  report_.body_events = events.kept;
-  report_.body_events_dropped = world_.body_events.capacity == 0 ? 0 : events.dropped;
-  report_.capacity_events = overflow_.count;
+  report_.contacts.pairs = pool_.pairs().count + pool_.dropped();
+  report_.lost.pairs = pool_.dropped();
+  report_.contacts.count = count_.contacts;
+  report_.contacts.points = count_.points;
+  report_.contacts.recycled = count_.recycled;
+  report_.lost.contacts = count_.dropped + count_.parts_dropped;
+  report_.lost.contact_parts = count_.parts_dropped;
+  report_.contacts.capped = count_.capped;
+  const EventCount events =
+      raise_body_events(cache_.active, bodies_.properties, bodies_.activities, room_of(world_.hooks.body_events));
+  report_.events.body = events.kept;
+  report_.events.body_dropped = room_of(world_.hooks.body_events).count == 0 ? 0 : events.dropped;
+  report_.events.capacity = overflow_.count;
   bool moves = false;
   cache_.active.for_each([&](uint32_t slot) { moves = moves || bodies_.moving(slot); });
   state_.world.idle = moves ? 0 : 1;

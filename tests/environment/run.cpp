@@ -76,7 +76,8 @@ bool ask(const World& world) {
 
 bool run_scene(const Scene* scene) {
   World world;
-  if (scene == nullptr || create_world(block, sizeof block, scene->world(), scene_assets(), world) != Status::ok)
+  if (scene == nullptr ||
+      create_world(block, sizeof block, scene->world(), {.assets = scene_assets()}, world) != Status::ok)
     return false;
   Recorder recorder(world, {}, nullptr, 0);
   scene->build(recorder);

@@ -27,10 +27,11 @@ class Machine {
     if (is("setting")) def.iterations += 1;
     const uint32_t bytes = world_bytes(def.capacity);
     const std::unique_ptr<uint64_t[]> block(new uint64_t[(bytes + 7) / 8]);
-    if (create_world(reinterpret_cast<uint8_t*>(block.get()), bytes, def, scene_assets(), world_) != Status::ok)
+    if (create_world(reinterpret_cast<uint8_t*>(block.get()), bytes, def, {.assets = scene_assets()}, world_) !=
+        Status::ok)
       return false;
     const StepObserver observer = {stage_ended, this};
-    world_.observer = &observer;
+    world_.hooks.observer = &observer;
     uint8_t buffer[k_recording_buffer_bytes];
     Recorder recorder(world_, {write_file, file}, buffer, sizeof buffer);
     scene_.build(recorder);

@@ -27,7 +27,7 @@ uint32_t count_of(const Bytes& bytes) { return static_cast<uint32_t>(bytes.size(
 
 struct Receiver {
   OwnedWorld owned = OwnedWorld(OwnedWorld::def_of(k_fuzzed_capacity), Game::assets());
-  Receiver() { owned.world.filter_rules = Game::rules(); }
+  Receiver() { owned.world.hooks.filter_rules = Game::rules(); }
   World& world() { return owned.world; }
   Status take_over(std::vector<uint64_t> snapshot) { return load(world(), bytes_of(snapshot), byte_count(snapshot)); }
 };

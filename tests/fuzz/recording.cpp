@@ -53,7 +53,7 @@ class Reading {
       def.capacity = player_.info().capacity;
     }
     OwnedWorld owned(def, Game::assets());
-    owned.world.filter_rules = Game::rules();
+    owned.world.hooks.filter_rules = Game::rules();
     if (opened) status = has(k_without_world) ? pass() : has(k_jump) ? jump(owned.world) : play(owned.world);
     if (status == Status::ok) return true;
     expect_stopped(owned.world);
@@ -125,7 +125,7 @@ class Reading {
     whole.bytes.insert(whole.bytes.begin(), recording_.begin(), end);
     Reading again(whole.bytes, ways_);
     OwnedWorld owned(OwnedWorld::def_of(player_.info().capacity), Game::assets());
-    owned.world.filter_rules = Game::rules();
+    owned.world.hooks.filter_rules = Game::rules();
     EXPECT_OK(again.player_.open());
     EXPECT_OK(again.play(owned.world));
     EXPECT_EQ(get_info(owned.world).tick, player_.error().tick);

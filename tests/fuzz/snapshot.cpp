@@ -10,7 +10,7 @@ using detent_fuzz::Bytes;
 
 bool take(const Bytes& bytes) {
   OwnedWorld owned(OwnedWorld::def_of(k_fuzzed_capacity), Game::assets());
-  owned.world.filter_rules = Game::rules();
+  owned.world.hooks.filter_rules = Game::rules();
   const uint64_t before = digest(owned.world);
   std::vector<uint64_t> words((bytes.size() + 7) / 8);
   if (!bytes.empty()) memcpy(words.data(), bytes.data(), bytes.size());

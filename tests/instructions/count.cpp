@@ -47,7 +47,7 @@ int machine_main(int, char**) {
   def.sleeping = false;
   def.contact_recycle_distance = Real(0.0);
   World world;
-  if (storage.create(def, world, {}, k_counted_features) != Status::ok) machine_panic("the world is refused");
+  if (storage.create(def, {}, k_counted_features, world) != Status::ok) machine_panic("the world is refused");
   if (build_crib(world) != Status::ok) machine_panic("a plank is refused");
   for (uint32_t tick = 0; tick < k_ticks_before; ++tick) {
     if (!step(world).complete()) machine_panic("something was lost");
@@ -60,12 +60,14 @@ int machine_main(int, char**) {
   const uint32_t whole = ticks_of([&] { report = step(world); });
   memset(&stage_ticks, 0, sizeof stage_ticks);
   const StepReport counted = counted_step(other);
-  if (digest(world) != digest(other) || counted.contacts != report.contacts) machine_panic("the two steps differ");
-  if (report.contacts != crib_contacts() || report.awake != crib_planks()) machine_panic("the crib has come apart");
+  if (digest(world) != digest(other) || counted.contacts.count != report.contacts.count)
+    machine_panic("the two steps differ");
+  if (report.contacts.count != crib_contacts() || report.awake != crib_planks())
+    machine_panic("the crib has come apart");
 
-  print_row("contacts", report.contacts);
-  print_row("points", report.contact_points);
-  print_row("contact_substeps", report.contact_substeps);
+  print_row("contacts", report.contacts.count);
+  print_row("points", report.contacts.points);
+  print_row("contact_substeps", report.contacts.substeps);
   print_row("step", instructions_of(whole - none));
   for (uint32_t i = 0; i < k_stage_count; ++i) {
     print_row(k_stage_names[i], instructions_of(stage_ticks.ticks[i] - uint64_t{stage_ticks.calls[i]} * none));

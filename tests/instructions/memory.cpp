@@ -54,7 +54,7 @@ int machine_main(int, char**) {
   def.sleeping = false;
   def.continuous = false;
   def.contact_recycle_distance = Real(0.0);
-  bool good = storage.create(def, world, {}, feature_table<Features::box | Features::half_space>) == Status::ok;
+  bool good = storage.create(def, {}, feature_table<Features::box | Features::half_space>, world) == Status::ok;
   good = good && build_crib(world) == Status::ok;
   StepReport report;
   for (uint32_t tick = 0; tick < k_ticks && good; ++tick) {
@@ -66,5 +66,5 @@ int machine_main(int, char**) {
   print_row("flash", machine_memory().flash_bytes);
   print_row("data and bss", machine_memory().ram_bytes - static_cast<uint32_t>(sizeof storage));
   print_row("stack", stack);
-  return good && report.contacts == crib_contacts() ? 0 : 1;
+  return good && report.contacts.count == crib_contacts() ? 0 : 1;
 }

@@ -97,7 +97,7 @@ class DetentRun : public detent_joint_fuzz::Run {
 
   Counts step() override {
     const StepReport report = detent::step(world_);
-    return {report.substeps_max, report.saturations, report.joint_decisions_left, report.contacts};
+    return {report.substeps_max, report.saturations, report.joints.undecided, report.contacts.count};
   }
 
   void states(States& states) const override {

@@ -18,7 +18,7 @@ struct Verdict {
   uint32_t grown_at = 0;     ///< the first tick above k_growth_max, or 0
   bool finite = true;        ///< all states are numbers
   uint64_t saturations = 0;  ///< components clamped
-  uint64_t undecided = 0;    ///< StepReport::joint_decisions_left
+  uint64_t undecided = 0;    ///< StepReport::joints.undecided
   Gap gap;                   ///< the greatest after the first half second
   double substeps = 0;       ///< mean over the ticks
   double nanoseconds = 0;    ///< processor time in step()

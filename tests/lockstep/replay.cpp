@@ -158,7 +158,7 @@ int replay(const Options& options, MachineFile& file) {
   print_value("world ", world_bytes(info.capacity));
   if (world_bytes(info.capacity) > sizeof block)
     return fail(options.recording, "its world is larger than this program's");
-  const Status created = create_world(block, sizeof block, def, scene_assets(), world);
+  const Status created = create_world(block, sizeof block, def, {.assets = scene_assets()}, world);
   if (created != Status::ok) return fail(options.recording, status_text(created));
 
   if (options.load_path != nullptr) {
@@ -187,7 +187,7 @@ int replay(const Options& options, MachineFile& file) {
     }
     if (result.finished) break;
     digests += result.compared ? 1 : 0;
-    if (result.report.contacts > contacts_max) contacts_max = result.report.contacts;
+    if (result.report.contacts.count > contacts_max) contacts_max = result.report.contacts.count;
     if (options.each) {
       machine_print("tick ");
       print_decimal(result.tick);

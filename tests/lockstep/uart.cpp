@@ -42,7 +42,7 @@ int machine_main(int, char**) {
 
   const Scene& scene = *find_scene("tiny");
   World world;
-  if (create_world(block, sizeof block, scene.world(), scene_assets(), world) != Status::ok) return 1;
+  if (create_world(block, sizeof block, scene.world(), {.assets = scene_assets()}, world) != Status::ok) return 1;
   Recorder recorder(world, {send, &uart}, buffer, sizeof buffer);
   scene.build(recorder);
   if (recorder.begin() != Status::ok) return 1;

@@ -24,8 +24,8 @@ DETENT_TEST(scenes, a_scene_fits_its_capacity_and_loses_nothing) {
     for (uint32_t tick = 0; tick < ticks; ++tick) {
       if (scene.before_tick != nullptr) scene.before_tick(recording.recorder, tick);
       const StepReport report = recording.recorder.step();
-      ASSERT_TRUE(report.complete()) << scene.name << ", tick " << report.tick << ": " << report.pairs_dropped
-                                     << " pairs, " << report.contacts_dropped << " contacts, " << report.saturations
+      ASSERT_TRUE(report.complete()) << scene.name << ", tick " << report.tick << ": " << report.lost.pairs
+                                     << " pairs, " << report.lost.contacts << " contacts, " << report.saturations
                                      << " saturations";
     }
   }

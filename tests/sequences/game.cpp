@@ -47,12 +47,12 @@ WorldDef Game::settings(Draw& draw) {
 
 Game::Game(const Draw& draw) : draw_(draw), settings_(settings(draw_)), owned_(settings_, assets()) {
   const uint32_t events = draw_.chance(0.2) ? 2 : k_events;
-  world().joint_events = {broken_, k_joints};
-  world().contact_events = {events_, events};
-  world().sensor_events = {sensor_events_, events};
-  world().body_events = {body_events_, events};
-  world().capacity_events = {lost_, events};
-  world().filter_rules = rules();
+  world().hooks.joint_events = {broken_, k_joints};
+  world().hooks.contact_events = {events_, events};
+  world().hooks.sensor_events = {sensor_events_, events};
+  world().hooks.body_events = {body_events_, events};
+  world().hooks.capacity_events = {lost_, events};
+  world().hooks.filter_rules = rules();
 }
 
 uint64_t Game::play() {
@@ -105,7 +105,7 @@ void Game::replay_recorded() {
   Player player(memory.source(), buffer, sizeof buffer);
   player.repeat_queries();
   OwnedWorld other(settings_, assets());
-  other.world.filter_rules = rules();
+  other.world.hooks.filter_rules = rules();
   ASSERT_OK(player.open());
   ASSERT_OK(player.start(other.world));
   TickResult result;

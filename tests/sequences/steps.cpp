@@ -22,21 +22,21 @@ void Game::step_once() {
   const StepReport report = recorder_->step();
   EXPECT_EQ(report.tick, tick + 1);
   EXPECT_EQ(report.bodies, model_.bodies.size());
-  EXPECT_LE(report.contacts, get_info(world()).contacts);  // which has those asleep as well
+  EXPECT_LE(report.contacts.count, get_info(world()).contacts);  // which has those asleep as well
   EXPECT_LE(get_info(world()).contacts, capacity().contacts);
-  EXPECT_LE(report.contact_points, 4 * report.contacts);
+  EXPECT_LE(report.contacts.points, 4 * report.contacts.count);
   for (const uint64_t count :
-       {uint64_t{report.awake}, uint64_t{report.islands}, report.contact_substeps, uint64_t{report.pairs},
-        uint64_t{report.contacts_dropped}, uint64_t{report.saturations}, uint64_t{report.impacts},
-        uint64_t{report.contact_events}, uint64_t{report.joints_broken}}) {
+       {uint64_t{report.awake}, uint64_t{report.islands}, report.contacts.substeps, uint64_t{report.contacts.pairs},
+        uint64_t{report.lost.contacts}, uint64_t{report.saturations}, uint64_t{report.ccd.impacts},
+        uint64_t{report.events.contact}, uint64_t{report.joints.broken}}) {
     note(count);
   }
-  check_broken(report.joint_events);
-  EXPECT_EQ(report.joint_events, report.joints_broken);
+  check_broken(report.events.joint);
+  EXPECT_EQ(report.events.joint, report.joints.broken);
   check_events(report);
   check_sensors(report);
   check_lost(report);
-  check_contacts(report.impacts != 0);
+  check_contacts(report.ccd.impacts != 0);
   note(digest(world()));
 }
 
@@ -102,13 +102,13 @@ void Game::check_contacts(bool woken_late) {
 
 /// Events are in their order, of bodies that may touch, and say of each pair that pushes that it does.
 void Game::check_events(const StepReport& report) {
-  const uint32_t room = world().contact_events.capacity;
-  ASSERT_LE(report.contact_events, room);
+  const uint32_t room = world().hooks.contact_events.capacity;
+  ASSERT_LE(report.events.contact, room);
   // Of the hits on bodies' ways as many are kept as contacts.
-  EXPECT_TRUE(report.contact_events_dropped == 0 || report.contact_events == room ||
-              report.contact_events_dropped + report.contact_events > capacity().contacts);
+  EXPECT_TRUE(report.events.contact_dropped == 0 || report.events.contact == room ||
+              report.events.contact_dropped + report.events.contact > capacity().contacts);
   std::set<std::pair<uint32_t, uint32_t>> pushing;
-  for (uint32_t i = 0; i < report.contact_events; ++i) {
+  for (uint32_t i = 0; i < report.events.contact; ++i) {
     const ContactEvent& event = events_[i];
     ASSERT_TRUE(model_.find(event.a) != nullptr && model_.find(event.b) != nullptr);
     EXPECT_LT(event.a.slot, event.b.slot);
@@ -132,11 +132,11 @@ void Game::check_events(const StepReport& report) {
 
 /// Sensors tell of bodies that are none, and bodies of their sleep, in the order of their slots.
 void Game::check_sensors(const StepReport& report) {
-  const uint32_t room = world().sensor_events.capacity;
-  ASSERT_TRUE(report.sensor_events <= room && report.body_events <= room);
-  EXPECT_TRUE(report.sensor_events_dropped == 0 || report.sensor_events == room);
-  EXPECT_TRUE(report.body_events_dropped == 0 || report.body_events == room);
-  for (uint32_t i = 0; i < report.sensor_events; ++i) {
+  const uint32_t room = world().hooks.sensor_events.capacity;
+  ASSERT_TRUE(report.events.sensor <= room && report.events.body <= room);
+  EXPECT_TRUE(report.events.sensor_dropped == 0 || report.events.sensor == room);
+  EXPECT_TRUE(report.events.body_dropped == 0 || report.events.body == room);
+  for (uint32_t i = 0; i < report.events.sensor; ++i) {
     const SensorEvent& event = sensor_events_[i];
     const Known *sensor = model_.find(event.sensor), *body = model_.find(event.body);
     ASSERT_TRUE(sensor != nullptr && body != nullptr);
@@ -147,7 +147,7 @@ void Game::check_sensors(const StepReport& report) {
     note(event.body);
     note(static_cast<uint64_t>(event.type));
   }
-  for (uint32_t i = 0; i < report.body_events; ++i) {
+  for (uint32_t i = 0; i < report.events.body; ++i) {
     const BodyEvent& event = body_events_[i];
     const Known* body = model_.find(event.body);
     ASSERT_NE(body, nullptr);
@@ -162,10 +162,10 @@ void Game::check_sensors(const StepReport& report) {
 
 /// Whom there was no room for is named, in order and once, where anything was lost and only there.
 void Game::check_lost(const StepReport& report) {
-  ASSERT_LE(report.capacity_events, world().capacity_events.capacity);
-  EXPECT_EQ(report.capacity_events != 0,
-            report.pairs_dropped != 0 || report.contacts_dropped != 0 || report.sensed_dropped != 0);
-  for (uint32_t i = 0; i < report.capacity_events; ++i) {
+  ASSERT_LE(report.events.capacity, world().hooks.capacity_events.capacity);
+  EXPECT_EQ(report.events.capacity != 0,
+            report.lost.pairs != 0 || report.lost.contacts != 0 || report.lost.sensed != 0);
+  for (uint32_t i = 0; i < report.events.capacity; ++i) {
     const CapacityEvent& event = lost_[i];
     const Known *a = model_.find(event.a), *b = model_.find(event.b);
     ASSERT_TRUE(a != nullptr && b != nullptr);

@@ -127,7 +127,7 @@ bool run() {
   WorldDef def;
   def.continuous = has(Features::continuous);
   def.sleeping = has(Features::sleeping);
-  if (storage.create(def, world, {}, feature_table<k_features>) != Status::ok) return false;
+  if (storage.create(def, {}, feature_table<k_features>, world) != Status::ok) return false;
   if constexpr (has(Features::hull) || has(Features::terrain)) {
     if (bind_asset(world, 0) != Status::asset_missing) return false;  // there is none, but its code is linked
   }

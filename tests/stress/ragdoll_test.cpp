@@ -86,7 +86,7 @@ Throw throw_one(uint64_t seed) {
     result.fastest = std::max(result.fastest, now.fastest);
     result.energy = std::max(result.energy, now.sum / start);
     result.saturations += report.saturations;
-    result.undecided += report.joint_decisions_left;
+    result.undecided += report.joints.undecided;
     result.gap_at_end = 0;
     for (const JointId id : figure.joint)
       result.gap_at_end = std::max(result.gap_at_end, length(joint_ends(lab.world, id).gap()));

@@ -95,7 +95,7 @@ class DetentRun : public detent_stress::Run {
     def.continuous = settings.continuous;
     words_.resize((world_bytes(def.capacity) + 7) / 8);
     Status status = create_world(reinterpret_cast<uint8_t*>(words_.data()), world_bytes(def.capacity), def,
-                                 {assets_.data(), def.capacity.assets}, world_);
+                                 {.assets = {assets_.data(), def.capacity.assets}}, world_);
     for (uint32_t i = 0; i < def.capacity.assets && status == Status::ok; ++i) status = bind_asset(world_, i);
     uint32_t next_hull = 0;
     for (const StageBody& body : stage.bodies) {
@@ -112,13 +112,13 @@ class DetentRun : public detent_stress::Run {
   Counts step() override {
     const StepReport report = detent::step(world_);
     Counts counts;
-    counts.contacts = report.contacts;
-    counts.contact_points = report.contact_points;
+    counts.contacts = report.contacts.count;
+    counts.contact_points = report.contacts.points;
     counts.awake = report.awake;
-    counts.lost = report.pairs_dropped + report.contacts_dropped;
+    counts.lost = report.lost.pairs + report.lost.contacts;
     counts.saturations = report.saturations;
     counts.substeps_max = report.substeps_max;
-    counts.lost_time = real_to_host(report.lost_time);
+    counts.lost_time = real_to_host(report.ccd.lost_time);
     return counts;
   }
 

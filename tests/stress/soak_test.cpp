@@ -96,18 +96,18 @@ Soak soak(uint32_t ticks, uint32_t contacts) {
     }
     const StepReport report = lab.run(1);
     EXPECT_EQ(report.bodies, ids.size() + 5);
-    EXPECT_LE(report.contacts, contacts);
-    EXPECT_LE(report.contacts + report.contacts_dropped + report.pairs_dropped, report.pairs);
-    EXPECT_LE(report.contact_points, 4 * report.contacts);
+    EXPECT_LE(report.contacts.count, contacts);
+    EXPECT_LE(report.contacts.count + report.lost.contacts + report.lost.pairs, report.contacts.pairs);
+    EXPECT_LE(report.contacts.points, 4 * report.contacts.count);
     const WorldInfo info = get_info(lab.world);
-    EXPECT_EQ(info.contacts, report.contacts);
+    EXPECT_EQ(info.contacts, report.contacts.count);
     EXPECT_EQ(info.slots_retired, 0u);
-    result.stopped += report.bodies_stopped;
+    result.stopped += report.ccd.bodies_stopped;
     StepReport others = report;
-    others.bodies_stopped = 0;
+    others.ccd.bodies_stopped = 0;
     if (!others.complete() && result.losses++ == 0) {
       printf("first loss, in tick %u: %u pairs, %u contacts dropped, %u searches capped, %u values clamped\n", tick,
-             report.pairs_dropped, report.contacts_dropped, report.contacts_capped, report.saturations);
+             report.lost.pairs, report.lost.contacts, report.contacts.capped, report.saturations);
     }
     if (tick % k_check != k_check - 1) continue;
     // load() checks every byte of the state.

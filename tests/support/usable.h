@@ -13,8 +13,8 @@ inline void expect_loadable(const World& world) {
   const WorldDef def = get_settings(world);
   std::vector<uint64_t> bytes(snapshot_bytes(def.capacity) / 8);
   EXPECT_OK(save(world, bytes_of(bytes), byte_count(bytes)));
-  OwnedWorld other(def, world.assets);
-  other.world.filter_rules = world.filter_rules;
+  OwnedWorld other(def, world.hooks.assets);
+  other.world.hooks.filter_rules = world.hooks.filter_rules;
   EXPECT_OK(load(other.world, bytes_of(bytes), byte_count(bytes)));
   EXPECT_EQ(digest(other.world), digest(world));
 }

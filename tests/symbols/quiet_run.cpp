@@ -104,7 +104,7 @@ bool play(World& world) {
   SyncTestReport difference;
   const SyncTestDef test = {1, &input, 1, 1};
   const TickMaker maker = {[](void*, World& stepped, const TickInputs&) { step(stepped); }, nullptr};
-  return again != 0 && is_ok(sync_test(world, test, maker, memory, sizeof memory, difference));
+  return again != 0 && is_ok(sync_test(world, test, maker, memory, sizeof memory, {}, difference));
 }
 
 bool record(const Scene& scene) {

@@ -26,9 +26,9 @@ class DetentPlay : public detent_zoo::Play {
     StepFigures figures;
     figures.seconds = stopwatch.seconds();
     ++tick_;
-    figures.lost = uint64_t{report.pairs_dropped} + report.contacts_dropped + report.contacts_capped +
-                   report.saturations + report.bodies_stopped + report.sensed_dropped + report.joint_decisions_left +
-                   report.impacts_undecided + report.impacts_dropped;
+    figures.lost = uint64_t{report.lost.pairs} + report.lost.contacts + report.contacts.capped + report.saturations +
+                   report.ccd.bodies_stopped + report.lost.sensed + report.joints.undecided + report.ccd.undecided +
+                   report.lost.impacts;
     figures.substeps = report.substeps_max;
     figures.awake = report.awake;
     return figures;

@@ -19,7 +19,7 @@ struct OwnedWorld {
     if (bytes == 0) return Status::out_of_range;
     block.reset(new (std::nothrow) uint64_t[(bytes + 7) / 8]);
     if (block == nullptr) return Status::buffer_too_small;
-    return create_world(reinterpret_cast<uint8_t*>(block.get()), bytes, def, assets, world);
+    return create_world(reinterpret_cast<uint8_t*>(block.get()), bytes, def, {.assets = assets}, world);
   }
 };
 

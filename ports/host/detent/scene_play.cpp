@@ -26,10 +26,10 @@ struct EventRoom {
 
   explicit EventRoom(World& world)
       : contacts(k_events_max), sensors(k_events_max), joints(k_events_max), bodies(k_events_max) {
-    world.contact_events = {contacts.data(), k_events_max};
-    world.sensor_events = {sensors.data(), k_events_max};
-    world.joint_events = {joints.data(), k_events_max};
-    world.body_events = {bodies.data(), k_events_max};
+    world.hooks.contact_events = {contacts.data(), k_events_max};
+    world.hooks.sensor_events = {sensors.data(), k_events_max};
+    world.hooks.joint_events = {joints.data(), k_events_max};
+    world.hooks.body_events = {bodies.data(), k_events_max};
   }
 };
 
@@ -48,7 +48,7 @@ void step_through(const RunRequest& request, uint32_t ticks, Recorder& recorder,
       RunLine line = {report.tick, "tick", {}};
       line.add("digest", hexadecimal(digest(recorder.world())));
       line.add("awake", report.awake);
-      line.add("contacts", report.contacts);
+      line.add("contacts", report.contacts.count);
       print(line);
     }
     if (tick % k_ticks_per_progress == 0) progress(tick, ticks);

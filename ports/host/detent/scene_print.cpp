@@ -99,8 +99,8 @@ Status ScenePlayer::ask(const SceneAction& action) {
 }
 
 void ScenePlayer::print_events(const World& world, const StepReport& report) const {
-  for (uint32_t i = 0; i < report.contact_events; ++i) {
-    const ContactEvent& event = world.contact_events.data[i];
+  for (uint32_t i = 0; i < report.events.contact; ++i) {
+    const ContactEvent& event = world.hooks.contact_events.data[i];
     if (event.type == ContactEventType::touch) continue;  // one for each pair and tick: too many to read
     RunLine line = {report.tick, event_name(event.type), {}};
     line.add("a", bodies_.of(event.a));
@@ -112,15 +112,15 @@ void ScenePlayer::print_events(const World& world, const StepReport& report) con
     if (event.type == ContactEventType::hit) line.add("speed", real_to_host(event.approach_speed));
     print_(line);
   }
-  for (uint32_t i = 0; i < report.sensor_events; ++i) {
-    const SensorEvent& event = world.sensor_events.data[i];
+  for (uint32_t i = 0; i < report.events.sensor; ++i) {
+    const SensorEvent& event = world.hooks.sensor_events.data[i];
     RunLine line = {report.tick, event.type == SensorEventType::enter ? "enter" : "leave", {}};
     line.add("sensor", bodies_.of(event.sensor));
     line.add("body", bodies_.of(event.body));
     print_(line);
   }
-  for (uint32_t i = 0; i < report.joint_events; ++i) {
-    const JointEvent& event = world.joint_events.data[i];
+  for (uint32_t i = 0; i < report.events.joint; ++i) {
+    const JointEvent& event = world.hooks.joint_events.data[i];
     RunLine line = {report.tick, "break", {}};
     line.add("joint", joints_.of(event.joint));
     line.add("a", bodies_.of(event.a));
@@ -129,8 +129,8 @@ void ScenePlayer::print_events(const World& world, const StepReport& report) con
     line.add("torque", scaleds(event.reaction.torque));
     print_(line);
   }
-  for (uint32_t i = 0; i < report.body_events; ++i) {
-    const BodyEvent& event = world.body_events.data[i];
+  for (uint32_t i = 0; i < report.events.body; ++i) {
+    const BodyEvent& event = world.hooks.body_events.data[i];
     RunLine line = {report.tick, event.type == BodyEventType::woke ? "wake" : "sleep", {}};
     line.add("body", bodies_.of(event.body));
     print_(line);

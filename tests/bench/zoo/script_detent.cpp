@@ -231,9 +231,9 @@ class DetentScript : public detent_zoo::Script {
     part.rounding = real_to_host(shape.rounding);
     switch (shape.type) {
       case ShapeType::compound:
-        return compound_parts(world.assets.assets[shape.asset]);
+        return compound_parts(world.hooks.assets.assets[shape.asset]);
       case ShapeType::hull:
-        return {hull_part(world.assets.assets[shape.asset], part.rounding)};
+        return {hull_part(world.hooks.assets.assets[shape.asset], part.rounding)};
       case ShapeType::surface: {
         MeshReading reading;
         const std::vector<BodyId> ids = scene_->bodies();

@@ -7,7 +7,7 @@ int main() {
   World world;
   BodyId ground, ball;
   constexpr Features features = Features::sphere | Features::half_space;
-  if (storage.create({.continuous = false, .sleeping = false}, world, {}, feature_table<features>) != Status::ok ||
+  if (storage.create({.continuous = false, .sleeping = false}, {}, feature_table<features>, world) != Status::ok ||
       create_body(world, {.type = BodyType::fixed, .shape = half_space()}, ground) != Status::ok ||
       create_body(world, {.position = {0.0, 1.0, 0.0}, .shape = sphere(0.5)}, ball) != Status::ok) {
     return 1;

@@ -168,10 +168,10 @@ void shoot(const Cell& cell, Samples& samples, Outcome& outcome) {
     const Vector momentum_before = host(view_of(range.lab.world).motions[1].angular_momentum);
     const Motion from_target = range.lab.motion(range.target), from_shot = range.lab.motion(range.shot);
     const StepReport report = trace.step(range.lab.world);
-    outcome.lost_time += real_to_host(report.lost_time);
-    outcome.undecided += report.impacts_undecided;
-    outcome.left += report.overlaps_left;
-    outcome.impacts_most = std::max(outcome.impacts_most, report.impacts);
+    outcome.lost_time += real_to_host(report.ccd.lost_time);
+    outcome.undecided += report.ccd.undecided;
+    outcome.left += report.ccd.overlaps_left;
+    outcome.impacts_most = std::max(outcome.impacts_most, report.ccd.impacts);
     // The committed sweeps, at many times between their changes.
     const std::vector<double> changes = trace.changes();
     const int parts = 48;
@@ -192,8 +192,8 @@ void shoot(const Cell& cell, Samples& samples, Outcome& outcome) {
       }
     }
     // Rebound of the first impact, where nothing else happened in its tick.
-    const bool first = !met && report.impacts != 0;
-    if (!met && report.impacts + report.contacts != 0) {
+    const bool first = !met && report.ccd.impacts != 0;
+    if (!met && report.ccd.impacts + report.contacts.count != 0) {
       met = true;
       ++outcome.hits;
     }
@@ -229,7 +229,7 @@ void shoot(const Cell& cell, Samples& samples, Outcome& outcome) {
                                           (scaled_to_host(state.properties[1].mass) * unit_of(state.properties[1]))),
                           cell.restitution, 0.6);
       const Motion now = range.lab.motion(range.shot);
-      if (report.impacts == 1 && report.contacts == 0 && after.sticks &&
+      if (report.ccd.impacts == 1 && report.contacts.count == 0 && after.sticks &&
           is_one_point(range, at_shot, host(hit.normal))) {
         ++outcome.judged;
         const double error = std::min(length(vector_of(now.linear_velocity) - after.linear_velocity),

@@ -39,7 +39,7 @@ DETENT_TEST(impact_stage, a_body_at_rest_that_is_struck_meets_what_it_flies_into
   const BodyId resting = lab.add(ball(0.1, -0.3, 0, 0)), shot = lab.add(ball(0.2, -4, 500, 0));
   for (int tick = 0; tick < 10; ++tick) {
     const StepReport report = lab.run(1);
-    EXPECT_EQ(real_to_host(report.lost_time), 0);
+    EXPECT_EQ(real_to_host(report.ccd.lost_time), 0);
     EXPECT_LT(lab.motion(resting).position[0], -0.1);
     EXPECT_LT(lab.motion(shot).position[0], lab.motion(resting).position[0]);
   }
@@ -50,7 +50,7 @@ DETENT_TEST(impact_stage, three_balls_in_a_row_pass_a_blow_on_in_one_tick) {
   std::vector<BodyId> balls;
   for (int i = 0; i < 4; ++i) balls.push_back(lab.add(ball(0.1, i, i == 0 ? 600 : 0, 1)));
   const StepReport report = lab.run(1);
-  EXPECT_EQ(report.impacts, 3u);
+  EXPECT_EQ(report.ccd.impacts, 3u);
   EXPECT_TRUE(report.complete());
   const double error = sizeof(Real) == 4 ? 1e-3 : 1e-5;
   for (int i = 0; i < 4; ++i)
@@ -66,7 +66,7 @@ DETENT_TEST(impact_stage, a_kinematic_plate_drives_a_ball_and_is_not_stopped) {
   plate.linear_velocity = reals(200, 0, 0);
   const BodyId driver = lab.add(plate), driven = lab.add(ball(0.05, 0, 0, 0));
   for (int tick = 1; tick <= 20; ++tick) {
-    EXPECT_EQ(lab.run(1).bodies_stopped, 0u);
+    EXPECT_EQ(lab.run(1).ccd.bodies_stopped, 0u);
     EXPECT_NEAR(lab.motion(driver).position[0], -3 + tick * 200 / 60.0, 1e-3);
     EXPECT_GT(lab.motion(driven).position[0], lab.motion(driver).position[0] + 0.04);
   }
@@ -87,7 +87,7 @@ DETENT_TEST(impact_stage, a_angular_velocity_that_a_blow_takes_out_of_its_range_
   rod.material.restitution = real(1);
   lab.add(rod);
   const StepReport report = lab.run(1);
-  EXPECT_GT(report.impacts, 0u);
+  EXPECT_GT(report.ccd.impacts, 0u);
   EXPECT_GT(report.saturations, 0u);
 }
 
@@ -179,10 +179,10 @@ DETENT_TEST(impact_stage, leaving_out_pairs_that_cannot_meet_changes_no_bit) {
     uint32_t skipped = 0, impacts = 0;
     for (int tick = 0; tick < 150; ++tick) {
       const StepReport report = quick.run(1), other = step_probed(thorough.world, all);
-      skipped += report.toi_skipped;
-      impacts += report.impacts;
-      EXPECT_EQ(report.impacts, other.impacts);
-      EXPECT_EQ(other.toi_skipped, 0u);
+      skipped += report.ccd.skipped;
+      impacts += report.ccd.impacts;
+      EXPECT_EQ(report.ccd.impacts, other.ccd.impacts);
+      EXPECT_EQ(other.ccd.skipped, 0u);
       ASSERT_EQ(digest(quick.world), digest(thorough.world)) << "seed " << seed << ", tick " << tick;
     }
     EXPECT_GT(skipped, 500u);
@@ -219,9 +219,9 @@ DETENT_TEST(impact_stage, the_committed_sweeps_make_no_deep_overlap_and_none_esc
         start.push_back({difference(state.poses[i].position, Position{}), host(state.poses[i].rotation)});
       }
       const StepReport report = trace.step(lab.world);
-      tests += report.toi_tests;
-      impacts += report.impacts;
-      stopped += report.bodies_stopped;
+      tests += report.ccd.tests;
+      impacts += report.ccd.impacts;
+      stopped += report.ccd.bodies_stopped;
       for (uint32_t a = 0; a < start.size(); ++a) {
         for (uint32_t b = std::max(a + 1, 5u); b < start.size(); ++b) {
           const double far = length(start[a].position - start[b].position);
@@ -272,7 +272,7 @@ DETENT_TEST(impact_stage, the_work_of_a_tick_goes_with_what_there_is_to_look_at)
   }
   uint32_t tests_max = 0;
   for (int tick = 0; tick < 120; ++tick) {
-    tests_max = std::max(tests_max, lab.run(1).toi_tests);
+    tests_max = std::max(tests_max, lab.run(1).ccd.tests);
     for (const BodyId id : sheets) ASSERT_GT(lab.motion(id).position[1], -0.0002) << "tick " << tick;
   }
   ::testing::Test::RecordProperty("tests_max", std::to_string(tests_max));
@@ -289,8 +289,8 @@ DETENT_TEST(impact_stage, what_lies_in_one_place_costs_two_tests_a_pair) {
     lab.add(def);
   }
   const StepReport report = lab.run(1);
-  EXPECT_EQ(report.pairs, 780u);
-  EXPECT_LE(report.toi_tests, 2 * 780u);
+  EXPECT_EQ(report.contacts.pairs, 780u);
+  EXPECT_LE(report.ccd.tests, 2 * 780u);
 }
 
 DETENT_TEST(impact_stage, momentum_is_kept_whatever_meets) {
@@ -323,7 +323,7 @@ DETENT_TEST(impact_stage, momentum_is_kept_whatever_meets) {
   uint32_t impacts = 0;
   for (int tick = 0; tick < 30; ++tick) {
     const StepReport report = lab.run(1);
-    impacts += report.impacts;
+    impacts += report.ccd.impacts;
     EXPECT_EQ(report.saturations, 0u);
   }
   EXPECT_GT(impacts, 20u);
@@ -340,10 +340,10 @@ DETENT_TEST(impact_stage, impacts_without_room_stop_their_bodies_and_are_counted
     balls.push_back(lab.add(def));
   }
   const StepReport report = lab.run(1);
-  EXPECT_EQ(report.impacts, 1u);
-  EXPECT_EQ(report.impacts_dropped, 7u);
-  EXPECT_EQ(report.bodies_stopped, 7u);
-  EXPECT_NEAR(real_to_host(report.lost_time), 7, 1e-6);
+  EXPECT_EQ(report.ccd.impacts, 1u);
+  EXPECT_EQ(report.lost.impacts, 7u);
+  EXPECT_EQ(report.ccd.bodies_stopped, 7u);
+  EXPECT_NEAR(real_to_host(report.ccd.lost_time), 7, 1e-6);
   EXPECT_FALSE(report.complete());
   for (int tick = 0; tick < 60; ++tick) lab.run(1);
   for (const BodyId id : balls) EXPECT_LT(lab.motion(id).position[0], 0) << "none passes";
@@ -371,11 +371,11 @@ DETENT_TEST(impact_stage, nothing_passes_through_a_wall_for_want_of_room_for_pai
       shots.push_back(target);
       for (int tick = 0; tick < 30; ++tick) {
         const StepReport report = lab.run(1);
-        pairs_dropped += report.pairs_dropped;
-        stopped += report.bodies_stopped;
-        EXPECT_EQ(report.complete(), report.pairs_dropped == 0 && report.contacts_dropped == 0 &&
-                                         report.contacts_capped == 0 && report.bodies_stopped == 0);
-        EXPECT_LE(report.impacts_dropped == 0 ? 0u : 1u, report.bodies_stopped);
+        pairs_dropped += report.lost.pairs;
+        stopped += report.ccd.bodies_stopped;
+        EXPECT_EQ(report.complete(), report.lost.pairs == 0 && report.lost.contacts == 0 &&
+                                         report.contacts.capped == 0 && report.ccd.bodies_stopped == 0);
+        EXPECT_LE(report.lost.impacts == 0 ? 0u : 1u, report.ccd.bodies_stopped);
         ASSERT_LT(lab.motion(shots[2]).position[0], lab.motion(target).position[0]);
         for (const BodyId id : shots)
           ASSERT_LT(lab.motion(id).position[0], 0) << contacts << " contacts, tick " << tick;
@@ -395,7 +395,7 @@ DETENT_TEST(impact_stage, of_what_sleeps_only_what_is_struck_is_looked_at_and_it
   lab.run(2);
   balls.push_back(lab.add(ball(0.1, -1, 900, 1)));
   const StepReport report = lab.run(1);
-  EXPECT_EQ(report.impacts, 6u);
+  EXPECT_EQ(report.ccd.impacts, 6u);
   EXPECT_EQ(report.woke, 6u);
   EXPECT_TRUE(report.complete());
   EXPECT_NEAR(lab.motion(balls[5]).linear_velocity[0], 900, 1e-2);
@@ -408,8 +408,8 @@ DETENT_TEST(impact_stage, a_sleeper_that_is_struck_without_room_is_still_there_i
   ASSERT_OK(put_to_sleep(lab.world, target));
   for (int tick = 0; tick < 3; ++tick) {
     const StepReport report = lab.run(1);
-    EXPECT_EQ(report.bodies_stopped, 2u);
-    EXPECT_EQ(report.impacts_dropped, 1u);
+    EXPECT_EQ(report.ccd.bodies_stopped, 2u);
+    EXPECT_EQ(report.lost.impacts, 1u);
     EXPECT_FALSE(report.complete());
     EXPECT_LT(lab.motion(shot).position[0], -0.2);
     EXPECT_EQ(lab.motion(target).position[0], 0);
@@ -432,7 +432,7 @@ DETENT_TEST(impact_stage, a_stack_that_is_struck_in_its_sleep_goes_on_with_its_c
     ASSERT_OK(load(other.world, bytes_of(snapshot), byte_count(snapshot)));
     const StepReport report = lab.run(1);
     if (woke == 4 && tick < 8) {
-      EXPECT_GE(report.contacts, 3u);
+      EXPECT_GE(report.contacts.count, 3u);
     }
     woke += report.woke;
     other.run(1);

@@ -66,7 +66,7 @@ DETENT_TEST(rebound, is_left_to_the_solver_where_it_is_slow_or_in_a_heap) {
     def.linear_velocity = reals(0.1 - 0.1 * i, 0, 0);
     slow.add(def);
   }
-  EXPECT_EQ(slow.run(1).impacts + slow.run(1).impacts, 0u);
+  EXPECT_EQ(slow.run(1).ccd.impacts + slow.run(1).ccd.impacts, 0u);
   EXPECT_NEAR(slow.motion({1, 1}).linear_velocity[0], slow.motion({2, 1}).linear_velocity[0], 1e-6);
   heap.add_ground();
   def.linear_velocity = reals(0, 0, 0);
@@ -77,8 +77,8 @@ DETENT_TEST(rebound, is_left_to_the_solver_where_it_is_slow_or_in_a_heap) {
   }
   for (int tick = 0; tick < 120; ++tick) {
     const StepReport report = heap.run(1);
-    EXPECT_EQ(report.bodies_stopped, 0u);
-    impacts += report.impacts;
+    EXPECT_EQ(report.ccd.bodies_stopped, 0u);
+    impacts += report.ccd.impacts;
   }
   ::testing::Test::RecordProperty("impacts", std::to_string(impacts));
   EXPECT_LT(impacts, 64 * 7u);

@@ -132,8 +132,8 @@ DETENT_TEST(joint, a_world_without_them_refuses_them) {
   WorldDef def;
   def.capacity = room(2, 1);
   World world;
-  ASSERT_OK(create_world(bytes_of(words), byte_count(words), def, {}, world,
-                         feature_table<without(Features::all, Features::joints)>));
+  ASSERT_OK(create_world(bytes_of(words), byte_count(words), def, {},
+                         feature_table<without(Features::all, Features::joints)>, world));
   JointId id;
   EXPECT_EQ(create_joint(world, {}, id), Status::feature_missing);
 }

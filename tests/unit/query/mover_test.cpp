@@ -380,14 +380,14 @@ DETENT_TEST(mover, stops_at_what_cannot_be_asked) {
   WorldDef def;
   def.capacity = k_capacity;
   World world;
-  ASSERT_OK(create_world(bytes_of(block), byte_count(block), def, {&asset, 1}, world));
+  ASSERT_OK(create_world(bytes_of(block), byte_count(block), def, {.assets = {&asset, 1}}, world));
   ASSERT_OK(bind_asset(world, 0));
   BodyDef rock;
   rock.type = BodyType::fixed;
   rock.shape = hull(0);
   BodyId id;
   ASSERT_OK(create_body(world, rock, id));
-  world.assets = {};
+  world.hooks.assets = {};
   Mover mover;
   mover.position = position(-4, 0, 0);
   MoverReport report;

@@ -32,7 +32,8 @@ struct Place {
 
   explicit Place(Capacity capacity, WorldDef def = {}) : words(world_bytes(capacity) / 8) {
     def.capacity = capacity;
-    EXPECT_OK(create_world(reinterpret_cast<uint8_t*>(words.data()), world_bytes(capacity), def, k_table, world));
+    EXPECT_OK(
+        create_world(reinterpret_cast<uint8_t*>(words.data()), world_bytes(capacity), def, {.assets = k_table}, world));
     for (uint32_t i = 0; i < capacity.assets; ++i) EXPECT_OK(bind_asset(world, i));
   }
   BodyId add(const BodyDef& def) {
@@ -125,7 +126,7 @@ std::vector<QueryHit> ask_all(const World& world, const QueryFilter& filter, con
     if ((properties.category & filter.mask) == 0 || (filter.category & properties.mask) == 0 || id == filter.ignore)
       continue;
     Convex convex;
-    EXPECT_TRUE(body_convex(properties, world.assets, convex));
+    EXPECT_TRUE(body_convex(properties, world.hooks.assets, convex));
     QueryHit hit;
     hit.body = id;
     Pose pose;
@@ -573,7 +574,7 @@ DETENT_TEST(query, a_body_that_cannot_be_asked_is_an_undecided_hit_where_its_bou
   const BodyId unknown = place.add(def);
   const BodyId behind = place.add_fixed(sphere(Real(0.5)), 8, 0, 0);
   const BodyId before = place.add_fixed(sphere(Real(0.5)), 2, 0, 0);
-  place.world.assets = {};
+  place.world.hooks.assets = {};
   for (int i = 0; i < 2; ++i) {
     Answer answer = ask(query_ray, place.world, ray_along(10));
     ASSERT_EQ(answer.hits.size(), 3u);

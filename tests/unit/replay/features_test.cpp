@@ -16,7 +16,7 @@ struct Made {
     def.continuous = def.sleeping = false;
     words.resize(world_bytes(def.capacity) / 8);
     EXPECT_EQ(
-        create_world(reinterpret_cast<uint8_t*>(words.data()), world_bytes(def.capacity), def, {}, world, features),
+        create_world(reinterpret_cast<uint8_t*>(words.data()), world_bytes(def.capacity), def, {}, features, world),
         Status::ok);
   }
 };

@@ -61,7 +61,7 @@ struct OwnedWorld {
   explicit OwnedWorld(const WorldDef& def, AssetTable assets = scene_assets()) {
     const uint32_t bytes = world_bytes(def.capacity);
     block.reset(new uint64_t[(bytes + 7) / 8]());
-    EXPECT_EQ(create_world(reinterpret_cast<uint8_t*>(block.get()), bytes, def, assets, world), Status::ok);
+    EXPECT_EQ(create_world(reinterpret_cast<uint8_t*>(block.get()), bytes, def, {.assets = assets}, world), Status::ok);
   }
   explicit OwnedWorld(Capacity capacity) : OwnedWorld(def_of(capacity)) {}
   static WorldDef def_of(Capacity capacity) {

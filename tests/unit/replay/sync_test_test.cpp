@@ -27,7 +27,7 @@ struct SyncTest {
   uint8_t* bytes() { return reinterpret_cast<uint8_t*>(memory.data()); }
   uint32_t size() const { return static_cast<uint32_t>(memory.size() * 8); }
   Status run(TickMaker maker, uint8_t* at, uint32_t count) {
-    return sync_test(arena.owned.world, def, maker, at, count, report, arena.state());
+    return sync_test(arena.owned.world, def, maker, at, count, arena.state(), report);
   }
 };
 

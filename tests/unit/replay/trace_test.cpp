@@ -22,7 +22,7 @@ Bytes record_traced(const TraceDef* trace, const StepObserver* observer = nullpt
   EXPECT_LE(snapshot_bytes(def.capacity), sizeof state);
   EXPECT_OK(save(world, state, sizeof state));
   EXPECT_OK(restore(world, state, sizeof state));  // what it keeps from step to step is made anew
-  world.observer = observer;
+  world.hooks.observer = observer;
   Recorder& recorder = recording.recorder;
   BodyId ids[4];
   BodyDef body;
@@ -48,7 +48,7 @@ Bytes record_traced(const TraceDef* trace, const StepObserver* observer = nullpt
     recorder.step();
   }
   EXPECT_OK(recorder.end());
-  world.observer = nullptr;
+  world.hooks.observer = nullptr;
   return recording.memory.bytes;
 }
 

@@ -61,7 +61,7 @@ void expect_same_bits(WorldDef def) {
     if (four.world.lanes == 1) GTEST_SKIP() << "this machine, or this build, takes one contact at a time";
     uint64_t solved = 0;
     for (int tick = 0; tick < 240; ++tick) {
-      solved += step(one.world).contact_substeps;
+      solved += step(one.world).contacts.substeps;
       (void)step(four.world);
       ASSERT_EQ(digest(one.world), digest(four.world)) << "seed " << seed << ", tick " << tick;
     }

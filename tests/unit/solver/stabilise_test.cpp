@@ -16,8 +16,8 @@ DETENT_TEST(convergence, ends_the_sweeps_of_an_island_at_rest) {
   EXPECT_GT(first.substeps_max, 0u);
   const StepReport settled = lab.run(120);
   // Two passes a substep, of which all sweeps but the first few can be spared.
-  EXPECT_GT(settled.sweeps_saved, settled.substeps_max * 16);
-  EXPECT_LE(settled.sweeps_saved, settled.substeps_max * 2 * 15);
+  EXPECT_GT(settled.contacts.sweeps_saved, settled.substeps_max * 16);
+  EXPECT_LE(settled.contacts.sweeps_saved, settled.substeps_max * 2 * 15);
   EXPECT_NEAR(lab.motion(next_body(lab.world, {2, 1})).position[1], 1.5, 0.02);
 }
 
@@ -37,8 +37,8 @@ DETENT_TEST(convergence, is_the_worlds_own_and_goes_with_its_snapshot) {
     ASSERT_OK(load(other.world, bytes_of(bytes), byte_count(bytes)));
     for (int tick = 0; tick < 20; ++tick) {
       const StepReport one = lab.run(1), two = other.run(1);
-      saved[which] += one.sweeps_saved;
-      EXPECT_EQ(one.sweeps_saved, two.sweeps_saved);
+      saved[which] += one.contacts.sweeps_saved;
+      EXPECT_EQ(one.contacts.sweeps_saved, two.contacts.sweeps_saved);
     }
     EXPECT_EQ(digest(lab.world), digest(other.world));
     ++which;

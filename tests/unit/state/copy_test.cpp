@@ -91,18 +91,18 @@ DETENT_TEST(copy, a_world_without_what_the_state_needs_is_refused) {
   def.continuous = def.sleeping = false;
   std::vector<uint64_t> block(world_bytes(def.capacity) / 8);
   World few;
-  ASSERT_OK(create_world(bytes_of(block), byte_count(block), def, scene_assets(), few, k_few));
+  ASSERT_OK(create_world(bytes_of(block), byte_count(block), def, {.assets = scene_assets()}, k_few, few));
   refused(few, Status::feature_missing);
 
   OwnedWorld ruled(OwnedWorld::def_of({4, 4, 2, true, 0, 0}));
   const FilterRule rule = [](const FilterBody&, const FilterBody&) { return true; };
-  from.world.filter_rules = {&rule, 1};
+  from.world.hooks.filter_rules = {&rule, 1};
   BodyDef body;
   body.filter.rule = 1;
   BodyId id;
   ASSERT_OK(create_body(from.world, body, id));
   refused(ruled.world, Status::rule_missing);
-  ruled.world.filter_rules = {&rule, 1};
+  ruled.world.hooks.filter_rules = {&rule, 1};
   EXPECT_OK(copy_world(from.world, ruled.world));
 }
 

@@ -44,7 +44,7 @@ double hit(double mass_a, double speed_a, double mass_b, double speed_b, double 
   for (int tick = 0; tick < 30; ++tick) {
     const StepReport report = lab.run(1);
     saturations += report.saturations;
-    touched = touched || report.contacts != 0;
+    touched = touched || report.contacts.count != 0;
   }
   const double v_a = lab.motion(a).linear_velocity[0], v_b = lab.motion(b).linear_velocity[0];
   EXPECT_TRUE(touched);

@@ -124,7 +124,7 @@ DETENT_TEST(snapshot_ring, bad_arguments_are_refused_and_change_nothing) {
   def.continuous = def.sleeping = false;
   std::vector<uint64_t> block(world_bytes(def.capacity) / 8);
   World few;
-  ASSERT_OK(create_world(bytes_of(block), byte_count(block), def, {}, few, k_few));
+  ASSERT_OK(create_world(bytes_of(block), byte_count(block), def, {}, k_few, few));
   EXPECT_EQ(ring.restore(few, 3), Status::feature_missing);
   EXPECT_EQ(get_info(few).tick, 0u);
   EXPECT_EQ(digest(world), before);

@@ -511,13 +511,13 @@ DETENT_TEST(state, assets_are_bound_by_content) {
   Lab lab({1, 1, 2});
   EXPECT_EQ(bind_asset(lab.world, 0), Status::asset_missing);
   const Asset table[] = {{content, sizeof content}, {other, sizeof other}};
-  lab.world.assets = {table, 2};
+  lab.world.hooks.assets = {table, 2};
   ASSERT_OK(bind_asset(lab.world, 1));
   EXPECT_EQ(bind_asset(lab.world, 2), Status::out_of_range);
   const std::vector<uint64_t> good = lab.snapshot();
   const auto load_with = [&](AssetTable assets) {
     Lab fresh({1, 1, 2});
-    fresh.world.assets = assets;
+    fresh.world.hooks.assets = assets;
     std::vector<uint64_t> bytes = good;
     return load(fresh.world, bytes_of(bytes), byte_count(bytes));
   };

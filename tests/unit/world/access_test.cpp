@@ -422,7 +422,7 @@ DETENT_TEST(access, a_shape_is_refused_where_its_code_or_its_bytes_are_missing) 
   World world;
   WorldDef def;
   def.continuous = def.sleeping = false;
-  ASSERT_OK(storage.create(def, world, {assets, 2}, feature_table<Features::sphere | Features::hull>));
+  ASSERT_OK(storage.create(def, {.assets = {assets, 2}}, feature_table<Features::sphere | Features::hull>, world));
   BodyId id;
   ASSERT_OK(create_body(world, {}, id));
   ASSERT_OK(bind_asset(world, 1));
@@ -514,7 +514,7 @@ DETENT_TEST(access, settings_that_a_world_cannot_do_are_refused_and_others_wake_
   World world;
   WorldDef def;
   def.continuous = def.sleeping = false;
-  ASSERT_OK(storage.create(def, world, {}, feature_table<Features::sphere>));
+  ASSERT_OK(storage.create(def, {}, feature_table<Features::sphere>, world));
   def.sleeping = true;
   EXPECT_EQ(set_settings(world, def), Status::feature_missing);
   Still still;

@@ -16,11 +16,11 @@ struct Watch {
   StepReport report;
 
   Watch(Capacity capacity, uint32_t room) : lab(capacity, {}, true), buffer(room) {
-    lab.world.body_events = {buffer.data(), room};
+    lab.world.hooks.body_events = {buffer.data(), room};
   }
   std::vector<BodyEvent> run() {
     report = lab.run(1);
-    return {buffer.data(), buffer.data() + report.body_events};
+    return {buffer.data(), buffer.data() + report.events.body};
   }
 };
 
@@ -99,7 +99,7 @@ DETENT_TEST(body_event, beyond_the_buffer_are_dropped_and_counted_and_alter_noth
     uint32_t kept = 0, dropped = 0;
     for (int tick = 0; tick < 200; ++tick) {
       kept += static_cast<uint32_t>(watch.run().size());
-      dropped += watch.report.body_events_dropped;
+      dropped += watch.report.events.body_dropped;
     }
     EXPECT_EQ(kept, room < 5 ? room : 5);
     EXPECT_EQ(dropped, room == 2 ? 3u : 0u);
@@ -112,19 +112,19 @@ DETENT_TEST(body_event, beyond_the_buffer_are_dropped_and_counted_and_alter_noth
 DETENT_TEST(capacity_event, names_whose_contact_was_dropped) {
   Lab lab({6, 3, 0});
   CapacityEvent lost[8];
-  lab.world.capacity_events = {lost, 8};
+  lab.world.hooks.capacity_events = {lost, 8};
   const BodyId ground = lab.add_ground();
   std::vector<BodyId> crates;
   for (int i = 0; i < 5; ++i) crates.push_back(lab.add_box(0.5, 3 * i, 0.5 - 0.01 * i, 0));  // the first are shallowest
   const StepReport report = lab.run(1);
-  EXPECT_EQ(report.contacts_dropped, 2u);
-  ASSERT_EQ(report.capacity_events, 2u);
+  EXPECT_EQ(report.lost.contacts, 2u);
+  ASSERT_EQ(report.events.capacity, 2u);
   for (uint32_t i = 0; i < 2; ++i) {
     EXPECT_EQ(lost[i].type, CapacityEventType::contact);
     EXPECT_EQ(lost[i].a, ground);
     EXPECT_EQ(lost[i].b, crates[i]);
   }
-  EXPECT_EQ(lab.run(1).capacity_events, 2u);
+  EXPECT_EQ(lab.run(1).events.capacity, 2u);
 }
 
 DETENT_TEST(capacity, of_contacts_keeps_the_deepest_of_many_in_order) {
@@ -132,7 +132,7 @@ DETENT_TEST(capacity, of_contacts_keeps_the_deepest_of_many_in_order) {
   for (const uint32_t room : {0u, 1u, 37u, 89u, 90u}) {
     Lab lab({k_crates + 1, room, 0});
     CapacityEvent lost[k_crates];
-    lab.world.capacity_events = {lost, k_crates};
+    lab.world.hooks.capacity_events = {lost, k_crates};
     lab.add_ground();
     std::vector<std::pair<double, uint32_t>> by_depth;
     for (uint32_t i = 0; i < k_crates; ++i) {
@@ -144,7 +144,7 @@ DETENT_TEST(capacity, of_contacts_keeps_the_deepest_of_many_in_order) {
     std::set<uint32_t> kept;
     for (uint32_t i = 0; i < room; ++i) kept.insert(by_depth[i].second);
     const StepReport report = lab.run(1);
-    EXPECT_EQ(report.pairs_dropped, room == 0 ? k_crates : k_crates > 2 * room ? k_crates - 2 * room : 0);
+    EXPECT_EQ(report.lost.pairs, room == 0 ? k_crates : k_crates > 2 * room ? k_crates - 2 * room : 0);
     if (room == 0) continue;
     const auto state = view_of(lab.world);
     ASSERT_EQ(state.world.contact_count, room);
@@ -157,13 +157,13 @@ DETENT_TEST(capacity, of_contacts_keeps_the_deepest_of_many_in_order) {
 DETENT_TEST(capacity_event, names_whose_pair_was_dropped_though_its_own_buffer_is_short) {
   Lab lab({8, 1, 0});
   CapacityEvent lost[2];
-  lab.world.capacity_events = {lost, 2};
+  lab.world.hooks.capacity_events = {lost, 2};
   const BodyId ground = lab.add_ground();
   std::vector<BodyId> crates;
   for (int i = 0; i < 6; ++i) crates.push_back(lab.add_box(0.5, 3 * i, 0.5 - 0.01 * i, 0));
   const StepReport report = lab.run(1);
-  EXPECT_EQ(report.pairs_dropped, 4u);
-  ASSERT_EQ(report.capacity_events, 2u) << "the first two of five";
+  EXPECT_EQ(report.lost.pairs, 4u);
+  ASSERT_EQ(report.events.capacity, 2u) << "the first two of five";
   for (uint32_t i = 0; i < 2; ++i) {
     EXPECT_EQ(lost[i].type, CapacityEventType::pair);
     EXPECT_EQ(lost[i].a, ground);

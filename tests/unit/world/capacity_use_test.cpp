@@ -52,7 +52,7 @@ DETENT_TEST(capacity_use, holds_numbers_to_their_range) {
   StepReport report;
   WorldInfo info;
   info.contacts = UINT32_MAX - 1;
-  report.contacts_dropped = 7;
+  report.lost.contacts = 7;
   note_use(report, info, use);
   EXPECT_EQ(use.contacts, UINT32_MAX);
   EXPECT_EQ(suggest_capacity(use, {}).contacts, UINT32_MAX);

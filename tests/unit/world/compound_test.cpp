@@ -30,7 +30,7 @@ class CompoundLab : public Lab {
     assets_[0] = {compound_.data(), compound_.count()};
     assets_[1] = {terrain_.data(), terrain_.count()};
     const bool has_terrain = terrain_.count() != 0;
-    world.assets = {assets_, has_terrain ? 2u : 1u};
+    world.hooks.assets = {assets_, has_terrain ? 2u : 1u};
     EXPECT_OK(bind_asset(world, 0));
     if (has_terrain) {
       EXPECT_OK(bind_asset(world, 1));
@@ -230,7 +230,7 @@ DETENT_TEST(compounds, never_leave_a_closed_room_in_silence) {
       const BodyId id = lab.add(def);
       bool inside = true, told = false;
       for (int tick = 0; inside && tick < 40; ++tick) {
-        told = lab.run(1).overlaps_left != 0 || told;
+        told = lab.run(1).ccd.overlaps_left != 0 || told;
         const Motion motion = lab.motion(id);
         inside = fabs(motion.position[0]) < 8 && fabs(motion.position[1]) < 6 && fabs(motion.position[2]) < 7;
         ASSERT_TRUE(inside || told) << round << ", " << tick;
@@ -319,7 +319,7 @@ DETENT_TEST(compounds, that_rest_find_no_contact_anew) {
   lab.run(60);
   for (int tick = 0; tick < 60; ++tick) {
     const StepReport report = lab.run(1);
-    EXPECT_EQ(report.contacts_recycled, report.contacts) << tick;
+    EXPECT_EQ(report.contacts.recycled, report.contacts.count) << tick;
   }
 }
 
@@ -382,8 +382,8 @@ DETENT_TEST(compounds, that_lose_a_plane_for_want_of_room_look_for_it_in_each_ti
     lab.add(crate);
     for (int tick = 0; tick < 60; ++tick) {
       const StepReport report = lab.run(1);
-      EXPECT_EQ(report.contacts_dropped, 2 - room) << tick;
-      EXPECT_EQ(report.contacts, room) << tick;
+      EXPECT_EQ(report.lost.contacts, 2 - room) << tick;
+      EXPECT_EQ(report.contacts.count, room) << tick;
     }
   }
 }
@@ -399,7 +399,7 @@ DETENT_TEST(compounds, of_many_pieces_lie_still) {
   lab.add_ground();
   const BodyId id = lab.add_compound(0, 0.15, 0);
   uint32_t dropped = 0;
-  for (int tick = 0; tick < 120; ++tick) dropped += lab.run(1).contacts_dropped;
+  for (int tick = 0; tick < 120; ++tick) dropped += lab.run(1).lost.contacts;
   EXPECT_EQ(dropped, 0u);
   EXPECT_EQ(lab.run(1).awake, 0u);
   EXPECT_NEAR(lab.motion(id).position[1], 0.12, 1e-3);
@@ -431,8 +431,8 @@ DETENT_TEST(compounds, come_to_rest_in_a_pile) {
     uint32_t dropped = 0, capped = 0;
     for (int tick = 0; tick < 1200; ++tick) {
       const StepReport report = lab.run(1);
-      dropped += report.contacts_dropped;
-      capped += report.contacts_capped;
+      dropped += report.lost.contacts;
+      capped += report.contacts.capped;
     }
     EXPECT_EQ(dropped, 0u);
     EXPECT_EQ(capped, 0u);
@@ -487,11 +487,11 @@ DETENT_TEST(compounds, are_one_body_in_what_is_told) {
   lab.add_ground();
   lab.add_compound(0, 0.02, 0);
   ContactEvent events[16];
-  lab.world.contact_events = {events, 16};
+  lab.world.hooks.contact_events = {events, 16};
   uint32_t begun = 0;
   for (int tick = 0; tick < 60; ++tick) {
     const StepReport report = lab.run(1);
-    for (uint32_t i = 0; i < report.contact_events; ++i) begun += events[i].type == ContactEventType::begin ? 1 : 0;
+    for (uint32_t i = 0; i < report.events.contact; ++i) begun += events[i].type == ContactEventType::begin ? 1 : 0;
   }
   EXPECT_EQ(begun, 1u);
 }
@@ -588,15 +588,15 @@ DETENT_TEST(compounds, without_their_asset_touch_nothing_which_is_counted) {
   const BodyId lower = lab.add_compound(0, 0, 0), upper = lab.add_compound(0, 1, 0);
   const BodyId box_below = lab.add_box(0.25, 0.2, 0.25, 0.1);
   EXPECT_TRUE(lab.run(30).complete());
-  const AssetTable assets = lab.world.assets;
-  lab.world.assets = {};
+  const AssetTable assets = lab.world.hooks.assets;
+  lab.world.hooks.assets = {};
   const StepReport report = lab.run(30);
   EXPECT_FALSE(report.complete());
-  EXPECT_GT(report.contacts_capped, 0u);
+  EXPECT_GT(report.contacts.capped, 0u);
   EXPECT_LT(lab.motion(lower).linear_velocity[1], -1) << "it falls";
   EXPECT_LT(lab.motion(upper).linear_velocity[1], -1);
   EXPECT_NEAR(lab.motion(box_below).position[1], 0.25, 0.01);
-  lab.world.assets = assets;
+  lab.world.hooks.assets = assets;
 }
 
 DETENT_TEST(compounds, are_refused_where_they_cannot_be) {

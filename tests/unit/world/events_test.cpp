@@ -21,11 +21,11 @@ struct Listener {
 
   Listener(Capacity capacity, uint32_t room, WorldDef def = {}, bool sleeping = false)
       : lab(capacity, def, sleeping), buffer(room) {
-    lab.world.contact_events = {buffer.data(), room};
+    lab.world.hooks.contact_events = {buffer.data(), room};
   }
   std::vector<ContactEvent> run() {
     report = lab.run(1);
-    return {buffer.data(), buffer.data() + report.contact_events};
+    return {buffer.data(), buffer.data() + report.events.contact};
   }
 };
 
@@ -130,7 +130,7 @@ DETENT_TEST(events, beyond_the_buffer_are_dropped_and_counted_and_alter_nothing)
     listener.lab.run(5);
     const std::vector<ContactEvent> events = listener.run();
     EXPECT_EQ(events.size(), room < 8 ? room : 8);
-    EXPECT_EQ(listener.report.contact_events_dropped, room == 3 ? 5u : 0u);
+    EXPECT_EQ(listener.report.events.contact_dropped, room == 3 ? 5u : 0u);
     for (uint32_t i = 0; i < events.size(); ++i) EXPECT_EQ(events[i].b.slot, 2 + i) << "the lowest slots are kept";
     digests.push_back(digest(listener.lab.world));
   }
@@ -184,6 +184,69 @@ DETENT_TEST(events, hits_are_sorted_by_their_bodies_among_the_other_events_and_t
           << room << " " << i;
     }
   }
+}
+
+/// One step that raises an event of each kind, with the buffers given.
+struct Eventful {
+  Lab lab = Lab({.bodies = 6, .contacts = 1, .joints = 1, .sensed = 1});
+  StepReport report;
+
+  explicit Eventful(const WorldHooks& hooks) {
+    lab.world.hooks = hooks;
+    const BodyId ground = lab.add_ground();
+    BodyId box;
+    for (int i = 0; i < 3; ++i) box = lab.add_box(0.5, 3.0 * i, 0.5, 0);
+    BodyDef zone;
+    zone.type = BodyType::fixed;
+    zone.shape = sphere(real(1));
+    zone.sensor = true;
+    lab.add(zone);
+    BodyDef load;
+    load.shape = sphere(real(0.25));
+    load.position = position(0, 5, 0);
+    JointDef joint;
+    joint.type = JointType::ball;
+    joint.a = ground;
+    joint.b = lab.add(load);
+    joint.break_force = scaled(0.01);
+    const Quat rotation = {Unit(0.0), Unit(0.0), Unit(0.0), Unit(1.0)};
+    EXPECT_OK(place_joint(lab.world, load.position, rotation, joint));
+    JointId id;
+    EXPECT_OK(create_joint(lab.world, joint, id));
+    EXPECT_OK(put_to_sleep(lab.world, box));
+    EXPECT_OK(wake_body(lab.world, box));
+    report = lab.run(1);
+  }
+};
+
+DETENT_TEST(events, a_buffer_without_memory_is_none_whatever_its_capacity) {
+  ContactEvent contacts[1];
+  JointEvent joints[1];
+  SensorEvent sensors[1];
+  BodyEvent bodies[4];
+  CapacityEvent lost[4];
+  const Eventful heard({.contact_events = {contacts, 1},
+                        .joint_events = {joints, 1},
+                        .sensor_events = {sensors, 1},
+                        .body_events = {bodies, 4},
+                        .capacity_events = {lost, 4}});
+  EXPECT_EQ(heard.report.events.contact, 1u);
+  EXPECT_EQ(heard.report.events.joint, 1u);
+  EXPECT_EQ(heard.report.events.sensor, 1u);
+  EXPECT_NE(heard.report.events.body, 0u);
+  EXPECT_NE(heard.report.events.capacity, 0u);
+  const Eventful deaf({.contact_events = {nullptr, 4},
+                       .joint_events = {nullptr, 4},
+                       .sensor_events = {nullptr, 4},
+                       .body_events = {nullptr, 4},
+                       .capacity_events = {nullptr, 4}});
+  EXPECT_EQ(deaf.report.events.contact + deaf.report.events.contact_dropped, 0u);
+  EXPECT_EQ(deaf.report.events.joint + deaf.report.events.joint_dropped, 0u);
+  EXPECT_EQ(deaf.report.events.sensor + deaf.report.events.sensor_dropped, 0u);
+  EXPECT_EQ(deaf.report.events.body + deaf.report.events.body_dropped, 0u);
+  EXPECT_EQ(deaf.report.events.capacity, 0u);
+  EXPECT_EQ(deaf.report.joints.broken, 1u);
+  EXPECT_EQ(digest(deaf.lab.world), digest(heard.lab.world));
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ struct Lean {
 
   explicit Lean(const FeatureTable& features, WorldDef def) {
     def.capacity = k_capacity;
-    status = create_world(bytes_of(words), byte_count(words), def, {}, world, features);
+    status = create_world(bytes_of(words), byte_count(words), def, {}, features, world);
   }
   explicit Lean(const FeatureTable& features) : Lean(features, def_of(features)) { EXPECT_OK(status); }
 
@@ -147,7 +147,7 @@ DETENT_TEST(features, joints_that_are_left_out_are_refused_and_change_nothing) {
   EXPECT_EQ(lean.join(), Status::feature_missing);
   EXPECT_EQ(digest(lean.world), before);
   EXPECT_OK(jointed.join());
-  EXPECT_EQ(step(jointed.world).joints, 1u);
+  EXPECT_EQ(step(jointed.world).joints.count, 1u);
 }
 
 DETENT_TEST(features, a_snapshot_goes_to_a_world_that_has_all_that_its_own_had) {

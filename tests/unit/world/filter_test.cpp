@@ -32,7 +32,7 @@ bool rests_on(Lab& lab, BodyId upper, double height) {
 /// Whether a box comes to rest on a fixed one, or falls through it.
 bool touch(const Filter& a, const Filter& b, uint32_t data_a = 0, uint32_t data_b = 0, double speed = 0) {
   Lab lab({2, 4, 0});
-  lab.world.filter_rules = k_table;
+  lab.world.hooks.filter_rules = k_table;
   BodyDef fixed = box_at(0, a, data_a);
   fixed.type = BodyType::fixed;
   lab.add(fixed);
@@ -72,7 +72,7 @@ DETENT_TEST(filter, a_rule_that_the_table_lacks_is_refused_wherever_it_comes_fro
   BodyId id;
   const Filter ruled = {1, ~0u, 0, 1};
   EXPECT_EQ(create_body(lab.world, box_at(1, ruled), id), Status::rule_missing);
-  lab.world.filter_rules = k_table;
+  lab.world.hooks.filter_rules = k_table;
   EXPECT_EQ(create_body(lab.world, box_at(1, {1, ~0u, 0, 3}), id), Status::rule_missing) << "null in the table";
   EXPECT_EQ(create_body(lab.world, box_at(1, {1, ~0u, 0, 4}), id), Status::rule_missing);
   ASSERT_OK(create_body(lab.world, box_at(1, ruled), id));
@@ -87,7 +87,7 @@ DETENT_TEST(filter, a_rule_that_the_table_lacks_is_refused_wherever_it_comes_fro
   const uint64_t before = digest(other.world);
   EXPECT_EQ(load(other.world, bytes_of(snapshot), byte_count(snapshot)), Status::rule_missing);
   EXPECT_EQ(digest(other.world), before);
-  other.world.filter_rules = {k_rules, 1};
+  other.world.hooks.filter_rules = {k_rules, 1};
   snapshot = lab.snapshot();
   EXPECT_OK(load(other.world, bytes_of(snapshot), byte_count(snapshot)));
   EXPECT_EQ(digest(other.world), digest(lab.world));
@@ -100,8 +100,8 @@ struct Sleepers {
   std::vector<ContactEvent> buffer;
 
   Sleepers() : lab({4, 8, 0}, {}, true), buffer(8) {
-    lab.world.filter_rules = k_table;
-    lab.world.contact_events = {buffer.data(), 8};
+    lab.world.hooks.filter_rules = k_table;
+    lab.world.hooks.contact_events = {buffer.data(), 8};
     ground = lab.add_ground();
     low = lab.add(box_at(0.5, {}, 2));
     high = lab.add(box_at(1.5, {1, ~0u, 0, 1}, 4));
@@ -117,7 +117,7 @@ struct Sleepers {
     EXPECT_TRUE(awake(low) && awake(high));
     const StepReport report = lab.run(1);
     uint32_t ends = 0;
-    for (uint32_t i = 0; i < report.contact_events; ++i) {
+    for (uint32_t i = 0; i < report.events.contact; ++i) {
       if (buffer[i].type != ContactEventType::end) continue;
       ++ends;
       EXPECT_TRUE(buffer[i].a == a && buffer[i].b == b);
@@ -130,7 +130,7 @@ DETENT_TEST(filter, a_change_ends_contacts_that_are_no_longer_allowed_and_wakes_
   {
     Sleepers sleepers;
     ASSERT_OK(set_filter(sleepers.lab.world, sleepers.high, {2, ~0u, 0, 1}));
-    EXPECT_EQ(sleepers.lab.run(1).contacts, 2u);
+    EXPECT_EQ(sleepers.lab.run(1).contacts.count, 2u);
     sleepers.lab.run(200);
     ASSERT_OK(set_filter(sleepers.lab.world, sleepers.low, {1, 1, 0, 0}));
     sleepers.expect_parted(sleepers.low, sleepers.high);
@@ -140,7 +140,7 @@ DETENT_TEST(filter, a_change_ends_contacts_that_are_no_longer_allowed_and_wakes_
     Sleepers sleepers;
     ASSERT_OK(set_filter(sleepers.lab.world, sleepers.ground, {1, 2, 0, 0}));
     EXPECT_TRUE(sleepers.awake(sleepers.low));
-    EXPECT_EQ(sleepers.lab.run(1).contacts, 1u) << "both fall";
+    EXPECT_EQ(sleepers.lab.run(1).contacts.count, 1u) << "both fall";
   }
   {
     Sleepers sleepers;
@@ -161,8 +161,8 @@ DETENT_TEST(filter, what_may_not_touch_is_no_pair_and_takes_no_room) {
     lab.add(def);
   }
   const StepReport report = lab.run(1);
-  EXPECT_EQ(report.pairs, 40u) << "with the ground";
-  EXPECT_EQ(report.contacts, 0u);
+  EXPECT_EQ(report.contacts.pairs, 40u) << "with the ground";
+  EXPECT_EQ(report.contacts.count, 0u);
 }
 
 DETENT_TEST(filter, what_rebounds_within_a_tick_passes_through_what_it_may_not_touch) {

@@ -28,7 +28,7 @@ double deepest_contact(const World& world) {
 struct LevelWorld {
   explicit LevelWorld(const Source& source, const WorldDef& def = {})
       : bytes(detent_terrains::cooked(source)), asset{bytes.data(), bytes.count()} {
-    EXPECT_OK(storage.create(def, world, {&asset, 1}));
+    EXPECT_OK(storage.create(def, {.assets = {&asset, 1}}, world));
     EXPECT_OK(bind_asset(world, 0));
     BodyDef ground;
     ground.type = BodyType::fixed;
@@ -89,8 +89,8 @@ DETENT_TEST(levels, are_stood_rolled_and_shot_at) {
       EXPECT_OK(get_pose(world, id, before));
       for (int tick = 0; tick < 240; ++tick) {
         const StepReport report = step(world);
-        hit += report.impacts != 0 || report.contacts != 0 ? 1 : 0;
-        if (tick == 0 && (report.overlaps_left != 0 || deepest_contact(world) > 0.05 * size))
+        hit += report.ccd.impacts != 0 || report.contacts.count != 0 ? 1 : 0;
+        if (tick == 0 && (report.ccd.overlaps_left != 0 || deepest_contact(world) > 0.05 * size))
           break;  // made within the level
         Pose now;
         EXPECT_OK(get_pose(world, id, now));

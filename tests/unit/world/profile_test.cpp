@@ -17,7 +17,7 @@ DETENT_TEST(profile, every_stage_of_a_step_is_timed_once_and_the_state_is_the_sa
   Profile profile;
   profile.now = count_up;
   profile.user = &clock;
-  timed.world.profile = &profile;
+  timed.world.hooks.profile = &profile;
   plain.run(10);
   timed.run(10);
   EXPECT_EQ(digest(plain.world), digest(timed.world));
@@ -37,7 +37,7 @@ DETENT_TEST(profile, an_idle_step_is_not_timed) {
   profile.now = count_up;
   profile.user = &clock;
   lab.run(2);
-  lab.world.profile = &profile;
+  lab.world.hooks.profile = &profile;
   lab.run(2);
   EXPECT_EQ(profile.steps, 0u);
 }

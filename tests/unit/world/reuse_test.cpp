@@ -37,9 +37,9 @@ DETENT_TEST(reuse, a_standing_tower_finds_no_contact_anew_and_stands_as_well) {
   uint32_t reused = 0, contacts = 0;
   for (int i = 0; i < 300; ++i) {
     const StepReport report = lab.run(1);
-    reused += report.contacts_recycled;
-    contacts += report.contacts;
-    EXPECT_EQ(other.run(1).contacts_recycled, 0u);
+    reused += report.contacts.recycled;
+    contacts += report.contacts.count;
+    EXPECT_EQ(other.run(1).contacts.recycled, 0u);
   }
   EXPECT_GT(reused * 20, contacts * 19);
   EXPECT_EQ(kept_manifolds(lab), 6u);
@@ -57,7 +57,7 @@ DETENT_TEST(reuse, a_world_restored_amid_it_goes_on_with_the_same_bits) {
     ASSERT_OK(restore(restored.world, bytes_of(bytes), byte_count(bytes)));
     ASSERT_OK(load(loaded.world, bytes_of(bytes), byte_count(bytes)));
     for (int i = 0; i < 20; ++i) {
-      EXPECT_GT(lab.run(1).contacts_recycled, 0u);
+      EXPECT_GT(lab.run(1).contacts.recycled, 0u);
       restored.run(1);
       loaded.run(1);
       ASSERT_EQ(digest(restored.world), digest(lab.world));
@@ -75,7 +75,7 @@ DETENT_TEST(reuse, without_room_for_manifolds_a_world_is_smaller_and_does_what_i
   for (uint32_t i = 0; i < 6; ++i) small.add_box(0.5, 0.03 * (i % 3), 0.5 + i, 0);
   for (int i = 0; i < 100; ++i) {
     lab.run(1);
-    EXPECT_EQ(small.run(1).contacts_recycled, 0u);
+    EXPECT_EQ(small.run(1).contacts.recycled, 0u);
     ASSERT_EQ(digest(lab.world), digest(small.world));
   }
   std::vector<uint64_t> bytes = small.snapshot();
@@ -89,27 +89,27 @@ DETENT_TEST(reuse, a_body_put_elsewhere_is_found_anew) {
   const BodyId top = {4 + 1, 1};
   const BodyId upper = {4, 1};
   ASSERT_FALSE(is_valid(lab.world, top));
-  ASSERT_EQ(lab.run(1).contacts_recycled, 3u);
+  ASSERT_EQ(lab.run(1).contacts.recycled, 3u);
   const Motion before = lab.motion(upper);
   // Aside, but over the next one still.
   ASSERT_OK(
       set_pose(lab.world, upper, position(before.position[0] + 0.25, before.position[1], 0), Quat{0.0, 0.0, 0.0, 1.0}));
   StepReport report = lab.run(1);
-  EXPECT_EQ(report.contacts, 3u);
-  EXPECT_EQ(report.contacts_recycled, 2u);
-  EXPECT_EQ(lab.run(1).contacts_recycled, 3u);
+  EXPECT_EQ(report.contacts.count, 3u);
+  EXPECT_EQ(report.contacts.recycled, 2u);
+  EXPECT_EQ(lab.run(1).contacts.recycled, 3u);
   // Turned on the spot.
   const double half_angle = 0.1;
   ASSERT_OK(set_pose(lab.world, upper, position(before.position[0], before.position[1], 0),
                      Quat{Unit(0.0), unit(sin(half_angle)), Unit(0.0), unit(cos(half_angle))}));
-  EXPECT_EQ(lab.run(1).contacts_recycled, 2u);
+  EXPECT_EQ(lab.run(1).contacts.recycled, 2u);
   // Off it, and as far away as there is.
   ASSERT_OK(
       set_pose(lab.world, upper, position(before.position[0], before.position[1] + 2, 0), Quat{0.0, 0.0, 0.0, 1.0}));
   report = lab.run(1);
-  EXPECT_EQ(report.contacts, 2u);
+  EXPECT_EQ(report.contacts.count, 2u);
   ASSERT_OK(set_pose(lab.world, upper, position(-30000, 30000, 30000), Quat{0.0, 0.0, 0.0, 1.0}));
-  EXPECT_EQ(lab.run(1).contacts, 2u);
+  EXPECT_EQ(lab.run(1).contacts.count, 2u);
 }
 
 DETENT_TEST(reuse, a_box_pushed_slowly_over_an_edge_falls_as_it_does_without) {
@@ -125,7 +125,7 @@ DETENT_TEST(reuse, a_box_pushed_slowly_over_an_edge_falls_as_it_does_without) {
     pushed.linear_velocity = reals(0.1, 0, 0);
     const BodyId id = lab.add(pushed);
     uint32_t tick = 0, reused = 0;
-    for (; tick < 600 && lab.motion(id).position[1] > 0; ++tick) reused += lab.run(1).contacts_recycled;
+    for (; tick < 600 && lab.motion(id).position[1] > 0; ++tick) reused += lab.run(1).contacts.recycled;
     fell[reuses ? 1 : 0] = tick;
     EXPECT_EQ(reused > 0, reuses);
   }
@@ -137,9 +137,9 @@ DETENT_TEST(reuse, a_pair_that_may_close_what_was_out_of_reach_is_found_anew) {
   for (const bool fast : {false, true}) {
     Lab lab = make_tower(2);
     lab.run(60);
-    ASSERT_EQ(lab.run(1).contacts_recycled, 2u);
+    ASSERT_EQ(lab.run(1).contacts.recycled, 2u);
     ASSERT_OK(set_velocity(lab.world, {3, 1}, reals(fast ? 1.0 : 0.3, 0, 0), reals(0, 0, 0)));
-    EXPECT_EQ(lab.run(1).contacts_recycled, fast ? 1u : 2u);
+    EXPECT_EQ(lab.run(1).contacts.recycled, fast ? 1u : 2u);
   }
 }
 
@@ -156,7 +156,7 @@ DETENT_TEST(reuse, a_large_body_that_turns_carries_what_stands_far_out) {
     rider.linear_velocity = reals(0, about_y ? 0 : 15 * angular_velocity, about_y ? -15 * angular_velocity : 0);
     const BodyId id = lab.add(rider);
     uint32_t reused = 0;
-    for (int i = 0; i < 600; ++i) reused += lab.run(1).contacts_recycled;
+    for (int i = 0; i < 600; ++i) reused += lab.run(1).contacts.recycled;
     EXPECT_GT(reused, 300u);
     Pose pose_below, pose;
     EXPECT_OK(get_pose(lab.world, below, pose_below));
@@ -181,8 +181,8 @@ DETENT_TEST(reuse, sleepers_keep_their_manifolds_and_use_them_when_they_wake) {
   EXPECT_EQ(kept_manifolds(lab), 3u);
   ASSERT_OK(wake_body(lab.world, {2, 1}));
   const StepReport report = lab.run(1);
-  EXPECT_EQ(report.contacts, 3u);
-  EXPECT_EQ(report.contacts_recycled, 3u);
+  EXPECT_EQ(report.contacts.count, 3u);
+  EXPECT_EQ(report.contacts.recycled, 3u);
 }
 
 DETENT_TEST(reuse, every_state_of_a_heap_that_runs_out_of_room_can_be_loaded) {
@@ -203,8 +203,8 @@ DETENT_TEST(reuse, every_state_of_a_heap_that_runs_out_of_room_can_be_loaded) {
     uint32_t reused = 0, dropped = 0;
     for (int tick = 0; tick < 240; ++tick) {
       const StepReport report = lab.run(1);
-      reused += report.contacts_recycled;
-      dropped += report.contacts_dropped;
+      reused += report.contacts.recycled;
+      dropped += report.lost.contacts;
       if (tick == 120) {
         EXPECT_OK(destroy_body(lab.world, {5, 1}));
       }

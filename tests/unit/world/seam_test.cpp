@@ -79,7 +79,7 @@ DETENT_TEST(seam, of_many_in_a_tick_keeps_nothing_behind) {
   for (int tick = 0; tick < 14; ++tick) {
     const StepReport report = lab.run(1);
     EXPECT_TRUE(report.complete()) << tick;
-    EXPECT_LE(report.toi_tests, 200u) << tick;
+    EXPECT_LE(report.ccd.tests, 200u) << tick;
   }
   EXPECT_NEAR(lab.motion(id).linear_velocity[0], 60, 0.06);
 }

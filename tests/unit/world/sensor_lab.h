@@ -34,11 +34,11 @@ struct Trap {
 
   explicit Trap(Capacity capacity, WorldDef def = weightless(), bool sleeping = false, uint32_t room = 32)
       : lab(capacity, def, sleeping), buffer(room) {
-    lab.world.sensor_events = {buffer.data(), room};
+    lab.world.hooks.sensor_events = {buffer.data(), room};
   }
   std::vector<SensorEvent> run() {
     report = lab.run(1);
-    return {buffer.data(), buffer.data() + report.sensor_events};
+    return {buffer.data(), buffer.data() + report.events.sensor};
   }
   std::vector<BodyId> within(BodyId sensor) {
     BodyId bodies[16];

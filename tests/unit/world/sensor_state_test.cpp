@@ -81,9 +81,9 @@ DETENT_TEST(sensor, no_other_body_is_moved_by_one_by_a_bit) {
 DETENT_TEST(sensor, a_world_put_back_in_mid_overlap_goes_on_with_the_same_events) {
   Fair fair(true, 11);
   std::vector<SensorEvent> events(64), again_events(64);
-  fair.lab.world.sensor_events = {events.data(), 64};
+  fair.lab.world.hooks.sensor_events = {events.data(), 64};
   Lab other(get_info(fair.lab.world).capacity, {}, true);
-  other.world.sensor_events = {again_events.data(), 64};
+  other.world.hooks.sensor_events = {again_events.data(), 64};
   uint32_t told = 0;
   for (int tick = 0; tick < 300; ++tick) {
     std::vector<uint64_t> bytes = fair.lab.snapshot();
@@ -91,9 +91,9 @@ DETENT_TEST(sensor, a_world_put_back_in_mid_overlap_goes_on_with_the_same_events
                             : restore(other.world, bytes_of(bytes), byte_count(bytes)));
     const StepReport report = fair.lab.run(1), again = other.run(1);
     ASSERT_EQ(digest(fair.lab.world), digest(other.world)) << "tick " << tick;
-    ASSERT_EQ(report.sensor_events, again.sensor_events);
-    told += report.sensor_events;
-    for (uint32_t i = 0; i < report.sensor_events; ++i)
+    ASSERT_EQ(report.events.sensor, again.events.sensor);
+    told += report.events.sensor;
+    for (uint32_t i = 0; i < report.events.sensor; ++i)
       EXPECT_TRUE(is_event(events[i], again_events[i].type, again_events[i].sensor, again_events[i].body));
   }
   EXPECT_GT(told, 40u);
@@ -168,7 +168,7 @@ DETENT_TEST(sensor, whatever_is_called_who_is_within_is_who_overlaps_also_after_
     const StepReport report = fair.lab.run(1);
     other.run(1);
     ASSERT_EQ(digest(world), digest(other.world)) << "tick " << tick;
-    EXPECT_EQ(report.sensed_dropped, 0u);
+    EXPECT_EQ(report.lost.sensed, 0u);
     if (view_of(static_cast<const World&>(world)).world.idle != 0) continue;
     for (BodyId id = next_body(world, {}); !(id == BodyId{}); id = next_body(world, id)) {
       bool sensor = false;
@@ -318,13 +318,13 @@ DETENT_TEST(sensor, no_throw_whose_way_overlaps_goes_unnoticed) {
         overlaps = overlap_by(state.properties[slots[1]], pose_then(slots[1], time), state.properties[slots[0]],
                               pose_then(slots[0], time), sizeof(Coord) == 4 ? 1e-4 : 2e-6);
       }
-      const bool noticed = was || report.sensor_events != 0;
+      const bool noticed = was || report.events.sensor != 0;
       if (overlaps) {
         EXPECT_TRUE(noticed) << "round " << round << " tick " << tick;
       }
       passes += overlaps && !was ? 1 : 0;
       grazes += noticed && !overlaps ? 1 : 0;
-      EXPECT_EQ(report.sensed_undecided, 0u);
+      EXPECT_EQ(report.lost.sensed_undecided, 0u);
     }
   }
   EXPECT_GT(passes, rounds / 4);

@@ -45,8 +45,8 @@ DETENT_TEST(sensor, a_bullet_through_a_thin_one_enters_and_leaves_in_the_same_st
     EXPECT_TRUE(is_event(events[0], k_enter, gate, bullet));
     EXPECT_TRUE(is_event(events[1], k_leave, gate, bullet));
     EXPECT_TRUE(trap.within(gate).empty());
-    EXPECT_EQ(trap.report.impacts, 0u);
-    EXPECT_EQ(trap.report.sensed_undecided, 0u);
+    EXPECT_EQ(trap.report.ccd.impacts, 0u);
+    EXPECT_EQ(trap.report.lost.sensed_undecided, 0u);
     EXPECT_NEAR(trap.lab.motion(bullet).linear_velocity[0], 500, 1e-3);
     EXPECT_TRUE(trap.run().empty());
   }
@@ -65,7 +65,7 @@ DETENT_TEST(sensor, a_bullet_stopped_by_a_wall_enters_what_is_before_it_and_not_
   def.material.restitution = real(0);
   const BodyId bullet = trap.lab.add(def);
   const std::vector<SensorEvent> events = trap.run();
-  EXPECT_EQ(trap.report.impacts, 1u);
+  EXPECT_EQ(trap.report.ccd.impacts, 1u);
   ASSERT_EQ(events.size(), 3u);
   EXPECT_TRUE(is_event(events[0], k_enter, before, bullet));
   EXPECT_TRUE(is_event(events[1], k_leave, before, bullet));
@@ -89,7 +89,7 @@ DETENT_TEST(sensor, one_that_is_reached_only_by_rebound_is_entered_in_the_same_s
   def.material.restitution = real(1);
   const BodyId bullet = trap.lab.add(def);
   const std::vector<SensorEvent> events = trap.run();
-  EXPECT_EQ(trap.report.impacts, 1u);
+  EXPECT_EQ(trap.report.ccd.impacts, 1u);
   ASSERT_EQ(events.size(), 2u) << "first along x, then along y";
   EXPECT_TRUE(is_event(events[0], k_enter, gate, bullet));
   EXPECT_GT(trap.lab.motion(bullet).position[1], 3.2);
@@ -107,7 +107,7 @@ DETENT_TEST(sensor, one_that_is_passed_on_the_way_to_a_rebound_is_not_missed) {
   def.material.restitution = real(1);
   const BodyId bullet = trap.lab.add(def);
   std::vector<SensorEvent> events = trap.run();
-  EXPECT_EQ(trap.report.impacts, 1u);
+  EXPECT_EQ(trap.report.ccd.impacts, 1u);
   ASSERT_EQ(events.size(), 2u) << "there and back is one visit";
   EXPECT_TRUE(is_event(events[0], k_enter, gate, bullet));
   EXPECT_TRUE(is_event(events[1], k_leave, gate, bullet));
@@ -181,7 +181,7 @@ DETENT_TEST(sensor, who_is_destroyed_or_no_longer_sensed_is_forgotten) {
   EXPECT_OK(set_sensor(trap.lab.world, gate, false));
   EXPECT_EQ(get_info(trap.lab.world).sensed, 0u);
   EXPECT_TRUE(trap.run().empty());
-  EXPECT_EQ(trap.report.contacts, 1u) << "it is solid now";
+  EXPECT_EQ(trap.report.contacts.count, 1u) << "it is solid now";
   EXPECT_OK(set_sensor(trap.lab.world, second, true));
   bool sensor = false;
   EXPECT_OK(get_sensor(trap.lab.world, second, sensor));
@@ -189,7 +189,7 @@ DETENT_TEST(sensor, who_is_destroyed_or_no_longer_sensed_is_forgotten) {
   const std::vector<SensorEvent> events = trap.run();
   ASSERT_EQ(events.size(), 1u) << "a dynamic sensor senses what is fixed";
   EXPECT_TRUE(is_event(events[0], k_enter, second, gate));
-  EXPECT_EQ(trap.report.contacts, 0u);
+  EXPECT_EQ(trap.report.contacts.count, 0u);
 }
 
 DETENT_TEST(sensor, types_and_filters_say_who_senses_whom) {
@@ -225,7 +225,7 @@ bool same_data(const FilterBody& own, const FilterBody& other) { return own.user
 DETENT_TEST(sensor, a_rule_sees_new_user_data_though_all_are_asleep) {
   const FilterRule rules[] = {same_data};
   Trap trap(room_for(3), {}, true);
-  trap.lab.world.filter_rules = {rules, 1};
+  trap.lab.world.hooks.filter_rules = {rules, 1};
   trap.lab.add_ground();
   BodyDef def = sensor_def(box(reals(1, 1, 1)));
   def.filter.rule = 1;
@@ -275,7 +275,7 @@ DETENT_TEST(sensor, a_half_space_senses_whom_it_holds_however_far_away) {
   ASSERT_EQ(events.size(), 1u);
   EXPECT_TRUE(is_event(events[0], k_enter, pit, low));
   EXPECT_FALSE(trap.within(pit)[0] == high);
-  EXPECT_EQ(trap.report.sensed_undecided, 0u);
+  EXPECT_EQ(trap.report.lost.sensed_undecided, 0u);
 }
 
 DETENT_TEST(sensor, queries_do_not_meet_it) {
@@ -292,7 +292,7 @@ DETENT_TEST(sensor, queries_do_not_meet_it) {
 DETENT_TEST(sensor, what_there_is_no_room_for_is_named_counted_and_found_once_there_is_room) {
   Trap trap(room_for(8, 3));
   CapacityEvent lost[8];
-  trap.lab.world.capacity_events = {lost, 8};
+  trap.lab.world.hooks.capacity_events = {lost, 8};
   const BodyId gate = trap.lab.add(sensor_def(box(reals(10, 1, 1))));
   std::vector<BodyId> balls;
   for (int i = 0; i < 5; ++i) {
@@ -301,21 +301,21 @@ DETENT_TEST(sensor, what_there_is_no_room_for_is_named_counted_and_found_once_th
     balls.push_back(trap.lab.add(def));
   }
   EXPECT_EQ(trap.run().size(), 3u);
-  EXPECT_EQ(trap.report.sensed_dropped, 2u);
+  EXPECT_EQ(trap.report.lost.sensed, 2u);
   EXPECT_FALSE(trap.report.complete());
-  ASSERT_EQ(trap.report.capacity_events, 2u);
+  ASSERT_EQ(trap.report.events.capacity, 2u);
   EXPECT_EQ(lost[0].type, CapacityEventType::sensed);
   EXPECT_EQ(lost[0].a, gate);
   EXPECT_EQ(lost[0].b, balls[3]);
   EXPECT_EQ(lost[1].b, balls[4]);
   EXPECT_TRUE(trap.run().empty());
-  EXPECT_EQ(trap.report.sensed_dropped, 0u) << "nothing moves, so the step has nothing to do";
+  EXPECT_EQ(trap.report.lost.sensed, 0u) << "nothing moves, so the step has nothing to do";
   EXPECT_OK(destroy_body(trap.lab.world, balls[0]));
   EXPECT_EQ(get_info(trap.lab.world).sensed, 2u);
   const std::vector<SensorEvent> events = trap.run();
   ASSERT_EQ(events.size(), 1u);
   EXPECT_TRUE(is_event(events[0], k_enter, gate, balls[3]));
-  EXPECT_EQ(trap.report.sensed_dropped, 1u);
+  EXPECT_EQ(trap.report.lost.sensed, 1u);
 }
 
 DETENT_TEST(sensor, a_body_that_passes_through_is_noticed_whichever_others_stay_within) {
@@ -342,7 +342,7 @@ DETENT_TEST(sensor, a_body_that_passes_through_is_noticed_whichever_others_stay_
       EXPECT_OK(set_pose(trap.lab.world, id, position(-1, -0.5, passing - 1.0), {0.0, 0.0, 0.0, 1.0}));
       EXPECT_OK(set_velocity(trap.lab.world, id, reals(240, 120, 0), {}));
       const std::vector<SensorEvent> events = trap.run();
-      EXPECT_EQ(trap.report.impacts, reflected ? 1u : 0u);
+      EXPECT_EQ(trap.report.ccd.impacts, reflected ? 1u : 0u);
       ASSERT_EQ(events.size(), 2u) << reflected << " " << passing;
       EXPECT_TRUE(is_event(events[0], k_enter, gate, id));
       EXPECT_TRUE(is_event(events[1], k_leave, gate, id));
@@ -356,7 +356,7 @@ DETENT_TEST(sensor, a_body_that_passes_through_without_room_is_counted) {
   // for one.
   Trap trap(room_for(6, 1));
   CapacityEvent lost[8];
-  trap.lab.world.capacity_events = {lost, 8};
+  trap.lab.world.hooks.capacity_events = {lost, 8};
   const BodyId gate = trap.lab.add(sensor_def(box(reals(0.02, 0.25, 5))));
   BodyDef wall;
   wall.type = BodyType::fixed;
@@ -370,13 +370,13 @@ DETENT_TEST(sensor, a_body_that_passes_through_without_room_is_counted) {
     balls.push_back(trap.lab.add(def));
   }
   const std::vector<SensorEvent> events = trap.run();
-  EXPECT_EQ(trap.report.impacts, 3u);
-  EXPECT_EQ(trap.report.sensed_undecided, 0u);
+  EXPECT_EQ(trap.report.ccd.impacts, 3u);
+  EXPECT_EQ(trap.report.lost.sensed_undecided, 0u);
   ASSERT_EQ(events.size(), 2u) << "it enters and leaves";
   EXPECT_TRUE(is_event(events[0], k_enter, gate, balls[0]));
   EXPECT_TRUE(is_event(events[1], k_leave, gate, balls[0]));
-  EXPECT_EQ(trap.report.sensed_dropped, 2u);
-  EXPECT_EQ(trap.report.capacity_events, 2u);
+  EXPECT_EQ(trap.report.lost.sensed, 2u);
+  EXPECT_EQ(trap.report.events.capacity, 2u);
 }
 
 DETENT_TEST(sensor, events_beyond_the_buffer_are_dropped_and_counted_and_alter_nothing) {
@@ -387,7 +387,7 @@ DETENT_TEST(sensor, events_beyond_the_buffer_are_dropped_and_counted_and_alter_n
     for (int i = 0; i < 5; ++i) trap.lab.add(ball_def(0.25, i, 0, 0));
     const std::vector<SensorEvent> events = trap.run();
     EXPECT_EQ(events.size(), room < 5 ? room : 5);
-    EXPECT_EQ(trap.report.sensor_events_dropped, room == 2 ? 3u : 0u);
+    EXPECT_EQ(trap.report.events.sensor_dropped, room == 2 ? 3u : 0u);
     digests.push_back(digest(trap.lab.world));
   }
   EXPECT_EQ(digests[0], digests[1]);
@@ -406,8 +406,8 @@ DETENT_TEST(sensor, a_world_without_room_or_code_for_them_refuses_them) {
   def.capacity = room_for(2);
   std::vector<uint64_t> block(world_bytes(def.capacity) / 8);
   World lean;
-  ASSERT_OK(create_world(bytes_of(block), byte_count(block), def, {}, lean,
-                         feature_table<without(Features::all, Features::sensors)>));
+  ASSERT_OK(create_world(bytes_of(block), byte_count(block), def, {},
+                         feature_table<without(Features::all, Features::sensors)>, lean));
   EXPECT_EQ(create_body(lean, sensor_def(sphere(real(1))), id), Status::feature_missing);
   EXPECT_OK(create_body(lean, ball_def(0.25, 0, 0, 0), id));
   EXPECT_EQ(set_sensor(lean, id, true), Status::feature_missing);
@@ -423,7 +423,7 @@ DETENT_TEST(sensor, one_that_falls_through_a_mesh_senses_it_as_long_as_it_touche
   Capacity capacity = room_for(4);
   capacity.assets = 1;
   Trap trap(capacity);
-  trap.lab.world.assets = {&asset, 1};
+  trap.lab.world.hooks.assets = {&asset, 1};
   ASSERT_OK(bind_asset(trap.lab.world, 0));
   BodyDef def;
   def.type = BodyType::fixed;
@@ -453,8 +453,8 @@ DETENT_TEST(sensor, one_that_falls_through_a_mesh_senses_it_as_long_as_it_touche
   ASSERT_EQ(events.size(), 2u);
   EXPECT_TRUE(is_event(events[0], k_enter, fast, ground));
   EXPECT_TRUE(is_event(events[1], k_leave, fast, ground));
-  EXPECT_EQ(trap.report.sensed_undecided, 0u);
-  EXPECT_EQ(trap.report.contacts, 0u);
+  EXPECT_EQ(trap.report.lost.sensed_undecided, 0u);
+  EXPECT_EQ(trap.report.contacts.count, 0u);
 }
 
 }  // namespace

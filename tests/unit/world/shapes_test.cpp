@@ -25,7 +25,7 @@ Lab make_lab(uint32_t bound = 2) {
   WorldDef world;
   world.sleeping = false;  // what stays must stay by itself
   Lab lab(k_capacity, world);
-  lab.world.assets = k_table;
+  lab.world.hooks.assets = k_table;
   for (uint32_t i = 0; i < bound; ++i) EXPECT_OK(bind_asset(lab.world, i));
   return lab;
 }
@@ -87,11 +87,11 @@ void expect_rest(double floor, bool on_box) {
     }
     const BodyId id = lab.add(def_of(named, 0.1, floor + named.height + 0.05, -0.2));
     uint32_t capped = 0;
-    for (int i = 0; i < 300; ++i) capped += step(lab.world).contacts_capped;
+    for (int i = 0; i < 300; ++i) capped += step(lab.world).contacts.capped;
     const Motion start = lab.motion(id);
     double fastest = 0;
     for (int i = 0; i < 300; ++i) {
-      capped += step(lab.world).contacts_capped;
+      capped += step(lab.world).contacts.capped;
       fastest = fmax(fastest, speed_of(lab, id));
     }
     const Motion end = lab.motion(id);
@@ -144,9 +144,9 @@ DETENT_TEST(world_shapes, a_hull_has_to_be_bound_and_a_hull) {
   EXPECT_EQ(create_body(lab.world, def, id), Status::asset_missing);
   ASSERT_OK(bind_asset(lab.world, 1));
   EXPECT_OK(create_body(lab.world, def, id));
-  lab.world.assets.count = 1;
+  lab.world.hooks.assets.count = 1;
   EXPECT_EQ(create_body(lab.world, def, id), Status::asset_missing);
-  lab.world.assets = k_table;
+  lab.world.hooks.assets = k_table;
   def.shape = hull(0);
   EXPECT_EQ(create_body(lab.world, def, id), Status::asset_missing);
   ASSERT_OK(bind_asset(lab.world, 2));
@@ -177,7 +177,7 @@ DETENT_TEST(world_shapes, a_hull_in_its_sources_frame_is_for_bodies_that_nothing
   for (uint32_t i = 0; i < 4; ++i) bytes[k_hull_checksum_at + i] = static_cast<uint8_t>(checksum >> (8 * i));
   const Asset assets[] = {{bytes, sizeof bytes}};
   Lab lab(k_capacity);
-  lab.world.assets = {assets, 1};
+  lab.world.hooks.assets = {assets, 1};
   ASSERT_OK(bind_asset(lab.world, 0));
   BodyDef def;
   BodyId id;
@@ -199,7 +199,7 @@ DETENT_TEST(world_shapes, an_asset_cannot_be_bound_to_another_content_under_the_
   EXPECT_OK(bind_asset(lab.world, 0));
   const uint64_t before = digest(lab.world);
   const Asset other[] = {k_assets[1]};
-  lab.world.assets = {other, 1};
+  lab.world.hooks.assets = {other, 1};
   EXPECT_EQ(bind_asset(lab.world, 0), Status::asset_mismatch);
   EXPECT_EQ(digest(lab.world), before);
   EXPECT_OK(destroy_body(lab.world, id));
@@ -213,9 +213,9 @@ DETENT_TEST(world_shapes, a_step_without_a_hulls_bytes_says_so) {
   def.shape = hull(1);
   def.position = position(0, 0.2, 0);
   lab.add(def);
-  EXPECT_EQ(lab.run(1).contacts_capped, 0u);
-  lab.world.assets = {};
-  EXPECT_EQ(lab.run(1).contacts_capped, 1u);
+  EXPECT_EQ(lab.run(1).contacts.capped, 0u);
+  lab.world.hooks.assets = {};
+  EXPECT_EQ(lab.run(1).contacts.capped, 1u);
 }
 
 /// One body of each shape, falling on the ground.
@@ -236,7 +236,7 @@ DETENT_TEST(world_shapes, a_snapshot_with_hulls_is_taken_back_only_with_their_by
   const uint64_t after = digest(lab.world);
   const auto load_with = [&](AssetTable assets) {
     Lab fresh(k_capacity);
-    fresh.world.assets = assets;
+    fresh.world.hooks.assets = assets;
     std::vector<uint64_t> bytes = good;
     const Status status = load(fresh.world, bytes_of(bytes), byte_count(bytes));
     if (status == Status::ok) {
@@ -263,7 +263,7 @@ DETENT_TEST(world_shapes, a_snapshot_with_hulls_is_taken_back_only_with_their_by
 Status load_altered(const std::vector<uint64_t>& good, uint32_t slot,
                     const std::function<void(BodyProperties&)>& alter) {
   Lab fresh(k_capacity);
-  fresh.world.assets = k_table;
+  fresh.world.hooks.assets = k_table;
   std::vector<uint64_t> bytes = good;
   alter(view_of(bytes_of(bytes), k_capacity).properties[slot]);
   return load(fresh.world, bytes_of(bytes), byte_count(bytes));

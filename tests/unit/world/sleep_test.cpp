@@ -87,7 +87,7 @@ DETENT_TEST(sleep, a_body_thrown_at_a_stack_wakes_all_of_it_in_the_tick_it_touch
     stacks.expect(false, false);
     const StepReport report = stacks.lab.run(1);
     woke = report.woke;
-    contacts = report.contacts;
+    contacts = report.contacts.count;
   }
   EXPECT_EQ(woke, 3u);
   EXPECT_GE(contacts, 4u) << "what stands on each other still does";
@@ -104,7 +104,7 @@ DETENT_TEST(sleep, bodies_that_fell_asleep_apart_wake_each_other_within_a_tick) 
   ASSERT_OK(wake_body(stacks.lab.world, stacks.left[0]));
   const StepReport report = stacks.lab.run(1);
   EXPECT_EQ(report.woke, 2u);
-  EXPECT_EQ(report.contacts, 3u);
+  EXPECT_EQ(report.contacts.count, 3u);
   stacks.expect(true, false);
 }
 

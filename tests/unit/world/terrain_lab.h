@@ -16,7 +16,7 @@ class TerrainLab : public Lab {
  public:
   explicit TerrainLab(const Bytes& bytes, WorldDef def = {}, bool sleeping = false)
       : Lab({32, 256, 1}, def, sleeping), bytes_(bytes), asset_(asset_of(bytes_)) {
-    world.assets = {&asset_, 1};
+    world.hooks.assets = {&asset_, 1};
     EXPECT_OK(bind_asset(world, 0));
   }
   BodyDef ground_def(double friction = 0.6) const {

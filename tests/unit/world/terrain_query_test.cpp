@@ -59,8 +59,8 @@ class Place {
       : bytes_(bytes), asset_{bytes_.data(), bytes_.count()}, words_(world_bytes(k_capacity) / 8) {
     WorldDef def;
     def.capacity = k_capacity;
-    EXPECT_OK(
-        create_world(reinterpret_cast<uint8_t*>(words_.data()), world_bytes(k_capacity), def, {&asset_, 1}, world));
+    EXPECT_OK(create_world(reinterpret_cast<uint8_t*>(words_.data()), world_bytes(k_capacity), def,
+                           {.assets = {&asset_, 1}}, world));
     EXPECT_OK(bind_asset(world, 0));
   }
   Place(const Place&) = delete;
@@ -97,7 +97,7 @@ struct Ground {
     const Position at = position_near(any_direction(samples) * 40);
     id = in.add_fixed(detent::terrain(0), at, rotation_near(any_rotation(samples)));
     EXPECT_OK(get_pose(in.world, id, pose));
-    terrain = terrain_view(in.world.assets.assets[0].bytes);
+    terrain = terrain_view(in.world.hooks.assets.assets[0].bytes);
     triangle_count = terrain.is_mesh ? terrain.mesh.triangle_count : terrain.field.triangle_count();
   }
   Position place(const Vector& v) const { return moved(pose.position, reals_near(v)); }
@@ -314,7 +314,7 @@ DETENT_TEST(terrain_queries, of_one_side_let_through_what_comes_from_behind) {
 DETENT_TEST(terrain_queries, never_say_no_hit_for_what_cannot_be_asked) {
   Place lab(detent_terrains::cooked(detent_terrains::plane(8, 1)));
   const BodyId id = lab.add_terrain();
-  lab.world.assets = {};
+  lab.world.hooks.assets = {};
   RayQuery ray;
   ray.origin = position_near({{-8, -1, 0}});
   ray.displacement = reals_near({{8, 2, 0}});

@@ -133,11 +133,11 @@ DETENT_TEST(terrains, touch_in_several_places_at_once) {
   const BodyId ground = lab.add_terrain();
   const BodyId ball = lab.add_shape(sphere(real(0.5)), 0, 0.5 * sqrt(2.0) + 0.01, 0.2, 0);
   ContactEvent events[8];
-  lab.world.contact_events = {events, 8};
+  lab.world.hooks.contact_events = {events, 8};
   uint32_t begun = 0;
   for (int tick = 0; tick < 120; ++tick) {
     const StepReport report = lab.run(1);
-    for (uint32_t i = 0; i < report.contact_events; ++i) begun += events[i].type == ContactEventType::begin ? 1 : 0;
+    for (uint32_t i = 0; i < report.events.contact; ++i) begun += events[i].type == ContactEventType::begin ? 1 : 0;
   }
   EXPECT_EQ(begun, 1u);  // of the two bodies
   EXPECT_NEAR(lab.motion(ball).position[1], 0.5 * sqrt(2.0), 1e-3);
@@ -276,7 +276,7 @@ DETENT_TEST(terrains, are_shown_where_they_are) {
   draw(lab.world, to, DrawFlags::bodies);
   EXPECT_EQ(shown.lines, 3 * 48u);
   EXPECT_EQ(shown.solids, 2u);
-  lab.world.assets = {};
+  lab.world.hooks.assets = {};
   EXPECT_EQ(visit_triangles(lab.world, id, &shown, visit), Status::asset_missing);
 }
 
