@@ -1,6 +1,5 @@
 #pragma once
-#include <detent/convert.h>
-#include <detent/transform.h>
+#include <detent/numbers.h>
 #include <detent/world.h>
 #include <math.h>
 

@@ -1,4 +1,4 @@
-#include <detent/convert.h>
+#include <detent/numbers.h>
 #include <detent/recording.h>
 #include <inttypes.h>
 #include <math.h>

@@ -1,7 +1,8 @@
 #include "examples/billiards/picture.h"
 
-#include <detent/body_access.h>
-#include <detent/convert.h>
+#include <detent/body.h>
+#include <detent/numbers.h>
+#include <detent/world.h>
 #include <inttypes.h>
 #include <stdio.h>
 

@@ -1,4 +1,4 @@
-#include <detent/body_access.h>
+#include <detent/body.h>
 #include <detent/world.h>
 #include <math.h>
 

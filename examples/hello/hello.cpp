@@ -1,4 +1,4 @@
-#include <detent/convert.h>
+#include <detent/numbers.h>
 #include <detent/world.h>
 #include <stdio.h>
 using namespace detent;

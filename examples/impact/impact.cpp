@@ -1,6 +1,5 @@
-#include <detent/cast.h>
-#include <detent/convert.h>
 #include <detent/distance.h>
+#include <detent/numbers.h>
 #include <detent/toi.h>
 #include <stdio.h>
 using namespace detent;

@@ -1,4 +1,4 @@
-#include <detent/convert.h>
+#include <detent/numbers.h>
 #include <detent/query.h>
 #include <stdio.h>
 

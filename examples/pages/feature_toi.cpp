@@ -1,5 +1,5 @@
-#include <detent/convert.h>
 #include <detent/feature_toi.h>
+#include <detent/numbers.h>
 #include <math.h>
 
 #include "examples/pages/check.h"

@@ -1,6 +1,4 @@
-#include <detent/convert.h>
-#include <detent/view.h>
-#include <detent/world.h>
+#include <detent/detent.h>
 #include <math.h>
 
 #include "examples/pages/check.h"

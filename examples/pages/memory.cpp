@@ -1,5 +1,4 @@
-#include <detent/capacity.h>
-#include <detent/convert.h>
+#include <detent/numbers.h>
 #include <detent/world.h>
 #include <stdlib.h>
 

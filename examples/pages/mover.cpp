@@ -1,7 +1,7 @@
-#include <detent/convert.h>
-#include <detent/forces.h>
+#include <detent/body.h>
 #include <detent/mover.h>
-#include <detent/transform.h>
+#include <detent/numbers.h>
+#include <detent/world.h>
 
 #include "examples/pages/check.h"
 

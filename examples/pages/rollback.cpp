@@ -1,6 +1,6 @@
-#include <detent/convert.h>
+#include <detent/numbers.h>
 #include <detent/recording.h>
-#include <detent/rollback_session.h>
+#include <detent/rollback.h>
 #include <string.h>
 
 #include "examples/pages/check.h"

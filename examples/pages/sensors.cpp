@@ -1,4 +1,4 @@
-#include <detent/convert.h>
+#include <detent/numbers.h>
 #include <detent/sensor.h>
 
 #include "examples/pages/check.h"

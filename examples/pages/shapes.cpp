@@ -1,6 +1,6 @@
-#include <detent/convert.h>
+#include <detent/asset.h>
 #include <detent/distance.h>
-#include <detent/hull.h>
+#include <detent/numbers.h>
 #include <detent/world.h>
 #include <math.h>
 

@@ -1,4 +1,4 @@
-#include <detent/convert.h>
+#include <detent/numbers.h>
 #include <detent/toi_methods.h>
 #include <math.h>
 

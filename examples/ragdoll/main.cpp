@@ -1,4 +1,4 @@
-#include <detent/convert.h>
+#include <detent/numbers.h>
 #include <inttypes.h>
 #include <stdio.h>
 

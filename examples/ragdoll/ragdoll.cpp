@@ -1,6 +1,6 @@
 #include "examples/ragdoll/ragdoll.h"
 
-#include <detent/transform.h>
+#include <detent/numbers.h>
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

@@ -1,6 +1,6 @@
 #include "examples/rollback/view.h"
 
-#include <detent/convert.h>
+#include <detent/numbers.h>
 #include <fcntl.h>
 #include <math.h>
 #include <unistd.h>

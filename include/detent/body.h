@@ -1,13 +1,61 @@
 #pragma once
-#include <detent/filter.h>
-#include <detent/id.h>
-#include <detent/scaled.h>
+#include <detent/numbers.h>
 #include <detent/shape.h>
+#include <detent/status.h>
 
 /// @file
-/// The definition of a body.
+/// Bodies: their ids, filters and definitions; getters and setters for the properties that a definition sets; forces,
+/// impulses and kinematic targets. world.h has the functions that create, move and push a body.
+///
+/// Setters wake the body and the sleeping bodies that are in contact with it or joined to it. Errors of all getters:
+/// bad_id. Errors of all setters: bad_id, and those that each setter lists.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
+
+struct World;
+
+/// Names a body by value. Null if both members are zero. Valid until the body is destroyed; a later body in the same
+/// slot has another generation. A slot whose generation would overflow is no longer used, and is counted in
+/// `WorldInfo::slots_retired`.
+struct BodyId {
+  uint32_t slot = 0;        ///< index + 1; 0 is null
+  uint32_t generation = 0;  ///< 1 for the first body of a slot
+  /// Whether both name the same body.
+  friend constexpr bool operator==(BodyId a, BodyId b) { return a.slot == b.slot && a.generation == b.generation; }
+};
+
+/// Selects the bodies with which a body can collide. Two bodies of the same nonzero group can collide if the group is
+/// positive, and cannot if it is negative. Any other two bodies can collide if the category of each shares a bit with
+/// the mask of the other. Finally the filter rules of both bodies, if any, are called: a rule can forbid a pair that
+/// these tests allow.
+/// Source: the filter of Box2D (Catto).
+struct Filter {
+  uint32_t category = 1;  ///< bits: the categories of the body
+  uint32_t mask = ~0u;    ///< bits: the categories with which the body can collide
+  int32_t group = 0;      ///< 0: no group
+  uint32_t rule = 0;      ///< 0: no rule; else the number, from 1 on, of a rule in WorldHooks::filter_rules
+  /// Whether all fields are equal.
+  friend constexpr bool operator==(const Filter& a, const Filter& b) {
+    return a.category == b.category && a.mask == b.mask && a.group == b.group && a.rule == b.rule;
+  }
+};
+
+/// The properties of a body that a rule can read.
+struct FilterBody {
+  uint32_t user_data = 0;  ///< BodyDef::user_data
+  Filter filter = {};      ///< BodyDef::filter
+};
+
+/// Returns whether `own`, the body that has the rule, can collide with `other`. The result must depend only on the
+/// arguments: the rule may be called at any time, and must return the same on every machine that replays the world.
+using FilterRule = bool (*)(const FilterBody& own, const FilterBody& other);
+
+/// The filter rules of a world. Rule n is rules[n - 1]. The caller chooses the order, which must be the same on every
+/// machine: the state stores only the numbers.
+struct FilterRuleTable {
+  const FilterRule* rules = nullptr;  ///< the first rule
+  uint32_t count = 0;                 ///< number of rules
+};
 
 /// How a body moves. Stored in snapshots and recordings: a value is never reused.
 enum class BodyType : uint32_t {
@@ -69,6 +117,100 @@ struct BodyDef {
   /// A sensor has no contact forces, and queries and movers ignore it. It reports the bodies within it (sensor.h).
   bool sensor = false;
 };
+
+/// A definition that creates the same body with its current pose and velocity. An inertia set by set_inertia() is not
+/// part of it. Numbers are those that the state stores: rounded, by less than 2^-30 of their size. For a non-dynamic
+/// body that never had a mass, `mass` is 0.
+Status get_body_def(const World& world, BodyId id, BodyDef& def);
+/// BodyDef::type.
+Status get_type(const World& world, BodyId id, BodyType& type);
+/// BodyDef::shape. Sizes that the shape's type does not use are those of a default shape.
+Status get_shape(const World& world, BodyId id, Shape& shape);
+/// BodyDef::material.
+Status get_material(const World& world, BodyId id, Material& material);
+/// BodyDef::linear_damping and angular_damping, 1/s.
+Status get_damping(const World& world, BodyId id, Real& linear, Real& angular);
+/// BodyDef::gravity_scale.
+Status get_gravity_scale(const World& world, BodyId id, Real& scale);
+/// BodyDef::rotation_locks.
+Status get_rotation_locks(const World& world, BodyId id, uint32_t& locks);
+/// BodyDef::sensor.
+Status get_sensor(const World& world, BodyId id, bool& sensor);
+/// The moments of inertia about the body's axes, kg m^2; 0 for fixed and kinematic bodies and about locked axes.
+Status get_inertia(const World& world, BodyId id, Vec3<Scaled>& inertia);
+/// The velocity, m/s, world, of the point of the body at `arm` from its centre of mass. `arm`: m, world axes; each
+/// component within twice the bounding radius. Errors: out_of_range.
+Status get_velocity_at(const World& world, BodyId id, const Vec3<Real>& arm, Vec3<Real>& velocity);
+
+/// Changes the type of the body and ends its contacts at once. Position, velocity and angular velocity stay, but a body
+/// that becomes fixed stops, and a body that becomes dynamic loses the angular velocity about its locked axes. Forces
+/// that have not acted yet are lost. A body that becomes dynamic gets the mass that it last had or was created with; if
+/// it never had one, the mass at 1000 kg/m^3.
+/// Errors: bad_argument (`type` is no BodyType; or `type` is dynamic and the shape is a half-space, a terrain, or a
+/// hull in its source frame), out_of_range (the mass, or angular velocity x bounding radius).
+Status set_type(World& world, BodyId id, BodyType type);
+/// Changes the shape of the body and ends its contacts at once. Mass, velocity and angular velocity stay; set_density()
+/// sets the mass from the new volume.
+/// Errors: as create_body() with this shape, and out_of_range (angular velocity x bounding radius).
+Status set_shape(World& world, BodyId id, const Shape& shape);
+/// Sets the mass, kg, [2^-60, 2^60]. Velocity and angular velocity stay. A body that is not dynamic stores the mass for
+/// a later set_type(). Errors: out_of_range.
+Status set_mass(World& world, BodyId id, Scaled mass);
+/// Sets the moments of inertia about the body's axes, kg m^2, in place of those of its shape. Range: [2^-15 mass r^2,
+/// mass r^2], where r is the power of two, m, above the bounding radius and at most twice that radius. The value about
+/// a locked axis has no effect, but must be in (0, mass r^2]. The angular velocity stays. set_mass() scales the moments
+/// with the mass; set_shape(), set_type() and set_rotation_locks() restore those of the shape.
+/// Errors: bad_argument (the body is not dynamic), out_of_range.
+Status set_inertia(World& world, BodyId id, const Vec3<Scaled>& inertia);
+/// As set_mass(), with the mass of the shape's volume at `density`, kg/m^3, [2^-60, 2^60].
+/// Errors: out_of_range (the density or the mass), bad_argument (a half-space or a terrain).
+Status set_density(World& world, BodyId id, Scaled density);
+/// BodyDef::material. Errors: bad_argument (restitution_rule is no RestitutionRule), out_of_range.
+Status set_material(World& world, BodyId id, const Material& material);
+/// BodyDef::linear_damping and angular_damping, 1/s, [0, 1024]. Errors: out_of_range.
+Status set_damping(World& world, BodyId id, Real linear, Real angular);
+/// BodyDef::gravity_scale, [-1024, 1024]. Errors: out_of_range.
+Status set_gravity_scale(World& world, BodyId id, Real scale);
+/// BodyDef::rotation_locks. The angular velocity about the other axes stays. An inertia set by set_inertia() is
+/// replaced by that of the shape. Errors: bad_argument (other bits than those of k_rotation_locks_all).
+Status set_rotation_locks(World& world, BodyId id, uint32_t locks);
+/// BodyDef::sensor. A change ends the body's contacts at once and removes it from the stored sensor overlaps, as a
+/// sensor and as a sensed body; no leave events are written for that. Errors: pool_full (Capacity::sensed is 0),
+/// feature_missing.
+Status set_sensor(World& world, BodyId id, bool sensor);
+
+/// Adds a force, N, world frame, that acts during the next step at the point `arm` from the centre of mass. `arm`: m,
+/// world axes; each component within twice the bounding radius. Errors: as apply_force().
+Status apply_force_at(World& world, BodyId id, const Vec3<Scaled>& force, const Vec3<Real>& arm);
+/// As apply_force_at(), with the point as a world position, m, in the same range around the centre of mass.
+/// Errors: as apply_force().
+Status apply_force_at_point(World& world, BodyId id, const Vec3<Scaled>& force, const Position& point);
+/// As apply_impulse_at(), with the point as a world position, m. Its distance from the centre of mass is at most twice
+/// the bounding radius in each component. Errors: as apply_force().
+Status apply_impulse_at_point(World& world, BodyId id, const Vec3<Scaled>& impulse, const Position& point);
+
+/// The parameters of explode().
+struct Explosion {
+  Position centre = {0.0, 0.0, 0.0};  ///< m, world
+  Real radius = 10.0;                 ///< m, [2^-14, 2^14]; bodies farther away get no impulse
+  Scaled impulse = 100.0;             ///< N s/m^2 at the centre; a negative value pulls bodies towards the centre
+};
+/// Applies an impulse at once to each dynamic body with d < radius, in slot order, through its centre of mass and away
+/// from the centre of the explosion. The impulse is
+///
+///     impulse x pi b^2 x (1 - d / radius),   d = max(distance of the centres - b, 0),
+///
+/// where b is the bounding radius of the body. A body whose centre of mass is at the centre of the explosion gets no
+/// impulse. Errors: out_of_range, also if a speed would leave its range; then no body gets an impulse.
+Status explode(World& world, const Explosion& explosion);
+
+/// Sets the velocity and angular velocity of a kinematic body so that the next step moves it to the target pose, by the
+/// smaller of the two possible rotations. The body keeps these velocities after that step. The error of the pose after
+/// the step is at most 2^-31 m plus one step of the position format (f32: plus 2^-23 of the displacement) in each
+/// coordinate, and 2^-27 (f32: 2^-21) in each component of the rotation (tests/unit/world/kinematic_test.cpp).
+/// Errors: bad_id, bad_argument (not kinematic; a half-space that would rotate), out_of_range (a speed),
+/// not_normalised.
+Status move_kinematic(World& world, BodyId id, const Position& position, const Quat& rotation);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

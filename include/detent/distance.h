@@ -1,10 +1,47 @@
 #pragma once
-#include <detent/convex.h>
+#include <detent/asset.h>
+#include <detent/numbers.h>
+#include <detent/shape.h>
+#include <detent/status.h>
 
 /// @file
-/// Distance and overlap of two convex shapes at rest. No world is needed.
+/// Convex shapes prepared for the functions that need no world (this header, toi.h, contact.h); distance and overlap of
+/// two of them at rest, and casts against one.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
+
+/// A shape prepared for the functions of this header, toi.h and contact.h: a core, and a ball that rounds the core. All
+/// members are integers, the same in every configuration. Lengths are in 2^-30 of the shape's unit of length,
+/// 2^exponent m. The unit is the least power of two above the greatest distance of a core point from the origin. Make a
+/// Convex with the functions below; do not set the fields directly.
+struct Convex {
+  ShapeType type = ShapeType::sphere;  ///< the type of the source shape
+  int32_t exponent = 0;                ///< the unit of length is 2^exponent m
+  /// Box: half extents; capsule: (0, half length, 0); cylinder, cone: (radius, half length, 0); hull: (half thickness,
+  /// 0, 0), or 0 where that is read from the cooked bytes.
+  int32_t size[3] = {};
+  int32_t core_radius = 0;        ///< greatest distance of a core point from the origin, rounded up
+  int32_t radius = 0;             ///< of the ball, in 2^-30 2^radius_exponent m
+  int32_t radius_exponent = 0;    ///< separate from `exponent`: the ball may be far larger than the core
+  int32_t corner[3][3] = {};      ///< triangle: its corners
+  uint32_t vertex_count = 0;      ///< hull: number of vertices
+  const uint8_t* hull = nullptr;  ///< hull: the cooked bytes; they must outlive this Convex
+};
+
+/// Prepares a sphere, capsule, box, cylinder, cone or half-space. Sizes: [2^-14, 2^14] m; the half_length of a capsule
+/// and the rounding may also be 0. The ratio of a core's largest to its smallest size is at most 2^14.
+/// Rounding: each size to nearest, to within 2^-31 of the shape's unit. Errors: out_of_range; bad_argument (another
+/// type, or rounding of a sphere, capsule or half-space).
+Status make_convex(const Shape& shape, Convex& convex);
+
+/// Prepares a hull cooked by `detent cook`, grown by a ball of radius `rounding`, m (0, or [2^-14, 2^14]). The bytes
+/// may come from an untrusted source: all of them are checked. Errors: buffer_misaligned, not_detent, format_unknown,
+/// truncated, corrupt, out_of_range.
+Status make_hull(const Asset& asset, Real rounding, Convex& convex);
+
+/// Prepares a triangle, grown by a ball of radius `rounding`, m (0, or [2^-14, 2^14]). `corners`: m, in the body's
+/// frame; the farthest is 2^-14 to 2^15 m from the origin. The triangle may be degenerate. Errors: out_of_range.
+Status make_triangle(const Vec3<Real> (&corners)[3], Real rounding, Convex& convex);
 
 /// The vertices of the last simplex of a pair's query; the next query of the pair starts from them. Any content is
 /// safe: it changes only the run time, and which of several equally near points is returned.
@@ -47,6 +84,29 @@ Status overlap(const Convex& a, const Pose& pose_a, const Convex& b, const Pose&
 /// k_distance_error. Errors: as closest_points(), and out_of_range for reach < 0.
 Status farther_than(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Real distance_max,
                     bool& result, DistanceCache* cache = nullptr);
+
+/// The result of a cast.
+struct CastHit {
+  bool hit = false;        ///< the cast hits the shape within its displacement
+  bool undecided = false;  ///< the iteration cap was reached: no hit up to `time`, unknown beyond it
+  Fraction time = 0.0;     ///< fraction of the displacement up to the hit, never late; 1 if there is no hit
+  Vec3<Real> point = {};   ///< the hit point on the shape, m, from the shape's position, world axes
+  Vec3<Unit> normal = {};  ///< of the shape at `point`, outward, world axes; zero if the cast starts in the core
+};
+
+/// Finds where the segment from `origin` (m, from the shape's position, world axes) to `origin` + `displacement` (m)
+/// enters the shape. Precision: the hit is at most the tolerance of time_of_impact() in front of the surface. Source:
+/// van den Bergen, "Ray Casting against General Convex Objects", 2004, on certified axes. Errors: not_normalised;
+/// out_of_range, also for a component of `displacement` of 2^15 m or more. An origin with a component of 2^16 m or more
+/// is out of range if the segment might hit the shape, and always if the shape is a half-space.
+Status cast_ray(const Convex& convex, const Pose& pose, const Vec3<Real>& origin, const Vec3<Real>& displacement,
+                CastHit& result);
+
+/// Finds where `moving`, which starts at `start` and moves by the displacement `displacement`, m, without rotation,
+/// first hits `convex`. With a sphere as `moving` this is a sphere cast. `normal` points from `convex` to `moving`.
+/// Errors: as time_of_impact().
+Status cast_shape(const Convex& moving, const Pose& start, const Vec3<Real>& displacement, const Convex& convex,
+                  const Pose& pose, CastHit& result);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -1,6 +1,6 @@
 #pragma once
-#include <detent/id.h>
-#include <detent/math.h>
+#include <detent/body.h>
+#include <detent/numbers.h>
 
 /// @file
 /// Events of a step: contacts, sensors, sleep, and full pools.

@@ -1,7 +1,6 @@
 #pragma once
-#include <detent/id.h>
-#include <detent/math.h>
-#include <detent/scaled.h>
+#include <detent/body.h>
+#include <detent/numbers.h>
 #include <detent/status.h>
 
 namespace detent {

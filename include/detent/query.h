@@ -1,5 +1,5 @@
 #pragma once
-#include <detent/fraction.h>
+#include <detent/numbers.h>
 #include <detent/world.h>
 
 /// Queries of a world: which bodies a ray or a moving shape hits, which a shape or a box overlaps, which are nearest.
@@ -16,6 +16,8 @@
 /// one-sided terrain is not hit from behind.
 ///
 /// Errors of all queries: out_of_range, not_normalised; for shapes as create_body(). Outputs are then untouched.
+///
+/// visit_triangles() gives the triangles of a terrain, for drawing. It is not linked unless called.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -118,6 +120,18 @@ Status query_overlap(const World& world, const OverlapQuery& query, QueryHits hi
 Status query_bounds(const World& world, const BoundsQuery& query, QueryHits hits, QueryReport& report);
 /// Finds the bodies that are nearest to the shape, within the search distance. Precision: as closest_points().
 Status query_closest(const World& world, const ClosestQuery& query, QueryHits hits, QueryReport& report);
+
+/// A triangle of a body, at the body's current pose.
+struct BodyTriangle {
+  uint32_t index = 0;       ///< as QueryHit::triangle
+  uint32_t material = 0;    ///< as cooked
+  Position corner[3] = {};  ///< counter-clockwise from the front, m, world
+};
+
+/// Calls visit(user, triangle) for each triangle of the body, always in the same order. Rounding: to a step of a
+/// position. Errors: bad_id, bad_argument (the body's shape is no terrain), asset_missing.
+Status visit_triangles(const World& world, BodyId id, void* user,
+                       void (*visit)(void* user, const BodyTriangle& triangle));
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

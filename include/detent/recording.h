@@ -1,8 +1,7 @@
 #pragma once
-#include <detent/body_access.h>
-#include <detent/forces.h>
+#include <detent/body.h>
 #include <detent/query.h>
-#include <detent/world_access.h>
+#include <detent/world.h>
 
 /// @file
 /// Recording and replay: a seed snapshot, every mutating call, and a digest per tick, as a stream of small checked
@@ -80,8 +79,8 @@ extern const Tracer k_tracer;
 struct ReplayWatch;
 /// @endcond
 
-/// Applies calls to a world and logs the calls that succeed. Its methods mirror world.h, body_access.h, world_access.h,
-/// joint.h and forces.h by name, arguments and statuses.
+/// Applies calls to a world and logs the calls that succeed. Its methods mirror world.h, body.h and joint.h by name,
+/// arguments and statuses.
 ///
 /// A call that fails changes nothing and is not logged. If the sink fails, calls are still applied, nothing more is
 /// written, and `status` and `end` report the failure. Between `begin` and `end` only the recorder may change the
@@ -119,8 +118,7 @@ class Recorder {
   /// The world to which the calls are applied.
   const World& world() const { return world_; }
 
-  /// As the function of this name in world.h, body_access.h, world_access.h, joint.h or forces.h, with its arguments
-  /// and errors; logged if it succeeds.
+  /// As the function of this name in world.h, body.h or joint.h, with its arguments and errors; logged if it succeeds.
   /// @{
   Status create_body(const BodyDef& def, BodyId& id);
   Status destroy_body(BodyId id);

@@ -2,8 +2,15 @@
 #include <detent/world.h>
 
 /// @file
-/// World states for rollback: copies between worlds, differences of snapshots, and a ring of the last ticks. Nothing
-/// here allocates. rollback_session.h builds sessions on it; see docs/rollback.md.
+/// World states for rollback: copies between worlds, differences of snapshots, and a ring of the last ticks; and
+/// sessions of a network match, built on them. Nothing here allocates.
+///
+/// In a session each machine simulates with the inputs that it has, repeats the last input of a player whose input has
+/// not arrived, and repeats ticks when an input differs from its prediction. The session stores inputs and states; the
+/// game sends inputs from machine to machine. See docs/rollback.md.
+///
+/// Modelled on GGPO (Cannon 2019: inputs in, save, load and advance a frame) and ggrs (it compares checksums, has a
+/// sync test, and accepts inputs and checksums while it must wait).
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -89,6 +96,245 @@ constexpr uint32_t snapshot_ring_bytes(Capacity capacity, uint32_t ticks) {
   const uint64_t bytes = uint64_t{packed_bytes_max(capacity)} * ticks;
   return bytes > UINT32_MAX ? 0 : static_cast<uint32_t>(bytes);
 }
+
+inline constexpr uint32_t k_rollback_players_max = 16;        ///< largest RollbackDef::players
+inline constexpr uint32_t k_rollback_window_max = 64;         ///< largest RollbackDef::window
+inline constexpr uint32_t k_rollback_input_bytes_max = 1024;  ///< largest RollbackDef::input_bytes
+
+/// The game's own state, which is stored and restored with the world: plain bytes without pointers or padding. They
+/// must be equal on all machines, because the checksums cover them.
+struct GameState {
+  uint8_t* bytes = nullptr;  ///< the game's bytes; null if there are none
+  uint32_t count = 0;        ///< their number
+};
+
+/// The inputs of one tick.
+struct TickInputs {
+  uint64_t tick = 0;                ///< ticks that the world has completed
+  const uint8_t* inputs = nullptr;  ///< the inputs of all players, one after another
+  uint32_t players = 0;             ///< number of players
+  uint32_t input_bytes = 0;         ///< bytes of each player's input
+  uint32_t predicted = 0;           ///< bit p: player p's input has not arrived, and the last one is repeated
+  bool again = false;               ///< the tick is repeated: do not repeat sounds and other effects
+  /// The input of one player.
+  const uint8_t* of(uint32_t player) const { return inputs + player * input_bytes; }
+};
+
+/// The game's function that makes a tick: it applies the inputs to the world and steps it, once. Its results may depend
+/// on the world, the GameState and the inputs only, because a rollback restores nothing else. It must not call the
+/// session.
+struct TickMaker {
+  /// Makes one tick.
+  void (*make)(void* context, World& world, const TickInputs& inputs) = nullptr;
+  void* context = nullptr;  ///< passed to `make`
+};
+
+/// The settings of a session. All but `local` and `delay` must be the same on every machine.
+struct RollbackDef {
+  uint32_t players = 2;            ///< [1, k_rollback_players_max]
+  uint32_t local = 1;              ///< bit p: player p plays on this machine; 0: the machine only watches
+  uint32_t input_bytes = 1;        ///< bytes of a player's input for a tick, [1, k_rollback_input_bytes_max]
+  uint32_t delay = 0;              ///< ticks from a local input to the tick that uses it, [0, window]
+  uint32_t window = 8;             ///< ticks that may be simulated with predicted inputs, [1, k_rollback_window_max]
+  uint32_t checksum_interval = 1;  ///< a checksum is taken before every tick that is a multiple of it; 0: none
+  uint32_t game_bytes = 0;         ///< GameState::count
+};
+
+/// The result of one call.
+struct RollbackReport {
+  uint64_t tick = 0;         ///< ticks that the world has completed
+  uint32_t ticks_again = 0;  ///< ticks that were repeated
+  uint64_t went_back = 0;    ///< the first repeated tick
+};
+
+/// A checksum of the state after `tick` ticks: checksum32() of the world, combined with the GameState's bytes.
+struct TickChecksum {
+  uint64_t tick = 0;      ///< ticks completed
+  uint32_t checksum = 0;  ///< of the state after them
+};
+
+/// The first compared tick after which another player's state differs from this machine's.
+struct Desync {
+  bool found = false;   ///< whether there is such a tick
+  uint64_t tick = 0;    ///< ticks completed
+  uint32_t player = 0;  ///< the player whose state differs; the first if there are several
+  uint32_t own = 0;     ///< this machine's checksum
+  uint32_t theirs = 0;  ///< the player's checksum
+};
+
+/// Bytes of memory that a session needs for worlds of this capacity; 0 if an argument is out of range.
+constexpr uint32_t rollback_bytes(Capacity capacity, const RollbackDef& def);
+
+/// A session, which starts at the world's tick at `begin` and counts the world's ticks. Every call is safe with
+/// untrusted data from a network: invalid data returns an error.
+class RollbackSession {
+ public:
+  RollbackSession() = default;
+  RollbackSession(const RollbackSession&) = delete;
+  RollbackSession& operator=(const RollbackSession&) = delete;
+
+  /// Begins with the world's current state, which must have the same digest on every machine. `memory`: 8-byte aligned,
+  /// at least rollback_bytes() for the world's capacity; only the session may use it as long as the session is in use.
+  /// Errors: out_of_range, bad_argument (no `maker`; a local player outside `def.players`; `game.count` is not
+  /// `def.game_bytes`), buffer_too_small, buffer_misaligned.
+  Status begin(const World& world, const RollbackDef& def, TickMaker maker, uint8_t* memory, uint32_t memory_bytes,
+               GameState game = {});
+
+  /// Adds the input of a local player, `def.input_bytes` bytes, for the tick `def.delay` ticks after the next one; it
+  /// is returned in `tick`. Call it once a tick.
+  /// Errors: bad_argument (not begun, not a local player, already added, null).
+  Status add_local_input(uint32_t player, const uint8_t* input, uint64_t& tick);
+  /// Adds the input of a remote player for a tick. The order of calls is free; an input that is already known does not
+  /// change. Errors: bad_argument (not begun, not a remote player, null), out_of_range (too far ahead to be stored: it
+  /// must be sent again).
+  Status add_input(uint32_t player, uint64_t tick, const uint8_t* input);
+  /// Reads the known input of any player, to send it. Inputs are kept at least until no machine needs them any more.
+  /// Errors: bad_argument (not begun, no such player), out_of_range (not known yet, or no longer kept).
+  Status get_input(uint32_t player, uint64_t tick, uint8_t* input) const;
+  /// The first tick for which the player's input is not known. Send it to the player: earlier inputs need not be sent
+  /// again.
+  uint64_t next_input(uint32_t player) const { return player < def_.players ? next_[player] : 0; }
+
+  /// Repeats the ticks that had wrong predictions, then makes one more tick.
+  /// Errors before anything changes: waiting (`window` ticks were made without an input that has not arrived: call
+  /// again when more inputs have arrived); bad_argument (not begun; a local player's input is missing; the world is not
+  /// at the session's tick); capacity_differs, feature_missing (not the world that the session began with).
+  /// Error afterwards: bad_argument if the maker did not step the world exactly once; this ends the session.
+  Status advance(World& world, RollbackReport& report);
+  /// Repeats the ticks that had wrong predictions, and makes no further tick: for use while waiting, and after the last
+  /// tick. Errors: bad_argument, as advance.
+  Status correct(World& world, RollbackReport& report);
+
+  /// Ticks that the session has made.
+  uint64_t tick() const { return tick_; }
+  /// The state after this many ticks is final on every machine: all inputs before it are known and used.
+  uint64_t confirmed_tick() const;
+
+  /// Writes the last confirmed checksums, the latest first, up to `count`: send each one as often as the network
+  /// requires. Returns how many were written.
+  uint32_t checksums(TickChecksum* last, uint32_t count) const;
+  /// Adds a remote player's checksum; it is compared as soon as its tick is confirmed here. Errors: bad_argument (not
+  /// begun, not a remote player, not a tick with a checksum), out_of_range (too old or too far ahead to be compared),
+  /// digest_differs (desync() has the tick).
+  Status add_checksum(uint32_t player, const TickChecksum& theirs);
+  /// Whether the states differ, and after which tick first.
+  const Desync& desync() const { return desync_; }
+
+ private:
+  struct Checksum;
+
+  bool is_remote(uint32_t player) const { return player < def_.players && (def_.local >> player & 1) == 0; }
+  uint32_t place(uint64_t tick) const { return static_cast<uint32_t>(tick % kept_); }
+  uint8_t* input_of(uint32_t player, uint64_t tick) const;
+  uint8_t* game_at(uint64_t tick) const { return games_ + static_cast<uint32_t>(tick % def_.window) * game_.count; }
+  uint64_t& stamp_of(uint32_t player, uint64_t tick) const;
+  bool is_known(uint32_t player, uint64_t tick) const {
+    return tick != UINT64_MAX && stamp_of(player, tick) == tick + 1;
+  }
+  uint64_t oldest() const;
+  void set_input(uint32_t player, uint64_t tick, const uint8_t* input);
+  uint64_t known_tick() const;
+  bool is_at(const World& world) const;
+  bool lacks_local_input() const;
+  uint32_t predict(uint64_t tick);
+  void keep(const World& world, uint64_t tick);
+  Status make_tick(World& world, uint64_t tick, bool again);
+  Status go_back(World& world, RollbackReport& report);
+  Checksum& own_checksum(uint64_t tick) const;
+  Checksum& their_checksum(uint32_t player, uint64_t tick) const;
+  void compare_checksums();
+  void compare_checksum(uint32_t player, uint64_t tick);
+
+  RollbackDef def_ = {};
+  TickMaker maker_ = {};
+  GameState game_ = {};
+  SnapshotRing states_;
+  uint8_t* games_ = nullptr;    ///< game states of the ticks in `states_`
+  uint8_t* inputs_ = nullptr;   ///< [tick][player]: the known or predicted input
+  uint64_t* stamps_ = nullptr;  ///< [tick][player]: tick + 1 if the input is known
+  Checksum* sums_ = nullptr;    ///< [tick][this machine, then each player]
+  uint32_t kept_ = 0;           ///< number of ticks whose inputs and checksums are kept
+  bool begun_ = false;
+  uint64_t start_ = 0;           ///< the tick at `begin`
+  uint64_t tick_ = 0;            ///< ticks made
+  uint64_t wrong_ = UINT64_MAX;  ///< the first tick that was made with a wrong input
+  uint64_t next_[k_rollback_players_max] = {};
+  Desync desync_ = {};
+};
+
+/// @cond
+struct RollbackSession::Checksum {
+  uint64_t stamp;  ///< tick + 1; 0: empty
+  uint32_t value;
+  uint32_t compared;
+};
+
+// Offsets of the session's parts in its memory, bytes.
+struct RollbackLayout {
+  uint32_t games, inputs, stamps, sums, kept;
+  uint64_t bytes;  ///< 0: out of range
+};
+
+// Ticks to keep, around the first tick for which a machine lacks an input. The machine is up to one window ahead of it.
+// A remote player is up to a delay and a window ahead of the machine, and its inputs are a delay ahead of the player.
+// The machine may have to send its own inputs from up to a window and a delay before. A delay is at most a window.
+constexpr uint32_t rollback_ticks_kept(uint32_t window) { return 6 * window + 2; }
+
+constexpr RollbackLayout rollback_layout(Capacity capacity, const RollbackDef& def) {
+  RollbackLayout layout{};
+  const uint32_t states = snapshot_ring_bytes(capacity, def.window);
+  if (def.players < 1 || def.players > k_rollback_players_max || def.window < 1 || def.window > k_rollback_window_max ||
+      def.input_bytes < 1 || def.input_bytes > k_rollback_input_bytes_max || def.delay > def.window || states == 0) {
+    return layout;
+  }
+  layout.kept = rollback_ticks_kept(def.window);
+  uint64_t end = states;
+  const auto place = [&end](uint64_t bytes) {
+    const uint64_t start = end;
+    end = (end + bytes + 7) / 8 * 8;
+    return static_cast<uint32_t>(start);
+  };
+  layout.games = place(uint64_t{def.game_bytes} * def.window);
+  layout.inputs = place(uint64_t{def.input_bytes} * def.players * layout.kept);
+  layout.stamps = place(uint64_t{8} * def.players * layout.kept);
+  layout.sums = place(uint64_t{16} * (def.players + 1) * layout.kept);
+  layout.bytes = end > UINT32_MAX ? 0 : end;
+  return layout;
+}
+/// @endcond
+
+constexpr uint32_t rollback_bytes(Capacity capacity, const RollbackDef& def) {
+  return static_cast<uint32_t>(rollback_layout(capacity, def).bytes);
+}
+
+/// The settings of sync_test().
+struct SyncTestDef {
+  uint32_t ticks = 1;               ///< ticks to make, and to repeat
+  const uint8_t* inputs = nullptr;  ///< [tick][player]: the inputs; null if there are none
+  uint32_t players = 0;             ///< TickInputs::players
+  uint32_t input_bytes = 0;         ///< TickInputs::input_bytes
+};
+
+/// The result of sync_test().
+struct SyncTestReport {
+  uint64_t tick = 0;    ///< digest_differs: ticks completed in the first state that differs
+  uint64_t first = 0;   ///< digest of this state at the first time
+  uint64_t second = 0;  ///< digest of this state when the tick was repeated
+};
+
+/// Bytes of memory that sync_test() needs; 0 if an argument is out of range.
+constexpr uint32_t sync_test_bytes(Capacity capacity, uint32_t ticks, uint32_t game_bytes = 0) {
+  const uint64_t bytes = uint64_t{snapshot_ring_bytes(capacity, 1)} + uint64_t{8} * ticks + game_bytes;
+  return ticks == 0 || bytes > UINT32_MAX || snapshot_ring_bytes(capacity, 1) == 0 ? 0 : static_cast<uint32_t>(bytes);
+}
+
+/// Makes ticks, restores the state before them, repeats them, and compares the digests: a test of a session's maker.
+/// `game`: what the maker changes besides the world; {}: nothing. Afterwards the world and `game` have the state of the
+/// repetition.
+/// Errors: digest_differs (`report` has the tick; the world is at this tick), out_of_range, buffer_too_small,
+/// buffer_misaligned, bad_argument (no maker; inputs without bytes; a maker that did not step the world exactly once).
+Status sync_test(World& world, const SyncTestDef& def, TickMaker maker, uint8_t* memory, uint32_t memory_bytes,
+                 GameState game, SyncTestReport& report);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

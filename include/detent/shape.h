@@ -1,5 +1,5 @@
 #pragma once
-#include <detent/math.h>
+#include <detent/numbers.h>
 
 /// @file
 /// Shapes: convex shapes, compounds of convex shapes, and terrains (meshes and height fields).
@@ -14,8 +14,8 @@ enum class ShapeType : uint32_t {
   half_space = 4,  ///< half_space()
   cylinder = 5,    ///< cylinder()
   cone = 6,        ///< cone()
-  hull = 7,        ///< hull(): a cooked asset of the world; or made by make_hull() (convex.h)
-  triangle = 8,    ///< made by make_triangle() (convex.h)
+  hull = 7,        ///< hull(): a cooked asset of the world; or made by make_hull() (distance.h)
+  triangle = 8,    ///< made by make_triangle() (distance.h)
   terrain = 9,     ///< terrain()
   compound = 10,   ///< compound()
 };

@@ -1,6 +1,6 @@
 #pragma once
-#include <detent/convex.h>
-#include <detent/fraction.h>
+#include <detent/distance.h>
+#include <detent/numbers.h>
 
 /// @file
 /// Time of impact of two convex shapes that translate and rotate. It needs no world.

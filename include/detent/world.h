@@ -1,12 +1,10 @@
 #pragma once
 #include <detent/asset.h>
 #include <detent/body.h>
+#include <detent/contact.h>
 #include <detent/event.h>
 #include <detent/features.h>
 #include <detent/joint.h>
-#include <detent/observer.h>
-#include <detent/profile.h>
-#include <detent/reduction.h>
 #include <detent/status.h>
 
 /// @file
@@ -78,6 +76,39 @@ struct WorldDef {
   /// since they were computed; [0, 1/64]. Counts as 0 if the capacity has no room for manifolds.
   Real contact_recycle_distance = Real(1.0 / 256);
   ManifoldReduction reduction = ManifoldReduction::projected_extremes;  ///< which of more than four points are kept
+};
+
+/// The stages of a step, in their order.
+enum class StepStage : uint32_t {
+  find_pairs,     ///< moving bodies, their bounds, pairs with overlapping bounds, and bodies that wake
+  collide_pairs,  ///< contact points of pairs, and the rows of the solver
+  build_islands,  ///< islands, solve order, loads, numbers of substeps
+  solve_islands,  ///< the substeps
+  raise_events,   ///< contact events
+  advance,        ///< sweeps, continuous collision and sensors
+  finalise,       ///< new poses
+  store,          ///< bodies that fall asleep, contacts for the next tick, broken joints, body events
+};
+inline constexpr uint32_t k_step_stage_count = 8;  ///< how many stages there are
+/// The name of the enumerator. Never null.
+const char* stage_name(StepStage stage);
+
+/// Times of the stages, by the caller's clock, summed over steps. Set World::profile to measure them; it does not
+/// change the state.
+struct Profile {
+  uint64_t (*now)(void* user) = nullptr;    ///< the clock; it must not run backwards, nor use the world
+  void* user = nullptr;                     ///< passed to `now`
+  uint64_t ticks[k_step_stage_count] = {};  ///< clock ticks in each stage, summed over steps; the caller may reset them
+  uint64_t steps = 0;                       ///< number of steps that were not idle
+};
+
+/// A callback at the end of each stage of each step that is not idle. Set WorldHooks::observer to use it; it does not
+/// change the state. For tools that find the stage in which two machines begin to differ.
+struct StepObserver {
+  /// `contacts`: number of contacts that the step has found so far, in its work space. It must not change the world.
+  /// The state is incomplete within the step: of world.h it may only call `digest`, `save` and the getters.
+  void (*stage_ended)(void* context, const World& world, StepStage stage, uint32_t contacts) = nullptr;
+  void* context = nullptr;  ///< passed to `stage_ended`
 };
 
 /// Bytes of the block that a world of this capacity needs; 0 if the capacity is out of range. The same on every target.
@@ -278,7 +309,7 @@ Status get_pose(const World& world, BodyId id, Pose& pose);
 /// components of the angular velocity are clamped to the range of Real, which only bodies below 12 cm can exceed.
 /// Errors: bad_id.
 Status get_velocity(const World& world, BodyId id, Vec3<Real>& velocity, Vec3<Real>& angular_velocity);
-/// The mass, kg; 0 for fixed and kinematic bodies. Getters of the other properties: body_access.h, world_access.h.
+/// The mass, kg; 0 for fixed and kinematic bodies. Getters of the other properties: body.h.
 /// Errors: bad_id.
 Status get_mass(const World& world, BodyId id, Scaled& mass);
 /// BodyDef::user_data, or the value last set by set_user_data(). Errors: bad_id.
@@ -309,7 +340,94 @@ Status restore(World& world, const uint8_t* bytes, uint32_t byte_count);
 /// Errors: as restore, and buffer_misaligned, corrupt, asset_missing, asset_mismatch, rule_missing.
 Status load(World& world, uint8_t* bytes, uint32_t byte_count);
 
+/// The definition that creates an empty world with this world's settings and capacity.
+WorldDef get_settings(const World& world);
+/// Changes all settings and wakes every body; `def.capacity` is ignored. Forces that were applied since the last step
+/// add the same change of velocity as with the old length of a tick.
+///
+///     WorldDef def = get_settings(world);
+///     def.substeps = 8;
+///     Status status = set_settings(world, def);
+///
+/// Errors: as create_world.
+Status set_settings(World& world, const WorldDef& def);
+
+/// The largest number of entries that any recorded step needed in each pool of a world. All 0 before the first step.
+struct CapacityUse {
+  uint32_t bodies = 0;    ///< bodies in the world
+  uint32_t contacts = 0;  ///< contacts kept (those of sleeping bodies included) and dropped
+  /// Pairs with overlapping bounds, kept and dropped; the pool holds 2 x Capacity::contacts.
+  uint32_t pairs = 0;
+  /// Pairs of continuous collision, kept and dropped; the pool holds Capacity::contacts. 0 if none was dropped.
+  uint32_t impacts = 0;
+  uint32_t joints = 0;      ///< joints in the world
+  uint32_t sensed = 0;      ///< bodies within sensors, kept and dropped
+  uint64_t steps_full = 0;  ///< steps in which a pool had no room
+};
+
+/// Records a step in `use`. `report`: of the step; `after`: get_info() after it.
+constexpr void note_use(const StepReport& report, const WorldInfo& after, CapacityUse& use) {
+  const auto note = [](uint32_t& most, uint32_t kept, uint32_t dropped) {
+    const uint32_t wanted = kept < UINT32_MAX - dropped ? kept + dropped : UINT32_MAX;
+    most = most < wanted ? wanted : most;
+  };
+  note(use.bodies, after.bodies, 0);
+  const uint32_t contacts_dropped = report.lost.contacts - report.lost.contact_parts;
+  note(use.contacts, after.contacts, contacts_dropped);
+  note(use.pairs, report.contacts.pairs, 0);
+  if (report.lost.impacts != 0) note(use.impacts, after.capacity.contacts, report.lost.impacts);
+  note(use.joints, after.joints, 0);
+  note(use.sensed, after.sensed, report.lost.sensed);
+  if (report.lost.pairs != 0 || contacts_dropped != 0 || report.lost.impacts != 0 || report.lost.sensed != 0)
+    ++use.steps_full;
+}
+
+/// A capacity with room for the recorded use plus a quarter, rounded up, and for at least one body. `assets` and
+/// `manifolds` are not recorded: they are copied from `now`. Dropped entries change the motion, so a run with the
+/// larger capacity may need still more: record that run too.
+constexpr Capacity suggest_capacity(const CapacityUse& use, const Capacity& now) {
+  const auto with_spare = [](uint32_t count) {
+    const uint32_t spare = count / 4 + (count % 4 != 0 ? 1 : 0);
+    return count < UINT32_MAX - spare ? count + spare : UINT32_MAX;
+  };
+  const uint32_t of_pairs = use.pairs / 2 + use.pairs % 2;
+  uint32_t contacts = use.contacts < of_pairs ? of_pairs : use.contacts;
+  contacts = contacts < use.impacts ? use.impacts : contacts;
+  Capacity fit = now;
+  fit.bodies = use.bodies == 0 ? 1 : with_spare(use.bodies);
+  fit.contacts = with_spare(contacts);
+  fit.joints = with_spare(use.joints);
+  fit.sensed = with_spare(use.sensed);
+  return fit;
+}
+
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent
 
-#include <detent/storage.h>
+#include <detent/detail/layout.h>
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// Memory for a world whose capacity is known at compile time.
+template <Capacity capacity>
+struct WorldStorage {
+  static constexpr uint32_t k_bytes = world_bytes(capacity);  ///< size of the block
+  static_assert(k_bytes != 0, "detent: capacity out of range");
+  alignas(8) uint8_t block[k_bytes];  ///< the world's memory; nothing else may write to it
+
+  /// As create_world, in this block and with this capacity; `def.capacity` is ignored.
+  Status create(WorldDef def, const WorldHooks& hooks, const FeatureTable& features, World& world) {
+    def.capacity = capacity;
+    return create_world(block, k_bytes, def, hooks, features, world);
+  }
+  /// The same with all features.
+  Status create(const WorldDef& def, const WorldHooks& hooks, World& world) {
+    return create(def, hooks, feature_table<Features::all>, world);
+  }
+  /// The same without hooks.
+  Status create(const WorldDef& def, World& world) { return create(def, {}, world); }
+};
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

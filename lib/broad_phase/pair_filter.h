@@ -1,6 +1,6 @@
 #pragma once
+#include <detent/body.h>
 #include <detent/detail/state.h>
-#include <detent/filter.h>
 
 #include "base/span.h"
 #include "broad_phase/pair_key.h"

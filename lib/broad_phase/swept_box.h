@@ -1,5 +1,5 @@
 #pragma once
-#include <detent/fraction.h>
+#include <detent/numbers.h>
 
 #include "broad_phase/bounds_integer.h"
 #include "math/vector_integer.h"

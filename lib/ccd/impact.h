@@ -1,8 +1,8 @@
 #pragma once
 #include <detent/asset.h>
+#include <detent/body.h>
 #include <detent/detail/scratch.h>
 #include <detent/features.h>
-#include <detent/filter.h>
 
 #include "base/bit_set.h"
 #include "broad_phase/resting_tree.h"

@@ -1,6 +1,6 @@
 #pragma once
-#include <detent/convex.h>
 #include <detent/detail/state.h>
+#include <detent/distance.h>
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

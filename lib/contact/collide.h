@@ -1,8 +1,8 @@
 #pragma once
 #include <detent/asset.h>
+#include <detent/contact.h>
 #include <detent/detail/state.h>
 #include <detent/features.h>
-#include <detent/reduction.h>
 
 #include "math/rotation.h"
 

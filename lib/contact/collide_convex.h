@@ -1,5 +1,5 @@
 #pragma once
-#include <detent/convex.h>
+#include <detent/distance.h>
 
 #include "contact/collide.h"
 #include "contact/contact_points.h"

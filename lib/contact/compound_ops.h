@@ -1,5 +1,5 @@
 #pragma once
-#include <detent/reduction.h>
+#include <detent/contact.h>
 
 #include "contact/terrain_ops.h"
 #include "shape/compound.h"

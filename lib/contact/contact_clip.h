@@ -1,5 +1,5 @@
 #pragma once
-#include <detent/reduction.h>
+#include <detent/contact.h>
 
 #include "contact/contact_feature.h"
 

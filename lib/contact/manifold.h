@@ -1,6 +1,6 @@
 #pragma once
+#include <detent/contact.h>
 #include <detent/detail/state.h>
-#include <detent/reduction.h>
 
 #include "math/arithmetic.h"
 #include "math/rotation.h"

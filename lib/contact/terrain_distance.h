@@ -1,7 +1,7 @@
 #pragma once
 #include <detent/asset.h>
-#include <detent/convex.h>
 #include <detent/detail/state.h>
+#include <detent/distance.h>
 #include <detent/features.h>
 
 namespace detent {

@@ -1,5 +1,5 @@
 #pragma once
-#include <detent/fraction.h>
+#include <detent/numbers.h>
 
 #include "contact/terrain_pair.h"
 

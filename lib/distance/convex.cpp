@@ -1,4 +1,4 @@
-#include <detent/convex.h>
+#include <detent/distance.h>
 
 #include "distance/pair.h"
 #include "math/root.h"

@@ -1,5 +1,5 @@
 #pragma once
-#include <detent/convex.h>
+#include <detent/distance.h>
 
 #include "math/root.h"
 #include "math/rotation_integer.h"

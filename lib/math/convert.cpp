@@ -1,4 +1,4 @@
-#include <detent/convert.h>
+#include <detent/numbers.h>
 
 #include "math/float_bits.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-#include <detent/scaled.h>
+#include <detent/numbers.h>
 
 #include "math/root.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 #include <detent/detail/shared.h>
-#include <detent/math.h>
+#include <detent/numbers.h>
 
 #include "math/wide.h"
 

@@ -1,4 +1,4 @@
-#include <detent/view.h>
+#include <detent/numbers.h>
 
 #include "base/float_environment.h"
 #include "math/float_bits.h"

@@ -1,7 +1,8 @@
-#include <detent/body_access.h>
-#include <detent/contacts.h>
-#include <detent/debug_draw.h>
-#include <detent/triangles.h>
+#include <detent/body.h>
+#include <detent/contact.h>
+#include <detent/draw.h>
+#include <detent/query.h>
+#include <detent/world.h>
 
 #include "base/float_environment.h"
 #include "motion/angular_velocity.h"

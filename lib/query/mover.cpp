@@ -1,5 +1,6 @@
-#include <detent/body_access.h>
+#include <detent/body.h>
 #include <detent/mover.h>
+#include <detent/world.h>
 
 #include "base/bytes.h"
 #include "base/float_environment.h"

@@ -1,5 +1,5 @@
 #pragma once
-#include <detent/id.h>
+#include <detent/body.h>
 
 #include "base/span.h"
 #include "math/root.h"

@@ -1,4 +1,4 @@
-#include <detent/triangles.h>
+#include <detent/query.h>
 
 #include "base/float_environment.h"
 #include "distance/pair.h"

@@ -1,6 +1,5 @@
 #pragma once
-#include <detent/math.h>
-#include <detent/scaled.h>
+#include <detent/numbers.h>
 #include <detent/status.h>
 
 #include "state/fields.h"
@@ -112,7 +111,7 @@ void visit_number(Archive& archive, const char* name, Fixed<Int, frac>& value) {
 void visit_number(Archive& archive, const char* name, float& value);
 void visit_number(Archive& archive, const char* name, double& value);
 #if DETENT_FIXED
-/// Mantissa and exponent, in the canonical form of scaled.h.
+/// Mantissa and exponent, in the canonical form of numbers.h.
 void visit_number(Archive& archive, const char* name, Scaled& value);
 #endif
 template <class T>

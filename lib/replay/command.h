@@ -1,8 +1,7 @@
 #pragma once
-#include <detent/body_access.h>
-#include <detent/forces.h>
+#include <detent/body.h>
 #include <detent/recording.h>
-#include <detent/world_access.h>
+#include <detent/world.h>
 
 #include "replay/archive.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-#include <detent/rollback_session.h>
+#include <detent/rollback.h>
 
 #include "base/digest.h"
 

@@ -1,7 +1,6 @@
 #pragma once
 #include <detent/body.h>
 #include <detent/detail/state.h>
-#include <detent/filter.h>
 
 /// Queries of body properties.
 namespace detent {

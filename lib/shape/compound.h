@@ -1,5 +1,5 @@
 #pragma once
-#include <detent/compound.h>
+#include <detent/asset.h>
 
 #include "math/vector_integer.h"
 #include "shape/hull.h"

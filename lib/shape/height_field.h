@@ -1,5 +1,5 @@
 #pragma once
-#include <detent/height_field.h>
+#include <detent/asset.h>
 
 #include "base/check.h"
 #include "shape/cooked.h"

@@ -1,7 +1,7 @@
 #pragma once
+#include <detent/asset.h>
 #include <detent/detail/shared.h>
 #include <detent/features.h>
-#include <detent/hull.h>
 
 #include "base/check.h"
 #include "math/vector_integer.h"

@@ -1,5 +1,5 @@
 #pragma once
-#include <detent/mesh.h>
+#include <detent/asset.h>
 
 #include "base/check.h"
 #include "shape/cooked.h"

@@ -1,6 +1,6 @@
 #pragma once
 #include <detent/detail/state.h>
-#include <detent/fraction.h>
+#include <detent/numbers.h>
 
 #include "math/arithmetic.h"
 #include "math/rotation.h"

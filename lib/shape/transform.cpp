@@ -1,4 +1,4 @@
-#include <detent/transform.h>
+#include <detent/numbers.h>
 
 #include "base/float_environment.h"
 #include "shape/sweep.h"

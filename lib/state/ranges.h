@@ -1,7 +1,7 @@
 #pragma once
+#include <detent/contact.h>
 #include <detent/detail/shared.h>
 #include <detent/detail/state.h>
-#include <detent/reduction.h>
 
 #include "math/arithmetic.h"
 #include "math/scaled.h"

@@ -1,4 +1,4 @@
-#include <detent/cast.h>
+#include <detent/distance.h>
 
 #include "distance/pair.h"
 #include "toi/conservative_advancement.h"

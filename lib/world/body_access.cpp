@@ -1,4 +1,5 @@
-#include <detent/body_access.h>
+#include <detent/body.h>
+#include <detent/world.h>
 
 #include "base/float_environment.h"
 #include "broad_phase/pair_filter.h"

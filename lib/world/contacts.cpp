@@ -1,4 +1,5 @@
-#include <detent/contacts.h>
+#include <detent/contact.h>
+#include <detent/world.h>
 
 #include "base/float_environment.h"
 #include "contact/compound_ops.h"

@@ -1,4 +1,5 @@
-#include <detent/forces.h>
+#include <detent/body.h>
+#include <detent/world.h>
 
 #include "base/float_environment.h"
 #include "state/ranges.h"

@@ -1,4 +1,4 @@
-#include <detent/profile.h>
+#include <detent/world.h>
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

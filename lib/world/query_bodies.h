@@ -1,5 +1,5 @@
 #pragma once
-#include <detent/convex.h>
+#include <detent/distance.h>
 #include <detent/query.h>
 
 #include "broad_phase/pair_filter.h"

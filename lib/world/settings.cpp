@@ -1,6 +1,6 @@
 #include "world/settings.h"
 
-#include <detent/world_access.h>
+#include <detent/world.h>
 
 #include "base/float_environment.h"
 #include "state/ranges.h"

@@ -1,5 +1,5 @@
-#include <detent/convert.h>
 #include <detent/distance.h>
+#include <detent/numbers.h>
 #include <detent/toi.h>
 
 #include <detent/toi_methods.h>

@@ -1,10 +1,8 @@
-#include <detent/body_access.h>
-#include <detent/contacts.h>
-#include <detent/convert.h>
-#include <detent/forces.h>
+#include <detent/body.h>
+#include <detent/contact.h>
+#include <detent/numbers.h>
 #include <detent/recording.h>
-#include <detent/view.h>
-#include <detent/world_access.h>
+#include <detent/world.h>
 #include <stdio.h>
 #include <string.h>
 

@@ -1,9 +1,6 @@
-#include <detent/compound.h>
-#include <detent/convex.h>
-#include <detent/height_field.h>
-#include <detent/hull.h>
-#include <detent/mesh.h>
-#include <detent/triangles.h>
+#include <detent/asset.h>
+#include <detent/distance.h>
+#include <detent/query.h>
 
 #include "base/crc.h"
 #include "shape/cooked.h"

@@ -1,7 +1,8 @@
 #include "tests/joint_fuzz/run_detent.h"
 
-#include <detent/body_access.h>
-#include <detent/convert.h>
+#include <detent/body.h>
+#include <detent/numbers.h>
+#include <detent/world.h>
 
 #define DETENT_JOINT_FUZZ_TEXT_OF(name) #name
 #define DETENT_JOINT_FUZZ_TEXT(name) DETENT_JOINT_FUZZ_TEXT_OF(name)

@@ -1,4 +1,3 @@
-#include <detent/cast.h>
 #include <detent/contact.h>
 #include <detent/distance.h>
 #include <detent/feature_toi.h>

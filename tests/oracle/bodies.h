@@ -1,6 +1,6 @@
 #pragma once
-#include <detent/convert.h>
 #include <detent/detail/state.h>
+#include <detent/numbers.h>
 
 #include "math/arithmetic.h"
 #include "shape/shape_properties.h"

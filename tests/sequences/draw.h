@@ -1,7 +1,7 @@
 #pragma once
-#include <detent/body_access.h>
+#include <detent/body.h>
 #include <detent/joint.h>
-#include <detent/world_access.h>
+#include <detent/world.h>
 
 #include <limits>
 

@@ -1,8 +1,9 @@
 #pragma once
-#include <detent/contacts.h>
+#include <detent/contact.h>
 #include <detent/mover.h>
+#include <detent/query.h>
 #include <detent/sensor.h>
-#include <detent/triangles.h>
+#include <detent/world.h>
 #include <string.h>
 
 #include <type_traits>

@@ -1,6 +1,7 @@
 #pragma once
-#include <detent/body_access.h>
+#include <detent/body.h>
 #include <detent/joint.h>
+#include <detent/world.h>
 
 #include <map>
 #include <utility>

@@ -1,5 +1,5 @@
 #include <detent/contact.h>
-#include <detent/convert.h>
+#include <detent/numbers.h>
 #include <math.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "tests/stress/measures.h"
 
-#include <detent/hull.h>
+#include <detent/asset.h>
 #include <math.h>
 
 #include "tests/queries/random.h"

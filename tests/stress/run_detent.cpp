@@ -1,6 +1,6 @@
 #include "tests/stress/run_detent.h"
 
-#include <detent/convert.h>
+#include <detent/numbers.h>
 #include <detent/world.h>
 #include <string.h>
 

@@ -1,6 +1,7 @@
 #pragma once
-#include <detent/contacts.h>
+#include <detent/contact.h>
 #include <detent/query.h>
+#include <detent/world.h>
 
 #include "tests/unit/replay/match.h"
 #include "tests/unit/world/lab.h"

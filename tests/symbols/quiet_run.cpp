@@ -1,5 +1,5 @@
 #include <detent/recording.h>
-#include <detent/rollback_session.h>
+#include <detent/rollback.h>
 #include <string.h>
 
 #include "tests/scenes/scene.h"

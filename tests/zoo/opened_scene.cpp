@@ -1,8 +1,8 @@
 #include "tests/zoo/opened_scene.h"
 
-#include <detent/body_access.h>
-#include <detent/contacts.h>
-#include <detent/world_access.h>
+#include <detent/body.h>
+#include <detent/contact.h>
+#include <detent/world.h>
 
 #include <algorithm>
 #include <map>

@@ -1,4 +1,4 @@
-#include <detent/world_access.h>
+#include <detent/world.h>
 
 #include "tests/zoo/opened_scene.h"
 

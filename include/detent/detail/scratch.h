@@ -1,6 +1,6 @@
 #pragma once
 #include <detent/detail/state.h>
-#include <detent/fraction.h>
+#include <detent/numbers.h>
 
 /// Work space of a step, in the block behind the persistent state. Only StepCache outlives a step; it can be recomputed
 /// from the state. Alignment is explicit where i686 would align a double to 4 bytes.

@@ -1,6 +1,6 @@
 #include "reading.h"
 
-#include <detent/convert.h>
+#include <detent/numbers.h>
 #include <string.h>
 
 #include "file.h"

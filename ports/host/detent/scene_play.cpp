@@ -1,6 +1,6 @@
 #include "scene_play.h"
 
-#include <detent/capacity.h>
+#include <detent/world.h>
 
 #include "file.h"
 #include "owned_world.h"

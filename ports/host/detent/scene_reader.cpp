@@ -1,6 +1,6 @@
 #include "scene_reader.h"
 
-#include <detent/transform.h>
+#include <detent/numbers.h>
 #include <math.h>
 
 #include <algorithm>

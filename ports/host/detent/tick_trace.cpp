@@ -1,6 +1,6 @@
 #include "tick_trace.h"
 
-#include <detent/convert.h>
+#include <detent/numbers.h>
 #include <string.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
-#include <detent/body_access.h>
-#include <detent/compound.h>
-#include <detent/triangles.h>
-#include <detent/world_access.h>
+#include <detent/asset.h>
+#include <detent/body.h>
+#include <detent/query.h>
+#include <detent/world.h>
 
 #include <algorithm>
 #include <map>
@@ -234,7 +234,7 @@ class DetentScript : public detent_zoo::Script {
         return compound_parts(world.hooks.assets.assets[shape.asset]);
       case ShapeType::hull:
         return {hull_part(world.hooks.assets.assets[shape.asset], part.rounding)};
-      case ShapeType::surface: {
+      case ShapeType::terrain: {
         MeshReading reading;
         const std::vector<BodyId> ids = scene_->bodies();
         const auto found = std::find(ids.begin(), ids.end(), id);

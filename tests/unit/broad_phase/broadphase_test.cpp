@@ -50,7 +50,7 @@ bool meet(const Bounds& a, const Bounds& b) {
          along(a.lower.z, a.upper.z, b.lower.z, b.upper.z);
 }
 
-/// As filter.h has it.
+/// As body.h has it.
 bool may_touch(const BodyProperties& a, const BodyProperties& b) {
   if (a.group != 0 && a.group == b.group) return a.group > 0;
   return (a.category & b.mask) != 0 && (b.category & a.mask) != 0;

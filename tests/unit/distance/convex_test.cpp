@@ -1,6 +1,4 @@
-#include <detent/convex.h>
 
-#include <detent/cast.h>
 #include <detent/distance.h>
 #include <string.h>
 

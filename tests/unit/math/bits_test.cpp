@@ -1,6 +1,6 @@
 #include "math/bits.h"
 
-#include <detent/convert.h>
+#include <detent/numbers.h>
 
 #include "math/rotation.h"
 #include "math/scaled.h"

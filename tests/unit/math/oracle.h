@@ -1,6 +1,5 @@
 #pragma once
-#include <detent/math.h>
-#include <detent/scaled.h>
+#include <detent/numbers.h>
 #include <gtest/gtest.h>
 #include <ports/config_text.h>
 #include <stdint.h>

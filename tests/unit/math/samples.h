@@ -1,5 +1,5 @@
 #pragma once
-#include <detent/math.h>
+#include <detent/numbers.h>
 #include <stdint.h>
 
 #include "tests/support/random.h"

@@ -1,4 +1,4 @@
-#include <detent/view.h>
+#include <detent/numbers.h>
 
 #include "math/rotation.h"
 #include "samples.h"

@@ -1,6 +1,7 @@
-#include <detent/forces.h>
+#include <detent/body.h>
 #include <detent/mover.h>
-#include <detent/transform.h>
+#include <detent/numbers.h>
+#include <detent/world.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-#include <detent/rollback_session.h>
+#include <detent/rollback.h>
 
 #include "tests/unit/replay/arena.h"
 

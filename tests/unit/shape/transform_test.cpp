@@ -1,5 +1,4 @@
-#include <detent/convert.h>
-#include <detent/transform.h>
+#include <detent/numbers.h>
 
 #include "tests/support/test.h"
 

@@ -1,4 +1,4 @@
-#include <detent/cast.h>
+#include <detent/distance.h>
 
 #include "tests/oracle/effort.h"
 #include "tests/unit/distance/closed_form.h"

@@ -1,5 +1,5 @@
-#include <detent/body_access.h>
-#include <detent/world_access.h>
+#include <detent/body.h>
+#include <detent/world.h>
 #include <math.h>
 
 #include "tests/unit/shape/hull_bytes.h"

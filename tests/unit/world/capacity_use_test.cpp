@@ -1,4 +1,4 @@
-#include <detent/capacity.h>
+#include <detent/world.h>
 
 #include "tests/unit/joint/joint_lab.h"
 

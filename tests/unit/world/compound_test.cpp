@@ -1,8 +1,9 @@
-#include <detent/body_access.h>
-#include <detent/contacts.h>
+#include <detent/body.h>
+#include <detent/contact.h>
 #include <detent/event.h>
+#include <detent/numbers.h>
 #include <detent/query.h>
-#include <detent/transform.h>
+#include <detent/world.h>
 #include <math.h>
 
 #include "shape/compound.h"

@@ -1,5 +1,6 @@
-#include <detent/body_access.h>
-#include <detent/contacts.h>
+#include <detent/body.h>
+#include <detent/contact.h>
+#include <detent/world.h>
 #include <math.h>
 
 #include "tests/unit/world/lab.h"

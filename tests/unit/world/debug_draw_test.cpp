@@ -1,4 +1,4 @@
-#include <detent/debug_draw.h>
+#include <detent/draw.h>
 #include <math.h>
 
 #include "tests/unit/world/lab.h"

@@ -1,4 +1,4 @@
-#include <detent/filter.h>
+#include <detent/body.h>
 
 #include "tests/unit/world/lab.h"
 

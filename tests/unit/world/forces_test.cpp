@@ -1,5 +1,5 @@
-#include <detent/body_access.h>
-#include <detent/forces.h>
+#include <detent/body.h>
+#include <detent/world.h>
 #include <math.h>
 
 #include "tests/unit/world/lab.h"

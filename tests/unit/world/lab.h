@@ -1,5 +1,5 @@
 #pragma once
-#include <detent/convert.h>
+#include <detent/numbers.h>
 #include <detent/world.h>
 
 #include <vector>

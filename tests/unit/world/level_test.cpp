@@ -1,6 +1,5 @@
-#include <detent/contacts.h>
+#include <detent/contact.h>
 #include <detent/mover.h>
-#include <detent/storage.h>
 #include <detent/world.h>
 #include <math.h>
 

@@ -1,4 +1,4 @@
-#include <detent/profile.h>
+#include <detent/world.h>
 
 #include <string>
 

@@ -1,6 +1,7 @@
-#include <detent/body_access.h>
+#include <detent/body.h>
 #include <detent/distance.h>
 #include <detent/recording.h>
+#include <detent/world.h>
 #include <math.h>
 #include <stdlib.h>
 

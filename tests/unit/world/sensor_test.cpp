@@ -1,5 +1,6 @@
-#include <detent/body_access.h>
+#include <detent/body.h>
 #include <detent/query.h>
+#include <detent/world.h>
 
 #include "tests/unit/shape/terrains.h"
 #include "tests/unit/world/sensor_lab.h"

@@ -1,7 +1,7 @@
 #pragma once
-#include <detent/body_access.h>
-#include <detent/forces.h>
+#include <detent/body.h>
 #include <detent/joint.h>
+#include <detent/world.h>
 
 #include "tests/sequences/draw.h"
 #include "tests/unit/replay/match.h"

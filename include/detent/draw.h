@@ -20,8 +20,8 @@ enum class DrawKind : uint32_t {
 /// The caller's drawing functions. A null function is not called.
 struct DebugDraw {
   void* user = nullptr;  ///< passed to each function
-  /// Draws a body at its pose. For a terrain, visit_triangles() (triangles.h) gives the triangles; for a compound,
-  /// compound_part() (compound.h) gives the parts.
+  /// Draws a body at its pose. For a terrain, visit_triangles() (query.h) gives the triangles; for a compound,
+  /// compound_part() (asset.h) gives the parts.
   void (*solid)(void* user, BodyId id, const Shape& shape, const Pose& pose, DrawKind kind) = nullptr;
   /// Draws a line, m, world.
   void (*line)(void* user, const Position& from, const Position& to, DrawKind kind) = nullptr;
@@ -47,7 +47,7 @@ constexpr bool contains(DrawFlags all, DrawFlags some) {
   return (static_cast<uint32_t>(some) & ~static_cast<uint32_t>(all)) == 0;
 }
 
-/// Draws the world. Order: bodies by slot, then contacts as in contacts.h.
+/// Draws the world. Order: bodies by slot, then contacts as in contact.h.
 void draw(const World& world, const DebugDraw& to, DrawFlags flags = DrawFlags::all);
 
 }  // namespace DETENT_NAMESPACE
