@@ -188,7 +188,7 @@ uint32_t shots_played(const World& world) {
 BodyId next_ball(const World& world, BodyId previous) {
   BodyId body = next_body(world, previous);
   uint32_t data = 0;
-  while (body.slot != 0 && get_user_data(world, body, data) == Status::ok && data < k_ball_mark) {
+  while (!is_null(body) && get_user_data(world, body, data) == Status::ok && data < k_ball_mark) {
     body = next_body(world, body);
   }
   return body;

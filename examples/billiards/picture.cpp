@@ -130,7 +130,7 @@ constexpr const char* k_definitions = R"(<defs>
 }  // namespace
 
 void Picture::add_cushions(const World& world) {
-  for (BodyId id = next_body(world, {}); id.slot != 0; id = next_body(world, id)) {
+  for (BodyId id = next_body(world, {}); !is_null(id); id = next_body(world, id)) {
     Shape shape;
     Pose pose;
     must(get_shape(world, id, shape));
@@ -166,17 +166,17 @@ void Picture::add(const World& world, int tick) {
   ticks_ = tick;
   if (tick == 0) add_cushions(world);
   BodyId ids[k_ball_count];
-  for (BodyId id = next_ball(world, {}); id.slot != 0; id = next_ball(world, id)) ids[ball_number(world, id)] = id;
+  for (BodyId id = next_ball(world, {}); !is_null(id); id = next_ball(world, id)) ids[ball_number(world, id)] = id;
   const bool shot = shots_played(world) > shots_.size();
   if (shot) shots_.push_back(tick);
   for (uint32_t number = 0; number < k_ball_count; ++number) {
     Ball& ball = balls_[number];
     const BodyId id = ids[number];
     const bool other = !(id == ball.id);
-    if (other && ball.id.slot != 0) drops_.push_back({tick, number, ball.centre.last().x, ball.centre.last().y});
-    if (other) ball.seen.push_back({tick, id.slot != 0});
+    if (other && !is_null(ball.id)) drops_.push_back({tick, number, ball.centre.last().x, ball.centre.last().y});
+    if (other) ball.seen.push_back({tick, !is_null(id)});
     ball.id = id;
-    if (id.slot != 0) add_ball(ball, world, tick, other);
+    if (!is_null(id)) add_ball(ball, world, tick, other);
     if (shot && !ball.centre.empty()) ball.centre.make_key();
   }
 }

@@ -48,7 +48,7 @@ void build_short(Recorder& recorder) { build_row(recorder, k_count_short); }
 
 uint32_t fallen(const World& world) {
   uint32_t count = 0;
-  for (BodyId body = next_body(world, {}); body.slot != 0; body = next_body(world, body)) {
+  for (BodyId body = next_body(world, {}); !is_null(body); body = next_body(world, body)) {
     Pose pose;
     if (get_pose(world, body, pose) == Status::ok && (pose.rotation.z > k_fallen || -pose.rotation.z > k_fallen)) {
       ++count;

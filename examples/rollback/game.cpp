@@ -105,7 +105,7 @@ struct Cast {
 Cast cast_of(const World& world) {
   Cast cast;
   cast.ground = next_body(world, {});  // the first body made, and never destroyed
-  for (BodyId body = cast.ground; body.slot != 0; body = next_body(world, body)) {
+  for (BodyId body = cast.ground; !is_null(body); body = next_body(world, body)) {
     const Kind kind = kind_of(world, body);
     if (kind == Kind::ball) cast.ball = body;
     if (kind == Kind::player) cast.players[owner_of(world, body)] = body;
@@ -146,7 +146,7 @@ void throw_shot(Recorder& recorder, BodyId body, uint32_t player, uint8_t input)
 
 void act(Recorder& recorder, const Cast& cast, uint32_t player, uint8_t input) {
   const BodyId shot = cast.shots[player];
-  if (shot.slot != 0) {
+  if (!is_null(shot)) {
     const uint32_t tick = static_cast<uint32_t>(get_info(recorder.world()).tick);
     if (((tick - data_of(recorder.world(), shot)) & 0xffff) >= k_shot_ticks) must(recorder.destroy_body(shot));
   } else if ((input & k_throw) != 0) {

@@ -38,7 +38,7 @@ std::string draw(const World& world) {
   for (int row = 0; row < k_rows; ++row) {
     rows[row] = end_of_row(row) + std::string(k_columns, ' ') + end_of_row(row) + "\x1b[K\n";
   }
-  for (BodyId body = next_body(world, {}); body.slot != 0; body = next_body(world, body)) {
+  for (BodyId body = next_body(world, {}); !is_null(body); body = next_body(world, body)) {
     const char sign = symbol(world, body);
     Pose pose;
     if (sign == 0 || get_pose(world, body, pose) != Status::ok) continue;

@@ -22,7 +22,15 @@ struct BodyId {
   uint32_t generation = 0;  ///< 1 for the first body of a slot
   /// Whether both name the same body.
   friend constexpr bool operator==(BodyId a, BodyId b) { return a.slot == b.slot && a.generation == b.generation; }
+  /// An order for sorted containers: by slot, then by generation.
+  friend constexpr bool operator<(BodyId a, BodyId b) {
+    return a.slot < b.slot || (a.slot == b.slot && a.generation < b.generation);
+  }
 };
+/// Whether the id is null. A null id names no body.
+constexpr bool is_null(BodyId id) { return id.slot == 0; }
+/// 64 bits for hash tables, different for different ids: the generation in the high half, the slot in the low half.
+constexpr uint64_t hash_of(BodyId id) { return uint64_t{id.generation} << 32 | id.slot; }
 
 /// Selects the bodies with which a body can collide. Two bodies of the same nonzero group can collide if the group is
 /// positive, and cannot if it is negative. Any other two bodies can collide if the category of each shares a bit with

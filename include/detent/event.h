@@ -57,7 +57,7 @@ struct SensorEventBuffer {
 
 /// The type of a body event.
 enum class BodyEventType : uint32_t {
-  fell_asleep = 1,  ///< at the end of the step, with its whole island; put_to_sleep() causes no event
+  fell_asleep = 1,  ///< at the end of the step, with its whole island; sleep_body() causes no event
   woke = 2,         ///< a contact or a joint woke it in the step, or a call woke it since the last step
 };
 

@@ -30,7 +30,7 @@ enum class Features : uint32_t {
   /// @}
   rounding = 1u << 16,    ///< rounded boxes, cylinders, cones and hulls
   continuous = 1u << 17,  ///< WorldDef::continuous
-  sleeping = 1u << 18,    ///< WorldDef::sleeping, put_to_sleep()
+  sleeping = 1u << 18,    ///< WorldDef::sleeping, sleep_body()
   joints = 1u << 19,      ///< create_joint()
   sensors = 1u << 20,     ///< BodyDef::sensor
   /// All shapes.

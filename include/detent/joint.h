@@ -67,7 +67,15 @@ struct JointId {
   uint32_t generation = 0;  ///< 1 for the first joint of a slot
   /// Whether both name the same joint.
   friend constexpr bool operator==(JointId a, JointId b) { return a.slot == b.slot && a.generation == b.generation; }
+  /// An order for sorted containers: by slot, then by generation.
+  friend constexpr bool operator<(JointId a, JointId b) {
+    return a.slot < b.slot || (a.slot == b.slot && a.generation < b.generation);
+  }
 };
+/// Whether the id is null. A null id names no joint.
+constexpr bool is_null(JointId id) { return id.slot == 0; }
+/// 64 bits for hash tables, different for different ids: the generation in the high half, the slot in the low half.
+constexpr uint64_t hash_of(JointId id) { return uint64_t{id.generation} << 32 | id.slot; }
 
 /// The force and torque that a joint applied to B, and their opposites to A, in the last step that the joint took part
 /// in: means over the tick.

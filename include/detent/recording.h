@@ -131,7 +131,7 @@ class Recorder {
   Status apply_angular_impulse(BodyId id, const Vec3<Scaled>& impulse);
   Status set_gravity(const Vec3<Real>& gravity);
   Status wake_body(BodyId id);
-  Status put_to_sleep(BodyId id);
+  Status sleep_body(BodyId id);
   Status set_user_data(BodyId id, uint32_t user_data);
   Status set_filter(BodyId id, const Filter& filter);
   Status bind_asset(uint32_t index);

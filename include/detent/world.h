@@ -287,7 +287,7 @@ Status set_gravity(World& world, const Vec3<Real>& gravity);
 Status wake_body(World& world, BodyId id);
 /// Stops the body and puts it to sleep: steps skip it until something wakes it.
 /// Errors: bad_id, bad_argument (not dynamic), feature_missing.
-Status put_to_sleep(World& world, BodyId id);
+Status sleep_body(World& world, BodyId id);
 /// Sets BodyDef::user_data of a body; wakes no body. Errors: bad_id.
 Status set_user_data(World& world, BodyId id, uint32_t user_data);
 /// Sets what a body collides with, and wakes it. Contacts that are no longer allowed end in the next step, and their

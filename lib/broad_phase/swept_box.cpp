@@ -20,7 +20,7 @@ constexpr int k_tolerance_bits = 18;
 int64_t grains_of(Coord x) { return integer_from(x) >> k_grain_steps_bits; }
 
 /// Clamps to the limit. This changes no result, because the path is shorter than the limit.
-int64_t held_place(int64_t value) {
+int64_t clamped_place(int64_t value) {
   return value < -k_place_limit ? -k_place_limit : value > k_place_limit ? k_place_limit : value;
 }
 
@@ -90,7 +90,7 @@ bool SweptBox::meets(const Place& place) const {
   int64_t sum[3], side[3];
   DETENT_UNROLL
   for (int i = 0; i < 3; ++i) {
-    const int64_t low = held_place(place.low[i]), high = held_place(place.high[i]);
+    const int64_t low = clamped_place(place.low[i]), high = clamped_place(place.high[i]);
     sum[i] = low + high;
     side[i] = high - low;
   }
@@ -107,7 +107,7 @@ Fraction SweptBox::entry(const Place& place) const {
   constexpr int k_bits = 33;
   uint64_t latest = 0;
   for (int i = 0; i < 3; ++i) {
-    const int64_t ahead = held_place(displacement_[i] > 0 ? place.low[i] : -place.high[i]);
+    const int64_t ahead = clamped_place(displacement_[i] > 0 ? place.low[i] : -place.high[i]);
     if (displacement_[i] == 0 || ahead <= 0) continue;
     const uint64_t part = (static_cast<uint64_t>(ahead) << k_bits) / magnitude_64(displacement_[i]);
     latest = part > latest ? part : latest;

@@ -38,7 +38,7 @@ struct PartSearch {
            Vec3<Real>{real_difference(at.x, from.x), real_difference(at.y, from.y), real_difference(at.z, from.z)};
   }
 
-  bool may_meet(uint32_t i, uint32_t j) const {
+  bool may_collide(uint32_t i, uint32_t j) const {
     if (!bounded) return true;
     const Vec3<Real> offset = middle_of(parts_b, j, motion_b.start) - middle_of(parts_a, i, motion_a.start);
     const Real far = max(abs(offset.x), max(abs(offset.y), abs(offset.z)));
@@ -64,7 +64,7 @@ struct PartSearch {
   bool ask_parts() {
     for (uint32_t i = 0; i < parts_a.count(); ++i) {
       for (uint32_t j = 0; j < parts_b.count(); ++j) {
-        if (!may_meet(i, j)) continue;
+        if (!may_collide(i, j)) continue;
         const auto at_depth = [&](Real shrink_depth, TimeOfImpact& found) {
           Convex convex_a, convex_b;
           return shrink_part(a, parts_a, i, shrink_depth, convex_a) &&

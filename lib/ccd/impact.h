@@ -62,7 +62,7 @@ struct ImpactReport {
 
 /// Callback for each segment of a body's sweep that ends before the tick does. Called while the body is still at the
 /// start of the segment.
-struct StretchListener {
+struct SweepListener {
   void (*ended)(void* context, uint32_t slot, Fraction until) = nullptr;  ///< null: no listener
   void* context = nullptr;
 };
@@ -82,7 +82,7 @@ struct ImpactBodies {
   /// Work space: for each dynamic body, the head of the list of its entries in `impacts`: the entry's index + 1, or 0.
   Span<uint32_t> first_impact;
   FilterRuleTable filter_rules = {};
-  StretchListener listener = {};
+  SweepListener listener = {};
 };
 
 /// The pairs and contacts that earlier stages found.

@@ -169,7 +169,7 @@ Vec3<Real> carried_angular_momentum(const BodyProperties& properties, const Quat
   return scaled(angular_momentum, square_root(divide(energy_before, energy_after)));
 }
 
-uint32_t hold_angular_velocity(const BodyProperties& properties, const Quat& rotation, BodyMotion& motion) {
+uint32_t clamp_angular_velocity(const BodyProperties& properties, const Quat& rotation, BodyMotion& motion) {
   if (!is_dynamic(properties)) return 0;
   const Vec3<Real> local = rotate_inverse(rotation, motion.angular_momentum);
   bool saturated = false;

@@ -31,7 +31,7 @@ uint32_t add_to_sweep(const BodyProperties& properties, const Quat& rotation, co
 
 /// Clamps the angular velocity to k_angular_velocity_max in each component, in the body's axes. It handles values far
 /// beyond that range: an impulse on the edge of a rod can demand them. Returns 1 if it clamped, else 0.
-uint32_t hold_angular_velocity(const BodyProperties& properties, const Quat& rotation, BodyMotion& motion);
+uint32_t clamp_angular_velocity(const BodyProperties& properties, const Quat& rotation, BodyMotion& motion);
 
 /// A body of an impact.
 struct ImpactBody {

@@ -45,7 +45,7 @@ bool is_curved(const ImpactStage& stage, uint32_t slot) {
 /// False for pairs that are disabled by filters or joints, and for pairs within one island of joints. If a body is
 /// jointed, also false for half-spaces: contacts alone keep bodies from passing them, because a single body that stops
 /// tears at its joints.
-bool may_meet(const ImpactStage& stage, uint32_t a, uint32_t b) {
+bool may_collide(const ImpactStage& stage, uint32_t a, uint32_t b) {
   if (!PairFilter{stage.bodies.properties, stage.bodies.filter_rules, stage.known.disabled_pairs}.allows(a, b))
     return false;
   if (!jointed(stage, a) && !jointed(stage, b)) return true;
@@ -69,7 +69,8 @@ void for_each_near(const ImpactStage& stage, uint32_t slot, const Visit& visit) 
   stage.bodies.candidates.for_each([&](uint32_t other) {
     stage.bodies.candidates.clear(other);
     // An earlier visit may have stopped either body.
-    if (other != slot && overlap(stage.bodies.bounds[slot], stage.bodies.bounds[other]) && may_meet(stage, slot, other))
+    if (other != slot && overlap(stage.bodies.bounds[slot], stage.bodies.bounds[other]) &&
+        may_collide(stage, slot, other))
       visit(other);
   });
 }
@@ -167,7 +168,7 @@ void test_at_start(ImpactStage& stage, uint64_t key, Span<const ContactWork> con
   const uint32_t low = pair_low(key), high = pair_high(key);
   if (!stage.dynamic(low) && !stage.dynamic(high)) return;
   if (is_at_rest(stage.bodies.sweeps[low]) && is_at_rest(stage.bodies.sweeps[high])) return;
-  if (!overlap(stage.bodies.bounds[low], stage.bodies.bounds[high]) || !may_meet(stage, low, high)) return;
+  if (!overlap(stage.bodies.bounds[low], stage.bodies.bounds[high]) || !may_collide(stage, low, high)) return;
   Real disabled_pairs = k_zero, closing = k_zero;
   const Real shrink_depth = first_shrink_depth(stage, key, contacts, disabled_pairs);
   const Fraction start = 0.0;

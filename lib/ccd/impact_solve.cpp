@@ -179,8 +179,8 @@ bool resolve_at(ImpactStage& stage, ImpactPair& pair, const ContactGeometry& geo
   if (!resolves(least, parting, after_a, after_b, approach)) return false;
   wake(stage, a);
   wake(stage, b);
-  stage.report.clamped += hold_angular_velocity(properties_a, pose_a.rotation, after_a) +
-                          hold_angular_velocity(properties_b, pose_b.rotation, after_b);
+  stage.report.clamped += clamp_angular_velocity(properties_a, pose_a.rotation, after_a) +
+                          clamp_angular_velocity(properties_b, pose_b.rotation, after_b);
   const auto change_sweep = [&](uint32_t slot, const BodyPose& pose, const BodyMotion& before,
                                 const BodyMotion& after) {
     if (!stage.dynamic(slot) || (stage.bodies.sweeps[slot].marks & k_mark_stopped) != 0) return;
@@ -200,8 +200,8 @@ bool resolve_at(ImpactStage& stage, ImpactPair& pair, const ContactGeometry& geo
   if (resolves(least_of_state, k_zero, motion_a, motion_b, approach_of_state)) {
     motion_a.linear_velocity += fall_a;
     motion_b.linear_velocity += fall_b;
-    stage.report.clamped += hold_angular_velocity(properties_a, pose_a.rotation, motion_a) +
-                            hold_angular_velocity(properties_b, pose_b.rotation, motion_b);
+    stage.report.clamped += clamp_angular_velocity(properties_a, pose_a.rotation, motion_a) +
+                            clamp_angular_velocity(properties_b, pose_b.rotation, motion_b);
     if (stage.dynamic(a)) stage.bodies.motions[a] = motion_a;
     if (stage.dynamic(b)) stage.bodies.motions[b] = motion_b;
   }
@@ -234,7 +234,7 @@ ImpactPair* next_touching(const ImpactStage& stage, uint64_t first_key, uint64_t
 }
 
 /// Resolves a pair that may still touch. Returns false if its bodies do not touch or do not approach.
-bool meet_again(ImpactStage& stage, ImpactPair& pair, Fraction time) {
+bool collide_again(ImpactStage& stage, ImpactPair& pair, Fraction time) {
   const uint32_t slots[2] = {pair_low(pair.key), pair_high(pair.key)};
   const BodyPose pose_a = pose_at(stage.body(slots[0]), time), pose_b = pose_at(stage.body(slots[1]), time);
   ContactGeometry geometry;
@@ -276,7 +276,7 @@ void ImpactStage::pass_on(const ImpactPair& first, Fraction time) {
     while (ImpactPair* pair = next_touching(*this, first_key, after)) {
       after = pair->key;
       if (round == 0 && after == first_key) continue;
-      again = meet_again(*this, *pair, time) || again;
+      again = collide_again(*this, *pair, time) || again;
     }
     if (!again) break;
   }

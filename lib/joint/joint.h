@@ -39,7 +39,7 @@ inline constexpr Real k_joint_impulse_max = 16384.0;  ///< limit of a stored row
 inline constexpr int k_kept_power = 3;
 
 /// Lengths or speeds in units of 2^exponent, clamped to the range of a Unit.
-Vec3<Unit> unit_held(const Vec3<Real>& v, int exponent);
+Vec3<Unit> clamped_unit(const Vec3<Real>& v, int exponent);
 
 struct JointStage {
   Span<JointState> joints;  ///< all slots that have ever been used
@@ -76,13 +76,13 @@ inline bool has_renewed_inverse_inertia(const BodyWork& now, const JointStage& s
 
 /// Solves the joints' rows for the bodies' current velocities, `elapsed` after the start of the tick. Returns the
 /// number of values that were clamped, and adds to `undecided`.
-uint32_t hold_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
-                     const Island& island, Real elapsed, JointStage& stage, uint32_t& undecided);
+uint32_t solve_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
+                      const Island& island, Real elapsed, JointStage& stage, uint32_t& undecided);
 
 /// Solves the rows again, to remove the speed that contacts have added since. Returns the number of values that were
 /// clamped, and adds to `undecided`.
-uint32_t hold_joints_again(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
-                           const Island& island, Real elapsed, JointStage& stage, uint32_t& undecided);
+uint32_t solve_joints_again(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
+                            const Island& island, Real elapsed, JointStage& stage, uint32_t& undecided);
 
 /// Adds the velocities by which the joints follow their curved paths, and computes the shifts that close gaps. Returns
 /// the number of values that were clamped.
@@ -107,8 +107,8 @@ struct JointOps {
   decltype(&collect_joints) collect;
   decltype(&order_joints) order;
   decltype(&begin_joints) begin;
-  decltype(&hold_joints) hold;
-  decltype(&hold_joints_again) hold_again;
+  decltype(&solve_joints) solve;
+  decltype(&solve_joints_again) solve_again;
   decltype(&follow_joints) follow;
   decltype(&shift_joints) shift;
   decltype(&end_joints) end;
@@ -118,7 +118,7 @@ struct JointOps {
 // Functions that the files of the stages share.
 
 /// Sets the lowest number of substeps for the joints of an island, and the squared number that their motion needs.
-void ask_for_substeps(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
+void require_substeps(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
                       const JointStage& stage, Island& island);
 
 /// Impulses of rows that cancel each other grow up to (target speed) / softness. So impulses are stored divided by
@@ -164,8 +164,8 @@ inline bool is_at_limit(DriveMode mode) {
   return mode == DriveMode::held || mode == DriveMode::lower || mode == DriveMode::upper;
 }
 /// Whether the row locks a motion. An active limit does.
-inline bool is_held(const JointWork& work, uint32_t row) {
-  return row < work.rows_held || (work.driven[0] == row && is_at_limit(work.mode[0])) ||
+inline bool is_locked(const JointWork& work, uint32_t row) {
+  return row < work.locked_rows || (work.driven[0] == row && is_at_limit(work.mode[0])) ||
          (work.driven[1] == row && is_at_limit(work.mode[1]));
 }
 /// Activates limits that were not active and that the bodies, at their current velocities, would pass by more than

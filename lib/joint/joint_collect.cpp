@@ -59,7 +59,7 @@ bool has_slide(const JointState& joint) {
 
 }  // namespace
 
-Vec3<Unit> unit_held(const Vec3<Real>& v, int exponent) {
+Vec3<Unit> clamped_unit(const Vec3<Real>& v, int exponent) {
   const Real limit = real_from_unit(Unit(1.875), exponent > 15 ? 15 : exponent);
   const auto part = [&](Real value) { return unit_from_real(clamp(value, -limit, limit), exponent); };
   return {part(v.x), part(v.y), part(v.z)};
@@ -95,8 +95,8 @@ void collect_joints(const SolverBodies& bodies, JointStage& stage) {
     body.above = body.exponent - bodies.properties[body.slot].size_exponent;
   for (JointWork& work : stage.work.first(stage.count)) {
     const JointState& joint = stage.joints[work.joint];
-    work.anchor[0] = unit_held(joint.anchor_a, stage.bodies[work.body[0]].exponent);
-    work.anchor[1] = unit_held(joint.anchor_b, stage.bodies[work.body[1]].exponent);
+    work.anchor[0] = clamped_unit(joint.anchor_a, stage.bodies[work.body[0]].exponent);
+    work.anchor[1] = clamped_unit(joint.anchor_b, stage.bodies[work.body[1]].exponent);
     for (int end = 0; end < 2; ++end) work.arm_length[end] = length(work.anchor[end]);
     const JointBody &a = stage.bodies[work.body[0]], &b = stage.bodies[work.body[1]];
     work.exponent = a.exponent < b.exponent ? a.exponent : b.exponent;

@@ -116,9 +116,9 @@ void make_up_product(uint32_t rows, const Real* block, const Rows& scaled, Joint
 void choose_unit([[maybe_unused]] const JointStage& stage, JointWork& work) {
   work.power[0] = work.power[1] = 0;
 #if DETENT_FIXED
-  work.rows = work.rows_held;
+  work.rows = work.locked_rows;
   for (int i = 0; i < k_free_motions; ++i) {
-    if (work.rows_max - work.rows_held > static_cast<uint32_t>(i)) work.row[work.rows++] = work.free_row[i];
+    if (work.rows_max - work.locked_rows > static_cast<uint32_t>(i)) work.row[work.rows++] = work.free_row[i];
   }
   Real response[k_joint_rows_max] = {k_zero, k_zero, k_zero, k_zero, k_zero, k_zero};
   for (uint32_t end = 0; end < 2; ++end) {
@@ -209,7 +209,7 @@ void JointFactor::make() {
     for (uint32_t k = 0; k < work.rows; ++k) {
       const Real soft = scale_by_power(most[kind(k)], k_soft_power);
       const Real hard = max(scale_by_power(most[kind(k)], k_softness_power), min(soft, k_softness_min));
-      work.least[k] = max(softer_ || !is_held(work, k) ? soft : hard, k_pivot_min);
+      work.least[k] = max(softer_ || !is_locked(work, k) ? soft : hard, k_pivot_min);
       work.response[k][k] += work.least[k] + min(work.spring[k], k_spring_max);
     }
   }

@@ -27,9 +27,9 @@ Real last_pull(const JointStage& stage, const JointWork& work) {
   const JointState& joint = stage.joints[work.joint];
   Vec3<Real> pull = k_zero_vector;
   if (work.points != 0) pull = {joint.impulse[0], joint.impulse[1], joint.impulse[2]};
-  for (uint32_t k = work.points != 0 ? 3 : 0; k < work.rows_held; ++k) pull += work.row[k].axis * joint.impulse[k];
-  for (uint32_t i = 0; i < k_free_motions && work.rows_held + i < k_joint_rows_max; ++i)
-    pull += work.free_row[i].axis * joint.impulse[work.rows_held + i];
+  for (uint32_t k = work.points != 0 ? 3 : 0; k < work.locked_rows; ++k) pull += work.row[k].axis * joint.impulse[k];
+  for (uint32_t i = 0; i < k_free_motions && work.locked_rows + i < k_joint_rows_max; ++i)
+    pull += work.free_row[i].axis * joint.impulse[work.locked_rows + i];
   return length(pull);
 }
 

@@ -248,7 +248,7 @@ uint32_t order_joints(const StepSettings& settings, const SolverBodies& bodies, 
     dropped += eliminator.dropped;
   }
   for (JointWork& work : stage.work.first(stage.count)) weigh_joint(settings, bodies, stage, work);
-  for (Island& island : islands) ask_for_substeps(settings, bodies, slots, stage, island);
+  for (Island& island : islands) require_substeps(settings, bodies, slots, stage, island);
   return dropped;
 }
 

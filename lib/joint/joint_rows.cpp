@@ -45,8 +45,8 @@ struct RowMaker {
   ///
   ///     C = d . gap,  J = (-d, -(r_A + gap) x d, d, r_B x d)
   JointRow linear(const Vec3<Unit>& axis) const {
-    const Vec3<Unit> displacement = unit_held(in_metres(rows.arm[0], a.exponent) + gap, a.exponent);
-    return {axis, {held_cross(displacement, axis), held_cross(rows.arm[1], axis)}};
+    const Vec3<Unit> displacement = clamped_unit(in_metres(rows.arm[0], a.exponent) + gap, a.exponent);
+    return {axis, {clamped_cross(displacement, axis), clamped_cross(rows.arm[1], axis)}};
   }
   /// An angular row about a = `axis`:
   ///
@@ -57,36 +57,36 @@ struct RowMaker {
   }
   Real length_of(Real angle) const { return scale_by_power(angle, joint.exponent); }
 
-  void hold(const JointRow& row, Real error) {
-    rows.error[rows.rows_held] = error;
-    rows.row[rows.rows_held++] = row;
+  void lock(const JointRow& row, Real error) {
+    rows.error[rows.locked_rows] = error;
+    rows.row[rows.locked_rows++] = row;
   }
   /// Locks the anchors together: three rows, along the world's axes e.
   ///
   ///     C = e . gap,  J = (-e, -r_A x e, e, r_B x e)
-  void hold_points() {
+  void lock_points() {
     rows.points = 1;
     rows.error[0] = gap.x;
     rows.error[1] = gap.y;
     rows.error[2] = gap.z;
-    rows.rows_held = 3;
+    rows.locked_rows = 3;
   }
   /// Locks the relative rotation q (`relative`) about one of A's axes. For a small rotation, twice the vector part of q
   /// is the rotation vector: C = 2 q_axis u.
   void clamp_rotation(int axis, Unit part) {
     const Unit sine = relative.w < k_zero_unit ? -part : part;
-    hold(angular(frame.column[axis]), length_of(scale_by_power(real_from_unit(sine, 0), 1)));
+    lock(angular(frame.column[axis]), length_of(scale_by_power(real_from_unit(sine, 0), 1)));
   }
   /// Keeps B's axis b = `axis` aligned with A's. Two angular rows, about A's next two axes. With the
   /// components of b in A's frame:
   ///
   ///     C = -b_last u (row about the next axis),  C = b_next u (row about the last axis)
-  void hold_axis(int axis) {
+  void lock_axis(int axis) {
     const int next = (axis + 1) % 3, last = (axis + 2) % 3;
     const Matrix3 turned = matrix_from(relative);
     const Unit along[3] = {turned.column[axis].x, turned.column[axis].y, turned.column[axis].z};
-    hold(angular(frame.column[next]), length_of(real_from_unit(-along[last], 0)));
-    hold(angular(frame.column[last]), length_of(real_from_unit(along[next], 0)));
+    lock(angular(frame.column[next]), length_of(real_from_unit(-along[last], 0)));
+    lock(angular(frame.column[last]), length_of(real_from_unit(along[next], 0)));
   }
   void free_motion(int i, const JointRow& row, Real value) {
     rows.free_row[i] = row;
@@ -113,7 +113,7 @@ struct RowMaker {
     const auto sum = [&](Unit of_a, Unit of_b) {
       return multiply(real_from_unit(of_a, 0) + real_from_unit(of_b, 0), share);
     };
-    const Vec3<Unit> axis = unit_held({sum(own.x, other.x), sum(own.y, other.y), sum(own.z, other.z)}, 0);
+    const Vec3<Unit> axis = clamped_unit({sum(own.x, other.x), sum(own.y, other.y), sum(own.z, other.z)}, 0);
     free_motion(i, angular(axis), length_of(twist_of(relative.x, relative.w)));
     if (rate < k_twist_rate_min) rows.shown[i] = max(multiply(rate, share), k_zero);
   }
@@ -127,7 +127,7 @@ struct RowMaker {
     if (!normalise(about, axis, sine)) axis = {k_zero_unit, k_zero_unit, Unit(1.0)};
     const Vec3<Unit> in_world = multiply(frame, axis);
     free_motion(i, angular(in_world), length_of(radians(arc_tangent(unit_from_real(sine, 0), leaning.x))));
-    free_motion(i + 1, angular(unit_held(cross(in_metres(frame.column[0], 0), in_world), 0)), k_zero);
+    free_motion(i + 1, angular(clamped_unit(cross(in_metres(frame.column[0], 0), in_world), 0)), k_zero);
   }
   /// All rotations, about A's axes, without values: for friction.
   void free_turns() {
@@ -151,14 +151,14 @@ struct RowMaker {
     Real apart = k_zero;
     if (!normalise(gap, axis, apart)) axis = {Unit(1.0), k_zero_unit, k_zero_unit};
     // Each end has the arm to its own anchor.
-    const JointRow row = {axis, {held_cross(rows.arm[0], axis), held_cross(rows.arm[1], axis)}};
+    const JointRow row = {axis, {clamped_cross(rows.arm[0], axis), clamped_cross(rows.arm[1], axis)}};
     free_motion(0, row, apart);
   }
 
  private:
-  static Vec3<Unit> held_cross(const Vec3<Unit>& arm, const Vec3<Unit>& axis) {
+  static Vec3<Unit> clamped_cross(const Vec3<Unit>& arm, const Vec3<Unit>& axis) {
     const Vec3<Real> product = cross(in_metres(arm, 0), axis);
-    return unit_held(product, 0);
+    return clamped_unit(product, 0);
   }
 };
 
@@ -417,20 +417,20 @@ JointRows make_joint_rows(const JointStage& stage, const JointWork& work) {
   const Quat& relative = make.relative;
   switch (type) {
     case JointType::ball:
-      make.hold_points();
+      make.lock_points();
       if (has_ball_spring(joint))
         make.free_turns_of_spring();
       else if (driven)
         make.free_turns();
       break;
     case JointType::hinge:
-      make.hold_points();
-      make.hold_axis(0);
+      make.lock_points();
+      make.lock_axis(0);
       make.free_rotation(0, 0, relative.x);
       break;
     case JointType::slider:
-      make.hold(make.linear(make.frame.column[1]), dot(make.gap, make.frame.column[1]));
-      make.hold(make.linear(make.frame.column[2]), dot(make.gap, make.frame.column[2]));
+      make.lock(make.linear(make.frame.column[1]), dot(make.gap, make.frame.column[1]));
+      make.lock(make.linear(make.frame.column[2]), dot(make.gap, make.frame.column[2]));
       make.clamp_rotation(0, relative.x);
       make.clamp_rotation(1, relative.y);
       make.clamp_rotation(2, relative.z);
@@ -440,25 +440,25 @@ JointRows make_joint_rows(const JointStage& stage, const JointWork& work) {
       make.free_distance();
       break;
     case JointType::fixed:
-      make.hold_points();
+      make.lock_points();
       make.clamp_rotation(0, relative.x);
       make.clamp_rotation(1, relative.y);
       make.clamp_rotation(2, relative.z);
       break;
     case JointType::cone_twist:
-      make.hold_points();
+      make.lock_points();
       make.free_twist(0);
       make.free_lean(1);
       break;
     case JointType::wheel:
-      make.hold(make.linear(make.frame.column[1]), dot(make.gap, make.frame.column[1]));
-      make.hold(make.linear(make.frame.column[2]), dot(make.gap, make.frame.column[2]));
-      make.hold_axis(2);
+      make.lock(make.linear(make.frame.column[1]), dot(make.gap, make.frame.column[1]));
+      make.lock(make.linear(make.frame.column[2]), dot(make.gap, make.frame.column[2]));
+      make.lock_axis(2);
       make.free_slide(0);
       make.free_rotation(1, 2, relative.z);
       break;
     case JointType::parallel:
-      make.hold_axis(0);
+      make.lock_axis(0);
       make.free_rotation(0, 0, relative.x);
       break;
     default:
@@ -516,7 +516,7 @@ bool take_up(const StepSettings& settings, const SolverBodies& bodies, const Joi
 
 void add_driven_rows(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage,
                      JointWork& work) {
-  work.rows = work.rows_held;
+  work.rows = work.locked_rows;
   const JointState& joint = stage.joints[work.joint];
   for (int i = 0; i < k_free_motions; ++i) {
     const DriveMode mode = work.mode[i];

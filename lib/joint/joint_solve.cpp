@@ -42,7 +42,7 @@ constexpr int k_straight_power = 20;
 
 /// The sum of two lengths, clamped so that its double fits a Real.
 constexpr Real k_length_max = 32768.0;
-Real held_sum(Real a, Real b) { return min(a + min(b, k_length_max), k_length_max); }
+Real clamped_sum(Real a, Real b) { return min(a + min(b, k_length_max), k_length_max); }
 
 /// The ratio of the impulses that a joint stores to those of a substep.
 Scaled kept_share(const StepSettings& settings) {
@@ -185,7 +185,7 @@ struct Solver {
     each_mobile([&](JointBody& body) { load_motion(body); });
     each_joint([&](JointWork& work) {
       for (Real& total : work.total) total = k_zero;
-      for (uint32_t k = 0; k < work.rows_held; ++k) work.spring[k] = work.target[k] = k_zero;
+      for (uint32_t k = 0; k < work.locked_rows; ++k) work.spring[k] = work.target[k] = k_zero;
       choose_drives(settings, bodies, stage, work);
     });
   }
@@ -248,7 +248,7 @@ struct Solver {
     each_joint([&](JointWork& work) {
       Real speed[k_joint_rows_max];
       speeds(work, speed);
-      for (uint32_t k = 0; k < work.rows; ++k) work.side[k] = is_held(work, k) ? side_of(work, k, -speed[k]) : k_zero;
+      for (uint32_t k = 0; k < work.rows; ++k) work.side[k] = is_locked(work, k) ? side_of(work, k, -speed[k]) : k_zero;
     });
     return factor.substitute();
   }
@@ -274,7 +274,7 @@ struct Solver {
     });
   }
   /// Solves the rows, repeatedly until the drive modes of all limits, motors and friction agree with the impulses.
-  void hold(Real elapsed) {
+  void solve(Real elapsed) {
     for (uint32_t decision = 1;; ++decision) {
       each_mobile([&](JointBody& body) {
         const BodyMotion& motion = bodies.motions[body.slot];
@@ -409,7 +409,7 @@ struct Solver {
 
   /// Adds the applied impulses to the joint's sums for this substep.
   static void count_in(JointWork& work) {
-    for (uint32_t k = 0; k < work.rows_held; ++k) work.total[k] += work.impulse[k];
+    for (uint32_t k = 0; k < work.locked_rows; ++k) work.total[k] += work.impulse[k];
     for (int i = 0; i < k_free_motions; ++i) {
       if (work.driven[i] != k_joint_rows_max) work.driven_total[i] += work.impulse[work.driven[i]];
       work.given[i] += work.constant[i];
@@ -418,14 +418,14 @@ struct Solver {
   }
 
   /// Solves the rows once more: removes the speed that contacts have added.
-  void hold_again(Real elapsed) {
+  void solve_again(Real elapsed) {
     each_mobile([&](JointBody& body) {
       // Only clamps the motion after the contacts: no impulses of joints are pending.
       apply(body);
       load_motion(body);
     });
     place_still(elapsed);
-    hold(elapsed);
+    solve(elapsed);
     renew_angular_velocities();
   }
   /// Updates the bodies' angular velocities that contacts read.
@@ -457,11 +457,11 @@ struct Solver {
       const auto ask = [&](uint32_t row, Real error) {
         work.side[row] = side_of(work, row, speed_over(settings, work.error[row] - error));
       };
-      for (uint32_t k = 0; k < then.rows_held; ++k) ask(k, then.error[k]);
-      for (uint32_t k = then.rows_held; k < work.rows; ++k) work.side[k] = k_zero;
+      for (uint32_t k = 0; k < then.locked_rows; ++k) ask(k, then.error[k]);
+      for (uint32_t k = then.locked_rows; k < work.rows; ++k) work.side[k] = k_zero;
       for (int i = 0; i < k_free_motions; ++i) {
         const uint32_t row = work.driven[i];
-        if (row == k_joint_rows_max || !is_held(work, row)) continue;
+        if (row == k_joint_rows_max || !is_locked(work, row)) continue;
         const Real displacement = work.target[row] * settings.time;
         ask(row, work.error[row] + (then.value[i] - work.value[i] - displacement));
       }
@@ -544,7 +544,7 @@ struct Solver {
         const Real most = linear ? k_closing_speed_max : angular_max;
         const Unit share = touches ? k_closed_with_contacts : k_closed;
         const Real speed = clamp(-(speed_over(settings, work.error[k]) * share), -most, most);
-        closed = held_sum(closed, abs(speed) * settings.time);
+        closed = clamped_sum(closed, abs(speed) * settings.time);
         work.side[k] = side_of(work, k, speed);
       }
     });
@@ -579,8 +579,8 @@ struct Solver {
         const JointBody& body = end_of(work, end);
         if (body.mobile == 0) continue;
         const Real rotation_vector = absolute_sum(body.shift_rotation);
-        bent = held_sum(bent,
-                        (rotation_vector * rotation_vector) * real_from_unit(work.arm_length[end], body.exponent - 1));
+        bent = clamped_sum(
+            bent, (rotation_vector * rotation_vector) * real_from_unit(work.arm_length[end], body.exponent - 1));
       }
     });
     if (scale_by_power(bent, 1) > closed) {
@@ -617,7 +617,7 @@ struct Solver {
   /// Adds the impulses of a joint to its sums of force and torque.
   static void add_up(JointWork& work) {
     if (work.points != 0) work.force_sum += Vec3<Real>{work.total[0], work.total[1], work.total[2]};
-    for (uint32_t k = first_other(work); k < work.rows_held; ++k) add_row(work, work.row[k], work.total[k]);
+    for (uint32_t k = first_other(work); k < work.locked_rows; ++k) add_row(work, work.row[k], work.total[k]);
     for (int i = 0; i < k_free_motions; ++i) {
       if (!(work.driven_total[i] == k_zero)) add_row(work, work.free_row[i], work.driven_total[i]);
     }
@@ -641,9 +641,9 @@ struct Solver {
       const Real impulse = multiply(total, scaled_by_power(over_share, impulse_power(work, kind)), saturated);
       kept[k] = clamp(impulse, -k_joint_impulse_max, k_joint_impulse_max);
     };
-    for (uint32_t k = 0; k < work.rows_held; ++k) store(k, row_kind(work, k), work.total[k]);
-    for (uint32_t i = 0; i < k_free_motions && work.rows_held + i < k_joint_rows_max; ++i)
-      store(work.rows_held + i, row_kind(work.free_row[i]), work.driven_total[i]);
+    for (uint32_t k = 0; k < work.locked_rows; ++k) store(k, row_kind(work, k), work.total[k]);
+    for (uint32_t i = 0; i < k_free_motions && work.locked_rows + i < k_joint_rows_max; ++i)
+      store(work.locked_rows + i, row_kind(work.free_row[i]), work.driven_total[i]);
     work.pull = last_pull(stage, work);
   }
   /// Stores the impulses including those of follow_curves(), such that the pull at most doubles. Redundant rows get
@@ -666,21 +666,21 @@ void begin_joints(const StepSettings& settings, const SolverBodies& bodies, Span
   solver.begin(elapsed);
 }
 
-uint32_t hold_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
-                     const Island& island, Real elapsed, JointStage& stage, uint32_t& undecided) {
+uint32_t solve_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
+                      const Island& island, Real elapsed, JointStage& stage, uint32_t& undecided) {
   Solver solver(settings, bodies, slots, island, stage);
   solver.start();
   solver.make_factor();
-  solver.hold(elapsed);
+  solver.solve(elapsed);
   if (solver.touches) solver.renew_angular_velocities();
   undecided += solver.undecided;
   return solver.clamped + solver.factor.saturated;
 }
 
-uint32_t hold_joints_again(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
-                           const Island& island, Real elapsed, JointStage& stage, uint32_t& undecided) {
+uint32_t solve_joints_again(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
+                            const Island& island, Real elapsed, JointStage& stage, uint32_t& undecided) {
   Solver solver(settings, bodies, slots, island, stage);
-  solver.hold_again(elapsed);
+  solver.solve_again(elapsed);
   undecided += solver.undecided;
   return solver.clamped + solver.factor.saturated;
 }
@@ -702,7 +702,7 @@ uint32_t follow_joints(const StepSettings& settings, const SolverBodies& bodies,
 uint32_t end_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
                     const Island& island, Real elapsed, JointStage& stage, uint32_t& undecided) {
   Solver solver(settings, bodies, slots, island, stage);
-  if (solver.touches) solver.hold_again(elapsed);
+  if (solver.touches) solver.solve_again(elapsed);
   undecided += solver.undecided;
   solver.each_joint([&](JointWork& work) {
     solver.add_up(work);
@@ -749,7 +749,7 @@ void store_reactions(const StepSettings& settings, const SolverBodies& bodies, J
   }
 }
 
-const JointOps k_joint_ops = {collect_joints, order_joints, begin_joints, hold_joints,    hold_joints_again,
+const JointOps k_joint_ops = {collect_joints, order_joints, begin_joints, solve_joints,   solve_joints_again,
                               follow_joints,  shift_joints, end_joints,   store_reactions};
 
 }  // namespace DETENT_NAMESPACE

@@ -90,15 +90,15 @@ Scaled squared_swing(const StepSettings& settings, const SolverBodies& bodies, c
 
 }  // namespace
 
-void ask_for_substeps(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
+void require_substeps(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
                       const JointStage& stage, Island& island) {
   island.joint_need = Scaled(0.0);
   if (island.joint_count == 0) return;
-  uint32_t bodies_held = 0;
+  uint32_t bodies_locked = 0;
   for (uint32_t i = 0; i < island.body_count; ++i) {
-    if (bodies.work[slots[island.first_body + i]].joint_body != k_no_link) ++bodies_held;
+    if (bodies.work[slots[island.first_body + i]].joint_body != k_no_link) ++bodies_locked;
   }
-  const uint32_t alone = island.joint_count > bodies_held ? k_least_of_loops : k_least;
+  const uint32_t alone = island.joint_count > bodies_locked ? k_least_of_loops : k_least;
   island.substeps = island.contact_count != 0 ? k_least_with_contacts : alone;
   const auto take = [&](Scaled value) { island.joint_need = greater(island.joint_need, value); };
   for (const uint32_t index : Span<const uint32_t>{stage.order.data + island.first_joint, island.joint_count}) {

@@ -139,7 +139,7 @@ DETENT_SHARED inline Mantissas rounded(UlpSum x, UlpSum y, UlpSum z) {
 inline constexpr Ulps k_no_ulps = 0;
 
 /// Projects a vector into the circle of radius `limit` around zero. Range: limit >= 0.
-DETENT_SHARED inline void hold_to_circle(Factor (&v)[2], Factor limit) {
+DETENT_SHARED inline void clamp_to_circle(Factor (&v)[2], Factor limit) {
   const uint64_t x = magnitude_32(v[0]), y = magnitude_32(v[1]), radius = static_cast<uint32_t>(limit);
   if (x + y <= radius) return;
   const uint64_t square = x * x + y * y;
@@ -186,7 +186,7 @@ inline Ulps rounded(UlpSum sum, int) { return sum; }
 inline Mantissas rounded(UlpSum x, UlpSum y, UlpSum z) { return {x, y, z}; }
 inline constexpr Ulps k_no_ulps = 0;
 
-inline void hold_to_circle(Factor (&v)[2], Factor limit) {
+inline void clamp_to_circle(Factor (&v)[2], Factor limit) {
   if (abs(v[0]) + abs(v[1]) <= limit) return;
   const Real square = v[0] * v[0] + v[1] * v[1];
   if (square <= limit * limit) return;

@@ -30,7 +30,7 @@ bool is_slow(const BodyProperties& properties, const Vec3<Real>& angular_momentu
 
 }  // namespace
 
-uint32_t hold_speeds(const BodyProperties& properties, const Quat& rotation, BodyMotion& motion) {
+uint32_t clamp_speeds(const BodyProperties& properties, const Quat& rotation, BodyMotion& motion) {
   uint32_t clamped = clamp_vector(motion.linear_velocity, k_speed_max) +
                      clamp_vector(motion.angular_momentum, k_angular_velocity_work_max);
   if (is_slow(properties, motion.angular_momentum)) return clamped;
@@ -81,7 +81,7 @@ uint32_t finalise_body(const BodyProperties& properties, const BodySweep& sweep,
   const uint32_t clamped = sweep_end_position(pose, rest);
   if (!is_dynamic(properties)) return clamped;
   motion.angular_momentum = without_locked(properties, pose.rotation, motion.angular_momentum);
-  return clamped + hold_speeds(properties, pose.rotation, motion);
+  return clamped + clamp_speeds(properties, pose.rotation, motion);
 }
 
 void store_contacts(Span<const ContactWork> work, Span<const ManifoldState> manifold_work, uint32_t awake_count,

@@ -24,7 +24,7 @@ uint32_t finalise_body(const BodyProperties& properties, const BodySweep& sweep,
 
 /// Clamps velocity to k_speed_max, angular momentum to k_angular_velocity_work_max and angular velocity to
 /// k_angular_velocity_max. Returns the number of components that were clamped.
-uint32_t hold_speeds(const BodyProperties& properties, const Quat& rotation, BodyMotion& motion);
+uint32_t clamp_speeds(const BodyProperties& properties, const Quat& rotation, BodyMotion& motion);
 
 /// Replaces the contacts of the last tick that are listed in `awake` with the contacts of this tick, and their
 /// manifolds if there are any. All lists are sorted. The other contacts belong to sleeping bodies and stay. `before` is

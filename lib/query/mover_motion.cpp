@@ -99,7 +99,7 @@ MoverPlane MoverMotion::plane_at(const QueryHit& hit, Real room) const {
 }
 
 void MoverMotion::add_plane(const MoverPlane& plane) {
-  if (plane_count_ - met_count_ == k_mover_near_max)
+  if (plane_count_ - hit_count_ == k_mover_near_max)
     ++report_.hits_dropped;
   else
     planes_[plane_count_++] = plane;
@@ -164,7 +164,7 @@ void MoverMotion::add_near(const QueryHit& hit, const Shape& core) {
 void MoverMotion::look_around() {
   if (known_ || status_ != Status::ok) return;
   known_ = true;
-  plane_count_ = met_count_;
+  plane_count_ = hit_count_;
   report_.overlap = k_zero;
   const Real half_gap = scale_by_power(settings_.gap, -1);
   ClosestQuery query;
@@ -230,10 +230,10 @@ void MoverMotion::step_along(const Vec3<Real>& displacement) {
     const Real part = straight ? divide(room, closing) : fraction - divide(settings_.gap, length(displacement));
     position_ = moved(position_, displacement * clamp(part, k_zero, fraction));
     report_.undecided += hit.undecided ? 1 : 0;
-    if (straight && met_count_ < k_mover_rounds_max) planes_[met_count_++] = plane_at(hit, room);
+    if (straight && hit_count_ < k_mover_rounds_max) planes_[hit_count_++] = plane_at(hit, room);
   }
   const Vec3<Real> gone = real_difference(position_, from);
-  for (uint32_t i = 0; i < met_count_; ++i) planes_[i].room += dot(gone, planes_[i].normal);
+  for (uint32_t i = 0; i < hit_count_; ++i) planes_[i].room += dot(gone, planes_[i].normal);
 }
 
 /// Tests by a ray whether the body beside the contact point, under the mover's foot, is a floor; sets the footing.
@@ -255,9 +255,9 @@ void MoverMotion::find_footing(MoverPlane& plane) {
 }
 
 /// Adds the planes whose bits are set to the contacts of the report.
-void MoverMotion::note(uint32_t met) {
+void MoverMotion::note(uint32_t touched) {
   for (uint32_t i = 0; i < plane_count_; ++i) {
-    if ((met >> i & 1) == 0) continue;
+    if ((touched >> i & 1) == 0) continue;
     bool known = false;
     for (uint32_t k = 0; k < report_.contact_count; ++k) {
       const MoverContact& other = report_.contacts[k];
@@ -278,24 +278,24 @@ void MoverMotion::note(uint32_t met) {
 }
 
 Vec3<Real> MoverMotion::slide(Vec3<Real> displacement, MoverGait gait) {
-  if (met_count_ != 0) known_ = false;
-  met_count_ = 0;
+  if (hit_count_ != 0) known_ = false;
+  hit_count_ = 0;
   if (within(displacement, k_mover_still)) return displacement;
   for (uint32_t round = 0; round < k_mover_rounds_max; ++round) {
     look_around();
     if (caught()) return displacement;
     for (uint32_t i = 0; i < plane_count_ && gait == MoverGait::fall; ++i) find_footing(planes_[i]);
-    uint32_t met = 0;
-    const Vec3<Real> next = slide_between({planes_, plane_count_}, displacement, up_, gait, met);
-    note(met);
+    uint32_t touched = 0;
+    const Vec3<Real> next = slide_between({planes_, plane_count_}, displacement, up_, gait, touched);
+    note(touched);
     if (within(next, k_mover_still)) return displacement;
     const Position from = position_;
-    const uint32_t met_before = met_count_;
+    const uint32_t hits_before = hit_count_;
     step_along(next);
     const Vec3<Real> gone = real_difference(position_, from);
     displacement -= gone;
     if (gait == MoverGait::walk) displacement -= up_ * dot(displacement, up_);  // the lift by floors need not be undone
-    if (within(displacement, k_mover_still) || (within(gone, k_mover_still) && met_count_ == met_before))
+    if (within(displacement, k_mover_still) || (within(gone, k_mover_still) && hit_count_ == hits_before))
       return displacement;
   }
   ++report_.slides_cut;
@@ -303,7 +303,7 @@ Vec3<Real> MoverMotion::slide(Vec3<Real> displacement, MoverGait gait) {
 }
 
 void MoverMotion::go(const Vec3<Real>& displacement) {
-  met_count_ = 0;
+  hit_count_ = 0;
   known_ = false;
   look_around();
   if (!caught() && !within(displacement, k_mover_still)) step_along(displacement);

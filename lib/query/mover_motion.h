@@ -56,7 +56,7 @@ class MoverMotion {
   bool passes(const QueryHit& hit, const Vec3<Real>& displacement) const;
   void step_along(const Vec3<Real>& displacement);
   void find_footing(MoverPlane& plane);
-  void note(uint32_t met);
+  void note(uint32_t touched);
   template <class Query>
   QueryReport ask(Status (*call)(const World&, const Query&, QueryHits, QueryReport&), const Query& query,
                   QueryHits hits);
@@ -69,7 +69,7 @@ class MoverMotion {
   BodyId passed_ = {};
   Status status_ = Status::ok;
   MoverPlane planes_[k_mover_planes_max];
-  uint32_t met_count_ = 0;    ///< number of planes hit during the motion; they come first
+  uint32_t hit_count_ = 0;    ///< number of planes hit during the motion; they come first
   uint32_t plane_count_ = 0;  ///< number of all planes; those of nearby bodies follow
   bool known_ = false;        ///< the planes of nearby bodies are valid for the position
   Real free_radius_;          ///< radius of the shrunken capsule that overlaps nothing, m

@@ -37,7 +37,7 @@ PlanePush push_of(const MoverPlane& plane, const Vec3<Unit>& up, MoverGait gait)
 }  // namespace
 
 Vec3<Real> slide_between(Span<const MoverPlane> planes, const Vec3<Real>& wish, const Vec3<Unit>& up, MoverGait gait,
-                         uint32_t& met) {
+                         uint32_t& touched) {
   PlanePush pushes[k_mover_planes_max];
   for (uint32_t i = 0; i < planes.count; ++i) pushes[i] = push_of(planes[i], up, gait);
   Vec3<Real> displacement = wish;
@@ -54,9 +54,9 @@ Vec3<Real> slide_between(Span<const MoverPlane> planes, const Vec3<Real>& wish, 
     }
     if (most < k_mover_still) break;
   }
-  met = 0;
+  touched = 0;
   for (uint32_t i = 0; i < planes.count; ++i) {
-    if (pushes[i].pushed > k_mover_still) met |= 1u << i;
+    if (pushes[i].pushed > k_mover_still) touched |= 1u << i;
   }
   // In a narrow wedge the sweeps end before they converge, so scale the displacement to keep the gap.
   for (const MoverPlane& plane : planes) {

@@ -41,11 +41,11 @@ inline constexpr Real k_mover_still = Real(0x1p-20);
 #endif
 
 /// The displacement nearest to `wish` that keeps the gap to every plane; zero always does. A floor changes it along
-/// `up`, which keeps its horizontal part; other planes change it according to the gait. Bit i of `met` is set if plane
-/// i changed it. Source: Hildreth, "A quadratic programming procedure", 1957; for corrections that are not along the
-/// normal, Cottle, Pang, Stone, "The Linear Complementarity Problem", 5.2.
+/// `up`, which keeps its horizontal part; other planes change it according to the gait. Bit i of `touched` is set if
+/// plane i changed it. Source: Hildreth, "A quadratic programming procedure", 1957; for corrections that are not along
+/// the normal, Cottle, Pang, Stone, "The Linear Complementarity Problem", 5.2.
 Vec3<Real> slide_between(Span<const MoverPlane> planes, const Vec3<Real>& wish, const Vec3<Unit>& up, MoverGait gait,
-                         uint32_t& met);
+                         uint32_t& touched);
 
 /// A displacement that restores the gap to planes that are too near. If the planes leave no room, it leads to a place
 /// in the middle.

@@ -37,15 +37,15 @@ Vec64 half_of(const QueryShape& shape, const Motion& motion, const Quat& rotatio
 bool cast_at_terrain(const QueryBodies& bodies, uint32_t slot, const QueryShape& shape, const Motion& motion,
                      Fraction entry, QueryHit& hit) {
   const BodyProperties& properties = bodies.state.properties[slot];
-  bool met = false;
+  bool touched = false;
   const bool asked = has_terrain_bytes(bodies.world, properties) &&
                      cast_on_terrain(asked_terrain(bodies.world, properties, bodies.state.poses[slot]), shape, motion,
-                                     hit, met) == Status::ok;
+                                     hit, touched) == Status::ok;
   if (!asked) hit = {};
   hit.body = bodies.id_of(slot);
   hit.undecided = hit.undecided || !asked;
   if (hit.undecided && hit.fraction < entry) hit.fraction = entry;
-  return !asked || met;
+  return !asked || touched;
 }
 
 /// The first hit on a part of the body, or an undecided result that is earlier. False if a part could not be tested.

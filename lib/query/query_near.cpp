@@ -18,15 +18,15 @@ namespace {
 bool near_at_terrain(const QueryBodies& bodies, uint32_t slot, const QueryShape& shape, const Pose& at, Real gap,
                      Real distance_max, QueryHit& hit) {
   const BodyProperties& properties = bodies.state.properties[slot];
-  bool met = false;
+  bool touched = false;
   const bool asked = has_terrain_bytes(bodies.world, properties) &&
                      near_on_terrain(asked_terrain(bodies.world, properties, bodies.state.poses[slot]), shape, at,
-                                     distance_max, hit, met) == Status::ok;
+                                     distance_max, hit, touched) == Status::ok;
   if (!asked) hit = {};
   hit.body = bodies.id_of(slot);
   hit.undecided = hit.undecided || !asked;
   if (hit.undecided) hit.distance = max(hit.distance, gap);
-  return hit.distance <= distance_max && (!asked || met);
+  return hit.distance <= distance_max && (!asked || touched);
 }
 
 /// The nearest points of the body's parts, or an undecided result that is nearer. False if a part could not be tested.

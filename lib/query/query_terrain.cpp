@@ -96,12 +96,12 @@ struct TriangleSearch {
     QueryHit hit;
     hit.triangle = index;
     hit.material = t.material;
-    bool met = true;
+    bool touched = true;
     Status asked = ground.code.convex(ground.terrain, ground.pose, index, placed, convex);
-    if (asked == Status::ok) asked = search.find(convex, placed, hit, met);
+    if (asked == Status::ok) asked = search.find(convex, placed, hit, touched);
     if (asked != Status::ok)
       search.status = asked;
-    else if (met)
+    else if (touched)
       search.keep(t, normal, hit);
   }
 };
@@ -128,11 +128,11 @@ struct CastSearch : TriangleSearch {
     return (start > over && end > over) || (start < -under && end < -under);
   }
 
-  Status find(const Convex& triangle, const Pose& placed, QueryHit& hit, bool& met) const {
+  Status find(const Convex& triangle, const Pose& placed, QueryHit& hit, bool& touched) const {
     TimeOfImpact impact;
     const Status asked = time_of_impact(triangle, {placed, k_zero_vector, k_zero_vector}, shape.convex, motion, impact);
     if (asked != Status::ok) return asked;
-    met = impact.outcome != ToiOutcome::clear;
+    touched = impact.outcome != ToiOutcome::clear;
     hit.fraction = impact.time;
     hit.undecided = impact.outcome == ToiOutcome::undecided;
     if (hit.undecided) return asked;
@@ -210,14 +210,14 @@ struct NearSearch : TriangleSearch {
 
 bool is_point(const QueryShape& shape) { return shape.convex.type == ShapeType::sphere && shape.convex.radius == 0; }
 
-Status ray_on_terrain(const AskedSurface& ground, const Motion& motion, QueryHit& hit, bool& met) {
+Status ray_on_terrain(const AskedSurface& ground, const Motion& motion, QueryHit& hit, bool& touched) {
   const Position &from = motion.start.position, &to = ground.pose.position;
   const Vec3<Real> origin = {real_difference(from.x, to.x), real_difference(from.y, to.y),
                              real_difference(from.z, to.z)};
   TerrainHit found;
   const Status status = ground.code.cast_ray(ground.terrain, ground.pose, origin, motion.displacement, found);
   if (status != Status::ok) return status;
-  met = found.hit;
+  touched = found.hit;
   hit.fraction = found.time;
   hit.point = moved(from, motion.displacement * real_from_fraction(found.time));
   hit.normal = found.normal;
@@ -229,22 +229,22 @@ Status ray_on_terrain(const AskedSurface& ground, const Motion& motion, QueryHit
 }  // namespace
 
 Status cast_on_terrain(const AskedSurface& ground, const QueryShape& shape, const Motion& motion, QueryHit& hit,
-                       bool& met) {
-  met = false;
+                       bool& touched) {
+  touched = false;
   hit = {};
-  if (is_point(shape)) return ray_on_terrain(ground, motion, hit, met);
+  if (is_point(shape)) return ray_on_terrain(ground, motion, hit, touched);
   CastSearch search(ground, shape, motion);
   if (search.status == Status::ok) search.run();
-  met = search.found;
+  touched = search.found;
   hit = search.best;
   return search.status;
 }
 
 Status near_on_terrain(const AskedSurface& ground, const QueryShape& shape, const Pose& at, Real distance_max,
-                       QueryHit& hit, bool& met) {
+                       QueryHit& hit, bool& touched) {
   NearSearch search(ground, shape, at);
   if (search.status == Status::ok) search.run(raw_length(distance_max));
-  met = search.found && search.best.distance <= distance_max;
+  touched = search.found && search.best.distance <= distance_max;
   hit = search.best;
   return search.status;
 }

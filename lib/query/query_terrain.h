@@ -23,13 +23,13 @@ inline AskedSurface asked_terrain(const World& world, const BodyProperties& prop
   return {code, code.view(world.hooks.assets.assets[properties.asset].bytes), {pose.position, pose.rotation}};
 }
 
-/// The first triangle that the shape hits on its path. A point is cast as a ray. `met` is set if there is one; `hit`
-/// receives its data except the body. Errors: those of the narrow phase, for any of the nearby triangles.
+/// The first triangle that the shape hits on its path. A point is cast as a ray. `touched` is set if there is one;
+/// `hit` receives its data except the body. Errors: those of the narrow phase, for any of the nearby triangles.
 Status cast_on_terrain(const AskedSurface& ground, const QueryShape& shape, const Motion& motion, QueryHit& hit,
-                       bool& met);
+                       bool& touched);
 /// The triangle nearest to the shape within the search distance `distance_max`, m. Results as for cast_on_terrain().
 Status near_on_terrain(const AskedSurface& ground, const QueryShape& shape, const Pose& at, Real distance_max,
-                       QueryHit& hit, bool& met);
+                       QueryHit& hit, bool& touched);
 /// The normal of a triangle on the side of a point, in world axes, and the height of the point above the plane on that
 /// side, m. For a one-sided terrain it is always the front, and the height may be negative. Errors: as
 /// place_on_terrain().

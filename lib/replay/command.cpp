@@ -10,7 +10,7 @@ struct List {
   static_assert(((sizeof(Commands) <= k_command_bytes_max && alignof(Commands) <= 8) && ...));
 };
 using All = List<CreateBody, DestroyBody, SetPose, SetVelocity, ApplyForce, ApplyTorque, ApplyImpulse, ApplyImpulseAt,
-                 ApplyAngularImpulse, SetGravity, SetUserData, BindAsset, WakeBody, PutToSleep, SetType, SetShape,
+                 ApplyAngularImpulse, SetGravity, SetUserData, BindAsset, WakeBody, SleepBody, SetType, SetShape,
                  SetMass, SetInertia, SetDensity, SetMaterial, SetDamping, SetGravityScale, SetRotationLocks, SetSensor,
                  SetSettings, ApplyForceAt, ApplyForceAtPoint, ApplyImpulseAtPoint, Explode, MoveKinematic, SetFilter,
                  CreateJoint, DestroyJoint, SetJoint>;

@@ -27,7 +27,7 @@ enum class RecordTag : uint8_t {
   tick = 13,           ///< a step
   tick_digested = 14,  ///< a step, and the digest after it
   wake_body = 15,
-  put_to_sleep = 16,
+  sleep_body = 16,
   set_type = 32,
   set_shape = 33,
   set_mass = 34,
@@ -67,7 +67,7 @@ struct OnBody {
 };
 using DestroyBody = OnBody<RecordTag::destroy_body, destroy_body>;
 using WakeBody = OnBody<RecordTag::wake_body, wake_body>;
-using PutToSleep = OnBody<RecordTag::put_to_sleep, put_to_sleep>;
+using SleepBody = OnBody<RecordTag::sleep_body, sleep_body>;
 /// The calls with a body and a pose.
 template <RecordTag tag, Status (*call)(World&, BodyId, const Position&, const Quat&)>
 struct ToPose {

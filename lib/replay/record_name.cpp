@@ -35,8 +35,8 @@ const char* record_name(RecordTag tag) {
       return "tick_digested";
     case RecordTag::wake_body:
       return "wake_body";
-    case RecordTag::put_to_sleep:
-      return "put_to_sleep";
+    case RecordTag::sleep_body:
+      return "sleep_body";
     case RecordTag::set_type:
       return "set_type";
     case RecordTag::set_shape:

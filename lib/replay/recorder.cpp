@@ -219,8 +219,8 @@ Status Recorder::wake_body(BodyId id) {
   return apply_and_log(command);
 }
 
-Status Recorder::put_to_sleep(BodyId id) {
-  PutToSleep command{id};
+Status Recorder::sleep_body(BodyId id) {
+  SleepBody command{id};
   return apply_and_log(command);
 }
 

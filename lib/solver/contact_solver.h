@@ -270,7 +270,7 @@ struct ContactSolver {
   template <Part first, Part second, class Mass>
   void stop_in_circle(typename Kind::Real* impulse, const Mass* mass, Factor radius, Sliding<Kind>& sliding) {
     Factor after[2] = {stopped(sliding, first, impulse[0], mass[0]), stopped(sliding, second, impulse[1], mass[1])};
-    hold_to_circle(after, radius);
+    clamp_to_circle(after, radius);
     sliding.template bring<first>(after[0], impulse[0]);
     sliding.template bring<second>(after[1], impulse[1]);
   }

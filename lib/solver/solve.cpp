@@ -220,7 +220,7 @@ SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<
       const Island& own = *joints.island;
       JointStage& stage = *joints.stage;
       uint32_t& undecided = *joints.undecided;
-      count.clamped += joints.code->hold(settings, bodies, island, own, elapsed, stage, undecided);
+      count.clamped += joints.code->solve(settings, bodies, island, own, elapsed, stage, undecided);
       for (uint32_t round = 0; round < k_joint_rounds && order.count != 0; ++round) {
         remember(bodies, island);
         for (uint32_t left = round == 0 ? settings.iterations + 1 : 1; left > 0; --left)
@@ -228,7 +228,7 @@ SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<
               settings, bodies, order, contacts, [](Solver& contact) { contact.solve_normals(); }, solve_normals_lanes);
         if (has_settled(bodies, island, enough)) break;
         const bool last = has_settled(bodies, island, enough_for_joints);
-        count.clamped += joints.code->hold_again(settings, bodies, island, own, elapsed, stage, undecided);
+        count.clamped += joints.code->solve_again(settings, bodies, island, own, elapsed, stage, undecided);
         if (last) break;
       }
       count.clamped += joints.code->follow(settings, bodies, island, own, elapsed, stage);

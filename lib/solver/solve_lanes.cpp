@@ -7,13 +7,13 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-DETENT_LANES_INLINE void hold_lane(Lanes (&v)[2], Lanes limit, int lane) {
+DETENT_LANES_INLINE void clamp_lane(Lanes (&v)[2], Lanes limit, int lane) {
 #if DETENT_FIXED
   Factor own[2] = {static_cast<Factor>(v[0].v[lane]), static_cast<Factor>(v[1].v[lane])};
-  hold_to_circle(own, static_cast<Factor>(limit.v[lane]));
+  clamp_to_circle(own, static_cast<Factor>(limit.v[lane]));
 #else
   Factor own[2] = {v[0].v[lane], v[1].v[lane]};
-  hold_to_circle(own, limit.v[lane]);
+  clamp_to_circle(own, limit.v[lane]);
 #endif
   v[0].v[lane] = own[0];
   v[1].v[lane] = own[1];
@@ -22,13 +22,13 @@ DETENT_LANES_INLINE void hold_lane(Lanes (&v)[2], Lanes limit, int lane) {
 }  // namespace
 
 /// Few contacts slide: processes their lanes one by one.
-DETENT_LANES_INLINE void hold_to_circle(Lanes (&v)[2], Lanes limit) {
+DETENT_LANES_INLINE void clamp_to_circle(Lanes (&v)[2], Lanes limit) {
   const Lanes none = lanes_of(0);
   const Lanes size = select(none > v[0], -v[0], v[0]) + select(none > v[1], -v[1], v[1]);
   const LaneMask out = size > limit;
   if (!any(out)) return;
   for (int lane = 0; lane < 4; ++lane) {
-    if (out.v[lane] != 0) hold_lane(v, limit, lane);
+    if (out.v[lane] != 0) clamp_lane(v, limit, lane);
   }
 }
 

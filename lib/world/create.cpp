@@ -167,7 +167,7 @@ Status wake_body(World& world, BodyId id) {
   return Status::ok;
 }
 
-Status put_to_sleep(World& world, BodyId id) {
+Status sleep_body(World& world, BodyId id) {
   StateView<uint8_t> state = view_of(world);
   uint32_t slot = 0;
   if (!find_body(state, id, slot)) return Status::bad_id;

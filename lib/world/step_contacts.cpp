@@ -126,7 +126,7 @@ struct Collider {
 
   bool recycles() const { return last.manifolds.count != 0; }
 
-  void meet(uint64_t key) {
+  void collide(uint64_t key) {
     const uint32_t slot_a = pair_low(key), slot_b = pair_high(key);
     // A body that still sleeps was not touched when wake_touched() tested it; recycled points could give another
     // result.
@@ -171,7 +171,7 @@ struct Collider {
 
   /// Leaves rebounds to continuous collision (impacts) for pairs of dynamic bodies that no other dynamic body pushes
   /// on. Within a pile there would be too many impacts.
-  __attribute__((noinline)) void leave_blows_to_impacts() const {
+  __attribute__((noinline)) void leave_rebounds_to_impacts() const {
     const Span<ContactWork> contacts = room.contacts().first(count.contacts);
     const auto for_each_leaning = [&](const auto& visit) {
       for (const ContactWork& contact : contacts) {
@@ -342,9 +342,9 @@ uint32_t wake_touched(const StepSettings& settings, const StepBodies& bodies, co
 ContactCount find_contacts(const StepSettings& settings, const StepBodies& bodies, const LastContacts& last,
                            const ContactRoom& room, Overflow& overflow, Span<const uint64_t> pairs) {
   Collider collider = {settings, bodies, last, room, overflow};
-  for (const uint64_t key : pairs) collider.meet(key);
+  for (const uint64_t key : pairs) collider.collide(key);
   if (collider.count.dropped != 0) collider.put_in_order();
-  if (collider.rebounds) collider.leave_blows_to_impacts();
+  if (collider.rebounds) collider.leave_rebounds_to_impacts();
   ContactCount& count = collider.count;
   for (const ContactWork& contact : room.contacts().first(count.contacts)) count.points += contact.state.point_count;
   return count;

@@ -81,7 +81,7 @@ void before_tick(Recorder& recorder, uint32_t tick) {
       must(recorder.set_user_data(box, tick));
       break;
     case 6:
-      must(recorder.put_to_sleep(box));
+      must(recorder.sleep_body(box));
       break;
     default:
       must(recorder.wake_body(box));

@@ -265,7 +265,7 @@ void Game::move(BodyId id) {
       judge("wake_body", recorder_->wake_body(id), there, wrong);
       break;
     default: {
-      if (!judge("put_to_sleep", recorder_->put_to_sleep(id), there, wrong)) break;
+      if (!judge("sleep_body", recorder_->sleep_body(id), there, wrong)) break;
       bool awake = true;
       EXPECT_OK(is_awake(world(), id, awake));
       EXPECT_FALSE(awake);

@@ -204,7 +204,7 @@ inline constexpr int k_free_motions = 3;
 
 /// The rows of a joint for the current poses of its bodies.
 struct alignas(8) JointRows {
-  uint32_t rows_held;                 ///< number of rows that always act
+  uint32_t locked_rows;                 ///< number of rows that always act
   uint32_t points;                    ///< 1 if the first three rows keep the anchors together
   Vec3<Unit> arm[2];                  ///< from the bodies' centres to the anchors, in the bodies' units, world axes
   JointRow row[k_joint_rows_max];     ///< the rows; the first three are not set if `points` is 1

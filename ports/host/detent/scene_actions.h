@@ -97,7 +97,7 @@ void visit_one_body(F& fields, SceneAction& action) {
     case Call::set_sensor:
       fields.flag(required({"sensor", "it pushes nothing, and tells who is within it"}), action.flag);
       break;
-    default:  // destroy_body, wake_body, put_to_sleep: no key but the body
+    default:  // destroy_body, wake_body, sleep_body: no key but the body
       break;
   }
 }

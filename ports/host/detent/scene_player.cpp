@@ -128,8 +128,8 @@ Status ScenePlayer::call_of_body(const SceneAction& action, BodyId id) {
       return recorder_.apply_angular_impulse(id, action.push);
     case Call::wake_body:
       return recorder_.wake_body(id);
-    case Call::put_to_sleep:
-      return recorder_.put_to_sleep(id);
+    case Call::sleep_body:
+      return recorder_.sleep_body(id);
     case Call::set_user_data:
       return recorder_.set_user_data(id, action.number);
     case Call::set_filter:

@@ -366,7 +366,7 @@ DETENT_TEST(impact_stage, nothing_passes_through_a_wall_for_want_of_room_for_pai
       const BodyId target = lab.add(ball(0.05, -0.5, 0, 0));
       ASSERT_OK(set_pose(lab.world, target, position(-0.5, 0.5, 0), {0.0, 0.0, 0.0, 1.0}));
       if (target_sleeps) {
-        ASSERT_OK(put_to_sleep(lab.world, target));
+        ASSERT_OK(sleep_body(lab.world, target));
       }
       shots.push_back(target);
       for (int tick = 0; tick < 30; ++tick) {
@@ -391,7 +391,7 @@ DETENT_TEST(impact_stage, of_what_sleeps_only_what_is_struck_is_looked_at_and_it
   Lab lab({7, 40, 0}, weightless(), true);
   std::vector<BodyId> balls;
   for (int i = 0; i < 6; ++i) balls.push_back(lab.add(ball(0.1, i, 0, 1)));
-  for (const BodyId id : balls) ASSERT_OK(put_to_sleep(lab.world, id));
+  for (const BodyId id : balls) ASSERT_OK(sleep_body(lab.world, id));
   lab.run(2);
   balls.push_back(lab.add(ball(0.1, -1, 900, 1)));
   const StepReport report = lab.run(1);
@@ -405,7 +405,7 @@ DETENT_TEST(impact_stage, of_what_sleeps_only_what_is_struck_is_looked_at_and_it
 DETENT_TEST(impact_stage, a_sleeper_that_is_struck_without_room_is_still_there_in_the_next_tick) {
   Lab lab({2, 0, 0}, weightless(), true);
   const BodyId target = lab.add(ball(0.1, 0, 0, 1)), shot = lab.add(ball(0.1, -1, 900, 1));
-  ASSERT_OK(put_to_sleep(lab.world, target));
+  ASSERT_OK(sleep_body(lab.world, target));
   for (int tick = 0; tick < 3; ++tick) {
     const StepReport report = lab.run(1);
     EXPECT_EQ(report.ccd.bodies_stopped, 2u);

@@ -211,7 +211,7 @@ DETENT_TEST(joint, what_is_joined_sleeps_and_wakes_together) {
   for (const BodyId id : link) EXPECT_FALSE(awake(id));
   ASSERT_OK(apply_impulse(lab.world, link[3], scaleds(0, 5, 0)));
   for (const BodyId id : link) EXPECT_TRUE(awake(id));
-  ASSERT_OK(put_to_sleep(lab.world, link[1]));
+  ASSERT_OK(sleep_body(lab.world, link[1]));
   EXPECT_FALSE(awake(link[1]));
   lab.run(1);
   EXPECT_TRUE(awake(link[1])) << "its neighbours move";

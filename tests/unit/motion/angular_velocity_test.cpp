@@ -196,7 +196,7 @@ DETENT_TEST(speeds, that_leave_their_range_are_clamped_and_counted) {
   motion.linear_velocity = {k_speed_max, -k_speed_max, k_speed_max};
   motion.angular_momentum = reals(0, 32767 / inverse_inertia, 0);
   BodyMotion after = motion;
-  EXPECT_EQ(hold_speeds(ball, k_unturned, after), 0u);
+  EXPECT_EQ(clamp_speeds(ball, k_unturned, after), 0u);
   EXPECT_TRUE(after.linear_velocity == motion.linear_velocity && after.angular_momentum == motion.angular_momentum);
   // Each component of the velocity counts.
   for (uint32_t beyond = 1; beyond < 8; ++beyond) {
@@ -208,14 +208,14 @@ DETENT_TEST(speeds, that_leave_their_range_are_clamped_and_counted) {
       *parts[i] += i == 1 ? Real(-1.0) : Real(1.0);
       ++count;
     }
-    EXPECT_EQ(hold_speeds(ball, k_unturned, after), count);
+    EXPECT_EQ(clamp_speeds(ball, k_unturned, after), count);
     EXPECT_TRUE(after.linear_velocity == motion.linear_velocity && after.angular_momentum == motion.angular_momentum);
   }
   // An angular velocity beyond its range, beyond twice its range, and with a momentum beyond its own.
   const auto clamped = [&](double angular_momentum) {
     after = motion;
     after.angular_momentum = reals(0, 0, -angular_momentum);
-    const uint32_t count = hold_speeds(ball, k_unturned, after);
+    const uint32_t count = clamp_speeds(ball, k_unturned, after);
     EXPECT_NEAR(real_to_host(after.angular_momentum.z) * inverse_inertia, -32768, 1) << angular_momentum;
     return count;
   };
@@ -235,13 +235,13 @@ DETENT_TEST(speeds, of_impacts_that_leave_their_range_are_clamped_and_counted) {
     return motion;
   };
   BodyMotion motion = spun(32000, -32000, 32000), after = motion;
-  EXPECT_EQ(hold_angular_velocity(rod, k_unturned, after), 0u);
+  EXPECT_EQ(clamp_angular_velocity(rod, k_unturned, after), 0u);
   EXPECT_TRUE(after.angular_momentum == motion.angular_momentum);
   for (int axis = 0; axis < 3; ++axis) {
     double angular_velocity[3] = {10000, 10000, -10000};
     angular_velocity[axis] = axis == 2 ? -40000 : 40000;
     after = spun(angular_velocity[0], angular_velocity[1], angular_velocity[2]);
-    EXPECT_EQ(hold_angular_velocity(rod, k_unturned, after), 1u);
+    EXPECT_EQ(clamp_angular_velocity(rod, k_unturned, after), 1u);
     const Real* const parts[] = {&after.angular_momentum.x, &after.angular_momentum.y, &after.angular_momentum.z};
     for (int i = 0; i < 3; ++i) {
       const double expected = i == axis ? (axis == 2 ? -32768 : 32768) : angular_velocity[i];
@@ -319,7 +319,7 @@ DETENT_TEST(angular_velocity, of_whatever_momentum_a_solve_leaves_the_state_keep
       properties.inverse_inertia[2] = Scaled(0.0);  // locked
       BodyMotion motion = {};
       motion.angular_momentum = reals(92671, 17374, -80623);
-      EXPECT_GT(hold_speeds(properties, rotation, motion), 0u);
+      EXPECT_GT(clamp_speeds(properties, rotation, motion), 0u);
       const Vec3<Real> local = rotate_inverse(rotation, motion.angular_momentum);
       EXPECT_LE(fabs(real_to_host(local.x)) * inverse_inertia, 32769);
       EXPECT_LE(fabs(real_to_host(local.y)) * inverse_inertia, 32769);

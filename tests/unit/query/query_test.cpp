@@ -275,7 +275,7 @@ void change(Samples& samples, Place& place, std::vector<BodyId>& ids) {
     EXPECT_OK(set_pose(place.world, ids[which], def.position, def.rotation));
   } else {
     // Refused where the body is not dynamic.
-    Status status = what == 3 ? wake_body(place.world, ids[which]) : put_to_sleep(place.world, ids[which]);
+    Status status = what == 3 ? wake_body(place.world, ids[which]) : sleep_body(place.world, ids[which]);
     if (what == 5) status = set_gravity(place.world, reals_near({{0, uniform(samples, -12, -6), 0}}));
     static_cast<void>(status);
   }

@@ -82,7 +82,7 @@ DETENT_TEST(replay_round_trip, every_command_survives_writing_and_reading) {
   expect_round_trip(SetUserData{k_id, 0x80000001});
   expect_round_trip(BindAsset{0x12345678});
   expect_round_trip(WakeBody{k_id});
-  expect_round_trip(PutToSleep{k_id});
+  expect_round_trip(SleepBody{k_id});
   expect_round_trip(SetFilter{k_id, {6, 0x80000001, INT32_MIN, 3}});
   JointDef joint;
   joint.type = JointType::wheel;

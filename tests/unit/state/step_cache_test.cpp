@@ -46,7 +46,7 @@ void change(Samples& samples, const std::vector<World*>& worlds, std::vector<Bod
     Status status = Status::ok;
     if (what == 3) status = destroy_body(*world, id);
     if (what == 4) status = set_pose(*world, id, def.position, {0.0, 0.0, 0.0, 1.0});
-    if (what == 5) status = put_to_sleep(*world, id);
+    if (what == 5) status = sleep_body(*world, id);
     if (what == 6) status = wake_body(*world, id);
     if (what == 7) status = set_velocity(*world, id, reals_near(v), reals(0, 0, 0));
     if (what == 8) status = set_gravity(*world, reals_near({{0, gravity, 0}}));

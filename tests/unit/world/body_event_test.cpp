@@ -65,10 +65,10 @@ DETENT_TEST(body_event, who_is_put_to_sleep_by_a_call_raises_none_and_wakes_with
   Watch watch({3, 16, 0}, 8);
   const BodyId ball = watch.lab.add_box(0.5, 0, 5, 0);
   watch.lab.run(1);
-  EXPECT_OK(put_to_sleep(watch.lab.world, ball));
+  EXPECT_OK(sleep_body(watch.lab.world, ball));
   EXPECT_TRUE(watch.run().empty());
   EXPECT_OK(wake_body(watch.lab.world, ball));
-  EXPECT_OK(put_to_sleep(watch.lab.world, ball));
+  EXPECT_OK(sleep_body(watch.lab.world, ball));
   EXPECT_TRUE(watch.run().empty());
   std::vector<uint64_t> bytes = watch.lab.snapshot();
   EXPECT_OK(load(watch.lab.world, bytes_of(bytes), byte_count(bytes)));  // no news of a sleeper

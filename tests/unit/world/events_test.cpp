@@ -213,7 +213,7 @@ struct Eventful {
     EXPECT_OK(place_joint(lab.world, load.position, rotation, joint));
     JointId id;
     EXPECT_OK(create_joint(lab.world, joint, id));
-    EXPECT_OK(put_to_sleep(lab.world, box));
+    EXPECT_OK(sleep_body(lab.world, box));
     EXPECT_OK(wake_body(lab.world, box));
     report = lab.run(1);
   }

@@ -134,7 +134,7 @@ DETENT_TEST(features, a_policy_that_is_left_out_is_refused) {
 
   Lean lean(feature_table<k_balls>);
   EXPECT_OK(lean.add(sphere(real(0.5)), 0, 0));
-  EXPECT_EQ(put_to_sleep(lean.world, next_body(lean.world, {})), Status::feature_missing);
+  EXPECT_EQ(sleep_body(lean.world, next_body(lean.world, {})), Status::feature_missing);
 }
 
 DETENT_TEST(features, joints_that_are_left_out_are_refused_and_change_nothing) {
@@ -196,7 +196,7 @@ DETENT_TEST(features, a_sleeper_is_refused_where_the_snapshot_has_no_sleeping) {
   def.sleeping = false;  // but a body may still be put to sleep
   Lean all(feature_table<Features::all>, def);
   EXPECT_OK(all.add(sphere(real(0.5)), 0, 1));
-  EXPECT_OK(put_to_sleep(all.world, next_body(all.world, {})));
+  EXPECT_OK(sleep_body(all.world, next_body(all.world, {})));
   std::vector<uint64_t> bytes = all.saved();
   const uint32_t at = offsetof(BlockHeader, left_out) + 2;  // canonical bytes: sleeping is bit 18
   bytes_of(bytes)[at] ^= 1u << 2;

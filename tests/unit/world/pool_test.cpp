@@ -64,6 +64,18 @@ DETENT_TEST(pool, a_stale_id_stays_stale_when_its_slot_is_reused) {
   EXPECT_TRUE(is_valid(lab.world, second));
 }
 
+DETENT_TEST(pool, ids_have_a_null_an_order_and_a_hash) {
+  EXPECT_TRUE(is_null(BodyId{}));
+  EXPECT_FALSE(is_null(BodyId{1, 1}));
+  EXPECT_TRUE(is_null(JointId{}));
+  EXPECT_TRUE((BodyId{1, 9} < BodyId{2, 1}));
+  EXPECT_TRUE((BodyId{2, 1} < BodyId{2, 2}));
+  EXPECT_FALSE((BodyId{2, 2} < BodyId{2, 2}));
+  EXPECT_TRUE((JointId{1, 1} < JointId{1, 2}));
+  EXPECT_NE(hash_of(BodyId{1, 2}), hash_of(BodyId{2, 1}));
+  EXPECT_NE(hash_of(JointId{1, 2}), hash_of(JointId{1, 3}));
+}
+
 DETENT_TEST(pool, a_slot_whose_generations_are_used_up_is_retired_and_counted) {
   Lab lab({2, 1, 0});
   StateView<uint8_t> state = view_of(lab.world);

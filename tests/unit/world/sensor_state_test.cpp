@@ -155,7 +155,7 @@ DETENT_TEST(sensor, whatever_is_called_who_is_within_is_who_overlaps_also_after_
       if (kind == 4 && !ground) status = set_shape(world, id, box(reals(size, size / 2, size)));
       if (kind == 5) status = set_filter(world, id, {choice, choice == 1 ? ~0u : 3u, 0, 0});
       if (kind == 6 && !ground) status = destroy_body(world, id);
-      if (kind == 7) status = put_to_sleep(world, id);
+      if (kind == 7) status = sleep_body(world, id);
       if (kind == 8) {
         BodyDef def = ball_def(size, x, y, z);
         def.sensor = choice == 1;

@@ -98,7 +98,7 @@ DETENT_TEST(sleep, a_body_thrown_at_a_stack_wakes_all_of_it_in_the_tick_it_touch
 DETENT_TEST(sleep, bodies_that_fell_asleep_apart_wake_each_other_within_a_tick) {
   Stacks stacks;
   for (const BodyId id : stacks.left) ASSERT_OK(wake_body(stacks.lab.world, id));
-  for (const BodyId id : stacks.left) ASSERT_OK(put_to_sleep(stacks.lab.world, id));
+  for (const BodyId id : stacks.left) ASSERT_OK(sleep_body(stacks.lab.world, id));
   stacks.expect(false, false);
   stacks.lab.run(1);
   ASSERT_OK(wake_body(stacks.lab.world, stacks.left[0]));
@@ -145,7 +145,7 @@ DETENT_TEST(sleep, is_given_and_taken_by_hand) {
   Lab lab({3, 4, 0}, {}, true);
   lab.add_ground();
   const BodyId id = lab.add_box(0.5, 0, 5, 0);
-  ASSERT_OK(put_to_sleep(lab.world, id));
+  ASSERT_OK(sleep_body(lab.world, id));
   EXPECT_FALSE(awake(lab, id));
   lab.run(60);
   EXPECT_EQ(lab.motion(id).position[1], 5) << "it sleeps in the air";
@@ -154,9 +154,9 @@ DETENT_TEST(sleep, is_given_and_taken_by_hand) {
   lab.run(60);
   EXPECT_LT(lab.motion(id).position[1], 3);
   EXPECT_EQ(wake_body(lab.world, BodyId{1, 1}), Status::bad_argument);
-  EXPECT_EQ(put_to_sleep(lab.world, BodyId{1, 1}), Status::bad_argument);
+  EXPECT_EQ(sleep_body(lab.world, BodyId{1, 1}), Status::bad_argument);
   EXPECT_EQ(wake_body(lab.world, BodyId{3, 1}), Status::bad_id);
-  EXPECT_EQ(put_to_sleep(lab.world, BodyId{3, 1}), Status::bad_id);
+  EXPECT_EQ(sleep_body(lab.world, BodyId{3, 1}), Status::bad_id);
   bool ignored = false;
   EXPECT_EQ(is_awake(lab.world, BodyId{3, 1}, ignored), Status::bad_id);
 }
@@ -235,7 +235,7 @@ DETENT_TEST(sleep, what_joints_hold_wakes_whom_its_longer_reach_touches) {
   ASSERT_OK(set_pose(lab.world, back, position(-1, 0, 0), {0.0, 0.0, 0.0, 1.0}));
   ASSERT_OK(set_pose(lab.world, sleeper, position(1.6, 0, 0), {0.0, 0.0, 0.0, 1.0}));
   for (const BodyId id : {front, back}) ASSERT_OK(set_velocity(lab.world, id, reals(60, 0, 0), reals(0, 0, 0)));
-  ASSERT_OK(put_to_sleep(lab.world, sleeper));
+  ASSERT_OK(sleep_body(lab.world, sleeper));
   const StepReport report = lab.run(1);
   EXPECT_TRUE(awake(lab, sleeper));
   EXPECT_EQ(report.woke, 1u);

@@ -78,7 +78,7 @@ inline void call_anything(World& world, Draw& draw) {
     case 9:
       return ignore(set_pose(world, id, draw.place(), draw.rotation(wrong)));
     case 10:
-      return ignore(put_to_sleep(world, id));
+      return ignore(sleep_body(world, id));
     default:
       return ignore(apply_impulse(world, id, draw.push(500)));
   }
