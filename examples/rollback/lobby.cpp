@@ -110,10 +110,11 @@ const char* join(Transport& transport, const Options& options, const volatile in
   const uint32_t start = enet_time_get();
   bool joined = false;
   while (stop == 0) {
-    if (!joined && enet_time_get() - start > k_join_ms) return "nobody answers there";
+    if (!joined && enet_time_get() - start > k_join_ms) return "no host answers at this address";
     const Transport::Event event = transport.next(100);
     if (event.kind == Transport::Kind::left) {
-      return joined ? "the host wants nobody, or not this version or key" : "nobody answers there";
+      return joined ? "the host refused: no place is free, or its version or key differs"
+                    : "no host answers at this address";
     }
     if (event.kind == Transport::Kind::joined) {
       joined = true;

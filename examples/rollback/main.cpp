@@ -81,9 +81,9 @@ int main(int argc, char** argv) {
       "One hosts, the others join: rollback --host 7000, rollback --join 127.0.0.1:7000");
   auto* const host =
       app.add_option("--host", options.port, "host a match at this UDP port")->check(CLI::Range(1, 65535));
-  auto* const joins = app.add_option("--join", there, "join who hosts at HOST:PORT")->excludes(host);
+  auto* const joins = app.add_option("--join", there, "join the host at HOST:PORT")->excludes(host);
   app.add_option("--key", options.key, "a number that the host and its guests know")->capture_default_str();
-  app.add_option("--delay", options.delay, "ticks from your input to what it does; each their own")
+  app.add_option("--delay", options.delay, "ticks from an input to its effect; each player has their own")
       ->check(CLI::Range(0u, k_window_max))
       ->capture_default_str();
   app.add_flag("--bot,--headless", options.bot, "a bot plays here, and nothing is drawn");
@@ -97,7 +97,7 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1u, k_ticks_max))
       ->capture_default_str()
       ->group("Host");
-  app.add_option("--window", options.window, "ticks that nobody makes more without all inputs")
+  app.add_option("--window", options.window, "ticks that a machine may run ahead of the last tick with all inputs")
       ->check(CLI::Range(1u, k_window_max))
       ->capture_default_str()
       ->group("Host");
@@ -105,7 +105,9 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(0.01, 100.0))
       ->capture_default_str()
       ->group("Host");
-  app.add_option("--seed", options.seed, "of bots and bad links")->capture_default_str()->group("Host");
+  app.add_option("--seed", options.seed, "seed of the random numbers of bots and bad links")
+      ->capture_default_str()
+      ->group("Host");
 
   const char* const bad = "A bad link, for what this machine sends";
   app.add_option("--loss", loss, "%")->check(CLI::Range(0.0, 100.0))->group(bad);

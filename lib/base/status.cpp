@@ -8,7 +8,7 @@ const char* status_text(Status status) {
     case Status::ok:
       return "ok";
     case Status::bad_id:
-      return "no such body";
+      return "no such id";
     case Status::bad_argument:
       return "not one of the allowed values";
     case Status::out_of_range:
@@ -24,7 +24,7 @@ const char* status_text(Status status) {
     case Status::asset_missing:
       return "asset missing";
     case Status::asset_mismatch:
-      return "asset of another content";
+      return "asset content differs";
     case Status::not_detent:
       return "not a detent file";
     case Status::format_unknown:
@@ -42,7 +42,7 @@ const char* status_text(Status status) {
     case Status::digest_differs:
       return "digest differs";
     case Status::feature_missing:
-      return "a feature that is not linked";
+      return "feature not linked";
     case Status::rule_missing:
       return "filter rule missing";
     case Status::waiting:

@@ -126,7 +126,7 @@ struct Collider {
 
   bool recycles() const { return last.manifolds.count != 0; }
 
-  void collide(uint64_t key) {
+  void visit(uint64_t key) {
     const uint32_t slot_a = pair_low(key), slot_b = pair_high(key);
     // A body that still sleeps was not touched when wake_touched() tested it; recycled points could give another
     // result.
@@ -342,7 +342,7 @@ uint32_t wake_touched(const StepSettings& settings, const StepBodies& bodies, co
 ContactCount find_contacts(const StepSettings& settings, const StepBodies& bodies, const LastContacts& last,
                            const ContactRoom& room, Overflow& overflow, Span<const uint64_t> pairs) {
   Collider collider = {settings, bodies, last, room, overflow};
-  for (const uint64_t key : pairs) collider.collide(key);
+  for (const uint64_t key : pairs) collider.visit(key);
   if (collider.count.dropped != 0) collider.put_in_order();
   if (collider.rebounds) collider.leave_rebounds_to_impacts();
   ContactCount& count = collider.count;

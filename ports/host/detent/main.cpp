@@ -60,7 +60,7 @@ bool read_assets(const std::vector<std::string>& paths, Assets& assets) {
 bool overwrites(const std::string& output, const std::vector<std::string>& inputs) {
   for (const std::string& input : inputs) {
     if (!is_same_file(input, output)) continue;
-    fprintf(stderr, "%s\n", printable(output + ": is read, and would be written over").c_str());
+    fprintf(stderr, "%s\n", printable(output + ": is an input file, and is not overwritten").c_str());
     return true;
   }
   return false;
@@ -261,7 +261,7 @@ int run_command(int argc, char** argv) {
   verify->add_option("--jobs", verifying.jobs, "How many files to verify at the same time")
       ->check(CLI::Range(1u, 1024u))
       ->capture_default_str();
-  verify->add_option("--from", verifying.reading.from, "Only what comes after this tick")
+  verify->add_option("--from", verifying.reading.from, "Verify only the ticks after this one")
       ->check(CLI::NonNegativeNumber);
   verify->add_option("--to", verifying.reading.to, "Only up to this tick")->check(CLI::NonNegativeNumber);
   add_assets(verify, verifying.asset_paths);
@@ -275,8 +275,8 @@ int run_command(int argc, char** argv) {
       ->check(CLI::NonNegativeNumber);
   add_assets(state, asset_paths);
   std::string output;
-  CLI::App* recover = app.add_subcommand("recover", "Write what is whole of a cut recording as a recording");
-  recover->add_option("file", reading.path, "The recording that was cut")->required();
+  CLI::App* recover = app.add_subcommand("recover", "Write the complete part of a truncated recording as a recording");
+  recover->add_option("file", reading.path, "The truncated recording")->required();
   recover->add_option("output", output, "The file to write; compressed if its name ends in .zst")->required();
   add_assets(recover, asset_paths);
   CLI::App* compress = app.add_subcommand("compress", "Write FILE.zst beside each recording");
@@ -292,8 +292,8 @@ int run_command(int argc, char** argv) {
   add_assets(diff, asset_paths);
   TraceRequest tracing;
   uint32_t trace_level = 2;
-  CLI::App* trace = app.add_subcommand(
-      "trace", "Replay a recording and write what this machine makes of some of its ticks, for diff");
+  CLI::App* trace =
+      app.add_subcommand("trace", "Replay a recording and write this machine's traces of some of its ticks, for diff");
   trace->add_option("file", tracing.reading.path, "A recording")->required();
   trace->add_option("-o,--output", tracing.output, "The recording to write; compressed if its name ends in .zst")
       ->required();
@@ -306,7 +306,7 @@ int run_command(int argc, char** argv) {
   add_assets(trace, asset_paths);
 
   CLI::App* info = app.add_subcommand(
-      "info", "Say what recordings, hulls, compounds, meshes and height fields hold, without replaying them");
+      "info", "Print the contents of recordings, hulls, compounds, meshes and height fields, without replaying them");
   info->add_option("file", paths, "Recordings and cooked shapes")->required();
   CLI::App* scenes = app.add_subcommand("scenes", "List the scenes that can be recorded");
 
@@ -340,14 +340,15 @@ int run_command(int argc, char** argv) {
   cook->add_option("--height", heights.height, "Height field: height of the brightest pixel, m")->capture_default_str();
   cook->add_option(
           "--frame", frame,
-          "principal: for bodies, about the centre of mass along the principal axes; source: as the points are, whose "
-          "origin is a compound's centre of mass then")
+          "principal: for bodies, about the centre of mass along the principal axes; source: the frame of the points; "
+          "its origin is then a compound's centre of mass")
       ->check(CLI::IsMember({"principal", "source"}))
       ->capture_default_str();
   cook->add_option("--weld", cooking.options.weld, "Leave out a point that is at most this far from another, m")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  cook->add_option("--vertices", cooking.options.vertex_limit, "Hull: the most vertices; one of more is reduced")
+  cook->add_option("--vertices", cooking.options.vertex_limit,
+                   "Hull: the greatest number of vertices; larger hulls are reduced")
       ->check(CLI::Range(4u, 255u))
       ->capture_default_str();
   cook->add_flag("--exact", refuse_more, "Hull: refuse one of more vertices, instead of reducing it");

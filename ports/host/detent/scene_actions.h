@@ -8,7 +8,7 @@ inline namespace DETENT_NAMESPACE {
 template <class F>
 void visit_query(F& fields, SceneAction& action) {
   fields.text({"name", "for what is printed"}, action.name);
-  fields.object({"filter", "whom it asks"}, action.asked);
+  fields.object({"filter", "which bodies it tests"}, action.asked);
   fields.flag({"all", "every body found, and not only the first"}, action.flag);
 }
 
@@ -92,10 +92,10 @@ void visit_one_body(F& fields, SceneAction& action) {
       fields.real(required({"scale", "times the world's gravity", within(1024)}), action.first);
       break;
     case Call::set_rotation_locks:
-      turn_locks_of_body(fields, action.number, true);
+      rotation_locks_of_body(fields, action.number, true);
       break;
     case Call::set_sensor:
-      fields.flag(required({"sensor", "it pushes nothing, and tells who is within it"}), action.flag);
+      fields.flag(required({"sensor", "it applies no forces, and reports the bodies inside it"}), action.flag);
       break;
     default:  // destroy_body, wake_body, sleep_body: no key but the body
       break;

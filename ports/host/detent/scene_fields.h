@@ -66,9 +66,9 @@ void visit(F& fields, WorldDef& world) {
   fields.flag({"sleeping", "what rests is left out of the step"}, world.sleeping);
   fields.real({"contact_margin", "gap with contact points, over the smaller extent", between(0x1p-10, 0x1p-4)},
               world.contact_margin);
-  fields.real(
-      {"contact_recycle_distance", "motion within which contact points are used again, likewise", between(0, 1.0 / 64)},
-      world.contact_recycle_distance);
+  fields.real({"contact_recycle_distance", "motion up to which contact points are recycled, over the smaller extent",
+               between(0, 1.0 / 64)},
+              world.contact_recycle_distance);
   fields.choice({"reduction", "which contact points are kept"}, world.reduction, k_reductions);
 }
 
@@ -142,9 +142,9 @@ void type_of_body(F& fields, BodyType& type, bool needed) {
 }
 
 template <class F>
-void turn_locks_of_body(F& fields, uint32_t& locks, bool needed) {
+void rotation_locks_of_body(F& fields, uint32_t& locks, bool needed) {
   constexpr Choice<uint32_t> k_locks[] = {{"x", k_rotation_lock_x}, {"y", k_rotation_lock_y}, {"z", k_rotation_lock_z}};
-  fields.choices({"rotation_locks", "its axes about which it does not turn", k_any, needed}, locks, k_locks);
+  fields.choices({"rotation_locks", "its axes about which it does not rotate", k_any, needed}, locks, k_locks);
 }
 
 template <class F>
@@ -167,9 +167,9 @@ void visit(F& fields, SceneBody& body) {
   fields.real({"angular_damping", "1/s", between(0, 1024)}, def.angular_damping);
   fields.real({"gravity_scale", "times the world's gravity", within(1024)}, def.gravity_scale);
   fields.integer({"user_data", "kept and recorded", k_word}, def.user_data);
-  turn_locks_of_body(fields, def.rotation_locks, false);
+  rotation_locks_of_body(fields, def.rotation_locks, false);
   fields.named({"filter", "what it collides with"}, def.filter);
-  fields.flag({"sensor", "it pushes nothing, and tells who is within it"}, def.sensor);
+  fields.flag({"sensor", "it applies no forces, and reports the bodies inside it"}, def.sensor);
   if (def.type == BodyType::dynamic &&
       (def.shape.type == ShapeType::half_space || def.shape.type == ShapeType::terrain)) {
     fields.problem("type", "is dynamic, which a half-space or terrain cannot be");
@@ -197,13 +197,13 @@ void visit(F& fields, JointDef& def) {
       {"wheel", JointType::wheel},       {"parallel", JointType::parallel}, {"filter", JointType::filter}};
   fields.choice({"type", "what it leaves free"}, def.type, k_types);
   fields.vector({"anchor_a", "from A's centre of mass, m, A's axes", within(4096)}, def.anchor_a);
-  fields.vector({"anchor_b", "likewise, of B", within(4096)}, def.anchor_b);
+  fields.vector({"anchor_b", "from B's centre of mass, m, B's axes", within(4096)}, def.anchor_b);
   fields.rotation({"frame_a", "from the frame's axes to A's"}, def.frame_a);
-  fields.rotation({"frame_b", "likewise, to B's"}, def.frame_b);
+  fields.rotation({"frame_b", "from the frame's axes to B's"}, def.frame_b);
   fields.object({"axis", "the first free motion"}, def.axis);
   fields.object({"second", "the second"}, def.second);
   fields.scaled({"friction_force", "N: brakes what slides freely", at_least(0)}, def.friction_force);
-  fields.scaled({"friction_torque", "N m: brakes what turns freely", at_least(0)}, def.friction_torque);
+  fields.scaled({"friction_torque", "N m: brakes the free rotations", at_least(0)}, def.friction_torque);
   fields.flag({"collide", "whether A and B collide with each other"}, def.collide);
   fields.scaled({"break_force", "N; 0: never", at_least(0)}, def.break_force);
   fields.scaled({"break_torque", "N m; 0: never", at_least(0)}, def.break_torque);
@@ -216,7 +216,7 @@ void visit(F& fields, SceneJoint& joint) {
   fields.repeated();
   fields.text({"name", "for actions and what is printed"}, joint.name);
   fields.body(required({"a", "the first body: of a wheel the chassis"}), joint.a);
-  fields.body(required({"b", "the second: what turns or slides on A"}), joint.b);
+  fields.body(required({"b", "the second: the body that rotates or slides on A"}), joint.b);
   if (!joint.a.empty() && joint.a == joint.b) fields.problem("b", "is `a`, too");
   joint.placed = fields.position(optional({"point", "its anchor, m, world; it is at rest where the bodies are then"}),
                                  joint.point);

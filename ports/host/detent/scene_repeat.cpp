@@ -343,7 +343,7 @@ void write_out_repeats(Node& scene, std::vector<Problem>& problems) {
 std::vector<FieldInfo> repeat_fields() {
   return {object_field("repeat", "it stands for so many: Repeats", "repeat"),
           object_field("step", "with `repeat`: from copy to copy", "step"),
-          object_field("revolve", "with `repeat`: likewise, after the steps", "revolve")};
+          object_field("revolve", "with `repeat`: a rotation, applied after the steps", "revolve")};
 }
 
 std::vector<ObjectInfo> repeat_objects() {
