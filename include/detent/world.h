@@ -265,7 +265,7 @@ Status destroy_body(World& world, BodyId id);
 /// Moves a body to a pose, m, world, without collision on the way. The body keeps its velocity and wakes.
 /// Errors: bad_id, out_of_range, not_normalised.
 Status set_pose(World& world, BodyId id, const Position& position, const Quat& rotation);
-/// Sets a body's velocity, m/s, and angular velocity `angular velocity`, rad/s, world frame; ranges as in BodyDef.
+/// Sets a body's velocity, m/s, and angular velocity `angular_velocity`, rad/s, world frame; ranges as in BodyDef.
 /// Errors: bad_id, bad_argument (a fixed body), out_of_range.
 Status set_velocity(World& world, BodyId id, const Vec3<Real>& velocity, const Vec3<Real>& angular_velocity);
 /// Adds a force, N, world frame, that acts at the centre of mass during the next step.
@@ -305,7 +305,7 @@ StepReport step(World& world);
 bool is_valid(const World& world, BodyId id);
 /// The pose of a body, m, world. Errors: bad_id.
 Status get_pose(const World& world, BodyId id, Pose& pose);
-/// The velocity of the centre of mass, m/s, and the angular velocity `angular velocity`, rad/s, world frame. Overflow:
+/// The velocity of the centre of mass, m/s, and the angular velocity `angular_velocity`, rad/s, world frame. Overflow:
 /// components of the angular velocity are clamped to the range of Real, which only bodies below 12 cm can exceed.
 /// Errors: bad_id.
 Status get_velocity(const World& world, BodyId id, Vec3<Real>& velocity, Vec3<Real>& angular_velocity);

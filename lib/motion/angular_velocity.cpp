@@ -47,7 +47,7 @@ int odd_axis(const Scaled (&inverse_inertia)[3]) {
   return less(apart[2], apart[least]) ? 2 : least;
 }
 
-/// Rotates for `time` about a world axis by the angular velocity `angular velocity`, m/s at the radius 2^exponent m.
+/// Rotates for `time` about a world axis by the angular velocity `angular_velocity`, m/s at the radius 2^exponent m.
 Quat turned(const Quat& rotation, const Vec3<Real>& angular_velocity, int exponent, Real time, bool& clamped) {
   const Vec3<Real> angle = {angle_of(angular_velocity.x * time, exponent, clamped),
                             angle_of(angular_velocity.y * time, exponent, clamped),

@@ -103,7 +103,7 @@ inline Vec3<Real> without_locked(const BodyProperties& properties, const Quat& r
 /// The motion of each term is an exact rotation: about L, about a, and about c. The rotation about c is done in two
 /// halves, before and after the one about a (Strang splitting), in 2^halvings steps. So the angular momentum is kept
 /// exactly, and the energy to second order in 1/I_c - 1/I_b: the motion of a symmetric body is exact, however slender
-/// the body is. `angular velocity` becomes angular_velocity_of() at the start. Returns false if an angle was clamped to
+/// the body is. `angular_velocity` becomes angular_velocity_of() at the start. Returns false if an angle was clamped to
 /// 2^15 rad. Source: Dullweber, Leimkuhler, McLachlan, "Symplectic splitting methods for rigid body molecular
 /// dynamics", 1997.
 bool rotate_freely(const BodyProperties& properties, const FreeRotation& free, const Vec3<Real>& angular_momentum,

@@ -24,7 +24,7 @@ Vec32 to_local_29(const Matrix32& rotation, const Vec32& v) {
   return {component(rotation.column[0]), component(rotation.column[1]), component(rotation.column[2])};
 }
 
-/// One body relative to an axis that rotates by `angular velocity`: its part of the separation and of the curvature
+/// One body relative to an axis that rotates by `angular_velocity`: its part of the separation and of the curvature
 /// bound K.
 class Side {
  public:

@@ -52,7 +52,7 @@ int32_t advance_once(const MovingPair& pair, const Frames& frames, const Horizon
 /// the rounding budget (DESIGN.md). It is negative where the cores are closer than `floor` along `normal`.
 int64_t separation_along(const MovingPair& pair, const Frames& frames, const Vec32& normal, int32_t floor);
 
-/// An axis that rotates by the rotation vector `angular velocity`, Q29, over a horizon.
+/// An axis that rotates by the rotation vector `angular_velocity`, Q29, over a horizon.
 class RotatingAxis {
  public:
   RotatingAxis(const Vec32& normal, const Vec32& angular_velocity);

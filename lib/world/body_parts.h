@@ -13,9 +13,9 @@ Status suits(const World& world, ShapeType shape, uint32_t asset, BodyType type)
 /// Sets the shape properties of `properties` for a body of this type. Errors: bad_argument, out_of_range,
 /// asset_missing, feature_missing.
 Status set_body_shape(const World& world, const Shape& shape, BodyType type, BodyProperties& properties);
-/// Sets the inverse inertia (`inverse inertia`) from the shape, the type and the rotation locks. Errors: out_of_range.
+/// Sets the inverse inertia (`inverse_inertia`) from the shape, the type and the rotation locks. Errors: out_of_range.
 Status set_body_inverse_inertia(const World& world, BodyProperties& properties);
-/// Sets the inverse inertia (`inverse inertia`) of a dynamic body from moments of inertia about its axes, kg m^2.
+/// Sets the inverse inertia (`inverse_inertia`) of a dynamic body from moments of inertia about its axes, kg m^2.
 /// Errors: out_of_range.
 Status set_body_inertia(const Vec3<Scaled>& inertia, BodyProperties& properties);
 /// Sets the mass from the volume of the shape and `density`, kg/m^3. Errors: out_of_range.
