@@ -164,7 +164,7 @@ bool cook_mesh_file(const MeshRequest& request, bool json, const detent_cook::Co
   const detent_cook::MeshRead read = detent_cook::read_mesh_file(request.input, source.text, progress);
   if (!read.problem.empty()) return fail(request.input, read.problem, json);
   for (const std::string& buffer : read.buffers) {
-    if (is_same_file(buffer, request.output)) return fail(request.output, "is read, and would be written over", json);
+    if (is_same_file(buffer, request.output)) return fail(request.output, "is an input file, and is not overwritten", json);
   }
   const detent_cook::MeshResult result = detent_cook::cook_mesh(read.mesh, request.options, progress);
   if (result.bytes.empty()) return fail(request.input, result.reason, json);
