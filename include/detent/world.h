@@ -125,8 +125,8 @@ struct WorldHooks {
   SensorEventBuffer sensor_events = {};      ///< as contact_events: bodies that entered or left a sensor
   BodyEventBuffer body_events = {};          ///< as contact_events: bodies that fell asleep or woke
   CapacityEventBuffer capacity_events = {};  ///< as contact_events: what a full pool dropped
-  Profile* profile = nullptr;                ///< times of the stages of each step (profile.h)
-  const StepObserver* observer = nullptr;    ///< called at the end of each stage of each step (observer.h)
+  Profile* profile = nullptr;                ///< times of the stages of each step
+  const StepObserver* observer = nullptr;    ///< called at the end of each stage of each step
 };
 
 /// A world in the caller's block. A small value: copy it freely; it owns nothing.
