@@ -67,8 +67,8 @@ struct ContactManifold {
 /// are more. A face of more than 32 vertices is represented by 32 extreme vertices. The flat side of a cylinder or cone
 /// is represented by 8 points of its rim and the deepest point.
 ///
-/// Precision: as closest_points(). Errors: bad_argument for two half-spaces; not_normalised; out_of_range for reach < 0
-/// and NaN, and as closest_points() for a half-space.
+/// Precision: as closest_points(). Errors: bad_argument for two half-spaces; not_normalised; out_of_range for
+/// distance_max < 0 and NaN, and as closest_points() for a half-space.
 Status contact_points(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Real distance_max,
                       ContactManifold& manifold, DistanceCache* cache = nullptr,
                       ManifoldReduction reduction = ManifoldReduction::projected_extremes);

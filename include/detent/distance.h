@@ -81,7 +81,7 @@ Status overlap(const Convex& a, const Pose& pose_a, const Convex& b, const Pose&
                DistanceCache* cache = nullptr);
 
 /// Whether the shapes are farther apart than `distance_max`, m. True is certain; false may be wrong by
-/// k_distance_error. Errors: as closest_points(), and out_of_range for reach < 0.
+/// k_distance_error. Errors: as closest_points(), and out_of_range for distance_max < 0.
 Status farther_than(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Real distance_max,
                     bool& result, DistanceCache* cache = nullptr);
 

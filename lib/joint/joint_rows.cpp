@@ -242,7 +242,7 @@ DriveMode free_mode(const JointState& joint, int i) {
   return is_braked(joint, i) ? DriveMode::brake : DriveMode::idle;
 }
 
-/// Speed of a free motion before anything is solved, m/s.
+/// The velocity of B relative to A along free row `i`, before the joints are solved, m/s.
 Real speed_of(const JointStage& stage, const JointWork& work, int i) {
   const JointBody &a = stage.bodies[work.body[0]], &b = stage.bodies[work.body[1]];
   const JointRow& row = work.free_row[i];
@@ -250,8 +250,8 @@ Real speed_of(const JointStage& stage, const JointWork& work, int i) {
          dot(a.angular_velocity, row.arm[0]);
 }
 
-/// The part of that speed that gravity, forces and torques have just added. A damper that acted on it would carry a
-/// part of these forces.
+/// The part of speed_of() that gravity, forces and torques have added in this substep. A damper that acted on this part
+/// would carry part of these forces.
 Real speed_pushed(const SolverBodies& bodies, const JointStage& stage, const JointWork& work, int i) {
   const JointRow& row = work.free_row[i];
   Real speed = k_zero;

@@ -209,10 +209,10 @@ Real approach_at_touch(Real velocity, Real separation, Real pull) {
   return -square_root(velocity * velocity - gain);
 }
 
-/// For round bodies that slide past each other: how much more they may separate in a tick than the motion along the
-/// normal shows, because the normal rotates, m. Returns s^2 / D, with s the displacement across the normal and D the
-/// distance of the centres of curvature. That is twice the second-order term. Without it, bodies that touch only in
-/// passing would be stopped along the normal of the start.
+/// The growth of the gap in a tick, m, of two round bodies that slide past each other, because the contact normal
+/// rotates. Returns s^2 / D: s is the relative tangential displacement of the centres of curvature in the tick, D is
+/// their distance. This is twice the second-order term. Without it, the solver would stop bodies that only touch in
+/// passing, along the normal at the start of the tick.
 __attribute__((noinline)) Real parted_by_sliding(const StepSettings& settings, const RowBody& a, const RowBody& b,
                                                  const Vec3<Unit>& normal, const ContactGeometryPoint& point) {
   const Unit round_a = round_radius(a.properties), round_b = round_radius(b.properties);

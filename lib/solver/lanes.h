@@ -211,7 +211,7 @@ class LaneBlock {
 DETENT_LANES_INLINE Lanes dot(const Vec3<Lanes>& a, const Vec3<Lanes>& b) {
   return product(a.x, b.x) + product(a.y, b.y) + product(a.z, b.z);
 }
-/// The sums must round to factors.
+/// Rounds sums of products to factors. Range: each rounded value must fit a factor.
 DETENT_LANES_INLINE Vec3<Lanes> rounded(Lanes x, Lanes y, Lanes z) {
 #if DETENT_FIXED
   const auto part = [](Lanes sum) {

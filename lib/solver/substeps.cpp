@@ -10,6 +10,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
+/// The numbers of substeps that an island can take, unless its own limit lies between two of them.
 constexpr uint32_t k_notches[] = {1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64};
 /// A lower number of substeps is enough if the need is at most this fraction of its square.
 constexpr Scaled k_in_hand = 0.6;
@@ -39,7 +40,8 @@ Scaled needed(const StepSettings& settings, const ContactWork& contact, const Bo
   return less(sag, buckling) ? buckling : sag;
 }
 
-/// The lowest notch between `least` and `most` whose square is at least `need`; `most` if there is none.
+/// The smallest entry of k_notches from `least` on and below `most` whose square is at least `need`; `most` if there is
+/// none.
 uint32_t notch_for(Scaled need, uint32_t least, uint32_t most) {
   for (const uint32_t notch : k_notches) {
     if (notch < least) continue;

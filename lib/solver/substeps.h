@@ -30,9 +30,9 @@ inline constexpr uint32_t k_calm_ticks = 60;
 inline constexpr uint32_t k_joint_calm_ticks = 8;
 
 /// Sets the number of substeps of each island and of its bodies' activities, from the loads of its contacts and from
-/// the needs of its joints, which `islands` has. The number grows at once. It falls by one notch after k_calm_ticks;
-/// with joints, to the number that is needed after k_joint_calm_ticks. Impulses from a tick with another number of
-/// substeps are scaled.
+/// the needs of its joints, which `islands` has. The number grows at once. It falls to the next lower entry of
+/// k_notches after k_calm_ticks; with joints, to the number that is needed after k_joint_calm_ticks. Impulses from a
+/// tick with another number of substeps are scaled.
 void choose_substeps(const StepSettings& settings, Span<const BodyProperties> properties, Span<const BodyWork> work,
                      Span<const uint32_t> bodies, Span<const ContactOrder> order, Span<Island> islands,
                      Span<ContactWork> contacts, Span<BodyActivity> activities);

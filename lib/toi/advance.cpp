@@ -65,8 +65,9 @@ class Side {
   bool present() const { return present_; }
   Matrix32 rotation_at(int64_t time) const { return turning_.at(time); }
 
-  /// rho (|n x u| |u| + |w x angular velocity|), Q26. |n x u| grows by at most |n x angular velocity| |u| per unit of
-  /// time.
+  /// A bound on the magnitude of the second derivative of this body's part of the separation: rho (|n x u| |u| + |w x
+  /// angular velocity|), Q26, with rho the core radius and w the body's own angular velocity. In the time `rest`, |n x
+  /// u| grows by at most |n x angular velocity| |u| `rest`; `tilt` is |n x angular velocity|.
   int64_t curvature(int64_t tilt, int64_t rest) const {
     if (!moves()) return 0;
     const int64_t grown = across_ + (tilt == 0 ? 0 : product_above(product_above(tilt, speed_, 29), rest, 30));
