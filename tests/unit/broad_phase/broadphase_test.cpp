@@ -17,8 +17,8 @@ struct Crowd {
   std::vector<bool> rests;
 };
 
-/// Boxes of mixed sizes in a room of `room` m, some of them fixed, some everywhere, some slots empty, some edges equal;
-/// most rest.
+/// Boxes of mixed sizes in a room of `room` m. Some are fixed, some have bounds that span the room, some slots are
+/// empty, some bounds share a coordinate; most boxes rest.
 Crowd random_crowd(Samples& samples, uint32_t count, double room) {
   Crowd crowd;
   for (uint32_t i = 0; i < count; ++i) {
@@ -50,13 +50,13 @@ bool meet(const Bounds& a, const Bounds& b) {
          along(a.lower.z, a.upper.z, b.lower.z, b.upper.z);
 }
 
-/// As body.h has it.
+/// The filter rules of body.h, evaluated independently.
 bool may_touch(const BodyProperties& a, const BodyProperties& b) {
   if (a.group != 0 && a.group == b.group) return a.group > 0;
   return (a.category & b.mask) != 0 && (b.category & a.mask) != 0;
 }
 
-/// The least overlap along an axis, as the specification has it.
+/// The least overlap of the bounds along an axis, as the specification defines it.
 uint64_t depth_of(const Bounds& a, const Bounds& b) {
   uint64_t least = UINT64_MAX;
   for (const auto axis : k_axes) {
@@ -67,7 +67,7 @@ uint64_t depth_of(const Bounds& a, const Bounds& b) {
   return least;
 }
 
-/// Every pair with a body that moves tried, in the order of the keys.
+/// The result of testing every pair with a body that moves, in the order of the keys.
 std::vector<uint64_t> all_pairs(const Crowd& crowd) {
   std::vector<uint64_t> keys;
   for (uint32_t a = 0; a < crowd.properties.size(); ++a) {
@@ -82,7 +82,7 @@ std::vector<uint64_t> all_pairs(const Crowd& crowd) {
   return keys;
 }
 
-/// The deepest, in the order of the keys.
+/// The deepest pairs, in the order of the keys.
 std::vector<uint64_t> deepest(const Crowd& crowd, std::vector<uint64_t> keys, uint32_t count) {
   const auto depth = [&](uint64_t key) { return depth_of(crowd.bounds[pair_low(key)], crowd.bounds[pair_high(key)]); };
   std::stable_sort(keys.begin(), keys.end(), [&](uint64_t a, uint64_t b) { return depth(a) > depth(b); });
@@ -91,7 +91,7 @@ std::vector<uint64_t> deepest(const Crowd& crowd, std::vector<uint64_t> keys, ui
   return keys;
 }
 
-/// A tree with room for all of a crowd.
+/// A tree with capacity for all bodies of a crowd.
 struct Tree {
   TreeRoot root{};
   std::vector<TreeNode> nodes;

@@ -6,7 +6,7 @@
 #include "tests/unit/world/lab.h"
 #include "world/step_probe.h"
 
-/// Shots at thin bodies, and what the sweeps that the stage committed say of them, in doubles.
+/// Shots at thin bodies, and checks in doubles of the sweeps that the impact stage has committed.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -38,7 +38,8 @@ struct Trace {
     return times;
   }
   static double time_of(Fraction fraction) { return ldexp(static_cast<double>(fraction.raw), -Fraction::k_frac); }
-  /// Where a body is; `still` if it has no segment. At a time where it changes: before that.
+  /// The pose of a body at a time; `still` if the body has no segment. At a time at which the motion changes: the pose
+  /// before the change.
   SegmentPose at(uint32_t body, double time, const SegmentPose& still) const {
     const SweepSegment* now = nullptr;
     for (uint32_t i = 0; i < probe.segment_count; ++i) {

@@ -29,7 +29,7 @@ Vector local(const Quaternion& q, const Vector& v) {
            dot(v, detent_oracle::axis_of(q, 2))}};
 }
 
-/// What became of the shots of a cell.
+/// The outcomes of the shots of one cell of the test.
 struct Outcome {
   uint32_t hits = 0, through = 0, skewered = 0, wrong_side = 0, judged = 0;
   double lost_time = 0, deepest = 0, rebound_error = 0, momentum_error = 0;
@@ -91,8 +91,8 @@ OracleMass mass_of(const BodyProperties& properties, const Quaternion& rotation)
   return result;
 }
 
-/// Newton's law along the normal n from the target to the shot, and no slip, at the point that lies at arm_a of the
-/// target and at arm_b of the shot.
+/// Newton's law of restitution along the normal n from the target to the shot, and no slip, at the point with arm_a on
+/// the target and arm_b on the shot.
 Analytic analytic_impact(const OracleMass& a, const OracleMass& b, const Vector& arm_a, const Vector& arm_b,
                          const Vector& n, const Vector& velocity_a, const Vector& angular_velocity_a,
                          const Vector& velocity_b, const Vector& angular_velocity_b, double restitution,
@@ -191,7 +191,7 @@ void shoot(const Cell& cell, Samples& samples, Outcome& outcome) {
         side = place[2];
       }
     }
-    // Rebound of the first impact, where nothing else happened in its tick.
+    // The rebound of the first impact, checked if it is the only event of its tick.
     const bool first = !met && report.ccd.impacts != 0;
     if (!met && report.ccd.impacts + report.contacts.count != 0) {
       met = true;

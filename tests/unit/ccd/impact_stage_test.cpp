@@ -91,8 +91,8 @@ DETENT_TEST(impact_stage, a_angular_velocity_that_a_blow_takes_out_of_its_range_
   EXPECT_GT(report.saturations, 0u);
 }
 
-/// The sum was found by running it; it is the same in every configuration, and less if one of the counts is left out:
-/// of the angular velocity after an impact, of the sweep that it changes, and of the motion that the state keeps.
+/// The expected sum was measured. It is the same in every configuration, and is less if one of the counts is left out:
+/// clamps of the angular velocity after an impact, of the changed sweep, or of the motion that the state keeps.
 DETENT_TEST(impact_stage, every_clamp_of_rods_that_strike_a_post_is_counted) {
   uint32_t clamped = 0;
   for (const double tick : {0.25, 1 / 60.0}) {
@@ -141,7 +141,7 @@ DETENT_TEST(impact_stage, a_ball_that_drops_rebounds_to_where_gravity_takes_it) 
   EXPECT_LT(apex, 5.5 * 1.05);
 }
 
-/// A crowd that falls, in part fast, into a pit of thin walls.
+/// A crowd of bodies, some of them fast, that falls into a pit of thin walls.
 Lab make_crowd(uint64_t seed, uint32_t contacts) {
   Samples samples = {seed};
   Lab lab({66, contacts, 0});
@@ -199,7 +199,7 @@ Solid solid_at(Lab& lab, uint32_t slot, const SegmentPose& at) {
   return result;
 }
 
-/// The signed gap; of a box and a round body whose kinds come in either order.
+/// The signed gap. For a box and a round body the order does not matter.
 double gap_of(const Solid& a, const Solid& b) {
   return (a.kind <= b.kind ? separation_of(a, b) : separation_of(b, a)).value;
 }
@@ -256,7 +256,7 @@ DETENT_TEST(impact_stage, the_committed_sweeps_make_no_deep_overlap_and_none_esc
   }
 }
 
-/// Sheets of 0.2 mm, 2 mm apart, fall on the ground: each passes the blows of those below on, again and again.
+/// Sheets of 0.2 mm, 2 mm apart, fall on the ground. Each one passes on the impacts of the sheets below, many times.
 DETENT_TEST(impact_stage, the_work_of_a_tick_goes_with_what_there_is_to_look_at) {
   Lab lab({25, 400, 0});
   BodyDef ground;
@@ -279,7 +279,7 @@ DETENT_TEST(impact_stage, the_work_of_a_tick_goes_with_what_there_is_to_look_at)
   EXPECT_LT(tests_max, 15000u) << "24 sheets, 276 pairs";
 }
 
-/// The cores's other rungs are not tried where not even the last one parts them.
+/// The other shrink depths are not tested if the bodies overlap even at the largest one.
 DETENT_TEST(impact_stage, what_lies_in_one_place_costs_two_tests_a_pair) {
   Lab lab({40, 100, 0}, weightless());  // beyond the pairs that there is room for all are tested
   for (int i = 0; i < 40; ++i) {
@@ -355,7 +355,7 @@ DETENT_TEST(impact_stage, nothing_passes_through_a_wall_for_want_of_room_for_pai
     for (const bool target_sleeps : {false, true}) {
       Lab lab({20, contacts, 0}, weightless(), true);
       lab.add(wall(0));
-      // A heap of bodies within each other takes all room that there is.
+      // A heap of bodies inside each other fills the buffers.
       for (int i = 0; i < 8; ++i) lab.add_box(0.5, -20 + i * 0.05, 20, 0);
       std::vector<BodyId> shots;
       for (int i = 0; i < 4; ++i) {
@@ -387,7 +387,8 @@ DETENT_TEST(impact_stage, nothing_passes_through_a_wall_for_want_of_room_for_pai
 }
 
 DETENT_TEST(impact_stage, of_what_sleeps_only_what_is_struck_is_looked_at_and_it_strikes_others_in_turn) {
-  // A row of sleepers, each within reach of the next one's flight alone; the blow passes through all of them in a tick.
+  // A row of sleeping bodies, each of which is reached only by the motion of the one before. The impact passes through
+  // all of them in one tick.
   Lab lab({7, 40, 0}, weightless(), true);
   std::vector<BodyId> balls;
   for (int i = 0; i < 6; ++i) balls.push_back(lab.add(ball(0.1, i, 0, 1)));
@@ -426,7 +427,7 @@ DETENT_TEST(impact_stage, a_stack_that_is_struck_in_its_sleep_goes_on_with_its_c
   lab.add(shot);
   uint32_t woke = 0;
   for (int tick = 0; tick < 60; ++tick) {
-    // No contact can be there twice: load() checks that.
+    // No contact is stored twice: load() checks that.
     std::vector<uint64_t> snapshot = lab.snapshot();
     Lab other({6, 20, 0});
     ASSERT_OK(load(other.world, bytes_of(snapshot), byte_count(snapshot)));

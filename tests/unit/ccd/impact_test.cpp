@@ -104,14 +104,14 @@ DETENT_TEST(impact, an_isolated_cluster_keeps_its_momentum) {
   EXPECT_GT(contacts, 500u);
   EXPECT_LT(length(end.linear - start.linear) / start.linear_size, 1e-6);
   EXPECT_LT(length(torque) / start.angular_size, 1e-6) << "every impulse acts on both bodies at one point";
-  // That point is kept for a tick, while the bodies pass each other: what is gained so is of the order of the tick.
+  // The contact point is kept for a tick while the bodies pass each other: the error is of the order of the tick.
   const double drift = length(end.angular - start.angular) / start.angular_size;
   ::testing::Test::RecordProperty("angular_drift", ::testing::PrintToString(drift));
   ::testing::Test::RecordProperty("torque", ::testing::PrintToString(length(torque) / start.angular_size));
   EXPECT_LT(drift, 0.1);
 }
 
-/// Five boxes of a metre on the ground, created in the given order; stands for ten seconds.
+/// Five boxes of 1 m on the ground, created in the given order, must stand for ten seconds.
 void expect_stack_stands(const int (&order)[5]) {
   Lab lab({6, 20, 0});
   lab.add_ground();

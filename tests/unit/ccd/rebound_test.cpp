@@ -2,7 +2,7 @@
 
 #include "tests/unit/ccd/impact_shots.h"
 
-/// Bodies that rebound from each other: each blow at its time, one after the other.
+/// Bodies that rebound from each other: impacts are resolved at their times, one after the other.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
@@ -33,7 +33,7 @@ Sums sums_of(Lab& lab) {
   return sums;
 }
 
-/// The first rolls against four others that stand in a row, with gaps between them.
+/// The first ball moves against four others that stand in a row with gaps between them.
 DETENT_TEST(rebound, a_row_of_balls_passes_a_blow_on_to_the_last) {
   for (const double gap : {0.0, 1e-4, 5e-4, 1e-3, 3e-3, 0.02}) {
     for (const double start : {-3.0, -3.01, -3.03, -3.05}) {
@@ -54,7 +54,7 @@ DETENT_TEST(rebound, a_row_of_balls_passes_a_blow_on_to_the_last) {
   }
 }
 
-/// What is too slow to rebound is pushed by the solver, and what lies in a heap, too: one blow would become many.
+/// Slow contacts and contacts in a heap are left to the solver: in a heap, each rebound would cause many more.
 DETENT_TEST(rebound, is_left_to_the_solver_where_it_is_slow_or_in_a_heap) {
   Lab slow({2, 4, 0}, weightless());
   Lab heap({65, 500, 0});
@@ -89,7 +89,7 @@ struct Overflow {
   double energy = 0;            ///< the most
 };
 
-/// Balls, or balls and boxes, that fly at each other from a ring around.
+/// Throws balls, or balls and boxes, at each other from a circle around the origin.
 Overflow throw_together(uint32_t count, bool boxes, int throws) {
   Samples samples = {count};
   Overflow overflow;
@@ -129,7 +129,7 @@ DETENT_TEST(rebound, balls_keep_their_energy_and_angular_momentum) {
   }
 }
 
-/// A box turns on its sweep as it would not in free flight: what that is wrong by is taken out of its momentum.
+/// A box does not rotate along its sweep as in free flight. The difference is subtracted from its momentum.
 DETENT_TEST(rebound, boxes_and_balls_nearly_keep_them) {
   for (const uint32_t count : {2u, 5u}) {
     const Overflow overflow = throw_together(count, true, 40);

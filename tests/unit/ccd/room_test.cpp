@@ -2,7 +2,7 @@
 
 #include "tests/unit/ccd/impact_shots.h"
 
-/// Rooms whose walls are far thinner than what flies in them.
+/// Rooms whose walls are much thinner than the bodies that fly in them.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
@@ -70,7 +70,7 @@ void expect_kept(uint64_t seed, uint32_t bodies, double speed, double thickness,
   }
 }
 
-/// They fly from wall to wall many times in a tick.
+/// The bodies fly from wall to wall many times in a tick.
 DETENT_TEST(room, of_thin_walls_is_left_by_nothing_however_fast) {
   expect_kept(110, 8, 8000, 0.02, 0.8);
   expect_kept(111, 8, 8000, 0.02, 0.8);

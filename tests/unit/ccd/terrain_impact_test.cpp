@@ -11,7 +11,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// The first triangle that a body meets, asked one by one, all of them.
+/// The first impact of a body with a terrain, from a test of every triangle.
 TimeOfImpact first_of_all(const Terrain& terrain, const Motion& ground, const Convex& convex, const Motion& motion) {
   TimeOfImpact first;
   first.outcome = ToiOutcome::clear;
@@ -29,7 +29,7 @@ TimeOfImpact first_of_all(const Terrain& terrain, const Motion& ground, const Co
   return first;
 }
 
-/// A long way is looked along part by part, which must leave out nothing.
+/// A long displacement is tested in parts. No triangle must be left out.
 DETENT_TEST(terrain_impact, is_that_of_the_first_of_all_triangles_however_long_the_way) {
   Samples samples = {5};
   const detent_terrains::Bytes bytes = detent_terrains::field_of(

@@ -3,7 +3,7 @@
 #include "contact/terrain_manifolds.h"
 #include "tests/oracle/bodies.h"
 
-/// How the contacts of a pair's parts go on from tick to tick.
+/// Tests that the contacts of the parts of a pair keep their keys and impulses from tick to tick.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {

@@ -40,7 +40,7 @@ Arrow random_direction(Samples& samples) {
   }
 }
 
-/// A convex shape as the test sees it: its core, and its ball.
+/// The test's model of a convex shape: its core and the radius of its ball.
 struct Body {
   Convex convex;
   std::vector<Arrow> points;  ///< of a polytope
@@ -84,7 +84,7 @@ Placement placement(const Arrow& at, double x, double y, double z, double w) {
   result.axis[2] = {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)};
   return result;
 }
-/// Turned by `rotation_vector`, rad, small or large.
+/// A placement rotated by `rotation_vector`, rad, of any length.
 Placement turned(const Arrow& at, const Arrow& rotation_vector) {
   const double angle = length(rotation_vector), s = angle == 0 ? 0 : sin(angle / 2) / angle;
   return placement(at, rotation_vector.x * s, rotation_vector.y * s, rotation_vector.z * s, cos(angle / 2));
@@ -93,7 +93,7 @@ Placement random_placement(Samples& samples, const Arrow& at) {
   return turned(at, random_direction(samples) * uniform(samples, 0, 3));
 }
 
-/// At the position that the configuration holds.
+/// Rounds the position to the coordinates of the configuration.
 void settle(Placement& placement) {
   const Position held = position(placement.position);
   placement.position = {coord_to_host(held.x), coord_to_host(held.y), coord_to_host(held.z)};
@@ -152,7 +152,7 @@ Body hull_body(bool prism, double rounding) {
 }
 
 Body random_body(Samples& samples, ShapeType type) {
-  // Drawn in one order by every compiler, so that all targets see the same shapes.
+  // Drawn in a fixed order, so that all compilers produce the same shapes.
   const Real first = real(uniform(samples, 0.2, 1)), second = real(uniform(samples, 0.2, 1)),
              third = real(uniform(samples, 0.2, 1));
   const double rounding = samples.below(2) == 0 ? 0 : uniform(samples, 0.01, 0.2);
@@ -185,11 +185,11 @@ Body random_body(Samples& samples, ShapeType type) {
   }
 }
 
-/// The greatest d.p over the shape with its ball, world axes, from its centre.
+/// The greatest d.p over the shape including its ball, world axes, from its centre.
 double support_along(const Body& body, const Placement& at, const Arrow& d) {
   return core_support(body, at.to_local(d)) + body.ball;
 }
-/// Room between A and B along the unit vector n from A to B; negative when they overlap along it.
+/// The gap between A and B along the unit vector n from A to B; negative if they overlap along it.
 double gap_along(const Body& a, const Placement& at_a, const Body& b, const Placement& at_b, const Arrow& n) {
   return dot(n, at_b.position - at_a.position) - support_along(a, at_a, n) - support_along(b, at_b, -n);
 }
@@ -230,7 +230,8 @@ void check_manifold(const Body& a, const Placement& at_a, const Body& b, const P
   ASSERT_NEAR(length(n), 1, 1e-6);
   const double gap = gap_along(a, at_a, b, at_b, n);
   const double size = std::min(a.size, b.size);
-  // The axis is nearly the best: no other parts them by much more. A distance is the greatest gap of all axes.
+  // The axis is nearly the best one: no other axis separates the shapes by much more. A distance is the greatest gap
+  // over all axes.
   double best = closest.overlap ? gap : distance;
   for (int i = 0; i < 40; ++i) best = std::max(best, gap_along(a, at_a, b, at_b, random_direction(samples)));
   tally.axis_max = std::max(tally.axis_max, (best - gap) / size);
@@ -243,9 +244,10 @@ void check_manifold(const Body& a, const Placement& at_a, const Body& b, const P
     ASSERT_NE(point.feature, 0u);
     for (uint32_t k = 0; k < i; ++k) ASSERT_NE(point.feature, manifold.point[k].feature);
     ASSERT_LE(separation, distance_max + k_ulps);
-    // An edge goes on for a 64th beyond its end, and it may slope by a 32nd.
+    // An edge is extended by a 64th beyond its end, and its slope may be up to a 32nd.
     ASSERT_GE(separation, gap - size / 2048 - k_ulps) << "deeper than the shapes are along the normal";
-    // Both surfaces are half the separation away, in the shapes but for what the areas' sides are moved out by.
+    // Each surface is half the separation away from the point. The points lie in the shapes, except that the sides of
+    // the areas are moved outward.
     const Arrow on_a = arrow(point.from_a) - n * (separation / 2), on_b = arrow(point.from_b) + n * (separation / 2);
     ASSERT_LT(length(arrow(point.from_a) - arrow(point.from_b) - (at_b.position - at_a.position)), k_ulps);
     for (int k = 0; k < 40; ++k) {
@@ -256,11 +258,11 @@ void check_manifold(const Body& a, const Placement& at_a, const Body& b, const P
       ASSERT_LE(beyond, std::max(a.size, b.size) / 32 + k_ulps) << "point " << i << " lies outside";
     }
   }
-  // The deepest is not missed: neither against the least distance nor against the depth along the normal.
+  // The deepest point is found: compared with the least distance, and with the depth along the normal.
   tally.above_max = std::max(tally.above_max, (least - gap) / size);
   ASSERT_LE(least, (closest.overlap ? distance_max : distance) + size / 32 + k_ulps);
-  // A face that leans against edges that cross parts them by a little less, and is deeper beside itself; none of its
-  // points is deeper than the axis by more than a 64th.
+  // A face at an angle to crossing edges separates them by a little less, and its points are deeper; but no point is
+  // deeper than the axis by more than a 64th.
   const bool leans = manifold.count > 1 && (best - gap > size / 64 + k_ulps || least - gap > size / 32);
   tally.leaning += leans ? 1 : 0;
   if (leans) {
@@ -272,7 +274,7 @@ void check_manifold(const Body& a, const Placement& at_a, const Body& b, const P
   // A and B change places.
   ContactManifold other;
   ASSERT_OK(contact_points(b.convex, at_b.pose(), a.convex, at_a.pose(), real(distance_max), other));
-  // On a round surface the search may end anywhere where the depth is within ulps of the least.
+  // On a round surface the search may end at any point whose depth is within ulps of the least.
   const bool curved = a.radius > 0 || b.radius > 0;
   const double place_error = curved ? 2e-3 : 1e-5;
   bool mirrored = other.count == manifold.count && length(unit_arrow(other.normal) + n) < (curved ? 2e-3 : 1e-6);
@@ -316,7 +318,7 @@ DETENT_TEST(contact, points_of_every_pair_of_shapes_lie_on_both_and_none_deeper_
         const Placement at_a = random_placement(samples, {0.25, -1, 3});
         const Arrow displacement = random_direction(samples);
         Placement at_b = random_placement(samples, at_a.position);
-        // Parted along `displacement`, then brought back.
+        // Separated along `displacement`, then moved back.
         const double apart = -gap_along(a, at_a, b, at_b, displacement);
         at_b.position = at_b.position + displacement * (apart + uniform(samples, -0.1, 0.1));
         settle(at_b);
@@ -331,7 +333,7 @@ DETENT_TEST(contact, points_of_every_pair_of_shapes_lie_on_both_and_none_deeper_
   }
 }
 
-/// A direction that a face or a side of the body looks along, in its axes.
+/// The outward normal of a random face or side of the body, in its axes.
 Arrow random_face(const Body& body, Samples& samples) {
   switch (body.convex.type) {
     case ShapeType::box: {
@@ -364,7 +366,8 @@ Arrow random_face(const Body& body, Samples& samples) {
   }
 }
 
-/// At `position`, turned so that the local direction `face` looks along `towards`; about that at random.
+/// A placement at `position`, rotated so that the local direction `face` points along `towards`, and by a random angle
+/// about `towards`.
 Placement facing(Samples& samples, const Arrow& face, const Arrow& towards, double tilt, bool straight) {
   // q = (axis of both, half way) for the shortest turn, then a turn about `towards`.
   Arrow axis = cross(face, towards);
@@ -415,7 +418,7 @@ DETENT_TEST(contact, of_faces_and_sides_that_meet_flush_or_nearly_is_of_several_
   }
 }
 
-/// The cores are far apart against their lengths: whatever a sloping edge's height gets wrong is wrong by much.
+/// The cores are far apart relative to their lengths, so an error in the height of a sloping edge causes a large error.
 DETENT_TEST(contact, of_fat_capsules_nearly_parallel_is_as_deep_as_they_are) {
   Samples samples{9};
   const Body a = body_of(capsule(1.0, 0.25)), b = body_of(capsule(0.75, 0.375));
@@ -453,7 +456,7 @@ std::vector<Resting> things_at_rest() {
           {"rounded prism", hull_body(true, 0.0625), {0, 0, -1}}};
 }
 
-/// Points of the manifold with those features that are new, and that are gone.
+/// The number of points whose features are new in the manifold or have disappeared from it.
 int changes(const ContactManifold& from, const ContactManifold& to) {
   int count = 0;
   for (uint32_t i = 0; i < from.count; ++i) {
@@ -521,7 +524,7 @@ DETENT_TEST(contact, keeps_its_features_while_a_pair_at_rest_trembles) {
       }
     }
   }
-  // A triangle in the corner of a box' face, flush with two of its sides.
+  // A triangle at the corner of a box's face, flush with two of its sides.
   Resting corner = {"triangle", {}, {0, -1, 0}};
   const Resting box_below = {"box", body_of(box({0.5, 0.25, 0.375})), {0, 1, 0}};
   corner.body.points = {{0.5, 0, 0.375}, {0.5, 0, -0.125}, {-0.25, 0, 0.375}};
@@ -706,7 +709,7 @@ DETENT_TEST(contact, of_stacked_boxes_and_of_crossed_and_parallel_edges_is_as_dr
   ASSERT_OK(make_convex(capsule(0.25, 1.0), rod));
   const Placement origin = turned({0, 0, 0}, {0, 0, 0});
   ContactManifold manifold;
-  // One on the other, 1/8 apart.
+  // One cube above the other, with a gap of 1/8.
   ASSERT_OK(contact_points(cube, origin.pose(), cube, turned({0, 1.125, 0}, {0, 0, 0}).pose(), 0.25, manifold));
   ASSERT_EQ(manifold.count, 4u);
   EXPECT_TRUE(manifold.normal == (Vec3<Unit>{0.0, 1.0, 0.0}));
@@ -720,7 +723,7 @@ DETENT_TEST(contact, of_stacked_boxes_and_of_crossed_and_parallel_edges_is_as_dr
   }
   ASSERT_OK(contact_points(cube, origin.pose(), cube, turned({0, 1.125, 0}, {0, 0, 0}).pose(), 0.0625, manifold));
   EXPECT_EQ(manifold.count, 0u);
-  // Touching exactly, by a face, an edge and a vertex; and one in the other.
+  // Touching exactly, at a face, an edge and a vertex; and one inside the other.
   for (const Arrow& at : {Arrow{1, 0, 0}, Arrow{1, 1, 0}, Arrow{1, 1, 1}}) {
     ASSERT_OK(contact_points(cube, origin.pose(), cube, turned(at, {0, 0, 0}).pose(), 0.0, manifold));
     ASSERT_GT(manifold.count, 0u);
@@ -729,7 +732,7 @@ DETENT_TEST(contact, of_stacked_boxes_and_of_crossed_and_parallel_edges_is_as_dr
   ASSERT_OK(contact_points(cube, origin.pose(), cube, origin.pose(), 0.0, manifold));
   ASSERT_EQ(manifold.count, 4u);
   EXPECT_NEAR(to_host(manifold.point[0].separation), -1, 1e-8);
-  // Rods: crossed, parallel, and end to end.
+  // Two rods: crossed, parallel, and end to end.
   constexpr double k_quarter = 1.5707963267948966;
   ASSERT_OK(contact_points(rod, origin.pose(), rod, turned({0.375, 0, 0}, {k_quarter, 0, 0}).pose(), 0.0, manifold));
   ASSERT_EQ(manifold.count, 1u);
@@ -772,7 +775,7 @@ DETENT_TEST(contact, along_rods_that_are_not_quite_parallel_follows_them) {
   constexpr double k_tilt = 0.02;
   for (const double side : {-1.0, 1.0}) {
     ContactManifold manifold;
-    // Pitched: nearer at one end than at the other.
+    // Pitched: one end of the rod is nearer than the other.
     const Placement pitched = turned({0.4 * side, 0, 0}, {0, 0, k_tilt});
     ASSERT_OK(contact_points(rod, origin.pose(), rod, pitched.pose(), 0.0, manifold));
     ASSERT_EQ(manifold.count, 2u);
@@ -783,7 +786,7 @@ DETENT_TEST(contact, along_rods_that_are_not_quite_parallel_follows_them) {
       EXPECT_NEAR(to_host(p.separation), fabs(between) - 0.5, 2e-4);
       EXPECT_NEAR(to_host(p.from_a.x), between / 2, 1e-3);
     }
-    // Twisted: the middle between the rods is half as far aside as the other rod.
+    // Twisted: the midpoint between the rods is at half the lateral distance of the other rod.
     const Placement twisted = turned({0.4 * side, 0, 0}, {k_tilt, 0, 0});
     ASSERT_OK(contact_points(rod, origin.pose(), rod, twisted.pose(), 0.0, manifold));
     ASSERT_EQ(manifold.count, 2u);

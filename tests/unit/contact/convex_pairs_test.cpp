@@ -18,7 +18,7 @@ const Asset k_assets[] = {{detent_hulls::k_tetrahedron, sizeof detent_hulls::k_t
                           {detent_hulls::k_prism, sizeof detent_hulls::k_prism}};
 const AssetTable k_table = {k_assets, 2};
 constexpr double k_step = DETENT_FIXED || sizeof(Unit) == 8 ? 1.0 : 64.0;  ///< of a size, in 2^-30
-// lib/distance and lib/toi has 30 bits in every configuration.
+// lib/distance and lib/toi use 30 bits in every configuration.
 constexpr double k_length_error = sizeof(Unit) == 4 && !DETENT_FIXED ? 0x1p-21 : 0x1p-27;
 
 /// A shape of about `size`, m, whose rounding is up to `rounding` times that.
@@ -106,7 +106,7 @@ ContactGeometry collided(const OracleBody& a, const OracleBody& b, double distan
   return contact;
 }
 
-/// The middle of a body's overlap with one that is up to 1,000 times larger lies anywhere.
+/// The middle of the overlap of a body with one that is up to 1,000 times larger may lie anywhere.
 DETENT_TEST(convex_pairs, hold_the_arms_of_a_body_deep_in_another) {
   Samples samples = {37};
   uint32_t points = 0, held = 0;
@@ -130,7 +130,7 @@ DETENT_TEST(convex_pairs, hold_the_arms_of_a_body_deep_in_another) {
   EXPECT_GT(held, detent_oracle::rounds(4000) / 4);
 }
 
-/// Every pair that has no way of its own gives what contact_points() gives of the two shapes.
+/// Every pair without a collision function of its own gives the result of contact_points() for the two shapes.
 DETENT_TEST(convex_pairs, agree_with_contact_points_of_the_same_shapes) {
   Samples samples = {32};
   uint32_t touching = 0, points = 0;
@@ -168,7 +168,7 @@ DETENT_TEST(convex_pairs, agree_with_contact_points_of_the_same_shapes) {
       deepest_right = fmin(deepest_right, real_to_host(right.point[k].separation));
       EXPECT_NE(given.point[k].feature, 0u);
       for (uint32_t other = 0; other < k; ++other) EXPECT_NE(given.point[k].feature, given.point[other].feature);
-      // Both arms lead to one point.
+      // Both arms lead to the same point.
       const Vector from_a = host(given.point[k].arm_a) * unit_of(a.properties);
       const Vector from_b = host(given.point[k].arm_b) * unit_of(b.properties);
       const Vector between = difference(b.pose.position, a.pose.position);
@@ -224,7 +224,8 @@ DETENT_TEST(convex_pairs, a_plane_gives_the_same_contact_however_far_its_origin)
       EXPECT_EQ(a.point[k].feature, b.point[k].feature);
       EXPECT_EQ(a.point[k].arm_a, (Vec3<Unit>{0.0, 0.0, 0.0}));
     }
-    // The other way round it is the same but for sign, names and the order of roundings.
+    // With the bodies exchanged, the contact is the same except for the sign, the feature names and the order of
+    // roundings.
     const ContactGeometry c = collided(near.body, near.plane, 0.01);
     ASSERT_EQ(c.count, a.count);
     EXPECT_EQ(c.normal, -a.normal);
@@ -266,7 +267,7 @@ DETENT_TEST(convex_pairs, a_hull_without_its_bytes_is_reported_and_touches_nothi
   EXPECT_TRUE(contact.capped);
 }
 
-/// A prism of 96 sides: of its ends the vertices that are farthest along 32 directions count.
+/// A prism of 96 sides: of each end face, the 32 vertices that are extreme along 32 directions represent the face.
 DETENT_TEST(body_convex, a_small_box_stands_on_all_corners_near_the_rim_of_a_face_of_many_vertices) {
   constexpr double k_pi = 3.14159265358979323846;
   std::vector<detent_cook::Point> points;
@@ -285,7 +286,7 @@ DETENT_TEST(body_convex, a_small_box_stands_on_all_corners_near_the_rim_of_a_fac
   ASSERT_OK(make_convex(box(reals_near({{0.0625, 0.0625, 0.0078125}})), small));
   const Pose still = {position_near({{0, 0, 0}}), rotation_near({0, 0, 0, 1})};
   for (int i = 0; i < 128; ++i) {
-    // The 32 vertices hold a disc of 0.995; without one of them it would be one of 0.981.
+    // The 32 vertices contain a disc of radius 0.995; without one of them, a disc of 0.981.
     const double angle = 2 * k_pi * i / 128, radius = 0.9225, x = radius * cos(angle), z = radius * sin(angle);
     const double half = -angle / 2;
     const Pose pose = {position_near({{x, 0.3125, z}}), rotation_near({0, sin(half), 0, cos(half)})};

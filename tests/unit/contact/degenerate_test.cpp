@@ -15,7 +15,8 @@ OracleBody body(const BodyProperties& properties, const Vector& at, const Vector
   return result;
 }
 
-/// Both orders have a unit normal, points within the bodies' bounds and a depth of at least `depth_min`, m.
+/// In both orders of the bodies the normal is a unit vector, the points lie within the bounds, and the depth is at
+/// least `depth_min`, m.
 ContactGeometry expect_sound(const OracleBody& a, const OracleBody& b, double depth_min) {
   for (const bool swapped : {true, false}) {
     const ContactGeometry contact = swapped ? contact_of(b, a, k_reach) : contact_of(a, b, k_reach);
@@ -33,7 +34,7 @@ ContactGeometry expect_sound(const OracleBody& a, const OracleBody& b, double de
   return {};
 }
 
-/// Every form at the same centre, at the same or another rotation.
+/// Every pair of shape types at the same centre, with the same or another rotation.
 DETENT_TEST(degenerate, concentric_shapes_of_every_kind_have_a_normal) {
   const BodyProperties kinds[] = {
       sphere_properties(0.5),      sphere_properties(0.25),           capsule_properties(0.25, 0.5),
@@ -130,7 +131,7 @@ DETENT_TEST(degenerate, flush_equal_boxes_touch_at_four_corners) {
 
 DETENT_TEST(degenerate, crossed_edges_of_boxes_touch_at_one_point_across_both) {
   const BodyProperties cube = box_properties({{0.5, 0.5, 0.5}});
-  // One edge up along z, one down along x: they cross over the origin of both.
+  // The upper edge of one points along z, the lower edge of the other along x. They cross above the common origin.
   const double height = 2 * sqrt(0.5) - 0.01;
   const ContactGeometry contact = expect_sound(body(cube, {{0, 0, 0}}, {{0, 0, k_quarter / 2}}),
                                                body(cube, {{0, height, 0}}, {{k_quarter / 2, 0, 0}}), 0.0099);
@@ -139,7 +140,7 @@ DETENT_TEST(degenerate, crossed_edges_of_boxes_touch_at_one_point_across_both) {
   EXPECT_NEAR(real_to_host(contact.point[0].separation), -0.01, unit_steps(64) + (sizeof(Coord) == 4 ? 0x1p-16 : 0));
 }
 
-/// It would touch at the one side in one tick and at the other in the next.
+/// Otherwise it would touch at one side in one tick and at the other side in the next.
 DETENT_TEST(degenerate, a_capsule_that_leans_over_a_face_touches_at_both_of_its_sides) {
   const BodyProperties cube = box_properties({{0.5, 0.5, 0.5}}), rod = capsule_properties(0.1, 0.8);
   for (const double lean : {0.0, 1e-4, -1e-3, 0.004, -0.01}) {
@@ -149,14 +150,14 @@ DETENT_TEST(degenerate, a_capsule_that_leans_over_a_face_touches_at_both_of_its_
     EXPECT_NEAR(host(contact.normal)[1], 1, unit_steps(12)) << lean;
     EXPECT_NE(contact.point[0].feature, contact.point[1].feature);
   }
-  // Beyond 2^-3 rad it crosses the one side.
+  // Beyond 2^-3 rad the rod crosses only one side of the face.
   EXPECT_EQ(expect_sound(body(cube, {{0, 0, 0}}), body(rod, {{0.1, 0.66, 0.1}}, {{0, 0, k_quarter + 0.2}}), 0).count,
             1u);
 }
 
 DETENT_TEST(degenerate, a_corner_on_a_face_touches_at_one_point_along_the_faces_normal) {
   const BodyProperties cube = box_properties({{0.5, 0.5, 0.5}}), floor = box_properties({{3, 0.5, 3}});
-  // The diagonal of the cube stands upright.
+  // The space diagonal of the cube is vertical.
   const Vector across = detent_oracle::normalised(detent_oracle::cross({{1, 1, 1}}, {{0, 1, 0}}));
   const ContactGeometry contact =
       expect_sound(body(floor, {{0, 0, 0}}),

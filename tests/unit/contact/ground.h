@@ -8,7 +8,7 @@
 #include "tests/unit/shape/hull_bytes.h"
 #include "tests/unit/shape/terrains.h"
 
-/// A surface to put bodies on, and what they touch of it.
+/// A terrain for collision tests, and the contacts of bodies with it.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -19,7 +19,7 @@ inline const Asset k_assets[] = {{detent_hulls::k_prism, sizeof detent_hulls::k_
 inline const AssetTable k_table = {k_assets, 1};
 inline constexpr double k_reach = 0.05;
 
-/// A surface, its bytes and a pose of it.
+/// A terrain, its bytes and its pose.
 struct Ground {
   Bytes bytes;
   Terrain terrain;
@@ -61,8 +61,8 @@ inline double deepest_of(const TerrainContacts& contacts) {
   return least;
 }
 
-/// The distance of the body from all triangles whose bounds come within `range`, m, of its centre in each axis, and the
-/// normal from the nearest. The surface is not turned.
+/// The distance between the body and the triangles whose bounds come within `range`, m, of the body's centre in each
+/// axis, and the normal from the nearest one. The terrain is not rotated.
 inline double distance_from(const Ground& ground, const OracleBody& body, Vector& normal, double range = 1e4) {
   Convex shape;
   EXPECT_TRUE(body_convex(body.properties, k_table, shape));

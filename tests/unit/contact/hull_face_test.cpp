@@ -6,14 +6,14 @@
 #include "ports/host/cook/cook.h"
 #include "tests/unit/contact/pairs.h"
 
-/// Which face of a hull a contact is on, where one is as good as the other or none is flat.
+/// Which face of a hull a contact belongs to, if several faces are equally good or none is flat.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
 using Points = std::vector<detent_cook::Point>;
 
-/// A hull as it was cooked.
+/// A cooked hull and its shape.
 struct HullShape {
   std::vector<uint8_t> bytes;
   Convex convex;
@@ -33,7 +33,7 @@ Points box_points(const Vector& low, const Vector& high) {
   return points;
 }
 
-/// 16 sides, 1 m across and 0.5 m high, its corners up to `off` from their plane.
+/// A prism of 16 sides, 1 m across and 0.5 m high, whose corners are up to `off` away from the plane of their face.
 Points uneven_prism(Samples& samples, double off) {
   Points points;
   for (int i = 0; i < 32; ++i) {
@@ -53,7 +53,7 @@ ContactManifold contact_between(const Convex& a, const Pose& pose_a, const Conve
   return manifold;
 }
 
-/// Of the points' outline across y, m^2.
+/// The area, m^2, of the outline of the points, projected along y.
 double area_of(const ContactManifold& manifold) {
   double most = 0;
   for (uint32_t i = 0; i < manifold.count; ++i) {
@@ -72,7 +72,7 @@ double area_of(const ContactManifold& manifold) {
 
 constexpr Quaternion k_upright = {0, 0, 0, 1};
 
-/// Unit cubes 100 m from their frames' origins: what a hull's thickness is must not depend on that.
+/// Unit cubes 100 m from the origins of their frames: a hull's thickness must not depend on that.
 DETENT_TEST(hull_face, does_not_depend_on_where_the_frame_is) {
   const HullShape cube(box_points({{99.5, 99.5, 99.5}}, {{100.5, 100.5, 100.5}}));
   const Quaternion rotation_vector = {-0.067375552151483983, 0.80460079670757689, -0.45307617678679085,
@@ -90,7 +90,7 @@ DETENT_TEST(hull_face, does_not_depend_on_where_the_frame_is) {
   EXPECT_NEAR(deepest, -0.0042, 1e-3);
 }
 
-/// Both sides of an edge meet at it, and the triangle at its end stands more upright than they.
+/// The two sides of an edge meet at it, and the triangle at its end is steeper than they are.
 DETENT_TEST(hull_face, on_whose_edge_a_hull_stands_touches_with_both_ends) {
   const HullShape wedge({{-1, 1, -0.1}, {1, 1, -0.1}, {-1, 1, 0.1}, {1, 1, 0.1}, {-0.5, 0.5, 0}, {0.5, 0.5, 0}});
   const HullShape block(box_points({{-3, -0.5, -3}}, {{3, 0.5, 3}}));
@@ -110,7 +110,7 @@ DETENT_TEST(hull_face, on_whose_edge_a_hull_stands_touches_with_both_ends) {
   }
 }
 
-/// Faces within a tolerance of each other are one, however the body leans.
+/// Faces within a tolerance of each other count as one face, at every tilt of the body.
 DETENT_TEST(hull_face, that_is_not_quite_flat_carries_as_a_whole) {
   Samples samples = {5};
   for (int round = 0; round < 200; ++round) {
@@ -127,7 +127,7 @@ DETENT_TEST(hull_face, that_is_not_quite_flat_carries_as_a_whole) {
   }
 }
 
-/// Their edges cross at the least depth, on this side of the face or on that; the face is as good.
+/// Edges cross at the least depth, on either side of the face; the face separates as well.
 DETENT_TEST(hull_face, that_leans_against_edges_that_cross_touches_in_several_points) {
   Convex bar;
   EXPECT_OK(make_convex(box(reals_near({{0.2, 0.02, 0.04}})), bar));
@@ -143,7 +143,7 @@ DETENT_TEST(hull_face, that_leans_against_edges_that_cross_touches_in_several_po
   }
 }
 
-/// A chamfer's lower edge is nearly level with the face, and is no part of it.
+/// The lower edge of a chamfer is nearly parallel to the face, but is not part of it.
 DETENT_TEST(hull_face, between_chamfers_is_the_face_alone) {
   Points points;
   for (int i = 0; i < 8; ++i) {

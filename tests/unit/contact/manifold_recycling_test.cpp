@@ -2,7 +2,7 @@
 
 #include "tests/unit/contact/pairs.h"
 
-/// Contact points that are used again against the same points in double, and against those that are found anew.
+/// Recycled contact points, compared with the same points in double, and with points that are found anew.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
@@ -41,7 +41,7 @@ Reuse reuse_of(const ReusedPair& pair, const OraclePair& now, double tolerance, 
   return reuse;
 }
 
-/// Shapes that have faces; `size` of each alike.
+/// Shapes that have faces; all their sizes are about `size`.
 BodyProperties faced_properties(Samples& samples, uint32_t kind, double size) {
   const auto some = [&] { return real_near(size * uniform(samples, 0.5, 1)); };
   const Real round = real_near(size / 16);
@@ -58,7 +58,8 @@ BodyProperties faced_properties(Samples& samples, uint32_t kind, double size) {
   }
 }
 
-/// B on top of A, flat, turned and moved at random, sunk in by a thousandth of its size, the whole in any direction.
+/// B on top of A: rotated and moved at random on its face, penetrating by a thousandth of its size. The pair has a
+/// random orientation.
 ReusedPair standing_pair(Samples& samples, double size_a, double size_b) {
   ReusedPair pair;
   pair.bodies.a.properties = faced_properties(samples, samples.below(4), size_a);
@@ -94,7 +95,7 @@ OracleBody moved(const OracleBody& body, const Vector& pivot, const Quaternion& 
   return result;
 }
 
-/// Both bodies by any motion, and then the smaller one by up to `part` of its size.
+/// Moves both bodies by any common motion, and then the smaller one by up to `part` of its size.
 OraclePair moved(const OraclePair& pair, Samples& samples, double part) {
   const double size = fmax(unit_of(pair.a.properties), unit_of(pair.b.properties));
   const Quaternion change_of_rotation = any_rotation(samples);
@@ -111,14 +112,14 @@ OraclePair moved(const OraclePair& pair, Samples& samples, double part) {
   return now;
 }
 
-/// In a body's axes, and back.
+/// Converts a vector to the axes of a body, and back.
 Vector local_of(const OracleBody& body, const Vector& v) {
   const Quaternion q = normalised(host(body.pose.rotation));
   return turned({-q.x, -q.y, -q.z, q.w}, v);
 }
 Vector world_of(const OracleBody& body, const Vector& v) { return turned(normalised(host(body.pose.rotation)), v); }
 
-/// How precise a place is in this pair, m.
+/// The precision of a position in this pair, m.
 double grain_of(const OraclePair& pair) {
   return 64 * step_of(pair) + 8 * (sizeof(Coord) == 4 ? 1.6e-5 : 2.4e-10) + unit_of(pair.b.properties) * unit_steps(64);
 }
@@ -143,7 +144,7 @@ void expect_moved_along(double size_a, double size_b, uint64_t seed) {
     const double sign = base_is_a ? 1 : -1;
     const Vector normal = world_of(base_now, local_of(base, host(pair.found.normal)));
     EXPECT_LT(length(normal - host(reuse.contact.normal)), unit_steps(64));
-    // The motion along the normal of the two surface points that faced each other.
+    // The relative displacement, along the normal, of the two surface points that faced each other.
     ASSERT_EQ(reuse.contact.count, pair.found.count);
     for (uint32_t k = 0; k < reuse.contact.count; ++k) {
       const ContactGeometryPoint &before = pair.found.point[k], &after = reuse.contact.point[k];
@@ -158,7 +159,7 @@ void expect_moved_along(double size_a, double size_b, uint64_t seed) {
       EXPECT_NEAR(real_to_host(after.separation), expected, grain_of(pair.bodies) + anchor_error);
       const Vector arm = host(base_is_a ? after.arm_b : after.arm_a) * unit_of(other.properties);
       EXPECT_LT(length(arm - on_other), unit_of(other.properties) * 0x1p-15 + grain_of(pair.bodies));
-      // Both arms lead to one place.
+      // Both arms lead to the same place.
       const Vector arm_base = host(base_is_a ? after.arm_a : after.arm_b) * unit_of(base.properties);
       const Vector apart = difference(other_now.pose.position, base_now.pose.position) + arm - arm_base;
       EXPECT_LT(length(apart), grain_of(pair.bodies));
@@ -218,7 +219,7 @@ DETENT_TEST(manifold_recycling, a_pair_is_found_anew_once_a_point_of_the_smaller
     if (!is_kept(pair.kept)) continue;
     const double extent = extent_of(pair.bodies), tolerance = extent / 256;
     const OraclePair now = moved(pair.bodies, samples, i % 2 == 0 ? 1.0 / 128 : 1.0 / 1024);
-    // The smaller body's motion as the larger sees it, of the points of its ball.
+    // The motion of the points of the smaller body's bounding sphere, in the frame of the larger body.
     const bool base_is_a = unit_of(pair.bodies.a.properties) * host(pair.bodies.a.properties.bounding_radius) >=
                            unit_of(pair.bodies.b.properties) * host(pair.bodies.b.properties.bounding_radius);
     const OracleBody &base = base_is_a ? pair.bodies.a : pair.bodies.b, &base_now = base_is_a ? now.a : now.b;

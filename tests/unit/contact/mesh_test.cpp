@@ -43,7 +43,7 @@ Shape shape_of(uint32_t kind) {
   }
 }
 
-/// How far the body's lowest point is below its centre, by a half-space.
+/// The depth of the lowest point of the body below its centre, from its contact with a half-space.
 double depth_below(const OracleBody& body) {
   OracleBody plane;
   plane.properties = properties_of(half_space());
@@ -64,7 +64,7 @@ Quaternion rotate_about(const Vector& axis, double angle) {
   return {n[0], n[1], n[2], cos(angle / 2)};
 }
 
-/// The turn that takes y there. Range: not straight down.
+/// The rotation that takes the y axis to this direction. Range: not straight down.
 Quaternion turn_from_up(const Vector& to) {
   const Vector axis = {{to[2], 0, -to[0]}};
   return rotate_about(axis, acos(to[1]));
@@ -83,7 +83,7 @@ DETENT_TEST(mesh_contact, anything_slid_over_a_tessellated_plane_sees_its_normal
       const double depth = depth_below(body);
       for (const double gap : {0.02, 0.0, -0.005}) {
         for (uint32_t step = 0; step < detent_oracle::rounds(60); ++step) {
-          // Past corners, along edges and diagonals.
+          // The body moves past corners, along edges and along diagonals.
           const double x = -1 + step * 0.03125, z = pose % 2 == 0 ? 0.25 : x * 0.7;
           body.pose.position = position_near({{x, depth + gap, z}});
           const TerrainContacts contacts = contacts_of(ground, body);
@@ -126,7 +126,8 @@ DETENT_TEST(mesh_contact, a_box_lying_on_a_tessellated_plane_has_its_four_corner
   }
 }
 
-/// Its edges are all mild, or too flat to count as edges; the true contact is on one, or on a corner.
+/// All edges of the dome are convex with small angles, or too flat to count as edges. The true contact is on one of
+/// them, or at a corner.
 DETENT_TEST(mesh_contact, a_ball_on_a_finely_tessellated_dome_does_not_fall_between_the_triangles) {
   const double cases[][2] = {{0.04, 16}, {0.1, 16}, {0.05, 2}, {0.1, 3}};
   for (const double(&pair)[2] : cases) {
@@ -163,7 +164,7 @@ DETENT_TEST(mesh_contact, a_real_edge_gives_what_the_box_itself_gives) {
     const uint32_t kind = n % 3;
     OraclePair pair = {block, body_of(shape_of(kind == 2 ? 3 : kind))};
     pair.b.pose.rotation = rotation_near(any_rotation(samples));
-    // About an edge or a corner: two or three components alike.
+    // The displacement points to an edge or a corner: two or three components have the same magnitude.
     Vector displacement =
         any_direction(samples) * 0.3 + Vector{{1, samples.below(2) == 0 ? 1.0 : -1.0, samples.below(2) * 1.0}};
     double near = 0, far = 4;
@@ -217,7 +218,7 @@ DETENT_TEST(mesh_contact, a_box_beside_a_tessellated_wall_and_on_the_ground_is_n
   }
 }
 
-/// The two points on the ridge carry it; its four corners are in reach, and farther out.
+/// The two points on the ridge carry the stick. The four corners of the search are in range, but farther away.
 DETENT_TEST(mesh_contact, a_stick_across_a_mild_ridge_lies_on_both_sides_of_its_width) {
   const Ground ridge(ground(4, 1, [&](double x, double) { return -0.01 * fabs(x); }));
   OracleBody body = body_of(box(reals_near({{0.4, 0.03, 0.03}})));
@@ -238,7 +239,7 @@ DETENT_TEST(mesh_contact, a_stick_across_a_mild_ridge_lies_on_both_sides_of_its_
   EXPECT_EQ(on_ridge, 3u);
 }
 
-/// Its centre lies behind the plane of the triangle that its end is over.
+/// The centre of the rod lies behind the plane of the triangle below its end.
 DETENT_TEST(mesh_contact, a_rod_that_reaches_over_a_ridge_is_not_pulled_through_it) {
   const double slope = 0.5;
   const Ground ridge(ground(4, 1, [&](double x, double) { return -slope * fabs(x); }));
@@ -246,7 +247,7 @@ DETENT_TEST(mesh_contact, a_rod_that_reaches_over_a_ridge_is_not_pulled_through_
   const double rotation_vector = -atan(slope);
   body.pose.rotation = rotation_near(rotate_about({{0, 0, 1}}, rotation_vector - M_PI / 2));
   for (const double over : {0.002, 0.01, 0.03}) {
-    // Along the slope, `over` beyond the ridge, on it.
+    // Positions along the slope, `over` beyond the ridge, on the surface.
     const double along = 0.5 - over, lift = 0.01;
     body.pose.position = position_near({{along * cos(rotation_vector) - lift * sin(rotation_vector),
                                          along * sin(rotation_vector) + lift * cos(rotation_vector), 0.3}});
@@ -257,7 +258,8 @@ DETENT_TEST(mesh_contact, a_rod_that_reaches_over_a_ridge_is_not_pulled_through_
   }
 }
 
-/// Its middle lies behind the planes of triangles two and more away. Of a ground that curves both ways.
+/// The middle of the rod lies behind the planes of triangles that are two or more away, on ground that curves in both
+/// directions.
 DETENT_TEST(mesh_contact, a_rod_that_lies_over_waves_is_met_from_above_alone) {
   const auto height = [](double x, double z) { return 0.35 * sin(1.1 * x) * cos(0.8 * z); };
   const Ground waves(ground(24, 0.25, height));
@@ -298,7 +300,7 @@ DETENT_TEST(mesh_contact, in_a_concave_corner_each_wall_gives_its_own_normal) {
     else
       body.pose.rotation = {0.0, 0.0, 0.0, 1.0};
     const double size = kind == 0 ? 0.5 / scale : kind == 1 ? 0.25 / scale : 0;
-    // A box on its edges: its lower corners at +-0.5.
+    // A box stands on its edges: its lower corners are at +-0.5.
     const double height = kind < 2 ? size : kind == 2 ? 0.25 + 0.5 * slope : 0.25 + 0.5 * slope + 0.125 / scale;
     body.pose.position = position_near({{0, height, 0.1}});
     const TerrainContacts contacts = contacts_of(valley, body);
@@ -357,7 +359,7 @@ DETENT_TEST(mesh_contact, a_height_field_is_the_mesh_of_its_triangles) {
     body.pose.position =
         position_near({{uniform(samples, -3, 3), uniform(samples, 0.1, 0.6), uniform(samples, -3, 3)}});
     const TerrainContacts a = contacts_of(heights, body), b = contacts_of(mesh, body);
-    // Triangles come in another order, which may decide what is one manifold; the deepest is the same.
+    // The triangles come in another order, which can change how manifolds are merged; the deepest point is the same.
     EXPECT_EQ(a.count == 0, b.count == 0);
     EXPECT_EQ(deepest_of(a), deepest_of(b)) << n;
   }

@@ -4,7 +4,7 @@
 #include "math/root.h"
 #include "tests/oracle/bodies.h"
 
-/// Random pairs of bodies at a chosen separation, and what the library makes of them.
+/// Random pairs of bodies at a chosen separation, and the contacts that the library finds.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -41,7 +41,7 @@ inline ContactGeometry contact_of(const OracleBody& a, const OracleBody& b, doub
   return contact;
 }
 
-/// The solver's ranges have room for no longer ones.
+/// Checks that the arms are not longer than the range of the solver.
 inline void expect_arms_held(const ContactGeometryPoint& point) {
   const double most = host(k_arm_max) + unit_steps(4);
   EXPECT_LE(length(host(point.arm_a)), most);
@@ -52,14 +52,14 @@ inline double extent_of(const OraclePair& pair) {
   return fmin(real_to_host(shape_extent(pair.a.properties)), real_to_host(shape_extent(pair.b.properties)));
 }
 
-/// Length that one step of a Unit is worth in this pair, m: that of the larger body, the half-space having no size.
+/// The length of one step of a Unit in this pair, m: in the unit of the larger body. A half-space has no size.
 inline double step_of(const OraclePair& pair) {
   const bool plane = static_cast<ShapeType>(pair.a.properties.shape) == ShapeType::half_space;
   const double unit = plane ? unit_of(pair.b.properties) : fmax(unit_of(pair.a.properties), unit_of(pair.b.properties));
   return unit * unit_steps(1);
 }
 
-/// B's centre as near to A's along `displacement` as leaves them `gap` apart, m.
+/// Places B along `displacement` as near to A as leaves a gap of `gap`, m.
 inline void place(OraclePair& pair, const Vector& start, const Vector& displacement, double gap) {
   pair.a.pose.position = position_near(start);
   double near = 0, far = 4 * (unit_of(pair.a.properties) + unit_of(pair.b.properties));
@@ -77,7 +77,8 @@ inline void place(OraclePair& pair, const Vector& start, const Vector& displacem
   pair.b.pose.position = position_near(start + displacement * far);
 }
 
-/// A pair with A of no later form than B, about `gap` times the smaller body's size apart.
+/// A random pair with the given types (A of no later type than B), separated by about `gap` times the size of the
+/// smaller body.
 inline OraclePair random_pair(Samples& samples, Form form_a, Form form_b, double size_a, double size_b, double gap) {
   OraclePair pair;
   pair.a.properties = random_properties(samples, form_a, size_a);

@@ -7,10 +7,10 @@ namespace {
 using detent_oracle::Kind;
 using detent_oracle::Separation;
 
-/// A length may err by 2^-26 (in floats: as many steps) of the larger body's diameter: of two units of length.
+/// The error of a length may be 2^-26 (in floats: as many steps) of the larger diameter, which is two units of length.
 constexpr double k_error_steps = 32;
 
-/// What was seen of one kind of pair. Errors are in steps of a Unit of the larger body.
+/// The errors found for one kind of pair, in steps of a Unit of the larger body.
 struct Seen {
   double gap = 0;       ///< what the normal's gap falls short of the largest one
   double beyond = 0;    ///< separation beyond the reach
@@ -23,7 +23,8 @@ struct Seen {
            mirrored_wrong = 0;
 };
 
-/// How far beyond its face a box lets the points of another lie: its widened sides, in either box.
+/// The distance by which a contact point may lie beyond a face, because the sides of a face are widened; for either
+/// box.
 double side_slack(const Solid& a, const Solid& b) {
   double largest = 0;
   for (int i = 0; i < 3; ++i) largest = fmax(largest, fmax(a.size[i], b.size[i]));
@@ -32,7 +33,8 @@ double side_slack(const Solid& a, const Solid& b) {
 
 double smallest_size(const Solid& box) { return fmin(fmin(box.size[0], box.size[1]), box.size[2]); }
 
-/// The farthest vertex of `other` against `n` lies over the face of `box` that looks along n; false if no face does.
+/// Whether the vertex of `other` that is extreme against `n` lies over the face of `box` with normal n. False if no
+/// face has this normal.
 bool deepest_vertex_is_over_face(const Solid& box, const Solid& other, const Vector& n) {
   Vector vertex = other.centre;
   for (int i = 0; i < 3; ++i) {
@@ -54,14 +56,15 @@ bool is_axis_of(const Solid& box, const Vector& n) {
   return false;
 }
 
-/// How much another axis must be better by to be taken, m: then the normal need not be the very best one.
+/// The advantage, m, by which another axis must separate better to be preferred: the normal need not be exactly the
+/// best one.
 double preference_of(const Solid& a, const Solid& b, const Separation& right) {
   if (!right.is_depth) return 0;
   if (b.kind == Kind::box) return 2 * fmin(smallest_size(a), smallest_size(b)) / 64;
   return fmax(fmax(a.size[0], a.size[1]), a.size[2]) / 64;
 }
 
-/// Judges the contact of A and B, A of no later form than B, given from A to B.
+/// Checks the contact of A and B, whose direction is from A to B. The type of A is no later than that of B.
 void judge(const OraclePair& pair, const ContactGeometry& contact, double distance_max, Seen& seen) {
   const Solid a = solid_of(pair.a, pair.a.pose.position), b = solid_of(pair.b, pair.a.pose.position);
   const Separation right = separation_of(a, b);
@@ -81,24 +84,24 @@ void judge(const OraclePair& pair, const ContactGeometry& contact, double distan
   const Vector n = host(contact.normal);
   seen.normal = fmax(seen.normal, fabs(length(n) - 1) / unit_steps(1));
   const double along = gap_along(a, b, n);
-  // Where shapes that are almost aligned are taken as aligned, lengths err to second order: at a box's rim by 2^-27 of
-  // the distance, between cores that are within 2^-8 rad of parallel by less. Only f64 is fine enough to see it.
+  // Shapes that are almost aligned are treated as aligned. Lengths then have second-order errors: at the rim of a box
+  // 2^-27 of the distance, for cores within 2^-8 rad of parallel less. Only f64 is precise enough to show this.
   const bool parallel = a.kind == Kind::round && fabs(dot(a.axis[1], b.axis[1])) > 0.9999;
   const double aligned = a.kind == Kind::box && !boxes ? 0x1.1p-27 * (b.size[0] + distance_max)
                          : parallel                    ? 0x1p-40 * unit_of(pair.b.properties)
                                                        : 0;
-  // A face that leans against edges that cross parts them by a little less.
+  // A face at an angle to crossing edges separates them by a little less than the best axis.
   const double preference = preference_of(a, b, right), lost = right.value - preference - along - aligned;
   const bool leans = boxes && contact.count > 1 && lost > 2 * error;
-  // A face that leans against a capsule which crosses its sides does not part them beside it: what counts is how deep
-  // its deepest point is.
+  // A face at an angle to a capsule that crosses its sides does not separate them beside the face: the depth of the
+  // deepest point counts.
   const bool crosses = a.kind == Kind::box && !boxes && b.size[1] > 0 && lost > 2 * error && is_axis_of(a, n);
   seen.leaning += leans || crosses ? 1 : 0;
   if (!crosses) worst(seen.gap, leans ? lost - 4 * preference : lost);
 
-  // A box takes a sphere or capsule just beyond its rim, by 2^-13 of the distance, as being over the face.
+  // A sphere or capsule just beyond the rim of a box counts as over the face, within 2^-13 of the distance.
   const double slack = boxes ? side_slack(a, b) : a.kind == Kind::box ? 0x1.1p-13 * (b.size[0] + distance_max) : 0;
-  // A tilted capsule is met at its core's ends, where the points may lie within its surface.
+  // A tilted capsule has its contacts at the ends of its core, where the points may lie below its surface.
   const bool tilted = b.size[1] > 0 && (a.kind == Kind::half_space || contact.count > 1 || crosses ||
                                         (a.kind == Kind::round && fabs(dot(a.axis[1], b.axis[1])) > 0.99));
   const bool exact = boxes ? right.value < 0 : !right.is_depth && (!tilted || b.kind == Kind::box);
@@ -123,7 +126,7 @@ void judge(const OraclePair& pair, const ContactGeometry& contact, double distan
   const double leaning = crosses ? preference + 0x1p-7 * (right.value + b.size[0] + preference) : 0;
   if (crosses || (!boxes && !right.is_depth)) worst(seen.deepest, fabs(deepest - right.value) - aligned - leaning);
   if (boxes && (deepest_vertex_is_over_face(a, b, n) || deepest_vertex_is_over_face(b, a, n * -1))) {
-    // Of five vertices or more those that span the face are kept, and the deepest need not be one of them.
+    // Of five or more vertices the ones that span the face are kept; the deepest need not be one of them.
     if (contact.count >= 3 && deepest - along > error)
       ++seen.deepest_lost;
     else
@@ -131,9 +134,8 @@ void judge(const OraclePair& pair, const ContactGeometry& contact, double distan
   }
 }
 
-/// The contact of B and A against that of A and B: the same bits mirrored where the library tells A from B by
-/// their forms, and else the same points but for rounding. Two boxes may choose another face; the caller judges that by
-/// itself.
+/// Whether the contact of B and A mirrors that of A and B: bit for bit where the library orders the shapes by type;
+/// otherwise the same points within rounding. For two boxes another face may be chosen; the caller checks that case.
 bool is_mirrored(const ContactGeometry& contact, const ContactGeometry& swapped, bool same_bits, double error) {
   if (contact.count != swapped.count) return !same_bits;  // at the very edge of reach
   for (uint32_t i = 0; i < contact.count; ++i) {
@@ -148,7 +150,7 @@ bool is_mirrored(const ContactGeometry& contact, const ContactGeometry& swapped,
   return contact.count == 0 || !same_bits || contact.normal == -swapped.normal;
 }
 
-/// Poses, sizes, gaps and reaches at random, for every two of three sizes.
+/// Checks pairs with random poses, sizes, gaps and search distances, for every two of three sizes.
 void judge_many(Form form_a, Form form_b, uint64_t seed) {
   Samples samples = {seed};
   Seen seen;
@@ -179,8 +181,8 @@ void judge_many(Form form_a, Form form_b, uint64_t seed) {
   EXPECT_LE(seen.midway, k_error_steps);
   EXPECT_LE(seen.normal, 12);  // a column of a matrix: twice the quaternion's error and a rounding each
   EXPECT_EQ(seen.missed, 0u);
-  // Two boxes that meet corner to corner or edge to edge while still apart have no face over which to meet: such a pair
-  // gets its points when it overlaps.
+  // Two separated boxes that approach corner to corner or edge to edge have no overlapping faces. Such a pair gets its
+  // points when it overlaps.
   EXPECT_LE(seen.missed_ahead, count / 100);
   EXPECT_LE(seen.deepest_lost, count / 100);
   EXPECT_EQ(seen.features_wrong, 0u);
@@ -203,7 +205,7 @@ DETENT_TEST(pairs, of_two_capsules_agree_with_the_oracle) { judge_many(Form::cap
 DETENT_TEST(pairs, of_a_capsule_and_a_sphere_agree_with_the_oracle) { judge_many(Form::capsule, Form::sphere, 18); }
 DETENT_TEST(pairs, of_two_spheres_agree_with_the_oracle) { judge_many(Form::sphere, Form::sphere, 19); }
 
-/// Their edges cross at the least depth; the faces are as good.
+/// The edges cross at the least depth; the faces separate as well.
 DETENT_TEST(pairs, of_bars_that_cross_and_rock_touch_in_several_points) {
   OraclePair pair;
   pair.a.properties = pair.b.properties = box_properties({{0.2, 0.02, 0.04}});

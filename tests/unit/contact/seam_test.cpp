@@ -2,7 +2,7 @@
 
 #include "tests/unit/contact/pairs.h"
 
-/// What slides over the seam of two bodies, sunk in by a hair: lib/contact/contact_seam.h.
+/// Bodies that slide over the seam between two bodies while they penetrate slightly: lib/contact/contact_seam.h.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
@@ -16,7 +16,8 @@ OracleBody placed(const BodyProperties& properties, const Vector& at, const Quat
 
 constexpr double k_reach = 0.05, k_sunk = 7e-4, k_sag = 2e-4;
 
-/// A floor whose edge is x = 0 and whose top is y = 0; the other body's lowest point is `sag` below, its foremost x.
+/// A floor with its edge at x = 0 and its top at y = 0, and another body whose lowest point is `sag` below the top and
+/// whose foremost point has the given x.
 struct Meeting {
   OracleBody floor, body;
 
@@ -39,7 +40,7 @@ Meeting meeting(const BodyProperties& floor, const BodyProperties& properties, d
 BodyProperties floor_box() { return box_properties({{4, 0.5, 4}}); }
 
 DETENT_TEST(seams, of_boxes_have_no_side_where_no_more_than_a_sliver_is_met) {
-  // Without, what is sunk in by less than it reaches over meets the side.
+  // Without the seam rule, a body that penetrates by less than it extends over the edge collides with the side.
   for (const double over : {-0.04, -1e-3, 1e-4}) {
     const Meeting met = meeting(floor_box(), box_properties({{0.3, 0.3, 0.3}}), over, -k_sag, 0.3, 0.3);
     const ContactGeometry plain = met.plain(), smooth = met.smooth();
@@ -103,9 +104,9 @@ DETENT_TEST(seams, of_other_shapes_have_no_side_either) {
   }
 }
 
-/// A ball that is sunk in touches the edge before it is over the face.
+/// A ball that penetrates touches the edge before it is over the face.
 DETENT_TEST(seams, that_are_level_carry_a_ball_as_the_face_does) {
-  // That of a sharp box is found in another way than that of a rounded one.
+  // The floor is a sharp or a rounded box, which use different collision functions.
   const BodyProperties floors[] = {floor_box(),
                                    properties_of(rounded(box(reals_near({{4, 0.5, 4}})), real_near(0.004)))};
   const BodyProperties shapes[] = {sphere_properties(0.3), properties_of(capsule(real_near(0.3), real_near(0.2)))};
@@ -124,20 +125,20 @@ DETENT_TEST(seams, that_are_level_carry_a_ball_as_the_face_does) {
     EXPECT_NEAR(host(smooth.point[0].arm_b)[0], 0, 1e-4) << "beside the middle it would turn the ball";
     EXPECT_TRUE(smooth.seam);
     EXPECT_FALSE(smooth.turns);
-    // Farther out it rolls over the edge, as it should.
+    // Farther out, the ball rolls over the edge, as it should.
     const ContactGeometry off = meeting(floor, properties, -0.03, -1.5e-3, 0, bottom).smooth();
     ASSERT_EQ(off.count, 1u);
     EXPECT_LT(host(off.normal)[0], -0.05);
   }
 }
 
-/// Over a face the normal stays; about an edge, and of two balls, it turns.
+/// Over a face the normal is constant; at an edge, and between two balls, it rotates.
 DETENT_TEST(seams, aside_a_normal_turns_as_what_is_round_slides_past) {
   const OracleBody ball = placed(sphere_properties(0.3), {0, 0, 0});
   EXPECT_FALSE(meeting(floor_box(), sphere_properties(0.3), 1, 0, 0, 0.3).plain().turns);
   EXPECT_TRUE(meeting(floor_box(), sphere_properties(0.3), -0.1, -0.02, 0, 0.3).plain().turns);
   EXPECT_TRUE(contact_of(ball, placed(sphere_properties(0.2), {0.3, 0.4, 0}), 0.1).turns);
-  // A rod that crosses an edge, or another, slides along it without another normal.
+  // A rod that crosses an edge, or another rod, slides along it with a constant normal.
   const double h = sqrt(0.5);
   const Quaternion along_z = {h, 0, 0, h}, over_edge = {0, 0, -0.4226182617, 0.9063077870};
   const OracleBody floor = placed(floor_box(), {4, -0.5, 0});

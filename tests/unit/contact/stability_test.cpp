@@ -16,7 +16,8 @@ bool same_features(const ContactGeometry& a, const ContactGeometry& b) {
   return true;
 }
 
-/// B rests on top of A: on a face, turned about it and moved over it at random, sunk in by 1/500 of its size.
+/// B rests with a face on top of A, rotated about the normal and moved over the face at random, with a penetration of
+/// 1/500 of its size.
 OraclePair resting_pair(Samples& samples, Form form_a, Form form_b) {
   OraclePair pair;
   pair.a.properties = random_properties(samples, form_a, 0.5);
@@ -39,7 +40,7 @@ OraclePair resting_pair(Samples& samples, Form form_a, Form form_b) {
   return pair;
 }
 
-/// Moves and turns a body by 1e-5 of its size.
+/// Moves and rotates a body by 1e-5 of its size.
 OracleBody trembled(const OracleBody& body, Samples& samples) {
   OracleBody moved = body;
   const double size = unit_of(body.properties);

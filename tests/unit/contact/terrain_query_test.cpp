@@ -28,7 +28,7 @@ Vector corner_of(const Terrain& terrain, const TerrainTriangle& t, int k) {
   return {{ldexp(t.corner[k].x, power), ldexp(t.corner[k].y, power), ldexp(t.corner[k].z, power)}};
 }
 
-/// The time of the first hit, 2 if there is none, by Cramer's rule; `sure` is false near an edge.
+/// The time of the first hit of a ray, by Cramer's rule; 2 if there is none. `sure` is false near an edge.
 double first_hit(const Terrain& terrain, uint32_t count, const Vector& from, const Vector& displacement, bool& sure) {
   double best = 2;
   for (uint32_t i = 0; i < count; ++i) {

@@ -6,18 +6,18 @@
 #include "tests/support/test.h"
 #include "tests/unit/math/samples.h"
 
-/// Poses and motions of the tests of lib/distance and lib/toi in doubles, as a configuration holds them.
+/// Poses and motions for the tests of lib/distance and lib/toi: doubles with the values that a configuration stores.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 using detent_oracle::Quaternion;
 using detent_oracle::Vector;
 
-/// The step of a world coordinate, m; of f64 near the origin.
+/// The smallest step of a world coordinate, m; in f64, near the origin.
 inline constexpr double k_position_step = k_config == Config::fx32  ? 0x1p-16
                                           : k_config == Config::f64 ? 0x1p-48
                                                                     : 0x1p-32;
-/// What a rotation and a length lose on their way in and out, in parts of themselves.
+/// The relative error of a rotation and of a length after conversion to the library and back.
 inline constexpr double k_number_error = k_config == Config::f32 ? 0x1p-22 : 0x1p-29;
 
 inline Real real(double value) {
@@ -30,7 +30,7 @@ inline Vec3<Real> reals(const Vector& v) { return {real(v[0]), real(v[1]), real(
 inline Vector host(const Vec3<Real>& v) { return {{host(v.x), host(v.y), host(v.z)}}; }
 inline Vector host_units(const Vec3<Unit>& v) { return {{unit_to_host(v.x), unit_to_host(v.y), unit_to_host(v.z)}}; }
 
-/// A pose, and what becomes of it over a step of length 1.
+/// A pose, and its motion over a step of length 1.
 struct BodyAt {
   Vector position = {{0, 0, 0}};
   Quaternion rotation = {0, 0, 0, 1};

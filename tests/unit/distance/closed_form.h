@@ -8,12 +8,12 @@
 #include "tests/unit/distance/bodies_at.h"
 #include "tests/unit/shape/hull_bytes.h"
 
-/// Solids in doubles, for the tests of lib/distance and lib/toi: the distance of a point from any shape in closed form,
-/// and of two polytopes from all their features. Every size is as the configuration holds it.
+/// Solids in doubles for the tests of lib/distance and lib/toi: the distance of a point from any shape in closed form,
+/// and of two polytopes from all their features. Every size has the value that the configuration stores.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// A shape made ready, and its core and ball in doubles.
+/// A Convex, and its core and ball in doubles.
 struct KnownShape {
   Convex convex;
   Vector size = {{0, 0, 0}};     ///< m; half extents, or radius and half length of a cylinder or cone
@@ -80,7 +80,8 @@ inline KnownShape known_hull(const Asset& asset, double rounding) {
   return made;
 }
 
-/// One of each kind, of about `scale` m; `kind` below k_known_kinds. Of any rounding where that may be.
+/// One shape of each kind, of about `scale` m; `kind` is below k_known_kinds. The rounding is random if the shape can
+/// have one.
 inline constexpr uint32_t k_known_kinds = 8;
 inline constexpr uint32_t k_known_hulls = 3;  ///< of the kinds after those: hulls of fixed size, and half-space
 inline KnownShape random_shape(Samples& samples, uint32_t kind, double scale) {
@@ -122,7 +123,7 @@ inline double distance_to_segment(const Vector& p, const Vector& a, const Vector
   return length(p - (a + edge * t));
 }
 
-/// Of a triangle that may be degenerate.
+/// The distance of a point from a triangle, which may be degenerate.
 inline double distance_to_triangle(const Vector& p, const Vector& a, const Vector& b, const Vector& c) {
   const double to_edges =
       std::min({distance_to_segment(p, a, b), distance_to_segment(p, b, c), distance_to_segment(p, c, a)});
@@ -145,7 +146,8 @@ inline double distance_of_segments(const Vector& a, const Vector& b, const Vecto
   return least;
 }
 
-/// Of points in space, the hull of which need not be full; 0 is only told from inside where a face says so.
+/// The distance of a point from the hull of points: the least over all triangles of the points. The hull need not have
+/// a volume. For a point inside the hull, this is the distance from the nearest of these triangles.
 inline double distance_to_points(const Vector& p, const std::vector<Vector>& points) {
   double least = DBL_MAX;
   const size_t count = points.size();
@@ -160,8 +162,8 @@ inline double distance_to_points(const Vector& p, const std::vector<Vector>& poi
   return least;
 }
 
-/// A point's distance from the core, m, local axes. Of a polytope's inner point: that from the nearest triangle of its
-/// vertices, not 0.
+/// The distance of a point from the core, m, local axes. For a point inside a polytope: the distance from the nearest
+/// triangle of its vertices, not 0.
 inline double core_distance(const KnownShape& shape, const Vector& p) {
   const double across = hypot(p[0], p[2]), radius = shape.size[0], half = shape.size[1];
   switch (shape.type()) {
@@ -183,7 +185,7 @@ inline double core_distance(const KnownShape& shape, const Vector& p) {
   }
 }
 
-/// The least of direction.p over the core, world axes; not of a half-space.
+/// The least direction.p over the core, world axes. Range: no half-space.
 inline double lowest(const KnownShape& shape, const BodyAt& body, const Vector& direction) {
   const Vector d = {{dot(direction, axis_of(body.rotation, 0)), dot(direction, axis_of(body.rotation, 1)),
                      dot(direction, axis_of(body.rotation, 2))}};
@@ -195,7 +197,7 @@ inline double lowest(const KnownShape& shape, const BodyAt& body, const Vector& 
   return least + dot(direction, body.position);
 }
 
-/// Of two polytopes' cores that are apart: the least of all feature pairs.
+/// The distance of two separated polytope cores: the least over all pairs of features.
 inline double polytope_distance(const KnownShape& a, const BodyAt& body_a, const KnownShape& b, const BodyAt& body_b) {
   std::vector<Vector> p, q;
   for (const Vector& v : a.points) p.push_back(body_a.to_world(v) - body_a.position);
@@ -213,7 +215,8 @@ inline double polytope_distance(const KnownShape& a, const BodyAt& body_a, const
   return least;
 }
 
-/// The unit of the distance's error, m: both core diameters and the distance of the centres, of a plane that from it.
+/// The scale of the error of a distance, m: both core diameters plus the distance of the centres; for a plane, the
+/// distance from the plane.
 inline double extent_of(const KnownShape& a, const BodyAt& body_a, const KnownShape& b, const BodyAt& body_b) {
   const Vector centres = body_b.position - body_a.position;
   double apart = length(centres);

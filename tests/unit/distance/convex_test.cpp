@@ -13,7 +13,7 @@ namespace {
 constexpr double k_least = 0x1p-14, k_most = 0x1p14;
 constexpr double k_below_least = 0x1.fffffep-15, k_above_most = 0x1.000002p14;  // the next floats
 
-/// Calls with a result full of a pattern, and holds that on failure not a bit of it has changed.
+/// Calls with a result that is filled with a pattern, and checks that a failing call does not change it.
 template <class Result, class Call>
 Status call_with_pattern(const Call& call) {
   Result result;
@@ -102,7 +102,7 @@ DETENT_TEST(convex, accepts_the_ends_of_the_range) {
 
 DETENT_TEST(convex, refuses_a_core_whose_sizes_differ_too_much) {
   for (const double thick : {k_least, 0x1p-3, 1.0}) {
-    // Twice the stated ratio, seen from either side; half of it.
+    // Twice the permitted ratio, for either shape; and half of it.
     const Real thin = real(thick), too_long = real(thick * 0x1p15 <= k_most ? thick * 0x1p15 : k_most);
     const Real wide = real(thick * 0x1p13);
     if (host(too_long) > host(thin) * 0x1p14) {
@@ -203,7 +203,7 @@ DETENT_TEST(convex, refuses_hull_bytes_that_are_missing_cut_off_misaligned_or_al
     EXPECT_EQ(make(tetrahedron_bytes(), real(rounding)), Status::out_of_range);
 }
 
-/// Every question about a pair, by name.
+/// Every function that takes a pair, by name.
 struct Question {
   const char* text;
   bool moves;  ///< it looks at displacement and turn
@@ -345,7 +345,7 @@ DETENT_TEST(convex, questions_refuse_displacements_and_turns_beyond_the_range) {
                 Status::out_of_range);
     }
   }
-  // The turn's length counts, not its components alone.
+  // The length of the rotation vector is limited, not only its components.
   Motion spun = still_motion();
   spun.rotation_vector = reals({{0x1.8p15, 0x1.8p15, 0x1.8p15}});
   EXPECT_EQ(time_of_impact(block, spun, block, still_motion(), impact), Status::out_of_range);

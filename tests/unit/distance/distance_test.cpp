@@ -10,7 +10,7 @@ namespace {
 
 using detent_oracle::rounds;
 
-/// Of the extent: what the header states, and what numbers of the configuration lose besides.
+/// Relative to extent(): the error that the header states, plus the rounding of the numbers of the configuration.
 constexpr double k_error = k_distance_error + k_number_error;
 
 struct Pair {
@@ -18,7 +18,7 @@ struct Pair {
   BodyAt body_a, body_b;  ///< as held
 
   double extent() const { return extent_of(a, body_a, b, body_b); }
-  /// A rotation's error moves a plane by that of all the distance.
+  /// An error of the rotation moves a plane by that error times the whole distance.
   double slack() const { return k_error * extent() + k_number_error * length(body_b.position - body_a.position); }
   Closest closest(DistanceCache* cache = nullptr) const {
     Closest result;
@@ -28,12 +28,12 @@ struct Pair {
   Pair swapped() const { return {b, a, body_b, body_a}; }
 };
 
-/// How far a point, m from the body's position and in world axes, is from the shape's surface.
+/// The distance between a point (m, from the body's position, world axes) and the surface of the shape.
 double off_surface(const KnownShape& shape, const BodyAt& body, const Vector& point) {
   return fabs(core_distance(shape, body.to_local(body.position + point)) - shape.ball);
 }
 
-/// The points lie on the surfaces, and the distance apart along the normal.
+/// The points lie on the surfaces, and are the distance apart along the normal.
 void expect_witnesses(const Pair& pair, const Closest& closest) {
   const Vector from = host(closest.point_a), to = host(closest.point_b), normal = host_units(closest.normal);
   const double slack = 2 * pair.slack();
@@ -45,7 +45,7 @@ void expect_witnesses(const Pair& pair, const Closest& closest) {
   EXPECT_LE(length(displacement - normal * host(closest.distance)), slack);
 }
 
-/// `distance`: of the surfaces, m; 0 or less if they overlap.
+/// `distance`: between the surfaces, m; 0 or less if they overlap.
 void expect_distance(const Pair& pair, double distance) {
   const double slack = pair.slack();
   for (const Pair& either : {pair, pair.swapped()}) {
@@ -81,7 +81,7 @@ DETENT_TEST(distance, of_a_ball_from_every_shape_is_that_of_its_centre_in_closed
     pair.a = random_shape(samples, kind, scale);
     pair.b = random_shape(samples, 0, scale);
     pair.body_a = {random_direction(samples) * scale, random_quaternion(samples)};
-    // Anywhere, or straight above a feature: along an axis, or a little off it.
+    // A random position, or one straight above a feature: along an axis, or slightly off it.
     Vector local = random_direction(samples) * (scale * uniform(samples, 0.5, 4));
     if (samples.below(2) == 0) {
       for (int k = 0; k < 3; ++k) local[k] *= samples.below(2) == 0 ? 0 : samples.below(2) == 0 ? 1e-6 : 1;
@@ -114,7 +114,7 @@ DETENT_TEST(distance, of_polytopes_is_that_of_their_nearest_features) {
     pair.a = random_shape(samples, k_kinds[samples.below(4)], scale);
     pair.b = random_shape(samples, kind, scale);
     pair.body_a = held({random_direction(samples) * scale, random_quaternion(samples)});
-    // Every third pair has an axis in common.
+    // Every third pair has a common axis.
     const Quaternion rotation = i % 3 == 0 ? pair.body_a.rotation : random_quaternion(samples);
     const double near = pair.a.distance_max() + pair.b.distance_max() + pair.a.ball + pair.b.ball;
     pair.body_b =
@@ -175,7 +175,7 @@ DETENT_TEST(distance, names_the_point_of_a_half_space_that_is_below_the_other_bo
   }
 }
 
-/// A pair placed by hand at unit size, and its distance.
+/// A pair placed by hand, at unit size, with its distance.
 struct PlacedByHand {
   const char* text;
   Shape (*a)(double s);
@@ -363,7 +363,7 @@ DETENT_TEST(distance, agrees_with_overlap_and_farther_than) {
 }
 
 #if defined(DETENT_FX64)
-/// Two shapes whose rims are so near that GJK meets its cap; and their gap, m, by the oracle.
+/// Two shapes whose rims are so near each other that GJK reaches its cap; and their gap, m, from the oracle.
 Pair capped_rims(double& gap, bool apart) {
   if (apart) {
     gap = 2.36417e-05;
@@ -486,7 +486,7 @@ DETENT_TEST(distance, is_the_same_to_the_bit_wherever_the_pair_is) {
 }
 #endif
 
-/// The pair with every length times 2^exponent, exactly.
+/// The shape with every length times `scale`, exactly.
 Shape scaled(const Shape& shape, double scale) {
   Shape made = shape;
   made.radius = real(host(shape.radius) * scale);
@@ -530,7 +530,7 @@ DETENT_TEST(distance, scales_to_the_bit_by_a_power_of_two) {
       EXPECT_EQ(large.overlap, unit.overlap);
       EXPECT_EQ(large.iterations, unit.iterations);
       EXPECT_TRUE(large.normal == unit.normal);
-      // The ball's share of a point is rounded to 2^-46 m.
+      // The ball's part of a point is rounded to 2^-46 m.
       const double slack = DETENT_FIXED ? 0x1p-46 * (1 + scale) : 0;
       EXPECT_NEAR(host(large.distance), host(unit.distance) * scale, 0);
       for (int k = 0; k < 3; ++k) {

@@ -1,11 +1,11 @@
 #pragma once
 #include "tests/unit/distance/bodies_at.h"
 
-/// Numbers that every configuration holds exactly, so that the answers' digests are the same in all.
+/// Numbers that every configuration represents exactly, so that the digests of the answers are equal.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// In 256ths, from -most to most of them.
+/// A random multiple of 1/256, from -most to most.
 inline double exact_number(Samples& samples, int64_t most) {
   return static_cast<double>(static_cast<int64_t>(samples.below(static_cast<uint32_t>(2 * most))) - most) / 256;
 }
@@ -13,7 +13,7 @@ inline Vector exact_vector(Samples& samples, int64_t most) {
   const double x = exact_number(samples, most), y = exact_number(samples, most), z = exact_number(samples, most);
   return {{x, y, z}};
 }
-/// Turned by (1, 2, 2, 4) / 5, in 20 bits, its first three in any order.
+/// A pose with the rotation (1, 2, 2, 4) / 5, in 20 bits, the first three components in any order.
 inline Pose exact_pose(Samples& samples, const Vector& at) {
   constexpr double k_fifth = 209715.0 / 1048576, k_two_fifths = 419430.0 / 1048576, k_four_fifths = 838861.0 / 1048576;
   const uint32_t small = samples.below(3);

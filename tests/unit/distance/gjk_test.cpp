@@ -4,8 +4,8 @@
 #include "tests/unit/distance/placed_pairs.h"
 
 #if defined(__SIZEOF_INT128__)
-// Integer polytopes, axis-parallel, so that a block holds them exactly: what gjk() says of them is proven from all
-// vertices.
+// Axis-parallel polytopes with integer coordinates, which a block represents exactly: the results of gjk() are proved
+// from all vertices.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
@@ -23,7 +23,7 @@ Point cross(const Point& a, const Point& b) {
 Point exact(const Vec32& v) { return {v.x, v.y, v.z}; }
 int sign(Exact value) { return value < 0 ? -1 : value > 0 ? 1 : 0; }
 
-/// Whether the hull of up to four points holds the origin.
+/// Whether the hull of up to four points contains the origin.
 bool holds_origin(const Point* p, int count) {
   if (count == 1) return p[0].x == 0 && p[0].y == 0 && p[0].z == 0;
   if (count == 2) {
@@ -58,7 +58,8 @@ struct Outcome {
   bool overlap = false;
 };
 
-/// A vector along the point of the simplex that is nearest to the origin. Of its three vertices at most, all take part.
+/// A vector along the point of the simplex that is nearest to the origin. The simplex has at most three vertices, and
+/// all of them contribute to this point.
 Point nearest_point(const Simplex& simplex) {
   const Point a = exact(simplex.vertex(0).difference);
   if (simplex.count() == 1) return a;
@@ -71,7 +72,7 @@ Point nearest_point(const Simplex& simplex) {
   return dot(n, a) < 0 ? Point{-n.x, -n.y, -n.z} : n;
 }
 
-/// gjk() on the pair, held to what all its vertices say.
+/// Checks the result of gjk() for the pair against all its vertices.
 void check(const Placed& a, const Placed& b, const Vec32& offset, Outcome& outcome) {
   Simplex simplex;
   const GjkResult result = gjk(a, b, offset, simplex, {});
@@ -84,7 +85,7 @@ void check(const Placed& a, const Placed& b, const Vec32& offset, Outcome& outco
     ASSERT_TRUE(holds_origin(points, simplex.count()));
     return;
   }
-  // Every vertex of the difference lies beyond a plane that the origin is not beyond, and none is nearer than `lower`.
+  // All vertices of the difference lie on the far side of a plane, and none is nearer to the origin than `lower`.
   const Point v = nearest_point(simplex), normal = exact(result.normal);
   CorePoint on_a, on_b;
   Exact least = Exact{1} << 100;

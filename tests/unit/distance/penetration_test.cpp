@@ -15,7 +15,7 @@ struct Tally {
 
 double along(const Vec32& normal, const Vec32& v) { return dot(arrow(normal), arrow(v)) / 0x1p30; }
 
-/// What holds for every pair of cores: moved by the depth they part, and touch.
+/// Checks that hold for every pair of cores: moved apart by the depth, the cores touch.
 void check_parted(const Placed& a, const Placed& b, const Vec32& offset, const Penetration& found) {
   const auto moved = [&](int32_t by) {
     return add(offset, round_shift(Vec64{int64_t{found.normal.x} * by, int64_t{found.normal.y} * by,
@@ -26,7 +26,7 @@ void check_parted(const Placed& a, const Placed& b, const Vec32& offset, const P
   const GjkResult out = gjk(a, b, moved(found.depth + 2 * k_penetration_slack), simplex, {});
   ASSERT_EQ(out.outcome, GjkOutcome::apart);
   ASSERT_LE(out.upper, 4 * k_penetration_slack);
-  // The deepest points are one straight above the other.
+  // The deepest points lie on one line along the normal.
   const Vec32 displacement = subtract(add(offset, found.point_b), found.point_a);
   ASSERT_NEAR(along(found.normal, displacement), -found.depth, 2 * k_penetration_slack);
 }
@@ -47,16 +47,16 @@ void check_polytopes(const Placed& a, const Placed& b, const Vec32& offset, Tall
   const double error = fabs(found.depth - least);
   tally.error_max = std::max(tally.error_max, error);
   ASSERT_LE(error, 1.001) << found.depth << " for " << least;
-  // Not of hulls: their placed vertices' own hull may have other edges than the cooked one, where faces are all but
-  // flat.
+  // Except for hulls: if faces are nearly flat, the hull of the placed vertices may have other edges than the cooked
+  // hull.
   const bool exact = a.convex->type != ShapeType::hull && b.convex->type != ShapeType::hull;
   ASSERT_TRUE(!exact || found.depth >= least - 0.001);
   ASSERT_LE(found.lower, least + 0.001);
-  // It does part them: the vertices say so.
+  // The translation does separate them: checked with the vertices.
   const Arrow back = {-arrow(found.normal).x, -arrow(found.normal).y, -arrow(found.normal).z};
   ASSERT_LE(reach_along(solid_a, solid_b, offset, back), found.depth + k_penetration_slack);
   check_parted(a, b, offset, found);
-  // The deepest points lie one straight above the other.
+  // The deepest points lie on one line along the normal.
   const Vec32 displacement = subtract(add(offset, found.point_b), found.point_a);
   ASSERT_LE(length(arrow(displacement)), found.depth + 4 * k_penetration_slack);
 }
@@ -114,8 +114,7 @@ Penetration find(const Placed& a, const Placed& b, const Vec32& offset) {
   return penetration(a, b, offset, simplex);
 }
 
-/// The greatest direction.p over a core, unit direction, ulps of the block, in double. Without hulls and
-/// triangles.
+/// The greatest direction.p over a core, unit direction, ulps of the block, in double. Range: no hull, no triangle.
 double exact_support(const Placed& placed, const Arrow& direction) {
   const auto& c = placed.rotation.column;
   const Arrow d = {dot(arrow(c[0]), direction) / k_one, dot(arrow(c[1]), direction) / k_one,
@@ -136,7 +135,7 @@ double exact_support(const Placed& placed, const Arrow& direction) {
   }
 }
 
-/// The depth along an axis that B moves along; no axis' is less than the least.
+/// The depth along an axis along which B moves out. No axis has less depth than the least depth.
 double depth_along(const Placed& a, const Placed& b, const Vec32& offset, const Arrow& axis) {
   const Arrow back = {-axis.x, -axis.y, -axis.z};
   return exact_support(a, axis) + exact_support(b, back) - dot(axis, arrow(offset));
@@ -163,7 +162,7 @@ DETENT_TEST(penetration, of_cylinders_and_cones_is_the_least_over_all_directions
     const Arrow normal = arrow(found.normal);
     const double size_of_normal = length(normal);
     const Arrow unit = {normal.x / size_of_normal, normal.y / size_of_normal, normal.z / size_of_normal};
-    // The depth is that of its axis, and no other axis has less than `lower`.
+    // The depth equals the depth along its axis, and no other axis has less than `lower`.
     error_max = std::max(error_max, fabs(depth_along(placed_a, placed_b, offset, unit) - found.depth));
     for (int k = 0; k < 100; ++k) {
       Arrow axis = {static_cast<double>(samples.integer(30)), static_cast<double>(samples.integer(30)),
@@ -204,7 +203,7 @@ DETENT_TEST(penetration, of_cylinders_and_cones_in_line_is_as_in_closed_form) {
   EXPECT_NEAR(find(cone, p, {0, -half / 2 + 500, 0}).depth, 500, 6);
   const double slant = sqrt(4.0 * half * half + 1.0 * radius * radius);
   const double below = (1.5 * half - 100000) * radius / slant;
-  // On its axis a whole ring of faces is equally near: the cap of vertices leaves an upper bound.
+  // On the axis of the cone a ring of faces is equally near: the cap of vertices leaves an upper bound.
   const Penetration on_axis = find(cone, p, {0, 100000, 0});
   EXPECT_TRUE(on_axis.capped);
   EXPECT_LE(on_axis.lower, below + 6);
@@ -241,7 +240,8 @@ DETENT_TEST(penetration, of_flat_differences_is_0_across_them) {
   expect_across(find(level, level, {300, 0, 0}), {0, k_one, 0});
   EXPECT_EQ(find(p, p, {0, 0, 0}).depth, 0);
   EXPECT_EQ(find(p, p, {0, 0, 0}).normal.y, k_one);
-  // A triangle and a segment through it are not flat: the way out is along the triangle, or the segment's own length.
+  // A triangle and a segment through it have a volume in the difference: the shortest translation is along the
+  // triangle, or the length of the segment.
   const Penetration through = find(t, upright, {0, 900, 0});
   EXPECT_EQ(through.depth, 100);
   EXPECT_EQ(through.normal.y, k_one);

@@ -9,7 +9,7 @@
 #include "tests/unit/math/samples.h"
 #include "tests/unit/shape/hull_bytes.h"
 
-/// Random placed cores for the tests of lib/distance and lib/toi, and how deep all their vertices say they are.
+/// Random placed cores for the tests of lib/distance and lib/toi, and their penetration depth from all vertices.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -26,7 +26,8 @@ inline Arrow cross(const Arrow& a, const Arrow& b) {
 }
 inline double length(const Arrow& a) { return sqrt(dot(a, a)); }
 
-/// A placed polytope: its vertices in the block from its own centre, its edges and its faces' normals (any length).
+/// A placed polytope: its vertices in the block, from its own centre, its edges, and the normals of its faces (of any
+/// length).
 struct Solid {
   std::vector<Vec32> vertices, edges;
   std::vector<Vec64> normals;
@@ -70,8 +71,8 @@ inline Solid solid_of(const Placed& placed) {
   return solid;
 }
 
-/// How far B must move against `normal` to leave A: the greatest normal.(b + offset - a) over the vertices, over
-/// |normal|.
+/// The distance by which B must move against `normal` to leave A: the greatest normal.(b + offset - a) over the
+/// vertices, over |normal|.
 inline double reach_along(const Solid& a, const Solid& b, const Vec32& offset, const Arrow& normal) {
   double most_b = -HUGE_VAL, least_a = HUGE_VAL;
   for (const Vec32& v : b.vertices) most_b = std::max(most_b, dot(normal, arrow(v)));
@@ -79,8 +80,8 @@ inline double reach_along(const Solid& a, const Solid& b, const Vec32& offset, c
   return (most_b - least_a + dot(normal, arrow(offset))) / length(normal);
 }
 
-/// The least way out, tried along every face's normal and every pair of edges; HUGE_VAL if there are none. The normals
-/// are exact before they become doubles, so that it errs by less than 1e-5 ulps however thin the shapes are.
+/// The least penetration depth, over the normals of all faces and all pairs of edges; HUGE_VAL if there are none. The
+/// normals are exact before they become doubles, so the error is below 1e-5 ulps, however thin the shapes are.
 inline double least_depth(const Solid& a, const Solid& b, const Vec32& offset) {
   double least = HUGE_VAL;
   const auto consider = [&](const Vec64& normal) {
@@ -99,7 +100,8 @@ inline double least_depth(const Solid& a, const Solid& b, const Vec32& offset) {
 
 inline constexpr int k_exponent = 2;  ///< of the block, so that the hulls fit into it
 
-/// A coordinate from a small grid, where points coincide and planes are shared, next to one, or of any size.
+/// A random coordinate: from a small grid, so that points coincide and planes are shared; next to a grid value; or of
+/// any size.
 inline int32_t coordinate(Samples& samples, int kind, int bits) {
   const int32_t grid = static_cast<int32_t>(samples.below(5)) - 2;
   if (kind == 0) return grid;
@@ -107,7 +109,7 @@ inline int32_t coordinate(Samples& samples, int kind, int bits) {
   return static_cast<int32_t>(samples.integer(bits - 1));
 }
 
-/// A core with axis-parallel integers that a block holds exactly.
+/// A core whose axis-parallel integer coordinates a block represents exactly.
 inline Convex random_convex(Samples& samples, ShapeType type, int kind) {
   Convex convex;
   if (type == ShapeType::hull) {

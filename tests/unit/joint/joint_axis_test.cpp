@@ -7,7 +7,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// A wheel of 0.5 m and 1 m wide on a fixed axle along z.
+/// A wheel of radius 0.5 m and width 1 m on a fixed axle along z.
 struct Flywheel {
   Lab lab = Lab(room(2, 1), weightless());
   BodyId ground = add_shape(lab, box(reals(0.1, 0.1, 0.1)), 0, 0, 0, BodyType::fixed);
@@ -69,7 +69,7 @@ DETENT_TEST(joint, a_hinge_spring_swings_with_its_frequency_and_damping) {
   }
 }
 
-/// A ball joint's spring turns B's frame to A's: the rotation that is wanted of B is `frame_a`.
+/// A ball joint whose spring rotates B's frame to A's: the target rotation of B is `frame_a`.
 struct BallSpring {
   Lab lab = Lab(room(2, 1), weightless());
   BodyId ground = add_shape(lab, box(reals(0.1, 0.1, 0.1)), 0, 0, 0, BodyType::fixed);
@@ -91,7 +91,7 @@ struct BallSpring {
     EXPECT_OK(get_mass(lab.world, ball, mass));
     inertia = 0.4 * scaled_to_host(mass) * 0.25;
   }
-  /// The turn that is left.
+  /// The remaining rotation to the target.
   double off() {
     JointDef def;
     Pose pose;
@@ -293,7 +293,8 @@ DETENT_TEST(joint, limits_stop_what_they_limit_and_push_only_one_way) {
   EXPECT_NEAR(least, -0.5, 0.001);
 }
 
-/// The velocity that is set does not turn the arm: that it will turn, and beyond its limit, the solved motion tells.
+/// The initial velocity does not rotate the arm. Only the solved motion shows that the arm will rotate, and beyond its
+/// limit.
 DETENT_TEST(joint, a_limit_holds_in_the_substep_in_which_holding_the_joint_turns_the_arm_towards_it) {
   Lab lab(room(2, 1), weightless());
   const BodyId ground = add_shape(lab, box(reals(0.1, 0.1, 0.1)), 0, 0, 0, BodyType::fixed);
@@ -430,8 +431,8 @@ DETENT_TEST(joint, what_swings_round_a_wide_cone_gains_nothing_from_the_limits_o
   }
 }
 
-/// A wheel on an axle whose bearing is held at both of its ends, so that one joint closes a loop; `driven` says which
-/// of the two hinges has the axis.
+/// A wheel on an axle whose bearing is held at both ends, so that a joint closes a loop; `driven` selects the hinge
+/// that has the motor.
 struct Axle {
   Lab lab = Lab(room(3, 3), weightless());
   BodyId frame = add_shape(lab, box(reals(1, 0.2, 1)), 0, -1, 0);

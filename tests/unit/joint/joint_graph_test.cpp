@@ -89,7 +89,8 @@ DETENT_TEST(joint, a_chain_between_two_walls_is_held_at_both_ends) {
   EXPECT_LE(worst, 0.01);
 }
 
-/// A chain of bricks from a wall, level, each joint of a type, and a weight of so many bricks at its end.
+/// A horizontal chain of bricks from a wall, with joints of one type, and a weight of the given number of bricks at its
+/// end.
 struct HangingChain {
   Lab lab;
   BodyId wall, last;
@@ -132,7 +133,7 @@ DETENT_TEST(joint, a_weight_of_a_thousand_links_does_not_shake_its_chain_apart) 
   }
 }
 
-/// What pulls at its links has no bound.
+/// The force on the links has no upper bound.
 DETENT_TEST(joint, a_chain_taut_between_two_walls_stays_together) {
   for (const int links : {10, 20, 40}) {
     SCOPED_TRACE(links);

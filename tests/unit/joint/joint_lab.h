@@ -3,7 +3,7 @@
 
 #include "tests/unit/world/lab.h"
 
-/// Jointed bodies for tests, and how far their joints give way.
+/// Jointed bodies for tests, and the errors of their joints.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -30,7 +30,7 @@ struct Turned {
   }
 };
 
-/// Where a joint's frame is on one of its bodies.
+/// The pose of a joint's frame on one of its bodies.
 struct JointEnd {
   Vector anchor;   ///< world, from the world's origin
   Vector axis[3];  ///< of the frame
@@ -55,7 +55,7 @@ struct JointEnds {
   double between(int i) const {
     return std::atan2(length(cross(a.axis[i], b.axis[i])), detent::dot(a.axis[i], b.axis[i]));
   }
-  /// The turn of B about A's axis `i`, rad, where that axis is common.
+  /// The rotation of B about axis `i` of A, rad, if that axis is common to both.
   double turned(int i) const {
     const int next = (i + 1) % 3, last = (i + 2) % 3;
     return std::atan2(detent::dot(b.axis[next], a.axis[last]), detent::dot(b.axis[next], a.axis[next]));
@@ -76,7 +76,8 @@ inline BodyId add_shape(Lab& lab, const Shape& shape, double x, double y, double
   return lab.add(def);
 }
 
-/// A joint where the bodies are now, at a point, with its frame in the world's axes unless it is turned.
+/// Adds a joint at a point, for the current poses of the bodies; its frame has the axes of the world unless it is
+/// rotated.
 inline JointId add_joint(Lab& lab, JointType type, BodyId a, BodyId b, double x, double y, double z,
                          const JointDef& rest = {}, const Quat& frame = {0.0, 0.0, 0.0, 1.0}) {
   JointDef def = rest;
@@ -97,7 +98,7 @@ inline constexpr double k_pi = 3.14159265358979323846;
 
 inline Capacity room(uint32_t bodies, uint32_t joints) { return {bodies, 4 * bodies, 0, true, joints}; }
 
-/// Two bricks with a joint half-way between them, in space, that fly off turning.
+/// Two bricks in free space with a joint half-way between them, which move and rotate.
 struct Pair {
   Lab lab;
   BodyId a, b;

@@ -11,7 +11,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Nothing of an earlier tick is read: of bodies that do not move, in loops, or where points alone hold.
+/// A step reads no work space of an earlier tick: tested for bodies that do not move, for loops, and for joints that
+/// hold points only.
 DETENT_TEST(joint, what_the_work_space_holds_before_a_step_does_not_matter) {
   const auto fill = [](Lab& lab, uint8_t byte) {
     const Capacity capacity = get_info(lab.world).capacity;

@@ -7,7 +7,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// The least number of substeps that a joint is given whose squared number is at least this. 0: too close to tell.
+/// The least number of substeps whose square is at least this. 0: too close to a border to decide.
 uint32_t substeps_for(double squared) {
   for (const uint32_t n : {2u, 3u, 4u, 6u, 8u, 12u, 16u, 24u, 32u}) {
     if (n > 2 && fabs(squared / (n * n) - 1) < 0.01) return 0;
@@ -115,7 +115,8 @@ DETENT_TEST(joint, substeps_are_those_that_its_springs_its_loops_and_contacts_as
   EXPECT_EQ(chain(2, false, true), 4u);
 }
 
-/// Not one notch after the other, and down to the fewest: what keeps contacts from changing to and fro is not theirs.
+/// The number falls at once to the fewest that are needed, not entry by entry: the rule against alternating numbers is
+/// for contacts only.
 DETENT_TEST(joint, substeps_are_as_few_as_are_needed_once_fewer_have_done_for_8_ticks) {
   Lab lab(room(2, 1), weightless());
   const BodyId hub = add_shape(lab, box(reals(0.1, 0.1, 0.1)), 0, 0, 0, BodyType::fixed);

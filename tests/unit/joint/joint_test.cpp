@@ -6,7 +6,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// That each type holds what it holds, up to these errors; `substeps`: 0, as many as the world chooses.
+/// Checks that each type of joint holds its constraints, up to these errors. `substeps`: 0 for the number that the
+/// world chooses.
 void expect_held(uint32_t substeps, double metres, double radians) {
   for (const JointType type : k_joint_types) {
     SCOPED_TRACE(static_cast<int>(type));
@@ -65,10 +66,11 @@ void expect_held(uint32_t substeps, double metres, double radians) {
 
 DETENT_TEST(joint, each_type_holds_what_it_holds) { expect_held(4, 2e-3, 4e-3); }
 
-/// The bricks turn by 0.06 rad a tick: a hundredth of their size is all that needs no more substeps.
+/// The bricks rotate by 0.06 rad in a tick. The default number of substeps permits an error of a hundredth of their
+/// size.
 DETENT_TEST(joint, each_type_holds_to_a_hundredth_of_its_bodies_by_default) { expect_held(0, 1e-2, 1e-2); }
 
-/// What a pendulum that falls from level loses or gains in 30 s, of what it falls through.
+/// The energy that a pendulum released from horizontal loses or gains in 30 s, relative to the energy of its fall.
 double energy_lost(uint32_t substeps) {
   WorldDef def;
   def.substeps = substeps;
@@ -128,7 +130,7 @@ DETENT_TEST(joint, what_a_joint_gives_one_body_it_takes_from_the_other) {
   }
 }
 
-/// By a ball and a wheel, which together hold one motion twice: those rows may pull against each other, however hard.
+/// A ball joint and a wheel joint both constrain one motion: their rows may act against each other with any force.
 DETENT_TEST(joint, a_pair_that_is_held_twice_keeps_its_angular_momentum) {
   Lab lab(room(2, 2), weightless());
   const BodyId a = add_shape(lab, sphere(real(0.3)), 0, 0, 0), b = add_shape(lab, sphere(real(0.3)), 0.8, 0.2, 0.1);

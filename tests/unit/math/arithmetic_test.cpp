@@ -42,7 +42,7 @@ DETENT_TEST(arithmetic, differences_of_coordinates_are_exact) {
   EXPECT_EQ(unit_difference(b, a, 4), Unit(-0.015625));
   EXPECT_EQ(unit_difference(a, a, 0), Unit(0.0));
 #if !defined(DETENT_F64)
-  // One step of the coordinate, far away.
+  // One step of the coordinate, far from the origin.
   const Coord far = Coord(30000.0);
   const Coord next = Coord::from_raw(far.raw + 1);
   EXPECT_EQ(real_difference(next, far), scale_by_power(Real(1.0), -Coord::k_frac));

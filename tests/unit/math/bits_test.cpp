@@ -7,7 +7,8 @@
 #include "samples.h"
 #include "tests/support/test.h"
 
-/// One hash of every kernel's results over the same arguments, equal on every target, compiler and optimisation level.
+/// A hash of the results of every kernel for the same arguments. It is equal on every target, compiler and optimisation
+/// level.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 

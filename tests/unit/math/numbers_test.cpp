@@ -6,8 +6,9 @@
 #include "samples.h"
 #include "tests/support/test.h"
 
-/// Every kernel against MPFR, strided over its domain and at its edges. What has one 32-bit argument is swept in
-/// sweep_test.cpp; the bounds of the other inexact kernels are the largest errors seen here with a margin, not derived.
+/// Compares every kernel with MPFR, at regular intervals of its domain and at its edges. Kernels of one 32-bit argument
+/// are tested for all arguments in sweep_test.cpp. The bounds of the other inexact kernels are the largest errors found
+/// here plus a margin; they are not derived.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -403,7 +404,7 @@ DETENT_TEST(numbers, rotation_vectors_become_quaternions_and_return) {
     const Big half = angle * Big(0.5);
     const Big factor = oracle::sine(half) / angle;
     const Big3 v = big(theta);
-    // A float angle is itself rounded: by a step times its size.
+    // A float angle is itself rounded, by a step that is proportional to its size.
     const double angle_steps = DETENT_FIXED ? 1 : 1 + angle.number();
     (is_tiny ? tiny : forth)
         .take(std::max(oracle::distance(big(Vec3<Unit>{q.x, q.y, q.z}), {v.x * factor, v.y * factor, v.z * factor},
@@ -417,7 +418,7 @@ DETENT_TEST(numbers, rotation_vectors_become_quaternions_and_return) {
     const Big3 u = big(flip ? Vec3<Unit>{-p.x, -p.y, -p.z} : Vec3<Unit>{p.x, p.y, p.z});
     const Big size = oracle::length(u);
     if (size.number() == 0) continue;
-    // By the sine alone where the angle is small: that is what the quaternion holds best.
+    // From the sine alone where the angle is small, because the quaternion stores the sine more precisely there.
     Big true_angle = oracle::arc_tangent(size, big(flip ? -p.w : p.w));
     if (size.number() < 0.04) true_angle = oracle::apply<mpfr_asin>(size);
     const Big scale = Big(2.0) * true_angle / size;

@@ -11,7 +11,7 @@
 
 #include <mpfr.h>
 
-/// Proofs of error against MPFR, and the table of what they found.
+/// Error bounds of the kernels, checked against MPFR, and the table of the errors found.
 namespace detent_oracle {
 
 /// A real number to 300 bits.

@@ -34,7 +34,8 @@ DETENT_TEST(root, wide_roots_are_nearest) {
   for (int i = 0; i < 50000 && !testing::Test::HasFailure(); ++i) {
     const int64_t exact = static_cast<int64_t>(samples.magnitude(63));
     const PortableInt128 square = PortableInt128::product(exact, exact);
-    // root^2 - root < value <= root^2 + root has this nearest root: both ends, and a point between.
+    // All values with root^2 - root < value <= root^2 + root have this nearest root. Tests both ends and a point
+    // between.
     const PortableInt128 offset = PortableInt128::from(exact);
     const auto words = [](PortableInt128 a) { return Words128{static_cast<uint64_t>(a.high_word()), a.low_word()}; };
     EXPECT_EQ(square_root_nearest(words(square)), static_cast<uint64_t>(exact));
@@ -47,7 +48,7 @@ DETENT_TEST(root, wide_roots_are_nearest) {
   }
   EXPECT_EQ(square_root_nearest(Words128{UINT64_MAX, UINT64_MAX}), UINT64_MAX);
   EXPECT_EQ(square_root_nearest(Words128{uint64_t{1} << 62, 0}), uint64_t{1} << 63);
-  // Roots of 64 bits, above what a signed product makes: the ends of the interval around (2^64 - 2^k)^2.
+  // Roots of 64 bits, larger than those of signed products: the ends of the interval around (2^64 - 2^k)^2.
   for (int k = 1; k < 32; ++k) {
     const uint64_t root = uint64_t{0} - (uint64_t{1} << k);
     const Words128 square = {root - (uint64_t{1} << k), uint64_t{1} << (2 * k)};

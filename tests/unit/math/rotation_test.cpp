@@ -74,7 +74,7 @@ DETENT_TEST(rotation, the_matrix_and_the_quaternion_rotate_alike) {
 DETENT_TEST(rotation, rotation_vectors_return_from_their_quaternions) {
   Samples samples{64};
   for (int i = 0; i < 5000; ++i) {
-    // Of length below pi, down to the tiniest.
+    // Rotation vectors of length below pi, including very short ones.
     const int exponent = -static_cast<int>(samples.below(24));
     const Vec3<Unit> u = samples.uniforms();
     const Vec3<Real> theta = {real_from_unit(u.x, exponent), real_from_unit(u.y, exponent),

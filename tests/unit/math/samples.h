@@ -4,7 +4,7 @@
 
 #include "tests/support/random.h"
 
-/// Inputs for the number tests: a fixed sequence that mixes uniform numbers with the edges of every magnitude.
+/// Inputs for the number tests: a fixed sequence of uniform numbers and of numbers at the edges of every magnitude.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -14,7 +14,7 @@ struct Samples {
   uint64_t bits() { return detent_test::split_mix(state); }
   uint32_t below(uint32_t count) { return static_cast<uint32_t>(((bits() >> 32) * count) >> 32); }
 
-  /// Of any magnitude below 2^length_max; one in four is a power of two or its neighbour.
+  /// A number of random magnitude below 2^length_max; one in four is a power of two or next to one.
   uint64_t magnitude(int length_max) {
     const int length = static_cast<int>(below(static_cast<uint32_t>(length_max) + 1));
     if (length == 0) return 0;
@@ -37,7 +37,7 @@ struct Samples {
   Real real(int length = 63) { return Real::from_raw(integer(length)); }
   Unit uniform() { return Unit::from_raw(static_cast<int32_t>(bits() >> 33) - (1 << 30)); }
 #else
-  /// |.| < 1, of 2^-30 steps: exact products of integers and powers of two.
+  /// A number with |.| < 1, in steps of 2^-30: products with integers and powers of two are exact.
   Unit uniform() { return static_cast<Unit>(static_cast<int32_t>(bits() >> 33) - (1 << 30)) / Unit(1 << 30); }
   Unit fraction() { return static_cast<Unit>(integer(30)) / Unit(1 << 30); }
   Unit unit() { return static_cast<Unit>(integer(31) / 2) / Unit(1 << 29); }

@@ -16,8 +16,8 @@
 ///
 /// MPFR is too slow for 2^32 points. The sines come from two tables of 2^16 nodes each, computed by MPFR and rounded to
 /// the 64 bits of long double, and the addition theorem: error below 2^-61, so below 2^-30 of the unit in the table.
-/// The roots come from long double's own correctly rounded root. What is stated holds with that margin, which each
-/// bound has.
+/// The roots come from long double's own correctly rounded root. Each stated bound has room for the error of this
+/// reference.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -27,7 +27,7 @@ using oracle::Line;
 static_assert(__LDBL_MANT_DIG__ == 64, "the sweeps run on hosts with x87 long double");
 
 const char* how() { return oracle::is_full() ? "exhaustive" : "strided"; }
-/// Odd, so that all low bits are met.
+/// Odd, so that all values of the low bits occur.
 [[maybe_unused]] uint64_t stride() { return oracle::is_full() ? 1 : 4099; }
 [[maybe_unused]] std::string show_integer(int64_t a) { return oracle::format("%lld", static_cast<long long>(a)); }
 
@@ -40,7 +40,7 @@ struct SineTable {
   std::vector<Node> coarse;
   std::vector<Node> fine;
 
-  /// Of t 2^-34 turns: coarse steps of 2^-18 turns around zero, fine ones of 2^-34.
+  /// The sine of t 2^-34 turns is found from two tables: coarse steps of 2^-18 turns around zero, fine steps of 2^-34.
   SineTable() {
     for (int i = 0; i < 0x10000; ++i) {
       coarse.push_back(node(i - 0x8000, -18));
@@ -68,8 +68,8 @@ DETENT_TEST(sweep, the_table_of_sines_is_as_precise_as_the_sweep_needs) {
   }
 }
 
-// The kernel folds every angle to the nearest quarter turn, exactly: t is all that it depends on, and all t are all
-// angles of 2^-34 turns.
+// The kernel reduces every angle exactly to the nearest quarter turn. Its result depends on t alone, and all t cover
+// all angles, which are multiples of 2^-34 turns.
 DETENT_TEST(sweep, sines_and_cosines_of_all_angles_are_within_their_bound) {
   if (k_config == Config::fx32) GTEST_SKIP() << "the kernel and its bits are those of fx64";
   Line line{k_config_name,
@@ -94,7 +94,7 @@ DETENT_TEST(sweep, sines_and_cosines_of_all_angles_are_within_their_bound) {
     const long double error = std::max(fabsl(sine - truth.sine * k_scale), fabsl(cosine - truth.cosine * k_scale));
     line.take(static_cast<double>(error), [&] { return show_integer(t); });
   };
-  // f32 rounds the raw numbers that fx64's sweep proves: strided is enough.
+  // f32 rounds the raw numbers that the sweep in fx64 tests: a part of the arguments is enough.
   const uint64_t step = DETENT_FIXED ? stride() : 4099;
   for (int64_t t = INT32_MIN; t <= INT32_MAX; t += static_cast<int64_t>(step)) take(t);
   // The worst cases of the exhaustive sweep.

@@ -90,7 +90,7 @@ DETENT_TEST(wide, quotient_times_divisor_plus_remainder_is_the_numerator) {
     uint64_t remainder = 0;
     const uint64_t quotient = divide_128_by_64({high, low}, divisor, remainder);
     EXPECT_LT(remainder, divisor);
-    // The product of unsigned halves, by schoolbook, apart from the code under test.
+    // The product of unsigned halves by long multiplication, independent of the code under test.
     const uint64_t q1 = quotient >> 32, q0 = quotient & 0xffffffff, d1 = divisor >> 32, d0 = divisor & 0xffffffff;
     const uint64_t middle = q1 * d0 + ((q0 * d0) >> 32);
     const uint64_t other = q0 * d1 + (middle & 0xffffffff);

@@ -23,7 +23,7 @@ struct AngularVelocityState {
   double energy;            ///< over the mass
 };
 
-/// Of a box of these half extents.
+/// The angular velocity state of a box with these half extents.
 AngularVelocityState angular_velocity_of_box(Lab& lab, BodyId id, const Vector& half) {
   const Quaternion rotation = rotation_of(lab, id);
   const Motion motion = lab.motion(id);
@@ -41,10 +41,10 @@ AngularVelocityState angular_velocity_of_box(Lab& lab, BodyId id, const Vector& 
 }
 
 constexpr int k_racket_ticks = 10000;
-/// A quarter of them under an emulator.
+/// A quarter of the ticks under an emulator.
 int racket_ticks() { return detent_oracle::rounds(4) < 4 ? k_racket_ticks / 4 : k_racket_ticks; }
 
-/// Flips about the middle axis that Euler's equations give, by a fourth-order integration with a 50th of the step.
+/// The number of flips about the middle axis by Euler's equations, integrated to fourth order with 1/50 of the step.
 int flips_by_euler(const Vector& half, double aside) {
   double inertia[3], angular_velocity[3] = {aside, 10, aside};
   for (int i = 0; i < 3; ++i)
@@ -74,7 +74,7 @@ int flips_by_euler(const Vector& half, double aside) {
   return flips;
 }
 
-/// The spinning racket: a box thrown about its middle axis turns over again and again.
+/// The tennis racket effect: a box thrown with a rotation about its middle axis flips repeatedly.
 void throw_racket(double aside, int tolerance) {
   const Vector half = {{0.5, 0.2, 0.05}};
   WorldDef world;
@@ -109,9 +109,9 @@ DETENT_TEST(angular_velocity, about_the_middle_axis_flips_as_often_as_euler_says
   throw_racket(0.5, sizeof(Real) == 4 ? 1 : 0);
 }
 
-/// How long a flip waits depends on the logarithm of how exactly the angular velocity lies along the axis. Thrown so
-/// exactly that its energy is 3e-8 from never flipping, a rotation kept to 2^-31 decides: 74 flips come out as 68 to 80
-/// from one direction to another, with a float's as 74 to 104; with doubles they are 74.
+/// The time between flips depends on the logarithm of the angle between the angular velocity and the axis. In this
+/// throw the energy is within 3e-8 of the energy at which the box never flips, so a rotation stored to 2^-31 decides:
+/// the 74 flips become 68 to 80, depending on the direction, and 74 to 104 with floats; with doubles there are 74.
 DETENT_TEST(angular_velocity, about_the_middle_axis_flips_though_thrown_almost_exactly) {
   if (racket_ticks() == k_racket_ticks) {
     EXPECT_EQ(flips_by_euler({{0.5, 0.2, 0.05}}, 0.01), 74);
@@ -119,7 +119,8 @@ DETENT_TEST(angular_velocity, about_the_middle_axis_flips_though_thrown_almost_e
   throw_racket(0.01, sizeof(Real) == 4 ? 30 : DETENT_FIXED ? 6 : 0);
 }
 
-/// A needle's ends move fast while it tumbles: a split that treats all axes alike gives it a thousand times its energy.
+/// The ends of a slender rod move fast while it tumbles. An integrator that treats all axes alike would multiply its
+/// energy by a thousand.
 DETENT_TEST(angular_velocity, of_a_slender_rod_keeps_its_energy) {
   for (const double thickness : {0.02, 0.002}) {
     const Vector half = {{thickness / 2, 0.5, thickness / 2 * 1.25}};
@@ -141,7 +142,7 @@ DETENT_TEST(angular_velocity, of_a_slender_rod_keeps_its_energy) {
 }
 
 DETENT_TEST(angular_velocity, of_a_plank_at_rest_stays_none_however_slender_it_is) {
-  // So that the greatest inverse inertia, 1.5 / half^2, takes every power of two.
+  // Thicknesses for which the greatest inverse inertia, 1.5 / half^2, has every power of two.
   const double thickness[] = {0.5, 0.42, 0.35, 0.3};
   for (int halvings = 0; halvings < 5; ++halvings) {
     for (const double part : thickness) {
@@ -198,7 +199,7 @@ DETENT_TEST(speeds, that_leave_their_range_are_clamped_and_counted) {
   BodyMotion after = motion;
   EXPECT_EQ(clamp_speeds(ball, k_unturned, after), 0u);
   EXPECT_TRUE(after.linear_velocity == motion.linear_velocity && after.angular_momentum == motion.angular_momentum);
-  // Each component of the velocity counts.
+  // Each component of the velocity is counted.
   for (uint32_t beyond = 1; beyond < 8; ++beyond) {
     after = motion;
     uint32_t count = 0;
@@ -211,7 +212,7 @@ DETENT_TEST(speeds, that_leave_their_range_are_clamped_and_counted) {
     EXPECT_EQ(clamp_speeds(ball, k_unturned, after), count);
     EXPECT_TRUE(after.linear_velocity == motion.linear_velocity && after.angular_momentum == motion.angular_momentum);
   }
-  // An angular velocity beyond its range, beyond twice its range, and with a momentum beyond its own.
+  // Angular velocities beyond their range, beyond twice their range, and with an angular momentum beyond its range.
   const auto clamped = [&](double angular_momentum) {
     after = motion;
     after.angular_momentum = reals(0, 0, -angular_momentum);
@@ -220,7 +221,7 @@ DETENT_TEST(speeds, that_leave_their_range_are_clamped_and_counted) {
     return count;
   };
   EXPECT_EQ(clamped(1.5 * 32768 / inverse_inertia), 1u);
-  // What is left may be above the bound by its rounding, and is then clamped once more.
+  // The result may exceed the bound by its rounding, and is then clamped once more.
   EXPECT_LE(clamped(2.5 * 32768 / inverse_inertia), 2u);
   EXPECT_GE(clamped(66000), DETENT_FIXED ? 3u : 2u);
 }

@@ -9,7 +9,7 @@ namespace {
 // Errors of a sum over a few hundred ticks, relative to its largest part: the rounding of a velocity or a position at
 // each substep, in the same direction at worst.
 constexpr double k_sum_error = sizeof(Real) == 4 ? 2e-5 : 1e-8;
-// A position read back lacks the remainder that fx32 carries.
+// get_motion() returns the position without the remainder that fx32 stores.
 constexpr double k_position_step = sizeof(Coord) == 4 ? 0x1p-16 : 0;
 
 BodyDef ball(double radius, double x, double y) {
@@ -68,7 +68,7 @@ DETENT_TEST(flight, a_kinematic_wall_pushes_what_stands_before_it_and_is_not_slo
   lab.run(120);
   EXPECT_NEAR(lab.motion(pusher).position[0], 4, 100 * k_sum_error + k_position_step);
   EXPECT_EQ(lab.motion(pusher).linear_velocity[0], 2);
-  // One sweep a substep leaves a part of the push that undid the first overlap.
+  // With one sweep in a substep, a part of the velocity that separated the first overlap remains.
   EXPECT_NEAR(lab.motion(pushed).linear_velocity[0], 2, 0.02);
   EXPECT_NEAR(lab.motion(pushed).position[0] - lab.motion(pusher).position[0], 1, 0.05);
 }

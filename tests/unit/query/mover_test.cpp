@@ -10,7 +10,7 @@
 #include "tests/unit/shape/hull_bytes.h"
 #include "tests/unit/world/lab.h"
 
-/// A character among the bodies that it meets.
+/// Tests of a mover among bodies.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
@@ -48,7 +48,7 @@ struct Stage {
     return add_fixed(box(reals(half_x, half_y, half_z)), x, y, z, tilt, type);
   }
   void move(double x, double y, double z) { ASSERT_OK(move_mover(lab.world, settings, reals(x, y, z), mover, report)); }
-  /// One tick at a level speed, m/s, and falling.
+  /// One tick of movement at a horizontal velocity, m/s, with gravity.
   void walk(double x, double z = 0) {
     fall += 9.81 * k_tick;
     move(x * k_tick, -fall * k_tick, z * k_tick);
@@ -60,7 +60,7 @@ struct Stage {
   double x() const { return coord_to_host(mover.position.x); }
   double y() const { return coord_to_host(mover.position.y); }
   double z() const { return coord_to_host(mover.position.z); }
-  /// Whether it is deeper in anything than this, m.
+  /// Whether the mover penetrates a body by more than this, m.
   bool overlaps(double tolerance) {
     OverlapQuery query;
     query.shape = capsule(settings.radius - real(tolerance), settings.half_length);
@@ -318,7 +318,7 @@ DETENT_TEST(mover, passes_where_it_just_fits_and_says_where_it_is_squeezed) {
     deepest = fmax(deepest, real_to_host(press.report.overlap));
   }
   EXPECT_GT(deepest, 0.01);
-  // Pressed from -1.5 + 100 ticks on: the walls leave 0.33 m, and it is between them.
+  // The walls leave a gap of 0.33 m after 100 ticks from -1.5, and the mover is between them.
   EXPECT_NEAR(press.x(), (0.5 + (-1.5 + 100 * k_tick)) / 2, 0.1);
 }
 
@@ -374,7 +374,7 @@ DETENT_TEST(mover, gets_out_of_what_it_is_put_into) {
 }
 
 DETENT_TEST(mover, stops_at_what_cannot_be_asked) {
-  // A hull whose bytes the program no longer has is somewhere in its bounds.
+  // A hull whose bytes the program no longer provides may lie anywhere in its bounds.
   const Asset asset = {detent_hulls::k_prism, sizeof detent_hulls::k_prism};
   constexpr Capacity k_capacity = {4, 8, 1};
   std::vector<uint64_t> block(world_bytes(k_capacity) / 8);
@@ -439,7 +439,7 @@ DETENT_TEST(mover, refuses_what_is_out_of_range_and_changes_nothing) {
   EXPECT_EQ(refused({}, {Real(NAN), Real(0), Real(0)}, mover), Status::out_of_range);
   EXPECT_EQ(refused(set([](S& s) { s.radius = Real(NAN); }), none, mover), Status::out_of_range);
 #endif
-  // A ground that is no body is no ground.
+  // A ground id that names no body is ignored.
   wrong = mover;
   wrong.ground = {77, 3};
   ASSERT_OK(move_mover(stage.lab.world, {}, none, wrong, stage.report));
@@ -525,7 +525,7 @@ void furnish(Stage& stage, Samples& samples) {
   }
 }
 
-/// A room, and a walk through it. Returns the mover at its end.
+/// Builds a room and moves through it. Returns the mover at the end.
 Mover roam(uint64_t seed, int ticks, uint32_t& cut) {
   Stage stage;
   Samples samples = {seed};
@@ -555,7 +555,7 @@ Mover roam(uint64_t seed, int ticks, uint32_t& cut) {
   return stage.mover;
 }
 
-/// A room whose things are thrown about, against the mover too.
+/// A room whose bodies are thrown about, also at the mover.
 void be_thrown_at(uint64_t seed, uint32_t& pressed) {
   Stage stage;
   Samples samples = {seed};

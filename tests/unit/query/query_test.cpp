@@ -15,7 +15,7 @@
 #include "tests/oracle/bodies.h"
 #include "tests/unit/shape/hull_bytes.h"
 
-/// Queries against asking every body, one by one.
+/// Compares queries with a test of every body, one by one.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
@@ -116,7 +116,7 @@ Answer ask(Status (*call)(const World&, const Query&, QueryHits, QueryReport&), 
   return answer;
 }
 
-/// Every body that the filter lets through, as `hit_of(convex, pose, hit)` finds it, sorted.
+/// The hits of all bodies that the filter allows, as `hit_of(convex, pose, hit)` finds them, sorted.
 template <class HitOf>
 std::vector<QueryHit> ask_all(const World& world, const QueryFilter& filter, const HitOf& hit_of) {
   const StateView<const uint8_t> state = view_of(world);
@@ -197,7 +197,7 @@ void expect_same(const std::vector<QueryHit>& found, const std::vector<QueryHit>
   for (size_t i = 0; i < found.size(); ++i) ASSERT_TRUE(same(found[i], expected[i])) << "hit " << i;
 }
 
-/// All hits and the first one, in every world; they hold the same state. Returns how many there are.
+/// Compares all hits and the first hit in every world; the worlds have the same state. Returns the number of hits.
 template <class Query>
 size_t expect_answers(const std::vector<const World*>& worlds,
                       Status (*call)(const World&, const Query&, QueryHits, QueryReport&), const Query& query,
@@ -260,7 +260,7 @@ void expect_all_answers(Samples& samples, const std::vector<const World*>& world
   counts.bounds += expect_answers(worlds, query_bounds, bounds, ask_all(world, bounds));
 }
 
-/// One call that moves, makes or ends a body.
+/// One call that moves, creates, changes or destroys a body.
 void change(Samples& samples, Place& place, std::vector<BodyId>& ids) {
   const uint32_t what = samples.below(6);
   const BodyDef def = any_body(samples);
@@ -274,7 +274,7 @@ void change(Samples& samples, Place& place, std::vector<BodyId>& ids) {
   } else if (what == 2) {
     EXPECT_OK(set_pose(place.world, ids[which], def.position, def.rotation));
   } else {
-    // Refused where the body is not dynamic.
+    // These calls return an error if the body is not dynamic.
     Status status = what == 3 ? wake_body(place.world, ids[which]) : sleep_body(place.world, ids[which]);
     if (what == 5) status = set_gravity(place.world, reals_near({{0, uniform(samples, -12, -6), 0}}));
     static_cast<void>(status);
@@ -303,7 +303,7 @@ DETENT_TEST(query, answers_as_asking_every_body_does_whatever_the_world_keeps_of
       const std::vector<uint64_t> before = live.words;
       expect_all_answers(samples, {&live.world, &restored.world, &loaded.world, &forgets.world}, counts);
       ASSERT_TRUE(before == live.words) << "a query has changed the world";
-      // Now and then long enough for what lies still to fall asleep.
+      // Sometimes enough ticks for bodies at rest to fall asleep.
       for (uint32_t i = samples.below(8) == 0 ? 60 : 1; i > 0; --i) {
         const StepReport report = step(live.world);
         asleep += report.bodies - report.awake;
@@ -324,7 +324,7 @@ DETENT_TEST(query, what_is_grazed_within_the_tolerance_is_never_ruled_out_by_its
   size_t hits = 0, misses = 0;
   for (uint32_t round = 0; round < detent_oracle::rounds(600); ++round) {
     Place place({2, 1, 2});
-    // Thin and long ones have the largest tolerance for their bounds.
+    // Thin and long shapes have the largest tolerance of their bounds.
     const double size = exp2(uniform(samples, -3, 3)), thin = size * exp2(uniform(samples, -10, 0));
     const Shape shape =
         samples.below(2) == 0 ? box(reals_near({{size, thin, size}})) : cylinder(real_near(thin), real_near(size));
@@ -364,7 +364,7 @@ DETENT_TEST(query, an_undecided_answer_does_not_depend_on_what_the_world_keeps_e
     forgets.words = kept.words;
     forget_steps(forgets.world);
     for (int i = 0; i < 20; ++i) {
-      // Rods that turn hundreds of times on their way meet the caps.
+      // Rods that rotate hundreds of times during the cast reach the iteration caps.
       CastQuery cast;
       cast.shape = box(reals_near({{0.01, 1, 0.01}}));
       cast.position = any_position(samples, 8);
@@ -505,7 +505,8 @@ DETENT_TEST(query, hits_are_in_the_order_of_place_then_decision_then_slot_then_t
     alter(other);
     return other;
   };
-  // Each comes after `hit` by what it differs in first, though all that follows is smaller.
+  // Each altered hit comes after `hit` in the order, because of the first field that differs, although all later fields
+  // are smaller.
   const auto later = [&](auto alter) {
     QueryHit first = hit, second = hit;
     alter(first, second);

@@ -3,7 +3,7 @@
 
 #include "tests/unit/replay/match.h"
 
-/// A game for sessions: balls that are pushed about by their players, and make and destroy boxes.
+/// A game for session tests: players push balls about, and create and destroy boxes.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -11,7 +11,7 @@ inline constexpr uint32_t k_arena_input_bytes = 2, k_arena_players_max = 4;
 
 struct Arena {
   static constexpr Capacity k_capacity = {8, 16, 0, true, 1, 0};
-  /// What goes back with the world.
+  /// The state of the game that is rolled back together with the world.
   struct Score {
     uint32_t jumps[k_arena_players_max];
     uint32_t boxes;

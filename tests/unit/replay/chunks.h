@@ -3,7 +3,7 @@
 #include "match.h"
 #include "replay/format.h"
 
-/// A recording taken apart into its chunks, changed, and put together again with right checksums.
+/// Splits a recording into its chunks, so that a test can change them, and joins them again with correct checksums.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -53,7 +53,7 @@ inline Parts take_apart(const Bytes& recording) {
   return parts;
 }
 
-/// The chunks are numbered as they come, or by `sequences`.
+/// Numbers the chunks in their order, or by `sequences`.
 inline Bytes put_together(const Parts& parts, const std::vector<uint32_t>& sequences = {}) {
   Bytes bytes = parts.header;
   append(bytes, crc32(bytes.data(), static_cast<uint32_t>(bytes.size())), k_checksum_bytes);

@@ -6,7 +6,7 @@ inline namespace DETENT_NAMESPACE {
 
 namespace {
 
-/// A clean refusal: a status of the list, a field's name, and a place inside the file.
+/// Checks an error of the player: a documented status, the name of a field, and an offset inside the file.
 void expect_clean(const ReplayError& error, size_t file_bytes) {
   const Status status = error.status;
   EXPECT_TRUE(status == Status::not_detent || status == Status::format_unknown || status == Status::corrupt ||

@@ -21,7 +21,7 @@ struct Made {
   }
 };
 
-/// A ball that falls, and after some ticks another shape.
+/// Records a ball that falls, and after some ticks another shape.
 Bytes record_with(const FeatureTable& features, const Shape& later) {
   Made made(features);
   MemorySink memory;
@@ -71,7 +71,7 @@ DETENT_TEST(replay_features, a_recording_of_a_world_that_had_more_is_refused_at_
 DETENT_TEST(replay_features, a_call_that_needs_what_its_seed_had_not_is_refused_by_name) {
   Bytes lean = record_with(feature_table<k_balls | Features::box>, box({0.5, 0.5, 0.5}));
   Parts parts = take_apart(lean);
-  // The seed says that boxes were left out.
+  // The seed chunk then states that the feature `box` was left out.
   parts.chunks[0].payload[28] |= static_cast<uint8_t>(Features::box);
   const ReplayError error = replay_with(feature_table<k_balls>, put_together(parts));
   EXPECT_EQ(error.status, Status::feature_missing);

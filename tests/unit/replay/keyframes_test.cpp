@@ -46,7 +46,7 @@ uint32_t first_keyframe(const Parts& parts) {
   return index;
 }
 
-/// The bytes in which `changed` can be sought.
+/// Checks that go_to() fails on `changed` with this status and field.
 void expect_go_to_fails(const Bytes& changed, uint64_t tick, Status status, const char* field) {
   Opened opened(changed);
   OwnedWorld owned(opened.player.info().capacity);

@@ -9,7 +9,8 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// What one machine sends another: inputs from the first that the other lacks on, and how its states were.
+/// A message from one machine to another: the inputs from the first one that the receiver lacks, and checksums of the
+/// sender's states.
 struct Packet {
   uint32_t player = 0;  ///< whose they are
   uint64_t target = 0;  ///< the first tick of which the sender lacks the receiver's input
@@ -18,7 +19,7 @@ struct Packet {
   std::vector<TickChecksum> checksums;
 };
 
-/// One way from a machine to another: it loses, delays, reorders and doubles what is sent.
+/// A one-way connection between two machines. It loses, delays, reorders and duplicates packets.
 class Link {
  public:
   Link(uint64_t seed, double loss, uint32_t delay_max) : random_(seed), loss_(loss), delay_max_(delay_max) {}

@@ -15,7 +15,7 @@ inline namespace DETENT_NAMESPACE {
 
 using Bytes = std::vector<uint8_t>;
 
-/// A sink that keeps what it is given, and fails from its `writes_max`-th write on.
+/// A sink that stores the bytes it gets, and fails from its `writes_max`-th write on.
 struct MemorySink {
   Bytes bytes;
   uint32_t writes = 0;
@@ -98,7 +98,7 @@ inline Bytes record_scene(const Scene& scene, uint32_t ticks, const RecordingDef
   return recording.memory.bytes;
 }
 
-/// Two balls on a half-space that meet within `ticks`: the smallest recording that holds a bit of all.
+/// A small recording: two balls on a half-space that meet within `ticks`.
 inline Bytes record_small(uint32_t ticks, const RecordingDef& def = {}) {
   Recording recording(OwnedWorld::def_of({3, 3, 0}));
   Recorder& recorder = recording.recorder;

@@ -15,7 +15,7 @@ struct Asked {
   QueryHits room() { return {hit, 2}; }
 };
 
-/// One query of each kind, of a ball on the ground and all around it.
+/// One query of each kind, about a ball on the ground and its surroundings.
 void ask_all(Recorder& recorder) {
   Asked asked;
   RayQuery ray = {k_above, k_down};
@@ -47,7 +47,7 @@ void ask_all(Recorder& recorder) {
   EXPECT_EQ(recorder.query_ray(ray, asked.room(), asked.report), Status::out_of_range) << "and is not recorded";
 }
 
-/// A ball falls and comes to rest, and is asked for before some ticks and at the end.
+/// A ball falls and comes to rest. Queries are recorded before some ticks and at the end.
 Bytes record_queries(bool asks = true) {
   Recording recording(OwnedWorld::def_of({2, 3, 0}));
   Recorder& recorder = recording.recorder;
@@ -98,7 +98,8 @@ DETENT_TEST(replay_queries, are_repeated_with_the_same_answers_or_passed_over) {
 }
 
 DETENT_TEST(replay_queries, another_answer_is_found_at_the_query) {
-  // The ball is asked for before another tick is compared: no digest is recorded.
+  // The query's answer shows the change first: the recording has no digest of the state between the change and the
+  // query.
   const auto repeat_with = [](Coord x) {
     return repeat(record_queries(), [x](World& world, uint64_t tick) {
       if (tick == 29) {

@@ -7,7 +7,7 @@ inline namespace DETENT_NAMESPACE {
 
 namespace {
 
-/// The whole part of `bytes` and an end, as a recording of its own; empty if there is none to recover.
+/// The valid part of `bytes` and an end chunk, as a recording; empty if nothing can be recovered.
 Bytes recover(const Bytes& bytes, ReplayError& error) {
   MemorySource memory{&bytes};
   uint8_t buffer[k_recording_buffer_bytes];

@@ -67,7 +67,7 @@ struct Machine {
     return packet;
   }
 
-  /// Holds what it does for a while, as players do.
+  /// Holds each input for some ticks, as players do.
   void play_one() {
     if (session.next_input(player) <= session.tick() + player % 3) {
       if (random.chance(0.2)) held[0] = static_cast<uint8_t>(random.below(32));
@@ -91,7 +91,7 @@ class Match {
     for (uint32_t i = 0; i < players * players; ++i) links_.emplace_back(seed * 64 + i, loss, 6);
   }
 
-  /// Until all have made so many ticks and know all inputs of them.
+  /// Plays until all machines have made this number of ticks and know all inputs of them.
   void play(uint64_t ticks) {
     for (uint64_t round = 0; round < 20 * ticks + 1000; ++round) {
       bool done = true;
@@ -111,7 +111,7 @@ class Match {
   uint32_t count() const { return static_cast<uint32_t>(machines.size()); }
   Link& link(uint32_t from, uint32_t to) { return links_[from * count() + to]; }
 
-  /// What a machine does in a frame.
+  /// The work of a machine in one frame.
   void pass(Machine& machine, uint64_t round, uint64_t ticks) {
     for (uint32_t other = 0; other < count(); ++other) {
       for (const Packet& packet : link(other, machine.player).receive(round)) machine.take(packet);
@@ -132,7 +132,7 @@ class Match {
   std::vector<Link> links_;
 };
 
-/// The inputs of all, in a world that never went back.
+/// The digest of a world that makes all ticks with the inputs of all players, without rollback.
 uint64_t straight(const Match& match, uint64_t ticks) {
   const uint32_t players = static_cast<uint32_t>(match.machines.size());
   Arena arena(players);

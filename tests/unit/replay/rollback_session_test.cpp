@@ -6,7 +6,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// A session of this machine's player 0 and others.
+/// A session in which this machine is player 0.
 struct Table {
   Arena arena;
   RollbackDef def;
@@ -124,7 +124,7 @@ DETENT_TEST(rollback_session, inputs_are_kept_as_long_as_another_may_ask_and_non
   EXPECT_EQ(table.hear(1, oldest + room, 1), Status::out_of_range);
   EXPECT_OK(table.hear(1, oldest + room - 1, 1));
   EXPECT_OK(table.session.get_input(1, oldest, input));
-  // So are checksums, which share a place likewise.
+  // Checksums that share a place in the ring are refused in the same way.
   EXPECT_EQ(table.session.add_checksum(1, {100 - room - 1, 0}), Status::out_of_range) << "no longer kept here";
   EXPECT_OK(table.session.add_checksum(1, {84 + room, 0}));
   EXPECT_EQ(table.session.add_checksum(1, {84, 0}), Status::out_of_range) << "a later one is there";

@@ -6,7 +6,7 @@ inline namespace DETENT_NAMESPACE {
 
 namespace {
 
-/// Writes, reads and writes again: the bytes are equal, and no shorter piece of them is accepted.
+/// Writes, reads and writes a command again. The bytes must be equal, and no shorter prefix of them may be accepted.
 template <class Command>
 void expect_round_trip(Command command) {
   Normaliser normaliser;

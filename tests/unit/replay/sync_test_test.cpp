@@ -6,7 +6,7 @@ namespace {
 
 constexpr uint32_t k_ticks = 20, k_players = 2;
 
-/// Inputs that push, jump, and make and destroy boxes.
+/// Inputs that push, jump, and create and destroy boxes.
 Bytes inputs_of(uint32_t seed) {
   Bytes inputs(k_ticks * k_players * k_arena_input_bytes);
   for (size_t i = 0; i < inputs.size(); ++i) {
@@ -44,7 +44,7 @@ DETENT_TEST(sync_test, agrees_where_the_state_alone_decides) {
   EXPECT_GT(test.arena.score.boxes, 0u);
 }
 
-/// A game that counts where nothing goes back.
+/// A game with a counter that is not rolled back, which is a fault.
 struct Forgetful {
   Arena& arena;
   uint32_t calls = 0;

@@ -52,7 +52,7 @@ Bytes record_traced(const TraceDef* trace, const StepObserver* observer = nullpt
   return recording.memory.bytes;
 }
 
-/// The trace's bytes of each tick, by the number that is completed with it.
+/// The bytes of each tick's trace, by the number of the tick.
 std::vector<Bytes> traces_of(const Bytes& recording, uint32_t type) {
   std::vector<Bytes> traces(22);
   for (const Chunk& chunk : take_apart(recording).chunks) {
@@ -114,7 +114,7 @@ DETENT_TEST(trace, a_traced_recording_is_replayed_like_any_other_and_holds_the_s
     EXPECT_EQ(traced.digest, plain.digest);
     Parts parts = take_apart(recording);
     EXPECT_EQ(little_endian(parts.header.data() + 32, 4), static_cast<uint32_t>(level));
-    // Without the trace it is the plain recording, but for the borders of chunks.
+    // Without the trace chunks it is the plain recording, except for the borders between chunks.
     std::vector<Chunk> rest;
     for (const Chunk& chunk : parts.chunks) {
       if (chunk.type != k_stages && chunk.type != k_state) rest.push_back(chunk);

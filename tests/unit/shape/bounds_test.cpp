@@ -5,8 +5,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// half_bounds against the farthest points of the solid along the world's axes: it contains them, and by no more than
-/// the stated rounding. In floats, where nothing is stated, 16 steps.
+/// Compares half_bounds with the extreme points of the solid along the world's axes. The bounds contain these points,
+/// and exceed them by no more than the stated rounding; in floats, for which nothing is stated, by 16 steps.
 void expect_tight(const BodyProperties& properties, const Quat& rotation) {
   const double error = unit_of(properties) * (DETENT_FIXED ? 0x1p-28 : unit_steps(16));
   OracleBody body = {{}, properties};

@@ -55,7 +55,8 @@ DETENT_TEST(compound, is_read_as_it_was_cooked) {
   EXPECT_NEAR(ldexp(info.volume_mantissa, info.volume_exponent), volume, 1e-7 * volume);
 }
 
-/// Of the L: two boxes by Steiner's theorem, in the plane turned by the angle that its product vanishes at.
+/// The mass properties of the L: two boxes by the parallel axis theorem, rotated in the plane by the angle at which the
+/// product of inertia vanishes.
 DETENT_TEST(compound, mass_is_that_of_its_parts) {
   const Bytes bytes = cooked(detent_compounds::letter_l());
   CompoundView compound;
@@ -126,8 +127,8 @@ DETENT_TEST(compound, every_flipped_bit_is_refused) {
   }
 }
 
-/// Under a right checksum only what is not checked against the children gets in: volume, inverse inertia, origin,
-/// rotation.
+/// With a correct checksum, only a changed value that is not checked against the children is accepted: volume, inverse
+/// inertia, origin, rotation.
 DETENT_TEST(compound, every_flipped_bit_under_a_right_checksum_is_refused_or_harmless) {
   Bytes bytes = cooked(mixed());
   uint32_t let_in = 0;
@@ -140,7 +141,7 @@ DETENT_TEST(compound, every_flipped_bit_under_a_right_checksum_is_refused_or_har
     if (read_compound(asset_of(bytes), compound) == Status::ok) {
       ++let_in;
       const uint32_t at = bit / 8;
-      // A ball or capsule may move within the bounds, if it is not the one that they come from.
+      // A ball or capsule may move within the bounds, unless the bounds depend on it.
       EXPECT_TRUE((at >= k_compound_volume_at && at < k_compound_rotation_at + 16) ||
                   (at >= k_compound_header_bytes + 2 * k_compound_child_bytes && at < children_end))
           << bit;

@@ -17,7 +17,7 @@ inline Part box(detent_cook::Point centre, detent_cook::Point half, double round
   return {Part::Kind::hull, detent_cook::box_points(centre, half, {0, 0, 0, 1}), rounding, 1};
 }
 
-/// A foot of 2 by 0.5 by 1 m and an upright of 0.5 by 1.5 by 1 m on its left end; the foot's underside at y = 0.
+/// A base of 2 by 0.5 by 1 m with its underside at y = 0, and an upright of 0.5 by 1.5 by 1 m on its left end.
 inline Parts letter_l() { return {box({0, 0.25, 0}, {1, 0.25, 0.5}), box({-0.75, 1.25, 0}, {0.25, 0.75, 0.5})}; }
 /// A top of 2 by 0.1 by 2 m at y from 0.9 to 1 m, on four legs of 0.1 by 0.9 by 0.1 m at its corners.
 inline Parts table() {
@@ -29,7 +29,7 @@ inline Parts table() {
 }
 /// Two balls of radius 0.5 m at x = -1 and 1 m, on a bar.
 inline Parts dumbbell() { return {ball(-1, 0, 0, 0.5), ball(1, 0, 0, 0.5), capsule({-1, 0, 0}, {1, 0, 0}, 0.1)}; }
-/// Three capsules across each other.
+/// Three capsules at right angles that cross at the origin.
 inline Parts jack(double half, double radius) {
   return {capsule({-half, 0, 0}, {half, 0, 0}, radius), capsule({0, -half, 0}, {0, half, 0}, radius),
           capsule({0, 0, -half}, {0, 0, half}, radius)};

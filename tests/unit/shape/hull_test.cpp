@@ -19,7 +19,8 @@ namespace {
 using detent_hulls::k_prism;
 using detent_hulls::k_tetrahedron;
 
-/// Bytes at an address that is a multiple of 8, of their own size alone, so that a sanitizer sees what lies beyond.
+/// Bytes at an address that is a multiple of 8, in an allocation of exactly their size, so that a sanitizer detects
+/// reads beyond it.
 class Bytes {
  public:
   template <uint32_t n>
@@ -48,7 +49,7 @@ int64_t along(const HullView& hull, uint32_t vertex, const int32_t (&direction)[
          int64_t{direction[2]} * hull.z(vertex);
 }
 
-/// Where climbing along neighbours ends.
+/// The vertex at which hill climbing over neighbours ends.
 uint32_t climb(const HullView& hull, uint32_t vertex, const int32_t (&direction)[3]) {
   for (;;) {
     uint32_t best = vertex;
@@ -61,7 +62,7 @@ uint32_t climb(const HullView& hull, uint32_t vertex, const int32_t (&direction)
   }
 }
 
-/// Exactly: by the 2 by 2 minors of the differences from `vertex`.
+/// Exact test, by the 2 by 2 minors of the differences from `vertex`.
 bool is_above(const HullView& hull, uint32_t vertex, uint32_t a, uint32_t b, uint32_t c) {
   const auto x = [&](uint32_t i) { return int64_t{hull.x(i)} - hull.x(vertex); };
   const auto y = [&](uint32_t i) { return int64_t{hull.y(i)} - hull.y(vertex); };
@@ -72,7 +73,7 @@ bool is_above(const HullView& hull, uint32_t vertex, uint32_t a, uint32_t b, uin
   return term(a, b, c) + term(b, c, a) + term(c, a, b) < Int128::from(0);
 }
 
-/// What accepted bytes promise to whoever uses them; the bytes may be hostile.
+/// The first property that accepted bytes violate, although read_hull() guarantees it. The bytes may be hostile.
 std::string broken_promise(const HullView& hull, Samples& samples) {
   for (uint32_t i = 0; i < hull.vertex_count; ++i) {
     const int64_t x = hull.x(i), y = hull.y(i), z = hull.z(i);
@@ -140,7 +141,7 @@ DETENT_TEST(hull, of_a_tetrahedron_reads_as_it_was_cooked) {
   EXPECT_NEAR(hull.core_radius(), 0.82915619758885 * 0x1p30, 2);  // sqrt(11) / 4
   const double volume = hull.volume().mantissa * exp2(hull.volume().exponent);
   EXPECT_NEAR(volume, 1.0 / 6, 1e-8);
-  // Second moments about the centre: 3/80 along the axes of the source, -1/80 between them: 1/80 along (1, 1, 1) and
+  // Second moments about the centre: 3/80 along the axes of the source, products -1/80; so 1/80 along (1, 1, 1) and
   // 4/80 across.
   double inverse_inertia[3];
   for (uint32_t axis = 0; axis < 3; ++axis)
@@ -349,7 +350,7 @@ DETENT_TEST(hull, mirrored_or_with_a_vertex_pushed_in_is_refused) {
   }
 }
 
-/// Alters a prism by `alter`, gives it a right checksum, and expects it to be refused.
+/// Alters a prism by `alter`, gives it a correct checksum, and expects it to be refused.
 template <class Alter>
 void expect_corrupt(const char* what, const Alter& alter) {
   Bytes bytes(k_prism);

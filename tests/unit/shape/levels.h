@@ -5,13 +5,13 @@
 #include "tests/support/data_file.h"
 #include "tests/unit/shape/terrains.h"
 
-/// Real levels, of the public data sets under $DETENT_DATA.
+/// Levels of games, from public data sets under $DETENT_DATA.
 namespace detent_terrains {
 
 inline constexpr const char* k_levels[] = {"building.obj", "stairs.obj", "conveyor.obj", "test_map01.obj",
                                            "voxel_mesh_01.obj"};
 
-/// False if it is not at hand.
+/// Returns false if the level is not available.
 inline bool read_level(const char* name, Source& source) {
   const std::string text = detent_test::data_file(std::string("meshes/") + name);
   if (text.empty()) return false;

@@ -6,7 +6,7 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 constexpr double k_pi = 3.14159265358979323846;
-// What shape_properties.h states; in floats, where it states nothing, 16 roundings.
+// The error that shape_properties.h states; in floats, for which it states nothing, 16 roundings.
 constexpr double k_volume_error = DETENT_FIXED ? 0x1p-26 : 16 * (sizeof(Real) == 4 ? 0x1p-24 : 0x1p-52);
 constexpr double k_inverse_inertia_error = DETENT_FIXED ? 0x1p-24 : 16 * (sizeof(Real) == 4 ? 0x1p-24 : 0x1p-52);
 

@@ -55,7 +55,7 @@ DETENT_TEST(mesh, every_flipped_bit_is_refused) {
   }
 }
 
-/// What is let in is walked through: a verifying build stops at an index that is none.
+/// Accepted meshes are traversed: a build with range checks stops at an invalid index.
 DETENT_TEST(mesh, every_flipped_bit_under_a_right_checksum_is_refused_or_harmless) {
   Bytes bytes = cooked(ground(3, 1, bump));
   uint32_t let_in = 0;
@@ -77,12 +77,12 @@ DETENT_TEST(mesh, every_flipped_bit_under_a_right_checksum_is_refused_or_harmles
     }
     bytes.data()[bit / 8] = static_cast<uint8_t>(bytes.data()[bit / 8] ^ 1u << (bit % 8));
   }
-  // Materials, the side, the exponent, and small moves of vertices.
+  // Accepted changes: materials, the side flag, the exponent, and small displacements of vertices.
   EXPECT_GT(let_in, 18u * 8);
   EXPECT_LT(let_in, 18u * 8 + 32 + 16 * 3 * 31);
 }
 
-/// Returns what read_mesh() says of the bytes with another word at `at`.
+/// Returns the result of read_mesh() for the bytes with another word at `at`.
 Status read_with(Bytes& bytes, uint32_t at, uint32_t word) {
   const Bytes before = bytes;
   for (uint32_t k = 0; k < 4; ++k) bytes.data()[at + k] = static_cast<uint8_t>(word >> (8 * k));
@@ -103,7 +103,7 @@ DETENT_TEST(mesh, with_edges_that_contradict_its_triangles_is_refused) {
         const uint32_t corner_at = mesh.triangles_at + k_mesh_triangle_bytes * i + 4 * k, edge_at = corner_at + 12;
         const uint32_t word = mesh.word(i, 3 + k), corner = mesh.word(i, k);
         ASSERT_OK(read_with(bytes, edge_at, word));
-        // Any other neighbour or kind of edge.
+        // Every other neighbour or kind of edge.
         for (uint32_t kind = 0; kind < 5; ++kind) {
           for (uint32_t other = 0; other <= mesh.triangle_count + 1; ++other) {
             const uint32_t neighbour = other > mesh.triangle_count ? k_mesh_index_mask : other;
@@ -130,7 +130,7 @@ DETENT_TEST(mesh, with_a_third_triangle_on_an_edge_is_refused) {
   const uint32_t a = add_vertex(source, 0, 0, 0), b = add_vertex(source, 1, 0, 0);
   add_triangle(source, a, b, add_vertex(source, 0, 1, 0));
   add_triangle(source, b, a, add_vertex(source, 0, -1, 0));
-  // Apart from the other two until its bytes are replaced.
+  // This triangle is separate from the other two until its bytes are replaced.
   add_triangle(source, add_vertex(source, 4, 0, 0), add_vertex(source, 5, 0, 0), add_vertex(source, 4, 0, 1));
   Bytes bytes = cooked(source);
   MeshView mesh;
@@ -149,7 +149,7 @@ DETENT_TEST(mesh, with_a_third_triangle_on_an_edge_is_refused) {
       second = i;
   }
   ASSERT_LT(third, 3u);
-  // The third triangle becomes a copy of one of the others, and the bounds of the leaf follow.
+  // Replaces the third triangle by a copy of one of the others, and updates the bounds of the leaf.
   std::vector<uint8_t> copy(bytes.data() + mesh.triangles_at + k_mesh_triangle_bytes * second,
                             bytes.data() + mesh.triangles_at + k_mesh_triangle_bytes * (second + 1));
   memcpy(bytes.data() + mesh.triangles_at + k_mesh_triangle_bytes * third, copy.data(), copy.size());

@@ -1,7 +1,8 @@
 #include "tests/oracle/bodies.h"
 #include "tests/oracle/step_motion.h"
 
-/// How far the motion of a step is from other motions between the same poses, against closed forms.
+/// Compares the motion of a step with other motions between the same poses. The differences are compared with closed
+/// forms.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
@@ -9,20 +10,21 @@ namespace {
 using namespace detent_oracle;
 
 constexpr double k_radius = 1;  ///< m
-/// What a pose of the library's is off, m and rad: of the sweep's rotation, and of a position some metres away.
+/// The error of a pose that the library computes, m and rad: of the sweep's rotation, and of a position some metres
+/// away.
 constexpr double k_pose_error = k_config == Config::f64    ? 1e-13
                                 : k_config == Config::fx64 ? 0x1p-25
                                 : k_config == Config::fx32 ? 0x1p-15
                                                            : 0x1p-19;
 constexpr double k_angle_error = k_config == Config::f64 ? 1e-13 : k_config == Config::f32 ? 0x1p-20 : 0x1p-26;
-/// The greatest of samples is less than the greatest by this part.
+/// The largest of the sampled values is less than the true maximum by up to this fraction.
 constexpr double k_sampling = 1e-4;
 
 void expect_near(double measured, double right, double error) {
   EXPECT_NEAR(measured, right, error + right * k_sampling);
 }
 
-/// A body that turns by `angle` about an axis `lever` away from it, and moves along that axis.
+/// A body that rotates by `angle` about an axis at the distance `lever`, and moves along that axis.
 PosesOfStep random_poses(Samples& samples, double angle, double lever) {
   PosesOfStep poses;
   const Vector axis = any_direction(samples), other = any_direction(samples);
@@ -35,7 +37,7 @@ PosesOfStep random_poses(Samples& samples, double angle, double lever) {
   return poses;
 }
 
-/// What is the same at every angle is asked at these, with three levers.
+/// Calls `ask` for each of these angles and three levers.
 template <class Ask>
 void at_all_angles(uint64_t seed, const Ask& ask) {
   Samples samples = {seed};

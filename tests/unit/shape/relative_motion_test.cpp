@@ -1,7 +1,8 @@
 #include "tests/oracle/bodies.h"
 #include "tests/oracle/step_motion.h"
 
-/// The motion of one body as another sees it, both in a step: what DESIGN.md proves of it, of the library's own poses.
+/// The motion of one body in the frame of another, both in a step. Tests what DESIGN.md proves about it with the
+/// library's own poses.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
@@ -9,15 +10,16 @@ namespace {
 using namespace detent_oracle;
 
 constexpr int k_parts = 16;  ///< of the step
-/// What an angular velocity and a velocity found from two poses a part apart is off, rad and m over the step.
+/// The error, rad and m over the step, of an angular velocity and a velocity computed from two poses that are one part
+/// of the step apart.
 constexpr double k_angular_velocity_error = k_parts * (k_config == Config::f64   ? 1e-13
                                                        : k_config == Config::f32 ? 0x1p-20
                                                                                  : 0x1p-26);
 constexpr double k_velocity_error = k_angular_velocity_error * 4 + k_parts * (k_config == Config::fx32 ? 0x1p-14 : 0);
-/// What changes changes by more, in the pairs that are drawn.
+/// A quantity that is not constant changes by more than this in the random pairs.
 constexpr double k_least_change = 0.03;
 
-/// Constant velocities in the world, over a step.
+/// Two bodies with constant velocities in the world, over a step.
 struct Pair {
   PosesOfStep a, b;
 };
@@ -38,7 +40,7 @@ Placed relative_at(const Pair& pair, double time) {
   return {to_axes(a.rotation, b.position - a.position), normalised(conjugate(a.rotation) * b.rotation)};
 }
 
-/// Over one part of the step, in A's frame, as if it lasted for all of it.
+/// Velocities in A's frame over one part of the step, scaled to the whole step.
 struct Velocities {
   Vector angular_velocity, linear;
 };
@@ -64,7 +66,7 @@ Change change_of(const Pair& pair) {
   return change;
 }
 
-/// How far the motion strays from the screw between its first pose and its last.
+/// The largest distance between the motion and the screw from its first pose to its last.
 double off_screw(const Pair& pair) {
   const Placed first = relative_at(pair, 0), last = relative_at(pair, 1);
   const PosesOfStep poses = {first, last.position - first.position,
@@ -78,7 +80,7 @@ Vector any_vector(Samples& samples, double low, double high) {
   const double size = uniform(samples, low, high);
   return any_direction(samples) * size;
 }
-/// Of a length between 0.5 and 1.2, at an angle of 0.5 rad at least to `other`.
+/// A random vector of length 0.5 to 1.2, at an angle of at least 0.5 rad to `other`.
 Vector any_vector_beside(Samples& samples, const Vector& other) {
   for (;;) {
     const Vector v = any_vector(samples, 0.5, 1.2);
@@ -93,7 +95,7 @@ Vector any_along(Samples& samples, const Vector& axis) {
 
 const Vector k_none = {{0, 0, 0}};
 
-/// With angular velocities, the way from A to B and the difference of their velocities as they are given.
+/// A pair with these angular velocities, this vector from A to B and this difference of velocities.
 Pair pair_of(Samples& samples, const Vector& angular_velocity_a, const Vector& angular_velocity_b,
              const Vector& displacement, const Vector& linear_velocity) {
   Pair pair;
@@ -138,7 +140,8 @@ DETENT_TEST(relative_motion, has_constant_angular_velocity_if_the_spins_are_para
               k_angular_velocity_error);
     EXPECT_LE(change_of(pair_of(samples, k_none, angular_velocity, displacement, linear_velocity)).angular_velocity,
               k_angular_velocity_error);
-    // The angular velocity turns back about A's by A's angle, so the first and the last differ by a chord.
+    // In A's frame the relative angular velocity rotates back by A's angle, so the difference of the first and the last
+    // is a chord.
     const double change =
         change_of(pair_of(samples, angular_velocity, beside, displacement, linear_velocity)).angular_velocity;
     const double rate = length(cross(angular_velocity, beside)),

@@ -20,7 +20,8 @@ BodyProperties hull_properties(uint32_t asset, double rounding) {
   return properties;
 }
 
-/// Of a solid of revolution about y, by slices: `radius_at` is linear, so Gauss's three points are exact.
+/// The volume and moments of a solid of revolution about y, by slices. `radius_at` is linear, so Gaussian quadrature
+/// with three points is exact.
 struct Revolved {
   double volume = 0, along = 0, across = 0;  ///< moments over the volume
 
@@ -120,7 +121,7 @@ double box_extent_of(const BodyProperties& properties, const Quat& rotation, int
   return sum * unit_of(properties);
 }
 
-/// The greatest distance along a world axis, either way, of a core point; and of the ball.
+/// The greatest distance of a core point along a world axis, in either direction; and the radius of the ball.
 double extent_of(const BodyProperties& properties, const Quat& rotation, int axis) {
   const Vector size = host(properties.size) * unit_of(properties);
   Vector local;

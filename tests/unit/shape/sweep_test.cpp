@@ -8,14 +8,14 @@ namespace {
 constexpr double k_turn = 6.283185307179586476925;
 const Vec3<Real> k_still = {Real(0.0), Real(0.0), Real(0.0)};
 
-/// The largest difference of a component, of q and the nearer of +-r.
+/// The largest difference of a component between q and the nearer of +-r.
 double distance(const Quaternion& q, const Quaternion& r) {
   const double s = q.x * r.x + q.y * r.y + q.z * r.z + q.w * r.w < 0 ? -1 : 1;
   return fmax(fmax(fabs(q.x - s * r.x), fabs(q.y - s * r.y)), fmax(fabs(q.z - s * r.z), fabs(q.w - s * r.w)));
 }
 
-// What sweep.h states of sweep_end_rotation; in floats, which it does not name, the steps of rotation_from_vector and
-// of the product after it.
+// The error that sweep.h states for sweep_end_rotation. It states nothing for floats: there, the steps of
+// rotation_from_vector and of the product after it.
 constexpr double k_end_error = DETENT_FIXED ? 4.0 : 8.0;
 
 /// Steps within which sweep_end_rotation comes back to the end that the sweep was made from: the errors of
@@ -26,7 +26,7 @@ double goal_error(double angle) {
   return back_and_forth + k_normalise_length_error * angle / 2;
 }
 
-/// All in steps of a Unit, and at most 1 where it is within what is expected.
+/// The largest errors, in steps of a Unit; the value is at most 1 if it is within the expected bound.
 struct Worst {
   double end = 0;   ///< sweep_end_rotation from the sweep's true end, over its bound
   double size = 0;  ///< its length from 1, over its bound
@@ -40,7 +40,7 @@ Worst measure(uint64_t seed, uint32_t count, double turns_low, double turns_high
   Worst worst;
   for (uint32_t i = 0; i < count; ++i) {
     const Quat start = rotation_near(any_rotation(samples));
-    // Close to a whole or a half turn, the same end is as well told about another axis.
+    // Close to a whole or a half turn, another axis can describe the same end as well.
     const double rest = uniform(samples, 0.02, 0.48) + (samples.below(2) == 0 ? 0.5 : 0.0);
     const double angle = k_turn * (floor(uniform(samples, turns_low, turns_high + 1)) + rest);
     const Vector rotation_vector = any_direction(samples) * angle;
@@ -87,7 +87,8 @@ DETENT_TEST(sweep, of_nearly_whole_turns_ends_where_it_was_told_to) {
     const Quat end = rotation_near(normalised(detent_oracle::rotation_by(rotation_vector) * normalised(host(start))));
     const Sweep sweep = sweep_between(start, end, k_still, reals_near(rotation_vector));
     EXPECT_LE(distance(host(sweep_end_rotation(start, sweep)), host(end)), unit_steps(goal_error(angle))) << angle;
-    // A rest too small to have an axis is added along its own direction, and the whole turns along the estimate's.
+    // A remaining rotation that is too small to have an axis is added along its own direction, and the whole turns
+    // along the direction of the estimate.
     EXPECT_LE(fabs(length(host(sweep.rotation_vector)) - angle), 0x1p-6) << angle;
   }
 }
@@ -104,7 +105,7 @@ DETENT_TEST(sweep, of_a_body_at_rest_leaves_every_bit) {
   EXPECT_EQ(pose.position, before);
 }
 
-/// Where the body is beyond `origin`, m, with the remainder that fx32 carries.
+/// The position of the body relative to `origin`, m, including the remainder that fx32 stores.
 Vector travelled(const BodyPose& pose, const Position& origin) {
   Vector displacement = difference(pose.position, origin);
 #if defined(DETENT_FX32)

@@ -7,12 +7,13 @@
 #include "ports/host/cook/cook_height_field.h"
 #include "ports/host/cook/cook_mesh.h"
 
-/// Small surfaces for tests, and their cooked bytes.
+/// Small terrains for tests, and their cooked bytes.
 namespace detent_terrains {
 
 using Source = detent_cook::MeshSource;
 
-/// Bytes at an address that is a multiple of 8, of their own size alone, so that a sanitizer sees what lies beyond.
+/// Bytes at an address that is a multiple of 8, in an allocation of exactly their size, so that a sanitizer detects
+/// reads beyond it.
 class Bytes {
  public:
   explicit Bytes(const std::vector<uint8_t>& from)
@@ -42,7 +43,8 @@ inline void add_triangle(Source& source, uint32_t a, uint32_t b, uint32_t c, uin
   source.triangles.push_back({{a, b, c}, material});
 }
 
-/// n by n lanes of `size`, m, about the origin, at y = height(x, z); the normals look up. Diagonals alternate.
+/// A mesh of n by n quadrangles of side `size`, m, about the origin, at y = height(x, z). The normals point up. The
+/// diagonals alternate.
 inline Source ground(uint32_t n, double size, const std::function<double(double, double)>& height) {
   Source source;
   for (uint32_t j = 0; j <= n; ++j) {
@@ -69,7 +71,7 @@ inline Source plane(uint32_t n, double size) {
   return ground(n, size, [](double, double) { return 0.0; });
 }
 
-/// A box with half extents h, each side of n by n lanes.
+/// A box with half extents h; each side has n by n quadrangles.
 inline Source box_terrain(double hx, double hy, double hz, uint32_t n) {
   Source source;
   const double h[3] = {hx, hy, hz};

@@ -14,7 +14,7 @@ void expect_near(const Vec3<Real>& v, double x, double y, double z) {
 
 DETENT_TEST(transform, a_point_goes_to_the_world_and_back) {
   const Unit half = 0.5;
-  // Takes x, y, z to -z, x, -y.
+  // This rotation takes x, y, z to -z, x, -y.
   const Pose pose = {{Coord(100.0), Coord(-20.0), Coord(3.0)}, {half, half, -half, half}};
   const Vec3<Real> point = {1.0, 2.0, 3.0};
   const Position there = to_world(pose, point);

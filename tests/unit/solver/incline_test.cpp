@@ -10,7 +10,8 @@ namespace {
 constexpr double k_gravity = 9.81;
 constexpr double k_slope = 0.3;  ///< rad
 
-/// A slope that falls towards +x, as a level plane under tilted gravity: no rounding of a pose can help or hinder.
+/// A slope that descends towards +x, built as a level plane under tilted gravity, so that the rounding of a pose has no
+/// effect.
 Lab tilted(double friction) {
   WorldDef def;
   def.gravity = reals(k_gravity * sin(k_slope), -k_gravity * cos(k_slope), 0);
@@ -33,7 +34,7 @@ DETENT_TEST(incline, a_box_slides_when_friction_is_one_percent_too_small_and_sta
     lab.run(180);
     const Motion motion = lab.motion(id);
     if (part < 1) {
-      // The first substep has no friction yet, so speed is gained from the first second on.
+      // The first substep has no friction yet, so the gain of speed is measured from the end of the first second.
       EXPECT_NEAR(motion.linear_velocity[0] - speed, 3 * k_gravity * (sin(k_slope) - friction * cos(k_slope)), 0.001);
       EXPECT_NEAR(speed, k_gravity * (sin(k_slope) - friction * cos(k_slope)), k_gravity * sin(k_slope) / 120);
     } else {
@@ -77,7 +78,7 @@ DETENT_TEST(incline, a_ball_rolls_down_at_five_sevenths_of_the_slopes_pull) {
 }
 
 DETENT_TEST(incline, a_ball_on_a_slope_with_enough_rolling_resistance_stays) {
-  // Of the two materials the larger counts: most grounds have none.
+  // The larger coefficient of the two materials counts: usually the ground has none.
   for (const double part : {0.9, 1.1, -0.9, -1.1}) {
     WorldDef world;
     world.gravity = reals(k_gravity * sin(0.05), -k_gravity * cos(0.05), 0);

@@ -1,13 +1,13 @@
 #include "tests/unit/math/samples.h"
 #include "tests/unit/world/lab.h"
 
-// The solver's passes over four contacts at once against the same over one: every digest of every tick is equal.
+// Compares the solver's passes over four contacts at once with passes over one: every digest of every tick is equal.
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// A pile of all shapes that fall on each other, some rolling, some heavy, beside a lift and a spinning table.
+/// A pile of all shapes that fall on each other, some of them rolling or heavy, beside a lift and a rotating table.
 void build(Lab& lab, uint64_t seed) {
   Samples samples = {seed};
   const auto within = [&](double low, double high) {
@@ -69,7 +69,7 @@ void expect_same_bits(WorldDef def) {
   }
 }
 
-/// Also in a build that has none: then one by one.
+/// A build without lanes accepts the request, too, and solves the contacts one by one.
 DETENT_TEST(lanes, that_are_asked_for_solve_every_contact) {
   Lab one({64, 400, 0}), asked({64, 400, 0});
   build(one, 1);

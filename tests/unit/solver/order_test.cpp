@@ -62,8 +62,9 @@ struct Graph {
                                {work.data(), body_count}, {spare.data(), count}, {order.data(), count});
   }
   bool is_dynamic(uint32_t body) const { return properties[body].type == static_cast<uint32_t>(BodyType::dynamic); }
-  /// Every contact once, sorted by (island, colour, key), no dynamic body twice in a colour but the overflow's, which
-  /// is counted. Bodies in contact are of one island, and each awake one is listed once.
+  /// Checks that every contact is listed once, sorted by (island, colour, key); that a colour contains each dynamic
+  /// body once, except the overflow colour, which is counted; that bodies in contact belong to one island; and that
+  /// each awake body is listed once.
   void expect_right() const {
     std::vector<uint32_t> seen(contacts.size(), 0);
     std::vector<std::vector<uint32_t>> users(k_colour_overflow);
@@ -234,14 +235,14 @@ struct Scene {
     predict(settings, all, {slots.data(), static_cast<uint32_t>(slots.size())}, {motions.data(), used},
             {work.data(), used});
   }
-  /// All islands at once: they do not touch.
+  /// Solves all islands at once: they do not touch.
   void run() {
     const SolverBodies bodies = {
         {properties.data(), body_count()}, {motions.data(), body_count()}, {work.data(), body_count()}};
     solve(settings, bodies, {slots.data(), static_cast<uint32_t>(slots.size())}, {order.data(), contact_count()},
           {contacts.data(), contact_count()}, {});
   }
-  /// The motions and the contacts' states, all bytes.
+  /// All bytes of the motions and of the contact states.
   std::vector<uint8_t> result() const {
     std::vector<uint8_t> bytes(motions.size() * sizeof(BodyMotion) + contacts.size() * sizeof(ContactState));
     memcpy(bytes.data(), motions.data(), motions.size() * sizeof(BodyMotion));
@@ -292,7 +293,7 @@ struct Pile {
   Island island{};
   StepSettings settings;
 
-  /// Each body touches the next one. `run`: run_length of all bodies.
+  /// Each body touches the next one. `run`: the run_length of all bodies.
   Pile(uint32_t contact_count, uint32_t run) {
     Lab lab({1, 1, 0});
     lab.add_box(0.5, 0, 0, 0);
@@ -316,7 +317,7 @@ struct Pile {
     island.body_count = static_cast<uint32_t>(properties.size());
     island.contact_count = contact_count;
   }
-  /// Squared substeps that a contact of this load needs without buckling.
+  /// The square of the number of substeps that a contact with this load needs, without regard to buckling.
   double needed(double load) const {
     return 128 * load * scaled_to_host(settings.substeps_per_rate) / real_to_host(shape_extent(properties[0]));
   }
@@ -348,14 +349,14 @@ DETENT_TEST(substeps, of_a_row_of_twelve_or_more_prevent_buckling) {
   for (const uint32_t run : {1u, 2u, 3u, 4u, 11u, 12u, 24u}) {
     Pile pile(1, run);
     pile.settings.substeps_max = 64;
-    // Buckling decides where the squared length of the row exceeds 128, the inverse of the allowed sag.
+    // Buckling decides if the squared length of the row exceeds 128, the inverse of the permitted sag.
     const double buckles = run < 12 ? 1 : run / sqrt(128.0);
     EXPECT_EQ(pile.choose(pile.load_for(7.9 / buckles)), 8u) << run;
     EXPECT_EQ(Pile(1, run).choose(pile.load_for(8.1 / buckles)), 12u) << run;
   }
 }
 
-/// The fewer the less they can buckle.
+/// The limit of the number is inversely proportional to the number of contacts, and lower for contacts with one point.
 DETENT_TEST(substeps, of_many_contacts_are_few) {
   for (const uint32_t points : {4u, 3u, 2u, 1u}) {
     const uint32_t room = points < 2 ? k_rolling_substeps : k_contact_substeps;
@@ -378,7 +379,7 @@ DETENT_TEST(substeps, become_fewer_by_one_notch_after_a_second_in_which_fewer_wo
   Pile pile(1, 1);
   pile.settings.substeps_max = 64;
   ASSERT_EQ(pile.choose(pile.load_for(31)), 32u);
-  // 24 substeps are taken only for a need of less than 0.6 times what they hold.
+  // The number falls from 32 to 24 only if the need is less than 0.6 times the need that 24 substeps satisfy.
   const double light = pile.load_for(23 * sqrt(0.6)), heavier = pile.load_for(25 * sqrt(0.6));
   for (int tick = 0; tick < 200; ++tick) ASSERT_EQ(pile.choose(heavier), 32u);
   for (int tick = 0; tick < 59; ++tick) ASSERT_EQ(pile.choose(light), 32u) << tick;

@@ -15,7 +15,7 @@ DETENT_TEST(convergence, ends_the_sweeps_of_an_island_at_rest) {
   const StepReport first = lab.run(1);
   EXPECT_GT(first.substeps_max, 0u);
   const StepReport settled = lab.run(120);
-  // Two passes a substep, of which all sweeps but the first few can be spared.
+  // There are two passes in a substep, of which all sweeps but the first few can be skipped.
   EXPECT_GT(settled.contacts.sweeps_saved, settled.substeps_max * 16);
   EXPECT_LE(settled.contacts.sweeps_saved, settled.substeps_max * 2 * 15);
   EXPECT_NEAR(lab.motion(next_body(lab.world, {2, 1})).position[1], 1.5, 0.02);

@@ -54,7 +54,7 @@ DETENT_TEST(delta, is_as_its_format_says) {
   expected.push_back(0);
   expected.push_back(static_cast<uint8_t>(word - 6));
   ASSERT_LT(word - 6, 128u);
-  // user_data is the lower or the upper half of its word.
+  // user_data is the lower or the upper half of its 64-bit word.
   const bool upper = bytes_of(base)[8 * word + 4] == 0 && delta[26] > 15;
   expected.push_back(upper ? 0xb0 : 0x0b);
   for (const uint8_t byte : {uint8_t{3}, uint8_t{2}, uint8_t{1}}) expected.push_back(byte);

@@ -3,7 +3,7 @@
 #include "state/view.h"
 #include "tests/unit/world/lab.h"
 
-/// The ranges that a configuration promises, tried at their limits.
+/// Tests the ranges of a configuration at their limits.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
@@ -70,7 +70,7 @@ DETENT_TEST(range, momentum_is_kept_for_mass_ratios_of_one_to_a_hundred_million)
 }
 
 DETENT_TEST(range, a_world_moved_far_away_does_what_it_does_at_the_origin) {
-  // Beyond this distance the configuration's coordinates are coarser or end.
+  // Beyond this distance the configuration's coordinates are coarser, or out of range.
 #if defined(DETENT_FX32)
   const double k_far = 30000;
 #else
@@ -141,7 +141,7 @@ DETENT_TEST(range, a_turn_that_leaves_its_range_is_counted_by_the_integrator_and
       def.shape = sphere(real(0.05));
       def.position = position(10 * i, 0, 0);
       lab.add(def);
-      // A turn of more than 2^15 rad in the tick, which a loaded state may ask for.
+      // A rotation of more than 2^15 rad in the tick, which a loaded state may contain.
       const Real momentum = type == BodyType::dynamic ? Real(3000.0) : Real(10000.0);
       for (uint32_t slot = 0; slot <= i; ++slot) view_of(lab.world).motions[slot].angular_momentum.y = momentum;
       EXPECT_EQ(lab.run(1).saturations, 2 * (i + 1));

@@ -15,7 +15,7 @@ struct Ring {
   Ring() { EXPECT_OK(ring.begin(bytes_of(words), byte_count(words), k_turmoil_capacity, k_window)); }
 };
 
-/// Keeps each of some ticks and makes it; returns the digests that they began with, and the last one.
+/// Keeps and makes some ticks. Returns the digest before each tick, and the last one.
 std::vector<uint64_t> play(SnapshotRing& ring, World& world, uint64_t seed, uint32_t ticks) {
   std::vector<uint64_t> digests = {digest(world)};
   for (uint32_t i = 0; i < ticks; ++i) {
@@ -26,7 +26,8 @@ std::vector<uint64_t> play(SnapshotRing& ring, World& world, uint64_t seed, uint
   return digests;
 }
 
-/// Goes back by each number of ticks that the ring holds, and makes others and then the same again.
+/// Goes back by each number of ticks that the ring holds, makes other ticks, goes back again, and repeats the first
+/// ticks.
 DETENT_TEST(snapshot_ring, ticks_with_bodies_shapes_and_joints_that_come_and_go_are_the_same_when_made_again) {
   const uint32_t windows = getenv("DETENT_FULL") != nullptr ? 100000 : detent_oracle::rounds(2500);
   constexpr uint32_t k_windows_a_world = 50;

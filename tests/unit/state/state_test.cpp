@@ -76,7 +76,7 @@ DETENT_TEST(state, a_refused_snapshot_changes_nothing) {
 
 using Spoil = void (*)(const StateView<uint8_t>& state);
 
-/// Returns the status of load() for the state of a world after `spoil`.
+/// Returns the status of load() for the state of a world that `spoil` has changed.
 Status load_spoiled(Lab (*make)(), Spoil spoil) {
   Lab lab = make();
   spoil(view_of(lab.world));

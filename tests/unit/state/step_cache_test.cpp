@@ -7,7 +7,7 @@
 #include "tests/support/spoil.h"
 #include "tests/unit/world/lab.h"
 
-/// What a world keeps from step to step alters no bit, and spares a step what rests.
+/// The cache of a world changes no bit of its state, and saves the step the work on resting bodies.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
@@ -26,7 +26,7 @@ BodyDef any_body(Samples& samples) {
   return def;
 }
 
-/// One call of the kind that comes between steps, the same for every world.
+/// One call of a kind that can come between steps, the same for every world.
 void change(Samples& samples, const std::vector<World*>& worlds, std::vector<BodyId>& ids) {
   const uint32_t what = samples.below(9);
   const size_t which = ids.empty() ? 0 : samples.below(static_cast<uint32_t>(ids.size()));
@@ -42,7 +42,7 @@ void change(Samples& samples, const std::vector<World*>& worlds, std::vector<Bod
   }
   const BodyId id = ids[which];
   for (World* world : worlds) {
-    // Some of them are refused, by all alike.
+    // Some calls return an error, the same in all worlds.
     Status status = Status::ok;
     if (what == 3) status = destroy_body(*world, id);
     if (what == 4) status = set_pose(*world, id, def.position, {0.0, 0.0, 0.0, 1.0});
@@ -55,7 +55,7 @@ void change(Samples& samples, const std::vector<World*>& worlds, std::vector<Bod
   if (what == 3) ids.erase(ids.begin() + static_cast<std::ptrdiff_t>(which));
 }
 
-/// The pairs that a step would find by trying all, in the order of their keys.
+/// The pairs that a step would find by testing all pairs, in the order of their keys.
 std::vector<uint64_t> all_pairs(const StateView<uint8_t>& state) {
   const uint32_t used = state.world.slots_used;
   std::vector<Bounds> bounds(used);
@@ -79,7 +79,7 @@ std::vector<uint64_t> all_pairs(const StateView<uint8_t>& state) {
   return keys;
 }
 
-/// Those that the next step finds first, before any body wakes.
+/// The pairs that the next step finds first, before any body wakes.
 std::vector<uint64_t> pairs_of_next_step(World world) {
   const Capacity capacity = get_info(world).capacity;
   std::vector<uint64_t> block(world_bytes(capacity) / 8);
@@ -106,13 +106,13 @@ DETENT_TEST(step_cache, alters_no_bit_and_no_pair_whatever_comes_and_goes) {
   uint64_t asleep = 0, pairs = 0;
   for (uint32_t round = 0; round < detent_oracle::rounds(3); ++round) {
     Samples samples = {70 + round};
-    // One keeps its cache, one forgets it and all else before every step, and one is put back into another block at
-    // times.
+    // One world keeps its cache, one loses it and all other work space before every step, and one is sometimes restored
+    // into another block.
     Lab keeps(capacity, {}, true), forgets(capacity, {}, true), moved(capacity, {}, true), other(capacity, {}, true);
     std::vector<BodyId> ids;
     for (Lab* lab : {&keeps, &forgets, &moved}) lab->add_ground();
     for (int tick = 0; tick < 500; ++tick) {
-      // Now and then long enough in peace for islands to fall asleep.
+      // Sometimes enough ticks without changes for islands to fall asleep.
       if (tick % 100 < 20) change(samples, {&keeps.world, &forgets.world, &moved.world}, ids);
       if (samples.below(40) == 0) {
         std::vector<uint64_t> snapshot = moved.snapshot();
@@ -143,7 +143,7 @@ DETENT_TEST(step_cache, alters_no_bit_and_no_pair_whatever_comes_and_goes) {
   EXPECT_GT(pairs, 150u * detent_oracle::rounds(3));
 }
 
-/// Boxes asleep in stacks of two on a floor, `side` by `side` of them, and a ball that rolls beside them.
+/// A floor with `side` by `side` sleeping stacks of two boxes, and a ball that rolls beside them.
 struct Field {
   Lab lab;
   BodyId ball;
@@ -187,7 +187,7 @@ DETENT_TEST(step_cache, a_step_with_one_body_awake_looks_at_few_of_those_that_sl
 
 DETENT_TEST(step_cache, a_step_with_one_body_awake_reads_nothing_of_those_that_sleep_elsewhere) {
   Field field(8);
-  // What no step may read is made nonsense of: far from the ball, whole groups.
+  // Overwrites state that no step may read: whole sleeping groups far from the ball.
   StateView<uint8_t> state = view_of(field.lab.world);
   const Capacity capacity = get_info(field.lab.world).capacity;
   Lab healthy(capacity, {}, true);

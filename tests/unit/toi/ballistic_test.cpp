@@ -10,7 +10,7 @@ using detent_oracle::rounds;
 
 TimeOfImpact ballistic(const Encounter& encounter) { return encounter.impact_by(ToiMethod::mirtich); }
 
-/// A hit of either order at `time`, within `early`, after at most `calls` of GJK.
+/// Expects a hit in either order of the shapes at `time`, within `early`, after at most `calls` calls of GJK.
 void expect_hit(const Encounter& encounter, double time, double early, uint32_t calls) {
   for (const Encounter& either : {encounter, encounter.swapped()}) {
     const TimeOfImpact impact = ballistic(either);
@@ -37,7 +37,7 @@ DETENT_TEST(ballistic, bound_of_bodies_that_do_not_turn_leads_to_the_impact_at_o
   }
 }
 
-/// What an angular velocity about the normal moves does not come nearer, however fast it is.
+/// A rotation about the normal moves no point towards the other body, however fast it is.
 DETENT_TEST(ballistic, bound_takes_nothing_for_a_angular_velocity_about_the_normal) {
   const KnownShape slab = known(box({4.0, 0.5, 4.0})), cube = known(box({0.5, 0.5, 0.5}));
   for (const double angular_velocity : {1.0, 30.0, 1000.0}) {
@@ -48,7 +48,8 @@ DETENT_TEST(ballistic, bound_takes_nothing_for_a_angular_velocity_about_the_norm
 }
 
 DETENT_TEST(ballistic, bound_ends_with_half_a_turn) {
-  // From there on a body's rotation adds nothing more: what goes slower than the rest of the gap is clear.
+  // After half a turn the rotation of a body cannot add more displacement: a body that moves less than the rest of the
+  // gap is clear.
   const KnownShape rod = known(capsule(0.0625, 1.0)), ball = known(sphere(0.25));
   const BodyAt spinning = {{{0, 0, 0}}, k_upright, {{0, 0, 0}}, {{0, 0, 3000}}};
   const Encounter encounter = {known(half_space()), {{{0, -3.25, 0}}}, rod, spinning};
@@ -114,7 +115,7 @@ DETENT_TEST(ballistic, bound_needs_no_more_axes_than_the_first_order_one) {
 }
 
 DETENT_TEST(ballistic, bound_that_needs_too_many_axes_is_undecided_and_not_late) {
-  // The ball sinks into the disc that the rod sweeps five thousand times.
+  // The ball sinks into the disc that the rod sweeps 5,000 times.
   const Encounter encounter = {known(capsule(0.0625, 1.0)),
                                {{{0, 0, 0}}, k_upright, {{0, 0, 0}}, {{0, 0, 0x1p15}}},
                                known(sphere(0.125)),

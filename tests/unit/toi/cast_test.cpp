@@ -9,7 +9,7 @@ namespace {
 
 using detent_oracle::rounds;
 
-/// A ray against a shape at rest; origin and way are in world axes, from the shape's position.
+/// A ray against a shape at rest. Origin and displacement are in world axes, from the shape's position.
 struct Ray {
   KnownShape shape;
   BodyAt body;
@@ -34,7 +34,7 @@ struct Ray {
   double tolerance() const {
     return std::max(k_toi_tolerance * 2 * shape.distance_max(), 100 * 0x1p-29 * 1.02 * distance_max());
   }
-  /// What rounding the rotation, the way and the block may take, m.
+  /// The error, m, from rounding the rotation, the displacement and the block.
   double slack() const { return 4 * k_number_error * (distance_max() + length(origin)); }
 };
 
@@ -63,7 +63,8 @@ struct Truth {
   bool hit;
   double time, least;  ///< `least`: the least gap before the core, m
 };
-/// Outside a core the distance along a line is convex: its least is found by thirds, and where it is first 0 by halves.
+/// Outside a core the distance is convex along a line. Its minimum is found by ternary search, and its first zero by
+/// bisection.
 Truth truth_of(const Ray& ray) {
   double end = 1;
   if (!ray.shape.points.empty() && ray.shape.type() != ShapeType::box) {
@@ -91,10 +92,10 @@ Truth truth_of(const Ray& ray) {
   return {true, high, least};
 }
 
-/// rad; up to 0.062 was seen: a hit is known before its nearest points are the last ones.
+/// rad; the largest error found is 0.062: a hit is known before its nearest points are final.
 constexpr double k_normal_error = 0.1;
 
-/// What holds of every hit from outside.
+/// Checks that hold for every hit of a ray that starts outside.
 void expect_hit(const Ray& ray, const CastHit& hit, double time) {
   const double found = fraction_to_host(hit.time), slack = ray.slack();
   ASSERT_TRUE(hit.hit);
@@ -106,14 +107,14 @@ void expect_hit(const Ray& ray, const CastHit& hit, double time) {
   EXPECT_LE(length(at - point), ray.tolerance() + 2 * slack);
   EXPECT_LE(fabs(core_distance(ray.shape, ray.body.to_local(ray.body.position + point)) - ray.shape.ball),
             ray.tolerance() + 2 * slack);
-  // The normal is one of the surface at the point: nothing of the shape lies farther along it.
+  // The normal belongs to the surface at the point: no point of the shape lies farther along it.
   if (ray.shape.type() == ShapeType::half_space) {
     EXPECT_LE(length(normal - axis_of(ray.body.rotation, 1)), 4 * k_number_error);
   } else {
     const double farthest = -lowest(ray.shape, ray.body, normal * -1) + ray.shape.ball - dot(normal, ray.body.position);
     EXPECT_LE(farthest - dot(normal, point), 2 * slack + k_normal_error * ray.distance_max());
   }
-  // Against the way, but for what the tolerance lets it pass by.
+  // The normal points against the displacement, except for rays that pass within the tolerance.
   EXPECT_LE(dot(normal, ray.displacement) / length(ray.displacement), k_normal_error);
 }
 
@@ -220,7 +221,7 @@ DETENT_TEST(cast, of_a_ray_that_grazes_a_sphere_tells_a_hundred_thousandth) {
   }
 }
 
-/// One of each kind of shape, that holds (0.01, 0.01, 0.01) in its core.
+/// A shape of each kind, whose core contains (0.01, 0.01, 0.01).
 std::vector<KnownShape> solids() {
   return {known(box({0.5, 1.0, 2.0})),  known(cylinder(1.0, 0.5)),          known(cone(1.0, 1.0)),
           known_hull(prism_bytes(), 0), known_hull(tetrahedron_bytes(), 0), known(half_space())};
@@ -312,7 +313,7 @@ DETENT_TEST(cast, of_a_sphere_is_a_ray_at_the_shape_grown_by_it) {
     const Real radius = real(uniform(samples, 0.1, 0.5));
     const Shape bare = box({real(half[0]), real(half[1]), real(half[2])});
     const BodyAt body = held({{{0, 0, 0}}, random_quaternion(samples)});
-    // Its start is a point of the grid of coordinates.
+    // The start is rounded to the grid of coordinates.
     const BodyAt start = held({random_direction(samples) * 4, {0, 0, 0, 1}});
     const Vector aim = random_direction(samples) * 0.5;
     const Vec3<Real> displacement = reals((aim - start.position) * 2);

@@ -51,7 +51,7 @@ inline std::vector<CcdQuery> ccd_queries(const std::string& set, bool edges) {
   return queries;
 }
 
-/// The power of two that brings all coordinates to 60 bits.
+/// The power of two that scales all coordinates to 60 bits.
 inline int scale_of(const CcdQuery& query) {
   double most = 0;
   for (int i = 0; i < 12; ++i) {

@@ -7,14 +7,14 @@
 #include "tests/unit/distance/closed_form.h"
 #include "tests/unit/distance/exact_numbers.h"
 
-/// Two shapes that move, and what must hold of their time of impact.
+/// Two moving shapes, and the properties that their time of impact must have.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 inline const double k_pi = acos(-1.0);
 inline const Quaternion k_upright = {0, 0, 0, 1};
 
-/// Two shapes in motion, as held.
+/// Two moving shapes, with the values that the configuration stores.
 struct Encounter {
   KnownShape a, b;
   BodyAt body_a, body_b;
@@ -34,7 +34,7 @@ struct Encounter {
     return result;
   }
   bool planar() const { return a.type() == ShapeType::half_space || b.type() == ShapeType::half_space; }
-  /// Of the block's reach, m: what its ulps are parts of.
+  /// The size of the block, m, to which its ulps are proportional.
   double distance_max() const {
     double centres = 0;
     if (planar()) {
@@ -43,19 +43,20 @@ struct Encounter {
     }
     return a.distance_max() + b.distance_max() + a.ball + b.ball + centres;
   }
-  /// How early a hit may be, m: the stated part of the larger core diameter, or 96 ulps of the block.
+  /// The distance, m, by which a hit may be early: the stated fraction of the larger core diameter, or 96 ulps of the
+  /// block.
   double tolerance() const {
     return std::max(k_toi_tolerance * 2 * std::max(a.distance_max(), b.distance_max()),
                     100 * 0x1p-29 * 1.02 * distance_max());
   }
-  /// Error of gap(), m: poses at a time are rounded anew.
+  /// The error of gap(), m: poses at a time are rounded again.
   double slack() const { return 2 * k_position_step + (k_distance_error + 2 * k_number_error) * 2 * distance_max(); }
-  /// At a time of the step, m; 0 if they meet.
+  /// The distance at a time of the step, m; 0 if the shapes overlap.
   double gap(double time) const {
     const Closest closest = closest_at(time);
     return closest.overlap ? 0 : host(closest.distance);
   }
-  /// False where the answer is certain that they meet.
+  /// Whether the shapes are separated at a time; false only if they certainly overlap.
   bool apart(double time) const {
     const Closest closest = closest_at(time);
     return closest.capped || !closest.overlap;
@@ -75,7 +76,8 @@ inline bool operator==(const TimeOfImpact& a, const TimeOfImpact& b) {
          a.gjk_calls == b.gjk_calls && a.passes == b.passes;
 }
 
-/// What holds of every answer: up to its time the shapes are apart, and at a hit within the tolerance.
+/// Checks that hold for every answer: the shapes are separated up to its time, and at a hit they are within the
+/// tolerance.
 inline void expect_never_late(const Encounter& encounter, const TimeOfImpact& impact, int samples) {
   const double time = fraction_to_host(impact.time), slack = encounter.slack();
   ASSERT_GE(time, 0);
@@ -94,7 +96,7 @@ inline void expect_never_late(const Encounter& encounter, const TimeOfImpact& im
   }
 }
 
-/// Lateness that the numbers allow where a rotation is involved, of the step.
+/// The lateness, as a fraction of the step, that the numbers permit where rotation is involved.
 inline constexpr double k_late = k_config == Config::f32 ? 0x1p-20 : 1e-9;
 
 /// Two shapes of any kinds, but not two half-spaces, that start apart and are aimed at each other.
@@ -117,7 +119,8 @@ inline Encounter random_encounter(Samples& samples, double scale, double turn_ma
   }
 }
 
-/// Of a method's answers to `count` encounters of numbers that every configuration holds exactly: the same in all.
+/// The digest of a method's answers to `count` encounters whose numbers every configuration represents exactly: equal
+/// in all configurations.
 inline uint64_t digest_of_answers(ToiMethod method, uint32_t seed, int count) {
   Samples samples{seed};
   const auto size = [&samples] { return real(1.125 + exact_number(samples, 256)); };

@@ -16,7 +16,7 @@ using detent_oracle::rounds;
 using detent_test::Figures;
 using detent_test::time_of;
 
-/// Two features of bodies in motion, as held.
+/// Two features of moving bodies, with the values that the configuration stores.
 struct MovingFeatures {
   FeatureKind kind;
   Vector corner[4];
@@ -61,7 +61,7 @@ struct MovingFeatures {
     figures.intervals.push_back(result.intervals);
     return result;
   }
-  /// Conservative advancement of the same: triangles whose corners coincide.
+  /// The answer of conservative advancement for the same features, as triangles with coinciding corners.
   TimeOfImpact advanced(Figures& figures) const {
     const Vec3<Real> p[4] = {reals(corner[0]), reals(corner[1]), reals(corner[2]), reals(corner[3])};
     const Vec3<Real> of_a[3] = {p[0], p[edges() ? 1 : 0], p[0]};
@@ -89,7 +89,7 @@ MovingFeatures random_features(Samples& samples, double turn_max) {
     const Vector axis = random_direction(samples);
     body->rotation_vector = axis * uniform(samples, 0, turn_max);
   }
-  // Towards each other, from outside or from within reach.
+  // B starts at a random distance and moves towards A, with a random lateral component.
   const Vector displacement = random_direction(samples), across = random_direction(samples);
   f.b.position = displacement * uniform(samples, 0.5, 2.5);
   f.b.displacement = displacement * -uniform(samples, 0.5, 3.5);
@@ -100,10 +100,11 @@ MovingFeatures random_features(Samples& samples, double turn_max) {
 }
 
 constexpr double k_reference_error = 1e-13;
-/// Of the reach: rotations are rounded as they are read, which the reference does not know of.
+/// Relative to the size of the pair: the library rounds rotations on entry, and the reference does not.
 constexpr double k_pose_error = 2 * k_number_error;
 
-/// Where a sampled sign of the volume changes and the features touch: a contact that is certain. 1 if there is none.
+/// The first sampled time at which the volume changes its sign and the features touch, which is a certain contact. 1 if
+/// there is none.
 double crossing_before(const MovingFeatures& f, double end, int count) {
   double from = 0, before = f.volume(0);
   for (int i = 1; i <= count; ++i) {
@@ -129,12 +130,12 @@ void expect_not_late(const MovingFeatures& f, double time, int count) {
   }
 }
 
-/// What both methods claim, and that neither comes later than a contact.
+/// Checks the claims of both methods, and that neither reports a time later than a contact.
 void expect_agreement(const MovingFeatures& f, Figures& figures, uint32_t& hits, uint32_t& apart) {
   const FeatureToi result = f.answer(figures);
   const TimeOfImpact other = f.advanced(figures);
   const double time = fraction_to_host(result.time), other_time = fraction_to_host(other.time);
-  // A pose is rounded where the reference holds it in doubles.
+  // The library rounds a pose; the reference holds it in doubles.
   const double tolerance = k_feature_tolerance * f.size() + 0x1p-23 * f.distance_max() + 1e-12;
   const double other_tolerance = k_toi_tolerance * 2 * f.distance_max() + 160 * 0x1p-28 * f.distance_max();
   EXPECT_NE(result.outcome, ToiOutcome::undecided);
@@ -150,7 +151,7 @@ void expect_agreement(const MovingFeatures& f, Figures& figures, uint32_t& hits,
 }
 
 DETENT_TEST(feature_motion, agrees_with_conservative_advancement_and_is_never_late) {
-  // A million with DETENT_FULL, of which the sampled contacts take most of the time.
+  // A million pairs with DETENT_FULL; the sampled contacts take most of the time.
   const uint32_t count = getenv("DETENT_FULL") != nullptr ? 1000000 : rounds(4000);
   Samples samples{91};
   uint32_t hits = 0, apart = 0;
@@ -187,7 +188,7 @@ DETENT_TEST(feature_motion, many_turns_are_decided_or_safe) {
   }
   figures.print(60);
   EXPECT_EQ(undecided, 0u);
-  // Ten thousand turns close by are too many: the safe time is all that is told.
+  // 10,000 turns near another feature need too many intervals: the answer is only a safe time.
   MovingFeatures f = random_features(samples, 0);
   f.b.position = {{0, 0, 6}};
   f.b.displacement = {{0, 0, -4.5}};
@@ -199,7 +200,7 @@ DETENT_TEST(feature_motion, many_turns_are_decided_or_safe) {
 }
 
 DETENT_TEST(feature_motion, a_turning_edge_meets_one_at_rest_when_it_lies_along_it) {
-  // A quarter turn about z brings the edge from x to y, where the other waits 0.5 above.
+  // A quarter turn about z takes the edge from x to y, where the other edge is 0.5 above.
   const Vector corner[4] = {{{0.25, 0, 0}}, {{1, 0, 0}}, {{0, 0.5, -1}}, {{0, 0.5, 1}}};
   MovingFeatures f = {FeatureKind::edge_edge, {corner[0], corner[1], corner[2], corner[3]}, {}, {}};
   f.a.rotation_vector = {{0, 0, acos(-1.0)}};
@@ -211,7 +212,7 @@ DETENT_TEST(feature_motion, a_turning_edge_meets_one_at_rest_when_it_lies_along_
 }
 
 DETENT_TEST(feature_motion, a_vertex_that_grazes_a_face_at_the_top_of_its_arc_is_a_hit) {
-  // The vertex goes round at 1 m; its arc touches the plane y = 1 in mid-step, and that of y = 1.00001 not.
+  // The vertex moves on a circle of 1 m. In mid-step it touches the plane y = 1, and does not touch y = 1.00001.
   for (const double height : {1.0, 1.00001, 0.99999, 0.5}) {
     MovingFeatures f = {FeatureKind::vertex_face, {{{1, 0, 0}}, {{-2, 0, -2}}, {{2, 0, -2}}, {{0, 0, 2}}}, {}, {}};
     f.a.rotation_vector = {{0, 0, acos(-1.0)}};
@@ -228,7 +229,7 @@ DETENT_TEST(feature_motion, a_vertex_that_grazes_a_face_at_the_top_of_its_arc_is
 }
 
 DETENT_TEST(feature_motion, a_vertex_that_turns_in_the_plane_of_a_face_meets_its_edge) {
-  // The face's nearest edge is x = -0.5; the vertex comes round to it at 120 degrees.
+  // The face's nearest edge is x = -0.5; the rotating vertex reaches it at 120 degrees.
   MovingFeatures f = {FeatureKind::vertex_face, {{{1, 0, 0}}, {{-0.5, -2, 0}}, {{-0.5, 2, 0}}, {{-3, 0, 0}}}, {}, {}};
   f.a.rotation_vector = {{0, 0, acos(-1.0)}};
   f.a = held(f.a);

@@ -34,7 +34,7 @@ ExactFeatures exact(const LinearFeatures& features) {
   return result;
 }
 
-/// Never missed or late, and hits that are none are within the tolerance, exactly.
+/// Checks with exact numbers that no contact is missed or reported late, and that false hits are within the tolerance.
 void expect_true(const LinearFeatures& features, uint32_t (&answers)[4]) {
   FeatureToi result;
   features.first_contact(result);

@@ -2,7 +2,7 @@
 #include "tests/unit/distance/closed_form.h"
 #include "toi/feature_linear.h"
 
-/// Pairs of features for the tests, in integers, with contacts that are certain because they were made so.
+/// Pairs of features for the tests, in integers, constructed so that they have a known contact.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -19,10 +19,10 @@ inline Vector vector_of(const Vec64& v) {
   return {{static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}};
 }
 
-/// Six times the volume that the features span, with a sign.
+/// Six times the signed volume of the tetrahedron of the four corners.
 inline double feature_volume(const Vector (&p)[4]) { return dot(cross(p[1] - p[0], p[2] - p[0]), p[3] - p[0]); }
 
-/// The distance of features, by their corners.
+/// The distance of two features, from their corners.
 inline double feature_gap(FeatureKind kind, const Vector (&corner)[4]) {
   if (kind == FeatureKind::vertex_face) return distance_to_triangle(corner[0], corner[1], corner[2], corner[3]);
   return distance_of_segments(corner[0], corner[1], corner[2], corner[3]);
@@ -39,7 +39,7 @@ inline double feature_size(const LinearFeatures& features) {
   return static_cast<double>(larger(size_of(features.kind, features.start), size_of(features.kind, features.end)));
 }
 
-/// How a planted pair is special.
+/// The special property of a constructed pair.
 enum class Special : uint32_t {
   none,
   tangent,  ///< at the contact the features move along each other
@@ -50,7 +50,7 @@ enum class Special : uint32_t {
 };
 inline constexpr uint32_t k_specials = 6;
 
-/// Features that touch at `time` 64ths of the step, exactly; maybe before too.
+/// Features that touch at exactly `time` 64ths of the step, and possibly earlier.
 struct PlantedPair {
   LinearFeatures features;
   int time;
@@ -62,7 +62,8 @@ inline PlantedPair planted_pair(Samples& samples, Special special) {
   f.kind = samples.below(2) == 0 ? FeatureKind::vertex_face : FeatureKind::edge_edge;
   f.ball = 1;
   const bool edges = f.kind == FeatureKind::edge_edge;
-  // The weights of the corners in the point of contact, 64ths: of each feature the sum is 64. Often on an edge.
+  // The weights of the corners at the contact point, in 64ths. The weights of each feature add up to 64. The point is
+  // often on an edge.
   int64_t weight[4] = {64, 0, 0, 0};
   const auto part = [&](uint32_t whole) {
     const uint32_t choice = samples.below(6);
@@ -97,7 +98,7 @@ inline PlantedPair planted_pair(Samples& samples, Special special) {
       linear_velocity[i] = linear_velocity[edges ? 0 : 1];
     }
   }
-  // A is moved as a whole, at the contact to where B is, and before and after as it should.
+  // Translates A so that it touches B at the contact, with the chosen motion before and after.
   const auto gap_of = [&](const Vec64(&v)[4]) {
     Vec64 sum = {0, 0, 0};
     for (int i = 0; i < 4; ++i) sum = add(sum, times(v[i], i < first_of_b ? -weight[i] : weight[i]));
@@ -124,7 +125,7 @@ inline PlantedPair planted_pair(Samples& samples, Special special) {
     f.start[i] = difference(corner[i], times(linear_velocity[i], pair.time));
     f.end[i] = add(corner[i], times(linear_velocity[i], 64 - pair.time));
   }
-  // Its axes in any order and sense.
+  // Permutes and mirrors the axes.
   const uint32_t rotation_vector = samples.below(3), mirror = samples.below(2);
   for (Vec64* corners : {f.start, f.end}) {
     for (int i = 0; i < 4; ++i) {

@@ -6,7 +6,8 @@
 #include "tests/unit/toi/feature_pairs.h"
 #include "tests/unit/toi/spread.h"
 
-/// Features in the screw between two poses, against the screw's axis and the roots of its reduced cubic.
+/// Features in the screw motion between two poses, compared with the screw's axis and with the roots of its reduced
+/// cubic.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
@@ -20,7 +21,7 @@ Vector turned(const Quaternion& q, const Vector& v) {
   return axis_of(q, 0) * v[0] + axis_of(q, 1) * v[1] + axis_of(q, 2) * v[2];
 }
 
-/// The relative motion by its axis, a point on that, its angle and its way along it.
+/// The relative motion: the axis, a point on it, the angle, and the displacement along the axis.
 struct Screw {
   FeatureKind kind;
   Vector corner[4];  ///< at the start, in A's axes from A's position
@@ -39,7 +40,7 @@ struct Screw {
     place(time, placed);
     return feature_gap(kind, placed);
   }
-  /// The features' volume times 1 + t^2 tangent^2: a cubic in time.
+  /// The volume of the features times 1 + t^2 tangent^2: a cubic in time.
   double reduced(double time) const {
     Vector placed[4];
     place(time, placed);
@@ -117,8 +118,7 @@ Bodies random_bodies(Samples& samples) {
   return bodies;
 }
 
-/// The real roots of a cubic by its values at 0, 1/3, 2/3 and 1, in closed form; as many as are between 0 and 1,
-/// sorted.
+/// The real roots in [0, 1] of the cubic with these values at 0, 1/3, 2/3 and 1, in closed form, sorted.
 std::vector<double> roots_of(const double (&v)[4]) {
   const double d = v[0], c = (-11 * v[0] + 18 * v[1] - 9 * v[2] + 2 * v[3]) / 2,
                b = 9 * (2 * v[0] - 5 * v[1] + 4 * v[2] - v[3]) / 2, a = 9 * (-v[0] + 3 * v[1] - 3 * v[2] + v[3]) / 2;
@@ -214,7 +214,7 @@ DETENT_TEST(feature_screw, bad_questions_are_refused_and_change_nothing) {
     poses.end = pose_of(body.at(1));
     return poses;
   };
-  // A turn of B against A counts, the shorter way round: the tangent of 2.66 / 2 is above 4.
+  // The relative rotation counts, by the shorter way: the tangent of 2.66 / 2 is above 4.
   for (const double angle : {2.66, 3.0, 3.15, 3.6}) {
     EXPECT_EQ(ask(rotated_by(angle), rest), Status::out_of_range);
     EXPECT_EQ(ask(rest, rotated_by(angle)), Status::out_of_range);

@@ -25,7 +25,7 @@ double tolerance_of(const LinearFeatures& features) {
   return k_feature_tolerance * feature_size(features) + k_unit_slack;
 }
 
-/// What may be early in gap, and what rounding of the reference's doubles takes.
+/// Checks that the gap at a hit is at most the tolerance plus the rounding of the reference in doubles.
 void expect_near(const LinearFeatures& features, const FeatureToi& result) {
   double far = 0;
   for (int i = 0; i < 4; ++i) {
@@ -65,7 +65,7 @@ DETENT_TEST(feature_toi, contacts_of_lines_are_never_missed_or_late) { expect_pl
 DETENT_TEST(feature_toi, contacts_of_points_are_never_missed_or_late) { expect_planted(Special::point); }
 DETENT_TEST(feature_toi, touching_all_the_time_is_a_contact_at_the_start) { expect_planted(Special::rigid); }
 
-/// A vertex that falls past, or onto, the middle of a triangle's edge of 2 m, `beside` m beyond it.
+/// A vertex that falls past, or onto, the middle of an edge of 2 m of a triangle. It is `beside` m outside the edge.
 FeatureToi fall(double beside) {
   const Vec3<Real> start[4] = {reals({{0, 1, -beside}}), reals({{-1, 0, 0}}), reals({{1, 0, 0}}), reals({{0, 0, 1}})};
   const Vec3<Real> end[4] = {reals({{0, -3, -beside}}), start[1], start[2], start[3]};
@@ -84,8 +84,8 @@ DETENT_TEST(feature_toi, a_vertex_falls_onto_a_face_or_past_it) {
   for (const double outside : {0.5, 0.001, 2e-6}) EXPECT_EQ(fall(outside).outcome, ToiOutcome::clear);
 }
 
-/// At the end the features are as far apart as makes the cubic 0 there, with its error, and only there: what is left of
-/// the first interval has no length, and they are near where it is, not where the interval began.
+/// At the end the features have the distance at which the cubic, minus its error, is 0, and only there. The last
+/// interval has no length: the features must be near at its end, not at its beginning.
 DETENT_TEST(feature_toi, features_that_come_near_at_the_very_end_meet_there) {
   LinearFeatures features = {FeatureKind::vertex_face, {}, {}, 1920274};
   features.start[1] = {-50025026403876, 27985549945424, -52413302105909};
@@ -115,7 +115,7 @@ DETENT_TEST(feature_toi, edges_cross_or_pass_each_other) {
 DETENT_TEST(feature_toi, what_begins_near_and_flies_off_is_clear) {
   Samples samples{78};
   for (uint32_t i = 0; i < rounds(400); ++i) {
-    // A unit triangle or edge, something 2e-6 of that above it, and off it goes, up and to any side.
+    // A unit triangle or edge, and a feature that starts 2e-6 above it and moves up and to any side.
     LinearFeatures f;
     f.kind = i % 2 == 0 ? FeatureKind::vertex_face : FeatureKind::edge_edge;
     f.ball = 1;

@@ -7,14 +7,14 @@
 #include "tests/unit/distance/closed_form.h"
 #include "toi/conservative_advancement.h"
 
-/// What is cleared by a known axis, or at a glance, against the search itself.
+/// Compares pairs that are cleared by a known axis, or by the first directions of GJK, with the full search.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
 using detent_oracle::rounds;
 
-/// Two bodies that start a few tolerances apart and pass along each other, or farther apart and in any motion.
+/// Two bodies that start a few tolerances apart and pass along each other, or start farther apart with any motion.
 struct Passing {
   KnownShape a, b;
   BodyAt body_a, body_b;
@@ -32,7 +32,7 @@ struct Passing {
 
   Status prepare_pair() { return prepare(a.convex, motion_of(body_a), b.convex, motion_of(body_b), pair); }
 
-  /// Brings B along the normal to a distance, m; the normal is that of the new place.
+  /// Moves B along the normal until the distance is this, m. The normal is that of the new placement.
   void bring_to(double distance) {
     for (int i = 0; i < 2; ++i) {
       Closest closest;
@@ -43,10 +43,10 @@ struct Passing {
   }
 };
 
-/// The tolerance of a pair as it stands, m; none if they are too far apart to be placed.
+/// The tolerance of a pair in its current placement, m; 0 if the bodies are too far apart to be placed.
 double tolerance_of(const MovingPair& pair) { return ldexp(pair.tolerance, pair.exponent - 30); }
 
-/// Sets a motion in which the pair's distance changes by about `displacement`, m, and turns by at most
+/// Sets a motion in which the distance of the pair changes by about `displacement`, m, and the bodies rotate by at most
 /// `rotation_vector`, rad.
 void set_motion(Samples& samples, Passing& passing, double displacement, double rotation_vector) {
   const Vector& n = passing.normal;
@@ -66,7 +66,7 @@ struct Counts {
   uint32_t cleared = 0, glanced = 0, undecided = 0, hits = 0;
 };
 
-/// Expects of a pair that is ready what the search says.
+/// Expects the same answer for a prepared pair as from the search.
 void expect_as_searched(Samples& samples, const MovingPair& pair, const Vector& normal, Counts& counts) {
   TimeOfImpact full, quick;
   conservative_advancement(pair, k_toi_method, full);

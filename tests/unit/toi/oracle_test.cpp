@@ -7,7 +7,7 @@
 #include "tests/queries/solids.h"
 #include "tests/unit/toi/query_bodies.h"
 
-/// The query sets against the oracle (tests/oracle): x86-64 alone, whose long double it counts on.
+/// Compares the query sets with the oracle (tests/oracle). Only on x86-64, because the oracle needs its long double.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
@@ -17,7 +17,7 @@ using detent_queries::Query;
 
 constexpr double k_error = k_distance_error + k_number_error;
 constexpr double k_resolution = 1e-12;  ///< of the size: what the oracle decides
-/// m: beside 1e-6 of the size a hit may be early by the ulps of a position.
+/// m: in addition to 1e-6 of the size, a hit may be early by the ulps of a position.
 constexpr double k_early_slack = k_config == Config::f64 ? 0 : 4 * 0x1p-32;
 
 /// Calls check(query) for `count` queries of a set and two seeds.
@@ -62,7 +62,7 @@ void check_distance(const Query& query) {
     const double along = static_cast<double>(
         detent_oracle::separation_along(detent_oracle::solid_of(query.a), detent_oracle::solid_of(query.b), placement,
                                         detent_oracle::Arrow{normal[0], normal[1], normal[2]}));
-    // The normal itself parts them as far as the distance says.
+    // The separation along the reported normal is as large as the reported distance.
     EXPECT_NEAR(along - static_cast<double>(detent_oracle::solid_of(query.a).rounding +
                                             detent_oracle::solid_of(query.b).rounding),
                 distance, closest.capped ? extent : 2 * slack);
@@ -71,7 +71,7 @@ void check_distance(const Query& query) {
     if (distance_max < 0) continue;
     bool farther = false;
     EXPECT_OK(farther_than(a, pose_a, b, pose_b, real(distance_max), farther));
-    // True is certain, but for what the numbers lost.
+    // True is certain, except for the rounding of the numbers.
     if (farther) {
       EXPECT_GE(gap, host(real(distance_max)) - k_number_error * extent);
     }
@@ -95,7 +95,7 @@ detent_queries::Solid random_rim(Samples& samples) {
   return samples.below(2) == 0 ? solid : detent_queries::rounded(solid, size() / 4);
 }
 
-/// Two of them with a gap, m, of about `gap`; less than 0: overlapped.
+/// A random query with two of them and a gap of about `gap`, m; less than 0: they overlap.
 Query random_rims(Samples& samples, double gap) {
   for (;;) {
     Query query;
@@ -115,7 +115,7 @@ Query random_rims(Samples& samples, double gap) {
       (static_cast<double>(detent_oracle::separation_of(query).gap) < gap ? low : high) = middle;
     }
     set(high);
-    // What is asked, and judged, is as the configuration holds it.
+    // Both the library and the oracle get the values that the configuration stores.
     for (detent_queries::Path* path : {&query.path_a, &query.path_b}) {
       const BodyAt body = held(body_of(*path));
       for (size_t i = 0; i < 3; ++i) path->position[i] = body.position[static_cast<int>(i)];
@@ -159,7 +159,7 @@ DETENT_TEST(oracle, distances_of_rims_that_all_but_touch) {
   EXPECT_LE(capped, count / 4);
 }
 
-/// How deep the solids come by `end`, m, at the samples: a late answer has let them.
+/// The largest penetration up to `end`, m, at the samples: the effect of a late answer.
 double depth_between(const detent_oracle::Encounter& encounter, double start, double end) {
   double depth = 0;
   for (int i = 1; i <= 16; ++i) {

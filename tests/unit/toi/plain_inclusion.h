@@ -3,13 +3,14 @@
 
 #include "tests/unit/toi/ccd_queries.h"
 
-/// The same question by plain inclusion, for comparison: boxes of time and of two places on the features are halved,
-/// the earliest first, until the box that the differences lie in is small (Snyder 1992, as in Wang et al. 2021).
+/// The same test by plain interval inclusion, for comparison: boxes of time and of two positions on the features are
+/// halved, the earliest first, until the box that bounds the differences is small (Snyder 1992, as in Wang et al.
+/// 2021).
 namespace detent_test {
 
 class PlainInclusion {
  public:
-  /// `tolerance` is of the coordinates' unit.
+  /// `tolerance` is in the unit of the coordinates.
   PlainInclusion(const CcdQuery& query, double tolerance) : query_(query), tolerance_(tolerance) {
     rounding_ = ldexp(1, 15 - scale_of(query));  // 2^-45 of the largest coordinate
     for (int axis = 0; axis < 3; ++axis) {
@@ -27,7 +28,7 @@ class PlainInclusion {
     }
   }
 
-  /// Whether a box is left that may hold a contact, or too many were looked at.
+  /// Whether a box remains that may contain a contact, or the limit of boxes was reached.
   bool meets() {
     const auto later = [](const Box& a, const Box& b) { return a.low[0] > b.low[0]; };
     std::priority_queue<Box, std::vector<Box>, decltype(later)> open(later);
@@ -55,7 +56,7 @@ class PlainInclusion {
   struct Box {
     double low[3], high[3];
   };
-  /// The difference of the two places at a time, linear in each.
+  /// The difference of the two positions at a time, linear in each parameter.
   double difference(int axis, double t, double u, double v) const {
     const auto at = [&](int i) { return query_.start[i][axis] + (query_.end[i][axis] - query_.start[i][axis]) * t; };
     if (query_.edges) return at(0) + (at(1) - at(0)) * u - at(2) - (at(3) - at(2)) * v;
@@ -75,7 +76,7 @@ class PlainInclusion {
     }
     return true;
   }
-  /// The one of the three whose halving narrows most.
+  /// The parameter of the three whose halving reduces the box most.
   int widest_of(const Box& box) const {
     int widest = 0;
     double most = -1;

@@ -8,7 +8,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Those that have an inside, and a triangle.
+/// Polytopes with a volume, and a triangle.
 std::vector<KnownShape> solids() {
   return {known(box({1.0, 0.5, 0.25})), known_hull(tetrahedron_bytes(), 0), known_hull(prism_bytes(), 0)};
 }
@@ -90,7 +90,7 @@ DETENT_TEST(polytope, faces_beside_an_edge_have_no_vertex_above_them) {
           EXPECT_EQ(sign_of(dot(normal, along)), 0);
           for (uint32_t v = 0; v < polytope.vertex_count(); ++v) EXPECT_LE(side(normal, polytope, from, v), 0);
         }
-        // left x right is along the edge.
+        // left x right is parallel to the edge.
         const Vec64 across = cross(scaled_to_30_bits(faces.left), scaled_to_30_bits(faces.right));
         EXPECT_EQ(sign_of(dot(across, along)), 1);
       }

@@ -31,7 +31,7 @@ KnownShape random_polytope(Samples& samples, double scale) {
   }
 }
 
-/// Two polytopes that start apart and are aimed at each other; `turn_max` of each, rad.
+/// Two separated polytopes that move towards each other; `turn_max` is the largest rotation of each, rad.
 Encounter random_polytopes(Samples& samples, double turn_max) {
   for (;;) {
     const double scale = samples.below(4) == 0 ? ldexp(1, static_cast<int>(samples.below(7)) - 3) : 1;
@@ -51,7 +51,7 @@ Encounter random_polytopes(Samples& samples, double turn_max) {
   }
 }
 
-/// The poses that are asked about cannot tell whether bodies touch.
+/// Whether the poses are too coarse to decide if the bodies touch.
 bool are_too_coarse(const Encounter& encounter) { return encounter.tolerance() / 5 <= encounter.slack(); }
 
 /// A million with DETENT_FULL=1 (50,000 of them by default).
@@ -75,8 +75,8 @@ DETENT_TEST(feature_pairs, agree_with_conservative_advancement) {
     }
     intervals_most = std::max(intervals_most, by_features.passes);
     if (by_features.outcome == by_axes.outcome && time == other) continue;
-    // A hit of either is one within the tolerance, and neither is late: from the earlier time to the later they are
-    // apart.
+    // A hit of either method is within the tolerance, and neither is late: the shapes are separated between the earlier
+    // and the later time.
     const double first = std::min(time, other), last = std::max(time, other);
     apart_most = std::max(apart_most, last - first);
     ASSERT_LE(encounter.gap(first), tolerance) << time << " and " << other;
@@ -100,7 +100,7 @@ DETENT_TEST(feature_pairs, are_never_late) {
 }
 
 DETENT_TEST(feature_pairs, tell_where_bodies_meet_as_conservative_advancement_does) {
-  // A cube that falls on its corner, and one that turns by an edge into a wall.
+  // A cube that falls on its corner, and a cube that rotates with an edge into a wall.
   const KnownShape cube = known(box({0.5, 0.5, 0.5})), slab = known(box({4.0, 0.5, 4.0}));
   const Quaternion leaning = rotation_by(Vector{{0.3, 0.4, 0.5}});
   const Encounter falling = {slab, {{{0, -0.5, 0}}}, cube, {{{0.25, 2, 0.5}}, leaning, {{0, -2, 0}}}};
@@ -130,7 +130,7 @@ DETENT_TEST(feature_pairs, of_what_starts_together_hit_at_once) {
 }
 
 DETENT_TEST(feature_pairs, that_slide_along_each_other_are_answered) {
-  // Face on face, a millionth apart and more: clear, or a hit within the tolerance; not undecided.
+  // Face on face with a gap of 1e-7 and more: clear, or a hit within the tolerance; not undecided.
   const KnownShape cube = known(box({0.5, 0.5, 0.5}));
   for (const double gap : {1e-7, 1e-6, 1e-5, 1e-3}) {
     for (const double angular_velocity : {0.0, 1.0}) {
@@ -155,7 +155,7 @@ DETENT_TEST(feature_pairs, of_fast_spins_are_never_late_and_end) {
     EXPECT_EQ(impact.outcome, ToiOutcome::hit);
     expect_never_late(encounter, impact, 1000);
   }
-  // More parts of the step than are looked at: undecided, and safe.
+  // This needs more parts of the step than the limit: undecided, with a safe time.
   const Encounter endless = {
       rod, {{{0, 0, 0}}, k_upright, {{0, 0, 0}}, {{0, 0, 0x1p16}}}, cube, {{{2, 0, 0}}, k_upright, {{-0.375, 0, 0}}}};
   const TimeOfImpact impact = endless.impact_by(ToiMethod::feature_pairs);
@@ -163,7 +163,7 @@ DETENT_TEST(feature_pairs, of_fast_spins_are_never_late_and_end) {
   EXPECT_LT(fraction_to_host(impact.time), 1);
 }
 
-/// In whichever motion, at a time, with A first.
+/// Both polytopes placed at a time in some motion, A first.
 struct BothPlaced {
   Placed a, b;
 };
@@ -177,7 +177,7 @@ PosesOfStep poses_of(const BodyAt& body) {
   return {{body.position, body.rotation}, body.displacement, body.rotation_vector};
 }
 
-/// A's frame: B's first pose and its last, with the turn between.
+/// The first and the last pose of B in A's frame, and the rotation between them.
 PosesOfStep relative_poses(const Encounter& encounter) {
   const auto seen = [&](double time) {
     const BodyAt a = encounter.body_a.at(time), b = encounter.body_b.at(time);
@@ -192,16 +192,16 @@ PosesOfStep relative_poses(const Encounter& encounter) {
   return {first, last.position - first.position, sine == 0 ? Vector{{0, 0, 0}} : v * (angle / sine)};
 }
 
-/// What came of questions about a motion of a method's own.
+/// The counts of answers for a method's own motion.
 struct OwnMotion {
   uint32_t asked = 0, refused = 0, hits = 0;
   uint32_t passed = 0;  ///< by samples they touch before the answer's time
   uint32_t late = 0;    ///< hits at whose time they overlap
 };
 
-/// Asks a method about random polytopes, of which some turn too far for it: by more than `turn_limit`, rad.
-/// `rotation_vector` and `placed` say how far they turn, and where they are at a time, in its motion. A hit is within
-/// the tolerance.
+/// Tests a method with random polytopes, of which some rotate by more than its limit `turn_limit`, rad.
+/// `rotation_vector` and `placed` return the rotation, and the placement at a time, in the method's motion. A hit must
+/// be within the tolerance.
 template <class Turn, class PlacedAt>
 OwnMotion ask_in_own_motion(ToiMethod method, Samples samples, double turn_limit, Turn rotation_vector,
                             PlacedAt placed) {
@@ -267,7 +267,7 @@ DETENT_TEST(canny, hits_within_the_tolerance_and_passes_hardly_any_contact_of_it
   EXPECT_LE(found.passed, found.asked / 200);
 }
 
-/// Two triangles in one plane, point to edge: no volume changes its sign.
+/// Two triangles in one plane, a corner against an edge: no volume changes its sign.
 DETENT_TEST(canny, passes_what_is_coplanar_all_the_time) {
   const Vector corners[3] = {{{-0.5, 0, -0.5}}, {{0.5, 0, -0.5}}, {{0, 0, 0.5}}};
   const KnownShape triangle = known_triangle(corners, 0);

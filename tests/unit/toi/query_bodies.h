@@ -3,7 +3,7 @@
 #include "tests/queries/query.h"
 #include "tests/unit/distance/bodies_at.h"
 
-/// The query sets' solids and paths as a configuration takes them.
+/// Converts the solids and paths of the query sets to a configuration's types.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -54,7 +54,8 @@ inline BodyAt body_of(const detent_queries::Path& path) {
           vector_of(path.rotation_vector)};
 }
 
-/// The query with its positions on the configuration's grid: where that is coarse, another query is asked and judged.
+/// The query with its positions on the configuration's grid. Where the grid is coarse, this rounded query is tested and
+/// compared.
 inline detent_queries::Query on_grid(detent_queries::Query query) {
   if (k_config == Config::f64) return query;
   for (detent_queries::Path* path : {&query.path_a, &query.path_b}) {

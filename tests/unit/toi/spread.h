@@ -6,10 +6,10 @@
 #include <numeric>
 #include <vector>
 
-/// How long calls take, and how such numbers are spread.
+/// Times of calls, and their distribution.
 namespace detent_test {
 
-/// Of numbers: their mean, the 99th of a hundred, the largest.
+/// The mean, the 99th percentile and the maximum of numbers.
 struct Spread {
   double mean, late, most;
 };
@@ -21,7 +21,7 @@ inline Spread spread_of(std::vector<double> numbers) {
           numbers.back()};
 }
 
-/// The least of a few runs, us.
+/// The shortest time of a few runs, us.
 template <class Run>
 double time_of(int runs, const Run& run) {
   using Clock = std::chrono::steady_clock;
@@ -34,7 +34,7 @@ double time_of(int runs, const Run& run) {
   return least;
 }
 
-/// Time and intervals of many questions, as rows of docs/feature_toi.md.
+/// Times and interval counts of many queries, as rows of docs/feature_toi.md.
 struct Figures {
   std::vector<double> times{}, intervals{}, other_times{};
 

@@ -11,7 +11,7 @@ namespace {
 
 using detent_oracle::rounds;
 
-/// A hit at `time` of the step, within `early`, and not later.
+/// Expects a hit at `time` of the step, early by at most `early`, and not late.
 void expect_hit(const Encounter& encounter, double time, double early, double late = 1e-12) {
   for (const Encounter& either : {encounter, encounter.swapped()}) {
     const TimeOfImpact impact = either.impact();
@@ -100,7 +100,7 @@ DETENT_TEST(toi, of_a_turning_rod_whose_tip_meets_a_plane) {
       const double time = asin((height - ball) / 1) / fabs(angular_velocity);
       expect_hit({ground, {}, rod, {{{5, height, 0}}, lying, {{0, 0, 0}}, {{0, 0, angular_velocity}}}}, time, 1e-3,
                  k_late);
-      // The same onto a large flat box.
+      // The same test against a large flat box.
       const KnownShape slab = known(box({4.0, 0.5, 4.0}));
       expect_hit({slab, {{{5, -0.5, 0}}}, rod, {{{5, height, 0}}, lying, {{0, 0, 0}}, {{0, 0, angular_velocity}}}},
                  time, 1e-3, k_late);
@@ -131,7 +131,7 @@ DETENT_TEST(toi, of_a_turning_rod_that_sweeps_a_ball) {
       expect_clear({rod, turning, target, {at * 2}});
     }
   }
-  // Once around, next to a wall that it never reaches.
+  // One whole turn next to a wall that the rod never touches.
   expect_clear({rod,
                 {{{0, 0, 0}}, k_upright, {{0, 0, 0}}, {{0, 0, 2 * k_pi}}},
                 known(box({0.25, 4.0, 4.0})),
@@ -153,7 +153,7 @@ DETENT_TEST(toi, of_a_box_that_falls_flat) {
   }
 }
 
-/// Two shapes whose cores meet at the start, with or without a ball around them.
+/// Two shapes whose cores overlap at the start, with or without a ball around them.
 Encounter random_overlap(Samples& samples, bool round) {
   const auto shape = [&] {
     const auto size = [&] { return real(uniform(samples, 0.1, 1)); };
@@ -174,7 +174,7 @@ Encounter random_overlap(Samples& samples, bool round) {
   return {a, body_a, shape(), body_b};
 }
 
-/// How many of the answers have a normal.
+/// The number of answers that have a normal.
 uint32_t count_normals(bool round, uint32_t count) {
   Samples samples{2};
   uint32_t with_normal = 0;
@@ -189,7 +189,7 @@ uint32_t count_normals(bool round, uint32_t count) {
 }
 
 DETENT_TEST(toi, of_cores_that_meet_at_the_start_is_0_without_a_normal) {
-  // One in thousands is told a hit while the search is still outside, within the tolerance.
+  // In one of some thousand cases the search reports a hit within the tolerance before it finds the overlap.
   const uint32_t count = rounds(200);
   EXPECT_LE(count_normals(false, count), count / 1000);
 }
@@ -260,7 +260,7 @@ DETENT_TEST(toi, of_tiny_bodies_at_250_m_a_step) {
                    time, 1e-8);
       }
       expect_clear({tiny, {{{125, 0, 0}}}, tiny, {{{0, 2.25 * size, 0}}, k_upright, {{250, 0, 0}}}});
-      // Across the wall's thickness of 2 size in 2 millionths of the step, spinning.
+      // Through the wall's thickness of 2 size in 2 millionths of the step, while rotating.
       expect_hit(
           {wall, {{{125, 0, 0}}}, known(sphere(real(size))), {{{0, 0.5, 0.25}}, k_upright, {{250, 0, 0}}, {{9, 9, 9}}}},
           (125 - 2 * size) / 250, 1e-8);
@@ -293,8 +293,8 @@ DETENT_TEST(toi, of_the_fastest_spins_is_never_late) {
                                         << (both ? ", both" : ""));
         const Vector rotation_vector = axis * angular_velocity;
         if (both && angular_velocity == 0x1p16) continue;  // has a test of its own
-        // A ball comes in along x: the rod sweeps a disc of 1.0625 m, so they meet by then plus half a turn at the
-        // latest.
+        // A ball approaches along x. The rod sweeps a disc of 1.0625 m, so they touch at most half a turn after the
+        // ball reaches this disc.
         const BodyAt turning = {{{0, 0, 0}}, k_upright, {{0, 0, 0}}, rotation_vector};
         const BodyAt coming = {{{2, 0, 0}}, k_upright, {{-3, 0, 0}}, both ? rotation_vector : Vector{{0, 0, 0}}};
         for (const KnownShape& other : {ball, cube}) {
@@ -303,7 +303,7 @@ DETENT_TEST(toi, of_the_fastest_spins_is_never_late) {
             const TimeOfImpact impact = either.impact();
             EXPECT_NE(impact.outcome, ToiOutcome::clear);
             if (axis[1] == 0) {
-              // By half a turn after the ball is within the disc by its own radius.
+              // At the latest half a turn after the ball is inside the disc by its own radius.
               const double in_reach = 1.0 / 3 + k_pi / angular_velocity, time = fraction_to_host(impact.time);
               EXPECT_LE(time, in_reach);
             } else {
@@ -354,7 +354,7 @@ DETENT_TEST(toi, is_never_late_and_hits_within_the_tolerance) {
   EXPECT_EQ(undecided, 0u);
   EXPECT_GT(hits, count / 4);
   EXPECT_LT(hits, count * 9 / 10);
-  // An axis takes one call, and where a rim is tracked at most six more.
+  // One call for each axis, and at most six more where a rim is tracked.
   EXPECT_LE(gjk_calls, 7u * k_toi_iterations_max);
   EXPECT_LE(passes, static_cast<uint32_t>(3 * k_horizons_max * k_passes_max * k_toi_iterations_max));
 }
@@ -389,7 +389,7 @@ DETENT_TEST(toi, is_never_late_by_any_method) {
 }
 
 DETENT_TEST(toi, of_a_turning_plane_is_not_late_by_any_method) {
-  // n(t) = (-sin, cos, 0), so that the ball at (x, y) is met when -x sin + y cos is its radius.
+  // n(t) = (-sin, cos, 0): the ball at (x, y) touches the plane when -x sin + y cos equals its radius.
   const double angular_velocity = 1.5, x = 3, y = 2.5,
                time = (acos(0.5 / hypot(x, y)) - atan2(x, y)) / angular_velocity;
   const Encounter encounter = {known(half_space()),
@@ -440,7 +440,7 @@ DETENT_TEST(toi, of_a_ball_far_above_or_below_a_plane_is_not_taken_for_the_other
     if (HasFailure()) return;
   }
 }
-/// So far that sums of lengths end at the largest number there is.
+/// At a distance at which sums of lengths reach the largest number.
 DETENT_TEST(toi, of_a_turning_plane_and_a_ball_as_far_as_may_be_is_not_late) {
   const double angular_velocity = 1.5, x = 65000, y = 60000,
                time = (acos(0.5 / hypot(x, y)) - atan2(x, y)) / angular_velocity;
@@ -475,7 +475,7 @@ DETENT_TEST(toi, is_the_same_to_the_bit_wherever_the_pair_is) {
 }
 #endif
 
-/// Leaves a pattern where the next call's variables will be.
+/// Leaves a pattern on the stack, where the variables of the next call will be.
 [[gnu::noinline]] void scribble(uint8_t pattern) {
   volatile uint8_t waste[4096];
   for (size_t i = 0; i < sizeof waste; ++i) waste[i] = static_cast<uint8_t>(pattern + i % 7);

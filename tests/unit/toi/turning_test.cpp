@@ -7,7 +7,7 @@
 #include "tests/unit/distance/closed_form.h"
 #include "toi/advance.h"
 
-/// What rounding takes of the motion that conservative advancement sees: two rows of its budget (DESIGN.md).
+/// The rounding error of the motion that conservative advancement uses: two rows of its budget (DESIGN.md).
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
@@ -30,7 +30,7 @@ DETENT_TEST(turning, at_any_time_is_within_its_error_of_the_exact_rotation) {
     ASSERT_OK(prepare(cube.convex, motion, cube.convex, other, pair));
     turning = pair.turning_a;
     const int64_t time = static_cast<int64_t>(samples.bits() >> 2);
-    // The reference turns what the library was given: its rounded start and turn.
+    // The reference rotates with the values that the library was given: the rounded start and rotation.
     const Quat& q = motion.start.rotation;
     const Quaternion given = detent_oracle::normalised(
         Quaternion{unit_to_host(q.x), unit_to_host(q.y), unit_to_host(q.z), unit_to_host(q.w)});

@@ -57,7 +57,7 @@ DETENT_TEST(witness_axis, of_a_rod_that_turns_into_a_wall) {
   }
 }
 
-/// n(t) = (-sin, cos, 0), so that the ball at (x, y) is met when -x sin + y cos is its radius.
+/// n(t) = (-sin, cos, 0): the ball at (x, y) touches the plane when -x sin + y cos equals its radius.
 DETENT_TEST(witness_axis, of_a_turning_plane_turns_with_it) {
   const double angular_velocity = 1.5, x = 3, y = 2.5,
                time = (acos(0.5 / hypot(x, y)) - atan2(x, y)) / angular_velocity;
@@ -68,8 +68,8 @@ DETENT_TEST(witness_axis, of_a_turning_plane_turns_with_it) {
              time, 1e-5);
 }
 
-/// A cube falls with an edge down onto the upper edge, across it, of one that turns that edge about the falling one's:
-/// the cross product of the edges is (0, cos, sin).
+/// A cube falls, edge down, across the upper edge of a second cube that rotates its edge about that of the first: the
+/// cross product of the edges is (0, cos, sin).
 DETENT_TEST(witness_axis, of_two_edges_turns_with_their_cross_product) {
   const KnownShape cube = known(box({0.5, 0.5, 0.5}));
   const double sine = sin(k_pi / 8), cosine = cos(k_pi / 8), edge = sqrt(0.5), height = 2.5, displacement = 2,
@@ -87,7 +87,7 @@ DETENT_TEST(witness_axis, of_two_edges_turns_with_their_cross_product) {
   EXPECT_LE(witnessed(encounter).gjk_calls, 2u);
 }
 
-/// The dip between: what meets and has parted again by the end of the step is passed by.
+/// This method misses a contact in mid-step of bodies that are separated again at the end of the step.
 DETENT_TEST(witness_axis, passes_by_what_has_parted_again_at_the_end) {
   const Quaternion lying = {0, 0, sqrt(0.5), sqrt(0.5)};
   const KnownShape rod = known(capsule(0.0625, 1.0));
@@ -100,7 +100,7 @@ DETENT_TEST(witness_axis, passes_by_what_has_parted_again_at_the_end) {
   }
 }
 
-/// Of a hit all is checked, of the rest how often it differs from what is certified.
+/// Every hit is checked. Of the other answers, the number that differ from the certified answer is counted.
 DETENT_TEST(witness_axis, hits_are_within_the_tolerance_and_few_differ_from_the_default) {
   for (const double rotation_vector : {0.5, 2.0, 12.0}) {
     Samples samples{31};

@@ -62,7 +62,7 @@ void expect_same(const BodyDef& a, const BodyDef& b) {
   EXPECT_EQ(a.rotation_locks, b.rotation_locks);
 }
 
-/// The state is one that `load` lets in, and the step goes on from it alike.
+/// Checks that load() accepts the state, and that a step from the loaded state gives the same result.
 void expect_sound(Lab& lab) {
   Lab other(get_info(lab.world).capacity);
   std::vector<uint64_t> bytes = lab.snapshot();
@@ -72,7 +72,7 @@ void expect_sound(Lab& lab) {
   EXPECT_EQ(digest(lab.world), digest(other.world));
 }
 
-/// A box asleep on a slab, which is on nothing.
+/// A box asleep on a slab that floats in space.
 struct Still {
   Lab lab;
   BodyId slab, box;

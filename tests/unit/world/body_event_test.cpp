@@ -5,7 +5,7 @@
 #include "state/view.h"
 #include "tests/unit/world/lab.h"
 
-/// What a step tells of sleep, and of whom it had no room for.
+/// Events for bodies that fall asleep or wake, and for bodies that found no capacity.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
@@ -40,7 +40,7 @@ DETENT_TEST(body_event, who_falls_asleep_and_who_is_woken_is_told_once_in_the_or
     for (const BodyEvent& event : events) EXPECT_EQ(event.type, BodyEventType::fell_asleep);
   }
   EXPECT_EQ(slept, 1u);
-  // Woken by a call: with all that sleeps with it.
+  // wake_body() wakes the body and all bodies of its sleeping group.
   EXPECT_OK(wake_body(watch.lab.world, high));
   std::vector<BodyEvent> events = watch.run();
   ASSERT_EQ(events.size(), 2u);

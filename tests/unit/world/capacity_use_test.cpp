@@ -6,7 +6,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// A heap of balls that falls into a pit of boxes, in a world of that capacity.
+/// The capacity that a heap of balls needs that falls into a pit of boxes, in a world of this capacity.
 CapacityUse use_of_a_heap(Capacity capacity) {
   Lab lab(capacity);
   lab.add_ground();
@@ -36,7 +36,7 @@ DETENT_TEST(capacity_use, suggests_a_capacity_in_which_nothing_is_dropped) {
   EXPECT_EQ(fitted.steps_full, 0u);
   EXPECT_EQ(fitted.contacts, roomy.contacts) << "the same motion";
 
-  // From one that is too small it is reached in a few turns.
+  // From a capacity that is too small, a few rounds reach a sufficient one.
   Capacity capacity = {40, 8, 0};
   CapacityUse use = use_of_a_heap(capacity);
   EXPECT_GT(use.steps_full, 0u);

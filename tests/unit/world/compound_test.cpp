@@ -20,7 +20,7 @@ namespace {
 using detent_compounds::Parts;
 using detent_terrains::Bytes;
 
-/// A world whose asset 0 is a compound, and asset 1 a surface, if one is given.
+/// A world whose asset 0 is a compound and, if one is given, whose asset 1 is a terrain.
 class CompoundLab : public Lab {
  public:
   explicit CompoundLab(const Parts& parts, WorldDef def = {}, bool sleeping = false)
@@ -38,7 +38,7 @@ class CompoundLab : public Lab {
     }
     EXPECT_OK(compound_info(assets_[0], info));
   }
-  /// The compound with its source frame's origin at (x, y, z), the axes as they were.
+  /// A definition of the compound with the origin of its source frame at (x, y, z), unrotated.
   BodyDef compound_def(double x, double y, double z) const {
     BodyDef def;
     def.shape = compound(0);
@@ -47,7 +47,7 @@ class CompoundLab : public Lab {
                     unit(ldexp(info.rotation[2], -30)), unit(ldexp(info.rotation[3], -30))};
     return def;
   }
-  /// A box whose top is at 0.
+  /// Adds a box whose top is at y = 0.
   void add_floor(double half) {
     BodyDef floor;
     floor.type = BodyType::fixed;
@@ -57,7 +57,7 @@ class CompoundLab : public Lab {
   }
   BodyId add_compound(double x, double y, double z) { return add(compound_def(x, y, z)); }
 
-  /// Over the mass, J/kg.
+  /// The rotational energy over the mass, J/kg.
   double turning_energy(BodyId id) {
     Pose pose;
     Vec3<Real> linear_velocity, angular_velocity;
@@ -120,8 +120,8 @@ DETENT_TEST(compounds, stand_on_each_other_and_on_boxes) {
   EXPECT_NEAR(lab.motion(under).position[1], 0.25, 0.01);
 }
 
-/// The same box as itself and as a compound, side by side. It tumbles: what their ways of finding contacts differ by
-/// grows with each edge that strikes.
+/// The same box as a box and as a compound, side by side. It tumbles, so small differences between the two collision
+/// functions grow at each impact of an edge.
 DETENT_TEST(compounds, of_one_box_behave_as_it_does) {
   CompoundLab lab({detent_compounds::box({0, 0, 0}, {0.5, 0.25, 0.3})});
   lab.add_ground();
@@ -173,7 +173,7 @@ DETENT_TEST(compounds, of_two_balls_roll) {
   EXPECT_EQ(get_info(lab.world).contacts, 1u);
 }
 
-/// Dropped into a bowl made of triangles, turning and fast.
+/// Compounds are dropped into a bowl of triangles, fast and rotating.
 DETENT_TEST(compounds, never_fall_through_a_mesh) {
   const Bytes bowl = detent_terrains::cooked(
       detent_terrains::ground(16, 0.5, [](double x, double z) { return 0.15 * (x * x + z * z); }));
@@ -207,8 +207,8 @@ DETENT_TEST(compounds, never_fall_through_a_mesh) {
   }
 }
 
-/// One part may part from a wall that it touches while another goes into it. What leaves is told of: a part was deep in
-/// the wall already. That is one in 3,000.
+/// One part may separate from a wall that it touches while another part moves into the wall. If a compound leaves the
+/// room, the report says so: a part was already deep in the wall. This happens once in 3,000 throws.
 DETENT_TEST(compounds, never_leave_a_closed_room_in_silence) {
   uint32_t thrown = 0, left = 0;
   const Parts kinds[] = {detent_compounds::letter_l(), detent_compounds::table(), detent_compounds::dumbbell()};
@@ -270,7 +270,7 @@ DETENT_TEST(compounds, let_bullets_through_where_they_are_hollow) {
   }
 }
 
-/// A table that flies itself, at a post that stands between its legs and at one before a leg.
+/// A table flies against a post that stands between its legs, and against one in front of a leg.
 DETENT_TEST(compounds, meet_in_flight_with_the_part_that_is_in_the_way) {
   for (const bool before_leg : {false, true}) {
     CompoundLab lab(detent_compounds::table(), weightless());
@@ -345,7 +345,7 @@ DETENT_TEST(compounds, tell_which_children_touch_a_mesh) {
   EXPECT_EQ(legs, 0b111100u);
 }
 
-/// The plane's normal turns through several names, and its contact is the same all along.
+/// The normal of the plane rotates through the directions of several keys; the contact stays the same.
 DETENT_TEST(compounds, that_tilt_keep_their_contacts) {
   CompoundLab lab(detent_compounds::letter_l());
   BodyDef floor = lab.compound_def(0, 0, 0);
@@ -368,7 +368,8 @@ DETENT_TEST(compounds, that_tilt_keep_their_contacts) {
   }
 }
 
-/// Of two planes one finds no room, which must not be forgotten because the other is used again.
+/// Two planes touch, and one finds no capacity. The next tick must look for it again, although the contact of the other
+/// plane is recycled.
 DETENT_TEST(compounds, that_lose_a_plane_for_want_of_room_look_for_it_in_each_tick) {
   for (const uint32_t room : {1u, 2u}) {
     WorldDef def;
@@ -389,7 +390,7 @@ DETENT_TEST(compounds, that_lose_a_plane_for_want_of_room_look_for_it_in_each_ti
   }
 }
 
-/// Its 37 pieces lie on the ground in one plane.
+/// Its 37 parts lie on the ground in one plane.
 DETENT_TEST(compounds, of_many_pieces_lie_still) {
   Parts wheel = {detent_compounds::box({0, 0, 0}, {0.3, 0.1, 0.3})};
   for (int i = 0; i < 36; ++i) {
@@ -406,7 +407,7 @@ DETENT_TEST(compounds, of_many_pieces_lie_still) {
   EXPECT_NEAR(lab.motion(id).position[1], 0.12, 1e-3);
 }
 
-/// What is hollow hooks into its like: a pile of them comes to rest within its walls.
+/// Hollow compounds catch on each other: a pile of them comes to rest inside its walls.
 DETENT_TEST(compounds, come_to_rest_in_a_pile) {
   const Parts kinds[] = {detent_compounds::jack(0.4, 0.1), detent_compounds::letter_l(), detent_compounds::dumbbell()};
   for (const Parts& parts : kinds) {
@@ -447,7 +448,8 @@ DETENT_TEST(compounds, come_to_rest_in_a_pile) {
   }
 }
 
-/// A ball, however it is stored, touches in one point. Both are on the same floor.
+/// A ball touches in one point, as a part of a compound, too. The two balls of the dumbbell lie on the same floor, so
+/// they form one contact of two points.
 DETENT_TEST(compounds, of_balls_touch_in_single_points) {
   CompoundLab lab(detent_compounds::dumbbell());
   lab.add_floor(3);
@@ -460,7 +462,7 @@ DETENT_TEST(compounds, of_balls_touch_in_single_points) {
   EXPECT_EQ(contact.point[0].child_b + contact.point[1].child_b, 3u);
 }
 
-/// Its centre lies within the ridge: each ball is on the side where it is itself. Two are on each.
+/// The centre of the compound lies inside the ridge; each of its balls is on one side. Two balls lie on each side.
 DETENT_TEST(compounds, stand_astride_a_ridge) {
   const Bytes ridge =
       detent_terrains::cooked(detent_terrains::ground(8, 1, [](double x, double) { return 1 - fabs(x); }));
@@ -563,7 +565,7 @@ DETENT_TEST(compounds, are_saved_restored_and_loaded) {
   EXPECT_EQ(load(stranger.world, bytes_of(saved), byte_count(saved)), Status::asset_mismatch);
 }
 
-/// Each bit of the state of a world with a compound: refused, or it can be stepped.
+/// Flips each bit of the state of a world with a compound: load() refuses it, or the world can be stepped.
 DETENT_TEST(compounds, in_a_flipped_snapshot_are_refused_or_harmless) {
   const Parts parts = {detent_compounds::ball(-1, 0, 0, 0.5), detent_compounds::ball(1, 0, 0, 0.5)};
   CompoundLab lab(parts);

@@ -54,7 +54,7 @@ DETENT_TEST(contact, a_hit_rebounds_by_the_larger_restitution) {
               1e-3);  // it falls through the gap first
 }
 
-/// Its four corners share the blow: none turns it, and together they give no energy.
+/// The four corners share the impact: it does not rotate the box, and adds no energy.
 DETENT_TEST(contact, a_box_that_falls_flat_rebounds_flat) {
   for (const double half : {3.0, 0.375}) {
     Lab lab({2, 4, 0});

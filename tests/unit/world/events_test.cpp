@@ -9,7 +9,7 @@
 #include "tests/unit/math/samples.h"
 #include "tests/unit/world/lab.h"
 
-/// What a step tells of the contacts it made and ended.
+/// Events of contacts that a step begins and ends.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
@@ -83,10 +83,10 @@ DETENT_TEST(events, a_resting_stack_touches_on_until_it_falls_asleep) {
   }
   listener.lab.run(200);
   EXPECT_TRUE(listener.run().empty());
-  // What wakes has not ended and does not begin.
+  // A contact of a body that wakes neither ends nor begins.
   ASSERT_OK(wake_body(listener.lab.world, high));
   for (const ContactEvent& event : listener.run()) EXPECT_EQ(event.type, ContactEventType::touch);
-  // What is lifted away ends.
+  // The contact of a body that is lifted away ends.
   ASSERT_OK(set_pose(listener.lab.world, high, position(0, 5, 0), {0.0, 0.0, 0.0, 1.0}));
   const std::vector<ContactEvent> events = listener.run();
   ASSERT_EQ(events.size(), 2u);

@@ -8,7 +8,7 @@ namespace {
 constexpr Features k_balls = Features::sphere | Features::half_space;
 constexpr Capacity k_capacity = {12, 24, 1, true, 1};
 
-/// A world of few features, in memory of its own.
+/// A world with few features, in memory of its own.
 struct Lean {
   std::vector<uint64_t> words = std::vector<uint64_t>(world_bytes(k_capacity) / 8);
   World world;
@@ -35,7 +35,7 @@ struct Lean {
     BodyId id;
     return create_body(world, def, id);
   }
-  /// A ball joint between the first two bodies.
+  /// Creates a ball joint between the first two bodies.
   Status join() {
     JointDef def;
     def.a = next_body(world, {});

@@ -7,7 +7,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Own and the other's user data: at even sums they touch.
+/// A rule: bodies collide if the sum of their user data is even.
 bool even_sum(const FilterBody& own, const FilterBody& other) { return (own.user_data + other.user_data) % 2 == 0; }
 bool not_the_other_group(const FilterBody& own, const FilterBody& other) {
   return own.filter.group == other.filter.group;
@@ -93,7 +93,7 @@ DETENT_TEST(filter, a_rule_that_the_table_lacks_is_refused_wherever_it_comes_fro
   EXPECT_EQ(digest(other.world), digest(lab.world));
 }
 
-/// Two boxes asleep on each other and on the ground, all by contact events.
+/// Two boxes asleep, one on the other, on the ground; with a buffer for contact events.
 struct Sleepers {
   Lab lab;
   BodyId ground, low, high;

@@ -13,8 +13,8 @@ struct Errors {
   double position = 0, rotation = 0;
 };
 
-/// How far from the target a body is after a step, over random ways of up to `distance_max` m and turns of up to half a
-/// turn.
+/// The distance of a body from its target after a step, for random displacements of up to `distance_max` m and
+/// rotations of up to half a turn.
 Errors errors_of(const Shape& shape, double distance_max, int count) {
   detent_queries::Random random(1);
   Lab lab({1, 1, 0});

@@ -47,7 +47,7 @@ struct Motion {
 
 class Lab {
  public:
-  /// Nothing falls asleep unless `sleeping` says so.
+  /// Bodies do not fall asleep unless `sleeping` is true.
   explicit Lab(Capacity capacity, WorldDef def = {}, bool sleeping = false) {
     def.capacity = capacity;
     def.sleeping = sleeping;
@@ -103,7 +103,7 @@ class Lab {
 inline uint8_t* bytes_of(std::vector<uint64_t>& words) { return reinterpret_cast<uint8_t*>(words.data()); }
 inline uint32_t byte_count(const std::vector<uint64_t>& words) { return static_cast<uint32_t>(words.size() * 8); }
 
-/// The world takes the same way wherever it goes on: here, loaded into `other`, restored here. Returns the snapshot.
+/// Checks that the world continues in the same way here, loaded into `other`, and restored here. Returns the snapshot.
 inline std::vector<uint64_t> expect_one_way_on(Lab& lab, Lab& other) {
   constexpr uint32_t k_ticks = 60;
   std::vector<uint64_t> saved = lab.snapshot(), copy = saved;

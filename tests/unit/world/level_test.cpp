@@ -55,7 +55,8 @@ struct LevelWorld {
   double size = 0;  ///< of what is put into it, twice, m
 };
 
-/// Real levels, shot at from beside their triangles: no centre ever comes to lie behind what it was before.
+/// Bodies are shot at the triangles of game levels from near them: the centre of a body never passes to the back of a
+/// triangle.
 DETENT_TEST(levels, are_stood_rolled_and_shot_at) {
   uint32_t levels = 0, hit = 0;
   for (const char* name : detent_terrains::k_levels) {
@@ -112,7 +113,7 @@ DETENT_TEST(levels, are_stood_rolled_and_shot_at) {
   EXPECT_GT(hit, 1000u);
 }
 
-/// A character that is thrown about in them is never in a wall, and gets on.
+/// A mover that is moved at random through the levels is never inside a wall, and makes progress.
 DETENT_TEST(levels, are_walked_through) {
   uint32_t levels = 0, grounded = 0, moves = 0;
   for (const char* name : detent_terrains::k_levels) {

@@ -148,7 +148,7 @@ DETENT_TEST(pool, of_contacts_beyond_the_capacity_the_deepest_are_kept) {
     lab.add_ground();
     for (int i = 0; i < 8; ++i) lab.add_box(0.5, 3.0 * i, 0.5 - (deepest_first ? 7 - i : i) / 64.0, 0);
     const StepReport report = lab.run(1);
-    // There is room for six pairs.
+    // The capacity is six pairs.
     EXPECT_EQ(report.lost.pairs, 2u);
     EXPECT_EQ(report.lost.contacts, 3u);
     ASSERT_EQ(report.contacts.count, 3u);

@@ -8,7 +8,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// A clock that goes on by one whenever it is read.
+/// A clock that increases by one at each call.
 uint64_t count_up(void* user) { return ++*static_cast<uint64_t*>(user); }
 
 DETENT_TEST(profile, every_stage_of_a_step_is_timed_once_and_the_state_is_the_same) {

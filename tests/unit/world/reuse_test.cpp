@@ -3,7 +3,7 @@
 #include "state/view.h"
 #include "tests/unit/world/lab.h"
 
-/// Contact points used again while a pair hardly moves, in worlds.
+/// Recycled contact points of pairs that hardly move, in worlds.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
@@ -91,7 +91,7 @@ DETENT_TEST(reuse, a_body_put_elsewhere_is_found_anew) {
   ASSERT_FALSE(is_valid(lab.world, top));
   ASSERT_EQ(lab.run(1).contacts.recycled, 3u);
   const Motion before = lab.motion(upper);
-  // Aside, but over the next one still.
+  // Moved sideways, but still above the next one.
   ASSERT_OK(
       set_pose(lab.world, upper, position(before.position[0] + 0.25, before.position[1], 0), Quat{0.0, 0.0, 0.0, 1.0}));
   StepReport report = lab.run(1);
@@ -103,7 +103,7 @@ DETENT_TEST(reuse, a_body_put_elsewhere_is_found_anew) {
   ASSERT_OK(set_pose(lab.world, upper, position(before.position[0], before.position[1], 0),
                      Quat{Unit(0.0), unit(sin(half_angle)), Unit(0.0), unit(cos(half_angle))}));
   EXPECT_EQ(lab.run(1).contacts.recycled, 2u);
-  // Off it, and as far away as there is.
+  // Moved off it, and then to a very large distance.
   ASSERT_OK(
       set_pose(lab.world, upper, position(before.position[0], before.position[1] + 2, 0), Quat{0.0, 0.0, 0.0, 1.0}));
   report = lab.run(1);
@@ -143,7 +143,7 @@ DETENT_TEST(reuse, a_pair_that_may_close_what_was_out_of_reach_is_found_anew) {
   }
 }
 
-/// A slab of half size 20 m whose far part carries a box, tilted and turned by its own motion.
+/// A slab of half extent 20 m carries a box near its end, and rotates by its own motion.
 DETENT_TEST(reuse, a_large_body_that_turns_carries_what_stands_far_out) {
   for (const bool about_y : {false, true}) {
     Lab lab({3, 8, 0});

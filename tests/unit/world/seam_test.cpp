@@ -3,7 +3,7 @@
 #include "tests/queries/random.h"
 #include "tests/unit/world/lab.h"
 
-/// What slides, rolls or flies past what it could catch on; and what stands on several points at once.
+/// Bodies that slide, roll or fly past edges on which they could catch, and bodies that stand on several points.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
@@ -16,7 +16,7 @@ BodyDef slippery(const Shape& shape, double x, double y, double z) {
   return def;
 }
 
-/// Tiles of 1 m whose tops are at 0, from x = -1 to 7 and z = -2 to 2.
+/// Tiles of 1 m with their tops at y = 0, from x = -1 to 7 and z = -2 to 2.
 void add_tiles(Lab& lab) {
   for (int i = 0; i < 8; ++i) {
     for (int k = 0; k < 4; ++k) {
@@ -52,7 +52,7 @@ DETENT_TEST(seam, between_tiles_takes_no_speed_from_a_box_that_lies_askew) {
   EXPECT_EQ(behind, 0);
 }
 
-/// At whose start the best axis is that of two edges.
+/// At the start of these contacts the best axis is the one of two edges.
 DETENT_TEST(seam, whose_side_is_met_with_an_edge_first_takes_no_speed) {
   Lab lab({40, 64, 1});
   add_tiles(lab);
@@ -64,7 +64,7 @@ DETENT_TEST(seam, whose_side_is_met_with_an_edge_first_takes_no_speed) {
   EXPECT_NEAR(lab.motion(id).linear_velocity[0], 5, 1e-3);
 }
 
-/// Of which each body meets many in a tick.
+/// Each body crosses many seams in a tick.
 DETENT_TEST(seam, of_many_in_a_tick_keeps_nothing_behind) {
   Lab lab({170, 256, 1});
   for (int i = 0; i < 160; ++i) {
@@ -103,7 +103,7 @@ DETENT_TEST(seam, between_tiles_takes_no_speed_from_what_is_round) {
   }
 }
 
-/// A step that is higher than what a box may be sunk in stops it.
+/// A step that is higher than the permitted penetration of a box stops the box.
 DETENT_TEST(seam, is_not_where_a_tile_stands_out) {
   Lab lab({40, 64, 1});
   add_tiles(lab);
@@ -117,7 +117,7 @@ DETENT_TEST(seam, is_not_where_a_tile_stands_out) {
   EXPECT_LT(lab.motion(id).linear_velocity[0], 3);
 }
 
-/// Their surfaces come no nearer to each other than half a millimetre.
+/// The distance of their surfaces is always at least half a millimetre.
 DETENT_TEST(passing, balls_do_not_touch) {
   for (const double speed : {1.0, 5.0, 20.0}) {
     for (int start = 0; start < 7; ++start) {
@@ -136,7 +136,7 @@ DETENT_TEST(passing, balls_do_not_touch) {
   }
 }
 
-/// One pass over its four points would turn it, and it would rock for long.
+/// A single pass over its four points would rotate it, and it would rock for a long time.
 DETENT_TEST(standing, of_a_slender_pillar_is_still) {
   for (const double height : {0.5, 1.0, 2.0}) {
     Lab lab({4, 8, 1}, {}, true);

@@ -3,7 +3,7 @@
 
 #include "tests/unit/world/lab.h"
 
-/// A world that listens to its sensors, and what is put into it.
+/// A world that collects the events of its sensors, and helpers that add bodies.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 

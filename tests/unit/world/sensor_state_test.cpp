@@ -15,12 +15,12 @@
 #include "tests/unit/world/sensor_lab.h"
 #include "world/step_probe.h"
 
-/// What sensors leave in the state, and that no way through one is missed.
+/// The part of the state that sensors use, and tests that no path through a sensor is missed.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Gates over a ground, and bodies of all kinds that fall and fly through them.
+/// Sensors above a ground, and bodies of all kinds that fall and fly through them.
 struct Fair {
   Lab lab;
   std::vector<BodyId> solids;
@@ -100,7 +100,7 @@ DETENT_TEST(sensor, a_world_put_back_in_mid_overlap_goes_on_with_the_same_events
   EXPECT_GT(told, 40u);
 }
 
-/// Asked of all pairs, from the poses alone.
+/// The bodies within a sensor, from a test of all pairs at their poses.
 std::vector<BodyId> near_by_force(const World& world, BodyId sensor) {
   const StateView<const uint8_t> state = view_of(world);
   std::vector<BodyId> found;
@@ -204,7 +204,7 @@ DETENT_TEST(sensor, no_bit_of_who_is_within_can_be_flipped_into_a_crash) {
   EXPECT_GT(refused, bits / 2);
 }
 
-/// Takes a recording in memory.
+/// A sink that stores a recording in memory.
 struct Tape {
   std::vector<uint8_t> bytes;
   size_t at = 0;
@@ -244,12 +244,12 @@ DETENT_TEST(sensor, a_replay_makes_and_unmakes_the_same_sensors) {
   EXPECT_EQ(digest(other.world), digest(lab.world));
 }
 
-/// How deep two bodies overlap at least when their rounded poses do, for certain.
+/// Whether the rounded bodies overlap by at least `depth`, for certain.
 bool overlap_by(const BodyProperties& a, const BodyPose& pose_a, const BodyProperties& b, const BodyPose& pose_b,
                 double depth) {
   Convex convex_a, convex_b;
   EXPECT_TRUE(body_convex(a, {}, convex_a) && body_convex(b, {}, convex_b));
-  // The balls made smaller: only shapes that have one are asked like that.
+  // Reduces the radius of the ball; for rounded shapes only.
   convex_a.radius -= static_cast<int32_t>(ldexp(depth, 30 - convex_a.radius_exponent));
   if (convex_a.radius < 0) return false;
   bool farther = true;
@@ -275,7 +275,7 @@ DETENT_TEST(sensor, no_throw_whose_way_overlaps_goes_unnoticed) {
       gate.linear_velocity = reals(0, vy, 0);
     }
     const BodyId sensor = trap.lab.add(gate);
-    // A plate that deals the bodies back, so that the way has a bend.
+    // A plate that reflects the bodies, so that their paths have a bend.
     BodyDef wall;
     wall.type = BodyType::fixed;
     wall.shape = box(reals(0.05, 3, 3));
@@ -304,7 +304,7 @@ DETENT_TEST(sensor, no_throw_whose_way_overlaps_goes_unnoticed) {
         if (last == nullptr) return state.poses[slot];
         BodySweep rest{};
         const double whole = fraction_to_host(k_whole_step - last->from);
-        // The segment is what is left of the tick: its part until `time`.
+        // A segment covers the rest of the tick from its start; this is the part of it up to `time`.
         const double part = whole == 0 ? 0 : fraction_to_host(time - last->from) / whole;
         rest.displacement = last->displacement;
         rest.rotation_vector = last->rotation_vector;

@@ -5,7 +5,7 @@
 #include "tests/unit/shape/terrains.h"
 #include "tests/unit/world/sensor_lab.h"
 
-/// Who is within a sensor, and who was on the way.
+/// Bodies that are within a sensor at the end of a step, and bodies that passed through it.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
@@ -128,14 +128,14 @@ DETENT_TEST(sensor, what_rests_within_stays_within_also_asleep_and_is_not_kept_a
   EXPECT_OK(is_awake(trap.lab.world, crate, awake));
   EXPECT_FALSE(awake);
   EXPECT_EQ(trap.within(gate).size(), 1u);
-  // One that comes to a sleeper senses it and lets it sleep.
+  // A sensor that is created at a sleeping body senses it and does not wake it.
   const BodyId other = trap.lab.add(sensor_def(sphere(real(0.5)), 0.4, 0.3, 0.1));
   events = trap.run();
   ASSERT_EQ(events.size(), 1u);
   EXPECT_TRUE(is_event(events[0], k_enter, other, crate));
   EXPECT_OK(is_awake(trap.lab.world, crate, awake));
   EXPECT_FALSE(awake);
-  // And so does one that sweeps over it, though what is solid would wake it.
+  // The same holds for a sensor that moves through it, although a solid body would wake it.
   EXPECT_OK(set_type(trap.lab.world, gate, BodyType::kinematic));
   EXPECT_OK(set_velocity(trap.lab.world, gate, reals(6, 0, 0), {}));
   uint32_t leaves = 0;
@@ -157,7 +157,7 @@ DETENT_TEST(sensor, what_is_put_elsewhere_leaves_and_enters_without_a_way) {
   std::vector<SensorEvent> events = trap.run();
   ASSERT_EQ(events.size(), 1u);
   EXPECT_TRUE(is_event(events[0], k_leave, gate, ball));
-  // So it is with the sensor.
+  // A sensor that is moved to the position of the ball raises an enter event only.
   EXPECT_OK(set_pose(trap.lab.world, between, position(6, 0, 0), {0.0, 0.0, 0.0, 1.0}));
   events = trap.run();
   ASSERT_EQ(events.size(), 1u);
@@ -353,8 +353,8 @@ DETENT_TEST(sensor, a_body_that_passes_through_is_noticed_whichever_others_stay_
 }
 
 DETENT_TEST(sensor, a_body_that_passes_through_without_room_is_counted) {
-  // The wall reflects each ball, so that the first part of its sweep, up to the wall, passes the gate. There is room
-  // for one.
+  // The wall reflects each ball, so the first part of its sweep, up to the wall, passes through the gate. There is
+  // capacity for one pair.
   Trap trap(room_for(6, 1));
   CapacityEvent lost[8];
   trap.lab.world.hooks.capacity_events = {lost, 8};

@@ -58,7 +58,8 @@ BodyDef def_of(const Named& named, double x, double y, double z) {
   def.position = position(x, y, z);
   def.rotation = {unit(named.rotation_vector[0]), unit(named.rotation_vector[1]), unit(named.rotation_vector[2]),
                   unit(named.rotation_vector[3])};
-  // A cylinder on its side and what falls on a corner would roll on for ever, and rightly so.
+  // Without rolling resistance a cylinder on its side, or a shape that falls on a corner, would correctly roll for
+  // ever.
   def.material.rolling_resistance = real(0.05);
   return def;
 }
@@ -72,7 +73,7 @@ double speed_of(Lab& lab, BodyId id) {
   return sqrt(sum);
 }
 
-/// Drops each shape by 5 cm or so, lets it come to rest within 5 s, and looks whether it stays for 5 s more.
+/// Drops each shape from about 5 cm, lets it come to rest within 5 s, and checks that it stays at rest for 5 s more.
 void expect_rest(double floor, bool on_box) {
   for (const Named& named : all_shapes()) {
     Lab lab = make_lab();
@@ -164,7 +165,7 @@ DETENT_TEST(world_shapes, a_hull_has_to_be_bound_and_a_hull) {
 }
 
 DETENT_TEST(world_shapes, a_hull_in_its_sources_frame_is_for_bodies_that_nothing_moves) {
-  // The tetrahedron, said to be in its source's frame: inverse inertia, origin and rotation are then those of that
+  // The tetrahedron, marked as being in its source frame: inverse inertia, origin and rotation are then those of that
   // frame.
   alignas(8) static uint8_t bytes[sizeof detent_hulls::k_tetrahedron];
   memcpy(bytes, detent_hulls::k_tetrahedron, sizeof bytes);
@@ -259,7 +260,7 @@ DETENT_TEST(world_shapes, a_snapshot_with_hulls_is_taken_back_only_with_their_by
   EXPECT_EQ(load_with({no_hull, 2}), Status::asset_mismatch);
 }
 
-/// A body of the snapshot altered by `alter`; what load() says.
+/// The status of load() for the snapshot with a body altered by `alter`.
 Status load_altered(const std::vector<uint64_t>& good, uint32_t slot,
                     const std::function<void(BodyProperties&)>& alter) {
   Lab fresh(k_capacity);

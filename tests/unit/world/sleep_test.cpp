@@ -1,7 +1,7 @@
 #include "state/view.h"
 #include "tests/unit/joint/joint_lab.h"
 
-/// Islands that come to rest are left out of the step, and what wakes them.
+/// Tests that a step skips islands at rest, and which calls and events wake them.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
@@ -14,7 +14,7 @@ bool awake(const Lab& lab, BodyId id) {
   return result;
 }
 
-/// Two stacks of three boxes, ten metres apart, asleep.
+/// Two sleeping stacks of three boxes, ten metres apart.
 struct Stacks {
   Lab lab = Lab({12, 40, 0}, {}, true);
   BodyId ground = lab.add_ground();
@@ -54,7 +54,8 @@ DETENT_TEST(sleep, nothing_sleeps_in_a_world_without_it) {
   EXPECT_TRUE(awake(lab, id));
 }
 
-/// 3 mm/s at its side and 50 mm/s at its ends.
+/// At 0.1 rad/s the surface of the rod moves at 3 mm/s in a rotation about its axis, and its ends at 50 mm/s in a
+/// rotation about another axis.
 DETENT_TEST(sleep, a_rod_may_turn_faster_about_its_axis_than_about_another) {
   Lab lab({2, 4, 0}, weightless(), true);
   const BodyId rolls = add_shape(lab, capsule(Real(0.03), Real(0.5)), 0, 0, 0);
@@ -175,7 +176,7 @@ DETENT_TEST(sleep, survives_a_snapshot) {
   EXPECT_EQ(digest(stacks.lab.world), digest(other.lab.world));
 }
 
-/// A tower of four with a top of `mass` kg, far from a stack of three.
+/// The motion of a stack of three boxes far from a tower of four, whose top box has `mass` kg.
 std::vector<double> neighbours_of_a_tower(double mass, uint32_t& substeps_max) {
   Lab lab({9, 40, 0});
   lab.add_ground();

@@ -5,7 +5,7 @@
 #include "tests/queries/random.h"
 #include "tests/unit/world/terrain_lab.h"
 
-/// A character on meshes and height fields.
+/// A mover on meshes and height fields.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
@@ -34,7 +34,7 @@ struct Walker {
     fall = 0;
   }
   void move(double x, double y, double z) { ASSERT_OK(move_mover(lab.world, settings, reals(x, y, z), mover, report)); }
-  /// One tick at a level speed, m/s, and falling.
+  /// One tick of movement at a horizontal velocity, m/s, with gravity.
   void walk(double x, double z = 0) {
     fall += 9.81 * k_tick;
     move(x * k_tick, -fall * k_tick, z * k_tick);
@@ -54,7 +54,7 @@ struct Walker {
   }
 };
 
-/// Steps of a mesh, up along x from 2 m on, 4 m wide, and the floor before them.
+/// A mesh with steps, 4 m wide, that ascend along x from 2 m on, and with the floor in front of them.
 Source stairs(uint32_t steps, double height, double depth) {
   Source source;
   double x = -4, y = 0;

@@ -11,7 +11,7 @@
 #include "tests/oracle/bodies.h"
 #include "tests/unit/shape/terrains.h"
 
-/// Queries to bodies of meshes and height fields, against asking all of their triangles.
+/// Queries on bodies that are meshes or height fields, compared with a test of all their triangles.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
@@ -35,7 +35,7 @@ Vector turned_back(const Quaternion& q, const Vector& v) {
 
 double bump(double x, double z) { return 0.4 * sin(2 * x) * sin(3 * z); }
 
-/// Triangles of every size and direction, of three materials.
+/// Random triangles of every size and direction, with three materials.
 Source soup(Samples& samples, uint32_t count) {
   Source source;
   for (uint32_t i = 0; i < count; ++i) {
@@ -52,7 +52,7 @@ Source soup(Samples& samples, uint32_t count) {
   return source;
 }
 
-/// A world whose asset 0 is a surface.
+/// A world whose asset 0 is a terrain.
 class Place {
  public:
   explicit Place(const Bytes& bytes)
@@ -85,7 +85,7 @@ class Place {
   std::vector<uint64_t> words_;
 };
 
-/// A surface in any pose, and what its bytes say.
+/// A terrain in any pose, and its parsed bytes.
 struct Ground {
   Place in;
   Pose pose;
@@ -119,7 +119,7 @@ Convex convex_of(const Shape& shape) {
   return convex;
 }
 
-/// Whether what is met with this normal, or else from where `at` is, is met from behind.
+/// Whether a hit with this normal, or without a normal at the position `at`, is on the back of the triangle.
 bool from_behind(const Ground& ground, const TerrainTriangle& t, const Vec3<Unit>& normal, const Position& at) {
   const Quaternion q = host(ground.pose.rotation);
   const Vector front = turned(q, host(units_from_raw(normal_of(t.corner[0], t.corner[1], t.corner[2]))));
@@ -129,7 +129,7 @@ bool from_behind(const Ground& ground, const TerrainTriangle& t, const Vec3<Unit
   return dot(front, difference(at, ground.pose.position) - turned(q, corner)) < 0;
 }
 
-/// The first of all triangles, as `hit_of(convex, placed, hit)` finds it.
+/// The first hit of all triangles, as `hit_of(convex, placed, hit)` finds it.
 template <class HitOf>
 bool first_of_all(const Ground& ground, const Position& at, const HitOf& hit_of, QueryHit& first) {
   bool found = false;
@@ -249,7 +249,7 @@ DETENT_TEST(terrain_queries, answer_what_asking_all_triangles_answers) {
   EXPECT_GT(counts.overlap, part / 2);
 }
 
-/// Rays at the edges and corners of a closed room, from within, wherever it stands.
+/// Rays from inside a closed room to its edges and corners, for any pose of the room.
 DETENT_TEST(terrain_queries, no_ray_leaves_a_closed_room) {
   Samples samples = {32};
   const Ground ground(detent_terrains::cooked(detent_terrains::box_terrain(1, 1, 1, 4)), samples);
@@ -258,7 +258,7 @@ DETENT_TEST(terrain_queries, no_ray_leaves_a_closed_room) {
   for (uint32_t n = 0; n < rounds; ++n) {
     const auto grid = [&] { return 0.5 * static_cast<double>(samples.below(5)) - 1; };
     Vector target = {{grid(), grid(), grid()}};
-    // On a wall, an edge or a corner; every other one at any place along x.
+    // A target on a wall, an edge or a corner; every second target has a random x coordinate.
     const int axis = static_cast<int>(n % 2 == 0 ? 1 + samples.below(2) : samples.below(3));
     target[axis] = samples.below(2) == 0 ? -1 : 1;
     if (n % 2 == 0) target[0] = uniform(samples, -1, 1);
@@ -310,7 +310,7 @@ DETENT_TEST(terrain_queries, of_one_side_let_through_what_comes_from_behind) {
   }
 }
 
-/// Without the bytes it cannot be asked: it stands where its bounds begin.
+/// Without the bytes the terrain cannot be tested: the hit is reported where its bounds begin.
 DETENT_TEST(terrain_queries, never_say_no_hit_for_what_cannot_be_asked) {
   Place lab(detent_terrains::cooked(detent_terrains::plane(8, 1)));
   const BodyId id = lab.add_terrain();
@@ -332,7 +332,7 @@ DETENT_TEST(terrain_queries, never_say_no_hit_for_what_cannot_be_asked) {
   EXPECT_NEAR(real_to_host(hit.distance), 3.5, 0.02);
 }
 
-/// A body beside the surface keeps its place in the order, and the digest tells which triangle was met.
+/// A body beside the terrain keeps its place in the order, and the digest shows which triangle was hit.
 DETENT_TEST(terrain_queries, sort_terrains_among_other_bodies) {
   Place lab(detent_terrains::cooked(detent_terrains::plane(8, 1)));
   const BodyId ground = lab.add_terrain();

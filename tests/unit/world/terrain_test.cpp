@@ -18,7 +18,7 @@ using detent_terrains::Source;
 
 double flat(double, double) { return 0; }
 
-/// All convex shapes, and how high their centres lie at rest over the ground that they lie on.
+/// All convex shapes, and the heights of their centres at rest above the ground.
 struct Resting {
   Shape shape;
   double height;
@@ -57,7 +57,7 @@ DETENT_TEST(terrains, carry_every_shape_as_a_half_space_does) {
   }
 }
 
-/// Without friction what slides over inner edges keeps its speed, and stays down.
+/// Without friction, a body that slides over inner edges keeps its speed and stays on the ground.
 DETENT_TEST(terrains, are_slid_over_without_a_hitch) {
   TerrainLab lab(detent_terrains::cooked(detent_terrains::plane(60, 0.31)));
   lab.add_terrain(0);
@@ -80,7 +80,7 @@ DETENT_TEST(terrains, are_slid_over_without_a_hitch) {
   }
 }
 
-/// A closed room, hit from within from all sides.
+/// Bodies hit a closed room from inside, on all sides.
 DETENT_TEST(terrains, let_nothing_through) {
   TerrainLab lab(detent_terrains::cooked(detent_terrains::box_terrain(4, 3, 5, 3)));
   lab.add_terrain();
@@ -129,7 +129,7 @@ DETENT_TEST(terrains, of_one_side_let_through_what_comes_from_behind) {
 }
 
 DETENT_TEST(terrains, touch_in_several_places_at_once) {
-  // A valley: the box's lower edges lie on both slopes.
+  // A valley: the box's lower edges touch both slopes.
   TerrainLab lab(detent_terrains::cooked(detent_terrains::ground(8, 1, [](double x, double) { return fabs(x); })));
   const BodyId ground = lab.add_terrain();
   const BodyId ball = lab.add_shape(sphere(real(0.5)), 0, 0.5 * sqrt(2.0) + 0.01, 0.2, 0);
@@ -160,7 +160,7 @@ DETENT_TEST(terrains, touch_in_several_places_at_once) {
   EXPECT_NEAR(weight, 9.81 * scaled_to_host(mass), 0.02 * weight);
 }
 
-/// A turntable carries what lies on it: contacts know how fast each place of a surface moves.
+/// A rotating terrain carries bodies that lie on it: contacts use the velocity of the surface at each point.
 DETENT_TEST(terrains, carry_along_when_they_move) {
   TerrainLab lab(detent_terrains::cooked(detent_terrains::plane(8, 1)));
   BodyDef table = lab.ground_def(1);
@@ -175,7 +175,7 @@ DETENT_TEST(terrains, carry_along_when_they_move) {
   EXPECT_NEAR(motion.angular_velocity[1], 0.5, 0.01);
 }
 
-/// A wall that turns sweeps away what stands in its way, however fast.
+/// A rotating wall pushes bodies out of its way, at any speed.
 DETENT_TEST(terrains, sweep_away_what_they_meet) {
   Source wall;
   detent_terrains::add_vertex(wall, 0, -2, 0);
@@ -236,7 +236,7 @@ DETENT_TEST(terrains, are_refused_where_they_cannot_be) {
   EXPECT_EQ(bind_asset(plain.world, 0), Status::feature_missing);
 }
 
-/// Renderers get every triangle, and a drawing of lines alone shows them.
+/// Debug drawing reports every triangle to renderers, and its edges if the renderer draws lines only.
 DETENT_TEST(terrains, are_shown_where_they_are) {
   TerrainLab lab(detent_terrains::cooked(detent_terrains::box_terrain(2, 1, 3, 2)));
   BodyDef def = lab.ground_def();

@@ -6,8 +6,8 @@
 #include "tests/sequences/draw.h"
 #include "tests/unit/replay/match.h"
 
-/// Ticks in which bodies, shapes and joints come and go, as a seed and the world's own state say: made again from the
-/// same state they are the same.
+/// Ticks in which bodies, shapes and joints are created and destroyed. The calls depend only on a seed and the state of
+/// the world: the same state gives the same ticks.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -27,7 +27,7 @@ inline BodyId random_body(const World& world, Draw& draw) {
   return id;
 }
 
-/// What is refused changes nothing, and is as good.
+/// A refused call changes nothing, and is an acceptable outcome.
 inline void ignore(Status) {}
 
 inline void create_any_body(World& world, Draw& draw) {
@@ -53,7 +53,7 @@ inline void create_any_joint(World& world, Draw& draw) {
   ignore(create_joint(world, def, id));
 }
 
-/// One call, of bodies, shapes or joints.
+/// One random call on bodies, shapes or joints.
 inline void call_anything(World& world, Draw& draw) {
   bool wrong = false;
   const BodyId id = random_body(world, draw);
@@ -90,7 +90,7 @@ inline void make_turmoil(World& world, uint64_t seed) {
   step(world);
 }
 
-/// A world of it, some ticks old.
+/// A world after `ticks` ticks of this kind.
 inline OwnedWorld make_turmoiled(uint64_t seed, uint32_t ticks, Capacity capacity = k_turmoil_capacity) {
   OwnedWorld owned(turmoil_settings(seed, capacity));
   for (uint32_t i = 0; i < 3; ++i) EXPECT_OK(bind_asset(owned.world, i));
