@@ -113,7 +113,8 @@ DETENT_TEST(levels, are_stood_rolled_and_shot_at) {
   EXPECT_GT(hit, 1000u);
 }
 
-/// A mover that is moved at random through the levels is never inside a wall, and makes progress.
+/// Movers that move at random through the levels never overlap a wall, and are on the ground after more than a quarter
+/// of the moves.
 DETENT_TEST(levels, are_walked_through) {
   uint32_t levels = 0, grounded = 0, moves = 0;
   for (const char* name : detent_terrains::k_levels) {
