@@ -1,6 +1,6 @@
 #pragma once
 #include "examples/billiards/shots.h"
-#include "tests/scenes/scene.h"
+#include "examples/scenes/scene.h"
 
 /// A match of eight-ball on a nine-foot table, from the break on, at 1000 ticks a second. README.md describes the
 /// table, the simplifications and their reasons.

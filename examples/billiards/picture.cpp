@@ -9,8 +9,8 @@
 #include <numbers>
 #include <string>
 
+#include "examples/scenes/make.h"
 #include "ports/config_text.h"
-#include "tests/scenes/make.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

@@ -1,6 +1,6 @@
 #include "examples/dominoes/dominoes.h"
 
-#include "tests/scenes/make.h"
+#include "examples/scenes/make.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

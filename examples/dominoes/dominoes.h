@@ -1,5 +1,5 @@
 #pragma once
-#include "tests/scenes/scene.h"
+#include "examples/scenes/scene.h"
 
 /// A row of dominoes; the first one leans and knocks the others over, one after the other.
 namespace detent {

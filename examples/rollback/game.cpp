@@ -1,7 +1,7 @@
 #include "examples/rollback/game.h"
 
 #include "examples/rollback/seeded.h"
-#include "tests/scenes/make.h"
+#include "examples/scenes/make.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

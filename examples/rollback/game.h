@@ -1,5 +1,5 @@
 #pragma once
-#include "tests/scenes/scene.h"
+#include "examples/scenes/scene.h"
 
 /// A physics game for two to four players on a walled pitch. Each player rolls a ball, throws shots, and tries to push
 /// the game's ball past loose crates into the opponents' goal. Players 0 and 2 play to the right, 1 and 3 to the left.

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "tests/scenes/make.h"
+#include "examples/scenes/make.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

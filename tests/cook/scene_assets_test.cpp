@@ -8,7 +8,7 @@
 #include "ports/host/cook/cook_compound.h"
 #include "tests/unit/shape/terrains.h"
 
-/// The surfaces of the scenes (tests/scenes/assets) are what is cooked here. Run with DETENT_WRITE_ASSETS=1 to write
+/// The surfaces of the scenes (examples/scenes/assets) are what is cooked here. Run with DETENT_WRITE_ASSETS=1 to write
 /// them anew.
 
 namespace {

@@ -6,9 +6,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "examples/scenes/make.h"
+#include "examples/scenes/scene.h"
 #include "tests/environment/settings.h"
-#include "tests/scenes/make.h"
-#include "tests/scenes/scene.h"
 
 // run [unusual | fast]: prints every digest of some scenes, and what the conversions give. The text must be the same in
 // all floating-point environments. `unusual`: in settings that the program makes first; `fast`: it was linked with

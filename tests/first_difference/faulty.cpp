@@ -7,8 +7,8 @@
 #include <memory>
 
 #include "base/bytes.h"
+#include "examples/scenes/scene.h"
 #include "state/step_scratch.h"
-#include "tests/scenes/scene.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

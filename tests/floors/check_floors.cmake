@@ -1,5 +1,6 @@
 # cmake -DROOT=<repository> -P check_floors.cmake
-# Fails if a file of the library includes what it may not, or uses what the library does without.
+# Fails if a file of the library includes what it may not, or uses what the library does without; or if a port or an example
+# includes what is only for tests.
 
 cmake_minimum_required(VERSION 3.25)
 
@@ -63,6 +64,26 @@ foreach(path IN LISTS files)
     list(APPEND faults "${path} lies on no floor")
   endif()
 endforeach()
+
+# Beside the library: nothing includes tests/ but tests/, and of the examples a port includes the scenes alone.
+# check_beside(<folder> <folder that it may not include> [<except this folder of it>])
+function(check_beside folder other)
+  file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/${folder}/*.h ${ROOT}/${folder}/*.cpp ${ROOT}/${folder}/*.in
+    ${ROOT}/${folder}/*.ino)
+  foreach(path IN LISTS files)
+    file(STRINGS ${ROOT}/${path} lines REGEX "^[ \t]*#[ \t]*include[ \t]*[\"<](.*/)?${other}/")
+    foreach(line IN LISTS lines)
+      string(REGEX REPLACE "^[^\"<]*[\"<]([^\">]*).*" "\\1" name "${line}")
+      if(NOT ARGN OR NOT name MATCHES "^${ARGN}/")
+        list(APPEND faults "${path} includes \"${name}\"")
+      endif()
+    endforeach()
+  endforeach()
+  set(faults "${faults}" PARENT_SCOPE)
+endfunction()
+check_beside(ports tests)
+check_beside(ports examples examples/scenes)
+check_beside(examples tests)
 
 list(LENGTH floors floor_count)
 list(LENGTH checked file_count)

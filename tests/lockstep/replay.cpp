@@ -4,8 +4,8 @@
 #include <ports/print.h>
 #include <string.h>
 
+#include "examples/scenes/scene.h"
 #include "state/snapshot.h"
-#include "tests/scenes/scene.h"
 
 /// Replays a recording on any target, including microcontrollers: no allocation, no C library beyond memcpy and strcmp.
 ///

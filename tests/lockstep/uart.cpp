@@ -1,6 +1,6 @@
 #include <ports/machine.h>
 
-#include "tests/scenes/scene.h"
+#include "examples/scenes/scene.h"
 
 /// Records a scene through the serial port of an MPS2 board (AN385, AN386, AN500). A microcontroller needs a world, a
 /// buffer of one chunk, and a sink that waits until the port has taken each byte.

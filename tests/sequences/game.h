@@ -9,7 +9,7 @@
 #include <type_traits>
 
 #include "base/digest.h"
-#include "tests/scenes/scene.h"
+#include "examples/scenes/scene.h"
 #include "tests/sequences/draw.h"
 #include "tests/sequences/model.h"
 #include "tests/unit/replay/match.h"

@@ -2,7 +2,7 @@
 #include <detent/rollback.h>
 #include <string.h>
 
-#include "tests/scenes/scene.h"
+#include "examples/scenes/scene.h"
 
 // Every kind of call, without the help of any run-time library: a match that creates and destroys bodies, recorded,
 // saved, restored and loaded as it goes, then replayed; and a session that goes back. The exit code says whether the

@@ -2,12 +2,12 @@
 
 #include <detent/recording.h>
 
+#include "examples/scenes/scene.h"
 #include "file.h"
 #include "owned_world.h"
 #include "reading.h"
 #include "scene_play.h"
 #include "stream.h"
-#include "tests/scenes/scene.h"
 
 #define DETENT_TOOL_TEXT_OF(name) #name
 #define DETENT_TOOL_TEXT(name) DETENT_TOOL_TEXT_OF(name)

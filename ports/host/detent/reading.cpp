@@ -3,6 +3,7 @@
 #include <detent/numbers.h>
 #include <string.h>
 
+#include "examples/scenes/scene.h"
 #include "file.h"
 #include "ports/config_text.h"
 #include "replay/format.h"
@@ -11,7 +12,6 @@
 #include "shape/hull.h"
 #include "shape/mesh.h"
 #include "state/view.h"
-#include "tests/scenes/scene.h"
 #include "text.h"
 
 namespace detent {

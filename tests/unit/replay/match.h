@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "tests/scenes/scene.h"
+#include "examples/scenes/scene.h"
 #include "tests/support/test.h"
 
 /// Recordings in memory, how to make them, and how to take them apart.

@@ -1,6 +1,6 @@
-#include "tests/scenes/piles.h"
+#include "examples/scenes/piles.h"
 
-#include "tests/scenes/make.h"
+#include "examples/scenes/make.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

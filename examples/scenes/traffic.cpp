@@ -1,6 +1,6 @@
-#include "tests/scenes/traffic.h"
+#include "examples/scenes/traffic.h"
 
-#include "tests/scenes/make.h"
+#include "examples/scenes/make.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

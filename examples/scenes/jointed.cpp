@@ -1,6 +1,6 @@
-#include "tests/scenes/jointed.h"
+#include "examples/scenes/jointed.h"
 
-#include "tests/scenes/make.h"
+#include "examples/scenes/make.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

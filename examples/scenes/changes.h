@@ -1,5 +1,5 @@
 #pragma once
-#include "tests/scenes/scene.h"
+#include "examples/scenes/scene.h"
 
 /// What bodies and worlds are is changed during the match: shapes, types, masses, materials, locks, filters, settings;
 /// explosions, pushes at points, a platform that is sent to poses, and questions asked of the world.

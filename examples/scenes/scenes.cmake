@@ -2,7 +2,7 @@
 # the repository's root and compile them with options of their own. Others take the objects of detent_scenes_<config>.
 set(assets "")
 set(table "")
-foreach(file assets/valley.mesh assets/hills.field ../lockstep/round.hull assets/dumbbell.compound)
+foreach(file assets/valley.mesh assets/hills.field assets/round.hull assets/dumbbell.compound)
   cmake_path(GET file FILENAME name)
   cmake_path(ABSOLUTE_PATH file BASE_DIRECTORY ${CMAKE_CURRENT_LIST_DIR} NORMALIZE)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
@@ -13,7 +13,7 @@ foreach(file assets/valley.mesh assets/hills.field ../lockstep/round.hull assets
   string(APPEND table "{k_${name}, sizeof k_${name}}, ")
 endforeach()
 set(DETENT_SCENE_ASSETS ${PROJECT_BINARY_DIR}/scene_assets.cpp)
-file(CONFIGURE OUTPUT ${DETENT_SCENE_ASSETS} @ONLY CONTENT "#include \"tests/scenes/scene.h\"
+file(CONFIGURE OUTPUT ${DETENT_SCENE_ASSETS} @ONLY CONTENT "#include \"examples/scenes/scene.h\"
 namespace {
 @assets@}
 namespace detent {
@@ -33,9 +33,9 @@ set(DETENT_SCENE_SOURCES
   ${CMAKE_CURRENT_LIST_DIR}/traffic.cpp
   ${CMAKE_CURRENT_LIST_DIR}/changes.cpp
   ${CMAKE_CURRENT_LIST_DIR}/jointed.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/../../examples/billiards/billiards.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/../../examples/dominoes/dominoes.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/../../examples/rollback/game.cpp)
+  ${CMAKE_CURRENT_LIST_DIR}/../billiards/billiards.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/../dominoes/dominoes.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/../rollback/game.cpp)
 
 if(NOT TARGET detent_scenes_${DETENT_CONFIG})
   detent_per_config(detent_scenes ${DETENT_SCENE_SOURCES})

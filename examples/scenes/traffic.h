@@ -1,5 +1,5 @@
 #pragma once
-#include "tests/scenes/scene.h"
+#include "examples/scenes/scene.h"
 
 /// Calls of world.h during the match: a kinematic mover, pushes of each kind, bodies that come and go.
 namespace detent {

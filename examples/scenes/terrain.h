@@ -1,5 +1,5 @@
 #pragma once
-#include "tests/scenes/scene.h"
+#include "examples/scenes/scene.h"
 
 /// Bodies of every shape dropped into a valley made of a mesh and on hills of a height field, shot at both through
 /// sensors, and a valley that turns.

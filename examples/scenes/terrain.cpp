@@ -1,6 +1,6 @@
-#include "tests/scenes/terrain.h"
+#include "examples/scenes/terrain.h"
 
-#include "tests/scenes/make.h"
+#include "examples/scenes/make.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

@@ -1,5 +1,5 @@
 #pragma once
-#include "tests/scenes/scene.h"
+#include "examples/scenes/scene.h"
 
 /// Joints of every type: a chain from a turning arm, a door with a motor, a lift, a cart on two wheels with springs, a
 /// limp figure, a ring, and a rope that breaks; motors and limits are set anew on the way.

@@ -1,11 +1,11 @@
 #include "examples/billiards/billiards.h"
 #include "examples/dominoes/dominoes.h"
 #include "examples/rollback/game.h"
-#include "tests/scenes/changes.h"
-#include "tests/scenes/jointed.h"
-#include "tests/scenes/piles.h"
-#include "tests/scenes/terrain.h"
-#include "tests/scenes/traffic.h"
+#include "examples/scenes/changes.h"
+#include "examples/scenes/jointed.h"
+#include "examples/scenes/piles.h"
+#include "examples/scenes/terrain.h"
+#include "examples/scenes/traffic.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

@@ -1,5 +1,5 @@
 #pragma once
-#include "tests/scenes/scene.h"
+#include "examples/scenes/scene.h"
 
 /// Small scenes in which bodies fall, pile up and come to rest.
 namespace detent {
