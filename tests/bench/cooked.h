@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "tests/queries/query.h"
+#include "tests/common/queries/query.h"
 
 namespace detent_bench {
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "tests/queries/query.h"
+#include "tests/common/queries/query.h"
 
 /// What the benchmark asks of an engine: this library in one configuration, or a peer. No type here depends on one.
 namespace detent_bench {

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
-#include "tests/queries/gap.h"
-#include "tests/queries/sets.h"
-#include "tests/queries/solids.h"
+#include "tests/common/queries/gap.h"
+#include "tests/common/queries/sets.h"
+#include "tests/common/queries/solids.h"
 
 namespace detent_bench {
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/queries/solids.h"
+#include "tests/common/queries/solids.h"
 
 namespace detent_bench {
 

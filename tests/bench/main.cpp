@@ -12,7 +12,7 @@
 #include "tests/bench/rollback/command.h"
 #include "tests/bench/terminal.h"
 #include "tests/bench/world/command.h"
-#include "tests/queries/sets.h"
+#include "tests/common/queries/sets.h"
 
 namespace {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <math.h>
 
-#include "tests/queries/triple.h"
+#include "tests/common/queries/triple.h"
 
 /// Poses along a path, for engines that take a start and an end instead of a turn.
 namespace detent_bench {

@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "tests/oracle/convex_toi.h"
-#include "tests/queries/gap.h"
-#include "tests/queries/solids.h"
+#include "tests/common/oracle/convex_toi.h"
+#include "tests/common/queries/gap.h"
+#include "tests/common/queries/solids.h"
 
 namespace detent_bench {
 

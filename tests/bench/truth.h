@@ -4,7 +4,7 @@
 
 #include "tests/bench/measure.h"
 
-/// What the oracle (tests/oracle) says of the queries.
+/// What the oracle (tests/common/oracle) says of the queries.
 namespace detent_bench {
 
 struct Truth {

@@ -8,7 +8,7 @@
 #include "cook_height_field.h"
 #include "read_mesh.h"
 #include "shape/mesh.h"
-#include "tests/support/data_file.h"
+#include "tests/common/support/data_file.h"
 #include "tests/unit/shape/terrains.h"
 
 namespace {

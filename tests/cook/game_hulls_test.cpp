@@ -9,8 +9,8 @@
 
 #include "cook.h"
 #include "read_points.h"
+#include "tests/common/support/data_file.h"
 #include "tests/cook/solids.h"
-#include "tests/support/data_file.h"
 #if DETENT_HAS_QHULL
 #include "tests/cook/qhull.h"
 #endif

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "tests/support/random.h"
+#include "tests/common/support/random.h"
 
 /// Clouds of points with known properties, and what the cooked bytes say of themselves.
 namespace detent_cook_test {

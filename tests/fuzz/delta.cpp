@@ -1,8 +1,8 @@
 #include <detent/rollback.h>
 
+#include "tests/common/support/usable.h"
 #include "tests/fuzz/targets.h"
 #include "tests/sequences/game.h"
-#include "tests/support/usable.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

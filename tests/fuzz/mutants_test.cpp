@@ -1,7 +1,7 @@
 #include "tests/fuzz/mutants.h"
 
+#include "tests/common/support/test.h"
 #include "tests/fuzz/targets.h"
-#include "tests/support/test.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

@@ -1,6 +1,6 @@
+#include "tests/common/support/usable.h"
 #include "tests/fuzz/targets.h"
 #include "tests/sequences/game.h"
-#include "tests/support/usable.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

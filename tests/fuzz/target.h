@@ -1,5 +1,5 @@
 #pragma once
-#include "tests/support/mutant.h"
+#include "tests/common/support/mutant.h"
 
 /// What reads bytes from outside, each as a function that any bytes may be given to.
 namespace detent_fuzz {

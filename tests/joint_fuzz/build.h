@@ -1,6 +1,6 @@
 #pragma once
+#include "tests/common/queries/random.h"
 #include "tests/joint_fuzz/scene.h"
-#include "tests/queries/random.h"
 
 /// The parts of random scenes.
 namespace detent_joint_fuzz {

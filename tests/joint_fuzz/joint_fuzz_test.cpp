@@ -1,9 +1,9 @@
 #include <stdlib.h>
 
+#include "tests/common/support/test.h"
 #include "tests/joint_fuzz/random_scene.h"
 #include "tests/joint_fuzz/run_detent.h"
 #include "tests/joint_fuzz/verdict.h"
-#include "tests/support/test.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "tests/support/text_table.h"
+#include "tests/common/support/text_table.h"
 
 namespace detent_joint_fuzz {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/queries/triple.h"
+#include "tests/common/queries/triple.h"
 
 /// A graph of jointed bodies, in plain numbers that are the same for every configuration. SI units, Y up.
 namespace detent_joint_fuzz {

@@ -1,5 +1,5 @@
 #pragma once
-#include "tests/queries/triple.h"
+#include "tests/common/queries/triple.h"
 
 /// Products of unit quaternions x, y, z, w.
 namespace detent_joint_fuzz {

@@ -2,7 +2,7 @@
 #include <detent/contact.h>
 #include <detent/toi.h>
 
-#include "tests/support/random.h"
+#include "tests/common/support/random.h"
 
 /// Seeded pairs of convex shapes whose numbers are exact in each configuration: an integer below 2^24 times a power of
 /// two no finer than fx32's positions. Rotations are exact too, until the library normalises them.

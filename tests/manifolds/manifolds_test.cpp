@@ -1,6 +1,6 @@
+#include "tests/common/support/test.h"
 #include "tests/manifolds/report.h"
 #include "tests/manifolds/run_detent.h"
-#include "tests/support/test.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "tests/oracle/contact_patch.h"
+#include "tests/common/oracle/contact_patch.h"
 
 namespace detent_manifolds {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "tests/support/text_table.h"
+#include "tests/common/support/text_table.h"
 
 namespace detent_manifolds {
 

@@ -12,7 +12,7 @@
 #include "ports/host/cook/cook.h"
 #include "ports/host/cook/cook_mesh.h"
 #include "shape/shape_properties.h"
-#include "tests/oracle/random_solids.h"
+#include "tests/common/oracle/random_solids.h"
 
 #define DETENT_MANIFOLDS_TEXT_OF(name) #name
 #define DETENT_MANIFOLDS_TEXT(name) DETENT_MANIFOLDS_TEXT_OF(name)

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "tests/oracle/convex_distance.h"
-#include "tests/queries/query.h"
+#include "tests/common/oracle/convex_distance.h"
+#include "tests/common/queries/query.h"
 
 /// Pairs of bodies in resting and sliding configurations, and their poses in the following ticks. Host code,
 /// independent of the configuration.

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "tests/oracle/contact_patch.h"
+#include "tests/common/oracle/contact_patch.h"
 
 namespace detent_manifolds {
 

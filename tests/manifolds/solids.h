@@ -1,6 +1,6 @@
 #pragma once
+#include "tests/common/oracle/random_solids.h"
 #include "tests/manifolds/scene.h"
-#include "tests/oracle/random_solids.h"
 
 /// The solids of the pairs, and their resting face, edge or corner.
 namespace detent_manifolds {

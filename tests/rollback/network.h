@@ -4,7 +4,7 @@
 
 #include "examples/rollback/conditioner.h"
 #include "examples/rollback/match.h"
-#include "tests/support/test.h"
+#include "tests/common/support/test.h"
 
 /// A match of several machines in one process, with a clock of its own.
 namespace detent {

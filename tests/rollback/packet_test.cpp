@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "examples/rollback/seeded.h"
-#include "tests/support/test.h"
+#include "tests/common/support/test.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

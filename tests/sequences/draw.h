@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "tests/queries/random.h"
+#include "tests/common/queries/random.h"
 #include "tests/unit/world/lab.h"
 
 /// Arguments for random calls, good and bad: the same on every machine, so no libm.

@@ -1,6 +1,6 @@
 #include "tests/sequences/game.h"
 
-#include "tests/support/usable.h"
+#include "tests/common/support/usable.h"
 #include "tests/unit/shape/hull_bytes.h"
 
 namespace detent {

@@ -2,7 +2,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "tests/oracle/effort.h"
+#include "tests/common/oracle/effort.h"
 #include "tests/sequences/digests.h"
 #include "tests/sequences/game.h"
 

@@ -1,6 +1,6 @@
 #include <math.h>
 
-#include "tests/oracle/effort.h"
+#include "tests/common/oracle/effort.h"
 #include "tests/stress/bounds.h"
 #include "tests/stress/measures.h"
 #include "tests/stress/run_detent.h"

@@ -1,8 +1,8 @@
 #include "tests/stress/cases.h"
-#include "tests/oracle/effort.h"
+#include "tests/common/oracle/effort.h"
+#include "tests/common/support/test.h"
 #include "tests/stress/bounds.h"
 #include "tests/stress/run_detent.h"
-#include "tests/support/test.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

@@ -1,10 +1,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "tests/common/support/test.h"
 #include "tests/stress/bounds.h"
 #include "tests/stress/cases.h"
 #include "tests/stress/measures.h"
-#include "tests/support/test.h"
 
 /// The results of the cases for engines with known faults.
 namespace detent {

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "tests/queries/triple.h"
+#include "tests/common/queries/triple.h"
 
 namespace detent_stress {
 

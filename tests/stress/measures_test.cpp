@@ -3,7 +3,7 @@
 #include <detent/asset.h>
 #include <math.h>
 
-#include "tests/queries/random.h"
+#include "tests/common/queries/random.h"
 #include "tests/stress/icosahedron.h"
 #include "tests/stress/scenes.h"
 #include "tests/unit/world/lab.h"

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "examples/ragdoll/ragdoll.h"
-#include "tests/oracle/effort.h"
-#include "tests/queries/random.h"
+#include "tests/common/oracle/effort.h"
+#include "tests/common/queries/random.h"
 #include "tests/unit/joint/joint_lab.h"
 
 /// Figures thrown onto the ground at speeds that occur in games.

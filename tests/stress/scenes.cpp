@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "tests/queries/random.h"
+#include "tests/common/queries/random.h"
 
 namespace detent_stress {
 

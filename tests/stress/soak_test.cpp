@@ -2,8 +2,8 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "tests/oracle/effort.h"
-#include "tests/queries/random.h"
+#include "tests/common/oracle/effort.h"
+#include "tests/common/queries/random.h"
 #include "tests/unit/world/lab.h"
 
 /// A very long run in which bodies are created and destroyed.

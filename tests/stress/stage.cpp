@@ -6,8 +6,8 @@
 #include <numeric>
 #include <utility>
 
-#include "tests/queries/random.h"
-#include "tests/queries/triple.h"
+#include "tests/common/queries/random.h"
+#include "tests/common/queries/triple.h"
 
 namespace detent_stress {
 

@@ -1,6 +1,6 @@
 #include "tests/bench/motions/step_motion.h"
 
-#include "tests/oracle/step_motion.h"
+#include "tests/common/oracle/step_motion.h"
 
 namespace detent_bench {
 

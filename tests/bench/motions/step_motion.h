@@ -1,5 +1,5 @@
 #pragma once
-#include "tests/oracle/motions.h"
+#include "tests/common/oracle/motions.h"
 
 namespace detent_bench {
 

@@ -5,7 +5,7 @@
 
 #include "broad_phase/bounds_integer.h"
 #include "shape/bounds.h"
-#include "tests/oracle/bodies.h"
+#include "tests/common/oracle/bodies.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -138,7 +138,7 @@ Found found_in(const Crowd& crowd, const RestingTree& tree, uint32_t capacity) {
                    {spare.data(), capacity},
                    {keys.data(), capacity}};
   add_moving_pairs({moving.data(), static_cast<uint32_t>(moving.size())}, tree, {bounds_keys.data(), count},
-             {bounds_spare.data(), count}, pool);
+                   {bounds_spare.data(), count}, pool);
   pool.sort();
   EXPECT_EQ(keys[capacity], 77u) << "written beyond the buffer";
   keys.resize(pool.pairs().count);

@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "state/view.h"
-#include "tests/oracle/bodies.h"
+#include "tests/common/oracle/bodies.h"
 #include "tests/unit/world/lab.h"
 #include "world/step_probe.h"
 

@@ -1,7 +1,7 @@
 #include <math.h>
 
 #include "state/view.h"
-#include "tests/oracle/bodies.h"
+#include "tests/common/oracle/bodies.h"
 #include "tests/unit/world/lab.h"
 
 namespace detent {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/oracle/bodies.h"
+#include "tests/common/oracle/bodies.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "contact/body_convex.h"
-#include "tests/oracle/bodies.h"
+#include "tests/common/oracle/bodies.h"
 #include "tests/unit/shape/terrains.h"
 
 namespace detent {

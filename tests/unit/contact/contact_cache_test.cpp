@@ -1,7 +1,7 @@
 #include "contact/contact_cache.h"
 
 #include "contact/terrain_manifolds.h"
-#include "tests/oracle/bodies.h"
+#include "tests/common/oracle/bodies.h"
 
 /// Tests that the contacts of the parts of a pair keep their keys and impulses from tick to tick.
 namespace detent {

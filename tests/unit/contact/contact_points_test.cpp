@@ -4,7 +4,7 @@
 #include <string>
 
 #include "contact/contact_clip.h"
-#include "tests/oracle/effort.h"
+#include "tests/common/oracle/effort.h"
 #include "tests/unit/distance/placed_pairs.h"
 
 namespace detent {

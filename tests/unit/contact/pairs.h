@@ -2,7 +2,7 @@
 #include "contact/collide.h"
 #include "contact/contact_arm.h"
 #include "math/root.h"
-#include "tests/oracle/bodies.h"
+#include "tests/common/oracle/bodies.h"
 
 /// Random pairs of bodies at a chosen separation, and the contacts that the library finds.
 namespace detent {

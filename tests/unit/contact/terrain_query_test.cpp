@@ -3,7 +3,7 @@
 #include <detent/toi.h>
 #include <math.h>
 
-#include "tests/oracle/bodies.h"
+#include "tests/common/oracle/bodies.h"
 #include "tests/unit/shape/terrains.h"
 
 /// Rays, sweeps and times of impact against meshes and height fields.

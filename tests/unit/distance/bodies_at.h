@@ -2,8 +2,8 @@
 #include <detent/numbers.h>
 #include <detent/toi.h>
 
-#include "tests/oracle/vectors.h"
-#include "tests/support/test.h"
+#include "tests/common/oracle/vectors.h"
+#include "tests/common/support/test.h"
 #include "tests/unit/math/samples.h"
 
 /// Poses and motions for the tests of lib/distance and lib/toi: doubles with the values that a configuration stores.

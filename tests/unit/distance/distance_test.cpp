@@ -1,7 +1,7 @@
 #include <detent/distance.h>
 
 #include "distance/pair.h"
-#include "tests/oracle/effort.h"
+#include "tests/common/oracle/effort.h"
 #include "tests/unit/distance/closed_form.h"
 
 namespace detent {

@@ -1,6 +1,6 @@
 #include "distance/gjk.h"
 
-#include "tests/oracle/effort.h"
+#include "tests/common/oracle/effort.h"
 #include "tests/unit/distance/placed_pairs.h"
 
 #if defined(__SIZEOF_INT128__)

@@ -1,6 +1,6 @@
 #include "distance/penetration.h"
 
-#include "tests/oracle/effort.h"
+#include "tests/common/oracle/effort.h"
 #include "tests/unit/distance/placed_pairs.h"
 
 namespace detent {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "distance/gjk.h"
-#include "tests/support/test.h"
+#include "tests/common/support/test.h"
 #include "tests/unit/math/samples.h"
 #include "tests/unit/shape/hull_bytes.h"
 

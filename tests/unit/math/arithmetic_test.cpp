@@ -1,7 +1,7 @@
 #include "math/arithmetic.h"
 
 #include "samples.h"
-#include "tests/support/test.h"
+#include "tests/common/support/test.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

@@ -5,7 +5,7 @@
 #include "math/rotation.h"
 #include "math/scaled.h"
 #include "samples.h"
-#include "tests/support/test.h"
+#include "tests/common/support/test.h"
 
 /// A hash of the results of every kernel for the same arguments. It is equal on every target, compiler and optimisation
 /// level.

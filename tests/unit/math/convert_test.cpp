@@ -2,7 +2,7 @@
 
 #include "math/float_bits.h"
 #include "samples.h"
-#include "tests/support/test.h"
+#include "tests/common/support/test.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

@@ -4,7 +4,7 @@
 #include "math/scaled.h"
 #include "oracle.h"
 #include "samples.h"
-#include "tests/support/test.h"
+#include "tests/common/support/test.h"
 
 /// Compares every kernel with MPFR, at regular intervals of its domain and at its edges. Kernels of one 32-bit argument
 /// are tested for all arguments in sweep_test.cpp. The bounds of the other inexact kernels are the largest errors found

@@ -1,7 +1,7 @@
 #include "math/root.h"
 
 #include "samples.h"
-#include "tests/support/test.h"
+#include "tests/common/support/test.h"
 #if !DETENT_FIXED
 #include "math/float_bits.h"
 #endif

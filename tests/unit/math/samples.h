@@ -2,7 +2,7 @@
 #include <detent/numbers.h>
 #include <stdint.h>
 
-#include "tests/support/random.h"
+#include "tests/common/support/random.h"
 
 /// Inputs for the number tests: a fixed sequence of uniform numbers and of numbers at the edges of every magnitude.
 namespace detent {

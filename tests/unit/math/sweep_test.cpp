@@ -6,7 +6,7 @@
 #include "math/root.h"
 #include "math/trig.h"
 #include "oracle.h"
-#include "tests/support/test.h"
+#include "tests/common/support/test.h"
 #if !defined(DETENT_F64)
 #include "math/float_bits.h"
 #include "math/trig_integer.h"

@@ -3,8 +3,8 @@
 #include "ccd/impact_response.h"
 #include "motion/finalise.h"
 #include "state/view.h"
-#include "tests/oracle/bodies.h"
-#include "tests/oracle/effort.h"
+#include "tests/common/oracle/bodies.h"
+#include "tests/common/oracle/effort.h"
 #include "tests/unit/world/lab.h"
 
 namespace detent {

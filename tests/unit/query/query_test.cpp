@@ -12,7 +12,7 @@
 #include "shape/bounds.h"
 #include "shape/sweep.h"
 #include "state/step_cache.h"
-#include "tests/oracle/bodies.h"
+#include "tests/common/oracle/bodies.h"
 #include "tests/unit/shape/hull_bytes.h"
 
 /// Compares queries with a test of every body, one by one.

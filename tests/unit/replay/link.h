@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "tests/queries/random.h"
+#include "tests/common/queries/random.h"
 
 /// A network in one process.
 namespace detent {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "examples/scenes/scene.h"
-#include "tests/support/test.h"
+#include "tests/common/support/test.h"
 
 /// Recordings in memory, how to make them, and how to take them apart.
 namespace detent {

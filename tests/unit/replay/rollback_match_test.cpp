@@ -1,4 +1,4 @@
-#include "tests/oracle/effort.h"
+#include "tests/common/oracle/effort.h"
 #include "tests/unit/replay/arena.h"
 #include "tests/unit/replay/link.h"
 

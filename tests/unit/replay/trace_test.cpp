@@ -2,7 +2,7 @@
 #include "chunks.h"
 #include "replay/replay_watch.h"
 #include "replay/trace_stream.h"
-#include "tests/support/spoil.h"
+#include "tests/common/support/spoil.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

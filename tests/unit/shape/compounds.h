@@ -1,6 +1,6 @@
 #pragma once
 #include "ports/host/cook/cook_compound.h"
-#include "tests/support/test.h"
+#include "tests/common/support/test.h"
 #include "tests/unit/shape/terrains.h"
 
 /// Small compounds for tests, and their cooked bytes.

@@ -4,8 +4,8 @@
 
 #include "base/crc.h"
 #include "shape/terrain.h"
-#include "tests/oracle/effort.h"
-#include "tests/support/test.h"
+#include "tests/common/oracle/effort.h"
+#include "tests/common/support/test.h"
 #include "tests/unit/math/samples.h"
 #include "tests/unit/shape/terrains.h"
 

@@ -8,7 +8,7 @@
 
 #include "base/crc.h"
 #include "math/wide.h"
-#include "tests/support/test.h"
+#include "tests/common/support/test.h"
 #include "tests/unit/math/samples.h"
 #include "tests/unit/shape/hull_bytes.h"
 

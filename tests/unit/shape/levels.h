@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "ports/host/cook/read_mesh.h"
-#include "tests/support/data_file.h"
+#include "tests/common/support/data_file.h"
 #include "tests/unit/shape/terrains.h"
 
 /// Levels of games, from public data sets under $DETENT_DATA.

@@ -1,5 +1,5 @@
 #include "math/scaled.h"
-#include "tests/oracle/bodies.h"
+#include "tests/common/oracle/bodies.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

@@ -1,5 +1,5 @@
-#include "tests/oracle/bodies.h"
-#include "tests/oracle/step_motion.h"
+#include "tests/common/oracle/bodies.h"
+#include "tests/common/oracle/step_motion.h"
 
 /// Compares the motion of a step with other motions between the same poses. The differences are compared with closed
 /// forms.

@@ -1,5 +1,5 @@
-#include "tests/oracle/bodies.h"
-#include "tests/oracle/step_motion.h"
+#include "tests/common/oracle/bodies.h"
+#include "tests/common/oracle/step_motion.h"
 
 /// The motion of one body in the frame of another, both in a step. Tests what DESIGN.md proves about it with the
 /// library's own poses.

@@ -1,5 +1,5 @@
 #include "shape/bounds.h"
-#include "tests/oracle/bodies.h"
+#include "tests/common/oracle/bodies.h"
 #include "tests/unit/shape/hull_bytes.h"
 
 /// Cylinders, cones, hulls and rounded shapes as bodies: volume, moments, bounds and limits.

@@ -1,6 +1,6 @@
 #include <detent/numbers.h>
 
-#include "tests/support/test.h"
+#include "tests/common/support/test.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

@@ -1,6 +1,6 @@
 #include <math.h>
 
-#include "tests/oracle/bodies.h"
+#include "tests/common/oracle/bodies.h"
 #include "tests/unit/world/lab.h"
 
 namespace detent {

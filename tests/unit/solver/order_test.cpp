@@ -13,7 +13,7 @@
 #include "solver/solve.h"
 #include "solver/substeps.h"
 #include "state/view.h"
-#include "tests/oracle/bodies.h"
+#include "tests/common/oracle/bodies.h"
 #include "tests/unit/world/lab.h"
 
 namespace detent {

@@ -1,6 +1,6 @@
 #include <detent/rollback.h>
 
-#include "tests/oracle/effort.h"
+#include "tests/common/oracle/effort.h"
 #include "tests/unit/world/turmoil.h"
 
 namespace detent {

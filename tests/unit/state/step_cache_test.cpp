@@ -3,8 +3,8 @@
 #include "broad_phase/broadphase.h"
 #include "motion/activity.h"
 #include "motion/predict.h"
-#include "tests/oracle/bodies.h"
-#include "tests/support/spoil.h"
+#include "tests/common/oracle/bodies.h"
+#include "tests/common/support/spoil.h"
 #include "tests/unit/world/lab.h"
 
 /// The cache of a world changes no bit of its state, and saves the step the work on resting bodies.

@@ -1,6 +1,6 @@
 #include <detent/distance.h>
 
-#include "tests/oracle/effort.h"
+#include "tests/common/oracle/effort.h"
 #include "tests/unit/distance/closed_form.h"
 
 namespace detent {

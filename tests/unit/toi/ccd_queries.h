@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/data_file.h"
+#include "tests/common/support/data_file.h"
 
 /// Queries of continuous collision with exact ground truth, of Wang, Ferguson, Schneider, Jiang, Attene, Panozzo:
 /// features whose corners move in straight lines. Every coordinate is a double.

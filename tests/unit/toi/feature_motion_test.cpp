@@ -2,7 +2,7 @@
 #include <stdlib.h>
 
 #include "base/digest.h"
-#include "tests/oracle/effort.h"
+#include "tests/common/oracle/effort.h"
 #include "tests/unit/distance/exact_numbers.h"
 #include "tests/unit/toi/feature_pairs.h"
 #include "tests/unit/toi/spread.h"

@@ -1,5 +1,5 @@
-#include "tests/oracle/effort.h"
-#include "tests/oracle/feature_contact.h"
+#include "tests/common/oracle/effort.h"
+#include "tests/common/oracle/feature_contact.h"
 #include "tests/unit/toi/ccd_queries.h"
 #include "tests/unit/toi/feature_pairs.h"
 #include "tests/unit/toi/plain_inclusion.h"

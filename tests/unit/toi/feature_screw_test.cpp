@@ -1,7 +1,7 @@
 #include <detent/feature_toi.h>
 
 #include "base/digest.h"
-#include "tests/oracle/effort.h"
+#include "tests/common/oracle/effort.h"
 #include "tests/unit/distance/exact_numbers.h"
 #include "tests/unit/toi/feature_pairs.h"
 #include "tests/unit/toi/spread.h"

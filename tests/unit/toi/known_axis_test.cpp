@@ -3,7 +3,7 @@
 #include <detent/distance.h>
 
 #include "distance/pair.h"
-#include "tests/oracle/effort.h"
+#include "tests/common/oracle/effort.h"
 #include "tests/unit/distance/closed_form.h"
 #include "toi/conservative_advancement.h"
 

@@ -1,13 +1,14 @@
 #include <detent/distance.h>
 #include <detent/toi.h>
 
-#include "tests/oracle/convex_toi.h"
-#include "tests/oracle/effort.h"
-#include "tests/queries/sets.h"
-#include "tests/queries/solids.h"
+#include "tests/common/oracle/convex_toi.h"
+#include "tests/common/oracle/effort.h"
+#include "tests/common/queries/sets.h"
+#include "tests/common/queries/solids.h"
 #include "tests/unit/toi/query_bodies.h"
 
-/// Compares the query sets with the oracle (tests/oracle). Only on x86-64, because the oracle needs its long double.
+/// Compares the query sets with the oracle (tests/common/oracle). Only on x86-64, because the oracle needs its long
+/// double.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {

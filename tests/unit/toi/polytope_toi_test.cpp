@@ -1,5 +1,5 @@
-#include "tests/oracle/effort.h"
-#include "tests/oracle/motions.h"
+#include "tests/common/oracle/effort.h"
+#include "tests/common/oracle/motions.h"
 #include "tests/unit/toi/encounter.h"
 #include "toi_methods/feature_pairs.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 #include "tests/bench/cooked.h"
-#include "tests/queries/query.h"
+#include "tests/common/queries/query.h"
 #include "tests/unit/distance/bodies_at.h"
 
 /// Converts the solids and paths of the query sets to a configuration's types.

@@ -1,6 +1,6 @@
 #include <string.h>
 
-#include "tests/oracle/effort.h"
+#include "tests/common/oracle/effort.h"
 #include "tests/unit/toi/encounter.h"
 #include "toi/advance.h"
 #include "toi/conservative_advancement.h"

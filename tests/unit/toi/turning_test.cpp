@@ -1,8 +1,8 @@
 #include <algorithm>
 
 #include "math/root.h"
-#include "tests/oracle/effort.h"
-#include "tests/oracle/vectors.h"
+#include "tests/common/oracle/effort.h"
+#include "tests/common/oracle/vectors.h"
 #include "tests/unit/distance/bodies_at.h"
 #include "tests/unit/distance/closed_form.h"
 #include "toi/advance.h"

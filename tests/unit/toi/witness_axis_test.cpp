@@ -1,6 +1,6 @@
 #include "toi_methods/witness_axis.h"
 
-#include "tests/oracle/effort.h"
+#include "tests/common/oracle/effort.h"
 #include "tests/unit/toi/encounter.h"
 
 namespace detent {

@@ -7,8 +7,8 @@
 #include <math.h>
 
 #include "shape/compound.h"
-#include "tests/oracle/effort.h"
-#include "tests/queries/random.h"
+#include "tests/common/oracle/effort.h"
+#include "tests/common/queries/random.h"
 #include "tests/unit/shape/compounds.h"
 #include "tests/unit/world/lab.h"
 

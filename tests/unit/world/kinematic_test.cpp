@@ -2,7 +2,7 @@
 #include <detent/world.h>
 #include <math.h>
 
-#include "tests/queries/random.h"
+#include "tests/common/queries/random.h"
 #include "tests/unit/world/lab.h"
 
 namespace detent {

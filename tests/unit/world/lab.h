@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "tests/support/test.h"
+#include "tests/common/support/test.h"
 
 /// A world for tests, in memory of its own, with conversions that fail the test instead of returning a status.
 namespace detent {

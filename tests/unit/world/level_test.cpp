@@ -3,7 +3,7 @@
 #include <detent/world.h>
 #include <math.h>
 
-#include "tests/queries/random.h"
+#include "tests/common/queries/random.h"
 #include "tests/unit/contact/ground.h"
 #include "tests/unit/shape/levels.h"
 

@@ -1,6 +1,6 @@
 #include <math.h>
 
-#include "tests/queries/random.h"
+#include "tests/common/queries/random.h"
 #include "tests/unit/world/lab.h"
 
 /// Bodies that slide, roll or fly past edges on which they could catch, and bodies that stand on several points.

@@ -5,7 +5,7 @@
 #include "base/crc.h"
 #include "shape/hull.h"
 #include "state/view.h"
-#include "tests/oracle/effort.h"
+#include "tests/common/oracle/effort.h"
 #include "tests/unit/shape/hull_bytes.h"
 #include "tests/unit/world/lab.h"
 

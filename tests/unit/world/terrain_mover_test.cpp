@@ -1,8 +1,8 @@
 #include <detent/mover.h>
 #include <math.h>
 
-#include "tests/oracle/effort.h"
-#include "tests/queries/random.h"
+#include "tests/common/oracle/effort.h"
+#include "tests/common/queries/random.h"
 #include "tests/unit/world/terrain_lab.h"
 
 /// A mover on meshes and height fields.

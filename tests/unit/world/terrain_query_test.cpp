@@ -8,7 +8,7 @@
 #include "query/query_hits.h"
 #include "shape/sweep.h"
 #include "state/view.h"
-#include "tests/oracle/bodies.h"
+#include "tests/common/oracle/bodies.h"
 #include "tests/unit/shape/terrains.h"
 
 /// Queries on bodies that are meshes or height fields, compared with a test of all their triangles.

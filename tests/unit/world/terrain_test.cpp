@@ -5,8 +5,8 @@
 #include <detent/world.h>
 #include <math.h>
 
-#include "tests/oracle/effort.h"
-#include "tests/queries/random.h"
+#include "tests/common/oracle/effort.h"
+#include "tests/common/queries/random.h"
 #include "tests/unit/world/terrain_lab.h"
 
 /// Bodies made of meshes and height fields.
