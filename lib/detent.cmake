@@ -99,7 +99,7 @@ endif()
 add_library(detent::detent ALIAS detent_${DETENT_CONFIG})
 
 # detent_floor(<sources>...): a floor of the library, compiled once for each configuration. Its folder is its name; it may
-# include its own folder and the floors listed before it in lib/CMakeLists.txt (held by tests/floors).
+# include its own folder and the floors listed before it in lib/CMakeLists.txt (held by tests/guards/floors).
 function(detent_floor)
   list(TRANSFORM ARGN PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ OUTPUT_VARIABLE sources)
   cmake_path(GET CMAKE_CURRENT_SOURCE_DIR FILENAME floor)

@@ -3,5 +3,5 @@ include(${CMAKE_CURRENT_LIST_DIR}/family_cortex_m.cmake)
 # them out (nomve.fp). Its integer operations are exact, but GCC 12 ends in internal errors where it puts them in by itself.
 detent_cortex_m_target(cortex-m55 "-mcpu=cortex-m55+nomve.fp -mfpu=auto -mfloat-abi=hard -fno-tree-vectorize"
   ROM 0x00000000 512K RAM 0x20000000 512K)
-# More than its 512 KB at -O2 (tests/size).
+# More than its 512 KB at -O2 (tests/guards/size).
 set(DETENT_SIZE_LEFT_OUT "everything fx64" "everything fx32")

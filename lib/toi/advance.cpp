@@ -247,7 +247,7 @@ int32_t advance(const MovingPair& pair, const Frames& frames, const Horizon& hor
         x = x * (first.separation >> 26) / ((first.separation - value.separation + (int64_t{1} << 26)) >> 26);
         break;
       }
-      // |separation| < 32 (tests/proofs). From 2 on the steps are coarser, so that the product fits.
+      // |separation| < 32 (tests/guards/proofs). From 2 on the steps are coarser, so that the product fits.
       const int coarse = -value.separation >> 57 != 0 ? 4 : 0;
       const int64_t fall = -value.slope >> coarse;
       const int64_t back = (-value.separation >> (26 + coarse)) * k_one_64 / (fall > 0 ? fall : 1) + 1;

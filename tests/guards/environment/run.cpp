@@ -8,7 +8,7 @@
 
 #include "examples/scenes/make.h"
 #include "examples/scenes/scene.h"
-#include "tests/environment/settings.h"
+#include "tests/guards/environment/settings.h"
 
 // run [unusual | fast]: prints every digest of some scenes, and what the conversions give. The text must be the same in
 // all floating-point environments. `unusual`: in settings that the program makes first; `fast`: it was linked with
