@@ -313,7 +313,7 @@ def write_outer(rows):
                      f'SKIP_RETURN_CODE 77 COST {sum(budget(row))})\n')
     builds = [row["part"] for row in rows if not row["command"] and row["when"] != "quick"]
     if builds:
-        lockstep = ROOT / "tests" / "lockstep"
+        lockstep = ROOT / "tests" / "campaigns" / "lockstep"
         # Last of all, so that ctest starts the others by their cost.
         everything = ";".join(names)
         lines.append(f'add_test(every_tick_is_equal_on_every_build "{lockstep}/gather" "{ROOT}/build/lockstep.csv" '
@@ -405,7 +405,7 @@ build/PART/part.log. Exit code 0 only if everything passed.""")
     show_failures(failed)
     if code == 0 and arguments.write_tables:
         (ROOT / "docs" / "lockstep.md").write_text(
-            subprocess.run(["tests/lockstep/table", "build/lockstep.csv"], cwd=ROOT, check=True, capture_output=True, text=True).stdout)
+            subprocess.run(["tests/campaigns/lockstep/table", "build/lockstep.csv"], cwd=ROOT, check=True, capture_output=True, text=True).stdout)
         write_times(rows, progress.results)
         print("test: wrote docs/lockstep.md and docs/testing.md")
     return code

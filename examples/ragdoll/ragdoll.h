@@ -1,7 +1,7 @@
 #pragma once
 #include <detent/world.h>
 
-/// A figure of boxes and capsules, connected by joints with limits. Its tests: tests/stress/ragdoll_test.cpp.
+/// A figure of boxes and capsules, connected by joints with limits. Its tests: tests/campaigns/stress/ragdoll_test.cpp.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace ragdoll {

@@ -1,5 +1,5 @@
 #include "ports/host/detent/tick_trace.h"
-#include "tests/fuzz/mutants.h"
+#include "tests/campaigns/fuzz/mutants.h"
 #include "tests/unit/replay/chunks.h"
 
 namespace detent {

@@ -96,7 +96,7 @@ TEST(scene_schema, allows_the_examples_the_zoo_and_every_key) {
   const Json root = schema();
   const Validator validator(root);
   uint32_t count = 0;
-  for (const char* folder : {DETENT_ROOT "/examples/scenes", DETENT_ROOT "/tests/zoo/scenes"}) {
+  for (const char* folder : {DETENT_ROOT "/examples/scenes", DETENT_ROOT "/tests/campaigns/zoo/scenes"}) {
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
       if (entry.path().extension() != ".json") continue;
       EXPECT_TRUE(validator.valid(Json::parse(file_text(entry.path().string())), root)) << entry.path();

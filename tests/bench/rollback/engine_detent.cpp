@@ -7,8 +7,8 @@
 
 #include "state/packed_state.h"
 #include "tests/bench/heap.h"
-#include "tests/stress/run_detent.h"
-#include "tests/stress/scenes.h"
+#include "tests/campaigns/stress/run_detent.h"
+#include "tests/campaigns/stress/scenes.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

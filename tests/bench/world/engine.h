@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "tests/bench/heap.h"
-#include "tests/stress/stage.h"
+#include "tests/campaigns/stress/stage.h"
 
 /// What the benchmark of the whole step asks of an engine: this library in one configuration, or a peer. No type here
 /// depends on one. A module has a heap of its own: what it makes it frees, and nothing else.

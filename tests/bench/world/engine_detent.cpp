@@ -2,7 +2,7 @@
 #include <stdio.h>
 
 #include "tests/bench/world/engine.h"
-#include "tests/stress/run_detent.h"
+#include "tests/campaigns/stress/run_detent.h"
 
 /// This library, compiled once per configuration, with the settings that a world has by default: the stress tests' own
 /// worlds.

@@ -1,6 +1,6 @@
 #include "tests/bench/world/scenes.h"
 
-#include "tests/stress/scenes.h"
+#include "tests/campaigns/stress/scenes.h"
 
 namespace detent_bench {
 

@@ -9,7 +9,7 @@ struct Window {
   uint32_t first, end;
 };
 
-/// A scene of tests/stress as it is timed. The ticks outside of its windows are made and not timed.
+/// A scene of tests/campaigns/stress as it is timed. The ticks outside of its windows are made and not timed.
 struct WorldScene {
   const char* name;  ///< by which --scenes asks for it
   const char* text;

@@ -2,7 +2,7 @@
 #include <string>
 #include <utility>
 
-#include "tests/stress/measures.h"
+#include "tests/campaigns/stress/measures.h"
 
 namespace detent_bench {
 

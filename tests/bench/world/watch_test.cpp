@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <math.h>
 
-#include "tests/stress/scenes.h"
+#include "tests/campaigns/stress/scenes.h"
 
 namespace detent_bench {
 

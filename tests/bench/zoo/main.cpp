@@ -60,7 +60,7 @@ std::string text_of(const std::string& path) {
 
 int run(const Options& options) {
   std::string problem;
-  const std::vector<Entry> entries = read_list(DETENT_ROOT "/tests/zoo/zoo.csv", problem);
+  const std::vector<Entry> entries = read_list(DETENT_ROOT "/tests/campaigns/zoo/zoo.csv", problem);
   if (!problem.empty()) return fail(k_exit_bad, problem);
   const std::vector<Engine> engines = chosen(options.engines);
   if (engines.empty()) return fail(k_exit_usage, "no engine is left");
@@ -73,7 +73,8 @@ int run(const Options& options) {
     const auto progress = [&](const std::string& what) {
       if (terminal) fprintf(stderr, "\r\x1b[K%zu of %zu, %s", scenes.size() + 1, total, what.c_str());
     };
-    scenes.push_back(measure_scene(entry, engines, options.repetitions, DETENT_ROOT "/tests/zoo/scenes", progress));
+    scenes.push_back(
+        measure_scene(entry, engines, options.repetitions, DETENT_ROOT "/tests/campaigns/zoo/scenes", progress));
     if (terminal) fputs("\r\x1b[K", stderr);
     printf("%s\n", line_of(scenes.back()).c_str());
     fflush(stdout);

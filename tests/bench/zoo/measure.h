@@ -1,7 +1,7 @@
 #pragma once
 #include <functional>
 
-#include "tests/zoo/visit.h"
+#include "tests/campaigns/zoo/visit.h"
 
 namespace detent_zoo {
 

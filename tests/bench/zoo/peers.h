@@ -1,5 +1,5 @@
 #pragma once
-#include "tests/zoo/frame.h"
+#include "tests/campaigns/zoo/frame.h"
 
 namespace detent_zoo {
 

@@ -3,7 +3,7 @@
 #include <fstream>
 
 #include "tests/bench/zoo/peers.h"
-#include "tests/zoo/mechanics.h"
+#include "tests/campaigns/zoo/mechanics.h"
 
 /// That each peer plays what a scene says, and not something else: its shapes, masses, axes, signs and units. Bounds
 /// are loose: how well it does so is what ./bench zoo tells.

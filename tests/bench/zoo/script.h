@@ -2,7 +2,7 @@
 #include <array>
 #include <memory>
 
-#include "tests/zoo/mechanics.h"
+#include "tests/campaigns/zoo/mechanics.h"
 
 /// A scene of the zoo as plain data, for engines that know no type of the library's. Read by the library's own reader
 /// of scenes into a world that is never stepped: the one description of what there is, and what plays the calls.

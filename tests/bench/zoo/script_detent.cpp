@@ -8,7 +8,7 @@
 
 #include "shape/hull.h"
 #include "tests/bench/zoo/script.h"
-#include "tests/zoo/opened_scene.h"
+#include "tests/campaigns/zoo/opened_scene.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {

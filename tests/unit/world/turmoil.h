@@ -3,7 +3,7 @@
 #include <detent/joint.h>
 #include <detent/world.h>
 
-#include "tests/sequences/draw.h"
+#include "tests/campaigns/sequences/draw.h"
 #include "tests/unit/replay/match.h"
 
 /// Ticks in which bodies, shapes and joints are created and destroyed. The calls depend only on a seed and the state of

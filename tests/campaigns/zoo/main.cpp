@@ -1,0 +1,99 @@
+#include <stdio.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <iterator>
+
+#include "tests/campaigns/zoo/report.h"
+
+using namespace detent_zoo;
+
+namespace {
+
+constexpr int k_exit_good = 0, k_exit_bad = 1;
+
+struct Options {
+  std::vector<std::string> scenes, configs;
+  std::string list_file = DETENT_ROOT "/tests/campaigns/zoo/zoo.csv", markdown;
+  bool list = false, renew = false;
+};
+
+bool wanted(const std::vector<std::string>& names, const std::string& name) {
+  return names.empty() || std::any_of(names.begin(), names.end(),
+                                      [&](const std::string& each) { return name.compare(0, each.size(), each) == 0; });
+}
+
+int cannot(const std::string& what) {
+  fprintf(stderr, "detent_zoo: %s\n", what.c_str());
+  return k_exit_bad;
+}
+
+bool write_page(const std::string& path, const std::vector<Row>& rows) {
+  std::ifstream file(path);
+  const std::string page = {std::istreambuf_iterator<char>(file), {}};
+  return static_cast<bool>(std::ofstream(path) << page_of(page, rows));
+}
+
+int run(const Options& options) {
+  std::string problem;
+  std::vector<Entry> entries = read_list(options.list_file, problem);
+  if (!problem.empty()) return cannot(problem);
+  const std::vector<Engine> engines = all_engines();
+  std::vector<Row> rows;
+  bool good = true;
+  const bool terminal = isatty(STDERR_FILENO) == 1;
+  const auto start = std::chrono::steady_clock::now();
+  for (Entry& entry : entries) {
+    if (!wanted(options.scenes, entry.scene)) continue;
+    if (options.list) {
+      printf("%-28s %-40s %s\n", entry.scene.c_str(), entry.source.c_str(), entry.wants.c_str());
+      continue;
+    }
+    for (const Engine& engine : engines) {
+      if (!options.configs.empty() && std::count(options.configs.begin(), options.configs.end(), engine.config) == 0) {
+        continue;
+      }
+      if (terminal) fprintf(stderr, "\r\033[K%s %s", entry.scene.c_str(), engine.config);
+      const Row row = {&entry, engine.config, visit(entry, engine, DETENT_ROOT "/tests/campaigns/zoo/scenes")};
+      const std::string surprise = surprises(entry, engine.config, row.verdict);
+      if (terminal) fprintf(stderr, "\r\033[K");
+      printf("%s\n", line_of(row).c_str());
+      if (!surprise.empty()) printf("  not as zoo.csv says: %s", surprise.c_str());
+      fflush(stdout);
+      good = good && surprise.empty();
+      if (!row.verdict.problem.empty()) continue;
+      entry.gaps[engine.config] = row.verdict.failed;
+      rows.push_back(row);
+    }
+  }
+  if (options.list) return k_exit_good;
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  fprintf(stderr, "%zu runs, %.1f s\n", rows.size(), seconds.count());
+  if (options.renew && !write_list(options.list_file, entries)) return cannot(options.list_file + " cannot be written");
+  if (!options.markdown.empty() && !write_page(options.markdown, rows)) {
+    return cannot(options.markdown + " cannot be written");
+  }
+  return good || options.renew ? k_exit_good : k_exit_bad;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Plays the scenes of tests/campaigns/zoo and checks them tick by tick (docs/zoo.md)", "detent_zoo");
+  Options options;
+  CLI::Option* const scenes =
+      app.add_option("--scenes", options.scenes, "Only those whose names start so, separated by commas")
+          ->delimiter(',');
+  CLI::Option* const configs = app.add_option("--configs", options.configs, "Only these")->delimiter(',');
+  app.add_option("--list-file", options.list_file, "Instead of tests/campaigns/zoo/zoo.csv")->capture_default_str();
+  app.add_flag("--list", options.list, "List the scenes");
+  app.add_flag("--renew", options.renew, "Write the list anew: what failed in this run are the known gaps");
+  app.add_option("--markdown", options.markdown, "Write the table of all into this page: docs/zoo.md")
+      ->excludes(scenes)
+      ->excludes(configs);
+  CLI11_PARSE(app, argc, argv);
+  return run(options);
+}

@@ -1,0 +1,70 @@
+#include <detent/world.h>
+
+#include "tests/campaigns/zoo/opened_scene.h"
+
+#define DETENT_ZOO_TEXT_OF(name) #name
+#define DETENT_ZOO_TEXT(name) DETENT_ZOO_TEXT_OF(name)
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+namespace {
+
+using detent_zoo::Frame;
+using detent_zoo::StepFigures;
+
+/// A scene that the caller steps.
+class DetentPlay : public detent_zoo::Play {
+ public:
+  explicit DetentPlay(std::unique_ptr<OpenedScene> scene) : scene_(std::move(scene)) {}
+
+  bool call(std::string& problem) override { return scene_->call(tick_, problem); }
+
+  StepFigures step() override {
+    const Stopwatch stopwatch;
+    const StepReport report = scene_->recorder().step();
+    StepFigures figures;
+    figures.seconds = stopwatch.seconds();
+    ++tick_;
+    figures.lost = uint64_t{report.lost.pairs} + report.lost.contacts + report.contacts.capped + report.saturations +
+                   report.ccd.bodies_stopped + report.lost.sensed + report.joints.undecided + report.ccd.undecided +
+                   report.lost.impacts;
+    figures.substeps = report.substeps_max;
+    figures.awake = report.awake;
+    return figures;
+  }
+
+  Frame frame() const override { return scene_->frame(); }
+  uint32_t ticks() const override { return scene_->text().ticks; }
+
+  std::string body_name(uint32_t index) const override {
+    const std::vector<BodyId> bodies = scene_->bodies();
+    return scene_->name_of(index < bodies.size() ? bodies[index] : BodyId{});
+  }
+
+  std::string joint_name(uint32_t index) const override {
+    const std::vector<JointId> joints = scene_->joints();
+    JointDef def;
+    if (index >= joints.size() || get_joint(scene_->world(), joints[index], def) != Status::ok) {
+      return "joint " + std::to_string(index);
+    }
+    return scene_->name_of(def.a) + " - " + scene_->name_of(def.b);
+  }
+
+ private:
+  std::unique_ptr<OpenedScene> scene_;
+  uint32_t tick_ = 0;
+};
+
+std::unique_ptr<detent_zoo::Play> open_play(const std::string& path, std::string& problem) {
+  std::unique_ptr<OpenedScene> scene = OpenedScene::open(path, problem);
+  if (scene == nullptr) return nullptr;
+  return std::make_unique<DetentPlay>(std::move(scene));
+}
+
+}  // namespace
+
+detent_zoo::Engine zoo_engine() { return {DETENT_ZOO_TEXT(DETENT_NAMESPACE), open_play}; }
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent
