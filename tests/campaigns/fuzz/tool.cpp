@@ -36,7 +36,7 @@ bool take_scene(const Bytes& bytes) {
     return false;
   }
   RunRequest request;
-  request.path = DETENT_ROOT "/tests/scene_files/scene.json";
+  request.path = DETENT_ROOT "/tests/tool/scene_files/scene.json";
   request.root = &root;
   request.ticks_given = true;
   request.ticks = k_ticks;
@@ -52,8 +52,8 @@ bool take_scene(const Bytes& bytes) {
 /// The examples, and the scene that has every key.
 std::vector<Bytes> scenes() {
   std::vector<Bytes> made;
-  const char* const paths[] = {DETENT_ROOT "/tests/scene_files/every.json", DETENT_ROOT "/examples/scenes/chain.json",
-                               DETENT_ROOT "/examples/scenes/stack.json"};
+  const char* const paths[] = {DETENT_ROOT "/tests/tool/scene_files/every.json",
+                               DETENT_ROOT "/examples/scenes/chain.json", DETENT_ROOT "/examples/scenes/stack.json"};
   for (const char* const path : paths) {
     std::ifstream file(path, std::ios::binary);
     for (size_t engine = 0; engine < engines().size(); ++engine) {

@@ -1,7 +1,7 @@
 #pragma once
 #include <stdint.h>
 
-/// Hulls that `detent cook` produced; tests/cook checks on every target that it still produces them.
+/// Hulls that `detent cook` produced; tests/tool/cook checks on every target that it still produces them.
 namespace detent_hulls {
 
 /// The hull of (0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1).

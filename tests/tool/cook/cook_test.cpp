@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "base/crc.h"
-#include "tests/cook/solids.h"
+#include "tests/tool/cook/solids.h"
 #include "tests/unit/shape/hull_bytes.h"
 
 namespace {

@@ -23,7 +23,7 @@ inline std::string file_text(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// As a scene in tests/scene_files, with everything printed and recorded. `ticks`: 0: the scene's own.
+/// As a scene in tests/tool/scene_files, with everything printed and recorded. `ticks`: 0: the scene's own.
 inline Played play(const std::string& text, const Engine& engine = engines().front(), uint32_t ticks = 0) {
   Played played;
   Node root;
@@ -37,7 +37,7 @@ inline Played play(const std::string& text, const Engine& engine = engines().fro
     return played;
   }
   RunRequest request;
-  request.path = DETENT_ROOT "/tests/scene_files/scene.json";
+  request.path = DETENT_ROOT "/tests/tool/scene_files/scene.json";
   request.root = &root;
   request.ticks_given = ticks != 0;
   request.ticks = ticks;

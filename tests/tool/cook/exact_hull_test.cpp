@@ -8,7 +8,7 @@
 #include <set>
 
 #include "mass.h"
-#include "tests/cook/solids.h"
+#include "tests/tool/cook/solids.h"
 
 namespace {
 

@@ -142,7 +142,7 @@ TEST(scene_refuses, cooked_files_that_are_none) {
                        "4: bodies[0].shape.file: gone.hull cannot be read: No such file or directory\n");
   expect_shape_refused("\"type\": \"hull\",\n\"file\": \"every.json\"",
                        "4: bodies[0].shape.file: every.json is not a cooked file\n");
-  const std::string hull = "../../examples/scenes/assets/round.hull";
+  const std::string hull = "../../../examples/scenes/assets/round.hull";
   expect_shape_refused("\"type\": \"compound\",\n\"file\": \"" + hull + "\"",
                        "4: bodies[0].shape.file: " + hull + " is a cooked hull, not a cooked compound\n");
   expect_shape_refused("\"type\": \"hull\", \"file\": \"" + hull + "\",\n\"digest\": \"12\"",
@@ -164,7 +164,7 @@ TEST(scene_refuses, with_every_problem_up_to_a_screenful) {
 
 /// What is let in can be played: in a build with sanitizers any fault ends the program.
 TEST(scene_refuses, or_plays_whatever_is_damaged) {
-  const std::string whole = file_text(DETENT_ROOT "/tests/scene_files/every.json");
+  const std::string whole = file_text(DETENT_ROOT "/tests/tool/scene_files/every.json");
   const std::string letters = "{}[]:,\"0123456789.-+eE \ntrufalsn\\\x80";
   uint32_t random = 1, refused = 0, played = 0;
   const auto below = [&random](size_t limit) {

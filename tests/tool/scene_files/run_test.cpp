@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string every() { return file_text(DETENT_ROOT "/tests/scene_files/every.json"); }
+std::string every() { return file_text(DETENT_ROOT "/tests/tool/scene_files/every.json"); }
 
 const Engine& engine_of(const std::string& config) {
   for (const Engine& engine : engines()) {

@@ -10,9 +10,9 @@
 #include "cook.h"
 #include "read_points.h"
 #include "tests/common/support/data_file.h"
-#include "tests/cook/solids.h"
+#include "tests/tool/cook/solids.h"
 #if DETENT_HAS_QHULL
-#include "tests/cook/qhull.h"
+#include "tests/tool/cook/qhull.h"
 #endif
 
 namespace {

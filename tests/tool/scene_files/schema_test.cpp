@@ -104,7 +104,7 @@ TEST(scene_schema, allows_the_examples_the_zoo_and_every_key) {
     }
   }
   EXPECT_GE(count, 100u);
-  EXPECT_TRUE(validator.valid(Json::parse(file_text(DETENT_ROOT "/tests/scene_files/every.json")), root));
+  EXPECT_TRUE(validator.valid(Json::parse(file_text(DETENT_ROOT "/tests/tool/scene_files/every.json")), root));
 }
 
 TEST(scene_schema, refuses_what_the_reader_refuses_by_itself) {

@@ -3,7 +3,7 @@
 
 #include "cook.h"
 #include "cook_compound.h"
-#include "tests/cook/solids.h"
+#include "tests/tool/cook/solids.h"
 
 namespace {
 

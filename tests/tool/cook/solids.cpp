@@ -1,4 +1,4 @@
-#include "tests/cook/solids.h"
+#include "tests/tool/cook/solids.h"
 
 #include <math.h>
 #include <string.h>

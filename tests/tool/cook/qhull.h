@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "tests/cook/solids.h"
+#include "tests/tool/cook/solids.h"
 
 namespace detent_cook_test {
 

@@ -1,4 +1,4 @@
-#include "tests/cook/qhull.h"
+#include "tests/tool/cook/qhull.h"
 
 #include <stdio.h>
 
