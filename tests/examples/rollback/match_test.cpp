@@ -1,5 +1,5 @@
 #include "tests/common/oracle/effort.h"
-#include "tests/rollback/network.h"
+#include "tests/examples/rollback/network.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
