@@ -43,10 +43,10 @@ inline constexpr Wanted k_wanted[] = {
     {"plate", "momentum", 1e-6},
     {"chain", "stretch_max", 0.05},
     {"chain", "stretch_late", 0.01},
-    {"angular_velocity", "flips", 0},
-    {"angular_velocity", "energy", 1e-4},
-    {"angular_velocity", "momentum", 1e-4},
-    {"angular_velocity", "direction", 1},
+    {"free_rotation", "flips", 0},
+    {"free_rotation", "energy", 1e-4},
+    {"free_rotation", "momentum", 1e-4},
+    {"free_rotation", "direction", 1},
     {"dominoes", "standing", 0},
     {"dominoes", "disorder", 0},
     {"incline_holds", "creep", 1e-6},
@@ -88,9 +88,9 @@ inline constexpr Gap k_gaps[] = {
     // Floats: rounding of the momenta of a rod and a plate that collide several times in a tick.
     {"plate_rod", "f32", 0, "momentum", 3e-6},
     // The start differs by 3e-8 of its energy from a state that never flips; a rotation is stored in steps of 1e-9.
-    {"angular_velocity", "fx64", 0, "flips", 6},
-    {"angular_velocity", "fx32", 0, "flips", 6},
-    {"angular_velocity", "f32", 0, "flips", 46},
+    {"free_rotation", "fx64", 0, "flips", 6},
+    {"free_rotation", "fx32", 0, "flips", 6},
+    {"free_rotation", "f32", 0, "flips", 46},
     // The float rounding of the pose's rotation tilts the slope's normal.
     {"incline_holds", "f32", 0, "creep", 1.5e-6},
     // Positions have steps of 1.5e-5 m; the creep may be one step, or more for boxes of 1 cm.

@@ -18,9 +18,9 @@ void run_chain(const Trial& trial, Outcome& outcome, double ratio) {
   outcome.add("stretch_late", late_mean(stretches));
 }
 
-void run_angular_velocity(const Trial& trial, Outcome& outcome) {
+void run_free_rotation(const Trial& trial, Outcome& outcome) {
   constexpr double k_flips = 74, k_degree = 3.14159265358979 / 180;
-  const Stage stage = varied(free_angular_velocity(), trial.seed);
+  const Stage stage = varied(free_rotation(), trial.seed);
   Ride ride(trial, stage, outcome);
   if (!ride.good()) return;
   const Sums start = sums_of(ride.stage(), ride.states());

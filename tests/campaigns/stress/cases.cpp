@@ -79,7 +79,7 @@ std::vector<Case> make_cases() {
     add("S6", "chain_" + std::to_string(ratio) + ":1",
         [ratio](const Trial& trial, Outcome& outcome) { run_chain(trial, outcome, ratio); });
   }
-  add("S7", "angular_velocity", run_angular_velocity);
+  add("S7", "free_rotation", run_free_rotation);
   add("S8", "dominoes", [](const Trial& trial, Outcome& outcome) { run_dominoes(trial, outcome, 200); });
   add("S9", "incline_holds", [](const Trial& trial, Outcome& outcome) { run_incline(trial, outcome, 0.99); });
   add("S9", "incline_slides", [](const Trial& trial, Outcome& outcome) { run_incline(trial, outcome, 1.01); });

@@ -117,15 +117,15 @@ DETENT_TEST(judge, sees_what_does_not_move_at_all) {
   EXPECT_EQ(measured("pyramid", Fault::still, "drift"), 0);
   EXPECT_EQ(measured("pyramid", Fault::still, "fallen"), 0);
   EXPECT_EQ(measured("dominoes", Fault::still, "standing"), 10);
-  EXPECT_EQ(measured("angular_velocity", Fault::still, "flips"), 74);
+  EXPECT_EQ(measured("free_rotation", Fault::still, "flips"), 74);
   EXPECT_EQ(measured("incline_slides", Fault::still, "distance"), 1);
   EXPECT_EQ(measured("bounce", Fault::still, "bounces"), 0);
   EXPECT_EQ(measured("bounce", Fault::still, "apex"), 5) << "of no bounce at all";
 }
 
 DETENT_TEST(judge, counts_what_is_lost_and_what_is_another_far_away) {
-  EXPECT_EQ(measured("angular_velocity", Fault::losing, "lost"), 10000);
-  EXPECT_EQ(measured("angular_velocity", Fault::still, "lost"), 0);
+  EXPECT_EQ(measured("free_rotation", Fault::losing, "lost"), 10000);
+  EXPECT_EQ(measured("free_rotation", Fault::still, "lost"), 0);
   EXPECT_EQ(measured("far_1km", Fault::still, "ticks_differ"), 30) << "its digest is not relative";
 }
 
@@ -133,7 +133,7 @@ DETENT_TEST(judge, finds_bounds_by_scene_configuration_and_scale) {
   const auto* tower = detent_stress::find_wanted("tower_40", "drift");
   ASSERT_NE(tower, nullptr);
   EXPECT_EQ(tower->bound, 0.05);
-  EXPECT_NE(detent_stress::find_wanted("angular_velocity", "lost"), nullptr) << "of every scene";
+  EXPECT_NE(detent_stress::find_wanted("free_rotation", "lost"), nullptr) << "of every scene";
   EXPECT_EQ(detent_stress::find_wanted("tower_40", "escaped"), nullptr);
   EXPECT_TRUE(detent_stress::is_refused("far_100km", "fx32", 1));
   EXPECT_FALSE(detent_stress::is_refused("far_100km", "fx64", 1));

@@ -46,7 +46,7 @@ enum class Projectile : uint32_t;
 void run_shots(const Trial& trial, Outcome& outcome, Target target, Projectile projectile, double speed);
 
 void run_chain(const Trial& trial, Outcome& outcome, double ratio);
-void run_angular_velocity(const Trial& trial, Outcome& outcome);
+void run_free_rotation(const Trial& trial, Outcome& outcome);
 void run_dominoes(const Trial& trial, Outcome& outcome, uint32_t count);
 void run_incline(const Trial& trial, Outcome& outcome, double part);
 void run_bounce(const Trial& trial, Outcome& outcome);

@@ -231,9 +231,9 @@ Stage chain(uint32_t links, double ratio) {
   return stage;
 }
 
-Stage free_angular_velocity() {
+Stage free_rotation() {
   Stage stage;
-  stage.name = "free_angular_velocity";
+  stage.name = "free_rotation";
   stage.gravity = 0;
   stage.ticks = 10000;
   StageBody body = body_of(Solid::box, {0.5, 0.2, 0.05}, {0, 0, 0});

@@ -25,7 +25,7 @@ Stage paper_shot(Target target, Projectile projectile, double speed, uint64_t se
 /// end. 30 s.
 Stage chain(uint32_t links, double ratio);
 /// S7: one box thrown with an angular velocity about its middle axis.
-Stage free_angular_velocity();
+Stage free_rotation();
 /// S8: a row along x, the first domino tilted towards the second.
 Stage dominoes(uint32_t count);
 /// S9: a box of 1 m on a slope that descends towards +x, tan(slope) = friction x part. 1 s for settling and 60 s.
