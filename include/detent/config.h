@@ -57,7 +57,7 @@ inline constexpr Config k_config = Config::f64;
 
 /// The version of what a tick computes. Every change that can alter a digest increases it. Stored in snapshots and
 /// recordings.
-inline constexpr uint32_t k_simulation_version = 14;
+inline constexpr uint32_t k_simulation_version = 15;
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -171,9 +171,10 @@ struct CcdReport {
   /// Bodies stopped early in this tick: they had too many impacts (docs/continuous_collision.md), the impact pool was
   /// full, or an overlap was too deep. They stay at their last safe pose until the tick ends.
   uint32_t bodies_stopped = 0;
-  Real lost_time = 0.0;  ///< sum over these bodies of the fraction of the tick that they missed
-  uint32_t tests = 0;    ///< times of impact computed
-  uint32_t skipped = 0;  ///< pairs not tested for impact because they are too slow to collide in the tick
+  Real lost_time = 0.0;     ///< sum over these bodies of the fraction of the tick that they missed
+  uint32_t tests = 0;       ///< times of impact computed
+  uint32_t skipped = 0;     ///< pairs not tested for impact because they are too slow to collide in the tick
+  uint32_t kept_apart = 0;  ///< pairs not tested because their contacts keep them apart
 };
 
 /// What one step lost: entries for which a pool had no room, and sensor tests left undecided.

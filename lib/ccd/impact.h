@@ -55,6 +55,7 @@ struct ImpactReport {
   uint32_t hits = 0;            ///< entries written to `hits`
   uint32_t tests = 0;           ///< times of impact computed
   uint32_t skipped = 0;         ///< pairs skipped because they are too slow to collide in this tick
+  uint32_t kept_apart = 0;      ///< pairs not tested because their contacts keep them apart
   uint32_t woke = 0;            ///< sleeping bodies that were woken, with their islands
   uint32_t clamped = 0;         ///< values that were clamped to their range
   Real lost_time = 0.0;         ///< sum of the fractions of the tick that stopped bodies lost

@@ -9,7 +9,10 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr uint32_t k_points_min = 3;
+/// A pair can rotate or roll about a contact of fewer points than these. Such a contact is recycled for a shorter
+/// motion, 2^-k_roll_power of the tolerance.
+constexpr uint32_t k_plane_points = 3;
+constexpr int k_roll_power = 6;
 constexpr int k_anchor_frac = 15;
 constexpr Unit k_kept_arm_max = k_arm_max + Unit(0x1p-7);  ///< a clamped arm may exceed k_arm_max by rounding
 
@@ -108,8 +111,7 @@ bool is_kept(const ManifoldState& manifold) {
 
 ManifoldState kept_manifold(const CollisionBody& a, const CollisionBody& b, const ContactGeometry& contact) {
   const ManifoldState none = {};
-  if (contact.count < k_points_min || contact.capped || is_half_space(a.properties) || is_half_space(b.properties))
-    return none;
+  if (contact.count == 0 || contact.capped || is_half_space(a.properties) || is_half_space(b.properties)) return none;
   RecyclePair pair(a, b, a_is_base(a.properties, b.properties));
   if (!pair.place()) return none;
   const Vec3<Unit> normal = pair.base_is_a ? contact.normal : -contact.normal;
@@ -141,7 +143,9 @@ bool recycle_manifold(const CollisionBody& a, const CollisionBody& b, const Mani
   contact.count = 0;
   if (!is_kept(before)) return false;
   RecyclePair pair(a, b, a_is_base(a.properties, b.properties));
-  if (!pair.place() || motion_since(pair, before) > tolerance) return false;
+  const bool plane = count >= k_plane_points;
+  if (!pair.place() || motion_since(pair, before) > (plane ? tolerance : scale_by_power(tolerance, -k_roll_power)))
+    return false;
   const Vec3<Unit> normal = multiply(pair.base.rotation, before.normal);
   contact.capped = false;
   contact.normal = pair.base_is_a ? normal : -normal;
@@ -157,7 +161,7 @@ bool recycle_manifold(const CollisionBody& a, const CollisionBody& b, const Mani
     contact.point[contact.count++] = {pair.base_is_a ? arm_base : arm_other, pair.base_is_a ? arm_other : arm_base,
                                       separation, feature[i]};
   }
-  return contact.count >= k_points_min;
+  return plane ? contact.count >= k_plane_points : contact.count == count;
 }
 
 bool is_manifold(const BodyProperties& a, const BodyProperties& b, uint32_t count, const ManifoldState& manifold) {

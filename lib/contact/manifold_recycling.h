@@ -5,8 +5,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// Makes the data from which later ticks can recycle a pair's contact. The data is all zero for contacts that are not
-/// recycled: those with fewer than three points, about which a body rotates or rolls; those with a half-space, which
-/// are found anew as fast; capped searches; and bodies that overlap deeply.
+/// recycled: those with a half-space, which are found anew as fast; capped searches; and bodies that overlap deeply.
 ManifoldState kept_manifold(const CollisionBody& a, const CollisionBody& b, const ContactGeometry& contact);
 
 /// False if the data is all zero.
@@ -15,8 +14,9 @@ bool is_kept(const ManifoldState& manifold);
 /// Recycles the contact `before`, whose features are `feature`, at the current poses. The normal and the surface of the
 /// base (the larger body) move with the base, the points move with the other body, and the separations follow the
 /// motion along the normal. Points farther apart than `margin`, m, are left out of `contact` and of `after`. False if a
-/// point of the smaller body may have moved relative to the larger body by more than `tolerance`, m, or if fewer than
-/// three points are left. The caller must then collide the pair anew.
+/// point of the smaller body may have moved relative to the larger body by more than `tolerance`, m (1/64 of it for a
+/// contact of one or two points, about which a body can rotate or roll), or if too few points are left: fewer than
+/// three of three or four, or not all of one or two. The caller must then collide the pair anew.
 ///
 /// Precision: that of collide(), and 2^-17 of the motion. Each call starts from the stored data, so errors do not
 /// accumulate. The direction of the normal errs by no more than the relative rotation of the pair since then, which is

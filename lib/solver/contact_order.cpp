@@ -1,6 +1,7 @@
 #include "solver/contact_order.h"
 
 #include "base/digest.h"
+#include "base/heap.h"
 #include "base/radix_sort.h"
 #include "solver/island.h"
 
@@ -41,6 +42,20 @@ uint16_t take_colour(Span<const BodyProperties> properties, const ContactState& 
   return colour;
 }
 
+/// The place of an island's kind in the order of the islands, below 256: by substeps, then by whether it has contacts;
+/// islands with joints come last.
+uint32_t kind_of(const Island& island) {
+  return island.joint_count != 0 ? 255 : 2 * island.substeps + (island.contact_count != 0 ? 1 : 0);
+}
+
+/// Moves each contact to the next place of its island. Keeps the order within an island.
+void sort_by_island(Span<const Island> islands, Span<BodyWork> work, Span<ContactOrder> spare, Span<ContactOrder> order,
+                    uint32_t first) {
+  for (uint32_t i = first; i < order.count; ++i) spare[i] = order[i];
+  for (uint32_t i = 0; i < islands.count; ++i) work[i].run = islands[i].first_contact;
+  for (uint32_t i = first; i < order.count; ++i) order[work[spare[i].island].run++] = spare[i];
+}
+
 }  // namespace
 
 uint32_t order_contacts(Span<const BodyProperties> properties, Span<const ContactWork> contacts,
@@ -60,11 +75,35 @@ uint32_t order_contacts(Span<const BodyProperties> properties, Span<const Contac
   radix_sort(
       order, spare,
       [](const ContactOrder& entry, int digit) { return uint32_t{digit == 0 ? entry.kind : entry.colour}; }, 2);
-  // Sorts by island: each contact goes to the next place of its island, which keeps the order within the island.
-  for (uint32_t i = 0; i < order.count; ++i) spare[i] = order[i];
-  for (uint32_t i = 0; i < islands.count; ++i) work[i].run = islands[i].first_contact;
-  for (const ContactOrder& entry : spare.first(order.count)) order[work[entry.island].run++] = entry;
+  sort_by_island(islands, work, spare, order, 0);
   return overflows;
+}
+
+bool are_solved_together(const Island& a, const Island& b) {
+  return a.joint_count == 0 && b.joint_count == 0 && kind_of(a) == kind_of(b);
+}
+
+void group_islands(Span<const uint32_t> slots, Span<const BodyProperties> properties,
+                   Span<const BodyActivity> activities, Span<const ContactWork> contacts, Span<Island> islands,
+                   Span<BodyWork> work, Span<uint32_t> bodies, Span<ContactOrder> spare, Span<ContactOrder> order) {
+  if (islands.count < 2) return;
+  heap_sort(islands, [](const Island& a, const Island& b) {
+    return kind_of(a) < kind_of(b) || (kind_of(a) == kind_of(b) && a.first_body < b.first_body);
+  });
+  for (uint32_t i = 0; i < islands.count; ++i) {
+    for (uint32_t k = 0; k < islands[i].body_count; ++k) work[bodies[islands[i].first_body + k]].island = i;
+  }
+  list_island_bodies(slots, properties, activities, work, islands, bodies);
+  for (ContactOrder& entry : order) entry.island = island_of(properties, work, contacts[entry.contact].state);
+  radix_sort(
+      order, spare,
+      [&](const ContactOrder& entry, int digit) {
+        return digit == 0 ? uint32_t{entry.kind} : digit == 1 ? uint32_t{entry.colour} : kind_of(islands[entry.island]);
+      },
+      3);
+  uint32_t alone = 0;
+  for (const Island& island : islands) alone += island.joint_count == 0 ? island.contact_count : 0;
+  sort_by_island(islands, work, spare, order, alone);
 }
 
 }  // namespace DETENT_NAMESPACE

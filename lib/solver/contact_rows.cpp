@@ -367,5 +367,18 @@ void store_impulses(ContactWork& work) {
                                work.tangent[1] * work.angular_impulse[2];
 }
 
+bool keeps_apart(const ContactWork& contact, const Vec3<Real>& displacement_a, const Vec3<Real>& rotation_vector_a,
+                 const Vec3<Real>& displacement_b, const Vec3<Real>& rotation_vector_b, Real depth) {
+  Block room;
+  room.include(contact.separation, contact.state.point_count);
+  const PairMotion<One> moved(room, displacement_b - displacement_a, rotation_vector_a, rotation_vector_b, 0);
+  const NormalMotion<One> displacement(moved, contact);
+  for (uint32_t i = 0; i < contact.state.point_count; ++i) {
+    const Real least = -depth - max(contact.separation[i], k_zero);
+    if (displacement.at(contact, i) < moved.block.held(least)) return false;
+  }
+  return true;
+}
+
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

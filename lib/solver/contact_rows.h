@@ -76,5 +76,11 @@ PairResponse respond_exactly(const BodyProperties& a, const Quat& rotation_a, co
 /// Stores the impulses of the solve in `work.state`, in world axes.
 void store_impulses(ContactWork& work);
 
+/// Whether the contact keeps its bodies apart in a tick with these displacements, m, and rotation vectors, rad, in
+/// world axes: no point gets deeper than `depth`, m, or than it was at the start by more than that. To first order in
+/// the motion.
+bool keeps_apart(const ContactWork& contact, const Vec3<Real>& displacement_a, const Vec3<Real>& rotation_vector_a,
+                 const Vec3<Real>& displacement_b, const Vec3<Real>& rotation_vector_b, Real depth);
+
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

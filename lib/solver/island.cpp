@@ -73,8 +73,15 @@ uint32_t find_islands(Span<const uint32_t> slots, Span<const BodyProperties> pro
     ++islands[island].body_count;
   }
   for (const ContactWork& contact : contacts) ++islands[island_of(properties, work, contact.state)].contact_count;
+  list_island_bodies(slots, properties, activities, work, islands.first(count), bodies);
+  return count;
+}
+
+void list_island_bodies(Span<const uint32_t> slots, Span<const BodyProperties> properties,
+                        Span<const BodyActivity> activities, Span<const BodyWork> work, Span<Island> islands,
+                        Span<uint32_t> bodies) {
   uint32_t first_body = 0, first_contact = 0;
-  for (Island& island : islands.first(count)) {
+  for (Island& island : islands) {
     island.first_body = first_body;
     island.first_contact = first_contact;
     first_body += island.body_count;
@@ -86,7 +93,6 @@ uint32_t find_islands(Span<const uint32_t> slots, Span<const BodyProperties> pro
     Island& island = islands[work[slot].island];
     bodies[island.first_body + island.body_count++] = slot;
   }
-  return count;
 }
 
 }  // namespace DETENT_NAMESPACE

@@ -20,6 +20,12 @@ uint32_t find_islands(Span<const uint32_t> slots, Span<const BodyProperties> pro
                       Span<const BodyActivity> activities, Span<const ContactWork> contacts, const JointStage& joints,
                       Span<BodyWork> work, Span<Island> islands, Span<uint32_t> bodies);
 
+/// Sets the ranges of the islands, in their order, from their numbers of bodies and contacts, and lists their bodies in
+/// `bodies`, ascending in each island. `work` has the bodies' islands.
+void list_island_bodies(Span<const uint32_t> slots, Span<const BodyProperties> properties,
+                        Span<const BodyActivity> activities, Span<const BodyWork> work, Span<Island> islands,
+                        Span<uint32_t> bodies);
+
 /// The island of a contact is that of its dynamic body.
 inline uint32_t island_of(Span<const BodyProperties> properties, Span<const BodyWork> work,
                           const ContactState& contact) {

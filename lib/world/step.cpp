@@ -55,6 +55,7 @@ void report_impacts(const ImpactReport& impacts, StepReport& report) {
   report.ccd.lost_time = impacts.lost_time;
   report.ccd.tests = impacts.tests;
   report.ccd.skipped = impacts.skipped;
+  report.ccd.kept_apart = impacts.kept_apart;
   report.woke += impacts.woke;
   report.saturations += impacts.clamped;
 }
@@ -94,6 +95,11 @@ class Step {
   ContactRoom room() const {
     return {scratch_, state_.contacts.count - (contacts_before_ - awake_contacts_.count), manifolds().count != 0};
   }
+  /// Whether islands are solved together. Some settings end the sweeps of each island by its own measure.
+  bool groups_islands() const {
+    return k_built_with_lanes && settings_.lanes && settings_.iterations == 1 && !settings_.post_stabilises;
+  }
+  Island island_group(uint32_t first, uint32_t& count) const;
   Span<ContactOrder> contact_order() const { return scratch_.contact_order.first(contacts_.count); }
   Span<ContactEvent> contact_events() const { return room_of(world_.hooks.contact_events); }
 
@@ -224,11 +230,27 @@ void Step::build_islands() {
     report_.lost.joint_couplings = joint_ops_->order(settings_, solver_bodies_, slots, islands_, joints_);
   choose_substeps(settings_, bodies_.properties, bodies_.work, slots, contact_order(), islands_, contacts_,
                   bodies_.activities);
+  if (groups_islands())
+    group_islands(moving_, bodies_.properties, bodies_.activities, contacts_, islands_, bodies_.work,
+                  scratch_.island_bodies, scratch_.contact_sort, contact_order());
+}
+
+/// The islands from `first` on that are solved together, as one.
+Island Step::island_group(uint32_t first, uint32_t& count) const {
+  Island group = islands_[first];
+  for (count = 1; groups_islands() && first + count < islands_.count; ++count) {
+    const Island& next = islands_[first + count];
+    if (!are_solved_together(islands_[first], next)) break;
+    group.body_count += next.body_count;
+    group.contact_count += next.contact_count;
+  }
+  return group;
 }
 
 void Step::solve_islands() {
   StepSettings settings = settings_;
-  for (const Island& island : islands_) {
+  for (uint32_t i = 0, grouped = 0; i < islands_.count; i += grouped) {
+    const Island island = island_group(i, grouped);
     const Span<const uint32_t> slots = {scratch_.island_bodies.data + island.first_body, island.body_count};
     const Span<const ContactOrder> order = {scratch_.contact_order.data + island.first_contact, island.contact_count};
     if (island.substeps != settings.substeps) set_substeps(island.substeps, settings);

@@ -45,6 +45,30 @@ DETENT_TEST(impact_stage, a_body_at_rest_that_is_struck_meets_what_it_flies_into
   }
 }
 
+/// A box that falls onto another is in contact in the tick in which they touch; the solver stops it. Only a rebound is
+/// an impact.
+DETENT_TEST(impact_stage, a_pair_that_its_contacts_keep_apart_is_not_searched) {
+  for (const double restitution : {0.0, 1.0}) {
+    Lab lab({2, 8, 0});
+    BodyDef below, above;
+    below.type = BodyType::fixed;
+    below.shape = above.shape = box(reals(0.5, 0.5, 0.5));
+    above.position = position(0.1, 1.2, 0.1);
+    above.material.restitution = real(restitution);
+    lab.add(below);
+    const BodyId falling = lab.add(above);
+    uint32_t tests = 0, kept_apart = 0;
+    for (int tick = 0; tick < 60; ++tick) {
+      const StepReport report = lab.run(1);
+      tests += report.ccd.tests;
+      kept_apart += report.ccd.kept_apart;
+      EXPECT_GT(lab.motion(falling).position[1], 1 - 1.0 / 512);
+    }
+    EXPECT_EQ(tests, 0u);
+    EXPECT_GT(kept_apart, 0u);
+  }
+}
+
 DETENT_TEST(impact_stage, three_balls_in_a_row_pass_a_blow_on_in_one_tick) {
   Lab lab({4, 8, 0}, weightless());
   std::vector<BodyId> balls;
