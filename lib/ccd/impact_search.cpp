@@ -163,9 +163,10 @@ Vec3<Unit> known_axis(const ImpactStage& stage, uint64_t key, const ImpactPair* 
   return contacts.count != 0 ? contacts[0].normal : Vec3<Unit>{};
 }
 
-/// Whether the solver keeps a pair in contact apart in this tick: no contact point becomes deeper than 1/1024 of the
-/// extent, or than it was by that much. Such a pair need not be tested. `closing` is a bound of its relative motion, m:
-/// beyond it, other parts of the shapes than those in contact may collide.
+/// Whether the solver keeps a pair in contact apart in this tick. A contact point that is separated must not become
+/// deeper than 1/1024 of the extent; the depth of a point that penetrates must not grow by more than that. Such a pair
+/// need not be tested. `closing`: upper bound of the relative motion in the tick, m. False if it is large, because
+/// parts of the shapes that are not in contact may then collide.
 bool are_kept_apart(const ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts, Real closing) {
   const uint32_t low = pair_low(key), high = pair_high(key);
   if (contacts.count == 0 || is_left_to_impact(contacts[0]) ||

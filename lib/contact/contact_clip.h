@@ -71,7 +71,7 @@ class Reference {
   /// The plane of a half-space; `foot`: any point near the contact.
   Reference(const Placed& half_space, const Vec32& centre, const Vec32& foot);
 
-  /// Adds the corners of the area to `choice`.
+  /// Clips `incident` against the sides of the reference. Adds the corners of the common area to `choice`.
   void clip(const Vec32& centre, const Feature& incident, AreaChoice& choice) const;
 
   /// Whether a point in the block is over the reference, by the same test as in clip().

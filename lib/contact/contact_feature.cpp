@@ -121,8 +121,8 @@ void find_outline(const HullView& hull, const Vec32& normal, BitSet set, VertexP
   }
 }
 
-/// The least distance of the hull's face planes from the frame's origin, which may lie outside, or from the mean of the
-/// vertices, whichever is greater. At least 0.
+/// The least signed distance of the face planes is measured twice: from the frame's origin, which may lie outside the
+/// hull, and from the mean of the vertices. Returns the greater of the two, at least 0.
 int32_t hull_half_thickness(const HullView& hull) {
   Vec64 sum = {0, 0, 0};
   for (uint32_t v = 0; v < hull.vertex_count; ++v) sum = add(sum, Vec64{hull.x(v), hull.y(v), hull.z(v)});
@@ -142,7 +142,8 @@ int32_t hull_half_thickness(const HullView& hull) {
 /// Vertices that are lower than the farthest vertex along a direction by at most 2^-k_even_power of the half thickness
 /// are level with it.
 constexpr int k_even_power = 6;
-/// A face is used by itself if its area is at least 1 - 2^-k_beyond_power of the area of everything level with it.
+/// A single face is the contact feature if its area is at least 1 - 2^-k_beyond_power of the area of the whole region
+/// level with it. Otherwise the region is.
 constexpr int k_beyond_power = 2;
 constexpr int k_even_rounds_max = 4;  ///< rounds in which the region level with a face may grow
 

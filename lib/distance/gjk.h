@@ -48,7 +48,7 @@ NearestPoints nearest_points(const Placed& a, const Placed& b, const Simplex& si
 
 /// Ulps of the block by which `lower` may exceed the least distance of the true cores along the normal. Sources:
 /// placing (1.5 sqrt 3 for each core), the rounding of the normal and of the local direction, and the choice of the
-/// support point. Derived in DESIGN.md.
+/// support point. Derived in docs/design/time_of_impact.md, "A known axis replaces the search".
 inline constexpr int k_gjk_slack = 16;
 
 }  // namespace DETENT_NAMESPACE

@@ -26,7 +26,7 @@ void visit(Archive& archive, LoggedQuery& query) { visit_query(archive, query.co
 
 }  // namespace
 
-// A record is at most as long as its command, and always fits an empty chunk.
+// A record is its tags and at most as many bytes as its command has in memory. It always fits an empty chunk.
 static_assert(sizeof(CreateBody) + 1 <= k_chunk_payload_bytes_max);
 static_assert(sizeof(SetJoint) + 1 <= k_chunk_payload_bytes_max);
 static_assert(sizeof(CastCommand) + 4 <= k_chunk_payload_bytes_max);

@@ -174,8 +174,8 @@ DETENT_SHARED inline HullView hull_view(const uint8_t* bytes) {
 }
 
 /// Checks untrusted bytes. An accepted hull is a convex solid in range. Its indices are valid, and hill climbing along
-/// neighbours finds the farthest vertex exactly. InverseInertia, origin and rotation are checked only for their ranges,
-/// not against the vertices. Takes about 2 V^2 exact plane tests. Errors: buffer_misaligned (8), not_detent,
+/// neighbours finds the farthest vertex exactly. Inverse inertia, origin and rotation are checked only for their
+/// ranges, not against the vertices. Takes about 2 V^2 exact plane tests. Errors: buffer_misaligned (8), not_detent,
 /// format_unknown, truncated, corrupt, out_of_range (the exponent).
 Status read_hull(const Asset& asset, HullView& hull);
 

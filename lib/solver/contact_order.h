@@ -13,8 +13,8 @@ inline constexpr uint16_t k_colour_overflow = 64;
 /// Computes the order of the solve. Contacts are visited by the hash of their bodies' ids (ties by the contacts' own
 /// order). Each takes the lowest colour that is free at both its dynamic bodies. The result is sorted by (island,
 /// colour, hash). It is a total order that depends on ids alone: any schedule that keeps it within each body gives the
-/// same bits. Visiting by hash and not in the order of creation is necessary for a pyramid to come to rest (DESIGN.md,
-/// "Order of the solve").
+/// same bits. Visiting by hash and not in the order of creation is necessary for a pyramid to come to rest
+/// (docs/design/solver.md, "Order of the solve").
 ///
 /// In: `work` has the bodies' islands and `islands` the places of their contacts, from find_islands(). `spare` is work
 /// space as large as `order`. Returns the number of contacts that found no free colour.

@@ -105,9 +105,10 @@ Scaled angular_mass_of(Real response) {
   return response > Real(0.0) ? divide(Scaled(1.0), scaled_from(response)) : Scaled(0.0);
 }
 
-/// Computes the K of the normal rows of each pair of points, and the effective mass of each point. The rows are j_i =
-/// (1, y_i, -x_i) over the parts of a wrench (along the normal, about the first and the second tangent). With the
-/// response R at the middle, K_ik = j_i R j_k^T.
+/// Computes the matrix K that couples the normal rows of a contact's points, and the effective mass 1 / K_ii of each
+/// point. Row i is j_i = (1, y_i, -x_i). It acts on the parts of a wrench at the contact's middle: the force along the
+/// normal and the torques about the first and the second tangent. With the response R to such wrenches,
+/// K_ik = j_i R j_k^T.
 void couple(const PairResponse& response, ContactWork& work) {
   const auto part = [&](Part i, Part k) { return response.part[response_index(i, k)]; };
   const uint32_t count = work.state.point_count;

@@ -34,7 +34,7 @@ Horizon horizon_over(const MovingPair& pair, int64_t start, int64_t length);
 /// Certifies how long the cores stay `floor` ulps apart along the rotating axis n(t) = exp(t angular velocity) normal.
 /// `frames` are the poses at the horizon's start. Returns a part of the horizon, Q30; 0 if the cores are closer than
 /// that at the start. Range: |angular_velocity_x - angular velocity| + 1 < 4 for both bodies, |angular velocity| < 3.
-/// Derivation: DESIGN.md, "Never late".
+/// Derivation: docs/design/time_of_impact.md, "Conservative advancement, never late".
 int32_t advance(const MovingPair& pair, const Frames& frames, const Horizon& horizon, const Vec32& normal,
                 const Vec32& angular_velocity, int32_t floor, uint32_t& passes);
 
@@ -49,7 +49,8 @@ int32_t advance_once(const MovingPair& pair, const Frames& frames, const Horizon
                      bool tight, int32_t floor, uint32_t& passes);
 
 /// The separation of the cores along `normal`, less `floor` ulps; Q56 of the pair's unit. It is too large by at most
-/// the rounding budget (DESIGN.md). It is negative where the cores are closer than `floor` along `normal`.
+/// the rounding budget (docs/design/time_of_impact.md, "The rounding budget"). It is negative where the cores are
+/// closer than `floor` along `normal`.
 int64_t separation_along(const MovingPair& pair, const Frames& frames, const Vec32& normal, int32_t floor);
 
 /// An axis that rotates by the rotation vector `angular_velocity`, Q29, over a horizon.

@@ -28,10 +28,10 @@ struct NearFeatures {
 bool axis_between(const MovingPair& pair, const NearFeatures& features, const Frames& frames, const Vec32& towards,
                   int& side, Vec32& normal);
 
-/// As advance(), with a rotation of the axis that is predicted from the future positions of the features. For edges and
-/// vertices the axis is then also right at contact. Returns the time up to which the cores are certain to stay `floor`
-/// apart. Counts passes and calls of gjk(). `progress`: the time that the last call gained; the call replaces it. It
-/// limits the length that the next call tries.
+/// As advance(), but the axis rotates so that it follows the axis predicted between the features at later poses. So the
+/// axis is still valid at the time of contact, also for edges and vertices. Returns the time up to which the cores are
+/// certain to stay `floor` apart. Counts passes and calls of gjk(). `progress`: in, the time that the previous call
+/// gained, which limits the length of the horizon tried; out, the time that this call gained.
 int64_t advance_tracking(const MovingPair& pair, const Frames& frames, const Simplex& simplex,
                          const NearFeatures& features, const GjkResult& nearest, int32_t floor, int64_t& progress,
                          TimeOfImpact& result);

@@ -8,7 +8,7 @@ inline namespace DETENT_NAMESPACE {
 
 /// Ulps that a certificate must exceed the touching distance by. gjk() can then never find witness points that show a
 /// certified pair to touch: a certificate may be too large by 31 ulps, and a distance of gjk() too small by at most 30.
-/// Derived in DESIGN.md.
+/// Derived in docs/design/time_of_impact.md, "A known axis replaces the search".
 inline constexpr int32_t k_certain = 64;
 
 /// Whether an axis certifies that the bodies do not touch in the whole window. The axis is `normal` when the window

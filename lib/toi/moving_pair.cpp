@@ -9,7 +9,8 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 constexpr int64_t k_raw_rotation_max = int64_t{1} << (k_metre_bits + 16);  ///< rad
-/// Bound on the sum of all roundings in a certified separation, ulps of the block; derived in DESIGN.md.
+/// Bound on the sum of all roundings in a certified separation, ulps of the block. Derived in
+/// docs/design/time_of_impact.md, "The rounding budget".
 constexpr int32_t k_budget = 32;
 
 /// Sets the rotation of a body. A body whose core is a point at its centre counts as not rotating.

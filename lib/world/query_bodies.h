@@ -47,9 +47,9 @@ struct QueryBodies {
   /// Bounds of the body's bounding sphere: larger, but cheaper to compute.
   Bounds ball_bounds_of(uint32_t slot) const;
 
-  /// Visits the bodies whose bounds may satisfy `meets`, which may become stricter during the search. It only reads the
-  /// world. If the tree is up to date, resting bodies are found in the tree, and the active set is searched one by one;
-  /// otherwise all bodies are searched one by one.
+  /// Visits the bodies whose bounds may satisfy `meets`. `meets` may become stricter during the search. The search only
+  /// reads the world. If the tree is up to date, resting bodies are found in the tree, and the active set is searched
+  /// one by one; otherwise all bodies are searched one by one.
   template <class Meets, class Swaps, class Visit>
   void for_each(const Meets& meets, const Swaps& swaps, const Visit& visit) const {
     const auto look_at = [&](uint32_t slot) {

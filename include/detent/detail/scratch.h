@@ -199,7 +199,8 @@ struct JointRow {
   Vec3<Unit> arm[2];  ///< of A, of B: angular momentum per unit impulse
 };
 
-/// Free motions of a joint that can have rows: those of its axes, and other rotations with friction or a spring.
+/// The most free motions of one joint that can have rows: motions along or about its axes, and other rotations that
+/// have friction or a spring.
 inline constexpr int k_free_motions = 3;
 
 /// The rows of a joint for the current poses of its bodies.
