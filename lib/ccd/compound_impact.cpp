@@ -17,7 +17,7 @@ struct PartSearch {
   Meeting& meeting;
   const ConvexParts parts_a, parts_b;
   const Motion motion_a, motion_b;
-  /// Upper bound of how much the distance of any two points can shrink, m.
+  /// Upper bound, m, on how much the distance between a point of A and a point of B can shrink.
   Real closing = 0.0;
   bool bounded = false;  ///< `closing` is valid
 

@@ -37,7 +37,7 @@ void go_on(ImpactStage& stage, ImpactPair& pair) {
   }
   const uint32_t slots[2] = {pair_low(pair.key), pair_high(pair.key)};
   if (stage.is_spent() && pair.farther_in == 0) {
-    pair.farther_in = 1;  // the pair's contacts push the bodies apart if they do not collide at that depth
+    pair.farther_in = 1;  // test() now starts at extent / 8; shallower overlaps are left to the contacts
     stage.test(pair.key, time, k_zero, &pair);
     return;
   }

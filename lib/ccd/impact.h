@@ -33,8 +33,8 @@ inline constexpr uint32_t k_impacts_max = 32;  ///< per body and tick
 /// test of a pair or one resolved impact. The budget is k_impact_work_min plus k_impact_work_times the work of the
 /// first test of all pairs and bodies.
 inline constexpr uint32_t k_impacts_max_spent = 16, k_impact_work_times = 8, k_impact_work_min = 512;
-/// The sweep of a jointed body has the mark k_mark_jointed times the number of its island. These numbers begin at 1.
-/// All other marks are less than k_mark_jointed.
+/// A jointed body's sweep is marked with k_mark_jointed times the number of the body's island. These numbers begin at
+/// 1. All other marks are less than k_mark_jointed.
 inline constexpr uint32_t k_mark_jointed = 32;
 
 /// For tests: records the sweeps, and can switch off the filter that skips pairs which cannot collide.

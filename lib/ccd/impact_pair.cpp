@@ -50,8 +50,8 @@ void shrink(int64_t depth, int halvings, Convex& convex) {
   }
 }
 
-/// The largest distance, m, from the centre to a part of the surface that a rotation moves. It is 0 for a sphere, which
-/// looks the same after a rotation.
+/// The distance, m, from the centre by which a rotation angle is multiplied to bound the motion of the surface. It is 0
+/// for a sphere and the half length for a capsule: a rotation about its centre does not change a ball.
 Real swing_radius(const BodyProperties& properties) {
   switch (shape_type(properties)) {
     case ShapeType::sphere:
@@ -149,7 +149,7 @@ bool shrink_convex(Real shrink_depth, int halvings, Convex& convex) {
 }
 
 int shrink_halvings(Real shrink_depth, Real extent) {
-  // One halving at the depths of contacts, two at the deepest ones.
+  // One halving beyond 1/16 of the extent, two beyond 1/4.
   return (shrink_depth > scale_by_power(extent, -4) ? 1 : 0) + (shrink_depth > scale_by_power(extent, -2) ? 1 : 0);
 }
 

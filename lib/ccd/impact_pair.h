@@ -11,10 +11,10 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// A pair is tested with shrunken cores: both shapes made smaller by a shrink depth, m. The depths are 0 (the
-/// surfaces); then the smallest depth at which a pair that has collided in this tick is separate again; and a larger
-/// depth for a pair that is in contact at the start of the tick. So a resting or sliding pair is not stopped, and still
-/// cannot pass through. `extent` is the smaller body's smallest diameter.
+/// A pair is tested with shrunken cores: both shapes are made smaller by a shrink depth, m. The first depth is 0 (the
+/// surfaces). A pair that has collided in this tick is tested at the smallest depth at which it is separate again. A
+/// pair that is in contact at the start of the tick is tested at a larger depth. So a resting or sliding pair is not
+/// stopped, and still cannot pass through. `extent` is the smaller body's smallest diameter.
 ///
 /// Returns the shrink depth after `shrink_depth`. The first one is 1/1024 of the extent. Up to 1/16 of the extent each
 /// is four times the one before; then each is larger by 1/32 of the extent.
@@ -43,7 +43,7 @@ inline bool is_direction(const Vec3<Unit>& normal) { return !(normal == Vec3<Uni
 /// From the position of A to that of B, m, world axes.
 inline Vec3<Real> offset_of(const BodyPose& a, const BodyPose& b) { return real_difference(b.position, a.position); }
 
-/// True if the bodies do not approach at the point of an impact found at `time` itself, beyond a slow speed of 1/4096
+/// True if the bodies do not approach at the point of an impact found at `time` itself, or approach by at most 1/4096
 /// of the extent per tick. Range: the impact has a normal.
 bool is_parting(const SweptBody& a, const SweptBody& b, Fraction time, const TimeOfImpact& impact);
 
@@ -94,9 +94,9 @@ struct Meeting {
   }
 };
 
-/// Tests two convex shapes, or a convex shape and a terrain, with `find`. Increases the shrink depth while the cores
-/// touch at `time` without approaching, or touch and are marked as resolved. Returns false if `find` does, which means
-/// that the shapes could not be tested.
+/// Tests two convex shapes, or a convex shape and a terrain, with `find`. If `cores.climbs`, increases the shrink depth
+/// while the cores at `time` overlap, touch without approaching, or touch and are marked as resolved. Returns false if
+/// `find` returns false: the shapes could not be tested.
 template <class Find>
 bool climb(const SweptBody& a, const SweptBody& b, Fraction time, const ShrunkenCores& cores, const Find& find,
            Meeting& meeting) {
@@ -115,7 +115,7 @@ bool climb(const SweptBody& a, const SweptBody& b, Fraction time, const Shrunken
              (found.outcome == ToiOutcome::undecided || (is_direction(found.normal) && !is_parting(a, b, time, found)));
     };
     if (now && cores.climbs && !closes()) {
-      // Cores that overlap at the last shrink depth overlap at all.
+      // Cores that overlap at the last shrink depth also overlap at all smaller depths. The last depth is tested once.
       if (looked_ahead || is_direction(found.normal)) continue;
       looked_ahead = meeting.climbed = true;
       ++meeting.tests;

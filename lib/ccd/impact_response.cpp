@@ -150,7 +150,7 @@ uint32_t clamp_rotation(const BodyProperties& properties, Real tick_time, BodySw
 
 BodyMotion motion_of_sweep(const BodyProperties& properties, const Quat& rotation, const BodySweep& sweep,
                            Scaled tick_rate) {
-  // In the order that keeps each result in its range.
+  // The order of the operations keeps each result in its range.
   const int power = properties.size_exponent;
   const Vec3<Real> angular_velocity = power < 0 ? scaled(scale_by_power(sweep.rotation_vector, power), tick_rate)
                                                 : scale_by_power(scaled(sweep.rotation_vector, tick_rate), power);

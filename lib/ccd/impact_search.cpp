@@ -42,9 +42,9 @@ bool is_curved(const ImpactStage& stage, uint32_t slot) {
   return round_radius(stage.bodies.properties[slot]) > Unit(0.0);
 }
 
-/// False for pairs that are disabled by filters or joints, and for pairs within one island of joints. If a body is
-/// jointed, also false for half-spaces: contacts alone keep bodies from passing them, because a single body that stops
-/// tears at its joints.
+/// False for pairs that are disabled by filters or joints, and for pairs within one island of joints. For a jointed
+/// body, also false with a half-space. Only contacts keep such a body out of the half-space, because stopping a single
+/// body would tear it from its joints.
 bool may_collide(const ImpactStage& stage, uint32_t a, uint32_t b) {
   if (!PairFilter{stage.bodies.properties, stage.bodies.filter_rules, stage.known.disabled_pairs}.allows(a, b))
     return false;
@@ -100,24 +100,26 @@ Real free_shrink_depth(const ImpactStage& stage, uint64_t key, Span<const Contac
     disabled_pairs = k_zero;
     return k_zero;
   }
-  // A round body may be nearer than its contacts say: their separation includes the distance gained by sliding past.
+  // A round body may be nearer than its contacts say. Their separation includes the distance that is gained by sliding
+  // past.
   const bool round = is_curved(stage, pair_low(key)) || is_curved(stage, pair_high(key));
   if (least > scale_by_power(extent, -10)) {
     disabled_pairs = round ? k_zero : scale_by_power(least, -1);
-    // A ball that the solver has made bounce touches at the end of the tick. Within the tolerance of the query that
-    // would be an impact, so start one shrink depth deeper. Other shapes may collide at another point first.
+    // If the solver has made a ball bounce, the ball touches at the end of the tick. The query would report an impact
+    // within its tolerance, so the test starts one shrink depth deeper. Other shapes may collide at another point
+    // first.
     const bool bounces = is_ball(stage, pair_low(key)) || is_ball(stage, pair_high(key));
     return bounces && rebounds && stage.is_pushed(key) ? next_shrink_depth(extent, k_zero) : k_zero;
   }
   const Real shrink_depth = contact_shrink_depth(extent, -least);
-  // Adds only one of the two shrink depths: the points of a contact need not show its whole depth.
+  // Adds the shrink depth of only one body, because the contact points need not show the whole depth of the overlap.
   disabled_pairs = (round ? min(least, k_zero) : least) + shrink_depth;
   return shrink_depth;
 }
 
-/// The first shrink depth, m, of a pair with these contacts, or none. `disabled_pairs` becomes a lower bound of the
-/// distance of the cores at that depth, m. For a jointed body the depth is larger, so that only those collisions count
-/// in which the body would otherwise pass through.
+/// Returns the first shrink depth, m, of a pair with these contacts; there may be none. `disabled_pairs` becomes a
+/// lower bound, m, of the distance of the cores at that depth. For a jointed body the depth is larger: only those
+/// collisions count in which the body would otherwise pass through.
 Real first_shrink_depth(const ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts,
                         Real& disabled_pairs) {
   const Real shrink_depth = free_shrink_depth(stage, key, contacts, disabled_pairs);
@@ -128,7 +130,7 @@ Real first_shrink_depth(const ImpactStage& stage, uint64_t key, Span<const Conta
   return held;
 }
 
-/// The pair's entry in `impacts`. It is made if there is none. Returns null if there is no room.
+/// Returns the pair's entry in `impacts`, and makes it if there is none. Returns null if there is no room.
 ImpactPair* entry_of(ImpactStage& stage, uint64_t key, ImpactPair* entry) {
   if (entry != nullptr) return entry;
   if (stage.impact_count == stage.impacts.count) return nullptr;
@@ -204,8 +206,8 @@ void test_at_start(ImpactStage& stage, uint64_t key, Span<const ContactWork> con
   stage.test(key, start, shrink_depth, nullptr);
 }
 
-/// Whether the bodies of a pair in contact approach so fast that they rebound. Returns false if they overlap, or if the
-/// solver has applied an impulse between them.
+/// Whether the bodies of a pair in contact approach so fast that they rebound. Returns false if the bodies overlap, or
+/// if the solver has applied an impulse between them.
 bool is_new_impact(const ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts) {
   const uint32_t low = pair_low(key), high = pair_high(key);
   if (contacts.count == 0 || jointed(stage, low) || jointed(stage, high)) return false;

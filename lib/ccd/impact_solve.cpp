@@ -36,9 +36,10 @@ __attribute__((noinline)) void find_part_points(const ImpactStage& stage, const 
   geometry.seam = contacts.seam;
 }
 
-/// Finds the contact points of the bodies themselves. Returns no points if their normal does not agree with the impact:
-/// deep within a thin body, the direction of least penetration may lead through it. If the bodies lie on each other, no
-/// deeper than resting bodies sink in, then an edge that is also hit counts as the edge of a seam.
+/// Finds the contact points of the bodies themselves. Returns no points if the contact normal does not agree with the
+/// normal of the impact: deep within a thin body, the direction of least penetration may lead through it. Marks the
+/// contact as a seam if the overlap is no deeper than that of resting bodies, and either more than two points touch or
+/// the two normals are more than 60 degrees apart.
 void find_points(const ImpactStage& stage, const ImpactPair& pair, const BodyPose& pose_a, const BodyPose& pose_b,
                  ContactGeometry& geometry) {
   const BodyProperties &a = stage.bodies.properties[pair_low(pair.key)],
@@ -59,7 +60,7 @@ void find_points(const ImpactStage& stage, const ImpactPair& pair, const BodyPos
   if (!(along > Unit(0.0))) geometry.count = 0;
 }
 
-/// Makes a contact from the point that the time of impact was found at.
+/// Makes a contact of one point: the point at which time_of_impact() found the impact.
 void take_point(const ImpactStage& stage, const ImpactPair& pair, const BodyPose& pose_a, const BodyPose& pose_b,
                 ContactGeometry& geometry) {
   const BodyProperties &a = stage.bodies.properties[pair_low(pair.key)],
@@ -74,7 +75,7 @@ void take_point(const ImpactStage& stage, const ImpactPair& pair, const BodyPose
   geometry.point[0] = {arm(a, pair.point), arm(b, pair.point - offset_of(pose_a, pose_b)), k_zero, 1};
 }
 
-/// The mean of the points, world.
+/// Returns the mean of the contact points, as a world position.
 Position point_of(const ContactGeometry& geometry, const BodyPose& pose_a, const BodyPose& pose_b,
                   const BodyProperties& a, const BodyProperties& b) {
   static constexpr Unit k_share[k_manifold_points_max] = {1.0, 0.5, 1.0 / 3.0, 0.25};
@@ -105,8 +106,8 @@ Vec3<Real> fall_after(const ImpactStage& stage, uint32_t slot, Fraction time) {
   return sweep_part({own, k_zero_vector}, k_whole_step - time).displacement;
 }
 
-/// The speed, m/s, at which the rotation of both bodies can bring them together again in the rest of the tick. Returns
-/// 1/16 of it at the second impact of the pair, then twice as much each time, up to all of it.
+/// Returns a part of the speed, m/s, at which the rotations of both bodies can bring them together again in the rest of
+/// the tick. The part is 1/16 at the second impact of the pair, then twice as much each time, up to all of the speed.
 Real bend_speed(const ImpactStage& stage, const ImpactPair& pair) {
   const uint32_t a = pair_low(pair.key), b = pair_high(pair.key);
   const auto radius = [&](uint32_t slot) {
@@ -125,10 +126,10 @@ Real bend_speed(const ImpactStage& stage, const ImpactPair& pair) {
   return multiply(scale_by_power(part, power), stage.tick_rate, saturated);
 }
 
-/// The lowest speed, m/s, at which a pair separates on its sweeps. An overlap is corrected. A body that rotates or
-/// rolls on an edge collides again and again; if the pair has already collided in this tick, the speed grows with the
-/// number of its impacts, so that a few impacts are enough for the tick. The velocities of the bodies' state are not
-/// changed by it.
+/// Returns the lowest speed, m/s, at which a pair must separate on its sweeps. The speed corrects an overlap. A body
+/// that rotates or rolls on an edge collides again and again. If the pair has already collided in this tick, the speed
+/// therefore grows with the number of its impacts, so that a few impacts are enough for the tick. The speed does not
+/// change the velocities in the bodies' state.
 Real parting_speed(const ImpactStage& stage, const ImpactPair& pair, const ContactWork& contact, uint32_t count) {
   bool saturated = false;
   Real depth = k_zero, approach = k_zero;
@@ -144,7 +145,7 @@ Real parting_speed(const ImpactStage& stage, const ImpactPair& pair, const Conta
 }
 
 /// Separates the bodies of a pair at the given points. Returns false and changes nothing if the bodies do not approach
-/// there. `again`: the impulse is a propagated one and is not counted again.
+/// there. `again`: the impulse was propagated from another pair, and the impact is not counted again.
 bool resolve_at(ImpactStage& stage, ImpactPair& pair, const ContactGeometry& geometry, const BodyPose& pose_a,
                 const BodyPose& pose_b, bool again) {
   const uint32_t a = pair_low(pair.key), b = pair_high(pair.key);

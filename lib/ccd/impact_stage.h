@@ -6,8 +6,8 @@
 #include "shape/shape_properties.h"
 
 /// Declarations that the files of continuous collision share. impact.cpp processes the impacts in the order of their
-/// times, impact_search.cpp finds when pairs collide, impact_solve.cpp resolves impacts, impact_sweeps.cpp keeps the
-/// bodies' sweeps.
+/// times. impact_search.cpp finds when pairs collide. impact_solve.cpp resolves impacts. impact_sweeps.cpp updates the
+/// sweeps of the bodies.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -94,12 +94,12 @@ struct ImpactStage {
 
   // impact_solve.cpp
 
-  /// Separates the bodies of a pair, which are at the time of its impact. Returns true if they collide at a seam for
-  /// the first time; nothing has changed then.
+  /// Separates the bodies of a pair. The bodies must be at the time of the impact. Returns true, and changes nothing,
+  /// if the bodies collide at a seam for the first time.
   bool resolve(ImpactPair& pair, bool undecided, const BodyPose& pose_a, const BodyPose& pose_b);
-  /// Propagates an impulse to the pairs that share a body with the first pair and have collided in this tick, and back,
-  /// until no pair approaches. Without this, a body between two others would be hit back and forth without end. The
-  /// pairs are processed in the order of their keys.
+  /// Propagates the impulse of the pair `first` to the pairs that share a body with it and have collided in this tick,
+  /// and back, until no pair approaches. Without this, a body between two others would be hit back and forth without
+  /// end. The pairs are processed in the order of their keys.
   void pass_on(const ImpactPair& first, Fraction time);
 };
 

@@ -86,7 +86,7 @@ void ImpactStage::move_to(uint32_t slot, Fraction time) {
   BodySweep& sweep = bodies.sweeps[slot];
   const bool hit = (sweep.marks & k_mark_hit) != 0;
   sweep.marks |= k_mark_hit;
-  // The angular momentum that the solver leaves is the one at the end of the tick.
+  // The solver's angular momentum is that at the end of the tick. After a hit it is that at the body's current pose.
   const Quat from = hit ? bodies.poses[slot].rotation : end_rotation(*this, slot);
   if (time > sweep.from) {
     if (bodies.listener.ended != nullptr) bodies.listener.ended(bodies.listener.context, slot, time);

@@ -20,7 +20,8 @@ struct TerrainSearch {
   const Fraction time;
   const bool ground_is_a, turns;
   Matrix32 matrix;  ///< rotation of the terrain at `time`
-  /// Of the body, relative to the terrain, in its axes at `time`, without its rotation over the tick; 2^-46 m.
+  /// The body's centre and translation relative to the terrain, in the terrain's axes at `time`, 2^-46 m. The terrain's
+  /// rotation over the tick is left out.
   Vec64 centre, displacement;
   int64_t radius;  ///< bounding radius of the body, 2^-46 m
   uint32_t triangle = k_no_triangle;

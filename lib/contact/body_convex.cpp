@@ -8,7 +8,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Converts to 2^-30, rounded to nearest.
+/// Returns `value` in 2^-30, rounded to nearest.
 #if DETENT_FIXED
 int32_t raw_from_unit(Unit value) { return value.raw; }
 #else
@@ -18,10 +18,12 @@ int32_t raw_from_unit(Unit value) {
 }
 #endif
 
-/// The most, in 2^-30, by which the bounding radius can be too small because of its rounding and that of the sizes.
+/// Bound, in 2^-30, on the error by which the stored bounding radius can be too small. The radius and the sizes are
+/// rounded.
 constexpr int32_t k_bound_slack = sizeof(Unit) == 4 && !DETENT_FIXED ? 1 << 8 : 4;
 
-/// Stores the sizes and the core radius `bound`, both given in 2^-30 2^exponent m, in the unit of length that fits this
+/// Sets the sizes, the core radius and the unit of length of `convex`. `size` and the core radius `bound` are in 2^-30
+/// of 2^exponent m. The new unit is the smallest one, but at least 2^k_size_exponent_min m, that exceeds the core
 /// radius.
 void set_core(const int32_t (&size)[3], int32_t bound, int32_t exponent, Convex& convex) {
   int lift = 30 - bit_length_32(static_cast<uint32_t>(bound));

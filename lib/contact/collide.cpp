@@ -11,10 +11,10 @@ namespace {
 
 ShapeType type_of(const CollisionBody& body) { return static_cast<ShapeType>(body.properties.shape); }
 
-/// The order in which the pair functions take their shapes: half-space, box, round shape.
+/// The rank of a shape. The pair functions take the shape of lower rank as A: half-space, box, round shape.
 int rank_of(ShapeType type) { return type == ShapeType::half_space ? 0 : type == ShapeType::box ? 1 : 2; }
 
-/// Whether there are specialised functions for this shape and every other simple shape.
+/// Whether the specialised pair functions accept the shape: sphere, capsule, half-space or unrounded box.
 bool is_simple(const BodyProperties& properties) {
   const ShapeType type = static_cast<ShapeType>(properties.shape);
   return type == ShapeType::sphere || type == ShapeType::capsule || type == ShapeType::half_space ||
@@ -28,7 +28,7 @@ PairShape shape_in(const CollisionBody& body, int exponent) {
           scale_by_power(body.properties.size, body.properties.size_exponent - exponent)};
 }
 
-/// False if the centres are so far apart that the pair cannot touch.
+/// Sets the frame of a pair. Returns false if the centres are so far apart that the shapes cannot touch.
 bool make_frame(const CollisionBody& first, const CollisionBody& second, Real margin, PairFrame& frame) {
   const Position& from = first.pose.position;
   const Position& to = second.pose.position;

@@ -14,23 +14,24 @@ struct ContactGeometryPoint {
   /// half-space.
   Vec3<Unit> arm_a, arm_b;
   Real separation;    ///< along the normal, m; negative when overlapping
-  uint32_t feature;   ///< names the touching features; distinct within the contact, stable while they touch, never 0
-  uint32_t part = 0;  ///< of compounds: (child of A) 2^16 + (child of B), counted from 1
+  uint32_t feature;   ///< names the pair of touching features; distinct, constant while they touch, never 0
+  uint32_t part = 0;  ///< for compounds: 2^16 (child number in A) + (child number in B), both counted from 1
 };
 
 /// Limits and options for the contact points of two bodies.
 struct ContactMargins {
   Real distance;    ///< contact margin: the greatest separation of a contact point, m
   Real sunk = 0.0;  ///< typical penetration of resting bodies, m
-  /// Whether bodies slide smoothly over the seam between two other bodies: slivers are left out, and an edge that is
-  /// level with a face within `sunk` counts as the face (contact_seam.h).
+  /// Whether contacts that would stop a body as it slides over the seam between two other bodies are changed
+  /// (contact_seam.h): slivers are left out, and an edge that is level with a face within `sunk` gets the normal of
+  /// that face.
   bool smooth_seams = false;
 
   ContactMargins(Real within) : distance(within) {}
   ContactMargins(Real within, Real sunk_in) : distance(within), sunk(sunk_in), smooth_seams(true) {}
 };
 
-/// Contact of two bodies, world axes.
+/// The contact of two bodies. Vectors are in world axes.
 struct ContactGeometry {
   Vec3<Unit> normal;  ///< from A to B
   uint32_t count = 0;

@@ -23,7 +23,8 @@ struct BoxAndSegment {
   Unit half_length;
 
   Unit at(int axis, Unit along) const { return centre.v[axis] + direction.v[axis] * along; }
-  /// How far the point at `along` lies beyond the box, for each axis.
+  /// For each axis, the signed distance by which the segment's point at `along` lies outside the box; 0 if it is within
+  /// the box's extent.
   Axes excess(Unit along) const {
     Axes result;
     for (int i = 0; i < 3; ++i) {
@@ -32,14 +33,14 @@ struct BoxAndSegment {
     }
     return result;
   }
-  /// Half the derivative of the squared distance along the segment: nondecreasing, linear between the planes of the
-  /// faces.
+  /// Half the derivative of the squared distance to the box with respect to `along`. It never decreases, and it is
+  /// linear between the planes of the faces.
   Unit slope(Unit along) const { return dot(vector_of(direction), vector_of(excess(along))); }
 };
 
-/// The point of the segment closest to the box, where the slope changes sign. It is found among the crossings of the
-/// face planes, by one interpolation between two of them. If the slope is zero over an interval, the point is the
-/// middle of that interval.
+/// Returns the position along the segment of its point closest to the box. slope() changes its sign there. The function
+/// finds the two neighbouring crossings of face planes between which the sign changes, and interpolates once between
+/// them. If the slope is zero over an interval, it returns the middle of that interval.
 Unit closest_along(const BoxAndSegment& pair) {
   const Unit zero = 0.0;
   const Unit limit = pair.half_length;
@@ -79,11 +80,11 @@ Unit closest_along(const BoxAndSegment& pair) {
 }
 
 struct BoxContact {
-  Axes normal;  ///< out of the box
-  int face;     ///< axis of the face that the normal belongs to, or -1
-  Unit along;   ///< contact point on the segment, if there is no face
+  Axes normal;  ///< outward from the box
+  int face;     ///< axis of the face to which the normal belongs, or -1
+  Unit along;   ///< position of the contact point along the segment; used if `face` is -1
 
-  /// Selects the face of that axis, on the side to which the normal points.
+  /// Sets the face perpendicular to `axis`, on the side to which the normal points, and its normal.
   void set_face(int axis) {
     const Unit side = normal.v[axis] < Unit(0.0) ? Unit(-1.0) : Unit(1.0);
     face = axis;
@@ -92,7 +93,7 @@ struct BoxContact {
   }
 };
 
-/// The direction of least overlap of a box and a segment that intersect.
+/// Returns the contact in the direction of least overlap, for a box and a segment that intersect.
 BoxContact least_overlap(const BoxAndSegment& pair) {
   const Unit zero = 0.0;
   BoxContact best{};
@@ -118,7 +119,8 @@ BoxContact least_overlap(const BoxAndSegment& pair) {
     Unit support = zero;
     for (int i = 0; i < 3; ++i) support += pair.half.v[i] * abs(n.v[i]);
     const Unit separation = dot(normal, vector_of(pair.centre)) - support;
-    // A face is kept unless the edge is clearly better, so that a resting pair does not flip between them.
+    // An edge replaces a face only if its separation is clearly larger. So a resting pair does not alternate between
+    // them.
     if (separation > best_separation + scale_by_power(pair.half.v[axis], -6)) {
       best_separation = separation;
       Segment box_edge = {vector_of({{zero, zero, zero}}), vector_of(edge), pair.half.v[axis]};
@@ -134,7 +136,7 @@ BoxContact least_overlap(const BoxAndSegment& pair) {
   return best;
 }
 
-/// The part of the segment over the face, clipped to the face's sides; false if there is none.
+/// Sets [low, high] to the part of the segment between the sides of the face. Returns false if there is none.
 bool clip_to_face(const BoxAndSegment& pair, int face, Unit& low, Unit& high) {
   low = -pair.half_length;
   high = pair.half_length;
@@ -151,7 +153,7 @@ bool clip_to_face(const BoxAndSegment& pair, int face, Unit& low, Unit& high) {
   return low <= high;
 }
 
-/// The axis of the edge to which the normal is perpendicular, or -1.
+/// Returns the axis of the box edge that is perpendicular to the normal, or -1 if there is none.
 int edge_of(const BoxContact& contact) {
   int edge = -1;
   for (int axis = 0; axis < 3; ++axis) {
@@ -163,15 +165,15 @@ int edge_of(const BoxContact& contact) {
 /// Whether the segment is within 2^-5 rad of the direction of the edge. The limit is the same as for edges of hulls.
 bool is_along(const BoxAndSegment& pair, int edge) { return abs(pair.direction.v[edge]) > Unit(1.0 - 0x1p-11); }
 
-/// Whether the normal at an edge rotates as the shapes slide past each other. It does not where the segment crosses the
-/// edge.
+/// Whether the normal of a contact at an edge rotates as the shapes slide past each other. It does not rotate if the
+/// segment, between its ends, crosses the edge.
 __attribute__((noinline)) bool turns_at_edge(const BoxAndSegment& pair, const BoxContact& contact) {
   if (contact.along >= pair.half_length || contact.along <= -pair.half_length) return true;
   const int edge = edge_of(contact);
   return edge < 0 || is_along(pair, edge);
 }
 
-/// The part of the segment that lies along the edge of the contact; false if there is none.
+/// Sets [low, high] to the part of the segment that lies along the edge of the contact. Returns false if there is none.
 __attribute__((noinline)) bool clip_to_edge(const BoxAndSegment& pair, const BoxContact& contact, Unit thickness,
                                             Unit& low, Unit& high) {
   const int edge = pair.half_length > Unit(0.0) ? edge_of(contact) : -1;
@@ -188,7 +190,8 @@ __attribute__((noinline)) bool clip_to_edge(const BoxAndSegment& pair, const Box
   return low < high;
 }
 
-/// As find_level_face() (contact_seam.h), for a contact at an edge: selects the face whose normal is nearest.
+/// The test of find_level_face() (contact_seam.h) for a contact at an edge of the box. If it succeeds, the contact gets
+/// the face whose normal is nearest.
 __attribute__((noinline)) bool find_level_box_face(const BoxAndSegment& pair, Unit radius, Unit sunk,
                                                    BoxContact& contact) {
   for (int axis = 0; axis < 3; ++axis) {
@@ -202,8 +205,9 @@ __attribute__((noinline)) bool find_level_box_face(const BoxAndSegment& pair, Un
   return false;
 }
 
-/// If a capsule crosses a side of a slightly tilted face: selects that face. Otherwise the capsule would touch at one
-/// end in one tick and at the other end in the next tick.
+/// Handles a capsule that lies across a side of a face whose normal is within 2^-3 rad of the contact normal: the
+/// contact gets that face. Otherwise the capsule would touch at one end in one tick and at the other end in the next
+/// tick. Returns false if there is no such face.
 __attribute__((noinline)) bool find_leaning_box_face(const BoxAndSegment& pair, BoxContact& contact) {
   constexpr Unit k_leaning_cosine = 1.0 - 0x1p-7;  // 2^-3 rad, as for faces of hulls
   for (int axis = 0; axis < 3; ++axis) {

@@ -13,11 +13,12 @@ struct HalfExtents {
   Unit v[3];
 };
 
-/// Input of the separating axis test: the offset of B from A along all six axes, and the cosines between the axes.
+/// Input of the separating axis test: the vector from A's centre to B's along the six face axes, and the cosines
+/// between the axes of A and B.
 struct AxisTable {
   HalfExtents half_a, half_b;
   Unit offset_a[3], offset_b[3];
-  Unit cosine[3][3];  ///< A's axis i with B's axis j
+  Unit cosine[3][3];  ///< dot product of A's axis i and B's axis j
 };
 
 enum class AxisKind { face_a, face_b, edges };
@@ -58,7 +59,8 @@ Unit sine_of(const AxisTable& t, int i, int j) {
   return square_root(max(Unit(1.0) - t.cosine[i][j] * t.cosine[i][j], Unit(0.0)));
 }
 
-/// False if the edges are too nearly parallel, or if the overlap is too deep to be the least.
+/// Sets `separation` to the separation along the cross product of A's axis i and B's axis j. Returns false if these
+/// edges are too nearly parallel, or if the overlap is too deep to be the least one.
 bool edge_separation(const AxisTable& t, int i, int j, Unit& separation) {
   const Unit sine = sine_of(t, i, j);
   if (sine < k_edge_sine_min) return false;
@@ -74,21 +76,21 @@ bool edge_separation(const AxisTable& t, int i, int j, Unit& separation) {
   return true;
 }
 
-/// 1/64 of the least half extent of both boxes.
+/// Returns `preference` of find_face_axis() and find_axis(): 1/64 of the least half extent of both boxes.
 Unit preference_of(const HalfExtents& a, const HalfExtents& b) {
   Unit smallest = a.v[0];
   for (int i = 0; i < 3; ++i) smallest = min(smallest, min(a.v[i], b.v[i]));
   return scale_by_power(smallest, -6);
 }
 
-/// Separations along the axes of both boxes' faces.
+/// The separations along the face axes of A and of B.
 struct FaceAxes {
   Unit a[3], b[3];
 };
 
-/// Finds the face axis of largest separation. Faces of A are preferred to faces of B by `preference`, 1/64 of the
-/// smaller box, so that a resting pair keeps its features. False if a face axis separates the boxes by more than
-/// `margin`.
+/// Finds the face axis of largest separation. A face of B replaces a face of A only if its separation is larger by more
+/// than `preference` (preference_of()). So a resting pair keeps its features. Returns false if a face axis separates
+/// the boxes by more than `margin`.
 bool find_face_axis(const AxisTable& table, Unit margin, Unit preference, FaceAxes& face, SeparatingAxis& best) {
   best = {AxisKind::face_a, 0, 0, -1.5};
   for (int i = 0; i < 3; ++i) {
@@ -108,7 +110,8 @@ bool find_face_axis(const AxisTable& table, Unit margin, Unit preference, FaceAx
   return true;
 }
 
-/// The cosine of the angle between a separating axis and the axis of A's face i, which lies against B's face j.
+/// Returns the cosine, up to its sign, of the angle between a separating axis and the axis of A's face i. B's face j
+/// must lie against A's face i.
 Unit cosine_with(const AxisTable& table, const SeparatingAxis& axis, int i, int j) {
   if (axis.kind == AxisKind::face_a) return axis.i == i ? Unit(1.0) : table.cosine[axis.i][j];
   if (axis.kind == AxisKind::face_b) return axis.j == j ? Unit(1.0) : table.cosine[i][axis.j];
@@ -131,8 +134,8 @@ __attribute__((noinline)) bool is_box_sliver(const AxisTable& table, const FaceA
   return false;
 }
 
-/// Finds the axis of largest separation. Faces are preferred to edges by `preference`, as faces of A are to faces of B.
-/// False if an axis separates the boxes by more than `margin`.
+/// Finds the axis of largest separation. A pair of edges replaces a face only if its separation is larger by more than
+/// `preference`. Returns false if an axis separates the boxes by more than `margin`.
 __attribute__((noinline)) bool find_axis(const AxisTable& table, Unit margin, Unit preference, FaceAxes& face,
                                          SeparatingAxis& best) {
   if (!find_face_axis(table, margin, preference, face, best)) return false;
@@ -154,21 +157,23 @@ __attribute__((noinline)) bool find_axis(const AxisTable& table, Unit margin, Un
 /// A vertex of the clipped face, in the reference face's axes: u and v in the plane of the face, w the height above it.
 struct FaceVertex {
   Unit u, v, w;
-  uint32_t label;  ///< 0..3 a vertex of the incident face, 4..19 its edge k on side c, 20..23 a corner of the reference
-  uint32_t edge_label;  ///< of the edge to the next vertex: 0..3 of the incident face, 4..7 a side of the reference
+  uint32_t label;  ///< 0..3: incident vertex; 4..19: 4 + 4 (incident edge) + (reference side); 20..23: reference corner
+  uint32_t edge_label;  ///< label of the edge to the next vertex; 0..3: incident edge, 4..7: reference side
 };
 
 constexpr uint32_t k_face_vertices_max = 8;
 
 uint32_t crossing_label(uint32_t edge_label, uint32_t side) {
   if (edge_label < 4) return 4 + 4 * edge_label + side;
-  // Two sides of the reference face meet in a corner: one bounds u (0, 1), the other v (2, 3).
+  // The edge is a side of the reference face. It meets `side` in a corner: one of them bounds u (0, 1), the other v (2,
+  // 3).
   const uint32_t other = edge_label - 4;
   const uint32_t u_side = side < 2 ? side : other, v_side = side < 2 ? other : side;
   return 20 + (u_side & 1) + 2 * (v_side & 1);
 }
 
-/// Clips a polygon to the part within `limit` on one side: 0 u <= limit, 1 -u <= limit, 2 v <= limit, 3 -v <= limit.
+/// Clips a polygon at one side of the face and returns the number of vertices kept. The condition is
+/// u <= limit for side 0, -u <= limit for side 1, v <= limit for side 2, -v <= limit for side 3.
 uint32_t clip_side(const FaceVertex* in, uint32_t count, uint32_t side, Unit limit, FaceVertex* out) {
   const auto beyond = [&](const FaceVertex& p) {
     const Unit across = side < 2 ? p.u : p.v;
@@ -224,7 +229,7 @@ uint32_t choose_corners(const FaceVertex* polygon, uint32_t count, ManifoldReduc
 
 Unit sign_of(Unit value) { return value < Unit(0.0) ? Unit(-1.0) : Unit(1.0); }
 
-/// Finds the contact of a face of `reference` (axis `face`) with `incident`.
+/// Finds the contact of the face of `reference` that is perpendicular to its axis `face` with the box `incident`.
 __attribute__((noinline)) void collide_face(const PairShape& reference, const PairShape& incident, int face,
                                             bool reference_is_a, const PairFrame& frame, PairManifold& manifold) {
   const HalfExtents half = half_of(reference.size), other = half_of(incident.size);
@@ -283,7 +288,8 @@ __attribute__((noinline)) void collide_face(const PairShape& reference, const Pa
   }
 }
 
-/// The edge of the box parallel to axis `edge` that lies farthest along `direction`. `which`: the number of that edge.
+/// Returns the edge of the box that is parallel to axis `edge` and lies farthest along `direction`. `which`: its
+/// number.
 Segment support_edge(const PairShape& box, int edge, const Vec3<Unit>& direction, uint32_t& which) {
   const HalfExtents half = half_of(box.size);
   Segment segment = {box.centre, box.rotation.column[edge], half.v[edge]};
@@ -297,10 +303,10 @@ Segment support_edge(const PairShape& box, int edge, const Vec3<Unit>& direction
   return segment;
 }
 
-/// Replaces the contact of crossing edges by that of the face with the smallest tilt, whose normal is within 2^-3 rad
-/// of `normal`. Crossing edges touch in one point, which can jump from one side of the face to the other between two
-/// ticks. False if there is no such face, if it has only one contact point, or if its deepest point is shallower or
-/// much deeper than the edges.
+/// Replaces the contact of two crossing edges by the contact of the face whose normal is nearest to `normal`. Crossing
+/// edges touch in one point, and this point can jump from one side of the face to the other between two ticks. Returns
+/// false if no face normal is within 2^-3 rad, if the face has only one contact point, or if its deepest point is
+/// shallower or much deeper than the edges.
 __attribute__((noinline)) bool collide_leaning_face(const PairFrame& frame, const Vec3<Unit>& normal, Unit separation,
                                                     PairManifold& manifold) {
   constexpr Unit k_leaning = 1.0 - 0x1p-7;

@@ -24,9 +24,9 @@ void add_points(const CollisionBody& a, const CollisionBody& b, const ContactMan
   }
 }
 
-/// Moves the origin of the plane to the point of the plane nearest to the body, because the origin may be too far away
-/// for contact_points(). This point is rounded to a coordinate; the resulting error of the distance (`height_error`) is
-/// added back.
+/// Finds the contact of a half-space and a convex shape. The plane's origin may be too far away for contact_points().
+/// It is therefore moved to the point of the plane nearest to the body. Rounding this point to coordinates changes the
+/// distance by `height_error`, which is added back to the separations.
 Status meet_half_space(const CollisionBody& plane, const CollisionBody& body, const Convex& convex, bool plane_is_a,
                        Real margin, ManifoldReduction reduction, ContactManifold& manifold) {
   const Vec3<Unit>& up = plane.rotation.column[1];

@@ -7,7 +7,8 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Makes the rules for contact_points_by(). False if `margin.distance` is negative, or if a length is NaN or infinite.
+/// Makes the rules for contact_points_by() from the margins. Returns false if `margin.distance` is negative, or if a
+/// length is NaN or infinite.
 bool make_rules(const ContactMargins& margin, ManifoldReduction reduction, ContactRules& rules);
 
 struct ConvexOps {
@@ -20,8 +21,8 @@ struct ConvexOps {
 void collide_convex(const CollisionBody& a, const CollisionBody& b, const ContactMargins& margin,
                     const AssetTable& assets, ManifoldReduction reduction, ContactGeometry& contact);
 
-/// The same for the given convex shapes at the poses of the bodies. Each shape is the shape of its body or a part of
-/// it.
+/// As collide_convex(), for the convex shapes `convex_a` and `convex_b` at the poses of the bodies. Each of them is the
+/// shape of its body or a part of that shape.
 void collide_convexes(const CollisionBody& a, const Convex& convex_a, const CollisionBody& b, const Convex& convex_b,
                       const ContactMargins& margin, ManifoldReduction reduction, ContactGeometry& contact);
 

@@ -32,11 +32,11 @@ Real distance_along(const Position& from, const Position& to, const Vec3<Unit>& 
 
 namespace {
 
-/// Collects the points of the body that lie within the contact margin of the plane. Points are given from the centre of
-/// the body, in its unit of length.
+/// Collects the points of the body that lie within the contact margin of the plane. Points are relative to the centre
+/// of the body, in its unit of length.
 struct Collector {
   Vec3<Unit> normal;
-  Real height;  ///< of the body's centre over the plane
+  Real height;  ///< height of the body's centre above the plane, m
   Real margin;
   int exponent;
   ContactGeometry& contact;

@@ -12,8 +12,8 @@ struct HalfSpaceOps {
 /// clamped to Real's range. Floating point: each operation rounds.
 Real distance_along(const Position& from, const Position& to, const Vec3<Unit>& direction);
 
-/// Finds the contact of a half-space (A) with a sphere, capsule or unrounded box (B): the lowest points of B above the
-/// plane. `contact` must be empty.
+/// Finds the contact of a half-space (A) with a sphere, capsule or unrounded box (B). The contact points are the points
+/// of B that lie lowest over the plane. `contact` must be empty.
 void collide_half_space(const CollisionBody& plane, const CollisionBody& body, Real margin, ContactGeometry& contact);
 
 }  // namespace DETENT_NAMESPACE

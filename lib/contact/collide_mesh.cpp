@@ -6,12 +6,13 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Makes the feature name of a contact independent of the triangle. A contact on the triangle's face is named by the
-/// feature of the shape alone. The triangle's corners and edges are named by their positions.
+/// Returns a feature name that does not depend on which triangle is touched. For a contact on the triangle's face, it
+/// is the feature of the shape alone. For a corner or edge of the triangle, it also contains the positions of the
+/// corners. `corner`: TerrainTouch::corner_name.
 uint32_t feature_of(uint32_t feature, const uint32_t (&corner)[3]) {
   const uint32_t kind = feature >> 10 & 3, index = feature & 0x3ff, kept = feature & 0xfffc00u;
   if (kind == static_cast<uint32_t>(FeatureType::face)) return kept;
-  // Edge 0 runs between corners 0 and 1, 1 between 0 and 2, 2 between 1 and 2, as contact_feature.h names them.
+  // The ends of the edges, as in contact_feature.h: edge 0 has corners 0 and 1, edge 1 has 0 and 2, edge 2 has 1 and 2.
   const uint32_t name = kind == static_cast<uint32_t>(FeatureType::vertex) ? corner[index % 3]
                         : index == 0                                       ? corner[0] + corner[1]
                         : index == 1                                       ? corner[0] + corner[2]

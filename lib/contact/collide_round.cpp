@@ -64,7 +64,7 @@ void collide_round(const PairFrame& frame, PairManifold& manifold) {
       return;
     }
   }
-  // Where two lines cross, the normal does not rotate.
+  // If both contact points lie between the ends of their segments, the segments cross and the normal does not rotate.
   const auto is_end = [](Unit along, const Segment& of) { return along >= of.half_length || along <= -of.half_length; };
   manifold.turns = is_end(along_a, a) || is_end(along_b, b);
   add(along_a, along_b, 3);

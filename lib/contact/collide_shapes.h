@@ -12,7 +12,7 @@ inline namespace DETENT_NAMESPACE {
 /// Cosine of 2^-2 rad. Directions at a smaller angle count as the same direction (contact_seam.h).
 inline constexpr Unit k_alike_cosine = 1.0 - 0x1p-5;
 
-/// One of the functions below, for a feature table.
+/// Entry of the feature table: one of the functions below.
 struct PairOps {
   void (*collide)(const PairFrame& frame, PairManifold& manifold);
 };

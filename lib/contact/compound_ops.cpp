@@ -9,8 +9,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Makes a ball or capsule from a degenerate triangle, in which two or all corners coincide. Its centre may then lie
-/// off the body's centre.
+/// Represents a ball or a capsule of a compound by a degenerate triangle: all corners of a ball and two corners of a
+/// capsule coincide. Unlike a sphere or capsule shape, a triangle need not be centred at the body's centre.
 void set_round_core(const CompoundChild& child, int32_t exponent, Convex& convex) {
   const Vec32 ends[2] = {child.low, child.high};
   int64_t bound = 0;
@@ -50,7 +50,7 @@ int64_t raw_size(Unit value, int32_t exponent) {
   return raw_from_real({real_from_unit(value, exponent), Real(0.0), Real(0.0)}, raw) ? raw.x : 0;
 }
 
-/// Combines the name of a feature or contact with a part, or with a pair of parts. Never 0.
+/// Returns a name for a feature or contact of a part, or of a pair of parts. It is never 0.
 uint32_t name_of_part(uint32_t part, uint32_t name) {
   uint32_t mixed = (name ^ part * 0x9e3779b1u) * 0x85ebca77u;
   mixed ^= mixed >> 15;
@@ -66,7 +66,7 @@ Vec64 raw_offset(const Vec3<Unit>& arm, int32_t exponent, bool& known) {
   return raw;
 }
 
-/// The half thickness of the thinnest part of both compounds, 2^-46 m.
+/// Returns the least half thickness of any part of the two bodies, 2^-46 m.
 int64_t half_thickness_of(const BodyProperties& a, const BodyProperties& b) {
   const auto own = [](const BodyProperties& properties) {
     return is_compound(properties) ? raw_size(properties.rounding, properties.size_exponent) : INT64_MAX;
@@ -75,7 +75,8 @@ int64_t half_thickness_of(const BodyProperties& a, const BodyProperties& b) {
   return of_a < of_b ? of_a : of_b;
 }
 
-/// Collects the contacts of parts. Points in one plane form one contact, whichever parts they belong to.
+/// Collects the contacts of pairs of parts. Contact points in one plane form one contact, whichever parts they belong
+/// to.
 class PartContacts {
  public:
   PartContacts(const CollisionBody& a, const CollisionBody& b)
@@ -167,7 +168,7 @@ struct PartCulling {
         place_on_terrain({a.pose.position, a.pose.rotation}, {b.pose.position, b.pose.rotation}, place) == Status::ok;
     margin = known ? raw.x + (raw.x >> 10) + 1024 : 0;
   }
-  /// Converts a box from B's axes to A's axes.
+  /// Converts a box, given by its middle and half extents, from B's axes to A's axes.
   void bring(Vec64& middle, Vec64& half) const {
     if (!known) return;
     const Vec64 turned = rotate(place.rotation, middle);

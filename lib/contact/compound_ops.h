@@ -17,7 +17,7 @@ class ConvexParts {
   uint32_t count() const { return count_; }
   /// Makes part `i`. False if an asset is missing. `inner`: for a hull child of a compound, take its inner hull.
   bool convex(uint32_t i, bool inner, Convex& convex) const;
-  /// The child's number, counted from 1; 0 if the body is not a compound.
+  /// The number of part `i` in contacts: the child's number, counted from 1; 0 if the body is not a compound.
   uint32_t name(uint32_t i) const { return whole() ? 0 : i + 1; }
   /// Bounds of the part in the body's axes, 2^-46 m: `middle` and half extents. For a body that is not a compound,
   /// these are the bounds of its bounding ball. For a half-space the half extents are zero, and the caller must not
@@ -41,7 +41,7 @@ void collide_compound(const CollisionBody& a, const CollisionBody& b, const Cont
                       const AssetTable& assets, ManifoldReduction reduction, const FeatureTable& features,
                       TerrainContacts& contacts);
 
-/// For a feature table.
+/// Entry of the feature table.
 struct CompoundOps {
   decltype(&read_compound) read;
   decltype(&collide_compound) collide;

@@ -8,7 +8,7 @@ namespace {
 
 /// Clamps the length of an arm to k_arm_max. Its components are already clamped.
 Vec3<Unit> clamped_arm(const Vec3<Unit>& arm) {
-  constexpr Unit k_surely_short = 0.7216;  // largest component of an arm that is surely short: the limit over sqrt(3)
+  constexpr Unit k_surely_short = 0.7216;  // k_arm_max / sqrt(3): an arm with smaller components is within the limit
   if (max(abs(arm.x), max(abs(arm.y), abs(arm.z))) < k_surely_short) return arm;
   const auto half = [](Unit value) { return scale_by_power(value, -1); };
   const Vec3<Unit> halved = {half(arm.x), half(arm.y), half(arm.z)};

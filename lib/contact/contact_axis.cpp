@@ -8,7 +8,7 @@ namespace {
 
 constexpr int32_t k_push = 256;  ///< ulps; an overlap deep enough to have a reliable direction
 
-/// v * length, for a unit vector v, Q30.
+/// Returns the unit vector v (Q30) times `length`, in the unit of `length`.
 Vec32 scaled(const Vec32& v, int64_t length) {
   return round_shift(Vec64{v.x * length, v.y * length, v.z * length}, 30);
 }
@@ -17,8 +17,9 @@ ContactAxis axis_of(const Penetration& found) {
   return {found.normal, -int64_t{found.depth}, found.point_a, found.point_b, found.capped};
 }
 
-/// Finds the axis of round cores, at most `distance` ulps apart, for which gjk() reached its iteration cap. It moves B
-/// into A and finds the direction of least penetration. False if the cores do not overlap even then.
+/// Finds the axis of two round cores for which gjk() reached its iteration cap. `distance`: an upper bound of their
+/// distance, ulps. The function moves B into A against `normal` and finds the direction of least penetration there.
+/// Returns false if the cores do not overlap even then.
 bool axis_by_pushing(const RestingPair& pair, const Vec32& normal, int32_t distance, ContactAxis& axis) {
   const int64_t push = int64_t{distance} + k_push;
   const Vec32 offset = subtract(pair.offset, scaled(normal, push));

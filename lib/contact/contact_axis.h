@@ -4,7 +4,8 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The normal and the deepest place of a contact between two cores. Lengths in ulps of the block.
+/// The normal of a contact between two cores, and the points where they are nearest or overlap deepest. Lengths in ulps
+/// of the block.
 struct ContactAxis {
   Vec32 normal;            ///< from A to B, Q30
   int64_t separation;      ///< negative where the cores overlap

@@ -18,12 +18,12 @@ struct PairBefore {
   const ContactState& operator[](uint32_t i) const { return contacts[index[i]]; }
 };
 
-/// The number of points whose feature also occurs in `contact`.
+/// Returns how many points of `geometry` have a feature that also occurs in `contact`.
 uint32_t shared_features(const ContactGeometry& geometry, const ContactState& contact);
 
-/// Continues the keys of the last tick. A contact whose key is new takes the key of the contact of the last tick with
-/// which it shares the most features. This is needed because a plane gets a new name when it tilts slightly or merges
-/// with another plane. Keeps the contacts in ascending order of key.
+/// Gives the contacts the keys that they had in the last tick. A contact with a new key takes the key of the contact of
+/// the last tick with which it shares the most features. This is needed because a plane gets a new name when it tilts
+/// slightly or merges with another plane. Keeps the contacts in ascending order of key.
 void continue_keys(const PairBefore& before, TerrainContacts& contacts);
 
 /// Makes the contact of this tick from its geometry and from the contact of the last tick, `before` (null if the pair

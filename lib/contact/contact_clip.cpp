@@ -15,7 +15,7 @@ constexpr int k_slack_power = 6;
 /// part / whole as Q30. Range: 0 <= part <= whole, whole > 0.
 int64_t fraction(int64_t part, int64_t whole) { return divide_rounded(Int128::product(part, k_one_64), whole); }
 
-/// Twice the signed area of a triangle. Widths: |result| < 2^62.
+/// Twice the signed area of the triangle p, q, r in the reference plane. Widths: |result| < 2^62.
 int64_t twice_area(const AreaPoint& p, const AreaPoint& q, const AreaPoint& r) {
   return (q.u - p.u) * (r.v - p.v) - (q.v - p.v) * (r.u - p.u);
 }
@@ -25,8 +25,8 @@ int64_t distance_squared(const AreaPoint& p, const AreaPoint& q) {
   return u * u + v * v;
 }
 
-/// The coordinate of a point along one of four diagonals. They are rotated slightly from the diagonals of a square, so
-/// that even a regular octagon or dodecagon has a single extreme along each.
+/// The coordinate of a point along one of four diagonal directions, not normalised. The directions are rotated slightly
+/// from the diagonals of a square. So even a regular octagon or dodecagon has a single extreme point along each.
 int64_t extent_along(const AreaPoint& p, int diagonal) {
   const int64_t along = (diagonal & 1) == 0 ? 4 * p.u + 5 * p.v : 4 * p.v - 5 * p.u;
   return diagonal < 2 ? along : -along;
@@ -227,7 +227,8 @@ void Reference::clip_edge(const Flat& p, const Flat& q, uint8_t from, bool close
     const auto between = [t](int64_t a, int64_t b) { return a + (((b - a) * t) >> 30); };
     AreaPoint point = {between(p.u, q.u),         between(p.v, q.v), between(p.w, q.w), AreaPoint::Kind::crossing, from,
                        static_cast<uint8_t>(side)};
-    // A point clipped at such a side still counts as the end of the incident edge.
+    // From feature_->count on, a side limits the lateral distance from a reference edge. A point clipped there still
+    // counts as the end of the incident edge.
     if (aside_of_edge && side >= feature_->count) {
       point.kind = AreaPoint::Kind::vertex;
       point.incident = end;
@@ -244,9 +245,10 @@ void Reference::clip_edge(const Flat& p, const Flat& q, uint8_t from, bool close
     choice.add({q.u, q.v, q.w, AreaPoint::Kind::vertex, static_cast<uint8_t>(from + 1), 0});
 }
 
-/// Adds the corners of the reference that, moved outward with its sides, lie over the incident face.
+/// Adds the corners of the reference face that lie over the incident face. For this test, the corners are moved outward
+/// with the sides.
 void Reference::offer_corners(const Flat* points, const Feature& incident, AreaChoice& choice) const {
-  constexpr int64_t k_edge_on = k_one_64 >> 6;  // a face seen this nearly edge-on is over no corner
+  constexpr int64_t k_edge_on = k_one_64 >> 6;  // an incident face closer to edge-on than this, rad, is over no corner
   const int64_t nu = dot(incident.normal, u_) >> 30, nv = dot(incident.normal, v_) >> 30,
                 nw = dot(incident.normal, up_) >> 30;
   if (nw > -k_edge_on) return;
@@ -255,7 +257,7 @@ void Reference::offer_corners(const Flat* points, const Feature& incident, AreaC
   for (int i = 0; i < side_count_; ++i) {
     const Side &side = side_[i], &last = side_[i == 0 ? side_count_ - 1 : i - 1];
     const int64_t cross_product = k_one_64 + ((int64_t{side.u} * last.u + int64_t{side.v} * last.v) >> 30);
-    if (cross_product < k_one_64 >> 18) continue;  // a corner of less than 0.16 degrees
+    if (cross_product < k_one_64 >> 18) continue;  // the interior angle is less than 0.16 degrees
     // The intersection of the previous side and this side, both moved outward.
     const Flat& corner = corner_[i];
     const int64_t u = corner.u + slack_ * (int64_t{side.u} + last.u) / cross_product;
@@ -267,8 +269,9 @@ void Reference::offer_corners(const Flat* points, const Feature& incident, AreaC
       inside = (q.u - p.u) * (v - p.v) - (q.v - p.v) * (u - p.u) <= 0;
     }
     if (!inside) continue;
-    // The corner itself, not moved outward, may lie beside a steep face, where the plane of the face is lower than the
-    // face itself. The height is therefore at least that of the lowest vertex.
+    // The height is taken at the corner before it is moved outward. There, the corner may lie beside a steep incident
+    // face, where the plane of that face is lower than the face itself. The height is therefore at least that of the
+    // lowest vertex.
     const int64_t plane = (nu * (points[0].u - corner.u) + nv * (points[0].v - corner.v)) / nw + points[0].w;
     choice.add(
         {corner.u, corner.v, plane < lowest ? lowest : plane, AreaPoint::Kind::corner, 0, static_cast<uint8_t>(i)});
@@ -293,8 +296,8 @@ void Reference::clip(const Vec32& centre, const Feature& incident, AreaChoice& c
 
 Vec64 Reference::twice_middle(const AreaPoint& point) const {
   const bool is_edge = feature_ != nullptr && !feature_->is_face();
-  // For an edge, the reference's point is on the edge (v = 0) and the other point is beside it: the midpoint is at half
-  // of v.
+  // On a reference edge, the reference's point has v = 0, and the other shape's point has the coordinate v. The
+  // midpoint is therefore at v / 2.
   const int64_t u = 2 * point.u, v = is_edge ? point.v : 2 * point.v;
   const int64_t w = 2 * (height_ + ((point.u * slope_) >> 30)) + point.w;
   const auto component = [&](int32_t o, int32_t a, int32_t b, int32_t c) {

@@ -3,12 +3,13 @@
 
 #include "contact/contact_feature.h"
 
-/// Clipping: finds the area where a reference feature (a face or an edge) and an incident feature face each other.
+/// Clips an incident feature of one shape against a reference feature (a face or an edge) of the other shape. The
+/// result is the contact area: the polygon in the reference plane where the two features face each other.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// A corner of the area, in the reference's axes: u and v in the reference plane, w the height above it along the
-/// normal. Ulps of the block.
+/// A corner of the contact area, in the reference's axes: u and v in the reference plane, w the height above it along
+/// the normal. Ulps of the block.
 struct AreaPoint {
   int64_t u, v, w;
   /// vertex: a vertex of the incident feature, over the reference. crossing: the point where an incident edge crosses a
@@ -19,20 +20,20 @@ struct AreaPoint {
   uint8_t incident, side;
 };
 
-/// Distance of two points within the reference plane: the sum of the magnitudes of both components.
+/// Distance between two points within the reference plane: |difference in u| + |difference in v|.
 inline int64_t distance(const AreaPoint& p, const AreaPoint& q) {
   return static_cast<int64_t>(magnitude_64(p.u - q.u) + magnitude_64(p.v - q.v));
 }
 
-/// Chooses up to four of any number of points. Four or fewer points are all kept; of more points, the reduction
-/// decides. For projected_extremes: if the deepest point is deeper than all extremes by more than `drop`, it is added,
-/// and replaces the extreme nearest to it if there are four. If several extremes are the same point, the free places go
-/// to the points that add most to the area. Ties: the earlier point.
+/// Chooses up to four of any number of points. If there are at most four points, it keeps all of them. Otherwise the
+/// reduction decides. projected_extremes takes the extreme points along four directions. If the deepest point is deeper
+/// than all of these by more than `drop`, it is added; if there are four, it replaces the nearest one. If several
+/// extremes are the same point, the free places go to the points that add most to the area. Ties: the earlier point.
 class AreaChoice {
  public:
   /// Points higher than `margin` are left out.
   AreaChoice(int64_t margin, int64_t drop, ManifoldReduction reduction) : AreaChoice(margin, margin, drop, reduction) {}
-  /// Points higher than `level`, up to `margin`, only fill places that the points up to `level` leave free.
+  /// Points higher than `level`, up to `margin`, only get the places that the points up to `level` leave free.
   AreaChoice(int64_t level, int64_t margin, int64_t drop, ManifoldReduction reduction)
       : level_(level), margin_(margin), drop_(drop), reduction_(reduction) {}
   void add(const AreaPoint& point);
@@ -45,14 +46,16 @@ class AreaChoice {
 
  private:
   static constexpr int k_diagonals = 4;
-  /// The gain that another point must exceed to be chosen. With two chosen points: 1/64 of their squared distance. With
-  /// three: 1/8 of twice the area of their triangle. For one point, and for deepest_area: 0.
+  /// The gain that a further point must exceed to be chosen. The gain (gain_of()) is the squared distance from one
+  /// chosen point, or twice the area that is added to two or three. With two chosen points the limit is 1/64 of their
+  /// squared distance. With three, it is 1/8 of twice the area of their triangle. With one point, and for deepest_area,
+  /// it is 0.
   int64_t least_gain() const;
   int64_t gain_of(const AreaPoint& point) const;
   void choose_extremes();
   int64_t level_, margin_, drop_;
   ManifoldReduction reduction_;
-  bool filling_ = false, found_ = false;  ///< each pass now adds one point; next_ is the best point of this pass
+  bool filling_ = false, found_ = false;  ///< each pass adds one point; next_ is the best of this pass
   uint32_t count_ = 0;
   int chosen_count_ = 0;
   int64_t most_ = 0;  ///< gain of next_
@@ -71,7 +74,7 @@ class Reference {
   /// The plane of a half-space; `foot`: any point near the contact.
   Reference(const Placed& half_space, const Vec32& centre, const Vec32& foot);
 
-  /// Clips `incident` against the sides of the reference. Adds the corners of the common area to `choice`.
+  /// Clips `incident` against the sides of the reference. Adds the corners of the contact area to `choice`.
   void clip(const Vec32& centre, const Feature& incident, AreaChoice& choice) const;
 
   /// Whether a point in the block is over the reference, by the same test as in clip().
@@ -80,7 +83,7 @@ class Reference {
   AreaPoint over(const Vec32& point) const;
   /// The height of a point in the block above the reference. Beyond the end of an edge: the height above that end.
   int64_t height_of(const Vec32& point) const;
-  /// Twice the midpoint between the two cores at a point of the area, in the block.
+  /// Twice the midpoint between the two cores at a point of the contact area, in the block.
   Vec64 twice_middle(const AreaPoint& point) const;
   const Vec32& up() const { return up_; }
   uint32_t name_on_reference(const AreaPoint& point) const;
@@ -89,7 +92,7 @@ class Reference {
  private:
   struct Side {
     int32_t u, v;   ///< outward normal, Q30; 0 for a side of zero length
-    int64_t limit;  ///< Q30 ulps
+    int64_t limit;  ///< a point lies within the side if (u, v) . (its coordinates) <= limit; Q30 ulps
   };
   struct Flat {
     int64_t u, v, w;
@@ -108,7 +111,7 @@ class Reference {
   uint32_t name_;
   Vec32 origin_, u_, v_, up_;
   int64_t height_ = 0;  ///< height of the reference above origin_
-  int64_t slope_ = 0;   ///< Q30; of an edge: its rise per unit of u; else 0
+  int64_t slope_ = 0;   ///< Q30; rise of a reference edge per unit of u; 0 for a face
   int64_t slack_ = 0;
   int side_count_ = 0;
   Side side_[k_feature_points_max];

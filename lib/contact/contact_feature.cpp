@@ -7,9 +7,10 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Cylinder and cone: the index of the line on the round side, and the name of its upper end. 0 to 15 name rim corners.
+/// Cylinder and cone: the index of the line on the round side, and also the name of that line's upper end. The names 0
+/// to 15 are rim corners.
 constexpr uint32_t k_line = 16;
-/// The first index of the edges that a reduced face adds. A hull has at most 759 edges.
+/// The first index of edges that only a reduced face has. Edges of the hull have lower indices: there are at most 759.
 constexpr uint32_t k_unpaired_edge = 768;
 
 Vec32 unit(const Vec64& v) { return unit_vector_raw(scaled_to_30_bits(v)); }
@@ -58,7 +59,7 @@ struct VertexPolygon {
   uint8_t vertex[k_feature_points_max];
 };
 
-/// The vertices that are lower than the farthest vertex along a direction, Q30, by at most `room`.
+/// Returns the vertices whose coordinate along `direction` (Q30) is smaller than the greatest one by at most `room`.
 VertexSet level_along(const HullView& hull, const Vec32& direction, int64_t room) {
   int64_t top = INT64_MIN;
   for (uint32_t v = 0; v < hull.vertex_count; ++v) {
@@ -89,7 +90,7 @@ Vec64 area_vector(const HullView& hull, const uint8_t* polygon, uint32_t count) 
   return sum;
 }
 
-/// Finds the vertices of a set that are farthest along 32 directions perpendicular to a normal.
+/// Makes a polygon of the vertices of a set that are farthest along 32 directions perpendicular to a normal.
 void find_outline(const HullView& hull, const Vec32& normal, BitSet set, VertexPolygon& polygon) {
   constexpr int32_t k_sine[9] = {0, 195, 383, 556, 707, 831, 924, 981, 1000};
   const Vec32 u = unit(cross(normal, magnitude_32(normal.x) < (1u << 29) ? Vec32{k_one, 0, 0} : Vec32{0, k_one, 0}));
@@ -121,8 +122,9 @@ void find_outline(const HullView& hull, const Vec32& normal, BitSet set, VertexP
   }
 }
 
-/// The least signed distance of the face planes is measured twice: from the frame's origin, which may lie outside the
-/// hull, and from the mean of the vertices. Returns the greater of the two, at least 0.
+/// Returns the half thickness of a hull: the least signed distance of its face planes from a centre. Two centres are
+/// tried: the frame's origin, which may lie outside the hull, and the mean of the vertices. The result is the greater
+/// of the two distances, at least 0.
 int32_t hull_half_thickness(const HullView& hull) {
   Vec64 sum = {0, 0, 0};
   for (uint32_t v = 0; v < hull.vertex_count; ++v) sum = add(sum, Vec64{hull.x(v), hull.y(v), hull.z(v)});
@@ -139,15 +141,15 @@ int32_t hull_half_thickness(const HullView& hull) {
   return most > 0 ? static_cast<int32_t>(most) : 0;
 }
 
-/// Vertices that are lower than the farthest vertex along a direction by at most 2^-k_even_power of the half thickness
-/// are level with it.
+/// A vertex is level with the farthest vertex along a direction if its coordinate is smaller by at most 2^-k_even_power
+/// of the half thickness.
 constexpr int k_even_power = 6;
 /// A single face is the contact feature if its area is at least 1 - 2^-k_beyond_power of the area of the whole region
-/// level with it. Otherwise the region is.
+/// level with it. Otherwise the region is the contact feature.
 constexpr int k_beyond_power = 2;
 constexpr int k_even_rounds_max = 4;  ///< rounds in which the region level with a face may grow
 
-/// Finds the faces that have a vertex of a set.
+/// Finds the faces that contain at least one vertex of `vertices`.
 void find_faces(const HullView& hull, BitSet vertices, BitSet faces) {
   for (uint32_t i = 0; i < hull.edge_count; ++i) {
     const HullEdge edge = hull.edge(i);
@@ -157,7 +159,7 @@ void find_faces(const HullView& hull, BitSet vertices, BitSet faces) {
   }
 }
 
-/// Among the faces with the most vertices of `level`, the face whose normal is closest to `d`.
+/// Returns the face with the most vertices of `level`; among equal faces, the one whose normal is closest to `d`.
 uint32_t face_along(const HullView& hull, const Vec32& d, BitSet level, BitSet faces) {
   uint32_t best = 0, most = 0;
   int64_t steepest = INT64_MIN;
@@ -173,8 +175,8 @@ uint32_t face_along(const HullView& hull, const Vec32& d, BitSet level, BitSet f
   return best;
 }
 
-/// The mean normal, weighted by area, of a face and of the other faces in `faces` whose normals are within 2^-9 rad of
-/// its normal.
+/// Returns the mean normal, weighted by area, of a face and of those faces in `faces` whose normals are within 2^-9 rad
+/// of the normal of this face.
 Vec32 normal_about(const HullView& hull, uint32_t face, BitSet faces) {
   constexpr int64_t k_alike = (int64_t{1} << 60) - (int64_t{1} << 41);  // 2^-9 rad
   const Vec32 normal = plane_normal(hull, face);
@@ -275,7 +277,7 @@ bool triangle_face(const Placed& placed, const Vec32& direction, Feature& face) 
   return true;
 }
 
-/// The line on the round side of a cylinder or cone that touches a plane perpendicular to `d` (local axes).
+/// Makes the edge along which a plane perpendicular to `d` (local axes) touches the round side of a cylinder or cone.
 void round_line(const Placed& placed, const Vec32& d, Feature& edge) {
   const Convex& convex = *placed.convex;
   const bool is_cone = convex.type == ShapeType::cone;
@@ -317,7 +319,8 @@ bool supporting_face(const Placed& placed, const Vec32& direction, int32_t thick
       round_face(placed, d.y < 0, face);
       return true;
     case ShapeType::cone: {
-      // The normal of the round side at d is (2 half lengths, radius), not normalised.
+      // The outward normal of the cone's round side, not normalised: 2 half lengths across the axis, the radius along
+      // it.
       const int64_t radius = convex.size[0], height = 2 * int64_t{convex.size[1]}, across = length_across(d);
       const int64_t length = square_root_nearest(static_cast<uint64_t>(radius * radius + height * height));
       if (d.y >= 0 || -d.y < (height * across + radius * d.y) / length) return false;

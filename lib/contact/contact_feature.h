@@ -21,7 +21,7 @@ struct Feature {
   uint8_t vertex[k_feature_points_max];  ///< names of the points
   uint32_t index = 0;                    ///< index of the face or edge
   Vec32 normal;                          ///< of a face, outward, Q30
-  Vec32 along;                           ///< a fixed direction in a face, Q30
+  Vec32 along;                           ///< a direction in the plane of a face, fixed in the shape, Q30
 
   bool is_face() const { return count > 2; }
   uint32_t name() const;

@@ -10,7 +10,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// A face is preferred to edges, and to the axis as it is, by 1/64 of the half thickness of the thinner core.
+/// A face replaces the edges, or the axis itself, if it separates the cores as well, within 1/64 of the half thickness
+/// of the thinner core.
 constexpr int k_face_power = 6;
 constexpr int k_aside_power = 5;            ///< lateral limit for edges: 2^-5 of the thinner half thickness
 constexpr int64_t k_upright = k_one >> 13;  ///< a normal within this angle, rad, of a face normal is replaced by it
@@ -19,7 +20,7 @@ constexpr int64_t k_level = k_one >> 5;     ///< edges closer to parallel than t
 int64_t smaller_but_0(int64_t a, int64_t b) { return a == 0 ? b : b == 0 || a < b ? a : b; }
 int32_t radius_in_block(const Placed& placed) { return in_block(placed, placed.convex->core_radius); }
 
-/// |a x b| <= limit, for unit vectors, all Q30.
+/// Whether |a x b| <= limit, for unit vectors a and b. All Q30.
 bool is_parallel(const Vec32& a, const Vec32& b, int64_t limit) {
   const Vec32 sine = round_shift(cross(a, b), 30);
   return dot(sine, sine) <= limit * limit;
@@ -58,7 +59,7 @@ class Builder {
   }
 
   void build(BlockManifold& manifold) const;
-  /// Finds the contact of A's face with only that part of B which is over the face.
+  /// Finds the contact of A's face with the part of B that lies over this face.
   void build_over_face(const Feature& face, BlockManifold& manifold);
 
  private:
@@ -83,8 +84,9 @@ class Builder {
   bool fill(const Reference& reference, bool reference_is_a, const Feature& incident, BlockManifold& manifold) const;
   void add_point(const Vec32& normal, const Vec64& twice_middle, int64_t separation, uint32_t on_a, uint32_t on_b,
                  BlockManifold& manifold) const;
-  /// The tie-break where a feature of either shape could be the reference: the shape that is lower along a fixed
-  /// direction, which is unlikely to be an axis of a shape. The result does not depend on which shape is A.
+  /// Whether A is preferred where a feature of either shape could be the reference. The preferred shape is the one that
+  /// lies lower along a fixed direction, which is unlikely to be an axis of a shape. The result does not depend on
+  /// which shape is called A.
   bool a_comes_first() const { return dot(axis_.normal, Vec32{493921240, 848256040, 440234144}) > 0; }
   static void find_incident(const Half& half, const Vec32& towards, Feature& incident) {
     if (!supporting_face(half.placed, towards, half.thickness, incident))
@@ -99,14 +101,14 @@ class Builder {
   bool only_over_ = false;  ///< points that are not over the reference are left out
 };
 
-/// Whether the separation of the cores along `normal` is at least that along the axis, less `room`.
+/// Whether the separation of the cores along `normal` is at least their separation along the axis minus `room`.
 bool Builder::parts_as_well(const Half& half, const Half& other, const Vec32& normal, int64_t room) const {
   const Vec32 top = add(half.centre, support(half.placed, normal).point);
   const Vec32 bottom = add(other.centre, support(other.placed, negate(normal)).point);
   return dot(normal, subtract(bottom, top)) >> 30 >= axis_.separation - room;
 }
 
-/// Finds the face of `half` that the contact is on. False if there is none.
+/// Finds the face of `half` on which the contact lies. Returns false if there is none.
 bool Builder::find_face(const Half& half, const Half& other, Feature& face) const {
   if (!supporting_face(half.placed, half.outward, half.thickness, face)) return false;
   const Vec32& normal = face.normal;
@@ -118,7 +120,8 @@ bool Builder::find_face(const Half& half, const Half& other, Feature& face) cons
   return true;
 }
 
-/// `normal`: from A to B. `twice_middle`: twice the midpoint between the cores, in the block.
+/// Adds a contact point. `normal`: from A to B. `twice_middle`: twice the midpoint between the cores, in the block.
+/// `on_a` and `on_b`: names of the touching features.
 void Builder::add_point(const Vec32& normal, const Vec64& twice_middle, int64_t separation, uint32_t on_a,
                         uint32_t on_b, BlockManifold& manifold) const {
   const int64_t ahead = (pair_.radius_a - pair_.radius_b) / 2;
@@ -139,8 +142,8 @@ void Builder::add_point(const Vec32& normal, const Vec64& twice_middle, int64_t 
   manifold.point[manifold.count++] = {from_a, from_b, separation, feature_pair(on_a, on_b)};
 }
 
-/// The name of the feature of the shape that lies on the axis. If a face is perpendicular to the axis, its edges are
-/// all level except for noise. The noise must not decide the name, so the face is named.
+/// Returns the name of the shape's feature where the axis meets the shape. If a face is perpendicular to the axis, only
+/// rounding would decide between its edges; the face is named instead.
 uint32_t Builder::name_on_axis(const Half& half) {
   Feature feature;
   if (supporting_face(half.placed, half.outward, half.thickness, feature) &&
@@ -150,7 +153,7 @@ uint32_t Builder::name_on_axis(const Half& half) {
   return feature.name();
 }
 
-/// Adds the point on the axis itself, between the features there, unless a point with these features already exists.
+/// Adds the contact point on the axis itself, unless a point with the same pair of features already exists.
 void Builder::add_on_axis(const Vec32& normal, int64_t separation, BlockManifold& manifold) const {
   const uint32_t on_a = name_on_axis(half_a_), on_b = name_on_axis(half_b_);
   for (uint32_t i = 0; i < manifold.count; ++i) {
@@ -164,7 +167,8 @@ void Builder::add_on_axis(const Vec32& normal, int64_t separation, BlockManifold
             on_b, manifold);
 }
 
-/// Adds the points of the area between `reference` and `incident`. False if none is within the contact margin.
+/// Adds contact points of the contact area of `reference` and `incident`. Returns false if none is within the contact
+/// margin.
 bool Builder::fill(const Reference& reference, bool reference_is_a, const Feature& incident,
                    BlockManifold& manifold) const {
   const Half& other = reference_is_a ? half_b_ : half_a_;
@@ -174,7 +178,7 @@ bool Builder::fill(const Reference& reference, bool reference_is_a, const Featur
   while (choice.again());
   const Vec32 normal = reference_is_a ? reference.up() : negate(reference.up());
   if (choice.count() == 0) return false;
-  // The polygon of a round face may not contain the point on the axis.
+  // The polygon that stands for a round face may miss the point on the axis. That point is then added.
   int deepest = 0;
   for (int i = 1; i < choice.count(); ++i) deepest = choice[i].w < choice[deepest].w ? i : deepest;
   const Vec32 nearest = add(other.centre, reference_is_a ? axis_.point_b : axis_.point_a);
@@ -216,9 +220,9 @@ bool Builder::build_on_face(BlockManifold& manifold) const {
   return false;
 }
 
-/// Finds the contact on a face that is slightly tilted against the axis. Without it, edges that cross there would touch
-/// in one point, which can jump from one side of the face to the other between two ticks. The face is used only if its
-/// deepest point is about as deep as the axis: shallower by at most drop_, deeper by at most preference_.
+/// Finds the contact on a face that is slightly tilted against the axis. Crossing edges would instead touch in one
+/// point, which can jump from one side of the face to the other between two ticks. The face is used only if its deepest
+/// point is about as deep as the axis: shallower by at most drop_, deeper by at most preference_.
 __attribute__((noinline)) bool Builder::build_on_leaning_face(BlockManifold& manifold) const {
   constexpr int64_t k_leaning = (int64_t{1} << 60) - (int64_t{1} << 53);  // 2^-3 rad
   const int64_t radii = pair_.radius_a + pair_.radius_b;
@@ -261,15 +265,16 @@ bool Builder::build_on_edge(BlockManifold& manifold) const {
   if (is_zero(along_a) || is_zero(along_b) || !is_parallel(along_a, along_b, k_level)) return false;
   const bool is_a = a_comes_first();
   const Half &half = is_a ? half_a_ : half_b_, &other = is_a ? half_b_ : half_a_;
-  // Edges that cross at a small angle move apart sideways. Also, the normal is not exact enough for long edges to lie
-  // exactly over each other.
+  // Away from their crossing, edges that cross at a small angle lie beside each other. Also, the normal is not exact
+  // enough for long edges to lie exactly over each other.
   const int64_t aside = (pair_.block_above(thickness()) >> k_aside_power) + drop_;
   const Reference reference(half.placed, half.centre, is_a ? edge_a : edge_b, half.outward,
                             radius_in_block(other.placed), aside);
   return fill(reference, is_a, is_a ? edge_b : edge_a, manifold);
 }
 
-/// Finds the contact at an edge that is level with its face, within the penetration of resting bodies.
+/// For a pair with a round shape whose contact is at an edge level with a face, within the penetration of resting
+/// bodies: makes the contact with the face's normal. Returns false if there is no such face.
 bool Builder::build_level_with_face(BlockManifold& manifold) const {
   ContactAxis level = axis_;
   const int64_t room = thickness() >> 5;  // small shapes penetrate less
@@ -300,7 +305,7 @@ void Builder::build(BlockManifold& manifold) const {
   }
   add_on_axis(axis_.normal, separation, manifold);
   manifold.normal = axis_.normal;
-  // Where two edges cross, the normal does not rotate.
+  // If two edges cross, the normal of the contact does not rotate.
   const uint32_t feature = manifold.point[0].feature;
   constexpr uint32_t k_edge = static_cast<uint32_t>(FeatureType::edge);
   manifold.turns = !pair_.planar() && ((feature >> 10 & 3) != k_edge || (feature >> 22 & 3) != k_edge);

@@ -43,7 +43,7 @@ inline ContactRules rules_of(int64_t margin, ManifoldReduction reduction) {
 void find_contact_points(const RestingPair& pair, const ContactRules& rules, DistanceCache* cache,
                          BlockManifold& manifold);
 
-/// The fields of the same names in BlockManifold.
+/// Properties of a contact, as the fields of the same names in BlockManifold.
 struct ContactKind {
   bool seam = false, turns = false;
 };
@@ -54,7 +54,7 @@ Status contact_points_by(const ContactRules& rules, const Convex& a, const Pose&
 
 /// Finds the contact points between A's `face` and the feature of B that is farthest against the face's normal. The
 /// contact normal is the face's normal. Only points over the face, or at most 1/64 of its size beyond its sides, are
-/// found; there may be none. It makes no search, so the result is never capped.
+/// found; there may be none. The function makes no search, so the result is never capped.
 void contact_points_over_face(const RestingPair& pair, const Feature& face, int64_t margin, ManifoldReduction reduction,
                               BlockManifold& manifold);
 

@@ -56,7 +56,8 @@ NearFaces faces_about(const Placed& placed, const Vec32& point, int64_t room) {
   return near;
 }
 
-/// The separation of the cores along a normal from A to B, ulps of the block. `axis`: the axis of that normal.
+/// Returns the separation of the cores along `normal` (from A to B), ulps of the block. Sets the normal, the points and
+/// the separation of `axis`.
 int64_t apart_along(const RestingPair& pair, const Vec32& normal, ContactAxis& axis) {
   axis.normal = normal;
   axis.point_a = support(pair.a, normal).point;
@@ -104,7 +105,8 @@ __attribute__((noinline)) bool find_level_face(const RestingPair& pair, int64_t 
       const Vec32 normal = side == 0 ? near.normal[i] : negate(near.normal[i]);
       ContactAxis level = axis;
       if (dot(normal, axis.normal) < k_alike || !is_level(apart_along(pair, normal, level))) continue;
-      // The contact point goes under the core of the round shape. Beside the core, it would make a ball rotate.
+      // The contact point lies on the face normal through the core of the round shape. Beside it, the contact would
+      // exert a torque on a ball.
       const Vec64 offset = {normal.x * level.separation, normal.y * level.separation, normal.z * level.separation};
       const Vec32 across = round_shift(offset, 30);
       if (side == 0)

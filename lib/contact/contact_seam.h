@@ -8,9 +8,9 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Whether the contact along `axis` is only a sliver. This needs two conditions. Along `axis`, the shapes are apart or
-/// overlap by at most `room`. And there is a different axis, more than 2^-2 rad from `axis`, along which a face of A
-/// lies against a face of B with a separation within +-`room`. Lengths in 2^-46 m.
+/// Whether the contact along `axis` is only a sliver. Two conditions must hold. Along `axis`, the shapes are apart or
+/// overlap by at most `room`. Along some other axis, more than 2^-2 rad from `axis`, a face of A lies against a face of
+/// B with a separation within +-`room`. Lengths in 2^-46 m.
 bool is_sliver(const RestingPair& pair, const ContactAxis& axis, int64_t room);
 
 /// The depth up to which an overlap counts as a sliver: the greater of thickness / 32 and `sunk`, where `sunk` is
@@ -20,8 +20,8 @@ inline int64_t sliver_room(int64_t thickness, int64_t sunk) {
   return held > thickness >> 5 ? held : thickness >> 5;
 }
 
-/// Cosines, Q60, of 2^-2 rad (k_alike) and 2^-4 rad (k_level_faces). The dot product of two unit vectors, Q30, that
-/// enclose a smaller angle is greater than this.
+/// Cosines, Q60, of 2^-2 rad (k_alike) and 2^-4 rad (k_level_faces). Two unit vectors, Q30, enclose a smaller angle if
+/// their dot product is greater than the constant.
 inline constexpr int64_t k_alike = (int64_t{1} << 60) - (int64_t{1} << 55);
 inline constexpr int64_t k_level_faces = (int64_t{1} << 60) - (int64_t{1} << 51);
 

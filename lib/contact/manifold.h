@@ -12,7 +12,7 @@ inline namespace DETENT_NAMESPACE {
 struct PairPoint {
   Vec3<Unit> point;  ///< midway between the surfaces
   Unit separation;   ///< along the normal; negative when overlapping
-  uint32_t feature;  ///< names the touching features; distinct within a manifold, stable while they touch, never 0
+  uint32_t feature;  ///< names the pair of touching features; distinct, constant while they touch, never 0
 };
 
 /// Contact of a pair: one normal and up to four points, in the pair's frame.
@@ -42,7 +42,7 @@ struct PairShape {
 struct PairFrame {
   int exponent;
   Unit margin;  ///< contact margin: points farther apart than this are left out
-  Unit sunk;    ///< as ContactReach::sunk
+  Unit sunk;    ///< as ContactMargins::sunk, in the pair's unit
   bool smooth_seams;
   ManifoldReduction reduction;
   PairShape a, b;

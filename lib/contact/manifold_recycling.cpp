@@ -9,8 +9,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// A pair can rotate or roll about a contact of fewer points than these. Such a contact is recycled for a shorter
-/// motion, 2^-k_roll_power of the tolerance.
+/// A contact with at least this many points is recycled up to the whole tolerance. A pair can rotate or roll about a
+/// contact with fewer points; such a contact is recycled only up to 2^-k_roll_power of the tolerance.
 constexpr uint32_t k_plane_points = 3;
 constexpr int k_roll_power = 6;
 constexpr int k_anchor_frac = 15;
@@ -33,7 +33,7 @@ int16_t anchor_from_unit(Unit value) {
 #endif
 }
 
-/// Does not use |value|: it overflows for the most negative number.
+/// Whether |value| < limit. It does not compute |value|, which overflows for the most negative number.
 bool is_within(Unit value, Unit limit) { return -limit < value && value < limit; }
 bool is_within(const Vec3<Unit>& v, Unit limit) {
   return is_within(v.x, limit) && is_within(v.y, limit) && is_within(v.z, limit);
@@ -42,14 +42,14 @@ Real absolute_sum(const Vec3<Unit>& v, int exponent) {
   return real_from_unit(abs(v.x), exponent) + real_from_unit(abs(v.y), exponent) + real_from_unit(abs(v.z), exponent);
 }
 
-/// A pair in the terms of ManifoldState. The unit of length is 4 units of the base: the centre of a body that touches
-/// the base is within 0.6 of it.
+/// A pair in the frame of ManifoldState. Its unit of length is 4 units of the base (the larger body). The centre of a
+/// body that touches the base is within 0.6 of this unit from the base's centre.
 struct RecyclePair {
   const CollisionBody& base;
   const CollisionBody& other;
   bool base_is_a;
   int exponent;
-  Vec3<Real> between = {};  ///< from the base's centre to the other's, world axes, m
+  Vec3<Real> between = {};  ///< from the base's centre to the other body's, world axes, m
   Vec3<Unit> offset = {};   ///< the same, in the unit of length of the pair
 
   RecyclePair(const CollisionBody& a, const CollisionBody& b, bool a_is_base)
@@ -58,7 +58,7 @@ struct RecyclePair {
         base_is_a(a_is_base),
         exponent(base.properties.size_exponent + 2) {}
 
-  /// False if the bodies are too far apart to touch.
+  /// Sets `between` and `offset`. Returns false if the bodies are too far apart to touch.
   bool place() {
     const Position &from = base.pose.position, &to = other.pose.position;
     between = real_difference(to, from);
@@ -70,16 +70,17 @@ struct RecyclePair {
   }
   Vec3<Unit> offset_in_base() const { return multiply_transposed(base.rotation, offset); }
   Quat rotation_in_base() const { return multiply(conjugate(base.pose.rotation), other.pose.rotation); }
-  /// From the other's centre, in its unit, world axes.
+  /// The vector from the other body's centre to an anchor, in that body's unit, world axes.
   Vec3<Unit> arm_at(const int16_t (&anchor)[3]) const {
     return multiply(other.rotation,
                     Vec3<Unit>{unit_from_anchor(anchor[0]), unit_from_anchor(anchor[1]), unit_from_anchor(anchor[2])});
   }
-  /// The coordinate of a point of the other body along the normal, m. Uses exact positions: rounded ones cause jitter.
+  /// The coordinate of a point of the other body along the normal, m. It is computed from exact positions, because
+  /// rounded positions cause jitter.
   Real place_along(const Vec3<Unit>& normal, const Vec3<Unit>& arm) const {
     return dot(between, normal) + real_from_unit(dot(normal, arm), other.properties.size_exponent);
   }
-  /// From the base's centre, world axes.
+  /// The vector from the base's centre to a point of the other body, in the pair's unit, world axes.
   Vec3<Unit> point_at(const Vec3<Unit>& arm) const {
     return offset + scale_by_power(arm, other.properties.size_exponent - exponent);
   }
@@ -95,8 +96,8 @@ Real motion_since(const RecyclePair& pair, const ManifoldState& before) {
   const Quat &p = before.rotation, q = pair.rotation_in_base();
   const bool flipped = dot(Vec3<Unit>{p.x, p.y, p.z}, Vec3<Unit>{q.x, q.y, q.z}) + p.w * q.w < Unit(0.0);
   const auto change = [flipped](Unit from, Unit to) { return real_from_unit(abs(flipped ? to + from : to - from), 0); };
-  // The angle is 4 asin(|q - p| / 2). This is 2 |q - p|, and less than 2^-10 of it more at the small angles that
-  // matter. The sum of the component magnitudes is at least the length.
+  // The rotation angle is 4 asin(|q - p| / 2). At the small angles that matter, it exceeds 2 |q - p| by less than 2^-10
+  // of its value. The sum of the component magnitudes is at least |q - p|.
   const Real change_of_rotation = change(p.x, q.x) + change(p.y, q.y) + change(p.z, q.z) + change(p.w, q.w);
   const Real swing = scale_by_power(change_of_rotation * pair.other.properties.bounding_radius,
                                     pair.other.properties.size_exponent + 1);
@@ -127,7 +128,7 @@ ManifoldState kept_manifold(const CollisionBody& a, const CollisionBody& b, cons
     anchor[0] = anchor_from_unit(local.x);
     anchor[1] = anchor_from_unit(local.y);
     anchor[2] = anchor_from_unit(local.z);
-    // Uses the anchor as stored, so that its rounding does not count as motion.
+    // The height is computed from the rounded anchor. So the rounding of the anchor does not count as motion.
     const Real place = pair.place_along(normal, pair.arm_at(anchor));
     kept.height[i] = unit_from_real(point.separation - place, pair.exponent);
   }

@@ -4,8 +4,9 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Makes the data from which later ticks can recycle a pair's contact. The data is all zero for contacts that are not
-/// recycled: those with a half-space, which are found anew as fast; capped searches; and bodies that overlap deeply.
+/// Makes the data from which later ticks can recycle a pair's contact. The data is all zero for a contact that is not
+/// recycled: a contact with a half-space, which is as fast to find anew; the result of a capped search; and a contact
+/// of bodies that overlap deeply.
 ManifoldState kept_manifold(const CollisionBody& a, const CollisionBody& b, const ContactGeometry& contact);
 
 /// False if the data is all zero.
@@ -13,10 +14,11 @@ bool is_kept(const ManifoldState& manifold);
 
 /// Recycles the contact `before`, whose features are `feature`, at the current poses. The normal and the surface of the
 /// base (the larger body) move with the base, the points move with the other body, and the separations follow the
-/// motion along the normal. Points farther apart than `margin`, m, are left out of `contact` and of `after`. False if a
-/// point of the smaller body may have moved relative to the larger body by more than `tolerance`, m (1/64 of it for a
-/// contact of one or two points, about which a body can rotate or roll), or if too few points are left: fewer than
-/// three of three or four, or not all of one or two. The caller must then collide the pair anew.
+/// motion along the normal. Points farther apart than `margin`, m, are left out of `contact` and of `after`.
+/// Returns false if the caller must collide the pair anew. This is so in two cases. First, a point of the smaller body
+/// may have moved relative to the larger body by more than `tolerance`, m; for a contact of one or two points, about
+/// which a body can rotate or roll, the limit is 1/64 of that. Second, too few points are left: fewer than three of a
+/// contact with three or four points, or not all of a contact with one or two points.
 ///
 /// Precision: that of collide(), and 2^-17 of the motion. Each call starts from the stored data, so errors do not
 /// accumulate. The direction of the normal errs by no more than the relative rotation of the pair since then, which is
@@ -25,8 +27,7 @@ bool recycle_manifold(const CollisionBody& a, const CollisionBody& b, const Mani
                       const uint32_t (&feature)[k_manifold_points_max], uint32_t count, Real tolerance, Real margin,
                       ContactGeometry& contact, ManifoldState& after);
 
-/// Whether kept_manifold() can have made this data for a contact of `count` points, or the data can be recycled just as
-/// safely.
+/// Whether this data can be recycled safely for a contact of `count` points. True for all data from kept_manifold().
 bool is_manifold(const BodyProperties& a, const BodyProperties& b, uint32_t count, const ManifoldState& manifold);
 
 }  // namespace DETENT_NAMESPACE

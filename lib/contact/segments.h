@@ -23,9 +23,9 @@ inline Unit divide_clamped(Unit numerator, Unit denominator, Unit limit) {
   return divide(numerator, denominator);
 }
 
-/// Finds the closest points of two segments, as distances along each from its centre. If the segments are within 2^-11
-/// rad of parallel, one of the two points is the middle of A or an end of a segment. Error: 2^-29 / |a x b| of the unit
-/// of length.
+/// Finds the closest points of two segments. `along_a` and `along_b`: their signed distances along each segment from
+/// its centre. If the segments are within 2^-11 rad of parallel, one of the two points is the middle of A or an end of
+/// a segment. Error: 2^-29 / |a x b| of the unit of length, where a and b are the directions.
 /// Source: the common perpendicular of two lines, clamped as in Ericson, "Real-Time Collision Detection", 5.1.9.
 inline void closest_points(const Segment& a, const Segment& b, Unit& along_a, Unit& along_b) {
   const Vec3<Unit> between = b.centre - a.centre;

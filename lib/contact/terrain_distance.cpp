@@ -10,7 +10,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Tests the triangles one by one until one is near.
+/// Tests the triangles one by one and stops at the first one that is near.
 struct DistanceSearch {
   const Terrain terrain;
   const Pose &ground, &pose;

@@ -14,7 +14,7 @@ bool farther_than_terrain(const AssetTable& assets, const BodyProperties& ground
                           const BodyProperties& body, const Convex& convex, const Pose& pose, Real margin,
                           bool& farther);
 
-/// For a feature table.
+/// Entry of the feature table.
 struct TerrainDistanceOps {
   decltype(&farther_than_terrain) farther;
 };

@@ -114,7 +114,8 @@ uint32_t TerrainManifolds::deepest_of(const Group& group) {
   return deepest;
 }
 
-/// The points that AreaChoice chooses, as bits; if `fill` is false, only the extremes.
+/// Returns the points that AreaChoice chooses: bit i stands for point i. If `fill` is false, only the extremes are
+/// chosen.
 uint32_t TerrainManifolds::chosen_of(const Group& group, int64_t level, int64_t drop, bool fill) {
   const Point& first = group.point[0];
   uint64_t spread = 0;
@@ -135,8 +136,8 @@ uint32_t TerrainManifolds::chosen_of(const Group& group, int64_t level, int64_t 
   return chosen;
 }
 
-/// The index of the point to give up: the highest point that is neither an extreme nor the deepest. Of eight points, at
-/// least three qualify. Among points of about the same height, the first.
+/// Returns the index of the point that is removed to make room: the highest point that is neither an extreme nor the
+/// deepest. Of eight points, at least three qualify. Among points of about the same height, it is the first.
 uint32_t TerrainManifolds::spare_point(const Group& group) const {
   const uint32_t needed = chosen_of(group, INT64_MAX, INT64_MAX / 2, false) | 1u << deepest_of(group);
   uint32_t spare = k_points_max;
@@ -167,8 +168,8 @@ void TerrainManifolds::choose(const Group& group, TerrainManifold& manifold) con
   manifold.turns = group.turns;
 }
 
-/// Removes doubtful groups, unless all groups are doubtful. A very deep contact along a normal that the terrain forces
-/// on it counts only if there is no other contact.
+/// Removes the doubtful groups (TerrainTouch::doubtful), unless all groups are doubtful. Such a contact is very
+/// deep, and the terrain does not allow its direction of least overlap as the normal.
 void TerrainManifolds::leave_out_doubtful() {
   bool certain = false;
   for (uint32_t i = 0; i < count_; ++i) certain = certain || !group_[i].doubtful;
@@ -193,7 +194,7 @@ uint32_t TerrainManifolds::finish(TerrainManifold (&manifold)[k_terrain_manifold
     for (uint32_t i = shallowest; i + 1 < count_; ++i) group_[i] = group_[i + 1];
     --count_;
   }
-  // Sorts by key, and planes of the same name by their height.
+  // Sorts by key. Planes of the same name are sorted by their height.
   const auto key_of = [](const Group& group) {
     return group.on_face ? normal_name(group.normal) : k_edge_key | group.first;
   };

@@ -10,7 +10,7 @@ inline constexpr uint32_t k_terrain_manifolds_max = 8;
 /// One planar contact of a shape with terrain (a mesh or height field), in the terrain's axes.
 struct TerrainManifold {
   Vec32 normal;       ///< from the terrain to the shape, Q30
-  uint32_t key;       ///< the same while the shape stays on the same plane or edge; distinct, never 0
+  uint32_t key;       ///< name of the touched plane or edge: constant while the shape stays on it, distinct, never 0
   uint32_t triangle;  ///< the triangle touched deepest
   uint8_t material;   ///< material of that triangle
   bool turns;         ///< as ContactGeometry::turns
@@ -43,13 +43,13 @@ class TerrainManifolds {
   static constexpr uint32_t k_points_max = 8;
   struct Point {
     TerrainManifold::Point contact;
-    int64_t u, v;  ///< in the group's plane, 2^-46 m
+    int64_t u, v;  ///< coordinates in the group's plane, 2^-46 m
   };
   struct Group {
     Vec32 normal, u, v;
     int64_t plane;  ///< height of the plane along the normal, from the shape's centre, 2^-46 m
     int64_t deepest;
-    uint32_t triangle, first;  ///< the triangle touched deepest, and the lowest index of all
+    uint32_t triangle, first;  ///< the triangle touched deepest; the lowest index of all touched triangles
     uint32_t touches;
     uint8_t material;
     bool on_face, doubtful, turns;

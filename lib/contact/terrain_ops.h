@@ -5,7 +5,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// A view of the terrain (mesh or height field) of a body that has one.
+/// Returns a view of the body's terrain (mesh or height field). Range: the body has terrain.
 inline Terrain terrain_of(const BodyProperties& properties, const AssetTable& assets) {
   return terrain_view(assets.assets[properties.asset].bytes);
 }
@@ -15,12 +15,12 @@ inline Terrain terrain_of(const BodyProperties& properties, const AssetTable& as
 void collide_terrain(const CollisionBody& a, const CollisionBody& b, const ContactMargins& margin,
                      const AssetTable& assets, TerrainContacts& contacts);
 
-/// The same for one convex part of the body without terrain. The part and its middle, `middle` (2^-46 m), are in the
-/// axes of that body.
+/// As collide_terrain(), for one convex part of the body without terrain. The part and its middle, `middle` (2^-46 m),
+/// are in the axes of that body.
 void collide_part_with_terrain(const CollisionBody& a, const CollisionBody& b, const Convex& part, const Vec64& middle,
                                const ContactMargins& margin, const AssetTable& assets, TerrainContacts& contacts);
 
-/// For a feature table.
+/// Entry of the feature table.
 struct TerrainOps {
   decltype(&read_terrain) read;
   decltype(&collide_terrain) collide;

@@ -20,13 +20,13 @@ constexpr uint64_t longest(const Vec32& v) {
   return magnitude_32(v.z) > most ? magnitude_32(v.z) : most;
 }
 
-/// Whether a point lies on or below the plane with this normal, within 2^-k_allowed_power rad. `direction`: from a
-/// point of the plane to that point.
+/// Whether a point lies on or below a plane with normal `normal`, within 2^-k_allowed_power rad. `direction`: from a
+/// point of the plane to the tested point.
 bool is_below(const Vec32& normal, const Vec32& direction) {
   return dot(normal, direction) <= static_cast<int64_t>(longest(direction) << (30 - k_allowed_power));
 }
 
-/// A hash of the position, of 18 bits.
+/// Returns an 18-bit hash of the corner's position.
 uint32_t corner_name(const Vec32& corner) {
   const uint32_t x = static_cast<uint32_t>(corner.x), y = static_cast<uint32_t>(corner.y),
                  z = static_cast<uint32_t>(corner.z);
@@ -140,19 +140,20 @@ Vec64 TerrainPair::from_centre(const Vec32& point) const {
   return {point.x * step - centre_.x, point.y * step - centre_.y, point.z * step - centre_.z};
 }
 
-/// The height of the shape's lowest point above the plane through a corner, 2^-46 m.
+/// Returns the height, 2^-46 m, of the shape's lowest point above the plane with normal `normal` through `corner`.
 int64_t TerrainPair::height(const Vec32& normal, const Vec32& corner) const {
   const int64_t lowest = dot(normal, support(alone_, negate(normal)).point) >> 30;
   return raw_from_block(lowest, shape_.exponent) - radius_ - dot(from_centre(corner), normal).round_shift(30);
 }
 
-/// Whether a point, seen from the shape's centre, lies behind a plane through a corner.
+/// Whether a point lies behind the plane with normal `normal` through `corner`. `point` is relative to the shape's
+/// centre.
 bool TerrainPair::is_behind(const Vec64& point, const Vec32& normal, const Vec32& corner) const {
   return sign_of(dot(add(from_centre(corner), negate(point)), normal)) > 0;
 }
 
-/// For a capsule, box or cylinder, which may be long or flat: the point nearest to the triangle's middle inside the
-/// shape shrunk by its half thickness. For other shapes: the shape's middle.
+/// Returns a point inside the shape. For a capsule, box or cylinder, which may be long or flat, it is the point nearest
+/// to the triangle's middle inside the shape shrunk by its half thickness. For other shapes it is the shape's middle.
 Vec64 TerrainPair::nearest_inside(const TerrainTriangle& t) const {
   const auto beyond_thickness = [&](int k) {
     const int64_t extent = saturated_sum(raw_from_block(shape_.size[k], shape_.exponent), radius_);
@@ -213,8 +214,8 @@ TerrainPair::Side TerrainPair::side_of(uint32_t index) const {
   return side;
 }
 
-/// Makes the pair, with the triangle as A. The origin of both is the shape's centre. False if the triangle is too far
-/// away to matter.
+/// Makes the pair of the triangle (A) and the shape (B). The origin of both is the shape's centre. Returns false if the
+/// triangle is too far away to matter.
 bool TerrainPair::make_pair(const Side& side, Convex& convex, RestingPair& pair) const {
   Vec64 corner[3];
   for (int k = 0; k < 3; ++k) corner[k] = from_centre(side.triangle.corner[k]);
@@ -232,7 +233,7 @@ bool TerrainPair::make_pair(const Side& side, Convex& convex, RestingPair& pair)
   return true;
 }
 
-/// The normal of the neighbour beyond a convex edge, on the side of the shape.
+/// Returns the normal of the neighbouring triangle beyond a convex edge, on the side where the shape is.
 Vec32 TerrainPair::normal_beyond(const Side& side, uint32_t edge) const {
   const TerrainTriangle beyond = terrain_.triangle(side.triangle.neighbour[edge]);
   const Vec32 normal = normal_of(beyond.corner[0], beyond.corner[1], beyond.corner[2]);
@@ -250,8 +251,8 @@ bool TerrainPair::has_sharp_edge(const Side& side) const {
   return false;
 }
 
-/// Whether the shape overlaps less than `deepest` (a separation, 2^-46 m) beyond a convex or open edge: along the
-/// normal of the neighbour, or outward from an open edge in the plane of the triangle.
+/// Whether, across a convex or open edge, the shape overlaps less than `deepest` (a separation, 2^-46 m). The overlap
+/// is measured along the normal of the neighbour; at an open edge, outward in the plane of the triangle.
 bool TerrainPair::has_nearer_exit(const Side& side, int64_t deepest) const {
   for (uint32_t k = 0; k < 3; ++k) {
     const TerrainTriangle& t = side.triangle;
@@ -269,7 +270,7 @@ bool TerrainPair::has_nearer_exit(const Side& side, int64_t deepest) const {
   return false;
 }
 
-/// Whether no triangle around the corner rises above the plane through the corner with this normal.
+/// Whether no triangle around a corner rises above the plane with normal `normal` through that corner.
 bool TerrainPair::allows_at_corner(uint32_t triangle, const Vec32& corner, const Vec32& normal) const {
   for (int direction = 0; direction < 2; ++direction) {
     uint32_t at = triangle;
@@ -312,20 +313,21 @@ bool TerrainPair::allows(const Side& side, const Vec32& normal) const {
   return allows_at_corner(side.index, corner[top], normal);
 }
 
-/// A vector perpendicular to a side of the triangle, in its plane, outward, and 2^29 to 2^31 long.
+/// Returns a vector in the triangle's plane that is perpendicular to side k and points outward. Its length is 2^29 to
+/// 2^31.
 Vec32 TerrainPair::outward(const Side& side, uint32_t k) {
   const Vec32 &a = side.triangle.corner[k], &b = side.triangle.corner[(k + 1) % 3];
   return scaled_to_30_bits(cross(scaled_to_30_bits(subtract(b, a)), side.normal));
 }
 
-/// A lower bound of how far a point of the shape lies beyond a side, 2^-46 m. It is at least a quarter of that
-/// distance.
+/// Returns a lower bound of the distance, 2^-46 m, by which a point of the shape lies beyond side k. The bound is at
+/// least a quarter of that distance.
 int64_t TerrainPair::beyond(const Side& side, uint32_t k, const Vec32& out, const Vec32& point) const {
   return raw_from_block(dot(out, point) >> 31, shape_.exponent) -
          dot(from_centre(side.triangle.corner[k]), out).round_shift(31);
 }
 
-/// Whether the shape's core lies farther beyond a side than `clear`, 2^-46 m.
+/// Whether the whole core lies beyond one side of the triangle by more than `clear`, 2^-46 m.
 bool TerrainPair::is_beside(const Side& side, int64_t clear) const {
   for (uint32_t k = 0; k < 3; ++k) {
     const Vec32 out = outward(side, k);
@@ -334,8 +336,8 @@ bool TerrainPair::is_beside(const Side& side, int64_t clear) const {
   return false;
 }
 
-/// Whether the lowest point of the core lies farther beyond a side than `clear`, 2^-46 m. For an edge or round side
-/// that is level with the triangle, its middle is tested.
+/// Whether the lowest point of the core lies beyond a side of the triangle by more than `clear`, 2^-46 m. If the lowest
+/// feature is an edge, or a line of a round side, that is level with the triangle, its middle is tested.
 __attribute__((noinline)) bool TerrainPair::is_lowest_beside(const Side& side, int64_t clear) const {
   constexpr int64_t k_lying = k_one >> 12;
   Feature lowest;
@@ -361,8 +363,8 @@ bool TerrainPair::is_at_seam(const Side& side, int64_t facing, int64_t deepest) 
          dot(face.normal, side.normal) < -k_level_faces;
 }
 
-/// Replaces the normal of a manifold. The points are moved under the points of the core; beside them, they would make a
-/// ball rotate.
+/// Replaces the normal of a manifold. Moves each contact point to lie under the core's point along the new normal. A
+/// contact point beside it would exert a torque on a ball.
 void TerrainPair::turn_to(const Vec32& normal, BlockManifold& manifold) const {
   for (uint32_t i = 0; i < manifold.count; ++i) {
     BlockPoint& point = manifold.point[i];
@@ -418,7 +420,7 @@ bool TerrainPair::touch(uint32_t index, TerrainTouch& touch) const {
   const bool over = touch.manifold.count > 0, shallow = touch.deepest > -(thickness_ >> k_shallow_power);
   const bool sharp = free && has_sharp_edge(side);
   if (!sharp && over && shallow) return true;
-  // On a mild ridge the lowest point along each of the two normals lies beyond the edge.
+  // On a mild ridge, the lowest point along the normal of each of the two triangles lies beyond the common edge.
   if (!sharp && !over && is_lowest_beside(side, size >> (free ? k_mild_power : k_level_power))) return false;
   if (over && touch.deepest >= 0 && touch.deepest <= side.height + (thickness_ >> k_lowest_power)) return true;
   if (over && shallow && touch.deepest <= side.height + (thickness_ >> k_lowest_power) &&

@@ -10,23 +10,25 @@ struct TerrainPlace {
   Matrix32 terrain;   ///< from the terrain's axes to the world's
   Matrix32 rotation;  ///< from the shape's axes to the terrain's
   Vec64 centre;       ///< of the shape, in the terrain's axes, 2^-46 m
-  /// From `centre` to the middle of the part that collides, 2^-46 m, in the terrain's axes. It decides on which side of
-  /// a triangle the part is.
+  /// From `centre` to the middle of the part that collides, 2^-46 m, in the terrain's axes. The middle decides on which
+  /// side of a triangle the part is.
   Vec64 middle = {0, 0, 0};
 };
 
-/// Errors: not_normalised; out_of_range for NaN and for positions 2^16 m or more apart.
+/// Sets `place` from the poses of the terrain and the shape. Errors: not_normalised; out_of_range for NaN and for
+/// positions 2^16 m or more apart.
 Status place_on_terrain(const Pose& terrain, const Pose& shape, TerrainPlace& place);
 
 /// The number of bits to shift right to convert 2^-46 m to grid steps.
 inline int grid_shift(const Terrain& terrain) { return k_metre_bits - 30 + terrain.exponent(); }
-/// The least box of the grid that contains these coordinates, 2^-46 m, and one step more. Clamped to +-INT32_MAX.
+/// Returns the smallest grid box that contains the box from `low` to `high`, 2^-46 m, and one more grid step on each
+/// side. Clamped to +-INT32_MAX.
 GridBox grid_box(const Terrain& terrain, const Vec64& low, const Vec64& high);
 
 /// Makes a triangle from its corners, 2^-46 m from its origin, in a unit of length of 2^exponent m. `bound`, 2^-46 m:
 /// at least the greatest distance of a corner from the origin, and below the unit.
 void set_triangle(const Vec64 (&corner)[3], int64_t bound, int exponent, Convex& convex);
-/// The greatest distance of a corner from the origin, or slightly more (length_bound()).
+/// Returns an upper bound (length_bound()) of the greatest distance of a corner from the origin.
 int64_t bound_of(const Vec64 (&corner)[3]);
 
 /// rotate() converts v from the axes of `m` to the world's; rotate_back() is the inverse. Range: |v| < 2^62. Rounding:

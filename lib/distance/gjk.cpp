@@ -21,8 +21,8 @@ void restart(const Placed& a, const Placed& b, const Vec32& offset, Simplex& sim
   }
 }
 
-/// At least four ulps along a direction, which is shorter than 2^31: more than the rounding errors of the direction and
-/// of the supports.
+/// A gap, as a product of a length in ulps and the length of a direction vector. The vector is shorter than 2^31, so
+/// the gap is at least four ulps: more than the rounding errors of the direction and of the support points.
 constexpr int64_t k_touching = int64_t{4} << 31;
 
 int32_t floor_30(int64_t value) { return static_cast<int32_t>(value >> 30); }
@@ -44,7 +44,7 @@ void exact_support(const Placed& placed, const Simplex& simplex, int sign, CoreP
   }
 }
 
-/// Only the plane's normal can separate a half-space from the other shape.
+/// gjk() for a half-space. Only the plane's normal can separate it from the other shape.
 GjkResult half_space_gjk(const Placed& a, const Placed& b, const Vec32& offset, Simplex& simplex) {
   const bool plane_is_a = a.convex->type == ShapeType::half_space;
   const Vec32 up = (plane_is_a ? a : b).rotation.column[1];

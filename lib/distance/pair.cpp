@@ -97,7 +97,7 @@ int64_t truncated(int64_t value, int bits) {
 
 #if defined(DETENT_F64)
 int64_t difference_of(Coord a, Coord b) {
-  const FloatEnvironment environment;  // for a - b, the only floating-point operation here
+  const FloatEnvironment environment;  // for a - b, which is the only floating-point operation here
   bool saturated = false;
   return integer_from_float(a - b, k_metre_bits, saturated);
 }

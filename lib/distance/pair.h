@@ -10,8 +10,8 @@ inline namespace DETENT_NAMESPACE {
 /// Raw lengths are in 2^-46 m, as in the fixed Real.
 inline constexpr int k_metre_bits = 46;
 
-/// v 2^46. Fixed: exact. Float: rounded to nearest. False, with saturated components, if a component is 2^17 m or more
-/// in magnitude, infinite or NaN.
+/// Converts v from m to 2^-46 m. Fixed: exact. Float: rounded to nearest. Returns false, with saturated components, if
+/// a component is 2^17 m or more in magnitude, infinite or NaN.
 bool raw_from_real(const Vec3<Real>& v, Vec64& raw);
 Real real_from_raw(int64_t raw);
 /// Converts a length from m to 2^-46 m. 0 unless it is finite and below 2^17 m in magnitude.
@@ -42,25 +42,27 @@ int64_t length_above(const Vec64& v);
 /// An upper bound of |v|, cheap to compute: at most 1.6 % and a few ulps of a 29-bit mantissa too large. INT64_MAX if a
 /// component is 2^60 or more in magnitude.
 int64_t length_bound(const Vec64& v);
-/// Overflow: saturates at +-INT64_MAX.
+/// a + b. Overflow: saturates at +-INT64_MAX.
 DETENT_SHARED constexpr int64_t saturated_sum(int64_t a, int64_t b) {
   if (b > 0) return a > INT64_MAX - b ? INT64_MAX : a + b;
   return a < -INT64_MAX - b ? -INT64_MAX : a + b;
 }
 /// Converts ulps of a block, whose unit of length is 2^exponent m, to 2^-46 m. Overflow: saturates.
 int64_t raw_from_block(int64_t ulps, int exponent);
-/// The point `core` of such a block, moved by `radius` (2^-46 m) along the unit vector `normal` (Q30). Result in m.
+/// Returns the point `core` of a block with this exponent, moved by `radius` (2^-46 m) along the unit vector `normal`
+/// (Q30). Result in m.
 Vec3<Real> surface_point(const Vec32& core, int exponent, const Vec32& normal, int64_t radius);
 
-/// The half-space's point below the other body's point `on_other` (in the block), `gap` ulps away from it against `up`.
-/// Result in m, from the half-space's position. `offset` (2^-46 m) runs from there to the other body's position.
+/// Returns the point that lies `gap` ulps from the other body's point `on_other` (in the block), against `up`: the
+/// point of the half-space below it. Result in m, relative to the half-space's position. `offset` (2^-46 m) runs from
+/// the half-space's position to the other body's position.
 Vec3<Real> half_space_point(const Vec64& offset, const Vec32& on_other, int exponent, const Vec32& up, int32_t gap);
 
 /// The least e >= -14 with raw 2^-46 m < 2^e m.
 int raw_exponent_above(int64_t raw);
 /// (v.n) n for a unit vector n, Q30.
 Vec64 component_along(const Vec64& v, const Vec32& n);
-/// The core radius and the rounding radius, 2^-46 m.
+/// raw_core_radius(): the core radius. raw_radius(): the rounding radius. Both in 2^-46 m.
 int64_t raw_core_radius(const Convex& convex);
 int64_t raw_radius(const Convex& convex);
 

@@ -55,8 +55,8 @@ struct ExpandingPolytope {
   }
 
   void add_face(int i, int j, int k);
-  /// Extends the hull by the last vertex. Only faces whose plane it lies strictly outside are removed. So coplanar
-  /// triangles are removed together, and no new triangle is degenerate.
+  /// Extends the hull by the last vertex. Removes the faces for which this vertex lies strictly outside the face's
+  /// plane, and no others. So coplanar triangles are removed together, and no new triangle is degenerate.
   void grow();
   /// Whether the origin's projection onto the face's plane lies in the face.
   bool holds_foot(const Face& f) const;
@@ -118,9 +118,9 @@ const Face& ExpandingPolytope::nearest_face(int64_t& least) const {
 /// Leaves it as it is if the core has no vertices.
 void exact_support(const Placed& placed, const Vec64& normal, SupportPoint& found) {
   if (found.core.feature == k_no_feature) return;
-  // A vertex whose coordinate along the direction is smaller by more than `doubt` cannot be the farthest. Unit of
-  // `doubt`: 2^-30 of the shape's unit times the direction. It covers 4 ulps of the shape for the rounded directions
-  // and 9 ulps of the block for the two rounded places.
+  // A vertex whose coordinate along the direction is smaller by more than `doubt` cannot be the farthest. `doubt` is a
+  // dot product of a length, in 2^-30 of the shape's unit, and the direction. It covers 4 ulps of the shape for the
+  // rounded directions and 9 ulps of the block for the two rounded points.
   const Vec32 direction = rotate_inverse(placed.rotation, scaled_to_30_bits(normal));
   const int64_t doubt = int64_t{16} << (30 + (placed.shift < 27 ? placed.shift : 27));
   const int64_t floor = dot(direction, found.core.local) - doubt;
@@ -170,8 +170,8 @@ class PenetrationSearch {
   const Placed& b_;
   Vec32 offset_;
   ExpandingPolytope polytope_;
-  // The best face so far: its plane, moved outwards to the farthest point of the difference, is the nearest to the
-  // origin.
+  // The best face so far. Its plane, moved outwards until it only touches the Minkowski difference, is nearer to the
+  // origin than that of any other face tested.
   Face best_;
   Vec32 outward_;
   int64_t support_ = INT64_MAX / 2;
@@ -216,8 +216,8 @@ bool PenetrationSearch::complete(const Simplex& simplex, Vec64& across) {
     const Vec32 edge = subtract(p(1), p(0));
     const auto aside = [&](const Vec32& q) { return !is_zero(cross(edge, subtract(q, p(0)))); };
     const uint32_t x = magnitude_32(edge.x), y = magnitude_32(edge.y), z = magnitude_32(edge.z);
-    // `axis` is the coordinate axis along which the edge's extent is least; `across` is its part perpendicular to the
-    // edge. Of equal extents y comes first, so that level segments are separated upwards, then x.
+    // `axis` is the coordinate axis along which the edge's extent is least. `across` is the part of `axis`
+    // perpendicular to the edge. Of equal extents, y is taken first, then x. So level segments are separated upwards.
     const Vec32 axis = y <= x && y <= z ? Vec32{0, 1, 0} : x <= z ? Vec32{1, 0, 0} : Vec32{0, 0, 1};
     const Vec64 level = cross(edge, axis);
     across = cross(scaled_to_30_bits(level), scaled_to_30_bits(edge));

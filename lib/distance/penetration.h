@@ -17,9 +17,9 @@ struct Penetration {
 /// The expanding polytope has at most this many vertices. Shapes with few faces need far fewer (tests/unit/distance).
 inline constexpr int k_penetration_vertices_max = 64;
 
-/// Error of `depth` and `lower`, ulps of the block. They are computed for the placed vertices and rounded up and down.
-/// The normal errs by up to k_normalise_error in each component, together by less than 6 2^-30. So the coordinate along
-/// the normal of a vertex shorter than 2^30 errs by less than 6 ulps.
+/// Error of `depth` and `lower`, ulps of the block. Both are computed from the placed vertices; `depth` is rounded up
+/// and `lower` down. The normal errs by up to k_normalise_error in each component, together by less than 6 2^-30. So
+/// the coordinate along the normal of a vertex shorter than 2^30 errs by less than 6 ulps.
 inline constexpr int k_penetration_slack = 8;
 
 /// With a cylinder or cone, the search ends when `depth - lower` is at most this many ulps, which is also the error of

@@ -4,18 +4,18 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-// A box: bit i of a vertex is set if its coordinate i is negative.
+// The triangles of a box, three vertex numbers each. Bit i of a vertex number is set if coordinate i is negative.
 constexpr uint8_t k_box_triangles[] = {0, 2, 6, 0, 6, 4, 1, 5, 7, 1, 7, 3, 0, 4, 5, 0, 5, 1,
                                        2, 3, 7, 2, 7, 6, 0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5};
 constexpr uint8_t k_box_neighbours[] = {1, 2, 3, 4, 5, 6, 0, 3, 5, 7, 0, 3, 6, 7, 0, 1, 2, 7,
                                         0, 5, 6, 7, 0, 1, 4, 7, 0, 2, 4, 7, 1, 2, 3, 4, 5, 6};
 constexpr uint8_t k_box_neighbours_at[] = {0, 6, 10, 14, 18, 22, 26, 30, 36};
 
-// A triangle.
+// The two sides of a triangle shape, and the two neighbours of each corner.
 constexpr uint8_t k_sides[] = {0, 1, 2, 0, 2, 1};
 constexpr uint8_t k_corner_neighbours[] = {1, 2, 0, 2, 0, 1};
 
-/// The normal of a triangle.
+/// Returns a normal of a triangle; its length is twice the area.
 Vec64 across(const Vec32& p, const Vec32& q, const Vec32& r) { return cross(subtract(q, p), subtract(r, p)); }
 
 }  // namespace
@@ -64,9 +64,10 @@ EdgeFaces Polytope::faces(uint32_t from, uint32_t to) const {
   const Vec32 start = vertex(from), end = vertex(to);
   const HullIndices near = neighbours(from), far = neighbours(to);
   EdgeFaces faces = {{0, 0, 0}, {0, 0, 0}, false};
-  // The third corner of each adjacent triangle is a neighbour of both ends. Among these common neighbours, it is the
-  // one whose triangle's plane has no other above it. The common neighbours lie within an angle of pi about the edge,
-  // so they are ordered by angle. If they span exactly pi, the edge is flat.
+  // Each of the two triangles at the edge has a third corner, which is a neighbour of both ends of the edge. Among the
+  // common neighbours of the ends, it is the one whose plane through the edge has no other common neighbour above it.
+  // The common neighbours lie within an angle of pi about the edge, so they are ordered by angle. If they span exactly
+  // pi, the edge is flat.
   bool first = true;
   for (uint32_t i = 0, j = 0; i < near.count && j < far.count;) {
     const uint32_t common = near.index[i];

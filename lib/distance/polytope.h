@@ -17,7 +17,7 @@ class Polytope {
  public:
   /// Whether the convex is a box, hull or triangle without rounding.
   static bool is_one(const Convex& convex);
-  /// Range: is_one(convex), which must outlive this.
+  /// Range: is_one(convex). `convex` must outlive this object.
   explicit Polytope(const Convex& convex);
 
   uint32_t vertex_count() const { return vertex_count_; }

@@ -22,8 +22,8 @@ struct RestingPair {
   int32_t block_above(int64_t raw) const;
 };
 
-/// Errors: bad_argument for two half-spaces; not_normalised; out_of_range for NaN and infinity, and with a half-space
-/// if a component of the offset is 2^16 m or more.
+/// Sets `pair` from two shapes at rest. Errors: bad_argument for two half-spaces; not_normalised; out_of_range for NaN
+/// and infinity, and with a half-space if a component of the offset is 2^16 m or more.
 Status rest(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, RestingPair& pair);
 
 /// load_cache() reads the simplex from which gjk() starts; save_cache() stores the last simplex for the next call.

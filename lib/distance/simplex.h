@@ -39,7 +39,8 @@ class Simplex {
   /// Rounding: relative 2^-29. Range: not holds_origin(), count > 0.
   Vec32 direction() const;
 
-  /// v . p times a positive number, exact, for the nearest point v. Range: not holds_origin(), |p| < 2^30.
+  /// Returns v . p times a positive number, exactly, where v is the point of the simplex nearest to the origin. Range:
+  /// not holds_origin(), |p| < 2^30.
   Int128 support(const Vec32& p) const;
 
   /// The weights of the vertices in the nearest point, Q30. Their sum is 2^30 within rounding. Arbitrary if the simplex
@@ -61,8 +62,8 @@ class Simplex {
   SimplexVertex vertex_[4];
   int count_ = 0;
   bool holds_origin_ = false;
-  // Edge (count 2): from vertex 1 to vertex 0. Triangle (count 3): `normal_` is perpendicular to it and points from the
-  // origin towards it.
+  // Edge (two vertices): `edge_` runs from vertex 1 to vertex 0. Triangle (three vertices): `normal_` is perpendicular
+  // to it and points from the origin towards it.
   Vec32 edge_;
   int64_t edge_square_;
   int64_t along_;  // nearest point's distance from vertex 1 times the edge's length, in (0, edge_square_)
@@ -73,8 +74,8 @@ class Simplex {
 // below 2^92, the weight of a vertex in a triangle below 2^122, and the test of a vertex against an edge below 2^125
 // (128 bits).
 
-/// The sign of v.(y - a), where v is the point nearest to the origin on the edge from a. The computed value is scaled
-/// by the edge's square.
+/// The sign of v . (y - a), where v is the point nearest to the origin on the edge that starts at a. The computed value
+/// is v . (y - a) times the edge's square.
 inline int side_of_edge(const Vec32& a, const Vec32& edge, int64_t square, int64_t along, const Vec32& y) {
   const Vec32 displacement = subtract(y, a);
   return sign_of(Int128::product(square, dot(a, displacement)) + Int128::product(along, dot(edge, displacement)));
@@ -128,8 +129,8 @@ inline void Simplex::keep(int a, int b, int c) {
   count_ = 3;
 }
 
-/// Whether the nearest point of the line through a and b lies strictly between them. Sets edge_, edge_square_ and
-/// along_.
+/// Whether the point nearest to the origin on the line through a and b lies strictly between a and b. Sets edge_,
+/// edge_square_ and along_.
 inline bool Simplex::edge_holds(const Vec32& a, const Vec32& b) {
   edge_ = subtract(b, a);
   edge_square_ = dot(edge_, edge_);
@@ -142,8 +143,9 @@ inline void Simplex::reduce_edge() {
   keep(1);
 }
 
-/// Whether the nearest point of the triangle's plane lies within the triangle of the newest vertex a with b and c. The
-/// weight of a is known to be positive, so the other two weights decide. Sets normal_.
+/// Whether the point nearest to the origin in the plane of the triangle lies within the triangle. The corners are the
+/// newest vertex a, and b and c. The weight of a is known to be positive, so the other two weights decide. Sets
+/// normal_.
 inline bool Simplex::triangle_holds(const Vec32& a, const Vec32& b, const Vec32& c) {
   normal_ = cross(subtract(b, a), subtract(c, a));
   return sign_of(dot(cross(a, b), normal_)) > 0 && sign_of(dot(cross(c, a), normal_)) > 0;

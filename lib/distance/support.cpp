@@ -51,8 +51,8 @@ class Projection {
   int64_t dx_, dy_, dz_;
 };
 
-/// Hill climbing: moves to the farthest neighbour as long as one lies farther. On a convex hull the last vertex is the
-/// farthest of all.
+/// Hill climbing: moves to the farthest neighbour while a neighbour lies farther than the current vertex. On a convex
+/// hull the last vertex is the farthest of all.
 uint32_t climb(const HullView& hull, const Projection& projection, uint32_t start) {
   uint32_t best = start < hull.vertex_count ? start : 0, last = best;
   int64_t best_value = projection.of(best);

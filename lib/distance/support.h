@@ -45,7 +45,7 @@ class Placed {
   int shift;      ///< number of bits that the shape's own coordinates lose in the block, >= 0
   Vec32 axis[3];  ///< box and capsule: the rotation's columns times the half extents
 
-  /// The place of a local core point. Error: k_placing_error in each component.
+  /// Converts a core point from the shape's axes to the block. Error: k_placing_error in each component.
   Vec32 point(const Vec32& local) const {
     if (convex->type == ShapeType::box) return box_point(local.x >> 31, local.y >> 31, local.z >> 31);
     return other_point(local);
@@ -62,9 +62,9 @@ class Placed {
 };
 inline constexpr double k_placing_error = 1.5;  ///< ulps of the block: a box's point is the sum of three rounded axes
 
-/// At least |v|, and at most 1.6 % and 2 more. Range: |v|^2 < 2^63.
+/// An upper bound of |v|, too large by at most 1.6 % and 2. Range: |v|^2 < 2^63.
 inline int64_t length_bound_32(const Vec32& v) { return square_root_bound(static_cast<uint64_t>(dot(v, v))); }
-/// |(x, z)|, to nearest.
+/// The length of (v.x, v.z), rounded to nearest.
 inline int64_t length_across(const Vec32& v) {
   return square_root_nearest(static_cast<uint64_t>(int64_t{v.x} * v.x) + static_cast<uint64_t>(int64_t{v.z} * v.z));
 }

@@ -50,8 +50,9 @@ constexpr FloatParts float_parts(Float value) {
           negative, biased != 2 * Format::k_bias + 1};
 }
 
-/// (-1)^negative mantissa 2^exponent. A caller that dropped lower bits sets the lowest bit of a mantissa of at least
-/// 2^62. Rounding: to nearest, ties to even, once. Overflow: the largest finite number; below the normal range: +0.
+/// Returns (-1)^negative mantissa 2^exponent. A caller that has dropped lower bits passes a mantissa of at least 2^62
+/// with its lowest bit set (sticky bit). Rounding: to nearest, ties to even, once. Overflow: the largest finite number;
+/// below the normal range: +0.
 template <class Float>
 constexpr Float float_from_parts(uint64_t mantissa, int exponent, bool negative) {
   using Format = FloatFormat<Float>;

@@ -9,7 +9,7 @@ inline namespace DETENT_NAMESPACE {
 
 namespace {
 
-/// The floor of the root of value >= 2^62, and value - root^2.
+/// Returns the floor of the root of `value` >= 2^62. Sets `remainder` to value - root^2.
 uint32_t root_of_normal(uint64_t value, uint64_t& remainder) {
   const uint32_t head = static_cast<uint32_t>(value >> 32);
   const uint32_t inverse = reciprocal_root(head);

@@ -15,12 +15,12 @@ constexpr Quat conjugate(const Quat& q) { return {-q.x, -q.y, -q.z, q.w}; }
 Quat normalise(const Quat& q);
 /// As normalise(), for any length. Range: |q| in [1/2, 2).
 Quat normalise_any(const Quat& q);
-/// False, `out` untouched, unless | |q| - 1 | <= 2^-10.
+/// Normalises a rotation given by the user. Returns false and leaves `out` unchanged unless | |q| - 1 | <= 2^-10.
 bool normalise_input(const Quat& q, Quat& out);
 
-/// q v q*: from local to world.
+/// Rotates v from local to world axes: q v q*.
 Vec3<Unit> rotate(const Quat& q, const Vec3<Unit>& v);
-/// q* v q: from world to local.
+/// Rotates v from world to local axes: q* v q.
 Vec3<Unit> rotate_inverse(const Quat& q, const Vec3<Unit>& v);
 #if DETENT_FIXED
 /// Range: |v| < 2^16 m.
@@ -51,7 +51,7 @@ Quat rotation_from_vector(const Vec3<Real>& theta);
 Vec3<Real> rotation_vector_from(const Quat& q);
 
 // Errors of a component in steps (k_unit_step). Arguments whose length is not exactly 1 cause further errors.
-inline constexpr double k_normalise_quat_error = 4.0;  ///< of |q|, if | |q|^2 - 1 | < 2^-10 before
+inline constexpr double k_normalise_quat_error = 4.0;  ///< of |q| after normalise(), if | |q|^2 - 1 | < 2^-10 before
 inline constexpr double k_rotate_error = 4.0;          ///< for |v| <= 1; Real vectors: steps of Real, any |v|
 inline constexpr double k_rotation_error = 4.0;        ///< rotation_from_vector; float: times 1 + |theta|
 inline constexpr double k_rotation_vector_error = 10.0;

@@ -64,7 +64,7 @@ DETENT_SHARED constexpr Vec64 multiply(const Matrix32& m, const Vec32& v) {
   return {dot(v, Vec32{c[0].x, c[1].x, c[2].x}), dot(v, Vec32{c[0].y, c[1].y, c[2].y}),
           dot(v, Vec32{c[0].z, c[1].z, c[2].z})};
 }
-/// The inverse rotation of v, rounded.
+/// v rotated by the inverse of m, rounded.
 DETENT_SHARED constexpr Vec32 rotate_inverse(const Matrix32& m, const Vec32& v) {
   return {round_30(dot(v, m.column[0])), round_30(dot(v, m.column[1])), round_30(dot(v, m.column[2]))};
 }

@@ -43,7 +43,8 @@ DETENT_PASSING constexpr Scaled to_scaled(uint64_t word) {
 #endif
 }  // namespace words
 
-/// mantissa 2^exponent in canonical form. A caller that dropped lower bits sets the mantissa's lowest bit.
+/// Returns mantissa 2^exponent in canonical form. A caller that has dropped lower bits sets the mantissa's lowest bit
+/// (sticky bit).
 DETENT_PASSING inline Scaled scaled_from_parts(bool negative, uint64_t mantissa, int exponent) {
   return words::to_scaled(words::scaled_from_parts(negative, mantissa, exponent));
 }

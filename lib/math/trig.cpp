@@ -52,8 +52,8 @@ Real radians(Angle angle) {
 }
 
 Angle arc_tangent(Unit y, Unit x) {
-  // Both are scaled so that the larger has 31 bits. The bits that the smaller loses change the angle by less than
-  // 2^-31 rad.
+  // x and y are scaled by one power of two so that the larger has 31 bits. The bits that the smaller loses change the
+  // angle by less than 2^-31 rad.
   const Unit large = max(abs(y), abs(x));
   const FloatParts parts = float_parts(large);
   const int frac = 7 - parts.exponent;

@@ -38,8 +38,8 @@ void sine_cosine_of_half_radians(Real angle, Unit& sine, Unit& cosine);
 Angle angle_from_radians(Real angle);
 /// rad, in [-pi, pi). Rounding: to nearest.
 Real radians(Angle angle);
-/// The angle of the point (x, y): atan2(y, x), in (-1/2, 1/2] turn. (0, 0) gives 0. Error: k_arc_tangent_error.
-/// For a result of exactly half a turn, radians() gives -pi: only there the sign differs.
+/// The angle of the point (x, y): atan2(y, x), in (-1/2, 1/2] turn. (0, 0) gives 0. Error: k_arc_tangent_error. If the
+/// result is exactly half a turn, radians() of it gives -pi instead of pi.
 Angle arc_tangent(Unit y, Unit x);
 
 #if DETENT_FIXED

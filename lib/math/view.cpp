@@ -15,10 +15,10 @@ float to_float(double value) {
   return float_from_parts<float>(parts.mantissa, parts.exponent, parts.negative);
 }
 float relative(Coord a, Coord camera) { return to_float(a - camera); }
-/// Returns exactly `to` at alpha = 1. There is no jitter if both are equal.
+/// Interpolates between two coordinates. Returns exactly `to` at alpha = 1, and exactly `from` if both are equal.
 Coord between(Coord from, Coord to, Unit alpha) { return alpha == 1.0 ? to : from + (to - from) * alpha; }
 #else
-/// a - camera: the difference is exact (65 bits), then rounded once.
+/// Returns a - camera. The difference is exact (65 bits) and is rounded once.
 float relative(Coord a, Coord camera) {
   const bool negative = a < camera;
   const uint64_t low = static_cast<uint64_t>(int64_t{negative ? a.raw : camera.raw});

@@ -17,7 +17,7 @@ inline constexpr Coord k_coord_limit =
 inline constexpr Bounds k_everywhere = {{-k_coord_limit, -k_coord_limit, -k_coord_limit},
                                         {k_coord_limit, k_coord_limit, k_coord_limit}};
 
-/// Overlaps nothing.
+/// Empty bounds: they overlap nothing.
 inline constexpr Bounds k_nowhere = {k_everywhere.upper, k_everywhere.lower};
 
 /// The least half sizes of axis-aligned bounds that are centred at the body's position and contain the shape, m, world

@@ -17,7 +17,7 @@ int64_t length_of(const Vec32& v) {
 /// value 2^-n, rounded up. Range: 0 <= n < 62.
 int64_t shift_up(int64_t value, int n) { return (value + (int64_t{1} << n) - 1) >> n; }
 
-/// The hull's depth behind a face, in 2^-30 of the hull's unit, rounded down.
+/// Returns how far the hull reaches behind the plane of a face, in 2^-30 of the hull's unit, rounded down.
 int64_t depth_behind(const HullView& hull, uint32_t face) {
   const HullPlane plane = hull.plane(face);
   const Vec32 normal = {plane.normal[0], plane.normal[1], plane.normal[2]};
@@ -98,7 +98,8 @@ bool is_within(const HullView& inner, const HullView& outer) {
   return true;
 }
 
-/// `at`: where the next hull starts.
+/// Checks child `i` and computes its measure. `at`: the offset at which the next hull must start; moved past the
+/// child's hulls.
 bool read_child(const Asset& asset, const CompoundView& compound, uint32_t i, uint32_t& at, ChildMeasure& measure) {
   const CompoundChild child = compound.child(i);
   const uint32_t start = k_compound_header_bytes + k_compound_child_bytes * i;

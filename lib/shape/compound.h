@@ -67,7 +67,7 @@ struct CompoundView {
   int32_t half_thickness() const { return cooked_i32(bytes + k_compound_half_thickness_at); }
   /// The greatest |x|, |y| and |z|.
   Vec32 half_extents() const { return vector(bytes + k_compound_half_extents_at); }
-  /// The mass over the density, in unit^3.
+  /// The volume (mass over density), in unit^3.
   HullScaled volume() const { return scaled(k_compound_volume_at); }
   /// Inverse inertia (per unit mass), m unit^2 / I, about the body's axis (0 to 2).
   HullScaled inverse_inertia(uint32_t axis) const { return scaled(k_compound_inverse_inertia_at + 8 * axis); }
@@ -104,14 +104,14 @@ inline ChildBox child_box(const CompoundChild& child) {
   return {{least(a.x, b.x), least(a.y, b.y), least(a.z, b.z)}, {most(a.x, b.x), most(a.y, b.y), most(a.z, b.z)}};
 }
 
-/// Stored values of the header and the children, computed from the hulls and balls: `detent cook` writes them, and
-/// the reader compares them.
+/// Values that the header and the children store. `detent cook` computes them from the hulls and balls and writes
+/// them. The reader computes them again and compares.
 struct ChildMeasure {
   Vec32 low, high;
-  int64_t radius;  ///< greatest distance of its surface from the origin, rounded up
+  int64_t radius;  ///< greatest distance of the child's surface from the origin, rounded up
   int64_t half_thickness;
 };
-/// `exponent`: the compound's; `hull`: the child's, or empty.
+/// Measures a child. `exponent`: the compound's exponent. `hull`: the child's hull, or an empty view.
 ChildMeasure measure_child(const CompoundChild& child, const HullView& hull, int32_t exponent);
 
 /// Checks untrusted bytes. The children of an accepted compound are balls, capsules and hulls that read_hull() accepts.

@@ -6,7 +6,7 @@ namespace {
 
 bool in_range(int64_t value) { return value >= -k_terrain_coordinate_max && value <= k_terrain_coordinate_max; }
 
-/// Whether the sizes are positive and all samples are in range, judged by the least and greatest height of the root.
+/// Whether the sizes are positive and all samples are in range. The root node gives the least and the greatest sample.
 bool lengths_are_good(const HeightFieldView& field) {
   if (field.spacing_x <= 0 || field.spacing_z <= 0 || field.step <= 0) return false;
   const uint8_t* root = field.node(field.level_count - 1, 0, 0);

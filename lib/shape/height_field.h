@@ -99,7 +99,7 @@ struct HeightFieldView {
 /// The height field at `bytes`. read_height_field() must have accepted them; this function checks nothing.
 HeightFieldView height_field_view(const uint8_t* bytes);
 
-/// The stored form of a node: the least and the greatest height of its samples, or of the nodes below.
+/// Computes what the file stores for a node: the least and the greatest height of its samples, or of the nodes below.
 void height_node(const HeightFieldView& field, uint32_t level, uint32_t i, uint32_t j, int32_t& low, int32_t& high);
 
 /// Checks untrusted bytes. Errors: buffer_misaligned (8), not_detent, format_unknown, truncated, corrupt,

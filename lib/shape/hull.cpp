@@ -73,9 +73,9 @@ uint32_t half_edge(const HullView& hull, uint32_t a, uint32_t b) {
 }
 
 /// Whether the triangles form a closed surface whose sides are the neighbours, no vertex lies above a triangle's plane,
-/// and the surface encloses the stated volume. Then the triangles about a vertex cover the boundary there. So a vertex
-/// that is not the farthest along a direction has a neighbour that is farther. There are as many sides as neighbours:
-/// if each side is found, and none twice, then the neighbours are in range, ascending and complete.
+/// and the surface encloses the stated volume. If so, the triangles at each vertex cover the boundary around it. A
+/// vertex that is not the farthest along a direction then has a neighbour that is farther. There are as many sides as
+/// neighbours. So if each side is found and none is found twice, the neighbours are in range, ascending and complete.
 bool triangles_are_good(const HullView& hull) {
   uint8_t seen[(k_half_edges_max + 7) / 8] = {};
   const Vec32 apex = hull.vertex(0);
@@ -104,7 +104,7 @@ bool triangles_are_good(const HullView& hull) {
   const int shift = stated.exponent + 90;  // -40 to 62
   const Int128 six = Int128::from(int64_t{6} * stated.mantissa).shift_left(shift > 0 ? shift : 0);
   const Int128 error =
-      six - (shift < 0 ? volume.shift_left(-shift) : volume);  // at most one step, so the volume is positive
+      six - (shift < 0 ? volume.shift_left(-shift) : volume);  // at most one mantissa step, so the volume is positive
   const Int128 step = Int128::from(6).shift_left(shift > 0 ? shift : 0);
   return !(step < error) && !(step < -error);
 }
@@ -172,8 +172,8 @@ bool plane_is_good(const HullView& hull, uint32_t face) {
   return true;
 }
 
-/// Whether the edges are ascending and each lies between two faces that have it in opposite directions. As their number
-/// is right, these are all edges.
+/// Whether the edges are in ascending order and each lies between two faces that have it in opposite directions. The
+/// number of edges is right, so these are all edges.
 bool edges_are_good(const HullView& hull) {
   uint32_t last = 0;
   for (uint32_t i = 0; i < hull.edge_count; ++i) {
@@ -193,7 +193,7 @@ bool frame_is_good(const HullView& hull) {
   const bool principal = hull.frame() == HullFrame::principal;
   if (!principal && hull.frame() != HullFrame::source) return false;
   for (uint32_t axis = 0; axis < 3; ++axis) {
-    const HullScaled inverse_inertia = hull.inverse_inertia(axis);  // above 1, as no vertex is a unit away; below 2^70
+    const HullScaled inverse_inertia = hull.inverse_inertia(axis);  // in (1, 2^70): no vertex is a unit away
     if (principal && !inverse_inertia.is_canonical(-30, 40)) return false;
     if (!principal && (inverse_inertia.mantissa != 0 || inverse_inertia.exponent != 0)) return false;
     const uint64_t origin = load_u64(hull.bytes + k_hull_origin_at + 8 * axis);

@@ -96,7 +96,7 @@ struct HullScaled {
     return mantissa >= k_one && exponent >= exponent_min && exponent <= exponent_max;
   }
 };
-/// Vertex indices, in the asset.
+/// A list of vertex indices; the indices stay in the asset.
 struct HullIndices {
   const uint8_t* index;
   uint32_t count;
@@ -142,7 +142,7 @@ struct HullView {
   int32_t exponent() const { return cooked_i32(bytes + k_hull_exponent_at); }
   int32_t core_radius() const { return cooked_i32(bytes + k_hull_core_radius_at); }
   HullFrame frame() const { return static_cast<HullFrame>(cooked_u32(bytes + k_hull_frame_at)); }
-  /// In unit^3.
+  /// The volume, in unit^3.
   HullScaled volume() const { return scaled(k_hull_volume_at); }
   /// Inverse inertia (per unit mass), m unit^2 / I, about the body's axis (0 to 2), for uniform density; 0 in the
   /// source frame.

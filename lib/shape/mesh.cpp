@@ -36,8 +36,8 @@ bool triangle_is_good(const MeshView& mesh, uint32_t i) {
   return !is_zero(area_vector(a, b, c));
 }
 
-/// Whether the neighbour has the edge in the opposite direction with this triangle as its neighbour there, and the edge
-/// kind matches the corners.
+/// Whether the neighbour at edge k has this edge in the opposite direction, names triangle i as its neighbour there,
+/// and the stored kind of the edge matches the corners.
 bool edge_is_good(const MeshView& mesh, uint32_t i, uint32_t k) {
   const uint32_t other = mesh.neighbour(i, k);
   if (other == k_no_triangle) return true;

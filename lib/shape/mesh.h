@@ -94,7 +94,8 @@ struct MeshView {
 /// The mesh at `bytes`. read_mesh() must have accepted them; this function checks nothing.
 MeshView mesh_view(const uint8_t* bytes);
 
-/// The stored form of a node: the bounds of its triangles, or of the nodes below, in steps of 2^shift from `low`.
+/// Computes what the file stores for a node: the bounds of its triangles, or of the nodes below, in steps of 2^shift
+/// from `low`.
 void mesh_node(const MeshView& mesh, uint32_t level, uint32_t i, uint16_t (&node)[6]);
 
 /// Checks untrusted bytes. In an accepted mesh the indices are valid, neighbours are mutual, the edge kinds match the

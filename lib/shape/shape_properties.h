@@ -11,9 +11,9 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The greatest inverse inertia (per unit mass). So a body's radius of inverse inertia about an axis is taken as at
-/// least 2^-7.5 of its unit of length: 5.5 mm for a rod of 1.6 m. For a thinner body, the change of angular velocity by
-/// an impulse far off its axis would leave the range of Real when it is summed over two bodies.
+/// The greatest inverse inertia (per unit mass). It limits sqrt(I / m) about an axis to at least 2^-7.5 of the body's
+/// unit of length: 5.5 mm for a rod of 1.6 m. For a thinner body, an impulse far off its axis would change the angular
+/// velocity so much that the sum of two bodies' changes would leave the range of Real.
 inline constexpr Scaled k_inverse_inertia_max = 0x1p15;
 
 /// The least size_exponent of a body.

@@ -7,7 +7,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr Real k_half_turn_limit = 3.0;  ///< a smaller estimate cannot add a full revolution
+constexpr Real k_half_turn_limit = 3.0;  ///< rad; a full revolution cannot be added to a smaller estimate
 constexpr int32_t k_turns_max = 1 << 14;
 
 /// The nearest integer to a / b for b > 0, clamped to +-k_turns_max. Binary long division: it needs no conversion to

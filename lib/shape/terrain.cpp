@@ -6,7 +6,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// The formats differ in this byte of the magic.
+/// The position of the byte of the magic in which the two formats differ.
 constexpr uint32_t k_letter_at = 3;
 
 }  // namespace

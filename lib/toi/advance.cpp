@@ -3,14 +3,14 @@
 #include "math/root.h"
 #include "math/trig_integer.h"
 
-// Formats: parts of the horizon and lengths of the block Q30; rotation vectors, translations and directions Q29;
-// separations Q56.
+// Number formats. Q30: parts of the horizon, lengths in the block. Q29: rotation vectors, translations, directions.
+// Q56: separations.
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// n x u, Q29, with n in Q30 and u in Q29.
+/// Returns n x u in Q29, for n in Q30 and u in Q29.
 Vec32 cross_29(const Vec32& n, const Vec32& u) { return round_shift(cross(n, u), 30); }
 
 /// a b 2^-n, rounded up. Range: a, b >= 0.
@@ -24,8 +24,8 @@ Vec32 to_local_29(const Matrix32& rotation, const Vec32& v) {
   return {component(rotation.column[0]), component(rotation.column[1]), component(rotation.column[2])};
 }
 
-/// One body relative to an axis that rotates by `angular_velocity`: its part of the separation and of the curvature
-/// bound K.
+/// One body as seen from the axis, which rotates by `angular_velocity` over the horizon: the body's part of the
+/// separation and of the curvature bound K.
 class Side {
  public:
   /// `sign`: -1 for A, which contributes its farthest point along the axis; 1 for B, which contributes its farthest
@@ -43,14 +43,14 @@ class Side {
     still_ = is_zero(relative_);
     if (!present_ || still_) return;
     speed_ = length_bound_32(relative_);
-    // |w x angular velocity| = |u x angular velocity|
+    // w: the body's own angular velocity; u = w - angular_velocity. So |w x angular_velocity| is equal to
+    // |u x angular_velocity|.
     twist_ = is_zero(own_angular_velocity) || is_zero(angular_velocity)
                  ? 0
                  : length_bound_32(round_shift(cross(relative_, angular_velocity), 29));
   }
 
-  /// Sets the axis at the start of a pass. For a body that rotates with the axis the first call is valid for all
-  /// passes.
+  /// Sets the axis at the start of a pass. If the body rotates with the axis, one call is enough for all passes.
   void look(const Matrix32& rotation, const Vec32& normal) {
     normal_ = to_local_29(rotation, normal);
     if (still_) {
@@ -65,9 +65,10 @@ class Side {
   bool present() const { return present_; }
   Matrix32 rotation_at(int64_t time) const { return turning_.at(time); }
 
-  /// A bound on the magnitude of the second derivative of this body's part of the separation: rho (|n x u| |u| + |w x
-  /// angular velocity|), Q26, with rho the core radius and w the body's own angular velocity. In the time `rest`, |n x
-  /// u| grows by at most |n x angular velocity| |u| `rest`; `tilt` is |n x angular velocity|.
+  /// Returns a bound, Q26, on the magnitude of the second derivative of this body's part of the separation: rho (|n x
+  /// u| |u| + |w x angular_velocity|). Here n is the axis, rho the core radius, w the body's own angular velocity and u
+  /// = w - angular_velocity. In the time `rest`, |n x u| grows by at most |n x angular_velocity| |u| `rest`. `tilt` is
+  /// |n x angular_velocity|.
   int64_t curvature(int64_t tilt, int64_t rest) const {
     if (!moves()) return 0;
     const int64_t grown = across_ + (tilt == 0 ? 0 : product_above(product_above(tilt, speed_, 29), rest, 30));
@@ -98,14 +99,14 @@ class Side {
   int64_t core_;
   int shift_, sign_;
   bool present_, still_;
-  Vec32 relative_;                                ///< u = w - angular velocity, Q29
-  int64_t speed_ = 0, twist_ = 0, across_ = 0;    ///< |u|, |w x angular velocity|, |n x u|, Q29
+  Vec32 relative_;                                ///< u = w - angular_velocity, Q29
+  int64_t speed_ = 0, twist_ = 0, across_ = 0;    ///< |u|, |w x angular_velocity|, |n x u|, Q29
   Vec32 normal_ = {0, 0, 0}, slope_ = {0, 0, 0};  ///< n and n x u, Q29, in the body's axes
   int64_t value_ = 0;
   mutable uint8_t start_ = 0;
 };
 
-/// The certified separation along a rotating axis, from the start of one pass on.
+/// A lower bound of the separation along a rotating axis, from the start of one pass on.
 class Separation {
  public:
   Separation(const MovingPair& pair, const Horizon& horizon, const Vec32& normal, const Vec32& angular_velocity,
@@ -118,7 +119,7 @@ class Separation {
         b_(*pair.b, pair.turning_b, horizon.angular_velocity_b, angular_velocity, pair.core_b, pair.exponent, 1) {
     if (is_zero(angular_velocity)) return;
     tilt_ = length_bound_32(cross_29(normal, angular_velocity));
-    // |n x angular velocity| (2 |V| + |angular velocity| max |C|)
+    // |n x angular_velocity| (2 |V| + |angular_velocity| max |C|), V: the displacement, C: the offset of the centres.
     const int64_t speed = 2 * length_bound_32(horizon.displacement) +
                           product_above(length_bound_32(angular_velocity), pair.distance_max, 30);
     centre_curvature_ = product_above(tilt_, speed, 32);
@@ -136,11 +137,11 @@ class Separation {
     set_centre(pair_.offset_at(time), normal, part);
   }
 
-  /// K, Q26.
+  /// The curvature bound K: the magnitude of the second derivative of the separation is at most K. Q26.
   int64_t curvature() const { return curvature_; }
 
   struct Value {
-    int64_t separation;  ///< less the floor, Q56
+    int64_t separation;  ///< separation minus the floor, Q56
     int64_t slope;       ///< at this time, with the support points of this time; Q30
   };
   /// `x`: time since the pass's start, Q30 of the horizon.
@@ -164,10 +165,11 @@ class Separation {
   int32_t floor_;
   Side a_, b_;
   int64_t tilt_ = 0, centre_curvature_ = 0, curvature_ = 0;
-  int64_t centre_ = 0, centre_slope_ = 0;  ///< n.C less the floor, Q56; its slope, Q30
+  int64_t centre_ = 0, centre_slope_ = 0;  ///< n . C minus the floor, Q56; its slope, Q30
 };
 
-/// The root x > 0 of separation + slope x - K x^2/2, Q30, at most `limit`. It is only a first guess.
+/// Returns the root x > 0 of separation + slope x - K x^2 / 2, where K is `curvature`; Q30, at most `limit`. It is only
+/// a first guess.
 int64_t parabola_root(int64_t separation, int64_t slope, int64_t curvature, int64_t limit) {
   const int64_t s = separation >> 28;                                         // Q28
   const int64_t b = slope >> 4;                                               // Q26
@@ -241,8 +243,8 @@ int32_t advance(const MovingPair& pair, const Frames& frames, const Horizon& hor
     for (int step = 0;; ++step) {
       const Separation::Value value = separation.at(x);
       if (value.separation >= 0) break;
-      // The chord from the start lies below the concave function, so its root is always safe. It is good enough when it
-      // loses 3 %.
+      // The function is concave, so it lies above its chord from the start. The root of the chord is therefore always
+      // safe. It is taken when it loses about 3 % at most.
       if (step == 4 || value.slope >= 0 || -value.separation < first.separation >> 5) {
         x = x * (first.separation >> 26) / ((first.separation - value.separation + (int64_t{1} << 26)) >> 26);
         break;

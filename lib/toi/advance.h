@@ -7,7 +7,8 @@ inline namespace DETENT_NAMESPACE {
 /// The maximum number of intervals that are certified along one axis.
 inline constexpr int k_passes_max = 24;
 
-/// The motion of a pair over a horizon, which is a part of the step. All motion is per horizon.
+/// The motion of a pair over a horizon, which is a part of the step. Displacements and rotation vectors are those over
+/// the whole horizon.
 struct Horizon {
   int64_t start, length;                         ///< parts of the step, 2^-62
   Vec32 displacement;                            ///< translation of B relative to A, Q29 of the pair's unit
@@ -31,26 +32,28 @@ Horizon horizon_from(const MovingPair& pair, int64_t start, int64_t length, int 
 /// The horizon that begins at `start` and lasts exactly `length`.
 Horizon horizon_over(const MovingPair& pair, int64_t start, int64_t length);
 
-/// Certifies how long the cores stay `floor` ulps apart along the rotating axis n(t) = exp(t angular velocity) normal.
-/// `frames` are the poses at the horizon's start. Returns a part of the horizon, Q30; 0 if the cores are closer than
-/// that at the start. Range: |angular_velocity_x - angular velocity| + 1 < 4 for both bodies, |angular velocity| < 3.
-/// Derivation: docs/design/time_of_impact.md, "Conservative advancement, never late".
+/// Certifies how long the cores stay `floor` ulps apart along the axis n(t) = exp(t angular_velocity) normal, which
+/// rotates. The unit of time and of `angular_velocity` is the horizon. `frames` are the poses at the horizon's start.
+/// Returns a part of the horizon, Q30; 0 if the cores are closer than `floor` at the start. Range, rad: |w -
+/// angular_velocity| + 1 < 4 for the rotation vector w of each body, |angular_velocity| < 3. Derivation:
+/// docs/design/time_of_impact.md, "Conservative advancement, never late".
 int32_t advance(const MovingPair& pair, const Frames& frames, const Horizon& horizon, const Vec32& normal,
                 const Vec32& angular_velocity, int32_t floor, uint32_t& passes);
 
-/// Calls advance() for consecutive horizons of the same length, at most k_horizons_max of them, until the axis
-/// certifies no more or the window ends. Returns the time that it reached.
+/// Calls advance() for consecutive horizons of the same length, at most k_horizons_max of them. Stops when the axis
+/// certifies less than a whole horizon or when the window ends. Returns the time that it reached.
 int64_t advance_on(const MovingPair& pair, const Frames& frames, const Horizon& horizon, const Vec32& normal,
                    const Vec32& angular_velocity, int32_t floor, uint32_t& passes);
 inline constexpr int k_horizons_max = 8;
 
-/// As advance(), by a single step: with the first-order bound if `tight`, otherwise with the paper's bound.
+/// As advance(), by a single step along a fixed axis n. The speed of the points of a body with rotation vector w and
+/// core radius rho is bounded by rho |n x w| if `tight`, otherwise by rho |w| (ToiMethod::paper).
 int32_t advance_once(const MovingPair& pair, const Frames& frames, const Horizon& horizon, const Vec32& normal,
                      bool tight, int32_t floor, uint32_t& passes);
 
-/// The separation of the cores along `normal`, less `floor` ulps; Q56 of the pair's unit. It is too large by at most
-/// the rounding budget (docs/design/time_of_impact.md, "The rounding budget"). It is negative where the cores are
-/// closer than `floor` along `normal`.
+/// Returns the separation of the cores along `normal` minus `floor` ulps; Q56 of the pair's unit. The result is too
+/// large by at most the rounding budget (docs/design/time_of_impact.md, "The rounding budget"). It is negative if the
+/// cores are closer than `floor` along `normal`.
 int64_t separation_along(const MovingPair& pair, const Frames& frames, const Vec32& normal, int32_t floor);
 
 /// An axis that rotates by the rotation vector `angular_velocity`, Q29, over a horizon.
@@ -65,7 +68,7 @@ class RotatingAxis {
   int64_t rate_, along_;          ///< |angular velocity|, Q29; axis . normal
   bool turns_;
 };
-inline constexpr double k_turning_axis_error = 8.0;  ///< 2^-30
+inline constexpr double k_turning_axis_error = 8.0;  ///< units of 2^-30
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -9,7 +9,7 @@ namespace {
 
 constexpr Vec32 k_no_angular_velocity = {0, 0, 0};
 
-/// The search tries this many plain axes before it predicts an axis.
+/// The search uses this many axes as GJK finds them, before it predicts an axis.
 constexpr int k_plain_iterations = 1;
 
 /// The time up to which the axis of `nearest` certifies the separation.

@@ -21,8 +21,8 @@ constexpr bool moves_both(ToiMethod method, const MovingPair& pair) {
   return method == ToiMethod::world_space && !pair.planar;
 }
 
-/// The maximum number of axes of a search. The second limit is for the methods that exist only for comparison: they
-/// need many axes on hard queries.
+/// The maximum number of axes of a search. The second limit is for the methods that exist only for comparison, because
+/// these need many axes on hard queries.
 inline constexpr int k_toi_iterations_max = 24;
 inline constexpr int k_toi_iterations_compared_max = 256;
 
@@ -32,7 +32,7 @@ inline constexpr int k_toi_iterations_compared_max = 256;
 void conservative_advancement(const MovingPair& pair, ToiMethod method, TimeOfImpact& result,
                               int32_t enough = INT32_MAX);
 
-/// time_of_impact() (toi.h) by one of those methods.
+/// time_of_impact() (toi.h) by one of the first k_axis_methods methods.
 Status time_of_impact_on_axes(ToiMethod method, const Convex& a, const Motion& motion_a, const Convex& b,
                               const Motion& motion_b, TimeOfImpact& result);
 

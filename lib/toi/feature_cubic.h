@@ -13,12 +13,12 @@ struct OpenPart {
 inline constexpr int64_t k_whole = int64_t{1} << 30;
 inline constexpr OpenPart k_open = {0, k_whole}, k_closed = {1, 0};
 
-/// The error of corners that are rounded to 29 bits and a sign. Products of two such components fit 64 bits, products
-/// of three fit 128 bits (tests/guards/proofs/feature.g).
+/// The rounding of corners to 29 bits and a sign, and their error. Products of two such components fit 64 bits,
+/// products of three fit 128 bits (tests/guards/proofs/feature.g).
 struct Shortening {
   int shift;             ///< the number of bits dropped; rounding is to nearest
   int64_t distance_max;  ///< bound on every component after the shift
-  int64_t ball;          ///< error radius after the shift, rounding included; at most reach + 1
+  int64_t ball;          ///< error radius after the shift, rounding included; at most distance_max + 1
 
   /// `magnitudes`: the bitwise or of all component magnitudes. `ball_before`: the error radius before the shift.
   Shortening(uint64_t magnitudes, int64_t ball_before) {
@@ -33,12 +33,12 @@ struct Shortening {
   /// Whether the error radius is so large that products carry no information and their error bounds would overflow.
   bool is_blind() const { return 8 * ball > distance_max; }
 
-  /// The largest component of |(a + d) x (b + e) - a x b|, with d and e within the ball.
+  /// Bound on every component of (a + d) x (b + e) - a x b, for errors d and e within the ball.
   int64_t moment_error() const { return 2 * ball * (2 * distance_max + ball); }
-  /// The error bound of the volume of three corners p, q, r that are off by d, e, f. It bounds |d.(q x r)|, |(d x
-  /// e).r|, their permutations, and |(d x e).f|. `moments` is the sum of the component magnitudes of the three cross
-  /// products, below 2^62. A flat triangle has small cross products, so the bound depends on its area and not on its
-  /// length.
+  /// The error bound of the volume p . (q x r) of three corners p, q, r whose errors are d, e, f. It bounds |d.(q x
+  /// r)|, |(d x e).r|, their permutations, and |(d x e).f|. `moments` is the sum of the component magnitudes of the
+  /// three cross products, below 2^62. A flat triangle has small cross products, so the bound depends on its area and
+  /// not on its length.
   Int128 volume_error(int64_t moments) const {
     return Int128::product_narrow(moments + 18 * ball * distance_max + 6 * ball * ball, static_cast<int32_t>(ball));
   }

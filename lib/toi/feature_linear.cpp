@@ -4,7 +4,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Corners that move in straight lines have differences that move in straight lines, equal to their chords.
+/// Features whose corners move in straight lines. The differences of the corners then move in straight lines too, so
+/// their paths are equal to their chords.
 struct LinearPath {
   int count;
   Vec64 start[4], displacement[4];

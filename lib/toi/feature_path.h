@@ -14,7 +14,7 @@ struct PlacedPair {
 /// Bounds on the paths of points of a body that rotates about its position.
 struct RotationBound {
   int64_t radius;  ///< the largest distance of a point from the position, 2^-46 m
-  int64_t angle;   ///< 2^-46 rad over the step; a point's acceleration is at most angle^2 reach
+  int64_t angle;   ///< 2^-46 rad over the step; a point's acceleration is at most angle^2 radius
 
   /// The largest distance of a point from its chord over an interval of this length: an eighth of the acceleration
   /// times the square of the length, and at most a diameter.
@@ -46,7 +46,7 @@ struct SweptPair {
 /// Two bodies of constant velocity and constant angular velocity, in world axes.
 struct SteadyMotion : SweptPair {
   Turning turning_a, turning_b;
-  Vec64 offset, displacement;  ///< of B from A, 2^-46 m
+  Vec64 offset, displacement;  ///< position and translation of B relative to A, 2^-46 m
 
   PlacedPair at(int64_t time) const {
     return {turning_a.at(time), turning_b.at(time), add(offset, over_time(displacement, time))};
@@ -59,7 +59,8 @@ struct Ends {
   PlacedPair begin, end;
 };
 
-/// Features of two bodies in a motion. `Motion` has at(), bend(), turn() and ball() with the meaning of SteadyMotion's.
+/// Features of two bodies in a motion. `Motion` has at(), bend(), angle_in() and ball() with the meaning of
+/// SteadyMotion's.
 template <class Motion>
 struct FeaturePath {
   const Motion& motion;

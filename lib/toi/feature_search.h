@@ -43,7 +43,7 @@ inline Vec64 rotated(const Matrix32& m, const Vec64& v) {
   return {row(c[0].x, c[1].x, c[2].x), row(c[0].y, c[1].y, c[2].y), row(c[0].z, c[1].z, c[2].z)};
 }
 constexpr bool is_kind(FeatureKind kind) { return kind == FeatureKind::vertex_face || kind == FeatureKind::edge_edge; }
-/// The first corner of B.
+/// The index of the first corner that belongs to B.
 constexpr int first_of_b(FeatureKind kind) { return kind == FeatureKind::vertex_face ? 1 : 2; }
 
 /// The differences of corners, those of B minus those of A, in order around the polygon. `corner` is in the order of
@@ -61,16 +61,16 @@ inline void set_differences(FeatureKind kind, const Vec64 (&corner)[4], Vec64 (&
 }
 constexpr int difference_count(FeatureKind kind) { return kind == FeatureKind::vertex_face ? 3 : 4; }
 
-/// The longest edge of two features, by its largest component.
+/// The largest component, in magnitude, of any edge of two features.
 inline int64_t size_of(FeatureKind kind, const Vec64 (&corner)[4]) {
   const auto edge = [&corner](int a, int b) { return largest_component(add(corner[b], negate(corner[a]))); };
   if (kind == FeatureKind::edge_edge) return larger(edge(0, 1), edge(2, 3));
   return larger(larger(edge(1, 2), edge(1, 3)), edge(2, 3));
 }
 
-/// The gap below which features count as touching at the beginning of an interval that may hold a contact. It is more
-/// than open_part() needs, so that the search always rules out features that are not near. The rest of
-/// k_feature_tolerance is for rounding.
+/// Returns the gap below which features count as touching at the beginning of an interval that may hold a contact. It
+/// is larger than the distance from which on open_part() rules out a contact. So the search always rules out features
+/// that are not near. The rest of k_feature_tolerance is for rounding.
 constexpr int64_t near_gap(int64_t size, int64_t ball) { return larger(size >> 22, 2 * ball + 8); }
 
 /// value times part, with `part` in Q30. Rounding: down. Range: 0 <= part <= 1.

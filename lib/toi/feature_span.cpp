@@ -30,8 +30,9 @@ struct ShortSpan {
   }
 };
 
-/// Whether the axis that GJK finds separates the points from the cube around the origin with half edge `ball`. If it
-/// does not, hardly any other axis does. A fixed axis that separates the ends of chords also separates the chords.
+/// Whether the axis that GJK finds separates the points from the cube around the origin with half edge `ball`. If this
+/// axis does not separate them, hardly any other axis does. A fixed axis that separates the ends of chords also
+/// separates the chords.
 bool parted(const Vec32* point, int count, int64_t ball) {
   Vec64 sum = {0, 0, 0};
   for (int i = 0; i < count; ++i) sum = add(sum, Vec64{point[i].x, point[i].y, point[i].z});
@@ -83,8 +84,8 @@ struct Moment {
   }
 };
 
-/// Whether a projection along a coordinate axis shows that the polygon never contains the origin. A projected polygon
-/// contains the origin only if q(i) x q(i + 1) has the same sign at all of its edges.
+/// Whether a projection along a coordinate axis shows that the polygon never contains the origin. With q(i) its
+/// projected corners, the polygon contains the origin only if q(i) x q(i + 1) has the same sign at all of its edges.
 bool passes_by(const ShortSpan& span) {
   const int64_t error = span.is.moment_error();
   bool left[3] = {false, false, false}, right[3] = {false, false, false};
@@ -102,7 +103,8 @@ bool passes_by(const ShortSpan& span) {
   return (left[0] && right[0]) || (left[1] && right[1]) || (left[2] && right[2]);
 }
 
-/// Three times the volume of three corners, which is 0 where the polygon's plane contains the origin.
+/// Three times the volume p . (q x r) of three corners p, q, r, as a cubic in time. It is 0 where the plane of the
+/// polygon contains the origin.
 Cubic coplanarity(const ShortSpan& span) {
   const int last = span.count - 1;
   const Moment far(span, 1, last), first(span, 0, 1), second(span, last, 0);

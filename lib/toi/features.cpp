@@ -7,7 +7,7 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 constexpr int k_tries_max = 3;
-constexpr int k_tracking_quarters = 4;  ///< a predicted axis rotation is useless over more than 1 rad
+constexpr int k_tracking_quarters = 4;  ///< quarter radians; an axis rotation is predicted over at most 1 rad
 constexpr int32_t k_relative_angular_velocity_max =
     3 << 28;  ///< 1.5 rad, Q29, relative to the base rotation: the limit of the formats of advance()
 
@@ -17,7 +17,7 @@ struct FeatureAxis {
   int64_t gap;   ///< ulps
 };
 
-/// A core point relative to its shape's centre, in ulps of the block.
+/// Converts a core point from its shape's axes to ulps of the block, relative to the shape's centre, world axes.
 Vec32 placed_point(const MovingPair& pair, const Convex& convex, const Matrix32& rotation, const Vec32& local) {
   return round_shift(multiply(rotation, local), 30 + pair.exponent - convex.exponent);
 }
@@ -78,7 +78,7 @@ int64_t ratio(int64_t numerator, int64_t denominator) {
   return numerator >= denominator ? k_one_64 : (numerator << 30) / denominator;
 }
 
-/// Range: a, b >= 0.
+/// Returns sqrt(a b). Range: a, b >= 0.
 int64_t geometric_mean(int64_t a, int64_t b) {
   const Int128 square = Int128::product(a, b);
   return static_cast<int64_t>(
@@ -149,7 +149,7 @@ int64_t advance_tracking(const MovingPair& pair, const Frames& frames, const Sim
   const int64_t kept = !edges && distance * 3 / 10 > floor ? distance * 3 / 10 : floor;
   const int64_t speed = closing_speed(pair, features, frames, widest, normal);
   if (speed > 0) length = part_rounded(widest.length, ratio(distance - kept, speed));
-  // After a close approach the speed says nothing about how long an axis is valid.
+  // After a close approach, the closing speed does not tell how long an axis is valid.
   if (progress < widest.length / 4) {
     const int64_t hope = 4 * progress + (int64_t{1} << 20);
     if (length > hope) length = hope;

@@ -9,9 +9,9 @@ namespace {
 
 bool has_rim(const Convex& convex) { return convex.type == ShapeType::cylinder || convex.type == ShapeType::cone; }
 
-/// The window as one horizon. False if the bodies rotate too far or the window is empty. Also false for two rims: near
-/// contact gjk() may reach its iteration cap there and the full search ends undecided, and this test must not change
-/// that result.
+/// Sets `window` to the whole window as one horizon. Returns false for a half-space, if the bodies rotate too far, or
+/// if the window is empty. Also returns false for two rims: near contact, gjk() may reach its iteration cap and the
+/// full search ends undecided. This test must not change that result.
 bool window_of(const MovingPair& pair, Horizon& window) {
   if (pair.planar || pair.from > pair.to || (has_rim(*pair.a) && has_rim(*pair.b))) return false;
   window = horizon_from(pair, pair.from, pair.to - pair.from, k_horizon_quarters);

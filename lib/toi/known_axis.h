@@ -6,8 +6,9 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Ulps that a certificate must exceed the touching distance by. gjk() can then never find witness points that show a
-/// certified pair to touch: a certificate may be too large by 31 ulps, and a distance of gjk() too small by at most 30.
+/// A certified separation must exceed the touching distance by this many ulps. Then gjk() can never find witness points
+/// that show a certified pair to touch: a certified separation may be too large by 31 ulps, and a distance of gjk() too
+/// small by at most 30.
 /// Derived in docs/design/time_of_impact.md, "A known axis replaces the search".
 inline constexpr int32_t k_certain = 64;
 

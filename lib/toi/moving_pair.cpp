@@ -32,14 +32,14 @@ int64_t root_above(Int128 value) {
          1;
 }
 
-/// Sets the window in which |offset + t displacement| <= reach, 2^-46 m, widened by all rounding. Returns a bound on
-/// the excess of the distance over `distance_max` in the widened window, 2^-46 m.
+/// Sets the window in which |offset + t displacement| <= distance_max, 2^-46 m, widened by all rounding. Returns a
+/// bound, 2^-46 m, on the amount by which the distance in the widened window can exceed `distance_max`.
 int64_t set_window(MovingPair& pair, int64_t distance_max) {
   const Vec64 &c = pair.offset, &d = pair.displacement;
   const int length = bit_length_64(static_cast<uint64_t>(distance_max) | magnitudes(c) | magnitudes(d));
   const int n = length > 29 ? length - 29 : 0;  // components below 2^29, norms below 2^30
   const Vec32 from = round_shift(c, n), displacement = round_shift(d, n);
-  const int64_t r = (distance_max >> n) + 4;  // for the rounding of offset, displacement and reach
+  const int64_t r = (distance_max >> n) + 4;  // for the rounding of offset, displacement and distance_max
   const int64_t square = dot(displacement, displacement), along = dot(from, displacement),
                 rest = dot(from, from) - r * r;
   const int64_t rounding = int64_t{12} << n;
@@ -69,7 +69,7 @@ int64_t set_window(MovingPair& pair, int64_t distance_max) {
       return 0;
     }
   }
-  const int64_t leave = root - along;  // times `square`; the root rounds it up
+  const int64_t leave = root - along;  // end of the window times `square`, rounded up by the root
   if (leave >= 0 && leave < square) {
     const int64_t to = time_quotient(leave, square);
     if (to < k_time_end - 1) pair.to = to + 1;
@@ -142,7 +142,8 @@ Status turning_of(const Motion& motion, Turning& turning) {
   turning.turns = true;
   turning.rotation_vector = displacement;
   turning.axis = unit_vector_raw(scaled_to_30_bits(rotation_vector));
-  // |turn| = axis . turn / |axis| with |axis|^2 = 1 + excess. The rounding of the axis only has a second-order effect.
+  // |rotation_vector| = axis . rotation_vector / |axis|, with |axis|^2 = 1 + excess. The rounding of the axis has only
+  // a second-order effect.
   const int64_t excess = dot(turning.axis, turning.axis) - (int64_t{1} << 60);
   const int64_t along = dot(rotation_vector, turning.axis).round_shift(30);
   turning.angle = along - Int128::product(along, excess).round_shift(61);

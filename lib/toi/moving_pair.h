@@ -38,7 +38,7 @@ struct Turning {
   Vec32 axis;             ///< of the rotation, world axes, Q30
   int64_t rate;           ///< 2^-46 revolutions over the step
   Vec64 rotation_vector;  ///< rotation vector, 2^-46 rad over the step
-  int64_t angle;          ///< |turn|, rounded up
+  int64_t angle;          ///< |rotation_vector|, rounded up
 
   /// The rotation at a time. Error of a rotated unit vector: k_turning_error.
   Matrix32 at(int64_t time) const { return turns ? matrix_from(rotation_at(time)) : start_matrix; }
@@ -46,7 +46,7 @@ struct Turning {
 };
 inline constexpr double k_turning_error = 16.0;  ///< 2^-30 (tests/unit/distance)
 
-/// A body that does not rotate.
+/// Returns the Turning of a body that does not rotate.
 Turning still(const Quat32& rotation);
 /// The rotation of a motion. Errors: not_normalised; out_of_range for a rotation of more than 2^16 rad. After an error
 /// `turning` may be partly written.
@@ -66,9 +66,9 @@ struct MovingPair {
   Turning turning_a, turning_b;
   Vec64 offset;                            ///< from A's position to B's at the start, 2^-46 m
   Vec64 displacement;                      ///< of B relative to A over the step, 2^-46 m
-  bool absolute = false;                   ///< A and B are moved one by one, and then the difference is taken
+  bool absolute = false;                   ///< A and B are moved separately before the difference is taken
   Vec64 displacement_a;                    ///< translation of A over the step, 2^-46 m
-  Vec64 offset_whole, displacement_whole;  ///< with the part along a resting half-space's plane
+  Vec64 offset_whole, displacement_whole;  ///< including the part along a resting half-space's plane
   bool planar;                             ///< one of the two shapes is a half-space
   int64_t from, to;                        ///< the window in which the shapes can touch; from > to: never
   int exponent;            ///< 2^exponent m is the pair's unit of length; the block's ulp is 2^-30 of it
@@ -97,9 +97,9 @@ struct MovingPair {
 /// `offset` and `displacement`: of B relative to A, 2^-46 m. Errors: out_of_range for a displacement of 2^15 m or more,
 /// or if the centres are 2^16 m or more apart and the spheres may still touch.
 Status set_block(const Vec64& offset, const Vec64& displacement, MovingPair& pair);
-/// These set the rotations, and the translations with the window and the block, of a pair whose shapes are set. If one
-/// shape is a half-space, call set_turnings() first; otherwise set_displacements() does not need it. Errors: as
-/// time_of_impact().
+/// set_turnings() sets the rotations. set_displacements() sets the translations, the window and the block. The shapes
+/// of the pair must be set. If one shape is a half-space, call set_turnings() first; otherwise set_displacements() does
+/// not need it. Errors: as time_of_impact().
 Status set_turnings(const Motion& motion_a, const Motion& motion_b, MovingPair& pair);
 Status set_displacements(const Motion& motion_a, const Motion& motion_b, MovingPair& pair);
 /// Sets all of the pair: shapes, rotations, translations and block. Errors: as time_of_impact().

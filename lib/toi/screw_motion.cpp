@@ -53,7 +53,8 @@ int64_t ScrewMotion::tangent_length() const {
 }
 
 int64_t ScrewMotion::bend(int64_t radius) const {
-  // With r the distance from the axis, |x''| <= 4 g^2 r and g r <= |d| sqrt(1 + g^2) / 2 + g |x|.
+  // Symbols as in ScrewMotion, and r the distance of a point from the screw axis: |x''| <= 4 g^2 r, and g r <= |d|
+  // sqrt(1 + g^2) / 2 + g |x|.
   const int64_t far = length_above(displacement), g = tangent_length();
   const auto times_g = [g](int64_t value) { return Int128::product(value, g).round_shift(k_tangent_bits) + 1; };
   const int64_t swing = times_g(times_g(radius)), drift = times_g(far + times_g(far));

@@ -42,7 +42,7 @@ struct ScrewMotion {
   Vec64 turned(const Vec64& y, int64_t time, int64_t inverse_weight) const;
   /// The position, relative to A's, of the point that is `x` from B's position at the start.
   Vec64 at(const Vec64& x, int64_t time, int64_t inverse_weight) const;
-  /// Bound on the distance from its chord over the whole step, for points within `radius` of B's position.
+  /// Bound on the distance of a path from its chord over the whole step, for points within `radius` of B's position.
   int64_t bend(int64_t radius) const;
 };
 

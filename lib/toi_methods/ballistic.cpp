@@ -15,13 +15,13 @@ constexpr int64_t k_quarter_turn = int64_t{1} << 32;  ///< 2^-34 revolutions
 constexpr int64_t k_phase_error = 2;                  ///< of the rate and of its shift, 2^-34 revolutions, rounded up
 constexpr int64_t k_sine_error_above = 1;             ///< error of sine_cosine_raw(), 2^-30, rounded up
 
-/// Bounds on the reduction of a separation.
+/// Bounds on how much a motion has reduced the separation, and on the speed at which it reduces it further.
 struct Taken {
   int64_t displacement;  ///< ulps
   int64_t speed;         ///< ulps over the step
 };
 
-/// Bound on the reduction of the separation along a normal by a body's rotation.
+/// Bound on how much a body's rotation reduces the separation along a normal.
 class Swing {
  public:
   /// `core`: its core radius, ulps.
@@ -66,7 +66,7 @@ int64_t ballistic_time(const MovingPair& pair, const Frames& frames, const Vec32
     const int64_t left = room + over_time(speed, elapsed) - a.displacement - b.displacement;
     if (left <= 0) break;
     const int64_t fall = a.speed + b.speed - speed;
-    if (fall <= 0) return pair.to;  // fall only decreases from here on
+    if (fall <= 0) return pair.to;  // fall only decreases with time
     const int64_t gain = time_quotient(left, fall);
     if (gain >= rest - elapsed) return pair.to;
     elapsed += gain;

@@ -49,7 +49,8 @@ struct LerpMotion : SweptPair {
   PlacedPair at(int64_t time) const {
     return {rotation_of(line_a.at(time)), rotation_of(line_b.at(time)), add(offset, over_time(displacement, time))};
   }
-  /// The factor that makes the features' volume a polynomial: the product of the quaternions' squares, Q30.
+  /// The factor that makes the volume of a feature pair's corners a polynomial: the product of the quaternions'
+  /// squares, Q30.
   int64_t weight_at(int64_t time) const {
     const int64_t a = clipped_32(QuaternionLine::square(line_a.at(time))) >> 2;
     const int64_t b = clipped_32(QuaternionLine::square(line_b.at(time))) >> 2;
@@ -145,7 +146,7 @@ Quintic coplanarity(const Path& path, const Interval& interval) {
   return through(value, is_all_noise ? int64_t{1} << 49 : brought(error) + 2);
 }
 
-/// The first root at which the features are near.
+/// Search strategy for FeaturePairs: finds the first numerical root of the volume at which the features are near.
 struct NumericalRoots {
   template <class Path>
   static void find(const Path& path, int64_t gap, const Interval& interval, FeatureToi& result) {

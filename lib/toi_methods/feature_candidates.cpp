@@ -13,9 +13,9 @@ Vec32 turned(const Matrix32& rotation, const Vec32& v) { return round_shift(mult
 }  // namespace
 
 bool may_touch(const EdgeFan& a, const EdgeFan& b, const StepPart& part) {
-  // Their common normal is n = s a x b for a sign s. It lies between the face normals of A, n = x left + y right with
-  // x, y >= 0, only if s left.b >= 0 >= s right.b. The same condition with a and b exchanged holds for -n = s b x a and
-  // the face normals of B.
+  // The common normal of the two edges is n = s a x b, where a and b are their directions and s is a sign. It lies
+  // between the face normals of A, n = x left + y right with x, y >= 0, only if s left.b >= 0 >= s right.b. The same
+  // condition with a and b exchanged holds for -n = s b x a and the face normals of B.
   const int64_t slack = (part.angle + CandidateSide::k_unit_error) << 30;
   const int64_t left_a = dot(a.left, b.along), right_a = dot(a.right, b.along);
   const int64_t left_b = dot(b.left, a.along), right_b = dot(b.right, a.along);

@@ -15,12 +15,12 @@ struct StepPart {
   Interval interval;
   PlacedPair begin, end;
   int64_t angle;  ///< bound on the relative rotation of the bodies, Q30 rad
-  /// Bound on the distance from its chord of a difference of a point of A and a point of B, 2^-46 m, roundings
-  /// included.
+  /// Bound, 2^-46 m, on the distance of a path from its chord, roundings included. The path is that of the difference
+  /// of a point of A and a point of B.
   int64_t bend;
   Vec64 displacement;  ///< translation of B relative to A over the part, 2^-46 m
-  /// 2^-46 m. Along a normal as it is at the beginning, touching points that keep their motion over the whole part move
-  /// by `displacement` within +-stray.
+  /// A bound, 2^-46 m. The relative motion of two touching points over the part, along a normal as it is at the
+  /// beginning, is that of `displacement` within +-stray, if the points keep their motion over the whole part.
   int64_t stray;
 
   /// Whether points that touch with this outward normal of A at the beginning may approach. When two bodies first
@@ -50,12 +50,12 @@ class CandidateSide {
 
   /// The position of a vertex in the body's axes, 2^-46 m.
   Vec64 corner(uint32_t vertex) const;
-  /// The support distance of the body from its position along a unit direction in its axes, Q30: 2^-46 m.
+  /// Returns how far the body extends from its position, 2^-46 m, along a unit direction (Q30) in the body's axes.
   int64_t extent(const Vec32& direction) const { return metres(farthest(direction)); }
   /// Selects as candidates the vertices that extend at least `least`, 2^-46 m, along the direction at the beginning or
   /// at the end.
   void choose(const Vec32 (&direction)[2], const int64_t (&least)[2]);
-  /// The largest distance of some vertices along the direction of `end`, 2^-46 m.
+  /// Returns the largest coordinate of the given vertices along the direction of `end` (0: beginning, 1: end), 2^-46 m.
   int64_t extent(const uint32_t* vertex, int count, int end) const {
     int64_t most = INT64_MIN;
     for (int i = 0; i < count; ++i) most = larger(most, dot(direction_[end], polytope_.vertex(vertex[i])));
@@ -92,7 +92,7 @@ class CandidateSide {
   Vec32 direction_[2] = {};
 };
 
-/// The separation of the bodies along a unit direction from A to B, Q30, world axes: 2^-46 m.
+/// Returns the separation of the bodies, 2^-46 m, along a unit direction from A to B (Q30, world axes).
 int64_t separation(const PlacedPair& pair, const Vec32& direction, const CandidateSide& a, const CandidateSide& b);
 
 /// Selects on both sides the vertices whose paths can bring them together along `normal`, which points from A to B in

@@ -13,7 +13,7 @@ inline constexpr int64_t k_part_turn[k_lengths] = {1 << 30, 1 << 28, 1 << 25};
 /// The maximum number of parts; after them the result is `undecided`.
 inline constexpr uint32_t k_parts_max = 4096;
 
-/// The certified first contact of two features in an interval.
+/// Search strategy for FeaturePairs: finds the certified first contact of two features in an interval.
 struct CertifiedSearch {
   template <class Path>
   static void find(const Path& path, int64_t gap, const Interval& interval, FeatureToi& result) {
@@ -21,7 +21,7 @@ struct CertifiedSearch {
   }
 };
 
-/// The first contact of two polytopes as the first contact of their features. `Motion` is as in FeaturePath.
+/// Finds the first contact of two polytopes as the first contact of their features. `Motion` is as in FeaturePath.
 template <class Motion, class Search = CertifiedSearch>
 class FeaturePairs {
  public:
@@ -92,8 +92,9 @@ class FeaturePairs {
     part_.stray = 8 * bend + part_of(cores_ + length_bound(part_.displacement), part_.angle) + 2 * ball;
   }
 
-  /// Chooses the end of a part that begins at `from`. It is the end of the longest allowed length over which the normal
-  /// certainly separates the bodies; if there is none, about the time at which they overlap by `depth_` along it.
+  /// Chooses the end of a part that begins at `from`. The part gets the longest allowed length over which the normal
+  /// certainly separates the bodies. If there is none, the part ends about when the bodies overlap by `depth_` along
+  /// the normal.
   void set_part(int64_t from, int64_t to) {
     for (int i = 0; i < k_lengths; ++i) {
       const int64_t length = to - from < length_max_[i] ? to - from : length_max_[i];
@@ -130,7 +131,7 @@ class FeaturePairs {
     return count;
   }
 
-  /// The first contact of all feature pairs in the part. The part is cut off at a contact.
+  /// Finds the first contact of all feature pairs in the part. Shortens the part so that it ends at the contact.
   void find(FeatureToi& first) {
     find_on_faces(a_, b_, true, first);
     find_on_faces(b_, a_, false, first);
@@ -186,7 +187,7 @@ class FeaturePairs {
   }
 
   /// Tests a feature of `side` against a feature of `other`. `vertex` lists the vertices in the corner order of
-  /// FeatureKind. The part is cut off at a contact.
+  /// FeatureKind. Shortens the part so that it ends at a contact.
   void ask(FeatureKind kind, const CandidateSide& side, const CandidateSide& other, const uint32_t (&vertex)[4],
            FeatureToi& first) {
     const int split = first_of_b(kind);

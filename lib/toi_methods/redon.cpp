@@ -11,7 +11,7 @@ namespace {
 struct RelativeScrew {
   ScrewMotion screw;
   Matrix32 start;      ///< B's rotation
-  int64_t bend_whole;  ///< bound for any point of B over the whole step, 2^-46 m
+  int64_t bend_whole;  ///< bound on the distance of the path of a point of B from its chord over the step, 2^-46 m
   int64_t angle;       ///< bound on the relative angular speed, Q30 rad per step
   int64_t rounding;
 

@@ -7,7 +7,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Stands for the separation, Q56, of a witness that has no normal.
+/// The value that separation() returns, Q56, for a witness that has no normal.
 constexpr int64_t k_no_witness = -(int64_t{1} << 56);
 
 enum class MovesWith {
@@ -39,8 +39,8 @@ class Witness {
   }
 
   /// Finds a time, from that of `frames` on, after which the cores are less than `floor` ulps apart along the witness.
-  /// Returns the end of the window if they are not that close at the end, and the time of `frames` if they are already
-  /// that close then.
+  /// Returns the end of the window if they are at least `floor` ulps apart there. Returns the time of `frames` if their
+  /// separation is then at most `floor` plus half the tolerance.
   int64_t leads_to(const Frames& frames, int32_t floor, uint32_t& passes) const {
     // Any separation within [0, 2 aim] is good enough: together with the floor it is within the tolerance.
     const int64_t aim = int64_t{pair_.tolerance} << 24;
