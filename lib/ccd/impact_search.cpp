@@ -84,10 +84,10 @@ ImpactPair* find_impact(const ImpactStage& stage, uint64_t key) {
   return found;
 }
 
-Real free_shrink_depth(const ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts, Real& disabled_pairs) {
+Real free_shrink_depth(const ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts, Real& clearance) {
   const Real extent = stage.extent_of(key);
   if (contacts.count == 0) {
-    disabled_pairs = stage.known.complete ? scale_by_power(extent, -6) : k_zero;
+    clearance = stage.known.complete ? scale_by_power(extent, -6) : k_zero;
     return k_zero;
   }
   Real least = contacts[0].separation[0];
@@ -97,14 +97,14 @@ Real free_shrink_depth(const ImpactStage& stage, uint64_t key, Span<const Contac
     rebounds = rebounds || is_positive(contact.restitution);
   }
   if (is_left_to_impact(contacts[0])) {
-    disabled_pairs = k_zero;
+    clearance = k_zero;
     return k_zero;
   }
   // A round body may be nearer than its contacts say. Their separation includes the distance that is gained by sliding
   // past.
   const bool round = is_curved(stage, pair_low(key)) || is_curved(stage, pair_high(key));
   if (least > scale_by_power(extent, -10)) {
-    disabled_pairs = round ? k_zero : scale_by_power(least, -1);
+    clearance = round ? k_zero : scale_by_power(least, -1);
     // If the solver has made a ball bounce, the ball touches at the end of the tick. The query would report an impact
     // within its tolerance, so the test starts one shrink depth deeper. Other shapes may collide at another point
     // first.
@@ -113,20 +113,19 @@ Real free_shrink_depth(const ImpactStage& stage, uint64_t key, Span<const Contac
   }
   const Real shrink_depth = contact_shrink_depth(extent, -least);
   // Adds the shrink depth of only one body, because the contact points need not show the whole depth of the overlap.
-  disabled_pairs = (round ? min(least, k_zero) : least) + shrink_depth;
+  clearance = (round ? min(least, k_zero) : least) + shrink_depth;
   return shrink_depth;
 }
 
-/// Returns the first shrink depth, m, of a pair with these contacts; there may be none. `disabled_pairs` becomes a
+/// Returns the first shrink depth, m, of a pair with these contacts; there may be none. `clearance` becomes a
 /// lower bound, m, of the distance of the cores at that depth. For a jointed body the depth is larger: only those
 /// collisions count in which the body would otherwise pass through.
-Real first_shrink_depth(const ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts,
-                        Real& disabled_pairs) {
-  const Real shrink_depth = free_shrink_depth(stage, key, contacts, disabled_pairs);
+Real first_shrink_depth(const ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts, Real& clearance) {
+  const Real shrink_depth = free_shrink_depth(stage, key, contacts, clearance);
   if (!jointed(stage, pair_low(key)) && !jointed(stage, pair_high(key))) return shrink_depth;
   const Real held =
       max(shrink_depth, scale_by_power(stage.extent_of(key), -2) + scale_by_power(stage.extent_of(key), -3));
-  disabled_pairs += held - shrink_depth;
+  clearance += held - shrink_depth;
   return held;
 }
 
@@ -188,13 +187,13 @@ void test_at_start(ImpactStage& stage, uint64_t key, Span<const ContactWork> con
   if (!stage.dynamic(low) && !stage.dynamic(high)) return;
   if (is_at_rest(stage.bodies.sweeps[low]) && is_at_rest(stage.bodies.sweeps[high])) return;
   if (!overlap(stage.bodies.bounds[low], stage.bodies.bounds[high]) || !may_collide(stage, low, high)) return;
-  Real disabled_pairs = k_zero, closing = k_zero;
-  const Real shrink_depth = first_shrink_depth(stage, key, contacts, disabled_pairs);
+  Real clearance = k_zero, closing = k_zero;
+  const Real shrink_depth = first_shrink_depth(stage, key, contacts, clearance);
   const Fraction start = 0.0;
   // The sum of both bounds is cheap to compute, and mostly sufficient.
-  const bool slow = stage.bodies.sweeps[low].motion_bound + stage.bodies.sweeps[high].motion_bound < disabled_pairs;
+  const bool slow = stage.bodies.sweeps[low].motion_bound + stage.bodies.sweeps[high].motion_bound < clearance;
   if (stage.filters() &&
-      (slow || (closing_bound(stage.body(low), stage.body(high), start, closing) && closing < disabled_pairs))) {
+      (slow || (closing_bound(stage.body(low), stage.body(high), start, closing) && closing < clearance))) {
     ++stage.report.skipped;
     return;
   }
@@ -232,8 +231,8 @@ void test_changed(ImpactStage& stage, uint32_t slot, Fraction time) {
     if (is_at_rest(stage.bodies.sweeps[slot]) && is_at_rest(stage.bodies.sweeps[other])) return;
     const uint64_t key = key_of_pair(slot, other);
     const Span<const ContactWork> contacts = find_contacts(stage.known.contacts, key);
-    Real disabled_pairs = k_zero, shrink_depth = k_zero;
-    if (!is_new_impact(stage, key, contacts)) shrink_depth = first_shrink_depth(stage, key, contacts, disabled_pairs);
+    Real clearance = k_zero, shrink_depth = k_zero;
+    if (!is_new_impact(stage, key, contacts)) shrink_depth = first_shrink_depth(stage, key, contacts, clearance);
     stage.test(key, time, shrink_depth, find_impact(stage, key));
   });
 }
