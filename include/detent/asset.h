@@ -4,7 +4,8 @@
 #include <detent/status.h>
 
 /// @file
-/// Cooked data (hulls, compounds, meshes, height fields), which several worlds can share, and its properties.
+/// Cooked data: hulls, compounds, meshes and height fields. Several worlds can share it. Functions that check and
+/// describe it.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -43,7 +44,7 @@ struct HullInfo {
   int32_t rotation[4] = {};     ///< x, y, z, w in 2^-30: v_source = rotation v_body rotation* + origin
 };
 
-/// Checks a cooked hull as make_hull() (distance.h) does, and describes it.
+/// Checks a cooked hull as make_hull() (distance.h) does, and sets `info` to its properties.
 /// Errors: buffer_misaligned, not_detent, format_unknown, truncated, corrupt, out_of_range.
 Status hull_info(const Asset& asset, HullInfo& info);
 
@@ -51,15 +52,15 @@ Status hull_info(const Asset& asset, HullInfo& info);
 struct MeshInfo {
   uint32_t vertex_count = 0;    ///< vertices
   uint32_t triangle_count = 0;  ///< triangles
-  uint32_t node_count = 0;      ///< nodes of its tree
-  int32_t exponent = 0;         ///< the unit of length is 2^exponent m; coordinates are in 2^-30 of it
+  uint32_t node_count = 0;      ///< nodes of the mesh's bounding volume tree
+  int32_t exponent = 0;         ///< the unit of length is 2^exponent m; coordinates are in 2^-30 of this unit
   bool one_sided = false;       ///< bodies collide only with the side on which the corners are counter-clockwise
   int32_t low[3] = {};          ///< least coordinates of the vertices
   int32_t high[3] = {};         ///< greatest coordinates of the vertices
 };
 
-/// Checks a cooked mesh in full and describes it. Errors: buffer_misaligned (to 8 bytes), not_detent, format_unknown,
-/// truncated, corrupt, out_of_range (the exponent).
+/// Checks all bytes of a cooked mesh and sets `info` to its properties. Errors: buffer_misaligned (to 8 bytes),
+/// not_detent, format_unknown, truncated, corrupt, out_of_range (the exponent).
 Status mesh_info(const Asset& asset, MeshInfo& info);
 
 /// The properties of a cooked height field (docs/height_field.md). The same in every configuration. The sample (i, j)
@@ -78,8 +79,8 @@ struct HeightFieldInfo {
   int32_t high = 0;         ///< greatest height, in height steps
 };
 
-/// Checks a cooked height field in full and describes it. Errors: buffer_misaligned (to 8 bytes), not_detent,
-/// format_unknown, truncated, corrupt, out_of_range (the exponent).
+/// Checks all bytes of a cooked height field and sets `info` to its properties. Errors: buffer_misaligned (to 8 bytes),
+/// not_detent, format_unknown, truncated, corrupt, out_of_range (the exponent).
 Status height_field_info(const Asset& asset, HeightFieldInfo& info);
 
 /// The description stored in a cooked compound (docs/compound.md). The same in every configuration.
@@ -95,8 +96,8 @@ struct CompoundInfo {
   int32_t rotation[4] = {};     ///< x, y, z, w in 2^-30: v_source = rotation v_body rotation* + origin
 };
 
-/// Checks all bytes of a cooked compound, and describes it. Errors: buffer_misaligned (8 bytes), not_detent,
-/// format_unknown, truncated, corrupt, out_of_range (an exponent).
+/// Checks all bytes of a cooked compound and sets `info` to its properties. Errors: buffer_misaligned (8 bytes),
+/// not_detent, format_unknown, truncated, corrupt, out_of_range (an exponent).
 Status compound_info(const Asset& asset, CompoundInfo& info);
 
 /// A part (child) of a cooked compound, in the body's frame, m. Use it to draw the compound.

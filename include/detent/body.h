@@ -55,7 +55,8 @@ struct FilterBody {
 };
 
 /// Returns whether `own`, the body that has the rule, can collide with `other`. The result must depend only on the
-/// arguments: the rule may be called at any time, and must return the same on every machine that replays the world.
+/// arguments, because the library may call the rule at any time. For the same arguments it must be the same on every
+/// machine that simulates the world.
 using FilterRule = bool (*)(const FilterBody& own, const FilterBody& other);
 
 /// The filter rules of a world. Rule n is rules[n - 1]. The caller chooses the order, which must be the same on every
@@ -88,9 +89,9 @@ struct Material {
   RestitutionRule restitution_rule = RestitutionRule::larger;
 };
 
-/// Bits for the body axes about which a dynamic body cannot rotate, as if its inertia about them were infinite. Combine
-/// with |. Angular velocity about a locked axis is removed. If two axes are locked, the third keeps its direction in
-/// the world: to keep a figure upright, lock x and z.
+/// Bits for BodyDef::rotation_locks. Each bit locks the rotation of a dynamic body about one of its axes, as if the
+/// inertia about this axis were infinite. Combine with |. Angular velocity about a locked axis is removed. If two axes
+/// are locked, the third keeps its direction in the world: to keep a figure upright, lock x and z.
 inline constexpr uint32_t k_rotation_lock_x = 1;
 inline constexpr uint32_t k_rotation_lock_y = 2;     ///< as k_rotation_lock_x, for the y axis
 inline constexpr uint32_t k_rotation_lock_z = 4;     ///< as k_rotation_lock_x, for the z axis
@@ -105,34 +106,34 @@ struct BodyDef {
   Vec3<Real> linear_velocity = {0.0, 0.0, 0.0};  ///< m/s, world; each component within +-16384
   /// Angular velocity, rad/s, world; each component x bounding radius within +-16384 m/s.
   Vec3<Real> angular_velocity = {0.0, 0.0, 0.0};
-  /// In the body's frame, whose origin is the centre of mass.
+  /// The shape, in the body's frame, whose origin is the centre of mass.
   Shape shape = {};
-  /// Applies to the whole surface of the body.
+  /// The material of the whole surface of the body.
   Material material = {};
-  /// kg/m^3, [2^-60, 2^60]; used for a dynamic body whose `mass` is 0. The resulting mass must be in [2^-60, 2^60] kg.
-  /// The inertia is that of the shape at uniform density, but about each axis at least 2^-15 mass r^2, where r is the
-  /// power of two, m, above the bounding radius. For example, a rod of length 1.6 m that is thinner than 16 mm rotates
-  /// about its length as if it were 16 mm thick.
+  /// Density, kg/m^3, [2^-60, 2^60]. Used only for a dynamic body whose `mass` is 0. The resulting mass must be in
+  /// [2^-60, 2^60] kg. The inertia is that of the shape at uniform density. About each axis it is at least 2^-15 mass
+  /// r^2. Here r is the least power of two, m, above the bounding radius. For example, a rod of length 1.6 m that is
+  /// thinner than 16 mm rotates about its length as if it were 16 mm thick.
   Scaled density = 1000.0;
-  /// kg, [2^-60, 2^60]; or 0: computed from the density. A body that is not dynamic stores it for a later set_type().
+  /// Mass, kg, [2^-60, 2^60]; 0: computed from the density. A non-dynamic body stores the mass for a later set_type().
   Scaled mass = 0.0;
   Real linear_damping = 0.0;    ///< 1/s, [0, 1024]
   Real angular_damping = 0.0;   ///< 1/s, [0, 1024]
   Real gravity_scale = 1.0;     ///< factor on the world's gravity, [-1024, 1024]
   uint32_t user_data = 0;       ///< stored, digested and recorded; only filter rules read it
   uint32_t rotation_locks = 0;  ///< k_rotation_lock_x, ...: body axes about which the body cannot rotate
-  Filter filter = {};           ///< what it collides with
+  Filter filter = {};           ///< the bodies with which it can collide
   /// A sensor has no contact forces, and queries and movers ignore it. It reports the bodies within it (sensor.h).
   bool sensor = false;
 };
 
 /// A definition that creates the same body with its current pose and velocity. An inertia set by set_inertia() is not
-/// part of it. Numbers are those that the state stores: rounded, by less than 2^-30 of their size. For a non-dynamic
-/// body that never had a mass, `mass` is 0.
+/// part of it. The numbers are as the state stores them. Their rounding error is less than 2^-30 of their size. For a
+/// non-dynamic body that never had a mass, `mass` is 0.
 Status get_body_def(const World& world, BodyId id, BodyDef& def);
 /// BodyDef::type.
 Status get_type(const World& world, BodyId id, BodyType& type);
-/// BodyDef::shape. Sizes that the shape's type does not use are those of a default shape.
+/// BodyDef::shape. A size that the shape's type does not use has its default value.
 Status get_shape(const World& world, BodyId id, Shape& shape);
 /// BodyDef::material.
 Status get_material(const World& world, BodyId id, Material& material);
@@ -150,10 +151,10 @@ Status get_inertia(const World& world, BodyId id, Vec3<Scaled>& inertia);
 /// component within twice the bounding radius. Errors: out_of_range.
 Status get_velocity_at(const World& world, BodyId id, const Vec3<Real>& arm, Vec3<Real>& velocity);
 
-/// Changes the type of the body and ends its contacts at once. Position, velocity and angular velocity stay, but a body
-/// that becomes fixed stops, and a body that becomes dynamic loses the angular velocity about its locked axes. Forces
-/// that have not acted yet are lost. A body that becomes dynamic gets the mass that it last had or was created with; if
-/// it never had one, the mass at 1000 kg/m^3.
+/// Changes the type of the body and ends its contacts at once. Position, velocity and angular velocity stay, with two
+/// exceptions: a body that becomes fixed stops, and a body that becomes dynamic loses the angular velocity about its
+/// locked axes. Forces that have not acted yet are lost. A body that becomes dynamic gets the mass that it last had, or
+/// that it was created with. If it never had a mass, it gets the mass of its shape at 1000 kg/m^3.
 /// Errors: bad_argument (`type` is no BodyType; or `type` is dynamic and the shape is a half-space, a terrain, or a
 /// hull in its source frame), out_of_range (the mass, or angular velocity x bounding radius).
 Status set_type(World& world, BodyId id, BodyType type);
@@ -165,12 +166,12 @@ Status set_shape(World& world, BodyId id, const Shape& shape);
 /// a later set_type(). Errors: out_of_range.
 Status set_mass(World& world, BodyId id, Scaled mass);
 /// Sets the moments of inertia about the body's axes, kg m^2, in place of those of its shape. Range: [2^-15 mass r^2,
-/// mass r^2], where r is the power of two, m, above the bounding radius and at most twice that radius. The value about
-/// a locked axis has no effect, but must be in (0, mass r^2]. The angular velocity stays. set_mass() scales the moments
-/// with the mass; set_shape(), set_type() and set_rotation_locks() restore those of the shape.
+/// mass r^2], where r is the least power of two, m, above the bounding radius. The value about a locked axis has no
+/// effect, but must be in (0, mass r^2]. The angular velocity stays. set_mass() scales the moments with the mass;
+/// set_shape(), set_type() and set_rotation_locks() restore those of the shape.
 /// Errors: bad_argument (the body is not dynamic), out_of_range.
 Status set_inertia(World& world, BodyId id, const Vec3<Scaled>& inertia);
-/// As set_mass(), with the mass of the shape's volume at `density`, kg/m^3, [2^-60, 2^60].
+/// Sets the mass to `density` x the volume of the shape. `density`: kg/m^3, [2^-60, 2^60]. Otherwise as set_mass().
 /// Errors: out_of_range (the density or the mass), bad_argument (a half-space or a terrain).
 Status set_density(World& world, BodyId id, Scaled density);
 /// BodyDef::material. Errors: bad_argument (restitution_rule is no RestitutionRule), out_of_range.
@@ -182,34 +183,35 @@ Status set_gravity_scale(World& world, BodyId id, Real scale);
 /// BodyDef::rotation_locks. The angular velocity about the other axes stays. An inertia set by set_inertia() is
 /// replaced by that of the shape. Errors: bad_argument (other bits than those of k_rotation_locks_all).
 Status set_rotation_locks(World& world, BodyId id, uint32_t locks);
-/// BodyDef::sensor. A change ends the body's contacts at once and removes it from the stored sensor overlaps, as a
-/// sensor and as a sensed body; no leave events are written for that. Errors: pool_full (Capacity::sensed is 0),
-/// feature_missing.
+/// BodyDef::sensor. A change ends the body's contacts at once. It removes the stored pairs in which the body is the
+/// sensor or the sensed body; this writes no leave events. Errors: pool_full (Capacity::sensed is 0), feature_missing.
 Status set_sensor(World& world, BodyId id, bool sensor);
 
 /// Adds a force, N, world frame, that acts during the next step at the point `arm` from the centre of mass. `arm`: m,
 /// world axes; each component within twice the bounding radius. Errors: as apply_force().
 Status apply_force_at(World& world, BodyId id, const Vec3<Scaled>& force, const Vec3<Real>& arm);
-/// As apply_force_at(), with the point as a world position, m, in the same range around the centre of mass.
+/// As apply_force_at(), but the force acts at `point`, a world position, m. Its distance from the centre of mass is at
+/// most twice the bounding radius in each component.
 /// Errors: as apply_force().
 Status apply_force_at_point(World& world, BodyId id, const Vec3<Scaled>& force, const Position& point);
-/// As apply_impulse_at(), with the point as a world position, m. Its distance from the centre of mass is at most twice
-/// the bounding radius in each component. Errors: as apply_force().
+/// As apply_impulse_at(), but the impulse acts at `point`, a world position, m. Its distance from the centre of mass is
+/// at most twice the bounding radius in each component. Errors: as apply_force().
 Status apply_impulse_at_point(World& world, BodyId id, const Vec3<Scaled>& impulse, const Position& point);
 
 /// The parameters of explode().
 struct Explosion {
   Position centre = {0.0, 0.0, 0.0};  ///< m, world
-  Real radius = 10.0;                 ///< m, [2^-14, 2^14]; bodies farther away get no impulse
-  Scaled impulse = 100.0;             ///< N s/m^2 at the centre; a negative value pulls bodies towards the centre
+  Real radius = 10.0;                 ///< m, [2^-14, 2^14]; the impulse decreases to 0 at this distance
+  Scaled impulse = 100.0;             ///< N s per m^2 of a body's cross section, at the centre; negative: pulls
 };
-/// Applies an impulse at once to each dynamic body with d < radius, in slot order, through its centre of mass and away
-/// from the centre of the explosion. The impulse is
+/// Applies an impulse at once to each dynamic body with d < radius, in slot order. The impulse acts at the centre of
+/// mass and points away from the centre of the explosion. Its size is
 ///
 ///     impulse x pi b^2 x (1 - d / radius),   d = max(distance of the centres - b, 0),
 ///
 /// where b is the bounding radius of the body. A body whose centre of mass is at the centre of the explosion gets no
-/// impulse. Errors: out_of_range, also if a speed would leave its range; then no body gets an impulse.
+/// impulse. Errors: out_of_range, also if the speed of a body would leave its range. After an error no body has got an
+/// impulse.
 Status explode(World& world, const Explosion& explosion);
 
 /// Sets the velocity and angular velocity of a kinematic body so that the next step moves it to the target pose, by the

@@ -55,8 +55,8 @@ inline constexpr Config k_config = Config::f32;
 inline constexpr Config k_config = Config::f64;
 #endif
 
-/// The version of what a tick computes. Every change that can alter a digest increases it. Stored in snapshots and
-/// recordings.
+/// The simulation version. It is increased with every change that can alter the result of a step, and so a digest.
+/// Stored in snapshots and recordings.
 inline constexpr uint32_t k_simulation_version = 15;
 
 }  // namespace DETENT_NAMESPACE

@@ -16,10 +16,10 @@ inline namespace DETENT_NAMESPACE {
 
 /// Which of more than four contact points are kept. Stored: a value is never reused.
 enum class ManifoldReduction : uint32_t {
-  /// The extreme points along four diagonals of the contact plane. Their depth is not used, so that small changes of
-  /// depth select the same points. The deepest point is added, or replaces the nearest of four, if it is deeper than
-  /// all of them by 2^-10 of the smaller body. If one point is extreme along several diagonals, points that add most to
-  /// the area fill the free places.
+  /// The extreme points along four diagonals of the contact plane. The selection ignores depth, so that small changes
+  /// of depth do not change the selected points. If the deepest point is deeper than all selected points by 2^-10 of
+  /// the smaller body's size, it is added, or it replaces the nearest of four. If one point is extreme along several
+  /// diagonals, the remaining places take the points that add most to the area of the manifold.
   /// Source: the extremes of Moravanszky, Terdiman, "Fast Contact Reduction for Dynamics Simulation", 2004.
   projected_extremes = 1,
   /// The deepest point, the point farthest from it, the point that makes the largest triangle with both, and the point
@@ -33,10 +33,10 @@ inline constexpr uint32_t k_contact_points_max = 4;
 /// A contact point: a place where the two surfaces face each other along the manifold's normal.
 struct ManifoldPoint {
   Vec3<Real> from_a = {};  ///< midway between the surfaces, m, from A's position, world axes
-  Vec3<Real> from_b = {};  ///< the same place from B's position
+  Vec3<Real> from_b = {};  ///< the same point, m, from B's position, world axes
   Real separation = 0.0;   ///< m, along the normal; negative where the shapes overlap
-  /// Names the features of A and B that meet here. Never 0; distinct within a manifold; constant as long as the same
-  /// features meet. Exchanging A and B exchanges its two 12-bit halves.
+  /// The key of the two features, of A and of B, that meet at the point. Never 0; distinct within a manifold; constant
+  /// as long as the same features meet. If A and B are exchanged, its two 12-bit halves are exchanged.
   uint32_t feature = 0;
 };
 
@@ -44,12 +44,13 @@ struct ManifoldPoint {
 struct ContactManifold {
   Vec3<Unit> normal = {};  ///< from A to B, world axes; zero if there are no points
   uint32_t count = 0;      ///< number of points, at most k_contact_points_max
-  bool capped = false;     ///< an iteration cap was reached: `normal` may not be the direction of least penetration
+  bool capped = false;     ///< an iteration cap was reached; `normal` may not be the direction of least penetration
   ManifoldPoint point[k_contact_points_max];  ///< the first `count` are in use
 };
 
-/// Finds the contact manifold of two convex shapes that overlap, or whose distance is at most `distance_max`, m (the
-/// search distance): the normal, and up to four points of the contact area. Without contact, `manifold` has no points.
+/// Finds the contact manifold of two convex shapes: the normal, and up to four points of the contact area. The shapes
+/// are in contact if they overlap, or if their distance is at most `distance_max`, m (the search distance). If they are
+/// not in contact, `manifold` has no points.
 ///
 /// The contact axis is the direction between the closest points or, if the cores overlap, the direction of the least
 /// translation that separates them. The normal is this axis, except that the normal of a face replaces it in three
@@ -62,10 +63,10 @@ struct ContactManifold {
 /// Faces of a hull that are coplanar to within 1/64 of its half thickness count as one face; its normal is that of
 /// their outline.
 ///
-/// The points are corners of the area in which the two supporting faces or edges overlap along the normal. The area may
-/// extend beyond the sides of a face by 1/64 of the size of the smaller one. `reduction` selects four points if there
-/// are more. A face of more than 32 vertices is represented by 32 extreme vertices. The flat side of a cylinder or cone
-/// is represented by 8 points of its rim and the deepest point.
+/// The points are corners of the contact area: the intersection of the two supporting faces or edges, projected along
+/// the normal. The contact area may extend beyond the sides of a face by 1/64 of the size of the smaller face.
+/// `reduction` selects four points if there are more. A face of more than 32 vertices is represented by 32 extreme
+/// vertices. The flat side of a cylinder or cone is represented by 8 points of its rim and the deepest point.
 ///
 /// Precision: as closest_points(). Errors: bad_argument for two half-spaces; not_normalised; out_of_range for
 /// distance_max < 0 and NaN, and as closest_points() for a half-space.
@@ -77,7 +78,7 @@ Status contact_points(const Convex& a, const Pose& pose_a, const Convex& b, cons
 struct ContactPoint {
   Position position = {0.0, 0.0, 0.0};  ///< midway between the surfaces, m, world
   Real separation = 0.0;                ///< m; negative where the bodies overlap
-  uint32_t feature = 0;                 ///< names the features that meet: constant while they do, distinct in a contact
+  uint32_t feature = 0;                 ///< key of the two features that meet, as in ManifoldPoint::feature
   uint32_t child_a = 0;                 ///< if A is a compound: its child at this point, counted from 1; else 0
   uint32_t child_b = 0;                 ///< if B is a compound: its child at this point, counted from 1; else 0
   Scaled normal_impulse = 0.0;          ///< N s, over the last tick
@@ -85,13 +86,13 @@ struct ContactPoint {
 
 /// A contact of two bodies. A pair of convex bodies has one contact. A pair with a compound or a terrain (a mesh or
 /// height field) has up to eight: points in one plane form one contact. The state stores only the impulses of the last
-/// substep; the impulses and forces here are these, scaled to the whole tick. They show the resting load; an impact
-/// shows in its event (event.h). The contacts of sleeping bodies keep their impulses.
+/// substep. The impulses and forces of this struct are the stored ones, scaled to the whole tick. They show the resting
+/// load. They do not show impacts, which events report (event.h). The contacts of sleeping bodies keep their impulses.
 struct Contact {
   BodyId a;                    ///< the body with the lower slot
   BodyId b;                    ///< the body with the higher slot
   Vec3<Unit> normal = {};      ///< from A to B, world; zero if there is no point
-  uint32_t part = 0;           ///< 0 between convex bodies; else a different number for each contact of the pair
+  uint32_t part = 0;           ///< 0 if both bodies are convex; else a key, distinct for each contact of the pair
   bool touching = false;       ///< the bodies pushed each other in the last step
   uint32_t age = 0;            ///< ticks in contact before the last one, at most 65535
   uint32_t point_count = 0;    ///< number of points, at most 4
@@ -101,13 +102,13 @@ struct Contact {
   Scaled normal_force = 0.0;           ///< of all points, mean over the tick, N
 };
 
-/// Reads the contact `index`, 0 to get_info(world).contacts - 1, in the order of (a.slot, b.slot, part). The points are
-/// computed for the current poses of the bodies, which costs as much as colliding the pair in a step. If the bodies
-/// have moved apart since the step, there are no points. A point between features that did not meet in the last step
-/// has impulse 0. Errors: out_of_range (the index).
+/// Reads the contact `index`, 0 to get_info(world).contacts - 1, in the order of (a.slot, b.slot, part). The function
+/// computes the points for the current poses of the bodies. This costs as much as colliding the pair in a step. If the
+/// bodies have moved apart since the step, there are no points. A point between features that did not meet in the last
+/// step has impulse 0. Errors: out_of_range (the index).
 Status get_contact(const World& world, uint32_t index, Contact& contact);
-/// The index of the first contact of this body at or after `index`; the number of contacts if there is none, or if `id`
-/// is not valid.
+/// Returns the index of the first contact of this body at or after `index`. Returns the number of contacts if there is
+/// none, or if `id` is not valid.
 uint32_t next_contact(const World& world, BodyId id, uint32_t index);
 
 }  // namespace DETENT_NAMESPACE

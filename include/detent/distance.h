@@ -10,15 +10,15 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// A shape prepared for the functions of this header, toi.h and contact.h: a core, and a ball that rounds the core. All
-/// members are integers, the same in every configuration. Lengths are in 2^-30 of the shape's unit of length,
-/// 2^exponent m. The unit is the least power of two above the greatest distance of a core point from the origin. Make a
-/// Convex with the functions below; do not set the fields directly.
+/// A convex shape, prepared for the functions of this header, toi.h and contact.h. The shape is the Minkowski sum of a
+/// core and a ball, which rounds the core. All members are integers, the same in every configuration. Lengths are in
+/// 2^-30 of the shape's unit of length, 2^exponent m. The unit is the least power of two above the greatest distance of
+/// a core point from the origin. Make a Convex with the functions below; do not set the fields directly.
 struct Convex {
   ShapeType type = ShapeType::sphere;  ///< the type of the source shape
   int32_t exponent = 0;                ///< the unit of length is 2^exponent m
   /// Box: half extents; capsule: (0, half length, 0); cylinder, cone: (radius, half length, 0); hull: (half thickness,
-  /// 0, 0), or 0 where that is read from the cooked bytes.
+  /// 0, 0), or 0 if the half thickness is read from the cooked bytes.
   int32_t size[3] = {};
   int32_t core_radius = 0;        ///< greatest distance of a core point from the origin, rounded up
   int32_t radius = 0;             ///< of the ball, in 2^-30 2^radius_exponent m
@@ -44,7 +44,7 @@ Status make_hull(const Asset& asset, Real rounding, Convex& convex);
 Status make_triangle(const Vec3<Real> (&corners)[3], Real rounding, Convex& convex);
 
 /// The vertices of the last simplex of a pair's query; the next query of the pair starts from them. Any content is
-/// safe: it changes only the run time, and which of several equally near points is returned.
+/// safe: it changes only the run time, and the choice among equally near points.
 struct DistanceCache {
   uint8_t count = 0;         ///< number of vertices in use; 0 when new
   uint8_t vertex_a[4] = {};  ///< vertices of A; the first `count` are in use
@@ -57,8 +57,8 @@ inline constexpr double k_distance_error = 0x1p-25;
 
 /// The closest points of two shapes.
 struct Closest {
-  bool overlap = false;     ///< the cores or the balls that round them overlap: the distance is 0
-  bool capped = false;      ///< the iteration cap was reached: `distance` is a lower bound; at 0 overlap is undecided
+  bool overlap = false;     ///< the shapes (cores rounded by their balls) overlap: the distance is 0
+  bool capped = false;      ///< iteration cap reached: `distance` is a lower bound; if it is 0, overlap is undecided
   Real distance = 0.0;      ///< m, between the surfaces
   Vec3<Unit> normal = {};   ///< from A to B, world axes; zero if the cores overlap
   Vec3<Real> point_a = {};  ///< on A's surface, m, from A's position, world axes
@@ -74,31 +74,32 @@ struct Closest {
 Status closest_points(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Closest& result,
                       DistanceCache* cache = nullptr);
 
-/// Whether the shapes overlap or touch. For polytopes the test is exact; only the rounding of their poses causes an
-/// error, of k_distance_error. If the iteration cap or the rounding of the balls leaves the answer open, it is true.
-/// Errors: as closest_points().
+/// Sets `result` to whether the shapes overlap or touch. For polytopes the test is exact, except for the rounding of
+/// their poses, which causes an error of k_distance_error. If the iteration cap is reached, or if the rounding of the
+/// balls leaves the answer undecided, `result` is true. Errors: as closest_points().
 Status overlap(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, bool& result,
                DistanceCache* cache = nullptr);
 
-/// Whether the shapes are farther apart than `distance_max`, m. True is certain; false may be wrong by
-/// k_distance_error. Errors: as closest_points(), and out_of_range for distance_max < 0.
+/// Sets `result` to whether the distance of the shapes exceeds `distance_max`, m. If `result` is true, this is certain.
+/// If it is false, the distance may exceed `distance_max` by k_distance_error. Errors: as closest_points(), and
+/// out_of_range for distance_max < 0.
 Status farther_than(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Real distance_max,
                     bool& result, DistanceCache* cache = nullptr);
 
 /// The result of a cast.
 struct CastHit {
   bool hit = false;        ///< the cast hits the shape within its displacement
-  bool undecided = false;  ///< the iteration cap was reached: no hit up to `time`, unknown beyond it
-  Fraction time = 0.0;     ///< fraction of the displacement up to the hit, never late; 1 if there is no hit
+  bool undecided = false;  ///< the iteration cap was reached: no hit before `time`; a hit after it is possible
+  Fraction time = 0.0;     ///< fraction of the displacement before the hit, never late; 1 if there is no hit
   Vec3<Real> point = {};   ///< the hit point on the shape, m, from the shape's position, world axes
   Vec3<Unit> normal = {};  ///< of the shape at `point`, outward, world axes; zero if the cast starts in the core
 };
 
 /// Finds where the segment from `origin` (m, from the shape's position, world axes) to `origin` + `displacement` (m)
 /// enters the shape. Precision: the hit is at most the tolerance of time_of_impact() in front of the surface. Source:
-/// van den Bergen, "Ray Casting against General Convex Objects", 2004, on certified axes. Errors: not_normalised;
-/// out_of_range, also for a component of `displacement` of 2^15 m or more. An origin with a component of 2^16 m or more
-/// is out of range if the segment might hit the shape, and always if the shape is a half-space.
+/// van den Bergen, "Ray Casting against General Convex Objects", 2004, with separating axes that are certified. Errors:
+/// not_normalised; out_of_range, also for a component of `displacement` of 2^15 m or more. An origin with a component
+/// of 2^16 m or more is out of range if the segment might hit the shape, and always if the shape is a half-space.
 Status cast_ray(const Convex& convex, const Pose& pose, const Vec3<Real>& origin, const Vec3<Real>& displacement,
                 CastHit& result);
 

@@ -5,7 +5,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The kind of an object to draw, from which the caller chooses its colour.
+/// The kind of an object to draw. The caller can choose its colour by the kind.
 enum class DrawKind : uint32_t {
   fixed,            ///< a fixed body
   kinematic,        ///< a kinematic body
@@ -32,7 +32,7 @@ struct DebugDraw {
 /// The objects that draw() draws. Combine with |.
 enum class DrawFlags : uint32_t {
   none = 0,        ///< nothing
-  bodies = 1,      ///< a solid per body, of kind fixed, kinematic, awake or asleep; without `solid`: a terrain as lines
+  bodies = 1,      ///< calls `solid` for each body; if `solid` is null: the triangle edges of terrains, by `line`
   bounds = 2,      ///< the twelve edges of each body's axis-aligned bounds, except for half-spaces
   contacts = 4,    ///< each contact point, and a line along its normal, as long as a quarter of the smaller body
   velocities = 8,  ///< a line from the centre of each moving body to its place after 0.1 s at the current velocity

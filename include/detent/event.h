@@ -12,12 +12,14 @@ enum class ContactEventType : uint32_t {
   begin = 1,  ///< the bodies push each other; they did not in the last step
   touch = 2,  ///< the bodies push each other, as in the last step
   end = 3,    ///< the bodies pushed each other in the last step, and no longer do
-  /// Either an impact at the restitution threshold of the world or faster, in addition to a begin or touch; or an
-  /// impact of any speed found by continuous collision within the step, which may come without a begin or touch.
+  /// An impact. Either its approach speed is at least the restitution threshold of the world; then a begin or touch
+  /// event comes too. Or continuous collision found the impact within the step, at any speed; then there may be no
+  /// begin or touch.
   hit = 4,
 };
 
-/// An event between two bodies in a step. Sleeping bodies cause no events, and neither does destroying a body.
+/// An event between two bodies in a step. Contacts between sleeping bodies cause no events. destroy_body() causes no
+/// events.
 struct ContactEvent {
   ContactEventType type = ContactEventType::begin;  ///< what happened
   BodyId a;                                         ///< the body with the lower slot
@@ -28,8 +30,8 @@ struct ContactEvent {
 };
 
 /// The buffer to which a step writes its contact events, in the order of (a.slot, b.slot, type); several hits of a pair
-/// are in the order of their times. It is the caller's memory, and must live as long as the world uses it. If there are
-/// more than `capacity` events, those with the largest slots are dropped, and counted in the report.
+/// are in the order of their times. The memory is the caller's, and must stay valid as long as the world uses it. If
+/// there are more than `capacity` events, the last ones in this order are dropped, and counted in the report.
 struct ContactEventBuffer {
   ContactEvent* data = nullptr;  ///< room for `capacity` events; null: no events are written
   uint32_t capacity = 0;         ///< number of events
@@ -38,11 +40,11 @@ struct ContactEventBuffer {
 /// The type of a sensor event.
 enum class SensorEventType : uint32_t {
   enter = 1,  ///< the body came within the sensor
-  leave = 2,  ///< the body is no longer within; follows its enter if the body passed through in this step
+  leave = 2,  ///< the body left the sensor; comes after its enter if the body passed through in this step
 };
 
-/// An event between a sensor and a body. A body that leaves a sensor and is back before the step ends causes no event.
-/// Destroying a body causes none, and neither does set_sensor().
+/// An event between a sensor and a body. A body that leaves a sensor and returns in the same step causes no event.
+/// destroy_body() and set_sensor() cause no events.
 struct SensorEvent {
   SensorEventType type = SensorEventType::enter;  ///< what happened
   BodyId sensor;                                  ///< the sensor
@@ -80,15 +82,16 @@ enum class CapacityEventType : uint32_t {
   sensed = 3,   ///< the sensor `a` does not report the body `b` within it; the limit is Capacity::sensed
 };
 
-/// An entry that a step dropped because a pool was full, for this step only. The report counts all dropped entries.
+/// A pair, contact or sensed body that a step dropped because a pool was full. It is missing in this step only. The
+/// report counts all dropped entries.
 struct CapacityEvent {
   CapacityEventType type = CapacityEventType::contact;  ///< which pool was full
   BodyId a;                                             ///< the body with the lower slot; or the sensor
   BodyId b;                                             ///< the other body
 };
 
-/// As ContactEventBuffer, in the order of (type, a.slot, b.slot), each event once. The report does not count the events
-/// beyond `capacity`.
+/// As ContactEventBuffer, in the order of (type, a.slot, b.slot), without duplicates. Events beyond `capacity` are
+/// dropped; the report does not count them.
 struct CapacityEventBuffer {
   CapacityEvent* data = nullptr;  ///< room for `capacity` events; null: no events are written
   uint32_t capacity = 0;          ///< number of events

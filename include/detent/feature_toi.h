@@ -6,7 +6,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The kinds of the two features, and the order of their corners.
+/// The kinds of the two features, and the order of their corners in the argument `corner`, `start` or `end`.
 enum class FeatureKind : uint32_t {
   vertex_face = 1,  ///< A's vertex, corner 0, and B's triangle, corners 1 to 3
   edge_edge = 2,    ///< A's edge, corners 0 and 1, and B's edge, corners 2 and 3
@@ -19,8 +19,8 @@ struct FeatureToi {
   uint32_t intervals = 0;                      ///< time intervals searched; at most k_feature_intervals_max
 };
 
-/// The largest gap at the time of a hit, as a fraction of the features' size. The size is the longest edge of the two
-/// features. Each function below adds the lengths that it lists under "Tolerance".
+/// The largest gap at the time of a hit, as a fraction of the features' size, which is their longest edge. The
+/// tolerance of each function is this gap plus the other lengths that its "Tolerance" lists.
 inline constexpr double k_feature_tolerance = 1e-6;
 /// The largest number of time intervals that are searched. If that is not enough, the outcome is `undecided`.
 inline constexpr uint32_t k_feature_intervals_max = 1024;
@@ -43,16 +43,17 @@ Status feature_toi_linear(FeatureKind kind, const Vec3<Real> (&start)[4], const 
 Status feature_toi(FeatureKind kind, const Vec3<Real> (&corner)[4], const Motion& motion_a, const Motion& motion_b,
                    FeatureToi& result);
 
-/// The poses of a body at both ends of a step.
+/// The poses of a body at the beginning and at the end of a step.
 struct PosePair {
   Pose start = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}};  ///< at the beginning of the step
   Pose end = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}};    ///< at its end
 };
 
-/// Finds when two features first meet if the poses of their bodies are given at both ends of a step. In A's frame, B
-/// moves in the screw from its start pose to its end pose, with the smaller of the two possible rotations. The
-/// translation along the screw axis and the tangent of half the rotation angle are linear in time. Therefore the
-/// coplanarity of the features is a cubic polynomial in time divided by a quadratic that has no real roots.
+/// Finds when two features first meet if the poses of their bodies are given at the beginning and at the end of a step.
+/// In A's frame, B moves on a screw motion from its start pose to its end pose, with the smaller of the two possible
+/// rotations. The translation along the screw axis and the tangent of half the rotation angle are linear in time.
+/// Therefore the coplanarity of the features is a cubic polynomial in time divided by a quadratic that has no real
+/// roots.
 /// Touching counts as meeting. The features may be degenerate.
 /// Corners: m, in the axes of their body and relative to its position; each component within 2^10, and the same for B's
 /// position relative to A's.

@@ -3,12 +3,12 @@
 
 /// @file
 /// Selects the features that a program links. A world calls the code of its features (shapes, continuous collision,
-/// sleeping, joints, sensors) through a table. The table refers only to the selected features, so that the linker
-/// removes the code of the others from the unmodified library (-Wl,--gc-sections).
+/// sleeping, joints, sensors) through a table. The table refers only to the selected features. Therefore the linker can
+/// remove the code of all other features (-Wl,--gc-sections); the library need not be rebuilt.
 ///
 ///     create_world(block, bytes, def, hooks, feature_table<Features::sphere | Features::half_space>, world);
 ///
-/// A call that needs a feature which is not linked returns feature_missing. The selection never changes what a tick
+/// A call that needs a feature that the table lacks returns feature_missing. The selection never changes what a tick
 /// computes.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -35,7 +35,7 @@ enum class Features : uint32_t {
   sensors = 1u << 20,     ///< BodyDef::sensor
   /// All shapes.
   shapes = sphere | capsule | box | half_space | cylinder | cone | hull | terrain | compound | rounding,
-  /// What create_world() takes if no table is given.
+  /// All features: the selection of create_world() if no table is given.
   all = shapes | continuous | sleeping | joints | sensors,
 };
 /// The features that are in `a` or in `b`.
@@ -88,8 +88,8 @@ extern const JointOps k_joint_ops;
 extern const SensorOps k_sensor_ops;
 /// @endcond
 
-/// The function tables that a world calls; null where a feature is not linked. Made by feature_table. It must outlive
-/// its worlds.
+/// Pointers to the function tables of the features; null for a feature that is not selected. Use the variable template
+/// feature_table to make one. The table must outlive the worlds that use it.
 struct FeatureTable {
   Features features;  ///< the features that are linked
   /// @cond
@@ -111,7 +111,7 @@ struct FeatureTable {
   /// @endcond
 };
 
-/// Builds the table for `features`; feature_table calls it.
+/// Returns the table for `features`. Use feature_table instead.
 constexpr FeatureTable make_feature_table(Features features) {
   const auto any = [features](Features some) { return (features & some) != Features::none; };
   const bool box = any(Features::box), round = any(Features::sphere | Features::capsule);

@@ -23,9 +23,9 @@ struct FromDouble {
   int64_t raw;    ///< value 2^frac, rounded to nearest, ties away from zero
   bool in_range;  ///< false for NaN, infinity and |value| 2^frac >= 2^(int_bits-1): raw is then 0
 };
-/// Converts an IEEE double, given by its bits, to a fixed-point number with `frac` fraction bits. Uses only integer
-/// arithmetic, so the caller's rounding mode and flush-to-zero have no effect. Range: 0 <= frac <= 62. `int_bits`: the
-/// number of bits of the integer that stores the result, sign included, at most 64.
+/// Converts an IEEE double, given by its bits, to a fixed-point number with `frac` fraction bits. The function uses
+/// only integer arithmetic, so the caller's rounding mode and flush-to-zero have no effect. Range: 0 <= frac <= 62.
+/// `int_bits`: the number of bits of the integer that stores the result, sign included, at most 64.
 constexpr FromDouble fixed_from_double_bits(uint64_t bits, int frac, int int_bits) {
   const bool negative = (bits >> 63) != 0;
   const int biased = static_cast<int>((bits >> 52) & 0x7ff);
@@ -100,7 +100,7 @@ struct alignas(sizeof(Int)) Fixed {  // alignas: some targets align 8-byte membe
 #if defined(DETENT_FX64)
 using Coord = Fixed<int64_t, 32>;  ///< a coordinate of a world position, m: +-2^31 m in steps of 2.3e-10 m
 #elif defined(DETENT_FX32)
-using Coord = Fixed<int32_t, 16>;  ///< m: +-32 km in steps of 1.5e-5 m; the integrator keeps the remainder
+using Coord = Fixed<int32_t, 16>;  ///< m: +-32 km in steps of 1.5e-5 m; the state also stores the remainder
 #elif defined(DETENT_F32)
 using Coord = Fixed<int64_t, 32>;  ///< m: as in fx64
 #else
@@ -128,7 +128,8 @@ double fraction_to_host(Fraction fraction);
 #if DETENT_FIXED
 /// A signed number of wide range, for masses, densities, forces and impulses: value = mantissa x 2^exponent.
 /// Canonical: the mantissa is 0 (and then the exponent 0), or 2^30 <= |mantissa| < 2^31. |exponent| <= 256.
-/// Relative resolution 2^-30. A floating-point literal converts at compile time; a run-time double by `from_host`.
+/// The relative resolution is 2^-30. A floating-point literal converts at compile time; scaled_from_host() converts a
+/// double at run time.
 struct Scaled {
   int32_t mantissa;  ///< 0, or 2^30 <= |mantissa| < 2^31
   int32_t exponent;  ///< within +-256; 0 if the mantissa is 0
@@ -191,7 +192,7 @@ struct Quat {
   Unit y;  ///< the part of j
   Unit z;  ///< the part of k
   Unit w;  ///< the real part
-  /// Equal in each component; q and -q, the same rotation, are not.
+  /// Equal in each component. q and -q are the same rotation, but they are not equal.
   friend constexpr bool operator==(const Quat& a, const Quat& b) {
     return a.x == b.x && a.y == b.y && a.z == b.z && a.w == b.w;
   }
@@ -226,18 +227,18 @@ double coord_to_host(Coord value);
 double scaled_to_host(Scaled value);
 /// @}
 
-/// Transforms a point, given from a body's centre of mass, m, in the body's axes, to a position in the world. Rounding:
+/// Transforms `point`, m, in the body's axes and relative to its centre of mass, to a position in the world. Rounding:
 /// to a step of a position. Overflow: clamped to the range of a position.
 Position to_world(const Pose& pose, const Vec3<Real>& point);
-/// Transforms a position in the world to a point from the body's centre of mass, m, in the body's axes. Range: within
-/// 2^15 m of the body in each coordinate.
+/// Transforms a position in the world to a point, m, in the body's axes and relative to its centre of mass. Range:
+/// `point` is within 2^15 m of the body in each coordinate.
 Vec3<Real> to_local(const Pose& pose, const Position& point);
 /// Transforms a vector from the body's axes to the world's.
 Vec3<Real> vector_to_world(const Quat& rotation, const Vec3<Real>& vector);
 /// Transforms a vector from the world's axes to the body's.
 Vec3<Real> vector_to_local(const Quat& rotation, const Vec3<Real>& vector);
-/// `rotation` followed by the rotation vector `rotation_vector`: |turn| rad about the direction of `rotation_vector`,
-/// world. Of length 1.
+/// Returns `rotation` followed by a rotation by |rotation_vector| rad about the direction of `rotation_vector`, world
+/// axes. The result has length 1.
 Quat rotated_by(const Quat& rotation, const Vec3<Real>& rotation_vector);
 
 /// A pose relative to a camera, in world axes.
@@ -247,7 +248,7 @@ struct CameraRelative {
 };
 
 /// The pose relative to a camera. Rounding: the exact difference of the positions is rounded to the nearest float, so
-/// it is as precise at 10,000 km as at the origin.
+/// the result is as precise at 10,000 km from the world's origin as at the origin.
 CameraRelative relative_to_camera(const Pose& pose, const Position& camera);
 
 /// Interpolates between the poses of two ticks. Range: alpha in [0, 1]; coordinates less than 2^31 m apart.

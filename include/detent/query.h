@@ -5,24 +5,25 @@
 /// Queries of a world: which bodies a ray or a moving shape hits, which a shape or a box overlaps, which are nearest.
 ///
 /// Queries use the current poses of all bodies, whether they move, sleep or were created since the last step. They skip
-/// sensors. The narrow phase (toi.h, distance.h) tests the bodies, and the result is that of testing them one by one:
-/// it depends on the world's state alone, and is the same on every target.
+/// sensors. The result is that of the narrow phase (toi.h, distance.h), applied to all bodies one by one. It depends on
+/// the world's state alone, and is the same on every target.
 ///
 /// Hits are sorted by their fraction (casts) or distance. At equal values decided hits come first, then lower slots. If
-/// the narrow phase reaches an iteration cap, or cannot test a body, the body is still reported as a hit, marked
-/// `undecided`: its fraction or distance is a lower bound, before which the body is certainly not hit.
+/// the narrow phase reaches an iteration cap, or cannot test a body, the body is still reported, as an `undecided` hit.
+/// Its fraction or distance is then a lower bound: nearer than this, the body is certainly not hit.
 ///
-/// A terrain (terrain()) gives one hit: its first or nearest triangle, at equal values the one with the lower index. A
-/// one-sided terrain is not hit from behind.
+/// A terrain (terrain()) gives one hit: its first or nearest triangle; of several at equal values, the triangle with
+/// the lowest index. A one-sided terrain is not hit from behind.
 ///
-/// Errors of all queries: out_of_range, not_normalised; for shapes as create_body(). Outputs are then untouched.
+/// Errors of all queries: out_of_range, not_normalised; for shapes also those of create_body(). After an error, the
+/// outputs are unchanged.
 ///
-/// visit_triangles() gives the triangles of a terrain, for drawing. It is not linked unless called.
+/// visit_triangles() visits the triangles of a terrain, for drawing. A program that does not call it does not link it.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Which bodies a query tests: bodies whose category shares a bit with `mask` and whose mask shares a bit with
-/// `category`. Groups and rules are not used.
+/// Selects the bodies that a query tests: the category of the body shares a bit with `mask`, and the mask of the body
+/// shares a bit with `category`. The groups and filter rules of the bodies have no effect.
 struct QueryFilter {
   uint32_t category = 1;  ///< bits: the categories of the query
   uint32_t mask = ~0u;    ///< bits: the categories of bodies that the query tests
@@ -37,14 +38,15 @@ struct QueryHit {
   Fraction fraction = 0.0;  ///< casts: the fraction of the displacement until the hit, never late
   Real distance = 0.0;      ///< query_closest(): the distance of the surfaces, m; 0 where they overlap
   Position point = {};      ///< on the body's surface, m, world; 0 from query_bounds()
-  Vec3<Unit> normal = {};   ///< of the body there, outward, world; 0 where the cores overlap, and from query_bounds()
+  Vec3<Unit> normal = {};   ///< of the body at `point`, outward, world; 0 if the cores overlap, and from query_bounds()
   /// The triangle that is hit, if the body is a terrain (terrain() in shape.h); else, and from query_bounds(),
   /// UINT32_MAX.
   uint32_t triangle = UINT32_MAX;
   uint32_t material = 0;  ///< the material of that triangle, as cooked
 };
 
-/// The caller's buffer for hits. Hits beyond it are dropped after all hits have been sorted, and counted.
+/// The caller's buffer for hits. If there are more than `capacity` hits, the last ones in sort order are dropped, and
+/// counted in the report.
 struct QueryHits {
   QueryHit* data = nullptr;  ///< the first hit
   uint32_t capacity = 0;     ///< hits that `data` has room for
@@ -66,14 +68,14 @@ struct RayQuery {
   bool all = false;                           ///< true: find every body that the ray hits; false: only the first
 };
 
-/// A moving shape: straight at constant velocity, rotating at a constant rate about a constant axis. `shape`: as of a
-/// body, or a sphere of radius 0, which is a point; not a half-space, terrain or compound.
+/// A shape that moves at constant velocity and rotates at constant angular velocity. `shape`: any shape of a body
+/// except half-space, terrain and compound; or a point, which is a sphere of radius 0.
 struct CastQuery {
   Shape shape = {};                              ///< as of a body, or a point
   Position position = {0.0, 0.0, 0.0};           ///< at the start, m, world
   Quat rotation = {0.0, 0.0, 0.0, 1.0};          ///< at the start, local to world
   Vec3<Real> displacement = {0.0, 0.0, 0.0};     ///< displacement, m, world; each component within 2^14
-  Vec3<Real> rotation_vector = {0.0, 0.0, 0.0};  ///< rotation vector, world, rad; |turn| <= 2^16
+  Vec3<Real> rotation_vector = {0.0, 0.0, 0.0};  ///< world, rad; length at most 2^16
   QueryFilter filter = {};                       ///< the bodies that it tests
   bool all = false;                              ///< true: find every body that the shape hits; false: only the first
 };
@@ -87,8 +89,8 @@ struct OverlapQuery {
   bool all = false;                      ///< true: find every body that overlaps; false: only the first
 };
 
-/// An axis-aligned box, which is tested against the bounding boxes of the bodies only. Cheap. A half-space overlaps
-/// every box.
+/// An axis-aligned box, which is tested only against the axis-aligned bounds of the bodies. This is a cheap query. A
+/// half-space overlaps every box.
 struct BoundsQuery {
   Position lower = {0.0, 0.0, 0.0};  ///< m, world
   Position upper = {0.0, 0.0, 0.0};  ///< m, world; not below `lower`
@@ -106,14 +108,14 @@ struct ClosestQuery {
   bool all = false;                      ///< true: find every body within `distance_max`; false: only the nearest
 };
 
-/// Finds the bodies that the ray hits. A body that contains the origin is hit at fraction 0. No ray passes between the
-/// triangles of a terrain: hits on a terrain are exact to a step of its grid (docs/mesh.md). A terrain is undecided if
-/// the ray begins 2^15 m or more from the terrain's origin.
+/// Finds the bodies that the ray hits. A body that contains the origin is hit at fraction 0. No ray passes between two
+/// adjacent triangles of a terrain: hits on a terrain are exact to a step of its grid (docs/mesh.md). The hit is
+/// undecided if the ray begins 2^15 m or more from the terrain's origin.
 Status query_ray(const World& world, const RayQuery& query, QueryHits hits, QueryReport& report);
 /// Finds the bodies that the moving shape hits. Tolerance: as time_of_impact().
 Status query_cast(const World& world, const CastQuery& query, QueryHits hits, QueryReport& report);
-/// Finds the bodies that the shape overlaps or touches, in slot order. Precision: as closest_points(); bodies at
-/// distance 0 overlap.
+/// Finds the bodies that the shape overlaps or touches, in slot order. A body at distance 0 overlaps. Precision: as
+/// closest_points().
 Status query_overlap(const World& world, const OverlapQuery& query, QueryHits hits, QueryReport& report);
 /// Finds the bodies whose bounds overlap the box, in slot order. Precision: a body's bounds are exact to 2^-28 of its
 /// size and half a step of a coordinate.

@@ -4,11 +4,11 @@
 #include <detent/world.h>
 
 /// @file
-/// Recording and replay: a seed snapshot, every mutating call, and a digest per tick, as a stream of small checked
-/// chunks. Format: docs/recording.md. Neither class allocates; each uses only the caller's buffer. Only Player::go_to
-/// seeks.
+/// Recording and replay. A recording is a stream of small chunks, each with a checksum. They hold a seed snapshot,
+/// every call that changes the world, and digests. Format: docs/recording.md. Recorder and Player allocate nothing;
+/// each uses only the caller's buffer. Only Player::go_to seeks.
 ///
-/// Threads: as for the world that a Recorder or Player works on, only one thread may use it at a time.
+/// Threads: only one thread at a time may use a Recorder or Player, or the world on which it works.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -17,43 +17,44 @@ inline constexpr uint32_t k_recording_format_version = 5;
 /// Size of the working buffer of a Recorder or Player, bytes: one chunk. No alignment is needed.
 inline constexpr uint32_t k_recording_buffer_bytes = 544;
 
-/// How much the recording says about each tick. Stored: a value is never reused.
+/// What a trace contains. Stored: a value is never reused.
 enum class TraceLevel : uint32_t {
-  digests = 0,  ///< one digest a tick
-  stages = 1,   ///< in a range of ticks also digests of each body, contact and joint after each stage of the step
-  full = 2,     ///< in a range of ticks also the complete bodies, contacts and joints after each stage
+  digests = 0,  ///< no trace: only the digests of RecordingDef::digest_interval
+  stages = 1,   ///< in the traced ticks also a digest of each body, contact and joint after each stage of the step
+  full = 2,     ///< in the traced ticks also the complete bodies, contacts and joints after each stage
 };
 
-/// The ticks that a recording traces. A tick is named by its StepReport::tick.
+/// The ticks that a recording traces. The number of a tick is its StepReport::tick.
 struct TraceDef {
   TraceLevel level = TraceLevel::full;  ///< trace level of these ticks
   uint64_t from = 0;                    ///< the first tick
   uint64_t to = UINT64_MAX;             ///< the last tick
 };
 
-/// The output of a recording. `write` takes all `count` bytes, in order, or returns a status other than ok.
-/// If `write` is null, nothing is recorded: calls are only applied.
+/// The output of a recording. `write` must take all `count` bytes, or return a status other than ok. If `write` is
+/// null, nothing is recorded; the calls are applied to the world.
 struct Sink {
   /// Takes `count` bytes.
   Status (*write)(void* context, const uint8_t* bytes, uint32_t count) = nullptr;
   void* context = nullptr;  ///< passed to `write`
 };
 
-/// The input of a replay. `read` returns the next bytes in order, and their number in `got`: `count`, or fewer at the
-/// end only. A status other than ok stops the replay as sink_failed.
+/// The input of a replay. `read` stores the next bytes in `bytes` and their number in `got`. The number is `count`;
+/// only at the end of the recording may it be less. If `read` returns a status other than ok, the replay stops with
+/// sink_failed.
 struct Source {
   /// Reads up to `count` bytes.
   Status (*read)(void* context, uint8_t* bytes, uint32_t count, uint32_t& got) = nullptr;
   void* context = nullptr;  ///< passed to `read` and `seek`
-  /// Makes `read` continue `offset` bytes from the recording's start; at or beyond the end it then reads no bytes.
-  /// Null: the source only moves forward.
+  /// Sets the position of the next `read` to `offset` bytes from the recording's start. At or beyond the end, `read`
+  /// then gets no bytes. Null: the source cannot seek.
   Status (*seek)(void* context, uint64_t offset) = nullptr;
 };
 
 /// What a recording contains.
 struct RecordingDef {
-  uint32_t digest_interval = 1;    ///< a digest after every tick that is a multiple of it; 0: only at the end
-  uint32_t keyframe_interval = 0;  ///< the whole state after every tick that is a multiple of it; 0: only the seed
+  uint32_t digest_interval = 1;    ///< a digest after every tick that is a multiple of this; 0: only at the end
+  uint32_t keyframe_interval = 0;  ///< the whole state after every tick that is a multiple of this; 0: never
 };
 
 /// The header of a recording.
@@ -79,14 +80,14 @@ extern const Tracer k_tracer;
 struct ReplayWatch;
 /// @endcond
 
-/// Applies calls to a world and logs the calls that succeed. Its methods mirror world.h, body.h and joint.h by name,
-/// arguments and statuses.
+/// Applies calls to a world and logs the calls that succeed. Its methods have the names, arguments and statuses of the
+/// functions of world.h, body.h and joint.h.
 ///
-/// A call that fails changes nothing and is not logged. If the sink fails, calls are still applied, nothing more is
-/// written, and `status` and `end` report the failure. Between `begin` and `end` only the recorder may change the
-/// world; any other change appears as digest_differs in the replay. In f32 and f64 a negative zero is applied and
-/// logged as zero, and a NaN or infinity is refused (out_of_range) in every field, even in one that the shape's type
-/// does not use: so the log has exactly the values that were applied.
+/// A call that fails changes nothing and is not logged. If the sink fails, calls are still applied, but nothing more is
+/// written; `status` and `end` report the failure. Between `begin` and `end` only the recorder may change the world;
+/// any other change appears as digest_differs in the replay. In f32 and f64 a negative zero is applied and logged as
+/// zero. A NaN or infinity is refused (out_of_range) in every field, also in a field that the shape's type does not
+/// use. Therefore the log has exactly the values that were applied.
 class Recorder {
  public:
   /// `buffer` and the world must outlive the recorder. The buffer may be null with a null sink.
@@ -94,10 +95,11 @@ class Recorder {
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  /// Traces these ticks, to find the first difference of two machines (docs/first_difference.md). `step` writes the
-  /// trace to the sink in chunks; a tick takes about ten times the state in use. While the recorder steps, it replaces
-  /// WorldHooks::observer, and calls the world's own observer first. A program that never calls this function links
-  /// none of its code. Errors: bad_argument (begun already, an unknown level, or `from` after `to`).
+  /// Selects the ticks to trace, to find the first difference of two machines (docs/first_difference.md). `step` writes
+  /// the trace to the sink in chunks. The trace of a tick takes about ten times the bytes of the state in use. While
+  /// the recorder steps, it replaces WorldHooks::observer by its own, which calls the world's observer first. A program
+  /// that does not call this function does not link the code of the tracer. Errors: bad_argument (begun already, an
+  /// unknown level, or `from` after `to`).
   Status trace(const TraceDef& def) {
     if (state_ != State::idle || def.level > TraceLevel::full || def.from > def.to) return Status::bad_argument;
     trace_ = def;
@@ -118,7 +120,8 @@ class Recorder {
   /// The world to which the calls are applied.
   const World& world() const { return world_; }
 
-  /// As the function of this name in world.h, body.h or joint.h, with its arguments and errors; logged if it succeeds.
+  /// Calls the function of this name in world.h, body.h or joint.h, with the same arguments and errors. A call that
+  /// succeeds is logged.
   /// @{
   Status create_body(const BodyDef& def, BodyId& id);
   Status destroy_body(BodyId id);
@@ -155,7 +158,8 @@ class Recorder {
   Status explode(const Explosion& explosion);
   Status move_kinematic(BodyId id, const Position& position, const Quat& rotation);
   /// @}
-  /// As the function of this name in query.h. Queries change nothing; they are logged with the digest of their hits.
+  /// Runs the query of this name in query.h. A query does not change the world. It is logged with the digest of its
+  /// hits.
   /// @{
   Status query_ray(const RayQuery& query, QueryHits hits, QueryReport& report);
   Status query_cast(const CastQuery& query, QueryHits hits, QueryReport& report);
@@ -211,20 +215,20 @@ class Recorder {
 /// The result of one tick of a replay.
 struct TickResult {
   bool finished = false;   ///< the recording has ended: no tick was made; `digest` is that of the final state
-  bool compared = false;   ///< the recording has a digest of this tick (with a world: and the digests are equal)
+  bool compared = false;   ///< the recording has a digest of this tick; with a world, it equals the replayed one
   uint64_t tick = 0;       ///< ticks completed since the world was created
   uint64_t digest = 0;     ///< the recorded digest, if `compared`
   uint32_t calls = 0;      ///< calls made before the tick
   StepReport report = {};  ///< the report of the step; empty without a world
 };
 
-/// Where and why a replay stopped. `field` and `status_text(status)` make one line of text:
-/// "corrupt at byte 1234, tick 17: chunk checksum".
+/// Where and why a replay stopped. A program can print it in one line: "corrupt at byte 1234, tick 17: chunk checksum",
+/// with status_text(status), `offset`, `tick` and `field`.
 struct ReplayError {
   Status status = Status::ok;    ///< the status of the failed call
   uint64_t tick = 0;             ///< ticks completed when the replay stopped
   uint64_t offset = 0;           ///< bytes from the recording's start to the wrong header field, chunk or record
-  const char* field = "";        ///< the wrong item; never null
+  const char* field = "";        ///< name of the wrong item; never null
   uint64_t digest_recorded = 0;  ///< digest_differs at a digest: the digest in the recording
   uint64_t digest_replayed = 0;  ///< digest_differs at a digest: this machine's digest
 };
@@ -236,8 +240,9 @@ struct QueryRepeater;
 extern const QueryRepeater k_query_repeater;
 /// @endcond
 
-/// Replays a recording from a stream. The stream may be untrusted: every length and number is checked before it is
-/// used, and the CRC-32 of each chunk before the chunk is read. After an error, all later calls return the same error.
+/// Replays a recording from a stream. The stream may be untrusted: the player checks the CRC-32 of each chunk before it
+/// reads the chunk, and every length and number before it uses them. After an error, all later calls return the same
+/// error.
 class Player {
  public:
   /// `buffer` must outlive the player.
@@ -245,8 +250,8 @@ class Player {
   Player(const Player&) = delete;
   Player& operator=(const Player&) = delete;
 
-  /// Repeats the recorded queries from now on: a result that differs from the recorded one is digest_differs. Without
-  /// this call queries are skipped. A program that never calls this function links none of their code.
+  /// Repeats the recorded queries from now on. If a result differs from the recorded one, the replay stops with
+  /// digest_differs. Without this call, the player skips queries, and the program does not link their code.
   void repeat_queries() { repeater_ = &k_query_repeater; }
   /// @cond
   void watch(const ReplayWatch* watch) { watch_ = watch; }
@@ -263,29 +268,33 @@ class Player {
   /// Errors: bad_argument (not opened, or started already), capacity_differs, and those of `load`; truncated,
   /// sink_failed.
   Status start(World& world);
-  /// Continues from a state that any machine saved during this recording: skips the recording up to the world's tick.
-  /// Errors: as start, and out_of_range (a tick before the seed or after the end).
+  /// Starts at the current state of the world, which may be a snapshot that any machine saved during this recording.
+  /// Skips the recording up to the world's tick. Errors: as start, and out_of_range (a tick before the seed or after
+  /// the end).
   Status start_at(World& world);
   /// Makes the calls of one tick, steps, and compares the digest. At the end it makes the calls after the last tick and
-  /// compares the final digest. A call that fails in this world, or returns an id other than the recorded one, is
-  /// digest_differs: the checksums are right, so the states differ. Errors: bad_argument (not started, or finished),
-  /// truncated, corrupt, digest_differs, sink_failed; `result` is then untouched.
+  /// compares the final digest. If a call fails in this world, or returns an id other than the recorded one, the status
+  /// is digest_differs: the checksums are right, so the states must differ. Errors: bad_argument (not started, or
+  /// finished), truncated, corrupt, digest_differs, sink_failed; `result` is then untouched.
   Status next_tick(World& world, TickResult& result) { return advance(&world, result); }
-  /// As next_tick, without a world: reads and checks the bytes, and makes no calls. After `open` it begins at the seed.
+  /// As next_tick, but without a world: reads and checks the bytes of one tick, and makes no calls. The first call
+  /// after `open` begins at the seed.
   Status skip_tick(TickResult& result) { return advance(nullptr, result); }
-  /// Sets the world to its state after `tick` completed ticks, before the calls of the next tick; forwards or
-  /// backwards. It needs `open`, but not `start`. It begins at the nearest of: the last keyframe at or before the tick,
-  /// the seed, the current state; from there it plays as next_tick does. With a `seek`, a truncated recording can be
-  /// played up to its last intact chunk. Errors: out_of_range (a tick outside the recording, or an earlier tick without
-  /// a `seek`: nothing changes, but without a `seek` a tick beyond the end leaves the replay at the end), and those of
-  /// start and next_tick; the world is then empty, or where the replay stopped.
+  /// Sets the world to its state after `tick` completed ticks, before the calls of the next tick. The tick may be after
+  /// or before the current one. `open` must have been called, `start` need not. The player begins at the nearest of the
+  /// last keyframe at or before the tick, the seed, and the current state. From there it plays as next_tick does. With
+  /// a `seek`, a truncated recording can be played up to its last intact chunk. Errors: out_of_range (a tick outside
+  /// the recording, or, without a `seek`, an earlier tick), and those of start and next_tick. After out_of_range
+  /// nothing has changed, except that without a `seek` a tick beyond the end leaves the replay at the end. After other
+  /// errors the world is empty, or at the tick where the replay stopped.
   Status go_to(World& world, uint64_t tick);
-  /// After next_tick returned truncated, or corrupt for a damaged chunk: the size of the intact part of the recording,
-  /// bytes from its start. These bytes, followed by the end that write_end() writes, are a recording of `error().tick`
-  /// ticks.
+  /// The size of the intact part of the recording, bytes from its start. Valid after next_tick returned truncated, or
+  /// corrupt because of a damaged chunk. The intact part, followed by the end that write_end() writes, is a recording
+  /// of `error().tick` ticks.
   uint64_t whole_bytes() const { return whole_bytes_; }
-  /// Writes the end of a recording after its intact part. `world`: the world of the replay. Errors: bad_argument (the
-  /// recording is complete, or the damage is in a chunk whose checksum is right; another world), sink_failed.
+  /// Writes the chunk that ends a recording, to be appended to the intact part (whole_bytes()). `world`: the world of
+  /// the replay. Errors: bad_argument (the recording is complete, or the damage is in a chunk whose checksum is right;
+  /// another world), sink_failed.
   Status write_end(const World& world, Sink sink);
   /// Where and why the replay stopped; `status` is ok until it stops.
   const ReplayError& error() const { return error_; }
@@ -337,7 +346,7 @@ class Player {
   uint64_t chunk_offset_ = 0;  ///< where the current chunk starts
   uint32_t chunk_type_ = 0;
   uint32_t payload_count_ = 0;
-  uint32_t payload_at_ = 0;  ///< bytes of the payload that have been used
+  uint32_t payload_at_ = 0;  ///< bytes of the payload that have been read
   uint32_t sequence_ = 0;    ///< number of the next chunk
   uint32_t state_type_ = 0;  ///< chunk type of the state that is being read: seed or keyframe
   uint32_t state_at_ = 0;    ///< bytes of that state that have been read

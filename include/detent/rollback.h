@@ -2,21 +2,22 @@
 #include <detent/world.h>
 
 /// @file
-/// World states for rollback: copies between worlds, differences of snapshots, and a ring of the last ticks; and
-/// sessions of a network match, built on them. Nothing here allocates.
+/// World states for rollback: copies between worlds, differences of snapshots, and a ring of the states of the last
+/// ticks. Rollback sessions for a network game use these. No function of this header allocates.
 ///
-/// In a session each machine simulates with the inputs that it has, repeats the last input of a player whose input has
-/// not arrived, and repeats ticks when an input differs from its prediction. The session stores inputs and states; the
-/// game sends inputs from machine to machine. See docs/rollback.md.
+/// In a session each machine simulates with the inputs that have arrived. For a player whose input is missing, it
+/// predicts the last input again. When an input arrives that differs from its prediction, the machine repeats the ticks
+/// from there on. The session stores inputs and states; the game sends the inputs between machines. See
+/// docs/rollback.md.
 ///
-/// Modelled on GGPO (Cannon 2019: inputs in, save, load and advance a frame) and ggrs (it compares checksums, has a
-/// sync test, and accepts inputs and checksums while it must wait).
+/// Models: GGPO (Cannon 2019), for the inputs and for saving, loading and advancing a frame; ggrs, for the comparison
+/// of checksums, the sync test, and for accepting inputs and checksums while a session waits.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Copies the state of `from` to `to`; their capacities may differ. Afterwards both have the same digest, and step
-/// identically as long as neither runs out of room. The handle of `to` (event buffers, assets, rules, features) stays.
-/// Errors, each before `to` is changed: pool_full (`to` has no room for the state in use), feature_missing,
+/// Copies the state of `from` to `to`; their capacities may differ. Afterwards both worlds have the same digest. They
+/// step identically as long as no pool of either world is full. `to` keeps its event buffers, assets, filter rules and
+/// features. Errors, each before `to` is changed: pool_full (`to` has no room for the state in use), feature_missing,
 /// asset_missing, asset_mismatch, rule_missing.
 Status copy_world(const World& from, World& to);
 
@@ -25,34 +26,36 @@ uint32_t checksum32(const World& world);
 
 /// Largest size of the difference of two snapshots of this capacity, bytes; 0 if the capacity is out of range.
 constexpr uint32_t delta_bytes_max(Capacity capacity);
-/// Writes the difference between `base`, an earlier snapshot of this world by save(), and the world as it is now. The
-/// same bytes on every target (SPEC.md, "Delta"). `bytes`: how many were written, at most `delta_capacity`.
+/// Writes the difference between `base`, an earlier snapshot of this world by save(), and the current state of the
+/// world. The delta has the same bytes on every target (SPEC.md, "Delta"). `bytes`: number of bytes written, at most
+/// `delta_capacity`.
 /// Errors: those of restore(), for the base; buffer_too_small, after which the content of `delta` is unspecified.
 Status save_delta(const World& world, const uint8_t* base, uint32_t base_bytes, uint8_t* delta, uint32_t delta_capacity,
                   uint32_t& bytes);
-/// Restores the state from which this program wrote `delta`, with the same base.
+/// Restores the state from which this program wrote `delta`. `base` must be the snapshot that was passed to
+/// save_delta().
 /// Errors: those of restore() and apply_delta().
 Status restore_delta(World& world, const uint8_t* base, uint32_t base_bytes, const uint8_t* delta,
                      uint32_t delta_bytes);
-/// Turns the base, in place, into the snapshot from which the delta was written. The delta may come from an untrusted
-/// source: every length and offset is checked before the base is changed; let load() check the resulting snapshot.
-/// Errors: truncated, not_detent, format_unknown, capacity_differs (a base of another size), bad_argument (a base of
-/// another tick), corrupt.
+/// Changes `base`, in place, to the snapshot of the state from which the delta was written. The delta may come from an
+/// untrusted source: every length and offset is checked before the base is changed; let load() check the resulting
+/// snapshot. Errors: truncated, not_detent, format_unknown, capacity_differs (a base of another size), bad_argument (a
+/// base of another tick), corrupt.
 Status apply_delta(uint8_t* base, uint32_t base_bytes, const uint8_t* delta, uint32_t delta_bytes);
 
 /// Bytes of memory of a SnapshotRing; 0 if an argument is out of range.
 constexpr uint32_t snapshot_ring_bytes(Capacity capacity, uint32_t ticks);
 
-/// The last ticks of a world, in the caller's memory: tick t has place t modulo the number of ticks. A place has room
-/// for any state of the capacity; only the part in use is written, without most of its zeros. The bytes are in the
-/// machine's byte order, for this program only.
+/// The states of a world after its last ticks, in the caller's memory. The state after tick t has the place t modulo
+/// the number of ticks. A place has room for any state of the capacity; only the used part of the state is written,
+/// without most of its zeros. The bytes are in the machine's byte order, and only this program can read them.
 class SnapshotRing {
  public:
   /// Makes room for `ticks` ticks of worlds of this capacity. `memory`: 8-byte aligned, at least snapshot_ring_bytes()
   /// bytes; only the ring may use it as long as the ring is in use.
   /// Errors: out_of_range, buffer_too_small, buffer_misaligned.
   Status begin(uint8_t* memory, uint32_t memory_bytes, Capacity capacity, uint32_t ticks);
-  /// Stores the current state of the world under its tick; it replaces the tick that had this place. Errors:
+  /// Stores the current state of the world under its tick, in place of the older tick that had the same place. Errors:
   /// bad_argument (not begun), capacity_differs.
   Status keep(const World& world);
   /// Restores the world's state after `tick` ticks, and drops all later ticks.
@@ -77,14 +80,15 @@ inline constexpr uint32_t k_delta_header_bytes = 24;
 /// @endcond
 
 constexpr uint32_t delta_bytes_max(Capacity capacity) {
-  // Worst case: every word of eight bytes differs, and has one byte of mask before it. An equal word takes no more.
+  // Worst case: every word of eight bytes differs; each takes one mask byte and eight bytes. A run of equal words never
+  // takes more.
   const uint64_t bytes = k_delta_header_bytes + uint64_t{snapshot_bytes(capacity)} / 8 * 9;
   return snapshot_bytes(capacity) == 0 || bytes > UINT32_MAX ? 0 : static_cast<uint32_t>(bytes);
 }
 
 /// @cond
-// Largest size of a packed state (lib/state/packed_state.h): the snapshot, a count, and a byte for each element that
-// has optional parts.
+// Largest size of a packed state (lib/state/packed_state.h), bytes: the snapshot, a count, and one byte for each
+// element with optional parts.
 constexpr uint32_t packed_bytes_max(Capacity capacity) {
   const uint64_t more = 4 + uint64_t{capacity.bodies} + capacity.contacts + manifold_count(capacity);
   const uint64_t bytes = (snapshot_bytes(capacity) + more + 7) / 8 * 8;
@@ -101,11 +105,11 @@ inline constexpr uint32_t k_rollback_players_max = 16;        ///< largest Rollb
 inline constexpr uint32_t k_rollback_window_max = 64;         ///< largest RollbackDef::window
 inline constexpr uint32_t k_rollback_input_bytes_max = 1024;  ///< largest RollbackDef::input_bytes
 
-/// The game's own state, which is stored and restored with the world: plain bytes without pointers or padding. They
-/// must be equal on all machines, because the checksums cover them.
+/// The game's own state, which the session stores and restores together with the world. It consists of plain bytes
+/// without pointers or padding. They must be equal on all machines, because the checksums cover them.
 struct GameState {
   uint8_t* bytes = nullptr;  ///< the game's bytes; null if there are none
-  uint32_t count = 0;        ///< their number
+  uint32_t count = 0;        ///< number of bytes
 };
 
 /// The inputs of one tick.
@@ -114,15 +118,15 @@ struct TickInputs {
   const uint8_t* inputs = nullptr;  ///< the inputs of all players, one after another
   uint32_t players = 0;             ///< number of players
   uint32_t input_bytes = 0;         ///< bytes of each player's input
-  uint32_t predicted = 0;           ///< bit p: player p's input has not arrived, and the last one is repeated
-  bool again = false;               ///< the tick is repeated: do not repeat sounds and other effects
+  uint32_t predicted = 0;           ///< bit p: the input of player p is a prediction, because it has not arrived
+  bool again = false;               ///< the tick was made before: the game must not repeat sounds and other effects
   /// The input of one player.
   const uint8_t* of(uint32_t player) const { return inputs + player * input_bytes; }
 };
 
-/// The game's function that makes a tick: it applies the inputs to the world and steps it, once. Its results may depend
-/// on the world, the GameState and the inputs only, because a rollback restores nothing else. It must not call the
-/// session.
+/// The game's function that makes a tick: it applies the inputs to the world and steps the world once. Its results may
+/// depend on the world, the GameState and the inputs only, because a rollback restores nothing else. It must not call
+/// the session.
 struct TickMaker {
   /// Makes one tick.
   void (*make)(void* context, World& world, const TickInputs& inputs) = nullptr;
@@ -147,10 +151,10 @@ struct RollbackReport {
   uint64_t went_back = 0;    ///< the first repeated tick
 };
 
-/// A checksum of the state after `tick` ticks: checksum32() of the world, combined with the GameState's bytes.
+/// A checksum of the state after `tick` ticks: of the world, as checksum32(), and of the GameState's bytes.
 struct TickChecksum {
   uint64_t tick = 0;      ///< ticks completed
-  uint32_t checksum = 0;  ///< of the state after them
+  uint32_t checksum = 0;  ///< of the state after these ticks
 };
 
 /// The first compared tick after which another player's state differs from this machine's.
@@ -159,14 +163,14 @@ struct Desync {
   uint64_t tick = 0;    ///< ticks completed
   uint32_t player = 0;  ///< the player whose state differs; the first if there are several
   uint32_t own = 0;     ///< this machine's checksum
-  uint32_t theirs = 0;  ///< the player's checksum
+  uint32_t theirs = 0;  ///< the checksum of `player`
 };
 
 /// Bytes of memory that a session needs for worlds of this capacity; 0 if an argument is out of range.
 constexpr uint32_t rollback_bytes(Capacity capacity, const RollbackDef& def);
 
-/// A session, which starts at the world's tick at `begin` and counts the world's ticks. Every call is safe with
-/// untrusted data from a network: invalid data returns an error.
+/// A rollback session. It starts at the tick that the world has at `begin`, and uses the tick numbers of the world.
+/// Every call is safe with untrusted data from a network: for invalid data it returns an error.
 class RollbackSession {
  public:
   RollbackSession() = default;
@@ -180,25 +184,25 @@ class RollbackSession {
   Status begin(const World& world, const RollbackDef& def, TickMaker maker, uint8_t* memory, uint32_t memory_bytes,
                GameState game = {});
 
-  /// Adds the input of a local player, `def.input_bytes` bytes, for the tick `def.delay` ticks after the next one; it
-  /// is returned in `tick`. Call it once a tick.
+  /// Adds the input of a local player, `def.input_bytes` bytes, for the tick that comes `def.delay` ticks after the
+  /// next one. Returns this tick in `tick`. Call the function once per tick and local player.
   /// Errors: bad_argument (not begun, not a local player, already added, null).
   Status add_local_input(uint32_t player, const uint8_t* input, uint64_t& tick);
-  /// Adds the input of a remote player for a tick. The order of calls is free; an input that is already known does not
-  /// change. Errors: bad_argument (not begun, not a remote player, null), out_of_range (too far ahead to be stored: it
-  /// must be sent again).
+  /// Adds the input of a remote player for a tick. Inputs may be added in any order. An input that is already known
+  /// does not change. Errors: bad_argument (not begun, not a remote player, null), out_of_range (the tick is too far
+  /// ahead for the input to be stored: the sender must send it again).
   Status add_input(uint32_t player, uint64_t tick, const uint8_t* input);
-  /// Reads the known input of any player, to send it. Inputs are kept at least until no machine needs them any more.
-  /// Errors: bad_argument (not begun, no such player), out_of_range (not known yet, or no longer kept).
+  /// Reads the known input of any player, to send it. An input is kept at least until every machine has it. Errors:
+  /// bad_argument (not begun, no such player), out_of_range (not known yet, or no longer kept).
   Status get_input(uint32_t player, uint64_t tick, uint8_t* input) const;
-  /// The first tick for which the player's input is not known. Send it to the player: earlier inputs need not be sent
-  /// again.
+  /// The first tick for which the player's input is not known here. Send this number to the player's machine: it need
+  /// not send earlier inputs again.
   uint64_t next_input(uint32_t player) const { return player < def_.players ? next_[player] : 0; }
 
   /// Repeats the ticks that had wrong predictions, then makes one more tick.
-  /// Errors before anything changes: waiting (`window` ticks were made without an input that has not arrived: call
-  /// again when more inputs have arrived); bad_argument (not begun; a local player's input is missing; the world is not
-  /// at the session's tick); capacity_differs, feature_missing (not the world that the session began with).
+  /// Errors before anything changes: waiting (an input is missing, and `window` ticks were made without it: call again
+  /// when more inputs have arrived); bad_argument (not begun; a local player's input is missing; the world is not at
+  /// the session's tick); capacity_differs, feature_missing (not the world that the session began with).
   /// Error afterwards: bad_argument if the maker did not step the world exactly once; this ends the session.
   Status advance(World& world, RollbackReport& report);
   /// Repeats the ticks that had wrong predictions, and makes no further tick: for use while waiting, and after the last
@@ -207,17 +211,17 @@ class RollbackSession {
 
   /// Ticks that the session has made.
   uint64_t tick() const { return tick_; }
-  /// The state after this many ticks is final on every machine: all inputs before it are known and used.
+  /// The number of ticks whose inputs are all known and used. The state after these ticks is final.
   uint64_t confirmed_tick() const;
 
-  /// Writes the last confirmed checksums, the latest first, up to `count`: send each one as often as the network
-  /// requires. Returns how many were written.
+  /// Writes the last checksums of confirmed ticks to `last`, the latest first, at most `count` of them. Returns the
+  /// number written. Send each checksum as often as the network requires.
   uint32_t checksums(TickChecksum* last, uint32_t count) const;
-  /// Adds a remote player's checksum; it is compared as soon as its tick is confirmed here. Errors: bad_argument (not
-  /// begun, not a remote player, not a tick with a checksum), out_of_range (too old or too far ahead to be compared),
-  /// digest_differs (desync() has the tick).
+  /// Adds a checksum of a remote player. The session compares it as soon as its tick is confirmed here. Errors:
+  /// bad_argument (not begun, not a remote player, not a tick with a checksum), out_of_range (too old or too far ahead
+  /// to be compared), digest_differs (desync() has the tick).
   Status add_checksum(uint32_t player, const TickChecksum& theirs);
-  /// Whether the states differ, and after which tick first.
+  /// Whether the states of the machines differ, and the first tick after which they differ.
   const Desync& desync() const { return desync_; }
 
  private:
@@ -252,7 +256,7 @@ class RollbackSession {
   uint8_t* games_ = nullptr;    ///< game states of the ticks in `states_`
   uint8_t* inputs_ = nullptr;   ///< [tick][player]: the known or predicted input
   uint64_t* stamps_ = nullptr;  ///< [tick][player]: tick + 1 if the input is known
-  Checksum* sums_ = nullptr;    ///< [tick][this machine, then each player]
+  Checksum* sums_ = nullptr;    ///< [tick][machine]: this machine first, then each player
   uint32_t kept_ = 0;           ///< number of ticks whose inputs and checksums are kept
   bool begun_ = false;
   uint64_t start_ = 0;           ///< the tick at `begin`
@@ -275,9 +279,10 @@ struct RollbackLayout {
   uint64_t bytes;  ///< 0: out of range
 };
 
-// Ticks to keep, around the first tick for which a machine lacks an input. The machine is up to one window ahead of it.
-// A remote player is up to a delay and a window ahead of the machine, and its inputs are a delay ahead of the player.
-// The machine may have to send its own inputs from up to a window and a delay before. A delay is at most a window.
+// The number of ticks whose inputs are kept, around the first tick for which a machine lacks an input. The machine is
+// up to one window ahead of that tick. A remote player is up to one delay and one window ahead of the machine, and its
+// inputs are one delay ahead of the player. The machine may have to send its own inputs of up to one window and one
+// delay before that tick. A delay is at most one window.
 constexpr uint32_t rollback_ticks_kept(uint32_t window) { return 6 * window + 2; }
 
 constexpr RollbackLayout rollback_layout(Capacity capacity, const RollbackDef& def) {
@@ -309,7 +314,7 @@ constexpr uint32_t rollback_bytes(Capacity capacity, const RollbackDef& def) {
 
 /// The settings of sync_test().
 struct SyncTestDef {
-  uint32_t ticks = 1;               ///< ticks to make, and to repeat
+  uint32_t ticks = 1;               ///< number of ticks to make and to repeat
   const uint8_t* inputs = nullptr;  ///< [tick][player]: the inputs; null if there are none
   uint32_t players = 0;             ///< TickInputs::players
   uint32_t input_bytes = 0;         ///< TickInputs::input_bytes
@@ -318,7 +323,7 @@ struct SyncTestDef {
 /// The result of sync_test().
 struct SyncTestReport {
   uint64_t tick = 0;    ///< digest_differs: ticks completed in the first state that differs
-  uint64_t first = 0;   ///< digest of this state at the first time
+  uint64_t first = 0;   ///< digest of this state when the tick was first made
   uint64_t second = 0;  ///< digest of this state when the tick was repeated
 };
 
@@ -328,9 +333,9 @@ constexpr uint32_t sync_test_bytes(Capacity capacity, uint32_t ticks, uint32_t g
   return ticks == 0 || bytes > UINT32_MAX || snapshot_ring_bytes(capacity, 1) == 0 ? 0 : static_cast<uint32_t>(bytes);
 }
 
-/// Makes ticks, restores the state before them, repeats them, and compares the digests: a test of a session's maker.
-/// `game`: what the maker changes besides the world; {}: nothing. Afterwards the world and `game` have the state of the
-/// repetition.
+/// Tests the TickMaker of a session: makes ticks, restores the state before them, makes them again, and compares the
+/// digests. `game`: the state besides the world that the maker changes; {}: none. Afterwards the world and `game` have
+/// the state after the repeated ticks.
 /// Errors: digest_differs (`report` has the tick; the world is at this tick), out_of_range, buffer_too_small,
 /// buffer_misaligned, bad_argument (no maker; inputs without bytes; a maker that did not step the world exactly once).
 Status sync_test(World& world, const SyncTestDef& def, TickMaker maker, uint8_t* memory, uint32_t memory_bytes,

@@ -9,15 +9,17 @@
 /// connects it. A sensor moves like any body of its type; it belongs to no island, wakes no body and keeps no body
 /// awake.
 ///
-/// A body is *within* a sensor if, at the end of a step, the distance of their surfaces is at most 2^-14 of the lesser
-/// of their smallest diameters. During the step, bodies are tested by their time of impact, also if the world is not
-/// continuous: a body that passes through a sensor in one step enters and leaves it, however fast it is. An undecided
-/// test counts as within, or as passing through, and is counted in StepReport::lost.sensed_undecided.
+/// A body is *within* a sensor if, at the end of a step, the distance of their surfaces is at most 2^-14 of the pair's
+/// smaller extent: the lesser of their two smallest diameters. During the step, bodies are tested by their time of
+/// impact, even if WorldDef::continuous is false. Therefore a body that passes through a sensor in one step causes an
+/// enter and a leave event at any speed. If a test is undecided, the body counts as within the sensor, or as passing
+/// through it; StepReport::lost.sensed_undecided counts these tests.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The bodies within a sensor after the last step, in slot order. Writes the first `capacity` of them to `bodies`,
-/// or none if `bodies` is null; `count` is the number of all. Errors: bad_id, bad_argument (not a sensor).
+/// Lists the bodies within a sensor after the last step, in slot order. Writes the first `capacity` ids to `bodies`, or
+/// none if `bodies` is null. `count`: the number of all bodies within the sensor. Errors: bad_id, bad_argument (not a
+/// sensor).
 Status get_sensed(const World& world, BodyId sensor, BodyId* bodies, uint32_t capacity, uint32_t& count);
 
 }  // namespace DETENT_NAMESPACE

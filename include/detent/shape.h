@@ -22,13 +22,13 @@ enum class ShapeType : uint32_t {
 
 /// A shape in its body's frame, centred on the centre of mass. Make one with the functions below.
 /// Sizes, m: [2^-14, 2^14] (0.06 mm to 16 km); the ratio of a shape's largest to its smallest size is at most 2^14.
-/// In a world the bounding radius, `rounding` included, is below 2^15 m and at most 2^14 times the least size.
+/// In a world, the bounding radius (with `rounding`) must be below 2^15 m and at most 2^14 times the smallest size.
 struct Shape {
   ShapeType type = ShapeType::sphere;  ///< selects which of the members below are used
   Real radius = 0.5;                   ///< m; of a sphere, capsule, cylinder, and of a cone's base
   Real half_length = 0.0;  ///< m; half the length along local y of a capsule's core segment, a cylinder or a cone
   Vec3<Real> half_extents = {0.5, 0.5, 0.5};  ///< m; of a box
-  Real rounding = 0.0;  ///< m; radius of a ball by which a box, cylinder, cone or hull grows; 0, or in range of sizes
+  Real rounding = 0.0;  ///< m; radius of the ball that rounds a box, cylinder, cone or hull; 0, or a valid size
   uint32_t asset = 0;   ///< of a hull, terrain or compound: index in the world's asset table
 };
 
@@ -71,31 +71,32 @@ constexpr Shape cone(Real radius, Real half_length) {
   shape.half_length = half_length;
   return shape;
 }
-/// The cooked hull (docs/hull.md) of the world's asset `asset`, after bind_asset() has bound it. Its origin is the
-/// body's; a dynamic body needs a hull in its principal frame. For create_body(); without a world: make_hull().
+/// The cooked hull (docs/hull.md) of the asset with the index `asset`, which bind_asset() must have bound. Its origin
+/// is the body's origin. A dynamic body needs a hull in its principal frame. For create_body(); without a world, use
+/// make_hull().
 constexpr Shape hull(uint32_t asset) {
   Shape shape;
   shape.type = ShapeType::hull;
   shape.asset = asset;
   return shape;
 }
-/// The shape grown by a ball of radius `rounding`, m; for box, cylinder, cone and hull.
+/// Returns `shape`, rounded: its Minkowski sum with a ball of radius `rounding`, m. For box, cylinder, cone and hull.
 constexpr Shape rounded(Shape shape, Real rounding) {
   shape.rounding = rounding;
   return shape;
 }
-/// A terrain: the triangle mesh (docs/mesh.md) or height field (docs/height_field.md) of the world's asset `asset`,
-/// after bind_asset() has bound it; for fixed and kinematic bodies only. Its origin is the body's. A terrain has no
-/// inside: a body that ends up behind it is pushed out on that side; behind a one-sided terrain it is not pushed at
-/// all.
+/// A terrain: the triangle mesh (docs/mesh.md) or height field (docs/height_field.md) of the asset with the index
+/// `asset`, which bind_asset() must have bound. For fixed and kinematic bodies only. Its origin is the body's origin. A
+/// terrain is a surface without an inside: a body on its back side is pushed out on the back side. A one-sided terrain
+/// does not push bodies on its back side.
 constexpr Shape terrain(uint32_t asset) {
   Shape shape;
   shape.type = ShapeType::terrain;
   shape.asset = asset;
   return shape;
 }
-/// The compound of convex shapes (docs/compound.md) of the world's asset `asset`, after bind_asset() has bound it. Its
-/// origin is the body's; its parts have the rounding that they were cooked with.
+/// The compound of convex shapes (docs/compound.md) of the asset with the index `asset`, which bind_asset() must have
+/// bound. Its origin is the body's origin. Its parts have the rounding of the cooked data.
 constexpr Shape compound(uint32_t asset) {
   Shape shape;
   shape.type = ShapeType::compound;

@@ -7,11 +7,11 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// A motion over a step: constant velocity of the position and constant angular velocity, world axes.
+/// The motion of a body in a step, at constant velocity and constant angular velocity, world axes.
 struct Motion {
   Pose start = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}};  ///< at the beginning of the step
   Vec3<Real> displacement = {};                          ///< m over the step; each component within 2^14
-  Vec3<Real> rotation_vector = {};                       ///< rotation vector over the step, rad; |turn| <= 2^16
+  Vec3<Real> rotation_vector = {};                       ///< over the step, rad; length at most 2^16
 };
 
 /// The result for a step.
@@ -24,21 +24,23 @@ enum class ToiOutcome : uint32_t {
 /// When and where two moving shapes collide.
 struct TimeOfImpact {
   ToiOutcome outcome = ToiOutcome::undecided;  ///< whether the shapes collide
-  /// Fraction of the step, never late: before it the shapes do not touch, unless they touch at the start; 1 if clear.
+  /// Fraction of the step. It is never late: before `time` the shapes do not touch, unless they touch at the start. 1
+  /// if clear.
   Fraction time = 0.0;
   Vec3<Unit> normal = {};  ///< at `time`, from A to B, world axes; zero if the cores touch at the start
   Vec3<Real> point = {};   ///< of a hit, on A's surface, m, from A's position at `time`, world axes
-  uint32_t gjk_calls = 0;  ///< calls of GJK, without a confirmation of the hit that needed only one support point
+  uint32_t gjk_calls = 0;  ///< calls of GJK, except a confirmation of the hit with a single support point
   uint32_t passes = 0;     ///< time intervals tried
 };
 
-/// At the time of a hit, the gap is at most this fraction of the larger core diameter, plus the ulps in SPEC.md.
+/// The largest gap at the time of a hit, as a fraction of the larger core diameter; the rounding errors in SPEC.md are
+/// added.
 inline constexpr double k_toi_tolerance = 1e-6;
 
 /// Computes when the distance of two moving shapes first is within the tolerance.
-/// Tolerance: k_toi_tolerance times the larger core diameter, plus the ulps in SPEC.md.
-/// Errors: not_normalised; out_of_range, also if the positions are 2^16 m apart and the bounding spheres might touch,
-/// or if a position is 2^16 m from a half-space's position; bad_argument for two half-spaces.
+/// Tolerance: k_toi_tolerance times the larger core diameter, plus the rounding errors in SPEC.md. Errors:
+/// not_normalised; out_of_range, also if the positions are 2^16 m apart and the bounding spheres might touch, or if a
+/// position is 2^16 m from a half-space's position; bad_argument for two half-spaces.
 Status time_of_impact(const Convex& a, const Motion& motion_a, const Convex& b, const Motion& motion_b,
                       TimeOfImpact& result);
 

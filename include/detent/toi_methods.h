@@ -8,18 +8,18 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// Methods for the time of impact of two convex shapes. The methods from `paper` to `constant_angular_velocity` advance
-/// along separating axes that are certified, and differ in how far they advance along one axis. The others are methods
-/// from the literature, for comparison.
+/// along certified separating axes. They differ in how far they advance along one axis. The other methods are from the
+/// literature, for comparison.
 enum class ToiMethod {
-  paper,         ///< Coumans' Algorithm 1: bounds the approach by n.v + |wA| rA + |wB| rB; one step for each axis
-  first_order,   ///< bounds it by |n x w| times the radius about the rotation axis; one step for each axis
-  second_order,  ///< uses a concave bound along an axis fixed in the world, as long as the bound permits an advance
+  paper,         ///< Coumans' Algorithm 1: bounds the approach speed by n.v + |wA| rA + |wB| rB; one step per axis
+  first_order,   ///< bounds it with |n x w| x the radius about the rotation axis instead; one step per axis
+  second_order,  ///< repeats advances along an axis fixed in the world, by a concave bound of the separation
   corotating,    ///< as second_order, but the axis rotates with the body that has the face or edge
-  /// As constant_angular_velocity, but each body moves by itself; the other methods move B relative to A (both are
-  /// formulations of Coumans).
+  /// As constant_angular_velocity, but both bodies move in the world frame. The other methods move B relative to A.
+  /// Both formulations are from Coumans.
   world_space,
   constant_angular_velocity,  ///< as corotating, but the axis of two edges rotates so that it is also exact at contact
-  mirtich,                    ///< conservative advancement whose bound is solved for the time: D1(t) + D2(t) = d
+  mirtich,                    ///< solves D1(t) + D2(t) = d for t: path bounds of the bodies, their distance
   baraff,                     ///< finds the root of the separation along a witness axis; may miss a contact
   feature_pairs,              ///< polytopes: finds the first contact of all pairs of features
   redon,  ///< polytopes: as feature_pairs, for the screw motion between both end poses (a different motion)

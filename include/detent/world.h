@@ -8,12 +8,12 @@
 #include <detent/status.h>
 
 /// @file
-/// The world: a static pool of bodies and contacts in one block of the caller's memory.
+/// The world: pools of bodies, contacts and joints, of fixed capacity, in one block of the caller's memory.
 ///
-/// Threads: a world is a value, and there is no global state. Calls on different worlds may run concurrently. On one
-/// world, functions that take `const World&` may run concurrently with each other; a call that takes `World&` must run
-/// alone. In f32 and f64 every call that computes sets the rounding mode and flush-to-zero flags it needs and restores
-/// the caller's.
+/// Threads: the library has no global state. Calls on different worlds may run concurrently. On one world, functions
+/// that take `const World&` may run concurrently with each other; a call that takes `World&` must run alone. In f32 and
+/// f64, every call that computes sets the floating-point modes (rounding, flush-to-zero) that it needs, and restores
+/// those of the caller.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -52,28 +52,32 @@ struct WorldDef {
   Capacity capacity = {};
   Vec3<Real> gravity = {Real(0.0), Real(-9.81), Real(0.0)};  ///< m/s^2; each component within +-1024
   Real tick = Real(1.0 / 60.0);                              ///< s, the time of one step, [2^-14, 1/4]
-  /// Solver substeps a tick, [1, 64]; 0: chosen for each island from its contacts' loads and its joints.
+  /// Solver substeps per tick, [1, 64]; 0: the step chooses the number for each island from its contact loads and its
+  /// joints.
   uint32_t substeps = 0;
-  uint32_t substeps_max = 32;  ///< upper limit of the number chosen where `substeps` is 0, [1, 64]
+  uint32_t substeps_max = 32;  ///< largest number that the step chooses if `substeps` is 0, [1, 64]
   uint32_t iterations = 1;     ///< solver iterations over the contacts in a substep, [1, 64]
-  /// The iterations of a substep end early when the last one changed no velocity by more than 2^-convergence times the
-  /// speed that gravity (at least 1 m/s^2) adds in the substep; [0, 30].
+  /// The iterations of a substep end early if the last iteration changed no velocity by more than 2^-convergence g h.
+  /// Here h is the length of the substep, and g the gravity, but at least 1 m/s^2. Range: [0, 30].
   uint32_t convergence = 12;
   /// How the solver corrects penetration.
   Stabilisation stabilisation = Stabilisation::soft;
   Real relaxation = 1.0;                ///< over-relaxation factor of the SOR solver, [1/4, 7/4]
   Real contact_frequency = Real(0.14);  ///< frequency of soft contacts as a fraction of the substep rate, [1/64, 1/4]
-  /// Damping ratio of soft contacts, [0, 64]. Contacts between two dynamic bodies use 0.7 of it, all others half of it.
+  /// Damping ratio of soft contacts, [0, 64]. Contacts between two dynamic bodies use 0.7 times this value, all other
+  /// contacts half of it.
   Real damping_ratio = 10.0;
-  /// Approach speed below which a contact does not rebound, as a multiple of sqrt(g x smaller extent); [0, 64].
+  /// Approach speed below which a contact does not rebound, as a multiple of sqrt(g x smaller extent), with the gravity
+  /// g; [0, 64].
   Real restitution_threshold = 0.25;
   bool continuous = true;  ///< continuous collision: bodies collide at the time of impact, however fast they move
-  bool sleeping = true;    ///< islands at rest fall asleep: steps skip them until something wakes them
-  /// Contact margin (breaking distance) of a pair at rest, as a fraction of its smaller extent, [2^-10, 2^-4]: surfaces
-  /// that are closer have contact points. A step adds the distance that the pair can close in a tick.
+  bool sleeping = true;    ///< islands at rest fall asleep: steps skip them until a contact, joint or call wakes them
+  /// Contact margin (breaking distance) of a pair at rest, as a fraction of the pair's smaller extent, [2^-10, 2^-4].
+  /// Two surfaces have contact points if their distance is below the margin. For a moving pair, a step adds the
+  /// distance by which the bodies can approach in a tick.
   Real contact_margin = Real(1.0 / 64);
-  /// A pair's contact points are recycled until the pair has moved by more than this fraction of its smaller extent
-  /// since they were computed; [0, 1/64]. Counts as 0 if the capacity has no room for manifolds.
+  /// The contact points of a pair are recycled until the bodies' relative motion since their computation exceeds this
+  /// fraction of the pair's smaller extent; [0, 1/64]. 0 if Capacity::manifolds is false.
   Real contact_recycle_distance = Real(1.0 / 256);
   ManifoldReduction reduction = ManifoldReduction::projected_extremes;  ///< which of more than four points are kept
 };
@@ -93,8 +97,8 @@ inline constexpr uint32_t k_step_stage_count = 8;  ///< how many stages there ar
 /// The name of the enumerator. Never null.
 const char* stage_name(StepStage stage);
 
-/// Times of the stages, by the caller's clock, summed over steps. Set World::profile to measure them; it does not
-/// change the state.
+/// Times of the stages of a step, by the caller's clock, summed over steps. Set WorldHooks::profile to measure them. A
+/// profile does not change the state.
 struct Profile {
   uint64_t (*now)(void* user) = nullptr;    ///< the clock; it must not run backwards, nor use the world
   void* user = nullptr;                     ///< passed to `now`
@@ -102,11 +106,12 @@ struct Profile {
   uint64_t steps = 0;                       ///< number of steps that were not idle
 };
 
-/// A callback at the end of each stage of each step that is not idle. Set WorldHooks::observer to use it; it does not
-/// change the state. For tools that find the stage in which two machines begin to differ.
+/// A callback at the end of each stage of each step that is not idle. It is for tools that find the stage in which two
+/// machines begin to differ. Set WorldHooks::observer to use it. An observer does not change the state.
 struct StepObserver {
-  /// `contacts`: number of contacts that the step has found so far, in its work space. It must not change the world.
-  /// The state is incomplete within the step: of world.h it may only call `digest`, `save` and the getters.
+  /// `contacts`: number of contacts that the step has found so far, in its work space. The callback must not change the
+  /// world. The state is incomplete within the step, so the callback may call only these functions of world.h:
+  /// `digest`, `save` and the getters.
   void (*stage_ended)(void* context, const World& world, StepStage stage, uint32_t contacts) = nullptr;
   void* context = nullptr;  ///< passed to `stage_ended`
 };
@@ -114,7 +119,8 @@ struct StepObserver {
 /// Bytes of the block that a world of this capacity needs; 0 if the capacity is out of range. The same on every target.
 constexpr uint32_t world_bytes(Capacity capacity);
 
-/// What the caller lends to a world. Its memory must outlive the world. All by default: nothing.
+/// Memory and functions of the caller that a world uses: assets, filter rules, event buffers, profile, observer. The
+/// memory must outlive the world. By default all are empty.
 /// An event buffer without `data` counts as no buffer, whatever its capacity.
 struct WorldHooks {
   AssetTable assets = {};  ///< the assets that can be bound (asset.h)
@@ -124,20 +130,20 @@ struct WorldHooks {
   JointEventBuffer joint_events = {};        ///< as contact_events: joints that broke
   SensorEventBuffer sensor_events = {};      ///< as contact_events: bodies that entered or left a sensor
   BodyEventBuffer body_events = {};          ///< as contact_events: bodies that fell asleep or woke
-  CapacityEventBuffer capacity_events = {};  ///< as contact_events: what a full pool dropped
+  CapacityEventBuffer capacity_events = {};  ///< as contact_events: entries that a full pool dropped
   Profile* profile = nullptr;                ///< times of the stages of each step
   const StepObserver* observer = nullptr;    ///< called at the end of each stage of each step
 };
 
-/// A world in the caller's block. A small value: copy it freely; it owns nothing.
+/// A handle to a world in the caller's block. It owns nothing and may be copied.
 struct World {
   uint8_t* block = nullptr;                ///< the block passed to create_world()
   const FeatureTable* features = nullptr;  ///< the features passed to create_world()
-  /// Contacts that the solver processes at once: create_world() sets 4 if this machine supports it, else 1. The results
-  /// are bit-identical.
+  /// Number of contacts that the solver processes at once. create_world() sets 4 if this machine supports it, else 1.
+  /// The results of both are bit-identical.
   uint32_t lanes = 1;
-  /// The hooks passed to create_world(). They may be changed between calls, but bodies must find the assets and filter
-  /// rules that they use.
+  /// The hooks passed to create_world(). They may be changed between calls, but the assets and filter rules that bodies
+  /// use must stay available.
   WorldHooks hooks = {};
 };
 
@@ -152,7 +158,7 @@ struct ContactReport {
   uint32_t capped = 0;
   uint32_t sweeps_saved = 0;  ///< solver iterations skipped because an island converged (WorldDef::convergence)
   uint64_t substeps = 0;      ///< sum over all contacts of their islands' substeps: the work of the solver
-  /// Contacts without a free colour: the other contacts of their two bodies use all 64. They are solved after the rest.
+  /// Contacts that found no free colour, because other contacts of their two bodies use all 64. They are solved last.
   uint32_t colour_overflows = 0;
 };
 
@@ -160,43 +166,44 @@ struct ContactReport {
 struct JointReport {
   uint32_t count = 0;      ///< joints of at least one awake body
   uint32_t broken = 0;     ///< joints that broke and were removed
-  uint32_t undecided = 0;  ///< joint solves that ended with a limit or motor undecided after the last try
+  uint32_t undecided = 0;  ///< joint solves that reached their largest number of tries with a limit or motor undecided
 };
 
 /// Continuous collision in one step.
 struct CcdReport {
   uint32_t impacts = 0;        ///< impacts within the tick that changed how bodies move
-  uint32_t undecided = 0;      ///< times of impact known only as a lower bound, or that could not be computed
+  uint32_t undecided = 0;      ///< times of impact of which only a lower bound is known, or that could not be computed
   uint32_t overlaps_left = 0;  ///< pairs that overlap too deeply for continuous collision
-  /// Bodies stopped early in this tick: they had too many impacts (docs/continuous_collision.md), the impact pool was
-  /// full, or an overlap was too deep. They stay at their last safe pose until the tick ends.
+  /// Bodies that stopped before the end of the tick. Reasons: too many impacts (docs/continuous_collision.md), a full
+  /// impact pool, or an overlap that is too deep. They stay at their last safe pose until the tick ends.
   uint32_t bodies_stopped = 0;
-  Real lost_time = 0.0;     ///< sum over these bodies of the fraction of the tick that they missed
+  Real lost_time = 0.0;     ///< sum over these bodies of the fraction of the tick for which they stood still
   uint32_t tests = 0;       ///< times of impact computed
   uint32_t skipped = 0;     ///< pairs not tested for impact because they are too slow to collide in the tick
-  uint32_t kept_apart = 0;  ///< pairs not tested because their contacts keep them apart
+  uint32_t kept_apart = 0;  ///< pairs not tested for impact because their contacts keep them apart
 };
 
 /// What one step lost: entries for which a pool had no room, and sensor tests left undecided.
 struct LossReport {
-  /// Pairs beyond the pair buffer (the shallowest, by their bounds): they have no contacts in this tick, but continuous
-  /// collision tests all of them.
+  /// Pairs beyond the pair pool. The pairs whose bounds overlap least are dropped. They have no contacts in this tick,
+  /// but continuous collision tests them all.
   uint32_t pairs = 0;
-  /// Contacts beyond Capacity::contacts or beyond eight for one pair (the shallowest): not solved in this tick.
+  /// Contacts beyond Capacity::contacts, or beyond eight for one pair. The shallowest are dropped: they are not solved
+  /// in this tick.
   uint32_t contacts = 0;
-  /// The part of `contacts` that was beyond eight for one pair: a larger capacity does not prevent it.
+  /// The part of `contacts` that was beyond eight for one pair. A larger capacity does not prevent these losses.
   uint32_t contact_parts = 0;
-  /// Couplings between joints beyond the room of the joint solver, where joints form too many loops: the joints that
-  /// they couple are softer.
+  /// Couplings between joints that had no room in the joint solver, because the joints form too many loops. The joints
+  /// that they couple become softer.
   uint32_t joint_couplings = 0;
   uint32_t impacts = 0;  ///< impacts beyond the impact pool (Capacity::contacts): their bodies stop early
-  /// Bodies in or through a sensor beyond Capacity::sensed: the sensor does not report them.
+  /// Bodies within or passing through a sensor, beyond Capacity::sensed. The sensor does not report them.
   uint32_t sensed = 0;
-  uint32_t sensed_undecided = 0;  ///< bodies that count as in or through a sensor because the test was undecided
+  uint32_t sensed_undecided = 0;  ///< bodies that count as within or through a sensor because a test was undecided
 };
 
-/// The events that one step wrote to the buffers of WorldHooks, and those that it dropped. 0 for an event without a
-/// buffer.
+/// The numbers of events that one step wrote to the buffers of WorldHooks, and of those that it dropped. 0 for events
+/// without a buffer.
 struct EventReport {
   uint32_t contact = 0;   ///< events written to WorldHooks::contact_events
   uint32_t joint = 0;     ///< events written to WorldHooks::joint_events
@@ -225,8 +232,8 @@ struct StepReport {
   CcdReport ccd = {};           ///< continuous collision
   LossReport lost = {};         ///< what the step lost
   EventReport events = {};      ///< events written and dropped
-  /// True if the step dropped no pair, contact or sensed body, capped no contact search, clamped no value and stopped
-  /// no body early. Dropped events and the joint counts are not part of it.
+  /// Returns true if the step dropped no pair, contact or sensed body, capped no contact search, clamped no value and
+  /// stopped no body early. It does not test the counts of dropped events and of joints.
   constexpr bool complete() const {
     return lost.pairs == 0 && lost.contacts == 0 && contacts.capped == 0 && saturations == 0 &&
            ccd.bodies_stopped == 0 && lost.sensed == 0;
@@ -245,9 +252,9 @@ struct WorldInfo {
 };
 
 /// Makes an empty world in `block` (8-byte aligned, at least world_bytes(def.capacity) bytes).
-/// `hooks`: what the caller lends to the world; {}: nothing. `features`: the features of the world, and so the code
-/// that the program links (features.h). Errors: buffer_too_small, buffer_misaligned, out_of_range, bad_argument
-/// (`reduction` or `stabilisation` is not a value of its enumeration), feature_missing.
+/// `hooks`: memory and functions of the caller that the world uses; {}: none. `features`: the features of the world;
+/// they determine the code that the program links (features.h). Errors: buffer_too_small, buffer_misaligned,
+/// out_of_range, bad_argument (`reduction` or `stabilisation` is not a value of its enumeration), feature_missing.
 Status create_world(uint8_t* block, uint32_t block_bytes, const WorldDef& def, const WorldHooks& hooks,
                     const FeatureTable& features, World& world);
 /// The same with all features.
@@ -291,15 +298,15 @@ Status wake_body(World& world, BodyId id);
 Status sleep_body(World& world, BodyId id);
 /// Sets BodyDef::user_data of a body; wakes no body. Errors: bad_id.
 Status set_user_data(World& world, BodyId id, uint32_t user_data);
-/// Sets what a body collides with, and wakes it. Contacts that are no longer allowed end in the next step, and their
-/// other bodies wake. Errors: bad_id, rule_missing.
+/// Sets the filter of a body, and wakes the body. Contacts that the filter now forbids end in the next step; the other
+/// bodies of these contacts wake. Errors: bad_id, rule_missing.
 Status set_filter(World& world, BodyId id, const Filter& filter);
 /// Binds the table's asset `index` to the state by its content digest. Cooked shapes are checked in full.
 /// Errors: asset_missing, out_of_range, asset_mismatch (bodies use the asset that was bound at this index),
 /// feature_missing (the features that read this kind of asset).
 Status bind_asset(World& world, uint32_t index);
 
-/// Advances the world by one tick. Never fails: the report counts what overflowed, was clamped or was left undecided.
+/// Advances the world by one tick. A step never fails: the report counts overflows, clamped values and undecided tests.
 StepReport step(World& world);
 
 /// Whether the id names a body of this world.
@@ -307,15 +314,15 @@ bool is_valid(const World& world, BodyId id);
 /// The pose of a body, m, world. Errors: bad_id.
 Status get_pose(const World& world, BodyId id, Pose& pose);
 /// The velocity of the centre of mass, m/s, and the angular velocity `angular_velocity`, rad/s, world frame. Overflow:
-/// components of the angular velocity are clamped to the range of Real, which only bodies below 12 cm can exceed.
-/// Errors: bad_id.
+/// components of the angular velocity are clamped to the range of Real, which only bodies smaller than 12 cm can
+/// exceed. Errors: bad_id.
 Status get_velocity(const World& world, BodyId id, Vec3<Real>& velocity, Vec3<Real>& angular_velocity);
 /// The mass, kg; 0 for fixed and kinematic bodies. Getters of the other properties: body.h.
 /// Errors: bad_id.
 Status get_mass(const World& world, BodyId id, Scaled& mass);
 /// BodyDef::user_data, or the value last set by set_user_data(). Errors: bad_id.
 Status get_user_data(const World& world, BodyId id, uint32_t& user_data);
-/// What the body collides with. Errors: bad_id.
+/// Gets the filter of a body. Errors: bad_id.
 Status get_filter(const World& world, BodyId id, Filter& filter);
 /// Whether a body takes part in the next step. Fixed bodies, and kinematic bodies at rest, are never awake.
 /// Errors: bad_id.
@@ -344,7 +351,7 @@ Status load(World& world, uint8_t* bytes, uint32_t byte_count);
 /// The definition that creates an empty world with this world's settings and capacity.
 WorldDef get_settings(const World& world);
 /// Changes all settings and wakes every body; `def.capacity` is ignored. Forces that were applied since the last step
-/// add the same change of velocity as with the old length of a tick.
+/// still add the change of velocity of a tick of the old length.
 ///
 ///     WorldDef def = get_settings(world);
 ///     def.substeps = 8;
@@ -366,7 +373,7 @@ struct CapacityUse {
   uint64_t steps_full = 0;  ///< steps in which a pool had no room
 };
 
-/// Records a step in `use`. `report`: of the step; `after`: get_info() after it.
+/// Adds a step to the record `use`. `report`: the report of the step. `after`: get_info() after the step.
 constexpr void note_use(const StepReport& report, const WorldInfo& after, CapacityUse& use) {
   const auto note = [](uint32_t& most, uint32_t kept, uint32_t dropped) {
     const uint32_t wanted = kept < UINT32_MAX - dropped ? kept + dropped : UINT32_MAX;
@@ -383,9 +390,9 @@ constexpr void note_use(const StepReport& report, const WorldInfo& after, Capaci
     ++use.steps_full;
 }
 
-/// A capacity with room for the recorded use plus a quarter, rounded up, and for at least one body. `assets` and
-/// `manifolds` are not recorded: they are copied from `now`. Dropped entries change the motion, so a run with the
-/// larger capacity may need still more: record that run too.
+/// Returns a capacity with room for the recorded use plus a quarter of it, rounded up, and for at least one body.
+/// `assets` and `manifolds` are not recorded, but copied from `now`. Dropped entries change the motion. Therefore a run
+/// with the larger capacity may need still more capacity: record this run too.
 constexpr Capacity suggest_capacity(const CapacityUse& use, const Capacity& now) {
   const auto with_spare = [](uint32_t count) {
     const uint32_t spare = count / 4 + (count % 4 != 0 ? 1 : 0);
@@ -417,7 +424,7 @@ struct WorldStorage {
   static_assert(k_bytes != 0, "detent: capacity out of range");
   alignas(8) uint8_t block[k_bytes];  ///< the world's memory; nothing else may write to it
 
-  /// As create_world, in this block and with this capacity; `def.capacity` is ignored.
+  /// Calls create_world() with this block and this capacity; `def.capacity` is ignored.
   Status create(WorldDef def, const WorldHooks& hooks, const FeatureTable& features, World& world) {
     def.capacity = capacity;
     return create_world(block, k_bytes, def, hooks, features, world);

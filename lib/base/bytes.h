@@ -2,7 +2,7 @@
 #include <detent/config.h>
 #include <string.h>
 
-/// Canonical bytes are little-endian. Only this file tests the machine's own byte order.
+/// Conversion of canonical bytes, which are little-endian. No other file tests the machine's byte order.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 

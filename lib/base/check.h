@@ -1,7 +1,7 @@
 #pragma once
 
-/// Checks a range or an index in builds with DETENT_VERIFY (the tests), even if that is expensive; traps if it fails.
-/// It never changes a computed value.
+/// Checks a range or an index, and traps if the condition is false. Active only in builds with DETENT_VERIFY (the
+/// tests), so a check may be expensive. A check does not change a computed value.
 #if defined(DETENT_VERIFY)
 #define DETENT_VERIFY_RANGE(condition) ((condition) ? static_cast<void>(0) : __builtin_trap())
 #else

@@ -3,8 +3,8 @@
 
 #include "base/bytes.h"
 
-/// The digest's arithmetic. Every step is a bijection of the running value for a given word and of the word for a given
-/// running value, so one changed word always changes the result (SPEC.md, "Digest").
+/// The digest's arithmetic. For a given word, a step is a bijection of the running value; for a given running value, it
+/// is a bijection of the word. Therefore a change of one word always changes the result (SPEC.md, "Digest").
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -14,7 +14,7 @@ DETENT_SHARED constexpr uint64_t digest_step(uint64_t running, uint64_t word) {
   return running * 0xbf58476d1ce4e5b9u + 0x94d049bb133111ebu;
 }
 
-/// Spreads every bit over the whole value.
+/// Mixes the bits: each bit of `running` affects all bits of the result.
 DETENT_SHARED constexpr uint64_t digest_finish(uint64_t running) {
   running ^= running >> 32;
   running *= 0xd6e8feb86659fd93u;
@@ -23,7 +23,7 @@ DETENT_SHARED constexpr uint64_t digest_finish(uint64_t running) {
   return running ^ (running >> 32);
 }
 
-/// The exclusive or of both halves.
+/// Returns the exclusive or of the two halves of the digest.
 constexpr uint32_t digest_fold(uint64_t digest) { return static_cast<uint32_t>(digest ^ digest >> 32); }
 
 /// The digest of canonical bytes. The last word is padded with zeros; the byte count is part of the digest.

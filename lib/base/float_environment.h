@@ -10,8 +10,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// While a FloatEnvironment exists, the floating-point unit rounds to nearest and keeps denormals. Its destructor
-/// restores the caller's settings. Every public call that computes in f32 or f64 creates one. It is empty in fixed
-/// configurations.
+/// restores the caller's settings. In f32 and f64, every public call that computes creates one. In the fixed-point
+/// configurations the class is empty.
 #if DETENT_FIXED || defined(__wasm__)
 #define DETENT_FLOAT_CONTROL 0
 #elif defined(__x86_64__) || defined(__i386__)
@@ -108,7 +108,7 @@ struct FloatEnvironment {
 };
 #else
 struct FloatEnvironment {
-  FloatEnvironment() {}  // not trivial, so that an unused variable causes no warning
+  FloatEnvironment() {}  // user-provided, so that an unused variable causes no warning
 };
 #endif
 

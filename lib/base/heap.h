@@ -1,8 +1,8 @@
 #pragma once
 #include "base/span.h"
 
-/// Binary max-heaps over a span: in-place sorting, and the k smallest of a stream. No extra memory, no recursion.
-/// `less` must be a strict total order, so that the result depends on the elements alone.
+/// Binary max-heaps in a span: in-place sorting, and the k smallest elements of a stream. The functions use no extra
+/// memory and no recursion. `less` must be a strict total order, so that the result depends on the elements alone.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -38,8 +38,8 @@ void heap_sort(Span<T> items, const Less& less) {
   }
 }
 
-/// Collects the `storage.count` smallest of the added values, independent of their order. Sort the result with
-/// heap_sort.
+/// Collects the `storage.count` smallest of the added values. The result does not depend on the order of adding. Sort
+/// the result with heap_sort.
 template <class T, class Less>
 struct SmallestOf {
   Span<T> storage;
@@ -51,7 +51,8 @@ struct SmallestOf {
     T lost;
     add(value, lost);
   }
-  /// True if the storage was full: then one value is dropped, and `lost` is that value, the largest of all.
+  /// Adds a value. If the storage is full, drops the largest value (which may be `value`), stores it in `lost` and
+  /// returns true.
   bool add(const T& value, T& lost) {
     if (count < storage.count) {
       storage[count++] = value;

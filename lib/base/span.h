@@ -6,7 +6,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// `count` elements from `data` on; does not own them.
+/// Refers to `count` elements that begin at `data`. Does not own them.
 template <class T>
 struct Span {
   T* data = nullptr;
@@ -14,7 +14,7 @@ struct Span {
 
   Span() = default;
   Span(T* first, uint32_t element_count) : data(first), count(element_count) {}
-  // NOLINTNEXTLINE(google-explicit-constructor): a mutable span reads as a const one
+  // NOLINTNEXTLINE(google-explicit-constructor): a mutable span converts to a const span
   operator Span<const T>() const { return {data, count}; }
 
   T& operator[](uint32_t index) const {

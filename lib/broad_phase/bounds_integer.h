@@ -6,7 +6,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Converts a coordinate to an integer, monotonically.
+/// Converts a coordinate to an integer. The conversion is monotonic.
 inline int64_t integer_from(Coord x) {
 #if defined(DETENT_F64)
   bool saturated = false;
@@ -16,7 +16,7 @@ inline int64_t integer_from(Coord x) {
 #endif
 }
 
-/// One step of that integer is 2^-k_coord_bits m.
+/// One step of the integer of integer_from() is 2^-k_coord_bits m.
 #if defined(DETENT_F64)
 inline constexpr int k_coord_bits = 20;
 #else

@@ -36,8 +36,8 @@ struct Grid {
 bool is_everywhere(const Bounds& bounds) { return bounds.lower.x == -k_coord_limit && bounds.upper.x == k_coord_limit; }
 bool is_nowhere(const Bounds& bounds) { return bounds.upper.x < bounds.lower.x; }
 
-/// A guard bit above each of the two packed coordinates. The subtraction clears it where an upper bound is below a
-/// lower bound.
+/// Two coordinates of 15 bits are packed in one word, each with a guard bit above it. In the difference upper bound -
+/// lower bound, a guard bit is cleared if the upper bound is below the lower bound.
 constexpr uint32_t k_across_bits = 15, k_across_guards = 0x80008000;
 
 uint32_t across(uint32_t first, uint32_t second) { return first << (k_across_bits + 1) | second; }
@@ -66,7 +66,8 @@ int64_t steps_of(Real length) {
 #endif
 }
 
-/// The depth of bounds below the surface of a half-space, in steps of a coordinate; 0 if they are above it.
+/// The depth of the bounds `box` below the surface of a half-space, in steps of a coordinate; 0 if the bounds are above
+/// it.
 uint64_t depth_within(const BodyPose& half_space, const Bounds& box) {
   const Vec3<Unit> up = matrix_from(half_space.rotation).column[1];
   const Unit zero = 0.0;

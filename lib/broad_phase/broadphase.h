@@ -10,9 +10,9 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The order in which pairs are kept: the pair whose bounds overlap deeper comes first; ties: the lower key. The depth
-/// is the least overlap along a coordinate axis, or the penetration of the bounds into a half-space, in steps of a
-/// coordinate (f64: 2^-20 m).
+/// The priority of pairs in a full pool: the pair whose bounds overlap deeper comes first; at equal depths, the pair
+/// with the lower key. The depth is the least overlap along a coordinate axis; for a half-space, it is the depth of the
+/// bounds below its surface. Unit: a step of a coordinate (f64: 2^-20 m).
 struct DeeperPair {
   Span<const BodyPose> poses;
   Span<const BodyProperties> properties;
@@ -22,7 +22,8 @@ struct DeeperPair {
   bool operator()(uint64_t a, uint64_t b) const;
 };
 
-/// The pairs of a step. If there is not room for all, the deepest are kept, whatever the order in which they are added.
+/// The pairs of a step. If the pool has no room for all pairs, it keeps the deepest. The result does not depend on the
+/// order of adding.
 struct PairPool {
   Span<const BodyProperties> properties;
   PairFilter filter;
@@ -47,17 +48,17 @@ struct PairPool {
   /// Adds the pair if at least one of the bodies is dynamic, their bounds overlap and the filter allows the pair.
   void consider(uint32_t a, uint32_t b);
   void sort();
-  /// Must be called between sort() and the next consider().
+  /// Prepares the pool for further pairs. Must be called between sort() and the next consider().
   void go_on();
 };
 
-/// Finds all pairs of moving bodies, with each other and with the bodies in the tree. It sorts and sweeps along the
-/// axis on which the moving bodies spread farthest: O(n + number of pairs that overlap on this axis). `keys` and
-/// `spare` are work space with one element for each moving body.
+/// Finds all pairs of moving bodies with each other, and of moving bodies with bodies in the tree. The first are found
+/// by sort and sweep along the axis on which the moving bodies spread farthest: O(n + number of pairs that overlap on
+/// this axis). `keys` and `spare` are work space with one element for each moving body.
 void add_moving_pairs(Span<const uint32_t> moving, const RestingTree& resting, Span<BoundsKey> keys,
                       Span<BoundsKey> spare, PairPool& pool);
 
-/// Finds all pairs of a body with the bodies in the tree.
+/// Finds all pairs of the body `slot` with bodies in the tree.
 void find_resting_near(uint32_t slot, const RestingTree& resting, PairPool& pool);
 
 }  // namespace DETENT_NAMESPACE

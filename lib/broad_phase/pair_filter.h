@@ -9,7 +9,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The mask test of Filter and of QueryFilter.
+/// The mask test of Filter and of QueryFilter: whether the category of each shares a bit with the mask of the other.
 constexpr bool masks_meet(uint32_t category_a, uint32_t mask_a, uint32_t category_b, uint32_t mask_b) {
   return (category_a & mask_b) != 0 && (category_b & mask_a) != 0;
 }
@@ -42,7 +42,8 @@ struct PairFilter {
   }
 
  private:
-  /// A rule that is not in the table forbids nothing; create_body(), set_filter() and load() reject such rules.
+  /// Whether the filter rule of `own` allows the other body. A rule number that is not in the table allows all bodies;
+  /// create_body(), set_filter() and load() reject such numbers.
   bool rule_allows(const BodyProperties& own, const BodyProperties& other) const {
     if (own.rule == 0 || !has_rule(rules, own.rule)) return true;
     return rules.rules[own.rule - 1]({own.user_data, filter_of(own)}, {other.user_data, filter_of(other)});

@@ -6,7 +6,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// A pair of body slots as one sortable word: the lower slot in the high half.
+/// The key of a pair of body slots: a word for sorting, with the lower slot in the high half.
 constexpr uint64_t pair_key(uint32_t low, uint32_t high) { return (uint64_t{low} << 32) | high; }
 constexpr uint32_t pair_low(uint64_t key) { return static_cast<uint32_t>(key >> 32); }
 constexpr uint32_t pair_high(uint64_t key) { return static_cast<uint32_t>(key); }

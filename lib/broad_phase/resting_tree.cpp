@@ -7,12 +7,12 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// The place of a body in the tree, as a word of 96 bits.
+/// The key of a body in the tree: 96 bits.
 struct TreeKey {
   uint64_t place;
   uint32_t slot;
 
-  /// Bit 0 is the highest.
+  /// Returns the bit `index`; index 0 is the highest bit.
   uint32_t bit(uint32_t index) const {
     return index < 64 ? static_cast<uint32_t>(place >> (63 - index)) & 1 : slot >> (95 - index) & 1;
   }
@@ -23,7 +23,7 @@ uint32_t first_difference(const TreeKey& a, const TreeKey& b) {
   return static_cast<uint32_t>(96 - bit_length_32(a.slot ^ b.slot));
 }
 
-/// Spreads the low 20 bits, with two zero bits after each.
+/// Inserts two zero bits after each of the low 20 bits, for Morton order.
 uint64_t spread(uint64_t value) {
   value &= 0xfffff;
   value = (value | value << 32) & 0x001f00000000ffff;
@@ -33,7 +33,7 @@ uint64_t spread(uint64_t value) {
   return (value | value << 2) & 0x1249249249249249;
 }
 
-/// Cell numbers repeat after 2^20 cells. This costs time but changes no result.
+/// The key of a body. Cell numbers repeat after 2^20 cells, which may cost time but changes no result.
 TreeKey key_of(const Bounds& bounds, uint32_t slot) {
   uint64_t longest = 0, place = 0;
   int64_t centre[3];
@@ -69,7 +69,7 @@ void RestingTree::make_empty() const {
   for (uint32_t& parent : parents) parent = 0;
 }
 
-/// `parent`: encoded as in a parent field.
+/// Replaces the child link `before` of a node by `after`. `parent`: the node, encoded as in a parent field.
 void RestingTree::set_child(uint32_t parent, uint32_t before, uint32_t after) const {
   if (parent == k_above_root) {
     root.link = after;

@@ -7,16 +7,17 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// A tree of the bounds of resting bodies, which are fixed or sleeping. A step queries it for nearby bodies, and
-/// changes it only where a body comes to rest or starts to move.
+/// A tree of the bounds of resting bodies, which are fixed or sleeping. A step queries the tree for nearby bodies. It
+/// changes the tree only for bodies that come to rest or start to move.
 ///
-/// It is a binary trie. The key of a body starts with the size of its bounds, as a power of 16, so that large bodies do
-/// not enlarge the tree nodes of small bodies. Then comes the cell of the centre, in Morton order; the cells are about
-/// as large as the body. Last comes the slot. The shape of the tree therefore depends only on the bodies in it, not on
-/// the order of insertion, and no path from the root is longer than k_depth_max. The tree is a cache and is in no
-/// snapshot: the result of a query does not depend on its shape.
+/// The tree is a binary trie. The key of a body has three parts. The first part is the size of its bounds, as a power
+/// of 16, so that large bodies do not enlarge the tree nodes of small bodies. The second part is the cell of the
+/// centre, in Morton order; cells are about as large as the body. The third part is the slot. Therefore the shape of
+/// the tree depends only on the bodies in it, not on the order of insertion, and no path from the root is longer than
+/// k_depth_max. The tree is a cache, which snapshots do not store. The result of a query does not depend on the shape
+/// of the tree.
 ///
-/// Traversal uses no recursion and no stack: it goes back up by the parent links.
+/// The traversal uses no recursion and no stack: it returns to the parent of a node by the parent link.
 /// Source: Morrison, "PATRICIA", 1968; Lauterbach and others, "Fast BVH Construction on GPUs", 2009 (Morton order).
 struct RestingTree {
   static constexpr uint32_t k_depth_max = 96;
@@ -42,9 +43,10 @@ struct RestingTree {
         meets, [](const Bounds&, const Bounds&) { return false; }, visit);
   }
 
-  /// Visits the slots of all bodies for which `meets(bounds)` is true, both for their own bounds and for those of all
-  /// tree nodes above them. It does not change the tree. If `swaps(bounds of the first, bounds of the second)` is true
-  /// for two branches, the second branch comes first. `swaps` must always return the same value for the same branches.
+  /// Visits the slots of all bodies for which `meets(bounds)` is true, both for the bounds of the body and for the
+  /// bounds of all tree nodes above it. Does not change the tree. A node has two branches. If `swaps(bounds of the
+  /// first branch, bounds of the second branch)` is true, the second branch is visited first. `swaps` must always
+  /// return the same value for the same branches.
   template <class Meets, class Swaps, class Visit>
   void walk(const Meets& meets, const Swaps& swaps, const Visit& visit) const {
     if (root.link == 0) return;

@@ -8,7 +8,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// A grain is four steps of a coordinate, so that the difference of two numbers of grains fits 64 bits.
+/// A *grain* is four steps of a coordinate, so that the difference of two coordinates in grains fits 64 bits.
 constexpr int k_grain_steps_bits = 2;
 constexpr int k_grain_bits = k_metre_bits - (k_coord_bits - k_grain_steps_bits);  ///< in 2^-46 m
 constexpr int k_cells_bits = 29;
@@ -19,7 +19,8 @@ constexpr int k_tolerance_bits = 18;
 
 int64_t grains_of(Coord x) { return integer_from(x) >> k_grain_steps_bits; }
 
-/// Clamps to the limit. This changes no result, because the path is shorter than the limit.
+/// Clamps a coordinate, in cells, to the range of a Place. This changes no result, because the path is shorter than the
+/// limit.
 int64_t clamped_place(int64_t value) {
   return value < -k_place_limit ? -k_place_limit : value > k_place_limit ? k_place_limit : value;
 }
@@ -30,7 +31,7 @@ int64_t rounded_up(int64_t raw, int bits) { return (raw + (int64_t{1} << bits) -
 
 SweptBox::SweptBox(const Position& centre, const Vec64& half, const Vec64& displacement, int64_t distance_max) {
   const uint64_t largest = magnitudes(half) | magnitudes(displacement) | static_cast<uint64_t>(distance_max);
-  const int length = bit_length_64(largest) + 1;  // + 1: for the sum of two lengths
+  const int length = bit_length_64(largest) + 1;  // + 1: a sum of two lengths must fit
   cell_bits_ = length - k_cells_bits > k_grain_bits ? length - k_cells_bits : k_grain_bits;
   grain_shift_ = cell_bits_ - k_grain_bits;
   const int64_t displacements[3] = {displacement.x, displacement.y, displacement.z},
@@ -42,7 +43,7 @@ SweptBox::SweptBox(const Position& centre, const Vec64& half, const Vec64& displ
   for (int i = 0; i < 3; ++i) {
     centre_[i] = grains_of(centre.*k_axes[i]);
     displacement_[i] = static_cast<int32_t>(displacements[i] >> cell_bits_);
-    // + 1: for the rounding of displacement_
+    // + 1: covers the rounding of displacement_
     half_[i] = static_cast<int32_t>(rounded_up(halves[i] + tolerance, cell_bits_) + 1);
     if (magnitude_64(displacements[i]) > magnitude_64(displacements[widest])) widest = i;
   }
@@ -85,8 +86,8 @@ bool SweptBox::meets(const Place& place) const {
   for (int i = 0; i < 3; ++i) {
     if (to_[i] < place.low[i] || place.high[i] < from_[i]) return false;
   }
-  // Tests the infinite line of the path along the cross products of the path and each axis: its distance from the
-  // middle of the bounds, in half cells.
+  // Separating-axis test of the path, as an infinite line, on the cross products of the path and each coordinate axis.
+  // Along each of these, the distance of the line from the middle of the bounds is computed, in half cells.
   int64_t sum[3], side[3];
   DETENT_UNROLL
   for (int i = 0; i < 3; ++i) {

@@ -7,11 +7,13 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// An axis-aligned box that moves on a straight path, or that grows. It rejects bounds, and is conservative: the narrow
-/// phase would find nothing in the bounds that it rejects. For this, it enlarges all bounds by more than the tolerance
-/// of the narrow phase, which is proportional to the sizes of both shapes.
+/// An axis-aligned box that moves on a straight path, or that grows by a search distance. It tests bounds
+/// conservatively: if it rejects the bounds of a body, the narrow phase would not find a hit with the body. To ensure
+/// this, it enlarges all bounds by more than the tolerance of the narrow phase, which is proportional to the sizes of
+/// both shapes.
 ///
-/// It computes in integers. A *cell* is a power of two of a metre: the path and the box are less than 2^29 cells long.
+/// The class computes in integers. Its unit of length is a *cell*: the power of two, m, at which the path and the box
+/// are less than 2^29 cells long.
 class SweptBox {
  public:
   /// Bounds relative to the box's centre at the start, enlarged by the half extents of the box; cells.
@@ -22,22 +24,23 @@ class SweptBox {
   /// `half`: half extents of the box. `displacement`: displacement of its centre. `distance_max`: the greatest search
   /// distance that is_near() will be called with. All in 2^-46 m, below 2^61.
   SweptBox(const Position& centre, const Vec64& half, const Vec64& displacement, int64_t distance_max);
-  /// Shortens the path to its part up to `end`.
+  /// Shortens the path: it now ends at the fraction `end` of the whole path.
   void shorten(Fraction end);
 
   Place place_of(const Bounds& bounds) const;
-  /// Whether the box may touch these bounds on its path. If false, it does not touch them up to the end of the path.
+  /// Whether the box may touch these bounds on its path. False is certain: the box does not touch the bounds on its
+  /// path.
   bool meets(const Place& place) const;
   /// The fraction of the path up to which the box certainly does not touch these bounds.
   Fraction entry(const Place& place) const;
-  /// Whether these bounds may be within `distance_max`, 2^-46 m, of the box at the start. If false, gap() is more than
-  /// `distance_max`.
+  /// Whether the distance between these bounds and the box at the start may be at most `distance_max`, 2^-46 m. If
+  /// false, gap() exceeds `distance_max`.
   bool is_near(const Place& place, int64_t distance_max) const;
   /// The greatest distance along an axis between these bounds and the box at the start, 2^-46 m; 0 if they overlap.
   /// Overflow: clamped to 2^29 cells, which is more than any search distance.
   int64_t gap(const Place& place) const;
-  /// Whether the box comes to `b` before it comes to `a`. This only orders the search; the result does not depend on
-  /// it.
+  /// Whether the box reaches the bounds `b` before the bounds `a`. This only determines the order of the search, not
+  /// its result.
   bool is_ahead(const Bounds& a, const Bounds& b) const {
     return forward_ ? b.lower.*axis_ < a.lower.*axis_ : a.upper.*axis_ < b.upper.*axis_;
   }

@@ -13,32 +13,31 @@
 ///
 ///     J = (-axis, -arm_A, axis, arm_B)
 ///
-/// so its speed is J v = axis . (v_B - v_A) + arm_B . w_B - arm_A . w_A, and its impulse x applies the wrench J^T x. C
-/// is the row's error of position (JointRows::error); joint_rows.cpp has the J and C of each joint. All rows of an
-/// island are solved at once, whatever graph the joints form:
+/// so the speed of the row is J v = axis . (v_B - v_A) + arm_B . w_B - arm_A . w_A, and an impulse x of the row applies
+/// the wrench J^T x. C is the position error of the row (JointRows::error). joint_rows.cpp has the J and C of each
+/// joint. All rows of an island are solved at once, for any graph of joints:
 ///
 ///     (K + S) x = target - J v,  K = J M^-1 J^T
 ///
-/// S is a small diagonal softness, so redundant rows need no special rule; the row of a spring has a larger one. The
-/// factor of K + S is a block L D L^T over the graph of the joints, eliminated by minimum degree (joint_order.cpp,
-/// joint_factor.h). It is made anew in each substep.
+/// M is the mass matrix. S is a diagonal matrix of small softnesses, which makes redundant rows solvable; the row of a
+/// spring has a larger softness. K + S is factored as a block L D L^T over the graph of the joints, with elimination by
+/// minimum degree (joint_order.cpp, joint_factor.h). The factor is computed anew in each substep.
 ///
-/// A substep gains no energy (joint_solve.cpp). Solving the rows projects the velocities, which only removes energy.
-/// Then velocities are added that make the joints follow their curved paths; they are scaled so that they add no more
-/// energy than the projection has removed. Errors of position are corrected by shifts without velocity. Sources of the
-/// parts of the scheme: Baraff, "Linear-time dynamics using Lagrange multipliers", SIGGRAPH 1996; Tournier, Nesme,
-/// Gilles, Faure, "Stable constrained dynamics", 2015; George, Liu, "The evolution of the minimum degree ordering
-/// algorithm", 1989.
+/// A substep adds no energy (joint_solve.cpp). Solving the rows projects the velocities, which only removes energy.
+/// Then velocities are added that make the joints follow their curved paths. They are scaled so that they add at most
+/// the energy that the projection has removed. Position errors are corrected by shifts, which do not change velocities.
+/// Sources: Baraff, "Linear-time dynamics using Lagrange multipliers", SIGGRAPH 1996; Tournier, Nesme, Gilles, Faure,
+/// "Stable constrained dynamics", 2015; George, Liu, "The evolution of the minimum degree ordering algorithm", 1989.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 inline constexpr uint32_t k_no_link = UINT32_MAX;
 inline constexpr Real k_joint_impulse_max = 16384.0;  ///< limit of a stored row impulse, m/s
-/// The impulses that a joint stores are those of its force over 2^-k_kept_power of a tick, whatever the number of
-/// substeps is.
+/// The impulses that a joint stores are scaled from a substep to 2^-k_kept_power of a tick. So they do not depend on
+/// the number of substeps.
 inline constexpr int k_kept_power = 3;
 
-/// Lengths or speeds in units of 2^exponent, clamped to the range of a Unit.
+/// Converts lengths or speeds to units of 2^exponent, clamped to the range of a Unit.
 Vec3<Unit> clamped_unit(const Vec3<Real>& v, int exponent);
 
 struct JointStage {
@@ -59,8 +58,9 @@ struct JointStage {
 /// called for the bodies. Fills `work` and `bodies`.
 void collect_joints(const SolverBodies& bodies, JointStage& stage);
 
-/// Orders the joints of every island by elimination, makes the couplings that their factor needs, and sets the number
-/// of substeps that they need. `slots` lists the bodies by island. Returns the number of couplings that had no room.
+/// For every island: computes the elimination order of the joints, makes the couplings that the factor needs, and sets
+/// the number of substeps that the joints need. `slots` lists the bodies by island. Returns the number of couplings
+/// that had no room.
 uint32_t order_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
                       Span<Island> islands, JointStage& stage);
 
@@ -79,8 +79,8 @@ inline bool has_renewed_inverse_inertia(const BodyWork& now, const JointStage& s
 uint32_t solve_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
                       const Island& island, Real elapsed, JointStage& stage, uint32_t& undecided);
 
-/// Solves the rows again, to remove the speed that contacts have added since. Returns the number of values that were
-/// clamped, and adds to `undecided`.
+/// Solves the rows again, to remove the row speeds that contacts have added since the last solve. Returns the number of
+/// values that were clamped, and adds to `undecided`.
 uint32_t solve_joints_again(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
                             const Island& island, Real elapsed, JointStage& stage, uint32_t& undecided);
 
@@ -90,12 +90,12 @@ uint32_t follow_joints(const StepSettings& settings, const SolverBodies& bodies,
                        const Island& island, Real elapsed, JointStage& stage);
 
 /// Applies the shifts that close gaps, after the bodies have moved. Then converts the bodies' angular momenta back to
-/// those with the inertia of the substep. Returns the number of values that were clamped.
+/// the inertia of the substep. Returns the number of values that were clamped.
 uint32_t shift_joints(const SolverBodies& bodies, Span<const uint32_t> slots, JointStage& stage);
 
-/// Ends a substep of an island: removes the speed that contacts have added to the rows since, adds up the impulses of
-/// the joints, and restores the bodies' own inverse inertias and angular momenta. Returns the number of values that
-/// were clamped, and adds to `undecided`.
+/// Ends a substep of an island: removes the row speeds that contacts have added since the last solve, adds up the
+/// impulses of the joints, and restores the bodies' own inverse inertias and angular momenta. Returns the number of
+/// values that were clamped, and adds to `undecided`.
 uint32_t end_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
                     const Island& island, Real elapsed, JointStage& stage, uint32_t& undecided);
 
@@ -115,14 +115,15 @@ struct JointOps {
   decltype(&store_reactions) store;
 };
 
-// Functions that the files of the stages share.
+// Functions that several files of lib/joint share.
 
 /// Sets the lowest number of substeps for the joints of an island, and the squared number that their motion needs.
 void require_substeps(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
                       const JointStage& stage, Island& island);
 
-/// Impulses of rows that cancel each other grow up to (target speed) / softness. So impulses are stored divided by
-/// 2^k_impulse_power, in the unit in which responses are near 1, and speeds multiplied by it.
+/// The impulses of rows that oppose each other can grow up to (target speed) / softness. Therefore impulses are stored
+/// divided by 2^k_impulse_power, in units in which responses are near 1, and speeds are stored multiplied by
+/// 2^k_impulse_power.
 inline constexpr int k_impulse_power = DETENT_FIXED ? 6 : 0;
 
 inline bool is_linear(const JointRow& row) { return !(row.axis == k_no_direction); }
@@ -139,8 +140,8 @@ inline bool holds(const JointState& joint) {
 }
 /// Whether the free motion is an angle.
 bool is_angular(JointType type, int motion);
-/// Number of free motions that have their own settings. The settings of all others have no meaning, except the spring
-/// of a ball joint.
+/// Number of free motions that have their own settings (JointDef::axis, second). The other settings have no meaning,
+/// except the spring of a ball joint.
 int free_motion_count(JointType type);
 /// Number of free motions that can be driven. This includes rotations that have only friction, or the spring of a ball
 /// joint.
@@ -153,8 +154,8 @@ bool is_driven(const JointState& joint, int motion);
 bool is_braked(const JointState& joint, int motion);
 /// The rows of a joint at the current poses of its bodies.
 JointRows make_joint_rows(const JointStage& stage, const JointWork& work);
-/// Chooses the drive mode of each free motion, before the rows are solved and before anything acts in the substep: a
-/// limit that the motion would pass in this substep is activated.
+/// Chooses the drive mode of each free motion, before the rows are solved and before forces and impulses act in the
+/// substep. A limit that the motion would pass in this substep is activated.
 void choose_drives(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, JointWork& work);
 /// Whether the impulse of a motor, spring or friction exceeds its limit in the substep. If `changes`, replaces the row
 /// by a constant impulse at that limit.
@@ -163,33 +164,33 @@ bool bound_drives(const JointState& joint, Scaled share, bool changes, JointWork
 inline bool is_at_limit(DriveMode mode) {
   return mode == DriveMode::held || mode == DriveMode::lower || mode == DriveMode::upper;
 }
-/// Whether the row locks a motion. An active limit does.
+/// Whether the row locks a motion. The row of an active limit does.
 inline bool is_locked(const JointWork& work, uint32_t row) {
   return row < work.locked_rows || (work.driven[0] == row && is_at_limit(work.mode[0])) ||
          (work.driven[1] == row && is_at_limit(work.mode[1]));
 }
-/// Activates limits that were not active and that the bodies, at their current velocities, would pass by more than
-/// k_passed. A motor or friction that acts with its greatest force gets a row again if it drives the motion beyond its
-/// target speed. Skips motors and friction if the island `touches`: contacts are solved in alternation and may still
-/// load them. Returns whether anything changed.
+/// Activates each limit that the bodies, at their current velocities, would pass by more than k_passed. If a motor or
+/// friction acts with its greatest force and drives the motion beyond its target speed, it gets a row again. This is
+/// skipped if the island `touches`: contacts and joints are then solved in alternation, and contacts may still load the
+/// motor. Returns whether a drive mode changed.
 bool take_up(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, bool touches,
              JointWork& work);
-/// Whether the impulse of an active limit would pull. If `changes`, deactivates that limit.
+/// Whether the impulse of an active limit pulls, which a limit cannot. If `changes`, deactivates such limits.
 bool release_limits(const JointState& joint, bool changes, JointWork& work);
 /// Adds the rows of the driven free motions.
 void add_driven_rows(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage,
                      JointWork& work);
-/// The stored force on B in the last substep: the sum of the impulses along the axes of its linear rows.
+/// The size of the stored linear impulse on B in the last substep: the length of the sum of axis x impulse over the
+/// linear rows.
 Real last_pull(const JointStage& stage, const JointWork& work);
-/// Sets a body's inertia for this substep: about each of its axes at least the stiffness of the joints' pulls, h sum
-/// |impulse| |arm|. So strong forces on a light body do not make it oscillate faster than a substep can follow. Its
-/// inverse inertia becomes that of the substep and its angular momentum stays the same, so the body rotates more
-/// slowly. Also sets the body's response to forces and torques. The body's pose must be set.
+/// Sets a body's inertia for this substep: about each of its axes it is at least h sum |impulse| |arm| over the joints
+/// of the body, with the length h of the substep. Without this, strong forces on a light body would make it oscillate
+/// faster than a substep can follow. The angular momentum stays the same, so the body rotates more slowly. Also sets
+/// the body's inverse inertia, and its response to forces and torques. The body's pose must be set before.
 void load_inertia(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, JointBody& body);
-/// The angular momentum with the body's own inertia, at the angular velocity that it has with the inertia of the
-/// substep.
+/// Converts an angular momentum from the inertia of the substep to the body's own inertia, at equal angular velocity.
 Vec3<Real> own_angular_momentum(const JointBody& body, const Vec3<Real>& angular_momentum);
-/// The inverse of own_momentum(). Overflow: clamps, and sets `saturated`.
+/// The inverse of own_angular_momentum(). Overflow: clamps, and sets `saturated`.
 Vec3<Real> lent_angular_momentum(const JointBody& body, const Vec3<Real>& angular_momentum, bool& saturated);
 
 }  // namespace DETENT_NAMESPACE

@@ -7,7 +7,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// The index of the body in `bodies`. Adds the body if it is new.
+/// Returns the index of the body in JointStage::bodies. Adds the body if it is not there yet.
 uint32_t place_of(const SolverBodies& bodies, uint32_t slot, JointStage& stage) {
   uint32_t& place = bodies.work[slot].joint_body;
   if (place != k_no_link) return place;

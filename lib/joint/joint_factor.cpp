@@ -6,9 +6,9 @@ namespace {
 
 /// Softness of a row: 2^k_softness_power times the largest diagonal element of the joint's rows of the same kind
 /// (linear or angular) is added to its diagonal element. A redundant row has only the softness as its pivot; its effect
-/// is then below the precision of the numbers. A nearly singular system, for example a chain that is nearly straight,
-/// yields by the softness, so it is as small as the precision allows. Rows of drives have k_soft_power, so they yield
-/// before locked rows. After make_softer() all rows have k_soft_power.
+/// is then below the precision of the numbers. The rows of a nearly singular system, for example of a nearly straight
+/// chain, yield by an amount that grows with the softness. Therefore the softness is as small as the precision permits.
+/// Rows of drives use k_soft_power, so they yield before locked rows. After make_softer() all rows use k_soft_power.
 #if defined(DETENT_F32)
 constexpr int k_softness_power = -20, k_soft_power = -17;
 #elif defined(DETENT_F64)
@@ -16,12 +16,13 @@ constexpr int k_softness_power = -27, k_soft_power = -20;
 #else
 constexpr int k_softness_power = -25, k_soft_power = -20;
 #endif
-/// Lower bound of the softness of locked rows. With less, rounding errors make redundant rows act against each other.
+/// Lower bound of the softness of locked rows. With a smaller softness, rounding errors would let redundant rows act
+/// against each other.
 constexpr Real k_softness_min = DETENT_FIXED ? Real(0x1p-20) : k_zero;
 
 /// Lower bound of a pivot, so that its reciprocal is in the range of multiply().
 constexpr Real k_pivot_min = 0x1p-29;
-/// Limit of an impulse before the other rows of its joint are subtracted.
+/// Limit of an impulse in the back substitution, before the terms of the other rows of its joint are subtracted.
 constexpr Real k_solved_max = k_solution_max * Real(4.0);
 #if DETENT_FIXED
 /// Responses are scaled to about 2^k_joint_response_bits, but by at most 2^(2 k_power_max), so that speeds fit a Real.
@@ -39,7 +40,7 @@ struct Response {
       return Vec3<Real>{dot(body.turned[0], torque), dot(body.turned[1], torque), dot(body.turned[2], torque)};
     };
     if (work.points != 0) {
-      // Unit forces at the anchor: I^-1 (r x e_i).
+      // Angular velocities by unit impulses at the anchor along the axes e_i: I^-1 (r x e_i).
       const Vec3<Unit>& r = work.arm[end];
       const Unit none = 0.0, minus_x = none - r.x, minus_y = none - r.y, minus_z = none - r.z;
       angular_velocity[0] = turned({none, r.z, minus_y});
@@ -57,7 +58,8 @@ struct Response {
   }
 };
 
-/// Calls `visit` with the sizes of blocks. The common case, joints with the three rows of anchor points, is unrolled.
+/// Calls `visit` with the sizes of blocks. For the common case, joints with only the three rows of the anchor points,
+/// the sizes are compile-time constants.
 #if defined(__OPTIMIZE_SIZE__)
 template <class Visit, class... Sizes>
 inline void with_sizes(const Visit& visit, Sizes... sizes) {
@@ -88,8 +90,8 @@ inline Real product(Height height, uint32_t width, const Real* block, uint32_t i
   return sum.value();
 }
 
-/// Multiplies a coupling's block by L^-1 of the joint's own block. `scaled` becomes its transpose, divided by the
-/// pivots.
+/// Multiplies a coupling's block by L^-1 of the joint's own block. Sets `scaled` to the transpose of the result,
+/// divided by the pivots.
 template <class Height, class Width>
 inline void divide_block(const JointWork& work, Height height, Width width, Real* block, Rows& scaled) {
   for (uint32_t k = 1; k < height; ++k) {
@@ -100,7 +102,7 @@ inline void divide_block(const JointWork& work, Height height, Width width, Real
   }
 }
 
-/// Adds the sizes of the fill-in between two joints without a coupling to their diagonals.
+/// Adds the magnitudes of the fill-in between two joints that have no coupling to the diagonals of both.
 void make_up_product(uint32_t rows, const Real* block, const Rows& scaled, JointWork& third, JointWork& other) {
   for (uint32_t i = 0; i < third.rows; ++i) {
     for (uint32_t m = 0; m < other.rows; ++m) {
@@ -223,7 +225,7 @@ bool JointFactor::make_softer() {
   return true;
 }
 
-/// Adds the sizes of a joint's elements with other joints without a coupling to its diagonal.
+/// Adds to the diagonal of a joint the magnitudes of its elements with neighbours with which it has no coupling.
 void JointFactor::make_up(uint32_t index) {
   JointWork& work = stage_.work[index];
   for (uint32_t end = 0; end < 2; ++end) {
@@ -260,7 +262,7 @@ void JointFactor::eliminate(JointWork& work) {
     const JointCoupling& coupling = stage_.couplings[at];
     const uint32_t index = coupling.joint[1];
     JointWork& other = stage_.work[index];
-    Rows scaled = {};  // GCC does not see that every element is written before it is read
+    Rows scaled = {};  // initialised, because GCC does not see that every element is written before it is read
     with_sizes(
         [&](auto height, auto width) {
           divide_block(work, height, width, block_of(coupling), scaled);

@@ -19,7 +19,7 @@ inline uint32_t first_other(const JointRows& rows) { return rows.points != 0 ? 3
 class EnergySum {
  public:
 #if DETENT_FIXED
-  /// Rounding: both factors down, to 2^-37. Overflow: none for fewer than 2^18 products.
+  /// Adds a b. Rounding: both factors down, to 2^-37. Overflow: none for fewer than 2^18 products.
   void add(Real a, Real b) { sum_ = sum_ + Int128::product(a.raw >> k_drop, b.raw >> k_drop); }
   Scaled value() const {
     const bool negative = sum_ < Int128::from(0);
@@ -48,7 +48,7 @@ class EnergySum {
 class ProductSum {
  public:
 #if DETENT_FIXED
-  /// Exact. Overflow: none where the sum of the products' sizes is below 2^35.
+  /// Adds a b, exactly. Overflow: none if the sum of the products' magnitudes is below 2^35.
   void add(Real a, Real b) { sum_ = sum_ + Int128::product(a.raw, b.raw); }
   /// Rounding: to nearest, ties up. Overflow: wraps.
   Real value() const { return Real::from_raw(sum_.round_shift<k_real_frac>()); }
@@ -64,7 +64,7 @@ class ProductSum {
 #endif
 };
 
-/// Computes the part of J v that one body contributes, for the rows of a joint, without the sign of A.
+/// Computes the part of J v of one body, for each row of a joint. For A, the sign of the result is reversed.
 inline void show(const JointWork& work, uint32_t end, const Vec3<Real>& linear_velocity,
                  const Vec3<Real>& angular_velocity, Real (&speed)[k_joint_rows_max]) {
   if (work.points != 0) {
@@ -77,13 +77,13 @@ inline void show(const JointWork& work, uint32_t end, const Vec3<Real>& linear_v
     speed[k] = dot(linear_velocity, work.row[k].axis) + dot(angular_velocity, work.row[k].arm[end]);
 }
 
-/// Limit of a row's impulse in a solution. If an impulse is larger, all are scaled down.
+/// Limit of the impulse of a row in a solution. If an impulse is larger, all impulses of the island are scaled down.
 #if defined(DETENT_F64)
 inline constexpr Real k_solution_max = 0x1p24;
 #else
 inline constexpr Real k_solution_max = 16384.0;
 #endif
-/// Limit of the velocity change of a body by its joints, m/s: the sum of two fits a Real.
+/// Limit of the velocity change of a body by its joints, m/s. The sum of two such values fits a Real.
 inline constexpr Real k_gathered_max = 65504.0;
 
 /// Adds the velocity changes M^-1 J^T x of a joint's impulses x to a body's `push` and `twist`. Returns false if a
@@ -103,7 +103,7 @@ inline bool gather(const JointWork& work, uint32_t end, JointBody& body) {
     twist = cross(work.arm[end], push);
   }
   for (uint32_t k = first_other(work); k < work.rows; ++k) {
-    if (!(greatest(twist) <= k_gathered_max)) return false;  // the next row could overflow
+    if (!(greatest(twist) <= k_gathered_max)) return false;  // otherwise the next row could overflow
     if (is_linear(work.row[k])) push += work.row[k].axis * given[k];
     twist += work.row[k].arm[end] * given[k];
   }
@@ -118,15 +118,15 @@ inline bool gather(const JointWork& work, uint32_t end, JointBody& body) {
 }
 
 /// Chooses the units of a joint's impulses, 2^power reference masses, for which the responses of its rows are near 2^5:
-/// so impulses between heavy bodies stay in range in an island with light ones. Range: the bodies' inertias are loaded,
-/// and the rows are made.
+/// so the impulses between heavy bodies stay in range, even in an island with light bodies. Range: load_inertia() and
+/// make_joint_rows() have been called.
 void choose_unit(const JointStage& stage, JointWork& work);
 
 /// The factor of the joints of an island.
 class JointFactor {
  public:
-  /// `dropped`: some couplings had no room. Then the sizes of the missing elements are added to the diagonal: the rows
-  /// are enforced only partly, which removes less energy than enforcing them.
+  /// `dropped`: some couplings had no room. Then the magnitudes of the missing elements are added to the diagonal. The
+  /// rows are thus enforced only partly, which removes less energy than full enforcement, but never adds energy.
   JointFactor(JointStage& stage, Span<const uint32_t> order, bool dropped)
       : stage_(stage), order_(order), dropped_(dropped) {}
 
@@ -134,8 +134,8 @@ class JointFactor {
   void make();
   /// Makes the factor again with softer rows. Returns false if the rows are already soft.
   bool make_softer();
-  /// Multiplies the right-hand sides b by L^-1. Returns b . (K + S)^-1 b: twice the least energy of a motion with these
-  /// row speeds.
+  /// Multiplies the right-hand sides b by L^-1. Returns b . (K + S)^-1 b. This is twice the least energy of any motion
+  /// with the row speeds b.
   Scaled substitute();
   /// Computes the impulses from the substituted right-hand sides: x = L^-T D^-1 (L^-1 b).
   void solve();

@@ -8,7 +8,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// The sum over the body's joints of impulse times arm, over its mass and its unit of length.
+/// The sum of |impulse| |arm| over the body's joints, divided by the body's mass and unit of length.
 Scaled pulls_on(const JointStage& stage, const JointBody& body) {
   Scaled sum = Scaled(0.0);
   for (uint32_t link = body.first; link != k_no_link;) {
@@ -36,7 +36,7 @@ Real last_pull(const JointStage& stage, const JointWork& work) {
 void load_inertia(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, JointBody& body) {
   const BodyProperties& properties = bodies.properties[body.slot];
   BodyWork& now = bodies.work[body.slot];
-  // Over the mass and the square of the body's own unit, like the inertia 1 / inverse inertia.
+  // Divided by the mass and the square of the body's unit, as the inertia per unit mass is.
   const Scaled pulls = multiply(pulls_on(stage, body), multiply(scaled_from(settings.time), settings.share));
   const Scaled least = scaled_by_power(pulls, k_kept_power + body.exponent - 2 * properties.size_exponent);
   body.slowed = 0;

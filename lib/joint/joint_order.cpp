@@ -3,14 +3,15 @@
 #include "math/scaled.h"
 #include "motion/step_settings.h"
 
-/// The order in which the joints of an island are eliminated: minimum degree. The factor of a tree then has no more
-/// blocks than the tree has couplings, and that of a loop has few more. The order depends on the joints' slots alone.
+/// The order in which the joints of an island are eliminated: minimum degree. With this order, the factor of a tree of
+/// joints has only the blocks of the tree's own couplings. The factor of a loop has few more. The order depends on the
+/// joints' slots alone.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
 constexpr int k_response_bits = 14;
-/// Number of degrees that are distinguished; all larger degrees count as the last one.
+/// Number of different degrees. All larger degrees count as k_degrees - 1.
 constexpr uint32_t k_degrees = 32;
 
 class Eliminator {
@@ -72,7 +73,7 @@ class Eliminator {
   /// First joint in the list of each degree.
   uint32_t head_[k_degrees];
 
-  /// Whether the two joints are already coupled by a lower body: two joints between the same bodies share both.
+  /// Whether the two joints are already coupled by their other common body, if they connect the same two bodies.
   bool is_coupled_before(uint32_t one, uint32_t other, uint32_t place) const {
     const JointWork &p = stage_.work[one], &q = stage_.work[other];
     const auto holds = [](const JointWork& work, uint32_t body) {
@@ -159,8 +160,8 @@ class Eliminator {
   }
 };
 
-/// Chooses the reference mass of the island such that the largest response of its bodies is near 2^k_response_bits,
-/// whatever their proportions are. So impulses are as small as possible.
+/// Chooses the reference mass of the island such that the largest response of its bodies is near 2^k_response_bits, for
+/// any shape of the bodies. Then impulses are as small as possible.
 void weigh(const SolverBodies& bodies, Span<const uint32_t> slots, JointStage& stage) {
   Scaled most = Scaled(0.0);  // largest response to a torque
   const auto each = [&](const auto& visit) {
@@ -197,7 +198,7 @@ void weigh_joint(const StepSettings& settings, const SolverBodies& bodies, Joint
   const Scaled reference = multiply(lighter, work.over_lighter);
   bool saturated = false;
   const auto bound = [&](Scaled force, bool angular) {
-    const int power = angular ? -work.exponent : 0;  // torques are also over 2^exponent m
+    const int power = angular ? -work.exponent : 0;  // torques are also divided by 2^exponent m
     const Scaled impulse = scaled_by_power(multiply(force, scaled_from(settings.tick_time)), power);
     return to_real(divide(impulse, reference), saturated);
   };

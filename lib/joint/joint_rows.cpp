@@ -11,8 +11,8 @@ namespace {
 constexpr Unit k_zero_unit = 0.0;
 
 constexpr Real k_twist_rate_min = 0.75;
-/// A limit is activated later in the substep if the free motion would pass it by more than this: rad, or fraction of
-/// the joint's unit of length.
+/// During the solves of a substep, a limit is activated if the free motion would pass it by more than this: rad, or a
+/// fraction of the joint's unit of length.
 constexpr Real k_passed = 0.03125;
 /// Tolerance of the target speed of motors and friction, m/s.
 constexpr Real k_overdriven = 0x1p-10;
@@ -27,9 +27,9 @@ Real twist_of(Unit sine, Unit cosine) {
   return scale_by_power(radians(turned ? arc_tangent(-sine, -cosine) : arc_tangent(sine, cosine)), 1);
 }
 
-/// Makes the rows of a joint at its bodies' current poses. Its J are in the columns (v_A, w_A, v_B, w_B), with r_A and
-/// r_B the arms to the anchors, and angles in units of length: u is the joint's unit, m. For each row, with the angular
-/// parts -arm_A and arm_B of J,
+/// Makes the rows of a joint at the current poses of its bodies. Each J has the columns (v_A, w_A, v_B, w_B). r_A and
+/// r_B are the arms from the centres to the anchors. u is the joint's unit, m; an angle times u is a length. For each
+/// row, with the angular parts -arm_A and arm_B of J,
 ///
 ///     K = J M^-1 J^T = 1/m_A + 1/m_B (linear rows only) + arm_A . I_A^-1 arm_A + arm_B . I_B^-1 arm_B
 struct RowMaker {
@@ -99,12 +99,12 @@ struct RowMaker {
   void free_rotation(int i, int axis, Unit sine) {
     free_motion(i, angular(frame.column[axis]), length_of(twist_of(sine, relative.w)));
   }
-  /// The twist about x: the part of the relative rotation that remains after x has leaned from A's to B's by the
-  /// shortest rotation. With l the angle of that rotation, the rate of the twist is a . (w_B - w_A), where
+  /// The twist about x. The relative rotation is split into the shortest rotation from A's x axis to B's, by the angle
+  /// l, and a rotation about x, the twist. The rate of the twist is a . (w_B - w_A), where
   ///
   ///     a = (x_A + x_B) / (1 + cos l)
   ///
-  /// If a exceeds the range of an arm, the row uses only a fraction of it (`shown`).
+  /// If a exceeds the range of an arm, the row uses the fraction `shown` of a.
   void free_twist(int i) {
     const Vec3<Unit> x = {Unit(1.0), k_zero_unit, k_zero_unit}, leaning = rotate(relative, x);
     const Vec3<Unit> own = frame.column[0], other = multiply(frame, leaning);
@@ -117,8 +117,8 @@ struct RowMaker {
     free_motion(i, angular(axis), length_of(twist_of(relative.x, relative.w)));
     if (rate < k_twist_rate_min) rows.shown[i] = max(multiply(rate, share), k_zero);
   }
-  /// The angle between B's x and A's, about the axis that is perpendicular to both; and, without a value, the rotation
-  /// around the cone.
+  /// The angle between the x axes of A and B: a rotation about the axis perpendicular to both. Also the rotation of B's
+  /// x axis around A's, which has no value.
   void free_lean(int i) {
     const Vec3<Unit> x = {Unit(1.0), k_zero_unit, k_zero_unit}, leaning = rotate(relative, x);
     const Vec3<Real> about = {k_zero, real_from_unit(-leaning.z, 0), real_from_unit(leaning.y, 0)};
@@ -129,11 +129,12 @@ struct RowMaker {
     free_motion(i, angular(in_world), length_of(radians(arc_tangent(unit_from_real(sine, 0), leaning.x))));
     free_motion(i + 1, angular(clamped_unit(cross(in_metres(frame.column[0], 0), in_world), 0)), k_zero);
   }
-  /// All rotations, about A's axes, without values: for friction.
+  /// The three rotations about A's axes, for friction. They have no values.
   void free_turns() {
     for (int i = 0; i < k_free_motions; ++i) free_motion(i, angular(frame.column[i]), k_zero);
   }
-  /// All rotations for a spring: the values are the components of the rotation vector from A's frame to B's, times u.
+  /// The three rotations about A's axes, for a spring. The values are the components of the rotation vector from A's
+  /// frame to B's, times u.
   void free_turns_of_spring() {
     free_turns();
     const Real sign = relative.w < k_zero_unit ? Real(-1.0) : Real(1.0);  // q and -q are the same rotation
@@ -162,7 +163,7 @@ struct RowMaker {
   }
 };
 
-/// K of a row alone, over the joint's unit of impulses.
+/// The response K of a single row, in the joint's unit of impulses.
 Scaled own_response(const SolverBodies& bodies, const JointStage& stage, const JointWork& work, const JointRow& row) {
   Scaled sum = Scaled(0.0);
   for (int end = 0; end < 2; ++end) {
@@ -182,8 +183,8 @@ Scaled own_response(const SolverBodies& bodies, const JointStage& stage, const J
 bool has_ball_spring(const JointState& joint) {
   return static_cast<JointType>(joint.type) == JointType::ball && joint.frequency[0] > k_zero;
 }
-/// The axis whose settings drive a free motion. The spring of a ball joint drives all its rotations with those of axis
-/// 0.
+/// The index of the settings (JointDef::axis or second) that drive a free motion. The spring of a ball joint drives all
+/// of its rotations with index 0.
 int driving_axis(const JointState& joint, int i) {
   return static_cast<JointType>(joint.type) == JointType::ball ? 0 : i;
 }
@@ -201,7 +202,7 @@ Real target_speed(const JointState& joint, const JointWork& work, int i) {
   return has_ball_spring(joint) ? k_zero : as_shown(joint, work, i, joint.speed[i]);
 }
 
-/// The part of a tick's impulse that one substep has, in a row's unit.
+/// Converts an impulse of a tick to that of one substep, in the unit of the row.
 Real in_substep(Real impulse, Scaled share, const JointWork& work, const JointRow& row) {
   bool saturated = false;
   return min(multiply(impulse, scaled_by_power(share, -impulse_power(work, row_kind(row))), saturated),
@@ -218,7 +219,7 @@ Real largest_drag(int i, Scaled share, const JointWork& work) {
   return in_substep(work.brake[row_kind(work.free_row[i])], share, work, work.free_row[i]);
 }
 
-/// A damped spring. Its stiffness is the one at which the two bodies alone have the given frequency.
+/// A damped spring. With its stiffness, the two bodies alone oscillate at the given frequency.
 /// Source: Catto, "Soft Constraints", GDC 2011.
 struct Spring {
   Scaled rate;     ///< angular frequency, rad/s
@@ -229,7 +230,7 @@ struct Spring {
       : rate(scaled_from(k_two_pi * joint.frequency[driving_axis(joint, i)])),
         phase(multiply(rate, scaled_from(settings.time))),
         damping(add(scaled_by_power(scaled_from(joint.damping_ratio[driving_axis(joint, i)]), 1), phase)) {}
-  /// The ratio of its impulse in a substep to the impulse that stops the motion.
+  /// The ratio of the spring's impulse in a substep to the impulse that stops the motion.
   Scaled stiffness() const { return multiply(phase, damping); }
 };
 
@@ -250,8 +251,8 @@ Real speed_of(const JointStage& stage, const JointWork& work, int i) {
          dot(a.angular_velocity, row.arm[0]);
 }
 
-/// The part of speed_of() that gravity, forces and torques have added in this substep. A damper that acted on this part
-/// would carry part of these forces.
+/// The part of speed_of() that gravity, forces and torques have added in this substep. The damper must not act on this
+/// part, because it would then carry a part of these forces.
 Real speed_pushed(const SolverBodies& bodies, const JointStage& stage, const JointWork& work, int i) {
   const JointRow& row = work.free_row[i];
   Real speed = k_zero;
@@ -267,8 +268,8 @@ Real speed_pushed(const SolverBodies& bodies, const JointStage& stage, const Joi
   return speed;
 }
 
-/// A spring that is soft relative to the substep needs no row: it pushes with the impulse at its current displacement.
-/// This loses no energy of its oscillation.
+/// Drives a spring that is soft relative to the substep without a row, by the impulse at its current displacement. Its
+/// oscillation then loses no energy. A stiffer spring is left unchanged.
 void push_softly(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, int i,
                  JointWork& work) {
   const JointState& joint = stage.joints[work.joint];
@@ -301,9 +302,9 @@ Real standing_pull(const StepSettings& settings, const SolverBodies& bodies, con
   return clamp(to_real(divide(pull, response), saturated), -most, most);
 }
 
-/// Combines friction with a spring. With a soft spring, a friction row acts against the spring's impulse. With a stiff
-/// spring: if friction can carry the spring's impulse, a friction row locks the motion; otherwise the spring has the
-/// row and friction is a constant impulse.
+/// Combines friction with a spring. A soft spring is a constant impulse, and friction has the row. For a stiff spring
+/// there are two cases. If friction can carry the spring's impulse, friction has the row and locks the motion.
+/// Otherwise the spring has the row, and friction is a constant impulse.
 void brake_spring(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, int i,
                   JointWork& work) {
   if (work.mode[i] == DriveMode::constant) {
@@ -328,8 +329,8 @@ void drive_to_limit(const StepSettings& settings, Real over, bool within, uint32
   work.error[row] = within ? k_zero : over;
 }
 
-/// The impulse of a motor or spring next to an active limit, if it pushes away from the limit. The limit then carries
-/// the rest, or is deactivated.
+/// The impulse of a motor or spring next to an active limit, if it pushes away from the limit; else 0. The row of the
+/// limit then carries the remaining load, or the limit is deactivated.
 Real push_off_limit(const StepSettings& settings, const SolverBodies& bodies, const JointStage& stage, int i,
                     const JointWork& work) {
   const JointState& joint = stage.joints[work.joint];
@@ -381,7 +382,7 @@ int driven_motion_count(const JointState& joint) {
 }
 
 bool is_limited(const JointState& joint, int motion) {
-  // Unsigned, so that compilers can see that the index is in range for joints without free motions.
+  // Unsigned, so that compilers see that the index is in range even for joints without free motions.
   const uint32_t free_motions = static_cast<uint32_t>(free_motion_count(static_cast<JointType>(joint.type)));
   return static_cast<uint32_t>(motion) < free_motions && joint.limited[motion] != 0;
 }

@@ -12,7 +12,7 @@ namespace {
 
 /// Number of tries to scale down impulses that exceed the bodies' range. The last try sets them to zero.
 constexpr uint32_t k_gathers = 4;
-constexpr Scaled k_gathered_share = 0.015625;  ///< factor of each other try
+constexpr Scaled k_gathered_share = 0.015625;  ///< factor of each try except the last
 /// Number of solves to find the drive modes of limits and motors.
 constexpr uint32_t k_decisions = 12;
 /// Limits and drives can be activated in the first k_takings of these solves. Later they are only deactivated.
@@ -20,7 +20,8 @@ constexpr uint32_t k_takings = 3;
 
 /// The fraction of the errors of position that a substep corrects, up to the speeds below.
 constexpr Unit k_closed = 0.15;
-/// The same in an island with contacts: contacts only react once the shifts have made their bodies overlap.
+/// The same in an island with contacts. It is smaller, because contacts react to a shift only after it has made bodies
+/// overlap.
 constexpr Unit k_closed_with_contacts = 0.05;
 constexpr Real k_closing_speed_max = 4.0;              ///< m/s
 constexpr Real k_closing_angular_velocity_max = 16.0;  ///< rad/s
@@ -28,10 +29,10 @@ constexpr Real k_closing_angular_velocity_max = 16.0;  ///< rad/s
 constexpr int k_gap_power = 20;
 /// A body that has rotated by less than 2^-k_turned_power rad in the tick keeps its inverse inertia.
 constexpr int k_turned_power = 6;
-/// Limit of a body's angular velocity, m/s, in the unit of its joints: 2^k_angular_velocity_power_max. A faster body is
-/// slowed down.
+/// Limit of the angular velocity of a body, m/s, in the body's unit for joints: 2^k_angular_velocity_power_max. A
+/// faster body is slowed down.
 constexpr int k_angular_velocity_power_max = 14;
-/// Number of times that a body is slowed down at most, and the power of two for each time.
+/// Slowing a body down: the largest number of steps, and the power of two by which a step divides.
 constexpr int k_slowings = 16, k_slowing_power = 2;
 /// A matrix of Units enlarges a vector by at most 2^k_matrix_power.
 constexpr int k_matrix_power = 3;
@@ -44,7 +45,7 @@ constexpr int k_straight_power = 20;
 constexpr Real k_length_max = 32768.0;
 Real clamped_sum(Real a, Real b) { return min(a + min(b, k_length_max), k_length_max); }
 
-/// The ratio of the impulses that a joint stores to those of a substep.
+/// The ratio of the impulses that a joint stores to its impulses in a substep.
 Scaled kept_share(const StepSettings& settings) {
   return scaled_by_power(scaled_from_count(settings.substeps), -k_kept_power);
 }
@@ -137,7 +138,7 @@ struct Solver {
     return greatest(angular_velocity_from(body, angular_momentum)) <=
            scale_by_power(Real(1.0), k_angular_velocity_power_max);
   }
-  /// Reduces the angular momentum of a body that would rotate faster.
+  /// Reduces the angular momentum of a body until angular_velocities_within() is true.
   void slow_to_fit(const JointBody& body, Vec3<Real>& angular_momentum) {
     for (int left = k_slowings; left > 0 && !angular_velocities_within(body, angular_momentum); --left) {
       angular_momentum = scale_by_power(angular_momentum, -k_slowing_power);
@@ -214,7 +215,7 @@ struct Solver {
     show(work, 1, b.linear_velocity, b.angular_velocity, speed);
     for (uint32_t k = 0; k < work.rows; ++k) speed[k] -= of_a[k];
   }
-  /// Power of two between the speed of a row and its right-hand side.
+  /// The exponent of the power of two between the speed of a row and its right-hand side.
   static int power_of(const JointWork& work, uint32_t row) { return work.row_power[row] - k_impulse_power; }
   /// The right-hand side for the given change of a row's speed.
   Real side_of(const JointWork& work, uint32_t row, Real speed) {
@@ -223,8 +224,8 @@ struct Solver {
     return scale_by_power(speed, power);
   }
 
-  /// Whether a body rotates by more than 2^-k_straight_power rad in the substep. Below that, the curvature of the
-  /// anchors' paths is below the precision. A rod can rotate without its bodies, so a distance joint always counts.
+  /// Whether a body rotates by more than 2^-k_straight_power rad in the substep. If not, the curvature of the anchors'
+  /// paths is below the precision. A distance joint always counts, because a rod can rotate while its bodies do not.
   bool any_turns() {
     bool turns = false;
     each_mobile([&](JointBody& body) { load_motion(body); });
@@ -239,7 +240,7 @@ struct Solver {
     return turns;
   }
 
-  /// Twice the energy that solving the rows removes from the motion before the substep.
+  /// Twice the energy that the locked rows would remove from the motion at the start of the substep.
   Scaled rotational_energy() {
     each_mobile([&](JointBody& body) {
       body.linear_velocity = body.velocity_before;
@@ -287,7 +288,7 @@ struct Solver {
       each_joint([&](JointWork& work) {
         if (bound_drives(stage.joints[work.joint], settings.share, !last, work)) wrong = true;
       });
-      if (!wrong) {  // a limit's impulse is valid only if all drives are within their bounds
+      if (!wrong) {  // the impulse of a limit is valid only if all drives are within their bounds
         each_joint([&](JointWork& work) {
           if (release_limits(stage.joints[work.joint], !last, work)) wrong = true;
         });
@@ -303,7 +304,8 @@ struct Solver {
     each_joint([&](JointWork& work) { count_in(work); });
   }
 
-  /// Activates limits and drives for the velocities with the gathered impulses. Returns whether anything changed.
+  /// Activates limits and drives, for the velocities that include the gathered impulses. Returns whether a drive mode
+  /// changed.
   bool take_up_drives() {
     bool open = false;
     each_joint([&](const JointWork& work) {
@@ -333,10 +335,10 @@ struct Solver {
     return most;
   }
 
-  /// Solves for the right-hand sides that `ask` sets, and gathers the impulses of the bodies. Rows with contradictory
-  /// targets need impulses of target / softness, which can exceed the range. Then all rows become softer for the rest
-  /// of this substep. If this is not enough, all impulses are scaled down: a part of a projection also removes energy.
-  /// Returns the number of times that they were scaled.
+  /// Solves for the right-hand sides that `ask` sets, and gathers the velocity changes of the bodies. Rows with
+  /// contradictory targets need impulses of target / softness, which can exceed the range. Then all rows become softer
+  /// for the rest of this substep. If this is not enough, all impulses are scaled down; this is valid, because a
+  /// fraction of a projection also removes energy. Returns the number of times that the impulses were scaled.
   template <class Ask>
   uint32_t solve_for(const Ask& ask) {
     const uint32_t before = factor.saturated;
@@ -383,7 +385,8 @@ struct Solver {
   }
   /// Whether no value has been clamped so far.
   bool is_sound() const { return clamped + factor.saturated == 0; }
-  /// If a value was clamped, the impulses are not a solution: scales them so that they add no energy.
+  /// If a value was clamped, the impulses do not solve the rows. This function then scales them so that they add no
+  /// energy.
   void keep_sound(Real elapsed) {
     if (is_sound()) return;
     scale_all(share_within(Scaled(0.0)));
@@ -400,7 +403,7 @@ struct Solver {
     clamped += clamp_vector(motion.linear_velocity, k_speed_work_max) +
                clamp_vector(motion.angular_momentum, k_angular_velocity_work_max);
     slow_to_fit(body, motion.angular_momentum);
-    if (DETENT_FIXED) {  // not an impulse of contacts (contact_motion.h)
+    if (DETENT_FIXED) {  // so that the change does not count as one by contacts (contact_motion.h)
       now.contact_velocity -= motion.linear_velocity - velocity_before;
       now.contact_angular_momentum -= motion.angular_momentum - angular_momentum_before;
     }
@@ -420,7 +423,7 @@ struct Solver {
   /// Solves the rows once more: removes the speed that contacts have added.
   void solve_again(Real elapsed) {
     each_mobile([&](JointBody& body) {
-      // Only clamps the motion after the contacts: no impulses of joints are pending.
+      // apply() only clamps the motion after the contacts here, because no joint impulses are pending.
       apply(body);
       load_motion(body);
     });
@@ -438,8 +441,8 @@ struct Solver {
     });
   }
 
-  /// Sets the right-hand sides such that the errors at the predicted poses stay equal to the current errors. This is
-  /// necessary because rows act along straight lines, while joints rotate.
+  /// Sets the right-hand sides such that the position errors at the predicted poses equal the current errors. This is
+  /// necessary because rows act along straight lines, while the anchors move on curved paths.
   void ask_for_curves(Real elapsed) {
     each_mobile([&](JointBody& body) {
       const BodyMotion& motion = bodies.motions[body.slot];
@@ -561,8 +564,8 @@ struct Solver {
     Real closed = k_zero;
     solve_for([&] { closed = ask_for_gaps(); });  // shifts that are too large for a substep are scaled down
     if (factor.saturated != before) scale_all(Scaled(0.0));
-    // A rotation moves an anchor off its straight line by angle^2 / 2 of the arm. Scale the shifts so that this is at
-    // most half of what they close.
+    // A rotation moves an anchor off its straight line by arm x angle^2 / 2. The shifts are scaled so that this is at
+    // most half of the gap that they close.
     Real bent = k_zero;
     each_mobile([&](JointBody& body) {
       body.shift = body.push * settings.time;
@@ -646,8 +649,9 @@ struct Solver {
       store(work.locked_rows + i, row_kind(work.free_row[i]), work.driven_total[i]);
     work.pull = last_pull(stage, work);
   }
-  /// Stores the impulses including those of follow_curves(), such that the pull at most doubles. Redundant rows get
-  /// contradictory targets from the curves, and then pull against each other as hard as their softness permits.
+  /// Stores the impulses including those of follow_curves(), scaled so that `pull` at most doubles. The limit is
+  /// necessary because curved paths give redundant rows contradictory targets. These rows then pull against each other
+  /// as hard as their softness permits.
   void keep_all(JointWork& work, Scaled share) const {
     const Real most = scale_by_power(work.pull, 1);
     keep(work, share);

@@ -4,27 +4,28 @@
 #include "motion/angular_velocity.h"
 #include "motion/inverse_inertia.h"
 
-/// The number of substeps that joints need. If a body rotates by w in a substep, its anchors leave the straight lines
-/// along which the rows act, by w^2/2 of the arm. The solver corrects this, except for a fraction w of it. So the
-/// squared number of substeps is proportional to the curvature of the anchors' paths in a whole tick, over the smaller
-/// body's unit. A chain that hangs or swings slowly takes the fewest substeps. So does a wheel, which rotates about its
-/// anchor.
+/// The number of substeps that joints need. If a body rotates by the angle w in a substep, its anchors leave the
+/// straight lines along which the rows act by arm x w^2 / 2. The solver corrects this error, except for a fraction w of
+/// it. Therefore the squared number of substeps is proportional to the curvature of the anchors' paths in a whole tick,
+/// divided by the smaller body's unit. A chain that hangs or swings slowly has the least number of substeps. So has a
+/// wheel, which rotates about its anchor.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Limit of each component of a rotation vector, rad. With larger ones the number of substeps is at its bound.
+/// Limit of each component of a rotation vector, rad. At this rotation the number of substeps has reached its upper
+/// limit.
 constexpr Real k_rotation_max = 4.0;
 
-/// A single substep would open taut joints by metres.
+/// Least number of substeps with joints. With a single substep, taut joints would open by metres.
 constexpr uint32_t k_least = 2;
-/// For islands with loops: bodies that hang on two places may be taut between them.
+/// Least number for islands with loops of joints, because a body that hangs from two points may be taut between them.
 constexpr uint32_t k_least_of_loops = 3;
-/// For islands with contacts: the impulses of contacts and joints converge over the substeps.
+/// Least number for islands with contacts, because the impulses of contacts and joints converge over the substeps.
 constexpr uint32_t k_least_with_contacts = 4;
 /// Squared substeps per squared radian of rotation in a tick: 0.2 rad per substep.
 constexpr Scaled k_needed_by_bend = 25.0;
-/// Power of two by which the rotation of the two bodies' axes about each other counts more.
+/// Exponent of the factor with which the relative rotation of the two bodies' axes counts.
 constexpr int k_axes_power = 2;
 constexpr Scaled k_needed_by_bend_max = 1024.0;
 /// Squared substeps per squared radian of a spring's phase in a tick.

@@ -10,8 +10,9 @@ namespace {
 constexpr int k_rest_power = -6;
 constexpr Real k_slow_max = 1024.0;  ///< m/s: a faster body is not at rest, and its squared speed may overflow
 
-/// Whether no point of a body is faster than `slow`, m/s, estimated from its kinetic energy: 2 (v . v + w . L / m) <
-/// slow^2. So a slender body may rotate faster about its long axis than about the others. Range: slow <= k_slow_max.
+/// Whether no point of a body is faster than `slow`, m/s. Estimated from the kinetic energy per unit mass: 2 (v . v + w
+/// . L / m) < slow^2, with the velocity v, angular velocity w, angular momentum L and mass m. A slender body may
+/// therefore rotate faster about its long axis than about the others. Range: slow <= k_slow_max.
 bool is_slower(const Vec3<Real>& velocity, const Vec3<Real>& angular_velocity, const Vec3<Real>& angular_momentum,
                Real slow) {
   if (greatest(velocity) > slow || greatest(angular_velocity) > k_slow_max || greatest(angular_momentum) > k_slow_max)
@@ -19,7 +20,7 @@ bool is_slower(const Vec3<Real>& velocity, const Vec3<Real>& angular_velocity, c
   return scale_by_power(dot(velocity, velocity) + dot(angular_velocity, angular_momentum), 1) < slow * slow;
 }
 
-/// Whether both the body's velocity and its displacement in the tick are slow.
+/// Whether a body is at rest (activity.h), by its velocity and by its displacement in the tick.
 bool is_resting(const StepSettings& settings, const BodyProperties& properties, const BodyPose& pose,
                 const BodySweep& sweep, const BodyMotion& motion) {
   const Real slow = scale_by_power(fall_speed(settings, shape_extent(properties)), k_rest_power);

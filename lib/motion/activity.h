@@ -17,7 +17,7 @@ inline bool is_awake(const BodyProperties& properties, const BodyActivity& activ
   return is_dynamic(properties) && activity.asleep == 0;
 }
 
-/// True if the body moves, or can be moved, in this step: an awake dynamic body, or a kinematic body with a velocity.
+/// Whether the body can move in this step: it is an awake dynamic body, or a kinematic body with a velocity.
 bool is_moving(const BodyProperties& properties, const BodyMotion& motion, const BodyActivity& activity);
 
 /// Wakes all bodies that fell asleep together with the body in `slot`, sets their bits in `active`, and records an
@@ -27,9 +27,9 @@ uint32_t wake_all_with(uint32_t slot, Span<BodyActivity> activities, BitSet acti
 /// Counts the ticks that each body has been at rest. Puts an island to sleep, and sets its velocities to zero, if all
 /// its bodies have been at rest for k_still_ticks. Returns the number of bodies that fell asleep.
 ///
-/// A body is at rest if no point of its rim is faster than 1/64 of the speed of a fall by its smallest diameter. Both
-/// its velocity and its displacement in this tick must satisfy this: a body that is pushed out of another body, or
-/// towards its joint, moves without a velocity.
+/// A body is at rest if no point of its surface is faster than 1/64 of the speed of a fall by its smallest diameter.
+/// Both its velocity and its displacement in this tick, divided by the tick, must satisfy this. The displacement is
+/// tested because position corrections of contacts and joints move a body without a velocity.
 uint32_t fall_asleep(const StepSettings& settings, Span<const BodyProperties> properties, Span<const BodyPose> poses,
                      Span<const BodySweep> sweeps, Span<const Island> islands, Span<const uint32_t> bodies,
                      Span<BodyMotion> motions, Span<BodyActivity> activities);

@@ -11,8 +11,8 @@ struct BodyFrame {
   Real angular_momentum[3];  ///< in the body's axes
 };
 
-/// Rotates the frame about one of its axes for `time`, at `rate` times the angular momentum about that axis. The
-/// angular momentum stays constant in the world.
+/// Rotates the frame about one of its axes for `time`, s. The angular velocity is `rate` times the angular momentum
+/// about that axis. The angular momentum stays constant in world axes.
 void rotate_about(int axis, Scaled rate, int exponent, Real time, BodyFrame& frame, bool& clamped) {
   bool saturated = false;
   const Real angular_velocity = multiply(frame.angular_momentum[axis], rate, saturated);
@@ -47,7 +47,8 @@ int odd_axis(const Scaled (&inverse_inertia)[3]) {
   return less(apart[2], apart[least]) ? 2 : least;
 }
 
-/// Rotates for `time` about a world axis by the angular velocity `angular_velocity`, m/s at the radius 2^exponent m.
+/// Returns `rotation` after a rotation at `angular_velocity` (m/s at the radius 2^exponent m, world axes) for `time`,
+/// s.
 Quat turned(const Quat& rotation, const Vec3<Real>& angular_velocity, int exponent, Real time, bool& clamped) {
   const Vec3<Real> angle = {angle_of(angular_velocity.x * time, exponent, clamped),
                             angle_of(angular_velocity.y * time, exponent, clamped),
@@ -83,7 +84,7 @@ bool rotate_freely(const BodyProperties& properties, const FreeRotation& free, c
   if (angular_velocity == none) return true;
   const int a = free.odd, c = (a + 2) % 3;
   BodyFrame frame = {rotation, {local.x, local.y, local.z}};
-  // The rotation about the angular momentum commutes with the other two: it is applied once, at the end.
+  // The rotation about the angular momentum commutes with the other two rotations, so it is applied once, at the end.
   if (free.rest == Scaled(0.0)) {
     rotate_about(a, free.odd_rate, exponent, time, frame, clamped);
   } else {

@@ -6,20 +6,22 @@
 #include "math/scaled.h"
 #include "shape/body.h"
 
-/// Rotation of a body from its angular momentum. Angular quantities are stored as speeds, m/s, with the body's unit of
-/// length u = 2^size_exponent m, its mass m, its angular momentum L, its angular velocity w and its inertia I:
+/// Rotation of a body from its angular momentum. The library stores angular quantities as speeds, m/s. With the body's
+/// unit of length u = 2^size_exponent m, mass m, angular momentum L, angular velocity w and inertia I, the stored
+/// values are:
 ///
 ///     momentum = L / (m u);  angular velocity = w u;  inverse inertia = m u^2 / I (inverse inertia per unit mass)
 ///
-/// So angular velocity = inverse inertia x momentum, whatever the mass and the scale are.
+/// So angular velocity = inverse inertia x momentum, for any mass and unit.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 inline constexpr Real k_speed_max = 16384.0;  ///< m/s, in the state: each component of velocity
-/// In the state, m/s: each component of angular velocity times u; the rim moves at half of it or faster.
+/// In the state, m/s: limit of each component of w u. The bounding radius is at least u / 2, so the surface speed at
+/// this limit is at least half of it.
 inline constexpr Real k_angular_velocity_max = 32768.0;
 inline constexpr Real k_speed_work_max = 32768.0;  ///< m/s, velocity during a solve
-/// During a solve, m/s: angular momentum over m u; no inverse inertia is below 1.
+/// During a solve, m/s: limit of each component of L / (m u). No inverse inertia is below 1, so w u is not smaller.
 inline constexpr Real k_angular_velocity_work_max = 65536.0;
 
 /// Clamps each component to +-limit. Returns the number of components that changed.
@@ -56,8 +58,8 @@ inline Vec3<Real> gyrate(const BodyProperties& properties, const Vec3<Real>& v) 
           multiply(v.z, properties.inverse_inertia[2])};
 }
 
-/// The angular velocity, m/s, world: inverse inertia times `angular_momentum`. For a kinematic body `angular_momentum`
-/// is the angular velocity.
+/// The angular velocity, m/s, world: inverse inertia times `angular_momentum`. For a kinematic body, `angular_momentum`
+/// already is the angular velocity.
 inline Vec3<Real> angular_velocity_of(const BodyProperties& properties, const Quat& rotation,
                                       const Vec3<Real>& angular_momentum) {
   if (!is_dynamic(properties)) return angular_momentum;
@@ -82,7 +84,7 @@ inline Vec3<Real> angular_momentum_of(const BodyProperties& properties, const Qu
   return is_isotropic(properties) ? angular_momentum : rotate(rotation, angular_momentum);
 }
 
-/// Removes the angular momentum about locked axes. Contacts also apply torques about a locked axis; these have no
+/// Returns the angular momentum without its components about locked axes, which contacts can add and which must have no
 /// effect.
 inline Vec3<Real> without_locked(const BodyProperties& properties, const Quat& rotation,
                                  const Vec3<Real>& angular_momentum) {
@@ -95,17 +97,18 @@ inline Vec3<Real> without_locked(const BodyProperties& properties, const Quat& r
                                      (properties.rotation_locks & k_rotation_lock_z) != 0 ? zero : local.z});
 }
 
-/// Rotates `rotation` by the free motion over `time`, s, of a body with this angular momentum L. Let b and c be the two
-/// axes with the closest inverse inertias, and a the third. The energy is split into three terms:
+/// Rotates `rotation` by the torque-free motion over `time`, s, of a body with the angular momentum L. Let b and c be
+/// the two body axes with the closest inverse inertias, a the third axis, and I_a, I_b, I_c the inertias. The kinetic
+/// energy is split into three terms:
 ///
 ///     |L|^2 / 2 I_b + (1/I_a - 1/I_b) L_a^2 / 2 + (1/I_c - 1/I_b) L_c^2 / 2
 ///
-/// The motion of each term is an exact rotation: about L, about a, and about c. The rotation about c is done in two
-/// halves, before and after the one about a (Strang splitting), in 2^halvings steps. So the angular momentum is kept
-/// exactly, and the energy to second order in 1/I_c - 1/I_b: the motion of a symmetric body is exact, however slender
-/// the body is. `angular_velocity` becomes angular_velocity_of() at the start. Returns false if an angle was clamped to
-/// 2^15 rad. Source: Dullweber, Leimkuhler, McLachlan, "Symplectic splitting methods for rigid body molecular
-/// dynamics", 1997.
+/// The motion of each term is an exact rotation: about L, about a, and about c. In each of 2^halvings steps, the
+/// rotation about c is done in two halves, before and after the rotation about a (Strang splitting). This conserves the
+/// angular momentum exactly, and the energy to second order in 1/I_c - 1/I_b. The motion of a symmetric body is exact,
+/// even if it is slender. `angular_velocity` becomes angular_velocity_of() at the start. Returns false if an angle was
+/// clamped to 2^15 rad. Source: Dullweber, Leimkuhler, McLachlan, "Symplectic splitting methods for rigid body
+/// molecular dynamics", 1997.
 bool rotate_freely(const BodyProperties& properties, const FreeRotation& free, const Vec3<Real>& angular_momentum,
                    Real time, int halvings, Quat& rotation, Vec3<Real>& angular_velocity);
 

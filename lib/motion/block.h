@@ -7,9 +7,9 @@
 #include "math/scaled.h"
 
 /// Block floating point for one contact. The numbers of a contact in a pass (speeds, impulses, or lengths) share one
-/// power of two. It is chosen from the largest number, so that a product is one of 32 by 32 bits. State stays in Real:
-/// an impulse is rounded to the block once and then acts on both bodies, so the rounding of a block changes no linear
-/// momentum. In float the same code uses plain numbers.
+/// power of two, the block. The largest number determines it, so that products of 32 by 32 bits are sufficient. The
+/// state stays in Real. An impulse is rounded to the block once, and then acts on both bodies; therefore the rounding
+/// conserves linear momentum. In float the same code uses plain numbers.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -17,7 +17,7 @@ inline namespace DETENT_NAMESPACE {
 
 /// A number of a block, in units of 2^shift ulps of Real.
 using Ulps = int64_t;
-/// A number that can be multiplied: within +-2^30, so that a sum of two products with Units is below 2^62.
+/// A number of a block that can be multiplied: within +-2^30, so that a sum of two products with Units is below 2^62.
 using Factor = int32_t;
 /// A sum of products of factors and Units, in units of 2^-30 ulps.
 using UlpSum = int64_t;
@@ -31,12 +31,12 @@ inline constexpr int k_number_bits = 28;    ///< bits of an impulse: a sum of fo
 inline constexpr int k_wrench_bits = 28;    ///< bits of each part of a wrench: its torque on a body stays below 2^30
 inline constexpr int k_shift_min =
     9;  ///< the finest step is 2^-37, which is precise enough; more than k_angular_velocity_power
-/// The solver stores angular velocities scaled by 2^-8: the angular velocity of a slender body leaves the range of Real
-/// long before its angular momentum does.
+/// The solver stores angular velocities times 2^-k_angular_velocity_power, because the angular velocity of a slender
+/// body exceeds the range of Real long before its angular momentum does.
 inline constexpr int k_angular_velocity_power = 8;
 
-// The values for a block are collected in units of 2^k_angular_velocity_power ulps of Real. The bits that this drops
-// are below the finest step of a block.
+// The magnitudes of the values for a block are collected in units of 2^k_angular_velocity_power ulps of Real. The
+// dropped bits are below the finest step of a block.
 inline constexpr int k_bits_power = k_angular_velocity_power - k_mantissa_bits;
 inline constexpr int k_number_drop = k_number_bits + k_bits_power;
 static_assert(k_angular_velocity_power <= k_shift_min - k_bits_power && k_number_drop <= k_shift_min - k_bits_power);
@@ -48,13 +48,13 @@ DETENT_SHARED inline Factor held(Ulps a) {
 
 class Block {
  public:
-  /// Makes room for `v` 2^exponent as mantissas; effective from settle() on. Range: exponent from 0 to
+  /// Includes `v` 2^exponent, as mantissas, in the choice of the block by settle(). Range: exponent from 0 to
   /// k_angular_velocity_power.
   DETENT_SHARED void include(const Vec3<Real>& v, int exponent) {
     bits_ |= (magnitude_64(v.x.raw) | magnitude_64(v.y.raw) | magnitude_64(v.z.raw)) >>
              (k_angular_velocity_power - exponent);
   }
-  /// Makes room for the first `used` values as numbers; effective from settle() on.
+  /// Includes the first `used` values, as numbers, in the choice of the block by settle().
   template <unsigned count>
   void include(const Real (&values)[count], uint32_t used) {
     uint64_t all = 0;
@@ -96,7 +96,7 @@ class Block {
               Real::from_raw(round_shift_64(z, n))};
     return {Real::from_raw(shift_64(x, -n)), Real::from_raw(shift_64(y, -n)), Real::from_raw(shift_64(z, -n))};
   }
-  /// Rounds all `parts` to the least power of two at which they fit into a wrench. The block takes that power.
+  /// Rounds all `parts` to the least power of two at which they fit a wrench, and sets the block to this power.
   template <unsigned count>
   void coarsen(Ulps (&parts)[count]) {
     uint64_t all = 0;
@@ -138,7 +138,7 @@ DETENT_SHARED inline Mantissas rounded(UlpSum x, UlpSum y, UlpSum z) {
 }
 inline constexpr Ulps k_no_ulps = 0;
 
-/// Projects a vector into the circle of radius `limit` around zero. Range: limit >= 0.
+/// Scales v down to the length `limit` if it is longer. Range: limit >= 0.
 DETENT_SHARED inline void clamp_to_circle(Factor (&v)[2], Factor limit) {
   const uint64_t x = magnitude_32(v[0]), y = magnitude_32(v[1]), radius = static_cast<uint32_t>(limit);
   if (x + y <= radius) return;

@@ -10,8 +10,8 @@
 ///     linear:  n, t, s . ((v_B + w_B x r_B) - (v_A + w_A x r_A)), m/s
 ///     angular: n, t, s . (w_B - w_A) u, m/s; u is the pair's unit of length, m
 ///
-/// The code is generic over the kind of number: those of one contact (One), or of four contacts at once (Four,
-/// lanes_contact.h).
+/// The code is generic over the kind of number: numbers of one contact (One), or of four contacts at once (Four,
+/// lib/solver/lane_contact.h).
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -24,7 +24,7 @@ constexpr int response_index(int i, int k) { return i < k ? k * (k + 1) / 2 + i 
 
 constexpr int k_responses = response_index(k_parts - 1, k_parts - 1) + 1;
 
-/// A body that impulses act on. The solver stores its angular velocity in addition to its angular momentum.
+/// A body on which impulses act. The solver stores its angular velocity in addition to its angular momentum.
 struct SolvedBody {
   Vec3<Real>&linear_velocity, &angular_momentum, &angular_velocity;
   Vec3<Real>&contact_velocity, &contact_angular_momentum;
@@ -126,8 +126,9 @@ struct PairMotion {
   static typename Kind::Sum cross_part(Factor p, Unit q, Factor r, Unit s) { return product(p, q) - product(r, s); }
 };
 
-/// The parts of the relative motion that determine the normal velocity of the points. At point (x, y), in the tangents'
-/// axes relative to the middle, it is: along + about_first y - about_second x.
+/// The parts of the relative motion that determine the normal velocity of the points. Let (x, y) be the coordinates of
+/// a point along the two tangents, relative to the middle. Its normal velocity is: along + about_first y - about_second
+/// x.
 template <class Kind>
 struct NormalMotion {
   typename Kind::Factor along, about_first, about_second;
@@ -145,20 +146,20 @@ struct NormalMotion {
   }
 };
 
-/// The change that contacts have made to a body's motion in this substep. Fixed point computes the difference from the
-/// value at the start of the substep, which is exact. Float keeps a sum, because a difference loses small impulses at
-/// high speeds.
+/// The change of a body's motion by contacts in this substep. In fixed point it is the difference from the value at the
+/// start of the substep, which is exact. In float `kept` is the sum of the changes, because a difference would lose
+/// small impulses at high speeds.
 inline Vec3<Real> added_by_contacts(const Vec3<Real>& motion, const Vec3<Real>& kept) {
   return DETENT_FIXED ? motion + kept : kept;
 }
-/// The value to keep for added_by_contacts(), from a motion without the impulses of contacts; `added` is their sum so
-/// far.
+/// The value `kept` for added_by_contacts(). `motion`: the motion before contacts have changed it. `added`: the sum of
+/// the changes so far.
 inline Vec3<Real> kept_at_start(const Vec3<Real>& motion, const Vec3<Real>& added) {
   return DETENT_FIXED ? -motion : added;
 }
 
-/// Applies a wrench to a body, or its opposite. `share` is the relative inverse mass; `torque` is in the body's unit of
-/// length:
+/// Applies a wrench (if `adds`) or its opposite to a body. `share` is the relative inverse mass; `torque` is in the
+/// body's unit of length:
 ///
 ///     velocity += share force;  momentum += share torque;  angular velocity += share inverse inertia torque
 template <class Kind, bool adds>

@@ -16,9 +16,9 @@ Vec3<Real> local_angular_velocity(const BodyProperties& properties, const Vec3<R
           multiply(angular_momentum.z, properties.inverse_inertia[2], saturated)};
 }
 
-constexpr int k_quarterings_max = 64;  ///< inverse inertias are far below 4^64
+constexpr int k_quarterings_max = 64;  ///< enough, because inverse inertias are far below 4^64
 
-/// Whether the angular velocity is far below its bound, whatever the body's orientation is.
+/// Whether the angular velocity is far below its limit for any orientation of the body.
 bool is_slow(const BodyProperties& properties, const Vec3<Real>& angular_momentum) {
   Scaled most = properties.inverse_inertia[0];
   for (int axis = 1; axis < 3; ++axis)
@@ -37,8 +37,8 @@ uint32_t clamp_speeds(const BodyProperties& properties, const Quat& rotation, Bo
   const bool turned = !is_isotropic(properties);
   Vec3<Real> local, angular_velocity;
   // Joints and impacts may leave an angular velocity beyond the range of Real. If a component in the body's axes is
-  // more than twice the bound, then a component in world axes exceeds the bound. If the value has saturated, each pass
-  // divides it by about 4.
+  // more than twice the limit, then a component in world axes exceeds the limit. Each pass scales the momentum down to
+  // the limit; if the angular velocity has saturated, this divides it by about 4.
   for (int quartering = 0; quartering < k_quarterings_max; ++quartering) {
     local = turned ? rotate_inverse(rotation, motion.angular_momentum) : motion.angular_momentum;
     angular_velocity = local_angular_velocity(properties, local);
@@ -99,7 +99,7 @@ void store_contacts(Span<const ContactWork> work, Span<const ManifoldState> mani
     const uint64_t key_a = key_of(a), key_b = key_of(b);
     return key_a < key_b || (key_a == key_b && a.part < b.part);
   };
-  // Contacts before the first new or removed one keep their places.
+  // The contacts before the first new or removed contact keep their indices.
   uint32_t same = 0;
   for (; same < work.count && same < awake_count; ++same) {
     const ContactState& state = work[same].state;
@@ -107,7 +107,7 @@ void store_contacts(Span<const ContactWork> work, Span<const ManifoldState> mani
     if (place.body_a != state.body_a || place.body_b != state.body_b || place.part != state.part) break;
     put(same, awake[same]);
   }
-  // Moves the contacts of sleeping bodies together, from the place of the first awake one on.
+  // Moves the contacts of sleeping bodies together, beginning at the index of the first awake contact.
   uint32_t kept = same < awake_count ? awake[same] : before;
   for (uint32_t i = same; i < awake_count; ++i) {
     const uint32_t end = i + 1 < awake_count ? awake[i + 1] : before;

@@ -7,12 +7,12 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Computes the sweep over the tick of each body in `slots`, from the start pose to the pose after the substeps.
-/// Returns the number of components that were clamped.
+/// Computes the sweep of each body in `slots` over the tick, from its pose at the start of the tick to its pose after
+/// the substeps. Returns the number of components that were clamped.
 uint32_t make_sweeps(Span<const uint32_t> slots, Span<const BodyProperties> properties, Span<const BodyWork> work,
                      Span<const BodyPose> poses, Span<BodySweep> sweeps);
 
-/// The part of a body's sweep from sweep.from to the end of the tick.
+/// Returns the part of a body's sweep from sweep.from to the end of the tick.
 inline Sweep rest_of_tick(const BodySweep& sweep) {
   const Sweep whole = {sweep.displacement, sweep.rotation_vector};
   return sweep.from.raw == 0 ? whole : sweep_part(whole, k_whole_step - sweep.from);
@@ -27,9 +27,9 @@ uint32_t finalise_body(const BodyProperties& properties, const BodySweep& sweep,
 uint32_t clamp_speeds(const BodyProperties& properties, const Quat& rotation, BodyMotion& motion);
 
 /// Replaces the contacts of the last tick that are listed in `awake` with the contacts of this tick, and their
-/// manifolds if there are any. All lists are sorted. The other contacts belong to sleeping bodies and stay. `before` is
-/// the total number of contacts before the call; places that are no longer needed become zero. `awake` then lists the
-/// new contacts, and must have room for them.
+/// manifolds if there are any. All lists are sorted. The other contacts belong to sleeping bodies and stay. `before`:
+/// the total number of contacts before the call. Elements that are no longer needed become zero. After the call,
+/// `awake` lists the new contacts; it must have room for them.
 void store_contacts(Span<const ContactWork> work, Span<const ManifoldState> manifold_work, uint32_t awake_count,
                     uint32_t before, Span<ContactState> contacts, Span<ManifoldState> manifolds, Span<uint32_t> awake);
 

@@ -11,7 +11,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// 1 / (1 + rate time): implicit damping.
+/// The fraction of a velocity that remains after `time`, s, of implicit damping at `rate`, 1/s: 1 / (1 + rate time).
 Scaled kept(Scaled rate, Real time) {
   const Scaled one = 1.0;
   return is_positive(rate) ? divide(one, add(one, multiply(rate, scaled_from(time)))) : one;
@@ -84,7 +84,7 @@ void bound(const StepSettings& settings, Span<const BodyPose> poses, Span<const 
     Vec3<Real> move = motion.linear_velocity * settings.tick_time;
     if (is_dynamic(body)) move += fall;
     if (!(motion.angular_momentum == Vec3<Real>{Real(0.0), Real(0.0), Real(0.0)})) {
-      // A rotating body stays in its bounding sphere.
+      // A rotating body stays within its bounding sphere.
       const Real ball = real_from_unit(body.bounding_radius, body.size_exponent) + margin;
       const Real swing = angular_velocity * settings.tick_time;
       motion_bound = {min(motion_bound.x + swing, ball), min(motion_bound.y + swing, ball),
@@ -92,7 +92,7 @@ void bound(const StepSettings& settings, Span<const BodyPose> poses, Span<const 
     }
     const Real zero = 0.0;
     const Position& at = poses[slot].position;
-    bool beyond = false;  // clamped bounds still contain the body
+    bool beyond = false;  // ignored: clamped bounds still contain the body
     bounds[slot].lower = {coord_advance(at.x, min(move.x, zero) - motion_bound.x, beyond),
                           coord_advance(at.y, min(move.y, zero) - motion_bound.y, beyond),
                           coord_advance(at.z, min(move.z, zero) - motion_bound.z, beyond)};

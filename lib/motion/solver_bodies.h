@@ -6,7 +6,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The bodies of a step, as the solver uses them.
+/// The data of the bodies of a step that the solver uses.
 struct SolverBodies {
   Span<const BodyProperties> properties;
   Span<BodyMotion> motions;

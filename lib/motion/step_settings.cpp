@@ -11,7 +11,7 @@ namespace {
 /// Fractions of WorldDef::damping_ratio, for contacts between dynamic bodies, and for all other contacts.
 constexpr Unit k_dynamic_damping = 0.7, k_static_damping = 0.5;
 
-/// `contact_frequency`: the spring's frequency over the substep rate. `damping_ratio`: fraction of critical damping.
+/// Computes a Softness. `contact_frequency`: frequency of the spring / substep rate. `damping_ratio`: 1 is critical.
 Softness softness(Real contact_frequency, Real damping_ratio) {
   const Real one = 1.0;
   const Real phase = k_two_pi * contact_frequency;  // angular frequency x substep

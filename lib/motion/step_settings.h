@@ -8,8 +8,8 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Softness of a contact: a damped spring that is solved implicitly. Its numbers do not depend on the length of the
-/// substep.
+/// Softness of a contact, which is a damped spring, solved implicitly. The members do not depend on the length of the
+/// substep, because the frequency is a fraction of the substep rate.
 /// Source: Catto, "Soft Constraints", GDC 2011.
 struct Softness {
   Unit rate;           ///< fraction of the overlap that is corrected in a substep
@@ -28,7 +28,7 @@ struct StepSettings {
   bool post_stabilises;
   bool sleeping;
   bool continuous;  ///< continuous collision is on
-  /// Solve four contacts at once where possible. The caller's choice; it does not change the result.
+  /// Solve four contacts at once where possible (World::lanes). This does not change the result.
   bool lanes;
   Real tick_time;      ///< s
   uint32_t substeps;   ///< set by set_substeps(), like the next three
@@ -41,11 +41,12 @@ struct StepSettings {
   Real gap_max;
   Unit relaxation;
   Vec3<Real> gravity;  ///< m/s^2
-  /// Magnitude of gravity, m/s^2, at least 1: scale for comparing speeds.
+  /// Magnitude of gravity, m/s^2, but at least 1. Used to derive limits of speeds.
   Real gravity_size;
   Real restitution_threshold;
   ManifoldReduction reduction;
-  /// Approximate depth to which a resting body sinks in, m: a quarter of the displacement by gravity in a tick.
+  /// Approximate depth, m, to which a resting body sinks into its support: a quarter of the displacement by gravity in
+  /// a tick.
   Real sunk;
   /// Contact margin, as a fraction of the smaller extent.
   Real contact_margin;
@@ -57,16 +58,16 @@ struct StepSettings {
 };
 
 StepSettings step_settings(const WorldState& world);
-/// The speed, m/s, that corrects `length`, m, in a substep. Overflow: clamps to +-2^15 m/s.
+/// The speed, m/s, that covers `length`, m, in a substep. Overflow: clamps to +-2^15 m/s.
 inline Real speed_over(const StepSettings& settings, Real length) {
   return scale_by_power(clamp(length, -settings.gap_max, settings.gap_max) * settings.rate_mantissa,
                         settings.rate_exponent);
 }
-/// The speed of a fall by `extent`, m/s: scale for comparing speeds. Range: extent <= 2^15 m.
+/// The speed, m/s, after a fall from rest by `extent`, m. Used to derive limits of speeds. Range: extent <= 2^15 m.
 Real fall_speed(const StepSettings& settings, Real extent);
 /// Sets the settings that depend on the number of substeps. Range: [1, 64].
 void set_substeps(uint32_t substeps, StepSettings& settings);
-/// Clamps to 2^17 - 1.
+/// Converts a count, clamped to 2^17 - 1, to a Scaled.
 Scaled scaled_from_count(uint32_t count);
 
 }  // namespace DETENT_NAMESPACE

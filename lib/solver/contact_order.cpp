@@ -22,13 +22,13 @@ uint32_t pair_hash(Span<const BodyProperties> properties, const ContactState& co
   return static_cast<uint32_t>(digest_finish(pair) >> 32);
 }
 
-/// Contacts of one colour may be solved in any order. Contacts with the same kind of work are sorted together, to be
-/// solved four at once.
+/// The kind of work of a contact. Contacts of one colour may be solved in any order. Those of the same kind are sorted
+/// together, so that four can be solved at once.
 uint16_t kind_of(const ContactWork& contact) {
   return static_cast<uint16_t>(contact.state.point_count | contact.angular_rows << 3);
 }
 
-/// Takes the lowest colour that is free at both bodies, or k_colour_overflow.
+/// Takes the lowest colour that is free at both bodies and returns it. Returns k_colour_overflow if there is none.
 uint16_t take_colour(Span<const BodyProperties> properties, const ContactState& contact, Span<BodyWork> work) {
   const bool colours_a = is_dynamic(properties[contact.body_a]), colours_b = is_dynamic(properties[contact.body_b]);
   uint64_t taken = 0;
@@ -42,13 +42,13 @@ uint16_t take_colour(Span<const BodyProperties> properties, const ContactState& 
   return colour;
 }
 
-/// The place of an island's kind in the order of the islands, below 256: by substeps, then by whether it has contacts;
-/// islands with joints come last.
+/// The sort key of an island, below 256: first the number of substeps, then whether it has contacts. Islands with
+/// joints come last.
 uint32_t kind_of(const Island& island) {
   return island.joint_count != 0 ? 255 : 2 * island.substeps + (island.contact_count != 0 ? 1 : 0);
 }
 
-/// Moves each contact to the next place of its island. Keeps the order within an island.
+/// Sorts the contacts by island. Keeps the order within an island.
 void sort_by_island(Span<const Island> islands, Span<BodyWork> work, Span<ContactOrder> spare, Span<ContactOrder> order,
                     uint32_t first) {
   for (uint32_t i = first; i < order.count; ++i) spare[i] = order[i];

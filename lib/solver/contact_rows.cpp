@@ -11,12 +11,12 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// The exponent for mantissas of values up to `value`, with room for the sum of four. Always 0 in float.
+/// The exponent for mantissas of values up to `value`, such that a sum of four mantissas fits. Always 0 in float.
 int32_t exponent_for(Real value) { return DETENT_FIXED ? exponent_above(value) + 2 : 0; }
 
 #if DETENT_FIXED
-/// The factor that converts mantissas 2^-exponent to Reals; a multiplication costs less than shifting each mantissa.
-/// Range: a Real has more fraction bits than the mantissas, so that nothing is rounded.
+/// The factor that converts mantissas of values / 2^exponent to raw Reals. A multiplication costs less than a shift of
+/// each mantissa. Range: the conversion must not drop bits of a mantissa.
 uint64_t real_power(int exponent) {
   DETENT_VERIFY_RANGE(exponent >= k_unit_frac - k_real_frac);
   return static_cast<uint64_t>(shift_64(1, exponent + k_real_frac - k_unit_frac));
@@ -29,8 +29,9 @@ uint64_t real_power(int) { return 1; }
 #endif
 Real real_part(Real value, uint64_t) { return value; }
 
-/// Adds one body's part of K = J M^-1 J^T to `response`. In the contact's frame, with axes e_i (n, t, s), arm r,
-/// inverse inertia G (`turning`), the pair's unit u in the body's (`unit`), and the relative inverse mass `share`:
+/// Adds one body's part of K = J M^-1 J^T to `response`. In the frame of the contact, e_i are the axes (n, t, s), r the
+/// arm, G (`turning`) the inverse inertia of the body, u (`unit`) the pair's unit of length in units of the body, and
+/// `share` the relative inverse mass:
 ///
 ///     linear i, linear k:   share (delta_ik + (r x e_i) . G (r x e_k))
 ///     angular i, linear k:  share u e_i . G (r x e_k)
@@ -50,7 +51,7 @@ void add_response(const ContactWork& work, const Number (&turning)[3][3], int ex
   };
   DETENT_UNROLL
   for (int k = 0; k < 3; ++k) {
-    // r x e_k has components along the two other axes.
+    // r x e_k only has components along the two other axes.
     const int next = (k + 1) % 3, last = (k + 2) % 3;
     Number angular_velocity[3];
     DETENT_UNROLL
@@ -126,7 +127,7 @@ void couple(const PairResponse& response, ContactWork& work) {
     }
     work.inverse_mass[i] = mass_of(coupling[i][i]);
   }
-  // Reached by a thin body that is hit far from its centre; the sweep then converges more slowly.
+  // A thin body that is hit far from its centre can reach this limit. The sweeps then converge more slowly.
   constexpr int32_t k_most = 29;
   const int32_t exponent = exponent_for(most);
   work.coupling_exponent = exponent < k_most ? exponent : k_most;
@@ -200,8 +201,9 @@ Real gravity_along(const StepSettings& settings, const BodyProperties& body, con
   return body.gravity_scale == Scaled(1.0) ? whole : multiply(whole, body.gravity_scale, saturated);
 }
 
-/// The normal velocity at which a point that approaches at `velocity` < 0 closes its gap s under the relative
-/// acceleration `pull` < 0: -sqrt(v^2 - 2 pull s). With this, a bounce neither gains nor loses height.
+/// The normal velocity of an approaching point at the time of touch: -sqrt(v^2 - 2 pull s). v (`velocity`) < 0 is its
+/// normal velocity now, s (`separation`) the gap, `pull` < 0 the relative acceleration. With this value, a ball with
+/// restitution 1 bounces to the same height again.
 Real approach_at_touch(Real velocity, Real separation, Real pull) {
   // Above 256 m/s the acceleration over a gap is negligible, and squares leave the range of Real.
   const Real zero = 0.0, fast = 256.0;
@@ -211,9 +213,9 @@ Real approach_at_touch(Real velocity, Real separation, Real pull) {
 }
 
 /// The growth of the gap in a tick, m, of two round bodies that slide past each other, because the contact normal
-/// rotates. Returns s^2 / D: s is the relative tangential displacement of the centres of curvature in the tick, D is
-/// their distance. This is twice the second-order term. Without it, the solver would stop bodies that only touch in
-/// passing, along the normal at the start of the tick.
+/// rotates. Returns s^2 / D. s is the relative tangential displacement of the centres of curvature in the tick; D is
+/// the distance of these centres. s^2 / D is twice the second-order term of the gap. Without this growth, the solver
+/// would stop bodies that only pass each other, along the normal at the start of the tick.
 __attribute__((noinline)) Real parted_by_sliding(const StepSettings& settings, const RowBody& a, const RowBody& b,
                                                  const Vec3<Unit>& normal, const ContactGeometryPoint& point) {
   const Unit round_a = round_radius(a.properties), round_b = round_radius(b.properties);
@@ -230,7 +232,7 @@ __attribute__((noinline)) Real parted_by_sliding(const StepSettings& settings, c
   return displacement * divide(displacement, distance);
 }
 
-/// The weight of each of `count` points in a mean.
+/// The weight 1 / count of each of `count` points in a mean.
 Unit share_of_points(uint32_t count) {
   constexpr Unit k_share[k_manifold_points_max] = {1.0, 0.5, 1.0 / 3.0, 0.25};
   return k_share[count - 1];
@@ -323,7 +325,7 @@ void make_rows(const StepSettings& settings, const RowBody& a, const RowBody& b,
     if (i >= work.angular_rows) continue;
     work.angular_impulse[i] = dot(work.state.angular_impulse, *axes[i]);
   }
-  // Limits of speeds are in terms of the speed of a fall by the smaller body's diameter.
+  // Limits of speeds are multiples of the speed of a fall by the smaller body's extent.
   const Real fall = min(a.fall, b.fall);
   work.push_max = scale_by_power(fall, -1);
   work.rebound_min = settings.restitution_threshold * fall;

@@ -9,9 +9,9 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// One body of a contact, as input for the rows. Its inverse inertia and its angular velocity,
-/// 2^-k_angular_velocity_power m/s, are in world axes. `extent` is its smallest diameter, m; `fall` is the speed of a
-/// fall by it, m/s.
+/// One body of a contact, as input for the rows. Its inverse inertia and its angular velocity, in units of
+/// 2^-k_angular_velocity_power m/s, are in world axes. `extent`: its smallest diameter, m. `fall`: the speed, m/s, that
+/// a fall by `extent` adds.
 struct RowBody {
   const BodyProperties& properties;
   const BodyPose& pose;
@@ -19,11 +19,11 @@ struct RowBody {
   const WorldInverseInertia& inverse_inertia;
   const Vec3<Real>& angular_velocity;
   Real extent, fall;
-  bool jointed = false;  ///< impacts do not stop the body (impact.h), only its contacts do
+  bool jointed = false;  ///< the body has joints: impacts do not stop it (impact.h), only contacts do
 };
 
 /// Fills the rows of `work` from the geometry: arms, responses, effective masses, limits, and the approach speeds at
-/// the start of the tick. `work.state` is set before; its impulses are converted to the contact's frame.
+/// the start of the tick. `work.state` must be set before the call; its impulses are converted to the contact's frame.
 ///
 /// With n the normal from A to B, t and s the tangents, r_A and r_B the arms from the centres, v and w the velocities
 /// and angular velocities, u the pair's unit of length, and columns (v_A, w_A, v_B, w_B), the rows are:
@@ -53,23 +53,24 @@ struct RowBody {
 void make_rows(const StepSettings& settings, const RowBody& a, const RowBody& b, const ContactGeometry& geometry,
                ContactWork& work);
 
-/// Disables the normal rows of a contact whose bodies do not overlap and approach so fast that they rebound: it sets
-/// their effective masses to zero, and continuous collision resolves the impact. The solver would distribute the
-/// impulse among all bodies in contact, while impacts are resolved one after the other.
+/// Leaves the impact of a contact to continuous collision, if its bodies do not overlap and approach so fast that they
+/// will rebound. For this, it disables the normal rows of the contact: it sets their effective masses to zero. Reason:
+/// the solver would distribute the impulse among all bodies in contact, while impacts are resolved one after the other.
 void leave_to_impact(const StepSettings& settings, const RowBody& a, const RowBody& b, ContactWork& work);
 inline bool is_left_to_impact(const ContactWork& work) { return work.inverse_mass[0] == Unit(0.0); }
 
-/// Recomputes the responses and effective masses for the current inverse inertias of A and B. All else stays.
+/// Recomputes the responses and effective masses for the current inverse inertias of A and B. The other members stay
+/// unchanged.
 void renew_response(const WorldInverseInertia& a, const WorldInverseInertia& b, ContactWork& work);
 
-/// The matrix K of a pair times the reference mass: the change of its motion by a wrench at the middle. Elements by
-/// response_index().
+/// The matrix K of a pair times the reference mass: the change of the pair's relative motion by a unit wrench at the
+/// middle of its points. response_index() gives the index of an element.
 struct PairResponse {
   Real part[k_responses];
 };
 
-/// Computes the response with the precision of Real. The one that make_rows() stores is rounded to 2^-30 of the largest
-/// element, which is a large error for a slender body.
+/// Computes the response with the precision of Real. The response that make_rows() stores is less precise: it is
+/// rounded to 2^-30 of its largest element, which is a large error for a slender body.
 PairResponse respond_exactly(const BodyProperties& a, const Quat& rotation_a, const BodyProperties& b,
                              const Quat& rotation_b, const ContactWork& work);
 
@@ -77,8 +78,8 @@ PairResponse respond_exactly(const BodyProperties& a, const Quat& rotation_a, co
 void store_impulses(ContactWork& work);
 
 /// Whether the contact keeps its bodies apart in a tick with these displacements, m, and rotation vectors, rad, in
-/// world axes: no point gets deeper than `depth`, m, or than it was at the start by more than that. To first order in
-/// the motion.
+/// world axes. The condition for each point, to first order in the motion: a point that is open at the start of the
+/// tick gets at most `depth` deep, m; a point that overlaps at the start gets at most `depth` deeper.
 bool keeps_apart(const ContactWork& contact, const Vec3<Real>& displacement_a, const Vec3<Real>& rotation_vector_a,
                  const Vec3<Real>& displacement_b, const Vec3<Real>& rotation_vector_b, Real depth);
 

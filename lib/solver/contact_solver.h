@@ -5,15 +5,16 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// As a fraction of push_max: a point that comes to within this speed of closing its gap counts as in contact.
+/// A point counts as in contact if its approach speed is at most k_arrival push_max below the speed that closes its
+/// gap.
 inline constexpr Unit k_arrival = 1.0 / 512;
-/// Limits of the sweeps over a contact's points. They stop when no impulse changes by more than k_settled of the
-/// greatest.
+/// Largest numbers of sweeps over the points of a contact. The sweeps end earlier if no impulse changes by more than
+/// k_settled times the greatest impulse.
 inline constexpr int k_normal_sweeps = 8, k_relax_sweeps = 8;
 inline constexpr Unit k_settled = 0x1p-14;
 
-/// The normal rows of a contact in one pass. The bodies' motions are read when the pass begins and written when it
-/// ends.
+/// The normal rows of a contact in one pass over its points. The motions of the bodies are read when the pass begins,
+/// and written when it ends.
 template <class Kind>
 struct Normals {
   using Number = typename Kind::Number;
@@ -36,7 +37,7 @@ struct Normals {
     }
   }
   Number speed(uint32_t i) const { return rounded(velocity[i], contact.coupling_exponent); }
-  /// Subtracts `less` from the impulse at a point, at most all of it. Returns the change of the impulse.
+  /// Subtracts `less` from the impulse at point i, which stays at least 0. Returns the change of the impulse.
   Factor change(uint32_t i, Number less) {
     const Factor more = held(max(impulse[i] - less, Number(Kind::zero())) - impulse[i]);
     impulse[i] += more;
@@ -45,7 +46,7 @@ struct Normals {
     for (uint32_t k = 0; k < k_manifold_points_max; ++k) velocity[k] += product(more, contact.coupling[i][k]);
     return more;
   }
-  /// Sweeps over the points and subtracts less(i) from the impulse of each, until the changes are small.
+  /// Sweeps over the points, and subtracts less(i) from the impulse of each point i, until the changes are small.
   template <class Less>
   void solve(int sweeps, const Less& less) {
     const Number none = Number(Kind::zero());
@@ -73,7 +74,8 @@ struct Normals {
       to.impulse_max[i] = max(to.impulse_max[i], total);
     }
   }
-  /// The sum of the changes, as an impulse along the normal at the middle, and one about each tangent.
+  /// Adds up the changes of all points: the impulse along the normal at the middle, and the angular impulse about each
+  /// tangent.
   void put(Number& along, Number& about_first, Number& about_second) const {
     along = about_first = about_second = Number(Kind::zero());
     DETENT_UNROLL
@@ -86,7 +88,7 @@ struct Normals {
   }
 };
 
-/// The relative motion of a pair in the pass with friction, and the wrench that was applied to it.
+/// The relative motion of a pair in the pass with friction, and the wrench that this pass has applied to the pair.
 template <class Kind>
 struct Sliding {
   using Number = typename Kind::Number;
@@ -112,7 +114,7 @@ struct Sliding {
   NormalMotion<Kind> normal() const {
     return {held(part[k_along_normal]), held(part[k_about_first]), held(part[k_about_second])};
   }
-  /// Applies an impulse along or about one axis, and updates the motion by the column of the response matrix.
+  /// Applies an impulse along or about one axis, and updates the motion with that column of the response matrix.
   template <Part by>
   void act(Factor more) {
     wrench[by] += more;
@@ -164,7 +166,7 @@ struct ContactSolver {
   /// Solves the normal rows. With C the separation now, h the substep, v the velocities and m the effective mass, the
   /// target of a row is:
   ///
-  ///     C > 0, speculative: J v >= -C / h, so that the gap closes and no more
+  ///     C > 0, speculative: J v >= -C / h: the gap may close, but not become negative
   ///     C <= 0, soft:       J v = -max(rate C / h, -push_max)
   ///
   /// A soft row is a damped spring (Softness). Each sweep changes its impulse by
@@ -190,7 +192,8 @@ struct ContactSolver {
       push[i] = none;
       apart[i] = Kind::all();
       if (i >= normals.count) continue;
-      // The separation at the start of the tick plus the displacement since then, to first order.
+      // The current separation: that at the start of the tick, plus the change by the motion since then, to first
+      // order.
       const Factor separation = held(moved.block.number(contact.separation[i]) + displacement.at(contact, i));
       apart[i] = separation > none;
       const Factor length = select(apart[i], separation, Factor(held(times(separation, soft.rate))));
@@ -223,7 +226,7 @@ struct ContactSolver {
     const PairMotion<Kind> motion = relative_motion(room);
     Sliding<Kind> sliding(contact, motion);
     Normals<Kind> normals(contact, motion.block, sliding.normal());
-    // Points that do not come into contact in this substep keep closing their gap.
+    // Points that do not come into contact in this substep keep their approach speed.
     normals.solve(k_relax_sweeps, [&](uint32_t i) {
       const Number none = Number(Kind::zero());
       const auto meets = Kind::is_unset(contact.apart[i]) | (normals.impulse[i] > none);
@@ -236,7 +239,8 @@ struct ContactSolver {
     sliding.template act<k_about_first>(held(about_first));
     sliding.template act<k_about_second>(held(about_second));
 
-    // Friction is solved last: otherwise the normal impulses on a slope leave a slow creep along it.
+    // Friction is solved after the normal rows. In the other order, the normal impulses would make a body creep down a
+    // slope.
     const Factor normal = normal_impulse(motion.block);
     if (contact.angular_rows == 3) solve_rolling(normal, sliding);
     if (contact.angular_rows != 0) twist(normal, sliding);
@@ -261,7 +265,7 @@ struct ContactSolver {
     return held(sum);
   }
 
-  /// The accumulated impulse that stops one part of the motion.
+  /// Returns the accumulated impulse that stops one part of the motion.
   template <class Mass>
   Factor stopped(const Sliding<Kind>& sliding, Part by, const typename Kind::Real& impulse, const Mass& mass) const {
     return held(sliding.block.number(impulse) - relaxed(times(held(sliding.part[by]), mass)));
@@ -274,18 +278,18 @@ struct ContactSolver {
     sliding.template bring<first>(after[0], impulse[0]);
     sliding.template bring<second>(after[1], impulse[1]);
   }
-  /// Rolling: angular velocity about the tangents.
+  /// Solves rolling friction: it stops the angular velocity about the tangents, within its limit.
   void solve_rolling(Factor normal, Sliding<Kind>& sliding) {
     stop_in_circle<k_about_first, k_about_second>(contact.angular_impulse + 1, contact.angular_mass + 1,
                                                   times(normal, contact.rolling_arm), sliding);
   }
-  /// Twist: angular velocity about the normal, within its limit.
+  /// Solves twist friction: it stops the angular velocity about the normal, within its limit.
   void twist(Factor normal, Sliding<Kind>& sliding) {
     const Factor limit = times(normal, contact.twist_arm);
     const Factor step = stopped(sliding, k_about_normal, contact.angular_impulse[0], contact.angular_mass[0]);
     sliding.template bring<k_about_normal>(clamp(step, Factor(-limit), limit), contact.angular_impulse[0]);
   }
-  /// Sliding: velocity along the tangents, within the friction cone.
+  /// Solves sliding friction: it stops the velocity along the tangents, within the friction cone.
   void solve_friction(Factor normal, Sliding<Kind>& sliding) {
     stop_in_circle<k_along_first, k_along_second>(contact.friction_impulse, contact.friction_mass,
                                                   times(normal, contact.friction), sliding);

@@ -6,7 +6,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// The first body of a set, by the links in one member of BodyWork. The path is halved on the way.
+/// Finds the first body of a set (union-find). `link`: the member of BodyWork that holds the links. The search halves
+/// the path.
 uint32_t first_of(Span<BodyWork> work, uint32_t BodyWork::*link, uint32_t body) {
   while (work[body].*link != body) {
     work[body].*link = work[work[body].*link].*link;
@@ -55,7 +56,8 @@ uint32_t find_islands(Span<const uint32_t> slots, Span<const BodyProperties> pro
     if (a.mobile != 0 && b.mobile != 0) join(work, &BodyWork::island, a.slot, b.slot, first, other);
   }
 
-  // Links every body to the first of its set. That body is visited earlier and then has the island's number.
+  // Links every body directly to the first body of its set. The next loop then visits this first body earlier, and
+  // gives the body its island number.
   for (const uint32_t slot : slots) {
     work[slot].island = first_of(work, &BodyWork::island, slot);
     work[slot].run_length = work[first_of(work, &BodyWork::run, slot)].run_length;

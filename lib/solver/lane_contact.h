@@ -42,8 +42,9 @@ DETENT_LANES_INLINE Lanes lanes_of(Unit value) { return lanes_of(int64_t{value.r
 
 typedef int64_t LaneHalf __attribute__((vector_size(16)));
 
-/// Reads two numbers of 64 bits from each of four addresses, and transposes them. Register halves are joined on reading
-/// and separated on writing, because moving data across the halves costs more.
+/// Reads two numbers of 64 bits from each of four addresses, and transposes them. A 256-bit register is assembled from
+/// 128-bit halves when it is read, and split into them when it is written, because moving data between the halves of a
+/// register costs more.
 DETENT_LANES_INLINE void read_two(const void* const (&from)[4], LaneInt64& first, LaneInt64& second) {
   LaneHalf row[4];
   DETENT_UNROLL
@@ -87,8 +88,8 @@ DETENT_LANES_INLINE void write_three(const Lanes (&from)[3], Real* const (&to)[4
   write_real(from[2], {to[0] + 2, to[1] + 2, to[2] + 2, to[3] + 2});
 }
 
-/// The first `count` words of four arrays, two words per register. A factor uses the low half of its lane. Range: count
-/// is a multiple of 4, and that many words are readable.
+/// Reads the first `count` words of four arrays, two words per register. A factor uses the low half of its lane. Range:
+/// `count` is a multiple of 4, and `count` words are readable.
 template <unsigned count>
 struct LaneWords {
   LaneInt64 pair[count / 2];
@@ -131,7 +132,7 @@ DETENT_LANES_INLINE void write_real(Lanes from, Real* const (&to)[4]) {
   DETENT_UNROLL
   for (int k = 0; k < 4; ++k) *to[k] = from.v[k];
 }
-/// Reads the first three Reals of four.
+/// Reads three Reals from each of four addresses, and transposes them. Four Reals must be readable at each address.
 DETENT_LANES_INLINE void read_three(const Real* const (&from)[4], Lanes (&to)[3]) {
   Lanes row[4];
   read_reals(from, row);
@@ -149,7 +150,7 @@ DETENT_LANES_INLINE void write_three(const Lanes (&from)[3], Real* const (&to)[4
   }
 }
 
-/// The first `count` words of four arrays. Range: count is a multiple of 4, and that many words are readable.
+/// Reads the first `count` words of four arrays. Range: `count` is a multiple of 4, and `count` words are readable.
 template <unsigned count>
 struct LaneWords {
   LaneInt32 word[count];
@@ -228,7 +229,8 @@ struct Four {
 
   DETENT_LANES_INLINE static Lanes zero() { return lanes_of(LaneNumber{0}); }
   DETENT_LANES_INLINE static Lanes unit(detent::Unit value) { return lanes_of(value); }
-  /// A body that is not dynamic has a relative inverse mass of 0, and is not written back.
+  /// Always true: impulses on a non-dynamic body have no effect, because its relative inverse mass is 0 and it is not
+  /// written back.
   DETENT_LANES_INLINE static bool takes_impulses(const LaneScaled&) { return true; }
   DETENT_LANES_INLINE static LaneMask flag(LaneMask mask) { return mask; }
   DETENT_LANES_INLINE static LaneMask all() { return lanes_of(LaneNumber{1}) > zero(); }

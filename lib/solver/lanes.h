@@ -1,8 +1,8 @@
 #pragma once
 #include "motion/block.h"
 
-/// Four lanes: one number of each of four contacts. Each operation of block.h is applied to every lane, with the same
-/// bits. Only for files that are compiled for processors with such registers.
+/// Four lanes: a register that holds one number of each of four contacts. The operations of block.h, applied to each
+/// lane; the results have the same bits. Only for files that are compiled for processors with registers of 256 bits.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -70,14 +70,14 @@ DETENT_LANES_INLINE Lanes shifted_down(Lanes value, Lanes n) {
   const LaneUint64 moved = (reinterpret_cast<LaneUint64>(value.v) ^ sign) >> by;
   return {reinterpret_cast<LaneInt64>(moved - (sign >> by))};
 }
-/// Same result as round_shift_64(). Range: 1 <= n <= 63.
+/// In each lane the result of round_shift_64(). Range: 1 <= n <= 63.
 DETENT_LANES_INLINE Lanes round_shift_any(Lanes value, Lanes n) {
   const LaneUint64 sign = reinterpret_cast<LaneUint64>(lanes_of(INT64_MIN).v), by = reinterpret_cast<LaneUint64>(n.v);
   const LaneUint64 one = reinterpret_cast<LaneUint64>(lanes_of(1).v);
   const LaneUint64 twice = (reinterpret_cast<LaneUint64>(value.v) ^ sign) >> (by - one);
   return {reinterpret_cast<LaneInt64>(((twice + one) >> one) - (sign >> by))};
 }
-/// Same result as round_shift_64(). Range: |value| < 2^62, 1 <= n <= 63.
+/// In each lane the result of round_shift_64(). Range: |value| < 2^62, 1 <= n <= 63.
 DETENT_LANES_INLINE Lanes round_shift(Lanes value, Lanes n) {
   const LaneUint64 bias = reinterpret_cast<LaneUint64>(lanes_of(int64_t{1} << 62).v);
   const LaneUint64 one = reinterpret_cast<LaneUint64>(lanes_of(1).v), by = reinterpret_cast<LaneUint64>(n.v);

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int k_position_sweeps = 4;  ///< sweeps over the contacts of an island
 
-/// A body's displacement and rotation vector, in the form of a velocity and an angular velocity.
+/// The displacement and the rotation vector of a body, in the members for its velocity and its angular velocity.
 struct MovedBody {
   BodyMotion motion;
   BodyWork& work;

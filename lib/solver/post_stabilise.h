@@ -4,8 +4,8 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Separates the bodies of an island after the substeps: corrects half of the remaining overlap of each contact along
-/// its normal, no faster than push_max, without changing velocities. Returns the number of angles that were clamped.
+/// Corrects the overlaps of an island after the substeps. Each contact corrects half of its remaining overlap along its
+/// normal, at a speed of at most push_max. Velocities do not change. Returns the number of angles that were clamped.
 /// Source: Cline, Pai, "Post-stabilization for rigid body simulation with contact and constraints", ICRA 2003.
 uint32_t post_stabilise(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> island,
                         Span<const ContactOrder> order, Span<ContactWork> contacts);

@@ -35,7 +35,7 @@ uint32_t integrate_velocities(const SolverBodies& bodies, Span<const uint32_t> i
     motion.angular_momentum += turned;
     clamped += clamp_vector(motion.linear_velocity, k_speed_work_max) +
                clamp_vector(motion.angular_momentum, k_angular_velocity_work_max);
-    // Only contacts read it.
+    // Only contacts read this member.
     if (touches)
       now.angular_velocity = world_angular_velocity(bodies.properties[slot], now.inverse_inertia,
                                                     motion.angular_momentum, -k_angular_velocity_power);
@@ -57,8 +57,8 @@ uint32_t integrate_positions(const SolverBodies& bodies, Span<const uint32_t> is
   for (const uint32_t slot : island) {
     const BodyMotion& motion = bodies.motions[slot];
     BodyWork& now = bodies.work[slot];
-    // A body in free flight, without contact or joint impulses, moves at the mean of its velocities before and after
-    // the push.
+    // A body in free flight, without contact and joint impulses, moves at the mean of its velocities before and after
+    // gravity and forces have acted in the substep.
     const bool flies =
         now.joint_body == k_no_link && added_by_contacts(motion.linear_velocity, now.contact_velocity) == k_zero_vector;
     now.displacement += (flies ? motion.linear_velocity - scale_by_power(now.push, -1) : motion.linear_velocity) * time;
@@ -69,7 +69,8 @@ uint32_t integrate_positions(const SolverBodies& bodies, Span<const uint32_t> is
 
 constexpr int k_rebound_sweeps_max = 32;
 
-/// Applies Newton's law of impact to points that approached faster than the threshold and had a normal impulse.
+/// Applies Newton's law of impact (restitution) to points that approached faster than the threshold and had a normal
+/// impulse.
 void rebound(ContactSolver<One>& solver) {
   ContactWork& contact = solver.contact;
   if (!is_positive(contact.restitution)) return;
@@ -83,8 +84,8 @@ void rebound(ContactSolver<One>& solver) {
   const PairMotion<One> motion = solver.relative_motion(room);
   Normals<One> normals(contact, motion.block, NormalMotion<One>(motion, contact));
   bool rebounds[k_manifold_points_max] = {};
-  // Points that rebound together divide the impulse among them: the impulse at one point would rotate the body against
-  // the others.
+  // Points that rebound together share the impulse, which is found by sweeps: an impulse at a single point would rotate
+  // the body into the other points.
   bool settled = false;
   for (int sweep = 0; sweep < k_rebound_sweeps_max && !settled; ++sweep) {
     settled = true;
@@ -113,7 +114,7 @@ void remember(const SolverBodies& bodies, Span<const uint32_t> island) {
   for (const uint32_t slot : island) bodies.work[slot].velocity_before = bodies.motions[slot].linear_velocity;
 }
 
-/// True if no component of a velocity changed by more than `enough` in the last sweep.
+/// Whether no component of a velocity changed by more than `enough`, m/s, in the last sweep.
 bool has_settled(const SolverBodies& bodies, Span<const uint32_t> island, Real enough) {
   for (const uint32_t slot : island) {
     const Vec3<Real> change = bodies.motions[slot].linear_velocity - bodies.work[slot].velocity_before;
@@ -148,14 +149,15 @@ void pass(const StepSettings& settings, const SolverBodies& bodies, Span<const C
   }
 }
 
-/// The displacement and rotation of a kinematic body after `time` of the tick. Its momentum is its angular velocity.
+/// Sets the displacement and rotation of a kinematic body at `time`, s, after the start of the tick.
+/// BodyMotion::angular_momentum of a kinematic body is its angular velocity.
 void place_kinematic(const BodyProperties& properties, const BodyMotion& motion, Real time, BodyWork& now) {
   if (type_of(properties) != BodyType::kinematic) return;
   now.displacement = motion.linear_velocity * time;
   now.rotation_vector = motion.angular_momentum * time;
 }
 
-/// Contacts of jointed bodies use the same inertias as the joints.
+/// Recomputes the responses of contacts whose bodies have joints, so that contacts and joints use the same inertias.
 void renew_responses(const SolverBodies& bodies, const JointStage& stage, Span<const ContactOrder> order,
                      Span<ContactWork> contacts) {
   for (const ContactOrder& entry : order) {
@@ -185,7 +187,8 @@ SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<
   Real elapsed = 0.0;
   const Real enough = scale_by_power(settings.gravity_size * settings.time, -static_cast<int>(settings.convergence));
   const Real enough_for_joints = scale_by_power(settings.gravity_size * settings.time, -2);
-  /// Sweeps until no velocity changes by more than `enough`.
+  /// Sweeps over the contacts until no velocity changes by more than `enough`, or until the number of iterations is
+  /// reached.
   const auto sweep = [&](const auto& one, const auto& four) {
     for (uint32_t iteration = 1;; ++iteration) {
       const bool last = iteration == settings.iterations;

@@ -10,14 +10,15 @@ inline namespace DETENT_NAMESPACE {
 
 struct SolveCount {
   uint32_t clamped = 0;  ///< values that were clamped
-  /// Sweeps over the island's contacts that were skipped, because the sweeps before no longer changed anything.
+  /// Iterations over the island's contacts that were skipped, because the iterations had converged
+  /// (WorldDef::convergence).
   uint32_t sweeps_saved = 0;
 };
 
 struct JointStage;
 struct JointOps;
 
-/// The joints of an island. `code` is null if it has none.
+/// The joints of an island. `code` is null if the island has none.
 struct IslandJoints {
   const JointOps* code = nullptr;
   const Island* island = nullptr;
@@ -32,8 +33,9 @@ struct IslandJoints {
 SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> island,
                  Span<const ContactOrder> order, Span<ContactWork> contacts, const IslandJoints& joints);
 
-/// Moves an island without contacts. Under constant acceleration the displacement is exact; each body's rotation is
-/// split into four steps per substep (angular velocity.h). Returns the number of values that were clamped.
+/// Moves an island without contacts. The displacement is exact for constant acceleration. The rotation of each body is
+/// computed in four steps per substep (rotate_freely() in angular_velocity.h). Returns the number of values that were
+/// clamped.
 uint32_t integrate_free(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> island);
 
 /// Moves the kinematic bodies through the tick. Returns the number of values that were clamped.

@@ -21,7 +21,8 @@ DETENT_LANES_INLINE void clamp_lane(Lanes (&v)[2], Lanes limit, int lane) {
 
 }  // namespace
 
-/// Few contacts slide: processes their lanes one by one.
+/// Clamps v to the circle of radius `limit` in each lane. Only few contacts slide, so their lanes are processed one by
+/// one.
 DETENT_LANES_INLINE void clamp_to_circle(Lanes (&v)[2], Lanes limit) {
   const Lanes none = lanes_of(0);
   const Lanes size = select(none > v[0], -v[0], v[0]) + select(none > v[1], -v[1], v[1]);
@@ -36,7 +37,7 @@ namespace {
 
 using Contacts = ContactWork* const (&)[4];
 
-/// Words of ContactWork from a given member on.
+/// Words of ContactWork, beginning with a given member.
 template <unsigned count>
 struct Words {
   LaneWords<count> words;
@@ -170,7 +171,7 @@ DETENT_LANES_INLINE void write_relaxed(const LaneContact& from, Contacts to) {
               reals_at(to[2], DETENT_AT(angular_impulse[2])), reals_at(to[3], DETENT_AT(angular_impulse[2]))});
 }
 
-/// Four bodies. Those that take impulses are written back.
+/// Four bodies, one per lane. Only the bodies that take impulses are written back.
 struct Bodies {
   BodyMotion* motion[4];
   BodyWork* work[4];
@@ -202,7 +203,8 @@ struct Bodies {
     to.inverse_inertia.exponent = words.exponent(9);
   }
   DETENT_LANES_INLINE void write(const LaneBody& from, Contacts contacts, Scaled ContactWork::*share) const {
-    // Receives the result of bodies that take no impulses: such a body may also be a body of another contact.
+    // Receives the results for bodies that take no impulses. They must not be written back, because such a body may
+    // belong to several of the contacts.
     BodyMotion no_motion;
     BodyWork no_work;
     BodyMotion* motions[4];
@@ -233,8 +235,8 @@ Bodies bodies_of(const SolverBodies& bodies, Contacts contacts, uint32_t Contact
   return result;
 }
 
-/// Reads four contacts and their bodies, calls `solve` on them, and writes the bodies back. `read` reads the members
-/// that only this pass needs, and `write` writes the contacts back.
+/// Reads four contacts and their bodies, calls `solve` on them, and writes the bodies back. `read` reads the members of
+/// the contacts that only this pass needs; `write` writes the contacts back.
 template <class Read, class Solve, class Write>
 DETENT_LANES_INLINE void pass(const StepSettings& settings, const SolverBodies& bodies, Contacts contacts,
                               bool with_displacement, const Read& read, const Solve& solve, const Write& write) {

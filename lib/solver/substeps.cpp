@@ -10,11 +10,12 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// The numbers of substeps that an island can take, unless its own limit lies between two of them.
+/// The numbers of substeps that an island can have. If the limit of the island lies between two of them, the limit is
+/// possible too.
 constexpr uint32_t k_notches[] = {1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64};
-/// A lower number of substeps is enough if the need is at most this fraction of its square.
+/// A lower number n of substeps counts as enough if the needed squared number is at most k_in_hand n^2.
 constexpr Scaled k_in_hand = 0.6;
-/// A run of fewer bodies than this does not buckle before it sinks.
+/// The least number of bodies of a run that can buckle: a shorter run sinks before it buckles.
 constexpr uint32_t k_run_min = 3;
 constexpr uint32_t k_contact_substeps_min = 2;  ///< for islands with contacts
 
@@ -82,7 +83,7 @@ void rescale(uint32_t before, uint32_t now, ContactWork& contact) {
   scale_impulses(divide(scaled_from_count(before), scaled_from_count(now)), contact);
 }
 
-/// The body of a contact that lies on the other one, or k_neither if they are side by side.
+/// upper_body() returns this if neither body of a contact lies on the other one.
 constexpr uint32_t k_neither = UINT32_MAX;
 uint32_t upper_body(const Vec3<Unit>& down, const ContactWork& contact) {
   const Unit slope = dot(down, contact.normal);
@@ -90,7 +91,7 @@ uint32_t upper_body(const Vec3<Unit>& down, const ContactWork& contact) {
   return slope > Unit(0.0) ? contact.state.body_a : contact.state.body_b;
 }
 
-/// Initialises the loads: heights, masses, and no supports.
+/// Initialises the members of BodyWork for the estimate of loads: height, carried mass, and 0 supports.
 void weigh(Span<const BodyPose> poses, Span<const BodyProperties> properties, Span<const uint32_t> bodies,
            const Vec3<Unit>& down, Span<BodyWork> work) {
   const Position& origin = poses[bodies[0]].position;
@@ -136,7 +137,7 @@ void choose_substeps(const StepSettings& settings, Span<const BodyProperties> pr
     const uint32_t alone = island.contact_count != 0 ? k_contact_substeps_min : 1;
     const uint32_t least = alone < island.substeps ? island.substeps : alone;
     const uint32_t for_joints = jointed ? notch_for(island.joint_need, least, settings.substeps_max) : 0;
-    Scaled need[2] = {0.0, 0.0};  // largest need of contacts on edges and faces, and of rolling contacts
+    Scaled need[2] = {0.0, 0.0};  // largest need: of contacts on edges and faces; of rolling contacts
     for (uint32_t i = 0; i < island.contact_count; ++i) {
       const ContactWork& contact = contacts[order[island.first_contact + i].contact];
       const uint32_t a = contact.state.body_a, b = contact.state.body_b;
@@ -231,7 +232,7 @@ void estimate_loads(const StepSettings& settings, Span<const BodyPose> poses, Sp
 
 void store_load(const StepSettings& settings, ContactWork& contact) {
   Real impulse = 0.0;
-  // The sum of four may exceed the range of Real, and would wrap.
+  // The sum of four impulses may exceed the range of Real; it is clamped, because it would wrap.
   for (const Real part : contact.state.normal_impulse) impulse += min(part, k_real_max - impulse);
   bool saturated = false;
   const Real force = multiply(impulse, settings.rate, saturated);

@@ -65,7 +65,7 @@ Material material_from(const BodyProperties& properties) {
           static_cast<RestitutionRule>(properties.restitution_rule)};
 }
 
-/// A change of a body: its new properties, which are checked before the body is changed.
+/// A pending change of a body. It holds the new properties, so that they can be checked before the body is changed.
 struct Change {
   StateView<uint8_t> state;
   bool found = false;
@@ -80,7 +80,8 @@ struct Change {
     motion = state.motions[slot];
   }
   const Quat& rotation() const { return state.poses[slot].rotation; }
-  /// Sets this angular velocity, in the unit of the changed properties. Errors: bad_argument, out_of_range.
+  /// Gives the body this angular velocity, m/s, in the unit of length of the changed properties. Errors: bad_argument,
+  /// out_of_range.
   Status turn_with(const Vec3<Real>& angular_velocity) {
     const Real zero = 0.0;
     const bool turns = !(angular_velocity == Vec3<Real>{zero, zero, zero});
@@ -97,7 +98,7 @@ struct Change {
     state.properties[slot] = properties;
     state.motions[slot] = motion;
   }
-  /// As make(), for a change that invalidates the body's contacts.
+  /// As make(), but also ends the body's contacts, which the change invalidates.
   void make_anew() {
     end_contacts(state, slot);
     make();
@@ -108,7 +109,7 @@ struct Change {
   }
 };
 
-/// v 2^power. False if it leaves Real's range.
+/// Multiplies v by 2^power. Returns false if the result leaves Real's range.
 bool scale(int power, Vec3<Real>& v) {
   bool saturated = false;
   const auto scaled = [&](Real value) { return to_real(scaled_by_power(scaled_from(value), power), saturated); };
@@ -208,7 +209,7 @@ Status get_velocity_at(const World& world, BodyId id, const Vec3<Real>& arm, Vec
   const FloatEnvironment environment;
   const Read body(world, id);
   if (body.properties == nullptr) return Status::bad_id;
-  // In units of twice the length unit, so that an arm of twice the radius fits a Unit.
+  // The arm is in units of twice the body's unit of length, so that an arm of twice the bounding radius fits a Unit.
   const int exponent = body.properties->size_exponent + 1;
   if (!within(arm, real_from_unit(body.properties->bounding_radius, exponent))) return Status::out_of_range;
   const BodyMotion& motion = body.state.motions[body.slot];

@@ -3,12 +3,12 @@
 #include "motion/activity.h"
 #include "state/step_cache.h"
 
-/// Updates of the step cache and of sleeping that a call must make when it changes bodies between steps.
+/// Updates of the step cache and of the sleeping state that a call must make when it changes a body between steps.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Wakes the body, with all bodies of its sleeping group, and puts it into the active set. Every change from outside
-/// does this.
+/// Wakes the body and all bodies of its sleeping group, and adds the body to the active set. Calls that change the
+/// motion of a body, or the conditions for it, use this.
 inline void wake_slot(StateView<uint8_t>& state, uint32_t slot) {
   const StepCacheView step = cache_of(state);
   state.world.idle = 0;
@@ -16,12 +16,12 @@ inline void wake_slot(StateView<uint8_t>& state, uint32_t slot) {
   state.activities[slot].still_ticks = 0;
   step.active.set(slot);
 }
-/// The next step evaluates the body again; a sleeping body stays asleep.
+/// Adds the body to the active set, so that the next step evaluates it again. A sleeping body stays asleep.
 inline void look_at_again(StateView<uint8_t>& state, uint32_t slot) {
   state.world.idle = 0;
   cache_of(state).active.set(slot);
 }
-/// Wakes the bodies that touch the body or share a joint with it. Every change that takes it away does this.
+/// Wakes the bodies that touch the body or share a joint with it. Calls that move, change or remove the body use this.
 inline void wake_neighbours(StateView<uint8_t>& state, uint32_t slot) {
   for (const ContactState& contact : state.contacts.first(state.world.contact_count)) {
     if (contact.body_a == slot) wake_slot(state, contact.body_b);
@@ -33,7 +33,7 @@ inline void wake_neighbours(StateView<uint8_t>& state, uint32_t slot) {
     if (joint.body_b == slot) wake_slot(state, joint.body_a);
   }
 }
-/// Wakes all bodies, because the conditions under which they came to rest have changed.
+/// Wakes all bodies, because a condition under which they came to rest (for example gravity) has changed.
 inline void wake_world(StateView<uint8_t>& state) {
   state.world.idle = 0;
   const StepCacheView step = cache_of(state);
@@ -47,7 +47,8 @@ inline void wake_world(StateView<uint8_t>& state) {
     activity.pending_event = static_cast<uint16_t>(BodyEventType::woke);
   }
 }
-/// Ends all contacts of a body that has changed so much that they are no longer valid.
+/// Removes all contacts of a body, because a change of the body has made them invalid. Wakes the body and its
+/// neighbours.
 inline void end_contacts(StateView<uint8_t>& state, uint32_t slot) {
   wake_slot(state, slot);
   wake_neighbours(state, slot);

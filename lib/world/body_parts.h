@@ -3,20 +3,19 @@
 
 #include "state/view.h"
 
-/// Sets single properties of a body after checking them. The calls that create and change bodies share this code.
+/// Functions that check and set single properties of a body. The calls that create and change bodies use them.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Whether a body of this type may have the shape. Errors: bad_argument; for shapes with an asset also out_of_range and
-/// asset_missing.
+/// Returns ok if a body of this type may have the shape. Errors: bad_argument; for shapes with an asset also
+/// out_of_range and asset_missing.
 Status suits(const World& world, ShapeType shape, uint32_t asset, BodyType type);
 /// Sets the shape properties of `properties` for a body of this type. Errors: bad_argument, out_of_range,
 /// asset_missing, feature_missing.
 Status set_body_shape(const World& world, const Shape& shape, BodyType type, BodyProperties& properties);
-/// Sets the inverse inertia (`inverse_inertia`) from the shape, the type and the rotation locks. Errors: out_of_range.
+/// Sets `inverse_inertia` from the shape, the type and the rotation locks of the body. Errors: out_of_range.
 Status set_body_inverse_inertia(const World& world, BodyProperties& properties);
-/// Sets the inverse inertia (`inverse_inertia`) of a dynamic body from moments of inertia about its axes, kg m^2.
-/// Errors: out_of_range.
+/// Sets `inverse_inertia` of a dynamic body from the moments of inertia about its axes, kg m^2. Errors: out_of_range.
 Status set_body_inertia(const Vec3<Scaled>& inertia, BodyProperties& properties);
 /// Sets the mass from the volume of the shape and `density`, kg/m^3. Errors: out_of_range.
 Status set_body_density(const World& world, Scaled density, BodyProperties& properties);
@@ -33,7 +32,7 @@ Status make_pose(const Position& position, const Quat& rotation, BodyPose& pose)
 Status make_motion(const BodyProperties& properties, const Quat& rotation, const Vec3<Real>& velocity,
                    const Vec3<Real>& angular_velocity, BodyMotion& motion);
 
-/// Whether the state may hold this motion of a dynamic body.
+/// Whether the velocity, angular momentum and angular velocity of a dynamic body are in the range of the state.
 bool speeds_fit(const BodyProperties& properties, const Quat& rotation, const BodyMotion& motion);
 
 }  // namespace DETENT_NAMESPACE

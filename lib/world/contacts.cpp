@@ -78,7 +78,7 @@ Status get_contact(const World& world, uint32_t index, Contact& contact) {
   made.normal_force = divide(made.normal_impulse, scaled_from(state.world.tick_time));
 
   const ContactGeometry geometry = geometry_of(world, state, from);
-  const bool by_a = is_dynamic(a);  // points are relative to a dynamic body's centre: a half-space's may be far away
+  const bool by_a = is_dynamic(a);  // points are relative to a dynamic body: a half-space's centre may be far away
   const Position& centre = state.poses[mover].position;
   const int exponent = state.properties[mover].size_exponent;
   if (geometry.count != 0) made.normal = geometry.normal;

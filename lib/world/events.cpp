@@ -72,7 +72,7 @@ EventCount raise_contact_events(Span<const BodyPose> poses, Span<const BodyPrope
   EventWriter writer = {poses, properties, events};
   uint32_t old = 0;
   const auto old_contact = [&]() -> const ContactState& { return before[awake[old]]; };
-  /// Skips the contacts of one pair (of its parts). True if one of them touched.
+  /// Skips the contacts of one pair in the last step. Returns true if one of them touched.
   const auto pass_pair = [&] {
     const uint64_t key = key_of(old_contact());
     bool touched = false;

@@ -12,21 +12,22 @@ struct EventCount {
   uint32_t dropped = 0;
 };
 
-/// The room of an event buffer of the caller: none without `data`.
+/// The caller's event buffer as a span; empty if `data` is null.
 template <class Buffer>
 auto room_of(const Buffer& buffer) {
   return Span(buffer.data, buffer.data == nullptr ? 0u : buffer.capacity);
 }
 
 /// Compares the contacts of the last step with those of this step, both sorted by their bodies. Writes an event for
-/// each contact that began, continued, ended or hit. If the parts of a pair touch in several places, only the contact
-/// with the greatest closing speed counts. `poses` are those of the start of the step. `awake` lists the contacts of
-/// `before` that do not sleep; the others are skipped. Sets `touching` of the contacts.
+/// each contact that began, continued, ended or hit. If a pair has several contacts, its events are those of the
+/// contact with the greatest closing speed. `poses`: at the start of the step. `awake`: the indices of the contacts of
+/// `before` with an awake body; all other contacts are skipped. Sets `touching` of each contact.
 EventCount raise_contact_events(Span<const BodyPose> poses, Span<const BodyProperties> properties,
                                 Span<const uint32_t> awake, Span<const ContactState> before, Span<ContactWork> contacts,
                                 Span<ContactEvent> events);
 
-/// Inserts the impacts of continuous collision into the sorted events. `hits` is in the order of time.
+/// Inserts the impacts of continuous collision, as hit events, into the sorted `events`. `hits` must be in the order of
+/// time.
 void add_hits(Span<const BodyProperties> properties, Span<const ImpactHit> hits, Span<ContactEvent> events,
               EventCount& count);
 

@@ -10,7 +10,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// An impulse, N s, divided by the mass times 2^exponent, as a speed. False if it leaves Real's range.
+/// Computes impulse, N s, / (mass 2^exponent), m/s. Returns false if the result leaves Real's range.
 bool speed_from(const Vec3<Scaled>& impulse, Scaled mass, int exponent, Vec3<Real>& speed) {
   bool saturated = false;
   const Scaled over = scaled_by_power(mass, exponent);
@@ -19,7 +19,7 @@ bool speed_from(const Vec3<Scaled>& impulse, Scaled mass, int exponent, Vec3<Rea
   return !saturated;
 }
 
-/// A change of a dynamic body's motion, which is checked before it is stored.
+/// A pending change of a dynamic body's motion, which is checked before it is stored.
 struct BodyPush {
   StateView<uint8_t> state;
   uint32_t slot = 0;
@@ -40,7 +40,7 @@ struct BodyPush {
     const int exponent = properties().size_exponent;
     if (!within(arm, real_from_unit(properties().bounding_radius, exponent + 1))) return Status::out_of_range;
     if (!within(speed, k_speed_work_max)) return Status::out_of_range;
-    // In units of twice the length unit, so that an arm of twice the radius fits a Unit.
+    // The arm is in units of twice the body's unit of length, so that an arm of twice the bounding radius fits a Unit.
     const Vec3<Unit> arm_halved = {unit_from_real(arm.x, exponent + 1), unit_from_real(arm.y, exponent + 1),
                                    unit_from_real(arm.z, exponent + 1)};
     const Vec3<Real> change_of_rotation = cross(arm_halved, speed);
@@ -94,7 +94,7 @@ Vec3<Scaled> blast(const Explosion& explosion, const BodyProperties& properties,
   const Real zero = 0.0, ball = real_from_unit(properties.bounding_radius, properties.size_exponent);
   Vec3<Unit> direction;
   Real distance = zero;
-  // The components are tested first, because the length of a distant vector would not fit.
+  // The components are tested first, because the length of a long vector would exceed the range of Real.
   if (!within(offset, explosion.radius + ball) || !normalise(offset, direction, distance)) return {none, none, none};
   const Real gap = max(distance - ball, zero);
   if (gap >= explosion.radius) return {none, none, none};

@@ -31,7 +31,7 @@ JointAxis axis_of(const JointState& joint, int i) {
           joint.damping_ratio[i], joint.target[i], joint.speed[i], joint.force_max[i]};
 }
 
-/// Makes a joint of two existing bodies. Errors: bad_argument, out_of_range, not_normalised.
+/// Sets `joint` from its definition; `a`, `b`: slots of its bodies. Errors: bad_argument, out_of_range, not_normalised.
 Status make_joint(const JointDef& def, uint32_t a, uint32_t b, JointState& joint) {
   if (!is_joint_type(def.type)) return Status::bad_argument;
   joint.type = static_cast<uint32_t>(def.type);
@@ -54,7 +54,7 @@ Status make_joint(const JointDef& def, uint32_t a, uint32_t b, JointState& joint
 
 template <class Byte>
 bool find_joint(const StateView<Byte>& state, JointId id, uint32_t& slot) {
-  slot = id.slot - 1;  // the null id wraps to a slot beyond every capacity
+  slot = id.slot - 1;  // slot 0 of the null id wraps to a slot beyond every capacity
   return slot < state.joints.count && state.joints[slot].type != 0 && state.joints[slot].generation == id.generation;
 }
 

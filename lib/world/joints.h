@@ -2,7 +2,7 @@
 #include "joint/joint.h"
 #include "state/step_cache.h"
 
-/// The operations of a step on the joints of a world outside of the solver.
+/// Operations on the joints of a world, outside of the solver.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -11,11 +11,13 @@ void remove_joint(StateView<uint8_t>& state, uint32_t slot);
 /// Removes all joints of a body.
 void remove_joints_of(StateView<uint8_t>& state, uint32_t body);
 
-/// Wakes sleeping bodies joined to moving bodies, transitively. Returns the number of bodies that woke.
+/// Wakes each sleeping body that is joined to a moving body, and again those joined to it. Returns the number of bodies
+/// that woke.
 uint32_t wake_jointed(Span<const JointState> joints, Span<const BodyProperties> properties,
                       Span<const BodyMotion> motions, Span<BodyActivity> activities, const StepCacheView& cache);
 
-/// Lists the pairs whose joints disable collision, ascending. `keys` has room for the joint capacity.
+/// Lists the keys of the pairs whose collision is disabled by joints, ascending. `keys` must have room for one key per
+/// joint of the capacity.
 Span<const uint64_t> list_disabled_pairs(Span<const JointState> joints, Span<uint64_t> keys);
 
 /// Removes the joints that broke in the step that ends now, and reports them.

@@ -41,7 +41,7 @@ Status make_query_shape(const World& world, const Shape& shape, QueryShape& made
 Vec64 query_half(const QueryShape& shape, const Quat& rotation) {
   Vec64 raw;
   if (!raw_from_real(half_bounds(shape.properties, matrix_from(rotation)), raw))
-    return {0, 0, 0};  // never: it is finite
+    return {0, 0, 0};  // does not occur: the value is finite
   return raw;
 }
 
@@ -53,7 +53,7 @@ Pose pose_near(const BodyProperties& properties, const BodyPose& pose, const Pos
       abs(real_difference(place.y, pose.position.y)) < k_near &&
       abs(real_difference(place.z, pose.position.z)) < k_near)
     return whole;
-  // Beyond the range of a query the exact height above the plane does not matter.
+  // A height above the plane beyond the range of a query may be clamped: the result is the same.
   const Vec3<Unit> up = matrix_from(pose.rotation).column[1];
   const Real height = clamp(distance_along(pose.position, place, up), -k_near, k_near);
   return {moved(place, up * -height), pose.rotation};
@@ -63,7 +63,7 @@ Bounds QueryBodies::ball_bounds_of(uint32_t slot) const {
   const BodyProperties& properties = state.properties[slot];
   if (is_half_space(properties)) return k_everywhere;
   const Real ball = real_from_unit(properties.bounding_radius, properties.size_exponent);
-  const Real room = ball + scale_by_power(ball, -20);  // margin for the rounding of bounds
+  const Real room = ball + scale_by_power(ball, -20);  // with a margin for the rounding of bounds
   const Vec3<Real> half = {room, room, room};
   return {moved(state.poses[slot].position, -half), moved(state.poses[slot].position, half)};
 }

@@ -21,14 +21,14 @@ Status make_query_shape(const World& world, const Shape& shape, QueryShape& made
 /// The shape of a ray: a sphere of radius 0.
 QueryShape query_point();
 
-/// Half of the shape's bounds at rest, 2^-46 m.
+/// The half extents of the shape's axis-aligned bounds at this rotation, 2^-46 m.
 Vec64 query_half(const QueryShape& shape, const Quat& rotation);
 
 /// The pose of a body for a query at `place`. The position of a distant half-space is moved along its plane to the
 /// query, because the narrow phase accepts only positions less than 2^16 m apart.
 Pose pose_near(const BodyProperties& properties, const BodyPose& pose, const Position& place);
 
-/// The bodies that pass a query's filter, without sensors.
+/// The bodies that a query tests: those that its filter allows, except sensors.
 struct QueryBodies {
   const World& world;
   StateView<const uint8_t> state;
@@ -47,9 +47,9 @@ struct QueryBodies {
   /// Bounds of the body's bounding sphere: larger, but cheaper to compute.
   Bounds ball_bounds_of(uint32_t slot) const;
 
-  /// Visits the bodies whose bounds may satisfy `meets`. `meets` may become stricter during the search. The search only
-  /// reads the world. If the tree is up to date, resting bodies are found in the tree, and the active set is searched
-  /// one by one; otherwise all bodies are searched one by one.
+  /// Visits the bodies whose bounds may satisfy `meets`. `meets` may become stricter during the search. The search does
+  /// not change the world. If the tree is up to date, the search finds resting bodies by the tree and tests the bodies
+  /// of the active set one by one. Otherwise it tests all bodies one by one.
   template <class Meets, class Swaps, class Visit>
   void for_each(const Meets& meets, const Swaps& swaps, const Visit& visit) const {
     const auto look_at = [&](uint32_t slot) {

@@ -17,12 +17,13 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// The distance that counts as inside, as a power of two of the smaller extent. It is more than the tolerance of a time
-/// of impact, so that a body found on its path is inside at that time, and less than the margin of reach_of().
+/// The largest distance at which a body counts as within a sensor is 2^k_within_power of the pair's smaller extent. It
+/// exceeds the tolerance of a time of impact, so a body that hits the sensor is within it at that time. It is below the
+/// margin of reach_of().
 constexpr int k_within_power = -14;
 
-/// Bounds that contain the body until the tick ends, with a margin for the distance that counts as inside and for the
-/// rounding of bounds.
+/// Bounds that contain the body from its current time to the end of the tick. Their margin covers the distance of
+/// k_within_power and the rounding of bounds.
 Bounds sensed_bounds(const SensorStage& stage, uint32_t slot) {
   const BodyProperties& properties = stage.properties[slot];
   if (is_half_space(properties)) return k_everywhere;
@@ -45,13 +46,14 @@ BodyPose end_pose(const SensorStage& stage, uint32_t slot) {
   return pose;
 }
 
-/// Moves a half-space along its plane to the other body, into the range of the narrow phase.
+/// If the body is a half-space, moves its position along its plane to the other body, into the range of the narrow
+/// phase.
 void bring_near(const BodyProperties& properties, const BodyPose& other, BodyPose& pose) {
   pose.position = pose_near(properties, pose, other.position).position;
 }
 
-/// Sets `farther`: whether all parts of two bodies are farther apart than `distance_max`. Returns false if a part could
-/// not be tested.
+/// Sets `farther` to whether the distance of two bodies exceeds `distance_max`, for all of their parts. Returns false
+/// if a part could not be tested.
 bool find_farther(const SensorStage& stage, const BodyProperties& a, const Pose& pose_a, const BodyProperties& b,
                   const Pose& pose_b, Real distance_max, bool& farther) {
   const ConvexParts parts_a(a, stage.assets), parts_b(b, stage.assets);
@@ -143,7 +145,8 @@ void add(SensorStage& stage, SensedKeys& keys, uint64_t key) {
   if (keys.add(key, lost)) stage.overflow.add(CapacityEventType::sensed, pair_low(lost), pair_high(lost) >> 1);
 }
 
-/// Finds whether a body is inside a sensor at the end of the tick, or was on the last segment of its sweep.
+/// Adds the pair to `found` if the body is within the sensor at the end of the tick, or passed through it on the last
+/// segment of its sweep.
 void evaluate_pair(SensorStage& stage, uint32_t sensor, uint32_t body) {
   if (!may_sense(stage, sensor, body)) return;
   const uint64_t within = sensed_key(sensor, body, false), through = sensed_key(sensor, body, true);
@@ -159,7 +162,8 @@ void evaluate_pair(SensorStage& stage, uint32_t sensor, uint32_t body) {
   if (meets(stage, sensor, body, k_whole_step)) add(stage, stage.found, through);
 }
 
-/// Evaluates each pair with a changed body once: from its sensor if the sensor has changed.
+/// Evaluates each pair with a changed body once. If both have changed, the pair is evaluated when the sensor is
+/// visited.
 void settle_changed(SensorStage& stage) {
   const StepCacheView& cache = stage.cache;
   for (uint32_t i = 0; i < stage.changed.words.count; ++i) stage.changed.words[i] |= cache.active.words[i];
@@ -185,7 +189,7 @@ void settle_changed(SensorStage& stage) {
   });
 }
 
-/// Raises the events of a step from the pairs that were inside and the pairs found, both sorted.
+/// Writes the events of a step. Input: the pairs of the last step and the pairs found in this step, both sorted.
 struct SensorEvents {
   Span<const BodyProperties> properties;
   Span<SensorEvent> events;
@@ -257,7 +261,7 @@ void sense(SensorStage& stage, const StateView<uint8_t>& state, SensorEventBuffe
   report.events.sensor_dropped = room.count == 0 ? 0 : events.dropped;
   report.lost.sensed = stage.passed.dropped + stage.found.dropped;
   report.lost.sensed_undecided = stage.undecided;
-  // Dropped pairs may be inside, so the next step tests all pairs.
+  // Dropped pairs may still be within, so the next step must test all pairs.
   if (stage.found.dropped != 0) stage.cache.cache.fresh = 0;
 
   uint32_t count = 0;

@@ -6,16 +6,17 @@
 #include "broad_phase/pair_filter.h"
 #include "state/step_cache.h"
 
-/// Finds the bodies that are inside a sensor at the end of a step, and those that only passed through it. It tests only
-/// pairs with a body that moved or was changed by a call; the others keep their state. Whether a body is inside depends
-/// on the poses alone. A machine that restored a state tests all pairs and finds the same result.
+/// The sensor stage. It finds the bodies that are within a sensor at the end of a step, and the bodies that only passed
+/// through it. It tests only pairs with a body that moved or that a call changed; the other pairs keep their result.
+/// Whether a body is within a sensor depends on the poses alone. Therefore a machine that restored a state, which tests
+/// all pairs, finds the same result.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 struct KeyOrder {
   bool operator()(uint64_t a, uint64_t b) const { return a < b; }
 };
-/// Pairs of a sensor and a body, as sensed_key(). If there is no room for all, the smallest keys stay.
+/// Pairs of a sensor and a body, by sensed_key(). If the storage has no room for all pairs, it keeps the smallest keys.
 using SensedKeys = SmallestOf<uint64_t, KeyOrder>;
 
 /// `through`: the body was inside the sensor during this step but is not at its end.
@@ -23,7 +24,7 @@ constexpr uint64_t sensed_key(uint32_t sensor, uint32_t body, bool through) {
   return pair_key(sensor, body << 1 | (through ? 1 : 0));
 }
 
-/// Inputs and results of the sensor stage. `poses` are those at the times `from` of the sweeps.
+/// Inputs and results of the sensor stage. `poses`: at the time `from` of each body's sweep.
 struct SensorStage {
   AssetTable assets;
   const FeatureTable& features;
@@ -33,21 +34,22 @@ struct SensorStage {
   Span<const BodySweep> sweeps;
   StepCacheView cache;
   BitSet changed;                  ///< bodies that moved in the last step or were changed since
-  Span<const SensedState> before;  ///< pairs that were inside at the end of the last step
-  SensedKeys passed, found;        ///< pairs found before the last segment of the body's sweep; all pairs found
+  Span<const SensedState> before;  ///< pairs that were within at the end of the last step
+  SensedKeys passed, found;        ///< pairs found before the last segment of a sweep; all pairs found
   Overflow& overflow;
   uint32_t undecided = 0;
 };
 
-/// Sets `changed` to the bodies that have changed since the last step. Call it before the step partitions the bodies.
+/// Sets `changed` to the bodies that have changed since the last step. Must be called before the step partitions the
+/// bodies.
 void note_changed(const StepCacheView& cache, uint32_t slots_used, BitSet changed);
 
-/// Notes the sensors that the body `slot` touches on a segment of its sweep. An impact ends such a segment at `until`,
-/// before the tick ends. `stage`: a SensorStage.
+/// Adds the pairs of the body `slot` and the sensors that it touches on a segment of its sweep to `passed`. `until`:
+/// the end of the segment, which is an impact before the end of the tick. `stage`: points to a SensorStage.
 void sense_sweep(void* stage, uint32_t slot, Fraction until);
 
-/// Finds the pairs that are inside and those that passed through, raises the events, and stores the pairs that are
-/// inside. Call it once all sweeps are final.
+/// Finds the pairs that are within at the end of the tick, and the pairs that passed through; raises the events; stores
+/// the former in the state. Must be called after all sweeps are final.
 void sense(SensorStage& stage, const StateView<uint8_t>& state, SensorEventBuffer events, StepReport& report);
 
 /// The functions of the sensor feature, for a feature table.
@@ -57,9 +59,9 @@ struct SensorOps {
   decltype(&sense) end;
 };
 
-/// Removes all sensed pairs of a body that has changed, as a sensor and as a sensed body.
+/// Removes all sensed pairs in which the body `slot`, which has changed, is the sensor or the sensed body.
 void forget_sensed(StateView<uint8_t>& state, uint32_t slot);
-/// Checks that the world can have sensors. Errors: feature_missing, pool_full.
+/// Returns ok if the world can have sensors. Errors: feature_missing, pool_full.
 Status check_sensors(const World& world);
 
 }  // namespace DETENT_NAMESPACE

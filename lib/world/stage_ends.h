@@ -4,7 +4,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Reports the ends of a step's stages: adds the time since the last stage end to the profile, and calls the observer.
+/// Reports the end of each stage of a step: adds the duration of the stage to the profile, and calls the observer.
 class StageEnds {
  public:
   explicit StageEnds(const World& world)

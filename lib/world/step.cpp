@@ -27,14 +27,14 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// The bodies that move, once some have been woken.
+/// Lists the slots of the active set, which are the moving bodies after some bodies were woken, ascending.
 Span<const uint32_t> list_moving(BitSet active, Span<uint32_t> slots) {
   uint32_t count = 0;
   active.for_each([&](uint32_t slot) { slots[count++] = slot; });
   return slots.first(count);
 }
 
-/// Moves the kinematic bodies among those that move.
+/// Moves the kinematic bodies of `moving` through the tick.
 uint32_t integrate_kinematic_bodies(const StepSettings& settings, const SolverBodies& bodies,
                                     Span<const uint32_t> moving) {
   uint32_t clamped = 0;
@@ -60,14 +60,15 @@ void report_impacts(const ImpactReport& impacts, StepReport& report) {
   report.saturations += impacts.clamped;
 }
 
-/// The settings of a step. Contacts are solved in lanes if create_world() found that the processor can.
+/// The settings of a step. Four contacts are solved at once (in lanes) if create_world() has found that the processor
+/// supports this.
 StepSettings settings_of(const World& world, const WorldState& state) {
   StepSettings settings = step_settings(state);
   settings.lanes = k_built_with_lanes && world.lanes == 4;
   return settings;
 }
 
-/// One step: its stages in order, and what they hand on to each other.
+/// One step: its stages, in order, and the data that they pass to later stages.
 class Step {
  public:
   Step(World& world, ImpactProbe* probe, StepReport& report);
@@ -95,7 +96,8 @@ class Step {
   ContactRoom room() const {
     return {scratch_, state_.contacts.count - (contacts_before_ - awake_contacts_.count), manifolds().count != 0};
   }
-  /// Whether islands are solved together. Some settings end the sweeps of each island by its own measure.
+  /// Whether islands may be solved together. They may not if each island can end its iterations early, or if positions
+  /// are corrected island by island after the substeps.
   bool groups_islands() const {
     return k_built_with_lanes && settings_.lanes && settings_.iterations == 1 && !settings_.post_stabilises;
   }
@@ -125,7 +127,7 @@ class Step {
   const Span<const uint64_t> disabled_pairs_;
   PairPool pool_;
   Span<const uint32_t> moving_ = {};          ///< moving bodies, ascending
-  Span<const uint32_t> awake_contacts_ = {};  ///< contacts of the last tick between bodies of which one is awake
+  Span<const uint32_t> awake_contacts_ = {};  ///< contacts of the last tick with an awake body
   ContactCount count_ = {};
   Span<ContactWork> contacts_ = {};
   Span<Island> islands_ = {};
@@ -184,7 +186,7 @@ void Step::find_pairs() {
   wake_touched_bodies();
 }
 
-/// Collects the joints of the step, and starts those of their bodies that do not move.
+/// Collects the joints of the step. First starts the tick of the bodies of joints that do not move.
 void Step::start_joints() {
   if (joint_ops_ == nullptr) return;
   for (const JointState& joint : joints_.joints) {
@@ -198,8 +200,8 @@ void Step::start_joints() {
   report_.joints.count = joints_.count;
 }
 
-/// Wakes the bodies that moving bodies touch. A body that wakes and has joints then has a longer speculative distance,
-/// and may touch more.
+/// Wakes the bodies that moving bodies touch. This is repeated, because a woken body with joints has a longer
+/// speculative distance and may touch further bodies.
 void Step::wake_touched_bodies() {
   while (const uint32_t woke = wake_touched(settings_, bodies_, cache_, pool_)) {
     report_.woke += woke;
@@ -235,7 +237,7 @@ void Step::build_islands() {
                   scratch_.island_bodies, scratch_.contact_sort, contact_order());
 }
 
-/// The islands from `first` on that are solved together, as one.
+/// Returns the islands that are solved together with the island `first`, as one island. `count`: their number.
 Island Step::island_group(uint32_t first, uint32_t& count) const {
   Island group = islands_[first];
   for (count = 1; groups_islands() && first + count < islands_.count; ++count) {
@@ -280,7 +282,7 @@ void Step::raise_events() {
                                       contact_events());
 }
 
-/// Makes the sweeps of the tick, moves bodies along them to their impacts, and finds what is inside sensors.
+/// Makes the sweeps of the tick, moves bodies along their sweeps to their impacts, and finds the bodies within sensors.
 void Step::advance() {
   report_.saturations += make_sweeps(moving_, bodies_.properties, bodies_.work, bodies_.poses, sweeps_);
   if (joint_ops_ != nullptr) {
@@ -369,7 +371,7 @@ void Step::store() {
   state_.world.idle = moves ? 0 : 1;
 }
 
-/// Separate from `step`, so that nothing of it moves across the change of the floating-point environment.
+/// A separate function, so that the compiler cannot move its code across the change of the floating-point environment.
 __attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, StepReport& report) {
   Step(world, probe, report).run();
 }

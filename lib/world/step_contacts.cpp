@@ -17,8 +17,8 @@ struct PairLengths {
   Real margin;
   Real recycle_distance;  ///< largest relative motion for which its contact points are recycled
 
-  /// Whether a point that was beyond `margin` when the points were found is still farther away than the pair can close
-  /// in this tick.
+  /// Whether a point that was beyond `margin` when the contact points were computed is still too far away to touch in
+  /// this tick.
   bool is_slow() const { return margin + recycle_distance <= scale_by_power(at_rest, 1); }
 };
 
@@ -41,9 +41,9 @@ struct ContactBefore {
   const ManifoldState* manifold = nullptr;
 };
 
-/// Contact points of a pair of bodies that have been started. It recycles the points of the last tick if they are still
-/// valid, which sets `recycled`; otherwise it finds new points. Fills `manifold`, unless it is null, with the data for
-/// recycling in the next tick.
+/// Computes the contact points of a pair of bodies, whose tick must have been started. If the points of the last tick
+/// are still valid, it recycles them and sets `recycled`. Otherwise it finds new points. If `manifold` is not null, it
+/// receives the data for recycling in the next tick.
 void collide_pair(const StepSettings& settings, uint32_t slot_a, uint32_t slot_b, const StepBodies& bodies,
                   const ContactBefore& before, ContactGeometry& geometry, ManifoldState* manifold, bool& recycled) {
   const CollisionBody body_a = bodies.collider(slot_a), body_b = bodies.collider(slot_b);
@@ -88,8 +88,8 @@ bool is_pushed(const ContactWork& contact) {
   return pushed;
 }
 
-/// Orders deeper contacts first; of equally deep ones, the earlier one first. `key` is the number in the order of
-/// finding.
+/// Sorts deeper contacts first; of equally deep contacts, the one that was found first. `key`: the number of the
+/// contact in the order of finding.
 struct DeeperContact {
   Span<const ContactWork> contacts;
 
@@ -99,7 +99,7 @@ struct DeeperContact {
   }
 };
 
-/// Swaps two contacts word by word, because a whole copy on the stack would be large.
+/// Swaps two contacts word by word, because a copy of a contact would take much stack.
 void swap(ContactWork& a, ContactWork& b) {
   static_assert(sizeof(ContactWork) % sizeof(uint64_t) == 0);
   uint8_t *at_a = reinterpret_cast<uint8_t*>(&a), *at_b = reinterpret_cast<uint8_t*>(&b);
@@ -112,7 +112,7 @@ void swap(ContactWork& a, ContactWork& b) {
   }
 }
 
-/// Collides pairs in ascending order and makes the rows of those that touch, sorted by pair and part.
+/// Implements find_contacts().
 struct Collider {
   const StepSettings& settings;
   const StepBodies& bodies;
@@ -121,15 +121,15 @@ struct Collider {
   Overflow& overflow;
   ContactCount count = {};
   uint32_t next = 0;
-  bool rebounds = false;  ///< a contact of two dynamic bodies may rebound
+  bool rebounds = false;  ///< whether any contact of two dynamic bodies may rebound
   uint32_t last_started = UINT32_MAX;
 
   bool recycles() const { return last.manifolds.count != 0; }
 
   void visit(uint64_t key) {
     const uint32_t slot_a = pair_low(key), slot_b = pair_high(key);
-    // A body that still sleeps was not touched when wake_touched() tested it; recycled points could give another
-    // result.
+    // If a body still sleeps, wake_touched() found that it is not touched. Recycled contact points could contradict
+    // this, so they are not used.
     if (bodies.asleep(slot_a) || bodies.asleep(slot_b) || (!bodies.awake(slot_a) && !bodies.awake(slot_b))) return;
     start(slot_a);
     start(slot_b);
@@ -169,8 +169,8 @@ struct Collider {
     }
   }
 
-  /// Leaves rebounds to continuous collision (impacts) for pairs of dynamic bodies that no other dynamic body pushes
-  /// on. Within a pile there would be too many impacts.
+  /// Leaves the rebounds of a pair of dynamic bodies to continuous collision (impacts), unless another dynamic body
+  /// pushes one of them. Within a pile there would be too many impacts.
   __attribute__((noinline)) void leave_rebounds_to_impacts() const {
     const Span<ContactWork> contacts = room.contacts().first(count.contacts);
     const auto for_each_leaning = [&](const auto& visit) {
@@ -190,8 +190,8 @@ struct Collider {
   }
 
  private:
-  /// Starts a resting body when its pairs come. The pairs of a ground body come one after the other, so the last
-  /// started body is enough to remember.
+  /// Starts the tick of a resting body before its pairs are collided. The pairs of a ground body follow each other, so
+  /// it is enough to remember the body that was started last.
   void start(uint32_t slot) {
     if (bodies.active.has(slot) || slot == last_started) return;
     bodies.start(settings, slot);
@@ -247,7 +247,8 @@ struct Collider {
     if (count.dropped != dropped_before) forget_manifolds(key);
   }
 
-  /// Recycles the contacts of the last tick. False unless all contacts of the pair can be recycled.
+  /// Recycles all contacts that the pair had in the last tick. Returns false if one of them cannot be recycled, or if
+  /// there are none.
   bool recycle_parts(const PairBefore& pair, uint32_t slot_a, uint32_t slot_b, const PairLengths& lengths,
                      TerrainContacts& found, ManifoldState (&manifold)[k_terrain_manifolds_max]) const {
     found.count = found.dropped = 0;
@@ -263,15 +264,16 @@ struct Collider {
     return found.count != 0;
   }
 
-  /// Clears the manifolds of a pair with dropped contacts, so that the next tick finds all of its contacts anew.
+  /// Clears the manifolds of a pair with dropped contacts, so that the next tick computes all contacts of the pair
+  /// anew.
   __attribute__((noinline)) void forget_manifolds(uint64_t key) {
     for (uint32_t i = 0; room.keeps_manifolds && i < count.contacts; ++i) {
       if (key_of(room.contacts()[i].state) == key) room.manifolds()[i] = {};
     }
   }
 
-  /// Counts a dropped contact. Returns true if the shallowest contact is shallower than `depth`: it is then the first
-  /// in the order by depth, and the caller replaces it.
+  /// Counts a dropped contact, when a contact of this depth has no room. Returns true if the shallowest stored contact
+  /// is shallower than `depth`. That contact is the first in the order by depth, and the caller must replace it.
   __attribute__((noinline)) bool leave_out_shallowest(Real depth, uint64_t key) {
     if (count.dropped++ == 0) {
       for (uint32_t i = 0; i < room.by_depth().count; ++i) {

@@ -13,7 +13,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The bodies of a step, as the stages before the solve read them.
+/// The data of the bodies of a step that the stages before the solver use.
 struct StepBodies {
   Span<const BodyPose> poses;
   Span<const BodyProperties> properties;
@@ -41,8 +41,8 @@ struct StepBodies {
   }
 };
 
-/// Wakes sleeping bodies touched by moving ones, transitively. Removes them from the tree and finds their pairs.
-/// Returns the number of bodies that woke.
+/// Wakes each sleeping body that a moving body touches, and again those that it touches. Removes the woken bodies from
+/// the tree and finds their pairs. Returns the number of bodies that woke.
 uint32_t wake_touched(const StepSettings& settings, const StepBodies& bodies, const StepCacheView& cache,
                       PairPool& pool);
 
@@ -50,7 +50,7 @@ struct ContactCount {
   uint32_t contacts = 0;
   uint32_t points = 0;
   uint32_t dropped = 0;
-  uint32_t parts_dropped = 0;  ///< contacts of parts, shallower than those that their pair keeps
+  uint32_t parts_dropped = 0;  ///< dropped contacts of pairs with more than eight: the shallowest
   uint32_t capped = 0;
   uint32_t recycled = 0;
 };
@@ -59,13 +59,13 @@ struct ContactCount {
 struct LastContacts {
   Span<const ContactState> contacts;    ///< sorted by pair and part
   Span<const ManifoldState> manifolds;  ///< of these contacts, or empty
-  Span<const uint32_t> awake;           ///< the places of the contacts that may continue
+  Span<const uint32_t> awake;           ///< indices of the contacts with an awake body, which may continue
 };
 
-/// Room for the contacts of a tick.
+/// The arrays for the contacts of a tick.
 struct ContactRoom {
   const Scratch& scratch;
-  uint32_t count;  ///< number of places that may be used
+  uint32_t count;  ///< number of elements that may be used
   bool keeps_manifolds;
 
   Span<ContactWork> contacts() const { return scratch.contacts.first(count); }
@@ -74,8 +74,8 @@ struct ContactRoom {
   BitSet leaning() const { return scratch.candidates; }
 };
 
-/// Collides pairs in ascending order and makes the rows of those that touch, sorted by pair and part. If there is not
-/// enough room, the shallowest contacts are dropped.
+/// Collides the pairs in ascending order, and makes the rows of their contacts, sorted by pair and part. If `room` is
+/// too small, the shallowest contacts are dropped.
 ContactCount find_contacts(const StepSettings& settings, const StepBodies& bodies, const LastContacts& last,
                            const ContactRoom& room, Overflow& overflow, Span<const uint64_t> pairs);
 

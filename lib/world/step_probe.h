@@ -6,7 +6,8 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// As step(), for tests: the probe records the sweeps of the bodies, and it can switch filters off.
+/// As step(), for tests. `probe` records the sweeps of the bodies, and can switch off the filters of continuous
+/// collision.
 StepReport step_probed(World& world, ImpactProbe& probe);
 
 }  // namespace DETENT_NAMESPACE

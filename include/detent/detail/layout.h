@@ -3,13 +3,13 @@
 #include <detent/detail/shared.h>
 #include <detent/world.h>
 
-/// The layout of a block: one list of arrays, persistent arrays first. world_bytes, the snapshot, the digest and the
-/// step all use it.
+/// The layout of a world's block: one list of arrays, persistent arrays first. world_bytes(), the snapshot, the digest
+/// and the step use this list.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 constexpr uint32_t k_capacity_max = 1u << 20;
-constexpr uint32_t k_pairs_per_contact = 2;  ///< leaves room for pairs whose bounds overlap without contact
+constexpr uint32_t k_pairs_per_contact = 2;  ///< capacity of pairs; some pairs have overlapping bounds and no contact
 
 /// Byte offsets of the arrays in a block.
 struct Layout {
@@ -31,15 +31,16 @@ constexpr uint32_t joint_body_count(Capacity capacity) {
   return 2 * capacity.joints < capacity.bodies ? 2 * capacity.joints : capacity.bodies;
 }
 
-/// Room for couplings of the joints' factor: 16 for each joint, or one for each pair of joints (the upper limit) if
-/// that is less. A chain of hinges needs 1 for each joint; a net of 10 x 10 ball joints needs 9.
+/// Capacity of couplings in the factor of the joints: 16 for each joint, or, if that is less, one for each pair of
+/// joints, which is the largest possible number. A chain of hinges needs 1 for each joint; a net of 10 x 10 ball joints
+/// needs 9.
 constexpr uint32_t joint_coupling_count(Capacity capacity) {
   constexpr uint32_t k_each = 16;
   const uint32_t joints = capacity.joints;
   return joints > 2 * k_each ? joints * k_each : joints * (joints > 0 ? joints - 1 : 0) / 2;
 }
-/// Room for the numbers of the couplings' blocks: 256 for each joint, or 36 for each coupling if that is less. The
-/// chain needs 25 to 36 for each joint, the net 81.
+/// Capacity of numbers in the blocks of the couplings: 256 for each joint, or 36 for each coupling if that is less. A
+/// chain of hinges needs 25 to 36 for each joint, a net of 10 x 10 ball joints 81.
 constexpr uint32_t joint_number_count(Capacity capacity) {
   constexpr uint32_t k_each = 256, k_block = 36;
   const uint32_t all = joint_coupling_count(capacity) * k_block, most = capacity.joints * k_each;
@@ -84,7 +85,7 @@ DETENT_SHARED constexpr Layout layout_of(Capacity capacity, bool& fits) {
   layout.awake_contacts = place(sizeof(uint32_t), capacity.contacts);
   layout.bounds = place(sizeof(Bounds), capacity.bodies);
   layout.pairs = place(sizeof(uint64_t), capacity.contacts * k_pairs_per_contact);
-  // After the pairs are found, the contacts use their work space.
+  // After the pairs are found, the contacts use the same memory as the work space of the pair search.
   const uint64_t shared = end;
   layout.bounds_keys = place(sizeof(BoundsKey), capacity.bodies);
   layout.bounds_sort = place(sizeof(BoundsKey), capacity.bodies);
@@ -96,7 +97,7 @@ DETENT_SHARED constexpr Layout layout_of(Capacity capacity, bool& fits) {
   layout.islands = place(sizeof(Island), capacity.bodies);
   layout.island_bodies = place(sizeof(uint32_t), capacity.bodies);
   layout.sweeps = place(sizeof(BodySweep), capacity.bodies);
-  // After the sweeps are made, the impacts use the work space of the substeps.
+  // After the sweeps are made, the impacts use the same memory as the work space of the substeps.
   const uint64_t moved = end;
   layout.body_work = place(sizeof(BodyWork), capacity.bodies);
   layout.contact_order = place(sizeof(ContactOrder), capacity.contacts);

@@ -26,19 +26,19 @@ struct alignas(8) TreeRoot {
   uint32_t visited;  ///< nodes and leaves visited in the last step
 };
 
-/// Data that is cached between ticks so that steps can skip resting bodies: the tree, the bounds of the bodies in it,
-/// their sweeps (zero), the active set of the next step, and the awake contacts. All of it can be recomputed from the
-/// state.
+/// The header of the data that is cached between ticks, so that steps can skip resting bodies: the tree, the bounds and
+/// the (zero) sweeps of the bodies in the tree, the active set of the next step, and the list of awake contacts. All of
+/// this data can be recomputed from the state.
 struct alignas(8) StepCache {
   uint32_t fresh;           ///< 0: the next step recomputes the cache
-  uint32_t contacts_known;  ///< 1: only the listed contacts can have an awake body
+  uint32_t contacts_known;  ///< 1: every contact with an awake body is in the list of awake contacts
   uint32_t awake_contact_count;
   uint32_t zero;
   TreeRoot tree;
 };
 
-/// A body's bounds in the sort and sweep, rounded down to a grid over all bodies. Bounds that are disjoint on the grid
-/// are disjoint.
+/// A body's bounds in the sort and sweep, in cells of a grid over all bodies; coordinates are rounded down. If two
+/// bounds are disjoint on the grid, they are disjoint.
 struct BoundsKey {
   uint32_t lower, upper;  ///< along the sort axis
   uint32_t slot;
@@ -46,15 +46,15 @@ struct BoundsKey {
   uint32_t across_lower, across_upper;  ///< along the other two axes, 15 bits each
 };
 
-/// A body's inverse inertia (per unit mass) in world axes: angular velocity = inverse inertia x angular momentum, in the units
-/// of angular velocity.h. A symmetric matrix; values are mantissas times 2^exponent.
+/// A body's inverse inertia (per unit mass) in world axes: angular velocity = inverse inertia x angular momentum, in
+/// the units of angular_velocity.h. The matrix is symmetric; its elements are mantissas times 2^exponent.
 struct alignas(sizeof(Unit)) WorldInverseInertia {
   Vec3<Unit> row[3];
   int32_t exponent;
 };
 
 /// The inverse inertias (per unit mass) of a body about its axes, split for its free rotation (rotate_freely() in
-/// angular velocity.h): two of the axes have similar values, and the *odd* axis differs most.
+/// angular_velocity.h). The *odd* axis is the one whose value differs most from the other two.
 struct alignas(sizeof(Unit)) FreeRotation {
   Scaled common;    ///< inverse inertia about the axis after the odd axis
   Scaled odd_rate;  ///< inverse inertia about the odd axis minus `common`
@@ -66,12 +66,12 @@ struct alignas(sizeof(Unit)) FreeRotation {
 struct alignas(8) BodyWork {
   uint64_t colours;     ///< bit set of the colours of its contacts
   uint32_t island;      ///< while islands are found: a link towards the island's first body; then the island's index
-  uint32_t run;         ///< as `island`, for its run: a row of bodies with at most two contacts each
+  uint32_t run;         ///< as `island`, for its run: a chain of bodies that touch at most two others each
   uint32_t run_length;  ///< of the run's first body: number of bodies in the run
   uint32_t contacts;    ///< number of its contacts
   uint32_t supports;    ///< number of contacts that support it, while loads are estimated
   uint32_t joint_body;  ///< its index among the bodies that have joints, else UINT32_MAX
-  alignas(sizeof(Real)) Scaled carried;  ///< its own mass plus the mass that rests on it, kg, while loads are estimated
+  alignas(sizeof(Real)) Scaled carried;  ///< its own mass plus that of the bodies on it, kg, while loads are estimated
   Real height;    ///< height above the island's first body, against gravity, m, while loads are estimated
   Quat rotation;  ///< current
   Matrix3 axes;
@@ -84,20 +84,21 @@ struct alignas(8) BodyWork {
   Vec3<Real> rotation_vector;          ///< sum of angular velocity x substep x 2^size_exponent since the start of the tick, m
   Vec3<Real> angular_velocity;          ///< angular velocity x 2^size_exponent, in units of 2^-k_angular_velocity_power m/s
   Vec3<Real> push;          ///< velocity that gravity and forces add in a substep, m/s
-  Vec3<Real> twist;         ///< momentum that torques add in a substep, m/s
-  /// The velocity and the momentum that contacts added in this substep, m/s. In float they are sums. In fixed point,
-  /// where differences are exact, they are minus the motion at the start of the substep (contact_motion.h).
+  Vec3<Real> twist;         ///< angular momentum that torques add in a substep, m/s
+  /// The velocity and the angular momentum that contacts added in this substep, m/s. In float these members are sums of
+  /// the changes. In fixed point they are minus the motion at the start of the substep, because there a difference is
+  /// exact (contact_motion.h).
   Vec3<Real> contact_velocity;
   Vec3<Real> contact_angular_momentum;
   Vec3<Real> velocity_before;  ///< velocity before the last solver iteration, if there are several, m/s
   Scaled linear_kept;          ///< fraction of the velocity that damping leaves in a substep
-  Scaled angular_kept;         ///< fraction of the momentum that damping leaves in a substep
+  Scaled angular_kept;         ///< fraction of the angular momentum that damping leaves in a substep
 };
 
 /// A contact during the step. Impulses and masses are relative to the reference mass: the mass of the lighter dynamic
-/// body. The pair's unit of length is that of its smaller moving body. The vector solver reads four contacts at once,
-/// in groups of four words or four Reals. Members that it needs for normal impulses come before those for friction
-/// (lib/solver/lanes_contact.h).
+/// body. The pair's unit of length is that of its smaller moving body. The vector solver processes four contacts at
+/// once; from each it reads groups of four words or four Reals. The members for normal impulses come before those for
+/// friction (lib/solver/lane_contact.h).
 struct alignas(8) ContactWork {
   ContactState state;  ///< becomes the world's contact when the step ends
 
@@ -105,10 +106,12 @@ struct alignas(8) ContactWork {
   Vec3<Unit> tangent[2];
   Vec3<Unit> moment_a, moment_b;  ///< r x n: middle_a x normal, middle_b x normal
   Unit unit_a, unit_b;          ///< the pair's unit of length, in the body's unit; 0 for a fixed body
-  /// Normal speed at point i per unit normal impulse at point k: mantissas, times 2^coupling_exponent.
+  /// Element (i, k): the normal speed at point i per unit normal impulse at point k. Mantissas, times
+  /// 2^coupling_exponent.
   Unit coupling[k_manifold_points_max][k_manifold_points_max];
   int32_t coupling_exponent;
-  // Coordinates of the points along the tangents, from their middle, in the pair's unit; 0 beyond their count.
+  // Coordinates of the points along the two tangents, relative to the points' middle, in the pair's unit of length; 0
+  // beyond the number of points.
   alignas(sizeof(Unit)) Unit x[k_manifold_points_max];
   Unit y[k_manifold_points_max];
   Unit inverse_mass[k_manifold_points_max];  ///< effective masses of the points, in (0, 1]
@@ -118,8 +121,8 @@ struct alignas(8) ContactWork {
   alignas(sizeof(Unit)) Scaled inverse_mass_a;      ///< relative inverse mass of A: reference mass / mass; 0 if not dynamic
   Scaled inverse_mass_b;                            ///< relative inverse mass of B
 
-  Vec3<Unit> middle_a, middle_b;  ///< the points' middle, from each centre of mass, in the body's unit of length
-  /// Motion of the pair per unit wrench, by response_index(): mantissas, times 2^response_exponent.
+  Vec3<Unit> middle_a, middle_b;  ///< the points' middle, from the centre of mass of A and of B, in that body's unit
+  /// Motion of the pair per unit wrench; response_index() gives the index. Mantissas, times 2^response_exponent.
   Unit response[21];
   int32_t response_exponent;
   alignas(sizeof(Unit)) Unit friction_mass[2];  ///< effective masses along the tangents, in (0, 1]
@@ -129,7 +132,7 @@ struct alignas(8) ContactWork {
   Scaled angular_mass[3];  ///< effective masses about the normal and the tangents
   Scaled restitution;
 
-  /// Separation at the start of the tick, m; for round shapes plus the separation that sliding adds
+  /// Separation at the start of the tick, m. For round shapes it includes the growth of the gap by sliding
   /// (parted_by_sliding() in lib/solver/contact_rows.cpp).
   alignas(sizeof(Real)) Real separation[k_manifold_points_max];
   Real impulse_max[k_manifold_points_max];  ///< largest normal impulse of this tick, m/s
@@ -137,7 +140,8 @@ struct alignas(8) ContactWork {
   Real angular_impulse[3];                  ///< about the normal and the tangents, m/s
   Real push_max;                            ///< largest separating speed of the position correction, m/s
   Real rebound_min;                         ///< approach speed below which the contact does not rebound, m/s
-  /// Normal velocity at touch, predicted from the motion at the start of the tick, m/s; negative when closing.
+  /// Normal velocity at the time of touch, predicted from the motion at the start of the tick, m/s; negative if the gap
+  /// closes.
   Real approach[k_manifold_points_max];
 };
 
@@ -149,13 +153,14 @@ struct ContactOrder {
   uint32_t island;
 };
 
-/// Awake bodies that contacts or joints connect, directly or through other bodies, with these contacts and joints.
+/// An island: awake bodies that contacts or joints connect, directly or through other bodies, and these contacts and
+/// joints.
 struct Island {
   uint32_t first_body, body_count;        ///< range in the list of bodies by island
   uint32_t first_contact, contact_count;  ///< range in the solve order
   uint32_t substeps;                      ///< number of substeps; before it is chosen, the minimum for its joints
   uint32_t first_joint, joint_count;      ///< range in the order of the joints
-  uint32_t joint_couplings_dropped;       ///< couplings for which the factor of its joints had no room
+  uint32_t joint_couplings_dropped;       ///< couplings of its joints that had no room in the factor
   Scaled joint_need;                      ///< square of the number of substeps that its joints need
 };
 
@@ -167,40 +172,41 @@ struct alignas(8) JointBodyStart {
   int32_t exponent;                    ///< the body's unit for joints is 2^exponent m
   int32_t above;                       ///< `exponent` minus the body's size_exponent
   uint32_t renewed;                    ///< 1 if its inverse inertia differs from that of the last substep
-  uint32_t slowed;                     ///< 1 if its joints increase its inertia: some kept_rotation is less than 1
+  uint32_t slowed;                     ///< 1 if its joints increase its inertia: an element of kept_rotation is below 1
   alignas(sizeof(Real)) Scaled inverse_mass;  ///< relative inverse mass: reference mass / mass; 0 if no joint moves it
 };
-/// The part that each substep recomputes. The body's *unit* is a power of two, m, that is at least as long as its
-/// joints' arms; angular velocities and angular momenta are in this unit (angular velocity.h). A body that the solver does not move
-/// has only a velocity and an angular velocity here.
+/// The part of a body with joints that each substep recomputes. The body's *unit* is a power of two, m, that is at
+/// least as long as its joints' arms; angular velocities and angular momenta are in this unit (angular_velocity.h). Of
+/// a body that the solver does not move, only the velocity and the angular velocity are set.
 struct alignas(8) JointBody : JointBodyStart {
   Vec3<Real> velocity_before;  ///< at the start of the substep, before forces and impulses, m/s
-  /// Angular momentum at the start of the substep, before forces and impulses, m/s (angular velocity.h). While positions are
-  /// integrated: the angular momentum with the inertia of the substep.
+  /// Angular momentum at the start of the substep, before forces and impulses, m/s (angular_velocity.h). While
+  /// positions are integrated: the angular momentum that belongs to the inertia of the substep.
   Vec3<Real> angular_momentum_before;
   Quat rotation;              ///< current
   Matrix3 axes;               ///< current
   Vec3<Real> place;           ///< displacement of its centre since the start of the tick, m
-  Vec3<Real> linear_velocity, angular_velocity;  ///< velocity and angular velocity from which the rows' speeds are computed, m/s
+  Vec3<Real> linear_velocity, angular_velocity;  ///< from these the rows' speeds are computed, m/s
   Real pushed;                ///< velocity per unit impulse
   Vec3<Real> turned[3];       ///< angular velocity per unit angular impulse: rows of a symmetric matrix
-  /// Fraction of the angular momentum about each axis that remains with the body's own inertia, at the same angular
-  /// velocity: joint_inertia.cpp.
+  /// About each body axis: the body's own inertia over its inertia in this substep, which joints may increase
+  /// (joint_inertia.cpp). At equal angular velocity, it is also the ratio of the angular momenta.
   alignas(sizeof(Real)) Scaled kept_rotation[3];
-  Vec3<Real> push, twist;              ///< velocity and momentum that the rows' impulses add, m/s
-  Vec3<Real> given_push, given_twist;  ///< the same by impulses without a row: motors at their limit, soft springs
+  Vec3<Real> push, twist;              ///< velocity, angular momentum that the rows' impulses add, m/s
+  Vec3<Real> given_push, given_twist;  ///< the same by impulses without a row: motors at full force, soft springs
   Vec3<Real> shift;                    ///< translation of its centre in this substep that closes gaps, m
   Vec3<Real> shift_rotation;               ///< rotation vector in this substep that closes gaps, rad
 };
 
-/// One row of a joint: it constrains the motion along `axis`, or, if `axis` is 0, a rotation.
+/// One row of a joint. A linear row constrains the motion along `axis`. If `axis` is 0, the row is angular: it
+/// constrains a rotation.
 struct JointRow {
   Vec3<Unit> axis;    ///< direction of the force; 0 for an angular row
   Vec3<Unit> arm[2];  ///< of A, of B: angular momentum per unit impulse
 };
 
-/// The most free motions of one joint that can have rows: motions along or about its axes, and other rotations that
-/// have friction or a spring.
+/// The largest number of free motions of one joint that can have rows: motions along or about its axes, and other
+/// rotations with friction or a spring.
 inline constexpr int k_free_motions = 3;
 
 /// The rows of a joint for the current poses of its bodies.
@@ -216,7 +222,8 @@ struct alignas(8) JointRows {
   Real shown[k_free_motions];  ///< fraction of a free motion's speed that its row measures
 };
 
-/// How a free motion of a joint is driven in a substep.
+/// What acts on a free motion of a joint in a substep: nothing, a lock, one of the limits, a rigid motor, a spring,
+/// friction (brake), or a constant impulse.
 enum class DriveMode : uint8_t { idle, held, lower, upper, rigid, spring, brake, constant };
 
 /// A joint that is solved in this tick: the part that is set once a tick.
@@ -228,13 +235,13 @@ struct alignas(8) JointWorkStart {
   uint32_t place;                   ///< position in the elimination order; UINT32_MAX: not eliminated yet
   uint32_t coupling;                ///< first coupling with a joint eliminated later; UINT32_MAX: none
   uint32_t degree;                  ///< while the order is computed: couplings with joints not eliminated yet
-  uint32_t mark;                    ///< while the order is computed: the last joint whose neighbours were marked
+  uint32_t mark;                    ///< while the order is computed: the last joint that marked this one as a neighbour
   uint32_t around[2];               ///< while the order is computed: previous and next joint of the same degree
   uint32_t rows;                    ///< number of rows in this substep
   uint32_t driven[k_free_motions];  ///< row of each free motion that is driven now, else k_joint_rows_max
   alignas(4) DriveMode mode[k_free_motions + 1];  ///< of each free motion
   int32_t exponent;                               ///< angular rows act at a radius of 2^exponent m
-  int32_t power[2];                               ///< exponents of the units of linear and angular rows: joint_factor.h
+  int32_t power[2];                               ///< exponents of units: linear rows, angular rows (joint_factor.h)
   alignas(sizeof(Real)) Vec3<Unit> anchor[2];     ///< in the bodies' axes and units
   Unit arm_length[2];                             ///< lengths of `anchor`
   alignas(sizeof(Real)) Scaled over_lighter;      ///< reference mass / mass of the lighter of its bodies
@@ -245,7 +252,7 @@ struct alignas(8) JointWorkStart {
   Real constant[k_free_motions];      ///< impulse of each free motion that acts without a row, m/s
   Real driven_total[k_free_motions];  ///< impulse of each free motion's row, in this substep
   Real given[k_free_motions];         ///< impulse of each free motion without a row, in this substep
-  Vec3<Real> force_sum, torque_sum;   ///< sums of impulses over the tick, m/s; of torques over 2^exponent m
+  Vec3<Real> force_sum, torque_sum;   ///< sums over the tick of impulses and of angular impulses / 2^exponent m, m/s
 };
 /// The part that each substep recomputes.
 struct alignas(8) JointWork : JointWorkStart, JointRows {
@@ -261,13 +268,14 @@ struct alignas(8) JointWork : JointWorkStart, JointRows {
   int32_t row_power[k_joint_rows_max];  ///< exponent of the unit of each row
 };
 
-/// Two joints that share a body, or that elimination of the joints between them couples: a block of the factor.
+/// A coupling of two joints: a block of the factor. The joints share a body, or the elimination of the joints between
+/// them couples them.
 struct JointCoupling {
   uint32_t joint[2];  ///< the joint that is eliminated first, the other joint
   /// Next coupling of the first joint with a joint eliminated later. While the order is computed: next coupling of each
   /// of the two joints, as 2 x coupling + end.
   uint32_t next[2];
-  uint32_t block;  ///< index of the block's first number; rows of the first joint by rows of the other
+  uint32_t block;  ///< index of the block's first number; size: rows of the first joint x rows of the other
 };
 
 /// The motion of a body for the rest of the tick, from its pose at `from`: constant velocity and constant angular
@@ -289,11 +297,11 @@ struct ImpactPair {
   Vec3<Real> point;   ///< of the next impact, on A's surface, m, from A's position then, world axes
   Vec3<Unit> normal;  ///< of the next impact, from A to B
   uint32_t more[2];   ///< index + 1 of the next pair in the lists of the lower and the higher slot; 0 at the end
-  uint8_t next;       ///< the next event: none, an impact, an undecided time, or a new test with less shrink depth
+  uint8_t next;       ///< kind of the next event: none, impact, undecided time, or new test with less shrink depth
   uint8_t impacts;    ///< impacts so far
   uint8_t tests;      ///< new tests so far
-  /// 1 after the shrink depth was increased, because the pair hit at a seam or the work budget was spent. The pair's
-  /// next event is then handled as an impact.
+  /// 1 after the shrink depth of the pair was increased, because the pair hit at a seam or the work budget was spent.
+  /// The pair's next event is then handled as an impact.
   uint8_t farther_in;
 };
 
@@ -306,7 +314,7 @@ struct ImpactHit {
   Real approach;      ///< approach speed of the surfaces, m/s
 };
 
-/// A part of a body's motion in a tick, until its next part begins or the tick ends; for tests.
+/// A segment of a body's motion in a tick. It ends where the next segment begins, or with the tick. For tests.
 struct SweepSegment {
   uint32_t body;  ///< slot
   uint32_t zero;

@@ -1,7 +1,7 @@
 #pragma once
 
-/// DETENT_SHARED marks a function with many callers whose code is larger than a call. Built for size (-Os), a program
-/// has one copy of it; at other levels the compiler decides.
+/// DETENT_SHARED marks a function that has many callers and is larger than a call. With -Os the function is never
+/// inlined, so a program has one copy of it. At other optimisation levels the compiler decides.
 ///
 /// DETENT_PASSING marks a function that only passes its arguments to such a function: at -Os it is always inlined.
 #if !defined(__OPTIMIZE_SIZE__)

@@ -7,7 +7,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The header of a block. Its values are checked when a snapshot is restored; it is not part of the digest.
+/// The header of a block. Its values are checked when a snapshot is restored. The digest does not cover it.
 struct alignas(8) BlockHeader {
   uint32_t magic;
   uint32_t format;
@@ -39,7 +39,7 @@ struct alignas(8) WorldState {
   uint32_t iterations;
   uint32_t sleeping;       ///< 1 if islands at rest fall asleep
   uint32_t continuous;     ///< 1 if continuous collision is on
-  uint32_t idle;           ///< 1 if no body moves and none changed: a step only counts the tick
+  uint32_t idle;           ///< 1 if no body moves or was changed: the next step only counts the tick
   uint32_t reduction;      ///< ManifoldReduction
   uint32_t stabilisation;  ///< Stabilisation
   uint32_t convergence;    ///< WorldDef::convergence
@@ -50,7 +50,7 @@ struct alignas(8) WorldState {
   Real damping_ratio;
   Real restitution_threshold;
   Real contact_margin;            ///< contact margin, over the smaller extent
-  Real contact_recycle_distance;  ///< largest motion with which contact points are recycled, over the smaller extent
+  Real contact_recycle_distance;  ///< largest motion at which contact points are recycled, over the smaller extent
 };
 
 struct BodyPose {
@@ -82,14 +82,14 @@ struct BodyProperties {
   uint32_t mask;      ///< Filter::mask
   int32_t group;      ///< Filter::group
   uint32_t rule;      ///< Filter::rule
-  /// In the body's unit: half extents; or (radius, half length, 0); or the greatest |x|, |y|, |z| of a hull, terrain or
-  /// compound.
+  /// In the body's unit. Box: half extents. Round shapes: (radius, half length, 0). Hull, terrain, compound: the
+  /// greatest |x|, |y|, |z|.
   Vec3<Unit> size;
   Unit bounding_radius;  ///< in the body's unit, `rounding` included
-  /// In the body's unit: radius of the ball that rounds a box, cylinder, cone or hull; of a compound the least half
-  /// thickness of a child; else 0.
+  /// In the body's unit. Box, cylinder, cone, hull: radius of the ball that rounds it. Compound: least half thickness
+  /// of a child. Other shapes: 0.
   Unit rounding;
-  Scaled mass;                ///< kg; of a body that is not dynamic the mass that it gets when it becomes dynamic, or 0
+  Scaled mass;                ///< kg; of a non-dynamic body: the mass that it gets when it becomes dynamic, or 0
   Scaled inverse_inertia[3];  ///< inverse inertia: m (2^size_exponent)^2 / I about each body axis; 0 if locked or not
                               ///< dynamic
   Scaled friction;
@@ -111,13 +111,13 @@ struct BodyActivity {
   uint32_t substeps;       ///< of its island in the last tick; 0 before the first tick, and without contacts
   uint32_t calm_ticks;     ///< ticks in a row in which fewer substeps would have been enough
   uint16_t still_ticks;    ///< ticks in a row at rest
-  uint16_t pending_event;  ///< pending BodyEventType, which the end of the step reports, or 0; between steps woke or 0
-  uint32_t asleep;         ///< slot + 1 of the first of the bodies that fell asleep together; 0: awake
+  uint16_t pending_event;  ///< BodyEventType that the end of the step reports, or 0; between steps: woke or 0
+  uint32_t asleep;         ///< slot + 1 of the first body of those that fell asleep together; 0: awake
 };
 
 constexpr uint32_t k_manifold_points_max = 4;
 
-/// A contact of two bodies, or of a part of a body, with the impulses that warm-start the next tick.
+/// A contact of two bodies, or of two parts of them, with the impulses that warm-start the next tick.
 struct ContactState {
   uint32_t body_a;  ///< slot index; body_a < body_b
   uint32_t body_b;
@@ -135,15 +135,16 @@ struct ContactState {
   Real load;
 };
 
-/// The geometry from which the points of a contact were computed, to recycle them while the pair hardly moves. All zero
-/// for a contact that is recomputed in each tick. The *base* is the body with the larger bounding radius, at equal
-/// radii A. Lengths are in 4 times the base's unit of length, if no other unit is given.
+/// The relative pose and the points of a contact when its points were computed. The points are recycled while the pair
+/// hardly moves. All zero for a contact whose points are recomputed in each tick. The *base* is the body with the
+/// larger bounding radius; if the radii are equal, A. Lengths are in units of 4 times the base's unit of length, if no
+/// other unit is given.
 struct ManifoldState {
   Vec3<Unit> normal;                         ///< from the base to the other body, in the base's axes
   Vec3<Unit> offset;                         ///< from the base's centre to the other body's, in the base's axes
   Quat rotation;                             ///< of the other body, in the base's axes
   Unit height[k_manifold_points_max];        ///< separation of a point minus its coordinate along the normal
-  int16_t anchor[k_manifold_points_max][3];  ///< the points, from the other's centre, in its axes; 2^-15 of its unit
+  int16_t anchor[k_manifold_points_max][3];  ///< the points, from the other body, in its axes; 2^-15 of its unit
 };
 
 /// A body within a sensor.
@@ -180,7 +181,7 @@ struct alignas(8) JointState {
   Scaled break_torque;
   Vec3<Scaled> force;              ///< on B in the last tick, N, world
   Vec3<Scaled> torque;             ///< on B in the last tick, N m, world
-  Real impulse[k_joint_rows_max];  ///< of its rows in the last substep, over the reference mass, m/s (joint.h)
+  Real impulse[k_joint_rows_max];  ///< of its rows, from the last substep (joint.h), m/s
 };
 
 /// The kind of a bound asset. Stored: a value is never reused.
