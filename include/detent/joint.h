@@ -20,7 +20,7 @@ enum class JointType : uint32_t {
   /// A is the chassis: B's anchor lies on A's x axis (the suspension), and B's z axis stays parallel to A's (the axle).
   /// `axis`: the position along the suspension; `second`: the wheel's angle about the axle.
   wheel = 7,
-  parallel = 8,  ///< the x axes are parallel, for example of an upright body; all else is free; `axis`: as for a hinge
+  parallel = 8,  ///< the x axes are parallel, all else is free; can keep a body upright; `axis`: as for a hinge
   filter = 9,    ///< all motions are free; A and B do not collide
 };
 inline constexpr JointType k_joint_type_last = JointType::filter;  ///< the largest value of a joint type

@@ -191,7 +191,7 @@ struct LossReport {
   /// Contacts beyond Capacity::contacts, or beyond eight for one pair. The shallowest are dropped: they are not solved
   /// in this tick.
   uint32_t contacts = 0;
-  /// The part of `contacts` that was beyond eight for one pair. A larger capacity does not prevent these losses.
+  /// The part of `contacts` that was beyond eight for one pair. A larger capacity does not prevent this.
   uint32_t contact_parts = 0;
   /// Couplings between joints that had no room in the joint solver, because the joints form too many loops. The joints
   /// that they couple become softer.
@@ -303,7 +303,7 @@ Status set_user_data(World& world, BodyId id, uint32_t user_data);
 Status set_filter(World& world, BodyId id, const Filter& filter);
 /// Binds the table's asset `index` to the state by its content digest. Cooked shapes are checked in full.
 /// Errors: asset_missing, out_of_range, asset_mismatch (bodies use the asset that was bound at this index),
-/// feature_missing (the features that read this kind of asset).
+/// feature_missing (the world has neither hulls, terrains nor compounds).
 Status bind_asset(World& world, uint32_t index);
 
 /// Advances the world by one tick. A step never fails: the report counts overflows, clamped values and undecided tests.

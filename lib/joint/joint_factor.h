@@ -64,7 +64,7 @@ class ProductSum {
 #endif
 };
 
-/// Computes the part of J v of one body, for each row of a joint. For A, the sign of the result is reversed.
+/// Computes the part of J v of one body, for each row of a joint: axis . v + arm . w. For A, the caller must negate it.
 inline void show(const JointWork& work, uint32_t end, const Vec3<Real>& linear_velocity,
                  const Vec3<Real>& angular_velocity, Real (&speed)[k_joint_rows_max]) {
   if (work.points != 0) {

@@ -73,7 +73,8 @@ class Eliminator {
   /// First joint in the list of each degree.
   uint32_t head_[k_degrees];
 
-  /// Whether the two joints are already coupled by their other common body, if they connect the same two bodies.
+  /// Whether the two joints connect the same two bodies, and the other body, with a lower index, has coupled them
+  /// already.
   bool is_coupled_before(uint32_t one, uint32_t other, uint32_t place) const {
     const JointWork &p = stage_.work[one], &q = stage_.work[other];
     const auto holds = [](const JointWork& work, uint32_t body) {

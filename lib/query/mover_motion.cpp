@@ -81,7 +81,7 @@ QueryReport MoverMotion::ask(Status (*call)(const World&, const Query&, QueryHit
   return answer;
 }
 
-/// Whether the mover is stuck: even its core overlaps something, or a query failed.
+/// Whether the mover is stuck: its shrunken core overlaps a body, or a query failed.
 bool MoverMotion::caught() const {
   return status_ != Status::ok || free_radius_ < scale_by_power(settings_.radius, k_core_power);
 }
@@ -294,7 +294,7 @@ Vec3<Real> MoverMotion::slide(Vec3<Real> displacement, MoverGait gait) {
     step_along(next);
     const Vec3<Real> gone = real_difference(position_, from);
     displacement -= gone;
-    if (gait == MoverGait::walk) displacement -= up_ * dot(displacement, up_);  // the lift by floors need not be undone
+    if (gait == MoverGait::walk) displacement -= up_ * dot(displacement, up_);  // do not undo the rise by floors
     if (within(displacement, k_mover_still) || (within(gone, k_mover_still) && hit_count_ == hits_before))
       return displacement;
   }
@@ -352,7 +352,7 @@ bool MoverMotion::climb(const Vec3<Real>& rest) {
   };
   go(up_ * settings_.step_height);
   if (rise() > half_gap) {
-    // Far enough that the mover comes to rest on the edge and not in the gap before it.
+    // The forward motion is at least twice the gap, so that the mover stands on the edge and not before it.
     slide(forward * max(size, scale_by_power(settings_.gap, 1)), MoverGait::walk);
     if (gets_on()) {
       go(up_ * -rise());

@@ -6,7 +6,8 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Limits of a motion: planes of nearby bodies, and changes of direction, each of which can add one plane.
+/// Limits of a motion: the number of planes of nearby bodies, and of changes of direction, each of which can add one
+/// plane.
 inline constexpr uint32_t k_mover_near_max = 16, k_mover_rounds_max = 8;
 inline constexpr uint32_t k_mover_planes_max = k_mover_near_max + k_mover_rounds_max;
 
@@ -21,16 +22,16 @@ class MoverMotion {
   /// ok, or the status of the last query that failed.
   Status status() const { return status_; }
 
-  /// Ignores this body from now on; null: ignores none.
+  /// Makes the motion pass through this body from now on; null: through no body.
   void pass(BodyId body) {
     passed_ = body;
     known_ = false;
   }
   /// Moves by `displacement`, sliding along obstacles. Returns the part of the displacement that is left.
   Vec3<Real> slide(Vec3<Real> displacement, MoverGait gait);
-  /// Moves along `displacement` and stops at the gap before the first obstacle.
+  /// Moves along `displacement`, without sliding, until only the gap is left to the first obstacle.
   void go(const Vec3<Real>& displacement);
-  /// Moves out of bodies that are nearer than the gap; the report holds the remaining overlap.
+  /// Moves away from bodies that are nearer than the gap. Stores the remaining overlap in the report.
   void recover();
   /// The floor that the mover stands on, or null. It may be an edge whose normal is not that of a floor.
   const MoverPlane* find_floor();

@@ -22,7 +22,7 @@ enum class Footing : uint32_t {
   edge,   ///< the edge of a floor
 };
 
-/// A plane between a mover and a body. It separates the two as long as the mover stays on its side.
+/// A plane that separates a mover from a body.
 struct MoverPlane {
   Vec3<Unit> normal;  ///< outward normal of the body
   Real room;          ///< distance along the normal until only the gap is left, m; negative: the mover is too near
@@ -40,15 +40,15 @@ inline constexpr Real k_mover_still = Real(0x1p-15);
 inline constexpr Real k_mover_still = Real(0x1p-20);
 #endif
 
-/// The displacement nearest to `wish` that keeps the gap to every plane; zero always does. A floor changes it along
-/// `up`, which keeps its horizontal part; other planes change it according to the gait. Bit i of `touched` is set if
-/// plane i changed it. Source: Hildreth, "A quadratic programming procedure", 1957; for corrections that are not along
-/// the normal, Cottle, Pang, Stone, "The Linear Complementarity Problem", 5.2.
+/// Returns the displacement nearest to `wish` that keeps the gap to every plane; zero always satisfies this. A floor
+/// changes the displacement only along `up`, so its horizontal part stays. Other planes change it according to the
+/// gait. Bit i of `touched` is set if plane i changed it. Source: Hildreth, "A quadratic programming procedure", 1957;
+/// for corrections that are not along the normal, Cottle, Pang, Stone, "The Linear Complementarity Problem", 5.2.
 Vec3<Real> slide_between(Span<const MoverPlane> planes, const Vec3<Real>& wish, const Vec3<Unit>& up, MoverGait gait,
                          uint32_t& touched);
 
-/// A displacement that restores the gap to planes that are too near. If the planes leave no room, it leads to a place
-/// in the middle.
+/// Returns a displacement that restores the gap to the planes that are too near. If there is no position with the gap
+/// to all planes, the displacement leads to a position in the middle between them.
 Vec3<Real> push_out_of(Span<const MoverPlane> planes);
 
 }  // namespace DETENT_NAMESPACE

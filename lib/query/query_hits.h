@@ -6,8 +6,9 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The order of hits, also of hits with the triangles of one terrain. Of two equally near hits the decided one comes
-/// before the undecided one. A candidate that cannot come before a decided hit therefore need not be tested.
+/// The order of hits, of bodies and of the triangles of a terrain. Of two equally near hits, a decided hit comes before
+/// an undecided hit. Therefore a candidate that is certainly not nearer than a decided hit, and comes after it at equal
+/// distance, need not be tested.
 struct HitOrder {
   bool operator()(const QueryHit& a, const QueryHit& b) const;
 };
@@ -25,7 +26,7 @@ class HitCollector {
   /// The current limits in time and distance: a later or farther hit cannot be in the result.
   Fraction end() const { return end_; }
   Real distance_max() const { return distance_max_; }
-  /// Whether no body with this slot or a higher one can be in the result, at any distance.
+  /// Whether a body with this slot or a higher slot cannot be in the result, at any distance.
   bool rules_out(uint32_t slot) const { return first_slot_ <= slot; }
 
  private:

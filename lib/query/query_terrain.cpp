@@ -12,8 +12,8 @@ namespace {
 
 /// The tolerance of the narrow phase is less than 2^-18 of the sizes and distances of a pair.
 constexpr int k_tolerance_power = 18;
-/// A displacement is searched in up to 2^6 pieces. A search distance starts at 2^-8 of its value and is doubled.
-/// Triangles far from the hit are then not tested.
+/// A displacement is searched in up to 2^k_pieces_power pieces. A search distance starts at 2^-k_reaches_power of its
+/// final value and is doubled. So triangles far from the hit are not tested.
 constexpr int k_pieces_power = 6, k_reaches_power = 8;
 
 /// A search over the triangles around a shape, in the terrain's axes.
@@ -78,7 +78,7 @@ struct TriangleSearch {
 
   template <class Search>
   static void visit(Search& search, const Vec64& low, const Vec64& high) {
-    constexpr int64_t k_most = int64_t{1} << 61;  // every coordinate of a terrain is at most half of this
+    constexpr int64_t k_most = int64_t{1} << 61;  // coordinates of a terrain are at most half of this
     const auto held = [](int64_t value) { return value > k_most ? k_most : value < -k_most ? -k_most : value; };
     search.ground.code.visit(
         search.ground.terrain, {held(low.x), held(low.y), held(low.z)}, {held(high.x), held(high.y), held(high.z)},

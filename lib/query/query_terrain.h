@@ -3,7 +3,7 @@
 #include "world/query_bodies.h"
 
 /// Queries against a body that is a terrain (a mesh or height field), triangle by triangle. They call the terrain code
-/// only through the world's feature table, so that a program without terrains does not link it.
+/// only through the world's feature table. So a program without terrains does not link this code.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -31,7 +31,7 @@ Status cast_on_terrain(const AskedSurface& ground, const QueryShape& shape, cons
 Status near_on_terrain(const AskedSurface& ground, const QueryShape& shape, const Pose& at, Real distance_max,
                        QueryHit& hit, bool& touched);
 /// The normal of a triangle on the side of a point, in world axes, and the height of the point above the plane on that
-/// side, m. For a one-sided terrain it is always the front, and the height may be negative. Errors: as
+/// side, m. For a one-sided terrain the side is always the front, so the height may be negative. Errors: as
 /// place_on_terrain().
 Status side_of_triangle(const AskedSurface& ground, uint32_t triangle, const Pose& at, Vec3<Unit>& normal,
                         Real& height);

@@ -4,9 +4,9 @@
 
 #include "state/fields.h"
 
-/// Three operations on a list of fields. A type lists its fields once, in a `visit(archive, value)`; the archive
-/// decides the operation: Writer writes the fields as canonical bytes, Reader reads them from such bytes, Normaliser
-/// brings them into the form that can be written.
+/// Three operations on a list of fields. A type lists its fields once, in a function `visit(archive, value)`. The class
+/// of the archive determines the operation: Writer writes the fields as canonical bytes, Reader reads them from
+/// canonical bytes, and Normaliser changes values to a form that can be written.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -106,8 +106,8 @@ void visit_number(Archive& archive, const char* name, Fixed<Int, frac>& value) {
   visit_bits(archive, name, value.raw);
 }
 /// The IEEE bits. The code uses only integer arithmetic, so the caller's floating-point modes do not matter. Negative
-/// zero, infinities and NaN are rejected; the Normaliser replaces negative zero by zero. The bits of zeros and NaN
-/// differ between machines.
+/// zero, infinities and NaN are rejected, because machines differ in the sign of zeros and the bits of NaN. The
+/// Normaliser replaces negative zero by zero.
 void visit_number(Archive& archive, const char* name, float& value);
 void visit_number(Archive& archive, const char* name, double& value);
 #if DETENT_FIXED

@@ -249,7 +249,7 @@ Status Player::call(World* world, uint32_t tag, Reader& reader, uint64_t offset)
   alignas(8) uint8_t command[k_command_bytes_max] = {};
   code->visit(reader, command);
   if (reader.failed != nullptr || world == nullptr) return Status::ok;
-  BodyId recorded, given;  // or joint ids
+  BodyId recorded, given;  // for joints: the joint ids
   memcpy(&recorded, command, sizeof recorded);
   const Status status = code->apply(*world, command);
   memcpy(&given, command, sizeof given);

@@ -4,8 +4,8 @@
 
 #include "replay/command.h"
 
-/// Every query of query.h as a value, like the calls of command.h. The record of a query has a length, so that a reader
-/// which does not repeat queries can skip it.
+/// Every query of query.h as a value, like the calls of command.h. The record of a query begins with its length, so
+/// that a reader that does not repeat queries can skip the record.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 

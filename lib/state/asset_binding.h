@@ -8,7 +8,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The kind of asset that a shape needs; none for shapes without an asset.
+/// The kind of asset that a shape needs; AssetKind::none for shapes without an asset.
 inline AssetKind asset_kind_of(ShapeType shape) {
   return shape == ShapeType::hull       ? AssetKind::hull
          : shape == ShapeType::terrain  ? AssetKind::terrain
@@ -19,15 +19,15 @@ inline bool is_shape_of(const BodyProperties& body, uint32_t asset) {
   return body.type != 0 && asset_kind_of(static_cast<ShapeType>(body.shape)) != AssetKind::none && body.asset == asset;
 }
 
-/// Computes the description of the table's asset `index` that the state keeps. Errors: asset_missing; feature_missing
-/// if the feature table can read no kind of asset.
+/// Computes the description of asset `index` of the table, which the state stores. Errors: asset_missing;
+/// feature_missing (the feature table has neither hulls, terrains nor compounds).
 Status describe_asset(AssetTable table, uint32_t index, const FeatureTable& features, AssetState& description);
 
 /// Checks that every bound asset matches the table. Errors: asset_missing, asset_mismatch, feature_missing.
 Status check_assets(AssetTable table, const FeatureTable& features, Span<const AssetState> bound);
 
-/// Checks the asset of a shape for a body of this type: the state must have bound it, with the kind that the shape
-/// needs, and the table must hold it. Errors: out_of_range, asset_missing, bad_argument.
+/// Checks the asset of a shape for a body of this type. The asset must be bound in the state, must have the kind that
+/// the shape needs, and must be in the table. Errors: out_of_range, asset_missing, bad_argument.
 Status find_shape(const World& world, ShapeType shape, uint32_t asset, BodyType type);
 
 }  // namespace DETENT_NAMESPACE

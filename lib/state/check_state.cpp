@@ -36,14 +36,14 @@ bool is_pose(const BodyPose& pose) {
 
 bool is_unit_size(Unit value) { return value >= Unit(0.0) && value <= Unit(1.0); }
 
-/// Whether the bounding radius is that of set_shape_properties(), except for the rounding of the sizes. body_convex()
-/// allows this difference.
+/// Whether the bounding radius equals that of set_shape_properties(), up to the rounding of the sizes. body_convex()
+/// permits this difference.
 bool is_bound(Unit bound, Unit expected) {
   constexpr Unit k_error = sizeof(Unit) == 4 && !DETENT_FIXED ? 0x1p-23 : 0x1p-28;
   return bound >= Unit(0.49) && bound <= Unit(1.0) && abs(bound - expected) <= k_error;
 }
 
-/// The same for a core with rounding; their sum need not fit a Unit.
+/// The same for a core and its rounding, because the sum of both may exceed the range of a Unit.
 bool is_bound_of(Unit core, const BodyProperties& properties) {
   return core <= Unit(1.5) - properties.rounding && is_bound(properties.bounding_radius, core + properties.rounding);
 }
@@ -135,7 +135,7 @@ bool has_mass(const BodyProperties& properties) {
          properties.inverse_inertia[1] == none && properties.inverse_inertia[2] == none;
 }
 
-/// The features that the state's world has linked.
+/// The features of the world that the state comes from.
 Features features_of(const State& state) {
   return without(Features::all, static_cast<Features>(state.header.left_out));
 }

@@ -45,7 +45,7 @@ struct DeltaWriter {
   void put_word(const uint8_t* word, uint64_t difference) {
     uint8_t made[9];
     uint32_t size = 1, mask = 0;
-    for (uint32_t i = 0; i < 8; ++i) {  // the next byte overwrites a byte that does not differ
+    for (uint32_t i = 0; i < 8; ++i) {  // if this byte does not differ, the next byte overwrites it
       const uint32_t differs = (difference >> (8 * i) & 255) != 0 ? 1 : 0;
       mask |= differs << i;
       made[size] = word[i];
@@ -61,7 +61,8 @@ struct DeltaWriter {
   }
 };
 
-/// Compares words of canonical bytes as they arrive. The output does not depend on how they are divided into pieces.
+/// Compares words of canonical bytes, which add() receives piece by piece. The output does not depend on the sizes of
+/// the pieces.
 struct Differ {
   DeltaWriter& writer;
   uint32_t same = 0;  ///< number of equal words since the last word that differs
@@ -106,7 +107,8 @@ struct DeltaReader {
   }
 };
 
-/// Reads all words of a delta, and changes them in `bytes` unless it is null. False if they do not fit `words`.
+/// Reads all words of a delta. Applies the differences to `bytes`, unless `bytes` is null. Returns false if the delta
+/// does not describe exactly `words` words.
 bool read_words(DeltaReader reader, uint32_t words, uint8_t* bytes) {
   for (uint32_t at = 0; reader.left != 0;) {
     uint8_t mask = 0;

@@ -1,8 +1,9 @@
 #pragma once
 #include <detent/detail/layout.h>
 
-/// The layout table: it lists every array of the persistent state and every field of its elements once. The big-endian
-/// swap, the digest, the checks of incoming snapshots and the difference tool use it.
+/// The layout table. It lists every array of the persistent state, and every field of the arrays' elements, once. The
+/// byte swap of big-endian machines, the digest, the checks of incoming snapshots and the difference tool use this
+/// table.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -22,7 +23,7 @@ struct Field {
   const char* name;
   uint32_t offset, width, count;
   WordKind kind;
-  uint32_t components;  ///< numbers per value: of a vector or rotation, else 1; a field may hold several values
+  uint32_t components;  ///< numbers per value: 3 or 4 for a vector or rotation, else 1; a field may hold several values
   const char* measured_in;
 };
 
@@ -32,8 +33,8 @@ struct Section {
   uint32_t Layout::*offset;
 };
 
-/// The fields of a section's elements. It is a separate table because a little-endian program does not need it in
-/// flash.
+/// The fields of the elements of a section. This is a separate table, because a little-endian program does not need it
+/// in flash.
 struct SectionFields {
   const char* name;
   const Field* fields;
@@ -228,7 +229,7 @@ inline constexpr Field k_sensed_fields[] = {
     DETENT_FIELD(SensedState, sensor),
     DETENT_FIELD(SensedState, body),
 };
-/// Whether the fields follow one another without gaps and fill the element, so that no byte is padding.
+/// Whether the fields follow one another without gaps and fill the element, so that the element has no padding.
 template <uint32_t n>
 constexpr bool tiles(const Field (&fields)[n], uint32_t element_bytes) {
   uint32_t end = 0;
@@ -288,8 +289,8 @@ inline constexpr SectionFields k_section_fields[k_section_count] = {
     section_fields("sensed", k_sensed_fields),
 };
 
-/// The size of a section, with its alignment fill. The fill counts as further elements or left-over bytes; it is always
-/// zero.
+/// The size of a section, bytes, including the fill up to the alignment of the next section. The fill is always zero.
+/// It counts as further elements, or as left-over bytes.
 inline uint32_t section_bytes(const Layout& layout, uint32_t index) {
   const uint32_t end = index + 1 < k_section_count ? layout.*k_sections[index + 1].offset : layout.persistent_bytes;
   return end - layout.*k_sections[index].offset;

@@ -8,7 +8,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr Real k_axis_max = 16384.0;  ///< limit of a translation limit or target, m
+constexpr Real k_axis_max = 16384.0;  ///< largest magnitude of a length limit or target of a joint, m
 constexpr Real k_angle_max = 3.14159265358979323846;
 constexpr Real k_frequency_min = 0x1p-10;
 constexpr Real k_frequency_max = 1024.0;
@@ -18,7 +18,7 @@ constexpr Scaled k_force_max = 0x1p60;
 
 bool is_axis(const JointState& joint, int i) {
   const JointType type = static_cast<JointType>(joint.type);
-  // Values that have no meaning for a type count as a length on the first axis and as an angle on the second.
+  // Values without meaning for the type are checked too: on the first axis as lengths, on the second as angles.
   const bool angle = i == 1 || (free_motion_count(type) != 0 && is_angular(type, i));
   const Real most = angle ? k_angle_max : k_axis_max;
   const bool frequency = joint.frequency[i] == k_zero || within(joint.frequency[i], k_frequency_min, k_frequency_max);

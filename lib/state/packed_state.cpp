@@ -6,8 +6,9 @@
 #include "base/bytes.h"
 #include "state/used.h"
 
-// Format: the header and the world unchanged, the number of assets in use, then the used elements of each section. Rare
-// parts of an element are left out if they are zero; such an element begins with a byte that flags the present parts.
+// Format: the header and the world unchanged, the number of assets in use, then the used elements of each section. An
+// element with optional parts begins with a byte of flags for the parts that are present; parts that are zero are
+// omitted.
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -47,7 +48,7 @@ class Packer {
   void rare_part(const uint8_t* element) {
     const uint32_t there = is_zero<end - first>(element + first) ? 0 : 1;
     *flags_ = static_cast<uint8_t>(*flags_ | there << bit_++);
-    memcpy(at_, element + first, end - first);  // the next part overwrites one that is left out
+    memcpy(at_, element + first, end - first);  // if this part is omitted, the next part overwrites it
     at_ += there * (end - first);
   }
 
@@ -84,7 +85,7 @@ class Unpacker {
   uint32_t flags_ = 0;
 };
 
-/// The parts of an element of each section with rare parts, for packing and unpacking.
+/// For each section with optional parts: the parts of an element, for packing and unpacking.
 struct MotionParts {
   template <class Mover, class Byte>
   static void move(Mover& mover, Byte* motion) {

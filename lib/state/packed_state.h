@@ -1,9 +1,9 @@
 #pragma once
 #include "state/view.h"
 
-/// The format of a state in the ring of the last ticks. It holds the elements in use and leaves out parts that are
-/// mostly zero: pending forces, the second to fourth points of contacts, manifolds that are not recycled. The format is
-/// only valid within this program.
+/// The packed format of a state, which SnapshotRing uses. It holds only the elements in use. Of these it omits some
+/// parts if they are zero: pending forces, the second to fourth points of contacts, manifolds that are not recycled.
+/// Only this program can read the format.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -11,7 +11,7 @@ inline namespace DETENT_NAMESPACE {
 /// packed_bytes_max().
 uint32_t pack_state(const StateView<const uint8_t>& state, uint8_t* bytes);
 
-/// Replaces the state of `to`, which must hold a valid state, by the packed one. Leaves the header as it is.
+/// Replaces the state of `to` by the packed state. `to` must hold a valid state. The header does not change.
 void unpack_state(const uint8_t* bytes, const StateView<uint8_t>& to);
 
 }  // namespace DETENT_NAMESPACE

@@ -4,21 +4,21 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Reads the canonical bytes [offset, offset + count) of the world's snapshot, for writers that cannot hold all of it.
-/// False if they extend beyond its end.
+/// Reads the canonical bytes [offset, offset + count) of the world's snapshot, for a writer that has no buffer for the
+/// whole snapshot. Returns false if the range extends beyond the end of the snapshot.
 bool snapshot_read(const World& world, uint32_t offset, uint8_t* bytes, uint32_t count);
 
-/// Replaces the contents of the block by a new empty world with default settings. `capacity` must be the world's own.
-/// The caller's pointers in the handle stay as they are.
+/// Replaces the contents of the block by a new empty world with default settings. `capacity` must be that of the world.
+/// World::hooks does not change.
 Status empty_world(World& world, Capacity capacity);
 
-/// As `load`, but reads the canonical bytes by `read` straight into the world's block. On failure the world is left
+/// As `load`, but reads the canonical bytes with `read`, directly into the world's block. On failure the world is left
 /// empty. `read` supplies all bytes [offset, offset + count) or returns a status other than ok.
 Status load_from(World& world, Status (*read)(void* context, uint32_t offset, uint8_t* bytes, uint32_t count),
                  void* context);
 
-/// Checks persistent state in the machine's byte order: every value must be in its range and consistent with the other
-/// values, so that no call on this state can misbehave. Errors: as `load`.
+/// Checks a persistent state in the machine's byte order. Every value must be in its range and consistent with the
+/// other values, so that every call on this state is safe. Errors: as `load`.
 Status check_state(const uint8_t* block, Capacity capacity, AssetTable assets, const FeatureTable& features,
                    const FilterRuleTable& rules);
 
@@ -31,8 +31,8 @@ Status check_canonical_header(const uint8_t* bytes, Capacity capacity, const Fea
 /// Converts between the machine's byte order and the canonical one, in place. Does nothing on little-endian machines.
 void swap_state(uint8_t* block, const Layout& layout);
 
-/// Adopts a state of another world, which may have had fewer features: sets the header's features and invalidates the
-/// step cache.
+/// Must be called after a state of another world was copied into the block. Sets the features in the header, because
+/// the other world may have had fewer, and invalidates the step cache.
 void take_over(World& world);
 
 }  // namespace DETENT_NAMESPACE

@@ -22,7 +22,8 @@ Span<const uint32_t> partition_bodies(const StepCacheView& step, const StepSetti
                                       Span<uint32_t> slots) {
   step.cache.tree.visited = 0;
   if (step.cache.fresh == 0) make_anew(step, state);
-  // All bodies of the active set leave the tree before one enters: the keys of the remaining bodies must not change.
+  // All bodies of the active set are removed from the tree before any is inserted, because the bounds of a body in the
+  // tree must not change.
   step.active.for_each([&](uint32_t slot) {
     if (step.tree.has(slot)) step.tree.remove(slot);
   });

@@ -4,9 +4,8 @@
 #include "motion/step_settings.h"
 #include "state/view.h"
 
-/// Data that steps keep from tick to tick, and changes that calls make between steps. A call that changes a body marks
-/// the body here, and the next step evaluates it. After create_world(), restore and load the next step builds all of it
-/// anew.
+/// Data that steps keep between ticks. A call that changes a body adds the body to the active set, so that the next
+/// step evaluates it. After create_world(), restore() and load(), the next step recomputes all of this data.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -37,8 +36,9 @@ inline StepCacheView cache_of(StateView<uint8_t>& state) {
 /// Invalidates the cache, after the state was replaced from outside.
 inline void forget_steps(World& world) { at_offset<StepCache>(world.block, view_of(world).layout.cache)->fresh = 0; }
 
-/// Partitions the active set into moving bodies, which it returns in ascending order, and resting bodies, which enter
-/// the tree. It starts their tick and computes their bounds. `slots` is work space for the body capacity.
+/// Partitions the active set into moving bodies and resting bodies. Returns the moving bodies, ascending; inserts the
+/// resting bodies into the tree. Starts the tick of all these bodies and computes their bounds. `slots` is work space
+/// for the body capacity.
 Span<const uint32_t> partition_bodies(const StepCacheView& step, const StepSettings& settings,
                                       const StateView<uint8_t>& state, Span<BodyWork> work, Span<BodySweep> sweeps,
                                       Span<uint32_t> slots);

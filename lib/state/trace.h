@@ -1,13 +1,14 @@
 #pragma once
 #include "state/fields.h"
 
-/// The data of a world that is compared at the end of each stage of a step, to find the first difference between two
-/// machines where it arises: the current persistent state, and the work-space data from which the next state follows.
+/// The data of a world that tools compare at the end of each stage of a step, to find the stage in which two machines
+/// first differ. It consists of the current persistent state, and of the data in the work space that determines the
+/// next state.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Stored in files: a value is never reused. The values between the first and the last are the stages of StepStage; an
-/// idle step has none of them.
+/// The times in a tick at which data is traced. Stored in files: a value is never reused. The values between the first
+/// and the last are the stages of StepStage. An idle step has only the first and the last.
 enum class TraceStage : uint32_t {
   calls = 0,  ///< after the calls, before the step
   find_pairs = 1,
@@ -23,7 +24,7 @@ constexpr TraceStage trace_stage(StepStage stage) {
 /// The kind of the elements of a part.
 enum class TraceKind : uint32_t { world, body, slot_word, contact, asset, joint, sensed };
 
-/// A kind of element that is compared.
+/// A kind of element that is traced.
 struct TracePart {
   uint32_t number;  ///< stored: never reused. For the state, the index of the section
   const char* name;
@@ -32,7 +33,7 @@ struct TracePart {
   uint32_t element_bytes;
   TraceKind kind;
   uint32_t key_words;  ///< number of leading 4-byte words that identify the element
-  bool sorted;         ///< sorted by these words: the index in the array has no meaning
+  bool sorted;         ///< the array is sorted by these words, so the index of an element has no meaning
 };
 inline constexpr uint32_t k_trace_part_count = 15;
 extern const TracePart k_trace_parts[k_trace_part_count];
@@ -64,7 +65,8 @@ struct TraceSweep {
   Vec3<Real> displacement, rotation_vector;
 };
 
-/// Receives an element's canonical bytes. `place`: the index in its array; for bodies, the slot index.
+/// Receives the canonical bytes of an element. `place`: the index of the element in its array; for a body, its slot
+/// index.
 struct TraceVisitor {
   void (*take)(void* context, const TracePart& part, uint32_t place, const uint8_t* bytes);
   void* context;

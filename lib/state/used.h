@@ -2,7 +2,7 @@
 #include "state/fields.h"
 #include "state/view.h"
 
-/// The parts of a state that are in use. All other bytes are zero, so a copy may leave them out.
+/// The parts of a state that are in use. All other bytes are zero, so a copy need not contain them.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -11,7 +11,7 @@ struct UsedCounts {
   uint32_t of[k_section_count];
 };
 
-/// `assets`: as used_assets().
+/// Computes the number of used elements of each section. `assets`: the result of used_assets().
 UsedCounts used_counts(const WorldState& world, uint32_t assets, bool has_manifolds);
 UsedCounts used_counts(const StateView<const uint8_t>& state);
 

@@ -13,7 +13,7 @@ inline constexpr uint32_t k_snapshot_format = 5;
 inline uint32_t left_out(const FeatureTable& features) {
   return static_cast<uint32_t>(without(Features::all, features.features));
 }
-/// The features that a world's settings need.
+/// The features that a world needs for these settings.
 inline Features features_of(bool continuous, bool sleeping) {
   return (continuous ? Features::continuous : Features::none) | (sleeping ? Features::sleeping : Features::none);
 }
@@ -59,7 +59,7 @@ typename Select<T, Byte>::Type* at_offset(Byte* block, uint32_t offset) {
   return reinterpret_cast<typename Select<T, Byte>::Type*>(block + offset);
 }
 
-/// The arrays of a block of the given capacity. Range: a valid capacity.
+/// Returns the arrays of a block of this capacity, which must be valid.
 template <class Byte>
 DETENT_SHARED StateView<Byte> view_of(Byte* block, Capacity capacity) {
   bool fits = false;
@@ -89,7 +89,7 @@ DETENT_SHARED inline StateView<const uint8_t> view_of(const World& world) {
 /// Finds the slot of a live body. False if there is none.
 template <class Byte>
 bool find_body(const StateView<Byte>& state, BodyId id, uint32_t& slot) {
-  slot = id.slot - 1;  // the null id wraps to a slot beyond every capacity
+  slot = id.slot - 1;  // slot 0 of the null id wraps to a slot beyond every capacity
   return slot < state.properties.count && state.properties[slot].type != 0 &&
          state.properties[slot].generation == id.generation;
 }
