@@ -13,7 +13,7 @@ namespace {
 /// The numbers of substeps that an island can have. If the limit of the island lies between two of them, the limit is
 /// possible too.
 constexpr uint32_t k_notches[] = {1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64};
-/// A lower number n of substeps counts as enough if the needed squared number is at most k_in_hand n^2.
+/// A lower number of substeps is enough if the need is at most this fraction of its square.
 constexpr Scaled k_in_hand = 0.6;
 /// The least number of bodies of a run that can buckle: a shorter run sinks before it buckles.
 constexpr uint32_t k_run_min = 3;
@@ -232,7 +232,7 @@ void estimate_loads(const StepSettings& settings, Span<const BodyPose> poses, Sp
 
 void store_load(const StepSettings& settings, ContactWork& contact) {
   Real impulse = 0.0;
-  // The sum of four impulses may exceed the range of Real; it is clamped, because it would wrap.
+  // The sum of four may exceed the range of Real, and would wrap.
   for (const Real part : contact.state.normal_impulse) impulse += min(part, k_real_max - impulse);
   bool saturated = false;
   const Real force = multiply(impulse, settings.rate, saturated);

@@ -46,15 +46,15 @@ struct BoundsKey {
   uint32_t across_lower, across_upper;  ///< along the other two axes, 15 bits each
 };
 
-/// A body's inverse inertia (per unit mass) in world axes: angular velocity = inverse inertia x angular momentum, in
-/// the units of angular_velocity.h. The matrix is symmetric; its elements are mantissas times 2^exponent.
+/// A body's inverse inertia (per unit mass) in world axes: angular velocity = inverse inertia x angular momentum, in the units
+/// of angular velocity.h. A symmetric matrix; values are mantissas times 2^exponent.
 struct alignas(sizeof(Unit)) WorldInverseInertia {
   Vec3<Unit> row[3];
   int32_t exponent;
 };
 
 /// The inverse inertias (per unit mass) of a body about its axes, split for its free rotation (rotate_freely() in
-/// angular_velocity.h). The *odd* axis is the one whose value differs most from the other two.
+/// angular velocity.h): two of the axes have similar values, and the *odd* axis differs most.
 struct alignas(sizeof(Unit)) FreeRotation {
   Scaled common;    ///< inverse inertia about the axis after the odd axis
   Scaled odd_rate;  ///< inverse inertia about the odd axis minus `common`
