@@ -191,16 +191,19 @@ void test_at_start(ImpactStage& stage, uint64_t key, Span<const ContactWork> con
   const Real shrink_depth = first_shrink_depth(stage, key, contacts, clearance);
   const Fraction start = 0.0;
   // The sum of both bounds is cheap to compute, and mostly sufficient.
-  const bool slow = stage.bodies.sweeps[low].motion_bound + stage.bodies.sweeps[high].motion_bound < clearance;
-  if (stage.filters() &&
-      (slow || (closing_bound(stage.body(low), stage.body(high), start, closing) && closing < clearance))) {
+  if (stage.filters() && stage.bodies.sweeps[low].motion_bound + stage.bodies.sweeps[high].motion_bound < clearance) {
     ++stage.report.skipped;
     return;
   }
-  if (contacts.count != 0 && closing_bound(stage.body(low), stage.body(high), start, closing) &&
-      are_kept_apart(stage, key, contacts, closing)) {
-    ++stage.report.kept_apart;
-    return;
+  if (closing_bound(stage.body(low), stage.body(high), start, closing)) {
+    if (stage.filters() && closing < clearance) {
+      ++stage.report.skipped;
+      return;
+    }
+    if (are_kept_apart(stage, key, contacts, closing)) {
+      ++stage.report.kept_apart;
+      return;
+    }
   }
   stage.test(key, start, shrink_depth, nullptr);
 }
