@@ -35,7 +35,7 @@ inline constexpr uint32_t k_impacts_max = 32;  ///< per body and tick
 inline constexpr uint32_t k_impacts_max_spent = 16, k_impact_work_times = 8, k_impact_work_min = 512;
 /// A jointed body's sweep is marked with k_mark_jointed times the number of the body's island. These numbers begin at
 /// 1. All other marks are less than k_mark_jointed.
-inline constexpr uint32_t k_mark_jointed = 32;
+inline constexpr uint32_t k_mark_jointed = 64;
 
 /// For tests: records the sweeps, and can switch off the filter that skips pairs which cannot collide.
 struct ImpactProbe {
@@ -74,6 +74,7 @@ struct ImpactBodies {
   Span<BodyPose> poses;
   Span<BodyMotion> motions;
   Span<BodySweep> sweeps;  ///< zero for a body at rest
+  Span<ImpactPath> paths;  ///< work space
   Span<BodyActivity> activities;
   /// In: the bounds that the pairs were found with. Out: the bounds of the sweeps.
   Span<Bounds> bounds;

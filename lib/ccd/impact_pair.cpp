@@ -64,14 +64,18 @@ Real swing_radius(const BodyProperties& properties) {
 }
 
 Real swing(const BodyProperties& properties, const Vec3<Real>& rotation_vector, bool& bounded) {
-  const Real zero = 0.0, angle = length(rotation_vector);
-  if (angle == zero) return zero;
-  if (is_half_space(properties)) bounded = false;
-  // Half a revolution moves a point by at most the diameter. The limit also keeps the product in range.
-  return swing_radius(properties) * min(angle, Real(4.0));
+  if (is_half_space(properties) && !(rotation_vector == k_zero_vector)) bounded = false;
+  return swing_bound(properties, rotation_vector);
 }
 
 }  // namespace
+
+Real swing_bound(const BodyProperties& properties, const Vec3<Real>& rotation_vector) {
+  const Real zero = 0.0, angle = length(rotation_vector);
+  if (angle == zero) return zero;
+  // Half a revolution moves a point by at most the diameter. The limit also keeps the product in range.
+  return swing_radius(properties) * min(angle, Real(4.0));
+}
 
 Real next_shrink_depth(Real extent, Real shrink_depth) {
   if (shrink_depth == Real(0.0)) return scale_by_power(extent, -10);

@@ -54,6 +54,10 @@ Motion motion_from(const SweptBody& body, Fraction time);
 /// there is no bound.
 bool motion_bound(const SweptBody& body, Fraction time, Real& bound);
 
+/// An upper bound, m, of how far a rotation about the centre moves any point of the body's surface. Range: no
+/// half-space.
+Real swing_bound(const BodyProperties& properties, const Vec3<Real>& rotation_vector);
+
 /// Computes an upper bound, m, of how much the distance of two bodies can shrink in the rest of the tick. Returns false
 /// if there is no bound.
 bool closing_bound(const SweptBody& a, const SweptBody& b, Fraction time, Real& bound);

@@ -1,6 +1,7 @@
 #include "broad_phase/pair_filter.h"
 #include "ccd/impact_stage.h"
 #include "math/root.h"
+#include "motion/predict.h"
 #include "shape/bounds.h"
 #include "solver/contact_rows.h"
 
@@ -84,12 +85,24 @@ ImpactPair* find_impact(const ImpactStage& stage, uint64_t key) {
   return found;
 }
 
+/// A lower bound, m, of the distance that a pair without contact had at the start of the tick. The contact points of a
+/// known pair were searched up to its speculative distance. The bounds of other pairs were disjoint, if one of the
+/// bodies moved; they include the contact margin. Nothing is known of two bodies that rested.
+Real distance_without_contact(const ImpactStage& stage, uint64_t key) {
+  const uint32_t low = pair_low(key), high = pair_high(key);
+  const BodySweep &a = stage.bodies.sweeps[low], &b = stage.bodies.sweeps[high];
+  if (!stage.known.complete || ((a.marks | b.marks) & k_mark_moved) == 0) return k_zero;
+  const bool searched =
+      !has_parts(stage.bodies.properties[low], stage.bodies.properties[high]) && has_pair(stage.known.pairs, key);
+  return speculative_distance(stage.settings, stage.extent_of(key), searched ? a.speed + b.speed : k_zero, false);
+}
+
 Real free_shrink_depth(const ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts, Real& clearance) {
-  const Real extent = stage.extent_of(key);
   if (contacts.count == 0) {
-    clearance = stage.known.complete ? scale_by_power(extent, -6) : k_zero;
+    clearance = distance_without_contact(stage, key);
     return k_zero;
   }
+  const Real extent = stage.extent_of(key);
   Real least = contacts[0].separation[0];
   bool rebounds = false;
   for (const ContactWork& contact : contacts) {
@@ -164,48 +177,87 @@ Vec3<Unit> known_axis(const ImpactStage& stage, uint64_t key, const ImpactPair* 
   return contacts.count != 0 ? contacts[0].normal : Vec3<Unit>{};
 }
 
-/// Whether the solver keeps a pair in contact apart in this tick. A contact point that is separated must not become
-/// deeper than 1/1024 of the extent; the depth of a point that penetrates must not grow by more than that. Such a pair
-/// need not be tested. `closing`: upper bound of the relative motion in the tick, m. False if it is large, because
-/// parts of the shapes that are not in contact may then collide.
-bool are_kept_apart(const ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts, Real closing) {
-  const uint32_t low = pair_low(key), high = pair_high(key);
+/// The motion of a body from the start of the tick to its end: the motion so far, and the rest of its sweep.
+struct TickMotion {
+  Vec3<Real> until;            ///< displacement from the start of the tick to the present time, m
+  Vec3<Real> displacement;     ///< displacement from the start of the tick to its end, m
+  Vec3<Real> rotation_vector;  ///< rotation from the start of the tick to its end, times 2^size_exponent, m
+  Real swing;                  ///< upper bound of the motion of surface points by rotation, m
+  bool bounded;                ///< `swing` is a bound: the body is no half-space that rotates
+
+  TickMotion(const ImpactStage& stage, uint32_t slot, Fraction time) {
+    const BodyProperties& properties = stage.bodies.properties[slot];
+    const BodySweep& sweep = stage.bodies.sweeps[slot];
+    const Sweep rest = rest_of(sweep, sweep.from);
+    displacement = rest.displacement;
+    rotation_vector = rest.rotation_vector;
+    swing = swing_bound(properties, rest.rotation_vector);
+    bounded = !is_half_space(properties) || rest.rotation_vector == k_zero_vector;
+    if ((sweep.marks & k_mark_hit) != 0) {
+      const ImpactPath& path = stage.bodies.paths[slot];
+      displacement += path.displacement;
+      rotation_vector += path.rotation_vector;
+      swing += path.bound;
+    }
+    rotation_vector = scale_by_power(rotation_vector, properties.size_exponent);
+    until = time.raw == 0 ? k_zero_vector : displacement - rest_of(sweep, time).displacement;
+  }
+};
+
+/// Whether the solver keeps a pair in contact apart in this tick. A contact point that is separated at the start of the
+/// tick must not become deeper than 1/1024 of the extent; the depth of a point that penetrates must not grow by more
+/// than that. Such a pair need not be tested. `closing`: upper bound of the relative motion in the tick, m. False if it
+/// is large, because parts of the shapes that are not in contact may then collide.
+bool are_kept_apart(const ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts, const TickMotion& a,
+                    const TickMotion& b, Real closing) {
   if (contacts.count == 0 || is_left_to_impact(contacts[0]) ||
-      has_parts(stage.bodies.properties[low], stage.bodies.properties[high]))
+      has_parts(stage.bodies.properties[pair_low(key)], stage.bodies.properties[pair_high(key)]))
     return false;
   const ContactWork& contact = contacts[0];
   const Real extent = stage.extent_of(key);
   if (closing > scale_by_power(extent, contact.state.point_count < 3 ? -3 : -2)) return false;
-  const BodySweep &a = stage.bodies.sweeps[low], &b = stage.bodies.sweeps[high];
   return keeps_apart(contact, a.displacement, a.rotation_vector, b.displacement, b.rotation_vector,
                      scale_by_power(extent, -10));
 }
 
-/// Tests a pair from the start of the tick, unless it is certainly clear, or its contacts keep it apart.
+/// Whether a pair with these contacts need not be tested for the rest of the tick: it is too slow to collide, or its
+/// contacts keep it apart. `clearance`: lower bound of the distance of the shapes, or of their shrunken cores, at the
+/// start of the tick, m. `entry`: the pair's entry in `impacts`, or null.
+bool is_safe(ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts, Fraction time, Real clearance,
+             const ImpactPair* entry) {
+  const TickMotion a(stage, pair_low(key), time), b(stage, pair_high(key), time);
+  if (!a.bounded || !b.bounded) return false;
+  // The relative displacement changes linearly from now to the end of the tick.
+  const Real closing = max(length(b.until - a.until), length(b.displacement - a.displacement)) + a.swing + b.swing;
+  if (stage.filters() && closing < clearance) {
+    ++stage.report.skipped;
+    return true;
+  }
+  // The impulses of other impacts are propagated only to pairs that are tested and collide.
+  const bool has_collided = entry != nullptr && entry->impacts != 0;
+  if (has_collided || !are_kept_apart(stage, key, contacts, a, b, closing)) return false;
+  ++stage.report.kept_apart;
+  return true;
+}
+
+/// Tests a pair from the start of the tick, unless it is safe.
 void test_at_start(ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts) {
   const uint32_t low = pair_low(key), high = pair_high(key);
   if (!stage.dynamic(low) && !stage.dynamic(high)) return;
   if (is_at_rest(stage.bodies.sweeps[low]) && is_at_rest(stage.bodies.sweeps[high])) return;
   if (!overlap(stage.bodies.bounds[low], stage.bodies.bounds[high]) || !may_collide(stage, low, high)) return;
-  Real clearance = k_zero, closing = k_zero;
+  Real clearance = k_zero;
   const Real shrink_depth = first_shrink_depth(stage, key, contacts, clearance);
   const Fraction start = 0.0;
-  // The sum of both bounds is cheap to compute, and mostly sufficient.
-  if (stage.filters() && stage.bodies.sweeps[low].motion_bound + stage.bodies.sweeps[high].motion_bound < clearance) {
+  // The sum of both bounds is cheap to compute, and mostly sufficient. No body was hit yet.
+  const auto bound = [&](uint32_t slot) {
+    return is_at_rest(stage.bodies.sweeps[slot]) ? k_zero : stage.bodies.paths[slot].bound;
+  };
+  if (stage.filters() && bound(low) + bound(high) < clearance) {
     ++stage.report.skipped;
     return;
   }
-  if (closing_bound(stage.body(low), stage.body(high), start, closing)) {
-    if (stage.filters() && closing < clearance) {
-      ++stage.report.skipped;
-      return;
-    }
-    if (are_kept_apart(stage, key, contacts, closing)) {
-      ++stage.report.kept_apart;
-      return;
-    }
-  }
-  stage.test(key, start, shrink_depth, nullptr);
+  if (!is_safe(stage, key, contacts, start, clearance, nullptr)) stage.test(key, start, shrink_depth, nullptr);
 }
 
 /// Whether the bodies of a pair in contact approach so fast that they rebound. Returns false if the bodies overlap, or
@@ -234,9 +286,13 @@ void test_changed(ImpactStage& stage, uint32_t slot, Fraction time) {
     if (is_at_rest(stage.bodies.sweeps[slot]) && is_at_rest(stage.bodies.sweeps[other])) return;
     const uint64_t key = key_of_pair(slot, other);
     const Span<const ContactWork> contacts = find_contacts(stage.known.contacts, key);
+    ImpactPair* const entry = find_impact(stage, key);
     Real clearance = k_zero, shrink_depth = k_zero;
-    if (!is_new_impact(stage, key, contacts)) shrink_depth = first_shrink_depth(stage, key, contacts, clearance);
-    stage.test(key, time, shrink_depth, find_impact(stage, key));
+    if (!is_new_impact(stage, key, contacts)) {
+      shrink_depth = first_shrink_depth(stage, key, contacts, clearance);
+      if (is_safe(stage, key, contacts, time, clearance, entry)) return;
+    }
+    stage.test(key, time, shrink_depth, entry);
   });
 }
 

@@ -24,6 +24,8 @@ inline constexpr uint32_t k_mark_changed = 2;      ///< the new sweep has not be
 inline constexpr uint32_t k_mark_left_bounds = 4;  ///< the sweep leaves the bounds that the pairs were found with
 inline constexpr uint32_t k_mark_hit = 8;          ///< the body was hit: its angular momentum follows its sweep
 inline constexpr uint32_t k_mark_slept = 16;       ///< the body was asleep when the tick began
+inline constexpr uint32_t k_mark_moved = 32;       ///< the body moved when the tick began: its pairs are known
+static_assert(k_mark_moved < k_mark_jointed);
 
 /// The state of the stage during a tick.
 struct ImpactStage {

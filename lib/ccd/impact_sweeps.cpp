@@ -49,6 +49,17 @@ void begin_sweep(const ImpactStage& stage, uint32_t slot) {
   stage.probe->segments[at] = {slot, 0, sweep.from, pose, rest.displacement, rest.rotation_vector};
 }
 
+/// Adds the segment of the body's sweep that ends at `time` to its path. `first`: it is the body's first segment.
+void end_segment(const BodyProperties& properties, const BodySweep& sweep, Fraction time, bool first,
+                 ImpactPath& path) {
+  if (first) path = {k_zero_vector, k_zero_vector, k_zero};
+  if (!(time > sweep.from)) return;
+  const Sweep part = sweep_part({sweep.displacement, sweep.rotation_vector}, time - sweep.from);
+  path.displacement += part.displacement;
+  path.rotation_vector += part.rotation_vector;
+  path.bound += swing_bound(properties, part.rotation_vector);
+}
+
 /// Adds the body to the moving bodies and removes it from the tree of resting ones.
 void leave_rest(const ImpactStage& stage, uint32_t slot) {
   stage.bodies.active.set(slot);
@@ -66,6 +77,7 @@ Quat end_rotation(const ImpactStage& stage, uint32_t slot) {
 void ImpactStage::start_sweeps() {
   bodies.active.for_each([&](uint32_t slot) {
     BodySweep& sweep = bodies.sweeps[slot];
+    sweep.marks |= k_mark_moved;
     if (is_non_colliding(bodies.properties[slot])) {
       begin_sweep(*this, slot);
       return;
@@ -74,8 +86,8 @@ void ImpactStage::start_sweeps() {
       const Bounds found_by = bodies.bounds[slot];
       begin_sweep(*this, slot);
       if (!holds(found_by, bodies.bounds[slot])) sweep.marks |= k_mark_left_bounds;
-      if (!motion_bound(body(slot), sweep.from, sweep.motion_bound))
-        sweep.motion_bound = scale_by_power(k_real_max, -2);
+      Real& bound = bodies.paths[slot].bound;
+      if (!motion_bound(body(slot), sweep.from, bound)) bound = scale_by_power(k_real_max, -2);
     }
     if (!filters() || !known.complete) sweep.marks |= k_mark_left_bounds;
   });
@@ -88,6 +100,7 @@ void ImpactStage::move_to(uint32_t slot, Fraction time) {
   sweep.marks |= k_mark_hit;
   // The solver's angular momentum is that at the end of the tick. After a hit it is that at the body's current pose.
   const Quat from = hit ? bodies.poses[slot].rotation : end_rotation(*this, slot);
+  end_segment(bodies.properties[slot], sweep, time, !hit, bodies.paths[slot]);
   if (time > sweep.from) {
     if (bodies.listener.ended != nullptr) bodies.listener.ended(bodies.listener.context, slot, time);
     bodies.poses[slot] = pose_at(body(slot), time);

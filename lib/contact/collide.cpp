@@ -4,6 +4,7 @@
 #include "contact/collide_half_space.h"
 #include "contact/collide_shapes.h"
 #include "contact/contact_arm.h"
+#include "shape/shape_properties.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -26,6 +27,18 @@ PairShape shape_in(const CollisionBody& body, int exponent) {
           {0.0, 0.0, 0.0},
           body.rotation,
           scale_by_power(body.properties.size, body.properties.size_exponent - exponent)};
+}
+
+/// Whether the bounding spheres of two bodies are farther apart than `margin`, m. False if this is not certain.
+bool are_spheres_apart(const CollisionBody& a, const CollisionBody& b, Real margin) {
+  if (type_of(a) == ShapeType::half_space || type_of(b) == ShapeType::half_space) return false;
+  constexpr Real k_reach_max = 128.0;  // so that the sum of squares fits a Real
+  const Real touching = bounding_radius_of(a.properties) + bounding_radius_of(b.properties) + margin;
+  const Real reach = touching + scale_by_power(touching, -10);  // more than all rounding errors
+  const Vec3<Real> offset = real_difference(b.pose.position, a.pose.position);
+  const Real far = greatest(offset);
+  if (far > reach || reach > k_reach_max) return far > reach;
+  return dot(offset, offset) > reach * reach;
 }
 
 /// Sets the frame of a pair. Returns false if the centres are so far apart that the shapes cannot touch.
@@ -88,6 +101,7 @@ void collide(const CollisionBody& a, const CollisionBody& b, const ContactMargin
   contact.count = 0;
   contact.seam = contact.turns = false;
   contact.capped = false;
+  if (are_spheres_apart(a, b, margin.distance)) return;
   if (!is_simple(a.properties) || !is_simple(b.properties)) {
     features.convex->collide(a, b, margin, assets, reduction, contact);
     return;

@@ -180,7 +180,7 @@ void JointFactor::make() {
         Real speed[k_joint_rows_max];
         show(work, end, reaction.linear_velocity[k], reaction.angular_velocity[k], speed);
         for (uint32_t m = 0; m <= k; ++m)
-          work.response[k][m] += scale_by_power(speed[m], work.row_power[k] + work.row_power[m]);
+          work.response[k][m] += scale_by_power(speed[m], unit_power(work, k) + unit_power(work, m));
       }
       for (uint32_t at = work.coupling; at != k_no_link;) {
         const JointCoupling& coupling = stage_.couplings[at];
@@ -193,7 +193,7 @@ void JointFactor::make() {
             Real speed[k_joint_rows_max];
             show(other, far, reaction.linear_velocity[k], reaction.angular_velocity[k], speed);
             for (uint32_t m = 0; m < other.rows; ++m) {
-              const Real scaled = scale_by_power(speed[m], work.row_power[k] + other.row_power[m]);
+              const Real scaled = scale_by_power(speed[m], unit_power(work, k) + unit_power(other, m));
               block[k * other.rows + m] += end == far ? scaled : -scaled;
             }
           }
@@ -241,7 +241,7 @@ void JointFactor::make_up(uint32_t index) {
         Real speed[k_joint_rows_max];
         show(other, far, reaction.linear_velocity[k], reaction.angular_velocity[k], speed);
         for (uint32_t m = 0; m < other.rows; ++m)
-          work.response[k][k] += abs(scale_by_power(speed[m], work.row_power[k] + other.row_power[m]));
+          work.response[k][k] += abs(scale_by_power(speed[m], unit_power(work, k) + unit_power(other, m)));
       }
     }
   }

@@ -15,6 +15,11 @@ inline Vec3<Real> real_from(const Vec3<Unit>& v) {
 /// Index of the first row that is not one of the three rows of the anchor points.
 inline uint32_t first_other(const JointRows& rows) { return rows.points != 0 ? 3 : 0; }
 
+/// Exponent of the unit of a row's impulses, without k_impulse_power; see choose_unit().
+inline int unit_power([[maybe_unused]] const JointWork& work, [[maybe_unused]] uint32_t row) {
+  return DETENT_FIXED ? work.row_power[row] : 0;
+}
+
 /// Twice an energy over the reference mass: a sum of products of impulses and speeds.
 class EnergySum {
  public:
@@ -88,12 +93,13 @@ inline constexpr Real k_gathered_max = 65504.0;
 
 /// Adds the velocity changes M^-1 J^T x of a joint's impulses x to a body's `push` and `twist`. Returns false if a
 /// value exceeds k_gathered_max.
-inline bool gather(const JointWork& work, uint32_t end, JointBody& body) {
+template <uint32_t end>
+inline bool gather(const JointWork& work, JointBody& body) {
   Real given[k_joint_rows_max], most = k_zero;  // impulse of each row over the mass, m/s
   bool saturated = false;
   for (uint32_t k = 0; k < work.rows; ++k) {
     given[k] =
-        multiply(work.impulse[k], scaled_by_power(body.inverse_mass, work.row_power[k] + k_impulse_power), saturated);
+        multiply(work.impulse[k], scaled_by_power(body.inverse_mass, unit_power(work, k) + k_impulse_power), saturated);
     most = max(most, abs(given[k]));
   }
   if (saturated || !(most <= k_gathered_max * Unit(0.5))) return false;

@@ -216,7 +216,7 @@ struct Solver {
     for (uint32_t k = 0; k < work.rows; ++k) speed[k] -= of_a[k];
   }
   /// The exponent of the power of two between the speed of a row and its right-hand side.
-  static int power_of(const JointWork& work, uint32_t row) { return work.row_power[row] - k_impulse_power; }
+  static int power_of(const JointWork& work, uint32_t row) { return unit_power(work, row) - k_impulse_power; }
   /// The right-hand side for the given change of a row's speed.
   Real side_of(const JointWork& work, uint32_t row, Real speed) {
     const int power = power_of(work, row);
@@ -370,10 +370,8 @@ struct Solver {
     bool fits = true;
     each_mobile([&](JointBody& body) { body.push = body.twist = k_zero_vector; });
     each_joint([&](const JointWork& work) {
-      for (uint32_t end = 0; fits && end < 2; ++end) {
-        JointBody& body = end_of(work, end);
-        if (body.mobile != 0 && !gather(work, end, body)) fits = false;
-      }
+      JointBody &a = end_of(work, 0), &b = end_of(work, 1);
+      fits = fits && (a.mobile == 0 || gather<0>(work, a)) && (b.mobile == 0 || gather<1>(work, b));
     });
     each_mobile([&](const JointBody& body) { fits = fits && angular_velocities_within(body, body.twist); });
     return fits;
@@ -692,7 +690,8 @@ uint32_t solve_joints_again(const StepSettings& settings, const SolverBodies& bo
 uint32_t follow_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
                        const Island& island, Real elapsed, JointStage& stage) {
   Solver solver(settings, bodies, slots, island, stage);
-  solver.each_joint([&](JointWork& work) { solver.keep(work, kept_share(settings)); });
+  const Scaled share = kept_share(settings);
+  solver.each_joint([&](JointWork& work) { solver.keep(work, share); });
   if (solver.any_turns()) {
     const Scaled taken = solver.rotational_energy();
     solver.follow_curves(elapsed, taken);
@@ -708,9 +707,10 @@ uint32_t end_joints(const StepSettings& settings, const SolverBodies& bodies, Sp
   Solver solver(settings, bodies, slots, island, stage);
   if (solver.touches) solver.solve_again(elapsed);
   undecided += solver.undecided;
+  const Scaled share = kept_share(settings);
   solver.each_joint([&](JointWork& work) {
     solver.add_up(work);
-    solver.keep_all(work, kept_share(settings));
+    solver.keep_all(work, share);
   });
   solver.end();
   return solver.clamped + solver.factor.saturated;

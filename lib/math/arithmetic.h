@@ -56,7 +56,8 @@ DETENT_SHARED constexpr int64_t dot(const Vec3<Real>& a, const Vec3<Real>& b) {
 }
 DETENT_SHARED constexpr int64_t min(int64_t a, int64_t b) { return b < a ? b : a; }
 DETENT_SHARED constexpr int64_t max(int64_t a, int64_t b) { return a < b ? b : a; }
-DETENT_SHARED constexpr int64_t abs(int64_t a) { return 0 < a ? a : subtract_wrapped(0, a); }
+/// Without a branch, which would be mispredicted for random signs.
+DETENT_SHARED constexpr int64_t abs(int64_t a) { return subtract_wrapped(a ^ (a >> 63), a >> 63); }
 int64_t divide(int64_t a, int64_t b);
 /// The difference of coordinates; see real_difference().
 DETENT_SHARED constexpr int64_t difference(Coord::Raw a, Coord::Raw b) {
@@ -111,6 +112,10 @@ constexpr T abs(T a) {
 
 #if DETENT_FIXED
 DETENT_PASSING constexpr Real abs(Real a) { return Real::from_raw(raw::abs(a.raw)); }
+#else
+// A processor clears the sign bit. The comparison above would be a branch, which is mispredicted for random signs.
+constexpr float abs(float a) { return __builtin_fabsf(a); }
+constexpr double abs(double a) { return __builtin_fabs(a); }
 #endif
 
 template <class T>

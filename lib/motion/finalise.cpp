@@ -1,6 +1,6 @@
 #include "motion/finalise.h"
 
-#include "broad_phase/pair_key.h"
+#include "broad_phase/pair_filter.h"
 #include "motion/angular_velocity.h"
 #include "shape/sweep.h"
 
@@ -70,6 +70,7 @@ uint32_t make_sweeps(Span<const uint32_t> slots, Span<const BodyProperties> prop
     sweeps[slot] = {};
     sweeps[slot].displacement = sweep.displacement;
     sweeps[slot].rotation_vector = sweep.rotation_vector;
+    if (!is_non_colliding(properties[slot])) sweeps[slot].speed = now.speed;
     clamped += turns_clamped ? 1 : 0;
   }
   return clamped;

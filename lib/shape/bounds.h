@@ -74,8 +74,13 @@ inline Vec3<Real> half_bounds(const BodyProperties& properties, const Matrix3& r
 }
 
 inline bool overlap(const Bounds& a, const Bounds& b) {
-  return a.lower.x <= b.upper.x && b.lower.x <= a.upper.x && a.lower.y <= b.upper.y && b.lower.y <= a.upper.y &&
-         a.lower.z <= b.upper.z && b.lower.z <= a.upper.z;
+  // One branch for each axis: on which side two bounds are apart is hard to predict.
+  const auto along = [](Coord lower_a, Coord upper_a, Coord lower_b, Coord upper_b) {
+    return static_cast<int>(lower_a <= upper_b) & static_cast<int>(lower_b <= upper_a);
+  };
+  return along(a.lower.x, a.upper.x, b.lower.x, b.upper.x) != 0 &&
+         along(a.lower.y, a.upper.y, b.lower.y, b.upper.y) != 0 &&
+         along(a.lower.z, a.upper.z, b.lower.z, b.upper.z) != 0;
 }
 
 }  // namespace DETENT_NAMESPACE

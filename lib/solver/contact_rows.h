@@ -77,9 +77,10 @@ PairResponse respond_exactly(const BodyProperties& a, const Quat& rotation_a, co
 /// Stores the impulses of the solve in `work.state`, in world axes.
 void store_impulses(ContactWork& work);
 
-/// Whether the contact keeps its bodies apart in a tick with these displacements, m, and rotation vectors, rad, in
-/// world axes. The condition for each point, to first order in the motion: a point that is open at the start of the
-/// tick gets at most `depth` deep, m; a point that overlaps at the start gets at most `depth` deeper.
+/// Whether the contact keeps its bodies apart in a tick with these displacements, m, and rotation vectors, times the
+/// bodies' units of length, m, in world axes. The condition for each point, to first order in the motion: a point that
+/// is open at the start of the tick gets at most `depth` deep, m; a point that overlaps at the start gets at most
+/// `depth` deeper.
 bool keeps_apart(const ContactWork& contact, const Vec3<Real>& displacement_a, const Vec3<Real>& rotation_vector_a,
                  const Vec3<Real>& displacement_b, const Vec3<Real>& rotation_vector_b, Real depth);
 

@@ -52,10 +52,10 @@ uint32_t notch_for(Scaled need, uint32_t least, uint32_t most) {
   return most;
 }
 
-uint32_t most_for(const StepSettings& settings, const Island& island, uint32_t contact_substeps) {
+uint32_t most_for(const StepSettings& settings, const Island& island, const SubstepLimit& limit) {
   const uint32_t rows = island.contact_count + k_joint_contacts * island.joint_count;
-  const uint32_t share = rows == 0 ? contact_substeps : contact_substeps / rows;
-  const uint32_t most = share < k_pile_substeps ? k_pile_substeps : share;
+  const uint32_t share = rows == 0 ? limit.contact_substeps : limit.contact_substeps / rows;
+  const uint32_t most = share < limit.always ? limit.always : share;
   return most < settings.substeps_max ? most : settings.substeps_max;
 }
 
@@ -158,8 +158,7 @@ void choose_substeps(const StepSettings& settings, Span<const BodyProperties> pr
       now = 1;
       before = calm = 0;
     } else if (now == 0) {
-      const uint32_t most[2] = {most_for(settings, island, k_contact_substeps),
-                                most_for(settings, island, k_rolling_substeps)};
+      const uint32_t most[2] = {most_for(settings, island, k_face_limit), most_for(settings, island, k_rolling_limit)};
       now = for_joints;
       for (int i = 0; i < 2; ++i) {
         const uint32_t held = notch_for(need[i], least, most[i]);

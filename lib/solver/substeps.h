@@ -16,15 +16,20 @@ inline namespace DETENT_NAMESPACE {
 
 /// Permitted sag of a contact, as a power of two of the smaller body's extent: 8 mm of 1 m.
 inline constexpr int k_sag_power = -7;
-/// Limits for large islands, so that a single contact cannot make a whole pile expensive. The product of contacts and
-/// substeps is at most k_contact_substeps, but k_pile_substeps substeps are always permitted. Contacts on edges and
-/// faces (k_edge_points points or more) can buckle. Rolling contacts can only sink; for them the limit is
-/// k_rolling_substeps. A joint counts as k_joint_contacts contacts.
-inline constexpr uint32_t k_contact_substeps = 65536;
+/// Limits for large islands, so that a single contact cannot make a whole pile expensive.
+struct SubstepLimit {
+  uint32_t contact_substeps;  ///< largest product of contacts and substeps; a joint counts as k_joint_contacts contacts
+  uint32_t always;            ///< this number of substeps is always permitted
+};
+inline constexpr uint32_t k_contact_substeps = 20480;
 inline constexpr uint32_t k_rolling_substeps = 2048;
+/// The limit for contacts on edges and faces (k_edge_points points or more), which can buckle. An island of 900
+/// contacts may take 22 substeps, one of 2,000 may take 10.
+inline constexpr SubstepLimit k_face_limit = {k_contact_substeps, 6};
+/// The limit for rolling contacts, which can only sink.
+inline constexpr SubstepLimit k_rolling_limit = {k_rolling_substeps, 4};
 inline constexpr uint32_t k_edge_points = 2;
 inline constexpr uint32_t k_joint_contacts = 8;
-inline constexpr uint32_t k_pile_substeps = 4;
 /// The number of ticks in a row in which fewer substeps must be enough, before the number of substeps is reduced.
 inline constexpr uint32_t k_calm_ticks = 60;
 /// The same for islands with joints, which need more substeps only while their bodies rotate.

@@ -22,6 +22,7 @@ struct Scratch {
   Span<BodySweep> sweeps;
   Span<ImpactPair> impact_pairs;
   Span<ImpactHit> impact_hits;
+  Span<ImpactPath> impact_paths;
   Span<ManifoldState> manifolds;
   Span<JointWork> joints;
   Span<JointBody> joint_bodies;
@@ -49,6 +50,7 @@ inline Scratch scratch_of(uint8_t* block, const Layout& layout, Capacity capacit
           {at_offset<BodySweep>(block, layout.sweeps), capacity.bodies},
           {at_offset<ImpactPair>(block, layout.impact_pairs), capacity.contacts},
           {at_offset<ImpactHit>(block, layout.impact_hits), capacity.contacts},
+          {at_offset<ImpactPath>(block, layout.impact_paths), capacity.bodies},
           {at_offset<ManifoldState>(block, layout.manifold_work), manifold_count(capacity)},
           {at_offset<JointWork>(block, layout.joint_work), capacity.joints},
           {at_offset<JointBody>(block, layout.joint_bodies), joint_body_count(capacity)},

@@ -316,6 +316,7 @@ __attribute__((noinline)) void Step::advance_bodies() {
                                  state_.poses.first(used_),
                                  solver_bodies_.motions,
                                  sweeps_,
+                                 scratch_.impact_paths.first(used_),
                                  bodies_.activities,
                                  cache_.bounds,
                                  cache_.tree,

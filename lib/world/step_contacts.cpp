@@ -11,10 +11,8 @@ namespace {
 
 /// Lengths of a pair, m.
 struct PairLengths {
-  Real at_rest;  ///< contact margin of a pair that does not move
-  /// Speculative distance of the moving pair: `at_rest` plus the distance that it can close in this tick. The addition
-  /// is at most a quarter of the smaller body's extent, or twice that extent if a body has joints.
-  Real margin;
+  Real at_rest;           ///< contact margin of a pair that does not move
+  Real margin;            ///< speculative_distance()
   Real recycle_distance;  ///< largest relative motion for which its contact points are recycled
 
   /// Whether a point that was beyond `margin` when the contact points were computed is still too far away to touch in
@@ -23,12 +21,10 @@ struct PairLengths {
 };
 
 PairLengths lengths_of(const StepSettings& settings, const BodyWork& a, const BodyWork& b) {
-  const Real extent = min(a.extent, b.extent), speed = a.speed + b.speed;
-  const Real at_rest = extent * settings.contact_margin;
-  // Jointed bodies are not stopped by impacts (impact.h), so their contacts use a longer speculative distance.
+  const Real extent = min(a.extent, b.extent);
   const bool jointed = a.joint_body != k_no_link || b.joint_body != k_no_link;
-  const Real margin_max = scale_by_power(extent, jointed ? 1 : -2);
-  return {at_rest, at_rest + min(margin_max, speed * settings.tick_time), extent * settings.contact_recycle_distance};
+  return {extent * settings.contact_margin, speculative_distance(settings, extent, a.speed + b.speed, jointed),
+          extent * settings.contact_recycle_distance};
 }
 
 ContactMargins margins_of(const StepSettings& settings, const PairLengths& lengths) {

@@ -17,7 +17,7 @@ struct Layout {
   uint32_t persistent_bytes;  ///< end of the snapshot
   uint32_t cache, tree_nodes, tree_parents, active, candidates, moving_bodies, awake_contacts;
   uint32_t bounds, bounds_keys, bounds_sort, pairs, pair_sort, contact_work, islands, island_bodies, sweeps;
-  uint32_t body_work, contact_order, contact_sort, impact_pairs, impact_hits;
+  uint32_t body_work, contact_order, contact_sort, impact_pairs, impact_hits, impact_paths;
   uint32_t manifold_work, joint_work, joint_bodies, joint_order, joint_couplings, joint_numbers, disabled_pairs;
   uint32_t sensed_work, sensed_passed, changed;
   uint32_t bytes;
@@ -106,6 +106,7 @@ DETENT_SHARED constexpr Layout layout_of(Capacity capacity, bool& fits) {
   end = moved;
   layout.impact_pairs = place(sizeof(ImpactPair), capacity.contacts);
   layout.impact_hits = place(sizeof(ImpactHit), capacity.contacts);
+  layout.impact_paths = place(sizeof(ImpactPath), capacity.bodies);
   end = end > substeps_end ? end : substeps_end;
   layout.manifold_work = place(sizeof(ManifoldState), manifold_count(capacity));
   layout.joint_work = place(sizeof(JointWork), capacity.joints);

@@ -284,9 +284,19 @@ struct BodySweep {
   Fraction from;
   Vec3<Real> displacement;  ///< in a whole tick at this velocity, m
   Vec3<Real> rotation_vector;          ///< rotation vector in a whole tick at this angular velocity, rad
-  Real motion_bound;               ///< upper bound of the path of any surface point in the tick without impacts, m
+  Real speed;                          ///< BodyWork::speed, m/s
   uint32_t impacts;         ///< impacts of the body in this tick
   uint32_t marks;           ///< flags of the impact stage
+};
+
+/// The motion of a body in the tick, while impacts are found. Of a body that was not hit, only `bound` is set, and only
+/// if the body moves.
+struct ImpactPath {
+  Vec3<Real> displacement;     ///< from the start of the tick to BodySweep::from, m
+  Vec3<Real> rotation_vector;  ///< sum of the rotation vectors from the start of the tick to BodySweep::from, rad
+  /// Upper bound of the path of any surface point in the tick without impacts, m. Of a body that was hit: upper bound of
+  /// the part of its path until BodySweep::from that is due to the rotation.
+  Real bound;
 };
 
 /// A pair of bodies that collides in this tick, or has collided.

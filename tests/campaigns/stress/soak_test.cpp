@@ -142,13 +142,13 @@ struct Ending {
   uint64_t digest;
 };
 #if defined(DETENT_FX64)
-constexpr Ending k_endings[] = {{10000, 0x6bbba458e2750141}, {1000000, 0x3c964c661aae303c}};
+constexpr Ending k_endings[] = {{10000, 0x6b4e9f31f304079d}, {1000000, 0x2cd465c162dbba05}};
 #elif defined(DETENT_FX32)
-constexpr Ending k_endings[] = {{10000, 0x64cfb3bd96df20e3}, {1000000, 0xb3cb279949bdd1da}};
+constexpr Ending k_endings[] = {{10000, 0xea55d2065234679d}, {1000000, 0xbf2b6debc010f509}};
 #elif defined(DETENT_F32)
-constexpr Ending k_endings[] = {{10000, 0xdecafe7d2be50f58}};
+constexpr Ending k_endings[] = {{10000, 0xc2134d7ef3a59ff2}};
 #else
-constexpr Ending k_endings[] = {{10000, 0xdb8b1a7ca2902adb}};
+constexpr Ending k_endings[] = {{10000, 0x11553d0f31d0127b}};
 #endif
 
 /// A million ticks if DETENT_FULL is set.

@@ -69,6 +69,52 @@ DETENT_TEST(impact_stage, a_pair_that_its_contacts_keep_apart_is_not_searched) {
   }
 }
 
+/// A scene at another scale, with gravity in proportion, takes the same course, and so the same searches.
+DETENT_TEST(impact_stage, bodies_of_all_sizes_are_kept_apart_alike) {
+  const auto searches = [](double scale) {
+    WorldDef world;
+    world.gravity = reals(0, -9.81 * scale, 0);
+    Lab lab({2, 8, 0}, world);
+    BodyDef below, above;
+    below.type = BodyType::fixed;
+    below.shape = above.shape = box(reals(0.5 * scale, 0.5 * scale, 0.5 * scale));
+    above.position = position(0.1 * scale, 1.5 * scale, 0.1 * scale);
+    above.rotation = rotation_near(detent_oracle::rotation_by({0, 0, 0.3}));
+    lab.add(below);
+    lab.add(above);
+    uint32_t tests = 0, kept_apart = 0;
+    for (int tick = 0; tick < 60; ++tick) {
+      const StepReport report = lab.run(1);
+      tests += report.ccd.tests;
+      kept_apart += report.ccd.kept_apart;
+    }
+    return std::pair(tests, kept_apart);
+  };
+  const auto of_a_metre = searches(1);
+  EXPECT_GT(of_a_metre.second, 0u);
+  EXPECT_EQ(searches(16), of_a_metre);
+  EXPECT_EQ(searches(1.0 / 16), of_a_metre);
+}
+
+/// After an impact, the other contacts of both bodies are judged by their motion since the start of the tick.
+DETENT_TEST(impact_stage, a_resting_body_that_is_struck_is_not_searched_against_what_it_rests_on) {
+  Lab lab({3, 8, 0});
+  BodyDef below, above;
+  below.type = BodyType::fixed;
+  below.shape = box(reals(5, 0.5, 5));
+  above.shape = box(reals(0.5, 0.5, 0.5));
+  above.position = position(0, 1, 0);
+  lab.add(below);
+  lab.add(above);
+  lab.run(30);
+  BodyDef shot = ball(0.1, -1.1, 60, 0);
+  shot.position = position(-1.1, 1, 0);
+  lab.add(shot);
+  const StepReport report = lab.run(1);
+  EXPECT_EQ(report.ccd.impacts, 1u);
+  EXPECT_EQ(report.ccd.kept_apart + report.ccd.skipped, 2u) << "before the impact and after it";
+}
+
 DETENT_TEST(impact_stage, three_balls_in_a_row_pass_a_blow_on_in_one_tick) {
   Lab lab({4, 8, 0}, weightless());
   std::vector<BodyId> balls;
