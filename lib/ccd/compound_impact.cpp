@@ -94,7 +94,8 @@ bool compound_impact(const AssetTable& assets, const FeatureTable& features, con
                        motion_from(a, time),
                        motion_from(b, time)};
   const bool is_plane = is_half_space(a.properties) || is_half_space(b.properties);
-  search.bounded = !is_plane && closing_bound(a, b, time, search.closing);
+  search.bounded = !is_plane;
+  search.closing = closing_bound(a, b, time);
   return is_terrain(a.properties) || is_terrain(b.properties) ? search.ask_terrain() : search.ask_parts();
 }
 

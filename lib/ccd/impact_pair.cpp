@@ -63,16 +63,12 @@ Real swing_radius(const BodyProperties& properties) {
   }
 }
 
-Real swing(const BodyProperties& properties, const Vec3<Real>& rotation_vector, bool& bounded) {
-  if (is_half_space(properties) && !(rotation_vector == k_zero_vector)) bounded = false;
-  return swing_bound(properties, rotation_vector);
-}
-
 }  // namespace
 
 Real swing_bound(const BodyProperties& properties, const Vec3<Real>& rotation_vector) {
   const Real zero = 0.0, angle = length(rotation_vector);
   if (angle == zero) return zero;
+  if (is_half_space(properties)) return scale_by_power(k_real_max, -2);
   // Half a revolution moves a point by at most the diameter. The limit also keeps the product in range.
   return swing_radius(properties) * min(angle, Real(4.0));
 }
@@ -119,19 +115,15 @@ Motion motion_from(const SweptBody& body, Fraction time) {
   return {{from.position, from.rotation}, rest.displacement, rest.rotation_vector};
 }
 
-bool motion_bound(const SweptBody& body, Fraction time, Real& bound) {
+Real motion_bound(const SweptBody& body, Fraction time) {
   const Sweep rest = rest_of(body.sweep, time);
-  bool bounded = true;
-  bound = length(rest.displacement) + swing(body.properties, rest.rotation_vector, bounded);
-  return bounded;
+  return length(rest.displacement) + swing_bound(body.properties, rest.rotation_vector);
 }
 
-bool closing_bound(const SweptBody& a, const SweptBody& b, Fraction time, Real& bound) {
+Real closing_bound(const SweptBody& a, const SweptBody& b, Fraction time) {
   const Sweep rest_a = rest_of(a.sweep, time), rest_b = rest_of(b.sweep, time);
-  bool bounded = true;
-  bound = length(rest_b.displacement - rest_a.displacement) + swing(a.properties, rest_a.rotation_vector, bounded) +
-          swing(b.properties, rest_b.rotation_vector, bounded);
-  return bounded;
+  return length(rest_b.displacement - rest_a.displacement) + swing_bound(a.properties, rest_a.rotation_vector) +
+         swing_bound(b.properties, rest_b.rotation_vector);
 }
 
 bool shrink_convex(const AssetTable& assets, const BodyProperties& properties, Real shrink_depth, Convex& convex) {

@@ -50,17 +50,15 @@ bool is_parting(const SweptBody& a, const SweptBody& b, Fraction time, const Tim
 /// The pose at `time` and the sweep after it, as time_of_impact() takes them.
 Motion motion_from(const SweptBody& body, Fraction time);
 
-/// Computes an upper bound, m, of the path of any point of the body's surface in the rest of the tick. Returns false if
-/// there is no bound.
-bool motion_bound(const SweptBody& body, Fraction time, Real& bound);
-
-/// An upper bound, m, of how far a rotation about the centre moves any point of the body's surface. Range: no
-/// half-space.
+/// An upper bound, m, of how far a rotation about the centre moves any point of the body's surface. Of a half-space
+/// that rotates: a quarter of the range of a Real.
 Real swing_bound(const BodyProperties& properties, const Vec3<Real>& rotation_vector);
 
-/// Computes an upper bound, m, of how much the distance of two bodies can shrink in the rest of the tick. Returns false
-/// if there is no bound.
-bool closing_bound(const SweptBody& a, const SweptBody& b, Fraction time, Real& bound);
+/// An upper bound, m, of the path of any point of the body's surface in the rest of the tick; see swing_bound().
+Real motion_bound(const SweptBody& body, Fraction time);
+
+/// An upper bound, m, of how much the distance of two bodies can shrink in the rest of the tick; see swing_bound().
+Real closing_bound(const SweptBody& a, const SweptBody& b, Fraction time);
 
 /// Makes the body's shape smaller by `shrink_depth`, m, on all sides. Returns false if the shape is not available.
 bool shrink_convex(const AssetTable& assets, const BodyProperties& properties, Real shrink_depth, Convex& convex);

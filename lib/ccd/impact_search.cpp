@@ -183,26 +183,26 @@ struct TickMotion {
   Vec3<Real> displacement;     ///< displacement from the start of the tick to its end, m
   Vec3<Real> rotation_vector;  ///< rotation from the start of the tick to its end, times 2^size_exponent, m
   Real swing;                  ///< upper bound of the motion of surface points by rotation, m
-  bool bounded;                ///< `swing` is a bound: the body is no half-space that rotates
-
-  TickMotion(const ImpactStage& stage, uint32_t slot, Fraction time) {
-    const BodyProperties& properties = stage.bodies.properties[slot];
-    const BodySweep& sweep = stage.bodies.sweeps[slot];
-    const Sweep rest = rest_of(sweep, sweep.from);
-    displacement = rest.displacement;
-    rotation_vector = rest.rotation_vector;
-    swing = swing_bound(properties, rest.rotation_vector);
-    bounded = !is_half_space(properties) || rest.rotation_vector == k_zero_vector;
-    if ((sweep.marks & k_mark_hit) != 0) {
-      const ImpactPath& path = stage.bodies.paths[slot];
-      displacement += path.displacement;
-      rotation_vector += path.rotation_vector;
-      swing += path.bound;
-    }
-    rotation_vector = scale_by_power(rotation_vector, properties.size_exponent);
-    until = time.raw == 0 ? k_zero_vector : displacement - rest_of(sweep, time).displacement;
-  }
 };
+
+DETENT_SHARED TickMotion motion_in_tick(const ImpactStage& stage, uint32_t slot, Fraction time) {
+  const BodyProperties& properties = stage.bodies.properties[slot];
+  const BodySweep& sweep = stage.bodies.sweeps[slot];
+  const Sweep rest = rest_of(sweep, sweep.from);
+  TickMotion motion;
+  motion.displacement = rest.displacement;
+  motion.rotation_vector = rest.rotation_vector;
+  motion.swing = swing_bound(properties, rest.rotation_vector);
+  if ((sweep.marks & k_mark_hit) != 0) {
+    const ImpactPath& path = stage.bodies.paths[slot];
+    motion.displacement += path.displacement;
+    motion.rotation_vector += path.rotation_vector;
+    motion.swing += path.bound;
+  }
+  motion.rotation_vector = scale_by_power(motion.rotation_vector, properties.size_exponent);
+  motion.until = time.raw == 0 ? k_zero_vector : motion.displacement - rest_of(sweep, time).displacement;
+  return motion;
+}
 
 /// Whether the solver keeps a pair in contact apart in this tick. A contact point that is separated at the start of the
 /// tick must not become deeper than 1/1024 of the extent; the depth of a point that penetrates must not grow by more
@@ -225,8 +225,7 @@ bool are_kept_apart(const ImpactStage& stage, uint64_t key, Span<const ContactWo
 /// start of the tick, m. `entry`: the pair's entry in `impacts`, or null.
 bool is_safe(ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts, Fraction time, Real clearance,
              const ImpactPair* entry) {
-  const TickMotion a(stage, pair_low(key), time), b(stage, pair_high(key), time);
-  if (!a.bounded || !b.bounded) return false;
+  const TickMotion a = motion_in_tick(stage, pair_low(key), time), b = motion_in_tick(stage, pair_high(key), time);
   // The relative displacement changes linearly from now to the end of the tick.
   const Real closing = max(length(b.until - a.until), length(b.displacement - a.displacement)) + a.swing + b.swing;
   if (stage.filters() && closing < clearance) {

@@ -86,8 +86,7 @@ void ImpactStage::start_sweeps() {
       const Bounds found_by = bodies.bounds[slot];
       begin_sweep(*this, slot);
       if (!holds(found_by, bodies.bounds[slot])) sweep.marks |= k_mark_left_bounds;
-      Real& bound = bodies.paths[slot].bound;
-      if (!motion_bound(body(slot), sweep.from, bound)) bound = scale_by_power(k_real_max, -2);
+      bodies.paths[slot].bound = motion_bound(body(slot), sweep.from);
     }
     if (!filters() || !known.complete) sweep.marks |= k_mark_left_bounds;
   });

@@ -29,8 +29,13 @@ PairShape shape_in(const CollisionBody& body, int exponent) {
           scale_by_power(body.properties.size, body.properties.size_exponent - exponent)};
 }
 
-/// Whether the bounding spheres of two bodies are farther apart than `margin`, m. False if this is not certain.
-bool are_spheres_apart(const CollisionBody& a, const CollisionBody& b, Real margin) {
+/// Whether the bounding spheres of two bodies are farther apart than `margin`, m. False if this is not certain. It only
+/// saves time; in builds for size it is left out.
+bool are_spheres_apart([[maybe_unused]] const CollisionBody& a, [[maybe_unused]] const CollisionBody& b,
+                       [[maybe_unused]] Real margin) {
+#if defined(__OPTIMIZE_SIZE__)
+  return false;
+#else
   if (type_of(a) == ShapeType::half_space || type_of(b) == ShapeType::half_space) return false;
   constexpr Real k_reach_max = 128.0;  // so that the sum of squares fits a Real
   const Real touching = bounding_radius_of(a.properties) + bounding_radius_of(b.properties) + margin;
@@ -39,6 +44,7 @@ bool are_spheres_apart(const CollisionBody& a, const CollisionBody& b, Real marg
   const Real far = greatest(offset);
   if (far > reach || reach > k_reach_max) return far > reach;
   return dot(offset, offset) > reach * reach;
+#endif
 }
 
 /// Sets the frame of a pair. Returns false if the centres are so far apart that the shapes cannot touch.

@@ -93,8 +93,7 @@ inline constexpr Real k_gathered_max = 65504.0;
 
 /// Adds the velocity changes M^-1 J^T x of a joint's impulses x to a body's `push` and `twist`. Returns false if a
 /// value exceeds k_gathered_max.
-template <uint32_t end>
-inline bool gather(const JointWork& work, JointBody& body) {
+inline bool gather(const JointWork& work, uint32_t end, JointBody& body) {
   Real given[k_joint_rows_max], most = k_zero;  // impulse of each row over the mass, m/s
   bool saturated = false;
   for (uint32_t k = 0; k < work.rows; ++k) {

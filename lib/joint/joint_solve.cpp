@@ -370,8 +370,10 @@ struct Solver {
     bool fits = true;
     each_mobile([&](JointBody& body) { body.push = body.twist = k_zero_vector; });
     each_joint([&](const JointWork& work) {
-      JointBody &a = end_of(work, 0), &b = end_of(work, 1);
-      fits = fits && (a.mobile == 0 || gather<0>(work, a)) && (b.mobile == 0 || gather<1>(work, b));
+      for (uint32_t end = 0; fits && end < 2; ++end) {
+        JointBody& body = end_of(work, end);
+        if (body.mobile != 0 && !gather(work, end, body)) fits = false;
+      }
     });
     each_mobile([&](const JointBody& body) { fits = fits && angular_velocities_within(body, body.twist); });
     return fits;
