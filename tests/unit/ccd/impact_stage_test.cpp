@@ -456,6 +456,34 @@ DETENT_TEST(impact_stage, nothing_passes_through_a_wall_for_want_of_room_for_pai
   EXPECT_GT(stopped, 0u);
 }
 
+DETENT_TEST(impact_stage, a_sleeper_that_is_struck_strikes_a_near_sleeper_however_slowly) {
+  Lab lab({3, 8, 0}, weightless(), true);
+  lab.add_box(0.5, 0, 0, 0);
+  const BodyId second = lab.add_box(0.5, 1.002, 0, 0);
+  EXPECT_EQ(lab.run(200).awake, 0u);
+  lab.add(ball(0.1, -1.1, 60, 0));
+  EXPECT_GE(lab.run(1).ccd.impacts, 2u);
+  EXPECT_GT(lab.motion(second).linear_velocity[0], 0) << "the gap is less than the contact margin of the pair";
+}
+
+/// A body that gravity moves farther than its contacts were searched for, in its first tick.
+DETENT_TEST(impact_stage, a_pair_without_contact_is_searched_whatever_the_contact_margin) {
+  for (const double margin : {1.0 / 16, 1.0 / 64, 1.0 / 1024}) {
+    WorldDef world;
+    world.gravity = reals(0, -40, 0);
+    world.contact_margin = real(margin);
+    world.contact_recycle_distance = real(0);
+    Lab lab({2, 8, 0}, world);
+    BodyDef below;
+    below.type = BodyType::fixed;
+    below.shape = box(reals(0.5, 0.5, 0.5));
+    lab.add(below);
+    const BodyId falling = lab.add_box(0.5, 0, 1.002, 0);
+    lab.run(1);
+    EXPECT_GT(lab.motion(falling).position[1], 1 - 1.0 / 2048) << margin;
+  }
+}
+
 DETENT_TEST(impact_stage, of_what_sleeps_only_what_is_struck_is_looked_at_and_it_strikes_others_in_turn) {
   // A row of sleeping bodies, each of which is reached only by the motion of the one before. The impact passes through
   // all of them in one tick.
