@@ -177,9 +177,11 @@ struct CcdReport {
   /// Bodies that stopped before the end of the tick. Reasons: too many impacts (docs/continuous_collision.md), a full
   /// impact pool, or an overlap that is too deep. They stay at their last safe pose until the tick ends.
   uint32_t bodies_stopped = 0;
-  Real lost_time = 0.0;     ///< sum over these bodies of the fraction of the tick for which they stood still
-  uint32_t tests = 0;       ///< times of impact computed
-  uint32_t skipped = 0;     ///< pairs not tested for impact because they are too slow to collide in the tick
+  Real lost_time = 0.0;  ///< sum over these bodies of the fraction of the tick for which they stood still
+  uint32_t tests = 0;    ///< times of impact computed
+  /// Pairs not tested for impact because they are too slow to collide in the tick. A pair counts again after each
+  /// impact of one of its bodies; so it does in `kept_apart`.
+  uint32_t skipped = 0;
   uint32_t kept_apart = 0;  ///< pairs not tested for impact because their contacts keep them apart
 };
 
