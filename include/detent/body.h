@@ -183,8 +183,8 @@ Status set_gravity_scale(World& world, BodyId id, Real scale);
 /// BodyDef::rotation_locks. The angular velocity about the other axes stays. An inertia set by set_inertia() is
 /// replaced by that of the shape. Errors: bad_argument (other bits than those of k_rotation_locks_all).
 Status set_rotation_locks(World& world, BodyId id, uint32_t locks);
-/// BodyDef::sensor. A change ends the body's contacts at once. It removes the stored pairs in which the body is the
-/// sensor or the sensed body; this writes no leave events. Errors: pool_full (Capacity::sensed is 0), feature_missing.
+/// BodyDef::sensor. If the value changes, the body's contacts end at once, and the body leaves its sensors, or the
+/// bodies within it leave it, without leave events. Errors: pool_full (Capacity::sensed is 0), feature_missing.
 Status set_sensor(World& world, BodyId id, bool sensor);
 
 /// Adds a force, N, world frame, that acts during the next step at the point `arm` from the centre of mass. `arm`: m,

@@ -12,9 +12,9 @@ enum class ContactEventType : uint32_t {
   begin = 1,  ///< the bodies push each other; they did not in the last step
   touch = 2,  ///< the bodies push each other, as in the last step
   end = 3,    ///< the bodies pushed each other in the last step, and no longer do
-  /// An impact. Either its approach speed is at least the restitution threshold of the world; then a begin or touch
-  /// event comes too. Or continuous collision found the impact within the step, at any speed; then there may be no
-  /// begin or touch.
+  /// An impact, in one of two cases. First, the bodies have a begin or touch event, and they approached at the
+  /// restitution threshold (WorldDef) or faster. Second, continuous collision resolved an impact of the bodies within
+  /// the step; they may have approached more slowly, and may have no begin or touch event.
   hit = 4,
 };
 

@@ -36,7 +36,9 @@ struct JointAxis {
   Real damping_ratio = 1.0;  ///< of the spring, [0, 64]; 1 is critical
   Real target = 0.0;         ///< target of the spring, rad or m
   Real speed = 0.0;          ///< speed of the motor, or of the spring's target, rad/s or m/s; within +-1024
-  Scaled force_max = 0.0;    ///< N or N m, >= 0; of the spring (0: no limit), else of the motor (0: no motor)
+  /// N or N m, >= 0. With a spring (frequency > 0): its largest force, 0: no limit. Without: that of the motor, 0:
+  /// none.
+  Scaled force_max = 0.0;
 };
 
 /// The definition of a joint. At least one of its two bodies is dynamic.

@@ -64,7 +64,7 @@ struct MoverReport {
   uint32_t contact_count = 0;     ///< entries of `contacts`
   uint32_t contacts_dropped = 0;  ///< contacts beyond k_mover_contacts_max
   uint32_t undecided = 0;         ///< undecided query hits; each stopped the mover
-  uint32_t hits_dropped = 0;      ///< nearby bodies beyond the largest number that a move processes; they stop it
+  uint32_t hits_dropped = 0;      ///< query hits and planes of bodies that were too many for a move to process
   uint32_t slides_cut = 0;        ///< motions that ended early, after the largest number of direction changes
   uint32_t queries = 0;           ///< queries made
   /// The first contact_count elements are in use, in the order in which the mover hit them: one element for each body,
@@ -78,9 +78,9 @@ struct MoverReport {
 ///
 ///  - First the mover moves with the point of the ground on which it stands. Then it moves out of bodies that overlap
 ///    it.
-///  - Then the horizontal part of the displacement is applied. Over floors, the mover moves by its full length,
-///    measured horizontally. Along walls, it slides; a wall is any surface steeper than a floor. If a wall stops a
-///    mover that stood on the ground, the mover steps up, provided that the step ends on a floor.
+///  - Then the horizontal part of the displacement is applied. Over floors, sloped ones too, the horizontal distance
+///    that the mover covers is the full length of this part. Along walls, it slides; a wall is any surface steeper than
+///    a floor. If a wall stops a mover that stood on the ground, it steps up, provided that the step ends on a floor.
 ///  - Then the part along up is applied. A mover that stood on the ground and does not rise moves down to a floor
 ///    within `snap`; if there is none, it falls.
 ///

@@ -21,7 +21,7 @@ inline namespace DETENT_NAMESPACE {
 /// The result of fixed_from_double_bits(): a double converted to fixed point.
 struct FromDouble {
   int64_t raw;    ///< value 2^frac, rounded to nearest, ties away from zero
-  bool in_range;  ///< false for NaN, infinity and |value| 2^frac >= 2^(int_bits-1): raw is then 0
+  bool in_range;  ///< false for NaN, infinity, and if the rounded |value| 2^frac is 2^(int_bits-1) or more: raw is 0
 };
 /// Converts an IEEE double, given by its bits, to a fixed-point number with `frac` fraction bits. The function uses
 /// only integer arithmetic, so the caller's rounding mode and flush-to-zero have no effect. Range: 0 <= frac <= 62.
@@ -209,9 +209,9 @@ struct Pose {
   Quat rotation;      ///< local to world, of length 1
 };
 
-/// `result` = value, rounded to nearest (ties away from zero; f32: to even). -0 and numbers too small for the format
-/// become +0. Range: |value| < 2^17 for Real, < 2 for Unit, < 2^31 (fx32: 2^15) for Coord. For Scaled: 0, or 2^-100 <
-/// |value| < 2^100. Errors: out_of_range, also for NaN and infinity; `result` is then unchanged.
+/// `result` = value, rounded to nearest (ties away from zero; f32: to even). -0 becomes +0, as does a number too small
+/// for Real, Unit or Coord. Range: |value| < 2^17 for Real, < 2 for Unit, < 2^31 (fx32: 2^15) for Coord. For Scaled: 0,
+/// or 2^-100 <= |value| < 2^100. Errors: out_of_range, also for NaN and infinity; `result` is then unchanged.
 /// @{
 Status real_from_host(double value, Real& result);
 Status unit_from_host(double value, Unit& result);

@@ -219,7 +219,7 @@ class RollbackSession {
   uint32_t checksums(TickChecksum* last, uint32_t count) const;
   /// Adds a checksum of a remote player. The session compares it as soon as its tick is confirmed here. Errors:
   /// bad_argument (not begun, not a remote player, not a tick with a checksum), out_of_range (too old or too far ahead
-  /// to be compared), digest_differs (desync() has the tick).
+  /// to be compared), digest_differs (a difference is known, from this checksum or from an earlier one: see desync()).
   Status add_checksum(uint32_t player, const TickChecksum& theirs);
   /// Whether the states of the machines differ, and the first tick after which they differ.
   const Desync& desync() const { return desync_; }

@@ -10,10 +10,10 @@
 /// awake.
 ///
 /// A body is *within* a sensor if, at the end of a step, the distance of their surfaces is at most 2^-14 of the pair's
-/// smaller extent: the lesser of their two smallest diameters. During the step, bodies are tested by their time of
-/// impact, even if WorldDef::continuous is false. Therefore a body that passes through a sensor in one step causes an
-/// enter and a leave event at any speed. If a test is undecided, the body counts as within the sensor, or as passing
-/// through it; StepReport::lost.sensed_undecided counts these tests.
+/// smaller extent (WorldDef). During the step, bodies are tested by their time of impact, even if WorldDef::continuous
+/// is false. Therefore a body that passes through a sensor in one step causes an enter and a leave event at any speed.
+/// If a test is undecided, the body counts as within the sensor, or as passing through it;
+/// StepReport::lost.sensed_undecided counts these bodies.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 

@@ -11,12 +11,12 @@ inline namespace DETENT_NAMESPACE {
 enum class [[nodiscard]] Status : uint32_t{
     ok = 0,              ///< done
     bad_id,              ///< the id is null, was never returned, or its object has been destroyed
-    bad_argument,        ///< an enumeration or flag outside its list
+    bad_argument,        ///< an argument that the call does not accept, or a call in the wrong order
     out_of_range,        ///< NaN, infinity, or outside the range that the field states
     not_normalised,      ///< a quaternion or direction whose length is not 1 within 2^-10
     pool_full,           ///< the capacity for this kind of object is used up
     buffer_too_small,    ///< the caller's block or buffer holds fewer bytes than the call needs
-    buffer_misaligned,   ///< the caller's block is not aligned to 8 bytes
+    buffer_misaligned,   ///< the caller's block, buffer or asset is not aligned to 8 bytes
     asset_missing,       ///< an asset is not in the asset table, or is not bound
     asset_mismatch,      ///< the asset in the table differs from the asset that the state was made with
     not_detent,          ///< the bytes are not in a format of Detent

@@ -39,8 +39,8 @@ inline constexpr double k_toi_tolerance = 1e-6;
 
 /// Computes when the distance of two moving shapes first is within the tolerance.
 /// Tolerance: k_toi_tolerance times the larger core diameter, plus the rounding errors in SPEC.md. Errors:
-/// not_normalised; out_of_range, also if the positions are 2^16 m apart and the bounding spheres might touch, or if a
-/// position is 2^16 m from a half-space's position; bad_argument for two half-spaces.
+/// not_normalised; out_of_range, also if the positions are 2^16 m or more apart in a component and the bounding spheres
+/// might touch or one shape is a half-space; bad_argument for two half-spaces.
 Status time_of_impact(const Convex& a, const Motion& motion_a, const Convex& b, const Motion& motion_b,
                       TimeOfImpact& result);
 

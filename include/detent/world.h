@@ -235,7 +235,7 @@ struct StepReport {
   LossReport lost = {};         ///< what the step lost
   EventReport events = {};      ///< events written and dropped
   /// Returns true if the step dropped no pair, contact or sensed body, capped no contact search, clamped no value and
-  /// stopped no body early. It does not test the counts of dropped events and of joints.
+  /// stopped no body early. It ignores undecided tests and solves, overlaps left, joint couplings and dropped events.
   constexpr bool complete() const {
     return lost.pairs == 0 && lost.contacts == 0 && contacts.capped == 0 && saturations == 0 &&
            ccd.bodies_stopped == 0 && lost.sensed == 0;
@@ -272,7 +272,8 @@ Status create_body(World& world, const BodyDef& def, BodyId& id);
 /// Removes a body and its joints. Its contacts end at once; the bodies that it touched or was joined to wake.
 /// Errors: bad_id.
 Status destroy_body(World& world, BodyId id);
-/// Moves a body to a pose, m, world, without collision on the way. The body keeps its velocity and wakes.
+/// Moves a body to a pose, m, world, without collision on the way. The body keeps its velocity. It wakes, and so do the
+/// bodies that touch it or are joined to it.
 /// Errors: bad_id, out_of_range, not_normalised.
 Status set_pose(World& world, BodyId id, const Position& position, const Quat& rotation);
 /// Sets a body's velocity, m/s, and angular velocity `angular_velocity`, rad/s, world frame; ranges as in BodyDef.
@@ -298,7 +299,8 @@ Status wake_body(World& world, BodyId id);
 /// Stops the body and puts it to sleep: steps skip it until something wakes it.
 /// Errors: bad_id, bad_argument (not dynamic), feature_missing.
 Status sleep_body(World& world, BodyId id);
-/// Sets BodyDef::user_data of a body; wakes no body. Errors: bad_id.
+/// Sets BodyDef::user_data of a body. If a filter rule then forbids a contact of the body, both bodies of this contact
+/// wake; no other body wakes. Errors: bad_id.
 Status set_user_data(World& world, BodyId id, uint32_t user_data);
 /// Sets the filter of a body, and wakes the body. Contacts that the filter now forbids end in the next step; the other
 /// bodies of these contacts wake. Errors: bad_id, rule_missing.

@@ -10,7 +10,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// A grid along one axis. The size of a cell is a power of two; at most 2^bits cells cover all bounded bodies.
+/// A grid along one axis. The size of a cell is a power of two; at most 2^bits cells cover all bodies with finite
+/// bounds.
 struct Grid {
   Coord Position::*axis = nullptr;
   int64_t from = INT64_MAX, to = INT64_MIN;

@@ -7,8 +7,8 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// A tree of the bounds of resting bodies, which are fixed or sleeping. A step queries the tree for nearby bodies. It
-/// changes the tree only for bodies that come to rest or start to move.
+/// A tree of the bounds of resting bodies: those that are fixed, asleep, or kinematic without velocity. A step queries
+/// the tree for nearby bodies. It changes the tree only for bodies that come to rest or start to move.
 ///
 /// The tree is a binary trie. The key of a body has three parts. The first part is the size of its bounds, as a power
 /// of 16, so that large bodies do not enlarge the tree nodes of small bodies. The second part is the cell of the

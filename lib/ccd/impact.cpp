@@ -18,8 +18,8 @@ ImpactPair* next(const ImpactStage& stage) {
   return best;
 }
 
-/// The shrink depth, m, for a pair that has collided at a seam: deeper than resting bodies sink in, and not deeper than
-/// necessary.
+/// The shrink depth, m, for a pair that has collided at a seam: deeper than resting bodies sink in, but at most that of
+/// a pair in contact.
 Real seam_shrink_depth(const ImpactStage& stage, uint64_t key) {
   const Real extent = stage.extent_of(key);
   return min(max(scale_by_power(extent, -6), scale_by_power(stage.settings.sunk, 1)),

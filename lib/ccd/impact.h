@@ -30,8 +30,8 @@ inline namespace DETENT_NAMESPACE {
 
 inline constexpr uint32_t k_impacts_max = 32;  ///< per body and tick
 /// `k_impacts_max_spent`: limit of impacts per body and tick once the budget of work is spent. The unit of work is one
-/// test of a pair or one resolved impact. The budget is k_impact_work_min plus k_impact_work_times the work of the
-/// first test of all pairs and bodies.
+/// computed time of impact, or one attempt to resolve an impact. The budget is k_impact_work_min plus
+/// k_impact_work_times the number of moving bodies and of times and skipped pairs in the first test of all pairs.
 inline constexpr uint32_t k_impacts_max_spent = 16, k_impact_work_times = 8, k_impact_work_min = 512;
 /// A jointed body's sweep is marked with k_mark_jointed times the number of the body's island. These numbers begin at
 /// 1. All other marks are less than k_mark_jointed.
@@ -97,7 +97,7 @@ struct ImpactPairs {
   Span<const uint64_t> disabled_pairs;  ///< disabled pairs, ascending
 };
 
-/// `impacts` is work space. `hits` is filled in the order of the impacts.
+/// Finds and resolves the impacts of a tick. `impacts` is work space. `hits` is filled in the order of the impacts.
 ImpactReport advance_to_impacts(const StepSettings& settings, const AssetTable& assets, const FeatureTable& features,
                                 const ImpactPairs& pairs, const ImpactBodies& bodies, Span<ImpactPair> impacts,
                                 Span<ImpactHit> hits, ImpactProbe* probe = nullptr);

@@ -40,10 +40,10 @@ struct ImpactBody {
   BodyMotion& motion;
 };
 
-/// Separates the points of the contact by Newton's law of impact along the normal, for approach speeds above the pair's
-/// threshold, and by Coulomb friction. Applies sequential impulses until no point approaches and each point separates
-/// at `parting`, m/s, or faster. `approach` becomes the largest closing speed before the impulse, m/s. Returns false
-/// and changes nothing if no point closes faster than `least`, m/s.
+/// Separates the points of the contact by Newton's law of impact along the normal, for approach speeds of at least the
+/// pair's threshold, and by Coulomb friction. Applies sequential impulses until no point approaches and each point
+/// separates at `parting`, m/s, or faster. `approach` becomes the largest closing speed before the impulse, m/s.
+/// Returns false, with the motions unchanged, if no point closes faster than `least`, m/s.
 bool resolve_impact(const ContactWork& contact, uint32_t count, Real least, Real parting, const ImpactBody& a,
                     const ImpactBody& b, Real& approach);
 

@@ -9,8 +9,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// For a pair that touches after an impact: the time to its next test is 2^k_test_power of a tick, and doubles each
-/// time.
+/// For a pair that was found touching: the time to its next test is 2^k_test_power of a tick, and doubles each time, up
+/// to half a tick. There are at most k_tests_max such tests.
 constexpr int k_test_power = -10;
 constexpr uint32_t k_tests_max = 16;
 
@@ -170,7 +170,7 @@ Fraction next_test_after(Fraction time, uint32_t tests) {
 }
 
 /// A direction that may separate a pair: the normal of its contact. Returns zero if it has no contact. Also returns
-/// zero if the pair has collided in this tick, because such a pair mostly still touches.
+/// zero if the pair has an entry in `impacts`, because such a pair mostly touches.
 Vec3<Unit> known_axis(const ImpactStage& stage, uint64_t key, const ImpactPair* entry) {
   if (entry != nullptr) return {};
   const Span<const ContactWork> contacts = find_contacts(stage.known.contacts, key);
@@ -259,8 +259,8 @@ void test_at_start(ImpactStage& stage, uint64_t key, Span<const ContactWork> con
   if (!is_safe(stage, key, contacts, start, clearance, nullptr)) stage.test(key, start, shrink_depth, nullptr);
 }
 
-/// Whether the bodies of a pair in contact approach so fast that they rebound. Returns false if the bodies overlap, or
-/// if the solver has applied an impulse between them.
+/// Whether the bodies of a pair in contact approach so fast that they rebound. Returns false if the bodies overlap by
+/// more than 1/1024 of the extent, if the solver has applied an impulse between them, or if one of them is jointed.
 bool is_new_impact(const ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts) {
   const uint32_t low = pair_low(key), high = pair_high(key);
   if (contacts.count == 0 || jointed(stage, low) || jointed(stage, high)) return false;

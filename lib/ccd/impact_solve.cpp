@@ -36,10 +36,10 @@ __attribute__((noinline)) void find_part_points(const ImpactStage& stage, const 
   geometry.seam = contacts.seam;
 }
 
-/// Finds the contact points of the bodies themselves. Returns no points if the contact normal does not agree with the
-/// normal of the impact: deep within a thin body, the direction of least penetration may lead through it. Marks the
-/// contact as a seam if the overlap is no deeper than that of resting bodies, and either more than two points touch or
-/// the two normals are more than 60 degrees apart.
+/// Finds the contact points of the bodies themselves. Returns no points if the contact normal is 90 degrees or more
+/// from the normal of the impact: deep within a thin body, the direction of least penetration may lead through it.
+/// Marks the contact as a seam if the overlap is no deeper than that of resting bodies, and either more than two points
+/// touch or the two normals enclose an angle between 60 and 120 degrees.
 void find_points(const ImpactStage& stage, const ImpactPair& pair, const BodyPose& pose_a, const BodyPose& pose_b,
                  ContactGeometry& geometry) {
   const BodyProperties &a = stage.bodies.properties[pair_low(pair.key)],
@@ -79,7 +79,8 @@ void take_point(const ImpactStage& stage, const ImpactPair& pair, const BodyPose
 Position point_of(const ContactGeometry& geometry, const BodyPose& pose_a, const BodyPose& pose_b,
                   const BodyProperties& a, const BodyProperties& b) {
   static constexpr Unit k_share[k_manifold_points_max] = {1.0, 0.5, 1.0 / 3.0, 0.25};
-  const bool by_b = is_ground(a);  // A may be large, or its points have no arms
+  // A terrain is large, so its arms are coarse; the points on a half-space have no arms. Then B's arms are used.
+  const bool by_b = is_ground(a);
   const int exponent = by_b ? b.size_exponent : a.size_exponent;
   Vec3<Real> sum = k_zero_vector;
   for (uint32_t i = 0; i < geometry.count; ++i) {
@@ -144,8 +145,9 @@ Real parting_speed(const ImpactStage& stage, const ImpactPair& pair, const Conta
   return max(max(half_in_a_tick, scale_by_power(approach, power)), bend_speed(stage, pair));
 }
 
-/// Separates the bodies of a pair at the given points. Returns false and changes nothing if the bodies do not approach
-/// there. `again`: the impulse was propagated from another pair, and the impact is not counted again.
+/// Separates the bodies of a pair at the given points. Returns false if the bodies do not approach there; the attempt
+/// counts as work, but changes no body. `again`: the impulse is propagated from another pair. Then an approach of at
+/// most 2^-12 of first_approach is ignored, parting_speed() is not demanded, and the impact is not counted or recorded.
 bool resolve_at(ImpactStage& stage, ImpactPair& pair, const ContactGeometry& geometry, const BodyPose& pose_a,
                 const BodyPose& pose_b, bool again) {
   const uint32_t a = pair_low(pair.key), b = pair_high(pair.key);
@@ -234,7 +236,8 @@ ImpactPair* next_touching(const ImpactStage& stage, uint64_t first_key, uint64_t
   return best;
 }
 
-/// Resolves a pair that may still touch. Returns false if its bodies do not touch or do not approach.
+/// Resolves a pair that may still touch. Returns false if its bodies do not touch or do not approach. If they touch,
+/// both are moved to `time`.
 bool collide_again(ImpactStage& stage, ImpactPair& pair, Fraction time) {
   const uint32_t slots[2] = {pair_low(pair.key), pair_high(pair.key)};
   const BodyPose pose_a = pose_at(stage.body(slots[0]), time), pose_b = pose_at(stage.body(slots[1]), time);

@@ -24,7 +24,7 @@ inline constexpr uint32_t k_mark_changed = 2;      ///< the new sweep has not be
 inline constexpr uint32_t k_mark_left_bounds = 4;  ///< the sweep leaves the bounds that the pairs were found with
 inline constexpr uint32_t k_mark_hit = 8;          ///< the body was hit: its angular momentum follows its sweep
 inline constexpr uint32_t k_mark_slept = 16;       ///< the body was asleep when the tick began
-inline constexpr uint32_t k_mark_moved = 32;       ///< the body moved when the tick began: its pairs are known
+inline constexpr uint32_t k_mark_moved = 32;       ///< the body was active when the tick began: its pairs were searched
 static_assert(k_mark_moved < k_mark_jointed);
 
 /// The state of the stage during a tick.
@@ -49,7 +49,7 @@ struct ImpactStage {
   bool dynamic(uint32_t slot) const { return is_dynamic(bodies.properties[slot]); }
   /// Whether pairs that cannot collide are skipped.
   bool filters() const { return probe == nullptr || probe->filters; }
-  /// Subtracts `count` tests or impulses from the work that is left.
+  /// Subtracts `count` times of impact, or attempts to resolve an impact, from the work that is left.
   void take_work(uint32_t count) { work_left -= count < work_left ? count : work_left; }
   bool is_spent() const { return work_left == 0; }
   /// Visits the entries in `impacts` of a dynamic body: its pairs with a coming impact, and those that have had one.
@@ -86,8 +86,9 @@ struct ImpactStage {
   /// Finds the first impact of every pair that may collide. The number of tests and of moving bodies sets the budget of
   /// work for the rest of the tick.
   void find_first();
-  /// Finds when a pair collides next, and stores the impact if there is one. `shrink_depth`: the first shrink depth, m.
-  /// `entry`: the pair's entry in `impacts`, or null.
+  /// Finds when a pair collides next, and stores its next event if there is one. Stops both bodies if there is no room
+  /// for an impact, or if the pair would pass through. `shrink_depth`: the first shrink depth, m. `entry`: the pair's
+  /// entry in `impacts`, or null.
   void test(uint64_t key, Fraction time, Real shrink_depth, ImpactPair* entry);
   /// Tests the sweeps that have changed against all other bodies.
   void test_all_changed(Fraction time);
@@ -96,8 +97,8 @@ struct ImpactStage {
 
   // impact_solve.cpp
 
-  /// Separates the bodies of a pair. The bodies must be at the time of the impact. Returns true, and changes nothing,
-  /// if the bodies collide at a seam for the first time.
+  /// Separates the bodies of a pair. The bodies must be at the time of the impact. Returns true, with both sweeps
+  /// unchanged, if the bodies collide at a seam and the shrink depth of the pair was not increased yet.
   bool resolve(ImpactPair& pair, bool undecided, const BodyPose& pose_a, const BodyPose& pose_b);
   /// Propagates the impulse of the pair `first` to the pairs that share a body with it and have collided in this tick,
   /// and back, until no pair approaches. Without this, a body between two others would be hit back and forth without

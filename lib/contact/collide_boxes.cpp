@@ -305,8 +305,10 @@ Segment support_edge(const PairShape& box, int edge, const Vec3<Unit>& direction
 
 /// Replaces the contact of two crossing edges by the contact of the face whose normal is nearest to `normal`. Crossing
 /// edges touch in one point, and this point can jump from one side of the face to the other between two ticks. Returns
-/// false if no face normal is within 2^-3 rad, if the face has only one contact point, or if its deepest point is
-/// shallower or much deeper than the edges.
+/// false, with `manifold` unchanged, in these cases, where p is preference_of() of the boxes: no face normal is within
+/// 2^-3 rad; the edges are more than p apart; the separation along the face normal is more than 4 p below that of the
+/// edges; the face has fewer than two contact points; its deepest point is more than p deeper, or more than p / 16
+/// shallower, than the edges.
 __attribute__((noinline)) bool collide_leaning_face(const PairFrame& frame, const Vec3<Unit>& normal, Unit separation,
                                                     PairManifold& manifold) {
   constexpr Unit k_leaning = 1.0 - 0x1p-7;

@@ -8,7 +8,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// Makes the rules for contact_points_by() from the margins. Returns false if `margin.distance` is negative, or if a
-/// length is NaN or infinite.
+/// length is NaN, infinite, or 2^17 m or more.
 bool make_rules(const ContactMargins& margin, ManifoldReduction reduction, ContactRules& rules);
 
 struct ConvexOps {

@@ -12,8 +12,9 @@ struct HalfSpaceOps {
 /// clamped to Real's range. Floating point: each operation rounds.
 Real distance_along(const Position& from, const Position& to, const Vec3<Unit>& direction);
 
-/// Finds the contact of a half-space (A) with a sphere, capsule or unrounded box (B). The contact points are the points
-/// of B that lie lowest over the plane. `contact` must be empty.
+/// Finds the contact of a half-space (A) with a sphere, capsule or unrounded box (B). The contact points are those of
+/// these points of B that are within the margin of the plane: the lowest point of the sphere or of each end of the
+/// capsule, or the corners of the face of the box that faces the plane most directly. `contact` must be empty.
 void collide_half_space(const CollisionBody& plane, const CollisionBody& body, Real margin, ContactGeometry& contact);
 
 }  // namespace DETENT_NAMESPACE

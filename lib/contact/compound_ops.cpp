@@ -66,7 +66,7 @@ Vec64 raw_offset(const Vec3<Unit>& arm, int32_t exponent, bool& known) {
   return raw;
 }
 
-/// Returns the least half thickness of any part of the two bodies, 2^-46 m.
+/// Returns the least half thickness of a child of either body, 2^-46 m. A body that is not a compound does not count.
 int64_t half_thickness_of(const BodyProperties& a, const BodyProperties& b) {
   const auto own = [](const BodyProperties& properties) {
     return is_compound(properties) ? raw_size(properties.rounding, properties.size_exponent) : INT64_MAX;

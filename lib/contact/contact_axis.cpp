@@ -17,9 +17,9 @@ ContactAxis axis_of(const Penetration& found) {
   return {found.normal, -int64_t{found.depth}, found.point_a, found.point_b, found.capped};
 }
 
-/// Finds the axis of two round cores for which gjk() reached its iteration cap. `distance`: an upper bound of their
-/// distance, ulps. The function moves B into A against `normal` and finds the direction of least penetration there.
-/// Returns false if the cores do not overlap even then.
+/// Finds the contact axis of two cores whose gjk() search was capped. `distance`: an upper bound of their distance,
+/// ulps. The function moves B against `normal` by `distance` and k_push, and finds the direction of least penetration
+/// there. Returns false, with `axis` unchanged, if the cores do not overlap even then.
 bool axis_by_pushing(const RestingPair& pair, const Vec32& normal, int32_t distance, ContactAxis& axis) {
   const int64_t push = int64_t{distance} + k_push;
   const Vec32 offset = subtract(pair.offset, scaled(normal, push));

@@ -10,7 +10,7 @@ struct ContactAxis {
   Vec32 normal;            ///< from A to B, Q30
   int64_t separation;      ///< negative where the cores overlap
   Vec32 point_a, point_b;  ///< nearest points, or deepest if the cores overlap; each from its core's centre
-  bool capped;
+  bool capped;             ///< a search reached its cap: the normal may not be the direction of least penetration
 };
 
 /// Finds the contact axis. False if the cores are certain to be farther apart than `above` ulps.

@@ -21,13 +21,14 @@ struct PairBefore {
 /// Returns how many points of `geometry` have a feature that also occurs in `contact`.
 uint32_t shared_features(const ContactGeometry& geometry, const ContactState& contact);
 
-/// Gives the contacts the keys that they had in the last tick. A contact with a new key takes the key of the contact of
-/// the last tick with which it shares the most features. This is needed because a plane gets a new name when it tilts
-/// slightly or merges with another plane. Keeps the contacts in ascending order of key.
+/// Gives the contacts the keys that they had in the last tick. Consider the contacts of the last tick whose keys no
+/// contact has now. A contact with a new key takes the key of the one of these with which it shares the most features,
+/// if any. This is needed because a plane gets a new name when it tilts slightly or merges with another plane. Keeps
+/// the contacts in ascending order of key.
 void continue_keys(const PairBefore& before, TerrainContacts& contacts);
 
-/// Makes the contact of this tick from its geometry and from the contact of the last tick, `before` (null if the pair
-/// did not touch). A point whose feature persists keeps its impulse; other points start at 0.
+/// Makes the contact of this tick from its geometry and from the contact of the last tick, `before` (null if there was
+/// none). A point whose feature persists keeps its normal impulse; other points start at 0.
 ContactState continued_contact(uint32_t body_a, uint32_t body_b, uint32_t part, const ContactGeometry& geometry,
                                const ContactState* before);
 

@@ -25,10 +25,11 @@ inline int64_t distance(const AreaPoint& p, const AreaPoint& q) {
   return static_cast<int64_t>(magnitude_64(p.u - q.u) + magnitude_64(p.v - q.v));
 }
 
-/// Chooses up to four of any number of points. If there are at most four points, it keeps all of them. Otherwise the
-/// reduction decides. projected_extremes takes the extreme points along four directions. If the deepest point is deeper
-/// than all of these by more than `drop`, it is added; if there are four, it replaces the nearest one. If several
-/// extremes are the same point, the free places go to the points that add most to the area. Ties: the earlier point.
+/// Chooses up to four of any number of points. If there are at most four and no `level`, it keeps all of them.
+/// Otherwise the reduction decides. projected_extremes takes the extreme points along four directions. If the deepest
+/// is deeper than all of these by more than `drop`, it is added; if there are four, it replaces the nearest one. If
+/// several extremes are the same point, the free places go to the points that add most to the area. Ties: the earlier
+/// point.
 class AreaChoice {
  public:
   /// Points higher than `margin` are left out.

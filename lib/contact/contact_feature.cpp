@@ -190,8 +190,8 @@ Vec32 normal_about(const HullView& hull, uint32_t face, BitSet faces) {
   return is_zero(sum) ? normal : unit(sum);
 }
 
-/// Finds the region level with a face, as one polygon, if it is larger than the face. False if the face should be used
-/// by itself.
+/// Finds the region level with a face, as one polygon, if it is larger than the face. `normal`: in, the normal about
+/// the face; out, that of the polygon. False if the face should be used by itself.
 bool find_even(const HullView& hull, uint32_t face, int64_t room, VertexPolygon& polygon, Vec32& normal) {
   const HullIndices loop = hull.face(face);
   uint32_t before = 0;

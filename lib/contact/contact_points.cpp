@@ -221,8 +221,10 @@ bool Builder::build_on_face(BlockManifold& manifold) const {
 }
 
 /// Finds the contact on a face that is slightly tilted against the axis. Crossing edges would instead touch in one
-/// point, which can jump from one side of the face to the other between two ticks. The face is used only if its deepest
-/// point is about as deep as the axis: shallower by at most drop_, deeper by at most preference_.
+/// point, which can jump from one side of the face to the other between two ticks. The cores must be at most
+/// preference_ apart. The face must be within 2^-3 rad of the axis, separate the cores as well as the axis, within 4
+/// preference_, and have at least two points. Its deepest point must be about as deep as the axis: shallower by at most
+/// drop_, deeper by at most preference_.
 __attribute__((noinline)) bool Builder::build_on_leaning_face(BlockManifold& manifold) const {
   constexpr int64_t k_leaning = (int64_t{1} << 60) - (int64_t{1} << 53);  // 2^-3 rad
   const int64_t radii = pair_.radius_a + pair_.radius_b;
@@ -273,8 +275,8 @@ bool Builder::build_on_edge(BlockManifold& manifold) const {
   return fill(reference, is_a, is_a ? edge_b : edge_a, manifold);
 }
 
-/// For a pair with a round shape whose contact is at an edge level with a face, within the penetration of resting
-/// bodies: makes the contact with the face's normal. Returns false if there is no such face.
+/// If a round shape touches an edge that is level with a face, within the penetration of resting bodies, makes the
+/// contact with the face's normal. Otherwise returns false.
 bool Builder::build_level_with_face(BlockManifold& manifold) const {
   ContactAxis level = axis_;
   const int64_t room = thickness() >> 5;  // small shapes penetrate less

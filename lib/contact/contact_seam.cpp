@@ -16,7 +16,7 @@ struct NearFaces {
   }
 };
 
-/// The faces whose planes are at most `room` from the point. Lengths in ulps of the block.
+/// The flat faces of the core whose planes are at most `room` beyond the point. Lengths in ulps of the block.
 NearFaces faces_about(const Placed& placed, const Vec32& point, int64_t room) {
   NearFaces near;
   const Convex& convex = *placed.convex;

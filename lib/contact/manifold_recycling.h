@@ -5,8 +5,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 /// Makes the data from which later ticks can recycle a pair's contact. The data is all zero for a contact that is not
-/// recycled: a contact with a half-space, which is as fast to find anew; the result of a capped search; and a contact
-/// of bodies that overlap deeply.
+/// recycled: a contact without points; a contact with a half-space, which is as fast to find anew; the result of a
+/// capped search; and a contact of bodies that overlap deeply.
 ManifoldState kept_manifold(const CollisionBody& a, const CollisionBody& b, const ContactGeometry& contact);
 
 /// False if the data is all zero.
@@ -15,10 +15,10 @@ bool is_kept(const ManifoldState& manifold);
 /// Recycles the contact `before`, whose features are `feature`, at the current poses. The normal and the surface of the
 /// base (the larger body) move with the base, the points move with the other body, and the separations follow the
 /// motion along the normal. Points farther apart than `margin`, m, are left out of `contact` and of `after`.
-/// Returns false if the caller must collide the pair anew. This is so in two cases. First, a point of the smaller body
-/// may have moved relative to the larger body by more than `tolerance`, m; for a contact of one or two points, about
-/// which a body can rotate or roll, the limit is 1/64 of that. Second, too few points are left: fewer than three of a
-/// contact with three or four points, or not all of a contact with one or two points.
+/// Returns false if the caller must collide the pair anew: if the data is all zero, and in two other cases. First, a
+/// point of the smaller body may have moved relative to the larger body by more than `tolerance`, m; for a contact of
+/// one or two points, about which a body can rotate or roll, the limit is 1/64 of that. Second, too few points are
+/// left: fewer than three of a contact with three or four points, or not all of a contact with one or two points.
 ///
 /// Precision: that of collide(), and 2^-17 of the motion. Each call starts from the stored data, so errors do not
 /// accumulate. The direction of the normal errs by no more than the relative rotation of the pair since then, which is

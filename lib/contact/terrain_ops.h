@@ -10,8 +10,8 @@ inline Terrain terrain_of(const BodyProperties& properties, const AssetTable& as
   return terrain_view(assets.assets[properties.asset].bytes);
 }
 
-/// Finds the contacts of two bodies, one of which has terrain; normals from A to B. Two bodies with terrain have no
-/// contacts.
+/// Finds the contacts of two bodies, one of which has terrain; normals from A to B. Terrain has no contacts with other
+/// terrain or with a half-space.
 void collide_terrain(const CollisionBody& a, const CollisionBody& b, const ContactMargins& margin,
                      const AssetTable& assets, TerrainContacts& contacts);
 

@@ -16,7 +16,7 @@ struct TerrainPlace {
 };
 
 /// Sets `place` from the poses of the terrain and the shape. Errors: not_normalised; out_of_range for NaN and for
-/// positions 2^16 m or more apart.
+/// positions 2^16 m or more apart in a component.
 Status place_on_terrain(const Pose& terrain, const Pose& shape, TerrainPlace& place);
 
 /// The number of bits to shift right to convert 2^-46 m to grid steps.

@@ -21,8 +21,9 @@ void restart(const Placed& a, const Placed& b, const Vec32& offset, Simplex& sim
   }
 }
 
-/// A gap, as a product of a length in ulps and the length of a direction vector. The vector is shorter than 2^31, so
-/// the gap is at least four ulps: more than the rounding errors of the direction and of the support points.
+/// The product of a gap in ulps and the length of a direction vector, above which the gap is certain. The vector is
+/// shorter than 2^31, so this gap is more than four ulps: more than the rounding errors of the direction and of the
+/// support points.
 constexpr int64_t k_touching = int64_t{4} << 31;
 
 int32_t floor_30(int64_t value) { return static_cast<int32_t>(value >> 30); }

@@ -10,7 +10,7 @@
 /// Products, quotients and vectors of the number types, with the same names in all configurations.
 ///
 /// Fixed: every function forms its sum of products exactly and rounds once, to nearest, ties up. Results outside the
-/// format wrap unless a function says that it saturates; builds with DETENT_VERIFY trap there.
+/// format wrap unless a function says that it saturates. Builds with DETENT_VERIFY trap if a Unit result would wrap.
 /// Float: the plain expression, evaluated from left to right, each operation rounded to nearest, ties to even.
 namespace detent {
 inline namespace DETENT_NAMESPACE {

@@ -13,7 +13,7 @@ Quat multiply(const Quat& a, const Quat& b);
 constexpr Quat conjugate(const Quat& q) { return {-q.x, -q.y, -q.z, q.w}; }
 /// Brings the length back to 1. Range: | |q|^2 - 1 | < 2^-8.
 Quat normalise(const Quat& q);
-/// As normalise(), for any length. Range: |q| in [1/2, 2).
+/// Brings the length back to 1. Range: |q| in [1/2, 2).
 Quat normalise_any(const Quat& q);
 /// Normalises a rotation given by the user. Returns false and leaves `out` unchanged unless | |q| - 1 | <= 2^-10.
 bool normalise_input(const Quat& q, Quat& out);

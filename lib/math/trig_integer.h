@@ -12,8 +12,9 @@ struct SineCosineRaw {
 };
 SineCosineRaw sine_cosine_raw(int64_t phase);
 
-/// atan2(y, x) in 2^-32 turns. y and x have the same scale, which the caller chooses. (0, 0) gives 0.
-/// Range: |y|, |x| <= 2^31; the larger at least 2^29 for the full precision (any smaller pair is itself exact).
+/// atan2(y, x) in 2^-32 turns. y and x have the same scale, which the caller chooses. (0, 0) gives 0. Range: |y|, |x|
+/// <= 2^31. A caller that rounds y and x to integers scales the larger to at least 2^29: their rounding then changes
+/// the angle by at most 2^-29 rad.
 uint32_t arc_tangent_raw(int32_t y, int32_t x);
 
 /// Converts an angle from rad, Q46, to 2^-(32 + extra_bits) turns. Range: 0 <= extra_bits <= 2.

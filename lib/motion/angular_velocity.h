@@ -107,8 +107,8 @@ inline Vec3<Real> without_locked(const BodyProperties& properties, const Quat& r
 /// rotation about c is done in two halves, before and after the rotation about a (Strang splitting). This conserves the
 /// angular momentum exactly, and the energy to second order in 1/I_c - 1/I_b. The motion of a symmetric body is exact,
 /// even if it is slender. `angular_velocity` becomes angular_velocity_of() at the start. Returns false if an angle was
-/// clamped to 2^15 rad. Source: Dullweber, Leimkuhler, McLachlan, "Symplectic splitting methods for rigid body
-/// molecular dynamics", 1997.
+/// clamped to 2^15 rad or an angular velocity to the range of Real. Source: Dullweber, Leimkuhler, McLachlan,
+/// "Symplectic splitting methods for rigid body molecular dynamics", 1997.
 bool rotate_freely(const BodyProperties& properties, const FreeRotation& free, const Vec3<Real>& angular_momentum,
                    Real time, int halvings, Quat& rotation, Vec3<Real>& angular_velocity);
 

@@ -29,8 +29,8 @@ inline constexpr int64_t k_factor_max = int64_t{1} << 30;
 inline constexpr int k_mantissa_bits = 27;  ///< bits of a motion: a sum of five stays below 2^30
 inline constexpr int k_number_bits = 28;    ///< bits of an impulse: a sum of four is a factor
 inline constexpr int k_wrench_bits = 28;    ///< bits of each part of a wrench: its torque on a body stays below 2^30
-inline constexpr int k_shift_min =
-    9;  ///< the finest step is 2^-37, which is precise enough; more than k_angular_velocity_power
+/// The least shift of a block. Its finest step is 2^-37 m/s, precise enough. It must exceed k_angular_velocity_power.
+inline constexpr int k_shift_min = 9;
 /// The solver stores angular velocities times 2^-k_angular_velocity_power, because the angular velocity of a slender
 /// body exceeds the range of Real long before its angular momentum does.
 inline constexpr int k_angular_velocity_power = 8;

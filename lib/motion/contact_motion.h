@@ -10,8 +10,8 @@
 ///     linear:  n, t, s . ((v_B + w_B x r_B) - (v_A + w_A x r_A)), m/s
 ///     angular: n, t, s . (w_B - w_A) u, m/s; u is the pair's unit of length, m
 ///
-/// The code is generic over the kind of number: numbers of one contact (One), or of four contacts at once (Four,
-/// lib/solver/lane_contact.h).
+/// The code is generic. `Kind` names the types and operations to solve one contact at a time (One), or four contacts at
+/// once (Four, lib/solver/lane_contact.h).
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -53,7 +53,7 @@ struct SolvedBody {
         inverse_inertia(work.inverse_inertia) {}
 };
 
-/// The kind of number for one contact.
+/// The types and operations with which the generic code solves one contact at a time.
 struct One {
   using Number = Ulps;
   using Factor = detent::Factor;

@@ -13,8 +13,8 @@ inline namespace DETENT_NAMESPACE {
 Real start_body(const StepSettings& settings, const BodyProperties& properties, const BodyPose& pose,
                 const BodyMotion& motion, BodyWork& work);
 
-/// The speculative distance of a pair, m: the pair gets contact points if it is nearer than this. It is the contact
-/// margin plus the distance that the pair can close in the tick. `extent`: the smaller body's. `speed`: the sum of both
+/// The speculative distance of a pair, m: the greatest separation of its contact points. It is the contact margin plus
+/// the distance that the pair can close in the tick. `extent`: the smaller body's. `speed`: the sum of both
 /// BodyWork::speed. The distance that the pair can close counts up to a quarter of the extent, or twice the extent if a
 /// body has joints: impacts do not stop jointed bodies (ccd/impact.h).
 inline Real speculative_distance(const StepSettings& settings, Real extent, Real speed, bool jointed) {
@@ -27,7 +27,7 @@ void predict(const StepSettings& settings, Span<const BodyProperties> properties
              Span<BodyMotion> motions, Span<BodyWork> work);
 
 /// Starts the tick of bodies. Computes bounds that contain each body on its predicted motion in this tick, enlarged by
-/// WorldDef::contact_margin times its smallest diameter. A non-colliding body gets empty bounds.
+/// WorldDef::contact_margin times bounds_extent(). A non-colliding body gets empty bounds, a half-space unbounded ones.
 void bound(const StepSettings& settings, Span<const BodyPose> poses, Span<const BodyProperties> properties,
            Span<const BodyMotion> motions, Span<const uint32_t> bodies, Span<BodyWork> work, Span<Bounds> bounds);
 

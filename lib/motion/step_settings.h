@@ -31,7 +31,7 @@ struct StepSettings {
   /// Solve four contacts at once where possible (World::lanes). This does not change the result.
   bool lanes;
   Real tick_time;      ///< s
-  uint32_t substeps;   ///< set by set_substeps(), like the next three
+  uint32_t substeps;   ///< this and the members down to gap_max are set by set_substeps()
   Real time;           ///< length of a substep, s
   Scaled rate;         ///< substeps per second
   Scaled share;        ///< length of a substep over that of a tick
@@ -54,7 +54,7 @@ struct StepSettings {
   /// anew in each tick.
   Real contact_recycle_distance;
   Softness dynamic_softness;  ///< contacts between two dynamic bodies
-  Softness static_softness;   ///< all other contacts: twice as stiff, less damped
+  Softness static_softness;   ///< all other contacts: twice the frequency, less damped
 };
 
 StepSettings step_settings(const WorldState& world);

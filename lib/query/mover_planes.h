@@ -40,10 +40,11 @@ inline constexpr Real k_mover_still = Real(0x1p-15);
 inline constexpr Real k_mover_still = Real(0x1p-20);
 #endif
 
-/// Returns the displacement nearest to `wish` that keeps the gap to every plane; zero always satisfies this. A floor
-/// changes the displacement only along `up`, so its horizontal part stays. Other planes change it according to the
-/// gait. Bit i of `touched` is set if plane i changed it. Source: Hildreth, "A quadratic programming procedure", 1957;
-/// for corrections that are not along the normal, Cottle, Pang, Stone, "The Linear Complementarity Problem", 5.2.
+/// Returns the displacement nearest to `wish` that keeps the gap to every plane; zero always satisfies this. A floor,
+/// in MoverGait::fall also the edge of a floor, changes the displacement only along `up`, so its horizontal part stays.
+/// Other planes change it according to the gait. Bit i of `touched` is set if plane i changed it. Source: Hildreth, "A
+/// quadratic programming procedure", 1957; for corrections that are not along the normal, Cottle, Pang, Stone, "The
+/// Linear Complementarity Problem", 5.2.
 Vec3<Real> slide_between(Span<const MoverPlane> planes, const Vec3<Real>& wish, const Vec3<Unit>& up, MoverGait gait,
                          uint32_t& touched);
 

@@ -392,7 +392,7 @@ inline Status apply(World& world, Explode& command) { return explode(world, comm
 inline Status apply(World& world, SetFilter& command) { return set_filter(world, command.id, command.filter); }
 inline Status apply(World& world, BindAsset& command) { return bind_asset(world, command.index); }
 
-/// The code of a command type. `command` points to a command of this type.
+/// The functions that read, write and repeat one kind of call. `command` points to a command with this tag.
 struct CommandCode {
   RecordTag tag;
   void (*visit)(Archive& archive, void* command);
@@ -407,7 +407,7 @@ inline constexpr CommandCode k_command_code = {
 inline constexpr uint32_t k_command_bytes_max = sizeof(SetJoint) > sizeof(CreateBody) ? sizeof(SetJoint)
                                                                                       : sizeof(CreateBody);
 
-/// The code of the command with this tag, or null if no call has the tag.
+/// The functions of the call with this tag; null if no call has the tag.
 const CommandCode* find_command(RecordTag tag);
 
 }  // namespace DETENT_NAMESPACE

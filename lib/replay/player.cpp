@@ -259,7 +259,8 @@ Status Player::call(World* world, uint32_t tag, Reader& reader, uint64_t offset)
   return Status::ok;
 }
 
-/// Marks the recording as cut off: its valid part ends before the chunk that is damaged or incomplete.
+/// After the error truncated or corrupt, marks the recording as cut off: its valid part ends before the chunk that is
+/// damaged or incomplete. Returns the error.
 Status Player::cut() {
   if (error_.status == Status::truncated || error_.status == Status::corrupt) state_ = State::cut;
   return error_.status;

@@ -78,7 +78,7 @@ inline void visit(Archive& archive, ClosestQuery& query) {
   visit_choice_of_bodies(archive, query);
 }
 
-/// The code of a query type.
+/// The functions that read, write and repeat one kind of query.
 struct QueryCode {
   QueryKind kind;
   /// Visits the fields after the kind. `command` points to a command of this type.
@@ -103,7 +103,7 @@ inline constexpr QueryCode k_query_code = {Command::k_kind,
 
 /// The size of the largest query command.
 inline constexpr uint32_t k_query_command_bytes = sizeof(CastCommand);
-/// The code of this kind of query, or null.
+/// The functions of this kind of query; null if the kind is unknown.
 const QueryCode* find_query(uint64_t kind);
 
 /// Visits the length of the rest of the record, the kind, and the fields of the query.
@@ -113,7 +113,7 @@ void visit(Archive& archive, QueryCommand<kind, Query, call>& command) {
   visit_query(archive, k_query_code<QueryCommand<kind, Query, call>>, &command);
 }
 
-/// The entry point of the code that repeats queries, for a player. It is linked only if it is used.
+/// The entry point of the code that repeats queries, for a player. The code is linked only if a program uses it.
 struct QueryRepeater {
   /// Reads a query, beginning with its kind, runs it, and returns the digests of the recorded and the new answer. If
   /// the query cannot be read, `reader` holds the error.

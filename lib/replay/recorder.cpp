@@ -12,7 +12,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// The code of a record that is not a call.
+/// The functions of a record that only Recorder writes. It is never repeated: `apply` is null.
 template <class Record>
 constexpr CommandCode k_record_code = {
     Record::k_tag, [](Archive& archive, void* record) { visit(archive, *static_cast<Record*>(record)); }, nullptr};
@@ -26,7 +26,7 @@ void visit(Archive& archive, LoggedQuery& query) { visit_query(archive, query.co
 
 }  // namespace
 
-// A record is its tags and at most as many bytes as its command has in memory. It always fits an empty chunk.
+// A record has a tag and at most as many further bytes as its command has in memory. It always fits an empty chunk.
 static_assert(sizeof(CreateBody) + 1 <= k_chunk_payload_bytes_max);
 static_assert(sizeof(SetJoint) + 1 <= k_chunk_payload_bytes_max);
 static_assert(sizeof(CastCommand) + 4 <= k_chunk_payload_bytes_max);

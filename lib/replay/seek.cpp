@@ -15,10 +15,10 @@ Status Player::seek(const Place& place) {
   return Status::ok;
 }
 
-/// Searches the last keyframe at or before the tick, from `place` on, and sets `place` to it if there is one. It reads
-/// only chunk headers and does not test checksums; reading the chunk later does that. An impossible header ends the
-/// search like the end of the bytes. A keyframe counts only if another chunk follows it, which shows that it is
-/// complete.
+/// Searches for the last keyframe at or before the tick, from `place` on. If there is one, sets `place` to it and
+/// `found` to true. Sets `beyond` to whether the recording ends before the tick, if the search meets its last chunk.
+/// Reads only chunk headers: checksums are tested when a chunk is read later. An impossible header ends the search like
+/// the end of the bytes. A keyframe counts only if a chunk of another type follows, which shows that it is complete.
 Status Player::find_keyframe(Place& place, uint64_t tick, bool& found, bool& beyond) {
   Place at = place, candidate = {};
   bool within = false;

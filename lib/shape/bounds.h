@@ -74,7 +74,7 @@ inline Vec3<Real> half_bounds(const BodyProperties& properties, const Matrix3& r
 }
 
 DETENT_SHARED inline bool overlap(const Bounds& a, const Bounds& b) {
-  // One branch for each axis: on which side two bounds are apart is hard to predict.
+  // One branch for each axis, not two: a processor hardly predicts on which side of the other a bound lies.
   const auto along = [](Coord lower_a, Coord upper_a, Coord lower_b, Coord upper_b) {
     return static_cast<int>(lower_a <= upper_b) & static_cast<int>(lower_b <= upper_a);
   };

@@ -32,7 +32,8 @@ inline constexpr uint32_t k_height_block_bits = 3;  ///< a leaf of the tree cont
 inline constexpr uint32_t k_height_levels_max = 10;
 inline constexpr uint32_t k_height_node_bytes = 4;  ///< int16 least and greatest height
 
-/// Node (i, j) of a level contains the nodes (2 i, 2 j) to (2 i + 1, 2 j + 1) of the level below, as far as they exist.
+/// A view of a cooked height field; it copies nothing. Node (i, j) of a level contains the nodes (2 i, 2 j) to
+/// (2 i + 1, 2 j + 1) of the level below, as far as they exist.
 struct HeightFieldView {
   const uint8_t* bytes = nullptr;
   uint32_t columns = 0, rows = 0;

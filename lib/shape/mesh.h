@@ -32,8 +32,8 @@ inline constexpr uint32_t k_mesh_node_bytes = 12;              ///< uint16: low 
 inline constexpr uint32_t k_mesh_leaf_triangles = 4;
 inline constexpr uint32_t k_mesh_levels_max = 19;
 
-/// The tree has no pointers: leaf i contains the triangles 4 i to 4 i + 3, and node i of a higher level contains the
-/// nodes 2 i and 2 i + 1 of the level below.
+/// A view of a cooked mesh; it copies nothing. Its tree has no pointers: leaf i contains the triangles 4 i to 4 i + 3,
+/// and node i of a higher level contains the nodes 2 i and 2 i + 1 of the level below.
 struct MeshView {
   const uint8_t* bytes = nullptr;
   uint32_t vertex_count = 0, triangle_count = 0;

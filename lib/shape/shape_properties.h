@@ -11,7 +11,7 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The greatest inverse inertia (per unit mass). It limits sqrt(I / m) about an axis to at least 2^-7.5 of the body's
+/// The greatest inverse inertia (per unit mass). With it, sqrt(I / m) about an axis is at least 2^-7.5 of the body's
 /// unit of length: 5.5 mm for a rod of 1.6 m. For a thinner body, an impulse far off its axis would change the angular
 /// velocity so much that the sum of two bodies' changes would leave the range of Real.
 inline constexpr Scaled k_inverse_inertia_max = 0x1p15;
@@ -24,8 +24,8 @@ inline Real bounding_radius_of(const BodyProperties& properties) {
   return real_from_unit(properties.bounding_radius, properties.size_exponent);
 }
 
-/// The greatest distance of a point of the core from the origin; 0 for hulls, terrain, compounds and half-spaces. T:
-/// Real or Unit, for the sizes and the result.
+/// The greatest distance of a point of a sphere, capsule, or core of a box, cylinder or cone from the origin; 0 for
+/// other shapes. `size`: as BodyProperties::size. T: Real or Unit, for the sizes and the result.
 template <class T>
 T core_bound(ShapeType type, const Vec3<T>& size) {
   const T zero = 0.0;
@@ -53,10 +53,10 @@ Unit hull_radius(const HullView& hull, int32_t exponent);
 
 /// Sizes derived from a shape, m.
 struct ShapeMeasure {
-  Vec3<Real> size;  ///< as BodyProperties::size
-  Real smallest;    ///< the least of its sizes and its rounding
-  Real bound;       ///< the greatest distance of a point of the core from the origin
-  int32_t exponent_min;
+  Vec3<Real> size;       ///< as BodyProperties::size; of a hull: 0
+  Real smallest;         ///< the least of its sizes and its rounding
+  Real bound;            ///< the greatest distance of a point of the shape without its rounding from the origin
+  int32_t exponent_min;  ///< the least size_exponent: of a hull or compound, that of its asset
   Real thickness = 0.0;  ///< of a compound: the half thickness, kept in BodyProperties::rounding
 };
 
@@ -87,7 +87,8 @@ Scaled shape_volume(const BodyProperties& properties, const AssetTable& assets =
                     const FeatureTable& features = feature_table<Features::all>);
 
 /// Sets the inverse inertia (per unit mass), m (2^size_exponent)^2 / I, about the body's axes for uniform density. It
-/// does not depend on mass or scale. 0 about a locked axis; at most k_inverse_inertia_max.
+/// does not depend on the mass, nor on the scale but for the ratio of the size to the unit of length. 0 about a locked
+/// axis; at most k_inverse_inertia_max. A half-space's and a terrain's is left as it is.
 /// Relative error below 2^-24; for a hull the error of its file. Rounded shapes as in shape_volume().
 /// Source: the standard moments of the box, ball, cylinder, cone and half-ball.
 void set_inverse_inertia(BodyProperties& properties, const AssetTable& assets = {},

@@ -7,7 +7,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr Real k_half_turn_limit = 3.0;  ///< rad; a full revolution cannot be added to a smaller estimate
+constexpr Real k_half_turn_limit = 3.0;  ///< rad; for an estimate up to this, the shortest rotation is the nearest one
 constexpr int32_t k_turns_max = 1 << 14;
 
 /// The nearest integer to a / b for b > 0, clamped to +-k_turns_max. Binary long division: it needs no conversion to

@@ -8,7 +8,7 @@
 
 // Format: a header of three 8-byte words (magic and format, the base's tick, size of the snapshot in bytes), then the
 // 8-byte words after the snapshot's header in order. A word that differs is a mask of its differing bytes, followed by
-// these bytes. A run of equal words is an empty mask, followed by the length of the run.
+// these bytes. A run of equal words is an empty mask, followed by the length of the run; a run at the end is left out.
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -107,8 +107,8 @@ struct DeltaReader {
   }
 };
 
-/// Reads all words of a delta. Applies the differences to `bytes`, unless `bytes` is null. Returns false if the delta
-/// does not describe exactly `words` words.
+/// Reads all entries of a delta. Applies the differences to `bytes`, unless `bytes` is null. The words after the last
+/// entry are equal. Returns false if an entry is malformed or lies beyond the `words` words.
 bool read_words(DeltaReader reader, uint32_t words, uint8_t* bytes) {
   for (uint32_t at = 0; reader.left != 0;) {
     uint8_t mask = 0;

@@ -28,7 +28,7 @@ DETENT_SHARED inline bool within(const Vec3<Real>& v, Real limit) {
 }
 
 #if DETENT_FIXED
-/// Whether the value is canonical and small enough that products of three such values stay in range.
+/// Whether the value is canonical and its exponent so small that products of two such values stay in range.
 DETENT_SHARED inline bool is_number(Scaled value) {
   if (value.mantissa == 0) return value.exponent == 0;
   const uint32_t magnitude = magnitude_32(value.mantissa);

@@ -8,8 +8,8 @@ inline namespace DETENT_NAMESPACE {
 /// whole snapshot. Returns false if the range extends beyond the end of the snapshot.
 bool snapshot_read(const World& world, uint32_t offset, uint8_t* bytes, uint32_t count);
 
-/// Replaces the contents of the block by a new empty world with default settings. `capacity` must be that of the world.
-/// World::hooks does not change.
+/// Replaces the contents of the block by a new empty world with default settings; continuous collision and sleeping are
+/// off if their features are not linked. `capacity` must be that of the world. World::hooks does not change.
 Status empty_world(World& world, Capacity capacity);
 
 /// As `load`, but reads the canonical bytes with `read`, directly into the world's block. On failure the world is left

@@ -5,7 +5,8 @@
 #include "state/view.h"
 
 /// Data that steps keep between ticks. A call that changes a body adds the body to the active set, so that the next
-/// step evaluates it. After create_world(), restore() and load(), the next step recomputes all of this data.
+/// step evaluates it. After create_world(), restore(), load() and copy_world(), the next step recomputes all of this
+/// data.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 

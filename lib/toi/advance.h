@@ -22,7 +22,8 @@ struct Horizon {
            static_cast<int64_t>((static_cast<uint64_t>(product.high_word()) << 34) | (product.low_word() >> 30));
   }
 };
-/// The longest horizon of a search, in quarter radians: 2 rad. The number formats of advance() hold 3 rad.
+/// The largest sum of both bodies' rotation angles over a horizon of a search, in quarter radians: 2 rad. The number
+/// formats of advance() hold 3 rad.
 inline constexpr int k_horizon_quarters = 8;
 
 /// The horizon that begins at `start` and lasts at most `length`. It is shortened so that the rotation angles of both

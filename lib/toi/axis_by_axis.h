@@ -20,11 +20,12 @@ inline Vec3<Real> point_on_a(const MovingPair& pair, const Placed& a, const Plac
 }
 
 /// Repeats two steps: calls GJK at the current time, and advances the time to the result of `next_time`. Stops when the
-/// shapes are within the tolerance or the window ends. The result is undecided if `next_time` makes no progress or more
-/// than `iterations_max` axes are needed. `next_time(frames, simplex, nearest, iteration, floor)` returns a time >=
-/// frames.time up to which its method finds the cores at least `floor` ulps apart. `enough`, ulps: the result is clear
-/// at once if all core points are farther apart than this when the window begins; INT32_MAX disables this test. The
-/// function is always inlined, so that time_of_impact() costs no more than with a loop of its own.
+/// shapes are within the tolerance or the window ends. The result is undecided if `next_time` makes no progress
+/// although GJK reached no cap, or after `iterations_max` axes. `next_time(frames, simplex, nearest, iteration, floor)`
+/// returns a time >= frames.time up to which its method finds the cores at least `floor` ulps apart. `enough`, ulps:
+/// the result is clear at once if all core points are farther apart than this when the window begins; INT32_MAX
+/// disables this test. The function is always inlined, so that time_of_impact() costs no more than with a loop of its
+/// own.
 template <class NextTime>
 [[gnu::always_inline]] inline void advance_by_axes(const MovingPair& pair, int iterations_max, int32_t enough,
                                                    TimeOfImpact& result, NextTime next_time) {

@@ -72,14 +72,15 @@ OpenPart reduced_roots(const Vec64 (&corner)[4][3], const int64_t (&weight)[4], 
     if (moments > moments_most) moments_most = moments;
     if (weight[i] > weight_most) weight_most = weight[i];
   }
-  // 58 bits are enough: each volume is then rounded down by less than 1.
+  // Volumes of 58 bits keep the weighted sums far within 128 bits. The shift rounds each volume and the error bound
+  // down by less than 1 each; the "+ 2" below covers both.
   const Int128 volume_error = shortening.volume_error(moments_most);
   const int length = longest_of(volume, volume_error), n = length > 58 ? length - 58 : 0;
   const auto weighted = [&](int i, int64_t factor) {
     return Int128::product(floor_shift(volume[i], n), factor * weight[i]);
   };
-  // The error of a weighted volume, times the largest sum of factors in a coefficient of the cubic. A weight is off by
-  // less than 2 units in its last place.
+  // The error of a weighted volume, times the largest sum of factors in a coefficient of the cubic. The second term is
+  // due to the weights, each of which is off by less than 2 units in its last place.
   constexpr int64_t k_factors = 5 + 18 + 9 + 2;
   const Int128 error = Int128::product(floor_shift(volume_error, n) + 2, k_factors * weight_most) +
                        Int128::from(2 * k_factors).shift_left(length - n);

@@ -10,7 +10,8 @@ struct LinearFeatures {
   Vec64 start[4], end[4];  ///< in the order of FeatureKind. Range: components at most 2^60
   int64_t ball;            ///< bound on the error of a difference of corners, in each component
 
-  /// Finds the first contact. At a hit the gap is at most k_feature_tolerance times the size plus 32 units.
+  /// Finds the first contact. At a hit the gap is at most k_feature_tolerance times the larger of size_of() at the
+  /// start and at the end, plus 32 units if `ball` is 1.
   void first_contact(FeatureToi& result) const;
 };
 

@@ -69,8 +69,8 @@ inline int64_t size_of(FeatureKind kind, const Vec64 (&corner)[4]) {
 }
 
 /// Returns the gap below which features count as touching at the beginning of an interval that may hold a contact. It
-/// is larger than the distance from which on open_part() rules out a contact. So the search always rules out features
-/// that are not near. The rest of k_feature_tolerance is for rounding.
+/// is larger than the distance beyond which open_part() is certain to be empty. So an interval that is short enough is
+/// either ruled out, or its features are near at its beginning. The rest of k_feature_tolerance is for rounding.
 constexpr int64_t near_gap(int64_t size, int64_t ball) { return larger(size >> 22, 2 * ball + 8); }
 
 /// value times part, with `part` in Q30. Rounding: down. Range: 0 <= part <= 1.
@@ -89,9 +89,9 @@ struct Interval {
 };
 /// Searches the first contact in intervals of time, earliest first. It cuts off the parts of an interval that are
 /// certainly clear and halves the rest. An interval ends the search with a hit if the features are near at its
-/// beginning or if it is too short to halve. The result is clear if no interval is left. `Path` has span(from, to),
-/// which returns a FeatureSpan. It may have roots(from, to), if it can bound the times of coplanar corners better than
-/// by chords.
+/// beginning or if it is too short to halve. The result is clear if no interval is left, and undecided after
+/// k_feature_intervals_max intervals. `Path` has span(from, to), which returns a FeatureSpan. It may have roots(from,
+/// to), if it can bound the times of coplanar corners better than by chords.
 template <class Path>
 void search(const Path& path, int64_t gap, FeatureToi& result, Interval now = {0, k_time_end}) {
   // Each waiting interval is at most half as long as the one before it, so there are at most k_time_bits of them.

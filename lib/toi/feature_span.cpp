@@ -9,7 +9,7 @@ namespace {
 
 /// A span rounded to short integers.
 struct ShortSpan {
-  Vec32 corner[8];  ///< `count` at the beginning, then as many at the end
+  Vec32 corner[8];  ///< the `count` corners at the start of the interval, then the same corners at its end
   int count;
   Shortening is;
 

@@ -14,9 +14,9 @@ struct FeatureSpan {
   int64_t ball;   ///< bound on the distance of a corner from its chord, in each component
 };
 
-/// The part of the interval that may hold a contact. There is certainly no contact outside of it, for any corners. The
-/// result is empty at the latest when the hull of all corners at both ends is farther from the origin than 1.8 balls
-/// plus 2^-26 of the largest corner.
+/// The part of the interval that may hold a contact; there is certainly no contact outside of it. The result is empty
+/// if the hull of all corners at both ends is farther from the origin than 1.8 balls plus 2^-26 of the largest corner;
+/// it may be empty for nearer corners too.
 OpenPart open_part(const FeatureSpan& span);
 
 /// Whether the features are nearer than `gap` at the beginning of the interval. True for every distance below `gap`;

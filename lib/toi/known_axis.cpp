@@ -10,8 +10,8 @@ namespace {
 bool has_rim(const Convex& convex) { return convex.type == ShapeType::cylinder || convex.type == ShapeType::cone; }
 
 /// Sets `window` to the whole window as one horizon. Returns false for a half-space, if the bodies rotate too far, or
-/// if the window is empty. Also returns false for two rims: near contact, gjk() may reach its iteration cap and the
-/// full search ends undecided. This test must not change that result.
+/// if the window is empty. Also returns false for two shapes with rims: near contact, gjk() may reach its iteration
+/// cap, so that the full search ends undecided, and a test by a known axis must not change that result.
 bool window_of(const MovingPair& pair, Horizon& window) {
   if (pair.planar || pair.from > pair.to || (has_rim(*pair.a) && has_rim(*pair.b))) return false;
   window = horizon_from(pair, pair.from, pair.to - pair.from, k_horizon_quarters);

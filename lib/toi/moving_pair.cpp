@@ -133,7 +133,7 @@ Status turning_of(const Motion& motion, Turning& turning) {
       magnitude_64(rotation_vector.z) > k_raw_rotation_max) {
     return Status::out_of_range;
   }
-  // The components are below 2^62, so the square fits 128 bits.
+  // The components are at most 2^62 in magnitude, so the sum of their squares fits 128 bits.
   const Int128 longest = Int128::product(k_raw_rotation_max, k_raw_rotation_max);
   if (longest < dot(rotation_vector, rotation_vector)) return Status::out_of_range;
   const Vec64 displacement = rotation_vector;

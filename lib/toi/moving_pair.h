@@ -94,8 +94,8 @@ struct MovingPair {
 };
 
 /// Finds the window in which the bounding spheres touch, and the block, for a pair whose shapes and rotations are set.
-/// `offset` and `displacement`: of B relative to A, 2^-46 m. Errors: out_of_range for a displacement of 2^15 m or more,
-/// or if the centres are 2^16 m or more apart and the spheres may still touch.
+/// `offset` and `displacement`: of B relative to A, 2^-46 m. Errors: out_of_range for a component of the displacement
+/// of 2^15 m or more, or of the offset of 2^16 m or more if the spheres may touch or one shape is a half-space.
 Status set_block(const Vec64& offset, const Vec64& displacement, MovingPair& pair);
 /// set_turnings() sets the rotations. set_displacements() sets the translations, the window and the block. The shapes
 /// of the pair must be set. If one shape is a half-space, call set_turnings() first; otherwise set_displacements() does

@@ -19,8 +19,8 @@ struct StepPart {
   /// of a point of A and a point of B.
   int64_t bend;
   Vec64 displacement;  ///< translation of B relative to A over the part, 2^-46 m
-  /// A bound, 2^-46 m. The relative motion of two touching points over the part, along a normal as it is at the
-  /// beginning, is that of `displacement` within +-stray, if the points keep their motion over the whole part.
+  /// Bound, 2^-46 m. Two points that touch in the part move relative to each other over the whole part. Along a normal
+  /// of their features as it is at the beginning, this motion differs from `displacement` by at most the bound.
   int64_t stray;
 
   /// Whether points that touch with this outward normal of A at the beginning may approach. When two bodies first

@@ -7,7 +7,8 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The search divides the step into parts. Each is limited by one of these relative rotations of the bodies, Q30 rad.
+/// The search divides the step into parts. In each part, the bodies rotate relative to each other by at most one of
+/// these angles, Q30 rad.
 inline constexpr int k_lengths = 3;
 inline constexpr int64_t k_part_turn[k_lengths] = {1 << 30, 1 << 28, 1 << 25};
 /// The maximum number of parts; after them the result is `undecided`.
@@ -68,7 +69,8 @@ class FeaturePairs {
   }
 
  private:
-  /// Finds the axis that separates the bodies at the beginning of the part. Returns whether they touch there.
+  /// Finds the nearest points at the beginning of the part, and the normal between them. Returns whether the bodies
+  /// touch there: if `hit`, if they overlap, or if they are near. Then also sets the result's normal and point.
   bool look(bool hit, TimeOfImpact& result) {
     const int exponent = raw_exponent_above(saturated_sum(length_bound(part_.begin.offset), cores_ + 64));
     const Placed a = place(a_.convex(), part_.begin.a, exponent), b = place(b_.convex(), part_.begin.b, exponent);
@@ -93,8 +95,8 @@ class FeaturePairs {
   }
 
   /// Chooses the end of a part that begins at `from`. The part gets the longest allowed length over which the normal
-  /// certainly separates the bodies. If there is none, the part ends about when the bodies overlap by `depth_` along
-  /// the normal.
+  /// certainly separates the bodies. If there is none, it gets the shortest allowed length, or ends earlier, about when
+  /// the bodies overlap by `depth_` along the normal.
   void set_part(int64_t from, int64_t to) {
     for (int i = 0; i < k_lengths; ++i) {
       const int64_t length = to - from < length_max_[i] ? to - from : length_max_[i];

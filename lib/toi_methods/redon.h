@@ -6,10 +6,11 @@ inline namespace DETENT_NAMESPACE {
 
 /// The first contact of two polytopes if B moves in A's frame by the screw motion from the first pose to the last, with
 /// the smaller rotation angle. The result is certified for the screw motion. If the step's own motion differs, the
-/// result may be late or early for it. The function does not set the normal and the point. Errors: bad_argument for a
-/// shape that is not a polytope; out_of_range for a relative rotation of more than 2.65 rad, and for positions more
-/// than 2^10 m apart in a component; as time_of_impact(). Source: S. Redon, A. Kheddar, S. Coquillart, "An algebraic
-/// solution to the problem of collision detection for rigid polyhedral objects", ICRA 2000.
+/// result may be late or early for it. The normal and the point are zero. Errors: bad_argument for a shape that is not
+/// a polytope; out_of_range for a relative rotation of more than 2.65 rad, for an initial offset or a displacement of
+/// more than 2^10 m in a component, and for a core radius of 2^10 m or more; as time_of_impact(). Source: S. Redon, A.
+/// Kheddar, S. Coquillart, "An algebraic solution to the problem of collision detection for rigid polyhedral objects",
+/// ICRA 2000.
 Status time_of_impact_by_redon(const Convex& a, const Motion& motion_a, const Convex& b, const Motion& motion_b,
                                TimeOfImpact& result);
 

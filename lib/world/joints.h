@@ -11,8 +11,8 @@ void remove_joint(StateView<uint8_t>& state, uint32_t slot);
 /// Removes all joints of a body.
 void remove_joints_of(StateView<uint8_t>& state, uint32_t body);
 
-/// Wakes each sleeping body that is joined to a moving body, and again those joined to it. Returns the number of bodies
-/// that woke.
+/// Wakes each sleeping body that is joined to a moving body, then those joined to the woken bodies, and so on. Returns
+/// the number of bodies that woke.
 uint32_t wake_jointed(Span<const JointState> joints, Span<const BodyProperties> properties,
                       Span<const BodyMotion> motions, Span<BodyActivity> activities, const StepCacheView& cache);
 

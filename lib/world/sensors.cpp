@@ -19,7 +19,7 @@ namespace {
 
 /// The largest distance at which a body counts as within a sensor is 2^k_within_power of the pair's smaller extent. It
 /// exceeds the tolerance of a time of impact, so a body that hits the sensor is within it at that time. It is below the
-/// margin of reach_of().
+/// margin of sensed_bounds().
 constexpr int k_within_power = -14;
 
 /// Bounds that contain the body from its current time to the end of the tick. Their margin covers the distance of

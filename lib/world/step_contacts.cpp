@@ -165,8 +165,9 @@ struct Collider {
     }
   }
 
-  /// Leaves the rebounds of a pair of dynamic bodies to continuous collision (impacts), unless another dynamic body
-  /// pushes one of them. Within a pile there would be too many impacts.
+  /// Leaves the rebounds of pairs of dynamic bodies to continuous collision (impacts). Excepted are pairs with parts,
+  /// and pairs of which a body had a normal impulse with any dynamic body in the last tick, the pair's own contact
+  /// included: within a pile there would be too many impacts.
   __attribute__((noinline)) void leave_rebounds_to_impacts() const {
     const Span<ContactWork> contacts = room.contacts().first(count.contacts);
     const auto for_each_leaning = [&](const auto& visit) {

@@ -41,8 +41,8 @@ struct StepBodies {
   }
 };
 
-/// Wakes each sleeping body that a moving body touches, and again those that it touches. Removes the woken bodies from
-/// the tree and finds their pairs. Returns the number of bodies that woke.
+/// Wakes each sleeping body that a moving body touches, then those that the woken bodies touch, and so on. Removes the
+/// woken bodies from the tree and finds their pairs. Returns the number of bodies that woke.
 uint32_t wake_touched(const StepSettings& settings, const StepBodies& bodies, const StepCacheView& cache,
                       PairPool& pool);
 

@@ -2,8 +2,8 @@
 #include <detent/detail/state.h>
 #include <detent/numbers.h>
 
-/// Work space of a step, in the block behind the persistent state. Only StepCache outlives a step; it can be recomputed
-/// from the state. Alignment is explicit where i686 would align a double to 4 bytes.
+/// Work space of a step, in the block behind the persistent state. Only the step cache keeps its content from step to
+/// step. Alignment is explicit where i686 would align a double to 4 bytes.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 

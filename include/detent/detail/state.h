@@ -66,10 +66,9 @@ struct BodyMotion {
   Vec3<Real> linear_velocity;  ///< m/s
   /// Dynamic: angular momentum / (mass x 2^size_exponent), m/s. Kinematic: angular velocity x 2^size_exponent, m/s.
   Vec3<Real> angular_momentum;
-  Vec3<Real>
-      pending_velocity;  ///< added to `linear_velocity` during the next step by forces applied since the last, m/s
-  Vec3<Real> pending_angular_momentum;  ///< added to `angular_momentum` during the next step by torques applied since
-                                        ///< the last, m/s
+  /// What forces and torques applied since the last step add to the two members above during the next one, m/s.
+  Vec3<Real> pending_velocity;
+  Vec3<Real> pending_angular_momentum;
 };
 
 struct BodyProperties {
@@ -90,8 +89,7 @@ struct BodyProperties {
   /// of a child. Other shapes: 0.
   Unit rounding;
   Scaled mass;                ///< kg; of a non-dynamic body: the mass that it gets when it becomes dynamic, or 0
-  Scaled inverse_inertia[3];  ///< inverse inertia: m (2^size_exponent)^2 / I about each body axis; 0 if locked or not
-                              ///< dynamic
+  Scaled inverse_inertia[3];  ///< m (2^size_exponent)^2 / I about each body axis; 0 if locked or not dynamic
   Scaled friction;
   Scaled restitution;
   Scaled rolling_resistance;
@@ -101,8 +99,7 @@ struct BodyProperties {
   uint32_t user_data;
   uint32_t restitution_rule;  ///< RestitutionRule
   uint32_t asset;             ///< of a hull, terrain or compound: its index in the world's asset table; else 0
-  uint16_t rotation_locks;    ///< k_rotation_lock_x, ...: body axes about which the body cannot rotate; their inverse
-                              ///< inertia is 0
+  uint16_t rotation_locks;    ///< k_rotation_lock_x, ...: the inverse inertia about these axes is 0
   uint16_t sensor;            ///< 1 if the body is a sensor
 };
 
