@@ -103,7 +103,7 @@ struct CastHit {
 Status cast_ray(const Convex& convex, const Pose& pose, const Vec3<Real>& origin, const Vec3<Real>& displacement,
                 CastHit& result);
 
-/// Finds where `moving`, which starts at `start` and moves by the displacement `displacement`, m, without rotation,
+/// Finds where `moving`, which starts at `start` and is translated by `displacement`, m, without rotation,
 /// first hits `convex`. With a sphere as `moving` this is a sphere cast. `normal` points from `convex` to `moving`.
 /// Errors: as time_of_impact().
 Status cast_shape(const Convex& moving, const Pose& start, const Vec3<Real>& displacement, const Convex& convex,

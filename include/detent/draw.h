@@ -1,7 +1,7 @@
 #pragma once
 #include <detent/world.h>
 
-/// Draws a world through the caller's functions. The code is linked only if it is called. It does not change the world.
+/// Draws a world through the caller's functions, without changing the world. The code is linked only if draw() is used.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 

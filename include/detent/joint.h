@@ -36,8 +36,8 @@ struct JointAxis {
   Real damping_ratio = 1.0;  ///< of the spring, [0, 64]; 1 is critical
   Real target = 0.0;         ///< target of the spring, rad or m
   Real speed = 0.0;          ///< speed of the motor, or of the spring's target, rad/s or m/s; within +-1024
-  /// N or N m, >= 0. With a spring (frequency > 0): its largest force, 0: no limit. Without: that of the motor, 0:
-  /// none.
+  /// N or N m, >= 0. If `frequency` is above 0: the largest force of the spring; 0 means no limit. If `frequency` is 0:
+  /// the largest force of the motor; 0 means no motor.
   Scaled force_max = 0.0;
 };
 

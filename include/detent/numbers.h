@@ -21,7 +21,7 @@ inline namespace DETENT_NAMESPACE {
 /// The result of fixed_from_double_bits(): a double converted to fixed point.
 struct FromDouble {
   int64_t raw;    ///< value 2^frac, rounded to nearest, ties away from zero
-  bool in_range;  ///< false for NaN, infinity, and if the rounded |value| 2^frac is 2^(int_bits-1) or more: raw is 0
+  bool in_range;  ///< false for NaN, infinity, and a rounded |value| 2^frac of 2^(int_bits-1) or more; raw is then 0
 };
 /// Converts an IEEE double, given by its bits, to a fixed-point number with `frac` fraction bits. The function uses
 /// only integer arithmetic, so the caller's rounding mode and flush-to-zero have no effect. Range: 0 <= frac <= 62.

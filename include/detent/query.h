@@ -63,7 +63,7 @@ struct QueryReport {
 /// A ray: the straight segment from `origin` to `origin + displacement`.
 struct RayQuery {
   Position origin = {0.0, 0.0, 0.0};          ///< m, world
-  Vec3<Real> displacement = {0.0, 0.0, 0.0};  ///< displacement, m, world; each component within 2^14
+  Vec3<Real> displacement = {0.0, 0.0, 0.0};  ///< m, world; each component within 2^14
   QueryFilter filter = {};                    ///< the bodies that it tests
   bool all = false;                           ///< true: find every body that the ray hits; false: only the first
 };
@@ -74,7 +74,7 @@ struct CastQuery {
   Shape shape = {};                              ///< as of a body, or a point
   Position position = {0.0, 0.0, 0.0};           ///< at the start, m, world
   Quat rotation = {0.0, 0.0, 0.0, 1.0};          ///< at the start, local to world
-  Vec3<Real> displacement = {0.0, 0.0, 0.0};     ///< displacement, m, world; each component within 2^14
+  Vec3<Real> displacement = {0.0, 0.0, 0.0};     ///< m, world; each component within 2^14
   Vec3<Real> rotation_vector = {0.0, 0.0, 0.0};  ///< world, rad; length at most 2^16
   QueryFilter filter = {};                       ///< the bodies that it tests
   bool all = false;                              ///< true: find every body that the shape hits; false: only the first

@@ -12,18 +12,18 @@ inline namespace DETENT_NAMESPACE {
 /// literature, for comparison.
 enum class ToiMethod {
   paper,         ///< Coumans' Algorithm 1: bounds the approach speed by n.v + |wA| rA + |wB| rB; one step per axis
-  first_order,   ///< bounds it with |n x w| x the radius about the rotation axis instead; one step per axis
+  first_order,   ///< bounds it by n.v + |n x wA| rA + |n x wB| rB, with the same core radii r; one step per axis
   second_order,  ///< repeats advances along an axis fixed in the world, by a concave bound of the separation
   corotating,    ///< as second_order, but the axis rotates with the body that has the face or edge
   /// As constant_angular_velocity, but both bodies move in the world frame. The other methods move B relative to A.
   /// Both formulations are from Coumans.
   world_space,
   constant_angular_velocity,  ///< as corotating, but the axis of two edges rotates so that it is also exact at contact
-  mirtich,                    ///< solves D1(t) + D2(t) = d for t: path bounds of the bodies, their distance
+  mirtich,                    ///< advances until the bounds of both bodies' motions add up to their distance
   baraff,                     ///< finds the root of the separation along a witness axis; may miss a contact
   feature_pairs,              ///< polytopes: finds the first contact of all pairs of features
   redon,  ///< polytopes: as feature_pairs, for the screw motion between both end poses (a different motion)
-  canny,  ///< polytopes: finds numerical roots, for a rotation by normalised lerp; may miss a contact
+  canny,  ///< polytopes: as feature_pairs, by numerical roots and for rotation by normalised lerp; may miss a contact
 };
 
 /// time_of_impact() (toi.h) by a selected method. Errors: bad_argument for a shape that the method does not support.

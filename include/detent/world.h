@@ -276,8 +276,8 @@ Status destroy_body(World& world, BodyId id);
 /// bodies that touch it or are joined to it.
 /// Errors: bad_id, out_of_range, not_normalised.
 Status set_pose(World& world, BodyId id, const Position& position, const Quat& rotation);
-/// Sets a body's velocity, m/s, and angular velocity `angular_velocity`, rad/s, world frame; ranges as in BodyDef.
-/// Errors: bad_id, bad_argument (a fixed body), out_of_range.
+/// Sets a body's velocity, m/s, and angular velocity, rad/s, both in world axes; ranges as in BodyDef.
+/// Errors: bad_id, bad_argument (a fixed body that would move, a half-space that would rotate), out_of_range.
 Status set_velocity(World& world, BodyId id, const Vec3<Real>& velocity, const Vec3<Real>& angular_velocity);
 /// Adds a force, N, world frame, that acts at the centre of mass during the next step.
 /// Errors: bad_id, bad_argument (not dynamic), out_of_range (the resulting speed would leave its range).
@@ -317,9 +317,9 @@ StepReport step(World& world);
 bool is_valid(const World& world, BodyId id);
 /// The pose of a body, m, world. Errors: bad_id.
 Status get_pose(const World& world, BodyId id, Pose& pose);
-/// The velocity of the centre of mass, m/s, and the angular velocity `angular_velocity`, rad/s, world frame. Overflow:
-/// components of the angular velocity are clamped to the range of Real, which only bodies smaller than 12 cm can
-/// exceed. Errors: bad_id.
+/// The velocity of the centre of mass, m/s, and the angular velocity, rad/s, both in world axes. Overflow: components
+/// of the angular velocity are clamped to the range of Real, which only bodies smaller than 12 cm can exceed. Errors:
+/// bad_id.
 Status get_velocity(const World& world, BodyId id, Vec3<Real>& velocity, Vec3<Real>& angular_velocity);
 /// The mass, kg; 0 for fixed and kinematic bodies. Getters of the other properties: body.h.
 /// Errors: bad_id.
@@ -361,7 +361,7 @@ WorldDef get_settings(const World& world);
 ///     def.substeps = 8;
 ///     Status status = set_settings(world, def);
 ///
-/// Errors: as create_world.
+/// Errors: those of create_world() for settings: out_of_range, bad_argument, feature_missing.
 Status set_settings(World& world, const WorldDef& def);
 
 /// The largest number of entries that any recorded step needed in each pool of a world. All 0 before the first step.

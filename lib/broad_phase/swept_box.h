@@ -12,8 +12,8 @@ inline namespace DETENT_NAMESPACE {
 /// this, it enlarges all bounds by more than the tolerance of the narrow phase, which is proportional to the sizes of
 /// both shapes.
 ///
-/// The class computes in integers. Its unit of length is a *cell*: the power of two, m, at which the path and the box
-/// are less than 2^29 cells long.
+/// The class computes in integers. Its unit of length is a *cell*: a power of two, m, so large that the path and the
+/// box are less than 2^29 cells long.
 class SweptBox {
  public:
   /// Bounds relative to the box's centre at the start, enlarged by the half extents of the box; cells.

@@ -54,7 +54,8 @@ Motion motion_from(const SweptBody& body, Fraction time);
 /// that rotates: a quarter of the range of a Real.
 Real swing_bound(const BodyProperties& properties, const Vec3<Real>& rotation_vector);
 
-/// An upper bound, m, of the path of any point of the body's surface in the rest of the tick; see swing_bound().
+/// An upper bound, m, of the distance of any point of the body's surface from its place at `time`, in the rest of the
+/// tick; see swing_bound().
 Real motion_bound(const SweptBody& body, Fraction time);
 
 /// An upper bound, m, of how much the distance of two bodies can shrink in the rest of the tick; see swing_bound().

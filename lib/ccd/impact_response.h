@@ -18,10 +18,10 @@ BodyMotion motion_of_sweep(const BodyProperties& properties, const Quat& rotatio
                            Scaled tick_rate);
 
 /// The angular momentum of a body after its sweep has rotated it from one rotation to another. It is constant in the
-/// world, unless that raises the body's energy. The energy can rise because a sweep has a constant angular velocity:
-/// for a slender body that tumbles, the sweep differs from the free motion. The angular momentum is then scaled to the
-/// old energy. For a slender body, or if the energy grows by more than a quarter, it is instead constant in the body's
-/// axes, as it is on the sweep.
+/// world, unless that raises the body's energy by more than 2^-16 of it. This can occur because the sweep of a tumbling
+/// body, with its constant angular velocity, differs from the free motion. If the body is slender or the energy would
+/// rise by more than a quarter, the angular momentum is then constant in the body's axes, as on the sweep; otherwise it
+/// is scaled to the old energy.
 Vec3<Real> carried_angular_momentum(const BodyProperties& properties, const Quat& from, const Quat& to,
                                     const Vec3<Real>& angular_momentum);
 
@@ -41,9 +41,9 @@ struct ImpactBody {
 };
 
 /// Separates the points of the contact by Newton's law of impact along the normal, for approach speeds of at least the
-/// pair's threshold, and by Coulomb friction. Applies sequential impulses until no point approaches and each point
-/// separates at `parting`, m/s, or faster. `approach` becomes the largest closing speed before the impulse, m/s.
-/// Returns false, with the motions unchanged, if no point closes faster than `least`, m/s.
+/// pair's threshold, and by Coulomb friction. The impulses are computed by a limited number of sweeps over the points,
+/// so that each point separates at `parting`, m/s, or faster. `approach` becomes the largest closing speed before the
+/// impulse, m/s. Returns false, with the motions unchanged, if no point closes faster than `least`, m/s.
 bool resolve_impact(const ContactWork& contact, uint32_t count, Real least, Real parting, const ImpactBody& a,
                     const ImpactBody& b, Real& approach);
 

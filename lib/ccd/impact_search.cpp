@@ -180,7 +180,7 @@ Vec3<Unit> known_axis(const ImpactStage& stage, uint64_t key, const ImpactPair* 
 /// The motion of a body from the start of the tick to its end: the motion so far, and the rest of its sweep.
 struct TickMotion {
   Vec3<Real> until;            ///< displacement from the start of the tick to the present time, m
-  Vec3<Real> displacement;     ///< displacement from the start of the tick to its end, m
+  Vec3<Real> displacement;     ///< from the start of the tick to its end, m
   Vec3<Real> rotation_vector;  ///< rotation from the start of the tick to its end, times 2^size_exponent, m
   Real swing;                  ///< upper bound of the motion of surface points by rotation, m
 };

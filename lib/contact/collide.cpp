@@ -29,8 +29,8 @@ PairShape shape_in(const CollisionBody& body, int exponent) {
           scale_by_power(body.properties.size, body.properties.size_exponent - exponent)};
 }
 
-/// Whether the bounding spheres of two bodies are farther apart than `margin`, m. False if this is not certain. It only
-/// saves time; in builds for size it is left out.
+/// Whether the bounding spheres of two bodies are farther apart than `margin`, m. False if this is not certain, and
+/// always in builds for size: the test only saves time.
 bool are_spheres_apart([[maybe_unused]] const CollisionBody& a, [[maybe_unused]] const CollisionBody& b,
                        [[maybe_unused]] Real margin) {
 #if defined(__OPTIMIZE_SIZE__)

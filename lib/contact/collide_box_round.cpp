@@ -38,9 +38,9 @@ struct BoxAndSegment {
   Unit slope(Unit along) const { return dot(vector_of(direction), vector_of(excess(along))); }
 };
 
-/// Returns the position along the segment of its point closest to the box. slope() changes its sign there. The function
-/// finds the two neighbouring crossings of face planes between which the sign changes, and interpolates once between
-/// them. If the slope is zero over an interval, it returns the middle of that interval.
+/// Returns the position along the segment of its point closest to the box. slope() changes its sign there, or the point
+/// is an end. The function finds the two neighbouring crossings of face planes between which the sign changes, and
+/// interpolates once between them. If the slope is zero over an interval, it returns the middle of that interval.
 Unit closest_along(const BoxAndSegment& pair) {
   const Unit zero = 0.0;
   const Unit limit = pair.half_length;

@@ -168,7 +168,8 @@ struct PartCulling {
         place_on_terrain({a.pose.position, a.pose.rotation}, {b.pose.position, b.pose.rotation}, place) == Status::ok;
     margin = known ? raw.x + (raw.x >> 10) + 1024 : 0;
   }
-  /// Converts a box, given by its middle and half extents, from B's axes to A's axes.
+  /// Converts a box, given by its middle and half extents, from B's axes to A's axes. Does nothing if the relative pose
+  /// is not known.
   void bring(Vec64& middle, Vec64& half) const {
     if (!known) return;
     const Vec64 turned = rotate(place.rotation, middle);

@@ -21,10 +21,9 @@ struct PairBefore {
 /// Returns how many points of `geometry` have a feature that also occurs in `contact`.
 uint32_t shared_features(const ContactGeometry& geometry, const ContactState& contact);
 
-/// Gives the contacts the keys that they had in the last tick. Consider the contacts of the last tick whose keys no
-/// contact has now. A contact with a new key takes the key of the one of these with which it shares the most features,
-/// if any. This is needed because a plane gets a new name when it tilts slightly or merges with another plane. Keeps
-/// the contacts in ascending order of key.
+/// Keeps the keys of contacts from tick to tick although a plane gets a new name when it tilts slightly or merges with
+/// another plane. A contact with a new key takes the key of a contact of the last tick whose key no contact has now: of
+/// the one with which it shares the most features, if it shares any. Keeps the contacts in ascending order of key.
 void continue_keys(const PairBefore& before, TerrainContacts& contacts);
 
 /// Makes the contact of this tick from its geometry and from the contact of the last tick, `before` (null if there was

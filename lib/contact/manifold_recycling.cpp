@@ -23,7 +23,7 @@ Unit unit_from_anchor(int16_t raw) {
   return scale_by_power(static_cast<Unit>(raw), -k_anchor_frac);  // exact
 #endif
 }
-/// Range: |value| < 1 - 2^-k_anchor_frac.
+/// Rounds a coordinate to an anchor. Range: |value| < 1 - 2^-k_anchor_frac.
 int16_t anchor_from_unit(Unit value) {
 #if DETENT_FIXED
   return static_cast<int16_t>(round_shift_64(value.raw, k_unit_frac - k_anchor_frac));

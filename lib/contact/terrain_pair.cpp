@@ -350,9 +350,10 @@ __attribute__((noinline)) bool TerrainPair::is_lowest_beside(const Side& side, i
   return false;
 }
 
-/// Whether a contact found at an edge of the triangle is a contact at a seam (contact_seam.h): a sliver, or an edge
-/// that is level with the triangle if the normals are alike. `facing`: the dot product of the contact normal and the
-/// triangle's normal, Q60. `deepest`: the least separation, 2^-46 m.
+/// Whether a contact found at an edge of the triangle is a contact at a seam (contact_seam.h). If its normal is within
+/// 2^-2 rad of the triangle's, a round shape must touch an edge that is level with the triangle; otherwise the contact
+/// must be a sliver. False without smooth_seams, and if no edge is convex or open. `facing`: the dot product of the
+/// contact normal and the triangle's normal, Q60. `deepest`: the least separation, 2^-46 m.
 bool TerrainPair::is_at_seam(const Side& side, int64_t facing, int64_t deepest) const {
   if (!rules_.smooth_seams || !side.has_free_edge()) return false;
   const auto within = [&](int64_t room) { return side.height >= -room && side.height <= room && deepest >= -room; };

@@ -27,8 +27,9 @@ Status cast_ray_on_terrain(const Terrain& terrain, const Pose& pose, const Vec3<
 void visit_terrain(const Terrain& terrain, const Vec64& low, const Vec64& high,
                    void (*visit)(void* context, uint32_t triangle), void* context);
 
-/// Makes a convex shape from one triangle, at the pose `placed`, for time_of_impact(). Its position is the coordinate
-/// nearest to the triangle's first corner. Errors: not_normalised; out_of_range if that position is out of range.
+/// Makes a convex shape from one triangle, for time_of_impact(), and sets `placed` to its pose. The position is the
+/// coordinate nearest to the triangle's first corner. Errors: not_normalised; out_of_range if that position is out of
+/// range.
 Status terrain_convex(const Terrain& terrain, const Pose& pose, uint32_t triangle, Pose& placed, Convex& convex);
 
 }  // namespace DETENT_NAMESPACE

@@ -37,7 +37,7 @@ constexpr Unit unit_from_product(uint64_t sum) {
 }
 constexpr uint64_t unit_product(Unit a, Unit b) { return static_cast<uint64_t>(int64_t{a.raw} * b.raw); }
 
-/// Range: |a b| < 2.
+/// a b. Range: |a b| < 2.
 DETENT_SHARED constexpr Unit operator*(Unit a, Unit b) { return unit_from_product(unit_product(a, b)); }
 
 /// The functions with a Real result, on raw integers: most calling conventions of 32-bit machines return an integer in
@@ -56,7 +56,7 @@ DETENT_SHARED constexpr int64_t dot(const Vec3<Real>& a, const Vec3<Real>& b) {
 }
 DETENT_SHARED constexpr int64_t min(int64_t a, int64_t b) { return b < a ? b : a; }
 DETENT_SHARED constexpr int64_t max(int64_t a, int64_t b) { return a < b ? b : a; }
-/// Without a branch, which would be mispredicted for random signs.
+/// |a|, without a branch, which would be mispredicted for random signs. Overflow: INT64_MIN wraps to itself.
 DETENT_SHARED constexpr int64_t abs(int64_t a) { return subtract_wrapped(a ^ (a >> 63), a >> 63); }
 int64_t divide(int64_t a, int64_t b);
 /// The difference of coordinates; see real_difference().
@@ -148,7 +148,7 @@ DETENT_SHARED constexpr Vec3<T> abs(const Vec3<T>& a) {
 }
 
 #if DETENT_FIXED
-/// Range: |result| < 2.
+/// The dot product. Range: |result| < 2.
 DETENT_SHARED constexpr Unit dot(const Vec3<Unit>& a, const Vec3<Unit>& b) {
   return unit_from_product(unit_product(a.x, b.x) + unit_product(a.y, b.y) + unit_product(a.z, b.z));
 }
@@ -156,7 +156,7 @@ DETENT_PASSING constexpr Real dot(const Vec3<Real>& a, const Vec3<Unit>& b) { re
 DETENT_PASSING constexpr Real dot(const Vec3<Unit>& a, const Vec3<Real>& b) { return dot(b, a); }
 DETENT_PASSING constexpr Real dot(const Vec3<Real>& a, const Vec3<Real>& b) { return Real::from_raw(raw::dot(a, b)); }
 
-/// Range: each component of the result < 2.
+/// The cross product. Range: each component of the result is below 2 in magnitude.
 DETENT_SHARED constexpr Vec3<Unit> cross(const Vec3<Unit>& a, const Vec3<Unit>& b) {
   return {unit_from_product(unit_product(a.y, b.z) - unit_product(a.z, b.y)),
           unit_from_product(unit_product(a.z, b.x) - unit_product(a.x, b.z)),
@@ -196,7 +196,7 @@ DETENT_PASSING constexpr Unit scale_by_power(Unit x, int n) { return unit_from_r
 /// The smallest e >= -46 with |x| < 2^e.
 DETENT_SHARED constexpr int exponent_above(Real x) { return bit_length_64(magnitude_64(x.raw)) - k_real_frac; }
 
-/// u 2^e. Rounding: to nearest, ties up. Overflow: wraps; |u 2^e| < 2^17.
+/// u 2^e. Range: |u 2^e| < 2^17; beyond it the result wraps. Rounding: to nearest, ties up.
 DETENT_PASSING constexpr Real real_from_unit(Unit u, int e) {
   return Real::from_raw(shift_64(u.raw, e + k_real_frac - k_unit_frac));
 }

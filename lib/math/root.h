@@ -41,12 +41,12 @@ namespace raw {
 int64_t square_root(int64_t a);
 int64_t length(const Vec3<Real>& v);
 }  // namespace raw
-/// Range: a >= 0. Rounding: to nearest. Overflow: none.
+/// The square root. Range: a >= 0. Rounding: to nearest. Overflow: none.
 Unit square_root(Unit a);
 DETENT_PASSING inline Real square_root(Real a) { return Real::from_raw(raw::square_root(a.raw)); }
-/// Range: result < 2. Rounding: the root of the exact sum of squares, to nearest.
+/// |v|. Range: |v| < 2. Rounding: the root of the exact sum of squares, to nearest.
 Unit length(const Vec3<Unit>& v);
-/// m. Rounding: the root of the exact sum of squares, to nearest. Overflow: saturates to +131072.
+/// |v|, m. Rounding: the root of the exact sum of squares, to nearest. Overflow: saturates to +131072.
 DETENT_PASSING inline Real length(const Vec3<Real>& v) { return Real::from_raw(raw::length(v)); }
 
 /// Sets n = v / |v| and `length` = |v|. Returns false, with the outputs untouched, if v is zero. n is as precise for
@@ -78,7 +78,7 @@ inline Real square_root(Real a) {
   return __builtin_sqrt(a);
 #endif
 }
-/// Range: components 0 or at least 2^-46 in magnitude, and below 2^40: the squares neither underflow nor overflow.
+/// |v|. Range: components 0 or at least 2^-46 in magnitude, and below 2^40: the squares neither underflow nor overflow.
 inline Real length(const Vec3<Real>& v) { return square_root(dot(v, v)); }
 /// Sets n = v / |v| and `length` = |v|. Returns false, with the outputs untouched, if v is zero. The errors of n are
 /// those of the fixed configurations.

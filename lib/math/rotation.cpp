@@ -157,7 +157,8 @@ Quat small_rotation(const Vec3<Real>& theta) {
   return {unit_from_real(v.x, 0), unit_from_real(v.y, 0), unit_from_real(v.z, 0), cosine};
 }
 
-/// Range: components of q's vector part below 2^-5, w > 0. The omitted terms are below 2^-31 of the result.
+/// The rotation vector by a series. Range: components of q's vector part below 2^-5, w > 0. The omitted terms are below
+/// 2^-31 of the result.
 Vec3<Real> small_rotation_vector(const Quat& q) {
   const Vec3<Unit> v8 = {scale_by_power(q.x, 3), scale_by_power(q.y, 3), scale_by_power(q.z, 3)};
   const Unit s = dot(v8, v8);  // 64 |v|^2 < 3/16

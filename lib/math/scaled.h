@@ -54,7 +54,7 @@ DETENT_PASSING inline Scaled scaled_from(Unit a) { return words::to_scaled(words
 DETENT_PASSING inline Scaled multiply(Scaled a, Scaled b) {
   return words::to_scaled(words::multiply(words::word_of(a), words::word_of(b)));
 }
-/// Range: b != 0.
+/// a / b. Range: b != 0.
 DETENT_PASSING inline Scaled divide(Scaled a, Scaled b) {
   return words::to_scaled(words::divide(words::word_of(a), words::word_of(b)));
 }
@@ -70,7 +70,7 @@ DETENT_PASSING inline Scaled scaled_by_power(Scaled a, int n) {
 #endif
   return words::to_scaled(words::scaled_by_power(words::word_of(a), n));
 }
-/// Range: a >= 0.
+/// The square root. Range: a >= 0.
 DETENT_PASSING inline Scaled square_root(Scaled a) { return words::to_scaled(words::square_root(words::word_of(a))); }
 DETENT_PASSING inline bool less(Scaled a, Scaled b) { return words::less(words::word_of(a), words::word_of(b)); }
 constexpr bool is_positive(Scaled a) { return a.mantissa > 0; }
@@ -105,7 +105,7 @@ DETENT_PASSING inline Real multiply(Real a, Scaled b, bool& saturated) {
 }
 /// As multiply(Real(1.0), a, saturated).
 DETENT_PASSING inline Real to_real(Scaled a, bool& saturated) { return multiply(Real(1.0), a, saturated); }
-/// Range: |a| < 2. Rounding: to nearest, ties up.
+/// a as a Unit. Range: |a| < 2. Rounding: to nearest, ties up.
 Unit to_unit(Scaled a);
 #else
 constexpr Scaled scaled_from(Real a) { return a; }

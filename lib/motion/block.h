@@ -29,7 +29,7 @@ inline constexpr int64_t k_factor_max = int64_t{1} << 30;
 inline constexpr int k_mantissa_bits = 27;  ///< bits of a motion: a sum of five stays below 2^30
 inline constexpr int k_number_bits = 28;    ///< bits of an impulse: a sum of four is a factor
 inline constexpr int k_wrench_bits = 28;    ///< bits of each part of a wrench: its torque on a body stays below 2^30
-/// The least shift of a block. Its finest step is 2^-37 m/s, precise enough. It must exceed k_angular_velocity_power.
+/// The least shift of a block: the finest step of a block is 2^-37 m/s. Must exceed k_angular_velocity_power.
 inline constexpr int k_shift_min = 9;
 /// The solver stores angular velocities times 2^-k_angular_velocity_power, because the angular velocity of a slender
 /// body exceeds the range of Real long before its angular momentum does.
@@ -120,7 +120,8 @@ DETENT_SHARED inline Ulps times(Factor a, Unit b) { return rounded(product(a, b)
 inline Ulps times_scaled(Factor a, Unit b, int exponent) {
   return round_shift_64(product(a, b), k_unit_frac - exponent);
 }
-/// Conversion between numbers and sums of products with Units 2^exponent. Range: exponent < 30.
+/// Conversions between numbers and sums of products, for Units that stand for their value times 2^exponent. Range:
+/// exponent < 30.
 inline UlpSum sum_from(Ulps a, int exponent) {
   return static_cast<int64_t>(static_cast<uint64_t>(a) << (k_unit_frac - exponent));
 }

@@ -108,7 +108,7 @@ struct TriangleSearch {
 
 struct CastSearch : TriangleSearch {
   const Motion& motion;
-  Vec64 displacement = {0, 0, 0};  ///< displacement of the centre in the terrain's axes, 2^-46 m
+  Vec64 displacement = {0, 0, 0};  ///< of the centre, in the terrain's axes, 2^-46 m
 
   CastSearch(const AskedSurface& terrain, const QueryShape& asked, const Motion& along)
       : TriangleSearch(terrain, asked, along.start, !(along.rotation_vector == k_zero_vector)), motion(along) {

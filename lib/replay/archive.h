@@ -20,11 +20,12 @@ class Archive {
     bool normalises;
   };
 
-  /// One little-endian integer.
+  /// Visits a field: an integer of `byte_count` bytes.
   void bits(const char* name, uint64_t& value, uint32_t byte_count) {
     if (operations_.bits != nullptr) operations_.bits(*this, name, value, byte_count);
   }
-  /// A condition on the field just visited.
+  /// States a condition that the field just visited must satisfy. If it is false, Reader records the field as failed,
+  /// and Normaliser records the status `otherwise`; Writer ignores it.
   void require(const char* name, bool condition, Status otherwise) {
     if (operations_.require != nullptr) operations_.require(*this, name, condition, otherwise);
   }
@@ -83,15 +84,16 @@ class Normaliser final : public Archive {
 };
 
 void visit_word(Archive& archive, const char* name, uint32_t& value);
-/// One byte, 0 or 1.
+/// Visits a flag as one byte, 0 or 1.
 void visit_flag(Archive& archive, const char* name, bool& value);
-/// One byte with a value from `first` to `last`.
+/// Visits a number as one byte. Its value must be from `first` to `last`.
 void visit_byte(Archive& archive, const char* name, uint32_t& value, uint32_t first, uint32_t last);
-/// Two's complement bits of the current Archive::kind. Afterwards the kind is unsigned_integer again.
+/// Visits a signed integer in two's complement, as bits of the current Archive::kind. Afterwards the kind is
+/// unsigned_integer again.
 void visit_bits(Archive& archive, const char* name, int32_t& value);
 void visit_bits(Archive& archive, const char* name, int64_t& value);
 
-/// One byte with an enumeration value from `first` to `last`.
+/// Visits an enumeration value as one byte. It must be from `first` to `last`.
 template <class Enum>
 void visit_choice(Archive& archive, const char* name, Enum& value, Enum first, Enum last) {
   uint32_t number = static_cast<uint32_t>(value);
@@ -99,19 +101,19 @@ void visit_choice(Archive& archive, const char* name, Enum& value, Enum first, E
   value = static_cast<Enum>(number);
 }
 
-/// The raw integer.
+/// Visits a fixed-point number as its raw integer.
 template <class Int, int frac>
 void visit_number(Archive& archive, const char* name, Fixed<Int, frac>& value) {
   archive.kind = WordsOf<Fixed<Int, frac>>::k_kind;
   visit_bits(archive, name, value.raw);
 }
-/// The IEEE bits. The code uses only integer arithmetic, so the caller's floating-point modes do not matter. Negative
-/// zero, infinities and NaN are rejected, because machines differ in the sign of zeros and the bits of NaN. The
-/// Normaliser replaces negative zero by zero.
+/// Visits a float as its IEEE bits. The code uses only integer arithmetic, so the caller's floating-point modes do not
+/// matter. Negative zero, infinities and NaN are rejected, because machines differ in the sign of zeros and the bits of
+/// NaN. The Normaliser replaces negative zero by zero.
 void visit_number(Archive& archive, const char* name, float& value);
 void visit_number(Archive& archive, const char* name, double& value);
 #if DETENT_FIXED
-/// Mantissa and exponent, in the canonical form of numbers.h.
+/// Visits the mantissa and the exponent, which must have the canonical form of numbers.h.
 void visit_number(Archive& archive, const char* name, Scaled& value);
 #endif
 template <class T>

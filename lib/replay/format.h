@@ -96,7 +96,7 @@ inline void visit(Archive& archive, RecordingInfo& info) {
 
 constexpr uint32_t k_keyframe_digest_bytes = 8;  ///< the digest before the snapshot of a keyframe
 
-/// Whether an action that is done every `interval` ticks is due after this tick. 0: never.
+/// Whether an action that is done every `interval` ticks is due after this tick; false for interval 0.
 constexpr bool is_due(uint32_t interval, uint64_t tick) { return interval != 0 && tick % interval == 0; }
 
 /// These read and write the CRC-32 at `bytes`.

@@ -81,7 +81,7 @@ inline void visit(Archive& archive, ClosestQuery& query) {
 /// The functions that read, write and repeat one kind of query.
 struct QueryCode {
   QueryKind kind;
-  /// Visits the fields after the kind. `command` points to a command of this type.
+  /// Visits the fields after the kind. `command` points to a command of this kind.
   void (*visit)(Archive& archive, void* command);
   /// Runs the query and sets the command's digest.
   Status (*ask)(const World& world, void* command, QueryHits hits, QueryReport& report);

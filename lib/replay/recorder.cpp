@@ -12,7 +12,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// The functions of a record that only Recorder writes. It is never repeated: `apply` is null.
+/// The functions of a record that is no call: a tick or a query. `apply` is null.
 template <class Record>
 constexpr CommandCode k_record_code = {
     Record::k_tag, [](Archive& archive, void* record) { visit(archive, *static_cast<Record*>(record)); }, nullptr};

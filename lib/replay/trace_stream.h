@@ -16,7 +16,7 @@ struct TraceRecord {
   uint64_t place = 0;  ///< index of the element in its array; at a stage's end the number of elements
 };
 inline constexpr uint32_t k_trace_record_bytes = 6;
-inline constexpr uint32_t k_trace_digest_bytes = 4;     ///< of an element, at TraceLevel::stages, after its key
+inline constexpr uint32_t k_trace_digest_bytes = 4;  ///< the digest of an element, after its key (TraceLevel::stages)
 inline constexpr uint32_t k_trace_stage_end_bytes = 8;  ///< the digest of the stage
 
 inline void visit(Archive& archive, TraceRecord& record) {

@@ -144,8 +144,8 @@ struct HullView {
   HullFrame frame() const { return static_cast<HullFrame>(cooked_u32(bytes + k_hull_frame_at)); }
   /// The volume, in unit^3.
   HullScaled volume() const { return scaled(k_hull_volume_at); }
-  /// Inverse inertia (per unit mass), m unit^2 / I, about the body's axis (0 to 2), for uniform density; 0 in the
-  /// source frame.
+  /// Inverse inertia (per unit mass), m unit^2 / I, about the body's axis (0 to 2), for uniform density; 0 if the
+  /// vertices are in the source frame (HullFrame::source).
   HullScaled inverse_inertia(uint32_t axis) const { return scaled(k_hull_inverse_inertia_at + 8 * axis); }
 
  private:

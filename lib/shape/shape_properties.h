@@ -87,8 +87,8 @@ Scaled shape_volume(const BodyProperties& properties, const AssetTable& assets =
                     const FeatureTable& features = feature_table<Features::all>);
 
 /// Sets the inverse inertia (per unit mass), m (2^size_exponent)^2 / I, about the body's axes for uniform density. It
-/// does not depend on the mass, nor on the scale but for the ratio of the size to the unit of length. 0 about a locked
-/// axis; at most k_inverse_inertia_max. A half-space's and a terrain's is left as it is.
+/// does not depend on the mass; of the size it depends only on the ratio to the unit of length. 0 about a locked axis;
+/// at most k_inverse_inertia_max. Changes nothing for a half-space or a terrain.
 /// Relative error below 2^-24; for a hull the error of its file. Rounded shapes as in shape_volume().
 /// Source: the standard moments of the box, ball, cylinder, cone and half-ball.
 void set_inverse_inertia(BodyProperties& properties, const AssetTable& assets = {},

@@ -13,7 +13,7 @@ namespace {
 /// Returns n x u in Q29, for n in Q30 and u in Q29.
 Vec32 cross_29(const Vec32& n, const Vec32& u) { return round_shift(cross(n, u), 30); }
 
-/// a b 2^-n, rounded up. Range: a, b >= 0.
+/// An upper bound of a b 2^-n, too large by at most 1. Range: a, b >= 0.
 int64_t product_above(int64_t a, int64_t b, int n) { return ((a * b) >> n) + 1; }
 
 /// The vector v in a body's axes, with one fractional bit less than v.
@@ -24,8 +24,8 @@ Vec32 to_local_29(const Matrix32& rotation, const Vec32& v) {
   return {component(rotation.column[0]), component(rotation.column[1]), component(rotation.column[2])};
 }
 
-/// One body as seen from the axis, which rotates by `angular_velocity` over the horizon: the body's part of the
-/// separation and of the curvature bound K.
+/// The part of one body in the separation along an axis that rotates by `angular_velocity` over the horizon, and in the
+/// curvature bound K.
 class Side {
  public:
   /// `sign`: -1 for A, which contributes its farthest point along the axis; 1 for B, which contributes its farthest
@@ -119,7 +119,8 @@ class Separation {
         b_(*pair.b, pair.turning_b, horizon.angular_velocity_b, angular_velocity, pair.core_b, pair.exponent, 1) {
     if (is_zero(angular_velocity)) return;
     tilt_ = length_bound_32(cross_29(normal, angular_velocity));
-    // |n x angular_velocity| (2 |V| + |angular_velocity| max |C|), V: the displacement, C: the offset of the centres.
+    // The part of the centres in K is |n x angular_velocity| (2 |V| + |angular_velocity| max |C|), where V is the
+    // displacement and C the offset of the centres.
     const int64_t speed = 2 * length_bound_32(horizon.displacement) +
                           product_above(length_bound_32(angular_velocity), pair.distance_max, 30);
     centre_curvature_ = product_above(tilt_, speed, 32);
@@ -243,13 +244,14 @@ int32_t advance(const MovingPair& pair, const Frames& frames, const Horizon& hor
     for (int step = 0;; ++step) {
       const Separation::Value value = separation.at(x);
       if (value.separation >= 0) break;
-      // The function is concave, so it lies above its chord from the start. The root of the chord is therefore always
-      // safe. It is taken when it loses about 3 % at most.
+      // The function is concave and positive at the start, so it is positive before the root of its chord from the
+      // start to x. This root is used if the overlap at x is below 1/32 of the separation at the start, if the slope at
+      // x is not negative, and in the last step.
       if (step == 4 || value.slope >= 0 || -value.separation < first.separation >> 5) {
         x = x * (first.separation >> 26) / ((first.separation - value.separation + (int64_t{1} << 26)) >> 26);
         break;
       }
-      // |separation| < 32 (tests/guards/proofs). From 2 on the steps are coarser, so that the product fits.
+      // |separation| < 32 (tests/guards/proofs). If it is 2 or more, 4 bits are dropped, so that the product fits.
       const int coarse = -value.separation >> 57 != 0 ? 4 : 0;
       const int64_t fall = -value.slope >> coarse;
       const int64_t back = (-value.separation >> (26 + coarse)) * k_one_64 / (fall > 0 ? fall : 1) + 1;

@@ -16,8 +16,8 @@ struct RotationBound {
   int64_t radius;  ///< the largest distance of a point from the position, 2^-46 m
   int64_t angle;   ///< 2^-46 rad over the step; a point's acceleration is at most angle^2 radius
 
-  /// The largest distance of a point from its chord over an interval of this length: an eighth of the acceleration
-  /// times the square of the length, and at most a diameter.
+  /// A bound on the distance of a point's path from its chord over an interval of this length: an eighth of the
+  /// acceleration times the square of the length, or the diameter if that is less.
   int64_t bend(int64_t length) const {
     const int64_t part = angle_in(length);
     if (part >= int64_t{1} << 31) return 2 * radius;
@@ -35,8 +35,8 @@ struct SweptPair {
   int64_t bend(int64_t length) const { return bound_a.bend(length) + bound_b.bend(length); }
   /// Bound on the relative rotation of the bodies over an interval of this length, Q30 rad.
   int64_t angle_in(int64_t length) const { return bound_a.angle_in(length) + bound_b.angle_in(length); }
-  /// Error bound of a difference of two points at a time: 16 2^-30 of the distance for each rotation, and eight
-  /// roundings (two corners, their images, the positions, the translations).
+  /// Error bound of a difference of two points at a time: 16 2^-30 of the radius for the rotation of each body, and
+  /// eight roundings (two corners, their images, the positions, the translations).
   int64_t ball() const {
     static_assert(k_turning_error == 16);
     return ((bound_a.radius + bound_b.radius) >> 26) + 9;

@@ -23,7 +23,7 @@ inline constexpr int k_range_bits = 14;
 constexpr bool in_range(const Vec64& v, int bits) {
   return largest_component(v) <= int64_t{1} << (k_metre_bits + bits);
 }
-/// False if a corner is out of range or not a number.
+/// Converts corners from m to 2^-46 m. Returns false if a component is above 2^bits m in magnitude or is not a number.
 inline bool raw_corners(const Vec3<Real> (&corner)[4], int bits, Vec64 (&raw)[4]) {
   for (int i = 0; i < 4; ++i) {
     if (!raw_from_real(corner[i], raw[i]) || !in_range(raw[i], bits)) return false;
@@ -36,7 +36,7 @@ inline int64_t radius_of(const Vec64* corner, int count) {
   for (int i = 0; i < count; ++i) radius = larger(radius, length_above(corner[i]));
   return radius;
 }
-/// The rotation of v. Rounding: to nearest.
+/// Rotates v by m. Rounding: to nearest.
 inline Vec64 rotated(const Matrix32& m, const Vec64& v) {
   const Vec32* c = m.column;
   const auto row = [&v](int32_t x, int32_t y, int32_t z) { return dot(v, Vec32{x, y, z}).round_shift(30); };

@@ -7,7 +7,7 @@ inline namespace DETENT_NAMESPACE {
 namespace {
 
 constexpr int k_tries_max = 3;
-constexpr int k_tracking_quarters = 4;  ///< quarter radians; an axis rotation is predicted over at most 1 rad
+constexpr int k_tracking_quarters = 4;  ///< quarter radians: horizon_from() limit for predicted axes, 1 rad
 constexpr int32_t k_relative_angular_velocity_max =
     3 << 28;  ///< 1.5 rad, Q29, relative to the base rotation: the limit of the formats of advance()
 

@@ -79,7 +79,8 @@ int64_t set_window(MovingPair& pair, int64_t distance_max) {
 
 DETENT_SHARED int32_t ulps_above(int64_t raw, int exponent) {
   const int n = exponent + 16;
-  return static_cast<int32_t>((raw >> n) + ((raw & ((int64_t{1} << n) - 1)) != 0 ? 1 : 0));  // valid for INT64_MAX
+  return static_cast<int32_t>((raw >> n) +
+                              ((raw & ((int64_t{1} << n) - 1)) != 0 ? 1 : 0));  // no overflow for INT64_MAX
 }
 
 }  // namespace

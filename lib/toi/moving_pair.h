@@ -37,14 +37,14 @@ struct Turning {
   bool turns;             ///< false also if the core is a point
   Vec32 axis;             ///< of the rotation, world axes, Q30
   int64_t rate;           ///< 2^-46 revolutions over the step
-  Vec64 rotation_vector;  ///< rotation vector, 2^-46 rad over the step
+  Vec64 rotation_vector;  ///< 2^-46 rad over the step
   int64_t angle;          ///< |rotation_vector|, rounded up
 
   /// The rotation at a time. Error of a rotated unit vector: k_turning_error.
   Matrix32 at(int64_t time) const { return turns ? matrix_from(rotation_at(time)) : start_matrix; }
   Quat32 rotation_at(int64_t time) const;
 };
-inline constexpr double k_turning_error = 16.0;  ///< 2^-30 (tests/unit/distance)
+inline constexpr double k_turning_error = 16.0;  ///< units of 2^-30 (tests/unit/toi)
 
 /// Returns the Turning of a body that does not rotate.
 Turning still(const Quat32& rotation);

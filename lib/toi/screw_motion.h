@@ -22,7 +22,7 @@ inline constexpr int k_screw_range_bits = 10;
 /// angle. c is the position of B at the start and d its displacement. The point that starts at c + x is at time t at
 ///   c + x + t d + t (g x y + t g x (g x y)) / (1 + t^2 g^2),  y = 2 x - (1 - t) d.
 /// The formula needs neither the place of the axis nor the angle, and gives a straight line if there is no rotation.
-/// With |g| <= 4 and |y| < 2^59 the two products are perpendicular to each other and their sum is below 2^63.
+/// The two products are perpendicular to each other; with |g| <= 4 and |y| < 2^59 their sum is below 2^63.
 struct ScrewMotion {
   Vec64 first, displacement;  ///< B's position relative to A's at the start (c), and d; 2^-46 m
   Vec32 tangent;              ///< g, Q28
@@ -53,9 +53,10 @@ inline int64_t screw_ball(int64_t radius, const RelativePose& start, const Relat
 }
 
 /// The part of an interval in which the features of a path may be coplanar. `Path` has set_differences_at(), a kind and
-/// a ball. The condition that a moving line meets a line at rest, or a point a plane, is linear in the moving feature's
-/// coordinates. These are entries of its rotation, which are quadratic after multiplication by 1 + t^2 g^2, and such
-/// entries times the displacement along the axis, which is linear in t. The condition is therefore a cubic.
+/// a ball. The condition that a moving line meets a line at rest, or a moving point a plane at rest, is linear in the
+/// coordinates of the moving feature. They contain the entries of the rotation, which are quadratic in t after
+/// multiplication by 1 + t^2 g^2, and products of such entries with the displacement along the axis, which is linear in
+/// t. The condition is therefore a cubic.
 template <class Path>
 OpenPart screw_roots(const Path& path, const ScrewMotion& screw, int64_t from, int64_t to) {
   Vec64 corners[4][3];
@@ -72,8 +73,8 @@ OpenPart screw_roots(const Path& path, const ScrewMotion& screw, int64_t from, i
   return reduced_roots(corners, weight, path.ball + 1);  // a third of the interval is rounded down
 }
 
-/// The screw with the smaller rotation angle. Errors: out_of_range for a rotation of more than 2.65 rad, and for
-/// positions out of range.
+/// Of the two screws between the poses, the one with the smaller rotation angle. Errors: out_of_range for a rotation of
+/// more than 2.65 rad, and for a component of a position above 2^11 m.
 Status screw_between(const RelativePose& start, const RelativePose& end, ScrewMotion& screw);
 
 }  // namespace DETENT_NAMESPACE

@@ -19,8 +19,8 @@ struct StepPart {
   /// of a point of A and a point of B.
   int64_t bend;
   Vec64 displacement;  ///< translation of B relative to A over the part, 2^-46 m
-  /// Bound, 2^-46 m. Two points that touch in the part move relative to each other over the whole part. Along a normal
-  /// of their features as it is at the beginning, this motion differs from `displacement` by at most the bound.
+  /// Bound, 2^-46 m, for two points that touch in the part: along the normal that their features have at the beginning,
+  /// the relative displacement of the points over the part differs from `displacement` by at most this bound.
   int64_t stray;
 
   /// Whether points that touch with this outward normal of A at the beginning may approach. When two bodies first

@@ -145,8 +145,8 @@ void add(SensorStage& stage, SensedKeys& keys, uint64_t key) {
   if (keys.add(key, lost)) stage.overflow.add(CapacityEventType::sensed, pair_low(lost), pair_high(lost) >> 1);
 }
 
-/// Adds the pair to `found` if the body is within the sensor at the end of the tick, or passed through it on the last
-/// segment of its sweep.
+/// Adds the pair to `found` if the body is within the sensor at the end of the tick. Also adds it, as passed through,
+/// if the body was not within the sensor in the last step and touches it only on the last segment of its sweep.
 void evaluate_pair(SensorStage& stage, uint32_t sensor, uint32_t body) {
   if (!may_sense(stage, sensor, body)) return;
   const uint64_t within = sensed_key(sensor, body, false), through = sensed_key(sensor, body, true);

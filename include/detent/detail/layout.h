@@ -9,7 +9,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 
 constexpr uint32_t k_capacity_max = 1u << 20;
-constexpr uint32_t k_pairs_per_contact = 2;  ///< capacity of pairs; some pairs have overlapping bounds and no contact
+constexpr uint32_t k_pairs_per_contact = 2;  ///< more pairs than contacts: bounds may overlap without a contact
 
 /// Byte offsets of the arrays in a block.
 struct Layout {

@@ -47,14 +47,14 @@ struct BoundsKey {
 };
 
 /// A body's inverse inertia (per unit mass) in world axes: angular velocity = inverse inertia x angular momentum, in the units
-/// of angular velocity.h. A symmetric matrix; values are mantissas times 2^exponent.
+/// of angular_velocity.h. A symmetric matrix; values are mantissas times 2^exponent.
 struct alignas(sizeof(Unit)) WorldInverseInertia {
   Vec3<Unit> row[3];
   int32_t exponent;
 };
 
 /// The inverse inertias (per unit mass) of a body about its axes, split for its free rotation (rotate_freely() in
-/// angular velocity.h): two of the axes have similar values, and the *odd* axis differs most.
+/// angular_velocity.h): two of the axes have similar values, and the *odd* axis differs most.
 struct alignas(sizeof(Unit)) FreeRotation {
   Scaled common;    ///< inverse inertia about the axis after the odd axis
   Scaled odd_rate;  ///< inverse inertia about the odd axis minus `common`
@@ -82,7 +82,7 @@ struct alignas(8) BodyWork {
   Real speed;               ///< upper bound of the speed of any point of the body, m/s
   Vec3<Real> displacement;  ///< since the start of the tick, m
   Vec3<Real> rotation_vector;          ///< sum of angular velocity x substep x 2^size_exponent since the start of the tick, m
-  Vec3<Real> angular_velocity;          ///< angular velocity x 2^size_exponent, in units of 2^-k_angular_velocity_power m/s
+  Vec3<Real> angular_velocity;          ///< times 2^size_exponent, in units of 2^-k_angular_velocity_power m/s
   Vec3<Real> push;          ///< velocity that gravity and forces add in a substep, m/s
   Vec3<Real> twist;         ///< angular momentum that torques add in a substep, m/s
   /// The velocity and the angular momentum that contacts added in this substep, m/s. In float these members are sums of
@@ -283,7 +283,7 @@ struct JointCoupling {
 struct BodySweep {
   Fraction from;
   Vec3<Real> displacement;  ///< in a whole tick at this velocity, m
-  Vec3<Real> rotation_vector;          ///< rotation vector in a whole tick at this angular velocity, rad
+  Vec3<Real> rotation_vector;          ///< in a whole tick at this angular velocity, rad
   Real speed;                          ///< BodyWork::speed, m/s
   uint32_t impacts;         ///< impacts of the body in this tick
   uint32_t marks;           ///< flags of the impact stage
@@ -307,7 +307,7 @@ struct ImpactPair {
   Vec3<Real> point;   ///< of the next impact, on A's surface, m, from A's position then, world axes
   Vec3<Unit> normal;  ///< of the next impact, from A to B
   uint32_t more[2];   ///< index + 1 of the next pair in the lists of the lower and the higher slot; 0 at the end
-  uint8_t next;       ///< kind of the next event: none, impact, undecided time, or new test with less shrink depth
+  uint8_t next;       ///< kind of the next event: none, impact, undecided time, or new test (lib/ccd/impact_stage.h)
   uint8_t impacts;    ///< impacts so far
   uint8_t tests;      ///< new tests so far
   /// 1 after the shrink depth of the pair was increased, because the pair hit at a seam or the work budget was spent.
@@ -331,7 +331,7 @@ struct SweepSegment {
   Fraction from;
   BodyPose start;           ///< at `from`
   Vec3<Real> displacement;  ///< from `from` to the end of the tick, m
-  Vec3<Real> rotation_vector;          ///< rotation vector from `from` to the end of the tick, rad
+  Vec3<Real> rotation_vector;          ///< from `from` to the end of the tick, rad
 };
 
 }  // namespace DETENT_NAMESPACE
