@@ -101,8 +101,8 @@ struct ImpactStage {
   /// unchanged, if the bodies collide at a seam and the shrink depth of the pair was not increased yet.
   bool resolve(ImpactPair& pair, bool undecided, const BodyPose& pose_a, const BodyPose& pose_b);
   /// Propagates the impulse of the pair `first` to the pairs that share a body with it and have collided in this tick,
-  /// and back, until no pair approaches. Without this, a body between two others would be hit back and forth without
-  /// end. The pairs are processed in the order of their keys.
+  /// and back, until no pair approaches, in a limited number of rounds. Without this, a body between two others would
+  /// be hit back and forth without end. The pairs are processed in the order of their keys.
   void pass_on(const ImpactPair& first, Fraction time);
 };
 

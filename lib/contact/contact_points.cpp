@@ -10,8 +10,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// A face replaces the edges, or the axis itself, if it separates the cores as well, within 1/64 of the half thickness
-/// of the thinner core.
+/// A face replaces the edges, or the axis itself, if the separation of the cores along its normal is smaller by at most
+/// 1/64 of the half thickness of the thinner core.
 constexpr int k_face_power = 6;
 constexpr int k_aside_power = 5;            ///< lateral limit for edges: 2^-5 of the thinner half thickness
 constexpr int64_t k_upright = k_one >> 13;  ///< a normal within this angle, rad, of a face normal is replaced by it
@@ -222,9 +222,9 @@ bool Builder::build_on_face(BlockManifold& manifold) const {
 
 /// Finds the contact on a face that is slightly tilted against the axis. Crossing edges would instead touch in one
 /// point, which can jump from one side of the face to the other between two ticks. The cores must be at most
-/// preference_ apart. The face must be within 2^-3 rad of the axis, separate the cores as well as the axis, within 4
-/// preference_, and have at least two points. Its deepest point must be about as deep as the axis: shallower by at most
-/// drop_, deeper by at most preference_.
+/// preference_ apart. The face normal must be within 2^-3 rad of the axis, and the separation along it smaller by at
+/// most 4 preference_. The face must have at least two points. The separation of its deepest point must be larger by at
+/// most drop_, or smaller by at most preference_, than that along the axis.
 __attribute__((noinline)) bool Builder::build_on_leaning_face(BlockManifold& manifold) const {
   constexpr int64_t k_leaning = (int64_t{1} << 60) - (int64_t{1} << 53);  // 2^-3 rad
   const int64_t radii = pair_.radius_a + pair_.radius_b;

@@ -7,7 +7,7 @@ inline namespace DETENT_NAMESPACE {
 
 namespace {
 
-// pi/2 in three parts of 33 bits: n times each of the first two is exact for |n| < 2^20.
+// pi/2 in three parts. The first two have 33 bits, so n times each of them is exact for |n| < 2^20.
 constexpr double k_half_pi_high = 0x1.921fb544p+0;
 constexpr double k_half_pi_middle = 0x1.0b4611a6p-34;
 constexpr double k_half_pi_low = 0x1.3198a2e037073p-69;

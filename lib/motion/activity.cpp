@@ -20,7 +20,8 @@ bool is_slower(const Vec3<Real>& velocity, const Vec3<Real>& angular_velocity, c
   return scale_by_power(dot(velocity, velocity) + dot(angular_velocity, angular_momentum), 1) < slow * slow;
 }
 
-/// Whether a body is at rest (activity.h), by its velocity and by its displacement in the tick.
+/// Whether a body is at rest (activity.h), by its velocity and by its displacement and rotation in the tick. A body
+/// that rotated by more than 1 rad in the tick is not at rest.
 bool is_resting(const StepSettings& settings, const BodyProperties& properties, const BodyPose& pose,
                 const BodySweep& sweep, const BodyMotion& motion) {
   const Real slow = scale_by_power(fall_speed(settings, shape_extent(properties)), k_rest_power);

@@ -38,7 +38,7 @@ uint32_t clamp_speeds(const BodyProperties& properties, const Quat& rotation, Bo
   Vec3<Real> local, angular_velocity;
   // Joints and impacts may leave an angular velocity beyond the range of Real. If a component in the body's axes is
   // more than twice the limit, then a component in world axes exceeds the limit. Each pass scales the momentum down to
-  // the limit; if the angular velocity has saturated, this divides it by about 4.
+  // the limit; if the angular velocity has saturated, this divides the momentum by about 4.
   for (int quartering = 0; quartering < k_quarterings_max; ++quartering) {
     local = turned ? rotate_inverse(rotation, motion.angular_momentum) : motion.angular_momentum;
     angular_velocity = local_angular_velocity(properties, local);

@@ -22,7 +22,7 @@ constexpr Unit k_apart_cosine = 0.9999;
 /// The smallest component along `up` of the normal of an edge to stand on.
 constexpr Unit k_edge_cosine = 0.125;
 
-/// As push_out(), for a terrain: out to the side of the triangle on which the mover's centre is.
+/// As push_out(), for a terrain: the normal points to the side of the triangle on which the mover's centre is.
 bool push_out_of_terrain(const World& world, const QueryHit& hit, const Shape& core, const Pose& at,
                          const Vec3<Unit>& up, Vec3<Unit>& normal, Real& depth) {
   const StateView<const uint8_t> state = view_of(world);
@@ -81,7 +81,7 @@ QueryReport MoverMotion::ask(Status (*call)(const World&, const Query&, QueryHit
   return answer;
 }
 
-/// Whether the mover is stuck: its shrunken core overlaps a body, or a query failed.
+/// Whether the mover is stuck: its shrunken core is nearer to a body than half the gap, or a query failed.
 bool MoverMotion::caught() const {
   return status_ != Status::ok || free_radius_ < scale_by_power(settings_.radius, k_core_power);
 }

@@ -15,7 +15,7 @@ namespace {
 
 constexpr Scaled k_default_density = 1000.0;
 
-/// The properties of a body for a getter, or null.
+/// The properties of a body for a getter; null if the id is not valid.
 struct Read {
   StateView<const uint8_t> state;
   const BodyProperties* properties = nullptr;

@@ -44,8 +44,9 @@ struct SensorStage {
 /// bodies.
 void note_changed(const StepCacheView& cache, uint32_t slots_used, BitSet changed);
 
-/// Adds the pairs of the body `slot` and the sensors that it touches on a segment of its sweep to `passed`. `until`:
-/// the end of the segment, which is an impact before the end of the tick. `stage`: points to a SensorStage.
+/// Adds to `passed` the pairs of the body `slot` and the sensors that it touches on a segment of its sweep and was not
+/// within after the last step. `until`: the end of the segment, which is an impact before the end of the tick. `stage`:
+/// points to a SensorStage.
 void sense_sweep(void* stage, uint32_t slot, Fraction until);
 
 /// Finds the pairs that are within at the end of the tick, and the pairs that passed through; raises the events; stores

@@ -186,7 +186,7 @@ void Step::find_pairs() {
   wake_touched_bodies();
 }
 
-/// Collects the joints of the step. First starts the tick of the bodies of joints that do not move.
+/// Collects the joints of the step. First starts the tick of the jointed bodies that do not move.
 void Step::start_joints() {
   if (joint_ops_ == nullptr) return;
   for (const JointState& joint : joints_.joints) {

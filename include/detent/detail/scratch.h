@@ -294,8 +294,8 @@ struct BodySweep {
 struct ImpactPath {
   Vec3<Real> displacement;     ///< from the start of the tick to BodySweep::from, m
   Vec3<Real> rotation_vector;  ///< sum of the rotation vectors from the start of the tick to BodySweep::from, rad
-  /// Upper bound of the path of any surface point in the tick without impacts, m. Of a body that was hit: upper bound of
-  /// the part of its path until BodySweep::from that is due to the rotation.
+  /// Upper bound of the displacement of any surface point in the tick without impacts, m. Of a body that was hit: upper
+  /// bound of the displacement of any surface point by the rotation until BodySweep::from.
   Real bound;
 };
 
