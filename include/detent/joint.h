@@ -112,7 +112,8 @@ Status create_joint(World& world, const JointDef& def, JointId& id);
 /// Removes a joint, and wakes both bodies. destroy_body() also removes the joints of its body. Errors: bad_id.
 Status destroy_joint(World& world, JointId id);
 /// Replaces the definition of a joint, for example to change a motor, a limit or the steering. The joint keeps its id
-/// and its bodies; `def.a` and `def.b` are not read. Wakes both bodies. Errors: as create_joint.
+/// and its bodies; `def.a` and `def.b` are not read. Wakes both bodies. Errors: bad_id, bad_argument (an unknown type),
+/// out_of_range, not_normalised.
 Status set_joint(World& world, JointId id, const JointDef& def);
 /// Gets a definition that creates the same joint between the same bodies. Errors: bad_id.
 Status get_joint(const World& world, JointId id, JointDef& def);

@@ -296,8 +296,8 @@ Status set_gravity(World& world, const Vec3<Real>& gravity);
 /// Wakes the body and all bodies that it fell asleep with. Calls that move a body, or apply a force or impulse to it,
 /// wake it too. Errors: bad_id, bad_argument (not dynamic).
 Status wake_body(World& world, BodyId id);
-/// Stops the body and puts it to sleep: steps skip it until something wakes it.
-/// Errors: bad_id, bad_argument (not dynamic), feature_missing.
+/// Stops the body and puts it to sleep: steps skip it until something wakes it. Forces and torques that have not acted
+/// yet are lost. Errors: bad_id, bad_argument (not dynamic), feature_missing.
 Status sleep_body(World& world, BodyId id);
 /// Sets BodyDef::user_data of a body. If a filter rule then forbids a contact of the body, both bodies of this contact
 /// wake; no other body wakes. Errors: bad_id.

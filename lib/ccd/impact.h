@@ -31,7 +31,8 @@ inline namespace DETENT_NAMESPACE {
 inline constexpr uint32_t k_impacts_max = 32;  ///< per body and tick
 /// `k_impacts_max_spent`: limit of impacts per body and tick once the budget of work is spent. The unit of work is one
 /// computed time of impact, or one attempt to resolve an impact. The budget is k_impact_work_min plus
-/// k_impact_work_times the number of moving bodies and of times and skipped pairs in the first test of all pairs.
+/// k_impact_work_times the sum of three numbers: the moving bodies, and the first test's computed times of impact and
+/// skipped pairs.
 inline constexpr uint32_t k_impacts_max_spent = 16, k_impact_work_times = 8, k_impact_work_min = 512;
 /// A jointed body's sweep is marked with k_mark_jointed times the number of the body's island. These numbers begin at
 /// 1. All other marks are less than k_mark_jointed.

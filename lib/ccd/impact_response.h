@@ -8,8 +8,8 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// Clamps the rotation of a sweep to the range of angular velocities, k_angular_velocity_max in each component. The
-/// sweep of a slender body can leave that range. Returns 1 if it clamped, else 0.
+/// Scales the rotation of a sweep down until each component is within the range of angular velocities,
+/// k_angular_velocity_max. The sweep of a slender body can leave that range. Returns 1 if it scaled, else 0.
 uint32_t clamp_rotation(const BodyProperties& properties, Real tick_time, BodySweep& sweep);
 
 /// The velocity and angular momentum of a body that moves along its sweep. The `angular_momentum` of a kinematic body

@@ -76,15 +76,15 @@ struct ImpactStage {
   /// Updates the bounds of a body whose sweep has changed, marks it for testing and discards its coming impacts. The
   /// body has been moved to the current time.
   void change(uint32_t slot);
-  /// Stops the body at `time` until the tick ends.
+  /// Stops the body at `time` until the tick ends. Does nothing if the body is not dynamic or has stopped before.
   void stop(uint32_t slot, Fraction time);
   /// Moves the angular momentum of the bodies that were hit to the end of the tick.
   void finish_momentum();
 
   // impact_search.cpp
 
-  /// Finds the first impact of every pair that may collide. The number of tests and of moving bodies sets the budget of
-  /// work for the rest of the tick.
+  /// Finds the first impact of every pair that may collide. Sets the budget of work for the rest of the tick from the
+  /// number of moving bodies and the number of pairs that were tested or skipped.
   void find_first();
   /// Finds when a pair collides next, and stores its next event if there is one. Stops both bodies if there is no room
   /// for an impact, or if the pair would pass through. `shrink_depth`: the first shrink depth, m. `entry`: the pair's

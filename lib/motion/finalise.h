@@ -18,12 +18,13 @@ inline Sweep rest_of_tick(const BodySweep& sweep) {
   return sweep.from.raw == 0 ? whole : sweep_part(whole, k_whole_step - sweep.from);
 }
 
-/// Ends the tick of a body that may have moved: its pose becomes the pose at the end of its sweep, and its velocities
-/// are clamped to their range. Returns the number of components that were clamped.
+/// Ends the tick of a body that may have moved: its pose becomes the pose at the end of its sweep, and clamp_speeds()
+/// clamps the velocities of a dynamic body. Returns the number of coordinates clamped plus that of clamp_speeds().
 uint32_t finalise_body(const BodyProperties& properties, const BodySweep& sweep, BodyPose& pose, BodyMotion& motion);
 
-/// Clamps velocity to k_speed_max, angular momentum to k_angular_velocity_work_max and angular velocity to
-/// k_angular_velocity_max. Returns the number of components that were clamped.
+/// Clamps each component of the velocity to k_speed_max and of the angular momentum to k_angular_velocity_work_max.
+/// Then scales the angular momentum down until each component of the angular velocity is within k_angular_velocity_max.
+/// Returns the number of components that were clamped plus the number of times that the momentum was scaled.
 uint32_t clamp_speeds(const BodyProperties& properties, const Quat& rotation, BodyMotion& motion);
 
 /// Replaces the contacts of the last tick that are listed in `awake` with the contacts of this tick, and their
