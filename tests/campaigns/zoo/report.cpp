@@ -76,13 +76,13 @@ std::string page_of(const std::string& page, const std::vector<Row>& rows) {
     scenes.back().push_back(&row);
     good[row.config] += row.verdict.failed.empty() ? 1u : 0u;
   }
-  std::string text = page.substr(0, page.find(k_tables)) + k_tables + "\nAll that is wanted holds in";
+  std::string text = page.substr(0, page.find(k_tables)) + k_tables + "\nAll checks pass in";
   for (const auto& [config, count] : good) {
     text += (config == good.begin()->first ? " " : ", ") + std::to_string(count) + " of " +
             std::to_string(scenes.size()) + " scenes in `" + config + "`";
   }
   text +=
-      ". The worst of the configurations; in bold what fails in one.\n\n"
+      ". Each value is the worst of the configurations; it is bold if the check fails in at least one of them.\n\n"
       "| scene | bodies, joints |";
   std::string line = "|---|---|";
   for (const char* check : k_checks) {

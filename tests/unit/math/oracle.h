@@ -96,10 +96,10 @@ struct Table {
     if (path == nullptr) return;
     std::ofstream file(path);
     file << "# Errors of the number layer\n\n"
-            "Written by tests/unit/math (`numbers_test`) against MPFR. fx32 computes every line of fx64 with the same "
-            "bits.\n"
-            "\"exhaustive\": every argument of the domain; \"strided\": a fixed sequence over it, so the largest error "
-            "seen, no proof for the rest.\n\n"
+            "The tests in tests/unit/math (`numbers_test`) write this page; they compare with MPFR. `fx32` gives the "
+            "bits of `fx64` in every line.\n"
+            "\"exhaustive\": every argument of the domain was tested; \"strided\": a fixed sequence of arguments was, "
+            "so the largest error may be greater.\n\n"
             "| configuration | kernel | domain | rounding | max error | unit | bound | at | arguments |\n"
             "|---|---|---|---|---|---|---|---|---|\n";
     for (const auto& line : lines) file << line.second << "\n";
