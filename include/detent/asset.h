@@ -4,8 +4,8 @@
 #include <detent/status.h>
 
 /// @file
-/// Cooked data: hulls, compounds, meshes and height fields. Several worlds can share it. Functions that check and
-/// describe it.
+/// Cooked data (hulls, compounds, meshes and height fields), which several worlds can share, and functions that check
+/// and describe it.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 

@@ -18,8 +18,8 @@ inline namespace DETENT_NAMESPACE {
 enum class ManifoldReduction : uint32_t {
   /// The extreme points along four diagonals of the contact plane. The selection ignores depth, so that small changes
   /// of depth do not change the selected points. If the deepest point is deeper than all selected points by more than
-  /// 2^-10 of the smaller body's size, it is added, or it replaces the nearest of four. If one is extreme along several
-  /// diagonals, the remaining places take the points that add most to the area of the manifold.
+  /// 2^-10 of the smaller body's size, it is added, or it replaces the nearest of four. If a point is extreme along
+  /// several diagonals, the remaining places take the points that add most to the area of the manifold.
   /// Source: the extremes of Moravanszky, Terdiman, "Fast Contact Reduction for Dynamics Simulation", 2004.
   projected_extremes = 1,
   /// The deepest point, the point farthest from it, the point that makes the largest triangle with both, and the point

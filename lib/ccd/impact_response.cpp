@@ -18,8 +18,8 @@ Vec3<Real> scaled(const Vec3<Real>& v, Scaled factor) {
   return {multiply(v.x, factor, saturated), multiply(v.y, factor, saturated), multiply(v.z, factor, saturated)};
 }
 
-/// Twice the kinetic energy of rotation per unit mass: L . (I^-1 L) over the mass, from the angular momentum L in the
-/// body's axes.
+/// Twice the kinetic energy of rotation per unit mass, m^2/s^2. `local`: the angular momentum as in BodyMotion, but in
+/// the body's axes.
 Scaled energy_of(const BodyProperties& properties, const Vec3<Real>& local) {
   const auto term = [&](Real value, int i) {
     const Scaled factor = scaled_from(value);

@@ -25,7 +25,8 @@ BodyMotion motion_of_sweep(const BodyProperties& properties, const Quat& rotatio
 Vec3<Real> carried_angular_momentum(const BodyProperties& properties, const Quat& from, const Quat& to,
                                     const Vec3<Real>& angular_momentum);
 
-/// Adds the change of motion from `before` to `after` to the sweep. Returns the number of components that were clamped.
+/// Adds to the sweep the displacement and the rotation that the change of the velocities from `before` to `after`
+/// causes in a whole tick. Returns the number of components that were clamped.
 uint32_t add_to_sweep(const BodyProperties& properties, const Quat& rotation, const BodyMotion& before,
                       const BodyMotion& after, Real tick_time, BodySweep& sweep);
 

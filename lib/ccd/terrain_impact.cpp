@@ -43,8 +43,8 @@ struct TerrainSearch {
     return (start > clear && end > clear) || (start < -clear && end < -clear);
   }
 
-  /// Makes the triangle as a convex shape. If the terrain rotates, the triangle is placed relative to the terrain's
-  /// centre of rotation; otherwise relative to a point near the triangle, which is more precise.
+  /// Makes a convex shape of the triangle. If the terrain rotates, the shape is placed relative to the terrain's centre
+  /// of rotation; otherwise relative to a point near the triangle, which is more precise.
   bool place(uint32_t index, const TerrainTriangle& t, Pose& placed, Convex& made) const {
     placed = ground_motion.start;
     if (!turns) return code.convex(terrain, placed, index, placed, made) == Status::ok;
@@ -65,7 +65,7 @@ struct TerrainSearch {
   }
 
   void ask(uint32_t index) {
-    if (index == triangle) return;  // already tested in the part of the path before
+    if (index == triangle) return;  // this triangle has the first impact so far; it needs no second test
     const TerrainTriangle t = terrain.triangle(index);
     const Vec32 normal = normal_of(t.corner[0], t.corner[1], t.corner[2]);
     if (!turns && passes_by(t, normal)) return;

@@ -22,8 +22,9 @@ struct PairBefore {
 uint32_t shared_features(const ContactGeometry& geometry, const ContactState& contact);
 
 /// Keeps the keys of contacts from tick to tick although a plane gets a new name when it tilts slightly or merges with
-/// another plane. A contact with a new key takes the key of a contact of the last tick whose key no contact has now: of
-/// the one with which it shares the most features, if it shares any. Keeps the contacts in ascending order of key.
+/// another plane. Considers the contacts of the last tick whose keys no contact has now. A contact with a new key takes
+/// the key of that contact among them with which it shares the most features. If it shares none, it keeps its new key.
+/// Sorts the contacts by key.
 void continue_keys(const PairBefore& before, TerrainContacts& contacts);
 
 /// Makes the contact of this tick from its geometry and from the contact of the last tick, `before` (null if there was

@@ -10,8 +10,8 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// A face replaces the edges, or the axis itself, if the separation of the cores along its normal is smaller by at most
-/// 1/64 of the half thickness of the thinner core.
+/// A face replaces the edges, or the axis itself, if the separation of the cores along its normal is smaller than along
+/// the axis by at most 1/64 of the half thickness of the thinner core.
 constexpr int k_face_power = 6;
 constexpr int k_aside_power = 5;            ///< lateral limit for edges: 2^-5 of the thinner half thickness
 constexpr int64_t k_upright = k_one >> 13;  ///< a normal within this angle, rad, of a face normal is replaced by it
@@ -275,8 +275,8 @@ bool Builder::build_on_edge(BlockManifold& manifold) const {
   return fill(reference, is_a, is_a ? edge_b : edge_a, manifold);
 }
 
-/// If a round shape touches an edge that is level with a face, within the penetration of resting bodies, makes the
-/// contact with the face's normal. Otherwise returns false.
+/// If find_level_face() finds a face that is level with the contact of a round shape, makes the contact with the normal
+/// of that face. Otherwise returns false.
 bool Builder::build_level_with_face(BlockManifold& manifold) const {
   ContactAxis level = axis_;
   const int64_t room = thickness() >> 5;  // small shapes penetrate less

@@ -320,14 +320,14 @@ Vec32 TerrainPair::outward(const Side& side, uint32_t k) {
   return scaled_to_30_bits(cross(scaled_to_30_bits(subtract(b, a)), side.normal));
 }
 
-/// Returns a lower bound of the distance, 2^-46 m, by which a point of the shape lies beyond side k. The bound is at
-/// least a quarter of that distance.
+/// Returns a lower bound of the distance, 2^-46 m, by which a point of the shape lies beyond side k. Within rounding,
+/// the bound is at least a quarter of that distance, and at most 0 for a point that is not beyond the side.
 int64_t TerrainPair::beyond(const Side& side, uint32_t k, const Vec32& out, const Vec32& point) const {
   return raw_from_block(dot(out, point) >> 31, shape_.exponent) -
          dot(from_centre(side.triangle.corner[k]), out).round_shift(31);
 }
 
-/// Whether the whole core lies beyond one side of the triangle by more than `clear`, 2^-46 m.
+/// Whether beyond() shows that the whole core lies beyond one side of the triangle by more than `clear`, 2^-46 m.
 bool TerrainPair::is_beside(const Side& side, int64_t clear) const {
   for (uint32_t k = 0; k < 3; ++k) {
     const Vec32 out = outward(side, k);
@@ -336,8 +336,9 @@ bool TerrainPair::is_beside(const Side& side, int64_t clear) const {
   return false;
 }
 
-/// Whether the lowest point of the core lies beyond a side of the triangle by more than `clear`, 2^-46 m. If the lowest
-/// feature is an edge, or a line of a round side, that is level with the triangle, its middle is tested.
+/// Whether beyond() shows that the lowest point of the core lies beyond a side of the triangle by more than `clear`,
+/// 2^-46 m. If the lowest feature is an edge, or a line of a round side, that is level with the triangle, its middle is
+/// tested.
 __attribute__((noinline)) bool TerrainPair::is_lowest_beside(const Side& side, int64_t clear) const {
   constexpr int64_t k_lying = k_one >> 12;
   Feature lowest;

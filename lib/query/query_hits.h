@@ -6,9 +6,9 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The order of hits, of bodies and of the triangles of a terrain. Of two equally near hits, a decided hit comes before
-/// an undecided hit. Therefore a candidate that is certainly not nearer than a decided hit, and comes after it at equal
-/// distance, need not be tested.
+/// The order of the hits on bodies, and of the hits on the triangles of one terrain. Of two equally near hits, a
+/// decided hit comes before an undecided hit. Therefore a candidate that is certainly not nearer than a decided hit,
+/// and comes after it at equal distance, need not be tested.
 struct HitOrder {
   bool operator()(const QueryHit& a, const QueryHit& b) const;
 };

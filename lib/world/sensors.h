@@ -44,13 +44,13 @@ struct SensorStage {
 /// bodies.
 void note_changed(const StepCacheView& cache, uint32_t slots_used, BitSet changed);
 
-/// Adds to `passed` the pairs of the body `slot` and the sensors that it touches on a segment of its sweep and was not
-/// within after the last step. `until`: the end of the segment, which is an impact before the end of the tick. `stage`:
-/// points to a SensorStage.
+/// Finds the sensors that the body `slot` touches on a segment of its sweep. Adds each pair to `passed` if the body was
+/// not within the sensor after the last step. `until`: the end of the segment, which is an impact before the end of the
+/// tick. `stage`: points to a SensorStage.
 void sense_sweep(void* stage, uint32_t slot, Fraction until);
 
-/// Finds the pairs that are within at the end of the tick, and the pairs that passed through; raises the events; stores
-/// the former in the state. Must be called after all sweeps are final.
+/// Finds the pairs of a sensor and a body that is within it at the end of the tick, and stores them in the state. Also
+/// finds the bodies that passed through a sensor. Raises the events. Must be called after all sweeps are final.
 void sense(SensorStage& stage, const StateView<uint8_t>& state, SensorEventBuffer events, StepReport& report);
 
 /// The functions of the sensor feature, for a feature table.
