@@ -7,9 +7,9 @@ inline namespace DETENT_NAMESPACE {
 
 template <class F>
 void visit_query(F& fields, SceneAction& action) {
-  fields.text({"name", "for what is printed"}, action.name);
+  fields.text({"name", "for the output"}, action.name);
   fields.object({"filter", "which bodies it tests"}, action.asked);
-  fields.flag({"all", "every body found, and not only the first"}, action.flag);
+  fields.flag({"all", "all hits, not only the first"}, action.flag);
 }
 
 /// A query's shape and its pose in the world.
@@ -126,17 +126,17 @@ void visit(F& fields, SceneAction& action) {
       break;
     case Call::set_joint:
       fields.joint(required({"joint", "which"}), action.joint);
-      fields.template changes<JointDef>(required({"changes", "the rest stays"}), action.changes);
+      fields.template changes<JointDef>(required({"changes", "other values stay"}), action.changes);
       break;
     case Call::set_settings:
-      fields.template changes<WorldDef>(required({"changes", "the rest stays"}), action.changes);
+      fields.template changes<WorldDef>(required({"changes", "other values stay"}), action.changes);
       break;
     case Call::set_gravity:
       fields.vector(required({"gravity", "m/s^2", within(1024)}), action.displacement);
       break;
     case Call::explode:
       fields.position(required({"centre", "m, world"}), action.position);
-      fields.real(required({"radius", "m; nothing farther off is pushed", k_size}), action.first);
+      fields.real(required({"radius", "m; bodies farther away are not pushed", k_size}), action.first);
       fields.scaled(required({"impulse", "N s/m^2 at the centre; negative: it pulls"}), action.mass);
       break;
     case Call::query_ray:

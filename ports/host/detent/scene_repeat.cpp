@@ -319,7 +319,7 @@ FieldInfo needed(FieldInfo info) {
 /// An object with one field for each letter.
 ObjectInfo lettered(const char* name, const char* doc, const FieldInfo& value) {
   ObjectInfo object = {name, doc, "", "", {}, {{"", {}}}};
-  const char* const docs[k_letters] = {"the outermost", "the next", "the innermost, which counts first"};
+  const char* const docs[k_letters] = {"the outermost", "the next", "the innermost, which counts fastest"};
   for (size_t i = 0; i < k_letters; ++i) {
     FieldInfo info = value;
     info.key = k_letter_names[i];
@@ -341,24 +341,25 @@ void write_out_repeats(Node& scene, std::vector<Problem>& problems) {
 }
 
 std::vector<FieldInfo> repeat_fields() {
-  return {object_field("repeat", "it stands for so many: Repeats", "repeat"),
+  return {object_field("repeat", "number of copies: Repeats", "repeat"),
           object_field("step", "with `repeat`: from copy to copy", "step"),
           object_field("revolve", "with `repeat`: a rotation, applied after the steps", "revolve")};
 }
 
 std::vector<ObjectInfo> repeat_objects() {
-  ObjectInfo revolution = {"revolution", "A turn from copy to copy, about a line in the world.", "", "", {},
+  ObjectInfo revolution = {"revolution", "A rotation from copy to copy, about a line in the world.", "", "", {},
                            {{"", {}}}};
   revolution.variants.front().fields = {
-      needed(field("axis", "of any length, by the right hand", FieldKind::vector, k_axis)),
+      needed(field("axis", "of any length; right-handed", FieldKind::vector, k_axis)),
       needed(field("degrees", "from one copy to the next", FieldKind::number, k_degrees)),
       field("about", "a point of the line, m, world", FieldKind::vector)};
   revolution.variants.front().fields.back().initial = "[0, 0, 0]";
-  return {lettered("repeat", "How often an entry is there, at least one of the letters.",
-                   field("", "", FieldKind::integer, k_counts)),
-          lettered("step", "How far a copy is from the one before, m, world.", field("", "", FieldKind::vector)),
-          lettered("revolve", "How a copy is turned from the one before.", object_field("", "", "revolution")),
-          revolution};
+  return {
+      lettered("repeat", "The number of copies of an entry, by at least one of the letters.",
+               field("", "", FieldKind::integer, k_counts)),
+      lettered("step", "The displacement of a copy from the one before, m, world.", field("", "", FieldKind::vector)),
+      lettered("revolve", "How a copy is rotated from the one before.", object_field("", "", "revolution")),
+      revolution};
 }
 
 }  // namespace detent_tool
