@@ -6,6 +6,7 @@
 #include <detent/features.h>
 #include <detent/joint.h>
 #include <detent/status.h>
+#include <detent/tasks.h>
 
 /// @file
 /// The world: pools of bodies, contacts and joints, of fixed capacity, in one block of the caller's memory.
@@ -119,8 +120,8 @@ struct StepObserver {
 /// Bytes of the block that a world of this capacity needs; 0 if the capacity is out of range. The same on every target.
 constexpr uint32_t world_bytes(Capacity capacity);
 
-/// Memory and functions of the caller that a world uses: assets, filter rules, event buffers, profile, observer. The
-/// memory must outlive the world. By default all are empty.
+/// Memory and functions of the caller that a world uses: assets, filter rules, event buffers, profile, observer, tasks.
+/// The memory must outlive the world. By default all are empty.
 /// An event buffer without `data` counts as no buffer, whatever its capacity.
 struct WorldHooks {
   AssetTable assets = {};  ///< the assets that can be bound (asset.h)
@@ -133,6 +134,7 @@ struct WorldHooks {
   CapacityEventBuffer capacity_events = {};  ///< as contact_events: entries that a full pool dropped
   Profile* profile = nullptr;                ///< times of the stages of each step
   const StepObserver* observer = nullptr;    ///< called at the end of each stage of each step
+  Tasks tasks = {};                          ///< threads for parts of each step
 };
 
 /// A handle to a world in the caller's block. It owns nothing and may be copied.

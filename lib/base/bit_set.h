@@ -21,6 +21,12 @@ struct BitSet {
     });
   }
 
+  /// As for_each(), for the bits of the words [first, last).
+  template <class Visit>
+  void for_each_in(uint32_t first, uint32_t last, const Visit& visit) const {
+    BitSet{{words.data + first, last - first}}.for_each([&](uint32_t bit) { visit(first * 32 + bit); });
+  }
+
   /// As for_each(), but starts at bit `first` and stops when `visit` returns false.
   template <class Visit>
   void while_each(uint32_t first, const Visit& visit) const {

@@ -37,6 +37,9 @@ struct Grid {
 bool is_everywhere(const Bounds& bounds) { return bounds.lower.x == -k_coord_limit && bounds.upper.x == k_coord_limit; }
 bool is_nowhere(const Bounds& bounds) { return bounds.upper.x < bounds.lower.x; }
 
+/// Number of bodies that a thread takes at once.
+constexpr uint32_t k_bodies_shared = 32;
+
 /// Two coordinates of 15 bits are packed in one word, each with a guard bit above it. In the difference upper bound -
 /// lower bound, a guard bit is cleared if the upper bound is below the lower bound.
 constexpr uint32_t k_across_bits = 15, k_across_guards = 0x80008000;
@@ -101,12 +104,28 @@ bool DeeperPair::operator()(uint64_t a, uint64_t b) const {
   return depth_a > depth_b || (depth_a == depth_b && a < b);
 }
 
-void PairPool::consider(uint32_t a, uint32_t b) {
-  if (!is_dynamic_type(properties[a]) && !is_dynamic_type(properties[b])) return;
-  if (!overlap(bounds[a], bounds[b]) || !filter.allows(a, b)) return;
+namespace {
+
+bool takes_pair(const PairPool& pool, uint32_t a, uint32_t b) {
+  if (!is_dynamic_type(pool.properties[a]) && !is_dynamic_type(pool.properties[b])) return false;
+  return overlap(pool.bounds[a], pool.bounds[b]) && pool.filter.allows(a, b);
+}
+
+void add_pair(uint64_t key, PairPool& pool) {
   uint64_t lost;
-  if (found.add(key_of_pair(a, b), lost) && overflow != nullptr)
-    overflow->add(CapacityEventType::pair, pair_low(lost), pair_high(lost));
+  if (pool.found.add(key, lost) && pool.overflow != nullptr)
+    pool.overflow->add(CapacityEventType::pair, pair_low(lost), pair_high(lost));
+}
+
+}  // namespace
+
+#if DETENT_TASKS
+bool PairPool::takes(uint32_t a, uint32_t b) const { return takes_pair(*this, a, b); }
+void PairPool::add(uint64_t key) { add_pair(key, *this); }
+#endif
+
+void PairPool::consider(uint32_t a, uint32_t b) {
+  if (takes_pair(*this, a, b)) add_pair(key_of_pair(a, b), *this);
 }
 
 /// Sorts by the higher slot and then, stably, by the lower slot. Uses only as many digits as slot numbers have.
@@ -124,8 +143,8 @@ void PairPool::go_on() {
   if (found.count == found.storage.count) heap_make(found.storage, found.less);
 }
 
-void find_resting_near(uint32_t slot, const RestingTree& resting, PairPool& pool) {
-  resting.for_each_near(resting.bounds[slot], [&](uint32_t other) { pool.consider(slot, other); });
+void find_resting_near(uint32_t slot, const RestingTree& resting, PairFinder& finder) {
+  resting.for_each_near(resting.bounds[slot], [&](uint32_t other) { finder.consider(slot, other); });
 }
 
 void add_moving_pairs(Span<const uint32_t> moving, const RestingTree& resting, Span<BoundsKey> keys,
@@ -145,10 +164,19 @@ void add_moving_pairs(Span<const uint32_t> moving, const RestingTree& resting, S
   grid[0].divide(32);
   for (int i = 1; i < 3; ++i) grid[i].divide(k_across_bits);
 
+  if (pool.team != nullptr) {
+    share(pool.team, moving, k_bodies_shared, [&](Span<const uint32_t> part) {
+      PairFinder shared(pool);
+      for (const uint32_t slot : part) {
+        if (!is_nowhere(bounds[slot])) find_resting_near(slot, resting, shared);
+      }
+    });
+  }
+  PairFinder finder(pool);
   uint32_t count = 0, everywhere = 0;
   for (const uint32_t slot : moving) {
     if (is_nowhere(bounds[slot])) continue;
-    find_resting_near(slot, resting, pool);
+    if (pool.team == nullptr) find_resting_near(slot, resting, finder);
     if (is_everywhere(bounds[slot])) {
       spare[everywhere++].slot = slot;
       continue;
@@ -169,14 +197,17 @@ void add_moving_pairs(Span<const uint32_t> moving, const RestingTree& resting, S
   }
   radix_sort(
       keys.first(count), spare, [](const BoundsKey& key, int digit) { return key.lower >> (8 * digit) & 255; }, 4);
-  for (uint32_t i = 0; i < count; ++i) {
-    const BoundsKey& a = keys[i];
-    for (uint32_t k = i + 1; k < count && keys[k].lower <= a.upper; ++k) {
-      const BoundsKey& b = keys[k];
-      if ((a.is_dynamic | b.is_dynamic) == 0 || are_apart(a, b)) continue;
-      pool.consider(a.slot, b.slot);
+  share(pool.team, count, k_bodies_shared, [&](uint32_t first, uint32_t last) {
+    PairFinder shared(pool);
+    for (uint32_t i = first; i < last; ++i) {
+      const BoundsKey& a = keys[i];
+      for (uint32_t k = i + 1; k < count && keys[k].lower <= a.upper; ++k) {
+        const BoundsKey& b = keys[k];
+        if ((a.is_dynamic | b.is_dynamic) == 0 || are_apart(a, b)) continue;
+        shared.consider(a.slot, b.slot);
+      }
     }
-  }
+  });
 }
 
 }  // namespace DETENT_NAMESPACE

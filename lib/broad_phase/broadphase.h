@@ -1,6 +1,7 @@
 #pragma once
 #include "base/heap.h"
 #include "base/span.h"
+#include "base/team.h"
 #include "broad_phase/overflow.h"
 #include "broad_phase/pair_filter.h"
 #include "broad_phase/resting_tree.h"
@@ -31,6 +32,16 @@ struct PairPool {
   Span<uint64_t> spare;  ///< work space as large as the pool
   SmallestOf<uint64_t, DeeperPair> found;
   Overflow* overflow = nullptr;  ///< receives the pairs that are not kept; may be null
+#if DETENT_TASKS
+  Team* team = nullptr;  ///< the threads that find pairs; null: none
+#else
+  static constexpr Team* team = nullptr;
+#endif
+  void share([[maybe_unused]] Team* with) {
+#if DETENT_TASKS
+    team = with;
+#endif
+  }
 
   PairPool(Span<const BodyPose> body_poses, Span<const BodyProperties> body_properties, Span<const Bounds> body_bounds,
            Span<uint64_t> sort_space, Span<uint64_t> storage, const FilterRuleTable& rules = {},
@@ -45,7 +56,10 @@ struct PairPool {
   Span<const uint64_t> pairs() const { return found.storage.first(found.count); }
   uint32_t dropped() const { return found.dropped; }
 
-  /// Adds the pair if at least one of the bodies is dynamic, their bounds overlap and the filter allows the pair.
+  /// Whether at least one of the bodies is dynamic, their bounds overlap and the filter allows the pair.
+  bool takes(uint32_t a, uint32_t b) const;
+  void add(uint64_t key);
+  /// Adds the pair if the pool takes it.
   void consider(uint32_t a, uint32_t b);
   void sort();
   /// Prepares the pool for further pairs. Must be called between sort() and the next consider().
@@ -58,8 +72,42 @@ struct PairPool {
 void add_moving_pairs(Span<const uint32_t> moving, const RestingTree& resting, Span<BoundsKey> keys,
                       Span<BoundsKey> spare, PairPool& pool);
 
+/// The pairs that one thread finds. With several threads, it adds them to the pool a few at a time.
+class PairFinder {
+ public:
+  explicit PairFinder(PairPool& pool) : pool_(pool) {}
+  PairFinder(const PairFinder&) = delete;
+  PairFinder& operator=(const PairFinder&) = delete;
+  ~PairFinder() {
+    if (pool_.team != nullptr) add_all();
+  }
+
+  void consider(uint32_t a, uint32_t b) {
+    if (pool_.team == nullptr) {
+      pool_.consider(a, b);
+    } else if (pool_.takes(a, b)) {
+      if (count_ == k_pairs) add_all();
+      keys_[count_++] = key_of_pair(a, b);
+    }
+  }
+
+ private:
+  static constexpr uint32_t k_pairs = DETENT_TASKS ? 32 : 1;
+
+  void add_all() {
+    alone(pool_.team, [&] {
+      for (uint32_t i = 0; i < count_; ++i) pool_.add(keys_[i]);
+    });
+    count_ = 0;
+  }
+
+  PairPool& pool_;
+  uint32_t count_ = 0;
+  uint64_t keys_[k_pairs];
+};
+
 /// Finds all pairs of the body `slot` with bodies in the tree.
-void find_resting_near(uint32_t slot, const RestingTree& resting, PairPool& pool);
+void find_resting_near(uint32_t slot, const RestingTree& resting, PairFinder& finder);
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -35,12 +35,8 @@ struct RestingTree {
   /// Visits the slots of all bodies whose bounds overlap `box`. `visit` must not change the tree.
   template <class Visit>
   void for_each_near(const Bounds& box, const Visit& visit) const {
-    const auto meets = [&](const Bounds& bounds_there) {
-      ++root.visited;
-      return overlap(bounds_there, box);
-    };
-    walk(
-        meets, [](const Bounds&, const Bounds&) { return false; }, visit);
+    walk([&](const Bounds& bounds_there) { return overlap(bounds_there, box); },
+         [](const Bounds&, const Bounds&) { return false; }, visit);
   }
 
   /// Visits the slots of all bodies for which `meets(bounds)` is true, both for the bounds of the body and for the

@@ -1,3 +1,4 @@
+#include "base/heap.h"
 #include "broad_phase/pair_filter.h"
 #include "ccd/impact_stage.h"
 #include "math/root.h"
@@ -14,6 +15,9 @@ namespace {
 constexpr int k_test_power = -10;
 constexpr uint32_t k_tests_max = 16;
 
+/// Number of pairs that a thread takes at once.
+constexpr uint32_t k_pairs_shared = 16;
+
 /// The contacts of a pair at the start of a list.
 Span<const ContactWork> pair_contacts(Span<const ContactWork> from, uint64_t key) {
   uint32_t count = 0;
@@ -21,8 +25,8 @@ Span<const ContactWork> pair_contacts(Span<const ContactWork> from, uint64_t key
   return from.first(count);
 }
 
-/// The contacts of a pair in a sorted list.
-Span<const ContactWork> find_contacts(Span<const ContactWork> contacts, uint64_t key) {
+/// The end of a sorted list, from the contacts of a pair on.
+Span<const ContactWork> contacts_from(Span<const ContactWork> contacts, uint64_t key) {
   uint32_t low = 0, high = contacts.count;
   while (low < high) {
     const uint32_t middle = low + (high - low) / 2;
@@ -31,7 +35,12 @@ Span<const ContactWork> find_contacts(Span<const ContactWork> contacts, uint64_t
     else
       high = middle;
   }
-  return pair_contacts({contacts.data + low, contacts.count - low}, key);
+  return {contacts.data + low, contacts.count - low};
+}
+
+/// The contacts of a pair in a sorted list.
+Span<const ContactWork> find_contacts(Span<const ContactWork> contacts, uint64_t key) {
+  return pair_contacts(contacts_from(contacts, key), key);
 }
 
 bool jointed(const ImpactStage& stage, uint32_t slot) { return stage.bodies.sweeps[slot].marks >= k_mark_jointed; }
@@ -259,6 +268,17 @@ void test_at_start(ImpactStage& stage, uint64_t key, Span<const ContactWork> con
   if (!is_safe(stage, key, contacts, start, clearance, nullptr)) stage.test(key, start, shrink_depth, nullptr);
 }
 
+/// Tests pairs of a sorted list from the start of the tick.
+void test_all_at_start(ImpactStage& stage, Span<const uint64_t> pairs) {
+  Span<const ContactWork> rest = stage.known.contacts;
+  if (stage.found != nullptr) rest = contacts_from(rest, pairs[0]);
+  const auto go_on = [&rest](uint32_t count) { rest = {rest.data + count, rest.count - count}; };
+  for (const uint64_t key : pairs) {
+    while (rest.count != 0 && key_of(rest[0].state) < key) go_on(1);
+    test_at_start(stage, key, pair_contacts(rest, key));
+  }
+}
+
 /// Whether the bodies of a pair in contact approach so fast that they rebound. Returns false if the bodies overlap by
 /// more than 1/1024 of the extent, if the solver has applied an impulse between them, or if one of them is jointed.
 bool is_new_impact(const ImpactStage& stage, uint64_t key, Span<const ContactWork> contacts) {
@@ -315,6 +335,12 @@ void ImpactStage::test(uint64_t key, Fraction time, Real shrink_depth, ImpactPai
   const Vec3<Unit> axis = known_axis(*this, key, entry);
   if (entry != nullptr) entry->next = k_next_none;
   const bool asked = search.find({shrink_depth, extent_of(key), true, resolved}, axis, meeting);
+#if DETENT_TASKS
+  if (found != nullptr && (!asked || meeting.left || meeting.climbed || impact.outcome != ToiOutcome::clear)) {
+    found->add(key, meeting.stuck);
+    return;
+  }
+#endif
   report.tests += meeting.tests;
   take_work(meeting.tests);
   if (!asked) {
@@ -355,13 +381,35 @@ void ImpactStage::test(uint64_t key, Fraction time, Real shrink_depth, ImpactPai
   entry->point = impact.point;
 }
 
-void ImpactStage::find_first() {
-  Span<const ContactWork> rest = known.contacts;
-  const auto go_on = [&rest](uint32_t count) { rest = {rest.data + count, rest.count - count}; };
-  for (const uint64_t key : known.pairs) {
-    while (rest.count != 0 && key_of(rest[0].state) < key) go_on(1);
-    test_at_start(*this, key, pair_contacts(rest, key));
+#if DETENT_TASKS
+bool ImpactStage::find_first_shared() {
+  FoundPairs all = {impacts};
+  share(settings.team, known.pairs, k_pairs_shared, [&](Span<const uint64_t> part) {
+    ImpactStage stage = *this;
+    stage.found = &all;
+    test_all_at_start(stage, part);
+    Team::add(all.report.tests, stage.report.tests);
+    Team::add(all.report.skipped, stage.report.skipped);
+    Team::add(all.report.kept_apart, stage.report.kept_apart);
+  });
+  if (all.in_order != 0) return false;
+  report.tests += all.report.tests;
+  report.skipped += all.report.skipped;
+  report.kept_apart += all.report.kept_apart;
+  heap_sort(impacts.first(all.count), [](const ImpactPair& a, const ImpactPair& b) { return a.key < b.key; });
+  // Each pair makes at most one entry in `impacts`, so the keys of later pairs are still there.
+  for (uint32_t i = 0; i < all.count; ++i) {
+    const uint64_t key = impacts[i].key;
+    test_at_start(*this, key, find_contacts(known.contacts, key));
   }
+  return true;
+}
+#else
+bool ImpactStage::find_first_shared() { return false; }
+#endif
+
+void ImpactStage::find_first() {
+  if (settings.team == nullptr || !find_first_shared()) test_all_at_start(*this, known.pairs);
   uint32_t moving = 0;
   bodies.active.for_each([&](uint32_t a) {
     ++moving;

@@ -27,6 +27,21 @@ inline constexpr uint32_t k_mark_slept = 16;       ///< the body was asleep when
 inline constexpr uint32_t k_mark_moved = 32;       ///< the body was active when the tick began: its pairs were searched
 static_assert(k_mark_moved < k_mark_jointed);
 
+/// The pairs whose search finds anything at the start of the tick, while several threads search for them.
+struct FoundPairs {
+  Span<ImpactPair> pairs;  ///< their keys
+  uint32_t count = 0;
+  /// Not 0 if there are too many pairs, or if a body must be stopped: the pairs must then be searched in order.
+  uint32_t in_order = 0;
+  ImpactReport report = {};  ///< of the pairs without an impact
+
+  void add(uint64_t key, bool is_stopped) {
+    const uint32_t place = Team::take(count, 1);
+    if (place < pairs.count) pairs[place].key = key;
+    if (place >= pairs.count || is_stopped) Team::take(in_order, 1);
+  }
+};
+
 /// The state of the stage during a tick.
 struct ImpactStage {
   const StepSettings& settings;
@@ -44,6 +59,11 @@ struct ImpactStage {
   uint32_t changed_first = 0;  ///< no body with a lower slot has k_mark_changed
   Real first_approach = 0.0;   ///< closing speed of the impact that is being resolved, m/s
   ImpactReport report = {};
+#if DETENT_TASKS
+  FoundPairs* found = nullptr;  ///< not null: test() only lists the pair, if its search finds anything
+#else
+  static constexpr FoundPairs* found = nullptr;
+#endif
 
   SweptBody body(uint32_t slot) const { return {bodies.properties[slot], bodies.poses[slot], bodies.sweeps[slot]}; }
   bool dynamic(uint32_t slot) const { return is_dynamic(bodies.properties[slot]); }
@@ -71,6 +91,7 @@ struct ImpactStage {
 
   /// Computes the bounds of the sweeps, and marks the sweeps that leave the bounds that the pairs were found with.
   void start_sweeps();
+  void start_sweep(uint32_t slot);
   /// Moves the body to `time` along its sweep. The sweep starts again there, with the same velocity.
   void move_to(uint32_t slot, Fraction time);
   /// Updates the bounds of a body whose sweep has changed, marks it for testing and discards its coming impacts. The
@@ -90,6 +111,9 @@ struct ImpactStage {
   /// for an impact, or if the pair would pass through. `shrink_depth`: the first shrink depth, m. `entry`: the pair's
   /// entry in `impacts`, or null.
   void test(uint64_t key, Fraction time, Real shrink_depth, ImpactPair* entry);
+  /// As the first part of find_first(): the pairs in `known`. Several threads search. Returns false, and changes
+  /// nothing, if the pairs must be searched in order.
+  bool find_first_shared();
   /// Tests the sweeps that have changed against all other bodies.
   void test_all_changed(Fraction time);
   /// Whether the solver pushed the pair apart in this tick.

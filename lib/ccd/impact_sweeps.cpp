@@ -75,21 +75,26 @@ Quat end_rotation(const ImpactStage& stage, uint32_t slot) {
 }  // namespace
 
 void ImpactStage::start_sweeps() {
-  bodies.active.for_each([&](uint32_t slot) {
-    BodySweep& sweep = bodies.sweeps[slot];
-    sweep.marks |= k_mark_moved;
-    if (is_non_colliding(bodies.properties[slot])) {
-      begin_sweep(*this, slot);
-      return;
-    }
-    if (!is_at_rest(sweep)) {
-      const Bounds found_by = bodies.bounds[slot];
-      begin_sweep(*this, slot);
-      if (!holds(found_by, bodies.bounds[slot])) sweep.marks |= k_mark_left_bounds;
-      bodies.paths[slot].bound = motion_bound(body(slot), sweep.from);
-    }
-    if (!filters() || !known.complete) sweep.marks |= k_mark_left_bounds;
+  Team* const team = probe == nullptr ? settings.team : nullptr;
+  share(team, bodies.active.words.count, 1, [&](uint32_t first, uint32_t last) {
+    bodies.active.for_each_in(first, last, [&](uint32_t slot) { start_sweep(slot); });
   });
+}
+
+void ImpactStage::start_sweep(uint32_t slot) {
+  BodySweep& sweep = bodies.sweeps[slot];
+  sweep.marks |= k_mark_moved;
+  if (is_non_colliding(bodies.properties[slot])) {
+    begin_sweep(*this, slot);
+    return;
+  }
+  if (!is_at_rest(sweep)) {
+    const Bounds found_by = bodies.bounds[slot];
+    begin_sweep(*this, slot);
+    if (!holds(found_by, bodies.bounds[slot])) sweep.marks |= k_mark_left_bounds;
+    bodies.paths[slot].bound = motion_bound(body(slot), sweep.from);
+  }
+  if (!filters() || !known.complete) sweep.marks |= k_mark_left_bounds;
 }
 
 void ImpactStage::move_to(uint32_t slot, Fraction time) {

@@ -49,6 +49,9 @@ StepSettings step_settings(const WorldState& world) {
   settings.sleeping = world.sleeping != 0;
   settings.continuous = world.continuous != 0;
   settings.lanes = false;
+#if DETENT_TASKS
+  settings.team = nullptr;
+#endif
   const Scaled rate = divide(scaled_from(world.tick_time), scaled_from(k_two_pi * world.contact_frequency));
   settings.substeps_per_rate = multiply(rate, rate);
   set_substeps(world.substeps == 0 ? 1 : world.substeps, settings);

@@ -2,6 +2,7 @@
 #include <detent/contact.h>
 #include <detent/detail/state.h>
 
+#include "base/team.h"
 #include "math/arithmetic.h"
 #include "math/scaled.h"
 
@@ -30,6 +31,11 @@ struct StepSettings {
   bool continuous;  ///< continuous collision is on
   /// Solve four contacts at once where possible (World::lanes). This does not change the result.
   bool lanes;
+#if DETENT_TASKS
+  Team* team;  ///< the threads that share loops; null: none. This does not change the result.
+#else
+  static constexpr Team* team = nullptr;
+#endif
   Real tick_time;      ///< s
   uint32_t substeps;   ///< this and the members down to gap_max are set by set_substeps()
   Real time;           ///< length of a substep, s
@@ -58,6 +64,16 @@ struct StepSettings {
 };
 
 StepSettings step_settings(const WorldState& world);
+/// The same settings, for loops that `team` shares.
+#if DETENT_TASKS
+inline StepSettings shared_settings(const StepSettings& settings, Team* team) {
+  StepSettings shared = settings;
+  shared.team = team;
+  return shared;
+}
+#else
+inline const StepSettings& shared_settings(const StepSettings& settings, Team*) { return settings; }
+#endif
 /// The speed, m/s, that covers `length`, m, in a substep. Overflow: clamps to +-2^15 m/s.
 inline Real speed_over(const StepSettings& settings, Real length) {
   return scale_by_power(clamp(length, -settings.gap_max, settings.gap_max) * settings.rate_mantissa,

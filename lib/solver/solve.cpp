@@ -67,6 +67,9 @@ uint32_t integrate_positions(const SolverBodies& bodies, Span<const uint32_t> is
   return clamped;
 }
 
+/// Numbers of bodies and of contacts that a thread takes at once. A multiple of four contacts fills the lanes.
+constexpr uint32_t k_bodies_shared = 16, k_contacts_shared = 8;
+
 constexpr int k_rebound_sweeps_max = 32;
 
 /// Applies Newton's law of impact (restitution) to points that approached faster than the threshold and had a normal
@@ -123,11 +126,11 @@ bool has_settled(const SolverBodies& bodies, Span<const uint32_t> island, Real e
   return true;
 }
 
-/// One pass over the contacts in their order. Calls `one` with a contact, or `four` with four contacts that may be
-/// solved at once.
+/// One pass over contacts in their order. Calls `one` with a contact, or `four` with four contacts that may be solved
+/// at once.
 template <class TakeOne, class TakeFour>
-void pass(const StepSettings& settings, const SolverBodies& bodies, Span<const ContactOrder> order,
-          Span<ContactWork> contacts, const TakeOne& one, const TakeFour& four) {
+void pass_in_order(const StepSettings& settings, const SolverBodies& bodies, Span<const ContactOrder> order,
+                   Span<ContactWork> contacts, const TakeOne& one, const TakeFour& four) {
   for (uint32_t i = 0; i < order.count;) {
     const ContactOrder& first = order[i];
     if (settings.lanes && i + 4 <= order.count && first.colour != k_colour_overflow) {
@@ -149,10 +152,45 @@ void pass(const StepSettings& settings, const SolverBodies& bodies, Span<const C
   }
 }
 
+/// The number of contacts at the start of `order` that have the same colour.
+uint32_t colour_count(Span<const ContactOrder> order) {
+  uint32_t low = 1, high = order.count;
+  while (low < high) {
+    const uint32_t middle = low + (high - low) / 2;
+    if (order[middle].colour == order[0].colour)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low;
+}
+
+/// One pass over all contacts of an island, as pass_in_order(). Threads share the contacts of each colour: these have
+/// no moving body in common.
+template <class TakeOne, class TakeFour>
+void pass(const StepSettings& settings, const SolverBodies& bodies, Span<const ContactOrder> order,
+          Span<ContactWork> contacts, const TakeOne& one, const TakeFour& four) {
+  if (settings.team == nullptr) {
+    pass_in_order(settings, bodies, order, contacts, one, four);
+    return;
+  }
+  for (uint32_t i = 0; i < order.count;) {
+    const Span<const ContactOrder> rest = {order.data + i, order.count - i};
+    const uint32_t count = colour_count(rest);
+    Team* const team = rest[0].colour == k_colour_overflow ? nullptr : settings.team;
+    share(team, count, k_contacts_shared, [&](uint32_t first, uint32_t last) {
+      pass_in_order(settings, bodies, {rest.data + first, last - first}, contacts, one, four);
+    });
+    i += count;
+  }
+}
+
+bool is_kinematic(const BodyProperties& properties) { return type_of(properties) == BodyType::kinematic; }
+
 /// Sets the displacement and rotation of a kinematic body at `time`, s, after the start of the tick.
 /// BodyMotion::angular_momentum of a kinematic body is its angular velocity.
 void place_kinematic(const BodyProperties& properties, const BodyMotion& motion, Real time, BodyWork& now) {
-  if (type_of(properties) != BodyType::kinematic) return;
+  if (!is_kinematic(properties)) return;
   now.displacement = motion.linear_velocity * time;
   now.rotation_vector = motion.angular_momentum * time;
 }
@@ -180,6 +218,17 @@ bool has_lanes() {
 }
 #endif
 
+bool has_kinematic_contact(Span<const BodyProperties> properties, Span<const ContactOrder> order,
+                           Span<const ContactWork> contacts) {
+  for (const ContactOrder& entry : order) {
+    const ContactWork& contact = contacts[entry.contact];
+    if (contact.static_pair != 0 &&
+        (is_kinematic(properties[contact.state.body_a]) || is_kinematic(properties[contact.state.body_b])))
+      return true;
+  }
+  return false;
+}
+
 SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> island,
                  Span<const ContactOrder> order, Span<ContactWork> contacts, const IslandJoints& joints) {
   using Solver = ContactSolver<One>;
@@ -201,16 +250,19 @@ SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<
       }
     }
   };
+  const bool kinematic = !DETENT_TASKS || has_kinematic_contact(bodies.properties, order, contacts);
   for (uint32_t substep = 0; substep < settings.substeps; ++substep) {
     if (joints.code != nullptr) {
       joints.code->begin(settings, bodies, island, *joints.island, elapsed, *joints.stage);
       renew_responses(bodies, *joints.stage, order, contacts);
     }
-    count.clamped += integrate_velocities(bodies, island, substep == 0, order.count != 0);
+    count.clamped += share_sum(settings.team, island, k_bodies_shared, [&](Span<const uint32_t> slots) {
+      return integrate_velocities(bodies, slots, substep == 0, order.count != 0);
+    });
     if (substep == 0)
       pass(
           settings, bodies, order, contacts, [](Solver& contact) { contact.warm_start(); }, warm_start_lanes);
-    for (const ContactOrder& entry : order) {
+    for (const ContactOrder& entry : kinematic ? order : order.first(0)) {
       const ContactWork& contact = contacts[entry.contact];
       if (contact.static_pair == 0) continue;
       const uint32_t a = contact.state.body_a, b = contact.state.body_b;
@@ -222,7 +274,7 @@ SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<
     } else {
       const Island& own = *joints.island;
       JointStage& stage = *joints.stage;
-      uint32_t& undecided = *joints.undecided;
+      uint32_t& undecided = count.undecided;
       count.clamped += joints.code->solve(settings, bodies, island, own, elapsed, stage, undecided);
       for (uint32_t round = 0; round < k_joint_rounds && order.count != 0; ++round) {
         remember(bodies, island);
@@ -236,12 +288,14 @@ SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<
       }
       count.clamped += joints.code->follow(settings, bodies, island, own, elapsed, stage);
     }
-    count.clamped += integrate_positions(bodies, island, settings.time);
+    count.clamped += share_sum(settings.team, island, k_bodies_shared, [&](Span<const uint32_t> slots) {
+      return integrate_positions(bodies, slots, settings.time);
+    });
     if (joints.code != nullptr) count.clamped += joints.code->shift(bodies, island, *joints.stage);
     sweep([](Solver& contact) { contact.relax(); }, relax_lanes);
     if (joints.code != nullptr)
       count.clamped +=
-          joints.code->end(settings, bodies, island, *joints.island, elapsed, *joints.stage, *joints.undecided);
+          joints.code->end(settings, bodies, island, *joints.island, elapsed, *joints.stage, count.undecided);
     elapsed += settings.time;
   }
   if (joints.code != nullptr) renew_responses(bodies, *joints.stage, order, contacts);

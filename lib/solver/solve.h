@@ -13,6 +13,7 @@ struct SolveCount {
   /// Iterations over the island's contacts that were skipped, because the iterations had converged
   /// (WorldDef::convergence).
   uint32_t sweeps_saved = 0;
+  uint32_t undecided = 0;  ///< joint solves that ended with a limit or motor undecided
 };
 
 struct JointStage;
@@ -23,8 +24,11 @@ struct IslandJoints {
   const JointOps* code = nullptr;
   const Island* island = nullptr;
   JointStage* stage = nullptr;
-  uint32_t* undecided = nullptr;
 };
+
+/// Whether any of the contacts is with a kinematic body.
+bool has_kinematic_contact(Span<const BodyProperties> properties, Span<const ContactOrder> order,
+                           Span<const ContactWork> contacts);
 
 /// Runs an island's substeps. Each substep integrates velocities, warm starts, solves soft normals and joints,
 /// integrates positions, and relaxes with friction. Restitution is applied once after all substeps. The solver is SOR

@@ -7,6 +7,9 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
+/// Number of bodies that a thread takes at once.
+constexpr uint32_t k_bodies_shared = 32;
+
 void make_anew(const StepCacheView& step, const StateView<uint8_t>& state) {
   step.cache.fresh = 1;
   step.cache.contacts_known = 0;
@@ -20,7 +23,6 @@ void make_anew(const StepCacheView& step, const StateView<uint8_t>& state) {
 Span<const uint32_t> partition_bodies(const StepCacheView& step, const StepSettings& settings,
                                       const StateView<uint8_t>& state, Span<BodyWork> work, Span<BodySweep> sweeps,
                                       Span<uint32_t> slots) {
-  step.cache.tree.visited = 0;
   if (step.cache.fresh == 0) make_anew(step, state);
   // All bodies of the active set are removed from the tree before any is inserted, because the bounds of a body in the
   // tree must not change.
@@ -38,7 +40,9 @@ Span<const uint32_t> partition_bodies(const StepCacheView& step, const StepSetti
     if (state.properties[slot].type != 0) slots[--resting] = slot;
   });
   const Span<const uint32_t> newly_resting = {slots.data + resting, slots.count - resting};
-  bound(settings, state.poses, state.properties, state.motions, slots.first(moving), work, step.bounds);
+  share(settings.team, Span<const uint32_t>(slots.first(moving)), k_bodies_shared, [&](Span<const uint32_t> part) {
+    bound(settings, state.poses, state.properties, state.motions, part, work, step.bounds);
+  });
   bound(settings, state.poses, state.properties, state.motions, newly_resting, work, step.bounds);
   for (const uint32_t slot : newly_resting) {
     sweeps[slot] = {};

@@ -68,6 +68,9 @@ StepSettings settings_of(const World& world, const WorldState& state) {
   return settings;
 }
 
+/// Number of bodies or contacts that a thread takes at once.
+constexpr uint32_t k_shared = 32;
+
 /// One step: its stages, in order, and the data that they pass to later stages.
 class Step {
  public:
@@ -85,6 +88,17 @@ class Step {
   void finalise();
   void store();
 
+  /// Calls work(team) with the threads that the caller lends. `team` is null if there are none, or few elements.
+  template <class Work>
+  void with_team([[maybe_unused]] uint32_t elements, const Work& work) {
+#if DETENT_TASKS
+    if (elements >= world_.hooks.tasks.least) {
+      detent::with_team(world_.hooks.tasks, work);
+      return;
+    }
+#endif
+    work(static_cast<Team*>(nullptr));
+  }
   void start_joints();
   void wake_touched_bodies();
   void advance_bodies();
@@ -102,6 +116,9 @@ class Step {
     return k_built_with_lanes && settings_.lanes && settings_.iterations == 1 && !settings_.post_stabilises;
   }
   Island island_group(uint32_t first, uint32_t& count) const;
+  void solve_islands(Team* team);
+  void solve_island(const Island& island, StepSettings& settings);
+  bool is_solved_by_one_thread(const Island& island, uint32_t large) const;
   Span<ContactOrder> contact_order() const { return scratch_.contact_order.first(contacts_.count); }
   Span<ContactEvent> contact_events() const { return room_of(world_.hooks.contact_events); }
 
@@ -179,8 +196,13 @@ void Step::run() {
 void Step::find_pairs() {
   report_.woke = wake_jointed(joints_.joints, bodies_.properties, solver_bodies_.motions, bodies_.activities, cache_);
   if (sensor_ops_ != nullptr) sensor_ops_->start(cache_, used_, scratch_.changed);
-  moving_ = partition_bodies(cache_, settings_, state_, bodies_.work, scratch_.sweeps, scratch_.moving_bodies);
-  add_moving_pairs(moving_, cache_.tree, scratch_.bounds_keys, scratch_.bounds_sort, pool_);
+  with_team(used_, [&](Team* team) {
+    moving_ = partition_bodies(cache_, shared_settings(settings_, team), state_, bodies_.work, scratch_.sweeps,
+                               scratch_.moving_bodies);
+    pool_.share(team);
+    add_moving_pairs(moving_, cache_.tree, scratch_.bounds_keys, scratch_.bounds_sort, pool_);
+    pool_.share(nullptr);
+  });
   pool_.sort();
   start_joints();
   wake_touched_bodies();
@@ -214,8 +236,10 @@ void Step::wake_touched_bodies() {
 
 void Step::collide_pairs() {
   awake_contacts_ = list_awake_contacts(cache_, state_);
-  count_ = find_contacts(settings_, bodies_, {state_.contacts, manifolds(), awake_contacts_}, room(), overflow_,
-                         pool_.pairs());
+  with_team(pool_.pairs().count, [&](Team* team) {
+    count_ = find_contacts(shared_settings(settings_, team), bodies_, {state_.contacts, manifolds(), awake_contacts_},
+                           room(), overflow_, pool_.pairs());
+  });
   contacts_ = scratch_.contacts.first(count_.contacts);
 }
 
@@ -249,31 +273,67 @@ Island Step::island_group(uint32_t first, uint32_t& count) const {
   return group;
 }
 
-void Step::solve_islands() {
-  StepSettings settings = settings_;
-  for (uint32_t i = 0, grouped = 0; i < islands_.count; i += grouped) {
-    const Island island = island_group(i, grouped);
-    const Span<const uint32_t> slots = {scratch_.island_bodies.data + island.first_body, island.body_count};
-    const Span<const ContactOrder> order = {scratch_.contact_order.data + island.first_contact, island.contact_count};
-    if (island.substeps != settings.substeps) set_substeps(island.substeps, settings);
-    predict(settings, bodies_.properties, slots, solver_bodies_.motions, bodies_.work);
-    const bool jointed = island.joint_count != 0;
-    const IslandJoints joints = {jointed ? joint_ops_ : nullptr, &island, &joints_, &report_.joints.undecided};
-    if (order.count == 0 && !jointed) {
-      report_.saturations += integrate_free(settings, solver_bodies_, slots);
-    } else {
-      const SolveCount count = solve(settings, solver_bodies_, slots, order, contacts_, joints);
-      report_.saturations += count.clamped;
-      report_.contacts.sweeps_saved += count.sweeps_saved;
+/// Whether other threads may solve other islands at the same time, and one thread is to solve this one. Islands with
+/// kinematic bodies, and those with joints to bodies that do not move, write to bodies that are not theirs. In an
+/// island with at least `large` contacts or bodies, threads share the loops.
+bool Step::is_solved_by_one_thread(const Island& island, uint32_t large) const {
+  if (island.joint_count == 0 && (island.contact_count >= large || island.body_count >= large)) return false;
+  for (const uint32_t index : Span<const uint32_t>{joints_.order.data + island.first_joint, island.joint_count}) {
+    for (const uint32_t body : joints_.work[index].body) {
+      if (joints_.bodies[body].mobile == 0) return false;
     }
-    for (const ContactOrder& entry : order) {
+  }
+  return !has_kinematic_contact(bodies_.properties,
+                                {scratch_.contact_order.data + island.first_contact, island.contact_count}, contacts_);
+}
+
+void Step::solve_island(const Island& island, StepSettings& settings) {
+  const Span<const uint32_t> slots = {scratch_.island_bodies.data + island.first_body, island.body_count};
+  const Span<const ContactOrder> order = {scratch_.contact_order.data + island.first_contact, island.contact_count};
+  if (island.substeps != settings.substeps) set_substeps(island.substeps, settings);
+  share(settings.team, slots, k_shared, [&](Span<const uint32_t> part) {
+    predict(settings, bodies_.properties, part, solver_bodies_.motions, bodies_.work);
+  });
+  const bool jointed = island.joint_count != 0;
+  if (order.count == 0 && !jointed) {
+    Team::add(report_.saturations, integrate_free(settings, solver_bodies_, slots));
+    return;
+  }
+  const IslandJoints joints = {jointed ? joint_ops_ : nullptr, &island, &joints_};
+  const SolveCount count = solve(settings, solver_bodies_, slots, order, contacts_, joints);
+  Team::add(report_.saturations, count.clamped);
+  Team::add(report_.contacts.sweeps_saved, count.sweeps_saved);
+  Team::add(report_.joints.undecided, count.undecided);
+  share(settings.team, order, k_shared, [&](Span<const ContactOrder> part) {
+    for (const ContactOrder& entry : part) {
       store_load(settings, contacts_[entry.contact]);
       store_impulses(contacts_[entry.contact]);
     }
+  });
+}
+
+void Step::solve_islands(Team* team) {
+  StepSettings settings = shared_settings(settings_, team);
+  uint32_t for_one_thread = 0;
+  for (uint32_t i = 0, grouped = 0; i < islands_.count; i += grouped) {
+    const Island island = island_group(i, grouped);
     report_.contacts.substeps += uint64_t{island.substeps} * island.contact_count;
     report_.substeps_max = island.substeps > report_.substeps_max ? island.substeps : report_.substeps_max;
     report_.awake += island.body_count;
+    if (team != nullptr && is_solved_by_one_thread(island, team->many()))
+      bodies_.work[for_one_thread++].run = i;  // the member is not needed any more
+    else
+      solve_island(island, settings);
   }
+  if (team == nullptr) return;
+  share(team, for_one_thread, 1, [&](uint32_t first, uint32_t last) {
+    StepSettings own = settings_;
+    for (uint32_t k = first, grouped = 0; k < last; ++k) solve_island(island_group(bodies_.work[k].run, grouped), own);
+  });
+}
+
+void Step::solve_islands() {
+  with_team(moving_.count, [&](Team* team) { solve_islands(team); });
   report_.saturations += integrate_kinematic_bodies(settings_, solver_bodies_, moving_);
 }
 
@@ -284,7 +344,11 @@ void Step::raise_events() {
 
 /// Makes the sweeps of the tick, moves bodies along their sweeps to their impacts, and finds the bodies within sensors.
 void Step::advance() {
-  report_.saturations += make_sweeps(moving_, bodies_.properties, bodies_.work, bodies_.poses, sweeps_);
+  with_team(moving_.count, [&](Team* team) {
+    report_.saturations += share_sum(team, moving_, k_shared, [&](Span<const uint32_t> part) {
+      return make_sweeps(part, bodies_.properties, bodies_.work, bodies_.poses, sweeps_);
+    });
+  });
   if (joint_ops_ != nullptr) {
     joint_ops_->store(settings_, solver_bodies_, joints_);
     for (const JointBody& body : joints_.bodies.first(joints_.body_count)) {
@@ -325,21 +389,28 @@ __attribute__((noinline)) void Step::advance_bodies() {
                                  scratch_.moving_bodies.first(used_),
                                  world_.hooks.filter_rules,
                                  {sensor_ops_ == nullptr ? nullptr : sensor_ops_->sweep, &sensors}};
-    const ImpactReport impacts =
-        world_.features->continuous->advance(settings_, world_.hooks.assets, *world_.features, known, bodies,
-                                             scratch_.impact_pairs, scratch_.impact_hits, probe_);
-    report_impacts(impacts, report_);
-    if (impacts.woke != 0) cache_.cache.contacts_known = 0;
-    add_hits(bodies_.properties, scratch_.impact_hits.first(impacts.hits), contact_events(), event_count_);
-    event_count_.dropped += impacts.hits_dropped;
+    with_team(pool_.pairs().count, [&](Team* team) {
+      const ImpactReport impacts =
+          world_.features->continuous->advance(shared_settings(settings_, team), world_.hooks.assets, *world_.features,
+                                               known, bodies, scratch_.impact_pairs, scratch_.impact_hits, probe_);
+      report_impacts(impacts, report_);
+      if (impacts.woke != 0) cache_.cache.contacts_known = 0;
+      add_hits(bodies_.properties, scratch_.impact_hits.first(impacts.hits), contact_events(), event_count_);
+      event_count_.dropped += impacts.hits_dropped;
+    });
   }
   if (sensor_ops_ != nullptr) sensor_ops_->end(sensors, state_, world_.hooks.sensor_events, report_);
 }
 
 void Step::finalise() {
-  cache_.active.for_each([&](uint32_t slot) {
-    report_.saturations +=
-        finalise_body(bodies_.properties[slot], sweeps_[slot], state_.poses[slot], state_.motions[slot]);
+  with_team(moving_.count, [&](Team* team) {
+    report_.saturations += share_sum(team, cache_.active.words.count, 1, [&](uint32_t first, uint32_t last) {
+      uint32_t clamped = 0;
+      cache_.active.for_each_in(first, last, [&](uint32_t slot) {
+        clamped += finalise_body(bodies_.properties[slot], sweeps_[slot], state_.poses[slot], state_.motions[slot]);
+      });
+      return clamped;
+    });
   });
 }
 

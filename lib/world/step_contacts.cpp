@@ -117,18 +117,27 @@ struct Collider {
   Overflow& overflow;
   ContactCount count = {};
   uint32_t next = 0;
-  bool rebounds = false;  ///< whether any contact of two dynamic bodies may rebound
+  uint32_t rebounds = 0;  ///< 1 if any contact of two dynamic bodies may rebound
   uint32_t last_started = UINT32_MAX;
 
   bool recycles() const { return last.manifolds.count != 0; }
 
-  void visit(uint64_t key) {
+  /// Whether the pair has contacts in this step, if it touches.
+  bool takes(uint64_t key) const {
     const uint32_t slot_a = pair_low(key), slot_b = pair_high(key);
     // If a body still sleeps, wake_touched() found that it is not touched. Recycled contact points could contradict
     // this, so they are not used.
-    if (bodies.asleep(slot_a) || bodies.asleep(slot_b) || (!bodies.awake(slot_a) && !bodies.awake(slot_b))) return;
-    start(slot_a);
-    start(slot_b);
+    return !bodies.asleep(slot_a) && !bodies.asleep(slot_b) && (bodies.awake(slot_a) || bodies.awake(slot_b));
+  }
+  void visit(uint64_t key) {
+    if (!takes(key)) return;
+    start(pair_low(key));
+    start(pair_high(key));
+    collide_started(key);
+  }
+  /// Collides a pair whose bodies have been started.
+  void collide_started(uint64_t key) {
+    const uint32_t slot_a = pair_low(key), slot_b = pair_high(key);
     if (bodies.has_parts(slot_a, slot_b)) {
       collide_all_parts(key);
       return;
@@ -186,7 +195,6 @@ struct Collider {
     for_each_leaning([&](uint32_t slot) { room.leaning().clear(slot); });
   }
 
- private:
   /// Starts the tick of a resting body before its pairs are collided. The pairs of a ground body follow each other, so
   /// it is enough to remember the body that was started last.
   void start(uint32_t slot) {
@@ -195,6 +203,27 @@ struct Collider {
     last_started = slot;
   }
 
+  /// Begins the search in the last tick's contacts at those of this pair.
+  void seek(uint64_t key) {
+    uint32_t low = 0, high = last.awake.count;
+    while (low < high) {
+      const uint32_t middle = low + (high - low) / 2;
+      if (key_of(last.contacts[last.awake[middle]]) < key)
+        low = middle + 1;
+      else
+        high = middle;
+    }
+    next = low;
+  }
+  /// Moves a contact that another collider found to the end of the contacts.
+  void move(uint32_t from) {
+    const uint32_t place = count.contacts++;
+    if (place == from) return;
+    room.contacts()[place] = room.contacts()[from];
+    if (recycles()) room.manifolds()[place] = room.manifolds()[from];
+  }
+
+ private:
   PairBefore find_pair(uint64_t key) {
     const auto key_at = [&](uint32_t i) { return key_of(last.contacts[last.awake[i]]); };
     while (next < last.awake.count && key_at(next) < key) ++next;
@@ -233,7 +262,9 @@ struct Collider {
     }
     count.capped += found.capped ? 1 : 0;
     count.parts_dropped += found.dropped;
-    if (found.dropped != 0) overflow.add(CapacityEventType::contact, slot_a, slot_b);
+    if (found.dropped != 0) {
+      alone(settings.team, [&] { overflow.add(CapacityEventType::contact, slot_a, slot_b); });
+    }
     const uint32_t dropped_before = count.dropped;
     for (uint32_t i = 0; i < found.count; ++i) {
       const TerrainContact& contact = found.contact[i];
@@ -302,7 +333,7 @@ struct Collider {
     ContactWork& work = room.contacts()[place];
     work.state = continued_contact(slot_a, slot_b, part, geometry, before);
     make_rows(settings, bodies.at(slot_a), bodies.at(slot_b), geometry, work);
-    rebounds = rebounds || (work.static_pair == 0 && is_positive(work.restitution));
+    if (work.static_pair == 0 && is_positive(work.restitution)) rebounds = 1;
     if (is_full) {
       ContactOrder made = {};
       made.key = number;
@@ -311,6 +342,80 @@ struct Collider {
     }
   }
 };
+
+#if DETENT_TASKS
+
+/// Number of pairs that a thread takes at once.
+constexpr uint32_t k_pairs_shared = 16;
+
+/// The part of the contacts that a thread finds: those of consecutive pairs.
+struct ContactPart {
+  uint32_t first_pair, pair_count;
+  uint32_t first;  ///< of its room
+  uint32_t count;  ///< size of its room, then number of its contacts
+};
+
+/// Starts the bodies of the pairs of the next part, and sets its room: as many contacts as they can have. Returns false
+/// if the room left does not suffice, or if there are no more pairs.
+bool start_part(Collider& collider, Span<const uint64_t> pairs, ContactPart& part) {
+  uint32_t contacts = 0;
+  part.pair_count = 0;
+  while (part.pair_count < k_pairs_shared && part.first_pair + part.pair_count < pairs.count) {
+    const uint64_t key = pairs[part.first_pair + part.pair_count];
+    if (collider.takes(key)) {
+      collider.start(pair_low(key));
+      collider.start(pair_high(key));
+      contacts += collider.bodies.has_parts(pair_low(key), pair_high(key)) ? k_terrain_manifolds_max : 1;
+    }
+    ++part.pair_count;
+  }
+  part.count = contacts;
+  return part.pair_count != 0 && contacts <= collider.room.count - part.first;
+}
+
+void collide_part(Collider& all, Span<const uint64_t> pairs, ContactPart& part) {
+  const ContactRoom room = {all.room.scratch, part.count, all.room.keeps_manifolds, part.first};
+  Collider collider = {all.settings, all.bodies, all.last, room, all.overflow};
+  collider.seek(pairs[part.first_pair]);
+  for (const uint64_t key : Span<const uint64_t>{pairs.data + part.first_pair, part.pair_count}) {
+    if (collider.takes(key)) collider.collide_started(key);
+  }
+  part.count = collider.count.contacts;
+  Team::add(all.count.parts_dropped, collider.count.parts_dropped);
+  Team::add(all.count.capped, collider.count.capped);
+  Team::add(all.count.recycled, collider.count.recycled);
+  Team::add(all.rebounds, collider.rebounds);
+}
+
+/// Collides pairs on several threads, as long as the room suffices for all contacts that they can have. Returns the
+/// number of these pairs.
+uint32_t collide_shared(Collider& collider, Span<const uint64_t> pairs) {
+  constexpr uint32_t k_parts_max = 128;
+  ContactPart parts[k_parts_max];
+  uint32_t done = 0;
+  for (bool has_room = true; has_room;) {
+    uint32_t count = 0, first = collider.count.contacts;
+    for (; count < k_parts_max; ++count) {
+      ContactPart& part = parts[count];
+      part = {done, 0, first, 0};
+      has_room = start_part(collider, pairs, part);
+      if (!has_room) break;
+      done += part.pair_count;
+      first += part.count;
+    }
+    share(collider.settings.team, count, 1, [&](uint32_t from, uint32_t to) {
+      for (uint32_t i = from; i < to; ++i) collide_part(collider, pairs, parts[i]);
+    });
+    for (const ContactPart& part : Span<ContactPart>{parts, count}) {
+      for (uint32_t i = 0; i < part.count; ++i) collider.move(part.first + i);
+    }
+  }
+  return done;
+}
+
+#else
+uint32_t collide_shared(Collider&, Span<const uint64_t>) { return 0; }
+#endif
 
 }  // namespace
 
@@ -329,10 +434,11 @@ uint32_t wake_touched(const StepSettings& settings, const StepBodies& bodies, co
     if (woke == woken_before) return woke;
     cache.cache.contacts_known = 0;
     pool.go_on();
+    PairFinder finder(pool);
     cache.active.for_each([&](uint32_t slot) {
       if (!cache.tree.has(slot)) return;
       cache.tree.remove(slot);
-      find_resting_near(slot, cache.tree, pool);
+      find_resting_near(slot, cache.tree, finder);
     });
     pool.sort();
   }
@@ -341,9 +447,10 @@ uint32_t wake_touched(const StepSettings& settings, const StepBodies& bodies, co
 ContactCount find_contacts(const StepSettings& settings, const StepBodies& bodies, const LastContacts& last,
                            const ContactRoom& room, Overflow& overflow, Span<const uint64_t> pairs) {
   Collider collider = {settings, bodies, last, room, overflow};
-  for (const uint64_t key : pairs) collider.visit(key);
+  const uint32_t shared = settings.team == nullptr ? 0 : collide_shared(collider, pairs);
+  for (uint32_t i = shared; i < pairs.count; ++i) collider.visit(pairs[i]);
   if (collider.count.dropped != 0) collider.put_in_order();
-  if (collider.rebounds) collider.leave_rebounds_to_impacts();
+  if (collider.rebounds != 0) collider.leave_rebounds_to_impacts();
   ContactCount& count = collider.count;
   for (const ContactWork& contact : room.contacts().first(count.contacts)) count.points += contact.state.point_count;
   return count;

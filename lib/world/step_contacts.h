@@ -62,14 +62,21 @@ struct LastContacts {
   Span<const uint32_t> awake;           ///< indices of the contacts with an awake body, which may continue
 };
 
-/// The arrays for the contacts of a tick.
+/// The arrays for the contacts of a tick, or a part of them.
 struct ContactRoom {
   const Scratch& scratch;
   uint32_t count;  ///< number of elements that may be used
   bool keeps_manifolds;
+#if DETENT_TASKS
+  uint32_t first = 0;  ///< the first of them
+#else
+  static constexpr uint32_t first = 0;
+#endif
 
-  Span<ContactWork> contacts() const { return scratch.contacts.first(count); }
-  Span<ManifoldState> manifolds() const { return scratch.manifolds.first(keeps_manifolds ? count : 0); }
+  Span<ContactWork> contacts() const { return {scratch.contacts.data + first, count}; }
+  Span<ManifoldState> manifolds() const {
+    return {scratch.manifolds.data + (keeps_manifolds ? first : 0), keeps_manifolds ? count : 0};
+  }
   Span<ContactOrder> by_depth() const { return scratch.contact_sort.first(count); }
   BitSet leaning() const { return scratch.candidates; }
 };

@@ -23,7 +23,7 @@ struct alignas(8) TreeRoot {
   uint32_t link;  ///< link to the root node or leaf; 0 if the tree is empty
   uint32_t free;  ///< index + 1 of the first node of the free list; 0: the list is empty
   uint32_t nodes_used;
-  uint32_t visited;  ///< nodes and leaves visited in the last step
+  uint32_t zero;
 };
 
 /// The header of the data that is cached between ticks, so that steps can skip resting bodies: the tree, the bounds and

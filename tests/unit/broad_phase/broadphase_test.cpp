@@ -242,9 +242,14 @@ DETENT_TEST(broadphase, a_query_looks_at_few_of_many) {
   for (uint32_t slot = 0; slot < count; ++slot) tree.tree.insert(slot);
   uint32_t found = 0, most = 0;
   for (uint32_t slot = 0; slot < count; ++slot) {
-    tree.root.visited = 0;
-    tree.tree.for_each_near(crowd.bounds[slot], [&](uint32_t) { ++found; });
-    most = std::max(most, tree.root.visited);
+    uint32_t looked_at = 0;
+    const auto meets = [&](const Bounds& bounds) {
+      ++looked_at;
+      return overlap(bounds, crowd.bounds[slot]);
+    };
+    tree.tree.walk(
+        meets, [](const Bounds&, const Bounds&) { return false; }, [&](uint32_t) { ++found; });
+    most = std::max(most, looked_at);
   }
   EXPECT_EQ(found, count);
   EXPECT_LE(most, 100u);

@@ -1,0 +1,41 @@
+#pragma once
+#include <detent/config.h>
+
+/// @file
+/// Threads that a caller lends to the steps of a world. The library starts no thread of its own.
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+/// Watches how the loops of a step are shared, for tests and measurements. A loop consists of parts; the threads take
+/// one part after the other. All functions may be null.
+struct TaskProbe {
+  /// The `i`th part that a thread tries to take, of a loop of `parts` parts. For i = 0, 1, ... parts - 1 the results
+  /// must be all the parts, in any order. Null: each thread begins at a part of its own and goes on in ascending order.
+  uint32_t (*part)(void* context, uint32_t i, uint32_t parts) = nullptr;
+  void (*loop_begins)(void* context, uint32_t parts) = nullptr;  ///< called by the thread that runs the stage
+  void (*loop_ends)(void* context) = nullptr;                    ///< as `loop_begins`
+  void (*part_begins)(void* context) = nullptr;                  ///< called by the thread that has taken a part
+  void (*part_ends)(void* context) = nullptr;                    ///< as `part_begins`
+  void* context = nullptr;                                       ///< passed to the functions
+};
+
+/// Runs parts of a step on the caller's threads. Set WorldHooks::tasks to use it. The number of threads, and the order
+/// in which they run, do not change any result: a step computes the same bits as on one thread.
+struct Tasks {
+  /// Calls task(argument) `count` times, on any threads, in any order, and returns after the last call has returned.
+  /// The calls may run at the same time, and may also run one after the other. Null: the step runs on the thread that
+  /// called it.
+  void (*run)(void* context, uint32_t count, void (*task)(void* argument), void* argument) = nullptr;
+  /// Called again and again by a thread that waits for the work of another thread. It may let other threads of the
+  /// machine run (std::this_thread::yield()). May be null.
+  void (*wait)(void* context) = nullptr;
+  void* context = nullptr;  ///< passed to `run` and `wait`
+  uint32_t workers = 1;     ///< number of calls that a stage asks for: as many as threads are free. Below 2: as null
+  /// A stage with fewer bodies or pairs runs on one thread, because calling for others takes longer than they save.
+  /// 0 is for tests: then each element of a loop is a part of its own.
+  uint32_t least = 96;
+  const TaskProbe* probe = nullptr;  ///< see TaskProbe
+};
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

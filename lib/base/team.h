@@ -1,0 +1,237 @@
+#pragma once
+#include <detent/tasks.h>
+
+#include "base/float_environment.h"
+#include "base/span.h"
+
+/// Shares the loops of a stage among threads that the caller lends (detent/tasks.h). One thread runs the stage. In its
+/// loops by share(), it and the others take the elements chunk by chunk. So a stage needs only one call of Tasks::run.
+#ifndef DETENT_TASKS
+#if defined(__unix__) || defined(_WIN32) || defined(__APPLE__)
+#define DETENT_TASKS 1
+#else
+#define DETENT_TASKS 0
+#endif
+#endif
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+#if DETENT_TASKS
+
+class Team {
+ public:
+  explicit Team(const Tasks& tasks) : tasks_(tasks) {}
+  Team(const Team&) = delete;
+  Team& operator=(const Team&) = delete;
+
+  /// Calls work() once, on one of the threads. The other threads help with the loops in it. A thread that finds no loop
+  /// for a while leaves.
+  template <class Work>
+  void run(const Work& work) {
+    work_ = [](const void* of) { (*static_cast<const Work*>(of))(); };
+    of_work_ = &work;
+    tasks_.run(
+        tasks_.context, tasks_.workers, [](void* team) { static_cast<Team*>(team)->enter(); }, this);
+    enter();  // in case that no call was made
+  }
+
+  /// Calls body(first, last) for consecutive ranges of `count` elements, in any order, on any of the threads. A range
+  /// has at least `grain` elements, except the last. Returns after the last call. Range: called by the thread that runs
+  /// the stage, and not by a body.
+  template <class Body>
+  void each(uint32_t count, uint32_t grain, const Body& body) {
+    if (tasks_.least == 0) grain = 1;
+    chunk_ = [](const void* of, uint32_t first, uint32_t last) { (*static_cast<const Body*>(of))(first, last); };
+    of_chunk_ = &body;
+    count_ = count;
+    grain_ = (count + k_chunks_max - 1) / k_chunks_max;
+    if (grain_ < grain) grain_ = grain;
+    const uint32_t chunks = (count + grain_ - 1) / grain_;
+    store(unfinished_, chunks);
+    const uint32_t loop = (load(loop_) / k_chunk_codes + 1) * k_chunk_codes + chunks;
+    store(loop_, loop);
+    const TaskProbe* const probe = tasks_.probe;
+    if (probe != nullptr && probe->loop_begins != nullptr) probe->loop_begins(probe->context, chunks);
+    take_chunks(loop, 0);
+    for (uint32_t spins = 0; load(unfinished_) != 0; ++spins) pause(spins);
+    if (probe != nullptr && probe->loop_ends != nullptr) probe->loop_ends(probe->context);
+  }
+  /// Number of elements above which a loop is shared.
+  uint32_t few(uint32_t grain) const { return tasks_.least == 0 ? 0 : grain; }
+  /// Number of elements from which on a loop with many short parts is shared.
+  uint32_t many() const { return tasks_.least == 0 ? 2 : tasks_.least; }
+
+  /// Adds to a number that several threads add to. Returns the number before.
+  static uint32_t take(uint32_t& sum, uint32_t value) { return __atomic_fetch_add(&sum, value, __ATOMIC_RELAXED); }
+  static void add(uint32_t& sum, uint32_t value) {
+    if (value != 0) take(sum, value);
+  }
+  /// Calls work() while no other thread does.
+  template <class Work>
+  void alone(const Work& work) {
+    for (uint32_t spins = 0; __atomic_exchange_n(&locked_, 1u, __ATOMIC_ACQUIRE) != 0; ++spins) pause(spins);
+    work();
+    store(locked_, 0);
+  }
+
+ private:
+  static constexpr uint32_t k_waiting = 0, k_begun = 1, k_ended = 2;
+  static constexpr uint32_t k_chunks_max = 64, k_chunk_codes = 128;
+  /// Number of pauses after which a thread asks the caller to let others run, and after which a helper leaves.
+  static constexpr uint32_t k_spins = 2000, k_idle_spins = 20000;
+
+  static uint32_t load(const uint32_t& from) { return __atomic_load_n(&from, __ATOMIC_ACQUIRE); }
+  static void store(uint32_t& to, uint32_t value) { __atomic_store_n(&to, value, __ATOMIC_RELEASE); }
+
+  void pause(uint32_t spins) const {
+    if (spins > k_spins && tasks_.wait != nullptr) tasks_.wait(tasks_.context);
+#if defined(__x86_64__) || defined(__i386__)
+    __builtin_ia32_pause();
+#elif defined(__aarch64__) || (defined(__arm__) && __ARM_ARCH >= 7)
+    __asm__ __volatile__("yield");
+#endif
+  }
+
+  /// The first thread runs the stage, the others help.
+  void enter() {
+    uint32_t none = k_waiting;
+    if (__atomic_compare_exchange_n(&state_, &none, k_begun, false, __ATOMIC_ACQ_REL, __ATOMIC_ACQUIRE)) {
+      const FloatEnvironment environment;
+      work_(of_work_);
+      store(state_, k_ended);
+    } else if (none == k_begun) {
+      help(__atomic_add_fetch(&helpers_, 1u, __ATOMIC_RELAXED));
+    }
+  }
+  void help(uint32_t helper) {
+    const FloatEnvironment environment;
+    uint32_t last = 0;
+    for (uint32_t spins = 0; load(state_) != k_ended && spins < k_idle_spins;) {
+      const uint32_t loop = load(loop_);
+      if (loop == last) {
+        pause(++spins);
+        continue;
+      }
+      take_chunks(loop, helper);
+      last = loop;
+      spins = 0;
+    }
+  }
+  /// Runs the chunks of a loop that no other thread has taken. Each thread begins elsewhere, and at the same place in
+  /// each loop, so that its cache keeps the data.
+  void take_chunks(uint32_t loop, uint32_t thread) {
+    const uint32_t chunks = loop % k_chunk_codes;
+    const TaskProbe* const probe = tasks_.probe;
+    uint32_t taken = 0;
+    for (uint32_t i = 0, next = thread % tasks_.workers * chunks / tasks_.workers; i < chunks; ++i) {
+      const uint32_t chunk = probe != nullptr && probe->part != nullptr ? probe->part(probe->context, i, chunks) : next;
+      if (++next == chunks) next = 0;
+      if (!take_chunk(chunk, loop)) continue;
+      // The loop cannot end before this chunk is finished, so its description is valid.
+      if (probe != nullptr && probe->part_begins != nullptr) probe->part_begins(probe->context);
+      const uint32_t first = chunk * grain_, rest = count_ - first;
+      chunk_(of_chunk_, first, first + (rest < grain_ ? rest : grain_));
+      if (probe != nullptr && probe->part_ends != nullptr) probe->part_ends(probe->context);
+      ++taken;
+    }
+    if (taken != 0) __atomic_fetch_sub(&unfinished_, taken, __ATOMIC_RELEASE);
+  }
+  /// Takes a chunk for this thread. Returns false if it was taken in this loop or, because the loop has ended, in a
+  /// later one.
+  bool take_chunk(uint32_t chunk, uint32_t loop) {
+    uint32_t taken_in = load(taken_in_[chunk]);
+    do {
+      if (taken_in >= loop / k_chunk_codes) return false;
+    } while (!__atomic_compare_exchange_n(&taken_in_[chunk], &taken_in, loop / k_chunk_codes, true, __ATOMIC_ACQ_REL,
+                                          __ATOMIC_ACQUIRE));
+    return true;
+  }
+
+  const Tasks& tasks_;
+  void (*work_)(const void* work) = nullptr;
+  const void* of_work_ = nullptr;
+  uint32_t state_ = k_waiting, locked_ = 0, helpers_ = 0;
+  // The present loop: its number times k_chunk_codes plus its number of chunks, and what it does.
+  alignas(64) uint32_t loop_ = 0;
+  uint32_t count_ = 0, grain_ = 1;
+  void (*chunk_)(const void* body, uint32_t first, uint32_t last) = nullptr;
+  const void* of_chunk_ = nullptr;
+  alignas(64) uint32_t unfinished_ = 0;
+  alignas(64) uint32_t taken_in_[k_chunks_max] = {};  ///< number of the loop in which each chunk was taken last
+};
+
+/// Calls work(team) on one of the caller's threads. `team` is null if the caller lends none.
+template <class Work>
+void with_team(const Tasks& tasks, const Work& work) {
+  if (tasks.run == nullptr || tasks.workers < 2) {
+    work(static_cast<Team*>(nullptr));
+    return;
+  }
+  Team team(tasks);
+  team.run([&] { work(&team); });
+}
+
+/// Calls body(first, last) for ranges that together are [0, count): one range if `team` is null or if there are at most
+/// `grain` elements.
+template <class Body>
+void share(Team* team, uint32_t count, uint32_t grain, const Body& body) {
+  if (team != nullptr && count > team->few(grain))
+    team->each(count, grain, body);
+  else
+    body(0, count);
+}
+/// Calls work() while no other thread of the team does.
+template <class Work>
+void alone(Team* team, const Work& work) {
+  if (team != nullptr)
+    team->alone(work);
+  else
+    work();
+}
+/// As share(). Returns the sum of the values that `body` returns.
+template <class Body>
+uint32_t share_sum(Team* team, uint32_t count, uint32_t grain, const Body& body) {
+  if (team == nullptr || count <= team->few(grain)) return body(0, count);
+  uint32_t sum = 0;
+  team->each(count, grain, [&](uint32_t first, uint32_t last) { Team::add(sum, body(first, last)); });
+  return sum;
+}
+
+#else
+
+class Team {
+ public:
+  static uint32_t take(uint32_t& sum, uint32_t value) { return (sum += value) - value; }
+  static void add(uint32_t& sum, uint32_t value) { sum += value; }
+  uint32_t many() const { return 0; }
+};
+template <class Body>
+inline void share(Team*, uint32_t count, uint32_t, const Body& body) {
+  body(0, count);
+}
+template <class Work>
+inline void alone(Team*, const Work& work) {
+  work();
+}
+template <class Body>
+inline uint32_t share_sum(Team*, uint32_t count, uint32_t, const Body& body) {
+  return body(0, count);
+}
+
+#endif
+
+/// As share(), with the elements of a list. Returns the sum of what body(part) returns.
+template <class T, class Body>
+uint32_t share_sum(Team* team, Span<T> all, uint32_t grain, const Body& body) {
+  return share_sum(team, all.count, grain, [&](uint32_t first, uint32_t last) {
+    return body(Span<T>{all.data + first, last - first});
+  });
+}
+template <class T, class Body>
+void share(Team* team, Span<T> all, uint32_t grain, const Body& body) {
+  share(team, all.count, grain, [&](uint32_t first, uint32_t last) { body(Span<T>{all.data + first, last - first}); });
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent

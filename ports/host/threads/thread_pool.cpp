@@ -1,0 +1,56 @@
+#include "threads/thread_pool.h"
+
+namespace detent_host {
+
+ThreadPool::ThreadPool(uint32_t workers) {
+  if (workers == 0) workers = std::thread::hardware_concurrency();
+  for (uint32_t i = 1; i < workers; ++i) threads_.emplace_back([this] { work(); });
+}
+
+ThreadPool::~ThreadPool() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stops_ = true;
+  }
+  begins_.notify_all();
+  for (std::thread& thread : threads_) thread.join();
+}
+
+void ThreadPool::run(void* context, uint32_t count, void (*task)(void*), void* argument) {
+  ThreadPool& pool = *static_cast<ThreadPool*>(context);
+  const std::unique_lock<std::mutex> step(pool.busy_, std::try_to_lock);
+  if (!step.owns_lock()) {
+    for (uint32_t i = 0; i < count; ++i) task(argument);
+    return;
+  }
+  std::unique_lock<std::mutex> lock(pool.mutex_);
+  pool.task_ = task;
+  pool.argument_ = argument;
+  pool.left_ = count;
+  pool.begins_.notify_all();
+  while (pool.left_ != 0) pool.call(lock);
+  pool.ends_.wait(lock, [&] { return pool.running_ == 0; });
+}
+
+void ThreadPool::work() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  for (;;) {
+    begins_.wait(lock, [this] { return stops_ || left_ != 0; });
+    if (stops_) return;
+    call(lock);
+    if (running_ == 0) ends_.notify_one();
+  }
+}
+
+void ThreadPool::call(std::unique_lock<std::mutex>& lock) {
+  --left_;
+  ++running_;
+  void (*const task)(void*) = task_;
+  void* const argument = argument_;
+  lock.unlock();
+  task(argument);
+  lock.lock();
+  --running_;
+}
+
+}  // namespace detent_host

@@ -1,0 +1,185 @@
+#include "examples/scenes/scene.h"
+#include "tests/common/support/scheduler.h"
+#include "tests/unit/replay/match.h"
+#include "tests/unit/world/lab.h"
+#include "tests/unit/world/turmoil.h"
+#include "threads/thread_pool.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+void expect_equal(const StepReport& a, const StepReport& b) {
+  EXPECT_EQ(a.contacts.pairs, b.contacts.pairs);
+  EXPECT_EQ(a.contacts.count, b.contacts.count);
+  EXPECT_EQ(a.contacts.points, b.contacts.points);
+  EXPECT_EQ(a.contacts.recycled, b.contacts.recycled);
+  EXPECT_EQ(a.contacts.capped, b.contacts.capped);
+  EXPECT_EQ(a.contacts.sweeps_saved, b.contacts.sweeps_saved);
+  EXPECT_EQ(a.contacts.substeps, b.contacts.substeps);
+  EXPECT_EQ(a.contacts.colour_overflows, b.contacts.colour_overflows);
+  EXPECT_EQ(a.joints.count, b.joints.count);
+  EXPECT_EQ(a.joints.undecided, b.joints.undecided);
+  EXPECT_EQ(a.ccd.impacts, b.ccd.impacts);
+  EXPECT_EQ(a.ccd.tests, b.ccd.tests);
+  EXPECT_EQ(a.ccd.skipped, b.ccd.skipped);
+  EXPECT_EQ(a.ccd.kept_apart, b.ccd.kept_apart);
+  EXPECT_EQ(a.ccd.undecided, b.ccd.undecided);
+  EXPECT_EQ(a.ccd.bodies_stopped, b.ccd.bodies_stopped);
+  EXPECT_EQ(a.lost.pairs, b.lost.pairs);
+  EXPECT_EQ(a.lost.contacts, b.lost.contacts);
+  EXPECT_EQ(a.lost.contact_parts, b.lost.contact_parts);
+  EXPECT_EQ(a.lost.impacts, b.lost.impacts);
+  EXPECT_EQ(a.events.contact, b.events.contact);
+  EXPECT_EQ(a.events.capacity, b.events.capacity);
+  EXPECT_EQ(a.islands, b.islands);
+  EXPECT_EQ(a.awake, b.awake);
+  EXPECT_EQ(a.woke, b.woke);
+  EXPECT_EQ(a.fell_asleep, b.fell_asleep);
+  EXPECT_EQ(a.substeps_max, b.substeps_max);
+  EXPECT_EQ(a.saturations, b.saturations);
+}
+
+const Scheduler k_schedulers[] = {
+    {Calls::one_by_one, Parts::in_order, 2}, {Calls::one_by_one, Parts::backwards, 3},
+    {Calls::one_by_one, Parts::shuffled, 8}, {Calls::threads, Parts::in_order, 2},
+    {Calls::threads, Parts::backwards, 3},   {Calls::threads, Parts::shuffled, 3, true},
+    {Calls::late, Parts::in_order, 8},       {Calls::late, Parts::shuffled, 8, true},
+    {Calls::late, Parts::backwards, 64},
+};
+
+DETENT_TEST(tasks, change_no_bit_of_the_scenes) {
+  uint32_t count = 0;
+  const Scene* const all = scenes(count);
+  for (uint32_t i = 0; i < count; ++i) {
+    const Scene& scene = all[i];
+    for (Scheduler scheduler : k_schedulers) {
+      Recording alone(scene.world(), false), shared(scene.world(), false);
+      scene.build(alone.recorder);
+      scene.build(shared.recorder);
+      shared.owned.world.hooks.tasks = scheduler.tasks();
+      const uint32_t ticks = scheduler.workers > 8 || scheduler.delayed ? 4 : 24;
+      for (uint32_t tick = 0; tick < ticks; ++tick) {
+        if (scene.before_tick != nullptr) {
+          scene.before_tick(alone.recorder, tick);
+          scene.before_tick(shared.recorder, tick);
+        }
+        expect_equal(shared.recorder.step(), alone.recorder.step());
+        ASSERT_EQ(digest(shared.owned.world), digest(alone.owned.world))
+            << scene.name << ", tick " << tick << ", " << scheduler.workers << " workers";
+        if (HasFailure()) return;
+      }
+    }
+  }
+}
+
+/// Random ticks with all kinds of bodies and joints, from worlds in equal states.
+DETENT_TEST(tasks, change_no_bit_of_random_ticks) {
+  for (uint64_t seed = 1; seed <= 120; ++seed) {
+    Scheduler scheduler = k_schedulers[seed % 9];
+    OwnedWorld alone = make_turmoiled(seed, 0), shared = make_turmoiled(seed, 0);
+    shared.world.hooks.tasks = scheduler.tasks();
+    for (uint32_t tick = 0; tick < 24; ++tick) {
+      make_turmoil(alone.world, seed * 100 + tick);
+      make_turmoil(shared.world, seed * 100 + tick);
+      ASSERT_EQ(digest(shared.world), digest(alone.world)) << "seed " << seed << ", tick " << tick;
+    }
+  }
+}
+
+/// A heap of boxes and balls between walls, with chains that hang from the ceiling and from a kinematic body, a turning
+/// floor and a sensor.
+struct Heap : Lab {
+  std::vector<ContactEvent> events = std::vector<ContactEvent>(200);
+  std::vector<CapacityEvent> lost = std::vector<CapacityEvent>(50);
+
+  Heap(uint32_t count, Capacity capacity, bool sleeping) : Lab(capacity, {}, sleeping) {
+    world.hooks.contact_events = {events.data(), 200};
+    world.hooks.capacity_events = {lost.data(), 50};
+    add_ground();
+    const BodyId ceiling = add_holder(0.0, 9.0, BodyType::fixed);
+    const BodyId crane = add_holder(2.0, 7.0, BodyType::kinematic);
+    EXPECT_OK(set_velocity(world, crane, reals(-0.4, 0.0, 0.1), reals(0.0, 0.3, 0.0)));
+    BodyDef plate;
+    plate.type = BodyType::kinematic;
+    plate.shape = box(reals(2.0, 0.2, 2.0));
+    plate.position = position(0.0, 0.2, 0.0);
+    const BodyId turning = add(plate);
+    EXPECT_OK(set_velocity(world, turning, reals(0.0, 0.0, 0.0), reals(0.0, 1.0, 0.0)));
+    for (uint32_t i = 0; i < count; ++i) {
+      BodyDef def;
+      def.shape = i % 3 == 0 ? sphere(real(0.2)) : box(reals(0.2, 0.15 + 0.01 * (i % 7), 0.25));
+      def.position = position(0.5 * (i % 6) - 1.3, 0.8 + 0.45 * (i / 36), 0.5 * (i / 6 % 6) - 1.3);
+      def.material.restitution = real(i % 5 == 0 ? 0.5 : 0.0);
+      add(def);
+    }
+    for (const BodyId holder : {ceiling, crane}) {
+      for (uint32_t chain = 0; chain < 3; ++chain) hang_chain(holder, chain);
+    }
+  }
+  BodyId add_holder(double x, double y, BodyType type) {
+    BodyDef def;
+    def.type = type;
+    def.shape = box(reals(0.3, 0.1, 0.3));
+    def.position = position(x, y, 0.0);
+    return add(def);
+  }
+  void hang_chain(BodyId from, uint32_t chain) {
+    Pose holder;
+    EXPECT_OK(get_pose(world, from, holder));
+    BodyId above = from;
+    for (uint32_t link = 0; link < 4; ++link) {
+      const double x = coord_to_host(holder.position.x) + 0.2 * chain,
+                   y = coord_to_host(holder.position.y) - 0.3 - 0.3 * link;
+      BodyDef def;
+      def.shape = capsule(real(0.05), real(0.1));
+      def.position = position(x, y, coord_to_host(holder.position.z));
+      const BodyId below = add(def);
+      JointDef joint;
+      joint.a = above;
+      joint.b = below;
+      joint.type = JointType::ball;
+      EXPECT_OK(place_joint(world, position(x, y + 0.15, coord_to_host(holder.position.z)), joint.frame_a, joint));
+      JointId id;
+      EXPECT_OK(create_joint(world, joint, id));
+      above = below;
+    }
+  }
+};
+
+void expect_equal_heaps(uint32_t count, Capacity capacity, bool sleeping, const Tasks& tasks, uint32_t ticks) {
+  Heap alone(count, capacity, sleeping), shared(count, capacity, sleeping);
+  shared.world.hooks.tasks = tasks;
+  for (uint32_t tick = 0; tick < ticks; ++tick) {
+    expect_equal(step(shared.world), step(alone.world));
+    ASSERT_EQ(digest(shared.world), digest(alone.world)) << "tick " << tick;
+    for (uint32_t i = 0; i < 50; ++i) {
+      ASSERT_EQ(shared.lost[i].a, alone.lost[i].a);
+      ASSERT_EQ(shared.lost[i].b, alone.lost[i].b);
+    }
+    if (testing::Test::HasFailure()) return;
+  }
+}
+
+DETENT_TEST(tasks, change_no_bit_of_a_heap_on_a_pool_of_threads) {
+  for (const uint32_t workers : {2u, 3u, 8u}) {
+    detent_host::ThreadPool pool(workers);
+    expect_equal_heaps(250, {320, 1400, 0, true, 40}, workers != 3, pool.tasks<Tasks>(), 90);
+  }
+}
+
+DETENT_TEST(tasks, drop_the_same_pairs_and_contacts_where_pools_are_full) {
+  for (const uint32_t contacts : {40u, 150u, 400u}) {
+    Scheduler scheduler = {Calls::threads, Parts::shuffled, 3};
+    expect_equal_heaps(150, {220, contacts, 0, true, 40}, false, scheduler.tasks(), 40);
+  }
+}
+
+DETENT_TEST(tasks, that_make_no_call_leave_the_step_to_the_thread_that_called_it) {
+  Tasks none = {[](void*, uint32_t, void (*)(void*), void*) {}, nullptr, nullptr, 4, 0, nullptr};
+  expect_equal_heaps(20, {60, 300, 0, true, 40}, false, none, 20);
+}
+
+}  // namespace
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent
