@@ -14,7 +14,7 @@
 /// Threads: the library has no global state. Calls on different worlds may run concurrently. On one world, functions
 /// that take `const World&` may run concurrently with each other; a call that takes `World&` must run alone. In f32 and
 /// f64, every call that computes sets the floating-point modes (rounding, flush-to-zero) that it needs, and restores
-/// those of the caller.
+/// those of the caller. A step uses several threads if the caller lends them (WorldHooks::tasks).
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 

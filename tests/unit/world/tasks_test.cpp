@@ -75,7 +75,7 @@ DETENT_TEST(tasks, change_no_bit_of_the_scenes) {
 
 /// Random ticks with all kinds of bodies and joints, from worlds in equal states.
 DETENT_TEST(tasks, change_no_bit_of_random_ticks) {
-  for (uint64_t seed = 1; seed <= 120; ++seed) {
+  for (uint64_t seed = 1; seed <= 90; ++seed) {
     Scheduler scheduler = k_schedulers[seed % 9];
     OwnedWorld alone = make_turmoiled(seed, 0), shared = make_turmoiled(seed, 0);
     shared.world.hooks.tasks = scheduler.tasks();
@@ -164,7 +164,7 @@ void expect_equal_heaps(uint32_t count, Capacity capacity, bool sleeping, const 
 DETENT_TEST(tasks, change_no_bit_of_a_heap_on_a_pool_of_threads) {
   for (const uint32_t workers : {2u, 3u, 8u}) {
     detent_host::ThreadPool pool(workers);
-    expect_equal_heaps(250, {320, 1400, 0, true, 40}, workers != 3, pool.tasks<Tasks>(), 90);
+    expect_equal_heaps(250, {320, 1400, 0, true, 40}, workers != 3, pool.tasks<Tasks>(), 50);
   }
 }
 
