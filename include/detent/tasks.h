@@ -30,10 +30,10 @@ struct Tasks {
   /// machine run (std::this_thread::yield()). May be null.
   void (*wait)(void* context) = nullptr;
   void* context = nullptr;  ///< passed to `run` and `wait`
-  uint32_t workers = 1;     ///< number of calls that a stage asks for: as many as threads are free. Below 2: as null
+  uint32_t workers = 0;     ///< number of calls that a stage asks for: as many as threads are free. Below 2: as null
   /// A stage with fewer bodies or pairs runs on one thread, because calling for others takes longer than they save.
-  /// 0 is for tests: then each element of a loop is a part of its own.
-  uint32_t least = 96;
+  /// 0: 96. 1 is for tests: then each element of a loop is a part of its own.
+  uint32_t least = 0;
   const TaskProbe* probe = nullptr;  ///< see TaskProbe
 };
 

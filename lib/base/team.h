@@ -19,6 +19,9 @@ inline namespace DETENT_NAMESPACE {
 
 #if DETENT_TASKS
 
+/// Number of elements below which a stage runs on one thread.
+inline uint32_t least_of(const Tasks& tasks) { return tasks.least == 0 ? 96 : tasks.least; }
+
 class Team {
  public:
   explicit Team(const Tasks& tasks) : tasks_(tasks) {}
@@ -41,7 +44,7 @@ class Team {
   /// the stage, and not by a body.
   template <class Body>
   void each(uint32_t count, uint32_t grain, const Body& body) {
-    if (tasks_.least == 0) grain = 1;
+    if (tasks_.least == 1) grain = 1;
     chunk_ = [](const void* of, uint32_t first, uint32_t last) { (*static_cast<const Body*>(of))(first, last); };
     of_chunk_ = &body;
     count_ = count;
@@ -58,9 +61,9 @@ class Team {
     if (probe != nullptr && probe->loop_ends != nullptr) probe->loop_ends(probe->context);
   }
   /// Number of elements above which a loop is shared.
-  uint32_t few(uint32_t grain) const { return tasks_.least == 0 ? 0 : grain; }
-  /// Number of elements from which on a loop with many short parts is shared.
-  uint32_t many() const { return tasks_.least == 0 ? 2 : tasks_.least; }
+  uint32_t few(uint32_t grain) const { return tasks_.least == 1 ? 0 : grain; }
+  /// Number of bodies or contacts from which on an island's loops are shared.
+  uint32_t many() const { return tasks_.least == 1 ? 4 : least_of(tasks_); }
 
   /// Adds to a number that several threads add to. Returns the number before.
   static uint32_t take(uint32_t& sum, uint32_t value) { return __atomic_fetch_add(&sum, value, __ATOMIC_RELAXED); }

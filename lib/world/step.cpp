@@ -69,7 +69,7 @@ StepSettings settings_of(const World& world, const WorldState& state) {
 }
 
 /// Number of bodies or contacts that a thread takes at once.
-constexpr uint32_t k_shared = 32;
+constexpr uint32_t k_shared = 32, k_islands_shared = 8;
 
 /// One step: its stages, in order, and the data that they pass to later stages.
 class Step {
@@ -92,7 +92,7 @@ class Step {
   template <class Work>
   void with_team([[maybe_unused]] uint32_t elements, const Work& work) {
 #if DETENT_TASKS
-    if (elements >= world_.hooks.tasks.least) {
+    if (elements >= least_of(world_.hooks.tasks)) {
       detent::with_team(world_.hooks.tasks, work);
       return;
     }
@@ -250,12 +250,20 @@ void Step::build_islands() {
   const Span<const uint32_t> slots = scratch_.island_bodies;
   report_.contacts.colour_overflows =
       order_contacts(bodies_.properties, contacts_, islands_, bodies_.work, scratch_.contact_sort, contact_order());
-  estimate_loads(settings_, bodies_.poses, bodies_.properties, slots, islands_, contact_order(), scratch_.contact_sort,
-                 bodies_.work, contacts_);
+  with_team(moving_.count, [&](Team* team) {
+    share(team, islands_, k_islands_shared, [&](Span<Island> part) {
+      estimate_loads(settings_, bodies_.poses, bodies_.properties, slots, part, contact_order(), scratch_.contact_sort,
+                     bodies_.work, contacts_);
+    });
+  });
   if (joint_ops_ != nullptr)
     report_.lost.joint_couplings = joint_ops_->order(settings_, solver_bodies_, slots, islands_, joints_);
-  choose_substeps(settings_, bodies_.properties, bodies_.work, slots, contact_order(), islands_, contacts_,
-                  bodies_.activities);
+  with_team(moving_.count, [&](Team* team) {
+    share(team, islands_, k_islands_shared, [&](Span<Island> part) {
+      choose_substeps(settings_, bodies_.properties, bodies_.work, slots, contact_order(), part, contacts_,
+                      bodies_.activities);
+    });
+  });
   if (groups_islands())
     group_islands(moving_, bodies_.properties, bodies_.activities, contacts_, islands_, bodies_.work,
                   scratch_.island_bodies, scratch_.contact_sort, contact_order());

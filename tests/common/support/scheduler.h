@@ -32,7 +32,7 @@ struct Scheduler {
     probe.context = this;
     if (parts != Parts::in_order) probe.part = part;
     if (delayed) probe.part_begins = probe.part_ends = pause;
-    return {run, [](void*) { std::this_thread::yield(); }, this, workers, 0, &probe};
+    return {run, [](void*) { std::this_thread::yield(); }, this, workers, 1, &probe};
   }
 
  private:
