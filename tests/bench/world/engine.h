@@ -5,6 +5,7 @@
 
 #include "tests/bench/heap.h"
 #include "tests/campaigns/stress/stage.h"
+#include "tests/common/support/stage_time.h"
 
 /// What the benchmark of the whole step asks of an engine: this library in one configuration, or a peer. No type here
 /// depends on one. A module has a heap of its own: what it makes it frees, and nothing else.
@@ -19,8 +20,10 @@ using detent_stress::StageJoint;
 
 /// How hard an engine tries. 0: as it does by default, a peer as it is recommended.
 struct Effort {
-  uint32_t substeps = 0;  ///< a peer has none, and refuses others
+  uint32_t substeps = 0;  ///< a peer has none: it makes so many steps of a part of the tick
   uint32_t iterations = 0;
+
+  bool is_default() const { return substeps == 0 && iterations == 0; }
 };
 
 /// A stage in an engine's own terms.
@@ -39,6 +42,9 @@ class WorldRun {
   virtual uint64_t bytes() const = 0;
   /// What tells these settings from others: this library's digest of them, a peer's in words.
   virtual const char* settings() const = 0;
+  /// From here on stages() counts; that takes some clock readings a step.
+  virtual void start_profile() {}
+  virtual detent_test::StageTimes stages() const { return {}; }
 };
 
 struct WorldEngine {

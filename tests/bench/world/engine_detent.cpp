@@ -1,8 +1,10 @@
 #include <detent/world.h>
 #include <stdio.h>
 
+#include "tests/bench/timer.h"
 #include "tests/bench/world/engine.h"
 #include "tests/campaigns/stress/run_detent.h"
+#include "tests/common/support/stage_profile.h"
 
 /// This library, compiled once per configuration, with the settings that a world has by default: the stress tests' own
 /// worlds.
@@ -36,8 +38,11 @@ class DetentRun : public WorldRun {
   }
   uint64_t bytes() const override { return run_->bytes(); }
   const char* settings() const override { return settings_; }
+  void start_profile() override { profile_.attach(world_of(*run_)); }
+  detent_test::StageTimes stages() const override { return profile_.times(); }
 
  private:
+  StageProfile profile_{[](void*) { return detent_bench::ticks(); }};
   std::unique_ptr<detent_stress::Run> run_;
   detent_stress::Counts counts_;
   uint64_t losses_ = 0;

@@ -1,7 +1,6 @@
 #include "tests/bench/world/measure.h"
 
 #include <math.h>
-#include <time.h>
 
 #include <algorithm>
 #include <memory>
@@ -13,10 +12,9 @@ namespace detent_bench {
 
 namespace {
 
+using detent_test::Ground;
+
 constexpr uint32_t k_sample_ticks = 30;
-/// Of shorter steps the core's time is not taken, for that takes its time too; they are interrupted as seldom.
-constexpr double k_asked_ns = 100000;
-constexpr double k_interruption_ns = 20000;
 
 class Nothing : public WorldRun {
  public:
@@ -34,32 +32,37 @@ uint64_t time_of(WorldRun& run) {
   return ticks() - start;
 }
 
-/// ns that the thread has had a core.
-uint64_t core_ns() {
-  timespec now;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<uint64_t>(now.tv_sec) * 1000000000u + static_cast<uint64_t>(now.tv_nsec);
-}
-
-/// The value that `share` of all lie at or below.
-double quantile(const std::vector<double>& sorted, double share) {
-  const double index = ceil(share * static_cast<double>(sorted.size())) - 1;
-  return sorted[static_cast<size_t>(std::max(index, 0.0))];
+Clock clock_of_steps() {
+  const std::unique_ptr<WorldRun> nothing = std::make_unique<Nothing>();
+  return calibrated_clock([&nothing] { return time_of(*nothing); });
 }
 
 /// A contestant in the scene that is being measured.
 struct Entry {
   Contestant contestant;
-  std::vector<WorldRow> rows;              ///< a window each
-  std::vector<std::vector<double>> times;  ///< us; a window each
+  std::vector<WorldRow> rows;     ///< a window each
+  std::vector<LeastTimes> times;  ///< a window each
+};
+
+/// What a run that is not timed tells about a window.
+struct Samples {
+  uint64_t points = 0, count = 0;
+  double error_squares = 0;
+  uint32_t compared = 0;
+  detent_test::StageTimes stages_before;
 };
 
 class Course {
  public:
-  Course(const WorldScene& scene, uint32_t repetitions, uint32_t ticks_max, const WorldProgress& progress)
-      : stage_(scene.stage()), depths_(stage_), repetitions_(repetitions), progress_(progress) {
+  Course(const WorldScene& scene, const WorldPlan& plan, const WorldProgress& progress)
+      : played_(on_ground(scene.stage(), plan.ground)),
+        judged_(on_ground(played_, plan.ground == Ground::own ? Ground::own : Ground::box)),
+        start_(states_at_start(judged_)),
+        depths_(judged_),
+        plan_(plan),
+        progress_(progress) {
     for (Window window : scene.windows) {  // none begins before another ends
-      window.end = std::min(window.end, ticks_max);
+      window.end = std::min(window.end, plan.ticks_max);
       if (window.first >= window.end) continue;
       windows_.push_back(window);
       end_ = std::max(end_, window.end);
@@ -67,25 +70,17 @@ class Course {
   }
 
   WorldFindings run(const std::vector<Contestant>& contestants) {
-    total_ = uint64_t{repetitions_ + 1} * contestants.size() * end_;
+    total_ = uint64_t{plan_.repetitions + 1} * contestants.size() * end_;
     for (const Contestant& contestant : contestants) enter(contestant);
-    total_ = done_ + uint64_t{repetitions_} * entries_.size() * end_;
-    const Clock clock = calibrated_clock([] {
-      const std::unique_ptr<WorldRun> nothing = std::make_unique<Nothing>();
-      return time_of(*nothing);
-    });
-    for (uint32_t repetition = 0; repetition < repetitions_; ++repetition) {
+    total_ = done_ + uint64_t{plan_.repetitions} * entries_.size() * end_;
+    const Clock clock = clock_of_steps();
+    for (uint32_t repetition = 0; repetition < plan_.repetitions; ++repetition) {
       for (size_t i = 0; i < entries_.size(); ++i) time_once(entries_[(i + repetition) % entries_.size()], clock);
     }
     for (size_t window = 0; window < windows_.size(); ++window) {
       for (Entry& entry : entries_) {
-        std::vector<double>& times = entry.times[window];
-        std::sort(times.begin(), times.end());
-        WorldRow& row = entry.rows[window];
-        row.us_median = quantile(times, 0.5);
-        row.us_p99 = quantile(times, 0.99);
-        row.us_max = times.back();
-        findings_.rows.push_back(std::move(row));
+        entry.rows[window].times = entry.times[window].summary();
+        findings_.rows.push_back(std::move(entry.rows[window]));
       }
     }
     return std::move(findings_);
@@ -94,7 +89,7 @@ class Course {
  private:
   std::unique_ptr<WorldRun> make(const Contestant& contestant, const char*& problem) const {
     problem = nullptr;
-    return std::unique_ptr<WorldRun>(contestant.engine.make(stage_, contestant.effort, problem));
+    return std::unique_ptr<WorldRun>(contestant.engine.make(played_, contestant.effort, problem));
   }
 
   void advance(uint32_t ticks_done) {
@@ -102,7 +97,6 @@ class Course {
     progress_(done_, total_);
   }
 
-  /// The run that is not timed.
   void enter(const Contestant& contestant) {
     const char* problem = nullptr;
     const std::unique_ptr<WorldRun> run = make(contestant, problem);
@@ -113,41 +107,75 @@ class Course {
     }
     Entry entry;
     entry.contestant = contestant;
-    entry.times.resize(windows_.size());
-    States states(stage_.bodies.size());
-    Watch watch(stage_, depths_);
-    run->read(states.data());
+    for (const Window& window : windows_) {
+      WorldRow row;
+      row.scene = window.row;
+      row.ground = has_ground(played_) ? detent_test::ground_name(plan_.ground) : "own";
+      row.engine = contestant.engine.engine;
+      row.config = contestant.engine.config;
+      row.effort = contestant.effort;
+      row.settings = run->settings();
+      row.bodies = static_cast<uint32_t>(std::count_if(played_.bodies.begin(), played_.bodies.end(),
+                                                       [](const StageBody& b) { return b.role == Role::dynamic; }));
+      entry.rows.push_back(row);
+      entry.times.emplace_back(window.end - window.first);
+    }
+    if (plan_.measures) take_measures(*run, entry);
+    entries_.push_back(std::move(entry));
+  }
+
+  /// The run that is not timed.
+  void take_measures(WorldRun& run, Entry& entry) {
+    States states(judged_.bodies.size());
+    Watch watch(judged_, depths_);
+    read(run, states);
     watch.begin(states);
-    std::vector<uint64_t> points(windows_.size()), samples(windows_.size());
-    entry.rows.resize(windows_.size());
+    run.start_profile();
+    std::vector<Samples> samples(windows_.size());
     for (uint32_t tick = 0; tick < end_; ++tick) {
-      run->step();
-      run->read(states.data());
+      for (size_t i = 0; i < windows_.size(); ++i) {
+        if (tick == windows_[i].first) samples[i].stages_before = run.stages();
+      }
+      run.step();
+      read(run, states);
       watch.tick(states, tick);
       for (size_t i = 0; i < windows_.size(); ++i) {
-        const Window& window = windows_[i];
-        if (tick < window.first || tick >= window.end) continue;
-        if (tick == window.first) watch.begin_window();
-        const bool last = tick + 1 == window.end;
-        if (!last && (tick - window.first) % k_sample_ticks != 0) continue;
-        watch.sample(states);
-        points[i] += run->contact_points();
-        ++samples[i];
-        if (!last) continue;
-        WorldRow& row = entry.rows[i];
-        row.scene = window.row;
-        row.engine = contestant.engine.engine;
-        row.config = contestant.engine.config;
-        row.effort = contestant.effort;
-        row.contacts = static_cast<uint32_t>((points[i] + samples[i] / 2) / samples[i]);
-        row.bytes = run->bytes();
-        row.losses = run->losses();
-        row.settings = run->settings();
-        row.measures = watch.measures(states);
+        if (tick >= windows_[i].first && tick < windows_[i].end)
+          take_tick(run, states, tick, windows_[i], watch, samples[i], entry.rows[i]);
       }
       advance(1);
     }
-    entries_.push_back(std::move(entry));
+  }
+
+  void take_tick(const WorldRun& run, const States& states, uint32_t tick, const Window& window, Watch& watch,
+                 Samples& samples, WorldRow& row) const {
+    if (plan_.reference != nullptr && tick < plan_.reference->states.size()) {
+      samples.error_squares += pow(state_error(judged_, states, plan_.reference->states[tick]), 2);
+      ++samples.compared;
+    }
+    if (tick == window.first) watch.begin_window();
+    const bool last = tick + 1 == window.end;
+    if (!last && (tick - window.first) % k_sample_ticks != 0) return;
+    watch.sample(states);
+    samples.points += run.contact_points();
+    ++samples.count;
+    if (!last) return;
+    row.contacts = static_cast<uint32_t>((samples.points + samples.count / 2) / samples.count);
+    row.bytes = run.bytes();
+    row.losses = run.losses();
+    row.stages = stage_shares(samples.stages_before, run.stages());
+    row.measures = watch.measures(states);
+    if (samples.compared == 0) return;
+    row.measures.emplace_back("error", sqrt(samples.error_squares / samples.compared));
+    row.measures.emplace_back("reference", plan_.reference->uncertainty);
+  }
+
+  /// What does not move is where the stage has it: a half-space has no pose in every engine.
+  void read(const WorldRun& run, States& states) const {
+    run.read(states.data());
+    for (size_t i = 0; i < states.size(); ++i) {
+      if (judged_.bodies[i].role == Role::fixed) states[i] = start_[i];
+    }
   }
 
   void time_once(Entry& entry, const Clock& clock) {
@@ -155,34 +183,27 @@ class Course {
     const std::unique_ptr<WorldRun> run = make(entry.contestant, problem);
     uint32_t tick = 0;
     for (size_t i = 0; i < windows_.size(); ++i) {
-      entry.times[i].reserve(entry.times[i].size() + windows_[i].end);  // not while its allocations are counted
       for (; tick < windows_[i].first; ++tick) run->step();
-      std::vector<double>& times = entry.times[i];
       const uint64_t allocations = entry.contestant.engine.heap().calls;
-      bool asked = true;
-      for (tick = windows_[i].first; tick < windows_[i].end; ++tick) {
-        const uint64_t core_before = asked ? core_ns() : 0;
-        double ns = clock.ns(time_of(*run));
-        if (asked) {
-          const double own = static_cast<double>(core_ns() - core_before);
-          ++findings_.asked;
-          if (ns > own + k_interruption_ns) {
-            ++findings_.interrupted;
-            ns = own;
-          }
-        }
-        asked = ns > k_asked_ns;
-        times.push_back(ns / 1000);
+      for (; tick < windows_[i].end; ++tick) {
+        entry.times[i].take(tick - windows_[i].first,
+                            findings_.interruptions.us_of([&] { return clock.ns(time_of(*run)); }));
       }
       WorldRow& row = entry.rows[i];
       row.allocs = std::max(row.allocs, entry.contestant.engine.heap().calls - allocations);
+      if (plan_.measures) continue;
+      row.contacts = run->contact_points();
+      row.bytes = run->bytes();
+      row.losses = run->losses();
     }
     advance(end_);
   }
 
-  const Stage stage_;
+  const Stage played_;
+  const Stage judged_;  ///< on a box where there is a ground: a half-space is no convex shape
+  const States start_;
   const detent_stress::DepthMeter depths_;
-  const uint32_t repetitions_;
+  const WorldPlan& plan_;
   const WorldProgress& progress_;
   std::vector<Window> windows_;
   uint32_t end_ = 0;
@@ -193,9 +214,9 @@ class Course {
 
 }  // namespace
 
-WorldFindings measure_world(const WorldScene& scene, const std::vector<Contestant>& contestants, uint32_t repetitions,
-                            uint32_t ticks_max, const WorldProgress& progress) {
-  return Course(scene, repetitions, ticks_max, progress).run(contestants);
+WorldFindings measure_world(const WorldScene& scene, const std::vector<Contestant>& contestants, const WorldPlan& plan,
+                            const WorldProgress& progress) {
+  return Course(scene, plan, progress).run(contestants);
 }
 
 }  // namespace detent_bench

@@ -2,8 +2,8 @@
 #include <functional>
 #include <string>
 
+#include "tests/bench/world/reference.h"
 #include "tests/bench/world/rows.h"
-#include "tests/bench/world/scenes.h"
 
 /// Runs engines on a scene and takes the times.
 namespace detent_bench {
@@ -14,11 +14,19 @@ struct Contestant {
   Effort effort;
 };
 
+/// How a scene is measured.
+struct WorldPlan {
+  detent_test::Ground ground = detent_test::Ground::own;
+  uint32_t repetitions = 3;
+  uint32_t ticks_max = UINT32_MAX;
+  bool measures = true;                  ///< false: only what a timed run tells as well
+  const Reference* reference = nullptr;  ///< of a study
+};
+
 struct WorldFindings {
   std::vector<WorldRow> rows;         ///< window by window, in the contestants' order
   std::vector<std::string> left_out;  ///< a line for each contestant that cannot
-  uint64_t asked = 0;                 ///< timed steps long enough to ask whether they were interrupted
-  uint64_t interrupted = 0;  ///< those in which another process had the core: only the thread's own time counts
+  Interruptions interruptions;
 };
 
 using WorldProgress = std::function<void(uint64_t done, uint64_t total)>;
@@ -27,7 +35,7 @@ using WorldProgress = std::function<void(uint64_t done, uint64_t total)>;
 /// steps would change what the caches hold. Then, repetition by repetition, all take turns in an order that rotates,
 /// each with a world of its own from the first tick on. The clock is read around a step, and nothing else happens
 /// between two.
-WorldFindings measure_world(const WorldScene& scene, const std::vector<Contestant>& contestants, uint32_t repetitions,
-                            uint32_t ticks_max, const WorldProgress& progress);
+WorldFindings measure_world(const WorldScene& scene, const std::vector<Contestant>& contestants, const WorldPlan& plan,
+                            const WorldProgress& progress);
 
 }  // namespace detent_bench

@@ -2,6 +2,7 @@
 #include <BulletCollision/CollisionShapes/btCapsuleShape.h>
 #include <BulletCollision/CollisionShapes/btConvexHullShape.h>
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
+#include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
 #include <btBulletDynamicsCommon.h>
 #include <math.h>
 #include <stdio.h>
@@ -44,13 +45,16 @@ std::unique_ptr<btCollisionShape> shape_of(const StageBody& body) {
       hull->recalcLocalAabb();
       return hull;
     }
+    case Solid::half_space:
+      return std::make_unique<btStaticPlaneShape>(btVector3(0, 1, 0), scalar(0));
   }
   return nullptr;
 }
 
 class BulletRun : public WorldRun {
  public:
-  BulletRun(const Stage& stage, uint32_t iterations) : tick_(scalar(stage.tick)) {
+  BulletRun(const Stage& stage, uint32_t iterations, uint32_t steps)
+      : steps_(steps), step_time_(scalar(stage.tick / steps)) {
     heap_before_ = heap_use().bytes;
     configuration_ = std::make_unique<btDefaultCollisionConfiguration>();
     dispatcher_ = std::make_unique<btCollisionDispatcher>(configuration_.get());
@@ -60,7 +64,7 @@ class BulletRun : public WorldRun {
                                                        configuration_.get());
     world_->setGravity({0, scalar(-stage.gravity), 0});
     world_->getSolverInfo().m_numIterations = static_cast<int>(iterations);
-    snprintf(settings_, sizeof settings_, "%u iterations", iterations);
+    snprintf(settings_, sizeof settings_, "%u iterations, %u steps", iterations, steps);
     for (const StageBody& body : stage.bodies) add(body, stage);
     for (const StageJoint& joint : stage.joints) add(joint);
   }
@@ -69,7 +73,9 @@ class BulletRun : public WorldRun {
     for (const auto& body : bodies_) world_->removeRigidBody(body.get());
   }
 
-  void step() override { world_->stepSimulation(tick_, 0); }
+  void step() override {
+    for (uint32_t i = 0; i < steps_; ++i) world_->stepSimulation(step_time_, 0);
+  }
 
   uint32_t contact_points() const override {
     int count = 0;
@@ -129,9 +135,10 @@ class BulletRun : public WorldRun {
     world_->addConstraint(joints_.back().get());
   }
 
-  btScalar tick_;
+  uint32_t steps_;  ///< a tick
+  btScalar step_time_;
   uint64_t heap_before_ = 0;
-  char settings_[24] = {};
+  char settings_[40] = {};
   std::unique_ptr<btDefaultCollisionConfiguration> configuration_;
   std::unique_ptr<btCollisionDispatcher> dispatcher_;
   std::unique_ptr<btBroadphaseInterface> broadphase_;
@@ -142,12 +149,9 @@ class BulletRun : public WorldRun {
   std::vector<std::unique_ptr<btTypedConstraint>> joints_;
 };
 
-WorldRun* make(const Stage& stage, const Effort& effort, const char*& problem) {
-  if (effort.substeps != 0) {
-    problem = "has no substeps";
-    return nullptr;
-  }
-  return new BulletRun(stage, effort.iterations != 0 ? effort.iterations : k_iterations);
+WorldRun* make(const Stage& stage, const Effort& effort, const char*&) {
+  return new BulletRun(stage, effort.iterations != 0 ? effort.iterations : k_iterations,
+                       effort.substeps != 0 ? effort.substeps : 1);
 }
 
 }  // namespace

@@ -68,9 +68,9 @@ Convex icosahedron(double radius) {
 
 class OdeRun : public WorldRun {
  public:
-  OdeRun(const Stage& stage, uint32_t iterations) : tick_(stage.tick) {
+  OdeRun(const Stage& stage, uint32_t iterations, uint32_t steps) : steps_(steps), step_time_(stage.tick / steps) {
     heap_before_ = heap_use().bytes;
-    snprintf(settings_, sizeof settings_, "%u iterations", iterations);
+    snprintf(settings_, sizeof settings_, "%u iterations, %u steps", iterations, steps);
     world_ = dWorldCreate();
     space_ = dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_XZY);
     group_ = dJointGroupCreate(0);
@@ -96,10 +96,12 @@ class OdeRun : public WorldRun {
   }
 
   void step() override {
-    points_ = 0;
-    dSpaceCollide(space_, this, near_each_other);
-    dWorldQuickStep(world_, tick_);
-    dJointGroupEmpty(group_);
+    for (uint32_t i = 0; i < steps_; ++i) {
+      points_ = 0;
+      dSpaceCollide(space_, this, near_each_other);
+      dWorldQuickStep(world_, step_time_);
+      dJointGroupEmpty(group_);
+    }
   }
 
   uint32_t contact_points() const override { return points_; }
@@ -109,6 +111,7 @@ class OdeRun : public WorldRun {
     for (size_t i = 0; i < geoms_.size(); ++i) {
       BodyState& state = states[i];
       state = {};
+      if (dGeomGetClass(geoms_[i]) == dPlaneClass) continue;  // it has no pose
       const dReal* const position = dGeomGetPosition(geoms_[i]);
       dQuaternion rotation;
       dGeomGetQuaternion(geoms_[i], rotation);
@@ -180,6 +183,8 @@ class OdeRun : public WorldRun {
                              convex.points.data(), static_cast<unsigned>(convex.points.size() / 3),
                              convex.polygons.data());
       }
+      case Solid::half_space:
+        return dCreatePlane(space_, 0, 1, 0, body.position[1]);
     }
     return nullptr;
   }
@@ -209,16 +214,18 @@ class OdeRun : public WorldRun {
       dBodySetAngularVel(body, given.angular_velocity[0], given.angular_velocity[1], given.angular_velocity[2]);
       dGeomSetBody(geom, body);
     }
+    if (given.solid == Solid::half_space) return;
     dGeomSetPosition(geom, given.position[0], given.position[1], given.position[2]);
     dQuaternion rotation = {given.rotation[3], given.rotation[0], given.rotation[1], given.rotation[2]};
     if (along_z_.back()) rotation_vector(rotation, 1);
     dGeomSetQuaternion(geom, rotation);
   }
 
-  double tick_;
+  uint32_t steps_;  ///< a tick
+  double step_time_;
   uint64_t heap_before_ = 0;
   uint32_t points_ = 0;
-  char settings_[24] = {};
+  char settings_[40] = {};
   dWorldID world_;
   dSpaceID space_;
   dJointGroupID group_;
@@ -231,10 +238,6 @@ class OdeRun : public WorldRun {
 void quiet(int, const char*, va_list) {}
 
 WorldRun* make(const Stage& stage, const Effort& effort, const char*& problem) {
-  if (effort.substeps != 0) {
-    problem = "has no substeps";
-    return nullptr;
-  }
   static const bool ready =
       dInitODE2(0) != 0 && dAllocateODEDataForThread(static_cast<unsigned>(dAllocateMaskAll)) != 0;
   if (!ready) {
@@ -242,7 +245,9 @@ WorldRun* make(const Stage& stage, const Effort& effort, const char*& problem) {
     return nullptr;
   }
   dSetMessageHandler(quiet);  // "LCP internal error" and its like: their effect is measured
-  return new OdeRun(stage, effort.iterations != 0 ? effort.iterations : k_iterations);
+  dRandSetSeed(0);            // it solves contacts in an order of chance: the same in every repetition
+  return new OdeRun(stage, effort.iterations != 0 ? effort.iterations : k_iterations,
+                    effort.substeps != 0 ? effort.substeps : 1);
 }
 
 }  // namespace

@@ -1,142 +1,142 @@
 #include "tests/bench/world/rows.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-
 #include <algorithm>
-#include <nlohmann/json.hpp>
+
+#include "tests/bench/step_json.h"
 
 namespace detent_bench {
 
 namespace {
 
+using detent_text::Cells;
+using detent_text::text;
+
 constexpr const char* k_configs[] = {"fx64", "f32", "f64", "fx32"};
 
 std::string number(double value) {
-  char text[32];
   const double size = value < 0 ? -value : value;
   if (value == 0) return "0";
-  snprintf(text, sizeof text, size >= 100 ? "%.0f" : size >= 0.01 ? "%.3g" : "%.1e", value);
-  return text;
-}
-
-std::string fixed(const char* format, double value) {
-  char text[32];
-  snprintf(text, sizeof text, format, value);
-  return text;
-}
-
-/// Words to the left in the first `words` columns, numbers to the right in the others.
-std::string aligned(const std::vector<std::vector<std::string>>& cells, size_t words) {
-  std::vector<size_t> widths(cells.front().size());
-  for (const auto& line : cells) {
-    for (size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
-  }
-  std::string text;
-  for (const auto& line : cells) {
-    for (size_t i = 0; i < line.size(); ++i) {
-      const std::string fill(widths[i] - line[i].size(), ' ');
-      text += i < words ? line[i] + fill : fill + line[i];
-      text += i + 1 < line.size() ? "  " : "\n";
-    }
-  }
-  return text;
+  return text(size >= 100 ? "%.0f" : size >= 0.01 ? "%.3g" : "%.1e", value);
 }
 
 std::string ratio(const WorldRow* row, const WorldRow* reference) {
-  if (row == nullptr || reference == nullptr || reference->us_median <= 0) return "-";
-  const double value = row->us_median / reference->us_median;
-  return fixed(value < 0.01 ? "%.1g" : "%.2f", value);
+  if (row == nullptr || reference == nullptr || reference->times.median <= 0) return "-";
+  const double value = row->times.median / reference->times.median;
+  return text(value < 0.01 ? "%.1g" : "%.2f", value);
 }
-
-/// Without digits that mean nothing.
-double rounded(double value, const char* format) { return strtod(fixed(format, value).c_str(), nullptr); }
 
 std::string effort_text(const Effort& effort) {
-  std::string text;
-  if (effort.substeps != 0) text += std::to_string(effort.substeps) + " substeps";
-  if (effort.iterations != 0) text += (text.empty() ? "" : ", ") + std::to_string(effort.iterations) + " iterations";
-  return text.empty() ? "default" : text;
+  std::string result;
+  if (effort.substeps != 0) result += text("%u substeps", effort.substeps);
+  if (effort.iterations != 0) result += (result.empty() ? "" : ", ") + text("%u iterations", effort.iterations);
+  return result.empty() ? "default" : result;
 }
 
-}  // namespace
-
-const WorldRow* find_row(const std::vector<WorldRow>& rows, const std::string& scene, const std::string& engine,
+/// The row of this engine and configuration at its own settings, or null.
+const WorldRow* find_row(const std::vector<WorldRow>& rows, const WorldRow& like, const std::string& engine,
                          const std::string& config) {
   for (const WorldRow& row : rows) {
-    if (row.scene == scene && row.engine == engine && row.config == config && row.effort.substeps == 0 &&
-        row.effort.iterations == 0)
+    if (row.scene == like.scene && row.ground == like.ground && row.engine == engine && row.config == config &&
+        row.effort.is_default())
       return &row;
   }
   return nullptr;
 }
 
-std::string world_table_of(const std::vector<WorldRow>& rows, bool study) {
-  if (rows.empty()) return "";
-  std::vector<std::string> head = {"scene", "engine", "config"};
-  if (study) head.emplace_back("effort");
-  const size_t words = head.size();
-  for (const char* name : {"us", "p99", "max", "p99/us", "ratio", "contacts", "ns each", "kB", "allocs", "losses"})
-    head.emplace_back(name);
-  for (const auto& measure : rows.front().measures) head.push_back(measure.first);
-  std::vector<std::vector<std::string>> cells = {head};
+/// The first row of each scene and ground.
+std::vector<const WorldRow*> firsts_of(const std::vector<WorldRow>& rows) {
+  std::vector<const WorldRow*> firsts;
   for (const WorldRow& row : rows) {
-    std::vector<std::string> line = {row.scene, row.engine, row.config};
-    if (study) line.push_back(effort_text(row.effort));
-    for (const double value : {row.us_median, row.us_p99, row.us_max}) line.push_back(number(value));
-    line.push_back(row.us_median > 0 ? fixed("%.2f", row.us_p99 / row.us_median) : "-");
-    line.push_back(ratio(&row, find_row(rows, row.scene, "bullet", "double")));
+    if (std::none_of(firsts.begin(), firsts.end(), [&row](const WorldRow* first) {
+          return first->scene == row.scene && first->ground == row.ground;
+        }))
+      firsts.push_back(&row);
+  }
+  return firsts;
+}
+
+std::string name_of(const WorldRow& row) { return row.scene + (row.ground == "own" ? "" : ", " + row.ground); }
+
+}  // namespace
+
+std::string world_table_of(const std::vector<WorldRow>& rows) {
+  if (rows.empty()) return "";
+  std::vector<Cells> cells = {{"scene", "engine", "config", "effort", "us", "p99", "max", "p99/us", "ratio", "contacts",
+                               "ns each", "kB", "allocs", "losses"}};
+  for (const auto& measure : rows.front().measures) cells.front().push_back(measure.first);
+  for (const WorldRow& row : rows) {
+    Cells line = {name_of(row), row.engine, row.config, effort_text(row.effort)};
+    for (const double value : {row.times.median, row.times.p99, row.times.max}) line.push_back(number(value));
+    line.push_back(row.times.median > 0 ? text("%.2f", row.times.p99 / row.times.median) : "-");
+    line.push_back(ratio(&row, find_row(rows, row, "bullet", "double")));
     line.push_back(std::to_string(row.contacts));
-    line.push_back(row.contacts > 0 ? fixed("%.0f", 1000 * row.us_median / row.contacts) : "-");
+    line.push_back(row.contacts > 0 ? text("%.0f", 1000 * row.times.median / row.contacts) : "-");
     for (const uint64_t value : {(row.bytes + 999) / 1000, row.allocs, row.losses})
       line.push_back(std::to_string(value));
     for (const auto& measure : row.measures) line.push_back(number(measure.second));
     cells.push_back(line);
   }
-  return aligned(cells, words);
+  return detent_text::table_of(cells, false);
 }
 
 std::string world_summary_of(const std::vector<WorldRow>& rows) {
-  std::vector<std::vector<std::string>> cells = {{"scene", "bullet double, us"}};
+  std::vector<Cells> cells = {{"scene", "bullet double, us"}};
   for (const char* config : k_configs) cells.front().push_back(std::string(config) + " / bullet");
-  for (const char* name : {"bullet float / double", "ode / bullet", "fx64 / f32", "fx64 p99/us"})
+  for (const char* name : {"bullet float / double", "ode / bullet", "fx64 / f32", "fx64 p99/us", "fx64 stages"})
     cells.front().emplace_back(name);
-  std::vector<std::string> scenes;
-  for (const WorldRow& row : rows) {
-    if (std::find(scenes.begin(), scenes.end(), row.scene) == scenes.end()) scenes.push_back(row.scene);
-  }
-  for (const std::string& scene : scenes) {
-    const auto row = [&](const char* engine, const char* config) { return find_row(rows, scene, engine, config); };
+  for (const WorldRow* first : firsts_of(rows)) {
+    const auto row = [&](const char* engine, const char* config) { return find_row(rows, *first, engine, config); };
     const WorldRow *bullet = row("bullet", "double"), *fx64 = row("detent", "fx64");
-    std::vector<std::string> line = {scene, bullet != nullptr ? number(bullet->us_median) : "-"};
+    Cells line = {name_of(*first), bullet != nullptr ? number(bullet->times.median) : "-"};
     for (const char* config : k_configs) line.push_back(ratio(row("detent", config), bullet));
     line.push_back(ratio(row("bullet", "float"), bullet));
     line.push_back(ratio(row("ode", "double"), bullet));
     line.push_back(ratio(fx64, row("detent", "f32")));
-    line.push_back(fx64 != nullptr && fx64->us_median > 0 ? fixed("%.2f", fx64->us_p99 / fx64->us_median) : "-");
+    line.push_back(fx64 != nullptr && fx64->times.median > 0 ? text("%.2f", fx64->times.p99 / fx64->times.median)
+                                                             : "-");
+    line.push_back(fx64 != nullptr ? stages_text(fx64->stages) : "-");
     cells.push_back(line);
   }
-  return aligned(cells, 1);
+  return detent_text::table_of(cells, false);
+}
+
+std::string growth_table_of(const std::vector<WorldRow>& rows, bool markdown) {
+  std::vector<Cells> cells = {{"scene", "bodies", "contact points"}};
+  for (const WorldRow& row : rows) {
+    if (row.scene == rows.front().scene && row.ground == rows.front().ground)
+      cells.front().push_back((row.engine == "detent" ? "" : row.engine + " ") + row.config + ", ns");
+  }
+  for (const WorldRow* first : firsts_of(rows)) {
+    Cells line = {name_of(*first), std::to_string(first->bodies), std::to_string(first->contacts)};
+    for (const WorldRow& row : rows) {
+      if (row.scene == first->scene && row.ground == first->ground)
+        line.push_back(text("%.0f", 1000 * row.times.median / row.bodies));
+    }
+    cells.push_back(line);
+  }
+  return detent_text::table_of(cells, markdown);
 }
 
 std::string world_json_of(const std::vector<WorldRow>& rows, bool study) {
-  const auto us = [](double value) { return rounded(value, "%.3f"); };
-  std::string text = "[";
+  std::vector<nlohmann::ordered_json> lines;
   for (const WorldRow& row : rows) {
-    nlohmann::ordered_json json = {{"scene", row.scene},       {"engine", row.engine},
-                                   {"config", row.config},     {"us_median", us(row.us_median)},
-                                   {"us_p99", us(row.us_p99)}, {"us_max", us(row.us_max)},
-                                   {"contacts", row.contacts}, {"bytes", row.bytes},
-                                   {"allocs", row.allocs},     {"measures", nlohmann::ordered_json::object()},
-                                   {"settings", row.settings}};
-    for (const auto& [name, value] : row.measures) json["measures"][name] = rounded(value, "%.5g");
+    nlohmann::ordered_json json = {
+        {"scene", row.scene}, {"ground", row.ground}, {"engine", row.engine}, {"config", row.config}};
     if (study) {
       json["substeps"] = row.effort.substeps;
       json["iterations"] = row.effort.iterations;
     }
-    text += (text.size() > 1 ? ",\n " : "") + json.dump();
+    json["bodies"] = row.bodies;
+    add_times(json, row.times, row.stages);
+    json["contacts"] = row.contacts;
+    json["bytes"] = row.bytes;
+    json["allocs"] = row.allocs;
+    json["settings"] = row.settings;
+    json["measures"] = nlohmann::ordered_json::object();
+    for (const auto& [name, value] : row.measures) json["measures"][name] = rounded(value, 5);
+    lines.push_back(json);
   }
-  return text + "]\n";
+  return lines_of(lines);
 }
 
 }  // namespace detent_bench

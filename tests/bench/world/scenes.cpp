@@ -1,5 +1,7 @@
 #include "tests/bench/world/scenes.h"
 
+#include <math.h>
+
 #include "tests/campaigns/stress/scenes.h"
 
 namespace detent_bench {
@@ -43,6 +45,16 @@ const std::vector<WorldScene>& world_scenes() {
        {{"S10-one-awake", 600, 900}}},
   };
   return scenes;
+}
+
+WorldScene growth_scene(uint32_t bodies) {
+  constexpr double k_layers = 1000.0 / (8 * 8);
+  const auto side = static_cast<uint32_t>(lround(sqrt(bodies / k_layers)));
+  const std::string name = "S4-" + std::to_string(bodies);
+  return {name,
+          "pit of " + std::to_string(bodies) + " mixed shapes, " + std::to_string(side) + " a row",
+          [bodies, side] { return detent_stress::pit(bodies, k_pit_seed, side); },
+          {{name + "-falling", 0, 120}, {name, 210, 240}}};
 }
 
 }  // namespace detent_bench

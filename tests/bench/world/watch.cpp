@@ -25,14 +25,14 @@ double energy_of(const Stage& stage, const States& states) {
   return sums.energy + sums.potential;
 }
 
-/// From the pit of scene S4, whose inner sides are 5 m from its middle: beyond the middle of a wall, or as deep in the
-/// floor.
+/// From the pit of scene S4: beyond the middle of a wall, or as deep in the floor.
 uint32_t escaped(const Stage& stage, const States& states) {
+  const double wall = fabs(stage.bodies[1].position[0]);
   uint32_t count = 0;
   for (size_t i = 0; i < states.size(); ++i) {
     const auto& position = states[i].position;
     count += stage.bodies[i].role == Role::dynamic &&
-             (position[1] < -0.5 || fabs(position[0]) > 5.5 || fabs(position[2]) > 5.5);
+             (position[1] < -0.5 || fabs(position[0]) > wall || fabs(position[2]) > wall);
   }
   return count;
 }

@@ -76,8 +76,11 @@ DepthMeter::DepthMeter(const Stage& stage) : solids_(new Solids) {
         status = make_hull({reinterpret_cast<const uint8_t*>(hull.words.data()), hull.byte_count}, real(0), convex);
         break;
       }
+      case Solid::half_space:  // not convex: stages are judged on the box of the same height
+        status = detent::Status::bad_argument;
+        break;
     }
-    if (status != detent::Status::ok) __builtin_trap();  // the stage's sizes are in range
+    if (status != detent::Status::ok) __builtin_trap();  // the stage's shapes are convex and in range
     solids.convexes.push_back(convex);
     solids.rotations.push_back(rotation);
     solids.radii.push_back(bounding_radius(body));

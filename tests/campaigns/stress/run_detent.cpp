@@ -196,6 +196,9 @@ class DetentRun : public detent_stress::Run {
         made.cooked = hulls_[next_hull].rotation;
         def.shape = hull(next_hull++);
         break;
+      case Solid::half_space:
+        def.shape = half_space();
+        break;
     }
     def.type = body.role == Role::fixed       ? BodyType::fixed
                : body.role == Role::kinematic ? BodyType::kinematic

@@ -117,32 +117,32 @@ Stage mass_slab(double ratio) {
   return stage;
 }
 
-Stage pit(uint32_t bodies, uint64_t seed) {
-  constexpr uint32_t k_side = 8;       // bodies a row
-  constexpr double k_distance = 1.2;   // within a layer, m
-  constexpr double k_layer = 1.1;      // m
-  constexpr double k_wall_half = 0.5;  // m
+Stage pit(uint32_t bodies, uint64_t seed, uint32_t side) {
+  constexpr double k_distance = 1.2;     // within a layer, m
+  constexpr double k_layer = 1.1;        // m
+  constexpr double k_wall_half = 0.5;    // m
+  constexpr double k_half_room = 0.625;  // half width of the pit for each body of a row, m
   Stage stage;
   stage.name = "pit";
   stage.ticks = 600;
-  const double height = (bodies / (k_side * k_side) + 3) * k_layer / 2;  // half height
-  stage.bodies.push_back(fixed_box({5 + 2 * k_wall_half, 1, 5 + 2 * k_wall_half}, {0, -1, 0}));
-  for (const double side : {-1.0, 1.0}) {
+  const double half = side * k_half_room;
+  const double height = (bodies / (side * side) + 3) * k_layer / 2;  // half height
+  stage.bodies.push_back(fixed_box({half + 2 * k_wall_half, 1, half + 2 * k_wall_half}, {0, -1, 0}));
+  for (const double sign : {-1.0, 1.0}) {
     stage.bodies.push_back(
-        fixed_box({k_wall_half, height, 5 + 2 * k_wall_half}, {side * (5 + k_wall_half), height, 0}));
-    stage.bodies.push_back(fixed_box({5, height, k_wall_half}, {0, height, side * (5 + k_wall_half)}));
+        fixed_box({k_wall_half, height, half + 2 * k_wall_half}, {sign * (half + k_wall_half), height, 0}));
+    stage.bodies.push_back(fixed_box({half, height, k_wall_half}, {0, height, sign * (half + k_wall_half)}));
   }
   Random random(seed);
   for (uint32_t i = 0; i < bodies; ++i) {
-    const uint32_t layer = i / (k_side * k_side), x = i % k_side, z = i / k_side % k_side;
-    const Triple at = {(x - (k_side - 1) * 0.5) * k_distance, (layer + 1) * k_layer,
-                       (z - (k_side - 1) * 0.5) * k_distance};
+    const uint32_t layer = i / (side * side), x = i % side, z = i / side % side;
+    const Triple at = {(x - (side - 1) * 0.5) * k_distance, (layer + 1) * k_layer, (z - (side - 1) * 0.5) * k_distance};
     // The solids alternate along each row and from row to row.
-    const uint32_t kind = (i + i / k_side) % 4;
+    const uint32_t kind = (i + i / side) % 4;
     Triple size = {};
     switch (static_cast<Solid>(kind)) {
       case Solid::box:
-        for (double& half : size) half = random.uniform(0.2, 0.35);
+        for (double& extent : size) extent = random.uniform(0.2, 0.35);
         break;
       case Solid::sphere:
         size[0] = random.uniform(0.25, 0.4);
@@ -153,6 +153,8 @@ Stage pit(uint32_t bodies, uint64_t seed) {
         break;
       case Solid::icosahedron:
         size[0] = random.uniform(0.3, 0.45);
+        break;
+      case Solid::half_space:  // of the ground alone
         break;
     }
     StageBody body = body_of(static_cast<Solid>(kind), size, at);
@@ -293,6 +295,15 @@ Stage bounce(double height, uint32_t bounces) {
   stage.bodies.push_back(body);
   const double period = 2 * sqrt(2 * (height - 0.5) / stage.gravity);
   stage.ticks = static_cast<uint32_t>(bounces * period / stage.tick);
+  return stage;
+}
+
+Stage slide_and_roll(double speed, double friction) {
+  Stage stage = on_floor("slide_and_roll", 120);
+  StageBody body = body_of(Solid::sphere, {0.5, 0, 0}, {0, 0.5, 0});
+  body.linear_velocity[0] = speed;
+  stage.bodies.push_back(body);
+  for (StageBody& each : stage.bodies) each.friction = friction;
   return stage;
 }
 

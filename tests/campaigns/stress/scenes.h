@@ -12,9 +12,9 @@ Stage tower(uint32_t count, uint64_t seed);
 /// S3: a box of `ratio` times the density on three others; a slab of `ratio` kg on four boxes of 1 kg. 20 s.
 Stage mass_cube(double ratio);
 Stage mass_slab(double ratio);
-/// S4: boxes, spheres, capsules and icosahedra alternately, dropped into a pit of 10 x 10 m. The first five bodies are
-/// the pit.
-Stage pit(uint32_t bodies, uint64_t seed);
+/// S4: boxes, spheres, capsules and icosahedra alternately, dropped into a pit in layers of `side` x `side` bodies; for
+/// 8 the pit has 10 x 10 m. The first five bodies are the pit.
+Stage pit(uint32_t bodies, uint64_t seed, uint32_t side = 8);
 
 enum class Target : uint32_t { wall, plate };
 enum class Projectile : uint32_t { ball, rod };
@@ -34,5 +34,7 @@ Stage incline(double friction, double part);
 Stage sleep_stacks(uint32_t stacks, uint32_t height, bool sleeping);
 /// S12: a sphere of radius 0.5 m whose centre starts `height` above the floor, for enough time for `bounces` bounces.
 Stage bounce(double height, uint32_t bounces);
+/// A sphere of radius 0.5 m on the floor that slides along +x at `speed` and rolls in the end.
+Stage slide_and_roll(double speed, double friction);
 
 }  // namespace detent_stress

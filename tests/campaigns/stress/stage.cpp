@@ -33,6 +33,8 @@ double volume_of(const StageBody& body) {
       return 4 * k_pi / 3 * cube(r) + 2 * k_pi * r * r * body.size[1];
     case Solid::icosahedron:
       return k_volume_of_edge * cube(r / k_radius_of_edge);
+    case Solid::half_space:
+      break;
   }
   return 0;
 }
@@ -43,6 +45,13 @@ void multiply(const double (&a)[4], const double (&b)[4], double (&result)[4]) {
       a[3] * b[0] + a[0] * b[3] + a[1] * b[2] - a[2] * b[1], a[3] * b[1] - a[0] * b[2] + a[1] * b[3] + a[2] * b[0],
       a[3] * b[2] + a[0] * b[1] - a[1] * b[0] + a[2] * b[3], a[3] * b[3] - a[0] * b[0] - a[1] * b[1] - a[2] * b[2]};
   for (int i = 0; i < 4; ++i) result[i] = product[i];
+}
+
+bool is_ground(const StageBody& body) {
+  const double(&q)[4] = body.rotation;
+  return body.role == Role::fixed && q[0] == 0 && q[1] == 0 && q[2] == 0 &&
+         (body.solid == Solid::half_space ||
+          (body.solid == Solid::box && detent_test::is_wide_as_ground(body.size[0], body.size[1], body.size[2])));
 }
 
 }  // namespace
@@ -135,6 +144,27 @@ Stage varied(const Stage& stage, uint64_t seed) {
   return result;
 }
 
+bool has_ground(const Stage& stage) { return std::count_if(stage.bodies.begin(), stage.bodies.end(), is_ground) == 1; }
+
+Stage on_ground(const Stage& stage, detent_test::Ground ground) {
+  Stage result = stage;
+  if (ground == detent_test::Ground::own || !has_ground(stage)) return result;
+  StageBody& body = *std::find_if(result.bodies.begin(), result.bodies.end(), is_ground);
+  const bool was_box = body.solid == Solid::box;
+  const double top = body.position[1] + (was_box ? body.size[1] : 0);
+  if (ground == detent_test::Ground::half_space) {
+    body.solid = Solid::half_space;
+    body.position[1] = top;
+    return result;
+  }
+  for (const int axis : {0, 2})
+    body.size[axis] = std::max(was_box ? body.size[axis] : 0, detent_test::k_ground_half_width);
+  body.solid = Solid::box;
+  body.size[1] = detent_test::k_ground_half_height;
+  body.position[1] = top - detent_test::k_ground_half_height;
+  return result;
+}
+
 double mass_of(const StageBody& body) { return body.mass != 0 ? body.mass : body.density * volume_of(body); }
 
 std::array<double, 3> inverse_inertia_of(const StageBody& body) {
@@ -157,6 +187,8 @@ std::array<double, 3> inverse_inertia_of(const StageBody& body) {
       const double edge = r / k_radius_of_edge, square = k_inverse_inertia_of_edge * edge * edge;
       return {square, square, square};
     }
+    case Solid::half_space:
+      break;
   }
   return {};
 }
@@ -167,6 +199,8 @@ double bounding_radius(const StageBody& body) {
       return sqrt(body.size[0] * body.size[0] + body.size[1] * body.size[1] + body.size[2] * body.size[2]);
     case Solid::capsule:
       return body.size[0] + body.size[1];
+    case Solid::half_space:
+      return HUGE_VAL;
     case Solid::sphere:
     case Solid::icosahedron:
       break;

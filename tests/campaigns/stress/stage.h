@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/common/support/ground.h"
+
 /// The scenes of the stress tests and of the whole-step benchmark, in plain numbers that are the same for every engine.
 /// SI units, Y up.
 namespace detent_stress {
@@ -14,6 +16,7 @@ enum class Solid : uint32_t {
   sphere,       ///< size[0]: radius
   capsule,      ///< size[0]: radius, size[1]: half length of the core, along y
   icosahedron,  ///< size[0]: radius of its 12 vertices
+  half_space,   ///< below the body's origin; of a fixed body
 };
 
 enum class Role : uint32_t { fixed, kinematic, dynamic };
@@ -72,6 +75,11 @@ Stage moved(const Stage& stage, double distance);
 /// A variant of the scene: movable bodies in a random order of creation, and the whole scene rotated about y by a
 /// random angle. Seed 0 changes nothing.
 Stage varied(const Stage& stage, uint64_t seed);
+
+/// Whether the stage has one level ground, a half-space or a wide box.
+bool has_ground(const Stage& stage);
+/// The stage with its ground replaced; unchanged if it has none.
+Stage on_ground(const Stage& stage, detent_test::Ground ground);
 
 /// The mass, kg, of a body of any role.
 double mass_of(const StageBody& body);
