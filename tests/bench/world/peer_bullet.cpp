@@ -1,3 +1,4 @@
+#include <BulletCollision/CollisionDispatch/btManifoldResult.h>
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
 #include <BulletCollision/CollisionShapes/btCapsuleShape.h>
 #include <BulletCollision/CollisionShapes/btConvexHullShape.h>
@@ -51,10 +52,16 @@ std::unique_ptr<btCollisionShape> shape_of(const StageBody& body) {
   return nullptr;
 }
 
+/// As stages have it; Bullet's own is the product.
+btScalar larger_restitution(const btCollisionObject* a, const btCollisionObject* b) {
+  return btMax(a->getRestitution(), b->getRestitution());
+}
+
 class BulletRun : public WorldRun {
  public:
   BulletRun(const Stage& stage, uint32_t iterations, uint32_t steps)
       : steps_(steps), step_time_(scalar(stage.tick / steps)) {
+    gCalculateCombinedRestitutionCallback = larger_restitution;
     heap_before_ = heap_use().bytes;
     configuration_ = std::make_unique<btDefaultCollisionConfiguration>();
     dispatcher_ = std::make_unique<btCollisionDispatcher>(configuration_.get());

@@ -39,8 +39,9 @@ class Peer {
 
 using MakePeer = std::unique_ptr<Peer> (*)(double tick);
 
-/// The scene of that file, played by a peer; or null and why not.
-std::unique_ptr<Play> open_peer_play(const std::string& path, MakePeer make, std::string& problem);
+/// The scene of that file, on that ground if it has one, played by a peer; or null and why not.
+std::unique_ptr<Play> open_peer_play(const std::string& path, detent_test::Ground ground, MakePeer make,
+                                     std::string& problem);
 
 /// c / m = 2 z w and k / m = w^2.
 struct Spring {

@@ -161,8 +161,9 @@ class PeerPlay : public Play {
 
 }  // namespace
 
-std::unique_ptr<Play> open_peer_play(const std::string& path, MakePeer make, std::string& problem) {
-  std::unique_ptr<Script> script = open_script(path, problem);
+std::unique_ptr<Play> open_peer_play(const std::string& path, detent_test::Ground ground, MakePeer make,
+                                     std::string& problem) {
+  std::unique_ptr<Script> script = open_script(path, ground, problem);
   if (script == nullptr) return nullptr;
   auto play = std::make_unique<PeerPlay>(std::move(script), make);
   if (!play->begin(problem)) return nullptr;

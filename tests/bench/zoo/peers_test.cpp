@@ -1,14 +1,18 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <fstream>
 
 #include "tests/bench/zoo/peers.h"
+#include "tests/bench/zoo/script.h"
 #include "tests/campaigns/zoo/mechanics.h"
 
 /// That each peer plays what a scene says, and not something else: its shapes, masses, axes, signs and units. Bounds
 /// are loose: how well it does so is what ./bench zoo tells.
 namespace detent_zoo {
 namespace {
+
+using detent_test::Ground;
 
 constexpr double k_gravity = 9.81;  // m/s^2
 constexpr uint32_t k_second = 60;   // ticks
@@ -32,7 +36,7 @@ class PeerTest : public testing::TestWithParam<Engine> {
  protected:
   void open(const std::string& bodies, const std::string& rest = "") {
     std::string problem;
-    play_ = GetParam().open(scene_of(bodies, rest), problem);
+    play_ = GetParam().open(scene_of(bodies, rest), Ground::own, problem);
     ASSERT_NE(play_, nullptr) << problem;
   }
   void run(uint32_t ticks) {
@@ -193,9 +197,50 @@ TEST_P(PeerTest, says_what_it_cannot_express) {
   std::string problem;
   EXPECT_EQ(GetParam().open(scene_of(pin() + k_arm, R"(, "joints": [{"type": "distance", "a": "pin",
     "b": "arm", "axis": {"limited": true, "upper": 1}}])"),
-                            problem),
+                            Ground::own, problem),
             nullptr);
   EXPECT_EQ(problem, is("ode") ? "rope" : "distance joint");
+}
+
+/// How far a second later the balls are from lying on a ground that is 8 m wide in the scene: 90 and 110 m out.
+std::array<double, 2> heights_above(const Engine& engine, Ground ground) {
+  std::string problem;
+  const std::unique_ptr<Play> play = engine.open(
+      scene_of(R"({"type": "fixed", "position": [0, 3, 0], "shape": {"type": "box", "half_extents": [4, 1, 4]}},
+               {"position": [90, 4.3, 0], "shape": {"type": "sphere", "radius": 0.2}},
+               {"position": [110, 4.3, 0], "shape": {"type": "sphere", "radius": 0.2}})"),
+      ground, problem);
+  EXPECT_EQ(problem, "");
+  for (uint32_t i = 0; i < k_second && play != nullptr; ++i) play->step();
+  const Frame frame = play->frame();
+  return {fabs(frame.bodies.at(1).position.y - 4.2), fabs(frame.bodies.at(2).position.y - 4.2)};
+}
+
+TEST(ground, is_a_half_space_or_a_box_of_200_m_of_the_same_height_in_every_engine) {
+  std::vector<Engine> engines = all_engines();
+  for (const Engine& peer : all_peers()) engines.push_back(peer);
+  for (const Engine& engine : engines) {
+    const auto own = heights_above(engine, Ground::own), infinite = heights_above(engine, Ground::half_space),
+               box = heights_above(engine, Ground::box);
+    EXPECT_GT(own[0], 1) << engine.config;
+    EXPECT_GT(own[1], 1) << engine.config;
+    EXPECT_LT(infinite[0], 0.02) << engine.config;
+    EXPECT_LT(infinite[1], 0.02) << engine.config;
+    EXPECT_LT(box[0], 0.02) << engine.config;
+    EXPECT_GT(box[1], 1) << engine.config;
+  }
+}
+
+TEST(ground, is_level_wide_thick_and_alone) {
+  const auto has = [](const std::string& bodies) { return has_ground(scene_of(bodies)); };
+  const std::string wide = R"({"type": "fixed", "shape": {"type": "box", "half_extents": [4, 1, 4]})";
+  EXPECT_TRUE(has(wide + "}"));
+  EXPECT_TRUE(has(R"({"type": "fixed", "shape": {"type": "half_space"}})"));
+  EXPECT_FALSE(has(wide + "}, " + wide + "}"));
+  EXPECT_FALSE(has(wide + R"(, "rotation": {"axis": [0, 0, 1], "degrees": 5}})"));
+  EXPECT_FALSE(has(R"({"type": "fixed", "shape": {"type": "box", "half_extents": [4, 0.1, 4]}})"));
+  EXPECT_FALSE(has(R"({"type": "fixed", "shape": {"type": "box", "half_extents": [4, 1, 0.5]}})"));
+  EXPECT_FALSE(has(R"({"type": "kinematic", "shape": {"type": "box", "half_extents": [4, 1, 4]}})"));
 }
 
 TEST(peers, are_both_there) {

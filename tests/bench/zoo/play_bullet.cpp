@@ -234,9 +234,9 @@ std::unique_ptr<Peer> make(double tick) { return std::make_unique<BulletPeer>(ti
 
 }  // namespace
 
-std::unique_ptr<Play> open_bullet(const std::string& path, std::string& problem);
-std::unique_ptr<Play> open_bullet(const std::string& path, std::string& problem) {
-  return open_peer_play(path, make, problem);
+std::unique_ptr<Play> open_bullet(const std::string& path, detent_test::Ground ground, std::string& problem);
+std::unique_ptr<Play> open_bullet(const std::string& path, detent_test::Ground ground, std::string& problem) {
+  return open_peer_play(path, ground, make, problem);
 }
 
 }  // namespace detent_zoo

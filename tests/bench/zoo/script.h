@@ -74,7 +74,9 @@ class Script {
   virtual void remove_joint(Id joint) = 0;
 };
 
-/// Of the scene of that file, or null and what is wrong.
-std::unique_ptr<Script> open_script(const std::string& path, std::string& problem);
+/// Of the scene of that file, on that ground if it has one; or null and what is wrong.
+std::unique_ptr<Script> open_script(const std::string& path, detent_test::Ground ground, std::string& problem);
+/// Whether the scene of that file has a ground that can be replaced.
+bool has_ground(const std::string& path);
 
 }  // namespace detent_zoo

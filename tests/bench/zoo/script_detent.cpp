@@ -280,10 +280,16 @@ class DetentScript : public detent_zoo::Script {
 
 namespace detent_zoo {
 
-std::unique_ptr<Script> open_script(const std::string& path, std::string& problem) {
-  std::unique_ptr<detent::OpenedScene> scene = detent::OpenedScene::open(path, problem);
+std::unique_ptr<Script> open_script(const std::string& path, detent_test::Ground ground, std::string& problem) {
+  std::unique_ptr<detent::OpenedScene> scene = detent::OpenedScene::open(path, ground, problem);
   if (scene == nullptr) return nullptr;
   return std::make_unique<detent::DetentScript>(std::move(scene));
+}
+
+bool has_ground(const std::string& path) {
+  std::string problem;
+  const auto scene = detent::OpenedScene::open(path, detent_test::Ground::own, problem);
+  return scene != nullptr && scene->has_ground();
 }
 
 }  // namespace detent_zoo

@@ -5,6 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "tests/common/support/ground.h"
+#include "tests/common/support/stage_time.h"
+
 /// The harness's view of a world, in doubles, independent of the configuration. m, kg, s, rad; world frame unless
 /// stated otherwise.
 namespace detent_zoo {
@@ -76,6 +79,9 @@ class Play {
   /// Makes the calls before the next tick. Returns whether there were any; on failure sets `problem`.
   virtual bool call(std::string& problem) = 0;
   virtual StepFigures step() = 0;
+  /// From here on stages() counts, ns.
+  virtual void start_profile() {}
+  virtual detent_test::StageTimes stages() const { return {}; }
   virtual Frame frame() const = 0;
   virtual uint32_t ticks() const = 0;  ///< the scene's length
   /// The name of a body of Frame::bodies, for messages.
@@ -87,8 +93,8 @@ class Play {
 /// The library in one configuration.
 struct Engine {
   const char* config;
-  /// Opens a scene file at its start; null, with the problem, on failure.
-  std::unique_ptr<Play> (*open)(const std::string& path, std::string& problem);
+  /// Opens a scene file at its start, on that ground if it has one; null, with the problem, on failure.
+  std::unique_ptr<Play> (*open)(const std::string& path, detent_test::Ground ground, std::string& problem);
 };
 std::vector<Engine> all_engines();
 

@@ -9,6 +9,7 @@
 
 #include "file.h"
 #include "scene_repeat.h"
+#include "tests/campaigns/zoo/scene_ground.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -44,13 +45,14 @@ AxisFrame axis_of(const JointAxis& axis) {
 
 }  // namespace
 
-std::unique_ptr<OpenedScene> OpenedScene::open(const std::string& path, std::string& problem) {
+std::unique_ptr<OpenedScene> OpenedScene::open(const std::string& path, detent_test::Ground ground,
+                                               std::string& problem) {
   std::unique_ptr<OpenedScene> scene(new OpenedScene);
-  if (!scene->read(path, problem)) return nullptr;
+  if (!scene->read(path, ground, problem)) return nullptr;
   return scene;
 }
 
-bool OpenedScene::read(const std::string& path, std::string& problem) {
+bool OpenedScene::read(const std::string& path, detent_test::Ground ground, std::string& problem) {
   std::vector<uint8_t> bytes;
   problem = read_file(path, bytes, k_json_bytes_max);
   if (!problem.empty()) return false;
@@ -62,6 +64,10 @@ bool OpenedScene::read(const std::string& path, std::string& problem) {
   path_ = path;
   write_out_repeats(root_, reading_.problems);
   read_scene(root_, reading_);
+  if (SceneBody* const body = ground_of(reading_.scene); body != nullptr) {
+    has_ground_ = true;
+    replace_ground(*body, ground);
+  }
   RunRequest request;
   request.path = path;
   if (reading_.problems.empty() && assets_.read(reading_, request) &&

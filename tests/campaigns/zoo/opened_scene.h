@@ -11,8 +11,8 @@ inline namespace DETENT_NAMESPACE {
 
 class OpenedScene {
  public:
-  /// Null, with the problem, if it cannot be opened.
-  static std::unique_ptr<OpenedScene> open(const std::string& path, std::string& problem);
+  /// On that ground if it has one. Null, with the problem, if it cannot be opened.
+  static std::unique_ptr<OpenedScene> open(const std::string& path, detent_test::Ground ground, std::string& problem);
 
   /// Makes the calls before that tick. Returns whether there were any; on failure sets `problem`.
   bool call(uint32_t tick, std::string& problem);
@@ -21,18 +21,21 @@ class OpenedScene {
   std::vector<BodyId> bodies() const;
   std::vector<JointId> joints() const;
 
+  bool has_ground() const { return has_ground_; }
   const World& world() const { return owned_.world; }
+  World& world() { return owned_.world; }
   Recorder& recorder() { return *recorder_; }
   const SceneText& text() const { return reading_.scene; }
   std::string name_of(BodyId id) const { return player_->name_of(id); }
 
  private:
   OpenedScene() = default;
-  bool read(const std::string& path, std::string& problem);
+  bool read(const std::string& path, detent_test::Ground ground, std::string& problem);
   detent_zoo::BodyFrame body_of(BodyId id) const;
   bool take_problem(std::string& problem) const;
 
   std::string path_;
+  bool has_ground_ = false;
   Node root_;
   SceneReading reading_;
   SceneAssets assets_;

@@ -1,6 +1,9 @@
 #include <detent/world.h>
 
+#include <chrono>
+
 #include "tests/campaigns/zoo/opened_scene.h"
+#include "tests/common/support/stage_profile.h"
 
 #define DETENT_ZOO_TEXT_OF(name) #name
 #define DETENT_ZOO_TEXT(name) DETENT_ZOO_TEXT_OF(name)
@@ -12,6 +15,11 @@ namespace {
 
 using detent_zoo::Frame;
 using detent_zoo::StepFigures;
+
+uint64_t now_ns(void*) {
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();
+  return static_cast<uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count());
+}
 
 /// A scene that the caller steps.
 class DetentPlay : public detent_zoo::Play {
@@ -34,6 +42,9 @@ class DetentPlay : public detent_zoo::Play {
     return figures;
   }
 
+  void start_profile() override { profile_.attach(scene_->world()); }
+  detent_test::StageTimes stages() const override { return profile_.times(); }
+
   Frame frame() const override { return scene_->frame(); }
   uint32_t ticks() const override { return scene_->text().ticks; }
 
@@ -52,12 +63,13 @@ class DetentPlay : public detent_zoo::Play {
   }
 
  private:
+  StageProfile profile_{now_ns};
   std::unique_ptr<OpenedScene> scene_;
   uint32_t tick_ = 0;
 };
 
-std::unique_ptr<detent_zoo::Play> open_play(const std::string& path, std::string& problem) {
-  std::unique_ptr<OpenedScene> scene = OpenedScene::open(path, problem);
+std::unique_ptr<detent_zoo::Play> open_play(const std::string& path, detent_test::Ground ground, std::string& problem) {
+  std::unique_ptr<OpenedScene> scene = OpenedScene::open(path, ground, problem);
   if (scene == nullptr) return nullptr;
   return std::make_unique<DetentPlay>(std::move(scene));
 }

@@ -39,10 +39,11 @@ double measured(const Figures& figures, const std::string& check) {
   return std::max(figures.rest_speed / k_rest_speed, figures.rest_angular_velocity / k_rest_angular_velocity);
 }
 
-Verdict visit(const Entry& entry, const Engine& engine, const std::string& folder) {
+Verdict visit(const Entry& entry, const Engine& engine, const std::string& folder, detent_test::Ground ground) {
   Verdict verdict;
-  const std::unique_ptr<Play> play = engine.open(folder + "/" + entry.scene + ".json", verdict.problem);
+  const std::unique_ptr<Play> play = engine.open(folder + "/" + entry.scene + ".json", ground, verdict.problem);
   if (play == nullptr) return verdict;
+  play->start_profile();
   Watch watch(play->frame());
   for (uint32_t tick = 0; tick < play->ticks(); ++tick) {
     if (play->call(verdict.problem)) watch.calls(play->frame());
@@ -52,6 +53,7 @@ Verdict visit(const Entry& entry, const Engine& engine, const std::string& folde
     if (!(watch.figures().speed.value <= k_hopeless * entry.bounds.at("speed"))) break;
   }
   verdict.figures = watch.finish();
+  verdict.stages = play->stages();
   verdict.gap_joint = play->joint_name(verdict.figures.gap.index);
   verdict.sunk_body = play->body_name(verdict.figures.sunk.index);
   verdict.moved_body = play->body_name(verdict.figures.moved.index);

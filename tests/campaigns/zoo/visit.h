@@ -8,11 +8,13 @@ namespace detent_zoo {
 struct Verdict {
   std::string problem;  ///< why it could not be played; empty if it could
   Figures figures;
+  detent_test::StageTimes stages;     ///< ns, of all ticks
   std::string gap_joint;              ///< the bodies of the joint with the greatest gap
   std::string sunk_body, moved_body;  ///< the bodies that sank and moved most
   std::set<std::string> failed;       ///< the failed checks
 };
-Verdict visit(const Entry& entry, const Engine& engine, const std::string& folder);
+Verdict visit(const Entry& entry, const Engine& engine, const std::string& folder,
+              detent_test::Ground ground = detent_test::Ground::own);
 
 /// The measured value of a check; for `rest`: relative to the limit.
 double measured(const Figures& figures, const std::string& check);
