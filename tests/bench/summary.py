@@ -25,10 +25,11 @@ def by(rows, *keys):
     return groups
 
 
-def compared(rows, name, time, unit, own, wrong):
-    """`own`(row): the library's; `wrong`: what a row counts as answered wrongly, if anything."""
+def compared(rows, names, time, unit, own, wrong):
+    """`names`: what tells lines apart; `own`(row): the library's; `wrong`: what a row counts as answered wrongly, if anything."""
     lines = []
-    for (of,), group in by(rows, name).items():
+    for key, group in by(rows, *names).items():
+        of = ", ".join(part for part in key if part != "own")
         mine = {row["config"]: row for row in group if own(row)}
         peers = [row for row in group if not own(row) and row.get("method", "peer") not in METHODS]
         if not mine:
@@ -41,7 +42,7 @@ def compared(rows, name, time, unit, own, wrong):
             line += [str(sum(row.get(key, 0) for key in wrong for row in mine.values())),
                      str(sum(fastest.get(key, 0) for key in wrong)) if fastest else "-"]
         lines.append(line)
-    show([name, "fx64, us", "f32, us", "fastest peer, us", "which", "fx64 over it"] + (["wrong", "its wrong"] if wrong else []), lines)
+    show([names[0], "fx64, us", "f32, us", "fastest peer, us", "which", "fx64 over it"] + (["wrong", "its wrong"] if wrong else []), lines)
 
 
 METHODS = ("paper", "first_order", "second_order", "corotating", "world_space", "constant_angular_velocity", "mirtich", "baraff", "feature_pairs",
@@ -55,9 +56,10 @@ def main():
     if kind in ("toi", "distance"):
         whole = [row for row in rows if " " not in row["set"]]  # the other rows are parts of these sets
         rows = whole or rows
-        compared(rows, "set", "ns_mean", 1e-3, lambda row: row["method"] in ("default", "closest_points"), ("fn", "fp") if kind == "toi" else ())
+        compared(rows, ("set",), "ns_mean", 1e-3, lambda row: row["method"] in ("default", "closest_points"), ("fn", "fp") if kind == "toi" else ())
     elif kind == "world":
-        compared(rows, "scene", "us_median", 1.0, lambda row: row["engine"] == "detent", ())
+        at_default = [row for row in rows if row.get("substeps", 0) == 0 and row.get("iterations", 0) == 0]
+        compared(at_default, ("scene", "ground"), "us_median", 1.0, lambda row: row["engine"] == "detent", ())
     else:
         keys = [key for key, value in rows[0].items() if isinstance(value, (str, int, float))][:8]
         show(keys, [[f"{row[key]:.3g}" if isinstance(row[key], float) else str(row[key]) for key in keys] for row in rows])
