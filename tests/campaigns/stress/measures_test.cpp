@@ -42,6 +42,8 @@ bool holds(const StageBody& body, const double (&p)[3]) {
     }
     case Solid::sphere:
       return p[0] * p[0] + p[1] * p[1] + p[2] * p[2] <= r * r;
+    case Solid::half_space:
+      return p[1] <= 0;
     case Solid::icosahedron:
       break;
   }
