@@ -114,7 +114,7 @@ def draw_study(scene, rows, path):
 def draw_growth(rows, path):
     """A panel for each part of the scene: the time of a body over the number of bodies."""
     parts = {"falling": [row for row in rows if row["scene"].endswith("-falling")],
-             "in a heap, after 5.5 s": [row for row in rows if not row["scene"].endswith("-falling")]}
+             "in a heap, after 4 s": [row for row in rows if not row["scene"].endswith("-falling")]}
     figure, grid = plt.subplots(1, 2, figsize=(9, 3.6), layout="constrained", sharey=True)
     for axes, (part, of_part) in zip(grid, parts.items()):
         for name in COLOURS:

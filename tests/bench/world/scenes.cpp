@@ -37,12 +37,12 @@ const std::vector<WorldScene>& world_scenes() {
       {"S4", "pit of 1,000 mixed shapes", stage_4, {{"S4-falling", 0, 300}, {"S4", 450, 600}}},
       {"S6", "chain of 30 links, a weight of 100 at its end", stage_6, {{"S6", 0, 1800}}},
       {"S8", "200 dominoes", stage_8, {{"S8", 0, 1800}}},
-      {"S10", "5,000 boxes in stacks, awake", stage_10, {{"S10", 240, 300}}},
-      {"S10-asleep", "the same, with sleeping on", stage_10_asleep, {{"S10-asleep", 240, 300}}},
+      {"S10", "5,000 boxes in stacks, awake", stage_10, {{"S10", 150, 180}}},
+      {"S10-asleep", "the same, with sleeping on", stage_10_asleep, {{"S10-asleep", 150, 180}}},
       {"S10-one-awake",
        "the same, and a ball that rolls between the stacks",
        stage_10_one_awake,
-       {{"S10-one-awake", 240, 300}}},
+       {{"S10-one-awake", 150, 180}}},
   };
   return scenes;
 }
@@ -54,7 +54,7 @@ WorldScene growth_scene(uint32_t bodies) {
   return {name,
           "pit of " + std::to_string(bodies) + " mixed shapes, " + std::to_string(side) + " a row",
           [bodies, side] { return detent_stress::pit(bodies, k_pit_seed, side); },
-          {{name + "-falling", 0, 120}, {name, 330, 360}}};
+          {{name + "-falling", 0, 120}, {name, 240, 270}}};
 }
 
 }  // namespace detent_bench
