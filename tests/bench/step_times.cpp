@@ -1,7 +1,6 @@
 #include "tests/bench/step_times.h"
 
 #include <math.h>
-#include <time.h>
 
 #include <algorithm>
 #include <iterator>
@@ -29,15 +28,9 @@ StepTimes LeastTimes::summary() const {
   return step_times(timed);
 }
 
-uint64_t Interruptions::core_ns() {
-  timespec now;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<uint64_t>(now.tv_sec) * 1000000000u + static_cast<uint64_t>(now.tv_nsec);
-}
-
 double Interruptions::own(double ns, uint64_t core_before) {
   constexpr double k_interruption_ns = 20000;
-  const double own = static_cast<double>(core_ns() - core_before);
+  const double own = static_cast<double>(detent_test::thread_ns() - core_before);
   ++asked_;
   if (ns <= own + k_interruption_ns) return ns;
   ++interrupted_;
@@ -46,7 +39,7 @@ double Interruptions::own(double ns, uint64_t core_before) {
 
 StageShares stage_shares(const detent_test::StageTimes& before, const detent_test::StageTimes& after) {
   uint64_t total = 0;
-  const auto spent = [&](size_t i) { return after[i].ticks - (i < before.size() ? before[i].ticks : 0); };
+  const auto spent = [&](size_t i) { return after[i].ns - (i < before.size() ? before[i].ns : 0); };
   for (size_t i = 0; i < after.size(); ++i) total += spent(i);
   StageShares shares;
   for (size_t i = 0; i < after.size() && total != 0; ++i)

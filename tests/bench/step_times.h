@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tests/common/support/stage_time.h"
+#include "tests/common/support/thread_clock.h"
 
 /// The time of whole steps, for every benchmark that steps a world.
 namespace detent_bench {
@@ -37,7 +38,7 @@ class Interruptions {
   /// step that was interrupted, the thread's own time.
   template <class Step>
   double us_of(const Step& step) {
-    const uint64_t core_before = asks_ ? core_ns() : 0;
+    const uint64_t core_before = asks_ ? detent_test::thread_ns() : 0;
     double ns = step();
     if (asks_) ns = own(ns, core_before);
     asks_ = ns > k_asked_ns;
@@ -51,7 +52,6 @@ class Interruptions {
   /// After shorter steps the core's time is not taken, because that takes its time too; they are interrupted as seldom.
   static constexpr double k_asked_ns = 100000;
 
-  static uint64_t core_ns();
   double own(double ns, uint64_t core_before);
 
   bool asks_ = true;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The tables of docs that show the rows of docs/bench/toi.json and distance.json.
+"""The tables of docs that show the rows of docs/bench/*.json.
 
 usage: tables.py [--write] [ROOT]
 
@@ -131,9 +131,95 @@ def distance(rows):
     return table(["set", "Detent `fx64`, ns: mean, p99, max", "error, of size", "Bullet (double), ns", "error", "ratio"], lines)
 
 
+WHOLE_STEP = [("`fx64`", "fx64"), ("`f32`", "f32"), ("Bullet double", "bullet double"), ("Bullet float", "bullet float"),
+              ("ODE double", "ode double")]
+STUDIED = [entry for entry in WHOLE_STEP if entry[1] != "bullet float"]
+
+
+class StepRows:
+    """Rows of whole steps, by scene, ground and engine; of a study those at each engine's default, and all settings beside."""
+
+    def __init__(self, path):
+        self.rows, self.settings = {}, {}
+        for row in json.loads(path.read_text()):
+            name = row["config"] if row["engine"] == "detent" else f'{row["engine"]} {row["config"]}'
+            key = (row["scene"], row["ground"])
+            if not row.get("substeps") and not row.get("iterations"):
+                self.rows.setdefault(key, {})[name] = row
+            self.settings.setdefault(key, {}).setdefault(name, []).append(row)
+
+
+def three(value):
+    return f"{value:.3g}" if value < 100 else f"{value:,.0f}"
+
+
+def ratio(row, other):
+    value = row["us_median"] / other["us_median"]
+    return f"{value:.2f}" if value >= 0.01 else f"{value:.0e}"
+
+
+def world(rows):
+    lines = []
+    for (scene, ground), of in rows.rows.items():
+        bullet = of["bullet double"]
+        lines.append([scene, ground] + [", ".join(three(of[name][key]) for key in ("us_median", "us_p99", "us_max")) for _, name in WHOLE_STEP] +
+                     [", ".join(ratio(of[name], bullet) for name in ("fx64", "f32", "ode double"))])
+    return table(["scene", "ground"] + [title for title, _ in WHOLE_STEP] + ["`fx64`, `f32`, ODE / Bullet"], lines)
+
+
+def world_stages(rows):
+    stages = next(list(of["fx64"]["stages"]) for of in rows.rows.values() if "stages" in of["fx64"])
+    return table(["scene", "ground"] + [f"`{stage}`" for stage in stages],
+                 [[scene, ground] + [f'{100 * of["fx64"]["stages"][stage]:.0f}' for stage in stages]
+                  for (scene, ground), of in rows.rows.items() if "stages" in of["fx64"]])
+
+
+def study(rows):
+    lines = []
+    for (scene, _), of in rows.rows.items():
+        known = 1e3 * of["fx64"]["measures"]["reference"]
+        lines.append([scene] + [f'{three(of[name]["us_median"])}, {three(1e3 * of[name]["measures"]["error"])}' for _, name in STUDIED] +
+                     [f"{known:.2g}" if known else "exact"])
+    return table(["scene"] + [f"{title}: us, mm" for title, _ in STUDIED] + ["known to, mm"], lines)
+
+
+def study_equal(rows):
+    """The fastest setting whose error is no greater than that of fx64 at its default."""
+    lines = []
+    for (scene, ground), of in rows.rows.items():
+        bound = of["fx64"]["measures"]["error"] * 1.01
+        cells = []
+        for _, name in STUDIED:
+            good = [row for row in rows.settings[scene, ground][name] if row["measures"]["error"] <= bound]
+            if not good:
+                cells.append("-")
+                continue
+            best = min(good, key=lambda row: row["us_median"])
+            if abs(best["us_median"] / of[name]["us_median"] - 1) < 0.1 and of[name] in good:
+                best = of[name]  # the same setting, named otherwise
+            setting = (f'{best["substeps"]} substeps' if best["substeps"] else
+                       f'{best["iterations"]} iterations' if best["iterations"] else "default")
+            cells.append(f'{three(best["us_median"])} ({setting})')
+        lines.append([scene, three(bound / 1.01 * 1e3)] + cells)
+    return table(["scene", "error, mm"] + [title for title, _ in STUDIED], lines)
+
+
+def growth(rows):
+    titles = [entry for entry in STUDIED if any(entry[1] in of for of in rows.rows.values())]
+    lines = {}
+    for (scene, _), of in rows.rows.items():
+        falling = scene.endswith("-falling")
+        line = lines.setdefault(scene.removesuffix("-falling"), {})
+        line[falling] = [f'{of["fx64"]["bodies"]:,}'] + [f'{1e3 * of[name]["us_median"] / of[name]["bodies"]:,.0f}' for _, name in titles]
+    return table(["bodies"] + [f"{title}, {part}" for part in ("falling", "heap") for title, _ in titles],
+                 [line[True] + line[False][1:] for line in lines.values()])
+
+
+SOURCES = {"toi": Rows, "distance": Rows, "world": StepRows, "world-study": StepRows, "world-growth": StepRows}
 TABLES = {make.__name__: (make, source) for make, source in
           [(toi, "toi"), (methods, "toi"), (methods_time, "toi"), (methods_wrong, "toi"), (methods_early, "toi"),
-           (triangles, "toi"), (distance, "distance")]}
+           (triangles, "toi"), (distance, "distance"), (world, "world"), (world_stages, "world"), (study, "world-study"),
+           (study_equal, "world-study"), (growth, "world-growth")]}
 
 
 def main():
@@ -144,7 +230,7 @@ def main():
     if len(arguments) > 1 or any(argument.startswith("-") for argument in arguments):
         sys.exit(__doc__)
     root = Path(arguments[0]) if arguments else Path(__file__).parents[2]
-    rows = {name: Rows(root / "docs/bench" / f"{name}.json") for name in ("toi", "distance")}
+    rows = {}  # read where a page shows them
     count, faults = 0, []
     for page in PAGES:
         path = root / page
@@ -153,6 +239,8 @@ def main():
         def renewed(match):
             nonlocal count
             make, source = TABLES[match[1]]
+            if source not in rows:
+                rows[source] = SOURCES[source](root / "docs/bench" / f"{source}.json")
             made = make(rows[source])
             count += 1
             if made != match[2]:

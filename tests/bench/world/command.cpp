@@ -221,7 +221,7 @@ int run_world(WorldOptions options) {
     return k_exit_bad;
   }
   if (options.growth)
-    printf("ns a body and step, medians\n%s", growth_table_of(rows, true).c_str());
+    printf("ns a body and step, medians\n%s", growth_table_of(rows).c_str());
   else
     printf("ratios of the medians\n%s", world_summary_of(rows).c_str());
   const std::string json = world_json_of(rows, options.study);

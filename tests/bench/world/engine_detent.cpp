@@ -1,7 +1,6 @@
 #include <detent/world.h>
 #include <stdio.h>
 
-#include "tests/bench/timer.h"
 #include "tests/bench/world/engine.h"
 #include "tests/campaigns/stress/run_detent.h"
 #include "tests/common/support/stage_profile.h"
@@ -42,7 +41,7 @@ class DetentRun : public WorldRun {
   detent_test::StageTimes stages() const override { return profile_.times(); }
 
  private:
-  StageProfile profile_{[](void*) { return detent_bench::ticks(); }};
+  StageProfile profile_;
   std::unique_ptr<detent_stress::Run> run_;
   detent_stress::Counts counts_;
   uint64_t losses_ = 0;

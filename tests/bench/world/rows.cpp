@@ -100,7 +100,7 @@ std::string world_summary_of(const std::vector<WorldRow>& rows) {
   return detent_text::table_of(cells, false);
 }
 
-std::string growth_table_of(const std::vector<WorldRow>& rows, bool markdown) {
+std::string growth_table_of(const std::vector<WorldRow>& rows) {
   std::vector<Cells> cells = {{"scene", "bodies", "contact points"}};
   for (const WorldRow& row : rows) {
     if (row.scene == rows.front().scene && row.ground == rows.front().ground)
@@ -114,7 +114,7 @@ std::string growth_table_of(const std::vector<WorldRow>& rows, bool markdown) {
     }
     cells.push_back(line);
   }
-  return detent_text::table_of(cells, markdown);
+  return detent_text::table_of(cells, false);
 }
 
 std::string world_json_of(const std::vector<WorldRow>& rows, bool study) {

@@ -28,7 +28,7 @@ std::string world_table_of(const std::vector<WorldRow>& rows);
 /// A line a scene and ground: this library's configurations against Bullet in double, and each other.
 std::string world_summary_of(const std::vector<WorldRow>& rows);
 /// The time of a body in a step, ns, over the number of bodies.
-std::string growth_table_of(const std::vector<WorldRow>& rows, bool markdown);
+std::string growth_table_of(const std::vector<WorldRow>& rows);
 /// A JSON array, a row a line; of a study with the effort.
 std::string world_json_of(const std::vector<WorldRow>& rows, bool study);
 

@@ -1,7 +1,5 @@
 #include <detent/world.h>
 
-#include <chrono>
-
 #include "tests/campaigns/zoo/opened_scene.h"
 #include "tests/common/support/stage_profile.h"
 
@@ -15,11 +13,6 @@ namespace {
 
 using detent_zoo::Frame;
 using detent_zoo::StepFigures;
-
-uint64_t now_ns(void*) {
-  const auto now = std::chrono::steady_clock::now().time_since_epoch();
-  return static_cast<uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count());
-}
 
 /// A scene that the caller steps.
 class DetentPlay : public detent_zoo::Play {
@@ -63,7 +56,7 @@ class DetentPlay : public detent_zoo::Play {
   }
 
  private:
-  StageProfile profile_{now_ns};
+  StageProfile profile_;
   std::unique_ptr<OpenedScene> scene_;
   uint32_t tick_ = 0;
 };

@@ -2,27 +2,36 @@
 #include <detent/world.h>
 
 #include "tests/common/support/stage_time.h"
+#include "tests/common/support/thread_clock.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
-/// The profile of a world by a clock of the caller's. It must outlive the world's steps.
+/// The profile of a world by the thread's clock, less the time of reading it. It must outlive the world's steps.
 class StageProfile {
  public:
-  explicit StageProfile(uint64_t (*now)(void* user)) { profile_.now = now; }
+  StageProfile() {
+    profile_.now = [](void*) { return detent_test::thread_ns(); };
+  }
   StageProfile(const StageProfile&) = delete;
   StageProfile& operator=(const StageProfile&) = delete;
 
-  void attach(World& world) { world.hooks.profile = &profile_; }
+  void attach(World& world) {
+    overhead_ = detent_test::thread_clock_overhead();
+    world.hooks.profile = &profile_;
+  }
   detent_test::StageTimes times() const {
     detent_test::StageTimes times;
-    for (uint32_t i = 0; i < k_step_stage_count; ++i)
-      times.push_back({stage_name(static_cast<StepStage>(i)), profile_.ticks[i]});
+    for (uint32_t i = 0; i < k_step_stage_count; ++i) {
+      const uint64_t all = profile_.ticks[i], read = profile_.steps * overhead_;
+      times.push_back({stage_name(static_cast<StepStage>(i)), all > read ? all - read : 0});
+    }
     return times;
   }
 
  private:
   Profile profile_;
+  uint64_t overhead_ = 0;  ///< ns
 };
 
 }  // namespace DETENT_NAMESPACE
