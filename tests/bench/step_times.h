@@ -49,8 +49,8 @@ class Interruptions {
   uint64_t interrupted() const { return interrupted_; }
 
  private:
-  /// After shorter steps the core's time is not taken, because that takes its time too; they are interrupted as seldom.
-  static constexpr double k_asked_ns = 100000;
+  /// After shorter steps, those of sleepers, the core's time is not taken, because that takes longer than they do.
+  static constexpr double k_asked_ns = 2000;
 
   double own(double ns, uint64_t core_before);
 

@@ -44,6 +44,8 @@ TEST(step_times, short_steps_are_not_asked_about) {
   Interruptions interruptions;
   for (int i = 0; i < 10; ++i) interruptions.us_of([] { return 50.0; });
   EXPECT_EQ(interruptions.asked(), 1u);
+  for (int i = 0; i < 10; ++i) interruptions.us_of([] { return 5000.0; });
+  EXPECT_EQ(interruptions.asked(), 10u);  // all but the one after the last short step
 }
 
 TEST(stages, shares_are_of_the_time_between_two_readings) {
