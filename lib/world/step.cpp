@@ -250,7 +250,7 @@ void Step::build_islands() {
   const Span<const uint32_t> slots = scratch_.island_bodies;
   report_.contacts.colour_overflows =
       order_contacts(bodies_.properties, contacts_, islands_, bodies_.work, scratch_.contact_sort, contact_order());
-  with_team(moving_.count, [&](Team* team) {
+  with_team(islands_.count, [&](Team* team) {
     share(team, islands_, k_islands_shared, [&](Span<Island> part) {
       estimate_loads(settings_, bodies_.poses, bodies_.properties, slots, part, contact_order(), scratch_.contact_sort,
                      bodies_.work, contacts_);
@@ -258,7 +258,7 @@ void Step::build_islands() {
   });
   if (joint_ops_ != nullptr)
     report_.lost.joint_couplings = joint_ops_->order(settings_, solver_bodies_, slots, islands_, joints_);
-  with_team(moving_.count, [&](Team* team) {
+  with_team(islands_.count, [&](Team* team) {
     share(team, islands_, k_islands_shared, [&](Span<Island> part) {
       choose_substeps(settings_, bodies_.properties, bodies_.work, slots, contact_order(), part, contacts_,
                       bodies_.activities);

@@ -2,7 +2,7 @@
 
 namespace detent_host {
 
-ThreadPool::ThreadPool(uint32_t workers) {
+ThreadPool::ThreadPool(uint32_t workers, std::chrono::nanoseconds awake) : awake_(awake) {
   if (workers == 0) workers = std::thread::hardware_concurrency();
   for (uint32_t i = 1; i < workers; ++i) threads_.emplace_back([this] { work(); });
 }
@@ -27,6 +27,7 @@ void ThreadPool::run(void* context, uint32_t count, void (*task)(void*), void* a
   pool.task_ = task;
   pool.argument_ = argument;
   pool.left_ = count;
+  ++pool.groups_;
   pool.begins_.notify_all();
   while (pool.left_ != 0) pool.call(lock);
   pool.ends_.wait(lock, [&] { return pool.running_ == 0; });
@@ -37,9 +38,19 @@ void ThreadPool::work() {
   for (;;) {
     begins_.wait(lock, [this] { return stops_ || left_ != 0; });
     if (stops_) return;
+    const uint32_t group = groups_;
     call(lock);
     if (running_ == 0) ends_.notify_one();
+    if (left_ != 0) continue;
+    lock.unlock();
+    stay_awake(group);
+    lock.lock();
   }
+}
+
+void ThreadPool::stay_awake(uint32_t group) const {
+  const auto end = std::chrono::steady_clock::now() + awake_;
+  while (groups_ == group && std::chrono::steady_clock::now() < end) std::this_thread::yield();
 }
 
 void ThreadPool::call(std::unique_lock<std::mutex>& lock) {

@@ -1,6 +1,8 @@
 #pragma once
 #include <detent/tasks.h>
 
+#include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <thread>
@@ -13,8 +15,9 @@ namespace detent_host {
 /// step uses it, the others run on their own threads alone. Must outlive the steps that use it.
 class ThreadPool {
  public:
-  /// `workers`: the thread that steps and `workers` - 1 others; 0: as many as the machine has processors.
-  explicit ThreadPool(uint32_t workers = 0);
+  /// `workers`: the thread that steps and `workers` - 1 others; 0: as many as the machine has processors. `awake`: for
+  /// so long a thread waits for the next stage before it sleeps; to wake it takes longer than most stages.
+  explicit ThreadPool(uint32_t workers = 0, std::chrono::nanoseconds awake = std::chrono::microseconds(100));
   ~ThreadPool();
   ThreadPool(const ThreadPool&) = delete;
   ThreadPool& operator=(const ThreadPool&) = delete;
@@ -34,11 +37,15 @@ class ThreadPool {
  private:
   static void run(void* context, uint32_t count, void (*task)(void*), void* argument);
   void work();
+  /// Waits for the next group of calls, without sleeping.
+  void stay_awake(uint32_t group) const;
   /// Makes one of the calls that are left. Range: `lock` is held.
   void call(std::unique_lock<std::mutex>& lock);
 
-  std::mutex busy_;   ///< held while a step uses the pool
-  std::mutex mutex_;  ///< of the members below
+  const std::chrono::nanoseconds awake_;
+  std::atomic<uint32_t> groups_ = 0;  ///< number of calls of run() so far
+  std::mutex busy_;                   ///< held while a step uses the pool
+  std::mutex mutex_;                  ///< of the members below
   std::condition_variable begins_, ends_;
   void (*task_)(void*) = nullptr;
   void* argument_ = nullptr;

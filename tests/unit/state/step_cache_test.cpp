@@ -165,11 +165,21 @@ struct Field {
     ball = lab.add(def);
     lab.run(1);
   }
+  /// Steps once. Returns the number of nodes and leaves at which a query of the tree with the ball's bounds looks.
   uint32_t visited() {
     const StepReport report = lab.run(1);
     EXPECT_EQ(report.awake, 1u);
     StateView<uint8_t> state = view_of(lab.world);
-    return cache_of(state).cache.tree.visited;
+    const StepCacheView cache = cache_of(state);
+    const Bounds& box = cache.bounds[ball.slot - 1];
+    uint32_t count = 0;
+    const auto meets = [&](const Bounds& bounds) {
+      ++count;
+      return overlap(bounds, box);
+    };
+    cache.tree.walk(
+        meets, [](const Bounds&, const Bounds&) { return false; }, [](uint32_t) {});
+    return count;
   }
 };
 

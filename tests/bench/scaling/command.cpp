@@ -1,0 +1,124 @@
+#include "tests/bench/scaling/command.h"
+
+#include <stdio.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "tests/bench/scaling/schedule.h"
+#include "tests/campaigns/stress/scenes.h"
+
+namespace detent_bench {
+
+namespace {
+
+constexpr const char* k_help =
+    R"(What several threads bring (docs/threads.md). For each scene, on this machine:
+  one       ms, median tick on one thread
+  shared    % of the tick in loops that threads share
+  2, 3 ...  how many times as fast a tick is on so many threads, as measured
+  bound     the same for 2 to 64 threads, computed: the parts of the loops, timed on one thread, are scheduled greedily; a
+            loop and a group of loops cost what they cost here, a loop once for each doubling of the threads
+All digests are compared: exit code 1 if one differs.)";
+
+constexpr uint32_t k_bounds[] = {2, 4, 8, 16, 32, 64};
+
+std::vector<ScalingScene> scaling_scenes() {
+  using namespace detent_stress;
+  return {{"S1", [] { return pyramid(20); }, 60, 60},
+          {"S4", [] { return pit(1000, 1); }, 450, 30},
+          {"S4-falling", [] { return pit(1000, 1); }, 100, 60},
+          {"S4-8000", [] { return pit(8000, 1, 23); }, 240, 10},
+          {"S8", [] { return dominoes(200); }, 120, 60},
+          {"S10", [] { return sleep_stacks(1000, 5, false); }, 60, 10}};
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values.empty() ? 0 : values[values.size() / 2];
+}
+
+double median_bound(const ScalingRow& row, uint32_t threads, const SharingCost& cost) {
+  std::vector<double> ns;
+  for (const TickRecord& tick : row.ticks) ns.push_back(tick.ns / scheduled_ns(tick, threads, cost));
+  return median(ns);
+}
+
+template <class Names>
+bool is_wanted(const Names& names, const std::string& name) {
+  return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
+}
+
+nlohmann::ordered_json report(const ScalingRow& row, const std::vector<uint32_t>& threads, const SharingCost& cost) {
+  std::vector<double> part;
+  for (const TickRecord& tick : row.ticks) part.push_back(shared_part(tick));
+  nlohmann::ordered_json json = {{"config", row.config},     {"scene", row.scene},
+                                 {"contacts", row.contacts}, {"one_thread_ms", row.measured[0] / 1e6},
+                                 {"shared", median(part)},   {"same", row.same}};
+  printf("%-5s %-10s %6u %8.3f %6.1f ", row.config.c_str(), row.scene.c_str(), row.contacts, row.measured[0] / 1e6,
+         100 * median(part));
+  for (size_t i = 1; i < threads.size(); ++i) {
+    const double times = row.measured[0] / row.measured[i];
+    json["measured"][std::to_string(threads[i])] = times;
+    printf("%6.2f", times);
+  }
+  printf("  ");
+  for (const uint32_t count : k_bounds) {
+    const double times = median_bound(row, count, cost);
+    json["bound"][std::to_string(count)] = times;
+    printf("%6.2f", times);
+  }
+  printf("%s\n", row.same ? "" : "  DIGESTS DIFFER");
+  fflush(stdout);
+  return json;
+}
+
+}  // namespace
+
+CLI::App* add_scaling_command(CLI::App& app, ScalingOptions& options) {
+  CLI::App* command = app.add_subcommand("scaling", k_help);
+  command->add_option("--scenes", options.scenes, "Only these")->delimiter(',');
+  command->add_option("--configs", options.configs, "Only these")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"fx64", "fx32", "f32", "f64"}));
+  command->add_option("--threads", options.threads, "Numbers of threads to measure; the machine's, if none are given")
+      ->delimiter(',')
+      ->check(CLI::Range(2, 64));
+  command->add_option("--json", options.json, "Write the rows to this file");
+  return command;
+}
+
+int run_scaling(const ScalingOptions& options) {
+  std::vector<uint32_t> threads = {1};
+  threads.insert(threads.end(), options.threads.begin(), options.threads.end());
+  if (threads.size() == 1) threads.push_back(std::max(2u, std::thread::hardware_concurrency()));
+  const SharingCost cost = measure_sharing_cost();
+  printf("sharing costs %.2f us a loop and %.1f us a group of loops, on two threads\n", cost.loop / 1e3,
+         cost.group / 1e3);
+  printf("%-5s %-10s %6s %8s %6s ", "", "", "cont.", "one, ms", "shared");
+  for (size_t i = 1; i < threads.size(); ++i) printf("%6u", threads[i]);
+  printf("  ");
+  for (const uint32_t count : k_bounds) printf("%6u", count);
+  printf(" (bound)\n");
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  bool same = true;
+  for (const ScalingScene& scene : scaling_scenes()) {
+    if (!is_wanted(options.scenes, scene.name)) continue;
+    for (const ScalingEngine& engine : all_scaling_engines()) {
+      if (!is_wanted(options.configs, engine.config)) continue;
+      const ScalingRow row = engine.measure(scene, threads);
+      same = same && row.same;
+      rows.push_back(report(row, threads, cost));
+    }
+  }
+  if (!same) fprintf(stderr, "bench: digests differ\n");
+  if (!options.json.empty() && !(std::ofstream(options.json) << rows.dump(1) << "\n")) {
+    fprintf(stderr, "bench: %s cannot be written\n", options.json.c_str());
+    return 1;
+  }
+  return same ? 0 : 1;
+}
+
+}  // namespace detent_bench

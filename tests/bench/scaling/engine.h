@@ -1,0 +1,55 @@
+#pragma once
+#include <stdint.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tests/campaigns/stress/stage.h"
+
+/// What the benchmark of threads asks of a configuration.
+namespace detent_bench {
+
+/// A loop that threads share: the time of each of its parts, ns.
+struct SharedLoop {
+  std::vector<double> parts;
+};
+
+/// One tick on one thread.
+struct TickRecord {
+  double ns = 0;        ///< the whole tick
+  uint32_t groups = 0;  ///< calls of Tasks::run
+  std::vector<SharedLoop> loops;
+};
+
+struct ScalingScene {
+  std::string name;
+  std::function<detent_stress::Stage()> stage;
+  uint32_t settling, ticks;  ///< ticks before the measurement, and measured
+};
+
+struct ScalingRow {
+  std::string config, scene;
+  uint32_t contacts = 0;          ///< in the last tick
+  std::vector<TickRecord> ticks;  ///< recorded on one thread
+  std::vector<double> measured;   ///< median ns of a tick, for each of the numbers of threads that were asked for
+  bool same = true;               ///< whether all digests were equal
+};
+
+/// What sharing costs on this machine, ns.
+struct SharingCost {
+  double loop = 0;   ///< a loop of two parts on two threads takes so much longer than one part
+  double group = 0;  ///< from a call of Tasks::run until the second thread works
+};
+
+struct ScalingEngine {
+  std::string config;
+  std::function<ScalingRow(const ScalingScene& scene, const std::vector<uint32_t>& threads)> measure;
+};
+using ScalingEngineList = std::vector<ScalingEngine>;
+
+/// Every configuration of this build.
+ScalingEngineList all_scaling_engines();
+SharingCost measure_sharing_cost();
+
+}  // namespace detent_bench

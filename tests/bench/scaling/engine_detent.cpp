@@ -1,0 +1,98 @@
+#include "tests/bench/scaling/engine.h"
+
+#include <detent/recording.h>
+#include <detent/world.h>
+
+#include <algorithm>
+
+#include "tests/bench/timer.h"
+#include "tests/campaigns/stress/run_detent.h"
+#include "threads/thread_pool.h"
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+
+namespace {
+
+using namespace detent_bench;
+
+/// Records the parts of the loops of a tick, which one thread runs one after the other.
+class Recorded {
+ public:
+  Tasks tasks() {
+    probe_ = {nullptr, loop_begins, nullptr, part_begins, part_ends, this};
+    Tasks tasks;
+    tasks.run = run;
+    tasks.context = this;
+    tasks.workers = 2;
+    tasks.probe = &probe_;
+    return tasks;
+  }
+  TickRecord tick;
+
+ private:
+  static Recorded& self(void* context) { return *static_cast<Recorded*>(context); }
+  static void run(void* context, uint32_t count, void (*task)(void*), void* argument) {
+    ++self(context).tick.groups;
+    for (uint32_t i = 0; i < count; ++i) task(argument);
+  }
+  static void loop_begins(void* context, uint32_t) { self(context).tick.loops.push_back({}); }
+  static void part_begins(void* context) { self(context).start_ = monotonic_ns(); }
+  static void part_ends(void* context) {
+    Recorded& recorded = self(context);
+    recorded.tick.loops.back().parts.push_back(static_cast<double>(monotonic_ns() - recorded.start_));
+  }
+
+  TaskProbe probe_;
+  uint64_t start_ = 0;
+};
+
+/// A run of a scene up to its measured ticks.
+struct Settled {
+  std::unique_ptr<detent_stress::Run> run;
+
+  explicit Settled(const ScalingScene& scene) {
+    std::string problem;
+    run = stress_engine().make(scene.stage(), {}, problem);
+    for (uint32_t i = 0; i < scene.settling; ++i) step(world());
+  }
+  World& world() { return world_of(*run); }
+};
+
+ScalingRow measure(const ScalingScene& scene, const std::vector<uint32_t>& threads) {
+  ScalingRow row;
+  row.config = stress_engine().config;
+  row.scene = scene.name;
+  Settled alone(scene);
+  Recorded recorded;
+  alone.world().hooks.tasks = recorded.tasks();
+  for (uint32_t i = 0; i < scene.ticks; ++i) {
+    recorded.tick = {};
+    const uint64_t start = monotonic_ns();
+    row.contacts = step(alone.world()).contacts.count;
+    recorded.tick.ns = static_cast<double>(monotonic_ns() - start);
+    row.ticks.push_back(recorded.tick);
+  }
+  for (const uint32_t count : threads) {
+    detent_host::ThreadPool pool(count);
+    Settled shared(scene);
+    if (count > 1) shared.world().hooks.tasks = pool.tasks<Tasks>();
+    std::vector<double> ns;
+    for (uint32_t i = 0; i < scene.ticks; ++i) {
+      const uint64_t start = monotonic_ns();
+      step(shared.world());
+      ns.push_back(static_cast<double>(monotonic_ns() - start));
+    }
+    std::sort(ns.begin(), ns.end());
+    row.measured.push_back(ns[ns.size() / 2]);
+    row.same = row.same && digest(shared.world()) == digest(alone.world());
+  }
+  return row;
+}
+
+}  // namespace
+
+void add_scaling_engine(ScalingEngineList& engines) { engines.push_back({stress_engine().config, measure}); }
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent
