@@ -16,6 +16,8 @@ if(TARGET detent_tool)
   install(TARGETS detent_tool RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
   file(GLOB detent_pages CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/docs/*.md ${PROJECT_SOURCE_DIR}/docs/*.schema.json)
   install(FILES ${detent_pages} DESTINATION ${CMAKE_INSTALL_DOCDIR})
+  # The pages of `detent view`, if ports/web/build has made them.
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/build/web/view/ DESTINATION ${CMAKE_INSTALL_DATADIR}/detent/view OPTIONAL)
 endif()
 
 set(detent_libraries "")

@@ -1,6 +1,7 @@
 #include "engine.h"
 
 #include <detent/recording.h>
+#include <string.h>
 
 #include "examples/scenes/scene.h"
 #include "file.h"
@@ -73,6 +74,20 @@ std::vector<SceneLine> scene_lines() {
   return lines;
 }
 
+Assets copied_scene_assets() {
+  Assets copies;
+  const AssetTable table = scene_assets();
+  for (uint32_t i = 0; i < table.count; ++i) {
+    const Asset& asset = table.assets[i];
+    AssetBytes copy;
+    copy.words.resize((asset.byte_count + 7) / 8);
+    memcpy(copy.words.data(), asset.bytes, asset.byte_count);
+    copy.byte_count = asset.byte_count;
+    copies.push_back(copy);
+  }
+  return copies;
+}
+
 }  // namespace
 
 Engine engine() {
@@ -90,7 +105,8 @@ Engine engine() {
           explain,
           trace,
           play_scene,
-          describe_scene};
+          describe_scene,
+          copied_scene_assets};
 }
 
 }  // namespace DETENT_NAMESPACE

@@ -171,6 +171,8 @@ struct Engine {
   RunOutcome (*run)(const RunRequest& request, const std::function<void(const RunLine&)>& print,
                     const Progress& progress);
   std::vector<ObjectInfo> (*scene_format)();
+  /// The assets of the built-in scenes.
+  Assets (*scene_assets)();
 };
 
 /// The engines of this build, in the order fx64, fx32, f32, f64.

@@ -13,6 +13,7 @@
 #include "stream.h"
 #include "text.h"
 #include "verification.h"
+#include "view.h"
 
 namespace {
 
@@ -121,6 +122,17 @@ int run_diff(DiffRequest request, const std::vector<std::string>& asset_paths, c
   }
   if (!report.compared(request.a, request.b, difference)) return k_exit_usage;
   return difference.different ? k_exit_bad : difference.damaged ? k_exit_usage : k_exit_good;
+}
+
+int run_view(ViewRequest& request) {
+  if (request.output.empty()) {
+    request.output = request.path;
+    if (ends_with(request.output, k_compressed_suffix)) request.output.resize(request.output.size() - 4);
+    request.output += ".html";
+  }
+  if (overwrites(request.output, {request.path}) || overwrites(request.output, request.asset_paths))
+    return k_exit_usage;
+  return write_view(request) ? k_exit_good : k_exit_bad;
 }
 
 int run_compress(const std::vector<std::string>& paths, const Report& report) {
@@ -305,6 +317,13 @@ int run_command(int argc, char** argv) {
   trace->add_option("--to", tracing.reading.to, "The last tick")->required()->check(CLI::NonNegativeNumber);
   add_assets(trace, asset_paths);
 
+  ViewRequest viewing;
+  CLI::App* view = app.add_subcommand(
+      "view", "Write a page that replays, verifies and draws a recording in a browser, without a network");
+  view->add_option("file", viewing.path, "A recording")->required();
+  view->add_option("-o,--output", viewing.output, "The page to write; FILE.html if it is not given");
+  add_assets(view, viewing.asset_paths);
+
   CLI::App* info = app.add_subcommand(
       "info", "Print the contents of recordings, hulls, compounds, meshes and height fields, without replaying them");
   info->add_option("file", paths, "Recordings and cooked shapes")->required();
@@ -379,7 +398,7 @@ int run_command(int argc, char** argv) {
   run->add_flag("--schema", schema, "Print the JSON Schema of scenes, and nothing else");
   run->add_flag("--fields", fields, "Print the tables of docs/scene.md, and nothing else");
 
-  for (CLI::App* command : {record, verify, state, recover, compress, diff, trace, info, scenes, cook, run}) {
+  for (CLI::App* command : {record, verify, state, recover, compress, diff, trace, view, info, scenes, cook, run}) {
     command->add_flag("--json", report.json, "Print one JSON object per file, each on one line");
   }
 
@@ -412,6 +431,8 @@ int run_command(int argc, char** argv) {
   if (recover->parsed()) return run_recover(reading, output, asset_paths, report);
   if (diff->parsed()) return run_diff(diffing, asset_paths, report);
   if (trace->parsed()) return run_trace(tracing, trace_level, asset_paths, report);
+  viewing.json = report.json;
+  if (view->parsed()) return run_view(viewing);
   if (compress->parsed()) return run_compress(paths, report);
   if (info->parsed()) return run_info(paths, report);
   if (run->parsed() && (schema || fields)) {

@@ -1,0 +1,35 @@
+#pragma once
+#include <detent/recording.h>
+#include <detent/world.h>
+
+#include "desk.h"
+
+namespace detent_web {
+
+/// A growing array of bytes: what a recorder writes.
+struct Bytes {
+  uint8_t* data = nullptr;
+  uint32_t count = 0;
+  uint32_t capacity = 0;
+
+  bool append(const uint8_t* from, uint32_t byte_count);
+};
+
+/// A world with all the memory that it uses: its block, its table of assets, its event buffers.
+struct Session {
+  World world = {};
+  uint8_t* block = nullptr;
+  Asset* assets = nullptr;
+  void* events = nullptr;
+  StepReport report = {};
+  Recorder* recorder = nullptr;  ///< makes all calls; null in a replay, whose world only its recording changes
+  uint8_t recorder_buffer[k_recording_buffer_bytes];
+  Bytes recording = {};
+};
+
+/// Makes an empty world. `asset_at` has `asset_count` pairs of an address and a number of bytes, which the caller
+/// keeps. Errors: as create_world(), and buffer_too_small without memory.
+Status open_session(Session& session, const WorldDef& def, const uint32_t* asset_at, uint32_t asset_count);
+void close_session(Session& session);
+
+}  // namespace detent_web

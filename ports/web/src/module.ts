@@ -1,0 +1,122 @@
+/** The WebAssembly module of one configuration: its functions, its memory, and the desk (native/desk.h). */
+import { type Codec, Taker } from './codec.js';
+import { statuses, type Status, type Vec3 } from './types.js';
+
+/** A call that was refused. It has changed nothing. */
+export class DetentError extends Error {
+  constructor(
+    readonly status: Status,
+    message: string,
+  ) {
+    super(message);
+    this.name = 'DetentError';
+  }
+}
+
+type Native = Record<string, (...args: (number | bigint)[]) => number & bigint>;
+
+/** Where the package's own modules are; `source` may also be their bytes, a compiled module, or another URL. */
+export type ModuleSource = 'fx64' | 'f32' | URL | Response | BufferSource | WebAssembly.Module;
+
+async function compile(source: ModuleSource): Promise<WebAssembly.Module> {
+  if (source instanceof WebAssembly.Module) return source;
+  if (typeof source === 'string') source = new URL(`./detent.${source}.wasm`, import.meta.url);
+  if (source instanceof URL && source.protocol === 'file:') {
+    // Node.js cannot fetch a file. The name is no literal, so that a bundler for browsers does not look for the module.
+    const name = 'node:fs/promises';
+    const files = (await import(name)) as typeof import('node:fs/promises');
+    return WebAssembly.compile(await files.readFile(source));
+  }
+  if (source instanceof URL) source = await fetch(source);
+  if (source instanceof Response) return WebAssembly.compile(await source.arrayBuffer());
+  return WebAssembly.compile(source as BufferSource);
+}
+
+/** Where bytes lie in the module's memory. */
+export interface Place {
+  address: number;
+  count: number;
+}
+
+export class Module {
+  readonly native: Native;
+  private readonly memory: WebAssembly.Memory;
+
+  private constructor(instance: WebAssembly.Instance) {
+    this.native = instance.exports as unknown as Native;
+    this.memory = instance.exports['memory'] as WebAssembly.Memory;
+  }
+  static async load(source: ModuleSource): Promise<Module> {
+    return new Module(await WebAssembly.instantiate(await compile(source), {}));
+  }
+
+  /** Makes a call that returns a status; throws if it is not ok. */
+  call(name: string, ...args: (number | bigint)[]): void {
+    this.check(this.native[name]!(...args));
+  }
+  check(code: number): void {
+    if (code !== 0) throw new DetentError(statuses[code] ?? 'bad_argument', this.statusText(code));
+  }
+  statusText(code: number): string {
+    return this.text(this.native['status_text']!(code));
+  }
+  /** A function that returns a number. */
+  ask(name: string, ...args: (number | bigint)[]): number {
+    return this.native[name]!(...args);
+  }
+  askBig(name: string, ...args: (number | bigint)[]): bigint {
+    return BigInt.asUintN(64, this.native[name]!(...args));
+  }
+
+  /** Lays numbers on the desk; returns their count. */
+  put(values: number[]): number {
+    const address = this.native['desk_room']!(values.length);
+    if (address === 0) throw new DetentError('buffer_too_small', 'there is no memory for the arguments');
+    new Float64Array(this.memory.buffer, address, values.length).set(values);
+    return values.length;
+  }
+  /** What the last call has left on the desk; valid until the next one. */
+  desk(): Taker {
+    return new Taker(new Float64Array(this.memory.buffer, this.native['desk_room']!(0)));
+  }
+  get<Out>(codec: Codec<any, Out>): Out {
+    return codec.take(this.desk());
+  }
+
+  allocate(count: number): number {
+    const address = this.native['allocate']!(count);
+    if (address === 0) throw new DetentError('buffer_too_small', `there is no memory for ${count} bytes`);
+    return address;
+  }
+  free(address: number): void {
+    this.native['release']!(address);
+  }
+  bytes(address: number, count: number): Uint8Array {
+    return new Uint8Array(this.memory.buffer, address, count);
+  }
+  floats(address: number, count: number): Float32Array {
+    return new Float32Array(this.memory.buffer, address, count);
+  }
+  /** Copies bytes into the module's memory. */
+  store(bytes: Uint8Array): Place {
+    const address = this.allocate(bytes.length);
+    this.bytes(address, bytes.length).set(bytes);
+    return { address, count: bytes.length };
+  }
+  /** Lays out a table of assets, as the module takes it. */
+  storeTable(places: Place[]): number {
+    const address = this.allocate(8 * places.length);
+    const words = new Uint32Array(this.memory.buffer, address, 2 * places.length);
+    places.forEach((place, i) => words.set([place.address, place.count], 2 * i));
+    return address;
+  }
+  text(address: number): string {
+    const bytes = new Uint8Array(this.memory.buffer);
+    let end = address;
+    while (bytes[end] !== 0) ++end;
+    return new TextDecoder().decode(bytes.slice(address, end));
+  }
+}
+
+/** Numbers as they are passed for a vector. */
+export const spread = (v: Vec3): [number, number, number] => [Number(v[0]), Number(v[1]), Number(v[2])];

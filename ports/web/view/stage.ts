@@ -1,0 +1,163 @@
+/** The drawn scene: light, camera, bodies, overlays. */
+import {
+  Color,
+  DirectionalLight,
+  Fog,
+  HemisphereLight,
+  PCFShadowMap,
+  PerspectiveCamera,
+  Raycaster,
+  Scene,
+  Vector2,
+  Vector3,
+  WebGLRenderer,
+} from 'three';
+import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import type { BodyId, Vec3, WorldView } from '../src/index.js';
+import { Bodies } from './bodies.js';
+import { type ColourBy } from './colours.js';
+import { type Extent } from './extent.js';
+import { Overlays } from './overlays.js';
+
+export interface Look {
+  colourBy: ColourBy;
+  contacts: boolean;
+  joints: boolean;
+  bounds: boolean;
+  follow: boolean;
+  speedMax: number;
+}
+
+/** The direction from which the camera looks at first. */
+const viewFrom = new Vector3(1.25, 1.1, 2.3).normalize();
+const background = '#14181e';
+/** A body this far from the scene's origin, m, is followed to a new origin: floats stay fine near the camera. */
+const originDistanceMax = 4096;
+
+export class Stage {
+  readonly bodies: Bodies;
+  readonly overlays: Overlays;
+  private readonly renderer: WebGLRenderer;
+  private readonly scene = new Scene();
+  private readonly camera: PerspectiveCamera;
+  private readonly controls: OrbitControls;
+  private readonly light = new DirectionalLight('#fff4e0', 2.4);
+  private origin: Vec3;
+  private readonly radius: number;
+  private stale = true;
+
+  /** Throws if the browser has no WebGL. */
+  constructor(
+    private readonly canvas: HTMLCanvasElement,
+    private readonly extent: Extent,
+  ) {
+    this.renderer = new WebGLRenderer({ canvas, antialias: true });
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.type = PCFShadowMap;
+    this.renderer.shadowMap.autoUpdate = false;
+    this.origin = extent.middle;
+    this.radius = extent.radius;
+    this.camera = new PerspectiveCamera(40, 1, this.radius / 200, this.radius * 400);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.enableDamping = true;
+    this.controls.dampingFactor = 0.15;
+    this.controls.minDistance = this.radius / 100;
+    this.controls.maxDistance = this.radius * 100;
+
+    this.scene.background = new Color(background);
+    this.scene.fog = new Fog(background, this.radius * 8, this.radius * 40);
+    this.scene.add(new HemisphereLight('#e6eeff', '#5a544c', 1.5), this.light, this.light.target);
+    this.light.castShadow = true;
+    this.light.shadow.mapSize.setScalar(2048);
+    this.light.shadow.normalBias = this.radius / 500;
+    this.bodies = new Bodies(this.radius * 100, 10 ** Math.floor(Math.log10(this.radius / 2)));
+    this.overlays = new Overlays(this.radius / 5);
+    this.scene.add(this.bodies.group, this.overlays.group);
+    this.resetCamera();
+  }
+
+  /** Looks at the middle again. The next update() draws from there. */
+  resetCamera(): void {
+    this.origin = this.extent.middle;
+    this.controls.enableDamping = false;
+    this.controls.update(); // without damping it forgets a turn that is still going on
+    this.controls.target.set(0, 0, 0);
+    this.camera.position.copy(viewFrom).multiplyScalar(this.fitDistance());
+    this.controls.update();
+    this.controls.enableDamping = true;
+    this.stale = true;
+  }
+
+  /** How far from the target the camera sees all bodies of the extent. */
+  private fitDistance(): number {
+    const aspect = this.canvas.clientWidth / Math.max(1, this.canvas.clientHeight);
+    const tangent = Math.tan((this.camera.fov * Math.PI) / 360);
+    const right = new Vector3().crossVectors(new Vector3(0, 1, 0), viewFrom).normalize();
+    const above = new Vector3().crossVectors(viewFrom, right);
+    const needed = this.extent.reached.map(({ offset, size }) => {
+      const at = new Vector3(...offset);
+      const across = Math.max((Math.abs(at.dot(right)) + size) / aspect, Math.abs(at.dot(above)) + size);
+      return across / tangent + at.dot(viewFrom);
+    });
+    return Math.max(1.08 * Math.max(...needed, this.radius), this.controls.minDistance);
+  }
+
+  /** Takes over the world's present tick. */
+  update(world: WorldView, look: Look, selected: BodyId | undefined): void {
+    this.bodies.update(world, this.origin, look.colourBy, look.speedMax, selected);
+    if (look.follow && selected) this.follow(selected, world, look);
+    this.overlays.update(world, this.origin, look);
+    this.stale = true;
+  }
+  private follow(body: BodyId, world: WorldView, look: Look): void {
+    const at = this.bodies.positionOf(body.slot);
+    if (at === undefined) return;
+    this.camera.position.add(at).sub(this.controls.target);
+    this.controls.target.copy(at);
+    if (at.length() < originDistanceMax) return;
+    this.origin = at.toArray().map((x, i) => Math.round(x) + this.origin[i]!) as Vec3;
+    const moved = new Vector3(...at.toArray().map(Math.round));
+    this.camera.position.sub(moved);
+    this.controls.target.sub(moved);
+    this.bodies.update(world, this.origin, look.colourBy, look.speedMax, body);
+  }
+
+  /** Draws, if anything has changed since the last time. */
+  render(): void {
+    if (!this.fit() && !this.controls.update() && !this.stale) return;
+    this.stale = false;
+    const { target } = this.controls;
+    const reach = Math.max(this.radius * 1.5, this.camera.position.distanceTo(target) * 0.9);
+    this.light.target.position.copy(target);
+    this.light.position
+      .set(0.5, 1.2, 0.35)
+      .normalize()
+      .multiplyScalar(reach * 3)
+      .add(target);
+    const view = this.light.shadow.camera;
+    Object.assign(view, { left: -reach, right: reach, top: reach, bottom: -reach, near: reach / 10, far: reach * 8 });
+    view.updateProjectionMatrix();
+    this.renderer.shadowMap.needsUpdate = true;
+    this.renderer.render(this.scene, this.camera);
+  }
+  /** Takes over the size of the canvas; true if it is new. */
+  private fit(): boolean {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const ratio = Math.min(window.devicePixelRatio, 2);
+    const size = this.renderer.getSize(new Vector2());
+    if (size.x === width && size.y === height && this.renderer.getPixelRatio() === ratio) return false;
+    this.renderer.setPixelRatio(ratio);
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / Math.max(1, height);
+    this.camera.updateProjectionMatrix();
+    return true;
+  }
+
+  /** The body at a pixel of the canvas. */
+  pick(x: number, y: number): BodyId | undefined {
+    const ray = new Raycaster();
+    const at = new Vector2((2 * x) / this.canvas.clientWidth - 1, 1 - (2 * y) / this.canvas.clientHeight);
+    ray.setFromCamera(at, this.camera);
+    return this.bodies.pick(ray);
+  }
+}
