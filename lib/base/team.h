@@ -44,6 +44,10 @@ class Team {
   /// the stage, and not by a body.
   template <class Body>
   void each(uint32_t count, uint32_t grain, const Body& body) {
+    if (load(loop_) / k_chunk_codes == k_loops_max) {  // the number of the loop would wrap
+      body(0, count);
+      return;
+    }
     if (tasks_.least == 1) grain = 1;
     chunk_ = [](const void* of, uint32_t first, uint32_t last) { (*static_cast<const Body*>(of))(first, last); };
     of_chunk_ = &body;
@@ -81,6 +85,7 @@ class Team {
  private:
   static constexpr uint32_t k_waiting = 0, k_begun = 1, k_ended = 2;
   static constexpr uint32_t k_chunks_max = 64, k_chunk_codes = 128;
+  static constexpr uint32_t k_loops_max = UINT32_MAX / k_chunk_codes - 1;
   /// Number of pauses after which a thread asks the caller to let others run, and after which a helper leaves.
   static constexpr uint32_t k_spins = 2000, k_idle_spins = 20000;
 
