@@ -215,9 +215,9 @@ struct Explosion {
 Status explode(World& world, const Explosion& explosion);
 
 /// Sets the velocity and angular velocity of a kinematic body so that the next step moves it to the target pose, by the
-/// smaller of the two possible rotations. The body keeps these velocities after that step. The error of the pose after
-/// the step is at most 2^-31 m plus one step of the position format (f32: plus 2^-23 of the displacement) in each
-/// coordinate, and 2^-27 (f32: 2^-21) in each component of the rotation (tests/unit/world/kinematic_test.cpp).
+/// smaller of the two possible rotations. The body keeps these velocities. After that step, the error of the pose is at
+/// most 2^-31 m plus the resolution of a position (f32: plus 2^-23 of the displacement) in each coordinate, and 2^-27
+/// (f32: 2^-21) in each component of the rotation (tests/unit/world/kinematic_test.cpp).
 /// Errors: bad_id, bad_argument (not kinematic; a half-space that would rotate), out_of_range (a speed),
 /// not_normalised.
 Status move_kinematic(World& world, BodyId id, const Position& position, const Quat& rotation);

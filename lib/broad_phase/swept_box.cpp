@@ -19,8 +19,8 @@ constexpr int k_tolerance_bits = 18;
 
 int64_t grains_of(Coord x) { return integer_from(x) >> k_grain_steps_bits; }
 
-/// Clamps a coordinate, in cells, to the range of a Place. This changes no result, because the path is shorter than the
-/// limit.
+/// Clamps a coordinate of a Place, in cells, to +-k_place_limit, so that its products fit 64 bits. This changes no
+/// result: the path is less than 2^29 cells long, so it ends before the limit.
 int64_t clamped_place(int64_t value) {
   return value < -k_place_limit ? -k_place_limit : value > k_place_limit ? k_place_limit : value;
 }

@@ -64,8 +64,8 @@ uint64_t square_root_nearest(Words128 value) {
   const int shift = 2 * half_shift;
   const uint64_t high = shift == 0 ? value.high : (value.high << shift) | (value.low >> (64 - shift));
   const uint64_t low = value.low << shift;
-  // value = high 2^64 + low, high >= 2^62. Let s = floor(sqrt(high)) and r = high - s^2. The next 32 bits of the root
-  // are (r 2^32 + upper half of low) / (2 s), at most one too large.
+  // Let v = high 2^64 + low: the value, shifted left so that high >= 2^62. Let s = floor(sqrt(high)) and r = high - s^2.
+  // The next 32 bits of the root of v are (r 2^32 + upper half of low) / (2 s), at most one too large.
   uint64_t rest = 0;
   const uint64_t head = root_of_normal(high, rest);
   const uint64_t numerator_high = rest >> 32;  // rest <= 2 head < 2^33: 0 or 1
@@ -78,7 +78,7 @@ uint64_t square_root_nearest(Words128 value) {
     digit_rest = numerator - digit * (2 * head);
   }
   uint64_t root = (head << 32) + digit;
-  // value - root^2 = digit_rest 2^32 + low digit - digit^2, as a signed number of up to 98 bits.
+  // v - root^2 = digit_rest 2^32 + low digit - digit^2, as a signed number of up to 98 bits.
   const uint64_t square = digit * digit;
   const uint64_t tail = (digit_rest << 32) | (low & 0xffffffff);
   int64_t remainder_high = static_cast<int64_t>(digit_rest >> 32) - (tail < square ? 1 : 0);

@@ -23,7 +23,7 @@ struct TriangleSearch {
   TerrainPlace place = {};
   Placed alone = {};          ///< the shape in a block of its own unit
   int64_t ball = 0;           ///< bounding radius of a shape that rotates, else 0. This and the next members: 2^-46 m
-  int64_t radius = 0;         ///< the shape's rounding plus the tolerance
+  int64_t radius = 0;         ///< of the ball that rounds the shape, plus a margin for errors
   Vec64 low = {}, high = {};  ///< bounds of the shape relative to its centre
   QueryHit best = {};
   bool found = false;

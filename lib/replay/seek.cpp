@@ -16,9 +16,9 @@ Status Player::seek(const Place& place) {
 }
 
 /// Searches for the last keyframe at or before the tick, from `place` on. If there is one, sets `place` to it and
-/// `found` to true. Sets `beyond` to whether the recording ends before the tick, if the search meets its last chunk.
-/// Reads only chunk headers: checksums are tested when a chunk is read later. An impossible header ends the search like
-/// the end of the bytes. A keyframe counts only if a chunk of another type follows, which shows that it is complete.
+/// `found` to true. If the search reaches the end chunk, sets `beyond` to whether the recording ends before the tick;
+/// otherwise leaves `beyond` as it is. Reads only chunk headers: checksums are tested when a chunk is read later. A
+/// header that cannot be valid ends the search, as the end of the bytes does. A keyframe counts only if a chunk of another type follows, which shows that it is complete.
 Status Player::find_keyframe(Place& place, uint64_t tick, bool& found, bool& beyond) {
   Place at = place, candidate = {};
   bool within = false;

@@ -355,7 +355,7 @@ std::vector<ObjectInfo> repeat_objects() {
       field("about", "a point of the line, m, world", FieldKind::vector)};
   revolution.variants.front().fields.back().initial = "[0, 0, 0]";
   return {
-      lettered("repeat", "The number of copies of an entry, by at least one of the letters.",
+      lettered("repeat", "The number of copies of an entry for each letter; at least one letter is needed.",
                field("", "", FieldKind::integer, k_counts)),
       lettered("step", "The displacement of a copy from the one before, m, world.", field("", "", FieldKind::vector)),
       lettered("revolve", "How a copy is rotated from the one before.", object_field("", "", "revolution")),
