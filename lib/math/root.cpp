@@ -64,8 +64,8 @@ uint64_t square_root_nearest(Words128 value) {
   const int shift = 2 * half_shift;
   const uint64_t high = shift == 0 ? value.high : (value.high << shift) | (value.low >> (64 - shift));
   const uint64_t low = value.low << shift;
-  // Let v = high 2^64 + low: the value, shifted left so that high >= 2^62. Let s = floor(sqrt(high)) and r = high - s^2.
-  // The next 32 bits of the root of v are (r 2^32 + upper half of low) / (2 s), at most one too large.
+  // Let v = high 2^64 + low: the value, shifted left so that high >= 2^62. Let s = floor(sqrt(high)) and r = high -
+  // s^2. The next 32 bits of the root of v are (r 2^32 + upper half of low) / (2 s), at most one too large.
   uint64_t rest = 0;
   const uint64_t head = root_of_normal(high, rest);
   const uint64_t numerator_high = rest >> 32;  // rest <= 2 head < 2^33: 0 or 1
