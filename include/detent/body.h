@@ -56,7 +56,7 @@ struct FilterBody {
 
 /// Returns whether `own`, the body that has the rule, can collide with `other`. The result must depend only on the
 /// arguments, because the library may call the rule at any time. For the same arguments it must be the same on every
-/// machine that simulates the world.
+/// machine that simulates the world. In a step with WorldHooks::tasks one of its threads calls the rules, one by one.
 using FilterRule = bool (*)(const FilterBody& own, const FilterBody& other);
 
 /// The filter rules of a world. Rule n is rules[n - 1]. The caller chooses the order, which must be the same on every

@@ -23,8 +23,8 @@ struct TaskProbe {
 /// in which they run, do not change any result: a step computes the same bits as on one thread.
 struct Tasks {
   /// Calls task(argument) `count` times, on any threads, in any order, and returns after the last call has returned.
-  /// The calls may run at the same time, and may also run one after the other. Null: the step runs on the thread that
-  /// called it.
+  /// The calls may run at the same time, and may also run one after the other. They need threads of one priority: a
+  /// call waits for what another one has begun. Null: the step runs on the thread that called it.
   void (*run)(void* context, uint32_t count, void (*task)(void* argument), void* argument) = nullptr;
   /// Called again and again by a thread that waits for the work of another thread. It may let other threads of the
   /// machine run (std::this_thread::yield()). May be null.

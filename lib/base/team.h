@@ -17,6 +17,9 @@
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
+/// Least numbers of elements that a thread takes at once.
+inline constexpr uint32_t k_bodies_shared = 32, k_pairs_shared = 16, k_contacts_shared = 8, k_islands_shared = 8;
+
 #if DETENT_TASKS
 
 /// Number of elements below which a stage runs on one thread.
@@ -57,9 +60,9 @@ class Team {
     const uint32_t chunks = (count + grain_ - 1) / grain_;
     store(unfinished_, chunks);
     const uint32_t loop = (load(loop_) / k_chunk_codes + 1) * k_chunk_codes + chunks;
-    store(loop_, loop);
     const TaskProbe* const probe = tasks_.probe;
     if (probe != nullptr && probe->loop_begins != nullptr) probe->loop_begins(probe->context, chunks);
+    store(loop_, loop);
     take_chunks(loop, 0);
     for (uint32_t spins = 0; load(unfinished_) != 0; ++spins) pause(spins);
     if (probe != nullptr && probe->loop_ends != nullptr) probe->loop_ends(probe->context);

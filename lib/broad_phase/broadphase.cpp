@@ -37,9 +37,6 @@ struct Grid {
 bool is_everywhere(const Bounds& bounds) { return bounds.lower.x == -k_coord_limit && bounds.upper.x == k_coord_limit; }
 bool is_nowhere(const Bounds& bounds) { return bounds.upper.x < bounds.lower.x; }
 
-/// Number of bodies that a thread takes at once.
-constexpr uint32_t k_bodies_shared = 32;
-
 /// Two coordinates of 15 bits are packed in one word, each with a guard bit above it. In the difference upper bound -
 /// lower bound, a guard bit is cleared if the upper bound is below the lower bound.
 constexpr uint32_t k_across_bits = 15, k_across_guards = 0x80008000;

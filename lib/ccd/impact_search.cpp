@@ -15,9 +15,6 @@ namespace {
 constexpr int k_test_power = -10;
 constexpr uint32_t k_tests_max = 16;
 
-/// Number of pairs that a thread takes at once.
-constexpr uint32_t k_pairs_shared = 16;
-
 /// The contacts of a pair at the start of a list.
 Span<const ContactWork> pair_contacts(Span<const ContactWork> from, uint64_t key) {
   uint32_t count = 0;

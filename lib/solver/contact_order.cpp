@@ -3,7 +3,6 @@
 #include "base/digest.h"
 #include "base/heap.h"
 #include "base/radix_sort.h"
-#include "base/team.h"
 #include "solver/island.h"
 
 namespace detent {
@@ -73,12 +72,6 @@ uint32_t order_contacts(Span<const BodyProperties> properties, Span<const Contac
     overflows += entry.colour == k_colour_overflow ? 1 : 0;
   }
   for (ContactOrder& entry : order) entry.kind = kind_of(contacts[entry.contact]);
-  // Contacts of one colour may be solved in any order. In the order of storage, neighbours have bodies in common, so
-  // that a thread finds most of them in its own cache. Contacts without a colour must keep their order.
-  if (DETENT_TASKS && overflows == 0) {
-    for (const ContactOrder& entry : order) spare[entry.contact] = entry;
-    for (uint32_t i = 0; i < order.count; ++i) order[i] = spare[i];
-  }
   radix_sort(
       order, spare,
       [](const ContactOrder& entry, int digit) { return uint32_t{digit == 0 ? entry.kind : entry.colour}; }, 2);

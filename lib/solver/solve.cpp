@@ -67,9 +67,6 @@ uint32_t integrate_positions(const SolverBodies& bodies, Span<const uint32_t> is
   return clamped;
 }
 
-/// Numbers of bodies and of contacts that a thread takes at once. A multiple of four contacts fills the lanes.
-constexpr uint32_t k_bodies_shared = 16, k_contacts_shared = 8;
-
 constexpr int k_rebound_sweeps_max = 32;
 
 /// Applies Newton's law of impact (restitution) to points that approached faster than the threshold and had a normal
@@ -166,7 +163,7 @@ uint32_t colour_count(Span<const ContactOrder> order) {
 }
 
 /// One pass over all contacts of an island, as pass_in_order(). Threads share the contacts of each colour: these have
-/// no moving body in common.
+/// no dynamic body in common.
 template <class TakeOne, class TakeFour>
 void pass(const StepSettings& settings, const SolverBodies& bodies, Span<const ContactOrder> order,
           Span<ContactWork> contacts, const TakeOne& one, const TakeFour& four) {

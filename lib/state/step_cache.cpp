@@ -7,9 +7,6 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-/// Number of bodies that a thread takes at once.
-constexpr uint32_t k_bodies_shared = 32;
-
 void make_anew(const StepCacheView& step, const StateView<uint8_t>& state) {
   step.cache.fresh = 1;
   step.cache.contacts_known = 0;

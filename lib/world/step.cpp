@@ -68,9 +68,6 @@ StepSettings settings_of(const World& world, const WorldState& state) {
   return settings;
 }
 
-/// Number of bodies or contacts that a thread takes at once.
-constexpr uint32_t k_shared = 32, k_islands_shared = 8;
-
 /// One step: its stages, in order, and the data that they pass to later stages.
 class Step {
  public:
@@ -88,6 +85,8 @@ class Step {
   void finalise();
   void store();
 
+  /// Number of elements for with_team() of a stage that calls the caller's filter rules: they stay on one thread.
+  uint32_t unless_ruled(uint32_t elements) const { return world_.hooks.filter_rules.count == 0 ? elements : 0; }
   /// Calls work(team) with the threads that the caller lends. `team` is null if there are none, or few elements.
   template <class Work>
   void with_team([[maybe_unused]] uint32_t elements, const Work& work) {
@@ -196,7 +195,7 @@ void Step::run() {
 void Step::find_pairs() {
   report_.woke = wake_jointed(joints_.joints, bodies_.properties, solver_bodies_.motions, bodies_.activities, cache_);
   if (sensor_ops_ != nullptr) sensor_ops_->start(cache_, used_, scratch_.changed);
-  with_team(used_, [&](Team* team) {
+  with_team(unless_ruled(used_), [&](Team* team) {
     moving_ = partition_bodies(cache_, shared_settings(settings_, team), state_, bodies_.work, scratch_.sweeps,
                                scratch_.moving_bodies);
     pool_.share(team);
@@ -285,7 +284,7 @@ Island Step::island_group(uint32_t first, uint32_t& count) const {
 /// kinematic bodies, and those with joints to bodies that do not move, write to bodies that are not theirs. In an
 /// island with at least `large` contacts or bodies, threads share the loops.
 bool Step::is_solved_by_one_thread(const Island& island, uint32_t large) const {
-  if (island.joint_count == 0 && (island.contact_count >= large || island.body_count >= large)) return false;
+  if (island.contact_count >= large || island.body_count >= large) return false;
   for (const uint32_t index : Span<const uint32_t>{joints_.order.data + island.first_joint, island.joint_count}) {
     for (const uint32_t body : joints_.work[index].body) {
       if (joints_.bodies[body].mobile == 0) return false;
@@ -299,7 +298,7 @@ void Step::solve_island(const Island& island, StepSettings& settings) {
   const Span<const uint32_t> slots = {scratch_.island_bodies.data + island.first_body, island.body_count};
   const Span<const ContactOrder> order = {scratch_.contact_order.data + island.first_contact, island.contact_count};
   if (island.substeps != settings.substeps) set_substeps(island.substeps, settings);
-  share(settings.team, slots, k_shared, [&](Span<const uint32_t> part) {
+  share(settings.team, slots, k_bodies_shared, [&](Span<const uint32_t> part) {
     predict(settings, bodies_.properties, part, solver_bodies_.motions, bodies_.work);
   });
   const bool jointed = island.joint_count != 0;
@@ -312,7 +311,7 @@ void Step::solve_island(const Island& island, StepSettings& settings) {
   Team::add(report_.saturations, count.clamped);
   Team::add(report_.contacts.sweeps_saved, count.sweeps_saved);
   Team::add(report_.joints.undecided, count.undecided);
-  share(settings.team, order, k_shared, [&](Span<const ContactOrder> part) {
+  share(settings.team, order, k_contacts_shared, [&](Span<const ContactOrder> part) {
     for (const ContactOrder& entry : part) {
       store_load(settings, contacts_[entry.contact]);
       store_impulses(contacts_[entry.contact]);
@@ -322,22 +321,29 @@ void Step::solve_island(const Island& island, StepSettings& settings) {
 
 void Step::solve_islands(Team* team) {
   StepSettings settings = shared_settings(settings_, team);
-  uint32_t for_one_thread = 0;
-  for (uint32_t i = 0, grouped = 0; i < islands_.count; i += grouped) {
+  // Lists of islands that are solved later, in BodyWork::run, which is not needed any more: those for one thread from
+  // the front, the others from the back.
+  const auto front = [&](uint32_t k) -> uint32_t& { return bodies_.work[k].run; };
+  const auto back = [&](uint32_t k) -> uint32_t& { return bodies_.work[islands_.count - 1 - k].run; };
+  uint32_t for_one_thread = 0, for_all = 0, grouped = 0;
+  for (uint32_t i = 0; i < islands_.count; i += grouped) {
     const Island island = island_group(i, grouped);
     report_.contacts.substeps += uint64_t{island.substeps} * island.contact_count;
     report_.substeps_max = island.substeps > report_.substeps_max ? island.substeps : report_.substeps_max;
     report_.awake += island.body_count;
-    if (team != nullptr && is_solved_by_one_thread(island, team->many()))
-      bodies_.work[for_one_thread++].run = i;  // the member is not needed any more
-    else
+    if (team == nullptr)
       solve_island(island, settings);
+    else if (is_solved_by_one_thread(island, team->many()))
+      front(for_one_thread++) = i;
+    else
+      back(for_all++) = i;
   }
   if (team == nullptr) return;
   share(team, for_one_thread, 1, [&](uint32_t first, uint32_t last) {
     StepSettings own = settings_;
-    for (uint32_t k = first, grouped = 0; k < last; ++k) solve_island(island_group(bodies_.work[k].run, grouped), own);
+    for (uint32_t k = first, count = 0; k < last; ++k) solve_island(island_group(front(k), count), own);
   });
+  for (uint32_t k = 0; k < for_all; ++k) solve_island(island_group(back(k), grouped), settings);
 }
 
 void Step::solve_islands() {
@@ -353,7 +359,7 @@ void Step::raise_events() {
 /// Makes the sweeps of the tick, moves bodies along their sweeps to their impacts, and finds the bodies within sensors.
 void Step::advance() {
   with_team(moving_.count, [&](Team* team) {
-    report_.saturations += share_sum(team, moving_, k_shared, [&](Span<const uint32_t> part) {
+    report_.saturations += share_sum(team, moving_, k_bodies_shared, [&](Span<const uint32_t> part) {
       return make_sweeps(part, bodies_.properties, bodies_.work, bodies_.poses, sweeps_);
     });
   });
@@ -397,7 +403,7 @@ __attribute__((noinline)) void Step::advance_bodies() {
                                  scratch_.moving_bodies.first(used_),
                                  world_.hooks.filter_rules,
                                  {sensor_ops_ == nullptr ? nullptr : sensor_ops_->sweep, &sensors}};
-    with_team(pool_.pairs().count, [&](Team* team) {
+    with_team(unless_ruled(pool_.pairs().count), [&](Team* team) {
       const ImpactReport impacts =
           world_.features->continuous->advance(shared_settings(settings_, team), world_.hooks.assets, *world_.features,
                                                known, bodies, scratch_.impact_pairs, scratch_.impact_hits, probe_);

@@ -345,9 +345,6 @@ struct Collider {
 
 #if DETENT_TASKS
 
-/// Number of pairs that a thread takes at once.
-constexpr uint32_t k_pairs_shared = 16;
-
 /// The part of the contacts that a thread finds: those of consecutive pairs.
 struct ContactPart {
   uint32_t first_pair, pair_count;

@@ -3,6 +3,8 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <thread>
+
 /// oneTBB for WorldHooks::tasks.
 namespace detent_host {
 
@@ -12,13 +14,17 @@ template <class Tasks>
 Tasks tbb_tasks(uint32_t workers = 0) {
   Tasks tasks;
   tasks.run = [](void*, uint32_t count, void (*task)(void*), void* argument) {
-    tbb::parallel_for(
-        tbb::blocked_range<uint32_t>(0, count, 1),
-        [=](const tbb::blocked_range<uint32_t>& range) {
-          for (uint32_t i = range.begin(); i < range.end(); ++i) task(argument);
-        },
-        tbb::simple_partitioner());
+    // Isolated: a thread that waits for the end does not begin other work of the program within the step.
+    tbb::this_task_arena::isolate([=] {
+      tbb::parallel_for(
+          tbb::blocked_range<uint32_t>(0, count, 1),
+          [=](const tbb::blocked_range<uint32_t>& range) {
+            for (uint32_t i = range.begin(); i < range.end(); ++i) task(argument);
+          },
+          tbb::simple_partitioner());
+    });
   };
+  tasks.wait = [](void*) { std::this_thread::yield(); };
   tasks.workers = workers != 0 ? workers : static_cast<uint32_t>(tbb::this_task_arena::max_concurrency());
   return tasks;
 }

@@ -1,16 +1,22 @@
 #include "threads/thread_pool.h"
 
+#include <system_error>
+
 namespace detent_host {
 
 ThreadPool::ThreadPool(uint32_t workers, std::chrono::nanoseconds awake) : awake_(awake) {
   if (workers == 0) workers = std::thread::hardware_concurrency();
-  for (uint32_t i = 1; i < workers; ++i) threads_.emplace_back([this] { work(); });
+  try {
+    for (uint32_t i = 1; i < workers; ++i) threads_.emplace_back([this] { work(); });
+  } catch (const std::system_error&) {  // the machine has no more threads: fewer will do
+  }
 }
 
 ThreadPool::~ThreadPool() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     stops_ = true;
+    ++groups_;
   }
   begins_.notify_all();
   for (std::thread& thread : threads_) thread.join();
@@ -49,8 +55,8 @@ void ThreadPool::work() {
 }
 
 void ThreadPool::stay_awake(uint32_t group) const {
-  const auto end = std::chrono::steady_clock::now() + awake_;
-  while (groups_ == group && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+  const auto begun = std::chrono::steady_clock::now();
+  while (groups_ == group && std::chrono::steady_clock::now() - begun < awake_) std::this_thread::yield();
 }
 
 void ThreadPool::call(std::unique_lock<std::mutex>& lock) {

@@ -12,7 +12,7 @@
 namespace detent_host {
 
 /// A fixed number of threads that sleep while no step needs them. Steps of several worlds may use one pool; while a
-/// step uses it, the others run on their own threads alone. Must outlive the steps that use it.
+/// stage of one uses it, the stages of others run on their own threads alone. Must outlive the steps that use it.
 class ThreadPool {
  public:
   /// `workers`: the thread that steps and `workers` - 1 others; 0: as many as the machine has processors. `awake`: for
@@ -44,7 +44,7 @@ class ThreadPool {
 
   const std::chrono::nanoseconds awake_;
   std::atomic<uint32_t> groups_ = 0;  ///< number of calls of run() so far
-  std::mutex busy_;                   ///< held while a step uses the pool
+  std::mutex busy_;                   ///< held while a stage uses the pool
   std::mutex mutex_;                  ///< of the members below
   std::condition_variable begins_, ends_;
   void (*task_)(void*) = nullptr;

@@ -7,7 +7,7 @@
 
 #include "tests/common/support/random.h"
 
-/// Schedulers for WorldHooks::tasks that try to break a step: each element of a loop is a part of its own.
+/// Schedulers for WorldHooks::tasks that try to break a step.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 
@@ -25,6 +25,7 @@ struct Scheduler {
   Parts parts = Parts::in_order;
   uint32_t workers = 2;
   bool delayed = false;  ///< parts take a random time
+  uint32_t least = 1;    ///< Tasks::least; 1: each element of a loop is a part of its own
   uint64_t seed = 1;
   TaskProbe probe = {};
 
@@ -32,7 +33,7 @@ struct Scheduler {
     probe.context = this;
     if (parts != Parts::in_order) probe.part = part;
     if (delayed) probe.part_begins = probe.part_ends = pause;
-    return {run, [](void*) { std::this_thread::yield(); }, this, workers, 1, &probe};
+    return {run, [](void*) { std::this_thread::yield(); }, this, workers, least, &probe};
   }
 
  private:
