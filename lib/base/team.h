@@ -64,7 +64,7 @@ class Team {
     if (probe != nullptr && probe->loop_begins != nullptr) probe->loop_begins(probe->context, chunks);
     store(loop_, loop);
     take_chunks(loop, 0);
-    for (uint32_t spins = 0; load(unfinished_) != 0; ++spins) pause(spins);
+    for (uint32_t pauses = 0; load(unfinished_) != 0; ++pauses) pause(pauses);
     if (probe != nullptr && probe->loop_ends != nullptr) probe->loop_ends(probe->context);
   }
   /// Number of elements above which a loop is shared.
@@ -80,7 +80,7 @@ class Team {
   /// Calls work() while no other thread does.
   template <class Work>
   void alone(const Work& work) {
-    for (uint32_t spins = 0; __atomic_exchange_n(&locked_, 1u, __ATOMIC_ACQUIRE) != 0; ++spins) pause(spins);
+    for (uint32_t pauses = 0; __atomic_exchange_n(&locked_, 1u, __ATOMIC_ACQUIRE) != 0; ++pauses) pause(pauses);
     work();
     store(locked_, 0);
   }
@@ -90,13 +90,13 @@ class Team {
   static constexpr uint32_t k_chunks_max = 64, k_chunk_codes = 128;
   static constexpr uint32_t k_loops_max = UINT32_MAX / k_chunk_codes - 1;
   /// Number of pauses after which a thread asks the caller to let others run, and after which a helper leaves.
-  static constexpr uint32_t k_spins = 2000, k_idle_spins = 20000;
+  static constexpr uint32_t k_pauses = 2000, k_idle_pauses = 20000;
 
   static uint32_t load(const uint32_t& from) { return __atomic_load_n(&from, __ATOMIC_ACQUIRE); }
   static void store(uint32_t& to, uint32_t value) { __atomic_store_n(&to, value, __ATOMIC_RELEASE); }
 
-  void pause(uint32_t spins) const {
-    if (spins > k_spins && tasks_.wait != nullptr) tasks_.wait(tasks_.context);
+  void pause(uint32_t pauses) const {
+    if (pauses > k_pauses && tasks_.wait != nullptr) tasks_.wait(tasks_.context);
 #if defined(__x86_64__) || defined(__i386__)
     __builtin_ia32_pause();
 #elif defined(__aarch64__) || (defined(__arm__) && __ARM_ARCH >= 7)
@@ -118,15 +118,15 @@ class Team {
   void help(uint32_t helper) {
     const FloatEnvironment environment;
     uint32_t last = 0;
-    for (uint32_t spins = 0; load(state_) != k_ended && spins < k_idle_spins;) {
+    for (uint32_t pauses = 0; load(state_) != k_ended && pauses < k_idle_pauses;) {
       const uint32_t loop = load(loop_);
       if (loop == last) {
-        pause(++spins);
+        pause(++pauses);
         continue;
       }
       take_chunks(loop, helper);
       last = loop;
-      spins = 0;
+      pauses = 0;
     }
   }
   /// Runs the chunks of a loop that no other thread has taken. Each thread begins elsewhere, and at the same place in
