@@ -197,6 +197,34 @@ DETENT_TEST(tasks, drop_the_same_pairs_and_contacts_where_pools_are_full) {
   }
 }
 
+std::thread::id rule_thread;
+bool rules_stayed = true;
+bool allow_all(const FilterBody&, const FilterBody&) {
+  rules_stayed = rules_stayed && std::this_thread::get_id() == rule_thread;
+  return true;
+}
+
+DETENT_TEST(tasks, leave_the_rules_of_filters_to_the_thread_that_steps) {
+  constexpr FilterRule k_rules[] = {allow_all};
+  Scheduler scheduler = {Calls::threads, Parts::shuffled, 3};
+  Lab lab({120, 500, 0, true});
+  lab.world.hooks.filter_rules = {k_rules, 1};
+  lab.world.hooks.tasks = scheduler.tasks();
+  lab.add_ground();
+  for (uint32_t i = 0; i < 100; ++i) {
+    BodyDef def;
+    def.shape = sphere(real(0.25));
+    def.position = position(0.45 * (i % 10), 0.3 + 0.1 * (i % 7), 0.45 * (i / 10));
+    def.linear_velocity = reals(i % 2 == 0 ? 20.0 : -20.0, 0.0, 0.0);
+    def.filter.rule = 1;
+    lab.add(def);
+  }
+  rule_thread = std::this_thread::get_id();
+  rules_stayed = true;
+  for (int tick = 0; tick < 20; ++tick) step(lab.world);
+  EXPECT_TRUE(rules_stayed);
+}
+
 DETENT_TEST(tasks, that_make_no_call_leave_the_step_to_the_thread_that_called_it) {
   Tasks none = {[](void*, uint32_t, void (*)(void*), void*) {}, nullptr, nullptr, 4, 1, nullptr};
   expect_equal_heaps(20, {60, 300, 0, true, 40}, false, none, 20);
