@@ -15,7 +15,8 @@
 ///
 /// so the speed of the row is J v = axis . (v_B - v_A) + arm_B . w_B - arm_A . w_A, and an impulse x of the row applies
 /// the wrench J^T x. C is the position error of the row (JointRows::error). joint_rows.cpp has the J and C of each
-/// joint. All rows of an island are solved at once, for any graph of joints:
+/// joint. An *assembly* is a set of bodies that joints connect, directly or through other mobile bodies, and these
+/// joints. All rows of an assembly are solved at once, for any graph of joints:
 ///
 ///     (K + S) x = target - J v,  K = J M^-1 J^T
 ///
@@ -46,7 +47,7 @@ struct JointStage {
   Span<const BodyActivity> activities;
   Span<JointWork> work;    ///< the active joints, in the order of their slots
   Span<JointBody> bodies;  ///< the bodies of the active joints
-  /// Indices into `work`: island by island, in the order of elimination.
+  /// Indices into `work`: by island, assembly by assembly, in the order of elimination.
   Span<uint32_t> order;
   Span<JointCoupling> couplings;  ///< couplings of the factor
   Span<Real> numbers;             ///< elements of the factor's blocks
@@ -58,16 +59,16 @@ struct JointStage {
 /// called for the bodies. Fills `work` and `bodies`.
 void collect_joints(const SolverBodies& bodies, JointStage& stage);
 
-/// For every island: computes the elimination order of the joints, makes the couplings that the factor needs, and sets
-/// the number of substeps that the joints need. `slots` lists the bodies by island. Returns the number of couplings
-/// that had no room.
+/// For every island: lists its assemblies, computes the elimination order of their joints, makes the couplings that the
+/// factors need, and sets the number of substeps that the joints need. `slots` lists the bodies by island. Returns the
+/// number of couplings that had no room.
 uint32_t order_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
                       Span<Island> islands, JointStage& stage);
 
 /// Begins a substep of an island, `elapsed` after the start of the tick: makes the joints' rows, stores the velocities
 /// before anything acts, and sets the bodies' inverse inertias, which joints and contacts both use in the substep.
-void begin_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
-                  const Island& island, Real elapsed, JointStage& stage);
+void begin_joints(const StepSettings& settings, const SolverBodies& bodies, const Island& island, Real elapsed,
+                  JointStage& stage);
 
 /// Whether a body's inverse inertia has changed since the last substep.
 inline bool has_renewed_inverse_inertia(const BodyWork& now, const JointStage& stage) {
@@ -76,28 +77,29 @@ inline bool has_renewed_inverse_inertia(const BodyWork& now, const JointStage& s
 
 /// Solves the joints' rows for the bodies' current velocities, `elapsed` after the start of the tick. Returns the
 /// number of values that were clamped, and adds to `undecided`.
-uint32_t solve_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
-                      const Island& island, Real elapsed, JointStage& stage, uint32_t& undecided);
+uint32_t solve_joints(const StepSettings& settings, const SolverBodies& bodies, const Island& island, Real elapsed,
+                      JointStage& stage, uint32_t& undecided);
 
-/// Solves the rows again, to remove the row speeds that contacts have added since the last solve. Returns the number of
-/// values that were clamped, and adds to `undecided`.
-uint32_t solve_joints_again(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
-                            const Island& island, Real elapsed, JointStage& stage, uint32_t& undecided);
+/// Solves the rows again, to remove the row speeds that contacts have added since BodyWork::velocity_before was stored.
+/// Skips the assemblies in which contacts changed no velocity by more than `enough`, m/s. Returns the number of values
+/// that were clamped, and adds to `undecided`.
+uint32_t solve_joints_again(const StepSettings& settings, const SolverBodies& bodies, const Island& island,
+                            Real elapsed, Real enough, JointStage& stage, uint32_t& undecided);
 
 /// Adds the velocities by which the joints follow their curved paths, and computes the shifts that close gaps. Returns
 /// the number of values that were clamped.
-uint32_t follow_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
-                       const Island& island, Real elapsed, JointStage& stage);
+uint32_t follow_joints(const StepSettings& settings, const SolverBodies& bodies, const Island& island, Real elapsed,
+                       JointStage& stage);
 
 /// Applies the shifts that close gaps, after the bodies have moved. Then converts the bodies' angular momenta back to
 /// the inertia of the substep. Returns the number of values that were clamped.
-uint32_t shift_joints(const SolverBodies& bodies, Span<const uint32_t> slots, JointStage& stage);
+uint32_t shift_joints(const SolverBodies& bodies, const Island& island, JointStage& stage);
 
-/// Ends a substep of an island: removes the row speeds that contacts have added since the last solve, adds up the
-/// impulses of the joints, and restores the bodies' own inverse inertias and angular momenta. Returns the number of
+/// Ends a substep of an island: removes the row speeds that contacts have added, as solve_joints_again() does, adds up
+/// the impulses of the joints, and restores the bodies' own inverse inertias and angular momenta. Returns the number of
 /// values that were clamped, and adds to `undecided`.
-uint32_t end_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
-                    const Island& island, Real elapsed, JointStage& stage, uint32_t& undecided);
+uint32_t end_joints(const StepSettings& settings, const SolverBodies& bodies, const Island& island, Real elapsed,
+                    Real enough, JointStage& stage, uint32_t& undecided);
 
 /// Stores the forces and torques of the joints in the tick.
 void store_reactions(const StepSettings& settings, const SolverBodies& bodies, JointStage& stage);
@@ -116,6 +118,27 @@ struct JointOps {
 };
 
 // Functions that several files of lib/joint share.
+
+/// Visits the assemblies of an island: the range of the joints of each.
+template <class Visit>
+void each_assembly(const Island& island, const JointStage& stage, const Visit& visit) {
+  for (uint32_t done = 0; done < island.joint_count;) {
+    uint32_t* const first = stage.order.data + island.first_joint + done;
+    const uint32_t count = stage.work[*first].assembly_joints;
+    visit(Span<uint32_t>{first, count});
+    done += count;
+  }
+}
+/// Visits the mobile bodies of an assembly.
+template <class Visit>
+void each_mobile_body(Span<const uint32_t> order, const JointStage& stage, const Visit& visit) {
+  for (const uint32_t joint : order) {
+    for (uint32_t end = 0; end < 2; ++end) {
+      JointBody& body = stage.bodies[stage.work[joint].body[end]];
+      if (body.owner == 2 * joint + end) visit(body);
+    }
+  }
+}
 
 /// Sets the lowest number of substeps for the joints of an island, and the squared number that their motion needs.
 void require_substeps(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,

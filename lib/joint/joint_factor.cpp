@@ -129,7 +129,7 @@ void choose_unit([[maybe_unused]] const JointStage& stage, JointWork& work) {
     const Response reaction(work, body, end);
     for (uint32_t k = 0; k < work.rows; ++k) {
       Real speed[k_joint_rows_max];
-      show(work, end, reaction.linear_velocity[k], reaction.angular_velocity[k], speed);
+      show(work, k + 1, end, reaction.linear_velocity[k], reaction.angular_velocity[k], speed);
       response[k] += speed[k];
     }
   }
@@ -178,7 +178,7 @@ void JointFactor::make() {
       const Response reaction(work, body, end);
       for (uint32_t k = 0; k < work.rows; ++k) {
         Real speed[k_joint_rows_max];
-        show(work, end, reaction.linear_velocity[k], reaction.angular_velocity[k], speed);
+        show(work, k + 1, end, reaction.linear_velocity[k], reaction.angular_velocity[k], speed);
         for (uint32_t m = 0; m <= k; ++m)
           work.response[k][m] += scale_by_power(speed[m], unit_power(work, k) + unit_power(work, m));
       }
@@ -191,7 +191,7 @@ void JointFactor::make() {
           if (other.body[far] != work.body[end]) continue;
           for (uint32_t k = 0; k < work.rows; ++k) {
             Real speed[k_joint_rows_max];
-            show(other, far, reaction.linear_velocity[k], reaction.angular_velocity[k], speed);
+            show(other, other.rows, far, reaction.linear_velocity[k], reaction.angular_velocity[k], speed);
             for (uint32_t m = 0; m < other.rows; ++m) {
               const Real scaled = scale_by_power(speed[m], unit_power(work, k) + unit_power(other, m));
               block[k * other.rows + m] += end == far ? scaled : -scaled;
@@ -239,7 +239,7 @@ void JointFactor::make_up(uint32_t index) {
       if (other_index == index || find(index, other_index) != nullptr) continue;
       for (uint32_t k = 0; k < work.rows; ++k) {
         Real speed[k_joint_rows_max];
-        show(other, far, reaction.linear_velocity[k], reaction.angular_velocity[k], speed);
+        show(other, other.rows, far, reaction.linear_velocity[k], reaction.angular_velocity[k], speed);
         for (uint32_t m = 0; m < other.rows; ++m)
           work.response[k][k] += abs(scale_by_power(speed[m], unit_power(work, k) + unit_power(other, m)));
       }

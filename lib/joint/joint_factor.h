@@ -3,7 +3,7 @@
 #include "joint/joint.h"
 #include "math/scaled.h"
 
-/// The factor of all joints of an island: a block L D L^T of the matrix K + S (joint.h). The block of a joint's own
+/// The factor of all joints of an assembly: a block L D L^T of the matrix K + S (joint.h). The block of a joint's own
 /// rows is in JointWork::response, the blocks of its couplings are in JointStage::numbers.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -69,8 +69,9 @@ class ProductSum {
 #endif
 };
 
-/// Computes the part of J v of one body, for each row of a joint: axis . v + arm . w. For A, the caller must negate it.
-inline void show(const JointWork& work, uint32_t end, const Vec3<Real>& linear_velocity,
+/// Computes the part of J v of one body, for the first `rows` rows of a joint: axis . v + arm . w. For A, the caller
+/// must negate it. The three rows of the anchor points are always computed.
+inline void show(const JointWork& work, uint32_t rows, uint32_t end, const Vec3<Real>& linear_velocity,
                  const Vec3<Real>& angular_velocity, Real (&speed)[k_joint_rows_max]) {
   if (work.points != 0) {
     const Vec3<Real> at_point = linear_velocity + cross(angular_velocity, work.arm[end]);
@@ -78,11 +79,11 @@ inline void show(const JointWork& work, uint32_t end, const Vec3<Real>& linear_v
     speed[1] = at_point.y;
     speed[2] = at_point.z;
   }
-  for (uint32_t k = first_other(work); k < work.rows; ++k)
+  for (uint32_t k = first_other(work); k < rows; ++k)
     speed[k] = dot(linear_velocity, work.row[k].axis) + dot(angular_velocity, work.row[k].arm[end]);
 }
 
-/// Limit of the impulse of a row in a solution. If an impulse is larger, all impulses of the island are scaled down.
+/// Limit of the impulse of a row in a solution. If an impulse is larger, all impulses of the assembly are scaled down.
 #if defined(DETENT_F64)
 inline constexpr Real k_solution_max = 0x1p24;
 #else
@@ -91,43 +92,52 @@ inline constexpr Real k_solution_max = 16384.0;
 /// Limit of the velocity change of a body by its joints, m/s. The sum of two such values fits a Real.
 inline constexpr Real k_gathered_max = 65504.0;
 
-/// Adds the velocity changes M^-1 J^T x of a joint's impulses x to a body's `push` and `twist`. Returns false if a
-/// value exceeds k_gathered_max.
-inline bool gather(const JointWork& work, uint32_t end, JointBody& body) {
-  Real given[k_joint_rows_max], most = k_zero;  // impulse of each row over the mass, m/s
-  bool saturated = false;
-  for (uint32_t k = 0; k < work.rows; ++k) {
-    given[k] =
-        multiply(work.impulse[k], scaled_by_power(body.inverse_mass, unit_power(work, k) + k_impulse_power), saturated);
-    most = max(most, abs(given[k]));
-  }
-  if (saturated || !(most <= k_gathered_max * Unit(0.5))) return false;
-  Vec3<Real> push = k_zero_vector, twist = k_zero_vector;
+/// Adds the velocity changes M^-1 J^T x of a joint's impulses x to `push` and `twist` of its mobile bodies. Returns
+/// false if a value exceeds k_gathered_max. Range: |x| <= k_solution_max.
+inline bool gather(const JointWork& work, JointBody& a, JointBody& b) {
+  constexpr int k_kinds = DETENT_FIXED ? 2 : 1;  // kinds of rows with their own unit: linear, angular
+  Vec3<Real> force = k_zero_vector, torque[k_kinds][2] = {};
   if (work.points != 0) {
-    push = {given[0], given[1], given[2]};
-    twist = cross(work.arm[end], push);
+    force = {work.impulse[0], work.impulse[1], work.impulse[2]};
+    for (int end = 0; end < 2; ++end) torque[0][end] = cross(work.arm[end], force);
   }
   for (uint32_t k = first_other(work); k < work.rows; ++k) {
-    if (!(greatest(twist) <= k_gathered_max)) return false;  // otherwise the next row could overflow
-    if (is_linear(work.row[k])) push += work.row[k].axis * given[k];
-    twist += work.row[k].arm[end] * given[k];
+    const JointRow& row = work.row[k];
+    const int kind = DETENT_FIXED ? row_kind(row) : 0;
+    force += row.axis * work.impulse[k];
+    for (int end = 0; end < 2; ++end) torque[kind][end] += row.arm[end] * work.impulse[k];
   }
-  if (!(greatest(push) <= k_gathered_max) || !(greatest(twist) <= scale_by_power(k_gathered_max, -body.above)))
-    return false;
-  if (body.above != 0)
-    twist = {scale_by_power(twist.x, body.above), scale_by_power(twist.y, body.above),
-             scale_by_power(twist.z, body.above)};
-  body.push = end == 1 ? body.push + push : body.push - push;
-  body.twist = end == 1 ? body.twist + twist : body.twist - twist;
-  return greatest(body.push) <= k_gathered_max && greatest(body.twist) <= k_gathered_max;
+  bool fits = true;
+  const auto add = [&](JointBody& body, const Vec3<Real>& sum, int power, Vec3<Real>& to) {
+    const Scaled factor = scaled_by_power(body.inverse_mass, power);
+#if DETENT_FIXED
+    bool saturated = false;
+    const Vec3<Real> v = {multiply(sum.x, factor, saturated), multiply(sum.y, factor, saturated),
+                          multiply(sum.z, factor, saturated)};
+    fits = fits && !saturated && greatest(v) <= k_gathered_max;
+    if (!fits) return;  // the sum could overflow
+#else
+    const Vec3<Real> v = multiply(sum, factor);
+#endif
+    to += v;
+    fits = fits && greatest(to) <= k_gathered_max;
+  };
+  for (int end = 0; end < 2; ++end) {
+    JointBody& body = end == 0 ? a : b;
+    if (body.mobile == 0) continue;
+    add(body, end == 0 ? -force : force, impulse_power(work, 0), body.push);
+    for (int kind = 0; kind < k_kinds; ++kind)
+      add(body, end == 0 ? -torque[kind][end] : torque[kind][end], impulse_power(work, kind) + body.above, body.twist);
+  }
+  return fits;
 }
 
 /// Chooses the units of a joint's impulses, 2^power reference masses, for which the responses of its rows are near 2^5:
-/// so the impulses between heavy bodies stay in range, even in an island with light bodies. Range: load_inertia() and
+/// so the impulses between heavy bodies stay in range, even in an assembly with light bodies. Range: load_inertia() and
 /// make_joint_rows() have been called.
 void choose_unit(const JointStage& stage, JointWork& work);
 
-/// The factor of the joints of an island.
+/// The factor of the joints of an assembly.
 class JointFactor {
  public:
   /// `dropped`: some couplings had no room. Then the magnitudes of the missing elements are added to the diagonal. The

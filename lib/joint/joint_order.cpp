@@ -3,9 +3,9 @@
 #include "math/scaled.h"
 #include "motion/step_settings.h"
 
-/// The order in which the joints of an island are eliminated: minimum degree. With this order, the factor of a tree of
-/// joints has only the blocks of the tree's own couplings. The factor of a loop has few more. The order depends on the
-/// joints' slots alone.
+/// The assemblies of an island, and the order in which the joints of an assembly are eliminated: minimum degree. With
+/// this order, the factor of a tree of joints has only the blocks of the tree's own couplings. The factor of a loop has
+/// few more. The order depends on the joints' slots alone.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
@@ -24,8 +24,9 @@ class Eliminator {
   uint32_t dropped = 0;
 
   /// Couples all joints of a body with each other.
-  void couple_all(uint32_t place) {
-    for (uint32_t link = stage_.bodies[place].first; link != k_no_link;) {
+  void couple_all(const JointBody& body) {
+    const uint32_t place = static_cast<uint32_t>(&body - stage_.bodies.data);
+    for (uint32_t link = body.first; link != k_no_link;) {
       const uint32_t one = link / 2;
       link = stage_.work[one].next[link % 2];
       for (uint32_t further = link; further != k_no_link;) {
@@ -36,8 +37,10 @@ class Eliminator {
     }
   }
 
-  /// Eliminates the joints, and overwrites `order` with the order of elimination.
+  /// Eliminates the joints of an assembly, and overwrites `order` with the order of elimination.
   void run(Span<uint32_t> order) {
+    const uint32_t count = stage_.work[order[0]].assembly_joints;
+    each_mobile_body(order, stage_, [&](const JointBody& body) { couple_all(body); });
     for (uint32_t k = order.count; k-- > 0;) enter(order[k]);
     for (uint32_t k = 0; k < order.count; ++k) {
       const uint32_t joint = least();
@@ -45,6 +48,7 @@ class Eliminator {
       order[k] = joint;
       eliminate(joint, k);
     }
+    stage_.work[order[0]].assembly_joints = count;
   }
 
   /// Makes each joint's list of couplings with joints that are eliminated later, and assigns their blocks.
@@ -73,8 +77,7 @@ class Eliminator {
   /// First joint in the list of each degree.
   uint32_t head_[k_degrees];
 
-  /// Whether the two joints connect the same two bodies, and the other body, with a lower index, has coupled them
-  /// already.
+  /// Whether the two joints connect the same two bodies, and the other body, with a lower index, couples them.
   bool is_coupled_before(uint32_t one, uint32_t other, uint32_t place) const {
     const JointWork &p = stage_.work[one], &q = stage_.work[other];
     const auto holds = [](const JointWork& work, uint32_t body) {
@@ -111,7 +114,7 @@ class Eliminator {
   void enter(uint32_t joint) {
     uint32_t& head = head_of(joint);
     JointWork& work = stage_.work[joint];
-    work.around[0] = k_no_link;
+    work.place = work.around[0] = k_no_link;
     work.around[1] = head;
     if (head != k_no_link) stage_.work[head].around[0] = joint;
     head = joint;
@@ -161,24 +164,53 @@ class Eliminator {
   }
 };
 
-/// Chooses the reference mass of the island such that the largest response of its bodies is near 2^k_response_bits, for
-/// any shape of the bodies. Then impulses are as small as possible.
-void weigh(const SolverBodies& bodies, Span<const uint32_t> slots, JointStage& stage) {
-  Scaled most = Scaled(0.0);  // largest response to a torque
-  const auto each = [&](const auto& visit) {
-    for (const uint32_t slot : slots) {
-      const uint32_t place = bodies.work[slot].joint_body;
-      if (place != k_no_link && stage.bodies[place].mobile != 0) visit(slot, stage.bodies[place]);
-    }
+/// Appends the joints of an assembly to `order`, in the order of their slots. `joint` is the lowest of them. Returns
+/// their number.
+uint32_t list_assembly(uint32_t joint, JointStage& stage, uint32_t* order) {
+  uint32_t count = 0;
+  const auto add = [&](uint32_t index) {
+    uint32_t& place = stage.work[index].place;
+    if (place == k_no_link) order[count++] = index;
+    place = 0;
   };
-  each([&](uint32_t slot, const JointBody& body) {
-    const int exponent = DETENT_FIXED ? bodies.work[slot].inverse_inertia.exponent + 2 * body.above : 0;
-    const Scaled own = scaled_by_power(divide(Scaled(1.0), bodies.properties[slot].mass), exponent < 0 ? 0 : exponent);
+  add(joint);
+  for (uint32_t k = 0; k < count; ++k) {
+    for (const uint32_t at : stage.work[order[k]].body) {
+      JointBody& body = stage.bodies[at];
+      if (body.mobile == 0 || body.owner != k_no_link) continue;
+      body.owner = body.first;
+      for (uint32_t link = body.first; link != k_no_link; link = stage.work[link / 2].next[link % 2]) add(link / 2);
+    }
+  }
+  heap_sort(Span<uint32_t>{order, count}, [](uint32_t a, uint32_t b) { return a < b; });
+  stage.work[joint].assembly_joints = count;
+  return count;
+}
+
+/// Assigns each mobile body of an assembly to its first joint in the order.
+void assign_bodies(Span<const uint32_t> order, JointStage& stage) {
+  for (uint32_t k = order.count; k-- > 0;) {
+    for (uint32_t end = 2; end-- > 0;) {
+      JointBody& body = stage.bodies[stage.work[order[k]].body[end]];
+      if (body.mobile != 0) body.owner = 2 * order[k] + end;
+    }
+  }
+}
+
+/// Chooses the reference mass of the assembly such that the largest response of its bodies is near 2^k_response_bits,
+/// for any shape of the bodies. Then impulses are as small as possible.
+void weigh(const SolverBodies& bodies, Span<const uint32_t> order, JointStage& stage) {
+  Scaled most = Scaled(0.0);  // largest response to a torque
+  each_mobile_body(order, stage, [&](const JointBody& body) {
+    const int exponent = DETENT_FIXED ? bodies.work[body.slot].inverse_inertia.exponent + 2 * body.above : 0;
+    const Scaled own =
+        scaled_by_power(divide(Scaled(1.0), bodies.properties[body.slot].mass), exponent < 0 ? 0 : exponent);
     if (less(most, own)) most = own;
   });
   if (!is_positive(most)) return;
   const Scaled reference = scaled_by_power(divide(Scaled(1.0), most), DETENT_FIXED ? k_response_bits : 0);
-  each([&](uint32_t slot, JointBody& body) { body.inverse_mass = divide(reference, bodies.properties[slot].mass); });
+  each_mobile_body(order, stage,
+                   [&](JointBody& body) { body.inverse_mass = divide(reference, bodies.properties[body.slot].mass); });
 }
 
 /// Sets the mass that the stored impulses are relative to, and the largest impulses of motors, springs and friction.
@@ -216,7 +248,7 @@ void weigh_joint(const StepSettings& settings, const SolverBodies& bodies, Joint
 
 uint32_t order_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
                       Span<Island> islands, JointStage& stage) {
-  // Count the joints of each island, then list them: by island, in the order of their slots.
+  // Count the joints of each island, then list them: by island, and assembly by assembly.
   const auto island_of = [&](const JointWork& work) -> Island& {
     const JointBody &a = stage.bodies[work.body[0]], &b = stage.bodies[work.body[1]];
     return islands[bodies.work[a.mobile != 0 ? a.slot : b.slot].island];
@@ -229,25 +261,24 @@ uint32_t order_joints(const StepSettings& settings, const SolverBodies& bodies, 
     island.joint_count = 0;
   }
   for (uint32_t index = 0; index < stage.count; ++index) {
+    if (stage.work[index].place != k_no_link) continue;
     Island& island = island_of(stage.work[index]);
-    stage.order[island.first_joint + island.joint_count++] = index;
+    island.joint_count += list_assembly(index, stage, &stage.order[island.first_joint + island.joint_count]);
   }
   uint32_t couplings = 0, numbers = 0, dropped = 0;
   for (Island& island : islands) {
-    if (island.joint_count == 0) continue;
-    const Span<const uint32_t> own = {slots.data + island.first_body, island.body_count};
-    weigh(bodies, own, stage);
-    Eliminator eliminator(stage, couplings, numbers);
-    for (const uint32_t slot : own) {
-      const uint32_t place = bodies.work[slot].joint_body;
-      if (place != k_no_link && stage.bodies[place].mobile != 0) eliminator.couple_all(place);
-    }
-    eliminator.run({stage.order.data + island.first_joint, island.joint_count});
-    eliminator.list_columns(couplings);
-    couplings = eliminator.couplings;
-    numbers = eliminator.numbers;
-    island.joint_couplings_dropped = eliminator.dropped;
-    dropped += eliminator.dropped;
+    island.joint_couplings_dropped = 0;
+    each_assembly(island, stage, [&](Span<uint32_t> order) {
+      Eliminator eliminator(stage, couplings, numbers);
+      eliminator.run(order);
+      eliminator.list_columns(couplings);
+      assign_bodies(order, stage);
+      weigh(bodies, order, stage);
+      couplings = eliminator.couplings;
+      numbers = eliminator.numbers;
+      island.joint_couplings_dropped += eliminator.dropped;
+    });
+    dropped += island.joint_couplings_dropped;
   }
   for (JointWork& work : stage.work.first(stage.count)) weigh_joint(settings, bodies, stage, work);
   for (Island& island : islands) require_substeps(settings, bodies, slots, stage, island);

@@ -50,42 +50,29 @@ Scaled kept_share(const StepSettings& settings) {
   return scaled_by_power(scaled_from_count(settings.substeps), -k_kept_power);
 }
 
-/// Visits the mobile bodies of an island that have joints.
-template <class Visit>
-void each_body(const SolverBodies& bodies, Span<const uint32_t> slots, JointStage& stage, const Visit& visit) {
-  for (const uint32_t slot : slots) {
-    const uint32_t place = bodies.work[slot].joint_body;
-    if (place == k_no_link) continue;
-    JointBody& body = stage.bodies[place];
-    if (body.mobile != 0) visit(body);
-  }
-}
-
-/// Solves the joints of one island.
+/// Solves the joints of one assembly.
 struct Solver {
   const StepSettings& settings;
   const SolverBodies& bodies;
-  Span<const uint32_t> slots;
   JointStage& stage;
   Span<const uint32_t> order;
   JointFactor factor;
   bool touches;  ///< the island has contacts, which are solved in alternation with the joints
   uint32_t clamped = 0, undecided = 0;
 
-  Solver(const StepSettings& of_step, const SolverBodies& all, Span<const uint32_t> of_island, const Island& island,
+  Solver(const StepSettings& of_step, const SolverBodies& all, const Island& island, Span<const uint32_t> of_assembly,
          JointStage& joints)
       : settings(of_step),
         bodies(all),
-        slots(of_island),
         stage(joints),
-        order{joints.order.data + island.first_joint, island.joint_count},
+        order(of_assembly),
         factor(joints, order, island.joint_couplings_dropped != 0),
         touches(island.contact_count != 0) {}
 
   JointBody& end_of(const JointWork& work, uint32_t end) const { return stage.bodies[work.body[end]]; }
   template <class Visit>
   void each_mobile(const Visit& visit) {
-    each_body(bodies, slots, stage, visit);
+    each_mobile_body(order, stage, visit);
   }
   template <class Visit>
   void each_joint(const Visit& visit) {
@@ -211,8 +198,8 @@ struct Solver {
   void speeds(const JointWork& work, Real (&speed)[k_joint_rows_max]) const {
     Real of_a[k_joint_rows_max];
     const JointBody &a = end_of(work, 0), &b = end_of(work, 1);
-    show(work, 0, a.linear_velocity, a.angular_velocity, of_a);
-    show(work, 1, b.linear_velocity, b.angular_velocity, speed);
+    show(work, work.rows, 0, a.linear_velocity, a.angular_velocity, of_a);
+    show(work, work.rows, 1, b.linear_velocity, b.angular_velocity, speed);
     for (uint32_t k = 0; k < work.rows; ++k) speed[k] -= of_a[k];
   }
   /// The exponent of the power of two between the speed of a row and its right-hand side.
@@ -369,12 +356,7 @@ struct Solver {
   bool gather_joints() {
     bool fits = true;
     each_mobile([&](JointBody& body) { body.push = body.twist = k_zero_vector; });
-    each_joint([&](const JointWork& work) {
-      for (uint32_t end = 0; fits && end < 2; ++end) {
-        JointBody& body = end_of(work, end);
-        if (body.mobile != 0 && !gather(work, end, body)) fits = false;
-      }
-    });
+    each_joint([&](const JointWork& work) { fits = fits && gather(work, end_of(work, 0), end_of(work, 1)); });
     each_mobile([&](const JointBody& body) { fits = fits && angular_velocities_within(body, body.twist); });
     return fits;
   }
@@ -420,12 +402,23 @@ struct Solver {
     }
   }
 
-  /// Solves the rows once more: removes the speed that contacts have added.
-  void solve_again(Real elapsed) {
+  /// Whether contacts have changed no component of a body's velocity by more than `enough`, m/s, since
+  /// BodyWork::velocity_before was stored.
+  bool has_settled(Real enough) {
+    bool settled = true;
+    each_mobile([&](const JointBody& body) {
+      const Vec3<Real> change = bodies.motions[body.slot].linear_velocity - bodies.work[body.slot].velocity_before;
+      if (greatest(change) > enough) settled = false;
+    });
+    return settled;
+  }
+
+  /// Solves the rows once more, if the assembly has not settled: removes the speed that contacts have added.
+  void solve_again(Real elapsed, Real enough) {
+    if (has_settled(enough)) return;
     each_mobile([&](JointBody& body) {
       // apply() only clamps the motion after the contacts here, because no joint impulses are pending.
       apply(body);
-      load_motion(body);
     });
     place_still(elapsed);
     solve(elapsed);
@@ -662,65 +655,80 @@ struct Solver {
   }
 };
 
+/// Visits a solver for each assembly of the island. Returns the number of values that were clamped, and adds to
+/// `undecided`.
+template <class Visit>
+uint32_t solve_each(const StepSettings& settings, const SolverBodies& bodies, const Island& island, JointStage& stage,
+                    uint32_t& undecided, const Visit& visit) {
+  uint32_t clamped = 0;
+  each_assembly(island, stage, [&](Span<const uint32_t> order) {
+    Solver solver(settings, bodies, island, order, stage);
+    visit(solver);
+    clamped += solver.clamped + solver.factor.saturated;
+    undecided += solver.undecided;
+  });
+  return clamped;
+}
+
 }  // namespace
 
-void begin_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
-                  const Island& island, Real elapsed, JointStage& stage) {
-  Solver solver(settings, bodies, slots, island, stage);
-  solver.begin(elapsed);
-}
-
-uint32_t solve_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
-                      const Island& island, Real elapsed, JointStage& stage, uint32_t& undecided) {
-  Solver solver(settings, bodies, slots, island, stage);
-  solver.start();
-  solver.make_factor();
-  solver.solve(elapsed);
-  if (solver.touches) solver.renew_angular_velocities();
-  undecided += solver.undecided;
-  return solver.clamped + solver.factor.saturated;
-}
-
-uint32_t solve_joints_again(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
-                            const Island& island, Real elapsed, JointStage& stage, uint32_t& undecided) {
-  Solver solver(settings, bodies, slots, island, stage);
-  solver.solve_again(elapsed);
-  undecided += solver.undecided;
-  return solver.clamped + solver.factor.saturated;
-}
-
-uint32_t follow_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
-                       const Island& island, Real elapsed, JointStage& stage) {
-  Solver solver(settings, bodies, slots, island, stage);
-  const Scaled share = kept_share(settings);
-  solver.each_joint([&](JointWork& work) { solver.keep(work, share); });
-  if (solver.any_turns()) {
-    const Scaled taken = solver.rotational_energy();
-    solver.follow_curves(elapsed, taken);
-  }
-  solver.close_gaps();
-  if (solver.touches) solver.renew_angular_velocities();
-  solver.lend_momenta();
-  return solver.clamped + solver.factor.saturated;
-}
-
-uint32_t end_joints(const StepSettings& settings, const SolverBodies& bodies, Span<const uint32_t> slots,
-                    const Island& island, Real elapsed, JointStage& stage, uint32_t& undecided) {
-  Solver solver(settings, bodies, slots, island, stage);
-  if (solver.touches) solver.solve_again(elapsed);
-  undecided += solver.undecided;
-  const Scaled share = kept_share(settings);
-  solver.each_joint([&](JointWork& work) {
-    solver.add_up(work);
-    solver.keep_all(work, share);
+void begin_joints(const StepSettings& settings, const SolverBodies& bodies, const Island& island, Real elapsed,
+                  JointStage& stage) {
+  each_assembly(island, stage, [&](Span<const uint32_t> order) {
+    Solver solver(settings, bodies, island, order, stage);
+    solver.begin(elapsed);
   });
-  solver.end();
-  return solver.clamped + solver.factor.saturated;
 }
 
-uint32_t shift_joints(const SolverBodies& bodies, Span<const uint32_t> slots, JointStage& stage) {
+uint32_t solve_joints(const StepSettings& settings, const SolverBodies& bodies, const Island& island, Real elapsed,
+                      JointStage& stage, uint32_t& undecided) {
+  return solve_each(settings, bodies, island, stage, undecided, [&](Solver& solver) {
+    solver.start();
+    solver.make_factor();
+    solver.solve(elapsed);
+    if (solver.touches) solver.renew_angular_velocities();
+  });
+}
+
+uint32_t solve_joints_again(const StepSettings& settings, const SolverBodies& bodies, const Island& island,
+                            Real elapsed, Real enough, JointStage& stage, uint32_t& undecided) {
+  return solve_each(settings, bodies, island, stage, undecided,
+                    [&](Solver& solver) { solver.solve_again(elapsed, enough); });
+}
+
+uint32_t follow_joints(const StepSettings& settings, const SolverBodies& bodies, const Island& island, Real elapsed,
+                       JointStage& stage) {
+  const Scaled share = kept_share(settings);
+  uint32_t undecided = 0;  // stays 0: no modes are chosen
+  return solve_each(settings, bodies, island, stage, undecided, [&](Solver& solver) {
+    solver.each_joint([&](JointWork& work) { solver.keep(work, share); });
+    if (solver.any_turns()) {
+      const Scaled taken = solver.rotational_energy();
+      solver.follow_curves(elapsed, taken);
+    }
+    solver.close_gaps();
+    if (solver.touches) solver.renew_angular_velocities();
+    solver.lend_momenta();
+  });
+}
+
+uint32_t end_joints(const StepSettings& settings, const SolverBodies& bodies, const Island& island, Real elapsed,
+                    Real enough, JointStage& stage, uint32_t& undecided) {
+  const Scaled share = kept_share(settings);
+  return solve_each(settings, bodies, island, stage, undecided, [&](Solver& solver) {
+    if (solver.touches) solver.solve_again(elapsed, enough);
+    solver.each_joint([&](JointWork& work) {
+      solver.add_up(work);
+      solver.keep_all(work, share);
+    });
+    solver.end();
+  });
+}
+
+uint32_t shift_joints(const SolverBodies& bodies, const Island& island, JointStage& stage) {
   bool saturated = false;
-  each_body(bodies, slots, stage, [&](const JointBody& body) {
+  const Span<const uint32_t> order = {stage.order.data + island.first_joint, island.joint_count};
+  each_mobile_body(order, stage, [&](const JointBody& body) {
     BodyWork& now = bodies.work[body.slot];
     BodyMotion& motion = bodies.motions[body.slot];
     const Vec3<Real> before = body.angular_momentum_before;  // with the body's own inertia

@@ -7,7 +7,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr int k_rest_power = -6;
+constexpr int k_rest_power = -5;
 constexpr Real k_slow_max = 1024.0;  ///< m/s: a faster body is not at rest, and its squared speed may overflow
 
 /// Whether no point of a body is faster than `slow`, m/s. Estimated from the kinetic energy per unit mass: 2 (v . v + w

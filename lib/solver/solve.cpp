@@ -247,10 +247,15 @@ SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<
       }
     }
   };
+  /// The given number of sweeps over the contacts, after their bodies' velocities are stored.
+  const auto sweep_times = [&](uint32_t times, const auto& one, const auto& four) {
+    remember(bodies, island);
+    for (uint32_t left = times; left > 0; --left) pass(settings, bodies, order, contacts, one, four);
+  };
   const bool kinematic = !DETENT_TASKS || has_kinematic_contact(bodies.properties, order, contacts);
   for (uint32_t substep = 0; substep < settings.substeps; ++substep) {
     if (joints.code != nullptr) {
-      joints.code->begin(settings, bodies, island, *joints.island, elapsed, *joints.stage);
+      joints.code->begin(settings, bodies, *joints.island, elapsed, *joints.stage);
       renew_responses(bodies, *joints.stage, order, contacts);
     }
     count.clamped += share_sum(settings.team, island, k_bodies_shared, [&](Span<const uint32_t> slots) {
@@ -272,27 +277,30 @@ SolveCount solve(const StepSettings& settings, const SolverBodies& bodies, Span<
       const Island& own = *joints.island;
       JointStage& stage = *joints.stage;
       uint32_t& undecided = count.undecided;
-      count.clamped += joints.code->solve(settings, bodies, island, own, elapsed, stage, undecided);
+      count.clamped += joints.code->solve(settings, bodies, own, elapsed, stage, undecided);
       for (uint32_t round = 0; round < k_joint_rounds && order.count != 0; ++round) {
-        remember(bodies, island);
-        for (uint32_t left = round == 0 ? settings.iterations + 1 : 1; left > 0; --left)
-          pass(
-              settings, bodies, order, contacts, [](Solver& contact) { contact.solve_normals(); }, solve_normals_lanes);
+        sweep_times(
+            round == 0 ? settings.iterations + 1 : 1, [](Solver& contact) { contact.solve_normals(); },
+            solve_normals_lanes);
         if (has_settled(bodies, island, enough)) break;
         const bool last = has_settled(bodies, island, enough_for_joints);
-        count.clamped += joints.code->solve_again(settings, bodies, island, own, elapsed, stage, undecided);
+        count.clamped += joints.code->solve_again(settings, bodies, own, elapsed, enough, stage, undecided);
         if (last) break;
       }
-      count.clamped += joints.code->follow(settings, bodies, island, own, elapsed, stage);
+      count.clamped += joints.code->follow(settings, bodies, own, elapsed, stage);
     }
     count.clamped += share_sum(settings.team, island, k_bodies_shared, [&](Span<const uint32_t> slots) {
       return integrate_positions(bodies, slots, settings.time);
     });
-    if (joints.code != nullptr) count.clamped += joints.code->shift(bodies, island, *joints.stage);
-    sweep([](Solver& contact) { contact.relax(); }, relax_lanes);
-    if (joints.code != nullptr)
+    if (joints.code == nullptr) {
+      sweep([](Solver& contact) { contact.relax(); }, relax_lanes);
+    } else {
+      count.clamped += joints.code->shift(bodies, *joints.island, *joints.stage);
+      sweep_times(
+          settings.iterations, [](Solver& contact) { contact.relax(); }, relax_lanes);
       count.clamped +=
-          joints.code->end(settings, bodies, island, *joints.island, elapsed, *joints.stage, count.undecided);
+          joints.code->end(settings, bodies, *joints.island, elapsed, enough, *joints.stage, count.undecided);
+    }
     elapsed += settings.time;
   }
   if (joints.code != nullptr) renew_responses(bodies, *joints.stage, order, contacts);

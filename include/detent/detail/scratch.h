@@ -159,7 +159,7 @@ struct Island {
   uint32_t first_body, body_count;        ///< range in the list of bodies by island
   uint32_t first_contact, contact_count;  ///< range in the solve order
   uint32_t substeps;                      ///< number of substeps; before it is chosen, the minimum for its joints
-  uint32_t first_joint, joint_count;      ///< range in the order of the joints
+  uint32_t first_joint, joint_count;      ///< range in the order of the joints, assembly by assembly
   uint32_t joint_couplings_dropped;       ///< couplings of its joints that had no room in the factor
   Scaled joint_need;                      ///< square of the number of substeps that its joints need
 };
@@ -169,6 +169,7 @@ struct alignas(8) JointBodyStart {
   uint32_t slot;
   uint32_t mobile;                     ///< 1 if it is dynamic and awake
   uint32_t first, last;                ///< ends of the list of its joints, as 2 x joint + end; UINT32_MAX: empty
+  uint32_t owner;                      ///< its first joint in the elimination order, as 2 x joint + end
   int32_t exponent;                    ///< the body's unit for joints is 2^exponent m
   int32_t above;                       ///< `exponent` minus the body's size_exponent
   uint32_t renewed;                    ///< 1 if its inverse inertia differs from that of the last substep
@@ -237,6 +238,7 @@ struct alignas(8) JointWorkStart {
   uint32_t degree;                  ///< while the order is computed: couplings with joints not eliminated yet
   uint32_t mark;                    ///< while the order is computed: the last joint that marked this one as a neighbour
   uint32_t around[2];               ///< while the order is computed: previous and next joint of the same degree
+  uint32_t assembly_joints;         ///< of the first joint of an assembly in the elimination order: number of its joints
   uint32_t rows;                    ///< number of rows in this substep
   uint32_t driven[k_free_motions];  ///< row of each free motion that is driven now, else k_joint_rows_max
   alignas(4) DriveMode mode[k_free_motions + 1];  ///< of each free motion

@@ -198,6 +198,50 @@ DETENT_TEST(joint, a_tree_holds_masses_ten_thousand_times_apart_and_takes_any) {
   }
 }
 
+/// A plate, on which two pairs of balls stand without weight, as one island. The upper ball of a pair moves sideways,
+/// so it pulls the lower one off the plate: no contact has an impulse.
+struct PairsOnAPlate {
+  Lab lab{room(5, 2), weightless(8)};
+  BodyId lower{}, upper{};
+
+  PairsOnAPlate(bool plate, double speed_of_other) {
+    if (plate) {
+      add_shape(lab, box(reals(2, 0.1, 2)), 0, 0, 0);
+      add_pair(1, speed_of_other);
+    }
+    upper = add_pair(-1, 2);
+    lower = {upper.slot - 1, upper.generation};
+  }
+  BodyId add_pair(double x, double speed) {
+    const BodyId low = add_shape(lab, sphere(real(0.1)), x, 0.2, 0);
+    const BodyId high = add_shape(lab, sphere(real(0.1)), x, 0.6, 0);
+    add_joint(lab, JointType::ball, low, high, x, 0.4, 0);
+    EXPECT_OK(set_velocity(lab.world, high, reals(speed, 0, 0), reals(0, 0, 0)));
+    return high;
+  }
+};
+
+DETENT_TEST(joint, assemblies_that_touch_are_solved_alone) {
+  PairsOnAPlate beside_rest(true, 0), beside_motion(true, 30), alone(false, 0);
+  const StepReport report = beside_rest.lab.run(1);
+  EXPECT_EQ(report.islands, 1u);
+  EXPECT_EQ(report.contacts.count, 2u);
+  beside_motion.lab.run(1);
+  alone.lab.run(1);
+  for (const bool upper : {false, true}) {
+    const auto motion = [&](PairsOnAPlate& pairs) { return pairs.lab.motion(upper ? pairs.upper : pairs.lower); };
+    const Motion a = motion(beside_rest), b = motion(beside_motion), c = motion(alone);
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_EQ(a.position[i], b.position[i]);
+      EXPECT_EQ(a.linear_velocity[i], b.linear_velocity[i]);
+      EXPECT_EQ(a.angular_velocity[i], b.angular_velocity[i]);
+      // Contacts without impulses change only the rate at which gaps are closed.
+      EXPECT_NEAR(a.linear_velocity[i], c.linear_velocity[i], 1e-5);
+      EXPECT_NEAR(a.angular_velocity[i], c.angular_velocity[i], 1e-5);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent
