@@ -1,5 +1,6 @@
 #pragma once
 #include <detent/detail/scratch.h>
+#include <detent/detail/shared.h>
 #include <detent/features.h>
 #include <detent/joint.h>
 
@@ -129,15 +130,23 @@ void each_assembly(const Island& island, const JointStage& stage, const Visit& v
     done += count;
   }
 }
+/// The next mobile body of an assembly from place `at` on (twice the index in `order`, plus the end of the joint); null
+/// after the last. Moves `at` behind it.
+DETENT_SHARED inline JointBody* next_mobile_body(Span<const uint32_t> order, const JointStage& stage, uint32_t& at) {
+  for (; at < 2 * order.count; ++at) {
+    const uint32_t joint = order[at / 2], end = at % 2;
+    JointBody& body = stage.bodies[stage.work[joint].body[end]];
+    if (body.owner != 2 * joint + end) continue;
+    ++at;
+    return &body;
+  }
+  return nullptr;
+}
 /// Visits the mobile bodies of an assembly.
 template <class Visit>
 void each_mobile_body(Span<const uint32_t> order, const JointStage& stage, const Visit& visit) {
-  for (const uint32_t joint : order) {
-    for (uint32_t end = 0; end < 2; ++end) {
-      JointBody& body = stage.bodies[stage.work[joint].body[end]];
-      if (body.owner == 2 * joint + end) visit(body);
-    }
-  }
+  uint32_t at = 0;
+  while (JointBody* const body = next_mobile_body(order, stage, at)) visit(*body);
 }
 
 /// Sets the lowest number of substeps for the joints of an island, and the squared number that their motion needs.

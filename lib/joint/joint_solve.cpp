@@ -58,16 +58,20 @@ struct Solver {
   Span<const uint32_t> order;
   JointFactor factor;
   bool touches;  ///< the island has contacts, which are solved in alternation with the joints
+  Real elapsed;  ///< from the start of the tick to the start of the substep
+  Real enough;   ///< see solve_joints_again()
   uint32_t clamped = 0, undecided = 0;
 
   Solver(const StepSettings& of_step, const SolverBodies& all, const Island& island, Span<const uint32_t> of_assembly,
-         JointStage& joints)
+         JointStage& joints, Real start, Real settled)
       : settings(of_step),
         bodies(all),
         stage(joints),
         order(of_assembly),
         factor(joints, order, island.joint_couplings_dropped != 0),
-        touches(island.contact_count != 0) {}
+        touches(island.contact_count != 0),
+        elapsed(start),
+        enough(settled) {}
 
   JointBody& end_of(const JointWork& work, uint32_t end) const { return stage.bodies[work.body[end]]; }
   template <class Visit>
@@ -80,7 +84,7 @@ struct Solver {
   }
 
   /// Sets the current poses of mobile bodies.
-  void place_moving(Real elapsed) {
+  void place_moving() {
     each_mobile([&](JointBody& body) {
       const BodyWork& now = bodies.work[body.slot];
       body.rotation = now.rotation;
@@ -88,7 +92,7 @@ struct Solver {
       body.axes = elapsed == k_zero ? now.axes : matrix_from(now.rotation);
     });
   }
-  void place_still(Real elapsed) {
+  void place_still(Real time) {
     each_joint([&](JointWork& work) {
       for (const uint32_t at : work.body) {
         JointBody& body = stage.bodies[at];
@@ -100,14 +104,14 @@ struct Solver {
         body.linear_velocity = body.angular_velocity = k_zero_vector;
         if (type_of(properties) == BodyType::kinematic) {
           Vec3<Real> angular_velocity;
-          rotate_freely(properties, now.free_rotation, motion.angular_momentum, elapsed, 0, rotation, angular_velocity);
+          rotate_freely(properties, now.free_rotation, motion.angular_momentum, time, 0, rotation, angular_velocity);
           body.linear_velocity = motion.linear_velocity;
           body.angular_velocity =
               world_angular_velocity(properties, now.inverse_inertia, motion.angular_momentum, body.above);
         }
         body.rotation = rotation;
         body.axes = matrix_from(rotation);
-        body.place = body.linear_velocity * elapsed;
+        body.place = body.linear_velocity * time;
       }
     });
   }
@@ -145,8 +149,8 @@ struct Solver {
                                             real_from_unit(Unit(1.0), properties.size_exponent - k_turned_power);
   }
 
-  void begin(Real elapsed) {
-    place_moving(elapsed);
+  void begin() {
+    place_moving();
     place_still(elapsed);
     each_mobile([&](JointBody& body) {
       BodyWork& now = bodies.work[body.slot];
@@ -262,7 +266,7 @@ struct Solver {
     });
   }
   /// Solves the rows, repeatedly until the drive modes of all limits, motors and friction agree with the impulses.
-  void solve(Real elapsed) {
+  void solve() {
     for (uint32_t decision = 1;; ++decision) {
       each_mobile([&](JointBody& body) {
         const BodyMotion& motion = bodies.motions[body.slot];
@@ -286,7 +290,7 @@ struct Solver {
       if (!wrong || last) break;
       make_factor();
     }
-    keep_sound(elapsed);
+    keep_sound();
     each_mobile([&](JointBody& body) { apply(body); });
     each_joint([&](JointWork& work) { count_in(work); });
   }
@@ -369,7 +373,7 @@ struct Solver {
   bool is_sound() const { return clamped + factor.saturated == 0; }
   /// If a value was clamped, the impulses do not solve the rows. This function then scales them so that they add no
   /// energy.
-  void keep_sound(Real elapsed) {
+  void keep_sound() {
     if (is_sound()) return;
     scale_all(share_within(Scaled(0.0)));
     place_still(elapsed);
@@ -404,7 +408,7 @@ struct Solver {
 
   /// Whether contacts have changed no component of a body's velocity by more than `enough`, m/s, since
   /// BodyWork::velocity_before was stored.
-  bool has_settled(Real enough) {
+  bool has_settled() {
     bool settled = true;
     each_mobile([&](const JointBody& body) {
       const Vec3<Real> change = bodies.motions[body.slot].linear_velocity - bodies.work[body.slot].velocity_before;
@@ -414,14 +418,14 @@ struct Solver {
   }
 
   /// Solves the rows once more, if the assembly has not settled: removes the speed that contacts have added.
-  void solve_again(Real elapsed, Real enough) {
-    if (has_settled(enough)) return;
+  void solve_again() {
+    if (has_settled()) return;
     each_mobile([&](JointBody& body) {
       // apply() only clamps the motion after the contacts here, because no joint impulses are pending.
       apply(body);
     });
     place_still(elapsed);
-    solve(elapsed);
+    solve();
     renew_angular_velocities();
   }
   /// Updates the bodies' angular velocities that contacts read.
@@ -436,7 +440,7 @@ struct Solver {
 
   /// Sets the right-hand sides such that the position errors at the predicted poses equal the current errors. This is
   /// necessary because rows act along straight lines, while the anchors move on curved paths.
-  void ask_for_curves(Real elapsed) {
+  void ask_for_curves() {
     each_mobile([&](JointBody& body) {
       const BodyMotion& motion = bodies.motions[body.slot];
       const BodyWork& now = bodies.work[body.slot];
@@ -462,13 +466,13 @@ struct Solver {
         ask(row, work.error[row] + (then.value[i] - work.value[i] - displacement));
       }
     });
-    place_moving(elapsed);
+    place_moving();
   }
 
   /// Adds the velocities by which the joints follow their curved paths, scaled so that they add at most the energy
   /// `taken`.
-  void follow_curves(Real elapsed, Scaled taken) {
-    clamped += solve_for([&] { ask_for_curves(elapsed); });
+  void follow_curves(Scaled taken) {
+    clamped += solve_for([&] { ask_for_curves(); });
     scale_all(share_within(is_sound() ? taken : Scaled(0.0)));
     each_mobile([&](JointBody& body) { apply(body); });
     each_joint([&](JointWork& work) { count_in(work); });
@@ -597,7 +601,7 @@ struct Solver {
     });
   }
   /// Restores the bodies' own inverse inertias and angular momenta.
-  void end() {
+  void restore_inertias() {
     each_mobile([&](JointBody& body) {
       body.renewed = body.slowed;
       if (body.slowed == 0) return;
@@ -653,17 +657,46 @@ struct Solver {
     for (Real& kept : stage.joints[work.joint].impulse) kept = multiply(kept, part);
     work.pull = most;
   }
+
+  /// The first solve of a substep.
+  void solve_first() {
+    start();
+    make_factor();
+    solve();
+    if (touches) renew_angular_velocities();
+  }
+  /// Adds the motion along curved paths, and computes the shifts that close gaps.
+  void follow() {
+    const Scaled share = kept_share(settings);
+    each_joint([&](JointWork& work) { keep(work, share); });
+    if (any_turns()) {
+      const Scaled taken = rotational_energy();
+      follow_curves(taken);
+    }
+    close_gaps();
+    if (touches) renew_angular_velocities();
+    lend_momenta();
+  }
+  /// Ends a substep.
+  void end() {
+    if (touches) solve_again();
+    const Scaled share = kept_share(settings);
+    each_joint([&](JointWork& work) {
+      add_up(work);
+      keep_all(work, share);
+    });
+    restore_inertias();
+  }
 };
 
-/// Visits a solver for each assembly of the island. Returns the number of values that were clamped, and adds to
-/// `undecided`.
-template <class Visit>
-uint32_t solve_each(const StepSettings& settings, const SolverBodies& bodies, const Island& island, JointStage& stage,
-                    uint32_t& undecided, const Visit& visit) {
+/// Calls a pass of the solver for each assembly of the island. Returns the number of values that were clamped, and adds
+/// to `undecided`.
+uint32_t solve_each(const StepSettings& settings, const SolverBodies& bodies, const Island& island, Real elapsed,
+                    Real enough, JointStage& stage, uint32_t& undecided, void (Solver::*pass)()) {
   uint32_t clamped = 0;
   each_assembly(island, stage, [&](Span<const uint32_t> order) {
-    Solver solver(settings, bodies, island, order, stage);
-    visit(solver);
+    Solver solver(settings, bodies, island, order, stage, elapsed, enough);
+    (solver.*pass)();
     clamped += solver.clamped + solver.factor.saturated;
     undecided += solver.undecided;
   });
@@ -674,55 +707,29 @@ uint32_t solve_each(const StepSettings& settings, const SolverBodies& bodies, co
 
 void begin_joints(const StepSettings& settings, const SolverBodies& bodies, const Island& island, Real elapsed,
                   JointStage& stage) {
-  each_assembly(island, stage, [&](Span<const uint32_t> order) {
-    Solver solver(settings, bodies, island, order, stage);
-    solver.begin(elapsed);
-  });
+  uint32_t undecided = 0;  // stays 0
+  solve_each(settings, bodies, island, elapsed, k_zero, stage, undecided, &Solver::begin);
 }
 
 uint32_t solve_joints(const StepSettings& settings, const SolverBodies& bodies, const Island& island, Real elapsed,
                       JointStage& stage, uint32_t& undecided) {
-  return solve_each(settings, bodies, island, stage, undecided, [&](Solver& solver) {
-    solver.start();
-    solver.make_factor();
-    solver.solve(elapsed);
-    if (solver.touches) solver.renew_angular_velocities();
-  });
+  return solve_each(settings, bodies, island, elapsed, k_zero, stage, undecided, &Solver::solve_first);
 }
 
 uint32_t solve_joints_again(const StepSettings& settings, const SolverBodies& bodies, const Island& island,
                             Real elapsed, Real enough, JointStage& stage, uint32_t& undecided) {
-  return solve_each(settings, bodies, island, stage, undecided,
-                    [&](Solver& solver) { solver.solve_again(elapsed, enough); });
+  return solve_each(settings, bodies, island, elapsed, enough, stage, undecided, &Solver::solve_again);
 }
 
 uint32_t follow_joints(const StepSettings& settings, const SolverBodies& bodies, const Island& island, Real elapsed,
                        JointStage& stage) {
-  const Scaled share = kept_share(settings);
   uint32_t undecided = 0;  // stays 0: no modes are chosen
-  return solve_each(settings, bodies, island, stage, undecided, [&](Solver& solver) {
-    solver.each_joint([&](JointWork& work) { solver.keep(work, share); });
-    if (solver.any_turns()) {
-      const Scaled taken = solver.rotational_energy();
-      solver.follow_curves(elapsed, taken);
-    }
-    solver.close_gaps();
-    if (solver.touches) solver.renew_angular_velocities();
-    solver.lend_momenta();
-  });
+  return solve_each(settings, bodies, island, elapsed, k_zero, stage, undecided, &Solver::follow);
 }
 
 uint32_t end_joints(const StepSettings& settings, const SolverBodies& bodies, const Island& island, Real elapsed,
                     Real enough, JointStage& stage, uint32_t& undecided) {
-  const Scaled share = kept_share(settings);
-  return solve_each(settings, bodies, island, stage, undecided, [&](Solver& solver) {
-    if (solver.touches) solver.solve_again(elapsed, enough);
-    solver.each_joint([&](JointWork& work) {
-      solver.add_up(work);
-      solver.keep_all(work, share);
-    });
-    solver.end();
-  });
+  return solve_each(settings, bodies, island, elapsed, enough, stage, undecided, &Solver::end);
 }
 
 uint32_t shift_joints(const SolverBodies& bodies, const Island& island, JointStage& stage) {
