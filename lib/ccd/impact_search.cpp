@@ -417,7 +417,11 @@ void ImpactStage::find_first() {
       if (!has_pair(known.pairs, key)) test_at_start(*this, key, find_contacts(known.contacts, key));
     });
   });
-  work_left = k_impact_work_min + k_impact_work_times * (moving + report.tests + report.skipped + report.kept_apart);
+  const uint32_t budget = k_impact_work_times * (moving + report.tests + report.skipped + report.kept_apart);
+  work_left = k_impact_work_min + budget;
+#if DETENT_SPARSE
+  if (probe != nullptr) probe->use.budget = budget;
+#endif
 }
 
 void ImpactStage::test_all_changed(Fraction time) {

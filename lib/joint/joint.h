@@ -4,6 +4,7 @@
 #include <detent/joint.h>
 
 #include "base/span.h"
+#include "base/sparse.h"
 #include "motion/angular_velocity.h"
 #include "motion/solver_bodies.h"
 #include "motion/step_settings.h"
@@ -52,6 +53,9 @@ struct JointStage {
   Span<Real> numbers;             ///< elements of the factor's blocks
   uint32_t count = 0;             ///< number of entries in `work`
   uint32_t body_count = 0;        ///< number of entries in `bodies`
+#if DETENT_SPARSE
+  uint32_t couplings_used = 0, numbers_used = 0;  ///< of `couplings` and `numbers`, which all islands share
+#endif
 };
 
 /// Collects all joints with an awake body, and the bodies of these joints. start_body() (predict.h) must have been

@@ -71,7 +71,7 @@ StepSettings settings_of(const World& world, const WorldState& state) {
 /// One step: its stages, in order, and the data that they pass to later stages.
 class Step {
  public:
-  Step(World& world, ImpactProbe* probe, StepReport& report);
+  Step(World& world, StepProbe* probe, StepReport& report);
   void run();
 
  private:
@@ -122,7 +122,7 @@ class Step {
   Span<ContactEvent> contact_events() const { return room_of(world_.hooks.contact_events); }
 
   World& world_;
-  ImpactProbe* const probe_;
+  StepProbe* const probe_;
   StepReport& report_;
   StageEnds ends_;
   const StateView<uint8_t> state_;
@@ -150,7 +150,7 @@ class Step {
   EventCount event_count_ = {};
 };
 
-Step::Step(World& world, ImpactProbe* probe, StepReport& report)
+Step::Step(World& world, StepProbe* probe, StepReport& report)
     : world_(world),
       probe_(probe),
       report_(report),
@@ -257,6 +257,12 @@ void Step::build_islands() {
   });
   if (joint_ops_ != nullptr)
     report_.lost.joint_couplings = joint_ops_->order(settings_, solver_bodies_, slots, islands_, joints_);
+#if DETENT_SPARSE
+  if (probe_ != nullptr) {
+    probe_->joint_couplings = joints_.couplings_used;
+    probe_->joint_numbers = joints_.numbers_used;
+  }
+#endif
   with_team(islands_.count, [&](Team* team) {
     share(team, islands_, k_islands_shared, [&](Span<Island> part) {
       choose_substeps(settings_, bodies_.properties, bodies_.work, slots, contact_order(), part, contacts_,
@@ -458,11 +464,11 @@ void Step::store() {
 }
 
 /// A separate function, so that the compiler cannot move its code across the change of the floating-point environment.
-__attribute__((noinline)) void run_stages(World& world, ImpactProbe* probe, StepReport& report) {
+__attribute__((noinline)) void run_stages(World& world, StepProbe* probe, StepReport& report) {
   Step(world, probe, report).run();
 }
 
-StepReport step_with(World& world, ImpactProbe* probe) {
+StepReport step_with(World& world, StepProbe* probe) {
   const FloatEnvironment environment;
   StepReport report;
   WorldState& state = view_of(world).world;
@@ -475,8 +481,14 @@ StepReport step_with(World& world, ImpactProbe* probe) {
 
 }  // namespace
 
-StepReport step(World& world) { return step_with(world, nullptr); }
-StepReport step_probed(World& world, ImpactProbe& probe) { return step_with(world, &probe); }
+StepReport step(World& world) {
+#if DETENT_SPARSE
+  const StepObserver* const observer = world.hooks.observer;
+  if (observer != nullptr && observer->step != nullptr) return observer->step(observer->context, world);
+#endif
+  return step_with(world, nullptr);
+}
+StepReport step_probed(World& world, StepProbe& probe) { return step_with(world, &probe); }
 
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent

@@ -1,0 +1,412 @@
+#include "replay/sparse_rollback.h"
+
+#include <string.h>
+
+#include "base/float_environment.h"
+#include "motion/activity.h"
+#include "motion/predict.h"
+#include "state/snapshot.h"
+#include "state/step_scratch.h"
+#include "state/used.h"
+#include "world/events.h"
+
+#if DETENT_SPARSE
+
+namespace detent {
+inline namespace DETENT_NAMESPACE {
+namespace {
+
+constexpr uint32_t k_tries_max = 3;
+/// A tick is made again in part if at most this fraction of the moving bodies is simulated. These are simulated twice.
+constexpr uint32_t k_share_divisor = 3;
+
+/// Whether two states have the same used elements.
+bool is_same_state(const StateView<const uint8_t>& a, const StateView<const uint8_t>& b) {
+  const UsedCounts counts = used_counts(a), others = used_counts(b);
+  const auto* bytes_a = reinterpret_cast<const uint8_t*>(&a.header);
+  const auto* bytes_b = reinterpret_cast<const uint8_t*>(&b.header);
+  for (uint32_t i = 1; i < k_section_count; ++i) {
+    const uint32_t offset = a.layout.*k_sections[i].offset;
+    if (counts.of[i] != others.of[i] ||
+        memcmp(bytes_a + offset, bytes_b + offset, counts.of[i] * k_sections[i].element_bytes) != 0)
+      return false;
+  }
+  return true;
+}
+
+StateView<const uint8_t> read(const StateView<uint8_t>& state) {
+  return const_view_of(reinterpret_cast<const uint8_t*>(&state.header));
+}
+
+StepCacheView cache_in(World& world) {
+  StateView<uint8_t> state = view_of(world);
+  return cache_of(state);
+}
+
+/// Whether the step lost nothing. The pools and buffers are then as if each island had its own.
+bool is_whole(const StepReport& report) {
+  const LossReport& lost = report.lost;
+  const EventReport& events = report.events;
+  return (lost.pairs | lost.contacts | lost.joint_couplings | lost.impacts | lost.sensed | lost.sensed_undecided |
+          events.capacity | events.contact_dropped | events.joint_dropped | events.sensor_dropped |
+          events.body_dropped) == 0;
+}
+
+bool can_move(const BodyProperties& properties) {
+  return is_dynamic(properties) || type_of(properties) == BodyType::kinematic;
+}
+
+uint32_t buffers_of(const WorldHooks& hooks) {
+  const auto bit = [](const auto& buffer, uint32_t index) { return room_of(buffer).count != 0 ? 1u << index : 0u; };
+  return bit(hooks.contact_events, 0) | bit(hooks.joint_events, 1) | bit(hooks.sensor_events, 2) |
+         bit(hooks.body_events, 3);
+}
+
+/// Replaces, in the recorded count of a whole step, the part of the bodies inside.
+template <class Count>
+void replace(const Count& base, const Count& made, Count& total) {
+  total = static_cast<Count>(total - base + made);
+}
+
+/// Every count of the report that is a sum over islands, pairs or bodies.
+void replace_sums(const StepReport& base, const StepReport& made, StepReport& total) {
+  const auto replace_in = [&](const auto& of) { replace(of(base), of(made), of(total)); };
+#define DETENT_SPARSE_SUM(member) \
+  replace_in([](auto& report) -> auto& { return report.member; })
+  DETENT_SPARSE_SUM(awake);
+  DETENT_SPARSE_SUM(islands);
+  DETENT_SPARSE_SUM(woke);
+  DETENT_SPARSE_SUM(fell_asleep);
+  DETENT_SPARSE_SUM(contacts.pairs);
+  DETENT_SPARSE_SUM(contacts.count);
+  DETENT_SPARSE_SUM(contacts.points);
+  DETENT_SPARSE_SUM(contacts.recycled);
+  DETENT_SPARSE_SUM(contacts.capped);
+  DETENT_SPARSE_SUM(contacts.sweeps_saved);
+  DETENT_SPARSE_SUM(contacts.substeps);
+  DETENT_SPARSE_SUM(contacts.colour_overflows);
+  DETENT_SPARSE_SUM(joints.count);
+  DETENT_SPARSE_SUM(joints.broken);
+  DETENT_SPARSE_SUM(joints.undecided);
+  DETENT_SPARSE_SUM(saturations);
+  DETENT_SPARSE_SUM(ccd.impacts);
+  DETENT_SPARSE_SUM(ccd.undecided);
+  DETENT_SPARSE_SUM(ccd.overlaps_left);
+  DETENT_SPARSE_SUM(ccd.tests);
+  DETENT_SPARSE_SUM(ccd.skipped);
+  DETENT_SPARSE_SUM(ccd.kept_apart);
+#undef DETENT_SPARSE_SUM
+}
+
+/// Replaces, in what a whole step used of the pools, the part of the bodies inside.
+void replace_use(const StepProbe& base, const StepProbe& made, TickHead& total) {
+  replace(base.use.entries, made.use.entries, total.impacts.entries);
+  replace(base.use.work, made.use.work, total.impacts.work);
+  replace(base.use.budget, made.use.budget, total.impacts.budget);
+  replace(base.joint_couplings, made.joint_couplings, total.joint_couplings);
+  replace(base.joint_numbers, made.joint_numbers, total.joint_numbers);
+}
+
+/// Whether a whole step of these counts has room in every pool, and does not spend the work of impacts.
+bool has_room(const TickHead& total, Capacity capacity) {
+  const StepReport& report = total.report;
+  return !total.impacts.is_spent() && total.impacts.entries <= capacity.contacts &&
+         report.ccd.impacts <= capacity.contacts && total.joint_couplings <= joint_coupling_count(capacity) &&
+         total.joint_numbers <= joint_number_count(capacity) &&
+         report.contacts.pairs <= capacity.contacts * k_pairs_per_contact;
+}
+
+/// The largest number of substeps of any island: of those inside, `most`, and of the others.
+uint32_t most_substeps(const SparseTick& tick, uint32_t most) {
+  const uint32_t fixed = tick.now.world.substeps;
+  tick.record.solved.for_each([&](uint32_t slot) {
+    if (tick.inside.has(slot)) return;
+    const uint32_t own = tick.after.activities[slot].substeps;
+    const uint32_t substeps = own != 0 ? own : fixed != 0 ? fixed : 1;  // an island without contacts stores none
+    most = substeps > most ? substeps : most;
+  });
+  return most;
+}
+
+}  // namespace
+
+SparseRollback* SparseRollback::begin(uint8_t* memory, const World& world, uint32_t window) {
+  const StateView<const uint8_t> state = view_of(world);
+  SparseRollback& made = *reinterpret_cast<SparseRollback*>(memory);
+  made = SparseRollback{};
+  made.capacity_ = capacity_of(state.header);
+  made.layout_ = sparse_layout(made.capacity_, window);
+  made.window_ = window;
+  made.memory_ = memory;
+  made.images_ = memory + made.layout_.images;
+  memset(made.images_, 0, static_cast<uint32_t>(made.layout_.bytes) - made.layout_.images);
+  // The images of the starts of ticks come first, then those of the records and the spare one.
+  for (uint32_t i = 0; i < 2 * window + 2; ++i)
+    *at_offset<BlockHeader>(made.images_ + i * made.layout_.image_bytes, 0) = state.header;
+  made.spare_ = 2 * window + 1;
+  for (uint32_t i = 0; i < window; ++i) made.record_of(i).head.before = window + 1 + i;
+  made.observer_ = {note_stage, &made, make_step};
+  return &made;
+}
+
+TickRecord SparseRollback::record_of(uint64_t tick) const {
+  uint8_t* const at = memory_ + layout_.records + static_cast<uint32_t>(tick % window_) * layout_.record_bytes;
+  const uint32_t words = slot_words(capacity_.bodies);
+  return {*at_offset<TickHead>(at, 0),
+          {at_offset<Bounds>(at, layout_.reach), capacity_.bodies},
+          {{at_offset<uint32_t>(at, layout_.movers), words}},
+          {{at_offset<uint32_t>(at, layout_.solved), words}},
+          {at_offset<ContactEvent>(at, layout_.contact_events), capacity_.contacts},
+          {at_offset<JointEvent>(at, layout_.joint_events), capacity_.joints},
+          {at_offset<SensorEvent>(at, layout_.sensor_events), 2 * capacity_.sensed},
+          {at_offset<BodyEvent>(at, layout_.body_events), capacity_.bodies}};
+}
+
+Status SparseRollback::keep(const World& world) {
+  const StateView<const uint8_t> state = view_of(world);
+  if (!(capacity_of(state.header) == capacity_)) return Status::capacity_differs;
+  const uint64_t tick = state.world.tick;
+  const StateView<uint8_t> kept = image(start_image(tick));
+  if (is_same_state(state, read(kept))) return Status::ok;
+  copy_used(state, kept);
+  // The world was changed after the step of the tick before, so the state just after that step is lost.
+  if (tick == 0) return Status::ok;
+  TickHead& last = record_of(tick - 1).head;
+  if (last.tick == tick - 1) last.usable = 0;
+  return Status::ok;
+}
+
+Status SparseRollback::restore(World& world, uint64_t tick) {
+  if (const Status status = keep(world); status != Status::ok) return status;
+  const StateView<uint8_t> state = view_of(world);
+  const StateView<uint8_t> kept = image(start_image(tick));
+  const Status status = check_header(kept.header, capacity_, *world.features);
+  if (status != Status::ok) return status;
+  copy_used(read(kept), state);
+  take_over(world);
+  bodies_again = ticks_whole = 0;
+  return Status::ok;
+}
+
+void SparseRollback::start_tick(World& world, bool again) {
+  again_ = again;
+  theirs_ = world.hooks.observer;
+  world.hooks.observer = &observer_;
+}
+
+void SparseRollback::end_tick(World& world) {
+  if (world.hooks.observer == &observer_) world.hooks.observer = theirs_;
+}
+
+StepReport SparseRollback::make_step(void* context, World& world) {
+  return static_cast<SparseRollback*>(context)->step(world);
+}
+
+void SparseRollback::note_stage(void* context, const World& world, StepStage stage, uint32_t contacts) {
+  SparseRollback& self = *static_cast<SparseRollback*>(context);
+  if (!self.inside_ && self.theirs_ != nullptr && self.theirs_->stage_ended != nullptr)
+    self.theirs_->stage_ended(self.theirs_->context, world, stage, contacts);
+  if (stage != StepStage::find_pairs) return;
+  const StateView<const uint8_t> state = view_of(world);
+  const StepCacheView cache = cache_of(world.block, state.layout, self.capacity_);
+  const auto note = [&](uint32_t slot) { self.reach_[slot] = cache.bounds[slot]; };
+  for (uint32_t slot = 0; slot < state.world.slots_used; ++slot) {
+    if (cache.tree.has(slot)) note(slot);
+  }
+  cache.active.for_each([&](uint32_t slot) {
+    note(slot);
+    if (is_awake(state.properties[slot], state.activities[slot])) self.solved_.set(slot);
+  });
+  self.noted_ = true;
+}
+
+StepReport SparseRollback::step(World& world) {
+  const FloatEnvironment environment;
+  const StateView<uint8_t> state = view_of(world);
+  const uint64_t tick = state.world.tick;
+  const TickRecord record = record_of(tick);
+  copy_used(read(state), image(spare_));
+  StepReport report;
+  bool made = false;
+  if (again_) made = record.head.usable != 0 && record.head.tick == tick && step_sparse(world, record, report);
+  if (!made) {
+    report = step_whole(world, record);
+    ticks_whole += again_ ? 1 : 0;
+    bodies_again += again_ ? report.awake : 0;
+  }
+  const uint32_t before = record.head.before;
+  record.head.before = spare_;
+  spare_ = before;
+  record.head.tick = tick;
+  record.head.report = report;
+  record.head.buffers = buffers_of(world.hooks);
+  record_events(world, report, record);
+  copy_used(read(state), image(start_image(tick + 1)));
+  return report;
+}
+
+/// Copies the events of the step to the record. Without room for them, the record cannot be used.
+void SparseRollback::record_events(const World& world, const StepReport& report, const TickRecord& record) const {
+  const auto copy = [&](const auto& buffer, uint32_t count, const auto& to, uint32_t& kept) {
+    if (count > to.count) record.head.usable = 0;
+    kept = count > to.count ? 0 : count;
+    for (uint32_t i = 0; i < kept; ++i) to[i] = buffer.data[i];
+  };
+  copy(world.hooks.contact_events, report.events.contact, record.contact_events, record.head.event[0]);
+  copy(world.hooks.joint_events, report.events.joint, record.joint_events, record.head.event[1]);
+  copy(world.hooks.sensor_events, report.events.sensor, record.sensor_events, record.head.event[2]);
+  copy(world.hooks.body_events, report.events.body, record.body_events, record.head.event[3]);
+}
+
+/// The bounds of all bodies, of which none moves.
+void SparseRollback::reach_at_rest(World& world, Span<Bounds> reach) const {
+  const StateView<uint8_t> state = view_of(world);
+  const Scratch scratch = scratch_of(world.block, state.layout, capacity_);
+  const StepSettings settings = step_settings(state.world);
+  for (uint32_t slot = 0; slot < state.world.slots_used; ++slot) {
+    if (state.properties[slot].type != 0)
+      bound(settings, state.poses, state.properties, state.motions, {&slot, 1}, scratch.bodies, reach);
+  }
+}
+
+StepReport SparseRollback::step_whole(World& world, const TickRecord& record) {
+  const StateView<uint8_t> state = view_of(world);
+  const bool is_idle = state.world.idle != 0;
+  for (Bounds& bounds : record.reach) bounds = k_nowhere;
+  for (uint32_t i = 0; i < record.movers.words.count; ++i) record.movers.words[i] = record.solved.words[i] = 0;
+  StepProbe probe;
+  probe.reach = reach_ = record.reach;
+  solved_ = record.solved;
+  inside_ = noted_ = false;
+  const StepReport report = step_probed(world, probe);
+  if (is_idle) {
+    reach_at_rest(world, record.reach);
+  } else {
+    cache_in(world).active.for_each([&](uint32_t slot) {
+      if (can_move(state.properties[slot])) record.movers.set(slot);
+    });
+  }
+  TickHead& head = record.head;
+  head.impacts = probe.use;
+  head.joint_couplings = probe.joint_couplings;
+  head.joint_numbers = probe.joint_numbers;
+  // Without continuous collision, a body may leave its bounds, and sensors would still find it. The events tell how
+  // many bodies passed through sensors, which takes room in the pool.
+  const bool is_bounded =
+      state.world.sensor_count == 0 || (state.world.continuous != 0 && room_of(world.hooks.sensor_events).count != 0);
+  head.usable = (is_idle || noted_) && is_whole(report) && is_bounded && !probe.use.is_spent() ? 1 : 0;
+  return report;
+}
+
+/// Makes a step of the bodies inside, from the given state. Returns false if pools or budgets would couple them to
+/// other bodies.
+bool SparseRollback::run(World& world, SparseTick& tick, const StateView<const uint8_t>& from, const WorldHooks& hooks,
+                         StepProbe& probe, StepReport& report) {
+  tick.load(from, view_of(world));
+  for (uint32_t slot = 0; slot < tick.used; ++slot) tick.reach[slot] = k_nowhere;
+  for (uint32_t& word : tick.solved.words) word = 0;
+  probe = {};
+  probe.reach = reach_ = tick.reach;
+  solved_ = tick.solved;
+  inside_ = true;
+  World part = world;
+  part.hooks = hooks;
+  part.hooks.observer = &observer_;
+  part.hooks.capacity_events = {};
+  report = step_probed(part, probe);
+  const StateView<uint8_t> state = view_of(world);
+  if (tick.contacts_written < state.world.contact_count) tick.contacts_written = state.world.contact_count;
+  if (tick.sensed_written < state.world.sensed_count) tick.sensed_written = state.world.sensed_count;
+  return is_whole(report) && !probe.use.is_spent() && report.ccd.bodies_stopped == 0;
+}
+
+/// Simulates the bodies inside, from the recorded state and from the present one, until they reach no others.
+bool SparseRollback::simulate(World& world, SparseTick& tick, StepReport& base, StepReport& made) {
+  const StateView<uint8_t> state = view_of(world);
+  if (!tick.expand()) return false;
+  WorldHooks silent = world.hooks;
+  silent.contact_events = {};
+  silent.joint_events = {};
+  silent.sensor_events = {};
+  silent.body_events = {};
+  for (uint32_t tries = 0; tries < k_tries_max; ++tries) {
+    if (!run(world, tick, tick.before, silent, base_probe_, base) || !tick.is_recorded(state)) return false;
+    if (!run(world, tick, tick.now, world.hooks, made_probe_, made)) return false;
+    tick.note_reach(cache_in(world).active);
+    if (!tick.expand()) return false;
+    if (!tick.grew) return true;
+  }
+  return false;
+}
+
+bool SparseRollback::step_sparse(World& world, const TickRecord& record, StepReport& report) {
+  const StateView<uint8_t> state = view_of(world);
+  const uint64_t tick_number = state.world.tick;
+  if (state.world.idle != 0 || record.head.buffers != buffers_of(world.hooks)) return false;
+  const uint32_t words = slot_words(capacity_.bodies);
+  uint32_t set = 0;
+  const auto next_set = [&] {
+    const BitSet made = {{at_offset<uint32_t>(memory_, layout_.sets) + set++ * words, words}};
+    for (uint32_t& word : made.words) word = 0;
+    return made;
+  };
+  const BitSet joint_set = {{at_offset<uint32_t>(memory_, layout_.joint_set), slot_words(capacity_.joints)}};
+  for (uint32_t& word : joint_set.words) word = 0;
+  const SparseTick::State before = read(image(record.head.before)), now = read(image(spare_)),
+                          after = read(image(start_image(tick_number + 1)));
+  const uint32_t used =
+      before.world.slots_used < now.world.slots_used ? now.world.slots_used : before.world.slots_used;
+  SparseTick tick = {record,
+                     before,
+                     after,
+                     now,
+                     used,
+                     next_set(),
+                     next_set(),
+                     next_set(),
+                     next_set(),
+                     joint_set,
+                     {at_offset<Bounds>(memory_, layout_.boxes), capacity_.bodies},
+                     {at_offset<Bounds>(memory_, layout_.reach_now), capacity_.bodies},
+                     next_set(),
+                     {at_offset<uint32_t>(memory_, layout_.list), capacity_.bodies}};
+  uint32_t movers = 0;
+  record.movers.for_each([&](uint32_t) { ++movers; });
+  tick.most = movers / k_share_divisor;
+  if (!tick.find_differing()) return false;
+  tick.begin(step_settings(now.world), scratch_of(world.block, state.layout, capacity_).bodies);
+  StepReport base, made;
+  TickHead total = record.head;
+  bool is_exact = simulate(world, tick, base, made);
+  if (is_exact) {
+    replace_sums(base, made, total.report);
+    replace_use(base_probe_, made_probe_, total);
+    total.report.events = made.events;
+    total.report.bodies = now.world.body_count;
+    total.report.substeps_max = most_substeps(tick, made.substeps_max);
+    // The buffers of events are the caller's: if this fails, the whole step writes them again.
+    is_exact = has_room(total, capacity_) && tick.merge_events(world.hooks, total.report) && tick.merge(state) &&
+               state.world.sensed_count + total.report.events.sensor <= capacity_.sensed;
+  }
+  const BitSet active = cache_in(world).active;
+  cache_in(world).cache.fresh = 0;
+  if (!is_exact) {
+    tick.reset(state);
+    return false;
+  }
+  const auto put = [](BitSet of, uint32_t slot, bool value) { value ? of.set(slot) : of.clear(slot); };
+  tick.inside.for_each([&](uint32_t slot) {
+    record.reach[slot] = tick.reach[slot];
+    put(record.movers, slot, active.has(slot) && can_move(now.properties[slot]));
+    put(record.solved, slot, tick.solved.has(slot));
+  });
+  record.head = total;
+  report = total.report;
+  bodies_again += made.awake;
+  return true;
+}
+
+}  // namespace DETENT_NAMESPACE
+}  // namespace detent
+
+#endif
