@@ -1,6 +1,7 @@
 #include <string.h>
 
 #include "broad_phase/pair_key.h"
+#include "joint/joint.h"
 #include "motion/activity.h"
 #include "replay/sparse_rollback.h"
 #include "shape/shape_properties.h"
@@ -88,13 +89,17 @@ void SparseTick::load(const State& from, const StateView<uint8_t>& block) {
   block.world.sensed_count = sensed;
   contacts_written = greater(contacts_written, contacts);
   sensed_written = greater(sensed_written, sensed);
+  for (uint32_t& word : anchoring.words) word = 0;
   for (uint32_t slot = 0; slot < block.world.joints_used; ++slot) {
     const JointState& joint = from.joints[slot];
     if (joint.type != 0 && (inside.has(joint.body_a) || inside.has(joint.body_b))) joints.set(slot);
-    if (joints.has(slot))
+    if (joints.has(slot)) {
       block.joints[slot] = joint;
-    else
-      block.joints[slot].type = 0;  // the step does not see it
+      continue;
+    }
+    block.joints[slot].type = 0;  // the step does not see it
+    if (holds(joint) && (anchors(joint.body_a, joint.body_b) || anchors(joint.body_b, joint.body_a)))
+      anchoring.set(slot);
   }
   const StepCacheView cache = cache_of(reinterpret_cast<uint8_t*>(&block.header), block.layout,
                                        capacity_of(block.header));

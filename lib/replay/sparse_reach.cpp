@@ -137,18 +137,18 @@ void SparseTick::add(uint32_t slot) {
 
 /// Whether one of the bodies of a part of the list reaches the body.
 bool SparseTick::meets(uint32_t slot, uint32_t from, uint32_t end) const {
-  const bool dynamic = is_dynamic(slot);
+  const bool acts = can_act(slot);
   for (uint32_t i = from; i < end; ++i) {
-    if (overlap(record.reach[slot], boxes[list[i]]) && (dynamic || is_dynamic(list[i]))) return true;
+    if (overlap(record.reach[slot], boxes[list[i]]) && (acts || can_act(list[i]))) return true;
   }
   return false;
 }
 
 void SparseTick::add_jointed(Span<const JointState> all) {
   for (const JointState& joint : all) {
-    if (joint.type == 0 || !is_dynamic(joint.body_a) || !is_dynamic(joint.body_b)) continue;
-    if (inside.has(joint.body_a)) add(joint.body_b);
-    if (inside.has(joint.body_b)) add(joint.body_a);
+    if (joint.type == 0) continue;
+    if (inside.has(joint.body_a) && is_dynamic(joint.body_b)) add(joint.body_b);
+    if (inside.has(joint.body_b) && is_dynamic(joint.body_a)) add(joint.body_a);
   }
 }
 

@@ -307,6 +307,8 @@ bool SparseRollback::run(World& world, SparseTick& tick, const StateView<const u
   for (uint32_t& word : tick.solved.words) word = 0;
   probe = {};
   probe.reach = reach_ = tick.reach;
+  probe.joints = from.joints;
+  probe.anchoring = tick.anchoring;
   solved_ = tick.solved;
   inside_ = true;
   World part = world;
@@ -350,8 +352,10 @@ bool SparseRollback::step_sparse(World& world, const TickRecord& record, StepRep
     for (uint32_t& word : made.words) word = 0;
     return made;
   };
-  const BitSet joint_set = {{at_offset<uint32_t>(memory_, layout_.joint_set), slot_words(capacity_.joints)}};
-  for (uint32_t& word : joint_set.words) word = 0;
+  const uint32_t joint_words = slot_words(capacity_.joints);
+  const BitSet joints = {{at_offset<uint32_t>(memory_, layout_.joint_sets), joint_words}},
+               anchoring = {{joints.words.data + joint_words, joint_words}};
+  for (uint32_t& word : joints.words) word = 0;
   const SparseTick::State before = read(image(record.head.before)), now = read(image(spare_)),
                           after = read(image(start_image(tick_number + 1)));
   const uint32_t used =
@@ -365,7 +369,8 @@ bool SparseRollback::step_sparse(World& world, const TickRecord& record, StepRep
                      next_set(),
                      next_set(),
                      next_set(),
-                     joint_set,
+                     joints,
+                     anchoring,
                      {at_offset<Bounds>(memory_, layout_.boxes), capacity_.bodies},
                      {at_offset<Bounds>(memory_, layout_.reach_now), capacity_.bodies},
                      next_set(),

@@ -50,6 +50,7 @@ struct SparseTick {
   BitSet visible;
   BitSet groups;       ///< sleeping groups of bodies inside
   BitSet joints;       ///< joints inside, and those that differ
+  BitSet anchoring;    ///< other active joints of visible bodies that are not dynamic
   Span<Bounds> boxes;  ///< of bodies inside: what they reach in either run
   Span<Bounds> reach;  ///< TickRecord::reach of the run of the bodies inside
   BitSet solved;       ///< TickRecord::solved of this run
@@ -63,12 +64,20 @@ struct SparseTick {
   bool is_dynamic(uint32_t slot) const {
     return detent::is_dynamic(now.properties[slot]) || detent::is_dynamic(before.properties[slot]);
   }
+  /// Whether a pair with this body can touch or sense, whatever the other body is.
+  bool can_act(uint32_t slot) const {
+    return is_dynamic(slot) || is_sensor(now.properties[slot]) || is_sensor(before.properties[slot]);
+  }
   /// Whether a contact belongs to the bodies inside.
   bool owns_contact(uint32_t a, uint32_t b) const {
     const auto is_outside = [&](uint32_t slot) {
       return !inside.has(slot) && record.movers.has(slot) && is_dynamic(slot);
     };
     return (inside.has(a) || inside.has(b)) && !is_outside(a) && !is_outside(b);
+  }
+  /// Whether an active joint of the body `other`, which is not inside, holds on to the visible body `slot`.
+  bool anchors(uint32_t slot, uint32_t other) const {
+    return visible.has(slot) && !is_dynamic(slot) && record.solved.has(other);
   }
   bool owns_sensed(uint32_t sensor, uint32_t body) const { return inside.has(sensor) || inside.has(body); }
 

@@ -171,6 +171,11 @@ Step::Step(World& world, StepProbe* probe, StepReport& report)
       pool_(bodies_.poses, bodies_.properties, cache_.bounds, scratch_.pair_sort, scratch_.pairs,
             world.hooks.filter_rules, disabled_pairs_) {
   pool_.overflow = &overflow_;
+#if DETENT_SPARSE
+  if (probe_ == nullptr) return;
+  joints_.others = probe_->joints;
+  joints_.anchoring = probe_->anchoring;
+#endif
 }
 
 void Step::run() {
@@ -210,13 +215,18 @@ void Step::find_pairs() {
 /// Collects the joints of the step. First starts the tick of the jointed bodies that do not move.
 void Step::start_joints() {
   if (joint_ops_ == nullptr) return;
-  for (const JointState& joint : joints_.joints) {
-    if (joint.type == 0) continue;
+  const auto start_ends = [&](const JointState& joint) {
     const uint32_t ends[2] = {joint.body_a, joint.body_b};
     for (const uint32_t slot : ends) {
       if (!cache_.active.has(slot)) bodies_.start(settings_, slot);
     }
+  };
+  for (const JointState& joint : joints_.joints) {
+    if (joint.type != 0) start_ends(joint);
   }
+#if DETENT_SPARSE
+  joints_.anchoring.for_each([&](uint32_t slot) { start_ends(joints_.others[slot]); });
+#endif
   joint_ops_->collect(solver_bodies_, joints_);
   report_.joints.count = joints_.count;
 }

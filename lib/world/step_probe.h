@@ -9,6 +9,8 @@ inline namespace DETENT_NAMESPACE {
 /// What a step records besides its report.
 struct StepProbe : ImpactProbe {
 #if DETENT_SPARSE
+  Span<const JointState> joints = {};               ///< in: JointStage::others
+  BitSet anchoring = {};                            ///< in: JointStage::anchoring
   uint32_t joint_couplings = 0, joint_numbers = 0;  ///< used of these pools of the joints
 #endif
 };
