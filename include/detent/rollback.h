@@ -291,7 +291,7 @@ inline constexpr uint32_t k_sparse_control_bytes = 1024, k_tick_head_bytes = 512
 struct SparseLayout {
   uint32_t images, image_bytes, records, record_bytes;
   uint32_t reach, movers, solved, contact_events, joint_events, sensor_events, body_events;  // within a record
-  uint32_t boxes, reach_now, list, sets, joint_sets;
+  uint32_t boxes, reach_now, units, list, sets, joint_sets;
   uint64_t bytes;
 };
 
@@ -322,6 +322,7 @@ constexpr SparseLayout sparse_layout(Capacity capacity, uint32_t window) {
   layout.records = place(record * window);
   layout.boxes = place(bounds);
   layout.reach_now = place(bounds);
+  layout.units = place(uint64_t{4} * capacity.bodies);
   layout.list = place(uint64_t{4} * capacity.bodies);
   layout.sets = place(set * k_sparse_sets);
   layout.joint_sets = place(uint64_t{8} * slot_words(capacity.joints));

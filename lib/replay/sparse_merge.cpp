@@ -38,6 +38,9 @@ void merge_back(Span<T> to, uint32_t count, Span<From> from, uint32_t more, cons
   }
 }
 
+/// The exponent of a body's unit for joints, as a number other than 0.
+uint32_t unit_number(const JointBody& body) { return static_cast<uint32_t>(body.exponent + 1024); }
+
 template <class T, class Takes>
 uint32_t count_taken(Span<T> from, const Takes& takes) {
   uint32_t count = 0;
@@ -116,6 +119,28 @@ void SparseTick::reset(const StateView<uint8_t>& block) const {
   block.world.contact_count = greater(greater(contacts_written, now.world.contact_count), block.world.contact_count);
   block.world.sensed_count = greater(greater(sensed_written, now.world.sensed_count), block.world.sensed_count);
   copy_used(now, block);
+}
+
+void SparseTick::keep_units(Span<const JointBody> bodies) const {
+  for (uint32_t& unit : units) unit = 0;
+  for (const JointBody& body : bodies) {
+    if (body.mobile == 0) units[body.slot] = unit_number(body);
+  }
+}
+
+bool SparseTick::has_same_units(Span<const JointBody> bodies) const {
+  bool same = true;
+  const auto is_kinematic = [&](uint32_t slot) { return type_of(now.properties[slot]) == BodyType::kinematic; };
+  uint32_t kinematic = 0;
+  for (const JointBody& body : bodies) {
+    if (body.mobile != 0) continue;
+    const uint32_t before_unit = units[body.slot];
+    // If a body without joints is fixed, its first joint concerns no other.
+    same = same && (before_unit == unit_number(body) || (before_unit == 0 && !is_kinematic(body.slot)));
+    kinematic += is_kinematic(body.slot) ? 1u : 0u;
+  }
+  for (uint32_t slot = 0; slot < used; ++slot) kinematic -= units[slot] != 0 && is_kinematic(slot) ? 1u : 0u;
+  return same && kinematic == 0;
 }
 
 bool SparseTick::is_recorded(const StateView<uint8_t>& block) const {

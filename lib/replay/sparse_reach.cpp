@@ -145,10 +145,18 @@ bool SparseTick::meets(uint32_t slot, uint32_t from, uint32_t end) const {
 }
 
 void SparseTick::add_jointed(Span<const JointState> all) {
+  const auto take_jointed = [&](uint32_t slot) {
+    if (is_dynamic(slot)) {
+      add(slot);
+    } else if (!visible.has(slot)) {
+      visible.set(slot);
+      grew = true;
+    }
+  };
   for (const JointState& joint : all) {
     if (joint.type == 0) continue;
-    if (inside.has(joint.body_a) && is_dynamic(joint.body_b)) add(joint.body_b);
-    if (inside.has(joint.body_b) && is_dynamic(joint.body_a)) add(joint.body_a);
+    if (inside.has(joint.body_a)) take_jointed(joint.body_b);
+    if (inside.has(joint.body_b)) take_jointed(joint.body_a);
   }
 }
 

@@ -333,7 +333,9 @@ bool SparseRollback::simulate(World& world, SparseTick& tick, StepReport& base, 
   silent.body_events = {};
   for (uint32_t tries = 0; tries < k_tries_max; ++tries) {
     if (!run(world, tick, tick.before, silent, base_probe_, base) || !tick.is_recorded(state)) return false;
+    tick.keep_units(base_probe_.joint_bodies);
     if (!run(world, tick, tick.now, world.hooks, made_probe_, made)) return false;
+    if (!tick.has_same_units(made_probe_.joint_bodies)) return false;
     tick.note_reach(cache_in(world).active);
     if (!tick.expand()) return false;
     if (!tick.grew) return true;
@@ -371,6 +373,7 @@ bool SparseRollback::step_sparse(World& world, const TickRecord& record, StepRep
                      next_set(),
                      joints,
                      anchoring,
+                     {at_offset<uint32_t>(memory_, layout_.units), capacity_.bodies},
                      {at_offset<Bounds>(memory_, layout_.boxes), capacity_.bodies},
                      {at_offset<Bounds>(memory_, layout_.reach_now), capacity_.bodies},
                      next_set(),

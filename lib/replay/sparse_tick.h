@@ -51,6 +51,7 @@ struct SparseTick {
   BitSet groups;       ///< sleeping groups of bodies inside
   BitSet joints;       ///< joints inside, and those that differ
   BitSet anchoring;    ///< other active joints of visible bodies that are not dynamic
+  Span<uint32_t> units;  ///< by slot: of a body that joints hold on to but do not move, its unit for joints in one run
   Span<Bounds> boxes;  ///< of bodies inside: what they reach in either run
   Span<Bounds> reach;  ///< TickRecord::reach of the run of the bodies inside
   BitSet solved;       ///< TickRecord::solved of this run
@@ -99,6 +100,10 @@ struct SparseTick {
   void load(const State& from, const StateView<uint8_t>& block);
   /// Writes the whole state `now` to the block again.
   void reset(const StateView<uint8_t>& block) const;
+  /// Keeps the units of the bodies that joints hold on to but do not move, after the run from the recorded state.
+  void keep_units(Span<const JointBody> bodies) const;
+  /// Whether these units are as before, after the other run. All joints of a body share its unit.
+  bool has_same_units(Span<const JointBody> bodies) const;
   /// Whether the block has the recorded state after the step, for the bodies inside.
   bool is_recorded(const StateView<uint8_t>& block) const;
   /// Completes the block with the recorded states of all other bodies. False if the contacts do not fit.

@@ -269,6 +269,7 @@ void Step::build_islands() {
     report_.lost.joint_couplings = joint_ops_->order(settings_, solver_bodies_, slots, islands_, joints_);
 #if DETENT_SPARSE
   if (probe_ != nullptr) {
+    probe_->joint_bodies = joints_.bodies.first(joints_.body_count);
     probe_->joint_couplings = joints_.couplings_used;
     probe_->joint_numbers = joints_.numbers_used;
   }

@@ -11,6 +11,7 @@ struct StepProbe : ImpactProbe {
 #if DETENT_SPARSE
   Span<const JointState> joints = {};               ///< in: JointStage::others
   BitSet anchoring = {};                            ///< in: JointStage::anchoring
+  Span<const JointBody> joint_bodies = {};          ///< the bodies of the joints, in the block
   uint32_t joint_couplings = 0, joint_numbers = 0;  ///< used of these pools of the joints
 #endif
 };
