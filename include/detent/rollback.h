@@ -253,6 +253,8 @@ class RollbackSession {
   uint32_t predict(uint64_t tick);
   Status keep(const World& world, uint64_t tick);
   Status restore(World& world, uint64_t tick);
+  void take_checksum(const World& world, const GameState& game, uint64_t tick);
+  void take_confirmed_checksums();
   Status make_tick(World& world, uint64_t tick, bool again);
   Status go_back(World& world, RollbackReport& report);
   Checksum& own_checksum(uint64_t tick) const;
@@ -273,6 +275,7 @@ class RollbackSession {
   bool begun_ = false;
   uint64_t start_ = 0;           ///< the tick at `begin`
   uint64_t tick_ = 0;            ///< ticks made
+  uint64_t summed_ = 0;          ///< with `sparse_`: the first tick without a checksum
   uint64_t wrong_ = UINT64_MAX;  ///< the first tick that was made with a wrong input
   uint64_t next_[k_rollback_players_max] = {};
   Desync desync_ = {};

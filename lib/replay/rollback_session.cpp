@@ -34,7 +34,7 @@ Status RollbackSession::begin(const World& world, const RollbackDef& def, TickMa
   sums_ = reinterpret_cast<Checksum*>(memory + layout.sums);
   kept_ = layout.kept;
   begun_ = true;
-  start_ = tick_ = info.tick;
+  start_ = tick_ = summed_ = info.tick;
   wrong_ = UINT64_MAX;
   desync_ = {};
   // A local player's inputs are zero in the ticks before its first delayed input takes effect. The other machines
@@ -79,6 +79,7 @@ void RollbackSession::set_input(uint32_t player, uint64_t tick, const uint8_t* i
   memcpy(known, input, def_.input_bytes);
   stamp_of(player, tick) = tick + 1;
   while (is_known(player, next_[player])) ++next_[player];
+  take_confirmed_checksums();
 }
 
 Status RollbackSession::add_local_input(uint32_t player, const uint8_t* input, uint64_t& tick) {
@@ -145,9 +146,24 @@ Status RollbackSession::keep(const World& world, uint64_t tick) {
 #endif
   if (status != Status::ok) return status;
   if (game_.count != 0) memcpy(game_at(tick), game_.bytes, game_.count);
-  if (def_.checksum_interval != 0 && tick % def_.checksum_interval == 0)
-    own_checksum(tick) = {tick + 1, digest_fold(digest_of(world, game_)), 0};
+  if (sparse_ == nullptr) take_checksum(world, game_, tick);
   return Status::ok;
+}
+
+void RollbackSession::take_checksum(const World& world, const GameState& game, uint64_t tick) {
+  if (def_.checksum_interval != 0 && tick % def_.checksum_interval == 0)
+    own_checksum(tick) = {tick + 1, digest_fold(digest_of(world, game)), 0};
+}
+
+/// With sparse rollback, whose states are kept unpacked: takes the checksums of the ticks that no input can change any
+/// more. Otherwise each kept state has its checksum at once.
+void RollbackSession::take_confirmed_checksums() {
+#if DETENT_SPARSE
+  if (sparse_ == nullptr) return;
+  const uint64_t confirmed = confirmed_tick();
+  for (; summed_ <= confirmed && summed_ < tick_; ++summed_)
+    take_checksum(sparse_->kept(summed_), {game_.count == 0 ? nullptr : game_at(summed_), game_.count}, summed_);
+#endif
 }
 
 Status RollbackSession::restore(World& world, uint64_t tick) {
@@ -200,6 +216,7 @@ Status RollbackSession::correct(World& world, RollbackReport& report) {
   RollbackReport made;
   if (const Status status = go_back(world, made); status != Status::ok) return status;
   made.tick = tick_;
+  take_confirmed_checksums();
   compare_checksums();
   report = made;
   return Status::ok;
@@ -211,8 +228,10 @@ Status RollbackSession::advance(World& world, RollbackReport& report) {
   if (tick_ >= known && tick_ - known >= def_.window) return Status::waiting;
   RollbackReport made;
   if (const Status status = go_back(world, made); status != Status::ok) return status;
+  take_confirmed_checksums();  // of ticks that the new one replaces
   if (const Status status = make_tick(world, tick_, false); status != Status::ok) return status;
   made.tick = ++tick_;
+  take_confirmed_checksums();
   compare_checksums();
   report = made;
   return Status::ok;

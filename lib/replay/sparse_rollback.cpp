@@ -188,6 +188,12 @@ Status SparseRollback::restore(World& world, uint64_t tick) {
   return Status::ok;
 }
 
+World SparseRollback::kept(uint64_t tick) const {
+  World world;
+  world.block = images_ + start_image(tick) * layout_.image_bytes;
+  return world;
+}
+
 void SparseRollback::start_tick(World& world, bool again) {
   again_ = again;
   theirs_ = world.hooks.observer;

@@ -25,6 +25,8 @@ class SparseRollback {
   /// Restores the state at the start of a tick. The records of this tick and of all later ones stay.
   /// Errors: capacity_differs, feature_missing.
   Status restore(World& world, uint64_t tick);
+  /// The kept state at the start of one of the last ticks, to be read only.
+  World kept(uint64_t tick) const;
   /// Makes steps of this world come to this object until end_tick(). `again`: the tick was made before.
   void start_tick(World& world, bool again);
   void end_tick(World& world);
