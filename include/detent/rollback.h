@@ -265,13 +265,13 @@ class RollbackSession {
   RollbackDef def_ = {};
   TickMaker maker_ = {};
   GameState game_ = {};
-  SnapshotRing states_;                ///< without `sparse_`
+  SnapshotRing states_;               ///< without `sparse_`
   SparseRollback* sparse_ = nullptr;  ///< null: all bodies are simulated again
-  uint8_t* games_ = nullptr;    ///< game states of the ticks in `states_`
-  uint8_t* inputs_ = nullptr;   ///< [tick][player]: the known or predicted input
-  uint64_t* stamps_ = nullptr;  ///< [tick][player]: tick + 1 if the input is known
-  Checksum* sums_ = nullptr;    ///< [tick][machine]: this machine first, then each player
-  uint32_t kept_ = 0;           ///< number of ticks whose inputs and checksums are kept
+  uint8_t* games_ = nullptr;          ///< game states of the ticks in `states_`
+  uint8_t* inputs_ = nullptr;         ///< [tick][player]: the known or predicted input
+  uint64_t* stamps_ = nullptr;        ///< [tick][player]: tick + 1 if the input is known
+  Checksum* sums_ = nullptr;          ///< [tick][machine]: this machine first, then each player
+  uint32_t kept_ = 0;                 ///< number of ticks whose inputs and checksums are kept
   bool begun_ = false;
   uint64_t start_ = 0;           ///< the tick at `begin`
   uint64_t tick_ = 0;            ///< ticks made
@@ -320,7 +320,8 @@ constexpr SparseLayout sparse_layout(Capacity capacity, uint32_t window) {
   end = 0;
   place(k_sparse_control_bytes);
   layout.image_bytes = snapshot_bytes(capacity);
-  // States at the start of a tick and after it, one for each tick and one more; states just before a step, and one more.
+  // States at the start of a tick and after it, one for each tick and one more; states just before a step, and one
+  // more.
   layout.images = place(uint64_t{layout.image_bytes} * (2 * window + 2));
   layout.records = place(record * window);
   layout.boxes = place(bounds);

@@ -72,8 +72,8 @@ void collect_anchors(const SolverBodies& bodies, JointStage& stage) {
     const auto extend = [&](uint32_t body, Real arm) {
       if (!is_dynamic(bodies.properties[body])) extend_arm(stage.bodies[place_of(bodies, body, stage)], arm);
     };
-    extend(joint.body_a, arm_of_a(joint, real_difference(stage.poses[joint.body_b].position,
-                                                         stage.poses[joint.body_a].position)));
+    extend(joint.body_a,
+           arm_of_a(joint, real_difference(stage.poses[joint.body_b].position, stage.poses[joint.body_a].position)));
     extend(joint.body_b, absolute_sum(joint.anchor_b));
   });
 }

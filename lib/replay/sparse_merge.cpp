@@ -104,8 +104,8 @@ void SparseTick::load(const State& from, const StateView<uint8_t>& block) {
     if (holds(joint) && (anchors(joint.body_a, joint.body_b) || anchors(joint.body_b, joint.body_a)))
       anchoring.set(slot);
   }
-  const StepCacheView cache = cache_of(reinterpret_cast<uint8_t*>(&block.header), block.layout,
-                                       capacity_of(block.header));
+  const StepCacheView cache =
+      cache_of(reinterpret_cast<uint8_t*>(&block.header), block.layout, capacity_of(block.header));
   cache.cache.fresh = 1;
   cache.cache.contacts_known = 0;
   cache.tree.make_empty();

@@ -71,8 +71,7 @@ void replace(const Count& base, const Count& made, Count& total) {
 /// Every count of the report that is a sum over islands, pairs or bodies.
 void replace_sums(const StepReport& base, const StepReport& made, StepReport& total) {
   const auto replace_in = [&](const auto& of) { replace(of(base), of(made), of(total)); };
-#define DETENT_SPARSE_SUM(member) \
-  replace_in([](auto& report) -> auto& { return report.member; })
+#define DETENT_SPARSE_SUM(member) replace_in([](auto& report) -> auto& { return report.member; })
   DETENT_SPARSE_SUM(awake);
   DETENT_SPARSE_SUM(islands);
   DETENT_SPARSE_SUM(woke);
@@ -366,8 +365,7 @@ bool SparseRollback::step_sparse(World& world, const TickRecord& record, StepRep
   for (uint32_t& word : joints.words) word = 0;
   const SparseTick::State before = read(image(record.head.before)), now = read(image(spare_)),
                           after = read(image(start_image(tick_number + 1)));
-  const uint32_t used =
-      before.world.slots_used < now.world.slots_used ? now.world.slots_used : before.world.slots_used;
+  const uint32_t used = before.world.slots_used < now.world.slots_used ? now.world.slots_used : before.world.slots_used;
   SparseTick tick = {record,
                      before,
                      after,

@@ -41,25 +41,25 @@ struct SparseTick {
   using State = StateView<const uint8_t>;
 
   TickRecord record;
-  State before;        ///< recorded, just before the step
-  State after;         ///< recorded, just after the step
-  State now;           ///< of the tick that is made again, just before the step
-  uint32_t used;       ///< slots used, in `before` or in `now`
-  BitSet differs;      ///< bodies whose state before the step is not the recorded one
+  State before;    ///< recorded, just before the step
+  State after;     ///< recorded, just after the step
+  State now;       ///< of the tick that is made again, just before the step
+  uint32_t used;   ///< slots used, in `before` or in `now`
+  BitSet differs;  ///< bodies whose state before the step is not the recorded one
   BitSet inside;
   BitSet visible;
-  BitSet groups;       ///< sleeping groups of bodies inside
-  BitSet joints;       ///< joints inside, and those that differ
-  BitSet anchoring;    ///< other active joints of visible bodies that are not dynamic
+  BitSet groups;         ///< sleeping groups of bodies inside
+  BitSet joints;         ///< joints inside, and those that differ
+  BitSet anchoring;      ///< other active joints of visible bodies that are not dynamic
   Span<uint32_t> units;  ///< by slot: of a body that joints hold on to but do not move, its unit for joints in one run
-  Span<Bounds> boxes;  ///< of bodies inside: what they reach in either run
-  Span<Bounds> reach;  ///< TickRecord::reach of the run of the bodies inside
-  BitSet solved;       ///< TickRecord::solved of this run
-  Span<uint32_t> list;  ///< bodies inside that may move or that differ: they reach others
-  uint32_t count = 0;   ///< of `list`
-  uint32_t most = 0;    ///< the greatest number of bodies in `list`
-  bool grew = false;        ///< a body became visible or inside
-  bool has_groups = false;  ///< `groups` is not empty
+  Span<Bounds> boxes;    ///< of bodies inside: what they reach in either run
+  Span<Bounds> reach;    ///< TickRecord::reach of the run of the bodies inside
+  BitSet solved;         ///< TickRecord::solved of this run
+  Span<uint32_t> list;   ///< bodies inside that may move or that differ: they reach others
+  uint32_t count = 0;    ///< of `list`
+  uint32_t most = 0;     ///< the greatest number of bodies in `list`
+  bool grew = false;     ///< a body became visible or inside
+  bool has_groups = false;                            ///< `groups` is not empty
   uint32_t contacts_written = 0, sensed_written = 0;  ///< elements of the block that may be other than zero
 
   bool is_dynamic(uint32_t slot) const {

@@ -181,7 +181,7 @@ class Playground {
     return position(spacing_ * (spot % 3) + x, y, spacing_ * (spot / 3) + z);
   }
   void build(uint32_t spot) {
-    switch (random_.below(8)) {
+    switch (random_.below(9)) {
       case 0:
         for (uint32_t i = 0; i < 4 + random_.below(3); ++i) add(block(place(spot, 1.5, 0.4 + 0.8 * i, 0), 0.4));
         return;
@@ -229,6 +229,13 @@ class Playground {
         }
         return;
       }
+      case 7:  // a row of balls in which an impact reaches far within a tick
+        for (uint32_t i = 0; i < 7; ++i) {
+          BodyDef def = ball(place(spot, 0.9 * i - 3, 0.3, 1.5), 0.3);
+          def.material.restitution = real(1);
+          add(def);
+        }
+        return;
       default:
         for (uint32_t i = 0; i < 3; ++i) {
           BodyDef def;
@@ -269,6 +276,20 @@ class Playground {
   }
   static void allow(Status) {}
 
+  /// Lets a ball begin 2 m from a body, above or beside it, and fly towards it at 300 m/s.
+  static void aim_at(const World& world, BodyId target, BodyDef& shot) {
+    Pose pose;
+    if (get_pose(world, target, pose) != Status::ok) return;
+    const bool above = target.slot % 3 == 0;
+    shot.position = pose.position;
+    if (above)
+      shot.position.y = shot.position.y + coord(2);
+    else
+      shot.position.x = shot.position.x - coord(2);
+    shot.linear_velocity = above ? reals(0, -300, 0) : reals(300, 0, 0);
+    shot.material.restitution = real(1);
+  }
+
   /// The action of a player. It depends on the world, the tick and the input alone.
   void act(World& world, uint64_t tick, uint32_t player, uint8_t input) {
     const BodyId own = {player + 2, 1};
@@ -285,6 +306,7 @@ class Playground {
         BodyDef shot = ball(pose.position, 0.15);
         shot.position.y = shot.position.y + coord(1);
         shot.linear_velocity = reals(random.uniform(-150, 150), random.uniform(-20, 20), random.uniform(-150, 150));
+        if (random.chance(0.7)) aim_at(world, any, shot);
         return allow(create_body(world, shot, id));
       }
       case 2:
