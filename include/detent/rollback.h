@@ -275,7 +275,6 @@ class RollbackSession {
   bool begun_ = false;
   uint64_t start_ = 0;           ///< the tick at `begin`
   uint64_t tick_ = 0;            ///< ticks made
-  uint64_t summed_ = 0;          ///< with `sparse_`: the first tick without a checksum
   uint64_t wrong_ = UINT64_MAX;  ///< the first tick that was made with a wrong input
   uint64_t next_[k_rollback_players_max] = {};
   Desync desync_ = {};
@@ -288,7 +287,7 @@ struct RollbackSession::Checksum {
   uint32_t compared;
 };
 
-inline constexpr uint32_t k_sparse_control_bytes = 1024, k_tick_head_bytes = 512, k_sparse_sets = 6;
+inline constexpr uint32_t k_sparse_control_bytes = 1024, k_tick_head_bytes = 512, k_sparse_sets = 5;
 
 // Offsets of the parts of sparse rollback (lib/replay/sparse_rollback.h), bytes.
 struct SparseLayout {

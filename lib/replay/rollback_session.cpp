@@ -34,7 +34,7 @@ Status RollbackSession::begin(const World& world, const RollbackDef& def, TickMa
   sums_ = reinterpret_cast<Checksum*>(memory + layout.sums);
   kept_ = layout.kept;
   begun_ = true;
-  start_ = tick_ = summed_ = info.tick;
+  start_ = tick_ = info.tick;
   wrong_ = UINT64_MAX;
   desync_ = {};
   // A local player's inputs are zero in the ticks before its first delayed input takes effect. The other machines
@@ -161,8 +161,8 @@ void RollbackSession::take_confirmed_checksums() {
 #if DETENT_SPARSE
   if (sparse_ == nullptr) return;
   const uint64_t confirmed = confirmed_tick();
-  for (; summed_ <= confirmed && summed_ < tick_; ++summed_)
-    take_checksum(sparse_->kept(summed_), {game_.count == 0 ? nullptr : game_at(summed_), game_.count}, summed_);
+  for (uint64_t& tick = sparse_->summed; tick <= confirmed && tick < tick_; ++tick)
+    take_checksum(sparse_->kept(tick), {game_.count == 0 ? nullptr : game_at(tick), game_.count}, tick);
 #endif
 }
 

@@ -19,7 +19,7 @@ bool are_same(Span<const T> a, Span<const T> b, uint32_t index) {
   return memcmp(&a[index], &b[index], sizeof(T)) == 0;
 }
 
-uint32_t greater(uint32_t a, uint32_t b) { return a < b ? b : a; }
+uint32_t greater_count(uint32_t a, uint32_t b) { return a < b ? b : a; }
 
 /// Merges the elements of `from` that `takes` accepts, `more` of them, into the sorted elements at the front of `to`.
 /// `precedes(a, b)`: the order. `move(i, k)`: moves element i of `to` to k. `put(i, k)`: copies element i of `from`.
@@ -75,7 +75,7 @@ void SparseTick::load(const State& from, const StateView<uint8_t>& block) {
   });
   block.world = from.world;
   block.world.slots_used = used;
-  block.world.joints_used = greater(before.world.joints_used, now.world.joints_used);
+  block.world.joints_used = greater_count(before.world.joints_used, now.world.joints_used);
   block.world.idle = 0;
   uint32_t contacts = 0, sensed = 0;
   for (uint32_t i = 0; i < from.world.contact_count; ++i) {
@@ -90,8 +90,8 @@ void SparseTick::load(const State& from, const StateView<uint8_t>& block) {
   }
   block.world.contact_count = contacts;
   block.world.sensed_count = sensed;
-  contacts_written = greater(contacts_written, contacts);
-  sensed_written = greater(sensed_written, sensed);
+  contacts_written = greater_count(contacts_written, contacts);
+  sensed_written = greater_count(sensed_written, sensed);
   for (uint32_t& word : anchoring.words) word = 0;
   for (uint32_t slot = 0; slot < block.world.joints_used; ++slot) {
     const JointState& joint = from.joints[slot];
@@ -115,9 +115,11 @@ void SparseTick::load(const State& from, const StateView<uint8_t>& block) {
 void SparseTick::reset(const StateView<uint8_t>& block) const {
   // The counts tell which elements may be other than zero.
   block.world.slots_used = used;
-  block.world.joints_used = greater(before.world.joints_used, now.world.joints_used);
-  block.world.contact_count = greater(greater(contacts_written, now.world.contact_count), block.world.contact_count);
-  block.world.sensed_count = greater(greater(sensed_written, now.world.sensed_count), block.world.sensed_count);
+  block.world.joints_used = greater_count(before.world.joints_used, now.world.joints_used);
+  block.world.contact_count =
+      greater_count(greater_count(contacts_written, now.world.contact_count), block.world.contact_count);
+  block.world.sensed_count =
+      greater_count(greater_count(sensed_written, now.world.sensed_count), block.world.sensed_count);
   copy_used(now, block);
 }
 
@@ -214,11 +216,11 @@ bool SparseTick::merge(const StateView<uint8_t>& block) {
       [&](uint32_t i, uint32_t k) { block.sensed[k] = after.sensed[i]; });
 
   const uint32_t contact_count = contacts + more, sensed_count = sensed + more_sensed;
-  for (uint32_t i = contact_count; i < greater(contacts_written, now.world.contact_count); ++i) {
+  for (uint32_t i = contact_count; i < greater_count(contacts_written, now.world.contact_count); ++i) {
     block.contacts[i] = ContactState{};
     if (has_manifolds) block.manifolds[i] = ManifoldState{};
   }
-  const uint32_t sensed_end = greater(greater(sensed_written, sensed_before), now.world.sensed_count);
+  const uint32_t sensed_end = greater_count(greater_count(sensed_written, sensed_before), now.world.sensed_count);
   for (uint32_t i = sensed_count; i < sensed_end; ++i) block.sensed[i] = SensedState{};
   block.world = now.world;
   ++block.world.tick;

@@ -5,6 +5,7 @@
 #include "base/float_environment.h"
 #include "motion/activity.h"
 #include "motion/predict.h"
+#include "replay/sparse_report.h"
 #include "state/snapshot.h"
 #include "state/step_scratch.h"
 #include "state/used.h"
@@ -16,7 +17,7 @@ namespace detent {
 inline namespace DETENT_NAMESPACE {
 namespace {
 
-constexpr uint32_t k_tries_max = 3;
+constexpr uint32_t k_runs_max = 3;
 /// A tick is made again in part if at most this fraction of the moving bodies is simulated. These are simulated twice.
 constexpr uint32_t k_share_divisor = 3;
 
@@ -34,7 +35,7 @@ bool is_same_state(const StateView<const uint8_t>& a, const StateView<const uint
   return true;
 }
 
-StateView<const uint8_t> read(const StateView<uint8_t>& state) {
+StateView<const uint8_t> read_only(const StateView<uint8_t>& state) {
   return const_view_of(reinterpret_cast<const uint8_t*>(&state.header));
 }
 
@@ -43,88 +44,8 @@ StepCacheView cache_in(World& world) {
   return cache_of(state);
 }
 
-/// Whether the step lost nothing. The pools and buffers are then as if each island had its own.
-bool is_whole(const StepReport& report) {
-  const LossReport& lost = report.lost;
-  const EventReport& events = report.events;
-  return (lost.pairs | lost.contacts | lost.joint_couplings | lost.impacts | lost.sensed | lost.sensed_undecided |
-          events.capacity | events.contact_dropped | events.joint_dropped | events.sensor_dropped |
-          events.body_dropped) == 0;
-}
-
 bool can_move(const BodyProperties& properties) {
   return is_dynamic(properties) || type_of(properties) == BodyType::kinematic;
-}
-
-uint32_t buffers_of(const WorldHooks& hooks) {
-  const auto bit = [](const auto& buffer, uint32_t index) { return room_of(buffer).count != 0 ? 1u << index : 0u; };
-  return bit(hooks.contact_events, 0) | bit(hooks.joint_events, 1) | bit(hooks.sensor_events, 2) |
-         bit(hooks.body_events, 3);
-}
-
-/// Replaces, in the recorded count of a whole step, the part of the bodies inside.
-template <class Count>
-void replace(const Count& base, const Count& made, Count& total) {
-  total = static_cast<Count>(total - base + made);
-}
-
-/// Every count of the report that is a sum over islands, pairs or bodies.
-void replace_sums(const StepReport& base, const StepReport& made, StepReport& total) {
-  const auto replace_in = [&](const auto& of) { replace(of(base), of(made), of(total)); };
-#define DETENT_SPARSE_SUM(member) replace_in([](auto& report) -> auto& { return report.member; })
-  DETENT_SPARSE_SUM(awake);
-  DETENT_SPARSE_SUM(islands);
-  DETENT_SPARSE_SUM(woke);
-  DETENT_SPARSE_SUM(fell_asleep);
-  DETENT_SPARSE_SUM(contacts.pairs);
-  DETENT_SPARSE_SUM(contacts.count);
-  DETENT_SPARSE_SUM(contacts.points);
-  DETENT_SPARSE_SUM(contacts.recycled);
-  DETENT_SPARSE_SUM(contacts.capped);
-  DETENT_SPARSE_SUM(contacts.sweeps_saved);
-  DETENT_SPARSE_SUM(contacts.substeps);
-  DETENT_SPARSE_SUM(contacts.colour_overflows);
-  DETENT_SPARSE_SUM(joints.count);
-  DETENT_SPARSE_SUM(joints.broken);
-  DETENT_SPARSE_SUM(joints.undecided);
-  DETENT_SPARSE_SUM(saturations);
-  DETENT_SPARSE_SUM(ccd.impacts);
-  DETENT_SPARSE_SUM(ccd.undecided);
-  DETENT_SPARSE_SUM(ccd.overlaps_left);
-  DETENT_SPARSE_SUM(ccd.tests);
-  DETENT_SPARSE_SUM(ccd.skipped);
-  DETENT_SPARSE_SUM(ccd.kept_apart);
-#undef DETENT_SPARSE_SUM
-}
-
-/// Replaces, in what a whole step used of the pools, the part of the bodies inside.
-void replace_use(const StepProbe& base, const StepProbe& made, TickHead& total) {
-  replace(base.use.entries, made.use.entries, total.impacts.entries);
-  replace(base.use.work, made.use.work, total.impacts.work);
-  replace(base.use.budget, made.use.budget, total.impacts.budget);
-  replace(base.joint_couplings, made.joint_couplings, total.joint_couplings);
-  replace(base.joint_numbers, made.joint_numbers, total.joint_numbers);
-}
-
-/// Whether a whole step of these counts has room in every pool, and does not spend the work of impacts.
-bool has_room(const TickHead& total, Capacity capacity) {
-  const StepReport& report = total.report;
-  return !total.impacts.is_spent() && total.impacts.entries <= capacity.contacts &&
-         report.ccd.impacts <= capacity.contacts && total.joint_couplings <= joint_coupling_count(capacity) &&
-         total.joint_numbers <= joint_number_count(capacity) &&
-         report.contacts.pairs <= capacity.contacts * k_pairs_per_contact;
-}
-
-/// The largest number of substeps of any island: of those inside, `most`, and of the others.
-uint32_t most_substeps(const SparseTick& tick, uint32_t most) {
-  const uint32_t fixed = tick.now.world.substeps;
-  tick.record.solved.for_each([&](uint32_t slot) {
-    if (tick.inside.has(slot)) return;
-    const uint32_t own = tick.after.activities[slot].substeps;
-    const uint32_t substeps = own != 0 ? own : fixed != 0 ? fixed : 1;  // an island without contacts stores none
-    most = substeps > most ? substeps : most;
-  });
-  return most;
 }
 
 }  // namespace
@@ -136,6 +57,7 @@ SparseRollback* SparseRollback::begin(uint8_t* memory, const World& world, uint3
   made.capacity_ = capacity_of(state.header);
   made.layout_ = sparse_layout(made.capacity_, window);
   made.window_ = window;
+  made.summed = state.world.tick;
   made.memory_ = memory;
   made.images_ = memory + made.layout_.images;
   memset(made.images_, 0, static_cast<uint32_t>(made.layout_.bytes) - made.layout_.images);
@@ -166,7 +88,7 @@ Status SparseRollback::keep(const World& world) {
   if (!(capacity_of(state.header) == capacity_)) return Status::capacity_differs;
   const uint64_t tick = state.world.tick;
   const StateView<uint8_t> kept = image(start_image(tick));
-  if (is_same_state(state, read(kept))) return Status::ok;
+  if (is_same_state(state, read_only(kept))) return Status::ok;
   copy_used(state, kept);
   // The world was changed after the step of the tick before, so the state just after that step is lost.
   if (tick == 0) return Status::ok;
@@ -181,7 +103,7 @@ Status SparseRollback::restore(World& world, uint64_t tick) {
   const StateView<uint8_t> kept = image(start_image(tick));
   const Status status = check_header(kept.header, capacity_, *world.features);
   if (status != Status::ok) return status;
-  copy_used(read(kept), state);
+  copy_used(read_only(kept), state);
   take_over(world);
   bodies_again = ticks_whole = 0;
   return Status::ok;
@@ -230,7 +152,7 @@ StepReport SparseRollback::step(World& world) {
   const StateView<uint8_t> state = view_of(world);
   const uint64_t tick = state.world.tick;
   const TickRecord record = record_of(tick);
-  copy_used(read(state), image(spare_));
+  copy_used(read_only(state), image(spare_));
   StepReport report;
   bool made = false;
   if (again_) made = record.head.usable != 0 && record.head.tick == tick && step_sparse(world, record, report);
@@ -246,7 +168,7 @@ StepReport SparseRollback::step(World& world) {
   record.head.report = report;
   record.head.buffers = buffers_of(world.hooks);
   record_events(world, report, record);
-  copy_used(read(state), image(start_image(tick + 1)));
+  copy_used(read_only(state), image(start_image(tick + 1)));
   return report;
 }
 
@@ -336,7 +258,7 @@ bool SparseRollback::simulate(World& world, SparseTick& tick, StepReport& base, 
   silent.joint_events = {};
   silent.sensor_events = {};
   silent.body_events = {};
-  for (uint32_t tries = 0; tries < k_tries_max; ++tries) {
+  for (uint32_t tries = 0; tries < k_runs_max; ++tries) {
     if (!run(world, tick, tick.before, silent, base_probe_, base) || !tick.is_recorded(state)) return false;
     tick.keep_units(base_probe_.joint_bodies);
     if (!run(world, tick, tick.now, world.hooks, made_probe_, made)) return false;
@@ -363,8 +285,8 @@ bool SparseRollback::step_sparse(World& world, const TickRecord& record, StepRep
   const BitSet joints = {{at_offset<uint32_t>(memory_, layout_.joint_sets), joint_words}},
                anchoring = {{joints.words.data + joint_words, joint_words}};
   for (uint32_t& word : joints.words) word = 0;
-  const SparseTick::State before = read(image(record.head.before)), now = read(image(spare_)),
-                          after = read(image(start_image(tick_number + 1)));
+  const SparseTick::State before = read_only(image(record.head.before)), now = read_only(image(spare_)),
+                          after = read_only(image(start_image(tick_number + 1)));
   const uint32_t used = before.world.slots_used < now.world.slots_used ? now.world.slots_used : before.world.slots_used;
   SparseTick tick = {record,
                      before,

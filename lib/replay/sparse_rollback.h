@@ -31,7 +31,8 @@ class SparseRollback {
   void start_tick(World& world, bool again);
   void end_tick(World& world);
 
-  uint32_t bodies_again = 0;  ///< awake bodies of ticks made again, summed over the ticks
+  uint64_t summed = 0;        ///< the first tick whose checksum the session has not taken
+  uint64_t bodies_again = 0;  ///< awake bodies of ticks made again, summed over the ticks
   uint32_t ticks_whole = 0;   ///< ticks made again in which all bodies were simulated
 
  private:
