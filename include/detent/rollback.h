@@ -347,10 +347,11 @@ constexpr uint32_t rollback_ticks_kept(uint32_t window) { return 6 * window + 2;
 
 constexpr RollbackLayout rollback_layout(Capacity capacity, const RollbackDef& def) {
   RollbackLayout layout{};
-  const bool is_small = def.window <= k_rollback_window_max && snapshot_bytes(capacity) != 0;
-  const uint64_t states = !is_small    ? 0
-                          : def.sparse ? sparse_layout(capacity, def.window).bytes
-                                       : snapshot_ring_bytes(capacity, def.window);
+  uint64_t states = snapshot_ring_bytes(capacity, def.window);
+#if DETENT_SPARSE
+  if (def.sparse && states != 0 && def.window <= k_rollback_window_max)
+    states = sparse_layout(capacity, def.window).bytes;
+#endif
   if (def.players < 1 || def.players > k_rollback_players_max || def.window < 1 || def.window > k_rollback_window_max ||
       def.input_bytes < 1 || def.input_bytes > k_rollback_input_bytes_max || def.delay > def.window || states == 0 ||
       states > UINT32_MAX) {

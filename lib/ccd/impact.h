@@ -5,7 +5,6 @@
 #include <detent/features.h>
 
 #include "base/bit_set.h"
-#include "base/sparse.h"
 #include "broad_phase/resting_tree.h"
 #include "motion/step_settings.h"
 

@@ -417,10 +417,9 @@ void ImpactStage::find_first() {
       if (!has_pair(known.pairs, key)) test_at_start(*this, key, find_contacts(known.contacts, key));
     });
   });
-  const uint32_t budget = k_impact_work_times * (moving + report.tests + report.skipped + report.kept_apart);
-  work_left = k_impact_work_min + budget;
+  work_left = k_impact_work_min + k_impact_work_times * (moving + report.tests + report.skipped + report.kept_apart);
 #if DETENT_SPARSE
-  if (probe != nullptr) probe->use.budget = budget;
+  if (probe != nullptr) probe->use.budget = work_left - k_impact_work_min;
 #endif
 }
 

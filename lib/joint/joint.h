@@ -5,7 +5,6 @@
 
 #include "base/bit_set.h"
 #include "base/span.h"
-#include "base/sparse.h"
 #include "motion/angular_velocity.h"
 #include "motion/solver_bodies.h"
 #include "motion/step_settings.h"

@@ -15,15 +15,12 @@ Status RollbackSession::begin(const World& world, const RollbackDef& def, TickMa
   if (maker.make == nullptr || (def.local >> def.players) != 0 || !is_game_state(game, def.game_bytes))
     return Status::bad_argument;
   if (memory == nullptr || memory_bytes < layout.bytes) return Status::buffer_too_small;
-  if (reinterpret_cast<uintptr_t>(memory) % 8 != 0) return Status::buffer_misaligned;
-  sparse_ = nullptr;
+  // Also checks the alignment.
+  if (const Status status = states_.begin(memory, memory_bytes, info.capacity, def.window); status != Status::ok)
+    return status;
 #if DETENT_SPARSE
-  if (def.sparse) sparse_ = SparseRollback::begin(memory, world, def.window);
+  sparse_ = def.sparse ? SparseRollback::begin(memory, world, def.window) : nullptr;
 #endif
-  if (sparse_ == nullptr) {
-    const Status status = states_.begin(memory, memory_bytes, info.capacity, def.window);
-    if (status != Status::ok) return status;
-  }
   memset(memory + layout.games, 0, static_cast<uint32_t>(layout.bytes) - layout.games);
   def_ = def;
   maker_ = maker;
@@ -146,7 +143,10 @@ Status RollbackSession::keep(const World& world, uint64_t tick) {
 #endif
   if (status != Status::ok) return status;
   if (game_.count != 0) memcpy(game_at(tick), game_.bytes, game_.count);
-  if (sparse_ == nullptr) take_checksum(world, game_, tick);
+#if DETENT_SPARSE
+  if (sparse_ != nullptr) return Status::ok;
+#endif
+  take_checksum(world, game_, tick);
   return Status::ok;
 }
 

@@ -1,8 +1,6 @@
 #pragma once
 #include <detent/rollback.h>
 
-#include "base/sparse.h"
-
 #if DETENT_SPARSE
 
 #include "ccd/impact.h"

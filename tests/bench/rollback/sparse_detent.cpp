@@ -1,4 +1,5 @@
 #include <detent/body.h>
+#include <detent/numbers.h>
 #include <detent/rollback.h>
 
 #include <algorithm>
@@ -8,7 +9,6 @@
 #include "tests/bench/rollback/engine.h"
 #include "tests/campaigns/stress/run_detent.h"
 #include "tests/common/queries/random.h"
-#include "tests/unit/world/lab.h"
 
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -20,6 +20,20 @@ using SparseRandom = detent_queries::Random;
 
 constexpr uint32_t k_sparse_players = 16, k_sparse_bodies = 1000, k_sparse_settling = 200, k_sparse_window = 8;
 constexpr Capacity k_sparse_capacity = {1024, 6144, 0, true, 0, 0};
+
+// Every number here is in range.
+Real real(double value) {
+  Real result = 0.0;
+  static_cast<void>(real_from_host(value, result));
+  return result;
+}
+Coord coord(double value) {
+  Coord result = 0.0;
+  static_cast<void>(coord_from_host(value, result));
+  return result;
+}
+Vec3<Real> reals(double x, double y, double z) { return {real(x), real(y), real(z)}; }
+Position position(double x, double y, double z) { return {coord(x), coord(y), coord(z)}; }
 
 /// The world of a session, with its memory.
 struct SparseSeat {
@@ -50,7 +64,8 @@ struct SparseSeat {
     def.position = position(x, 10, z);
     add(def);
   }
-  /// Heaps of 50 bodies each, 12 m apart, or one heap between walls. The players' balls have the first slots.
+  /// Heaps of 50 bodies each, 12 m apart, or one heap between walls. The players' balls, in the heaps, have the first
+  /// slots.
   void build(bool apart) {
     block.resize(world_bytes(k_sparse_capacity) / 8);
     WorldDef def;
@@ -61,7 +76,7 @@ struct SparseSeat {
     SparseRandom random(7);
     for (uint32_t player = 0; player < k_sparse_players; ++player) {
       BodyDef ball;
-      ball.position = apart ? position(12.0 * (player % 5), 4.5, 12.0 * (player / 5))
+      ball.position = apart ? position(12.0 * (player % 5), 0.5, 12.0 * (player / 5))
                             : position(player % 4 - 1.5, 10 + player / 4, 0);
       ball.linear_damping = 1.0;
       add(ball);
@@ -96,8 +111,9 @@ struct SparseSeat {
   static void make(void* context, World& world, const TickInputs& inputs) {
     SparseSeat& self = *static_cast<SparseSeat*>(context);
     for (uint32_t player = 0; player < inputs.players; ++player) {
-      const double push = inputs.of(player)[0] == 0 ? -20 : 20;
-      self.require(apply_impulse(world, {player + 1, 1}, scaleds(push, 0, 0)));
+      const Scaled back = -20.0, ahead = 20.0, none = 0.0;
+      const Vec3<Scaled> push = {inputs.of(player)[0] == 0 ? back : ahead, none, none};
+      self.require(apply_impulse(world, {player + 1, 1}, push));
     }
     step(world);
   }
@@ -123,7 +139,7 @@ SparseRow measure_sparse(bool apart, uint32_t repetitions, const Clock& clock) {
     seats[i].build(apart);
     seats[i].begin(i == 0);
     again[i].reserve(repetitions);
-    forward[i].reserve(repetitions);
+    forward[i].reserve(repetitions + k_sparse_window);
     row.bytes_per_tick[i] = static_cast<uint32_t>(seats[i].memory.size() * 8 / k_sparse_window);
   }
   const uint64_t start = seats[0].session.tick(), allocations = heap_use().calls;
