@@ -9,6 +9,8 @@
 #include "tests/unit/replay/match.h"
 #include "tests/unit/world/lab.h"
 
+#if DETENT_SPARSE
+
 /// Two sessions play the same match, one with sparse rollback. Every step of both must have the same results.
 namespace detent {
 inline namespace DETENT_NAMESPACE {
@@ -556,3 +558,5 @@ DETENT_TEST(sparse_rollback, simulates_all_bodies_if_a_setting_differs) {
 }  // namespace
 }  // namespace DETENT_NAMESPACE
 }  // namespace detent
+
+#endif
