@@ -174,7 +174,7 @@ bool SparseTick::expand() {
     Bounds all = k_nowhere;
     for (uint32_t i = from; i < end; ++i) include(boxes[list[i]], all);
     for (uint32_t slot = 0; from < end && slot < used; ++slot) {
-      if (inside.has(slot) || now.properties[slot].type == 0 || !overlap(record.reach[slot], all)) continue;
+      if (inside.has(slot) || !overlap(record.reach[slot], all) || now.properties[slot].type == 0) continue;
       if (is_dynamic(slot)) {
         if (meets(slot, from, end)) add(slot);
       } else if (!visible.has(slot) && meets(slot, from, end)) {

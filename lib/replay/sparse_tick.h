@@ -71,10 +71,11 @@ struct SparseTick {
   }
   /// Whether a contact belongs to the bodies inside.
   bool owns_contact(uint32_t a, uint32_t b) const {
+    if (!inside.has(a) && !inside.has(b)) return false;
     const auto is_outside = [&](uint32_t slot) {
       return !inside.has(slot) && record.movers.has(slot) && is_dynamic(slot);
     };
-    return (inside.has(a) || inside.has(b)) && !is_outside(a) && !is_outside(b);
+    return !is_outside(a) && !is_outside(b);
   }
   /// Whether an active joint of the body `other`, which is not inside, holds on to the visible body `slot`.
   bool anchors(uint32_t slot, uint32_t other) const {
