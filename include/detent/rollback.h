@@ -287,12 +287,13 @@ struct RollbackSession::Checksum {
   uint32_t compared;
 };
 
-inline constexpr uint32_t k_sparse_control_bytes = 1024, k_tick_head_bytes = 512, k_sparse_sets = 5;
+inline constexpr uint32_t k_sparse_control_bytes = 1024, k_tick_head_bytes = 768, k_sparse_sets = 5;
 
 // Offsets of the parts of sparse rollback (lib/replay/sparse_rollback.h), bytes.
 struct SparseLayout {
   uint32_t images, image_bytes, records, record_bytes;
-  uint32_t reach, movers, solved, contact_events, joint_events, sensor_events, body_events;  // within a record
+  uint32_t reach, movers, solved, part_inside, part_visible, contact_events, joint_events, sensor_events,
+      body_events;  // within a record
   uint32_t boxes, reach_now, units, list, sets, joint_sets;
   uint64_t bytes;
 };
@@ -310,6 +311,8 @@ constexpr SparseLayout sparse_layout(Capacity capacity, uint32_t window) {
   layout.reach = place(bounds);
   layout.movers = place(set);
   layout.solved = place(set);
+  layout.part_inside = place(set);
+  layout.part_visible = place(set);
   layout.contact_events = place(sizeof(ContactEvent) * uint64_t{capacity.contacts});
   layout.joint_events = place(sizeof(JointEvent) * uint64_t{capacity.joints});
   layout.sensor_events = place(sizeof(SensorEvent) * 2 * uint64_t{capacity.sensed});

@@ -44,6 +44,10 @@ StepCacheView cache_in(World& world) {
   return cache_of(state);
 }
 
+bool are_equal_sets(BitSet a, BitSet b) {
+  return memcmp(a.words.data, b.words.data, a.words.count * sizeof(uint32_t)) == 0;
+}
+
 bool can_move(const BodyProperties& properties) {
   return is_dynamic(properties) || type_of(properties) == BodyType::kinematic;
 }
@@ -77,6 +81,8 @@ TickRecord SparseRollback::record_of(uint64_t tick) const {
           {at_offset<Bounds>(at, layout_.reach), capacity_.bodies},
           {{at_offset<uint32_t>(at, layout_.movers), words}},
           {{at_offset<uint32_t>(at, layout_.solved), words}},
+          {{at_offset<uint32_t>(at, layout_.part_inside), words}},
+          {{at_offset<uint32_t>(at, layout_.part_visible), words}},
           {at_offset<ContactEvent>(at, layout_.contact_events), capacity_.contacts},
           {at_offset<JointEvent>(at, layout_.joint_events), capacity_.joints},
           {at_offset<SensorEvent>(at, layout_.sensor_events), 2 * capacity_.sensed},
@@ -214,6 +220,7 @@ StepReport SparseRollback::step_whole(World& world, const TickRecord& record) {
     });
   }
   TickHead& head = record.head;
+  head.part_known = 0;
   head.impacts = probe.use;
   head.joint_couplings = probe.joint_couplings;
   head.joint_numbers = probe.joint_numbers;
@@ -249,6 +256,35 @@ bool SparseRollback::run(World& world, SparseTick& tick, const StateView<const u
   return is_whole(report) && !probe.use.is_spent() && report.ccd.bodies_stopped == 0;
 }
 
+/// If the record was made by a run of the same bodies, that run need not be made again.
+bool SparseRollback::take_known_part(const SparseTick& tick, StepReport& base) {
+  const TickRecord& record = tick.record;
+  const TickHead& head = record.head;
+  if (head.part_known == 0 || !are_equal_sets(record.part_inside, tick.inside) ||
+      !are_equal_sets(record.part_visible, tick.visible))
+    return false;
+  base = head.part;
+  base_probe_ = {};
+  base_probe_.use = head.part_impacts;
+  base_probe_.joint_couplings = head.part_couplings;
+  base_probe_.joint_numbers = head.part_numbers;
+  return true;
+}
+
+/// Keeps the run of the bodies inside for the next time. The units of bodies that joints only hold on to are not kept.
+void SparseRollback::keep_part(const SparseTick& tick, const StepReport& made, TickHead& head) const {
+  head.part_known = 1;
+  for (const JointBody& body : made_probe_.joint_bodies) {
+    if (body.mobile == 0) head.part_known = 0;
+  }
+  head.part = made;
+  head.part_impacts = made_probe_.use;
+  head.part_couplings = made_probe_.joint_couplings;
+  head.part_numbers = made_probe_.joint_numbers;
+  memcpy(tick.record.part_inside.words.data, tick.inside.words.data, tick.inside.words.count * sizeof(uint32_t));
+  memcpy(tick.record.part_visible.words.data, tick.visible.words.data, tick.visible.words.count * sizeof(uint32_t));
+}
+
 /// Simulates the bodies inside, from the recorded state and from the present one, until they reach no others.
 bool SparseRollback::simulate(World& world, SparseTick& tick, StepReport& base, StepReport& made) {
   const StateView<uint8_t> state = view_of(world);
@@ -259,7 +295,9 @@ bool SparseRollback::simulate(World& world, SparseTick& tick, StepReport& base, 
   silent.sensor_events = {};
   silent.body_events = {};
   for (uint32_t tries = 0; tries < k_runs_max; ++tries) {
-    if (!run(world, tick, tick.before, silent, base_probe_, base) || !tick.is_recorded(state)) return false;
+    if (!take_known_part(tick, base) &&
+        (!run(world, tick, tick.before, silent, base_probe_, base) || !tick.is_recorded(state)))
+      return false;
     tick.keep_units(base_probe_.joint_bodies);
     if (!run(world, tick, tick.now, world.hooks, made_probe_, made)) return false;
     if (!tick.has_same_units(made_probe_.joint_bodies)) return false;
@@ -334,6 +372,7 @@ bool SparseRollback::step_sparse(World& world, const TickRecord& record, StepRep
     put(record.movers, slot, active.has(slot) && can_move(now.properties[slot]));
     put(record.solved, slot, tick.solved.has(slot));
   });
+  keep_part(tick, made, total);
   record.head = total;
   report = total.report;
   bodies_again += made.awake;

@@ -44,6 +44,8 @@ class SparseRollback {
   StepReport step_whole(World& world, const TickRecord& record);
   bool step_sparse(World& world, const TickRecord& record, StepReport& report);
   bool simulate(World& world, SparseTick& tick, StepReport& base, StepReport& made);
+  bool take_known_part(const SparseTick& tick, StepReport& base);
+  void keep_part(const SparseTick& tick, const StepReport& made, TickHead& head) const;
   bool run(World& world, SparseTick& tick, const StateView<const uint8_t>& from, const WorldHooks& hooks,
            StepProbe& probe, StepReport& report);
   void reach_at_rest(World& world, Span<Bounds> reach) const;

@@ -21,14 +21,20 @@ struct TickHead {
   ImpactUse impacts;
   uint32_t joint_couplings, joint_numbers;
   StepReport report;
+  /// 1 if the tick was made again in part: the members below are of the run of TickRecord::part_inside.
+  uint32_t part_known;
+  uint32_t part_couplings, part_numbers;
+  ImpactUse part_impacts;
+  StepReport part;
 };
 static_assert(sizeof(TickHead) <= k_tick_head_bytes);
 
 struct TickRecord {
   TickHead& head;
-  Span<Bounds> reach;  ///< by slot: bounds of all places in which the step looked for pairs of the body
-  BitSet movers;       ///< dynamic and kinematic bodies that moved or woke in the step
-  BitSet solved;       ///< dynamic bodies that the solver moved
+  Span<Bounds> reach;                ///< by slot: bounds of all places in which the step looked for pairs of the body
+  BitSet movers;                     ///< dynamic and kinematic bodies that moved or woke in the step
+  BitSet solved;                     ///< dynamic bodies that the solver moved
+  BitSet part_inside, part_visible;  ///< see TickHead::part_known
   Span<ContactEvent> contact_events;
   Span<JointEvent> joint_events;
   Span<SensorEvent> sensor_events;
