@@ -57,7 +57,7 @@ struct JointStage {
   /// Joints that are not solved in this step, although they are active: the bodies of `others` in `anchoring`. Bodies
   /// that no joint moves count as their bodies too.
   Span<const JointState> others = {};
-  BitSet anchoring = {};  ///< indices in `others`
+  BitSet anchoring = {};                          ///< indices in `others`
   uint32_t couplings_used = 0, numbers_used = 0;  ///< of `couplings` and `numbers`, which all islands share
 #endif
 };

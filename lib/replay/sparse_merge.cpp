@@ -183,6 +183,7 @@ bool SparseTick::merge(const StateView<uint8_t>& block) {
   const Span<const ContactState> recorded = after.contacts.first(after.world.contact_count);
   const uint32_t more = count_taken(recorded, takes);
   if (contacts + more > block.contacts.count) return false;
+  contacts_written = greater_count(contacts_written, contacts + more);
   const bool has_manifolds = block.manifolds.count != 0;
   merge_back(
       block.contacts, contacts, recorded, more, takes,
@@ -206,7 +207,7 @@ bool SparseTick::merge(const StateView<uint8_t>& block) {
   const Span<const SensedState> recorded_sensed = after.sensed.first(after.world.sensed_count);
   const uint32_t more_sensed = count_taken(recorded_sensed, takes_sensed);
   if (sensed + more_sensed > block.sensed.count) return false;
-  const uint32_t sensed_before = block.world.sensed_count;
+  sensed_written = greater_count(sensed_written, greater_count(block.world.sensed_count, sensed + more_sensed));
   merge_back(
       block.sensed, sensed, recorded_sensed, more_sensed, takes_sensed,
       [](const SensedState& a, const SensedState& b) {
@@ -220,7 +221,7 @@ bool SparseTick::merge(const StateView<uint8_t>& block) {
     block.contacts[i] = ContactState{};
     if (has_manifolds) block.manifolds[i] = ManifoldState{};
   }
-  const uint32_t sensed_end = greater_count(greater_count(sensed_written, sensed_before), now.world.sensed_count);
+  const uint32_t sensed_end = greater_count(sensed_written, now.world.sensed_count);
   for (uint32_t i = sensed_count; i < sensed_end; ++i) block.sensed[i] = SensedState{};
   block.world = now.world;
   ++block.world.tick;

@@ -123,16 +123,24 @@ World SparseRollback::kept(uint64_t tick) const {
 
 void SparseRollback::start_tick(World& world, bool again) {
   again_ = again;
+  block_ = world.block;
   theirs_ = world.hooks.observer;
   world.hooks.observer = &observer_;
 }
 
 void SparseRollback::end_tick(World& world) {
+  block_ = nullptr;
   if (world.hooks.observer == &observer_) world.hooks.observer = theirs_;
 }
 
 StepReport SparseRollback::make_step(void* context, World& world) {
-  return static_cast<SparseRollback*>(context)->step(world);
+  SparseRollback& self = *static_cast<SparseRollback*>(context);
+  if (world.block == self.block_) return self.step(world);
+  // The game has copied the handle, for another world or for a step outside of the session.
+  World other = world;
+  other.hooks.observer = self.theirs_;
+  StepProbe probe;
+  return step_probed(other, probe);
 }
 
 void SparseRollback::note_stage(void* context, const World& world, StepStage stage, uint32_t contacts) {

@@ -57,6 +57,7 @@ class SparseRollback {
   uint32_t window_ = 0;
   uint32_t spare_ = 0;  ///< image that no record uses
   bool again_ = false;
+  const uint8_t* block_ = nullptr;  ///< of the world whose tick is being made
   StepObserver observer_ = {};
   const StepObserver* theirs_ = nullptr;  ///< the caller's observer
   bool inside_ = false;                   ///< the step that runs now is of some of the bodies

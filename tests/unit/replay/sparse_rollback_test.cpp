@@ -417,8 +417,10 @@ void play(uint64_t seed, uint32_t ticks, Sum& sum) {
   };
   std::multimap<uint64_t, Late> late;  // by the frame of arrival
   uint8_t held[k_players] = {5, 5, 5, 5};
-  uint64_t given = 0;
-  for (uint64_t frame = 0; frame < 3 * ticks && sparse.session.tick() < ticks; ++frame) {
+  uint64_t given = sparse.session.tick();
+  const uint64_t end = given + ticks;
+  for (uint64_t frame = 0; sparse.session.tick() < end; ++frame) {
+    ASSERT_LT(frame, 3 * ticks) << "the match stands still";
     if (given == sparse.session.tick()) {
       for (uint32_t player = 0; player < k_players; ++player) {
         held[player] = draw_input(random, held[player]);
@@ -464,19 +466,19 @@ void play(uint64_t seed, uint32_t ticks, Sum& sum) {
   sum.bodies += sparse.bodies_again;
 }
 
-/// The number of matches: DETENT_MATCHES, or `count`. DETENT_MATCH: the only one.
+/// Plays `count` short matches. If DETENT_MATCHES is set, this number of longer matches; DETENT_MATCH is the only one.
 void play_all(uint32_t count, Sum& sum) {
   const char *const only = getenv("DETENT_MATCH"), *const all = getenv("DETENT_MATCHES");
   uint64_t first = 1, last = all != nullptr ? strtoull(all, nullptr, 10) : count;
   if (only != nullptr) first = last = strtoull(only, nullptr, 10);
-  for (uint64_t seed = first; seed <= last && !testing::Test::HasFailure(); ++seed) play(seed, 50, sum);
+  for (uint64_t seed = first; seed <= last && !testing::Test::HasFailure(); ++seed)
+    play(seed, only != nullptr || all != nullptr ? 150 : 50, sum);
 }
 
 DETENT_TEST(sparse_rollback, has_the_results_of_simulating_all_bodies_again) {
   Sum sum;
   play_all(detent_oracle::rounds(200), sum);
-  RecordProperty("ticks_again", std::to_string(sum.ticks));
-  RecordProperty("ticks_whole", std::to_string(sum.whole));
+  if (getenv("DETENT_MATCH") != nullptr) return;
   EXPECT_LT(sum.whole * 3, sum.ticks) << "most ticks are made in part";
   EXPECT_LT(sum.bodies * 2, sum.bodies_of_all);
 }
