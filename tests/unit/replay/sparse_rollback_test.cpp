@@ -119,6 +119,7 @@ class Playground {
     if (seed % 8 != 7) owned.world.hooks.joint_events = {joints_, events};
     if (seed % 16 != 7) owned.world.hooks.sensor_events = {sensors_, events};
     owned.world.hooks.body_events = {bodies_, events};
+    if (seed % 12 == 5) ahead_ = std::make_unique<OwnedWorld>(settings(seed));
     BodyDef ground;
     ground.type = BodyType::fixed;
     ground.shape = half_space();
@@ -134,6 +135,7 @@ class Playground {
     Playground& self = *static_cast<Playground*>(context);
     for (uint32_t player = 0; player < inputs.players; ++player)
       self.act(world, inputs.tick, player, *inputs.of(player));
+    if (self.ahead_) self.look_ahead(world);
     Made made;
     made.report = step(world);
     made.digest = digest(world);
@@ -271,6 +273,14 @@ class Playground {
     }
   }
 
+  /// Makes a step of a copy of the world, as a game does that shows where a shot would go.
+  void look_ahead(const World& world) {
+    World copy = world;
+    copy.block = ahead_->world.block;
+    EXPECT_OK(copy_world(world, copy));
+    step(copy);
+  }
+
   /// In slot order, beginning with the first after the players.
   static BodyId body_at(const World& world, uint64_t index) {
     const uint32_t bodies = get_info(world).bodies;
@@ -362,6 +372,7 @@ class Playground {
   Random random_;
   const double spacing_;
   const bool acts_after_;
+  std::unique_ptr<OwnedWorld> ahead_;
   ContactEvent contacts_[k_events_max];
   JointEvent joints_[k_events_max];
   SensorEvent sensors_[k_events_max];
